@@ -1,0 +1,328 @@
+//! A smooth path in the plane; the only user of kurbo.
+
+use kurbo::{BezPath, ParamCurve, ParamCurveArclen, ParamCurveDeriv, PathSeg, Point, Shape, Vec2 as KVec};
+
+use super::Vec2;
+
+/// Arc lengths are exact to this many metres (a nanometre): far below any drafting tolerance, still cheap.
+const LENGTH_ACCURACY: f64 = 1e-9;
+
+/// A connected run of lines and Bézier curves, metres, measured by arc length from its start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Path {
+    segments: Vec<PathSeg>,
+    /// Arc length at the start of each segment, and the total at the end.
+    at: Vec<f64>,
+}
+
+/// Why a path could not be read.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PathError {
+    /// A letter that is no path command, or a command without its numbers.
+    #[error("cannot read the path '{0}': expected commands L C Q A (or M Z) with numbers")]
+    Syntax(String),
+    /// A coordinate is infinite or not a number.
+    #[error("the path '{0}' holds a number that is not finite")]
+    NotFinite(String),
+    /// A path with no length.
+    #[error("the path '{0}' has no length")]
+    Empty(String),
+}
+
+/// Arcs become cubics that stay within this many file units of them (a nanometre in millimetres).
+const ARC_ACCURACY: f64 = 1e-6;
+
+/// One connected SVG path, or `None` when the text is no such path. (kurbo's and svgtypes' own conversions of arcs are
+/// off by up to 0.1 units; this one is not.)
+fn bezier_path(text: &str) -> Option<BezPath> {
+    use svgtypes::PathSegment as S;
+    let mut bez = BezPath::new();
+    let (mut at, mut first) = (Point::ZERO, Point::ZERO);
+    // The last control point of a cubic or a quadratic, for the smooth commands.
+    let (mut cubic, mut quad): (Option<Point>, Option<Point>) = (None, None);
+    for segment in svgtypes::PathParser::from(text) {
+        let p = |abs: bool, x: f64, y: f64| if abs { Point::new(x, y) } else { at + KVec::new(x, y) };
+        let mirrored = |c: Option<Point>| c.map_or(at, |c| at + (at - c));
+        let (mut next_cubic, mut next_quad) = (None, None);
+        let to = match segment.ok()? {
+            S::MoveTo { abs, x, y } if bez.elements().is_empty() => {
+                first = p(abs, x, y);
+                bez.move_to(first);
+                first
+            }
+            S::MoveTo { .. } => return None,
+            S::LineTo { abs, x, y } => line_to(&mut bez, p(abs, x, y)),
+            S::HorizontalLineTo { abs, x } => line_to(&mut bez, Point::new(p(abs, x, 0.0).x, at.y)),
+            S::VerticalLineTo { abs, y } => line_to(&mut bez, Point::new(at.x, p(abs, 0.0, y).y)),
+            S::CurveTo { abs, x1, y1, x2, y2, x, y } => {
+                let (c2, to) = (p(abs, x2, y2), p(abs, x, y));
+                bez.curve_to(p(abs, x1, y1), c2, to);
+                next_cubic = Some(c2);
+                to
+            }
+            S::SmoothCurveTo { abs, x2, y2, x, y } => {
+                let (c2, to) = (p(abs, x2, y2), p(abs, x, y));
+                bez.curve_to(mirrored(cubic), c2, to);
+                next_cubic = Some(c2);
+                to
+            }
+            S::Quadratic { abs, x1, y1, x, y } => {
+                let (c, to) = (p(abs, x1, y1), p(abs, x, y));
+                bez.quad_to(c, to);
+                next_quad = Some(c);
+                to
+            }
+            S::SmoothQuadratic { abs, x, y } => {
+                let (c, to) = (mirrored(quad), p(abs, x, y));
+                bez.quad_to(c, to);
+                next_quad = Some(c);
+                to
+            }
+            S::EllipticalArc { abs, rx, ry, x_axis_rotation, large_arc, sweep, x, y } => {
+                let to = p(abs, x, y);
+                let arc = kurbo::SvgArc {
+                    from: at,
+                    to,
+                    radii: KVec::new(rx, ry),
+                    x_rotation: x_axis_rotation.to_radians(),
+                    large_arc,
+                    sweep,
+                };
+                match kurbo::Arc::from_svg_arc(&arc) {
+                    Some(arc) => arc.to_cubic_beziers(ARC_ACCURACY, |a, b, c| bez.curve_to(a, b, c)),
+                    None => bez.line_to(to),
+                }
+                to
+            }
+            S::ClosePath { .. } => {
+                bez.close_path();
+                first
+            }
+        };
+        (at, cubic, quad) = (to, next_cubic, next_quad);
+    }
+    Some(bez)
+}
+
+fn line_to(bez: &mut BezPath, to: Point) -> Point {
+    bez.line_to(to);
+    to
+}
+
+fn point(p: Vec2) -> Point {
+    Point::new(p.x, p.y)
+}
+
+fn vector(p: Point) -> Vec2 {
+    Vec2::new(p.x, p.y)
+}
+
+impl Path {
+    fn from_segments(segments: Vec<PathSeg>) -> Self {
+        let mut at = vec![0.0];
+        let mut sum = 0.0;
+        for segment in &segments {
+            sum += segment.arclen(LENGTH_ACCURACY);
+            at.push(sum);
+        }
+        Self { segments, at }
+    }
+
+    /// The straight line from `a` to `b`.
+    pub fn line(a: Vec2, b: Vec2) -> Self {
+        Self::from_segments(vec![PathSeg::Line(kurbo::Line::new(point(a), point(b)))])
+    }
+
+    /// The polyline through `points` (two or more).
+    pub fn polyline(points: &[Vec2]) -> Self {
+        Self::from_segments(
+            points.windows(2).map(|w| PathSeg::Line(kurbo::Line::new(point(w[0]), point(w[1])))).collect(),
+        )
+    }
+
+    /// Reads SVG path commands (absolute or relative, without the leading `M`) that go on from `start`; the numbers
+    /// and `start` are multiplied by `unit` (metres per file unit).
+    ///
+    /// # Errors
+    /// [`PathError`] when the text is no path, holds a number that is not finite, or has no length.
+    pub fn parse(start: Vec2, commands: &str, unit: f64) -> Result<Self, PathError> {
+        let text = format!("M {} {} {commands}", start.x, start.y);
+        Self::parse_absolute(&text, unit)
+    }
+
+    /// Reads a whole SVG path that begins with its own `M`; numbers are multiplied by `unit`.
+    ///
+    /// # Errors
+    /// As [`Path::parse`].
+    pub fn parse_absolute(text: &str, unit: f64) -> Result<Self, PathError> {
+        let bez = bezier_path(text).ok_or_else(|| PathError::Syntax(text.to_owned()))?;
+        let bez = kurbo::Affine::scale(unit) * bez;
+        if !bez.is_finite() {
+            return Err(PathError::NotFinite(text.to_owned()));
+        }
+        let segments: Vec<_> = bez.segments().filter(|s| s.arclen(LENGTH_ACCURACY) > LENGTH_ACCURACY).collect();
+        if segments.is_empty() {
+            return Err(PathError::Empty(text.to_owned()));
+        }
+        Ok(Self::from_segments(segments))
+    }
+
+    /// Total arc length, metres, exact to a nanometre per segment.
+    pub fn length(&self) -> f64 {
+        self.at[self.segments.len()]
+    }
+
+    /// First point.
+    pub fn start(&self) -> Vec2 {
+        vector(self.segments[0].start())
+    }
+
+    /// Last point.
+    pub fn end(&self) -> Vec2 {
+        vector(self.segments[self.segments.len() - 1].end())
+    }
+
+    fn locate(&self, s: f64) -> (usize, f64) {
+        let last = self.segments.len() - 1;
+        let i = self.at[1..=last].partition_point(|&a| a <= s);
+        let local = (s - self.at[i]).clamp(0.0, self.at[i + 1] - self.at[i]);
+        (i, self.segments[i].inv_arclen(local, LENGTH_ACCURACY))
+    }
+
+    /// The point at arc length `s` (clamped to the path).
+    pub fn point(&self, s: f64) -> Vec2 {
+        if s <= 0.0 {
+            return self.start();
+        }
+        if s >= self.length() {
+            return self.end();
+        }
+        let (i, t) = self.locate(s);
+        vector(self.segments[i].eval(t))
+    }
+
+    /// The unit tangent at arc length `s` (clamped), pointing along the path.
+    pub fn tangent(&self, s: f64) -> Vec2 {
+        let (i, t) = self.locate(s.clamp(0.0, self.length()));
+        let derivative = |t: f64| -> KVec {
+            match self.segments[i] {
+                PathSeg::Line(l) => l.p1 - l.p0,
+                PathSeg::Quad(q) => q.deriv().eval(t).to_vec2(),
+                PathSeg::Cubic(c) => c.deriv().eval(t).to_vec2(),
+            }
+        };
+        // A control point on an end point gives a zero derivative there: look a little inside.
+        for t in [t, t.clamp(1e-6, 1.0 - 1e-6), t.clamp(1e-3, 1.0 - 1e-3)] {
+            let d = derivative(t);
+            if d.hypot() > 1e-12 {
+                return Vec2::new(d.x, d.y).normalize();
+            }
+        }
+        (self.end() - self.start()).normalize()
+    }
+
+    /// The part from arc length `from` to `to` (`from < to`, both clamped).
+    pub fn part(&self, from: f64, to: f64) -> Self {
+        let (from, to) = (from.clamp(0.0, self.length()), to.clamp(0.0, self.length()));
+        let (first, t0) = self.locate(from);
+        let (last, t1) = self.locate(to);
+        let mut segments = Vec::new();
+        for i in first..=last {
+            let a = if i == first { t0 } else { 0.0 };
+            let b = if i == last { t1 } else { 1.0 };
+            if b > a {
+                segments.push(self.segments[i].subsegment(a..b));
+            }
+        }
+        if segments.is_empty() {
+            segments.push(PathSeg::Line(kurbo::Line::new(point(self.point(from)), point(self.point(to)))));
+        }
+        Self::from_segments(segments)
+    }
+
+    /// The same path walked from its end.
+    pub fn reversed(&self) -> Self {
+        Self::from_segments(self.segments.iter().rev().map(PathSeg::reverse).collect())
+    }
+
+    /// Every point moved by `p ↦ linear · p + shift`.
+    pub fn mapped(&self, linear: nalgebra::Matrix2<f64>, shift: Vec2) -> Self {
+        let affine = kurbo::Affine::new([linear.m11, linear.m21, linear.m12, linear.m22, shift.x, shift.y]);
+        Self::from_segments(self.segments.iter().map(|s| affine * *s).collect())
+    }
+
+    /// This path and then `next`, which starts where this one ends.
+    pub fn joined(&self, next: &Self) -> Self {
+        Self::from_segments(self.segments.iter().chain(&next.segments).copied().collect())
+    }
+
+    /// Whether it is one straight line.
+    pub fn is_straight(&self) -> bool {
+        (self.end() - self.start()).norm() > self.length() - 1e-7
+    }
+
+    /// Arc lengths of the joints between its segments, both ends included.
+    pub fn joints(&self) -> &[f64] {
+        &self.at
+    }
+
+    /// Twice the signed area between the path and the origin (Green's theorem on the curve itself): the sum over a
+    /// closed outline's edges is twice its area, positive when it runs clockwise on screen (y down).
+    pub fn double_area(&self) -> f64 {
+        2.0 * BezPath::from_path_segments(self.segments.iter().copied()).area()
+    }
+
+    /// SVG commands for the path, numbers multiplied by `scale`, with a leading `M` if `with_move`.
+    pub fn to_svg(&self, scale: f64, with_move: bool) -> String {
+        use std::fmt::Write as _;
+        let n = |p: Point| format!("{} {}", round(p.x * scale), round(p.y * scale));
+        let mut out = String::new();
+        if with_move {
+            let _ = write!(out, "M {} ", n(self.segments[0].start()));
+        }
+        for segment in &self.segments {
+            let _ = match segment {
+                PathSeg::Line(l) => write!(out, "L {} ", n(l.p1)),
+                PathSeg::Quad(q) => write!(out, "Q {}, {} ", n(q.p1), n(q.p2)),
+                PathSeg::Cubic(c) => write!(out, "C {}, {}, {} ", n(c.p1), n(c.p2), n(c.p3)),
+            };
+        }
+        out.trim_end().to_owned()
+    }
+}
+
+/// Six decimals, no negative zero, no trailing zeros.
+fn round(x: f64) -> f64 {
+    let r = (x * 1e6).round() / 1e6;
+    if r == 0.0 { 0.0 } else { r }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_quarter_circle_arc_is_measured() {
+        let p = Path::parse(Vec2::new(100.0, 0.0), "A 100 100 0 0 1 0 100", 1e-3).expect("path");
+        assert_relative_eq!(p.length(), std::f64::consts::PI * 0.05, epsilon = 1e-5);
+        assert_relative_eq!(p.point(p.length() / 2.0).norm(), 0.1, epsilon = 1e-5);
+    }
+
+    #[test]
+    fn parts_and_reversal_keep_length() {
+        let p = Path::parse(Vec2::zeros(), "C 0 50, 50 100, 100 100 L 200 100", 1e-3).expect("path");
+        let l = p.length();
+        let q = p.part(0.02, 0.15);
+        assert_relative_eq!(q.length(), 0.13, epsilon = 1e-8);
+        assert_relative_eq!(q.start(), p.point(0.02), epsilon = 1e-9);
+        assert_relative_eq!(p.reversed().point(0.03), p.point(l - 0.03), epsilon = 1e-8);
+    }
+
+    #[test]
+    fn the_area_of_a_closed_outline_is_the_sum_over_its_edges() {
+        let c = [Vec2::new(1.0, 1.0), Vec2::new(3.0, 1.0), Vec2::new(3.0, 2.0), Vec2::new(1.0, 2.0)];
+        let sum: f64 = (0..4).map(|i| Path::line(c[i], c[(i + 1) % 4]).double_area()).sum();
+        assert_relative_eq!(sum / 2.0, 2.0, epsilon = 1e-12);
+    }
+}

@@ -1,0 +1,14 @@
+//! The ground floor: vectors, curves, triangle meshes.
+
+mod curve;
+mod trimesh;
+
+pub use curve::{Path, PathError};
+pub use trimesh::{Edge, Topology, TriMesh, rim_loops};
+
+/// A point or direction in a flat piece, metres, y **down**, the right side of the cloth facing the reader.
+pub type Vec2 = nalgebra::Vector2<f64>;
+/// A point or direction in space, metres, y **up**; the mannequin faces +z and its left hand is at +x.
+pub type Vec3 = nalgebra::Vector3<f64>;
+/// A 3×3 matrix.
+pub type Mat3 = nalgebra::Matrix3<f64>;

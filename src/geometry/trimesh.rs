@@ -1,0 +1,167 @@
+//! Triangle meshes in space and what can be said of them from their triangles alone.
+
+use std::collections::HashMap;
+
+use super::Vec3;
+
+/// Positions and triangles. Triangles run counter-clockwise seen from outside (the cloth's right side).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TriMesh {
+    /// Positions, metres.
+    pub vertices: Vec<Vec3>,
+    /// Vertex indices.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// An undirected mesh edge with the triangles beside it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Edge {
+    /// End vertices, the smaller index first.
+    pub ends: [u32; 2],
+    /// The triangles beside it; the second is `None` on a rim.
+    pub triangles: [Option<u32>; 2],
+}
+
+/// Connectivity of a triangle mesh, derived once.
+#[derive(Clone, Debug, Default)]
+pub struct Topology {
+    /// Every edge once, sorted by its ends.
+    pub edges: Vec<Edge>,
+    /// Edges that more than two triangles share (a manifold mesh has none).
+    pub non_manifold: Vec<[u32; 2]>,
+    /// Neighbouring pairs of triangles that run the same way along their shared edge (an oriented mesh has none).
+    pub misoriented: Vec<[u32; 2]>,
+}
+
+impl Topology {
+    /// Reads the connectivity of `triangles`.
+    pub fn new(triangles: &[[u32; 3]]) -> Self {
+        let mut half: Vec<([u32; 2], u32, bool)> = Vec::with_capacity(3 * triangles.len());
+        for (t, tri) in triangles.iter().enumerate() {
+            for k in 0..3 {
+                let (a, b) = (tri[k], tri[(k + 1) % 3]);
+                half.push(([a.min(b), a.max(b)], t as u32, a < b));
+            }
+        }
+        half.sort_unstable();
+        let mut out = Self::default();
+        for group in half.chunk_by(|x, y| x.0 == y.0) {
+            out.edges.push(Edge { ends: group[0].0, triangles: [Some(group[0].1), group.get(1).map(|h| h.1)] });
+            if group.len() > 2 {
+                out.non_manifold.push(group[0].0);
+            } else if group.len() == 2 && group[0].2 == group[1].2 {
+                out.misoriented.push([group[0].1, group[1].1]);
+            }
+        }
+        out
+    }
+
+    /// Edges with one triangle.
+    pub fn rim_edges(&self) -> impl Iterator<Item = &Edge> {
+        self.edges.iter().filter(|e| e.triangles[1].is_none())
+    }
+}
+
+/// Rim loops of an oriented mesh: closed vertex chains that run with their triangles. Where rims touch in one vertex
+/// they are walked as one loop if the walk meets that vertex again before closing.
+pub fn rim_loops(triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
+    let topology = Topology::new(triangles);
+    let mut next: HashMap<u32, Vec<u32>> = HashMap::new();
+    for edge in topology.rim_edges() {
+        let Some(t) = edge.triangles[0] else { continue };
+        let tri = triangles[t as usize];
+        for k in 0..3 {
+            let (a, b) = (tri[k], tri[(k + 1) % 3]);
+            if [a.min(b), a.max(b)] == edge.ends {
+                next.entry(a).or_default().push(b);
+            }
+        }
+    }
+    let mut starts: Vec<u32> = next.keys().copied().collect();
+    starts.sort_unstable();
+    let mut loops = Vec::new();
+    for start in starts {
+        while next.get(&start).is_some_and(|n| !n.is_empty()) {
+            let mut chain = Vec::new();
+            let mut at = start;
+            while let Some(to) = next.get_mut(&at).and_then(Vec::pop) {
+                chain.push(at);
+                at = to;
+                if at == start {
+                    break;
+                }
+            }
+            loops.push(chain);
+        }
+    }
+    loops
+}
+
+impl TriMesh {
+    /// Corner positions of triangle `t`.
+    pub fn corners(&self, t: usize) -> [Vec3; 3] {
+        self.triangles[t].map(|v| self.vertices[v as usize])
+    }
+
+    /// Twice the area-weighted outward normal of triangle `t`.
+    pub fn double_normal(&self, t: usize) -> Vec3 {
+        let [a, b, c] = self.corners(t);
+        (b - a).cross(&(c - a))
+    }
+
+    /// Sum of the triangles' areas.
+    pub fn area(&self) -> f64 {
+        (0..self.triangles.len()).map(|t| 0.5 * self.double_normal(t).norm()).sum()
+    }
+
+    /// Enclosed volume (divergence theorem); negative when a closed mesh is inside out.
+    pub fn signed_volume(&self) -> f64 {
+        (0..self.triangles.len())
+            .map(|t| {
+                let [a, b, c] = self.corners(t);
+                a.dot(&b.cross(&c)) / 6.0
+            })
+            .sum()
+    }
+
+    /// Area-weighted unit vertex normals (zero for an isolated vertex).
+    pub fn vertex_normals(&self) -> Vec<Vec3> {
+        let mut normals = vec![Vec3::zeros(); self.vertices.len()];
+        for (t, tri) in self.triangles.iter().enumerate() {
+            let n = self.double_normal(t);
+            for &v in tri {
+                normals[v as usize] += n;
+            }
+        }
+        for n in &mut normals {
+            let length = n.norm();
+            if length > 0.0 {
+                *n /= length;
+            }
+        }
+        normals
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_triangles_have_one_rim_of_four() {
+        let triangles = [[0, 1, 2], [0, 2, 3]];
+        let topology = Topology::new(&triangles);
+        assert_eq!(topology.edges.len(), 5);
+        assert_eq!(topology.rim_edges().count(), 4);
+        assert!(topology.misoriented.is_empty());
+        let loops = rim_loops(&triangles);
+        assert_eq!(loops, vec![vec![0, 1, 2, 3]]);
+    }
+
+    #[test]
+    fn a_turned_triangle_is_seen() {
+        assert_eq!(Topology::new(&[[0, 1, 2], [0, 3, 2], [0, 2, 4]]).non_manifold, [[0, 2]]);
+        assert!(Topology::new(&[[0, 1, 2], [0, 2, 3]]).misoriented.is_empty());
+        assert_eq!(Topology::new(&[[0, 1, 2], [0, 3, 2]]).misoriented.len(), 1);
+    }
+}

@@ -1,0 +1,57 @@
+//! Mannequins: measured sections lofted into a closed mesh, or a user's own closed OBJ.
+
+use crate::geometry::{TriMesh, Vec3};
+
+/// A body to dress.
+#[derive(Clone, Debug)]
+pub struct Mannequin {
+    /// `woman_92`, or the OBJ's stem.
+    pub name: String,
+    /// Closed, oriented, outward. Metres, y up, feet at y = 0, facing +z, left hand at +x.
+    pub mesh: TriMesh,
+    /// Torso, neck, arms, legs.
+    pub parts: Vec<BodyPart>,
+}
+
+/// Which part of the body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum PartKind {
+    /// Crotch to shoulders.
+    Torso,
+    /// Neck base to top.
+    Neck,
+    /// Shoulder to wrist.
+    LeftArm,
+    /// Shoulder to wrist.
+    RightArm,
+    /// Crotch to ankle.
+    LeftLeg,
+    /// Crotch to ankle.
+    RightLeg,
+}
+
+/// A limb or the trunk as a bent cylinder.
+#[derive(Clone, Debug)]
+pub struct BodyPart {
+    /// Which.
+    pub kind: PartKind,
+    /// Sections from the end next to the trunk outward (the torso from the crotch up).
+    pub sections: Vec<Section>,
+    /// Named heights or points on it: `waist`, `hip`, `bust`, `biceps`, `elbow`, `wrist`, `knee`: index into `sections` as a fraction along the axis.
+    pub landmarks: Vec<(String, Vec3)>,
+}
+
+/// One cross-section of a body part.
+#[derive(Clone, Copy, Debug)]
+pub struct Section {
+    /// Centre.
+    pub center: Vec3,
+    /// Unit axis direction, outward along the part.
+    pub axis: Vec3,
+    /// Half extents sideways (along the body's x for torso and neck, radially for limbs) and front–back.
+    pub half_width: f64,
+    /// Half depth.
+    pub half_depth: f64,
+    /// Girth.
+    pub girth: f64,
+}

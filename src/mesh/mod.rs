@@ -1,0 +1,71 @@
+//! Pieces as regular spring-mass grids (F1).
+
+use std::ops::Range;
+
+use crate::geometry::Vec2;
+use crate::pattern::{EdgeId, LineKind};
+
+/// All pieces of a garment, meshed; particles of different pieces are different particles, also along seams.
+#[derive(Clone, Debug, Default)]
+pub struct ClothMesh {
+    /// Target spacing, metres.
+    pub spacing: f64,
+    /// Flat position of every particle, metres, y down (as drawn).
+    pub flat: Vec<Vec2>,
+    /// Triangles; clockwise on screen in the y-down flat frame, so that the normal in space points out of the cloth's right side when x is right, y down and the right side faces the reader.
+    pub triangles: Vec<[u32; 3]>,
+    /// One per piece of the garment, same order.
+    pub pieces: Vec<PieceMesh>,
+    /// One per seam of the garment, same order.
+    pub seams: Vec<Stitches>,
+}
+
+/// The part of a [`ClothMesh`] that is one piece.
+#[derive(Clone, Debug)]
+pub struct PieceMesh {
+    /// As in the garment.
+    pub name: String,
+    /// Its particles.
+    pub particles: Range<usize>,
+    /// Its triangles.
+    pub triangles: Range<usize>,
+    /// Particles along every edge, both ends included, in the edge's direction.
+    pub edges: Vec<EdgeParticles>,
+    /// Particles along every line that bends or gathers the cloth, in the line's direction.
+    pub lines: Vec<LineParticles>,
+    /// Smallest triangle angle, radians.
+    pub smallest_angle: f64,
+    /// Warp direction in the flat piece (unit).
+    pub warp: Vec2,
+}
+
+/// Particles of an edge.
+#[derive(Clone, Debug)]
+pub struct EdgeParticles {
+    /// The edge.
+    pub edge: EdgeId,
+    /// Its name.
+    pub name: String,
+    /// Global particle indices.
+    pub particles: Vec<u32>,
+}
+
+/// Particles of an internal line.
+#[derive(Clone, Debug)]
+pub struct LineParticles {
+    /// Its name.
+    pub name: String,
+    /// What it does.
+    pub kind: LineKind,
+    /// Global particle indices.
+    pub particles: Vec<u32>,
+}
+
+/// The particle pairs of a seam.
+#[derive(Clone, Debug)]
+pub struct Stitches {
+    /// The seam's name.
+    pub name: String,
+    /// Pairs (a, b) from the seam's start to its end, both ends included. A pair may hold the same particle twice (the tip of a dart).
+    pub pairs: Vec<[u32; 2]>,
+}

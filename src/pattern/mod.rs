@@ -1,0 +1,257 @@
+//! The checked garment: every piece that is cut and every seam, nothing left implicit.
+//!
+//! A garment *file* says `cut: pair`, darts, pleats and `to: mirror`; a [`Garment`] has the pieces and seams that
+//! follow from them, so that no later stage knows those words. All lengths are metres.
+
+use crate::geometry::{Path, Vec2, Vec3};
+
+/// A garment ready to be meshed.
+#[derive(Clone, Debug)]
+pub struct Garment {
+    /// Short name: the file's stem, `child_dress`.
+    pub name: String,
+    /// The file's `name:`, for people.
+    pub title: String,
+    /// Mannequin name or path of an OBJ, as in the file.
+    pub body: Option<String>,
+    /// Pieces as cut: `front.L` and `front.R` for a pair.
+    pub pieces: Vec<Piece>,
+    /// Seams in sewing order: the file's, then those of darts and pleats, mirrored ones written out.
+    pub seams: Vec<Seam>,
+    /// Fabrics by the name the pieces use.
+    pub fabrics: Vec<FabricUse>,
+    /// Buttons, hooks and the like.
+    pub closures: Vec<Closure>,
+    /// The garment's own regression bounds.
+    pub tests: Vec<Bound>,
+}
+
+/// One piece of cloth.
+#[derive(Clone, Debug)]
+pub struct Piece {
+    /// `front.L`.
+    pub name: String,
+    /// The drawn piece it comes from, `front`.
+    pub drawn_as: String,
+    /// Which of a pair it is.
+    pub side: Option<Side>,
+    /// Name in [`Garment::fabrics`].
+    pub fabric: String,
+    /// 0 = shell, positive further out, negative nearer the body.
+    pub layer: i32,
+    /// Warp direction in the flat piece, unit length, tail to head.
+    pub warp: Vec2,
+    /// `loops[0]` is the outline, clockwise on screen (y down; [`Path::double_area`] sums to a positive number); the
+    /// others are holes, running the other way. Every edge starts where the one before it ends.
+    pub loops: Vec<Vec<Edge>>,
+    /// Fold, elastic and other lines inside the piece.
+    pub lines: Vec<Line>,
+    /// Marks on edges.
+    pub notches: Vec<Notch>,
+    /// Where the piece starts; `None` = worked out.
+    pub place: Option<Place>,
+}
+
+/// A named stretch of a piece's rim.
+#[derive(Clone, Debug)]
+pub struct Edge {
+    /// `shoulder`; unique in its piece. An edge that a dart cuts in two is `waist` and `waist.2`.
+    pub name: String,
+    /// Its course.
+    pub path: Path,
+}
+
+/// An edge of a piece: `piece.loops[ring][index]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct EdgeId {
+    /// Index in [`Garment::pieces`].
+    pub piece: usize,
+    /// 0 = outline, else a hole.
+    pub ring: usize,
+    /// Index in the ring.
+    pub index: usize,
+}
+
+/// Left or right of the wearer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Side {
+    /// The wearer's left.
+    Left,
+    /// The wearer's right.
+    Right,
+}
+
+/// A stretch of an edge, walked from `from` to `to` (metres from the edge's start; `from > to` walks against it).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// The edge.
+    pub edge: EdgeId,
+    /// Where the walk begins.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+}
+
+impl Span {
+    /// Length walked.
+    pub fn length(&self) -> f64 {
+        (self.to - self.from).abs()
+    }
+}
+
+/// Two chains of spans that are stitched together, start to start and end to end, in proportion to their lengths
+/// between [`Seam::marks`].
+#[derive(Clone, Debug)]
+pub struct Seam {
+    /// `side.L`.
+    pub name: String,
+    /// First chain (`sew`).
+    pub a: Vec<Span>,
+    /// Second chain (`to`).
+    pub b: Vec<Span>,
+    /// Matched positions (metres along `a`, metres along `b`), rising in both, first (0, 0) and last the two lengths.
+    pub marks: Vec<(f64, f64)>,
+    /// What the lengths are meant to do.
+    pub give: Give,
+    /// Sewing order: all seams of a stage close before the next stage starts.
+    pub stage: i32,
+    /// Where it comes from.
+    pub kind: SeamKind,
+    /// A stretch that stays open, (from, to) in metres along `a`; already taken out of `a` and `b` if it is worn open.
+    pub closure: Option<String>,
+}
+
+impl Seam {
+    /// Length of the first chain.
+    pub fn length_a(&self) -> f64 {
+        self.a.iter().map(Span::length).sum()
+    }
+
+    /// Length of the second chain.
+    pub fn length_b(&self) -> f64 {
+        self.b.iter().map(Span::length).sum()
+    }
+}
+
+/// What a seam does with unequal lengths.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Give {
+    /// Equal within the tolerance.
+    Even,
+    /// So many metres more on the `b` side.
+    Ease(f64),
+    /// length(a) / length(b) > 1: `a` is gathered.
+    Gather(f64),
+    /// length(a) / length(b) > 1: `b` is stretched on.
+    Stretch(f64),
+}
+
+/// Where a seam comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SeamKind {
+    /// Written in the file.
+    Written,
+    /// The legs of a dart.
+    Dart,
+    /// A pleat laid down and sewn.
+    Pleat,
+}
+
+/// A line inside a piece, or across it from rim to rim.
+#[derive(Clone, Debug)]
+pub struct Line {
+    /// Its name.
+    pub name: String,
+    /// Its course.
+    pub path: Path,
+    /// What it does.
+    pub kind: LineKind,
+}
+
+/// What an internal line does.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LineKind {
+    /// The cloth is creased to this angle (radians; 0 = flat, π = folded onto its own wrong side).
+    Fold(f64),
+    /// Drawn in to this share of its length.
+    Elastic(f64),
+    /// Marking, topstitching, drill hole, … : kept, not simulated.
+    Mark(String),
+}
+
+/// A notch on an edge.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Notch {
+    /// The edge.
+    pub edge: EdgeId,
+    /// Metres from the edge's start.
+    pub at: f64,
+    /// Double notches mark the back.
+    pub double: bool,
+}
+
+/// Where a piece starts.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Place {
+    /// Bent round a body part: `torso front`, `left arm`, `right leg back`, `waist`, `neck`.
+    Around {
+        /// The words of the file, lower case.
+        words: Vec<String>,
+    },
+    /// A rigid position: the flat piece's origin goes to `at` (metres) after turning by `turn` (degrees about x, y, z, in this order about the fixed axes).
+    At {
+        /// Position.
+        at: Vec3,
+        /// Turn.
+        turn: Vec3,
+    },
+}
+
+/// A fabric as a garment names it.
+#[derive(Clone, Debug)]
+pub struct FabricUse {
+    /// `shell`.
+    pub name: String,
+    /// What it is.
+    pub spec: crate::fabric::FabricSpec,
+}
+
+/// A closure: simulated as tacks where `a` meets `b` when both are given, else kept only.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Closure {
+    /// button, hook, zip, …
+    pub kind: String,
+    /// Points that are worn together: (piece, flat position) twice.
+    pub tacks: Vec<[(usize, Vec2); 2]>,
+}
+
+/// A regression bound of the garment's own `tests`.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Bound {
+    /// Largest difference of the two lengths of a seam (`None` = all), metres.
+    SeamLength(Option<String>, f64),
+    /// Largest gap of a seam before stitching, metres.
+    Gap(Option<String>, f64),
+    /// Round trip of a piece: area (fraction), boundary (metres).
+    Flatten {
+        /// Drawn or cut piece; `None` = all.
+        piece: Option<String>,
+        /// Fraction.
+        area: Option<f64>,
+        /// Metres.
+        boundary: Option<f64>,
+    },
+    /// Sewn and draped piece: area and boundary as fractions.
+    Drape {
+        /// Drawn or cut piece; `None` = all.
+        piece: Option<String>,
+        /// Fraction.
+        area: Option<f64>,
+        /// Fraction.
+        boundary: Option<f64>,
+    },
+    /// Largest number of crossings, cloth with body and cloth with cloth.
+    Crossings(usize),
+    /// Every opening worn.
+    Worn,
+}
