@@ -1,1 +1,55 @@
-//! contact
+//! Contact: cloth with the body and cloth with cloth (F6, F14). The only user of parry.
+//!
+//! Detection finds every pair of primitives closer than a *reach* and turns it into a [`Contact`]: a frozen direction
+//! and the weights of the nodes that take part. Between two detections no node moves further than
+//! [`Bounds::allowance`], so a pair that was not found cannot meet; a pair that was found is kept apart by a plane
+//! between its two sides ([`Bounds`]). Cloth that starts without a crossing therefore ends without one; the exceptions
+//! are pairs left out on purpose (neighbours in the cloth, both sides of a seam that is being closed).
+
+mod body;
+mod bounds;
+mod cloth;
+mod grid;
+mod narrow;
+mod swept;
+
+pub use body::{Collider, Nearest};
+pub use bounds::Bounds;
+pub use cloth::{ClothDetector, Neighbourhood};
+pub use narrow::{closest_on_segments, closest_on_triangle};
+pub use swept::{Hit, swept_point_triangle};
+
+use crate::geometry::Vec3;
+
+/// A pair of primitives near each other, as one number: gap = normal · Σ wᵢ xᵢ − offset, metres.
+#[derive(Clone, Copy, Debug)]
+pub struct Contact {
+    /// Nodes that take part; the first [`Contact::count`] are meant.
+    pub nodes: [u32; 4],
+    /// Their weights: +1 in sum on the side the normal points to, −1 on the other (or 0 if that side is the body).
+    pub weights: [f64; 4],
+    /// How many of the four are used.
+    pub count: u8,
+    /// Unit direction that opens the gap.
+    pub normal: Vec3,
+    /// Position of the body's surface along the normal; 0 between cloth and cloth.
+    pub offset: f64,
+    /// Whether the other side is the body.
+    pub body: bool,
+}
+
+impl Contact {
+    /// The gap at positions `x`, metres.
+    pub fn gap(&self, x: &[Vec3]) -> f64 {
+        let mut sum = -self.offset;
+        for (&node, &w) in self.nodes.iter().zip(&self.weights).take(self.count as usize) {
+            sum += w * self.normal.dot(&x[node as usize]);
+        }
+        sum
+    }
+
+    /// Its nodes and their weights.
+    pub fn parts(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.nodes.iter().zip(&self.weights).take(self.count as usize).map(|(&n, &w)| (n as usize, w))
+    }
+}

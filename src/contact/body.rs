@@ -1,0 +1,217 @@
+//! The body as something cloth can touch.
+
+use parry3d_f64::math::Vector;
+use parry3d_f64::query::PointQueryWithLocation;
+use parry3d_f64::shape::{TriMesh as ParryMesh, TriMeshFlags};
+
+use super::grid::Grid;
+use super::narrow::{closest_on_segments, closest_on_triangle};
+use super::Contact;
+use crate::geometry::{Topology, TriMesh, Vec3};
+
+/// Body edges whose faces meet flatter than this (cosine) cannot catch a cloth edge between two of its vertices.
+const SHARP_EDGE: f64 = 0.995;
+
+/// A closed body prepared for contact; built once, never moved.
+pub struct Collider {
+    mesh: ParryMesh,
+    vertices: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    edges: Vec<[u32; 2]>,
+    vertex_grid: Grid,
+    edge_grid: Grid,
+}
+
+/// The closest point of the body's surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Nearest {
+    /// The closest point.
+    pub point: Vec3,
+    /// Unit outward direction there.
+    pub normal: Vec3,
+    /// Signed distance, negative inside.
+    pub distance: f64,
+}
+
+fn to_parry(v: Vec3) -> Vector {
+    v.into()
+}
+
+fn from_parry(v: Vector) -> Vec3 {
+    v.into()
+}
+
+impl Collider {
+    /// Prepares a closed, oriented mesh (`crate::io` has checked that it is one); `None` if parry refuses it.
+    pub fn new(body: &TriMesh) -> Option<Self> {
+        let flags = TriMeshFlags::ORIENTED | TriMeshFlags::MERGE_DUPLICATE_VERTICES;
+        let vertices: Vec<_> = body.vertices.iter().map(|&v| to_parry(v)).collect();
+        let mesh = ParryMesh::with_flags(vertices, body.triangles.clone(), flags).ok()?;
+        let edges = convex_edges(body);
+        let point_boxes: Vec<_> = body.vertices.iter().map(|&v| (v, v)).collect();
+        let edge_boxes: Vec<_> = edges
+            .iter()
+            .map(|e| {
+                let (a, b) = (body.vertices[e[0] as usize], body.vertices[e[1] as usize]);
+                (a.inf(&b), a.sup(&b))
+            })
+            .collect();
+        // Cells about the size of a body triangle.
+        let mean_area = body.area() / body.triangles.len().max(1) as f64;
+        let cell = (2.0 * mean_area).sqrt().max(1e-4);
+        Some(Self {
+            mesh,
+            vertex_grid: Grid::new(&point_boxes, cell),
+            edge_grid: Grid::new(&edge_boxes, cell),
+            vertices: body.vertices.clone(),
+            normals: body.vertex_normals(),
+            edges,
+        })
+    }
+
+    /// The closest point of the surface, if it is within `reach` of `p`.
+    pub fn nearest(&self, p: Vec3, reach: f64) -> Option<Nearest> {
+        let (projection, (triangle, _)) =
+            self.mesh.project_local_point_and_get_location_with_max_dist(to_parry(p), false, reach)?;
+        let point = from_parry(projection.point);
+        let away = p - point;
+        let distance = away.norm();
+        let sign = if projection.is_inside { -1.0 } else { 1.0 };
+        // Within a nanometre of the surface the difference is rounding: take the triangle's own normal.
+        let normal = if distance > 1e-9 {
+            away * (sign / distance)
+        } else {
+            self.mesh.triangle(triangle).normal().map_or_else(Vec3::y, from_parry)
+        };
+        Some(Nearest { point, normal, distance: sign * distance })
+    }
+
+    /// Contacts of body vertices with the cloth triangle of nodes `tri`, within `reach`.
+    pub fn vertices_near_triangle(&self, x: &[Vec3], tri: [u32; 3], reach: f64, out: &mut Vec<Contact>) {
+        let [a, b, c] = tri.map(|n| x[n as usize]);
+        let low = a.inf(&b).inf(&c).add_scalar(-reach);
+        let high = a.sup(&b).sup(&c).add_scalar(reach);
+        self.vertex_grid.query(low, high, |v| {
+            let p = self.vertices[v as usize];
+            let w = closest_on_triangle(p, a, b, c);
+            // At a corner or rim of the triangle the cloth's own vertices and edges are in charge.
+            if w.iter().any(|&w| w < 1e-6) {
+                return;
+            }
+            let away = a * w[0] + b * w[1] + c * w[2] - p;
+            if away.norm_squared() > reach * reach {
+                return;
+            }
+            let mut normal = (b - a).cross(&(c - a)).normalize();
+            if normal.dot(&self.normals[v as usize]) < 0.0 {
+                normal = -normal;
+            }
+            out.push(Contact {
+                nodes: [tri[0], tri[1], tri[2], 0],
+                weights: [w[0], w[1], w[2], 0.0],
+                count: 3,
+                normal,
+                offset: normal.dot(&p),
+                body: true,
+            });
+        });
+    }
+
+    /// Contacts of the body's convex edges with the cloth edge `ends`, within `reach`.
+    pub fn edges_near_edge(&self, x: &[Vec3], ends: [u32; 2], reach: f64, out: &mut Vec<Contact>) {
+        let [a, b] = ends.map(|n| x[n as usize]);
+        let mut best: Option<(f64, Contact)> = None;
+        self.edge_grid.query(a.inf(&b).add_scalar(-reach), a.sup(&b).add_scalar(reach), |e| {
+            let [i, j] = self.edges[e as usize];
+            let (p, q) = (self.vertices[i as usize], self.vertices[j as usize]);
+            let (s, t) = closest_on_segments(a, b, p, q);
+            if !(1e-3..=1.0 - 1e-3).contains(&s) || !(1e-3..=1.0 - 1e-3).contains(&t) {
+                return;
+            }
+            let on_body = p + (q - p) * t;
+            let away = a + (b - a) * s - on_body;
+            if away.norm_squared() > reach * reach {
+                return;
+            }
+            let outward = self.normals[i as usize] * (1.0 - t) + self.normals[j as usize] * t;
+            let across = (b - a).cross(&(q - p));
+            let length = across.norm();
+            if length < 1e-3 * (b - a).norm() * (q - p).norm() {
+                return;
+            }
+            let normal = across * (across.dot(&outward).signum() / length);
+            let gap = normal.dot(&away);
+            let contact = Contact {
+                nodes: [ends[0], ends[1], 0, 0],
+                weights: [1.0 - s, s, 0.0, 0.0],
+                count: 2,
+                normal,
+                offset: normal.dot(&on_body),
+                body: true,
+            };
+            if best.as_ref().is_none_or(|(g, _)| gap < *g) {
+                best = Some((gap, contact));
+            }
+        });
+        out.extend(best.map(|(_, c)| c));
+    }
+}
+
+/// Edges where the body is convex and not flat.
+fn convex_edges(body: &TriMesh) -> Vec<[u32; 2]> {
+    let normals: Vec<Vec3> =
+        (0..body.triangles.len()).map(|t| body.double_normal(t).try_normalize(0.0).unwrap_or_default()).collect();
+    let mut out = Vec::new();
+    for edge in Topology::new(&body.triangles).edges {
+        let [Some(s), Some(t)] = edge.triangles else { continue };
+        let (n, m) = (normals[s as usize], normals[t as usize]);
+        let apex = body.triangles[t as usize].into_iter().find(|v| !edge.ends.contains(v));
+        let Some(apex) = apex else { continue };
+        let below = n.dot(&(body.vertices[apex as usize] - body.vertices[edge.ends[0] as usize]));
+        if n.dot(&m) < SHARP_EDGE && below < 0.0 {
+            out.push(edge.ends);
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    fn cube() -> TriMesh {
+        let vertices = (0..8).map(|i| Vec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2))).collect();
+        let triangles = vec![
+            [0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4],
+            [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5],
+        ];
+        TriMesh { vertices, triangles }
+    }
+
+    #[test]
+    fn distance_is_negative_inside_and_the_normal_points_out() {
+        let body = Collider::new(&cube()).expect("collider");
+        let inside = body.nearest(Vec3::new(0.5, 0.9, 0.5), 1.0).expect("near");
+        assert_relative_eq!(inside.distance, -0.1, epsilon = 1e-12);
+        assert_relative_eq!(inside.normal, Vec3::y(), epsilon = 1e-12);
+        let outside = body.nearest(Vec3::new(0.5, 1.2, 0.5), 1.0).expect("near");
+        assert_relative_eq!(outside.distance, 0.2, epsilon = 1e-12);
+        assert!(body.nearest(Vec3::new(0.5, 3.0, 0.5), 1.0).is_none());
+    }
+
+    #[test]
+    fn only_the_cubes_twelve_edges_are_convex() {
+        assert_eq!(convex_edges(&cube()).len(), 12);
+    }
+
+    #[test]
+    fn a_corner_under_a_triangle_is_found() {
+        let body = Collider::new(&cube()).expect("collider");
+        let x = [Vec3::new(0.8, 1.01, 1.3), Vec3::new(1.3, 1.01, 1.3), Vec3::new(1.0, 1.01, 0.7)];
+        let mut out = Vec::new();
+        body.vertices_near_triangle(&x, [0, 1, 2], 0.05, &mut out);
+        assert_eq!(out.len(), 1);
+        assert_relative_eq!(out[0].gap(&x), 0.01, epsilon = 1e-12);
+    }
+}

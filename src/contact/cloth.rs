@@ -1,0 +1,407 @@
+//! Pairs of cloth primitives near each other.
+
+use parry3d_f64::bounding_volume::Aabb;
+use parry3d_f64::partitioning::{Bvh, BvhWorkspace};
+use rayon::prelude::*;
+
+use super::Contact;
+use super::narrow::{closest_on_segments, closest_on_triangle};
+use crate::geometry::{Topology, Vec2, Vec3};
+
+/// Triangles per leaf: small enough for tight boxes, large enough that the tree costs little.
+const PATCH: usize = 10;
+/// Patches whose normals all lie within this angle (radians) of one another are one smooth sheet there.
+const SMOOTH_CONE: f64 = 1.2;
+/// Primitives near each other in the flat piece are left out while their normals agree at least so far (cosine).
+const SMOOTH_COSINE: f64 = 0.3;
+/// "Near each other in the flat piece": within this many reaches.
+const FLAT_REACHES: f64 = 1.25;
+
+/// Which pairs are neighbours by construction and therefore no contact.
+#[derive(Clone, Debug, Default)]
+pub struct Neighbourhood {
+    /// Node → class of nodes that are, or will be, sewn together. Primitives that share a class are incident.
+    pub class: Vec<u32>,
+    /// Node → seams being closed that it lies on or next to; primitives that share one are left out.
+    pub seams: Vec<Vec<u32>>,
+}
+
+struct Patch {
+    piece: u32,
+    triangles: Vec<u32>,
+    nodes: Vec<(u32, Vec2)>,
+    edges: Vec<([u32; 2], Vec2)>,
+    flat: (Vec2, Vec2),
+}
+
+/// Finds near pairs in one garment; the grouping into patches is made once in the flat pieces, the tree over them is
+/// refitted for every detection.
+pub struct ClothDetector {
+    triangles: Vec<[u32; 3]>,
+    centers: Vec<Vec2>,
+    patches: Vec<Patch>,
+    bvh: Bvh,
+    workspace: BvhWorkspace,
+    /// Class → classes it shares an edge with, sorted.
+    adjacent: Vec<Vec<u32>>,
+    hood: Neighbourhood,
+}
+
+impl ClothDetector {
+    /// Prepares `triangles` over nodes. `flat[t]` are the flat corners of triangle t and `piece[t]` its piece.
+    pub fn new(triangles: &[[u32; 3]], flat: &[[Vec2; 3]], piece: &[u32], hood: Neighbourhood) -> Self {
+        let centers: Vec<Vec2> = flat.iter().map(|c| (c[0] + c[1] + c[2]) / 3.0).collect();
+        let mut order: Vec<u32> = (0..triangles.len() as u32).collect();
+        order.sort_by_key(|&t| piece[t as usize]);
+        let mut leaves = Vec::new();
+        for group in order.chunk_by_mut(|&a, &b| piece[a as usize] == piece[b as usize]) {
+            split(group, &centers, &mut leaves);
+        }
+        let patches = own_primitives(leaves, triangles, flat, piece);
+        let mut adjacent = vec![Vec::new(); hood.class.len()];
+        for tri in triangles {
+            for k in 0..3 {
+                let (a, b) = (hood.class[tri[k] as usize], hood.class[tri[(k + 1) % 3] as usize]);
+                adjacent[a as usize].push(b);
+                adjacent[b as usize].push(a);
+            }
+        }
+        for list in &mut adjacent {
+            list.sort_unstable();
+            list.dedup();
+        }
+        Self {
+            triangles: triangles.to_vec(),
+            centers,
+            patches,
+            bvh: Bvh::new(),
+            workspace: BvhWorkspace::default(),
+            adjacent,
+            hood,
+        }
+    }
+
+    /// Changes which pairs are left out (a seam that has closed no longer mutes its neighbours).
+    pub fn set_seams(&mut self, seams: Vec<Vec<u32>>) {
+        self.hood.seams = seams;
+    }
+
+    /// Every vertex–triangle and edge–edge pair closer than `reach` at positions `x`, in an order that depends on
+    /// nothing but the input.
+    pub fn detect(&mut self, x: &[Vec3], reach: f64) -> Vec<Contact> {
+        let normals: Vec<Vec3> = self
+            .triangles
+            .par_iter()
+            .map(|t| {
+                let [a, b, c] = t.map(|n| x[n as usize]);
+                (b - a).cross(&(c - a)).try_normalize(1e-300).unwrap_or_default()
+            })
+            .collect();
+        let boxes: Vec<(Aabb, Cone)> = self.patches.par_iter().map(|p| self.measure(p, x, &normals, reach)).collect();
+        for (i, (aabb, _)) in boxes.iter().enumerate() {
+            self.bvh.insert_or_update_partially(*aabb, i as u32, 0.0);
+        }
+        self.bvh.refit(&mut self.workspace);
+        let mut pairs: Vec<(u32, u32)> = Vec::new();
+        self.bvh.traverse_bvtt_single_tree::<false>(&mut self.workspace, &mut |a, b| {
+            pairs.push((a.min(b), a.max(b)));
+        });
+        pairs.extend((0..self.patches.len() as u32).map(|i| (i, i)));
+        pairs.retain(|&(a, b)| !self.smooth(a as usize, b as usize, &boxes, reach));
+        pairs.sort_unstable();
+        let node_normals = self.node_normals(x.len(), &normals);
+        let find = Search { detector: self, x, normals: &normals, node_normals: &node_normals, reach };
+        pairs.par_iter().flat_map_iter(|&(a, b)| find.pair(a as usize, b as usize)).collect()
+    }
+
+    fn measure(&self, patch: &Patch, x: &[Vec3], normals: &[Vec3], reach: f64) -> (Aabb, Cone) {
+        let mut low = Vec3::repeat(f64::INFINITY);
+        let mut high = -low;
+        let mut axis = Vec3::zeros();
+        for &t in &patch.triangles {
+            for n in self.triangles[t as usize] {
+                low = low.inf(&x[n as usize]);
+                high = high.sup(&x[n as usize]);
+            }
+            axis += normals[t as usize];
+        }
+        let axis = axis.try_normalize(1e-9).unwrap_or_default();
+        let cosine = patch.triangles.iter().map(|&t| axis.dot(&normals[t as usize])).fold(1.0, f64::min);
+        let half = 0.5 * reach;
+        let aabb = Aabb::new(low.add_scalar(-half).into(), high.add_scalar(half).into());
+        (aabb, Cone { axis, spread: cosine.clamp(-1.0, 1.0).acos() })
+    }
+
+    /// Whether two patches are one smooth sheet (neighbours in the flat piece, normals alike).
+    fn smooth(&self, a: usize, b: usize, boxes: &[(Aabb, Cone)], reach: f64) -> bool {
+        let (p, q) = (&self.patches[a], &self.patches[b]);
+        if p.piece != q.piece {
+            return false;
+        }
+        let (ca, cb) = (&boxes[a].1, &boxes[b].1);
+        let between = ca.axis.dot(&cb.axis).clamp(-1.0, 1.0).acos();
+        if between + ca.spread + cb.spread > SMOOTH_CONE {
+            return false;
+        }
+        let gap = (p.flat.0 - q.flat.1).sup(&(q.flat.0 - p.flat.1)).sup(&Vec2::zeros());
+        gap.norm() < 0.5 * reach
+    }
+
+    fn node_normals(&self, nodes: usize, normals: &[Vec3]) -> Vec<Vec3> {
+        let mut out = vec![Vec3::zeros(); nodes];
+        for (tri, n) in self.triangles.iter().zip(normals) {
+            for &v in tri {
+                out[v as usize] += n;
+            }
+        }
+        for n in &mut out {
+            *n = n.try_normalize(1e-9).unwrap_or_default();
+        }
+        out
+    }
+
+    /// Whether nodes `p` and `q` (of two primitives) are sewn together or lie beside one open seam.
+    fn joined(&self, p: &[u32], q: &[u32]) -> bool {
+        p.iter().any(|&a| {
+            q.iter().any(|&b| {
+                self.hood.class[a as usize] == self.hood.class[b as usize]
+                    || self.hood.seams[a as usize].iter().any(|s| self.hood.seams[b as usize].contains(s))
+            })
+        })
+    }
+
+    /// Whether an edge of the cloth leads from one of `p` to one of `q`.
+    fn neighbours(&self, p: &[u32], q: &[u32]) -> bool {
+        p.iter().any(|&a| {
+            let near = &self.adjacent[self.hood.class[a as usize] as usize];
+            q.iter().any(|&b| near.binary_search(&self.hood.class[b as usize]).is_ok())
+        })
+    }
+}
+
+struct Cone {
+    axis: Vec3,
+    spread: f64,
+}
+
+struct Search<'a> {
+    detector: &'a ClothDetector,
+    x: &'a [Vec3],
+    normals: &'a [Vec3],
+    node_normals: &'a [Vec3],
+    reach: f64,
+}
+
+impl Search<'_> {
+    fn pair(&self, a: usize, b: usize) -> Vec<Contact> {
+        let (p, q) = (&self.detector.patches[a], &self.detector.patches[b]);
+        let mut out = Vec::new();
+        self.points(p, q, &mut out);
+        if a != b {
+            self.points(q, p, &mut out);
+        }
+        self.edges(p, q, a == b, &mut out);
+        out
+    }
+
+    /// Same sheet: near in the flat piece and facing the same way.
+    fn same_sheet(&self, same_piece: bool, flat: Vec2, p: &[u32], q: &[u32], cosine: f64) -> bool {
+        if cosine < SMOOTH_COSINE {
+            return false;
+        }
+        if same_piece && flat.norm() < FLAT_REACHES * self.reach {
+            return true;
+        }
+        self.detector.neighbours(p, q)
+    }
+
+    fn points(&self, p: &Patch, q: &Patch, out: &mut Vec<Contact>) {
+        let reach2 = self.reach * self.reach;
+        for &(v, flat) in &p.nodes {
+            let point = self.x[v as usize];
+            for &t in &q.triangles {
+                let tri = self.detector.triangles[t as usize];
+                let [a, b, c] = tri.map(|n| self.x[n as usize]);
+                let low = a.inf(&b).inf(&c);
+                let high = a.sup(&b).sup(&c);
+                if (0..3).any(|k| point[k] < low[k] - self.reach || point[k] > high[k] + self.reach) {
+                    continue;
+                }
+                let cosine = self.node_normals[v as usize].dot(&self.normals[t as usize]);
+                let apart = flat - self.detector.centers[t as usize];
+                if self.detector.joined(&[v], &tri) || self.same_sheet(p.piece == q.piece, apart, &[v], &tri, cosine) {
+                    continue;
+                }
+                let w = closest_on_triangle(point, a, b, c);
+                let away = point - (a * w[0] + b * w[1] + c * w[2]);
+                let d2 = away.norm_squared();
+                if d2 < reach2 && d2 > 0.0 {
+                    out.push(Contact {
+                        nodes: [v, tri[0], tri[1], tri[2]],
+                        weights: [1.0, -w[0], -w[1], -w[2]],
+                        count: 4,
+                        normal: away / d2.sqrt(),
+                        offset: 0.0,
+                        body: false,
+                    });
+                }
+            }
+        }
+    }
+
+    fn edges(&self, p: &Patch, q: &Patch, same: bool, out: &mut Vec<Contact>) {
+        let reach2 = self.reach * self.reach;
+        for (i, &(e, flat)) in p.edges.iter().enumerate() {
+            let [a, b] = e.map(|n| self.x[n as usize]);
+            let (low, high) = (a.inf(&b), a.sup(&b));
+            let from = if same { i + 1 } else { 0 };
+            for &(f, other) in &q.edges[from..] {
+                let [c, d] = f.map(|n| self.x[n as usize]);
+                let (l2, h2) = (c.inf(&d), c.sup(&d));
+                if (0..3).any(|k| h2[k] < low[k] - self.reach || l2[k] > high[k] + self.reach) {
+                    continue;
+                }
+                let n1 = self.node_normals[e[0] as usize] + self.node_normals[e[1] as usize];
+                let n2 = self.node_normals[f[0] as usize] + self.node_normals[f[1] as usize];
+                let cosine = 0.25 * n1.dot(&n2);
+                if self.detector.joined(&e, &f) || self.same_sheet(p.piece == q.piece, flat - other, &e, &f, cosine) {
+                    continue;
+                }
+                let (s, t) = closest_on_segments(a, b, c, d);
+                let away = a + (b - a) * s - c - (d - c) * t;
+                let d2 = away.norm_squared();
+                // Ends of segments belong to the vertex–triangle pairs.
+                if d2 < reach2 && d2 > 0.0 && s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0 {
+                    out.push(Contact {
+                        nodes: [e[0], e[1], f[0], f[1]],
+                        weights: [1.0 - s, s, t - 1.0, -t],
+                        count: 4,
+                        normal: away / d2.sqrt(),
+                        offset: 0.0,
+                        body: false,
+                    });
+                }
+            }
+        }
+    }
+}
+
+/// Halves a group of triangles across its longer side until it is small.
+fn split(group: &mut [u32], centers: &[Vec2], leaves: &mut Vec<Vec<u32>>) {
+    if group.len() <= PATCH {
+        leaves.push(group.to_vec());
+        return;
+    }
+    let (mut low, mut high) = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
+    for &t in group.iter() {
+        low = low.inf(&centers[t as usize]);
+        high = high.sup(&centers[t as usize]);
+    }
+    let axis = usize::from((high - low).y > (high - low).x);
+    group.sort_by(|&a, &b| centers[a as usize][axis].total_cmp(&centers[b as usize][axis]).then(a.cmp(&b)));
+    let (left, right) = group.split_at_mut(group.len() / 2);
+    split(left, centers, leaves);
+    split(right, centers, leaves);
+}
+
+/// Gives every node and every edge to the first patch that has it.
+fn own_primitives(leaves: Vec<Vec<u32>>, triangles: &[[u32; 3]], flat: &[[Vec2; 3]], piece: &[u32]) -> Vec<Patch> {
+    let topology = Topology::new(triangles);
+    let nodes = triangles.iter().flatten().max().map_or(0, |&n| n as usize + 1);
+    let mut node_owned = vec![false; nodes];
+    let mut edge_owned = vec![false; topology.edges.len()];
+    let mut patches = Vec::with_capacity(leaves.len());
+    for leaf in leaves {
+        let (mut low, mut high) = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
+        let mut patch =
+            Patch { piece: 0, triangles: leaf, nodes: Vec::new(), edges: Vec::new(), flat: (Vec2::zeros(), Vec2::zeros()) };
+        for &t in &patch.triangles {
+            let (tri, corners) = (triangles[t as usize], flat[t as usize]);
+            patch.piece = piece[t as usize];
+            for k in 0..3 {
+                low = low.inf(&corners[k]);
+                high = high.sup(&corners[k]);
+                if !std::mem::replace(&mut node_owned[tri[k] as usize], true) {
+                    patch.nodes.push((tri[k], corners[k]));
+                }
+                let (a, b) = (tri[k], tri[(k + 1) % 3]);
+                let ends = [a.min(b), a.max(b)];
+                let Ok(e) = topology.edges.binary_search_by(|x| x.ends.cmp(&ends)) else { continue };
+                if !std::mem::replace(&mut edge_owned[e], true) {
+                    patch.edges.push((ends, 0.5 * (corners[k] + corners[(k + 1) % 3])));
+                }
+            }
+        }
+        patch.flat = (low, high);
+        patches.push(patch);
+    }
+    patches
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two parallel square sheets of n×n cells, `gap` apart, as two pieces.
+    fn sheets(n: u32, h: f64, gap: f64) -> (Vec<Vec3>, Vec<[u32; 3]>, Vec<[Vec2; 3]>, Vec<u32>) {
+        let (mut x, mut triangles, mut flat, mut piece) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        for sheet in 0..2u32 {
+            let base = x.len() as u32;
+            for j in 0..=n {
+                for i in 0..=n {
+                    x.push(Vec3::new(f64::from(i) * h + 0.001, f64::from(sheet) * gap, f64::from(j) * h));
+                }
+            }
+            for j in 0..n {
+                for i in 0..n {
+                    let a = base + j * (n + 1) + i;
+                    for tri in [[a, a + 1, a + n + 2], [a, a + n + 2, a + n + 1]] {
+                        triangles.push(tri);
+                        flat.push(tri.map(|v| Vec2::new(x[v as usize].x, x[v as usize].z)));
+                        piece.push(sheet);
+                    }
+                }
+            }
+        }
+        (x, triangles, flat, piece)
+    }
+
+    fn detector(x: &[Vec3], t: &[[u32; 3]], f: &[[Vec2; 3]], p: &[u32]) -> ClothDetector {
+        let hood = Neighbourhood { class: (0..x.len() as u32).collect(), seams: vec![Vec::new(); x.len()] };
+        ClothDetector::new(t, f, p, hood)
+    }
+
+    #[test]
+    fn a_flat_sheet_has_no_contact_with_itself_and_two_near_sheets_have() {
+        let (x, t, f, p) = sheets(12, 0.01, 0.1);
+        assert!(detector(&x, &t, &f, &p).detect(&x, 0.016).is_empty());
+        let (x, t, f, p) = sheets(12, 0.01, 0.005);
+        let contacts = detector(&x, &t, &f, &p).detect(&x, 0.008);
+        // Every vertex of one sheet sees the triangle straight above it.
+        for v in 0..169u32 {
+            assert!(contacts.iter().any(|c| c.nodes[0] == v && c.weights[0] == 1.0), "vertex {v}");
+        }
+        assert!(contacts.iter().all(|c| (c.gap(&x) - 0.005).abs() < 0.0031));
+    }
+
+    #[test]
+    fn every_pair_within_reach_is_found_whatever_the_grouping() {
+        let (mut x, t, f, p) = sheets(9, 0.01, 0.006);
+        for (i, v) in x.iter_mut().enumerate() {
+            v.y += 0.002 * ((i * 7919 % 101) as f64 / 101.0 - 0.5);
+        }
+        let contacts = detector(&x, &t, &f, &p).detect(&x, 0.008);
+        let mut expected = 0;
+        for v in 0..x.len() as u32 {
+            for (k, tri) in t.iter().enumerate() {
+                if p[k] == u32::from(v >= 100) {
+                    continue;
+                }
+                let [a, b, c] = tri.map(|n| x[n as usize]);
+                let w = closest_on_triangle(x[v as usize], a, b, c);
+                expected += usize::from((x[v as usize] - a * w[0] - b * w[1] - c * w[2]).norm() < 0.008);
+            }
+        }
+        assert_eq!(contacts.iter().filter(|c| c.weights[0] == 1.0).count(), expected);
+    }
+}
