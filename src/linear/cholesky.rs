@@ -6,7 +6,8 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{LltError, LltRegularization};
 use faer::perm::PermRef;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
@@ -62,7 +63,7 @@ pub enum Ordering {
     #[default]
     MinimumDegree,
     /// Nodes in the order of their elimination, such as [`super::nested_dissection`] gives: better for grids. The
-    /// three rows of a block pattern's vertex stay together.
+    /// rows of a block pattern's vertex stay together.
     Given(Vec<u32>),
 }
 
@@ -81,8 +82,8 @@ pub enum CholeskyError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the matrix is not positive definite (met at row {dof})")]
 pub struct NotPositiveDefinite {
-    /// The row where elimination stopped; in a block pattern that of vertex `dof / 3`. With dense blocks of rows it may
-    /// name a row eliminated shortly before the culprit.
+    /// The row where elimination stopped (of vertex `dof / 3` in a pattern of 3×3 blocks). Exact for small matrices; in
+    /// large ones, which are eliminated in dense blocks of rows, it may be another row near the culprit.
     pub dof: usize,
 }
 
@@ -182,9 +183,11 @@ impl<T: Scalar> Cholesky<T> {
         }
     }
 
-    /// Names the row of a failed pivot. faer counts from one in its own order of elimination.
+    /// Names the row of a failed pivot. faer counts in its own order of elimination, from one where it works entry by
+    /// entry and from zero (and only roughly, within a dense block) where it works by blocks.
     fn failed_at(&self, index: usize) -> NotPositiveDefinite {
-        let eliminated = index.saturating_sub(1).min(self.pattern.size().saturating_sub(1));
+        let first = usize::from(matches!(self.symbolic.raw(), SymbolicCholeskyRaw::Simplicial(_)));
+        let eliminated = index.saturating_sub(first).min(self.pattern.size().saturating_sub(1));
         let dof = self.symbolic.perm().map_or(eliminated, |p| p.arrays().0[eliminated] as usize);
         NotPositiveDefinite { dof }
     }

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
+use nalgebra::SMatrix;
+
 use super::pattern::BlockKind;
 use super::{BlockSlot, Scalar, Slot, SymmetricPattern};
-use crate::geometry::Mat3;
 
 /// A symmetric matrix with the entries of its pattern, filled by adding to slots.
 ///
@@ -44,20 +45,21 @@ impl<T: Scalar> SymmetricMatrix<T> {
         *entry = *entry + T::from_f64(value);
     }
 
-    /// Adds a 3×3 block, and its transpose at the mirror image. On the diagonal the block must be symmetric: only its
-    /// lower triangle is read.
+    /// Adds a block, and its transpose at the mirror image. On the diagonal the block must be symmetric: only its lower
+    /// triangle is read. `W` must be the pattern's width, 3 (or 2 in the plane); otherwise the matrix is wrong.
     #[inline]
-    pub fn add_block(&mut self, slot: BlockSlot, block: &Mat3) {
+    pub fn add_block<const W: usize>(&mut self, slot: BlockSlot, block: &SMatrix<f64, W, W>) {
+        debug_assert_eq!(W, self.pattern.width());
         let mut at = slot.start as usize;
-        for column in 0..3 {
-            let first = if slot.kind == BlockKind::Diagonal { column } else { 0 };
-            for (row, entry) in self.values[at + first..at + 3].iter_mut().enumerate() {
-                let (r, c) = (row + first, column);
+        for c in 0..W {
+            let first = if slot.kind == BlockKind::Diagonal { c } else { 0 };
+            for r in first..W {
                 let value = if slot.kind == BlockKind::Transposed { block[(c, r)] } else { block[(r, c)] };
+                let entry = &mut self.values[at + r];
                 *entry = *entry + T::from_f64(value);
             }
-            // Each of the three columns is one entry shorter than the one before it.
-            at += slot.stride as usize - column;
+            // Each column is one entry shorter than the one before it.
+            at += slot.stride as usize - c;
         }
     }
 

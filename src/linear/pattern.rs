@@ -1,15 +1,13 @@
 //! Which entries of a symmetric matrix may be non-zero.
 
-/// Rows and columns in one block of a vertex pattern: x, y, z.
-const BLOCK: usize = 3;
-
 /// The lower triangle of a symmetric sparse matrix, compressed by columns; every diagonal entry is part of it.
 ///
-/// Either one number per entry ([`SymmetricPattern::scalar`]) or a 3×3 block per pair of vertices
-/// ([`SymmetricPattern::blocks`]), where vertex `v` owns the degrees of freedom 3v, 3v + 1, 3v + 2.
+/// Either one number per entry ([`SymmetricPattern::scalar`]) or a small block per pair of vertices: 3×3 in space
+/// ([`SymmetricPattern::blocks`]), where vertex `v` owns the degrees of freedom 3v, 3v + 1, 3v + 2, and 2×2 in the
+/// plane ([`SymmetricPattern::planar_blocks`]), where it owns 2v and 2v + 1.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SymmetricPattern {
-    /// 1 or [`BLOCK`].
+    /// Rows of a block: 1, 2 or 3.
     width: usize,
     /// Start of every block column in `node_rows`, and their total.
     node_starts: Vec<u32>,
@@ -43,12 +41,12 @@ pub enum PatternError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Slot(pub(super) u32);
 
-/// Where a 3×3 block lives in a matrix of its pattern.
+/// Where a block lives in a matrix of its pattern.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BlockSlot {
     /// Position of the block's row 0 in its column 0.
     pub(super) start: u32,
-    /// From there to (the place of) row 0 in column 1; one less from column 1 to column 2.
+    /// From there to (the place of) row 0 in column 1; one less from column 1 to 2.
     pub(super) stride: u32,
     /// What is stored of the block.
     pub(super) kind: BlockKind,
@@ -80,7 +78,15 @@ impl SymmetricPattern {
     /// # Errors
     /// An index of `n` or more, or more than 2³¹ entries.
     pub fn blocks(n: usize, pairs: impl IntoIterator<Item = (usize, usize)>) -> Result<Self, PatternError> {
-        Self::new(n, BLOCK, pairs)
+        Self::new(n, 3, pairs)
+    }
+
+    /// A pattern of 2×2 blocks on `n` vertices (2n rows), with one block for every given pair of vertices.
+    ///
+    /// # Errors
+    /// An index of `n` or more, or more than 2³¹ entries.
+    pub fn planar_blocks(n: usize, pairs: impl IntoIterator<Item = (usize, usize)>) -> Result<Self, PatternError> {
+        Self::new(n, 2, pairs)
     }
 
     fn new(n: usize, width: usize, pairs: impl IntoIterator<Item = (usize, usize)>) -> Result<Self, PatternError> {
@@ -106,7 +112,7 @@ impl SymmetricPattern {
         Ok(Self { width, node_starts, node_rows, starts, rows })
     }
 
-    /// Rows (and columns) of the matrix: three per vertex in a block pattern.
+    /// Rows (and columns) of the matrix: [`SymmetricPattern::width`] per node.
     pub fn size(&self) -> usize {
         self.starts.len() - 1
     }
@@ -116,7 +122,7 @@ impl SymmetricPattern {
         self.node_starts.len() - 1
     }
 
-    /// Degrees of freedom per node: 1 or 3.
+    /// Degrees of freedom per node: 1, 2 or 3.
     pub fn width(&self) -> usize {
         self.width
     }
@@ -138,7 +144,7 @@ impl SymmetricPattern {
     /// The place of the block that couples vertices `i` (rows) and `j` (columns); `None` if it is no part of the
     /// pattern or the pattern is scalar.
     pub fn block_slot(&self, i: usize, j: usize) -> Option<BlockSlot> {
-        if self.width != BLOCK {
+        if self.width == 1 {
             return None;
         }
         let (row, column) = (i.max(j), i.min(j));
@@ -149,9 +155,9 @@ impl SymmetricPattern {
             std::cmp::Ordering::Greater => BlockKind::Lower,
             std::cmp::Ordering::Less => BlockKind::Transposed,
         };
-        // Columns of a block column are 3m, 3m − 1 and 3m − 2 entries long, for they start at the diagonal.
-        let width = BLOCK as u32;
-        let start = self.starts[column * BLOCK] + width * k;
+        // Columns of a column of m 3×3 blocks are 3m, 3m − 1 and 3m − 2 entries long, for they start at the diagonal.
+        let width = self.width as u32;
+        let start = self.starts[column * self.width] + width * k;
         Some(BlockSlot { start, stride: width * blocks - 1, kind })
     }
 
