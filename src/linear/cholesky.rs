@@ -1,0 +1,231 @@
+//! A = L·Lᵀ: analysed once, factored and solved as often as needed.
+
+use std::sync::Arc;
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::{LltError, LltRegularization};
+use faer::perm::PermRef;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Conj, MatMut, Par, Side};
+
+use super::{SymmetricMatrix, SymmetricPattern};
+
+/// One thread, whatever the process-wide setting: two were measured slower below 100,000 rows, and results must not
+/// depend on their number.
+const SERIAL: Par = Par::Seq;
+
+mod private {
+    /// Keeps faer's number trait out of the public bound.
+    pub trait Field: faer::traits::ComplexField {}
+    impl Field for f32 {}
+    impl Field for f64 {}
+}
+
+/// The numbers a matrix may be made of: `f64`, or `f32` where a Newton direction need not be exact (half the memory,
+/// measurably faster).
+pub trait Scalar: private::Field + Copy + Send + Sync + std::ops::Add<Output = Self> + std::fmt::Debug {
+    /// The nearest value.
+    fn from_f64(value: f64) -> Self;
+    /// The same value.
+    fn to_f64(self) -> f64;
+}
+
+impl Scalar for f64 {
+    #[inline]
+    fn from_f64(value: f64) -> Self {
+        value
+    }
+    #[inline]
+    fn to_f64(self) -> f64 {
+        self
+    }
+}
+
+impl Scalar for f32 {
+    #[inline]
+    fn from_f64(value: f64) -> Self {
+        value as f32
+    }
+    #[inline]
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+}
+
+/// The order in which rows are eliminated; it decides how many entries L has.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Ordering {
+    /// Approximate minimum degree: good for any matrix.
+    #[default]
+    MinimumDegree,
+    /// Nodes in the order of their elimination, such as [`super::nested_dissection`] gives: better for grids. The
+    /// rows of a block pattern's vertex stay together.
+    Given(Vec<u32>),
+}
+
+/// Why no factor can be made for a pattern.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum CholeskyError {
+    /// The given order does not hold every node once.
+    #[error("the elimination order is no permutation of the matrix' {0} nodes")]
+    Ordering(usize),
+    /// The factor does not fit into memory or into 32-bit indices.
+    #[error("the factor of a matrix of {0} rows is too large")]
+    TooLarge(usize),
+}
+
+/// The matrix has a direction of no or negative curvature, or holds a number that is not finite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the matrix is not positive definite (met at row {dof})")]
+pub struct NotPositiveDefinite {
+    /// The row where elimination stopped (of vertex `dof / 3` in a pattern of 3×3 blocks). Exact for small matrices; in
+    /// large ones, which are eliminated in dense blocks of rows, it may be another row near the culprit.
+    pub dof: usize,
+}
+
+/// A sparse Cholesky factor that is refilled for new values of one pattern.
+///
+/// Bit-identical for identical input. The cost of [`Cholesky::new`] is that of about one factorisation; keep it.
+#[derive(Debug)]
+pub struct Cholesky<T> {
+    pattern: Arc<SymmetricPattern>,
+    symbolic: SymbolicCholesky<u32>,
+    values: Vec<T>,
+    scratch: Scratch,
+}
+
+/// Working memory of the factorisation, reused.
+struct Scratch(MemBuffer);
+
+impl std::fmt::Debug for Scratch {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Scratch")
+    }
+}
+
+impl<T: Scalar> Cholesky<T> {
+    /// Analyses a pattern. The factor is that of no matrix until [`Cholesky::factor`] succeeds.
+    ///
+    /// # Errors
+    /// An order that is no permutation; a factor too large.
+    pub fn new(pattern: Arc<SymmetricPattern>, ordering: &Ordering) -> Result<Self, CholeskyError> {
+        let too_large = CholeskyError::TooLarge(pattern.size());
+        let symbolic = analyse(&pattern, ordering)?;
+        let needed = symbolic.factorize_numeric_llt_scratch::<T>(SERIAL, Default::default());
+        let scratch = MemBuffer::try_new(needed).map_err(|_| too_large)?;
+        let values = vec![T::from_f64(0.0); symbolic.len_val()];
+        Ok(Self { pattern, symbolic, values, scratch: Scratch(scratch) })
+    }
+
+    /// Numbers in L, structural zeros of dense blocks included.
+    pub fn factor_entries(&self) -> usize {
+        self.values.len()
+    }
+
+    /// Factors a matrix.
+    ///
+    /// # Errors
+    /// [`NotPositiveDefinite`], also for infinite and undefined entries; solving is meaningless until a later
+    /// factorisation succeeds.
+    ///
+    /// # Panics
+    /// If the matrix has another number of rows or entries than the pattern this factor was made for.
+    pub fn factor(&mut self, matrix: &SymmetricMatrix<T>) -> Result<(), NotPositiveDefinite> {
+        let symbolic = lower_triangle(&self.pattern);
+        let result = self.symbolic.factorize_numeric_llt(
+            &mut self.values,
+            SparseColMatRef::new(symbolic, matrix.values()),
+            Side::Lower,
+            LltRegularization::default(),
+            SERIAL,
+            MemStack::new(&mut self.scratch.0),
+            Default::default(),
+        );
+        match result {
+            Ok(_) => Ok(()),
+            Err(LltError::NonPositivePivot { index }) => Err(self.failed_at(index)),
+        }
+    }
+
+    /// Solves A·x = b in place for one or several right-hand sides, one whole vector after the other.
+    ///
+    /// # Panics
+    /// If the length is no multiple of the number of rows.
+    pub fn solve(&self, rhs: &mut [T]) {
+        let rows = self.pattern.size();
+        if rows == 0 {
+            return;
+        }
+        let columns = rhs.len() / rows;
+        assert_eq!(columns * rows, rhs.len(), "right-hand sides must be whole vectors");
+        let mut memory = MemBuffer::new(self.symbolic.solve_in_place_scratch::<T>(columns, SERIAL));
+        LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
+            Conj::No,
+            MatMut::from_column_major_slice_mut(rhs, rows, columns),
+            SERIAL,
+            MemStack::new(&mut memory),
+        );
+    }
+
+    /// [`Cholesky::solve`] for right-hand sides in f64, rounded to the factor's precision on the way in.
+    ///
+    /// # Panics
+    /// If the length is no multiple of the number of rows.
+    pub fn solve_f64(&self, rhs: &mut [f64]) {
+        let mut rounded: Vec<T> = rhs.iter().map(|&x| T::from_f64(x)).collect();
+        self.solve(&mut rounded);
+        for (out, x) in rhs.iter_mut().zip(rounded) {
+            *out = x.to_f64();
+        }
+    }
+
+    /// Names the row of a failed pivot. faer counts in its own order of elimination, from one where it works entry by
+    /// entry and from zero (and only roughly, within a dense block) where it works by blocks.
+    fn failed_at(&self, index: usize) -> NotPositiveDefinite {
+        let first = usize::from(matches!(self.symbolic.raw(), SymbolicCholeskyRaw::Simplicial(_)));
+        let eliminated = index.saturating_sub(first).min(self.pattern.size().saturating_sub(1));
+        let dof = self.symbolic.perm().map_or(eliminated, |p| p.arrays().0[eliminated] as usize);
+        NotPositiveDefinite { dof }
+    }
+}
+
+fn lower_triangle(pattern: &SymmetricPattern) -> SymbolicSparseColMatRef<'_, u32> {
+    SymbolicSparseColMatRef::new_checked(pattern.size(), pattern.size(), pattern.starts(), None, pattern.rows())
+}
+
+fn analyse(pattern: &SymmetricPattern, ordering: &Ordering) -> Result<SymbolicCholesky<u32>, CholeskyError> {
+    let size = pattern.size();
+    let lower = lower_triangle(pattern);
+    let params = CholeskySymbolicParams::default();
+    let result = match ordering {
+        Ordering::MinimumDegree => factorize_symbolic_cholesky(lower, Side::Lower, SymmetricOrdering::Amd, params),
+        Ordering::Given(nodes) => {
+            let (forward, inverse) = permutation(pattern, nodes)?;
+            let order = SymmetricOrdering::Custom(PermRef::new_checked(&forward, &inverse, size));
+            factorize_symbolic_cholesky(lower, Side::Lower, order, params)
+        }
+    };
+    result.map_err(|_| CholeskyError::TooLarge(size))
+}
+
+/// A node order written out for every row, with its inverse.
+fn permutation(pattern: &SymmetricPattern, nodes: &[u32]) -> Result<(Vec<u32>, Vec<u32>), CholeskyError> {
+    let width = pattern.width() as u32;
+    let wrong = CholeskyError::Ordering(pattern.nodes());
+    if nodes.len() != pattern.nodes() {
+        return Err(wrong);
+    }
+    let forward: Vec<u32> = nodes.iter().flat_map(|&v| (0..width).map(move |k| v.saturating_mul(width) + k)).collect();
+    let mut inverse = vec![u32::MAX; forward.len()];
+    for (k, &row) in forward.iter().enumerate() {
+        match inverse.get_mut(row as usize) {
+            Some(place) if *place == u32::MAX => *place = k as u32,
+            _ => return Err(wrong),
+        }
+    }
+    Ok((forward, inverse))
+}

@@ -1,0 +1,85 @@
+//! The numbers of a sparse symmetric matrix.
+
+use std::sync::Arc;
+
+use nalgebra::SMatrix;
+
+use super::pattern::BlockKind;
+use super::{BlockSlot, Scalar, Slot, SymmetricPattern};
+
+/// A symmetric matrix with the entries of its pattern, filled by adding to slots.
+///
+/// Slots of another pattern give a wrong matrix, or a panic if they lie beyond its end.
+#[derive(Clone, Debug)]
+pub struct SymmetricMatrix<T> {
+    pattern: Arc<SymmetricPattern>,
+    values: Vec<T>,
+}
+
+impl<T: Scalar> SymmetricMatrix<T> {
+    /// A zero matrix.
+    pub fn zeros(pattern: Arc<SymmetricPattern>) -> Self {
+        let values = vec![T::from_f64(0.0); pattern.entries()];
+        Self { pattern, values }
+    }
+
+    /// Its entries' places.
+    pub fn pattern(&self) -> &Arc<SymmetricPattern> {
+        &self.pattern
+    }
+
+    /// The stored numbers: lower triangle by columns.
+    pub fn values(&self) -> &[T] {
+        &self.values
+    }
+
+    /// Sets every entry to zero.
+    pub fn clear(&mut self) {
+        self.values.fill(T::from_f64(0.0));
+    }
+
+    /// Adds to one entry (and so to its mirror image).
+    #[inline]
+    pub fn add(&mut self, slot: Slot, value: f64) {
+        let entry = &mut self.values[slot.0 as usize];
+        *entry = *entry + T::from_f64(value);
+    }
+
+    /// Adds a block, and its transpose at the mirror image. On the diagonal the block must be symmetric: only its lower
+    /// triangle is read. `W` must be the pattern's width, 3 (or 2 in the plane); otherwise the matrix is wrong.
+    #[inline]
+    pub fn add_block<const W: usize>(&mut self, slot: BlockSlot, block: &SMatrix<f64, W, W>) {
+        debug_assert_eq!(W, self.pattern.width());
+        let mut at = slot.start as usize;
+        for c in 0..W {
+            let first = if slot.kind == BlockKind::Diagonal { c } else { 0 };
+            for r in first..W {
+                let value = if slot.kind == BlockKind::Transposed { block[(c, r)] } else { block[(r, c)] };
+                let entry = &mut self.values[at + r];
+                *entry = *entry + T::from_f64(value);
+            }
+            // Each column is one entry shorter than the one before it.
+            at += slot.stride as usize - c;
+        }
+    }
+
+    /// out = A·x, summed in f64.
+    ///
+    /// # Panics
+    /// If a length is not [`SymmetricPattern::size`].
+    pub fn multiply(&self, x: &[f64], out: &mut [f64]) {
+        assert!(x.len() == self.pattern.size() && out.len() == x.len(), "vectors must have the matrix' size");
+        out.fill(0.0);
+        let (starts, rows) = (self.pattern.starts(), self.pattern.rows());
+        for (column, ends) in starts.windows(2).enumerate() {
+            let range = ends[0] as usize..ends[1] as usize;
+            for (&row, value) in rows[range.clone()].iter().zip(&self.values[range]) {
+                let (row, value) = (row as usize, value.to_f64());
+                out[row] += value * x[column];
+                if row != column {
+                    out[column] += value * x[row];
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! Sparse symmetric linear systems; the only user of faer, whose types stay in here.
+//!
+//! ```text
+//! SymmetricPattern ──▶ SymmetricMatrix ──▶ Cholesky ──▶ solve
+//!  which entries        their values        L·Lᵀ
+//! ```
+//!
+//! A pattern is built once from index pairs, a matrix is refilled through precomputed slots without any searching, and
+//! the symbolic analysis of a factor is kept while its numbers change. Everything runs in the calling thread and gives
+//! the same bits every time.
+
+mod cholesky;
+mod dissection;
+mod matrix;
+mod pattern;
+
+pub use cholesky::{Cholesky, CholeskyError, NotPositiveDefinite, Ordering, Scalar};
+pub use dissection::nested_dissection;
+pub use matrix::SymmetricMatrix;
+pub use pattern::{BlockSlot, PatternError, Slot, SymmetricPattern};
