@@ -16,6 +16,7 @@
 pub mod cli;
 pub mod contact;
 pub mod drape;
+pub mod dynamics;
 pub mod fabric;
 pub mod flatten;
 pub mod geometry;

@@ -1,0 +1,18 @@
+//! The spring-mass cloth that sewing and draping share: masses, springs, bending, and one implicit step.
+//!
+//! Particles that are sewn together are one *node*; everything here speaks of nodes.
+
+mod bending;
+mod friction;
+mod model;
+mod springs;
+mod step;
+
+pub use bending::Bending;
+pub use friction::Friction;
+pub use model::{Cloth, SpringModel, identity_nodes};
+pub use springs::{Spring, StretchLaw};
+pub use step::{ContactLaw, Forces, Pull, Stepper, StepError};
+
+/// Gravity, m/s² (standard acceleration, ISO 80000-3).
+pub const GRAVITY: f64 = 9.80665;

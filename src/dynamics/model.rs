@@ -1,0 +1,263 @@
+//! A meshed garment as nodes with mass, springs and bending.
+
+use std::sync::Arc;
+
+use super::bending::{Bending, FlatTriangle};
+use super::springs::{Spring, StretchLaw};
+use crate::fabric::Fabric;
+use crate::geometry::{Topology, Vec2, Vec3};
+use crate::mesh::ClothMesh;
+use crate::pattern::{Garment, Give, LineKind};
+
+/// Which springs the cloth gets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SpringModel {
+    /// Every fabric by its measured curves.
+    Measured,
+    /// One stiffness, N/m, along warp and weft and a share of it on the bias: for the first closing of the seams,
+    /// when the cloth must give way to be led home.
+    Soft {
+        /// N/m.
+        stiffness: f64,
+        /// Share of it at 45°.
+        bias: f64,
+    },
+}
+
+/// A steep angle grid so that edges of one direction share a law: 90° in so many steps.
+const ANGLE_STEPS: usize = 18;
+/// A sewn or hemmed rim is two layers of cloth along a thread; it stands for this width of straight grain, metres
+/// (the usual seam allowance).
+const RIM_WIDTH: f64 = 0.01;
+/// A seam whose sides differ by more than this share is gathered or stretched on: its length is one side's own.
+const GATHERED: f64 = 1.05;
+
+/// The cloth's physical model.
+#[derive(Clone, Debug)]
+pub struct Cloth {
+    /// Particle of the mesh → node.
+    pub node_of: Vec<u32>,
+    /// Node masses, kg.
+    pub mass: Vec<f64>,
+    /// Triangles over nodes, in the mesh's order.
+    pub triangles: Vec<[u32; 3]>,
+    /// Flat corners of the triangles.
+    pub flat: Vec<[Vec2; 3]>,
+    /// Piece of every triangle.
+    pub piece: Vec<u32>,
+    /// Springs along every mesh edge.
+    pub springs: Vec<Spring>,
+    /// Their laws.
+    pub laws: Vec<StretchLaw>,
+    /// Bending.
+    pub bending: Bending,
+    /// Nodes that share an edge, both orders left out: (smaller, larger), sorted.
+    pub edges: Vec<[u32; 2]>,
+    /// Half the cloth's thickness at every node, metres.
+    pub half_thickness: Vec<f64>,
+    /// Friction coefficient at every node.
+    pub friction: Vec<f64>,
+    /// Bending stiffness per length, N/m, that bounds the bending matrix on every edge: 8 B / h².
+    pub bending_bound: Vec<f64>,
+}
+
+/// Every particle its own node: the garment before it is sewn.
+pub fn identity_nodes(mesh: &ClothMesh) -> Vec<u32> {
+    (0..mesh.flat.len() as u32).collect()
+}
+
+impl Cloth {
+    /// Builds the model. `fabrics[p]` is piece p's fabric; `node_of` maps particles to nodes (0 … n−1, each used).
+    pub fn new(mesh: &ClothMesh, garment: &Garment, fabrics: &[Arc<Fabric>], node_of: Vec<u32>, model: SpringModel) -> Self {
+        let nodes = node_of.iter().max().map_or(0, |&n| n as usize + 1);
+        let triangles: Vec<[u32; 3]> = mesh.triangles.iter().map(|t| t.map(|p| node_of[p as usize])).collect();
+        let flat: Vec<[Vec2; 3]> = mesh.triangles.iter().map(|t| t.map(|p| mesh.flat[p as usize])).collect();
+        let mut piece = vec![0; triangles.len()];
+        for (i, p) in mesh.pieces.iter().enumerate() {
+            piece[p.triangles.clone()].fill(i as u32);
+        }
+        let mut out = Self {
+            mass: vec![0.0; nodes],
+            half_thickness: vec![0.0; nodes],
+            friction: vec![0.0; nodes],
+            springs: Vec::new(),
+            laws: Vec::new(),
+            bending: Bending::default(),
+            edges: Vec::new(),
+            bending_bound: Vec::new(),
+            node_of,
+            triangles,
+            flat,
+            piece,
+        };
+        out.weigh(mesh, fabrics);
+        out.add_springs(mesh, garment, fabrics, model);
+        out.add_bending(mesh, fabrics);
+        out
+    }
+
+    /// Masses by the cloth nearest to each particle: they add up to areal density × area (F7).
+    fn weigh(&mut self, mesh: &ClothMesh, fabrics: &[Arc<Fabric>]) {
+        for (t, nodes) in self.triangles.iter().enumerate() {
+            let fabric = &fabrics[self.piece[t] as usize];
+            let [a, b, c] = self.flat[t];
+            let area = 0.5 * (b - a).perp(&(c - a)).abs();
+            for &n in nodes {
+                self.mass[n as usize] += fabric.areal_density * area / 3.0;
+            }
+        }
+        for (p, piece) in mesh.pieces.iter().enumerate() {
+            for particle in piece.particles.clone() {
+                let n = self.node_of[particle] as usize;
+                self.half_thickness[n] = self.half_thickness[n].max(0.5 * fabrics[p].thickness);
+                self.friction[n] = self.friction[n].max(fabrics[p].friction);
+            }
+        }
+    }
+
+    fn add_springs(&mut self, mesh: &ClothMesh, garment: &Garment, fabrics: &[Arc<Fabric>], model: SpringModel) {
+        let seam_rest = seam_rest_lengths(mesh, garment);
+        let topology = Topology::new(&mesh.triangles);
+        let laws_of = self.make_laws(fabrics, model);
+        for edge in &topology.edges {
+            let [a, b] = edge.ends;
+            let along = mesh.flat[b as usize] - mesh.flat[a as usize];
+            let beside = edge.triangles.iter().flatten().map(|&t| t as usize);
+            let area: f64 = beside
+                .clone()
+                .map(|t| {
+                    let [p, q, r] = self.flat[t];
+                    0.5 * (q - p).perp(&(r - p)).abs()
+                })
+                .sum();
+            let Some(p) = beside.clone().next().map(|t| self.piece[t] as usize) else { continue };
+            let rest = along.norm();
+            let mut push = |rest: f64, width: f64, law: u32| {
+                let ends = edge.ends.map(|e| self.node_of[e as usize]);
+                if ends[0] != ends[1] {
+                    self.springs.push(Spring { ends, rest, width, law });
+                }
+            };
+            let rim = edge.triangles[1].is_none();
+            let seam = seam_rest.binary_search_by(|e| e.0.cmp(&edge.ends)).ok().map(|i| seam_rest[i].1);
+            let angle = along.dot(&mesh.pieces[p].warp).abs().min(rest) / rest;
+            let step = (angle.acos() / std::f64::consts::FRAC_PI_2 * ANGLE_STEPS as f64).round() as usize;
+            let rest = seam.unwrap_or(rest);
+            push(rest, area / along.norm(), laws_of[p] + step as u32);
+            if rim {
+                push(rest, RIM_WIDTH, laws_of[p]);
+            }
+        }
+        let mut edges: Vec<[u32; 2]> =
+            self.springs.iter().map(|s| [s.ends[0].min(s.ends[1]), s.ends[0].max(s.ends[1])]).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        self.edges = edges;
+    }
+
+    /// Laws of every piece, one per angle step from warp to weft; returns each piece's first.
+    fn make_laws(&mut self, fabrics: &[Arc<Fabric>], model: SpringModel) -> Vec<u32> {
+        let mut firsts: Vec<u32> = Vec::with_capacity(fabrics.len());
+        for (p, fabric) in fabrics.iter().enumerate() {
+            if let Some(same) = (0..p).find(|&q| Arc::ptr_eq(&fabrics[q], fabric)) {
+                firsts.push(firsts[same]);
+                continue;
+            }
+            firsts.push(self.laws.len() as u32);
+            for step in 0..=ANGLE_STEPS {
+                let angle = std::f64::consts::FRAC_PI_2 * step as f64 / ANGLE_STEPS as f64;
+                self.laws.push(match model {
+                    SpringModel::Measured => StretchLaw::of(fabric, angle),
+                    SpringModel::Soft { stiffness, bias } => {
+                        let diagonal = (2.0 * angle).sin().powi(2);
+                        StretchLaw::linear(stiffness * (1.0 - (1.0 - bias) * diagonal))
+                    }
+                });
+            }
+        }
+        firsts
+    }
+
+    fn add_bending(&mut self, mesh: &ClothMesh, fabrics: &[Arc<Fabric>]) {
+        let creased = creases(mesh, &self.node_of);
+        let mut interior = vec![true; self.mass.len()];
+        for edge in Topology::new(&self.triangles).rim_edges() {
+            for n in edge.ends {
+                interior[n as usize] = false;
+            }
+        }
+        for n in creased {
+            interior[n as usize] = false;
+        }
+        let flat_triangles: Vec<FlatTriangle> = (0..self.triangles.len())
+            .map(|t| {
+                let p = self.piece[t] as usize;
+                FlatTriangle {
+                    nodes: self.triangles[t],
+                    corners: self.flat[t],
+                    warp: mesh.pieces[p].warp,
+                    rigidity: [fabrics[p].bend_warp, fabrics[p].bend_weft],
+                }
+            })
+            .collect();
+        self.bending = Bending::new(self.mass.len(), &flat_triangles, &interior);
+        // On a square grid the largest eigenvalue of Q is 64 B / h², that of the graph Laplacian 8: 8 B / h² per edge
+        // bounds Q. Taken at each node from Q's own diagonal (20 B / h² on that grid), halved onto its edges.
+        let bound: Vec<f64> = (0..self.mass.len())
+            .map(|i| self.bending.row(i).find(|e| e.0 == i).map_or(0.0, |e| 0.4 * e.1))
+            .collect();
+        self.bending_bound =
+            self.edges.iter().map(|e| bound[e[0] as usize].max(bound[e[1] as usize])).collect();
+    }
+
+    /// Positions of all particles from those of the nodes.
+    pub fn particles(&self, nodes: &[Vec3]) -> Vec<Vec3> {
+        self.node_of.iter().map(|&n| nodes[n as usize]).collect()
+    }
+
+    /// Elastic energy (stretch and bending), J.
+    pub fn elastic_energy(&self, x: &[Vec3]) -> f64 {
+        let stretch: f64 = self
+            .springs
+            .iter()
+            .map(|s| {
+                let length = (x[s.ends[1] as usize] - x[s.ends[0] as usize]).norm();
+                self.laws[s.law as usize].energy(length / s.rest - 1.0) * s.width * s.rest
+            })
+            .sum();
+        stretch + self.bending.energy(x)
+    }
+}
+
+/// Length that every rim edge takes once it is sewn, for edges of seams whose sides differ: (ends, metres), sorted.
+fn seam_rest_lengths(mesh: &ClothMesh, garment: &Garment) -> Vec<([u32; 2], f64)> {
+    let mut out = Vec::new();
+    for (stitches, seam) in mesh.seams.iter().zip(&garment.seams) {
+        for w in stitches.pairs.windows(2) {
+            let side = |k: usize| (mesh.flat[w[0][k] as usize] - mesh.flat[w[1][k] as usize]).norm();
+            let (a, b) = (side(0), side(1));
+            if a <= 0.0 || b <= 0.0 {
+                continue;
+            }
+            let rest = match seam.give {
+                Give::Stretch(_) => a.max(b),
+                Give::Gather(_) | Give::Ease(_) => a.min(b),
+                Give::Even if a.max(b) > GATHERED * a.min(b) => a.min(b),
+                Give::Even => 0.5 * (a + b),
+            };
+            for k in 0..2 {
+                let (p, q) = (w[0][k], w[1][k]);
+                out.push(([p.min(q), p.max(q)], rest));
+            }
+        }
+    }
+    out.sort_by_key(|e| e.0);
+    out.dedup_by_key(|e| e.0);
+    out
+}
+
+/// Nodes on fold lines: the cloth is pressed there and does not bend back.
+fn creases(mesh: &ClothMesh, node_of: &[u32]) -> Vec<u32> {
+    let folds = mesh.pieces.iter().flat_map(|p| &p.lines).filter(|l| matches!(l.kind, LineKind::Fold(a) if a != 0.0));
+    folds.flat_map(|l| l.particles.iter().map(|&p| node_of[p as usize])).collect()
+}

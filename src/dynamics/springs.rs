@@ -1,0 +1,106 @@
+//! Springs with the fabric's measured, piecewise-linear load–extension curve (F3, F4).
+
+use crate::fabric::{Fabric, TensileCurve};
+
+/// Load per width against strain in one direction of the cloth: linear between knots, the last slope goes on, and
+/// compression keeps the first slope (cloth buckles out of its plane long before its threads shorten).
+#[derive(Clone, Debug, PartialEq)]
+pub struct StretchLaw {
+    /// (strain, N/m), rising, first (0, 0).
+    knots: Vec<(f64, f64)>,
+}
+
+impl StretchLaw {
+    /// One slope, N/m, in both directions.
+    pub fn linear(stiffness: f64) -> Self {
+        Self { knots: vec![(0.0, 0.0), (1.0, stiffness)] }
+    }
+
+    /// The law of `fabric` at `angle` (radians) from its warp. Loads add their strains: warp and weft threads by their
+    /// curves, cos⁴ and sin⁴, and the trellis between them by the shear stiffness, sin² cos² (the compliance of an
+    /// orthotropic sheet without lateral contraction).
+    pub fn of(fabric: &Fabric, angle: f64) -> Self {
+        let (c2, s2) = (angle.cos().powi(2), angle.sin().powi(2));
+        let mut loads: Vec<f64> =
+            fabric.warp.points.iter().chain(&fabric.weft.points).map(|p| p.1).filter(|&f| f > 0.0).collect();
+        loads.sort_by(f64::total_cmp);
+        loads.dedup();
+        let strain = |f: f64| {
+            c2 * c2 * strain_at(&fabric.warp, f) + s2 * s2 * strain_at(&fabric.weft, f) + c2 * s2 * f / fabric.shear
+        };
+        let knots = std::iter::once((0.0, 0.0)).chain(loads.into_iter().map(|f| (strain(f), f))).collect();
+        Self { knots }
+    }
+
+    fn segment(&self, strain: f64) -> (f64, f64, f64) {
+        let last = self.knots.len() - 1;
+        let i = self.knots[1..last].partition_point(|k| k.0 <= strain);
+        let (a, b) = (self.knots[i], self.knots[i + 1]);
+        (a.0, a.1, (b.1 - a.1) / (b.0 - a.0))
+    }
+
+    /// Load, N/m, negative in compression.
+    pub fn load(&self, strain: f64) -> f64 {
+        let (e, f, slope) = self.segment(strain);
+        f + slope * (strain - e)
+    }
+
+    /// Slope of the load, N/m.
+    pub fn slope(&self, strain: f64) -> f64 {
+        self.segment(strain).2
+    }
+
+    /// Work per area up to a strain, J/m².
+    pub fn energy(&self, strain: f64) -> f64 {
+        let (e, f, slope) = self.segment(strain);
+        let below: f64 = self
+            .knots
+            .windows(2)
+            .take_while(|w| w[1].0 <= e)
+            .map(|w| 0.5 * (w[0].1 + w[1].1) * (w[1].0 - w[0].0))
+            .sum();
+        let d = strain - e;
+        below + f * d + 0.5 * slope * d * d
+    }
+}
+
+/// Strain of a measured curve under a load.
+fn strain_at(curve: &TensileCurve, load: f64) -> f64 {
+    let points = &curve.points;
+    let last = points.len() - 1;
+    let i = points[1..last].partition_point(|p| p.1 <= load);
+    let (a, b) = (points[i], points[i + 1]);
+    a.0 + (load - a.1) * (b.0 - a.0) / (b.1 - a.1)
+}
+
+/// A spring between two nodes.
+#[derive(Clone, Copy, Debug)]
+pub struct Spring {
+    /// Its nodes.
+    pub ends: [u32; 2],
+    /// Rest length, metres.
+    pub rest: f64,
+    /// Width of cloth it stands for, metres.
+    pub width: f64,
+    /// Index of its [`StretchLaw`].
+    pub law: u32,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn load_and_energy_belong_together() {
+        let law = StretchLaw { knots: vec![(0.0, 0.0), (0.01, 5.0), (0.02, 40.0), (0.03, 100.0)] };
+        assert_relative_eq!(law.load(0.015), 22.5, epsilon = 1e-9);
+        assert_relative_eq!(law.load(-0.01), -5.0, epsilon = 1e-9);
+        assert_relative_eq!(law.load(0.04), 160.0, epsilon = 1e-9);
+        for e in [-0.02, 0.004, 0.013, 0.025, 0.07] {
+            let h = 1e-7;
+            assert_relative_eq!((law.energy(e + h) - law.energy(e - h)) / (2.0 * h), law.load(e), max_relative = 1e-6);
+            assert_relative_eq!((law.load(e + h) - law.load(e - h)) / (2.0 * h), law.slope(e), max_relative = 1e-6);
+        }
+    }
+}
