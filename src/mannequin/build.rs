@@ -8,11 +8,15 @@ use super::surface::surface_nets;
 use super::{Mannequin, MannequinError};
 use crate::geometry::{Topology, TriMesh, Vec3};
 
-/// Side of the cells the skin is found in; edges come out about as long. Ten millimetres keep every measured girth
-/// within a millimetre and a grown woman below 40,000 triangles.
-const CELL: f64 = 0.0100;
-/// The cells tried in turn: where two folds of skin share a cell the net is not manifold, and another grid mends that.
-const CELLS: [f64; 4] = [CELL, 0.97 * CELL, 0.91 * CELL, 0.83 * CELL];
+/// Side of the cells the skin is found in, metres; edges come out about as long. Ten millimetres keep a grown body's
+/// girths within two millimetres and its skin at about 40,000 triangles.
+const CELL: f64 = 0.010;
+/// A body lower than this (top of the neck, metres) has cells that are smaller in proportion, because it has smaller
+/// curves, down to [`SMALLEST`] of the size.
+const GROWN: f64 = 1.45;
+const SMALLEST: f64 = 0.7;
+/// The sizes tried in turn. Where a narrow fold falls badly on the grid the net may touch itself; another grid mends it.
+const TRIES: [f64; 4] = [1.0, 0.97, 0.91, 0.83];
 
 /// Builds a mannequin: closed, manifold, outward, exactly symmetric, metres, feet at y = 0. The same spec gives the
 /// same bytes.
@@ -26,8 +30,9 @@ const CELLS: [f64; 4] = [CELL, 0.97 * CELL, 0.91 * CELL, 0.83 * CELL];
 pub fn build(spec: &MannequinSpec) -> Result<Mannequin, MannequinError> {
     let body = Body::new(spec);
     let mut fault = String::new();
-    for cell in CELLS {
-        let mut half = surface_nets(|p| body.distance(p), body.inside(), cell);
+    let cell = CELL * (body.top() / GROWN).clamp(SMALLEST, 1.0);
+    for size in TRIES {
+        let mut half = surface_nets(|p| body.distance(p), body.inside(), size * cell);
         relax(&mut half, &body);
         let mesh = mirrored(&half);
         match skin_fault(&mesh, &body) {

@@ -6,13 +6,16 @@ use crate::geometry::Vec3;
 
 /// Metres per millimetre.
 const MM: f64 = 1e-3;
-/// Reach of the blend of arm and trunk in the armpit: small, or it would web the arm to the torso.
-const ARMPIT_BLEND: f64 = 0.010;
+/// Reach of the blend of arm and trunk in the armpit, as a part of the arm's half width: small, or it would web the arm
+/// to the torso.
+const ARMPIT_BLEND: f64 = 0.25;
 /// The same on the shoulder, where the deltoid runs into the trunk.
-const SHOULDER_BLEND: f64 = 0.040;
+const SHOULDER_BLEND: f64 = 1.0;
 /// How round the ends of a tube are: length of the cap over the half axis it closes.
 const NECK_CAP: f64 = 0.5;
 const WRIST_CAP: f64 = 0.7;
+/// How far the arm goes straight on beyond the wrist's row before it is rounded off, in half widths of the wrist.
+const WRIST_STUB: f64 = 0.5;
 const FOOT_CAP: f64 = 0.4;
 /// How far the torso reaches below the crotch row, as a part of the way up to the hip: the two legs become one trunk
 /// between there and the hip row, and the crotch comes out at its row.
@@ -65,8 +68,7 @@ impl Arm {
         let axis = Vec3::new(side.sin(), -side.cos() * front.cos(), side.cos() * front.sin()).normalize();
         let across = (Vec3::x() - axis * axis.x).normalize();
         let acromion = (Vec3::from(arm.shoulder) * MM - joint).dot(&axis);
-        let rows: Vec<_> =
-            arm.rows.iter().map(|r| (r.at * MM + acromion, ellipse(r.girth * MM, arm.ratio))).collect();
+        let rows: Vec<_> = arm.rows.iter().map(|r| (r.at * MM + acromion, ellipse(r.girth * MM, arm.ratio))).collect();
         Self { joint, axis, across, profile: Profile::new(&rows), acromion, depth_axis: across.cross(&axis) }
     }
 
@@ -74,15 +76,17 @@ impl Arm {
         let q = p - self.joint;
         let t = q.dot(&self.axis);
         let [a, b] = self.profile.eval(t);
-        let (beyond, cap) = if t < 0.0 { (-t, a) } else { ((t - self.profile.end()).max(0.0), WRIST_CAP * a) };
+        let end = self.profile.end() + WRIST_STUB * a;
+        let (beyond, cap) = if t < 0.0 { (-t, a) } else { ((t - end).max(0.0), WRIST_CAP * a) };
         Cut { a, b, n: 2.0, cap }.distance(q.dot(&self.across), q.dot(&self.depth_axis), beyond)
     }
 }
 
 /// The body's surface is where [`Body::distance`] is zero.
 pub(super) struct Body {
-    /// (half width, half depth, exponent, z of the centre) by height.
-    pub(super) torso: Profile<4>,
+    /// (half width, z of the back, z of the front, exponent) by height. Back and front are lofted each for itself, so
+    /// that the seat and the bust are as round as their own rows make them.
+    torso: Profile<4>,
     /// (half width, half depth, x and z of the centre) by height.
     pub(super) leg: Profile<4>,
     pub(super) arm: Arm,
@@ -97,7 +101,14 @@ pub(super) struct Body {
 impl Body {
     /// From a checked spec.
     pub(super) fn new(spec: &MannequinSpec) -> Self {
-        let torso: Vec<_> = spec.torso.iter().map(|r| (r.y * MM, torso_section(r))).collect();
+        let torso: Vec<_> = spec
+            .torso
+            .iter()
+            .map(|r| {
+                let [a, b] = half_axes(r);
+                (r.y * MM, [a, r.z * MM - b, r.z * MM + b, r.n])
+            })
+            .collect();
         let height = |name: &str| spec.torso_row(name).map_or(torso[0].0, |r| r.y * MM);
         let leg = leg_rows(spec);
         Self {
@@ -112,19 +123,29 @@ impl Body {
         }
     }
 
+    /// Height of the trunk's last row.
+    pub(super) fn neck_end(&self) -> f64 {
+        self.torso.end()
+    }
+
     /// Highest point.
     pub(super) fn top(&self) -> f64 {
-        let y = self.torso.end();
-        y + NECK_CAP * self.torso.eval(y)[1]
+        self.neck_end() + NECK_CAP * self.trunk_at(self.neck_end())[1]
+    }
+
+    /// The trunk's half width, half depth, exponent and z of the centre at a height.
+    pub(super) fn trunk_at(&self, y: f64) -> [f64; 4] {
+        let [a, back, front, n] = self.torso.eval(y);
+        [a, 0.5 * (front - back), n, 0.5 * (front + back)]
     }
 
     /// A point inside the trunk, on the plane of symmetry.
     pub(super) fn inside(&self) -> Vec3 {
-        Vec3::new(0.0, self.axilla, self.torso.eval(self.axilla)[3])
+        Vec3::new(0.0, self.axilla, self.trunk_at(self.axilla)[3])
     }
 
     fn torso_distance(&self, p: Vec3) -> f64 {
-        let [a, b, n, z] = self.torso.eval(p.y);
+        let [a, b, n, z] = self.trunk_at(p.y);
         Cut { a, b, n, cap: NECK_CAP * b }.distance(p.x, p.z - z, (p.y - self.torso.end()).max(0.0))
     }
 
@@ -150,15 +171,16 @@ impl Body {
     /// Negative inside, positive outside, roughly metres; symmetric in x.
     pub(super) fn distance(&self, p: Vec3) -> f64 {
         let p = Vec3::new(p.x.abs(), p.y, p.z);
-        let blend = ARMPIT_BLEND + (SHOULDER_BLEND - ARMPIT_BLEND) * smoothstep(self.axilla, self.shoulder, p.y);
-        smooth_union(self.trunk_distance(p), self.arm.distance(p), blend)
+        let high = smoothstep(self.axilla, self.shoulder, p.y);
+        let reach = self.arm.profile.eval(0.0)[0] * (ARMPIT_BLEND + (SHOULDER_BLEND - ARMPIT_BLEND) * high);
+        smooth_union(self.trunk_distance(p), self.arm.distance(p), reach)
     }
 }
 
-/// Half width, half depth, exponent and centre of a row, width and depth scaled together to the measured girth.
-fn torso_section(row: &TorsoRow) -> [f64; 4] {
+/// Half width and half depth of a row, metres, scaled together to the measured girth.
+fn half_axes(row: &TorsoRow) -> [f64; 2] {
     let scale = row.girth / perimeter(row.width / 2.0, row.depth / 2.0, row.n);
-    [scale * row.width / 2.0 * MM, scale * row.depth / 2.0 * MM, row.n, row.z * MM]
+    [scale * row.width / 2.0 * MM, scale * row.depth / 2.0 * MM]
 }
 
 /// The leg's rows from the floor up. The topmost follows from the torso's crotch row: a tape round both legs reads
@@ -176,7 +198,7 @@ fn leg_rows(spec: &MannequinSpec) -> Vec<(f64, [f64; 4])> {
         .collect();
     let crotch = &spec.torso[0];
     let x = spec.leg.crotch_x;
-    let a = torso_section(crotch)[0] - x * MM;
+    let a = half_axes(crotch)[0] - x * MM;
     let b = ellipse_depth((crotch.girth - 4.0 * x) * MM, a);
     rows.push((crotch.y * MM, [a, b, x * MM, crotch.z * MM]));
     rows

@@ -1,6 +1,7 @@
 //! Mannequins: measured sections lofted into a closed mesh, or a user's own closed OBJ.
 
 mod build;
+mod cell;
 mod field;
 mod library;
 mod loft;

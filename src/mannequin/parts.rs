@@ -13,7 +13,7 @@ const SPACING: f64 = 0.025;
 
 /// Torso, neck, arms and legs.
 pub(super) fn parts(spec: &MannequinSpec, body: &Body) -> Vec<BodyPart> {
-    let neck = spec.torso_row("neck base").map_or(body.torso.end(), |r| r.y * MM);
+    let neck = spec.torso_row("neck base").map_or(body.neck_end(), |r| r.y * MM);
     let trunk = |from: f64, to: f64| stations(from, to).map(|y| torso_section(body, y)).collect();
     let marks = |low: f64, high: f64| {
         let rows = spec.torso.iter().filter(move |r| (low..=high).contains(&(r.y * MM)));
@@ -22,8 +22,8 @@ pub(super) fn parts(spec: &MannequinSpec, body: &Body) -> Vec<BodyPart> {
     let torso = BodyPart { kind: PartKind::Torso, sections: trunk(body.crotch, neck), landmarks: marks(0.0, neck) };
     let neck = BodyPart {
         kind: PartKind::Neck,
-        sections: trunk(neck, body.torso.end()),
-        landmarks: marks(neck, body.torso.end()),
+        sections: trunk(neck, body.neck_end()),
+        landmarks: marks(neck, body.neck_end()),
     };
     let (arm, leg) = (left_arm(spec, body), left_leg(spec, body));
     let (right_arm, right_leg) = (mirrored(&arm, PartKind::RightArm), mirrored(&leg, PartKind::RightLeg));
@@ -37,14 +37,8 @@ fn stations(from: f64, to: f64) -> impl Iterator<Item = f64> {
 }
 
 fn torso_section(body: &Body, y: f64) -> Section {
-    let [a, b, n, z] = body.torso.eval(y);
-    Section {
-        center: Vec3::new(0.0, y, z),
-        axis: Vec3::y(),
-        half_width: a,
-        half_depth: b,
-        girth: perimeter(a, b, n),
-    }
+    let [a, b, n, z] = body.trunk_at(y);
+    Section { center: Vec3::new(0.0, y, z), axis: Vec3::y(), half_width: a, half_depth: b, girth: perimeter(a, b, n) }
 }
 
 fn left_arm(spec: &MannequinSpec, body: &Body) -> BodyPart {
@@ -85,11 +79,7 @@ fn mirrored(part: &BodyPart, kind: PartKind) -> BodyPart {
     let flip = |p: Vec3| Vec3::new(-p.x, p.y, p.z);
     BodyPart {
         kind,
-        sections: part
-            .sections
-            .iter()
-            .map(|s| Section { center: flip(s.center), axis: flip(s.axis), ..*s })
-            .collect(),
+        sections: part.sections.iter().map(|s| Section { center: flip(s.center), axis: flip(s.axis), ..*s }).collect(),
         landmarks: part.landmarks.iter().map(|(n, p)| (n.clone(), flip(*p))).collect(),
     }
 }

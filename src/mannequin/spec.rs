@@ -137,7 +137,12 @@ impl MannequinSpec {
             positive(&name, &[row.y, row.girth, row.width, row.depth])?;
             finite(&name, &[row.z])?;
             if !EXPONENTS.contains(&row.n) {
-                return Err(format!("{name}: n = {} is not between {} and {}", row.n, EXPONENTS.start(), EXPONENTS.end()));
+                return Err(format!(
+                    "{name}: n = {} is not between {} and {}",
+                    row.n,
+                    EXPONENTS.start(),
+                    EXPONENTS.end()
+                ));
             }
         }
         ascending("torso rows", self.torso.iter().map(|r| r.y))

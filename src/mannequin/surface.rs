@@ -1,7 +1,8 @@
-//! The zero surface of a function that is symmetric in x, as quads: surface nets, followed from cell to cell.
+//! The zero surface of a function that is symmetric in x, as quads: dual surface nets, followed from cell to cell.
 
 use std::collections::HashMap;
 
+use super::cell::{Crossing, corner, edge_index, face_is_crossed};
 use crate::geometry::Vec3;
 
 /// Half of a closed quad mesh: x ≥ 0, the vertices of the cut at exactly x = 0.
@@ -12,6 +13,7 @@ pub(super) struct HalfSurface {
     pub(super) quads: Vec<[u32; 4]>,
 }
 
+/// A cell or a node of the grid, by its lowest corner.
 type Cell = [i32; 3];
 
 /// A grid of cubes of side `h`; the plane x = 0 halves the first column of cells, so that the two halves share vertices.
@@ -42,31 +44,19 @@ impl<F: Fn(Vec3) -> f64> Grid<F> {
     fn corners(&mut self, cell: Cell) -> [f64; 8] {
         std::array::from_fn(|c| self.value(corner(cell, c)))
     }
-
-    fn is_crossed(&mut self, cell: Cell) -> bool {
-        let values = self.corners(cell);
-        self.crossing(cell, &values).is_some()
-    }
-
-    /// The middle of the points where the surface crosses the cell's edges; `None` in a cell it does not cross.
-    fn crossing(&self, cell: Cell, values: &[f64; 8]) -> Option<Vec3> {
-        let (mut sum, mut count) = (Vec3::zeros(), 0.0);
-        for c in 0..8 {
-            for axis in 0..3 {
-                let d = c | 1 << axis;
-                if d != c && (values[c] < 0.0) != (values[d] < 0.0) {
-                    let t = values[c] / (values[c] - values[d]);
-                    sum += self.position(corner(cell, c)).lerp(&self.position(corner(cell, d)), t);
-                    count += 1.0;
-                }
-            }
-        }
-        (count > 0.0).then(|| sum / count)
-    }
 }
 
-fn corner(cell: Cell, c: usize) -> Cell {
-    std::array::from_fn(|axis| cell[axis] + (c >> axis & 1) as i32)
+/// A crossed cell: its first vertex, and how the surface runs through it.
+struct Crossed {
+    first: u32,
+    crossing: Crossing,
+}
+
+/// The crossed cells in the order they were found, and their vertices.
+struct Net {
+    index: HashMap<Cell, usize>,
+    cells: Vec<(Cell, Crossed)>,
+    vertices: Vec<Vec3>,
 }
 
 fn step(cell: Cell, axis: usize, by: i32) -> Cell {
@@ -75,72 +65,56 @@ fn step(cell: Cell, axis: usize, by: i32) -> Cell {
     next
 }
 
-/// Whether the surface passes through the face of a cell on `side` (0 low, 1 high) of `axis`.
-fn face_is_crossed(values: &[f64; 8], axis: usize, side: usize) -> bool {
-    let mut inside = (0..8).filter(|c| c >> axis & 1 == side).map(|c| values[c] < 0.0);
-    let first = inside.next();
-    inside.any(|i| Some(i) != first)
-}
-
 /// Follows the surface of one connected body outward from `inside`, a point in it on the plane x = 0, in cubes of side
-/// `h`. Only cells that the surface crosses are looked at. The result is closed once mirrored; where two sheets run
-/// through one cell it may be non-manifold, which the caller checks.
+/// `h`. Only cells that the surface crosses are looked at. The result is closed once mirrored.
 pub(super) fn surface_nets(function: impl Fn(Vec3) -> f64, inside: Vec3, h: f64) -> HalfSurface {
     let mut grid = Grid { function, h, nodes: HashMap::new() };
-    let mut cell = grid.cell_of(inside);
-    while !grid.is_crossed(cell) {
-        cell = step(cell, 2, 1);
+    let mut start = grid.cell_of(inside);
+    while Crossing::new(&grid.corners(start)).patches == 0 {
+        start = step(start, 2, 1);
     }
-    let (cells, vertices) = follow(&mut grid, cell);
-    let quads = connect(&mut grid, &cells);
-    HalfSurface { vertices, quads }
+    let net = follow(&mut grid, start);
+    let quads = connect(&mut grid, &net);
+    HalfSurface { vertices: net.vertices, quads }
 }
 
-/// Every crossed cell reachable from `start`, in the order found, with its vertex.
-fn follow<F: Fn(Vec3) -> f64>(grid: &mut Grid<F>, start: Cell) -> (HashMap<Cell, u32>, Vec<Vec3>) {
-    let mut ids = HashMap::from([(start, 0)]);
+/// Every crossed cell reachable from `start`, each with a vertex per patch of surface in it.
+fn follow<F: Fn(Vec3) -> f64>(grid: &mut Grid<F>, start: Cell) -> Net {
+    let mut net = Net { index: HashMap::from([(start, 0)]), cells: Vec::new(), vertices: Vec::new() };
     let mut queue = vec![start];
-    let mut vertices = Vec::new();
-    let mut next = 0;
-    while next < queue.len() {
-        let cell = queue[next];
-        next += 1;
+    while let Some(&cell) = queue.get(net.cells.len()) {
         let values = grid.corners(cell);
-        let mut vertex = grid.crossing(cell, &values).unwrap_or_else(|| grid.position(cell));
-        if cell[0] == 0 {
-            vertex.x = 0.0;
+        let crossing = Crossing::new(&values);
+        let first = net.vertices.len() as u32;
+        for middle in crossing.middles(&values) {
+            let mut p = grid.position(cell) + middle * grid.h;
+            if cell[0] == 0 {
+                p.x = 0.0;
+            }
+            net.vertices.push(p);
         }
-        vertices.push(vertex);
-        for axis in 0..3 {
-            for side in 0..2 {
-                let neighbour = step(cell, axis, 2 * side as i32 - 1);
-                if neighbour[0] >= 0 && face_is_crossed(&values, axis, side) && !ids.contains_key(&neighbour) {
-                    ids.insert(neighbour, queue.len() as u32);
-                    queue.push(neighbour);
-                }
+        net.cells.push((cell, Crossed { first, crossing }));
+        for (axis, side) in [(0, 0), (0, 1), (1, 0), (1, 1), (2, 0), (2, 1)] {
+            let neighbour = step(cell, axis, 2 * side as i32 - 1);
+            if neighbour[0] >= 0 && face_is_crossed(&values, axis, side) && !net.index.contains_key(&neighbour) {
+                net.index.insert(neighbour, queue.len());
+                queue.push(neighbour);
             }
         }
     }
-    (ids, vertices)
+    net
 }
 
 /// A quad round every grid edge that the surface crosses, once per edge, for x > 0.
-fn connect<F: Fn(Vec3) -> f64>(grid: &mut Grid<F>, cells: &HashMap<Cell, u32>) -> Vec<[u32; 4]> {
-    let mut owned: Vec<(u32, Cell)> = cells.iter().map(|(&c, &id)| (id, c)).collect();
-    owned.sort_unstable();
+fn connect<F: Fn(Vec3) -> f64>(grid: &mut Grid<F>, net: &Net) -> Vec<[u32; 4]> {
     let mut quads = Vec::new();
-    for (_, cell) in owned {
-        if cell[0] == 0 {
-            continue;
-        }
+    for &(cell, _) in net.cells.iter().filter(|c| c.0[0] > 0) {
         let inside = grid.value(cell) < 0.0;
         for axis in 0..3 {
             if (grid.value(step(cell, axis, 1)) < 0.0) == inside {
                 continue;
             }
-            let (b, c) = ((axis + 1) % 3, (axis + 2) % 3);
-            let round = [step(step(cell, b, -1), c, -1), step(cell, c, -1), cell, step(cell, b, -1)];
-            let Some(mut quad) = corners_of(cells, round) else { continue };
+            let Some(mut quad) = quad_round(net, cell, axis) else { continue };
             if !inside {
                 quad.reverse();
             }
@@ -150,6 +124,14 @@ fn connect<F: Fn(Vec3) -> f64>(grid: &mut Grid<F>, cells: &HashMap<Cell, u32>) -
     quads
 }
 
-fn corners_of(cells: &HashMap<Cell, u32>, round: [Cell; 4]) -> Option<[u32; 4]> {
-    Some([*cells.get(&round[0])?, *cells.get(&round[1])?, *cells.get(&round[2])?, *cells.get(&round[3])?])
+/// The vertices of the four cells round the grid edge that leaves the lowest corner of `cell` along `axis`, counter-
+/// clockwise about the axis.
+fn quad_round(net: &Net, cell: Cell, axis: usize) -> Option<[u32; 4]> {
+    let (b, c) = ((axis + 1) % 3, (axis + 2) % 3);
+    let vertex = |db: usize, dc: usize| {
+        let at = step(step(cell, b, -(db as i32)), c, -(dc as i32));
+        let (_, found) = &net.cells[*net.index.get(&at)?];
+        Some(found.first + u32::from(found.crossing.patch_of[edge_index(db << b | dc << c, axis)]?))
+    };
+    Some([vertex(1, 1)?, vertex(0, 1)?, vertex(0, 0)?, vertex(1, 0)?])
 }
