@@ -1,6 +1,65 @@
 //! Mannequins: measured sections lofted into a closed mesh, or a user's own closed OBJ.
 
+mod build;
+mod cell;
+mod field;
+mod library;
+mod loft;
+mod parts;
+mod relax;
+mod spec;
+mod surface;
+
+pub use build::build;
+pub use library::{library, load};
+pub use spec::{ArmRow, ArmSpec, LegRow, LegSpec, MannequinSpec, TorsoRow};
+
 use crate::geometry::{TriMesh, Vec3};
+
+/// Why there is no mannequin.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum MannequinError {
+    /// Neither a library name nor a file.
+    #[error("mannequin '{name}' not found; there are {known}, or give the path of a .yaml file")]
+    Unknown {
+        /// As asked for.
+        name: String,
+        /// The library's names.
+        known: String,
+    },
+    /// The file cannot be read.
+    #[error("{file}: {why}")]
+    Read {
+        /// Path.
+        file: String,
+        /// What the system said.
+        why: String,
+    },
+    /// The text is no mannequin.
+    #[error("{file}: {why}")]
+    Syntax {
+        /// Path or library name.
+        file: String,
+        /// What the reader said, with line and column.
+        why: String,
+    },
+    /// A number that no body has.
+    #[error("{file}: {why}")]
+    Value {
+        /// Path or library name.
+        file: String,
+        /// Which number, and what it must be.
+        why: String,
+    },
+    /// The sections make no simple closed body.
+    #[error("mannequin '{name}' cannot be built: {why}; check the heights and centres of its sections")]
+    Surface {
+        /// Its name.
+        name: String,
+        /// What is wrong, and where.
+        why: String,
+    },
+}
 
 /// A body to dress.
 #[derive(Clone, Debug)]

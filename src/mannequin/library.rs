@@ -1,0 +1,44 @@
+//! The mannequins that are shipped, and where others come from.
+
+use std::path::Path;
+
+use super::{Mannequin, MannequinError, MannequinSpec, build};
+
+/// Name and text of every shipped mannequin.
+const SHIPPED: [(&str, &str); 3] = [
+    ("woman_92", include_str!("../../mannequins/woman_92.yaml")),
+    ("man_100", include_str!("../../mannequins/man_100.yaml")),
+    ("child_110", include_str!("../../mannequins/child_110.yaml")),
+];
+
+/// Names of the shipped mannequins.
+pub fn library() -> Vec<&'static str> {
+    SHIPPED.iter().map(|s| s.0).collect()
+}
+
+impl MannequinSpec {
+    /// The numbers of a shipped mannequin, or of a `.yaml` file.
+    ///
+    /// # Errors
+    /// [`MannequinError`] when there is no such mannequin or its file is wrong.
+    pub fn load(name_or_path: &str) -> Result<Self, MannequinError> {
+        if let Some((name, text)) = SHIPPED.iter().find(|s| s.0 == name_or_path) {
+            return Self::parse(text, name);
+        }
+        let path = Path::new(name_or_path);
+        if path.extension().is_none() {
+            return Err(MannequinError::Unknown { name: name_or_path.to_owned(), known: library().join(", ") });
+        }
+        let text = std::fs::read_to_string(path)
+            .map_err(|e| MannequinError::Read { file: name_or_path.to_owned(), why: e.to_string() })?;
+        Self::parse(&text, name_or_path)
+    }
+}
+
+/// Builds a shipped mannequin, or one from a `.yaml` file. (A body of one's own as OBJ: `io::body`.)
+///
+/// # Errors
+/// [`MannequinError`] when there is no such mannequin, its file is wrong, or its sections make no body.
+pub fn load(name_or_path: &str) -> Result<Mannequin, MannequinError> {
+    build(&MannequinSpec::load(name_or_path)?)
+}
