@@ -1,1 +1,184 @@
-//! flatten
+//! Laying cloth flat: from a surface in space to the pattern piece that makes it (F12, F13).
+//!
+//! ```text
+//! surface ─▶ topology ─▶ start ─▶ relax ─▶ align ─▶ measure
+//!            a disk?     no flip   energy   onto the  area, boundary,
+//!                                  down     drawing   flips, overlaps
+//! ```
+//!
+//! The published method relaxes springs in the plane from a start unrolled triangle by triangle. Springs see a triangle
+//! that is turned over as a good one and a start with flips keeps them, so here the start never has any (boundary-first
+//! flattening, Tutte's circle, or the drawn piece), the energy is infinite at a flip, and no step reaches one.
+//!
+//! Flat positions have triangles with a positive cross product (b − a) × (c − a) of their raw coordinates: the
+//! convention of drawn pieces, clockwise on a screen with y down.
+
+mod align;
+mod element;
+mod energy;
+mod error;
+mod garment;
+mod harmonic;
+mod measure;
+mod overlap;
+mod relax;
+mod start;
+mod topology;
+
+pub use error::FlattenError;
+pub use garment::{FlatGarment, FlatPiece, flatten_garment};
+pub use measure::Report;
+pub use overlap::rim_crossings;
+
+use crate::geometry::{Topology, TriMesh, Vec2};
+use element::Element;
+use energy::{Energy, Spring};
+
+/// Stiffness of rim edges in the modes that keep the boundary, for a piece one metre square. Ten brings the worst seam
+/// of a bodice without darts to half a millimetre.
+const RIM_WEIGHT: f64 = 10.0;
+/// Weight of (det J − 1)² in the balanced mode: brings the area of a bodice's triangles from 6 % to 2 % (RMS) while
+/// its shear stays within what cloth does.
+const AREA_WEIGHT: f64 = 3.0;
+/// In the spring mode this share of the distortion energy stays, as the wall before a flip.
+const SPRING_WALL: f64 = 1e-3;
+
+/// What a flat piece should keep where it cannot keep everything.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mode {
+    /// Rim lengths first, then the area of every triangle; shear gives. For sewing.
+    #[default]
+    Balanced,
+    /// Distances, evenly in the whole piece.
+    Isometric,
+    /// Rim lengths first, then distances.
+    Boundary,
+    /// The lengths of all mesh edges: the published springs (F13).
+    Spring,
+}
+
+/// How to flatten.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// What to keep.
+    pub mode: Mode,
+    /// Converged when the next step would lower the energy by less than this share of it.
+    pub tolerance: f64,
+    /// Steps after which to stop anyway.
+    pub max_iterations: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { mode: Mode::default(), tolerance: 1e-6, max_iterations: 300 }
+    }
+}
+
+/// A surface laid flat.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Flattened {
+    /// Flat position of every vertex, metres.
+    pub positions: Vec<Vec2>,
+    /// What it did to the cloth.
+    pub report: Report,
+}
+
+/// Lays a disk flat, freely placed with its centre at the origin.
+///
+/// Never flips a triangle. A developable surface keeps all its lengths to rounding (a mesh of one as far as the mesh is
+/// developable). The flat piece may overlap itself where the surface has much curvature: [`Report::overlaps`] says so.
+/// A surface whose triangles run counter-clockwise seen from outside is, drawn with y down, seen from its inside.
+///
+/// # Errors
+/// A surface that is no disk, with what it is instead; degenerate triangles; coordinates that are not finite.
+pub fn flatten(surface: &TriMesh, options: &Options) -> Result<Flattened, FlattenError> {
+    let (topology, rims) = topology::check(surface)?;
+    let [rim] = &rims[..] else { return Err(FlattenError::Rims(rims.len())) };
+    let start = start::start(surface, &topology, rim)?;
+    let sheet = Sheet::as_it_is(surface, topology, rims);
+    let mut flattened = relax_sheet(&sheet, start, options)?;
+    align::centre(&mut flattened.positions);
+    Ok(flattened)
+}
+
+/// Relaxes a surface, which may have holes, from a given flat start; the result stays near the start's place.
+///
+/// # Errors
+/// As [`flatten`] but for the rims; a start of the wrong length or with flipped triangles.
+pub fn flatten_from(surface: &TriMesh, start: &[Vec2], options: &Options) -> Result<Flattened, FlattenError> {
+    let (topology, rims) = topology::check(surface)?;
+    check_start(surface, start)?;
+    let mut flattened = relax_sheet(&Sheet::as_it_is(surface, topology, rims), start.to_vec(), options)?;
+    align::onto(&mut flattened.positions, start);
+    Ok(flattened)
+}
+
+fn check_start(surface: &TriMesh, start: &[Vec2]) -> Result<(), FlattenError> {
+    if start.len() != surface.vertices.len() {
+        return Err(FlattenError::StartLength { expected: surface.vertices.len(), found: start.len() });
+    }
+    match start::first_flipped(&surface.triangles, start) {
+        Some(t) => Err(FlattenError::FlippedStart(t)),
+        None => Ok(()),
+    }
+}
+
+/// A surface with the flat shape every part of it should have.
+struct Sheet<'a> {
+    surface: &'a TriMesh,
+    topology: Topology,
+    rims: Vec<Vec<u32>>,
+    elements: Vec<Element>,
+    /// Wanted lengths of `topology.rim_edges()`, in that order.
+    rim_targets: Vec<f64>,
+}
+
+impl<'a> Sheet<'a> {
+    /// Every part should keep the shape it has.
+    fn as_it_is(surface: &'a TriMesh, topology: Topology, rims: Vec<Vec<u32>>) -> Self {
+        let elements =
+            surface.triangles.iter().enumerate().map(|(t, &c)| Element::new(c, surface.corners(t))).collect();
+        let rim_targets = topology.rim_edges().map(|e| measure::length(surface, e.ends)).collect();
+        Self { surface, topology, rims, elements, rim_targets }
+    }
+
+    fn energy(&self, mode: Mode) -> Energy {
+        let (springs, membrane, area) = match mode {
+            Mode::Balanced => (self.rim_springs(), 1.0, AREA_WEIGHT),
+            Mode::Isometric => (Vec::new(), 1.0, 0.0),
+            Mode::Boundary => (self.rim_springs(), 1.0, 0.0),
+            Mode::Spring => (self.edge_springs(), SPRING_WALL, 0.0),
+        };
+        Energy::new(self.surface.vertices.len(), self.elements.clone(), springs, membrane, area)
+    }
+
+    /// Rim edges, weighted by length: the weight of a rim does not change with the mesh.
+    fn rim_springs(&self) -> Vec<Spring> {
+        let size = self.elements.iter().map(|e| e.area).sum::<f64>().sqrt();
+        let springs = self.topology.rim_edges().zip(&self.rim_targets);
+        springs.map(|(e, &target)| Spring { ends: e.ends, target, weight: RIM_WEIGHT * size * target }).collect()
+    }
+
+    /// All edges, weighted by a third of the area beside them.
+    fn edge_springs(&self) -> Vec<Spring> {
+        let mut rim_targets = self.rim_targets.iter();
+        let springs = self.topology.edges.iter().map(|e| {
+            let area: f64 = e.triangles.iter().flatten().map(|&t| self.elements[t as usize].area).sum();
+            let target = match e.triangles[1] {
+                Some(_) => None,
+                None => rim_targets.next().copied(),
+            };
+            let target = target.unwrap_or_else(|| measure::length(self.surface, e.ends));
+            Spring { ends: e.ends, target, weight: area / 3.0 }
+        });
+        springs.collect()
+    }
+}
+
+fn relax_sheet(sheet: &Sheet<'_>, start: Vec<Vec2>, options: &Options) -> Result<Flattened, FlattenError> {
+    let mut positions = start;
+    let outcome =
+        relax::relax(&sheet.energy(options.mode), &mut positions, options.tolerance, options.max_iterations)?;
+    let report = measure::report(sheet, &positions, &outcome);
+    Ok(Flattened { positions, report })
+}

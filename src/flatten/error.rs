@@ -1,0 +1,71 @@
+//! What can be wrong with a surface that is to be laid flat.
+
+/// Why a surface could not be flattened.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FlattenError {
+    /// No triangles.
+    #[error("the surface has no triangles")]
+    Empty,
+    /// A triangle names a vertex that is not there.
+    #[error("triangle {triangle} names vertex {vertex}, but there are only {vertices}")]
+    MissingVertex {
+        /// Triangle index.
+        triangle: usize,
+        /// Named vertex.
+        vertex: u32,
+        /// Number of vertices.
+        vertices: usize,
+    },
+    /// A vertex that no triangle uses.
+    #[error("vertex {0} belongs to no triangle")]
+    LooseVertex(usize),
+    /// A coordinate is infinite or not a number.
+    #[error("vertex {0} has a coordinate that is not finite")]
+    NotFinite(usize),
+    /// A triangle without area.
+    #[error("triangle {0} has no area: it cannot say how the cloth around it lies")]
+    Degenerate(usize),
+    /// More than two triangles on an edge.
+    #[error("more than two triangles meet in the edge of vertices {0} and {1}")]
+    NonManifoldEdge(u32, u32),
+    /// Parts of the surface that touch in one vertex only.
+    #[error("the surface touches itself in vertex {0} only")]
+    NonManifoldVertex(usize),
+    /// Neighbouring triangles that run against each other.
+    #[error("triangles {0} and {1} run against each other: turn one of them round")]
+    Misoriented(u32, u32),
+    /// Several unconnected parts.
+    #[error("the surface has {0} unconnected parts: flatten them one by one")]
+    Components(usize),
+    /// No rim at all.
+    #[error("the surface is closed: cut it first")]
+    Closed,
+    /// Holes, where there may be none.
+    #[error("the surface has {0} rims instead of one: cut it first, from rim to rim")]
+    Rims(usize),
+    /// Handles.
+    #[error("the surface has {0} handle(s), like a cup: cut it first")]
+    Handles(usize),
+    /// A given start with another number of positions than vertices.
+    #[error("the start has {found} positions for {expected} vertices")]
+    StartLength {
+        /// Vertices.
+        expected: usize,
+        /// Positions.
+        found: usize,
+    },
+    /// No start without flipped triangles was found.
+    #[error("triangle {0} is turned over or without area in the flat start")]
+    FlippedStart(usize),
+    /// The linear system of a step could not be solved.
+    #[error("the flattening broke down numerically: the surface may have extremely thin triangles")]
+    Breakdown,
+    /// Any of these, in a piece of a garment.
+    #[error("piece '{piece}': {source}")]
+    Piece {
+        /// The piece's name.
+        piece: String,
+        /// What is wrong with it.
+        source: Box<FlattenError>,
+    },
+}

@@ -1,0 +1,176 @@
+//! Flattening every piece of a draped garment.
+
+use std::collections::HashMap;
+
+use rayon::prelude::*;
+
+use super::element::Element;
+use super::{FlattenError, Options, Report, Sheet, align, check_start, measure, relax_sheet, start, topology};
+use crate::geometry::{TriMesh, Vec2, Vec3};
+use crate::mesh::{ClothMesh, PieceMesh};
+use crate::pattern::{Give, Seam};
+
+/// A rim edge whose flat length should differ from its draped one by more than this share lies in cloth that a seam
+/// draws in or out; the triangles around it do not show the cloth's own shape.
+const DRAWN: f64 = 0.05;
+/// Weight of such triangles in the energy: enough to keep them in order, too little to pull at the others.
+const SOFT: f64 = 0.05;
+
+/// A garment laid flat.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlatGarment {
+    /// Flat position of every particle, metres, every piece turned and shifted onto its drawn place.
+    pub positions: Vec<Vec2>,
+    /// One per piece of the mesh, same order.
+    pub pieces: Vec<FlatPiece>,
+}
+
+/// What happened to one piece.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlatPiece {
+    /// As in the garment.
+    pub name: String,
+    /// The figures.
+    pub report: Report,
+}
+
+/// Lays every piece of a draped garment flat, holes included. `seams` are the garment's, in the order of
+/// `cloth.seams`; `draped` has one position per particle.
+///
+/// Edges that an even seam joins get one common length, the mean of both sides as draped (as nearly as the mode keeps
+/// boundaries; exactly the same target). Edges of a seam with ease, gather or stretch get their drawn ratio back: their
+/// drawn lengths times the stretch beyond the range between the two. Never flips a triangle.
+///
+/// # Errors
+/// [`FlattenError::Piece`] around the reason; [`FlattenError::StartLength`] if `draped` has not one position per
+/// particle.
+pub fn flatten_garment(
+    cloth: &ClothMesh,
+    seams: &[Seam],
+    draped: &[Vec3],
+    options: &Options,
+) -> Result<FlatGarment, FlattenError> {
+    if draped.len() != cloth.flat.len() {
+        return Err(FlattenError::StartLength { expected: cloth.flat.len(), found: draped.len() });
+    }
+    let targets = seam_targets(cloth, seams, draped);
+    let flattened: Vec<_> = cloth
+        .pieces
+        .par_iter()
+        .map(|piece| {
+            flatten_piece(cloth, piece, draped, &targets, options)
+                .map_err(|source| FlattenError::Piece { piece: piece.name.clone(), source: Box::new(source) })
+        })
+        .collect();
+    let mut positions = cloth.flat.clone();
+    let mut pieces = Vec::with_capacity(cloth.pieces.len());
+    for (piece, result) in cloth.pieces.iter().zip(flattened) {
+        let (flat, report) = result?;
+        positions[piece.particles.clone()].copy_from_slice(&flat);
+        pieces.push(FlatPiece { name: piece.name.clone(), report });
+    }
+    Ok(FlatGarment { positions, pieces })
+}
+
+fn flatten_piece(
+    cloth: &ClothMesh,
+    piece: &PieceMesh,
+    draped: &[Vec3],
+    targets: &Targets,
+    options: &Options,
+) -> Result<(Vec<Vec2>, Report), FlattenError> {
+    let first = piece.particles.start as u32;
+    let surface = TriMesh {
+        vertices: draped[piece.particles.clone()].to_vec(),
+        triangles: cloth.triangles[piece.triangles.clone()].iter().map(|t| t.map(|v| v.wrapping_sub(first))).collect(),
+    };
+    let drawn = &cloth.flat[piece.particles.clone()];
+    let (topology, rims) = topology::check(&surface)?;
+    let start = match (check_start(&surface, drawn), &rims[..]) {
+        (Ok(()), _) => drawn.to_vec(),
+        // A drawing with flaws is no start, but a disk does not need it.
+        (Err(_), [rim]) => start::start(&surface, &topology, rim)?,
+        (Err(flaw), _) => return Err(flaw),
+    };
+    let mut sheet = Sheet::as_it_is(&surface, topology, rims);
+    draw_out(&mut sheet, first, targets);
+    let mut flattened = relax_sheet(&sheet, start, options)?;
+    align::onto(&mut flattened.positions, drawn);
+    Ok((flattened.positions, flattened.report))
+}
+
+/// Wanted flat lengths of sewn rim edges by their ends (global particles, smaller first).
+type Targets = HashMap<[u32; 2], f64>;
+
+fn seam_targets(cloth: &ClothMesh, seams: &[Seam], draped: &[Vec3]) -> Targets {
+    let mut targets = Targets::new();
+    for (k, stitches) in cloth.seams.iter().enumerate() {
+        let give = seams.get(k).map_or(Give::Even, |s| s.give);
+        for step in stitches.pairs.windows(2) {
+            let [a, b] = [0, 1].map(|side| [step[0][side], step[1][side]]);
+            // Where a chain passes on to its next edge one side stands still.
+            if a[0] == a[1] || b[0] == b[1] {
+                continue;
+            }
+            let drawn = [a, b].map(|e| (cloth.flat[e[1] as usize] - cloth.flat[e[0] as usize]).norm());
+            let sewn = [a, b].map(|e| (draped[e[1] as usize] - draped[e[0] as usize]).norm());
+            let wanted = wanted_lengths(give, drawn, (sewn[0] + sewn[1]) / 2.0);
+            for (ends, length) in [(a, wanted[0]), (b, wanted[1])] {
+                if length > 0.0 {
+                    targets.insert([ends[0].min(ends[1]), ends[0].max(ends[1])], length);
+                }
+            }
+        }
+    }
+    targets
+}
+
+/// Flat lengths of the two sides of a stitch of length `sewn`.
+fn wanted_lengths(give: Give, drawn: [f64; 2], sewn: f64) -> [f64; 2] {
+    if give == Give::Even {
+        return [sewn; 2];
+    }
+    // Any sewn length between the two drawn ones is as it should be; beyond, the cloth itself is strained.
+    let meant = sewn.clamp(drawn[0].min(drawn[1]), drawn[0].max(drawn[1]));
+    drawn.map(|d| if meant > 0.0 { d * sewn / meant } else { sewn })
+}
+
+/// Gives the sheet's rim its wanted lengths, and the triangles on it shapes to match.
+fn draw_out(sheet: &mut Sheet<'_>, first: u32, targets: &Targets) {
+    let mut drawn = vec![false; sheet.surface.vertices.len()];
+    for (edge, target) in sheet.topology.rim_edges().zip(&mut sheet.rim_targets) {
+        let [a, b] = edge.ends;
+        let Some(&wanted) = targets.get(&[a + first, b + first]) else { continue };
+        let ratio = wanted / *target;
+        *target = wanted;
+        if let Some(t) = edge.triangles[0] {
+            let t = t as usize;
+            sheet.elements[t] = stretched(sheet.surface, t, [a, b], ratio);
+        }
+        if (ratio - 1.0).abs() > DRAWN {
+            drawn[a as usize] = true;
+            drawn[b as usize] = true;
+        }
+    }
+    for element in &mut sheet.elements {
+        if element.corners.iter().any(|&v| drawn[v as usize]) {
+            element.area *= SOFT;
+        }
+    }
+}
+
+/// The shape of triangle `t` when it is drawn out along its edge `ends`.
+fn stretched(surface: &TriMesh, t: usize, ends: [u32; 2], ratio: f64) -> Element {
+    let mut corners = surface.triangles[t];
+    // Rim edge first: a triangle's corners may be turned round without changing it.
+    while ends.contains(&corners[2]) {
+        corners.rotate_left(1);
+    }
+    let [a, b, c] = corners.map(|v| surface.vertices[v as usize]);
+    let length = measure::length(surface, ends);
+    let along = (b - a) / length;
+    let foot = (c - a).dot(&along);
+    let height = (c - a).cross(&along).norm();
+    let plane = [Vec2::zeros(), Vec2::new(length * ratio, 0.0), Vec2::new(foot * ratio, height)];
+    Element::from_plane(corners, plane)
+}

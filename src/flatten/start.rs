@@ -1,0 +1,140 @@
+//! A first flat position without flipped triangles.
+
+use std::f64::consts::{PI, TAU};
+
+use super::FlattenError;
+use super::harmonic::{Laplacian, Weights};
+use crate::geometry::{Topology, TriMesh, Vec2};
+
+/// Lays a disk flat: conformally with the rim's own lengths if that flips nothing, else onto a circle.
+///
+/// # Errors
+/// If even the map onto a circle has a triangle without area (rounding in a very large or uneven mesh).
+pub(super) fn start(surface: &TriMesh, topology: &Topology, rim: &[u32]) -> Result<Vec<Vec2>, FlattenError> {
+    let mut on_rim = vec![false; surface.vertices.len()];
+    for &v in rim {
+        on_rim[v as usize] = true;
+    }
+    if let Ok(flat) = boundary_first(surface, topology, rim, &on_rim)
+        && first_flipped(&surface.triangles, &flat).is_none()
+    {
+        return Ok(flat);
+    }
+    let flat = onto_circle(surface, topology, rim, &on_rim)?;
+    match first_flipped(&surface.triangles, &flat) {
+        None => Ok(flat),
+        Some(t) => Err(FlattenError::FlippedStart(t)),
+    }
+}
+
+/// The first triangle whose area is not positive.
+pub(super) fn first_flipped(triangles: &[[u32; 3]], flat: &[Vec2]) -> Option<usize> {
+    triangles.iter().position(|t| {
+        let [a, b, c] = t.map(|v| flat[v as usize]);
+        // Not `<=`, so that an undefined number counts as flipped.
+        !((b - a).perp(&(c - a)) > 0.0)
+    })
+}
+
+/// Boundary-first flattening with free angles and fixed rim lengths (Sawhney & Crane 2017, sections 4.1, 4.3 and 6):
+/// scale factor 0 along the rim, hence lengths exact up to closing the curve.
+fn boundary_first(
+    surface: &TriMesh,
+    topology: &Topology,
+    rim: &[u32],
+    on_rim: &[bool],
+) -> Result<Vec<Vec2>, FlattenError> {
+    let laplacian = Laplacian::new(surface, topology, on_rim, Weights::Cotangent)?;
+    let angles = angle_sums(surface);
+    // Yamabe: Δu = K inside. A is −Δ, integrated.
+    let source: Vec<f64> = angles.iter().map(|a| a - TAU).collect();
+    let mut scale = vec![0.0; angles.len()];
+    laplacian.solve(&source, &mut scale);
+    // Cherrier: the rim's curvature changes by the normal derivative of u.
+    let flux = laplacian.apply(&scale);
+    let turning: Vec<f64> = rim.iter().map(|&v| PI - angles[v as usize] + flux[v as usize]).collect();
+    let lengths: Vec<f64> = rim_lengths(surface, rim);
+    let outline = closed_curve(&lengths, &turning);
+    Ok(extend(&laplacian, surface.vertices.len(), rim, &outline))
+}
+
+/// Tutte's map onto a circle of the surface's area, rim vertices spaced by their lengths.
+fn onto_circle(
+    surface: &TriMesh,
+    topology: &Topology,
+    rim: &[u32],
+    on_rim: &[bool],
+) -> Result<Vec<Vec2>, FlattenError> {
+    let laplacian = Laplacian::new(surface, topology, on_rim, Weights::Uniform)?;
+    let lengths = rim_lengths(surface, rim);
+    let total: f64 = lengths.iter().sum();
+    let radius = (surface.area() / PI).sqrt();
+    let mut at = 0.0;
+    let circle = lengths.iter().map(|length| {
+        let (sine, cosine) = (TAU * at / total).sin_cos();
+        at += length;
+        Vec2::new(cosine, sine) * radius
+    });
+    let circle: Vec<Vec2> = circle.collect();
+    Ok(extend(&laplacian, surface.vertices.len(), rim, &circle))
+}
+
+fn extend(laplacian: &Laplacian, vertices: usize, rim: &[u32], outline: &[Vec2]) -> Vec<Vec2> {
+    let mut flat = vec![Vec2::zeros(); vertices];
+    let none = vec![0.0; vertices];
+    for axis in 0..2 {
+        let mut u = vec![0.0; vertices];
+        for (&v, p) in rim.iter().zip(outline) {
+            u[v as usize] = p[axis];
+        }
+        laplacian.solve(&none, &mut u);
+        for (p, u) in flat.iter_mut().zip(u) {
+            p[axis] = u;
+        }
+    }
+    flat
+}
+
+/// Length of the rim edge from each rim vertex to the next.
+fn rim_lengths(surface: &TriMesh, rim: &[u32]) -> Vec<f64> {
+    let at = |k: usize| surface.vertices[rim[k % rim.len()] as usize];
+    (0..rim.len()).map(|k| (at(k + 1) - at(k)).norm()).collect()
+}
+
+/// Sum of the triangles' angles at every vertex.
+fn angle_sums(surface: &TriMesh) -> Vec<f64> {
+    let mut sums = vec![0.0; surface.vertices.len()];
+    for (t, corners) in surface.triangles.iter().enumerate() {
+        let p = surface.corners(t);
+        for k in 0..3 {
+            let (u, v) = (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
+            sums[corners[k] as usize] += u.cross(&v).norm().atan2(u.dot(&v));
+        }
+    }
+    sums
+}
+
+/// The polygon with the given edge lengths that turns by `turning[k]` at its vertex k, lengths changed by the least
+/// amount (relative to each length) that closes it (the paper's equation 18).
+fn closed_curve(lengths: &[f64], turning: &[f64]) -> Vec<Vec2> {
+    let mut heading = 0.0;
+    let mut tangents = Vec::with_capacity(lengths.len());
+    for turn in turning {
+        heading += turn;
+        tangents.push(Vec2::new(f64::cos(heading), f64::sin(heading)));
+    }
+    let mut gap = Vec2::zeros();
+    let mut spread = nalgebra::Matrix2::zeros();
+    for (t, &l) in tangents.iter().zip(lengths) {
+        gap += t * l;
+        spread += t * t.transpose() * l;
+    }
+    let correction = spread.try_inverse().map_or(Vec2::zeros(), |inverse| inverse * gap);
+    let mut at = Vec2::zeros();
+    let points = tangents.iter().zip(lengths).map(|(t, &l)| {
+        let here = at;
+        at += t * (l * (1.0 - t.dot(&correction)));
+        here
+    });
+    points.collect()
+}
