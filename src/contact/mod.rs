@@ -39,6 +39,11 @@ pub struct Contact {
 }
 
 impl Contact {
+    /// A contact of nothing with nothing.
+    pub(crate) fn none() -> Self {
+        Self { nodes: [0; 4], weights: [0.0; 4], count: 0, normal: Vec3::zeros(), offset: 0.0, body: true }
+    }
+
     /// The gap at positions `x`, metres.
     pub fn gap(&self, x: &[Vec3]) -> f64 {
         let mut sum = -self.offset;

@@ -7,12 +7,14 @@ mod friction;
 mod model;
 mod springs;
 mod step;
+mod world;
 
 pub use bending::Bending;
 pub use friction::Friction;
 pub use model::{Cloth, SpringModel, identity_nodes};
 pub use springs::{Spring, StretchLaw};
-pub use step::{ContactLaw, Forces, Pull, Stepper, StepError};
+pub use step::{ContactLaw, Forces, Pull, StepError, Stepper};
+pub use world::{Reach, World};
 
 /// Gravity, m/s² (standard acceleration, ISO 80000-3).
 pub const GRAVITY: f64 = 9.80665;

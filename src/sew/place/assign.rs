@@ -1,0 +1,130 @@
+//! Which body part a piece goes round, and which way it faces.
+
+use super::PlaceError;
+use crate::mannequin::PartKind;
+use crate::mesh::ClothMesh;
+use crate::pattern::{Garment, Place, Side};
+
+/// Where a piece goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Assigned {
+    /// The part it is bent round; trousers go round the torso's ring, which widens to both legs.
+    pub(super) part: PartKind,
+    /// Whether it is said to be at the front or at the back.
+    pub(super) facing: Option<Facing>,
+}
+
+/// Front or back of the wearer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Facing {
+    /// Chest side.
+    Front,
+    /// Spine side.
+    Back,
+}
+
+const ARM: [&str; 8] = ["arm", "sleeve", "wrist", "cuff", "biceps", "elbow", "armband", "forearm"];
+const NECK: [&str; 7] = ["neck", "collar", "neckband", "hood", "stand", "necktie", "choker"];
+const TRUNK: [&str; 12] =
+    ["torso", "hip", "hips", "waist", "skirt", "bodice", "chest", "bust", "body", "trunk", "leg", "legs"];
+
+/// Assigns every piece by its `place:` words, else by its name, else by the pieces it is sewn to.
+///
+/// # Errors
+/// [`PlaceError::Words`] when `place:` names no part.
+pub(super) fn assign(garment: &Garment, mesh: &ClothMesh) -> Result<Vec<Assigned>, PlaceError> {
+    let mut out = Vec::with_capacity(garment.pieces.len());
+    for piece in &garment.pieces {
+        let name_words = words_of(&piece.name);
+        let side = piece.side.or_else(|| side_of(&name_words));
+        let assigned = match &piece.place {
+            Some(Place::Around { words }) => {
+                let part = part_of(words, side_of(words).or(side))
+                    .or_else(|| facing_of(words).map(|_| PartKind::Torso))
+                    .ok_or_else(|| PlaceError::Words { piece: piece.name.clone(), words: words.join(" ") })?;
+                Assigned { part, facing: facing_of(words).or_else(|| facing_of(&name_words)) }
+            }
+            _ => Assigned {
+                part: part_of(&name_words, side).unwrap_or(PartKind::Torso),
+                facing: facing_of(&name_words),
+            },
+        };
+        out.push(assigned);
+    }
+    sort_out_sides(garment, mesh, &mut out);
+    Ok(out)
+}
+
+/// `sleeve_left.L` → sleeve, left, l.
+fn words_of(name: &str) -> Vec<String> {
+    name.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).map(str::to_lowercase).collect()
+}
+
+fn has(words: &[String], list: &[&str]) -> bool {
+    words.iter().any(|w| list.contains(&w.as_str()) || list.iter().any(|l| w.strip_suffix('s') == Some(l)))
+}
+
+fn part_of(words: &[String], side: Option<Side>) -> Option<PartKind> {
+    if has(words, &ARM) {
+        return Some(if side == Some(Side::Right) { PartKind::RightArm } else { PartKind::LeftArm });
+    }
+    if has(words, &NECK) {
+        return Some(PartKind::Neck);
+    }
+    has(words, &TRUNK).then_some(PartKind::Torso)
+}
+
+fn side_of(words: &[String]) -> Option<Side> {
+    if has(words, &["left", "l"]) {
+        return Some(Side::Left);
+    }
+    has(words, &["right", "r"]).then_some(Side::Right)
+}
+
+fn facing_of(words: &[String]) -> Option<Facing> {
+    if has(words, &["front", "f", "ftorso"]) {
+        return Some(Facing::Front);
+    }
+    has(words, &["back", "b", "btorso"]).then_some(Facing::Back)
+}
+
+/// A piece for an arm whose side nothing says goes where the pieces it is sewn to are.
+fn sort_out_sides(garment: &Garment, mesh: &ClothMesh, out: &mut [Assigned]) {
+    let mut seen = [false; 2];
+    for (i, piece) in garment.pieces.iter().enumerate() {
+        let is_arm = matches!(out[i].part, PartKind::LeftArm | PartKind::RightArm);
+        let said = piece.side.is_some()
+            || side_of(&words_of(&piece.name)).is_some()
+            || matches!(&piece.place, Some(Place::Around { words }) if side_of(words).is_some());
+        if !is_arm || said {
+            continue;
+        }
+        // The trunk is drawn as seen from outside: on a front the wearer's left is at larger x.
+        let lean = lean(mesh, out, i);
+        let left = if lean == 0.0 { !seen[0] } else { lean > 0.0 };
+        seen[usize::from(!left)] = true;
+        out[i].part = if left { PartKind::LeftArm } else { PartKind::RightArm };
+    }
+}
+
+/// Positive when piece `i` is sewn to the wearer's left of trunk pieces.
+fn lean(mesh: &ClothMesh, assigned: &[Assigned], i: usize) -> f64 {
+    let middle = |q: usize| {
+        let range = mesh.pieces[q].particles.clone();
+        let count = range.len().max(1) as f64;
+        range.map(|p| mesh.flat[p].x).sum::<f64>() / count
+    };
+    let piece_of = |p: u32| mesh.pieces.iter().position(|m| m.particles.contains(&(p as usize)));
+    let mut sum = 0.0;
+    for [a, b] in mesh.seams.iter().flat_map(|s| &s.pairs) {
+        for (p, q) in [(*a, *b), (*b, *a)] {
+            if piece_of(p) != Some(i) {
+                continue;
+            }
+            let Some(other) = piece_of(q).filter(|&o| o != i && assigned[o].part == PartKind::Torso) else { continue };
+            let x = mesh.flat[q as usize].x - middle(other);
+            sum += if assigned[other].facing == Some(Facing::Back) { -x } else { x };
+        }
+    }
+    sum
+}

@@ -1,0 +1,48 @@
+//! Pieces with a pressed fold start folded.
+
+use crate::geometry::Vec2;
+use crate::mesh::ClothMesh;
+use crate::pattern::LineKind;
+
+/// A fold of at least this angle (radians) is folded over before the start; a smaller one is left to the drape.
+const PRESSED: f64 = 2.0;
+
+/// The pieces laid out flat, pressed folds folded over.
+pub(super) struct Sheet {
+    /// Flat position of every particle, y down.
+    pub(super) flat: Vec<Vec2>,
+    /// Layers towards the wrong side: 0, or 1 where the cloth is folded under.
+    pub(super) under: Vec<f64>,
+}
+
+/// Folds every piece along its pressed lines: the part with the shorter sewn rim goes under the other.
+pub(super) fn folded(mesh: &ClothMesh) -> Sheet {
+    let mut sheet = Sheet { flat: mesh.flat.clone(), under: vec![0.0; mesh.flat.len()] };
+    let mut sewn = vec![0u32; mesh.flat.len()];
+    for p in mesh.seams.iter().flat_map(|s| s.pairs.iter().flatten()) {
+        sewn[*p as usize] += 1;
+    }
+    for piece in &mesh.pieces {
+        for line in &piece.lines {
+            if !matches!(line.kind, LineKind::Fold(angle) if angle.abs() >= PRESSED) || line.particles.len() < 2 {
+                continue;
+            }
+            let a = mesh.flat[line.particles[0] as usize];
+            let b = mesh.flat[line.particles[line.particles.len() - 1] as usize];
+            let along = (b - a).normalize();
+            let across = Vec2::new(-along.y, along.x);
+            let side = |p: usize| across.dot(&(mesh.flat[p] - a));
+            // The side with fewer stitches goes under.
+            let balance: f64 = piece.particles.clone().map(|p| side(p).signum() * f64::from(sewn[p])).sum();
+            let keep = if balance >= 0.0 { 1.0 } else { -1.0 };
+            for p in piece.particles.clone() {
+                let s = side(p) * keep;
+                if s < -1e-9 {
+                    sheet.flat[p] += across * (-2.0 * s * keep);
+                    sheet.under[p] = 1.0;
+                }
+            }
+        }
+    }
+    sheet
+}

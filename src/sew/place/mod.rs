@@ -1,0 +1,69 @@
+//! Where the pieces start (F10): bent round the body part each one is made for.
+//!
+//! ```text
+//! assign ─▶ rows ─▶ wrap
+//!  which part  pieces side by side,  rings round the part,
+//!              rows one over another seams nearly meeting
+//! ```
+//!
+//! A garment is laid out as it would hang on a lampshade: pieces that share an upright seam stand side by side in a
+//! *row*; rows that share a level seam (skirt and waistband, sleeve and cuff) stand one over the other; every row is
+//! bent round its body part on an ellipse wide enough for the body and for the cloth. Nothing here is exact, and
+//! nothing has to be: the springs undo the small distortions as soon as the sewing begins. What counts is that every
+//! seam starts on the right side of the body with its partner near, and that no piece starts in another or in the body.
+
+mod assign;
+mod fold;
+mod rows;
+mod stations;
+mod wrap;
+
+use crate::geometry::Vec3;
+use crate::mannequin::Mannequin;
+use crate::mesh::ClothMesh;
+use crate::pattern::{Garment, Place};
+
+/// Why pieces cannot be placed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PlaceError {
+    /// A word of `place:` names no body part.
+    #[error("piece '{piece}': place '{words}' names no body part; use torso, hip, waist, skirt, neck, arm or leg, with left or right, front or back")]
+    Words {
+        /// The piece.
+        piece: String,
+        /// The words.
+        words: String,
+    },
+    /// The body has no such part.
+    #[error("piece '{piece}' goes round the {part}, which mannequin '{mannequin}' does not have; give it a place: {{at: [x, y, z]}}")]
+    NoPart {
+        /// The piece.
+        piece: String,
+        /// The part.
+        part: &'static str,
+        /// The mannequin.
+        mannequin: String,
+    },
+}
+
+/// Start positions of all particles.
+///
+/// # Errors
+/// [`PlaceError`] when a piece's place names a part that is none or that the body has not.
+pub fn place(garment: &Garment, mesh: &ClothMesh, body: &Mannequin) -> Result<Vec<Vec3>, PlaceError> {
+    let sheet = fold::folded(mesh);
+    let assigned = assign::assign(garment, mesh)?;
+    let rows = rows::rows(garment, mesh, &sheet, &assigned);
+    let mut x = wrap::wrap(garment, mesh, body, &sheet, &rows)?;
+    for (piece, part) in garment.pieces.iter().zip(&mesh.pieces) {
+        if let Some(Place::At { at, turn }) = &piece.place {
+            let [rx, ry, rz] = [turn.x, turn.y, turn.z].map(f64::to_radians);
+            let rotation = nalgebra::Rotation3::from_euler_angles(rx, ry, rz);
+            for p in part.particles.clone() {
+                // The flat piece's y runs down, space's y up.
+                x[p] = at + rotation * Vec3::new(mesh.flat[p].x, -mesh.flat[p].y, 0.0);
+            }
+        }
+    }
+    Ok(x)
+}

@@ -1,0 +1,273 @@
+//! Pieces side by side in rows, rows one over the other.
+
+use super::assign::{Assigned, Facing};
+use super::fold::Sheet;
+use crate::geometry::Vec2;
+use crate::mannequin::PartKind;
+use crate::mesh::ClothMesh;
+use crate::pattern::{Garment, Place};
+
+/// Room left between two rows, and between two pieces of a row, metres.
+pub(super) const ROOM: f64 = 0.004;
+
+/// The stitches between two pieces.
+#[derive(Clone, Debug)]
+pub(super) struct Link {
+    pub(super) pieces: [usize; 2],
+    /// Particles, in the order of `pieces`.
+    pub(super) pairs: Vec<[u32; 2]>,
+    /// Whether it runs up and down.
+    pub(super) upright: bool,
+    length: f64,
+}
+
+/// A piece in its row.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Member {
+    pub(super) piece: usize,
+    /// Flat position + shift = row position (u to the right seen from outside, v down).
+    pub(super) shift: Vec2,
+}
+
+/// Pieces that stand side by side round a part.
+#[derive(Clone, Debug)]
+pub(super) struct Row {
+    pub(super) part: PartKind,
+    /// From right to left of the wearer at the front: u rises.
+    pub(super) members: Vec<Member>,
+    /// Where the front middle is, if the row knows.
+    pub(super) front: Option<f64>,
+    /// Lowest and highest v.
+    pub(super) v: [f64; 2],
+}
+
+/// All rows of a garment.
+pub(super) struct Rows {
+    pub(super) rows: Vec<Row>,
+    pub(super) links: Vec<Link>,
+    /// Rows in the order they are placed, with the row they stand next to and the link between them.
+    pub(super) order: Vec<(usize, Option<usize>)>,
+}
+
+/// Lays the pieces out. Pieces with a rigid place of their own are left out.
+pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned: &[Assigned]) -> Rows {
+    let links = links(mesh, sheet);
+    let rigid: Vec<bool> = garment.pieces.iter().map(|p| matches!(p.place, Some(Place::At { .. }))).collect();
+    let area = |p: usize| mesh.pieces[p].triangles.len();
+    let mut row_of = vec![usize::MAX; mesh.pieces.len()];
+    let mut rows: Vec<Row> = Vec::new();
+    // Larger pieces first, those that face front before the others: a row's first piece fixes its middle.
+    let mut seeds: Vec<usize> = (0..mesh.pieces.len()).filter(|&p| !rigid[p]).collect();
+    seeds.sort_by_key(|&p| (assigned[p].facing != Some(Facing::Front), std::cmp::Reverse(area(p)), p));
+    for seed in seeds {
+        if row_of[seed] != usize::MAX {
+            continue;
+        }
+        let index = rows.len();
+        row_of[seed] = index;
+        let mut members = vec![Member { piece: seed, shift: Vec2::zeros() }];
+        while let Some((from, to, shift)) = widest_next(&links, &row_of, assigned, &rigid, sheet, index, &members) {
+            let base = members.iter().find(|m| m.piece == from).map_or(Vec2::zeros(), |m| m.shift);
+            row_of[to] = index;
+            members.push(Member { piece: to, shift: base + shift });
+        }
+        let row = finish_row(mesh, sheet, assigned, assigned[seed].part, members, &links);
+        rows.push(row);
+    }
+    let order = stack(&mut rows, &links, &row_of, sheet);
+    Rows { rows, links, order }
+}
+
+/// The longest upright link that leads from the row to a piece not yet placed: (from, to, shift of to against from).
+fn widest_next(
+    links: &[Link],
+    row_of: &[usize],
+    assigned: &[Assigned],
+    rigid: &[bool],
+    sheet: &Sheet,
+    row: usize,
+    members: &[Member],
+) -> Option<(usize, usize, Vec2)> {
+    let part = assigned[members[0].piece].part;
+    let mut best: Option<(f64, usize, usize, Vec2)> = None;
+    for link in links.iter().filter(|l| l.upright) {
+        for k in 0..2 {
+            let (from, to) = (link.pieces[k], link.pieces[1 - k]);
+            if row_of[from] != row || row_of[to] != usize::MAX || assigned[to].part != part || rigid[to] {
+                continue;
+            }
+            if best.as_ref().is_none_or(|b| link.length > b.0) {
+                let count = link.pairs.len() as f64;
+                let sum = link.pairs.iter().fold(Vec2::zeros(), |s, pair| {
+                    s + sheet.flat[pair[k] as usize] - sheet.flat[pair[1 - k] as usize]
+                });
+                best = Some((link.length, from, to, sum / count));
+            }
+        }
+    }
+    best.map(|b| (b.1, b.2, b.3))
+}
+
+fn finish_row(
+    mesh: &ClothMesh,
+    sheet: &Sheet,
+    assigned: &[Assigned],
+    part: PartKind,
+    mut members: Vec<Member>,
+    links: &[Link],
+) -> Row {
+    let extent = |m: &Member| {
+        let range = mesh.pieces[m.piece].particles.clone();
+        range.fold((Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)), |(lo, hi), p| {
+            (lo.inf(&(sheet.flat[p] + m.shift)), hi.sup(&(sheet.flat[p] + m.shift)))
+        })
+    };
+    let boxes: Vec<(Vec2, Vec2)> = members.iter().map(extent).collect();
+    let v = boxes.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |v, b| [v[0].min(b.0.y), v[1].max(b.1.y)]);
+    let front = front_middle(assigned, &members, &boxes, links, sheet);
+    let mut order: Vec<usize> = (0..members.len()).collect();
+    order.sort_by(|&a, &b| (boxes[a].0.x + boxes[a].1.x).total_cmp(&(boxes[b].0.x + boxes[b].1.x)));
+    members = order.into_iter().map(|i| members[i]).collect();
+    Row { part, members, front, v }
+}
+
+/// u of the front middle: the seam between two front pieces, or the middle of a single one; failing that, opposite the
+/// back's.
+fn front_middle(
+    assigned: &[Assigned],
+    members: &[Member],
+    boxes: &[(Vec2, Vec2)],
+    links: &[Link],
+    sheet: &Sheet,
+) -> Option<f64> {
+    for facing in [Facing::Front, Facing::Back] {
+        let these: Vec<usize> = (0..members.len()).filter(|&i| assigned[members[i].piece].facing == Some(facing)).collect();
+        let middle = match these[..] {
+            [] => continue,
+            [one] => 0.5 * (boxes[one].0.x + boxes[one].1.x),
+            _ => {
+                let joined = these.iter().find_map(|&i| {
+                    these.iter().filter(|&&j| j != i).find_map(|&j| {
+                        let pair = [members[i].piece, members[j].piece];
+                        let link = links.iter().filter(|l| l.upright && l.pieces == pair).max_by(|a, b| a.length.total_cmp(&b.length))?;
+                        let sum: f64 = link.pairs.iter().map(|p| sheet.flat[p[0] as usize].x).sum();
+                        Some(sum / link.pairs.len() as f64 + members[i].shift.x)
+                    })
+                });
+                joined.unwrap_or_else(|| {
+                    let lo = these.iter().map(|&i| boxes[i].0.x).fold(f64::INFINITY, f64::min);
+                    let hi = these.iter().map(|&i| boxes[i].1.x).fold(f64::NEG_INFINITY, f64::max);
+                    0.5 * (lo + hi)
+                })
+            }
+        };
+        if facing == Facing::Front {
+            return Some(middle);
+        }
+        let lo = boxes.iter().map(|b| b.0.x).fold(f64::INFINITY, f64::min);
+        let hi = boxes.iter().map(|b| b.1.x).fold(f64::NEG_INFINITY, f64::max);
+        return Some(middle - 0.5 * (hi - lo));
+    }
+    None
+}
+
+/// Seams cut into links between pairs of pieces.
+fn links(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Link> {
+    let mut piece_of = vec![0usize; mesh.flat.len()];
+    for (i, piece) in mesh.pieces.iter().enumerate() {
+        piece_of[piece.particles.clone()].fill(i);
+    }
+    let mut out = Vec::new();
+    for seam in &mesh.seams {
+        for run in seam.pairs.chunk_by(|a, b| {
+            piece_of[a[0] as usize] == piece_of[b[0] as usize] && piece_of[a[1] as usize] == piece_of[b[1] as usize]
+        }) {
+            let pieces = [piece_of[run[0][0] as usize], piece_of[run[0][1] as usize]];
+            if pieces[0] == pieces[1] {
+                continue;
+            }
+            let mut extent = Vec2::zeros();
+            let mut length = 0.0;
+            for w in run.windows(2) {
+                for k in 0..2 {
+                    let d = sheet.flat[w[1][k] as usize] - sheet.flat[w[0][k] as usize];
+                    extent += d.abs();
+                    length += 0.5 * d.norm();
+                }
+            }
+            out.push(Link { pieces, pairs: run.to_vec(), upright: extent.y > extent.x, length });
+        }
+    }
+    out
+}
+
+/// Puts rows of one part over each other and says in which order to place them: rows of the trunk first.
+fn stack(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet) -> Vec<(usize, Option<usize>)> {
+    let mut order: Vec<(usize, Option<usize>)> = Vec::new();
+    let mut done = vec![false; rows.len()];
+    let mut roots: Vec<usize> = (0..rows.len()).collect();
+    roots.sort_by_key(|&r| (rows[r].part, std::cmp::Reverse((1e6 * (rows[r].v[1] - rows[r].v[0])) as i64), r));
+    for root in roots {
+        if done[root] {
+            continue;
+        }
+        done[root] = true;
+        let first = order.len();
+        order.push((root, None));
+        let mut next = first;
+        while next < order.len() {
+            let at = order[next].0;
+            next += 1;
+            let mut near: Vec<(usize, f64)> = Vec::new();
+            for link in links {
+                let [a, b] = link.pieces.map(|p| row_of[p]);
+                let other = if a == at { b } else if b == at { a } else { continue };
+                if other == usize::MAX || other == at || done[other] || rows[other].part != rows[at].part {
+                    continue;
+                }
+                match near.iter_mut().find(|n| n.0 == other) {
+                    Some(n) => n.1 += link.length,
+                    None => near.push((other, link.length)),
+                }
+            }
+            near.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+            for (other, _) in near {
+                done[other] = true;
+                put_beside(rows, links, row_of, sheet, at, other);
+                order.push((other, Some(at)));
+            }
+        }
+    }
+    order
+}
+
+/// Shifts row `other` up or down so that its seam with row `at` meets, without overlap.
+fn put_beside(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet, at: usize, other: usize) {
+    let level = |rows: &[Row], row: usize, p: u32, piece: usize| {
+        let shift = rows[row].members.iter().find(|m| m.piece == piece).map_or(0.0, |m| m.shift.y);
+        sheet.flat[p as usize].y + shift
+    };
+    let mut of_at = [f64::INFINITY, f64::NEG_INFINITY];
+    let mut of_other = of_at;
+    for link in links {
+        for k in 0..2 {
+            if row_of[link.pieces[k]] != at || row_of[link.pieces[1 - k]] != other {
+                continue;
+            }
+            for pair in &link.pairs {
+                let a = level(rows, at, pair[k], link.pieces[k]);
+                let b = level(rows, other, pair[1 - k], link.pieces[1 - k]);
+                of_at = [of_at[0].min(a), of_at[1].max(a)];
+                of_other = [of_other[0].min(b), of_other[1].max(b)];
+            }
+        }
+    }
+    let middle = |v: [f64; 2]| 0.5 * (v[0] + v[1]);
+    let above = middle(of_at) < middle(rows[at].v);
+    let dv = if above { of_at[0] - ROOM - of_other[1] } else { of_at[1] + ROOM - of_other[0] };
+    let row = &mut rows[other];
+    row.v = row.v.map(|v| v + dv);
+    for m in &mut row.members {
+        m.shift.y += dv;
+    }
+}

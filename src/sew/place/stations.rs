@@ -1,0 +1,113 @@
+//! A body part as stations along its axis, downward or outward.
+
+use crate::geometry::Vec3;
+use crate::mannequin::{BodyPart, Mannequin, PartKind};
+
+/// A cross-section with the frame that rows are bent in.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Station {
+    pub(super) center: Vec3,
+    /// Where a row's front middle goes: forward for the trunk, outward for an arm.
+    pub(super) front: Vec3,
+    /// To the right of somebody who looks at that middle from outside.
+    pub(super) right: Vec3,
+    pub(super) half_width: f64,
+    pub(super) half_depth: f64,
+}
+
+/// Stations of one part; the coordinate grows downward on trunk and neck (it is −y) and outward along an arm.
+pub(super) struct Stations {
+    list: Vec<(f64, Station)>,
+    landmarks: Vec<(String, f64)>,
+}
+
+impl Stations {
+    /// `None` when the body has no such part.
+    pub(super) fn new(body: &Mannequin, part: PartKind) -> Option<Self> {
+        let find = |kind: PartKind| body.parts.iter().find(|p| p.kind == kind);
+        let own = find(part)?;
+        let mut list = match part {
+            PartKind::Torso | PartKind::Neck => {
+                let mut list: Vec<(f64, Station)> = own.sections.iter().map(|s| (-s.center.y, upright(s))).collect();
+                if part == PartKind::Torso {
+                    let legs = find(PartKind::LeftLeg).map(|leg| both_legs(leg, &list));
+                    list.extend(legs.into_iter().flatten());
+                }
+                list
+            }
+            _ => along_limb(own, part),
+        };
+        list.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let landmarks = own.landmarks.iter().map(|(n, p)| (n.to_lowercase(), -p.y)).collect();
+        (!list.is_empty()).then_some(Self { list, landmarks })
+    }
+
+    /// Coordinate of the end where rows begin: the neck side of the trunk, the shoulder end of an arm, the foot of the neck.
+    pub(super) fn low(&self) -> f64 {
+        let upright = self.list[0].1.front == Vec3::z();
+        let neck = upright && self.list.iter().all(|s| s.1.half_width < 0.12);
+        if neck { self.list[self.list.len() - 1].0 } else { self.list[0].0 }
+    }
+
+    /// Coordinate of the first landmark that the part has.
+    pub(super) fn landmark(&self, names: &[&str]) -> Option<f64> {
+        names.iter().find_map(|n| self.landmarks.iter().find(|l| l.0.contains(n)).map(|l| l.1))
+    }
+
+    /// The station at a coordinate, linear between sections, straight on beyond the ends.
+    pub(super) fn at(&self, s: f64) -> Station {
+        let n = self.list.len();
+        if n == 1 {
+            return self.list[0].1;
+        }
+        let k = self.list.partition_point(|e| e.0 <= s).clamp(1, n - 1);
+        let ((s0, a), (s1, b)) = (self.list[k - 1], self.list[k]);
+        let t = if s1 > s0 { (s - s0) / (s1 - s0) } else { 0.0 };
+        let inside = t.clamp(0.0, 1.0);
+        let mix = |x: f64, y: f64| x + (y - x) * inside;
+        let mut out = if inside < 0.5 { a } else { b };
+        out.half_width = mix(a.half_width, b.half_width);
+        out.half_depth = mix(a.half_depth, b.half_depth);
+        // The centre goes straight on; upright parts only change their height there.
+        out.center = a.center + (b.center - a.center) * inside;
+        let beyond = (t - inside) * (s1 - s0);
+        let down = out.right.cross(&out.front);
+        out.center += down * beyond;
+        out
+    }
+}
+
+fn upright(s: &crate::mannequin::Section) -> Station {
+    Station { center: s.center, front: Vec3::z(), right: Vec3::x(), half_width: s.half_width, half_depth: s.half_depth }
+}
+
+/// Below the crotch the trunk's ring goes round both legs.
+fn both_legs(leg: &BodyPart, trunk: &[(f64, Station)]) -> Vec<(f64, Station)> {
+    let lowest = trunk.iter().map(|s| s.0).fold(f64::NEG_INFINITY, f64::max);
+    leg.sections
+        .iter()
+        .filter(|s| -s.center.y > lowest)
+        .map(|s| {
+            let center = Vec3::new(0.0, s.center.y, s.center.z);
+            let half_width = s.center.x.abs() + s.half_width;
+            (-s.center.y, Station { center, front: Vec3::z(), right: Vec3::x(), half_width, half_depth: s.half_depth })
+        })
+        .collect()
+}
+
+fn along_limb(part: &BodyPart, kind: PartKind) -> Vec<(f64, Station)> {
+    let sideways = if matches!(kind, PartKind::LeftArm | PartKind::LeftLeg) { Vec3::x() } else { -Vec3::x() };
+    let mut out = Vec::new();
+    let mut s = 0.0;
+    for (i, section) in part.sections.iter().enumerate() {
+        if i > 0 {
+            s += (section.center - part.sections[i - 1].center).norm();
+        }
+        let d = section.axis;
+        let front = (sideways - d * d.dot(&sideways)).try_normalize(1e-9).unwrap_or(sideways);
+        let right = front.cross(&d);
+        let (half_width, half_depth) = (section.half_depth, section.half_width);
+        out.push((s, Station { center: section.center, front, right, half_width, half_depth }));
+    }
+    out
+}
