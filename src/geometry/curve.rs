@@ -1,6 +1,8 @@
 //! A smooth path in the plane; the only user of kurbo.
 
-use kurbo::{BezPath, ParamCurve, ParamCurveArclen, ParamCurveDeriv, PathSeg, Point, Shape, Vec2 as KVec};
+use kurbo::{
+    BezPath, ParamCurve, ParamCurveArclen, ParamCurveDeriv, ParamCurveNearest, PathSeg, Point, Shape, Vec2 as KVec,
+};
 
 use super::Vec2;
 
@@ -221,6 +223,19 @@ impl Path {
         (self.end() - self.start()).normalize()
     }
 
+    /// Arc length of the point nearest to `p` (the first of several), and its distance from `p`.
+    pub fn nearest(&self, p: Vec2) -> (f64, f64) {
+        let mut best = (0.0, f64::INFINITY);
+        for (segment, &start) in self.segments.iter().zip(&self.at) {
+            let near = segment.nearest(point(p), LENGTH_ACCURACY);
+            let distance = near.distance_sq.sqrt();
+            if distance < best.1 {
+                best = (start + segment.subsegment(0.0..near.t).arclen(LENGTH_ACCURACY), distance);
+            }
+        }
+        best
+    }
+
     /// The part from arc length `from` to `to` (`from < to`, both clamped).
     pub fn part(&self, from: f64, to: f64) -> Self {
         let (from, to) = (from.clamp(0.0, self.length()), to.clamp(0.0, self.length()));
@@ -317,6 +332,17 @@ mod tests {
         assert_relative_eq!(q.length(), 0.13, epsilon = 1e-8);
         assert_relative_eq!(q.start(), p.point(0.02), epsilon = 1e-9);
         assert_relative_eq!(p.reversed().point(0.03), p.point(l - 0.03), epsilon = 1e-8);
+    }
+
+    #[test]
+    fn the_nearest_point_is_found_on_any_segment() {
+        let p = Path::parse(Vec2::zeros(), "L 100 0 C 150 0, 200 50, 200 100", 1e-3).expect("path");
+        for s in [0.03, 0.1, 0.17] {
+            let normal = Vec2::new(-p.tangent(s).y, p.tangent(s).x);
+            let (at, distance) = p.nearest(p.point(s) + 0.005 * normal);
+            assert_relative_eq!(at, s, epsilon = 1e-6);
+            assert_relative_eq!(distance, 0.005, epsilon = 1e-6);
+        }
     }
 
     #[test]

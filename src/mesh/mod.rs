@@ -1,9 +1,57 @@
 //! Pieces as regular spring-mass grids (F1).
 
+mod breaks;
+mod build;
+mod check;
+mod chords;
+mod coons;
+mod error;
+mod frame;
+mod grid;
+mod improve;
+mod lattice;
+mod limits;
+mod lines;
+mod links;
+mod patch;
+mod sampling;
+mod shape;
+mod springs;
+mod strip;
+
 use std::ops::Range;
+
+pub use build::{build, build_with};
+pub use check::{CheckError, check};
+pub use error::{MeshError, SeamFault};
+pub use springs::{Spring, SpringClass};
+
+use build::Fill;
 
 use crate::geometry::Vec2;
 use crate::pattern::{EdgeId, LineKind};
+
+/// How pieces are filled.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// Long narrow four-sided pieces (bands) in straight columns from rim to rim, all others as a grid.
+    #[default]
+    Auto,
+    /// Every piece as a grid along the grain.
+    Grid,
+    /// Every four-sided piece by transfinite (Coons) interpolation between its sides, where they can be given equal
+    /// numbers of particles; all others as a grid.
+    Coons,
+}
+
+/// What the mesh of a garment should be like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeshOptions {
+    /// Length of the springs along warp and weft, metres.
+    pub spacing: f64,
+    /// How pieces are filled.
+    pub method: Method,
+}
 
 /// All pieces of a garment, meshed; particles of different pieces are different particles, also along seams.
 #[derive(Clone, Debug, Default)]

@@ -1,0 +1,181 @@
+//! What can go wrong between a checked garment and its mesh.
+
+use crate::geometry::Vec2;
+
+/// Why a garment could not be meshed. Lengths are stored in metres and shown in millimetres.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MeshError {
+    /// The spacing is zero, negative, infinite or not a number.
+    #[error("mesh size must be a positive length, not {} mm", mm(*.0))]
+    Spacing(f64),
+    /// A piece would be less than two springs wide.
+    #[error(
+        "mesh size {} mm leaves {springs} spring{} across '{piece}' ({} mm wide); use <= {} mm",
+        mm(*.spacing), plural(*.springs), mm(*.width), mm(*.usable)
+    )]
+    TooCoarse {
+        /// The piece.
+        piece: String,
+        /// Its width.
+        width: f64,
+        /// The spacing asked for.
+        spacing: f64,
+        /// Springs that would fit across.
+        springs: usize,
+        /// A spacing that puts three springs across.
+        usable: f64,
+    },
+    /// The mesh would not fit in memory or in anyone's patience.
+    #[error(
+        "mesh size {} mm makes about {particles} particles (limit {limit}); use >= {} mm",
+        mm(*.spacing), mm(*.usable)
+    )]
+    TooMany {
+        /// Expected number.
+        particles: usize,
+        /// Largest number that is meshed.
+        limit: usize,
+        /// The spacing asked for.
+        spacing: f64,
+        /// A spacing that stays within the limit.
+        usable: f64,
+    },
+    /// A piece has no outline, or a ring has no edge.
+    #[error("piece '{piece}' has no outline")]
+    NoOutline {
+        /// The piece.
+        piece: String,
+    },
+    /// The edges of a piece enclose no positive area.
+    #[error("outline of '{piece}' encloses {} mm2; it must run clockwise on screen, with its holes inside", (area * 1e6).round())]
+    InsideOut {
+        /// The piece.
+        piece: String,
+        /// Signed area, square metres.
+        area: f64,
+    },
+    /// An edge does not start where the one before it ends.
+    #[error("outline of '{piece}' does not close: edge '{edge}' starts {} mm from the end of the edge before it", mm(*.gap))]
+    Open {
+        /// The piece.
+        piece: String,
+        /// The edge after the gap.
+        edge: String,
+        /// Width of the gap.
+        gap: f64,
+    },
+    /// An edge has (almost) no length.
+    #[error("edge '{piece}.{edge}' is only {} mm long; join it to its neighbour", mm(*.length))]
+    ShortEdge {
+        /// The piece.
+        piece: String,
+        /// The edge.
+        edge: String,
+        /// Its length.
+        length: f64,
+    },
+    /// A seam names what is not there.
+    #[error("seam '{seam}': {fault}")]
+    Seam {
+        /// The seam.
+        seam: String,
+        /// What is wrong with it.
+        fault: SeamFault,
+    },
+    /// Matching seam to seam never comes to an end on an edge.
+    #[error(
+        "matching the seams puts more than {count} points on '{piece}.{edge}': it is sewn, through other seams, to a \
+         shifted stretch of itself; check the ranges of its seams"
+    )]
+    Endless {
+        /// The piece.
+        piece: String,
+        /// The edge.
+        edge: String,
+        /// Points when the search was given up.
+        count: usize,
+    },
+    /// Two rims or lines cross once they are sampled.
+    #[error(
+        "in '{piece}', {first} and {second} cross or touch near ({}, {}) at mesh size {} mm; mend the outline or use a \
+         smaller mesh size", mm(.at.x), mm(.at.y), mm(*.spacing)
+    )]
+    Crossing {
+        /// The piece.
+        piece: String,
+        /// An edge or line.
+        first: String,
+        /// Another.
+        second: String,
+        /// Where, flat.
+        at: Vec2,
+        /// The spacing asked for.
+        spacing: f64,
+    },
+    /// A line that bends or gathers the cloth lies outside it.
+    #[error("line '{line}' lies outside piece '{piece}'")]
+    LineOutside {
+        /// The piece.
+        piece: String,
+        /// The line.
+        line: String,
+    },
+    /// The triangulator refused a coordinate.
+    #[error("cannot triangulate '{piece}': {why}")]
+    Triangulation {
+        /// The piece.
+        piece: String,
+        /// The triangulator's reason.
+        why: String,
+    },
+}
+
+/// What is wrong with a seam.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SeamFault {
+    /// A span's edge is not in the garment.
+    #[error("a span names edge {index} of ring {ring} of piece {piece}, which does not exist")]
+    NoSuchEdge {
+        /// Piece index.
+        piece: usize,
+        /// Ring index.
+        ring: usize,
+        /// Edge index.
+        index: usize,
+    },
+    /// A span reaches past its edge.
+    #[error("range {}..{} mm of edge '{edge}' reaches past its ends (it is {} mm long)", mm(*.from), mm(*.to), mm(*.length))]
+    PastTheEnd {
+        /// The edge.
+        edge: String,
+        /// Start of the span.
+        from: f64,
+        /// End of the span.
+        to: f64,
+        /// Length of the edge.
+        length: f64,
+    },
+    /// One side has no length.
+    #[error("one side has no length")]
+    NoLength,
+    /// The marks do not rise from (0, 0) to the two lengths.
+    #[error("its marks must rise on both sides from (0, 0) to ({}, {}) mm", mm(*.0), mm(*.1))]
+    Marks(f64, f64),
+    /// The two sides could not be cut into the same number of stretches.
+    #[error("cannot match {a} stretches of one side with {b} of the other; marks or edge ends lie within 0.01 mm of each other")]
+    Unmatched {
+        /// Stretches of the first chain.
+        a: usize,
+        /// Stretches of the second chain.
+        b: usize,
+    },
+}
+
+/// Millimetres with at most two decimals, no trailing zeros.
+fn mm(metres: f64) -> f64 {
+    (metres * 1e5).round() / 100.0
+}
+
+fn plural(n: usize) -> &'static str {
+    if n == 1 { "" } else { "s" }
+}

@@ -1,0 +1,229 @@
+//! The regular core of a piece: lattice points well inside it, and the square cells between them.
+
+use super::frame::Frame;
+use super::lattice::Lattice;
+use crate::geometry::Vec2;
+
+/// Lattice points nearer than this many spacings to the frame are dropped. Any point of a cell's side is within half
+/// a step of an end of that side, so no frame spring can slip between two kept neighbours.
+const CLEARANCE: f64 = 0.58;
+/// A frame particle this near (in cells) to a lattice point takes its place.
+const COINCIDES: f64 = 0.02;
+/// ... unless a frame spring this short (in spacings) starts from it: it could enter the cell beside the particle.
+const SHORT: f64 = 0.6;
+/// No vertex.
+const NONE: u32 = u32::MAX;
+
+/// The square cells of a piece and the vertices they use.
+pub(super) struct Core {
+    /// Frame particles, then lattice points.
+    pub(super) points: Vec<Vec2>,
+    /// Whether a vertex is a corner of a cell.
+    pub(super) in_cell: Vec<bool>,
+    /// Two triangles a cell, diagonals alternating.
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// Directed sides of the cells, each cell on the positive side, sorted.
+    pub(super) sides: Vec<[u32; 2]>,
+}
+
+impl Core {
+    /// Lays the core into a frame.
+    pub(super) fn lay(frame: &Frame, lattice: &Lattice, spacing: f64) -> Self {
+        let mut raster = Raster::new(frame, lattice);
+        raster.keep_inside(frame);
+        raster.clear_near(frame, lattice, spacing);
+        let mut points = frame.points.clone();
+        raster.number(lattice, &mut points);
+        raster.seat_frame(frame, spacing);
+        raster.block_crossed(frame);
+        raster.cells(frame, points)
+    }
+}
+
+/// A box of lattice points with what is known of each.
+struct Raster {
+    low: [i64; 2],
+    size: [usize; 2],
+    /// Frame particles in cells from the box's corner.
+    frame: Vec<Vec2>,
+    /// Vertex at each lattice point.
+    vertex: Vec<u32>,
+    /// Whether a frame spring runs through the cell whose low corner is the lattice point.
+    crossed: Vec<bool>,
+}
+
+impl Raster {
+    fn new(frame: &Frame, lattice: &Lattice) -> Self {
+        let cells: Vec<Vec2> = frame.points.iter().map(|&p| lattice.cells(p)).collect();
+        let bound = |pick: fn(f64, f64) -> f64, start: f64| {
+            cells.iter().fold(Vec2::repeat(start), |b, c| Vec2::new(pick(b.x, c.x), pick(b.y, c.y)))
+        };
+        let (min, max) = (bound(f64::min, f64::INFINITY), bound(f64::max, f64::NEG_INFINITY));
+        let low = [min.x.floor() as i64 - 1, min.y.floor() as i64 - 1];
+        let size = [(max.x.ceil() as i64 + 2 - low[0]) as usize, (max.y.ceil() as i64 + 2 - low[1]) as usize];
+        let corner = Vec2::new(low[0] as f64, low[1] as f64);
+        let n = size[0] * size[1];
+        Self {
+            low,
+            size,
+            frame: cells.iter().map(|c| c - corner).collect(),
+            vertex: vec![NONE; n],
+            crossed: vec![false; n],
+        }
+    }
+
+    fn index(&self, i: usize, j: usize) -> usize {
+        j * self.size[0] + i
+    }
+
+    /// Marks (with a placeholder number) the lattice points inside the rim: row by row, between every second crossing.
+    fn keep_inside(&mut self, frame: &Frame) {
+        let mut crossings: Vec<Vec<f64>> = vec![Vec::new(); self.size[1]];
+        for &[a, b] in &frame.rim_springs {
+            let (p, q) = (self.frame[a as usize], self.frame[b as usize]);
+            let (p, q) = if p.y <= q.y { (p, q) } else { (q, p) };
+            // Rows in (p.y, q.y]: a row through a particle counts exactly one of its two springs on each side.
+            for j in (p.y.floor() as usize + 1)..=(q.y.floor() as usize) {
+                crossings[j].push(p.x + (q.x - p.x) * (j as f64 - p.y) / (q.y - p.y));
+            }
+        }
+        for (j, xs) in crossings.iter_mut().enumerate() {
+            xs.sort_by(f64::total_cmp);
+            for pair in xs.chunks_exact(2) {
+                for i in pair[0].ceil() as usize..=pair[1].floor() as usize {
+                    let at = self.index(i, j);
+                    self.vertex[at] = 0;
+                }
+            }
+        }
+    }
+
+    /// Drops lattice points near the frame.
+    fn clear_near(&mut self, frame: &Frame, lattice: &Lattice, spacing: f64) {
+        let clearance = CLEARANCE * spacing;
+        let scale = Vec2::new(lattice.step[0], lattice.step[1]);
+        for [a, b] in frame.springs() {
+            let (p, q) = (self.frame[a as usize], self.frame[b as usize]);
+            for (i, j) in self.around(p, q, CLEARANCE * 1.2) {
+                let at = Vec2::new(i as f64, j as f64);
+                let (d, e) = ((q - p).component_mul(&scale), (at - p).component_mul(&scale));
+                let t = (e.dot(&d) / d.norm_squared()).clamp(0.0, 1.0);
+                if (e - t * d).norm() < clearance {
+                    let at = self.index(i, j);
+                    self.vertex[at] = NONE;
+                }
+            }
+        }
+    }
+
+    /// Lattice points of the box around a segment, widened by `margin` cells.
+    fn around(&self, p: Vec2, q: Vec2, margin: f64) -> impl Iterator<Item = (usize, usize)> + use<> {
+        let range = |a: f64, b: f64, size: usize| {
+            let low = (a.min(b) - margin).ceil().max(0.0) as usize;
+            let high = (a.max(b) + margin).floor().min(size as f64 - 1.0) as usize;
+            low..=high
+        };
+        let (columns, rows) = (range(p.x, q.x, self.size[0]), range(p.y, q.y, self.size[1]));
+        rows.flat_map(move |j| columns.clone().map(move |i| (i, j)))
+    }
+
+    /// Numbers the kept lattice points, row by row, and appends their positions.
+    fn number(&mut self, lattice: &Lattice, points: &mut Vec<Vec2>) {
+        for (k, vertex) in self.vertex.iter_mut().enumerate().filter(|(_, v)| **v != NONE) {
+            let (i, j) = ((k % self.size[0]) as i64, (k / self.size[0]) as i64);
+            *vertex = points.len() as u32;
+            points.push(lattice.point(self.low[0] + i, self.low[1] + j));
+        }
+    }
+
+    /// Lets frame particles that lie on a lattice point take its place.
+    fn seat_frame(&mut self, frame: &Frame, spacing: f64) {
+        let mut shortest = vec![f64::INFINITY; frame.points.len()];
+        for [a, b] in frame.springs() {
+            let length = (frame.points[a as usize] - frame.points[b as usize]).norm();
+            for v in [a, b] {
+                shortest[v as usize] = shortest[v as usize].min(length);
+            }
+        }
+        for (v, c) in self.frame.iter().enumerate() {
+            let near = Vec2::new(c.x.round(), c.y.round());
+            if (c - near).amax() < COINCIDES && shortest[v] > SHORT * spacing {
+                let at = self.index(near.x as usize, near.y as usize);
+                // Both lips of a slit may lie there: then neither takes it.
+                let taken = (self.vertex[at] as usize) < self.frame.len();
+                self.vertex[at] = if taken { NONE } else { v as u32 };
+            }
+        }
+    }
+
+    /// Marks the cells that a frame spring runs through.
+    fn block_crossed(&mut self, frame: &Frame) {
+        for [a, b] in frame.springs() {
+            let (p, q) = (self.frame[a as usize], self.frame[b as usize]);
+            for (i, j) in self.around(p, q, 1.0) {
+                // Shrunk a little more than frame particles may be off their lattice points.
+                let low = Vec2::new(i as f64, j as f64).add_scalar(1.5 * COINCIDES);
+                if segment_enters(p, q, low, 1.0 - 3.0 * COINCIDES) {
+                    let at = self.index(i, j);
+                    self.crossed[at] = true;
+                }
+            }
+        }
+    }
+
+    /// Cells with all four corners, at least one of them off the frame, and no frame spring inside.
+    fn cells(&self, frame: &Frame, points: Vec<Vec2>) -> Core {
+        let fixed = frame.points.len() as u32;
+        let mut springs: Vec<[u32; 2]> = frame.springs().map(|[a, b]| [a.min(b), a.max(b)]).collect();
+        springs.sort_unstable();
+        let mut core = Core { in_cell: vec![false; points.len()], points, triangles: Vec::new(), sides: Vec::new() };
+        for j in 0..self.size[1] - 1 {
+            for i in 0..self.size[0] - 1 {
+                let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| self.vertex[self.index(i, j)]);
+                if self.crossed[self.index(i, j)] || corners.contains(&NONE) || corners.iter().all(|&v| v < fixed) {
+                    continue;
+                }
+                let sides = [0, 1, 2, 3].map(|k| [corners[k], corners[(k + 1) % 4]]);
+                // A side between two frame particles must itself be a spring of the frame.
+                let bad = |&[a, b]: &[u32; 2]| {
+                    a < fixed && b < fixed && springs.binary_search(&[a.min(b), a.max(b)]).is_err()
+                };
+                if sides.iter().any(bad) {
+                    continue;
+                }
+                let even = (self.low[0] + i as i64 + self.low[1] + j as i64).rem_euclid(2) == 0;
+                core.push(corners, sides, even);
+            }
+        }
+        core.sides.sort_unstable();
+        core
+    }
+}
+
+impl Core {
+    fn push(&mut self, [a, b, c, d]: [u32; 4], sides: [[u32; 2]; 4], even: bool) {
+        for v in [a, b, c, d] {
+            self.in_cell[v as usize] = true;
+        }
+        self.sides.extend(sides);
+        self.triangles.extend(if even { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] });
+    }
+}
+
+/// Whether a segment enters the square with this low corner and size (slabs).
+fn segment_enters(p: Vec2, q: Vec2, low: Vec2, size: f64) -> bool {
+    let (mut t0, mut t1) = (0.0_f64, 1.0_f64);
+    for k in 0..2 {
+        let (start, d) = (p[k] - low[k], q[k] - p[k]);
+        if d == 0.0 {
+            if start < 0.0 || start > size {
+                return false;
+            }
+            continue;
+        }
+        let (a, b) = (-start / d, (size - start) / d);
+        t0 = t0.max(a.min(b));
+        t1 = t1.min(a.max(b));
+    }
+    t0 <= t1
+}

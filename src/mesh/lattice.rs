@@ -1,0 +1,81 @@
+//! The grain-aligned lattice of a piece: where its rows and columns run.
+
+use super::frame::{Frame, Straight};
+use crate::geometry::Vec2;
+
+/// A straight stretch runs along an axis when it strays from it by less than this share of the spacing.
+const STRAY: f64 = 0.05;
+/// A stretch lends the lattice its own step when that is within this share of the spacing.
+const STEP_SLACK: f64 = 0.1;
+/// ... and when it spans at least this share of the piece along the axis; a shorter one says little about the rest.
+const SPAN: f64 = 0.25;
+
+/// Rows along the weft, columns along the warp.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lattice {
+    origin: Vec2,
+    /// Unit weft and warp; the warp lies on the weft's positive side.
+    axes: [Vec2; 2],
+    /// Cell size along weft and warp, metres.
+    pub(super) step: [f64; 2],
+}
+
+impl Lattice {
+    /// Fits a lattice to a piece: it takes the step and place of the longest straight, evenly sampled stretch along
+    /// each axis, so that its rows end on the rim's own particles; else it puts a row on the longest stretch across
+    /// the axis; else a row through the middle of the piece, which makes it symmetric if the piece is.
+    pub(super) fn fit(frame: &Frame, warp: Vec2, spacing: f64) -> Self {
+        let axes = [Vec2::new(warp.y, -warp.x), warp];
+        let fits = axes.map(|axis| fit_axis(frame, axis, spacing));
+        Self { origin: axes[0] * fits[0].0 + axes[1] * fits[1].0, axes, step: [fits[0].1, fits[1].1] }
+    }
+
+    /// A point in cells from the origin, along weft and warp.
+    pub(super) fn cells(&self, p: Vec2) -> Vec2 {
+        let d = p - self.origin;
+        Vec2::new(d.dot(&self.axes[0]) / self.step[0], d.dot(&self.axes[1]) / self.step[1])
+    }
+
+    /// The lattice point in column `i` and row `j`.
+    pub(super) fn point(&self, i: i64, j: i64) -> Vec2 {
+        self.origin + self.axes[0] * (i as f64 * self.step[0]) + self.axes[1] * (j as f64 * self.step[1])
+    }
+}
+
+/// Offset and step along `axis`.
+fn fit_axis(frame: &Frame, axis: Vec2, spacing: f64) -> (f64, f64) {
+    let along = |s: &&Straight| {
+        let d = s.to - s.from;
+        let step = d.norm() / s.springs as f64;
+        d.perp(&axis).abs() < STRAY * spacing && (step / spacing - 1.0).abs() < STEP_SLACK
+    };
+    let across = |s: &&Straight| (s.to - s.from).dot(&axis).abs() < STRAY * spacing;
+    let (low, high) = extent(frame, axis);
+    if let Some(s) = longest(frame.straights.iter().filter(along))
+        && length(s) >= SPAN * (high - low)
+    {
+        return (s.from.dot(&axis), length(s) / s.springs as f64);
+    }
+    match longest(frame.straights.iter().filter(across)) {
+        Some(s) => (0.5 * (s.from + s.to).dot(&axis), spacing),
+        None => (0.5 * (low + high), spacing),
+    }
+}
+
+fn length(s: &Straight) -> f64 {
+    (s.to - s.from).norm()
+}
+
+/// The first of the longest; lengths that differ by rounding only count as equal, so that a mirrored piece chooses
+/// the mirrored stretch.
+fn longest<'a>(stretches: impl Iterator<Item = &'a Straight>) -> Option<&'a Straight> {
+    stretches.fold(None, |best, s| match best {
+        Some(b) if length(s) <= length(b) * (1.0 + 1e-9) => Some(b),
+        _ => Some(s),
+    })
+}
+
+fn extent(frame: &Frame, axis: Vec2) -> (f64, f64) {
+    let along = frame.points[..frame.rim].iter().map(|p| p.dot(&axis));
+    along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+}

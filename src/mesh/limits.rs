@@ -1,0 +1,68 @@
+//! Refuses spacings that do not suit a garment, before anything is allocated.
+
+use super::error::MeshError;
+use crate::pattern::{Garment, Piece};
+
+/// Springs that must fit across a piece: with fewer than one and a half there is no inner particle to bend round.
+const SPRINGS_ACROSS: f64 = 1.5;
+/// Springs across that an error recommends.
+const GOOD_SPRINGS_ACROSS: f64 = 3.0;
+/// Largest mesh that is built; two million particles take some gigabytes in the later stages.
+const MOST_PARTICLES: usize = 2_000_000;
+
+/// Checks the spacing against every piece.
+pub(super) fn check(garment: &Garment, spacing: f64) -> Result<(), MeshError> {
+    if !(spacing.is_finite() && spacing > 0.0) {
+        return Err(MeshError::Spacing(spacing));
+    }
+    let mut expected = 0.0;
+    for piece in &garment.pieces {
+        let (area, perimeter) = measure(piece)?;
+        let width = width(area, perimeter);
+        if width < SPRINGS_ACROSS * spacing {
+            return Err(MeshError::TooCoarse {
+                piece: piece.name.clone(),
+                width,
+                spacing,
+                springs: (width / spacing).round().max(1.0) as usize,
+                usable: width / GOOD_SPRINGS_ACROSS,
+            });
+        }
+        expected += area / (spacing * spacing) + 0.5 * perimeter / spacing;
+    }
+    if expected > MOST_PARTICLES as f64 {
+        return Err(MeshError::TooMany {
+            particles: expected as usize,
+            limit: MOST_PARTICLES,
+            spacing,
+            usable: round_up(spacing * (expected / MOST_PARTICLES as f64).sqrt()),
+        });
+    }
+    Ok(())
+}
+
+/// Area and total rim length of a piece.
+fn measure(piece: &Piece) -> Result<(f64, f64), MeshError> {
+    if piece.loops.is_empty() || piece.loops.iter().any(Vec::is_empty) {
+        return Err(MeshError::NoOutline { piece: piece.name.clone() });
+    }
+    let edges = || piece.loops.iter().flatten();
+    let area = 0.5 * edges().map(|e| e.path.double_area()).sum::<f64>();
+    let perimeter: f64 = edges().map(|e| e.path.length()).sum();
+    if !(area > 0.0 && perimeter.is_finite()) {
+        return Err(MeshError::InsideOut { piece: piece.name.clone(), area });
+    }
+    Ok((area, perimeter))
+}
+
+/// Width of the rectangle with this area and perimeter; a bent strip or a ring has the width of the strip.
+fn width(area: f64, perimeter: f64) -> f64 {
+    let half = 0.5 * perimeter;
+    let root = (half * half - 4.0 * area).max(0.0).sqrt();
+    0.5 * (half - root)
+}
+
+/// The next tenth of a millimetre.
+fn round_up(metres: f64) -> f64 {
+    (metres * 1e4).ceil() / 1e4
+}

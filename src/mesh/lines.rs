@@ -1,0 +1,196 @@
+//! Internal lines: which of them become chains of springs, where they meet the rim and each other.
+
+use super::links::EdgeTable;
+use super::sampling::springs_for;
+use crate::geometry::{Path, Vec2};
+use crate::pattern::{EdgeId, Garment, LineKind, Piece};
+
+/// A line's end this near (metres) to the rim, to a corner or to another line is meant to be on it.
+const REACHES: f64 = 1e-3;
+/// Lines are searched for crossings in chords of this length (metres): shorter than any bend of a sewn line.
+const CHORD: f64 = 2.5e-3;
+/// Newton steps that polish a crossing; each doubles the correct digits of a chord's guess.
+const POLISH: usize = 4;
+
+/// The lines of a piece, ready to be sampled.
+pub(super) struct LinePlan<'g> {
+    /// Lines that bend or gather, in the piece's order.
+    pub(super) lines: Vec<PlannedLine<'g>>,
+    /// Places where lines meet.
+    pub(super) knots: Vec<Vec2>,
+}
+
+/// One line and the places where it must have a particle.
+pub(super) struct PlannedLine<'g> {
+    /// Its number in [`Piece::lines`].
+    pub(super) number: usize,
+    /// Its course.
+    pub(super) path: &'g Path,
+    /// Sorted along the line; the ends are the first and the last.
+    pub(super) stops: Vec<Stop>,
+    /// Springs between neighbouring stops.
+    pub(super) springs: Vec<usize>,
+}
+
+/// A place on a line that must have a particle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stop {
+    /// Arc length along the line.
+    pub(super) at: f64,
+    /// Edge number and arc length, where the line joins the rim.
+    pub(super) rim: Option<(usize, f64)>,
+    /// Number in [`LinePlan::knots`], where it joins another line.
+    pub(super) knot: Option<usize>,
+}
+
+impl<'g> LinePlan<'g> {
+    /// Plans the lines of piece `number`.
+    pub(super) fn new(garment: &'g Garment, number: usize, edges: &EdgeTable, spacing: f64) -> Self {
+        let piece = &garment.pieces[number];
+        let kept = piece.lines.iter().enumerate().filter(|(_, l)| !matches!(l.kind, LineKind::Mark(_)));
+        let lines = kept
+            .map(|(n, line)| PlannedLine {
+                number: n,
+                path: &line.path,
+                stops: [0.0, line.path.length()]
+                    .map(|at| Stop { at, rim: rim_at(piece, number, edges, line.path.point(at)), knot: None })
+                    .to_vec(),
+                springs: Vec::new(),
+            })
+            .collect();
+        let mut plan = Self { lines, knots: Vec::new() };
+        plan.meet();
+        for line in &mut plan.lines {
+            line.springs = line.stops.windows(2).map(|w| springs_for(w[1].at - w[0].at, spacing)).collect();
+        }
+        plan
+    }
+
+    /// Rim places the lines ask for.
+    pub(super) fn rim_seeds(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.lines.iter().flat_map(|l| l.stops.iter().filter_map(|s| s.rim))
+    }
+
+    /// Finds where lines end on each other or cross.
+    fn meet(&mut self) {
+        for i in 0..self.lines.len() {
+            for j in 0..self.lines.len() {
+                if i != j {
+                    self.ends_on(i, j);
+                }
+                if i < j {
+                    for (s, t) in crossings(self.lines[i].path, self.lines[j].path) {
+                        self.tie(i, s, j, t);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Ties the free ends of line `i` to line `j` where they reach it.
+    fn ends_on(&mut self, i: usize, j: usize) {
+        for at in [0.0, self.lines[i].path.length()] {
+            let (t, distance) = self.lines[j].path.nearest(self.lines[i].path.point(at));
+            if distance <= REACHES {
+                self.tie(i, at, j, t);
+            }
+        }
+    }
+
+    /// Makes line `i` at `s` and line `j` at `t` share a particle, unless the rim already gives them one there.
+    fn tie(&mut self, i: usize, s: f64, j: usize, t: f64) {
+        let (a, b) = (self.lines[i].stop_near(s), self.lines[j].stop_near(t));
+        let on_rim = |l: &PlannedLine, k: Option<usize>| k.is_some_and(|k| l.stops[k].rim.is_some());
+        if on_rim(&self.lines[i], a) || on_rim(&self.lines[j], b) {
+            return;
+        }
+        let known = |l: &PlannedLine, k: Option<usize>| k.and_then(|k| l.stops[k].knot);
+        let knot = known(&self.lines[i], a).or_else(|| known(&self.lines[j], b)).unwrap_or_else(|| {
+            self.knots.push(self.lines[j].path.point(t));
+            self.knots.len() - 1
+        });
+        self.lines[i].set_knot(s, a, knot);
+        self.lines[j].set_knot(t, b, knot);
+    }
+}
+
+impl PlannedLine<'_> {
+    fn stop_near(&self, s: f64) -> Option<usize> {
+        self.stops.iter().position(|stop| (stop.at - s).abs() <= REACHES)
+    }
+
+    fn set_knot(&mut self, s: f64, stop: Option<usize>, knot: usize) {
+        match stop {
+            Some(k) => self.stops[k].knot = Some(knot),
+            None => {
+                let k = self.stops.partition_point(|stop| stop.at < s);
+                self.stops.insert(k, Stop { at: s, rim: None, knot: Some(knot) });
+            }
+        }
+    }
+}
+
+/// Where point `p` meets the rim, if it reaches it; a corner within reach is preferred, so that no tiny spring arises.
+fn rim_at(piece: &Piece, number: usize, edges: &EdgeTable, p: Vec2) -> Option<(usize, f64)> {
+    let mut best: Option<(f64, usize, f64)> = None;
+    for (ring, loop_edges) in piece.loops.iter().enumerate() {
+        for (index, edge) in loop_edges.iter().enumerate() {
+            let (mut s, distance) = edge.path.nearest(p);
+            if distance > REACHES || best.is_some_and(|b| b.0 <= distance) {
+                continue;
+            }
+            let length = edge.path.length();
+            if s < REACHES {
+                s = 0.0;
+            } else if s > length - REACHES {
+                s = length;
+            }
+            best = edges.number(EdgeId { piece: number, ring, index }).map(|e| (distance, e, s)).or(best);
+        }
+    }
+    best.map(|(_, edge, s)| (edge, s))
+}
+
+/// Arc lengths on both paths where they cross.
+fn crossings(a: &Path, b: &Path) -> Vec<(f64, f64)> {
+    let (a_chords, b_chords) = (chords(a), chords(b));
+    let mut found = Vec::new();
+    for v in a_chords.windows(2) {
+        for w in b_chords.windows(2) {
+            if let Some((x, y)) = segments_cross([v[0].1, v[1].1], [w[0].1, w[1].1]) {
+                found.push(polish(a, b, v[0].0 + x * (v[1].0 - v[0].0), w[0].0 + y * (w[1].0 - w[0].0)));
+            }
+        }
+    }
+    found
+}
+
+/// Arc lengths and points that cut a path into chords; a straight one is its own chord.
+fn chords(path: &Path) -> Vec<(f64, Vec2)> {
+    let length = path.length();
+    let n = if path.is_straight() { 1 } else { (length / CHORD).ceil().max(1.0) as usize };
+    (0..=n).map(|k| length * k as f64 / n as f64).map(|s| (s, path.point(s))).collect()
+}
+
+/// Shares along both segments where they cross.
+fn segments_cross(a: [Vec2; 2], b: [Vec2; 2]) -> Option<(f64, f64)> {
+    let (d, e, gap) = (a[1] - a[0], b[1] - b[0], b[0] - a[0]);
+    let det = d.perp(&e);
+    let (x, y) = (gap.perp(&e) / det, gap.perp(&d) / det);
+    let within = |t: f64| (0.0..=1.0).contains(&t);
+    (within(x) && within(y)).then_some((x, y))
+}
+
+/// Newton's method on a(s) = b(t).
+fn polish(a: &Path, b: &Path, mut s: f64, mut t: f64) -> (f64, f64) {
+    for _ in 0..POLISH {
+        let (gap, d, e) = (b.point(t) - a.point(s), a.tangent(s), b.tangent(t));
+        let det = d.perp(&e);
+        if det.abs() < 1e-6 {
+            break;
+        }
+        s = (s + gap.perp(&e) / det).clamp(0.0, a.length());
+        t = (t + gap.perp(&d) / det).clamp(0.0, b.length());
+    }
+    (s, t)
+}
