@@ -1,1 +1,23 @@
-//! report
+//! What a run did to the cloth, in numbers: the measuring, the file `report.json` and the table for the terminal.
+//!
+//! [`measure`] computes a [`Report`] from the garment and its positions after each stage; `serde_json` writes it with
+//! the keys other programs rely on; [`table`] prints it for people. Inside, lengths are metres as everywhere; a
+//! [`Report`] holds what the file holds: millimetres, square millimetres, fractions and seconds.
+
+mod errors;
+mod measure;
+mod openings;
+mod rim;
+mod schema;
+mod statistics;
+mod strain;
+mod stretched;
+mod table;
+
+pub use measure::{Measured, measure};
+pub use openings::opening_names;
+pub use schema::{
+    Contact, Drift, PieceReport, Quartet, Report, SeamReport, Sizes, Spread, Stage, Stretched, Worn,
+};
+pub use strain::vertex_strain;
+pub use table::table;

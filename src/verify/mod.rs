@@ -1,1 +1,23 @@
-//! verify
+//! What the program says about its own results, found out independently.
+//!
+//! Nothing here is shared with the solver's contact code: other trees, other predicates, other definitions. A mistake
+//! there cannot hide itself here.
+//!
+//! - [`crossings`]: pairs of cloth triangles that cross;
+//! - [`crossings_between`]: cloth triangles that cross the body;
+//! - [`inside`]: points inside a closed body, and how deep;
+//! - [`worn`]: which body part passes through which rim of the garment;
+//! - [`Welded`]: the garment as one surface, seam partners made one vertex.
+
+mod bvh;
+mod crossing;
+mod inside;
+mod linking;
+mod orient;
+mod welded;
+mod worn;
+
+pub use crossing::{Between, crossings, crossings_between};
+pub use inside::{Inside, inside};
+pub use welded::Welded;
+pub use worn::{Through, worn};

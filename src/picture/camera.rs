@@ -1,0 +1,103 @@
+//! Where the viewer stands, and where on the paper things appear.
+
+use crate::geometry::{TriMesh, Vec3};
+
+use super::{HEIGHT, WIDTH};
+
+/// The viewer looks down by this angle (radians): hems become flat ellipses, and the floor is seen.
+const LOOK_DOWN: f64 = 0.07;
+
+/// Pixels kept free above the views, for the title.
+pub(super) const HEAD: usize = 110;
+/// Pixels kept free below the views, for their names.
+pub(super) const FOOT: usize = 84;
+
+/// Air round what is framed, as a share of its height.
+const AIR: f64 = 0.06;
+
+/// A garment that covers this share of the body's height is shown with the whole body.
+const WHOLE_BODY: f64 = 0.5;
+
+/// One of the views.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Camera {
+    /// Written below it.
+    pub(super) name: &'static str,
+    /// Unit vectors: rightwards and upwards on the paper, and towards the viewer.
+    pub(super) right: Vec3,
+    pub(super) up: Vec3,
+    pub(super) toward: Vec3,
+    /// First column of its panel, and the panel's width, pixels.
+    pub(super) left: usize,
+    pub(super) width: usize,
+    /// What is in the middle of the panel, metres along `right` and `up`.
+    center: [f64; 2],
+    /// Pixels per metre, the same in all views.
+    pub(super) scale: f64,
+}
+
+impl Camera {
+    /// Height of every panel, pixels.
+    pub(super) const PANEL: usize = HEIGHT - HEAD - FOOT;
+
+    fn looking_from(name: &'static str, yaw: f64) -> Self {
+        let (sin, cos) = yaw.sin_cos();
+        let (dip_sin, dip_cos) = LOOK_DOWN.sin_cos();
+        let right = Vec3::new(cos, 0.0, -sin);
+        let toward = Vec3::new(sin * dip_cos, dip_sin, cos * dip_cos);
+        Self { name, right, up: toward.cross(&right), toward, left: 0, width: 0, center: [0.0; 2], scale: 1.0 }
+    }
+
+    /// Column and row in the panel (pixels), and nearness to the viewer (metres).
+    pub(super) fn project(&self, p: &Vec3) -> [f32; 3] {
+        let x = (self.right.dot(p) - self.center[0]) * self.scale + 0.5 * self.width as f64;
+        let y = (self.center[1] - self.up.dot(p)) * self.scale + 0.5 * Self::PANEL as f64;
+        [x as f32, y as f32, self.toward.dot(p) as f32]
+    }
+
+    /// Extent of the points along `right` and `up`: lows and highs.
+    fn extent(&self, points: &[Vec3]) -> [[f64; 2]; 2] {
+        points.iter().fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[lo, hi], p| {
+            let at = [self.right.dot(p), self.up.dot(p)];
+            [[lo[0].min(at[0]), lo[1].min(at[1])], [hi[0].max(at[0]), hi[1].max(at[1])]]
+        })
+    }
+}
+
+/// Front, side and back, at one scale and as large as the paper allows.
+pub(super) fn cameras(body: &TriMesh, cloth: &TriMesh) -> Vec<Camera> {
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let names = [("FRONT", 0.0), ("SIDE", quarter), ("BACK", 2.0 * quarter)];
+    let mut cameras = names.map(|(name, yaw)| Camera::looking_from(name, yaw)).to_vec();
+    let framed = framed(body, cloth);
+    let extents: Vec<[[f64; 2]; 2]> = cameras.iter().map(|c| c.extent(&framed)).collect();
+    let size = |k: usize, axis: usize| extents[k][1][axis] - extents[k][0][axis];
+    let height = (0..3).map(|k| size(k, 1)).fold(f64::MIN_POSITIVE, f64::max);
+    let air = 2.0 * AIR * height;
+    let widths: f64 = (0..3).map(|k| size(k, 0) + air).sum();
+    let scale = (WIDTH as f64 / widths).min(Camera::PANEL as f64 / (height + air));
+    let spare = (WIDTH as f64 - widths * scale) / 3.0;
+    let mut left = 0.0;
+    for (k, camera) in cameras.iter_mut().enumerate() {
+        let right = left + (size(k, 0) + air) * scale + spare;
+        camera.scale = scale;
+        camera.center = [0, 1].map(|axis| (extents[k][0][axis] + extents[k][1][axis]) / 2.0);
+        camera.left = left.round() as usize;
+        camera.width = (right.round() as usize).min(WIDTH) - camera.left;
+        left = right;
+    }
+    cameras
+}
+
+/// The points that must be seen.
+fn framed(body: &TriMesh, cloth: &TriMesh) -> Vec<Vec3> {
+    let height = |points: &[Vec3]| {
+        let y = points.iter().map(|p| p.y);
+        (y.clone().fold(f64::NEG_INFINITY, f64::max) - y.fold(f64::INFINITY, f64::min)).max(0.0)
+    };
+    let mut points = cloth.vertices.clone();
+    if height(&points) > WHOLE_BODY * height(&body.vertices) {
+        points.extend(&body.vertices);
+    }
+    points
+}

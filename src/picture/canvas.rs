@@ -1,0 +1,83 @@
+//! The finished picture's pixels, and flat drawing on them.
+
+use super::color::Rgb;
+use super::font::{ADVANCE, strokes};
+use super::raster::byte;
+
+/// Half the width of a letter's strokes, in cells of the font.
+const LETTER_RADIUS: f32 = 0.42;
+
+/// Pixels, three bytes each, row by row.
+pub(super) struct Canvas {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    pub(super) rgb: Vec<u8>,
+}
+
+impl Canvas {
+    pub(super) fn new(width: usize, height: usize, color: Rgb) -> Self {
+        Self { width, height, rgb: color.map(byte).repeat(width * height) }
+    }
+
+    /// Copies rows of pixels, `width` each, to column `left` from row `top` on.
+    pub(super) fn paste(&mut self, left: usize, top: usize, width: usize, pixels: &[u8]) {
+        for (row, pixels) in pixels.chunks_exact(3 * width).enumerate() {
+            let start = 3 * ((top + row) * self.width + left);
+            self.rgb[start..start + 3 * width].copy_from_slice(pixels);
+        }
+    }
+
+    /// Fills a box given by its corner and its size; parts outside are left out.
+    pub(super) fn fill(&mut self, [left, top]: [usize; 2], [width, height]: [usize; 2], color: Rgb) {
+        for y in top..(top + height).min(self.height) {
+            for x in left..(left + width).min(self.width) {
+                self.mix(x, y, color, 1.0);
+            }
+        }
+    }
+
+    /// A straight line with round ends, half as wide as `radius` says, its edge smoothed over a pixel.
+    pub(super) fn line(&mut self, a: [f32; 2], b: [f32; 2], radius: f32, color: Rgb) {
+        let reach = radius + 1.0;
+        let span = |k: usize, end: usize| {
+            let low = (a[k].min(b[k]) - reach).floor().max(0.0) as usize;
+            low..((a[k].max(b[k]) + reach).ceil().max(0.0) as usize).min(end)
+        };
+        let along = [b[0] - a[0], b[1] - a[1]];
+        let length2 = (along[0] * along[0] + along[1] * along[1]).max(f32::MIN_POSITIVE);
+        for y in span(1, self.height) {
+            for x in span(0, self.width) {
+                let d = [x as f32 + 0.5 - a[0], y as f32 + 0.5 - a[1]];
+                let t = ((d[0] * along[0] + d[1] * along[1]) / length2).clamp(0.0, 1.0);
+                let off = (d[0] - t * along[0]).hypot(d[1] - t * along[1]);
+                self.mix(x, y, color, (radius + 0.5 - off).clamp(0.0, 1.0));
+            }
+        }
+    }
+
+    /// Writes a line of text from `start`, on the base line; `cell` is the size of a cell of the font, seven of which
+    /// make a capital. Returns where the text ends.
+    pub(super) fn text(&mut self, text: &str, [left, base]: [f32; 2], cell: f32, color: Rgb) -> f32 {
+        let mut x = left;
+        for letter in text.chars() {
+            for [a, b] in strokes(letter) {
+                let at = |[column, row]: [f32; 2]| [x + (column + 0.5) * cell, base + (row - 6.0) * cell];
+                self.line(at(a), at(b), LETTER_RADIUS * cell, color);
+            }
+            x += ADVANCE * cell;
+        }
+        x
+    }
+
+    /// Width of a line of text, pixels.
+    pub(super) fn text_width(text: &str, cell: f32) -> f32 {
+        text.chars().count() as f32 * ADVANCE * cell
+    }
+
+    fn mix(&mut self, x: usize, y: usize, color: Rgb, share: f32) {
+        let start = 3 * (y * self.width + x);
+        for (held, new) in self.rgb[start..start + 3].iter_mut().zip(color) {
+            *held = byte(f32::from(*held) / 255.0 * (1.0 - share) + new * share);
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! `garment.png`: the garment on the mannequin from the front, the side and the back, large enough to judge the fit.
+//!
+//! [`draw`] is a small renderer of its own: orthographic views (so that all parts are to one scale), a depth buffer
+//! with four samples per pixel, soft light from above and from the viewer's left, darker where little sky is seen.
+//! The same scene gives the same bytes, on any number of threads.
+
+mod camera;
+mod canvas;
+mod color;
+mod font;
+mod light;
+mod lines;
+mod occlusion;
+mod paint;
+mod raster;
+mod view;
+
+pub use lines::{rim_lines, seam_lines};
+
+use crate::geometry::{TriMesh, Vec3};
+
+/// Width of the picture, pixels.
+pub const WIDTH: usize = 2400;
+/// Height of the picture, pixels.
+pub const HEIGHT: usize = 1500;
+
+/// What is drawn. Lengths are metres, y up, as everywhere.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'a> {
+    /// The mannequin, counter-clockwise seen from outside; may be empty.
+    pub body: &'a TriMesh,
+    /// The garment with seams joined, counter-clockwise seen from the cloth's right side.
+    pub cloth: &'a TriMesh,
+    /// The piece of every triangle of the cloth; missing ones count as piece 0.
+    pub piece_of_triangle: &'a [u32],
+    /// Seams, as polylines on the cloth.
+    pub seams: &'a [Vec<Vec3>],
+    /// Rims, as polylines on the cloth.
+    pub rims: &'a [Vec<Vec3>],
+    /// Large text above, the garment's name.
+    pub title: &'a str,
+    /// Small text beside it, mannequin and fabric.
+    pub subtitle: &'a str,
+    /// Colours the cloth by a value instead of by piece.
+    pub strain: Option<&'a [f64]>,
+}
+
+/// Why a picture could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum PictureError {
+    /// There is nothing to frame.
+    #[error("cannot draw the garment: it has no triangles, or positions that are not finite")]
+    NothingToDraw,
+    /// `Scene::strain` has another length than the cloth has vertices.
+    #[error("cannot colour the garment by strain: {values} values for {vertices} vertices")]
+    StrainLength {
+        /// Values given.
+        values: usize,
+        /// Vertices of the cloth.
+        vertices: usize,
+    },
+    /// The PNG encoder failed.
+    #[error("cannot encode the picture: {0}")]
+    Encode(#[from] png::EncodingError),
+}
+
+/// Draws the scene and returns the bytes of a PNG file, [`WIDTH`] by [`HEIGHT`] pixels.
+///
+/// # Errors
+/// When there is nothing to draw, or values are missing ([`PictureError`]).
+pub fn draw(scene: &Scene) -> Result<Vec<u8>, PictureError> {
+    let finite = |mesh: &TriMesh| mesh.vertices.iter().all(|p| p.iter().all(|x| x.is_finite()));
+    if scene.cloth.triangles.is_empty() || !finite(scene.cloth) || !finite(scene.body) {
+        return Err(PictureError::NothingToDraw);
+    }
+    let vertices = scene.cloth.vertices.len();
+    if let Some(values) = scene.strain.filter(|v| v.len() != vertices) {
+        return Err(PictureError::StrainLength { values: values.len(), vertices });
+    }
+    Ok(encode(&view::render(scene))?)
+}
+
+/// PNG bytes of a canvas. Fast compression: the file is a third larger and done in a tenth of the time.
+fn encode(canvas: &canvas::Canvas) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, canvas.width as u32, canvas.height as u32);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Fast);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&canvas.rgb)?;
+    writer.finish()?;
+    Ok(bytes)
+}

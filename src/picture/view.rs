@@ -1,0 +1,277 @@
+//! From the scene to the canvas.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::camera::{Camera, FOOT, HEAD, cameras};
+use super::canvas::Canvas;
+use super::color::{BODY, INK, PALE_INK, PAPER, RIM, Rgb, SEAM, strain};
+use super::light::Lights;
+use super::occlusion::Surroundings;
+use super::paint::Paint;
+use super::raster::{Band, Corner, SAMPLES};
+use super::{HEIGHT, Scene, WIDTH};
+use crate::geometry::{TriMesh, Vec3};
+
+/// Rows of pixels drawn at a time: the samples of a band fit in the processor's cache.
+const BAND: usize = 64;
+
+/// Half the width of drawn lines, pixels.
+const SEAM_RADIUS: f32 = 0.95;
+const RIM_RADIUS: f32 = 0.7;
+
+/// Lines are drawn as if this much nearer (metres), or the cloth they lie on would hide them; less than the distance
+/// from one side of a body to the other by far.
+const LINE_LIFT: f32 = 0.004;
+
+/// Cells along each side of the floor.
+const FLOOR_CELLS: u32 = 48;
+/// The floor reaches this far beyond what stands on it, metres.
+const FLOOR_MARGIN: f64 = 0.35;
+
+/// Draws the whole picture.
+pub(super) fn render(scene: &Scene) -> Canvas {
+    let paint = Paint::new(scene);
+    let lit = Lit::new(scene);
+    let cameras = cameras(scene.body, scene.cloth);
+    let panels: Vec<Panel> = cameras.par_iter().map(|c| Panel::new(scene, &lit, &paint, c)).collect();
+    let bands: Vec<(usize, usize)> =
+        (0..panels.len()).flat_map(|p| (0..panels[p].triangle_bands.len()).map(move |b| (p, b))).collect();
+    let pixels: Vec<Vec<u8>> = bands.par_iter().map(|&(p, b)| panels[p].band(b)).collect();
+    let mut canvas = Canvas::new(WIDTH, HEIGHT, PAPER);
+    for (&(p, b), pixels) in bands.iter().zip(&pixels) {
+        canvas.paste(cameras[p].left, HEAD + b * BAND, cameras[p].width, pixels);
+    }
+    words(&mut canvas, scene, &cameras, &paint);
+    canvas
+}
+
+/// Normals, and how much of its surroundings every vertex sees; the same in all views.
+struct Lit {
+    body_normals: Vec<Vec3>,
+    body_seen: Vec<f32>,
+    cloth_normals: Vec<Vec3>,
+    /// Seen from the right side of the cloth, and from the wrong one.
+    cloth_seen: [Vec<f32>; 2],
+    floor: TriMesh,
+    floor_seen: Vec<f32>,
+}
+
+impl Lit {
+    fn new(scene: &Scene) -> Self {
+        let around = Surroundings::new(&[scene.body, scene.cloth]);
+        let (body_normals, cloth_normals) = (scene.body.vertex_normals(), scene.cloth.vertex_normals());
+        let turned: Vec<Vec3> = cloth_normals.iter().map(|n| -n).collect();
+        let floor = floor(scene);
+        let up = vec![Vec3::y(); floor.vertices.len()];
+        Self {
+            body_seen: around.seen(&scene.body.vertices, &body_normals),
+            cloth_seen: [&cloth_normals, &turned].map(|n| around.seen(&scene.cloth.vertices, n)),
+            floor_seen: around.seen(&floor.vertices, &up),
+            body_normals,
+            cloth_normals,
+            floor,
+        }
+    }
+}
+
+/// A square of floor below everything.
+fn floor(scene: &Scene) -> TriMesh {
+    let points = || scene.body.vertices.iter().chain(&scene.cloth.vertices);
+    let low = points().map(|p| p.y).fold(f64::INFINITY, f64::min);
+    let reach = points().map(|p| p.x.abs().max(p.z.abs())).fold(0.0, f64::max) + FLOOR_MARGIN;
+    let n = FLOOR_CELLS + 1;
+    let at = |k: u32| reach * (2.0 * f64::from(k) / f64::from(FLOOR_CELLS) - 1.0);
+    let mut floor = TriMesh::default();
+    floor.vertices.extend((0..n * n).map(|k| Vec3::new(at(k % n), low, at(k / n))));
+    for k in (0..n * FLOOR_CELLS).filter(|k| k % n < FLOOR_CELLS) {
+        floor.triangles.extend([[k, k + n, k + 1], [k + 1, k + n, k + n + 1]]);
+    }
+    floor
+}
+
+/// Everything one view shows, projected, and sorted into bands.
+struct Panel {
+    width: usize,
+    triangles: Vec<[Corner; 3]>,
+    strokes: Vec<Stroke>,
+    triangle_bands: Vec<Vec<u32>>,
+    stroke_bands: Vec<Vec<u32>>,
+}
+
+/// A piece of a drawn line, in samples.
+struct Stroke {
+    ends: [[f32; 3]; 2],
+    radius: f32,
+    color: Rgb,
+}
+
+impl Panel {
+    fn new(scene: &Scene, lit: &Lit, paint: &Paint, camera: &Camera) -> Self {
+        let mut triangles = floor_triangles(lit, camera);
+        triangles.extend(body_triangles(scene, lit, camera));
+        triangles.extend(cloth_triangles(scene, lit, paint, camera));
+        let mut strokes = strokes(scene.seams, SEAM_RADIUS, SEAM, camera);
+        strokes.extend(strokes_of_rims(scene, camera));
+        let rows = |at: &[[f32; 3]], radius: f32| {
+            let y = at.iter().map(|p| p[1]);
+            (y.clone().fold(f32::INFINITY, f32::min) - radius, y.fold(f32::NEG_INFINITY, f32::max) + radius)
+        };
+        let triangle_bands = sorted(triangles.iter().map(|t| rows(&t.map(|c| c.at), 0.0)));
+        let stroke_bands = sorted(strokes.iter().map(|s| rows(&s.ends, s.radius)));
+        Self { width: camera.width, triangles, strokes, triangle_bands, stroke_bands }
+    }
+
+    /// Pixels of a band.
+    fn band(&self, index: usize) -> Vec<u8> {
+        let rows = band_rows(index);
+        let mut band = Band::new(self.width * SAMPLES, rows.start * SAMPLES, rows.len() * SAMPLES);
+        for &t in &self.triangle_bands[index] {
+            band.triangle(&self.triangles[t as usize]);
+        }
+        for &s in &self.stroke_bands[index] {
+            let stroke = &self.strokes[s as usize];
+            band.stroke(stroke.ends[0], stroke.ends[1], stroke.radius, stroke.color);
+        }
+        band.pixels()
+    }
+}
+
+/// Pixel rows of a band of a panel.
+fn band_rows(index: usize) -> Range<usize> {
+    index * BAND..((index + 1) * BAND).min(Camera::PANEL)
+}
+
+/// For every band the indices of the things whose rows (lowest and highest, in samples) reach into it.
+fn sorted(rows: impl Iterator<Item = (f32, f32)>) -> Vec<Vec<u32>> {
+    let mut bands = vec![Vec::new(); Camera::PANEL.div_ceil(BAND)];
+    let height = (BAND * SAMPLES) as f32;
+    for (k, (top, bottom)) in rows.enumerate() {
+        if bottom < 0.0 {
+            continue;
+        }
+        let first = (top / height).max(0.0) as usize;
+        let last = ((bottom / height) as usize).min(bands.len() - 1);
+        for band in bands.iter_mut().take(last + 1).skip(first) {
+            band.push(k as u32);
+        }
+    }
+    bands
+}
+
+fn in_samples(camera: &Camera, p: &Vec3) -> [f32; 3] {
+    let [x, y, near] = camera.project(p);
+    [x * SAMPLES as f32, y * SAMPLES as f32, near]
+}
+
+/// The floor: paper, darker where little sky is seen, fading into the paper towards its edge.
+fn floor_triangles(lit: &Lit, camera: &Camera) -> Vec<[Corner; 3]> {
+    let reach = lit.floor.vertices.iter().map(|p| p.x).fold(f64::MIN_POSITIVE, f64::max);
+    let corners: Vec<Corner> = lit
+        .floor
+        .vertices
+        .iter()
+        .zip(&lit.floor_seen)
+        .map(|(p, seen)| {
+            let fade = (1.0 - (p.x.hypot(p.z) / reach).powi(2)).max(0.0) as f32;
+            let shade = 1.0 - 0.42 * fade * (1.0 - seen);
+            Corner { at: in_samples(camera, p), color: PAPER.map(|x| x * shade) }
+        })
+        .collect();
+    lit.floor.triangles.iter().map(|t| t.map(|v| corners[v as usize])).collect()
+}
+
+fn body_triangles(scene: &Scene, lit: &Lit, camera: &Camera) -> Vec<[Corner; 3]> {
+    let lights = Lights::new(camera);
+    let corner = |v: usize| Corner {
+        at: in_samples(camera, &scene.body.vertices[v]),
+        color: times(BODY, lights.on(&lit.body_normals[v], lit.body_seen[v])),
+    };
+    let corners: Vec<Corner> = (0..scene.body.vertices.len()).map(corner).collect();
+    let toward = (0..scene.body.triangles.len()).filter(|&t| scene.body.double_normal(t).dot(&camera.toward) > 0.0);
+    toward.map(|t| scene.body.triangles[t].map(|v| corners[v as usize])).collect()
+}
+
+fn cloth_triangles(scene: &Scene, lit: &Lit, paint: &Paint, camera: &Camera) -> Vec<[Corner; 3]> {
+    let lights = Lights::new(camera);
+    let count = scene.cloth.vertices.len();
+    let at: Vec<[f32; 3]> = scene.cloth.vertices.iter().map(|p| in_samples(camera, p)).collect();
+    let right: Vec<Rgb> = (0..count).map(|v| lights.on(&lit.cloth_normals[v], lit.cloth_seen[0][v])).collect();
+    let wrong: Vec<Rgb> = (0..count).map(|v| lights.on(&-lit.cloth_normals[v], lit.cloth_seen[1][v])).collect();
+    let triangle = |t: usize| {
+        let right_side = scene.cloth.double_normal(t).dot(&camera.toward) > 0.0;
+        let light = if right_side { &right } else { &wrong };
+        let paint = paint.corners(scene, t, right_side);
+        let vertices = scene.cloth.triangles[t].map(|v| v as usize);
+        [0, 1, 2].map(|k| Corner { at: at[vertices[k]], color: times(paint[k], light[vertices[k]]) })
+    };
+    (0..scene.cloth.triangles.len()).map(triangle).collect()
+}
+
+fn times(a: Rgb, b: Rgb) -> Rgb {
+    [a[0] * b[0], a[1] * b[1], a[2] * b[2]]
+}
+
+fn strokes_of_rims(scene: &Scene, camera: &Camera) -> Vec<Stroke> {
+    strokes(scene.rims, RIM_RADIUS, RIM, camera)
+}
+
+fn strokes(lines: &[Vec<Vec3>], radius: f32, color: Rgb, camera: &Camera) -> Vec<Stroke> {
+    let end = |p: &Vec3| {
+        let [x, y, near] = in_samples(camera, p);
+        [x, y, near + LINE_LIFT]
+    };
+    let steps = lines.iter().flat_map(|l| l.windows(2));
+    steps.map(|w| Stroke { ends: [end(&w[0]), end(&w[1])], radius: radius * SAMPLES as f32, color }).collect()
+}
+
+/// Title, names of the views, scale, legend.
+fn words(canvas: &mut Canvas, scene: &Scene, cameras: &[Camera], paint: &Paint) {
+    const LEFT: f32 = 56.0;
+    let end = canvas.text(scene.title, [LEFT, 72.0], 5.0, INK);
+    canvas.text(scene.subtitle, [end + 34.0, 72.0], 3.0, PALE_INK);
+    let foot = (HEIGHT - FOOT / 2 + 12) as f32;
+    for camera in cameras {
+        let middle = camera.left as f32 + 0.5 * camera.width as f32;
+        canvas.text(camera.name, [middle - 0.5 * Canvas::text_width(camera.name, 3.4), foot], 3.4, INK);
+    }
+    if let Some(camera) = cameras.first() {
+        scale_bar(canvas, camera.scale, foot);
+    }
+    if let Paint::Strain(_, limit) = paint {
+        legend(canvas, *limit);
+    }
+}
+
+/// A bar of a round length, at the right below.
+fn scale_bar(canvas: &mut Canvas, pixels_per_metre: f64, foot: f32) {
+    let millimetres = if pixels_per_metre > 1500.0 { 50.0 } else { 100.0 };
+    let length = (millimetres / 1000.0 * pixels_per_metre) as f32;
+    let right = WIDTH as f32 - 56.0;
+    let (left, y) = (right - length, foot - 6.0);
+    canvas.line([left, y], [right, y], 1.2, PALE_INK);
+    [left, right].iter().for_each(|&x| canvas.line([x, y - 8.0], [x, y + 8.0], 1.2, PALE_INK));
+    let text = format!("{millimetres:.0} mm");
+    canvas.text(&text, [left - 18.0 - Canvas::text_width(&text, 2.6), foot], 2.6, PALE_INK);
+}
+
+/// The strain scale, at the right above.
+fn legend(canvas: &mut Canvas, limit: f64) {
+    const SIZE: [usize; 2] = [420, 22];
+    const TOP: usize = 34;
+    let left = WIDTH - 76 - SIZE[0];
+    for x in 0..SIZE[0] {
+        let share = 2.0 * (x as f32 + 0.5) / SIZE[0] as f32 - 1.0;
+        canvas.fill([left + x, TOP], [1, SIZE[1]], strain(share));
+    }
+    let percent = 100.0 * limit;
+    for (share, label) in [(-1.0, format!("-{percent} %")), (0.0, "0".into()), (1.0, format!("+{percent} %"))] {
+        let x = left as f32 + 0.5 * (share + 1.0) * SIZE[0] as f32;
+        canvas.line([x, (TOP + SIZE[1]) as f32], [x, (TOP + SIZE[1] + 6) as f32], 0.9, PALE_INK);
+        let middle = 0.5 * Canvas::text_width(&label, 2.4);
+        canvas.text(&label, [x - middle, (TOP + SIZE[1] + 32) as f32], 2.4, PALE_INK);
+    }
+    let title = "warp and weft strain";
+    canvas.text(title, [left as f32 - 44.0 - Canvas::text_width(title, 2.6), 56.0], 2.6, PALE_INK);
+}

@@ -1,0 +1,233 @@
+//! From positions to a report.
+
+use super::errors::{Way, area, area_error, boundary_error};
+use super::openings::{opening_names, openings};
+use super::rim::{RimEdge, rims};
+use super::schema::{Contact, PieceReport, Quartet, Report, SeamReport, Sizes, Stage, Worn};
+use super::strain::{PieceStrain, piece_strain};
+use super::stretched::stretched;
+use crate::geometry::{Vec2, Vec3};
+use crate::mannequin::Mannequin;
+use crate::mesh::{ClothMesh, Stitches};
+use crate::pattern::Garment;
+use crate::verify::{Welded, crossings, crossings_between, inside, worn};
+
+/// Millimetres in a metre.
+const MM: f64 = 1e3;
+/// Square millimetres in a square metre.
+const MM2: f64 = 1e6;
+
+/// A garment and where its particles were. All slices have one entry per particle of `mesh`; positions are metres.
+#[derive(Clone, Copy, Debug)]
+pub struct Measured<'a> {
+    /// The checked garment.
+    pub garment: &'a Garment,
+    /// Its mesh.
+    pub mesh: &'a ClothMesh,
+    /// One label per particle, the same for particles that seams join.
+    pub weld: &'a [u32],
+    /// What it is worn on.
+    pub body: &'a Mannequin,
+    /// The fabric's name.
+    pub fabric: &'a str,
+    /// When the seams had been closed, before partners were put in one place: what seam gaps are measured on.
+    /// `None` takes `sewn`.
+    pub closed: Option<&'a [Vec3]>,
+    /// After sewing.
+    pub sewn: Option<&'a [Vec3]>,
+    /// After draping.
+    pub draped: Option<&'a [Vec3]>,
+    /// After flattening, in the plane.
+    pub flattened: Option<&'a [Vec2]>,
+    /// What the stages said of themselves.
+    pub stages: &'a [Stage],
+}
+
+/// Measures everything the report holds. Strain, contact and openings are those of the last stage in space (draped,
+/// else sewn); without one they are empty.
+///
+/// # Panics
+/// When a slice is shorter than the mesh has particles: a mistake of the caller.
+pub fn measure(run: &Measured) -> Report {
+    let shapes = Shapes::new(run);
+    let last = run.draped.or(run.sewn);
+    let (contact, worn) = last.map_or_else(Default::default, |at| seen(run, at));
+    let (pieces, total) = pieces(run, &shapes, last);
+    Report {
+        toile: env!("CARGO_PKG_VERSION").into(),
+        garment: run.garment.name.clone(),
+        mannequin: run.body.name.clone(),
+        fabric: run.fabric.into(),
+        spacing: run.mesh.spacing * MM,
+        pieces,
+        total,
+        seams: run.mesh.seams.iter().map(|s| seam(run, s)).collect(),
+        contact,
+        worn,
+        stages: run.stages.to_vec(),
+    }
+}
+
+/// The garment's positions after every stage, all in space.
+struct Shapes {
+    flat: Vec<Vec3>,
+    sewn: Option<Vec<Vec3>>,
+    draped: Option<Vec<Vec3>>,
+    flattened: Option<Vec<Vec3>>,
+}
+
+impl Shapes {
+    fn new(run: &Measured) -> Self {
+        let lifted = |plane: &[Vec2]| plane.iter().map(|p| Vec3::new(p.x, p.y, 0.0)).collect();
+        Self {
+            flat: lifted(&run.mesh.flat),
+            sewn: run.sewn.map(<[Vec3]>::to_vec),
+            draped: run.draped.map(<[Vec3]>::to_vec),
+            flattened: run.flattened.map(lifted),
+        }
+    }
+
+    /// `of(before, after, way)` for each way there are positions for.
+    fn each_way<T>(&self, of: impl Fn(&[Vec3], &[Vec3], Way) -> T) -> [Option<T>; 4] {
+        let from_flat = |after: &Option<Vec<Vec3>>| after.as_ref().map(|a| of(&self.flat, a, Way::FromDrawn));
+        let from_draped = self.draped.as_ref().zip(self.flattened.as_ref());
+        [
+            from_flat(&self.sewn),
+            from_flat(&self.draped),
+            from_draped.map(|(before, after)| of(before, after, Way::FromDraped)),
+            from_flat(&self.flattened),
+        ]
+    }
+}
+
+/// The part of the mesh that one row of the table is about.
+struct Part<'a> {
+    name: &'a str,
+    particles: usize,
+    smallest_angle: f64,
+    triangles: Vec<(u32, [u32; 3])>,
+    rim: Vec<RimEdge>,
+    strain: PieceStrain,
+}
+
+fn pieces(run: &Measured, shapes: &Shapes, last: Option<&[Vec3]>) -> (Vec<PieceReport>, PieceReport) {
+    let mesh = run.mesh;
+    let mut total = Part {
+        name: "total",
+        particles: mesh.flat.len(),
+        smallest_angle: mesh.pieces.iter().map(|p| p.smallest_angle).reduce(f64::min).unwrap_or(0.0),
+        triangles: Vec::new(),
+        rim: Vec::new(),
+        strain: PieceStrain::default(),
+    };
+    let mut reports = Vec::new();
+    for (piece, rim) in mesh.pieces.iter().zip(rims(mesh, run.weld)) {
+        let part = Part {
+            name: &piece.name,
+            particles: piece.particles.len(),
+            smallest_angle: piece.smallest_angle,
+            triangles: piece.triangles.clone().map(|t| (t as u32, mesh.triangles[t])).collect(),
+            rim,
+            strain: last.map_or_else(Default::default, |at| piece_strain(mesh, piece, at)),
+        };
+        let mut report = row(&part, shapes);
+        report.stretched = last.and_then(|at| stretched(mesh, &part.rim, part.strain.extension, at));
+        reports.push(report);
+        total.triangles.extend(&part.triangles);
+        total.rim.extend(&part.rim);
+        total.strain.extend(&part.strain);
+    }
+    (reports, row(&total, shapes))
+}
+
+fn row(part: &Part, shapes: &Shapes) -> PieceReport {
+    let mut beside_uneven: Vec<u32> = part.rim.iter().filter(|e| e.uneven()).map(|e| e.triangle).collect();
+    beside_uneven.sort_unstable();
+    let left_out = |t: u32| beside_uneven.binary_search(&t).is_ok();
+    let area = shapes.each_way(|before, after, _| area_error(&part.triangles, before, after, left_out));
+    let boundary = shapes.each_way(|before, after, way| boundary_error(&part.rim, before, after, way));
+    PieceReport {
+        name: part.name.into(),
+        particles: part.particles,
+        triangles: part.triangles.len(),
+        smallest_angle: part.smallest_angle.to_degrees(),
+        sizes: sizes(part, shapes),
+        area_error: quartet(area.map(|e| e.map(|e| e.error))),
+        boundary_error: quartet(boundary.map(|e| e.map(|e| e.error))),
+        area_error_raw: quartet(area.map(|e| e.map(|e| e.raw))),
+        boundary_error_raw: quartet(boundary.map(|e| e.map(|e| e.raw))),
+        strain: part.strain.strain(),
+        shear: part.strain.shear(),
+        largest_edge_error: part.strain.largest,
+        stretched: None,
+    }
+}
+
+fn quartet([sew, drape, flatten, round_trip]: [Option<f64>; 4]) -> Quartet {
+    Quartet { sew, drape, flatten, round_trip }
+}
+
+fn sizes(part: &Part, shapes: &Shapes) -> Sizes {
+    let total_area = |at: &[Vec3]| part.triangles.iter().map(|(_, t)| area(t, at)).sum::<f64>() * MM2;
+    let rim_length = |at: &[Vec3]| part.rim.iter().map(|e| e.length(at)).sum::<f64>() * MM;
+    let area_of = |at: &Option<Vec<Vec3>>| at.as_deref().map(total_area);
+    let length_of = |at: &Option<Vec<Vec3>>| at.as_deref().map(rim_length);
+    Sizes {
+        area_flat: total_area(&shapes.flat),
+        area_sewn: area_of(&shapes.sewn),
+        area_draped: area_of(&shapes.draped),
+        area_flattened: area_of(&shapes.flattened),
+        boundary_flat: rim_length(&shapes.flat),
+        boundary_sewn: length_of(&shapes.sewn),
+        boundary_draped: length_of(&shapes.draped),
+        boundary_flattened: length_of(&shapes.flattened),
+    }
+}
+
+/// Lengths as drawn where the garment has the seam (a mesh's chords are a little shorter), else as meshed.
+fn seam(run: &Measured, stitches: &Stitches) -> SeamReport {
+    let drawn = run.garment.seams.iter().find(|s| s.name == stitches.name);
+    let meshed = |side: usize| -> f64 {
+        let at = |pair: &[u32; 2]| run.mesh.flat[pair[side] as usize];
+        stitches.pairs.windows(2).map(|w| (at(&w[1]) - at(&w[0])).norm()).sum()
+    };
+    let gaps: Vec<f64> = run.closed.or(run.sewn).map_or_else(Vec::new, |at| {
+        stitches.pairs.iter().map(|&[a, b]| (at[a as usize] - at[b as usize]).norm() * MM).collect()
+    });
+    SeamReport {
+        name: stitches.name.clone(),
+        length_a: drawn.map_or_else(|| meshed(0), |s| s.length_a()) * MM,
+        length_b: drawn.map_or_else(|| meshed(1), |s| s.length_b()) * MM,
+        gap_mean: gaps.iter().sum::<f64>() / gaps.len().max(1) as f64,
+        gap_max: gaps.iter().copied().fold(0.0, f64::max),
+    }
+}
+
+/// What the independent checks see at these positions.
+fn seen(run: &Measured, at: &[Vec3]) -> (Contact, Vec<Worn>) {
+    let welded = Welded::new(run.mesh, run.weld, at);
+    let cloth = &welded.surface;
+    let within = inside(&cloth.vertices, &run.body.mesh);
+    let contact = Contact {
+        inside_body: within.count(),
+        deepest: within.deepest * MM,
+        cloth_body_intersections: crossings_between(cloth, &run.body.mesh).cloth_triangles.len(),
+        cloth_cloth_intersections: crossings(cloth).len(),
+    };
+    (contact, worn_rows(run, &welded))
+}
+
+fn worn_rows(run: &Measured, welded: &Welded) -> Vec<Worn> {
+    let openings = openings(run.mesh, welded);
+    let names = opening_names(&openings.iter().map(|o| o.edges.clone()).collect::<Vec<_>>());
+    let rings: Vec<Vec<Vec3>> = openings.iter().map(|o| o.positions(welded)).collect();
+    let through = worn(&rings, run.body);
+    let rows = openings.iter().zip(names).zip(rings.iter().zip(through));
+    rows.map(|((opening, name), (ring, part))| Worn {
+        opening: name,
+        body_part: part.map(|p| p.name().into()),
+        edges: opening.edges.iter().map(|(piece, edge)| format!("{piece}.{edge}")).collect(),
+        length: (0..ring.len()).map(|k| (ring[(k + 1) % ring.len()] - ring[k]).norm()).sum::<f64>() * MM,
+    })
+    .collect()
+}

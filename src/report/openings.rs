@@ -1,0 +1,106 @@
+//! Openings: the rims of the sewn garment, and what to call them.
+
+use std::collections::HashMap;
+
+use crate::geometry::{Vec3, rim_loops};
+use crate::mesh::ClothMesh;
+use crate::verify::Welded;
+
+/// A rim of the sewn garment.
+#[derive(Clone, Debug)]
+pub(super) struct Opening {
+    /// Vertices of the welded surface, in order.
+    pub(super) ring: Vec<u32>,
+    /// (piece, edge) names round it, in order, each once.
+    pub(super) edges: Vec<(String, String)>,
+}
+
+impl Opening {
+    /// Positions round the rim.
+    pub(super) fn positions(&self, welded: &Welded) -> Vec<Vec3> {
+        self.ring.iter().map(|&v| welded.surface.vertices[v as usize]).collect()
+    }
+}
+
+/// Every rim of the garment with the free edges on it.
+pub(super) fn openings(mesh: &ClothMesh, welded: &Welded) -> Vec<Opening> {
+    let owners = edge_owners(mesh, welded);
+    let opening = |ring: Vec<u32>| {
+        let mut edges: Vec<(String, String)> = Vec::new();
+        for (k, &v) in ring.iter().enumerate() {
+            let Some(owner) = owners.get(&key(v, ring[(k + 1) % ring.len()])) else { continue };
+            if !edges.contains(owner) {
+                edges.push(owner.clone());
+            }
+        }
+        Opening { ring, edges }
+    };
+    rim_loops(&welded.surface.triangles).into_iter().map(opening).collect()
+}
+
+fn key(a: u32, b: u32) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// The piece edge that every rim edge of the surface belongs to.
+fn edge_owners(mesh: &ClothMesh, welded: &Welded) -> HashMap<[u32; 2], (String, String)> {
+    let mut owners = HashMap::new();
+    for piece in &mesh.pieces {
+        for edge in &piece.edges {
+            for step in edge.particles.windows(2) {
+                let [a, b] = [step[0], step[1]].map(|p| welded.vertex_of[p as usize]);
+                owners.entry(key(a, b)).or_insert_with(|| (piece.name.clone(), edge.name.clone()));
+            }
+        }
+    }
+    owners
+}
+
+/// A name for every opening, given the (piece, edge) names round each: `neck` for `front.L.neck` and `back.neck`,
+/// `hem.L` where all pieces are left ones, `sleeve.L.hem` for one piece, `neck + front_edge` for different edges.
+/// Names that would be the same are numbered: `hem`, `hem (2)`.
+pub fn opening_names(openings: &[Vec<(String, String)>]) -> Vec<String> {
+    let mut used: HashMap<String, usize> = HashMap::new();
+    let mut number = |name: String| {
+        let count = used.entry(name.clone()).or_insert(0);
+        *count += 1;
+        if *count == 1 { name } else { format!("{name} ({count})") }
+    };
+    openings.iter().map(|edges| number(name(edges))).collect()
+}
+
+/// More edges than this are not spelled out.
+const EDGES_NAMED: usize = 3;
+
+fn name(edges: &[(String, String)]) -> String {
+    let mut bases: Vec<&str> = Vec::new();
+    for (_, edge) in edges {
+        let base = without_number(edge);
+        if !bases.contains(&base) {
+            bases.push(base);
+        }
+    }
+    let more = if bases.len() > EDGES_NAMED { " + …" } else { "" };
+    let names = bases[..bases.len().min(EDGES_NAMED)].join(" + ") + more;
+    let Some((first, _)) = edges.first() else { return "rim".into() };
+    if edges.iter().all(|(piece, _)| piece == first) {
+        return format!("{first}.{names}");
+    }
+    match side(first).filter(|s| edges.iter().all(|(piece, _)| side(piece) == Some(*s))) {
+        Some(side) => format!("{names}.{side}"),
+        None => names,
+    }
+}
+
+/// `waist` for `waist.2`, the second half of an edge that a dart cuts in two.
+fn without_number(edge: &str) -> &str {
+    match edge.rsplit_once('.') {
+        Some((base, number)) if number.bytes().all(|b| b.is_ascii_digit()) => base,
+        _ => edge,
+    }
+}
+
+/// `L` or `R` of one of a pair.
+fn side(piece: &str) -> Option<&str> {
+    piece.rsplit_once('.').map(|(_, side)| side).filter(|s| matches!(*s, "L" | "R"))
+}

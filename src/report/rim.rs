@@ -1,0 +1,68 @@
+//! The rims of the pieces, and which of their edges a seam makes one.
+
+use std::collections::HashMap;
+
+use crate::geometry::{Topology, Vec3};
+use crate::mesh::ClothMesh;
+
+/// Sides of a seam further apart than this (one over the other, less one) are eased, gathered or stretched: the cloth
+/// beside the seam cannot keep its drawn size.
+pub(super) const UNEVEN: f64 = 0.05;
+
+/// A mesh edge on the rim of a piece.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RimEdge {
+    /// Particles at its ends.
+    pub(super) ends: [u32; 2],
+    /// The triangle beside it, an index into the whole mesh.
+    pub(super) triangle: u32,
+    /// Drawn length, m.
+    pub(super) flat: f64,
+    /// Shortest and longest drawn length of the edges sewn together here, its own among them, m.
+    pub(super) drawn: [f64; 2],
+}
+
+impl RimEdge {
+    /// Length at these positions.
+    pub(super) fn length(&self, at: &[Vec3]) -> f64 {
+        (at[self.ends[1] as usize] - at[self.ends[0] as usize]).norm()
+    }
+
+    /// How much longer the longest partner is than the shortest: 1 on a free edge.
+    pub(super) fn ratio(&self) -> f64 {
+        if self.drawn[0] > 0.0 { self.drawn[1] / self.drawn[0] } else { 1.0 }
+    }
+
+    /// Whether its seam eases, gathers or stretches here.
+    pub(super) fn uneven(&self) -> bool {
+        self.ratio() > 1.0 + UNEVEN
+    }
+}
+
+/// The rim edges of every piece, in the pieces' order; `weld` has one label per particle, the same for stitched ones.
+pub(super) fn rims(mesh: &ClothMesh, weld: &[u32]) -> Vec<Vec<RimEdge>> {
+    let mut rims: Vec<Vec<RimEdge>> = mesh.pieces.iter().map(|p| rim_of(mesh, p.triangles.clone())).collect();
+    let key = |e: &RimEdge| {
+        let [a, b] = e.ends.map(|v| weld[v as usize]);
+        [a.min(b), a.max(b)]
+    };
+    let mut drawn: HashMap<[u32; 2], [f64; 2]> = HashMap::new();
+    for edge in rims.iter().flatten() {
+        let range = drawn.entry(key(edge)).or_insert(edge.drawn);
+        *range = [range[0].min(edge.flat), range[1].max(edge.flat)];
+    }
+    for edge in rims.iter_mut().flatten() {
+        edge.drawn = drawn[&key(edge)];
+    }
+    rims
+}
+
+fn rim_of(mesh: &ClothMesh, triangles: std::ops::Range<usize>) -> Vec<RimEdge> {
+    let topology = Topology::new(&mesh.triangles[triangles.clone()]);
+    let edge = |e: &crate::geometry::Edge| {
+        let flat = (mesh.flat[e.ends[1] as usize] - mesh.flat[e.ends[0] as usize]).norm();
+        let triangle = e.triangles[0]? + triangles.start as u32;
+        Some(RimEdge { ends: e.ends, triangle, flat, drawn: [flat; 2] })
+    };
+    topology.rim_edges().filter_map(edge).collect()
+}

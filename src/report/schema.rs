@@ -1,0 +1,186 @@
+//! The report as it is written: keys and units of `report.json`.
+
+use serde::{Deserialize, Serialize};
+
+/// A whole report. Values of stages that did not run are `null`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// Version of this program.
+    pub toile: String,
+    /// The garment's short name.
+    pub garment: String,
+    /// The mannequin's name.
+    pub mannequin: String,
+    /// The fabric's name; several are joined with ` + `.
+    pub fabric: String,
+    /// Mesh spacing, mm.
+    pub spacing: f64,
+    /// One per piece as cut.
+    pub pieces: Vec<PieceReport>,
+    /// All pieces together, named `total`; `stretched` pieces included.
+    pub total: PieceReport,
+    /// One per seam.
+    pub seams: Vec<SeamReport>,
+    /// What crosses what.
+    pub contact: Contact,
+    /// One per opening.
+    pub worn: Vec<Worn>,
+    /// One per stage that ran.
+    pub stages: Vec<Stage>,
+}
+
+/// What happened to one piece.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PieceReport {
+    /// As in the garment.
+    pub name: String,
+    /// Number of particles.
+    pub particles: usize,
+    /// Number of triangles.
+    pub triangles: usize,
+    /// Smallest angle of a triangle of the flat mesh, degrees.
+    pub smallest_angle: f64,
+    /// Areas (`area_flat`, …, mm²) and lengths of the rim (`boundary_flat`, …, mm).
+    #[serde(flatten)]
+    pub sizes: Sizes,
+    /// |area after − area before| / area before, without the triangles on the rim of a seam that joins lengths more
+    /// than 5 % apart.
+    pub area_error: Quartet,
+    /// The same with the length of the rim; between the two lengths a seam joins, any length is right.
+    pub boundary_error: Quartet,
+    /// Area error of all triangles.
+    pub area_error_raw: Quartet,
+    /// Boundary error against the drawn lengths alone.
+    pub boundary_error_raw: Quartet,
+    /// |length / flat length − 1| of the mesh edges within 10° of warp or weft, fractions.
+    pub strain: Spread,
+    /// Change of the angle between warp and weft over all triangles, degrees.
+    pub shear: Spread,
+    /// Largest |length / flat length − 1| of any mesh edge, bias ones too.
+    pub largest_edge_error: f64,
+    /// Set where the piece had to stretch.
+    pub stretched: Option<Stretched>,
+}
+
+/// Sizes of a piece after every stage.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Sizes {
+    /// As meshed, mm².
+    pub area_flat: f64,
+    /// Sewn, mm².
+    pub area_sewn: Option<f64>,
+    /// Draped, mm².
+    pub area_draped: Option<f64>,
+    /// Flattened, mm².
+    pub area_flattened: Option<f64>,
+    /// As meshed, mm.
+    pub boundary_flat: f64,
+    /// Sewn, mm.
+    pub boundary_sewn: Option<f64>,
+    /// Draped, mm.
+    pub boundary_draped: Option<f64>,
+    /// Flattened, mm.
+    pub boundary_flattened: Option<f64>,
+}
+
+/// An error of each way, as fractions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Quartet {
+    /// Sewn against flat.
+    pub sew: Option<f64>,
+    /// Draped against flat.
+    pub drape: Option<f64>,
+    /// Flattened against draped.
+    pub flatten: Option<f64>,
+    /// Flattened against flat.
+    pub round_trip: Option<f64>,
+}
+
+/// How a quantity is spread over a piece.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Spread {
+    /// Mean.
+    pub mean: f64,
+    /// 95 % are no larger.
+    pub p95: f64,
+    /// 99 % are no larger.
+    pub p99: f64,
+    /// Largest.
+    pub max: f64,
+}
+
+/// That a piece had to stretch, and why.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Stretched {
+    /// By how much, a fraction.
+    pub by: f64,
+    /// `seam NAME` or `body`.
+    pub why: String,
+}
+
+/// One seam.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SeamReport {
+    /// The seam's name.
+    pub name: String,
+    /// Flat length of its first side, mm.
+    pub length_a: f64,
+    /// Flat length of its second side, mm.
+    pub length_b: f64,
+    /// Mean distance of partners when the seam had been closed, before they were made one, mm.
+    pub gap_mean: f64,
+    /// Largest such distance, mm.
+    pub gap_max: f64,
+}
+
+/// What the independent checks found on the final garment.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Contact {
+    /// Vertices inside the body.
+    pub inside_body: usize,
+    /// Depth of the deepest, mm.
+    pub deepest: f64,
+    /// Cloth triangles that cross the body.
+    pub cloth_body_intersections: usize,
+    /// Pairs of cloth triangles that cross.
+    pub cloth_cloth_intersections: usize,
+}
+
+/// What passes through an opening.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Worn {
+    /// The opening, named after the edges round it.
+    pub opening: String,
+    /// `torso`, `neck`, `left arm`, `right arm`, `left leg`, `right leg`, `legs` or nothing.
+    pub body_part: Option<String>,
+    /// The piece edges round the opening, `piece.edge`, in order.
+    pub edges: Vec<String>,
+    /// Its length, mm.
+    pub length: f64,
+}
+
+/// How a stage went.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Stage {
+    /// `sew`, `drape`, `flatten`.
+    pub name: String,
+    /// Wall-clock time, s.
+    pub seconds: f64,
+    /// Steps taken.
+    pub iterations: usize,
+    /// Whether it came to rest.
+    pub converged: bool,
+    /// Energy at the end, J; `null` for a stage without one.
+    pub energy: Option<f64>,
+    /// Motion of the last check for rest; `null` for a stage without one.
+    pub drift: Option<Drift>,
+}
+
+/// How far the garment moved in as many steps again.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Drift {
+    /// Root mean square over the particles, mm.
+    pub rms: f64,
+    /// Largest, mm.
+    pub max: f64,
+}

@@ -1,0 +1,112 @@
+//! Strain along the threads, and shear between them.
+
+use super::schema::Spread;
+use super::statistics::spread;
+use crate::geometry::{Topology, Vec2, Vec3};
+use crate::mesh::{ClothMesh, PieceMesh};
+
+/// An edge counts as warp or weft within this angle of it: 10°, the slack the mesh needs near curved rims.
+const THREAD_ANGLE: f64 = 10.0 * std::f64::consts::PI / 180.0;
+
+/// How the edges and triangles of a piece changed.
+#[derive(Clone, Debug, Default)]
+pub(super) struct PieceStrain {
+    /// |strain| of warp and weft edges.
+    pub(super) threads: Vec<f64>,
+    /// |change of the angle between warp and weft| per triangle, degrees.
+    pub(super) shear: Vec<f64>,
+    /// Largest |strain| of any edge.
+    pub(super) largest: f64,
+    /// Mean extension (shrinking is negative) along warp and weft; zero without such edges.
+    pub(super) extension: [f64; 2],
+}
+
+impl PieceStrain {
+    /// Adds another piece's values; `extension`, which means nothing across pieces, stays.
+    pub(super) fn extend(&mut self, other: &Self) {
+        self.threads.extend(&other.threads);
+        self.shear.extend(&other.shear);
+        self.largest = self.largest.max(other.largest);
+    }
+
+    pub(super) fn strain(&self) -> Spread {
+        spread(self.threads.clone())
+    }
+
+    pub(super) fn shear(&self) -> Spread {
+        spread(self.shear.clone())
+    }
+}
+
+/// Strain of a piece at the positions `at`.
+pub(super) fn piece_strain(mesh: &ClothMesh, piece: &PieceMesh, at: &[Vec3]) -> PieceStrain {
+    let mut out = PieceStrain::default();
+    let mut sums = [(0.0, 0.0); 2];
+    for (ends, strain) in edge_strains(mesh, piece, at) {
+        out.largest = out.largest.max(strain.abs());
+        if let Some(thread) = thread(mesh, piece, ends) {
+            out.threads.push(strain.abs());
+            sums[thread] = (sums[thread].0 + strain, sums[thread].1 + 1.0);
+        }
+    }
+    out.extension = sums.map(|(sum, count)| if count > 0.0 { sum / count } else { 0.0 });
+    let triangles = &mesh.triangles[piece.triangles.clone()];
+    out.shear = triangles.iter().filter_map(|t| shear(mesh, piece.warp, t, at)).collect();
+    out
+}
+
+/// For every particle, the warp or weft strain of largest size among the edges at it (shrinking is negative); zero
+/// where a particle has no such edge. This is what `--color strain` shows.
+pub fn vertex_strain(mesh: &ClothMesh, at: &[Vec3]) -> Vec<f64> {
+    let mut out = vec![0.0f64; mesh.flat.len()];
+    for piece in &mesh.pieces {
+        for (ends, strain) in edge_strains(mesh, piece, at) {
+            if thread(mesh, piece, ends).is_none() {
+                continue;
+            }
+            for v in ends {
+                let held = &mut out[v as usize];
+                *held = if strain.abs() > held.abs() { strain } else { *held };
+            }
+        }
+    }
+    out
+}
+
+/// Every edge of a piece that has a length, with its strain.
+fn edge_strains(mesh: &ClothMesh, piece: &PieceMesh, at: &[Vec3]) -> Vec<([u32; 2], f64)> {
+    let topology = Topology::new(&mesh.triangles[piece.triangles.clone()]);
+    let strain = |ends: [u32; 2]| {
+        let [a, b] = ends.map(|v| v as usize);
+        let flat = (mesh.flat[b] - mesh.flat[a]).norm();
+        (flat > 0.0).then(|| (ends, (at[b] - at[a]).norm() / flat - 1.0))
+    };
+    topology.edges.iter().filter_map(|e| strain(e.ends)).collect()
+}
+
+/// 0 for an edge along the warp, 1 along the weft, none for a bias one.
+fn thread(mesh: &ClothMesh, piece: &PieceMesh, ends: [u32; 2]) -> Option<usize> {
+    let along = mesh.flat[ends[1] as usize] - mesh.flat[ends[0] as usize];
+    let (up, across) = (along.dot(&piece.warp).abs(), along.perp(&piece.warp).abs());
+    let slope = THREAD_ANGLE.tan();
+    if across <= up * slope {
+        Some(0)
+    } else if up <= across * slope {
+        Some(1)
+    } else {
+        None
+    }
+}
+
+/// |90° − angle between the images of warp and weft| of a triangle, degrees; none for a triangle without area.
+fn shear(mesh: &ClothMesh, warp: Vec2, triangle: &[u32; 3], at: &[Vec3]) -> Option<f64> {
+    let [a, b, c] = triangle.map(|v| v as usize);
+    let (p, q) = (mesh.flat[b] - mesh.flat[a], mesh.flat[c] - mesh.flat[a]);
+    let (u, v) = (at[b] - at[a], at[c] - at[a]);
+    let double_area = p.perp(&q);
+    // A flat direction d is s·p + t·q by Cramer's rule; its image is s·u + t·v. Scale does not matter here.
+    let image = |d: Vec2| (u * d.perp(&q) + v * p.perp(&d)) / double_area;
+    let (x, y) = (image(warp), image(Vec2::new(-warp.y, warp.x)));
+    let size = x.norm() * y.norm();
+    (double_area != 0.0 && size > 0.0).then(|| (x.dot(&y) / size).clamp(-1.0, 1.0).asin().to_degrees().abs())
+}

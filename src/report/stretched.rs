@@ -1,0 +1,52 @@
+//! Pieces that had to stretch.
+
+use std::collections::HashMap;
+
+use super::rim::{RimEdge, UNEVEN};
+use super::schema::Stretched;
+use crate::geometry::Vec3;
+use crate::mesh::{ClothMesh, Stitches};
+
+/// The shorter side of an uneven seam counts as drawn out from this strain on: the rest may have been eased away.
+const DRAWN_OUT: f64 = 0.03;
+
+/// A piece counts as stretched when this share of its rim is drawn out: a neckband is, a front with a neckline is not.
+const SHARE_OF_RIM: f64 = 0.10;
+
+/// A piece is smaller than what is under it when its warp or its weft is longer by this much on average.
+const OVER_BODY: f64 = 0.05;
+
+/// Why the piece with this rim had to stretch, if it had to. `extension` is its mean strain along warp and weft.
+pub(super) fn stretched(mesh: &ClothMesh, rim: &[RimEdge], extension: [f64; 2], at: &[Vec3]) -> Option<Stretched> {
+    by_seam(mesh, rim, at).or_else(|| {
+        let by = extension[0].max(extension[1]);
+        (by > OVER_BODY).then(|| Stretched { by, why: "body".into() })
+    })
+}
+
+fn by_seam(mesh: &ClothMesh, rim: &[RimEdge], at: &[Vec3]) -> Option<Stretched> {
+    let length: f64 = rim.iter().map(|e| e.length(at)).sum();
+    let drawn_out: Vec<&RimEdge> = rim.iter().filter(|e| is_drawn_out(e, at)).collect();
+    let stretched: f64 = drawn_out.iter().map(|e| e.length(at)).sum();
+    if drawn_out.is_empty() || stretched <= SHARE_OF_RIM * length {
+        return None;
+    }
+    let flat: f64 = drawn_out.iter().map(|e| e.flat).sum();
+    Some(Stretched { by: stretched / flat - 1.0, why: format!("seam {}", longest_seam(mesh, &drawn_out)?.name) })
+}
+
+/// Whether the edge is the shorter partner of an uneven seam and gave way.
+fn is_drawn_out(edge: &RimEdge, at: &[Vec3]) -> bool {
+    let shortest = edge.flat <= edge.drawn[0] * (1.0 + UNEVEN / 10.0);
+    edge.uneven() && shortest && edge.length(at) > (1.0 + DRAWN_OUT) * edge.flat
+}
+
+/// The seam that has most of these edges, by flat length.
+fn longest_seam<'a>(mesh: &'a ClothMesh, edges: &[&RimEdge]) -> Option<&'a Stitches> {
+    let flat_length: HashMap<[u32; 2], f64> = edges.iter().map(|e| (e.ends, e.flat)).collect();
+    let on_seam = |seam: &Stitches| -> f64 {
+        let steps = seam.pairs.windows(2).flat_map(|w| [[w[0][0], w[1][0]], [w[0][1], w[1][1]]]);
+        steps.filter_map(|[a, b]| flat_length.get(&[a.min(b), a.max(b)])).sum()
+    };
+    mesh.seams.iter().max_by(|x, y| on_seam(x).total_cmp(&on_seam(y)))
+}

@@ -1,0 +1,141 @@
+//! The report for people.
+
+use super::schema::{PieceReport, Quartet, Report, SeamReport, Stage, Worn};
+
+/// Shown where there is no value.
+const NONE: &str = "–";
+
+/// The report as text for a terminal, sections separated by empty lines, each line ending with a line feed.
+pub fn table(report: &Report) -> String {
+    let head = format!(
+        "{} on {}, {}, spacing {} mm\n",
+        report.garment,
+        report.mannequin,
+        report.fabric,
+        number(Some(report.spacing), 1)
+    );
+    let sections = [
+        head,
+        pieces(&report.pieces, &report.total),
+        seams(&report.seams),
+        worn(&report.worn),
+        contact(report),
+        stages(&report.stages),
+    ];
+    sections.iter().filter(|s| !s.is_empty()).map(String::as_str).collect::<Vec<_>>().join("\n")
+}
+
+fn pieces(pieces: &[PieceReport], total: &PieceReport) -> String {
+    let head = ["piece", "cm²", "area: sew", "drape", "flatten", "trip", "rim: sew", "drape", "flatten", "trip"];
+    let more = ["strain", "99 %", "max", "shear", ""];
+    let mut rows = vec![head.into_iter().chain(more).map(String::from).collect()];
+    rows.extend(pieces.iter().map(piece));
+    if pieces.len() > 1 {
+        rows.push(piece(total));
+    }
+    let mut text = aligned(&rows);
+    text.push_str("  errors and strain in %, shear in degrees\n");
+    text
+}
+
+fn piece(p: &PieceReport) -> Vec<String> {
+    let mut row = vec![p.name.clone(), number(Some(p.sizes.area_flat / 100.0), 1)];
+    row.extend(quartet(&p.area_error));
+    row.extend(quartet(&p.boundary_error));
+    row.extend([p.strain.mean, p.strain.p99, p.strain.max].map(|x| percent(Some(x))));
+    row.push(number(Some(p.shear.mean), 1));
+    let why = p.stretched.as_ref().map(|s| format!("stretched {} % by {}", number(Some(100.0 * s.by), 1), s.why));
+    row.push(why.unwrap_or_default());
+    row
+}
+
+fn quartet(q: &Quartet) -> [String; 4] {
+    [q.sew, q.drape, q.flatten, q.round_trip].map(percent)
+}
+
+fn seams(seams: &[SeamReport]) -> String {
+    if seams.is_empty() {
+        return String::new();
+    }
+    let mut rows = vec![["seam", "mm", "to mm", "gap", "largest"].map(String::from).to_vec()];
+    rows.extend(seams.iter().map(|s| {
+        let numbers = [(s.length_a, 1), (s.length_b, 1), (s.gap_mean, 3), (s.gap_max, 3)];
+        let mut row = vec![s.name.clone()];
+        row.extend(numbers.map(|(x, digits)| number(Some(x), digits)));
+        row
+    }));
+    aligned(&rows)
+}
+
+fn worn(worn: &[Worn]) -> String {
+    if worn.is_empty() {
+        return String::new();
+    }
+    let mut rows = vec![["opening", "mm", "round"].map(String::from).to_vec()];
+    rows.extend(worn.iter().map(|w| {
+        let part = w.body_part.clone().unwrap_or_else(|| "NOTHING".into());
+        vec![w.opening.clone(), number(Some(w.length), 0), part]
+    }));
+    aligned(&rows)
+}
+
+fn contact(report: &Report) -> String {
+    let c = &report.contact;
+    format!(
+        "  inside the body {} (deepest {} mm) · cloth through body {} · cloth through cloth {}\n",
+        c.inside_body,
+        number(Some(c.deepest), 2),
+        c.cloth_body_intersections,
+        c.cloth_cloth_intersections
+    )
+}
+
+fn stages(stages: &[Stage]) -> String {
+    if stages.is_empty() {
+        return String::new();
+    }
+    let head = ["stage", "s", "steps", "at rest", "drift mm"];
+    let mut rows = vec![head.map(String::from).to_vec()];
+    rows.extend(stages.iter().map(|s| {
+        vec![
+            s.name.clone(),
+            number(Some(s.seconds), 2),
+            s.iterations.to_string(),
+            if s.converged { "yes" } else { "NO" }.into(),
+            number(s.drift.map(|d| d.rms), 3),
+        ]
+    }));
+    aligned(&rows)
+}
+
+fn percent(x: Option<f64>) -> String {
+    number(x.map(|x| 100.0 * x), 2)
+}
+
+fn number(x: Option<f64>, digits: usize) -> String {
+    x.map_or_else(|| NONE.into(), |x| format!("{x:.digits$}"))
+}
+
+/// Columns two blanks apart, the first flush left, the others flush right, except those that hold words. The first
+/// row is the head, with a rule under it.
+fn aligned(rows: &[Vec<String>]) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let cell = |row: &[String], k: usize| row.get(k).cloned().unwrap_or_default();
+    let width: Vec<usize> =
+        (0..columns).map(|k| rows.iter().map(|r| cell(r, k).chars().count()).max().unwrap_or(0)).collect();
+    let is_number = |text: &str| text.is_empty() || text == NONE || text.parse::<f64>().is_ok();
+    let right: Vec<bool> = (0..columns).map(|k| rows[1..].iter().all(|r| is_number(&cell(r, k)))).collect();
+    let line = |row: &Vec<String>| {
+        let pad = |k: usize| {
+            let (text, width) = (cell(row, k), width[k]);
+            if right[k] { format!("{text:>width$}") } else { format!("{text:<width$}") }
+        };
+        let text = (0..columns).map(pad).collect::<Vec<_>>().join("  ");
+        format!("  {}\n", text.trim_end())
+    };
+    let rule = "─".repeat(width.iter().sum::<usize>() + 2 * (columns - 1));
+    let mut out = line(&rows[0]);
+    out.push_str(&format!("  {rule}\n"));
+    rows[1..].iter().for_each(|r| out.push_str(&line(r)));
+    out
+}

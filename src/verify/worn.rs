@@ -1,0 +1,144 @@
+//! Which body part passes through which opening.
+//!
+//! The body is thought of as a tree of lines: the trunk, and from it neck, arms and legs, each carried on to far away.
+//! An opening is worn when its rim separates the far ends of that tree into two groups, that is, when it is linked
+//! with the line from one end to another. How the rim lies, folds or ripples does not matter.
+
+use super::linking::linking;
+use crate::geometry::Vec3;
+use crate::mannequin::{BodyPart, Mannequin, PartKind};
+
+/// Where the lines of the body end, metres. A rim of a metre's size is seen from there as less than a millionth turn.
+const FAR_AWAY: f64 = 2000.0;
+
+/// A limb goes straight on for this long (metres), past a hand or a foot and a long sleeve on it, before it turns
+/// aside: carried on straight, hanging arms would pass through the hem of a wide skirt.
+const BEYOND_END: f64 = 0.2;
+
+/// Height of the face above the top of the neck (metres), where a hood is open.
+const FACE: f64 = 0.1;
+
+/// What passes through an opening.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Through {
+    /// One part of the body. The torso also for a strap or toga round the trunk and an arm.
+    Part(PartKind),
+    /// Both legs, below the crotch: the hem of a skirt.
+    Legs,
+}
+
+impl Through {
+    /// `torso`, `neck`, `left arm`, `right arm`, `left leg`, `right leg`, `legs`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Part(PartKind::Torso) => "torso",
+            Self::Part(PartKind::Neck) => "neck",
+            Self::Part(PartKind::LeftArm) => "left arm",
+            Self::Part(PartKind::RightArm) => "right arm",
+            Self::Part(PartKind::LeftLeg) => "left leg",
+            Self::Part(PartKind::RightLeg) => "right leg",
+            Self::Legs => "legs",
+        }
+    }
+}
+
+/// For every rim (a closed polygon, in order), what passes through it; `None` where nothing does or the body has no
+/// torso to tell by.
+pub fn worn(rims: &[Vec<Vec3>], body: &Mannequin) -> Vec<Option<Through>> {
+    let Some(skeleton) = Skeleton::new(&body.parts) else { return vec![None; rims.len()] };
+    rims.iter().map(|rim| skeleton.through(rim)).collect()
+}
+
+/// The body as lines that all begin at the upper end of the trunk.
+struct Skeleton {
+    torso: Vec<Vec3>,
+    /// From the trunk to far away.
+    ends: Vec<(PartKind, Vec<Vec3>)>,
+    /// The neck's line leaving the head through the face instead of the crown.
+    face: Option<Vec<Vec3>>,
+}
+
+impl Skeleton {
+    fn new(parts: &[BodyPart]) -> Option<Self> {
+        let line = |kind: PartKind| {
+            let part = parts.iter().find(|p| p.kind == kind)?;
+            let line: Vec<Vec3> = part.sections.iter().map(|s| s.center).collect();
+            (!line.is_empty()).then_some(line)
+        };
+        let mut torso = line(PartKind::Torso)?;
+        torso.reverse();
+        let top = torso[0];
+        let mut ends = Vec::new();
+        for kind in [PartKind::Neck, PartKind::LeftArm, PartKind::RightArm, PartKind::LeftLeg, PartKind::RightLeg] {
+            let Some(limb) = line(kind) else { continue };
+            let mut path = if is_leg(kind) { torso.clone() } else { vec![top] };
+            path.extend(limb);
+            carry_on(&mut path, kind);
+            ends.push((kind, path));
+        }
+        let face = line(PartKind::Neck).map(|neck| {
+            let mut path = vec![top];
+            path.extend(neck);
+            path.push(path[path.len() - 1] + Vec3::y() * FACE);
+            path.push(path[path.len() - 1] + Vec3::z() * FAR_AWAY);
+            path
+        });
+        Some(Self { torso, ends, face })
+    }
+
+    fn through(&self, rim: &[Vec3]) -> Option<Through> {
+        let shares: Vec<(PartKind, f64)> = self.ends.iter().map(|(kind, line)| (*kind, linking(rim, line))).collect();
+        let parted = parted(&shares);
+        match parted.as_slice() {
+            [] => self.through_face(rim, &shares),
+            [one] => Some(Through::Part(*one)),
+            [PartKind::LeftLeg, PartKind::RightLeg] => Some(self.torso_or_legs(rim, &shares)),
+            _ => Some(Through::Part(PartKind::Torso)),
+        }
+    }
+
+    /// The rim of a hood is not round the line through the crown, but round the one through the face.
+    fn through_face(&self, rim: &[Vec3], shares: &[(PartKind, f64)]) -> Option<Through> {
+        let share = linking(rim, self.face.as_ref()?);
+        let changed: Vec<(PartKind, f64)> =
+            shares.iter().map(|&(kind, s)| (kind, if kind == PartKind::Neck { share } else { s })).collect();
+        (parted(&changed) == [PartKind::Neck]).then_some(Through::Part(PartKind::Neck))
+    }
+
+    /// A waist and a hem part the ends alike; what lies in the rim's plane is what takes the larger share of the turn.
+    fn torso_or_legs(&self, rim: &[Vec3], shares: &[(PartKind, f64)]) -> Through {
+        let trunk = linking(rim, &self.torso).abs();
+        let legs = shares.iter().filter(|(kind, _)| is_leg(*kind));
+        let (sum, count) = legs.fold((0.0, 0.0), |(sum, n), &(_, s)| (sum + s, n + 1.0));
+        let beside_trunk = (sum / count - linking(rim, &self.torso)).abs();
+        if trunk >= beside_trunk { Through::Part(PartKind::Torso) } else { Through::Legs }
+    }
+}
+
+fn is_leg(kind: PartKind) -> bool {
+    matches!(kind, PartKind::LeftLeg | PartKind::RightLeg)
+}
+
+/// Carries a line on to far away: the head up, the legs down, the arms on for a while and then out to their side.
+fn carry_on(path: &mut Vec<Vec3>, kind: PartKind) {
+    let end = path[path.len() - 1];
+    let along = (end - path[path.len() - 2]).try_normalize(0.0).unwrap_or_else(Vec3::zeros);
+    let aside = match kind {
+        PartKind::Neck | PartKind::Torso => Vec3::y(),
+        PartKind::LeftArm => Vec3::x(),
+        PartKind::RightArm => -Vec3::x(),
+        PartKind::LeftLeg | PartKind::RightLeg => -Vec3::y(),
+    };
+    path.push(end + along * BEYOND_END);
+    path.push(end + along * BEYOND_END + aside * FAR_AWAY);
+}
+
+/// The ends that the rim parts from the others: the smaller group; of two equally large ones that without the neck.
+/// Empty when it parts none.
+fn parted(shares: &[(PartKind, f64)]) -> Vec<PartKind> {
+    // Every line begins at the same point, so differences of two are whole numbers.
+    let level = |s: f64| shares.first().map_or(0, |first| (s - first.1).round() as i64);
+    let (same, other): (Vec<_>, Vec<_>) = shares.iter().partition(|(_, s)| level(*s) == 0);
+    let smaller = if same.len() < other.len() { same } else { other };
+    smaller.into_iter().map(|(kind, _)| kind).collect()
+}

@@ -1,0 +1,192 @@
+//! The picture: the right size, the same bytes every time, and what it shows told apart. The pictures stay in the
+//! target's temporary folder for a person to look at.
+
+use std::f64::consts::{PI, TAU};
+use std::path::Path;
+use std::time::Instant;
+
+use toile::geometry::{TriMesh, Vec3};
+use toile::picture::{HEIGHT, PictureError, Scene, WIDTH, draw, rim_lines};
+
+/// A tube of rings, each given by centre, half width and half depth; closed at both ends on demand.
+fn tube(rings: &[(Vec3, f64, f64)], around: u32, closed: bool) -> TriMesh {
+    let mut mesh = TriMesh::default();
+    for (center, width, depth) in rings {
+        mesh.vertices.extend((0..around).map(|k| {
+            let (sin, cos) = (TAU * f64::from(k) / f64::from(around)).sin_cos();
+            center + Vec3::new(width * sin, 0.0, depth * cos)
+        }));
+    }
+    for row in 0..rings.len() as u32 - 1 {
+        for k in 0..around {
+            let (a, b) = (row * around + k, row * around + (k + 1) % around);
+            mesh.triangles.extend([[a, b, b + around], [a, b + around, a + around]]);
+        }
+    }
+    if closed {
+        let last = (rings.len() as u32 - 1) * around;
+        for k in 1..around - 1 {
+            mesh.triangles.extend([[0, k + 1, k], [last, last + k, last + k + 1]]);
+        }
+    }
+    mesh
+}
+
+fn add(mesh: &mut TriMesh, other: TriMesh) {
+    let shift = mesh.vertices.len() as u32;
+    mesh.vertices.extend(other.vertices);
+    mesh.triangles.extend(other.triangles.iter().map(|t| t.map(|v| v + shift)));
+}
+
+/// Heights with half widths and depths, between which the outline runs smoothly.
+fn profile(stations: &[[f64; 3]], rows: usize, x: f64) -> Vec<(Vec3, f64, f64)> {
+    let at = |k: usize| {
+        let t = k as f64 / rows as f64 * (stations.len() - 1) as f64;
+        let i = (t as usize).min(stations.len() - 2);
+        let s = (1.0 - (PI * (t - i as f64)).cos()) / 2.0;
+        let [y, w, d] = [0, 1, 2].map(|j| stations[i][j] + s * (stations[i + 1][j] - stations[i][j]));
+        (Vec3::new(x, y, 0.0), w, d)
+    };
+    (0..=rows).map(at).collect()
+}
+
+/// A dress form with arms and legs, about 30,000 triangles.
+fn body() -> TriMesh {
+    let trunk = [
+        [0.76, 0.09, 0.08],
+        [0.85, 0.17, 0.11],
+        [1.05, 0.125, 0.09],
+        [1.27, 0.155, 0.115],
+        [1.42, 0.11, 0.07],
+        [1.47, 0.055, 0.055],
+        [1.53, 0.05, 0.05],
+        [1.64, 0.075, 0.09],
+        [1.76, 0.02, 0.02],
+    ];
+    let mut mesh = tube(&profile(&trunk, 90, 0.0), 90, true);
+    for side in [-1.0, 1.0] {
+        let leg = [[0.02, 0.04, 0.06], [0.1, 0.035, 0.04], [0.35, 0.055, 0.055], [0.5, 0.055, 0.06], [0.82, 0.08, 0.08]];
+        add(&mut mesh, tube(&profile(&leg, 60, side * 0.085), 50, true));
+        let mut arm = profile(&[[0.8, 0.02, 0.03], [0.9, 0.03, 0.03], [1.12, 0.04, 0.04], [1.38, 0.05, 0.05]], 40, 0.0);
+        arm.iter_mut().for_each(|(c, ..)| c.x = side * (0.165 + 0.5 * (1.38 - c.y) * 0.6));
+        add(&mut mesh, tube(&arm, 40, true));
+    }
+    mesh
+}
+
+struct Dress {
+    cloth: TriMesh,
+    pieces: Vec<u32>,
+    seams: Vec<Vec<Vec3>>,
+    strain: Vec<f64>,
+}
+
+/// A sleeveless dress with a rippling skirt of four pieces and a waist seam; 20,000 triangles.
+fn dress() -> Dress {
+    let (around, rows) = (100usize, 100usize);
+    let stations = [[0.42, 0.33, 0.30], [0.75, 0.225, 0.175], [1.05, 0.132, 0.097], [1.27, 0.163, 0.123], [1.37, 0.14, 0.09]];
+    let mut cloth = tube(&profile(&stations, rows, 0.0), around as u32, false);
+    let waist = 55;
+    for (k, p) in cloth.vertices.iter_mut().enumerate() {
+        let turn = TAU * (k % around) as f64 / around as f64;
+        let depth = ((0.95 - p.y) / 0.5).max(0.0);
+        let ripple = 1.0 + 0.13 * depth * (9.0 * turn).cos();
+        p.x *= ripple;
+        p.z *= ripple;
+        p.y -= 0.015 * depth * (9.0 * turn).cos();
+    }
+    let quarter = around / 4;
+    let piece = |t: usize| {
+        let (row, column) = (t / (2 * around), t % (2 * around) / 2);
+        let front = column < quarter || column >= 3 * quarter;
+        u32::from(!front) + 2 * u32::from(row >= waist)
+    };
+    let pieces = (0..cloth.triangles.len()).map(piece).collect();
+    let column = |k: usize| (0..=rows).map(|r| cloth.vertices[r * around + k]).collect();
+    let mut seams: Vec<Vec<Vec3>> = vec![column(quarter), column(3 * quarter)];
+    seams.push((0..=around).map(|k| cloth.vertices[waist * around + k % around]).collect());
+    let strain = cloth.vertices.iter().map(|p| 0.012 * (7.0 * p.y).sin() + 0.006 * (5.0 * p.x).cos()).collect();
+    Dress { cloth, pieces, seams, strain }
+}
+
+fn draw_dress(strain: bool) -> Vec<u8> {
+    let (body, dress) = (body(), dress());
+    let rims = rim_lines(&dress.cloth);
+    let scene = Scene {
+        body: &body,
+        cloth: &dress.cloth,
+        piece_of_triangle: &dress.pieces,
+        seams: &dress.seams,
+        rims: &rims,
+        title: "gore_skirt",
+        subtitle: "woman_92 · cotton_poplin",
+        strain: strain.then_some(&dress.strain),
+    };
+    let start = Instant::now();
+    let png = draw(&scene).expect("a scene with cloth can be drawn");
+    println!("{} + {} triangles in {:?}", body.triangles.len(), dress.cloth.triangles.len(), start.elapsed());
+    png
+}
+
+fn keep(name: &str, png: &[u8]) {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::write(&path, png).expect("the target's temporary folder can be written");
+}
+
+fn decode(png: &[u8]) -> Vec<[u8; 3]> {
+    let mut reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().expect("a PNG");
+    let mut rgb = vec![0; reader.output_buffer_size().expect("of a size")];
+    let info = reader.next_frame(&mut rgb).expect("with one frame");
+    assert_eq!((info.width as usize, info.height as usize), (WIDTH, HEIGHT));
+    rgb.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect()
+}
+
+#[test]
+fn a_dress_by_pieces_and_by_strain() {
+    let by_piece = draw_dress(false);
+    let by_strain = draw_dress(true);
+    keep("dress.png", &by_piece);
+    keep("dress_strain.png", &by_strain);
+    let (pieces, strain) = (decode(&by_piece), decode(&by_strain));
+    assert_ne!(pieces, strain);
+    let paper = pieces[0];
+    let drawn = pieces.iter().filter(|p| **p != paper).count();
+    assert!(drawn > WIDTH * HEIGHT / 8, "only {drawn} pixels drawn");
+    assert!(by_piece.len() < 4_000_000, "{} bytes", by_piece.len());
+}
+
+#[test]
+fn the_same_bytes_on_one_thread() {
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
+    assert_eq!(one.install(|| draw_dress(false)), draw_dress(false));
+}
+
+/// A flat cloth seen from the front shows its right side, from the back its wrong one, and the side view an edge.
+#[test]
+fn right_and_wrong_side_differ() {
+    let mut cloth = TriMesh::default();
+    cloth.vertices = [[-0.3, 0.0], [0.3, 0.0], [0.3, 0.6], [-0.3, 0.6]].map(|[x, y]| Vec3::new(x, y, 0.0)).to_vec();
+    cloth.triangles = vec![[0, 1, 2], [0, 2, 3]];
+    let png = draw(&scene(&cloth, None)).expect("a scene with cloth can be drawn");
+    keep("flat.png", &png);
+    let pixels = decode(&png);
+    let row = &pixels[HEIGHT / 2 * WIDTH..][..WIDTH];
+    let brightness = |p: &[u8; 3]| p.iter().map(|&x| u32::from(x)).sum::<u32>();
+    let (front, back) = (&row[WIDTH / 5], &row[4 * WIDTH / 5]);
+    assert!(brightness(front) > brightness(back) + 60, "{front:?} {back:?}");
+}
+
+fn scene<'a>(cloth: &'a TriMesh, strain: Option<&'a [f64]>) -> Scene<'a> {
+    static NOBODY: TriMesh = TriMesh { vertices: vec![], triangles: vec![] };
+    Scene { body: &NOBODY, cloth, piece_of_triangle: &[], seams: &[], rims: &[], title: "", subtitle: "", strain }
+}
+
+#[test]
+fn what_cannot_be_drawn_is_said() {
+    let nothing = TriMesh::default();
+    assert!(matches!(draw(&scene(&nothing, None)), Err(PictureError::NothingToDraw)));
+    let mut cloth = dress().cloth;
+    assert!(matches!(draw(&scene(&cloth, Some(&[0.1]))), Err(PictureError::StrainLength { values: 1, .. })));
+    cloth.vertices[5].x = f64::NAN;
+    assert!(matches!(draw(&scene(&cloth, None)), Err(PictureError::NothingToDraw)));
+}

@@ -1,0 +1,316 @@
+//! The report against a garment small enough to check by hand, and against the definitions of DESIGN section 4.
+
+use approx::assert_relative_eq;
+use toile::geometry::{Vec2, Vec3};
+use toile::io::obj_write::garment_obj;
+use toile::mannequin::Mannequin;
+use toile::mesh::{ClothMesh, EdgeParticles, PieceMesh, Stitches};
+use toile::pattern::{EdgeId, Garment, Give, Seam, SeamKind, Span};
+use toile::report::{Measured, Quartet, Report, Stage, measure, opening_names, table, vertex_strain};
+
+/// A grid of `cells` squares each way, `width` by `height`, its upper left corner at the origin; four named edges.
+fn add_piece(mesh: &mut ClothMesh, name: &str, width: f64, height: f64, cells: u32) {
+    let (first, first_triangle) = (mesh.flat.len(), mesh.triangles.len());
+    let n = cells + 1;
+    let share = |k: u32| f64::from(k) / f64::from(cells);
+    for row in 0..n {
+        mesh.flat.extend((0..n).map(|column| Vec2::new(width * share(column), height * share(row))));
+    }
+    let at = |row: u32, column: u32| first as u32 + row * n + column;
+    for row in 0..cells {
+        for column in 0..cells {
+            let [a, b] = [at(row, column), at(row, column + 1)];
+            let [c, d] = [at(row + 1, column), at(row + 1, column + 1)];
+            mesh.triangles.extend([[a, b, d], [a, d, c]]);
+        }
+    }
+    let edge = |index: usize, name: &str, particles: Vec<u32>| EdgeParticles {
+        edge: EdgeId { piece: mesh.pieces.len(), ring: 0, index },
+        name: name.into(),
+        particles,
+    };
+    let edges = vec![
+        edge(0, "top", (0..n).map(|k| at(0, k)).collect()),
+        edge(1, "right", (0..n).map(|k| at(k, cells)).collect()),
+        edge(2, "bottom", (0..n).rev().map(|k| at(cells, k)).collect()),
+        edge(3, "left", (0..n).rev().map(|k| at(k, 0)).collect()),
+    ];
+    mesh.pieces.push(PieceMesh {
+        name: name.into(),
+        particles: first..mesh.flat.len(),
+        triangles: first_triangle..mesh.triangles.len(),
+        edges,
+        lines: vec![],
+        smallest_angle: 45f64.to_radians(),
+        warp: Vec2::new(0.0, -1.0),
+    });
+}
+
+/// The right edge of the first piece sewn to the left edge of the second.
+struct Fixture {
+    mesh: ClothMesh,
+    weld: Vec<u32>,
+    garment: Garment,
+    body: Mannequin,
+}
+
+fn fixture(second_height: f64) -> Fixture {
+    let mut mesh = ClothMesh { spacing: 0.01, ..ClothMesh::default() };
+    add_piece(&mut mesh, "front.L", 0.1, 0.1, 10);
+    add_piece(&mut mesh, "back.L", 0.1, second_height, 10);
+    let right = mesh.pieces[0].edges[1].particles.clone();
+    let left: Vec<u32> = mesh.pieces[1].edges[3].particles.iter().rev().copied().collect();
+    let pairs: Vec<[u32; 2]> = right.iter().zip(&left).map(|(&a, &b)| [a, b]).collect();
+    let mut weld: Vec<u32> = (0..mesh.flat.len() as u32).collect();
+    pairs.iter().for_each(|&[a, b]| weld[b as usize] = a);
+    mesh.seams.push(Stitches { name: "side".into(), pairs });
+    let garment = Garment {
+        name: "patch".into(),
+        title: "Patch".into(),
+        body: None,
+        pieces: vec![],
+        seams: vec![],
+        fabrics: vec![],
+        closures: vec![],
+        tests: vec![],
+    };
+    let body = Mannequin { name: "nobody".into(), mesh: Default::default(), parts: vec![] };
+    Fixture { mesh, weld, garment, body }
+}
+
+/// Both pieces in the plane z = 0, right side towards +z: the first scaled by `scale`, the second beside it with the
+/// same height.
+fn laid_out(f: &Fixture, scale: f64) -> Vec<Vec3> {
+    let tall = f.mesh.flat[f.mesh.pieces[1].particles.clone()].iter().map(|p| p.y).fold(0.0, f64::max);
+    let place = |(k, p): (usize, &Vec2)| {
+        if f.mesh.pieces[0].particles.contains(&k) {
+            Vec3::new(p.x * scale, -p.y * scale, 0.0)
+        } else {
+            Vec3::new(0.1 * scale + p.x, -p.y / tall * 0.1 * scale, 0.0)
+        }
+    };
+    f.mesh.flat.iter().enumerate().map(place).collect()
+}
+
+fn report(f: &Fixture, sewn: &[Vec3], draped: &[Vec3], flattened: &[Vec2]) -> Report {
+    let stage = Stage { name: "sew".into(), seconds: 1.5, iterations: 3, converged: true, energy: None, drift: None };
+    measure(&Measured {
+        garment: &f.garment,
+        mesh: &f.mesh,
+        weld: &f.weld,
+        body: &f.body,
+        fabric: "muslin",
+        closed: None,
+        sewn: Some(sewn),
+        draped: Some(draped),
+        flattened: Some(flattened),
+        stages: &[stage],
+    })
+}
+
+#[test]
+fn a_square_scaled_by_a_hundredth() {
+    let f = fixture(0.1);
+    let at = laid_out(&f, 1.01);
+    let r = report(&f, &at, &at, &f.mesh.flat);
+    let front = &r.pieces[0];
+    assert_eq!((front.particles, front.triangles), (121, 200));
+    assert_relative_eq!(front.sizes.area_flat, 10_000.0, epsilon = 1e-6);
+    assert_relative_eq!(front.sizes.area_draped.unwrap_or(0.0), 10_201.0, epsilon = 1e-6);
+    assert_relative_eq!(front.area_error.drape.unwrap_or(0.0), 0.0201, epsilon = 1e-9);
+    assert_relative_eq!(front.boundary_error.drape.unwrap_or(0.0), 0.01, epsilon = 1e-9);
+    assert_relative_eq!(front.area_error.flatten.unwrap_or(0.0), 1.0 - 1.0 / 1.0201, epsilon = 1e-9);
+    assert_eq!(front.area_error.round_trip, Some(0.0));
+    assert_eq!(front.boundary_error.round_trip, Some(0.0));
+    let s = front.strain;
+    [s.mean, s.p95, s.p99, s.max, front.largest_edge_error]
+        .iter()
+        .for_each(|x| assert_relative_eq!(*x, 0.01, epsilon = 1e-9));
+    assert_relative_eq!(front.shear.max, 0.0, epsilon = 1e-6);
+    assert!(r.pieces.iter().all(|p| p.stretched.is_none()));
+    assert_relative_eq!(r.total.sizes.area_flat, 20_000.0, epsilon = 1e-6);
+}
+
+#[test]
+fn a_gathered_seam_is_right_anywhere_between_its_two_lengths() {
+    // 100 mm sewn to 120 mm; sewn length 100 mm.
+    let f = fixture(0.12);
+    let at = laid_out(&f, 1.0);
+    let r = report(&f, &at, &at, &f.mesh.flat);
+    let back = &r.pieces[1];
+    // Free: top and bottom 100 mm each as drawn, right side 120 drawn in to 100: 20 of 440 mm.
+    assert_relative_eq!(back.boundary_error.drape.unwrap_or(0.0), 20.0 / 440.0, epsilon = 1e-9);
+    assert_relative_eq!(back.boundary_error_raw.drape.unwrap_or(0.0), 40.0 / 440.0, epsilon = 1e-9);
+    // Flattening gave the seam back its drawn ratio: right; the free side grew by 20 of 400 mm.
+    assert_relative_eq!(back.boundary_error.flatten.unwrap_or(0.0), 20.0 / 400.0, epsilon = 1e-9);
+    assert_eq!(back.boundary_error.round_trip, Some(0.0));
+    assert_relative_eq!(back.area_error_raw.drape.unwrap_or(0.0), 1.0 - 100.0 / 120.0, epsilon = 1e-9);
+    let front = &r.pieces[0];
+    assert_eq!(front.boundary_error.drape, Some(0.0));
+    assert!(front.stretched.is_none());
+}
+
+#[test]
+fn triangles_beside_an_uneven_seam_do_not_count() {
+    // Only the row of triangles at the gathered seam is off.
+    let f = fixture(0.12);
+    let mut at = laid_out(&f, 1.0);
+    for k in f.mesh.pieces[1].particles.clone() {
+        let p = f.mesh.flat[k];
+        let pull = if p.x < 1e-9 { 100.0 / 120.0 } else { 1.0 };
+        at[k].y = -p.y * pull;
+    }
+    for &[a, b] in &f.mesh.seams[0].pairs {
+        assert!((at[a as usize] - at[b as usize]).norm() < 1e-12);
+    }
+    let r = report(&f, &at, &at, &f.mesh.flat);
+    assert_relative_eq!(r.pieces[1].area_error.drape.unwrap_or(1.0), 0.0, epsilon = 1e-9);
+    assert!(r.pieces[1].area_error_raw.drape.unwrap_or(0.0) > 0.005);
+}
+
+#[test]
+fn a_band_drawn_out_by_a_seam_is_named() {
+    // 100 mm sewn to 80 mm, sewn length 100: the second piece stretches by a quarter along the seam.
+    let f = fixture(0.08);
+    let at = laid_out(&f, 1.0);
+    let r = report(&f, &at, &at, &f.mesh.flat);
+    let stretched = r.pieces[1].stretched.clone().map(|s| (s.why, (s.by * 1000.0).round()));
+    assert_eq!(stretched, Some(("seam side".into(), 250.0)));
+    assert!(r.pieces[0].stretched.is_none());
+    let text = table(&r);
+    assert!(text.contains("stretched 25.0 % by seam side"), "{text}");
+}
+
+#[test]
+fn a_piece_smaller_than_the_body_is_named() {
+    let f = fixture(0.1);
+    let at = laid_out(&f, 1.08);
+    let r = report(&f, &at, &at, &f.mesh.flat);
+    assert_eq!(r.pieces[0].stretched.as_ref().map(|s| s.why.as_str()), Some("body"));
+}
+
+#[test]
+fn shear_is_the_change_of_the_angle() {
+    let f = fixture(0.1);
+    let at: Vec<Vec3> = laid_out(&f, 1.0).iter().map(|p| Vec3::new(p.x + 0.1 * p.y, p.y, 0.0)).collect();
+    let r = report(&f, &at, &at, &f.mesh.flat);
+    let expected = 0.1f64.atan().to_degrees();
+    let s = r.pieces[0].shear;
+    [s.mean, s.p99, s.max].iter().for_each(|x| assert_relative_eq!(*x, expected, epsilon = 1e-9));
+}
+
+#[test]
+fn seam_gaps_and_lengths() {
+    let f = fixture(0.1);
+    let at = laid_out(&f, 1.0);
+    let mut open = at.clone();
+    open[f.mesh.seams[0].pairs[3][1] as usize].z += 0.0022;
+    let r = measure(&Measured { closed: Some(&open), ..run(&f, &at) });
+    let seam = &r.seams[0];
+    assert_relative_eq!(seam.length_a, 100.0, epsilon = 1e-9);
+    assert_relative_eq!(seam.gap_max, 2.2, epsilon = 1e-9);
+    assert_relative_eq!(seam.gap_mean, 0.2, epsilon = 1e-9);
+    // The stages that did not run are null.
+    assert_eq!(r.pieces[0].area_error, Quartet { sew: r.pieces[0].area_error.sew, ..Quartet::default() });
+}
+
+fn run<'a>(f: &'a Fixture, sewn: &'a [Vec3]) -> Measured<'a> {
+    Measured {
+        garment: &f.garment,
+        mesh: &f.mesh,
+        weld: &f.weld,
+        body: &f.body,
+        fabric: "muslin",
+        closed: None,
+        sewn: Some(sewn),
+        draped: None,
+        flattened: None,
+        stages: &[],
+    }
+}
+
+#[test]
+fn the_keys_other_programs_rely_on() {
+    let f = fixture(0.08);
+    let at = laid_out(&f, 1.0);
+    let json = serde_json::to_value(report(&f, &at, &at, &f.mesh.flat)).expect("a report is plain data");
+    let has = |value: &serde_json::Value, keys: &[&str]| {
+        keys.iter().for_each(|k| assert!(value.get(k).is_some(), "{k} missing"));
+    };
+    let head = ["toile", "garment", "mannequin", "fabric", "spacing", "pieces", "seams", "contact", "worn", "stages"];
+    has(&json, &head);
+    let piece = &json["pieces"][1];
+    has(piece, &["name", "particles", "triangles", "area_flat", "area_sewn", "area_draped", "area_flattened"]);
+    has(piece, &["boundary_flat", "boundary_sewn", "boundary_draped", "boundary_flattened", "stretched"]);
+    for errors in ["area_error", "boundary_error", "area_error_raw", "boundary_error_raw"] {
+        has(&piece[errors], &["sew", "drape", "flatten", "round_trip"]);
+    }
+    has(&piece["strain"], &["mean", "p95", "p99", "max"]);
+    has(&piece["stretched"], &["by", "why"]);
+    has(&json["seams"][0], &["name", "length_a", "length_b", "gap_mean", "gap_max"]);
+    let contact = ["inside_body", "deepest", "cloth_body_intersections", "cloth_cloth_intersections"];
+    has(&json["contact"], &contact);
+    has(&json["worn"][0], &["opening", "body_part"]);
+    has(&json["stages"][0], &["name", "seconds", "iterations", "converged", "energy", "drift"]);
+}
+
+#[test]
+fn openings_have_readable_names() {
+    let named = |sets: &[&[(&str, &str)]]| {
+        let owned: Vec<Vec<(String, String)>> =
+            sets.iter().map(|s| s.iter().map(|(p, e)| (p.to_string(), e.to_string())).collect()).collect();
+        opening_names(&owned)
+    };
+    assert_eq!(named(&[&[("front.L", "neck"), ("front.R", "neck"), ("back", "neck.2")]]), ["neck"]);
+    assert_eq!(named(&[&[("sleeve.L", "hem")]]), ["sleeve.L.hem"]);
+    assert_eq!(named(&[&[("front.L", "hem"), ("back.L", "hem")], &[("front.R", "hem"), ("back.R", "hem")]]), [
+        "hem.L", "hem.R"
+    ]);
+    assert_eq!(named(&[&[("front", "hem"), ("back", "hem")], &[("lining", "top"), ("a", "hem")], &[]]), [
+        "hem",
+        "top + hem",
+        "rim"
+    ]);
+    assert_eq!(named(&[&[("a", "hem"), ("b", "hem")], &[("c", "hem"), ("d", "hem")]]), ["hem", "hem (2)"]);
+}
+
+#[test]
+fn strain_for_the_picture_keeps_its_sign() {
+    let f = fixture(0.1);
+    let strain = vertex_strain(&f.mesh, &laid_out(&f, 0.98));
+    assert!(strain[..121].iter().all(|s| (s + 0.02).abs() < 1e-9));
+}
+
+#[test]
+fn the_obj_shares_seam_vertices_and_keeps_every_flat_position() {
+    let f = fixture(0.1);
+    let text = garment_obj("patch", &f.mesh, &f.weld, &laid_out(&f, 1.0));
+    let count = |start: &str| text.lines().filter(|l| l.starts_with(start)).count();
+    assert_eq!((count("v "), count("vt "), count("vn "), count("f ")), (231, 242, 231, 400));
+    let groups: Vec<&str> = text.lines().filter(|l| l.starts_with("g ")).collect();
+    assert_eq!(groups, ["g front.L", "g back.L"]);
+    // Right side towards +z: faces and normals too.
+    assert!(text.lines().filter(|l| l.starts_with("vn ")).all(|l| l == "vn 0.000000 0.000000 1.000000"));
+    assert!(text.contains("\nvt 100.000000 -100.000000\n"));
+    let face: Vec<&str> = text.lines().find(|l| l.starts_with("f ")).into_iter().flat_map(str::split_whitespace).collect();
+    assert_eq!(face, ["f", "1/1/1", "13/13/13", "2/2/2"]);
+}
+
+#[test]
+fn a_seam_as_drawn_is_longer_than_its_chords() {
+    let mut f = fixture(0.1);
+    let span = |piece: usize, to: f64| Span { edge: EdgeId { piece, ring: 0, index: 1 }, from: 0.0, to };
+    f.garment.seams.push(Seam {
+        name: "side".into(),
+        a: vec![span(0, 0.06), span(0, 0.041)],
+        b: vec![span(1, 0.1005)],
+        marks: vec![],
+        give: Give::Even,
+        stage: 0,
+        kind: SeamKind::Written,
+        closure: None,
+    });
+    let r = measure(&run(&f, &laid_out(&f, 1.0)));
+    assert_relative_eq!(r.seams[0].length_a, 101.0, epsilon = 1e-9);
+    assert_relative_eq!(r.seams[0].length_b, 100.5, epsilon = 1e-9);
+}
