@@ -28,6 +28,8 @@ pub struct Bending {
     starts: Vec<u32>,
     columns: Vec<u32>,
     values: Vec<f64>,
+    /// Per edge (smaller node first, sorted): a weight w so that Σ w |xᵢ − xⱼ|² ≥ xᵀ Q x.
+    bound: Vec<([u32; 2], f64)>,
 }
 
 /// Cotangent weights and mixed Voronoi areas of one flat triangle.
@@ -90,6 +92,7 @@ impl Bending {
             }
         }
         let mut entries: Vec<(u32, u32, f64)> = Vec::new();
+        let mut bound: Vec<([u32; 2], f64)> = Vec::new();
         for (v, row) in rows.iter_mut().enumerate() {
             let [stretched, true_area] = area[v];
             if !interior[v] || stretched <= 0.0 {
@@ -98,18 +101,32 @@ impl Bending {
             // The row's sum is the stretched Laplacian times the stretched area; the energy is per true area.
             let factor = true_area / (stretched * stretched);
             let row = summed(row);
+            // A row sums to zero: (Σ rⱼ (xⱼ − xᵥ))² ≤ Σ|r| · Σ |rⱼ| (xⱼ − xᵥ)².
+            let v = v as u32;
+            let total: f64 = row.iter().filter(|e| e.0 != v).map(|e| e.1.abs()).sum();
+            let beside = row.iter().filter(|e| e.0 != v);
+            bound.extend(beside.map(|&(j, r)| ([v.min(j), v.max(j)], factor * total * r.abs())));
             for &(i, a) in &row {
                 for &(j, b) in &row {
                     entries.push((i, j, a * b * factor));
                 }
             }
         }
-        Self::from_entries(nodes, entries)
+        let mut out = Self::from_entries(nodes, entries);
+        bound.sort_by_key(|e| e.0);
+        out.bound = bound.chunk_by(|a, b| a.0 == b.0).map(|g| (g[0].0, g.iter().map(|e| e.1).sum())).collect();
+        out
+    }
+
+    /// A weight for the edge between nodes a < b such that the edge weights together bound Q from above:
+    /// Σ w |x_a − x_b|² ≥ xᵀ Q x (8 B / h² on a square grid, where it is sharp).
+    pub fn bound(&self, ends: [u32; 2]) -> f64 {
+        self.bound.binary_search_by(|e| e.0.cmp(&ends)).map_or(0.0, |i| self.bound[i].1)
     }
 
     fn from_entries(nodes: usize, mut entries: Vec<(u32, u32, f64)>) -> Self {
         entries.sort_by_key(|e| (e.0, e.1));
-        let mut out = Self { starts: vec![0; nodes + 1], columns: Vec::new(), values: Vec::new() };
+        let mut out = Self { starts: vec![0; nodes + 1], ..Self::default() };
         for group in entries.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
             out.starts[group[0].0 as usize + 1] += 1;
             out.columns.push(group[0].1);

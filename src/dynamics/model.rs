@@ -57,7 +57,7 @@ pub struct Cloth {
     pub half_thickness: Vec<f64>,
     /// Friction coefficient at every node.
     pub friction: Vec<f64>,
-    /// Bending stiffness per length, N/m, that bounds the bending matrix on every edge: 8 B / h².
+    /// [`Bending::bound`] of every edge, N/m.
     pub bending_bound: Vec<f64>,
 }
 
@@ -201,13 +201,7 @@ impl Cloth {
             })
             .collect();
         self.bending = Bending::new(self.mass.len(), &flat_triangles, &interior);
-        // On a square grid the largest eigenvalue of Q is 64 B / h², that of the graph Laplacian 8: 8 B / h² per edge
-        // bounds Q. Taken at each node from Q's own diagonal (20 B / h² on that grid), halved onto its edges.
-        let bound: Vec<f64> = (0..self.mass.len())
-            .map(|i| self.bending.row(i).find(|e| e.0 == i).map_or(0.0, |e| 0.4 * e.1))
-            .collect();
-        self.bending_bound =
-            self.edges.iter().map(|e| bound[e[0] as usize].max(bound[e[1] as usize])).collect();
+        self.bending_bound = self.edges.iter().map(|e| self.bending.bound(*e)).collect();
     }
 
     /// Positions of all particles from those of the nodes.

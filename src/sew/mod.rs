@@ -1,3 +1,10 @@
 //! Sewing: pieces placed round the body, seams drawn shut, stitched (F2–F11, F14).
 
+mod close;
+mod error;
 pub mod place;
+mod stitch;
+
+pub use close::{SewOptions, Sewn, sew};
+pub use error::SewError;
+pub use stitch::Stitching;

@@ -161,7 +161,7 @@ fn joints(sheet: &Sheet, row: &Row, links: &[Link], level_of: &impl Fn(f64) -> u
                     link.pairs.iter().map(|p| sheet.flat[p[k] as usize].x + m.shift.x).sum::<f64>() / link.pairs.len() as f64
                 };
                 let (ua, ub) = (mean(a, k), mean(b, 1 - k));
-                if n == 2 && (i == 0) != (ub - ua < 0.5 * spread(row, sheet, link)) {
+                if n == 2 && (i == 0) != ((ub - ua).abs() < 0.5 * spread(row, sheet, link)) {
                     continue;
                 }
                 for p in &link.pairs {

@@ -1,0 +1,44 @@
+//! Why a garment cannot be sewn.
+
+use super::place::PlaceError;
+use crate::dynamics::StepError;
+
+/// Why sewing ended without a garment.
+#[derive(Debug, thiserror::Error)]
+pub enum SewError {
+    /// The pieces cannot be placed.
+    #[error(transparent)]
+    Place(#[from] PlaceError),
+    /// A step could not be made.
+    #[error("sewing stopped: {0}")]
+    Step(#[from] StepError),
+    /// The body is no solid that cloth can touch.
+    #[error("the mannequin '{0}' cannot be used for contact; check that its mesh is closed and oriented")]
+    Body(String),
+    /// A piece starts in the body and does not come out.
+    #[error("piece '{piece}' starts inside the body by {depth_mm:.0} mm; move its place")]
+    InsideBody {
+        /// The piece.
+        piece: String,
+        /// Depth of its deepest particle, mm.
+        depth_mm: f64,
+    },
+    /// A seam does not close.
+    #[error(
+        "seam '{seam}' is still open by {gap_mm:.1} mm after {iterations} steps (limit {limit_mm:.1} mm); check that the garment is large enough for the body there, and the place of '{piece_a}' and '{piece_b}'"
+    )]
+    Open {
+        /// The seam.
+        seam: String,
+        /// Its widest gap, mm.
+        gap_mm: f64,
+        /// The limit, mm.
+        limit_mm: f64,
+        /// Steps made.
+        iterations: usize,
+        /// A piece it joins.
+        piece_a: String,
+        /// The other.
+        piece_b: String,
+    },
+}
