@@ -263,14 +263,14 @@ fn openings_have_readable_names() {
     };
     assert_eq!(named(&[&[("front.L", "neck"), ("front.R", "neck"), ("back", "neck.2")]]), ["neck"]);
     assert_eq!(named(&[&[("sleeve.L", "hem")]]), ["sleeve.L.hem"]);
-    assert_eq!(named(&[&[("front.L", "hem"), ("back.L", "hem")], &[("front.R", "hem"), ("back.R", "hem")]]), [
-        "hem.L", "hem.R"
-    ]);
-    assert_eq!(named(&[&[("front", "hem"), ("back", "hem")], &[("lining", "top"), ("a", "hem")], &[]]), [
-        "hem",
-        "top + hem",
-        "rim"
-    ]);
+    assert_eq!(
+        named(&[&[("front.L", "hem"), ("back.L", "hem")], &[("front.R", "hem"), ("back.R", "hem")]]),
+        ["hem.L", "hem.R"]
+    );
+    assert_eq!(
+        named(&[&[("front", "hem"), ("back", "hem")], &[("lining", "top"), ("a", "hem")], &[]]),
+        ["hem", "top + hem", "rim"]
+    );
     assert_eq!(named(&[&[("a", "hem"), ("b", "hem")], &[("c", "hem"), ("d", "hem")]]), ["hem", "hem (2)"]);
 }
 
@@ -292,7 +292,8 @@ fn the_obj_shares_seam_vertices_and_keeps_every_flat_position() {
     // Right side towards +z: faces and normals too.
     assert!(text.lines().filter(|l| l.starts_with("vn ")).all(|l| l == "vn 0.000000 0.000000 1.000000"));
     assert!(text.contains("\nvt 100.000000 -100.000000\n"));
-    let face: Vec<&str> = text.lines().find(|l| l.starts_with("f ")).into_iter().flat_map(str::split_whitespace).collect();
+    let face: Vec<&str> =
+        text.lines().find(|l| l.starts_with("f ")).into_iter().flat_map(str::split_whitespace).collect();
     assert_eq!(face, ["f", "1/1/1", "13/13/13", "2/2/2"]);
 }
 

@@ -34,7 +34,7 @@ pub(super) fn piece(index: u32) -> Rgb {
     /// The first piece is a soft blue.
     const FIRST_HUE: f32 = 245.0;
     // A step of lightness tells neighbours apart in grey as well.
-    let lightness = if index % 2 == 0 { 0.83 } else { 0.77 };
+    let lightness = if index.is_multiple_of(2) { 0.83 } else { 0.77 };
     oklch(lightness, 0.062, FIRST_HUE + GOLDEN_ANGLE * index as f32)
 }
 

@@ -35,9 +35,8 @@ struct Map {
 impl Surroundings {
     pub(super) fn new(meshes: &[&TriMesh]) -> Self {
         let points = || meshes.iter().flat_map(|m| &m.vertices);
-        let (lo, hi) = points().fold((Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY)), |(lo, hi), p| {
-            (lo.inf(p), hi.sup(p))
-        });
+        let (lo, hi) = points()
+            .fold((Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY)), |(lo, hi), p| (lo.inf(p), hi.sup(p)));
         let center = (lo + hi) / 2.0;
         let radius = points().map(|p| (p - center).norm()).fold(f64::MIN_POSITIVE, f64::max);
         let map = |k: usize| {
