@@ -225,4 +225,38 @@ mod tests {
         let mode = |p: &Path| fs::metadata(p).expect("there").permissions().mode();
         assert_eq!(mode(&ours), mode(&plain));
     }
+
+    /// Set for the child process of the test below: the folder it works in.
+    #[cfg(unix)]
+    const CHILD_FOLDER: &str = "TOILE_TEST_INTERRUPTED_IN";
+
+    /// Not a test of its own: what the test below interrupts.
+    #[cfg(unix)]
+    #[test]
+    fn interrupted_child() {
+        let Some(folder) = std::env::var_os(CHILD_FOLDER).map(PathBuf::from) else { return };
+        remove_on_interrupt().expect("a handler");
+        let _pending = Pending::create(&folder.join("half.txt"), b"half").expect("written");
+        std::thread::sleep(std::time::Duration::from_secs(20));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn an_interrupt_leaves_nothing_behind() {
+        let dir = tempfile::tempdir().expect("a temporary folder");
+        let mut child = std::process::Command::new(std::env::current_exe().expect("this test"))
+            .args(["--exact", "io::files::tests::interrupted_child"])
+            .env(CHILD_FOLDER, dir.path())
+            .stdout(std::process::Stdio::null())
+            .spawn()
+            .expect("started");
+        // The handler is set before the file appears.
+        while names(dir.path()).is_empty() && child.try_wait().expect("a child").is_none() {
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+        let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+        assert!(kill.expect("a kill command").success());
+        assert_eq!(child.wait().expect("ended").code(), Some(INTERRUPTED));
+        assert!(names(dir.path()).is_empty());
+    }
 }
