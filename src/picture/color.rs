@@ -41,7 +41,7 @@ pub(super) fn piece(index: u32) -> Rgb {
 /// The wrong side of cloth whose right side has this colour: darker and greyer.
 pub(super) fn wrong_side(right: Rgb) -> Rgb {
     let grey = (right[0] + right[1] + right[2]) / 3.0;
-    right.map(|x| 0.66 * (0.55 * x + 0.45 * grey))
+    right.map(|x| 0.72 * (0.6 * x + 0.4 * grey))
 }
 
 /// The strain scale: blue for −1 (shorter), paper grey for 0, red for 1 (longer). Lightness falls evenly to both ends.

@@ -17,6 +17,10 @@ const FLOOR: [f32; 3] = [0.20, 0.19, 0.175];
 /// The key light reaches this far round the edge of what it faces, as a large lamp's does.
 const WRAP: f64 = 0.15;
 
+/// Share of the surroundings' light that reaches even what sees nothing of them, thrown back by what is near: the
+/// inside of a collar is dark but not black.
+const BOUNCED: f32 = 0.22;
+
 /// Lights fixed to a view.
 pub(super) struct Lights {
     key: Vec3,
@@ -31,6 +35,7 @@ impl Lights {
 
     /// Displayed light on a surface with this normal that sees `seen` of its surroundings.
     pub(super) fn on(&self, normal: &Vec3, seen: f32) -> Rgb {
+        let seen = BOUNCED + (1.0 - BOUNCED) * seen;
         let key = ((normal.dot(&self.key) + WRAP) / (1.0 + WRAP)).max(0.0) as f32;
         let fill = normal.dot(&self.fill).max(0.0) as f32;
         let up = (0.5 + 0.5 * normal.y) as f32;
