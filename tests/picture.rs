@@ -177,6 +177,15 @@ fn right_and_wrong_side_differ() {
     assert!(brightness(front) > brightness(back) + 60, "{front:?} {back:?}");
 }
 
+#[test]
+fn a_long_ribbon_lying_flat_still_has_three_views() {
+    let vertices = [[-5.0, 0.0], [5.0, 0.0], [5.0, 0.001], [-5.0, 0.001]].map(|[x, z]| Vec3::new(x, 0.0, z)).to_vec();
+    let ribbon = TriMesh { vertices, triangles: vec![[0, 1, 2], [0, 2, 3]] };
+    assert!(draw(&scene(&ribbon, None)).is_ok());
+    let point = TriMesh { vertices: vec![Vec3::zeros(); 3], triangles: vec![[0, 1, 2]] };
+    assert!(draw(&scene(&point, None)).is_ok());
+}
+
 fn scene<'a>(cloth: &'a TriMesh, strain: Option<&'a [f64]>) -> Scene<'a> {
     static NOBODY: TriMesh = TriMesh { vertices: vec![], triangles: vec![] };
     Scene { body: &NOBODY, cloth, piece_of_triangle: &[], seams: &[], rims: &[], title: "", subtitle: "", strain }

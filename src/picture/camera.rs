@@ -18,7 +18,10 @@ const GUTTER: usize = 36;
 /// Air round what is framed, as a share of its height.
 const AIR: f64 = 0.06;
 
-/// A view is at least this wide, as a share of its height.
+/// What is framed counts as at least this high, metres: a single point has no scale.
+pub(super) const SMALLEST: f64 = 1e-3;
+
+/// A view is at least this wide, as a share of the greatest width or height in any view.
 const NARROWEST: f64 = 0.3;
 
 /// A garment that covers this share of the body's height is shown with the whole body.
@@ -78,9 +81,10 @@ pub(super) fn cameras(body: &TriMesh, cloth: &TriMesh) -> Vec<Camera> {
     let framed = framed(body, cloth);
     let extents: Vec<[[f64; 2]; 2]> = cameras.iter().map(|c| c.extent(&framed)).collect();
     let size = |k: usize, axis: usize| extents[k][1][axis] - extents[k][0][axis];
-    let height = (0..3).map(|k| size(k, 1)).fold(f64::MIN_POSITIVE, f64::max);
+    let height = (0..3).map(|k| size(k, 1)).fold(SMALLEST, f64::max);
     let air = 2.0 * AIR * height;
-    let width = |k: usize| size(k, 0).max(NARROWEST * height) + air;
+    let largest = (0..3).map(|k| size(k, 0)).fold(height, f64::max);
+    let width = |k: usize| size(k, 0).max(NARROWEST * largest) + air;
     let widths: f64 = (0..3).map(width).sum();
     let scale = (WIDTH as f64 / widths).min(Camera::PANEL as f64 / (height + air));
     let spare = (WIDTH as f64 - widths * scale) / 3.0;
