@@ -65,7 +65,8 @@ fn body() -> TriMesh {
     ];
     let mut mesh = tube(&profile(&trunk, 90, 0.0), 90, true);
     for side in [-1.0, 1.0] {
-        let leg = [[0.02, 0.04, 0.06], [0.1, 0.035, 0.04], [0.35, 0.055, 0.055], [0.5, 0.055, 0.06], [0.82, 0.08, 0.08]];
+        let leg =
+            [[0.02, 0.04, 0.06], [0.1, 0.035, 0.04], [0.35, 0.055, 0.055], [0.5, 0.055, 0.06], [0.82, 0.08, 0.08]];
         add(&mut mesh, tube(&profile(&leg, 60, side * 0.085), 50, true));
         let mut arm = profile(&[[0.8, 0.02, 0.03], [0.9, 0.03, 0.03], [1.12, 0.04, 0.04], [1.38, 0.05, 0.05]], 40, 0.0);
         arm.iter_mut().for_each(|(c, ..)| c.x = side * (0.165 + 0.5 * (1.38 - c.y) * 0.6));
@@ -84,7 +85,8 @@ struct Dress {
 /// A sleeveless dress with a rippling skirt of four pieces and a waist seam; 20,000 triangles.
 fn dress() -> Dress {
     let (around, rows) = (100usize, 100usize);
-    let stations = [[0.42, 0.33, 0.30], [0.75, 0.225, 0.175], [1.05, 0.132, 0.097], [1.27, 0.163, 0.123], [1.37, 0.14, 0.09]];
+    let stations =
+        [[0.42, 0.33, 0.30], [0.75, 0.225, 0.175], [1.05, 0.132, 0.097], [1.27, 0.163, 0.123], [1.37, 0.14, 0.09]];
     let mut cloth = tube(&profile(&stations, rows, 0.0), around as u32, false);
     let waist = 55;
     for (k, p) in cloth.vertices.iter_mut().enumerate() {
@@ -164,9 +166,8 @@ fn the_same_bytes_on_one_thread() {
 /// A flat cloth seen from the front shows its right side, from the back its wrong one, and the side view an edge.
 #[test]
 fn right_and_wrong_side_differ() {
-    let mut cloth = TriMesh::default();
-    cloth.vertices = [[-0.3, 0.0], [0.3, 0.0], [0.3, 0.6], [-0.3, 0.6]].map(|[x, y]| Vec3::new(x, y, 0.0)).to_vec();
-    cloth.triangles = vec![[0, 1, 2], [0, 2, 3]];
+    let vertices = [[-0.3, 0.0], [0.3, 0.0], [0.3, 0.6], [-0.3, 0.6]].map(|[x, y]| Vec3::new(x, y, 0.0)).to_vec();
+    let cloth = TriMesh { vertices, triangles: vec![[0, 1, 2], [0, 2, 3]] };
     let png = draw(&scene(&cloth, None)).expect("a scene with cloth can be drawn");
     keep("flat.png", &png);
     let pixels = decode(&png);
@@ -174,6 +175,15 @@ fn right_and_wrong_side_differ() {
     let brightness = |p: &[u8; 3]| p.iter().map(|&x| u32::from(x)).sum::<u32>();
     let (front, back) = (&row[WIDTH / 5], &row[4 * WIDTH / 5]);
     assert!(brightness(front) > brightness(back) + 60, "{front:?} {back:?}");
+}
+
+#[test]
+fn a_long_ribbon_lying_flat_still_has_three_views() {
+    let vertices = [[-5.0, 0.0], [5.0, 0.0], [5.0, 0.001], [-5.0, 0.001]].map(|[x, z]| Vec3::new(x, 0.0, z)).to_vec();
+    let ribbon = TriMesh { vertices, triangles: vec![[0, 1, 2], [0, 2, 3]] };
+    assert!(draw(&scene(&ribbon, None)).is_ok());
+    let point = TriMesh { vertices: vec![Vec3::zeros(); 3], triangles: vec![[0, 1, 2]] };
+    assert!(draw(&scene(&point, None)).is_ok());
 }
 
 fn scene<'a>(cloth: &'a TriMesh, strain: Option<&'a [f64]>) -> Scene<'a> {

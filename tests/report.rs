@@ -6,6 +6,7 @@ use toile::io::obj_write::garment_obj;
 use toile::mannequin::Mannequin;
 use toile::mesh::{ClothMesh, EdgeParticles, PieceMesh, Stitches};
 use toile::pattern::{EdgeId, Garment, Give, Seam, SeamKind, Span};
+use toile::picture::{Dressed, draw};
 use toile::report::{Measured, Quartet, Report, Stage, measure, opening_names, table, vertex_strain};
 
 /// A grid of `cells` squares each way, `width` by `height`, its upper left corner at the origin; four named edges.
@@ -263,15 +264,27 @@ fn openings_have_readable_names() {
     };
     assert_eq!(named(&[&[("front.L", "neck"), ("front.R", "neck"), ("back", "neck.2")]]), ["neck"]);
     assert_eq!(named(&[&[("sleeve.L", "hem")]]), ["sleeve.L.hem"]);
-    assert_eq!(named(&[&[("front.L", "hem"), ("back.L", "hem")], &[("front.R", "hem"), ("back.R", "hem")]]), [
-        "hem.L", "hem.R"
-    ]);
-    assert_eq!(named(&[&[("front", "hem"), ("back", "hem")], &[("lining", "top"), ("a", "hem")], &[]]), [
-        "hem",
-        "top + hem",
-        "rim"
-    ]);
+    assert_eq!(
+        named(&[&[("front.L", "hem"), ("back.L", "hem")], &[("front.R", "hem"), ("back.R", "hem")]]),
+        ["hem.L", "hem.R"]
+    );
+    assert_eq!(
+        named(&[&[("front", "hem"), ("back", "hem")], &[("lining", "top"), ("a", "hem")], &[]]),
+        ["hem", "top + hem", "rim"]
+    );
     assert_eq!(named(&[&[("a", "hem"), ("b", "hem")], &[("c", "hem"), ("d", "hem")]]), ["hem", "hem (2)"]);
+}
+
+#[test]
+fn a_garment_can_be_drawn_by_strain() {
+    let f = fixture(0.1);
+    let at = laid_out(&f, 1.01);
+    let strain = vertex_strain(&f.mesh, &at);
+    let dressed = Dressed::new(&f.mesh, &f.weld, &at, Some(&strain));
+    let scene = dressed.scene(&f.body.mesh, "patch", "nobody · muslin");
+    assert_eq!((scene.seams.len(), scene.rims.len(), scene.piece_of_triangle[399]), (1, 1, 1));
+    assert_eq!(scene.strain.map(<[f64]>::len), Some(231));
+    assert!(draw(&scene).is_ok_and(|png| png.starts_with(b"\x89PNG")));
 }
 
 #[test]
@@ -292,7 +305,8 @@ fn the_obj_shares_seam_vertices_and_keeps_every_flat_position() {
     // Right side towards +z: faces and normals too.
     assert!(text.lines().filter(|l| l.starts_with("vn ")).all(|l| l == "vn 0.000000 0.000000 1.000000"));
     assert!(text.contains("\nvt 100.000000 -100.000000\n"));
-    let face: Vec<&str> = text.lines().find(|l| l.starts_with("f ")).into_iter().flat_map(str::split_whitespace).collect();
+    let face: Vec<&str> =
+        text.lines().find(|l| l.starts_with("f ")).into_iter().flat_map(str::split_whitespace).collect();
     assert_eq!(face, ["f", "1/1/1", "13/13/13", "2/2/2"]);
 }
 

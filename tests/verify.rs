@@ -182,13 +182,8 @@ fn a_body_that_runs_through_itself_is_still_a_body() {
 
 fn part(kind: PartKind, from: Vec3, to: Vec3) -> BodyPart {
     let axis = (to - from).normalize();
-    let section = |t: f64| Section {
-        center: from + (to - from) * t,
-        axis,
-        half_width: 0.05,
-        half_depth: 0.05,
-        girth: 0.314,
-    };
+    let section =
+        |t: f64| Section { center: from + (to - from) * t, axis, half_width: 0.05, half_depth: 0.05, girth: 0.314 };
     BodyPart { kind, sections: [0.0, 0.5, 1.0].map(section).to_vec(), landmarks: vec![] }
 }
 
@@ -246,10 +241,8 @@ fn what_passes_through_a_ring() {
 
 #[test]
 fn a_hood_is_worn_round_the_face() {
-    let upright: Vec<Vec3> = ring([0.0, 0.0, 0.0], 0.12)
-        .into_iter()
-        .map(|p| Vec3::new(p.x, 1.65 + p.z, 0.12 + p.y))
-        .collect();
+    let upright: Vec<Vec3> =
+        ring([0.0, 0.0, 0.0], 0.12).into_iter().map(|p| Vec3::new(p.x, 1.65 + p.z, 0.12 + p.y)).collect();
     assert_eq!(worn(&[upright], &mannequin())[0].map(|t| t.name()), Some("neck"));
 }
 

@@ -1,3 +1,4 @@
 //! io
 
+pub mod files;
 pub mod obj_write;

@@ -24,7 +24,8 @@ pub fn garment_obj(name: &str, mesh: &ClothMesh, weld: &[u32], positions: &[Vec3
     let lines = 2 * welded.surface.vertices.len() + mesh.flat.len() + mesh.triangles.len();
     let mut out = String::with_capacity(48 * lines);
     // Writing to a String cannot fail, so the results below carry nothing.
-    let _ = writeln!(out, "# toile {}: {name}; millimetres, y up; vt = flat position (x, -y)", env!("CARGO_PKG_VERSION"));
+    let _ =
+        writeln!(out, "# toile {}: {name}; millimetres, y up; vt = flat position (x, -y)", env!("CARGO_PKG_VERSION"));
     for p in &welded.surface.vertices {
         let _ = writeln!(out, "v {:.6} {:.6} {:.6}", p.x * MM, p.y * MM, p.z * MM);
     }

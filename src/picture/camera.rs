@@ -12,8 +12,17 @@ pub(super) const HEAD: usize = 110;
 /// Pixels kept free below the views, for their names.
 pub(super) const FOOT: usize = 84;
 
+/// Pixels of paper between two views: what is cut off is seen to be.
+const GUTTER: usize = 36;
+
 /// Air round what is framed, as a share of its height.
 const AIR: f64 = 0.06;
+
+/// What is framed counts as at least this high, metres: a single point has no scale.
+pub(super) const SMALLEST: f64 = 1e-3;
+
+/// A view is at least this wide, as a share of the greatest width or height in any view.
+const NARROWEST: f64 = 0.3;
 
 /// A garment that covers this share of the body's height is shown with the whole body.
 const WHOLE_BODY: f64 = 0.5;
@@ -72,32 +81,33 @@ pub(super) fn cameras(body: &TriMesh, cloth: &TriMesh) -> Vec<Camera> {
     let framed = framed(body, cloth);
     let extents: Vec<[[f64; 2]; 2]> = cameras.iter().map(|c| c.extent(&framed)).collect();
     let size = |k: usize, axis: usize| extents[k][1][axis] - extents[k][0][axis];
-    let height = (0..3).map(|k| size(k, 1)).fold(f64::MIN_POSITIVE, f64::max);
+    let height = (0..3).map(|k| size(k, 1)).fold(SMALLEST, f64::max);
     let air = 2.0 * AIR * height;
-    let widths: f64 = (0..3).map(|k| size(k, 0) + air).sum();
+    let largest = (0..3).map(|k| size(k, 0)).fold(height, f64::max);
+    let width = |k: usize| size(k, 0).max(NARROWEST * largest) + air;
+    let widths: f64 = (0..3).map(width).sum();
     let scale = (WIDTH as f64 / widths).min(Camera::PANEL as f64 / (height + air));
     let spare = (WIDTH as f64 - widths * scale) / 3.0;
     let mut left = 0.0;
     for (k, camera) in cameras.iter_mut().enumerate() {
-        let right = left + (size(k, 0) + air) * scale + spare;
+        let right = left + width(k) * scale + spare;
         camera.scale = scale;
         camera.center = [0, 1].map(|axis| (extents[k][0][axis] + extents[k][1][axis]) / 2.0);
-        camera.left = left.round() as usize;
-        camera.width = (right.round() as usize).min(WIDTH) - camera.left;
+        camera.left = left.round() as usize + GUTTER / 2;
+        camera.width = (right.round() as usize).min(WIDTH) - GUTTER / 2 - camera.left;
         left = right;
     }
     cameras
 }
 
-/// The points that must be seen.
+/// The points that must be seen: the garment, or all of the body too. Arms that reach out beside a shirt are cut off
+/// rather than making the shirt small.
 fn framed(body: &TriMesh, cloth: &TriMesh) -> Vec<Vec3> {
     let height = |points: &[Vec3]| {
         let y = points.iter().map(|p| p.y);
-        (y.clone().fold(f64::NEG_INFINITY, f64::max) - y.fold(f64::INFINITY, f64::min)).max(0.0)
+        y.clone().fold(f64::NEG_INFINITY, f64::max) - y.fold(f64::INFINITY, f64::min)
     };
-    let mut points = cloth.vertices.clone();
-    if height(&points) > WHOLE_BODY * height(&body.vertices) {
-        points.extend(&body.vertices);
-    }
-    points
+    let whole = height(&cloth.vertices) > WHOLE_BODY * height(&body.vertices);
+    let body = if whole { body.vertices.as_slice() } else { &[] };
+    cloth.vertices.iter().chain(body).copied().collect()
 }

@@ -1,7 +1,7 @@
 //! The finished picture's pixels, and flat drawing on them.
 
 use super::color::Rgb;
-use super::font::{ADVANCE, strokes};
+use super::font::glyph;
 use super::raster::byte;
 
 /// Half the width of a letter's strokes, in cells of the font.
@@ -36,7 +36,7 @@ impl Canvas {
         }
     }
 
-    /// A straight line with round ends, half as wide as `radius` says, its edge smoothed over a pixel.
+    /// A straight line with round ends, `radius` being half its width, its edge smoothed over a pixel.
     pub(super) fn line(&mut self, a: [f32; 2], b: [f32; 2], radius: f32, color: Rgb) {
         let reach = radius + 1.0;
         let span = |k: usize, end: usize| {
@@ -60,18 +60,19 @@ impl Canvas {
     pub(super) fn text(&mut self, text: &str, [left, base]: [f32; 2], cell: f32, color: Rgb) -> f32 {
         let mut x = left;
         for letter in text.chars() {
-            for [a, b] in strokes(letter) {
+            let glyph = glyph(letter);
+            for [a, b] in glyph.strokes {
                 let at = |[column, row]: [f32; 2]| [x + (column + 0.5) * cell, base + (row - 6.0) * cell];
                 self.line(at(a), at(b), LETTER_RADIUS * cell, color);
             }
-            x += ADVANCE * cell;
+            x += glyph.advance * cell;
         }
         x
     }
 
     /// Width of a line of text, pixels.
     pub(super) fn text_width(text: &str, cell: f32) -> f32 {
-        text.chars().count() as f32 * ADVANCE * cell
+        text.chars().map(|letter| glyph(letter).advance * cell).sum()
     }
 
     fn mix(&mut self, x: usize, y: usize, color: Rgb, share: f32) {

@@ -34,14 +34,14 @@ pub(super) fn piece(index: u32) -> Rgb {
     /// The first piece is a soft blue.
     const FIRST_HUE: f32 = 245.0;
     // A step of lightness tells neighbours apart in grey as well.
-    let lightness = if index % 2 == 0 { 0.83 } else { 0.77 };
+    let lightness = if index.is_multiple_of(2) { 0.83 } else { 0.77 };
     oklch(lightness, 0.062, FIRST_HUE + GOLDEN_ANGLE * index as f32)
 }
 
 /// The wrong side of cloth whose right side has this colour: darker and greyer.
 pub(super) fn wrong_side(right: Rgb) -> Rgb {
     let grey = (right[0] + right[1] + right[2]) / 3.0;
-    right.map(|x| 0.66 * (0.55 * x + 0.45 * grey))
+    right.map(|x| 0.72 * (0.6 * x + 0.4 * grey))
 }
 
 /// The strain scale: blue for −1 (shorter), paper grey for 0, red for 1 (longer). Lightness falls evenly to both ends.

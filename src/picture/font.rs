@@ -1,11 +1,32 @@
 //! Letters: dots on a grid of five by seven (and two below the base line), joined by round strokes.
 
-/// Cells from one letter to the next.
-pub(super) const ADVANCE: f32 = 6.2;
+/// Cells between letters.
+const GAP: f32 = 1.5;
+/// Width of a blank, cells.
+const BLANK: f32 = 2.0;
 
-/// The strokes of a letter, each from one dot to another (column, row; the base line is row 6). A dot that touches no
-/// other is a stroke from itself to itself. Letters the font does not have are a box.
-pub(super) fn strokes(letter: char) -> Vec<[[f32; 2]; 2]> {
+/// A letter as it is drawn.
+pub(super) struct Glyph {
+    /// Each from one dot to another (column, row; the base line is row 6). A dot that touches no other is a stroke
+    /// from itself to itself.
+    pub(super) strokes: Vec<[[f32; 2]; 2]>,
+    /// Cells to the next letter.
+    pub(super) advance: f32,
+}
+
+/// The glyph of a letter, flush left; letters the font does not have are a box.
+pub(super) fn glyph(letter: char) -> Glyph {
+    let mut strokes = strokes(letter);
+    let columns = || strokes.iter().flatten().map(|dot| dot[0]);
+    let first = columns().fold(f32::INFINITY, f32::min);
+    let last = columns().fold(f32::NEG_INFINITY, f32::max);
+    let width = if strokes.is_empty() { BLANK } else { last - first + 1.0 };
+    strokes.iter_mut().flatten().for_each(|dot| dot[0] -= first);
+    Glyph { strokes, advance: width + GAP }
+}
+
+/// Dots joined to their neighbours.
+fn strokes(letter: char) -> Vec<[[f32; 2]; 2]> {
     let rows: Vec<&[u8]> = dots(letter).split('/').map(str::as_bytes).collect();
     let dot = |column: isize, row: isize| {
         let row = usize::try_from(row).ok().and_then(|r| rows.get(r));

@@ -9,13 +9,17 @@ const KEY_FROM: [f64; 3] = [-0.55, 0.62, 0.70];
 const FILL_FROM: [f64; 3] = [0.85, 0.10, 0.45];
 
 /// Linear strengths. A surface that faces the key light and sees the whole sky comes out just below white.
-const KEY: [f32; 3] = [0.60, 0.585, 0.56];
+const KEY: [f32; 3] = [0.70, 0.685, 0.655];
 const FILL: [f32; 3] = [0.10, 0.105, 0.115];
-const SKY: [f32; 3] = [0.50, 0.51, 0.53];
-const FLOOR: [f32; 3] = [0.24, 0.225, 0.205];
+const SKY: [f32; 3] = [0.42, 0.43, 0.45];
+const FLOOR: [f32; 3] = [0.20, 0.19, 0.175];
 
 /// The key light reaches this far round the edge of what it faces, as a large lamp's does.
-const WRAP: f64 = 0.25;
+const WRAP: f64 = 0.15;
+
+/// Share of the surroundings' light that reaches even what sees nothing of them, thrown back by what is near: the
+/// inside of a collar is dark but not black.
+const BOUNCED: f32 = 0.22;
 
 /// Lights fixed to a view.
 pub(super) struct Lights {
@@ -31,6 +35,7 @@ impl Lights {
 
     /// Displayed light on a surface with this normal that sees `seen` of its surroundings.
     pub(super) fn on(&self, normal: &Vec3, seen: f32) -> Rgb {
+        let seen = BOUNCED + (1.0 - BOUNCED) * seen;
         let key = ((normal.dot(&self.key) + WRAP) / (1.0 + WRAP)).max(0.0) as f32;
         let fill = normal.dot(&self.fill).max(0.0) as f32;
         let up = (0.5 + 0.5 * normal.y) as f32;

@@ -2,20 +2,20 @@
 //!
 //! [`draw`] is a small renderer of its own: orthographic views (so that all parts are to one scale), a depth buffer
 //! with four samples per pixel, soft light from above and from the viewer's left, darker where little sky is seen.
-//! The same scene gives the same bytes, on any number of threads.
+//! [`Dressed`] gathers a [`Scene`] from a garment's mesh. The same scene gives the same bytes, on any number of threads.
 
 mod camera;
 mod canvas;
 mod color;
+mod dressed;
 mod font;
 mod light;
-mod lines;
 mod occlusion;
 mod paint;
 mod raster;
 mod view;
 
-pub use lines::{rim_lines, seam_lines};
+pub use dressed::{Dressed, rim_lines};
 
 use crate::geometry::{TriMesh, Vec3};
 
@@ -41,7 +41,7 @@ pub struct Scene<'a> {
     pub title: &'a str,
     /// Small text beside it, mannequin and fabric.
     pub subtitle: &'a str,
-    /// Colours the cloth by a value instead of by piece.
+    /// Strain of every vertex of the cloth (shrinking is negative): colours the cloth by it instead of by piece, with a legend.
     pub strain: Option<&'a [f64]>,
 }
 

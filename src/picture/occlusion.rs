@@ -5,6 +5,7 @@
 
 use rayon::prelude::*;
 
+use super::camera::SMALLEST;
 use crate::geometry::{TriMesh, Vec3};
 
 /// Directions, spread evenly over the sphere.
@@ -35,11 +36,10 @@ struct Map {
 impl Surroundings {
     pub(super) fn new(meshes: &[&TriMesh]) -> Self {
         let points = || meshes.iter().flat_map(|m| &m.vertices);
-        let (lo, hi) = points().fold((Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY)), |(lo, hi), p| {
-            (lo.inf(p), hi.sup(p))
-        });
+        let (lo, hi) = points()
+            .fold((Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY)), |(lo, hi), p| (lo.inf(p), hi.sup(p)));
         let center = (lo + hi) / 2.0;
-        let radius = points().map(|p| (p - center).norm()).fold(f64::MIN_POSITIVE, f64::max);
+        let radius = points().map(|p| (p - center).norm()).fold(SMALLEST, f64::max);
         let map = |k: usize| {
             let mut map = Map::new(direction(k), center, 0.5 * (CELLS as f64 - 2.0) / radius);
             meshes.iter().for_each(|m| map.add(m));

@@ -51,7 +51,6 @@ impl Band {
         // Weights of b and c: linear in column and row, zero at a.
         let slope = |p: [f32; 3], q: [f32; 3]| [(q[1] - p[1]) / double_area, (p[0] - q[0]) / double_area];
         let (wb, wc) = (slope(a, c), slope(b, a));
-        let wb = [wb[0], wb[1]];
         let plane = |k: fn(&Corner) -> f32| {
             let (at_a, along_b, along_c) = (k(&corners[0]), k(&corners[1]), k(&corners[2]));
             let (db, dc) = (along_b - at_a, along_c - at_a);

@@ -16,8 +16,6 @@ mod table;
 
 pub use measure::{Measured, measure};
 pub use openings::opening_names;
-pub use schema::{
-    Contact, Drift, PieceReport, Quartet, Report, SeamReport, Sizes, Spread, Stage, Stretched, Worn,
-};
+pub use schema::{Contact, Drift, PieceReport, Quartet, Report, SeamReport, Sizes, Spread, Stage, Stretched, Worn};
 pub use strain::vertex_strain;
 pub use table::table;

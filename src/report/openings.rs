@@ -81,14 +81,14 @@ fn name(edges: &[(String, String)]) -> String {
         }
     }
     let more = if bases.len() > EDGES_NAMED { " + …" } else { "" };
-    let names = bases[..bases.len().min(EDGES_NAMED)].join(" + ") + more;
+    let names = bases[..bases.len().min(EDGES_NAMED)].join(" + ");
     let Some((first, _)) = edges.first() else { return "rim".into() };
     if edges.iter().all(|(piece, _)| piece == first) {
-        return format!("{first}.{names}");
+        return format!("{first}.{names}{more}");
     }
     match side(first).filter(|s| edges.iter().all(|(piece, _)| side(piece) == Some(*s))) {
-        Some(side) => format!("{names}.{side}"),
-        None => names,
+        Some(side) => format!("{names}.{side}{more}"),
+        None => names + more,
     }
 }
 

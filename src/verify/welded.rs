@@ -37,6 +37,16 @@ impl Welded {
         out.surface.triangles = out.corners.iter().map(|t| t.map(|p| out.vertex_of[p as usize])).collect();
         out
     }
+
+    /// Of values given per particle, the one of largest size at every vertex.
+    pub fn largest(&self, per_particle: &[f64]) -> Vec<f64> {
+        let mut out = vec![0.0f64; self.surface.vertices.len()];
+        for (&vertex, &value) in self.vertex_of.iter().zip(per_particle) {
+            let held = &mut out[vertex as usize];
+            *held = if value.abs() > held.abs() { value } else { *held };
+        }
+        out
+    }
 }
 
 /// The triangle run counter-clockwise as the reader sees the right side: y points down in the flat, so that is the
