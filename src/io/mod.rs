@@ -1,1 +1,4 @@
-//! io
+//! Reading and writing formats.
+
+pub mod body;
+pub mod obj_read;

@@ -2,15 +2,21 @@
 
 mod build;
 mod cell;
+mod check;
+mod crossing;
+mod detect;
 mod field;
 mod library;
 mod loft;
 mod parts;
 mod relax;
+mod slice;
 mod spec;
 mod surface;
 
 pub use build::build;
+pub use check::{BodyFault, check_body};
+pub use detect::find_parts;
 pub use library::{library, load};
 pub use spec::{ArmRow, ArmSpec, LegRow, LegSpec, MannequinSpec, TorsoRow};
 
