@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use super::obj_read::{ObjError, ObjSurface, read_obj};
-use crate::geometry::{TriMesh, Vec3};
-use crate::mannequin::{BodyFault, Mannequin, MannequinError, check_body, find_parts, load};
+use crate::geometry::{Topology, TriMesh, Vec3};
+use crate::mannequin::{BodyCheck, BodyFault, Mannequin, MannequinError, check_body, find_parts, load};
 
 /// Vertices nearer than this are one, metres: far below a mesh's edges, far above the rounding of a file.
 const WELD: f64 = 1e-6;
@@ -22,7 +22,7 @@ const ANKLE: [f64; 2] = [0.05, 0.08];
 pub struct Body {
     /// In metres, y up, feet at y = 0, facing +z.
     pub mannequin: Mannequin,
-    /// One sentence each: the unit taken, turns, disconnected parts.
+    /// One sentence each: the unit taken, turns, disconnected parts, crossings.
     pub notes: Vec<String>,
 }
 
@@ -66,10 +66,10 @@ pub fn load_body(name_or_path: &str) -> Result<Body, BodyError> {
 }
 
 /// Reads a closed OBJ in millimetres, centimetres or metres (guessed from its height and said in the notes), y up or
-/// z up. Its vertices are merged where they coincide.
+/// z up. Vertices that coincide are merged where the surface is not closed otherwise.
 ///
 /// # Errors
-/// [`BodyError`] when the file cannot be read, the surface is open, not manifold, inside out or crosses itself, or no
+/// [`BodyError`] when the file cannot be read, the surface is open, not manifold or inside out, or no
 /// torso, neck, arms and legs can be found.
 pub fn read_body(path: &Path) -> Result<Body, BodyError> {
     let file = path.display().to_string();
@@ -92,14 +92,29 @@ pub fn body(surface: ObjSurface, name: String, file: String) -> Result<Body, Bod
     for p in &mut vertices {
         *p = Vec3::new(p.x, p.y - low, p.z) * scale;
     }
-    let mut mesh = weld(&vertices, &surface.triangles);
-    let parts = check_body(&mesh).map_err(|fault| BodyError::Fault { file: file.clone(), fault })?;
-    if parts > 1 {
-        notes.push(format!("the body consists of {parts} parts that do not touch; all are kept"));
-    }
+    let mut mesh = closed(vertices, surface.triangles);
+    let check = check_body(&mesh).map_err(|fault| BodyError::Fault { file: file.clone(), fault })?;
+    notes.extend(findings(&check));
     face_forward(&mut mesh, height * scale, &mut notes);
     let parts = find_parts(&mesh).map_err(|why| shape(&why))?;
     Ok(Body { mannequin: Mannequin { name, mesh, parts }, notes })
+}
+
+/// What a body's check found that its user should know.
+fn findings(check: &BodyCheck) -> Vec<String> {
+    let mut notes = Vec::new();
+    if check.parts > 1 {
+        notes.push(format!("the body consists of {} parts that do not touch; all are kept", check.parts));
+    }
+    if let Some((pairs, p)) = check.crossings {
+        let p = 1e3 * p;
+        notes.push(format!(
+            "the surface crosses itself ({pairs} pairs of triangles, near ({:.0}, {:.0}, {:.0}) mm); where cloth goes \
+             there, separate the limbs or remesh",
+            p.x, p.y, p.z
+        ));
+    }
+    notes
 }
 
 /// Turns a body that lies along z upright.
@@ -132,6 +147,15 @@ fn unit(height: f64) -> (f64, &'static str) {
     } else {
         (1e-3, "millimetres")
     }
+}
+
+/// The surface as it is if that is closed, otherwise with coinciding vertices merged: seams of texture and normals then
+/// close, while lips that merely touch stay apart.
+fn closed(vertices: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> TriMesh {
+    if Topology::new(&triangles).rim_edges().next().is_none() {
+        return TriMesh { vertices, triangles };
+    }
+    weld(&vertices, &triangles)
 }
 
 /// Merges coinciding vertices and drops triangles that become edges and vertices that no triangle uses.

@@ -42,29 +42,27 @@ pub enum BodyFault {
         /// Negative.
         litres: f64,
     },
-    /// The surface runs through itself.
-    #[error(
-        "the surface crosses itself: {pairs} pairs of triangles, near {}; separate the limbs or remesh it there",
-        millimetres(place)
-    )]
-    SelfCrossing {
-        /// How many.
-        pairs: usize,
-        /// Of the first.
-        place: Vec3,
-    },
+}
+
+/// What can be said of a surface that is fit to be a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyCheck {
+    /// Pieces of surface that do not touch.
+    pub parts: usize,
+    /// Pairs of triangles that cross, and a point of the first. Scans and average bodies often have some between the
+    /// thighs and in the armpits; they do no harm where no cloth goes.
+    pub crossings: Option<(usize, Vec3)>,
 }
 
 fn millimetres(p: &Vec3) -> String {
     format!("({:.0}, {:.0}, {:.0}) mm", 1e3 * p.x, 1e3 * p.y, 1e3 * p.z)
 }
 
-/// Checks that `mesh` is closed, manifold, oriented outward and free of crossings, in this order; the number of its
-/// disconnected parts.
+/// Checks that `mesh` is closed, manifold, oriented and outward, in this order, and looks for crossings.
 ///
 /// # Errors
 /// The first [`BodyFault`].
-pub fn check_body(mesh: &TriMesh) -> Result<usize, BodyFault> {
+pub fn check_body(mesh: &TriMesh) -> Result<BodyCheck, BodyFault> {
     let topology = Topology::new(&mesh.triangles);
     let at = |v: u32| mesh.vertices[v as usize];
     let edges = topology.rim_edges().count();
@@ -82,10 +80,7 @@ pub fn check_body(mesh: &TriMesh) -> Result<usize, BodyFault> {
     if volume <= 0.0 {
         return Err(BodyFault::InsideOut { litres: 1e3 * volume });
     }
-    match crossings(mesh) {
-        Some(c) => Err(BodyFault::SelfCrossing { pairs: c.count, place: c.place }),
-        None => Ok(parts(mesh, &topology)),
-    }
+    Ok(BodyCheck { parts: parts(mesh, &topology), crossings: crossings(mesh) })
 }
 
 /// Number of connected pieces of surface.

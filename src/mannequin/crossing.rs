@@ -2,22 +2,13 @@
 
 use crate::geometry::{TriMesh, Vec3};
 
-/// A pair of triangles that cross, and how many do.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Crossings {
-    /// Pairs.
-    pub(super) count: usize,
-    /// A point of the first one.
-    pub(super) place: Vec3,
-}
-
 /// Cells of the broad phase are this many mean edges wide: a few triangles in each.
 const CELL_IN_EDGES: f64 = 2.0;
 
-/// All pairs of triangles of `mesh` that cross without sharing a vertex; `None` when there are none.
-pub(super) fn crossings(mesh: &TriMesh) -> Option<Crossings> {
+/// How many pairs of triangles of `mesh` cross without sharing a vertex, and where the first do; `None` when none do.
+pub(super) fn crossings(mesh: &TriMesh) -> Option<(usize, Vec3)> {
     let boxes: Vec<[Vec3; 2]> = (0..mesh.triangles.len()).map(|t| bounds(mesh.corners(t))).collect();
-    let mut found: Option<Crossings> = None;
+    let mut found: Option<(usize, Vec3)> = None;
     for (s, t) in close_pairs(mesh, &boxes) {
         let shared = mesh.triangles[s].iter().any(|v| mesh.triangles[t].contains(v));
         if shared || !overlap(&boxes[s], &boxes[t]) {
@@ -25,7 +16,7 @@ pub(super) fn crossings(mesh: &TriMesh) -> Option<Crossings> {
         }
         let (a, b) = (mesh.corners(s), mesh.corners(t));
         if let Some(place) = pierces(a, b).or_else(|| pierces(b, a)) {
-            found.get_or_insert(Crossings { count: 0, place }).count += 1;
+            found.get_or_insert((0, place)).0 += 1;
         }
     }
     found
@@ -101,7 +92,7 @@ mod tests {
     #[test]
     fn bodies_that_overlap_cross_and_others_do_not() {
         assert_eq!(crossings(&tetrahedra(2.0)), None);
-        let found = crossings(&tetrahedra(0.3)).expect("they overlap");
-        assert!(found.count > 0 && found.place.x > 0.0 && found.place.x < 1.0);
+        let (count, place) = crossings(&tetrahedra(0.3)).expect("they overlap");
+        assert!(count > 0 && place.x > 0.0 && place.x < 1.0);
     }
 }

@@ -20,6 +20,8 @@ const NECK_FLARE: f64 = 1.25;
 const ARM_CLEARANCE: f64 = 0.01;
 /// Part of an arm with its hand at which the wrist lies at the earliest and at the latest.
 const WRIST: [f64; 2] = [0.6, 0.85];
+/// A hand is this much wider round than the wrist.
+const HAND: f64 = 1.1;
 
 /// A horizontal cut of the trunk.
 #[derive(Clone, Copy)]
@@ -109,7 +111,8 @@ fn neck_base(trunk: &[Cut]) -> Option<usize> {
 /// arms.
 fn trunk_side(trunk: &[Cut], middle: f64) -> Option<f64> {
     let width = |c: &Cut| c.high.x - c.low.x;
-    let narrowest = trunk.iter().map(width).fold(f64::INFINITY, f64::min);
+    // The lower half holds the waist; the upper one narrows again at the neck.
+    let narrowest = trunk[..trunk.len() / 2].iter().map(width).fold(f64::INFINITY, f64::min);
     trunk[trunk.len() / 2..]
         .iter()
         .take_while(|c| width(c) < ARMS_IN_CUT * narrowest)
@@ -204,12 +207,19 @@ fn arm(mesh: &TriMesh, kind: PartKind, search: &ArmSearch) -> Result<BodyPart, S
     let sections: Vec<Section> = (1..(reach / STEP) as usize)
         .filter_map(|i| limb_section(mesh, shoulder + axis * (i as f64 * STEP), axis, across))
         .collect();
-    let range = (WRIST[0] * sections.len() as f64) as usize..(WRIST[1] * sections.len() as f64) as usize;
-    let wrist = range.min_by(|&a, &b| sections[a].girth.total_cmp(&sections[b].girth)).ok_or_else(missing)?;
+    let wrist = wrist(&sections).ok_or_else(missing)?;
     let sections = sections[..=wrist].to_vec();
     let mark = |name: &str, part: f64| (name.to_owned(), sections[(part * wrist as f64) as usize].center);
     let landmarks = vec![mark("shoulder", 0.0), mark("biceps", 0.35), mark("elbow", 0.57), mark("wrist", 1.0)];
     Ok(BodyPart { kind, sections, landmarks })
+}
+
+/// Index of the wrist: the narrowest section where it may lie, if a hand follows; otherwise the arm's end.
+fn wrist(arm: &[Section]) -> Option<usize> {
+    let part = |p: f64| (p * arm.len() as f64) as usize;
+    let narrowest = (part(WRIST[0])..part(WRIST[1])).min_by(|&a, &b| arm[a].girth.total_cmp(&arm[b].girth))?;
+    let hand = arm[narrowest..].iter().any(|s| s.girth > HAND * arm[narrowest].girth);
+    if hand { Some(narrowest) } else { arm.len().checked_sub(2) }
 }
 
 fn mean(points: &[Vec3]) -> Option<Vec3> {

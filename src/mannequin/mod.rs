@@ -15,7 +15,7 @@ mod spec;
 mod surface;
 
 pub use build::build;
-pub use check::{BodyFault, check_body};
+pub use check::{BodyCheck, BodyFault, check_body};
 pub use detect::find_parts;
 pub use library::{library, load};
 pub use spec::{ArmRow, ArmSpec, LegRow, LegSpec, MannequinSpec, TorsoRow};
