@@ -185,7 +185,7 @@ fn face_forward(mesh: &mut TriMesh, height: f64, notes: &mut Vec<String>) {
         0.5 * (low + high)
     };
     let toes = middle(0.0, FOOT) - middle(ANKLE[0], ANKLE[1]);
-    if !(toes < -FOOT * height) {
+    if toes.is_nan() || toes >= -FOOT * height {
         return;
     }
     for p in &mut mesh.vertices {

@@ -20,6 +20,8 @@ const NECK_FLARE: f64 = 1.25;
 const ARM_CLEARANCE: f64 = 0.01;
 /// Part of an arm with its hand at which the wrist lies at the earliest and at the latest.
 const WRIST: [f64; 2] = [0.6, 0.85];
+/// A cut across an arm that is this much longer than the middle one runs through the trunk as well.
+const TRUNK_IN_CUT: f64 = 1.7;
 /// A hand is this much wider round than the wrist.
 const HAND: f64 = 1.1;
 
@@ -207,11 +209,21 @@ fn arm(mesh: &TriMesh, kind: PartKind, search: &ArmSearch) -> Result<BodyPart, S
     let sections: Vec<Section> = (1..(reach / STEP) as usize)
         .filter_map(|i| limb_section(mesh, shoulder + axis * (i as f64 * STEP), axis, across))
         .collect();
+    let sections = without_trunk(sections).ok_or_else(missing)?;
     let wrist = wrist(&sections).ok_or_else(missing)?;
     let sections = sections[..=wrist].to_vec();
     let mark = |name: &str, part: f64| (name.to_owned(), sections[(part * wrist as f64) as usize].center);
-    let landmarks = vec![mark("shoulder", 0.0), mark("biceps", 0.35), mark("elbow", 0.57), mark("wrist", 1.0)];
+    let landmarks = vec![mark("shoulder", 0.0), mark("biceps", 0.22), mark("elbow", 0.5), mark("wrist", 1.0)];
     Ok(BodyPart { kind, sections, landmarks })
+}
+
+/// The sections beyond the last one whose cut runs through the trunk as well.
+fn without_trunk(arm: Vec<Section>) -> Option<Vec<Section>> {
+    let mut girths: Vec<f64> = arm.iter().map(|s| s.girth).collect();
+    girths.sort_by(f64::total_cmp);
+    let limit = TRUNK_IN_CUT * *girths.get(girths.len() / 2)?;
+    let first = arm.iter().rposition(|s| s.girth > limit).map_or(0, |i| i + 1);
+    (arm.len() > first + 4).then(|| arm[first..].to_vec())
 }
 
 /// Index of the wrist: the narrowest section where it may lie, if a hand follows; otherwise the arm's end.
