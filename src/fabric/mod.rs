@@ -1,19 +1,29 @@
-//! Fabrics as measured.
+//! Fabrics as measured: the shipped library, fabric files, and what a garment file says inline.
+
+mod curve;
+mod error;
+mod library;
+mod resolve;
+mod sheet;
+mod units;
+
+pub use curve::TensileCurve;
+pub use error::FabricError;
+pub use library::{library, load, sheet};
+pub use resolve::{Context, resolve};
+pub use sheet::{FabricSheet, LiuMeasures, Measurement};
+
+/// Standard gravity, m/s².
+const GRAVITY: f64 = 9.80665;
 
 /// How a garment file names a fabric: a library name or file, with inline measurements or multipliers on top.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FabricSpec {
     /// Library name (`cotton_poplin`), path, or another fabric of the same garment.
     pub base: Option<String>,
-    /// Inline values, key and text as written (`weight: 70 g/m2`, `bend: 2.5`).
+    /// Inline values, key and text as written (`weight: 70 g/m2`, `bend: 2.5`). Nested values come as `tensile.weft.EMT`
+    /// or as the text of the whole map, `{weft: {EMT: 5 %}}`.
     pub values: Vec<(String, String)>,
-}
-
-/// Load per width against strain of a woven direction, piecewise linear (F4).
-#[derive(Clone, Debug, PartialEq)]
-pub struct TensileCurve {
-    /// (strain, N/m), rising, first (0, 0); the last slope goes on beyond the last point.
-    pub points: Vec<(f64, f64)>,
 }
 
 /// A fabric in physical units; every value is there, those not measured are named in `defaults`.
@@ -41,4 +51,25 @@ pub struct Fabric {
     pub source: String,
     /// Values that were not measured but assumed.
     pub defaults: Vec<String>,
+}
+
+impl Fabric {
+    /// Bending length along the warp, metres: c = (B / ρg)^⅓, the scale of the cloth's folds.
+    pub fn bending_length_warp(&self) -> f64 {
+        self.bending_length_of(self.bend_warp)
+    }
+
+    /// Bending length along the weft, metres.
+    pub fn bending_length_weft(&self) -> f64 {
+        self.bending_length_of(self.bend_weft)
+    }
+
+    /// Bending length of the mean of both rigidities, metres.
+    pub fn bending_length_mean(&self) -> f64 {
+        self.bending_length_of(0.5 * (self.bend_warp + self.bend_weft))
+    }
+
+    fn bending_length_of(&self, rigidity: f64) -> f64 {
+        (rigidity / (self.areal_density * GRAVITY)).cbrt()
+    }
 }

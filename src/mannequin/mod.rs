@@ -2,15 +2,21 @@
 
 mod build;
 mod cell;
+mod check;
+mod crossing;
+mod detect;
 mod field;
 mod library;
 mod loft;
 mod parts;
 mod relax;
+mod slice;
 mod spec;
 mod surface;
 
 pub use build::build;
+pub use check::{BodyCheck, BodyFault, check_body};
+pub use detect::find_parts;
 pub use library::{library, load};
 pub use spec::{ArmRow, ArmSpec, LegRow, LegSpec, MannequinSpec, TorsoRow};
 
@@ -96,7 +102,9 @@ pub struct BodyPart {
     pub kind: PartKind,
     /// Sections from the end next to the trunk outward (the torso from the crotch up).
     pub sections: Vec<Section>,
-    /// Named heights or points on it: `waist`, `hip`, `bust`, `biceps`, `elbow`, `wrist`, `knee`: index into `sections` as a fraction along the axis.
+    /// Named points: centres of the sections called `crotch`, `hip`, `waist`, `bust`, `shoulder`, `neck base` (torso and
+    /// neck), `shoulder`, `biceps`, `elbow`, `wrist` (arms; a shipped mannequin's `shoulder` is the acromion on the
+    /// skin), `crotch`, `thigh`, `knee`, `ankle` (legs). Shipped mannequins have more, named as in their files.
     pub landmarks: Vec<(String, Vec3)>,
 }
 
@@ -107,10 +115,10 @@ pub struct Section {
     pub center: Vec3,
     /// Unit axis direction, outward along the part.
     pub axis: Vec3,
-    /// Half extents sideways (along the body's x for torso and neck, radially for limbs) and front–back.
+    /// Half extent sideways: along the body's x for torso, neck and legs, for arms across the axis in the frontal plane.
     pub half_width: f64,
-    /// Half depth.
+    /// Half extent front to back.
     pub half_depth: f64,
-    /// Girth.
+    /// Girth as a tape reads it (from the armscye to the shoulder that of the trunk alone, without the arms).
     pub girth: f64,
 }

@@ -1,0 +1,212 @@
+//! Load–extension curves (F4) and how they come from Kawabata numbers or a file.
+
+use super::error::FabricError;
+use super::units::GF_PER_CM;
+
+/// Load per width against strain of a woven direction, piecewise linear (F4).
+#[derive(Clone, Debug, PartialEq)]
+pub struct TensileCurve {
+    /// (strain, N/m), rising, first (0, 0); the last slope goes on beyond the last point.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// Loads at which a Kawabata curve is sampled, gf/cm. Closer at the start, where the curve bends most.
+const KNOTS: [f64; 6] = [5.0, 20.0, 50.0, 100.0, 200.0, 500.0];
+/// The load at which EMT is read, gf/cm.
+const FULL_LOAD: f64 = 500.0;
+
+impl TensileCurve {
+    /// The curve F = 500 gf/cm · (ε/EMT)^(2/LT − 1) of an extension `emt` (a fraction) at 500 gf/cm and a linearity
+    /// `lt` between 0 and 2: LT = 1 is a straight line, less is slack at first and then stiff.
+    pub fn kawabata(emt: f64, lt: f64) -> Self {
+        let power = 2.0 / lt - 1.0;
+        let knot = |load: f64| (emt * (load / FULL_LOAD).powf(1.0 / power), load * GF_PER_CM);
+        Self { points: std::iter::once((0.0, 0.0)).chain(KNOTS.map(knot)).collect() }
+    }
+
+    /// Both ends of the segment that holds `strain`, or the last segment beyond the curve.
+    fn segment(&self, strain: f64) -> [(f64, f64); 2] {
+        let last = self.points.len() - 1;
+        let i = self.points[1..last].partition_point(|p| p.0 <= strain);
+        [self.points[i], self.points[i + 1]]
+    }
+
+    /// Load at a strain, N/m; zero in compression, where cloth buckles instead.
+    pub fn load(&self, strain: f64) -> f64 {
+        if strain <= 0.0 {
+            return 0.0;
+        }
+        let [a, b] = self.segment(strain);
+        a.1 + (strain - a.0) * (b.1 - a.1) / (b.0 - a.0)
+    }
+
+    /// Slope of the load at a strain, N/m; at a corner that of the segment beyond, zero in compression.
+    pub fn slope(&self, strain: f64) -> f64 {
+        if strain < 0.0 {
+            return 0.0;
+        }
+        let [a, b] = self.segment(strain);
+        (b.1 - a.1) / (b.0 - a.0)
+    }
+
+    /// Energy per area at a strain, J/m²: the load's integral from 0.
+    pub fn energy(&self, strain: f64) -> f64 {
+        if strain <= 0.0 {
+            return 0.0;
+        }
+        let mut sum = 0.0;
+        let last = self.points.len() - 2;
+        for (i, pair) in self.points.windows(2).enumerate() {
+            let [a, b] = [pair[0], pair[1]];
+            if strain <= a.0 {
+                break;
+            }
+            let end = if i == last { strain } else { strain.min(b.0) };
+            sum += 0.5 * (end - a.0) * (a.1 + self.load(end));
+        }
+        sum
+    }
+
+    /// The same curve with every load multiplied by `factor`.
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self { points: self.points.iter().map(|p| (p.0, factor * p.1)).collect() }
+    }
+
+    /// Reads a table of two columns, strain and load. A first line with words is a header and may say the units
+    /// (`strain %` or `strain fraction`, `load gf/cm` or `load N/m`); without one they are % and gf/cm. Lines that are
+    /// empty or begin with `#` are skipped. A first point (0, 0) is added where it is missing.
+    ///
+    /// # Errors
+    /// [`FabricError::Curve`] with the row where a number cannot be read or the curve does not rise.
+    pub fn parse(text: &str, file: &str) -> Result<Self, FabricError> {
+        let fault = |row: usize, why: String| FabricError::Curve { file: file.to_owned(), row: row + 1, why };
+        let mut scale = (0.01, GF_PER_CM);
+        let mut rows: Vec<(f64, f64)> = vec![(0.0, 0.0)];
+        let lines = text.lines().enumerate().filter(|(_, l)| !l.trim().is_empty() && !l.trim_start().starts_with('#'));
+        for (count, (row, line)) in lines.enumerate() {
+            let first = line.split([',', ';', '\t']).next().unwrap_or(line);
+            if count == 0 && first.trim().parse::<f64>().is_err() {
+                scale = header(line).map_err(|why| fault(row, why))?;
+                continue;
+            }
+            let [strain, load] = numbers(line).map_err(|why| fault(row, why))?;
+            if (strain, load) == (0.0, 0.0) && rows.len() == 1 {
+                continue;
+            }
+            let (before, next) = (rows[rows.len() - 1], (strain * scale.0, load * scale.1));
+            if next.0 <= before.0 {
+                return Err(fault(
+                    row,
+                    format!("strain goes from {} to {strain}; it must rise", short(before.0 / scale.0)),
+                ));
+            }
+            if next.1 <= before.1 {
+                let from = short(before.1 / scale.1);
+                return Err(fault(row, format!("load falls from {from} to {load}; curves must rise")));
+            }
+            rows.push(next);
+        }
+        if rows.len() < 2 {
+            return Err(fault(0, "no rows of strain and load".to_owned()));
+        }
+        Ok(Self { points: rows })
+    }
+}
+
+/// A number of the file again, without the dust of the conversion to SI and back.
+fn short(x: f64) -> f64 {
+    (x * 1e6).round() / 1e6
+}
+
+/// Units of both columns as factors to a fraction and N/m.
+fn header(line: &str) -> Result<(f64, f64), String> {
+    let (strain, load) = line.split_once([',', ';', '\t']).ok_or("two columns, strain and load, are expected")?;
+    let strain = match strain {
+        s if s.contains('%') => 0.01,
+        s if s.contains("fraction") => 1.0,
+        s => return Err(format!("unknown unit in '{}'; use strain % or strain fraction", s.trim())),
+    };
+    let load = match load {
+        l if l.contains("gf/cm") => GF_PER_CM,
+        l if l.contains("N/m") => 1.0,
+        l => return Err(format!("unknown unit in '{}'; use load gf/cm or load N/m", l.trim())),
+    };
+    Ok((strain, load))
+}
+
+fn numbers(line: &str) -> Result<[f64; 2], String> {
+    let fields: Vec<&str> = line.split([',', ';', '\t']).map(str::trim).collect();
+    let [strain, load] = fields[..] else {
+        return Err(format!("{} columns, where strain and load are expected", fields.len()));
+    };
+    let number = |text: &str| match text.parse::<f64>() {
+        Ok(v) if v.is_finite() => Ok(v),
+        _ => Err(format!("'{text}' is no finite number")),
+    };
+    Ok([number(strain)?, number(load)?])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_kawabata_curve_matches_the_worsted_table() {
+        let curve = TensileCurve::kawabata(0.047, 0.55);
+        // Strain in percent at 5, 20, 50, 100, 200, 500 gf/cm of a worsted warp.
+        for ((strain, load), (percent, gf)) in curve.points[1..].iter().zip([
+            (0.819, 5.0),
+            (1.386, 20.0),
+            (1.962, 50.0),
+            (2.553, 100.0),
+            (3.320, 200.0),
+            (4.70, 500.0),
+        ]) {
+            assert_relative_eq!(strain * 100.0, percent, epsilon = 6e-4);
+            assert_relative_eq!(*load, gf * GF_PER_CM, max_relative = 1e-12);
+        }
+    }
+
+    #[test]
+    fn load_is_the_slope_of_energy_and_slope_the_slope_of_load() {
+        let curve = TensileCurve::kawabata(0.05, 0.6);
+        let h = 1e-7;
+        for strain in [-0.01, 0.001, 0.013, 0.03, 0.049, 0.08, 0.3] {
+            let difference = (curve.energy(strain + h) - curve.energy(strain - h)) / (2.0 * h);
+            assert_relative_eq!(difference, curve.load(strain), max_relative = 1e-5, epsilon = 1e-5);
+            let difference = (curve.load(strain + h) - curve.load(strain - h)) / (2.0 * h);
+            assert_relative_eq!(difference, curve.slope(strain), max_relative = 1e-5);
+        }
+    }
+
+    #[test]
+    fn the_last_slope_goes_on() {
+        let curve = TensileCurve { points: vec![(0.0, 0.0), (0.1, 10.0), (0.2, 40.0)] };
+        assert_relative_eq!(curve.load(0.3), 70.0);
+        assert_relative_eq!(curve.energy(0.3), 0.5 + 2.5 + 5.5);
+        assert_relative_eq!(curve.slope(0.1), 300.0);
+    }
+
+    #[test]
+    fn a_file_is_read_in_its_units() {
+        let curve = TensileCurve::parse("strain %, load N/m\n0, 0\n1, 20\n2, 60\n", "a.csv").expect("curve");
+        assert_eq!(curve.points, [(0.0, 0.0), (0.01, 20.0), (0.02, 60.0)]);
+        let plain = TensileCurve::parse("1,100\n2,200", "a.csv").expect("curve");
+        assert_relative_eq!(plain.points[2].1, 196.133, max_relative = 1e-9);
+    }
+
+    #[test]
+    fn a_falling_curve_is_refused_with_its_row() {
+        let said = |text: &str| TensileCurve::parse(text, "kes/warp.csv").expect_err(text).to_string();
+        assert_eq!(
+            said("strain %, load gf/cm\n1, 100\n2, 92"),
+            "tensile curve kes/warp.csv, row 3: load falls from 100 to 92; curves must rise"
+        );
+        assert!(said("1, 100\n1, 120").contains("strain"));
+        assert!(said("1, nan").contains("row 1: 'nan' is no finite number"));
+        assert!(said("1").contains("columns"));
+        assert!(said("").contains("no rows"));
+        assert!(said("strain, load\n1, 2").contains("unknown unit"));
+    }
+}

@@ -1,0 +1,93 @@
+//! Why there is no fabric.
+
+/// Why a fabric cannot be had; every message says what was expected.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FabricError {
+    /// Neither a library name, nor a fabric of the garment, nor a file.
+    #[error("fabric '{name}' not found{}; there are {known}, or give the path of a .yaml file",
+            nearest.as_ref().map(|n| format!("; did you mean '{n}'?")).unwrap_or_default())]
+    Unknown {
+        /// As asked for.
+        name: String,
+        /// The most alike, if any is.
+        nearest: Option<String>,
+        /// All names.
+        known: String,
+    },
+    /// A file cannot be read.
+    #[error("{file}: {why}")]
+    Read {
+        /// Path.
+        file: String,
+        /// What the system said.
+        why: String,
+    },
+    /// The text is no fabric.
+    #[error("{file}: {why}")]
+    Syntax {
+        /// Path or name.
+        file: String,
+        /// What is wrong, with line and column where the reader knows them.
+        why: String,
+    },
+    /// A key that means nothing.
+    #[error("fabric '{fabric}' has no value '{key}'; it may have {known}")]
+    Key {
+        /// The fabric.
+        fabric: String,
+        /// As written.
+        key: String,
+        /// All keys.
+        known: String,
+    },
+    /// A value that is no number with one of the units expected.
+    #[error("fabric '{fabric}': cannot read {key} '{text}'; expected {expected}")]
+    Unit {
+        /// The fabric.
+        fabric: String,
+        /// Which value.
+        key: String,
+        /// As written.
+        text: String,
+        /// A number and its units.
+        expected: String,
+    },
+    /// A number that no cloth has.
+    #[error("fabric '{fabric}': {key} '{text}' is out of range; {why}")]
+    Range {
+        /// The fabric.
+        fabric: String,
+        /// Which value.
+        key: String,
+        /// As written.
+        text: String,
+        /// What it must be.
+        why: String,
+    },
+    /// A value that nothing can stand in for.
+    #[error("fabric '{fabric}' has no {key} value; give {key} in {expected}")]
+    Missing {
+        /// The fabric.
+        fabric: String,
+        /// Which value.
+        key: String,
+        /// Its units.
+        expected: String,
+    },
+    /// A curve file with a wrong row.
+    #[error("tensile curve {file}, row {row}: {why}")]
+    Curve {
+        /// Path.
+        file: String,
+        /// Line of the file, from 1.
+        row: usize,
+        /// What is wrong.
+        why: String,
+    },
+    /// A fabric whose base is, by some way, itself.
+    #[error("fabric '{fabric}' is based on itself; name a fabric of the library at the end of the chain")]
+    Cycle {
+        /// The fabric.
+        fabric: String,
+    },
+}

@@ -1,0 +1,103 @@
+//! The fabrics that are shipped, and where others come from.
+
+use std::path::Path;
+
+use super::error::FabricError;
+use super::resolve::{Context, from_sheet};
+use super::{Fabric, FabricSheet};
+
+/// Name and text of every shipped fabric: the fifteen of Liu, Wang & Luo 2015 in their order, then two knits.
+const SHIPPED: [(&str, &str); 17] = [
+    ("fine_cotton", include_str!("../../fabrics/fine_cotton.yaml")),
+    ("denim", include_str!("../../fabrics/denim.yaml")),
+    ("canvas", include_str!("../../fabrics/canvas.yaml")),
+    ("linen", include_str!("../../fabrics/linen.yaml")),
+    ("ramie", include_str!("../../fabrics/ramie.yaml")),
+    ("silk_charmeuse", include_str!("../../fabrics/silk_charmeuse.yaml")),
+    ("cotton_poplin", include_str!("../../fabrics/cotton_poplin.yaml")),
+    ("chiffon", include_str!("../../fabrics/chiffon.yaml")),
+    ("nylon_spandex_knit", include_str!("../../fabrics/nylon_spandex_knit.yaml")),
+    ("polyester", include_str!("../../fabrics/polyester.yaml")),
+    ("nylon_taffeta", include_str!("../../fabrics/nylon_taffeta.yaml")),
+    ("gabardine", include_str!("../../fabrics/gabardine.yaml")),
+    ("garment_leather", include_str!("../../fabrics/garment_leather.yaml")),
+    ("wool_suiting", include_str!("../../fabrics/wool_suiting.yaml")),
+    ("velvet", include_str!("../../fabrics/velvet.yaml")),
+    ("jersey", include_str!("../../fabrics/jersey.yaml")),
+    ("rib", include_str!("../../fabrics/rib.yaml")),
+];
+
+/// Names of the shipped fabrics.
+pub fn library() -> Vec<&'static str> {
+    SHIPPED.iter().map(|s| s.0).collect()
+}
+
+/// The values of a shipped fabric or of a `.yaml` file as written, with their sources.
+///
+/// # Errors
+/// [`FabricError`] when there is no such fabric or its file cannot be read.
+pub fn sheet(name_or_path: &str) -> Result<FabricSheet, FabricError> {
+    sheet_in(name_or_path, Path::new(""), &[])
+}
+
+/// A shipped fabric or a `.yaml` file in physical units.
+///
+/// # Errors
+/// [`FabricError`] when there is no such fabric or a value of it is wrong.
+pub fn load(name_or_path: &str) -> Result<Fabric, FabricError> {
+    load_in(name_or_path, Path::new(""), &[])
+}
+
+/// As [`load`], paths being relative to `folder`; `others` are further names for the list in the error.
+pub(super) fn load_in(name: &str, folder: &Path, others: &[&str]) -> Result<Fabric, FabricError> {
+    let sheet = sheet_in(name, folder, others)?;
+    // Curves that a fabric file names lie beside that file.
+    let home = folder.join(name);
+    let folder = if is_shipped(name) { folder } else { home.parent().unwrap_or(folder) };
+    from_sheet(&sheet, &Context { name: &sheet.name, folder, garment: &[] })
+}
+
+fn is_shipped(name: &str) -> bool {
+    SHIPPED.iter().any(|s| s.0 == name)
+}
+
+fn sheet_in(name: &str, folder: &Path, others: &[&str]) -> Result<FabricSheet, FabricError> {
+    if let Some((_, text)) = SHIPPED.iter().find(|s| s.0 == name) {
+        return FabricSheet::parse(text, name);
+    }
+    let path = folder.join(name);
+    if path.extension().is_none() {
+        let known: Vec<&str> = others.iter().copied().chain(library()).collect();
+        let nearest = nearest(name, &known).map(str::to_owned);
+        return Err(FabricError::Unknown { name: name.to_owned(), nearest, known: known.join(", ") });
+    }
+    let file = path.display().to_string();
+    let text =
+        std::fs::read_to_string(&path).map_err(|e| FabricError::Read { file: file.clone(), why: e.to_string() })?;
+    FabricSheet::parse(&text, &file)
+}
+
+/// The name most like `name`, if it contains it or differs in no more than a third of its letters.
+fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
+    if let Some(longer) = known.iter().find(|k| !name.is_empty() && k.contains(name)) {
+        return Some(longer);
+    }
+    let (best, letters) = known.iter().map(|k| (*k, edits(name, k))).min_by_key(|k| k.1)?;
+    (3 * letters <= best.len()).then_some(best)
+}
+
+/// How many letters to insert, drop or change to make `a` into `b` (Levenshtein).
+fn edits(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, ca) in a.chars().enumerate() {
+        let mut corner = row[0];
+        row[0] = i + 1;
+        for (j, cb) in b.iter().enumerate() {
+            let cost = (corner + usize::from(ca != *cb)).min(row[j] + 1).min(row[j + 1] + 1);
+            corner = row[j + 1];
+            row[j + 1] = cost;
+        }
+    }
+    row[b.len()]
+}

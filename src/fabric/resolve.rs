@@ -1,0 +1,318 @@
+//! From what is written about a fabric to a [`Fabric`] with every value.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use super::error::FabricError;
+use super::library::load_in;
+use super::sheet::{FabricSheet, flatten};
+use super::units::{BEND, LENGTH, Quantity, SHEAR, STRAIN, WEIGHT};
+use super::{Fabric, FabricSpec, TensileCurve};
+
+/// What stands in for a value that was not measured: middles of the shipped wovens.
+const THICKNESS: f64 = 0.3e-3;
+const SHEAR_STIFFNESS: f64 = 34.0;
+const FRICTION: f64 = 0.4;
+const EMT: f64 = 0.03;
+const LT: f64 = 0.7;
+
+/// Keys a fabric may have.
+const KEYS: [&str; 20] = [
+    "weight",
+    "thickness",
+    "bend",
+    "bend.warp",
+    "bend.weft",
+    "bend.two_HB",
+    "shear",
+    "tensile",
+    "tensile.EMT",
+    "tensile.LT",
+    "tensile.warp",
+    "tensile.warp.EMT",
+    "tensile.warp.LT",
+    "tensile.weft",
+    "tensile.weft.EMT",
+    "tensile.weft.LT",
+    "friction",
+    "drape",
+    "source",
+    "name",
+];
+
+/// Where a fabric is written.
+#[derive(Clone, Copy, Debug)]
+pub struct Context<'a> {
+    /// The fabric's name in the garment.
+    pub name: &'a str,
+    /// Folder of the garment file: fabric and curve files are relative to it.
+    pub folder: &'a Path,
+    /// All fabrics of the garment, which may serve as a base.
+    pub garment: &'a [(String, FabricSpec)],
+}
+
+/// The fabric a garment file describes: its base, if any, with the inline values on top. A plain number multiplies the
+/// base's value (friction has no unit, so there it is the value itself). What neither gives is assumed and listed in
+/// [`Fabric::defaults`]; weight and bending have no default.
+///
+/// # Errors
+/// [`FabricError`] for a base that does not exist or leads back to itself, an unknown key, a bad unit, a number out of
+/// range, a missing weight or bending value, a curve that does not rise.
+pub fn resolve(spec: &FabricSpec, context: &Context) -> Result<Fabric, FabricError> {
+    resolve_chain(spec, context, &mut vec![context.name.to_owned()])
+}
+
+fn resolve_chain(spec: &FabricSpec, context: &Context, seen: &mut Vec<String>) -> Result<Fabric, FabricError> {
+    let base = match &spec.base {
+        Some(name) => Some(base_fabric(name, context, seen)?),
+        None => None,
+    };
+    match base {
+        Some(fabric) if spec.values.is_empty() => Ok(fabric),
+        base => Values::new(spec, context)?.fabric(base.as_ref()),
+    }
+}
+
+fn base_fabric(name: &str, context: &Context, seen: &mut Vec<String>) -> Result<Fabric, FabricError> {
+    let sibling = context.garment.iter().find(|g| g.0 == name && g.0 != context.name);
+    let Some((name, spec)) = sibling else {
+        let others: Vec<&str> = context.garment.iter().map(|g| g.0.as_str()).collect();
+        return load_in(name, context.folder, &others);
+    };
+    if seen.contains(name) {
+        return Err(FabricError::Cycle { fabric: name.clone() });
+    }
+    seen.push(name.clone());
+    resolve_chain(spec, &Context { name, ..*context }, seen)
+}
+
+/// The fabric of a file's sheet.
+pub(super) fn from_sheet(sheet: &FabricSheet, context: &Context) -> Result<Fabric, FabricError> {
+    let values = sheet.measurements.iter().map(|m| (m.key.clone(), m.value.clone())).collect();
+    let mut fabric = Values { map: values, context }.known()?.fabric(None)?;
+    let mut sources: Vec<&str> = sheet.measurements.iter().filter_map(|m| m.source.as_deref()).collect();
+    sources.sort_unstable();
+    sources.dedup();
+    if !sources.is_empty() {
+        fabric.source = sources.join("; ");
+    }
+    Ok(fabric)
+}
+
+/// Flat keys and texts of one fabric.
+struct Values<'a> {
+    map: BTreeMap<String, String>,
+    context: &'a Context<'a>,
+}
+
+impl<'a> Values<'a> {
+    fn new(spec: &FabricSpec, context: &'a Context<'a>) -> Result<Self, FabricError> {
+        let fault = |why: String| FabricError::Syntax { file: format!("fabric '{}'", context.name), why };
+        let mut flat = Vec::new();
+        for (key, text) in &spec.values {
+            let value = if text.trim_start().starts_with('{') {
+                serde_yaml::from_str(text).map_err(|e| fault(format!("{key}: {e}")))?
+            } else {
+                serde_yaml::Value::String(text.clone())
+            };
+            flatten(key, &value, &mut flat).map_err(fault)?;
+        }
+        Self { map: flat.into_iter().map(|m| (m.key, m.value)).collect(), context }.known()
+    }
+
+    /// Refuses keys that mean nothing.
+    fn known(self) -> Result<Self, FabricError> {
+        match self.map.keys().find(|k| !KEYS.contains(&k.as_str())) {
+            None => Ok(self),
+            Some(key) => {
+                Err(FabricError::Key { fabric: self.context.name.to_owned(), key: key.clone(), known: KEYS.join(", ") })
+            }
+        }
+    }
+
+    /// The first of `keys` that is written, with its text.
+    fn first<'k>(&self, keys: &[&'k str]) -> Option<(&'k str, &str)> {
+        keys.iter().find_map(|k| Some((*k, self.map.get(*k)?.as_str())))
+    }
+
+    fn unit_error(&self, key: &str, text: &str, expected: String) -> FabricError {
+        let (fabric, key, text) = (self.context.name.to_owned(), key.to_owned(), text.to_owned());
+        FabricError::Unit { fabric, key, text, expected }
+    }
+
+    /// `value` if it lies within `range`.
+    fn checked(
+        &self,
+        key: &str,
+        text: &str,
+        value: f64,
+        range: std::ops::RangeInclusive<f64>,
+    ) -> Result<f64, FabricError> {
+        if range.contains(&value) {
+            return Ok(value);
+        }
+        let why = format!("it must lie between {:e} and {:e} (SI units)", range.start(), range.end());
+        let (fabric, key, text) = (self.context.name.to_owned(), key.to_owned(), text.to_owned());
+        Err(FabricError::Range { fabric, key, text, why })
+    }
+
+    /// A value with its unit, or a factor on `base`; `None` when none of `keys` is written.
+    fn quantity(&self, keys: &[&str], kind: &Quantity, base: Option<f64>) -> Result<Option<f64>, FabricError> {
+        let Some((key, text)) = self.first(keys) else { return Ok(base) };
+        let value = match (kind.parse(text), text.trim().parse::<f64>(), base) {
+            (Some(value), _, _) => value,
+            (None, Ok(factor), Some(base)) => factor * base,
+            _ => return Err(self.unit_error(key, text, self.expected(kind.expected(), base.is_some()))),
+        };
+        // Anything from a spider's thread to a sheet of steel: only slips of the pen are refused.
+        self.checked(key, text, value, 1e-9..=1e6).map(Some)
+    }
+
+    fn expected(&self, units: String, has_base: bool) -> String {
+        if has_base { format!("{units}, or a factor on the base") } else { units }
+    }
+
+    /// A number without unit.
+    fn number(&self, keys: &[&str], range: std::ops::RangeInclusive<f64>) -> Result<Option<f64>, FabricError> {
+        let Some((key, text)) = self.first(keys) else { return Ok(None) };
+        let value = text.trim().parse::<f64>().map_err(|_| self.unit_error(key, text, "a plain number".to_owned()))?;
+        self.checked(key, text, value, range).map(Some)
+    }
+
+    fn missing(&self, key: &str, kind: &Quantity) -> FabricError {
+        let expected = kind.expected().replace("a number in ", "");
+        FabricError::Missing { fabric: self.context.name.to_owned(), key: key.to_owned(), expected }
+    }
+
+    fn fabric(&self, base: Option<&Fabric>) -> Result<Fabric, FabricError> {
+        let mut defaults = Defaults::new(base);
+        let weight = self.quantity(&["weight"], &WEIGHT, base.map(|b| b.areal_density))?;
+        let thickness = self.quantity(&["thickness"], &LENGTH, base.map(|b| b.thickness))?;
+        let shear = self.quantity(&["shear"], &SHEAR, base.map(|b| b.shear))?;
+        let friction = self.number(&["friction"], 0.0..=5.0)?.or(base.map(|b| b.friction));
+        let [bend_warp, bend_weft] = self.bending(base, &mut defaults)?;
+        let [warp, weft] = self.tensile(base, &mut defaults)?;
+        Ok(Fabric {
+            name: self.context.name.to_owned(),
+            areal_density: weight.ok_or_else(|| self.missing("weight", &WEIGHT))?,
+            thickness: defaults.or("thickness", self.has("thickness"), thickness, THICKNESS),
+            bend_warp,
+            bend_weft,
+            warp,
+            weft,
+            shear: defaults.or("shear", self.has("shear"), shear, SHEAR_STIFFNESS),
+            friction: defaults.or("friction", self.has("friction"), friction, FRICTION),
+            source: self.source(base),
+            defaults: defaults.0,
+        })
+    }
+
+    fn has(&self, key: &str) -> bool {
+        self.map.contains_key(key)
+    }
+
+    fn source(&self, base: Option<&Fabric>) -> String {
+        match (self.map.get("source"), base) {
+            (Some(text), _) => text.clone(),
+            (None, Some(base)) => format!("{}, changed in the garment file ({})", base.name, base.source),
+            (None, None) => "written in the garment file".to_owned(),
+        }
+    }
+
+    /// Both rigidities. One stands for the other where only one is written.
+    fn bending(&self, base: Option<&Fabric>, defaults: &mut Defaults) -> Result<[f64; 2], FabricError> {
+        let warp = self.quantity(&["bend.warp", "bend"], &BEND, base.map(|b| b.bend_warp))?;
+        let weft = self.quantity(&["bend.weft", "bend"], &BEND, base.map(|b| b.bend_weft))?;
+        match (warp, weft) {
+            (Some(warp), Some(weft)) => Ok([warp, weft]),
+            (Some(warp), None) => Ok([warp, defaults.note("bend.weft", warp)]),
+            (None, Some(weft)) => Ok([defaults.note("bend.warp", weft), weft]),
+            (None, None) => Err(self.missing("bend", &BEND)),
+        }
+    }
+
+    /// Both curves. One stands for the other where only one is written.
+    fn tensile(&self, base: Option<&Fabric>, defaults: &mut Defaults) -> Result<[TensileCurve; 2], FabricError> {
+        let warp =
+            self.curve(["tensile.warp", "tensile.warp.EMT", "tensile.warp.LT"], base.map(|b| &b.warp), defaults)?;
+        let weft =
+            self.curve(["tensile.weft", "tensile.weft.EMT", "tensile.weft.LT"], base.map(|b| &b.weft), defaults)?;
+        Ok(match (warp, weft) {
+            (Some(warp), Some(weft)) => [warp, weft],
+            (Some(warp), None) => [warp.clone(), defaults.note("tensile.weft", warp)],
+            (None, Some(weft)) => [defaults.note("tensile.warp", weft.clone()), weft],
+            (None, None) => {
+                let curve = defaults.note("tensile", TensileCurve::kawabata(EMT, LT));
+                [curve.clone(), curve]
+            }
+        })
+    }
+
+    /// One direction's curve: `[file or factor, EMT, LT]` are its keys; the same without direction serve both.
+    fn curve(
+        &self,
+        [whole, emt, lt]: [&str; 3],
+        base: Option<&TensileCurve>,
+        defaults: &mut Defaults,
+    ) -> Result<Option<TensileCurve>, FabricError> {
+        let extension = self.quantity(&[emt, "tensile.EMT"], &STRAIN, None)?;
+        let linearity = self.number(&[lt, "tensile.LT"], 0.1..=1.5)?;
+        match (extension, self.first(&[whole, "tensile"]), linearity) {
+            (Some(extension), _, linearity) => {
+                defaults.clear(whole);
+                let linearity = linearity.unwrap_or_else(|| defaults.note(lt, LT));
+                Ok(Some(TensileCurve::kawabata(extension, linearity)))
+            }
+            (None, Some((key, text)), _) => {
+                defaults.clear(whole);
+                self.curve_or_factor(key, text, base).map(Some)
+            }
+            (None, None, Some(_)) => Err(self.missing(emt, &STRAIN)),
+            (None, None, None) => Ok(base.cloned()),
+        }
+    }
+
+    fn curve_or_factor(&self, key: &str, text: &str, base: Option<&TensileCurve>) -> Result<TensileCurve, FabricError> {
+        if let (Ok(factor), Some(base)) = (text.trim().parse::<f64>(), base) {
+            return Ok(base.scaled(self.checked(key, text, factor, 1e-6..=1e6)?));
+        }
+        if !text.trim().ends_with(".csv") {
+            let expected = "{EMT: 5 %, LT: 0.7} or a .csv file of strain and load".to_owned();
+            return Err(self.unit_error(key, text, self.expected(expected, base.is_some())));
+        }
+        let path = self.context.folder.join(text.trim());
+        let read = std::fs::read_to_string(&path)
+            .map_err(|e| FabricError::Read { file: path.display().to_string(), why: e.to_string() })?;
+        TensileCurve::parse(&read, text.trim())
+    }
+}
+
+/// Keys whose values are assumed.
+struct Defaults(Vec<String>);
+
+impl Defaults {
+    fn new(base: Option<&Fabric>) -> Self {
+        Self(base.map(|b| b.defaults.clone()).unwrap_or_default())
+    }
+
+    /// `value`, noted as assumed.
+    fn note<T>(&mut self, key: &str, value: T) -> T {
+        if !self.0.iter().any(|k| k == key) {
+            self.0.push(key.to_owned());
+        }
+        value
+    }
+
+    /// Forgets that `key` or anything under it was assumed.
+    fn clear(&mut self, key: &str) {
+        self.0.retain(|k| k != key && !k.starts_with(&format!("{key}.")));
+    }
+
+    /// `value` or, noted, `fallback`; a value that is written is no longer assumed.
+    fn or(&mut self, key: &str, is_written: bool, value: Option<f64>, fallback: f64) -> f64 {
+        if is_written {
+            self.clear(key);
+        }
+        value.unwrap_or_else(|| self.note(key, fallback))
+    }
+}

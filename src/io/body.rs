@@ -1,0 +1,207 @@
+//! A body of one's own: a closed OBJ becomes a [`Mannequin`]; and mannequins as OBJ text.
+
+use std::collections::HashMap;
+use std::fmt::Write as _;
+use std::path::Path;
+
+use super::obj_read::{ObjError, ObjSurface, read_obj};
+use crate::geometry::{Topology, TriMesh, Vec3};
+use crate::mannequin::{BodyCheck, BodyFault, Mannequin, MannequinError, check_body, find_parts, load};
+
+/// Vertices nearer than this are one, metres: far below a mesh's edges, far above the rounding of a file.
+const WELD: f64 = 1e-6;
+/// A body lower than this many file units is in metres, lower than the next in centimetres, else in millimetres.
+const METRES_BELOW: f64 = 3.0;
+const CENTIMETRES_BELOW: f64 = 300.0;
+/// Heights of foot and ankle, as parts of the body's, that tell where the toes point.
+const FOOT: f64 = 0.02;
+const ANKLE: [f64; 2] = [0.05, 0.08];
+
+/// A body that was read, and what was guessed or done on the way.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// In metres, y up, feet at y = 0, facing +z.
+    pub mannequin: Mannequin,
+    /// One sentence each: the unit taken, turns, disconnected parts, crossings.
+    pub notes: Vec<String>,
+}
+
+/// Why a file is no body.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BodyError {
+    /// The file itself.
+    #[error(transparent)]
+    Obj(#[from] ObjError),
+    /// The surface.
+    #[error("{file}: {fault}")]
+    Fault {
+        /// Path.
+        file: String,
+        /// What is wrong, where, and the remedy.
+        fault: BodyFault,
+    },
+    /// No height, or no parts.
+    #[error("{file}: {why}")]
+    Shape {
+        /// Path.
+        file: String,
+        /// What is missing.
+        why: String,
+    },
+    /// A mannequin by name or `.yaml`.
+    #[error(transparent)]
+    Mannequin(#[from] MannequinError),
+}
+
+/// A mannequin by library name, `.yaml` or `.obj`: what `--body` takes.
+///
+/// # Errors
+/// [`BodyError`].
+pub fn load_body(name_or_path: &str) -> Result<Body, BodyError> {
+    let path = Path::new(name_or_path);
+    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
+        return read_body(path);
+    }
+    Ok(Body { mannequin: load(name_or_path)?, notes: Vec::new() })
+}
+
+/// Reads a closed OBJ in millimetres, centimetres or metres (guessed from its height and said in the notes), y up or
+/// z up. Vertices that coincide are merged where the surface is not closed otherwise.
+///
+/// # Errors
+/// [`BodyError`] when the file cannot be read, the surface is open, not manifold or inside out, or no
+/// torso, neck, arms and legs can be found.
+pub fn read_body(path: &Path) -> Result<Body, BodyError> {
+    let file = path.display().to_string();
+    let name = path.file_stem().map_or_else(|| file.clone(), |s| s.to_string_lossy().into_owned());
+    body(read_obj(path)?, name, file)
+}
+
+/// As [`read_body`], from a surface already read; `file` names it in errors.
+///
+/// # Errors
+/// As [`read_body`].
+pub fn body(surface: ObjSurface, name: String, file: String) -> Result<Body, BodyError> {
+    let mut notes = Vec::new();
+    let shape = |why: &str| BodyError::Shape { file: file.clone(), why: why.to_owned() };
+    let mut vertices = surface.vertices;
+    stand_up(&mut vertices, &mut notes);
+    let (low, height) = extent(&vertices).ok_or_else(|| shape("the body has no height"))?;
+    let (scale, unit) = unit(height);
+    notes.push(format!("{unit} assumed, since the body is {height:.2} units high"));
+    for p in &mut vertices {
+        *p = Vec3::new(p.x, p.y - low, p.z) * scale;
+    }
+    let mut mesh = closed(vertices, surface.triangles);
+    let check = check_body(&mesh).map_err(|fault| BodyError::Fault { file: file.clone(), fault })?;
+    notes.extend(findings(&check));
+    face_forward(&mut mesh, height * scale, &mut notes);
+    let parts = find_parts(&mesh).map_err(|why| shape(&why))?;
+    Ok(Body { mannequin: Mannequin { name, mesh, parts }, notes })
+}
+
+/// What a body's check found that its user should know.
+fn findings(check: &BodyCheck) -> Vec<String> {
+    let mut notes = Vec::new();
+    if check.parts > 1 {
+        notes.push(format!("the body consists of {} parts that do not touch; all are kept", check.parts));
+    }
+    if let Some((pairs, p)) = check.crossings {
+        let p = 1e3 * p;
+        notes.push(format!(
+            "the surface crosses itself ({pairs} pairs of triangles, near ({:.0}, {:.0}, {:.0}) mm); where cloth goes \
+             there, separate the limbs or remesh",
+            p.x, p.y, p.z
+        ));
+    }
+    notes
+}
+
+/// Turns a body that lies along z upright.
+fn stand_up(vertices: &mut [Vec3], notes: &mut Vec<String>) {
+    let (low, high) = vertices
+        .iter()
+        .fold((Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY)), |b, p| (b.0.inf(p), b.1.sup(p)));
+    if high.z - low.z <= high.y - low.y {
+        return;
+    }
+    for p in vertices {
+        *p = Vec3::new(p.x, p.z, -p.y);
+    }
+    notes.push("z is the tall axis: turned so that y is up".to_owned());
+}
+
+/// Lowest point and height, if there is any.
+fn extent(vertices: &[Vec3]) -> Option<(f64, f64)> {
+    let low = vertices.iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
+    let high = vertices.iter().map(|p| p.y).fold(f64::NEG_INFINITY, f64::max);
+    (high > low).then_some((low, high - low))
+}
+
+/// Metres per unit of a file whose body is that high, and the unit's name.
+fn unit(height: f64) -> (f64, &'static str) {
+    if height < METRES_BELOW {
+        (1.0, "metres")
+    } else if height < CENTIMETRES_BELOW {
+        (1e-2, "centimetres")
+    } else {
+        (1e-3, "millimetres")
+    }
+}
+
+/// The surface as it is if that is closed, otherwise with coinciding vertices merged: seams of texture and normals then
+/// close, while lips that merely touch stay apart.
+fn closed(vertices: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> TriMesh {
+    if Topology::new(&triangles).rim_edges().next().is_none() {
+        return TriMesh { vertices, triangles };
+    }
+    weld(&vertices, &triangles)
+}
+
+/// Merges coinciding vertices and drops triangles that become edges and vertices that no triangle uses.
+fn weld(vertices: &[Vec3], triangles: &[[u32; 3]]) -> TriMesh {
+    let mut seen: HashMap<[i64; 3], u32> = HashMap::new();
+    let mut mesh = TriMesh::default();
+    for tri in triangles {
+        let tri = tri.map(|v| {
+            let p = vertices[v as usize];
+            *seen.entry([p.x, p.y, p.z].map(|c| (c / WELD).round() as i64)).or_insert_with(|| {
+                mesh.vertices.push(p);
+                mesh.vertices.len() as u32 - 1
+            })
+        });
+        if tri[0] != tri[1] && tri[1] != tri[2] && tri[2] != tri[0] {
+            mesh.triangles.push(tri);
+        }
+    }
+    mesh
+}
+
+/// Turns a body whose toes point to −z round, so that it faces +z. Feet without toes leave it as it is.
+fn face_forward(mesh: &mut TriMesh, height: f64, notes: &mut Vec<String>) {
+    let middle = |from: f64, to: f64| {
+        let z = mesh.vertices.iter().filter(|p| (from * height..to * height).contains(&p.y)).map(|p| p.z);
+        let (low, high) = z.fold((f64::INFINITY, f64::NEG_INFINITY), |b, z| (b.0.min(z), b.1.max(z)));
+        0.5 * (low + high)
+    };
+    let toes = middle(0.0, FOOT) - middle(ANKLE[0], ANKLE[1]);
+    if toes.is_nan() || toes >= -FOOT * height {
+        return;
+    }
+    for p in &mut mesh.vertices {
+        *p = Vec3::new(-p.x, p.y, -p.z);
+    }
+    notes.push("the toes point to -z: turned to face +z".to_owned());
+}
+
+/// A mannequin as OBJ text: millimetres, y up, feet at y = 0.
+pub fn mannequin_obj(mannequin: &Mannequin) -> String {
+    let mut out = format!("# {}: millimetres, y up, facing +z\no {}\n", mannequin.name, mannequin.name);
+    for p in &mannequin.mesh.vertices {
+        let _ = writeln!(out, "v {:.6} {:.6} {:.6}", 1e3 * p.x, 1e3 * p.y, 1e3 * p.z);
+    }
+    for t in &mannequin.mesh.triangles {
+        let _ = writeln!(out, "f {} {} {}", t[0] + 1, t[1] + 1, t[2] + 1);
+    }
+    out
+}

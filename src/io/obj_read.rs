@@ -1,0 +1,218 @@
+//! Reads the surface out of a Wavefront OBJ file: positions and triangles. The only user of obj-rs.
+//!
+//! obj-rs reads 32-bit numbers, refuses vertex colours (`v x y z r g b`) and says no line when it fails. So a first pass
+//! here reads the positions in full precision, checks every index and hands obj-rs a file of bare `v` and `f` lines.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use obj::raw::object::Polygon;
+
+use crate::geometry::Vec3;
+
+/// Larger files are refused before they are read: at a hundred bytes a triangle this is five million of them.
+const LARGEST: u64 = 512 << 20;
+
+/// Why an OBJ file cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ObjError {
+    /// The system refused.
+    #[error("{file}: {why}")]
+    Read {
+        /// Path.
+        file: String,
+        /// What the system said.
+        why: String,
+    },
+    /// More than 512 MiB.
+    #[error("{file}: {mebibytes} MiB are more than the 512 MiB that are read; reduce the mesh first")]
+    TooLarge {
+        /// Path.
+        file: String,
+        /// Size.
+        mebibytes: u64,
+    },
+    /// A line that means nothing.
+    #[error("{file}:{line}: {why}")]
+    Line {
+        /// Path.
+        file: String,
+        /// From 1.
+        line: usize,
+        /// What is wrong and what was expected.
+        why: String,
+    },
+    /// A file without a surface.
+    #[error("{file}: no faces; a body is a closed surface of 'v' and 'f' lines")]
+    Empty {
+        /// Path.
+        file: String,
+    },
+}
+
+/// Positions in the file's own unit and triangles; polygons are cut into fans from their first corner.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ObjSurface {
+    /// Positions as written.
+    pub vertices: Vec<Vec3>,
+    /// Indices into `vertices`.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// Reads a file; see [`parse_obj`].
+///
+/// # Errors
+/// [`ObjError`] with the line.
+pub fn read_obj(path: &Path) -> Result<ObjSurface, ObjError> {
+    let file = path.display().to_string();
+    let system = |e: std::io::Error| ObjError::Read { file: file.clone(), why: e.to_string() };
+    let size = std::fs::metadata(path).map_err(system)?.len();
+    if size > LARGEST {
+        return Err(ObjError::TooLarge { file, mebibytes: size >> 20 });
+    }
+    let bytes = std::fs::read(path).map_err(system)?;
+    // Only comments and names are ever other than ASCII.
+    parse_obj(&String::from_utf8_lossy(&bytes), &file)
+}
+
+/// Reads an OBJ's text; `file` names it in errors. Every index is in range and every coordinate finite afterwards.
+///
+/// # Errors
+/// [`ObjError::Line`] for a line that is wrong, [`ObjError::Empty`] when there are no faces.
+pub fn parse_obj(text: &str, file: &str) -> Result<ObjSurface, ObjError> {
+    let bare = Bare::new(text).map_err(|(line, why)| ObjError::Line { file: file.to_owned(), line, why })?;
+    let raw = obj::raw::parse_obj(bare.text.as_bytes())
+        .map_err(|e| ObjError::Read { file: file.to_owned(), why: e.to_string() })?;
+    let mut triangles = Vec::with_capacity(raw.polygons.len());
+    for polygon in &raw.polygons {
+        let Polygon::P(corners) = polygon else { continue };
+        let corners: Vec<u32> = corners.iter().map(|&c| c as u32).collect();
+        triangles.extend((1..corners.len() - 1).map(|k| [corners[0], corners[k], corners[k + 1]]));
+    }
+    if triangles.is_empty() {
+        return Err(ObjError::Empty { file: file.to_owned() });
+    }
+    Ok(ObjSurface { vertices: bare.vertices, triangles })
+}
+
+/// A line's number and what is wrong with it.
+type Fault = (usize, String);
+
+/// The file's positions, and its `v` and `f` lines rewritten without all else.
+struct Bare {
+    vertices: Vec<Vec3>,
+    text: String,
+}
+
+impl Bare {
+    fn new(text: &str) -> Result<Self, Fault> {
+        let mut out = Self { vertices: Vec::new(), text: String::new() };
+        let mut faces: Vec<(usize, Vec<i64>)> = Vec::new();
+        for (line, words) in logical_lines(text) {
+            let mut words = words.split_whitespace();
+            match words.next() {
+                Some("v") => out.vertices.push(position(words).map_err(|why| (line, why))?),
+                Some("f") => faces.push((line, corners(words, out.vertices.len()).map_err(|why| (line, why))?)),
+                _ => {}
+            }
+        }
+        for p in &out.vertices {
+            let _ = writeln!(out.text, "v {} {} {}", p.x as f32, p.y as f32, p.z as f32);
+        }
+        let count = out.vertices.len() as i64;
+        for (line, corners) in faces {
+            if let Some(wrong) = corners.iter().find(|c| !(1..=count).contains(*c)) {
+                return Err((line, format!("face uses vertex {wrong}, but the file has 1 to {count}")));
+            }
+            out.text.push('f');
+            for c in corners {
+                let _ = write!(out.text, " {c}");
+            }
+            out.text.push('\n');
+        }
+        Ok(out)
+    }
+}
+
+/// Lines without comments, those ending in a backslash joined with the next, each with the number of its first line.
+fn logical_lines(text: &str) -> impl Iterator<Item = (usize, String)> {
+    let mut lines = text.lines().enumerate();
+    std::iter::from_fn(move || {
+        let (number, first) = lines.next()?;
+        let mut whole = String::new();
+        let mut part = first;
+        loop {
+            let code = part.split('#').next().unwrap_or("").trim_end();
+            let Some(open) = code.strip_suffix('\\') else {
+                whole.push_str(code);
+                break;
+            };
+            whole.push_str(open);
+            whole.push(' ');
+            match lines.next() {
+                Some((_, next)) => part = next,
+                None => break,
+            }
+        }
+        Some((number + 1, whole))
+    })
+}
+
+/// `x y z`, after which a weight or a colour may follow.
+fn position<'a>(words: impl Iterator<Item = &'a str>) -> Result<Vec3, String> {
+    let mut numbers = Vec::with_capacity(3);
+    for word in words {
+        match word.parse::<f64>() {
+            // obj-rs reads 32 bits; what overflows there is no body in any unit.
+            Ok(v) if (v as f32).is_finite() => numbers.push(v),
+            Ok(_) => return Err(format!("coordinate '{word}' is not finite")),
+            Err(_) => return Err(format!("'{word}' is no number; a vertex is v x y z")),
+        }
+    }
+    match numbers[..] {
+        [x, y, z, ..] => Ok(Vec3::new(x, y, z)),
+        _ => Err(format!("{} coordinates; a vertex is v x y z", numbers.len())),
+    }
+}
+
+/// Vertex numbers of a face, from 1; negative ones count back from the vertices read `so_far`.
+fn corners<'a>(words: impl Iterator<Item = &'a str>, so_far: usize) -> Result<Vec<i64>, String> {
+    let mut out = Vec::with_capacity(4);
+    for word in words {
+        let first = word.split('/').next().unwrap_or(word);
+        let index: i64 = first.parse().map_err(|_| format!("'{word}' is no vertex number; a face is f 1 2 3"))?;
+        out.push(if index < 0 { so_far as i64 + 1 + index } else { index });
+    }
+    if out.len() < 3 {
+        return Err(format!("a face of {} corners; three or more are needed", out.len()));
+    }
+    Ok(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_quads_negative_indices_and_continuations_are_read() {
+        let text = "# a square\nv 0 0 0 1 0 0\nv 1.000000001 0 0 0 1 0\r\nv 1 1 0\nvn 0 0 1\nv 0 1 \\\n 0\nf 1//1 2//1 -2 -1\n";
+        let surface = parse_obj(text, "square.obj").expect("a square");
+        assert_eq!(surface.vertices[1].x, 1.000_000_001);
+        assert_eq!(surface.triangles, [[0, 1, 2], [0, 2, 3]]);
+    }
+
+    #[test]
+    fn errors_name_the_line() {
+        let said = |text: &str| parse_obj(text, "a.obj").expect_err(text).to_string();
+        let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+        assert_eq!(said(&format!("{square}f 1 2 4")), "a.obj:4: face uses vertex 4, but the file has 1 to 3");
+        assert_eq!(said(&format!("{square}f 1 2 0")), "a.obj:4: face uses vertex 0, but the file has 1 to 3");
+        assert_eq!(said(&format!("{square}\nf 1 2")), "a.obj:5: a face of 2 corners; three or more are needed");
+        assert_eq!(said("v 0 0 nan"), "a.obj:1: coordinate 'nan' is not finite");
+        assert_eq!(said("v 0 1e300 0"), "a.obj:1: coordinate '1e300' is not finite");
+        assert_eq!(said("\nv 0 0"), "a.obj:2: 2 coordinates; a vertex is v x y z");
+        assert_eq!(said("v 0 zero 0"), "a.obj:1: 'zero' is no number; a vertex is v x y z");
+        assert!(said(square).contains("no faces"));
+        assert!(matches!(read_obj(Path::new("/nowhere/a.obj")), Err(ObjError::Read { .. })));
+    }
+}

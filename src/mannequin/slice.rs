@@ -1,0 +1,94 @@
+//! Plane cuts of a closed mesh.
+
+use std::collections::BTreeMap;
+
+use crate::geometry::{TriMesh, Vec3};
+
+/// One closed curve of a cut.
+#[derive(Clone, Debug)]
+pub(super) struct Loop {
+    /// Points, in no order.
+    pub(super) points: Vec<Vec3>,
+    /// Corners of the box round them.
+    pub(super) low: Vec3,
+    pub(super) high: Vec3,
+}
+
+impl Loop {
+    fn new(points: Vec<Vec3>) -> Self {
+        let (mut low, mut high) = (points[0], points[0]);
+        for p in &points {
+            (low, high) = (low.inf(p), high.sup(p));
+        }
+        Self { points, low, high }
+    }
+
+    /// Middle of the box.
+    pub(super) fn center(&self) -> Vec3 {
+        0.5 * (self.low + self.high)
+    }
+}
+
+/// The loops in which the plane through `at` square to `axis` cuts `mesh`.
+pub(super) fn slice(mesh: &TriMesh, at: Vec3, axis: Vec3) -> Vec<Loop> {
+    let side: Vec<f64> = mesh.vertices.iter().map(|p| (p - at).dot(&axis)).collect();
+    // Every triangle that the plane crosses joins two of its edges; chains of joined edges are the loops.
+    let mut index: BTreeMap<[u32; 2], usize> = BTreeMap::new();
+    let (mut points, mut parent): (Vec<Vec3>, Vec<usize>) = (Vec::new(), Vec::new());
+    for tri in &mesh.triangles {
+        let mut last = None;
+        for k in 0..3 {
+            let (a, b) = (tri[k].min(tri[(k + 1) % 3]), tri[k].max(tri[(k + 1) % 3]));
+            let (s, t) = (side[a as usize], side[b as usize]);
+            if (s < 0.0) == (t < 0.0) {
+                continue;
+            }
+            let here = *index.entry([a, b]).or_insert_with(|| {
+                points.push(mesh.vertices[a as usize].lerp(&mesh.vertices[b as usize], s / (s - t)));
+                parent.push(parent.len());
+                parent.len() - 1
+            });
+            if let Some(other) = last.replace(here) {
+                let (p, q) = (root(&mut parent, here), root(&mut parent, other));
+                parent[p.max(q)] = p.min(q);
+            }
+        }
+    }
+    let mut groups: BTreeMap<usize, Vec<Vec3>> = BTreeMap::new();
+    for (i, p) in points.into_iter().enumerate() {
+        groups.entry(root(&mut parent, i)).or_default().push(p);
+    }
+    groups.into_values().map(Loop::new).collect()
+}
+
+fn root(parent: &mut [usize], mut i: usize) -> usize {
+    while parent[i] != i {
+        parent[i] = parent[parent[i]];
+        i = parent[i];
+    }
+    i
+}
+
+/// Length of a tape round `points` in the plane spanned by `u` and `v`: their convex hull's perimeter.
+pub(super) fn tape(points: &[Vec3], u: Vec3, v: Vec3) -> f64 {
+    let mut flat: Vec<(f64, f64)> = points.iter().map(|p| (p.dot(&u), p.dot(&v))).collect();
+    flat.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let upper = chain(flat.iter().copied());
+    let lower = chain(flat.iter().rev().copied());
+    upper + lower
+}
+
+/// Length of the right-turning chain over sorted points: one half of their hull.
+fn chain(points: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let mut hull: Vec<(f64, f64)> = Vec::new();
+    for p in points {
+        while let [.., a, b] = hull[..] {
+            if (b.0 - a.0) * (p.1 - a.1) - (b.1 - a.1) * (p.0 - a.0) < 0.0 {
+                break;
+            }
+            hull.pop();
+        }
+        hull.push(p);
+    }
+    hull.windows(2).map(|w| (w[1].0 - w[0].0).hypot(w[1].1 - w[0].1)).sum()
+}
