@@ -1,1 +1,3 @@
-//! io
+//! Formats, in and out; no stage reads or writes one itself.
+
+pub mod garment;

@@ -3,6 +3,40 @@
 //! A garment *file* says `cut: pair`, darts, pleats and `to: mirror`; a [`Garment`] has the pieces and seams that
 //! follow from them, so that no later stage knows those words. All lengths are metres.
 
+mod bound;
+mod chain;
+mod closure;
+mod cover;
+mod crossing;
+mod cut;
+mod dart;
+mod diagnostic;
+mod draft;
+mod expand;
+mod file;
+mod inherit;
+mod measure;
+mod pleat;
+mod problem;
+mod reference;
+mod rim;
+mod seam;
+mod select;
+mod spelling;
+mod walk;
+
+pub use diagnostic::{Diagnostic, Findings, Located, Severity, Spot};
+pub use expand::expand;
+pub use file::{
+    AllowanceFile, ClosureFile, Cut, DartFile, DartShape, GarmentFile, LineFile, NotchFile, OpenFile, OutlineFile,
+    PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, Side, TestFile, Unit, Value,
+};
+pub use problem::Problem;
+pub use reference::parse_quantity;
+pub use rim::{Opening, openings};
+pub use spelling::nearest;
+pub use walk::{SeamWalk, walk};
+
 use crate::geometry::{Path, Vec2, Vec3};
 
 /// A garment ready to be meshed.
@@ -70,15 +104,6 @@ pub struct EdgeId {
     pub ring: usize,
     /// Index in the ring.
     pub index: usize,
-}
-
-/// Left or right of the wearer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Side {
-    /// The wearer's left.
-    Left,
-    /// The wearer's right.
-    Right,
 }
 
 /// A stretch of an edge, walked from `from` to `to` (metres from the edge's start; `from > to` walks against it).
