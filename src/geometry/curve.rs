@@ -275,6 +275,8 @@ impl Path {
                 points.push(vector(p));
             }
         });
+        // Where segments meet, the point comes twice.
+        points.dedup_by(|b, a| (*b - *a).norm() < LENGTH_ACCURACY);
         points
     }
 

@@ -73,7 +73,8 @@ impl Reader<'_> {
         if found.len() == expected {
             return;
         }
-        let rim = |o: &super::Opening| o.spans.first().map_or_else(String::new, |s| edge_name(&self.garment.pieces, s.edge));
+        let rim =
+            |o: &super::Opening| o.spans.first().map_or_else(String::new, |s| edge_name(&self.garment.pieces, s.edge));
         let rims = format!("at {}", found.iter().map(rim).collect::<Vec<_>>().join(", "));
         findings.error(test.at, Problem::Openings { found: found.len(), expected, rims });
     }

@@ -80,7 +80,8 @@ impl Table<'_> {
         let same = is_face_same(candidate);
         [candidate.with, !candidate.with].into_iter().find_map(|with| {
             let with_b = with == same;
-            let whole = self.first_break(&candidate.a, with).is_none() && self.first_break(&candidate.b, with_b).is_none();
+            let whole =
+                self.first_break(&candidate.a, with).is_none() && self.first_break(&candidate.b, with_b).is_none();
             whole.then(|| Directed {
                 candidate: candidate.clone(),
                 a: walked(&candidate.a, with).concat(),
@@ -157,7 +158,8 @@ impl Table<'_> {
                     j != i && continuous(self)
                 });
                 if let Some(&j) = later {
-                    let (seam_name, later) = (seam.candidate.file.name.value.clone(), directed[j].candidate.file.name.value.clone());
+                    let (seam_name, later) =
+                        (seam.candidate.file.name.value.clone(), directed[j].candidate.file.name.value.clone());
                     findings.warn(seam.candidate.file.name.at, Problem::SeamOrder { seam: seam_name, later });
                 }
                 self.one = earlier;

@@ -1,12 +1,12 @@
 //! Buttons, hooks and the like: the points of the cloth that are worn together.
 
+use super::Closure;
 use super::cut::{Instance, Pieces};
 use super::diagnostic::{Findings, Located};
 use super::draft::Draft;
 use super::file::{ClosureFile, GarmentFile, Side};
 use super::inherit::unknown_piece;
 use super::reference::piece_of;
-use super::Closure;
 use crate::geometry::Vec2;
 
 /// Reads all closures. One that does not say what it meets is kept without tacks.

@@ -52,14 +52,7 @@ fn may_share(file: &GarmentFile, cut: &Pieces, seams: &Seams, i: usize) -> bool 
     seam.kind == SeamKind::Pleat || layered || layers.any(|l| Some(l) != first)
 }
 
-fn sewn_twice(
-    file: &GarmentFile,
-    cut: &Pieces,
-    seams: &Seams,
-    edge: EdgeId,
-    taken: &[Taken],
-    findings: &mut Findings,
-) {
+fn sewn_twice(file: &GarmentFile, cut: &Pieces, seams: &Seams, edge: EdgeId, taken: &[Taken], findings: &mut Findings) {
     for (i, one) in taken.iter().enumerate() {
         for other in &taken[..i] {
             let (from, to) = (one.from.max(other.from), one.to.min(other.to));
@@ -162,7 +155,13 @@ impl EdgeNames<'_> {
 }
 
 /// Edges listed free by name, no glob, that a seam takes whole: the list says something else than the seams.
-pub(super) fn check_free_but_sewn(file: &GarmentFile, drafts: &[Draft], cut: &Pieces, seams: &Seams, findings: &mut Findings) {
+pub(super) fn check_free_but_sewn(
+    file: &GarmentFile,
+    drafts: &[Draft],
+    cut: &Pieces,
+    seams: &Seams,
+    findings: &mut Findings,
+) {
     let names = EdgeNames { drafts, cut };
     for pattern in file.free.iter().filter(|p| !p.value.contains('*')) {
         let edges = names.matching(&pattern.value);
@@ -184,7 +183,12 @@ pub(super) fn check_free_but_sewn(file: &GarmentFile, drafts: &[Draft], cut: &Pi
 pub(super) fn check_pairs(file: &GarmentFile, drafts: &[Draft], cut: &Pieces, seams: &Seams, findings: &mut Findings) {
     for (i, draft) in drafts.iter().enumerate().filter(|(_, d)| d.cut == Cut::Pair) {
         let pieces: Vec<usize> = cut.instances.iter().filter(|n| n.draft == i).map(|n| n.piece).collect();
-        let mut spans = seams.seams.iter().zip(&seams.written).filter(|(_, w)| w.is_some()).flat_map(|(s, _)| s.a.iter().chain(&s.b));
+        let mut spans = seams
+            .seams
+            .iter()
+            .zip(&seams.written)
+            .filter(|(_, w)| w.is_some())
+            .flat_map(|(s, _)| s.a.iter().chain(&s.b));
         if !spans.any(|s| pieces.contains(&s.edge.piece)) {
             let at = file.pieces.iter().find(|p| p.name.value == draft.name).and_then(|p| p.cut.as_ref());
             findings.error(at.map_or(draft.at, |c| c.at), Problem::PairUnsewn(draft.name.clone()));

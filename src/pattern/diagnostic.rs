@@ -84,9 +84,13 @@ impl fmt::Display for Diagnostic {
         if let Some(text) = &self.excerpt {
             let number = self.line.to_string();
             // Tabs stay tabs in the padding, so that the carets stand under their characters.
-            let pad: String =
-                text.chars().take(self.column - 1).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
-            write!(f, "\n  {number} | {text}\n  {} | {pad}{}", " ".repeat(number.len()), "^".repeat(self.width.max(1)))?;
+            let pad: String = text.chars().take(self.column - 1).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
+            write!(
+                f,
+                "\n  {number} | {text}\n  {} | {pad}{}",
+                " ".repeat(number.len()),
+                "^".repeat(self.width.max(1))
+            )?;
         }
         if let Some(hint) = &self.hint {
             write!(f, "\n  help: {hint}")?;

@@ -167,7 +167,9 @@ fn warp(piece: &PieceFile, findings: &mut Findings) -> Vec2 {
 
 fn place(place: &PlaceFile, unit: Unit) -> Place {
     match place {
-        PlaceFile::Words(words) => Place::Around { words: words.to_lowercase().split_whitespace().map(str::to_owned).collect() },
+        PlaceFile::Words(words) => {
+            Place::Around { words: words.to_lowercase().split_whitespace().map(str::to_owned).collect() }
+        }
         PlaceFile::At { at, turn } => {
             Place::At { at: Vec3::from(*at) * unit.factor(), turn: turn.map_or(Vec3::zeros(), Vec3::from) }
         }
@@ -226,7 +228,9 @@ fn edge_path(at: Vec2, commands: &str, scale: f64) -> Result<Path, String> {
     }
     // SVG's own words would show the `M` that is put in front: say what the file has.
     Path::parse(at, commands, scale).map_err(|e| match e {
-        crate::geometry::PathError::Syntax(_) => format!("cannot read '{commands}'; expected commands L C Q A with numbers"),
+        crate::geometry::PathError::Syntax(_) => {
+            format!("cannot read '{commands}'; expected commands L C Q A with numbers")
+        }
         crate::geometry::PathError::NotFinite(_) => format!("'{commands}' holds a number that is not finite"),
         crate::geometry::PathError::Empty(_) => format!("'{commands}' has no length"),
     })

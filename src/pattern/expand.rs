@@ -55,7 +55,8 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
         tests: Vec::new(),
     };
     let seam_file = |w: &Option<usize>| w.map(|i| &readable.seams[i]);
-    let turns: Vec<bool> = written.iter().map(|w| seam_file(w).and_then(|s| s.face_same.as_ref()).is_some_and(|f| f.value)).collect();
+    let turns: Vec<bool> =
+        written.iter().map(|w| seam_file(w).and_then(|s| s.face_same.as_ref()).is_some_and(|f| f.value)).collect();
     let spots: Vec<Spot> = written.iter().map(|w| seam_file(w).map_or(file.version.at, |s| s.name.at)).collect();
     check_orientable(&garment, &turns, &spots, findings);
     if sound && findings.errors() == before {
@@ -65,9 +66,8 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
 }
 
 fn without_undrawn(file: &GarmentFile, drafts: &[Draft]) -> GarmentFile {
-    let undrawn = |name: &str| {
-        file.pieces.iter().any(|p| p.name.value == name) && !drafts.iter().any(|d| d.name == name)
-    };
+    let undrawn =
+        |name: &str| file.pieces.iter().any(|p| p.name.value == name) && !drafts.iter().any(|d| d.name == name);
     let names_one = |refs: &[Located<String>]| refs.iter().any(|r| undrawn(super::reference::piece_of(&r.value).0));
     let mut readable = file.clone();
     readable.seams.retain(|s| !names_one(&s.sew) && !names_one(&s.to));
@@ -98,7 +98,9 @@ fn flatten(value: &Value, key: &str, spec: &mut FabricSpec) {
                 flatten(&value.value, &key, spec);
             }
         }
-        Value::List(items) => spec.values.push((key.to_owned(), items.iter().map(|i| text(&i.value)).collect::<Vec<_>>().join(" "))),
+        Value::List(items) => {
+            spec.values.push((key.to_owned(), items.iter().map(|i| text(&i.value)).collect::<Vec<_>>().join(" ")))
+        }
     }
 }
 
@@ -106,7 +108,9 @@ fn text(value: &Value) -> String {
     match value {
         Value::Text(text) => text.clone(),
         Value::List(items) => items.iter().map(|i| text(&i.value)).collect::<Vec<_>>().join(" "),
-        Value::Map(entries) => entries.iter().map(|(k, v)| format!("{} {}", k.value, text(&v.value))).collect::<Vec<_>>().join(" "),
+        Value::Map(entries) => {
+            entries.iter().map(|(k, v)| format!("{} {}", k.value, text(&v.value))).collect::<Vec<_>>().join(" ")
+        }
     }
 }
 

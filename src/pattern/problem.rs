@@ -101,7 +101,9 @@ pub enum Problem {
     PairUnsewn(String),
 
     // Darts and pleats.
-    #[error("dart at {edge}@{at:.0}: its mouth reaches from {from:.1} to {to:.1} mm but the edge is {length:.1} mm long")]
+    #[error(
+        "dart at {edge}@{at:.0}: its mouth reaches from {from:.1} to {to:.1} mm but the edge is {length:.1} mm long"
+    )]
     DartMouth { edge: String, at: f64, from: f64, to: f64, length: f64 },
     #[error("dart at {edge}@{at:.0}: legs differ {one:.1} / {other:.1} mm")]
     DartLegs { edge: String, at: f64, one: f64, other: f64 },
@@ -135,7 +137,9 @@ pub enum Problem {
     WhichCopy { seam: String, reference: String, piece: String, count: usize },
     #[error("seam '{seam}': piece '{piece}' has no mirror; 'to: mirror' needs cut: pair or fold")]
     NoMirror { seam: String, piece: String },
-    #[error("seam '{seam}': {a} {length_a:.1} mm, {b} {length_b:.1} mm, {apart:.1} mm apart; {advice} (tolerance {tolerance:.0})")]
+    #[error(
+        "seam '{seam}': {a} {length_a:.1} mm, {b} {length_b:.1} mm, {apart:.1} mm apart; {advice} (tolerance {tolerance:.0})"
+    )]
     LengthsApart {
         seam: String,
         a: String,
@@ -146,7 +150,9 @@ pub enum Problem {
         advice: String,
         tolerance: f64,
     },
-    #[error("seam '{seam}': ease {ease:.0} mm is {percent:.0} % of {length:.0} mm; more than 8 % gathers, say {advice}")]
+    #[error(
+        "seam '{seam}': ease {ease:.0} mm is {percent:.0} % of {length:.0} mm; more than 8 % gathers, say {advice}"
+    )]
     EaseTooLarge { seam: String, ease: f64, percent: f64, length: f64, advice: String },
     #[error("gather: {ratio} would stretch the cloth by {percent:.0} %; did you swap sew and to?")]
     GatherBelowOne { ratio: f64, percent: f64 },

@@ -30,12 +30,7 @@ pub(super) struct Seams {
 }
 
 /// Reads all seams.
-pub(super) fn seams(
-    file: &super::GarmentFile,
-    drafts: &[Draft],
-    cut: &Pieces,
-    findings: &mut Findings,
-) -> Seams {
+pub(super) fn seams(file: &super::GarmentFile, drafts: &[Draft], cut: &Pieces, findings: &mut Findings) -> Seams {
     let source = Source { drafts, cut, unit: file.unit() };
     let candidates: Vec<Candidate> = file.seams.iter().flat_map(|s| source.candidates(s, findings)).collect();
     let own = own_seams(drafts, cut);
@@ -231,7 +226,8 @@ impl Finish<'_> {
         let candidate = &directed.candidate;
         let (few, many) = (on_a.len().min(on_b.len()), on_a.len().max(on_b.len()));
         if few < many {
-            let text = |chain: &[super::select::Run]| chain.iter().map(|r| r.text.as_str()).collect::<Vec<_>>().join(" + ");
+            let text =
+                |chain: &[super::select::Run]| chain.iter().map(|r| r.text.as_str()).collect::<Vec<_>>().join(" + ");
             let (mut edge, mut other) = (text(&candidate.a), text(&candidate.b));
             if on_a.len() < on_b.len() {
                 std::mem::swap(&mut edge, &mut other);

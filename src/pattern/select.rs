@@ -4,6 +4,7 @@
 //! the seam is there twice, `side.L` and `side.R`. Joined with a piece that is there once, an edge of a folded piece
 //! that ends on the fold means the whole edge across both halves; any other must name its side.
 
+use super::Span;
 use super::cut::{Instance, Pieces};
 use super::diagnostic::Findings;
 use super::draft::{Draft, position};
@@ -11,7 +12,6 @@ use super::file::{Cut, SeamFile, Side, Unit};
 use super::inherit::unknown_piece;
 use super::problem::Problem;
 use super::reference::Reference;
-use super::Span;
 
 /// A range that misses the end of its edge by this much (metres) reaches it: rounding of the file's numbers.
 const SNAP: f64 = 5e-4;
@@ -83,12 +83,7 @@ impl Source<'_> {
         })
     }
 
-    fn find_all(
-        &self,
-        seam: &SeamFile,
-        chain: &[super::Located<String>],
-        findings: &mut Findings,
-    ) -> Vec<Found> {
+    fn find_all(&self, seam: &SeamFile, chain: &[super::Located<String>], findings: &mut Findings) -> Vec<Found> {
         let mut found = Vec::new();
         for written in chain {
             match Reference::parse(written).and_then(|r| self.find(seam, r)) {
@@ -101,7 +96,8 @@ impl Source<'_> {
 
     fn find(&self, seam: &SeamFile, reference: Reference) -> Result<Found, Problem> {
         let names = || self.drafts.iter().map(|d| d.name.as_str());
-        let draft = names().position(|n| n == reference.piece).ok_or_else(|| unknown_piece(&reference.piece, names()))?;
+        let draft =
+            names().position(|n| n == reference.piece).ok_or_else(|| unknown_piece(&reference.piece, names()))?;
         let drawn = &self.drafts[draft];
         let edge = drawn.find(&reference.edge).ok_or_else(|| drawn.unknown_edge(&reference.edge))?;
         let (mut from, mut to) = (0.0, edge.length);
@@ -222,8 +218,7 @@ impl Source<'_> {
     fn spans(&self, seam: &SeamFile, found: &Found, on: &Instance) -> Result<Vec<Span>, Problem> {
         let drawn = &self.drafts[found.draft];
         let stretches = drawn.find(&found.reference.edge).map(|n| n.stretches(found.from, found.to));
-        let spans: Option<Vec<Span>> =
-            stretches.unwrap_or_default().into_iter().map(|s| on.span(drawn, s)).collect();
+        let spans: Option<Vec<Span>> = stretches.unwrap_or_default().into_iter().map(|s| on.span(drawn, s)).collect();
         let spans = spans.ok_or_else(|| Problem::OnFold {
             seam: seam.name.value.clone(),
             reference: found.reference.text.clone(),
@@ -247,10 +242,8 @@ impl Source<'_> {
         let Some(first) = chain.first().filter(|_| !chain.iter().all(on_fold)) else { return Ok(Vec::new()) };
         let side = first.reference.side.unwrap_or(self.drafts[first.draft].drawn);
         let (with, a) = self.runs(seam, chain, Choice::Side(side))?;
-        let other: Vec<Found> = chain
-            .iter()
-            .map(|f| Found { reference: Reference { side: None, ..f.reference.clone() }, ..*f })
-            .collect();
+        let other: Vec<Found> =
+            chain.iter().map(|f| Found { reference: Reference { side: None, ..f.reference.clone() }, ..*f }).collect();
         let (_, b) = self.runs(seam, &other, Choice::Side(side.other()))?;
         Ok(vec![Candidate { file: seam, name: seam.name.value.clone(), a, b, with }])
     }

@@ -2,9 +2,7 @@
 
 use super::decode_piece::piece;
 use super::decode_seam::seam;
-use super::fields::{
-    Fields, entries, integer, items, length, numbers, quantity, text, wrong,
-};
+use super::fields::{Fields, entries, integer, items, length, numbers, quantity, text, wrong};
 use crate::pattern::{ClosureFile, Findings, GarmentFile, Located, Problem, TestFile, Unit, Value};
 
 /// Statements about a file that are kept for people.
@@ -34,9 +32,9 @@ pub(super) fn garment(tree: &Located<Value>, findings: &mut Findings) -> Option<
         closures: fields
             .take("closures")
             .map_or_else(Vec::new, |v| items(v).iter().filter_map(|c| closure(c, findings)).collect()),
-        free: fields
-            .take("free")
-            .map_or_else(Vec::new, |v| items(v).iter().filter_map(|f| text(f, "an edge in 'free'", findings)).collect()),
+        free: fields.take("free").map_or_else(Vec::new, |v| {
+            items(v).iter().filter_map(|f| text(f, "an edge in 'free'", findings)).collect()
+        }),
         tests: fields
             .take("tests")
             .map_or_else(Vec::new, |v| items(v).iter().filter_map(|t| test(t, findings)).collect()),
@@ -161,4 +159,3 @@ pub(super) fn name(written: &Located<String>, findings: &mut Findings) -> Option
     }
     Some(written.clone())
 }
-

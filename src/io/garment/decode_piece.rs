@@ -26,7 +26,13 @@ pub(super) fn piece(key: &Located<String>, value: &Located<Value>, findings: &mu
         outline: fields.take("outline").and_then(|v| outline(v, findings)),
         notches: fields.take("notches").map_or_else(Vec::new, |v| notches(v, findings)),
         darts: fields.take("darts").map(items).unwrap_or_default().iter().filter_map(|v| dart(v, findings)).collect(),
-        pleats: fields.take("pleats").map(items).unwrap_or_default().iter().filter_map(|v| pleat(v, findings)).collect(),
+        pleats: fields
+            .take("pleats")
+            .map(items)
+            .unwrap_or_default()
+            .iter()
+            .filter_map(|v| pleat(v, findings))
+            .collect(),
         holes: fields.take("holes").map_or_else(Vec::new, |v| named_paths(v, "holes", findings)),
         lines: fields.take("lines").map_or_else(Vec::new, |v| {
             entries(v, "lines", findings).iter().filter_map(|(k, v)| line(k, v, findings)).collect()

@@ -23,8 +23,9 @@ pub(super) fn seam(key: &Located<String>, value: &Located<Value>, findings: &mut
         closure: fields.get("closure", findings, text),
         face_same: fields
             .get("face", findings, |v, _, f| word(v, "face", "same or opposite", f, |w| either(w, "same", "opposite"))),
-        match_notches: fields
-            .get("match", findings, |v, _, f| word(v, "match", "notches or length", f, |w| either(w, "notches", "length"))),
+        match_notches: fields.get("match", findings, |v, _, f| {
+            word(v, "match", "notches or length", f, |w| either(w, "notches", "length"))
+        }),
         stage: fields.get("stage", findings, integer),
         layers: fields.get("layers", findings, layers),
         allowance: fields.get("allowance", findings, quantity),

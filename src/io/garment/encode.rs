@@ -134,14 +134,17 @@ fn piece(piece: &PieceFile) -> Yaml {
         edges.0.extend(named(&outline.edges, |(k, v)| (k, v.value.as_str().into())).0);
         map.put("outline", edges);
     }
-    map.filled("notches", named(&piece.notches, |(k, list)| {
-        let mark = |n: &Located<crate::pattern::NotchFile>| match (n.value.double, n.value.at.unit) {
-            (false, _) => quantity(n.value.at),
-            (true, None) => format!("{} double", n.value.at.number).into(),
-            (true, Some(unit)) => format!("{} {} double", n.value.at.number, unit.symbol()).into(),
-        };
-        (k, Yaml::Sequence(list.iter().map(mark).collect()))
-    }));
+    map.filled(
+        "notches",
+        named(&piece.notches, |(k, list)| {
+            let mark = |n: &Located<crate::pattern::NotchFile>| match (n.value.double, n.value.at.unit) {
+                (false, _) => quantity(n.value.at),
+                (true, None) => format!("{} double", n.value.at.number).into(),
+                (true, Some(unit)) => format!("{} {} double", n.value.at.number, unit.symbol()).into(),
+            };
+            (k, Yaml::Sequence(list.iter().map(mark).collect()))
+        }),
+    );
     map.list("darts", &piece.darts, dart);
     map.list("pleats", &piece.pleats, pleat);
     map.filled("holes", named(&piece.holes, |(k, v)| (k, v.value.as_str().into())));

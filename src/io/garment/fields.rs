@@ -32,7 +32,12 @@ impl<'v> Fields<'v> {
             wrong(value, what, "a mapping (key: value)", findings);
             return None;
         };
-        Some(Self { what: what.to_owned(), at: value.at, entries: entries.iter().map(Some).collect(), asked: Vec::new() })
+        Some(Self {
+            what: what.to_owned(),
+            at: value.at,
+            entries: entries.iter().map(Some).collect(),
+            asked: Vec::new(),
+        })
     }
 
     /// Where the mapping stands.
@@ -184,13 +189,10 @@ pub(super) fn numbers<const N: usize>(
 ) -> Option<Located<[f64; N]>> {
     let words: Vec<&str> = match &value.value {
         Value::Text(t) => t.split([' ', ',']).filter(|w| !w.is_empty()).collect(),
-        Value::List(items) => {
-            items.iter().map(|i| if let Value::Text(t) = &i.value { t.trim() } else { "" }).collect()
-        }
+        Value::List(items) => items.iter().map(|i| if let Value::Text(t) = &i.value { t.trim() } else { "" }).collect(),
         Value::Map(_) => Vec::new(),
     };
-    let parsed: Vec<f64> =
-        words.iter().filter_map(|w| w.parse().ok()).filter(|n: &f64| n.is_finite()).collect();
+    let parsed: Vec<f64> = words.iter().filter_map(|w| w.parse().ok()).filter(|n: &f64| n.is_finite()).collect();
     match <[f64; N]>::try_from(parsed) {
         Ok(array) if words.len() == N => Some(Located::new(array, value.at)),
         _ => {
