@@ -285,6 +285,7 @@ fn what_is_wrong_with_an_outline_is_named_with_its_place() {
     says(&squares("[[0, 0], [0, 9]]", "[[5, 5], [5, 5]]"), 4, "[[5", "grain of 'a' has zero length");
     says(&squares("top: L 100 0", "top: L 100"), 7, "L 100", "cannot read 'L 100'");
     says(&squares("top: L 100 0", "top: L 1e999 0"), 7, "L 1e", "edge 'a.top': ");
+    says(&squares("top: L 100 0", "top: L 1e9 0"), 7, "L 1e9", "at most 200 m are read");
     says(&squares("top: L 100 0", "top: L 0 0"), 7, "L 0 0", "has no length");
     says(&squares("    grain: [[0, 0], [0, 9]]\n", ""), 3, "a", "piece 'a' has no grain");
     let flat = squares("right: L 100 100\n      bottom: L 0 100", "right: L 50 0\n      bottom: L 20 0");
@@ -313,6 +314,9 @@ fn what_is_wrong_with_darts_and_pleats_is_named_with_its_place() {
     says(&two, 4, "55", "darts overlap on a.top");
     let pleats = with("pleats: [{edge: top, at: [10, 50], depth: 30}]");
     says(&pleats, 4, "top", "pleats on 'a.top' take 120 mm but the edge has 100 mm");
+    let twice =
+        "{name: d, edge: top, at: 20, intake: 5, length: 9}, {name: d, edge: top, at: 70, intake: 5, length: 9}";
+    says(&with(&format!("darts: [{twice}]")), 3, "a", "edge name 'd.a' used twice in 'a'");
     let toward = with("pleats: [{edge: top, at: [50], depth: 10, toward: bottom}]");
     says(&toward, 4, "top", "'toward: bottom' is not next to 'top', whose neighbours are left and right");
     says(&with("pleats: [{edge: top, at: [50], depth: 10, sewn: 30}]"), 4, "30", "'sewn' is kept, not simulated");
@@ -576,7 +580,7 @@ free: [p.top, p.side, p.low, p.slot]
 }
 
 proptest::proptest! {
-    #![proptest_config(proptest::prelude::ProptestConfig { cases: 64, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(proptest::prelude::ProptestConfig { cases: 256, failure_persistence: None, ..Default::default() })]
     #[test]
     fn mirrored_pieces_are_the_same_size(x in 90.0..140.0, y in 90.0..150.0, bend in -30.0..20.0) {
         let g = odd_pair(x, y, bend);
@@ -590,6 +594,18 @@ proptest::proptest! {
             assert!((edge.path.length() - twin.path.length()).abs() < 1e-9);
             let (p, q) = (edge.path.start(), twin.path.end());
             assert!((p.x + q.x).abs() < 1e-12 && (p.y - q.y).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn no_damaged_file_makes_it_panic(which in 0_usize..6, at in 0.0..1.0, cut in 0_usize..12, put in "[-0-9.LCQA@{}, :&*a-z\\n\\[\\]%]{0,6}") {
+        let whole = GARMENTS.get(which).map_or_else(|| CATALOGUE.to_owned(), |n| std::fs::read_to_string(path(n)).unwrap());
+        let chars: Vec<char> = whole.chars().collect();
+        let at = (at * chars.len() as f64) as usize;
+        let end = (at + cut).min(chars.len());
+        let damaged: String = chars[..at].iter().copied().chain(put.chars()).chain(chars[end..].iter().copied()).collect();
+        if let Ok(loaded) = read_text("damaged", "damaged.yaml", &damaged) {
+            proptest::prop_assert_eq!(&read_file_only("again.yaml", &write(&loaded.file).unwrap()).unwrap(), &loaded.file);
         }
     }
 }

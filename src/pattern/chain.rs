@@ -136,10 +136,8 @@ impl Table<'_> {
         };
         Problem::ChainBroken {
             seam,
-            one: chain[i].text.clone(),
-            end: point(runs[i].last(), true),
-            other: chain[i + 1].text.clone(),
-            start: point(runs[i + 1].first(), false),
+            end: format!("{} ends at {}", chain[i].text, point(runs[i].last(), true)),
+            start: format!("{} starts at {}", chain[i + 1].text, point(runs[i + 1].first(), false)),
         }
     }
 

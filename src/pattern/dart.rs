@@ -4,7 +4,7 @@
 
 use super::crossing::contains;
 use super::diagnostic::{Findings, Spot};
-use super::draft::{Draft, OwnSeam, Part, Stretch, position, shown};
+use super::draft::{Draft, OwnSeam, Part, Stretch, position, shown, unknown_edge};
 use super::file::{DartFile, DartShape, PieceFile, Unit};
 use super::problem::Problem;
 use super::{Edge, SeamKind};
@@ -44,9 +44,7 @@ pub(super) fn open_outline(
             && !outline.iter().any(|e| e.name == edge.value)
         {
             let known: Vec<&str> = outline.iter().map(|e| e.name.as_str()).collect();
-            let nearest = super::spelling::nearest(&edge.value, known.iter().copied()).map(str::to_owned);
-            let (piece, edge_name) = (drawn.name.clone(), edge.value.clone());
-            findings.error(edge.at, Problem::UnknownEdge { piece, edge: edge_name, nearest, known: known.join(", ") });
+            findings.error(edge.at, unknown_edge(&drawn.name, &edge.value, &known));
         }
     }
     for edge in outline {

@@ -15,6 +15,8 @@ use crate::geometry::{Path, Vec2, Vec3};
 
 /// A drawn outline may miss its start by this much (metres): rounding of the file's numbers.
 const CLOSURE: f64 = 5e-5;
+/// Longer edges (metres) are a wrong unit or a slip of the pen, and would take for ever to look at.
+const LONGEST_EDGE: f64 = 200.0;
 
 /// A stretch of a drawn edge: `(ring, index)`, walked from `from` to `to`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,18 +98,22 @@ impl Draft {
 
     /// The error for an edge that is not there.
     pub(super) fn unknown_edge(&self, name: &str) -> Problem {
-        let names = || self.named.iter().map(|n| n.name.as_str());
-        Problem::UnknownEdge {
-            piece: self.name.clone(),
-            edge: name.to_owned(),
-            nearest: nearest(name, names()).map(str::to_owned),
-            known: names().collect::<Vec<_>>().join(", "),
-        }
+        let names: Vec<&str> = self.named.iter().map(|n| n.name.as_str()).collect();
+        unknown_edge(&self.name, name, &names)
     }
 
     /// Length of an edge of its rings.
     pub(super) fn length(&self, (ring, index): (usize, usize)) -> f64 {
         self.rings[ring][index].path.length()
+    }
+}
+
+/// The error for an edge that is not among those of its piece.
+pub(super) fn unknown_edge(piece: &str, edge: &str, names: &[&str]) -> Problem {
+    Problem::UnknownEdge {
+        name: format!("{piece}.{edge}"),
+        nearest: nearest(edge, names.iter().copied()).map(str::to_owned),
+        known: format!("{piece} has: {}", names.join(", ")),
     }
 }
 
@@ -149,8 +155,17 @@ pub(super) fn draft(piece: &PieceFile, unit: Unit, findings: &mut Findings) -> O
     fold(&mut drawn, piece, findings);
     lines(&mut drawn, piece, unit, findings);
     notches(&mut drawn, piece, unit, findings);
+    check_names(&drawn, findings);
     check_crossings(&drawn, outline_file, findings);
     (findings.errors() == before).then_some(drawn)
+}
+
+/// Edges of darts and holes may not bear the name of another edge.
+fn check_names(drawn: &Draft, findings: &mut Findings) {
+    let mut seen = HashSet::new();
+    for edge in drawn.rings.iter().flatten().filter(|e| !seen.insert(&e.name)) {
+        findings.error(drawn.at, Problem::EdgeTwice { piece: drawn.name.clone(), edge: edge.name.clone() });
+    }
 }
 
 fn warp(piece: &PieceFile, findings: &mut Findings) -> Vec2 {
@@ -227,13 +242,21 @@ fn edge_path(at: Vec2, commands: &str, scale: f64) -> Result<Path, String> {
         return Err("an edge goes on from the one before it; use L, C, Q or A, without M or Z".to_owned());
     }
     // SVG's own words would show the `M` that is put in front: say what the file has.
-    Path::parse(at, commands, scale).map_err(|e| match e {
+    let path = Path::parse(at, commands, scale).map_err(|e| match e {
         crate::geometry::PathError::Syntax(_) => {
             format!("cannot read '{commands}'; expected commands L C Q A with numbers")
         }
         crate::geometry::PathError::NotFinite(_) => format!("'{commands}' holds a number that is not finite"),
         crate::geometry::PathError::Empty(_) => format!("'{commands}' has no length"),
-    })
+    })?;
+    check_size(path)
+}
+
+fn check_size(path: Path) -> Result<Path, String> {
+    if path.length() > LONGEST_EDGE {
+        return Err(format!("it is {:.0} m long; at most {LONGEST_EDGE} m are read", path.length()));
+    }
+    Ok(path)
 }
 
 /// The path turned and scaled about its start by a hair, so that it ends exactly at `end`.
@@ -288,13 +311,14 @@ impl Draft {
 fn holes(drawn: &mut Draft, piece: &PieceFile, unit: Unit, findings: &mut Findings) {
     for (name, text) in &piece.holes {
         let (piece, edge) = (drawn.name.clone(), name.value.clone());
-        let path = match Path::parse_absolute(&text.value, unit.factor()) {
-            Ok(path) => path,
-            Err(e) => {
-                findings.error(text.at, Problem::BadPath { piece, edge, reason: e.to_string() });
-                continue;
-            }
-        };
+        let path =
+            match Path::parse_absolute(&text.value, unit.factor()).map_err(|e| e.to_string()).and_then(check_size) {
+                Ok(path) => path,
+                Err(reason) => {
+                    findings.error(text.at, Problem::BadPath { piece, edge, reason });
+                    continue;
+                }
+            };
         let gap = (path.end() - path.start()).norm();
         if gap > CLOSURE {
             let (last, start) = (shown(path.end()), shown(path.start()));
@@ -345,11 +369,11 @@ fn lines(drawn: &mut Draft, piece: &PieceFile, unit: Unit, findings: &mut Findin
             (None, Some(ratio), _) => LineKind::Elastic(ratio.value),
             (None, None, kind) => LineKind::Mark(kind.as_ref().map_or_else(|| "mark".to_owned(), |k| k.value.clone())),
         };
-        match Path::parse_absolute(&line.path.value, unit.factor()) {
+        match Path::parse_absolute(&line.path.value, unit.factor()).map_err(|e| e.to_string()).and_then(check_size) {
             Ok(path) => drawn.lines.push(Line { name: line.name.value.clone(), path, kind }),
-            Err(e) => {
+            Err(reason) => {
                 let (piece, edge) = (drawn.name.clone(), line.name.value.clone());
-                findings.error(line.path.at, Problem::BadPath { piece, edge, reason: e.to_string() });
+                findings.error(line.path.at, Problem::BadPath { piece, edge, reason });
             }
         }
     }
@@ -389,5 +413,6 @@ fn check_crossings(drawn: &Draft, file: &OutlineFile, findings: &mut Findings) {
         std::mem::swap(&mut one, &mut other);
     }
     let at = file.edges.iter().find(|e| e.0.value == other).map_or(file.start.at, |e| e.0.at);
-    findings.error(at, Problem::Crosses { piece: drawn.name.clone(), near: shown(point), one, other });
+    let edges = if one == other { format!("two stretches of {one}") } else { format!("{one} and {other}") };
+    findings.error(at, Problem::Crosses { piece: drawn.name.clone(), near: shown(point), edges });
 }

@@ -99,7 +99,8 @@ fn flatten(value: &Value, key: &str, spec: &mut FabricSpec) {
             }
         }
         Value::List(items) => {
-            spec.values.push((key.to_owned(), items.iter().map(|i| text(&i.value)).collect::<Vec<_>>().join(" ")))
+            let words: Vec<String> = items.iter().map(|i| text(&i.value)).collect();
+            spec.values.push((key.to_owned(), words.join(" ")));
         }
     }
 }

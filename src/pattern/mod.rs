@@ -142,7 +142,7 @@ pub struct Seam {
     pub stage: i32,
     /// Where it comes from.
     pub kind: SeamKind,
-    /// A stretch that stays open, (from, to) in metres along `a`; already taken out of `a` and `b` if it is worn open.
+    /// What closes an opening of the seam that is worn shut (`zip`). A stretch that is worn open is not in `a` and `b`.
     pub closure: Option<String>,
 }
 

@@ -53,8 +53,8 @@ pub enum Problem {
     // Names.
     #[error("piece '{name}' not found{}", did_you_mean(.nearest))]
     UnknownPiece { name: String, nearest: Option<String>, known: String },
-    #[error("edge '{piece}.{edge}' not found; {piece} has: {known}")]
-    UnknownEdge { piece: String, edge: String, nearest: Option<String>, known: String },
+    #[error("edge '{name}' not found; {known}")]
+    UnknownEdge { name: String, nearest: Option<String>, known: String },
     #[error("seam '{name}' not found{}", did_you_mean(.nearest))]
     UnknownSeam { name: String, nearest: Option<String>, known: String },
     #[error("fabric '{name}' not found{}", did_you_mean(.nearest))]
@@ -75,8 +75,8 @@ pub enum Problem {
     BadPath { piece: String, edge: String, reason: String },
     #[error("outline of '{piece}' does not close: last point {last} is {gap:.1} mm from start {start}")]
     NotClosed { piece: String, last: String, start: String, gap: f64 },
-    #[error("outline of '{piece}' crosses itself near {near}, between {one} and {other}")]
-    Crosses { piece: String, near: String, one: String, other: String },
+    #[error("outline of '{piece}' crosses itself near {near}, between {edges}")]
+    Crosses { piece: String, near: String, edges: String },
     #[error("outline of '{0}' encloses no area")]
     NoArea(String),
     #[error("outline of '{0}' runs counter-clockwise; reversed it")]
@@ -131,25 +131,14 @@ pub enum Problem {
     RangeEmpty(String),
     #[error("seam '{seam}': {reference} lies on the fold, where the cloth goes on; there is nothing to sew")]
     OnFold { seam: String, reference: String },
-    #[error("seam '{seam}': {reference} is on both sides of the garment; write {left} or {right}")]
-    WhichSide { seam: String, reference: String, left: String, right: String },
-    #[error("seam '{seam}': {reference} is cut {count} times; say which, {piece}.1 to {piece}.{count}")]
-    WhichCopy { seam: String, reference: String, piece: String, count: usize },
+    #[error("seam '{seam}': {reference} is on both sides of the garment; write {choice}")]
+    WhichSide { seam: String, reference: String, choice: String },
+    #[error("seam '{seam}': {reference} is cut {count} times; say which, {choice}")]
+    WhichCopy { seam: String, reference: String, choice: String, count: usize },
     #[error("seam '{seam}': piece '{piece}' has no mirror; 'to: mirror' needs cut: pair or fold")]
     NoMirror { seam: String, piece: String },
-    #[error(
-        "seam '{seam}': {a} {length_a:.1} mm, {b} {length_b:.1} mm, {apart:.1} mm apart; {advice} (tolerance {tolerance:.0})"
-    )]
-    LengthsApart {
-        seam: String,
-        a: String,
-        length_a: f64,
-        b: String,
-        length_b: f64,
-        apart: f64,
-        advice: String,
-        tolerance: f64,
-    },
+    #[error("seam '{seam}': {sides}, {apart:.1} mm apart; {advice} (tolerance {tolerance:.0})")]
+    LengthsApart { seam: String, sides: String, apart: f64, advice: String, tolerance: f64 },
     #[error(
         "seam '{seam}': ease {ease:.0} mm is {percent:.0} % of {length:.0} mm; more than 8 % gathers, say {advice}"
     )]
@@ -164,8 +153,8 @@ pub enum Problem {
     NeitherSewnNorFree(String),
     #[error("{edge} is listed free but sewn in '{seam}'")]
     FreeButSewn { edge: String, seam: String },
-    #[error("chain in '{seam}' is not continuous: {one} ends at {end}, {other} starts at {start}")]
-    ChainBroken { seam: String, one: String, end: String, other: String, start: String },
+    #[error("chain in '{seam}' is not continuous: {end}, {start}")]
+    ChainBroken { seam: String, end: String, start: String },
     #[error("seam '{seam}' is twisted: its ends meet {one} and {other}; use face: same if wanted")]
     Twisted { seam: String, one: String, other: String },
     #[error("sewing closes the surface into a non-orientable band at '{0}'")]

@@ -294,10 +294,7 @@ fn check_lengths(candidate: &Candidate, lengths: (f64, f64), give: Give, toleran
         file.name.at,
         Problem::LengthsApart {
             seam: file.name.value.clone(),
-            a: text(&candidate.a),
-            length_a: la * 1e3,
-            b: text(&candidate.b),
-            length_b: lb * 1e3,
+            sides: format!("{} {:.1} mm, {} {:.1} mm", text(&candidate.a), la * 1e3, text(&candidate.b), lb * 1e3),
             apart: apart.abs() * 1e3,
             advice: advice(la, lb, give),
             tolerance: tolerance * 1e3,

@@ -126,7 +126,7 @@ impl Source<'_> {
     fn freedom(&self, found: &Found) -> Freedom {
         match self.drafts[found.draft].cut {
             Cut::Pair | Cut::Fold(_) if found.reference.side.is_none() => Freedom::Sides,
-            Cut::Count(n) if n > 1 && found.reference.copy.is_none() => Freedom::Copies(n),
+            Cut::Count(n) if found.reference.copy.is_none() => Freedom::Copies(n),
             _ => Freedom::Fixed,
         }
     }
@@ -176,13 +176,13 @@ impl Source<'_> {
         let reference = &found.reference;
         let drawn = &self.drafts[found.draft];
         let (side, copy) = match (self.freedom(found), choice) {
-            (Freedom::Fixed, _) => (reference.side, reference.copy.or((drawn.cut == Cut::Count(1)).then_some(1))),
+            (Freedom::Fixed, _) => (reference.side, reference.copy),
             (_, Choice::Side(side)) => (Some(side), None),
             (_, Choice::Copy(copy)) => (None, Some(copy)),
             (Freedom::Sides, Choice::Fixed) => return self.across_fold(seam, found),
             (Freedom::Copies(count), Choice::Fixed) => {
-                let (reference, piece) = (reference.text.clone(), drawn.name.clone());
-                return Err(Problem::WhichCopy { seam: seam.name.value.clone(), reference, piece, count });
+                let (reference, choice) = (reference.text.clone(), format!("{0}.1 to {0}.{count}", drawn.name));
+                return Err(Problem::WhichCopy { seam: seam.name.value.clone(), reference, choice, count });
             }
         };
         let is_it = |i: &&Instance| i.draft == found.draft && i.side == side && i.copy == copy;
@@ -210,8 +210,7 @@ impl Source<'_> {
         Err(Problem::WhichSide {
             seam: seam.name.value.clone(),
             reference: reference.text.clone(),
-            left: named(Side::Left),
-            right: named(Side::Right),
+            choice: format!("{} or {}", named(Side::Left), named(Side::Right)),
         })
     }
 

@@ -48,7 +48,7 @@ fn cut(value: &Located<Value>, _: &str, findings: &mut Findings) -> Option<Locat
     word(value, "cut", "one, pair, fold EDGE or a number up to 100", findings, |w| {
         let mut words = w.split_whitespace();
         let cut = match (words.next()?, words.next()) {
-            ("one", None) => Cut::One,
+            ("one" | "1", None) => Cut::One,
             ("pair", None) => Cut::Pair,
             ("fold", Some(edge)) => Cut::Fold(edge.to_owned()),
             (n, None) => Cut::Count(n.parse().ok().filter(|n| (1..=MOST_COPIES).contains(n))?),
