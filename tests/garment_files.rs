@@ -554,6 +554,45 @@ fn an_edge_across_the_fold_joins_a_piece_that_is_there_once() {
     assert_eq!(names, ["top.L", "right.L", "bottom.L", "bottom.R", "right.R", "top.R"]);
 }
 
+#[test]
+fn the_halves_of_a_folded_piece_and_copies_are_sewn_one_by_one() {
+    // b is a tube: folded at its left edge, its right edge sewn to its own mirror image.
+    let tube = squares("  b:\n", "  b:\n    cut: fold left\n")
+        .replacen("{sew: a.right, to: b.left}", "{sew: b.right, to: mirror}", 1)
+        .replacen("free: [", "free: [a.right, ", 1)
+        .replacen(", b.right]", "]", 1);
+    let g = garment(&tube);
+    assert_eq!(g.seams.len(), 1);
+    assert_eq!(
+        (g.edge_name(g.seams[0].a[0].edge), g.edge_name(g.seams[0].b[0].edge)),
+        ("b.right.L".into(), "b.right.R".into())
+    );
+    assert_eq!(openings(&g).len(), 3);
+    let strips = SQUARES.replace("    grain: [[0, 0], [0, 9]]\n", "    grain: [[0, 0], [0, 9]]\n    cut: 2\n");
+    let g = garment(&strips);
+    assert_eq!(g.pieces.iter().map(|p| p.name.as_str()).collect::<Vec<_>>(), ["a.1", "a.2", "b.1", "b.2"]);
+    assert_eq!(g.seams.iter().map(|s| s.name.as_str()).collect::<Vec<_>>(), ["side.1", "side.2"]);
+    // A straight piece between them by number.
+    let one = strips.replacen("{sew: a.right, to: b.left}", "{sew: a.1.right, to: b.2.left}", 1);
+    let one = one.replacen("free: [", "free: [a.2.right, b.1.left, ", 1);
+    assert_eq!(garment(&one).seams.len(), 1);
+}
+
+#[test]
+fn facings_share_an_edge_and_ratios_pass() {
+    let facing = squares("seams:", "  c: {like: b, layer: -1}\nseams:")
+        .replacen(
+            "side: {sew: a.right, to: b.left}",
+            "side: {sew: a.right, to: b.left}\n  face: {sew: c.left, to: a.right, layers: [-1, 0]}",
+            1,
+        )
+        .replacen("free: [", "free: [c.top, c.right, c.bottom, ", 1);
+    assert_eq!(garment(&facing).seams.len(), 2);
+    let gathered = squares("to: b.left}", "to: b.left@0..50, gather: 2}").replacen("free: [", "free: [b.left, ", 1);
+    let w = &walk(&garment(&gathered))[0];
+    assert!(w.difference.abs() < 1e-12 && (w.length_b - 0.05).abs() < 1e-12);
+}
+
 /// A pair with curved edges, a hole and a dart, at random.
 fn odd_pair(x: f64, y: f64, bend: f64) -> Garment {
     let text = format!(

@@ -2,6 +2,19 @@
 //!
 //! A garment *file* says `cut: pair`, darts, pleats and `to: mirror`; a [`Garment`] has the pieces and seams that
 //! follow from them, so that no later stage knows those words. All lengths are metres.
+//!
+//! # Names
+//! * `cut: pair` gives the pieces `front.L` and `front.R`; the edges of both are `neck`, `side`, …
+//! * `cut: fold center` gives one piece `front` without the edge `center`; all other edges are there twice, `side.L`
+//!   and `side.R`. In a seam, `front.side` is matched with sided partners side by side (`side.L`, `side.R`); sewn to a
+//!   piece that is there once, an edge that ends on the fold is taken whole, across both halves.
+//! * `cut: 3` gives `tab.1`, `tab.2`, `tab.3`.
+//! * A side may stand after the piece or after the edge: `front.L.side` and `front.side.L` are the same.
+//! * A dart `bust` on the edge `side` leaves `side`, `bust.a`, `bust.b`, `side.2`; in a seam `side` means both parts.
+//!   Its seam is `front.bust.L`. A fish-eye dart `waist` is a hole with the edges `waist.upper_a`, `waist.lower_a`,
+//!   `waist.lower_b`, `waist.upper_b` and the seams `front.waist.upper.L`, `front.waist.lower.L`.
+//! * Ranges (`cap@20%..80%`), notches and pleats are measured along the edge as drawn, from its start in the drawing,
+//!   also on the mirrored piece.
 
 mod bound;
 mod chain;
