@@ -159,10 +159,16 @@ impl Findings {
         self.errors
     }
 
-    /// The findings in the order of the file.
+    /// The findings in the order of the file, each once.
     pub fn into_sorted(mut self) -> Vec<Diagnostic> {
         self.found.sort_by_key(|d| (d.line, d.column));
-        self.found.dedup();
-        self.found
+        // Both sides of a pair make the same mistake: it is said once.
+        let mut unique: Vec<Diagnostic> = Vec::new();
+        for diagnostic in self.found {
+            if !unique.contains(&diagnostic) {
+                unique.push(diagnostic);
+            }
+        }
+        unique
     }
 }
