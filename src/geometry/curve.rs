@@ -281,6 +281,20 @@ impl Path {
         &self.at
     }
 
+    /// Points along the path whose chords leave it by at most `tolerance` (metres), ends included.
+    pub fn sampled(&self, tolerance: f64) -> Vec<Vec2> {
+        let mut points = Vec::new();
+        let bez = BezPath::from_path_segments(self.segments.iter().copied());
+        kurbo::flatten(bez.iter(), tolerance, |el| {
+            if let kurbo::PathEl::MoveTo(p) | kurbo::PathEl::LineTo(p) = el {
+                points.push(vector(p));
+            }
+        });
+        // Where segments meet, the point comes twice.
+        points.dedup_by(|b, a| (*b - *a).norm() < LENGTH_ACCURACY);
+        points
+    }
+
     /// Twice the signed area between the path and the origin (Green's theorem on the curve itself): the sum over a
     /// closed outline's edges is twice its area, positive when it runs clockwise on screen (y down).
     pub fn double_area(&self) -> f64 {

@@ -2,5 +2,6 @@
 
 pub mod body;
 pub mod files;
+pub mod garment;
 pub mod obj_read;
 pub mod obj_write;

@@ -2,6 +2,53 @@
 //!
 //! A garment *file* says `cut: pair`, darts, pleats and `to: mirror`; a [`Garment`] has the pieces and seams that
 //! follow from them, so that no later stage knows those words. All lengths are metres.
+//!
+//! # Names
+//! * `cut: pair` gives the pieces `front.L` and `front.R`; the edges of both are `neck`, `side`, …
+//! * `cut: fold center` gives one piece `front` without the edge `center`; all other edges are there twice, `side.L`
+//!   and `side.R`. In a seam, `front.side` is matched with sided partners side by side (`side.L`, `side.R`); sewn to a
+//!   piece that is there once, an edge that ends on the fold is taken whole, across both halves.
+//! * `cut: 3` gives `tab.1`, `tab.2`, `tab.3`.
+//! * A side may stand after the piece or after the edge: `front.L.side` and `front.side.L` are the same.
+//! * A dart `bust` on the edge `side` leaves `side`, `bust.a`, `bust.b`, `side.2`; in a seam `side` means both parts.
+//!   Its seam is `front.bust.L`. A fish-eye dart `waist` is a hole with the edges `waist.upper_a`, `waist.lower_a`,
+//!   `waist.lower_b`, `waist.upper_b` and the seams `front.waist.upper.L`, `front.waist.lower.L`.
+//! * Ranges (`cap@20%..80%`), notches and pleats are measured along the edge as drawn, from its start in the drawing,
+//!   also on the mirrored piece.
+
+mod bound;
+mod chain;
+mod closure;
+mod cover;
+mod crossing;
+mod cut;
+mod dart;
+mod diagnostic;
+mod draft;
+mod expand;
+mod file;
+mod inherit;
+mod measure;
+mod pleat;
+mod problem;
+mod reference;
+mod rim;
+mod seam;
+mod select;
+mod spelling;
+mod walk;
+
+pub use diagnostic::{Diagnostic, Findings, Located, Severity, Spot};
+pub use expand::expand;
+pub use file::{
+    AllowanceFile, ClosureFile, Cut, DartFile, DartShape, GarmentFile, LineFile, NotchFile, OpenFile, OutlineFile,
+    PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, Side, TestFile, Unit, Value,
+};
+pub use problem::Problem;
+pub use reference::parse_quantity;
+pub use rim::{Opening, openings};
+pub use spelling::nearest;
+pub use walk::{SeamWalk, walk};
 
 use crate::geometry::{Path, Vec2, Vec3};
 
@@ -72,15 +119,6 @@ pub struct EdgeId {
     pub index: usize,
 }
 
-/// Left or right of the wearer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Side {
-    /// The wearer's left.
-    Left,
-    /// The wearer's right.
-    Right,
-}
-
 /// A stretch of an edge, walked from `from` to `to` (metres from the edge's start; `from > to` walks against it).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
@@ -117,7 +155,7 @@ pub struct Seam {
     pub stage: i32,
     /// Where it comes from.
     pub kind: SeamKind,
-    /// A stretch that stays open, (from, to) in metres along `a`; already taken out of `a` and `b` if it is worn open.
+    /// What closes an opening of the seam that is worn shut (`zip`). A stretch that is worn open is not in `a` and `b`.
     pub closure: Option<String>,
 }
 

@@ -1,0 +1,161 @@
+//! From the YAML tree to a [`GarmentFile`].
+
+use super::decode_piece::piece;
+use super::decode_seam::seam;
+use super::fields::{Fields, entries, integer, items, length, numbers, quantity, text, wrong};
+use crate::pattern::{ClosureFile, Findings, GarmentFile, Located, Problem, TestFile, Unit, Value};
+
+/// Statements about a file that are kept for people.
+const ABOUT: [&str; 4] = ["source", "license", "note", "measurements"];
+
+/// Reads the whole file; reports everything that is not as it should be.
+pub(super) fn garment(tree: &Located<Value>, findings: &mut Findings) -> Option<GarmentFile> {
+    let mut fields = Fields::new(tree, "a garment file", findings)?;
+    let version = fields.require("garment", findings, integer::<u32>);
+    if let Some(v) = version.filter(|v| v.value != 1) {
+        findings.error(v.at, Problem::Version(v.value));
+    }
+    let file = GarmentFile {
+        version: version.unwrap_or(Located::new(1, fields.at())),
+        name: fields.get("name", findings, text),
+        about: about(&mut fields),
+        units: fields.take("units").and_then(|v| units(v, findings)),
+        body: fields.get("body", findings, text),
+        allowance: fields.get("allowance", findings, quantity),
+        fabrics: fields.take("fabrics").map_or_else(Vec::new, |v| fabrics(v, findings)),
+        pieces: fields.need("pieces", findings).map_or_else(Vec::new, |v| {
+            entries(v, "pieces", findings).iter().filter_map(|(k, v)| piece(k, v, findings)).collect()
+        }),
+        seams: fields.take("seams").map_or_else(Vec::new, |v| {
+            entries(v, "seams", findings).iter().filter_map(|(k, v)| seam(k, v, findings)).collect()
+        }),
+        closures: fields
+            .take("closures")
+            .map_or_else(Vec::new, |v| items(v).iter().filter_map(|c| closure(c, findings)).collect()),
+        free: fields.take("free").map_or_else(Vec::new, |v| {
+            items(v).iter().filter_map(|f| text(f, "an edge in 'free'", findings)).collect()
+        }),
+        tests: fields
+            .take("tests")
+            .map_or_else(Vec::new, |v| items(v).iter().filter_map(|t| test(t, findings)).collect()),
+    };
+    fields.finish(findings);
+    Some(file)
+}
+
+fn about(fields: &mut Fields) -> Vec<(Located<String>, Located<Value>)> {
+    let entry = |key: &'static str| fields.take(key).map(|v| (Located::new(key.to_owned(), v.at), v.clone()));
+    ABOUT.into_iter().filter_map(entry).collect()
+}
+
+fn units(value: &Located<Value>, findings: &mut Findings) -> Option<Located<Unit>> {
+    let written = text(value, "units", findings)?;
+    let unit = Unit::from_symbol(&written.value).filter(|u| *u != Unit::Percent);
+    if unit.is_none() {
+        findings.error(value.at, Problem::UnknownUnit(written.value));
+    }
+    unit.map(|u| Located::new(u, value.at))
+}
+
+fn fabrics(value: &Located<Value>, findings: &mut Findings) -> Vec<(Located<String>, Located<Value>)> {
+    let mut fabrics = Vec::new();
+    for (name, value) in entries(value, "fabrics", findings) {
+        match &value.value {
+            Value::Text(t) if !t.is_empty() => fabrics.push((name.clone(), value.clone())),
+            Value::Map(_) => fabrics.push((name.clone(), value.clone())),
+            _ => wrong(value, "a fabric", "a fabric's name or a mapping of values", findings),
+        }
+    }
+    fabrics
+}
+
+fn closure(value: &Located<Value>, findings: &mut Findings) -> Option<ClosureFile> {
+    let mut fields = Fields::new(value, "a closure", findings)?;
+    let kind = fields.require("kind", findings, text);
+    let carriers = ["piece", "edge", "on"].map(|key| fields.get(key, findings, text));
+    let points = |v: Option<&Located<Value>>, findings: &mut Findings| v.map_or_else(Vec::new, |v| points(v, findings));
+    let at = fields.take("at");
+    let at = points(at, findings);
+    let meets = fields.get("meets", findings, text);
+    let meets_at = fields.take("meets_at");
+    Some(ClosureFile {
+        kind: kind?,
+        on: carriers.into_iter().flatten().next(),
+        at,
+        meets,
+        meets_at: points(meets_at, findings),
+        pitch: fields.get("pitch", findings, length),
+        count: fields.get("count", findings, count),
+        hardware: fields.rest(),
+    })
+}
+
+/// More buttons than this on one closure is a slip of the pen.
+const MOST_BUTTONS: usize = 1000;
+
+fn count(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<usize>> {
+    let count = integer::<usize>(value, what, findings)?;
+    if !(1..=MOST_BUTTONS).contains(&count.value) {
+        let (what, found) = (what.to_owned(), count.value.to_string());
+        findings.error(value.at, Problem::OutOfRange { what, expected: "between 1 and 1000", found });
+        return None;
+    }
+    Some(count)
+}
+
+/// One point or a list of points.
+fn points(value: &Located<Value>, findings: &mut Findings) -> Vec<Located<[f64; 2]>> {
+    match &value.value {
+        Value::List(list) if list.iter().all(|i| matches!(i.value, Value::List(_))) => {
+            list.iter().filter_map(|p| numbers(p, "a point", findings)).collect()
+        }
+        _ => numbers(value, "a point", findings).into_iter().collect(),
+    }
+}
+
+const TESTS: &str = "seam, gap, flatten, drape, crossings, openings or worn";
+
+fn test(value: &Located<Value>, findings: &mut Findings) -> Option<Located<TestFile>> {
+    let mut fields = Fields::new(value, "a test", findings)?;
+    let mut take = |key, findings: &mut Findings| fields.get(key, findings, text);
+    let names = ["seam", "gap", "flatten", "drape"].map(|key| take(key, findings));
+    let [seam, gap, flatten, drape] = names;
+    let both = |fields: &mut Fields, findings: &mut Findings| {
+        (fields.get("area", findings, quantity), fields.get("boundary", findings, quantity))
+    };
+    let test = if let Some(name) = seam {
+        TestFile::Seam(name, fields.require("length", findings, quantity)?)
+    } else if let Some(name) = gap {
+        TestFile::Gap(name, fields.require("below", findings, quantity)?)
+    } else if let Some(name) = flatten {
+        let (area, boundary) = both(&mut fields, findings);
+        TestFile::Flatten(name, area, boundary)
+    } else if let Some(name) = drape {
+        let (area, boundary) = both(&mut fields, findings);
+        TestFile::Drape(name, area, boundary)
+    } else if let Some(most) = fields.get("crossings", findings, integer::<usize>) {
+        TestFile::Crossings(most.value)
+    } else if let Some(expected) = fields.get("openings", findings, integer::<usize>) {
+        TestFile::Openings(expected.value)
+    } else if fields.take("worn").is_some() {
+        TestFile::Worn
+    } else {
+        let found = fields.rest().first().map_or_else(|| "nothing".to_owned(), |(k, _)| k.value.clone());
+        findings.error(value.at, Problem::UnknownWord { what: "test", found, known: TESTS });
+        return None;
+    };
+    fields.finish(findings);
+    Some(Located::new(test, value.at))
+}
+
+/// A name that a piece, an edge, a dart or a line may have.
+pub(super) fn name(written: &Located<String>, findings: &mut Findings) -> Option<Located<String>> {
+    let name = &written.value;
+    let letters = name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-');
+    let taken = ["L", "R", "mirror", "all"].contains(&name.as_str()) || name.parse::<f64>().is_ok();
+    if name.is_empty() || !letters || taken {
+        findings.error(written.at, Problem::BadName(name.clone()));
+        return None;
+    }
+    Some(written.clone())
+}

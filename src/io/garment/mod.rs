@@ -1,0 +1,101 @@
+//! Garment files (YAML) in and out.
+//!
+//! [`read`] gives the checked [`Garment`] and the [`GarmentFile`], which holds everything the file says with the
+//! place where it says it; [`write`] turns a [`GarmentFile`] back into YAML that reads as the same.
+
+mod decode;
+mod decode_piece;
+mod decode_seam;
+mod encode;
+mod fields;
+mod source;
+mod tree;
+
+use std::fmt;
+use std::path::Path;
+
+use crate::pattern::{self, Diagnostic, Findings, Garment, GarmentFile, Severity};
+
+pub use encode::write;
+
+/// A garment that passed its checks.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The pieces and seams.
+    pub garment: Garment,
+    /// What the file says.
+    pub file: GarmentFile,
+    /// What was read in a way its author may not have meant.
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// A garment file that cannot be used: everything found in it, errors and warnings, in the order of the file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refused {
+    /// At least one of them is an error.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl fmt::Display for Refused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, diagnostic) in self.diagnostics.iter().enumerate() {
+            if i > 0 {
+                writeln!(f)?;
+            }
+            write!(f, "{diagnostic}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Refused {}
+
+/// Reads and checks a garment file.
+///
+/// # Errors
+/// [`Refused`] with every mistake of the file, not only the first.
+pub fn read(path: &Path) -> Result<Loaded, Refused> {
+    let shown = path.display().to_string();
+    let name = path.file_stem().map_or_else(|| shown.clone(), |s| s.to_string_lossy().into_owned());
+    match source::text(path) {
+        Ok(text) => read_text(&name, &shown, &text),
+        Err(problem) => {
+            let mut findings = Findings::new(&shown, "");
+            findings.error(pattern::Spot::default(), problem);
+            Err(Refused { diagnostics: findings.into_sorted() })
+        }
+    }
+}
+
+/// Reads and checks a garment from text; `name` is its short name, `shown` the file's name in messages.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_text(name: &str, shown: &str, text: &str) -> Result<Loaded, Refused> {
+    let mut findings = Findings::new(shown, text);
+    let file = tree::parse(text, &mut findings).and_then(|tree| decode::garment(&tree, &mut findings));
+    let garment = file.as_ref().and_then(|file| pattern::expand(name, file, &mut findings));
+    let refused = findings.errors() > 0;
+    let diagnostics = findings.into_sorted();
+    match (file, garment) {
+        (Some(file), Some(garment)) if !refused => Ok(Loaded {
+            garment,
+            file,
+            warnings: diagnostics.into_iter().filter(|d| d.severity == Severity::Warning).collect(),
+        }),
+        _ => Err(Refused { diagnostics }),
+    }
+}
+
+/// Reads what a garment file says without checking that it makes a garment.
+///
+/// # Errors
+/// [`Refused`] when the text is no garment file.
+pub fn read_file_only(shown: &str, text: &str) -> Result<GarmentFile, Refused> {
+    let mut findings = Findings::new(shown, text);
+    let file = tree::parse(text, &mut findings).and_then(|tree| decode::garment(&tree, &mut findings));
+    match file {
+        Some(file) if findings.errors() == 0 => Ok(file),
+        _ => Err(Refused { diagnostics: findings.into_sorted() }),
+    }
+}

@@ -1,0 +1,86 @@
+//! The garment's own regression bounds.
+
+use super::diagnostic::{Findings, Located};
+use super::file::{GarmentFile, Quantity, TestFile, Unit};
+use super::inherit::unknown_piece;
+use super::problem::Problem;
+use super::spelling::nearest;
+use super::walk::edge_name;
+use super::{Bound, Garment, openings};
+
+/// The bounds of the file; `openings` is checked at once, for it needs no simulation.
+pub(super) fn bounds(file: &GarmentFile, garment: &Garment, findings: &mut Findings) -> Vec<Bound> {
+    let reader = Reader { file, garment };
+    file.tests.iter().filter_map(|t| reader.bound(t, findings)).collect()
+}
+
+struct Reader<'a> {
+    file: &'a GarmentFile,
+    garment: &'a Garment,
+}
+
+impl Reader<'_> {
+    fn bound(&self, test: &Located<TestFile>, findings: &mut Findings) -> Option<Bound> {
+        let value = |q: &Located<Quantity>| q.value.value(self.file.unit());
+        Some(match &test.value {
+            TestFile::Seam(name, limit) => Bound::SeamLength(self.seam(name, findings), value(limit)),
+            TestFile::Gap(name, limit) => Bound::Gap(self.seam(name, findings), value(limit)),
+            TestFile::Flatten(name, area, boundary) => Bound::Flatten {
+                piece: self.piece(name, findings),
+                area: area.as_ref().map(fraction),
+                boundary: boundary.as_ref().map(value),
+            },
+            TestFile::Drape(name, area, boundary) => Bound::Drape {
+                piece: self.piece(name, findings),
+                area: area.as_ref().map(fraction),
+                boundary: boundary.as_ref().map(fraction),
+            },
+            TestFile::Crossings(most) => Bound::Crossings(*most),
+            TestFile::Worn => Bound::Worn,
+            TestFile::Openings(expected) => {
+                self.count_openings(test, *expected, findings);
+                return None;
+            }
+        })
+    }
+
+    fn seam(&self, name: &Located<String>, findings: &mut Findings) -> Option<String> {
+        let names = || self.file.seams.iter().map(|s| s.name.value.as_str());
+        let exact = self.garment.seams.iter().any(|s| s.name == name.value);
+        if name.value == "all" {
+            return None;
+        }
+        if !exact && !names().any(|n| n == name.value) {
+            let near = nearest(&name.value, names()).map(str::to_owned);
+            let known = names().collect::<Vec<_>>().join(", ");
+            findings.error(name.at, Problem::UnknownSeam { name: name.value.clone(), nearest: near, known });
+        }
+        Some(name.value.clone())
+    }
+
+    fn piece(&self, name: &Located<String>, findings: &mut Findings) -> Option<String> {
+        if name.value == "all" {
+            return None;
+        }
+        if !self.garment.pieces.iter().any(|p| p.name == name.value || p.drawn_as == name.value) {
+            findings.error(name.at, unknown_piece(&name.value, self.file.pieces.iter().map(|p| p.name.value.as_str())));
+        }
+        Some(name.value.clone())
+    }
+
+    fn count_openings(&self, test: &Located<TestFile>, expected: usize, findings: &mut Findings) {
+        let found = openings(self.garment);
+        if found.len() == expected {
+            return;
+        }
+        let rim =
+            |o: &super::Opening| o.spans.first().map_or_else(String::new, |s| edge_name(&self.garment.pieces, s.edge));
+        let rims = format!("at {}", found.iter().map(rim).collect::<Vec<_>>().join(", "));
+        findings.error(test.at, Problem::Openings { found: found.len(), expected, rims });
+    }
+}
+
+/// A bare number is a fraction, `0.5 %` is 0.005.
+fn fraction(q: &Located<Quantity>) -> f64 {
+    q.value.number * if q.value.is_percent() { Unit::Percent.factor() } else { 1.0 }
+}

@@ -1,0 +1,173 @@
+//! The direction of seams. By default the two chains of a seam run opposite ways round their outlines, which keeps the
+//! right side of the sewn garment on one side; `face: same` turns one round. Which of the two ways a chain is walked
+//! follows from continuity: each edge must end where the next begins, on one rim or through other seams.
+
+use super::diagnostic::Findings;
+use super::draft::shown;
+use super::problem::Problem;
+use super::rim::{Identities, Rims, joint_marks};
+use super::seam::marks_between;
+use super::select::{Candidate, Run, turned};
+use super::walk::edge_name;
+use super::{Give, Piece, Seam, SeamKind, Span};
+
+/// A candidate with its direction.
+pub(super) struct Directed<'a> {
+    pub(super) candidate: Candidate<'a>,
+    pub(super) a: Vec<Span>,
+    pub(super) b: Vec<Span>,
+}
+
+/// What the search knows.
+struct Table<'p> {
+    pieces: &'p [Piece],
+    rims: Rims,
+    one: Identities,
+}
+
+/// Finds the direction of every seam that has one; `own` are the seams of darts and pleats.
+pub(super) fn direct<'a>(
+    candidates: Vec<Candidate<'a>>,
+    own: &[Seam],
+    pieces: &[Piece],
+    findings: &mut Findings,
+) -> Vec<Directed<'a>> {
+    let mut table = Table { pieces, rims: Rims::new(pieces), one: Identities::default() };
+    for seam in own {
+        table.one.add_seam(&table.rims, &seam.a, &seam.b, &joint_marks(seam));
+    }
+    let before = table.one.clone();
+    let mut slots: Vec<Option<Directed>> = candidates.iter().map(|_| None).collect();
+    // Seams found in one round may make the chains of the next continuous. Mirrored seams are found in the same round,
+    // so both sides of a garment come out alike.
+    loop {
+        let open: Vec<usize> = (0..slots.len()).filter(|&i| slots[i].is_none()).collect();
+        let found: Vec<(usize, Directed)> =
+            open.iter().filter_map(|&i| Some((i, table.direction(&candidates[i])?))).collect();
+        if found.is_empty() {
+            open.iter().for_each(|&i| table.report(&candidates[i], findings));
+            break;
+        }
+        for (i, directed) in found {
+            table.add(&directed);
+            slots[i] = Some(directed);
+        }
+    }
+    let directed: Vec<Directed> = slots.into_iter().flatten().collect();
+    table.one = before;
+    table.check_order(&directed, findings);
+    directed
+}
+
+fn walked(chain: &[Run], with: bool) -> Vec<Vec<Span>> {
+    chain.iter().map(|run| if with { run.spans.clone() } else { turned(&run.spans) }).collect()
+}
+
+impl Table<'_> {
+    /// Index of the first run that does not go on into the next.
+    fn first_break(&self, chain: &[Run], with: bool) -> Option<usize> {
+        let runs = walked(chain, with);
+        runs.windows(2).position(|pair| {
+            let ends = pair[0].last().zip(pair[1].first());
+            !ends.is_some_and(|(end, start)| {
+                let (p, q) = (self.rims.point(end.edge, end.to), self.rims.point(start.edge, start.from));
+                self.one.one(&self.rims, p, q)
+            })
+        })
+    }
+
+    fn direction<'a>(&self, candidate: &Candidate<'a>) -> Option<Directed<'a>> {
+        let same = is_face_same(candidate);
+        [candidate.with, !candidate.with].into_iter().find_map(|with| {
+            let with_b = with == same;
+            let whole =
+                self.first_break(&candidate.a, with).is_none() && self.first_break(&candidate.b, with_b).is_none();
+            whole.then(|| Directed {
+                candidate: candidate.clone(),
+                a: walked(&candidate.a, with).concat(),
+                b: walked(&candidate.b, with_b).concat(),
+            })
+        })
+    }
+
+    fn add(&mut self, directed: &Directed) {
+        let marks = marks_between(&directed.a, &directed.b, super::seam::DEFAULT_TOLERANCE);
+        let seam = Seam {
+            name: String::new(),
+            a: directed.a.clone(),
+            b: directed.b.clone(),
+            marks,
+            give: Give::Even,
+            stage: 0,
+            kind: SeamKind::Written,
+            closure: None,
+        };
+        self.one.add_seam(&self.rims, &seam.a, &seam.b, &joint_marks(&seam));
+    }
+
+    fn report(&self, candidate: &Candidate, findings: &mut Findings) {
+        let seam = candidate.file.name.value.clone();
+        let chains = [(&candidate.a, &candidate.file.sew), (&candidate.b, &candidate.file.to)];
+        for (chain, written) in chains {
+            let breaks = [true, false].map(|with| self.first_break(chain, with));
+            if let [Some(with), Some(against)] = breaks {
+                // The direction that gets further is the one that was meant.
+                let (i, meant) = if with >= against { (with, true) } else { (against, false) };
+                let at = written.get(i + 1).map_or(candidate.file.name.at, |w| w.at);
+                findings.error(at, self.broken(seam, chain, i, meant));
+                return;
+            }
+        }
+        let end = |chain: &[Run], last: bool| {
+            let run = if last { chain.last() } else { chain.first() };
+            run.and_then(|r| r.spans.first()).map_or_else(String::new, |s| edge_name(self.pieces, s.edge))
+        };
+        let (one, other) = (end(&candidate.a, false), end(&candidate.b, true));
+        findings.error(candidate.file.name.at, Problem::Twisted { seam, one, other });
+    }
+
+    fn broken(&self, seam: String, chain: &[Run], i: usize, with: bool) -> Problem {
+        let runs = walked(chain, with);
+        let point = |span: Option<&Span>, end: bool| {
+            span.map_or_else(String::new, |s| {
+                let path = &self.pieces[s.edge.piece].loops[s.edge.ring][s.edge.index].path;
+                shown(path.point(if end { s.to } else { s.from }))
+            })
+        };
+        Problem::ChainBroken {
+            seam,
+            end: format!("{} ends at {}", chain[i].text, point(runs[i].last(), true)),
+            start: format!("{} starts at {}", chain[i + 1].text, point(runs[i + 1].first(), false)),
+        }
+    }
+
+    /// Warns of chains that hang together only through seams that are sewn later.
+    fn check_order(&mut self, directed: &[Directed], findings: &mut Findings) {
+        let stage = |d: &Directed| d.candidate.file.stage.as_ref().map_or(super::seam::DEFAULT_STAGE, |s| s.value);
+        let mut order: Vec<usize> = (0..directed.len()).collect();
+        order.sort_by_key(|&i| stage(&directed[i]));
+        for (at, &i) in order.iter().enumerate() {
+            let seam = &directed[i];
+            let continuous = |t: &Self| t.direction(&seam.candidate).is_some();
+            if !continuous(self) {
+                let earlier = self.one.clone();
+                let later = order[at..].iter().find(|&&j| {
+                    self.add(&directed[j]);
+                    j != i && continuous(self)
+                });
+                if let Some(&j) = later {
+                    let (seam_name, later) =
+                        (seam.candidate.file.name.value.clone(), directed[j].candidate.file.name.value.clone());
+                    findings.warn(seam.candidate.file.name.at, Problem::SeamOrder { seam: seam_name, later });
+                }
+                self.one = earlier;
+            }
+            self.add(seam);
+        }
+    }
+}
+
+/// Whether the seam is written `face: same`.
+pub(super) fn is_face_same(candidate: &Candidate) -> bool {
+    candidate.file.face_same.as_ref().is_some_and(|f| f.value)
+}

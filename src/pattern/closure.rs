@@ -1,0 +1,63 @@
+//! Buttons, hooks and the like: the points of the cloth that are worn together.
+
+use super::Closure;
+use super::cut::{Instance, Pieces};
+use super::diagnostic::{Findings, Located};
+use super::draft::Draft;
+use super::file::{ClosureFile, GarmentFile, Side};
+use super::inherit::unknown_piece;
+use super::reference::piece_of;
+use crate::geometry::Vec2;
+
+/// Reads all closures. One that does not say what it meets is kept without tacks.
+pub(super) fn closures(file: &GarmentFile, drafts: &[Draft], cut: &Pieces, findings: &mut Findings) -> Vec<Closure> {
+    let wardrobe = Wardrobe { file, drafts, cut };
+    file.closures
+        .iter()
+        .map(|c| Closure { kind: c.kind.value.clone(), tacks: wardrobe.tacks(c, findings).unwrap_or_default() })
+        .collect()
+}
+
+struct Wardrobe<'a> {
+    file: &'a GarmentFile,
+    drafts: &'a [Draft],
+    cut: &'a Pieces,
+}
+
+impl Wardrobe<'_> {
+    fn tacks(&self, closure: &ClosureFile, findings: &mut Findings) -> Option<Vec<[(usize, Vec2); 2]>> {
+        let on = self.piece(closure.on.as_ref()?, None, findings);
+        let other_side = on.and_then(|i| i.side).map(Side::other);
+        let meets = self.piece(closure.meets.as_ref()?, other_side, findings);
+        let (on, meets) = (on?, meets?);
+        let own = self.points(closure, on, &closure.at);
+        let across = if closure.meets_at.is_empty() { &closure.at } else { &closure.meets_at };
+        let met = self.points(closure, meets, across);
+        Some(own.into_iter().zip(met).map(|(a, b)| [(on.piece, a), (meets.piece, b)]).collect())
+    }
+
+    /// The cut piece (or half) named by `front.L`, `front.L.center` or, for a piece cut once, `band`.
+    fn piece(&self, name: &Located<String>, default: Option<Side>, findings: &mut Findings) -> Option<&Instance> {
+        let (piece, side, copy) = piece_of(&name.value);
+        let Some(draft) = self.drafts.iter().position(|d| d.name == piece) else {
+            findings.error(name.at, unknown_piece(piece, self.drafts.iter().map(|d| d.name.as_str())));
+            return None;
+        };
+        let of_it = || self.cut.instances.iter().filter(move |i| i.draft == draft);
+        let side = side.or(default).unwrap_or(self.drafts[draft].drawn);
+        of_it().find(|i| i.side == Some(side)).or_else(|| of_it().find(|i| copy.is_none() || i.copy == copy))
+    }
+
+    /// Points given in the drawing, repeated along its grain.
+    fn points(&self, closure: &ClosureFile, on: &Instance, at: &[Located<[f64; 2]>]) -> Vec<Vec2> {
+        let unit = self.file.unit();
+        let grain = self.drafts[on.draft].warp;
+        let pitch = closure.pitch.as_ref().map_or(0.0, |p| p.value.value(unit));
+        let count = closure.count.as_ref().map_or(1, |c| c.value);
+        let repeated = |p: &Located<[f64; 2]>| {
+            let first = Vec2::from(p.value) * unit.factor();
+            (0..count).map(move |i| first + grain * (pitch * i as f64)).collect::<Vec<_>>()
+        };
+        at.iter().flat_map(repeated).map(|p| on.point(p)).collect()
+    }
+}

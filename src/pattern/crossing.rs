@@ -1,0 +1,76 @@
+//! Outlines that cross themselves or their holes.
+
+use super::Edge;
+use crate::geometry::Vec2;
+
+/// Curves are looked at as chords that leave them by at most this (metres).
+pub(super) const CHORD_ERROR: f64 = 2e-5;
+
+struct Chord {
+    ends: [Vec2; 2],
+    ring: usize,
+    /// Position in the ring, and the ring's number of chords.
+    index: usize,
+    edge: usize,
+}
+
+/// Where two edges of a piece cross: the point and (ring, index) of both.
+pub(super) fn first_crossing(rings: &[Vec<Edge>]) -> Option<(Vec2, [(usize, usize); 2])> {
+    let mut chords = Vec::new();
+    let mut counts = Vec::new();
+    for (ring, edges) in rings.iter().enumerate() {
+        let before = chords.len();
+        for (edge, e) in edges.iter().enumerate() {
+            for w in e.path.sampled(CHORD_ERROR).windows(2) {
+                chords.push(Chord { ends: [w[0], w[1]], ring, index: chords.len() - before, edge });
+            }
+        }
+        counts.push(chords.len() - before);
+    }
+    // Sweep in x: only chords whose x ranges overlap are compared.
+    let low = |c: &Chord| c.ends[0].x.min(c.ends[1].x);
+    let high = |c: &Chord| c.ends[0].x.max(c.ends[1].x);
+    chords.sort_by(|a, b| low(a).total_cmp(&low(b)));
+    for (i, a) in chords.iter().enumerate() {
+        for b in chords[i + 1..].iter().take_while(|b| low(b) <= high(a)) {
+            if a.ring == b.ring && neighbours(a.index, b.index, counts[a.ring]) {
+                continue;
+            }
+            if let Some(point) = intersection(a.ends, b.ends) {
+                return Some((point, [(a.ring, a.edge), (b.ring, b.edge)]));
+            }
+        }
+    }
+    None
+}
+
+fn neighbours(i: usize, j: usize, count: usize) -> bool {
+    let apart = i.abs_diff(j);
+    apart <= 1 || apart == count - 1
+}
+
+/// Crossing point of two segments, touching included.
+fn intersection(a: [Vec2; 2], b: [Vec2; 2]) -> Option<Vec2> {
+    let (u, v, w) = (a[1] - a[0], b[1] - b[0], b[0] - a[0]);
+    let det = u.perp(&v);
+    if det.abs() <= 1e-12 * u.norm() * v.norm() {
+        return None;
+    }
+    let (s, t) = (w.perp(&v) / det, w.perp(&u) / det);
+    let inside = |x: f64| (-1e-9..=1.0 + 1e-9).contains(&x);
+    (inside(s) && inside(t)).then(|| a[0] + u * s)
+}
+
+/// Whether `point` lies inside the ring (even–odd rule).
+pub(super) fn contains(ring: &[Edge], point: Vec2) -> bool {
+    let mut inside = false;
+    for edge in ring {
+        for w in edge.path.sampled(CHORD_ERROR).windows(2) {
+            let (a, b) = (w[0], w[1]);
+            if (a.y > point.y) != (b.y > point.y) && point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x) {
+                inside = !inside;
+            }
+        }
+    }
+    inside
+}

@@ -1,0 +1,270 @@
+//! From drawn pieces to pieces as cut.
+//!
+//! A pair is `front.L` and `front.R`; the one that is not drawn is the drawing mirrored at x = 0. A piece on the fold
+//! is one piece: the fold edge vanishes, every other edge is there twice, `side.L` and `side.R`. A mirrored outline is
+//! walked the other way round, so that it is clockwise again; its edges keep their names. `cut: 3` makes `tab.1` to
+//! `tab.3`.
+
+use nalgebra::Matrix2;
+
+use super::draft::{Draft, Stretch};
+use super::file::{Cut, Side};
+use super::{Edge, EdgeId, Line, Notch, Piece, Place, Span};
+use crate::geometry::{Path, Vec2};
+
+/// A drawing as it lies in a cut piece: the whole piece, or one half of a folded one.
+#[derive(Clone, Debug)]
+pub(super) struct Instance {
+    /// Index of the drawing.
+    pub(super) draft: usize,
+    /// Index of the cut piece.
+    pub(super) piece: usize,
+    pub(super) side: Option<Side>,
+    /// From 1.
+    pub(super) copy: Option<usize>,
+    /// Whether its edges run against the drawing's.
+    pub(super) mirrored: bool,
+    /// Drawing to piece: `p ↦ linear · p + shift`.
+    linear: Matrix2<f64>,
+    shift: Vec2,
+    /// Where every edge of the drawing is; the fold edge is nowhere.
+    edges: Vec<Vec<Option<EdgeId>>>,
+}
+
+impl Instance {
+    /// A point of the drawing in the cut piece.
+    pub(super) fn point(&self, p: Vec2) -> Vec2 {
+        self.linear * p + self.shift
+    }
+
+    /// Where an edge of the drawing is.
+    pub(super) fn edge(&self, (ring, index): (usize, usize)) -> Option<EdgeId> {
+        self.edges[ring][index]
+    }
+
+    /// A stretch of the drawing on the cut piece, walked the same way as on the drawing.
+    pub(super) fn span(&self, draft: &Draft, s: Stretch) -> Option<Span> {
+        let edge = self.edge(s.edge)?;
+        let length = draft.length(s.edge);
+        let turn = |x: f64| if self.mirrored { length - x } else { x };
+        Some(Span { edge, from: turn(s.from), to: turn(s.to) })
+    }
+}
+
+/// Everything that is cut.
+#[derive(Debug, Default)]
+pub(super) struct Pieces {
+    pub(super) pieces: Vec<Piece>,
+    pub(super) instances: Vec<Instance>,
+}
+
+/// Cuts every drawing.
+pub(super) fn cut(drafts: &[Draft], default_fabric: &str) -> Pieces {
+    let mut out = Pieces::default();
+    for (i, draft) in drafts.iter().enumerate() {
+        let fabric = draft.fabric.as_ref().map_or(default_fabric, |f| &f.value);
+        match draft.cut {
+            Cut::One => out.add_plain(i, draft, fabric, None),
+            Cut::Count(n) => (1..=n).for_each(|copy| out.add_plain(i, draft, fabric, Some(copy))),
+            Cut::Pair => {
+                out.add_side(i, draft, fabric, draft.drawn, false);
+                out.add_side(i, draft, fabric, draft.drawn.other(), true);
+            }
+            Cut::Fold(_) => out.add_folded(i, draft, fabric),
+        }
+    }
+    out
+}
+
+fn across_x() -> Matrix2<f64> {
+    Matrix2::new(-1.0, 0.0, 0.0, 1.0)
+}
+
+impl Pieces {
+    fn add_plain(&mut self, index: usize, draft: &Draft, fabric: &str, copy: Option<usize>) {
+        let name = copy.map_or_else(|| draft.name.clone(), |c| format!("{}.{c}", draft.name));
+        self.add_whole(index, draft, fabric, name, None, copy, false);
+    }
+
+    fn add_side(&mut self, index: usize, draft: &Draft, fabric: &str, side: Side, mirrored: bool) {
+        let name = format!("{}.{}", draft.name, side.letter());
+        self.add_whole(index, draft, fabric, name, Some(side), None, mirrored);
+    }
+
+    #[allow(clippy::too_many_arguments, reason = "the seven things that tell one cut piece from another")]
+    fn add_whole(
+        &mut self,
+        index: usize,
+        draft: &Draft,
+        fabric: &str,
+        name: String,
+        side: Option<Side>,
+        copy: Option<usize>,
+        mirrored: bool,
+    ) {
+        let piece = self.pieces.len();
+        let linear = if mirrored { across_x() } else { Matrix2::identity() };
+        let count = |ring: usize| draft.rings[ring].len();
+        let place_of = |ring: usize, i: usize| if mirrored { count(ring) - 1 - i } else { i };
+        let edges = (0..draft.rings.len())
+            .map(|ring| (0..count(ring)).map(|i| Some(EdgeId { piece, ring, index: place_of(ring, i) })).collect())
+            .collect();
+        let instance = Instance { draft: index, piece, side, copy, mirrored, linear, shift: Vec2::zeros(), edges };
+        let loops = draft.rings.iter().map(|r| transformed(r, &instance)).collect();
+        self.pieces.push(Piece {
+            name,
+            drawn_as: draft.name.clone(),
+            side,
+            fabric: fabric.to_owned(),
+            layer: draft.layer,
+            warp: linear * draft.warp,
+            loops,
+            lines: draft.lines.iter().map(|l| line(l, &instance)).collect(),
+            notches: notches(draft, &instance),
+            place: place(draft.place.as_ref(), side, mirrored),
+        });
+        self.instances.push(instance);
+    }
+
+    fn add_folded(&mut self, index: usize, draft: &Draft, fabric: &str) {
+        let Some(fold) = draft.fold else { return };
+        let piece = self.pieces.len();
+        let axis = &draft.rings[0][fold].path;
+        let (linear, shift) = reflection(axis.start(), axis.end());
+        let half = |mirrored: bool| Instance {
+            draft: index,
+            piece,
+            side: Some(if mirrored { draft.drawn.other() } else { draft.drawn }),
+            copy: None,
+            mirrored,
+            linear: if mirrored { linear } else { Matrix2::identity() },
+            shift: if mirrored { shift } else { Vec2::zeros() },
+            edges: folded_edges(draft, piece, fold, mirrored),
+        };
+        let halves = [half(false), half(true)];
+        self.pieces.push(Piece {
+            name: draft.name.clone(),
+            drawn_as: draft.name.clone(),
+            side: None,
+            fabric: fabric.to_owned(),
+            layer: draft.layer,
+            warp: draft.warp,
+            loops: folded_loops(draft, &halves, fold),
+            lines: folded_lines(draft, &halves, axis),
+            notches: halves.iter().flat_map(|h| notches(draft, h)).collect(),
+            place: place(draft.place.as_ref(), None, false),
+        });
+        self.instances.extend(halves);
+    }
+}
+
+/// The reflection across the line through `a` and `b`.
+fn reflection(a: Vec2, b: Vec2) -> (Matrix2<f64>, Vec2) {
+    let u = (b - a).normalize();
+    let linear = 2.0 * u * u.transpose() - Matrix2::identity();
+    (linear, a - linear * a)
+}
+
+/// The edges of a ring in a cut piece, clockwise again if mirrored.
+fn transformed(ring: &[Edge], to: &Instance) -> Vec<Edge> {
+    let moved = ring.iter().map(|e| Edge { name: e.name.clone(), path: e.path.mapped(to.linear, to.shift) });
+    if to.mirrored { super::draft::reversed(&moved.collect::<Vec<_>>()) } else { moved.collect() }
+}
+
+fn folded_edges(draft: &Draft, piece: usize, fold: usize, mirrored: bool) -> Vec<Vec<Option<EdgeId>>> {
+    let holes = draft.rings.len() - 1;
+    let outline = draft.rings[0].len();
+    let id = |ring, index| Some(EdgeId { piece, ring, index });
+    // The cut outline runs through the drawn half from the end of the fold to its start and back through the other.
+    let rim = |i: usize| {
+        let place = (i + outline - fold - 1) % outline;
+        match (i == fold, mirrored) {
+            (true, _) => None,
+            (false, false) => id(0, place),
+            (false, true) => id(0, 2 * (outline - 1) - 1 - place),
+        }
+    };
+    let mut all = vec![(0..outline).map(rim).collect()];
+    for ring in 1..=holes {
+        let count = draft.rings[ring].len();
+        all.push((0..count).map(|i| if mirrored { id(ring + holes, count - 1 - i) } else { id(ring, i) }).collect());
+    }
+    all
+}
+
+fn folded_loops(draft: &Draft, halves: &[Instance; 2], fold: usize) -> Vec<Vec<Edge>> {
+    let sided = |half: &Instance, ring: Vec<Edge>| -> Vec<Edge> {
+        let suffix = half.side.map_or("", Side::letter);
+        ring.into_iter().map(|e| Edge { name: format!("{}.{suffix}", e.name), path: e.path }).collect()
+    };
+    let mut open = draft.rings[0].clone();
+    open.rotate_left(fold);
+    open.remove(0);
+    let mut outline = sided(&halves[0], transformed(&open, &halves[0]));
+    outline.extend(sided(&halves[1], transformed(&open, &halves[1])));
+    let mut loops = vec![outline];
+    for half in halves {
+        loops.extend(draft.rings[1..].iter().map(|ring| sided(half, transformed(ring, half))));
+    }
+    loops
+}
+
+fn line(line: &Line, to: &Instance) -> Line {
+    Line { name: line.name.clone(), path: line.path.mapped(to.linear, to.shift), kind: line.kind.clone() }
+}
+
+/// Lines of both halves; a line that ends on the fold goes on into the other half as one.
+fn folded_lines(draft: &Draft, halves: &[Instance; 2], axis: &Path) -> Vec<Line> {
+    let along = (axis.end() - axis.start()).normalize();
+    let on_fold = |p: Vec2| along.perp(&(p - axis.start())).abs() < 1e-6;
+    let mut lines = Vec::new();
+    for drawn in &draft.lines {
+        let other = line(drawn, &halves[1]);
+        let joined = |path: Path| Line { name: drawn.name.clone(), path, kind: drawn.kind.clone() };
+        if on_fold(drawn.path.start()) && on_fold(drawn.path.end()) {
+            lines.push(drawn.clone());
+        } else if on_fold(drawn.path.start()) {
+            lines.push(joined(other.path.reversed().joined(&drawn.path)));
+        } else if on_fold(drawn.path.end()) {
+            lines.push(joined(drawn.path.joined(&other.path.reversed())));
+        } else {
+            for (half, l) in halves.iter().zip([drawn.clone(), other]) {
+                let suffix = half.side.map_or("", Side::letter);
+                lines.push(Line { name: format!("{}.{suffix}", l.name), ..l });
+            }
+        }
+    }
+    lines
+}
+
+fn notches(draft: &Draft, to: &Instance) -> Vec<Notch> {
+    let notch = |&(edge, at, double): &((usize, usize), f64, bool)| {
+        let span = to.span(draft, Stretch { edge, from: at, to: at })?;
+        Some(Notch { edge: span.edge, at: span.from, double })
+    };
+    draft.notches.iter().filter_map(notch).collect()
+}
+
+/// Words that a pair shares and that mean the piece's own side.
+const LIMBS: [&str; 3] = ["arm", "leg", "sleeve"];
+
+fn place(place: Option<&Place>, side: Option<Side>, mirrored: bool) -> Option<Place> {
+    Some(match place? {
+        Place::Around { words } => {
+            let mut words = words.clone();
+            let sided = words.iter().any(|w| w == "left" || w == "right");
+            if let Some(side) = side
+                && !sided
+                && words.iter().any(|w| LIMBS.contains(&w.as_str()))
+            {
+                words.insert(0, if side == Side::Left { "left" } else { "right" }.to_owned());
+            }
+            Place::Around { words }
+        }
+        Place::At { at, turn } if mirrored => Place::At {
+            at: at.component_mul(&nalgebra::vector![-1.0, 1.0, 1.0]),
+            turn: turn.component_mul(&nalgebra::vector![1.0, -1.0, -1.0]),
+        },
+        at => at.clone(),
+    })
+}

@@ -1,0 +1,174 @@
+//! What is wrong with a garment file, and where.
+
+use std::fmt;
+
+use super::problem::Problem;
+
+/// A place in the text of a file. Lines and columns count from 1; 0 = the file as a whole.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Spot {
+    /// Line.
+    pub line: usize,
+    /// Column, in characters.
+    pub column: usize,
+    /// Characters to underline.
+    pub width: usize,
+}
+
+/// A value and where it was written. Comparison looks at the value alone: a garment read back from its own
+/// rewritten file is the same garment.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Located<T> {
+    /// What was written.
+    pub value: T,
+    /// Where.
+    pub at: Spot,
+}
+
+impl<T> Located<T> {
+    /// `value`, written at `at`.
+    pub fn new(value: T, at: Spot) -> Self {
+        Self { value, at }
+    }
+}
+
+impl<T: PartialEq> PartialEq for Located<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.value == other.value
+    }
+}
+
+/// How bad it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// The garment can be used; something in it was read in a way its author may not have meant.
+    Warning,
+    /// The garment cannot be used.
+    Error,
+}
+
+/// One finding, ready to be shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnostic {
+    /// How bad.
+    pub severity: Severity,
+    /// File name as given by the caller.
+    pub file: String,
+    /// Line from 1; 0 = the file as a whole.
+    pub line: usize,
+    /// Column from 1.
+    pub column: usize,
+    /// What is wrong.
+    pub problem: Problem,
+    /// The same in words.
+    pub message: String,
+    /// What to do about it.
+    pub hint: Option<String>,
+    /// The line of the file.
+    excerpt: Option<String>,
+    /// Characters to underline.
+    width: usize,
+}
+
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let severity = match self.severity {
+            Severity::Warning => "warning",
+            Severity::Error => "error",
+        };
+        if self.line == 0 {
+            write!(f, "{}: {severity}: {}", self.file, self.message)?;
+        } else {
+            write!(f, "{}:{}:{}: {severity}: {}", self.file, self.line, self.column, self.message)?;
+        }
+        if let Some(text) = &self.excerpt {
+            let number = self.line.to_string();
+            // Tabs stay tabs in the padding, so that the carets stand under their characters.
+            let pad: String = text.chars().take(self.column - 1).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
+            write!(
+                f,
+                "\n  {number} | {text}\n  {} | {pad}{}",
+                " ".repeat(number.len()),
+                "^".repeat(self.width.max(1))
+            )?;
+        }
+        if let Some(hint) = &self.hint {
+            write!(f, "\n  help: {hint}")?;
+        }
+        Ok(())
+    }
+}
+
+/// Findings beyond this many are counted, not kept: a broken file of a million lines need not fill the screen.
+const KEPT: usize = 200;
+/// An excerpt longer than this is cut, columns permitting.
+const EXCERPT_WIDTH: usize = 240;
+
+/// Collects the findings of one file.
+#[derive(Debug, Default)]
+pub struct Findings {
+    file: String,
+    lines: Vec<String>,
+    found: Vec<Diagnostic>,
+    errors: usize,
+}
+
+impl Findings {
+    /// For the file called `file` with this `text` (empty if the garment was not read from text).
+    pub fn new(file: &str, text: &str) -> Self {
+        Self { file: file.to_owned(), lines: text.lines().map(str::to_owned).collect(), ..Self::default() }
+    }
+
+    /// Adds an error.
+    pub fn error(&mut self, at: Spot, problem: Problem) {
+        self.errors += 1;
+        self.push(Severity::Error, at, problem);
+    }
+
+    /// Adds a warning.
+    pub fn warn(&mut self, at: Spot, problem: Problem) {
+        self.push(Severity::Warning, at, problem);
+    }
+
+    fn push(&mut self, severity: Severity, at: Spot, problem: Problem) {
+        if self.found.len() >= KEPT {
+            return;
+        }
+        let excerpt = at
+            .line
+            .checked_sub(1)
+            .and_then(|i| self.lines.get(i))
+            .filter(|_| (1..EXCERPT_WIDTH).contains(&at.column))
+            .map(|l| l.chars().take(EXCERPT_WIDTH).collect::<String>());
+        let room = excerpt.as_ref().map_or(0, |l| l.chars().count().saturating_sub(at.column - 1));
+        self.found.push(Diagnostic {
+            severity,
+            file: self.file.clone(),
+            line: at.line,
+            column: at.column,
+            message: problem.to_string(),
+            hint: problem.hint(),
+            problem,
+            excerpt,
+            width: at.width.min(room),
+        });
+    }
+
+    /// Number of errors so far.
+    pub fn errors(&self) -> usize {
+        self.errors
+    }
+
+    /// The findings in the order of the file, each once.
+    pub fn into_sorted(mut self) -> Vec<Diagnostic> {
+        self.found.sort_by_key(|d| (d.line, d.column));
+        // Both sides of a pair make the same mistake: it is said once.
+        let mut unique: Vec<Diagnostic> = Vec::new();
+        for diagnostic in self.found {
+            if !unique.contains(&diagnostic) {
+                unique.push(diagnostic);
+            }
+        }
+        unique
+    }
+}

@@ -1,0 +1,418 @@
+//! A piece as drawn, in metres: outline, darts opened, pleats laid out, holes; before it is cut once, twice or on the
+//! fold.
+
+use std::collections::HashSet;
+
+use super::crossing::{contains, first_crossing};
+use super::dart;
+use super::diagnostic::{Findings, Located, Spot};
+use super::file::{Cut, OutlineFile, PieceFile, PlaceFile, Side, Unit};
+use super::pleat;
+use super::problem::Problem;
+use super::spelling::nearest;
+use super::{Edge, Line, LineKind, Place, SeamKind};
+use crate::geometry::{Path, Vec2, Vec3};
+
+/// A drawn outline may miss its start by this much (metres): rounding of the file's numbers.
+const CLOSURE: f64 = 5e-5;
+/// Longer edges (metres) are a wrong unit or a slip of the pen, and would take for ever to look at.
+const LONGEST_EDGE: f64 = 200.0;
+
+/// A stretch of a drawn edge: `(ring, index)`, walked from `from` to `to`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Stretch {
+    pub(super) edge: (usize, usize),
+    pub(super) from: f64,
+    pub(super) to: f64,
+}
+
+/// A part of a named edge that is there to be sewn: positions `from..to` of the drawn edge lie on `edge` at
+/// `position - offset`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Part {
+    pub(super) edge: (usize, usize),
+    pub(super) from: f64,
+    pub(super) to: f64,
+    pub(super) offset: f64,
+}
+
+/// What a name in the file stands for: an edge as drawn, less the mouths of darts and what pleats take up.
+#[derive(Clone, Debug)]
+pub(super) struct NamedEdge {
+    pub(super) name: String,
+    /// Length as drawn.
+    pub(super) length: f64,
+    pub(super) parts: Vec<Part>,
+}
+
+impl NamedEdge {
+    fn whole(name: String, edge: (usize, usize), length: f64) -> Self {
+        Self { name, length, parts: vec![Part { edge, from: 0.0, to: length, offset: 0.0 }] }
+    }
+
+    /// The stretches of the drawn range `from..to`, in drawn order.
+    pub(super) fn stretches(&self, from: f64, to: f64) -> Vec<Stretch> {
+        let clip = |p: &Part| {
+            let (a, b) = (p.from.max(from), p.to.min(to));
+            (b > a).then_some(Stretch { edge: p.edge, from: a - p.offset, to: b - p.offset })
+        };
+        self.parts.iter().filter_map(clip).collect()
+    }
+}
+
+/// A seam that a dart or a pleat makes in its own piece.
+#[derive(Clone, Debug)]
+pub(super) struct OwnSeam {
+    pub(super) name: String,
+    pub(super) a: Stretch,
+    pub(super) b: Stretch,
+    pub(super) kind: SeamKind,
+}
+
+/// A drawn piece.
+#[derive(Clone, Debug)]
+pub(super) struct Draft {
+    pub(super) name: String,
+    pub(super) at: Spot,
+    pub(super) cut: Cut,
+    /// Index of the fold edge in the outline.
+    pub(super) fold: Option<usize>,
+    pub(super) drawn: Side,
+    pub(super) fabric: Option<Located<String>>,
+    pub(super) layer: i32,
+    pub(super) warp: Vec2,
+    pub(super) place: Option<Place>,
+    pub(super) rings: Vec<Vec<Edge>>,
+    pub(super) named: Vec<NamedEdge>,
+    pub(super) lines: Vec<Line>,
+    /// Edge, position on it, double.
+    pub(super) notches: Vec<((usize, usize), f64, bool)>,
+    pub(super) own_seams: Vec<OwnSeam>,
+}
+
+impl Draft {
+    /// The edge called `name`.
+    pub(super) fn find(&self, name: &str) -> Option<&NamedEdge> {
+        self.named.iter().find(|n| n.name == name)
+    }
+
+    /// The error for an edge that is not there.
+    pub(super) fn unknown_edge(&self, name: &str) -> Problem {
+        let names: Vec<&str> = self.named.iter().map(|n| n.name.as_str()).collect();
+        unknown_edge(&self.name, name, &names)
+    }
+
+    /// Length of an edge of its rings.
+    pub(super) fn length(&self, (ring, index): (usize, usize)) -> f64 {
+        self.rings[ring][index].path.length()
+    }
+}
+
+/// The error for an edge that is not among those of its piece.
+pub(super) fn unknown_edge(piece: &str, edge: &str, names: &[&str]) -> Problem {
+    Problem::UnknownEdge {
+        name: format!("{piece}.{edge}"),
+        nearest: nearest(edge, names.iter().copied()).map(str::to_owned),
+        known: format!("{piece} has: {}", names.join(", ")),
+    }
+}
+
+/// A point of the drawing for messages, millimetres.
+pub(super) fn shown(p: Vec2) -> String {
+    let n = |x: f64| (x * 1e4).round() / 10.0 + 0.0;
+    format!("({}, {})", n(p.x), n(p.y))
+}
+
+/// Draws a piece. `None` when its outline cannot be used; everything found is reported.
+pub(super) fn draft(piece: &PieceFile, unit: Unit, findings: &mut Findings) -> Option<Draft> {
+    let name = piece.name.value.clone();
+    let Some(outline_file) = &piece.outline else {
+        findings.error(piece.name.at, Problem::NoOutline(name));
+        return None;
+    };
+    let outline = outline(&name, outline_file, unit, findings)?;
+    let before = findings.errors();
+    let mut drawn = Draft {
+        name,
+        at: piece.name.at,
+        cut: piece.cut.as_ref().map_or(Cut::One, |c| c.value.clone()),
+        fold: None,
+        drawn: piece.drawn.as_ref().map_or(Side::Left, |d| d.value),
+        fabric: piece.fabric.clone(),
+        layer: piece.layer.as_ref().map_or(0, |l| l.value),
+        warp: warp(piece, findings),
+        place: piece.place.as_ref().map(|p| place(&p.value, unit)),
+        rings: vec![Vec::new()],
+        named: Vec::new(),
+        lines: Vec::new(),
+        notches: Vec::new(),
+        own_seams: Vec::new(),
+    };
+    dart::open_outline(&mut drawn, &outline, piece, unit, findings);
+    holes(&mut drawn, piece, unit, findings);
+    dart::cut_fish_eyes(&mut drawn, piece, unit, findings);
+    pleat::lay(&mut drawn, piece, unit, findings);
+    fold(&mut drawn, piece, findings);
+    lines(&mut drawn, piece, unit, findings);
+    notches(&mut drawn, piece, unit, findings);
+    check_names(&drawn, findings);
+    check_crossings(&drawn, outline_file, findings);
+    (findings.errors() == before).then_some(drawn)
+}
+
+/// Edges of darts and holes may not bear the name of another edge.
+fn check_names(drawn: &Draft, findings: &mut Findings) {
+    let mut seen = HashSet::new();
+    for edge in drawn.rings.iter().flatten().filter(|e| !seen.insert(&e.name)) {
+        findings.error(drawn.at, Problem::EdgeTwice { piece: drawn.name.clone(), edge: edge.name.clone() });
+    }
+}
+
+fn warp(piece: &PieceFile, findings: &mut Findings) -> Vec2 {
+    let Some(grain) = &piece.grain else {
+        findings.warn(piece.name.at, Problem::NoGrain(piece.name.value.clone()));
+        return Vec2::y();
+    };
+    let [tail, head] = grain.value.map(Vec2::from);
+    (head - tail).try_normalize(1e-9).unwrap_or_else(|| {
+        findings.error(grain.at, Problem::ZeroGrain(piece.name.value.clone()));
+        Vec2::y()
+    })
+}
+
+fn place(place: &PlaceFile, unit: Unit) -> Place {
+    match place {
+        PlaceFile::Words(words) => {
+            Place::Around { words: words.to_lowercase().split_whitespace().map(str::to_owned).collect() }
+        }
+        PlaceFile::At { at, turn } => {
+            Place::At { at: Vec3::from(*at) * unit.factor(), turn: turn.map_or(Vec3::zeros(), Vec3::from) }
+        }
+    }
+}
+
+/// Reads the outline's edges: closed, clockwise, every name once.
+fn outline(piece: &str, file: &OutlineFile, unit: Unit, findings: &mut Findings) -> Option<Vec<Edge>> {
+    let scale = unit.factor();
+    let start = Vec2::from(file.start.value);
+    let mut at = start;
+    let mut edges: Vec<Edge> = Vec::new();
+    let mut seen = HashSet::new();
+    let mut sound = true;
+    for (name, commands) in &file.edges {
+        if !seen.insert(name.value.as_str()) {
+            findings.error(name.at, Problem::EdgeTwice { piece: piece.to_owned(), edge: name.value.clone() });
+        }
+        match edge_path(at, &commands.value, scale) {
+            Ok(path) => {
+                at = path.end() / scale;
+                edges.push(Edge { name: name.value.clone(), path });
+            }
+            Err(reason) => {
+                let (piece, edge) = (piece.to_owned(), name.value.clone());
+                findings.error(commands.at, Problem::BadPath { piece, edge, reason });
+                sound = false;
+            }
+        }
+    }
+    if !sound {
+        return None;
+    }
+    let Some(last) = edges.last() else {
+        findings.error(file.start.at, Problem::NoOutline(piece.to_owned()));
+        return None;
+    };
+    let (end, first) = (last.path.end(), start * scale);
+    let gap = (end - first).norm();
+    if gap > CLOSURE {
+        let at = file.edges.last().map_or(file.start.at, |e| e.1.at);
+        let (last, start) = (shown(end), shown(first));
+        findings.error(at, Problem::NotClosed { piece: piece.to_owned(), last, start, gap: gap * 1e3 });
+        return None;
+    }
+    let closed = ended_at(&last.path, edges[0].path.start());
+    if let Some(last) = edges.last_mut() {
+        last.path = closed;
+    }
+    orient(piece, edges, file.start.at, findings)
+}
+
+fn edge_path(at: Vec2, commands: &str, scale: f64) -> Result<Path, String> {
+    if commands.contains(['M', 'm', 'Z', 'z']) {
+        return Err("an edge goes on from the one before it; use L, C, Q or A, without M or Z".to_owned());
+    }
+    // SVG's own words would show the `M` that is put in front: say what the file has.
+    let path = Path::parse(at, commands, scale).map_err(|e| match e {
+        crate::geometry::PathError::Syntax(_) => {
+            format!("cannot read '{commands}'; expected commands L C Q A with numbers")
+        }
+        crate::geometry::PathError::NotFinite(_) => format!("'{commands}' holds a number that is not finite"),
+        crate::geometry::PathError::Empty(_) => format!("'{commands}' has no length"),
+    })?;
+    check_size(path)
+}
+
+fn check_size(path: Path) -> Result<Path, String> {
+    if path.length() > LONGEST_EDGE {
+        return Err(format!("it is {:.0} m long; at most {LONGEST_EDGE} m are read", path.length()));
+    }
+    Ok(path)
+}
+
+/// The path turned and scaled about its start by a hair, so that it ends exactly at `end`.
+fn ended_at(path: &Path, end: Vec2) -> Path {
+    let (a, b) = (path.end() - path.start(), end - path.start());
+    let square = a.norm_squared();
+    if a == b || square == 0.0 {
+        return path.clone();
+    }
+    let (cos, sin) = (a.dot(&b) / square, a.perp(&b) / square);
+    let linear = nalgebra::Matrix2::new(cos, -sin, sin, cos);
+    path.mapped(linear, path.start() - linear * path.start())
+}
+
+fn orient(piece: &str, mut edges: Vec<Edge>, at: Spot, findings: &mut Findings) -> Option<Vec<Edge>> {
+    let double_area: f64 = edges.iter().map(|e| e.path.double_area()).sum();
+    if double_area.abs() < 1e-9 {
+        findings.error(at, Problem::NoArea(piece.to_owned()));
+        return None;
+    }
+    if double_area < 0.0 {
+        findings.warn(at, Problem::CounterClockwise(piece.to_owned()));
+        edges = reversed(&edges);
+    }
+    Some(edges)
+}
+
+/// The ring walked the other way.
+pub(super) fn reversed(ring: &[Edge]) -> Vec<Edge> {
+    ring.iter().rev().map(|e| Edge { name: e.name.clone(), path: e.path.reversed() }).collect()
+}
+
+impl Draft {
+    /// Adds a ring of which every edge can be sewn under its own name.
+    pub(super) fn add_ring(&mut self, ring: Vec<Edge>) {
+        let number = self.rings.len();
+        for (i, edge) in ring.iter().enumerate() {
+            self.named.push(NamedEdge::whole(edge.name.clone(), (number, i), edge.path.length()));
+        }
+        self.rings.push(ring);
+    }
+
+    /// Adds an edge to the outline under its own name and returns where it stands.
+    pub(super) fn add_outline_edge(&mut self, name: String, path: Path) -> (usize, usize) {
+        let at = (0, self.rings[0].len());
+        self.named.push(NamedEdge::whole(name.clone(), at, path.length()));
+        self.rings[0].push(Edge { name, path });
+        at
+    }
+}
+
+fn holes(drawn: &mut Draft, piece: &PieceFile, unit: Unit, findings: &mut Findings) {
+    for (name, text) in &piece.holes {
+        let (piece, edge) = (drawn.name.clone(), name.value.clone());
+        let path =
+            match Path::parse_absolute(&text.value, unit.factor()).map_err(|e| e.to_string()).and_then(check_size) {
+                Ok(path) => path,
+                Err(reason) => {
+                    findings.error(text.at, Problem::BadPath { piece, edge, reason });
+                    continue;
+                }
+            };
+        let gap = (path.end() - path.start()).norm();
+        if gap > CLOSURE {
+            let (last, start) = (shown(path.end()), shown(path.start()));
+            findings.error(text.at, Problem::NotClosed { piece, last, start, gap: gap * 1e3 });
+            continue;
+        }
+        if !contains(&drawn.rings[0], path.start()) {
+            findings.error(text.at, Problem::HoleOutside { piece, hole: edge });
+            continue;
+        }
+        let path = if path.double_area() > 0.0 { path.reversed() } else { path };
+        drawn.add_ring(vec![Edge { name: edge, path }]);
+    }
+}
+
+fn fold(drawn: &mut Draft, piece: &PieceFile, findings: &mut Findings) {
+    let (Cut::Fold(edge), Some(cut)) = (drawn.cut.clone(), &piece.cut) else { return };
+    let Some(named) = drawn.find(&edge) else {
+        findings.error(cut.at, drawn.unknown_edge(&edge));
+        return;
+    };
+    let (at, parts) = (named.parts[0].edge, named.parts.len());
+    let path = &drawn.rings[at.0][at.1].path;
+    if parts > 1 || at.0 != 0 {
+        findings.error(cut.at, Problem::ShapedFold(edge));
+    } else if !path.is_straight() {
+        findings.error(cut.at, Problem::CurvedFold(edge));
+    } else if beyond_fold(drawn, path) {
+        findings.error(cut.at, Problem::BeyondFold(drawn.name.clone()));
+    } else {
+        drawn.fold = Some(at.1);
+    }
+}
+
+/// Whether the outline leaves the side of its fold on which the piece lies.
+fn beyond_fold(drawn: &Draft, fold: &Path) -> bool {
+    let along = (fold.end() - fold.start()).normalize();
+    drawn.rings[0]
+        .iter()
+        .flat_map(|e| e.path.sampled(super::crossing::CHORD_ERROR))
+        .any(|p| along.perp(&(p - fold.start())) < -CLOSURE)
+}
+
+fn lines(drawn: &mut Draft, piece: &PieceFile, unit: Unit, findings: &mut Findings) {
+    for line in &piece.lines {
+        let kind = match (&line.fold, &line.ratio, &line.kind) {
+            (Some(angle), _, _) => LineKind::Fold(angle.value.to_radians()),
+            (None, Some(ratio), _) => LineKind::Elastic(ratio.value),
+            (None, None, kind) => LineKind::Mark(kind.as_ref().map_or_else(|| "mark".to_owned(), |k| k.value.clone())),
+        };
+        match Path::parse_absolute(&line.path.value, unit.factor()).map_err(|e| e.to_string()).and_then(check_size) {
+            Ok(path) => drawn.lines.push(Line { name: line.name.value.clone(), path, kind }),
+            Err(reason) => {
+                let (piece, edge) = (drawn.name.clone(), line.name.value.clone());
+                findings.error(line.path.at, Problem::BadPath { piece, edge, reason });
+            }
+        }
+    }
+}
+
+fn notches(drawn: &mut Draft, piece: &PieceFile, unit: Unit, findings: &mut Findings) {
+    for (edge, list) in &piece.notches {
+        let Some(named) = drawn.find(&edge.value).cloned() else {
+            findings.error(edge.at, drawn.unknown_edge(&edge.value));
+            continue;
+        };
+        for notch in list {
+            let at = position(notch.value.at, named.length, unit);
+            let part = named.parts.iter().find(|p| (p.from - 1e-9..=p.to + 1e-9).contains(&at));
+            match part {
+                Some(p) => drawn.notches.push((p.edge, at - p.offset, notch.value.double)),
+                None => {
+                    let edge = format!("{}.{}", drawn.name, edge.value);
+                    findings.error(notch.at, Problem::NotchOff { edge, at: at * 1e3, length: named.length * 1e3 });
+                }
+            }
+        }
+    }
+}
+
+/// A distance along an edge of this length: percent counts of the whole edge.
+pub(super) fn position(q: super::file::Quantity, length: f64, unit: Unit) -> f64 {
+    if q.is_percent() { q.value(unit) * length } else { q.value(unit) }
+}
+
+fn check_crossings(drawn: &Draft, file: &OutlineFile, findings: &mut Findings) {
+    let Some((point, edges)) = first_crossing(&drawn.rings) else { return };
+    let name = |(ring, index): (usize, usize)| drawn.rings[ring][index].name.clone();
+    let (mut one, mut other) = (name(edges[0]), name(edges[1]));
+    // The order of the file, whichever the sweep met first.
+    if edges[1] < edges[0] {
+        std::mem::swap(&mut one, &mut other);
+    }
+    let at = file.edges.iter().find(|e| e.0.value == other).map_or(file.start.at, |e| e.0.at);
+    let edges = if one == other { format!("two stretches of {one}") } else { format!("{one} and {other}") };
+    findings.error(at, Problem::Crosses { piece: drawn.name.clone(), near: shown(point), edges });
+}

@@ -1,0 +1,127 @@
+//! From the file to the checked garment.
+
+use super::cut::cut;
+use super::diagnostic::{Findings, Located, Spot};
+use super::draft::{Draft, draft};
+use super::file::{GarmentFile, Value};
+use super::inherit::complete_pieces;
+use super::problem::Problem;
+use super::seam::{Seams, check_orientable, seams};
+use super::spelling::nearest;
+use super::{FabricUse, Garment, bound, closure, cover};
+use crate::fabric::FabricSpec;
+
+/// The fabric of pieces that name none, in a file that names none.
+const DEFAULT_FABRIC: &str = "shell";
+/// What it is made of.
+const DEFAULT_CLOTH: &str = "cotton_poplin";
+
+/// Cuts the pieces, opens darts, lays pleats, writes mirrored seams out and checks everything that can be checked
+/// without sewing. `name` is the garment's short name.
+///
+/// What is wrong goes to `findings`; with errors among them the result is not to be used, and `None` if nothing of
+/// use came out.
+pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option<Garment> {
+    if file.pieces.is_empty() {
+        findings.error(file.version.at, Problem::NoPieces);
+        return None;
+    }
+    let pieces = complete_pieces(file, findings);
+    let drafts: Vec<Draft> = pieces.iter().filter_map(|p| draft(p, file.unit(), findings)).collect();
+    let fabrics = fabrics(file);
+    check_fabrics(&drafts, &fabrics, findings);
+    let sound = drafts.len() == file.pieces.len();
+    let default_fabric = fabrics.first().map_or(DEFAULT_FABRIC, |f| &f.name);
+    let cut = cut(&drafts, default_fabric);
+    // A seam of a piece that could not be drawn would be reported as naming a piece that is not there.
+    let readable = without_undrawn(file, &drafts);
+    let before = findings.errors();
+    let seams = seams(&readable, &drafts, &cut, findings);
+    if sound && findings.errors() == before {
+        cover::check(&readable, &drafts, &cut, &seams, findings);
+        cover::check_free_but_sewn(&readable, &drafts, &cut, &seams, findings);
+        cover::check_pairs(&readable, &drafts, &cut, &seams, findings);
+    }
+    let closures = if sound { closure::closures(file, &drafts, &cut, findings) } else { Vec::new() };
+    let Seams { seams, written, .. } = seams;
+    let mut garment = Garment {
+        name: name.to_owned(),
+        title: file.name.as_ref().map_or_else(|| name.to_owned(), |n| n.value.clone()),
+        body: file.body.as_ref().map(|b| b.value.clone()),
+        pieces: cut.pieces,
+        seams,
+        fabrics,
+        closures,
+        tests: Vec::new(),
+    };
+    let seam_file = |w: &Option<usize>| w.map(|i| &readable.seams[i]);
+    let turns: Vec<bool> =
+        written.iter().map(|w| seam_file(w).and_then(|s| s.face_same.as_ref()).is_some_and(|f| f.value)).collect();
+    let spots: Vec<Spot> = written.iter().map(|w| seam_file(w).map_or(file.version.at, |s| s.name.at)).collect();
+    check_orientable(&garment, &turns, &spots, findings);
+    if sound && findings.errors() == before {
+        garment.tests = bound::bounds(file, &garment, findings);
+    }
+    Some(garment)
+}
+
+fn without_undrawn(file: &GarmentFile, drafts: &[Draft]) -> GarmentFile {
+    let undrawn =
+        |name: &str| file.pieces.iter().any(|p| p.name.value == name) && !drafts.iter().any(|d| d.name == name);
+    let names_one = |refs: &[Located<String>]| refs.iter().any(|r| undrawn(super::reference::piece_of(&r.value).0));
+    let mut readable = file.clone();
+    readable.seams.retain(|s| !names_one(&s.sew) && !names_one(&s.to));
+    readable
+}
+
+fn fabrics(file: &GarmentFile) -> Vec<FabricUse> {
+    if file.fabrics.is_empty() {
+        let spec = FabricSpec { base: Some(DEFAULT_CLOTH.to_owned()), values: Vec::new() };
+        return vec![FabricUse { name: DEFAULT_FABRIC.to_owned(), spec }];
+    }
+    let fabric = |(name, value): &(Located<String>, Located<Value>)| {
+        let mut spec = FabricSpec::default();
+        flatten(&value.value, "", &mut spec);
+        FabricUse { name: name.value.clone(), spec }
+    };
+    file.fabrics.iter().map(fabric).collect()
+}
+
+/// Nested keys become `tensile.weft.EMT`, list entries are joined by blanks.
+fn flatten(value: &Value, key: &str, spec: &mut FabricSpec) {
+    match value {
+        Value::Text(text) if key.is_empty() || key == "base" => spec.base = Some(text.clone()),
+        Value::Text(text) => spec.values.push((key.to_owned(), text.clone())),
+        Value::Map(entries) => {
+            for (name, value) in entries {
+                let key = if key.is_empty() { name.value.clone() } else { format!("{key}.{}", name.value) };
+                flatten(&value.value, &key, spec);
+            }
+        }
+        Value::List(items) => {
+            let words: Vec<String> = items.iter().map(|i| text(&i.value)).collect();
+            spec.values.push((key.to_owned(), words.join(" ")));
+        }
+    }
+}
+
+fn text(value: &Value) -> String {
+    match value {
+        Value::Text(text) => text.clone(),
+        Value::List(items) => items.iter().map(|i| text(&i.value)).collect::<Vec<_>>().join(" "),
+        Value::Map(entries) => {
+            entries.iter().map(|(k, v)| format!("{} {}", k.value, text(&v.value))).collect::<Vec<_>>().join(" ")
+        }
+    }
+}
+
+fn check_fabrics(drafts: &[Draft], fabrics: &[FabricUse], findings: &mut Findings) {
+    for fabric in drafts.iter().filter_map(|d| d.fabric.as_ref()) {
+        let names = || fabrics.iter().map(|f| f.name.as_str());
+        if !names().any(|n| n == fabric.value) {
+            let near = nearest(&fabric.value, names()).map(str::to_owned);
+            let known = names().collect::<Vec<_>>().join(", ");
+            findings.error(fabric.at, Problem::UnknownFabric { name: fabric.value.clone(), nearest: near, known });
+        }
+    }
+}

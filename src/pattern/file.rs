@@ -1,0 +1,398 @@
+//! A garment file as it was written: every statement kept, also those no stage uses, each with its place in the text.
+
+use super::diagnostic::Located;
+
+/// A YAML value with the place of every part of it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// Any scalar, as written.
+    Text(String),
+    /// A sequence.
+    List(Vec<Located<Value>>),
+    /// A mapping, in the order of the file; keys are unique.
+    Map(Vec<(Located<String>, Located<Value>)>),
+}
+
+/// Unit of a written number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unit {
+    /// Millimetres.
+    Millimetre,
+    /// Centimetres.
+    Centimetre,
+    /// Inches of 25.4 mm.
+    Inch,
+    /// Hundredths.
+    Percent,
+}
+
+impl Unit {
+    /// Metres (or fraction) per unit.
+    pub fn factor(self) -> f64 {
+        match self {
+            Self::Millimetre => 1e-3,
+            Self::Centimetre | Self::Percent => 1e-2,
+            Self::Inch => 0.0254,
+        }
+    }
+
+    /// As written in files.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Millimetre => "mm",
+            Self::Centimetre => "cm",
+            Self::Inch => "in",
+            Self::Percent => "%",
+        }
+    }
+
+    /// The unit with this symbol.
+    pub fn from_symbol(symbol: &str) -> Option<Self> {
+        [Self::Millimetre, Self::Centimetre, Self::Inch, Self::Percent].into_iter().find(|u| u.symbol() == symbol)
+    }
+}
+
+/// A number with the unit it was written with, if any: `12`, `1.2 cm`, `0.5 %`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quantity {
+    /// The number.
+    pub number: f64,
+    /// Its own unit; `None` = the file's `units`.
+    pub unit: Option<Unit>,
+}
+
+impl Quantity {
+    /// The value in metres (a fraction for percent), where a bare number counts in `default`.
+    pub fn value(self, default: Unit) -> f64 {
+        self.number * self.unit.unwrap_or(default).factor()
+    }
+
+    /// Whether it was written in percent.
+    pub fn is_percent(self) -> bool {
+        self.unit == Some(Unit::Percent)
+    }
+}
+
+/// Left or right of the wearer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Side {
+    /// The wearer's left.
+    Left,
+    /// The wearer's right.
+    Right,
+}
+
+impl Side {
+    /// `L` or `R`.
+    pub fn letter(self) -> &'static str {
+        match self {
+            Self::Left => "L",
+            Self::Right => "R",
+        }
+    }
+
+    /// The other one.
+    pub fn other(self) -> Self {
+        match self {
+            Self::Left => Self::Right,
+            Self::Right => Self::Left,
+        }
+    }
+
+    /// The side with this letter.
+    pub fn from_letter(letter: &str) -> Option<Self> {
+        [Self::Left, Self::Right].into_iter().find(|s| s.letter() == letter)
+    }
+}
+
+/// How a drawn piece is cut.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Cut {
+    /// Once, as drawn.
+    One,
+    /// As drawn and mirrored.
+    Pair,
+    /// On the fold: the drawn half and its mirror image across this edge are one piece.
+    Fold(String),
+    /// So many times as drawn.
+    Count(usize),
+}
+
+/// The whole file. Absent statements are `None` or empty, so that writing adds nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GarmentFile {
+    /// `garment: 1`, the version of the format.
+    pub version: Located<u32>,
+    /// Name for people.
+    pub name: Option<Located<String>>,
+    /// Free statements about the file: `source`, `license`, `note`, `measurements`.
+    pub about: Vec<(Located<String>, Located<Value>)>,
+    /// Unit of bare numbers; millimetres if not given.
+    pub units: Option<Located<Unit>>,
+    /// Mannequin.
+    pub body: Option<Located<String>>,
+    /// Default seam allowance.
+    pub allowance: Option<Located<Quantity>>,
+    /// Fabrics by name: a preset's name or a mapping.
+    pub fabrics: Vec<(Located<String>, Located<Value>)>,
+    /// Pieces in order.
+    pub pieces: Vec<PieceFile>,
+    /// Seams in order.
+    pub seams: Vec<SeamFile>,
+    /// Closures.
+    pub closures: Vec<ClosureFile>,
+    /// Edges (or globs) that stay unsewn.
+    pub free: Vec<Located<String>>,
+    /// Regression bounds.
+    pub tests: Vec<Located<TestFile>>,
+}
+
+impl GarmentFile {
+    /// Unit of bare numbers.
+    pub fn unit(&self) -> Unit {
+        self.units.as_ref().map_or(Unit::Millimetre, |u| u.value)
+    }
+}
+
+/// A piece as drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PieceFile {
+    /// Its key.
+    pub name: Located<String>,
+    /// Another piece whose statements count where this one makes none.
+    pub like: Option<Located<String>>,
+    /// Key in `fabrics`.
+    pub fabric: Option<Located<String>>,
+    /// How often it is cut.
+    pub cut: Option<Located<Cut>>,
+    /// Which of a pair, or which half of a folded piece, the outline is.
+    pub drawn: Option<Located<Side>>,
+    /// Layer, positive outward.
+    pub layer: Option<Located<i32>>,
+    /// Seam allowance of all edges, or edge by edge.
+    pub allowance: Option<AllowanceFile>,
+    /// Tail and head of the grain arrow.
+    pub grain: Option<Located<[[f64; 2]; 2]>>,
+    /// Where it starts.
+    pub place: Option<Located<PlaceFile>>,
+    /// The outline.
+    pub outline: Option<OutlineFile>,
+    /// Notches by edge.
+    pub notches: Vec<(Located<String>, Vec<Located<NotchFile>>)>,
+    /// Darts.
+    pub darts: Vec<DartFile>,
+    /// Pleats.
+    pub pleats: Vec<PleatFile>,
+    /// Holes: name and closed path.
+    pub holes: Vec<(Located<String>, Located<String>)>,
+    /// Internal lines.
+    pub lines: Vec<LineFile>,
+    /// A remark.
+    pub note: Option<Located<String>>,
+}
+
+/// Seam allowance of a piece.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AllowanceFile {
+    /// One for all edges.
+    All(Located<Quantity>),
+    /// By edge.
+    Edges(Vec<(Located<String>, Located<Quantity>)>),
+}
+
+/// An outline: a start point and named edges with their path commands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutlineFile {
+    /// First point, file units.
+    pub start: Located<[f64; 2]>,
+    /// Edges in order: name, path commands.
+    pub edges: Vec<(Located<String>, Located<String>)>,
+}
+
+/// Start position.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PlaceFile {
+    /// Words naming a body part.
+    Words(String),
+    /// Position (file units) and turn (degrees).
+    At {
+        /// Position.
+        at: [f64; 3],
+        /// Turn about x, y, z.
+        turn: Option<[f64; 3]>,
+    },
+}
+
+/// A notch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NotchFile {
+    /// Distance from the edge's start.
+    pub at: Quantity,
+    /// `60 double`.
+    pub double: bool,
+}
+
+/// A dart: on an edge, or inside the piece.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DartFile {
+    /// Its own name; `dart`, `dart2`, … if not given.
+    pub name: Option<Located<String>>,
+    /// Width taken out.
+    pub intake: Located<Quantity>,
+    /// Where and how long.
+    pub shape: DartShape,
+}
+
+/// The two shapes of dart.
+#[derive(Clone, Debug, PartialEq)]
+pub enum DartShape {
+    /// A wedge from an edge.
+    Edge {
+        /// The edge it opens.
+        edge: Located<String>,
+        /// Middle of its mouth, from the edge's start.
+        at: Located<Quantity>,
+        /// Length from the middle of the mouth, square to it.
+        length: Option<Located<Quantity>>,
+        /// Or the tip's position.
+        tip: Option<Located<[f64; 2]>>,
+    },
+    /// A lozenge (fish-eye) inside the piece.
+    FishEye {
+        /// Middle of its widest line.
+        at: Located<[f64; 2]>,
+        /// Length above it.
+        up: Located<Quantity>,
+        /// Length below it.
+        down: Located<Quantity>,
+    },
+}
+
+/// How a pleat is folded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PleatKind {
+    /// One fold.
+    Knife,
+    /// Two folds that point away from each other on the right side.
+    Box,
+    /// Two folds that meet on the right side.
+    Inverted,
+}
+
+/// Pleats along an edge.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PleatFile {
+    /// The edge.
+    pub edge: Located<String>,
+    /// Where each begins, from the edge's start.
+    pub at: Vec<Located<Quantity>>,
+    /// Width of one under-layer.
+    pub depth: Located<Quantity>,
+    /// Shape; knife if not given.
+    pub kind: Option<Located<PleatKind>>,
+    /// The edge next to `edge` that knife pleats point to.
+    pub toward: Option<Located<String>>,
+    /// Length stitched down from the edge.
+    pub sewn: Option<Located<Quantity>>,
+}
+
+/// A line inside a piece.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LineFile {
+    /// Its key.
+    pub name: Located<String>,
+    /// A whole path, with its own `M`.
+    pub path: Located<String>,
+    /// Fold angle, degrees.
+    pub fold: Option<Located<f64>>,
+    /// `stitch`, `place`, `drill`, `elastic`, …
+    pub kind: Option<Located<String>>,
+    /// Elastic: length drawn in over length cut.
+    pub ratio: Option<Located<f64>>,
+}
+
+/// A seam.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SeamFile {
+    /// Its key.
+    pub name: Located<String>,
+    /// First chain.
+    pub sew: Vec<Located<String>>,
+    /// Second chain; `[mirror]` means the other half.
+    pub to: Vec<Located<String>>,
+    /// Length the second chain has in excess.
+    pub ease: Option<Located<Quantity>>,
+    /// length(sew) / length(to), the first chain gathered.
+    pub gather: Option<Located<f64>>,
+    /// length(sew) / length(to), the second chain stretched.
+    pub stretch: Option<Located<f64>>,
+    /// Difference that passes.
+    pub tolerance: Option<Located<Quantity>>,
+    /// Stretches that are open.
+    pub open: Vec<OpenFile>,
+    /// What closes them.
+    pub closure: Option<Located<String>>,
+    /// `face: same`, wrong side on right side.
+    pub face_same: Option<Located<bool>>,
+    /// `match: notches`.
+    pub match_notches: Option<Located<bool>>,
+    /// Sewing order.
+    pub stage: Option<Located<i32>>,
+    /// Layers that meet.
+    pub layers: Option<Located<[i32; 2]>>,
+    /// Seam allowance.
+    pub allowance: Option<Located<Quantity>>,
+    /// A remark.
+    pub note: Option<Located<String>>,
+}
+
+/// An opening in a seam.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OpenFile {
+    /// The edge at whose end it starts.
+    pub from: Located<String>,
+    /// Its length.
+    pub length: Located<Quantity>,
+    /// What closes it; the seam's `closure` if not given.
+    pub closure: Option<Located<String>>,
+}
+
+/// A button, hook, zip, …
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClosureFile {
+    /// Its kind.
+    pub kind: Located<String>,
+    /// The piece (or edge) that carries it.
+    pub on: Option<Located<String>>,
+    /// Points on it.
+    pub at: Vec<Located<[f64; 2]>>,
+    /// The piece it meets.
+    pub meets: Option<Located<String>>,
+    /// The points it meets there; the mirrored or same points if not given.
+    pub meets_at: Vec<Located<[f64; 2]>>,
+    /// Distance of repeated points along the grain.
+    pub pitch: Option<Located<Quantity>>,
+    /// Number of repeated points.
+    pub count: Option<Located<usize>>,
+    /// Everything else said of it (size, colour, order number).
+    pub hardware: Vec<(Located<String>, Located<Value>)>,
+}
+
+/// A regression bound.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TestFile {
+    /// `{seam: all, length: 1 mm}`.
+    Seam(Located<String>, Located<Quantity>),
+    /// `{gap: side, below: 2 mm}`.
+    Gap(Located<String>, Located<Quantity>),
+    /// `{flatten: skirt, area: 0.5 %, boundary: 1 mm}`.
+    Flatten(Located<String>, Option<Located<Quantity>>, Option<Located<Quantity>>),
+    /// `{drape: skirt, area: 0.5 %, boundary: 0.5 %}`.
+    Drape(Located<String>, Option<Located<Quantity>>, Option<Located<Quantity>>),
+    /// `{crossings: 0}`.
+    Crossings(usize),
+    /// `{openings: 4}`: rims of the sewn garment, checked on reading.
+    Openings(usize),
+    /// `{worn: true}`.
+    Worn,
+}

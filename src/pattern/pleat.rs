@@ -1,0 +1,148 @@
+//! Pleats. A knife pleat that begins at `p` with under-layers of depth `d` takes up the stretch `p..p + 2d` of its
+//! edge. Pointing towards the edge's end it is folded at `p`, so that `p - d..p` lies on top of two under-layers;
+//! pointing towards the start it is folded at `p + 2d`. A box pleat is a knife to the start, a panel of `2d` and a
+//! knife to the end; an inverted pleat a knife to the end and, next to it, one to the start.
+//!
+//! The seam of the edge walks what is visible, and two seams per fold hold the under-layers to it and to each other.
+
+use super::SeamKind;
+use super::diagnostic::{Findings, Spot};
+use super::draft::{Draft, OwnSeam, Part, Stretch, position};
+use super::file::{PieceFile, PleatFile, PleatKind, Unit};
+use super::problem::Problem;
+
+/// One fold: begins at `at`, points to the edge's end or start.
+#[derive(Clone, Copy)]
+struct Fold {
+    at: f64,
+    depth: f64,
+    to_end: bool,
+    spot: Spot,
+}
+
+impl Fold {
+    /// The top layer and the under-layers in walking order.
+    fn occupied(self) -> [f64; 2] {
+        let d = self.depth;
+        if self.to_end { [self.at - d, self.at + 2.0 * d] } else { [self.at, self.at + 3.0 * d] }
+    }
+
+    /// Top on middle layer, middle on bottom layer: pairs of walked stretches.
+    fn layers(self) -> [[(f64, f64); 2]; 2] {
+        let (p, d) = (self.at, self.depth);
+        if self.to_end {
+            [[(p - d, p), (p + d, p)], [(p + d, p), (p + d, p + 2.0 * d)]]
+        } else {
+            let q = p + 2.0 * d;
+            [[(q, q + d), (q, q - d)], [(q, q - d), (p, q - d)]]
+        }
+    }
+}
+
+/// Lays the pleats of a piece.
+pub(super) fn lay(drawn: &mut Draft, piece: &PieceFile, unit: Unit, findings: &mut Findings) {
+    let mut edges: Vec<&str> = Vec::new();
+    for pleat in &piece.pleats {
+        if drawn.find(&pleat.edge.value).is_none() {
+            findings.error(pleat.edge.at, drawn.unknown_edge(&pleat.edge.value));
+        } else if !edges.contains(&pleat.edge.value.as_str()) {
+            edges.push(&pleat.edge.value);
+        }
+        if let Some(sewn) = &pleat.sewn {
+            findings.warn(sewn.at, Problem::PleatSewn(format!("{}.{}", drawn.name, pleat.edge.value)));
+        }
+    }
+    for edge in edges {
+        let pleats: Vec<&PleatFile> = piece.pleats.iter().filter(|p| p.edge.value == edge).collect();
+        lay_edge(drawn, edge, &pleats, unit, findings);
+    }
+}
+
+fn lay_edge(drawn: &mut Draft, edge: &str, pleats: &[&PleatFile], unit: Unit, findings: &mut Findings) {
+    let Some(named) = drawn.find(edge) else { return };
+    let (length, parts, whole) = (named.length, named.parts.len(), named.parts[0].edge);
+    let full_name = format!("{}.{edge}", drawn.name);
+    if parts > 1 {
+        findings.error(pleats[0].edge.at, Problem::DartsAndPleats(full_name));
+        return;
+    }
+    let mut folds = Vec::new();
+    for pleat in pleats {
+        match points_to_end(drawn, whole, pleat) {
+            Ok(to_end) => folds.extend(folds_of(pleat, to_end, length, unit)),
+            Err(problem) => findings.error(pleat.edge.at, problem),
+        }
+    }
+    folds.sort_by(|a, b| a.at.total_cmp(&b.at));
+    let take: f64 = folds.iter().map(|f| 2.0 * f.depth).sum();
+    if take >= length {
+        let problem = Problem::PleatsTooLong { edge: full_name, take: take * 1e3, length: length * 1e3 };
+        findings.error(pleats[0].edge.at, problem);
+        return;
+    }
+    let mut end = 0.0;
+    for fold in &folds {
+        let [from, to] = fold.occupied();
+        // Top layers may meet (pleats edge to edge) but not overlap what another pleat takes up.
+        if from < end - 1e-6 || to > length + 1e-6 {
+            findings.error(fold.spot, Problem::PleatsOverlap { edge: full_name, at: fold.at * 1e3 });
+            return;
+        }
+        end = fold.at + 2.0 * fold.depth;
+    }
+    apply(drawn, edge, whole, length, &folds);
+}
+
+/// Whether `toward` lies at the end of the edge.
+fn points_to_end(drawn: &Draft, (_, index): (usize, usize), pleat: &PleatFile) -> Result<bool, Problem> {
+    let ring = &drawn.rings[0];
+    let next = &ring[(index + 1) % ring.len()].name;
+    let previous = &ring[(index + ring.len() - 1) % ring.len()].name;
+    match &pleat.toward {
+        None => Ok(true),
+        Some(t) if t.value == *next => Ok(true),
+        Some(t) if t.value == *previous => Ok(false),
+        Some(t) => Err(Problem::Toward {
+            toward: t.value.clone(),
+            edge: pleat.edge.value.clone(),
+            known: format!("{previous} and {next}"),
+        }),
+    }
+}
+
+fn folds_of(pleat: &PleatFile, to_end: bool, length: f64, unit: Unit) -> Vec<Fold> {
+    let depth = pleat.depth.value.value(unit);
+    let kind = pleat.kind.as_ref().map_or(PleatKind::Knife, |k| k.value);
+    let one = |at, to_end, spot| Fold { at, depth, to_end, spot };
+    let folds = |at: f64, spot| match kind {
+        PleatKind::Knife => vec![one(at, to_end, spot)],
+        PleatKind::Box => vec![one(at, false, spot), one(at + 4.0 * depth, true, spot)],
+        PleatKind::Inverted => vec![one(at, true, spot), one(at + 2.0 * depth, false, spot)],
+    };
+    pleat.at.iter().flat_map(|at| folds(position(at.value, length, unit), at.at)).collect()
+}
+
+fn apply(drawn: &mut Draft, edge: &str, whole: (usize, usize), length: f64, folds: &[Fold]) {
+    let mut parts = Vec::new();
+    let mut from = 0.0;
+    for fold in folds {
+        parts.push((from, fold.at));
+        from = fold.at + 2.0 * fold.depth;
+    }
+    parts.push((from, length));
+    let visible = parts.into_iter().filter(|(a, b)| b - a > 1e-9);
+    if let Some(named) = drawn.named.iter_mut().find(|n| n.name == edge) {
+        named.parts = visible.map(|(from, to)| Part { edge: whole, from, to, offset: 0.0 }).collect();
+    }
+    for (i, fold) in folds.iter().enumerate() {
+        for (j, [a, b]) in fold.layers().into_iter().enumerate() {
+            let stretch = |(from, to)| Stretch { edge: whole, from, to };
+            drawn.own_seams.push(OwnSeam {
+                name: format!("{edge}.pleat{}.{}", i + 1, ["top", "under"][j]),
+                a: stretch(a),
+                b: stretch(b),
+                kind: SeamKind::Pleat,
+            });
+        }
+    }
+}

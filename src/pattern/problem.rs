@@ -1,0 +1,200 @@
+//! Everything that can be wrong with a garment file. Lengths in messages are millimetres.
+
+/// One kind of mistake, with what is needed to say it.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "every field is a word or a number of the message above it")]
+pub enum Problem {
+    // The text.
+    #[error("cannot read the file: {0}")]
+    Unreadable(String),
+    #[error("it is a directory, not a garment file")]
+    Directory,
+    #[error("the file has {bytes} bytes; a garment file has at most {limit}")]
+    TooLarge { bytes: u64, limit: u64 },
+    #[error("the file is not UTF-8 text (byte {0} is no part of a character)")]
+    NotText(usize),
+    #[error("the file is empty")]
+    Empty,
+    #[error("not YAML: {0}")]
+    Syntax(String),
+    #[error("a second document starts here; a garment file holds one")]
+    SecondDocument,
+    #[error("nested deeper than {0} levels")]
+    TooDeep(usize),
+    #[error("the file unfolds to more than {0} values; its aliases repeat too much")]
+    TooManyValues(usize),
+    #[error("an alias stands inside the value it names")]
+    EndlessAlias,
+    #[error("a key must be a word, not a list or a mapping")]
+    KeyNotText,
+    #[error("duplicate key '{key}' at line {line} (first at line {first})")]
+    DuplicateKey { key: String, line: usize, first: usize },
+
+    // Its values.
+    #[error("{what} must be {expected}, not {found}")]
+    WrongType { what: String, expected: &'static str, found: String },
+    #[error("unknown key '{key}' in {what}")]
+    UnknownKey { key: String, what: String, nearest: Option<String>, known: String },
+    #[error("{what} needs '{key}'")]
+    MissingKey { what: String, key: &'static str },
+    #[error("'{one}' and '{other}' exclude each other")]
+    Exclusive { one: &'static str, other: &'static str },
+    #[error("unknown unit '{0}'; use mm, cm or in")]
+    UnknownUnit(String),
+    #[error("garment file version {0} is not known; this program reads version 1")]
+    Version(u32),
+    #[error("unknown {what} '{found}'; use {known}")]
+    UnknownWord { what: &'static str, found: String, known: &'static str },
+    #[error("{what} must be {expected}, not {found}")]
+    OutOfRange { what: String, expected: &'static str, found: String },
+    #[error("the name '{0}' cannot be used: names have letters, digits, _ and -, and are not L, R, mirror or a number")]
+    BadName(String),
+
+    // Names.
+    #[error("piece '{name}' not found{}", did_you_mean(.nearest))]
+    UnknownPiece { name: String, nearest: Option<String>, known: String },
+    #[error("edge '{name}' not found; {known}")]
+    UnknownEdge { name: String, nearest: Option<String>, known: String },
+    #[error("seam '{name}' not found{}", did_you_mean(.nearest))]
+    UnknownSeam { name: String, nearest: Option<String>, known: String },
+    #[error("fabric '{name}' not found{}", did_you_mean(.nearest))]
+    UnknownFabric { name: String, nearest: Option<String>, known: String },
+    #[error("'{0}' names no edge; write piece.edge, piece.L.edge or piece.edge@20%..80%")]
+    BadReference(String),
+    #[error("'{0}' matches no edge")]
+    MatchesNothing(String),
+    #[error("'like' goes round in a circle: {0}")]
+    LikeCircle(String),
+    #[error("the file has no pieces")]
+    NoPieces,
+
+    // Outlines.
+    #[error("piece '{0}' has no outline")]
+    NoOutline(String),
+    #[error("edge '{piece}.{edge}': {reason}")]
+    BadPath { piece: String, edge: String, reason: String },
+    #[error("outline of '{piece}' does not close: last point {last} is {gap:.1} mm from start {start}")]
+    NotClosed { piece: String, last: String, start: String, gap: f64 },
+    #[error("outline of '{piece}' crosses itself near {near}, between {edges}")]
+    Crosses { piece: String, near: String, edges: String },
+    #[error("outline of '{0}' encloses no area")]
+    NoArea(String),
+    #[error("outline of '{0}' runs counter-clockwise; reversed it")]
+    CounterClockwise(String),
+    #[error("edge name '{edge}' used twice in '{piece}'")]
+    EdgeTwice { piece: String, edge: String },
+    #[error("hole '{hole}' lies outside piece '{piece}'")]
+    HoleOutside { piece: String, hole: String },
+    #[error("grain of '{0}' has zero length")]
+    ZeroGrain(String),
+    #[error("piece '{0}' has no grain; taken as running down the drawing")]
+    NoGrain(String),
+    #[error("notch at {at:.1} mm lies off {edge}, which is {length:.1} mm long")]
+    NotchOff { edge: String, at: f64, length: f64 },
+    #[error("fold edge '{0}' is curved; only straight edges can be folded")]
+    CurvedFold(String),
+    #[error("fold edge '{0}' has darts or pleats; draw it without")]
+    ShapedFold(String),
+    #[error("piece '{0}' crosses its fold edge")]
+    BeyondFold(String),
+    #[error("cut: pair piece '{0}' has no L/R seams; use cut: 2")]
+    PairUnsewn(String),
+
+    // Darts and pleats.
+    #[error(
+        "dart at {edge}@{at:.0}: its mouth reaches from {from:.1} to {to:.1} mm but the edge is {length:.1} mm long"
+    )]
+    DartMouth { edge: String, at: f64, from: f64, to: f64, length: f64 },
+    #[error("dart at {edge}@{at:.0}: legs differ {one:.1} / {other:.1} mm")]
+    DartLegs { edge: String, at: f64, one: f64, other: f64 },
+    #[error("dart tip {tip} lies outside piece '{piece}'")]
+    DartTip { piece: String, tip: String },
+    #[error("darts overlap on {0}")]
+    DartsOverlap(String),
+    #[error("pleats on '{edge}' take {take:.0} mm but the edge has {length:.0} mm")]
+    PleatsTooLong { edge: String, take: f64, length: f64 },
+    #[error("pleat at {at:.0} mm on '{edge}' overlaps its neighbour or the end of the edge")]
+    PleatsOverlap { edge: String, at: f64 },
+    #[error("edge '{0}' has both darts and pleats; split it in two")]
+    DartsAndPleats(String),
+    #[error("'toward: {toward}' is not next to '{edge}', whose neighbours are {known}")]
+    Toward { toward: String, edge: String, known: String },
+    #[error("pleats on '{0}' are stitched down their whole depth at the edge only; 'sewn' is kept, not simulated")]
+    PleatSewn(String),
+
+    // Seams.
+    #[error("range {0} runs backwards")]
+    BackwardsRange(String),
+    #[error("seam '{seam}' uses {reference} but the edge is {length:.1} mm long")]
+    RangeBeyond { seam: String, reference: String, length: f64 },
+    #[error("range of {0} is empty: the cloth there is taken up by a dart or pleat")]
+    RangeEmpty(String),
+    #[error("seam '{seam}': {reference} lies on the fold, where the cloth goes on; there is nothing to sew")]
+    OnFold { seam: String, reference: String },
+    #[error("seam '{seam}': {reference} is on both sides of the garment; write {choice}")]
+    WhichSide { seam: String, reference: String, choice: String },
+    #[error("seam '{seam}': {reference} is cut {count} times; say which, {choice}")]
+    WhichCopy { seam: String, reference: String, choice: String, count: usize },
+    #[error("seam '{seam}': piece '{piece}' has no mirror; 'to: mirror' needs cut: pair or fold")]
+    NoMirror { seam: String, piece: String },
+    #[error("seam '{seam}': {sides}, {apart:.1} mm apart; {advice} (tolerance {tolerance:.0})")]
+    LengthsApart { seam: String, sides: String, apart: f64, advice: String, tolerance: f64 },
+    #[error(
+        "seam '{seam}': ease {ease:.0} mm is {percent:.0} % of {length:.0} mm; more than 8 % gathers, say {advice}"
+    )]
+    EaseTooLarge { seam: String, ease: f64, percent: f64, length: f64, advice: String },
+    #[error("gather: {ratio} would stretch the cloth by {percent:.0} %; did you swap sew and to?")]
+    GatherBelowOne { ratio: f64, percent: f64 },
+    #[error("stretch: {ratio} would gather the cloth; did you swap sew and to?")]
+    StretchBelowOne { ratio: f64 },
+    #[error("{edge} is sewn twice on {from:.0}..{to:.0} mm: in '{first}' and in '{second}'")]
+    SewnTwice { edge: String, from: f64, to: f64, first: String, second: String },
+    #[error("edges neither sewn nor free: {0}")]
+    NeitherSewnNorFree(String),
+    #[error("{edge} is listed free but sewn in '{seam}'")]
+    FreeButSewn { edge: String, seam: String },
+    #[error("chain in '{seam}' is not continuous: {end}, {start}")]
+    ChainBroken { seam: String, end: String, start: String },
+    #[error("seam '{seam}' is twisted: its ends meet {one} and {other}; use face: same if wanted")]
+    Twisted { seam: String, one: String, other: String },
+    #[error("sewing closes the surface into a non-orientable band at '{0}'")]
+    NonOrientable(String),
+    #[error("garment has {found} openings, expected {expected}: {rims}")]
+    Openings { found: usize, expected: usize, rims: String },
+    #[error("seam '{seam}' has no end at '{from}'; its ends are at {known}")]
+    OpenFrom { seam: String, from: String, known: String },
+    #[error("seam '{seam}' is {length:.1} mm long but opens {open:.1} mm")]
+    OpenTooLong { seam: String, length: f64, open: f64 },
+    #[error("notch {notch} of {edge} has no partner on {other}")]
+    NotchAlone { notch: usize, edge: String, other: String },
+    #[error("seam order: '{seam}' is sewn before '{later}' that makes it a ring; order kept, stage them to change")]
+    SeamOrder { seam: String, later: String },
+}
+
+fn did_you_mean(nearest: &Option<String>) -> String {
+    nearest.as_ref().map_or_else(String::new, |n| format!("; did you mean '{n}'?"))
+}
+
+impl Problem {
+    /// What to do about it, where the message does not say so already.
+    pub fn hint(&self) -> Option<String> {
+        let hint = match self {
+            Self::UnknownKey { nearest: Some(n), .. } => format!("did you mean '{n}'?"),
+            Self::UnknownKey { known, .. } => format!("known keys: {known}"),
+            Self::UnknownPiece { known, .. } => format!("the pieces are: {known}"),
+            Self::UnknownSeam { known, .. } => format!("the seams are: {known}"),
+            Self::UnknownFabric { known, .. } => format!("the fabrics are: {known}"),
+            Self::UnknownEdge { nearest: Some(n), .. } => format!("did you mean '{n}'?"),
+            Self::NeitherSewnNorFree(_) => "sew them in a seam or list them under 'free'".to_owned(),
+            Self::NotClosed { .. } => "the last edge must end at 'start'".to_owned(),
+            Self::Empty => "a garment file starts with 'garment: 1'".to_owned(),
+            Self::CounterClockwise(_) => "distances along its edges are measured the clockwise way".to_owned(),
+            Self::NoGrain(_) => "give it as grain: [[x, y], [x, y]], tail to head".to_owned(),
+            Self::DartLegs { .. } => "give 'length' instead of 'tip' and both legs are equal".to_owned(),
+            Self::ChainBroken { .. } => "name the edges in the order they are sewn, end to end".to_owned(),
+            Self::TooManyValues(_) => "write the pieces with 'like' instead".to_owned(),
+            _ => return None,
+        };
+        Some(hint)
+    }
+}

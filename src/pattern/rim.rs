@@ -1,0 +1,226 @@
+//! Points on the rims of pieces, which of them sewing brings together, and the openings that remain.
+
+use super::{EdgeId, Garment, Piece, Span};
+
+/// Points of one rim closer than this (metres) are one: the largest difference a seam may have by default is 2 mm.
+const SAME: f64 = 1e-3;
+
+/// A point of a rim: ring of a piece, metres from the ring's start.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RimPoint {
+    piece: usize,
+    ring: usize,
+    at: f64,
+}
+
+/// Lengths of all rings, for turning edge positions into rim positions.
+pub(super) struct Rims {
+    /// `[piece][ring]`: arc length at the start of every edge, and the total.
+    starts: Vec<Vec<Vec<f64>>>,
+}
+
+impl Rims {
+    pub(super) fn new(pieces: &[Piece]) -> Self {
+        let ring = |edges: &Vec<super::Edge>| {
+            let mut at = vec![0.0];
+            let mut sum = 0.0;
+            for edge in edges {
+                sum += edge.path.length();
+                at.push(sum);
+            }
+            at
+        };
+        Self { starts: pieces.iter().map(|p| p.loops.iter().map(ring).collect()).collect() }
+    }
+
+    fn total(&self, piece: usize, ring: usize) -> f64 {
+        self.starts[piece][ring].last().copied().unwrap_or(0.0)
+    }
+
+    pub(super) fn point(&self, edge: EdgeId, at: f64) -> RimPoint {
+        let total = self.total(edge.piece, edge.ring);
+        let at = (self.starts[edge.piece][edge.ring][edge.index] + at) % total;
+        RimPoint { piece: edge.piece, ring: edge.ring, at }
+    }
+
+    /// Whether two points are (nearly) the same point of one rim.
+    pub(super) fn same(&self, a: RimPoint, b: RimPoint) -> bool {
+        let apart = (a.at - b.at).abs();
+        (a.piece, a.ring) == (b.piece, b.ring) && apart.min(self.total(a.piece, a.ring) - apart) < SAME
+    }
+
+    /// The edge before and the edge after a corner.
+    pub(super) fn edges_at(&self, pieces: &[Piece], p: RimPoint) -> Vec<EdgeId> {
+        let edges = &pieces[p.piece].loops[p.ring];
+        (0..edges.len())
+            .map(|index| EdgeId { piece: p.piece, ring: p.ring, index })
+            .filter(|&e| {
+                let length = edges[e.index].path.length();
+                self.same(self.point(e, 0.0), p) || self.same(self.point(e, length), p)
+            })
+            .collect()
+    }
+}
+
+/// Which rim points sewing makes one (a disjoint-set forest over the points met so far).
+#[derive(Clone, Default)]
+pub(super) struct Identities {
+    points: Vec<RimPoint>,
+    parent: Vec<usize>,
+}
+
+impl Identities {
+    fn find(&self, mut i: usize) -> usize {
+        while self.parent[i] != i {
+            i = self.parent[i];
+        }
+        i
+    }
+
+    fn node(&mut self, rims: &Rims, p: RimPoint) -> usize {
+        let known = self.points.iter().position(|&q| rims.same(p, q));
+        known.unwrap_or_else(|| {
+            self.points.push(p);
+            self.parent.push(self.points.len() - 1);
+            self.points.len() - 1
+        })
+    }
+
+    fn class(&mut self, rims: &Rims, p: RimPoint) -> usize {
+        let node = self.node(rims, p);
+        self.find(node)
+    }
+
+    pub(super) fn join(&mut self, rims: &Rims, p: RimPoint, q: RimPoint) {
+        let (p, q) = (self.class(rims, p), self.class(rims, q));
+        self.parent[p.max(q)] = p.min(q);
+    }
+
+    /// Whether the two points are one, drawn so or sewn so.
+    pub(super) fn one(&self, rims: &Rims, p: RimPoint, q: RimPoint) -> bool {
+        let class = |p| self.points.iter().position(|&x| rims.same(p, x)).map(|i| self.find(i));
+        rims.same(p, q) || class(p).is_some_and(|c| class(q) == Some(c))
+    }
+
+    /// Joins what a seam brings together: its ends, and every joint of one chain with what lies across.
+    pub(super) fn add_seam(&mut self, rims: &Rims, a: &[Span], b: &[Span], marks: &[(f64, f64)]) {
+        for &(on_a, on_b) in marks {
+            for p in at_length(rims, a, on_a) {
+                for q in at_length(rims, b, on_b) {
+                    self.join(rims, p, q);
+                }
+            }
+        }
+    }
+}
+
+/// The rim points at this length of a chain: two where it goes from one span to the next.
+fn at_length(rims: &Rims, chain: &[Span], at: f64) -> Vec<RimPoint> {
+    let mut points = Vec::new();
+    let mut done = 0.0;
+    for span in chain {
+        let along = at - done;
+        if (-1e-9..=span.length() + 1e-9).contains(&along) {
+            let position = span.from + (span.to - span.from) * along / span.length();
+            points.push(rims.point(span.edge, position));
+        }
+        done += span.length();
+    }
+    points
+}
+
+/// An opening of the sewn garment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Opening {
+    /// Its free stretches, each from its smaller to its larger position.
+    pub spans: Vec<Span>,
+    /// Length of the rim, metres.
+    pub length: f64,
+}
+
+/// Free stretches shorter than this (metres) are rounding, not openings.
+pub(super) const SLIVER: f64 = 1e-3;
+
+/// The openings of the sewn garment, from the seams alone: every stretch of rim that no seam takes, joined where
+/// seams or corners join them.
+pub fn openings(garment: &Garment) -> Vec<Opening> {
+    let rims = Rims::new(&garment.pieces);
+    let mut one = Identities::default();
+    for seam in &garment.seams {
+        one.add_seam(&rims, &seam.a, &seam.b, &joint_marks(seam));
+    }
+    let mut free: Vec<Span> = Vec::new();
+    for edge in edge_ids(&garment.pieces) {
+        let spans = garment.seams.iter().flat_map(|s| s.a.iter().chain(&s.b)).filter(|s| s.edge == edge);
+        let taken = spans.map(|s| (s.from.min(s.to), s.from.max(s.to))).collect();
+        let gaps = gaps(taken, garment.pieces[edge.piece].loops[edge.ring][edge.index].path.length());
+        free.extend(gaps.into_iter().map(|(from, to)| Span { edge, from, to }));
+    }
+    for span in &free {
+        one.join(&rims, rims.point(span.edge, span.from), rims.point(span.edge, span.to));
+    }
+    let mut found: Vec<(usize, Opening)> = Vec::new();
+    for span in free {
+        let class = one.class(&rims, rims.point(span.edge, span.from));
+        let i = found.iter().position(|(c, _)| *c == class).unwrap_or_else(|| {
+            found.push((class, Opening { spans: Vec::new(), length: 0.0 }));
+            found.len() - 1
+        });
+        found[i].1.length += span.length();
+        found[i].1.spans.push(span);
+    }
+    found.into_iter().map(|(_, o)| o).collect()
+}
+
+/// The seam's marks and, in proportion between them, every joint of either chain.
+pub(super) fn joint_marks(seam: &super::Seam) -> Vec<(f64, f64)> {
+    let mut all = seam.marks.clone();
+    let across = |at: f64, from: fn(&(f64, f64)) -> f64, to: fn(&(f64, f64)) -> f64| {
+        let pair = seam.marks.windows(2).find(|w| at <= from(&w[1]))?;
+        let share = (at - from(&pair[0])) / (from(&pair[1]) - from(&pair[0]));
+        Some(to(&pair[0]) + share * (to(&pair[1]) - to(&pair[0])))
+    };
+    for at in joints(&seam.a) {
+        all.extend(across(at, |m| m.0, |m| m.1).map(|b| (at, b)));
+    }
+    for at in joints(&seam.b) {
+        all.extend(across(at, |m| m.1, |m| m.0).map(|a| (a, at)));
+    }
+    all
+}
+
+/// Lengths along a chain at which it goes from one span to the next.
+pub(super) fn joints(chain: &[Span]) -> Vec<f64> {
+    let mut sum = 0.0;
+    let ends = chain.iter().map(|s| {
+        sum += s.length();
+        sum
+    });
+    ends.take(chain.len().saturating_sub(1)).collect()
+}
+
+/// Every edge of every piece.
+pub(super) fn edge_ids(pieces: &[Piece]) -> Vec<EdgeId> {
+    let mut all = Vec::new();
+    for (piece, p) in pieces.iter().enumerate() {
+        for (ring, edges) in p.loops.iter().enumerate() {
+            all.extend((0..edges.len()).map(|index| EdgeId { piece, ring, index }));
+        }
+    }
+    all
+}
+
+/// What of `0..length` the intervals leave.
+pub(super) fn gaps(mut taken: Vec<(f64, f64)>, length: f64) -> Vec<(f64, f64)> {
+    taken.sort_by(|a, b| a.0.total_cmp(&b.0));
+    taken.push((length, length));
+    let mut left = Vec::new();
+    let mut at = 0.0;
+    for (from, to) in taken {
+        if from - at > SLIVER {
+            left.push((at, from));
+        }
+        at = to.max(at);
+    }
+    left
+}

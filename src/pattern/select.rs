@@ -1,0 +1,257 @@
+//! Which edges of which cut pieces a seam joins.
+//!
+//! A reference without a side to a piece that has two sides means both: if every reference of a seam is of that kind,
+//! the seam is there twice, `side.L` and `side.R`. Joined with a piece that is there once, an edge of a folded piece
+//! that ends on the fold means the whole edge across both halves; any other must name its side.
+
+use super::Span;
+use super::cut::{Instance, Pieces};
+use super::diagnostic::Findings;
+use super::draft::{Draft, position};
+use super::file::{Cut, SeamFile, Side, Unit};
+use super::inherit::unknown_piece;
+use super::problem::Problem;
+use super::reference::Reference;
+
+/// A range that misses the end of its edge by this much (metres) reaches it: rounding of the file's numbers.
+const SNAP: f64 = 5e-4;
+
+/// The spans of one reference, in the direction of the outline.
+#[derive(Clone, Debug)]
+pub(super) struct Run {
+    /// `front.side`, as written.
+    pub(super) text: String,
+    pub(super) spans: Vec<Span>,
+}
+
+/// A seam before its direction is known.
+#[derive(Clone, Debug)]
+pub(super) struct Candidate<'a> {
+    pub(super) file: &'a SeamFile,
+    /// With the side: `side.L`.
+    pub(super) name: String,
+    pub(super) a: Vec<Run>,
+    pub(super) b: Vec<Run>,
+    /// Whether the first chain should rather be walked with the outline: as the first edge was drawn.
+    pub(super) with: bool,
+}
+
+/// A reference whose edge was found.
+struct Found {
+    reference: Reference,
+    draft: usize,
+    from: f64,
+    to: f64,
+}
+
+/// Which of its pieces a reference may mean.
+#[derive(Clone, Copy, PartialEq)]
+enum Freedom {
+    Fixed,
+    Sides,
+    Copies(usize),
+}
+
+#[derive(Clone, Copy)]
+enum Choice {
+    Fixed,
+    Side(Side),
+    Copy(usize),
+}
+
+/// What seams are chosen from.
+pub(super) struct Source<'a> {
+    pub(super) drafts: &'a [Draft],
+    pub(super) cut: &'a Pieces,
+    pub(super) unit: Unit,
+}
+
+impl Source<'_> {
+    /// The seams a seam of the file stands for: none (on the fold, or wrong), one, or one per side or copy.
+    pub(super) fn candidates<'f>(&self, seam: &'f SeamFile, findings: &mut Findings) -> Vec<Candidate<'f>> {
+        let mirror = matches!(seam.to.as_slice(), [to] if to.value == "mirror");
+        let before = findings.errors();
+        let a = self.find_all(seam, &seam.sew, findings);
+        let b = if mirror { Vec::new() } else { self.find_all(seam, &seam.to, findings) };
+        if findings.errors() > before {
+            return Vec::new();
+        }
+        let built = if mirror { self.mirrored(seam, &a) } else { self.matched(seam, &a, &b) };
+        built.unwrap_or_else(|(at, problem)| {
+            findings.error(at, problem);
+            Vec::new()
+        })
+    }
+
+    fn find_all(&self, seam: &SeamFile, chain: &[super::Located<String>], findings: &mut Findings) -> Vec<Found> {
+        let mut found = Vec::new();
+        for written in chain {
+            match Reference::parse(written).and_then(|r| self.find(seam, r)) {
+                Ok(f) => found.push(f),
+                Err(problem) => findings.error(written.at, problem),
+            }
+        }
+        found
+    }
+
+    fn find(&self, seam: &SeamFile, reference: Reference) -> Result<Found, Problem> {
+        let names = || self.drafts.iter().map(|d| d.name.as_str());
+        let draft =
+            names().position(|n| n == reference.piece).ok_or_else(|| unknown_piece(&reference.piece, names()))?;
+        let drawn = &self.drafts[draft];
+        let edge = drawn.find(&reference.edge).ok_or_else(|| drawn.unknown_edge(&reference.edge))?;
+        let (mut from, mut to) = (0.0, edge.length);
+        if let Some(range) = reference.range {
+            let beyond = || Problem::RangeBeyond {
+                seam: seam.name.value.clone(),
+                reference: reference.text.clone(),
+                length: edge.length * 1e3,
+            };
+            [from, to] = range.map(|q| position(q, edge.length, self.unit));
+            if from < -SNAP || to > edge.length + SNAP {
+                return Err(beyond());
+            }
+            from = if from < SNAP { 0.0 } else { from };
+            to = if to > edge.length - SNAP { edge.length } else { to };
+            if from >= to {
+                return Err(Problem::BackwardsRange(reference.text.clone()));
+            }
+        }
+        if edge.stretches(from, to).is_empty() {
+            return Err(Problem::RangeEmpty(reference.text));
+        }
+        Ok(Found { reference, draft, from, to })
+    }
+
+    fn freedom(&self, found: &Found) -> Freedom {
+        match self.drafts[found.draft].cut {
+            Cut::Pair | Cut::Fold(_) if found.reference.side.is_none() => Freedom::Sides,
+            Cut::Count(n) if found.reference.copy.is_none() => Freedom::Copies(n),
+            _ => Freedom::Fixed,
+        }
+    }
+
+    fn matched<'f>(&self, seam: &'f SeamFile, a: &[Found], b: &[Found]) -> Built<'f> {
+        let freedoms: Vec<Freedom> = a.iter().chain(b).map(|f| self.freedom(f)).collect();
+        let alike = freedoms.windows(2).all(|w| w[0] == w[1]);
+        let choices = match freedoms.first() {
+            Some(Freedom::Sides) if alike => vec![Choice::Side(Side::Left), Choice::Side(Side::Right)],
+            Some(&Freedom::Copies(n)) if alike => (1..=n).map(Choice::Copy).collect(),
+            _ => vec![Choice::Fixed],
+        };
+        let mut built = Vec::new();
+        for choice in choices {
+            let suffix = match choice {
+                Choice::Fixed => String::new(),
+                Choice::Side(side) => format!(".{}", side.letter()),
+                Choice::Copy(copy) => format!(".{copy}"),
+            };
+            let (with, a) = self.runs(seam, a, choice)?;
+            let (_, b) = self.runs(seam, b, choice)?;
+            built.push(Candidate { file: seam, name: format!("{}{suffix}", seam.name.value), a, b, with });
+        }
+        Ok(built)
+    }
+
+    /// The runs of a chain, and whether its first edge runs as drawn.
+    fn runs(&self, seam: &SeamFile, chain: &[Found], choice: Choice) -> Result<(bool, Vec<Run>), Located> {
+        let mut runs = Vec::new();
+        let mut with = true;
+        for (i, found) in chain.iter().enumerate() {
+            let instances = self.instances(seam, found, choice).map_err(|p| (found.reference.at, p))?;
+            if i == 0 {
+                with = !instances[0].mirrored;
+            }
+            let mut spans = Vec::new();
+            for instance in instances {
+                spans.extend(self.spans(seam, found, instance).map_err(|p| (found.reference.at, p))?);
+            }
+            runs.push(Run { text: found.reference.text.clone(), spans });
+        }
+        Ok((with, runs))
+    }
+
+    /// The pieces or halves a reference means, in the order of the outline.
+    fn instances(&self, seam: &SeamFile, found: &Found, choice: Choice) -> Result<Vec<&Instance>, Problem> {
+        let reference = &found.reference;
+        let drawn = &self.drafts[found.draft];
+        let (side, copy) = match (self.freedom(found), choice) {
+            (Freedom::Fixed, _) => (reference.side, reference.copy),
+            (_, Choice::Side(side)) => (Some(side), None),
+            (_, Choice::Copy(copy)) => (None, Some(copy)),
+            (Freedom::Sides, Choice::Fixed) => return self.across_fold(seam, found),
+            (Freedom::Copies(count), Choice::Fixed) => {
+                let (reference, choice) = (reference.text.clone(), format!("{0}.1 to {0}.{count}", drawn.name));
+                return Err(Problem::WhichCopy { seam: seam.name.value.clone(), reference, choice, count });
+            }
+        };
+        let is_it = |i: &&Instance| i.draft == found.draft && i.side == side && i.copy == copy;
+        let instance = self.cut.instances.iter().find(is_it);
+        instance.map(|i| vec![i]).ok_or_else(|| Problem::BadReference(reference.text.clone()))
+    }
+
+    /// Both halves of an edge that ends on the fold.
+    fn across_fold(&self, seam: &SeamFile, found: &Found) -> Result<Vec<&Instance>, Problem> {
+        let (drawn, reference) = (&self.drafts[found.draft], &found.reference);
+        let halves: Vec<&Instance> = self.cut.instances.iter().filter(|i| i.draft == found.draft).collect();
+        let count = drawn.rings[0].len();
+        let parts = drawn.find(&reference.edge).map_or(&[][..], |n| &n.parts);
+        if let (Some(fold), Some(first), Some(last), None) = (drawn.fold, parts.first(), parts.last(), reference.range)
+            && first.edge.0 == 0
+        {
+            if (last.edge.1 + 1) % count == fold {
+                return Ok(halves);
+            }
+            if (fold + 1) % count == first.edge.1 {
+                return Ok(halves.into_iter().rev().collect());
+            }
+        }
+        let named = |side: Side| format!("{}.{}.{}", drawn.name, side.letter(), reference.edge);
+        Err(Problem::WhichSide {
+            seam: seam.name.value.clone(),
+            reference: reference.text.clone(),
+            choice: format!("{} or {}", named(Side::Left), named(Side::Right)),
+        })
+    }
+
+    fn spans(&self, seam: &SeamFile, found: &Found, on: &Instance) -> Result<Vec<Span>, Problem> {
+        let drawn = &self.drafts[found.draft];
+        let stretches = drawn.find(&found.reference.edge).map(|n| n.stretches(found.from, found.to));
+        let spans: Option<Vec<Span>> = stretches.unwrap_or_default().into_iter().map(|s| on.span(drawn, s)).collect();
+        let spans = spans.ok_or_else(|| Problem::OnFold {
+            seam: seam.name.value.clone(),
+            reference: found.reference.text.clone(),
+        })?;
+        Ok(if on.mirrored { turned(&spans) } else { spans })
+    }
+
+    fn mirrored<'f>(&self, seam: &'f SeamFile, chain: &[Found]) -> Built<'f> {
+        for found in chain {
+            let drawn = &self.drafts[found.draft];
+            if !matches!(drawn.cut, Cut::Pair | Cut::Fold(_)) {
+                let (seam, piece) = (seam.name.value.clone(), drawn.name.clone());
+                return Err((found.reference.at, Problem::NoMirror { seam, piece }));
+            }
+        }
+        // On the fold the cloth goes on: its edge is joined to its mirror image already.
+        let on_fold = |f: &Found| {
+            let drawn = &self.drafts[f.draft];
+            drawn.fold.is_some_and(|fold| drawn.find(&f.reference.edge).is_some_and(|n| n.parts[0].edge == (0, fold)))
+        };
+        let Some(first) = chain.first().filter(|_| !chain.iter().all(on_fold)) else { return Ok(Vec::new()) };
+        let side = first.reference.side.unwrap_or(self.drafts[first.draft].drawn);
+        let (with, a) = self.runs(seam, chain, Choice::Side(side))?;
+        let other: Vec<Found> =
+            chain.iter().map(|f| Found { reference: Reference { side: None, ..f.reference.clone() }, ..*f }).collect();
+        let (_, b) = self.runs(seam, &other, Choice::Side(side.other()))?;
+        Ok(vec![Candidate { file: seam, name: seam.name.value.clone(), a, b, with }])
+    }
+}
+
+type Located = (super::Spot, Problem);
+type Built<'f> = Result<Vec<Candidate<'f>>, Located>;
+
+/// Spans walked the other way.
+pub(super) fn turned(spans: &[Span]) -> Vec<Span> {
+    spans.iter().rev().map(|s| Span { edge: s.edge, from: s.to, to: s.from }).collect()
+}

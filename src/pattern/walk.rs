@@ -1,0 +1,73 @@
+//! Walking the seams: both lengths of each, and what they differ by beyond what was said.
+
+use super::{Garment, Give, SeamKind, Span};
+
+/// The lengths of one seam, metres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SeamWalk {
+    /// `side.L`.
+    pub name: String,
+    /// The first chain: `front.L.side`, several joined by ` + `.
+    pub a: String,
+    /// The second chain.
+    pub b: String,
+    /// Length of the first chain.
+    pub length_a: f64,
+    /// Length of the second chain.
+    pub length_b: f64,
+    /// How much longer the second is than the first and the seam's ease, gather or stretch make it.
+    pub difference: f64,
+    /// What is said about the lengths.
+    pub give: Give,
+    /// Where the seam comes from.
+    pub kind: SeamKind,
+}
+
+/// Walks every seam of a garment.
+pub fn walk(garment: &Garment) -> Vec<SeamWalk> {
+    garment
+        .seams
+        .iter()
+        .map(|seam| {
+            let (length_a, length_b) = (seam.length_a(), seam.length_b());
+            SeamWalk {
+                name: seam.name.clone(),
+                a: chain_name(garment, &seam.a),
+                b: chain_name(garment, &seam.b),
+                length_a,
+                length_b,
+                difference: difference(length_a, length_b, seam.give),
+                give: seam.give,
+                kind: seam.kind,
+            }
+        })
+        .collect()
+}
+
+/// What is left of the difference of two lengths once `give` has had its share.
+pub(super) fn difference(length_a: f64, length_b: f64, give: Give) -> f64 {
+    match give {
+        Give::Even => length_b - length_a,
+        Give::Ease(extra) => length_b - length_a - extra,
+        Give::Gather(ratio) | Give::Stretch(ratio) => length_b - length_a / ratio,
+    }
+}
+
+fn chain_name(garment: &Garment, chain: &[Span]) -> String {
+    let mut names: Vec<String> = chain.iter().map(|s| garment.edge_name(s.edge)).collect();
+    names.dedup();
+    names.join(" + ")
+}
+
+impl Garment {
+    /// `front.L.side`.
+    pub fn edge_name(&self, edge: super::EdgeId) -> String {
+        edge_name(&self.pieces, edge)
+    }
+}
+
+/// `front.L.side`.
+pub(super) fn edge_name(pieces: &[super::Piece], edge: super::EdgeId) -> String {
+    let piece = &pieces[edge.piece];
+    format!("{}.{}", piece.name, piece.loops[edge.ring][edge.index].name)
+}

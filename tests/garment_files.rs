@@ -1,0 +1,650 @@
+//! The five garments against their drafters' own numbers, every mistake a file can hold, and files written back.
+
+#![allow(clippy::unwrap_used, reason = "tests may")]
+
+use std::path::PathBuf;
+
+use toile::io::garment::{Loaded, Refused, read, read_file_only, read_text, write};
+use toile::pattern::{Bound, Diagnostic, Garment, LineKind, Problem, SeamKind, Severity, Side, openings, walk};
+
+const GARMENTS: [&str; 5] = ["child_dress", "tshirt", "gore_skirt", "trousers", "sheath_dress"];
+
+fn path(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("patterns").join(format!("{name}.yaml"))
+}
+
+fn load(name: &str) -> Loaded {
+    read(&path(name)).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn garment(text: &str) -> Garment {
+    read_text("test", "test.yaml", text).unwrap_or_else(|e| panic!("{e}")).garment
+}
+
+fn mistakes(text: &str) -> Vec<Diagnostic> {
+    match read_text("test", "test.yaml", text) {
+        Ok(loaded) => loaded.warnings,
+        Err(Refused { diagnostics }) => diagnostics,
+    }
+}
+
+/// Checks that the text gives this message at this word (its last occurrence) of this line.
+#[track_caller]
+fn says(text: &str, line: usize, word: &str, message: &str) {
+    let found = mistakes(text);
+    let shown = found.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n");
+    let hit = found.iter().find(|d| d.message.contains(message));
+    let hit = hit.unwrap_or_else(|| panic!("no '{message}' among:\n{shown}"));
+    let written = text.lines().nth(line - 1).unwrap();
+    assert_eq!((hit.line, Some(hit.column - 1)), (line, written.rfind(word)), "{word}\n{shown}");
+}
+
+/// Two 100 mm squares, sewn at one side; `{…}` marks of the callers replace lines.
+const SQUARES: &str = "\
+garment: 1
+pieces:
+  a:
+    grain: [[0, 0], [0, 9]]
+    outline:
+      start: 0 0
+      top: L 100 0
+      right: L 100 100
+      bottom: L 0 100
+      left: L 0 0
+  b:
+    grain: [[0, 0], [0, 9]]
+    outline:
+      start: 0 0
+      top: L 100 0
+      right: L 100 100
+      bottom: L 0 100
+      left: L 0 0
+seams:
+  side: {sew: a.right, to: b.left}
+free: [a.top, a.bottom, a.left, b.top, b.bottom, b.right]
+";
+
+/// [`SQUARES`] with one thing changed.
+#[track_caller]
+fn squares(from: &str, to: &str) -> String {
+    assert!(SQUARES.contains(from), "nothing to replace: {from}");
+    SQUARES.replacen(from, to, 1)
+}
+
+/// Areas (cm²) and outline lengths (mm) as drafted (CHECK.txt of the pattern set: 4000-point polylines).
+const DRAFTED: [(&str, &str, f64, f64); 20] = [
+    ("child_dress", "front.L", 1101.9, 1568.2),
+    ("child_dress", "front.R", 1101.9, 1568.2),
+    ("child_dress", "back.L", 1125.1, 1578.7),
+    ("child_dress", "back.R", 1125.1, 1578.7),
+    ("child_dress", "sleeve.L", 736.2, 1088.6),
+    ("gore_skirt", "front.L", 1620.7, 1728.0),
+    ("gore_skirt", "back.R", 1615.2, 1719.0),
+    ("gore_skirt", "waistband", 556.5, 1730.1),
+    ("sheath_dress", "front", 4662.0, 3576.7),
+    ("sheath_dress", "back.R", 2279.8, 2470.1),
+    ("sheath_dress", "back.L", 2279.6, 2470.1),
+    ("trousers", "front.R", 2515.1, 2571.5),
+    ("trousers", "front.L", 2515.1, 2571.5),
+    ("trousers", "back.R", 3004.6, 2649.4),
+    ("trousers", "waistband", 665.9, 1824.9),
+    ("tshirt", "front", 2680.0, 2224.2),
+    ("tshirt", "back", 2775.5, 2162.0),
+    ("tshirt", "sleeve.R", 436.4, 886.4),
+    ("tshirt", "sleeve.L", 436.4, 886.4),
+    ("tshirt", "neckband", 185.7, 1008.4),
+];
+
+#[test]
+fn pieces_have_the_drafted_areas_and_lengths() {
+    for (name, piece, area, outline) in DRAFTED {
+        let garment = load(name).garment;
+        let p = garment.pieces.iter().find(|p| p.name == piece).unwrap();
+        // The source counts the outline with the fish-eye darts in it, rounds to 0.1 and measures chords.
+        let outlined = p.loops[0].iter().map(|e| e.path.double_area()).sum::<f64>() / 2.0 * 1e4;
+        assert!((outlined - area).abs() < 0.3, "{name} {piece}: {outlined} cm², drafted {area}");
+        let length = p.outline_length() * 1e3;
+        assert!((length - outline).abs() < 0.11, "{name} {piece}: {length} mm, drafted {outline}");
+    }
+}
+
+/// Lengths of both sides (mm) and residual as drafted (same source).
+const WALKED: [(&str, &str, f64, f64, f64); 29] = [
+    ("child_dress", "center_front", 553.17, 553.17, 0.0),
+    ("child_dress", "center_back", 600.0, 600.0, 0.0),
+    ("child_dress", "shoulder.L", 88.0, 88.0, 0.0),
+    ("child_dress", "side.R", 445.18, 445.18, 0.0),
+    ("child_dress", "sleeve_under.L", 288.71, 288.71, 0.0),
+    ("child_dress", "armhole_front.L", 163.79, 168.79, 0.0),
+    ("child_dress", "armhole_back.R", 157.38, 162.38, 0.001),
+    ("gore_skirt", "center_front", 600.0, 600.0, 0.0),
+    ("gore_skirt", "side.L", 608.01, 608.01, 0.0),
+    ("gore_skirt", "waist", 765.05, 765.04, 0.0),
+    ("sheath_dress", "shoulder.L", 124.0, 129.0, 0.0),
+    ("sheath_dress", "front.bust.L", 131.23, 131.23, 0.0),
+    ("sheath_dress", "side.L", 808.19, 808.19, 0.0),
+    ("sheath_dress", "side.R", 808.19, 808.19, 0.0),
+    ("sheath_dress", "front.waist.upper.L", 160.31, 160.31, 0.0),
+    ("sheath_dress", "front.waist.lower.R", 100.5, 100.5, 0.0),
+    ("sheath_dress", "back.waist.upper.L", 165.25, 165.25, 0.0),
+    ("sheath_dress", "back.waist.lower.R", 140.29, 140.29, 0.0),
+    ("sheath_dress", "center_back", 1008.53, 1008.53, 0.0),
+    ("trousers", "outseam.L", 1042.73, 1042.65, -0.084),
+    ("trousers", "inseam.R", 784.32, 784.04, -0.280),
+    ("trousers", "crotch_front", 339.61, 339.61, 0.0),
+    ("trousers", "crotch_back", 338.88, 338.88, 0.0),
+    ("trousers", "waist", 797.43, 797.43, 0.0),
+    ("tshirt", "shoulder.L", 98.18, 98.18, 0.0),
+    ("tshirt", "side.R", 365.44, 365.44, 0.0),
+    ("tshirt", "armhole.L", 461.81, 463.42, 1.615),
+    ("tshirt", "neckband_ring", 40.0, 40.0, 0.0),
+    ("tshirt", "neck", 546.09, 464.18, 0.014),
+];
+
+#[test]
+fn seams_have_the_drafted_lengths_and_residuals() {
+    for (name, seam, a, b, residual) in WALKED {
+        let walks = walk(&load(name).garment);
+        let w = walks.iter().find(|w| w.name == seam).unwrap_or_else(|| panic!("{name} has no {seam}"));
+        let close = |x: f64, y: f64, by: f64| (x * 1e3 - y).abs() < by;
+        assert!(close(w.length_a, a, 0.011) && close(w.length_b, b, 0.011), "{name} {w:?}");
+        assert!(close(w.difference, residual, 0.012), "{name} {w:?}");
+    }
+}
+
+#[test]
+fn the_openings_have_the_drafted_lengths() {
+    let drafted: [(&str, &[f64]); 5] = [
+        ("child_dress", &[180.0, 180.0, 290.4, 921.9]),
+        ("gore_skirt", &[965.0, 1296.8]),
+        ("sheath_dress", &[386.0, 445.0, 445.0, 960.0]),
+        ("trousers", &[490.0, 490.0, 1027.4]),
+        ("tshirt", &[325.4, 325.4, 464.2, 1062.0]),
+    ];
+    for (name, lengths) in drafted {
+        let mut found: Vec<f64> = openings(&load(name).garment).iter().map(|o| o.length * 1e3).collect();
+        found.sort_by(f64::total_cmp);
+        assert_eq!(found.len(), lengths.len(), "{name}: {found:?}");
+        assert!(found.iter().zip(lengths).all(|(x, y)| (x - y).abs() < 0.3), "{name}: {found:?}");
+    }
+}
+
+#[test]
+fn the_garments_load_without_a_warning_and_are_sound() {
+    for name in GARMENTS {
+        let Loaded { garment, warnings, .. } = load(name);
+        assert!(warnings.is_empty(), "{}", warnings[0]);
+        for piece in &garment.pieces {
+            for ring in &piece.loops {
+                for (i, edge) in ring.iter().enumerate() {
+                    let next = &ring[(i + 1) % ring.len()];
+                    assert!((edge.path.end() - next.path.start()).norm() < 1e-9, "{name} {} {}", piece.name, edge.name);
+                }
+            }
+            assert!(piece.loops[0].iter().map(|e| e.path.double_area()).sum::<f64>() > 0.0);
+            let mut names: Vec<&str> = piece.loops.iter().flatten().map(|e| e.name.as_str()).collect();
+            names.sort_unstable();
+            assert!(names.windows(2).all(|w| w[0] != w[1]), "{name} {}: {names:?}", piece.name);
+        }
+        for seam in &garment.seams {
+            assert_eq!(seam.marks[0], (0.0, 0.0));
+            let last = seam.marks[seam.marks.len() - 1];
+            assert!(
+                (last.0 - seam.length_a()).abs() < 1e-9 && (last.1 - seam.length_b()).abs() < 1e-9,
+                "{name} {seam:?}"
+            );
+            assert!(seam.marks.windows(2).all(|w| w[0].0 < w[1].0 && w[0].1 < w[1].1), "{name} {seam:?}");
+        }
+        assert!(garment.tests.contains(&Bound::Worn) && garment.tests.contains(&Bound::Crossings(0)));
+    }
+}
+
+#[test]
+fn chains_run_opposite_ways_round_their_outlines() {
+    for name in GARMENTS {
+        for seam in load(name).garment.seams {
+            let with = |s: &toile::pattern::Span| s.to > s.from;
+            assert!(seam.a.iter().all(|s| with(s) == with(&seam.a[0])), "{name} {}", seam.name);
+            assert!(seam.b.iter().all(|s| with(s) != with(&seam.a[0])), "{name} {}", seam.name);
+        }
+    }
+}
+
+#[test]
+fn the_tacks_hold_the_underlap() {
+    let garment = load("gore_skirt").garment;
+    let [(piece, p), (_, q)] = garment.closures[0].tacks[0];
+    assert_eq!(garment.pieces[piece].name, "waistband");
+    assert!((p.x - 0.015).abs() < 1e-9 && (q.x - 0.780).abs() < 1e-9 && p.y == q.y);
+    let band = garment.pieces.iter().find(|p| p.name == "waistband").unwrap();
+    assert_eq!(band.lines[0].kind, LineKind::Fold(std::f64::consts::PI));
+}
+
+#[test]
+fn limbs_of_a_pair_get_their_side() {
+    let garment = load("child_dress").garment;
+    let sleeve = garment.pieces.iter().find(|p| p.name == "sleeve.R").unwrap();
+    assert_eq!(sleeve.side, Some(Side::Right));
+    let words = vec!["right".to_owned(), "arm".to_owned()];
+    assert_eq!(sleeve.place, Some(toile::pattern::Place::Around { words }));
+}
+
+#[test]
+fn every_garment_is_written_back_without_loss() {
+    for name in GARMENTS {
+        let file = load(name).file;
+        let text = write(&file).unwrap();
+        let again = read_file_only("again.yaml", &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        assert_eq!(file, again, "{name}\n{text}");
+    }
+}
+
+/// Every feature of the format, as a catalogue: not a garment, most pieces are not drawn.
+const CATALOGUE: &str = include_str!("data/catalogue.yaml");
+
+#[test]
+fn every_feature_is_written_back_without_loss() {
+    let file = read_file_only("catalogue.yaml", CATALOGUE).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(file.pieces.len(), 3);
+    let again = read_file_only("again.yaml", &write(&file).unwrap()).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(file, again);
+}
+
+#[test]
+fn what_a_value_says_is_named_with_its_place() {
+    says(&squares("garment: 1", "garment: 1\nunits: inch"), 2, "inch", "unknown unit 'inch'; use mm, cm or in");
+    says(&squares("sew: a.right", "sew: c.right"), 20, "c.right", "piece 'c' not found; did you mean 'a'?");
+    let known = "edge 'a.rigth' not found; a has: top, right, bottom, left";
+    says(&squares("sew: a.right", "sew: a.rigth"), 20, "a.rigth", known);
+    says(&squares("garment: 1", "garment: 2"), 1, "2", "version 2 is not known");
+    says(&squares("to: b.left", "to: b.left, eas: 3"), 20, "eas", "unknown key 'eas' in seam 'side'");
+    says(&squares("  b:\n", "  b:\n    fabric: velvt\n"), 12, "velvt", "fabric 'velvt' not found");
+    says(&squares("  b:\n", "  b:\n    cut: fold top left\n"), 12, "fold", "unknown cut 'fold top left'");
+    says(&squares("  b:\n", "  b:\n    like: c\n"), 12, "c", "piece 'c' not found");
+    says(&squares("  b:\n", "  b:\n    like: b\n"), 12, "b", "'like' goes round in a circle: b, b");
+    says(&squares("  b:\n", "  mirror:\n"), 11, "mirror", "the name 'mirror' cannot be used");
+    says(&squares("free: [a.top", "free: [a.tpo"), 21, "a.tpo", "edge 'a.tpo' not found");
+    says(&squares("free: [", "free: [\"*.hem\", "), 21, "\"*.hem", "'*.hem' matches no edge");
+    says(
+        &squares("free: [", "tests: [{seam: sied, length: 1 mm}]\nfree: ["),
+        21,
+        "sied",
+        "seam 'sied' not found; did you mean 'side'?",
+    );
+    says(&squares("free: [", "tests: [{openings: 2}]\nfree: ["), 21, "{openings", "garment has 1 openings, expected 2");
+    says(&squares("free: [", "tests: [{sem: x}]\nfree: ["), 21, "{sem", "unknown test 'sem'");
+}
+
+#[test]
+fn what_is_wrong_with_an_outline_is_named_with_its_place() {
+    let gap = "outline of 'a' does not close: last point (0, 3.2) is 3.2 mm from start (0, 0)";
+    says(&squares("left: L 0 0", "left: L 0 3.2"), 10, "L", gap);
+    let crossing = "outline of 'a' crosses itself near (100, 46.7), between right and left";
+    says(&squares("bottom: L 0 100", "bottom: L 150 70"), 10, "left", crossing);
+    says(&squares("bottom: L 0 100", "top: L 0 100"), 9, "top", "duplicate key 'top' at line 9 (first at line 7)");
+    says(&squares("[[0, 0], [0, 9]]", "[[5, 5], [5, 5]]"), 4, "[[5", "grain of 'a' has zero length");
+    says(&squares("top: L 100 0", "top: L 100"), 7, "L 100", "cannot read 'L 100'");
+    says(&squares("top: L 100 0", "top: L 1e999 0"), 7, "L 1e", "edge 'a.top': ");
+    says(&squares("top: L 100 0", "top: L 1e9 0"), 7, "L 1e9", "at most 200 m are read");
+    says(&squares("top: L 100 0", "top: L 0 0"), 7, "L 0 0", "has no length");
+    says(&squares("    grain: [[0, 0], [0, 9]]\n", ""), 3, "a", "piece 'a' has no grain");
+    let flat = squares("right: L 100 100\n      bottom: L 0 100", "right: L 50 0\n      bottom: L 20 0");
+    says(&flat, 6, "0 0", "outline of 'a' encloses no area");
+    let hole = "  b:\n    holes: {h: M 200 0 L 210 0 L 210 9 Z}\n";
+    says(&squares("  b:\n", hole), 12, "M 200", "hole 'h' lies outside piece 'b'");
+    let curved = squares("top: L 100 0", "top: C 30 9, 60 9, 100 0").replacen("  a:\n", "  a:\n    cut: fold top\n", 1);
+    says(&curved, 4, "fold top", "fold edge 'top' is curved; only straight edges can be folded");
+    let folded = squares("  a:\n", "  a:\n    cut: fold topp\n");
+    says(&folded, 4, "fold topp", "edge 'a.topp' not found");
+    says(&squares("  a:\n", "  a:\n    notches: {top: [120]}\n"), 4, "120", "notch at 120.0 mm lies off a.top");
+}
+
+#[test]
+fn what_is_wrong_with_darts_and_pleats_is_named_with_its_place() {
+    let with = |what: &str| squares("  a:\n", &format!("  a:\n    {what}\n"));
+    let long = with("darts: [{edge: bottom, at: 50, intake: 10, length: 120}]");
+    says(&long, 4, "50", "dart tip (50, -20) lies outside piece 'a'");
+    let legs = with("darts: [{edge: bottom, at: 50, intake: 10, tip: [60, 50]}]");
+    says(&legs, 4, "10", "dart at a.bottom@50: legs differ 50.2 / 52.2 mm");
+    let mouth = with("darts: [{edge: bottom, at: 3, intake: 10, length: 20}]");
+    says(&mouth, 4, "3", "dart at a.bottom@3: its mouth reaches from -2.0 to 8.0 mm");
+    let eye = with("darts: [{at: [50, 20], intake: 10, up: 30, down: 30}]");
+    says(&eye, 4, "[50", "dart tip (50, -10) lies outside piece 'a'");
+    let two = with("darts: [{edge: top, at: 50, intake: 10, length: 20}, {edge: top, at: 55, intake: 10, length: 20}]");
+    says(&two, 4, "55", "darts overlap on a.top");
+    let pleats = with("pleats: [{edge: top, at: [10, 50], depth: 30}]");
+    says(&pleats, 4, "top", "pleats on 'a.top' take 120 mm but the edge has 100 mm");
+    let twice =
+        "{name: d, edge: top, at: 20, intake: 5, length: 9}, {name: d, edge: top, at: 70, intake: 5, length: 9}";
+    says(&with(&format!("darts: [{twice}]")), 3, "a", "edge name 'd.a' used twice in 'a'");
+    let toward = with("pleats: [{edge: top, at: [50], depth: 10, toward: bottom}]");
+    says(&toward, 4, "top", "'toward: bottom' is not next to 'top', whose neighbours are left and right");
+    says(&with("pleats: [{edge: top, at: [50], depth: 10, sewn: 30}]"), 4, "30", "'sewn' is kept, not simulated");
+}
+
+#[test]
+fn a_counter_clockwise_outline_is_turned_with_a_warning() {
+    let text = squares(
+        "top: L 100 0\n      right: L 100 100\n      bottom: L 0 100\n      left: L 0 0",
+        "left: L 0 100\n      bottom: L 100 100\n      right: L 100 0\n      top: L 0 0",
+    );
+    let found = mistakes(&text);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!((found[0].severity, found[0].line, found[0].column), (Severity::Warning, 6, 14));
+    assert_eq!(found[0].message, "outline of 'a' runs counter-clockwise; reversed it");
+    assert!(garment(&text).pieces[0].area() > 0.0);
+}
+
+#[test]
+fn what_is_wrong_with_a_seam_is_named_with_its_place() {
+    let side = |how: &str| squares("{sew: a.right, to: b.left}", how);
+    let swap =
+        "seam 'side': a.right@0..92.3 92.3 mm, b.left 100.0 mm, 7.7 mm apart; swap sew and to and add gather: 1.08";
+    says(&side("{sew: a.right@0..92.3, to: b.left}"), 20, "side", swap);
+    let ease = "5.0 mm apart; add ease: 5.0 or fix the outline (tolerance 2)";
+    says(&side("{sew: a.right@0..95, to: b.left}"), 20, "side", ease);
+    let large = "ease 12 mm is 14 % of 88 mm; more than 8 % gathers, say gather: 1.14";
+    says(&side("{sew: a.right@0..88, to: b.left, ease: 12}"), 20, "12", large);
+    let below = "gather: 0.6 would stretch the cloth by 67 %; did you swap sew and to?";
+    says(&side("{sew: a.right, to: b.left, gather: 0.6}"), 20, "0.6", below);
+    says(&side("{sew: a.right, to: b.left, stretch: 0.6}"), 20, "0.6", "stretch: 0.6 would gather the cloth");
+    let beyond = "seam 'side' uses b.left@0..900 but the edge is 100.0 mm long";
+    says(&side("{sew: a.right, to: b.left@0..900}"), 20, "b.left", beyond);
+    says(&side("{sew: a.right@80%..20%, to: b.left}"), 20, "a.right", "range 80%..20% runs backwards");
+    let broken = "chain in 'side' is not continuous: a.right ends at (100, 100), a.left starts at (0, 100)";
+    says(&side("{sew: [a.right, a.left], to: [b.left, b.right]}"), 20, "a.left", broken);
+    says(&side("{sew: [a.right, a.bottom], to: [b.left, b.top]}"), 20, "side", "seam 'side' is twisted: its ends meet");
+    says(&side("{sew: a.right, to: mirror}"), 20, "a.right", "piece 'a' has no mirror");
+    let end = "seam 'side' has no end at 'hem'; its ends are at ";
+    says(&side("{sew: a.right, to: b.left, open: {from: hem, length: 20}}"), 20, "hem", end);
+    says(&side("{sew: a.right, to: b.left, open: {from: top, length: 200}}"), 20, "200", "opens 200.0 mm");
+    let two = "'ease' and 'gather' exclude each other";
+    says(&side("{sew: a.right, to: b.left, ease: 1, gather: 2}"), 20, "2", two);
+    let twice = side("{sew: a.right, to: b.left}\n  pocket: {sew: a.right@0..50, to: b.right@0..50}");
+    says(&twice, 21, "pocket", "a.right is sewn twice on 0..50 mm: in 'side' and in 'pocket'");
+    says(&squares("a.bottom, ", ""), 20, "side", "edges neither sewn nor free: a.bottom");
+    says(&side("{sew: a.right, to: b.left@0..50, gather: 2}"), 20, "side", "neither sewn nor free: b.left@50..100");
+    let band = side("{sew: a.right, to: b.left}\n  ring: {sew: a.left, to: b.right, face: same}");
+    says(&band, 21, "ring", "sewing closes the surface into a non-orientable band at 'ring'");
+    let notched = side("{sew: a.right, to: b.left, match: notches}").replacen(
+        "  a:\n",
+        "  a:\n    notches: {right: [10, 20]}\n",
+        1,
+    );
+    let notched = notched.replacen("  b:\n", "  b:\n    notches: {left: [80]}\n", 1);
+    says(&notched, 22, "side", "notch 2 of a.right has no partner on b.left");
+    let pair = squares("  b:\n", "  b:\n    cut: pair\n");
+    says(&pair, 21, "b.left", "seam 'side': b.left is on both sides of the garment; write b.L.left or b.R.left");
+    let copies = squares("  b:\n", "  b:\n    cut: 3\n");
+    says(&copies, 21, "b.left", "b.left is cut 3 times; say which, b.1 to b.3");
+    let unsewn = squares("seams:", "  c: {like: a, cut: pair}\nseams:").replacen("free: [", "free: [\"c.*\", ", 1);
+    says(&unsewn, 19, "pair", "cut: pair piece 'c' has no L/R seams; use cut: 2");
+    let fold = squares("  b:\n", "  b:\n    cut: fold left\n").replacen("sew: a.right", "sew: b.L.top", 1);
+    let fold = fold.replacen("to: b.left", "to: b.L.left", 1);
+    says(&fold, 21, "b.L.left", "b.L.left lies on the fold");
+}
+
+#[test]
+fn a_seam_before_the_one_it_hangs_by_is_warned_of() {
+    let text = squares(
+        "  side: {sew: a.right, to: b.left}\n",
+        "  cuff: {sew: [a.top, b.top], to: c.long}\n  side: {sew: a.right, to: b.left}\n",
+    );
+    let c = "  c:\n    grain: [[0, 0], [0, 9]]\n    outline: \n      start: 0 0\n      up: L 200 0\n      e: L 200 9\n      long: L 0 9\n      w: L 0 0\nseams:";
+    let text = text.replacen("seams:", c, 1).replacen("a.top, ", "c.up, c.e, c.w, ", 2).replacen(
+        "[c.up, c.e, c.w, b.top]",
+        "[a.top, b.top]",
+        1,
+    );
+    let text = text.replacen("b.top, b.bottom", "b.bottom", 1);
+    says(&text, 28, "cuff", "seam order: 'cuff' is sewn before 'side' that makes it a ring");
+}
+
+#[test]
+fn ten_mistakes_are_found_in_one_run() {
+    let text = "\
+garment: 1
+units: inch
+body: woman_92
+pieces:
+  a:
+    grain: [[1, 1], [1, 1]]
+    outline: {start: 0 0, top: L 100 0, right: L 100 100, bottom: L 0 100, left: L 0 0}
+    notches: {tpo: [10]}
+  b:
+    colour: red
+    outline: {start: 0 0, top: L 100 0, right: L 100 100, bottom: L 0 100, left: L 0 9}
+  c:
+    fabric: 7
+    cut: twice
+    outline: {start: 0 0, top: L 100 0, top: L 100 100, bottom: L 0 100, left: L 0 0}
+seams:
+  one: {sew: c.top, to: d.top}
+  two: {sew: c.bottom, ease: 3}
+  three: {sew: c.left@9..3, to: c.bottom}
+  four: {sew: c.side, to: c.left}
+tests:
+  - {seam: all, length: long}
+";
+    let found = mistakes(text);
+    let lines: Vec<usize> = found.iter().filter(|d| d.severity == Severity::Error).map(|d| d.line).collect();
+    for line in [2, 6, 8, 10, 11, 14, 15, 17, 18, 19, 20, 22] {
+        assert!(lines.contains(&line), "line {line}: {found:#?}");
+    }
+}
+
+#[test]
+fn a_message_shows_the_line_and_what_to_do() {
+    let text = squares("sew: a.right", "sew: a.rigth");
+    let shown = read_text("test", "t.yaml", &text).unwrap_err().to_string();
+    let expected = "\
+t.yaml:20:15: error: edge 'a.rigth' not found; a has: top, right, bottom, left
+  20 |   side: {sew: a.rigth, to: b.left}
+     |               ^^^^^^^
+  help: did you mean 'right'?";
+    assert_eq!(shown, expected);
+}
+
+#[test]
+fn files_that_are_none_are_refused_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let problem = |path: &std::path::Path| read(path).unwrap_err().diagnostics.remove(0).problem;
+    assert!(matches!(problem(&folder.path().join("none.yaml")), Problem::Unreadable(_)));
+    assert_eq!(problem(folder.path()), Problem::Directory);
+    let file = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        problem(&path)
+    };
+    assert_eq!(file("empty.yaml", b""), Problem::Empty);
+    assert_eq!(file("comment.yaml", b"# nothing\n"), Problem::Empty);
+    assert_eq!(file("latin.yaml", b"garment: 1\nname: caf\xe9\n"), Problem::NotText(20));
+    assert!(matches!(file("list.yaml", b"- 1\n- 2\n"), Problem::WrongType { .. }));
+    assert!(matches!(file("word.yaml", b"garment"), Problem::WrongType { .. }));
+    assert!(matches!(file("torn.yaml", b"garment: [1\nname: }"), Problem::Syntax(_)));
+    assert_eq!(file("two.yaml", b"a: 1\n---\nb: 2\n"), Problem::SecondDocument);
+    assert!(matches!(file("bare.yaml", b"garment: 1\n"), Problem::MissingKey { key: "pieces", .. }));
+    let deep = "[".repeat(100);
+    assert!(matches!(file("deep.yaml", deep.as_bytes()), Problem::TooDeep(_) | Problem::Syntax(_)));
+    let huge = folder.path().join("huge.yaml");
+    std::fs::File::create(&huge).unwrap().set_len(1 << 30).unwrap();
+    assert!(matches!(problem(&huge), Problem::TooLarge { bytes: 0x4000_0000, .. }));
+}
+
+#[test]
+fn aliases_are_followed_but_not_into_a_bomb() {
+    let shared =
+        squares("  b:\n    grain: [[0, 0], [0, 9]]", "  b:\n    grain: *up").replacen("grain: [[", "grain: &up [[", 1);
+    assert_eq!(garment(&shared).pieces.len(), 2);
+    let mut bomb = String::from("a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n");
+    for i in 1..12 {
+        let aliases = vec![format!("*a{}", i - 1); 10].join(", ");
+        bomb.push_str(&format!("a{i}: &a{i} [{aliases}]\n"));
+    }
+    let found = mistakes(&bomb);
+    assert!(matches!(found[0].problem, Problem::TooManyValues(_)), "{found:?}");
+    assert!(matches!(mistakes("a: &a [*a]")[0].problem, Problem::EndlessAlias | Problem::Syntax(_)));
+}
+
+#[test]
+fn a_dart_opens_its_edge_and_closes_on_itself() {
+    let text = squares("  a:\n", "  a:\n    darts: [{edge: right, at: 40, intake: 10, length: 30}]\n");
+    let g = garment(&text.replacen("to: b.left", "to: b.left@0..90", 1).replacen("b.bottom", "b.left, b.bottom", 1));
+    let names: Vec<&str> = g.pieces[0].loops[0].iter().map(|e| e.name.as_str()).collect();
+    assert_eq!(names, ["top", "right", "dart.a", "dart.b", "right.2", "bottom", "left"]);
+    let dart = g.seams.iter().find(|s| s.kind == SeamKind::Dart).unwrap();
+    assert_eq!(dart.name, "a.dart");
+    assert!((dart.length_a() - dart.length_b()).abs() < 1e-12);
+    assert!((dart.length_a() - f64::hypot(0.005, 0.03)).abs() < 1e-9);
+    assert_eq!(g.seams[0].a.len(), 2);
+    assert!((g.seams[0].length_a() - 0.09).abs() < 1e-9);
+    assert!((g.pieces[0].area() - (0.01 - 0.5 * 0.01 * 0.03)).abs() < 1e-9);
+}
+
+#[test]
+fn pleats_are_held_by_all_their_layers() {
+    for (kind, take, seams) in [("knife", 0.02, 2), ("box", 0.04, 4), ("inverted", 0.04, 4)] {
+        let pleat = format!("  a:\n    pleats: [{{edge: right, at: [30], depth: 10, kind: {kind}}}]\n");
+        let to = format!("to: b.left@0..{}", 100.0 - take * 1e3);
+        let g = garment(&squares("  a:\n", &pleat).replacen("to: b.left", &to, 1).replacen(
+            "b.bottom",
+            "b.left, b.bottom",
+            1,
+        ));
+        assert!((g.seams[0].length_a() - (0.1 - take)).abs() < 1e-9, "{kind}");
+        let layers: Vec<_> = g.seams.iter().filter(|s| s.kind == SeamKind::Pleat).collect();
+        assert_eq!(layers.len(), seams, "{kind}");
+        assert!(layers.iter().all(|s| (s.length_a() - 0.01).abs() < 1e-12 && (s.length_b() - 0.01).abs() < 1e-12));
+        assert_eq!(openings(&g).len(), 1, "{kind}");
+    }
+}
+
+#[test]
+fn an_opening_without_a_closure_stays_open() {
+    let open = |closure: &str| {
+        garment(&squares("to: b.left}", &format!("to: b.left, open: {{from: bottom, length: 30}}{closure}}}")))
+    };
+    let slit = open("");
+    assert!((slit.seams[0].length_a() - 0.07).abs() < 1e-9 && slit.seams[0].closure.is_none());
+    assert_eq!((slit.seams[0].a[0].from, slit.seams[0].b[0].to.max(slit.seams[0].b[0].from)), (0.0, 0.1));
+    let zip = open(", closure: zip");
+    assert!((zip.seams[0].length_a() - 0.1).abs() < 1e-9);
+    assert_eq!(zip.seams[0].closure.as_deref(), Some("zip"));
+}
+
+#[test]
+fn an_edge_across_the_fold_joins_a_piece_that_is_there_once() {
+    // b is folded at its left edge: its top is 200 mm wide, over both halves.
+    let text = squares("  b:\n", "  b:\n    cut: fold left\n")
+        .replacen(
+            "top: L 100 0\n      right: L 100 100\n      bottom: L 0 100",
+            "top: L 200 0\n      right: L 200 100\n      bottom: L 0 100",
+            1,
+        )
+        .replacen("side: {sew: a.right, to: b.left}", "side: {sew: a.top, to: b.top}", 1)
+        .replacen(
+            "[a.top, a.bottom, a.left, b.top, b.bottom, b.right]",
+            "[a.right, a.bottom, a.left, b.bottom, b.right]",
+            1,
+        );
+    let g = garment(&text);
+    assert_eq!(g.seams[0].b.len(), 2);
+    assert!((g.seams[0].length_b() - 0.2).abs() < 1e-9);
+    let names: Vec<&str> = g.pieces[1].loops[0].iter().map(|e| e.name.as_str()).collect();
+    assert_eq!(names, ["top.L", "right.L", "bottom.L", "bottom.R", "right.R", "top.R"]);
+}
+
+#[test]
+fn the_halves_of_a_folded_piece_and_copies_are_sewn_one_by_one() {
+    // b is a tube: folded at its left edge, its right edge sewn to its own mirror image.
+    let tube = squares("  b:\n", "  b:\n    cut: fold left\n")
+        .replacen("{sew: a.right, to: b.left}", "{sew: b.right, to: mirror}", 1)
+        .replacen("free: [", "free: [a.right, ", 1)
+        .replacen(", b.right]", "]", 1);
+    let g = garment(&tube);
+    assert_eq!(g.seams.len(), 1);
+    assert_eq!(
+        (g.edge_name(g.seams[0].a[0].edge), g.edge_name(g.seams[0].b[0].edge)),
+        ("b.right.L".into(), "b.right.R".into())
+    );
+    assert_eq!(openings(&g).len(), 3);
+    let strips = SQUARES.replace("    grain: [[0, 0], [0, 9]]\n", "    grain: [[0, 0], [0, 9]]\n    cut: 2\n");
+    let g = garment(&strips);
+    assert_eq!(g.pieces.iter().map(|p| p.name.as_str()).collect::<Vec<_>>(), ["a.1", "a.2", "b.1", "b.2"]);
+    assert_eq!(g.seams.iter().map(|s| s.name.as_str()).collect::<Vec<_>>(), ["side.1", "side.2"]);
+    // A straight piece between them by number.
+    let one = strips.replacen("{sew: a.right, to: b.left}", "{sew: a.1.right, to: b.2.left}", 1);
+    let one = one.replacen("free: [", "free: [a.2.right, b.1.left, ", 1);
+    assert_eq!(garment(&one).seams.len(), 1);
+}
+
+#[test]
+fn facings_share_an_edge_and_ratios_pass() {
+    let facing = squares("seams:", "  c: {like: b, layer: -1}\nseams:")
+        .replacen(
+            "side: {sew: a.right, to: b.left}",
+            "side: {sew: a.right, to: b.left}\n  face: {sew: c.left, to: a.right, layers: [-1, 0]}",
+            1,
+        )
+        .replacen("free: [", "free: [c.top, c.right, c.bottom, ", 1);
+    assert_eq!(garment(&facing).seams.len(), 2);
+    let gathered = squares("to: b.left}", "to: b.left@0..50, gather: 2}").replacen("free: [", "free: [b.left, ", 1);
+    let w = &walk(&garment(&gathered))[0];
+    assert!(w.difference.abs() < 1e-12 && (w.length_b - 0.05).abs() < 1e-12);
+}
+
+/// A pair with curved edges, a hole and a dart, at random.
+fn odd_pair(x: f64, y: f64, bend: f64) -> Garment {
+    let text = format!(
+        "garment: 1
+pieces:
+  p:
+    cut: pair
+    drawn: R
+    grain: [[0, 0], [3, 9]]
+    outline:
+      start: 5 3
+      top: C 35 {bend}, 60 {bend}, 100 0
+      side: L {x} {y}
+      low: Q 20 {y}, 0 80
+      center: L 5 3
+    holes: {{slot: M 40 45 L 50 45 L 50 48 Z}}
+    darts: [{{edge: side, at: 20, intake: 6, length: 15}}]
+seams:
+  mid: {{sew: p.center, to: mirror}}
+free: [p.top, p.side, p.low, p.slot]
+"
+    );
+    garment(&text)
+}
+
+proptest::proptest! {
+    #![proptest_config(proptest::prelude::ProptestConfig { cases: 256, failure_persistence: None, ..Default::default() })]
+    #[test]
+    fn mirrored_pieces_are_the_same_size(x in 90.0..140.0, y in 90.0..150.0, bend in -30.0..20.0) {
+        let g = odd_pair(x, y, bend);
+        let (drawn, other) = (&g.pieces[0], &g.pieces[1]);
+        assert!((drawn.area() - other.area()).abs() < 1e-12);
+        assert!((drawn.boundary_length() - other.boundary_length()).abs() < 1e-9);
+        assert!(other.loops[0].iter().map(|e| e.path.double_area()).sum::<f64>() > 0.0);
+        assert_eq!(other.warp.x, -drawn.warp.x);
+        for edge in drawn.loops.iter().flatten() {
+            let twin = other.loops.iter().flatten().find(|e| e.name == edge.name).unwrap();
+            assert!((edge.path.length() - twin.path.length()).abs() < 1e-9);
+            let (p, q) = (edge.path.start(), twin.path.end());
+            assert!((p.x + q.x).abs() < 1e-12 && (p.y - q.y).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn no_damaged_file_makes_it_panic(which in 0_usize..6, at in 0.0..1.0, cut in 0_usize..12, put in "[-0-9.LCQA@{}, :&*a-z\\n\\[\\]%]{0,6}") {
+        let whole = GARMENTS.get(which).map_or_else(|| CATALOGUE.to_owned(), |n| std::fs::read_to_string(path(n)).unwrap());
+        let chars: Vec<char> = whole.chars().collect();
+        let at = (at * chars.len() as f64) as usize;
+        let end = (at + cut).min(chars.len());
+        let damaged: String = chars[..at].iter().copied().chain(put.chars()).chain(chars[end..].iter().copied()).collect();
+        if let Ok(loaded) = read_text("damaged", "damaged.yaml", &damaged) {
+            proptest::prop_assert_eq!(&read_file_only("again.yaml", &write(&loaded.file).unwrap()).unwrap(), &loaded.file);
+        }
+    }
+}
