@@ -31,6 +31,8 @@ struct Level {
     spans: Vec<Option<[f64; 2]>>,
     /// Per member: arc position − u, from the front middle.
     shift: Vec<f64>,
+    /// Per member: room between it and the next one that is there.
+    gaps: Vec<f64>,
     /// Length of the ring that the cloth needs.
     length: f64,
     /// Whether every joint between neighbours is sewn here.
@@ -60,8 +62,13 @@ pub(super) fn wrap(
             Some(other) => anchors[other],
             None => anchor(body, &stations, row, &levels, &rows.links),
         };
-        let ring = Ring { mesh, sheet, row, levels, stations, anchor: anchors[index] };
-        ring.bend(&rows.links, &placed, &mut x);
+        let mut ring = Ring { mesh, sheet, row, levels, stations, anchor: anchors[index] };
+        let ellipses = ring.ellipses();
+        for (level, ellipse) in ring.levels.iter_mut().zip(&ellipses) {
+            spread_out(row, level, ellipse.perimeter);
+        }
+        smooth_shifts(&mut ring.levels);
+        ring.bend(&ellipses, &rows.links, &placed, &mut x);
         for m in &row.members {
             placed[m.piece] = true;
         }
@@ -132,7 +139,6 @@ fn levels(mesh: &ClothMesh, sheet: &Sheet, row: &Row, links: &[Link]) -> Vec<Lev
     for (k, level) in out.iter_mut().enumerate() {
         pack(row, level, k, &joints);
     }
-    smooth_shifts(&mut out);
     out
 }
 
@@ -192,25 +198,37 @@ fn spread(row: &Row, sheet: &Sheet, link: &Link) -> f64 {
 /// Packs one level: sewn joints get a little room, others what the layout leaves, never an overlap.
 fn pack(row: &Row, level: &mut Level, k: usize, joints: &[Joint]) {
     let n = row.members.len();
-    let present: Vec<usize> = (0..n).filter(|&i| level.spans[i].is_some()).collect();
+    let present = level.present();
+    level.gaps = vec![0.0; n];
     level.closed = present.len() == n;
-    let mut at = 0.0;
-    let mut starts = vec![0.0; n];
     for (j, &i) in present.iter().enumerate() {
-        let Some(span) = level.spans[i] else { continue };
-        starts[i] = at;
-        at += span[1] - span[0];
         let next = present[(j + 1) % present.len()];
         let joint = &joints[i];
         let sewn = next == (i + 1) % n && joint.sewn.is_some_and(|s| (s[0]..=s[1]).contains(&k));
         level.closed &= sewn || n == 1;
-        let gap = match level.spans[next] {
-            Some(other) if !sewn => (other[0] - span[1] - joint.jump).max(ROOM),
-            _ => ROOM,
+        let left = match (level.spans[i], level.spans[next]) {
+            (Some(own), Some(other)) if joint.sewn.is_some() => other[0] - own[1] - joint.jump,
+            (Some(own), Some(other)) if j + 1 < present.len() => other[0] - own[1],
+            _ => 0.0,
         };
-        at += if n == 1 || (joint.sewn.is_none() && j + 1 == present.len()) { ROOM } else { gap };
+        level.gaps[i] = if sewn || n == 1 { ROOM } else { left.max(ROOM) };
     }
-    level.length = at;
+    let cloth: f64 = level.spans.iter().flatten().map(|s| s[1] - s[0]).sum();
+    level.length = cloth + level.gaps.iter().sum::<f64>();
+}
+
+/// Puts the members of a level on a ring of `perimeter` metres: what the ring is longer than the cloth goes into the
+/// gaps between them.
+fn spread_out(row: &Row, level: &mut Level, perimeter: f64) {
+    let present = level.present();
+    let slack = (perimeter - level.length).max(0.0) / present.len().max(1) as f64;
+    let mut starts = vec![0.0; row.members.len()];
+    let mut at = 0.0;
+    for &i in &present {
+        let Some(span) = level.spans[i] else { continue };
+        starts[i] = at;
+        at += span[1] - span[0] + level.gaps[i] + slack;
+    }
     let zero = middle(row, level, &present, &starts);
     for &i in &present {
         if let Some(span) = level.spans[i] {
@@ -282,12 +300,11 @@ struct Ring<'a> {
 }
 
 impl Ring<'_> {
-    fn bend(&self, links: &[Link], placed: &[bool], x: &mut [Vec3]) {
-        let ellipses = self.ellipses();
+    fn bend(&self, ellipses: &[Ellipse], links: &[Link], placed: &[bool], x: &mut [Vec3]) {
         let turn = if self.row.front.is_some() && self.row.part == PartKind::Torso {
             0.0
         } else {
-            self.turn(links, placed, x, &ellipses)
+            self.turn(links, placed, x, ellipses)
         };
         for (i, m) in self.row.members.iter().enumerate() {
             for p in self.mesh.pieces[m.piece].particles.clone() {
@@ -359,6 +376,11 @@ impl Ring<'_> {
 }
 
 impl Level {
+    /// Members that reach this level.
+    fn present(&self) -> Vec<usize> {
+        (0..self.spans.len()).filter(|&i| self.spans[i].is_some()).collect()
+    }
+
     /// Whether a row of one piece is a closed ring: its own two upright sides are sewn to each other.
     fn closed_on_itself(&self, ring: &Ring, mesh: &ClothMesh) -> bool {
         let range = mesh.pieces[ring.row.members[0].piece].particles.clone();
