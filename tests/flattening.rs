@@ -5,8 +5,11 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use proptest::prelude::*;
-use toile::flatten::{FlattenError, Flattened, Mode, Options, flatten, flatten_from, rim_crossings};
+use toile::flatten::{FlattenError, Flattened, Mode, Options, flatten, flatten_from, flatten_garment, rim_crossings};
 use toile::geometry::{TriMesh, Vec2, Vec3, rim_loops};
+use toile::io::pattern_svg::{PatternSvgError, pattern_svg};
+use toile::mesh::{ClothMesh, EdgeParticles, PieceMesh, Stitches};
+use toile::pattern::{EdgeId, Give, Notch, Seam, SeamKind};
 
 const MODES: [Mode; 4] = [Mode::Balanced, Mode::Isometric, Mode::Boundary, Mode::Spring];
 
@@ -116,7 +119,10 @@ fn caps_reach_the_known_optimum() {
         let kept = flatten(&mesh, &mode(Mode::Boundary)).unwrap();
         assert_sound(&mesh, &kept);
         let bound = (f64::to_radians(degrees) / 2.0).sin().powi(2);
-        println!("   rim kept: area {:.4} (bound {bound:.4}), rim {:.5}", kept.report.area_error, kept.report.boundary_error);
+        println!(
+            "   rim kept: area {:.4} (bound {bound:.4}), rim {:.5}",
+            kept.report.area_error, kept.report.boundary_error
+        );
         let longest = (4.0 * PI * kept.report.area_after).sqrt();
         assert!(kept.report.boundary_after >= longest);
     }
@@ -198,6 +204,135 @@ fn repeats_are_bit_identical() {
     assert_eq!(once, flatten(&mesh, &Options::default()).unwrap());
 }
 
+/// Two panels of the given widths (cells of 10 mm across, `rows` down), the first's right edge sewn to the second's left,
+/// whose height is `ratio` times that of the first.
+fn two_panels(columns: [usize; 2], rows: usize, ratio: f64) -> ClothMesh {
+    let mut cloth = ClothMesh { spacing: 0.01, ..ClothMesh::default() };
+    let mut sides = Vec::new();
+    for (k, name) in ["left", "right"].into_iter().enumerate() {
+        let height = 0.01 * rows as f64 * if k == 0 { 1.0 } else { ratio };
+        let width = 0.01 * columns[k] as f64;
+        // Rows first, so that y runs down and the triangles clockwise on the screen.
+        let mesh = sheet(columns[k], rows, whole, |u, v| Vec3::new(u * width, v * height, 0.0));
+        let first = cloth.flat.len();
+        let first_triangle = cloth.triangles.len();
+        cloth.flat.extend(mesh.vertices.iter().map(|p| p.xy()));
+        cloth.triangles.extend(mesh.triangles.iter().map(|t| t.map(|v| v + first as u32)));
+        let column = |x: f64| -> Vec<u32> {
+            let mut on: Vec<u32> =
+                (0..mesh.vertices.len() as u32).filter(|&v| (mesh.vertices[v as usize].x - x).abs() < 1e-9).collect();
+            on.sort_by(|&a, &b| mesh.vertices[a as usize].y.total_cmp(&mesh.vertices[b as usize].y));
+            on.into_iter().map(|v| v + first as u32).collect()
+        };
+        sides.push([column(0.0), column(width)]);
+        let edge = |index: usize, name: &str, particles: Vec<u32>| EdgeParticles {
+            edge: EdgeId { piece: k, ring: 0, index },
+            name: name.into(),
+            particles,
+        };
+        cloth.pieces.push(PieceMesh {
+            name: name.into(),
+            particles: first..cloth.flat.len(),
+            triangles: first_triangle..cloth.triangles.len(),
+            edges: vec![edge(1, "right", column(width)), edge(3, "left", column(0.0).into_iter().rev().collect())],
+            lines: Vec::new(),
+            smallest_angle: PI / 4.0,
+            warp: Vec2::new(0.0, -1.0),
+        });
+    }
+    let pairs = sides[0][1].iter().zip(&sides[1][0]).map(|(&a, &b)| [a, b]).collect();
+    cloth.seams.push(Stitches { name: "side".into(), pairs });
+    cloth
+}
+
+fn seam(give: Give) -> Seam {
+    let (a, b, marks) = (Vec::new(), Vec::new(), Vec::new());
+    Seam { name: "side".into(), a, b, marks, give, stage: 0, kind: SeamKind::Written, closure: None }
+}
+
+fn seam_length(cloth: &ClothMesh, flat: &[Vec2], side: usize) -> f64 {
+    let pairs = &cloth.seams[0].pairs;
+    pairs.windows(2).map(|p| (flat[p[1][side] as usize] - flat[p[0][side] as usize]).norm()).sum()
+}
+
+#[test]
+fn a_rolled_garment_comes_back_as_drawn() {
+    let cloth = two_panels([12, 9], 20, 1.0);
+    // Round a cylinder, the right panel after the left one.
+    let draped: Vec<Vec3> = (0..cloth.flat.len())
+        .map(|v| {
+            let x = cloth.flat[v].x + if cloth.pieces[1].particles.contains(&v) { 0.12 } else { 0.0 };
+            Vec3::new(0.2 * (x / 0.2).sin(), -cloth.flat[v].y, 0.2 * (x / 0.2).cos())
+        })
+        .collect();
+    let flat = flatten_garment(&cloth, &[seam(Give::Even)], &draped, &Options::default()).unwrap();
+    for (p, q) in flat.positions.iter().zip(&cloth.flat) {
+        assert!((p - q).norm() < 1e-4);
+    }
+    for piece in &flat.pieces {
+        assert!(piece.report.converged && piece.report.flips == 0 && piece.report.overlaps == 0);
+        assert!(piece.report.area_error < 1e-3 && piece.report.boundary_error < 1e-3);
+    }
+    let nan = vec![Vec3::repeat(f64::NAN); cloth.flat.len()];
+    let error = flatten_garment(&cloth, &[], &nan, &Options::default()).unwrap_err();
+    assert!(error.to_string().starts_with("piece 'left'"), "{error}");
+    assert!(flatten_garment(&cloth, &[], &nan[1..], &Options::default()).is_err());
+}
+
+#[test]
+fn seams_get_equal_lengths_or_their_drawn_ratio() {
+    // Sewn, both sides have the first one's length: the second is drawn in along its left edge only.
+    for (give, ratio) in [(Give::Even, 1.0), (Give::Gather(1.5), 1.5), (Give::Ease(0.02), 1.1)] {
+        let cloth = two_panels([12, 9], 20, ratio);
+        let draped: Vec<Vec3> = (0..cloth.flat.len())
+            .map(|v| {
+                let p = cloth.flat[v];
+                let right = cloth.pieces[1].particles.contains(&v);
+                // One per cent of strain along the seam, beyond any ease.
+                let scale = if right && p.x > 0.0 {
+                    1.0
+                } else if right {
+                    1.01 / ratio
+                } else {
+                    1.01
+                };
+                Vec3::new(p.x, p.y * scale, 0.0)
+            })
+            .collect();
+        let flat = flatten_garment(&cloth, &[seam(give)], &draped, &Options::default()).unwrap();
+        let [a, b] = [0, 1].map(|side| seam_length(&cloth, &flat.positions, side));
+        println!("{give:?}: {a} {b} ratio {}", b / a);
+        assert!((b / a / ratio - 1.0).abs() < 2e-3, "{give:?}: {a} {b}");
+        assert!(flat.pieces.iter().all(|p| p.report.flips == 0 && p.report.converged));
+    }
+}
+
+#[test]
+fn the_pattern_is_drawn_at_full_size() {
+    let mut cloth = two_panels([12, 9], 20, 1.0);
+    cloth.pieces[0].name = "left <\"front\">".into();
+    let notch = Notch { edge: EdgeId { piece: 1, ring: 0, index: 1 }, at: 0.05, double: true };
+    let text = pattern_svg(&cloth, &cloth.flat, &[notch]).unwrap();
+    assert_eq!(text.matches("class=\"piece\"").count(), 2);
+    assert_eq!(text.matches("class=\"edge\"").count(), 4);
+    assert_eq!(text.matches("class=\"notch\"").count(), 2);
+    assert!(text.contains("id=\"right.left\"") && text.contains("&lt;_front_&gt;"));
+    assert!(text.contains("mm\"") && !text.contains("transform"));
+    // Every path of an edge is as long as the edge.
+    for path in text.split("<path").filter(|p| p.contains("class=\"edge\"")) {
+        let d = path.split(" d=\"M").nth(1).unwrap().split('"').next().unwrap();
+        let point = |p: &str| {
+            let mut xy = p.split(' ').map(|x| x.parse::<f64>().unwrap());
+            Vec2::new(xy.next().unwrap(), xy.next().unwrap())
+        };
+        let points: Vec<Vec2> = d.split(" L").map(point).collect();
+        let length: f64 = points.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
+        assert!((length - 200.0).abs() < 1e-3, "{length}");
+    }
+    assert_eq!(pattern_svg(&cloth, &[], &[]), Err(PatternSvgError::Positions { expected: cloth.flat.len(), found: 0 }));
+    assert!(pattern_svg(&ClothMesh::default(), &[], &[]).unwrap().contains("class=\"scale\""));
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -255,6 +390,26 @@ fn write_obj(name: &str, mesh: &TriMesh, flat: &[Vec2]) {
     std::fs::write(Path::new(env!("CARGO_TARGET_TMPDIR")).join(name), text).unwrap();
 }
 
+/// The mesh as a one-piece pattern.
+fn write_svg(name: &str, mesh: &TriMesh, flat: &[Vec2]) {
+    let mut rim = rim_loops(&mesh.triangles).remove(0);
+    rim.push(rim[0]);
+    let edge = EdgeParticles { edge: EdgeId { piece: 0, ring: 0, index: 0 }, name: "rim".into(), particles: rim };
+    let piece = PieceMesh {
+        name: name.into(),
+        particles: 0..flat.len(),
+        triangles: 0..mesh.triangles.len(),
+        edges: vec![edge],
+        lines: Vec::new(),
+        smallest_angle: 0.0,
+        warp: Vec2::new(0.0, -1.0),
+    };
+    let (flat, triangles) = (flat.to_vec(), mesh.triangles.clone());
+    let cloth = ClothMesh { spacing: 0.003, flat, triangles, pieces: vec![piece], seams: Vec::new() };
+    let text = pattern_svg(&cloth, &cloth.flat, &[]).unwrap();
+    std::fs::write(Path::new(env!("CARGO_TARGET_TMPDIR")).join(name), text).unwrap();
+}
+
 /// The bodice without a dart, where others reach: ARAP area −0.45 %, distortion 6.68 %; here both modes at least that.
 #[test]
 fn a_bodice_is_as_good_as_the_best_known() {
@@ -291,6 +446,7 @@ fn timing_of_measured_surfaces() {
                 r.overlaps
             );
             write_obj(&format!("{name}_{m:?}.obj"), &mesh, &flat.positions);
+            write_svg(&format!("{name}_{m:?}.svg"), &mesh, &flat.positions);
         }
     }
 }

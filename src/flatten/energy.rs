@@ -112,9 +112,10 @@ pub(super) struct Curvature {
 
 impl Curvature {
     pub(super) fn new(energy: &Energy) -> Result<Self, FlattenError> {
-        let pairs = energy.elements.iter().flat_map(|e| {
-            CORNER_PAIRS[3..].iter().map(|&(k, l)| (e.corners[k] as usize, e.corners[l] as usize))
-        });
+        let pairs = energy
+            .elements
+            .iter()
+            .flat_map(|e| CORNER_PAIRS[3..].iter().map(|&(k, l)| (e.corners[k] as usize, e.corners[l] as usize)));
         let springs = energy.springs.iter().map(|s| (s.ends[0] as usize, s.ends[1] as usize));
         let pattern = SymmetricPattern::planar_blocks(energy.vertices, pairs.chain(springs));
         let pattern = Arc::new(pattern.map_err(|_| FlattenError::Breakdown)?);

@@ -177,8 +177,7 @@ impl<'a> Sheet<'a> {
 
 fn relax_sheet(sheet: &Sheet<'_>, start: Vec<Vec2>, options: &Options) -> Result<Flattened, FlattenError> {
     let mut positions = start;
-    let outcome =
-        relax::relax(&sheet.energy(options.mode), &mut positions, options.tolerance, options.max_iterations)?;
+    let outcome = relax::relax(&sheet.energy(options.mode), &mut positions, options.tolerance, options.max_iterations)?;
     let report = measure::report(sheet, &positions, &outcome);
     Ok(Flattened { positions, report })
 }
