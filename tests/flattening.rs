@@ -11,7 +11,7 @@ use toile::io::pattern_svg::{PatternSvgError, pattern_svg};
 use toile::mesh::{ClothMesh, EdgeParticles, PieceMesh, Stitches};
 use toile::pattern::{EdgeId, Give, Notch, Seam, SeamKind};
 
-const MODES: [Mode; 4] = [Mode::Balanced, Mode::Isometric, Mode::Boundary, Mode::Spring];
+const MODES: [Mode; 5] = [Mode::Balanced, Mode::Isometric, Mode::Boundary, Mode::Woven, Mode::Spring];
 
 fn mode(mode: Mode) -> Options {
     Options { mode, ..Options::default() }
@@ -340,7 +340,7 @@ proptest! {
     #[test]
     fn bumpy_disks_never_flip(
         bumps in prop::collection::vec((0.0..1.0f64, 0.0..1.0f64, -0.4..0.4f64, 0.05..0.3f64), 1..5),
-        mode_index in 0usize..4,
+        mode_index in 0usize..5,
     ) {
         let mesh = sheet(16, 14, whole, |u, v| {
             let height = |&(x, y, h, w): &(f64, f64, f64, f64)| h * (-((u - x).powi(2) + (v - y).powi(2)) / (w * w)).exp();

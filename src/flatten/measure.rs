@@ -1,7 +1,8 @@
 //! What flattening did to the cloth.
 
 use super::Sheet;
-use super::element::{Element, stretches};
+use super::distortion::stretches;
+use super::element::Element;
 use super::overlap::rim_crossings;
 use super::relax::Outcome;
 use crate::geometry::{TriMesh, Vec2};
