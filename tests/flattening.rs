@@ -1,5 +1,7 @@
 //! Flattening: exact where the surface is developable, near the known optimum where not, never flipped.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+
 use std::f64::consts::PI;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -75,7 +77,7 @@ fn a_folded_sheet_is_exact() {
     // Folded along a grid line and along a second one the other way: a polyhedron that unfolds exactly.
     let folded = |u: f64, v: f64| {
         let (along, across) = (0.4 * u, 0.3 * v);
-        let (a, b) = ((along - 0.1).max(0.0).min(0.2), (along - 0.3).max(0.0));
+        let (a, b) = ((along - 0.1).clamp(0.0, 0.2), (along - 0.3).max(0.0));
         Vec3::new(along.min(0.1) + a * 0.8 + b * 0.28, across, a * 0.6 - b * 0.96)
     };
     let mesh = sheet(20, 15, whole, folded);
@@ -422,15 +424,39 @@ fn a_bodice_is_as_good_as_the_best_known() {
     assert!(balanced.report.boundary_error < 2e-3 && balanced.report.area_distortion < 0.025, "{:?}", balanced.report);
 }
 
+/// Two bulging panels of 2,600 particles each, strained by a few per cent as on a body.
+#[test]
+#[ignore = "a measurement, not a check"]
+fn timing_of_a_garment() {
+    let cloth = two_panels([50, 50], 50, 1.0);
+    let bulge = |p: &Vec2| Vec3::new(p.x, -p.y, 0.1 * (-((p.x - 0.25).powi(2) + (p.y - 0.25).powi(2)) / 0.04).exp());
+    let draped: Vec<Vec3> = cloth.flat.iter().map(bulge).collect();
+    for m in MODES {
+        let started = std::time::Instant::now();
+        let flat = flatten_garment(&cloth, &[seam(Give::Even)], &draped, &mode(m)).unwrap();
+        println!("{} particles, {m:?}: {:.3} s", cloth.flat.len(), started.elapsed().as_secs_f64());
+        for piece in flat.pieces {
+            let r = piece.report;
+            println!("  {} steps, area {:.4}, boundary {:.5}", r.iterations, r.area_error, r.boundary_error);
+        }
+    }
+}
+
 #[test]
 #[ignore = "a measurement, not a check"]
 fn timing_of_measured_surfaces() {
-    for name in ["bodice_10000", "sleeve_10000", "cap60_10000", "cone_10000", "fold_10000"] {
+    for name in ["bodice_10000", "sleeve_10000", "cap60_10000", "cone_10000", "fold_10000", "bodice_100000"] {
         let Some((_, mesh)) = surface(&format!("{name}.obj")) else { return };
         for m in MODES {
-            let started = std::time::Instant::now();
-            let flat = flatten(&mesh, &mode(m)).unwrap();
-            let seconds = started.elapsed().as_secs_f64();
+            // The fastest of three: others use the machine too.
+            let mut seconds = f64::INFINITY;
+            let mut flat = None;
+            for _ in 0..3 {
+                let started = std::time::Instant::now();
+                flat = Some(flatten(&mesh, &mode(m)).unwrap());
+                seconds = seconds.min(started.elapsed().as_secs_f64());
+            }
+            let flat = flat.unwrap();
             let r = &flat.report;
             println!(
                 "{name} {m:?}: {seconds:.3} s, {} steps, converged {}, area {:+.3} % rms {:.2} %, rim {:+.4} %, edge {:.3} %, \

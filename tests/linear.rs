@@ -1,5 +1,7 @@
 //! The sparse solver against a dense one, and its promises.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+
 use std::sync::Arc;
 use std::time::Instant;
 

@@ -5,6 +5,14 @@ use crate::geometry::{TriMesh, Vec2};
 /// Mean slope (upward metres per metre) below which a surface counts as level.
 const NO_DIRECTION: f64 = 1e-6;
 
+/// Moves the centre of the points to the origin.
+pub(super) fn centre(points: &mut [Vec2]) {
+    let middle = mean(points);
+    for p in points {
+        *p -= middle;
+    }
+}
+
 /// Moves the centre of the points to the origin and turns them so that the surface's mean upward direction (space's
 /// y) is up on a screen (−y). A surface without one, such as a level one, is not turned.
 pub(super) fn upright(flat: &mut [Vec2], surface: &TriMesh) {

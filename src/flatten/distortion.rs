@@ -43,13 +43,23 @@ fn halves(m: &Matrix2<f64>) -> [f64; 4] {
 /// Singular values of a matrix with positive determinant, larger first, and the rotations U, V of J = U Σ Vᵀ.
 fn singular(m: &Matrix2<f64>) -> (f64, f64, Matrix2<f64>, Matrix2<f64>) {
     let [e, f, g, h] = halves(m);
-    let (q, r) = (e.hypot(g), f.hypot(h));
-    let (sum, difference) = (h.atan2(f), g.atan2(e));
-    let rotation = |angle: f64| {
-        let (s, c) = angle.sin_cos();
-        Matrix2::new(c, -s, s, c)
-    };
-    (q + r, q - r, rotation((sum + difference) / 2.0), rotation((sum - difference) / 2.0))
+    let (q, r) = ((e * e + g * g).sqrt(), (f * f + h * h).sqrt());
+    // (e, g) is q times the unit vector at the difference of U's and V's angles, (f, h) r times that at their sum.
+    let difference = [e / q, g / q];
+    let sum = if r > 0.0 { [f / r, h / r] } else { [1.0, 0.0] };
+    let [c, s] = half_angle(sum);
+    let rotation = |[c, s]: [f64; 2]| Matrix2::new(c, -s, s, c);
+    let [dc, ds] = half_angle(difference);
+    (q + r, q - r, rotation([c * dc - s * ds, s * dc + c * ds]), rotation([c * dc + s * ds, s * dc - c * ds]))
+}
+
+/// Cosine and sine of half the angle, between −½π and ½π, whose cosine and sine are given. A whole turn more or less of
+/// the angle would turn U and V both by half a turn, which U Σ Vᵀ does not show.
+fn half_angle([cosine, sine]: [f64; 2]) -> [f64; 2] {
+    let half = ((1.0 + cosine.abs()) / 2.0).sqrt();
+    let other = sine.abs() / (2.0 * half);
+    let (c, s) = if cosine >= 0.0 { (half, other) } else { (other, half) };
+    [c, s.copysign(sine)]
 }
 
 /// Stretches (larger first) of a triangle whose Jacobian has a positive determinant.

@@ -99,7 +99,7 @@ impl Areas {
             let det = jacobian.determinant();
             let (larger, smaller) = stretches(&jacobian);
             sums.total += element.area * det;
-            sums.flips += usize::from(!(det > 0.0));
+            sums.flips += usize::from(det <= 0.0 || det.is_nan());
             sums.stretch += element.area * ((larger - 1.0).powi(2) + (smaller - 1.0).powi(2));
             sums.change += element.area * (det - 1.0).powi(2);
         }

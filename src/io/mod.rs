@@ -1,3 +1,3 @@
-//! io
+//! Formats at the edge of the program.
 
 pub mod pattern_svg;

@@ -27,7 +27,7 @@ mod private {
 
 /// The numbers a matrix may be made of: `f64`, or `f32` where a Newton direction need not be exact (half the memory,
 /// measurably faster).
-pub trait Scalar: private::Field + Copy + Send + Sync + std::ops::Add<Output = Self> + std::fmt::Debug {
+pub trait Scalar: private::Field + Copy + Send + Sync + std::ops::AddAssign + std::fmt::Debug {
     /// The nearest value.
     fn from_f64(value: f64) -> Self;
     /// The same value.
