@@ -1,5 +1,7 @@
 //! The sparse solver against a dense one, and its promises.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -209,7 +211,7 @@ fn nested_dissection_is_a_permutation_with_less_fill() {
     assert!(order.into_iter().eq(0..4900));
 }
 
-/// Prints what DESIGN's measured claims rest on; run with `--ignored --nocapture`.
+/// Prints the cost of a Newton step on a grid; run with `--ignored --nocapture`.
 #[test]
 #[ignore = "a measurement, not a check"]
 fn timing_of_a_70_by_70_grid() {

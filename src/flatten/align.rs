@@ -1,12 +1,36 @@
 //! Putting a flat piece where it belongs, without changing it.
 
-use crate::geometry::Vec2;
+use crate::geometry::{TriMesh, Vec2};
+
+/// Mean slope (upward metres per metre) below which a surface counts as level.
+const NO_DIRECTION: f64 = 1e-6;
 
 /// Moves the centre of the points to the origin.
 pub(super) fn centre(points: &mut [Vec2]) {
     let middle = mean(points);
     for p in points {
         *p -= middle;
+    }
+}
+
+/// Moves the centre of the points to the origin and turns them so that the surface's mean upward direction (space's
+/// y) is up on a screen (−y). A surface without one, such as a level one, is not turned.
+pub(super) fn upright(flat: &mut [Vec2], surface: &TriMesh) {
+    let middle = mean(flat);
+    let mut up = Vec2::zeros();
+    for t in &surface.triangles {
+        let [a, b, c] = t.map(|v| flat[v as usize]);
+        let heights = t.map(|v| surface.vertices[v as usize].y);
+        // Gradient of the height over the flat triangle, times its area.
+        for (height, side) in heights.into_iter().zip([c - b, a - c, b - a]) {
+            up += Vec2::new(-side.y, side.x) * (0.5 * height);
+        }
+    }
+    let extent = surface.area() * NO_DIRECTION;
+    let up = if up.norm() > extent { up.normalize() } else { -Vec2::y() };
+    for p in flat {
+        let d = *p - middle;
+        *p = Vec2::new(-up.y * d.x + up.x * d.y, -up.x * d.x - up.y * d.y);
     }
 }
 

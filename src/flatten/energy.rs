@@ -6,6 +6,7 @@ use nalgebra::Matrix2;
 
 use super::FlattenError;
 use super::element::{CORNER_PAIRS, Element};
+use super::law::Law;
 use crate::geometry::Vec2;
 use crate::linear::{BlockSlot, SymmetricMatrix, SymmetricPattern};
 
@@ -30,40 +31,30 @@ pub(super) struct Spring {
 pub(super) struct Energy {
     pub(super) elements: Vec<Element>,
     pub(super) springs: Vec<Spring>,
-    /// Weight of the triangles' distortion; 1 in most modes.
-    pub(super) membrane: f64,
-    /// Weight of (det J − 1)² beside the distortion.
-    pub(super) area_weight: f64,
+    law: Law,
     total_area: f64,
     vertices: usize,
 }
 
 impl Energy {
-    pub(super) fn new(
-        vertices: usize,
-        elements: Vec<Element>,
-        springs: Vec<Spring>,
-        membrane: f64,
-        area_weight: f64,
-    ) -> Self {
+    pub(super) fn new(vertices: usize, elements: Vec<Element>, springs: Vec<Spring>, law: Law) -> Self {
         let total_area = elements.iter().map(|e| e.area).sum();
-        Self { elements, springs, membrane, area_weight, total_area, vertices }
+        Self { elements, springs, law, total_area, vertices }
     }
 
     /// The energy; infinite where a triangle is flipped.
     pub(super) fn value(&self, flat: &[Vec2]) -> f64 {
-        let triangles: f64 =
-            self.elements.iter().map(|e| e.area * Element::density(&e.jacobian(flat), self.area_weight)).sum();
+        let triangles: f64 = self.elements.iter().map(|e| e.area * self.law.density(&e.jacobian(flat))).sum();
         let springs: f64 = self.springs.iter().map(|s| s.weight * (s.length(flat) / s.target - 1.0).powi(2)).sum();
-        (self.membrane * triangles + springs) / self.total_area
+        (triangles + springs) / self.total_area
     }
 
     /// Its derivative by every coordinate, 1/m.
     pub(super) fn gradient(&self, flat: &[Vec2], out: &mut [Vec2]) {
         out.fill(Vec2::zeros());
         for e in &self.elements {
-            let scale = self.membrane * e.area / self.total_area;
-            for (v, force) in e.corners.into_iter().zip(e.gradient(&e.jacobian(flat), self.area_weight)) {
+            let scale = e.area / self.total_area;
+            for (v, force) in e.corners.into_iter().zip(e.forces(&self.law.stress(&e.jacobian(flat)))) {
                 out[v as usize] += force * scale;
             }
         }
@@ -112,9 +103,10 @@ pub(super) struct Curvature {
 
 impl Curvature {
     pub(super) fn new(energy: &Energy) -> Result<Self, FlattenError> {
-        let pairs = energy.elements.iter().flat_map(|e| {
-            CORNER_PAIRS[3..].iter().map(|&(k, l)| (e.corners[k] as usize, e.corners[l] as usize))
-        });
+        let pairs = energy
+            .elements
+            .iter()
+            .flat_map(|e| CORNER_PAIRS[3..].iter().map(|&(k, l)| (e.corners[k] as usize, e.corners[l] as usize)));
         let springs = energy.springs.iter().map(|s| (s.ends[0] as usize, s.ends[1] as usize));
         let pattern = SymmetricPattern::planar_blocks(energy.vertices, pairs.chain(springs));
         let pattern = Arc::new(pattern.map_err(|_| FlattenError::Breakdown)?);
@@ -146,9 +138,10 @@ impl Curvature {
     pub(super) fn update(&mut self, energy: &Energy, flat: &[Vec2]) -> &SymmetricMatrix<f64> {
         self.matrix.clear();
         for (e, slots) in energy.elements.iter().zip(&self.element_slots) {
-            let scale = energy.membrane * e.area / energy.total_area;
-            for (&slot, block) in slots.iter().zip(e.curvature(&e.jacobian(flat), energy.area_weight)) {
-                self.matrix.add_block(slot, &(block * scale));
+            let mut blocks = [Matrix2::zeros(); 6];
+            energy.law.modes(&e.jacobian(flat), |mode| e.add_mode(mode, &mut blocks));
+            for (&slot, block) in slots.iter().zip(blocks) {
+                self.matrix.add_block(slot, &(block * (e.area / energy.total_area)));
             }
         }
         for (s, slots) in energy.springs.iter().zip(&self.spring_slots) {

@@ -93,6 +93,7 @@ fn flatten_piece(
         (Err(flaw), _) => return Err(flaw),
     };
     let mut sheet = Sheet::as_it_is(&surface, topology, rims);
+    sheet.warp = piece.warp;
     draw_out(&mut sheet, first, targets);
     let mut flattened = relax_sheet(&sheet, start, options)?;
     align::onto(&mut flattened.positions, drawn);

@@ -40,11 +40,8 @@ impl Laplacian {
                 (!rim).then(|| inner_count as u32 - 1)
             })
             .collect();
-        let edges: Vec<([u32; 2], f64)> = topology
-            .edges
-            .iter()
-            .map(|e| (e.ends, edge_weight(surface, e.ends, &e.triangles, weights)))
-            .collect();
+        let edges: Vec<([u32; 2], f64)> =
+            topology.edges.iter().map(|e| (e.ends, edge_weight(surface, e.ends, &e.triangles, weights))).collect();
         let factor = factor(&edges, &inner, inner_count)?;
         Ok(Self { edges, inner, inner_count, factor })
     }
@@ -97,11 +94,7 @@ fn edge_weight(surface: &TriMesh, ends: [u32; 2], triangles: &[Option<u32>; 2], 
     0.5 * triangles.iter().flatten().map(|&t| cotangent(t)).sum::<f64>()
 }
 
-fn factor(
-    edges: &[([u32; 2], f64)],
-    inner: &[Option<u32>],
-    inner_count: usize,
-) -> Result<Cholesky<f64>, FlattenError> {
+fn factor(edges: &[([u32; 2], f64)], inner: &[Option<u32>], inner_count: usize) -> Result<Cholesky<f64>, FlattenError> {
     let breakdown = |_| FlattenError::Breakdown;
     let coupled = |ends: [u32; 2]| Some((inner[ends[0] as usize]? as usize, inner[ends[1] as usize]? as usize));
     let pattern = SymmetricPattern::scalar(inner_count, edges.iter().filter_map(|&(ends, _)| coupled(ends)));
@@ -117,8 +110,7 @@ fn factor(
             matrix.add(slot, -weight);
         }
     }
-    let mut factor =
-        Cholesky::new(pattern, &Ordering::MinimumDegree).map_err(|_| FlattenError::Breakdown)?;
+    let mut factor = Cholesky::new(pattern, &Ordering::MinimumDegree).map_err(|_| FlattenError::Breakdown)?;
     factor.factor(&matrix).map_err(breakdown)?;
     Ok(factor)
 }

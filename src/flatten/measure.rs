@@ -1,7 +1,8 @@
 //! What flattening did to the cloth.
 
 use super::Sheet;
-use super::element::{Element, stretches};
+use super::distortion::stretches;
+use super::element::Element;
 use super::overlap::rim_crossings;
 use super::relax::Outcome;
 use crate::geometry::{TriMesh, Vec2};
@@ -98,7 +99,7 @@ impl Areas {
             let det = jacobian.determinant();
             let (larger, smaller) = stretches(&jacobian);
             sums.total += element.area * det;
-            sums.flips += usize::from(!(det > 0.0));
+            sums.flips += usize::from(det <= 0.0 || det.is_nan());
             sums.stretch += element.area * ((larger - 1.0).powi(2) + (smaller - 1.0).powi(2));
             sums.change += element.area * (det - 1.0).powi(2);
         }

@@ -5,7 +5,6 @@
 //! steps, and it knows the stiff springs of the rim. A step is never longer than to the first flip (Smith & Schaefer
 //! 2015, section 3.3).
 
-
 use super::FlattenError;
 use super::energy::{Curvature, Energy};
 use crate::geometry::Vec2;

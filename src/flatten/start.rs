@@ -31,8 +31,8 @@ pub(super) fn start(surface: &TriMesh, topology: &Topology, rim: &[u32]) -> Resu
 pub(super) fn first_flipped(triangles: &[[u32; 3]], flat: &[Vec2]) -> Option<usize> {
     triangles.iter().position(|t| {
         let [a, b, c] = t.map(|v| flat[v as usize]);
-        // Not `<=`, so that an undefined number counts as flipped.
-        !((b - a).perp(&(c - a)) > 0.0)
+        let area = (b - a).perp(&(c - a));
+        area <= 0.0 || area.is_nan()
     })
 }
 

@@ -67,8 +67,9 @@ fn check_numbers(surface: &TriMesh) -> Result<(), FlattenError> {
 
 fn is_degenerate([a, b, c]: [Vec3; 3]) -> bool {
     let longest = (b - a).norm_squared().max((c - b).norm_squared()).max((a - c).norm_squared());
-    // Not `<=`, so that what overflows is refused too.
-    !((b - a).cross(&(c - a)).norm() > DEGENERATE * longest)
+    let double_area = (b - a).cross(&(c - a)).norm();
+    // Beyond about 10¹⁵⁰ metres the squares overflow: such a triangle is refused too.
+    double_area <= DEGENERATE * longest || !longest.is_finite() || !double_area.is_finite()
 }
 
 /// Number of parts connected by edges.

@@ -5,3 +5,4 @@ pub mod files;
 pub mod garment;
 pub mod obj_read;
 pub mod obj_write;
+pub mod pattern_svg;

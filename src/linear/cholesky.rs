@@ -27,7 +27,7 @@ mod private {
 
 /// The numbers a matrix may be made of: `f64`, or `f32` where a Newton direction need not be exact (half the memory,
 /// measurably faster).
-pub trait Scalar: private::Field + Copy + Send + Sync + std::ops::Add<Output = Self> + std::fmt::Debug {
+pub trait Scalar: private::Field + Copy + Send + Sync + std::ops::AddAssign + std::fmt::Debug {
     /// The nearest value.
     fn from_f64(value: f64) -> Self;
     /// The same value.
@@ -62,8 +62,9 @@ pub enum Ordering {
     /// Approximate minimum degree: good for any matrix.
     #[default]
     MinimumDegree,
-    /// Nodes in the order of their elimination, such as [`super::nested_dissection`] gives: better for grids. The
-    /// rows of a block pattern's vertex stay together.
+    /// Nodes in the order of their elimination, such as [`super::nested_dissection`] gives: analysed faster. Measured on
+    /// a 70×70 grid of 3×3 blocks, factor and solve cost the same within a tenth. The rows of a block pattern's vertex
+    /// stay together.
     Given(Vec<u32>),
 }
 

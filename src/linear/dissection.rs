@@ -15,15 +15,15 @@ pub fn nested_dissection(points: &[Vec3], edges: &[[u32; 2]]) -> Vec<u32> {
     let mut half = vec![Half::Elsewhere; points.len()];
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
     // Parts still to be cut. Every part is a range of `order`; what is not cut keeps its place.
-    let mut parts = vec![0..points.len()];
-    while let Some(range) = parts.pop() {
-        if range.len() <= LEAF {
+    let mut parts = Vec::from([(0, points.len())]);
+    while let Some((start, end)) = parts.pop() {
+        if end - start <= LEAF {
             continue;
         }
-        let part = &mut order[range.clone()];
+        let part = &mut order[start..end];
         let (low, high) = halve(points, &graph, part, &mut half);
-        parts.push(range.start..range.start + low);
-        parts.push(range.start + low..range.start + low + high);
+        parts.push((start, start + low));
+        parts.push((start + low, start + low + high));
     }
     order
 }

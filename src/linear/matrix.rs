@@ -41,8 +41,7 @@ impl<T: Scalar> SymmetricMatrix<T> {
     /// Adds to one entry (and so to its mirror image).
     #[inline]
     pub fn add(&mut self, slot: Slot, value: f64) {
-        let entry = &mut self.values[slot.0 as usize];
-        *entry = *entry + T::from_f64(value);
+        self.values[slot.0 as usize] += T::from_f64(value);
     }
 
     /// Adds a block, and its transpose at the mirror image. On the diagonal the block must be symmetric: only its lower
@@ -55,8 +54,7 @@ impl<T: Scalar> SymmetricMatrix<T> {
             let first = if slot.kind == BlockKind::Diagonal { c } else { 0 };
             for r in first..W {
                 let value = if slot.kind == BlockKind::Transposed { block[(c, r)] } else { block[(r, c)] };
-                let entry = &mut self.values[at + r];
-                *entry = *entry + T::from_f64(value);
+                self.values[at + r] += T::from_f64(value);
             }
             // Each column is one entry shorter than the one before it.
             at += slot.stride as usize - c;

@@ -1,0 +1,99 @@
+//! What a triangle is measured by: the densities of a mode, weighted.
+
+use nalgebra::Matrix2;
+
+use super::element::Mode;
+use super::{distortion, woven};
+use crate::geometry::Vec2;
+
+/// Weights of a triangle's energy density.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Law {
+    /// Of the distortion; positive, for it is the wall before a flip.
+    pub(super) distortion: f64,
+    /// Of (det J − 1)², as a multiple of `distortion`.
+    pub(super) area: f64,
+    /// Flat warp direction, where threads count (with weight 1).
+    pub(super) warp: Option<Vec2>,
+}
+
+impl Law {
+    /// Energy per area; infinite at and beyond a flip.
+    pub(super) fn density(&self, jacobian: &Matrix2<f64>) -> f64 {
+        let distortion = self.distortion * distortion::density(jacobian, self.area);
+        match self.warp {
+            Some(warp) if distortion.is_finite() => distortion + woven::density(jacobian, warp),
+            _ => distortion,
+        }
+    }
+
+    /// Its derivative by J.
+    pub(super) fn stress(&self, jacobian: &Matrix2<f64>) -> Matrix2<f64> {
+        let distortion = distortion::stress(jacobian, self.area) * self.distortion;
+        self.warp.map_or(distortion, |warp| distortion + woven::stress(jacobian, warp))
+    }
+
+    /// Hands out the directions of its curvature.
+    pub(super) fn modes(&self, jacobian: &Matrix2<f64>, mut add: impl FnMut(&Mode)) {
+        for mode in distortion::modes(jacobian, self.area) {
+            add(&Mode { curvature: self.distortion * mode.curvature, ..mode });
+        }
+        for mode in self.warp.into_iter().flat_map(|warp| woven::modes(jacobian, warp)) {
+            add(&mode);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STEP: f64 = 1e-6;
+    const LAWS: [Law; 2] = [
+        Law { distortion: 1.0, area: 0.2, warp: None },
+        Law { distortion: 0.1, area: 3.0, warp: Some(Vec2::new(0.6, 0.8)) },
+    ];
+
+    fn moved(jacobian: &Matrix2<f64>, k: usize, by: f64) -> Matrix2<f64> {
+        let mut out = *jacobian;
+        out[k] += by;
+        out
+    }
+
+    #[test]
+    fn the_stress_is_the_derivative_of_the_density() {
+        let jacobian = Matrix2::new(1.2, 0.3, -0.1, 0.9);
+        for law in LAWS {
+            for k in 0..4 {
+                let value = |by: f64| law.density(&moved(&jacobian, k, by));
+                let numeric = (value(STEP) - value(-STEP)) / (2.0 * STEP);
+                assert!((numeric - law.stress(&jacobian)[k]).abs() < 1e-8);
+            }
+        }
+    }
+
+    #[test]
+    fn where_all_modes_are_stiff_they_are_the_derivative_of_the_stress() {
+        let (jacobian, law) = (Matrix2::new(1.2, 0.3, -0.1, 0.9), LAWS[0]);
+        for k in 0..4 {
+            let mut expected = Matrix2::zeros();
+            law.modes(&jacobian, |m| {
+                assert!(m.curvature > 0.0);
+                expected += m.mode * (m.mode[k] * m.curvature);
+            });
+            let stress = |by: f64| law.stress(&moved(&jacobian, k, by));
+            let numeric = (stress(STEP) - stress(-STEP)) / (2.0 * STEP);
+            assert!((numeric - expected).norm() < 1e-7, "{numeric} {expected}");
+        }
+    }
+
+    #[test]
+    fn threads_on_the_grain_cost_nothing_when_sheared() {
+        let sheared: Matrix2<f64> = Matrix2::new(1.0, 0.5, 0.0, f64::sqrt(0.75));
+        let warp = Vec2::new(1.0, 0.0);
+        // Columns of J⁻¹ are the threads on the surface: make them of unit length.
+        let jacobian = sheared.try_inverse().unwrap_or_default();
+        assert!(woven::density(&jacobian, warp) < 1e-20);
+        assert_eq!(LAWS[1].density(&Matrix2::new(1.0, 0.0, 0.0, -1.0)), f64::INFINITY);
+    }
+}

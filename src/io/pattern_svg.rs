@@ -1,0 +1,268 @@
+//! `pattern.svg`: the flat pieces at full size, to print, plot or cut.
+//!
+//! One user unit is one millimetre and width, height and viewBox say so. Coordinates are absolute (no transforms) and
+//! every element carries its own styling, so that any program sees the same drawing.
+
+use svg::Document;
+use svg::node::element::{Group, Path, Rectangle, Text};
+
+use crate::geometry::Vec2;
+use crate::mesh::{ClothMesh, EdgeParticles, PieceMesh};
+use crate::pattern::Notch;
+
+/// Millimetres per metre.
+const MM: f64 = 1000.0;
+/// Empty rim of the sheet, mm: what home printers leave white.
+const MARGIN: f64 = 10.0;
+/// Space between pieces, mm: room for two seam allowances.
+const GAP: f64 = 30.0;
+/// Side of the test square, mm.
+const TEST_SQUARE: f64 = 100.0;
+/// The sheet is about this much wider than a square of the pieces' boxes, which leaves it roughly as high as wide.
+const SHEET_SLACK: f64 = 1.2;
+/// Share of the piece's height that its grain line takes, and its longest, mm.
+const GRAIN: (f64, f64) = (0.4, 250.0);
+/// Barbs of the grain arrow, mm.
+const BARB: f64 = 6.0;
+/// Height of letters, mm.
+const LETTERS: f64 = 8.0;
+/// Depth of a notch and distance of a double one's two marks, mm.
+const NOTCH: (f64, f64) = (6.0, 5.0);
+
+/// Why a pattern could not be drawn.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum PatternSvgError {
+    /// Positions of another mesh.
+    #[error("{found} flat positions for {expected} particles")]
+    Positions {
+        /// Particles of the mesh.
+        expected: usize,
+        /// Positions given.
+        found: usize,
+    },
+    /// A position that is infinite or not a number.
+    #[error("particle {0} has no finite flat position")]
+    NotFinite(usize),
+}
+
+/// Draws the pieces of a cloth at their flat positions (metres, one per particle; `cloth.flat` draws the pattern as it
+/// was). Pieces lie side by side without touching, their warp upright, the right side of the cloth up. `notches` are
+/// the garment's; a notch on an edge that the mesh does not have is left out.
+///
+/// Group ids are piece names, path ids `piece.edge`; classes are `piece`, `edge`, `line`, `grain`, `notch`, `text` and
+/// `scale`.
+///
+/// # Errors
+/// Positions that do not belong to the mesh or are not finite.
+pub fn pattern_svg(cloth: &ClothMesh, flat: &[Vec2], notches: &[Notch]) -> Result<String, PatternSvgError> {
+    if flat.len() != cloth.flat.len() {
+        return Err(PatternSvgError::Positions { expected: cloth.flat.len(), found: flat.len() });
+    }
+    if let Some(v) = flat.iter().position(|p| !(p.x.is_finite() && p.y.is_finite())) {
+        return Err(PatternSvgError::NotFinite(v));
+    }
+    let mut sheets: Vec<Sheet<'_>> = cloth.pieces.iter().map(|piece| Sheet::new(piece, flat)).collect();
+    let size = lay_out(&mut sheets);
+    let mut document = Document::new()
+        .set("width", format!("{}mm", number(size.x)))
+        .set("height", format!("{}mm", number(size.y)))
+        .set("viewBox", format!("0 0 {} {}", number(size.x), number(size.y)));
+    for sheet in &sheets {
+        document = document.add(sheet.draw(&cloth.flat, notches));
+    }
+    Ok(document.add(test_square(size)).to_string())
+}
+
+/// A piece in millimetres on the sheet.
+struct Sheet<'a> {
+    piece: &'a PieceMesh,
+    /// Of its particles.
+    points: Vec<Vec2>,
+    /// Warp on the sheet: up or down.
+    warp: Vec2,
+    /// Upper left and lower right corner of its box.
+    corners: [Vec2; 2],
+}
+
+impl<'a> Sheet<'a> {
+    /// Turns the piece so that its warp is upright, by the smaller angle.
+    fn new(piece: &'a PieceMesh, flat: &[Vec2]) -> Self {
+        let up = if piece.warp.y > 0.0 { -piece.warp } else { piece.warp };
+        // The rotation that takes `up` to (0, −1).
+        let turn = |p: Vec2| Vec2::new(-up.y * p.x + up.x * p.y, -up.x * p.x - up.y * p.y);
+        let points: Vec<Vec2> = flat[piece.particles.clone()].iter().map(|&p| turn(p) * MM).collect();
+        let mut sheet = Self { piece, points, warp: turn(piece.warp), corners: [Vec2::zeros(); 2] };
+        sheet.corners = sheet.bounds();
+        sheet
+    }
+
+    fn bounds(&self) -> [Vec2; 2] {
+        let Some(first) = self.points.first() else { return [Vec2::zeros(); 2] };
+        self.points.iter().fold([*first; 2], |[low, high], p| [low.inf(p), high.sup(p)])
+    }
+
+    fn size(&self) -> Vec2 {
+        self.corners[1] - self.corners[0]
+    }
+
+    /// Moves the upper left corner of the box.
+    fn put(&mut self, corner: Vec2) {
+        let shift = corner - self.corners[0];
+        for p in &mut self.points {
+            *p += shift;
+        }
+        self.corners = self.corners.map(|c| c + shift);
+    }
+
+    fn at(&self, particle: u32) -> Option<Vec2> {
+        self.points.get((particle as usize).checked_sub(self.piece.particles.start)?).copied()
+    }
+
+    fn polyline(&self, particles: &[u32]) -> Vec<Vec2> {
+        particles.iter().filter_map(|&v| self.at(v)).collect()
+    }
+
+    fn draw(&self, drawn: &[Vec2], notches: &[Notch]) -> Group {
+        let name = identifier(&self.piece.name);
+        let mut group = Group::new().set("id", name.as_str()).set("class", "piece").set("fill", "none");
+        for edge in &self.piece.edges {
+            let id = format!("{name}.{}", identifier(&edge.name));
+            group = group.add(stroke(&self.polyline(&edge.particles), "edge", 0.5).set("id", id));
+        }
+        for line in &self.piece.lines {
+            let id = format!("{name}.{}", identifier(&line.name));
+            let path = stroke(&self.polyline(&line.particles), "line", 0.3);
+            group = group.add(path.set("id", id).set("stroke-dasharray", "4 2"));
+        }
+        for notch in notches {
+            if let Some(edge) = self.piece.edges.iter().find(|e| e.edge == notch.edge) {
+                for path in self.notch(edge, drawn, notch) {
+                    group = group.add(path);
+                }
+            }
+        }
+        group.add(self.grain()).add(self.label())
+    }
+
+    /// Middle of the particles: inside any piece that is not much bent.
+    fn middle(&self) -> Vec2 {
+        self.points.iter().sum::<Vec2>() / self.points.len().max(1) as f64
+    }
+
+    /// An arrow along the warp, from tail to head.
+    fn grain(&self) -> Path {
+        let half = self.warp * (GRAIN.0 * self.size().y).min(GRAIN.1) / 2.0;
+        let (tail, head) = (self.middle() - half, self.middle() + half);
+        let across = Vec2::new(-self.warp.y, self.warp.x);
+        let barb = |side: f64| head - (self.warp * 2.0 + across * side) * (BARB / 2.0);
+        stroke(&[tail, head, barb(1.0), head, barb(-1.0)], "grain", 0.3)
+    }
+
+    fn label(&self) -> Text {
+        let at = self.middle();
+        text(&self.piece.name, at + Vec2::new(LETTERS / 2.0, 0.0))
+    }
+
+    /// One or two marks from the edge into the piece.
+    fn notch(&self, edge: &EdgeParticles, drawn: &[Vec2], notch: &Notch) -> Vec<Path> {
+        let offsets: &[f64] = if notch.double { &[-0.5, 0.5] } else { &[0.0] };
+        let place = |&offset: &f64| self.along(edge, drawn, notch.at * MM + offset * NOTCH.1);
+        let marks = offsets.iter().filter_map(place);
+        marks.map(|(at, inward)| stroke(&[at, at + inward * NOTCH.0], "notch", 0.3)).collect()
+    }
+
+    /// Where the drawn distance `wanted` (mm) along an edge has come to lie, and the direction into the piece.
+    fn along(&self, edge: &EdgeParticles, drawn: &[Vec2], wanted: f64) -> Option<(Vec2, Vec2)> {
+        let mut walked = 0.0;
+        let mut found = None;
+        for step in edge.particles.windows(2) {
+            let length = (drawn.get(step[1] as usize)? - drawn.get(step[0] as usize)?).norm() * MM;
+            let (a, b) = (self.at(step[0])?, self.at(step[1])?);
+            let share = if length > 0.0 { ((wanted - walked) / length).clamp(0.0, 1.0) } else { 0.0 };
+            // The outline runs clockwise on the screen, holes the other way: the piece is to the right.
+            let direction = (b - a).try_normalize(0.0)?;
+            found = Some((a + (b - a) * share, Vec2::new(-direction.y, direction.x)));
+            walked += length;
+            if walked >= wanted {
+                break;
+            }
+        }
+        found
+    }
+}
+
+/// Puts the pieces on shelves, the highest first, and gives the size of the sheet.
+fn lay_out(sheets: &mut [Sheet<'_>]) -> Vec2 {
+    let boxes: f64 = sheets.iter().map(|s| (s.size().x + GAP) * (s.size().y + GAP)).sum();
+    let widest = sheets.iter().map(|s| s.size().x).fold(TEST_SQUARE, f64::max);
+    let width = widest.max(SHEET_SLACK * boxes.sqrt());
+    let mut order: Vec<usize> = (0..sheets.len()).collect();
+    order.sort_by(|&a, &b| sheets[b].size().y.total_cmp(&sheets[a].size().y).then(a.cmp(&b)));
+    let (mut at, mut shelf, mut right) = (Vec2::repeat(MARGIN), 0.0, MARGIN + TEST_SQUARE);
+    for k in order {
+        let size = sheets[k].size();
+        if at.x > MARGIN && at.x + size.x > MARGIN + width {
+            at = Vec2::new(MARGIN, at.y + shelf + GAP);
+            shelf = 0.0;
+        }
+        sheets[k].put(at);
+        shelf = f64::max(shelf, size.y);
+        right = f64::max(right, at.x + size.x);
+        at.x += size.x + GAP;
+    }
+    let below = if sheets.is_empty() { 0.0 } else { shelf + GAP };
+    Vec2::new(right + MARGIN, at.y + below + TEST_SQUARE + MARGIN)
+}
+
+/// A square to measure after printing, lower left.
+fn test_square(size: Vec2) -> Group {
+    let corner = Vec2::new(MARGIN, size.y - MARGIN - TEST_SQUARE);
+    let square = Rectangle::new()
+        .set("x", number(corner.x))
+        .set("y", number(corner.y))
+        .set("width", TEST_SQUARE)
+        .set("height", TEST_SQUARE)
+        .set("fill", "none")
+        .set("stroke", "black")
+        .set("stroke-width", 0.3);
+    let label = text(&format!("{TEST_SQUARE} mm"), corner + Vec2::new(LETTERS, TEST_SQUARE / 2.0));
+    Group::new().set("class", "scale").add(square).add(label)
+}
+
+fn text(content: &str, at: Vec2) -> Text {
+    Text::new(printable(content))
+        .set("class", "text")
+        .set("x", number(at.x))
+        .set("y", number(at.y))
+        .set("font-family", "sans-serif")
+        .set("font-size", LETTERS)
+        .set("fill", "black")
+        .set("stroke", "none")
+}
+
+fn stroke(points: &[Vec2], class: &str, width: f64) -> Path {
+    let steps: Vec<String> = points.iter().map(|p| format!("{} {}", number(p.x), number(p.y))).collect();
+    Path::new()
+        .set("class", class)
+        .set("d", if steps.is_empty() { String::new() } else { format!("M{}", steps.join(" L")) })
+        .set("fill", "none")
+        .set("stroke", "black")
+        .set("stroke-width", width)
+        .set("stroke-linejoin", "round")
+        .set("stroke-linecap", "round")
+}
+
+/// A tenth of a micrometre: sums over an edge's hundred particles stay exact to a hundredth of a millimetre.
+fn number(x: f64) -> String {
+    format!("{x:.4}")
+}
+
+/// A name as an attribute's value: XML forbids control characters, quotes would end the value and an id has no spaces.
+fn identifier(name: &str) -> String {
+    name.chars().map(|c| if c.is_control() || c.is_whitespace() || c == '"' { '_' } else { c }).collect()
+}
+
+/// Text without the control characters XML forbids.
+fn printable(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+}
