@@ -71,6 +71,14 @@ impl Bounds {
         x.iter().zip(&self.origin).map(|(a, b)| (a - b).norm_squared()).fold(0.0, f64::max).sqrt()
     }
 
+    /// The share (≤ 1) of a step that keeps every node on its leash. Shortening the step as a whole keeps its shape;
+    /// cutting it node by node crumples the cloth.
+    pub fn share(&self, x: &[Vec3], step: &[Vec3]) -> f64 {
+        let longest = step.iter().map(Vec3::norm_squared).fold(0.0, f64::max).sqrt();
+        let left = self.leash - self.travelled(x);
+        if longest > left { (left / longest).max(0.0) } else { 1.0 }
+    }
+
     /// Moves every target in `to` so that the way from `from` keeps all bounds; sliding along a plane stays free.
     pub fn clamp(&self, from: &[Vec3], to: &mut [Vec3]) {
         to.par_iter_mut().enumerate().for_each(|(i, target)| {

@@ -185,7 +185,8 @@ impl<'a> World<'a> {
             friction: self.friction.as_ref(),
         };
         let d = self.stepper.solve(&self.cloth, &self.x, &inertia, dt, &forces)?;
-        let target: Vec<Vec3> = self.x.iter().zip(&d).map(|(x, d)| x + d).collect();
+        let share = self.bounds.share(&self.x, &d);
+        let target: Vec<Vec3> = self.x.iter().zip(&d).map(|(x, d)| x + d * share).collect();
         Ok(self.move_to(target, dt))
     }
 
