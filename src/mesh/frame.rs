@@ -113,11 +113,6 @@ impl Frame {
         self.points.len() as u32 - 1
     }
 
-    /// Twice the area inside the sampled rim.
-    pub(super) fn double_area(&self) -> f64 {
-        self.rim_springs.iter().map(|s| self.points[s[0] as usize].perp(&self.points[s[1] as usize])).sum()
-    }
-
     /// All springs of the frame.
     pub(super) fn springs(&self) -> impl Iterator<Item = [u32; 2]> {
         self.rim_springs.iter().chain(&self.line_springs).copied()

@@ -36,11 +36,41 @@ struct Trial {
     undo: Vec<Undo>,
     /// Triangles looked at before their first change.
     touched: Vec<u32>,
-    /// Worst quality among them, before.
-    before: f64,
+    /// How they were then.
+    before: Score,
     triangles: usize,
     points: usize,
 }
+
+/// How good a set of triangles is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Score {
+    /// Worst quality.
+    pub(super) worst: f64,
+    /// What all poor triangles together lack.
+    pub(super) lack: f64,
+}
+
+impl Score {
+    /// No triangle yet.
+    const PERFECT: Self = Self { worst: 1.0, lack: 0.0 };
+
+    fn with(self, quality: f64) -> Self {
+        let lack = (quality_of_degrees(POOR) - quality).max(0.0);
+        Self { worst: self.worst.min(quality), lack: self.lack + lack }
+    }
+
+    /// Whether a change to this was worth it: a better worst triangle, or the same and clearly less poor ones.
+    /// Both thresholds keep two states from changing into each other for ever.
+    pub(super) fn improves(self, before: Self) -> bool {
+        self.worst > GAIN * before.worst || (self.worst >= before.worst && GAIN * self.lack < before.lack)
+    }
+}
+
+/// Below this smallest angle (degrees) a triangle is poor: worth adding or removing a particle.
+pub(super) const POOR: f64 = 28.0;
+/// Least factor by which a change must gain.
+pub(super) const GAIN: f64 = 1.03;
 
 enum Undo {
     Triangle(u32, Tri),
@@ -242,19 +272,19 @@ impl Patch {
         self.trial = Some(Trial {
             undo: Vec::new(),
             touched: Vec::new(),
-            before: 1.0,
+            before: Score::PERFECT,
             triangles: self.triangles.len(),
             points: self.points.len(),
         });
     }
 
-    /// Ends a change: keeps it if `accept(worst quality before, worst quality after)` of the triangles it touched,
-    /// else restores everything. Returns whether it was kept.
-    pub(super) fn end(&mut self, accept: impl FnOnce(f64, f64) -> bool) -> bool {
+    /// Ends a change: keeps it if `accept(before, after)` of the triangles it touched, else restores everything.
+    /// Returns whether it was kept.
+    pub(super) fn end(&mut self, accept: impl FnOnce(Score, Score) -> bool) -> bool {
         let Some(trial) = self.trial.take() else { return true };
         let fresh = trial.triangles as u32..self.triangles.len() as u32;
         let changed = trial.touched.iter().copied().chain(fresh).filter(|&t| self.is_alive(t));
-        let after = changed.map(|t| self.quality(t)).fold(1.0, f64::min);
+        let after = changed.map(|t| self.quality(t)).fold(Score::PERFECT, Score::with);
         if accept(trial.before, after) {
             return true;
         }
@@ -329,13 +359,16 @@ impl Patch {
 
     /// Notes the quality of a triangle before its first change.
     fn touch(&mut self, t: u32) {
-        let quality = if self.is_alive(t) { self.quality(t) } else { 1.0 };
+        if self.trial.is_none() || !self.is_alive(t) {
+            return;
+        }
+        let quality = self.quality(t);
         if let Some(trial) = &mut self.trial
             && (t as usize) < trial.triangles
             && !trial.touched.contains(&t)
         {
             trial.touched.push(t);
-            trial.before = trial.before.min(quality);
+            trial.before = trial.before.with(quality);
         }
     }
 }
