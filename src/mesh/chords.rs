@@ -58,9 +58,8 @@ impl Improver<'_> {
         let m = self.split(t, other, k);
         self.settle(m);
         let fine = quality_of_degrees(FINE);
-        self.patch.end(|before, after| {
-            after.worst > fine || after.worst >= before.worst || (must && after.worst > 0.0)
-        });
+        self.patch
+            .end(|before, after| after.worst > fine || after.worst >= before.worst || (must && after.worst > 0.0));
     }
 
     /// The triangle that has `a`–`b` as its turnable side `k`.

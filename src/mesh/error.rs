@@ -162,7 +162,9 @@ pub enum SeamFault {
     #[error("its marks must rise on both sides from (0, 0) to ({}, {}) mm", mm(*.0), mm(*.1))]
     Marks(f64, f64),
     /// The two sides could not be cut into the same number of stretches.
-    #[error("cannot match {a} stretches of one side with {b} of the other; marks or edge ends lie within 0.01 mm of each other")]
+    #[error(
+        "cannot match {a} stretches of one side with {b} of the other; marks or edge ends lie within 0.01 mm of each other"
+    )]
     Unmatched {
         /// Stretches of the first chain.
         a: usize,

@@ -270,6 +270,7 @@ pub(super) struct Turn {
 fn circumcentre(a: Vec2, b: Vec2, c: Vec2) -> Option<Vec2> {
     let (d, e) = (b - a, c - a);
     let det = 2.0 * d.perp(&e);
-    let centre = Vec2::new(e.y * d.norm_squared() - d.y * e.norm_squared(), d.x * e.norm_squared() - e.x * d.norm_squared());
+    let centre =
+        Vec2::new(e.y * d.norm_squared() - d.y * e.norm_squared(), d.x * e.norm_squared() - e.x * d.norm_squared());
     (det > 0.0).then(|| a + centre / det)
 }

@@ -83,7 +83,13 @@ pub(super) fn quality(a: Vec2, b: Vec2, c: Vec2) -> f64 {
     let double_area = (b - a).perp(&(c - a));
     let (x, y, z) = ((b - a).norm_squared(), (c - b).norm_squared(), (a - c).norm_squared());
     // The smallest angle lies between the two longest sides.
-    let product = if x <= y && x <= z { y * z } else if y <= z { x * z } else { x * y };
+    let product = if x <= y && x <= z {
+        y * z
+    } else if y <= z {
+        x * z
+    } else {
+        x * y
+    };
     double_area * double_area.abs() / product
 }
 
