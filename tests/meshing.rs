@@ -303,7 +303,7 @@ fn a_line_outside_or_across_the_rim_is_named() {
     let with_line = |a: Vec2, b: Vec2| {
         let mut panel = rectangle("panel", 200.0, 200.0);
         panel.lines = vec![fold("fold", a, b)];
-        build(&garment(vec![panel], vec![]), 0.01).err().expect("bad line").to_string()
+        build(&garment(vec![panel], vec![]), 0.01).map(|_| ()).expect_err("bad line").to_string()
     };
     assert_eq!(with_line(mm(250.0, 20.0), mm(250.0, 90.0)), "line 'fold' lies outside piece 'panel'");
     let across = with_line(mm(100.0, 100.0), mm(253.0, 111.0));
@@ -358,8 +358,9 @@ fn corners_have_no_triangle_with_three_rim_particles() {
 
 #[test]
 fn a_spacing_that_does_not_suit_is_explained() {
-    let message =
-        |p: Piece, spacing: f64| build(&garment(vec![p], vec![]), spacing).err().expect("spacing").to_string();
+    let message = |p: Piece, spacing: f64| {
+        build(&garment(vec![p], vec![]), spacing).map(|_| ()).expect_err("spacing").to_string()
+    };
     assert_eq!(
         message(rectangle("binding", 600.0, 18.0), 0.02),
         "mesh size 20 mm leaves 1 spring across 'binding' (18 mm wide); use <= 6 mm"
@@ -395,10 +396,47 @@ fn bad_outlines_are_explained() {
     assert!(matches!(counter, Err(MeshError::InsideOut { .. })), "{:?}", counter.err());
     let bow = outline(&[(0.0, 0.0), (200.0, 0.0), (40.0, 103.0), (200.0, 300.0), (0.0, 300.0), (97.0, 100.0)]);
     assert!(matches!(bow, Err(MeshError::Crossing { .. })), "{:?}", bow.err());
+    let mut biased = rectangle("p", 100.0, 100.0);
+    biased.warp = Vec2::zeros();
+    assert!(matches!(build(&garment(vec![biased], vec![]), 0.01), Err(MeshError::Grain { .. })));
     let mut open = rectangle("p", 100.0, 100.0);
     open.loops[0][2].path = Path::line(mm(100.0, 100.0), mm(0.0, 99.0));
     assert!(matches!(build(&garment(vec![open], vec![]), 0.01), Err(MeshError::Open { .. })));
     assert!(matches!(build(&garment(vec![piece("p", vec![])], vec![]), 0.01), Err(MeshError::NoOutline { .. })));
+}
+
+#[test]
+fn the_checker_sees_broken_meshes() {
+    let front = darted();
+    let [upper, lower] = [2, 3].map(|k| front.loops[0][k].path.length() / MM);
+    let legs = seam("dart", vec![span(0, 0, 2, 0.0, upper)], vec![span(0, 0, 3, lower, 0.0)]);
+    let garment = garment(vec![front], vec![legs]);
+    let (good, _) = meshed(&garment, 10.0);
+    let rim = good.pieces[0].edges[0].particles[3] as usize;
+    let seen = |what: &str, spoil: &dyn Fn(&mut ClothMesh)| {
+        let mut mesh = good.clone();
+        spoil(&mut mesh);
+        let message = check(&mesh, &garment).err().map(|e| e.to_string()).unwrap_or_default();
+        assert!(message.contains(what), "{what}: {message}");
+    };
+    seen("not finite", &|m| m.flat[5].x = f64::NAN);
+    seen("turned over", &|m| m.triangles[7].swap(0, 1));
+    seen("off it", &|m| m.flat[rim].y -= 1e-7);
+    seen("belongs to no triangle", &|m| {
+        m.flat.push(Vec2::zeros());
+        m.pieces[0].particles.end += 1;
+    });
+    seen("Euler", &|m| {
+        m.triangles.remove(300);
+        m.pieces[0].triangles.end -= 1;
+    });
+    seen("rims", &|m| m.pieces[0].edges[0].particles.swap(2, 3));
+    seen("stitches", &|m| m.seams[0].pairs.truncate(9));
+    seen("twice", &|m| {
+        let pair = m.seams[0].pairs[4];
+        m.seams[0].pairs.insert(4, pair);
+    });
+    seen("seams", &|m| m.seams.clear());
 }
 
 #[test]
@@ -485,5 +523,30 @@ proptest! {
             // A chord h of a curve of radius r cuts off h³/12r; on average these bend with a radius above 25 mm.
             prop_assert!(error < perimeter * spacing * spacing / (12.0 * 0.025), "{error} at {spacing}");
         }
+    }
+
+    #[test]
+    fn random_seams_and_folds_keep_every_promise(
+        widths in prop::collection::vec(60.0..260.0_f64, 3..6),
+        shares in prop::collection::vec(0.03..0.97_f64, 6),
+        gathered in 1.0..1.6_f64,
+        spacing in 6.0..15.0_f64,
+    ) {
+        // Panels over a yoke that a mark divides, the yoke's ends sewn to each other, and a fold across it.
+        let total: f64 = widths.iter().sum();
+        let (length, height) = (total / gathered, 60.0 + 90.0 * shares[0]);
+        let mut pieces: Vec<Piece> = strips(&widths);
+        let yoke = pieces.len();
+        pieces.push(rectangle("yoke", length, height));
+        let ends = [mm(length * shares[1], 0.0), mm(length * shares[2], height)];
+        prop_assume!((ends[0] - ends[1]).x.abs() < 0.15);
+        pieces[yoke].lines = vec![fold("pleat", ends[0], ends[1])];
+        let panels: Vec<Span> = widths.iter().enumerate().map(|(p, &w)| span(p, 0, 0, 0.0, w)).collect();
+        let mut waist = seam("waist", panels, vec![span(yoke, 0, 2, length, 0.0)]);
+        waist.marks.insert(1, (total * shares[3] * MM, length * (0.5 * shares[3] + 0.5 * shares[4]) * MM));
+        let ring = seam("ring", vec![span(yoke, 0, 1, 0.0, height)], vec![span(yoke, 0, 3, height, 0.0)]);
+        let part = widths[0] * shares[5];
+        let tuck = seam("tuck", vec![span(0, 0, 1, 0.0, 90.0)], vec![span(0, 0, 0, 0.0, part)]);
+        meshed(&garment(pieces, vec![waist, ring, tuck]), spacing);
     }
 }

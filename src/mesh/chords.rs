@@ -2,7 +2,7 @@
 //! together would vanish when the seam closes.
 
 use super::improve::Improver;
-use super::patch::quality_of_degrees;
+use super::shape::quality_of_degrees;
 
 /// A chord is turned or split if no angle falls below this (degrees).
 const FINE: f64 = 22.0;

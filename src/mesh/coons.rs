@@ -3,7 +3,7 @@
 use super::frame::Frame;
 use super::lines::LinePlan;
 use super::links::{EdgeTable, Link, Stretch};
-use super::patch::{quality, quality_of_degrees};
+use super::shape::{quality, quality_of_degrees};
 use super::{Fill, Method};
 use crate::geometry::Vec2;
 use crate::pattern::{EdgeId, Piece};

@@ -46,6 +46,14 @@ pub enum MeshError {
         /// The piece.
         piece: String,
     },
+    /// The warp direction of a piece is no unit vector.
+    #[error("grain of '{piece}' has length {length}; it must be a direction of length 1")]
+    Grain {
+        /// The piece.
+        piece: String,
+        /// Length of its warp direction.
+        length: f64,
+    },
     /// The edges of a piece enclose no positive area.
     #[error("outline of '{piece}' encloses {} mm2; it must run clockwise on screen, with its holes inside", (area * 1e6).round())]
     InsideOut {

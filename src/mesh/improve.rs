@@ -2,7 +2,8 @@
 //!
 //! Only triangles that are not good are worked on, so the lattice stays regular wherever it can.
 
-use super::patch::{GAIN, POOR, Patch, quality, quality_of_degrees};
+use super::patch::Patch;
+use super::shape::{GAIN, POOR, quality, quality_of_degrees};
 use crate::geometry::Vec2;
 
 /// A triangle whose smallest angle is this large (degrees) is left alone: half a square cell has 45, and more than a

@@ -1,5 +1,6 @@
 //! A planar triangulation that can be edited, tried out and taken back.
 
+use super::shape::{Score, quality};
 use crate::geometry::Vec2;
 
 /// No triangle.
@@ -42,60 +43,10 @@ struct Trial {
     points: usize,
 }
 
-/// How good a set of triangles is.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Score {
-    /// Worst quality.
-    pub(super) worst: f64,
-    /// What all poor triangles together lack.
-    pub(super) lack: f64,
-}
-
-impl Score {
-    /// No triangle yet.
-    const PERFECT: Self = Self { worst: 1.0, lack: 0.0 };
-
-    fn with(self, quality: f64) -> Self {
-        let lack = (quality_of_degrees(POOR) - quality).max(0.0);
-        Self { worst: self.worst.min(quality), lack: self.lack + lack }
-    }
-
-    /// Whether a change to this was worth it: a better worst triangle, or the same and clearly less poor ones.
-    /// Both thresholds keep two states from changing into each other for ever.
-    pub(super) fn improves(self, before: Self) -> bool {
-        self.worst > GAIN * before.worst || (self.worst >= before.worst && GAIN * self.lack < before.lack)
-    }
-}
-
-/// Below this smallest angle (degrees) a triangle is poor: worth adding or removing a particle.
-pub(super) const POOR: f64 = 28.0;
-/// Least factor by which a change must gain.
-pub(super) const GAIN: f64 = 1.03;
-
 enum Undo {
     Triangle(u32, Tri),
     Point(u32, Vec2),
     At(u32, u32),
-}
-
-/// Squared sine of a triangle's smallest angle, negative when it is turned over: zero at a sliver, 3/4 at best.
-pub(super) fn quality(a: Vec2, b: Vec2, c: Vec2) -> f64 {
-    let double_area = (b - a).perp(&(c - a));
-    let (x, y, z) = ((b - a).norm_squared(), (c - b).norm_squared(), (a - c).norm_squared());
-    // The smallest angle lies between the two longest sides.
-    let product = if x <= y && x <= z {
-        y * z
-    } else if y <= z {
-        x * z
-    } else {
-        x * y
-    };
-    double_area * double_area.abs() / product
-}
-
-/// The quality of a triangle whose smallest angle is this many degrees.
-pub(super) fn quality_of_degrees(degrees: f64) -> f64 {
-    degrees.to_radians().sin().powi(2)
 }
 
 impl Patch {
@@ -384,4 +335,47 @@ struct Side {
     ends: [u32; 2],
     beside: u32,
     locked: bool,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square of fixed corners 0 to 3 round the free vertex 4.
+    fn square() -> Patch {
+        let at = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.5, 0.4)];
+        let points = at.map(|(x, y)| Vec2::new(x, y)).to_vec();
+        Patch::new(points, 4, &[[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]], &[])
+    }
+
+    #[test]
+    fn stars_are_whole_inside_and_open_on_the_rim() {
+        let patch = square();
+        assert_eq!(patch.star(4).len(), 4);
+        assert_eq!(patch.star(0).iter().map(|&t| patch.corners(t)).collect::<Vec<_>>(), [[0, 1, 4], [3, 0, 4]]);
+        assert_eq!(patch.beside(4, 1).map(|pair| pair.map(|t| patch.corners(t))), Some([[1, 2, 4], [0, 1, 4]]));
+        assert_eq!(patch.beside(0, 1), None);
+    }
+
+    #[test]
+    fn a_refused_change_leaves_no_trace() {
+        let mut patch = square();
+        let before = format!("{:?} {:?} {:?}", patch.points, patch.triangles, patch.at);
+        patch.begin();
+        let v = patch.add(Vec2::new(0.5, 0.2));
+        patch.replace(&[0], &[[0, 1, v], [1, 4, v], [4, 0, v]]);
+        patch.move_to(4, Vec2::new(0.5, 0.6));
+        assert!(!patch.end(|_, _| false));
+        assert_eq!(before, format!("{:?} {:?} {:?}", patch.points, patch.triangles, patch.at));
+    }
+
+    #[test]
+    fn a_vertex_that_is_replaced_is_gone() {
+        let mut patch = square();
+        let star = patch.star(4);
+        patch.replace(&star, &[[0, 1, 2], [0, 2, 3]]);
+        assert!(patch.star(4).is_empty());
+        let (points, triangles) = patch.finish();
+        assert_eq!((points.len(), triangles.len()), (4, 2));
+    }
 }
