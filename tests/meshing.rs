@@ -440,11 +440,15 @@ fn the_checker_sees_broken_meshes() {
 }
 
 #[test]
-fn the_same_garment_gives_the_same_bytes() {
+fn any_number_of_threads_gives_the_same_bytes() {
     let ring = piece("ring", vec![circle(0.0, 0.0, 120.0, false), circle(9.0, 4.0, 40.0, true)]);
-    let garment = garment(vec![darted(), ring], vec![]);
-    let once = format!("{:?}", build(&garment, 0.008).expect("mesh"));
-    assert_eq!(once, format!("{:?}", build(&garment, 0.008).expect("mesh")));
+    let garment = garment(vec![darted(), ring, rectangle("panel", 123.0, 145.0), darted()], vec![]);
+    let bytes = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| format!("{:?}", build(&garment, 0.008).expect("mesh")))
+    };
+    let once = bytes(1);
+    assert!(once == bytes(1) && once == bytes(4));
 }
 
 /// A closed smooth outline round the origin through points at these distances, as cubic Bézier curves (Catmull–Rom),
