@@ -9,6 +9,9 @@ use super::Vec2;
 /// Arc lengths are exact to this many metres (a nanometre): far below any drafting tolerance, still cheap.
 const LENGTH_ACCURACY: f64 = 1e-9;
 
+/// Nearest points are found to this many metres, so that a point of the path is known as one to [`LENGTH_ACCURACY`].
+const NEAREST_ACCURACY: f64 = 1e-12;
+
 /// A connected run of lines and Bézier curves, metres, measured by arc length from its start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
@@ -227,7 +230,7 @@ impl Path {
     pub fn nearest(&self, p: Vec2) -> (f64, f64) {
         let mut best = (0.0, f64::INFINITY);
         for (segment, &start) in self.segments.iter().zip(&self.at) {
-            let near = segment.nearest(point(p), LENGTH_ACCURACY);
+            let near = segment.nearest(point(p), NEAREST_ACCURACY);
             let distance = near.distance_sq.sqrt();
             if distance < best.1 {
                 best = (start + segment.subsegment(0.0..near.t).arclen(LENGTH_ACCURACY), distance);

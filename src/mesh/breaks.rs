@@ -32,7 +32,8 @@ impl Breaks {
         garment: &Garment,
     ) -> Result<Self, MeshError> {
         let mut breaks = Self(edges.lengths.iter().map(|&l| vec![0.0, l]).collect());
-        let mut queue: Vec<(usize, f64)> = edges.lengths.iter().enumerate().flat_map(|(e, &l)| [(e, 0.0), (e, l)]).collect();
+        let mut queue: Vec<(usize, f64)> =
+            edges.lengths.iter().enumerate().flat_map(|(e, &l)| [(e, 0.0), (e, l)]).collect();
         for (edge, s) in seeds.iter().copied().chain(links.iter().flat_map(Link::seeds)) {
             if breaks.insert(edge, s) {
                 queue.push((edge, s));

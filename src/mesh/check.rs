@@ -133,9 +133,8 @@ fn check_piece(mesh: &ClothMesh, piece: &PieceMesh, drawn: &Piece) -> Result<(),
     }
     check_edges(mesh, piece, drawn)?;
     for line in &piece.lines {
-        let joined = |w: &[u32]| {
-            topology.edges.binary_search_by_key(&[w[0].min(w[1]), w[0].max(w[1])], |e| e.ends).is_ok()
-        };
+        let joined =
+            |w: &[u32]| topology.edges.binary_search_by_key(&[w[0].min(w[1]), w[0].max(w[1])], |e| e.ends).is_ok();
         if line.particles.len() < 2 || !line.particles.windows(2).all(joined) {
             return Err(CheckError::Line { piece: piece.name.clone(), line: line.name.clone() });
         }
@@ -172,7 +171,11 @@ fn check_rims(piece: &PieceMesh, drawn: &Piece, triangles: &[[u32; 3]]) -> Resul
     }
     rims.sort();
     rings.sort();
-    if rims == rings { Ok(()) } else { Err(format!("has {} rims that are not its {} rings of edges", rims.len(), rings.len())) }
+    if rims == rings {
+        Ok(())
+    } else {
+        Err(format!("has {} rims that are not its {} rings of edges", rims.len(), rings.len()))
+    }
 }
 
 /// The same cycle, begun at its smallest number.
@@ -228,7 +231,11 @@ fn check_seams(mesh: &ClothMesh, garment: &Garment) -> Result<(), CheckError> {
             let mut expected: Vec<u32> = spans.iter().flat_map(|s| walked(mesh, garment, s)).collect();
             expected.dedup();
             if chain != expected {
-                return Err(fail(format!("side {side} stitches {} particles, its edges have {}", chain.len(), expected.len())));
+                return Err(fail(format!(
+                    "side {side} stitches {} particles, its edges have {}",
+                    chain.len(),
+                    expected.len()
+                )));
             }
         }
         if let Some([a, b]) = stitches.pairs.iter().find(|[a, b]| inner(*a, *b)) {

@@ -2,7 +2,7 @@
 //! together would vanish when the seam closes.
 
 use super::improve::Improver;
-use super::patch::quality_of_degrees;
+use super::shape::quality_of_degrees;
 
 /// A chord is turned or split if no angle falls below this (degrees).
 const FINE: f64 = 22.0;
@@ -58,7 +58,8 @@ impl Improver<'_> {
         let m = self.split(t, other, k);
         self.settle(m);
         let fine = quality_of_degrees(FINE);
-        self.patch.end(|before, after| after > fine || after >= before || (must && after > 0.0));
+        self.patch
+            .end(|before, after| after.worst > fine || after.worst >= before.worst || (must && after.worst > 0.0));
     }
 
     /// The triangle that has `a`–`b` as its turnable side `k`.

@@ -3,7 +3,7 @@
 use super::frame::Frame;
 use super::lines::LinePlan;
 use super::links::{EdgeTable, Link, Stretch};
-use super::patch::{quality, quality_of_degrees};
+use super::shape::{quality, quality_of_degrees};
 use super::{Fill, Method};
 use crate::geometry::Vec2;
 use crate::pattern::{EdgeId, Piece};
@@ -43,7 +43,8 @@ pub(super) fn fill(frame: &Frame, plan: &LinePlan, method: Method) -> Option<Fil
     let sheet = Sheet::new(frame)?;
     let points = sheet.points(frame);
     let lines = plan.lines.iter().map(|line| {
-        let chain = sheet.chain_between(line.stops.first()?.rim.map(|_| line.path.start())?, line.path.end(), &points)?;
+        let chain =
+            sheet.chain_between(line.stops.first()?.rim.map(|_| line.path.start())?, line.path.end(), &points)?;
         let follows = chain.iter().all(|&v| line.path.nearest(points[v as usize]).1 <= ON_LINE);
         follows.then_some(chain)
     });

@@ -46,6 +46,14 @@ pub enum MeshError {
         /// The piece.
         piece: String,
     },
+    /// The warp direction of a piece is no unit vector.
+    #[error("grain of '{piece}' has length {length}; it must be a direction of length 1")]
+    Grain {
+        /// The piece.
+        piece: String,
+        /// Length of its warp direction.
+        length: f64,
+    },
     /// The edges of a piece enclose no positive area.
     #[error("outline of '{piece}' encloses {} mm2; it must run clockwise on screen, with its holes inside", (area * 1e6).round())]
     InsideOut {
@@ -162,7 +170,9 @@ pub enum SeamFault {
     #[error("its marks must rise on both sides from (0, 0) to ({}, {}) mm", mm(*.0), mm(*.1))]
     Marks(f64, f64),
     /// The two sides could not be cut into the same number of stretches.
-    #[error("cannot match {a} stretches of one side with {b} of the other; marks or edge ends lie within 0.01 mm of each other")]
+    #[error(
+        "cannot match {a} stretches of one side with {b} of the other; marks or edge ends lie within 0.01 mm of each other"
+    )]
     Unmatched {
         /// Stretches of the first chain.
         a: usize,

@@ -78,8 +78,9 @@ impl Frame {
         Ok(frame)
     }
 
-    /// Adds the particles of the lines.
-    pub(super) fn add_lines(&mut self, plan: &LinePlan, rim_particle: impl Fn(usize, f64) -> u32) {
+    /// Adds the particles of the lines; `rim_place` turns an edge number and arc length into places in
+    /// [`Frame::edges`].
+    pub(super) fn add_lines(&mut self, plan: &LinePlan, rim_place: impl Fn(usize, f64) -> (usize, usize)) {
         let knots: Vec<u32> = plan.knots.iter().map(|&p| self.add(p)).collect();
         for line in &plan.lines {
             let mut chain: Vec<u32> = Vec::new();
@@ -92,7 +93,10 @@ impl Frame {
                     }
                 }
                 chain.push(match stop.rim {
-                    Some((edge, s)) => rim_particle(edge, s),
+                    Some((edge, s)) => {
+                        let (chain, k) = rim_place(edge, s);
+                        self.edges[chain][k]
+                    }
                     None => stop.knot.map_or_else(|| self.add(line.path.point(stop.at)), |knot| knots[knot]),
                 });
             }
@@ -111,11 +115,6 @@ impl Frame {
     fn add(&mut self, p: Vec2) -> u32 {
         self.points.push(p);
         self.points.len() as u32 - 1
-    }
-
-    /// Twice the area inside the sampled rim.
-    pub(super) fn double_area(&self) -> f64 {
-        self.rim_springs.iter().map(|s| self.points[s[0] as usize].perp(&self.points[s[1] as usize])).sum()
     }
 
     /// All springs of the frame.

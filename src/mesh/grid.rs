@@ -83,8 +83,9 @@ impl Raster {
             let (p, q) = (self.frame[a as usize], self.frame[b as usize]);
             let (p, q) = if p.y <= q.y { (p, q) } else { (q, p) };
             // Rows in (p.y, q.y]: a row through a particle counts exactly one of its two springs on each side.
-            for j in (p.y.floor() as usize + 1)..=(q.y.floor() as usize) {
-                crossings[j].push(p.x + (q.x - p.x) * (j as f64 - p.y) / (q.y - p.y));
+            let rows = p.y.floor() as usize + 1..q.y.floor() as usize + 1;
+            for (j, xs) in rows.clone().zip(&mut crossings[rows]) {
+                xs.push(p.x + (q.x - p.x) * (j as f64 - p.y) / (q.y - p.y));
             }
         }
         for (j, xs) in crossings.iter_mut().enumerate() {
@@ -179,7 +180,8 @@ impl Raster {
         let mut core = Core { in_cell: vec![false; points.len()], points, triangles: Vec::new(), sides: Vec::new() };
         for j in 0..self.size[1] - 1 {
             for i in 0..self.size[0] - 1 {
-                let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| self.vertex[self.index(i, j)]);
+                let corners =
+                    [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| self.vertex[self.index(i, j)]);
                 if self.crossed[self.index(i, j)] || corners.contains(&NONE) || corners.iter().all(|&v| v < fixed) {
                     continue;
                 }

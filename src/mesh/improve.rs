@@ -2,18 +2,17 @@
 //!
 //! Only triangles that are not good are worked on, so the lattice stays regular wherever it can.
 
-use super::patch::{Patch, quality, quality_of_degrees};
+use super::patch::Patch;
+use super::shape::{GAIN, POOR, quality, quality_of_degrees};
 use crate::geometry::Vec2;
 
 /// A triangle whose smallest angle is this large (degrees) is left alone: half a square cell has 45, and more than a
 /// third of a right angle serves every later stage.
 const GOOD: f64 = 33.0;
-/// Below this (degrees) it is worth adding or removing a particle.
-const POOR: f64 = 28.0;
+/// Sweeps of adding and removing: grading from a tiny spring of the rim to the lattice takes one a doubling.
+const MENDS: usize = 6;
 /// Sweeps of turning and moving; most pieces settle after three.
 const SWEEPS: usize = 6;
-/// A change that adds, removes or turns must raise the worst quality by this factor, so that two states never swap for ever.
-const GAIN: f64 = 1.03;
 /// A particle is moved by at first this share of the spacing, then by halves down to the second share.
 const STEPS: [f64; 2] = [0.24, 0.01];
 /// Steps from triangle to triangle when looking for the one that holds a new particle.
@@ -50,10 +49,14 @@ impl Improver<'_> {
 
     /// Removes or adds free particles where triangles are still poor.
     pub(super) fn mend(&mut self) {
-        for t in self.worse_than(POOR) {
-            let poor = |p: &Patch| p.is_alive(t) && p.quality(t) < quality_of_degrees(POOR);
-            if poor(self.patch) && !self.try_removals(t) && poor(self.patch) {
-                self.try_additions(t);
+        let poor = |p: &Patch, t: u32| p.is_alive(t) && p.quality(t) < quality_of_degrees(POOR);
+        for _ in 0..MENDS {
+            let mut changed = false;
+            for t in self.worse_than(POOR) {
+                changed |= poor(self.patch, t) && (self.try_removals(t) || self.try_additions(t));
+            }
+            if !changed {
+                break;
             }
         }
     }
@@ -160,7 +163,7 @@ impl Improver<'_> {
         self.patch.begin();
         self.patch.replace(star, &new);
         self.settle_round(u);
-        self.patch.end(|before, after| after > before * GAIN)
+        self.patch.end(|before, after| after.improves(before))
     }
 
     /// Neighbours of `v`, rising.
@@ -181,7 +184,7 @@ impl Improver<'_> {
     }
 
     /// Tries to add a particle in or near `t`.
-    fn try_additions(&mut self, t: u32) {
+    fn try_additions(&mut self, t: u32) -> bool {
         let tri = self.patch.corners(t);
         let [a, b, c] = tri.map(|v| self.patch.point(v));
         let centre = (a + b + c) / 3.0;
@@ -195,8 +198,8 @@ impl Improver<'_> {
             self.patch.begin();
             let v = self.insert(holder, p);
             self.settle_round(v);
-            if self.patch.end(|before, after| after > before * GAIN) {
-                return;
+            if self.patch.end(|before, after| after.improves(before)) {
+                return true;
             }
         }
         for k in 0..3 {
@@ -204,11 +207,12 @@ impl Improver<'_> {
                 self.patch.begin();
                 let v = self.split(t, other, k);
                 self.settle_round(v);
-                if self.patch.end(|before, after| after > before * GAIN) {
-                    return;
+                if self.patch.end(|before, after| after.improves(before)) {
+                    return true;
                 }
             }
         }
+        false
     }
 
     /// Adds a particle inside triangle `t`.
@@ -267,6 +271,7 @@ pub(super) struct Turn {
 fn circumcentre(a: Vec2, b: Vec2, c: Vec2) -> Option<Vec2> {
     let (d, e) = (b - a, c - a);
     let det = 2.0 * d.perp(&e);
-    let centre = Vec2::new(e.y * d.norm_squared() - d.y * e.norm_squared(), d.x * e.norm_squared() - e.x * d.norm_squared());
+    let centre =
+        Vec2::new(e.y * d.norm_squared() - d.y * e.norm_squared(), d.x * e.norm_squared() - e.x * d.norm_squared());
     (det > 0.0).then(|| a + centre / det)
 }

@@ -3,6 +3,8 @@
 use super::error::MeshError;
 use crate::pattern::{Garment, Piece};
 
+/// The grain is a unit vector to this much.
+const UNIT: f64 = 1e-6;
 /// Springs that must fit across a piece: with fewer than one and a half there is no inner particle to bend round.
 const SPRINGS_ACROSS: f64 = 1.5;
 /// Springs across that an error recommends.
@@ -17,6 +19,7 @@ pub(super) fn check(garment: &Garment, spacing: f64) -> Result<(), MeshError> {
     }
     let mut expected = 0.0;
     for piece in &garment.pieces {
+        check_grain(piece)?;
         let (area, perimeter) = measure(piece)?;
         let width = width(area, perimeter);
         if width < SPRINGS_ACROSS * spacing {
@@ -39,6 +42,14 @@ pub(super) fn check(garment: &Garment, spacing: f64) -> Result<(), MeshError> {
         });
     }
     Ok(())
+}
+
+/// The lattice runs along the grain, so there must be one.
+fn check_grain(piece: &Piece) -> Result<(), MeshError> {
+    let length = piece.warp.norm();
+    // Written so that a NaN fails too.
+    let is_unit = (length - 1.0).abs() < UNIT;
+    if is_unit { Ok(()) } else { Err(MeshError::Grain { piece: piece.name.clone(), length }) }
 }
 
 /// Area and total rim length of a piece.

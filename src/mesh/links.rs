@@ -74,7 +74,7 @@ impl Stretch {
         let along = u - self.start;
         let covered = along >= -SAME_PLACE && along <= self.length() + SAME_PLACE;
         let along = along.clamp(0.0, self.length());
-        covered.then(|| if self.to >= self.from { self.from + along } else { self.from - along })
+        covered.then_some(if self.to >= self.from { self.from + along } else { self.from - along })
     }
 }
 

@@ -1,5 +1,7 @@
 //! Pieces as regular spring-mass grids (F1).
 
+mod assemble;
+mod blame;
 mod breaks;
 mod build;
 mod check;
@@ -10,6 +12,7 @@ mod frame;
 mod grid;
 mod improve;
 mod lattice;
+mod layout;
 mod limits;
 mod lines;
 mod links;

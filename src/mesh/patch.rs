@@ -1,5 +1,6 @@
 //! A planar triangulation that can be edited, tried out and taken back.
 
+use super::shape::{Score, quality};
 use crate::geometry::Vec2;
 
 /// No triangle.
@@ -36,8 +37,8 @@ struct Trial {
     undo: Vec<Undo>,
     /// Triangles looked at before their first change.
     touched: Vec<u32>,
-    /// Worst quality among them, before.
-    before: f64,
+    /// How they were then.
+    before: Score,
     triangles: usize,
     points: usize,
 }
@@ -46,20 +47,6 @@ enum Undo {
     Triangle(u32, Tri),
     Point(u32, Vec2),
     At(u32, u32),
-}
-
-/// Squared sine of a triangle's smallest angle, negative when it is turned over: zero at a sliver, 3/4 at best.
-pub(super) fn quality(a: Vec2, b: Vec2, c: Vec2) -> f64 {
-    let double_area = (b - a).perp(&(c - a));
-    let (x, y, z) = ((b - a).norm_squared(), (c - b).norm_squared(), (a - c).norm_squared());
-    // The smallest angle lies between the two longest sides.
-    let product = if x <= y && x <= z { y * z } else if y <= z { x * z } else { x * y };
-    double_area * double_area.abs() / product
-}
-
-/// The quality of a triangle whose smallest angle is this many degrees.
-pub(super) fn quality_of_degrees(degrees: f64) -> f64 {
-    degrees.to_radians().sin().powi(2)
 }
 
 impl Patch {
@@ -242,19 +229,19 @@ impl Patch {
         self.trial = Some(Trial {
             undo: Vec::new(),
             touched: Vec::new(),
-            before: 1.0,
+            before: Score::PERFECT,
             triangles: self.triangles.len(),
             points: self.points.len(),
         });
     }
 
-    /// Ends a change: keeps it if `accept(worst quality before, worst quality after)` of the triangles it touched,
-    /// else restores everything. Returns whether it was kept.
-    pub(super) fn end(&mut self, accept: impl FnOnce(f64, f64) -> bool) -> bool {
+    /// Ends a change: keeps it if `accept(before, after)` of the triangles it touched, else restores everything.
+    /// Returns whether it was kept.
+    pub(super) fn end(&mut self, accept: impl FnOnce(Score, Score) -> bool) -> bool {
         let Some(trial) = self.trial.take() else { return true };
         let fresh = trial.triangles as u32..self.triangles.len() as u32;
         let changed = trial.touched.iter().copied().chain(fresh).filter(|&t| self.is_alive(t));
-        let after = changed.map(|t| self.quality(t)).fold(1.0, f64::min);
+        let after = changed.map(|t| self.quality(t)).fold(Score::PERFECT, Score::with);
         if accept(trial.before, after) {
             return true;
         }
@@ -329,13 +316,16 @@ impl Patch {
 
     /// Notes the quality of a triangle before its first change.
     fn touch(&mut self, t: u32) {
-        let quality = if self.is_alive(t) { self.quality(t) } else { 1.0 };
+        if self.trial.is_none() || !self.is_alive(t) {
+            return;
+        }
+        let quality = self.quality(t);
         if let Some(trial) = &mut self.trial
             && (t as usize) < trial.triangles
             && !trial.touched.contains(&t)
         {
             trial.touched.push(t);
-            trial.before = trial.before.min(quality);
+            trial.before = trial.before.with(quality);
         }
     }
 }
@@ -345,4 +335,47 @@ struct Side {
     ends: [u32; 2],
     beside: u32,
     locked: bool,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square of fixed corners 0 to 3 round the free vertex 4.
+    fn square() -> Patch {
+        let at = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.5, 0.4)];
+        let points = at.map(|(x, y)| Vec2::new(x, y)).to_vec();
+        Patch::new(points, 4, &[[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]], &[])
+    }
+
+    #[test]
+    fn stars_are_whole_inside_and_open_on_the_rim() {
+        let patch = square();
+        assert_eq!(patch.star(4).len(), 4);
+        assert_eq!(patch.star(0).iter().map(|&t| patch.corners(t)).collect::<Vec<_>>(), [[0, 1, 4], [3, 0, 4]]);
+        assert_eq!(patch.beside(4, 1).map(|pair| pair.map(|t| patch.corners(t))), Some([[1, 2, 4], [0, 1, 4]]));
+        assert_eq!(patch.beside(0, 1), None);
+    }
+
+    #[test]
+    fn a_refused_change_leaves_no_trace() {
+        let mut patch = square();
+        let before = format!("{:?} {:?} {:?}", patch.points, patch.triangles, patch.at);
+        patch.begin();
+        let v = patch.add(Vec2::new(0.5, 0.2));
+        patch.replace(&[0], &[[0, 1, v], [1, 4, v], [4, 0, v]]);
+        patch.move_to(4, Vec2::new(0.5, 0.6));
+        assert!(!patch.end(|_, _| false));
+        assert_eq!(before, format!("{:?} {:?} {:?}", patch.points, patch.triangles, patch.at));
+    }
+
+    #[test]
+    fn a_vertex_that_is_replaced_is_gone() {
+        let mut patch = square();
+        let star = patch.star(4);
+        patch.replace(&star, &[[0, 1, 2], [0, 2, 3]]);
+        assert!(patch.star(4).is_empty());
+        let (points, triangles) = patch.finish();
+        assert_eq!((points.len(), triangles.len()), (4, 2));
+    }
 }

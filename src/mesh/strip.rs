@@ -21,21 +21,23 @@ pub(super) enum StripError {
 /// Triangles of the strip, positively oriented.
 pub(super) fn triangulate(frame: &Frame, core: &Core) -> Result<Vec<[u32; 3]>, StripError> {
     let walls = walls(frame, core);
-    if walls.is_empty() {
-        return Ok(Vec::new());
-    }
-    let vertices = members(core, &walls);
-    let mut constraints: Vec<[u32; 2]> = walls.clone();
-    let inside_core = |s: &[u32; 2]| core.sides.binary_search(s).is_ok() || core.sides.binary_search(&[s[1], s[0]]).is_ok();
-    constraints.extend(frame.line_springs.iter().filter(|s| !inside_core(s)));
-    let faces = delaunay(&core.points, &vertices, &constraints)?;
-    let strip = flood(&faces, &walls);
-    let mut used = vec![false; core.points.len()];
+    // Cells all over, as in a rectangle along the grain.
+    let strip = if walls.is_empty() { Vec::new() } else { between(frame, core, &walls)? };
+    let mut used = core.in_cell.clone();
     strip.iter().flatten().for_each(|&v| used[v as usize] = true);
-    match (frame.rim..frame.points.len()).find(|&v| !used[v] && !core.in_cell[v]) {
+    match (frame.rim..frame.points.len()).find(|&v| !used[v]) {
         Some(v) => Err(StripError::Outside(v as u32)),
         None => Ok(strip),
     }
+}
+
+/// Triangles between the walls.
+fn between(frame: &Frame, core: &Core, walls: &[[u32; 2]]) -> Result<Vec<[u32; 3]>, StripError> {
+    let vertices = members(core, walls);
+    let is_side = |s: &[u32; 2]| core.sides.binary_search(s).is_ok();
+    let in_strip = |s: &&[u32; 2]| !is_side(s) && !is_side(&[s[1], s[0]]);
+    let constraints: Vec<_> = walls.iter().chain(frame.line_springs.iter().filter(in_strip)).copied().collect();
+    Ok(flood(&delaunay(&core.points, &vertices, &constraints)?, walls))
 }
 
 /// Directed springs with the strip on their positive side: rim springs and reversed sides of the core, but not where

@@ -1,0 +1,95 @@
+//! What must be known of the whole garment before its pieces can be filled one by one.
+
+use super::breaks::Breaks;
+use super::error::MeshError;
+use super::lines::LinePlan;
+use super::links::{EdgeTable, Link};
+use super::sampling::Sampling;
+use super::{MeshOptions, coons};
+use crate::pattern::{EdgeId, Garment};
+
+/// Edges that turn by more than this (radians; 15°) between two segments get a particle at the kink: cutting the
+/// corner would change the piece's area in the first order of the spacing.
+const KINK: f64 = 0.26;
+/// Turns are measured this far (metres) on either side of a joint.
+const BESIDE: f64 = 1e-7;
+/// What is known of the whole garment before its pieces are filled.
+pub(super) struct Layout<'g> {
+    /// The garment.
+    pub(super) garment: &'g Garment,
+    /// Its edges in one list.
+    pub(super) edges: EdgeTable,
+    /// Lines of every piece.
+    pub(super) plans: Vec<LinePlan<'g>>,
+    /// Seams first, in the garment's order.
+    pub(super) links: Vec<Link>,
+    /// Where edges must have particles.
+    pub(super) breaks: Breaks,
+    /// All particles of the edges.
+    pub(super) sampling: Sampling,
+    /// What was asked for.
+    pub(super) options: MeshOptions,
+}
+
+impl<'g> Layout<'g> {
+    /// Samples all rims together.
+    pub(super) fn new(garment: &'g Garment, options: MeshOptions) -> Result<Self, MeshError> {
+        let edges = EdgeTable::new(garment);
+        let plans: Vec<_> =
+            (0..garment.pieces.len()).map(|n| LinePlan::new(garment, n, &edges, options.spacing)).collect();
+        let mut links: Vec<Link> =
+            garment.seams.iter().map(|s| Link::of_seam(s, garment, &edges)).collect::<Result<_, _>>()?;
+        let seams = links.len();
+        for (n, piece) in garment.pieces.iter().enumerate().filter(|(_, p)| coons::wanted(p, options.method)) {
+            links.extend(coons::links(piece, n, &edges));
+        }
+        let mut seeds: Vec<_> = plans.iter().flat_map(LinePlan::rim_seeds).collect();
+        seeds.extend(kinks(garment, &edges));
+        let sample = |links: &[Link]| {
+            let breaks = Breaks::close(&edges, links, &seeds, garment)?;
+            let sampling = Sampling::new(&edges, links, &breaks, options.spacing)?;
+            Ok((breaks, sampling))
+        };
+        // Straight columns are a wish: if the seams do not allow them, the band becomes a grid.
+        let sampled = sample(&links).or_else(|error: MeshError| {
+            if links.len() == seams {
+                return Err(error);
+            }
+            links.truncate(seams);
+            sample(&links)
+        });
+        let (breaks, sampling) = sampled?;
+        Ok(Self { garment, edges, plans, links, breaks, sampling, options })
+    }
+
+    /// Number of the first edge of piece `n`.
+    pub(super) fn first_edge(&self, n: usize) -> usize {
+        self.edges.number(EdgeId { piece: n, ring: 0, index: 0 }).unwrap_or(0)
+    }
+
+    /// The links that are seams.
+    pub(super) fn seam_links(&self) -> &[Link] {
+        &self.links[..self.garment.seams.len()]
+    }
+
+    /// Particles of one side of a link, in its direction, as (edge number, position along the edge); doubled where two
+    /// runs meet.
+    pub(super) fn chain(&self, link: &Link, side: usize) -> Vec<(usize, usize)> {
+        let runs = self.breaks.runs(link, side);
+        runs.iter().flat_map(|r| self.sampling.particles_of_run(r).into_iter().map(|k| (r.edge, k))).collect()
+    }
+}
+
+/// Places where an edge turns sharply.
+fn kinks(garment: &Garment, edges: &EdgeTable) -> Vec<(usize, f64)> {
+    let mut out = Vec::new();
+    for (e, id) in edges.ids.iter().enumerate() {
+        let path = &garment.pieces[id.piece].loops[id.ring][id.index].path;
+        let joints = path.joints();
+        let inner = joints.iter().skip(1).take(joints.len().saturating_sub(2));
+        out.extend(
+            inner.filter(|&&s| path.tangent(s - BESIDE).angle(&path.tangent(s + BESIDE)) > KINK).map(|&s| (e, s)),
+        );
+    }
+    out
+}
