@@ -113,6 +113,7 @@ impl Collider {
                 normal,
                 offset: normal.dot(&p),
                 body: true,
+                above: 3,
             });
         });
     }
@@ -148,6 +149,7 @@ impl Collider {
                 normal,
                 offset: normal.dot(&on_body),
                 body: true,
+                above: 2,
             };
             if best.as_ref().is_none_or(|(g, _)| gap < *g) {
                 best = Some((gap, contact));

@@ -1,64 +1,37 @@
-//! What keeps a step from carrying cloth through anything: a plane per pair and a leash per node.
-
-use rayon::prelude::*;
+//! What keeps a step from carrying cloth through anything: a direction per pair and a leash per node.
+//!
+//! Two convex primitives that are separated along a fixed direction before and after a step, all of whose nodes move
+//! in straight lines, are separated along it all the way: each difference of two nodes along the direction is linear
+//! in time. So it is enough to keep every found pair separated at the *end* of the step, wherever the pair has moved
+//! to; cloth that moves together is not held back, as it would be by planes fixed in space.
 
 use super::Contact;
 use crate::geometry::Vec3;
 
-/// How often a step is pushed back onto the planes it crosses before what is left is cut off.
-const SWEEPS: usize = 3;
+/// How often the pairs are gone through, pushing those that would meet apart again.
+const SWEEPS: usize = 12;
+/// Share of its gap that a pair must keep in a step, up to [`Bounds::new`]'s margin.
+const KEPT: f64 = 0.2;
 
-/// Half-spaces n·x ≥ c that a node must stay in until the next detection, and how far it may go at all.
+/// The pairs found by a detection, and how far nodes may go until the next one.
 #[derive(Clone, Debug)]
 pub struct Bounds {
     origin: Vec<Vec3>,
     leash: f64,
-    /// `starts[i]..starts[i + 1]` in `planes` are node i's.
-    starts: Vec<u32>,
-    planes: Vec<(Vec3, f64)>,
+    margin: f64,
+    pairs: Vec<Contact>,
+    /// Node, outward normal and position along it of the body's surface.
+    planes: Vec<(u32, Vec3, f64)>,
 }
 
 impl Bounds {
-    /// Planes half-way between the sides of every cloth contact, and `margin` metres (or half the gap) off the body's
-    /// surface for its single-node contacts. `reach` is the detection's: pairs that are further apart cannot meet while
-    /// both sides stay within [`Bounds::allowance`].
+    /// Bounds for nodes at `x` and the contacts found there within `reach`; every pair keeps `margin` metres, or the
+    /// share [`KEPT`] of its gap if that is less.
     pub fn new(x: &[Vec3], contacts: &[Contact], reach: f64, margin: f64) -> Self {
-        let mut list: Vec<(u32, Vec3, f64)> = Vec::with_capacity(4 * contacts.len());
-        for contact in contacts {
-            let n = contact.normal;
-            if contact.body {
-                let gap = contact.gap(x);
-                if contact.count == 1 && gap > 0.0 {
-                    list.push((contact.nodes[0], n, contact.offset + margin.min(0.5 * gap)));
-                }
-                continue;
-            }
-            let along = |k: usize| n.dot(&x[contact.nodes[k] as usize]);
-            let count = contact.count as usize;
-            let above = (0..count).filter(|&k| contact.weights[k] >= 0.0);
-            let low = above.map(along).fold(f64::INFINITY, f64::min);
-            let below = (0..count).filter(|&k| contact.weights[k] < 0.0);
-            let high = below.map(along).fold(f64::NEG_INFINITY, f64::max);
-            let middle = 0.5 * (low + high);
-            for k in 0..count {
-                let (direction, c) = if contact.weights[k] >= 0.0 { (n, middle) } else { (-n, -middle) };
-                list.push((contact.nodes[k], direction, c));
-            }
-        }
-        let mut starts = vec![0u32; x.len() + 1];
-        for entry in &list {
-            starts[entry.0 as usize + 1] += 1;
-        }
-        for i in 0..x.len() {
-            starts[i + 1] += starts[i];
-        }
-        let mut fill = starts.clone();
-        let mut planes = vec![(Vec3::zeros(), 0.0); list.len()];
-        for (node, n, c) in list {
-            planes[fill[node as usize] as usize] = (n, c);
-            fill[node as usize] += 1;
-        }
-        Self { origin: x.to_vec(), leash: Self::allowance(reach), starts, planes }
+        let pairs = contacts.iter().filter(|c| !c.body).copied().collect();
+        let single = contacts.iter().filter(|c| c.body && c.count == 1 && c.gap(x) > 0.0);
+        let planes = single.map(|c| (c.nodes[0], c.normal, c.offset)).collect();
+        Self { origin: x.to_vec(), leash: Self::allowance(reach), margin, pairs, planes }
     }
 
     /// How far a node may go between two detections: less than half the reach, so that a pair not found cannot meet.
@@ -79,44 +52,96 @@ impl Bounds {
         if longest > left { (left / longest).max(0.0) } else { 1.0 }
     }
 
-    /// Moves every target in `to` so that the way from `from` keeps all bounds; sliding along a plane stays free.
-    pub fn clamp(&self, from: &[Vec3], to: &mut [Vec3]) {
-        to.par_iter_mut().enumerate().for_each(|(i, target)| {
-            let planes = &self.planes[self.starts[i] as usize..self.starts[i + 1] as usize];
-            *target = self.clamp_one(planes, self.origin[i], from[i], *target);
-        });
-    }
-
-    fn clamp_one(&self, planes: &[(Vec3, f64)], origin: Vec3, from: Vec3, mut to: Vec3) -> Vec3 {
+    /// Moves the targets in `to` so that no pair meets on the way from `from`. What the sweeps cannot mend shortens the
+    /// whole step; the share of it that is left is returned.
+    pub fn clamp(&self, from: &[Vec3], to: &mut [Vec3]) -> f64 {
+        let needs: Vec<f64> = self.pairs.iter().map(|c| self.margin.min(KEPT * separation(c, from)).max(0.0)).collect();
         for _ in 0..SWEEPS {
             let mut clean = true;
-            for &(n, c) in planes {
-                let depth = c - n.dot(&to);
-                if depth > 0.0 {
-                    to += n * depth;
+            for &(node, n, offset) in &self.planes {
+                let target = &mut to[node as usize];
+                let start = n.dot(&from[node as usize]) - offset;
+                let depth = offset + self.margin.min(KEPT * start).max(0.0) - n.dot(target);
+                if depth > 1e-9 {
+                    *target += n * depth;
                     clean = false;
                 }
+            }
+            for (contact, &need) in self.pairs.iter().zip(&needs) {
+                clean &= !push_apart(contact, to, need);
             }
             if clean {
                 break;
             }
         }
-        let mut share = 1.0f64;
-        for &(n, c) in planes {
-            let (before, after) = (n.dot(&from) - c, n.dot(&to) - c);
-            if after < 0.0 && after < before {
-                share = share.min((before / (before - after)).max(0.0));
+        let share = self.safe_share(from, to);
+        if share < 1.0 {
+            for (a, b) in from.iter().zip(to) {
+                *b = a + (*b - a) * share;
             }
         }
-        // The leash: |from + s d − origin| ≤ leash.
-        let (d, o) = (to - from, from - origin);
-        if (o + d * share).norm_squared() > self.leash * self.leash {
-            let (a, b, c) = (d.norm_squared(), o.dot(&d), o.norm_squared() - self.leash * self.leash);
-            let root = (b * b - a * c).max(0.0).sqrt();
-            share = share.min(((root - b) / a).max(0.0));
-        }
-        from + d * share
+        share
     }
+
+    /// The largest share of the step at which every pair is still separated, and no leash broken.
+    fn safe_share(&self, from: &[Vec3], to: &[Vec3]) -> f64 {
+        let mut share = 1.0f64;
+        for contact in &self.pairs {
+            let after = separation(contact, to);
+            if after <= 0.0 {
+                // Each difference is linear in time, so their minimum is concave: the chord is on the safe side.
+                let before = separation(contact, from);
+                if before > 0.0 {
+                    share = share.min(0.9 * before / (before - after));
+                }
+            }
+        }
+        for ((a, b), o) in from.iter().zip(to).zip(&self.origin) {
+            let (d, r) = (b - a, a - o);
+            let (q, p, c) = (d.norm_squared(), r.dot(&d), r.norm_squared() - self.leash * self.leash);
+            if q > 0.0 && c <= 0.0 && q + 2.0 * p + c > 0.0 {
+                share = share.min(((p * p - q * c).max(0.0).sqrt() - p) / q);
+            }
+        }
+        share
+    }
+}
+
+/// Positions of a pair's sides along its direction: the lowest node of the upper side, the highest of the lower.
+fn sides(contact: &Contact, x: &[Vec3]) -> (f64, f64) {
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for (k, (node, _)) in contact.parts().enumerate() {
+        let at = contact.normal.dot(&x[node]);
+        if k < contact.above as usize {
+            low = low.min(at);
+        } else {
+            high = high.max(at);
+        }
+    }
+    (low, high)
+}
+
+fn separation(contact: &Contact, x: &[Vec3]) -> f64 {
+    let (low, high) = sides(contact, x);
+    low - high
+}
+
+/// Pushes both sides off the plane half-way between them; whether that was needed.
+fn push_apart(contact: &Contact, x: &mut [Vec3], need: f64) -> bool {
+    let (low, high) = sides(contact, x);
+    if low - high >= need - 1e-9 {
+        return false;
+    }
+    let middle = 0.5 * (low + high);
+    for (k, (node, _)) in contact.parts().enumerate() {
+        let at = contact.normal.dot(&x[node]);
+        if k < contact.above as usize {
+            x[node] += contact.normal * (middle + 0.5 * need - at).max(0.0);
+        } else {
+            x[node] += contact.normal * (middle - 0.5 * need - at).min(0.0);
+        }
+    }
+    true
 }
 
 #[cfg(test)]
@@ -124,34 +149,47 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    fn pair() -> ([Vec3; 2], Contact) {
-        let x = [Vec3::new(0.0, 0.01, 0.0), Vec3::zeros()];
+    fn pair() -> ([Vec3; 4], Contact) {
+        let x = [Vec3::new(0.0, 0.01, 0.0), Vec3::new(-1.0, 0.0, -1.0), Vec3::new(1.0, 0.0, -1.0), Vec3::new(0.0, 0.0, 1.0)];
         let contact = Contact {
-            nodes: [0, 1, 0, 0],
-            weights: [1.0, -1.0, 0.0, 0.0],
-            count: 2,
+            nodes: [0, 1, 2, 3],
+            weights: [1.0, -0.25, -0.25, -0.5],
+            count: 4,
             normal: Vec3::y(),
             offset: 0.0,
             body: false,
+            above: 1,
         };
         (x, contact)
     }
 
     #[test]
-    fn two_points_that_rush_at_each_other_stop_half_way_and_may_slide() {
+    fn a_pair_that_rushes_together_is_kept_apart_and_may_slide() {
         let (x, contact) = pair();
-        let bounds = Bounds::new(&x, &[contact], 0.1, 0.0);
-        let mut to = [Vec3::new(0.02, -0.02, 0.0), Vec3::new(0.0, 0.03, 0.0)];
+        let bounds = Bounds::new(&x, &[contact], 0.1, 1e-3);
+        let mut to = x;
+        to[0] += Vec3::new(0.02, -0.02, 0.0);
+        let share = bounds.clamp(&x, &mut to);
+        assert_relative_eq!(share, 1.0);
+        assert!(separation(&contact, &to) >= 1e-3 - 1e-8);
+        assert_relative_eq!(to[0].x, 0.02, epsilon = 1e-12);
+    }
+
+    #[test]
+    fn a_pair_that_moves_together_is_not_held_back() {
+        let (x, contact) = pair();
+        let bounds = Bounds::new(&x, &[contact], 0.1, 1e-3);
+        let mut to = x.map(|p| p + Vec3::new(0.0, -0.03, 0.0));
+        let wish = to;
         bounds.clamp(&x, &mut to);
-        assert_relative_eq!(to[0], Vec3::new(0.02, 0.005, 0.0), epsilon = 1e-12);
-        assert_relative_eq!(to[1], Vec3::new(0.0, 0.005, 0.0), epsilon = 1e-12);
+        assert_eq!(to, wish);
     }
 
     #[test]
     fn nothing_goes_further_than_its_leash() {
         let (x, contact) = pair();
-        let bounds = Bounds::new(&x, &[contact], 0.1, 0.0);
-        let mut to = [Vec3::new(1.0, 1.0, 0.0), x[1]];
+        let bounds = Bounds::new(&x, &[contact], 0.1, 1e-3);
+        let mut to = x.map(|p| p + Vec3::new(0.0, 1.0, 0.0));
         bounds.clamp(&x, &mut to);
         assert_relative_eq!((to[0] - x[0]).norm(), 0.045, epsilon = 1e-12);
     }

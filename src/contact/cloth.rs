@@ -243,6 +243,7 @@ impl Search<'_> {
                         normal: away / d2.sqrt(),
                         offset: 0.0,
                         body: false,
+                        above: 1,
                     });
                 }
             }
@@ -279,6 +280,7 @@ impl Search<'_> {
                         normal: away / d2.sqrt(),
                         offset: 0.0,
                         body: false,
+                        above: 2,
                     });
                 }
             }

@@ -36,12 +36,14 @@ pub struct Contact {
     pub offset: f64,
     /// Whether the other side is the body.
     pub body: bool,
+    /// How many of the nodes, counted from the first, are on the side the normal points to.
+    pub above: u8,
 }
 
 impl Contact {
     /// A contact of nothing with nothing.
     pub(crate) fn none() -> Self {
-        Self { nodes: [0; 4], weights: [0.0; 4], count: 0, normal: Vec3::zeros(), offset: 0.0, body: true }
+        Self { nodes: [0; 4], weights: [0.0; 4], count: 0, normal: Vec3::zeros(), offset: 0.0, body: true, above: 0 }
     }
 
     /// The gap at positions `x`, metres.

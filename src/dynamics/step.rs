@@ -138,7 +138,8 @@ impl Stepper {
                 let law = &cloth.laws[s.law as usize];
                 let strain = length / s.rest - 1.0;
                 let along = law.slope(strain) * s.width / s.rest;
-                let across = (law.load(strain) * s.width / length).max(0.0);
+                // A compressed spring would buckle within one step: the absolute value lets it, but gently.
+                let across = (law.load(strain) * s.width / length).abs();
                 Mat3::identity() * across + t * t.transpose() * (along - across).max(0.0)
             })
             .collect();
