@@ -1,1 +1,5 @@
-//! drape
+//! Draping: the sewn garment falls to rest in its fabric (L7–L11).
+
+mod rest;
+
+pub use rest::{DrapeError, DrapeOptions, Draped, drape};

@@ -66,6 +66,7 @@ pub fn sew(
     body: &Collider,
     start: Vec<Vec3>,
     options: &SewOptions,
+    progress: &mut dyn FnMut(f64),
 ) -> Result<Sewn, SewError> {
     let stitching = Stitching::new(mesh);
     let cloth = Cloth::new(mesh, garment, fabrics, identity_nodes(mesh), SOFT);
@@ -78,7 +79,7 @@ pub fn sew(
 
     let mut phase = 0;
     let (mut best, mut stalled) = (f64::INFINITY, 0);
-    let mut steps = 0;
+    let (mut steps, mut first) = (0, options.tolerance);
     while steps < options.max_steps {
         let gaps = stitching.gaps(&world.x);
         let widest = gaps.iter().copied().fold(0.0, f64::max);
@@ -87,6 +88,9 @@ pub fn sew(
         }
         if widest <= options.tolerance {
             break;
+        }
+        if steps == 0 {
+            first = widest;
         }
         if widest < 0.98 * best {
             (best, stalled) = (widest, 0);
@@ -109,6 +113,9 @@ pub fn sew(
             .collect();
         world.advance(STEP, KEEP, &pulls)?;
         steps += 1;
+        // Gaps shrink by decades: the share of the way in their logarithm.
+        let way = (first / widest).ln() / (first / options.tolerance).ln().max(1e-9);
+        progress(way.clamp(0.0, 1.0));
     }
     let gaps = stitching.gaps(&world.x);
     let nodes = stitching.welded(&world.x);
