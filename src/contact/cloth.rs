@@ -24,6 +24,8 @@ pub struct Neighbourhood {
     pub class: Vec<u32>,
     /// Node → seams being closed that it lies on or next to; primitives that share one are left out.
     pub seams: Vec<Vec<u32>>,
+    /// Node → whether it is being led out of a tangle; pairs of primitives with such nodes on both sides are left out.
+    pub tangled: Vec<bool>,
 }
 
 struct Patch {
@@ -81,37 +83,76 @@ impl ClothDetector {
         }
     }
 
-    /// Changes which pairs are left out (a seam that has closed no longer mutes its neighbours).
-    pub fn set_seams(&mut self, seams: Vec<Vec<u32>>) {
-        self.hood.seams = seams;
+    /// Changes which nodes are being led out of a tangle.
+    pub fn set_tangled(&mut self, tangled: Vec<bool>) {
+        self.hood.tangled = tangled;
     }
 
     /// Every vertex–triangle and edge–edge pair closer than `reach` at positions `x`, in an order that depends on
     /// nothing but the input.
     pub fn detect(&mut self, x: &[Vec3], reach: f64) -> Vec<Contact> {
-        let normals: Vec<Vec3> = self
-            .triangles
-            .par_iter()
-            .map(|t| {
-                let [a, b, c] = t.map(|n| x[n as usize]);
-                (b - a).cross(&(c - a)).try_normalize(1e-300).unwrap_or_default()
-            })
-            .collect();
-        let boxes: Vec<(Aabb, Cone)> = self.patches.par_iter().map(|p| self.measure(p, x, &normals, reach)).collect();
+        let normals = self.normals(x);
+        let (mut pairs, cones) = self.patch_pairs(x, &normals, reach);
+        pairs.retain(|&(a, b)| !self.smooth(a as usize, b as usize, &cones, reach));
+        let node_normals = self.node_normals(x.len(), &normals);
+        let find = Search { detector: self, x, normals: &normals, node_normals: &node_normals, reach };
+        pairs.par_iter().flat_map_iter(|&(a, b)| find.pair(a as usize, b as usize)).collect()
+    }
+
+    fn normals(&self, x: &[Vec3]) -> Vec<Vec3> {
+        let normal = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|n| x[n as usize]);
+            (b - a).cross(&(c - a)).try_normalize(1e-300).unwrap_or_default()
+        };
+        self.triangles.par_iter().with_min_len(512).map(normal).collect()
+    }
+
+    /// Pairs of patches whose boxes come within `reach`, every patch with itself, sorted.
+    fn patch_pairs(&mut self, x: &[Vec3], normals: &[Vec3], reach: f64) -> (Vec<(u32, u32)>, Vec<Cone>) {
+        let boxes: Vec<(Aabb, Cone)> =
+            self.patches.par_iter().with_min_len(64).map(|p| self.measure(p, x, normals, reach)).collect();
         for (i, (aabb, _)) in boxes.iter().enumerate() {
             self.bvh.insert_or_update_partially(*aabb, i as u32, 0.0);
         }
         self.bvh.refit(&mut self.workspace);
-        let mut pairs: Vec<(u32, u32)> = Vec::new();
+        let mut pairs: Vec<(u32, u32)> = (0..self.patches.len() as u32).map(|i| (i, i)).collect();
         self.bvh.traverse_bvtt_single_tree::<false>(&mut self.workspace, &mut |a, b| {
             pairs.push((a.min(b), a.max(b)));
         });
-        pairs.extend((0..self.patches.len() as u32).map(|i| (i, i)));
-        pairs.retain(|&(a, b)| !self.smooth(a as usize, b as usize, &boxes, reach));
         pairs.sort_unstable();
-        let node_normals = self.node_normals(x.len(), &normals);
-        let find = Search { detector: self, x, normals: &normals, node_normals: &node_normals, reach };
-        pairs.par_iter().flat_map_iter(|&(a, b)| find.pair(a as usize, b as usize)).collect()
+        (pairs, boxes.into_iter().map(|b| b.1).collect())
+    }
+
+    /// Edges and triangles whose patches' boxes overlap and that share no node.
+    pub(super) fn touching(&mut self, x: &[Vec3]) -> Vec<([u32; 2], [u32; 3])> {
+        let normals = self.normals(x);
+        let (pairs, _) = self.patch_pairs(x, &normals, 0.0);
+        let near = |p: &Patch, q: &Patch| {
+            let mut out = Vec::new();
+            for &(e, _) in &p.edges {
+                let [a, b] = e.map(|n| x[n as usize]);
+                let (low, high) = (a.inf(&b), a.sup(&b));
+                for &t in &q.triangles {
+                    let tri = self.triangles[t as usize];
+                    let [c, d, f] = tri.map(|n| x[n as usize]);
+                    let (l, h) = (c.inf(&d).inf(&f), c.sup(&d).sup(&f));
+                    let apart = (0..3).any(|k| h[k] < low[k] || l[k] > high[k]);
+                    if !apart && !tri.contains(&e[0]) && !tri.contains(&e[1]) {
+                        out.push((e, tri));
+                    }
+                }
+            }
+            out
+        };
+        let both = |&(a, b): &(u32, u32)| {
+            let (p, q) = (&self.patches[a as usize], &self.patches[b as usize]);
+            let mut out = near(p, q);
+            if a != b {
+                out.extend(near(q, p));
+            }
+            out
+        };
+        pairs.par_iter().with_min_len(64).flat_map_iter(both).collect()
     }
 
     fn measure(&self, patch: &Patch, x: &[Vec3], normals: &[Vec3], reach: f64) -> (Aabb, Cone) {
@@ -133,12 +174,12 @@ impl ClothDetector {
     }
 
     /// Whether two patches are one smooth sheet (neighbours in the flat piece, normals alike).
-    fn smooth(&self, a: usize, b: usize, boxes: &[(Aabb, Cone)], reach: f64) -> bool {
+    fn smooth(&self, a: usize, b: usize, cones: &[Cone], reach: f64) -> bool {
         let (p, q) = (&self.patches[a], &self.patches[b]);
         if p.piece != q.piece {
             return false;
         }
-        let (ca, cb) = (&boxes[a].1, &boxes[b].1);
+        let (ca, cb) = (&cones[a], &cones[b]);
         let between = ca.axis.dot(&cb.axis).clamp(-1.0, 1.0).acos();
         if between + ca.spread + cb.spread > SMOOTH_CONE {
             return false;
@@ -160,8 +201,12 @@ impl ClothDetector {
         out
     }
 
-    /// Whether nodes `p` and `q` (of two primitives) are sewn together or lie beside one open seam.
+    /// Whether nodes `p` and `q` (of two primitives) are sewn together, lie beside one open seam or in one tangle.
     fn joined(&self, p: &[u32], q: &[u32]) -> bool {
+        let tangled = |n: &u32| self.hood.tangled.get(*n as usize).copied().unwrap_or(false);
+        if p.iter().any(tangled) && q.iter().any(tangled) {
+            return true;
+        }
         p.iter().any(|&a| {
             q.iter().any(|&b| {
                 self.hood.class[a as usize] == self.hood.class[b as usize]
@@ -369,7 +414,7 @@ mod tests {
     }
 
     fn detector(x: &[Vec3], t: &[[u32; 3]], f: &[[Vec2; 3]], p: &[u32]) -> ClothDetector {
-        let hood = Neighbourhood { class: (0..x.len() as u32).collect(), seams: vec![Vec::new(); x.len()] };
+        let hood = Neighbourhood { class: (0..x.len() as u32).collect(), seams: vec![Vec::new(); x.len()], tangled: Vec::new() };
         ClothDetector::new(t, f, p, hood)
     }
 

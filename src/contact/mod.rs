@@ -12,12 +12,14 @@ mod cloth;
 mod grid;
 mod narrow;
 mod swept;
+mod tangle;
 
 pub use body::{Collider, Nearest};
 pub use bounds::Bounds;
 pub use cloth::{ClothDetector, Neighbourhood};
 pub use narrow::{closest_on_segments, closest_on_triangle};
 pub use swept::{Hit, swept_point_triangle};
+pub use tangle::Tangle;
 
 use crate::geometry::Vec3;
 

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::friction::Friction;
 use super::model::Cloth;
 use super::step::{ContactLaw, Forces, Pull, StepError, Stepper, cloth_forces};
-use crate::contact::{Bounds, ClothDetector, Collider, Contact, Neighbourhood};
+use crate::contact::{Bounds, ClothDetector, Collider, Contact, Neighbourhood, Tangle};
 use crate::geometry::Vec3;
 
 /// How contact is looked for.
@@ -249,6 +249,17 @@ impl<'a> World<'a> {
         largest.sqrt()
     }
 
+    /// Elastic energy, penetration energy of the contacts and weight × height, J.
+    pub fn energy(&self) -> f64 {
+        let weight: f64 = self.cloth.mass.iter().zip(&self.x).map(|(m, x)| m * super::GRAVITY * self.gravity * x.y).sum();
+        let pressed: f64 = self
+            .contacts
+            .iter()
+            .map(|c| super::step::contact_load(&self.cloth, &self.x, c, &self.law).powi(2) / (2.0 * self.law.stiffness))
+            .sum();
+        self.cloth.elastic_energy(&self.x) + pressed + weight
+    }
+
     /// Force on every node that is not balanced, N.
     pub fn residual(&self, pulls: &[Pull]) -> Vec<Vec3> {
         cloth_forces(&self.cloth, &self.x, &self.forces(pulls))
@@ -260,6 +271,11 @@ impl<'a> World<'a> {
         let mean_mass = self.cloth.mass.iter().sum::<f64>() / self.cloth.mass.len().max(1) as f64;
         let rms = (r.iter().map(Vec3::norm_squared).sum::<f64>() / r.len().max(1) as f64).sqrt();
         rms / (mean_mass * super::GRAVITY)
+    }
+
+    /// Places where the cloth passes through itself.
+    pub fn tangles(&mut self) -> Vec<Tangle> {
+        self.detector.tangles(&self.x)
     }
 
     /// The detector, to change which pairs are left out.

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::error::SewError;
+use super::settle::{settle, sewn_world};
 use super::stitch::Stitching;
 use crate::contact::{Collider, Neighbourhood};
 use crate::dynamics::{Cloth, ContactLaw, Pull, Reach, SpringModel, World, identity_nodes};
@@ -37,6 +38,8 @@ pub struct Sewn {
     pub gaps: Vec<f64>,
     /// Steps made.
     pub steps: usize,
+    /// Crossings of the cloth with itself that could not be led out.
+    pub tangles: usize,
 }
 
 /// Time step while sewing, s. Inertia is what keeps the pieces apart until the seams have led them home.
@@ -74,7 +77,7 @@ pub fn sew(
     let h = mesh.spacing;
     let law = ContactLaw { stiffness: 600.0, body_clearance: 1.5e-3, cloth_gap: Some(0.1 * h) };
     let reach = Reach { cloth: 1.6 * h, body: 0.02, renew: 0.2 };
-    let hood = Neighbourhood { class: stitching.class.clone(), seams: beside_seams(mesh, &stitching, &cloth) };
+    let hood = Neighbourhood { class: stitching.class.clone(), seams: beside_seams(mesh, &stitching, &cloth), tangled: Vec::new() };
     let mut world = World::new(cloth, start, &pairs, body, hood, law, reach)?;
 
     let mut phase = 0;
@@ -119,7 +122,10 @@ pub fn sew(
     }
     let gaps = stitching.gaps(&world.x);
     let nodes = stitching.welded(&world.x);
-    Ok(Sewn { stitching, nodes, gaps, steps })
+    let mut world = sewn_world(garment, mesh, fabrics, body, &stitching, nodes)?;
+    let (more, tangles) = settle(&mut world)?;
+    steps += more;
+    Ok(Sewn { nodes: world.x, stitching, gaps, steps, tangles })
 }
 
 /// Particle → seams it lies on or next to: while such a seam closes, the cloth beside it may touch itself.

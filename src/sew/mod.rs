@@ -3,8 +3,10 @@
 mod close;
 mod error;
 pub mod place;
+mod settle;
 mod stitch;
 
 pub use close::{SewOptions, Sewn, sew};
 pub use error::SewError;
+pub use settle::{settle, sewn_world};
 pub use stitch::Stitching;

@@ -18,7 +18,8 @@ pub(super) struct Link {
     pub(super) pairs: Vec<[u32; 2]>,
     /// Whether it runs up and down.
     pub(super) upright: bool,
-    length: f64,
+    /// Mean of its two lengths, metres.
+    pub(super) length: f64,
 }
 
 /// A piece in its row.

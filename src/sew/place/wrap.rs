@@ -2,7 +2,7 @@
 
 use super::PlaceError;
 use super::fold::Sheet;
-use super::rows::{Link, ROOM, Row, Rows};
+use super::rows::{Link, Member, ROOM, Row, Rows};
 use super::stations::{Station, Stations};
 use crate::geometry::Vec3;
 use crate::mannequin::{Mannequin, PartKind};
@@ -62,13 +62,13 @@ pub(super) fn wrap(
             Some(other) => anchors[other],
             None => anchor(body, &stations, row, &levels, &rows.links),
         };
-        let mut ring = Ring { mesh, sheet, row, levels, stations, anchor: anchors[index] };
+        let mut ring = Ring { links: &rows.links, mesh, sheet, row, levels, stations, anchor: anchors[index] };
         let ellipses = ring.ellipses();
         for (level, ellipse) in ring.levels.iter_mut().zip(&ellipses) {
             spread_out(row, level, ellipse.perimeter);
         }
         smooth_shifts(&mut ring.levels);
-        ring.bend(&ellipses, &rows.links, &placed, &mut x);
+        ring.bend(&ellipses, &placed, &mut x);
         for m in &row.members {
             placed[m.piece] = true;
         }
@@ -163,7 +163,7 @@ fn joints(sheet: &Sheet, row: &Row, links: &[Link], level_of: &impl Fn(f64) -> u
                     continue;
                 };
                 // With two members the same two pieces meet twice: right of a with left of b is this joint.
-                let mean = |m: &super::rows::Member, k: usize| {
+                let mean = |m: &Member, k: usize| {
                     link.pairs.iter().map(|p| sheet.flat[p[k] as usize].x + m.shift.x).sum::<f64>() / link.pairs.len() as f64
                 };
                 let (ua, ub) = (mean(a, k), mean(b, 1 - k));
@@ -291,6 +291,7 @@ fn smoothed(values: &[f64]) -> Vec<f64> {
 
 /// A row on its body part.
 struct Ring<'a> {
+    links: &'a [Link],
     mesh: &'a ClothMesh,
     sheet: &'a Sheet,
     row: &'a Row,
@@ -300,11 +301,18 @@ struct Ring<'a> {
 }
 
 impl Ring<'_> {
-    fn bend(&self, ellipses: &[Ellipse], links: &[Link], placed: &[bool], x: &mut [Vec3]) {
+    fn bend(&self, ellipses: &[Ellipse], placed: &[bool], x: &mut [Vec3]) {
         let turn = if self.row.front.is_some() && self.row.part == PartKind::Torso {
             0.0
         } else {
-            self.turn(links, placed, x, ellipses)
+            self.turn(placed, x, ellipses)
+        };
+        // A band whose ends overlap winds outward like a spiral, by as many layers as it has.
+        let folded = |m: &Member| self.mesh.pieces[m.piece].particles.clone().any(|p| self.sheet.under[p] > 0.0);
+        let layers = match (self.overlaps(), self.row.members.iter().any(folded)) {
+            (false, _) => 0.0,
+            (true, false) => LAYER,
+            (true, true) => 2.0 * LAYER,
         };
         for (i, m) in self.row.members.iter().enumerate() {
             for p in self.mesh.pieces[m.piece].particles.clone() {
@@ -312,11 +320,21 @@ impl Ring<'_> {
                 let k = self.level(at.y);
                 let (ellipse, station) = (&ellipses[k], self.anchor + at.y);
                 let arc = at.x + self.shift(i, at.y);
-                let overlap = (arc.abs() / ellipse.perimeter - 0.5).max(0.0) * 2.0;
-                let outward = LAYER * (overlap * 8.0).min(1.0) - LAYER * self.sheet.under[p];
+                let outward = layers * (2.0 * arc / ellipse.perimeter).clamp(0.0, 1.0) - LAYER * self.sheet.under[p];
                 x[p] = self.stations.at(station).point(ellipse, arc / ellipse.perimeter + turn, outward);
             }
         }
+    }
+
+    /// Whether the row is one piece whose ends are not sewn to each other.
+    fn overlaps(&self) -> bool {
+        self.row.members.len() == 1 && !self.levels[0].closed_on_itself(self, self.mesh)
+    }
+
+    /// Length of the row's seams with other rows.
+    fn sewn_length(&self) -> f64 {
+        let own = |p: usize| self.row.members.iter().any(|m| m.piece == p);
+        self.links.iter().filter(|l| own(l.pieces[0]) != own(l.pieces[1])).map(|l| l.length).sum()
     }
 
     fn level(&self, v: f64) -> usize {
@@ -333,15 +351,18 @@ impl Ring<'_> {
     }
 
     fn ellipses(&self) -> Vec<Ellipse> {
-        let overlapping = self.row.members.len() == 1 && !self.levels[0].closed_on_itself(self, self.mesh);
+        let overlapping = self.overlaps();
         let first_closed = self.levels.iter().position(|l| l.closed).unwrap_or(0);
+        let last_closed = self.levels.iter().rposition(|l| l.closed).unwrap_or(self.levels.len() - 1);
         let mut axes: Vec<[f64; 2]> = Vec::with_capacity(self.levels.len());
-        for (k, level) in self.levels.iter().enumerate() {
+        for k in 0..self.levels.len() {
             let station = self.stations.at(self.anchor + self.row.v[0] + k.max(first_closed) as f64 * LEVEL);
-            let need = if k < first_closed { self.levels[first_closed].length } else { level.length };
-            let round = station.perimeter(CLEARANCE);
-            let grow = if overlapping { 1.0 } else { (need / round).max(1.0) };
-            let mut ab = [(station.half_width + CLEARANCE) * grow, (station.half_depth + CLEARANCE) * grow];
+            // Beyond the levels where the ring is whole (armholes above, a curved hem below) it stays as wide as there.
+            let whole = self.levels[k.clamp(first_closed, last_closed)].length;
+            let need = if overlapping { self.sewn_length() } else { whole };
+            let clearance = if overlapping { 2.0 * LAYER } else { CLEARANCE };
+            let grow = (need / station.perimeter(clearance)).max(1.0);
+            let mut ab = [(station.half_width + clearance) * grow, (station.half_depth + clearance) * grow];
             if self.row.part == PartKind::Torso && k < first_closed {
                 ab[1] += DEEPEN * (first_closed - k) as f64 * LEVEL;
             }
@@ -353,9 +374,9 @@ impl Ring<'_> {
     }
 
     /// Share of a turn that brings the row's stitches nearest to their placed partners.
-    fn turn(&self, links: &[Link], placed: &[bool], x: &[Vec3], ellipses: &[Ellipse]) -> f64 {
+    fn turn(&self, placed: &[bool], x: &[Vec3], ellipses: &[Ellipse]) -> f64 {
         let (mut c, mut s) = (0.0, 0.0);
-        for link in links {
+        for link in self.links {
             for k in 0..2 {
                 let Some(i) = self.row.members.iter().position(|m| m.piece == link.pieces[k]) else { continue };
                 if !placed[link.pieces[1 - k]] {

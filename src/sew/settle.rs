@@ -1,0 +1,103 @@
+//! The moment after stitching: crossings left beside the seams are led out, and the cloth gets its own springs.
+
+use std::sync::Arc;
+
+use super::stitch::Stitching;
+use crate::contact::{Collider, Neighbourhood, Tangle};
+use crate::dynamics::{Cloth, ContactLaw, Reach, SpringModel, StepError, World};
+use crate::fabric::Fabric;
+use crate::geometry::Vec3;
+use crate::mesh::ClothMesh;
+use crate::pattern::Garment;
+
+/// Distance kept from the body beyond half the cloth's thickness, metres. A band without ease stands off by it, and
+/// every 0.1 mm of it is 0.08 % of a waist.
+const CLEARANCE: f64 = 0.25e-3;
+/// Penalty stiffness of a contact, N/m.
+const PENALTY: f64 = 600.0;
+/// Rounds of leading tangles apart.
+const UNTANGLE: usize = 60;
+/// Steps in which the measured springs pull the cloth true after the last tangle is gone.
+const SETTLE: usize = 12;
+/// Step length, s: long, for inertia only delays rest.
+const STEP: f64 = 0.1;
+
+/// A sewn garment as one cloth in its measured fabric, ready to settle or to drape.
+///
+/// # Errors
+/// As [`World::new`].
+pub fn sewn_world<'a>(
+    garment: &Garment,
+    mesh: &ClothMesh,
+    fabrics: &[Arc<Fabric>],
+    body: &'a Collider,
+    stitching: &Stitching,
+    nodes: Vec<Vec3>,
+) -> Result<World<'a>, StepError> {
+    let cloth = Cloth::new(mesh, garment, fabrics, stitching.class.clone(), SpringModel::Measured);
+    let law = ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, cloth_gap: None };
+    let reach = Reach { cloth: 0.8 * mesh.spacing, body: 0.02, renew: 0.2 };
+    let n = nodes.len();
+    let hood = Neighbourhood { class: (0..n as u32).collect(), seams: vec![Vec::new(); n], tangled: Vec::new() };
+    World::new(cloth, nodes, &[], body, hood, law, reach)
+}
+
+/// Leads the cloth out of itself and lets the measured springs pull it true. Returns the steps made and the tangles
+/// left.
+///
+/// # Errors
+/// As [`World::advance`].
+pub fn settle(world: &mut World) -> Result<(usize, usize), StepError> {
+    let mut steps = 0;
+    let mut left = world.tangles();
+    while !left.is_empty() && steps < UNTANGLE {
+        let tangled = neighbourhood(world, &left);
+        smooth(world, &tangled);
+        world.detector_mut().set_tangled(tangled);
+        world.detect();
+        step(world)?;
+        steps += 1;
+        left = world.tangles();
+    }
+    world.detector_mut().set_tangled(Vec::new());
+    world.detect();
+    for _ in 0..SETTLE {
+        step(world)?;
+        steps += 1;
+    }
+    Ok((steps, world.tangles().len()))
+}
+
+fn step(world: &mut World) -> Result<(), StepError> {
+    world.velocity.fill(Vec3::zeros());
+    world.advance(STEP, 0.0, &[])?;
+    Ok(())
+}
+
+/// Nodes of the tangles and one ring round them.
+fn neighbourhood(world: &World, tangles: &[Tangle]) -> Vec<bool> {
+    let mut core = vec![false; world.x.len()];
+    for n in tangles.iter().flat_map(|t| t.edge.iter().chain(&t.triangle)) {
+        core[*n as usize] = true;
+    }
+    let mut out = core.clone();
+    for [a, b] in world.cloth.edges.iter().map(|e| e.map(|n| n as usize)) {
+        out[a] |= core[b];
+        out[b] |= core[a];
+    }
+    out
+}
+
+/// Moves tangled nodes half-way to the middle of their neighbours.
+fn smooth(world: &mut World, tangled: &[bool]) {
+    let mut sum = vec![(Vec3::zeros(), 0.0); world.x.len()];
+    for [a, b] in world.cloth.edges.iter().map(|e| e.map(|n| n as usize)) {
+        sum[a] = (sum[a].0 + world.x[b], sum[a].1 + 1.0);
+        sum[b] = (sum[b].0 + world.x[a], sum[b].1 + 1.0);
+    }
+    for (i, (total, count)) in sum.into_iter().enumerate() {
+        if tangled[i] && count > 0.0 {
+            world.x[i] = 0.5 * (world.x[i] + total / count);
+        }
+    }
+}
