@@ -51,7 +51,7 @@ pub struct Draped {
 /// Step length, s: long, for inertia only delays rest; the step is a Newton step on the energy.
 const STEP: f64 = 0.1;
 /// Share of the last motion by which a step looks ahead, and the most it does so, metres.
-const MOMENTUM: f64 = 0.9;
+const MOMENTUM: f64 = 0.85;
 const LOOK_AHEAD: f64 = 4e-3;
 /// Tangential stiffness of the grip on the body, N/m: a particle's weight (1 mN at most) moves its anchor microns.
 const GRIP: f64 = 300.0;
@@ -85,12 +85,12 @@ pub fn drape(
     world.gravity = 1.0;
     world.friction = Some(Friction::new(world.x.len(), GRIP));
     let mut fall = Fall { last: world.x.clone(), world, steps: 0 };
-    let mut falling = true;
+    let mut falling = true; let mm: f64 = std::env::var("MOM").map_or(MOMENTUM, |s| s.parse().unwrap_or(0.9)); let dt: f64 = std::env::var("DT").map_or(STEP, |s| s.parse().unwrap_or(0.1));
     while falling && fall.steps < options.max_steps {
         let before = fall.world.x.clone();
         for k in 0..STRETCH {
             // The last quarter of a stretch goes without momentum, so that what is measured has died down.
-            fall.step(STEP, if k < STRETCH * 3 / 4 { MOMENTUM } else { 0.0 })?;
+            fall.step(dt, if k < STRETCH * 3 / 4 { mm } else { 0.0 })?;
         }
         let [rms, _] = motion(&before, &fall.world.x);
         trace(&mut fall.world, fall.steps, rms);
@@ -99,7 +99,7 @@ pub fn drape(
     }
     let before = fall.world.x.clone();
     let again = fall.steps;
-    for _ in 0..again {
+    for _ in 0..(if std::env::var("NODRIFT").is_ok() { 0 } else { again }) {
         fall.step(0.5 * STEP, 0.0)?;
     }
     progress(1.0);

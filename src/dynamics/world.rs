@@ -205,6 +205,19 @@ impl<'a> World<'a> {
     /// # Errors
     /// As [`Stepper::solve`].
     pub fn relax(&mut self, dt: f64, momentum: f64, most: f64, last: &[Vec3], pulls: &[Pull]) -> Result<f64, StepError> {
+        let forces = Forces {
+            gravity: self.gravity,
+            contacts: &self.contacts,
+            law: self.law,
+            pulls,
+            friction: self.friction.as_ref(),
+        };
+        // Looking ahead pays only while the forces still point the way of the last motion (O'Donoghue and Candès 2015).
+        let uphill = || {
+            let f = cloth_forces(&self.cloth, &self.x, &forces);
+            f.iter().zip(self.x.iter().zip(last)).map(|(f, (x, l))| f.dot(&(x - l))).sum::<f64>() < 0.0
+        };
+        let momentum = if momentum > 0.0 && uphill() { 0.0 } else { momentum };
         let mut ahead: Vec<Vec3> = self
             .x
             .iter()
@@ -217,13 +230,6 @@ impl<'a> World<'a> {
             .collect();
         self.bounds.clamp(&self.x, &mut ahead);
         let still = vec![Vec3::zeros(); ahead.len()];
-        let forces = Forces {
-            gravity: self.gravity,
-            contacts: &self.contacts,
-            law: self.law,
-            pulls,
-            friction: self.friction.as_ref(),
-        };
         let d = self.stepper.solve(&self.cloth, &ahead, &still, dt, &forces)?;
         let target: Vec<Vec3> = ahead.iter().zip(&d).map(|(x, d)| x + d).collect();
         Ok(self.move_to(target, dt))

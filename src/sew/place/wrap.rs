@@ -135,11 +135,28 @@ fn levels(mesh: &ClothMesh, sheet: &Sheet, row: &Row, links: &[Link]) -> Vec<Lev
             }
         }
     }
+    widen(&mut out);
     let joints = joints(sheet, row, links, &level_of);
     for (k, level) in out.iter_mut().enumerate() {
         pack(row, level, k, &joints);
     }
     out
+}
+
+/// Lets every span cover those of the levels that its shift will be averaged with: each of these shifts keeps the
+/// members apart at this level too, and so does their average.
+fn widen(levels: &mut [Level]) {
+    let spans: Vec<_> = levels.iter().map(|l| l.spans.clone()).collect();
+    for (k, level) in levels.iter_mut().enumerate() {
+        for (i, span) in level.spans.iter_mut().enumerate() {
+            let Some(own) = span else { continue };
+            for near in &spans[k.saturating_sub(SMOOTHING)..(k + SMOOTHING + 1).min(spans.len())] {
+                if let Some(other) = near[i] {
+                    *own = [own[0].min(other[0]), own[1].max(other[1])];
+                }
+            }
+        }
+    }
 }
 
 /// The joint between member i and the next one round the ring.
