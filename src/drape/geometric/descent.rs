@@ -98,9 +98,9 @@ impl<'a> Run<'a> {
     /// Writes down an iteration that ended at energy `total` after a largest motion of `motion`; `left` is how far the
     /// solver would have liked to go.
     pub(super) fn record(&mut self, total: f64, motion: f64, left: f64) {
+        self.converged = motion.max(left) <= self.options.tolerance || total >= self.last_energy();
         self.history.push(total);
         self.motion = motion;
-        self.converged = motion.max(left) <= self.options.tolerance;
     }
 
     /// Ends the run where rounding hides any further descent.
