@@ -225,7 +225,7 @@ fn the_minimum_converges_under_refinement() {
 fn both_solvers_reach_the_same_minimum() {
     let (mesh, held, start) = diagonal_pull(31);
     let aim = Aim::Targets(mesh.vertices.clone());
-    for name in ["cotton_poplin", "denim", "canvas"] {
+    for name in ["cotton_poplin", "denim", "canvas", "linen", "ramie"] {
         for weighting in [Weighting::Plain, Weighting::PerArea] {
             let cloth = GeometricCloth::new(&mesh, weights_of(name), weighting).expect("cloth");
             let (mut a, mut b) = (start.clone(), start.clone());
@@ -234,7 +234,7 @@ fn both_solvers_reach_the_same_minimum() {
             let squares = LeastSquares::new(&cloth, &held).expect("system").solve(&mut b, &aim, EXACT).expect("solved");
             let energy = (alternating.energy.total / squares.energy.total - 1.0).abs();
             println!(
-                "{name} {weighting:?}: {} alternations ({:.1} ms), {} least squares ({:.1} ms); energy {energy:.1e}, surface {:.1e} mm",
+                "{name} {weighting:?}: {} alternations ({:.1} ms), {} least squares ({:.1} ms), apart {energy:.1e}, {:.1e} mm",
                 alternating.iterations,
                 1e3 * (alternating.linearise_seconds + alternating.solve_seconds),
                 squares.iterations,
@@ -355,4 +355,7 @@ fn what_cannot_be_solved_is_an_error() {
     undefined[4].z = f64::NAN;
     let solved = solver.solve(&mut undefined, &aim, SolveOptions::default());
     assert_eq!(solved.err(), Some(GeometricError::NotFinite(4)));
+    undefined[4].z = 1e200;
+    let solved = solver.solve(&mut undefined, &aim, SolveOptions::default());
+    assert_eq!(solved.err(), Some(GeometricError::Overflow));
 }

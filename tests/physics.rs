@@ -228,7 +228,9 @@ fn oscillator(damping: f64, t: f64) -> f64 {
     (-decay * t).exp() * shape
 }
 
-fn swing(damping: f64, step: f64, start: Start, law: fn(&[Vec3]) -> Vec<Vec3>) -> Explicit<fn(&[Vec3]) -> Vec<Vec3>> {
+type Law = fn(&[Vec3]) -> Vec<Vec3>;
+
+fn swing(damping: f64, step: f64, start: Start, law: Law) -> Explicit<Law> {
     let control = StepControl::Fixed { step, most: 1.0 };
     Explicit::new(vec![Vec3::x()], &[MASS], damping, start, control, law).expect("usable")
 }

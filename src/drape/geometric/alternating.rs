@@ -60,7 +60,7 @@ impl<'a> Alternating<'a> {
                 to = self.step(&from, &run, &mut clock);
                 total = run.energy(&to);
             }
-            if total > run.last_energy() || total.is_nan() {
+            if total > run.last_energy() {
                 run.exhausted();
                 break;
             }

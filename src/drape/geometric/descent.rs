@@ -75,8 +75,11 @@ impl<'a> Run<'a> {
         x: &[Vec3],
     ) -> Result<Self, GeometricError> {
         check(cloth.vertices(), x, aim)?;
-        let history = vec![cloth.energy(x, aim).total];
-        Ok(Self { cloth, handles, aim, options, history, motion: f64::INFINITY, converged: false })
+        let start = cloth.energy(x, aim).total;
+        if !start.is_finite() {
+            return Err(GeometricError::Overflow);
+        }
+        Ok(Self { cloth, handles, aim, options, history: vec![start], motion: f64::INFINITY, converged: false })
     }
 
     /// The energy at the last position that was taken.

@@ -44,6 +44,9 @@ pub enum GeometricError {
     /// A position, target or force that is not finite.
     #[error("vertex {0} has a position or a target that is not finite")]
     NotFinite(usize),
+    /// Positions so far apart that their squares have no number.
+    #[error("the energy at the start is not finite: positions are too far apart")]
+    Overflow,
     /// The system's pattern cannot be built.
     #[error(transparent)]
     Pattern(#[from] PatternError),

@@ -30,6 +30,12 @@
 //! is as large as that allows: it grows slowly while s is small and is undone and halved when s, or the way of any
 //! particle, is too large. Every step costs one evaluation of the forces.
 
+mod control;
+mod error;
+
+pub use control::{Start, StepControl};
+pub use error::ExplicitError;
+
 use super::model::Cloth;
 use super::step::{Forces, cloth_forces};
 use crate::geometry::Vec3;
@@ -42,112 +48,6 @@ const CALM_INDEX: f64 = 0.5;
 const GROWTH: f64 = 1.02;
 /// What an undone step is multiplied by.
 const SHRINK: f64 = 0.5;
-
-/// How long the steps are.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum StepControl {
-    /// Always the same, seconds. A particle that goes further than `most` metres in one step ends the run.
-    Fixed {
-        /// Seconds.
-        step: f64,
-        /// Metres.
-        most: f64,
-    },
-    /// As long as stability allows (F9).
-    Adaptive {
-        /// The first, seconds.
-        first: f64,
-        /// Below this the run has diverged, seconds.
-        smallest: f64,
-        /// Never above this, seconds.
-        largest: f64,
-        /// No particle may go further in one step, metres.
-        most: f64,
-    },
-}
-
-impl StepControl {
-    fn first(&self) -> f64 {
-        match *self {
-            Self::Fixed { step, .. } => step,
-            Self::Adaptive { first, .. } => first,
-        }
-    }
-
-    fn most(&self) -> f64 {
-        match *self {
-            Self::Fixed { most, .. } | Self::Adaptive { most, .. } => most,
-        }
-    }
-
-    fn is_valid(&self) -> bool {
-        let positive = |x: f64| x.is_finite() && x > 0.0;
-        match *self {
-            Self::Fixed { step, most } => positive(step) && most > 0.0,
-            Self::Adaptive { first, smallest, largest, most } => {
-                positive(smallest) && positive(largest) && smallest <= first && first <= largest && most > 0.0
-            }
-        }
-    }
-}
-
-/// How a motion from rest begins.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Start {
-    /// (13): X₋ = X₀. A particle then stands still for one step *before* time 0, which puts the whole motion half a
-    /// step ahead: convergence is of first order in Δt only. The equilibrium is not concerned.
-    #[default]
-    Published,
-    /// (11) by the same central difference: X₋ = X₊, no velocity at time 0. Second order, as the scheme itself.
-    Centred,
-}
-
-/// Why a motion cannot be computed.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum ExplicitError {
-    /// Positions, masses or forces of different numbers of particles.
-    #[error("{found} {what} for {particles} particles")]
-    Count {
-        /// Of what there is another number.
-        what: &'static str,
-        /// How many there are.
-        found: usize,
-        /// How many there should be.
-        particles: usize,
-    },
-    /// A mass that is not above zero.
-    #[error("particle {particle} has mass {mass} kg; it must be above zero (infinite to hold it)")]
-    Mass {
-        /// The particle.
-        particle: usize,
-        /// Its mass.
-        mass: f64,
-    },
-    /// A damping below zero or not finite.
-    #[error("viscous damping {0} kg/s; it must be zero or more")]
-    Damping(f64),
-    /// Steps that are no positive times in order.
-    #[error("the step control {0:?} is not usable; steps and distances must be above zero, smallest ≤ first ≤ largest")]
-    Control(StepControl),
-    /// A position or force that is not finite before anything has moved.
-    #[error("particle {particle} starts with a position or force that is not finite")]
-    BadStart {
-        /// The particle.
-        particle: usize,
-    },
-    /// No step is short enough.
-    #[error(
-        "the motion diverges at {time} s with steps of {step} s (particle {particle}); use shorter steps, more mass or softer springs"
-    )]
-    Diverged {
-        /// When, seconds.
-        time: f64,
-        /// Length of the last step tried, seconds.
-        step: f64,
-        /// The particle that went too far or became undefined.
-        particle: usize,
-    },
-}
 
 /// What counts as rest. Both are asked for: a swing passes its balance at full speed, and turns with none.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -364,8 +264,7 @@ impl<F: Fn(&[Vec3]) -> Vec<Vec3>> Explicit<F> {
         let (mut softening, mut inertia) = (0.0, 0.0);
         for i in (0..self.x.len()).filter(|&i| self.inverse_mass[i] > 0.0) {
             let way = trial.velocity[i] * step;
-            // Negated, so that an undefined length is caught as well.
-            if !(way.norm() <= most) || !is_finite(&trial.force[i]) {
+            if way.norm() > most || !is_finite(&way) || !is_finite(&trial.force[i]) {
                 return Verdict::Bad(i);
             }
             softening += way.dot(&(self.force[i] - trial.force[i]));
