@@ -16,7 +16,7 @@
 //! Both solvers go downhill only, hold the same vertices in place and stop at the same minimum.
 //!
 //! The cloth is flat when at rest, whatever the shape of the mesh that is handed in: every hinge of the initial mesh
-//! counts as laid flat, so A_M = 0 and E_A is quadratic with a constant matrix ([`hinge`]).
+//! counts as laid flat, so A_M = 0 and E_A is quadratic with a constant matrix (`hinge`).
 
 mod alternating;
 mod descent;
