@@ -1,5 +1,6 @@
 //! Draping: the sewn garment falls to rest in its fabric (L7–L11).
 
+pub mod geometric;
 mod rest;
 
 pub use rest::{DrapeError, DrapeOptions, Draped, drape};

@@ -3,6 +3,7 @@
 //! Particles that are sewn together are one *node*; everything here speaks of nodes.
 
 mod bending;
+pub mod explicit;
 mod friction;
 mod model;
 mod springs;

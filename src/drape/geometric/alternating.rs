@@ -1,0 +1,132 @@
+//! The published alternation with one factor (L11): fix the directions of the edges, solve for the positions.
+//!
+//! With directions d_e fixed, Σ w ‖(v_b − v_a) − L_M d_e‖² takes the place of E_L. It is never below E_L and equal to it
+//! where the d_e are the edges' own directions, so its minimum lies no higher: the alternation goes downhill. Everything
+//! is quadratic with one constant scalar matrix K = ω_R P + ω_S (graph Laplacian) + ω_B AᵀA for x, y and z; as both
+//! functions have the same gradient at v, the minimum is v − K⁻¹ ½∇E(v).
+//!
+//! Taken alone, that step creeps where K is much stiffer than the cloth. So it is taken from a point extrapolated from
+//! the last two (Nesterov 1983, with the restart of O'Donoghue & Candès 2015): where that would raise the energy, the
+//! plain step is taken instead and the momentum forgotten.
+
+use std::sync::Arc;
+
+use super::descent::{Clock, Report, Run, SolveOptions, factored, hold, largest_motion, timed};
+use super::energy::Aim;
+use super::handles::Handles;
+use super::stencils::Stencils;
+use super::{GeometricCloth, GeometricError, Weights};
+use crate::geometry::Vec3;
+use crate::linear::{Cholesky, Ordering, SymmetricMatrix, SymmetricPattern};
+
+/// The alternation, prepared for one cloth and one set of held vertices.
+#[derive(Debug)]
+pub struct Alternating<'a> {
+    cloth: &'a GeometricCloth,
+    handles: Handles,
+    factor: Cholesky<f64>,
+}
+
+impl<'a> Alternating<'a> {
+    /// Builds and factors K with the vertices `held` eliminated.
+    ///
+    /// # Errors
+    /// [`GeometricError::Handle`] for a vertex that does not exist, or a cloth too large for its system.
+    pub fn new(cloth: &'a GeometricCloth, held: &[u32]) -> Result<Self, GeometricError> {
+        let handles = Handles::new(cloth.vertices(), held)?;
+        let matrix = assemble(&cloth.stencils, &cloth.weights, &handles)?;
+        let mut factor = Cholesky::new(matrix.pattern().clone(), &Ordering::MinimumDegree)?;
+        factored(&mut factor, &matrix, 1)?;
+        Ok(Self { cloth, handles, factor })
+    }
+
+    /// Goes downhill from `x`, in which the held vertices are where they are to stay.
+    ///
+    /// # Errors
+    /// [`GeometricError`] for numbers of vertices that do not agree or positions that are not finite.
+    pub fn solve(&self, x: &mut Vec<Vec3>, aim: &Aim, options: SolveOptions) -> Result<Report, GeometricError> {
+        let mut run = Run::new(self.cloth, &self.handles, aim, options, x)?;
+        let mut clock = Clock::default();
+        let mut before = x.clone();
+        let mut momentum = Momentum::default();
+        while run.goes_on() {
+            let share = momentum.next();
+            let mut from: Vec<Vec3> = x.iter().zip(&before).map(|(x, b)| x + (x - b) * share).collect();
+            let mut to = self.step(&from, &run, &mut clock);
+            let mut total = run.energy(&to);
+            if total > run.last_energy() {
+                momentum = Momentum::default();
+                from.clone_from(x);
+                to = self.step(&from, &run, &mut clock);
+                total = run.energy(&to);
+            }
+            if total > run.last_energy() {
+                run.exhausted();
+                break;
+            }
+            run.record(total, largest_motion(x, &to), largest_motion(&from, &to));
+            before = std::mem::replace(x, to);
+        }
+        Ok(run.report(x, &clock))
+    }
+
+    /// Positions of least energy for the edge directions at `x`.
+    fn step(&self, x: &[Vec3], run: &Run, clock: &mut Clock) -> Vec<Vec3> {
+        let gradient = timed(&mut clock.linearise, || run.half_gradient(x));
+        let step = timed(&mut clock.solve, || {
+            let mut columns: Vec<f64> = (0..3).flat_map(|k| gradient.iter().map(move |g| g[k])).collect();
+            self.factor.solve(&mut columns);
+            columns
+        });
+        let n = x.len();
+        (0..n).map(|i| x[i] - Vec3::new(step[i], step[n + i], step[2 * n + i])).collect()
+    }
+}
+
+/// Nesterov's sequence of extrapolations, 0 at first and growing towards 1.
+struct Momentum(f64);
+
+impl Default for Momentum {
+    fn default() -> Self {
+        Self(1.0)
+    }
+}
+
+impl Momentum {
+    fn next(&mut self) -> f64 {
+        let last = self.0;
+        self.0 = 0.5 * (1.0 + (1.0 + 4.0 * last * last).sqrt());
+        (last - 1.0) / self.0
+    }
+}
+
+/// K, with the rows of held vertices as those of the identity.
+fn assemble(stencils: &Stencils, weights: &Weights, handles: &Handles) -> Result<SymmetricMatrix<f64>, GeometricError> {
+    let n = stencils.points.len();
+    let mut entries: Vec<(u32, u32, f64)> =
+        stencils.points.iter().enumerate().map(|(i, p)| (i as u32, i as u32, weights.recovery * p)).collect();
+    for e in &stencils.edges {
+        let ([a, b], w) = (e.ends, weights.stretch * e.weight);
+        entries.extend([(a, a, w), (b, b, w), (a, b, -w)]);
+    }
+    for h in &stencils.hinges {
+        for i in 0..4 {
+            let row = (i..4)
+                .map(|j| (h.nodes[i], h.nodes[j], weights.bend * h.weight * h.coefficients[i] * h.coefficients[j]));
+            entries.extend(row);
+        }
+    }
+    let diagonal: f64 = entries.iter().filter(|e| e.0 == e.1).map(|e| e.2).sum();
+    entries.retain(|e| !handles.holds(e.0) && !handles.holds(e.1));
+    let held = hold(diagonal, n);
+    entries.extend((0..n as u32).map(|i| (i, i, if handles.holds(i) { 1.0 } else { held })));
+    let pattern = Arc::new(SymmetricPattern::scalar(n, entries.iter().map(|e| (e.0 as usize, e.1 as usize)))?);
+    let mut matrix = SymmetricMatrix::zeros(pattern.clone());
+    for (i, j, value) in entries {
+        // Every entry is part of the pattern it was built from.
+        if let Some(slot) = pattern.slot(i as usize, j as usize) {
+            matrix.add(slot, value);
+        }
+    }
+    Ok(matrix)
+}
