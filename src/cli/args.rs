@@ -81,7 +81,7 @@ pub(super) struct GarmentArgs {
 #[derive(Debug, clap::Args)]
 pub(super) struct OverrideArgs {
     /// Distance of neighbouring particles in millimetres [default: 10]
-    #[arg(long, value_name = "MM", value_parser = spacing)]
+    #[arg(long, value_name = "MM", value_parser = spacing, allow_negative_numbers = true)]
     spacing: Option<f64>,
     /// Fabric in place of the garment's main one, which most of its cloth is cut from; its other fabrics stay
     #[arg(long, value_name = "NAME|FILE.yaml")]

@@ -120,9 +120,11 @@ impl Summary {
 
     fn piece_table(&self) -> String {
         let mut rows = vec![["piece", "fabric", "cm²", "edges"].map(String::from).to_vec()];
-        rows.extend(self.pieces.iter().map(|p| {
-            vec![p.name.clone(), p.fabric.clone(), format!("{:.1}", p.area / 100.0), p.edges.to_string()]
-        }));
+        rows.extend(
+            self.pieces
+                .iter()
+                .map(|p| vec![p.name.clone(), p.fabric.clone(), format!("{:.1}", p.area / 100.0), p.edges.to_string()]),
+        );
         aligned(&rows)
     }
 

@@ -75,8 +75,7 @@ pub fn check_materials(file: &Path, garment: &Garment) -> Result<(), PipelineErr
 /// Fabrics by piece, with the file's name in errors.
 fn fabrics(file: &Path, garment: &Garment, instead: Option<&str>) -> Result<Vec<Arc<Fabric>>, PipelineError> {
     let folder = file.parent().unwrap_or(Path::new(""));
-    cloth::fabrics(garment, folder, instead)
-        .map_err(|source| PipelineError::Fabric { file: file.to_owned(), source })
+    cloth::fabrics(garment, folder, instead).map_err(|source| PipelineError::Fabric { file: file.to_owned(), source })
 }
 
 impl Job {
@@ -95,12 +94,8 @@ impl Job {
         let begin = Instant::now();
         let mesh = mesh::build(&garment, overrides.spacing.unwrap_or(SPACING))
             .map_err(|source| PipelineError::Mesh { file: file.to_owned(), source })?;
-        let meshing = Stage {
-            name: "mesh".into(),
-            seconds: begin.elapsed().as_secs_f64(),
-            converged: true,
-            ..Stage::default()
-        };
+        let meshing =
+            Stage { name: "mesh".into(), seconds: begin.elapsed().as_secs_f64(), converged: true, ..Stage::default() };
         let collider =
             Collider::new(&body.mesh).ok_or_else(|| PipelineError::Sew(SewError::Body(body.name.clone())))?;
         let named = [overrides.fabric.as_deref(), Some(wanted.as_str())];

@@ -51,8 +51,8 @@ impl<'a> Run<'a> {
         let start = place(&job.garment, &job.mesh, &job.body).map_err(|e| failed(e.into()))?;
         let options = SewOptions::default();
         let mut tell = |share| progress("sew", share);
-        let sewn = sew(&job.garment, &job.mesh, &job.fabrics, &job.collider, start, &options, &mut tell)
-            .map_err(failed)?;
+        let sewn =
+            sew(&job.garment, &job.mesh, &job.fabrics, &job.collider, start, &options, &mut tell).map_err(failed)?;
         self.stages.push(Stage {
             name: "sew".into(),
             seconds: begin.elapsed().as_secs_f64(),

@@ -106,8 +106,7 @@ pub fn flatten_surface(file: &Path, unit: f64, options: &Options) -> Result<Flat
     let flat = flat.map_err(|source| PipelineError::Surface { file: file.to_owned(), source })?;
     let stage = stage(&flat, begin);
     let pieces = parts.iter().zip(&flat).map(|(part, flat)| part_report(part, &flat.report)).collect();
-    let report =
-        SurfaceReport { toile: env!("CARGO_PKG_VERSION").into(), surface: name, pieces, stages: vec![stage] };
+    let report = SurfaceReport { toile: env!("CARGO_PKG_VERSION").into(), surface: name, pieces, stages: vec![stage] };
     Ok(FlatSurface { faces, parts, flat, report })
 }
 

@@ -84,7 +84,9 @@ fn worst(bound: String, values: Vec<(String, f64)>, limit: f64, unit: &'static s
     // A value that is no number counts as larger than any.
     let largest = values.into_iter().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
     let (at, measured) = largest.map_or((None, 0.0), |(name, value)| (Some(name), value));
-    Verdict { bound, measured, limit, unit, at, ok: measured <= limit }
+    // A limit as it was written, not with the rounding of metres to millimetres.
+    let written = (limit * 1e9).round() / 1e9;
+    Verdict { bound, measured, limit: written, unit, at, ok: measured <= limit }
 }
 
 /// A bound on a rim: the length by which it may change, or the share.
@@ -167,8 +169,7 @@ fn crossings(report: &Report, most: usize) -> Verdict {
 
 /// Openings that no body part passes through. A garment without any opening is worn by nobody.
 fn worn(report: &Report) -> Verdict {
-    let empty: Vec<&str> =
-        report.worn.iter().filter(|w| w.body_part.is_none()).map(|w| w.opening.as_str()).collect();
+    let empty: Vec<&str> = report.worn.iter().filter(|w| w.body_part.is_none()).map(|w| w.opening.as_str()).collect();
     let ok = empty.is_empty() && !report.worn.is_empty();
     Verdict {
         bound: "openings not worn".into(),
