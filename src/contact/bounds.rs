@@ -150,12 +150,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     fn pair() -> ([Vec3; 4], Contact) {
-        let x = [
-            Vec3::new(0.0, 0.01, 0.0),
-            Vec3::new(-1.0, 0.0, -1.0),
-            Vec3::new(1.0, 0.0, -1.0),
-            Vec3::new(0.0, 0.0, 1.0),
-        ];
+        let x = [Vec3::new(0.0, 0.01, 0.0), Vec3::new(-1.0, 0.0, -1.0), Vec3::new(1.0, 0.0, -1.0), Vec3::new(0.0, 0.0, 1.0)];
         let contact = Contact {
             nodes: [0, 1, 2, 3],
             weights: [1.0, -0.25, -0.25, -0.5],

@@ -315,13 +315,8 @@ fn own_primitives(leaves: Vec<Vec<u32>>, triangles: &[[u32; 3]], flat: &[[Vec2; 
     let mut patches = Vec::with_capacity(leaves.len());
     for leaf in leaves {
         let (mut low, mut high) = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
-        let mut patch = Patch {
-            piece: 0,
-            triangles: leaf,
-            nodes: Vec::new(),
-            edges: Vec::new(),
-            flat: (Vec2::zeros(), Vec2::zeros()),
-        };
+        let mut patch =
+            Patch { piece: 0, triangles: leaf, nodes: Vec::new(), edges: Vec::new(), flat: (Vec2::zeros(), Vec2::zeros()) };
         for &t in &patch.triangles {
             let (tri, corners) = (triangles[t as usize], flat[t as usize]);
             patch.piece = piece[t as usize];

@@ -177,16 +177,15 @@ mod tests {
         for j in 0..N {
             for i in 0..N {
                 let (a, b, c, d) = (at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-                let two = if alternate && (i + j) % 2 == 1 { [[a, b, d], [b, c, d]] } else { [[a, b, c], [a, c, d]] };
+                let two =
+                    if alternate && (i + j) % 2 == 1 { [[a, b, d], [b, c, d]] } else { [[a, b, c], [a, c, d]] };
                 for nodes in two {
                     let corners = nodes.map(|n| flat[n as usize]);
                     triangles.push(FlatTriangle { nodes, corners, warp: Vec2::y(), rigidity });
                 }
             }
         }
-        let interior = (0..(N + 1) * (N + 1))
-            .map(|k| (1..N).contains(&(k % (N + 1))) && (1..N).contains(&(k / (N + 1))))
-            .collect();
+        let interior = (0..(N + 1) * (N + 1)).map(|k| (1..N).contains(&(k % (N + 1))) && (1..N).contains(&(k / (N + 1)))).collect();
         (triangles, interior, flat)
     }
 

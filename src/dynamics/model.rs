@@ -68,13 +68,7 @@ pub fn identity_nodes(mesh: &ClothMesh) -> Vec<u32> {
 
 impl Cloth {
     /// Builds the model. `fabrics[p]` is piece p's fabric; `node_of` maps particles to nodes (0 … n−1, each used).
-    pub fn new(
-        mesh: &ClothMesh,
-        garment: &Garment,
-        fabrics: &[Arc<Fabric>],
-        node_of: Vec<u32>,
-        model: SpringModel,
-    ) -> Self {
+    pub fn new(mesh: &ClothMesh, garment: &Garment, fabrics: &[Arc<Fabric>], node_of: Vec<u32>, model: SpringModel) -> Self {
         let nodes = node_of.iter().max().map_or(0, |&n| n as usize + 1);
         let triangles: Vec<[u32; 3]> = mesh.triangles.iter().map(|t| t.map(|p| node_of[p as usize])).collect();
         let flat: Vec<[Vec2; 3]> = mesh.triangles.iter().map(|t| t.map(|p| mesh.flat[p as usize])).collect();

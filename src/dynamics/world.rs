@@ -189,23 +189,11 @@ impl<'a> World<'a> {
         let share = self.bounds.share(&self.x, &d);
         if std::env::var("TOILE_TRACE").is_ok() {
             let rms = |f: &[Vec3]| (f.iter().map(Vec3::norm_squared).sum::<f64>() / f.len() as f64).sqrt();
-            let only = |c: &[Contact], p: &[Pull]| {
-                rms(&cloth_forces(&self.cloth, &self.x, &Forces { contacts: c, pulls: p, ..forces }))
-            };
+            let only = |c: &[Contact], p: &[Pull]| rms(&cloth_forces(&self.cloth, &self.x, &Forces { contacts: c, pulls: p, ..forces }));
             let body: Vec<Contact> = self.contacts.iter().filter(|c| c.body).copied().collect();
             let cloth: Vec<Contact> = self.contacts.iter().filter(|c| !c.body).copied().collect();
             let bend: Vec<Vec3> = (0..self.x.len()).map(|i| self.cloth.bending.gradient(&self.x, i)).collect();
-            eprintln!(
-                "   rms N: elastic {:.4} bend {:.4} +body {:.4} +cloth {:.4} +pulls {:.4}; d max {:.1} mm rms {:.1} share {:.3}",
-                only(&[], &[]),
-                rms(&bend),
-                only(&body, &[]),
-                only(&cloth, &[]),
-                only(&[], pulls),
-                1e3 * d.iter().map(Vec3::norm).fold(0.0, f64::max),
-                1e3 * rms(&d),
-                share
-            );
+            eprintln!("   rms N: elastic {:.4} bend {:.4} +body {:.4} +cloth {:.4} +pulls {:.4}; d max {:.1} mm rms {:.1} share {:.3}", only(&[], &[]), rms(&bend), only(&body, &[]), only(&cloth, &[]), only(&[], pulls), 1e3 * d.iter().map(Vec3::norm).fold(0.0, f64::max), 1e3 * rms(&d), share);
         }
         let target: Vec<Vec3> = self.x.iter().zip(&d).map(|(x, d)| x + d * share).collect();
         Ok(self.move_to(target, dt))
@@ -216,14 +204,7 @@ impl<'a> World<'a> {
     ///
     /// # Errors
     /// As [`Stepper::solve`].
-    pub fn relax(
-        &mut self,
-        dt: f64,
-        momentum: f64,
-        most: f64,
-        last: &[Vec3],
-        pulls: &[Pull],
-    ) -> Result<f64, StepError> {
+    pub fn relax(&mut self, dt: f64, momentum: f64, most: f64, last: &[Vec3], pulls: &[Pull]) -> Result<f64, StepError> {
         let mut ahead: Vec<Vec3> = self
             .x
             .iter()
@@ -250,9 +231,7 @@ impl<'a> World<'a> {
 
     fn move_to(&mut self, mut target: Vec<Vec3>, dt: f64) -> f64 {
         let left = self.bounds.clamp(&self.x, &mut target);
-        if std::env::var("TOILE_TRACE").is_ok() && left < 1.0 {
-            eprintln!("   clamp left {left:.3}");
-        }
+        if std::env::var("TOILE_TRACE").is_ok() && left < 1.0 { eprintln!("   clamp left {left:.3}"); }
         let mut largest = 0.0f64;
         for ((x, t), v) in self.x.iter_mut().zip(&target).zip(&mut self.velocity) {
             let d = t - *x;

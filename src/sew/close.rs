@@ -84,29 +84,7 @@ pub fn sew(
         let gaps = stitching.gaps(&world.x);
         let widest = gaps.iter().copied().fold(0.0, f64::max);
         if std::env::var("TOILE_TRACE").is_ok() {
-            eprintln!(
-                "step {steps} phase {phase} widest {:.2} mm mean {:.2} contacts {}",
-                1e3 * widest,
-                1e3 * gaps.iter().sum::<f64>() / gaps.len() as f64,
-                world.contacts().len()
-            );
-            let c = world.contacts();
-            let ins: Vec<f64> = world
-                .x
-                .iter()
-                .filter_map(|p| body.nearest(*p, 0.05))
-                .map(|n| n.distance)
-                .filter(|d| *d < 0.0)
-                .collect();
-            eprintln!("   inside {} deepest {:.4}", ins.len(), ins.iter().copied().fold(0.0, f64::min));
-            eprintln!(
-                "   body1 {} body2 {} body3 {} cloth {} residual {:.2}",
-                c.iter().filter(|c| c.body && c.count == 1).count(),
-                c.iter().filter(|c| c.body && c.count == 2).count(),
-                c.iter().filter(|c| c.body && c.count == 3).count(),
-                c.iter().filter(|c| !c.body).count(),
-                world.residual_in_weights()
-            );
+            eprintln!("step {steps} phase {phase} widest {:.2} mm mean {:.2} contacts {}", 1e3 * widest, 1e3 * gaps.iter().sum::<f64>() / gaps.len() as f64, world.contacts().len()); let c=world.contacts(); let ins: Vec<f64> = world.x.iter().filter_map(|p| body.nearest(*p, 0.05)).map(|n| n.distance).filter(|d| *d < 0.0).collect(); eprintln!("   inside {} deepest {:.4}", ins.len(), ins.iter().copied().fold(0.0, f64::min)); eprintln!("   body1 {} body2 {} body3 {} cloth {} residual {:.2}", c.iter().filter(|c|c.body&&c.count==1).count(), c.iter().filter(|c|c.body&&c.count==2).count(), c.iter().filter(|c|c.body&&c.count==3).count(), c.iter().filter(|c|!c.body).count(), world.residual_in_weights());
         }
         if widest <= options.tolerance {
             break;
