@@ -396,7 +396,7 @@ fn folders_that_cannot_be_written_are_told_at_once() {
     room.put("file", "");
     // Half a million particles would take minutes.
     let run = room.run(&["make", "skirt.yaml", "-o", "file/deeper/still", "--spacing", "1"]);
-    run.ends(2).says(&["file/deeper/still"]);
+    run.ends(2).says(&["file/deeper/still", "with -o"]);
     assert_eq!(room.names("."), ["file", "skirt.yaml"]);
 }
 

@@ -5,7 +5,7 @@ use std::io::{self, ErrorKind, IsTerminal, Write};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::exit::{CliError, Exit};
+use super::exit::CliError;
 use crate::pipeline::json_text;
 
 /// Standard output and standard error, as `--quiet` and `--json` want them.
@@ -55,8 +55,8 @@ impl Console {
         let text = error.to_string();
         let named = text.contains(": error: ");
         say(&if named { text } else { format!("error: {text}") });
-        if error.exit() == Exit::Failed {
-            say("  help: try another --spacing, and `toile check` and `toile sew` to see where it begins");
+        if let Some(help) = error.help() {
+            say(&format!("  help: {help}"));
         }
     }
 
@@ -99,7 +99,8 @@ impl Progress {
             *bar = ProgressBar::new(STEPS).with_style(style()).with_message(stage.to_owned());
             stage.clone_into(name);
         }
-        bar.set_position((share.clamp(0.0, 1.0) * STEPS as f64) as u64);
+        // Gaps may widen for a step; a bar that goes back only worries.
+        bar.set_position(bar.position().max((share.clamp(0.0, 1.0) * STEPS as f64) as u64));
     }
 }
 

@@ -60,4 +60,17 @@ impl CliError {
             _ => Exit::Input,
         }
     }
+
+    /// What to do, where the message itself does not say.
+    pub(super) fn help(&self) -> Option<&'static str> {
+        match self {
+            Self::Pipeline(e) if !e.is_input() => {
+                Some("try another --spacing, and `toile check` and `toile sew` to see where it begins")
+            }
+            Self::Write(WriteError::File { .. } | WriteError::Folder { .. } | WriteError::IsFolder(_)) => {
+                Some("choose a place that can be written, with -o")
+            }
+            _ => None,
+        }
+    }
 }
