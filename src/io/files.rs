@@ -79,9 +79,8 @@ pub fn write_all(files: &[(PathBuf, Vec<u8>)], inputs: &[&Path]) -> Result<(), W
 pub fn check_writable(paths: &[PathBuf], inputs: &[&Path]) -> Result<(), WriteError> {
     for path in paths {
         refuse(path, inputs)?;
-        let missing = |p: &&Path| !p.as_os_str().is_empty() && fs::symlink_metadata(p).is_err();
-        let parents = path.ancestors().skip(1);
-        let existing = parents.skip_while(missing).next().filter(|p| !p.as_os_str().is_empty());
+        // The parent of a bare name is the empty path: the folder one is in.
+        let existing = path.ancestors().skip(1).find(|p| fs::symlink_metadata(p).is_ok());
         // Created and dropped: permissions, read-only disks and files in the way all show.
         Pending::create(&existing.unwrap_or(Path::new(".")).join("toile"), b"").map_err(|e| match e {
             WriteError::File { source, .. } | WriteError::Folder { source, .. } => {

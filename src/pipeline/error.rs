@@ -26,7 +26,7 @@ pub enum PipelineError {
         /// The garment file.
         file: PathBuf,
         /// What is wrong with the fabric.
-        source: FabricError,
+        source: Box<FabricError>,
     },
     /// Nothing to dress.
     #[error(
@@ -43,7 +43,7 @@ pub enum PipelineError {
         /// The garment file.
         file: PathBuf,
         /// What does not fit.
-        source: MeshError,
+        source: Box<MeshError>,
     },
     /// A piece has no place on this body.
     #[error("{}: {source}", file.display())]

@@ -75,7 +75,8 @@ pub fn check_materials(file: &Path, garment: &Garment) -> Result<(), PipelineErr
 /// Fabrics by piece, with the file's name in errors.
 fn fabrics(file: &Path, garment: &Garment, instead: Option<&str>) -> Result<Vec<Arc<Fabric>>, PipelineError> {
     let folder = file.parent().unwrap_or(Path::new(""));
-    cloth::fabrics(garment, folder, instead).map_err(|source| PipelineError::Fabric { file: file.to_owned(), source })
+    cloth::fabrics(garment, folder, instead)
+        .map_err(|source| PipelineError::Fabric { file: file.to_owned(), source: Box::new(source) })
 }
 
 impl Job {
@@ -93,7 +94,7 @@ impl Job {
         let body = worn_by.mannequin;
         let begin = Instant::now();
         let mesh = mesh::build(&garment, overrides.spacing.unwrap_or(SPACING))
-            .map_err(|source| PipelineError::Mesh { file: file.to_owned(), source })?;
+            .map_err(|source| PipelineError::Mesh { file: file.to_owned(), source: Box::new(source) })?;
         let meshing =
             Stage { name: "mesh".into(), seconds: begin.elapsed().as_secs_f64(), converged: true, ..Stage::default() };
         let collider =
