@@ -26,6 +26,7 @@ pub mod mannequin;
 pub mod mesh;
 pub mod pattern;
 pub mod picture;
+pub mod pipeline;
 pub mod report;
 pub mod sew;
 pub mod verify;

@@ -5,9 +5,11 @@ use toile::geometry::{Vec2, Vec3};
 use toile::io::obj_write::garment_obj;
 use toile::mannequin::Mannequin;
 use toile::mesh::{ClothMesh, EdgeParticles, PieceMesh, Stitches};
-use toile::pattern::{EdgeId, Garment, Give, Seam, SeamKind, Span};
+use toile::pattern::{Bound, EdgeId, Garment, Give, Seam, SeamKind, Span};
 use toile::picture::{Dressed, draw};
-use toile::report::{Measured, Quartet, Report, Stage, measure, opening_names, table, vertex_strain};
+use toile::report::{
+    Measured, Quartet, Report, Stage, Stretched, Verdict, measure, opening_names, table, verdicts, vertex_strain,
+};
 
 /// A grid of `cells` squares each way, `width` by `height`, its upper left corner at the origin; four named edges.
 fn add_piece(mesh: &mut ClothMesh, name: &str, width: f64, height: f64, cells: u32) {
@@ -101,7 +103,7 @@ fn report(f: &Fixture, sewn: &[Vec3], draped: &[Vec3], flattened: &[Vec2]) -> Re
         weld: &f.weld,
         body: &f.body,
         fabric: "muslin",
-        closed: None,
+        gaps: None,
         sewn: Some(sewn),
         draped: Some(draped),
         flattened: Some(flattened),
@@ -204,9 +206,9 @@ fn shear_is_the_change_of_the_angle() {
 fn seam_gaps_and_lengths() {
     let f = fixture(0.1);
     let at = laid_out(&f, 1.0);
-    let mut open = at.clone();
-    open[f.mesh.seams[0].pairs[3][1] as usize].z += 0.0022;
-    let r = measure(&Measured { closed: Some(&open), ..run(&f, &at) });
+    let mut gaps: Vec<Vec<f64>> = f.mesh.seams.iter().map(|s| vec![0.0; s.pairs.len()]).collect();
+    gaps[0][3] = 0.0022;
+    let r = measure(&Measured { gaps: Some(&gaps), ..run(&f, &at) });
     let seam = &r.seams[0];
     assert_relative_eq!(seam.length_a, 100.0, epsilon = 1e-9);
     assert_relative_eq!(seam.gap_max, 2.2, epsilon = 1e-9);
@@ -222,7 +224,7 @@ fn run<'a>(f: &'a Fixture, sewn: &'a [Vec3]) -> Measured<'a> {
         weld: &f.weld,
         body: &f.body,
         fabric: "muslin",
-        closed: None,
+        gaps: None,
         sewn: Some(sewn),
         draped: None,
         flattened: None,
@@ -327,4 +329,42 @@ fn a_seam_as_drawn_is_longer_than_its_chords() {
     let r = measure(&run(&f, &laid_out(&f, 1.0)));
     assert_relative_eq!(r.seams[0].length_a, 101.0, epsilon = 1e-9);
     assert_relative_eq!(r.seams[0].length_b, 100.5, epsilon = 1e-9);
+}
+
+/// A fixture garment with these bounds, and its report when everything is as drawn.
+fn judged(tests: Vec<Bound>, spoil: impl Fn(&mut Report)) -> Vec<Verdict> {
+    let mut f = fixture(0.1);
+    let at = laid_out(&f, 1.0);
+    f.garment.tests = tests;
+    let mut r = report(&f, &at, &at, &f.mesh.flat);
+    spoil(&mut r);
+    verdicts(&f.garment, &r)
+}
+
+#[test]
+fn bounds_take_the_worst_and_leave_out_what_had_to_stretch() {
+    let drape = || vec![Bound::Drape { piece: None, area: Some(0.005), boundary: None }];
+    let spoil = |r: &mut Report| r.pieces[0].area_error.drape = Some(0.02);
+    let verdict = &judged(drape(), spoil)[0];
+    assert_eq!((verdict.bound.as_str(), verdict.ok), ("drape all area", false));
+    assert_eq!((verdict.measured, verdict.limit, verdict.unit), (2.0, 0.5, "%"));
+    assert!(verdict.to_string().contains("2.000 % (limit 0.5 %) at "), "{verdict}");
+    let stretched = |r: &mut Report| {
+        spoil(r);
+        r.pieces[0].stretched = Some(Stretched { by: 0.1, why: "body".into() });
+    };
+    assert!(judged(drape(), stretched)[0].ok);
+    // A stage that did not run is not judged.
+    assert!(judged(drape(), |r| r.pieces.iter_mut().for_each(|p| p.area_error.drape = None)).is_empty());
+    assert!(!judged(drape(), |r| r.pieces[0].area_error.drape = Some(f64::NAN))[0].ok);
+}
+
+#[test]
+fn a_garment_without_tests_must_be_closed_and_free_of_crossings() {
+    let good = judged(Vec::new(), |_| {});
+    assert_eq!(good.iter().map(|v| v.bound.as_str()).collect::<Vec<_>>(), ["gap all", "crossings"]);
+    let open = judged(Vec::new(), |r| r.seams[0].gap_max = 1.5);
+    assert!(!open[0].ok && open[0].limit == 1.0);
+    let inside = judged(Vec::new(), |r| r.contact.inside_body = 3);
+    assert_eq!((inside[1].ok, inside[1].at.as_deref()), (false, Some("3 points in the body")));
 }

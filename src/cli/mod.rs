@@ -1,1 +1,60 @@
-//! cli
+//! The command line.
+//!
+//! [`args`] holds what clap reads, unchecked; each command has a file that checks its arguments, runs the pipeline and
+//! says how it went. Results go to standard output, everything else to standard error.
+
+mod args;
+mod check;
+mod console;
+mod exit;
+mod fabric;
+mod flatten;
+mod junit;
+mod make;
+mod mannequin;
+mod test;
+
+use std::num::NonZeroUsize;
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::io::files::remove_on_interrupt;
+use args::{Args, Command};
+use console::Console;
+use exit::{CliError, Exit};
+
+/// Reads the arguments of the process, does what they say and gives its exit code.
+pub fn main() -> ExitCode {
+    // Ends the process itself for --help, --version (0) and wrong usage (2).
+    let args = Args::parse();
+    let console = Console::new(args.global.quiet, args.global.json);
+    let done = remove_on_interrupt()
+        .map_err(CliError::from)
+        .and_then(|()| with_threads(args.global.threads, || run(&args.command, &console)))
+        .and_then(|done| done);
+    let exit = done.unwrap_or_else(|error| {
+        console.error(&error);
+        error.exit()
+    });
+    ExitCode::from(exit)
+}
+
+fn with_threads<T: Send>(threads: Option<NonZeroUsize>, work: impl FnOnce() -> T + Send) -> Result<T, CliError> {
+    let Some(threads) = threads else { return Ok(work()) };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build()?;
+    Ok(pool.install(work))
+}
+
+fn run(command: &Command, console: &Console) -> Result<Exit, CliError> {
+    match command {
+        Command::Make(args) => make::make(args, console),
+        Command::Check(args) => check::check(args, console),
+        Command::Sew(args) => make::sew(args, console),
+        Command::Drape(args) => make::drape(args, console),
+        Command::Flatten(args) => flatten::flatten(args, console),
+        Command::Test(args) => test::test(args, console),
+        Command::Fabric(command) => fabric::fabric(command, console),
+        Command::Mannequin(command) => mannequin::mannequin(command, console),
+    }
+}

@@ -72,9 +72,21 @@ fn sheet_in(name: &str, folder: &Path, others: &[&str]) -> Result<FabricSheet, F
         return Err(FabricError::Unknown { name: name.to_owned(), nearest, known: known.join(", ") });
     }
     let file = path.display().to_string();
-    let text =
-        std::fs::read_to_string(&path).map_err(|e| FabricError::Read { file: file.clone(), why: e.to_string() })?;
+    let text = read(&path)?;
     FabricSheet::parse(&text, &file)
+}
+
+/// A fabric's file is a page of text; a curve of ten thousand points has a few hundred kilobytes.
+const LARGEST: u64 = 4 << 20;
+
+/// The text of a fabric's or a curve's file, told to be too large before it is read.
+pub(super) fn read(path: &Path) -> Result<String, FabricError> {
+    let fault = |why: String| FabricError::Read { file: path.display().to_string(), why };
+    let size = std::fs::metadata(path).map_err(|e| fault(e.to_string()))?.len();
+    if size > LARGEST {
+        return Err(fault(format!("{} MiB are no fabric; at most {} MiB are read", size >> 20, LARGEST >> 20)));
+    }
+    std::fs::read_to_string(path).map_err(|e| fault(e.to_string()))
 }
 
 /// The name most like `name`, if it contains it or differs in no more than a third of its letters.

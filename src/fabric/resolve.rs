@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::error::FabricError;
-use super::library::load_in;
+use super::library::{load_in, read};
 use super::sheet::{FabricSheet, flatten};
 use super::units::{BEND, LENGTH, Quantity, SHEAR, STRAIN, WEIGHT};
 use super::{Fabric, FabricSpec, TensileCurve};
@@ -280,10 +280,7 @@ impl<'a> Values<'a> {
             let expected = "{EMT: 5 %, LT: 0.7} or a .csv file of strain and load".to_owned();
             return Err(self.unit_error(key, text, self.expected(expected, base.is_some())));
         }
-        let path = self.context.folder.join(text.trim());
-        let read = std::fs::read_to_string(&path)
-            .map_err(|e| FabricError::Read { file: path.display().to_string(), why: e.to_string() })?;
-        TensileCurve::parse(&read, text.trim())
+        TensileCurve::parse(&read(&self.context.folder.join(text.trim()))?, text.trim())
     }
 }
 

@@ -16,6 +16,9 @@ const CENTIMETRES_BELOW: f64 = 300.0;
 /// Heights of foot and ankle, as parts of the body's, that tell where the toes point.
 const FOOT: f64 = 0.02;
 const ANKLE: [f64; 2] = [0.05, 0.08];
+/// Bodies with more crossing pairs than this share of their triangles are refused. Averaged bodies have a few tenths of
+/// a percent, between the thighs; a limb pushed through the trunk has several percent.
+const CROSSING: f64 = 0.01;
 
 /// A body that was read, and what was guessed or done on the way.
 #[derive(Clone, Debug)]
@@ -39,6 +42,22 @@ pub enum BodyError {
         file: String,
         /// What is wrong, where, and the remedy.
         fault: BodyFault,
+    },
+    /// A surface that runs through itself in more than a few places.
+    #[error(
+        "{file}: the surface crosses itself ({pairs} pairs of {triangles} triangles, near ({:.0}, {:.0}, {:.0}) mm); \
+         separate the limbs or remesh it (in Blender: Remesh modifier, Voxel)",
+        1e3 * place.x, 1e3 * place.y, 1e3 * place.z
+    )]
+    Crossing {
+        /// Path.
+        file: String,
+        /// Pairs of triangles that cross.
+        pairs: usize,
+        /// Triangles of the surface.
+        triangles: usize,
+        /// Where the first two cross, metres.
+        place: Vec3,
     },
     /// No height, or no parts.
     #[error("{file}: {why}")]
@@ -69,8 +88,8 @@ pub fn load_body(name_or_path: &str) -> Result<Body, BodyError> {
 /// z up. Vertices that coincide are merged where the surface is not closed otherwise.
 ///
 /// # Errors
-/// [`BodyError`] when the file cannot be read, the surface is open, not manifold or inside out, or no
-/// torso, neck, arms and legs can be found.
+/// [`BodyError`] when the file cannot be read, the surface is open, not manifold, inside out or runs through itself in
+/// many places, or no torso, neck, arms and legs can be found.
 pub fn read_body(path: &Path) -> Result<Body, BodyError> {
     let file = path.display().to_string();
     let name = path.file_stem().map_or_else(|| file.clone(), |s| s.to_string_lossy().into_owned());
@@ -94,10 +113,22 @@ pub fn body(surface: ObjSurface, name: String, file: String) -> Result<Body, Bod
     }
     let mut mesh = closed(vertices, surface.triangles);
     let check = check_body(&mesh).map_err(|fault| BodyError::Fault { file: file.clone(), fault })?;
+    refuse_crossings(&mesh, &check, &file)?;
     notes.extend(findings(&check));
     face_forward(&mut mesh, height * scale, &mut notes);
     let parts = find_parts(&mesh).map_err(|why| shape(&why))?;
     Ok(Body { mannequin: Mannequin { name, mesh, parts }, notes })
+}
+
+/// Refuses a surface that runs through itself in more than a few places: there is no telling its inside.
+fn refuse_crossings(mesh: &TriMesh, check: &BodyCheck, file: &str) -> Result<(), BodyError> {
+    let triangles = mesh.triangles.len();
+    match check.crossings {
+        Some((pairs, place)) if pairs as f64 > CROSSING * triangles as f64 => {
+            Err(BodyError::Crossing { file: file.to_owned(), pairs, triangles, place })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// What a body's check found that its user should know.

@@ -71,6 +71,27 @@ pub fn write_all(files: &[(PathBuf, Vec<u8>)], inputs: &[&Path]) -> Result<(), W
     Ok(())
 }
 
+/// Checks, before a long computation, that [`write_all`] will be able to write these files: that none is an input or a
+/// folder, and that a file can be made where they are to go, or in the nearest folder above that exists.
+///
+/// # Errors
+/// [`WriteError`], naming the path.
+pub fn check_writable(paths: &[PathBuf], inputs: &[&Path]) -> Result<(), WriteError> {
+    for path in paths {
+        refuse(path, inputs)?;
+        // The parent of a bare name is the empty path: the folder one is in.
+        let existing = path.ancestors().skip(1).find(|p| fs::symlink_metadata(p).is_ok());
+        // Created and dropped: permissions, read-only disks and files in the way all show.
+        Pending::create(&existing.unwrap_or(Path::new(".")).join("toile"), b"").map_err(|e| match e {
+            WriteError::File { source, .. } | WriteError::Folder { source, .. } => {
+                WriteError::File { path: path.clone(), source }
+            }
+            other => other,
+        })?;
+    }
+    Ok(())
+}
+
 /// Removes temporary files when the program is interrupted and ends it with exit code 130. Called once, by the command
 /// line.
 ///

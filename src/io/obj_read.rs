@@ -64,6 +64,10 @@ pub struct ObjSurface {
 /// # Errors
 /// [`ObjError`] with the line.
 pub fn read_obj(path: &Path) -> Result<ObjSurface, ObjError> {
+    parse_obj(&text(path)?, &path.display().to_string())
+}
+
+fn text(path: &Path) -> Result<String, ObjError> {
     let file = path.display().to_string();
     let system = |e: std::io::Error| ObjError::Read { file: file.clone(), why: e.to_string() };
     let size = std::fs::metadata(path).map_err(system)?.len();
@@ -72,7 +76,7 @@ pub fn read_obj(path: &Path) -> Result<ObjSurface, ObjError> {
     }
     let bytes = std::fs::read(path).map_err(system)?;
     // Only comments and names are ever other than ASCII.
-    parse_obj(&String::from_utf8_lossy(&bytes), &file)
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
 /// Reads an OBJ's text; `file` names it in errors. Every index is in range and every coordinate finite afterwards.
@@ -80,8 +84,8 @@ pub fn read_obj(path: &Path) -> Result<ObjSurface, ObjError> {
 /// # Errors
 /// [`ObjError::Line`] for a line that is wrong, [`ObjError::Empty`] when there are no faces.
 pub fn parse_obj(text: &str, file: &str) -> Result<ObjSurface, ObjError> {
-    let bare = Bare::new(text).map_err(|(line, why)| ObjError::Line { file: file.to_owned(), line, why })?;
-    let raw = obj::raw::parse_obj(bare.text.as_bytes())
+    let faces = ObjFaces::new(text).map_err(|(line, why)| ObjError::Line { file: file.to_owned(), line, why })?;
+    let raw = obj::raw::parse_obj(faces.bare().as_bytes())
         .map_err(|e| ObjError::Read { file: file.to_owned(), why: e.to_string() })?;
     let mut triangles = Vec::with_capacity(raw.polygons.len());
     for polygon in &raw.polygons {
@@ -92,45 +96,87 @@ pub fn parse_obj(text: &str, file: &str) -> Result<ObjSurface, ObjError> {
     if triangles.is_empty() {
         return Err(ObjError::Empty { file: file.to_owned() });
     }
-    Ok(ObjSurface { vertices: bare.vertices, triangles })
+    Ok(ObjSurface { vertices: faces.vertices, triangles })
+}
+
+/// A surface as its file has it: polygons in their order, each in a group.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ObjFaces {
+    /// Positions as written.
+    pub vertices: Vec<Vec3>,
+    /// Corners of every face, indices into `vertices`.
+    pub faces: Vec<Vec<u32>>,
+    /// Names of the groups (`g` or `o` lines) that have faces, in the order of their first face; empty for faces
+    /// before the first such line.
+    pub groups: Vec<String>,
+    /// Index into `groups` of every face.
+    pub group_of_face: Vec<u32>,
+}
+
+/// Reads a file with its groups, for surfaces that are written back.
+///
+/// # Errors
+/// As [`read_obj`].
+pub fn read_obj_faces(path: &Path) -> Result<ObjFaces, ObjError> {
+    let file = path.display().to_string();
+    let faces = ObjFaces::new(&text(path)?).map_err(|(line, why)| ObjError::Line { file: file.clone(), line, why })?;
+    if faces.faces.is_empty() { Err(ObjError::Empty { file }) } else { Ok(faces) }
 }
 
 /// A line's number and what is wrong with it.
 type Fault = (usize, String);
 
-/// The file's positions, and its `v` and `f` lines rewritten without all else.
-struct Bare {
-    vertices: Vec<Vec3>,
-    text: String,
-}
-
-impl Bare {
+impl ObjFaces {
     fn new(text: &str) -> Result<Self, Fault> {
-        let mut out = Self { vertices: Vec::new(), text: String::new() };
-        let mut faces: Vec<(usize, Vec<i64>)> = Vec::new();
+        let mut out = Self::default();
+        let mut group = String::new();
+        let mut read: Vec<(usize, Vec<i64>)> = Vec::new();
         for (line, words) in logical_lines(text) {
             let mut words = words.split_whitespace();
             match words.next() {
                 Some("v") => out.vertices.push(position(words).map_err(|why| (line, why))?),
-                Some("f") => faces.push((line, corners(words, out.vertices.len()).map_err(|why| (line, why))?)),
+                Some("g" | "o") => group = words.collect::<Vec<_>>().join(" "),
+                Some("f") => {
+                    read.push((line, corners(words, out.vertices.len()).map_err(|why| (line, why))?));
+                    let index = out.group(&group);
+                    out.group_of_face.push(index);
+                }
                 _ => {}
             }
         }
-        for p in &out.vertices {
-            let _ = writeln!(out.text, "v {} {} {}", p.x as f32, p.y as f32, p.z as f32);
-        }
         let count = out.vertices.len() as i64;
-        for (line, corners) in faces {
+        for (line, corners) in read {
             if let Some(wrong) = corners.iter().find(|c| !(1..=count).contains(*c)) {
                 return Err((line, format!("face uses vertex {wrong}, but the file has 1 to {count}")));
             }
-            out.text.push('f');
-            for c in corners {
-                let _ = write!(out.text, " {c}");
-            }
-            out.text.push('\n');
+            out.faces.push(corners.into_iter().map(|c| (c - 1) as u32).collect());
         }
         Ok(out)
+    }
+
+    /// Index of a group's name. Faces of a group mostly stand together, so the last is looked at first.
+    fn group(&mut self, name: &str) -> u32 {
+        let known = self.groups.iter().rposition(|g| g == name);
+        known.unwrap_or_else(|| {
+            self.groups.push(name.to_owned());
+            self.groups.len() - 1
+        }) as u32
+    }
+
+    /// The file's `v` and `f` lines without all else.
+    fn bare(&self) -> String {
+        let mut out = String::new();
+        for p in &self.vertices {
+            let _ = writeln!(out, "v {} {} {}", p.x as f32, p.y as f32, p.z as f32);
+        }
+        for face in &self.faces {
+            out.push('f');
+            for c in face {
+                let _ = write!(out, " {}", c + 1);
+            }
+            out.push('\n');
+        }
+        out
     }
 }
 

@@ -11,6 +11,9 @@ const SHIPPED: [(&str, &str); 3] = [
     ("child_110", include_str!("../../mannequins/child_110.yaml")),
 ];
 
+/// Sections of a body are a page of text; larger files are refused before they are read.
+const LARGEST: u64 = 4 << 20;
+
 /// Names of the shipped mannequins.
 pub fn library() -> Vec<&'static str> {
     SHIPPED.iter().map(|s| s.0).collect()
@@ -29,8 +32,13 @@ impl MannequinSpec {
         if path.extension().is_none() {
             return Err(MannequinError::Unknown { name: name_or_path.to_owned(), known: library().join(", ") });
         }
-        let text = std::fs::read_to_string(path)
-            .map_err(|e| MannequinError::Read { file: name_or_path.to_owned(), why: e.to_string() })?;
+        let fault = |why: String| MannequinError::Read { file: name_or_path.to_owned(), why };
+        let size = std::fs::metadata(path).map_err(|e| fault(e.to_string()))?.len();
+        if size > LARGEST {
+            let (size, largest) = (size >> 20, LARGEST >> 20);
+            return Err(fault(format!("{size} MiB are no mannequin's sections; at most {largest} MiB are read")));
+        }
+        let text = std::fs::read_to_string(path).map_err(|e| fault(e.to_string()))?;
         Self::parse(&text, name_or_path)
     }
 }

@@ -30,9 +30,9 @@ pub struct Measured<'a> {
     pub body: &'a Mannequin,
     /// The fabric's name.
     pub fabric: &'a str,
-    /// When the seams had been closed, before partners were put in one place: what seam gaps are measured on.
-    /// `None` takes `sewn`.
-    pub closed: Option<&'a [Vec3]>,
+    /// For every seam of the mesh the gap of each of its pairs, metres, when the seams had been closed but partners
+    /// not yet put in one place. `None` takes the distances in `sewn`.
+    pub gaps: Option<&'a [Vec<f64>]>,
     /// After sewing.
     pub sewn: Option<&'a [Vec3]>,
     /// After draping.
@@ -61,7 +61,7 @@ pub fn measure(run: &Measured) -> Report {
         spacing: run.mesh.spacing * MM,
         pieces,
         total,
-        seams: run.mesh.seams.iter().map(|s| seam(run, s)).collect(),
+        seams: run.mesh.seams.iter().enumerate().map(|(k, s)| seam(run, k, s)).collect(),
         contact,
         worn,
         stages: run.stages.to_vec(),
@@ -185,21 +185,23 @@ fn sizes(part: &Part, shapes: &Shapes) -> Sizes {
 }
 
 /// Lengths as drawn where the garment has the seam (a mesh's chords are a little shorter), else as meshed.
-fn seam(run: &Measured, stitches: &Stitches) -> SeamReport {
+fn seam(run: &Measured, index: usize, stitches: &Stitches) -> SeamReport {
     let drawn = run.garment.seams.iter().find(|s| s.name == stitches.name);
     let meshed = |side: usize| -> f64 {
         let at = |pair: &[u32; 2]| run.mesh.flat[pair[side] as usize];
         stitches.pairs.windows(2).map(|w| (at(&w[1]) - at(&w[0])).norm()).sum()
     };
-    let gaps: Vec<f64> = run.closed.or(run.sewn).map_or_else(Vec::new, |at| {
-        stitches.pairs.iter().map(|&[a, b]| (at[a as usize] - at[b as usize]).norm() * MM).collect()
-    });
+    let as_sewn = || {
+        let at = run.sewn.unwrap_or_default();
+        stitches.pairs.iter().filter_map(|&[a, b]| Some((at.get(a as usize)? - at.get(b as usize)?).norm())).collect()
+    };
+    let gaps: Vec<f64> = run.gaps.and_then(|g| g.get(index)).cloned().unwrap_or_else(as_sewn);
     SeamReport {
         name: stitches.name.clone(),
         length_a: drawn.map_or_else(|| meshed(0), |s| s.length_a()) * MM,
         length_b: drawn.map_or_else(|| meshed(1), |s| s.length_b()) * MM,
-        gap_mean: gaps.iter().sum::<f64>() / gaps.len().max(1) as f64,
-        gap_max: gaps.iter().copied().fold(0.0, f64::max),
+        gap_mean: gaps.iter().sum::<f64>() / gaps.len().max(1) as f64 * MM,
+        gap_max: gaps.iter().copied().fold(0.0, f64::max) * MM,
     }
 }
 

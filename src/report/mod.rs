@@ -4,6 +4,7 @@
 //! the keys other programs rely on; [`table`] prints it for people. Inside, lengths are metres as everywhere; a
 //! [`Report`] holds what the file holds: millimetres, square millimetres, fractions and seconds.
 
+mod bounds;
 mod errors;
 mod measure;
 mod openings;
@@ -14,8 +15,9 @@ mod strain;
 mod stretched;
 mod table;
 
+pub use bounds::{Verdict, verdicts};
 pub use measure::{Measured, measure};
 pub use openings::opening_names;
 pub use schema::{Contact, Drift, PieceReport, Quartet, Report, SeamReport, Sizes, Spread, Stage, Stretched, Worn};
 pub use strain::vertex_strain;
-pub use table::table;
+pub use table::{aligned, table};

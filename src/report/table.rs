@@ -116,15 +116,15 @@ fn number(x: Option<f64>, digits: usize) -> String {
     x.map_or_else(|| NONE.into(), |x| format!("{x:.digits$}"))
 }
 
-/// Columns two blanks apart, the first flush left, the others flush right, except those that hold words. The first
-/// row is the head, with a rule under it.
-fn aligned(rows: &[Vec<String>]) -> String {
+/// A table as text: columns two blanks apart, those that hold words flush left, the others flush right. The first row
+/// is the head, with a rule under it.
+pub fn aligned(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let cell = |row: &[String], k: usize| row.get(k).cloned().unwrap_or_default();
     let width: Vec<usize> =
         (0..columns).map(|k| rows.iter().map(|r| cell(r, k).chars().count()).max().unwrap_or(0)).collect();
     let is_number = |text: &str| text.is_empty() || text == NONE || text.parse::<f64>().is_ok();
-    let right: Vec<bool> = (0..columns).map(|k| rows[1..].iter().all(|r| is_number(&cell(r, k)))).collect();
+    let right: Vec<bool> = (0..columns).map(|k| rows.iter().skip(1).all(|r| is_number(&cell(r, k)))).collect();
     let line = |row: &Vec<String>| {
         let pad = |k: usize| {
             let (text, width) = (cell(row, k), width[k]);
@@ -133,9 +133,10 @@ fn aligned(rows: &[Vec<String>]) -> String {
         let text = (0..columns).map(pad).collect::<Vec<_>>().join("  ");
         format!("  {}\n", text.trim_end())
     };
-    let rule = "─".repeat(width.iter().sum::<usize>() + 2 * (columns - 1));
-    let mut out = line(&rows[0]);
+    let Some((head, body)) = rows.split_first() else { return String::new() };
+    let rule = "─".repeat(width.iter().sum::<usize>() + 2 * columns.saturating_sub(1));
+    let mut out = line(head);
     out.push_str(&format!("  {rule}\n"));
-    rows[1..].iter().for_each(|r| out.push_str(&line(r)));
+    body.iter().for_each(|r| out.push_str(&line(r)));
     out
 }

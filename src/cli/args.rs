@@ -1,0 +1,258 @@
+//! The arguments, as clap reads them.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand, ValueEnum};
+
+use crate::flatten::Mode;
+use crate::pipeline::{Color, Overrides};
+
+/// Sew flat patterns onto a mannequin, drape them in a measured fabric and lay them flat again.
+#[derive(Debug, Parser)]
+#[command(
+    name = "toile",
+    version,
+    arg_required_else_help = true,
+    after_help = "Exit codes: 0 done and within the garment's bounds; 1 done, out of bounds; 2 the input is wrong; \
+                  3 it could not be computed."
+)]
+pub(super) struct Args {
+    #[command(flatten)]
+    pub(super) global: Global,
+    #[command(subcommand)]
+    pub(super) command: Command,
+}
+
+/// What every command takes.
+#[derive(Debug, clap::Args)]
+pub(super) struct Global {
+    /// Say nothing but errors
+    #[arg(short, long, global = true)]
+    pub(super) quiet: bool,
+    /// Print the results as JSON on standard output
+    #[arg(long, global = true)]
+    pub(super) json: bool,
+    /// Number of threads (default: all processors); results do not depend on it
+    #[arg(long, global = true, value_name = "N")]
+    pub(super) threads: Option<NonZeroUsize>,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Sew, drape and flatten a garment, and write everything
+    Make(GarmentArgs),
+    /// Read and check a garment file; walk every seam
+    Check(CheckArgs),
+    /// Sew a garment; writes sewn.obj, garment.png and report.json
+    Sew(GarmentArgs),
+    /// Sew and drape a garment; writes garment.obj as well
+    Drape(DrapeArgs),
+    /// Lay any OBJ surface flat, or a garment's draped pieces
+    Flatten(FlattenArgs),
+    /// Run garments against their own tests
+    Test(TestArgs),
+    /// The library of fabrics
+    #[command(subcommand)]
+    Fabric(FabricCommand),
+    /// The library of mannequins
+    #[command(subcommand)]
+    Mannequin(MannequinCommand),
+}
+
+/// A garment, and what is wanted other than its file says.
+#[derive(Debug, clap::Args)]
+pub(super) struct GarmentArgs {
+    /// The garment file
+    #[arg(value_name = "GARMENT.yaml")]
+    pub(super) garment: PathBuf,
+    /// Folder for the results [default: out/NAME]
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
+    /// Colour the picture by piece or by strain
+    #[arg(long, value_enum, default_value_t)]
+    pub(super) color: ColorArg,
+    #[command(flatten)]
+    pub(super) overrides: OverrideArgs,
+}
+
+/// Spacing, fabric and body.
+#[derive(Debug, clap::Args)]
+pub(super) struct OverrideArgs {
+    /// Distance of neighbouring particles in millimetres [default: 10]
+    #[arg(long, value_name = "MM", value_parser = spacing, allow_negative_numbers = true)]
+    spacing: Option<f64>,
+    /// Fabric in place of the garment's main one, which most of its cloth is cut from; its other fabrics stay
+    #[arg(long, value_name = "NAME|FILE.yaml")]
+    fabric: Option<String>,
+    /// Body in place of the garment's own
+    #[arg(long, value_name = "NAME|FILE.obj")]
+    body: Option<String>,
+}
+
+impl OverrideArgs {
+    /// In metres.
+    pub(super) fn checked(&self) -> Overrides {
+        Overrides { spacing: self.spacing.map(|mm| 1e-3 * mm), fabric: self.fabric.clone(), body: self.body.clone() }
+    }
+}
+
+fn spacing(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(mm) if mm.is_finite() && mm > 0.0 => Ok(mm),
+        _ => Err("a positive number of millimetres is expected, such as 10".into()),
+    }
+}
+
+/// Arguments of `drape`.
+#[derive(Debug, clap::Args)]
+pub(super) struct DrapeArgs {
+    #[command(flatten)]
+    pub(super) garment: GarmentArgs,
+    /// Begin with the garment as `toile sew` has sewn it, at the same spacing
+    #[arg(long, value_name = "sewn.obj")]
+    pub(super) from: Option<PathBuf>,
+}
+
+/// Arguments of `check`.
+#[derive(Debug, clap::Args)]
+pub(super) struct CheckArgs {
+    /// The garment file
+    #[arg(value_name = "GARMENT.yaml")]
+    pub(super) garment: PathBuf,
+}
+
+/// Arguments of `flatten`.
+#[derive(Debug, clap::Args)]
+pub(super) struct FlattenArgs {
+    /// A surface, every group or connected part of which is one piece; or a garment file
+    #[arg(value_name = "SURFACE.obj|GARMENT.yaml")]
+    pub(super) input: PathBuf,
+    /// Folder for the results [default: out/NAME]
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
+    /// What to keep where not everything can be kept
+    #[arg(long, value_enum, default_value_t)]
+    pub(super) mode: ModeArg,
+    /// Unit of the OBJ file
+    #[arg(long, value_enum, default_value_t)]
+    pub(super) units: UnitArg,
+    /// Begin with the garment as `toile make` has draped it, at the same spacing (garment files only)
+    #[arg(long, value_name = "garment.obj")]
+    pub(super) from: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) overrides: OverrideArgs,
+}
+
+/// Arguments of `test`.
+#[derive(Debug, clap::Args)]
+pub(super) struct TestArgs {
+    /// Garment files, or folders of them
+    #[arg(required = true, value_name = "PATH")]
+    pub(super) paths: Vec<PathBuf>,
+    /// Write the results as JUnit XML, too
+    #[arg(long, value_name = "FILE.xml")]
+    pub(super) junit: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) overrides: OverrideArgs,
+}
+
+/// `toile fabric …`
+#[derive(Debug, Subcommand)]
+pub(super) enum FabricCommand {
+    /// List the fabrics
+    List,
+    /// Show a fabric's values and where they come from
+    Show {
+        /// Library name or file
+        #[arg(value_name = "NAME|FILE.yaml")]
+        name: String,
+    },
+}
+
+/// `toile mannequin …`
+#[derive(Debug, Subcommand)]
+pub(super) enum MannequinCommand {
+    /// List the mannequins
+    List,
+    /// Build a mannequin and write its surface: millimetres, y up, feet at y = 0
+    Build {
+        /// Library name or file
+        #[arg(value_name = "NAME|FILE.yaml")]
+        name: String,
+        /// The file to write
+        #[arg(short, long, value_name = "FILE.obj")]
+        output: PathBuf,
+    },
+}
+
+/// `--color`
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub(super) enum ColorArg {
+    /// Which piece it is
+    #[default]
+    Piece,
+    /// How far warp and weft are stretched
+    Strain,
+}
+
+impl From<ColorArg> for Color {
+    fn from(color: ColorArg) -> Self {
+        match color {
+            ColorArg::Piece => Self::Piece,
+            ColorArg::Strain => Self::Strain,
+        }
+    }
+}
+
+/// `--mode`
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub(super) enum ModeArg {
+    /// Rim lengths first, then areas; shear gives
+    #[default]
+    Balanced,
+    /// Distances, evenly in the whole piece
+    Isometric,
+    /// Rim lengths first, then distances
+    Boundary,
+    /// Rim and threads keep their lengths; the angle between threads gives
+    Woven,
+    /// The lengths of all mesh edges, as published in 1999
+    Spring,
+}
+
+impl From<ModeArg> for Mode {
+    fn from(mode: ModeArg) -> Self {
+        match mode {
+            ModeArg::Balanced => Self::Balanced,
+            ModeArg::Isometric => Self::Isometric,
+            ModeArg::Boundary => Self::Boundary,
+            ModeArg::Woven => Self::Woven,
+            ModeArg::Spring => Self::Spring,
+        }
+    }
+}
+
+/// `--units`
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub(super) enum UnitArg {
+    /// Millimetres
+    #[default]
+    Mm,
+    /// Centimetres
+    Cm,
+    /// Metres
+    M,
+}
+
+impl UnitArg {
+    /// Metres in the unit.
+    pub(super) fn metres(self) -> f64 {
+        match self {
+            Self::Mm => 1e-3,
+            Self::Cm => 1e-2,
+            Self::M => 1.0,
+        }
+    }
+}

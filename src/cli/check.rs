@@ -1,0 +1,170 @@
+//! `check`: is this garment file right, and what does it make?
+
+use serde::Serialize;
+
+use super::args::CheckArgs;
+use super::console::Console;
+use super::exit::{CliError, Exit};
+use crate::pattern::{Diagnostic, Garment, Give, SeamWalk, Severity, openings, walk};
+use crate::pipeline::{PipelineError, check_materials, piece_area, read};
+use crate::report::aligned;
+
+/// `toile check`
+pub(super) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, CliError> {
+    let loaded = match read(&args.garment) {
+        Err(PipelineError::Garment(refused)) if console.json() => {
+            let rows = refused.diagnostics.iter().map(DiagnosticRow::new).collect();
+            let refusal = Findings { file: args.garment.display().to_string(), ok: false, diagnostics: rows };
+            console.results(&refusal, String::new)?;
+            return Ok(Exit::Input);
+        }
+        other => other?,
+    };
+    check_materials(&args.garment, &loaded.garment)?;
+    loaded.warnings.iter().for_each(|warning| console.note(&warning.to_string()));
+    let summary = Summary::new(&loaded.garment, &loaded.warnings);
+    console.results(&summary, || summary.text())?;
+    Ok(Exit::Done)
+}
+
+/// What is wrong with a garment file.
+#[derive(Serialize)]
+struct Findings {
+    file: String,
+    ok: bool,
+    diagnostics: Vec<DiagnosticRow>,
+}
+
+#[derive(Serialize)]
+struct DiagnosticRow {
+    severity: &'static str,
+    line: usize,
+    column: usize,
+    message: String,
+    hint: Option<String>,
+}
+
+impl DiagnosticRow {
+    fn new(d: &Diagnostic) -> Self {
+        let severity = match d.severity {
+            Severity::Warning => "warning",
+            Severity::Error => "error",
+        };
+        Self { severity, line: d.line, column: d.column, message: d.message.clone(), hint: d.hint.clone() }
+    }
+}
+
+/// What a right garment file makes. Lengths are mm, areas mm².
+#[derive(Serialize)]
+struct Summary {
+    garment: String,
+    title: String,
+    ok: bool,
+    pieces: Vec<PieceRow>,
+    seams: Vec<SeamRow>,
+    openings: Vec<OpeningRow>,
+    diagnostics: Vec<DiagnosticRow>,
+}
+
+#[derive(Serialize)]
+struct PieceRow {
+    name: String,
+    fabric: String,
+    area: f64,
+    edges: usize,
+}
+
+#[derive(Serialize)]
+struct SeamRow {
+    name: String,
+    a: String,
+    b: String,
+    length_a: f64,
+    length_b: f64,
+    /// What is left once ease, gather or stretch has had its share.
+    difference: f64,
+    give: String,
+}
+
+#[derive(Serialize)]
+struct OpeningRow {
+    edges: Vec<String>,
+    length: f64,
+}
+
+/// Millimetres in a metre.
+const MM: f64 = 1e3;
+
+impl Summary {
+    fn new(garment: &Garment, warnings: &[Diagnostic]) -> Self {
+        let piece = |p: &crate::pattern::Piece| PieceRow {
+            name: p.name.clone(),
+            fabric: p.fabric.clone(),
+            area: piece_area(p) * MM * MM,
+            edges: p.loops.iter().map(Vec::len).sum(),
+        };
+        Self {
+            garment: garment.name.clone(),
+            title: garment.title.clone(),
+            ok: true,
+            pieces: garment.pieces.iter().map(piece).collect(),
+            seams: walk(garment).into_iter().map(seam).collect(),
+            openings: openings(garment).iter().map(|o| opening(garment, o)).collect(),
+            diagnostics: warnings.iter().map(DiagnosticRow::new).collect(),
+        }
+    }
+
+    fn text(&self) -> String {
+        format!("{}\n\n{}\n{}\n{}", self.title, self.piece_table(), self.seam_table(), self.opening_table())
+    }
+
+    fn piece_table(&self) -> String {
+        let mut rows = vec![["piece", "fabric", "cm²", "edges"].map(String::from).to_vec()];
+        rows.extend(
+            self.pieces
+                .iter()
+                .map(|p| vec![p.name.clone(), p.fabric.clone(), format!("{:.1}", p.area / 100.0), p.edges.to_string()]),
+        );
+        aligned(&rows)
+    }
+
+    fn seam_table(&self) -> String {
+        let mut rows = vec![["seam", "mm", "to mm", "difference", "", "edges"].map(String::from).to_vec()];
+        rows.extend(self.seams.iter().map(|s| {
+            let number = |x: f64| format!("{x:.1}");
+            let edges = format!("{} – {}", s.a, s.b);
+            let numbers = [s.length_a, s.length_b, s.difference].map(number);
+            [vec![s.name.clone()], numbers.to_vec(), vec![s.give.clone(), edges]].concat()
+        }));
+        aligned(&rows)
+    }
+
+    fn opening_table(&self) -> String {
+        let mut rows = vec![["opening", "mm"].map(String::from).to_vec()];
+        rows.extend(self.openings.iter().map(|o| vec![o.edges.join(" + "), format!("{:.0}", o.length)]));
+        aligned(&rows)
+    }
+}
+
+fn seam(walked: SeamWalk) -> SeamRow {
+    SeamRow {
+        give: match walked.give {
+            Give::Even => String::new(),
+            Give::Ease(extra) => format!("ease {:.1} mm", extra * MM),
+            Give::Gather(ratio) => format!("gather {ratio}"),
+            Give::Stretch(ratio) => format!("stretch {ratio}"),
+        },
+        name: walked.name,
+        a: walked.a,
+        b: walked.b,
+        length_a: walked.length_a * MM,
+        length_b: walked.length_b * MM,
+        difference: walked.difference * MM,
+    }
+}
+
+fn opening(garment: &Garment, opening: &crate::pattern::Opening) -> OpeningRow {
+    let mut edges: Vec<String> = opening.spans.iter().map(|s| garment.edge_name(s.edge)).collect();
+    edges.dedup();
+    OpeningRow { edges, length: opening.length * MM }
+}

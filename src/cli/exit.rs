@@ -1,0 +1,76 @@
+//! How a command ends.
+
+use std::process::ExitCode;
+
+use crate::fabric::FabricError;
+use crate::io::files::WriteError;
+use crate::mannequin::MannequinError;
+use crate::pipeline::PipelineError;
+
+/// Exit codes, the worst last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Exit {
+    /// Done, and within the bounds.
+    Done = 0,
+    /// Done, but out of bounds.
+    OutOfBounds = 1,
+    /// The input is wrong.
+    Input = 2,
+    /// It could not be computed.
+    Failed = 3,
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(exit as u8)
+    }
+}
+
+/// Why a command was not done.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum CliError {
+    /// A stage, or what it was given.
+    #[error(transparent)]
+    Pipeline(#[from] PipelineError),
+    /// Results that cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// Standard output that cannot be written.
+    #[error("cannot write to standard output: {0}")]
+    Print(std::io::Error),
+    /// No such fabric.
+    #[error(transparent)]
+    Fabric(#[from] FabricError),
+    /// No such mannequin.
+    #[error(transparent)]
+    Mannequin(#[from] MannequinError),
+    /// An argument that makes no sense.
+    #[error("{0}")]
+    Argument(String),
+    /// The system gives no threads.
+    #[error("cannot start the threads: {0}; try a smaller --threads")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+impl CliError {
+    pub(super) fn exit(&self) -> Exit {
+        match self {
+            Self::Pipeline(e) if !e.is_input() => Exit::Failed,
+            Self::Threads(_) => Exit::Failed,
+            _ => Exit::Input,
+        }
+    }
+
+    /// What to do, where the message itself does not say.
+    pub(super) fn help(&self) -> Option<&'static str> {
+        match self {
+            Self::Pipeline(e) if !e.is_input() => {
+                Some("try another --spacing, and `toile check` and `toile sew` to see where it begins")
+            }
+            Self::Write(WriteError::File { .. } | WriteError::Folder { .. } | WriteError::IsFolder(_)) => {
+                Some("choose a place that can be written, with -o")
+            }
+            _ => None,
+        }
+    }
+}

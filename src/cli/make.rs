@@ -1,0 +1,166 @@
+//! `make`, `sew` and `drape`: a garment through the stages, or some of them.
+
+use std::path::{Path, PathBuf};
+
+use super::args::{DrapeArgs, GarmentArgs};
+use super::console::Console;
+use super::exit::{CliError, Exit};
+use crate::flatten;
+use crate::io::files::{check_writable, write_all};
+use crate::pipeline::{
+    Color, GARMENT_OBJ, GARMENT_PNG, Job, Overrides, PATTERN_SVG, PipelineError, REPORT_JSON, ResultFile, Run,
+    SEWN_OBJ, read,
+};
+use crate::report::{Report, table, verdicts};
+
+/// How far a garment is taken, and from where.
+pub(super) struct Plan<'a> {
+    pub(super) garment: &'a Path,
+    pub(super) output: Option<&'a Path>,
+    pub(super) overrides: Overrides,
+    pub(super) color: Color,
+    pub(super) goal: Goal<'a>,
+}
+
+/// The last stage, and the file of an earlier run to begin with.
+#[derive(Clone, Copy)]
+pub(super) enum Goal<'a> {
+    Sewn,
+    Draped { from: Option<&'a Path> },
+    Flat { from: Option<&'a Path>, options: flatten::Options },
+}
+
+impl<'a> Goal<'a> {
+    /// The earlier run's file.
+    fn from(self) -> Option<&'a Path> {
+        match self {
+            Goal::Sewn => None,
+            Goal::Draped { from } | Goal::Flat { from, .. } => from,
+        }
+    }
+
+    /// Names of the files the stages write. What an earlier run has made is not written again.
+    fn files(self) -> Vec<&'static str> {
+        let mut names = vec![GARMENT_PNG, REPORT_JSON];
+        match self {
+            Goal::Sewn => names.push(SEWN_OBJ),
+            Goal::Draped { from: Some(_) } => names.push(GARMENT_OBJ),
+            Goal::Draped { from: None } => names.extend([SEWN_OBJ, GARMENT_OBJ]),
+            Goal::Flat { from: Some(_), .. } => names.push(PATTERN_SVG),
+            Goal::Flat { from: None, .. } => names.extend([SEWN_OBJ, GARMENT_OBJ, PATTERN_SVG]),
+        }
+        names
+    }
+
+    fn reach(self, run: &mut Run, console: &Console) -> Result<(), PipelineError> {
+        let bars = console.progress();
+        let mut tell = |stage: &str, share: f64| bars.show(stage, share);
+        match self {
+            Goal::Sewn => run.sew(&mut tell),
+            Goal::Draped { from } => {
+                from.map_or(Ok(()), |file| run.resume_sewn(file))?;
+                run.drape(&mut tell)
+            }
+            Goal::Flat { from, options } => {
+                from.map_or(Ok(()), |file| run.resume_draped(file))?;
+                run.flatten(&options, &mut tell)
+            }
+        }
+    }
+}
+
+/// `toile make`
+pub(super) fn make(args: &GarmentArgs, console: &Console) -> Result<Exit, CliError> {
+    carry_out(&plan(args, Goal::Flat { from: None, options: flatten::Options::default() }), console)
+}
+
+/// `toile sew`
+pub(super) fn sew(args: &GarmentArgs, console: &Console) -> Result<Exit, CliError> {
+    carry_out(&plan(args, Goal::Sewn), console)
+}
+
+/// `toile drape`
+pub(super) fn drape(args: &DrapeArgs, console: &Console) -> Result<Exit, CliError> {
+    carry_out(&plan(&args.garment, Goal::Draped { from: args.from.as_deref() }), console)
+}
+
+fn plan<'a>(args: &'a GarmentArgs, goal: Goal<'a>) -> Plan<'a> {
+    Plan {
+        garment: &args.garment,
+        output: args.output.as_deref(),
+        overrides: args.overrides.checked(),
+        color: args.color.into(),
+        goal,
+    }
+}
+
+/// Takes a garment to its goal, writes the files and says how it went.
+pub(super) fn carry_out(plan: &Plan, console: &Console) -> Result<Exit, CliError> {
+    let loaded = read(plan.garment)?;
+    let folder = folder(plan.output, &loaded.garment.name);
+    let named = [plan.overrides.body.as_deref(), plan.overrides.fabric.as_deref()];
+    let mut inputs: Vec<PathBuf> = named.into_iter().flatten().map(PathBuf::from).collect();
+    inputs.extend(plan.goal.from().map(Path::to_owned));
+    inputs.push(plan.garment.to_owned());
+    let targets: Vec<PathBuf> = plan.goal.files().iter().map(|name| folder.join(name)).collect();
+    // Better now than after minutes of sewing.
+    check_writable(&targets, &borrowed(&inputs))?;
+    let job = Job::new(plan.garment, loaded, &plan.overrides)?;
+    inputs.extend(job.inputs.iter().cloned());
+    job.notes.iter().for_each(|note| console.note(note));
+    let mut run = Run::new(&job);
+    if let Err(error) = plan.goal.reach(&mut run, console) {
+        if !error.is_input() {
+            leave_state(&run, plan, &folder, &inputs, console);
+        }
+        return Err(error.into());
+    }
+    let report = run.report();
+    let wanted = plan.goal.files();
+    let files = run.results(&report, plan.color)?.into_iter().filter(|f| wanted.contains(&f.0)).collect();
+    write(files, &folder, &borrowed(&inputs))?;
+    console.results(&report, || format!("{}\n  written to {}\n", table(&report), folder.display()))?;
+    Ok(judge(&job, &report, console))
+}
+
+/// The folder asked for, or `out/NAME`.
+pub(super) fn folder(asked: Option<&Path>, name: &str) -> PathBuf {
+    asked.map_or_else(|| Path::new("out").join(name), Path::to_owned)
+}
+
+/// Writes files into a folder, all or none.
+pub(super) fn write(files: Vec<ResultFile>, folder: &Path, inputs: &[&Path]) -> Result<(), CliError> {
+    let files: Vec<(PathBuf, Vec<u8>)> = files.into_iter().map(|(name, bytes)| (folder.join(name), bytes)).collect();
+    Ok(write_all(&files, inputs)?)
+}
+
+pub(super) fn borrowed(paths: &[PathBuf]) -> Vec<&Path> {
+    paths.iter().map(PathBuf::as_path).collect()
+}
+
+/// Writes what there is of a garment that could not be finished. That it could not is the error to report; if this
+/// fails as well, it is only mentioned.
+fn leave_state(run: &Run, plan: &Plan, folder: &Path, inputs: &[PathBuf], console: &Console) {
+    let Ok(files) = run.state(plan.color) else { return };
+    let files: Vec<ResultFile> = files.into_iter().filter(|f| plan.goal.files().contains(&f.0)).collect();
+    if files.is_empty() {
+        return;
+    }
+    match write(files, folder, &borrowed(inputs)) {
+        Ok(()) => console.note(&format!("the last state is in {}", folder.display())),
+        Err(error) => console.note(&format!("the last state is lost: {error}")),
+    }
+}
+
+/// Says what is out of bounds, and what did not come to rest.
+fn judge(job: &Job, report: &Report, console: &Console) -> Exit {
+    for stage in report.stages.iter().filter(|s| !s.converged) {
+        console.note(&format!("{} did not come to rest in {} steps", stage.name, stage.iterations));
+    }
+    let mut exit = Exit::Done;
+    for verdict in verdicts(&job.garment, report).iter().filter(|v| !v.ok) {
+        console.complain(&format!("out of bounds: {verdict}"));
+        exit = Exit::OutOfBounds;
+    }
+    exit
+}

@@ -1,0 +1,127 @@
+//! Why a run ended early, and whose turn it is then.
+
+use std::path::PathBuf;
+
+use crate::drape::DrapeError;
+use crate::fabric::FabricError;
+use crate::flatten::FlattenError;
+use crate::io::body::BodyError;
+use crate::io::garment::Refused;
+use crate::io::obj_read::ObjError;
+use crate::io::pattern_svg::PatternSvgError;
+use crate::mesh::MeshError;
+use crate::picture::PictureError;
+use crate::sew::SewError;
+use crate::sew::place::PlaceError;
+
+/// Why there is no result, or only a part of one.
+#[derive(Debug, thiserror::Error)]
+pub enum PipelineError {
+    /// The garment file has mistakes.
+    #[error(transparent)]
+    Garment(#[from] Refused),
+    /// A fabric cannot be had.
+    #[error("{}: {source}", file.display())]
+    Fabric {
+        /// The garment file.
+        file: PathBuf,
+        /// What is wrong with the fabric.
+        source: Box<FabricError>,
+    },
+    /// Nothing to dress.
+    #[error(
+        "{}: no body to sew on; write 'body: woman_92' into the file or give --body NAME or --body FILE.obj",
+        .0.display()
+    )]
+    NoBody(PathBuf),
+    /// The body cannot be used.
+    #[error(transparent)]
+    Body(#[from] BodyError),
+    /// The spacing does not suit the garment.
+    #[error("{}: {source}", file.display())]
+    Mesh {
+        /// The garment file.
+        file: PathBuf,
+        /// What does not fit.
+        source: Box<MeshError>,
+    },
+    /// A piece has no place on this body.
+    #[error("{}: {source}", file.display())]
+    Place {
+        /// The garment file.
+        file: PathBuf,
+        /// Which piece, and why.
+        source: PlaceError,
+    },
+    /// A file of an earlier run cannot be read.
+    #[error(transparent)]
+    Obj(#[from] ObjError),
+    /// A file of an earlier run belongs to another garment or spacing.
+    #[error("{}: {why}; make it anew with the same garment and --spacing", file.display())]
+    Saved {
+        /// The file.
+        file: PathBuf,
+        /// What differs.
+        why: String,
+    },
+    /// A surface cannot be laid flat as it is.
+    #[error("{}: {source}", file.display())]
+    Surface {
+        /// The file.
+        file: PathBuf,
+        /// Which part, and why.
+        source: FlattenError,
+    },
+    /// Sewing failed.
+    #[error(transparent)]
+    Sew(SewError),
+    /// Draping failed.
+    #[error(transparent)]
+    Drape(#[from] DrapeError),
+    /// Flattening failed.
+    #[error("flattening stopped: {0}")]
+    Flatten(#[from] FlattenError),
+    /// The pattern cannot be drawn.
+    #[error("cannot draw the pattern: {0}")]
+    Svg(#[from] PatternSvgError),
+    /// The picture cannot be drawn.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+    /// A report cannot be put into words.
+    #[error("cannot write the report: {0}")]
+    Json(#[from] serde_json::Error),
+}
+
+impl PipelineError {
+    /// Whether the user must change the input; otherwise the computation itself failed.
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::Garment(_)
+            | Self::Fabric { .. }
+            | Self::NoBody(_)
+            | Self::Body(_)
+            | Self::Mesh { .. }
+            | Self::Place { .. }
+            | Self::Obj(_)
+            | Self::Saved { .. } => true,
+            Self::Surface { source, .. } => !is_breakdown(source),
+            Self::Sew(_) | Self::Drape(_) | Self::Flatten(_) | Self::Svg(_) | Self::Picture(_) | Self::Json(_) => false,
+        }
+    }
+
+    /// Sewing's error: a piece that no place suits is a matter of the garment file.
+    pub(super) fn sewing(file: &std::path::Path, error: SewError) -> Self {
+        match error {
+            SewError::Place(source) => Self::Place { file: file.to_owned(), source },
+            other => Self::Sew(other),
+        }
+    }
+}
+
+/// Whether flattening failed on a surface that it should have managed.
+fn is_breakdown(error: &FlattenError) -> bool {
+    match error {
+        FlattenError::Piece { source, .. } => is_breakdown(source),
+        other => matches!(other, FlattenError::Breakdown | FlattenError::FlippedStart(_)),
+    }
+}

@@ -1,0 +1,140 @@
+//! Everything that is known before cloth moves.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::cloth;
+use super::error::PipelineError;
+use crate::contact::Collider;
+use crate::fabric::Fabric;
+use crate::io::body::load_body;
+use crate::io::garment::{self, Loaded};
+use crate::mannequin::{self, Mannequin};
+use crate::mesh::{self, ClothMesh};
+use crate::pattern::Garment;
+use crate::report::Stage;
+use crate::sew::SewError;
+
+/// Spacing when none is asked for, metres.
+const SPACING: f64 = 0.010;
+
+/// What the caller wants other than the file says.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Overrides {
+    /// Mesh spacing, metres.
+    pub spacing: Option<f64>,
+    /// Library name or `.yaml` file in place of the garment's main fabric: the one most of its cloth is cut from.
+    pub fabric: Option<String>,
+    /// Mannequin name, or a `.yaml` or `.obj` file, in place of the garment's body.
+    pub body: Option<String>,
+}
+
+/// A garment, its fabrics, the body it is made for and its mesh.
+pub struct Job {
+    /// The garment file.
+    pub file: PathBuf,
+    /// The pieces and seams.
+    pub garment: Garment,
+    /// The fabric of every piece.
+    pub fabrics: Vec<Arc<Fabric>>,
+    /// Who wears it.
+    pub body: Mannequin,
+    /// What cloth can touch of the body.
+    pub collider: Collider,
+    /// The mesh.
+    pub mesh: ClothMesh,
+    /// What was read in a way its author may not have meant: one text each.
+    pub notes: Vec<String>,
+    /// Files the job was made from; none may be overwritten.
+    pub inputs: Vec<PathBuf>,
+    /// How the meshing went.
+    pub(super) meshing: Stage,
+}
+
+/// Reads and checks a garment file.
+///
+/// # Errors
+/// Every mistake of the file.
+pub fn read(path: &Path) -> Result<Loaded, PipelineError> {
+    Ok(garment::read(path)?)
+}
+
+/// Checks that the fabrics of a garment read from `file` can be had, and its body, if it names one.
+///
+/// # Errors
+/// The first that cannot.
+pub fn check_materials(file: &Path, garment: &Garment) -> Result<(), PipelineError> {
+    fabrics(file, garment, None)?;
+    if garment.body.is_some() {
+        load_body(&body_name(file, garment.body.as_deref(), None)?)?;
+    }
+    Ok(())
+}
+
+/// Fabrics by piece, with the file's name in errors.
+fn fabrics(file: &Path, garment: &Garment, instead: Option<&str>) -> Result<Vec<Arc<Fabric>>, PipelineError> {
+    let folder = file.parent().unwrap_or(Path::new(""));
+    cloth::fabrics(garment, folder, instead)
+        .map_err(|source| PipelineError::Fabric { file: file.to_owned(), source: Box::new(source) })
+}
+
+impl Job {
+    /// Gets the fabrics and the body of a garment read from `file`, and meshes it.
+    ///
+    /// # Errors
+    /// [`PipelineError`]: always the input's fault, but for a body that cannot be touched.
+    pub fn new(file: &Path, loaded: Loaded, overrides: &Overrides) -> Result<Self, PipelineError> {
+        let garment = loaded.garment;
+        let mut notes: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
+        let fabrics = fabrics(file, &garment, overrides.fabric.as_deref())?;
+        let wanted = body_name(file, garment.body.as_deref(), overrides.body.as_deref())?;
+        let worn_by = load_body(&wanted)?;
+        notes.extend(worn_by.notes.iter().map(|note| format!("{wanted}: {note}")));
+        let body = worn_by.mannequin;
+        let begin = Instant::now();
+        let mesh = mesh::build(&garment, overrides.spacing.unwrap_or(SPACING))
+            .map_err(|source| PipelineError::Mesh { file: file.to_owned(), source: Box::new(source) })?;
+        let meshing =
+            Stage { name: "mesh".into(), seconds: begin.elapsed().as_secs_f64(), converged: true, ..Stage::default() };
+        let collider =
+            Collider::new(&body.mesh).ok_or_else(|| PipelineError::Sew(SewError::Body(body.name.clone())))?;
+        let named = [overrides.fabric.as_deref(), Some(wanted.as_str())];
+        let files = named.into_iter().flatten().map(PathBuf::from).filter(|p| p.is_file());
+        let inputs = std::iter::once(file.to_owned()).chain(files).collect();
+        Ok(Self { file: file.to_owned(), garment, fabrics, body, collider, mesh, notes, inputs, meshing })
+    }
+
+    /// Names of the fabrics in use, joined with ` + `.
+    pub fn fabric_names(&self) -> String {
+        cloth::names(&self.fabrics)
+    }
+}
+
+/// The body to load: what the user asks for, else what the file says, its own path being relative to the file.
+fn body_name(file: &Path, said: Option<&str>, instead: Option<&str>) -> Result<String, PipelineError> {
+    if let Some(name) = instead {
+        return Ok(name.to_owned());
+    }
+    let name = said.ok_or_else(|| PipelineError::NoBody(file.to_owned()))?;
+    if mannequin::library().contains(&name) || Path::new(name).extension().is_none() {
+        return Ok(name.to_owned());
+    }
+    let folder = file.parent().unwrap_or(Path::new(""));
+    Ok(folder.join(name).display().to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bodies_of_the_file_lie_beside_it_and_those_of_the_user_do_not() {
+        let file = Path::new("a/dress.yaml");
+        let named = |said, instead| body_name(file, said, instead).map_err(|e| e.to_string());
+        assert_eq!(named(Some("woman_92"), None).as_deref(), Ok("woman_92"));
+        assert_eq!(named(Some("anna.obj"), None).as_deref(), Ok("a/anna.obj"));
+        assert_eq!(named(Some("woman_92"), Some("bert.obj")).as_deref(), Ok("bert.obj"));
+        assert!(named(None, None).is_err_and(|e| e.contains("--body")));
+    }
+}

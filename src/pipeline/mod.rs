@@ -1,0 +1,26 @@
+//! The stages in order: what the command line and the tests run.
+//!
+//! ```text
+//! garment file ─▶ Job ─────────────▶ Run ───────────────────▶ files in memory
+//!                 garment, fabrics,  sew ─▶ drape ─▶ flatten   OBJ · SVG · PNG · report
+//!                 body, mesh
+//! ```
+//!
+//! A [`Job`] is everything that is known before cloth moves; making one finds every mistake of the input. A [`Run`]
+//! takes it through the stages one by one and keeps what each has made, so that a stage that fails leaves the state
+//! before it to look at. Nothing here writes a file: [`Run::results`] gives names and bytes.
+
+mod cloth;
+mod error;
+mod job;
+mod results;
+mod run;
+mod saved;
+mod surface;
+
+pub use cloth::piece_area;
+pub use error::PipelineError;
+pub use job::{Job, Overrides, check_materials, read};
+pub use results::{Color, GARMENT_OBJ, GARMENT_PNG, PATTERN_SVG, REPORT_JSON, ResultFile, SEWN_OBJ, json_text};
+pub use run::{Progress, Run};
+pub use surface::{FLAT_OBJ, FlatSurface, SurfaceReport, flatten_surface};

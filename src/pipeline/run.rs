@@ -1,0 +1,180 @@
+//! One garment through the stages.
+
+use std::collections::HashMap;
+use std::time::Instant;
+
+use super::error::PipelineError;
+use super::job::Job;
+use crate::drape::{DrapeOptions, drape};
+use crate::flatten::{self, flatten_garment};
+use crate::geometry::{Vec2, Vec3};
+use crate::report::{Drift, Measured, Report, Stage, measure};
+use crate::sew::place::place;
+use crate::sew::{SewOptions, Sewn, Stitching, sew};
+
+/// Told the name of the stage under way and the share of it that is done.
+pub type Progress<'a> = &'a mut dyn FnMut(&str, f64);
+
+/// Millimetres in a metre.
+const MM: f64 = 1e3;
+
+/// A job on its way, with what every stage has made so far.
+pub struct Run<'a> {
+    pub(super) job: &'a Job,
+    /// Who is sewn to whom.
+    pub(super) stitching: Stitching,
+    /// For every seam the gaps of its pairs before they were stitched, metres.
+    gaps: Option<Vec<Vec<f64>>>,
+    /// Positions of every particle after each stage.
+    pub(super) sewn: Option<Vec<Vec3>>,
+    pub(super) draped: Option<Vec<Vec3>>,
+    pub(super) flattened: Option<Vec<Vec2>>,
+    stages: Vec<Stage>,
+}
+
+impl<'a> Run<'a> {
+    /// Nothing sewn yet.
+    pub fn new(job: &'a Job) -> Self {
+        let stages = vec![job.meshing.clone()];
+        let stitching = Stitching::new(&job.mesh);
+        Self { job, stitching, gaps: None, sewn: None, draped: None, flattened: None, stages }
+    }
+
+    /// Places the pieces round the body and closes the seams.
+    ///
+    /// # Errors
+    /// A piece without a place, or a garment that cannot be sewn.
+    pub fn sew(&mut self, progress: Progress) -> Result<(), PipelineError> {
+        let job = self.job;
+        let begin = Instant::now();
+        let failed = |e| PipelineError::sewing(&job.file, e);
+        let start = place(&job.garment, &job.mesh, &job.body).map_err(|e| failed(e.into()))?;
+        let options = SewOptions::default();
+        let mut tell = |share| progress("sew", share);
+        let sewn =
+            sew(&job.garment, &job.mesh, &job.fabrics, &job.collider, start, &options, &mut tell).map_err(failed)?;
+        self.stages.push(Stage {
+            name: "sew".into(),
+            seconds: begin.elapsed().as_secs_f64(),
+            iterations: sewn.steps,
+            converged: sewn.gaps.iter().all(|&gap| gap <= options.tolerance),
+            energy: None,
+            drift: None,
+        });
+        self.gaps = Some(self.gaps_of(&sewn));
+        self.sewn = Some(spread(&sewn.stitching, &sewn.nodes));
+        self.stitching = sewn.stitching;
+        Ok(())
+    }
+
+    /// Lets the sewn garment fall to rest; sews it first if that has not been done.
+    ///
+    /// # Errors
+    /// A garment that cannot be sewn or draped.
+    pub fn drape(&mut self, progress: Progress) -> Result<(), PipelineError> {
+        if self.sewn.is_none() {
+            self.sew(progress)?;
+        }
+        let job = self.job;
+        let begin = Instant::now();
+        let nodes = gathered(&self.stitching, self.sewn.as_deref().unwrap_or_default());
+        let mut tell = |share| progress("drape", share);
+        let options = DrapeOptions::default();
+        let (garment, mesh, fabrics, body) = (&job.garment, &job.mesh, &job.fabrics, &job.collider);
+        let draped = drape(garment, mesh, fabrics, body, &self.stitching, nodes, &options, &mut tell)?;
+        self.stages.push(Stage {
+            name: "drape".into(),
+            seconds: begin.elapsed().as_secs_f64(),
+            iterations: draped.steps,
+            converged: draped.converged,
+            energy: Some(draped.energy),
+            drift: Some(Drift { rms: draped.drift[0] * MM, max: draped.drift[1] * MM }),
+        });
+        self.draped = Some(spread(&self.stitching, &draped.nodes));
+        Ok(())
+    }
+
+    /// Lays the draped garment flat; drapes it first if that has not been done.
+    ///
+    /// # Errors
+    /// A garment that cannot be sewn, draped or laid flat.
+    pub fn flatten(&mut self, options: &flatten::Options, progress: Progress) -> Result<(), PipelineError> {
+        if self.draped.is_none() {
+            self.drape(progress)?;
+        }
+        let begin = Instant::now();
+        progress("flatten", 0.0);
+        let draped = self.draped.as_deref().unwrap_or_default();
+        let flat = flatten_garment(&self.job.mesh, &self.job.garment.seams, draped, options)?;
+        progress("flatten", 1.0);
+        let reports = flat.pieces.iter().map(|p| p.report);
+        self.stages.push(Stage {
+            name: "flatten".into(),
+            seconds: begin.elapsed().as_secs_f64(),
+            iterations: reports.clone().map(|r| r.iterations).max().unwrap_or(0),
+            converged: reports.clone().all(|r| r.converged),
+            energy: Some(reports.map(|r| r.energy).sum()),
+            drift: None,
+        });
+        self.flattened = Some(flat.positions);
+        Ok(())
+    }
+
+    /// Takes up the positions of an earlier run, one per class of stitched particles, as sewn or as draped.
+    pub(super) fn resume(&mut self, nodes: &[Vec3], draped: bool) {
+        let positions = spread(&self.stitching, nodes);
+        if draped {
+            self.draped = Some(positions);
+        } else {
+            self.sewn = Some(positions);
+        }
+    }
+
+    /// The latest positions in space, if the garment has been sewn.
+    pub fn last(&self) -> Option<&[Vec3]> {
+        self.draped.as_deref().or(self.sewn.as_deref())
+    }
+
+    /// Measures what has been done so far.
+    pub fn report(&self) -> Report {
+        measure(&Measured {
+            garment: &self.job.garment,
+            mesh: &self.job.mesh,
+            weld: &self.stitching.class,
+            body: &self.job.body,
+            fabric: &self.job.fabric_names(),
+            gaps: self.gaps.as_deref(),
+            sewn: self.sewn.as_deref(),
+            draped: self.draped.as_deref(),
+            flattened: self.flattened.as_deref(),
+            stages: &self.stages,
+        })
+    }
+
+    /// Gaps by seam and pair of the mesh. Sewing counts a pair that two seams share once.
+    fn gaps_of(&self, sewn: &Sewn) -> Vec<Vec<f64>> {
+        let pairs = sewn.stitching.pairs.iter().map(|(ends, _)| key(*ends));
+        let of_pair: HashMap<[u32; 2], f64> = pairs.zip(sewn.gaps.iter().copied()).collect();
+        // A pair of one particle with itself (the tip of a dart) is never open.
+        let gap = |ends: &[u32; 2]| of_pair.get(&key(*ends)).copied().unwrap_or(0.0);
+        self.job.mesh.seams.iter().map(|seam| seam.pairs.iter().map(gap).collect()).collect()
+    }
+}
+
+fn key([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// Positions per particle from positions per class.
+fn spread(stitching: &Stitching, nodes: &[Vec3]) -> Vec<Vec3> {
+    stitching.class.iter().map(|&c| nodes[c as usize]).collect()
+}
+
+/// Positions per class from positions per particle, those of a class being equal.
+fn gathered(stitching: &Stitching, positions: &[Vec3]) -> Vec<Vec3> {
+    let mut nodes = vec![Vec3::zeros(); stitching.classes];
+    for (&class, &p) in stitching.class.iter().zip(positions) {
+        nodes[class as usize] = p;
+    }
+    nodes
+}

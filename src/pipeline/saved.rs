@@ -1,0 +1,50 @@
+//! Taking up an earlier run from its `sewn.obj` or `garment.obj`.
+
+use std::path::Path;
+
+use super::error::PipelineError;
+use super::run::Run;
+use crate::geometry::Vec3;
+use crate::io::obj_read::read_obj;
+use crate::verify::Welded;
+
+/// Metres in a millimetre.
+const MM: f64 = 1e-3;
+
+impl Run<'_> {
+    /// Takes the garment as sewn by an earlier run, from its `sewn.obj`.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or that is of another garment or spacing.
+    pub fn resume_sewn(&mut self, file: &Path) -> Result<(), PipelineError> {
+        let nodes = self.saved(file)?;
+        self.resume(&nodes, false);
+        Ok(())
+    }
+
+    /// Takes the garment as draped by an earlier run, from its `garment.obj`.
+    ///
+    /// # Errors
+    /// As [`Run::resume_sewn`].
+    pub fn resume_draped(&mut self, file: &Path) -> Result<(), PipelineError> {
+        let nodes = self.saved(file)?;
+        self.resume(&nodes, true);
+        Ok(())
+    }
+
+    /// Positions by class. Both [`Welded`] and the stitching number classes by their first particles.
+    fn saved(&self, file: &Path) -> Result<Vec<Vec3>, PipelineError> {
+        let surface = read_obj(file)?;
+        let mesh = &self.job.mesh;
+        let other = |why: String| PipelineError::Saved { file: file.to_owned(), why };
+        if surface.vertices.len() != self.stitching.classes {
+            let (found, expected) = (surface.vertices.len(), self.stitching.classes);
+            return Err(other(format!("{found} vertices, but '{}' has {expected}", self.job.garment.name)));
+        }
+        let welded = Welded::new(mesh, &self.stitching.class, &vec![Vec3::zeros(); mesh.flat.len()]);
+        if surface.triangles != welded.surface.triangles {
+            return Err(other(format!("its triangles are not those of '{}'", self.job.garment.name)));
+        }
+        Ok(surface.vertices.iter().map(|p| p * MM).collect())
+    }
+}

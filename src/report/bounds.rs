@@ -1,0 +1,182 @@
+//! A garment's own bounds against its report.
+
+use serde::Serialize;
+
+use super::schema::{PieceReport, Quartet, Report};
+use crate::pattern::{Bound, Garment, walk};
+
+/// Bounds of a garment that states none: closed seams, no crossing. Metres.
+const DEFAULTS: [Bound; 2] = [Bound::Gap(None, 1e-3), Bound::Crossings(0)];
+/// Millimetres in a metre, percent in a whole.
+const MM: f64 = 1e3;
+const PERCENT: f64 = 1e2;
+
+/// One bound and what was measured.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Verdict {
+    /// What is bounded: `gap all`, `drape front area`.
+    pub bound: String,
+    /// Largest value found.
+    pub measured: f64,
+    /// Largest value allowed.
+    pub limit: f64,
+    /// Of both: `mm`, `%` or nothing.
+    pub unit: &'static str,
+    /// The piece, seam or opening with the largest value.
+    pub at: Option<String>,
+    /// Whether the bound is kept.
+    pub ok: bool,
+}
+
+impl std::fmt::Display for Verdict {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { bound, measured, limit, unit, .. } = self;
+        let blank = if unit.is_empty() { "" } else { " " };
+        let digits = if unit.is_empty() { 0 } else { 3 };
+        write!(f, "{bound}: {measured:.digits$}{blank}{unit} (limit {limit}{blank}{unit})")?;
+        self.at.as_ref().map_or(Ok(()), |at| write!(f, " at {at}"))
+    }
+}
+
+/// Compares a report with the garment's `tests`, or with closed seams and no crossings if it has none. Bounds on
+/// stages that did not run are left out. Pieces that had to stretch are reported as such and not bounded.
+pub fn verdicts(garment: &Garment, report: &Report) -> Vec<Verdict> {
+    let bounds = if garment.tests.is_empty() { &DEFAULTS[..] } else { &garment.tests };
+    bounds.iter().flat_map(|bound| verdict(garment, report, bound)).collect()
+}
+
+fn verdict(garment: &Garment, report: &Report, bound: &Bound) -> Vec<Verdict> {
+    match bound {
+        Bound::SeamLength(seam, limit) => {
+            let walked = walk(garment).into_iter().filter(|s| seam_matches(seam.as_deref(), &s.name));
+            let values = walked.map(|s| (s.name, s.difference.abs() * MM)).collect();
+            vec![worst(format!("seam {}", all(seam)), values, limit * MM, "mm")]
+        }
+        Bound::Gap(seam, limit) => {
+            let seams = report.seams.iter().filter(|s| seam_matches(seam.as_deref(), &s.name));
+            let values = seams.map(|s| (s.name.clone(), s.gap_max)).collect();
+            vec![worst(format!("gap {}", all(seam)), values, limit * MM, "mm")]
+        }
+        Bound::Flatten { piece, area, boundary } => {
+            let pieces = Pieces::new(garment, report, "flatten", piece.as_deref(), |q| q.round_trip);
+            pieces.verdicts(*area, boundary.map(Length::Absolute))
+        }
+        Bound::Drape { piece, area, boundary } => {
+            let pieces = Pieces::new(garment, report, "drape", piece.as_deref(), |q| q.drape);
+            pieces.verdicts(*area, boundary.map(Length::Share))
+        }
+        Bound::Crossings(most) => vec![crossings(report, *most)],
+        Bound::Worn => vec![worn(report)],
+    }
+}
+
+fn all(name: &Option<String>) -> &str {
+    name.as_deref().unwrap_or("all")
+}
+
+/// `side` means `side`, `side.L` and `side.R`.
+fn seam_matches(wanted: Option<&str>, name: &str) -> bool {
+    wanted.is_none_or(|w| name.strip_prefix(w).is_some_and(|rest| rest.is_empty() || rest.starts_with('.')))
+}
+
+/// The verdict on the largest of `values`; without any the bound is kept.
+fn worst(bound: String, values: Vec<(String, f64)>, limit: f64, unit: &'static str) -> Verdict {
+    // A value that is no number counts as larger than any.
+    let largest = values.into_iter().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+    let (at, measured) = largest.map_or((None, 0.0), |(name, value)| (Some(name), value));
+    // A limit as it was written, not with the rounding of metres to millimetres.
+    let written = (limit * 1e9).round() / 1e9;
+    Verdict { bound, measured, limit: written, unit, at, ok: measured <= limit }
+}
+
+/// A bound on a rim: the length by which it may change, or the share.
+#[derive(Clone, Copy)]
+enum Length {
+    Absolute(f64),
+    Share(f64),
+}
+
+/// The pieces a bound is about.
+struct Pieces<'a> {
+    bound: String,
+    rows: Vec<&'a PieceReport>,
+    way: fn(&Quartet) -> Option<f64>,
+}
+
+impl<'a> Pieces<'a> {
+    fn new(
+        garment: &Garment,
+        report: &'a Report,
+        stage: &str,
+        wanted: Option<&str>,
+        way: fn(&Quartet) -> Option<f64>,
+    ) -> Self {
+        let matches = |name: &str| {
+            let drawn_as = garment.pieces.iter().find(|p| p.name == name).map(|p| p.drawn_as.as_str());
+            wanted.is_none_or(|w| w == name || drawn_as == Some(w))
+        };
+        let rows = report.pieces.iter().filter(|p| p.stretched.is_none() && matches(&p.name));
+        Self { bound: format!("{stage} {}", wanted.unwrap_or("all")), rows: rows.collect(), way }
+    }
+
+    fn verdicts(&self, area: Option<f64>, boundary: Option<Length>) -> Vec<Verdict> {
+        let way = self.way;
+        let area = area.and_then(|limit| {
+            let values = self.values(|p| way(&p.area_error).map(|e| e * PERCENT))?;
+            Some(worst(format!("{} area", self.bound), values, limit * PERCENT, "%"))
+        });
+        let boundary = boundary.and_then(|limit| {
+            let name = format!("{} boundary", self.bound);
+            Some(match limit {
+                Length::Share(limit) => {
+                    let values = self.values(|p| way(&p.boundary_error).map(|e| e * PERCENT))?;
+                    worst(name, values, limit * PERCENT, "%")
+                }
+                Length::Absolute(limit) => {
+                    let values = self.values(|p| way(&p.boundary_error).map(|e| e * p.sizes.boundary_flat))?;
+                    worst(name, values, limit * MM, "mm")
+                }
+            })
+        });
+        area.into_iter().chain(boundary).collect()
+    }
+
+    /// Values by piece; `None` if the stage did not run.
+    fn values(&self, of: impl Fn(&PieceReport) -> Option<f64>) -> Option<Vec<(String, f64)>> {
+        self.rows.iter().map(|p| Some((p.name.clone(), of(p)?))).collect()
+    }
+}
+
+/// Points inside the body count as well: cloth that has wholly gone in crosses nothing.
+fn crossings(report: &Report, most: usize) -> Verdict {
+    let c = &report.contact;
+    let counts = [
+        ("points in the body", c.inside_body),
+        ("cloth through body", c.cloth_body_intersections),
+        ("cloth through cloth", c.cloth_cloth_intersections),
+    ];
+    let sum: usize = counts.iter().map(|c| c.1).sum();
+    let at = counts.iter().filter(|c| c.1 > 0).map(|c| format!("{} {}", c.1, c.0)).collect::<Vec<_>>().join(", ");
+    Verdict {
+        bound: "crossings".into(),
+        measured: sum as f64,
+        limit: most as f64,
+        unit: "",
+        at: (!at.is_empty()).then_some(at),
+        ok: sum <= most,
+    }
+}
+
+/// Openings that no body part passes through. A garment without any opening is worn by nobody.
+fn worn(report: &Report) -> Verdict {
+    let empty: Vec<&str> = report.worn.iter().filter(|w| w.body_part.is_none()).map(|w| w.opening.as_str()).collect();
+    let ok = empty.is_empty() && !report.worn.is_empty();
+    Verdict {
+        bound: "openings not worn".into(),
+        measured: empty.len() as f64,
+        limit: 0.0,
+        unit: "",
+        at: (!empty.is_empty()).then(|| empty.join(", ")),
+        ok,
+    }
+}

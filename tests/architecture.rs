@@ -1,0 +1,195 @@
+//! The house keeps its shape: modules use only what they may, and each foreign crate lives in one place.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Modules in building order, each with those it may use. The ground floor first, the edge last.
+const FLOORS: [(&str, &[&str]); 17] = [
+    ("geometry", &[]),
+    ("linear", &["geometry"]),
+    ("fabric", &[]),
+    ("pattern", &["geometry", "fabric"]),
+    ("mannequin", &["geometry"]),
+    ("contact", &["geometry"]),
+    ("mesh", &["geometry", "pattern"]),
+    ("dynamics", &["geometry", "linear", "fabric", "pattern", "contact", "mesh"]),
+    ("sew", &["geometry", "linear", "fabric", "pattern", "mannequin", "contact", "mesh", "dynamics"]),
+    ("drape", &["geometry", "linear", "fabric", "pattern", "contact", "mesh", "dynamics", "sew"]),
+    ("flatten", &["geometry", "linear", "pattern", "mesh"]),
+    ("verify", &["geometry", "mannequin", "mesh"]),
+    ("report", &["geometry", "pattern", "mannequin", "mesh", "verify"]),
+    ("picture", &["geometry", "mesh", "verify"]),
+    ("io", &["geometry", "pattern", "mannequin", "mesh", "verify"]),
+    (
+        "pipeline",
+        &[
+            "geometry",
+            "fabric",
+            "pattern",
+            "mannequin",
+            "contact",
+            "mesh",
+            "sew",
+            "drape",
+            "flatten",
+            "verify",
+            "report",
+            "picture",
+            "io",
+        ],
+    ),
+    ("cli", &["fabric", "pattern", "mannequin", "flatten", "report", "io", "pipeline"]),
+];
+
+/// Crates and the paths below `src` that may name them.
+const CRATES: [(&str, &[&str]); 14] = [
+    ("parry3d_f64", &["contact/"]),
+    ("faer", &["linear/"]),
+    ("spade", &["mesh/"]),
+    ("kurbo", &["geometry/"]),
+    ("svgtypes", &["geometry/"]),
+    ("svg", &["io/pattern_svg.rs"]),
+    ("obj", &["io/obj_read.rs"]),
+    ("png", &["picture/"]),
+    ("saphyr_parser", &["io/garment/"]),
+    // Three small formats, each read where it is defined.
+    ("serde_yaml", &["io/garment/", "fabric/", "mannequin/"]),
+    ("tempfile", &["io/files.rs"]),
+    ("ctrlc", &["io/files.rs"]),
+    ("clap", &["cli/"]),
+    ("indicatif", &["cli/"]),
+];
+
+#[test]
+fn modules_use_only_what_stands_below_them() {
+    let mut wrong = Vec::new();
+    for (file, text) in sources() {
+        let Some((own, allowed)) = FLOORS.iter().find(|(name, _)| file.starts_with(name)) else { continue };
+        for used in mentions(&text, "crate") {
+            let known = FLOORS.iter().any(|(name, _)| *name == used);
+            if known && used != *own && !allowed.contains(&used.as_str()) {
+                wrong.push(format!("{} uses crate::{used}", file.display()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn the_table_has_every_module_and_no_circle() {
+    let floor = |name: &str| FLOORS.iter().position(|f| f.0 == name);
+    for (k, (name, allowed)) in FLOORS.iter().enumerate() {
+        for used in *allowed {
+            assert!(floor(used).is_some_and(|u| u < k), "{name} may use {used}, which stands above it");
+        }
+    }
+    for (file, _) in sources() {
+        let mut parts = file.iter().filter_map(|p| p.to_str());
+        let first = parts.next().unwrap_or_default();
+        let at_home = ["lib.rs", "main.rs"].contains(&first) || floor(first).is_some();
+        assert!(at_home, "{} belongs to no module of the table", file.display());
+    }
+}
+
+#[test]
+fn foreign_crates_live_in_one_place() {
+    let mut wrong = Vec::new();
+    for (file, text) in sources() {
+        for (name, homes) in CRATES {
+            let at_home = homes.iter().any(|home| file.to_string_lossy().starts_with(home));
+            if !at_home && names_crate(&text, name) {
+                wrong.push(format!("{} names {name}, which belongs to {}", file.display(), homes.join(", ")));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Every Rust file below `src`, its path from there and its text without comments.
+fn sources() -> Vec<(PathBuf, String)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    let mut open = vec![root.clone()];
+    while let Some(folder) = open.pop() {
+        for entry in fs::read_dir(&folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                open.push(path);
+            } else if path.extension().is_some_and(|e| e == "rs") {
+                let text = fs::read_to_string(&path).expect("a text");
+                let code: Vec<&str> = text.lines().map(|l| l.split("//").next().unwrap_or("")).collect();
+                files.push((path.strip_prefix(&root).expect("below src").to_owned(), code.join("\n")));
+            }
+        }
+    }
+    assert!(files.len() > 50, "the sources were not found");
+    files
+}
+
+/// The words after `name::` wherever it stands as a whole word, also those of `name::{a, b::c}`.
+fn mentions(text: &str, name: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for (at, _) in text.match_indices(&format!("{name}::")) {
+        if !stands_alone(text, at) {
+            continue;
+        }
+        let rest = &text[at + name.len() + 2..];
+        if let Some(list) = rest.strip_prefix('{') {
+            let inner = &list[..closing(list)];
+            found.extend(top_level(inner).iter().map(|item| word(item.trim_start())));
+        } else {
+            found.push(word(rest));
+        }
+    }
+    found
+}
+
+fn names_crate(text: &str, name: &str) -> bool {
+    let path =
+        text.match_indices(&format!("{name}::")).any(|(at, _)| stands_alone(text, at) && !text[..at].ends_with("::"));
+    path || text.contains(&format!("use {name};"))
+}
+
+/// Whether a name that starts at `at` is not the tail of a longer one.
+fn stands_alone(text: &str, at: usize) -> bool {
+    !text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_')
+}
+
+fn word(text: &str) -> String {
+    text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
+}
+
+/// Where the brace that is open at the start closes.
+fn closing(text: &str) -> usize {
+    let mut depth = 1;
+    for (at, c) in text.char_indices() {
+        depth += match c {
+            '{' => 1,
+            '}' => -1,
+            _ => 0,
+        };
+        if depth == 0 {
+            return at;
+        }
+    }
+    text.len()
+}
+
+/// The items of a list, commas inside braces not counting.
+fn top_level(text: &str) -> Vec<&str> {
+    let mut items = Vec::new();
+    let (mut depth, mut begin) = (0, 0);
+    for (at, c) in text.char_indices() {
+        match c {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            ',' if depth == 0 => {
+                items.push(&text[begin..at]);
+                begin = at + 1;
+            }
+            _ => {}
+        }
+    }
+    items.push(&text[begin..]);
+    items
+}

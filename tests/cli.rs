@@ -1,0 +1,464 @@
+//! The real program in a folder of its own: exit codes, bad input, files written and not written.
+
+use std::fs::{self, File};
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+use tempfile::TempDir;
+use toile::geometry::Vec3;
+use toile::io::body::mannequin_obj;
+use toile::mannequin::{Mannequin, load};
+
+/// A skirt of two pieces that sews in a fraction of a second at this spacing (mm).
+const SKIRT: &str = include_str!("data/skirt.yaml");
+const COARSE: &str = "40";
+
+/// A folder to work in.
+struct Room {
+    dir: TempDir,
+}
+
+impl Room {
+    fn new() -> Self {
+        let room = Self { dir: tempfile::tempdir().expect("a temporary folder") };
+        room.put("skirt.yaml", SKIRT);
+        room
+    }
+
+    fn put(&self, name: &str, text: &str) {
+        fs::write(self.dir.path().join(name), text).expect("written");
+    }
+
+    fn command(&self, args: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_toile"));
+        command.args(args).current_dir(self.dir.path());
+        command
+    }
+
+    fn run(&self, args: &[&str]) -> Run {
+        Run::new(self.command(args).output().expect("started"))
+    }
+
+    fn make(&self, garment: &str, more: &[&str]) -> Run {
+        self.run(&[&["make", garment, "-o", "out", "--spacing", COARSE], more].concat())
+    }
+
+    fn bytes(&self, name: &str) -> Vec<u8> {
+        fs::read(self.dir.path().join(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
+    }
+
+    /// Names in a folder, sorted; none if there is no such folder.
+    fn names(&self, folder: &str) -> Vec<String> {
+        let Ok(entries) = fs::read_dir(self.dir.path().join(folder)) else { return Vec::new() };
+        let mut names: Vec<String> = entries.filter_map(|e| e.ok()?.file_name().into_string().ok()).collect();
+        names.sort();
+        names
+    }
+}
+
+/// How a run of the program ended.
+struct Run {
+    code: Option<i32>,
+    out: String,
+    err: String,
+}
+
+impl Run {
+    fn new(output: Output) -> Self {
+        let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+        Self { code: output.status.code(), out: text(output.stdout), err: text(output.stderr) }
+    }
+
+    fn json(&self) -> Value {
+        serde_json::from_str(&self.out).unwrap_or_else(|e| panic!("{e}: {}\n{}", self.out, self.err))
+    }
+
+    #[track_caller]
+    fn ends(&self, code: i32) -> &Self {
+        assert_eq!(self.code, Some(code), "{}\n{}", self.out, self.err);
+        self
+    }
+
+    /// All of these stand in the messages.
+    #[track_caller]
+    fn says(&self, words: &[&str]) -> &Self {
+        for word in words {
+            assert!(self.err.contains(word), "'{word}' is missing in: {}", self.err);
+        }
+        self
+    }
+}
+
+/// The skirt with something else in it.
+#[track_caller]
+fn skirt_with(old: &str, new: &str) -> String {
+    assert!(SKIRT.contains(old), "the skirt has no '{old}'");
+    SKIRT.replace(old, new)
+}
+
+#[test]
+fn make_within_bounds_writes_everything() {
+    let room = Room::new();
+    let run = room.make("skirt.yaml", &[]);
+    run.ends(0);
+    assert_eq!(room.names("out"), ["garment.obj", "garment.png", "pattern.svg", "report.json", "sewn.obj"]);
+    assert!(run.out.contains("skirt on woman_92, cotton_poplin"), "{}", run.out);
+    let obj = String::from_utf8(room.bytes("out/garment.obj")).expect("text");
+    assert!(obj.contains("\ng front\n") && obj.contains("\ng back\n"));
+    assert!(room.bytes("out/garment.png").starts_with(b"\x89PNG"));
+    let svg = String::from_utf8(room.bytes("out/pattern.svg")).expect("text");
+    assert!(svg.contains("id=\"front.waist\""));
+}
+
+#[test]
+fn without_o_results_go_to_out_name() {
+    let room = Room::new();
+    room.run(&["sew", "skirt.yaml", "--spacing", COARSE, "-q"]).ends(0);
+    assert_eq!(room.names("out/skirt"), ["garment.png", "report.json", "sewn.obj"]);
+}
+
+#[test]
+fn out_of_bounds_ends_with_1_and_says_which() {
+    let room = Room::new();
+    room.put("tight.yaml", &skirt_with("below: 1 mm", "below: 0.000001 mm"));
+    let run = room.make("tight.yaml", &["--quiet"]);
+    run.ends(1).says(&["out of bounds: gap all", "limit 0.000001 mm"]);
+    assert_eq!(run.out, "");
+    assert_eq!(room.names("out").len(), 5);
+}
+
+#[test]
+fn json_has_the_keys_of_the_contract_and_is_the_report() {
+    let room = Room::new();
+    let run = room.make("skirt.yaml", &["--json"]);
+    let report = run.ends(0).json();
+    assert_eq!(run.out.as_bytes(), room.bytes("out/report.json"));
+    let has = |value: &Value, keys: &[&str]| keys.iter().for_each(|k| assert!(value.get(k).is_some(), "{k}: {value}"));
+    let top = ["toile", "garment", "mannequin", "fabric", "spacing", "pieces", "seams", "contact", "worn", "stages"];
+    has(&report, &top);
+    let four = ["sew", "drape", "flatten", "round_trip"];
+    let piece = &report["pieces"][0];
+    has(piece, &["name", "particles", "triangles", "area_flat", "area_sewn", "area_draped", "area_flattened"]);
+    has(piece, &["boundary_flat", "boundary_sewn", "boundary_draped", "boundary_flattened", "stretched"]);
+    [&piece["area_error"], &piece["boundary_error"]].iter().for_each(|e| has(e, &four));
+    has(&piece["strain"], &["mean", "p95", "p99", "max"]);
+    has(&report["seams"][0], &["name", "length_a", "length_b", "gap_mean", "gap_max"]);
+    has(&report["contact"], &["inside_body", "deepest", "cloth_body_intersections", "cloth_cloth_intersections"]);
+    has(&report["worn"][0], &["opening", "body_part"]);
+    let stages: Vec<&str> =
+        report["stages"].as_array().expect("a list").iter().filter_map(|s| s["name"].as_str()).collect();
+    assert_eq!(stages, ["mesh", "sew", "drape", "flatten"]);
+    has(&report["stages"][2], &["seconds", "iterations", "converged", "energy", "drift"]);
+    assert_eq!(report["spacing"], 40.0);
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bytes() {
+    let room = Room::new();
+    let files = |threads: &str| {
+        room.make("skirt.yaml", &["-q", "--threads", threads]).ends(0);
+        ["sewn.obj", "garment.obj", "pattern.svg", "garment.png"].map(|name| room.bytes(&format!("out/{name}")))
+    };
+    let one = files("1");
+    for threads in ["2", "4"] {
+        assert!(files(threads) == one, "{threads} threads give other bytes");
+    }
+}
+
+#[test]
+fn a_garment_can_be_taken_stage_by_stage() {
+    let room = Room::new();
+    room.make("skirt.yaml", &["-q"]).ends(0);
+    let rest = ["--spacing", COARSE, "-o", "steps", "-q"];
+    let stage = |args: &[&str]| {
+        room.run(&[args, &rest].concat()).ends(0);
+    };
+    stage(&["sew", "skirt.yaml"]);
+    stage(&["drape", "skirt.yaml", "--from", "steps/sewn.obj"]);
+    stage(&["flatten", "skirt.yaml", "--from", "steps/garment.obj"]);
+    assert_eq!(room.names("steps"), room.names("out"));
+    assert_eq!(room.bytes("steps/sewn.obj"), room.bytes("out/sewn.obj"));
+    let other = ["drape", "skirt.yaml", "--from", "steps/sewn.obj", "-o", "other", "--spacing", "35"];
+    room.run(&other).ends(2).says(&["steps/sewn.obj", "--spacing"]);
+}
+
+#[test]
+fn fabric_and_body_can_be_replaced() {
+    let room = Room::new();
+    let report = room.make("skirt.yaml", &["--fabric", "denim", "--json"]).json();
+    assert_eq!(report["fabric"], "denim");
+    room.put("own.yaml", "name: own\nweight: 150 g/m2\nbend: 5 uN.m\n");
+    let report = room.make("skirt.yaml", &["--fabric", "own.yaml", "--json"]).json();
+    assert_eq!(report["fabric"], "own");
+    room.run(&["mannequin", "build", "woman_92", "-o", "anna.obj", "-q"]).ends(0);
+    let report = room.make("skirt.yaml", &["--body", "anna.obj", "--json"]).json();
+    assert_eq!(report["mannequin"], "anna");
+}
+
+#[test]
+fn strain_can_be_shown() {
+    let room = Room::new();
+    room.make("skirt.yaml", &["-q"]).ends(0);
+    let by_piece = room.bytes("out/garment.png");
+    room.make("skirt.yaml", &["-q", "--color", "strain"]).ends(0);
+    assert!(room.bytes("out/garment.png") != by_piece);
+}
+
+#[test]
+fn check_walks_the_seams() {
+    let room = Room::new();
+    let run = room.run(&["check", "skirt.yaml"]);
+    run.ends(0);
+    assert!(run.out.contains("front.right – back.left") && run.out.contains("313.2"), "{}", run.out);
+    let summary = room.run(&["check", "skirt.yaml", "--json"]).json();
+    assert_eq!(summary["seams"][0]["name"], "left");
+    assert_eq!(summary["openings"].as_array().map(Vec::len), Some(2));
+    room.put("wrong.yaml", &skirt_with("back.left}", "back.lefd}"));
+    let refusal = room.run(&["check", "wrong.yaml", "--json"]);
+    assert_eq!(refusal.ends(2).json()["diagnostics"][0]["severity"], "error");
+}
+
+#[test]
+fn test_compares_garments_with_their_own_bounds() {
+    let room = Room::new();
+    let spacing = ["--spacing", COARSE];
+    let run = room.run(&[&["test", "skirt.yaml"], &spacing[..]].concat());
+    run.ends(0);
+    assert!(run.out.contains("1 of 1 garments within their bounds"), "{}", run.out);
+    fs::create_dir(room.dir.path().join("all")).expect("made");
+    room.put("all/b.yaml", &skirt_with("below: 1 mm", "below: 0.000001 mm"));
+    room.put("all/a.yaml", SKIRT);
+    let run = room.run(&[&["test", "all", "--json", "--junit", "all.xml"], &spacing[..]].concat());
+    let outcomes = run.ends(1).says(&["b.yaml: out of bounds: gap all"]).json();
+    let garments = outcomes.as_array().expect("a list").iter().map(|o| o["garment"].as_str());
+    assert_eq!(garments.collect::<Vec<_>>(), [Some("a"), Some("b")]);
+    assert!(String::from_utf8_lossy(&room.bytes("all.xml")).contains("failures=\"1\""));
+    room.put("all/c.yaml", "garment: 1\n");
+    room.run(&[&["test", "all", "-q"], &spacing[..]].concat()).ends(2).says(&["c.yaml: not made"]);
+    fs::create_dir(room.dir.path().join("empty")).expect("made");
+    room.run(&["test", "empty"]).ends(2).says(&["no garment"]);
+}
+
+#[test]
+fn libraries_are_listed_and_shown() {
+    let room = Room::new();
+    assert!(room.run(&["fabric", "list"]).ends(0).out.contains("cotton_poplin"));
+    assert!(room.run(&["fabric", "show", "denim"]).ends(0).out.contains("weight"));
+    assert_eq!(room.run(&["fabric", "show", "denim", "--json"]).json()["name"], "denim");
+    room.run(&["fabric", "show", "denin"]).ends(2).says(&["did you mean 'denim'"]);
+    assert!(room.run(&["mannequin", "list"]).ends(0).out.contains("child_110"));
+    room.run(&["mannequin", "build", "nobody", "-o", "a.obj"]).ends(2).says(&["nobody", "woman_92"]);
+}
+
+#[test]
+fn any_surface_can_be_laid_flat() {
+    let room = Room::new();
+    // Half a cylinder of one metre, as quads in two groups, in centimetres.
+    let mut text = String::new();
+    for row in 0..5 {
+        for column in 0..=8 {
+            let angle = f64::from(column) * std::f64::consts::PI / 8.0;
+            text.push_str(&format!("v {} {} {}\n", 50.0 * angle.cos(), 10 * row, 50.0 * angle.sin()));
+        }
+    }
+    for (name, rows) in [("low", 0..2), ("high", 2..4)] {
+        text.push_str(&format!("g {name}\n"));
+        for row in rows {
+            for column in 0..8 {
+                let a = 9 * row + column + 1;
+                text.push_str(&format!("f {a} {} {} {}\n", a + 9, a + 10, a + 1));
+            }
+        }
+    }
+    room.put("tube.obj", &text);
+    let report = room.run(&["flatten", "tube.obj", "--units", "cm", "-o", "flat", "--json"]).ends(0).json();
+    assert_eq!(room.names("flat"), ["flat.obj", "pattern.svg", "report.json"]);
+    assert_eq!(report["pieces"][1]["name"], "high");
+    let width = 8.0 * 2.0 * 500.0 * (std::f64::consts::PI / 16.0).sin();
+    let area = report["pieces"][0]["area_flattened"].as_f64().expect("a number");
+    assert!((area - 200.0 * width).abs() < 1e-3 * area, "{area}");
+    let flat = String::from_utf8(room.bytes("flat/flat.obj")).expect("text");
+    let lines = |text: &str, key: &str| -> Vec<String> {
+        text.lines().filter(|l| l.starts_with(key)).map(str::to_owned).collect()
+    };
+    assert_eq!(lines(&flat, "v "), lines(&text, "v "));
+    let bare = |l: &String| l.split(' ').map(|w| w.split('/').next().unwrap_or("").to_owned()).collect::<Vec<_>>();
+    let faces: Vec<_> = lines(&flat, "f ").iter().map(bare).collect();
+    assert_eq!(faces, lines(&text, "f ").iter().map(bare).collect::<Vec<_>>());
+    // What is no disk is refused with what it is.
+    room.put("closed.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+    room.run(&["flatten", "closed.obj", "-o", "no"]).ends(2).says(&["closed.obj", "cut it first"]);
+    assert!(room.names("no").is_empty());
+}
+
+/// Every one of these must end with 2, say this, and write nothing.
+#[test]
+fn mistakes_in_garment_files() {
+    let room = Room::new();
+    let bomb: String = (1..40).map(|k| format!("a{k}: &a{k} [*a{p}, *a{p}, *a{p}, *a{p}]\n", p = k - 1)).collect();
+    let cases: &[(String, &[&str])] = &[
+        (skirt_with("left: L -200 0\n", "left: L -150 0\n"), &["front", "mm"]),
+        (skirt_with("right: L 290 300\n      hem: L -290 300", "right: L -290 300\n      hem: L 290 300"), &["cross"]),
+        (skirt_with("to: back.left", "to: back.lefd"), &["wrong.yaml:19:", "lefd", "left"]),
+        (skirt_with("to: back.left", "to: bakc.left"), &["wrong.yaml:19:", "bakc", "back"]),
+        (skirt_with("sew: front.right,", "sew: front.waist,"), &["mm"]),
+        (skirt_with("free: [\"*.waist\", \"*.hem\"]", "free: [\"*.waist\"]"), &["hem"]),
+        (skirt_with("free:", "  again: {sew: front.right, to: back.right}\nfree:"), &["right"]),
+        (skirt_with("cotton_poplin", "coton_poplin"), &["wrong.yaml", "coton_poplin", "cotton_poplin"]),
+        (skirt_with("woman_92", "woman_29"), &["woman_29", "woman_92"]),
+        (skirt_with("body: woman_92\n", ""), &["wrong.yaml", "--body"]),
+        (format!("{bomb}{SKIRT}"), &["wrong.yaml"]),
+        ("\u{0}\u{1}".into(), &["wrong.yaml"]),
+        (String::new(), &["wrong.yaml"]),
+    ];
+    for (text, words) in cases {
+        room.put("wrong.yaml", text);
+        room.make("wrong.yaml", &[]).ends(2).says(words);
+        assert!(room.names("out").is_empty(), "{words:?}: {:?}", room.names("out"));
+    }
+}
+
+#[test]
+fn mistakes_in_arguments() {
+    let room = Room::new();
+    let wrong = |args: &[&str], words: &[&str]| {
+        room.run(args).ends(2).says(words);
+        assert!(room.names("out").is_empty(), "{args:?}");
+    };
+    wrong(&["make", "nowhere.yaml"], &["nowhere.yaml"]);
+    wrong(&["make", "skirt.yaml", "--spacing", "-3"], &["--spacing"]);
+    wrong(&["make", "skirt.yaml", "--spacing", "nan"], &["--spacing"]);
+    wrong(&["make", "skirt.yaml", "--spacing", "400"], &["400 mm", "use <="]);
+    wrong(&["make", "skirt.yaml", "--spacing", "0.01"], &["use >="]);
+    wrong(&["make", "skirt.yaml", "--fabric", "denin"], &["denin", "did you mean 'denim'"]);
+    wrong(&["make", "skirt.yaml", "--fabric", "no.yaml"], &["no.yaml"]);
+    wrong(&["make", "skirt.yaml", "--body", "no.obj"], &["no.obj"]);
+    wrong(&["make", "skirt.yaml", "--threads", "0"], &["--threads"]);
+    wrong(&["flatten", "a.obj", "--from", "b.obj"], &["--from"]);
+    wrong(&["sow", "skirt.yaml"], &["sow", "sew"]);
+    room.run(&["--help"]).ends(0);
+    assert!(room.run(&["--version"]).ends(0).out.contains(env!("CARGO_PKG_VERSION")));
+}
+
+/// A file of a gigabyte is told to be too large before it is read.
+#[test]
+fn files_of_a_gigabyte() {
+    let room = Room::new();
+    for name in ["big.yaml", "big.obj"] {
+        let file = File::create(room.dir.path().join(name)).expect("made");
+        file.set_len(1 << 30).expect("a sparse file");
+    }
+    for args in [
+        &["make", "big.yaml"][..],
+        &["make", "skirt.yaml", "--body", "big.obj"],
+        &["make", "skirt.yaml", "--body", "big.yaml"],
+        &["make", "skirt.yaml", "--fabric", "big.yaml"],
+        &["flatten", "big.obj"],
+    ] {
+        let run = room.run(args);
+        run.ends(2).says(&["big."]);
+        assert!(run.err.contains("MiB") || run.err.contains("1073741824 bytes"), "{}", run.err);
+    }
+    assert!(room.names("out").is_empty());
+}
+
+/// The mannequin's surface after something was done to it.
+fn body_obj(spoil: impl Fn(&mut Mannequin)) -> String {
+    let mut body = load("woman_92").expect("a mannequin");
+    spoil(&mut body);
+    mannequin_obj(&body)
+}
+
+#[test]
+fn bodies_that_are_no_solids() {
+    let room = Room::new();
+    let cases: [(String, &[&str]); 5] = [
+        (body_obj(|b| b.mesh.triangles.truncate(b.mesh.triangles.len() - 1)), &["body.obj", "open", "close its holes"]),
+        (body_obj(|b| b.mesh.triangles.iter_mut().for_each(|t| t.swap(1, 2))), &["body.obj", "inside out", "flip"]),
+        (body_obj(|b| b.mesh.vertices[7] = Vec3::repeat(f64::NAN)), &["body.obj:", "NaN"]),
+        (
+            body_obj(|b| b.mesh.vertices.iter_mut().filter(|p| p.x.abs() > 0.18).for_each(|p| p.x *= 0.3)),
+            &["body.obj", "crosses itself"],
+        ),
+        ("v 0 0 0\nv 1 0 0\nf 1 2 3\n".into(), &["body.obj:3:", "vertex 3"]),
+    ];
+    for (text, words) in &cases {
+        room.put("body.obj", text);
+        room.make("skirt.yaml", &["--body", "body.obj"]).ends(2).says(words);
+        assert!(room.names("out").is_empty(), "{words:?}");
+    }
+}
+
+#[test]
+fn folders_that_cannot_be_written_are_told_at_once() {
+    let room = Room::new();
+    room.put("file", "");
+    // Half a million particles would take minutes.
+    let run = room.run(&["make", "skirt.yaml", "-o", "file/deeper/still", "--spacing", "1"]);
+    run.ends(2).says(&["file/deeper/still", "with -o"]);
+    assert_eq!(room.names("."), ["file", "skirt.yaml"]);
+}
+
+#[test]
+fn an_input_is_never_overwritten() {
+    let room = Room::new();
+    room.run(&["mannequin", "build", "woman_92", "-o", "garment.obj", "-q"]).ends(0);
+    let before = room.bytes("garment.obj");
+    let onto = ["make", "skirt.yaml", "--body", "garment.obj", "-o", ".", "--spacing", COARSE];
+    room.run(&onto).ends(2).says(&["garment.obj", "is an input", "-o"]);
+    room.put("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    room.run(&["flatten", "flat.obj", "-o", "."]).ends(2).says(&["flat.obj", "is an input"]);
+    assert!(room.bytes("garment.obj") == before);
+    assert_eq!(room.names("."), ["flat.obj", "garment.obj", "skirt.yaml"]);
+}
+
+#[test]
+fn quiet_says_nothing_and_bars_are_for_terminals() {
+    let room = Room::new();
+    let run = room.make("skirt.yaml", &["--json"]);
+    run.ends(0);
+    assert!(!run.err.contains('█') && !run.err.contains('\r'), "{}", run.err);
+    let quiet = room.make("skirt.yaml", &["-q"]);
+    assert_eq!((quiet.out.as_str(), quiet.err.as_str()), ("", ""));
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    let room = Room::new();
+    let mut child =
+        room.command(&["check", "skirt.yaml"]).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("started");
+    drop(child.stdout.take());
+    assert_eq!(child.wait().expect("ended").code(), Some(0));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_with_130_and_leaves_nothing() {
+    let room = Room::new();
+    let mut child = room
+        .command(&["make", "skirt.yaml", "--spacing", "4", "-o", "out"])
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("started");
+    std::thread::sleep(std::time::Duration::from_millis(500));
+    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(kill.expect("a kill command").success());
+    assert_eq!(child.wait().expect("ended").code(), Some(130));
+    assert!(room.names("out").is_empty());
+    assert_eq!(room.names("."), ["skirt.yaml"]);
+}
+
+/// Every garment that is shipped passes its check.
+#[test]
+fn shipped_garments_are_right() {
+    let room = Room::new();
+    let patterns = Path::new(env!("CARGO_MANIFEST_DIR")).join("patterns");
+    for entry in fs::read_dir(patterns).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_some_and(|e| e == "yaml") {
+            room.run(&["check", "-q", &path.display().to_string()]).ends(0);
+        }
+    }
+}
