@@ -86,9 +86,12 @@ fn a_surface_that_is_no_body_is_refused_with_the_place() {
 
 #[test]
 fn crossings_are_said_with_their_place() {
-    // Legs pushed into each other below the knees.
-    let crossed = turned(|p| Vec3::new(if p.y < 250.0 { p.x - 60.0 * p.x.signum() } else { p.x }, p.y, p.z));
-    let found = read(crossed).expect("still a body");
+    // Legs pushed into each other below the knees, or in a narrow band only.
+    let crossed = |from: f64| {
+        turned(|p| Vec3::new(if (from..250.0).contains(&p.y) { p.x - 60.0 * p.x.signum() } else { p.x }, p.y, p.z))
+    };
+    assert!(matches!(read(crossed(0.0)), Err(BodyError::Crossing { pairs: 369.., .. })));
+    let found = read(crossed(240.0)).expect("still a body");
     assert!(found.notes.iter().any(|n| n.contains("crosses itself")), "{:?}", found.notes);
     assert!(read(child()).expect("a body").notes.iter().all(|n| !n.contains("crosses")));
 }

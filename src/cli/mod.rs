@@ -1,6 +1,6 @@
 //! The command line.
 //!
-//! [`args`] holds what clap reads, unchecked; each command has a file that checks its arguments, runs the pipeline and
+//! `args` holds what clap reads, unchecked; each command has a file that checks its arguments, runs the pipeline and
 //! says how it went. Results go to standard output, everything else to standard error.
 
 mod args;

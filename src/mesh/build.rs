@@ -45,7 +45,7 @@ pub fn build(garment: &Garment, spacing: f64) -> Result<ClothMesh, MeshError> {
 ///
 /// The smallest angle is normally above 25°. Exceptions are corners of the outline sharper than that, strips and
 /// gaps narrower than a spacing, and neighbouring springs of very different length where marks lie close together:
-/// [`PieceMesh::smallest_angle`] says what was reached.
+/// [`PieceMesh::smallest_angle`](super::PieceMesh::smallest_angle) says what was reached.
 ///
 /// # Errors
 /// [`MeshError`] when the spacing is no positive length or does not suit the pieces, or when an outline, a line or a

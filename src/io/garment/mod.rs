@@ -1,7 +1,7 @@
 //! Garment files (YAML) in and out.
 //!
 //! [`read`] gives the checked [`Garment`] and the [`GarmentFile`], which holds everything the file says with the
-//! place where it says it; [`write`] turns a [`GarmentFile`] back into YAML that reads as the same.
+//! place where it says it; [`write()`] turns a [`GarmentFile`] back into YAML that reads as the same.
 
 mod decode;
 mod decode_piece;
