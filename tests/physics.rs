@@ -13,7 +13,7 @@ use toile::mesh::{ClothMesh, build};
 use toile::pattern::{Edge, Garment, Piece};
 
 const MM: f64 = 1e-3;
-const LAW: ContactLaw = ContactLaw { stiffness: 50.0, body_clearance: 1e-3, cloth_gap: None };
+const LAW: ContactLaw = ContactLaw { stiffness: 50.0, body_clearance: 1e-3, face_clearance: 1e-3, cloth_gap: None };
 const NOTHING: Forces = Forces { gravity: 0.0, contacts: &[], law: LAW, pulls: &[], friction: None };
 
 /// A rectangular piece of poplin and its mesh, millimetres.

@@ -21,6 +21,9 @@ pub struct ContactLaw {
     pub stiffness: f64,
     /// Distance kept from the body beyond half the cloth's thickness, metres.
     pub body_clearance: f64,
+    /// The same where a vertex or edge of the body meets a face or edge of the cloth. Few of these carry what many nodes
+    /// would, so they are pressed deeper, and must not be pressed through.
+    pub face_clearance: f64,
     /// Distance kept between two layers of cloth, metres; `None` = the two half thicknesses.
     pub cloth_gap: Option<f64>,
 }
@@ -205,7 +208,7 @@ fn couple(matrix: &mut SymmetricMatrix<f32>, diagonal: &[BlockSlot], ends: [u32;
 fn kept_distance(cloth: &Cloth, contact: &Contact, law: &ContactLaw) -> f64 {
     let first = cloth.half_thickness[contact.nodes[0] as usize];
     if contact.body {
-        return first + law.body_clearance;
+        return first + if contact.count == 1 { law.body_clearance } else { law.face_clearance };
     }
     law.cloth_gap.unwrap_or_else(|| first + cloth.half_thickness[contact.nodes[contact.count as usize - 1] as usize])
 }

@@ -75,7 +75,7 @@ pub fn sew(
     let cloth = Cloth::new(mesh, garment, fabrics, identity_nodes(mesh), SOFT);
     let pairs: Vec<[u32; 2]> = stitching.pairs.iter().map(|p| p.0).collect();
     let h = mesh.spacing;
-    let law = ContactLaw { stiffness: 600.0, body_clearance: 1.5e-3, cloth_gap: Some(0.1 * h) };
+    let law = ContactLaw { stiffness: 600.0, body_clearance: 1.5e-3, face_clearance: 1.5e-3, cloth_gap: Some(0.1 * h) };
     let reach = Reach { cloth: 1.6 * h, body: 0.02, renew: 0.2 };
     let hood = Neighbourhood { class: stitching.class.clone(), seams: beside_seams(mesh, &stitching, &cloth), tangled: Vec::new() };
     let mut world = World::new(cloth, start, &pairs, body, hood, law, reach)?;

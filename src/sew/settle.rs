@@ -13,6 +13,8 @@ use crate::pattern::Garment;
 /// Distance kept from the body beyond half the cloth's thickness, metres. A band without ease stands off by it, and
 /// every 0.1 mm of it is 0.08 % of a waist.
 const CLEARANCE: f64 = 0.25e-3;
+/// The same for faces and edges, metres: room for what a shoulder seam presses on one corner of the body (half a newton).
+const FACE_CLEARANCE: f64 = 1e-3;
 /// Penalty stiffness of a contact, N/m.
 const PENALTY: f64 = 600.0;
 /// Rounds of leading tangles apart.
@@ -35,7 +37,7 @@ pub fn sewn_world<'a>(
     nodes: Vec<Vec3>,
 ) -> Result<World<'a>, StepError> {
     let cloth = Cloth::new(mesh, garment, fabrics, stitching.class.clone(), SpringModel::Measured);
-    let law = ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, cloth_gap: None };
+    let law = ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, face_clearance: FACE_CLEARANCE, cloth_gap: None };
     let reach = Reach { cloth: 0.8 * mesh.spacing, body: 0.02, renew: 0.2 };
     let n = nodes.len();
     let hood = Neighbourhood { class: (0..n as u32).collect(), seams: vec![Vec::new(); n], tangled: Vec::new() };
