@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::error::SewError;
-use super::settle::{settle, sewn_world};
+use super::settle::{settle, sewn_world, untangle};
 use super::stitch::Stitching;
 use crate::contact::{Collider, Neighbourhood};
 use crate::dynamics::{Cloth, ContactLaw, Pull, Reach, SpringModel, World, identity_nodes};
@@ -53,8 +53,9 @@ const SOFT: SpringModel = SpringModel::Soft { stiffness: 1000.0, bias: 0.4 };
 const PHASES: [(f64, f64); 3] = [(100.0, 0.3), (800.0, 1.0), (6400.0, 4.0)];
 /// The first phase ends when no gap is wider than this, metres.
 const NEAR: f64 = 7.5e-3;
-/// Steps without progress after which the next phase begins.
-const STALL: usize = 5;
+/// The next phase also begins when the widest gap has not shrunk to this share of itself in so many steps.
+const STALL: usize = 6;
+const PROGRESS: f64 = 0.8;
 /// Classes of three and more particles pull so much harder: closed last they jam.
 const JUNCTION: f64 = 8.0;
 
@@ -80,8 +81,9 @@ pub fn sew(
     let hood = Neighbourhood { class: stitching.class.clone(), seams: beside_seams(mesh, &stitching, &cloth), tangled: Vec::new() };
     let mut world = World::new(cloth, start, &pairs, body, hood, law, reach)?;
 
+    untangle(&mut world, false)?;
     let mut phase = 0;
-    let (mut best, mut stalled) = (f64::INFINITY, 0);
+    let mut history: Vec<f64> = Vec::new();
     let (mut steps, mut first) = (0, options.tolerance);
     while steps < options.max_steps {
         let gaps = stitching.gaps(&world.x);
@@ -95,14 +97,11 @@ pub fn sew(
         if steps == 0 {
             first = widest;
         }
-        if widest < 0.98 * best {
-            (best, stalled) = (widest, 0);
-        } else {
-            stalled += 1;
-        }
-        if phase + 1 < PHASES.len() && (stalled > STALL || (phase == 0 && widest < NEAR)) {
+        history.push(widest);
+        let stalled = history.len() > STALL && widest > PROGRESS * history[history.len() - 1 - STALL];
+        if phase + 1 < PHASES.len() && (stalled || (phase == 0 && widest < NEAR)) {
             phase += 1;
-            (best, stalled) = (widest, 0);
+            history.clear();
         }
         let (stiffness, force) = PHASES[phase];
         let pulls: Vec<Pull> = stitching

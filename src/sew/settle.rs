@@ -44,30 +44,45 @@ pub fn sewn_world<'a>(
     World::new(cloth, nodes, &[], body, hood, law, reach)
 }
 
-/// Leads the cloth out of itself and lets the measured springs pull it true. Returns the steps made and the tangles
-/// left.
+/// Lets the measured springs pull a newly stitched cloth true, out of its tangles first. Returns the steps made and the
+/// tangles left.
 ///
 /// # Errors
 /// As [`World::advance`].
 pub fn settle(world: &mut World) -> Result<(usize, usize), StepError> {
-    let mut steps = 0;
-    let mut left = world.tangles();
-    while !left.is_empty() && steps < UNTANGLE {
-        let tangled = neighbourhood(world, &left);
-        smooth(world, &tangled);
-        world.detector_mut().set_tangled(tangled);
-        world.detect();
-        step(world)?;
-        steps += 1;
-        left = world.tangles();
-    }
-    world.detector_mut().set_tangled(Vec::new());
-    world.detect();
+    let steps = untangle(world, true)?;
     for _ in 0..SETTLE {
         step(world)?;
-        steps += 1;
     }
-    Ok((steps, world.tangles().len()))
+    Ok((steps + SETTLE, world.tangles().len()))
+}
+
+/// Leads the cloth out of itself where it crosses: tangled nodes do not touch each other and move to the middle of their
+/// neighbours until the last crossing is gone. With `spring` the springs pull after every round; pieces that are not
+/// sewn yet are only smoothed. Returns the rounds that took.
+///
+/// # Errors
+/// As [`World::advance`].
+pub(super) fn untangle(world: &mut World, spring: bool) -> Result<usize, StepError> {
+    let mut rounds = 0;
+    let mut left = world.tangles();
+    let any = !left.is_empty();
+    while !left.is_empty() && rounds < UNTANGLE {
+        let tangled = neighbourhood(world, &left);
+        smooth(world, &tangled);
+        if spring {
+            world.detector_mut().set_tangled(tangled);
+            world.detect();
+            step(world)?;
+        }
+        rounds += 1;
+        left = world.tangles();
+    }
+    if any {
+        world.detector_mut().set_tangled(Vec::new());
+        world.detect();
+    }
+    Ok(rounds)
 }
 
 fn step(world: &mut World) -> Result<(), StepError> {

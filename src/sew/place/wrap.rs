@@ -337,8 +337,10 @@ impl Ring<'_> {
                 let k = self.level(at.y);
                 let (ellipse, station) = (&ellipses[k], self.anchor + at.y);
                 let arc = at.x + self.shift(i, at.y);
-                let outward = layers * (2.0 * arc / ellipse.perimeter).clamp(0.0, 1.0) - LAYER * self.sheet.under[p];
-                x[p] = self.stations.at(station).point(ellipse, arc / ellipse.perimeter + turn, outward);
+                // An overlapping band goes once round by what is sewn of it, however wide the ring.
+                let share = arc / if layers > 0.0 { self.sewn_length() } else { ellipse.perimeter };
+                let outward = layers * (2.0 * share).clamp(0.0, 1.0) - LAYER * self.sheet.under[p];
+                x[p] = self.stations.at(station).point(ellipse, share + turn, outward);
             }
         }
     }
@@ -369,6 +371,7 @@ impl Ring<'_> {
 
     fn ellipses(&self) -> Vec<Ellipse> {
         let overlapping = self.overlaps();
+        let shoulders = self.row.part == PartKind::Torso && has_shoulders(self.row, self.links);
         let first_closed = self.levels.iter().position(|l| l.closed).unwrap_or(0);
         let last_closed = self.levels.iter().rposition(|l| l.closed).unwrap_or(self.levels.len() - 1);
         let mut axes: Vec<[f64; 2]> = Vec::with_capacity(self.levels.len());
@@ -380,7 +383,7 @@ impl Ring<'_> {
             let clearance = if overlapping { 2.0 * LAYER } else { CLEARANCE };
             let grow = (need / station.perimeter(clearance)).max(1.0);
             let mut ab = [(station.half_width + clearance) * grow, (station.half_depth + clearance) * grow];
-            if self.row.part == PartKind::Torso && k < first_closed {
+            if shoulders && k < first_closed {
                 ab[1] += DEEPEN * (first_closed - k) as f64 * LEVEL;
             }
             axes.push(ab);
@@ -401,7 +404,8 @@ impl Ring<'_> {
                 }
                 for pair in &link.pairs {
                     let at = self.sheet.flat[pair[k] as usize] + self.row.members[i].shift;
-                    let own = (at.x + self.shift(i, at.y)) / ellipses[self.level(at.y)].perimeter;
+                    let round = if self.overlaps() { self.sewn_length() } else { ellipses[self.level(at.y)].perimeter };
+                    let own = (at.x + self.shift(i, at.y)) / round;
                     let station = self.stations.at(self.anchor + at.y);
                     let angle = station.angle(x[pair[1 - k] as usize]) - own * std::f64::consts::TAU;
                     c += angle.cos();
