@@ -4,9 +4,9 @@ use parry3d_f64::math::Vector;
 use parry3d_f64::query::PointQueryWithLocation;
 use parry3d_f64::shape::{TriMesh as ParryMesh, TriMeshFlags};
 
+use super::Contact;
 use super::grid::Grid;
 use super::narrow::{closest_on_segments, closest_on_triangle};
-use super::Contact;
 use crate::geometry::{Topology, TriMesh, Vec3};
 
 /// Body edges whose faces meet flatter than this (cosine) cannot catch a cloth edge between two of its vertices.
@@ -185,8 +185,18 @@ mod tests {
     fn cube() -> TriMesh {
         let vertices = (0..8).map(|i| Vec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2))).collect();
         let triangles = vec![
-            [0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4],
-            [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5],
+            [0, 2, 1],
+            [1, 2, 3],
+            [4, 5, 6],
+            [5, 7, 6],
+            [0, 1, 4],
+            [1, 5, 4],
+            [2, 6, 3],
+            [3, 6, 7],
+            [0, 4, 2],
+            [2, 4, 6],
+            [1, 3, 5],
+            [3, 7, 5],
         ];
         TriMesh { vertices, triangles }
     }

@@ -26,7 +26,7 @@ pub struct Bounds {
 
 impl Bounds {
     /// Bounds for nodes at `x` and the contacts found there within `reach`; every pair keeps `margin` metres, or the
-    /// share [`KEPT`] of its gap if that is less.
+    /// share `KEPT` of its gap if that is less.
     pub fn new(x: &[Vec3], contacts: &[Contact], reach: f64, margin: f64) -> Self {
         let pairs = contacts.iter().filter(|c| !c.body).copied().collect();
         let single = contacts.iter().filter(|c| c.body && c.count == 1 && c.gap(x) > 0.0);
@@ -150,7 +150,12 @@ mod tests {
     use approx::assert_relative_eq;
 
     fn pair() -> ([Vec3; 4], Contact) {
-        let x = [Vec3::new(0.0, 0.01, 0.0), Vec3::new(-1.0, 0.0, -1.0), Vec3::new(1.0, 0.0, -1.0), Vec3::new(0.0, 0.0, 1.0)];
+        let x = [
+            Vec3::new(0.0, 0.01, 0.0),
+            Vec3::new(-1.0, 0.0, -1.0),
+            Vec3::new(1.0, 0.0, -1.0),
+            Vec3::new(0.0, 0.0, 1.0),
+        ];
         let contact = Contact {
             nodes: [0, 1, 2, 3],
             weights: [1.0, -0.25, -0.25, -0.5],

@@ -360,8 +360,13 @@ fn own_primitives(leaves: Vec<Vec<u32>>, triangles: &[[u32; 3]], flat: &[[Vec2; 
     let mut patches = Vec::with_capacity(leaves.len());
     for leaf in leaves {
         let (mut low, mut high) = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
-        let mut patch =
-            Patch { piece: 0, triangles: leaf, nodes: Vec::new(), edges: Vec::new(), flat: (Vec2::zeros(), Vec2::zeros()) };
+        let mut patch = Patch {
+            piece: 0,
+            triangles: leaf,
+            nodes: Vec::new(),
+            edges: Vec::new(),
+            flat: (Vec2::zeros(), Vec2::zeros()),
+        };
         for &t in &patch.triangles {
             let (tri, corners) = (triangles[t as usize], flat[t as usize]);
             patch.piece = piece[t as usize];
@@ -390,7 +395,9 @@ mod tests {
     use super::*;
 
     /// Two parallel square sheets of n×n cells, `gap` apart, as two pieces.
-    fn sheets(n: u32, h: f64, gap: f64) -> (Vec<Vec3>, Vec<[u32; 3]>, Vec<[Vec2; 3]>, Vec<u32>) {
+    type Sheets = (Vec<Vec3>, Vec<[u32; 3]>, Vec<[Vec2; 3]>, Vec<u32>);
+
+    fn sheets(n: u32, h: f64, gap: f64) -> Sheets {
         let (mut x, mut triangles, mut flat, mut piece) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for sheet in 0..2u32 {
             let base = x.len() as u32;
@@ -414,7 +421,11 @@ mod tests {
     }
 
     fn detector(x: &[Vec3], t: &[[u32; 3]], f: &[[Vec2; 3]], p: &[u32]) -> ClothDetector {
-        let hood = Neighbourhood { class: (0..x.len() as u32).collect(), seams: vec![Vec::new(); x.len()], tangled: Vec::new() };
+        let hood = Neighbourhood {
+            class: (0..x.len() as u32).collect(),
+            seams: vec![Vec::new(); x.len()],
+            tangled: Vec::new(),
+        };
         ClothDetector::new(t, f, p, hood)
     }
 

@@ -89,7 +89,8 @@ mod tests {
 
     #[test]
     fn a_query_finds_all_that_touch_its_box() {
-        let points: Vec<Vec3> = (0..1000).map(|i| Vec3::new(f64::from(i % 10), f64::from(i / 10 % 10), f64::from(i / 100))).collect();
+        let points: Vec<Vec3> =
+            (0..1000).map(|i| Vec3::new(f64::from(i % 10), f64::from(i / 10 % 10), f64::from(i / 100))).collect();
         let boxes: Vec<_> = points.iter().map(|&p| (p, p)).collect();
         let grid = Grid::new(&boxes, 1.7);
         let (low, high) = (Vec3::new(2.5, 3.5, 0.0), Vec3::new(4.5, 6.0, 2.2));

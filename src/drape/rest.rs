@@ -1,13 +1,8 @@
 //! From sewn to at rest.
 
-use std::sync::Arc;
-
 use crate::contact::Collider;
-use crate::dynamics::{Friction, StepError, World};
-use crate::fabric::Fabric;
+use crate::dynamics::{Cut, Friction, StepError, World};
 use crate::geometry::Vec3;
-use crate::mesh::ClothMesh;
-use crate::pattern::Garment;
 use crate::sew::{Stitching, sewn_world};
 
 /// How a garment is draped.
@@ -19,7 +14,7 @@ pub struct DrapeOptions {
 
 impl Default for DrapeOptions {
     fn default() -> Self {
-        Self { max_steps: 400 }
+        Self { max_steps: 300 }
     }
 }
 
@@ -70,57 +65,38 @@ const RESIDUAL: f64 = 1.0;
 ///
 /// # Errors
 /// [`DrapeError::Step`] when a position is not finite.
-#[allow(clippy::too_many_arguments)]
 pub fn drape(
-    garment: &Garment,
-    mesh: &ClothMesh,
-    fabrics: &[Arc<Fabric>],
+    cut: &Cut,
     body: &Collider,
     stitching: &Stitching,
     nodes: Vec<Vec3>,
     options: &DrapeOptions,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Draped, DrapeError> {
-    let mut world = sewn_world(garment, mesh, fabrics, body, stitching, nodes)?;
+    let mut world = sewn_world(cut, body, stitching, nodes)?;
     world.gravity = 1.0;
     world.friction = Some(Friction::new(world.x.len(), GRIP));
     let mut fall = Fall { last: world.x.clone(), world, steps: 0 };
-    let mut falling = true; let mm: f64 = std::env::var("MOM").map_or(MOMENTUM, |s| s.parse().unwrap_or(0.9)); let dt: f64 = std::env::var("DT").map_or(STEP, |s| s.parse().unwrap_or(0.1));
-    while falling && fall.steps < options.max_steps {
+    let mut tested = 0;
+    let mut drift;
+    loop {
+        fall.settle(options.max_steps, progress)?;
+        // As many steps again, at half the step size; a garment that drifts falls on, while there are steps left.
         let before = fall.world.x.clone();
-        for k in 0..STRETCH {
-            // The last quarter of a stretch goes without momentum, so that what is measured has died down.
-            fall.step(dt, if k < STRETCH * 3 / 4 { mm } else { 0.0 })?;
+        for _ in tested..fall.steps {
+            fall.world.relax(0.5 * STEP, 0.0, LOOK_AHEAD, &before, &[])?;
         }
-        let [rms, _] = motion(&before, &fall.world.x);
-        trace(&mut fall.world, fall.steps, rms);
-        progress((fall.steps as f64 / options.max_steps as f64).max(SETTLED / rms).min(0.9));
-        falling = rms > SETTLED;
-    }
-    let before = fall.world.x.clone();
-    let again = fall.steps;
-    for _ in 0..(if std::env::var("NODRIFT").is_ok() { 0 } else { again }) {
-        fall.step(0.5 * STEP, 0.0)?;
+        drift = motion(&before, &fall.world.x);
+        tested = fall.steps;
+        if drift[0] <= DRIFT || fall.steps >= options.max_steps {
+            break;
+        }
+        fall.last.clone_from(&fall.world.x);
     }
     progress(1.0);
-    let drift = motion(&before, &fall.world.x);
     let residual = fall.world.residual_in_weights();
-    trace(&mut fall.world, fall.steps, drift[0]);
     let converged = drift[0] <= DRIFT && residual <= RESIDUAL;
-    Ok(Draped {
-        energy: fall.world.energy(),
-        nodes: fall.world.x,
-        steps: fall.steps,
-        converged,
-        drift,
-        residual,
-    })
-}
-
-fn trace(world: &mut World, steps: usize, rms: f64) {
-    if std::env::var("TOILE_TRACE").is_ok() {
-        eprintln!("drape {steps}: moved {:.3} mm rms, residual {:.2}, tangles {}, contacts {}", 1e3 * rms, world.residual_in_weights(), world.tangles().len(), world.contacts().len());
-    }
+    Ok(Draped { energy: fall.world.energy(), nodes: fall.world.x, steps: fall.steps, converged, drift, residual })
 }
 
 /// A garment on its way down.
@@ -132,11 +108,22 @@ struct Fall<'a> {
 }
 
 impl Fall<'_> {
-    fn step(&mut self, dt: f64, momentum: f64) -> Result<(), StepError> {
-        let now = self.world.x.clone();
-        self.world.relax(dt, momentum, LOOK_AHEAD, &self.last, &[])?;
-        self.last = now;
-        self.steps += 1;
+    /// Steps until a stretch of them moves the garment hardly at all, or `most` are made in all.
+    fn settle(&mut self, most: usize, progress: &mut dyn FnMut(f64)) -> Result<(), StepError> {
+        let mut moved = f64::INFINITY;
+        while moved > SETTLED && self.steps < most {
+            let before = self.world.x.clone();
+            for k in 0..STRETCH {
+                // The last quarter of a stretch goes without momentum, so that what is measured has died down.
+                let momentum = if k < STRETCH * 3 / 4 { MOMENTUM } else { 0.0 };
+                let now = self.world.x.clone();
+                self.world.relax(STEP, momentum, LOOK_AHEAD, &self.last, &[])?;
+                self.last = now;
+                self.steps += 1;
+            }
+            [moved, _] = motion(&before, &self.world.x);
+            progress((self.steps as f64 / most as f64).max(SETTLED / moved).min(0.9));
+        }
         Ok(())
     }
 }

@@ -47,11 +47,10 @@ fn element(t: &FlatTriangle) -> Element {
         weft.transpose() / t.rigidity[1].max(f64::MIN_POSITIVE).powf(0.25),
     ]);
     let p = t.corners.map(|c| frame * c);
-    let mut cot = [0.0; 3];
-    for k in 0..3 {
+    let cot = [0, 1, 2].map(|k| {
         let (a, b) = (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
-        cot[k] = a.dot(&b) / a.perp(&b).abs().max(f64::MIN_POSITIVE);
-    }
+        a.dot(&b) / a.perp(&b).abs().max(f64::MIN_POSITIVE)
+    });
     let area = 0.5 * (p[1] - p[0]).perp(&(p[2] - p[0])).abs();
     Element { weights: cot.map(|c| 0.5 * c), areas: voronoi(&p, cot, area) }
 }
@@ -177,15 +176,16 @@ mod tests {
         for j in 0..N {
             for i in 0..N {
                 let (a, b, c, d) = (at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-                let two =
-                    if alternate && (i + j) % 2 == 1 { [[a, b, d], [b, c, d]] } else { [[a, b, c], [a, c, d]] };
+                let two = if alternate && (i + j) % 2 == 1 { [[a, b, d], [b, c, d]] } else { [[a, b, c], [a, c, d]] };
                 for nodes in two {
                     let corners = nodes.map(|n| flat[n as usize]);
                     triangles.push(FlatTriangle { nodes, corners, warp: Vec2::y(), rigidity });
                 }
             }
         }
-        let interior = (0..(N + 1) * (N + 1)).map(|k| (1..N).contains(&(k % (N + 1))) && (1..N).contains(&(k / (N + 1)))).collect();
+        let interior = (0..(N + 1) * (N + 1))
+            .map(|k| (1..N).contains(&(k % (N + 1))) && (1..N).contains(&(k / (N + 1))))
+            .collect();
         (triangles, interior, flat)
     }
 

@@ -12,7 +12,7 @@ mod world;
 
 pub use bending::Bending;
 pub use friction::Friction;
-pub use model::{Cloth, SpringModel, identity_nodes};
+pub use model::{Cloth, Cut, SpringModel, identity_nodes};
 pub use springs::{Spring, StretchLaw};
 pub use step::{ContactLaw, Forces, Pull, StepError, Stepper};
 pub use world::{Reach, World};

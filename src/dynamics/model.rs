@@ -32,6 +32,17 @@ const RIM_WIDTH: f64 = 0.01;
 /// A seam whose sides differ by more than this share is gathered or stretched on: its length is one side's own.
 const GATHERED: f64 = 1.05;
 
+/// A garment that is cut: its pattern, its meshed pieces and what each is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct Cut<'a> {
+    /// The checked pattern.
+    pub garment: &'a Garment,
+    /// Its pieces as grids.
+    pub mesh: &'a ClothMesh,
+    /// Fabric of every piece; pieces of one fabric share it.
+    pub fabrics: &'a [Arc<Fabric>],
+}
+
 /// The cloth's physical model.
 #[derive(Clone, Debug)]
 pub struct Cloth {
@@ -67,8 +78,9 @@ pub fn identity_nodes(mesh: &ClothMesh) -> Vec<u32> {
 }
 
 impl Cloth {
-    /// Builds the model. `fabrics[p]` is piece p's fabric; `node_of` maps particles to nodes (0 … n−1, each used).
-    pub fn new(mesh: &ClothMesh, garment: &Garment, fabrics: &[Arc<Fabric>], node_of: Vec<u32>, model: SpringModel) -> Self {
+    /// Builds the model; `node_of` maps particles to nodes (0 … n−1, each used).
+    pub fn new(cut: &Cut, node_of: Vec<u32>, model: SpringModel) -> Self {
+        let Cut { garment, mesh, fabrics } = *cut;
         let nodes = node_of.iter().max().map_or(0, |&n| n as usize + 1);
         let triangles: Vec<[u32; 3]> = mesh.triangles.iter().map(|t| t.map(|p| node_of[p as usize])).collect();
         let flat: Vec<[Vec2; 3]> = mesh.triangles.iter().map(|t| t.map(|p| mesh.flat[p as usize])).collect();
@@ -239,8 +251,7 @@ fn seam_rest_lengths(mesh: &ClothMesh, garment: &Garment) -> Vec<([u32; 2], f64)
                 Give::Even if a.max(b) > GATHERED * a.min(b) => a.min(b),
                 Give::Even => 0.5 * (a + b),
             };
-            for k in 0..2 {
-                let (p, q) = (w[0][k], w[1][k]);
+            for (&p, &q) in w[0].iter().zip(&w[1]) {
                 out.push(([p.min(q), p.max(q)], rest));
             }
         }

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::GRAVITY;
 use super::friction::Friction;
 use super::model::Cloth;
-use super::GRAVITY;
 use crate::contact::Contact;
 use crate::geometry::{Mat3, Vec3};
 use crate::linear::{
@@ -110,7 +110,14 @@ impl Stepper {
     ///
     /// # Errors
     /// [`StepError::Singular`] when a number is not finite.
-    pub fn solve(&mut self, cloth: &Cloth, x: &[Vec3], velocity: &[Vec3], dt: f64, forces: &Forces) -> Result<Vec<Vec3>, StepError> {
+    pub fn solve(
+        &mut self,
+        cloth: &Cloth,
+        x: &[Vec3],
+        velocity: &[Vec3],
+        dt: f64,
+        forces: &Forces,
+    ) -> Result<Vec<Vec3>, StepError> {
         let mut rhs = cloth_forces(cloth, x, forces);
         for ((f, v), m) in rhs.iter_mut().zip(velocity).zip(&cloth.mass) {
             *f += v * (m / dt);

@@ -187,14 +187,6 @@ impl<'a> World<'a> {
         };
         let d = self.stepper.solve(&self.cloth, &self.x, &inertia, dt, &forces)?;
         let share = self.bounds.share(&self.x, &d);
-        if std::env::var("TOILE_TRACE").is_ok() {
-            let rms = |f: &[Vec3]| (f.iter().map(Vec3::norm_squared).sum::<f64>() / f.len() as f64).sqrt();
-            let only = |c: &[Contact], p: &[Pull]| rms(&cloth_forces(&self.cloth, &self.x, &Forces { contacts: c, pulls: p, ..forces }));
-            let body: Vec<Contact> = self.contacts.iter().filter(|c| c.body).copied().collect();
-            let cloth: Vec<Contact> = self.contacts.iter().filter(|c| !c.body).copied().collect();
-            let bend: Vec<Vec3> = (0..self.x.len()).map(|i| self.cloth.bending.gradient(&self.x, i)).collect();
-            eprintln!("   rms N: elastic {:.4} bend {:.4} +body {:.4} +cloth {:.4} +pulls {:.4}; d max {:.1} mm rms {:.1} share {:.3}", only(&[], &[]), rms(&bend), only(&body, &[]), only(&cloth, &[]), only(&[], pulls), 1e3 * d.iter().map(Vec3::norm).fold(0.0, f64::max), 1e3 * rms(&d), share);
-        }
         let target: Vec<Vec3> = self.x.iter().zip(&d).map(|(x, d)| x + d * share).collect();
         Ok(self.move_to(target, dt))
     }
@@ -204,7 +196,14 @@ impl<'a> World<'a> {
     ///
     /// # Errors
     /// As [`Stepper::solve`].
-    pub fn relax(&mut self, dt: f64, momentum: f64, most: f64, last: &[Vec3], pulls: &[Pull]) -> Result<f64, StepError> {
+    pub fn relax(
+        &mut self,
+        dt: f64,
+        momentum: f64,
+        most: f64,
+        last: &[Vec3],
+        pulls: &[Pull],
+    ) -> Result<f64, StepError> {
         let forces = Forces {
             gravity: self.gravity,
             contacts: &self.contacts,
@@ -236,8 +235,7 @@ impl<'a> World<'a> {
     }
 
     fn move_to(&mut self, mut target: Vec<Vec3>, dt: f64) -> f64 {
-        let left = self.bounds.clamp(&self.x, &mut target);
-        if std::env::var("TOILE_TRACE").is_ok() && left < 1.0 { eprintln!("   clamp left {left:.3}"); }
+        self.bounds.clamp(&self.x, &mut target);
         let mut largest = 0.0f64;
         for ((x, t), v) in self.x.iter_mut().zip(&target).zip(&mut self.velocity) {
             let d = t - *x;
@@ -257,7 +255,8 @@ impl<'a> World<'a> {
 
     /// Elastic energy, penetration energy of the contacts and weight × height, J.
     pub fn energy(&self) -> f64 {
-        let weight: f64 = self.cloth.mass.iter().zip(&self.x).map(|(m, x)| m * super::GRAVITY * self.gravity * x.y).sum();
+        let weight: f64 =
+            self.cloth.mass.iter().zip(&self.x).map(|(m, x)| m * super::GRAVITY * self.gravity * x.y).sum();
         let pressed: f64 = self
             .contacts
             .iter()

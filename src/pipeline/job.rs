@@ -7,6 +7,7 @@ use std::time::Instant;
 use super::cloth;
 use super::error::PipelineError;
 use crate::contact::Collider;
+use crate::dynamics::Cut;
 use crate::fabric::Fabric;
 use crate::io::body::load_body;
 use crate::io::garment::{self, Loaded};
@@ -80,6 +81,11 @@ fn fabrics(file: &Path, garment: &Garment, instead: Option<&str>) -> Result<Vec<
 }
 
 impl Job {
+    /// What the sewing and draping stages take.
+    pub fn cut(&self) -> Cut<'_> {
+        Cut { garment: &self.garment, mesh: &self.mesh, fabrics: &self.fabrics }
+    }
+
     /// Gets the fabrics and the body of a garment read from `file`, and meshes it.
     ///
     /// # Errors

@@ -51,20 +51,21 @@ impl<'a> Run<'a> {
         let start = place(&job.garment, &job.mesh, &job.body).map_err(|e| failed(e.into()))?;
         let options = SewOptions::default();
         let mut tell = |share| progress("sew", share);
-        let sewn =
-            sew(&job.garment, &job.mesh, &job.fabrics, &job.collider, start, &options, &mut tell).map_err(failed)?;
+        let sewn = sew(&job.cut(), &job.collider, start, &options, &mut tell).map_err(failed)?;
+        let closed = sewn.closed(&job.mesh, options.tolerance);
         self.stages.push(Stage {
             name: "sew".into(),
             seconds: begin.elapsed().as_secs_f64(),
             iterations: sewn.steps,
-            converged: sewn.gaps.iter().all(|&gap| gap <= options.tolerance),
+            converged: closed.is_ok(),
             energy: None,
             drift: None,
         });
         self.gaps = Some(self.gaps_of(&sewn));
         self.sewn = Some(spread(&sewn.stitching, &sewn.nodes));
         self.stitching = sewn.stitching;
-        Ok(())
+        // The state is kept first: a garment that did not close is worth a look.
+        closed.map_err(failed)
     }
 
     /// Lets the sewn garment fall to rest; sews it first if that has not been done.
@@ -80,8 +81,7 @@ impl<'a> Run<'a> {
         let nodes = gathered(&self.stitching, self.sewn.as_deref().unwrap_or_default());
         let mut tell = |share| progress("drape", share);
         let options = DrapeOptions::default();
-        let (garment, mesh, fabrics, body) = (&job.garment, &job.mesh, &job.fabrics, &job.collider);
-        let draped = drape(garment, mesh, fabrics, body, &self.stitching, nodes, &options, &mut tell)?;
+        let draped = drape(&job.cut(), &job.collider, &self.stitching, nodes, &options, &mut tell)?;
         self.stages.push(Stage {
             name: "drape".into(),
             seconds: begin.elapsed().as_secs_f64(),

@@ -1,16 +1,12 @@
 //! Drawing the seams shut.
 
-use std::sync::Arc;
-
 use super::error::SewError;
 use super::settle::{settle, sewn_world, untangle};
 use super::stitch::Stitching;
 use crate::contact::{Collider, Neighbourhood};
-use crate::dynamics::{Cloth, ContactLaw, Pull, Reach, SpringModel, World, identity_nodes};
-use crate::fabric::Fabric;
+use crate::dynamics::{Cloth, ContactLaw, Cut, Pull, Reach, SpringModel, World, identity_nodes};
 use crate::geometry::Vec3;
 use crate::mesh::ClothMesh;
-use crate::pattern::Garment;
 
 /// How a garment is sewn.
 #[derive(Clone, Copy, Debug)]
@@ -42,6 +38,49 @@ pub struct Sewn {
     pub tangles: usize,
 }
 
+impl Sewn {
+    /// Whether every seam has closed to within `tolerance` metres.
+    ///
+    /// # Errors
+    /// [`SewError::Open`] with the seam whose gap is widest.
+    pub fn closed(&self, mesh: &ClothMesh, tolerance: f64) -> Result<(), SewError> {
+        let widest = (0..self.gaps.len()).max_by(|&a, &b| self.gaps[a].total_cmp(&self.gaps[b]));
+        let Some(widest) = widest.filter(|&w| self.gaps[w] > tolerance) else { return Ok(()) };
+        let (ends, seam) = self.stitching.pairs[widest];
+        let piece = |p: u32| {
+            let found = mesh.pieces.iter().find(|m| m.particles.contains(&(p as usize)));
+            found.map_or_else(String::new, |m| m.name.clone())
+        };
+        Err(SewError::Open {
+            seam: mesh.seams[seam as usize].name.clone(),
+            gap_mm: 1e3 * self.gaps[widest],
+            limit_mm: 1e3 * tolerance,
+            iterations: self.steps,
+            piece_a: piece(ends[0]),
+            piece_b: piece(ends[1]),
+        })
+    }
+}
+
+/// A piece of which more than this share starts deeper in the body than [`START_DEPTH`] is not where it should be.
+const START_SHARE: f64 = 0.25;
+/// Metres; a start less deep is pushed out by the contact.
+const START_DEPTH: f64 = 0.015;
+
+/// Refuses a start with a piece in the body: the penalty would push its halves out on different sides.
+fn check_start(cut: &Cut, body: &Collider, start: &[Vec3]) -> Result<(), SewError> {
+    for piece in &cut.mesh.pieces {
+        let depth = |p: usize| body.nearest(start[p], 1.0).map_or(0.0, |n| -n.distance);
+        let depths: Vec<f64> = piece.particles.clone().map(depth).collect();
+        let deep = depths.iter().filter(|&&d| d > START_DEPTH).count();
+        if deep as f64 > START_SHARE * depths.len() as f64 {
+            let depth_mm = 1e3 * depths.iter().copied().fold(0.0, f64::max);
+            return Err(SewError::InsideBody { piece: piece.name.clone(), depth_mm });
+        }
+    }
+    Ok(())
+}
+
 /// Time step while sewing, s. Inertia is what keeps the pieces apart until the seams have led them home.
 const STEP: f64 = 1.0 / 60.0;
 /// Share of the velocity that lives on from step to step.
@@ -64,21 +103,25 @@ const JUNCTION: f64 = 8.0;
 /// # Errors
 /// [`SewError`]: a step that cannot be made, or a seam that does not close.
 pub fn sew(
-    garment: &Garment,
-    mesh: &ClothMesh,
-    fabrics: &[Arc<Fabric>],
+    cut: &Cut,
     body: &Collider,
     start: Vec<Vec3>,
     options: &SewOptions,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Sewn, SewError> {
+    let mesh = cut.mesh;
     let stitching = Stitching::new(mesh);
-    let cloth = Cloth::new(mesh, garment, fabrics, identity_nodes(mesh), SOFT);
+    check_start(cut, body, &start)?;
+    let cloth = Cloth::new(cut, identity_nodes(mesh), SOFT);
     let pairs: Vec<[u32; 2]> = stitching.pairs.iter().map(|p| p.0).collect();
     let h = mesh.spacing;
     let law = ContactLaw { stiffness: 600.0, body_clearance: 1.5e-3, face_clearance: 1.5e-3, cloth_gap: Some(0.1 * h) };
     let reach = Reach { cloth: 1.6 * h, body: 0.02, renew: 0.2 };
-    let hood = Neighbourhood { class: stitching.class.clone(), seams: beside_seams(mesh, &stitching, &cloth), tangled: Vec::new() };
+    let hood = Neighbourhood {
+        class: stitching.class.clone(),
+        seams: beside_seams(mesh, &stitching, &cloth),
+        tangled: Vec::new(),
+    };
     let mut world = World::new(cloth, start, &pairs, body, hood, law, reach)?;
 
     untangle(&mut world, false)?;
@@ -88,9 +131,6 @@ pub fn sew(
     while steps < options.max_steps {
         let gaps = stitching.gaps(&world.x);
         let widest = gaps.iter().copied().fold(0.0, f64::max);
-        if std::env::var("TOILE_TRACE").is_ok() {
-            let w = (0..gaps.len()).max_by(|&a, &b| gaps[a].total_cmp(&gaps[b])).unwrap(); let at = world.x[stitching.pairs[w].0[0] as usize]; eprintln!("   at {} ({:.0} {:.0} {:.0}) size {}", mesh.seams[stitching.pairs[w].1 as usize].name, 1e3*at.x, 1e3*at.y, 1e3*at.z, stitching.size[stitching.class[stitching.pairs[w].0[0] as usize] as usize]); eprintln!("step {steps} phase {phase} widest {:.2} mm mean {:.2} contacts {}", 1e3 * widest, 1e3 * gaps.iter().sum::<f64>() / gaps.len() as f64, world.contacts().len()); let c=world.contacts(); let ins: Vec<f64> = world.x.iter().filter_map(|p| body.nearest(*p, 0.05)).map(|n| n.distance).filter(|d| *d < 0.0).collect(); eprintln!("   inside {} deepest {:.4}", ins.len(), ins.iter().copied().fold(0.0, f64::min)); eprintln!("   body1 {} body2 {} body3 {} cloth {} residual {:.2}", c.iter().filter(|c|c.body&&c.count==1).count(), c.iter().filter(|c|c.body&&c.count==2).count(), c.iter().filter(|c|c.body&&c.count==3).count(), c.iter().filter(|c|!c.body).count(), world.residual_in_weights());
-        }
         if widest <= options.tolerance {
             break;
         }
@@ -121,7 +161,7 @@ pub fn sew(
     }
     let gaps = stitching.gaps(&world.x);
     let nodes = stitching.welded(&world.x);
-    let mut world = sewn_world(garment, mesh, fabrics, body, &stitching, nodes)?;
+    let mut world = sewn_world(cut, body, &stitching, nodes)?;
     let (more, tangles) = settle(&mut world)?;
     steps += more;
     Ok(Sewn { nodes: world.x, stitching, gaps, steps, tangles })

@@ -1,14 +1,9 @@
 //! The moment after stitching: crossings left beside the seams are led out, and the cloth gets its own springs.
 
-use std::sync::Arc;
-
 use super::stitch::Stitching;
 use crate::contact::{Collider, Neighbourhood, Tangle};
-use crate::dynamics::{Cloth, ContactLaw, Reach, SpringModel, StepError, World};
-use crate::fabric::Fabric;
+use crate::dynamics::{Cloth, ContactLaw, Cut, Reach, SpringModel, StepError, World};
 use crate::geometry::Vec3;
-use crate::mesh::ClothMesh;
-use crate::pattern::Garment;
 
 /// Distance kept from the body beyond half the cloth's thickness, metres. A band without ease stands off by it, and
 /// every 0.1 mm of it is 0.08 % of a waist.
@@ -29,16 +24,15 @@ const STEP: f64 = 0.1;
 /// # Errors
 /// As [`World::new`].
 pub fn sewn_world<'a>(
-    garment: &Garment,
-    mesh: &ClothMesh,
-    fabrics: &[Arc<Fabric>],
+    cut: &Cut,
     body: &'a Collider,
     stitching: &Stitching,
     nodes: Vec<Vec3>,
 ) -> Result<World<'a>, StepError> {
-    let cloth = Cloth::new(mesh, garment, fabrics, stitching.class.clone(), SpringModel::Measured);
-    let law = ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, face_clearance: FACE_CLEARANCE, cloth_gap: None };
-    let reach = Reach { cloth: 0.8 * mesh.spacing, body: 0.02, renew: 0.2 };
+    let cloth = Cloth::new(cut, stitching.class.clone(), SpringModel::Measured);
+    let law =
+        ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, face_clearance: FACE_CLEARANCE, cloth_gap: None };
+    let reach = Reach { cloth: 0.8 * cut.mesh.spacing, body: 0.02, renew: 0.2 };
     let n = nodes.len();
     let hood = Neighbourhood { class: (0..n as u32).collect(), seams: vec![Vec::new(); n], tangled: Vec::new() };
     World::new(cloth, nodes, &[], body, hood, law, reach)

@@ -44,10 +44,9 @@ pub(super) fn assign(garment: &Garment, mesh: &ClothMesh) -> Result<Vec<Assigned
                     .ok_or_else(|| PlaceError::Words { piece: piece.name.clone(), words: words.join(" ") })?;
                 Assigned { part, facing: facing_of(words).or_else(|| facing_of(&name_words)) }
             }
-            _ => Assigned {
-                part: part_of(&name_words, side).unwrap_or(PartKind::Torso),
-                facing: facing_of(&name_words),
-            },
+            _ => {
+                Assigned { part: part_of(&name_words, side).unwrap_or(PartKind::Torso), facing: facing_of(&name_words) }
+            }
         };
         out.push(assigned);
     }

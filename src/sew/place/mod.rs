@@ -27,7 +27,9 @@ use crate::pattern::{Garment, Place};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PlaceError {
     /// A word of `place:` names no body part.
-    #[error("piece '{piece}': place '{words}' names no body part; use torso, hip, waist, skirt, neck, arm or leg, with left or right, front or back")]
+    #[error(
+        "piece '{piece}': place '{words}' names no body part; use torso, hip, waist, skirt, neck, arm or leg, with left or right, front or back"
+    )]
     Words {
         /// The piece.
         piece: String,
@@ -35,7 +37,9 @@ pub enum PlaceError {
         words: String,
     },
     /// The body has no such part.
-    #[error("piece '{piece}' goes round the {part}, which mannequin '{mannequin}' does not have; give it a place: {{at: [x, y, z]}}")]
+    #[error(
+        "piece '{piece}' goes round the {part}, which mannequin '{mannequin}' does not have; give it a place: {{at: [x, y, z]}}"
+    )]
     NoPart {
         /// The piece.
         piece: String,

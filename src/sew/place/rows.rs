@@ -99,9 +99,10 @@ fn widest_next(
             }
             if best.as_ref().is_none_or(|b| link.length > b.0) {
                 let count = link.pairs.len() as f64;
-                let sum = link.pairs.iter().fold(Vec2::zeros(), |s, pair| {
-                    s + sheet.flat[pair[k] as usize] - sheet.flat[pair[1 - k] as usize]
-                });
+                let sum = link
+                    .pairs
+                    .iter()
+                    .fold(Vec2::zeros(), |s, pair| s + sheet.flat[pair[k] as usize] - sheet.flat[pair[1 - k] as usize]);
                 best = Some((link.length, from, to, sum / count));
             }
         }
@@ -142,7 +143,8 @@ fn front_middle(
     sheet: &Sheet,
 ) -> Option<f64> {
     for facing in [Facing::Front, Facing::Back] {
-        let these: Vec<usize> = (0..members.len()).filter(|&i| assigned[members[i].piece].facing == Some(facing)).collect();
+        let these: Vec<usize> =
+            (0..members.len()).filter(|&i| assigned[members[i].piece].facing == Some(facing)).collect();
         let middle = match these[..] {
             [] => continue,
             [one] => 0.5 * (boxes[one].0.x + boxes[one].1.x),
@@ -150,7 +152,10 @@ fn front_middle(
                 let joined = these.iter().find_map(|&i| {
                     these.iter().filter(|&&j| j != i).find_map(|&j| {
                         let pair = [members[i].piece, members[j].piece];
-                        let link = links.iter().filter(|l| l.upright && l.pieces == pair).max_by(|a, b| a.length.total_cmp(&b.length))?;
+                        let link = links
+                            .iter()
+                            .filter(|l| l.upright && l.pieces == pair)
+                            .max_by(|a, b| a.length.total_cmp(&b.length))?;
                         let sum: f64 = link.pairs.iter().map(|p| sheet.flat[p[0] as usize].x).sum();
                         Some(sum / link.pairs.len() as f64 + members[i].shift.x)
                     })
@@ -190,8 +195,8 @@ fn links(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Link> {
             let mut extent = Vec2::zeros();
             let mut length = 0.0;
             for w in run.windows(2) {
-                for k in 0..2 {
-                    let d = sheet.flat[w[1][k] as usize] - sheet.flat[w[0][k] as usize];
+                for (from, to) in w[0].iter().zip(&w[1]) {
+                    let d = sheet.flat[*to as usize] - sheet.flat[*from as usize];
                     extent += d.abs();
                     length += 0.5 * d.norm();
                 }
@@ -222,7 +227,13 @@ fn stack(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet) -> V
             let mut near: Vec<(usize, f64)> = Vec::new();
             for link in links {
                 let [a, b] = link.pieces.map(|p| row_of[p]);
-                let other = if a == at { b } else if b == at { a } else { continue };
+                let other = if a == at {
+                    b
+                } else if b == at {
+                    a
+                } else {
+                    continue;
+                };
                 if other == usize::MAX || other == at || done[other] || rows[other].part != rows[at].part {
                     continue;
                 }

@@ -175,13 +175,15 @@ fn joints(sheet: &Sheet, row: &Row, links: &[Link], level_of: &impl Fn(f64) -> u
             let mut sewn: Option<[usize; 2]> = None;
             let (mut jump, mut count) = (0.0, 0.0);
             for link in links.iter().filter(|l| l.upright && n > 1) {
-                let Some(k) = (0..2).find(|&k| link.pieces == if k == 0 { [a.piece, b.piece] } else { [b.piece, a.piece] })
+                let Some(k) =
+                    (0..2).find(|&k| link.pieces == if k == 0 { [a.piece, b.piece] } else { [b.piece, a.piece] })
                 else {
                     continue;
                 };
                 // With two members the same two pieces meet twice: right of a with left of b is this joint.
                 let mean = |m: &Member, k: usize| {
-                    link.pairs.iter().map(|p| sheet.flat[p[k] as usize].x + m.shift.x).sum::<f64>() / link.pairs.len() as f64
+                    link.pairs.iter().map(|p| sheet.flat[p[k] as usize].x + m.shift.x).sum::<f64>()
+                        / link.pairs.len() as f64
                 };
                 let (ua, ub) = (mean(a, k), mean(b, 1 - k));
                 if n == 2 && (i == 0) != ((ub - ua).abs() < 0.5 * spread(row, sheet, link)) {
