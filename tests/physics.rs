@@ -5,7 +5,7 @@ use std::sync::Arc;
 use toile::contact::Contact;
 use toile::dynamics::explicit::{Explicit, ExplicitError, Rest, Start, StepControl, explicit_cloth, law_of};
 use toile::dynamics::{
-    Cloth, ContactLaw, Forces, GRAVITY, Pull, Spring, SpringModel, Stepper, StretchLaw, identity_nodes,
+    Cloth, ContactLaw, Cut, Forces, GRAVITY, Pull, Spring, SpringModel, Stepper, StretchLaw, identity_nodes,
 };
 use toile::fabric;
 use toile::geometry::{Path, Vec2, Vec3};
@@ -51,7 +51,7 @@ fn rectangle(width: f64, height: f64, spacing: f64) -> (Garment, ClothMesh) {
 fn panel(width: f64, height: f64, spacing: f64, model: SpringModel) -> (Cloth, Vec<Vec3>) {
     let (garment, mesh) = rectangle(width, height, spacing);
     let poplin = Arc::new(fabric::load("cotton_poplin").expect("shipped"));
-    let cloth = Cloth::new(&mesh, &garment, &[poplin], identity_nodes(&mesh), model);
+    let cloth = Cloth::new(&Cut { garment: &garment, mesh: &mesh, fabrics: &[poplin] }, identity_nodes(&mesh), model);
     let x = mesh.flat.iter().map(|p| Vec3::new(p.x, -p.y, 0.0)).collect();
     (cloth, x)
 }

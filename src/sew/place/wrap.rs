@@ -67,6 +67,7 @@ pub(super) fn wrap(
         for (level, ellipse) in ring.levels.iter_mut().zip(&ellipses) {
             spread_out(row, level, ellipse.perimeter);
         }
+        complete_shifts(&mut ring.levels);
         smooth_shifts(&mut ring.levels);
         ring.bend(&ellipses, &placed, &mut x);
         for m in &row.members {
@@ -272,6 +273,18 @@ fn middle(row: &Row, level: &Level, present: &[usize], starts: &[f64]) -> f64 {
         (Some(&a), None) => starts[a] + front - span(a)[0],
         (None, Some(&b)) => starts[b] + front - span(b)[0],
         (None, None) => 0.0,
+    }
+}
+
+/// Where not every member reaches (the points of a curved waist, the dip of a hem) the others would drift apart to fill
+/// the ring: they stay as at the nearest level with all of them.
+fn complete_shifts(levels: &mut [Level]) {
+    let whole: Vec<usize> = (0..levels.len()).filter(|&k| levels[k].spans.iter().all(Option::is_some)).collect();
+    for k in 0..levels.len() {
+        let nearest = whole.iter().min_by_key(|&&w| w.abs_diff(k));
+        if let Some(&w) = nearest.filter(|&&w| w != k) {
+            levels[k].shift = levels[w].shift.clone();
+        }
     }
 }
 
