@@ -29,6 +29,7 @@ const FLOORS: [(&str, &[&str]); 17] = [
             "mannequin",
             "contact",
             "mesh",
+            "dynamics",
             "sew",
             "drape",
             "flatten",

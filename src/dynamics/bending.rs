@@ -63,9 +63,9 @@ fn voronoi(p: &[Vec2; 3], cot: [f64; 3], area: f64) -> [f64; 3] {
         return out;
     }
     let mut out = [0.0; 3];
-    for k in 0..3 {
+    for (k, cot) in cot.into_iter().enumerate() {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        let share = (p[j] - p[i]).norm_squared() * cot[k] / 8.0;
+        let share = (p[j] - p[i]).norm_squared() * cot / 8.0;
         out[i] += share;
         out[j] += share;
     }
