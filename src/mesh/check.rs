@@ -8,6 +8,8 @@ use crate::pattern::{Garment, Piece};
 const ON_EDGE: f64 = 1e-9;
 /// Areas agree to this share.
 const SAME_AREA: f64 = 1e-9;
+/// The particle at a span's end is at most this far outside the span (metres).
+const OFF_END: f64 = 2e-5;
 
 /// A broken promise of a mesh.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -245,19 +247,25 @@ fn check_seams(mesh: &ClothMesh, garment: &Garment) -> Result<(), CheckError> {
     Ok(())
 }
 
-/// Particles on a span, found by their position.
+/// Particles on a span, found by their position: from the one nearest to its one end to the one nearest to its other.
+/// Two places may lie closer together than an end may be off its particle, so that alone does not tell which it is.
 fn walked(mesh: &ClothMesh, garment: &Garment, span: &crate::pattern::Span) -> Vec<u32> {
     let path = &garment.pieces[span.edge.piece].loops[span.edge.ring][span.edge.index].path;
-    let edge = mesh.pieces[span.edge.piece].edges.iter().find(|e| e.edge == span.edge);
-    let (low, high) = (span.from.min(span.to) - 2e-5, span.from.max(span.to) + 2e-5);
-    let last = edge.map_or(0, |e| e.particles.len() - 1);
-    let place = |k: usize, v: u32| match k {
+    let Some(edge) = mesh.pieces[span.edge.piece].edges.iter().find(|e| e.edge == span.edge) else {
+        return Vec::new();
+    };
+    let last = edge.particles.len() - 1;
+    let place = |(k, &v): (usize, &u32)| match k {
         0 => 0.0,
         k if k == last => path.length(),
         _ => path.nearest(mesh.flat[v as usize]).0,
     };
-    let on = edge.into_iter().flat_map(|e| e.particles.iter().enumerate());
-    let mut out: Vec<u32> = on.filter(|&(k, &v)| (low..=high).contains(&place(k, v))).map(|(_, &v)| v).collect();
+    let places: Vec<f64> = edge.particles.iter().enumerate().map(place).collect();
+    let off = |k: usize, s: f64| (places[k] - s).abs();
+    let nearest = |s: f64| (0..=last).min_by(|&j, &k| off(j, s).total_cmp(&off(k, s))).unwrap_or(0);
+    let (low, high) = (span.from.min(span.to), span.from.max(span.to));
+    let on = (nearest(low)..=nearest(high)).filter(|&k| places[k] >= low - OFF_END && places[k] <= high + OFF_END);
+    let mut out: Vec<u32> = on.map(|k| edge.particles[k]).collect();
     if span.from > span.to {
         out.reverse();
     }
