@@ -193,14 +193,29 @@ fn forces_are_the_slope_of_the_energy() {
 /// Energy of everything that [`law_of`] has forces for.
 fn energy(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> f64 {
     let weight: f64 = cloth.mass.iter().zip(x).map(|(m, v)| m * GRAVITY * forces.gravity * v.y).sum();
-    let contact: f64 =
-        forces.contacts.iter().map(|c| forces.load(cloth, x, c).powi(2) / (2.0 * forces.law.stiffness)).sum();
+    let contact: f64 = forces.contacts.iter().map(|c| contact_energy(cloth, x, c)).sum();
     let sewing = forces.pulls.iter().map(|p| {
         let gap = (x[p.ends[1] as usize] - x[p.ends[0] as usize]).norm();
         let drawn = gap.min(p.cap);
         p.stiffness * (0.5 * drawn * drawn + p.cap * (gap - drawn))
     });
     cloth.elastic_energy(x) + weight + contact + sewing.sum::<f64>()
+}
+
+/// Work against the body's linear penalty, and against the layers' k · (kept − gap) · kept / gap.
+fn contact_energy(cloth: &Cloth, x: &[Vec3], contact: &Contact) -> f64 {
+    let half = |k: usize| cloth.half_thickness[contact.nodes[k] as usize];
+    let gap = contact.gap(x);
+    let (k, kept) = match (contact.body, contact.count) {
+        (true, 1) => (LAW.stiffness, half(0) + LAW.body_clearance),
+        (true, _) => (LAW.stiffness, half(0) + LAW.face_clearance),
+        (false, n) => (LAW.stiffness, half(0) + half(n as usize - 1)),
+    };
+    match contact.body {
+        _ if gap >= kept => 0.0,
+        true => 0.5 * k * (kept - gap).powi(2),
+        false => k * kept * (kept * (kept / gap).ln() - kept + gap),
+    }
 }
 
 // ---- the explicit scheme ----
@@ -393,11 +408,11 @@ fn explicit_and_implicit_steps_reach_the_same_equilibrium() {
     let start: Vec<Vec3> = flat.iter().map(|v| v + Vec3::z() * (2e-3 * (60.0 * v.y).sin())).collect();
 
     let mut implicit = start.clone();
-    let mut stepper = Stepper::new(&cloth, &[], &implicit).expect("system");
+    let mut stepper = Stepper::new(&cloth, &[], &[], &implicit).expect("system");
     let still = vec![Vec3::zeros(); implicit.len()];
     let mut steps = 0;
     loop {
-        let d = stepper.solve(&cloth, &implicit, &still, 0.05, &forces).expect("step");
+        let d = stepper.solve(&cloth, &implicit, &still, 0.05, &forces, 1).expect("step");
         implicit.iter_mut().zip(&d).for_each(|(x, d)| *x += d);
         steps += 1;
         if d.iter().map(Vec3::norm).fold(0.0, f64::max) < 1e-9 || steps == 20_000 {

@@ -12,6 +12,10 @@ use crate::geometry::Vec3;
 const SWEEPS: usize = 12;
 /// Share of its gap that a pair must keep in a step, up to [`Bounds::new`]'s margin.
 const KEPT: f64 = 0.2;
+/// A gap smaller than this, metres, shrinks no further: gaps that halved without end would end in rounding.
+const LEAST: f64 = 1e-5;
+/// A pair that keeps this share of what it needs is left alone: sweeps converge slowly.
+const HELD: f64 = 0.5;
 
 /// The pairs found by a detection, and how far nodes may go until the next one.
 #[derive(Clone, Debug)]
@@ -34,6 +38,20 @@ impl Bounds {
         Self { origin: x.to_vec(), leash: Self::allowance(reach), margin, pairs, planes }
     }
 
+    /// Takes over the directions of refreshed contacts, which must be those this was made with.
+    pub fn refresh(&mut self, contacts: &[Contact]) {
+        for (pair, contact) in self.pairs.iter_mut().zip(contacts.iter().filter(|c| !c.body)) {
+            *pair = *contact;
+        }
+    }
+    /// d
+    pub fn sep(&self, c: &Contact, x: &[Vec3]) -> f64 { separation(c, x) }
+    /// d
+    pub fn origin(&self, n: u32) -> Vec3 { self.origin[n as usize] }
+    /// debug
+    pub fn tight(&self, x: &[Vec3]) -> Vec<(f64, Contact)> {
+        self.pairs.iter().map(|c| (separation(c, x), *c)).filter(|c| c.0 < 2e-6).collect()
+    }
     /// How far a node may go between two detections: less than half the reach, so that a pair not found cannot meet.
     pub fn allowance(reach: f64) -> f64 {
         0.45 * reach
@@ -52,16 +70,16 @@ impl Bounds {
         if longest > left { (left / longest).max(0.0) } else { 1.0 }
     }
 
-    /// Moves the targets in `to` so that no pair meets on the way from `from`. What the sweeps cannot mend shortens the
-    /// whole step; the share of it that is left is returned.
+    /// Moves the targets in `to` so that no pair meets on the way from `from`. Nodes of pairs that the sweeps cannot mend
+    /// stay where they are; what breaks a leash shortens the whole step, and the share of it that is left is returned.
     pub fn clamp(&self, from: &[Vec3], to: &mut [Vec3]) -> f64 {
-        let needs: Vec<f64> = self.pairs.iter().map(|c| self.margin.min(KEPT * separation(c, from)).max(0.0)).collect();
+        let needs: Vec<f64> = self.pairs.iter().map(|c| self.need(separation(c, from))).collect();
         for _ in 0..SWEEPS {
             let mut clean = true;
             for &(node, n, offset) in &self.planes {
                 let target = &mut to[node as usize];
                 let start = n.dot(&from[node as usize]) - offset;
-                let depth = offset + self.margin.min(KEPT * start).max(0.0) - n.dot(target);
+                let depth = offset + self.need(start) - n.dot(target);
                 if depth > 1e-9 {
                     *target += n * depth;
                     clean = false;
@@ -74,7 +92,8 @@ impl Bounds {
                 break;
             }
         }
-        let share = self.safe_share(from, to);
+        self.hold(from, to, &needs);
+        let share = self.leash_share(from, to);
         if share < 1.0 {
             for (a, b) in from.iter().zip(to) {
                 *b = a + (*b - a) * share;
@@ -83,19 +102,32 @@ impl Bounds {
         share
     }
 
-    /// The largest share of the step at which every pair is still separated, and no leash broken.
-    fn safe_share(&self, from: &[Vec3], to: &[Vec3]) -> f64 {
-        let mut share = 1.0f64;
-        for contact in &self.pairs {
-            let after = separation(contact, to);
-            if after <= 0.0 {
-                // Each difference is linear in time, so their minimum is concave: the chord is on the safe side.
-                let before = separation(contact, from);
-                if before > 0.0 {
-                    share = share.min(0.9 * before / (before - after));
+    /// The separation that a pair (or a node and the body) must keep when it has `now`.
+    fn need(&self, now: f64) -> f64 {
+        self.margin.min((KEPT * now).max(LEAST)).min(now).max(0.0)
+    }
+
+    /// Leaves the nodes of pairs that would still meet where they are, and those that would then run into them.
+    fn hold(&self, from: &[Vec3], to: &mut [Vec3], needs: &[f64]) {
+        loop {
+            let mut clean = true;
+            for (contact, &need) in self.pairs.iter().zip(needs) {
+                if separation(contact, to) < HELD * need {
+                    for (node, _) in contact.parts() {
+                        clean &= to[node] == from[node];
+                        to[node] = from[node];
+                    }
                 }
             }
+            if clean {
+                return;
+            }
         }
+    }
+
+    /// The largest share of the step that breaks no leash.
+    fn leash_share(&self, from: &[Vec3], to: &[Vec3]) -> f64 {
+        let mut share = 1.0f64;
         for ((a, b), o) in from.iter().zip(to).zip(&self.origin) {
             let (d, r) = (b - a, a - o);
             let (q, p, c) = (d.norm_squared(), r.dot(&d), r.norm_squared() - self.leash * self.leash);
@@ -129,7 +161,7 @@ fn separation(contact: &Contact, x: &[Vec3]) -> f64 {
 /// Pushes both sides off the plane half-way between them; whether that was needed.
 fn push_apart(contact: &Contact, x: &mut [Vec3], need: f64) -> bool {
     let (low, high) = sides(contact, x);
-    if low - high >= need - 1e-9 {
+    if low - high >= need * (1.0 - 1e-3) {
         return false;
     }
     let middle = 0.5 * (low + high);

@@ -12,10 +12,17 @@ use crate::geometry::{Topology, Vec2, Vec3};
 const PATCH: usize = 10;
 /// Patches whose normals all lie within this angle (radians) of one another are one smooth sheet there.
 const SMOOTH_CONE: f64 = 1.2;
-/// Primitives near each other in the flat piece are left out while their normals agree at least so far (cosine).
-const SMOOTH_COSINE: f64 = 0.3;
-/// "Near each other in the flat piece": within this many reaches.
-const FLAT_REACHES: f64 = 1.25;
+/// Two points of a piece that are no nearer to each other in space than this share of their distance in the flat piece
+/// are one sheet. Folded cloth brings them together to its thickness, whatever way its normals point.
+const UNFOLDED: f64 = 0.6;
+/// The same for the middles of two edges, before their closest points are looked for: those lie within an edge of them.
+const UNFOLDED_MIDDLES: f64 = 0.8;
+/// Edges whose closest points are their ends may cross before the next detection; they are kept apart within this share
+/// of the reach.
+const BLUNT: f64 = 0.4;
+/// Where a seam lies between two neighbours there is no flat distance; they are one sheet down to this share of the
+/// reach.
+const BESIDE_SEAM: f64 = 0.3;
 
 /// Which pairs are neighbours by construction and therefore no contact.
 #[derive(Clone, Debug, Default)]
@@ -32,7 +39,7 @@ struct Patch {
     piece: u32,
     triangles: Vec<u32>,
     nodes: Vec<(u32, Vec2)>,
-    edges: Vec<([u32; 2], Vec2)>,
+    edges: Vec<([u32; 2], [Vec2; 2])>,
     flat: (Vec2, Vec2),
 }
 
@@ -40,7 +47,8 @@ struct Patch {
 /// refitted for every detection.
 pub struct ClothDetector {
     triangles: Vec<[u32; 3]>,
-    centers: Vec<Vec2>,
+    /// Flat corners of every triangle.
+    flat: Vec<[Vec2; 3]>,
     patches: Vec<Patch>,
     bvh: Bvh,
     workspace: BvhWorkspace,
@@ -74,7 +82,7 @@ impl ClothDetector {
         }
         Self {
             triangles: triangles.to_vec(),
-            centers,
+            flat: flat.to_vec(),
             patches,
             bvh: Bvh::new(),
             workspace: BvhWorkspace::default(),
@@ -94,8 +102,7 @@ impl ClothDetector {
         let normals = self.normals(x);
         let (mut pairs, cones) = self.patch_pairs(x, &normals, reach);
         pairs.retain(|&(a, b)| !self.smooth(a as usize, b as usize, &cones, reach));
-        let node_normals = self.node_normals(x.len(), &normals);
-        let find = Search { detector: self, x, normals: &normals, node_normals: &node_normals, reach };
+        let find = Search { detector: self, x, reach };
         pairs.par_iter().flat_map_iter(|&(a, b)| find.pair(a as usize, b as usize)).collect()
     }
 
@@ -188,19 +195,6 @@ impl ClothDetector {
         gap.norm() < 0.5 * reach
     }
 
-    fn node_normals(&self, nodes: usize, normals: &[Vec3]) -> Vec<Vec3> {
-        let mut out = vec![Vec3::zeros(); nodes];
-        for (tri, n) in self.triangles.iter().zip(normals) {
-            for &v in tri {
-                out[v as usize] += n;
-            }
-        }
-        for n in &mut out {
-            *n = n.try_normalize(1e-9).unwrap_or_default();
-        }
-        out
-    }
-
     /// Whether nodes `p` and `q` (of two primitives) are sewn together, lie beside one open seam or in one tangle.
     fn joined(&self, p: &[u32], q: &[u32]) -> bool {
         let tangled = |n: &u32| self.hood.tangled.get(*n as usize).copied().unwrap_or(false);
@@ -232,8 +226,6 @@ struct Cone {
 struct Search<'a> {
     detector: &'a ClothDetector,
     x: &'a [Vec3],
-    normals: &'a [Vec3],
-    node_normals: &'a [Vec3],
     reach: f64,
 }
 
@@ -249,19 +241,13 @@ impl Search<'_> {
         out
     }
 
-    /// Same sheet: near in the flat piece and facing the same way.
-    fn same_sheet(&self, same_piece: bool, flat: Vec2, p: &[u32], q: &[u32], cosine: f64) -> bool {
-        if cosine < SMOOTH_COSINE {
-            return false;
-        }
-        if same_piece && flat.norm() < FLAT_REACHES * self.reach {
-            return true;
-        }
-        self.detector.neighbours(p, q)
+    /// Whether two points at `distance` in space are on one unfolded sheet: `flat` apart in one piece, or beside a seam.
+    fn same_sheet(&self, distance: f64, flat: Option<Vec2>, p: &[u32], q: &[u32]) -> bool {
+        let unfolded = flat.is_some_and(|flat| distance >= UNFOLDED * flat.norm());
+        unfolded || (distance >= BESIDE_SEAM * self.reach && self.detector.neighbours(p, q))
     }
 
     fn points(&self, p: &Patch, q: &Patch, out: &mut Vec<Contact>) {
-        let reach2 = self.reach * self.reach;
         for &(v, flat) in &p.nodes {
             let point = self.x[v as usize];
             for &t in &q.triangles {
@@ -269,65 +255,76 @@ impl Search<'_> {
                 let [a, b, c] = tri.map(|n| self.x[n as usize]);
                 let low = a.inf(&b).inf(&c);
                 let high = a.sup(&b).sup(&c);
-                if (0..3).any(|k| point[k] < low[k] - self.reach || point[k] > high[k] + self.reach) {
-                    continue;
-                }
-                let cosine = self.node_normals[v as usize].dot(&self.normals[t as usize]);
-                let apart = flat - self.detector.centers[t as usize];
-                if self.detector.joined(&[v], &tri) || self.same_sheet(p.piece == q.piece, apart, &[v], &tri, cosine) {
+                if (0..3).any(|k| point[k] < low[k] - self.reach || point[k] > high[k] + self.reach)
+                    || self.detector.joined(&[v], &tri)
+                {
                     continue;
                 }
                 let w = closest_on_triangle(point, a, b, c);
                 let away = point - (a * w[0] + b * w[1] + c * w[2]);
-                let d2 = away.norm_squared();
-                if d2 < reach2 && d2 > 0.0 {
-                    out.push(Contact {
-                        nodes: [v, tri[0], tri[1], tri[2]],
-                        weights: [1.0, -w[0], -w[1], -w[2]],
-                        count: 4,
-                        normal: away / d2.sqrt(),
-                        offset: 0.0,
-                        body: false,
-                        above: 1,
-                    });
+                let distance = away.norm();
+                if distance >= self.reach || distance <= 0.0 {
+                    continue;
                 }
+                let [f, g, h] = self.detector.flat[t as usize];
+                let apart = (p.piece == q.piece).then(|| flat - (f * w[0] + g * w[1] + h * w[2]));
+                if self.same_sheet(distance, apart, &[v], &tri) {
+                    continue;
+                }
+                out.push(Contact {
+                    nodes: [v, tri[0], tri[1], tri[2]],
+                    weights: [1.0, -w[0], -w[1], -w[2]],
+                    count: 4,
+                    normal: away / distance,
+                    offset: 0.0,
+                    body: false,
+                    above: 1,
+                });
             }
         }
     }
 
     fn edges(&self, p: &Patch, q: &Patch, same: bool, out: &mut Vec<Contact>) {
-        let reach2 = self.reach * self.reach;
-        for (i, &(e, flat)) in p.edges.iter().enumerate() {
+        for (i, (e, flat)) in p.edges.iter().enumerate() {
             let [a, b] = e.map(|n| self.x[n as usize]);
             let (low, high) = (a.inf(&b), a.sup(&b));
             let from = if same { i + 1 } else { 0 };
-            for &(f, other) in &q.edges[from..] {
+            for (f, other) in &q.edges[from..] {
                 let [c, d] = f.map(|n| self.x[n as usize]);
                 let (l2, h2) = (c.inf(&d), c.sup(&d));
                 if (0..3).any(|k| h2[k] < low[k] - self.reach || l2[k] > high[k] + self.reach) {
                     continue;
                 }
-                let n1 = self.node_normals[e[0] as usize] + self.node_normals[e[1] as usize];
-                let n2 = self.node_normals[f[0] as usize] + self.node_normals[f[1] as usize];
-                let cosine = 0.25 * n1.dot(&n2);
-                if self.detector.joined(&e, &f) || self.same_sheet(p.piece == q.piece, flat - other, &e, &f, cosine) {
+                if p.piece == q.piece {
+                    let middles = (flat[0] + flat[1] - other[0] - other[1]).norm_squared();
+                    if (a + b - c - d).norm_squared() >= UNFOLDED_MIDDLES * UNFOLDED_MIDDLES * middles {
+                        continue;
+                    }
+                }
+                if self.detector.joined(e, f) {
                     continue;
                 }
                 let (s, t) = closest_on_segments(a, b, c, d);
+                let inner = s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0;
                 let away = a + (b - a) * s - c - (d - c) * t;
-                let d2 = away.norm_squared();
-                // Ends of segments belong to the vertex–triangle pairs.
-                if d2 < reach2 && d2 > 0.0 && s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0 {
-                    out.push(Contact {
-                        nodes: [e[0], e[1], f[0], f[1]],
-                        weights: [1.0 - s, s, t - 1.0, -t],
-                        count: 4,
-                        normal: away / d2.sqrt(),
-                        offset: 0.0,
-                        body: false,
-                        above: 2,
-                    });
+                let distance = away.norm();
+                if distance >= self.reach * if inner { 1.0 } else { BLUNT } || distance <= 0.0 {
+                    continue;
                 }
+                let apart = || flat[0] * (1.0 - s) + flat[1] * s - other[0] * (1.0 - t) - other[1] * t;
+                if self.same_sheet(distance, (p.piece == q.piece).then(apart), e, f) {
+                    continue;
+                }
+                out.push(Contact {
+                    nodes: [e[0], e[1], f[0], f[1]],
+                    weights: [1.0 - s, s, t - 1.0, -t],
+                    count: 4,
+                    normal: away / distance,
+                    // Ends of segments are pushed by the vertex–triangle pairs.
+                    offset: if inner { 0.0 } else { Contact::SILENT },
+                    body: false,
+                    above: 2,
+                });
             }
         }
     }
@@ -376,11 +373,12 @@ fn own_primitives(leaves: Vec<Vec<u32>>, triangles: &[[u32; 3]], flat: &[[Vec2; 
                 if !std::mem::replace(&mut node_owned[tri[k] as usize], true) {
                     patch.nodes.push((tri[k], corners[k]));
                 }
-                let (a, b) = (tri[k], tri[(k + 1) % 3]);
-                let ends = [a.min(b), a.max(b)];
+                let (a, b) = (k, (k + 1) % 3);
+                let (a, b) = if tri[a] < tri[b] { (a, b) } else { (b, a) };
+                let ends = [tri[a], tri[b]];
                 let Ok(e) = topology.edges.binary_search_by(|x| x.ends.cmp(&ends)) else { continue };
                 if !std::mem::replace(&mut edge_owned[e], true) {
-                    patch.edges.push((ends, 0.5 * (corners[k] + corners[(k + 1) % 3])));
+                    patch.edges.push((ends, [corners[a], corners[b]]));
                 }
             }
         }

@@ -43,6 +43,9 @@ pub struct Contact {
 }
 
 impl Contact {
+    /// Offset of a pair of edges that must stay apart but does not push: a metre of gap.
+    const SILENT: f64 = -1.0;
+
     /// A contact of nothing with nothing.
     pub(crate) fn none() -> Self {
         Self { nodes: [0; 4], weights: [0.0; 4], count: 0, normal: Vec3::zeros(), offset: 0.0, body: true, above: 0 }
@@ -57,6 +60,31 @@ impl Contact {
         sum
     }
 
+    /// Turns a pair of cloth primitives to where its closest points are now. A pair of edges whose closest point is an
+    /// end of one pushes no more: that is a vertex's business.
+    pub fn refresh(&mut self, x: &[Vec3]) {
+        if self.body {
+            return;
+        }
+        let [a, b, c, d] = self.nodes.map(|n| x[n as usize]);
+        let (away, inner) = if self.above == 1 {
+            let w = closest_on_triangle(a, b, c, d);
+            self.weights = [1.0, -w[0], -w[1], -w[2]];
+            (a - (b * w[0] + c * w[1] + d * w[2]), true)
+        } else {
+            let (s, t) = closest_on_segments(a, b, c, d);
+            self.weights = [1.0 - s, s, t - 1.0, -t];
+            (a + (b - a) * s - c - (d - c) * t, s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0)
+        };
+        let distance = away.norm();
+        if distance > 0.0 {
+            self.normal = away / distance;
+        }
+        self.offset = if inner { 0.0 } else { Self::SILENT };
+    }
+
+    /// d
+    pub fn refreshed(&self, x: &[Vec3]) -> (Self, f64) { let mut c = *self; c.refresh(x); let g = c.parts().map(|(n, w)| w * c.normal.dot(&x[n])).sum(); (c, g) }
     /// Its nodes and their weights.
     pub fn parts(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.nodes.iter().zip(&self.weights).take(self.count as usize).map(|(&n, &w)| (n as usize, w))

@@ -45,18 +45,28 @@ pub struct Draped {
 
 /// Step length, s: long, for inertia only delays rest; the step is a Newton step on the energy.
 const STEP: f64 = 0.1;
-/// Share of the last motion by which a step looks ahead, and the most it does so, metres.
-const MOMENTUM: f64 = 0.85;
+/// Share of the last motion by which a falling garment looks ahead, and the most it does so, metres.
+const MOMENTUM: f64 = 0.9;
 const LOOK_AHEAD: f64 = 4e-3;
 /// Tangential stiffness of the grip on the body, N/m: a particle's weight (1 mN at most) moves its anchor microns.
 const GRIP: f64 = 300.0;
 /// Steps between two looks at how far the garment still moves.
-const STRETCH: usize = 20;
+const STRETCH: usize = 10;
+/// A garment that falls no further than this, metres RMS, in so many steps is near its rest: what is left are long
+/// waves, which need the true stiffness.
+const NEAR_REST: f64 = 1.5e-3;
+/// Steps after which it is taken to be near.
+const LONGEST_FALL: usize = 80;
 /// A garment has settled when it moves less than this, metres RMS, in so many steps.
-const SETTLED: f64 = 0.15e-3;
+const SETTLED: f64 = 0.06e-3;
+/// How far a Newton step is trusted: at first, at least and at most, metres. A node that goes further turns its springs
+/// too much for their tangent.
+const TRUST: [f64; 3] = [3e-3, 0.1e-3, 10e-3];
 /// At rest: drift (RMS) over as many steps again, metres, and residual force in particle weights.
 const DRIFT: f64 = 0.3e-3;
 const RESIDUAL: f64 = 1.0;
+/// Steps so short that all that are left could not move a node by this share of [`DRIFT`] need not be made.
+const STILL: f64 = 0.01;
 
 /// Drapes a sewn garment.
 ///
@@ -76,22 +86,17 @@ pub fn drape(
     let mut world = sewn_world(cut, body, stitching, nodes)?;
     world.gravity = 1.0;
     world.friction = Some(Friction::new(world.x.len(), GRIP));
-    let mut fall = Fall { last: world.x.clone(), world, steps: 0 };
+    let mut fall = Fall { last: world.x.clone(), world, steps: 0, trust: TRUST[0] };
     let mut tested = 0;
     let mut drift;
     loop {
         fall.settle(options.max_steps, progress)?;
-        // As many steps again, at half the step size; a garment that drifts falls on, while there are steps left.
-        let before = fall.world.x.clone();
-        for _ in tested..fall.steps {
-            fall.world.relax(0.5 * STEP, 0.0, LOOK_AHEAD, &before, &[])?;
-        }
-        drift = motion(&before, &fall.world.x);
+        drift = fall.drift(fall.steps - tested)?;
         tested = fall.steps;
+        // A garment that drifts falls on, while there are steps left.
         if drift[0] <= DRIFT || fall.steps >= options.max_steps {
             break;
         }
-        fall.last.clone_from(&fall.world.x);
     }
     progress(1.0);
     let residual = fall.world.residual_in_weights();
@@ -105,26 +110,61 @@ struct Fall<'a> {
     /// Positions before the last step.
     last: Vec<Vec3>,
     steps: usize,
+    /// How far a Newton step is trusted, metres.
+    trust: f64,
 }
 
 impl Fall<'_> {
     /// Steps until a stretch of them moves the garment hardly at all, or `most` are made in all.
     fn settle(&mut self, most: usize, progress: &mut dyn FnMut(f64)) -> Result<(), StepError> {
         let mut moved = f64::INFINITY;
+        let mut near = self.steps >= LONGEST_FALL;
         while moved > SETTLED && self.steps < most {
             let before = self.world.x.clone();
-            for k in 0..STRETCH {
-                // The last quarter of a stretch goes without momentum, so that what is measured has died down.
-                let momentum = if k < STRETCH * 3 / 4 { MOMENTUM } else { 0.0 };
-                let now = self.world.x.clone();
-                self.world.relax(STEP, momentum, LOOK_AHEAD, &self.last, &[])?;
-                self.last = now;
+            for _ in 0..STRETCH {
+                if near { self.newton()? } else { self.fall()? }
                 self.steps += 1;
             }
             [moved, _] = motion(&before, &self.world.x);
+            near |= moved < NEAR_REST || self.steps >= LONGEST_FALL;
             progress((self.steps as f64 / most as f64).max(SETTLED / moved).min(0.9));
         }
         Ok(())
+    }
+
+    fn fall(&mut self) -> Result<(), StepError> {
+        let now = self.world.x.clone();
+        self.world.relax(STEP, MOMENTUM, LOOK_AHEAD, &self.last)?;
+        self.last = now;
+        Ok(())
+    }
+
+    /// A step with the true stiffness; the model is trusted further where it was right.
+    fn newton(&mut self) -> Result<(), StepError> {
+        let [_, least, most] = TRUST;
+        let step = self.world.newton(STEP, self.trust)?;
+        self.trust = match step {
+            s if s.shortened => 1.2 * s.moved,
+            s if s.ratio < 0.25 => 0.7 * self.trust,
+            s if s.ratio > 0.5 => 1.5 * self.trust,
+            _ => self.trust,
+        };
+        self.trust = self.trust.clamp(least, most);
+        Ok(())
+    }
+
+    /// As many steps again, at half the step size and without looking ahead: how far the garment goes, metres, root
+    /// mean square and largest.
+    fn drift(&mut self, steps: usize) -> Result<[f64; 2], StepError> {
+        let before = self.world.x.clone();
+        for left in (0..steps).rev() {
+            let moved = self.world.relax(0.5 * STEP, 0.0, LOOK_AHEAD, &before)?;
+            if moved * left as f64 <= STILL * DRIFT {
+                break;
+            }
+        }
+        self.last.clone_from(&self.world.x);
+        Ok(motion(&before, &self.world.x))
     }
 }
 

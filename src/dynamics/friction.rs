@@ -38,6 +38,20 @@ impl Friction {
         Grip { force: slip * (-self.stiffness * share), stiffness: self.stiffness * share }
     }
 
+    /// Energy of the anchors' springs, J, for the given normal forces (one per contact): a quadratic while the node
+    /// sticks, a constant force beyond.
+    pub(super) fn energy(&self, x: &[Vec3], contacts: &[Contact], loads: &[f64], mu: &[f64]) -> f64 {
+        let held = contacts.iter().zip(loads).filter(|(c, load)| c.body && c.count == 1 && **load > 0.0);
+        held.map(|(contact, load)| {
+            let i = contact.nodes[0] as usize;
+            let Some(anchor) = self.anchors[i] else { return 0.0 };
+            let slip = tangential(x[i] - anchor, contact.normal).norm();
+            let stuck = slip.min(mu[i] * load / self.stiffness);
+            self.stiffness * stuck * (slip - 0.5 * stuck)
+        })
+        .sum()
+    }
+
     /// Takes the anchors along after a step: a node that touches for the first time gets one, one that slipped drags
     /// it, one that left loses it. `load(contact)` is the normal force.
     pub fn update(&mut self, x: &[Vec3], contacts: &[Contact], mu: &[f64], load: impl Fn(&Contact) -> f64) {

@@ -4,18 +4,23 @@
 
 mod bending;
 pub mod explicit;
+mod force;
 mod friction;
 mod model;
+mod newton;
+mod proximity;
 mod springs;
 mod step;
 mod world;
 
 pub use bending::Bending;
+pub use force::{ContactLaw, Forces, Pull};
 pub use friction::Friction;
 pub use model::{Cloth, Cut, SpringModel, identity_nodes};
 pub use springs::{Spring, StretchLaw};
-pub use step::{ContactLaw, Forces, Pull, StepError, Stepper};
-pub use world::{Reach, World};
+pub use proximity::Reach;
+pub use step::{StepError, Stepper};
+pub use world::{NewtonStep, World};
 
 /// Gravity, m/s² (standard acceleration, ISO 80000-3).
 pub const GRAVITY: f64 = 9.80665;

@@ -1,11 +1,10 @@
-//! One implicit step: linearise every force at the present position, solve one 3n×3n system.
+//! The linear system of an implicit step: every force linearised at the present position, one 3n×3n matrix.
 
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::GRAVITY;
-use super::friction::Friction;
+use super::force::{Forces, Press, free_forces, push};
 use super::model::Cloth;
 use crate::contact::Contact;
 use crate::geometry::{Mat3, Vec3};
@@ -13,46 +12,6 @@ use crate::linear::{
     BlockSlot, Cholesky, CholeskyError, NotPositiveDefinite, Ordering, PatternError, SymmetricMatrix, SymmetricPattern,
     nested_dissection,
 };
-
-/// Penalty contact (F6): force `stiffness` × (distance kept − gap) while the gap is smaller.
-#[derive(Clone, Copy, Debug)]
-pub struct ContactLaw {
-    /// N/m per contact.
-    pub stiffness: f64,
-    /// Distance kept from the body beyond half the cloth's thickness, metres.
-    pub body_clearance: f64,
-    /// The same where a vertex or edge of the body meets a face or edge of the cloth. Few of these carry what many nodes
-    /// would, so they are pressed deeper, and must not be pressed through.
-    pub face_clearance: f64,
-    /// Distance kept between two layers of cloth, metres; `None` = the two half thicknesses.
-    pub cloth_gap: Option<f64>,
-}
-
-/// A stitch being closed (F5): both nodes pull each other with stiffness × min(gap, cap).
-#[derive(Clone, Copy, Debug)]
-pub struct Pull {
-    /// The two nodes.
-    pub ends: [u32; 2],
-    /// N/m.
-    pub stiffness: f64,
-    /// Gap beyond which the force grows no more, metres.
-    pub cap: f64,
-}
-
-/// What acts on the cloth besides its own elasticity.
-#[derive(Clone, Copy)]
-pub struct Forces<'a> {
-    /// Share of gravity, 0 … 1.
-    pub gravity: f64,
-    /// Contacts found at the last detection.
-    pub contacts: &'a [Contact],
-    /// Their law.
-    pub law: ContactLaw,
-    /// Stitches that are open.
-    pub pulls: &'a [Pull],
-    /// Friction against the body.
-    pub friction: Option<&'a Friction>,
-}
 
 /// Why a step cannot be made.
 #[derive(Clone, Debug, thiserror::Error)]
@@ -71,26 +30,41 @@ pub enum StepError {
     },
 }
 
+/// Contacts whose gap a step misjudges by less than this, metres, are no reason to solve it again.
+const MISJUDGED: f64 = 2e-5;
+/// A factor serves again while no node is further than this, metres, from where it was made, and the same contacts push:
+/// a hundredth of a cell turns the springs by half a degree.
+const SAME_PLACE: f64 = 2e-5;
+
 /// The linear system of a cloth, analysed once, filled and factored for every step.
 pub struct Stepper {
     matrix: SymmetricMatrix<f32>,
-    factor: Cholesky<f32>,
+    pub(super) factor: Cholesky<f32>,
     diagonal: Vec<BlockSlot>,
     springs: Vec<BlockSlot>,
     edges: Vec<BlockSlot>,
     pulls: Vec<Option<BlockSlot>>,
+    made: Option<Made>,
+}
+
+/// What a factor was made for.
+struct Made {
+    x: Vec<Vec3>,
+    dt: f64,
+    active: Vec<bool>,
 }
 
 impl Stepper {
-    /// Prepares the system of `cloth` with stitches between `pulls`; `x` guides the elimination order.
+    /// Prepares the system of `cloth` with stitches between `pulls` and contacts that couple the nodes in `touching`
+    /// (pairs, smaller first); `x` guides the elimination order. A contact with other couplings is not solved wrongly:
+    /// it holds its nodes back as if they were alone.
     ///
     /// # Errors
     /// A cloth too large for 32-bit indices.
-    pub fn new(cloth: &Cloth, pulls: &[[u32; 2]], x: &[Vec3]) -> Result<Self, StepError> {
+    pub fn new(cloth: &Cloth, pulls: &[[u32; 2]], touching: &[[u32; 2]], x: &[Vec3]) -> Result<Self, StepError> {
         let n = cloth.mass.len();
-        let pair = |e: &[u32; 2]| (e[0] as usize, e[1] as usize);
-        let pattern = Arc::new(SymmetricPattern::blocks(n, cloth.edges.iter().chain(pulls).map(pair))?);
-        let graph: Vec<[u32; 2]> = cloth.edges.iter().chain(pulls).copied().collect();
+        let graph: Vec<[u32; 2]> = cloth.edges.iter().chain(pulls).chain(touching).copied().collect();
+        let pattern = Arc::new(SymmetricPattern::blocks(n, graph.iter().map(|e| (e[0] as usize, e[1] as usize)))?);
         let order = Ordering::Given(nested_dissection(x, &graph));
         let slot = |a: usize, b: usize| pattern.block_slot(a, b);
         let missing = || StepError::Singular { node: 0 };
@@ -102,11 +76,13 @@ impl Stepper {
             pulls: pulls.iter().map(|e| slot(e[0] as usize, e[1] as usize)).collect(),
             matrix: SymmetricMatrix::zeros(pattern.clone()),
             factor: Cholesky::new(pattern, &order)?,
+            made: None,
         })
     }
 
     /// The step d with (M/Δt² + H) d = f(x) + M v/Δt, where H majorises the stiffness at `x` (compressed springs lose
-    /// their negative part, bending is bounded edge by edge) and `velocity` is what inertia keeps.
+    /// their negative part, bending is bounded edge by edge) and `velocity` is what inertia keeps. Contacts that push at
+    /// the end of the step are found by solving up to `rounds` times (a primal–dual active set).
     ///
     /// # Errors
     /// [`StepError::Singular`] when a number is not finite.
@@ -117,22 +93,81 @@ impl Stepper {
         velocity: &[Vec3],
         dt: f64,
         forces: &Forces,
+        rounds: usize,
     ) -> Result<Vec<Vec3>, StepError> {
-        let mut rhs = cloth_forces(cloth, x, forces);
-        for ((f, v), m) in rhs.iter_mut().zip(velocity).zip(&cloth.mass) {
+        let mut free = free_forces(cloth, x, forces);
+        for ((f, v), m) in free.iter_mut().zip(velocity).zip(&cloth.mass) {
             *f += v * (m / dt);
         }
-        self.assemble(cloth, x, dt, forces);
-        self.factor
-            .factor(&self.matrix)
-            .map_err(|NotPositiveDefinite { dof }| StepError::Singular { node: dof / 3 })?;
-        let mut flat: Vec<f32> = rhs.iter().flat_map(|v| [v.x as f32, v.y as f32, v.z as f32]).collect();
+        let presses = presses(cloth, x, forces);
+        let mut active: Vec<bool> = presses.iter().map(|p| p.load > 0.0).collect();
+        let mut round = 1;
+        loop {
+            self.prepare(cloth, x, dt, forces, &presses, &active)?;
+            let d = self.apply_inverse(&contact_forces(&free, cloth, x, forces, &presses, &active))?;
+            let mut misjudged = false;
+            for ((contact, press), on) in forces.contacts.iter().zip(&presses).zip(&mut active) {
+                let left = press.load - press.slope * opening(contact, &d);
+                if (left > 0.0) != *on {
+                    misjudged |= left.abs() > MISJUDGED * press.slope;
+                    *on = left > 0.0;
+                }
+            }
+            if !misjudged || round >= rounds {
+                return Ok(d);
+            }
+            round += 1;
+        }
+    }
+
+    /// Forgets what the last factor was made for: the contacts are others now.
+    pub(super) fn forget(&mut self) {
+        self.made = None;
+    }
+
+    /// H⁻¹ r.
+    pub(super) fn apply_inverse(&self, r: &[Vec3]) -> Result<Vec<Vec3>, StepError> {
+        let mut flat: Vec<f32> = r.iter().flat_map(|v| [v.x as f32, v.y as f32, v.z as f32]).collect();
         self.factor.solve(&mut flat);
         let d: Vec<Vec3> = flat.chunks_exact(3).map(|c| Vec3::new(c[0].into(), c[1].into(), c[2].into())).collect();
         match d.iter().position(|v| !v.iter().all(|c| c.is_finite())) {
             Some(node) => Err(StepError::Singular { node }),
             None => Ok(d),
         }
+    }
+
+    /// Factors M/Δt² + H at `x` for the contacts marked in `active`, unless that has just been done.
+    pub(super) fn prepare(
+        &mut self,
+        cloth: &Cloth,
+        x: &[Vec3],
+        dt: f64,
+        forces: &Forces,
+        presses: &[Press],
+        active: &[bool],
+    ) -> Result<(), StepError> {
+        if let Some(made) = &self.made {
+            let near = || made.x.iter().zip(x).all(|(a, b)| (a - b).norm_squared() < SAME_PLACE * SAME_PLACE);
+            if forces.pulls.is_empty() && made.dt == dt && made.active == active && near() {
+                return Ok(());
+            }
+        }
+        self.made = None;
+        self.assemble(cloth, x, dt, forces);
+        for ((contact, press), _) in forces.contacts.iter().zip(presses).zip(active).filter(|(_, on)| **on) {
+            self.add_contact(contact, press.slope);
+            if let (Some(friction), true, 1, true) = (forces.friction, contact.body, contact.count, press.load > 0.0) {
+                let i = contact.nodes[0] as usize;
+                let grip = friction.grip(contact, x[i], press.load, cloth.friction[i]);
+                let across = Mat3::identity() - contact.normal * contact.normal.transpose();
+                self.matrix.add_block(self.diagonal[i], &(across * grip.stiffness));
+            }
+        }
+        self.factor
+            .factor(&self.matrix)
+            .map_err(|NotPositiveDefinite { dof }| StepError::Singular { node: dof / 3 })?;
+        self.made = Some(Made { x: x.to_vec(), dt, active: active.to_vec() });
+        Ok(())
     }
 
     fn assemble(&mut self, cloth: &Cloth, x: &[Vec3], dt: f64, forces: &Forces) {
@@ -169,102 +204,62 @@ impl Stepper {
         for (i, m) in cloth.mass.iter().enumerate() {
             self.matrix.add_block(self.diagonal[i], &(Mat3::identity() * (m / (dt * dt))));
         }
-        for contact in forces.contacts {
-            self.add_contact(cloth, x, contact, forces);
-        }
     }
 
-    fn add_contact(&mut self, cloth: &Cloth, x: &[Vec3], contact: &Contact, forces: &Forces) {
-        let load = contact_load(cloth, x, contact, &forces.law);
-        if load <= 0.0 {
-            return;
-        }
+    /// Adds k w wᵀ ⊗ n nᵀ where the pattern has all its blocks; otherwise its bound (Σ|w|) k diag(|w|) ⊗ n nᵀ.
+    fn add_contact(&mut self, contact: &Contact, k: f64) {
         let nn = contact.normal * contact.normal.transpose();
-        let k = forces.law.stiffness;
-        if contact.body {
-            // The body's faces and edges touch nodes of one triangle: their coupling is part of the pattern.
-            for (a, (i, wi)) in contact.parts().enumerate() {
-                self.matrix.add_block(self.diagonal[i], &(nn * (k * wi * wi)));
-                for (j, wj) in contact.parts().skip(a + 1) {
-                    if let Some(slot) = self.matrix.pattern().block_slot(i, j) {
-                        self.matrix.add_block(slot, &(nn * (k * wi * wj)));
-                    }
-                }
+        let parts = || contact.parts().filter(|p| p.1 != 0.0);
+        let mut blocks: [Option<(BlockSlot, f64)>; 6] = [None; 6];
+        let mut count = 0;
+        let mut complete = true;
+        for (a, (i, wi)) in parts().enumerate() {
+            for (j, wj) in parts().skip(a + 1) {
+                let slot = self.matrix.pattern().block_slot(i, j);
+                complete &= slot.is_some();
+                blocks[count] = slot.map(|slot| (slot, wi * wj));
+                count += 1;
             }
-            if let (Some(friction), 1) = (forces.friction, contact.count) {
-                let i = contact.nodes[0] as usize;
-                let grip = friction.grip(contact, x[i], load, cloth.friction[i]);
-                self.matrix.add_block(self.diagonal[i], &((Mat3::identity() - nn) * grip.stiffness));
-            }
-        } else {
-            // Couplings across sheets are not: w wᵀ ≤ (Σ|w|) diag(|w|), and Σ|w| = 2.
-            for (i, w) in contact.parts() {
-                self.matrix.add_block(self.diagonal[i], &(nn * (2.0 * k * w.abs())));
-            }
+        }
+        let whole: f64 = parts().map(|p| p.1.abs()).sum();
+        for (i, w) in parts() {
+            let w = if complete { w * w } else { whole * w.abs() };
+            self.matrix.add_block(self.diagonal[i], &(nn * (k * w)));
+        }
+        for (slot, w) in blocks.into_iter().flatten().filter(|_| complete) {
+            self.matrix.add_block(slot, &(nn * (k * w)));
         }
     }
+}
+
+/// Loads and slopes of all contacts at `x`.
+pub(super) fn presses(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Press> {
+    forces.contacts.iter().map(|c| forces.law.press(cloth, x, c)).collect()
+}
+
+/// By how much a step opens a contact, metres.
+pub(super) fn opening(contact: &Contact, d: &[Vec3]) -> f64 {
+    contact.parts().map(|(i, w)| w * contact.normal.dot(&d[i])).sum()
+}
+
+/// `free` with the loads of the contacts marked in `active`.
+pub(super) fn contact_forces(
+    free: &[Vec3],
+    cloth: &Cloth,
+    x: &[Vec3],
+    forces: &Forces,
+    presses: &[Press],
+    active: &[bool],
+) -> Vec<Vec3> {
+    let mut out = free.to_vec();
+    for ((contact, press), _) in forces.contacts.iter().zip(presses).zip(active).filter(|(_, on)| **on) {
+        push(&mut out, cloth, x, contact, press.load, forces.friction);
+    }
+    out
 }
 
 fn couple(matrix: &mut SymmetricMatrix<f32>, diagonal: &[BlockSlot], ends: [u32; 2], slot: BlockSlot, k: &Mat3) {
     matrix.add_block(diagonal[ends[0] as usize], k);
     matrix.add_block(diagonal[ends[1] as usize], k);
     matrix.add_block(slot, &(-k));
-}
-
-/// Distance at which a contact begins to push, metres.
-fn kept_distance(cloth: &Cloth, contact: &Contact, law: &ContactLaw) -> f64 {
-    let first = cloth.half_thickness[contact.nodes[0] as usize];
-    if contact.body {
-        return first + if contact.count == 1 { law.body_clearance } else { law.face_clearance };
-    }
-    law.cloth_gap.unwrap_or_else(|| first + cloth.half_thickness[contact.nodes[contact.count as usize - 1] as usize])
-}
-
-/// Normal force of a contact, N (0 when it does not touch).
-pub(super) fn contact_load(cloth: &Cloth, x: &[Vec3], contact: &Contact, law: &ContactLaw) -> f64 {
-    law.stiffness * (kept_distance(cloth, contact, law) - contact.gap(x)).max(0.0)
-}
-
-impl Forces<'_> {
-    /// Normal force of one of the contacts, N.
-    pub fn load(&self, cloth: &Cloth, x: &[Vec3], contact: &Contact) -> f64 {
-        contact_load(cloth, x, contact, &self.law)
-    }
-}
-
-/// All forces on the nodes at `x`, N.
-pub(crate) fn cloth_forces(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Vec3> {
-    let mut out: Vec<Vec3> = (0..x.len())
-        .into_par_iter()
-        .with_min_len(512)
-        .map(|i| -cloth.bending.gradient(x, i) - Vec3::y() * (cloth.mass[i] * GRAVITY * forces.gravity))
-        .collect();
-    for s in &cloth.springs {
-        let d = x[s.ends[1] as usize] - x[s.ends[0] as usize];
-        let length = d.norm().max(1e-9);
-        let f = d * (cloth.laws[s.law as usize].load(length / s.rest - 1.0) * s.width / length);
-        out[s.ends[0] as usize] += f;
-        out[s.ends[1] as usize] -= f;
-    }
-    for pull in forces.pulls {
-        let d = x[pull.ends[1] as usize] - x[pull.ends[0] as usize];
-        let gap = d.norm();
-        let f = d * (pull.stiffness * (pull.cap / gap.max(1e-12)).min(1.0));
-        out[pull.ends[0] as usize] += f;
-        out[pull.ends[1] as usize] -= f;
-    }
-    for contact in forces.contacts {
-        let load = contact_load(cloth, x, contact, &forces.law);
-        if load <= 0.0 {
-            continue;
-        }
-        for (i, w) in contact.parts() {
-            out[i] += contact.normal * (load * w);
-        }
-        if let (Some(friction), true, 1) = (forces.friction, contact.body, contact.count) {
-            let i = contact.nodes[0] as usize;
-            out[i] += friction.grip(contact, x[i], load, cloth.friction[i]).force;
-        }
-    }
-    out
 }

@@ -1,27 +1,23 @@
 //! Cloth, body and contact together, advanced step by step.
 
-use rayon::prelude::*;
-
+use super::force::{ContactLaw, Forces, Pull, cloth_forces};
 use super::friction::Friction;
 use super::model::Cloth;
-use super::step::{ContactLaw, Forces, Pull, StepError, Stepper, cloth_forces};
-use crate::contact::{Bounds, ClothDetector, Collider, Contact, Neighbourhood, Tangle};
+use super::newton::longest;
+use super::proximity::{Proximity, Reach};
+use super::step::{StepError, Stepper};
+use crate::contact::{Collider, Neighbourhood, Tangle};
 use crate::geometry::Vec3;
 
-/// How contact is looked for.
-#[derive(Clone, Copy, Debug)]
-pub struct Reach {
-    /// Cloth primitives nearer than this are pairs, metres. Nodes may go 0.45 of it between two detections.
-    pub cloth: f64,
-    /// The body is looked for this near, metres.
-    pub body: f64,
-    /// A new detection is due when any node has gone this share of `cloth`.
-    pub renew: f64,
-}
-
-/// Body vertices and edges are tested against cloth triangles whose nodes are nearer to the body than this many
-/// metres (and the contacts found are within half of it).
-const FACE_REACH: f64 = 0.012;
+/// Layers nearer than this, metres, are coupled in the matrix: pressed together they move together.
+const COUPLED: f64 = 1.5e-3;
+/// Times a step is solved to find the contacts that push at its end.
+const ROUNDS: usize = 3;
+/// A Newton step is halved until the energy falls by this share of what the model says, at most so often.
+const ENOUGH: f64 = 0.05;
+const HALVINGS: usize = 5;
+/// Energy differences below this are rounding, J.
+const ROUNDING: f64 = 1e-12;
 
 /// A garment in motion.
 pub struct World<'a> {
@@ -35,16 +31,23 @@ pub struct World<'a> {
     pub friction: Option<Friction>,
     /// Share of gravity.
     pub gravity: f64,
-    /// Contact law.
-    pub law: ContactLaw,
-    body: &'a Collider,
-    detector: ClothDetector,
+    law: ContactLaw,
+    proximity: Proximity<'a>,
     stepper: Stepper,
-    contacts: Vec<Contact>,
-    bounds: Bounds,
-    reach: Reach,
-    /// Distance to the body when last measured, and where.
-    body_distance: Vec<(f64, Vec3)>,
+    /// Couplings between layers that `stepper` has; `None` while seams are being closed, when layers slide past each
+    /// other too fast for it to pay.
+    touching: Option<Vec<[u32; 2]>>,
+}
+
+/// What a Newton step did.
+#[derive(Clone, Copy, Debug)]
+pub struct NewtonStep {
+    /// Largest motion, metres.
+    pub moved: f64,
+    /// Whether it had to be shortened for the energy to fall.
+    pub shortened: bool,
+    /// Decrease of the energy over what the model said.
+    pub ratio: f64,
 }
 
 impl<'a> World<'a> {
@@ -61,115 +64,17 @@ impl<'a> World<'a> {
         law: ContactLaw,
         reach: Reach,
     ) -> Result<Self, StepError> {
-        let stepper = Stepper::new(&cloth, pulls, &x)?;
-        let detector = ClothDetector::new(&cloth.triangles, &cloth.flat, &cloth.piece, hood);
-        let bounds = Bounds::new(&x, &[], reach.cloth, law.body_clearance);
-        let mut world = Self {
+        Ok(Self {
             velocity: vec![Vec3::zeros(); x.len()],
             friction: None,
             gravity: 0.0,
             law,
-            body,
-            detector,
-            stepper,
-            contacts: Vec::new(),
-            bounds,
-            reach,
-            body_distance: vec![(f64::NEG_INFINITY, Vec3::zeros()); x.len()],
+            proximity: Proximity::new(&cloth, &x, body, hood, reach, 0.25 * law.body_clearance),
+            stepper: Stepper::new(&cloth, pulls, &[], &x)?,
+            touching: pulls.is_empty().then(Vec::new),
             cloth,
             x,
-        };
-        world.detect();
-        Ok(world)
-    }
-
-    /// Looks for contacts anew.
-    pub fn detect(&mut self) {
-        let mut contacts = self.body_contacts();
-        self.face_contacts(&mut contacts);
-        contacts.extend(self.detector.detect(&self.x, self.reach.cloth));
-        self.bounds = Bounds::new(&self.x, &contacts, self.reach.cloth, 0.25 * self.law.body_clearance);
-        self.contacts = contacts;
-    }
-
-    fn body_contacts(&mut self) -> Vec<Contact> {
-        let (x, body, reach) = (&self.x, self.body, self.reach.body);
-        // A node whose last measured distance minus its way since cannot have come within reach is not asked for again.
-        let found: Vec<Option<(f64, Contact)>> = self
-            .body_distance
-            .par_iter()
-            .enumerate()
-            .map(|(i, &(distance, at))| {
-                if distance - (x[i] - at).norm() > reach {
-                    return None;
-                }
-                let limit = 4.0 * reach;
-                let Some(near) = body.nearest(x[i], limit) else { return Some((limit, Contact::none())) };
-                let contact = Contact {
-                    nodes: [i as u32, 0, 0, 0],
-                    weights: [1.0, 0.0, 0.0, 0.0],
-                    count: 1,
-                    normal: near.normal,
-                    offset: near.normal.dot(&near.point),
-                    body: true,
-                    above: 1,
-                };
-                Some((near.distance, contact))
-            })
-            .collect();
-        let mut contacts = Vec::new();
-        for (i, entry) in found.into_iter().enumerate() {
-            if let Some((distance, contact)) = entry {
-                self.body_distance[i] = (distance, self.x[i]);
-                if distance < reach && contact.count > 0 {
-                    contacts.push(contact);
-                }
-            }
-        }
-        contacts
-    }
-
-    fn face_contacts(&self, contacts: &mut Vec<Contact>) {
-        let near = |n: u32| {
-            let (distance, at) = self.body_distance[n as usize];
-            distance - (self.x[n as usize] - at).norm() < FACE_REACH
-        };
-        let faces: Vec<Contact> = self
-            .cloth
-            .triangles
-            .par_iter()
-            .with_min_len(256)
-            .filter(|t| t.iter().all(|&n| near(n)))
-            .flat_map_iter(|t| {
-                let mut out = Vec::new();
-                self.body.vertices_near_triangle(&self.x, *t, 0.5 * FACE_REACH, &mut out);
-                out
-            })
-            .collect();
-        let edges: Vec<Contact> = self
-            .cloth
-            .edges
-            .par_iter()
-            .with_min_len(256)
-            .filter(|e| e.iter().all(|&n| near(n)))
-            .flat_map_iter(|e| {
-                let mut out = Vec::new();
-                self.body.edges_near_edge(&self.x, *e, 0.5 * FACE_REACH, &mut out);
-                out
-            })
-            .collect();
-        contacts.extend(faces);
-        contacts.extend(edges);
-    }
-
-    fn forces<'b>(&'b self, pulls: &'b [Pull]) -> Forces<'b> {
-        Forces {
-            gravity: self.gravity,
-            contacts: &self.contacts,
-            law: self.law,
-            pulls,
-            friction: self.friction.as_ref(),
-        }
+        })
     }
 
     /// One step of `dt` seconds in which the share `keep` of the velocity lives on. Returns the largest motion, metres.
@@ -178,39 +83,20 @@ impl<'a> World<'a> {
     /// As [`Stepper::solve`].
     pub fn advance(&mut self, dt: f64, keep: f64, pulls: &[Pull]) -> Result<f64, StepError> {
         let inertia: Vec<Vec3> = self.velocity.iter().map(|v| v * keep).collect();
-        let forces = Forces {
-            gravity: self.gravity,
-            contacts: &self.contacts,
-            law: self.law,
-            pulls,
-            friction: self.friction.as_ref(),
-        };
-        let d = self.stepper.solve(&self.cloth, &self.x, &inertia, dt, &forces)?;
-        let share = self.bounds.share(&self.x, &d);
+        let forces = forces(self.gravity, &self.proximity, self.law, pulls, self.friction.as_ref());
+        let d = self.stepper.solve(&self.cloth, &self.x, &inertia, dt, &forces, 1)?;
+        let share = self.proximity.bounds.share(&self.x, &d);
         let target: Vec<Vec3> = self.x.iter().zip(&d).map(|(x, d)| x + d * share).collect();
-        Ok(self.move_to(target, dt))
+        self.move_to(target, dt)
     }
 
     /// A step without inertia from an extrapolated position: x + `momentum` × the last motion (at most `most` metres).
-    /// It goes to rest much faster than real time.
+    /// It goes to rest much faster than real time. Returns the largest motion, metres.
     ///
     /// # Errors
     /// As [`Stepper::solve`].
-    pub fn relax(
-        &mut self,
-        dt: f64,
-        momentum: f64,
-        most: f64,
-        last: &[Vec3],
-        pulls: &[Pull],
-    ) -> Result<f64, StepError> {
-        let forces = Forces {
-            gravity: self.gravity,
-            contacts: &self.contacts,
-            law: self.law,
-            pulls,
-            friction: self.friction.as_ref(),
-        };
+    pub fn relax(&mut self, dt: f64, momentum: f64, most: f64, last: &[Vec3]) -> Result<f64, StepError> {
+        let forces = forces(self.gravity, &self.proximity, self.law, &[], self.friction.as_ref());
         // Looking ahead pays only while the forces still point the way of the last motion (O'Donoghue and Candès 2015).
         let uphill = || {
             let f = cloth_forces(&self.cloth, &self.x, &forces);
@@ -227,15 +113,41 @@ impl<'a> World<'a> {
                 x + if length > most { d * (most / length) } else { d }
             })
             .collect();
-        self.bounds.clamp(&self.x, &mut ahead);
+        self.proximity.bounds.clamp(&self.x, &mut ahead);
         let still = vec![Vec3::zeros(); ahead.len()];
-        let d = self.stepper.solve(&self.cloth, &ahead, &still, dt, &forces)?;
+        let d = self.stepper.solve(&self.cloth, &ahead, &still, dt, &forces, ROUNDS)?;
         let target: Vec<Vec3> = ahead.iter().zip(&d).map(|(x, d)| x + d).collect();
-        Ok(self.move_to(target, dt))
+        self.move_to(target, dt)
     }
 
-    fn move_to(&mut self, mut target: Vec<Vec3>, dt: f64) -> f64 {
-        self.bounds.clamp(&self.x, &mut target);
+    /// A step with the true stiffness, no node further than `radius` metres, shortened until the energy falls.
+    ///
+    /// # Errors
+    /// [`StepError::Singular`] when a number is not finite.
+    pub fn newton(&mut self, dt: f64, radius: f64) -> Result<NewtonStep, StepError> {
+        let forces = forces(self.gravity, &self.proximity, self.law, &[], self.friction.as_ref());
+        let step = self.stepper.newton(&self.cloth, &self.x, dt, &forces, radius)?;
+        let loads: Vec<f64> = forces.contacts.iter().map(|c| forces.load(&self.cloth, &self.x, c)).collect();
+        let energy = |x: &[Vec3]| forces.energy(&self.cloth, x, &loads);
+        let from = energy(&self.x);
+        let mut share = self.proximity.bounds.share(&self.x, &step.d);
+        let mut halvings = 0;
+        let (target, gain) = loop {
+            let target: Vec<Vec3> = self.x.iter().zip(&step.d).map(|(x, d)| x + d * share).collect();
+            let gain = from - energy(&target);
+            if gain > ENOUGH * share * step.gain || gain.abs() < ROUNDING || halvings >= HALVINGS {
+                break (target, gain);
+            }
+            share *= 0.5;
+            halvings += 1;
+        };
+        let moved = share * longest(&step.d);
+        self.move_to(target, dt)?;
+        Ok(NewtonStep { moved, shortened: halvings > 0, ratio: gain / step.gain.max(f64::MIN_POSITIVE) })
+    }
+
+    fn move_to(&mut self, mut target: Vec<Vec3>, dt: f64) -> Result<f64, StepError> {
+        self.proximity.bounds.clamp(&self.x, &mut target);
         let mut largest = 0.0f64;
         for ((x, t), v) in self.x.iter_mut().zip(&target).zip(&mut self.velocity) {
             let d = t - *x;
@@ -245,34 +157,38 @@ impl<'a> World<'a> {
         }
         if let Some(friction) = &mut self.friction {
             let (cloth, law, x) = (&self.cloth, self.law, &self.x);
-            friction.update(x, &self.contacts, &cloth.friction, |c| super::step::contact_load(cloth, x, c, &law));
+            friction.update(x, &self.proximity.contacts, &cloth.friction, |c| law.load(cloth, x, c));
         }
-        if self.bounds.travelled(&self.x) > self.reach.renew * self.reach.cloth {
-            self.detect();
+        if self.proximity.follow(&self.cloth, &self.x) {
+            self.contacts_changed()?;
         }
-        largest.sqrt()
+        Ok(largest.sqrt())
     }
 
-    /// Elastic energy, penetration energy of the contacts and weight × height, J.
+    /// Gives the system the couplings of layers that have come near each other.
+    fn contacts_changed(&mut self) -> Result<(), StepError> {
+        self.stepper.forget();
+        let Some(known) = &mut self.touching else { return Ok(()) };
+        let touching = self.proximity.touching(&self.x, COUPLED);
+        if touching.iter().any(|t| known.binary_search(t).is_err()) {
+            self.stepper = Stepper::new(&self.cloth, &[], &touching, &self.x)?;
+            *known = touching;
+        }
+        Ok(())
+    }
+
+    /// Elastic energy, contact energy and weight × height, J.
     pub fn energy(&self) -> f64 {
-        let weight: f64 =
-            self.cloth.mass.iter().zip(&self.x).map(|(m, x)| m * super::GRAVITY * self.gravity * x.y).sum();
-        let pressed: f64 = self
-            .contacts
-            .iter()
-            .map(|c| super::step::contact_load(&self.cloth, &self.x, c, &self.law).powi(2) / (2.0 * self.law.stiffness))
-            .sum();
-        self.cloth.elastic_energy(&self.x) + pressed + weight
+        self.forces(&[]).energy(&self.cloth, &self.x, &vec![0.0; self.proximity.contacts.len()])
     }
 
-    /// Force on every node that is not balanced, N.
-    pub fn residual(&self, pulls: &[Pull]) -> Vec<Vec3> {
-        cloth_forces(&self.cloth, &self.x, &self.forces(pulls))
+    fn forces<'b>(&'b self, pulls: &'b [Pull]) -> Forces<'b> {
+        forces(self.gravity, &self.proximity, self.law, pulls, self.friction.as_ref())
     }
 
     /// Root mean square of the unbalanced force over the particle's weight.
     pub fn residual_in_weights(&self) -> f64 {
-        let r = self.residual(&[]);
+        let r = cloth_forces(&self.cloth, &self.x, &self.forces(&[]));
         let mean_mass = self.cloth.mass.iter().sum::<f64>() / self.cloth.mass.len().max(1) as f64;
         let rms = (r.iter().map(Vec3::norm_squared).sum::<f64>() / r.len().max(1) as f64).sqrt();
         rms / (mean_mass * super::GRAVITY)
@@ -280,16 +196,26 @@ impl<'a> World<'a> {
 
     /// Places where the cloth passes through itself.
     pub fn tangles(&mut self) -> Vec<Tangle> {
-        self.detector.tangles(&self.x)
+        self.proximity.tangles(&self.x)
     }
 
-    /// The detector, to change which pairs are left out.
-    pub fn detector_mut(&mut self) -> &mut ClothDetector {
-        &mut self.detector
+    /// Leaves contacts between nodes that are being led out of a tangle out; none if `tangled` is empty.
+    ///
+    /// # Errors
+    /// As [`Stepper::new`].
+    pub fn set_tangled(&mut self, tangled: Vec<bool>) -> Result<(), StepError> {
+        self.proximity.set_tangled(&self.cloth, &self.x, tangled);
+        self.contacts_changed()
     }
+}
 
-    /// Contacts of the last detection.
-    pub fn contacts(&self) -> &[Contact] {
-        &self.contacts
-    }
+/// Borrows only what it needs, so that the stepper stays free.
+fn forces<'b>(
+    gravity: f64,
+    proximity: &'b Proximity,
+    law: ContactLaw,
+    pulls: &'b [Pull],
+    friction: Option<&'b Friction>,
+) -> Forces<'b> {
+    Forces { gravity, contacts: &proximity.contacts, law, pulls, friction }
 }

@@ -65,16 +65,14 @@ pub(super) fn untangle(world: &mut World, spring: bool) -> Result<usize, StepErr
         let tangled = neighbourhood(world, &left);
         smooth(world, &tangled);
         if spring {
-            world.detector_mut().set_tangled(tangled);
-            world.detect();
+            world.set_tangled(tangled)?;
             step(world)?;
         }
         rounds += 1;
         left = world.tangles();
     }
     if any {
-        world.detector_mut().set_tangled(Vec::new());
-        world.detect();
+        world.set_tangled(Vec::new())?;
     }
     Ok(rounds)
 }

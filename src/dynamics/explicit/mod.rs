@@ -37,7 +37,7 @@ pub use control::{Start, StepControl};
 pub use error::ExplicitError;
 
 use super::model::Cloth;
-use super::step::{Forces, cloth_forces};
+use super::force::{Forces, cloth_forces};
 use crate::geometry::Vec3;
 
 /// Steps with a larger s (see the module) are undone: half the frequency at which the scheme becomes unstable.

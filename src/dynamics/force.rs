@@ -1,0 +1,178 @@
+//! Every force on the cloth at given positions, and the energies they come from.
+
+use rayon::prelude::*;
+
+use super::GRAVITY;
+use super::friction::Friction;
+use super::model::Cloth;
+use crate::contact::Contact;
+use crate::geometry::Vec3;
+
+/// Penalty contact (F6). With `d` = distance kept − gap, the body pushes `stiffness` · d; two layers of cloth push
+/// `stiffness` · d · (distance kept / gap), which starts alike and has no end: nothing that pulls them together, such
+/// as a layer wedged between two that are sewn to one another, closes the gap.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactLaw {
+    /// N/m per contact.
+    pub stiffness: f64,
+    /// Distance kept from the body beyond half the cloth's thickness, metres.
+    pub body_clearance: f64,
+    /// The same where a vertex or edge of the body meets a face or edge of the cloth. Few of these carry what many nodes
+    /// would, so they are pressed deeper, and must not be pressed through.
+    pub face_clearance: f64,
+    /// Distance kept between two layers of cloth, metres; `None` = the two half thicknesses.
+    pub cloth_gap: Option<f64>,
+}
+
+/// Gaps between layers below this share of the distance kept count as this: the force has to stay finite.
+const THINNEST: f64 = 0.02;
+
+/// A contact at given positions: the load it carries, and how fast that falls as it opens.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Press {
+    /// Normal force, N. Of a contact that does not touch: what its tangent at the distance kept says (negative).
+    pub(super) load: f64,
+    /// N/m.
+    pub(super) slope: f64,
+}
+
+impl ContactLaw {
+    /// Distance at which a contact begins to push, metres.
+    fn kept(&self, cloth: &Cloth, contact: &Contact) -> f64 {
+        let first = cloth.half_thickness[contact.nodes[0] as usize];
+        if contact.body {
+            return first + if contact.count == 1 { self.body_clearance } else { self.face_clearance };
+        }
+        self.cloth_gap
+            .unwrap_or_else(|| first + cloth.half_thickness[contact.nodes[contact.count as usize - 1] as usize])
+    }
+
+    /// Load and slope at `x`.
+    pub(super) fn press(&self, cloth: &Cloth, x: &[Vec3], contact: &Contact) -> Press {
+        let (kept, gap) = (self.kept(cloth, contact), contact.gap(x));
+        let k = self.stiffness;
+        if contact.body || gap >= kept {
+            return Press { load: k * (kept - gap), slope: k };
+        }
+        let thin = gap.max(THINNEST * kept);
+        let slope = k * (kept / thin).powi(2);
+        Press { load: k * (kept - thin) * kept / thin + slope * (thin - gap), slope }
+    }
+
+    /// Normal force at `x`, N (0 when it does not touch).
+    pub(super) fn load(&self, cloth: &Cloth, x: &[Vec3], contact: &Contact) -> f64 {
+        self.press(cloth, x, contact).load.max(0.0)
+    }
+
+    /// Energy of a contact at `x`, J.
+    fn energy(&self, cloth: &Cloth, x: &[Vec3], contact: &Contact) -> f64 {
+        let (kept, gap) = (self.kept(cloth, contact), contact.gap(x));
+        let k = self.stiffness;
+        if gap >= kept {
+            return 0.0;
+        }
+        if contact.body {
+            return 0.5 * k * (kept - gap).powi(2);
+        }
+        let thin = gap.max(THINNEST * kept);
+        let down_to_thin = k * kept * (kept * (kept / thin).ln() - (kept - thin));
+        let below = thin - gap;
+        down_to_thin + below * (k * (kept - thin) * kept / thin + 0.5 * k * (kept / thin).powi(2) * below)
+    }
+}
+
+/// A stitch being closed (F5): both nodes pull each other with stiffness × min(gap, cap).
+#[derive(Clone, Copy, Debug)]
+pub struct Pull {
+    /// The two nodes.
+    pub ends: [u32; 2],
+    /// N/m.
+    pub stiffness: f64,
+    /// Gap beyond which the force grows no more, metres.
+    pub cap: f64,
+}
+
+/// What acts on the cloth besides its own elasticity.
+#[derive(Clone, Copy)]
+pub struct Forces<'a> {
+    /// Share of gravity, 0 … 1.
+    pub gravity: f64,
+    /// Contacts found at the last detection.
+    pub contacts: &'a [Contact],
+    /// Their law.
+    pub law: ContactLaw,
+    /// Stitches that are open.
+    pub pulls: &'a [Pull],
+    /// Friction against the body.
+    pub friction: Option<&'a Friction>,
+}
+
+impl Forces<'_> {
+    /// Normal force of one of the contacts, N.
+    pub fn load(&self, cloth: &Cloth, x: &[Vec3], contact: &Contact) -> f64 {
+        self.law.load(cloth, x, contact)
+    }
+
+    /// Elastic energy, contact energy, weight × height and what friction stores, J. Sliding friction has no energy: it
+    /// is taken for a force that stays as large as at the normal forces `loads` (one per contact).
+    pub(super) fn energy(&self, cloth: &Cloth, x: &[Vec3], loads: &[f64]) -> f64 {
+        let weight: f64 = cloth.mass.iter().zip(x).map(|(m, x)| m * x.y).sum::<f64>() * GRAVITY * self.gravity;
+        let pressed: f64 = self.contacts.iter().map(|c| self.law.energy(cloth, x, c)).sum();
+        let gripped = self.friction.map_or(0.0, |f| f.energy(x, self.contacts, loads, &cloth.friction));
+        cloth.elastic_energy(x) + pressed + weight + gripped
+    }
+}
+
+/// All forces on the nodes at `x`, N.
+pub(crate) fn cloth_forces(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Vec3> {
+    let mut out = free_forces(cloth, x, forces);
+    for contact in forces.contacts {
+        let load = forces.law.load(cloth, x, contact);
+        if load > 0.0 {
+            push(&mut out, cloth, x, contact, load, forces.friction);
+        }
+    }
+    out
+}
+
+/// Adds a contact's normal force and its friction.
+pub(super) fn push(
+    out: &mut [Vec3],
+    cloth: &Cloth,
+    x: &[Vec3],
+    contact: &Contact,
+    load: f64,
+    friction: Option<&Friction>,
+) {
+    for (i, w) in contact.parts() {
+        out[i] += contact.normal * (load * w);
+    }
+    if let (Some(friction), true, 1, true) = (friction, contact.body, contact.count, load > 0.0) {
+        let i = contact.nodes[0] as usize;
+        out[i] += friction.grip(contact, x[i], load, cloth.friction[i]).force;
+    }
+}
+
+/// The forces without contact, N.
+pub(super) fn free_forces(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Vec3> {
+    let mut out: Vec<Vec3> = (0..x.len())
+        .into_par_iter()
+        .with_min_len(512)
+        .map(|i| -cloth.bending.gradient(x, i) - Vec3::y() * (cloth.mass[i] * GRAVITY * forces.gravity))
+        .collect();
+    for s in &cloth.springs {
+        let d = x[s.ends[1] as usize] - x[s.ends[0] as usize];
+        let length = d.norm().max(1e-9);
+        let f = d * (cloth.laws[s.law as usize].load(length / s.rest - 1.0) * s.width / length);
+        out[s.ends[0] as usize] += f;
+        out[s.ends[1] as usize] -= f;
+    }
+    for pull in forces.pulls {
+        let d = x[pull.ends[1] as usize] - x[pull.ends[0] as usize];
+        let gap = d.norm();
+        let f = d * (pull.stiffness * (pull.cap / gap.max(1e-12)).min(1.0));
+        out[pull.ends[0] as usize] += f;
+        out[pull.ends[1] as usize] -= f;
+    }
+    out
+}

@@ -1,0 +1,195 @@
+//! A Newton step with the cloth's true stiffness, for the last millimetres to rest.
+//!
+//! The majorant of [`Stepper`] is safe but holds long waves back: it bounds bending edge by edge, and counts the load of
+//! a compressed spring as if it stiffened it. The true stiffness has neither fault; conjugate gradients solve it, with
+//! the majorant's factor as preconditioner (Steihaug 1983: stopped where the curvature turns negative or the step gets
+//! longer than the model can be trusted).
+
+use rayon::prelude::*;
+
+use super::force::{Forces, Press, free_forces};
+use super::model::Cloth;
+use super::step::{StepError, Stepper, contact_forces, opening, presses};
+use crate::geometry::Vec3;
+
+/// Most conjugate gradient iterations of a step; more would cost more than a new factor.
+const ITERATIONS: usize = 12;
+/// They end when the preconditioned residual has fallen to this share (squared).
+const SOLVED: f64 = 1e-4;
+/// Contacts that a step would press deeper than this, metres, are added and the step is solved again.
+const PRESSED: f64 = 5e-5;
+/// How often.
+const ROUNDS: usize = 3;
+
+/// A proposed step.
+pub(super) struct Proposal {
+    /// Where to go.
+    pub(super) d: Vec<Vec3>,
+    /// By how much the model says the energy will fall, J.
+    pub(super) gain: f64,
+}
+
+/// What the true stiffness is made of at one position.
+struct Tangent<'a> {
+    cloth: &'a Cloth,
+    x: &'a [Vec3],
+    dt: f64,
+    forces: &'a Forces<'a>,
+    presses: &'a [Press],
+    /// Direction, stiffness along it beyond that across, and stiffness across of every spring.
+    springs: Vec<(Vec3, f64, f64)>,
+}
+
+impl Stepper {
+    /// A step from `x` of at most `radius` metres for any node.
+    ///
+    /// # Errors
+    /// [`StepError::Singular`] when a number is not finite.
+    pub(super) fn newton(
+        &mut self,
+        cloth: &Cloth,
+        x: &[Vec3],
+        dt: f64,
+        forces: &Forces,
+        radius: f64,
+    ) -> Result<Proposal, StepError> {
+        let free = free_forces(cloth, x, forces);
+        let presses = presses(cloth, x, forces);
+        let tangent = Tangent::new(cloth, x, dt, forces, &presses);
+        let mut active: Vec<bool> = presses.iter().map(|p| p.load > 0.0).collect();
+        let mut round = 1;
+        loop {
+            self.prepare(cloth, x, dt, forces, &presses, &active)?;
+            let rhs = contact_forces(&free, cloth, x, forces, &presses, &active);
+            let d = self.truncated(&tangent, &active, &rhs, radius)?;
+            let mut more = false;
+            for ((contact, press), on) in forces.contacts.iter().zip(&presses).zip(&mut active) {
+                if !*on && press.load - press.slope * opening(contact, &d) > PRESSED * press.slope {
+                    (*on, more) = (true, true);
+                }
+            }
+            if !more || round >= ROUNDS {
+                return Ok(Proposal { gain: tangent.gain(&free, &d), d });
+            }
+            round += 1;
+        }
+    }
+
+    /// Conjugate gradients on the tangent, from zero.
+    fn truncated(&self, tangent: &Tangent, active: &[bool], rhs: &[Vec3], radius: f64) -> Result<Vec<Vec3>, StepError> {
+        let mut d = vec![Vec3::zeros(); rhs.len()];
+        let mut r = rhs.to_vec();
+        let mut z = self.apply_inverse(&r)?;
+        let mut p = z.clone();
+        let mut rz = dot(&r, &z);
+        let solved = SOLVED * rz;
+        for iteration in 0..ITERATIONS {
+            if rz <= solved {
+                break;
+            }
+            let ap = tangent.apply(&p, active);
+            let curvature = dot(&p, &ap);
+            if curvature <= 0.0 {
+                if iteration == 0 {
+                    d = p;
+                    shorten(&mut d, radius);
+                }
+                break;
+            }
+            let share = rz / curvature;
+            let next: Vec<Vec3> = d.iter().zip(&p).map(|(d, p)| d + p * share).collect();
+            let (from, to) = (longest(&d), longest(&next));
+            if to > radius {
+                let part = share * ((radius - from) / (to - from)).clamp(0.0, 1.0);
+                d.iter_mut().zip(&p).for_each(|(d, p)| *d += p * part);
+                break;
+            }
+            d = next;
+            r.iter_mut().zip(&ap).for_each(|(r, ap)| *r -= ap * share);
+            z = self.apply_inverse(&r)?;
+            let new = dot(&r, &z);
+            let again = new / rz;
+            rz = new;
+            p.iter_mut().zip(&z).for_each(|(p, z)| *p = z + *p * again);
+        }
+        Ok(d)
+    }
+}
+
+impl<'a> Tangent<'a> {
+    fn new(cloth: &'a Cloth, x: &'a [Vec3], dt: f64, forces: &'a Forces<'a>, presses: &'a [Press]) -> Self {
+        let springs = cloth
+            .springs
+            .iter()
+            .map(|s| {
+                let d = x[s.ends[1] as usize] - x[s.ends[0] as usize];
+                let length = d.norm().max(1e-9);
+                let law = &cloth.laws[s.law as usize];
+                let strain = length / s.rest - 1.0;
+                let across = law.load(strain) * s.width / length;
+                (d / length, law.slope(strain) * s.width / s.rest - across, across)
+            })
+            .collect();
+        Self { cloth, x, dt, forces, presses, springs }
+    }
+
+    /// (M/Δt² + true stiffness) p, with the contacts marked in `active`.
+    fn apply(&self, p: &[Vec3], active: &[bool]) -> Vec<Vec3> {
+        let mut out = self.apply_free(p);
+        let pushing = self.forces.contacts.iter().zip(self.presses).zip(active).filter(|(_, on)| **on);
+        for ((contact, press), _) in pushing {
+            let back = press.slope * opening(contact, p);
+            for (i, w) in contact.parts() {
+                out[i] += contact.normal * (back * w);
+            }
+            if let (Some(friction), true, 1) = (self.forces.friction, contact.body, contact.count) {
+                let i = contact.nodes[0] as usize;
+                let k = friction.grip(contact, self.x[i], press.load.max(0.0), self.cloth.friction[i]).stiffness;
+                out[i] += (p[i] - contact.normal * contact.normal.dot(&p[i])) * k;
+            }
+        }
+        out
+    }
+
+    fn apply_free(&self, p: &[Vec3]) -> Vec<Vec3> {
+        let (cloth, inertia) = (self.cloth, 1.0 / (self.dt * self.dt));
+        let mut out: Vec<Vec3> = (0..p.len())
+            .into_par_iter()
+            .with_min_len(512)
+            .map(|i| cloth.bending.gradient(p, i) + p[i] * (cloth.mass[i] * inertia))
+            .collect();
+        for (s, (t, along, across)) in cloth.springs.iter().zip(&self.springs) {
+            let e = p[s.ends[1] as usize] - p[s.ends[0] as usize];
+            let f = t * (along * t.dot(&e)) + e * *across;
+            out[s.ends[0] as usize] -= f;
+            out[s.ends[1] as usize] += f;
+        }
+        out
+    }
+
+    /// Decrease of the energy's model along `d`: quadratic, but every contact pushes only while it touches.
+    fn gain(&self, free: &[Vec3], d: &[Vec3]) -> f64 {
+        let smooth = dot(free, d) - 0.5 * dot(d, &self.apply_free(d));
+        let contact = self.forces.contacts.iter().zip(self.presses).map(|(contact, press)| {
+            let after = (press.load - press.slope * opening(contact, d)).max(0.0);
+            (press.load.max(0.0).powi(2) - after * after) / (2.0 * press.slope)
+        });
+        smooth + contact.sum::<f64>()
+    }
+}
+
+fn dot(a: &[Vec3], b: &[Vec3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
+}
+
+/// Length of the longest vector.
+pub(super) fn longest(a: &[Vec3]) -> f64 {
+    a.iter().map(Vec3::norm_squared).fold(0.0, f64::max).sqrt()
+}
+
+fn shorten(d: &mut [Vec3], radius: f64) {
+    let far = longest(d);
+    if far > radius {
+        d.iter_mut().for_each(|d| *d *= radius / far);
+    }
+}
