@@ -14,7 +14,7 @@ pub struct DrapeOptions {
 
 impl Default for DrapeOptions {
     fn default() -> Self {
-        Self { max_steps: 300 }
+        Self { max_steps: 400 }
     }
 }
 
@@ -58,10 +58,10 @@ const NEAR_REST: f64 = 1.5e-3;
 /// Steps after which it is taken to be near.
 const LONGEST_FALL: usize = 80;
 /// A garment has settled when it moves less than this, metres RMS, in so many steps.
-const SETTLED: f64 = 0.06e-3;
+const SETTLED: f64 = 0.12e-3;
 /// How far a Newton step is trusted: at first, at least and at most, metres. A node that goes further turns its springs
 /// too much for their tangent.
-const TRUST: [f64; 3] = [3e-3, 0.1e-3, 10e-3];
+const TRUST: [f64; 3] = [1.5e-3, 0.1e-3, 10e-3];
 /// At rest: drift (RMS) over as many steps again, metres, and residual force in particle weights.
 const DRIFT: f64 = 0.3e-3;
 const RESIDUAL: f64 = 1.0;

@@ -31,10 +31,20 @@ pub enum StepError {
 }
 
 /// Contacts whose gap a step misjudges by less than this, metres, are no reason to solve it again.
-const MISJUDGED: f64 = 2e-5;
-/// A factor serves again while no node is further than this, metres, from where it was made, and the same contacts push:
-/// a hundredth of a cell turns the springs by half a degree.
-const SAME_PLACE: f64 = 2e-5;
+const MISJUDGED: f64 = 1e-4;
+
+/// When an older factor serves again.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reuse {
+    /// While no node is further from where it was made than this, metres,
+    pub(super) moved: f64,
+    /// and no more contacts have begun or ceased to push.
+    pub(super) contacts: usize,
+}
+
+/// A step taken with the factor as it is must be that step: a five-hundredth of a cell turns the springs by a tenth of a
+/// degree.
+const SAME: Reuse = Reuse { moved: 2e-5, contacts: 0 };
 
 /// The linear system of a cloth, analysed once, filled and factored for every step.
 pub struct Stepper {
@@ -51,7 +61,8 @@ pub struct Stepper {
 struct Made {
     x: Vec<Vec3>,
     dt: f64,
-    active: Vec<bool>,
+    /// Nodes of the contacts that pushed, sorted.
+    pushing: Vec<[u32; 4]>,
 }
 
 impl Stepper {
@@ -103,7 +114,7 @@ impl Stepper {
         let mut active: Vec<bool> = presses.iter().map(|p| p.load > 0.0).collect();
         let mut round = 1;
         loop {
-            self.prepare(cloth, x, dt, forces, &presses, &active)?;
+            self.prepare(cloth, x, dt, forces, &presses, &active, SAME)?;
             let d = self.apply_inverse(&contact_forces(&free, cloth, x, forces, &presses, &active))?;
             let mut misjudged = false;
             for ((contact, press), on) in forces.contacts.iter().zip(&presses).zip(&mut active) {
@@ -120,11 +131,6 @@ impl Stepper {
         }
     }
 
-    /// Forgets what the last factor was made for: the contacts are others now.
-    pub(super) fn forget(&mut self) {
-        self.made = None;
-    }
-
     /// H⁻¹ r.
     pub(super) fn apply_inverse(&self, r: &[Vec3]) -> Result<Vec<Vec3>, StepError> {
         let mut flat: Vec<f32> = r.iter().flat_map(|v| [v.x as f32, v.y as f32, v.z as f32]).collect();
@@ -136,7 +142,8 @@ impl Stepper {
         }
     }
 
-    /// Factors M/Δt² + H at `x` for the contacts marked in `active`, unless that has just been done.
+    /// Factors M/Δt² + H at `x` for the contacts marked in `active`, unless an older factor serves.
+    #[expect(clippy::too_many_arguments, reason = "what a matrix is made of")]
     pub(super) fn prepare(
         &mut self,
         cloth: &Cloth,
@@ -145,10 +152,15 @@ impl Stepper {
         forces: &Forces,
         presses: &[Press],
         active: &[bool],
+        reuse: Reuse,
     ) -> Result<(), StepError> {
+        let mut pushing: Vec<[u32; 4]> =
+            forces.contacts.iter().zip(active).filter(|(_, on)| **on).map(|(c, _)| c.nodes).collect();
+        pushing.sort_unstable();
         if let Some(made) = &self.made {
-            let near = || made.x.iter().zip(x).all(|(a, b)| (a - b).norm_squared() < SAME_PLACE * SAME_PLACE);
-            if forces.pulls.is_empty() && made.dt == dt && made.active == active && near() {
+            let near = || made.x.iter().zip(x).all(|(a, b)| (a - b).norm_squared() < reuse.moved * reuse.moved);
+            let same = || differences(&made.pushing, &pushing) <= reuse.contacts;
+            if forces.pulls.is_empty() && made.dt == dt && near() && same() {
                 return Ok(());
             }
         }
@@ -166,7 +178,7 @@ impl Stepper {
         self.factor
             .factor(&self.matrix)
             .map_err(|NotPositiveDefinite { dof }| StepError::Singular { node: dof / 3 })?;
-        self.made = Some(Made { x: x.to_vec(), dt, active: active.to_vec() });
+        self.made = Some(Made { x: x.to_vec(), dt, pushing });
         Ok(())
     }
 
@@ -230,6 +242,19 @@ impl Stepper {
             self.matrix.add_block(slot, &(nn * (k * w)));
         }
     }
+}
+
+/// Entries of two sorted lists that the other does not have.
+fn differences(a: &[[u32; 4]], b: &[[u32; 4]]) -> usize {
+    let (mut i, mut j, mut common) = (0, 0, 0);
+    while i < a.len() && j < b.len() {
+        match a[i].cmp(&b[j]) {
+            std::cmp::Ordering::Less => i += 1,
+            std::cmp::Ordering::Greater => j += 1,
+            std::cmp::Ordering::Equal => (i, j, common) = (i + 1, j + 1, common + 1),
+        }
+    }
+    a.len() + b.len() - 2 * common
 }
 
 /// Loads and slopes of all contacts at `x`.

@@ -12,7 +12,7 @@ use crate::geometry::Vec3;
 /// Layers nearer than this, metres, are coupled in the matrix: pressed together they move together.
 const COUPLED: f64 = 1.5e-3;
 /// Times a step is solved to find the contacts that push at its end.
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 2;
 /// A Newton step is halved until the energy falls by this share of what the model says, at most so often.
 const ENOUGH: f64 = 0.05;
 const HALVINGS: usize = 5;
@@ -167,7 +167,6 @@ impl<'a> World<'a> {
 
     /// Gives the system the couplings of layers that have come near each other.
     fn contacts_changed(&mut self) -> Result<(), StepError> {
-        self.stepper.forget();
         let Some(known) = &mut self.touching else { return Ok(()) };
         let touching = self.proximity.touching(&self.x, COUPLED);
         if touching.iter().any(|t| known.binary_search(t).is_err()) {
