@@ -14,8 +14,10 @@ const FACE_CLEARANCE: f64 = 1e-3;
 const PENALTY: f64 = 600.0;
 /// Rounds of leading tangles apart.
 const UNTANGLE: usize = 60;
-/// Steps in which the measured springs pull the cloth true after the last tangle is gone.
-const SETTLE: usize = 12;
+/// The measured springs pull the cloth true after the last tangle is gone: at most so many steps, until no node goes
+/// further than so many metres in one.
+const SETTLE: usize = 40;
+const SETTLED: f64 = 0.5e-3;
 /// Step length, s: long, for inertia only delays rest.
 const STEP: f64 = 0.1;
 
@@ -44,11 +46,14 @@ pub fn sewn_world<'a>(
 /// # Errors
 /// As [`World::advance`].
 pub fn settle(world: &mut World) -> Result<(usize, usize), StepError> {
-    let steps = untangle(world, true)?;
+    let mut steps = untangle(world, true)?;
     for _ in 0..SETTLE {
-        step(world)?;
+        steps += 1;
+        if step(world)? < SETTLED {
+            break;
+        }
     }
-    Ok((steps + SETTLE, world.tangles().len()))
+    Ok((steps, world.tangles().len()))
 }
 
 /// Leads the cloth out of itself where it crosses: tangled nodes do not touch each other and move to the middle of their
@@ -77,10 +82,10 @@ pub(super) fn untangle(world: &mut World, spring: bool) -> Result<usize, StepErr
     Ok(rounds)
 }
 
-fn step(world: &mut World) -> Result<(), StepError> {
+/// One step without inertia; returns the largest motion, metres.
+fn step(world: &mut World) -> Result<f64, StepError> {
     world.velocity.fill(Vec3::zeros());
-    world.advance(STEP, 0.0, &[])?;
-    Ok(())
+    world.advance(STEP, 0.0, &[])
 }
 
 /// Nodes of the tangles and one ring round them.
