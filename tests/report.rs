@@ -5,7 +5,7 @@ use toile::geometry::{Vec2, Vec3};
 use toile::io::obj_write::garment_obj;
 use toile::mannequin::Mannequin;
 use toile::mesh::{ClothMesh, EdgeParticles, PieceMesh, Stitches};
-use toile::pattern::{Bound, EdgeId, Garment, Give, Seam, SeamKind, Span};
+use toile::pattern::{Bound, EdgeId, Garment, Give, Seam, SeamKind, Span, Test};
 use toile::picture::{Dressed, draw};
 use toile::report::{
     Measured, Quartet, Report, Stage, Stretched, Verdict, measure, opening_names, table, verdicts, vertex_strain,
@@ -335,10 +335,24 @@ fn a_seam_as_drawn_is_longer_than_its_chords() {
 fn judged(tests: Vec<Bound>, spoil: impl Fn(&mut Report)) -> Vec<Verdict> {
     let mut f = fixture(0.1);
     let at = laid_out(&f, 1.0);
-    f.garment.tests = tests;
+    f.garment.tests = tests.into_iter().map(|bound| Test { bound, fabric: None }).collect();
     let mut r = report(&f, &at, &at, &f.mesh.flat);
     spoil(&mut r);
     verdicts(&f.garment, &r)
+}
+
+#[test]
+fn a_bound_for_one_fabric_holds_in_that_fabric_only() {
+    let mut f = fixture(0.1);
+    let at = laid_out(&f, 1.0);
+    let strict = |fabric: &str| Test { bound: Bound::Crossings(0), fabric: Some(fabric.to_owned()) };
+    f.garment.tests = vec![strict("denim"), strict("silk")];
+    let mut r = report(&f, &at, &at, &f.mesh.flat);
+    r.contact.cloth_cloth_intersections = 1;
+    for (fabric, expected) in [("denim", 1), ("rib + silk", 1), ("wool", 0), ("silken", 0)] {
+        r.fabric = fabric.to_owned();
+        assert_eq!(verdicts(&f.garment, &r).iter().filter(|v| !v.ok).count(), expected, "{fabric}");
+    }
 }
 
 #[test]

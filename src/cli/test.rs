@@ -42,7 +42,7 @@ pub(super) fn test(args: &TestArgs, console: &Console) -> Result<Exit, CliError>
         check_writable(std::slice::from_ref(junit), &inputs)?;
     }
     let overrides = args.overrides.checked();
-    let outcomes: Vec<Outcome> = files.iter().map(|file| outcome(file, &overrides, console)).collect();
+    let outcomes: Vec<Outcome> = files.iter().flat_map(|file| outcomes(file, &overrides, console)).collect();
     if let Some(file) = &args.junit {
         write_all(&[(file.clone(), junit::xml(&outcomes).into_bytes())], &inputs)?;
     }
@@ -75,6 +75,25 @@ fn garment_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
 
 fn is_yaml(path: &Path) -> bool {
     path.is_file() && path.extension().is_some_and(|e| e == "yaml" || e == "yml")
+}
+
+/// Makes one garment as its file says, and once more in every fabric that it has bounds for.
+fn outcomes(file: &Path, overrides: &Overrides, console: &Console) -> Vec<Outcome> {
+    let mut out = vec![outcome(file, overrides, console)];
+    let Ok(loaded) = read(file) else { return out };
+    let mut fabrics: Vec<&str> = loaded.garment.tests.iter().filter_map(|t| t.fabric.as_deref()).collect();
+    fabrics.sort_unstable();
+    fabrics.dedup();
+    if overrides.fabric.is_some() {
+        fabrics.clear();
+    }
+    for fabric in fabrics {
+        let overrides = Overrides { fabric: Some(fabric.to_owned()), ..overrides.clone() };
+        let mut made = outcome(file, &overrides, console);
+        made.garment = format!("{} in {fabric}", made.garment);
+        out.push(made);
+    }
+    out
 }
 
 /// Makes one garment, in memory.

@@ -45,9 +45,13 @@ impl Bounds {
         }
     }
     /// d
-    pub fn sep(&self, c: &Contact, x: &[Vec3]) -> f64 { separation(c, x) }
+    pub fn sep(&self, c: &Contact, x: &[Vec3]) -> f64 {
+        separation(c, x)
+    }
     /// d
-    pub fn origin(&self, n: u32) -> Vec3 { self.origin[n as usize] }
+    pub fn origin(&self, n: u32) -> Vec3 {
+        self.origin[n as usize]
+    }
     /// debug
     pub fn tight(&self, x: &[Vec3]) -> Vec<(f64, Contact)> {
         self.pairs.iter().map(|c| (separation(c, x), *c)).filter(|c| c.0 < 2e-6).collect()

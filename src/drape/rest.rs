@@ -122,7 +122,11 @@ impl Fall<'_> {
         while moved > SETTLED && self.steps < most {
             let before = self.world.x.clone();
             for _ in 0..STRETCH {
-                if near { self.newton()? } else { self.fall()? }
+                if near {
+                    self.newton()?;
+                } else {
+                    self.fall()?;
+                }
                 self.steps += 1;
             }
             [moved, _] = motion(&before, &self.world.x);

@@ -17,8 +17,8 @@ pub use bending::Bending;
 pub use force::{ContactLaw, Forces, Pull};
 pub use friction::Friction;
 pub use model::{Cloth, Cut, SpringModel, identity_nodes};
-pub use springs::{Spring, StretchLaw};
 pub use proximity::Reach;
+pub use springs::{Spring, StretchLaw};
 pub use step::{StepError, Stepper};
 pub use world::{NewtonStep, World};
 

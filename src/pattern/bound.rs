@@ -1,17 +1,21 @@
 //! The garment's own regression bounds.
 
 use super::diagnostic::{Findings, Located};
-use super::file::{GarmentFile, Quantity, TestFile, Unit};
+use super::file::{GarmentFile, Quantity, TestEntry, TestFile, Unit};
 use super::inherit::unknown_piece;
 use super::problem::Problem;
 use super::spelling::nearest;
 use super::walk::edge_name;
-use super::{Bound, Garment, openings};
+use super::{Bound, Garment, Test, openings};
 
 /// The bounds of the file; `openings` is checked at once, for it needs no simulation.
-pub(super) fn bounds(file: &GarmentFile, garment: &Garment, findings: &mut Findings) -> Vec<Bound> {
+pub(super) fn bounds(file: &GarmentFile, garment: &Garment, findings: &mut Findings) -> Vec<Test> {
     let reader = Reader { file, garment };
-    file.tests.iter().filter_map(|t| reader.bound(t, findings)).collect()
+    let test = |entry: &Located<TestEntry>| {
+        let fabric = entry.value.fabric.as_ref().map(|f| f.value.clone());
+        Some(Test { bound: reader.bound(entry, findings)?, fabric })
+    };
+    file.tests.iter().filter_map(test).collect()
 }
 
 struct Reader<'a> {
@@ -20,9 +24,9 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn bound(&self, test: &Located<TestFile>, findings: &mut Findings) -> Option<Bound> {
+    fn bound(&self, test: &Located<TestEntry>, findings: &mut Findings) -> Option<Bound> {
         let value = |q: &Located<Quantity>| q.value.value(self.file.unit());
-        Some(match &test.value {
+        Some(match &test.value.test {
             TestFile::Seam(name, limit) => Bound::SeamLength(self.seam(name, findings), value(limit)),
             TestFile::Gap(name, limit) => Bound::Gap(self.seam(name, findings), value(limit)),
             TestFile::Flatten(name, area, boundary) => Bound::Flatten {
@@ -68,7 +72,7 @@ impl Reader<'_> {
         Some(name.value.clone())
     }
 
-    fn count_openings(&self, test: &Located<TestFile>, expected: usize, findings: &mut Findings) {
+    fn count_openings(&self, test: &Located<TestEntry>, expected: usize, findings: &mut Findings) {
         let found = openings(self.garment);
         if found.len() == expected {
             return;

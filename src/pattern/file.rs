@@ -144,7 +144,7 @@ pub struct GarmentFile {
     /// Edges (or globs) that stay unsewn.
     pub free: Vec<Located<String>>,
     /// Regression bounds.
-    pub tests: Vec<Located<TestFile>>,
+    pub tests: Vec<Located<TestEntry>>,
 }
 
 impl GarmentFile {
@@ -376,6 +376,15 @@ pub struct ClosureFile {
     pub count: Option<Located<usize>>,
     /// Everything else said of it (size, colour, order number).
     pub hardware: Vec<(Located<String>, Located<Value>)>,
+}
+
+/// A regression bound, and the fabric it holds in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TestEntry {
+    /// What is bounded.
+    pub test: TestFile,
+    /// `{…, fabric: cotton_poplin}`: only when the garment is made in this fabric.
+    pub fabric: Option<Located<String>>,
 }
 
 /// A regression bound.

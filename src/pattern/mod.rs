@@ -42,7 +42,7 @@ pub use diagnostic::{Diagnostic, Findings, Located, Severity, Spot};
 pub use expand::expand;
 pub use file::{
     AllowanceFile, ClosureFile, Cut, DartFile, DartShape, GarmentFile, LineFile, NotchFile, OpenFile, OutlineFile,
-    PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, Side, TestFile, Unit, Value,
+    PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, Side, TestEntry, TestFile, Unit, Value,
 };
 pub use problem::Problem;
 pub use reference::parse_quantity;
@@ -70,7 +70,7 @@ pub struct Garment {
     /// Buttons, hooks and the like.
     pub closures: Vec<Closure>,
     /// The garment's own regression bounds.
-    pub tests: Vec<Bound>,
+    pub tests: Vec<Test>,
 }
 
 /// One piece of cloth.
@@ -261,6 +261,15 @@ pub struct Closure {
     pub kind: String,
     /// Points that are worn together: (piece, flat position) twice.
     pub tacks: Vec<[(usize, Vec2); 2]>,
+}
+
+/// An entry of the garment's own `tests`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Test {
+    /// What must hold.
+    pub bound: Bound,
+    /// Only when the garment is made in this fabric; `None` = in any.
+    pub fabric: Option<String>,
 }
 
 /// A regression bound of the garment's own `tests`.

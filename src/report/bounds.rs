@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::schema::{PieceReport, Quartet, Report};
-use crate::pattern::{Bound, Garment, walk};
+use crate::pattern::{Bound, Garment, Test, walk};
 
 /// Bounds of a garment that states none: closed seams, no crossing. Metres.
 const DEFAULTS: [Bound; 2] = [Bound::Gap(None, 1e-3), Bound::Crossings(0)];
@@ -39,10 +39,15 @@ impl std::fmt::Display for Verdict {
 }
 
 /// Compares a report with the garment's `tests`, or with closed seams and no crossings if it has none. Bounds on
-/// stages that did not run are left out. Pieces that had to stretch are reported as such and not bounded.
+/// stages that did not run, and for other fabrics, are left out. Pieces that had to stretch are reported as such and
+/// not bounded.
 pub fn verdicts(garment: &Garment, report: &Report) -> Vec<Verdict> {
-    let bounds = if garment.tests.is_empty() { &DEFAULTS[..] } else { &garment.tests };
-    bounds.iter().flat_map(|bound| verdict(garment, report, bound)).collect()
+    if garment.tests.is_empty() {
+        return DEFAULTS.iter().flat_map(|bound| verdict(garment, report, bound)).collect();
+    }
+    let used = |name: &str| report.fabric.split(" + ").any(|f| f == name);
+    let holds = |test: &&Test| test.fabric.as_deref().is_none_or(used);
+    garment.tests.iter().filter(holds).flat_map(|test| verdict(garment, report, &test.bound)).collect()
 }
 
 fn verdict(garment: &Garment, report: &Report, bound: &Bound) -> Vec<Verdict> {

@@ -36,8 +36,8 @@ mod error;
 pub use control::{Start, StepControl};
 pub use error::ExplicitError;
 
-use super::model::Cloth;
 use super::force::{Forces, cloth_forces};
+use super::model::Cloth;
 use crate::geometry::Vec3;
 
 /// Steps with a larger s (see the module) are undone: half the frequency at which the scheme becomes unstable.

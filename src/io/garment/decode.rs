@@ -3,7 +3,7 @@
 use super::decode_piece::piece;
 use super::decode_seam::seam;
 use super::fields::{Fields, entries, integer, items, length, numbers, quantity, text, wrong};
-use crate::pattern::{ClosureFile, Findings, GarmentFile, Located, Problem, TestFile, Unit, Value};
+use crate::pattern::{ClosureFile, Findings, GarmentFile, Located, Problem, TestEntry, TestFile, Unit, Value};
 
 /// Statements about a file that are kept for people.
 const ABOUT: [&str; 4] = ["source", "license", "note", "measurements"];
@@ -115,8 +115,9 @@ fn points(value: &Located<Value>, findings: &mut Findings) -> Vec<Located<[f64; 
 
 const TESTS: &str = "seam, gap, flatten, drape, crossings, openings or worn";
 
-fn test(value: &Located<Value>, findings: &mut Findings) -> Option<Located<TestFile>> {
+fn test(value: &Located<Value>, findings: &mut Findings) -> Option<Located<TestEntry>> {
     let mut fields = Fields::new(value, "a test", findings)?;
+    let fabric = fields.get("fabric", findings, text);
     let mut take = |key, findings: &mut Findings| fields.get(key, findings, text);
     let names = ["seam", "gap", "flatten", "drape"].map(|key| take(key, findings));
     let [seam, gap, flatten, drape] = names;
@@ -145,7 +146,7 @@ fn test(value: &Located<Value>, findings: &mut Findings) -> Option<Located<TestF
         return None;
     };
     fields.finish(findings);
-    Some(Located::new(test, value.at))
+    Some(Located::new(TestEntry { test, fabric }, value.at))
 }
 
 /// A name that a piece, an edge, a dart or a line may have.

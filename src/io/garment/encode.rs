@@ -4,7 +4,7 @@ use serde_yaml::{Mapping, Value as Yaml};
 
 use crate::pattern::{
     AllowanceFile, ClosureFile, Cut, DartFile, DartShape, GarmentFile, LineFile, Located, OpenFile, PieceFile,
-    PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, TestFile, Value,
+    PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, TestEntry, TestFile, Value,
 };
 
 /// Writes the file as YAML that reads as the same [`GarmentFile`].
@@ -24,7 +24,7 @@ pub fn write(file: &GarmentFile) -> Result<String, serde_yaml::Error> {
     map.filled("seams", named(&file.seams, |s| (&s.name, seam(s))));
     map.list("closures", &file.closures, closure);
     map.list("free", &file.free, |f| f.value.as_str().into());
-    map.list("tests", &file.tests, |t| test(&t.value));
+    map.list("tests", &file.tests, |t| test_entry(&t.value));
     serde_yaml::to_string(&map.0)
 }
 
@@ -271,7 +271,13 @@ fn closure(closure: &ClosureFile) -> Yaml {
     map.into()
 }
 
-fn test(test: &TestFile) -> Yaml {
+fn test_entry(entry: &TestEntry) -> Yaml {
+    let mut map = test(&entry.test);
+    map.text("fabric", &entry.fabric);
+    map.into()
+}
+
+fn test(test: &TestFile) -> Map {
     let mut map = Map::default();
     match test {
         TestFile::Seam(name, limit) => {
@@ -291,5 +297,5 @@ fn test(test: &TestFile) -> Yaml {
         TestFile::Openings(expected) => map.put("openings", *expected as u64),
         TestFile::Worn => map.put("worn", true),
     }
-    map.into()
+    map
 }
