@@ -126,6 +126,15 @@ fn the_skin_is_closed_manifold_outward_and_symmetric() {
 }
 
 #[test]
+fn what_has_legs_stands_on_a_floor() {
+    for (_, mut m) in shipped() {
+        assert_eq!(m.floor(), Some(0.0), "{}", m.name);
+        m.parts.retain(|p| p.kind != PartKind::LeftLeg);
+        assert_eq!(m.floor(), None, "{}", m.name);
+    }
+}
+
+#[test]
 fn triangles_are_well_shaped() {
     for (_, m) in shipped() {
         let mut worst = std::f64::consts::PI;

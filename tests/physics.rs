@@ -10,7 +10,7 @@ use toile::dynamics::{
 use toile::fabric;
 use toile::geometry::{Path, Vec2, Vec3};
 use toile::mesh::{ClothMesh, build};
-use toile::pattern::{Edge, Garment, Piece};
+use toile::pattern::{Closure, Edge, Garment, Piece};
 
 const MM: f64 = 1e-3;
 const LAW: ContactLaw = ContactLaw { stiffness: 50.0, body_clearance: 1e-3, face_clearance: 1e-3, cloth_gap: None };
@@ -122,6 +122,25 @@ fn a_hooke_spring_pulls_in_proportion() {
         // The force is the energy's slope only with ½ c d²; the paper's (2) lacks the ½ that its (3) needs.
         let energy = cloth.elastic_energy(&x) - unsprung.elastic_energy(&x);
         assert!((energy - 500.0 * stretch * stretch).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_closure_ties_what_it_joins_with_a_short_thread() {
+    let (mut garment, mesh) = rectangle(100.0, 60.0, 10.0);
+    let ends = [Vec2::new(0.012, 0.031), Vec2::new(0.078, 0.049)];
+    garment.closures = vec![Closure { kind: "hook".into(), tacks: vec![[(0, ends[0]), (0, ends[1])]] }];
+    let fabrics = vec![Arc::new(fabric::load("cotton_poplin").expect("fabric"))];
+    let cut = Cut { garment: &garment, mesh: &mesh, fabrics: &fabrics };
+    let springs = |model| Cloth::new(&cut, identity_nodes(&mesh), model).springs;
+    // While the seams close nothing is fastened.
+    let open = springs(SpringModel::Soft { stiffness: 50.0, bias: 0.3 });
+    let fastened = springs(SpringModel::Measured);
+    assert_eq!(fastened.len(), open.len() + 1);
+    let thread = fastened.last().expect("tack");
+    assert!(thread.rest <= 2.0 * MM);
+    for (node, end) in thread.ends.iter().zip(ends) {
+        assert!((mesh.flat[*node as usize] - end).norm() < 8.0 * MM);
     }
 }
 

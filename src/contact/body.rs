@@ -20,6 +20,8 @@ pub struct Collider {
     edges: Vec<[u32; 2]>,
     vertex_grid: Grid,
     edge_grid: Grid,
+    /// Height of the floor, metres.
+    floor: Option<f64>,
 }
 
 /// The closest point of the body's surface.
@@ -66,11 +68,29 @@ impl Collider {
             vertices: body.vertices.clone(),
             normals: body.vertex_normals(),
             edges,
+            floor: None,
         })
     }
 
-    /// The closest point of the surface, if it is within `reach` of `p`.
+    /// The same with a floor at height `floor`, metres, on which cloth comes to lie.
+    #[must_use]
+    pub fn on_floor(mut self, floor: Option<f64>) -> Self {
+        self.floor = floor;
+        self
+    }
+
+    /// The closest point of the surface or the floor, if it is within `reach` of `p`.
     pub fn nearest(&self, p: Vec3, reach: f64) -> Option<Nearest> {
+        let skin = self.nearest_skin(p, reach);
+        let Some(floor) = self.floor.filter(|floor| p.y - floor < reach) else { return skin };
+        let distance = p.y - floor;
+        match skin {
+            Some(skin) if skin.distance <= distance => Some(skin),
+            _ => Some(Nearest { point: Vec3::new(p.x, floor, p.z), normal: Vec3::y(), distance }),
+        }
+    }
+
+    fn nearest_skin(&self, p: Vec3, reach: f64) -> Option<Nearest> {
         let (projection, (triangle, _)) =
             self.mesh.project_local_point_and_get_location_with_max_dist(to_parry(p), false, reach)?;
         let point = from_parry(projection.point);
@@ -210,6 +230,21 @@ mod tests {
         let outside = body.nearest(Vec3::new(0.5, 1.2, 0.5), 1.0).expect("near");
         assert_relative_eq!(outside.distance, 0.2, epsilon = 1e-12);
         assert!(body.nearest(Vec3::new(0.5, 3.0, 0.5), 1.0).is_none());
+    }
+
+    #[test]
+    fn the_floor_is_met_where_it_is_nearer_than_the_skin() {
+        let body = Collider::new(&cube()).expect("collider").on_floor(Some(-0.5));
+        let over = body.nearest(Vec3::new(3.0, -0.4, 3.0), 1.0).expect("near");
+        assert_relative_eq!(over.distance, 0.1, epsilon = 1e-12);
+        assert_relative_eq!(over.point, Vec3::new(3.0, -0.5, 3.0), epsilon = 1e-12);
+        let beside = body.nearest(Vec3::new(0.5, -0.1, 0.5), 1.0).expect("near");
+        assert_relative_eq!(beside.normal, -Vec3::y(), epsilon = 1e-12);
+        assert_relative_eq!(
+            body.nearest(Vec3::new(3.0, -0.7, 3.0), 1.0).expect("near").distance,
+            -0.2,
+            epsilon = 1e-12
+        );
     }
 
     #[test]

@@ -227,6 +227,40 @@ mod tests {
     }
 
     #[test]
+    fn a_gap_pressed_again_and_again_never_closes() {
+        let (mut x, contact) = pair();
+        for _ in 0..200 {
+            let bounds = Bounds::new(&x, &[contact], 0.1, 1e-3);
+            let mut to = x;
+            to[0].y -= 0.02;
+            bounds.clamp(&x, &mut to);
+            x = to;
+        }
+        assert!(separation(&contact, &x) >= 0.99 * LEAST, "{:e}", separation(&contact, &x));
+    }
+
+    #[test]
+    fn a_pair_that_two_others_squeeze_stays_where_it_is() {
+        // A node between two sheets that both want to be on the node's other side.
+        let (mut x, contact) = (vec![Vec3::zeros(); 7], pair().1);
+        x[..4].copy_from_slice(&pair().0);
+        for k in 0..3 {
+            x[4 + k] = x[1 + k] + Vec3::y() * 0.02;
+        }
+        let above = Contact { nodes: [0, 4, 5, 6], weights: [1.0, -0.25, -0.25, -0.5], normal: -Vec3::y(), ..contact };
+        let bounds = Bounds::new(&x, &[contact, above], 0.2, 1e-3);
+        let mut to = x.clone();
+        for k in 0..3 {
+            to[1 + k].y += 0.04;
+            to[4 + k].y -= 0.04;
+        }
+        bounds.clamp(&x, &mut to);
+        for pair in [contact, above] {
+            assert!(separation(&pair, &to) > 0.0, "{:?} {:e}", pair.nodes, separation(&pair, &to));
+        }
+    }
+
+    #[test]
     fn nothing_goes_further_than_its_leash() {
         let (x, contact) = pair();
         let bounds = Bounds::new(&x, &[contact], 0.1, 1e-3);

@@ -441,6 +441,34 @@ mod tests {
     }
 
     #[test]
+    fn the_outer_layers_of_a_fold_in_three_touch_though_their_normals_agree() {
+        // One strip of 3 × 12 cells, folded back and forth after every row of cells, 1 mm from layer to layer.
+        let (h, gap) = (0.01, 0.001);
+        let (mut x, mut flat_at) = (Vec::new(), Vec::new());
+        for j in 0..4u32 {
+            for i in 0..=12u32 {
+                let there = f64::from(j % 2) * h;
+                x.push(Vec3::new(f64::from(i) * h, f64::from(j) * gap, there + 0.001 * f64::from(i % 3)));
+                flat_at.push(Vec2::new(f64::from(i), f64::from(j)) * h);
+            }
+        }
+        let mut t = Vec::new();
+        for j in 0..3u32 {
+            for i in 0..12u32 {
+                let a = j * 13 + i;
+                t.extend([[a, a + 1, a + 14], [a, a + 14, a + 13]]);
+            }
+        }
+        let f: Vec<[Vec2; 3]> = t.iter().map(|t| t.map(|v| flat_at[v as usize])).collect();
+        let contacts = detector(&x, &t, &f, &vec![0; t.len()]).detect(&x, 0.008);
+        // Row 1 of the first layer lies under rows 2 and 3 of the third.
+        for v in 14..25u32 {
+            let third = |c: &&Contact| c.nodes[0] == v && c.above == 1 && c.nodes[1..].iter().all(|&n| n >= 26);
+            assert!(contacts.iter().any(|c| third(&c)), "vertex {v}");
+        }
+    }
+
+    #[test]
     fn every_pair_within_reach_is_found_whatever_the_grouping() {
         let (mut x, t, f, p) = sheets(9, 0.01, 0.006);
         for (i, v) in x.iter_mut().enumerate() {

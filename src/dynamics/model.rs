@@ -29,6 +29,10 @@ const ANGLE_STEPS: usize = 18;
 /// A sewn or hemmed rim is two layers of cloth along a thread; it stands for this width of straight grain, metres
 /// (the usual seam allowance).
 const RIM_WIDTH: f64 = 0.01;
+/// A button or hook leaves this much thread between what it joins, metres: room for the layers of an underlap.
+const TACK_LENGTH: f64 = 1e-3;
+/// Stiffness of that thread, N/m: a waistband's pull of 1 N opens it by 2 mm.
+const TACK_STIFFNESS: f64 = 500.0;
 /// A seam whose sides differ by more than this share is gathered or stretched on: its length is one side's own.
 const GATHERED: f64 = 1.05;
 
@@ -56,13 +60,13 @@ pub struct Cloth {
     pub flat: Vec<[Vec2; 3]>,
     /// Piece of every triangle.
     pub piece: Vec<u32>,
-    /// Springs along every mesh edge.
+    /// Springs along every mesh edge, and those of tacks.
     pub springs: Vec<Spring>,
     /// Their laws.
     pub laws: Vec<StretchLaw>,
     /// Bending.
     pub bending: Bending,
-    /// Nodes that share an edge, both orders left out: (smaller, larger), sorted.
+    /// Nodes that share a spring, both orders left out: (smaller, larger), sorted.
     pub edges: Vec<[u32; 2]>,
     /// Half the cloth's thickness at every node, metres.
     pub half_thickness: Vec<f64>,
@@ -70,6 +74,15 @@ pub struct Cloth {
     pub friction: Vec<f64>,
     /// [`Bending::bound`] of every edge, N/m.
     pub bending_bound: Vec<f64>,
+}
+
+/// Pairs of nodes with a spring between them, smaller first, sorted.
+fn joined(springs: &[Spring]) -> Vec<[u32; 2]> {
+    let mut edges: Vec<[u32; 2]> =
+        springs.iter().map(|s| [s.ends[0].min(s.ends[1]), s.ends[0].max(s.ends[1])]).collect();
+    edges.sort_unstable();
+    edges.dedup();
+    edges
 }
 
 /// Every particle its own node: the garment before it is sewn.
@@ -104,6 +117,10 @@ impl Cloth {
         };
         out.weigh(mesh, fabrics);
         out.add_springs(mesh, garment, fabrics, model);
+        if model == SpringModel::Measured {
+            out.add_tacks(mesh, garment);
+        }
+        out.edges = joined(&out.springs);
         out.add_bending(mesh, fabrics);
         out
     }
@@ -160,11 +177,28 @@ impl Cloth {
                 push(rest, RIM_WIDTH, laws_of[p]);
             }
         }
-        let mut edges: Vec<[u32; 2]> =
-            self.springs.iter().map(|s| [s.ends[0].min(s.ends[1]), s.ends[0].max(s.ends[1])]).collect();
-        edges.sort_unstable();
-        edges.dedup();
-        self.edges = edges;
+    }
+
+    /// A short strong spring for every tack of the closures, between the particles nearest to its ends.
+    fn add_tacks(&mut self, mesh: &ClothMesh, garment: &Garment) {
+        let nearest = |&(piece, at): &(usize, Vec2)| {
+            let far = |p: &usize| (mesh.flat[*p] - at).norm_squared();
+            let particles = mesh.pieces.get(piece)?.particles.clone();
+            particles.min_by(|p, q| far(p).total_cmp(&far(q))).map(|p| self.node_of[p])
+        };
+        let law = self.laws.len() as u32;
+        let tacks: Vec<Spring> = garment
+            .closures
+            .iter()
+            .flat_map(|c| &c.tacks)
+            .filter_map(|[a, b]| Some([nearest(a)?, nearest(b)?]))
+            .filter(|ends| ends[0] != ends[1])
+            .map(|ends| Spring { ends, rest: TACK_LENGTH, width: TACK_LENGTH, law })
+            .collect();
+        if !tacks.is_empty() {
+            self.laws.push(StretchLaw::linear(TACK_STIFFNESS));
+            self.springs.extend(tacks);
+        }
     }
 
     /// Laws of every piece, one per angle step from warp to weft; returns each piece's first.

@@ -78,6 +78,20 @@ pub struct Mannequin {
     pub parts: Vec<BodyPart>,
 }
 
+/// A body whose legs reach up to this share of its height stands on them; a dress form's stumps do not reach so far.
+const STANDS: f64 = 0.3;
+
+impl Mannequin {
+    /// Height of the floor it stands on, metres; a form without legs hangs or stands on a pole, over no floor that its
+    /// clothes could reach.
+    pub fn floor(&self) -> Option<f64> {
+        let top = self.mesh.vertices.iter().map(|v| v.y).fold(0.0, f64::max);
+        let legs = self.parts.iter().filter(|p| matches!(p.kind, PartKind::LeftLeg | PartKind::RightLeg));
+        let crotch = |leg: &BodyPart| leg.sections.iter().map(|s| s.center.y).fold(0.0, f64::max);
+        (legs.filter(|leg| crotch(leg) > STANDS * top).count() == 2).then_some(0.0)
+    }
+}
+
 /// Which part of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum PartKind {

@@ -105,6 +105,7 @@ impl Job {
             Stage { name: "mesh".into(), seconds: begin.elapsed().as_secs_f64(), converged: true, ..Stage::default() };
         let collider =
             Collider::new(&body.mesh).ok_or_else(|| PipelineError::Sew(SewError::Body(body.name.clone())))?;
+        let collider = collider.on_floor(body.floor());
         let named = [overrides.fabric.as_deref(), Some(wanted.as_str())];
         let files = named.into_iter().flatten().map(PathBuf::from).filter(|p| p.is_file());
         let inputs = std::iter::once(file.to_owned()).chain(files).collect();
