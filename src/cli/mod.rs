@@ -40,9 +40,14 @@ pub fn main() -> ExitCode {
     ExitCode::from(exit)
 }
 
+/// Most threads that are started, whatever is asked for.
+const MOST_THREADS: usize = 256;
+
 fn with_threads<T: Send>(threads: Option<NonZeroUsize>, work: impl FnOnce() -> T + Send) -> Result<T, CliError> {
     let Some(threads) = threads else { return Ok(work()) };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build()?;
+    // No machine has more processors than this, and more threads only wait.
+    let threads = threads.get().min(MOST_THREADS);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     Ok(pool.install(work))
 }
 

@@ -91,6 +91,7 @@ fn outcomes(file: &Path, overrides: &Overrides, console: &Console) -> Vec<Outcom
         let overrides = Overrides { fabric: Some(fabric.to_owned()), ..overrides.clone() };
         let mut made = outcome(file, &overrides, console);
         made.garment = format!("{} in {fabric}", made.garment);
+        made.file = format!("{} in {fabric}", made.file);
         out.push(made);
     }
     out

@@ -44,18 +44,6 @@ impl Bounds {
             *pair = *contact;
         }
     }
-    /// d
-    pub fn sep(&self, c: &Contact, x: &[Vec3]) -> f64 {
-        separation(c, x)
-    }
-    /// d
-    pub fn origin(&self, n: u32) -> Vec3 {
-        self.origin[n as usize]
-    }
-    /// debug
-    pub fn tight(&self, x: &[Vec3]) -> Vec<(f64, Contact)> {
-        self.pairs.iter().map(|c| (separation(c, x), *c)).filter(|c| c.0 < 2e-6).collect()
-    }
     /// How far a node may go between two detections: less than half the reach, so that a pair not found cannot meet.
     pub fn allowance(reach: f64) -> f64 {
         0.45 * reach
@@ -111,10 +99,18 @@ impl Bounds {
         self.margin.min((KEPT * now).max(LEAST)).min(now).max(0.0)
     }
 
-    /// Leaves the nodes of pairs that would still meet where they are, and those that would then run into them.
+    /// Leaves nodes that would still meet another or the body where they are, and those that would then run into them.
     fn hold(&self, from: &[Vec3], to: &mut [Vec3], needs: &[f64]) {
         loop {
             let mut clean = true;
+            for &(node, n, offset) in &self.planes {
+                let node = node as usize;
+                let start = n.dot(&from[node]) - offset;
+                if start > 0.0 && n.dot(&to[node]) - offset < HELD * self.need(start) {
+                    clean &= to[node] == from[node];
+                    to[node] = from[node];
+                }
+            }
             for (contact, &need) in self.pairs.iter().zip(needs) {
                 if separation(contact, to) < HELD * need {
                     for (node, _) in contact.parts() {
@@ -258,6 +254,27 @@ mod tests {
         for pair in [contact, above] {
             assert!(separation(&pair, &to) > 0.0, "{:?} {:e}", pair.nodes, separation(&pair, &to));
         }
+    }
+
+    #[test]
+    fn a_layer_does_not_press_a_node_into_the_body() {
+        let (x, contact) = pair();
+        // The body's surface lies 5 mm under the node's sheet, and the node comes down on the sheet.
+        let planes = (1..4).map(|n| Contact {
+            nodes: [n, 0, 0, 0],
+            weights: [1.0, 0.0, 0.0, 0.0],
+            count: 1,
+            normal: Vec3::y(),
+            offset: -0.005,
+            body: true,
+            above: 1,
+        });
+        let contacts: Vec<Contact> = std::iter::once(contact).chain(planes).collect();
+        let bounds = Bounds::new(&x, &contacts, 0.2, 1e-3);
+        let mut to = x.map(|p| p + Vec3::new(0.0, -0.08, 0.0));
+        bounds.clamp(&x, &mut to);
+        assert!(contacts[1..].iter().all(|c| c.gap(&to) > 0.0));
+        assert!(separation(&contact, &to) > 0.0);
     }
 
     #[test]

@@ -83,13 +83,6 @@ impl Contact {
         self.offset = if inner { 0.0 } else { Self::SILENT };
     }
 
-    /// d
-    pub fn refreshed(&self, x: &[Vec3]) -> (Self, f64) {
-        let mut c = *self;
-        c.refresh(x);
-        let g = c.parts().map(|(n, w)| w * c.normal.dot(&x[n])).sum();
-        (c, g)
-    }
     /// Its nodes and their weights.
     pub fn parts(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.nodes.iter().zip(&self.weights).take(self.count as usize).map(|(&n, &w)| (n as usize, w))

@@ -14,7 +14,7 @@ pub struct DrapeOptions {
 
 impl Default for DrapeOptions {
     fn default() -> Self {
-        Self { max_steps: 400 }
+        Self { max_steps: 600 }
     }
 }
 
@@ -87,12 +87,10 @@ pub fn drape(
     world.gravity = 1.0;
     world.friction = Some(Friction::new(world.x.len(), GRIP));
     let mut fall = Fall { last: world.x.clone(), world, steps: 0, trust: TRUST[0] };
-    let mut tested = 0;
     let mut drift;
     loop {
         fall.settle(options.max_steps, progress)?;
-        drift = fall.drift(fall.steps - tested)?;
-        tested = fall.steps;
+        drift = fall.drift()?;
         // A garment that drifts falls on, while there are steps left.
         if drift[0] <= DRIFT || fall.steps >= options.max_steps {
             break;
@@ -123,7 +121,7 @@ impl Fall<'_> {
             let before = self.world.x.clone();
             for _ in 0..STRETCH {
                 if near {
-                    self.newton()?;
+                    self.step(STEP)?;
                 } else {
                     self.fall()?;
                 }
@@ -144,9 +142,10 @@ impl Fall<'_> {
     }
 
     /// A step with the true stiffness; the model is trusted further where it was right.
-    fn newton(&mut self) -> Result<(), StepError> {
+    /// Returns the largest motion, metres.
+    fn step(&mut self, dt: f64) -> Result<f64, StepError> {
         let [_, least, most] = TRUST;
-        let step = self.world.newton(STEP, self.trust)?;
+        let step = self.world.newton(dt, self.trust)?;
         self.trust = match step {
             s if s.shortened => 1.2 * s.moved,
             s if s.ratio < 0.25 => 0.7 * self.trust,
@@ -154,20 +153,18 @@ impl Fall<'_> {
             _ => self.trust,
         };
         self.trust = self.trust.clamp(least, most);
-        Ok(())
+        Ok(step.moved)
     }
 
-    /// As many steps again, at half the step size and without looking ahead: how far the garment goes, metres, root
-    /// mean square and largest.
-    fn drift(&mut self, steps: usize) -> Result<[f64; 2], StepError> {
+    /// As many steps again as were made, at half the step size: how far the garment goes, metres, root mean square and
+    /// largest.
+    fn drift(&mut self) -> Result<[f64; 2], StepError> {
         let before = self.world.x.clone();
-        for left in (0..steps).rev() {
-            let moved = self.world.relax(0.5 * STEP, 0.0, LOOK_AHEAD, &before)?;
-            if moved * left as f64 <= STILL * DRIFT {
+        for left in (0..self.steps).rev() {
+            if self.step(0.5 * STEP)? * left as f64 <= STILL * DRIFT {
                 break;
             }
         }
-        self.last.clone_from(&self.world.x);
         Ok(motion(&before, &self.world.x))
     }
 }

@@ -185,7 +185,7 @@ fn dot(a: &[Vec3], b: &[Vec3]) -> f64 {
 }
 
 /// Length of the longest vector.
-pub(super) fn longest(a: &[Vec3]) -> f64 {
+fn longest(a: &[Vec3]) -> f64 {
     a.iter().map(Vec3::norm_squared).fold(0.0, f64::max).sqrt()
 }
 

@@ -3,7 +3,6 @@
 use super::force::{ContactLaw, Forces, Pull, cloth_forces};
 use super::friction::Friction;
 use super::model::Cloth;
-use super::newton::longest;
 use super::proximity::{Proximity, Reach};
 use super::step::{StepError, Stepper};
 use crate::contact::{Collider, Neighbourhood, Tangle};
@@ -120,7 +119,8 @@ impl<'a> World<'a> {
         self.move_to(target, dt)
     }
 
-    /// A step with the true stiffness, no node further than `radius` metres, shortened until the energy falls.
+    /// A step with the true stiffness, no node further than `radius` metres, shortened until the energy falls; where it
+    /// does not, a step with the majorant.
     ///
     /// # Errors
     /// [`StepError::Singular`] when a number is not finite.
@@ -135,15 +135,18 @@ impl<'a> World<'a> {
         let (target, gain) = loop {
             let target: Vec<Vec3> = self.x.iter().zip(&step.d).map(|(x, d)| x + d * share).collect();
             let gain = from - energy(&target);
-            if gain > ENOUGH * share * step.gain || gain.abs() < ROUNDING || halvings >= HALVINGS {
+            if gain > ENOUGH * share * step.gain.max(0.0) || gain.abs() < ROUNDING || halvings >= HALVINGS {
                 break (target, gain);
             }
             share *= 0.5;
             halvings += 1;
         };
-        let moved = share * longest(&step.d);
-        self.move_to(target, dt)?;
-        Ok(NewtonStep { moved, shortened: halvings > 0, ratio: gain / step.gain.max(f64::MIN_POSITIVE) })
+        if gain < -ROUNDING {
+            let x = self.x.clone();
+            return Ok(NewtonStep { moved: self.relax(dt, 0.0, 0.0, &x)?, shortened: true, ratio: 0.0 });
+        }
+        let ratio = if step.gain > 0.0 { gain / step.gain } else { 0.0 };
+        Ok(NewtonStep { moved: self.move_to(target, dt)?, shortened: halvings > 0, ratio })
     }
 
     fn move_to(&mut self, mut target: Vec<Vec3>, dt: f64) -> Result<f64, StepError> {

@@ -64,6 +64,10 @@ pub fn write_all(files: &[(PathBuf, Vec<u8>)], inputs: &[&Path]) -> Result<(), W
     for (path, contents) in files {
         temporary.push(Pending::create(path, contents)?);
     }
+    // Once more, now that the folders are there: a path through one that was missing (`new/../input`) led nowhere before.
+    for (path, _) in files {
+        refuse(path, inputs)?;
+    }
     let mut registry = registry();
     for (pending, (path, _)) in temporary.into_iter().zip(files) {
         pending.rename(path, &mut registry)?;
@@ -206,6 +210,17 @@ mod tests {
         write_all(&[(out.join("a.txt"), b"three".to_vec())], &[]).expect("replaced");
         assert_eq!(names(&out), ["a.txt", "b.txt"]);
         assert_eq!(fs::read(out.join("a.txt")).expect("read"), b"three");
+    }
+
+    #[test]
+    fn an_input_is_not_overwritten_through_a_folder_that_is_missing_yet() {
+        let dir = tempfile::tempdir().expect("a temporary folder");
+        let input = dir.path().join("dress.yaml");
+        fs::write(&input, "pieces").expect("written");
+        let round = dir.path().join("new/../dress.yaml");
+        let refused = write_all(&[(round, b"vertices".to_vec())], &[&input]);
+        assert!(matches!(refused, Err(WriteError::IsInput(_))), "{refused:?}");
+        assert_eq!(fs::read(&input).expect("read"), b"pieces");
     }
 
     #[test]

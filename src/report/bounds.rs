@@ -38,16 +38,15 @@ impl std::fmt::Display for Verdict {
     }
 }
 
-/// Compares a report with the garment's `tests`, or with closed seams and no crossings if it has none. Bounds on
+/// Compares a report with the garment's `tests`, or with closed seams and no crossings if none holds for its fabric. Bounds on
 /// stages that did not run, and for other fabrics, are left out. Pieces that had to stretch are reported as such and
 /// not bounded.
 pub fn verdicts(garment: &Garment, report: &Report) -> Vec<Verdict> {
-    if garment.tests.is_empty() {
-        return DEFAULTS.iter().flat_map(|bound| verdict(garment, report, bound)).collect();
-    }
     let used = |name: &str| report.fabric.split(" + ").any(|f| f == name);
     let holds = |test: &&Test| test.fabric.as_deref().is_none_or(used);
-    garment.tests.iter().filter(holds).flat_map(|test| verdict(garment, report, &test.bound)).collect()
+    let bounds: Vec<&Bound> = garment.tests.iter().filter(holds).map(|test| &test.bound).collect();
+    let bounds = if bounds.is_empty() { DEFAULTS.iter().collect() } else { bounds };
+    bounds.into_iter().flat_map(|bound| verdict(garment, report, bound)).collect()
 }
 
 fn verdict(garment: &Garment, report: &Report, bound: &Bound) -> Vec<Verdict> {

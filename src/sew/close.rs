@@ -116,7 +116,9 @@ pub fn sew(
     let pairs: Vec<[u32; 2]> = stitching.pairs.iter().map(|p| p.0).collect();
     let h = mesh.spacing;
     let law = ContactLaw { stiffness: 600.0, body_clearance: 1.5e-3, face_clearance: 1.5e-3, cloth_gap: Some(0.1 * h) };
-    let reach = Reach { cloth: 1.6 * h, body: 0.02, renew: 0.2 };
+    // The body must be seen from further than a node may go between two looks.
+    let cloth_reach = 1.6 * h;
+    let reach = Reach { cloth: cloth_reach, body: (0.5 * cloth_reach).max(0.02), renew: 0.2 };
     let hood = Neighbourhood {
         class: stitching.class.clone(),
         seams: beside_seams(mesh, &stitching, &cloth),

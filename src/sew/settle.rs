@@ -34,7 +34,8 @@ pub fn sewn_world<'a>(
     let cloth = Cloth::new(cut, stitching.class.clone(), SpringModel::Measured);
     let law =
         ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, face_clearance: FACE_CLEARANCE, cloth_gap: None };
-    let reach = Reach { cloth: 0.8 * cut.mesh.spacing, body: 0.02, renew: 0.2 };
+    let cloth_reach = 0.8 * cut.mesh.spacing;
+    let reach = Reach { cloth: cloth_reach, body: (0.5 * cloth_reach).max(0.02), renew: 0.2 };
     let n = nodes.len();
     let hood = Neighbourhood { class: (0..n as u32).collect(), seams: vec![Vec::new(); n], tangled: Vec::new() };
     World::new(cloth, nodes, &[], body, hood, law, reach)
