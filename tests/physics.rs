@@ -13,7 +13,7 @@ use toile::mesh::{ClothMesh, build};
 use toile::pattern::{Closure, Edge, Garment, Piece};
 
 const MM: f64 = 1e-3;
-const LAW: ContactLaw = ContactLaw { stiffness: 50.0, body_clearance: 1e-3, face_clearance: 1e-3, cloth_gap: None };
+const LAW: ContactLaw = ContactLaw { stiffness: 50.0, body_clearance: 1e-3, cloth_gap: None };
 const NOTHING: Forces = Forces { gravity: 0.0, contacts: &[], law: LAW, pulls: &[], friction: None };
 
 /// A rectangular piece of poplin and its mesh, millimetres.
@@ -186,6 +186,7 @@ fn forces_are_the_slope_of_the_energy() {
             offset: normal.dot(&(x[20] * 0.2 + x[21] * 0.3 + x[22] * 0.5 - x[30])) - 1e-4,
             body: false,
             above: 3,
+            pushes: true,
         });
         let pulls =
             [Pull { ends: [0, 40], stiffness: 3.0, cap: 0.01 }, Pull { ends: [2, 3], stiffness: 3.0, cap: 0.05 }];
@@ -221,20 +222,13 @@ fn energy(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> f64 {
     cloth.elastic_energy(x) + weight + contact + sewing.sum::<f64>()
 }
 
-/// Work against the body's linear penalty, and against the layers' k · (kept − gap) · kept / gap.
+/// Work against k · (kept − gap) · kept / gap.
 fn contact_energy(cloth: &Cloth, x: &[Vec3], contact: &Contact) -> f64 {
     let half = |k: usize| cloth.half_thickness[contact.nodes[k] as usize];
     let gap = contact.gap(x);
-    let (k, kept) = match (contact.body, contact.count) {
-        (true, 1) => (LAW.stiffness, half(0) + LAW.body_clearance),
-        (true, _) => (LAW.stiffness, half(0) + LAW.face_clearance),
-        (false, n) => (LAW.stiffness, half(0) + half(n as usize - 1)),
-    };
-    match contact.body {
-        _ if gap >= kept => 0.0,
-        true => 0.5 * k * (kept - gap).powi(2),
-        false => k * kept * (kept * (kept / gap).ln() - kept + gap),
-    }
+    let beyond = if contact.body { LAW.body_clearance } else { half(contact.count as usize - 1) };
+    let (k, kept) = (LAW.stiffness, half(0) + beyond);
+    if gap >= kept { 0.0 } else { k * kept * (kept * (kept / gap).ln() - kept + gap) }
 }
 
 // ---- the explicit scheme ----

@@ -196,6 +196,7 @@ mod tests {
             offset: 0.0,
             body: false,
             above: 1,
+            pushes: true,
         };
         (x, contact)
     }
@@ -268,6 +269,7 @@ mod tests {
             offset: -0.005,
             body: true,
             above: 1,
+            pushes: true,
         });
         let contacts: Vec<Contact> = std::iter::once(contact).chain(planes).collect();
         let bounds = Bounds::new(&x, &contacts, 0.2, 1e-3);

@@ -5,7 +5,6 @@ use parry3d_f64::partitioning::{Bvh, BvhWorkspace};
 use rayon::prelude::*;
 
 use super::Contact;
-use super::narrow::{closest_on_segments, closest_on_triangle};
 use crate::geometry::{Topology, Vec2, Vec3};
 
 /// Triangles per leaf: small enough for tight boxes, large enough that the tree costs little.
@@ -260,26 +259,17 @@ impl Search<'_> {
                 {
                     continue;
                 }
-                let w = closest_on_triangle(point, a, b, c);
-                let away = point - (a * w[0] + b * w[1] + c * w[2]);
-                let distance = away.norm();
-                if distance >= self.reach || distance <= 0.0 {
+                let Some(contact) = Contact::within_cloth([v, tri[0], tri[1], tri[2]], 1, self.x) else { continue };
+                let distance = contact.gap(self.x);
+                if distance >= self.reach {
                     continue;
                 }
+                let [_, k, l, m] = contact.weights;
                 let [f, g, h] = self.detector.flat[t as usize];
-                let apart = (p.piece == q.piece).then(|| flat - (f * w[0] + g * w[1] + h * w[2]));
-                if self.same_sheet(distance, apart, &[v], &tri) {
-                    continue;
+                let apart = (p.piece == q.piece).then(|| flat + f * k + g * l + h * m);
+                if !self.same_sheet(distance, apart, &[v], &tri) {
+                    out.push(contact);
                 }
-                out.push(Contact {
-                    nodes: [v, tri[0], tri[1], tri[2]],
-                    weights: [1.0, -w[0], -w[1], -w[2]],
-                    count: 4,
-                    normal: away / distance,
-                    offset: 0.0,
-                    body: false,
-                    above: 1,
-                });
             }
         }
     }
@@ -304,27 +294,17 @@ impl Search<'_> {
                 if self.detector.joined(e, f) {
                     continue;
                 }
-                let (s, t) = closest_on_segments(a, b, c, d);
-                let inner = s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0;
-                let away = a + (b - a) * s - c - (d - c) * t;
-                let distance = away.norm();
-                if distance >= self.reach * if inner { 1.0 } else { BLUNT } || distance <= 0.0 {
+                let Some(contact) = Contact::within_cloth([e[0], e[1], f[0], f[1]], 2, self.x) else { continue };
+                let distance = contact.gap(self.x);
+                // Ends of segments are pushed by the vertex–triangle pairs.
+                if distance >= self.reach * if contact.pushes { 1.0 } else { BLUNT } {
                     continue;
                 }
-                let apart = || flat[0] * (1.0 - s) + flat[1] * s - other[0] * (1.0 - t) - other[1] * t;
-                if self.same_sheet(distance, (p.piece == q.piece).then(apart), e, f) {
-                    continue;
+                let [k, l, m, n] = contact.weights;
+                let apart = (p.piece == q.piece).then(|| flat[0] * k + flat[1] * l + other[0] * m + other[1] * n);
+                if !self.same_sheet(distance, apart, e, f) {
+                    out.push(contact);
                 }
-                out.push(Contact {
-                    nodes: [e[0], e[1], f[0], f[1]],
-                    weights: [1.0 - s, s, t - 1.0, -t],
-                    count: 4,
-                    normal: away / distance,
-                    // Ends of segments are pushed by the vertex–triangle pairs.
-                    offset: if inner { 0.0 } else { Contact::SILENT },
-                    body: false,
-                    above: 2,
-                });
             }
         }
     }
@@ -391,6 +371,7 @@ fn own_primitives(leaves: Vec<Vec<u32>>, triangles: &[[u32; 3]], flat: &[[Vec2; 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::closest_on_triangle;
 
     /// Two parallel square sheets of n×n cells, `gap` apart, as two pieces.
     type Sheets = (Vec<Vec3>, Vec<[u32; 3]>, Vec<[Vec2; 3]>, Vec<u32>);

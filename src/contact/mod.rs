@@ -40,15 +40,29 @@ pub struct Contact {
     pub body: bool,
     /// How many of the nodes, counted from the first, are on the side the normal points to.
     pub above: u8,
+    /// Whether it pushes; a pair of cloth edges that are nearest at an end of one is only kept apart.
+    pub pushes: bool,
 }
 
 impl Contact {
-    /// Offset of a pair of edges that must stay apart but does not push: a metre of gap.
-    const SILENT: f64 = -1.0;
+    /// A node and the body's surface, of unit direction `normal` at `point`.
+    pub(crate) fn on_body(node: u32, normal: Vec3, point: Vec3) -> Self {
+        Self::with_body([node, 0, 0, 0], [1.0, 0.0, 0.0, 0.0], 1, normal, point)
+    }
 
-    /// A contact of nothing with nothing.
-    pub(crate) fn none() -> Self {
-        Self { nodes: [0; 4], weights: [0.0; 4], count: 0, normal: Vec3::zeros(), offset: 0.0, body: true, above: 0 }
+    /// The first `count` of `nodes`, a point of the cloth by their `weights`, and the body at `point`.
+    pub(crate) fn with_body(nodes: [u32; 4], weights: [f64; 4], count: u8, normal: Vec3, point: Vec3) -> Self {
+        Self { nodes, weights, count, normal, offset: normal.dot(&point), body: true, above: count, pushes: true }
+    }
+
+    /// Two primitives of the cloth at positions `x`: a vertex and a triangle if one node is `above`, two edges if two
+    /// are. `None` where they meet in a point.
+    pub(crate) fn within_cloth(nodes: [u32; 4], above: u8, x: &[Vec3]) -> Option<Self> {
+        let weights = [0.0; 4];
+        let mut out =
+            Self { nodes, weights, count: 4, normal: Vec3::zeros(), offset: 0.0, body: false, above, pushes: true };
+        out.refresh(x);
+        (out.normal != Vec3::zeros()).then_some(out)
     }
 
     /// The gap at positions `x`, metres.
@@ -67,20 +81,20 @@ impl Contact {
             return;
         }
         let [a, b, c, d] = self.nodes.map(|n| x[n as usize]);
-        let (away, inner) = if self.above == 1 {
+        let away = if self.above == 1 {
             let w = closest_on_triangle(a, b, c, d);
             self.weights = [1.0, -w[0], -w[1], -w[2]];
-            (a - (b * w[0] + c * w[1] + d * w[2]), true)
+            a - (b * w[0] + c * w[1] + d * w[2])
         } else {
             let (s, t) = closest_on_segments(a, b, c, d);
             self.weights = [1.0 - s, s, t - 1.0, -t];
-            (a + (b - a) * s - c - (d - c) * t, s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0)
+            self.pushes = s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0;
+            a + (b - a) * s - c - (d - c) * t
         };
         let distance = away.norm();
         if distance > 0.0 {
             self.normal = away / distance;
         }
-        self.offset = if inner { 0.0 } else { Self::SILENT };
     }
 
     /// Its nodes and their weights.

@@ -43,13 +43,17 @@ pub struct Draped {
     pub residual: f64,
 }
 
-/// Step length, s: long, for inertia only delays rest; the step is a Newton step on the energy.
+/// Step length while falling, s: long, for inertia only delays rest; the step is a Newton step on the energy.
 const STEP: f64 = 0.1;
+/// Step length near rest, s. A garment hangs like a pendulum of a second or two; in shorter steps inertia would hide how
+/// far it still has to go.
+const NEWTON_STEP: f64 = 1.0;
 /// Share of the last motion by which a falling garment looks ahead, and the most it does so, metres.
 const MOMENTUM: f64 = 0.9;
 const LOOK_AHEAD: f64 = 4e-3;
-/// Tangential stiffness of the grip on the body, N/m: a particle's weight (1 mN at most) moves its anchor microns.
-const GRIP: f64 = 300.0;
+/// Tangential stiffness of the grip on the body, N/m. A node of 1 mN weight slips after 0.03 mm; a sliding garment gets
+/// on by its unbalanced force over this in a step, so that a stiffer grip would never let it arrive.
+const GRIP: f64 = 10.0;
 /// Steps between two looks at how far the garment still moves.
 const STRETCH: usize = 10;
 /// A garment that falls no further than this, metres RMS, in so many steps is near its rest: what is left are long
@@ -59,14 +63,14 @@ const NEAR_REST: f64 = 1.5e-3;
 const LONGEST_FALL: usize = 80;
 /// A garment has settled when it moves less than this, metres RMS, in so many steps.
 const SETTLED: f64 = 0.12e-3;
-/// How far a Newton step is trusted: at first, at least and at most, metres. A node that goes further turns its springs
-/// too much for their tangent.
+/// How far a Newton step is trusted to change an edge: at first, at least and at most, metres. What turns a spring
+/// further is too much for its tangent.
 const TRUST: [f64; 3] = [1.5e-3, 0.1e-3, 10e-3];
 /// At rest: drift (RMS) over as many steps again, metres, and residual force in particle weights.
 const DRIFT: f64 = 0.3e-3;
 const RESIDUAL: f64 = 1.0;
-/// Steps so short that all that are left could not move a node by this share of [`DRIFT`] need not be made.
-const STILL: f64 = 0.01;
+/// Steps so short that all that are left could not move any node by this share of [`DRIFT`] need not be made.
+const STILL: f64 = 0.1;
 
 /// Drapes a sewn garment.
 ///
@@ -86,7 +90,7 @@ pub fn drape(
     let mut world = sewn_world(cut, body, stitching, nodes)?;
     world.gravity = 1.0;
     world.friction = Some(Friction::new(world.x.len(), GRIP));
-    let mut fall = Fall { last: world.x.clone(), world, steps: 0, trust: TRUST[0] };
+    let mut fall = Fall { last: world.x.clone(), world, steps: 0, near: false, trust: TRUST[0] };
     let mut drift;
     loop {
         fall.settle(options.max_steps, progress)?;
@@ -108,6 +112,8 @@ struct Fall<'a> {
     /// Positions before the last step.
     last: Vec<Vec3>,
     steps: usize,
+    /// Whether it is near its rest, and stays so.
+    near: bool,
     /// How far a Newton step is trusted, metres.
     trust: f64,
 }
@@ -116,19 +122,18 @@ impl Fall<'_> {
     /// Steps until a stretch of them moves the garment hardly at all, or `most` are made in all.
     fn settle(&mut self, most: usize, progress: &mut dyn FnMut(f64)) -> Result<(), StepError> {
         let mut moved = f64::INFINITY;
-        let mut near = self.steps >= LONGEST_FALL;
         while moved > SETTLED && self.steps < most {
             let before = self.world.x.clone();
             for _ in 0..STRETCH {
-                if near {
-                    self.step(STEP)?;
+                if self.near {
+                    self.step(NEWTON_STEP)?;
                 } else {
                     self.fall()?;
                 }
                 self.steps += 1;
             }
             [moved, _] = motion(&before, &self.world.x);
-            near |= moved < NEAR_REST || self.steps >= LONGEST_FALL;
+            self.near |= moved < NEAR_REST || self.steps >= LONGEST_FALL;
             progress((self.steps as f64 / most as f64).max(SETTLED / moved).min(0.9));
         }
         Ok(())
@@ -147,7 +152,7 @@ impl Fall<'_> {
         let [_, least, most] = TRUST;
         let step = self.world.newton(dt, self.trust)?;
         self.trust = match step {
-            s if s.shortened => 1.2 * s.moved,
+            s if s.shortened => 0.5 * self.trust,
             s if s.ratio < 0.25 => 0.7 * self.trust,
             s if s.ratio > 0.5 => 1.5 * self.trust,
             _ => self.trust,
@@ -161,7 +166,7 @@ impl Fall<'_> {
     fn drift(&mut self) -> Result<[f64; 2], StepError> {
         let before = self.world.x.clone();
         for left in (0..self.steps).rev() {
-            if self.step(0.5 * STEP)? * left as f64 <= STILL * DRIFT {
+            if self.step(0.5 * NEWTON_STEP)? * left as f64 <= STILL * DRIFT {
                 break;
             }
         }

@@ -8,24 +8,23 @@ use super::model::Cloth;
 use crate::contact::Contact;
 use crate::geometry::Vec3;
 
-/// Penalty contact (F6). With `d` = distance kept − gap, the body pushes `stiffness` · d; two layers of cloth push
-/// `stiffness` · d · (distance kept / gap), which starts alike and has no end: nothing that pulls them together, such
-/// as a layer wedged between two that are sewn to one another, closes the gap.
+/// Penalty contact (F6). With `d` = distance kept − gap a contact pushes `stiffness` · d · (distance kept / gap): it
+/// begins softly and has no end, so that nothing that presses on it closes the gap, be it a shoulder seam on one corner
+/// of the body or a layer wedged between two that are sewn to one another.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactLaw {
-    /// N/m per contact.
+    /// N/m per contact, as it begins.
     pub stiffness: f64,
     /// Distance kept from the body beyond half the cloth's thickness, metres.
     pub body_clearance: f64,
-    /// The same where a vertex or edge of the body meets a face or edge of the cloth. Few of these carry what many nodes
-    /// would, so they are pressed deeper, and must not be pressed through.
-    pub face_clearance: f64,
     /// Distance kept between two layers of cloth, metres; `None` = the two half thicknesses.
     pub cloth_gap: Option<f64>,
 }
 
-/// Gaps between layers below this share of the distance kept count as this: the force has to stay finite.
+/// Gaps below this share of the distance kept count as this: the force has to stay finite, also where a node starts
+/// inside the body. Layers get nearer to each other than to the body, which never moves.
 const THINNEST: f64 = 0.02;
+const THINNEST_ON_BODY: f64 = 0.2;
 
 /// A contact at given positions: the load it carries, and how fast that falls as it opens.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +40,7 @@ impl ContactLaw {
     fn kept(&self, cloth: &Cloth, contact: &Contact) -> f64 {
         let first = cloth.half_thickness[contact.nodes[0] as usize];
         if contact.body {
-            return first + if contact.count == 1 { self.body_clearance } else { self.face_clearance };
+            return first + self.body_clearance;
         }
         self.cloth_gap
             .unwrap_or_else(|| first + cloth.half_thickness[contact.nodes[contact.count as usize - 1] as usize])
@@ -49,12 +48,15 @@ impl ContactLaw {
 
     /// Load and slope at `x`.
     pub(super) fn press(&self, cloth: &Cloth, x: &[Vec3], contact: &Contact) -> Press {
-        let (kept, gap) = (self.kept(cloth, contact), contact.gap(x));
         let k = self.stiffness;
-        if contact.body || gap >= kept {
+        if !contact.pushes {
+            return Press { load: f64::NEG_INFINITY, slope: k };
+        }
+        let (kept, gap) = (self.kept(cloth, contact), contact.gap(x));
+        if gap >= kept {
             return Press { load: k * (kept - gap), slope: k };
         }
-        let thin = gap.max(THINNEST * kept);
+        let thin = gap.max(thinnest(contact) * kept);
         let slope = k * (kept / thin).powi(2);
         Press { load: k * (kept - thin) * kept / thin + slope * (thin - gap), slope }
     }
@@ -68,17 +70,18 @@ impl ContactLaw {
     fn energy(&self, cloth: &Cloth, x: &[Vec3], contact: &Contact) -> f64 {
         let (kept, gap) = (self.kept(cloth, contact), contact.gap(x));
         let k = self.stiffness;
-        if gap >= kept {
+        if gap >= kept || !contact.pushes {
             return 0.0;
         }
-        if contact.body {
-            return 0.5 * k * (kept - gap).powi(2);
-        }
-        let thin = gap.max(THINNEST * kept);
+        let thin = gap.max(thinnest(contact) * kept);
         let down_to_thin = k * kept * (kept * (kept / thin).ln() - (kept - thin));
         let below = thin - gap;
         down_to_thin + below * (k * (kept - thin) * kept / thin + 0.5 * k * (kept / thin).powi(2) * below)
     }
+}
+
+fn thinnest(contact: &Contact) -> f64 {
+    if contact.body { THINNEST_ON_BODY } else { THINNEST }
 }
 
 /// A stitch being closed (F5): both nodes pull each other with stiffness × min(gap, cap).
@@ -90,6 +93,14 @@ pub struct Pull {
     pub stiffness: f64,
     /// Gap beyond which the force grows no more, metres.
     pub cap: f64,
+}
+
+impl Pull {
+    /// Force over gap at `x`, N/m.
+    pub(super) fn stiffness_at(&self, x: &[Vec3]) -> f64 {
+        let gap = (x[self.ends[1] as usize] - x[self.ends[0] as usize]).norm();
+        self.stiffness * (self.cap / gap.max(1e-12)).min(1.0)
+    }
 }
 
 /// What acts on the cloth besides its own elasticity.
@@ -147,9 +158,8 @@ pub(super) fn push(
     for (i, w) in contact.parts() {
         out[i] += contact.normal * (load * w);
     }
-    if let (Some(friction), true, 1, true) = (friction, contact.body, contact.count, load > 0.0) {
-        let i = contact.nodes[0] as usize;
-        out[i] += friction.grip(contact, x[i], load, cloth.friction[i]).force;
+    if let Some((i, grip)) = friction.and_then(|f| f.grip(contact, x, load, &cloth.friction)) {
+        out[i] += grip.force;
     }
 }
 
@@ -168,9 +178,7 @@ pub(super) fn free_forces(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Vec
         out[s.ends[1] as usize] -= f;
     }
     for pull in forces.pulls {
-        let d = x[pull.ends[1] as usize] - x[pull.ends[0] as usize];
-        let gap = d.norm();
-        let f = d * (pull.stiffness * (pull.cap / gap.max(1e-12)).min(1.0));
+        let f = (x[pull.ends[1] as usize] - x[pull.ends[0] as usize]) * pull.stiffness_at(x);
         out[pull.ends[0] as usize] += f;
         out[pull.ends[1] as usize] -= f;
     }

@@ -27,15 +27,20 @@ impl Friction {
         Self { stiffness, anchors: vec![None; nodes] }
     }
 
-    /// The grip of body contact `contact` on its node at `x`, for normal force `load` and coefficient `mu`.
-    pub(super) fn grip(&self, contact: &Contact, x: Vec3, load: f64, mu: f64) -> Grip {
-        let Some(anchor) = self.anchors[contact.nodes[0] as usize] else {
-            return Grip { force: Vec3::zeros(), stiffness: if load > 0.0 { self.stiffness } else { 0.0 } };
+    /// The node that a contact grips, and how, for the normal force `load` and the nodes' coefficients `mu`; `None` for
+    /// contacts that grip nothing: within the cloth, of faces and edges (their nodes have their own), and open ones.
+    pub(super) fn grip(&self, contact: &Contact, x: &[Vec3], load: f64, mu: &[f64]) -> Option<(usize, Grip)> {
+        if !contact.body || contact.count != 1 || load <= 0.0 {
+            return None;
+        }
+        let i = contact.nodes[0] as usize;
+        let Some(anchor) = self.anchors[i] else {
+            return Some((i, Grip { force: Vec3::zeros(), stiffness: self.stiffness }));
         };
-        let slip = tangential(x - anchor, contact.normal);
+        let slip = tangential(x[i] - anchor, contact.normal);
         let pull = self.stiffness * slip.norm();
-        let share = if pull > mu * load { mu * load / pull } else { 1.0 };
-        Grip { force: slip * (-self.stiffness * share), stiffness: self.stiffness * share }
+        let share = if pull > mu[i] * load { mu[i] * load / pull } else { 1.0 };
+        Some((i, Grip { force: slip * (-self.stiffness * share), stiffness: self.stiffness * share }))
     }
 
     /// Energy of the anchors' springs, J, for the given normal forces (one per contact): a quadratic while the node

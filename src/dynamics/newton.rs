@@ -9,17 +9,19 @@ use rayon::prelude::*;
 
 use super::force::{Forces, Press, free_forces};
 use super::model::Cloth;
+use super::springs::SpringTangent;
 use super::step::{Reuse, StepError, Stepper, contact_forces, opening, presses};
 use crate::geometry::Vec3;
 
 /// Most conjugate gradient iterations of a step; more would cost more than a new factor.
-const ITERATIONS: usize = 16;
+const ITERATIONS: usize = 30;
 /// A preconditioner need not be new: an older factor costs iterations, about one for every contact it does not know.
 const OLD: Reuse = Reuse { moved: 1e-3, contacts: 8 };
 /// They end when the preconditioned residual has fallen to this share (squared).
 const SOLVED: f64 = 1e-4;
-/// Contacts that a step would press deeper than this, metres, are added and the step is solved again.
-const PRESSED: f64 = 5e-5;
+/// Contacts that a step would press deeper than this, metres, are added and the step is solved again: the energy they
+/// would hold must be small beside what a step near rest gains.
+const PRESSED: f64 = 5e-6;
 /// How often.
 const ROUNDS: usize = 3;
 
@@ -38,12 +40,11 @@ struct Tangent<'a> {
     dt: f64,
     forces: &'a Forces<'a>,
     presses: &'a [Press],
-    /// Direction, stiffness along it beyond that across, and stiffness across of every spring.
-    springs: Vec<(Vec3, f64, f64)>,
+    springs: Vec<SpringTangent>,
 }
 
 impl Stepper {
-    /// A step from `x` of at most `radius` metres for any node.
+    /// A step from `x` that changes no edge by more than `radius` metres.
     ///
     /// # Errors
     /// [`StepError::Singular`] when a number is not finite.
@@ -85,22 +86,20 @@ impl Stepper {
         let mut p = z.clone();
         let mut rz = dot(&r, &z);
         let solved = SOLVED * rz;
-        for iteration in 0..ITERATIONS {
+        for _ in 0..ITERATIONS {
             if rz <= solved {
                 break;
             }
             let ap = tangent.apply(&p, active);
             let curvature = dot(&p, &ap);
             if curvature <= 0.0 {
-                if iteration == 0 {
-                    d = p;
-                    shorten(&mut d, radius);
-                }
+                let part = ((radius - tangent.change(&d)) / tangent.change(&p)).max(0.0);
+                d.iter_mut().zip(&p).for_each(|(d, p)| *d += p * part);
                 break;
             }
             let share = rz / curvature;
             let next: Vec<Vec3> = d.iter().zip(&p).map(|(d, p)| d + p * share).collect();
-            let (from, to) = (longest(&d), longest(&next));
+            let (from, to) = (tangent.change(&d), tangent.change(&next));
             if to > radius {
                 let part = share * ((radius - from) / (to - from)).clamp(0.0, 1.0);
                 d.iter_mut().zip(&p).for_each(|(d, p)| *d += p * part);
@@ -120,18 +119,7 @@ impl Stepper {
 
 impl<'a> Tangent<'a> {
     fn new(cloth: &'a Cloth, x: &'a [Vec3], dt: f64, forces: &'a Forces<'a>, presses: &'a [Press]) -> Self {
-        let springs = cloth
-            .springs
-            .iter()
-            .map(|s| {
-                let d = x[s.ends[1] as usize] - x[s.ends[0] as usize];
-                let length = d.norm().max(1e-9);
-                let law = &cloth.laws[s.law as usize];
-                let strain = length / s.rest - 1.0;
-                let across = law.load(strain) * s.width / length;
-                (d / length, law.slope(strain) * s.width / s.rest - across, across)
-            })
-            .collect();
+        let springs = cloth.springs.iter().map(|s| s.tangent(&cloth.laws[s.law as usize], x)).collect();
         Self { cloth, x, dt, forces, presses, springs }
     }
 
@@ -144,10 +132,9 @@ impl<'a> Tangent<'a> {
             for (i, w) in contact.parts() {
                 out[i] += contact.normal * (back * w);
             }
-            if let (Some(friction), true, 1) = (self.forces.friction, contact.body, contact.count) {
-                let i = contact.nodes[0] as usize;
-                let k = friction.grip(contact, self.x[i], press.load.max(0.0), self.cloth.friction[i]).stiffness;
-                out[i] += (p[i] - contact.normal * contact.normal.dot(&p[i])) * k;
+            let grip = self.forces.friction.and_then(|f| f.grip(contact, self.x, press.load, &self.cloth.friction));
+            if let Some((i, grip)) = grip {
+                out[i] += (p[i] - contact.normal * contact.normal.dot(&p[i])) * grip.stiffness;
             }
         }
         out
@@ -160,13 +147,20 @@ impl<'a> Tangent<'a> {
             .with_min_len(512)
             .map(|i| cloth.bending.gradient(p, i) + p[i] * (cloth.mass[i] * inertia))
             .collect();
-        for (s, (t, along, across)) in cloth.springs.iter().zip(&self.springs) {
+        for (s, SpringTangent { direction: t, along, across }) in cloth.springs.iter().zip(&self.springs) {
             let e = p[s.ends[1] as usize] - p[s.ends[0] as usize];
-            let f = t * (along * t.dot(&e)) + e * *across;
+            let f = t * ((along - across) * t.dot(&e)) + e * *across;
             out[s.ends[0] as usize] -= f;
             out[s.ends[1] as usize] += f;
         }
         out
+    }
+
+    /// The most that a step changes an edge, metres. A node's own way does not matter: a garment that sways as a whole
+    /// turns no spring.
+    fn change(&self, d: &[Vec3]) -> f64 {
+        let square = |e: &[u32; 2]| (d[e[0] as usize] - d[e[1] as usize]).norm_squared();
+        self.cloth.edges.iter().map(square).fold(0.0, f64::max).sqrt()
     }
 
     /// Decrease of the energy's model along `d`: quadratic, but every contact pushes only while it touches.
@@ -182,16 +176,4 @@ impl<'a> Tangent<'a> {
 
 fn dot(a: &[Vec3], b: &[Vec3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
-}
-
-/// Length of the longest vector.
-fn longest(a: &[Vec3]) -> f64 {
-    a.iter().map(Vec3::norm_squared).fold(0.0, f64::max).sqrt()
-}
-
-fn shorten(d: &mut [Vec3], radius: f64) {
-    let far = longest(d);
-    if far > radius {
-        d.iter_mut().for_each(|d| *d *= radius / far);
-    }
 }

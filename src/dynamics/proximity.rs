@@ -13,15 +13,27 @@ pub struct Reach {
     pub cloth: f64,
     /// The body is looked for this near, metres.
     pub body: f64,
-    /// A new detection is due when any node has gone this share of `cloth`.
-    pub renew: f64,
 }
 
-/// Body vertices and edges are tested against cloth triangles whose nodes are nearer to the body than this many
-/// metres (and the contacts found are within half of it).
-const FACE_REACH: f64 = 0.012;
+impl Reach {
+    /// The reach within the cloth given, metres.
+    pub fn new(cloth: f64) -> Self {
+        Self { cloth, body: (0.5 * cloth).max(BODY) }
+    }
+}
+
+/// The body is looked for at least this near, metres, and further than a node may go between two looks.
+const BODY: f64 = 0.02;
+/// A new detection is due when any node has gone this share of the reach.
+const RENEW: f64 = 0.3;
+
+/// Body vertices and edges are contacts of cloth triangles and edges nearer than this, metres: what a node goes between
+/// two detections.
+const FACE_REACH: f64 = 4e-3;
 /// A node's distance to the body is measured up to this many reaches, so that far nodes need not be asked every time.
 const FAR: f64 = 4.0;
+/// Room for rounding in distances, metres.
+const ROUNDING: f64 = 1e-9;
 
 /// Contacts between cloth and body and within the cloth.
 pub(super) struct Proximity<'a> {
@@ -73,7 +85,7 @@ impl<'a> Proximity<'a> {
     /// Follows the nodes to `x`: a new detection when one has gone far, otherwise the pairs of cloth are turned to
     /// where their closest points are now. Returns whether the contacts are others.
     pub(super) fn follow(&mut self, cloth: &Cloth, x: &[Vec3]) -> bool {
-        if self.bounds.travelled(x) > self.reach.renew * self.reach.cloth {
+        if self.bounds.travelled(x) > RENEW * self.reach.cloth {
             self.detect(cloth, x);
             return true;
         }
@@ -109,65 +121,65 @@ impl<'a> Proximity<'a> {
 
     fn body_contacts(&mut self, x: &[Vec3]) -> Vec<Contact> {
         let (body, reach) = (self.body, self.reach.body);
-        // A node whose last measured distance minus its way since cannot have come within reach is not asked for again.
-        let found: Vec<Option<(f64, Contact)>> = self
+        // A node whose last measured distance minus its way since cannot have come within reach is not asked for again;
+        // that distance plus its way is as far as the surface can be now.
+        let found: Vec<Option<(f64, Option<Contact>)>> = self
             .body_distance
             .par_iter()
+            .with_min_len(128)
             .enumerate()
             .map(|(i, &(distance, at))| {
-                if distance - (x[i] - at).norm() > reach {
+                let way = (x[i] - at).norm();
+                if distance - way > reach {
                     return None;
                 }
-                let limit = FAR * reach;
-                let Some(near) = body.nearest(x[i], limit) else { return Some((limit, Contact::none())) };
-                let contact = Contact {
-                    nodes: [i as u32, 0, 0, 0],
-                    weights: [1.0, 0.0, 0.0, 0.0],
-                    count: 1,
-                    normal: near.normal,
-                    offset: near.normal.dot(&near.point),
-                    body: true,
-                    above: 1,
-                };
-                Some((near.distance, contact))
+                let far = FAR * reach;
+                let limit = if distance.is_finite() { far.min(distance.abs() + way + ROUNDING) } else { far };
+                let near = body.nearest(x[i], limit);
+                let contact = near.map(|near| Contact::on_body(i as u32, near.normal, near.point));
+                Some((near.map_or(limit, |near| near.distance), contact))
             })
             .collect();
         let mut contacts = Vec::new();
         for (i, entry) in found.into_iter().enumerate() {
             if let Some((distance, contact)) = entry {
                 self.body_distance[i] = (distance, x[i]);
-                if distance < reach && contact.count > 0 {
-                    contacts.push(contact);
-                }
+                contacts.extend(contact.filter(|_| distance < reach));
             }
         }
         contacts
     }
 
     fn face_contacts(&self, cloth: &Cloth, x: &[Vec3], contacts: &mut Vec<Contact>) {
-        let near = |n: u32| {
+        let far = |n: u32| {
             let (distance, at) = self.body_distance[n as usize];
-            distance - (x[n as usize] - at).norm() < FACE_REACH
+            distance - (x[n as usize] - at).norm()
+        };
+        // No point of an edge or triangle is further from the nearest of its nodes than this share of its longest side.
+        let near = |nodes: &[u32]| {
+            let side = |a: u32, b: u32| (x[a as usize] - x[b as usize]).norm();
+            let longest = nodes.iter().flat_map(|&a| nodes.iter().map(move |&b| side(a, b))).fold(0.0, f64::max);
+            nodes.iter().map(|&n| far(n)).fold(f64::INFINITY, f64::min) < FACE_REACH + 3f64.sqrt().recip() * longest
         };
         let faces: Vec<Contact> = cloth
             .triangles
             .par_iter()
-            .with_min_len(256)
-            .filter(|t| t.iter().all(|&n| near(n)))
+            .with_min_len(512)
+            .filter(|t| near(*t))
             .flat_map_iter(|t| {
                 let mut out = Vec::new();
-                self.body.vertices_near_triangle(x, *t, 0.5 * FACE_REACH, &mut out);
+                self.body.vertices_near_triangle(x, *t, FACE_REACH, &mut out);
                 out
             })
             .collect();
         let edges: Vec<Contact> = cloth
             .edges
             .par_iter()
-            .with_min_len(256)
-            .filter(|e| e.iter().all(|&n| near(n)))
+            .with_min_len(512)
+            .filter(|e| near(*e))
             .flat_map_iter(|e| {
                 let mut out = Vec::new();
-                self.body.edges_near_edge(x, *e, 0.5 * FACE_REACH, &mut out);
+                self.body.edges_near_edge(x, *e, FACE_REACH, &mut out);
                 out
             })
             .collect();

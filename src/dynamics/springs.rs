@@ -1,6 +1,7 @@
 //! Springs with the fabric's measured, piecewise-linear load–extension curve (F3, F4).
 
 use crate::fabric::{Fabric, TensileCurve};
+use crate::geometry::Vec3;
 
 /// Load per width against strain in one direction of the cloth: linear between knots, the last slope goes on, and
 /// compression keeps the first slope (cloth buckles out of its plane long before its threads shorten).
@@ -85,6 +86,34 @@ pub struct Spring {
     /// Index of its [`StretchLaw`].
     pub law: u32,
 }
+
+/// A spring's stiffness at one position: `along` its direction t and `across` it, k = along · t tᵀ + across · (1 − t tᵀ).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SpringTangent {
+    /// Unit direction from the first to the second end.
+    pub(super) direction: Vec3,
+    /// N/m.
+    pub(super) along: f64,
+    /// N/m; negative in compression.
+    pub(super) across: f64,
+}
+
+impl Spring {
+    /// The tangent at positions `x`.
+    pub(super) fn tangent(&self, law: &StretchLaw, x: &[Vec3]) -> SpringTangent {
+        let d = x[self.ends[1] as usize] - x[self.ends[0] as usize];
+        let length = d.norm().max(SHORTEST);
+        let strain = length / self.rest - 1.0;
+        SpringTangent {
+            direction: d / length,
+            along: law.slope(strain) * self.width / self.rest,
+            across: law.load(strain) * self.width / length,
+        }
+    }
+}
+
+/// A spring is never taken for shorter than this, metres.
+pub(super) const SHORTEST: f64 = 1e-9;
 
 #[cfg(test)]
 mod tests {

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::force::{Forces, Press, free_forces, push};
 use super::model::Cloth;
+use super::springs::SpringTangent;
 use crate::contact::Contact;
 use crate::geometry::{Mat3, Vec3};
 use crate::linear::{
@@ -168,9 +169,7 @@ impl Stepper {
         self.assemble(cloth, x, dt, forces);
         for ((contact, press), _) in forces.contacts.iter().zip(presses).zip(active).filter(|(_, on)| **on) {
             self.add_contact(contact, press.slope);
-            if let (Some(friction), true, 1, true) = (forces.friction, contact.body, contact.count, press.load > 0.0) {
-                let i = contact.nodes[0] as usize;
-                let grip = friction.grip(contact, x[i], press.load, cloth.friction[i]);
+            if let Some((i, grip)) = forces.friction.and_then(|f| f.grip(contact, x, press.load, &cloth.friction)) {
                 let across = Mat3::identity() - contact.normal * contact.normal.transpose();
                 self.matrix.add_block(self.diagonal[i], &(across * grip.stiffness));
             }
@@ -189,15 +188,10 @@ impl Stepper {
             .par_iter()
             .with_min_len(1024)
             .map(|s| {
-                let d = x[s.ends[1] as usize] - x[s.ends[0] as usize];
-                let length = d.norm().max(1e-9);
-                let t = d / length;
-                let law = &cloth.laws[s.law as usize];
-                let strain = length / s.rest - 1.0;
-                let along = law.slope(strain) * s.width / s.rest;
+                let SpringTangent { direction, along, across } = s.tangent(&cloth.laws[s.law as usize], x);
                 // A compressed spring would buckle within one step: the absolute value lets it, but gently.
-                let across = (law.load(strain) * s.width / length).abs();
-                Mat3::identity() * across + t * t.transpose() * (along - across).max(0.0)
+                let across = across.abs();
+                Mat3::identity() * across + direction * direction.transpose() * (along - across).max(0.0)
             })
             .collect();
         for ((s, slot), k) in cloth.springs.iter().zip(&self.springs).zip(&blocks) {
@@ -207,9 +201,8 @@ impl Stepper {
             couple(&mut self.matrix, &self.diagonal, *e, *slot, &(Mat3::identity() * *w));
         }
         for (pull, slot) in forces.pulls.iter().zip(&self.pulls) {
-            let gap = (x[pull.ends[1] as usize] - x[pull.ends[0] as usize]).norm();
-            let k = Mat3::identity() * (pull.stiffness * (pull.cap / gap.max(1e-12)).min(1.0));
             if let Some(slot) = slot {
+                let k = Mat3::identity() * pull.stiffness_at(x);
                 couple(&mut self.matrix, &self.diagonal, pull.ends, *slot, &k);
             }
         }

@@ -119,7 +119,7 @@ impl<'a> World<'a> {
         self.move_to(target, dt)
     }
 
-    /// A step with the true stiffness, no node further than `radius` metres, shortened until the energy falls; where it
+    /// A step with the true stiffness that changes no edge by more than `radius` metres, shortened until the energy falls; where it
     /// does not, a step with the majorant.
     ///
     /// # Errors

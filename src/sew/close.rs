@@ -85,6 +85,11 @@ fn check_start(cut: &Cut, body: &Collider, start: &[Vec3]) -> Result<(), SewErro
 const STEP: f64 = 1.0 / 60.0;
 /// Share of the velocity that lives on from step to step.
 const KEEP: f64 = 0.8;
+/// Contact while the seams close: N/m as it begins, metres kept from the body beyond half the cloth's thickness, and
+/// the distance layers keep, in grid spacings.
+const PENALTY: f64 = 600.0;
+const CLEARANCE: f64 = 1.5e-3;
+const GAP: f64 = 0.1;
 /// Soft springs while the seams close: N/m, and their share on the bias.
 const SOFT: SpringModel = SpringModel::Soft { stiffness: 1000.0, bias: 0.4 };
 /// Stitch stiffness, N/m, and the largest force of a pair, N, phase by phase (F5). What closes the last
@@ -115,10 +120,8 @@ pub fn sew(
     let cloth = Cloth::new(cut, identity_nodes(mesh), SOFT);
     let pairs: Vec<[u32; 2]> = stitching.pairs.iter().map(|p| p.0).collect();
     let h = mesh.spacing;
-    let law = ContactLaw { stiffness: 600.0, body_clearance: 1.5e-3, face_clearance: 1.5e-3, cloth_gap: Some(0.1 * h) };
-    // The body must be seen from further than a node may go between two looks.
-    let cloth_reach = 1.6 * h;
-    let reach = Reach { cloth: cloth_reach, body: (0.5 * cloth_reach).max(0.02), renew: 0.2 };
+    let law = ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, cloth_gap: Some(GAP * h) };
+    let reach = Reach::new(1.6 * h);
     let hood = Neighbourhood {
         class: stitching.class.clone(),
         seams: beside_seams(mesh, &stitching, &cloth),

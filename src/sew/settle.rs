@@ -8,10 +8,9 @@ use crate::geometry::Vec3;
 /// Distance kept from the body beyond half the cloth's thickness, metres. A band without ease stands off by it, and
 /// every 0.1 mm of it is 0.08 % of a waist.
 const CLEARANCE: f64 = 0.25e-3;
-/// The same for faces and edges, metres: room for what a shoulder seam presses on one corner of the body (half a newton).
-const FACE_CLEARANCE: f64 = 1e-3;
-/// Penalty stiffness of a contact, N/m.
-const PENALTY: f64 = 600.0;
+/// Stiffness of a contact as it begins, N/m: a particle's weight presses 0.02 mm. Soft, so that a contact that comes or
+/// goes does not shake the rest; it hardens as the gap closes.
+const PENALTY: f64 = 60.0;
 /// Rounds of leading tangles apart.
 const UNTANGLE: usize = 60;
 /// The measured springs pull the cloth true after the last tangle is gone: at most so many steps, until no node goes
@@ -32,10 +31,8 @@ pub fn sewn_world<'a>(
     nodes: Vec<Vec3>,
 ) -> Result<World<'a>, StepError> {
     let cloth = Cloth::new(cut, stitching.class.clone(), SpringModel::Measured);
-    let law =
-        ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, face_clearance: FACE_CLEARANCE, cloth_gap: None };
-    let cloth_reach = 0.8 * cut.mesh.spacing;
-    let reach = Reach { cloth: cloth_reach, body: (0.5 * cloth_reach).max(0.02), renew: 0.2 };
+    let law = ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, cloth_gap: None };
+    let reach = Reach::new(0.8 * cut.mesh.spacing);
     let n = nodes.len();
     let hood = Neighbourhood { class: (0..n as u32).collect(), seams: vec![Vec::new(); n], tangled: Vec::new() };
     World::new(cloth, nodes, &[], body, hood, law, reach)
