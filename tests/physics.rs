@@ -81,7 +81,8 @@ fn noise(count: usize) -> Vec<f64> {
 }
 
 fn body_contact(node: u32, normal: Vec3, offset: f64) -> Contact {
-    Contact { nodes: [node, 0, 0, 0], weights: [1.0, 0.0, 0.0, 0.0], count: 1, normal, offset, body: true, above: 1 }
+    let weights = [1.0, 0.0, 0.0, 0.0];
+    Contact { nodes: [node, 0, 0, 0], weights, count: 1, normal, offset, body: true, above: 1, pushes: true }
 }
 
 /// Six contacts that press on a node from all sides: a spring to `at` that both integrators know.
