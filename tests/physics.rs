@@ -163,10 +163,14 @@ fn contact_pushes_within_its_distance_only() {
     let (cloth, mut x) = slack();
     let contacts = [body_contact(0, Vec3::z(), 0.0)];
     let kept = cloth.half_thickness[0] + LAW.body_clearance;
-    for (height, share) in [(-kept, 2.0), (0.0, 1.0), (0.5 * kept, 0.5), (1.1 * kept, 0.0)] {
-        x[0].z = height;
+    // d · kept / gap: ever harder as the gap closes, by its tangent below a fifth of the distance kept.
+    let tangent_at_a_fifth = |gap: f64| 4.0 + 25.0 * (0.2 - gap);
+    let expected =
+        [(-1.0, tangent_at_a_fifth(-1.0)), (0.0, tangent_at_a_fifth(0.0)), (0.2, 4.0), (0.5, 1.0), (1.1, 0.0)];
+    for (height, load) in expected {
+        x[0].z = height * kept;
         let force = added(&cloth, Forces { contacts: &contacts, ..NOTHING }, &x);
-        assert!((force[0] - Vec3::z() * (share * LAW.stiffness * kept)).norm() < 1e-12, "{height}");
+        assert!((force[0] - Vec3::z() * (load * LAW.stiffness * kept)).norm() < 1e-9, "{height}");
     }
 }
 

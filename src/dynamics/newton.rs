@@ -14,7 +14,7 @@ use super::step::{Reuse, StepError, Stepper, contact_forces, opening, presses};
 use crate::geometry::Vec3;
 
 /// Most conjugate gradient iterations of a step; more would cost more than a new factor.
-const ITERATIONS: usize = 30;
+const ITERATIONS: usize = 16;
 /// A preconditioner need not be new: an older factor costs iterations, about one for every contact it does not know.
 const OLD: Reuse = Reuse { moved: 1e-3, contacts: 8 };
 /// They end when the preconditioned residual has fallen to this share (squared).
