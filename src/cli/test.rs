@@ -80,13 +80,13 @@ fn is_yaml(path: &Path) -> bool {
 /// Makes one garment as its file says, and once more in every fabric that it has bounds for.
 fn outcomes(file: &Path, overrides: &Overrides, console: &Console) -> Vec<Outcome> {
     let mut out = vec![outcome(file, overrides, console)];
+    if overrides.fabric.is_some() {
+        return out;
+    }
     let Ok(loaded) = read(file) else { return out };
     let mut fabrics: Vec<&str> = loaded.garment.tests.iter().filter_map(|t| t.fabric.as_deref()).collect();
     fabrics.sort_unstable();
     fabrics.dedup();
-    if overrides.fabric.is_some() {
-        fabrics.clear();
-    }
     for fabric in fabrics {
         let overrides = Overrides { fabric: Some(fabric.to_owned()), ..overrides.clone() };
         let mut made = outcome(file, &overrides, console);

@@ -295,8 +295,9 @@ mod tests {
         let over = contacts([Vec3::new(off - 0.1, off + 0.1, 0.4), Vec3::new(off + 0.1, off - 0.1, 0.6)]);
         assert_eq!(over.len(), 1, "{over:?}");
         assert_relative_eq!(over[0], 0.01, epsilon = 1e-3);
-        // Upright before the face x = 1, crossing the edge's height 20 mm in front of it: no business of the edge's.
-        let before = contacts([Vec3::new(1.02, 0.9, 0.45), Vec3::new(1.03, 1.3, 0.55)]);
+        // Before the face x = 1, its middle 10 mm off it and 30 mm below the edge: that face's business. Taken for the
+        // edge's it would lie 32 mm under it.
+        let before = contacts([Vec3::new(1.0024, 0.9675, 0.499), Vec3::new(1.0176, 0.9725, 0.501)]);
         assert!(before.iter().all(|gap| *gap > 0.0), "{before:?}");
     }
 }

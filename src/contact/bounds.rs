@@ -44,6 +44,7 @@ impl Bounds {
             *pair = *contact;
         }
     }
+
     /// How far a node may go between two detections: less than half the reach, so that a pair not found cannot meet.
     pub fn allowance(reach: f64) -> f64 {
         0.45 * reach
@@ -261,16 +262,7 @@ mod tests {
     fn a_layer_does_not_press_a_node_into_the_body() {
         let (x, contact) = pair();
         // The body's surface lies 5 mm under the node's sheet, and the node comes down on the sheet.
-        let planes = (1..4).map(|n| Contact {
-            nodes: [n, 0, 0, 0],
-            weights: [1.0, 0.0, 0.0, 0.0],
-            count: 1,
-            normal: Vec3::y(),
-            offset: -0.005,
-            body: true,
-            above: 1,
-            pushes: true,
-        });
+        let planes = (1..4).map(|n| Contact::on_body(n, Vec3::y(), Vec3::y() * -0.005));
         let contacts: Vec<Contact> = std::iter::once(contact).chain(planes).collect();
         let bounds = Bounds::new(&x, &contacts, 0.2, 1e-3);
         let mut to = x.map(|p| p + Vec3::new(0.0, -0.08, 0.0));

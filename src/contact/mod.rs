@@ -4,8 +4,8 @@
 //! and the weights of the nodes that take part. Between two detections no node moves further than
 //! [`Bounds::allowance`], so a pair that was not found cannot meet; a pair that was found is kept apart by a plane
 //! between its two sides ([`Bounds`]). Cloth that starts without a crossing therefore ends without one; the exceptions
-//! are pairs left out on purpose (neighbours in the cloth, both sides of a seam that is being closed), and cloth edges and
-//! faces against the body, which only the penalty holds off.
+//! are pairs left out on purpose (neighbours in the cloth, both sides of a seam that is being closed), and edges and
+//! faces of the cloth against the body, which only the penalty holds off.
 
 mod body;
 mod bounds;

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::GRAVITY;
 use super::friction::Friction;
 use super::model::Cloth;
+use super::springs::SHORTEST;
 use crate::contact::Contact;
 use crate::geometry::Vec3;
 
@@ -172,7 +173,7 @@ pub(super) fn free_forces(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Vec
         .collect();
     for s in &cloth.springs {
         let d = x[s.ends[1] as usize] - x[s.ends[0] as usize];
-        let length = d.norm().max(1e-9);
+        let length = d.norm().max(SHORTEST);
         let f = d * (cloth.laws[s.law as usize].load(length / s.rest - 1.0) * s.width / length);
         out[s.ends[0] as usize] += f;
         out[s.ends[1] as usize] -= f;

@@ -38,9 +38,9 @@ impl std::fmt::Display for Verdict {
     }
 }
 
-/// Compares a report with the garment's `tests`, or with closed seams and no crossings if none holds for its fabric. Bounds on
-/// stages that did not run, and for other fabrics, are left out. Pieces that had to stretch are reported as such and
-/// not bounded.
+/// Compares a report with the garment's `tests`, or with closed seams and no crossings if none holds for its fabric.
+/// Bounds on stages that did not run, and for other fabrics, are left out. Pieces that had to stretch are reported as
+/// such and not bounded.
 pub fn verdicts(garment: &Garment, report: &Report) -> Vec<Verdict> {
     let used = |name: &str| report.fabric.split(" + ").any(|f| f == name);
     let holds = |test: &&Test| test.fabric.as_deref().is_none_or(used);
