@@ -513,7 +513,7 @@ fn pleats_are_held_by_all_their_layers() {
             1,
         ));
         assert!((g.seams[0].length_a() - (0.1 - take)).abs() < 1e-9, "{kind}");
-        let layers: Vec<_> = g.seams.iter().filter(|s| s.kind == SeamKind::Pleat).collect();
+        let layers: Vec<_> = g.seams.iter().filter(|s| matches!(s.kind, SeamKind::Pleat(_))).collect();
         assert_eq!(layers.len(), seams, "{kind}");
         assert!(layers.iter().all(|s| (s.length_a() - 0.01).abs() < 1e-12 && (s.length_b() - 0.01).abs() < 1e-12));
         assert_eq!(openings(&g).len(), 1, "{kind}");

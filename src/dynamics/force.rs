@@ -178,6 +178,11 @@ pub(super) fn free_forces(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Vec
         out[s.ends[0] as usize] += f;
         out[s.ends[1] as usize] -= f;
     }
+    for crease in &cloth.creases {
+        for (n, f) in crease.nodes.iter().zip(crease.forces(x)) {
+            out[*n as usize] += f;
+        }
+    }
     for pull in forces.pulls {
         let f = (x[pull.ends[1] as usize] - x[pull.ends[0] as usize]) * pull.stiffness_at(x);
         out[pull.ends[0] as usize] += f;

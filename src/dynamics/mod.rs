@@ -3,6 +3,8 @@
 //! Particles that are sewn together are one *node*; everything here speaks of nodes.
 
 mod bending;
+mod crease;
+mod elastic;
 pub mod explicit;
 mod force;
 mod friction;

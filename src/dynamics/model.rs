@@ -3,11 +3,13 @@
 use std::sync::Arc;
 
 use super::bending::{Bending, FlatTriangle};
+use super::crease::{Crease, creases};
+use super::elastic::Elastics;
 use super::springs::{Spring, StretchLaw};
 use crate::fabric::Fabric;
 use crate::geometry::{Topology, Vec2, Vec3};
 use crate::mesh::ClothMesh;
-use crate::pattern::{Garment, Give, LineKind};
+use crate::pattern::{Garment, Give};
 
 /// Which springs the cloth gets.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,6 +68,8 @@ pub struct Cloth {
     pub laws: Vec<StretchLaw>,
     /// Bending.
     pub bending: Bending,
+    /// Pressed folds.
+    pub(super) creases: Vec<Crease>,
     /// Nodes that share a spring, both orders left out: (smaller, larger), sorted.
     pub edges: Vec<[u32; 2]>,
     /// Half the cloth's thickness at every node, metres.
@@ -108,6 +112,7 @@ impl Cloth {
             springs: Vec::new(),
             laws: Vec::new(),
             bending: Bending::default(),
+            creases: creases(mesh, &node_of, fabrics),
             edges: Vec::new(),
             bending_bound: Vec::new(),
             node_of,
@@ -148,6 +153,7 @@ impl Cloth {
         let seam_rest = seam_rest_lengths(mesh, garment);
         let topology = Topology::new(&mesh.triangles);
         let laws_of = self.make_laws(fabrics, model);
+        let mut elastics = Elastics::new(mesh);
         for edge in &topology.edges {
             let [a, b] = edge.ends;
             let along = mesh.flat[b as usize] - mesh.flat[a as usize];
@@ -172,7 +178,15 @@ impl Cloth {
             let angle = along.dot(&mesh.pieces[p].warp).abs().min(rest) / rest;
             let step = (angle.acos() / std::f64::consts::FRAC_PI_2 * ANGLE_STEPS as f64).round() as usize;
             let rest = seam.unwrap_or(rest);
-            push(rest, area / along.norm(), laws_of[p] + step as u32);
+            let (law, width) = (laws_of[p] + step as u32, area / along.norm());
+            match elastics.ratio(edge.ends) {
+                Some(ratio) => {
+                    let [gathers, band] = elastics.laws(law, &mut self.laws);
+                    push(rest, width, gathers);
+                    push(rest * ratio, 1.0, band);
+                }
+                None => push(rest, width, law),
+            }
             if rim {
                 push(rest, RIM_WIDTH, laws_of[p]);
             }
@@ -225,15 +239,15 @@ impl Cloth {
     }
 
     fn add_bending(&mut self, mesh: &ClothMesh, fabrics: &[Arc<Fabric>]) {
-        let creased = creases(mesh, &self.node_of);
         let mut interior = vec![true; self.mass.len()];
         for edge in Topology::new(&self.triangles).rim_edges() {
             for n in edge.ends {
                 interior[n as usize] = false;
             }
         }
-        for n in creased {
-            interior[n as usize] = false;
+        // A crease bends at its hinges instead.
+        for n in self.creases.iter().flat_map(|c| &c.nodes[..2]) {
+            interior[*n as usize] = false;
         }
         let flat_triangles: Vec<FlatTriangle> = (0..self.triangles.len())
             .map(|t| {
@@ -255,7 +269,7 @@ impl Cloth {
         self.node_of.iter().map(|&n| nodes[n as usize]).collect()
     }
 
-    /// Elastic energy (stretch and bending), J.
+    /// Elastic energy (stretch, bending and creases), J.
     pub fn elastic_energy(&self, x: &[Vec3]) -> f64 {
         let stretch: f64 = self
             .springs
@@ -265,7 +279,8 @@ impl Cloth {
                 self.laws[s.law as usize].energy(length / s.rest - 1.0) * s.width * s.rest
             })
             .sum();
-        stretch + self.bending.energy(x)
+        let creases: f64 = self.creases.iter().map(|c| c.energy(x)).sum();
+        stretch + self.bending.energy(x) + creases
     }
 }
 
@@ -293,10 +308,4 @@ fn seam_rest_lengths(mesh: &ClothMesh, garment: &Garment) -> Vec<([u32; 2], f64)
     out.sort_by_key(|e| e.0);
     out.dedup_by_key(|e| e.0);
     out
-}
-
-/// Nodes on fold lines: the cloth is pressed there and does not bend back.
-fn creases(mesh: &ClothMesh, node_of: &[u32]) -> Vec<u32> {
-    let folds = mesh.pieces.iter().flat_map(|p| &p.lines).filter(|l| matches!(l.kind, LineKind::Fold(a) if a != 0.0));
-    folds.flat_map(|l| l.particles.iter().map(|&p| node_of[p as usize])).collect()
 }

@@ -41,6 +41,8 @@ struct Tangent<'a> {
     forces: &'a Forces<'a>,
     presses: &'a [Press],
     springs: Vec<SpringTangent>,
+    /// [`super::crease::Crease::root`] of every crease.
+    creases: Vec<[Vec3; 4]>,
 }
 
 impl Stepper {
@@ -120,7 +122,8 @@ impl Stepper {
 impl<'a> Tangent<'a> {
     fn new(cloth: &'a Cloth, x: &'a [Vec3], dt: f64, forces: &'a Forces<'a>, presses: &'a [Press]) -> Self {
         let springs = cloth.springs.iter().map(|s| s.tangent(&cloth.laws[s.law as usize], x)).collect();
-        Self { cloth, x, dt, forces, presses, springs }
+        let creases = cloth.creases.iter().map(|c| c.root(x)).collect();
+        Self { cloth, x, dt, forces, presses, springs, creases }
     }
 
     /// (M/Δt² + true stiffness) p, with the contacts marked in `active`.
@@ -152,6 +155,12 @@ impl<'a> Tangent<'a> {
             let f = t * ((along - across) * t.dot(&e)) + e * *across;
             out[s.ends[0] as usize] -= f;
             out[s.ends[1] as usize] += f;
+        }
+        for (crease, root) in cloth.creases.iter().zip(&self.creases) {
+            let turned: f64 = crease.nodes.iter().zip(root).map(|(&n, g)| g.dot(&p[n as usize])).sum();
+            for (n, g) in crease.nodes.iter().zip(root) {
+                out[*n as usize] += g * turned;
+            }
         }
         out
     }

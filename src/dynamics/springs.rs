@@ -7,7 +7,7 @@ use crate::geometry::Vec3;
 /// compression keeps the first slope (cloth buckles out of its plane long before its threads shorten).
 #[derive(Clone, Debug, PartialEq)]
 pub struct StretchLaw {
-    /// (strain, N/m), rising, first (0, 0).
+    /// (strain, N/m), rising; (0, 0) is the first, or the second after (−1, 0) where compression meets no resistance.
     knots: Vec<(f64, f64)>,
 }
 
@@ -31,6 +31,12 @@ impl StretchLaw {
         };
         let knots = std::iter::once((0.0, 0.0)).chain(loads.into_iter().map(|f| (strain(f), f))).collect();
         Self { knots }
+    }
+
+    /// The same law without resistance to compression.
+    pub(super) fn slack(&self) -> Self {
+        let extension = self.knots.iter().filter(|k| k.0 >= 0.0).copied();
+        Self { knots: std::iter::once((-1.0, 0.0)).chain(extension).collect() }
     }
 
     fn segment(&self, strain: f64) -> (f64, f64, f64) {
@@ -126,7 +132,10 @@ mod tests {
         assert_relative_eq!(law.load(0.015), 22.5, epsilon = 1e-9);
         assert_relative_eq!(law.load(-0.01), -5.0, epsilon = 1e-9);
         assert_relative_eq!(law.load(0.04), 160.0, epsilon = 1e-9);
-        for e in [-0.02, 0.004, 0.013, 0.025, 0.07] {
+        let slack = law.slack();
+        assert_relative_eq!(slack.load(-0.3), 0.0);
+        assert_relative_eq!(slack.energy(-0.3), 0.0);
+        for (law, e) in [&law, &slack].into_iter().flat_map(|l| [-0.02, 0.004, 0.013, 0.025, 0.07].map(|e| (l, e))) {
             let h = 1e-7;
             assert_relative_eq!((law.energy(e + h) - law.energy(e - h)) / (2.0 * h), law.load(e), max_relative = 1e-6);
             assert_relative_eq!((law.load(e + h) - law.load(e - h)) / (2.0 * h), law.slope(e), max_relative = 1e-6);

@@ -75,7 +75,9 @@ impl Stepper {
     /// A cloth too large for 32-bit indices.
     pub fn new(cloth: &Cloth, pulls: &[[u32; 2]], touching: &[[u32; 2]], x: &[Vec3]) -> Result<Self, StepError> {
         let n = cloth.mass.len();
-        let graph: Vec<[u32; 2]> = cloth.edges.iter().chain(pulls).chain(touching).copied().collect();
+        let mut graph: Vec<[u32; 2]> = cloth.edges.iter().chain(pulls).chain(touching).copied().collect();
+        // The wings of a crease are the only nodes of it without a spring between them.
+        graph.extend(cloth.creases.iter().map(|c| [c.nodes[2], c.nodes[3]]));
         let pattern = Arc::new(SymmetricPattern::blocks(n, graph.iter().map(|e| (e[0] as usize, e[1] as usize)))?);
         let order = Ordering::Given(nested_dissection(x, &graph));
         let slot = |a: usize, b: usize| pattern.block_slot(a, b);
@@ -199,6 +201,18 @@ impl Stepper {
         }
         for ((e, slot), w) in cloth.edges.iter().zip(&self.edges).zip(&cloth.bending_bound) {
             couple(&mut self.matrix, &self.diagonal, *e, *slot, &(Mat3::identity() * *w));
+        }
+        for crease in &cloth.creases {
+            let root = crease.root(x);
+            let nodes = crease.nodes.map(|n| n as usize);
+            for i in 0..4 {
+                self.matrix.add_block(self.diagonal[nodes[i]], &(root[i] * root[i].transpose()));
+                for j in 0..i {
+                    if let Some(slot) = self.matrix.pattern().block_slot(nodes[i], nodes[j]) {
+                        self.matrix.add_block(slot, &(root[i] * root[j].transpose()));
+                    }
+                }
+            }
         }
         for (pull, slot) in forces.pulls.iter().zip(&self.pulls) {
             if let Some(slot) = slot {

@@ -95,6 +95,7 @@ fn flatten_piece(
     let mut sheet = Sheet::as_it_is(&surface, topology, rims);
     sheet.warp = piece.warp;
     draw_out(&mut sheet, first, targets);
+    let_out(&mut sheet, cloth, piece);
     let mut flattened = relax_sheet(&sheet, start, options)?;
     align::onto(&mut flattened.positions, drawn);
     Ok((flattened.positions, flattened.report))
@@ -157,6 +158,17 @@ fn draw_out(sheet: &mut Sheet<'_>, first: u32, targets: &Targets) {
         if element.corners.iter().any(|&v| drawn[v as usize]) {
             element.area *= SOFT;
         }
+    }
+}
+
+/// Gives triangles that elastic gathers their drawn shape: as draped they show the elastic, not the cloth.
+fn let_out(sheet: &mut Sheet<'_>, cloth: &ClothMesh, piece: &PieceMesh) {
+    let first = piece.particles.start as u32;
+    let gathered = piece.on_elastic();
+    for element in sheet.elements.iter_mut().filter(|e| e.corners.iter().any(|v| gathered.contains(&(v + first)))) {
+        let drawn = element.corners.map(|v| cloth.flat[(v + first) as usize]);
+        *element = Element::from_plane(element.corners, drawn);
+        element.area *= SOFT;
     }
 }
 

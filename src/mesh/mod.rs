@@ -22,6 +22,7 @@ mod shape;
 mod springs;
 mod strip;
 
+use std::collections::HashSet;
 use std::ops::Range;
 
 pub use build::{build, build_with};
@@ -88,6 +89,14 @@ pub struct PieceMesh {
     pub smallest_angle: f64,
     /// Warp direction in the flat piece (unit).
     pub warp: Vec2,
+}
+
+impl PieceMesh {
+    /// Particles that lie on elastic lines.
+    pub fn on_elastic(&self) -> HashSet<u32> {
+        let elastic = self.lines.iter().filter(|l| matches!(l.kind, LineKind::Elastic(_)));
+        elastic.flat_map(|l| l.particles.iter().copied()).collect()
+    }
 }
 
 /// Particles of an edge.

@@ -49,7 +49,7 @@ fn may_share(file: &GarmentFile, cut: &Pieces, seams: &Seams, i: usize) -> bool 
     let layered = seams.written[i].is_some_and(|w| file.seams[w].layers.is_some());
     let mut layers = seam.a.iter().chain(&seam.b).map(|s| cut.pieces[s.edge.piece].layer);
     let first = layers.next();
-    seam.kind == SeamKind::Pleat || layered || layers.any(|l| Some(l) != first)
+    matches!(seam.kind, SeamKind::Pleat(_)) || layered || layers.any(|l| Some(l) != first)
 }
 
 fn sewn_twice(file: &GarmentFile, cut: &Pieces, seams: &Seams, edge: EdgeId, taken: &[Taken], findings: &mut Findings) {

@@ -192,7 +192,16 @@ pub enum SeamKind {
     /// The legs of a dart.
     Dart,
     /// A pleat laid down and sewn.
-    Pleat,
+    Pleat(PleatLayer),
+}
+
+/// Which layers of a pleat a seam holds together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PleatLayer {
+    /// The top one on the middle one.
+    Top,
+    /// The middle one (first chain) on the bottom one (second chain).
+    Under,
 }
 
 /// A line inside a piece, or across it from rim to rim.

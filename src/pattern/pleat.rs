@@ -5,11 +5,11 @@
 //!
 //! The seam of the edge walks what is visible, and two seams per fold hold the under-layers to it and to each other.
 
-use super::SeamKind;
 use super::diagnostic::{Findings, Spot};
 use super::draft::{Draft, OwnSeam, Part, Stretch, position};
 use super::file::{PieceFile, PleatFile, PleatKind, Unit};
 use super::problem::Problem;
+use super::{PleatLayer, SeamKind};
 
 /// One fold: begins at `at`, points to the edge's end or start.
 #[derive(Clone, Copy)]
@@ -135,13 +135,13 @@ fn apply(drawn: &mut Draft, edge: &str, whole: (usize, usize), length: f64, fold
         named.parts = visible.map(|(from, to)| Part { edge: whole, from, to, offset: 0.0 }).collect();
     }
     for (i, fold) in folds.iter().enumerate() {
-        for (j, [a, b]) in fold.layers().into_iter().enumerate() {
+        for ([a, b], layer) in fold.layers().into_iter().zip([PleatLayer::Top, PleatLayer::Under]) {
             let stretch = |(from, to)| Stretch { edge: whole, from, to };
             drawn.own_seams.push(OwnSeam {
-                name: format!("{edge}.pleat{}.{}", i + 1, ["top", "under"][j]),
+                name: format!("{edge}.pleat{}.{}", i + 1, if layer == PleatLayer::Top { "top" } else { "under" }),
                 a: stretch(a),
                 b: stretch(b),
-                kind: SeamKind::Pleat,
+                kind: SeamKind::Pleat(layer),
             });
         }
     }

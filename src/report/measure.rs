@@ -2,7 +2,7 @@
 
 use super::errors::{Way, area, area_error, boundary_error};
 use super::openings::{opening_names, openings};
-use super::rim::{RimEdge, rims};
+use super::rim::{RimEdge, beside_elastic, rims};
 use super::schema::{Contact, PieceReport, Quartet, Report, SeamReport, Sizes, Stage, Worn};
 use super::strain::{PieceStrain, piece_strain};
 use super::stretched::stretched;
@@ -107,6 +107,8 @@ struct Part<'a> {
     smallest_angle: f64,
     triangles: Vec<(u32, [u32; 3])>,
     rim: Vec<RimEdge>,
+    /// Triangles that elastic gathers.
+    gathered: Vec<u32>,
     strain: PieceStrain,
 }
 
@@ -118,6 +120,7 @@ fn pieces(run: &Measured, shapes: &Shapes, last: Option<&[Vec3]>) -> (Vec<PieceR
         smallest_angle: mesh.pieces.iter().map(|p| p.smallest_angle).reduce(f64::min).unwrap_or(0.0),
         triangles: Vec::new(),
         rim: Vec::new(),
+        gathered: Vec::new(),
         strain: PieceStrain::default(),
     };
     let mut reports = Vec::new();
@@ -128,6 +131,7 @@ fn pieces(run: &Measured, shapes: &Shapes, last: Option<&[Vec3]>) -> (Vec<PieceR
             smallest_angle: piece.smallest_angle,
             triangles: piece.triangles.clone().map(|t| (t as u32, mesh.triangles[t])).collect(),
             rim,
+            gathered: beside_elastic(mesh, piece).collect(),
             strain: last.map_or_else(Default::default, |at| piece_strain(mesh, piece, at)),
         };
         let mut report = row(&part, shapes);
@@ -135,15 +139,17 @@ fn pieces(run: &Measured, shapes: &Shapes, last: Option<&[Vec3]>) -> (Vec<PieceR
         reports.push(report);
         total.triangles.extend(&part.triangles);
         total.rim.extend(&part.rim);
+        total.gathered.extend(&part.gathered);
         total.strain.extend(&part.strain);
     }
     (reports, row(&total, shapes))
 }
 
 fn row(part: &Part, shapes: &Shapes) -> PieceReport {
-    let mut beside_uneven: Vec<u32> = part.rim.iter().filter(|e| e.uneven()).map(|e| e.triangle).collect();
-    beside_uneven.sort_unstable();
-    let left_out = |t: u32| beside_uneven.binary_search(&t).is_ok();
+    let uneven = part.rim.iter().filter(|e| e.uneven()).map(|e| e.triangle);
+    let mut drawn_in: Vec<u32> = uneven.chain(part.gathered.iter().copied()).collect();
+    drawn_in.sort_unstable();
+    let left_out = |t: u32| drawn_in.binary_search(&t).is_ok();
     let area = shapes.each_way(|before, after, _| area_error(&part.triangles, before, after, left_out));
     let boundary = shapes.each_way(|before, after, way| boundary_error(&part.rim, before, after, way));
     PieceReport {

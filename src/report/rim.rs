@@ -1,9 +1,9 @@
-//! The rims of the pieces, and which of their edges a seam makes one.
+//! The rims of the pieces, which of their edges a seam makes one, and what elastic gathers.
 
 use std::collections::HashMap;
 
 use crate::geometry::{Topology, Vec3};
-use crate::mesh::ClothMesh;
+use crate::mesh::{ClothMesh, PieceMesh};
 
 /// Sides of a seam further apart than this (one over the other, less one) are eased, gathered or stretched: the cloth
 /// beside the seam cannot keep its drawn size.
@@ -65,4 +65,11 @@ fn rim_of(mesh: &ClothMesh, triangles: std::ops::Range<usize>) -> Vec<RimEdge> {
         Some(RimEdge { ends: e.ends, triangle, flat, drawn: [flat; 2] })
     };
     topology.rim_edges().filter_map(edge).collect()
+}
+
+/// Triangles of a piece (indices into the whole mesh) with a corner on an elastic line: like those on the rim of a
+/// gathered seam they cannot keep their drawn size.
+pub(super) fn beside_elastic<'a>(mesh: &'a ClothMesh, piece: &'a PieceMesh) -> impl Iterator<Item = u32> + 'a {
+    let on_line = piece.on_elastic();
+    piece.triangles.clone().filter(move |&t| mesh.triangles[t].iter().any(|c| on_line.contains(c))).map(|t| t as u32)
 }

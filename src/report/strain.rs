@@ -38,11 +38,16 @@ impl PieceStrain {
     }
 }
 
-/// Strain of a piece at the positions `at`.
+/// Strain of a piece at the positions `at`. Edges along elastic are left out: what the elastic draws in lies in gathers
+/// finer than the grid.
 pub(super) fn piece_strain(mesh: &ClothMesh, piece: &PieceMesh, at: &[Vec3]) -> PieceStrain {
     let mut out = PieceStrain::default();
     let mut sums = [(0.0, 0.0); 2];
+    let elastic = piece.on_elastic();
     for (ends, strain) in edge_strains(mesh, piece, at) {
+        if ends.iter().all(|p| elastic.contains(p)) {
+            continue;
+        }
         out.largest = out.largest.max(strain.abs());
         if let Some(thread) = thread(mesh, piece, ends) {
             out.threads.push(strain.abs());

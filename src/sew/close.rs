@@ -7,6 +7,7 @@ use crate::contact::{Collider, Neighbourhood};
 use crate::dynamics::{Cloth, ContactLaw, Cut, Pull, Reach, SpringModel, World, identity_nodes};
 use crate::geometry::Vec3;
 use crate::mesh::ClothMesh;
+use crate::pattern::{Garment, Seam, SeamKind};
 
 /// How a garment is sewn.
 #[derive(Clone, Copy, Debug)]
@@ -124,7 +125,7 @@ pub fn sew(
     let reach = Reach::new(1.6 * h);
     let hood = Neighbourhood {
         class: stitching.class.clone(),
-        seams: beside_seams(mesh, &stitching, &cloth),
+        seams: beside_seams(cut, &stitching, &cloth),
         tangled: Vec::new(),
     };
     let mut world = World::new(cloth, start, &pairs, body, hood, law, reach)?;
@@ -172,10 +173,19 @@ pub fn sew(
     Ok(Sewn { nodes: world.x, stitching, gaps, steps, tangles })
 }
 
-/// Particle → seams it lies on or next to: while such a seam closes, the cloth beside it may touch itself.
-fn beside_seams(mesh: &ClothMesh, stitching: &Stitching, cloth: &Cloth) -> Vec<Vec<u32>> {
-    let mut on: Vec<Vec<u32>> = vec![Vec::new(); mesh.flat.len()];
-    for (ends, seam) in &stitching.pairs {
+/// Whether a seam joins layers that lie on each other.
+fn is_lapped(garment: &Garment, seam: &Seam) -> bool {
+    let mut layers = seam.a.iter().chain(&seam.b).map(|s| garment.pieces[s.edge.piece].layer);
+    let first = layers.next();
+    matches!(seam.kind, SeamKind::Pleat(_)) || layers.any(|l| Some(l) != first)
+}
+
+/// Particle → seams it lies on or next to: while such a seam closes, the cloth beside it may touch itself. Not where one
+/// layer is sewn on another: there the cloth lies on itself all along the seam and must stay on its side.
+fn beside_seams(cut: &Cut, stitching: &Stitching, cloth: &Cloth) -> Vec<Vec<u32>> {
+    let mut on: Vec<Vec<u32>> = vec![Vec::new(); cut.mesh.flat.len()];
+    let lapped: Vec<bool> = cut.garment.seams.iter().map(|s| is_lapped(cut.garment, s)).collect();
+    for (ends, seam) in stitching.pairs.iter().filter(|p| !lapped[p.1 as usize]) {
         for &p in ends {
             on[p as usize].push(*seam);
         }

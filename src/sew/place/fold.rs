@@ -1,8 +1,9 @@
-//! Pieces with a pressed fold start folded.
+//! Pieces with a pressed fold start folded, and pleats start laid.
 
+use super::pleat;
 use crate::geometry::Vec2;
 use crate::mesh::ClothMesh;
-use crate::pattern::LineKind;
+use crate::pattern::{Garment, LineKind};
 
 /// A fold of at least this angle (radians) is folded over before the start; a smaller one is left to the drape.
 const PRESSED: f64 = 2.0;
@@ -11,12 +12,12 @@ const PRESSED: f64 = 2.0;
 pub(super) struct Sheet {
     /// Flat position of every particle, y down.
     pub(super) flat: Vec<Vec2>,
-    /// Layers towards the wrong side: 0, or 1 where the cloth is folded under.
+    /// Layers towards the wrong side: 0, or 1 where the cloth is folded under; up to 4 in a pleat.
     pub(super) under: Vec<f64>,
 }
 
-/// Folds every piece along its pressed lines: the part with the shorter sewn rim goes under the other.
-pub(super) fn folded(mesh: &ClothMesh) -> Sheet {
+/// Folds every piece along its pressed lines, the part with the shorter sewn rim under the other, and lays its pleats.
+pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
     let mut sheet = Sheet { flat: mesh.flat.clone(), under: vec![0.0; mesh.flat.len()] };
     let mut sewn = vec![0u32; mesh.flat.len()];
     for p in mesh.seams.iter().flat_map(|s| s.pairs.iter().flatten()) {
@@ -44,5 +45,6 @@ pub(super) fn folded(mesh: &ClothMesh) -> Sheet {
             }
         }
     }
+    pleat::lay(garment, mesh, &mut sheet);
     sheet
 }

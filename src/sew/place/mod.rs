@@ -14,6 +14,7 @@
 
 mod assign;
 mod fold;
+mod pleat;
 mod rows;
 mod stations;
 mod wrap;
@@ -55,7 +56,7 @@ pub enum PlaceError {
 /// # Errors
 /// [`PlaceError`] when a piece's place names a part that is none or that the body has not.
 pub fn place(garment: &Garment, mesh: &ClothMesh, body: &Mannequin) -> Result<Vec<Vec3>, PlaceError> {
-    let sheet = fold::folded(mesh);
+    let sheet = fold::folded(garment, mesh);
     let assigned = assign::assign(garment, mesh)?;
     let rows = rows::rows(garment, mesh, &sheet, &assigned);
     let mut x = wrap::wrap(garment, mesh, body, &sheet, &rows)?;

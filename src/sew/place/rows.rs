@@ -34,6 +34,8 @@ pub(super) struct Member {
 #[derive(Clone, Debug)]
 pub(super) struct Row {
     pub(super) part: PartKind,
+    /// The pieces' layer, see [`crate::pattern::Piece::layer`].
+    pub(super) layer: i32,
     /// From right to left of the wearer at the front: u rises.
     pub(super) members: Vec<Member>,
     /// Where the front middle is, if the row knows.
@@ -67,13 +69,16 @@ pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned:
         let index = rows.len();
         row_of[seed] = index;
         let mut members = vec![Member { piece: seed, shift: Vec2::zeros() }];
-        while let Some((from, to, shift)) = widest_next(&links, &row_of, assigned, &rigid, sheet, index, &members) {
+        let layer = garment.pieces[seed].layer;
+        // Layers lie one over another, not side by side.
+        let apart: Vec<bool> = (0..mesh.pieces.len()).map(|p| rigid[p] || garment.pieces[p].layer != layer).collect();
+        while let Some((from, to, shift)) = widest_next(&links, &row_of, assigned, &apart, sheet, index, &members) {
             let base = members.iter().find(|m| m.piece == from).map_or(Vec2::zeros(), |m| m.shift);
             row_of[to] = index;
             members.push(Member { piece: to, shift: base + shift });
         }
         let row = finish_row(mesh, sheet, assigned, assigned[seed].part, members, &links);
-        rows.push(row);
+        rows.push(Row { layer, ..row });
     }
     let order = stack(&mut rows, &links, &row_of, sheet);
     Rows { rows, links, order }
@@ -84,7 +89,7 @@ fn widest_next(
     links: &[Link],
     row_of: &[usize],
     assigned: &[Assigned],
-    rigid: &[bool],
+    apart: &[bool],
     sheet: &Sheet,
     row: usize,
     members: &[Member],
@@ -94,7 +99,7 @@ fn widest_next(
     for link in links.iter().filter(|l| l.upright) {
         for k in 0..2 {
             let (from, to) = (link.pieces[k], link.pieces[1 - k]);
-            if row_of[from] != row || row_of[to] != usize::MAX || assigned[to].part != part || rigid[to] {
+            if row_of[from] != row || row_of[to] != usize::MAX || assigned[to].part != part || apart[to] {
                 continue;
             }
             if best.as_ref().is_none_or(|b| link.length > b.0) {
@@ -130,7 +135,7 @@ fn finish_row(
     let mut order: Vec<usize> = (0..members.len()).collect();
     order.sort_by(|&a, &b| (boxes[a].0.x + boxes[a].1.x).total_cmp(&(boxes[b].0.x + boxes[b].1.x)));
     members = order.into_iter().map(|i| members[i]).collect();
-    Row { part, members, front, v }
+    Row { part, layer: 0, members, front, v }
 }
 
 /// u of the front middle: the seam between two front pieces, or the middle of a single one; failing that, opposite the
@@ -253,7 +258,7 @@ fn stack(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet) -> V
     order
 }
 
-/// Shifts row `other` up or down so that its seam with row `at` meets, without overlap.
+/// Shifts row `other` up or down so that its seam with row `at` meets, without overlap; another layer lies over it.
 fn put_beside(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet, at: usize, other: usize) {
     let level = |rows: &[Row], row: usize, p: u32, piece: usize| {
         let shift = rows[row].members.iter().find(|m| m.piece == piece).map_or(0.0, |m| m.shift.y);
@@ -276,7 +281,13 @@ fn put_beside(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet,
     }
     let middle = |v: [f64; 2]| 0.5 * (v[0] + v[1]);
     let above = middle(of_at) < middle(rows[at].v);
-    let dv = if above { of_at[0] - ROOM - of_other[1] } else { of_at[1] + ROOM - of_other[0] };
+    let dv = if rows[at].layer != rows[other].layer {
+        middle(of_at) - middle(of_other)
+    } else if above {
+        of_at[0] - ROOM - of_other[1]
+    } else {
+        of_at[1] + ROOM - of_other[0]
+    };
     let row = &mut rows[other];
     row.v = row.v.map(|v| v + dv);
     for m in &mut row.members {

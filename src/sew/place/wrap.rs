@@ -21,6 +21,8 @@ const LIFT: f64 = 0.04;
 const DEEPEN: f64 = 0.5;
 /// A fold's under layer starts this much nearer the body, and an overlap's end this much further out, metres.
 const LAYER: f64 = 0.004;
+/// A layer's ring is so much wider than the one it is worn over, metres: room for the folds of that.
+const LAYERS_APART: f64 = 5.0 * LAYER;
 /// Points on the table that measures an ellipse's arc.
 const ARC: usize = 240;
 
@@ -47,9 +49,7 @@ pub(super) fn wrap(
     sheet: &Sheet,
     rows: &Rows,
 ) -> Result<Vec<Vec3>, PlaceError> {
-    let mut x = vec![Vec3::zeros(); mesh.flat.len()];
-    let mut placed = vec![false; mesh.pieces.len()];
-    let mut anchors: Vec<f64> = vec![0.0; rows.rows.len()];
+    let mut rings: Vec<(usize, Ring)> = Vec::with_capacity(rows.rows.len());
     for &(index, beside) in &rows.order {
         let row = &rows.rows[index];
         let stations = Stations::new(body, row.part).ok_or_else(|| PlaceError::NoPart {
@@ -58,23 +58,52 @@ pub(super) fn wrap(
             mannequin: body.name.clone(),
         })?;
         let levels = levels(mesh, sheet, row, &rows.links);
-        anchors[index] = match beside {
-            Some(other) => anchors[other],
-            None => anchor(body, &stations, row, &levels, &rows.links),
-        };
-        let mut ring = Ring { links: &rows.links, mesh, sheet, row, levels, stations, anchor: anchors[index] };
-        let ellipses = ring.ellipses();
+        let anchored = beside.and_then(|other| rings.iter().find(|r| r.0 == other)).map(|r| r.1.anchor);
+        let anchor = anchored.unwrap_or_else(|| anchor(body, &stations, row, &levels, &rows.links));
+        rings.push((index, Ring { links: &rows.links, mesh, sheet, row, levels, stations, anchor }));
+    }
+    let axes = nested(&rings);
+    let mut x = vec![Vec3::zeros(); mesh.flat.len()];
+    let mut placed = vec![false; mesh.pieces.len()];
+    for ((_, ring), axes) in rings.iter_mut().zip(axes) {
+        let ellipses: Vec<Ellipse> = axes.into_iter().map(|[a, b]| Ellipse::new(a, b)).collect();
         for (level, ellipse) in ring.levels.iter_mut().zip(&ellipses) {
-            spread_out(row, level, ellipse.perimeter);
+            spread_out(ring.row, level, ellipse.perimeter);
         }
         complete_shifts(&mut ring.levels);
         smooth_shifts(&mut ring.levels);
         ring.bend(&ellipses, &placed, &mut x);
-        for m in &row.members {
+        for m in &ring.row.members {
             placed[m.piece] = true;
         }
     }
     Ok(x)
+}
+
+/// Half axes of every ring at each of its levels, those of outer layers clear of the inner ones.
+fn nested(rings: &[(usize, Ring)]) -> Vec<Vec<[f64; 2]>> {
+    let mut axes: Vec<Vec<[f64; 2]>> = rings.iter().map(|r| r.1.axes()).collect();
+    let mut inside_out: Vec<usize> = (0..rings.len()).collect();
+    inside_out.sort_by_key(|&k| rings[k].1.row.layer);
+    for (nth, &k) in inside_out.iter().enumerate() {
+        let ring = &rings[k].1;
+        for &other in &inside_out[..nth] {
+            let inner = &rings[other].1;
+            if inner.row.part != ring.row.part || inner.row.layer == ring.row.layer {
+                continue;
+            }
+            for level in 0..axes[k].len() {
+                // The inner ring's levels a little above and below count too: the cloth runs straight between rings.
+                let at = (ring.anchor + ring.row.v[0] - inner.anchor - inner.row.v[0]) / LEVEL + level as f64;
+                let near = axes[other].iter().enumerate().filter(|(l, _)| (*l as f64 - at).abs() <= SMOOTHING as f64);
+                let widest = near.fold([0.0f64; 2], |w, (_, ab)| [w[0].max(ab[0]), w[1].max(ab[1])]);
+                for (own, inner) in axes[k][level].iter_mut().zip(widest) {
+                    *own = own.max(inner + LAYERS_APART);
+                }
+            }
+        }
+    }
+    axes
 }
 
 fn part_name(part: PartKind) -> &'static str {
@@ -384,7 +413,8 @@ impl Ring<'_> {
         at(k) * (1.0 - f) + at(k + 1) * f
     }
 
-    fn ellipses(&self) -> Vec<Ellipse> {
+    /// Half width and half depth at every level: room for the body and for the cloth.
+    fn axes(&self) -> Vec<[f64; 2]> {
         let overlapping = self.overlaps();
         let shoulders = self.row.part == PartKind::Torso && has_shoulders(self.row, self.links);
         let first_closed = self.levels.iter().position(|l| l.closed).unwrap_or(0);
@@ -405,7 +435,7 @@ impl Ring<'_> {
         }
         let a = smoothed(&axes.iter().map(|x| x[0]).collect::<Vec<_>>());
         let b = smoothed(&axes.iter().map(|x| x[1]).collect::<Vec<_>>());
-        a.into_iter().zip(b).map(|(a, b)| Ellipse::new(a, b)).collect()
+        a.into_iter().zip(b).map(|(a, b)| [a, b]).collect()
     }
 
     /// Share of a turn that brings the row's stitches nearest to their placed partners.
