@@ -67,9 +67,12 @@ impl CliError {
             Self::Pipeline(e) if !e.is_input() => {
                 Some("try another --spacing, and `toile check` and `toile sew` to see where it begins")
             }
-            Self::Write(WriteError::File { .. } | WriteError::Folder { .. } | WriteError::IsFolder(_)) => {
-                Some("choose a place that can be written, with -o")
-            }
+            Self::Write(
+                WriteError::File { .. }
+                | WriteError::Folder { .. }
+                | WriteError::NotFolder { .. }
+                | WriteError::IsFolder(_),
+            ) => Some("choose a place that can be written, with -o"),
             _ => None,
         }
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::error::FabricError;
-use super::library::{load_in, read};
+use super::library::{library, load_in, read};
 use super::sheet::{FabricSheet, flatten};
 use super::units::{BEND, LENGTH, Quantity, SHEAR, STRAIN, WEIGHT};
 use super::{Fabric, FabricSpec, TensileCurve};
@@ -76,6 +76,11 @@ fn resolve_chain(spec: &FabricSpec, context: &Context, seen: &mut Vec<String>) -
 fn base_fabric(name: &str, context: &Context, seen: &mut Vec<String>) -> Result<Fabric, FabricError> {
     let sibling = context.garment.iter().find(|g| g.0 == name && g.0 != context.name);
     let Some((name, spec)) = sibling else {
+        // A fabric may bear the name of a shipped one and be based on that, but on no other of its own name.
+        let own = name == context.name && context.garment.iter().any(|g| g.0 == name);
+        if own && !library().contains(&name) && Path::new(name).extension().is_none() {
+            return Err(FabricError::Cycle { fabric: name.to_owned() });
+        }
         let others: Vec<&str> = context.garment.iter().map(|g| g.0.as_str()).collect();
         return load_in(name, context.folder, &others);
     };

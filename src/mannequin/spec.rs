@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::MannequinError;
+use super::{HEIGHTS, MannequinError};
 
 /// Everything needed to build a mannequin; see `mannequins/woman_92.yaml` for the meaning of each number.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -145,6 +145,11 @@ impl MannequinSpec {
                 ));
             }
         }
+        let top = self.torso.iter().map(|r| r.y).fold(0.0, f64::max);
+        if !HEIGHTS.contains(&(1e-3 * top)) {
+            let (low, high) = (1e3 * HEIGHTS.start(), 1e3 * HEIGHTS.end());
+            return Err(format!("the body is {top} mm high; it must be {low} to {high} mm, numbers being millimetres"));
+        }
         ascending("torso rows", self.torso.iter().map(|r| r.y))
     }
 
@@ -177,8 +182,14 @@ impl MannequinSpec {
     }
 }
 
+/// No number of a body is larger, in millimetres or degrees: a larger one is in another unit.
+const LARGEST: f64 = 5000.0;
+
 fn finite(name: &str, values: &[f64]) -> Result<(), String> {
-    match values.iter().find(|v| !v.is_finite()) {
+    match values.iter().find(|v| !v.is_finite() || v.abs() > LARGEST) {
+        Some(v) if v.is_finite() => {
+            Err(format!("{name}: {v:e} mm is more than {LARGEST} mm, and no body's; numbers are millimetres"))
+        }
         Some(v) => Err(format!("{name}: {v} is not a finite number")),
         None => Ok(()),
     }

@@ -7,9 +7,9 @@ use super::file::{GarmentFile, Value};
 use super::inherit::complete_pieces;
 use super::problem::Problem;
 use super::seam::{Seams, check_orientable, seams};
-use super::spelling::nearest;
-use super::{FabricUse, Garment, bound, closure, cover};
+use super::{FabricUse, Garment, bound, closure, cover, place_word};
 use crate::fabric::FabricSpec;
+use crate::input::nearest;
 
 /// The fabric of pieces that name none, in a file that names none.
 const DEFAULT_FABRIC: &str = "shell";
@@ -26,6 +26,7 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
         findings.error(file.version.at, Problem::NoPieces);
         return None;
     }
+    place_word::check(file, findings);
     let pieces = complete_pieces(file, findings);
     let drafts: Vec<Draft> = pieces.iter().filter_map(|p| draft(p, file.unit(), findings)).collect();
     let fabrics = fabrics(file);

@@ -1,7 +1,9 @@
 //! Pieces of a garment file.
 
 use super::decode::name;
-use super::fields::{Fields, entries, integer, items, length, number, numbers, positive, quantity, text, word, wrong};
+use super::fields::{
+    Fields, entries, integer, items, length, number, numbers, positive, quantity, text, width, word, wrong,
+};
 use crate::pattern::{
     AllowanceFile, Cut, DartFile, DartShape, Findings, LineFile, Located, NotchFile, OutlineFile, PieceFile, PlaceFile,
     PleatFile, PleatKind, Problem, Side, Value, parse_quantity,
@@ -60,10 +62,10 @@ fn cut(value: &Located<Value>, _: &str, findings: &mut Findings) -> Option<Locat
 
 fn allowance(value: &Located<Value>, findings: &mut Findings) -> Option<AllowanceFile> {
     if let Value::Map(entries) = &value.value {
-        let edge = |(k, v): &(Located<String>, Located<Value>)| Some((k.clone(), quantity(v, "allowance", findings)?));
+        let edge = |(k, v): &(Located<String>, Located<Value>)| Some((k.clone(), width(v, "allowance", findings)?));
         return Some(AllowanceFile::Edges(entries.iter().filter_map(edge).collect()));
     }
-    quantity(value, "allowance", findings).map(AllowanceFile::All)
+    width(value, "allowance", findings).map(AllowanceFile::All)
 }
 
 fn grain(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<[[f64; 2]; 2]>> {
