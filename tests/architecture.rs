@@ -25,7 +25,6 @@ const FLOORS: [(&str, &[&str]); 18] = [
         "pipeline",
         &[
             "geometry",
-            "input",
             "fabric",
             "pattern",
             "mannequin",
@@ -41,7 +40,7 @@ const FLOORS: [(&str, &[&str]); 18] = [
             "io",
         ],
     ),
-    ("cli", &["input", "fabric", "pattern", "mannequin", "flatten", "report", "io", "pipeline"]),
+    ("cli", &["fabric", "pattern", "mannequin", "flatten", "report", "io", "pipeline"]),
 ];
 
 /// Crates and the paths below `src` that may name them.

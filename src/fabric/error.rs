@@ -93,6 +93,14 @@ pub enum FabricError {
 }
 
 impl FabricError {
+    /// The file that is wrong, if it is one.
+    pub fn file(&self) -> Option<&str> {
+        match self {
+            Self::Read { file, .. } | Self::Syntax { file, .. } | Self::Curve { file, .. } => Some(file),
+            _ => None,
+        }
+    }
+
     /// The fabric that is wrong and the value of it, as far as the error is about a fabric's own values.
     pub fn culprit(&self) -> (Option<&str>, Option<&str>) {
         match self {

@@ -61,9 +61,9 @@ pub enum BodyError {
     },
     /// A body that nobody dresses: its unit is not what it was taken for.
     #[error(
-        "{file}: the body is {:.3e} units high, taken for {unit}, which makes {:.3} m; a body is {} to {} m high: scale \
+        "{file}: the body is {:.3e} units high, taken for {unit}, which makes {} m; a body is {} to {} m high: scale \
          the file to millimetres, centimetres or metres",
-        units, metres, HEIGHTS.start(), HEIGHTS.end()
+        units, metres_shown(*metres), HEIGHTS.start(), HEIGHTS.end()
     )]
     Size {
         /// Path.
@@ -86,6 +86,10 @@ pub enum BodyError {
     /// A mannequin by name or `.yaml`.
     #[error(transparent)]
     Mannequin(#[from] MannequinError),
+}
+
+fn metres_shown(metres: f64) -> String {
+    if (1e-2..1e4).contains(&metres) { format!("{metres:.2}") } else { format!("{metres:.1e}") }
 }
 
 /// A mannequin by library name, `.yaml` or `.obj`: what `--body` takes.

@@ -93,7 +93,7 @@ pub fn check_writable(paths: &[PathBuf], inputs: &[&Path]) -> Result<(), WriteEr
         refuse(path, inputs)?;
         // The parent of a bare name is the empty path: the folder one is in.
         let existing = path.ancestors().skip(1).find(|p| fs::symlink_metadata(p).is_ok());
-        if let Some(file) = existing.filter(|p| p.is_file()) {
+        if let Some(file) = existing.filter(|p| !p.is_dir()) {
             return Err(WriteError::NotFolder { target: path.clone(), path: file.to_owned() });
         }
         // Created and dropped: permissions, read-only disks and files in the way all show.

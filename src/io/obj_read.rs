@@ -47,7 +47,7 @@ pub enum ObjError {
         why: String,
     },
     /// A file without a surface.
-    #[error("{file}: no faces; a body is a closed surface of 'v' and 'f' lines")]
+    #[error("{file}: no faces; a surface has 'v' lines for its points and 'f' lines for its faces")]
     Empty {
         /// Path.
         file: String,
@@ -149,7 +149,8 @@ impl ObjFaces {
         let count = out.vertices.len() as i64;
         for (line, corners) in read {
             if let Some(wrong) = corners.iter().find(|c| !(1..=count).contains(*c)) {
-                return Err((line, format!("face uses vertex {wrong}, but the file has 1 to {count}")));
+                let has = if count == 0 { "none".to_owned() } else { format!("1 to {count}") };
+                return Err((line, format!("face uses vertex {wrong}, but the file has {has}")));
             }
             out.faces.push(corners.into_iter().map(|c| (c - 1) as u32).collect());
         }

@@ -39,6 +39,9 @@ impl MannequinSpec {
             return Err(MannequinError::Unknown { name, nearest, known });
         }
         let fault = |why: String| MannequinError::Read { file: name_or_path.to_owned(), why };
+        if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
+            return Err(fault("an OBJ is a body as it is; give it to --body".to_owned()));
+        }
         let bytes = bytes(path, LARGEST).map_err(|e| match e {
             InputError::TooLarge { bytes, limit } => {
                 let (bytes, limit) = (bytes >> 20, limit >> 20);

@@ -138,6 +138,25 @@ pub enum MeshError {
     },
 }
 
+impl MeshError {
+    /// The piece, and the edge, line or seam that is wrong, as far as the error is about a statement of the garment.
+    pub fn culprit(&self) -> (Option<&str>, Option<&str>) {
+        match self {
+            Self::Open { piece, edge, .. }
+            | Self::ShortEdge { piece, edge, .. }
+            | Self::Endless { piece, edge, .. } => (Some(piece), Some(edge)),
+            Self::LineOutside { piece, line } => (Some(piece), Some(line)),
+            Self::NoOutline { piece }
+            | Self::Grain { piece, .. }
+            | Self::InsideOut { piece, .. }
+            | Self::Crossing { piece, .. }
+            | Self::Triangulation { piece, .. } => (Some(piece), None),
+            Self::Seam { seam, .. } => (None, Some(seam)),
+            Self::Spacing(_) | Self::TooCoarse { .. } | Self::TooMany { .. } => (None, None),
+        }
+    }
+}
+
 /// What is wrong with a seam.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SeamFault {
@@ -164,7 +183,7 @@ pub enum SeamFault {
         length: f64,
     },
     /// One side has no length.
-    #[error("one side has no length")]
+    #[error("one side has no length; give it an edge or a range that can be sewn")]
     NoLength,
     /// The marks do not rise from (0, 0) to the two lengths.
     #[error("its marks must rise on both sides from (0, 0) to ({}, {}) mm", mm(*.0), mm(*.1))]

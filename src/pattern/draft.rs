@@ -16,6 +16,9 @@ use crate::input::nearest;
 
 /// A drawn outline may miss its start by this much (metres): rounding of the file's numbers.
 const CLOSURE: f64 = 5e-5;
+/// A line that bends or gathers the cloth is at least this long (metres): a shorter one is a slip of the pen, and would
+/// make springs without length.
+const SHORTEST_LINE: f64 = 1e-3;
 /// Longer edges (metres) are a wrong unit or a slip of the pen, and would take for ever to look at.
 const LONGEST_EDGE: f64 = 200.0;
 
@@ -257,7 +260,9 @@ fn edge_path(at: Vec2, commands: &str, scale: f64) -> Result<Path, String> {
 
 fn check_size(path: Path) -> Result<Path, String> {
     if path.length() > LONGEST_EDGE {
-        return Err(format!("it is {:.0} m long; at most {LONGEST_EDGE} m are read", path.length()));
+        let length = path.length();
+        let shown = if length < 1e6 { format!("{length:.0}") } else { format!("{length:.1e}") };
+        return Err(format!("it is {shown} m long; at most {LONGEST_EDGE} m are read"));
     }
     Ok(path)
 }
@@ -380,6 +385,12 @@ fn lines(drawn: &mut Draft, whole: &Region, piece: &PieceFile, unit: Unit, findi
                 if let Some(off) = first_off(&path, on_cloth) {
                     let (piece, line_name) = (drawn.name.clone(), line.name.value.clone());
                     findings.error(line.path.at, Problem::LineOff { piece, line: line_name, near: shown(off) });
+                }
+                let length = path.length();
+                if length < SHORTEST_LINE && !matches!(kind, LineKind::Mark(_)) {
+                    let (piece, line_name) = (drawn.name.clone(), line.name.value.clone());
+                    let (length, least) = ((length * 1e6).round() / 1e3, SHORTEST_LINE * 1e3);
+                    findings.error(line.path.at, Problem::LineShort { piece, line: line_name, length, least });
                 }
                 drawn.lines.push(Line { name: line.name.value.clone(), path, kind });
             }

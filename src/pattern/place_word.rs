@@ -1,7 +1,7 @@
 //! The words of `place:`, and those of piece names that say the same.
 
 use super::diagnostic::Findings;
-use super::file::{GarmentFile, PieceFile, PlaceFile};
+use super::file::{GarmentFile, PieceFile, PlaceFile, Unit};
 use super::problem::Problem;
 use crate::input::nearest;
 
@@ -49,17 +49,30 @@ pub fn place_word(word: &str) -> Option<PlaceWord> {
     means(word).or_else(|| word.strip_suffix('s').and_then(means))
 }
 
-/// Checks the words of every `place:` of the file.
+/// A piece that starts farther from the feet than this, metres, is in another unit than thought.
+const FARTHEST: f64 = 10.0;
+
+/// Checks the words and positions of every `place:` of the file.
 pub(super) fn check(file: &GarmentFile, findings: &mut Findings) {
     for piece in &file.pieces {
-        if let Some(problem) = problem(piece) {
+        if let Some(problem) = problem(piece, file.unit()) {
             findings.error(piece.place.as_ref().map_or(piece.name.at, |p| p.at), problem);
         }
     }
 }
 
-fn problem(piece: &PieceFile) -> Option<Problem> {
-    let PlaceFile::Words(words) = &piece.place.as_ref()?.value else { return None };
+fn problem(piece: &PieceFile, unit: Unit) -> Option<Problem> {
+    match &piece.place.as_ref()?.value {
+        PlaceFile::Words(words) => wrong_words(piece, words),
+        PlaceFile::At { at, .. } => {
+            let far = at.iter().any(|x| (x * unit.factor()).abs() > FARTHEST);
+            let at = format!("[{}]", at.map(|x| x.to_string()).join(", "));
+            far.then(|| Problem::PlaceFar { piece: piece.name.value.clone(), at, most: FARTHEST })
+        }
+    }
+}
+
+fn wrong_words(piece: &PieceFile, words: &str) -> Option<Problem> {
     let name = piece.name.value.clone();
     let mut said = Vec::new();
     for word in words.to_lowercase().split_whitespace() {
@@ -72,7 +85,7 @@ fn problem(piece: &PieceFile) -> Option<Problem> {
             }
         }
     }
-    let place = words.clone();
+    let place = words.to_owned();
     let says = |word: PlaceWord| said.contains(&word);
     let both = [(PlaceWord::Left, PlaceWord::Right), (PlaceWord::Front, PlaceWord::Back)];
     if both.iter().any(|&(one, other)| says(one) && says(other)) {

@@ -78,6 +78,9 @@ pub enum Problem {
     #[error("place of '{piece}': '{place}' names no body part")]
     PlaceNowhere { piece: String, place: String, known: &'static str },
 
+    // The mesh, in its own words.
+    #[error("{0}")]
+    Mesh(String),
     // What the garment is made of, and for whom, in the words of those who know.
     #[error("{0}")]
     Fabric(String),
@@ -103,6 +106,10 @@ pub enum Problem {
     HoleOutside { piece: String, hole: String },
     #[error("line '{line}' leaves piece '{piece}' near {near}")]
     LineOff { piece: String, line: String, near: String },
+    #[error("line '{line}' of '{piece}' is only {length} mm long; draw it at least {least} mm long or leave it out")]
+    LineShort { piece: String, line: String, length: f64, least: f64 },
+    #[error("place of '{piece}': {at} is more than {most} m from the body's feet; positions are in the file's units")]
+    PlaceFar { piece: String, at: String, most: f64 },
     #[error("point {at} of the {kind} lies off piece '{piece}'")]
     PointOff { kind: String, piece: String, at: String },
     #[error("the {kind} has {on} points that are to meet {met}")]
@@ -216,6 +223,9 @@ impl Problem {
             }
             Self::PointsUnlike { .. } => "give 'meets_at' as many points as 'at'".to_owned(),
             Self::MatchesNothing(_) => "write piece.edge, such as front.hem, or *.hem for every hem".to_owned(),
+            Self::WrongType { what, .. } if what == "a garment file" => {
+                "it starts with 'garment: 1'; a surface (OBJ) goes to --body, or to 'toile flatten'".to_owned()
+            }
             Self::Empty => "a garment file starts with 'garment: 1'".to_owned(),
             Self::CounterClockwise(_) => "distances along its edges are measured the clockwise way".to_owned(),
             Self::NoGrain(_) => "give it as grain: [[x, y], [x, y]], tail to head".to_owned(),

@@ -74,12 +74,11 @@ impl Job {
         let mut notes: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
         let fabrics = material::fabrics(file, &loaded, overrides.fabric.as_deref())?;
         let (wanted, worn_by) = material::body(file, &loaded, overrides.body.as_deref())?;
-        let garment = loaded.garment;
         notes.extend(worn_by.notes.iter().map(|note| format!("{wanted}: {note}")));
         let body = worn_by.mannequin;
         let begin = Instant::now();
-        let mesh = mesh::build(&garment, overrides.spacing.unwrap_or(SPACING))
-            .map_err(|source| PipelineError::Mesh { file: file.to_owned(), source: Box::new(source) })?;
+        let mesh = mesh::build(&loaded.garment, overrides.spacing.unwrap_or(SPACING))
+            .map_err(|source| material::mesh_error(file, &loaded, source))?;
         let meshing =
             Stage { name: "mesh".into(), seconds: begin.elapsed().as_secs_f64(), converged: true, ..Stage::default() };
         let collider =
@@ -88,6 +87,7 @@ impl Job {
         let named = [overrides.fabric.as_deref(), Some(wanted.as_str())];
         let files = named.into_iter().flatten().map(PathBuf::from).filter(|p| p.is_file());
         let inputs = std::iter::once(file.to_owned()).chain(files).collect();
+        let garment = loaded.garment;
         Ok(Self { file: file.to_owned(), garment, fabrics, body, collider, mesh, notes, inputs, meshing })
     }
 

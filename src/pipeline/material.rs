@@ -1,4 +1,4 @@
-//! Fabrics and body of a garment, and the line of its file that is to blame when one cannot be had.
+//! Fabrics and body of a garment, and the line of its file that is to blame when one cannot be had, or no mesh made.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -9,6 +9,7 @@ use crate::fabric::{Fabric, FabricError};
 use crate::io::body::{Body, BodyError, load_body};
 use crate::io::garment::Loaded;
 use crate::mannequin::{self, MannequinError};
+use crate::mesh::MeshError;
 use crate::pattern::{GarmentFile, Located, Problem, Spot, Value};
 
 /// Checks that the fabrics of a garment read from `file` can be had, and its body, if it names one.
@@ -33,7 +34,7 @@ pub(super) fn fabrics(file: &Path, loaded: &Loaded, instead: Option<&str>) -> Re
                 let at = fabric_spot(&loaded.file, entry, &source);
                 PipelineError::Garment(loaded.refusal(at, Problem::Fabric(source.to_string())))
             }
-            None => PipelineError::Fabric { file: file.to_owned(), source: Box::new(source) },
+            None => PipelineError::Fabric(Box::new(source)),
         }
     })
 }
@@ -44,6 +45,9 @@ type Entry = (Located<String>, Located<Value>);
 fn fabric_spot(file: &GarmentFile, entry: &Entry, error: &FabricError) -> Spot {
     let (fabric, key) = error.culprit();
     let (name, value) = file.fabrics.iter().find(|f| fabric == Some(f.0.value.as_str())).unwrap_or(entry);
+    if let Some(at) = error.file().and_then(|file| at_file(value, Path::new(file))) {
+        return at;
+    }
     match &value.value {
         Value::Text(_) => value.at,
         _ => key.map_or_else(|| at_key(value, "base"), |key| at_key(value, key)).unwrap_or(name.at),
@@ -58,6 +62,15 @@ fn at_key(value: &Located<Value>, key: &str) -> Option<Spot> {
         if rest.is_empty() { Some(value.at) } else { at_key(value, rest.strip_prefix('.')?).or(Some(name.at)) }
     };
     entries.iter().find_map(inner)
+}
+
+/// The place where a file is named.
+fn at_file(value: &Located<Value>, file: &Path) -> Option<Spot> {
+    match &value.value {
+        Value::Text(text) => (!text.is_empty() && file.ends_with(text.trim())).then_some(value.at),
+        Value::List(items) => items.iter().find_map(|item| at_file(item, file)),
+        Value::Map(entries) => entries.iter().find_map(|(_, value)| at_file(value, file)),
+    }
 }
 
 /// The body, by the name it is asked for: what the user says, else what the file says.
@@ -94,6 +107,33 @@ fn body_name(file: &Path, said: Option<&str>, instead: Option<&str>) -> Result<S
     }
     let folder = file.parent().unwrap_or(Path::new(""));
     Ok(folder.join(name).display().to_string())
+}
+
+/// A garment that cannot be meshed: the statement that is to blame, or the spacing.
+pub(super) fn mesh_error(file: &Path, loaded: &Loaded, source: MeshError) -> PipelineError {
+    match mesh_spot(&loaded.file, source.culprit()) {
+        Some(at) => PipelineError::Garment(loaded.refusal(at, Problem::Mesh(source.to_string()))),
+        None => PipelineError::Mesh { file: file.to_owned(), source: Box::new(source) },
+    }
+}
+
+/// Where the edge, line or seam stands, or else its piece. Cut names are drawn ones with a side or a number after them.
+fn mesh_spot(file: &GarmentFile, (piece, part): (Option<&str>, Option<&str>)) -> Option<Spot> {
+    let stem = |name: &str| name.split('.').next().unwrap_or_default().to_owned();
+    let named = |written: &Located<String>, wanted: &str| written.value == stem(wanted);
+    let Some(piece) = piece else {
+        let seam = part?;
+        // Seams of darts and pleats bear the names of their pieces.
+        let written = file.seams.iter().map(|s| &s.name).chain(file.pieces.iter().map(|p| &p.name));
+        return written.into_iter().find(|name| named(name, seam)).map(|name| name.at);
+    };
+    let piece = file.pieces.iter().find(|p| named(&p.name, piece))?;
+    let part = part.and_then(|part| {
+        let edges = piece.outline.iter().flat_map(|o| o.edges.iter().map(|e| &e.0));
+        let mut names = edges.chain(piece.holes.iter().map(|h| &h.0)).chain(piece.lines.iter().map(|l| &l.name));
+        names.find(|name| named(name, part)).map(|name| name.at)
+    });
+    Some(part.unwrap_or(piece.name.at))
 }
 
 #[cfg(test)]

@@ -19,6 +19,7 @@ mod run;
 mod saved;
 mod surface;
 
+pub use crate::sew::SewError;
 pub use cloth::piece_area;
 pub use error::PipelineError;
 pub use job::{Job, Overrides, read};

@@ -140,6 +140,21 @@ pub(super) fn number(value: &Located<Value>, what: &str, findings: &mut Findings
     parsed.map(|n| Located::new(n, value.at))
 }
 
+/// The number, if it lies in a range.
+pub(super) fn within(
+    n: Located<f64>,
+    what: &str,
+    range: std::ops::RangeInclusive<f64>,
+    expected: &'static str,
+    findings: &mut Findings,
+) -> Option<Located<f64>> {
+    if !range.contains(&n.value) {
+        out_of_range(n.at, what, expected, n.value, findings);
+        return None;
+    }
+    Some(n)
+}
+
 /// A number above zero.
 pub(super) fn positive(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<f64>> {
     let n = number(value, what, findings)?;
@@ -255,7 +270,12 @@ pub(super) fn numbers<const N: usize>(
     match <[f64; N]>::try_from(parsed) {
         Ok(array) if words.len() == N => Some(Located::new(array, value.at)),
         _ => {
-            wrong(value, what, if N == 2 { "two numbers: x y" } else { "three numbers: x y z" }, findings);
+            wrong(
+                value,
+                what,
+                if N == 2 { "two finite numbers: x y" } else { "three finite numbers: x y z" },
+                findings,
+            );
             None
         }
     }
