@@ -737,6 +737,23 @@ fn a_hole_that_crosses_the_outline_is_named_where_it_stands() {
 }
 
 #[test]
+fn holes_that_are_none_are_named_with_their_place() {
+    let holes = |holes: &str| squares("  a:\n", &format!("  a:\n    holes: {{{holes}}}\n"));
+    says(&holes("h: M 20 50 L 80 50 L 20 50 Z"), 4, "M 20 50", "hole 'h' of 'a' encloses less than 1 mm2");
+    says(&holes("h: M 20 50 L 20.1 50 L 20 50.1 Z"), 4, "M 20 50", "hole 'h' of 'a' encloses less than 1 mm2");
+    let (large, small) = ("M 20 20 L 80 20 L 80 80 L 20 80 Z", "M 40 40 L 60 40 L 60 60 L 40 60 Z");
+    let message = "holes 'k' and 'h' of 'a' lie one in the other";
+    says(&holes(&format!("h: {large}, k: {small}")), 4, small, message);
+    says(&holes(&format!("h: {small}, k: {large}")), 4, large, message);
+}
+
+#[test]
+fn a_title_moves_no_cursor() {
+    let text = squares("garment: 1\n", "garment: 1\nname: \"A\\e[2J skirt\\n\"\n");
+    assert_eq!(garment(&text).title, "A\u{fffd}[2J skirt");
+}
+
+#[test]
 fn long_lines_and_values_are_shortened() {
     let word = "abc ".repeat(300_000);
     for text in [word.clone(), format!("garment: 1\nname: {{{word}: 3}}\npieces: {word}\n"), squares("a.right", &word)]

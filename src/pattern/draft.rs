@@ -19,6 +19,8 @@ const CLOSURE: f64 = 5e-5;
 /// A line that bends or gathers the cloth is at least this long (metres): a shorter one is a slip of the pen, and would
 /// make springs without length.
 const SHORTEST_LINE: f64 = 1e-3;
+/// A hole that encloses less (square metres) is a line or a point drawn as one.
+const SMALLEST_HOLE: f64 = 1e-6;
 /// Longer edges (metres) are a wrong unit or a slip of the pen, and would take for ever to look at.
 const LONGEST_EDGE: f64 = 200.0;
 
@@ -337,8 +339,20 @@ fn holes(drawn: &mut Draft, piece: &PieceFile, unit: Unit, findings: &mut Findin
             findings.error(text.at, Problem::HoleOutside { piece, hole: edge });
             continue;
         }
+        if 0.5 * path.double_area().abs() < SMALLEST_HOLE {
+            findings.error(text.at, Problem::HoleNoArea { piece, hole: edge });
+            continue;
+        }
         let path = if path.double_area() > 0.0 { path.reversed() } else { path };
-        drawn.add_ring(vec![Edge { name: edge, path }]);
+        let ring = vec![Edge { name: edge, path }];
+        let within =
+            |other: &&Vec<Edge>| contains(other, ring[0].path.start()) || contains(&ring, other[0].path.start());
+        if let Some(other) = drawn.rings[1..].iter().find(within) {
+            let (hole, other) = (ring[0].name.clone(), other[0].name.clone());
+            findings.error(text.at, Problem::HoleInHole { piece, hole, other });
+            continue;
+        }
+        drawn.add_ring(ring);
     }
 }
 

@@ -104,6 +104,12 @@ pub enum Problem {
     EdgeTwice { piece: String, edge: String },
     #[error("hole '{hole}' lies outside piece '{piece}'")]
     HoleOutside { piece: String, hole: String },
+    #[error("hole '{hole}' of '{piece}' encloses less than 1 mm2; draw a slit as a line, or leave it out")]
+    HoleNoArea { piece: String, hole: String },
+    #[error(
+        "holes '{hole}' and '{other}' of '{piece}' lie one in the other; draw what lies in a hole as its own piece"
+    )]
+    HoleInHole { piece: String, hole: String, other: String },
     #[error("line '{line}' leaves piece '{piece}' near {near}")]
     LineOff { piece: String, line: String, near: String },
     #[error("line '{line}' of '{piece}' is only {length} mm long; draw it at least {least} mm long or leave it out")]
