@@ -20,6 +20,7 @@ pub mod dynamics;
 pub mod fabric;
 pub mod flatten;
 pub mod geometry;
+pub mod input;
 pub mod io;
 pub mod linear;
 pub mod mannequin;

@@ -4,12 +4,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules in building order, each with those it may use. The ground floor first, the edge last.
-const FLOORS: [(&str, &[&str]); 17] = [
+const FLOORS: [(&str, &[&str]); 18] = [
     ("geometry", &[]),
+    ("input", &[]),
     ("linear", &["geometry"]),
-    ("fabric", &[]),
-    ("pattern", &["geometry", "fabric"]),
-    ("mannequin", &["geometry"]),
+    ("fabric", &["input"]),
+    ("pattern", &["geometry", "input", "fabric"]),
+    ("mannequin", &["geometry", "input"]),
     ("contact", &["geometry"]),
     ("mesh", &["geometry", "pattern"]),
     ("dynamics", &["geometry", "linear", "fabric", "pattern", "contact", "mesh"]),
@@ -19,7 +20,7 @@ const FLOORS: [(&str, &[&str]); 17] = [
     ("verify", &["geometry", "mannequin", "mesh"]),
     ("report", &["geometry", "pattern", "mannequin", "mesh", "verify"]),
     ("picture", &["geometry", "mesh", "verify"]),
-    ("io", &["geometry", "pattern", "mannequin", "mesh", "verify"]),
+    ("io", &["geometry", "input", "pattern", "mannequin", "mesh", "verify"]),
     (
         "pipeline",
         &[

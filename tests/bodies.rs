@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use toile::geometry::Vec3;
 use toile::io::body::{Body, BodyError, body, mannequin_obj, read_body};
 use toile::io::obj_read::{ObjSurface, parse_obj};
-use toile::mannequin::{BodyFault, Mannequin, PartKind, load};
+use toile::mannequin::{BodyFault, Mannequin, MannequinSpec, PartKind, load};
 
 fn child() -> ObjSurface {
     parse_obj(&mannequin_obj(&load("child_110").expect("child")), "child.obj").expect("our own OBJ")
@@ -118,6 +118,40 @@ fn parts_that_do_not_touch_are_said() {
     surface.triangles.extend([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]].map(|t| t.map(|v| v + first)));
     let found = read(surface).expect("a body and a pebble");
     assert!(found.notes.iter().any(|n| n.contains("2 parts that do not touch")), "{:?}", found.notes);
+}
+
+#[test]
+fn a_body_of_no_bodys_size_is_refused_with_its_unit() {
+    for (scale, says) in [(150.0, "142.6"), (1e-6, "9.5e-4")] {
+        let error = read(turned(|p| p * scale)).expect_err("no body's size");
+        assert!(matches!(error, BodyError::Size { .. }), "{error}");
+        let text = error.to_string();
+        assert!(text.contains(says) && text.contains("scale the file to millimetres"), "{text}");
+    }
+}
+
+#[test]
+fn a_flat_surface_is_not_called_inside_out() {
+    let both_sides = "v 0 0 0\nv 500 0 0\nv 500 900 0\nv 0 900 0\nf 1 2 3\nf 1 3 4\nf 3 2 1\nf 4 3 1\n";
+    let surface = parse_obj(both_sides, "flat.obj").expect("a surface");
+    let error = read(surface).expect_err("no body").to_string();
+    assert!(!error.contains("inside out"), "{error}");
+}
+
+#[test]
+fn a_squashed_body_is_flat() {
+    let error = read(turned(|p| Vec3::new(p.x, p.y, 0.0))).expect_err("no body");
+    assert!(matches!(error, BodyError::Fault { fault: BodyFault::Flat, .. }), "{error}");
+}
+
+#[test]
+fn a_mannequin_in_another_unit_is_refused_before_it_is_built() {
+    let text = include_str!("../mannequins/child_110.yaml");
+    for (from, to) in [("y: ", "y: 100"), ("girth: ", "girth: 99")] {
+        let spec = MannequinSpec::parse(&text.replace(from, to), "big.yaml");
+        let error = spec.expect_err("too large").to_string();
+        assert!(error.starts_with("big.yaml: ") && error.contains("millimetres"), "{error}");
+    }
 }
 
 /// A scanned-like body of GarmentCode's, which is not shipped: `TOILE_BODY` or a neighbouring folder may have it.

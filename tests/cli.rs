@@ -462,3 +462,125 @@ fn shipped_garments_are_right() {
         }
     }
 }
+
+/// Devices and pipes have no length and perhaps no end.
+#[cfg(target_os = "linux")]
+#[test]
+fn endless_files() {
+    let room = Room::new();
+    for name in ["zero.yaml", "zero.obj"] {
+        std::os::unix::fs::symlink("/dev/zero", room.dir.path().join(name)).expect("a link");
+    }
+    for name in ["pipe.yaml", "pipe.obj"] {
+        let made = Command::new("mkfifo").arg(room.dir.path().join(name)).status();
+        assert!(made.expect("mkfifo").success());
+    }
+    for ends in ["zero", "pipe"] {
+        let (yaml, obj) = (format!("{ends}.yaml"), format!("{ends}.obj"));
+        for args in [
+            &["make", &yaml][..],
+            &["check", &yaml],
+            &["make", "skirt.yaml", "--body", &obj],
+            &["make", "skirt.yaml", "--body", &yaml],
+            &["make", "skirt.yaml", "--fabric", &yaml],
+            &["drape", "skirt.yaml", "--from", &obj, "--spacing", COARSE],
+            &["flatten", &obj],
+        ] {
+            room.run(args).ends(2).says(&[ends]);
+        }
+    }
+    room.run(&["check", "/dev/zero"]).ends(2).says(&["/dev/zero", "bytes or more"]);
+    assert!(room.names("out").is_empty());
+}
+
+/// A surface given for a garment is told in a few lines, wherever it is read.
+#[test]
+fn surfaces_that_are_no_garments() {
+    let room = Room::new();
+    room.run(&["mannequin", "build", "child_110", "-o", "child.obj", "-q"]).ends(0);
+    let bytes: Vec<u8> = (0..100_000u32).map(|k| (k % 251) as u8 & 0x7f).collect();
+    room.put("binary.yaml", &String::from_utf8(bytes).expect("ASCII"));
+    for args in
+        [&["make", "child.obj"][..], &["make", "binary.yaml"], &["make", "skirt.yaml", "--fabric", "binary.yaml"]]
+    {
+        let run = room.run(args);
+        run.ends(2);
+        assert!(run.err.len() < 3000, "{} bytes: {}", run.err.len(), run.err);
+        assert!(!run.err.contains(|c: char| c.is_control() && !"\n\t".contains(c)), "{:?}", run.err);
+    }
+}
+
+/// What a garment is made of stands in its file, and so do the mistakes in it.
+#[test]
+fn materials_are_blamed_on_their_line() {
+    let room = Room::new();
+    let cases: &[(String, &[&str])] = &[
+        (skirt_with("woman_92", "woman_29"), &["w.yaml:3:7: error", "woman_29", "did you mean 'woman_92'"]),
+        (skirt_with("woman_92", "anna.obj"), &["w.yaml:3:7: error", "anna.obj"]),
+        (skirt_with("cotton_poplin", "coton_poplin"), &["w.yaml:4:18: error", "did you mean 'cotton_poplin'"]),
+        (skirt_with("cotton_poplin", "shell"), &["w.yaml:4:18: error", "'shell' is based on itself"]),
+        (
+            skirt_with("cotton_poplin", "{base: shell, weight: 2}"),
+            &["w.yaml:4:25: error", "'shell' is based on itself"],
+        ),
+        (skirt_with("cotton_poplin", "{base: denim, weight: 70 N}"), &["w.yaml:4:40: error", "weight '70 N'", "g/m2"]),
+        (
+            skirt_with("cotton_poplin", "{base: denim, tensile: {warp: {EMT: 5 kg}}}"),
+            &["w.yaml:4:54: error", "'5 kg'", "%"],
+        ),
+        (skirt_with("cotton_poplin", "{base: denim, wieght: 70 g/m2}"), &["w.yaml:4:40: error", "no value 'wieght'"]),
+        (skirt_with("cotton_poplin", "{weight: 70 g/m2}"), &["w.yaml:4:11: error", "no bend value"]),
+        (skirt_with("cotton_poplin", "no.yaml"), &["w.yaml:4:18: error", "no.yaml"]),
+    ];
+    for (text, words) in cases {
+        room.put("w.yaml", text);
+        room.run(&["check", "w.yaml"]).ends(2).says(words);
+        let json = room.run(&["check", "w.yaml", "--json"]);
+        assert_eq!(json.ends(2).json()["ok"], false);
+    }
+    // What the command line asks for stands in no file.
+    let run = room.run(&["make", "skirt.yaml", "--body", "woman_29"]);
+    run.ends(2).says(&["woman_29", "did you mean 'woman_92'"]);
+    assert!(!run.err.contains("skirt.yaml:3"), "{}", run.err);
+    let run = room.run(&["make", "skirt.yaml", "--fabric", "denin"]);
+    assert!(!run.ends(2).err.contains("skirt.yaml:4"), "{}", run.err);
+}
+
+/// What only the mesh finds is blamed on its line, too.
+#[test]
+fn what_cannot_be_meshed_is_blamed_on_its_line() {
+    let room = Room::new();
+    let free = "free: [\"*.waist\",";
+    let short = skirt_with("      hem: L -290 300", "      h0: L 289.999 300\n      hem: L -290 300");
+    room.put("w.yaml", &short.replace(free, "free: [\"*.waist\", \"*.h0\","));
+    room.make("w.yaml", &[]).ends(2).says(&["w.yaml:14:7: error", "edge 'front.h0' is only 1.0e-3 mm long"]);
+    let lines = "    lines: {a: {path: M -200 100 L 200 100, fold: 90}, b: {path: M -200 100 L 200 100, fold: 90}}\n";
+    room.put("w.yaml", &skirt_with("    place: hip front\n", &format!("    place: hip front\n{lines}")));
+    room.make("w.yaml", &[]).ends(2).says(&["w.yaml:7:3: error", "line 'b' and line 'a' cross"]);
+}
+
+/// A hundred-and-fifty-metre body, a flat one, and a folder that is a file.
+#[test]
+fn sizes_and_places_that_make_no_sense() {
+    let room = Room::new();
+    room.put("body.obj", &body_obj(|b| b.mesh.vertices.iter_mut().for_each(|p| *p *= 100.0)));
+    room.make("skirt.yaml", &["--body", "body.obj"]).ends(2).says(&["body.obj", "millimetres", "scale"]);
+    room.put("body.obj", &body_obj(|b| b.mesh.vertices.iter_mut().for_each(|p| p.z = 0.0)));
+    room.make("skirt.yaml", &["--body", "body.obj"]).ends(2).says(&["body.obj", "flat"]);
+    room.put("file", "");
+    room.run(&["make", "skirt.yaml", "-o", "file"]).ends(2).says(&["file is a file, not a folder", "with -o"]);
+    let run = room.run(&["make", "skirt.yaml", "--spacing=1e-308"]);
+    run.ends(2).says(&["1.0e-308 mm is too small", "particles (limit 2000000)", "use >= 0."]);
+    assert!(room.run(&["make", "skirt.yaml", "--spacing=1e308"]).ends(2).err.len() < 300);
+}
+
+/// A piece that starts in the body cannot be sewn; where it was put is left to be looked at.
+#[test]
+fn a_piece_placed_inside_the_body_ends_with_3_and_leaves_the_last_state() {
+    let room = Room::new();
+    room.put("w.yaml", &skirt_with("place: hip front", "place: {at: [0, 900, 0]}"));
+    room.make("w.yaml", &[]).ends(3).says(&["'front'", "inside the body", "the last state is in out"]);
+    assert_eq!(room.names("out"), ["garment.png", "sewn.obj"]);
+    let obj = String::from_utf8(room.bytes("out/sewn.obj")).expect("text");
+    assert!(obj.contains("\ng front\n") && obj.contains("\ng back\n"));
+}

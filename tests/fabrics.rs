@@ -195,3 +195,21 @@ fn errors_say_what_was_expected() {
     assert!(said(None, &[LEAST[0], LEAST[1], ("tensile.warp.LT", "0.7")]).contains("has no tensile.warp.EMT"));
     assert!(said(None, &[LEAST[0], LEAST[1], ("tensile", "{warp: [")]).contains("tensile"));
 }
+
+#[test]
+fn values_of_no_cloth_are_refused() {
+    for (key, text, why) in [
+        ("weight", "900 kg/m2", "between 0.001 and 10 kg/m2"),
+        ("weight", "1e-9 g/m2", "between 0.001 and 10 kg/m2"),
+        ("thickness", "1 m", "between 1e-6 and 0.03 m"),
+        ("bend", "900 N.m", "between 1e-9 and 0.1 N.m"),
+        ("shear", "1e9 N/m", "between 0.001 and 1e5 N/m"),
+        ("friction", "nan", "between 0 and 5"),
+    ] {
+        let error = read(Some("denim"), &[(key, text)]).expect_err(text).to_string();
+        assert!(error.contains(why) && error.contains(text), "{error}");
+    }
+    let own = [("shell".to_owned(), spec(Some("shell"), &[("weight", "70 g/m2")]))];
+    let error = resolve(&own[0].1, &context(&own, Path::new("")));
+    assert!(matches!(error, Err(FabricError::Cycle { .. })), "{error:?}");
+}

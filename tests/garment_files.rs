@@ -649,3 +649,125 @@ proptest::proptest! {
         }
     }
 }
+
+#[test]
+fn words_of_a_place_that_mean_nothing_are_named_with_their_place() {
+    let with = |place: &str| squares("  a:\n", &format!("  a:\n    place: {place}\n"));
+    says(&with("hop front"), 4, "hop front", "place of 'a': 'hop' means nothing; did you mean 'hip'?");
+    says(&with("left"), 4, "left", "place of 'a': 'left' names no body part");
+    says(&with("hip front back"), 4, "hip", "'hip front back' says two sides");
+    for place in ["hip front", "front", "left arm", "Waist", "sleeves", "right leg back", "{at: [0, 9, 9]}"] {
+        assert!(mistakes(&with(place)).is_empty(), "{place}");
+    }
+}
+
+#[test]
+fn what_lies_off_its_piece_is_named_with_its_place() {
+    let line = |path: &str| squares("  a:\n", &format!("  a:\n    lines: {{roll: {{path: {path}, fold: 90}}}}\n"));
+    says(&line("M 0 50 L 150 50"), 4, "M 0 50", "line 'roll' leaves piece 'a' near (");
+    says(&line("M 200 50 L 300 50"), 4, "M 200", "line 'roll' leaves piece 'a' near (200, 50)");
+    assert!(mistakes(&line("M 0 50 L 100 50")).is_empty());
+    // The line goes from tip to tip of a notch that is cut out of the piece.
+    let cut_out = line("M 0 1 L 100 1").replacen("top: L 100 0", "top: L 50 40 L 100 0", 1);
+    says(&cut_out, 4, "M 0 1", "line 'roll' leaves piece 'a' near (");
+    // On a folded piece a line may lie on either half.
+    let folded = SQUARES.replacen("  b:\n", "  b:\n    cut: fold right\n    lines: {x: {path: M 50 50 L 150 50}}\n", 1);
+    let folded = folded
+        .replace("b.bottom, b.right", "b.bottom")
+        .replace("sew: a.right, to: b.left", "sew: a.right, to: b.left.L");
+    let folded = folded.replace("b.top, b.bottom", "b.top, b.bottom, b.left.R");
+    assert!(mistakes(&folded).iter().all(|d| !d.message.contains("leaves piece")), "{:?}", mistakes(&folded));
+    let closure = |what: &str| squares("free: [", &format!("closures: [{{kind: button, {what}}}]\nfree: ["));
+    let both = closure("piece: a, at: [[5, 5], [500, 5]], meets: b, meets_at: [[5, 5], [5, -9]]");
+    says(&both, 21, "[500, 5]", "point (500, 5) of the button lies off piece 'a'");
+    says(&both, 21, "[5, -9]", "point (5, -9) of the button lies off piece 'b'");
+    says(&closure("piece: a, at: [5, 500]"), 21, "[5, 500]", "point (5, 500) of the button lies off piece 'a'");
+    let row = closure("piece: a, at: [5, 5], pitch: 30, count: 5, meets: b");
+    says(&row, 21, "[5, 5]", "point (5, 125) of the button lies off piece 'a'");
+    let unlike = closure("piece: a, at: [[5, 5], [5, 9]], meets: b, meets_at: [7, 9]");
+    says(&unlike, 21, "[7, 9]", "the button has 2 points that are to meet 1");
+    says(&closure("edge: a.tpo, at: [5, 0]"), 21, "a.tpo", "edge 'a.tpo' not found");
+    assert!(mistakes(&closure("edge: a.top, at: [[5, 0], [100, 100]], meets: b")).is_empty());
+}
+
+#[test]
+fn bounds_and_allowances_that_nothing_can_have_are_named_with_their_place() {
+    let test = |test: &str| squares("free: [", &format!("tests: [{{{test}}}]\nfree: ["));
+    says(&test("gap: all, below: -1 mm"), 21, "-1", "below must be zero or more, not -1");
+    says(&test("seam: all, length: -1"), 21, "-1", "length must be zero or more");
+    says(&test("drape: all, area: -1 %"), 21, "-1", "area must be zero or more");
+    says(&test("drape: all, area: 5 mm"), 21, "5 mm", "area must be a part of the whole");
+    says(&test("flatten: a, boundary: 5 %"), 21, "5 %", "boundary must be a length");
+    says(&test("drape: all"), 21, "{drape", "it needs 'area', 'boundary' or both");
+    says(&test("worn: false"), 21, "false", "unknown worn 'false'; use true, or leave the test out");
+    says(&test("gap: all, below: 1 mm, worn: true"), 21, "{gap", "'gap' and 'worn' exclude each other");
+    says(&test("crossings: 0, fabric: denin"), 21, "denin", "fabric 'denin' not found; did you mean 'denim'?");
+    assert!(mistakes(&test("drape: all, area: 0.5 %, fabric: denim")).is_empty());
+    says(&squares("pieces:", "allowance: -3\npieces:"), 2, "-3", "allowance must be zero or more");
+    says(&squares("  a:\n", "  a:\n    allowance: -1 cm\n"), 4, "-1", "allowance must be zero or more");
+    says(&squares("  a:\n", "  a:\n    allowance: {top: -1}\n"), 4, "-1", "allowance must be zero or more");
+    says(&squares("  a:\n", "  a:\n    allowance: {tpo: 1}\n"), 4, "tpo", "edge 'a.tpo' not found");
+    says(&squares("to: b.left", "to: b.left, allowance: 2 %"), 20, "2 %", "allowance must be a length");
+}
+
+#[test]
+fn lines_and_places_that_cloth_cannot_have_are_named_with_their_place() {
+    let line = |what: &str| squares("  a:\n", &format!("  a:\n    lines: {{x: {{path: M 0 50 L 90 50, {what}}}}}\n"));
+    says(&line("fold: 1e8"), 4, "1e8", "fold must be between -180 and 180 degrees, not 100000000");
+    says(&line("ratio: 0.001"), 4, "0.001", "ratio must be between 0.05 and 1");
+    says(&line("ratio: 1.2"), 4, "1.2", "ratio must be between 0.05 and 1");
+    let short = "  a:\n    lines: {x: {path: M 0 50 L 0 50.001, fold: 90}}\n";
+    says(&squares("  a:\n", short), 4, "M 0 50", "line 'x' of 'a' is only 0.001 mm long");
+    let far = squares("  a:\n", "  a:\n    place: {at: [0, 1e6, 0]}\n");
+    says(&far, 4, "{at", "place of 'a': [0, 1000000, 0] is more than 10 m from the body's feet");
+}
+
+#[test]
+fn numbers_of_no_size_are_not_spelt_out() {
+    says(&squares("to: b.left", "to: b.left, ease: 1e300"), 20, "1e300", "not '1e300'");
+    says(&squares("[[0, 0], [0, 9]]", "[[0, nan], [0, 9]]"), 4, "[0, nan", "two finite numbers: x y, not [0, nan]");
+    assert_eq!(mistakes(&squares("[[0, 0], [0, 9]]", "[[0, nan], [0, 9]]")).len(), 1);
+    says(&squares("top: L 100 0", "top: L 1e30 0"), 7, "L 1e30", "is 1.0e27 m long");
+}
+
+#[test]
+fn a_hole_that_crosses_the_outline_is_named_where_it_stands() {
+    let hole = squares("  a:\n", "  a:\n    holes: {h: M 50 50 L 150 50 L 150 60 Z}\n");
+    says(&hole, 4, "h:", "outline of 'a' crosses itself near (100, 55), between right and h");
+}
+
+#[test]
+fn holes_that_are_none_are_named_with_their_place() {
+    let holes = |holes: &str| squares("  a:\n", &format!("  a:\n    holes: {{{holes}}}\n"));
+    says(&holes("h: M 20 50 L 80 50 L 20 50 Z"), 4, "M 20 50", "hole 'h' of 'a' encloses less than 1 mm2");
+    says(&holes("h: M 20 50 L 20.1 50 L 20 50.1 Z"), 4, "M 20 50", "hole 'h' of 'a' encloses less than 1 mm2");
+    let (large, small) = ("M 20 20 L 80 20 L 80 80 L 20 80 Z", "M 40 40 L 60 40 L 60 60 L 40 60 Z");
+    let message = "holes 'k' and 'h' of 'a' lie one in the other";
+    says(&holes(&format!("h: {large}, k: {small}")), 4, small, message);
+    says(&holes(&format!("h: {small}, k: {large}")), 4, large, message);
+}
+
+#[test]
+fn a_title_moves_no_cursor() {
+    let text = squares("garment: 1\n", "garment: 1\nname: \"A\\e[2J skirt\\n\"\n");
+    assert_eq!(garment(&text).title, "A\u{fffd}[2J skirt");
+}
+
+#[test]
+fn long_lines_and_values_are_shortened() {
+    let word = "abc ".repeat(300_000);
+    for text in [word.clone(), format!("garment: 1\nname: {{{word}: 3}}\npieces: {word}\n"), squares("a.right", &word)]
+    {
+        let refused = read_text("test", "t.yaml", &text).unwrap_err().to_string();
+        assert!(refused.lines().all(|l| l.chars().count() < 1500), "{}", refused.len());
+        assert!(refused.contains('…'), "{refused}");
+    }
+    // The place is in the middle of what is shown.
+    let far = squares("free: [", &format!("free: [{} a.tpo, {}", "a.top, ".repeat(90), "a.top, ".repeat(90)));
+    let refused = read_text("test", "t.yaml", &far).unwrap_err().to_string();
+    let lines: Vec<&str> = refused.lines().collect();
+    let column = lines[2].chars().position(|c| c == '^').unwrap();
+    assert_eq!(lines[1].chars().skip(column).take(5).collect::<String>(), "a.tpo", "{refused}");
+    let escape = squares("a.right", "\"a.\\e[2J\"");
+    assert!(!read_text("test", "t.yaml", &escape).unwrap_err().to_string().contains('\u{1b}'));
+}

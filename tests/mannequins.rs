@@ -255,7 +255,8 @@ fn wrong_numbers_are_refused() {
     let text = include_str!("../mannequins/child_110.yaml");
     for (from, to, expected) in [
         ("girth: 560", "girth: .nan", "'waist'"),
-        ("y: 660", "y: 700000", "do not rise"),
+        ("y: 660", "y: 900", "do not rise"),
+        ("y: 660", "y: 700000", "numbers are millimetres"),
         ("girth: 185", "girth: -185", "'biceps'"),
         ("n: 2.12", "n: 0.5", "n = 0.5"),
         ("name: hip", "name: hips", "'hip'"),

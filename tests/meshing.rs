@@ -568,3 +568,22 @@ proptest! {
         meshed(&tucked(&widths, &shares, gathered), spacing);
     }
 }
+
+/// Pieces are filled side by side; of several that cannot be, the garment's first is named, however long it takes.
+#[test]
+fn of_several_mistakes_the_first_piece_is_named() {
+    let lines = "lines: {a: {path: M 5 50 L 95 50, fold: 9}, b: {path: M 5 50 L 95 50, fold: 9}}";
+    let small = "outline: {start: 0 0, t: L 100 0, r: L 100 100, b: L 0 100, l: L 0 0}";
+    let mut text = String::from("garment: 1\nfree: [\"*\"]\npieces:\n");
+    for k in 0..12 {
+        let outline =
+            if k == 0 { small.replace("100 100", "100 4000").replace("0 100,", "0 4000,") } else { small.into() };
+        text += &format!("  p{k}: {{grain: [[0, 0], [0, 9]], {outline}, {lines}}}\n");
+    }
+    let garment = toile::io::garment::read_text("many", "many.yaml", &text).expect("a garment").garment;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build().expect("threads");
+    for _ in 0..20 {
+        let error = pool.install(|| build(&garment, 0.004)).expect_err("lines on one another");
+        assert!(matches!(&error, MeshError::Crossing { piece, .. } if piece == "p0"), "{error}");
+    }
+}

@@ -11,7 +11,8 @@ use crate::report::aligned;
 
 /// `toile check`
 pub(super) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, CliError> {
-    let loaded = match read(&args.garment) {
+    let checked = read(&args.garment).and_then(|l| check_materials(&args.garment, &l).map(|()| l));
+    let loaded = match checked {
         Err(PipelineError::Garment(refused)) if console.json() => {
             let rows = refused.diagnostics.iter().map(DiagnosticRow::new).collect();
             let refusal = Findings { file: args.garment.display().to_string(), ok: false, diagnostics: rows };
@@ -20,7 +21,6 @@ pub(super) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, CliErro
         }
         other => other?,
     };
-    check_materials(&args.garment, &loaded.garment)?;
     loaded.warnings.iter().for_each(|warning| console.note(&warning.to_string()));
     let summary = Summary::new(&loaded.garment, &loaded.warnings);
     console.results(&summary, || summary.text())?;

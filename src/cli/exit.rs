@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use crate::fabric::FabricError;
 use crate::io::files::WriteError;
 use crate::mannequin::MannequinError;
-use crate::pipeline::PipelineError;
+use crate::pipeline::{PipelineError, SewError};
 
 /// Exit codes, the worst last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -64,12 +64,18 @@ impl CliError {
     /// What to do, where the message itself does not say.
     pub(super) fn help(&self) -> Option<&'static str> {
         match self {
+            Self::Pipeline(PipelineError::Sew(SewError::InsideBody { .. })) => {
+                Some("garment.png shows where every piece was placed")
+            }
             Self::Pipeline(e) if !e.is_input() => {
                 Some("try another --spacing, and `toile check` and `toile sew` to see where it begins")
             }
-            Self::Write(WriteError::File { .. } | WriteError::Folder { .. } | WriteError::IsFolder(_)) => {
-                Some("choose a place that can be written, with -o")
-            }
+            Self::Write(
+                WriteError::File { .. }
+                | WriteError::Folder { .. }
+                | WriteError::NotFolder { .. }
+                | WriteError::IsFolder(_),
+            ) => Some("choose a place that can be written, with -o"),
             _ => None,
         }
     }

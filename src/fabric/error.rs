@@ -91,3 +91,25 @@ pub enum FabricError {
         fabric: String,
     },
 }
+
+impl FabricError {
+    /// The file that is wrong, if it is one.
+    pub fn file(&self) -> Option<&str> {
+        match self {
+            Self::Read { file, .. } | Self::Syntax { file, .. } | Self::Curve { file, .. } => Some(file),
+            _ => None,
+        }
+    }
+
+    /// The fabric that is wrong and the value of it, as far as the error is about a fabric's own values.
+    pub fn culprit(&self) -> (Option<&str>, Option<&str>) {
+        match self {
+            Self::Key { fabric, key, .. }
+            | Self::Unit { fabric, key, .. }
+            | Self::Range { fabric, key, .. }
+            | Self::Missing { fabric, key, .. } => (Some(fabric), Some(key)),
+            Self::Cycle { fabric } => (Some(fabric), Some("base")),
+            Self::Unknown { .. } | Self::Read { .. } | Self::Syntax { .. } | Self::Curve { .. } => (None, None),
+        }
+    }
+}

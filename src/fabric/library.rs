@@ -5,6 +5,7 @@ use std::path::Path;
 use super::error::FabricError;
 use super::resolve::{Context, from_sheet};
 use super::{Fabric, FabricSheet};
+use crate::input::{InputError, bytes};
 
 /// Name and text of every shipped fabric: the fifteen of Liu, Wang & Luo 2015 in their order, then two knits.
 const SHIPPED: [(&str, &str); 17] = [
@@ -82,11 +83,13 @@ const LARGEST: u64 = 4 << 20;
 /// The text of a fabric's or a curve's file, told to be too large before it is read.
 pub(super) fn read(path: &Path) -> Result<String, FabricError> {
     let fault = |why: String| FabricError::Read { file: path.display().to_string(), why };
-    let size = std::fs::metadata(path).map_err(|e| fault(e.to_string()))?.len();
-    if size > LARGEST {
-        return Err(fault(format!("{} MiB are no fabric; at most {} MiB are read", size >> 20, LARGEST >> 20)));
-    }
-    std::fs::read_to_string(path).map_err(|e| fault(e.to_string()))
+    let bytes = bytes(path, LARGEST).map_err(|e| match e {
+        InputError::TooLarge { bytes, limit } => {
+            fault(format!("{} MiB or more are no fabric; at most {} MiB are read", bytes >> 20, limit >> 20))
+        }
+        other => fault(other.to_string()),
+    })?;
+    String::from_utf8(bytes).map_err(|_| fault("it is no UTF-8 text".to_owned()))
 }
 
 /// The name most like `name`, if it contains it or differs in no more than a third of its letters.

@@ -1,10 +1,11 @@
 //! From what is written about a fabric to a [`Fabric`] with every value.
 
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use super::error::FabricError;
-use super::library::{load_in, read};
+use super::library::{library, load_in, read};
 use super::sheet::{FabricSheet, flatten};
 use super::units::{BEND, LENGTH, Quantity, SHEAR, STRAIN, WEIGHT};
 use super::{Fabric, FabricSpec, TensileCurve};
@@ -76,6 +77,11 @@ fn resolve_chain(spec: &FabricSpec, context: &Context, seen: &mut Vec<String>) -
 fn base_fabric(name: &str, context: &Context, seen: &mut Vec<String>) -> Result<Fabric, FabricError> {
     let sibling = context.garment.iter().find(|g| g.0 == name && g.0 != context.name);
     let Some((name, spec)) = sibling else {
+        // A fabric may bear the name of a shipped one and be based on that, but on no other of its own name.
+        let own = name == context.name && context.garment.iter().any(|g| g.0 == name);
+        if own && !library().contains(&name) && Path::new(name).extension().is_none() {
+            return Err(FabricError::Cycle { fabric: name.to_owned() });
+        }
         let others: Vec<&str> = context.garment.iter().map(|g| g.0.as_str()).collect();
         return load_in(name, context.folder, &others);
     };
@@ -146,12 +152,15 @@ impl<'a> Values<'a> {
         key: &str,
         text: &str,
         value: f64,
-        range: std::ops::RangeInclusive<f64>,
+        range: &RangeInclusive<f64>,
+        unit: &str,
     ) -> Result<f64, FabricError> {
         if range.contains(&value) {
             return Ok(value);
         }
-        let why = format!("it must lie between {:e} and {:e} (SI units)", range.start(), range.end());
+        let plain = |x: f64| if (1e-3..1e5).contains(&x) || x == 0.0 { format!("{x}") } else { format!("{x:e}") };
+        let why = format!("it must lie between {} and {} {unit}", plain(*range.start()), plain(*range.end()));
+        let why = why.trim_end().to_owned();
         let (fabric, key, text) = (self.context.name.to_owned(), key.to_owned(), text.to_owned());
         Err(FabricError::Range { fabric, key, text, why })
     }
@@ -164,8 +173,7 @@ impl<'a> Values<'a> {
             (None, Ok(factor), Some(base)) => factor * base,
             _ => return Err(self.unit_error(key, text, self.expected(kind.expected(), base.is_some()))),
         };
-        // Anything from a spider's thread to a sheet of steel: only slips of the pen are refused.
-        self.checked(key, text, value, 1e-9..=1e6).map(Some)
+        self.checked(key, text, value, &kind.range, kind.si).map(Some)
     }
 
     fn expected(&self, units: String, has_base: bool) -> String {
@@ -173,10 +181,10 @@ impl<'a> Values<'a> {
     }
 
     /// A number without unit.
-    fn number(&self, keys: &[&str], range: std::ops::RangeInclusive<f64>) -> Result<Option<f64>, FabricError> {
+    fn number(&self, keys: &[&str], range: RangeInclusive<f64>) -> Result<Option<f64>, FabricError> {
         let Some((key, text)) = self.first(keys) else { return Ok(None) };
         let value = text.trim().parse::<f64>().map_err(|_| self.unit_error(key, text, "a plain number".to_owned()))?;
-        self.checked(key, text, value, range).map(Some)
+        self.checked(key, text, value, &range, "").map(Some)
     }
 
     fn missing(&self, key: &str, kind: &Quantity) -> FabricError {
@@ -274,7 +282,7 @@ impl<'a> Values<'a> {
 
     fn curve_or_factor(&self, key: &str, text: &str, base: Option<&TensileCurve>) -> Result<TensileCurve, FabricError> {
         if let (Ok(factor), Some(base)) = (text.trim().parse::<f64>(), base) {
-            return Ok(base.scaled(self.checked(key, text, factor, 1e-6..=1e6)?));
+            return Ok(base.scaled(self.checked(key, text, factor, &(1e-6..=1e6), "")?));
         }
         if !text.trim().ends_with(".csv") {
             let expected = "{EMT: 5 %, LT: 0.7} or a .csv file of strain and load".to_owned();

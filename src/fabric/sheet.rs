@@ -3,6 +3,10 @@
 use serde_yaml::Value;
 
 use super::error::FabricError;
+use crate::input::shown;
+
+/// Characters of a message that are shown: it may quote the whole file.
+const MESSAGE: usize = 300;
 
 /// What a fabric file says.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,7 +63,7 @@ impl FabricSheet {
     /// # Errors
     /// [`FabricError::Syntax`] when it is no YAML map of values.
     pub fn parse(text: &str, from: &str) -> Result<Self, FabricError> {
-        let fault = |why: String| FabricError::Syntax { file: from.to_owned(), why };
+        let fault = |why: String| FabricError::Syntax { file: from.to_owned(), why: shown(&why, MESSAGE) };
         let value: Value = serde_yaml::from_str(text).map_err(|e| fault(e.to_string()))?;
         let Value::Mapping(map) = value else {
             return Err(fault("a fabric is a map of values, such as weight: 115 g/m2".to_owned()));

@@ -1,6 +1,7 @@
 //! Numbers with units, as textile laboratories write them.
 
 use std::f64::consts::PI;
+use std::ops::RangeInclusive;
 
 /// N/m in one gf/cm.
 pub(super) const GF_PER_CM: f64 = 0.980_665;
@@ -12,21 +13,32 @@ const OZ_PER_YD2: f64 = 0.033_905_75;
 /// A kind of quantity: the units it is written in, and what each is in SI.
 pub(super) struct Quantity {
     units: &'static [(&'static str, f64)],
+    /// What a sheet can have, SI: from a spider's web to a carpet. Beyond are slips of the pen and wrong units.
+    pub(super) range: RangeInclusive<f64>,
+    /// Name of the SI unit.
+    pub(super) si: &'static str,
 }
 
 /// Mass per area, kg/m².
-pub(super) const WEIGHT: Quantity = Quantity { units: &[("g/m2", 1e-3), ("kg/m2", 1.0), ("oz/yd2", OZ_PER_YD2)] };
+pub(super) const WEIGHT: Quantity =
+    Quantity { units: &[("g/m2", 1e-3), ("kg/m2", 1.0), ("oz/yd2", OZ_PER_YD2)], range: 1e-3..=10.0, si: "kg/m2" };
 /// Length, m.
-pub(super) const LENGTH: Quantity = Quantity { units: &[("mm", 1e-3), ("cm", 1e-2), ("um", 1e-6), ("m", 1.0)] };
+pub(super) const LENGTH: Quantity =
+    Quantity { units: &[("mm", 1e-3), ("cm", 1e-2), ("um", 1e-6), ("m", 1.0)], range: 1e-6..=0.03, si: "m" };
 /// Bending rigidity, N·m.
-pub(super) const BEND: Quantity =
-    Quantity { units: &[("gf.cm2/cm", GF_CM2_PER_CM), ("uN.m", 1e-6), ("mN.mm", 1e-6), ("N.m", 1.0)] };
+pub(super) const BEND: Quantity = Quantity {
+    units: &[("gf.cm2/cm", GF_CM2_PER_CM), ("uN.m", 1e-6), ("mN.mm", 1e-6), ("N.m", 1.0)],
+    range: 1e-9..=0.1,
+    si: "N.m",
+};
 /// Shear stiffness, N/m per radian.
 pub(super) const SHEAR: Quantity = Quantity {
     units: &[("gf/cm.deg", GF_PER_CM * 180.0 / PI), ("N/m.deg", 180.0 / PI), ("N/m.rad", 1.0), ("N/m", 1.0)],
+    range: 1e-3..=1e5,
+    si: "N/m",
 };
 /// A part of one.
-pub(super) const STRAIN: Quantity = Quantity { units: &[("%", 0.01)] };
+pub(super) const STRAIN: Quantity = Quantity { units: &[("%", 0.01)], range: 1e-4..=10.0, si: "of the length" };
 
 impl Quantity {
     /// `a number in g/m2, kg/m2 or oz/yd2`.

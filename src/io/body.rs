@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::obj_read::{ObjError, ObjSurface, read_obj};
 use crate::geometry::{Topology, TriMesh, Vec3};
-use crate::mannequin::{BodyCheck, BodyFault, Mannequin, MannequinError, check_body, find_parts, load};
+use crate::mannequin::{BodyCheck, BodyFault, HEIGHTS, Mannequin, MannequinError, check_body, find_parts, load};
 
 /// Vertices nearer than this are one, metres: far below a mesh's edges, far above the rounding of a file.
 const WELD: f64 = 1e-6;
@@ -59,6 +59,22 @@ pub enum BodyError {
         /// Where the first two cross, metres.
         place: Vec3,
     },
+    /// A body that nobody dresses: its unit is not what it was taken for.
+    #[error(
+        "{file}: the body is {:.3e} units high, taken for {unit}, which makes {} m; a body is {} to {} m high: scale \
+         the file to millimetres, centimetres or metres",
+        units, metres_shown(*metres), HEIGHTS.start(), HEIGHTS.end()
+    )]
+    Size {
+        /// Path.
+        file: String,
+        /// Height in the file's unit.
+        units: f64,
+        /// What that was taken for.
+        unit: &'static str,
+        /// Height in metres.
+        metres: f64,
+    },
     /// No height, or no parts.
     #[error("{file}: {why}")]
     Shape {
@@ -70,6 +86,10 @@ pub enum BodyError {
     /// A mannequin by name or `.yaml`.
     #[error(transparent)]
     Mannequin(#[from] MannequinError),
+}
+
+fn metres_shown(metres: f64) -> String {
+    if (1e-2..1e4).contains(&metres) { format!("{metres:.2}") } else { format!("{metres:.1e}") }
 }
 
 /// A mannequin by library name, `.yaml` or `.obj`: what `--body` takes.
@@ -107,6 +127,9 @@ pub fn body(surface: ObjSurface, name: String, file: String) -> Result<Body, Bod
     stand_up(&mut vertices, &mut notes);
     let (low, height) = extent(&vertices).ok_or_else(|| shape("the body has no height"))?;
     let (scale, unit) = unit(height);
+    if !HEIGHTS.contains(&(scale * height)) {
+        return Err(BodyError::Size { file, units: height, unit, metres: scale * height });
+    }
     notes.push(format!("{unit} assumed, since the body is {height:.2} units high"));
     for p in &mut vertices {
         *p = Vec3::new(p.x, p.y - low, p.z) * scale;

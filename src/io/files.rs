@@ -27,6 +27,14 @@ pub enum WriteError {
     /// A target exists and is a folder.
     #[error("cannot write {}: it is a folder", .0.display())]
     IsFolder(PathBuf),
+    /// The folder to write into is a file.
+    #[error("cannot write {}: {} is a file, not a folder", target.display(), path.display())]
+    NotFolder {
+        /// What should be written.
+        target: PathBuf,
+        /// The file in its way.
+        path: PathBuf,
+    },
     /// The output folder cannot be made.
     #[error("cannot make the folder {}: {source}", path.display())]
     Folder {
@@ -85,6 +93,9 @@ pub fn check_writable(paths: &[PathBuf], inputs: &[&Path]) -> Result<(), WriteEr
         refuse(path, inputs)?;
         // The parent of a bare name is the empty path: the folder one is in.
         let existing = path.ancestors().skip(1).find(|p| fs::symlink_metadata(p).is_ok());
+        if let Some(file) = existing.filter(|p| !p.is_dir()) {
+            return Err(WriteError::NotFolder { target: path.clone(), path: file.to_owned() });
+        }
         // Created and dropped: permissions, read-only disks and files in the way all show.
         Pending::create(&existing.unwrap_or(Path::new(".")).join("toile"), b"").map_err(|e| match e {
             WriteError::File { source, .. } | WriteError::Folder { source, .. } => {

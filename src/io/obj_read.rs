@@ -9,9 +9,13 @@ use std::path::Path;
 use obj::raw::object::Polygon;
 
 use crate::geometry::Vec3;
+use crate::input::{InputError, bytes, shown};
 
 /// Larger files are refused before they are read: at a hundred bytes a triangle this is five million of them.
 const LARGEST: u64 = 512 << 20;
+
+/// Characters of a word that an error shows.
+const WORD: usize = 60;
 
 /// Why an OBJ file cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -25,7 +29,7 @@ pub enum ObjError {
         why: String,
     },
     /// More than 512 MiB.
-    #[error("{file}: {mebibytes} MiB are more than the 512 MiB that are read; reduce the mesh first")]
+    #[error("{file}: {mebibytes} MiB or more; at most 512 MiB are read: reduce the mesh first")]
     TooLarge {
         /// Path.
         file: String,
@@ -43,7 +47,7 @@ pub enum ObjError {
         why: String,
     },
     /// A file without a surface.
-    #[error("{file}: no faces; a body is a closed surface of 'v' and 'f' lines")]
+    #[error("{file}: no faces; a surface has 'v' lines for its points and 'f' lines for its faces")]
     Empty {
         /// Path.
         file: String,
@@ -69,12 +73,10 @@ pub fn read_obj(path: &Path) -> Result<ObjSurface, ObjError> {
 
 fn text(path: &Path) -> Result<String, ObjError> {
     let file = path.display().to_string();
-    let system = |e: std::io::Error| ObjError::Read { file: file.clone(), why: e.to_string() };
-    let size = std::fs::metadata(path).map_err(system)?.len();
-    if size > LARGEST {
-        return Err(ObjError::TooLarge { file, mebibytes: size >> 20 });
-    }
-    let bytes = std::fs::read(path).map_err(system)?;
+    let bytes = bytes(path, LARGEST).map_err(|e| match e {
+        InputError::TooLarge { bytes, .. } => ObjError::TooLarge { file, mebibytes: bytes >> 20 },
+        other => ObjError::Read { file, why: other.to_string() },
+    })?;
     // Only comments and names are ever other than ASCII.
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
@@ -147,7 +149,8 @@ impl ObjFaces {
         let count = out.vertices.len() as i64;
         for (line, corners) in read {
             if let Some(wrong) = corners.iter().find(|c| !(1..=count).contains(*c)) {
-                return Err((line, format!("face uses vertex {wrong}, but the file has 1 to {count}")));
+                let has = if count == 0 { "none".to_owned() } else { format!("1 to {count}") };
+                return Err((line, format!("face uses vertex {wrong}, but the file has {has}")));
             }
             out.faces.push(corners.into_iter().map(|c| (c - 1) as u32).collect());
         }
@@ -211,8 +214,8 @@ fn position<'a>(words: impl Iterator<Item = &'a str>) -> Result<Vec3, String> {
         match word.parse::<f64>() {
             // obj-rs reads 32 bits; what overflows there is no body in any unit.
             Ok(v) if (v as f32).is_finite() => numbers.push(v),
-            Ok(_) => return Err(format!("coordinate '{word}' is not finite")),
-            Err(_) => return Err(format!("'{word}' is no number; a vertex is v x y z")),
+            Ok(_) => return Err(format!("coordinate '{}' is not finite", shown(word, WORD))),
+            Err(_) => return Err(format!("'{}' is no number; a vertex is v x y z", shown(word, WORD))),
         }
     }
     match numbers[..] {
@@ -226,7 +229,8 @@ fn corners<'a>(words: impl Iterator<Item = &'a str>, so_far: usize) -> Result<Ve
     let mut out = Vec::with_capacity(4);
     for word in words {
         let first = word.split('/').next().unwrap_or(word);
-        let index: i64 = first.parse().map_err(|_| format!("'{word}' is no vertex number; a face is f 1 2 3"))?;
+        let index: i64 =
+            first.parse().map_err(|_| format!("'{}' is no vertex number; a face is f 1 2 3", shown(word, WORD)))?;
         out.push(if index < 0 { so_far as i64 + 1 + index } else { index });
     }
     if out.len() < 3 {

@@ -36,6 +36,9 @@ pub enum BodyFault {
         /// On one of them.
         place: Vec3,
     },
+    /// A surface folded onto itself.
+    #[error("the surface is flat: it encloses no volume; a body is a solid, so give a surface with an inside")]
+    Flat,
     /// All triangles face inward.
     #[error("the surface is inside out (its volume is {litres:.1} l); flip its normals")]
     InsideOut {
@@ -43,6 +46,10 @@ pub enum BodyFault {
         litres: f64,
     },
 }
+
+/// A surface that encloses less than this share of what a cube of its area would is flat. (A body encloses hundreds of
+/// times as much, a sheet of card a metre wide and a millimetre thick thirty times.)
+const FLAT: f64 = 1e-5;
 
 /// What can be said of a surface that is fit to be a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,6 +84,9 @@ pub fn check_body(mesh: &TriMesh) -> Result<BodyCheck, BodyFault> {
         return Err(BodyFault::Misoriented { pairs: topology.misoriented.len(), place });
     }
     let volume = mesh.signed_volume();
+    if volume.abs() <= FLAT * mesh.area().powf(1.5) {
+        return Err(BodyFault::Flat);
+    }
     if volume <= 0.0 {
         return Err(BodyFault::InsideOut { litres: 1e3 * volume });
     }

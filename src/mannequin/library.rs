@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::{Mannequin, MannequinError, MannequinSpec, build};
+use crate::input::{InputError, bytes, nearest, shown};
 
 /// Name and text of every shipped mannequin.
 const SHIPPED: [(&str, &str); 3] = [
@@ -13,6 +14,9 @@ const SHIPPED: [(&str, &str); 3] = [
 
 /// Sections of a body are a page of text; larger files are refused before they are read.
 const LARGEST: u64 = 4 << 20;
+
+/// Characters of an unknown name that an error shows.
+const NAME: usize = 120;
 
 /// Names of the shipped mannequins.
 pub fn library() -> Vec<&'static str> {
@@ -30,15 +34,22 @@ impl MannequinSpec {
         }
         let path = Path::new(name_or_path);
         if path.extension().is_none() {
-            return Err(MannequinError::Unknown { name: name_or_path.to_owned(), known: library().join(", ") });
+            let nearest = nearest(name_or_path, library()).map(str::to_owned);
+            let (name, known) = (shown(name_or_path, NAME), library().join(", "));
+            return Err(MannequinError::Unknown { name, nearest, known });
         }
         let fault = |why: String| MannequinError::Read { file: name_or_path.to_owned(), why };
-        let size = std::fs::metadata(path).map_err(|e| fault(e.to_string()))?.len();
-        if size > LARGEST {
-            let (size, largest) = (size >> 20, LARGEST >> 20);
-            return Err(fault(format!("{size} MiB are no mannequin's sections; at most {largest} MiB are read")));
+        if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
+            return Err(fault("an OBJ is a body as it is; give it to --body".to_owned()));
         }
-        let text = std::fs::read_to_string(path).map_err(|e| fault(e.to_string()))?;
+        let bytes = bytes(path, LARGEST).map_err(|e| match e {
+            InputError::TooLarge { bytes, limit } => {
+                let (bytes, limit) = (bytes >> 20, limit >> 20);
+                fault(format!("{bytes} MiB or more are no mannequin's sections; at most {limit} MiB are read"))
+            }
+            other => fault(other.to_string()),
+        })?;
+        let text = String::from_utf8(bytes).map_err(|_| fault("it is no UTF-8 text".to_owned()))?;
         Self::parse(&text, name_or_path)
     }
 }

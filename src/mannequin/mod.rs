@@ -26,10 +26,13 @@ use crate::geometry::{TriMesh, Vec3};
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MannequinError {
     /// Neither a library name nor a file.
-    #[error("mannequin '{name}' not found; there are {known}, or give the path of a .yaml file")]
+    #[error("mannequin '{name}' not found{}; there are {known}, or give the path of a .yaml or .obj file",
+            nearest.as_ref().map(|n| format!("; did you mean '{n}'?")).unwrap_or_default())]
     Unknown {
         /// As asked for.
         name: String,
+        /// The most alike, if any is.
+        nearest: Option<String>,
         /// The library's names.
         known: String,
     },
@@ -77,6 +80,10 @@ pub struct Mannequin {
     /// Torso, neck, arms, legs.
     pub parts: Vec<BodyPart>,
 }
+
+/// Heights of bodies that are dressed, metres, from a doll's to a shop window's: others are in another unit than
+/// thought.
+pub const HEIGHTS: std::ops::RangeInclusive<f64> = 0.2..=3.0;
 
 /// A body whose legs reach up to this share of its height stands on them; a dress form's stumps do not reach so far.
 const STANDS: f64 = 0.3;

@@ -2,7 +2,8 @@
 
 use serde::Deserialize;
 
-use super::MannequinError;
+use super::{HEIGHTS, MannequinError};
+use crate::input::shown;
 
 /// Everything needed to build a mannequin; see `mannequins/woman_92.yaml` for the meaning of each number.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -98,6 +99,8 @@ pub struct ArmRow {
 
 /// Rows of the torso that the build refers to by name.
 const NEEDED: [&str; 5] = ["crotch", "hip", "axilla", "shoulder", "neck base"];
+/// Characters of the reader's message that are shown: it may quote the whole file.
+const MESSAGE: usize = 300;
 /// Exponents outside this are no body: below it a section is a diamond, above it a box with edges.
 const EXPONENTS: std::ops::RangeInclusive<f64> = 1.2..=8.0;
 
@@ -108,7 +111,7 @@ impl MannequinSpec {
     /// [`MannequinError::Syntax`] with line and column, [`MannequinError::Value`] for numbers no body has.
     pub fn parse(text: &str, from: &str) -> Result<Self, MannequinError> {
         let spec: Self = serde_yaml::from_str(text)
-            .map_err(|e| MannequinError::Syntax { file: from.to_owned(), why: e.to_string() })?;
+            .map_err(|e| MannequinError::Syntax { file: from.to_owned(), why: shown(&e.to_string(), MESSAGE) })?;
         spec.check().map_err(|why| MannequinError::Value { file: from.to_owned(), why })?;
         Ok(spec)
     }
@@ -145,6 +148,11 @@ impl MannequinSpec {
                 ));
             }
         }
+        let top = self.torso.iter().map(|r| r.y).fold(0.0, f64::max);
+        if !HEIGHTS.contains(&(1e-3 * top)) {
+            let (low, high) = (1e3 * HEIGHTS.start(), 1e3 * HEIGHTS.end());
+            return Err(format!("the body is {top} mm high; it must be {low} to {high} mm, numbers being millimetres"));
+        }
         ascending("torso rows", self.torso.iter().map(|r| r.y))
     }
 
@@ -177,8 +185,14 @@ impl MannequinSpec {
     }
 }
 
+/// No number of a body is larger, in millimetres or degrees: a larger one is in another unit.
+const LARGEST: f64 = 5000.0;
+
 fn finite(name: &str, values: &[f64]) -> Result<(), String> {
-    match values.iter().find(|v| !v.is_finite()) {
+    match values.iter().find(|v| !v.is_finite() || v.abs() > LARGEST) {
+        Some(v) if v.is_finite() => {
+            Err(format!("{name}: {v:e} mm is more than {LARGEST} mm, and no body's; numbers are millimetres"))
+        }
         Some(v) => Err(format!("{name}: {v} is not a finite number")),
         None => Ok(()),
     }

@@ -54,7 +54,9 @@ pub fn build_with(garment: &Garment, options: &MeshOptions) -> Result<ClothMesh,
     limits::check(garment, options.spacing)?;
     let layout = Layout::new(garment, *options)?;
     let numbers: Vec<usize> = (0..garment.pieces.len()).collect();
-    let fills: Vec<_> = numbers.par_iter().map(|&n| layout.fill(n)).collect::<Result<_, _>>()?;
+    let fills: Vec<_> = numbers.par_iter().map(|&n| layout.fill(n)).collect();
+    // Of several errors the first in the garment's order, not the first in time.
+    let fills: Vec<_> = fills.into_iter().collect::<Result<_, _>>()?;
     Ok(layout.assemble(fills))
 }
 

@@ -27,8 +27,8 @@ pub enum MeshError {
     },
     /// The mesh would not fit in memory or in anyone's patience.
     #[error(
-        "mesh size {} mm makes about {particles} particles (limit {limit}); use >= {} mm",
-        mm(*.spacing), mm(*.usable)
+        "mesh size {} mm is too small: it makes {} particles (limit {limit}); use >= {} mm",
+        mm(*.spacing), count(*.particles), mm(*.usable)
     )]
     TooMany {
         /// Expected number.
@@ -138,6 +138,25 @@ pub enum MeshError {
     },
 }
 
+impl MeshError {
+    /// The piece, and the edge, line or seam that is wrong, as far as the error is about a statement of the garment.
+    pub fn culprit(&self) -> (Option<&str>, Option<&str>) {
+        match self {
+            Self::Open { piece, edge, .. }
+            | Self::ShortEdge { piece, edge, .. }
+            | Self::Endless { piece, edge, .. } => (Some(piece), Some(edge)),
+            Self::LineOutside { piece, line } => (Some(piece), Some(line)),
+            Self::NoOutline { piece }
+            | Self::Grain { piece, .. }
+            | Self::InsideOut { piece, .. }
+            | Self::Crossing { piece, .. }
+            | Self::Triangulation { piece, .. } => (Some(piece), None),
+            Self::Seam { seam, .. } => (None, Some(seam)),
+            Self::Spacing(_) | Self::TooCoarse { .. } | Self::TooMany { .. } => (None, None),
+        }
+    }
+}
+
 /// What is wrong with a seam.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SeamFault {
@@ -164,7 +183,7 @@ pub enum SeamFault {
         length: f64,
     },
     /// One side has no length.
-    #[error("one side has no length")]
+    #[error("one side has no length; give it an edge or a range that can be sewn")]
     NoLength,
     /// The marks do not rise from (0, 0) to the two lengths.
     #[error("its marks must rise on both sides from (0, 0) to ({}, {}) mm", mm(*.0), mm(*.1))]
@@ -181,9 +200,22 @@ pub enum SeamFault {
     },
 }
 
-/// Millimetres with at most two decimals, no trailing zeros.
-fn mm(metres: f64) -> f64 {
-    (metres * 1e5).round() / 100.0
+/// Millimetres with at most two decimals, no trailing zeros; very large and very small ones as powers of ten.
+fn mm(metres: f64) -> String {
+    let mm = metres * 1e3;
+    match mm.abs() {
+        size if size >= 1e7 || (size > 0.0 && size < 5e-3) => format!("{mm:.1e}"),
+        _ => format!("{}", (mm * 100.0).round() / 100.0),
+    }
+}
+
+/// A number of particles as a person reads it.
+fn count(particles: usize) -> String {
+    match particles {
+        usize::MAX => "more than 1e19".to_owned(),
+        10_000_000.. => format!("{:.1e}", particles as f64),
+        _ => particles.to_string(),
+    }
 }
 
 fn plural(n: usize) -> &'static str {

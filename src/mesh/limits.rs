@@ -17,7 +17,7 @@ pub(super) fn check(garment: &Garment, spacing: f64) -> Result<(), MeshError> {
     if !(spacing.is_finite() && spacing > 0.0) {
         return Err(MeshError::Spacing(spacing));
     }
-    let mut expected = 0.0;
+    let (mut cloth, mut rim) = (0.0, 0.0);
     for piece in &garment.pieces {
         check_grain(piece)?;
         let (area, perimeter) = measure(piece)?;
@@ -31,14 +31,16 @@ pub(super) fn check(garment: &Garment, spacing: f64) -> Result<(), MeshError> {
                 usable: width / GOOD_SPRINGS_ACROSS,
             });
         }
-        expected += area / (spacing * spacing) + 0.5 * perimeter / spacing;
+        cloth += area;
+        rim += 0.5 * perimeter;
     }
+    let expected = cloth / (spacing * spacing) + rim / spacing;
     if expected > MOST_PARTICLES as f64 {
         return Err(MeshError::TooMany {
             particles: expected as usize,
             limit: MOST_PARTICLES,
             spacing,
-            usable: round_up(spacing * (expected / MOST_PARTICLES as f64).sqrt()),
+            usable: round_up(usable(cloth, rim, MOST_PARTICLES as f64)),
         });
     }
     Ok(())
@@ -71,6 +73,11 @@ fn width(area: f64, perimeter: f64) -> f64 {
     let half = 0.5 * perimeter;
     let root = (half * half - 4.0 * area).max(0.0).sqrt();
     0.5 * (half - root)
+}
+
+/// The spacing at which cloth of this area and half rim makes so many particles.
+fn usable(cloth: f64, rim: f64, particles: f64) -> f64 {
+    (rim + (rim * rim + 4.0 * cloth * particles).sqrt()) / (2.0 * particles)
 }
 
 /// The next tenth of a millimetre.

@@ -1,18 +1,20 @@
 //! The garment's own regression bounds.
 
+use std::path::Path;
+
 use super::diagnostic::{Findings, Located};
 use super::file::{GarmentFile, Quantity, TestEntry, TestFile, Unit};
 use super::inherit::unknown_piece;
 use super::problem::Problem;
-use super::spelling::nearest;
 use super::walk::edge_name;
 use super::{Bound, Garment, Test, openings};
+use crate::input::nearest;
 
 /// The bounds of the file; `openings` is checked at once, for it needs no simulation.
 pub(super) fn bounds(file: &GarmentFile, garment: &Garment, findings: &mut Findings) -> Vec<Test> {
     let reader = Reader { file, garment };
     let test = |entry: &Located<TestEntry>| {
-        let fabric = entry.value.fabric.as_ref().map(|f| f.value.clone());
+        let fabric = entry.value.fabric.as_ref().map(|f| reader.fabric(f, findings));
         Some(Test { bound: reader.bound(entry, findings)?, fabric })
     };
     file.tests.iter().filter_map(test).collect()
@@ -46,6 +48,18 @@ impl Reader<'_> {
                 return None;
             }
         })
+    }
+
+    /// A shipped fabric, one of the garment's own or a file; the garment cannot be made in any other.
+    fn fabric(&self, name: &Located<String>, findings: &mut Findings) -> String {
+        let own = self.garment.fabrics.iter().map(|f| f.name.as_str());
+        let known: Vec<&str> = own.chain(crate::fabric::library()).collect();
+        if !known.contains(&name.value.as_str()) && Path::new(&name.value).extension().is_none() {
+            let near = nearest(&name.value, known.iter().copied()).map(str::to_owned);
+            let problem = Problem::UnknownFabric { name: name.value.clone(), nearest: near, known: known.join(", ") };
+            findings.error(name.at, problem);
+        }
+        name.value.clone()
     }
 
     fn seam(&self, name: &Located<String>, findings: &mut Findings) -> Option<String> {

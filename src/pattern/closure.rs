@@ -3,10 +3,12 @@
 use super::Closure;
 use super::cut::{Instance, Pieces};
 use super::diagnostic::{Findings, Located};
-use super::draft::Draft;
+use super::draft::{Draft, shown};
 use super::file::{ClosureFile, GarmentFile, Side};
 use super::inherit::unknown_piece;
+use super::problem::Problem;
 use super::reference::piece_of;
+use super::region::Region;
 use crate::geometry::Vec2;
 
 /// Reads all closures. One that does not say what it meets is kept without tacks.
@@ -27,12 +29,19 @@ struct Wardrobe<'a> {
 impl Wardrobe<'_> {
     fn tacks(&self, closure: &ClosureFile, findings: &mut Findings) -> Option<Vec<[(usize, Vec2); 2]>> {
         let on = self.piece(closure.on.as_ref()?, None, findings);
+        if let (Some(on), None) = (on, &closure.meets) {
+            self.points(closure, on, &closure.at, findings);
+        }
         let other_side = on.and_then(|i| i.side).map(Side::other);
         let meets = self.piece(closure.meets.as_ref()?, other_side, findings);
         let (on, meets) = (on?, meets?);
-        let own = self.points(closure, on, &closure.at);
+        let own = self.points(closure, on, &closure.at, findings);
         let across = if closure.meets_at.is_empty() { &closure.at } else { &closure.meets_at };
-        let met = self.points(closure, meets, across);
+        if let Some(first) = across.first().filter(|_| across.len() != closure.at.len()) {
+            let (kind, on, met) = (closure.kind.value.clone(), closure.at.len(), across.len());
+            findings.error(first.at, Problem::PointsUnlike { kind, on, met });
+        }
+        let met = self.points(closure, meets, across, findings);
         Some(own.into_iter().zip(met).map(|(a, b)| [(on.piece, a), (meets.piece, b)]).collect())
     }
 
@@ -43,21 +52,45 @@ impl Wardrobe<'_> {
             findings.error(name.at, unknown_piece(piece, self.drafts.iter().map(|d| d.name.as_str())));
             return None;
         };
+        self.check_edge(name, &self.drafts[draft], findings);
         let of_it = || self.cut.instances.iter().filter(move |i| i.draft == draft);
         let side = side.or(default).unwrap_or(self.drafts[draft].drawn);
         of_it().find(|i| i.side == Some(side)).or_else(|| of_it().find(|i| copy.is_none() || i.copy == copy))
     }
 
-    /// Points given in the drawing, repeated along its grain.
-    fn points(&self, closure: &ClosureFile, on: &Instance, at: &[Located<[f64; 2]>]) -> Vec<Vec2> {
+    /// The edge that a name may hold beside the piece and its side.
+    fn check_edge(&self, name: &Located<String>, draft: &Draft, findings: &mut Findings) {
+        let said = |word: &&str| Side::from_letter(word).is_none() && word.parse::<usize>().is_err();
+        let edge = name.value.split('.').skip(1).filter(said).collect::<Vec<_>>().join(".");
+        if !edge.is_empty() && draft.find(&edge).is_none() {
+            findings.error(name.at, draft.unknown_edge(&edge));
+        }
+    }
+
+    /// Points given in the drawing, repeated along its grain; reported where the piece has no cloth.
+    fn points(
+        &self,
+        closure: &ClosureFile,
+        on: &Instance,
+        at: &[Located<[f64; 2]>],
+        findings: &mut Findings,
+    ) -> Vec<Vec2> {
         let unit = self.file.unit();
         let grain = self.drafts[on.draft].warp;
         let pitch = closure.pitch.as_ref().map_or(0.0, |p| p.value.value(unit));
         let count = closure.count.as_ref().map_or(1, |c| c.value);
-        let repeated = |p: &Located<[f64; 2]>| {
+        let piece = &self.cut.pieces[on.piece];
+        let cloth = Region::new(&piece.loops);
+        let mut points = Vec::new();
+        for p in at {
             let first = Vec2::from(p.value) * unit.factor();
-            (0..count).map(move |i| first + grain * (pitch * i as f64)).collect::<Vec<_>>()
-        };
-        at.iter().flat_map(repeated).map(|p| on.point(p)).collect()
+            let drawn = (0..count).map(|i| first + grain * (pitch * i as f64));
+            if let Some(off) = drawn.clone().find(|&p| !cloth.holds(on.point(p))) {
+                let (kind, piece) = (closure.kind.value.clone(), piece.name.clone());
+                findings.error(p.at, Problem::PointOff { kind, piece, at: shown(off) });
+            }
+            points.extend(drawn.map(|p| on.point(p)));
+        }
+        points
     }
 }

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::problem::Problem;
+use crate::input::shown;
 
 /// A place in the text of a file. Lines and columns count from 1; 0 = the file as a whole.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -65,9 +66,34 @@ pub struct Diagnostic {
     /// What to do about it.
     pub hint: Option<String>,
     /// The line of the file.
-    excerpt: Option<String>,
+    excerpt: Option<Excerpt>,
+}
+
+/// A line of the file, or the part of a long one round the place.
+#[derive(Clone, Debug, PartialEq)]
+struct Excerpt {
+    text: String,
+    /// Characters before the place.
+    before: usize,
     /// Characters to underline.
     width: usize,
+}
+
+impl Excerpt {
+    fn new(line: &str, before: usize, width: usize) -> Self {
+        let visible = |c: char| if c.is_control() && c != '\t' { char::REPLACEMENT_CHARACTER } else { c };
+        let first = if before < EXCERPT_WIDTH { 0 } else { before - EXCERPT_WIDTH / 2 };
+        let mut text: String = line.chars().skip(first).take(EXCERPT_WIDTH).map(visible).collect();
+        let room = text.chars().count().saturating_sub(before - first);
+        if line.chars().nth(first + EXCERPT_WIDTH).is_some() {
+            text.push('…');
+        }
+        let cut = usize::from(first > 0);
+        if cut > 0 {
+            text.insert(0, '…');
+        }
+        Self { text, before: before - first + cut, width: width.min(room).max(1) }
+    }
 }
 
 impl fmt::Display for Diagnostic {
@@ -81,16 +107,11 @@ impl fmt::Display for Diagnostic {
         } else {
             write!(f, "{}:{}:{}: {severity}: {}", self.file, self.line, self.column, self.message)?;
         }
-        if let Some(text) = &self.excerpt {
+        if let Some(Excerpt { text, before, width }) = &self.excerpt {
             let number = self.line.to_string();
             // Tabs stay tabs in the padding, so that the carets stand under their characters.
-            let pad: String = text.chars().take(self.column - 1).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
-            write!(
-                f,
-                "\n  {number} | {text}\n  {} | {pad}{}",
-                " ".repeat(number.len()),
-                "^".repeat(self.width.max(1))
-            )?;
+            let pad: String = text.chars().take(*before).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
+            write!(f, "\n  {number} | {text}\n  {} | {pad}{}", " ".repeat(number.len()), "^".repeat(*width))?;
         }
         if let Some(hint) = &self.hint {
             write!(f, "\n  help: {hint}")?;
@@ -101,8 +122,10 @@ impl fmt::Display for Diagnostic {
 
 /// Findings beyond this many are counted, not kept: a broken file of a million lines need not fill the screen.
 const KEPT: usize = 200;
-/// An excerpt longer than this is cut, columns permitting.
-const EXCERPT_WIDTH: usize = 240;
+/// Characters of a line that are shown: all, or so many round the place.
+const EXCERPT_WIDTH: usize = 160;
+/// Characters of a message, and of a hint: enough for a list of all edges of a garment.
+const MESSAGE: usize = 1200;
 
 /// Collects the findings of one file.
 #[derive(Debug, Default)]
@@ -134,23 +157,17 @@ impl Findings {
         if self.found.len() >= KEPT {
             return;
         }
-        let excerpt = at
-            .line
-            .checked_sub(1)
-            .and_then(|i| self.lines.get(i))
-            .filter(|_| (1..EXCERPT_WIDTH).contains(&at.column))
-            .map(|l| l.chars().take(EXCERPT_WIDTH).collect::<String>());
-        let room = excerpt.as_ref().map_or(0, |l| l.chars().count().saturating_sub(at.column - 1));
+        let line = at.line.checked_sub(1).and_then(|i| self.lines.get(i)).filter(|_| at.column > 0);
+        let excerpt = line.map(|line| Excerpt::new(line, at.column - 1, at.width));
         self.found.push(Diagnostic {
             severity,
             file: self.file.clone(),
             line: at.line,
             column: at.column,
-            message: problem.to_string(),
-            hint: problem.hint(),
+            message: shown(&problem.to_string(), MESSAGE),
+            hint: problem.hint().map(|hint| shown(&hint, MESSAGE)),
             problem,
             excerpt,
-            width: at.width.min(room),
         });
     }
 

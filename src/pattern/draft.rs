@@ -6,15 +6,21 @@ use std::collections::HashSet;
 use super::crossing::{contains, first_crossing};
 use super::dart;
 use super::diagnostic::{Findings, Located, Spot};
-use super::file::{Cut, OutlineFile, PieceFile, PlaceFile, Side, Unit};
+use super::file::{AllowanceFile, Cut, OutlineFile, PieceFile, PlaceFile, Side, Unit};
 use super::pleat;
 use super::problem::Problem;
-use super::spelling::nearest;
+use super::region::{Region, first_off};
 use super::{Edge, Line, LineKind, Place, SeamKind};
 use crate::geometry::{Path, Vec2, Vec3};
+use crate::input::nearest;
 
 /// A drawn outline may miss its start by this much (metres): rounding of the file's numbers.
 const CLOSURE: f64 = 5e-5;
+/// A line that bends or gathers the cloth is at least this long (metres): a shorter one is a slip of the pen, and would
+/// make springs without length.
+const SHORTEST_LINE: f64 = 1e-3;
+/// A hole that encloses less (square metres) is a line or a point drawn as one.
+const SMALLEST_HOLE: f64 = 1e-6;
 /// Longer edges (metres) are a wrong unit or a slip of the pen, and would take for ever to look at.
 const LONGEST_EDGE: f64 = 200.0;
 
@@ -149,14 +155,16 @@ pub(super) fn draft(piece: &PieceFile, unit: Unit, findings: &mut Findings) -> O
         own_seams: Vec::new(),
     };
     dart::open_outline(&mut drawn, &outline, piece, unit, findings);
+    let whole = [outline];
     holes(&mut drawn, piece, unit, findings);
     dart::cut_fish_eyes(&mut drawn, piece, unit, findings);
     pleat::lay(&mut drawn, piece, unit, findings);
     fold(&mut drawn, piece, findings);
-    lines(&mut drawn, piece, unit, findings);
+    lines(&mut drawn, &Region::new(&whole), piece, unit, findings);
+    allowances(&drawn, piece, findings);
     notches(&mut drawn, piece, unit, findings);
     check_names(&drawn, findings);
-    check_crossings(&drawn, outline_file, findings);
+    check_crossings(&drawn, outline_file, piece, findings);
     (findings.errors() == before).then_some(drawn)
 }
 
@@ -254,7 +262,9 @@ fn edge_path(at: Vec2, commands: &str, scale: f64) -> Result<Path, String> {
 
 fn check_size(path: Path) -> Result<Path, String> {
     if path.length() > LONGEST_EDGE {
-        return Err(format!("it is {:.0} m long; at most {LONGEST_EDGE} m are read", path.length()));
+        let length = path.length();
+        let shown = if length < 1e6 { format!("{length:.0}") } else { format!("{length:.1e}") };
+        return Err(format!("it is {shown} m long; at most {LONGEST_EDGE} m are read"));
     }
     Ok(path)
 }
@@ -329,8 +339,20 @@ fn holes(drawn: &mut Draft, piece: &PieceFile, unit: Unit, findings: &mut Findin
             findings.error(text.at, Problem::HoleOutside { piece, hole: edge });
             continue;
         }
+        if 0.5 * path.double_area().abs() < SMALLEST_HOLE {
+            findings.error(text.at, Problem::HoleNoArea { piece, hole: edge });
+            continue;
+        }
         let path = if path.double_area() > 0.0 { path.reversed() } else { path };
-        drawn.add_ring(vec![Edge { name: edge, path }]);
+        let ring = vec![Edge { name: edge, path }];
+        let within =
+            |other: &&Vec<Edge>| contains(other, ring[0].path.start()) || contains(&ring, other[0].path.start());
+        if let Some(other) = drawn.rings[1..].iter().find(within) {
+            let (hole, other) = (ring[0].name.clone(), other[0].name.clone());
+            findings.error(text.at, Problem::HoleInHole { piece, hole, other });
+            continue;
+        }
+        drawn.add_ring(ring);
     }
 }
 
@@ -362,7 +384,10 @@ fn beyond_fold(drawn: &Draft, fold: &Path) -> bool {
         .any(|p| along.perp(&(p - fold.start())) < -CLOSURE)
 }
 
-fn lines(drawn: &mut Draft, piece: &PieceFile, unit: Unit, findings: &mut Findings) {
+/// Lines may run through darts, which are closed when the line is looked at, and end anywhere on the cloth.
+fn lines(drawn: &mut Draft, whole: &Region, piece: &PieceFile, unit: Unit, findings: &mut Findings) {
+    let across = drawn.fold.map(|fold| across(&drawn.rings[0][fold].path));
+    let on_cloth = |p: Vec2| whole.holds(p) || across.as_ref().is_some_and(|across| whole.holds(across(p)));
     for line in &piece.lines {
         let kind = match (&line.fold, &line.ratio, &line.kind) {
             (Some(angle), _, _) => LineKind::Fold(angle.value.to_radians()),
@@ -370,12 +395,38 @@ fn lines(drawn: &mut Draft, piece: &PieceFile, unit: Unit, findings: &mut Findin
             (None, None, kind) => LineKind::Mark(kind.as_ref().map_or_else(|| "mark".to_owned(), |k| k.value.clone())),
         };
         match Path::parse_absolute(&line.path.value, unit.factor()).map_err(|e| e.to_string()).and_then(check_size) {
-            Ok(path) => drawn.lines.push(Line { name: line.name.value.clone(), path, kind }),
+            Ok(path) => {
+                if let Some(off) = first_off(&path, on_cloth) {
+                    let (piece, line_name) = (drawn.name.clone(), line.name.value.clone());
+                    findings.error(line.path.at, Problem::LineOff { piece, line: line_name, near: shown(off) });
+                }
+                let length = path.length();
+                if length < SHORTEST_LINE && !matches!(kind, LineKind::Mark(_)) {
+                    let (piece, line_name) = (drawn.name.clone(), line.name.value.clone());
+                    let (length, least) = ((length * 1e6).round() / 1e3, SHORTEST_LINE * 1e3);
+                    findings.error(line.path.at, Problem::LineShort { piece, line: line_name, length, least });
+                }
+                drawn.lines.push(Line { name: line.name.value.clone(), path, kind });
+            }
             Err(reason) => {
                 let (piece, edge) = (drawn.name.clone(), line.name.value.clone());
                 findings.error(line.path.at, Problem::BadPath { piece, edge, reason });
             }
         }
+    }
+}
+
+/// The reflection across a straight edge.
+fn across(edge: &Path) -> impl Fn(Vec2) -> Vec2 + use<> {
+    let (start, along) = (edge.start(), (edge.end() - edge.start()).normalize());
+    move |p| start + 2.0 * along * along.dot(&(p - start)) - (p - start)
+}
+
+/// Allowances by edge must name edges.
+fn allowances(drawn: &Draft, piece: &PieceFile, findings: &mut Findings) {
+    let Some(AllowanceFile::Edges(edges)) = &piece.allowance else { return };
+    for (name, _) in edges.iter().filter(|(name, _)| drawn.find(&name.value).is_none()) {
+        findings.error(name.at, drawn.unknown_edge(&name.value));
     }
 }
 
@@ -404,7 +455,20 @@ pub(super) fn position(q: super::file::Quantity, length: f64, unit: Unit) -> f64
     if q.is_percent() { q.value(unit) * length } else { q.value(unit) }
 }
 
-fn check_crossings(drawn: &Draft, file: &OutlineFile, findings: &mut Findings) {
+/// Where the statement stands that makes the edge `name`: in the outline, as a hole or as a dart.
+fn spot_of(name: &str, file: &OutlineFile, piece: &PieceFile) -> Spot {
+    let edge = file.edges.iter().find(|e| e.0.value == name).map(|e| e.0.at);
+    let hole = || piece.holes.iter().find(|h| h.0.value == name).map(|h| h.0.at);
+    let stem = name.split('.').next().unwrap_or(name);
+    let dart = || {
+        let named = |d: &&super::file::DartFile| d.name.as_ref().is_some_and(|n| n.value == stem);
+        let found = piece.darts.iter().find(named).or_else(|| piece.darts.first().filter(|_| stem.starts_with("dart")));
+        found.map(|d| d.name.as_ref().map_or(d.intake.at, |n| n.at))
+    };
+    edge.or_else(hole).or_else(dart).unwrap_or(file.start.at)
+}
+
+fn check_crossings(drawn: &Draft, file: &OutlineFile, piece: &PieceFile, findings: &mut Findings) {
     let Some((point, edges)) = first_crossing(&drawn.rings) else { return };
     let name = |(ring, index): (usize, usize)| drawn.rings[ring][index].name.clone();
     let (mut one, mut other) = (name(edges[0]), name(edges[1]));
@@ -412,7 +476,7 @@ fn check_crossings(drawn: &Draft, file: &OutlineFile, findings: &mut Findings) {
     if edges[1] < edges[0] {
         std::mem::swap(&mut one, &mut other);
     }
-    let at = file.edges.iter().find(|e| e.0.value == other).map_or(file.start.at, |e| e.0.at);
+    let at = spot_of(&other, file, piece);
     let edges = if one == other { format!("two stretches of {one}") } else { format!("{one} and {other}") };
     findings.error(at, Problem::Crosses { piece: drawn.name.clone(), near: shown(point), edges });
 }

@@ -7,12 +7,15 @@ use super::file::{GarmentFile, Value};
 use super::inherit::complete_pieces;
 use super::problem::Problem;
 use super::seam::{Seams, check_orientable, seams};
-use super::spelling::nearest;
-use super::{FabricUse, Garment, bound, closure, cover};
+use super::{FabricUse, Garment, bound, closure, cover, place_word};
 use crate::fabric::FabricSpec;
+use crate::input::nearest;
+use crate::input::shown;
 
 /// The fabric of pieces that name none, in a file that names none.
 const DEFAULT_FABRIC: &str = "shell";
+/// Characters of a title that are shown.
+const TITLE: usize = 200;
 /// What it is made of.
 const DEFAULT_CLOTH: &str = "cotton_poplin";
 
@@ -26,6 +29,7 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
         findings.error(file.version.at, Problem::NoPieces);
         return None;
     }
+    place_word::check(file, findings);
     let pieces = complete_pieces(file, findings);
     let drafts: Vec<Draft> = pieces.iter().filter_map(|p| draft(p, file.unit(), findings)).collect();
     let fabrics = fabrics(file);
@@ -46,7 +50,7 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
     let Seams { seams, written, .. } = seams;
     let mut garment = Garment {
         name: name.to_owned(),
-        title: file.name.as_ref().map_or_else(|| name.to_owned(), |n| n.value.clone()),
+        title: file.name.as_ref().map_or_else(|| name.to_owned(), |n| shown(n.value.trim(), TITLE)),
         body: file.body.as_ref().map(|b| b.value.clone()),
         pieces: cut.pieces,
         seams,

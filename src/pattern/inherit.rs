@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::diagnostic::Findings;
 use super::file::{GarmentFile, PieceFile};
 use super::problem::Problem;
-use super::spelling::nearest;
+use crate::input::nearest;
 
 /// The pieces of `file` with every `like` followed. Pieces whose chain of `like` is broken are left out, reported.
 pub(super) fn complete_pieces(file: &GarmentFile, findings: &mut Findings) -> Vec<PieceFile> {

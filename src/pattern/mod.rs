@@ -29,9 +29,11 @@ mod expand;
 mod file;
 mod inherit;
 mod measure;
+mod place_word;
 mod pleat;
 mod problem;
 mod reference;
+mod region;
 mod rim;
 mod seam;
 mod select;
@@ -44,10 +46,10 @@ pub use file::{
     AllowanceFile, ClosureFile, Cut, DartFile, DartShape, GarmentFile, LineFile, NotchFile, OpenFile, OutlineFile,
     PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, Side, TestEntry, TestFile, Unit, Value,
 };
+pub use place_word::{PlaceWord, place_word};
 pub use problem::Problem;
 pub use reference::parse_quantity;
 pub use rim::{Opening, openings};
-pub use spelling::nearest;
 pub use walk::{SeamWalk, walk};
 
 use crate::geometry::{Path, Vec2, Vec3};

@@ -9,7 +9,7 @@ pub enum Problem {
     Unreadable(String),
     #[error("it is a directory, not a garment file")]
     Directory,
-    #[error("the file has {bytes} bytes; a garment file has at most {limit}")]
+    #[error("the file has {bytes} bytes or more; a garment file has at most {limit}")]
     TooLarge { bytes: u64, limit: u64 },
     #[error("the file is not UTF-8 text (byte {0} is no part of a character)")]
     NotText(usize),
@@ -39,6 +39,8 @@ pub enum Problem {
     MissingKey { what: String, key: &'static str },
     #[error("'{one}' and '{other}' exclude each other")]
     Exclusive { one: &'static str, other: &'static str },
+    #[error("a test of 'flatten' or 'drape' says how far: it needs 'area', 'boundary' or both")]
+    NoFigure,
     #[error("unknown unit '{0}'; use mm, cm or in")]
     UnknownUnit(String),
     #[error("garment file version {0} is not known; this program reads version 1")]
@@ -68,6 +70,23 @@ pub enum Problem {
     #[error("the file has no pieces")]
     NoPieces,
 
+    // Places.
+    #[error("place of '{piece}': '{word}' means nothing{}", did_you_mean(.nearest))]
+    PlaceWord { piece: String, word: String, nearest: Option<String>, known: &'static str },
+    #[error("place of '{piece}': '{place}' says two sides; a piece has one")]
+    PlaceBoth { piece: String, place: String },
+    #[error("place of '{piece}': '{place}' names no body part")]
+    PlaceNowhere { piece: String, place: String, known: &'static str },
+
+    // The mesh, in its own words.
+    #[error("{0}")]
+    Mesh(String),
+    // What the garment is made of, and for whom, in the words of those who know.
+    #[error("{0}")]
+    Fabric(String),
+    #[error("{0}")]
+    Body(String),
+
     // Outlines.
     #[error("piece '{0}' has no outline")]
     NoOutline(String),
@@ -85,6 +104,22 @@ pub enum Problem {
     EdgeTwice { piece: String, edge: String },
     #[error("hole '{hole}' lies outside piece '{piece}'")]
     HoleOutside { piece: String, hole: String },
+    #[error("hole '{hole}' of '{piece}' encloses less than 1 mm2; draw a slit as a line, or leave it out")]
+    HoleNoArea { piece: String, hole: String },
+    #[error(
+        "holes '{hole}' and '{other}' of '{piece}' lie one in the other; draw what lies in a hole as its own piece"
+    )]
+    HoleInHole { piece: String, hole: String, other: String },
+    #[error("line '{line}' leaves piece '{piece}' near {near}")]
+    LineOff { piece: String, line: String, near: String },
+    #[error("line '{line}' of '{piece}' is only {length} mm long; draw it at least {least} mm long or leave it out")]
+    LineShort { piece: String, line: String, length: f64, least: f64 },
+    #[error("place of '{piece}': {at} is more than {most} m from the body's feet; positions are in the file's units")]
+    PlaceFar { piece: String, at: String, most: f64 },
+    #[error("point {at} of the {kind} lies off piece '{piece}'")]
+    PointOff { kind: String, piece: String, at: String },
+    #[error("the {kind} has {on} points that are to meet {met}")]
+    PointsUnlike { kind: String, on: usize, met: usize },
     #[error("grain of '{0}' has zero length")]
     ZeroGrain(String),
     #[error("piece '{0}' has no grain; taken as running down the drawing")]
@@ -182,11 +217,21 @@ impl Problem {
             Self::UnknownKey { nearest: Some(n), .. } => format!("did you mean '{n}'?"),
             Self::UnknownKey { known, .. } => format!("known keys: {known}"),
             Self::UnknownPiece { known, .. } => format!("the pieces are: {known}"),
+            Self::PlaceWord { known, .. } | Self::PlaceNowhere { known, .. } => format!("use {known}"),
+            Self::PlaceBoth { .. } => "leave one of the two out".to_owned(),
             Self::UnknownSeam { known, .. } => format!("the seams are: {known}"),
             Self::UnknownFabric { known, .. } => format!("the fabrics are: {known}"),
             Self::UnknownEdge { nearest: Some(n), .. } => format!("did you mean '{n}'?"),
             Self::NeitherSewnNorFree(_) => "sew them in a seam or list them under 'free'".to_owned(),
             Self::NotClosed { .. } => "the last edge must end at 'start'".to_owned(),
+            Self::LineOff { .. } | Self::PointOff { .. } => {
+                "positions are those of the drawing, in the file's units".to_owned()
+            }
+            Self::PointsUnlike { .. } => "give 'meets_at' as many points as 'at'".to_owned(),
+            Self::MatchesNothing(_) => "write piece.edge, such as front.hem, or *.hem for every hem".to_owned(),
+            Self::WrongType { what, .. } if what == "a garment file" => {
+                "it starts with 'garment: 1'; a surface (OBJ) goes to --body, or to 'toile flatten'".to_owned()
+            }
             Self::Empty => "a garment file starts with 'garment: 1'".to_owned(),
             Self::CounterClockwise(_) => "distances along its edges are measured the clockwise way".to_owned(),
             Self::NoGrain(_) => "give it as grain: [[x, y], [x, y]], tail to head".to_owned(),

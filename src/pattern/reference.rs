@@ -18,6 +18,9 @@ pub(super) struct Reference {
     pub(super) range: Option<[Quantity; 2]>,
 }
 
+/// Larger numbers mean nothing in any unit, and would fill a message with digits.
+const LARGEST: f64 = 1e9;
+
 /// Reads a quantity: a number and perhaps a unit.
 ///
 /// # Errors
@@ -26,7 +29,7 @@ pub fn parse_quantity(text: &str) -> Result<Quantity, Problem> {
     let text = text.trim();
     let split = text.find(|c: char| !(c.is_ascii_digit() || "+-.eE".contains(c))).unwrap_or(text.len());
     let (number, unit) = (text[..split].trim(), text[split..].trim());
-    let number: f64 = number.parse().ok().filter(|n: &f64| n.is_finite()).ok_or_else(|| Problem::OutOfRange {
+    let number: f64 = number.parse().ok().filter(|n: &f64| n.abs() <= LARGEST).ok_or_else(|| Problem::OutOfRange {
         what: "a length".to_owned(),
         expected: "a number, perhaps with a unit (12, 1.2 cm, 5 %)",
         found: format!("'{text}'"),

@@ -8,31 +8,32 @@ use crate::pattern::{Garment, Piece};
 
 /// The fabric of every piece, the same `Arc` for pieces of the same fabric; `instead` takes the place of the main one.
 ///
-/// Every fabric of the file is read, also one that no piece uses: its mistakes are the user's to know.
+/// Every fabric of the file is read, also one that no piece uses: its mistakes are the user's to know. An error comes
+/// with the number of the garment's fabric that cannot be had, `None` if that is the one asked for instead.
 pub(super) fn fabrics(
     garment: &Garment,
     folder: &Path,
     instead: Option<&str>,
-) -> Result<Vec<Arc<Fabric>>, FabricError> {
+) -> Result<Vec<Arc<Fabric>>, (Option<usize>, FabricError)> {
     let mut specs: Vec<(String, FabricSpec)> =
         garment.fabrics.iter().map(|f| (f.name.clone(), f.spec.clone())).collect();
-    if let Some(name) = instead
-        && let Some(main) = main_fabric(garment)
-    {
+    let replaced = instead.and_then(|_| main_fabric(garment));
+    if let (Some(name), Some(main)) = (instead, replaced) {
         // Replaced where it is defined, so that an interfacing "based on the shell" follows.
         specs[main].1 = FabricSpec { base: Some(absolute(name)), values: Vec::new() };
+        // First of all: what is based on it would be blamed for it.
+        resolve(&specs[main].1, &Context { name: &specs[main].0, folder, garment: &specs }).map_err(|e| (None, e))?;
     }
-    let resolved: Vec<Arc<Fabric>> = specs
-        .iter()
-        .map(|(name, spec)| resolve(spec, &Context { name, folder, garment: &specs }).map(Arc::new))
-        .collect::<Result<_, _>>()?;
+    let mut resolved: Vec<Arc<Fabric>> = Vec::with_capacity(specs.len());
+    for (k, (name, spec)) in specs.iter().enumerate() {
+        let fabric = resolve(spec, &Context { name, folder, garment: &specs }).map_err(|e| (Some(k), e))?;
+        resolved.push(Arc::new(fabric));
+    }
     let of_piece = |piece: &Piece| {
         let k = specs.iter().position(|s| s.0 == piece.fabric);
-        k.map(|k| Arc::clone(&resolved[k])).ok_or_else(|| FabricError::Unknown {
-            name: piece.fabric.clone(),
-            nearest: None,
-            known: specs.iter().map(|s| s.0.as_str()).collect::<Vec<_>>().join(", "),
-        })
+        let known = || specs.iter().map(|s| s.0.as_str()).collect::<Vec<_>>().join(", ");
+        let unknown = || FabricError::Unknown { name: piece.fabric.clone(), nearest: None, known: known() };
+        k.map(|k| Arc::clone(&resolved[k])).ok_or_else(|| (None, unknown()))
     };
     garment.pieces.iter().map(of_piece).collect()
 }
@@ -94,6 +95,6 @@ mod tests {
         let changed = of(Some("canvas"));
         assert_eq!(names(&changed[..2]), "rib + canvas");
         assert_eq!(changed[2].bend_warp, 2.0 * changed[1].bend_warp);
-        assert!(matches!(fabrics(&garment, Path::new(""), Some("denin")), Err(FabricError::Unknown { .. })));
+        assert!(matches!(fabrics(&garment, Path::new(""), Some("denin")), Err((None, FabricError::Unknown { .. }))));
     }
 }

@@ -20,14 +20,9 @@ pub enum PipelineError {
     /// The garment file has mistakes.
     #[error(transparent)]
     Garment(#[from] Refused),
-    /// A fabric cannot be had.
-    #[error("{}: {source}", file.display())]
-    Fabric {
-        /// The garment file.
-        file: PathBuf,
-        /// What is wrong with the fabric.
-        source: Box<FabricError>,
-    },
+    /// The fabric asked for in place of the garment's own cannot be had. (One of the file's own is [`Self::Garment`].)
+    #[error(transparent)]
+    Fabric(Box<FabricError>),
     /// Nothing to dress.
     #[error(
         "{}: no body to sew on; write 'body: woman_92' into the file or give --body NAME or --body FILE.obj",
@@ -97,7 +92,7 @@ impl PipelineError {
     pub fn is_input(&self) -> bool {
         match self {
             Self::Garment(_)
-            | Self::Fabric { .. }
+            | Self::Fabric(_)
             | Self::NoBody(_)
             | Self::Body(_)
             | Self::Mesh { .. }

@@ -4,14 +4,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::cloth;
 use super::error::PipelineError;
+use super::{cloth, material};
 use crate::contact::Collider;
 use crate::dynamics::Cut;
 use crate::fabric::Fabric;
-use crate::io::body::load_body;
 use crate::io::garment::{self, Loaded};
-use crate::mannequin::{self, Mannequin};
+use crate::mannequin::Mannequin;
 use crate::mesh::{self, ClothMesh};
 use crate::pattern::Garment;
 use crate::report::Stage;
@@ -61,25 +60,6 @@ pub fn read(path: &Path) -> Result<Loaded, PipelineError> {
     Ok(garment::read(path)?)
 }
 
-/// Checks that the fabrics of a garment read from `file` can be had, and its body, if it names one.
-///
-/// # Errors
-/// The first that cannot.
-pub fn check_materials(file: &Path, garment: &Garment) -> Result<(), PipelineError> {
-    fabrics(file, garment, None)?;
-    if garment.body.is_some() {
-        load_body(&body_name(file, garment.body.as_deref(), None)?)?;
-    }
-    Ok(())
-}
-
-/// Fabrics by piece, with the file's name in errors.
-fn fabrics(file: &Path, garment: &Garment, instead: Option<&str>) -> Result<Vec<Arc<Fabric>>, PipelineError> {
-    let folder = file.parent().unwrap_or(Path::new(""));
-    cloth::fabrics(garment, folder, instead)
-        .map_err(|source| PipelineError::Fabric { file: file.to_owned(), source: Box::new(source) })
-}
-
 impl Job {
     /// What the sewing and draping stages take.
     pub fn cut(&self) -> Cut<'_> {
@@ -91,16 +71,14 @@ impl Job {
     /// # Errors
     /// [`PipelineError`]: always the input's fault, but for a body that cannot be touched.
     pub fn new(file: &Path, loaded: Loaded, overrides: &Overrides) -> Result<Self, PipelineError> {
-        let garment = loaded.garment;
         let mut notes: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
-        let fabrics = fabrics(file, &garment, overrides.fabric.as_deref())?;
-        let wanted = body_name(file, garment.body.as_deref(), overrides.body.as_deref())?;
-        let worn_by = load_body(&wanted)?;
+        let fabrics = material::fabrics(file, &loaded, overrides.fabric.as_deref())?;
+        let (wanted, worn_by) = material::body(file, &loaded, overrides.body.as_deref())?;
         notes.extend(worn_by.notes.iter().map(|note| format!("{wanted}: {note}")));
         let body = worn_by.mannequin;
         let begin = Instant::now();
-        let mesh = mesh::build(&garment, overrides.spacing.unwrap_or(SPACING))
-            .map_err(|source| PipelineError::Mesh { file: file.to_owned(), source: Box::new(source) })?;
+        let mesh = mesh::build(&loaded.garment, overrides.spacing.unwrap_or(SPACING))
+            .map_err(|source| material::mesh_error(file, &loaded, source))?;
         let meshing =
             Stage { name: "mesh".into(), seconds: begin.elapsed().as_secs_f64(), converged: true, ..Stage::default() };
         let collider =
@@ -109,39 +87,12 @@ impl Job {
         let named = [overrides.fabric.as_deref(), Some(wanted.as_str())];
         let files = named.into_iter().flatten().map(PathBuf::from).filter(|p| p.is_file());
         let inputs = std::iter::once(file.to_owned()).chain(files).collect();
+        let garment = loaded.garment;
         Ok(Self { file: file.to_owned(), garment, fabrics, body, collider, mesh, notes, inputs, meshing })
     }
 
     /// Names of the fabrics in use, joined with ` + `.
     pub fn fabric_names(&self) -> String {
         cloth::names(&self.fabrics)
-    }
-}
-
-/// The body to load: what the user asks for, else what the file says, its own path being relative to the file.
-fn body_name(file: &Path, said: Option<&str>, instead: Option<&str>) -> Result<String, PipelineError> {
-    if let Some(name) = instead {
-        return Ok(name.to_owned());
-    }
-    let name = said.ok_or_else(|| PipelineError::NoBody(file.to_owned()))?;
-    if mannequin::library().contains(&name) || Path::new(name).extension().is_none() {
-        return Ok(name.to_owned());
-    }
-    let folder = file.parent().unwrap_or(Path::new(""));
-    Ok(folder.join(name).display().to_string())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn bodies_of_the_file_lie_beside_it_and_those_of_the_user_do_not() {
-        let file = Path::new("a/dress.yaml");
-        let named = |said, instead| body_name(file, said, instead).map_err(|e| e.to_string());
-        assert_eq!(named(Some("woman_92"), None).as_deref(), Ok("woman_92"));
-        assert_eq!(named(Some("anna.obj"), None).as_deref(), Ok("a/anna.obj"));
-        assert_eq!(named(Some("woman_92"), Some("bert.obj")).as_deref(), Ok("bert.obj"));
-        assert!(named(None, None).is_err_and(|e| e.contains("--body")));
     }
 }

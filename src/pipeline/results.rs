@@ -51,18 +51,23 @@ impl Run<'_> {
         Ok(files)
     }
 
-    /// The sewn garment and a picture of the latest state: what is left to look at when a later stage fails. Empty
-    /// before the garment has been sewn.
+    /// The sewn garment and a picture of the latest state: what is left to look at when a later stage fails. Where
+    /// sewing failed these are the pieces as they were placed, none joined. Empty before that.
     ///
     /// # Errors
     /// When the picture cannot be drawn.
     pub fn state(&self, color: Color) -> Result<Vec<ResultFile>, PipelineError> {
+        if let (Some(placed), None) = (&self.placed, self.last()) {
+            let apart: Vec<u32> = (0..placed.len() as u32).collect();
+            let obj = garment_obj(&self.job.garment.name, &self.job.mesh, &apart, placed).into_bytes();
+            return Ok(vec![(SEWN_OBJ, obj), (GARMENT_PNG, self.picture(&apart, placed, color)?)]);
+        }
         let mut files = Vec::new();
         if let Some(sewn) = &self.sewn {
             files.push((SEWN_OBJ, self.obj(sewn)));
         }
         if let Some(last) = self.last() {
-            files.push((GARMENT_PNG, self.picture(last, color)?));
+            files.push((GARMENT_PNG, self.picture(&self.stitching.class, last, color)?));
         }
         Ok(files)
     }
@@ -71,9 +76,9 @@ impl Run<'_> {
         garment_obj(&self.job.garment.name, &self.job.mesh, &self.stitching.class, at).into_bytes()
     }
 
-    fn picture(&self, at: &[Vec3], color: Color) -> Result<Vec<u8>, PipelineError> {
+    fn picture(&self, class: &[u32], at: &[Vec3], color: Color) -> Result<Vec<u8>, PipelineError> {
         let strain = (color == Color::Strain).then(|| vertex_strain(&self.job.mesh, at));
-        let dressed = Dressed::new(&self.job.mesh, &self.stitching.class, at, strain.as_deref());
+        let dressed = Dressed::new(&self.job.mesh, class, at, strain.as_deref());
         let subtitle = format!("{}, {}", self.job.body.name, self.job.fabric_names());
         Ok(draw(&dressed.scene(&self.job.body.mesh, &self.job.garment.title, &subtitle))?)
     }

@@ -25,6 +25,8 @@ pub struct Run<'a> {
     pub(super) stitching: Stitching,
     /// For every seam the gaps of its pairs before they were stitched, metres.
     gaps: Option<Vec<Vec<f64>>>,
+    /// Positions of every particle before the first seam was drawn; kept when sewing fails.
+    pub(super) placed: Option<Vec<Vec3>>,
     /// Positions of every particle after each stage.
     pub(super) sewn: Option<Vec<Vec3>>,
     pub(super) draped: Option<Vec<Vec3>>,
@@ -37,7 +39,7 @@ impl<'a> Run<'a> {
     pub fn new(job: &'a Job) -> Self {
         let stages = vec![job.meshing.clone()];
         let stitching = Stitching::new(&job.mesh);
-        Self { job, stitching, gaps: None, sewn: None, draped: None, flattened: None, stages }
+        Self { job, stitching, gaps: None, placed: None, sewn: None, draped: None, flattened: None, stages }
     }
 
     /// Places the pieces round the body and closes the seams.
@@ -51,7 +53,13 @@ impl<'a> Run<'a> {
         let start = place(&job.garment, &job.mesh, &job.body).map_err(|e| failed(e.into()))?;
         let options = SewOptions::default();
         let mut tell = |share| progress("sew", share);
-        let sewn = sew(&job.cut(), &job.collider, start, &options, &mut tell).map_err(failed)?;
+        let sewn = match sew(&job.cut(), &job.collider, start.clone(), &options, &mut tell) {
+            Ok(sewn) => sewn,
+            Err(error) => {
+                self.placed = Some(start);
+                return Err(failed(error));
+            }
+        };
         let closed = sewn.closed(&job.mesh, options.tolerance);
         self.stages.push(Stage {
             name: "sew".into(),

@@ -96,13 +96,15 @@ pub fn flatten_surface(file: &Path, unit: f64, options: &Options) -> Result<Flat
     let name = file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
     let begin = Instant::now();
     let parts = parts(&faces, unit, &name);
-    let flat: Result<Vec<Flattened>, FlattenError> = parts
+    let flat: Vec<Result<Flattened, FlattenError>> = parts
         .par_iter()
         .map(|part| {
             flatten(&part.surface, options)
                 .map_err(|e| FlattenError::Piece { piece: part.name.clone(), source: Box::new(e) })
         })
         .collect();
+    // Of several errors the first in the file's order, not the first in time.
+    let flat: Result<Vec<Flattened>, FlattenError> = flat.into_iter().collect();
     let flat = flat.map_err(|source| PipelineError::Surface { file: file.to_owned(), source })?;
     let stage = stage(&flat, begin);
     let pieces = parts.iter().zip(&flat).map(|(part, flat)| part_report(part, &flat.report)).collect();

@@ -85,8 +85,9 @@ fn seam_matches(wanted: Option<&str>, name: &str) -> bool {
 
 /// The verdict on the largest of `values`; without any the bound is kept.
 fn worst(bound: String, values: Vec<(String, f64)>, limit: f64, unit: &'static str) -> Verdict {
-    // A value that is no number counts as larger than any.
-    let largest = values.into_iter().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+    // A value that is no number, whatever its sign, counts as larger than any.
+    let rank = |value: f64| if value.is_nan() { f64::INFINITY } else { value };
+    let largest = values.into_iter().max_by(|a, b| rank(a.1).total_cmp(&rank(b.1)).then(b.0.cmp(&a.0)));
     let (at, measured) = largest.map_or((None, 0.0), |(name, value)| (Some(name), value));
     // A limit as it was written, not with the rounding of metres to millimetres.
     let written = (limit * 1e9).round() / 1e9;
@@ -182,5 +183,20 @@ fn worn(report: &Report) -> Verdict {
         unit: "",
         at: (!empty.is_empty()).then(|| empty.join(", ")),
         ok,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_number_breaks_a_bound() {
+        for nan in [f64::NAN, -f64::NAN] {
+            let values = vec![("a".to_owned(), 1.0), ("b".to_owned(), nan), ("c".to_owned(), 2.0)];
+            let verdict = worst("gap all".into(), values, 3.0, "mm");
+            assert!(!verdict.ok && verdict.measured.is_nan() && verdict.at.as_deref() == Some("b"), "{verdict}");
+        }
+        assert!(worst("gap all".into(), vec![("a".to_owned(), 1.0)], 3.0, "mm").ok);
     }
 }

@@ -4,6 +4,7 @@ use super::errors::{Way, area, area_error, boundary_error};
 use super::openings::{opening_names, openings};
 use super::rim::{RimEdge, beside_elastic, rims};
 use super::schema::{Contact, PieceReport, Quartet, Report, SeamReport, Sizes, Stage, Worn};
+use super::statistics::largest;
 use super::strain::{PieceStrain, piece_strain};
 use super::stretched::stretched;
 use crate::geometry::{Vec2, Vec3};
@@ -207,7 +208,7 @@ fn seam(run: &Measured, index: usize, stitches: &Stitches) -> SeamReport {
         length_a: drawn.map_or_else(|| meshed(0), |s| s.length_a()) * MM,
         length_b: drawn.map_or_else(|| meshed(1), |s| s.length_b()) * MM,
         gap_mean: gaps.iter().sum::<f64>() / gaps.len().max(1) as f64 * MM,
-        gap_max: gaps.iter().copied().fold(0.0, f64::max) * MM,
+        gap_max: largest(&gaps) * MM,
     }
 }
 

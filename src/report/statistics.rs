@@ -7,6 +7,8 @@ pub(super) fn spread(mut values: Vec<f64>) -> Spread {
     if values.is_empty() {
         return Spread::default();
     }
+    // Whatever its sign, what is no number stands last, so that the largest value shows it.
+    values.iter_mut().filter(|v| v.is_nan()).for_each(|v| *v = f64::NAN.copysign(1.0));
     values.sort_unstable_by(f64::total_cmp);
     Spread {
         mean: values.iter().sum::<f64>() / values.len() as f64,
@@ -14,6 +16,11 @@ pub(super) fn spread(mut values: Vec<f64>) -> Spread {
         p99: quantile(&values, 0.99),
         max: values[values.len() - 1],
     }
+}
+
+/// The largest value, none below zero; no number if one of them is none.
+pub(super) fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most: f64, &v| if v.is_nan() || v > most { v } else { most })
 }
 
 /// The value that a share of the sorted values lies below, interpolated between neighbours.
@@ -36,5 +43,14 @@ mod tests {
         approx::assert_relative_eq!(s.p99, 99.01);
         assert_eq!(s.max, 100.0);
         assert_eq!(spread(vec![]), Spread::default());
+    }
+
+    #[test]
+    fn what_is_no_number_is_not_lost() {
+        for nan in [f64::NAN, -f64::NAN] {
+            assert!(spread(vec![1.0, nan, 2.0]).max.is_nan());
+            assert!(largest(&[1.0, nan, 2.0]).is_nan());
+        }
+        assert_eq!(largest(&[1.0, 3.0, 2.0]), 3.0);
     }
 }

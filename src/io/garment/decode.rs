@@ -2,8 +2,9 @@
 
 use super::decode_piece::piece;
 use super::decode_seam::seam;
-use super::fields::{Fields, entries, integer, items, length, numbers, quantity, text, wrong};
-use crate::pattern::{ClosureFile, Findings, GarmentFile, Located, Problem, TestEntry, TestFile, Unit, Value};
+use super::decode_test::test;
+use super::fields::{Fields, entries, integer, items, length, numbers, text, width, wrong};
+use crate::pattern::{ClosureFile, Findings, GarmentFile, Located, Problem, Unit, Value};
 
 /// Statements about a file that are kept for people.
 const ABOUT: [&str; 4] = ["source", "license", "note", "measurements"];
@@ -21,7 +22,7 @@ pub(super) fn garment(tree: &Located<Value>, findings: &mut Findings) -> Option<
         about: about(&mut fields),
         units: fields.take("units").and_then(|v| units(v, findings)),
         body: fields.get("body", findings, text),
-        allowance: fields.get("allowance", findings, quantity),
+        allowance: fields.get("allowance", findings, width),
         fabrics: fields.take("fabrics").map_or_else(Vec::new, |v| fabrics(v, findings)),
         pieces: fields.need("pieces", findings).map_or_else(Vec::new, |v| {
             entries(v, "pieces", findings).iter().filter_map(|(k, v)| piece(k, v, findings)).collect()
@@ -111,42 +112,6 @@ fn points(value: &Located<Value>, findings: &mut Findings) -> Vec<Located<[f64; 
         }
         _ => numbers(value, "a point", findings).into_iter().collect(),
     }
-}
-
-const TESTS: &str = "seam, gap, flatten, drape, crossings, openings or worn";
-
-fn test(value: &Located<Value>, findings: &mut Findings) -> Option<Located<TestEntry>> {
-    let mut fields = Fields::new(value, "a test", findings)?;
-    let fabric = fields.get("fabric", findings, text);
-    let mut take = |key, findings: &mut Findings| fields.get(key, findings, text);
-    let names = ["seam", "gap", "flatten", "drape"].map(|key| take(key, findings));
-    let [seam, gap, flatten, drape] = names;
-    let both = |fields: &mut Fields, findings: &mut Findings| {
-        (fields.get("area", findings, quantity), fields.get("boundary", findings, quantity))
-    };
-    let test = if let Some(name) = seam {
-        TestFile::Seam(name, fields.require("length", findings, quantity)?)
-    } else if let Some(name) = gap {
-        TestFile::Gap(name, fields.require("below", findings, quantity)?)
-    } else if let Some(name) = flatten {
-        let (area, boundary) = both(&mut fields, findings);
-        TestFile::Flatten(name, area, boundary)
-    } else if let Some(name) = drape {
-        let (area, boundary) = both(&mut fields, findings);
-        TestFile::Drape(name, area, boundary)
-    } else if let Some(most) = fields.get("crossings", findings, integer::<usize>) {
-        TestFile::Crossings(most.value)
-    } else if let Some(expected) = fields.get("openings", findings, integer::<usize>) {
-        TestFile::Openings(expected.value)
-    } else if fields.take("worn").is_some() {
-        TestFile::Worn
-    } else {
-        let found = fields.rest().first().map_or_else(|| "nothing".to_owned(), |(k, _)| k.value.clone());
-        findings.error(value.at, Problem::UnknownWord { what: "test", found, known: TESTS });
-        return None;
-    };
-    fields.finish(findings);
-    Some(Located::new(TestEntry { test, fabric }, value.at))
 }
 
 /// A name that a piece, an edge, a dart or a line may have.

@@ -1,7 +1,9 @@
 //! Pieces of a garment file.
 
 use super::decode::name;
-use super::fields::{Fields, entries, integer, items, length, number, numbers, positive, quantity, text, word, wrong};
+use super::fields::{
+    Fields, entries, integer, items, length, number, numbers, quantity, text, width, within, word, wrong,
+};
 use crate::pattern::{
     AllowanceFile, Cut, DartFile, DartShape, Findings, LineFile, Located, NotchFile, OutlineFile, PieceFile, PlaceFile,
     PleatFile, PleatKind, Problem, Side, Value, parse_quantity,
@@ -60,21 +62,25 @@ fn cut(value: &Located<Value>, _: &str, findings: &mut Findings) -> Option<Locat
 
 fn allowance(value: &Located<Value>, findings: &mut Findings) -> Option<AllowanceFile> {
     if let Value::Map(entries) = &value.value {
-        let edge = |(k, v): &(Located<String>, Located<Value>)| Some((k.clone(), quantity(v, "allowance", findings)?));
+        let edge = |(k, v): &(Located<String>, Located<Value>)| Some((k.clone(), width(v, "allowance", findings)?));
         return Some(AllowanceFile::Edges(entries.iter().filter_map(edge).collect()));
     }
-    quantity(value, "allowance", findings).map(AllowanceFile::All)
+    width(value, "allowance", findings).map(AllowanceFile::All)
 }
+
+/// Stands for a grain that was reported, so that it is not said to be missing as well.
+const UNREAD_GRAIN: [[f64; 2]; 2] = [[0.0, 0.0], [0.0, 1.0]];
 
 fn grain(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<[[f64; 2]; 2]>> {
     match &value.value {
         Value::List(ends) if ends.len() == 2 => {
             let [tail, head] = [&ends[0], &ends[1]].map(|e| numbers(e, "an end of the grain", findings));
-            Some(Located::new([tail?.value, head?.value], value.at))
+            let read = tail.zip(head).map(|(tail, head)| [tail.value, head.value]);
+            Some(Located::new(read.unwrap_or(UNREAD_GRAIN), value.at))
         }
         _ => {
             wrong(value, what, "two points: [[x, y], [x, y]]", findings);
-            None
+            Some(Located::new(UNREAD_GRAIN, value.at))
         }
     }
 }
@@ -199,15 +205,31 @@ fn pleat_kind(word: &str) -> Option<PleatKind> {
     }
 }
 
+/// A fold's angle: at 180 degrees the cloth lies on itself, and no farther can it go.
+fn angle(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<f64>> {
+    within(number(value, what, findings)?, what, -180.0..=180.0, "between -180 and 180 degrees", findings)
+}
+
+/// What is left of a line's length when it is drawn in.
+fn drawn_in(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<f64>> {
+    within(
+        number(value, what, findings)?,
+        what,
+        0.05..=1.0,
+        "between 0.05 and 1, the length drawn in over that cut",
+        findings,
+    )
+}
+
 fn line(key: &Located<String>, value: &Located<Value>, findings: &mut Findings) -> Option<LineFile> {
     let key = name(key, findings)?;
     let mut fields = Fields::new(value, &format!("line '{}'", key.value), findings)?;
     let line = LineFile {
         name: key,
         path: fields.require("path", findings, text)?,
-        fold: fields.get("fold", findings, number),
+        fold: fields.get("fold", findings, angle),
         kind: fields.get("kind", findings, text),
-        ratio: fields.get("ratio", findings, positive),
+        ratio: fields.get("ratio", findings, drawn_in),
     };
     fields.finish(findings);
     Some(line)

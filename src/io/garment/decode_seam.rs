@@ -1,7 +1,7 @@
 //! Seams of a garment file.
 
 use super::decode::name;
-use super::fields::{Fields, integer, items, length, positive, quantity, text, word, wrong};
+use super::fields::{Fields, distance, integer, items, length, positive, text, width, word, wrong};
 use crate::pattern::{Findings, Located, OpenFile, Problem, SeamFile, Value};
 
 /// Reads one seam.
@@ -13,7 +13,7 @@ pub(super) fn seam(key: &Located<String>, value: &Located<Value>, findings: &mut
         name: key,
         sew: sew.unwrap_or_default(),
         to: to.unwrap_or_default(),
-        ease: fields.get("ease", findings, quantity),
+        ease: fields.get("ease", findings, distance),
         gather: fields.get("gather", findings, positive),
         stretch: fields.get("stretch", findings, positive),
         tolerance: fields.get("tolerance", findings, length),
@@ -28,7 +28,7 @@ pub(super) fn seam(key: &Located<String>, value: &Located<Value>, findings: &mut
         }),
         stage: fields.get("stage", findings, integer),
         layers: fields.get("layers", findings, layers),
-        allowance: fields.get("allowance", findings, quantity),
+        allowance: fields.get("allowance", findings, width),
         note: fields.get("note", findings, text),
     };
     one_give(&seam, findings);

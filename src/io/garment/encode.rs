@@ -7,11 +7,16 @@ use crate::pattern::{
     PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, TestEntry, TestFile, Value,
 };
 
+/// A garment file that YAML cannot hold, and why.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the garment cannot be written as YAML: {0}")]
+pub struct EncodeError(String);
+
 /// Writes the file as YAML that reads as the same [`GarmentFile`].
 ///
 /// # Errors
 /// Whatever the YAML writer cannot represent; nothing that was read from a file.
-pub fn write(file: &GarmentFile) -> Result<String, serde_yaml::Error> {
+pub fn write(file: &GarmentFile) -> Result<String, EncodeError> {
     let mut map = Map::default();
     map.put("garment", file.version.value);
     map.text("name", &file.name);
@@ -25,7 +30,7 @@ pub fn write(file: &GarmentFile) -> Result<String, serde_yaml::Error> {
     map.list("closures", &file.closures, closure);
     map.list("free", &file.free, |f| f.value.as_str().into());
     map.list("tests", &file.tests, |t| test_entry(&t.value));
-    serde_yaml::to_string(&map.0)
+    serde_yaml::to_string(&map.0).map_err(|e| EncodeError(e.to_string()))
 }
 
 /// A YAML mapping under construction; absent things leave no key.

@@ -1,6 +1,7 @@
 //! Taking a mapping apart key by key, so that what nobody asked for is reported.
 
-use crate::pattern::{Findings, Located, Problem, Quantity, Spot, Value, nearest, parse_quantity};
+use crate::input::{nearest, shown};
+use crate::pattern::{Findings, Located, Problem, Quantity, Spot, Value, parse_quantity};
 
 /// The entries of a mapping that have not been asked for yet.
 pub(super) struct Fields<'v> {
@@ -10,12 +11,24 @@ pub(super) struct Fields<'v> {
     asked: Vec<&'static str>,
 }
 
+/// Characters of a value that a message shows.
+const VALUE: usize = 120;
+
+/// A short list of numbers or words as it is written, another one by its kind.
+fn list(items: &[Located<Value>]) -> String {
+    let word = |item: &Located<Value>| if let Value::Text(t) = &item.value { Some(shown(t, 20)) } else { None };
+    match items.iter().map(word).collect::<Option<Vec<String>>>() {
+        Some(words) if words.len() <= 4 => format!("[{}]", words.join(", ")),
+        _ => "a list".to_owned(),
+    }
+}
+
 /// What a value is, for messages.
 fn kind(value: &Value) -> String {
     match value {
         Value::Text(t) if t.is_empty() => "nothing".to_owned(),
-        Value::Text(t) => format!("'{t}'"),
-        Value::List(_) => "a list".to_owned(),
+        Value::Text(t) => format!("'{}'", shown(t, VALUE)),
+        Value::List(items) => list(items),
         Value::Map(_) => "a mapping".to_owned(),
     }
 }
@@ -43,6 +56,11 @@ impl<'v> Fields<'v> {
     /// Where the mapping stands.
     pub(super) fn at(&self) -> Spot {
         self.at
+    }
+
+    /// Whether `key` is written.
+    pub(super) fn has(&self, key: &str) -> bool {
+        self.entries.iter().flatten().any(|(k, _)| k.value == key)
     }
 
     /// The value of `key`.
@@ -113,13 +131,28 @@ pub(super) fn text(value: &Located<Value>, what: &str, findings: &mut Findings) 
 /// A finite number.
 pub(super) fn number(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<f64>> {
     let parsed = match &value.value {
-        Value::Text(t) => t.trim().parse().ok().filter(|n: &f64| n.is_finite()),
+        Value::Text(t) => sensible(t),
         _ => None,
     };
     if parsed.is_none() {
         wrong(value, what, "a number", findings);
     }
     parsed.map(|n| Located::new(n, value.at))
+}
+
+/// The number, if it lies in a range.
+pub(super) fn within(
+    n: Located<f64>,
+    what: &str,
+    range: std::ops::RangeInclusive<f64>,
+    expected: &'static str,
+    findings: &mut Findings,
+) -> Option<Located<f64>> {
+    if !range.contains(&n.value) {
+        out_of_range(n.at, what, expected, n.value, findings);
+        return None;
+    }
+    Some(n)
 }
 
 /// A number above zero.
@@ -171,9 +204,50 @@ pub(super) fn quantity(value: &Located<Value>, what: &str, findings: &mut Findin
     }
 }
 
+/// Numbers beyond this mean nothing in any unit, and would fill a message with digits.
+const LARGEST: f64 = 1e9;
+
+/// A finite number of no more than [`LARGEST`].
+fn sensible(text: &str) -> Option<f64> {
+    text.trim().parse().ok().filter(|n: &f64| n.abs() <= LARGEST)
+}
+
+/// A length, no part of a whole.
+pub(super) fn distance(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<Quantity>> {
+    let q = quantity(value, what, findings)?;
+    if q.value.is_percent() {
+        wrong(value, what, "a length such as 12 or 1.2 cm", findings);
+        return None;
+    }
+    Some(q)
+}
+
+/// A length of zero or more.
+pub(super) fn width(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<Quantity>> {
+    not_negative(distance(value, what, findings)?, what, findings)
+}
+
+/// A part of a whole, zero or more: `0.5 %` or 0.005.
+pub(super) fn share(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<Quantity>> {
+    let q = quantity(value, what, findings)?;
+    if q.value.unit.is_some() && !q.value.is_percent() {
+        wrong(value, what, "a part of the whole such as 0.5 % or 0.005", findings);
+        return None;
+    }
+    not_negative(q, what, findings)
+}
+
+fn not_negative(q: Located<Quantity>, what: &str, findings: &mut Findings) -> Option<Located<Quantity>> {
+    if q.value.number < 0.0 {
+        out_of_range(q.at, what, "zero or more", q.value.number, findings);
+        return None;
+    }
+    Some(q)
+}
+
 /// A length above zero.
 pub(super) fn length(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<Quantity>> {
-    let q = quantity(value, what, findings)?;
+    let q = distance(value, what, findings)?;
     if q.value.number <= 0.0 {
         out_of_range(value.at, what, "above zero", q.value.number, findings);
         return None;
@@ -192,11 +266,16 @@ pub(super) fn numbers<const N: usize>(
         Value::List(items) => items.iter().map(|i| if let Value::Text(t) = &i.value { t.trim() } else { "" }).collect(),
         Value::Map(_) => Vec::new(),
     };
-    let parsed: Vec<f64> = words.iter().filter_map(|w| w.parse().ok()).filter(|n: &f64| n.is_finite()).collect();
+    let parsed: Vec<f64> = words.iter().filter_map(|w| sensible(w)).collect();
     match <[f64; N]>::try_from(parsed) {
         Ok(array) if words.len() == N => Some(Located::new(array, value.at)),
         _ => {
-            wrong(value, what, if N == 2 { "two numbers: x y" } else { "three numbers: x y z" }, findings);
+            wrong(
+                value,
+                what,
+                if N == 2 { "two finite numbers: x y" } else { "three finite numbers: x y z" },
+                findings,
+            );
             None
         }
     }

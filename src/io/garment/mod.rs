@@ -6,6 +6,7 @@
 mod decode;
 mod decode_piece;
 mod decode_seam;
+mod decode_test;
 mod encode;
 mod fields;
 mod source;
@@ -16,7 +17,7 @@ use std::path::Path;
 
 use crate::pattern::{self, Diagnostic, Findings, Garment, GarmentFile, Severity};
 
-pub use encode::write;
+pub use encode::{EncodeError, write};
 
 /// A garment that passed its checks.
 #[derive(Clone, Debug)]
@@ -27,6 +28,23 @@ pub struct Loaded {
     pub file: GarmentFile,
     /// What was read in a way its author may not have meant.
     pub warnings: Vec<Diagnostic>,
+    source: Source,
+}
+
+/// A file's name and text, to show where in it a mistake is that is found later.
+#[derive(Clone, Debug)]
+struct Source {
+    shown: String,
+    text: String,
+}
+
+impl Loaded {
+    /// The garment refused after all, for something that stands at this place of its file.
+    pub fn refusal(&self, at: pattern::Spot, problem: pattern::Problem) -> Refused {
+        let mut findings = Findings::new(&self.source.shown, &self.source.text);
+        findings.error(at, problem);
+        Refused { diagnostics: findings.into_sorted() }
+    }
 }
 
 /// A garment file that cannot be used: everything found in it, errors and warnings, in the order of the file.
@@ -82,6 +100,7 @@ pub fn read_text(name: &str, shown: &str, text: &str) -> Result<Loaded, Refused>
             garment,
             file,
             warnings: diagnostics.into_iter().filter(|d| d.severity == Severity::Warning).collect(),
+            source: Source { shown: shown.to_owned(), text: text.to_owned() },
         }),
         _ => Err(Refused { diagnostics }),
     }

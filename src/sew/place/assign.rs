@@ -3,7 +3,7 @@
 use super::PlaceError;
 use crate::mannequin::PartKind;
 use crate::mesh::ClothMesh;
-use crate::pattern::{Garment, Place, Side};
+use crate::pattern::{Garment, Place, PlaceWord, Side, place_word};
 
 /// Where a piece goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,11 +22,6 @@ pub(super) enum Facing {
     /// Spine side.
     Back,
 }
-
-const ARM: [&str; 8] = ["arm", "sleeve", "wrist", "cuff", "biceps", "elbow", "armband", "forearm"];
-const NECK: [&str; 7] = ["neck", "collar", "neckband", "hood", "stand", "necktie", "choker"];
-const TRUNK: [&str; 12] =
-    ["torso", "hip", "hips", "waist", "skirt", "bodice", "chest", "bust", "body", "trunk", "leg", "legs"];
 
 /// Assigns every piece by its `place:` words, else by its name, else by the pieces it is sewn to.
 ///
@@ -59,32 +54,32 @@ fn words_of(name: &str) -> Vec<String> {
     name.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).map(str::to_lowercase).collect()
 }
 
-fn has(words: &[String], list: &[&str]) -> bool {
-    words.iter().any(|w| list.contains(&w.as_str()) || list.iter().any(|l| w.strip_suffix('s') == Some(l)))
+fn says(words: &[String], meaning: PlaceWord) -> bool {
+    words.iter().any(|w| place_word(w) == Some(meaning))
 }
 
 fn part_of(words: &[String], side: Option<Side>) -> Option<PartKind> {
-    if has(words, &ARM) {
+    if says(words, PlaceWord::Arm) {
         return Some(if side == Some(Side::Right) { PartKind::RightArm } else { PartKind::LeftArm });
     }
-    if has(words, &NECK) {
+    if says(words, PlaceWord::Neck) {
         return Some(PartKind::Neck);
     }
-    has(words, &TRUNK).then_some(PartKind::Torso)
+    says(words, PlaceWord::Trunk).then_some(PartKind::Torso)
 }
 
 fn side_of(words: &[String]) -> Option<Side> {
-    if has(words, &["left", "l"]) {
+    if says(words, PlaceWord::Left) {
         return Some(Side::Left);
     }
-    has(words, &["right", "r"]).then_some(Side::Right)
+    says(words, PlaceWord::Right).then_some(Side::Right)
 }
 
 fn facing_of(words: &[String]) -> Option<Facing> {
-    if has(words, &["front", "f", "ftorso"]) {
+    if says(words, PlaceWord::Front) {
         return Some(Facing::Front);
     }
-    has(words, &["back", "b", "btorso"]).then_some(Facing::Back)
+    says(words, PlaceWord::Back).then_some(Facing::Back)
 }
 
 /// A piece for an arm whose side nothing says goes where the pieces it is sewn to are.

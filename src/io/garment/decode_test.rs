@@ -1,0 +1,79 @@
+//! Regression bounds of a garment file.
+
+use super::fields::{Fields, integer, share, text, width, word};
+use crate::pattern::{Findings, Located, Problem, Quantity, TestEntry, TestFile, Value};
+
+/// What can be bounded; a test names one of them.
+const KINDS: [&str; 7] = ["seam", "gap", "flatten", "drape", "crossings", "openings", "worn"];
+const KNOWN: &str = "seam, gap, flatten, drape, crossings, openings or worn";
+
+/// Reads one entry of `tests`.
+pub(super) fn test(value: &Located<Value>, findings: &mut Findings) -> Option<Located<TestEntry>> {
+    let mut fields = Fields::new(value, "a test", findings)?;
+    let fabric = fields.get("fabric", findings, text);
+    let named = KINDS.into_iter().filter(|kind| fields.has(kind)).collect::<Vec<_>>();
+    let test = match named[..] {
+        [] => {
+            let found = fields.rest().first().map_or_else(|| "nothing".to_owned(), |(k, _)| k.value.clone());
+            findings.error(value.at, Problem::UnknownWord { what: "test", found, known: KNOWN });
+            return None;
+        }
+        [kind] => bound(kind, &mut fields, findings),
+        [one, other, ..] => {
+            findings.error(value.at, Problem::Exclusive { one, other });
+            return None;
+        }
+    };
+    fields.finish(findings);
+    Some(Located::new(TestEntry { test: test?, fabric }, value.at))
+}
+
+fn bound(kind: &'static str, fields: &mut Fields, findings: &mut Findings) -> Option<TestFile> {
+    Some(match kind {
+        "seam" => {
+            let (seam, limit) = (fields.get(kind, findings, text), fields.require("length", findings, width));
+            TestFile::Seam(seam?, limit?)
+        }
+        "gap" => {
+            let (seam, limit) = (fields.get(kind, findings, text), fields.require("below", findings, width));
+            TestFile::Gap(seam?, limit?)
+        }
+        "flatten" => {
+            let piece = fields.get(kind, findings, text);
+            let (area, boundary) = figures(fields, findings, width)?;
+            TestFile::Flatten(piece?, area, boundary)
+        }
+        "drape" => {
+            let piece = fields.get(kind, findings, text);
+            let (area, boundary) = figures(fields, findings, share)?;
+            TestFile::Drape(piece?, area, boundary)
+        }
+        "crossings" => TestFile::Crossings(fields.get(kind, findings, integer::<usize>)?.value),
+        "openings" => TestFile::Openings(fields.get(kind, findings, integer::<usize>)?.value),
+        _ => {
+            // What is not asked for is not written: there is no bound to be broken by a garment that is worn.
+            fields.get(kind, findings, |v, _, f| word(v, "worn", "true, or leave the test out", f, is_true))?;
+            TestFile::Worn
+        }
+    })
+}
+
+fn is_true(word: &str) -> Option<()> {
+    matches!(word, "true" | "True" | "TRUE" | "yes").then_some(())
+}
+
+/// A figure that a file may state.
+type Figure = Option<Located<Quantity>>;
+
+/// `area` and `boundary`, of which at least one must be there.
+fn figures(
+    fields: &mut Fields,
+    findings: &mut Findings,
+    boundary: impl Fn(&Located<Value>, &str, &mut Findings) -> Figure,
+) -> Option<(Figure, Figure)> {
+    if !fields.has("area") && !fields.has("boundary") {
+        findings.error(fields.at(), Problem::NoFigure);
+        return None;
+    }
+    Some((fields.get("area", findings, share), fields.get("boundary", findings, boundary)))
+}

@@ -1,0 +1,53 @@
+//! Where the cloth of a piece is.
+
+use super::Edge;
+use super::crossing::CHORD_ERROR;
+use crate::geometry::{Path, Vec2};
+
+/// What misses the cloth by no more than this (metres) is meant to be on its rim.
+const SLACK: f64 = 1e-3;
+/// A line is looked at so often, metres.
+const STEP: f64 = 5e-3;
+/// And no oftener than so many times, however long it is.
+const MOST_LOOKS: f64 = 400.0;
+
+/// The cloth within an outline, less the holes in it.
+pub(super) struct Region<'a> {
+    rings: &'a [Vec<Edge>],
+    /// Each ring as chords.
+    chords: Vec<Vec<[Vec2; 2]>>,
+}
+
+impl<'a> Region<'a> {
+    /// Of an outline and the holes that follow it.
+    pub(super) fn new(rings: &'a [Vec<Edge>]) -> Self {
+        let chords = |path: &Path| path.sampled(CHORD_ERROR).windows(2).map(|w| [w[0], w[1]]).collect::<Vec<_>>();
+        let ring = |edges: &Vec<Edge>| edges.iter().flat_map(|e| chords(&e.path)).collect();
+        Self { rings, chords: rings.iter().map(ring).collect() }
+    }
+
+    /// Whether there is cloth at `p`, or its rim.
+    pub(super) fn holds(&self, p: Vec2) -> bool {
+        let within = |(k, chords): (usize, &Vec<[Vec2; 2]>)| surrounds(chords, p) == (k == 0);
+        self.chords.iter().enumerate().all(within)
+            || self.rings.iter().flatten().any(|edge| edge.path.nearest(p).1 <= SLACK)
+    }
+}
+
+/// The first place, of those looked at, where `path` is nowhere near what `holds` says is cloth.
+pub(super) fn first_off(path: &Path, holds: impl Fn(Vec2) -> bool) -> Option<Vec2> {
+    let length = path.length();
+    let looks = (length / STEP).clamp(2.0, MOST_LOOKS).ceil();
+    (0..=looks as usize).map(|i| path.point(length * i as f64 / looks)).find(|&p| !holds(p))
+}
+
+/// Even–odd rule.
+fn surrounds(ring: &[[Vec2; 2]], p: Vec2) -> bool {
+    let mut inside = false;
+    for [a, b] in ring {
+        if (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) {
+            inside = !inside;
+        }
+    }
+    inside
+}

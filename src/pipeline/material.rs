@@ -1,0 +1,152 @@
+//! Fabrics and body of a garment, and the line of its file that is to blame when one cannot be had, or no mesh made.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::cloth;
+use super::error::PipelineError;
+use crate::fabric::{Fabric, FabricError};
+use crate::io::body::{Body, BodyError, load_body};
+use crate::io::garment::Loaded;
+use crate::mannequin::{self, MannequinError};
+use crate::mesh::MeshError;
+use crate::pattern::{GarmentFile, Located, Problem, Spot, Value};
+
+/// Checks that the fabrics of a garment read from `file` can be had, and its body, if it names one.
+///
+/// # Errors
+/// The first that cannot.
+pub fn check_materials(file: &Path, loaded: &Loaded) -> Result<(), PipelineError> {
+    fabrics(file, loaded, None)?;
+    if loaded.garment.body.is_some() {
+        body(file, loaded, None)?;
+    }
+    Ok(())
+}
+
+/// Fabrics by piece.
+pub(super) fn fabrics(file: &Path, loaded: &Loaded, instead: Option<&str>) -> Result<Vec<Arc<Fabric>>, PipelineError> {
+    let folder = file.parent().unwrap_or(Path::new(""));
+    cloth::fabrics(&loaded.garment, folder, instead).map_err(|(number, source)| {
+        let entry = number.and_then(|k| loaded.file.fabrics.get(k));
+        match entry {
+            Some(entry) => {
+                let at = fabric_spot(&loaded.file, entry, &source);
+                PipelineError::Garment(loaded.refusal(at, Problem::Fabric(source.to_string())))
+            }
+            None => PipelineError::Fabric(Box::new(source)),
+        }
+    })
+}
+
+type Entry = (Located<String>, Located<Value>);
+
+/// Where the value stands that is wrong, or the fabric's base, or its name.
+fn fabric_spot(file: &GarmentFile, entry: &Entry, error: &FabricError) -> Spot {
+    let (fabric, key) = error.culprit();
+    let (name, value) = file.fabrics.iter().find(|f| fabric == Some(f.0.value.as_str())).unwrap_or(entry);
+    if let Some(at) = error.file().and_then(|file| at_file(value, Path::new(file))) {
+        return at;
+    }
+    match &value.value {
+        Value::Text(_) => value.at,
+        _ => key.map_or_else(|| at_key(value, "base"), |key| at_key(value, key)).unwrap_or(name.at),
+    }
+}
+
+/// The place of `tensile.warp.EMT` in nested mappings, or of as much of it as is written.
+fn at_key(value: &Located<Value>, key: &str) -> Option<Spot> {
+    let Value::Map(entries) = &value.value else { return Some(value.at) };
+    let inner = |(name, value): &Entry| {
+        let rest = key.strip_prefix(name.value.as_str())?;
+        if rest.is_empty() { Some(value.at) } else { at_key(value, rest.strip_prefix('.')?).or(Some(name.at)) }
+    };
+    entries.iter().find_map(inner)
+}
+
+/// The place where a file is named.
+fn at_file(value: &Located<Value>, file: &Path) -> Option<Spot> {
+    match &value.value {
+        Value::Text(text) => (!text.is_empty() && file.ends_with(text.trim())).then_some(value.at),
+        Value::List(items) => items.iter().find_map(|item| at_file(item, file)),
+        Value::Map(entries) => entries.iter().find_map(|(_, value)| at_file(value, file)),
+    }
+}
+
+/// The body, by the name it is asked for: what the user says, else what the file says.
+pub(super) fn body(file: &Path, loaded: &Loaded, instead: Option<&str>) -> Result<(String, Body), PipelineError> {
+    let name = body_name(file, loaded.garment.body.as_deref(), instead)?;
+    let said = loaded.file.body.as_ref().filter(|_| instead.is_none());
+    let body = load_body(&name).map_err(|error| match said {
+        Some(said) if cannot_be_had(&error) => {
+            PipelineError::Garment(loaded.refusal(said.at, Problem::Body(error.to_string())))
+        }
+        _ => PipelineError::Body(error),
+    })?;
+    Ok((name, body))
+}
+
+/// Whether there is no such body, rather than something wrong in its own file.
+fn cannot_be_had(error: &BodyError) -> bool {
+    use crate::io::obj_read::ObjError;
+    matches!(
+        error,
+        BodyError::Obj(ObjError::Read { .. } | ObjError::TooLarge { .. })
+            | BodyError::Mannequin(MannequinError::Unknown { .. } | MannequinError::Read { .. })
+    )
+}
+
+/// The body to load: what the user asks for, else what the file says, its own path being relative to the file.
+fn body_name(file: &Path, said: Option<&str>, instead: Option<&str>) -> Result<String, PipelineError> {
+    if let Some(name) = instead {
+        return Ok(name.to_owned());
+    }
+    let name = said.ok_or_else(|| PipelineError::NoBody(file.to_owned()))?;
+    if mannequin::library().contains(&name) || Path::new(name).extension().is_none() {
+        return Ok(name.to_owned());
+    }
+    let folder = file.parent().unwrap_or(Path::new(""));
+    Ok(folder.join(name).display().to_string())
+}
+
+/// A garment that cannot be meshed: the statement that is to blame, or the spacing.
+pub(super) fn mesh_error(file: &Path, loaded: &Loaded, source: MeshError) -> PipelineError {
+    match mesh_spot(&loaded.file, source.culprit()) {
+        Some(at) => PipelineError::Garment(loaded.refusal(at, Problem::Mesh(source.to_string()))),
+        None => PipelineError::Mesh { file: file.to_owned(), source: Box::new(source) },
+    }
+}
+
+/// Where the edge, line or seam stands, or else its piece. Cut names are drawn ones with a side or a number after them.
+fn mesh_spot(file: &GarmentFile, (piece, part): (Option<&str>, Option<&str>)) -> Option<Spot> {
+    let stem = |name: &str| name.split('.').next().unwrap_or_default().to_owned();
+    let named = |written: &Located<String>, wanted: &str| written.value == stem(wanted);
+    let Some(piece) = piece else {
+        let seam = part?;
+        // Seams of darts and pleats bear the names of their pieces.
+        let written = file.seams.iter().map(|s| &s.name).chain(file.pieces.iter().map(|p| &p.name));
+        return written.into_iter().find(|name| named(name, seam)).map(|name| name.at);
+    };
+    let piece = file.pieces.iter().find(|p| named(&p.name, piece))?;
+    let part = part.and_then(|part| {
+        let edges = piece.outline.iter().flat_map(|o| o.edges.iter().map(|e| &e.0));
+        let mut names = edges.chain(piece.holes.iter().map(|h| &h.0)).chain(piece.lines.iter().map(|l| &l.name));
+        names.find(|name| named(name, part)).map(|name| name.at)
+    });
+    Some(part.unwrap_or(piece.name.at))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bodies_of_the_file_lie_beside_it_and_those_of_the_user_do_not() {
+        let file = Path::new("a/dress.yaml");
+        let named = |said, instead| body_name(file, said, instead).map_err(|e| e.to_string());
+        assert_eq!(named(Some("woman_92"), None).as_deref(), Ok("woman_92"));
+        assert_eq!(named(Some("anna.obj"), None).as_deref(), Ok("a/anna.obj"));
+        assert_eq!(named(Some("woman_92"), Some("bert.obj")).as_deref(), Ok("bert.obj"));
+        assert!(named(None, None).is_err_and(|e| e.contains("--body")));
+    }
+}
