@@ -11,7 +11,7 @@ use crate::pipeline::{
     Color, GARMENT_OBJ, GARMENT_PNG, Job, Overrides, PATTERN_SVG, PipelineError, REPORT_JSON, ResultFile, Run,
     SEWN_OBJ, read,
 };
-use crate::report::{Report, table, verdicts};
+use crate::report::{Report, restless, table, verdicts};
 
 /// How far a garment is taken, and from where.
 pub(super) struct Plan<'a> {
@@ -154,8 +154,8 @@ fn leave_state(run: &Run, plan: &Plan, folder: &Path, inputs: &[PathBuf], consol
 
 /// Says what is out of bounds, and what did not come to rest.
 fn judge(job: &Job, report: &Report, console: &Console) -> Exit {
-    for stage in report.stages.iter().filter(|s| !s.converged) {
-        console.note(&format!("{} did not come to rest in {} steps", stage.name, stage.iterations));
+    for stage in restless(&report.stages) {
+        console.note(&stage.to_string());
     }
     let mut exit = Exit::Done;
     for verdict in verdicts(&job.garment, report).iter().filter(|v| !v.ok) {
