@@ -13,6 +13,9 @@ use toile::mannequin::{Mannequin, load};
 /// A skirt of two pieces that sews in a fraction of a second at this spacing (mm).
 const SKIRT: &str = include_str!("data/skirt.yaml");
 const COARSE: &str = "40";
+/// Two garments that cannot be sewn.
+const NARROW_NECK: &str = include_str!("data/narrow_neck.yaml");
+const IN_THE_BODY: &str = include_str!("data/in_the_body.yaml");
 
 /// A folder to work in.
 struct Room {
@@ -27,7 +30,9 @@ impl Room {
     }
 
     fn put(&self, name: &str, text: &str) {
-        fs::write(self.dir.path().join(name), text).expect("written");
+        let file = self.dir.path().join(name);
+        fs::create_dir_all(file.parent().expect("a folder")).expect("made");
+        fs::write(file, text).expect("written");
     }
 
     fn command(&self, args: &[&str]) -> Command {
@@ -126,6 +131,50 @@ fn out_of_bounds_ends_with_1_and_says_which() {
     run.ends(1).says(&["out of bounds: gap all", "limit 0.000001 mm"]);
     assert_eq!(run.out, "");
     assert_eq!(room.names("out").len(), 5);
+}
+
+/// A seam that the body holds open.
+#[test]
+fn a_garment_too_small_ends_with_3_and_leaves_its_last_state() {
+    let room = Room::new();
+    room.put("yoke.yaml", NARROW_NECK);
+    let run = room.run(&["make", "yoke.yaml", "-o", "out", "--spacing", "20"]);
+    let out = Path::new("out");
+    let left = ["sewn.obj", "garment.png"].map(|name| out.join(name).display().to_string());
+    run.ends(3).says(&["seam 'shoulder_", "still open by", "large enough for the body", "'front' and 'back'"]);
+    run.says(&["the last state is in", &left[0], &left[1]]);
+    // The message says what to do: another spacing makes no neck smaller.
+    assert!(!run.err.contains("--spacing"), "{}", run.err);
+    assert_eq!(run.out, "");
+    assert_eq!(room.names("out"), ["garment.png", "sewn.obj"]);
+    let obj = String::from_utf8(room.bytes("out/sewn.obj")).expect("text");
+    assert!(obj.contains("\ng front\n") && obj.contains("\ng back\n") && !obj.contains("NaN"));
+    assert!(room.bytes("out/garment.png").starts_with(b"\x89PNG"));
+}
+
+/// A piece that no contact can lead out.
+#[test]
+fn a_piece_in_the_body_ends_with_3_and_leaves_the_pieces_as_placed() {
+    let room = Room::new();
+    room.put("squares.yaml", IN_THE_BODY);
+    room.put("out/garment.obj", "of an earlier run");
+    for command in ["make", "sew"] {
+        let run = room.run(&[command, "squares.yaml", "-o", "out", "--spacing", COARSE]);
+        run.ends(3).says(&["piece 'lost'", "inside the body", "move its place", "placed.obj"]);
+        assert!(!run.err.contains("--spacing"), "{}", run.err);
+    }
+    assert_eq!(room.names("out"), ["garment.obj", "garment.png", "placed.obj"]);
+    assert_eq!(room.bytes("out/garment.obj"), b"of an earlier run");
+    let obj = String::from_utf8(room.bytes("out/placed.obj")).expect("text");
+    // Partners are apart: as many vertices as particles, 1300 mm up as the file says.
+    let vertices: Vec<&str> = obj.lines().filter(|l| l.starts_with("v ")).collect();
+    assert_eq!(vertices.len(), obj.lines().filter(|l| l.starts_with("vt ")).count());
+    assert!(vertices.iter().any(|v| v.contains(" 1300.000000 ")), "{obj}");
+    assert!(room.bytes("out/garment.png").starts_with(b"\x89PNG"));
+    // Quiet is not silent, and the worst of several garments is what counts.
+    let run = room.run(&["test", "skirt.yaml", "squares.yaml", "-q", "--spacing", COARSE, "--junit", "all.xml"]);
+    run.ends(3).says(&["squares.yaml: not made: piece 'lost'"]);
+    assert!(String::from_utf8_lossy(&room.bytes("all.xml")).contains("errors=\"1\""));
 }
 
 #[test]

@@ -64,7 +64,7 @@ impl CliError {
     /// What to do, where the message itself does not say.
     pub(super) fn help(&self) -> Option<&'static str> {
         match self {
-            Self::Pipeline(e) if !e.is_input() => {
+            Self::Pipeline(e) if !e.has_remedy() => {
                 Some("try another --spacing, and `toile check` and `toile sew` to see where it begins")
             }
             Self::Write(WriteError::File { .. } | WriteError::Folder { .. } | WriteError::IsFolder(_)) => {

@@ -25,7 +25,8 @@ pub struct Run<'a> {
     pub(super) stitching: Stitching,
     /// For every seam the gaps of its pairs before they were stitched, metres.
     gaps: Option<Vec<Vec<f64>>>,
-    /// Positions of every particle after each stage.
+    /// Positions of every particle before sewing and after each stage.
+    pub(super) placed: Option<Vec<Vec3>>,
     pub(super) sewn: Option<Vec<Vec3>>,
     pub(super) draped: Option<Vec<Vec3>>,
     pub(super) flattened: Option<Vec<Vec2>>,
@@ -37,7 +38,7 @@ impl<'a> Run<'a> {
     pub fn new(job: &'a Job) -> Self {
         let stages = vec![job.meshing.clone()];
         let stitching = Stitching::new(&job.mesh);
-        Self { job, stitching, gaps: None, sewn: None, draped: None, flattened: None, stages }
+        Self { job, stitching, gaps: None, placed: None, sewn: None, draped: None, flattened: None, stages }
     }
 
     /// Places the pieces round the body and closes the seams.
@@ -49,6 +50,7 @@ impl<'a> Run<'a> {
         let begin = Instant::now();
         let failed = |e| PipelineError::sewing(&job.file, e);
         let start = place(&job.garment, &job.mesh, &job.body).map_err(|e| failed(e.into()))?;
+        self.placed = Some(start.clone());
         let options = SewOptions::default();
         let mut tell = |share| progress("sew", share);
         let sewn = sew(&job.cut(), &job.collider, start, &options, &mut tell).map_err(failed)?;
