@@ -221,9 +221,9 @@ proptest! {
         let x = made.placed(&body);
         let flat = &made.mesh.flat;
         let stitching = Stitching::new(&made.mesh);
-        for p in 0..x.len() {
+        for p in &x {
             // Two centimetres off the body's width and depth, which leaves less at its corners.
-            let near = collider.nearest(x[p], 1.0).expect("within a metre");
+            let near = collider.nearest(*p, 1.0).expect("within a metre");
             prop_assert!(near.distance > 8.0 * MM, "{} mm from the body", near.distance / MM);
         }
         // The ring is as long as the cloth and the room at the seams, 4 mm each: its partners start so near.
