@@ -67,7 +67,7 @@ impl CliError {
             Self::Pipeline(PipelineError::Sew(SewError::InsideBody { .. })) => {
                 Some("garment.png shows where every piece was placed")
             }
-            Self::Pipeline(e) if !e.is_input() => {
+            Self::Pipeline(e) if !e.has_remedy() => {
                 Some("try another --spacing, and `toile check` and `toile sew` to see where it begins")
             }
             Self::Write(

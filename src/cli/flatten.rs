@@ -9,7 +9,7 @@ use super::make::{Goal, Plan, carry_out, folder, write};
 use crate::flatten::Options;
 use crate::io::files::check_writable;
 use crate::pipeline::{Color, FLAT_OBJ, PATTERN_SVG, REPORT_JSON, SurfaceReport, flatten_surface};
-use crate::report::aligned;
+use crate::report::{aligned, restless};
 
 /// `toile flatten`
 pub(super) fn flatten(args: &FlattenArgs, console: &Console) -> Result<Exit, CliError> {
@@ -44,8 +44,8 @@ fn surface(args: &FlattenArgs, options: &Options, console: &Console) -> Result<E
     write(flat.results()?, &folder, &inputs)?;
     let report = &flat.report;
     console.results(report, || format!("{}\n  written to {}\n", figures(report), folder.display()))?;
-    if report.stages.iter().any(|s| !s.converged) {
-        console.note("flatten did not come to rest");
+    for stage in restless(&report.stages) {
+        console.note(&stage.to_string());
     }
     let mut exit = Exit::Done;
     for piece in report.pieces.iter().filter(|p| p.overlaps > 0) {

@@ -4,17 +4,17 @@ use std::fmt::Write as _;
 
 use super::test::Outcome;
 
-/// One suite per garment, one case per bound, and one for being made at all.
+/// One suite per garment, one case per bound, one per stage that did not come to rest, and one for being made at all.
 pub(super) fn xml(outcomes: &[Outcome]) -> String {
     let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n");
     for o in outcomes {
-        let failures = o.bounds.iter().filter(|v| !v.ok).count();
+        let failures = o.bounds.iter().filter(|v| !v.ok).count() + o.restless.len();
         let errors = usize::from(o.error.is_some());
         let name = escaped(&o.file);
         let _ = writeln!(
             out,
             "  <testsuite name=\"{name}\" tests=\"{}\" failures=\"{failures}\" errors=\"{errors}\" time=\"{:.3}\">",
-            o.bounds.len() + 1,
+            o.bounds.len() + o.restless.len() + 1,
             o.seconds
         );
         let _ = match &o.error {
@@ -32,6 +32,10 @@ pub(super) fn xml(outcomes: &[Outcome]) -> String {
             } else {
                 writeln!(out, "{case}><failure message=\"{}\"/></testcase>", escaped(&v.to_string()))
             };
+        }
+        for r in &o.restless {
+            let case = format!("    <testcase classname=\"{name}\" name=\"{} at rest\"", escaped(&r.stage));
+            let _ = writeln!(out, "{case}><failure message=\"{}\"/></testcase>", escaped(&r.to_string()));
         }
         out.push_str("  </testsuite>\n");
     }

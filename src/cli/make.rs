@@ -8,10 +8,10 @@ use super::exit::{CliError, Exit};
 use crate::flatten;
 use crate::io::files::{check_writable, write_all};
 use crate::pipeline::{
-    Color, GARMENT_OBJ, GARMENT_PNG, Job, Overrides, PATTERN_SVG, PipelineError, REPORT_JSON, ResultFile, Run,
-    SEWN_OBJ, read,
+    Color, GARMENT_OBJ, GARMENT_PNG, Job, Overrides, PATTERN_SVG, PLACED_OBJ, PipelineError, REPORT_JSON, ResultFile,
+    Run, SEWN_OBJ, read,
 };
-use crate::report::{Report, table, verdicts};
+use crate::report::{Report, restless, table, verdicts};
 
 /// How far a garment is taken, and from where.
 pub(super) struct Plan<'a> {
@@ -142,20 +142,23 @@ pub(super) fn borrowed(paths: &[PathBuf]) -> Vec<&Path> {
 /// fails as well, it is only mentioned.
 fn leave_state(run: &Run, plan: &Plan, folder: &Path, inputs: &[PathBuf], console: &Console) {
     let Ok(files) = run.state(plan.color) else { return };
-    let files: Vec<ResultFile> = files.into_iter().filter(|f| plan.goal.files().contains(&f.0)).collect();
+    let wanted = [plan.goal.files(), vec![PLACED_OBJ]].concat();
+    let files: Vec<ResultFile> = files.into_iter().filter(|f| wanted.contains(&f.0)).collect();
     if files.is_empty() {
         return;
     }
+    // By name: the folder may hold the files of an earlier run.
+    let names: Vec<String> = files.iter().map(|f| folder.join(f.0).display().to_string()).collect();
     match write(files, folder, &borrowed(inputs)) {
-        Ok(()) => console.note(&format!("the last state is in {}", folder.display())),
+        Ok(()) => console.note(&format!("the last state is in {}", names.join(" and "))),
         Err(error) => console.note(&format!("the last state is lost: {error}")),
     }
 }
 
 /// Says what is out of bounds, and what did not come to rest.
 fn judge(job: &Job, report: &Report, console: &Console) -> Exit {
-    for stage in report.stages.iter().filter(|s| !s.converged) {
-        console.note(&format!("{} did not come to rest in {} steps", stage.name, stage.iterations));
+    for stage in restless(&report.stages) {
+        console.note(&stage.to_string());
     }
     let mut exit = Exit::Done;
     for verdict in verdicts(&job.garment, report).iter().filter(|v| !v.ok) {

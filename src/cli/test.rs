@@ -12,8 +12,10 @@ use super::exit::{CliError, Exit};
 use super::junit;
 use crate::flatten::Options;
 use crate::io::files::{check_writable, write_all};
+use crate::io::garment::Loaded;
+use crate::pattern::Garment;
 use crate::pipeline::{Job, Overrides, PipelineError, Run, read};
-use crate::report::{Verdict, aligned, verdicts};
+use crate::report::{Report, Restless, Verdict, aligned, restless, verdicts};
 
 /// How a garment did.
 #[derive(Serialize)]
@@ -22,12 +24,14 @@ pub(super) struct Outcome {
     pub(super) file: String,
     /// Its short name.
     pub(super) garment: String,
-    /// Whether it was made and keeps all its bounds.
+    /// Whether it was made, came to rest and keeps all its bounds.
     pub(super) ok: bool,
     /// Wall-clock time, s.
     pub(super) seconds: f64,
     /// One per bound; empty when it was not made.
     pub(super) bounds: Vec<Verdict>,
+    /// The stages that did not come to rest: what was measured then is of a garment on its way.
+    pub(super) restless: Vec<Restless>,
     /// Why it was not made.
     pub(super) error: Option<String>,
     #[serde(skip)]
@@ -79,53 +83,82 @@ fn is_yaml(path: &Path) -> bool {
 
 /// Makes one garment as its file says, and once more in every fabric that it has bounds for.
 fn outcomes(file: &Path, overrides: &Overrides, console: &Console) -> Vec<Outcome> {
-    let mut out = vec![outcome(file, overrides, console)];
-    if overrides.fabric.is_some() {
-        return out;
+    let begin = Instant::now();
+    let loaded = match read(file) {
+        Ok(loaded) => loaded,
+        Err(refused) => return vec![Outcome::new(file, None, begin, Err(refused))],
+    };
+    let mut runs = vec![(None, overrides.clone())];
+    if overrides.fabric.is_none() {
+        let in_fabric = |f: &str| (Some(f.to_owned()), Overrides { fabric: Some(f.to_owned()), ..overrides.clone() });
+        runs.extend(fabrics_with_bounds(&loaded.garment).into_iter().map(in_fabric));
     }
-    let Ok(loaded) = read(file) else { return out };
-    let mut fabrics: Vec<&str> = loaded.garment.tests.iter().filter_map(|t| t.fabric.as_deref()).collect();
+    let run = |(fabric, overrides): &(Option<String>, Overrides)| {
+        let begin = Instant::now();
+        Outcome::new(file, fabric.as_deref(), begin, made(file, loaded.clone(), overrides, console))
+    };
+    runs.iter().map(run).collect()
+}
+
+/// Fabrics that a garment has bounds for, each once.
+fn fabrics_with_bounds(garment: &Garment) -> Vec<&str> {
+    let mut fabrics: Vec<&str> = garment.tests.iter().filter_map(|t| t.fabric.as_deref()).collect();
     fabrics.sort_unstable();
     fabrics.dedup();
-    for fabric in fabrics {
-        let overrides = Overrides { fabric: Some(fabric.to_owned()), ..overrides.clone() };
-        let mut made = outcome(file, &overrides, console);
-        made.garment = format!("{} in {fabric}", made.garment);
-        made.file = format!("{} in {fabric}", made.file);
-        out.push(made);
+    fabrics
+}
+
+/// What was measured of a garment that was made.
+struct Made {
+    bounds: Vec<Verdict>,
+    restless: Vec<Restless>,
+}
+
+impl Made {
+    fn new(garment: &Garment, report: &Report) -> Self {
+        Self { bounds: verdicts(garment, report), restless: restless(&report.stages) }
     }
-    out
+
+    /// Figures of a garment that still moves prove nothing, however good they are.
+    fn ok(&self) -> bool {
+        self.restless.is_empty() && self.bounds.iter().all(|v| v.ok)
+    }
 }
 
 /// Makes one garment, in memory.
-fn outcome(file: &Path, overrides: &Overrides, console: &Console) -> Outcome {
-    let begin = Instant::now();
-    let made = made(file, overrides, console);
-    let seconds = begin.elapsed().as_secs_f64();
-    let (bounds, error, exit) = match made {
-        Ok(bounds) => {
-            let exit = if bounds.iter().all(|v| v.ok) { Exit::Done } else { Exit::OutOfBounds };
-            (bounds, None, exit)
-        }
-        Err(e) => (Vec::new(), Some(e.to_string()), if e.is_input() { Exit::Input } else { Exit::Failed }),
-    };
-    Outcome {
-        file: file.display().to_string(),
-        garment: file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned()),
-        ok: exit == Exit::Done,
-        seconds,
-        bounds,
-        error,
-        exit,
-    }
-}
-
-fn made(file: &Path, overrides: &Overrides, console: &Console) -> Result<Vec<Verdict>, PipelineError> {
-    let job = Job::new(file, read(file)?, overrides)?;
+fn made(file: &Path, loaded: Loaded, overrides: &Overrides, console: &Console) -> Result<Made, PipelineError> {
+    let job = Job::new(file, loaded, overrides)?;
     let bars = console.progress();
     let mut run = Run::new(&job);
     run.flatten(&Options::default(), &mut |stage, share| bars.show(stage, share))?;
-    Ok(verdicts(&job.garment, &run.report()))
+    Ok(Made::new(&job.garment, &run.report()))
+}
+
+impl Outcome {
+    /// How the garment of `file` did since `begin`, if need be in another fabric than its own.
+    fn new(file: &Path, fabric: Option<&str>, begin: Instant, made: Result<Made, PipelineError>) -> Self {
+        let name = |text: String| fabric.map_or_else(|| text.clone(), |fabric| format!("{text} in {fabric}"));
+        let (bounds, restless, error, exit) = match made {
+            Ok(made) => {
+                let exit = if made.ok() { Exit::Done } else { Exit::OutOfBounds };
+                (made.bounds, made.restless, None, exit)
+            }
+            Err(e) => {
+                let exit = if e.is_input() { Exit::Input } else { Exit::Failed };
+                (Vec::new(), Vec::new(), Some(e.to_string()), exit)
+            }
+        };
+        Self {
+            file: name(file.display().to_string()),
+            garment: name(file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned())),
+            ok: exit == Exit::Done,
+            seconds: begin.elapsed().as_secs_f64(),
+            bounds,
+            restless,
+            error,
+            exit,
+        }
+    }
 }
 
 fn summary(outcomes: &[Outcome]) -> String {
@@ -133,11 +166,8 @@ fn summary(outcomes: &[Outcome]) -> String {
     let mut rows = vec![head.map(String::from).to_vec()];
     for outcome in outcomes {
         rows.extend(outcome.bounds.iter().map(|v| row(outcome, v)));
-        if outcome.error.is_some() {
-            let mut row = vec![outcome.garment.clone(), "made".into()];
-            row.extend(["", "", "", "", "NO"].map(String::from));
-            rows.push(row);
-        }
+        rows.extend(outcome.restless.iter().map(|r| failed(outcome, format!("{} at rest", r.stage))));
+        rows.extend(outcome.error.iter().map(|_| failed(outcome, "made".into())));
     }
     let good = outcomes.iter().filter(|o| o.ok).count();
     let seconds: f64 = outcomes.iter().map(|o| o.seconds).sum();
@@ -157,11 +187,57 @@ fn row(outcome: &Outcome, v: &Verdict) -> Vec<String> {
     ]
 }
 
+/// What did not succeed and has no figure.
+fn failed(outcome: &Outcome, what: String) -> Vec<String> {
+    let mut row = vec![outcome.garment.clone(), what];
+    row.extend(["", "", "", "", "NO"].map(String::from));
+    row
+}
+
 fn complain(outcome: &Outcome, console: &Console) {
     for verdict in outcome.bounds.iter().filter(|v| !v.ok) {
         console.complain(&format!("{}: out of bounds: {verdict}", outcome.file));
     }
+    for stage in &outcome.restless {
+        console.complain(&format!("{}: {stage}", outcome.file));
+    }
     if let Some(error) = &outcome.error {
         console.complain(&format!("{}: not made: {error}", outcome.file));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::{Drift, Stage};
+
+    /// How a garment did that keeps its bounds, and whose drape came to rest or did not.
+    fn outcome(converged: bool) -> Outcome {
+        let text = include_str!("../../tests/data/skirt.yaml");
+        let loaded = crate::io::garment::read_text("skirt", "skirt.yaml", text).map_err(|e| e.to_string());
+        let stage = |name: &str, converged| Stage { name: name.into(), converged, ..Stage::default() };
+        let drape = Stage { iterations: 600, drift: Some(Drift { rms: 2.0, max: 9.0 }), ..stage("drape", converged) };
+        let report = Report { stages: vec![stage("sew", true), drape, stage("flatten", true)], ..Report::default() };
+        let mut made = Made::new(&loaded.expect("a garment").garment, &report);
+        // Nobody wears a report without openings.
+        made.bounds.retain(|v| v.bound != "openings not worn");
+        Outcome::new(Path::new("skirt.yaml"), None, Instant::now(), Ok(made))
+    }
+
+    #[test]
+    fn a_stage_that_did_not_come_to_rest_fails_the_garment() {
+        let still = outcome(true);
+        assert!(still.ok && still.exit == Exit::Done && still.bounds.iter().all(|v| v.ok), "{:?}", still.bounds);
+        assert!(!summary(&[still]).contains("at rest"));
+        let moving = outcome(false);
+        assert!(moving.bounds.iter().all(|v| v.ok) && !moving.ok && moving.exit == Exit::OutOfBounds);
+        let xml = junit::xml(std::slice::from_ref(&moving));
+        assert!(xml.contains("tests=\"4\" failures=\"1\" errors=\"0\""), "{xml}");
+        assert!(
+            xml.contains("name=\"drape at rest\"><failure message=\"drape did not come to rest in 600 steps"),
+            "{xml}"
+        );
+        let table = summary(&[moving]);
+        assert!(table.contains("drape at rest") && table.contains("0 of 1 garments"), "{table}");
     }
 }

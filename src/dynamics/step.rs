@@ -47,6 +47,11 @@ pub(super) struct Reuse {
 /// degree.
 const SAME: Reuse = Reuse { moved: 2e-5, contacts: 0 };
 
+/// Shares of the largest spring stiffness that are tried one after another, ten times as much each, where a matrix is
+/// singular to rounding: from a few units in the last place of single precision.
+const FIRST_RIDGE: f64 = 1e-6;
+const LAST_RIDGE: f64 = 1.1e-3;
+
 /// The linear system of a cloth, analysed once, filled and factored for every step.
 pub struct Stepper {
     matrix: SymmetricMatrix<f32>,
@@ -55,6 +60,8 @@ pub struct Stepper {
     springs: Vec<BlockSlot>,
     edges: Vec<BlockSlot>,
     pulls: Vec<Option<BlockSlot>>,
+    /// Of the stiffest spring when the matrix was filled, N/m.
+    stiffness: f64,
     made: Option<Made>,
 }
 
@@ -90,6 +97,7 @@ impl Stepper {
             pulls: pulls.iter().map(|e| slot(e[0] as usize, e[1] as usize)).collect(),
             matrix: SymmetricMatrix::zeros(pattern.clone()),
             factor: Cholesky::new(pattern, &order)?,
+            stiffness: 0.0,
             made: None,
         })
     }
@@ -176,15 +184,36 @@ impl Stepper {
                 self.matrix.add_block(self.diagonal[i], &(across * grip.stiffness));
             }
         }
-        self.factor
-            .factor(&self.matrix)
-            .map_err(|NotPositiveDefinite { dof }| StepError::Singular { node: dof / 3 })?;
+        self.factor()?;
         self.made = Some(Made { x: x.to_vec(), dt, pushing });
         Ok(())
     }
 
+    /// Factors the matrix. Cloth that nothing holds, in a long step, is singular to single precision: its inertia is lost
+    /// beside its stiffness. A little of that stiffness against every motion stands in for it.
+    fn factor(&mut self) -> Result<(), StepError> {
+        let mut ridge = FIRST_RIDGE * self.stiffness;
+        loop {
+            let Err(NotPositiveDefinite { dof }) = self.factor.factor(&self.matrix) else { return Ok(()) };
+            let small = ridge <= LAST_RIDGE * self.stiffness;
+            // Not so where a number is not finite.
+            if !(self.stiffness.is_finite() && small) {
+                return Err(StepError::Singular { node: dof / 3 });
+            }
+            for slot in &self.diagonal {
+                self.matrix.add_block(*slot, &(Mat3::identity() * ridge));
+            }
+            ridge *= 10.0;
+        }
+    }
+
     fn assemble(&mut self, cloth: &Cloth, x: &[Vec3], dt: f64, forces: &Forces) {
         self.matrix.clear();
+        self.stiffness = cloth
+            .springs
+            .iter()
+            .map(|s| s.tangent(&cloth.laws[s.law as usize], x))
+            .fold(0.0, |most: f64, t| if most.is_nan() || t.along <= most { most } else { t.along });
         let blocks: Vec<Mat3> = cloth
             .springs
             .par_iter()

@@ -24,6 +24,8 @@ pub use cloth::piece_area;
 pub use error::PipelineError;
 pub use job::{Job, Overrides, read};
 pub use material::check_materials;
-pub use results::{Color, GARMENT_OBJ, GARMENT_PNG, PATTERN_SVG, REPORT_JSON, ResultFile, SEWN_OBJ, json_text};
+pub use results::{
+    Color, GARMENT_OBJ, GARMENT_PNG, PATTERN_SVG, PLACED_OBJ, REPORT_JSON, ResultFile, SEWN_OBJ, json_text,
+};
 pub use run::{Progress, Run};
 pub use surface::{FLAT_OBJ, FlatSurface, SurfaceReport, flatten_surface};

@@ -13,6 +13,8 @@ use crate::report::{Report, vertex_strain};
 pub const GARMENT_OBJ: &str = "garment.obj";
 /// The sewn garment, before it was draped.
 pub const SEWN_OBJ: &str = "sewn.obj";
+/// The pieces as they were placed, not sewn yet: written when sewing them fails.
+pub const PLACED_OBJ: &str = "placed.obj";
 /// The flattened pieces.
 pub const PATTERN_SVG: &str = "pattern.svg";
 /// The figures.
@@ -51,32 +53,29 @@ impl Run<'_> {
         Ok(files)
     }
 
-    /// The sewn garment and a picture of the latest state: what is left to look at when a later stage fails. Where
-    /// sewing failed these are the pieces as they were placed, none joined. Empty before that.
+    /// What is left to look at when a stage fails: the garment as sewn, or else its pieces as they were placed, and a
+    /// picture of the latest state. Empty before the pieces have been placed.
     ///
     /// # Errors
     /// When the picture cannot be drawn.
     pub fn state(&self, color: Color) -> Result<Vec<ResultFile>, PipelineError> {
-        if let (Some(placed), None) = (&self.placed, self.last()) {
-            let apart: Vec<u32> = (0..placed.len() as u32).collect();
-            let obj = garment_obj(&self.job.garment.name, &self.job.mesh, &apart, placed).into_bytes();
-            return Ok(vec![(SEWN_OBJ, obj), (GARMENT_PNG, self.picture(&apart, placed, color)?)]);
-        }
-        let mut files = Vec::new();
-        if let Some(sewn) = &self.sewn {
-            files.push((SEWN_OBJ, self.obj(sewn)));
-        }
         if let Some(last) = self.last() {
-            files.push((GARMENT_PNG, self.picture(&self.stitching.class, last, color)?));
+            let picture = (GARMENT_PNG, self.picture(last, &self.stitching.class, color)?);
+            let sewn = self.sewn.as_ref().map(|sewn| (SEWN_OBJ, self.obj(sewn)));
+            return Ok(sewn.into_iter().chain([picture]).collect());
         }
-        Ok(files)
+        let Some(placed) = &self.placed else { return Ok(Vec::new()) };
+        // Every particle stands alone: partners are still apart.
+        let alone: Vec<u32> = (0..placed.len() as u32).collect();
+        let surface = garment_obj(&self.job.garment.name, &self.job.mesh, &alone, placed).into_bytes();
+        Ok(vec![(PLACED_OBJ, surface), (GARMENT_PNG, self.picture(placed, &alone, color)?)])
     }
 
     fn obj(&self, at: &[Vec3]) -> Vec<u8> {
         garment_obj(&self.job.garment.name, &self.job.mesh, &self.stitching.class, at).into_bytes()
     }
 
-    fn picture(&self, class: &[u32], at: &[Vec3], color: Color) -> Result<Vec<u8>, PipelineError> {
+    fn picture(&self, at: &[Vec3], class: &[u32], color: Color) -> Result<Vec<u8>, PipelineError> {
         let strain = (color == Color::Strain).then(|| vertex_strain(&self.job.mesh, at));
         let dressed = Dressed::new(&self.job.mesh, class, at, strain.as_deref());
         let subtitle = format!("{}, {}", self.job.body.name, self.job.fabric_names());

@@ -25,9 +25,8 @@ pub struct Run<'a> {
     pub(super) stitching: Stitching,
     /// For every seam the gaps of its pairs before they were stitched, metres.
     gaps: Option<Vec<Vec<f64>>>,
-    /// Positions of every particle before the first seam was drawn; kept when sewing fails.
+    /// Positions of every particle before sewing and after each stage.
     pub(super) placed: Option<Vec<Vec3>>,
-    /// Positions of every particle after each stage.
     pub(super) sewn: Option<Vec<Vec3>>,
     pub(super) draped: Option<Vec<Vec3>>,
     pub(super) flattened: Option<Vec<Vec2>>,
@@ -51,15 +50,10 @@ impl<'a> Run<'a> {
         let begin = Instant::now();
         let failed = |e| PipelineError::sewing(&job.file, e);
         let start = place(&job.garment, &job.mesh, &job.body).map_err(|e| failed(e.into()))?;
+        self.placed = Some(start.clone());
         let options = SewOptions::default();
         let mut tell = |share| progress("sew", share);
-        let sewn = match sew(&job.cut(), &job.collider, start.clone(), &options, &mut tell) {
-            Ok(sewn) => sewn,
-            Err(error) => {
-                self.placed = Some(start);
-                return Err(failed(error));
-            }
-        };
+        let sewn = sew(&job.cut(), &job.collider, start, &options, &mut tell).map_err(failed)?;
         let closed = sewn.closed(&job.mesh, options.tolerance);
         self.stages.push(Stage {
             name: "sew".into(),

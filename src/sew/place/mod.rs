@@ -1,9 +1,9 @@
 //! Where the pieces start (F10): bent round the body part each one is made for.
 //!
 //! ```text
-//! assign ─▶ rows ─▶ wrap
-//!  which part  pieces side by side,  rings round the part,
-//!              rows one over another seams nearly meeting
+//! assign ─▶ rows ─▶ levels ─▶ wrap
+//!  which part  pieces side by side,   how they pack   rings round the part,
+//!              rows one over another  at every height seams nearly meeting
 //! ```
 //!
 //! A garment is laid out as it would hang on a lampshade: pieces that share an upright seam stand side by side in a
@@ -13,7 +13,9 @@
 //! seam starts on the right side of the body with its partner near, and that no piece starts in another or in the body.
 
 mod assign;
+mod ellipse;
 mod fold;
+mod levels;
 mod pleat;
 mod rows;
 mod stations;

@@ -1,5 +1,6 @@
 //! A body part as stations along its axis, downward or outward.
 
+use super::ellipse::Ellipse;
 use crate::geometry::Vec3;
 use crate::mannequin::{BodyPart, Mannequin, PartKind};
 
@@ -74,6 +75,25 @@ impl Stations {
         let down = out.right.cross(&out.front);
         out.center += down * beyond;
         out
+    }
+}
+
+impl Station {
+    /// Length of a ring that stays `clearance` metres off the section.
+    pub(super) fn perimeter(&self, clearance: f64) -> f64 {
+        Ellipse::new(self.half_width + clearance, self.half_depth + clearance).perimeter
+    }
+
+    /// The point at a share of the ring, `outward` metres off it.
+    pub(super) fn point(&self, ellipse: &Ellipse, share: f64, outward: f64) -> Vec3 {
+        let (p, n) = ellipse.at(share);
+        self.center + self.right * (p[0] + outward * n[0]) + self.front * (p[1] + outward * n[1])
+    }
+
+    /// Angle of a point round the axis, radians from the front towards the right-hand side seen from outside.
+    pub(super) fn angle(&self, p: Vec3) -> f64 {
+        let d = p - self.center;
+        d.dot(&self.right).atan2(d.dot(&self.front))
     }
 }
 

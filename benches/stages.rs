@@ -1,0 +1,54 @@
+//! What each stage costs: the child's dress at a coarse spacing, from pieces to flat pieces again.
+//!
+//! Every stage begins with what the one before it made, so that the figures add up to a run of `toile make`.
+
+use std::error::Error;
+use std::hint::black_box;
+use std::path::Path;
+use std::time::Duration;
+
+use criterion::{BenchmarkId, Criterion};
+use toile::drape::{DrapeOptions, drape};
+use toile::flatten::{Options, flatten_garment};
+use toile::geometry::Vec3;
+use toile::mesh::build;
+use toile::pipeline::{Job, Overrides, read};
+use toile::sew::place::place;
+use toile::sew::{SewOptions, Sewn, sew};
+
+const GARMENT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/patterns/child_dress.yaml");
+/// Metres.
+const SPACING: f64 = 0.025;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let criterion = Criterion::default().sample_size(10).warm_up_time(Duration::from_millis(500));
+    let mut criterion = criterion.measurement_time(Duration::from_secs(2)).configure_from_args();
+    let file = Path::new(GARMENT);
+    let job = Job::new(file, read(file)?, &Overrides { spacing: Some(SPACING), ..Overrides::default() })?;
+    let start = place(&job.garment, &job.mesh, &job.body)?;
+    let sewn = sewn(&job, &start)?;
+    let draped = draped(&job, &sewn)?;
+    let mut group = criterion.benchmark_group("stages");
+    let named = |stage: &str| BenchmarkId::new(stage, format!("{} at {} mm", job.garment.name, 1e3 * SPACING));
+    group.bench_function(named("mesh"), |b| b.iter(|| build(black_box(&job.garment), SPACING)));
+    group.bench_function(named("place"), |b| b.iter(|| place(&job.garment, black_box(&job.mesh), &job.body)));
+    group.bench_function(named("sew"), |b| b.iter(|| self::sewn(&job, black_box(&start)).is_ok()));
+    group.bench_function(named("drape"), |b| b.iter(|| self::draped(&job, black_box(&sewn)).is_ok()));
+    group.bench_function(named("flatten"), |b| {
+        b.iter(|| flatten_garment(&job.mesh, &job.garment.seams, black_box(&draped), &Options::default()).is_ok());
+    });
+    group.finish();
+    criterion.final_summary();
+    Ok(())
+}
+
+fn sewn(job: &Job, start: &[Vec3]) -> Result<Sewn, Box<dyn Error>> {
+    Ok(sew(&job.cut(), &job.collider, start.to_vec(), &SewOptions::default(), &mut |_| {})?)
+}
+
+/// Positions of all particles.
+fn draped(job: &Job, sewn: &Sewn) -> Result<Vec<Vec3>, Box<dyn Error>> {
+    let (stitching, nodes) = (&sewn.stitching, sewn.nodes.clone());
+    let draped = drape(&job.cut(), &job.collider, stitching, nodes, &DrapeOptions::default(), &mut |_| {})?;
+    Ok(stitching.class.iter().map(|&c| draped.nodes[c as usize]).collect())
+}

@@ -1,0 +1,294 @@
+//! A row level by level: where its members are, and how they stand side by side round a ring.
+
+use super::fold::Sheet;
+use super::rows::{Link, Member, ROOM, Row};
+use crate::mesh::ClothMesh;
+
+/// Height of a level, metres: outlines are read off, and rings made, this often.
+pub(super) const LEVEL: f64 = 0.005;
+/// Levels on either side over which shifts and rings are smoothed.
+pub(super) const SMOOTHING: usize = 6;
+
+/// A row at one level.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Level {
+    /// Per member: lowest and highest u, if it is there at all.
+    pub(super) spans: Vec<Option<[f64; 2]>>,
+    /// Per member: arc position − u, from the front middle.
+    pub(super) shift: Vec<f64>,
+    /// Per member: room between it and the next one that is there.
+    pub(super) gaps: Vec<f64>,
+    /// Length of the ring that the cloth needs.
+    pub(super) length: f64,
+    /// Whether every joint between neighbours is sewn here.
+    pub(super) closed: bool,
+}
+
+impl Level {
+    /// Members that reach this level.
+    fn present(&self) -> Vec<usize> {
+        (0..self.spans.len()).filter(|&i| self.spans[i].is_some()).collect()
+    }
+}
+
+/// Reads the row's outline level by level and packs its members side by side.
+pub(super) fn levels(mesh: &ClothMesh, sheet: &Sheet, row: &Row, links: &[Link]) -> Vec<Level> {
+    let count = ((row.v[1] - row.v[0]) / LEVEL).ceil() as usize + 1;
+    let members = row.members.len();
+    let mut out = vec![Level { spans: vec![None; members], shift: vec![0.0; members], ..Level::default() }; count];
+    let level_of = |v: f64| (((v - row.v[0]) / LEVEL).round().max(0.0) as usize).min(count - 1);
+    for (i, m) in row.members.iter().enumerate() {
+        for tri in &mesh.triangles[mesh.pieces[m.piece].triangles.clone()] {
+            let corners = tri.map(|p| sheet.flat[p as usize] + m.shift);
+            let lo = corners.iter().map(|c| c.y).fold(f64::INFINITY, f64::min);
+            let hi = corners.iter().map(|c| c.y).fold(f64::NEG_INFINITY, f64::max);
+            let left = corners.iter().map(|c| c.x).fold(f64::INFINITY, f64::min);
+            let right = corners.iter().map(|c| c.x).fold(f64::NEG_INFINITY, f64::max);
+            for level in &mut out[level_of(lo)..=level_of(hi)] {
+                let span = level.spans[i].get_or_insert([left, right]);
+                *span = [span[0].min(left), span[1].max(right)];
+            }
+        }
+    }
+    widen(&mut out);
+    let joints = joints(sheet, row, links, &level_of);
+    for (k, level) in out.iter_mut().enumerate() {
+        pack(row, level, k, &joints);
+    }
+    out
+}
+
+/// Lets every span cover those of the levels that its shift will be averaged with: each of these shifts keeps the
+/// members apart at this level too, and so does their average.
+fn widen(levels: &mut [Level]) {
+    let spans: Vec<_> = levels.iter().map(|l| l.spans.clone()).collect();
+    for (k, level) in levels.iter_mut().enumerate() {
+        for (i, span) in level.spans.iter_mut().enumerate() {
+            let Some(own) = span else { continue };
+            for near in &spans[k.saturating_sub(SMOOTHING)..(k + SMOOTHING + 1).min(spans.len())] {
+                if let Some(other) = near[i] {
+                    *own = [own[0].min(other[0]), own[1].max(other[1])];
+                }
+            }
+        }
+    }
+}
+
+/// The joint between member i and the next one round the ring.
+struct Joint {
+    /// Levels over which it is sewn.
+    sewn: Option<[usize; 2]>,
+    /// u of the next member − u of this one where they meet, in row positions.
+    jump: f64,
+}
+
+fn joints(sheet: &Sheet, row: &Row, links: &[Link], level_of: &impl Fn(f64) -> usize) -> Vec<Joint> {
+    let n = row.members.len();
+    (0..n)
+        .map(|i| {
+            let (a, b) = (&row.members[i], &row.members[(i + 1) % n]);
+            let mut sewn: Option<[usize; 2]> = None;
+            let (mut jump, mut count) = (0.0, 0.0);
+            for link in links.iter().filter(|l| l.upright && n > 1) {
+                let Some(k) =
+                    (0..2).find(|&k| link.pieces == if k == 0 { [a.piece, b.piece] } else { [b.piece, a.piece] })
+                else {
+                    continue;
+                };
+                // With two members the same two pieces meet twice: right of a with left of b is this joint.
+                let mean = |m: &Member, k: usize| {
+                    link.pairs.iter().map(|p| sheet.flat[p[k] as usize].x + m.shift.x).sum::<f64>()
+                        / link.pairs.len() as f64
+                };
+                let (ua, ub) = (mean(a, k), mean(b, 1 - k));
+                if n == 2 && (i == 0) != ((ub - ua).abs() < 0.5 * spread(row, sheet, link)) {
+                    continue;
+                }
+                for p in &link.pairs {
+                    let v = sheet.flat[p[k] as usize].y + a.shift.y;
+                    let l = level_of(v);
+                    let s = sewn.get_or_insert([l, l]);
+                    *s = [s[0].min(l), s[1].max(l)];
+                }
+                jump += (ub - ua) * link.pairs.len() as f64;
+                count += link.pairs.len() as f64;
+            }
+            Joint { sewn, jump: if count > 0.0 { jump / count } else { 0.0 } }
+        })
+        .collect()
+}
+
+/// A length to tell "meets here" from "meets round the ring": the two pieces' width at the link, at least 10 cm.
+fn spread(row: &Row, sheet: &Sheet, link: &Link) -> f64 {
+    let u = |k: usize| {
+        let shift = row.members.iter().find(|m| m.piece == link.pieces[k]).map_or(0.0, |m| m.shift.x);
+        link.pairs.iter().map(move |p| sheet.flat[p[k] as usize].x + shift)
+    };
+    let lo = u(0).chain(u(1)).fold(f64::INFINITY, f64::min);
+    let hi = u(0).chain(u(1)).fold(f64::NEG_INFINITY, f64::max);
+    (hi - lo).max(0.1)
+}
+
+/// Packs one level: sewn joints get a little room, others what the layout leaves, never an overlap.
+fn pack(row: &Row, level: &mut Level, k: usize, joints: &[Joint]) {
+    let n = row.members.len();
+    let present = level.present();
+    level.gaps = vec![0.0; n];
+    level.closed = present.len() == n;
+    for (j, &i) in present.iter().enumerate() {
+        let next = present[(j + 1) % present.len()];
+        let joint = &joints[i];
+        let sewn = next == (i + 1) % n && joint.sewn.is_some_and(|s| (s[0]..=s[1]).contains(&k));
+        level.closed &= sewn || n == 1;
+        let left = match (level.spans[i], level.spans[next]) {
+            (Some(own), Some(other)) if joint.sewn.is_some() => other[0] - own[1] - joint.jump,
+            (Some(own), Some(other)) if j + 1 < present.len() => other[0] - own[1],
+            _ => 0.0,
+        };
+        level.gaps[i] = if sewn || n == 1 { ROOM } else { left.max(ROOM) };
+    }
+    let cloth: f64 = level.spans.iter().flatten().map(|s| s[1] - s[0]).sum();
+    level.length = cloth + level.gaps.iter().sum::<f64>();
+}
+
+/// Puts the members of a level on a ring of `perimeter` metres: what the ring is longer than the cloth goes into the
+/// gaps between them.
+pub(super) fn spread_out(row: &Row, level: &mut Level, perimeter: f64) {
+    let present = level.present();
+    let slack = (perimeter - level.length).max(0.0) / present.len().max(1) as f64;
+    let mut starts = vec![0.0; row.members.len()];
+    let mut at = 0.0;
+    for &i in &present {
+        let Some(span) = level.spans[i] else { continue };
+        starts[i] = at;
+        at += span[1] - span[0] + level.gaps[i] + slack;
+    }
+    let zero = middle(row, level, &present, &starts);
+    for &i in &present {
+        if let Some(span) = level.spans[i] {
+            level.shift[i] = starts[i] - zero - span[0];
+        }
+    }
+}
+
+/// Packed position of the front middle (or of the row's own middle when it has no front).
+fn middle(row: &Row, level: &Level, present: &[usize], starts: &[f64]) -> f64 {
+    let span = |i: usize| level.spans[i].unwrap_or([0.0, 0.0]);
+    let Some(front) = row.front else { return 0.5 * level.length };
+    let center = |i: usize| 0.5 * (span(i)[0] + span(i)[1]);
+    let over = present.iter().find(|&&i| (center(i) - front).abs() < 0.25 * (span(i)[1] - span(i)[0]));
+    if let Some(&i) = over {
+        return starts[i] + front - span(i)[0];
+    }
+    let before = present.iter().filter(|&&i| center(i) < front).max_by(|&&a, &&b| center(a).total_cmp(&center(b)));
+    let after = present.iter().filter(|&&i| center(i) >= front).min_by(|&&a, &&b| center(a).total_cmp(&center(b)));
+    match (before, after) {
+        (Some(&a), Some(&b)) => 0.5 * (starts[a] + span(a)[1] - span(a)[0] + starts[b]),
+        (Some(&a), None) => starts[a] + front - span(a)[0],
+        (None, Some(&b)) => starts[b] + front - span(b)[0],
+        (None, None) => 0.0,
+    }
+}
+
+/// Where not every member reaches (the points of a curved waist, the dip of a hem) the others would drift apart to fill
+/// the ring: they stay as at the nearest level with all of them.
+pub(super) fn complete_shifts(levels: &mut [Level]) {
+    let whole: Vec<usize> = (0..levels.len()).filter(|&k| levels[k].spans.iter().all(Option::is_some)).collect();
+    for k in 0..levels.len() {
+        let nearest = whole.iter().min_by_key(|&&w| w.abs_diff(k));
+        if let Some(&w) = nearest.filter(|&&w| w != k) {
+            levels[k].shift = levels[w].shift.clone();
+        }
+    }
+}
+
+/// Moving averages over neighbouring levels: no shear where an outline turns.
+pub(super) fn smooth_shifts(levels: &mut [Level]) {
+    let members = levels.first().map_or(0, |l| l.shift.len());
+    for m in 0..members {
+        let there: Vec<usize> = (0..levels.len()).filter(|&k| levels[k].spans[m].is_some()).collect();
+        let values: Vec<f64> = there.iter().map(|&k| levels[k].shift[m]).collect();
+        for (value, &k) in smoothed(&values).into_iter().zip(&there) {
+            levels[k].shift[m] = value;
+        }
+        // A particle right at the end of a piece may fall into the next level.
+        if let (Some(&first), Some(&last)) = (there.first(), there.last()) {
+            for k in 0..levels.len() {
+                if k < first || k > last {
+                    levels[k].shift[m] = levels[if k < first { first } else { last }].shift[m];
+                }
+            }
+        }
+    }
+}
+
+/// Moving averages over [`SMOOTHING`] values on either side.
+pub(super) fn smoothed(values: &[f64]) -> Vec<f64> {
+    (0..values.len())
+        .map(|k| {
+            let from = k.saturating_sub(SMOOTHING);
+            let to = (k + SMOOTHING + 1).min(values.len());
+            // Symmetric windows only, so that a straight slope stays straight up to the ends.
+            let half = (k - from).min(to - 1 - k);
+            let window = &values[k - half..=k + half];
+            window.iter().sum::<f64>() / window.len() as f64
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Vec2;
+    use crate::mannequin::PartKind;
+
+    #[test]
+    fn smoothing_keeps_straight_slopes_and_evens_the_rest() {
+        let slope: Vec<f64> = (0..40).map(|k| 3.0 - 0.25 * f64::from(k)).collect();
+        assert!(smoothed(&slope).iter().zip(&slope).all(|(a, b)| (a - b).abs() < 1e-12));
+        let step: Vec<f64> = (0..40).map(|k| if k < 20 { 0.0 } else { 1.0 }).collect();
+        let even = smoothed(&step);
+        assert!(even.windows(2).all(|w| w[1] >= w[0] && w[1] - w[0] < 1.5 / (2 * SMOOTHING + 1) as f64), "{even:?}");
+        assert_eq!([even[0], even[39]], [0.0, 1.0]);
+        assert_eq!(smoothed(&[]), Vec::<f64>::new());
+    }
+
+    /// Three members side by side on one level, u in metres, with the room after each.
+    fn level() -> (Row, Level) {
+        let members = (0..3).map(|piece| Member { piece, shift: Vec2::zeros() }).collect();
+        let row = Row { part: PartKind::Torso, members, front: Some(0.05), v: [0.0, 0.0] };
+        let spans = vec![Some([0.0, 0.1]), Some([0.1, 0.3]), Some([0.3, 0.45])];
+        let gaps = vec![ROOM, 2.0 * ROOM, ROOM];
+        let length = 0.45 + 4.0 * ROOM;
+        (row, Level { spans, gaps, length, shift: vec![0.0; 3], closed: true })
+    }
+
+    #[test]
+    fn what_the_ring_is_longer_than_the_cloth_goes_into_the_gaps() {
+        let perimeter = 0.6;
+        let (row, mut level) = level();
+        spread_out(&row, &mut level, perimeter);
+        let slack = (perimeter - level.length) / 3.0;
+        let at = |i: usize| level.spans[i].map(|s| s.map(|u| u + level.shift[i])).expect("there");
+        // The front middle, u = 0.05 on the first, is where the ring begins.
+        assert!((at(0)[0] + 0.05).abs() < 1e-12);
+        let after = |i: usize| if i < 2 { at(i + 1)[0] } else { at(0)[0] + perimeter };
+        for i in 0..3 {
+            let room = after(i) - at(i)[1];
+            assert!((room - level.gaps[i] - slack).abs() < 1e-12, "{room} after {i}");
+        }
+    }
+
+    #[test]
+    fn where_a_member_ends_the_others_stay_as_at_the_nearest_whole_level() {
+        let (_, whole) = level();
+        let mut levels = vec![whole.clone(), whole.clone(), whole];
+        for (k, level) in levels.iter_mut().enumerate() {
+            level.shift = vec![k as f64; 3];
+        }
+        levels[2].spans[1] = None;
+        complete_shifts(&mut levels);
+        let shifts: Vec<f64> = levels.iter().map(|l| l.shift[0]).collect();
+        assert_eq!(shifts, [0.0, 1.0, 1.0]);
+    }
+}
