@@ -9,7 +9,7 @@ use toile::fabric::{self, Fabric};
 use toile::geometry::{TriMesh, Vec2, Vec3};
 use toile::mannequin::{Mannequin, PartKind, load};
 use toile::mesh::{ClothMesh, Stitches, build};
-use toile::pattern::Garment;
+use toile::pattern::{Garment, Place};
 use toile::sew::place::{PlaceError, place};
 use toile::sew::{SewError, SewOptions, Sewn, Stitching, settle, sew, sewn_world};
 use toile::verify::crossings;
@@ -321,7 +321,9 @@ fn a_place_must_name_a_part_that_the_body_has() {
                 grain: [[10, 10], [10, 90]]\n    \
                 outline: {start: 0 0, a: L 200 0, b: L 200 100, c: L 0 100, d: L 0 0}\nfree: ['*.*']\n";
     let somewhere = |words: &str| Made::new(&text.replace("WHERE", words), 20.0);
-    let made = somewhere("moon");
+    let mut made = somewhere("left arm");
+    // A file cannot say this; a garment built in code can.
+    made.garment.pieces[0].place = Some(Place::Around { words: vec!["moon".into()] });
     let refused = place(&made.garment, &made.mesh, &body);
     assert!(matches!(&refused, Err(PlaceError::Words { piece, .. }) if piece == "cuff"), "{refused:?}");
     let made = somewhere("left arm");

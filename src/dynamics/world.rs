@@ -15,8 +15,18 @@ const ROUNDS: usize = 2;
 /// A Newton step is halved until the energy falls by this share of what the model says, at most so often.
 const ENOUGH: f64 = 0.05;
 const HALVINGS: usize = 5;
+/// Halvings of a step with the majorant: springs that stiffen have no majorant, but a step short enough goes down.
+const MORE_HALVINGS: usize = 12;
 /// Energy differences below this are rounding, J.
 const ROUNDING: f64 = 1e-12;
+
+/// A step that was shortened.
+struct Descent {
+    target: Vec<Vec3>,
+    /// By how much the energy falls, J.
+    gain: f64,
+    halvings: usize,
+}
 
 /// A garment in motion.
 pub struct World<'a> {
@@ -119,34 +129,44 @@ impl<'a> World<'a> {
         self.move_to(target, dt)
     }
 
-    /// A step with the true stiffness that changes no edge by more than `radius` metres, shortened until the energy falls; where it
-    /// does not, a step with the majorant.
+    /// A step with the true stiffness that changes no edge by more than `radius` metres, shortened until the energy
+    /// falls; where it does not, a step with the majorant, shortened likewise. Without a way down nothing moves.
     ///
     /// # Errors
     /// [`StepError::Singular`] when a number is not finite.
     pub fn newton(&mut self, dt: f64, radius: f64) -> Result<NewtonStep, StepError> {
         let forces = forces(self.gravity, &self.proximity, self.law, &[], self.friction.as_ref());
         let step = self.stepper.newton(&self.cloth, &self.x, dt, &forces, radius)?;
+        let down = self.descend(&forces, &step.d, step.gain, HALVINGS);
+        if down.gain >= -ROUNDING {
+            let ratio = if step.gain > 0.0 { down.gain / step.gain } else { 0.0 };
+            let shortened = down.halvings > 0;
+            return Ok(NewtonStep { moved: self.move_to(down.target, dt)?, shortened, ratio });
+        }
+        let still = vec![Vec3::zeros(); self.x.len()];
+        let d = self.stepper.solve(&self.cloth, &self.x, &still, dt, &forces, ROUNDS)?;
+        let down = self.descend(&forces, &d, 0.0, MORE_HALVINGS);
+        let moved = if down.gain >= -ROUNDING { self.move_to(down.target, dt)? } else { 0.0 };
+        Ok(NewtonStep { moved, shortened: true, ratio: 0.0 })
+    }
+
+    /// Halves a step, as the bounds let it be made, until the energy falls by a share of `expected` (J).
+    fn descend(&self, forces: &Forces, d: &[Vec3], expected: f64, most: usize) -> Descent {
         let loads: Vec<f64> = forces.contacts.iter().map(|c| forces.load(&self.cloth, &self.x, c)).collect();
         let energy = |x: &[Vec3]| forces.energy(&self.cloth, x, &loads);
         let from = energy(&self.x);
-        let mut share = self.proximity.bounds.share(&self.x, &step.d);
+        let mut share = self.proximity.bounds.share(&self.x, d);
         let mut halvings = 0;
-        let (target, gain) = loop {
-            let target: Vec<Vec3> = self.x.iter().zip(&step.d).map(|(x, d)| x + d * share).collect();
+        loop {
+            let mut target: Vec<Vec3> = self.x.iter().zip(d).map(|(x, d)| x + d * share).collect();
+            self.proximity.bounds.clamp(&self.x, &mut target);
             let gain = from - energy(&target);
-            if gain > ENOUGH * share * step.gain.max(0.0) || gain.abs() < ROUNDING || halvings >= HALVINGS {
-                break (target, gain);
+            if gain > ENOUGH * share * expected.max(0.0) || gain.abs() < ROUNDING || halvings >= most {
+                return Descent { target, gain, halvings };
             }
             share *= 0.5;
             halvings += 1;
-        };
-        if gain < -ROUNDING {
-            let x = self.x.clone();
-            return Ok(NewtonStep { moved: self.relax(dt, 0.0, 0.0, &x)?, shortened: true, ratio: 0.0 });
         }
-        let ratio = if step.gain > 0.0 { gain / step.gain } else { 0.0 };
-        Ok(NewtonStep { moved: self.move_to(target, dt)?, shortened: halvings > 0, ratio })
     }
 
     fn move_to(&mut self, mut target: Vec<Vec3>, dt: f64) -> Result<f64, StepError> {
