@@ -126,7 +126,7 @@ impl Cloth {
             out.add_tacks(mesh, garment);
         }
         out.edges = joined(&out.springs);
-        out.add_bending(mesh, fabrics);
+        out.add_bending(mesh, garment, fabrics);
         out
     }
 
@@ -238,11 +238,17 @@ impl Cloth {
         firsts
     }
 
-    fn add_bending(&mut self, mesh: &ClothMesh, fabrics: &[Arc<Fabric>]) {
+    fn add_bending(&mut self, mesh: &ClothMesh, garment: &Garment, fabrics: &[Arc<Fabric>]) {
         let mut interior = vec![true; self.mass.len()];
         for edge in Topology::new(&self.triangles).rim_edges() {
             for n in edge.ends {
                 interior[n as usize] = false;
+            }
+        }
+        // Layers sewn on each other turn freely at the seam.
+        for (stitches, _) in mesh.seams.iter().zip(&garment.seams).filter(|(_, seam)| garment.is_lapped(seam)) {
+            for p in stitches.pairs.iter().flatten() {
+                interior[self.node_of[*p as usize] as usize] = false;
             }
         }
         // A crease bends at its hinges instead.

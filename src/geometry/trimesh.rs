@@ -64,22 +64,29 @@ impl Topology {
 
 /// Rim loops of an oriented mesh: closed vertex chains that run with their triangles. Where rims touch in one vertex
 /// they are walked as one loop if the walk meets that vertex again before closing.
+///
+/// Where more than two triangles share an edge (the three layers of a pleat, a lining sewn to the shell's rim), layers
+/// that run opposite ways cancel, and what is left is the rim: a pleated waist is one loop. A rim of several layers is
+/// one loop, not several.
 pub fn rim_loops(triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
-    let topology = Topology::new(triangles);
+    let sides = || triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).filter(|(a, b)| a != b);
+    // How many more triangles run along the edge than against it.
+    let mut surplus: HashMap<(u32, u32), usize> = HashMap::new();
+    for (a, b) in sides() {
+        match surplus.get_mut(&(b, a)).filter(|n| **n > 0) {
+            Some(against) => *against -= 1,
+            None => *surplus.entry((a, b)).or_default() += 1,
+        }
+    }
     let mut next: HashMap<u32, Vec<u32>> = HashMap::new();
-    for edge in topology.rim_edges() {
-        let Some(t) = edge.triangles[0] else { continue };
-        let tri = triangles[t as usize];
-        for k in 0..3 {
-            let (a, b) = (tri[k], tri[(k + 1) % 3]);
-            if [a.min(b), a.max(b)] == edge.ends {
-                next.entry(a).or_default().push(b);
-            }
+    for (a, b) in sides() {
+        if let Some(layers) = surplus.remove(&(a, b)) {
+            next.entry(a).or_default().extend(std::iter::repeat_n(b, layers));
         }
     }
     let mut starts: Vec<u32> = next.keys().copied().collect();
     starts.sort_unstable();
-    let mut loops = Vec::new();
+    let mut loops: Vec<Vec<u32>> = Vec::new();
     for start in starts {
         while next.get(&start).is_some_and(|n| !n.is_empty()) {
             let mut chain = Vec::new();
@@ -91,10 +98,18 @@ pub fn rim_loops(triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
                     break;
                 }
             }
-            loops.push(chain);
+            if !loops.iter().any(|l| same_ring(l, &chain)) {
+                loops.push(chain);
+            }
         }
     }
     loops
+}
+
+/// Whether two closed chains run through the same vertices in the same order.
+fn same_ring(a: &[u32], b: &[u32]) -> bool {
+    let starts = a.len() == b.len() && !a.is_empty();
+    starts && b.iter().position(|v| *v == a[0]).is_some_and(|k| (0..a.len()).all(|i| a[i] == b[(k + i) % b.len()]))
 }
 
 impl TriMesh {
@@ -156,6 +171,29 @@ mod tests {
         assert!(topology.misoriented.is_empty());
         let loops = rim_loops(&triangles);
         assert_eq!(loops, vec![vec![0, 1, 2, 3]]);
+    }
+
+    #[test]
+    fn the_rim_of_a_pleat_is_one_loop() {
+        // A strip whose upper rim goes 1–2 forth, back and forth again.
+        let top = [0, 1, 2, 1, 2, 3];
+        let below = [10, 11, 12, 13, 14, 15];
+        let cells = (0..5).flat_map(|k| [[top[k], top[k + 1], below[k + 1]], [top[k], below[k + 1], below[k]]]);
+        let triangles: Vec<[u32; 3]> = cells.collect();
+        let loops = rim_loops(&triangles);
+        assert_eq!(loops, vec![vec![0, 1, 2, 3, 15, 14, 13, 12, 11, 10]]);
+    }
+
+    #[test]
+    fn a_rim_of_two_layers_is_one_loop() {
+        let tube = |low: [u32; 3]| {
+            (0..3).flat_map(move |k| {
+                let (a, b) = (k as u32, (k as u32 + 1) % 3);
+                [[a, b, low[(k + 1) % 3]], [a, low[(k + 1) % 3], low[k]]]
+            })
+        };
+        let lined: Vec<[u32; 3]> = tube([3, 4, 5]).chain(tube([6, 7, 8])).collect();
+        assert_eq!(rim_loops(&lined), vec![vec![0, 1, 2], vec![3, 5, 4], vec![6, 8, 7]]);
     }
 
     #[test]

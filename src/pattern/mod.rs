@@ -75,6 +75,15 @@ pub struct Garment {
     pub tests: Vec<Test>,
 }
 
+impl Garment {
+    /// Whether a seam of the garment joins layers that lie on each other: a pleat, or pieces of different layers.
+    pub fn is_lapped(&self, seam: &Seam) -> bool {
+        let mut layers = seam.a.iter().chain(&seam.b).map(|s| self.pieces[s.edge.piece].layer);
+        let first = layers.next();
+        matches!(seam.kind, SeamKind::Pleat(_)) || layers.any(|l| Some(l) != first)
+    }
+}
+
 /// One piece of cloth.
 #[derive(Clone, Debug)]
 pub struct Piece {

@@ -7,7 +7,6 @@ use crate::contact::{Collider, Neighbourhood};
 use crate::dynamics::{Cloth, ContactLaw, Cut, Pull, Reach, SpringModel, World, identity_nodes};
 use crate::geometry::Vec3;
 use crate::mesh::ClothMesh;
-use crate::pattern::{Garment, Seam, SeamKind};
 
 /// How a garment is sewn.
 #[derive(Clone, Copy, Debug)]
@@ -173,18 +172,11 @@ pub fn sew(
     Ok(Sewn { nodes: world.x, stitching, gaps, steps, tangles })
 }
 
-/// Whether a seam joins layers that lie on each other.
-fn is_lapped(garment: &Garment, seam: &Seam) -> bool {
-    let mut layers = seam.a.iter().chain(&seam.b).map(|s| garment.pieces[s.edge.piece].layer);
-    let first = layers.next();
-    matches!(seam.kind, SeamKind::Pleat(_)) || layers.any(|l| Some(l) != first)
-}
-
 /// Particle → seams it lies on or next to: while such a seam closes, the cloth beside it may touch itself. Not where one
 /// layer is sewn on another: there the cloth lies on itself all along the seam and must stay on its side.
 fn beside_seams(cut: &Cut, stitching: &Stitching, cloth: &Cloth) -> Vec<Vec<u32>> {
     let mut on: Vec<Vec<u32>> = vec![Vec::new(); cut.mesh.flat.len()];
-    let lapped: Vec<bool> = cut.garment.seams.iter().map(|s| is_lapped(cut.garment, s)).collect();
+    let lapped: Vec<bool> = cut.garment.seams.iter().map(|s| cut.garment.is_lapped(s)).collect();
     for (ends, seam) in stitching.pairs.iter().filter(|p| !lapped[p.1 as usize]) {
         for &p in ends {
             on[p as usize].push(*seam);

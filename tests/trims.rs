@@ -1,0 +1,149 @@
+//! Pleats, pressed folds, elastic and layers, in cloth that hangs.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use approx::assert_relative_eq;
+use toile::contact::Collider;
+use toile::dynamics::Cut;
+use toile::fabric::{self, Fabric};
+use toile::geometry::Vec3;
+use toile::pipeline::{Job, Overrides, Run, read};
+use toile::report::Report;
+use toile::sew::{Stitching, sewn_world};
+
+/// A garment of `tests/data` at rest: its job, particles and report.
+struct Draped {
+    job: Job,
+    x: Vec<Vec3>,
+    report: Report,
+}
+
+fn draped(name: &str, spacing: f64) -> Draped {
+    let file = Path::new("tests/data").join(name);
+    let overrides = Overrides { spacing: Some(spacing * 1e-3), ..Overrides::default() };
+    let job = Job::new(&file, read(&file).expect("a garment"), &overrides).map_err(|e| e.to_string()).expect("a job");
+    let mut run = Run::new(&job);
+    run.flatten(&toile::flatten::Options::default(), &mut |_, _| {}).map_err(|e| e.to_string()).expect("laid flat");
+    let (x, report) = (run.last().expect("draped").to_vec(), run.report());
+    let contact = &report.contact;
+    let crossings = contact.inside_body + contact.cloth_body_intersections + contact.cloth_cloth_intersections;
+    assert_eq!(crossings, 0, "{name}: {contact:?}");
+    assert!(report.stages.iter().all(|s| s.converged), "{name}: {:?}", report.stages);
+    Draped { job, x, report }
+}
+
+impl Draped {
+    /// Particles of a piece whose flat position passes `which` (mm).
+    fn particles(&self, piece: &str, which: impl Fn(f64, f64) -> bool) -> Vec<usize> {
+        let mesh = &self.job.mesh;
+        let piece = mesh.pieces.iter().find(|p| p.name == piece).expect("a piece");
+        piece.particles.clone().filter(|&p| which(mesh.flat[p].x * 1e3, mesh.flat[p].y * 1e3)).collect()
+    }
+
+    /// Distance from the upright axis through the middle of the body, metres.
+    fn outward(&self, p: usize) -> f64 {
+        self.x[p].x.hypot(self.x[p].z)
+    }
+}
+
+#[test]
+fn a_waist_elastic_draws_the_cloth_in_and_the_flat_piece_stays_as_drawn() {
+    let skirt = draped("elastic_waist.yaml", 15.0);
+    let line = &skirt.job.mesh.pieces[0].lines[0].particles;
+    let length = |at: &dyn Fn(u32) -> Vec3| line.windows(2).map(|w| (at(w[1]) - at(w[0])).norm()).sum::<f64>();
+    let flat = length(&|p| skirt.job.mesh.flat[p as usize].push(0.0));
+    let worn = length(&|p| skirt.x[p as usize]);
+    // At 0.7 the band is slack; the body and the gathers keep it a little longer.
+    assert!((0.69..0.85).contains(&(worn / flat)), "{}", worn / flat);
+    for piece in &skirt.report.pieces {
+        assert!(piece.area_error.round_trip.is_some_and(|e| e < 2e-3), "{:?}", piece.area_error);
+        assert!(piece.boundary_error.round_trip.is_some_and(|e| e < 3e-3), "{:?}", piece.boundary_error);
+        assert!(piece.strain.p99 < 0.01, "{:?}", piece.strain);
+    }
+    // Without the elastic this skirt, 1040 mm at the waist, falls to the floor.
+    let top = skirt.x.iter().map(|p| p.y).fold(0.0, f64::max);
+    assert!(top > 0.8, "{top}");
+}
+
+#[test]
+fn pleats_hang_with_their_top_layer_outside() {
+    let skirt = draped("pleated.yaml", 15.0);
+    // The knife pleat at 100 mm from the waist's start (x = −260), 15 mm deep: 40 mm below the waist the panel it is
+    // folded from lies over its middle layer.
+    let near = |x: f64| skirt.particles("front", |px, py| (px - x).abs() < 8.0 && (30.0..55.0).contains(&py));
+    let mean = |of: &[usize]| of.iter().map(|&p| skirt.outward(p)).sum::<f64>() / of.len() as f64;
+    let (panel, bottom) = (near(-167.0), near(-137.0));
+    assert!(!panel.is_empty() && !bottom.is_empty());
+    assert!(mean(&panel) > mean(&bottom), "{} {}", mean(&panel), mean(&bottom));
+    let waist = skirt.report.worn.iter().find(|w| w.edges.iter().any(|e| e.contains("waist"))).expect("a waist");
+    // Six folds of 15 mm (one knife, one box; front and back) take up 30 mm each.
+    assert_relative_eq!(waist.length, 2.0 * 520.0 - 2.0 * 4.0 * 30.0, max_relative = 0.01);
+}
+
+#[test]
+fn a_lining_hangs_inside() {
+    let skirt = draped("lined.yaml", 20.0);
+    // Beside one another the shell is further from the body's axis, by a cloth's thickness or more.
+    let hem = |p: &usize| skirt.x[*p].y > 0.75;
+    let near =
+        |piece: &str| -> Vec<usize> { skirt.particles(piece, |_, y| y > 60.0).into_iter().filter(hem).collect() };
+    for (shell, lining) in [("front", "front_lining"), ("back", "back_lining")] {
+        let (shell, lining) = (near(shell), near(lining));
+        let (mut sum, mut count) = (0.0, 0.0);
+        for &p in &lining {
+            let beside = |q: &&usize| {
+                let (a, b) = (skirt.x[p], skirt.x[**q]);
+                (a.y - b.y).abs() < 0.012 && (a.x.atan2(a.z) - b.x.atan2(b.z)).abs() < 0.06
+            };
+            for &q in shell.iter().filter(beside) {
+                sum += skirt.outward(q) - skirt.outward(p);
+                count += 1.0;
+            }
+        }
+        assert!(count > 50.0 && sum / count > 2e-4, "{} over {count}", sum / count);
+    }
+    assert_eq!(skirt.report.worn.iter().filter(|w| w.body_part.as_deref() == Some("legs")).count(), 2);
+}
+
+#[test]
+fn a_fold_comes_to_rest_at_the_angle_it_was_pressed_to() {
+    let text = "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  card:\n    \
+                place: {at: [0, 1000, 1000]}\n    grain: [[10, 10], [10, 90]]\n    \
+                outline: {start: 0 0, a: L 120 0, b: L 120 120, c: L 0 120, d: L 0 0}\n    \
+                lines: {crease: {path: M 60 0 L 60 120, fold: ANGLE}}\nfree: ['*.*']\n";
+    for angle in [60.0, -90.0] {
+        let text = text.replace("ANGLE", &angle.to_string());
+        let garment = toile::io::garment::read_text("card", "card.yaml", &text).map_err(|e| e.to_string());
+        let garment = garment.expect("a garment").garment;
+        let mesh = toile::mesh::build(&garment, 0.015).expect("a mesh");
+        let fabrics: Vec<Arc<Fabric>> = vec![Arc::new(fabric::load("cotton_poplin").expect("shipped"))];
+        let body = toile::mannequin::load("woman_92").expect("shipped");
+        let collider = Collider::new(&body.mesh).expect("closed");
+        let stitching = Stitching::new(&mesh);
+        // Almost flat, so that the fold need not choose a side.
+        let nodes = mesh.flat.iter().map(|p| Vec3::new(p.x, -p.y, 3.0)).collect();
+        let cut = Cut { garment: &garment, mesh: &mesh, fabrics: &fabrics };
+        let mut world = sewn_world(&cut, &collider, &stitching, nodes).expect("a world");
+        for _ in 0..200 {
+            world.newton(1.0, 5e-3).expect("a step");
+        }
+        let normal = |left: bool| {
+            let side = |t: &&[u32; 3]| (t.iter().map(|&p| mesh.flat[p as usize].x).sum::<f64>() < 0.18) == left;
+            mesh.triangles.iter().filter(side).fold(Vec3::zeros(), |sum, t| {
+                let [a, b, c] = t.map(|p| world.x[p as usize]);
+                sum + (b - a).cross(&(c - a))
+            })
+        };
+        let (left, right) = (normal(true), normal(false));
+        let turned = left.angle(&right).to_degrees();
+        assert!((turned - f64::abs(angle)).abs() < 1.0, "{turned}");
+        // Positive: the wrong sides (away from the normals) turn towards each other, the crease stands out.
+        let middle = |edge: f64| {
+            let on: Vec<usize> = (0..mesh.flat.len()).filter(|&p| (mesh.flat[p].x - edge).abs() < 1e-6).collect();
+            on.iter().map(|&p| world.x[p]).sum::<Vec3>() / on.len() as f64
+        };
+        let proud = (middle(0.06) - 0.5 * (middle(0.0) + middle(0.12))).dot(&(left + right));
+        assert!(proud * angle > 0.0, "{proud}");
+    }
+}
