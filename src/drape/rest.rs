@@ -91,18 +91,22 @@ pub fn drape(
     world.gravity = 1.0;
     world.friction = Some(Friction::new(world.x.len(), GRIP));
     let mut fall = Fall { last: world.x.clone(), world, steps: 0, near: false, trust: TRUST[0] };
-    let mut drift;
-    loop {
+    let (drift, residual, converged) = loop {
         fall.settle(options.max_steps, progress)?;
-        drift = fall.drift()?;
-        // A garment that drifts falls on, while there are steps left.
-        if drift[0] <= DRIFT || fall.steps >= options.max_steps {
-            break;
+        let out_of_steps = fall.steps >= options.max_steps;
+        let residual = fall.world.residual_in_weights();
+        // A garment that is out of balance, or drifts, falls on, while there are steps left.
+        if residual > RESIDUAL && !out_of_steps {
+            continue;
         }
-    }
+        let drift = fall.drift()?;
+        let residual = fall.world.residual_in_weights();
+        let rests = drift[0] <= DRIFT && residual <= RESIDUAL;
+        if rests || out_of_steps {
+            break (drift, residual, rests);
+        }
+    };
     progress(1.0);
-    let residual = fall.world.residual_in_weights();
-    let converged = drift[0] <= DRIFT && residual <= RESIDUAL;
     Ok(Draped { energy: fall.world.energy(), nodes: fall.world.x, steps: fall.steps, converged, drift, residual })
 }
 

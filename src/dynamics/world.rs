@@ -130,7 +130,7 @@ impl<'a> World<'a> {
     }
 
     /// A step with the true stiffness that changes no edge by more than `radius` metres, shortened until the energy
-    /// falls; where it does not, a step with the majorant, shortened likewise. Without a way down nothing moves.
+    /// falls; where it does not, a step with the majorant, shortened likewise.
     ///
     /// # Errors
     /// [`StepError::Singular`] when a number is not finite.
@@ -146,8 +146,8 @@ impl<'a> World<'a> {
         let still = vec![Vec3::zeros(); self.x.len()];
         let d = self.stepper.solve(&self.cloth, &self.x, &still, dt, &forces, ROUNDS)?;
         let down = self.descend(&forces, &d, 0.0, MORE_HALVINGS);
-        let moved = if down.gain >= -ROUNDING { self.move_to(down.target, dt)? } else { 0.0 };
-        Ok(NewtonStep { moved, shortened: true, ratio: 0.0 })
+        // The bounds may ask for more room than there is: the shortest step then still makes that room.
+        Ok(NewtonStep { moved: self.move_to(down.target, dt)?, shortened: true, ratio: 0.0 })
     }
 
     /// Halves a step, as the bounds let it be made, until the energy falls by a share of `expected` (J).
