@@ -71,9 +71,7 @@ pub(super) fn untangle(world: &mut World, spring: bool) -> Result<usize, StepErr
         smooth(world, &tangled);
         if spring {
             world.set_tangled(tangled)?;
-            // Not [`step`]: the way out of a tangle may lead uphill.
-            world.velocity.fill(Vec3::zeros());
-            world.advance(STEP, 0.0, &[])?;
+            step(world)?;
         }
         rounds += 1;
         left = world.tangles();
