@@ -1,21 +1,21 @@
 //! What the inner loops cost: the sparse factor, the two detections, and one step of each kind, on a sewn skirt.
 
+mod common;
+
 use std::error::Error;
 use std::hint::black_box;
-use std::path::Path;
 use std::sync::Arc;
-use std::time::Duration;
 
 use criterion::{BatchSize, Criterion};
 use toile::contact::{ClothDetector, Neighbourhood};
 use toile::dynamics::{Friction, StepError, World};
 use toile::geometry::{Mat3, Vec3};
 use toile::linear::{Cholesky, Ordering, SymmetricMatrix, SymmetricPattern, nested_dissection};
-use toile::pipeline::{Job, Overrides, read};
+use toile::pipeline::Job;
 use toile::sew::place::place;
 use toile::sew::{SewOptions, Sewn, sew, sewn_world};
 
-const GARMENT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/skirt.yaml");
+const GARMENT: &str = "tests/data/skirt.yaml";
 /// Metres.
 const SPACING: f64 = 0.015;
 /// How near a contact is looked for, metres, as in draping: the body by vertices, by faces and edges, and the cloth.
@@ -27,10 +27,8 @@ const STEP: f64 = 1.0;
 const TRUST: f64 = 1.5e-3;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let criterion = Criterion::default().sample_size(10).warm_up_time(Duration::from_millis(500));
-    let mut criterion = criterion.measurement_time(Duration::from_secs(2)).configure_from_args();
-    let file = Path::new(GARMENT);
-    let job = Job::new(file, read(file)?, &Overrides { spacing: Some(SPACING), ..Overrides::default() })?;
+    let mut criterion = common::criterion();
+    let job = common::job(GARMENT, SPACING)?;
     let start = place(&job.garment, &job.mesh, &job.body)?;
     let sewn = sew(&job.cut(), &job.collider, start, &SewOptions::default(), &mut |_| {})?;
     factor(&mut criterion, &hung(&job, &sewn)?)?;

@@ -2,29 +2,27 @@
 //!
 //! Every stage begins with what the one before it made, so that the figures add up to a run of `toile make`.
 
+mod common;
+
 use std::error::Error;
 use std::hint::black_box;
-use std::path::Path;
-use std::time::Duration;
 
-use criterion::{BenchmarkId, Criterion};
+use criterion::BenchmarkId;
 use toile::drape::{DrapeOptions, drape};
 use toile::flatten::{Options, flatten_garment};
 use toile::geometry::Vec3;
 use toile::mesh::build;
-use toile::pipeline::{Job, Overrides, read};
+use toile::pipeline::Job;
 use toile::sew::place::place;
 use toile::sew::{SewOptions, Sewn, sew};
 
-const GARMENT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/patterns/child_dress.yaml");
+const GARMENT: &str = "patterns/child_dress.yaml";
 /// Metres.
 const SPACING: f64 = 0.025;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let criterion = Criterion::default().sample_size(10).warm_up_time(Duration::from_millis(500));
-    let mut criterion = criterion.measurement_time(Duration::from_secs(2)).configure_from_args();
-    let file = Path::new(GARMENT);
-    let job = Job::new(file, read(file)?, &Overrides { spacing: Some(SPACING), ..Overrides::default() })?;
+    let mut criterion = common::criterion();
+    let job = common::job(GARMENT, SPACING)?;
     let start = place(&job.garment, &job.mesh, &job.body)?;
     let sewn = sewn(&job, &start)?;
     let draped = draped(&job, &sewn)?;

@@ -10,8 +10,7 @@ use super::springs::SpringTangent;
 use crate::contact::Contact;
 use crate::geometry::{Mat3, Vec3};
 use crate::linear::{
-    BlockSlot, Cholesky, CholeskyError, NotPositiveDefinite, Ordering, PatternError, SymmetricMatrix, SymmetricPattern,
-    nested_dissection,
+    BlockSlot, Cholesky, CholeskyError, Ordering, PatternError, SymmetricMatrix, SymmetricPattern, nested_dissection,
 };
 
 /// Why a step cannot be made.
@@ -60,8 +59,6 @@ pub struct Stepper {
     springs: Vec<BlockSlot>,
     edges: Vec<BlockSlot>,
     pulls: Vec<Option<BlockSlot>>,
-    /// Of the stiffest spring when the matrix was filled, N/m.
-    stiffness: f64,
     made: Option<Made>,
 }
 
@@ -97,7 +94,6 @@ impl Stepper {
             pulls: pulls.iter().map(|e| slot(e[0] as usize, e[1] as usize)).collect(),
             matrix: SymmetricMatrix::zeros(pattern.clone()),
             factor: Cholesky::new(pattern, &order)?,
-            stiffness: 0.0,
             made: None,
         })
     }
@@ -184,36 +180,34 @@ impl Stepper {
                 self.matrix.add_block(self.diagonal[i], &(across * grip.stiffness));
             }
         }
-        self.factor()?;
+        self.factor(cloth, x)?;
         self.made = Some(Made { x: x.to_vec(), dt, pushing });
         Ok(())
     }
 
     /// Factors the matrix. Cloth that nothing holds, in a long step, is singular to single precision: its inertia is lost
     /// beside its stiffness. A little of that stiffness against every motion stands in for it.
-    fn factor(&mut self) -> Result<(), StepError> {
-        let mut ridge = FIRST_RIDGE * self.stiffness;
-        loop {
-            let Err(NotPositiveDefinite { dof }) = self.factor.factor(&self.matrix) else { return Ok(()) };
-            let small = ridge <= LAST_RIDGE * self.stiffness;
-            // Not so where a number is not finite.
-            if !(self.stiffness.is_finite() && small) {
-                return Err(StepError::Singular { node: dof / 3 });
-            }
+    fn factor(&mut self, cloth: &Cloth, x: &[Vec3]) -> Result<(), StepError> {
+        let Err(mut failed) = self.factor.factor(&self.matrix) else { return Ok(()) };
+        let along = cloth.springs.iter().map(|s| s.tangent(&cloth.laws[s.law as usize], x).along);
+        let stiffest = along.fold(0.0, |most: f64, k| if most.is_nan() || k <= most { most } else { k });
+        let mut ridge = FIRST_RIDGE * stiffest;
+        // A number that is not finite is no matter of rounding.
+        while stiffest.is_finite() && ridge > 0.0 && ridge <= LAST_RIDGE * stiffest {
             for slot in &self.diagonal {
                 self.matrix.add_block(*slot, &(Mat3::identity() * ridge));
             }
+            match self.factor.factor(&self.matrix) {
+                Ok(()) => return Ok(()),
+                Err(again) => failed = again,
+            }
             ridge *= 10.0;
         }
+        Err(StepError::Singular { node: failed.dof / 3 })
     }
 
     fn assemble(&mut self, cloth: &Cloth, x: &[Vec3], dt: f64, forces: &Forces) {
         self.matrix.clear();
-        self.stiffness = cloth
-            .springs
-            .iter()
-            .map(|s| s.tangent(&cloth.laws[s.law as usize], x))
-            .fold(0.0, |most: f64, t| if most.is_nan() || t.along <= most { most } else { t.along });
         let blocks: Vec<Mat3> = cloth
             .springs
             .par_iter()
