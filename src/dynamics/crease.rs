@@ -28,9 +28,24 @@ pub(super) struct Crease {
     rest: f64,
     /// k, N·m per radian.
     stiffness: f64,
+    /// θ where the cloth was last, radians; the angle is the one within half a turn of it.
+    last: f64,
 }
 
 impl Crease {
+    /// A fold that nobody has followed yet may lie a quarter turn the wrong way, or too far, before it is taken for the
+    /// other of the two.
+    fn new(nodes: [u32; 4], rest: f64, stiffness: f64) -> Self {
+        let last = if rest.abs() > FRAC_PI_2 { FRAC_PI_2.copysign(rest) } else { 0.0 };
+        Self { nodes, rest, stiffness, last }
+    }
+
+    /// Remembers the angle at `x`: a fold pressed shut that turns on past half a turn is not one that lies the wrong
+    /// way. Without it the energy would jump wherever the angle begins anew.
+    pub(super) fn follow(&mut self, x: &[Vec3]) {
+        self.last = self.angle(x);
+    }
+
     /// Its energy at `x`, J.
     pub(super) fn energy(&self, x: &[Vec3]) -> f64 {
         0.5 * self.stiffness * (self.angle(x) - self.rest).powi(2)
@@ -57,20 +72,13 @@ impl Crease {
         self.nodes.map(|n| x[n as usize])
     }
 
-    /// The angle at `x`, within half a turn of the rest angle or as near to it as the side it lies on allows: a fold
-    /// pressed to 180° that still lies a little the other way is −10°, not 350°.
+    /// The angle at `x`, within half a turn of the last one.
     fn angle(&self, x: &[Vec3]) -> f64 {
         let [a, b, c, d] = self.corners(x);
         let along = (b - a).try_normalize(0.0).unwrap_or_else(Vec3::zeros);
         let (m, n) = ((b - a).cross(&(c - a)), (d - a).cross(&(b - a)));
         let angle = m.cross(&n).dot(&along).atan2(m.dot(&n));
-        if self.rest > FRAC_PI_2 && angle < -FRAC_PI_2 {
-            angle + TAU
-        } else if self.rest < -FRAC_PI_2 && angle > FRAC_PI_2 {
-            angle - TAU
-        } else {
-            angle
-        }
+        angle + TAU * ((self.last - angle) / TAU).round()
     }
 
     /// Gradient of the angle for every node, 1/m.
@@ -116,7 +124,7 @@ pub(super) fn creases(mesh: &ClothMesh, node_of: &[u32], fabrics: &[Arc<Fabric>]
                 let nodes = nodes.map(|p| node_of[p as usize]);
                 let distinct = (0..4).all(|i| (0..i).all(|j| nodes[i] != nodes[j]));
                 if distinct {
-                    out.push(Crease { nodes, rest, stiffness });
+                    out.push(Crease::new(nodes, rest, stiffness));
                 }
             }
         }
@@ -143,7 +151,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     fn crease(rest: f64) -> Crease {
-        Crease { nodes: [0, 1, 2, 3], rest, stiffness: 0.3 }
+        Crease::new([0, 1, 2, 3], rest, 0.3)
     }
 
     /// Two triangles whose right sides face +z, folded by `angle`: wings go down when it is positive.
@@ -164,6 +172,17 @@ mod tests {
         let shut = crease(std::f64::consts::PI);
         assert_relative_eq!(shut.angle(&folded(3.3)), 3.3, epsilon = 1e-12);
         assert_relative_eq!(shut.angle(&folded(-0.2)), -0.2, epsilon = 1e-12);
+    }
+
+    #[test]
+    fn a_fold_that_is_followed_keeps_its_turn() {
+        let mut shut = crease(std::f64::consts::PI);
+        // Turned the wrong way little by little, past the quarter turn where a new fold would be taken for too far.
+        for angle in [-0.5, -1.5, -2.5, -3.5] {
+            shut.follow(&folded(angle));
+            assert_relative_eq!(shut.angle(&folded(angle)), angle, epsilon = 1e-12);
+        }
+        assert!(shut.energy(&folded(-3.5)) > shut.energy(&folded(-1.5)));
     }
 
     #[test]

@@ -275,6 +275,11 @@ impl Cloth {
         self.node_of.iter().map(|&n| nodes[n as usize]).collect()
     }
 
+    /// Takes note of where the cloth has gone: folds turn on from the angle they have.
+    pub(super) fn follow(&mut self, x: &[Vec3]) {
+        self.creases.iter_mut().for_each(|c| c.follow(x));
+    }
+
     /// Elastic energy (stretch, bending and creases), J.
     pub fn elastic_energy(&self, x: &[Vec3]) -> f64 {
         let stretch: f64 = self

@@ -65,7 +65,7 @@ impl<'a> World<'a> {
     /// # Errors
     /// As [`Stepper::new`].
     pub fn new(
-        cloth: Cloth,
+        mut cloth: Cloth,
         x: Vec<Vec3>,
         pulls: &[[u32; 2]],
         body: &'a Collider,
@@ -73,6 +73,7 @@ impl<'a> World<'a> {
         law: ContactLaw,
         reach: Reach,
     ) -> Result<Self, StepError> {
+        cloth.follow(&x);
         Ok(Self {
             velocity: vec![Vec3::zeros(); x.len()],
             friction: None,
@@ -178,6 +179,7 @@ impl<'a> World<'a> {
             largest = largest.max(d.norm_squared());
             *x = *t;
         }
+        self.cloth.follow(&self.x);
         if let Some(friction) = &mut self.friction {
             let (cloth, law, x) = (&self.cloth, self.law, &self.x);
             friction.update(x, &self.proximity.contacts, &cloth.friction, |c| law.load(cloth, x, c));
