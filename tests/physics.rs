@@ -163,10 +163,9 @@ fn contact_pushes_within_its_distance_only() {
     let (cloth, mut x) = slack();
     let contacts = [body_contact(0, Vec3::z(), 0.0)];
     let kept = cloth.half_thickness[0] + LAW.body_clearance;
-    // d · kept / gap: ever harder as the gap closes, by its tangent below a fifth of the distance kept.
-    let tangent_at_a_fifth = |gap: f64| 4.0 + 25.0 * (0.2 - gap);
-    let expected =
-        [(-1.0, tangent_at_a_fifth(-1.0)), (0.0, tangent_at_a_fifth(0.0)), (0.2, 4.0), (0.5, 1.0), (1.1, 0.0)];
+    // d · kept / gap: ever harder as the gap closes, by its tangent below a tenth of the distance kept.
+    let tangent = |gap: f64| 9.0 + 100.0 * (0.1 - gap);
+    let expected = [(-1.0, tangent(-1.0)), (0.0, tangent(0.0)), (0.1, 9.0), (0.2, 4.0), (0.5, 1.0), (1.1, 0.0)];
     for (height, load) in expected {
         x[0].z = height * kept;
         let force = added(&cloth, Forces { contacts: &contacts, ..NOTHING }, &x);

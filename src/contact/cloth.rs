@@ -28,8 +28,6 @@ const BESIDE_SEAM: f64 = 0.3;
 pub struct Neighbourhood {
     /// Node → class of nodes that are, or will be, sewn together. Primitives that share a class are incident.
     pub class: Vec<u32>,
-    /// Node → seams being closed that it lies on or next to; primitives that share one are left out.
-    pub seams: Vec<Vec<u32>>,
     /// Node → whether it is being led out of a tangle; pairs of primitives with such nodes on both sides are left out.
     pub tangled: Vec<bool>,
 }
@@ -194,18 +192,13 @@ impl ClothDetector {
         gap.norm() < 0.5 * reach
     }
 
-    /// Whether nodes `p` and `q` (of two primitives) are sewn together, lie beside one open seam or in one tangle.
+    /// Whether nodes `p` and `q` (of two primitives) are sewn together or lie in one tangle.
     fn joined(&self, p: &[u32], q: &[u32]) -> bool {
         let tangled = |n: &u32| self.hood.tangled.get(*n as usize).copied().unwrap_or(false);
         if p.iter().any(tangled) && q.iter().any(tangled) {
             return true;
         }
-        p.iter().any(|&a| {
-            q.iter().any(|&b| {
-                self.hood.class[a as usize] == self.hood.class[b as usize]
-                    || self.hood.seams[a as usize].iter().any(|s| self.hood.seams[b as usize].contains(s))
-            })
-        })
+        p.iter().any(|&a| q.iter().any(|&b| self.hood.class[a as usize] == self.hood.class[b as usize]))
     }
 
     /// Whether an edge of the cloth leads from one of `p` to one of `q`.
@@ -400,11 +393,7 @@ mod tests {
     }
 
     fn detector(x: &[Vec3], t: &[[u32; 3]], f: &[[Vec2; 3]], p: &[u32]) -> ClothDetector {
-        let hood = Neighbourhood {
-            class: (0..x.len() as u32).collect(),
-            seams: vec![Vec::new(); x.len()],
-            tangled: Vec::new(),
-        };
+        let hood = Neighbourhood { class: (0..x.len() as u32).collect(), tangled: Vec::new() };
         ClothDetector::new(t, f, p, hood)
     }
 

@@ -25,7 +25,7 @@ pub struct ContactLaw {
 /// Gaps below this share of the distance kept count as this: the force has to stay finite, also where a node starts
 /// inside the body. Layers get nearer to each other than to the body, which never moves.
 const THINNEST: f64 = 0.02;
-const THINNEST_ON_BODY: f64 = 0.2;
+const THINNEST_ON_BODY: f64 = 0.1;
 
 /// A contact at given positions: the load it carries, and how fast that falls as it opens.
 #[derive(Clone, Copy, Debug)]

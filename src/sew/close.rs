@@ -86,10 +86,12 @@ const STEP: f64 = 1.0 / 60.0;
 /// Share of the velocity that lives on from step to step.
 const KEEP: f64 = 0.8;
 /// Contact while the seams close: N/m as it begins, metres kept from the body beyond half the cloth's thickness, and
-/// the distance layers keep, in grid spacings.
+/// the distance layers keep, in grid spacings and at most in metres: rims that lie on each other have to come nearer
+/// than a stitch may be long.
 const PENALTY: f64 = 600.0;
 const CLEARANCE: f64 = 1.5e-3;
 const GAP: f64 = 0.1;
+const WIDEST_GAP: f64 = 0.9e-3;
 /// Soft springs while the seams close: N/m, and their share on the bias.
 const SOFT: SpringModel = SpringModel::Soft { stiffness: 1000.0, bias: 0.4 };
 /// Stitch stiffness, N/m, and the largest force of a pair, N, phase by phase (F5). What closes the last
@@ -120,13 +122,9 @@ pub fn sew(
     let cloth = Cloth::new(cut, identity_nodes(mesh), SOFT);
     let pairs: Vec<[u32; 2]> = stitching.pairs.iter().map(|p| p.0).collect();
     let h = mesh.spacing;
-    let law = ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, cloth_gap: Some(GAP * h) };
+    let law = ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, cloth_gap: Some((GAP * h).min(WIDEST_GAP)) };
     let reach = Reach::new(1.6 * h);
-    let hood = Neighbourhood {
-        class: stitching.class.clone(),
-        seams: beside_seams(cut, &stitching, &cloth),
-        tangled: Vec::new(),
-    };
+    let hood = Neighbourhood { class: stitching.class.clone(), tangled: Vec::new() };
     let mut world = World::new(cloth, start, &pairs, body, hood, law, reach)?;
 
     untangle(&mut world, false)?;
@@ -170,27 +168,4 @@ pub fn sew(
     let (more, tangles) = settle(&mut world)?;
     steps += more;
     Ok(Sewn { nodes: world.x, stitching, gaps, steps, tangles })
-}
-
-/// Particle → seams it lies on or next to: while such a seam closes, the cloth beside it may touch itself. Not where one
-/// layer is sewn on another: there the cloth lies on itself all along the seam and must stay on its side.
-fn beside_seams(cut: &Cut, stitching: &Stitching, cloth: &Cloth) -> Vec<Vec<u32>> {
-    let mut on: Vec<Vec<u32>> = vec![Vec::new(); cut.mesh.flat.len()];
-    let lapped: Vec<bool> = cut.garment.seams.iter().map(|s| cut.garment.is_lapped(s)).collect();
-    for (ends, seam) in stitching.pairs.iter().filter(|p| !lapped[p.1 as usize]) {
-        for &p in ends {
-            on[p as usize].push(*seam);
-        }
-    }
-    let mut out = on.clone();
-    for e in &cloth.edges {
-        let (a, b) = (e[0] as usize, e[1] as usize);
-        out[a].extend(&on[b]);
-        out[b].extend(&on[a]);
-    }
-    for list in &mut out {
-        list.sort_unstable();
-        list.dedup();
-    }
-    out
 }

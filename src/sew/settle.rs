@@ -36,7 +36,7 @@ pub fn sewn_world<'a>(
     let law = ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, cloth_gap: None };
     let reach = Reach::new(0.8 * cut.mesh.spacing);
     let n = nodes.len();
-    let hood = Neighbourhood { class: (0..n as u32).collect(), seams: vec![Vec::new(); n], tangled: Vec::new() };
+    let hood = Neighbourhood { class: (0..n as u32).collect(), tangled: Vec::new() };
     World::new(cloth, nodes, &[], body, hood, law, reach)
 }
 

@@ -15,6 +15,10 @@ use crate::pattern::Garment;
 const CLEARANCE: f64 = 0.02;
 /// A garment with shoulder seams starts so much higher than it will hang, metres: the seams close above the shoulders.
 const LIFT: f64 = 0.04;
+/// A row that would begin under the floor is lifted until it is so far off it, metres,
+const OFF_FLOOR: f64 = 0.005;
+/// but no further than so much above the waist; the rest of a train has to be pushed up.
+const HIGHEST: f64 = 0.05;
 /// Above the armholes the trunk's ring gets deeper by this share of the height, to clear the arms.
 const DEEPEN: f64 = 0.5;
 /// A fold's under layer starts this much nearer the body, and an overlap's end this much further out, metres.
@@ -114,11 +118,17 @@ fn anchor(body: &Mannequin, stations: &Stations, row: &Row, levels: &[Level], li
             while at < waist + 0.15 && stations.at(at).perimeter(0.003) < girth {
                 at += 0.005;
             }
-            at - row.v[0]
+            above_floor(body, at - row.v[0], row).max(waist - HIGHEST - row.v[0])
         }
         PartKind::Neck => stations.low() - 0.015 - row.v[1],
         _ => stations.low() + 0.015 - row.v[0],
     }
+}
+
+/// `anchor`, or as much nearer the head as keeps the row off the floor: cloth that is pushed up from under it crumples,
+/// and crumpled rims do not find each other.
+fn above_floor(body: &Mannequin, anchor: f64, row: &Row) -> f64 {
+    body.floor().map_or(anchor, |floor| anchor.min(-(floor + OFF_FLOOR) - row.v[1]))
 }
 
 /// Whether level seams join pieces of the row near its top: shoulders.
