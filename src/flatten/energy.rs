@@ -156,6 +156,15 @@ impl Curvature {
         &self.matrix
     }
 
+    /// The matrix with every vertex tied `times` as fast again to where it is, for where it is not positive to rounding:
+    /// at a triangle that is almost flat one stretch has millions of times the curvature of its neighbours.
+    pub(super) fn tie(&mut self, times: f64) -> &SymmetricMatrix<f64> {
+        for &(slot, tie) in &self.ties {
+            self.matrix.add_block(slot, &(Matrix2::identity() * (tie * times)));
+        }
+        &self.matrix
+    }
+
     pub(super) fn pattern(&self) -> &Arc<SymmetricPattern> {
         self.matrix.pattern()
     }

@@ -18,6 +18,8 @@ const SHY_OF_FLIP: f64 = 0.9;
 const SUFFICIENT: f64 = 1e-4;
 /// Halvings before a line search gives up; 2⁻⁴⁰ is below any resolution of the positions that matters.
 const HALVINGS: usize = 40;
+/// Ties that are tried one after another where a factor fails, in those it has at first.
+const TIES: [f64; 4] = [1e2, 1e4, 1e6, 1e8];
 /// Energy below which nothing can be gained: it is a mean square strain, and this one is 10⁻⁸ squared.
 const ENERGY_FLOOR: f64 = 1e-16;
 
@@ -48,7 +50,7 @@ pub(super) fn relax(
     for iterations in 0..max_iterations {
         let fresh = stale || memory.pairs.len() >= STEPS_PER_FACTOR;
         if fresh {
-            factor.factor(curvature.update(energy, flat)).map_err(|_| FlattenError::Breakdown)?;
+            renew(&mut factor, &mut curvature, energy, flat)?;
             memory.pairs.clear();
         }
         let direction = memory.direction(&gradient, &factor);
@@ -73,6 +75,24 @@ pub(super) fn relax(
         memory.remember(&direction, step, &before, &gradient);
     }
     Ok(Outcome { energy: value, iterations: max_iterations, converged: false })
+}
+
+/// Factors the curvature at `flat`, tied down more and more where it is not positive to rounding.
+fn renew(
+    factor: &mut Cholesky<f64>,
+    curvature: &mut Curvature,
+    energy: &Energy,
+    flat: &[Vec2],
+) -> Result<(), FlattenError> {
+    if factor.factor(curvature.update(energy, flat)).is_ok() {
+        return Ok(());
+    }
+    for times in TIES {
+        if factor.factor(curvature.tie(times)).is_ok() {
+            return Ok(());
+        }
+    }
+    Err(FlattenError::Breakdown)
 }
 
 /// Backtracks from the full step, or from just before the first flip, to a lower energy; the step and that energy.
