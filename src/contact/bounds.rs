@@ -4,6 +4,10 @@
 //! in straight lines, are separated along it all the way: each difference of two nodes along the direction is linear
 //! in time. So it is enough to keep every found pair separated at the *end* of the step, wherever the pair has moved
 //! to; cloth that moves together is not held back, as it would be by planes fixed in space.
+//!
+//! Layers that roll on each other are separated at the end too, but along another direction m. Along (1 − t) n + t m the
+//! difference e(t) of two nodes is the quadratic with the Bézier coefficients n·e₀, ½ (n·e₁ + m·e₀) and m·e₁: where
+//! none of the three is negative, for no two nodes, the pair is separated all the way as well.
 
 use super::Contact;
 use crate::geometry::Vec3;
@@ -14,6 +18,8 @@ const SWEEPS: usize = 12;
 const KEPT: f64 = 0.2;
 /// A gap smaller than this, metres, shrinks no further: gaps that halved without end would end in rounding.
 const LEAST: f64 = 1e-5;
+/// A pair that has all but rounding of what it needs is not pushed.
+const SLACK: f64 = 1.0 - 1e-3;
 /// A pair that keeps this share of what it needs is left alone: sweeps converge slowly.
 const HELD: f64 = 0.5;
 
@@ -79,7 +85,7 @@ impl Bounds {
                 }
             }
             for (contact, &need) in self.pairs.iter().zip(&needs) {
-                clean &= !push_apart(contact, to, need);
+                clean &= !keep_apart(contact, from, to, need);
             }
             if clean {
                 break;
@@ -113,7 +119,9 @@ impl Bounds {
                 }
             }
             for (contact, &need) in self.pairs.iter().zip(needs) {
-                if separation(contact, to) < HELD * need {
+                if separation(contact, to) < HELD * need
+                    && rolled(contact, from, to).is_none_or(|turned| separation(&turned, to) < HELD * need)
+                {
                     for (node, _) in contact.parts() {
                         clean &= to[node] == from[node];
                         to[node] = from[node];
@@ -159,10 +167,34 @@ fn separation(contact: &Contact, x: &[Vec3]) -> f64 {
     low - high
 }
 
+/// The pair with its direction at the end of a step, if it is separated all the way there while it turns.
+fn rolled(contact: &Contact, from: &[Vec3], to: &[Vec3]) -> Option<Contact> {
+    let mut turned = *contact;
+    turned.refresh(to);
+    let (n, m) = (contact.normal, turned.normal);
+    let (above, below) = contact.nodes.split_at(contact.above as usize);
+    let apart = above.iter().flat_map(|p| below.iter().map(move |q| (*p as usize, *q as usize))).all(|(p, q)| {
+        let (before, after) = (from[p] - from[q], to[p] - to[q]);
+        n.dot(&before) >= 0.0 && n.dot(&after) + m.dot(&before) >= 0.0 && m.dot(&after) >= 0.0
+    });
+    apart.then_some(turned)
+}
+
+/// Keeps a pair apart by `need` at the end of a step; whether it had to be pushed.
+fn keep_apart(contact: &Contact, from: &[Vec3], to: &mut [Vec3], need: f64) -> bool {
+    if separation(contact, to) >= need * SLACK {
+        return false;
+    }
+    match rolled(contact, from, to) {
+        Some(turned) => push_apart(&turned, to, need),
+        None => push_apart(contact, to, need),
+    }
+}
+
 /// Pushes both sides off the plane half-way between them; whether that was needed.
 fn push_apart(contact: &Contact, x: &mut [Vec3], need: f64) -> bool {
     let (low, high) = sides(contact, x);
-    if low - high >= need * (1.0 - 1e-3) {
+    if low - high >= need * SLACK {
         return false;
     }
     let middle = 0.5 * (low + high);
@@ -269,6 +301,27 @@ mod tests {
         bounds.clamp(&x, &mut to);
         assert!(contacts[1..].iter().all(|c| c.gap(&to) > 0.0));
         assert!(separation(&contact, &to) > 0.0);
+    }
+
+    #[test]
+    fn a_triangle_may_roll_on_an_edge_it_lies_on() {
+        // The node is a corner of a triangle that turns by 3° about it: along the old direction the far corners of the
+        // lower triangle pass the node's height, but the gap does not change.
+        let (mut x, contact) = pair();
+        x[0].y = 1e-4;
+        let bounds = Bounds::new(&x, &[contact], 1.0, 1e-3);
+        let mut to = x;
+        for p in &mut to[1..] {
+            p.y += 0.05 * p.x;
+        }
+        let wish = to;
+        bounds.clamp(&x, &mut to);
+        assert_eq!(to, wish);
+        // A node that goes through is held, however the triangle turns meanwhile.
+        to[0].y = -0.01;
+        bounds.clamp(&x, &mut to);
+        let above = (to[2] - to[1]).cross(&(to[3] - to[1])).dot(&(to[0] - to[1]));
+        assert!(above * (x[2] - x[1]).cross(&(x[3] - x[1])).dot(&(x[0] - x[1])) > 0.0);
     }
 
     #[test]
