@@ -18,6 +18,8 @@ const SWEEPS: usize = 12;
 const KEPT: f64 = 0.2;
 /// A gap smaller than this, metres, shrinks no further: gaps that halved without end would end in rounding.
 const LEAST: f64 = 1e-5;
+/// Metres.
+const ROUNDING: f64 = 1e-9;
 /// A pair that has all but rounding of what it needs is not pushed.
 const SLACK: f64 = 1.0 - 1e-3;
 /// A pair that keeps this share of what it needs is left alone: sweeps converge slowly.
@@ -30,8 +32,8 @@ pub struct Bounds {
     leash: f64,
     margin: f64,
     pairs: Vec<Contact>,
-    /// Node, outward normal and position along it of the body's surface.
-    planes: Vec<(u32, Vec3, f64)>,
+    /// Nodes, edges and triangles of the cloth, each above the body's surface where it was nearest.
+    on_body: Vec<Contact>,
 }
 
 impl Bounds {
@@ -39,9 +41,8 @@ impl Bounds {
     /// share `KEPT` of its gap if that is less.
     pub fn new(x: &[Vec3], contacts: &[Contact], reach: f64, margin: f64) -> Self {
         let pairs = contacts.iter().filter(|c| !c.body).copied().collect();
-        let single = contacts.iter().filter(|c| c.body && c.count == 1 && c.gap(x) > 0.0);
-        let planes = single.map(|c| (c.nodes[0], c.normal, c.offset)).collect();
-        Self { origin: x.to_vec(), leash: Self::allowance(reach), margin, pairs, planes }
+        let on_body = contacts.iter().filter(|c| c.body && c.gap(x) > 0.0).copied().collect();
+        Self { origin: x.to_vec(), leash: Self::allowance(reach), margin, pairs, on_body }
     }
 
     /// Takes over the directions of refreshed contacts, which must be those this was made with.
@@ -75,14 +76,8 @@ impl Bounds {
         let needs: Vec<f64> = self.pairs.iter().map(|c| self.need(separation(c, from))).collect();
         for _ in 0..SWEEPS {
             let mut clean = true;
-            for &(node, n, offset) in &self.planes {
-                let target = &mut to[node as usize];
-                let start = n.dot(&from[node as usize]) - offset;
-                let depth = offset + self.need(start) - n.dot(target);
-                if depth > 1e-9 {
-                    *target += n * depth;
-                    clean = false;
-                }
+            for contact in &self.on_body {
+                clean &= !lift(contact, to, self.need(contact.gap(from)));
             }
             for (contact, &need) in self.pairs.iter().zip(&needs) {
                 clean &= !keep_apart(contact, from, to, need);
@@ -110,12 +105,13 @@ impl Bounds {
     fn hold(&self, from: &[Vec3], to: &mut [Vec3], needs: &[f64]) {
         loop {
             let mut clean = true;
-            for &(node, n, offset) in &self.planes {
-                let node = node as usize;
-                let start = n.dot(&from[node]) - offset;
-                if start > 0.0 && n.dot(&to[node]) - offset < HELD * self.need(start) {
-                    clean &= to[node] == from[node];
-                    to[node] = from[node];
+            for contact in &self.on_body {
+                let start = contact.gap(from);
+                if start > 0.0 && contact.gap(to) < HELD * self.need(start) {
+                    for (node, _) in contact.parts() {
+                        clean &= to[node] == from[node];
+                        to[node] = from[node];
+                    }
                 }
             }
             for (contact, &need) in self.pairs.iter().zip(needs) {
@@ -165,6 +161,19 @@ fn sides(contact: &Contact, x: &[Vec3]) -> (f64, f64) {
 fn separation(contact: &Contact, x: &[Vec3]) -> f64 {
     let (low, high) = sides(contact, x);
     low - high
+}
+
+/// Lifts what is nearer to the body than `need`; whether it was.
+fn lift(contact: &Contact, x: &mut [Vec3], need: f64) -> bool {
+    let depth = need - contact.gap(x);
+    if depth <= ROUNDING {
+        return false;
+    }
+    let squares: f64 = contact.parts().map(|p| p.1 * p.1).sum();
+    for (node, weight) in contact.parts() {
+        x[node] += contact.normal * (depth * weight / squares);
+    }
+    true
 }
 
 /// The pair with its direction at the end of a step, if it is separated all the way there while it turns.

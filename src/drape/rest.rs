@@ -137,6 +137,7 @@ impl Fall<'_> {
                 self.steps += 1;
             }
             [moved, _] = motion(&before, &self.world.x);
+            self.world.detect()?;
             self.near |= moved < NEAR_REST || self.steps >= LONGEST_FALL;
             progress((self.steps as f64 / most as f64).max(SETTLED / moved).min(0.9));
         }

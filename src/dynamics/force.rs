@@ -168,7 +168,7 @@ pub(super) fn push(
 pub(super) fn free_forces(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Vec3> {
     let mut out: Vec<Vec3> = (0..x.len())
         .into_par_iter()
-        .with_min_len(512)
+        .with_min_len(super::ONE_THREAD)
         .map(|i| -cloth.bending.gradient(x, i) - Vec3::y() * (cloth.mass[i] * GRAVITY * forces.gravity))
         .collect();
     for s in &cloth.springs {

@@ -147,7 +147,7 @@ impl<'a> Tangent<'a> {
         let (cloth, inertia) = (self.cloth, 1.0 / (self.dt * self.dt));
         let mut out: Vec<Vec3> = (0..p.len())
             .into_par_iter()
-            .with_min_len(512)
+            .with_min_len(super::ONE_THREAD)
             .map(|i| cloth.bending.gradient(p, i) + p[i] * (cloth.mass[i] * inertia))
             .collect();
         for (s, SpringTangent { direction: t, along, across }) in cloth.springs.iter().zip(&self.springs) {

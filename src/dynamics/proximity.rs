@@ -89,7 +89,7 @@ impl<'a> Proximity<'a> {
             self.detect(cloth, x);
             return true;
         }
-        self.contacts.par_iter_mut().with_min_len(512).for_each(|c| c.refresh(x));
+        self.contacts.par_iter_mut().with_min_len(super::ONE_THREAD).for_each(|c| c.refresh(x));
         self.bounds.refresh(&self.contacts);
         false
     }

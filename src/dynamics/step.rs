@@ -211,7 +211,7 @@ impl Stepper {
         let blocks: Vec<Mat3> = cloth
             .springs
             .par_iter()
-            .with_min_len(1024)
+            .with_min_len(super::ONE_THREAD)
             .map(|s| {
                 let SpringTangent { direction, along, across } = s.tangent(&cloth.laws[s.law as usize], x);
                 // A compressed spring would buckle within one step: the absolute value lets it, but gently.

@@ -190,6 +190,16 @@ impl<'a> World<'a> {
         Ok(largest.sqrt())
     }
 
+    /// Looks for contacts anew. Between detections a node slides on the plane where it met the body; on a curved body
+    /// that plane is wrong by as much as the surface bends away.
+    ///
+    /// # Errors
+    /// As [`Stepper::new`].
+    pub fn detect(&mut self) -> Result<(), StepError> {
+        self.proximity.detect(&self.cloth, &self.x);
+        self.contacts_changed()
+    }
+
     /// Gives the system the couplings of layers that have come near each other.
     fn contacts_changed(&mut self) -> Result<(), StepError> {
         let Some(known) = &mut self.touching else { return Ok(()) };
