@@ -716,6 +716,12 @@ fn lines_and_places_that_cloth_cannot_have_are_named_with_their_place() {
     says(&line("fold: 1e8"), 4, "1e8", "fold must be between -180 and 180 degrees, not 100000000");
     says(&line("ratio: 0.001"), 4, "0.001", "ratio must be between 0.05 and 1");
     says(&line("ratio: 1.2"), 4, "1.2", "ratio must be between 0.05 and 1");
+    says(&line("kind: elastic"), 4, "x:", "line 'x' of 'a' is elastic and does not say to what share it draws in");
+    says(&line("kind: fold"), 4, "x:", "does not say its angle; add 'fold: 180'");
+    says(&line("kind: elastc"), 4, "x:", "is of kind 'elastc'; did you mean 'elastic'?");
+    says(&line("kind: elastc, ratio: 0.8"), 4, "x:", "only 'kind: elastic' has one");
+    says(&line("fold: 90, ratio: 0.8"), 4, "x:", "has both a fold angle and a ratio");
+    assert!(mistakes(&line("kind: stitch")).is_empty());
     let short = "  a:\n    lines: {x: {path: M 0 50 L 0 50.001, fold: 90}}\n";
     says(&squares("  a:\n", short), 4, "M 0 50", "line 'x' of 'a' is only 0.001 mm long");
     let far = squares("  a:\n", "  a:\n    place: {at: [0, 1e6, 0]}\n");

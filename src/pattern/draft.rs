@@ -7,18 +7,16 @@ use super::crossing::{contains, first_crossing};
 use super::dart;
 use super::diagnostic::{Findings, Located, Spot};
 use super::file::{AllowanceFile, Cut, OutlineFile, PieceFile, PlaceFile, Side, Unit};
+use super::line;
 use super::pleat;
 use super::problem::Problem;
-use super::region::{Region, first_off};
-use super::{Edge, Line, LineKind, Place, SeamKind};
+use super::region::Region;
+use super::{Edge, Line, Place, SeamKind};
 use crate::geometry::{Path, Vec2, Vec3};
 use crate::input::nearest;
 
 /// A drawn outline may miss its start by this much (metres): rounding of the file's numbers.
 const CLOSURE: f64 = 5e-5;
-/// A line that bends or gathers the cloth is at least this long (metres): a shorter one is a slip of the pen, and would
-/// make springs without length.
-const SHORTEST_LINE: f64 = 1e-3;
 /// A hole that encloses less (square metres) is a line or a point drawn as one.
 const SMALLEST_HOLE: f64 = 1e-6;
 /// Longer edges (metres) are a wrong unit or a slip of the pen, and would take for ever to look at.
@@ -160,7 +158,7 @@ pub(super) fn draft(piece: &PieceFile, unit: Unit, findings: &mut Findings) -> O
     dart::cut_fish_eyes(&mut drawn, piece, unit, findings);
     pleat::lay(&mut drawn, piece, unit, findings);
     fold(&mut drawn, piece, findings);
-    lines(&mut drawn, &Region::new(&whole), piece, unit, findings);
+    line::lines(&mut drawn, &Region::new(&whole), piece, unit, findings);
     allowances(&drawn, piece, findings);
     notches(&mut drawn, piece, unit, findings);
     check_names(&drawn, findings);
@@ -260,7 +258,7 @@ fn edge_path(at: Vec2, commands: &str, scale: f64) -> Result<Path, String> {
     check_size(path)
 }
 
-fn check_size(path: Path) -> Result<Path, String> {
+pub(super) fn check_size(path: Path) -> Result<Path, String> {
     if path.length() > LONGEST_EDGE {
         let length = path.length();
         let shown = if length < 1e6 { format!("{length:.0}") } else { format!("{length:.1e}") };
@@ -382,44 +380,6 @@ fn beyond_fold(drawn: &Draft, fold: &Path) -> bool {
         .iter()
         .flat_map(|e| e.path.sampled(super::crossing::CHORD_ERROR))
         .any(|p| along.perp(&(p - fold.start())) < -CLOSURE)
-}
-
-/// Lines may run through darts, which are closed when the line is looked at, and end anywhere on the cloth.
-fn lines(drawn: &mut Draft, whole: &Region, piece: &PieceFile, unit: Unit, findings: &mut Findings) {
-    let across = drawn.fold.map(|fold| across(&drawn.rings[0][fold].path));
-    let on_cloth = |p: Vec2| whole.holds(p) || across.as_ref().is_some_and(|across| whole.holds(across(p)));
-    for line in &piece.lines {
-        let kind = match (&line.fold, &line.ratio, &line.kind) {
-            (Some(angle), _, _) => LineKind::Fold(angle.value.to_radians()),
-            (None, Some(ratio), _) => LineKind::Elastic(ratio.value),
-            (None, None, kind) => LineKind::Mark(kind.as_ref().map_or_else(|| "mark".to_owned(), |k| k.value.clone())),
-        };
-        match Path::parse_absolute(&line.path.value, unit.factor()).map_err(|e| e.to_string()).and_then(check_size) {
-            Ok(path) => {
-                if let Some(off) = first_off(&path, on_cloth) {
-                    let (piece, line_name) = (drawn.name.clone(), line.name.value.clone());
-                    findings.error(line.path.at, Problem::LineOff { piece, line: line_name, near: shown(off) });
-                }
-                let length = path.length();
-                if length < SHORTEST_LINE && !matches!(kind, LineKind::Mark(_)) {
-                    let (piece, line_name) = (drawn.name.clone(), line.name.value.clone());
-                    let (length, least) = ((length * 1e6).round() / 1e3, SHORTEST_LINE * 1e3);
-                    findings.error(line.path.at, Problem::LineShort { piece, line: line_name, length, least });
-                }
-                drawn.lines.push(Line { name: line.name.value.clone(), path, kind });
-            }
-            Err(reason) => {
-                let (piece, edge) = (drawn.name.clone(), line.name.value.clone());
-                findings.error(line.path.at, Problem::BadPath { piece, edge, reason });
-            }
-        }
-    }
-}
-
-/// The reflection across a straight edge.
-fn across(edge: &Path) -> impl Fn(Vec2) -> Vec2 + use<> {
-    let (start, along) = (edge.start(), (edge.end() - edge.start()).normalize());
-    move |p| start + 2.0 * along * along.dot(&(p - start)) - (p - start)
 }
 
 /// Allowances by edge must name edges.

@@ -28,6 +28,7 @@ mod draft;
 mod expand;
 mod file;
 mod inherit;
+mod line;
 mod measure;
 mod place_word;
 mod pleat;

@@ -114,6 +114,8 @@ pub enum Problem {
     LineOff { piece: String, line: String, near: String },
     #[error("line '{line}' of '{piece}' is only {length} mm long; draw it at least {least} mm long or leave it out")]
     LineShort { piece: String, line: String, length: f64, least: f64 },
+    #[error("line '{line}' of '{piece}' {contradiction}")]
+    LineKind { piece: String, line: String, contradiction: String },
     #[error("place of '{piece}': {at} is more than {most} m from the body's feet; positions are in the file's units")]
     PlaceFar { piece: String, at: String, most: f64 },
     #[error("point {at} of the {kind} lies off piece '{piece}'")]

@@ -1,0 +1,77 @@
+//! Lines inside a piece: folds, elastic and marks.
+
+use super::diagnostic::Findings;
+use super::draft::{Draft, check_size, shown};
+use super::file::{LineFile, PieceFile, Unit};
+use super::problem::Problem;
+use super::region::{Region, first_off};
+use super::{Line, LineKind};
+use crate::geometry::{Path, Vec2};
+use crate::input::nearest;
+
+/// A line that bends or gathers the cloth is at least this long (metres): a shorter one is a slip of the pen, and would
+/// make springs without length.
+const SHORTEST_LINE: f64 = 1e-3;
+
+/// Lines may run through darts, which are closed when the line is looked at, and end anywhere on the cloth.
+pub(super) fn lines(drawn: &mut Draft, whole: &Region, piece: &PieceFile, unit: Unit, findings: &mut Findings) {
+    let across = drawn.fold.map(|fold| across(&drawn.rings[0][fold].path));
+    let on_cloth = |p: Vec2| whole.holds(p) || across.as_ref().is_some_and(|across| whole.holds(across(p)));
+    for line in &piece.lines {
+        if let Some(contradiction) = contradiction(line) {
+            let (piece, line_name) = (drawn.name.clone(), line.name.value.clone());
+            findings.error(line.name.at, Problem::LineKind { piece, line: line_name, contradiction });
+        }
+        let kind = match (&line.fold, &line.ratio, &line.kind) {
+            (Some(angle), _, _) => LineKind::Fold(angle.value.to_radians()),
+            (None, Some(ratio), _) => LineKind::Elastic(ratio.value),
+            (None, None, kind) => LineKind::Mark(kind.as_ref().map_or_else(|| "mark".to_owned(), |k| k.value.clone())),
+        };
+        match Path::parse_absolute(&line.path.value, unit.factor()).map_err(|e| e.to_string()).and_then(check_size) {
+            Ok(path) => {
+                if let Some(off) = first_off(&path, on_cloth) {
+                    let (piece, line_name) = (drawn.name.clone(), line.name.value.clone());
+                    findings.error(line.path.at, Problem::LineOff { piece, line: line_name, near: shown(off) });
+                }
+                let length = path.length();
+                if length < SHORTEST_LINE && !matches!(kind, LineKind::Mark(_)) {
+                    let (piece, line_name) = (drawn.name.clone(), line.name.value.clone());
+                    let (length, least) = ((length * 1e6).round() / 1e3, SHORTEST_LINE * 1e3);
+                    findings.error(line.path.at, Problem::LineShort { piece, line: line_name, length, least });
+                }
+                drawn.lines.push(Line { name: line.name.value.clone(), path, kind });
+            }
+            Err(reason) => {
+                let (piece, edge) = (drawn.name.clone(), line.name.value.clone());
+                findings.error(line.path.at, Problem::BadPath { piece, edge, reason });
+            }
+        }
+    }
+}
+
+/// What a line says against itself: kinds are free words, but 'elastic' and 'fold' mean that the cloth is drawn in or
+/// creased, and then it must be said how much.
+fn contradiction(line: &LineFile) -> Option<String> {
+    let kind = line.kind.as_ref().map(|k| k.value.as_str());
+    match (kind, &line.fold, &line.ratio) {
+        (_, Some(_), Some(_)) => Some("has both a fold angle and a ratio; make it two lines".to_owned()),
+        (Some("elastic"), _, None) => {
+            Some("is elastic and does not say to what share it draws in; add 'ratio: 0.8'".to_owned())
+        }
+        (Some("fold"), None, _) => Some("is a fold and does not say its angle; add 'fold: 180'".to_owned()),
+        (Some(kind), _, Some(_)) if kind != "elastic" => {
+            Some(format!("has a ratio and is of kind '{kind}'; only 'kind: elastic' has one"))
+        }
+        (Some(kind), None, None) => {
+            let meant = nearest(kind, ["elastic", "fold"])?;
+            Some(format!("is of kind '{kind}'; did you mean '{meant}'?"))
+        }
+        _ => None,
+    }
+}
+
+/// The reflection across a straight edge.
+fn across(edge: &Path) -> impl Fn(Vec2) -> Vec2 + use<> {
+    let (start, along) = (edge.start(), (edge.end() - edge.start()).normalize());
+    move |p| start + 2.0 * along * along.dot(&(p - start)) - (p - start)
+}
