@@ -108,20 +108,13 @@ impl Bounds {
             for contact in &self.on_body {
                 let start = contact.gap(from);
                 if start > 0.0 && contact.gap(to) < HELD * self.need(start) {
-                    for (node, _) in contact.parts() {
-                        clean &= to[node] == from[node];
-                        to[node] = from[node];
-                    }
+                    clean &= !put_back(contact, from, to);
                 }
             }
             for (contact, &need) in self.pairs.iter().zip(needs) {
-                if separation(contact, to) < HELD * need
-                    && rolled(contact, from, to).is_none_or(|turned| separation(&turned, to) < HELD * need)
-                {
-                    for (node, _) in contact.parts() {
-                        clean &= to[node] == from[node];
-                        to[node] = from[node];
-                    }
+                let close = |c: &Contact, to: &[Vec3]| separation(c, to) < HELD * need;
+                if close(contact, to) && close(&rolled(contact, from, to), to) {
+                    clean &= !put_back(contact, from, to);
                 }
             }
             if clean {
@@ -176,8 +169,9 @@ fn lift(contact: &Contact, x: &mut [Vec3], need: f64) -> bool {
     true
 }
 
-/// The pair with its direction at the end of a step, if it is separated all the way there while it turns.
-fn rolled(contact: &Contact, from: &[Vec3], to: &[Vec3]) -> Option<Contact> {
+/// The pair as it is to be judged at the end of a step: with its direction there if it is separated all the way while
+/// that turns, otherwise with the one it has.
+fn rolled(contact: &Contact, from: &[Vec3], to: &[Vec3]) -> Contact {
     let mut turned = *contact;
     turned.refresh(to);
     let (n, m) = (contact.normal, turned.normal);
@@ -186,18 +180,22 @@ fn rolled(contact: &Contact, from: &[Vec3], to: &[Vec3]) -> Option<Contact> {
         let (before, after) = (from[p] - from[q], to[p] - to[q]);
         n.dot(&before) >= 0.0 && n.dot(&after) + m.dot(&before) >= 0.0 && m.dot(&after) >= 0.0
     });
-    apart.then_some(turned)
+    if apart { turned } else { *contact }
 }
 
 /// Keeps a pair apart by `need` at the end of a step; whether it had to be pushed.
 fn keep_apart(contact: &Contact, from: &[Vec3], to: &mut [Vec3], need: f64) -> bool {
-    if separation(contact, to) >= need * SLACK {
-        return false;
+    separation(contact, to) < need * SLACK && push_apart(&rolled(contact, from, to), to, need)
+}
+
+/// Leaves the nodes of a contact where they were; whether they were going to move.
+fn put_back(contact: &Contact, from: &[Vec3], to: &mut [Vec3]) -> bool {
+    let mut moved = false;
+    for (node, _) in contact.parts() {
+        moved |= to[node] != from[node];
+        to[node] = from[node];
     }
-    match rolled(contact, from, to) {
-        Some(turned) => push_apart(&turned, to, need),
-        None => push_apart(contact, to, need),
-    }
+    moved
 }
 
 /// Pushes both sides off the plane half-way between them; whether that was needed.

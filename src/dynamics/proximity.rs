@@ -113,10 +113,9 @@ impl<'a> Proximity<'a> {
         self.detector.tangles(x)
     }
 
-    /// Changes which nodes are being led out of a tangle, and looks again.
-    pub(super) fn set_tangled(&mut self, cloth: &Cloth, x: &[Vec3], tangled: Vec<bool>) {
+    /// Changes which nodes are being led out of a tangle, for the next detection.
+    pub(super) fn set_tangled(&mut self, tangled: Vec<bool>) {
         self.detector.set_tangled(tangled);
-        self.detect(cloth, x);
     }
 
     fn body_contacts(&mut self, x: &[Vec3]) -> Vec<Contact> {

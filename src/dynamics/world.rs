@@ -238,8 +238,8 @@ impl<'a> World<'a> {
     /// # Errors
     /// As [`Stepper::new`].
     pub fn set_tangled(&mut self, tangled: Vec<bool>) -> Result<(), StepError> {
-        self.proximity.set_tangled(&self.cloth, &self.x, tangled);
-        self.contacts_changed()
+        self.proximity.set_tangled(tangled);
+        self.detect()
     }
 }
 

@@ -150,10 +150,7 @@ impl Curvature {
             self.matrix.add_block(slots[1], &block);
             self.matrix.add_block(slots[2], &-block);
         }
-        for &(slot, tie) in &self.ties {
-            self.matrix.add_block(slot, &(Matrix2::identity() * tie));
-        }
-        &self.matrix
+        self.tie(1.0)
     }
 
     /// The matrix with every vertex tied `times` as fast again to where it is, for where it is not positive to rounding:

@@ -84,15 +84,11 @@ fn renew(
     energy: &Energy,
     flat: &[Vec2],
 ) -> Result<(), FlattenError> {
-    if factor.factor(curvature.update(energy, flat)).is_ok() {
-        return Ok(());
-    }
+    let mut made = factor.factor(curvature.update(energy, flat));
     for times in TIES {
-        if factor.factor(curvature.tie(times)).is_ok() {
-            return Ok(());
-        }
+        made = made.or_else(|_| factor.factor(curvature.tie(times)));
     }
-    Err(FlattenError::Breakdown)
+    made.map_err(|_| FlattenError::Breakdown)
 }
 
 /// Backtracks from the full step, or from just before the first flip, to a lower energy; the step and that energy.

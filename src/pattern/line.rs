@@ -18,9 +18,10 @@ pub(super) fn lines(drawn: &mut Draft, whole: &Region, piece: &PieceFile, unit: 
     let across = drawn.fold.map(|fold| across(&drawn.rings[0][fold].path));
     let on_cloth = |p: Vec2| whole.holds(p) || across.as_ref().is_some_and(|across| whole.holds(across(p)));
     for line in &piece.lines {
+        let names = (drawn.name.clone(), line.name.value.clone());
         if let Some(contradiction) = contradiction(line) {
-            let (piece, line_name) = (drawn.name.clone(), line.name.value.clone());
-            findings.error(line.name.at, Problem::LineKind { piece, line: line_name, contradiction });
+            let (piece, name) = names.clone();
+            findings.error(line.name.at, Problem::LineKind { piece, line: name, contradiction });
         }
         let kind = match (&line.fold, &line.ratio, &line.kind) {
             (Some(angle), _, _) => LineKind::Fold(angle.value.to_radians()),
@@ -30,19 +31,19 @@ pub(super) fn lines(drawn: &mut Draft, whole: &Region, piece: &PieceFile, unit: 
         match Path::parse_absolute(&line.path.value, unit.factor()).map_err(|e| e.to_string()).and_then(check_size) {
             Ok(path) => {
                 if let Some(off) = first_off(&path, on_cloth) {
-                    let (piece, line_name) = (drawn.name.clone(), line.name.value.clone());
-                    findings.error(line.path.at, Problem::LineOff { piece, line: line_name, near: shown(off) });
+                    let (piece, name) = names.clone();
+                    findings.error(line.path.at, Problem::LineOff { piece, line: name, near: shown(off) });
                 }
                 let length = path.length();
                 if length < SHORTEST_LINE && !matches!(kind, LineKind::Mark(_)) {
-                    let (piece, line_name) = (drawn.name.clone(), line.name.value.clone());
+                    let (piece, name) = names.clone();
                     let (length, least) = ((length * 1e6).round() / 1e3, SHORTEST_LINE * 1e3);
-                    findings.error(line.path.at, Problem::LineShort { piece, line: line_name, length, least });
+                    findings.error(line.path.at, Problem::LineShort { piece, line: name, length, least });
                 }
                 drawn.lines.push(Line { name: line.name.value.clone(), path, kind });
             }
             Err(reason) => {
-                let (piece, edge) = (drawn.name.clone(), line.name.value.clone());
+                let (piece, edge) = names;
                 findings.error(line.path.at, Problem::BadPath { piece, edge, reason });
             }
         }
