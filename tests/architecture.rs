@@ -44,7 +44,7 @@ const FLOORS: [(&str, &[&str]); 18] = [
 ];
 
 /// Crates and the paths below `src` that may name them.
-const CRATES: [(&str, &[&str]); 14] = [
+const CRATES: [(&str, &[&str]); 16] = [
     ("parry3d_f64", &["contact/"]),
     ("faer", &["linear/"]),
     ("spade", &["mesh/"]),
@@ -52,7 +52,10 @@ const CRATES: [(&str, &[&str]); 14] = [
     ("svgtypes", &["geometry/"]),
     ("svg", &["io/pattern_svg.rs"]),
     ("obj", &["io/obj_read.rs"]),
-    ("png", &["picture/"]),
+    // Written in `picture`; what users hand in is read where it is measured.
+    ("png", &["picture/", "fabric/measure/photo.rs"]),
+    ("zune_jpeg", &["fabric/measure/photo.rs"]),
+    ("zune_core", &["fabric/measure/photo.rs"]),
     ("saphyr_parser", &["io/garment/"]),
     // Three small formats, each read where it is defined.
     ("serde_yaml", &["io/garment/", "fabric/", "mannequin/"]),

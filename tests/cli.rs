@@ -297,6 +297,26 @@ fn test_compares_garments_with_their_own_bounds() {
 }
 
 #[test]
+fn readings_become_a_fabric() {
+    let room = Room::new();
+    let rows = |k: usize| format!("{k}, {}, {}, {}\n", 1500 + 7 * k, 620 + k, 20 + k);
+    let table: String = (1..=20).map(rows).collect();
+    room.put("readings.csv", &format!("repeat, recovery, stretch, bend\ninitial, 1840, 610,\n{table}"));
+    let run = room.run(&["fabric", "measure", "readings.csv", "-o", "mine.yaml"]);
+    assert!(run.ends(0).out.contains("bending length by"), "{}", run.out);
+    let shown = room.run(&["fabric", "show", "mine.yaml", "--json"]).json();
+    assert_eq!(shown["liu"]["spread"].as_array().map(Vec::len), Some(3));
+    let mean = shown["liu"]["means"][2].as_f64().expect("a number");
+    assert!((mean - 30.5 / 40.0).abs() < 1e-6, "{mean}");
+    room.run(&["fabric", "measure", "readings.csv", "-o", "readings.csv"]).ends(2).says(&["it is an input"]);
+    room.put("few.csv", "repeat, recovery, stretch, bend\ninitial, 1840, 610,\n1, 1500, 620, 30\n");
+    room.run(&["fabric", "measure", "few.csv", "-o", "few.yaml"])
+        .ends(2)
+        .says(&["recovery: 1 readings; the test has 20"]);
+    assert!(!room.dir.path().join("few.yaml").exists());
+}
+
+#[test]
 fn libraries_are_listed_and_shown() {
     let room = Room::new();
     assert!(room.run(&["fabric", "list"]).ends(0).out.contains("cotton_poplin"));

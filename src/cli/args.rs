@@ -53,7 +53,7 @@ pub(super) enum Command {
     Flatten(FlattenArgs),
     /// Run garments against their own tests
     Test(TestArgs),
-    /// The library of fabrics
+    /// The library of fabrics, and fabric files from readings
     #[command(subcommand)]
     Fabric(FabricCommand),
     /// The library of mannequins
@@ -168,6 +168,15 @@ pub(super) enum FabricCommand {
         /// Library name or file
         #[arg(value_name = "NAME|FILE.yaml")]
         name: String,
+    },
+    /// Make a fabric file from readings of the three tests, photographs, or KES and FAST sheets
+    Measure {
+        /// Readings, or a sheet
+        #[arg(value_name = "READINGS.yaml|.csv")]
+        readings: PathBuf,
+        /// The file to write
+        #[arg(short, long, value_name = "FABRIC.yaml")]
+        output: PathBuf,
     },
 }
 

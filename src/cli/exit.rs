@@ -3,6 +3,7 @@
 use std::process::ExitCode;
 
 use crate::fabric::FabricError;
+use crate::fabric::measure::MeasureError;
 use crate::io::files::WriteError;
 use crate::mannequin::MannequinError;
 use crate::pipeline::{PipelineError, SewError};
@@ -41,6 +42,9 @@ pub(super) enum CliError {
     /// No such fabric.
     #[error(transparent)]
     Fabric(#[from] FabricError),
+    /// Readings that make no fabric.
+    #[error(transparent)]
+    Measure(#[from] MeasureError),
     /// No such mannequin.
     #[error(transparent)]
     Mannequin(#[from] MannequinError),

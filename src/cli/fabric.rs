@@ -1,11 +1,15 @@
-//! `fabric`: the library of fabrics.
+//! `fabric`: the library of fabrics, and fabric files from readings.
 
-use serde_json::json;
+use std::path::Path;
+
+use serde_json::{Value, json};
 
 use super::args::FabricCommand;
 use super::console::Console;
 use super::exit::{CliError, Exit};
-use crate::fabric::{FabricSheet, library, load, sheet};
+use crate::fabric::measure::{Measured, TESTS, fabric_yaml, measure};
+use crate::fabric::{Fabric, FabricSheet, LiuMeasures, library, load, sheet};
+use crate::io::files::{check_writable, write_all};
 use crate::report::aligned;
 
 /// `toile fabric …`
@@ -13,45 +17,59 @@ pub(super) fn fabric(command: &FabricCommand, console: &Console) -> Result<Exit,
     match command {
         FabricCommand::List => list(console)?,
         FabricCommand::Show { name } => show(name, console)?,
+        FabricCommand::Measure { readings, output } => from_readings(readings, output, console)?,
     }
     Ok(Exit::Done)
 }
 
 fn list(console: &Console) -> Result<(), CliError> {
-    let sheets: Vec<FabricSheet> = library().into_iter().map(sheet).collect::<Result<_, _>>()?;
-    let rows: Vec<_> = sheets.iter().map(|s| json!({"name": s.name, "description": s.description})).collect();
-    console.results(&rows, || {
-        let mut rows = vec![["fabric", "description"].map(String::from).to_vec()];
-        rows.extend(sheets.iter().map(|s| vec![s.name.clone(), s.description.clone()]));
-        aligned(&rows)
-    })
+    let mut values = Vec::new();
+    let head = ["fabric", "g/m²", "bending mm", "ω_R %", "ω_S %", "ω_B %", "description"];
+    let mut rows = vec![head.map(String::from).to_vec()];
+    for name in library() {
+        let (sheet, fabric) = (sheet(name)?, load(name)?);
+        let (weight, length) = (1e3 * fabric.areal_density, 1e3 * fabric.bending_length_mean());
+        let omega = sheet.liu.as_ref().map(|l| l.weights);
+        values.push(json!({"name": sheet.name, "description": sheet.description, "weight_g_m2": weight,
+                           "bending_length_mm": length, "weights": omega}));
+        let mut row = vec![sheet.name, format!("{weight:.0}"), format!("{length:.1}")];
+        row.extend(omega.map_or_else(|| vec!["–".to_owned(); 3], |w| w.map(|x| x.to_string()).to_vec()));
+        row.push(sheet.description);
+        rows.push(row);
+    }
+    console.results(&values, || aligned(&rows))
 }
 
 fn show(name: &str, console: &Console) -> Result<(), CliError> {
     let sheet = sheet(name)?;
     // A sheet can be read whose values make no fabric; the user should know.
     let fabric = load(name)?;
+    console.results(&shown(&sheet, &fabric), || text(&sheet, &fabric))
+}
+
+fn shown(sheet: &FabricSheet, fabric: &Fabric) -> Value {
     let values: Vec<_> = sheet
         .measurements
         .iter()
         .map(|m| json!({"key": m.key, "value": m.value, "uncertainty": m.uncertainty, "source": m.source}))
         .collect();
     let liu = sheet.liu.as_ref().map(|l| {
-        json!({"sample": l.sample, "means": l.means, "normalised": l.normalised, "weights": l.weights,
-               "recomputed_weights": l.recomputed_weights()})
+        json!({"sample": l.sample, "means": l.means, "spread": l.spread, "normalised": l.normalised,
+               "weights": l.weights, "recomputed_weights": l.recomputed_weights(),
+               "bending_length_mm": 1e3 * l.bending_length()})
     });
-    let value = json!({
+    json!({
         "name": sheet.name,
         "description": sheet.description,
         "values": values,
         "assumed": fabric.defaults,
         "bending_length_mm": 1e3 * fabric.bending_length_mean(),
+        "note": sheet.note,
         "liu": liu,
-    });
-    console.results(&value, || text(&sheet, &fabric.defaults, fabric.bending_length_mean()))
+    })
 }
 
-fn text(sheet: &FabricSheet, assumed: &[String], bending_length: f64) -> String {
+fn text(sheet: &FabricSheet, fabric: &Fabric) -> String {
     let mut rows = vec![["value", "", "±", "source"].map(String::from).to_vec()];
     let or_nothing = |text: &Option<String>| text.clone().unwrap_or_default();
     rows.extend(
@@ -61,18 +79,52 @@ fn text(sheet: &FabricSheet, assumed: &[String], bending_length: f64) -> String 
             .map(|m| vec![m.key.clone(), m.value.clone(), or_nothing(&m.uncertainty), or_nothing(&m.source)]),
     );
     let mut out = format!("{}: {}\n\n{}", sheet.name, sheet.description, aligned(&rows));
-    out.push_str(&format!("\n  bending length {:.1} mm\n", 1e3 * bending_length));
-    if !assumed.is_empty() {
-        out.push_str(&format!("  not measured but assumed: {}\n", assumed.join(", ")));
+    out.push_str(&format!("\n  bending length {:.1} mm\n", 1e3 * fabric.bending_length_mean()));
+    if !fabric.defaults.is_empty() {
+        out.push_str(&format!("  not measured but assumed: {}\n", fabric.defaults.join(", ")));
+    }
+    if let Some(note) = &sheet.note {
+        out.push_str(&format!("  {note}\n"));
     }
     if let Some(liu) = &sheet.liu {
-        let three = |v: [f64; 3], digits: usize| v.map(|x| format!("{x:.digits$}")).join(" / ");
-        out.push_str(&format!(
-            "  Liu, Wang & Luo 2015, sample {}: weights {} % (from v': {} %)\n",
-            liu.sample,
-            three(liu.weights, 3),
-            three(liu.recomputed_weights(), 3)
-        ));
+        out.push_str(&format!("\n{}", measures(liu)));
     }
     out
+}
+
+/// The three measures as a table.
+fn measures(liu: &LiuMeasures) -> String {
+    let of = liu.sample.map_or("measured as by".to_owned(), |n| format!("sample {n} of"));
+    let mut rows = vec![["test", "v", "±", "v'", "ω %", "ω by (8)"].map(String::from).to_vec()];
+    let recomputed = liu.recomputed_weights();
+    for (k, test) in TESTS.iter().enumerate() {
+        let spread = liu.spread.map_or("–".to_owned(), |s| format!("{:.4}", s[k]));
+        rows.push(vec![
+            (*test).to_owned(),
+            format!("{:.4}", liu.means[k]),
+            spread,
+            format!("{:.4}", liu.normalised[k]),
+            format!("{:.4}", liu.weights[k]),
+            format!("{:.4}", recomputed[k]),
+        ]);
+    }
+    let length = 1e3 * liu.bending_length();
+    format!("{of} Liu, Wang & Luo 2015:\n{}  bending length by ω_B/ω_R alone {length:.1} mm\n", aligned(&rows))
+}
+
+fn from_readings(readings: &Path, output: &Path, console: &Console) -> Result<(), CliError> {
+    check_writable(&[output.to_owned()], &[readings])?;
+    let stem = output.file_stem().map_or("fabric".into(), |s| s.to_string_lossy());
+    let Measured { sheet, tests, notes, inputs } = measure(readings, &stem)?;
+    let inputs: Vec<&Path> = inputs.iter().map(AsRef::as_ref).collect();
+    write_all(&[(output.to_owned(), fabric_yaml(&sheet).into_bytes())], &inputs)?;
+    for note in &notes {
+        console.note(&format!("note: {note}"));
+    }
+    let fabric = load(&output.display().to_string())?;
+    let mut value = shown(&sheet, &fabric);
+    value["file"] = json!(output.display().to_string());
+    value["notes"] = json!(notes);
+    value["ranges"] = json!(tests.map(|t| t.map(|m| m.range)));
+    console.results(&value, || format!("{}\nwritten to {}\n", text(&sheet, &fabric), output.display()))
 }

@@ -1,6 +1,6 @@
 //! Springs with the fabric's measured, piecewise-linear load–extension curve (F3, F4).
 
-use crate::fabric::{Fabric, TensileCurve};
+use crate::fabric::Fabric;
 use crate::geometry::Vec3;
 
 /// Load per width against strain in one direction of the cloth: linear between knots, the last slope goes on, and
@@ -26,9 +26,8 @@ impl StretchLaw {
             fabric.warp.points.iter().chain(&fabric.weft.points).map(|p| p.1).filter(|&f| f > 0.0).collect();
         loads.sort_by(f64::total_cmp);
         loads.dedup();
-        let strain = |f: f64| {
-            c2 * c2 * strain_at(&fabric.warp, f) + s2 * s2 * strain_at(&fabric.weft, f) + c2 * s2 * f / fabric.shear
-        };
+        let strain =
+            |f: f64| c2 * c2 * fabric.warp.strain(f) + s2 * s2 * fabric.weft.strain(f) + c2 * s2 * f / fabric.shear;
         let knots = std::iter::once((0.0, 0.0)).chain(loads.into_iter().map(|f| (strain(f), f))).collect();
         Self { knots }
     }
@@ -69,15 +68,6 @@ impl StretchLaw {
         let d = strain - e;
         below + f * d + 0.5 * slope * d * d
     }
-}
-
-/// Strain of a measured curve under a load.
-fn strain_at(curve: &TensileCurve, load: f64) -> f64 {
-    let points = &curve.points;
-    let last = points.len() - 1;
-    let i = points[1..last].partition_point(|p| p.1 <= load);
-    let (a, b) = (points[i], points[i + 1]);
-    a.0 + (load - a.1) * (b.0 - a.0) / (b.1 - a.1)
 }
 
 /// A spring between two nodes.

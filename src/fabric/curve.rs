@@ -40,6 +40,14 @@ impl TensileCurve {
         a.1 + (strain - a.0) * (b.1 - a.1) / (b.0 - a.0)
     }
 
+    /// Strain under a load of zero or more, N/m.
+    pub fn strain(&self, load: f64) -> f64 {
+        let last = self.points.len() - 1;
+        let i = self.points[1..last].partition_point(|p| p.1 <= load);
+        let (a, b) = (self.points[i], self.points[i + 1]);
+        a.0 + (load - a.1) * (b.0 - a.0) / (b.1 - a.1)
+    }
+
     /// Slope of the load at a strain, N/m; at a corner that of the segment beyond, zero in compression.
     pub fn slope(&self, strain: f64) -> f64 {
         if strain < 0.0 {

@@ -3,6 +3,7 @@
 mod curve;
 mod error;
 mod library;
+pub mod measure;
 mod resolve;
 mod sheet;
 mod units;

@@ -6,19 +6,22 @@ use std::path::Path;
 
 use super::error::FabricError;
 use super::library::{library, load_in, read};
-use super::sheet::{FabricSheet, flatten};
+use super::sheet::{FabricSheet, LiuMeasures, flatten};
 use super::units::{BEND, LENGTH, Quantity, SHEAR, STRAIN, WEIGHT};
-use super::{Fabric, FabricSpec, TensileCurve};
+use super::{Fabric, FabricSpec, GRAVITY, TensileCurve};
 
 /// What stands in for a value that was not measured: middles of the shipped wovens.
 const THICKNESS: f64 = 0.3e-3;
 const SHEAR_STIFFNESS: f64 = 34.0;
 const FRICTION: f64 = 0.4;
 const EMT: f64 = 0.03;
+/// kg/m²: only for fabrics of which nothing but the three published measures is known, whose shape the ratio of bending
+/// to weight decides, not the weight.
+const AREAL_DENSITY: f64 = 0.15;
 const LT: f64 = 0.7;
 
 /// Keys a fabric may have.
-const KEYS: [&str; 20] = [
+const KEYS: [&str; 27] = [
     "weight",
     "thickness",
     "bend",
@@ -26,15 +29,22 @@ const KEYS: [&str; 20] = [
     "bend.weft",
     "bend.two_HB",
     "shear",
+    "shear.G",
+    "shear.two_HG",
+    "shear.two_HG5",
     "tensile",
     "tensile.EMT",
     "tensile.LT",
     "tensile.warp",
     "tensile.warp.EMT",
     "tensile.warp.LT",
+    "tensile.warp.RT",
+    "tensile.warp.curve",
     "tensile.weft",
     "tensile.weft.EMT",
     "tensile.weft.LT",
+    "tensile.weft.RT",
+    "tensile.weft.curve",
     "friction",
     "drape",
     "source",
@@ -54,7 +64,8 @@ pub struct Context<'a> {
 
 /// The fabric a garment file describes: its base, if any, with the inline values on top. A plain number multiplies the
 /// base's value (friction has no unit, so there it is the value itself). What neither gives is assumed and listed in
-/// [`Fabric::defaults`]; weight and bending have no default.
+/// [`Fabric::defaults`]; weight and bending have no default, except that a fabric file with the three published measures
+/// and no bending has the bending length that follows from its weights ([`LiuMeasures::bending_length`]).
 ///
 /// # Errors
 /// [`FabricError`] for a base that does not exist or leads back to itself, an unknown key, a bad unit, a number out of
@@ -95,7 +106,7 @@ fn base_fabric(name: &str, context: &Context, seen: &mut Vec<String>) -> Result<
 /// The fabric of a file's sheet.
 pub(super) fn from_sheet(sheet: &FabricSheet, context: &Context) -> Result<Fabric, FabricError> {
     let values = sheet.measurements.iter().map(|m| (m.key.clone(), m.value.clone())).collect();
-    let mut fabric = Values { map: values, context }.known()?.fabric(None)?;
+    let mut fabric = Values { map: values, context, liu: sheet.liu.as_ref() }.known()?.fabric(None)?;
     let mut sources: Vec<&str> = sheet.measurements.iter().filter_map(|m| m.source.as_deref()).collect();
     sources.sort_unstable();
     sources.dedup();
@@ -109,6 +120,8 @@ pub(super) fn from_sheet(sheet: &FabricSheet, context: &Context) -> Result<Fabri
 struct Values<'a> {
     map: BTreeMap<String, String>,
     context: &'a Context<'a>,
+    /// What bending follows from where it is not measured.
+    liu: Option<&'a LiuMeasures>,
 }
 
 impl<'a> Values<'a> {
@@ -123,7 +136,7 @@ impl<'a> Values<'a> {
             };
             flatten(key, &value, &mut flat).map_err(fault)?;
         }
-        Self { map: flat.into_iter().map(|m| (m.key, m.value)).collect(), context }.known()
+        Self { map: flat.into_iter().map(|m| (m.key, m.value)).collect(), context, liu: None }.known()
     }
 
     /// Refuses keys that mean nothing.
@@ -196,9 +209,13 @@ impl<'a> Values<'a> {
         let mut defaults = Defaults::new(base);
         let weight = self.quantity(&["weight"], &WEIGHT, base.map(|b| b.areal_density))?;
         let thickness = self.quantity(&["thickness"], &LENGTH, base.map(|b| b.thickness))?;
-        let shear = self.quantity(&["shear"], &SHEAR, base.map(|b| b.shear))?;
+        let shear = self.quantity(&["shear.G", "shear"], &SHEAR, base.map(|b| b.shear))?;
         let friction = self.number(&["friction"], 0.0..=5.0)?.or(base.map(|b| b.friction));
-        let [bend_warp, bend_weft] = self.bending(base, &mut defaults)?;
+        let weight = match (weight, self.liu) {
+            (None, Some(_)) => Some(defaults.note("weight", AREAL_DENSITY)),
+            (weight, _) => weight,
+        };
+        let [bend_warp, bend_weft] = self.bending(base, weight, &mut defaults)?;
         let [warp, weft] = self.tensile(base, &mut defaults)?;
         Ok(Fabric {
             name: self.context.name.to_owned(),
@@ -208,7 +225,7 @@ impl<'a> Values<'a> {
             bend_weft,
             warp,
             weft,
-            shear: defaults.or("shear", self.has("shear"), shear, SHEAR_STIFFNESS),
+            shear: defaults.or("shear", self.has("shear") || self.has("shear.G"), shear, SHEAR_STIFFNESS),
             friction: defaults.or("friction", self.has("friction"), friction, FRICTION),
             source: self.source(base),
             defaults: defaults.0,
@@ -227,15 +244,28 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// Both rigidities. One stands for the other where only one is written.
-    fn bending(&self, base: Option<&Fabric>, defaults: &mut Defaults) -> Result<[f64; 2], FabricError> {
+    /// Both rigidities. One stands for the other where only one is written; where none is, they follow from the weights
+    /// of the published energy, if there are any, and from the mass per area.
+    fn bending(
+        &self,
+        base: Option<&Fabric>,
+        weight: Option<f64>,
+        defaults: &mut Defaults,
+    ) -> Result<[f64; 2], FabricError> {
         let warp = self.quantity(&["bend.warp", "bend"], &BEND, base.map(|b| b.bend_warp))?;
         let weft = self.quantity(&["bend.weft", "bend"], &BEND, base.map(|b| b.bend_weft))?;
         match (warp, weft) {
             (Some(warp), Some(weft)) => Ok([warp, weft]),
             (Some(warp), None) => Ok([warp, defaults.note("bend.weft", warp)]),
             (None, Some(weft)) => Ok([defaults.note("bend.warp", weft), weft]),
-            (None, None) => Err(self.missing("bend", &BEND)),
+            (None, None) => match (self.liu, weight) {
+                (Some(liu), Some(weight)) => {
+                    let rigidity = liu.bending_length().powi(3) * weight * GRAVITY;
+                    let within = rigidity.clamp(*BEND.range.start(), *BEND.range.end());
+                    Ok([defaults.note("bend", within); 2])
+                }
+                _ => Err(self.missing("bend", &BEND)),
+            },
         }
     }
 
@@ -265,6 +295,12 @@ impl<'a> Values<'a> {
     ) -> Result<Option<TensileCurve>, FabricError> {
         let extension = self.quantity(&[emt, "tensile.EMT"], &STRAIN, None)?;
         let linearity = self.number(&[lt, "tensile.LT"], 0.1..=1.5)?;
+        let points = format!("{whole}.curve");
+        if let Some(text) = self.map.get(&points) {
+            defaults.clear(whole);
+            let rows = text.replace(':', ",").split_whitespace().collect::<Vec<_>>().join("\n");
+            return TensileCurve::parse(&rows, &format!("{}, {points}", self.context.name)).map(Some);
+        }
         match (extension, self.first(&[whole, "tensile"]), linearity) {
             (Some(extension), _, linearity) => {
                 defaults.clear(whole);

@@ -20,8 +20,11 @@ pub(super) struct Quantity {
 }
 
 /// Mass per area, kg/m².
-pub(super) const WEIGHT: Quantity =
-    Quantity { units: &[("g/m2", 1e-3), ("kg/m2", 1.0), ("oz/yd2", OZ_PER_YD2)], range: 1e-3..=10.0, si: "kg/m2" };
+pub(super) const WEIGHT: Quantity = Quantity {
+    units: &[("g/m2", 1e-3), ("kg/m2", 1.0), ("mg/cm2", 1e-2), ("oz/yd2", OZ_PER_YD2)],
+    range: 1e-3..=10.0,
+    si: "kg/m2",
+};
 /// Length, m.
 pub(super) const LENGTH: Quantity =
     Quantity { units: &[("mm", 1e-3), ("cm", 1e-2), ("um", 1e-6), ("m", 1.0)], range: 1e-6..=0.03, si: "m" };
@@ -116,7 +119,7 @@ mod tests {
         assert_eq!(WEIGHT.parse("70 N/m"), None);
         assert_eq!(BEND.parse("stiff"), None);
         assert_eq!(LENGTH.parse("mm"), None);
-        assert_eq!(WEIGHT.expected(), "a number in g/m2, kg/m2 or oz/yd2");
+        assert_eq!(WEIGHT.expected(), "a number in g/m2, kg/m2, mg/cm2 or oz/yd2");
         assert_eq!(STRAIN.expected(), "a number in %");
     }
 }

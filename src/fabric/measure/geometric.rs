@@ -1,0 +1,133 @@
+//! The three tests of Liu, Wang & Luo 2015 (L2–L4, L6): from readings to measures, normalised values and weights.
+//!
+//! A measure v is printed in their Table 2 as a ratio: projected area after crumpling over the flat area, diagonal pulled
+//! over diagonal at rest, mean fold height over the highest. Equation (1) as printed would give 1 − v; the ratios are
+//! what the table holds and what is computed here, so that a new fabric stands in one column with the fifteen.
+
+use super::super::sheet::LiuMeasures;
+use super::MeasureError;
+use super::spline::published;
+
+/// Readings of a test that its equations ask for.
+pub const REPEATS: usize = 20;
+/// Names of the tests, in the order of every triple.
+pub const TESTS: [&str; 3] = ["recovery", "stretch", "bend"];
+/// A crumpled specimen may seem this much larger than the flat one: a photograph is not counted better.
+const PHOTO_ERROR: f64 = 0.02;
+/// No cloth's diagonal grows beyond this many times its length at 8 N.
+const LONGEST: f64 = 3.0;
+
+/// The readings of one test.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Readings {
+    /// r⁰ or s⁰: the specimen before the test. Fold heights have none; theirs is the highest reading.
+    pub initial: Option<f64>,
+    /// The repeats, in the same unit.
+    pub repeats: Vec<f64>,
+}
+
+/// What a test says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measure {
+    /// v of the mean of the readings.
+    pub mean: f64,
+    /// Standard deviation of the single readings' v.
+    pub spread: f64,
+    /// Smallest and largest v of a single reading.
+    pub range: [f64; 2],
+    /// v' by (2): where the mean lies between the two.
+    pub normalised: f64,
+}
+
+impl Readings {
+    /// The measure of test number `test` (0 recovery, 1 stretch, 2 bend).
+    ///
+    /// # Errors
+    /// [`MeasureError`] naming the test and the reading that is wrong.
+    pub fn measure(&self, test: usize) -> Result<Measure, MeasureError> {
+        let name = TESTS[test];
+        let fault = |why: String| MeasureError::Test { test: name, why };
+        let count = self.repeats.len();
+        if count < REPEATS {
+            return Err(fault(format!(
+                "{count} readings; the test has {REPEATS}, each with the specimen laid out anew"
+            )));
+        }
+        if let Some(k) = self.repeats.iter().position(|r| !(r.is_finite() && *r > 0.0)) {
+            return Err(fault(format!("reading {} is {}; a number above 0 is expected", k + 1, self.repeats[k])));
+        }
+        let highest = self.repeats.iter().copied().fold(0.0, f64::max);
+        let initial = if test == 2 { highest } else { self.initial.unwrap_or(f64::NAN) };
+        if !(initial.is_finite() && initial > 0.0) {
+            let what = if test == 0 { "the flat specimen's area" } else { "the diagonal's length before the pull" };
+            return Err(fault(format!("give initial: {what}, in the unit of the readings")));
+        }
+        self.plausible(test, initial).map_err(fault)?;
+        let v: Vec<f64> = self.repeats.iter().map(|r| r / initial).collect();
+        let mean = v.iter().sum::<f64>() / count as f64;
+        let spread = (v.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1) as f64).sqrt();
+        let range = v.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(*x), b.max(*x)]);
+        if range[0] >= range[1] {
+            return Err(fault("all readings are the same; equation (2) has nothing to divide by".to_owned()));
+        }
+        let normalised = (mean - range[0]) / (range[1] - range[0]);
+        Ok(Measure { mean, spread, range, normalised })
+    }
+
+    fn plausible(&self, test: usize, initial: f64) -> Result<(), String> {
+        let wrong = |low: f64, high: f64| self.repeats.iter().position(|r| !(low..=high).contains(&(r / initial)));
+        let at = |k: usize| format!("reading {} ({}) against {initial} before the test", k + 1, self.repeats[k]);
+        match test {
+            0 => wrong(0.0, 1.0 + PHOTO_ERROR).map_or(Ok(()), |k| {
+                Err(format!("{}: crumpled cloth covers no more than flat cloth; are the units the same?", at(k)))
+            }),
+            1 => wrong(1.0, LONGEST).map_or(Ok(()), |k| {
+                Err(format!("{}: a pulled diagonal is longer, and less than {LONGEST} times as long", at(k)))
+            }),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Measures, spread and weights of a fabric whose three tests were made.
+pub(super) fn from_tests(tests: [Measure; 3]) -> LiuMeasures {
+    let normalised = tests.map(|t| t.normalised);
+    LiuMeasures {
+        sample: None,
+        means: tests.map(|t| t.mean),
+        spread: Some(tests.map(|t| t.spread)),
+        normalised,
+        weights: weights(normalised),
+    }
+}
+
+/// Measures and weights of a fabric of which only the means are known, by the spline (3) through the fifteen; a spline
+/// that leaves 0 … 1 is cut there. Also says which means lie beyond those of the fifteen.
+pub(super) fn from_means(means: [f64; 3]) -> Result<(LiuMeasures, Vec<String>), MeasureError> {
+    let splines = published()?;
+    let mut notes = Vec::new();
+    let mut normalised = [0.0; 3];
+    for (k, spline) in splines.iter().enumerate() {
+        let [low, high] = spline.range();
+        let (test, v) = (TESTS[k], means[k]);
+        if !(v.is_finite() && v > 0.0 && v < LONGEST) {
+            let why = format!("the mean {v} is no ratio such as {low} or {high}");
+            return Err(MeasureError::Test { test, why });
+        }
+        if v < low || v > high {
+            notes.push(format!("{test}: {v} lies beyond the fifteen fabrics ({low} to {high}); v' is extrapolated"));
+        }
+        normalised[k] = spline.at(v).clamp(0.0, 1.0);
+    }
+    if normalised.iter().sum::<f64>() <= 0.0 {
+        return Err(MeasureError::Test { test: "means", why: "v' is 0 for all three; (8) has no weights".to_owned() });
+    }
+    let liu = LiuMeasures { sample: None, means, spread: None, normalised, weights: weights(normalised) };
+    Ok((liu, notes))
+}
+
+/// Equation (8), percent.
+pub(crate) fn weights(normalised: [f64; 3]) -> [f64; 3] {
+    let sum: f64 = normalised.iter().sum();
+    normalised.map(|v| 100.0 * v / sum)
+}

@@ -1,0 +1,101 @@
+//! Photographs of the recovery test: how much of the picture the cloth covers (L2).
+
+use std::io::Cursor;
+use std::path::Path;
+
+use zune_core::bytestream::ZCursor;
+use zune_core::colorspace::ColorSpace;
+use zune_core::options::DecoderOptions;
+use zune_jpeg::JpegDecoder;
+
+use super::MeasureError;
+use crate::input::bytes;
+
+/// Largest file of a photograph, bytes.
+const LARGEST_FILE: u64 = 64 << 20;
+/// Longest side of a photograph, pixels: those of the largest cameras have half of it.
+const LONGEST_SIDE: usize = 1 << 15;
+/// Most pixels.
+const MOST_PIXELS: usize = 1 << 28;
+
+/// A photograph as grey values, 0 black … 255 white.
+#[derive(Clone, Debug)]
+pub struct Photo {
+    /// Pixels.
+    pub width: usize,
+    /// Pixels.
+    pub height: usize,
+    grey: Vec<u8>,
+}
+
+impl Photo {
+    /// Reads a PNG or JPEG file; colours become their luma (Rec. 601), what is transparent white.
+    ///
+    /// # Errors
+    /// [`MeasureError::Photo`] when the file cannot be read or is neither.
+    pub fn read(path: &Path) -> Result<Self, MeasureError> {
+        let fault = |why: String| MeasureError::Photo { file: path.display().to_string(), why };
+        let bytes = bytes(path, LARGEST_FILE).map_err(|e| fault(e.to_string()))?;
+        if bytes.starts_with(b"\x89PNG") {
+            png(&bytes).map_err(fault)
+        } else if bytes.starts_with(&[0xff, 0xd8]) {
+            jpeg(&bytes).map_err(fault)
+        } else {
+            Err(fault("it is neither PNG nor JPEG".to_owned()))
+        }
+    }
+
+    /// Share of the pixels that are darker than `threshold`, or not darker if the cloth is the `light` part.
+    pub fn share(&self, threshold: u8, light: bool) -> f64 {
+        let dark = self.grey.iter().filter(|g| **g < threshold).count();
+        let count = if light { self.grey.len() - dark } else { dark };
+        count as f64 / self.grey.len() as f64
+    }
+}
+
+fn sized(width: usize, height: usize) -> Result<(), String> {
+    let fits = width.max(height) <= LONGEST_SIDE && width * height <= MOST_PIXELS;
+    if fits { Ok(()) } else { Err(format!("{width} × {height} pixels are too many")) }
+}
+
+fn png(bytes: &[u8]) -> Result<Photo, String> {
+    let mut decoder = png::Decoder::new(Cursor::new(bytes));
+    decoder.set_transformations(png::Transformations::normalize_to_color8());
+    let mut reader = decoder.read_info().map_err(|e| e.to_string())?;
+    let (width, height) = (reader.info().width as usize, reader.info().height as usize);
+    sized(width, height)?;
+    let size = reader.output_buffer_size().ok_or("its size overflows")?;
+    let mut pixels = vec![0; size];
+    let info = reader.next_frame(&mut pixels).map_err(|e| e.to_string())?;
+    let samples = info.color_type.samples();
+    let grey = pixels[..info.buffer_size()].chunks_exact(samples).map(|p| match *p {
+        [g] => g,
+        [g, a] => over_white(g, a),
+        [r, g, b] => luma(r, g, b),
+        [r, g, b, a] => over_white(luma(r, g, b), a),
+        _ => 255,
+    });
+    Ok(Photo { width, height, grey: grey.collect() })
+}
+
+fn jpeg(bytes: &[u8]) -> Result<Photo, String> {
+    let options = DecoderOptions::default().set_max_width(LONGEST_SIDE).set_max_height(LONGEST_SIDE);
+    let mut decoder =
+        JpegDecoder::new_with_options(ZCursor::new(bytes), options.jpeg_set_out_colorspace(ColorSpace::RGB));
+    decoder.decode_headers().map_err(|e| e.to_string())?;
+    let info = decoder.info().ok_or("it has no header")?;
+    let (width, height) = (usize::from(info.width), usize::from(info.height));
+    sized(width, height)?;
+    let pixels = decoder.decode().map_err(|e| e.to_string())?;
+    let grey: Vec<u8> = pixels.chunks_exact(3).map(|p| luma(p[0], p[1], p[2])).collect();
+    if grey.len() == width * height { Ok(Photo { width, height, grey }) } else { Err("it is cut short".to_owned()) }
+}
+
+fn luma(r: u8, g: u8, b: u8) -> u8 {
+    ((299 * u32::from(r) + 587 * u32::from(g) + 114 * u32::from(b) + 500) / 1000) as u8
+}
+
+fn over_white(grey: u8, alpha: u8) -> u8 {
+    let (grey, alpha) = (u32::from(grey), u32::from(alpha));
+    ((grey * alpha + 255 * (255 - alpha) + 127) / 255) as u8
+}
