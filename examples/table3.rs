@@ -1,0 +1,60 @@
+//! Table 3 of Liu, Wang & Luo 2015: meshes, times and iterations of the experiments, the published beside ours.
+//!
+//! `cargo run --release --example table3`. Their edges are counted twice, and three of their meshes cannot be: ours are
+//! the nearest grids. Fig. 10 is made by `toile make patterns/tshirt.yaml --fabric NAME`, with its times in
+//! `report.json`. Times are milliseconds per iteration here; theirs are not said to be of one or of all.
+
+mod common;
+
+use std::error::Error;
+
+use common::{Experiment, ball, diagonal, pull, skirt, weights, wrinkles};
+use toile::drape::geometric::SolveOptions;
+use toile::drape::geometric::{Aim, Alternating, GeometricCloth, Weighting};
+use toile::report::aligned;
+
+/// Vertices, faces, edges, linearise ms, solve ms, iterations.
+const PUBLISHED: [(&str, [f64; 6]); 5] = [
+    ("Fig. 4", [961.0, 1800.0, 5520.0, 3.2, 16.0, 5.0]),
+    ("Fig. 5", [2000.0, 3840.0, 11680.0, 41.5, 19.1, 5.0]),
+    ("Fig. 7", [2601.0, 2500.0, 10200.0, 48.5, 245.0, 15.0]),
+    ("Fig. 9", [1361.0, 2500.0, 7650.0, 12.5, 45.0, 10.0]),
+    ("Fig. 10", [1714.0, 3296.0, 10024.0, 25.0, 13.0, 10.0]),
+];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let head = ["", "fabric", "solver", "vertices", "faces", "edges", "linearise ms", "solve ms", "iterations"];
+    let mut rows = vec![head.map(String::from).to_vec()];
+    for (name, [v, f, e, linearise, solve, n]) in PUBLISHED {
+        let numbers = [v, f, e, linearise, solve, n].map(|x| x.to_string());
+        rows.push([vec![name.to_owned(), String::new(), "published".to_owned()], numbers.to_vec()].concat());
+    }
+    let experiments =
+        [diagonal("Fig. 4", 31, 31), diagonal("Fig. 5", 50, 40), ball(51), pull(51), wrinkles(51), skirt()];
+    for (experiment, fabric) in experiments.iter().flat_map(|e| ["wool_suiting", "cotton_poplin"].map(|f| (e, f))) {
+        rows.extend(measured(experiment, fabric)?);
+    }
+    print!("{}", aligned(&rows));
+    Ok(())
+}
+
+/// Both solvers on one experiment.
+fn measured(e: &Experiment, fabric: &str) -> Result<[Vec<String>; 2], Box<dyn Error>> {
+    let weights = weights(fabric)?;
+    let cloth = GeometricCloth::new(&e.mesh, weights, Weighting::Plain)?;
+    let (_, squares, settled) = common::solve(e, weights, Weighting::Plain)?;
+    let mut x = e.start.clone();
+    let aim = Aim::Targets(e.mesh.vertices.clone());
+    let alternating = Alternating::new(&cloth, &e.held)?.solve(&mut x, &aim, SolveOptions::default())?;
+    let quiet = |w: &[f64]| w[0] - w[1] < common::SETTLED * w[1];
+    let settled_too = alternating.history.windows(2).position(quiet).map_or(alternating.iterations, |k| k + 1);
+    let row = |solver: &str, report: &toile::drape::geometric::Report, settled: usize| {
+        let each = |seconds: f64| format!("{:.2}", 1e3 * seconds / report.iterations.max(1) as f64);
+        let mesh = [e.mesh.vertices.len(), e.mesh.triangles.len(), cloth.edges()].map(|n| n.to_string());
+        let mut out = vec![e.name.to_owned(), fabric.to_owned(), solver.to_owned()];
+        out.extend(mesh);
+        out.extend([each(report.linearise_seconds), each(report.solve_seconds), settled.to_string()]);
+        out
+    };
+    Ok([row("least squares", &squares, settled), row("one factor", &alternating, settled_too)])
+}
