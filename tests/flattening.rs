@@ -116,7 +116,7 @@ fn caps_reach_the_known_optimum() {
         assert_sound(&mesh, &free);
         let ratio = free.report.distortion / optimum;
         println!("cap {degrees}: distortion {ratio:.4} of the optimum, {} steps", free.report.iterations);
-        assert!(ratio < 1.05, "cap {degrees}: {ratio}");
+        assert!(ratio < 1.005, "cap {degrees}: {ratio}");
         // With the rim kept the area cannot be: at least sin²(α/2) is lost (isoperimetric inequality).
         let kept = flatten(&mesh, &mode(Mode::Boundary)).unwrap();
         assert_sound(&mesh, &kept);
@@ -127,6 +127,9 @@ fn caps_reach_the_known_optimum() {
         );
         let longest = (4.0 * PI * kept.report.area_after).sqrt();
         assert!(kept.report.boundary_after >= longest);
+        assert!(kept.report.boundary_error < 1e-6, "{:e}", kept.report.boundary_error);
+        // The bound binds: nothing else is lost.
+        assert!(kept.report.area_error < bound + 3e-3, "{} {bound}", kept.report.area_error);
     }
 }
 
@@ -304,7 +307,7 @@ fn seams_get_equal_lengths_or_their_drawn_ratio() {
         let flat = flatten_garment(&cloth, &[seam(give)], &draped, &Options::default()).unwrap();
         let [a, b] = [0, 1].map(|side| seam_length(&cloth, &flat.positions, side));
         println!("{give:?}: {a} {b} ratio {}", b / a);
-        assert!((b / a / ratio - 1.0).abs() < 2e-3, "{give:?}: {a} {b}");
+        assert!((b / a / ratio - 1.0).abs() < 2e-5, "{give:?}: {a} {b}");
         assert!(flat.pieces.iter().all(|p| p.report.flips == 0 && p.report.converged));
     }
 }
@@ -436,10 +439,10 @@ fn a_bodice_is_as_good_as_the_best_known() {
     let Some((_, mesh)) = surface("bodice_10000.obj") else { return };
     let free = flatten(&mesh, &mode(Mode::Isometric)).unwrap();
     assert_sound(&mesh, &free);
-    assert!(free.report.distortion < 0.0674 && free.report.area_error < 0.0045, "{:?}", free.report);
+    assert!(free.report.distortion < 0.0669 && free.report.area_error < 0.0045, "{:?}", free.report);
     let balanced = flatten(&mesh, &Options::default()).unwrap();
     assert_sound(&mesh, &balanced);
-    assert!(balanced.report.boundary_error < 2e-3 && balanced.report.area_distortion < 0.025, "{:?}", balanced.report);
+    assert!(balanced.report.boundary_error < 1e-5 && balanced.report.area_distortion < 0.01, "{:?}", balanced.report);
 }
 
 /// Two bulging panels of 2,600 particles each, strained by a few per cent as on a body.
@@ -493,4 +496,45 @@ fn timing_of_measured_surfaces() {
             write_svg(&format!("{name}_{m:?}.svg"), &mesh, &flat.positions);
         }
     }
+}
+
+/// The full run of random disks with bumps, spikes and slivers: none flips, none panics.
+#[test]
+#[ignore = "ten thousand disks take minutes"]
+fn ten_thousand_random_disks_never_flip() {
+    // A generator of its own (SplitMix64), so that every run has the same disks.
+    let mut state = 1u64;
+    let mut random = |low: f64, high: f64| {
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        low + (high - low) * ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let (mut refused, mut unsettled, mut overlapping) = (0, 0, 0);
+    for k in 0..10_000 {
+        let count = random(1.0, 6.0) as usize;
+        let bumps: Vec<_> =
+            (0..count).map(|_| (random(0.0, 1.0), random(0.0, 1.0), random(-1.0, 1.0), random(0.02, 0.3))).collect();
+        let mut mesh = bumpy(&bumps);
+        // Slivers: some vertices almost onto a neighbour.
+        for _ in 0..random(0.0, 6.0) as usize {
+            let v = random(0.0, mesh.vertices.len() as f64 - 1.0) as usize;
+            let share = 1.0 - 10f64.powf(random(-6.0, -0.5));
+            mesh.vertices[v] = mesh.vertices[v] + (mesh.vertices[v + 1] - mesh.vertices[v]) * share;
+        }
+        let name = MODES[k % MODES.len()];
+        match flatten(&mesh, &mode(name)) {
+            Ok(flat) => {
+                assert_eq!(flips(&mesh, &flat.positions), 0, "disk {k}, {name:?}");
+                unsettled += usize::from(!flat.report.converged);
+                overlapping += usize::from(flat.report.overlaps > 0);
+            }
+            Err(error) => {
+                println!("disk {k}, {name:?}: {error}");
+                refused += 1;
+            }
+        }
+    }
+    println!("refused {refused}, not settled {unsettled}, overlapping {overlapping}");
 }

@@ -69,3 +69,20 @@ pub enum FlattenError {
         source: Box<FlattenError>,
     },
 }
+
+impl FlattenError {
+    /// The same with other numbers for vertices and triangles: those of the file a surface was read from.
+    pub fn renumbered(self, vertex: &dyn Fn(usize) -> usize, triangle: &dyn Fn(usize) -> usize) -> Self {
+        let vertex32 = |v: u32| vertex(v as usize) as u32;
+        match self {
+            Self::LooseVertex(v) => Self::LooseVertex(vertex(v)),
+            Self::NotFinite(v) => Self::NotFinite(vertex(v)),
+            Self::Degenerate(t) => Self::Degenerate(triangle(t)),
+            Self::NonManifoldEdge(a, b) => Self::NonManifoldEdge(vertex32(a), vertex32(b)),
+            Self::NonManifoldVertex(v) => Self::NonManifoldVertex(vertex(v)),
+            Self::Misoriented(s, t) => Self::Misoriented(triangle(s as usize) as u32, triangle(t as usize) as u32),
+            Self::FlippedStart(t) => Self::FlippedStart(triangle(t)),
+            other => other,
+        }
+    }
+}

@@ -2,17 +2,16 @@
 
 use nalgebra::Matrix2;
 
+use super::distortion::Weights;
 use super::element::Mode;
 use super::{distortion, woven};
 use crate::geometry::Vec2;
 
-/// Weights of a triangle's energy density.
-#[derive(Clone, Copy, Debug)]
+/// What a triangle's energy density is made of.
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Law {
-    /// Of the distortion; positive, for it is the wall before a flip.
-    pub(super) distortion: f64,
-    /// Of (det J − 1)², as a multiple of `distortion`.
-    pub(super) area: f64,
+    /// What counts the same in all directions.
+    pub(super) weights: Weights,
     /// Flat warp direction, where threads count (with weight 1).
     pub(super) warp: Option<Vec2>,
 }
@@ -20,7 +19,7 @@ pub(super) struct Law {
 impl Law {
     /// Energy per area; infinite at and beyond a flip.
     pub(super) fn density(&self, jacobian: &Matrix2<f64>) -> f64 {
-        let distortion = self.distortion * distortion::density(jacobian, self.area);
+        let distortion = distortion::density(jacobian, &self.weights);
         match self.warp {
             Some(warp) if distortion.is_finite() => distortion + woven::density(jacobian, warp),
             _ => distortion,
@@ -29,15 +28,13 @@ impl Law {
 
     /// Its derivative by J.
     pub(super) fn stress(&self, jacobian: &Matrix2<f64>) -> Matrix2<f64> {
-        let distortion = distortion::stress(jacobian, self.area) * self.distortion;
+        let distortion = distortion::stress(jacobian, &self.weights);
         self.warp.map_or(distortion, |warp| distortion + woven::stress(jacobian, warp))
     }
 
     /// Hands out the directions of its curvature.
     pub(super) fn modes(&self, jacobian: &Matrix2<f64>, mut add: impl FnMut(&Mode)) {
-        for mode in distortion::modes(jacobian, self.area) {
-            add(&Mode { curvature: self.distortion * mode.curvature, ..mode });
-        }
+        distortion::modes(jacobian, &self.weights).iter().for_each(&mut add);
         for mode in self.warp.into_iter().flat_map(|warp| woven::modes(jacobian, warp)) {
             add(&mode);
         }
@@ -50,8 +47,8 @@ mod tests {
 
     const STEP: f64 = 1e-6;
     const LAWS: [Law; 2] = [
-        Law { distortion: 1.0, area: 0.2, warp: None },
-        Law { distortion: 0.1, area: 3.0, warp: Some(Vec2::new(0.6, 0.8)) },
+        Law { weights: Weights { dirichlet: 1.0, strain: 0.7, area: 0.2 }, warp: None },
+        Law { weights: Weights { dirichlet: 0.1, strain: 0.0, area: 0.3 }, warp: Some(Vec2::new(0.6, 0.8)) },
     ];
 
     fn moved(jacobian: &Matrix2<f64>, k: usize, by: f64) -> Matrix2<f64> {

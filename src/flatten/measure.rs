@@ -1,11 +1,17 @@
 //! What flattening did to the cloth.
 
+use std::f64::consts::TAU;
+
 use super::Sheet;
 use super::distortion::stretches;
 use super::element::Element;
 use super::overlap::rim_crossings;
 use super::relax::Outcome;
-use crate::geometry::{TriMesh, Vec2};
+use super::start::angle_sums;
+use crate::geometry::{TriMesh, Vec2, Vec3};
+
+/// Share of the area that may be strained more than [`Report::strain_p99`] says: single triangles at a corner.
+const LARGEST_SHARE: f64 = 0.01;
 
 /// What happened to one flat piece. Lengths in metres, areas in square metres, errors as fractions.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +44,14 @@ pub struct Report {
     pub distortion: f64,
     /// Root mean square (by area) of the triangles' relative change of area.
     pub area_distortion: f64,
+    /// Largest |stretch − 1| in any direction that all but a hundredth of the area stays below.
+    pub strain_p99: f64,
+    /// The largest of any triangle.
+    pub strain_max: f64,
+    /// Largest change of the rim's inner angle in one of its vertices, radians.
+    pub corner_change: f64,
+    /// Total Gauss curvature inside the rim, radians: by this much less, all together, the rim's inner angles are flat.
+    pub curvature: f64,
     /// Flipped triangles: always 0.
     pub flips: usize,
     /// Crossings of the flat rims: 0 unless the piece lies on itself.
@@ -57,6 +71,7 @@ pub(super) fn report(sheet: &Sheet<'_>, flat: &[Vec2], outcome: &Outcome) -> Rep
     let boundary_before = topology.rim_edges().map(|e| length(surface, e.ends)).sum();
     let boundary_after = topology.rim_edges().map(|e| flat_length(e.ends)).sum();
     let areas = Areas::of(surface, flat);
+    let angles = Angles::of(sheet, flat);
     let edges = topology.edges.iter().map(|e| error(flat_length(e.ends), length(surface, e.ends)));
     let rim = topology.rim_edges().zip(&sheet.rim_targets).map(|(e, &target)| error(flat_length(e.ends), target));
     Report {
@@ -74,13 +89,39 @@ pub(super) fn report(sheet: &Sheet<'_>, flat: &[Vec2], outcome: &Outcome) -> Rep
         largest_rim_error: rim.fold(0.0, f64::max),
         distortion: (areas.stretch / area_before).sqrt(),
         area_distortion: (areas.change / area_before).sqrt(),
+        strain_p99: areas.exceeded_by(LARGEST_SHARE),
+        strain_max: areas.exceeded_by(0.0),
+        corner_change: angles.corner_change,
+        curvature: angles.curvature,
         flips: areas.flips,
         overlaps: rim_crossings(flat, &sheet.rims),
     }
 }
 
+/// Angles before and after.
+struct Angles {
+    corner_change: f64,
+    curvature: f64,
+}
+
+impl Angles {
+    fn of(sheet: &Sheet<'_>, flat: &[Vec2]) -> Self {
+        let lifted = TriMesh {
+            vertices: flat.iter().map(|p| Vec3::new(p.x, p.y, 0.0)).collect(),
+            triangles: sheet.surface.triangles.clone(),
+        };
+        let (before, after) = (angle_sums(sheet.surface), angle_sums(&lifted));
+        let mut curvature = TAU * before.len() as f64 - before.iter().sum::<f64>();
+        let mut corner_change = 0.0;
+        for &v in sheet.rims.iter().flatten() {
+            curvature -= TAU - before[v as usize];
+            corner_change = f64::max(corner_change, (after[v as usize] - before[v as usize]).abs());
+        }
+        Self { corner_change, curvature }
+    }
+}
+
 /// Sums over the triangles.
-#[derive(Default)]
 struct Areas {
     total: f64,
     flips: usize,
@@ -88,11 +129,14 @@ struct Areas {
     stretch: f64,
     /// Σ A (det J − 1)².
     change: f64,
+    /// Largest |σ − 1| and area of every triangle, the largest first.
+    strains: Vec<[f64; 2]>,
 }
 
 impl Areas {
     fn of(surface: &TriMesh, flat: &[Vec2]) -> Self {
-        let mut sums = Self::default();
+        let strains = Vec::with_capacity(surface.triangles.len());
+        let mut sums = Self { total: 0.0, flips: 0, stretch: 0.0, change: 0.0, strains };
         for (t, &corners) in surface.triangles.iter().enumerate() {
             let element = Element::new(corners, surface.corners(t));
             let jacobian = element.jacobian(flat);
@@ -102,7 +146,28 @@ impl Areas {
             sums.flips += usize::from(det <= 0.0 || det.is_nan());
             sums.stretch += element.area * ((larger - 1.0).powi(2) + (smaller - 1.0).powi(2));
             sums.change += element.area * (det - 1.0).powi(2);
+            sums.strains.push([f64::max(larger - 1.0, 1.0 - smaller), element.area]);
         }
+        sums.strains.sort_unstable_by(|a, b| b[0].total_cmp(&a[0]));
         sums
     }
+
+    /// The strain that this share of the area passes.
+    fn exceeded_by(&self, share: f64) -> f64 {
+        let mut left = share * self.strains.iter().map(|s| s[1]).sum::<f64>();
+        let reached = self.strains.iter().find(|s| {
+            left -= s[1];
+            left < 0.0
+        });
+        reached.map_or(0.0, |s| s[0])
+    }
+}
+
+/// Signed strain of every triangle: the stretch furthest from one, minus one.
+pub fn triangle_strain(surface: &TriMesh, flat: &[Vec2]) -> Vec<f64> {
+    let strain = |(t, &corners): (usize, &[u32; 3])| {
+        let (larger, smaller) = stretches(&Element::new(corners, surface.corners(t)).jacobian(flat));
+        if larger - 1.0 > 1.0 - smaller { larger - 1.0 } else { smaller - 1.0 }
+    };
+    surface.triangles.iter().enumerate().map(strain).collect()
 }

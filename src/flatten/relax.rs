@@ -5,13 +5,15 @@
 //! steps, and it knows the stiff springs of the rim. A step is never longer than to the first flip (Smith & Schaefer
 //! 2015, section 3.3).
 
-use super::FlattenError;
-use super::energy::{Curvature, Energy};
-use crate::geometry::Vec2;
-use crate::linear::{Cholesky, Ordering};
+use super::energy::{Curvature, Energy, Real};
+use super::{FlattenError, Mode, Options};
+use crate::geometry::{Vec2, Vec3};
+use crate::linear::{Cholesky, Ordering, nested_dissection};
 
-/// Steps that one factorisation serves: a factor costs about as much as six steps.
-const STEPS_PER_FACTOR: usize = 6;
+/// Steps that one factorisation serves: a factor costs about as much as six steps, and later ones are worth less.
+const STEPS_PER_FACTOR: usize = 10;
+/// A step cut shorter than this says that the curvature has changed.
+const SHORT: f64 = 0.1;
 /// Share of the way to the first flip that a step may go.
 const SHY_OF_FLIP: f64 = 0.9;
 /// Sufficient decrease (Armijo): this share of what the slope promises.
@@ -23,6 +25,14 @@ const TIES: [f64; 4] = [1e2, 1e4, 1e6, 1e8];
 /// Energy below which nothing can be gained: it is a mean square strain, and this one is 10⁻⁸ squared.
 const ENERGY_FLOOR: f64 = 1e-16;
 
+/// The rim is as long as it should be when its edges are off by less than this share in the mean, for then no part of it
+/// is off by more than this share of the whole: of a rim of two metres by a micrometre where only the rim counts, by less
+/// than a hundredth of a millimetre otherwise, which nobody can cut.
+const RIM_EXACT: [f64; 2] = [5e-7, 4e-6];
+/// How often the forces that hold the rim are found anew. Each time the errors left are fifty to a hundred times
+/// smaller, where the lengths can be had at all.
+const HOLDS: usize = 12;
+
 /// How a relaxation ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Outcome {
@@ -32,22 +42,21 @@ pub(super) struct Outcome {
 }
 
 /// Moves `flat`, which must have no flipped triangle, to a minimum of `energy`. Converged when the next step promises
-/// to win less than `tolerance` of the energy.
-pub(super) fn relax(
-    energy: &Energy,
-    flat: &mut [Vec2],
-    tolerance: f64,
-    max_iterations: usize,
-) -> Result<Outcome, FlattenError> {
+/// to win less than `options.tolerance` of the energy and, where `options.mode` keeps the rim, its edges have their
+/// lengths; the forces that hold them are then those in `energy`.
+pub(super) fn relax(energy: &mut Energy, flat: &mut [Vec2], options: &Options) -> Result<Outcome, FlattenError> {
     let mut curvature = Curvature::new(energy)?;
-    let mut factor = Cholesky::<f64>::new(curvature.pattern().clone(), &Ordering::MinimumDegree)
-        .map_err(|_| FlattenError::Breakdown)?;
+    let order = Ordering::Given(nested_dissection(&lifted(flat), &energy.couplings()));
+    let mut factor = Cholesky::new(curvature.pattern().clone(), &order).map_err(|_| FlattenError::Breakdown)?;
     let mut memory = Memory::default();
     let mut gradient = vec![Vec2::zeros(); flat.len()];
     let mut value = energy.value(flat);
     energy.gradient(flat, &mut gradient);
     let mut stale = true;
-    for iterations in 0..max_iterations {
+    let mut holds = if options.mode.keeps_rim() { HOLDS } else { 0 };
+    let mut held = false;
+    let exact = if options.mode == Mode::Boundary { RIM_EXACT[0] } else { RIM_EXACT[1] };
+    for iterations in 0..options.max_iterations {
         let fresh = stale || memory.pairs.len() >= STEPS_PER_FACTOR;
         if fresh {
             renew(&mut factor, &mut curvature, energy, flat)?;
@@ -55,31 +64,46 @@ pub(super) fn relax(
         }
         let direction = memory.direction(&gradient, &factor);
         let slope = dot(&direction, &gradient);
-        if -slope <= (tolerance * value).max(ENERGY_FLOOR) {
+        let settled = -slope <= (options.tolerance * value.abs()).max(ENERGY_FLOOR);
+        if settled && (holds == 0 || energy.slack(flat) <= exact) {
             return Ok(Outcome { energy: value, iterations, converged: true });
         }
+        // Forces are found from lengths, so every time they have changed the lengths must answer first.
+        if settled && !std::mem::replace(&mut held, true) {
+            // What is left of the way is short: one factor at its beginning serves to its end.
+            stale = holds == HOLDS;
+            holds -= 1;
+            energy.hold(flat);
+            value = energy.value(flat);
+            energy.gradient(flat, &mut gradient);
+            continue;
+        }
+        held = false;
         let Some((step, lower)) = search(energy, flat, &direction, slope, value) else {
             if fresh {
                 // The factor is that of this very place: rounding hides what is left to win.
-                return Ok(Outcome { energy: value, iterations, converged: false });
+                return Ok(Outcome { energy: value, iterations, converged: settled });
             }
             stale = true;
             continue;
         };
-        // A much shortened step says that the curvature has changed.
-        stale = step < 0.5;
+        stale = step < SHORT;
         value = lower;
         advance(flat, &direction, step);
         let before = std::mem::replace(&mut gradient, vec![Vec2::zeros(); flat.len()]);
         energy.gradient(flat, &mut gradient);
         memory.remember(&direction, step, &before, &gradient);
     }
-    Ok(Outcome { energy: value, iterations: max_iterations, converged: false })
+    Ok(Outcome { energy: value, iterations: options.max_iterations, converged: false })
+}
+
+fn lifted(flat: &[Vec2]) -> Vec<Vec3> {
+    flat.iter().map(|p| Vec3::new(p.x, p.y, 0.0)).collect()
 }
 
 /// Factors the curvature at `flat`, tied down more and more where it is not positive to rounding.
 fn renew(
-    factor: &mut Cholesky<f64>,
+    factor: &mut Cholesky<Real>,
     curvature: &mut Curvature,
     energy: &Energy,
     flat: &[Vec2],
@@ -169,7 +193,7 @@ impl Memory {
     }
 
     /// Minus the guessed inverse curvature times the gradient (two-loop recursion).
-    fn direction(&self, gradient: &[Vec2], factor: &Cholesky<f64>) -> Vec<Vec2> {
+    fn direction(&self, gradient: &[Vec2], factor: &Cholesky<Real>) -> Vec<Vec2> {
         let mut d: Vec<Vec2> = gradient.iter().map(|g| -g).collect();
         let mut shares = Vec::with_capacity(self.pairs.len());
         for pair in self.pairs.iter().rev() {
@@ -178,7 +202,7 @@ impl Memory {
             shares.push(share);
         }
         let mut flat: Vec<f64> = d.iter().flat_map(|v| [v.x, v.y]).collect();
-        factor.solve(&mut flat);
+        factor.solve_f64(&mut flat);
         for (d, xy) in d.iter_mut().zip(flat.chunks_exact(2)) {
             *d = Vec2::new(xy[0], xy[1]);
         }

@@ -11,10 +11,7 @@ use crate::geometry::{Topology, TriMesh, Vec2};
 /// # Errors
 /// If even the map onto a circle has a triangle without area (rounding in a very large or uneven mesh).
 pub(super) fn start(surface: &TriMesh, topology: &Topology, rim: &[u32]) -> Result<Vec<Vec2>, FlattenError> {
-    let mut on_rim = vec![false; surface.vertices.len()];
-    for &v in rim {
-        on_rim[v as usize] = true;
-    }
+    let on_rim = marked(surface, rim);
     if let Ok(flat) = boundary_first(surface, topology, rim, &on_rim)
         && first_flipped(&surface.triangles, &flat).is_none()
     {
@@ -46,16 +43,35 @@ fn boundary_first(
 ) -> Result<Vec<Vec2>, FlattenError> {
     let laplacian = Laplacian::new(surface, topology, on_rim, Weights::Cotangent)?;
     let angles = angle_sums(surface);
-    // Yamabe: Δu = K inside. A is −Δ, integrated.
-    let source: Vec<f64> = angles.iter().map(|a| a - TAU).collect();
-    let mut scale = vec![0.0; angles.len()];
-    laplacian.solve(&source, &mut scale);
+    let scale = yamabe(&laplacian, &angles);
     // Cherrier: the rim's curvature changes by the normal derivative of u.
     let flux = laplacian.apply(&scale);
     let turning: Vec<f64> = rim.iter().map(|&v| PI - angles[v as usize] + flux[v as usize]).collect();
     let lengths: Vec<f64> = rim_lengths(surface, rim);
     let outline = closed_curve(&lengths, &turning);
     Ok(extend(&laplacian, surface.vertices.len(), rim, &outline))
+}
+
+/// The u with Δu = K inside and u = 0 on the rim (Yamabe). A is −Δ, integrated.
+fn yamabe(laplacian: &Laplacian, angles: &[f64]) -> Vec<f64> {
+    let source: Vec<f64> = angles.iter().map(|a| a - TAU).collect();
+    let mut scale = vec![0.0; angles.len()];
+    laplacian.solve(&source, &mut scale);
+    scale
+}
+
+/// Logarithm of the scale at every vertex of the conformal map that keeps the rim's lengths.
+pub(super) fn log_scale(surface: &TriMesh, topology: &Topology, rim: &[u32]) -> Result<Vec<f64>, FlattenError> {
+    let laplacian = Laplacian::new(surface, topology, &marked(surface, rim), Weights::Cotangent)?;
+    Ok(yamabe(&laplacian, &angle_sums(surface)))
+}
+
+fn marked(surface: &TriMesh, rim: &[u32]) -> Vec<bool> {
+    let mut on_rim = vec![false; surface.vertices.len()];
+    for &v in rim {
+        on_rim[v as usize] = true;
+    }
+    on_rim
 }
 
 /// Tutte's map onto a circle of the surface's area, rim vertices spaced by their lengths.
@@ -102,7 +118,7 @@ fn rim_lengths(surface: &TriMesh, rim: &[u32]) -> Vec<f64> {
 }
 
 /// Sum of the triangles' angles at every vertex.
-fn angle_sums(surface: &TriMesh) -> Vec<f64> {
+pub(super) fn angle_sums(surface: &TriMesh) -> Vec<f64> {
     let mut sums = vec![0.0; surface.vertices.len()];
     for (t, corners) in surface.triangles.iter().enumerate() {
         let p = surface.corners(t);

@@ -75,13 +75,6 @@ fn is_degenerate([a, b, c]: [Vec3; 3]) -> bool {
 /// Number of parts connected by edges.
 fn components(vertices: usize, topology: &Topology) -> usize {
     let mut parent: Vec<u32> = (0..vertices as u32).collect();
-    fn root(parent: &mut [u32], mut v: u32) -> u32 {
-        while parent[v as usize] != v {
-            parent[v as usize] = parent[parent[v as usize] as usize];
-            v = parent[v as usize];
-        }
-        v
-    }
     let mut parts = vertices;
     for edge in &topology.edges {
         let (a, b) = (root(&mut parent, edge.ends[0]), root(&mut parent, edge.ends[1]));
@@ -91,6 +84,15 @@ fn components(vertices: usize, topology: &Topology) -> usize {
         }
     }
     parts
+}
+
+/// The member that stands for the set of `v` in a forest of parents.
+pub(super) fn root(parent: &mut [u32], mut v: u32) -> u32 {
+    while parent[v as usize] != v {
+        parent[v as usize] = parent[parent[v as usize] as usize];
+        v = parent[v as usize];
+    }
+    v
 }
 
 /// Every rim vertex lies on two rim edges; with four, two sheets touch in it.
