@@ -349,7 +349,7 @@ fn any_surface_can_be_laid_flat() {
     }
     room.put("tube.obj", &text);
     let report = room.run(&["flatten", "tube.obj", "--units", "cm", "-o", "flat", "--json"]).ends(0).json();
-    assert_eq!(room.names("flat"), ["flat.obj", "pattern.svg", "report.json"]);
+    assert_eq!(room.names("flat"), ["flat.obj", "flat.png", "pattern.svg", "report.json"]);
     assert_eq!(report["pieces"][1]["name"], "high");
     let width = 8.0 * 2.0 * 500.0 * (std::f64::consts::PI / 16.0).sin();
     let area = report["pieces"][0]["area_flattened"].as_f64().expect("a number");
@@ -366,6 +366,82 @@ fn any_surface_can_be_laid_flat() {
     room.put("closed.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
     room.run(&["flatten", "closed.obj", "-o", "no"]).ends(2).says(&["closed.obj", "cut it first"]);
     assert!(room.names("no").is_empty());
+}
+
+/// A tube of 24 × 6 quads, 20 cm round and 10 cm high, in metres; with `seam` its texture is cut open along one side.
+fn tube(seam: bool) -> String {
+    let mut text = String::new();
+    for row in 0..=6 {
+        for column in 0..24 {
+            let angle = f64::from(column) * std::f64::consts::TAU / 24.0;
+            text += &format!("v {} {} {}\n", 0.0318 * angle.cos(), f64::from(row) / 60.0, 0.0318 * angle.sin());
+        }
+    }
+    for (row, column) in (0..7).flat_map(|row| (0..=24).map(move |column| (row, column))) {
+        text += &format!("vt {} {}\n", f64::from(if seam { column } else { column % 24 }) / 24.0, f64::from(row) / 6.0);
+    }
+    for (row, column) in (0..6).flat_map(|row| (0..24).map(move |column| (row, column))) {
+        let corner = |r: i32, c: i32| format!(" {}/{}", 24 * r + c % 24 + 1, 25 * r + c + 1);
+        let corners = [(row, column), (row + 1, column), (row + 1, column + 1), (row, column + 1)];
+        text += &format!("f{}\n", corners.map(|(r, c)| corner(r, c)).concat());
+    }
+    text
+}
+
+#[test]
+fn what_is_no_disk_is_cut_where_asked_or_where_it_must_be() {
+    let room = Room::new();
+    room.put("tube.obj", &tube(false));
+    room.put("seam.obj", &tube(true));
+    // The way is told, and it is the one that `auto` takes.
+    room.run(&["flatten", "tube.obj", "-o", "no"]).ends(2).says(&["2 rims", "--cut auto", "(100.0 mm)"]);
+    let area = 24.0 * 2.0 * 31.8 * (std::f64::consts::PI / 24.0).sin() * 100.0;
+    let laid = |args: &[&str]| {
+        let report = room.run(&[&["flatten", "-o", "flat", "--json"], args].concat()).ends(0).json();
+        assert_eq!(report["pieces"].as_array().map(Vec::len), Some(1), "{args:?}");
+        assert_eq!(report["units"], "m");
+        let found = report["pieces"][0]["area_flattened"].as_f64().expect("a number");
+        assert!((found / area - 1.0).abs() < 1e-6, "{args:?}: {found} {area}");
+        report
+    };
+    let auto = laid(&["tube.obj", "--cut", "auto"]);
+    assert_eq!(auto["cuts"][0].as_array().map(Vec::len), Some(7));
+    assert_eq!(auto["pieces"][0]["particles"], 25 * 7);
+    assert_eq!(laid(&["tube.obj", "--cut", "5,149"])["cuts"][0][6], 149);
+    laid(&["seam.obj"]);
+    // Every corner of the file has a place of its own on the flat piece, in the file's order.
+    let flat = String::from_utf8(room.bytes("flat/flat.obj")).expect("text");
+    assert_eq!(flat.lines().filter(|l| l.starts_with("vt ")).count(), 25 * 7);
+    room.run(&["flatten", "seam.obj", "--no-texture-seams", "-o", "no"]).ends(2).says(&["2 rims"]);
+    room.run(&["flatten", "tube.obj", "--cut", "1,999", "-o", "no"]).ends(2).says(&["999", "1 to 168"]);
+    room.run(&["flatten", "tube.obj", "--cut", "1;2", "-o", "no"]).ends(2).says(&["--cut 1;2"]);
+    assert!(room.names("no").is_empty());
+}
+
+#[test]
+fn a_dart_is_proposed_where_cloth_would_be_strained_and_cut_when_asked() {
+    let room = Room::new();
+    // A dome: half a sphere of 10 cm, flattened at its rim.
+    let mut text = String::new();
+    for (row, column) in (0..=24).flat_map(|row| (0..=24).map(move |column| (row, column))) {
+        let [x, y] = [row, column].map(|k| f64::from(k) / 12.0 - 1.0);
+        text += &format!("v {} {} {}\n", 100.0 * x, 100.0 * y, 60.0 * (1.0 - x * x) * (1.0 - y * y));
+    }
+    for (row, column) in (0..24).flat_map(|row| (0..24).map(move |column| (row, column))) {
+        let a = 25 * row + column + 1;
+        text += &format!("f {a} {} {} {}\n", a + 25, a + 26, a + 1);
+    }
+    room.put("dome.obj", &text);
+    let run =
+        |more: &[&str]| room.run(&[&["flatten", "dome.obj", "-o", "flat", "--json", "--units", "mm"], more].concat());
+    let whole = run(&[]).ends(0).says(&["--dart auto"]).json();
+    let strain = |report: &Value| report["pieces"][0]["strain"]["p99"].as_f64().expect("a number");
+    assert!(strain(&whole) > 0.1, "{}", strain(&whole));
+    assert_eq!(whole["pieces"][0]["dart"]["tip"], 25 * 12 + 12 + 1, "the summit");
+    let darted = run(&["--dart", "auto"]).ends(0).json();
+    assert!(strain(&darted) < 0.8 * strain(&whole), "{} {}", strain(&darted), strain(&whole));
+    assert!(darted["cuts"].as_array().is_some_and(|c| !c.is_empty()));
+    assert_eq!(darted["pieces"][0]["flips"], 0);
 }
 
 /// Every one of these must end with 2, say this, and write nothing.

@@ -105,6 +105,13 @@ fn spacing(text: &str) -> Result<f64, String> {
     }
 }
 
+fn percent(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
+        _ => Err("a positive number of per cent is expected, such as 10".into()),
+    }
+}
+
 /// Arguments of `drape`.
 #[derive(Debug, clap::Args)]
 pub(super) struct DrapeArgs {
@@ -135,9 +142,22 @@ pub(super) struct FlattenArgs {
     /// What to keep where not everything can be kept
     #[arg(long, value_enum, default_value_t)]
     pub(super) mode: ModeArg,
-    /// Unit of the OBJ file
-    #[arg(long, value_enum, default_value_t)]
-    pub(super) units: UnitArg,
+    /// Unit of the OBJ file [default: guessed from its size, and said]
+    #[arg(long, value_enum)]
+    pub(super) units: Option<UnitArg>,
+    /// Cut along the shortest way through these vertices, numbered from 1 as in the file, or wherever it is needed; may
+    /// be given several times (OBJ only)
+    #[arg(long, value_name = "auto|V,V,…")]
+    pub(super) cut: Vec<String>,
+    /// Cut a dart where the strain passes the limit (OBJ only)
+    #[arg(long, value_enum)]
+    pub(super) dart: Option<DartArg>,
+    /// Strain in per cent that all but a hundredth of a piece should stay below (OBJ only)
+    #[arg(long, value_name = "PERCENT", default_value_t = 10.0, value_parser = percent)]
+    pub(super) limit: f64,
+    /// Leave seams of the texture closed; otherwise the surface is cut along them (OBJ only)
+    #[arg(long)]
+    pub(super) no_texture_seams: bool,
     /// Begin with the garment as `toile make` has draped it, at the same spacing (garment files only)
     #[arg(long, value_name = "garment.obj")]
     pub(super) from: Option<PathBuf>,
@@ -243,11 +263,17 @@ impl From<ModeArg> for Mode {
     }
 }
 
+/// `--dart`
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum DartArg {
+    /// Where it relieves most, until the strain is below the limit
+    Auto,
+}
+
 /// `--units`
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+#[derive(Clone, Copy, Debug, ValueEnum)]
 pub(super) enum UnitArg {
     /// Millimetres
-    #[default]
     Mm,
     /// Centimetres
     Cm,

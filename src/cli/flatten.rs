@@ -2,13 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use super::args::FlattenArgs;
+use super::args::{DartArg, FlattenArgs, UnitArg};
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use super::make::{Goal, Plan, carry_out, folder, write};
 use crate::flatten::Options;
 use crate::io::files::check_writable;
-use crate::pipeline::{Color, FLAT_OBJ, PATTERN_SVG, REPORT_JSON, SurfaceReport, flatten_surface};
+use crate::pipeline::{
+    Color, Cuts, FLAT_OBJ, FLAT_PNG, PATTERN_SVG, PartReport, REPORT_JSON, SurfaceOptions, SurfaceReport,
+    flatten_surface,
+};
 use crate::report::{aligned, restless};
 
 /// `toile flatten`
@@ -27,25 +30,54 @@ pub(super) fn flatten(args: &FlattenArgs, console: &Console) -> Result<Exit, Cli
     if args.from.is_some() {
         return Err(CliError::Argument("--from belongs to a garment file; a surface is flattened as it is".into()));
     }
-    surface(args, &options, console)
+    surface(args, options, console)
 }
 
 fn is_garment(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("yaml") || e.eq_ignore_ascii_case("yml"))
 }
 
-fn surface(args: &FlattenArgs, options: &Options, console: &Console) -> Result<Exit, CliError> {
+/// `auto`, or vertices from 1 with commas between them.
+fn cuts(args: &[String]) -> Result<Cuts, CliError> {
+    let mut cuts = Cuts::default();
+    for text in args {
+        if text == "auto" {
+            cuts.auto = true;
+            continue;
+        }
+        let path: Result<Vec<u32>, _> = text.split(',').map(|v| v.trim().parse::<u32>()).collect();
+        let why = || CliError::Argument(format!("--cut {text}: 'auto' or vertex numbers such as 12,340 are expected"));
+        cuts.paths.push(path.map_err(|_| why())?);
+    }
+    Ok(cuts)
+}
+
+fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Exit, CliError> {
+    let options = SurfaceOptions {
+        unit: args.units.map(UnitArg::metres),
+        texture_seams: !args.no_texture_seams,
+        cuts: cuts(&args.cut)?,
+        darts: args.dart == Some(DartArg::Auto),
+        limit: args.limit / 100.0,
+        flatten,
+    };
     let stem = args.input.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
     let folder = folder(args.output.as_deref(), &stem);
     let inputs = [args.input.as_path()];
-    let targets: Vec<PathBuf> = [FLAT_OBJ, PATTERN_SVG, REPORT_JSON].map(|name| folder.join(name)).into();
+    let targets: Vec<PathBuf> = [FLAT_OBJ, FLAT_PNG, PATTERN_SVG, REPORT_JSON].map(|name| folder.join(name)).into();
     check_writable(&targets, &inputs)?;
-    let flat = flatten_surface(&args.input, args.units.metres(), options)?;
+    let flat = flatten_surface(&args.input, &options)?;
+    flat.notes.iter().for_each(|note| console.note(note));
     write(flat.results()?, &folder, &inputs)?;
     let report = &flat.report;
     console.results(report, || format!("{}\n  written to {}\n", figures(report), folder.display()))?;
     for stage in restless(&report.stages) {
         console.note(&stage.to_string());
+    }
+    for piece in &report.pieces {
+        if let Some(text) = strained(piece, args.limit) {
+            console.note(&text);
+        }
     }
     let mut exit = Exit::Done;
     for piece in report.pieces.iter().filter(|p| p.overlaps > 0) {
@@ -55,8 +87,27 @@ fn surface(args: &FlattenArgs, options: &Options, console: &Console) -> Result<E
     Ok(exit)
 }
 
+/// What is beyond the limit, why, and what would help.
+fn strained(piece: &PartReport, limit: f64) -> Option<String> {
+    let dart = piece.dart?;
+    let mut text = format!(
+        "'{}' is strained by up to {:.1} % (limit {limit} %): a dart from vertex {} on the rim to vertex {} ({:.0} mm) \
+         would relieve it most; --dart auto cuts it",
+        piece.name,
+        100.0 * piece.strain.p99,
+        dart.rim,
+        dart.tip,
+        dart.length
+    );
+    if piece.area_error_bound > 0.0 {
+        let bound = 100.0 * piece.area_error_bound;
+        text += &format!("; no flat piece with this length of rim has more than {:.1} % of its area", 100.0 - bound);
+    }
+    Some(text)
+}
+
 fn figures(report: &SurfaceReport) -> String {
-    let head = ["piece", "cm²", "area %", "rim %", "largest edge %", "overlaps"];
+    let head = ["piece", "cm²", "area %", "rim %", "strain 99 %", "corner °", "overlaps"];
     let mut rows = vec![head.map(String::from).to_vec()];
     rows.extend(report.pieces.iter().map(|p| {
         let percent = |e: Option<f64>| format!("{:.3}", 100.0 * e.unwrap_or(0.0));
@@ -65,7 +116,8 @@ fn figures(report: &SurfaceReport) -> String {
             format!("{:.1}", p.area_draped / 100.0),
             percent(p.area_error.flatten),
             percent(p.boundary_error.flatten),
-            percent(Some(p.largest_edge_error)),
+            percent(Some(p.strain.p99)),
+            format!("{:.1}", p.corner_change),
             p.overlaps.to_string(),
         ]
     }));

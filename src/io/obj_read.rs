@@ -108,6 +108,10 @@ pub struct ObjFaces {
     pub vertices: Vec<Vec3>,
     /// Corners of every face, indices into `vertices`.
     pub faces: Vec<Vec<u32>>,
+    /// Texture coordinates as written.
+    pub texture: Vec<[f64; 2]>,
+    /// Texture coordinates of every face's corners, indices into `texture`; empty for a face without.
+    pub texture_of_face: Vec<Vec<u32>>,
     /// Names of the groups (`g` or `o` lines) that have faces, in the order of their first face; empty for faces
     /// before the first such line.
     pub groups: Vec<String>,
@@ -132,27 +136,35 @@ impl ObjFaces {
     fn new(text: &str) -> Result<Self, Fault> {
         let mut out = Self::default();
         let mut group = String::new();
-        let mut read: Vec<(usize, Vec<i64>)> = Vec::new();
+        let mut read: Vec<(usize, Vec<Corner>)> = Vec::new();
         for (line, words) in logical_lines(text) {
             let mut words = words.split_whitespace();
             match words.next() {
+                Some("vt") => out.texture.push(texture(words).map_err(|why| (line, why))?),
                 Some("v") => out.vertices.push(position(words).map_err(|why| (line, why))?),
                 Some("g" | "o") => group = words.collect::<Vec<_>>().join(" "),
                 Some("f") => {
-                    read.push((line, corners(words, out.vertices.len()).map_err(|why| (line, why))?));
+                    read.push((
+                        line,
+                        corners(words, [out.vertices.len(), out.texture.len()]).map_err(|why| (line, why))?,
+                    ));
                     let index = out.group(&group);
                     out.group_of_face.push(index);
                 }
                 _ => {}
             }
         }
-        let count = out.vertices.len() as i64;
+        let counts = [out.vertices.len(), out.texture.len()].map(|n| n as i64);
         for (line, corners) in read {
-            if let Some(wrong) = corners.iter().find(|c| !(1..=count).contains(*c)) {
-                let has = if count == 0 { "none".to_owned() } else { format!("1 to {count}") };
+            if let Some([wrong, _]) = corners.iter().find(|[v, _]| !(1..=counts[0]).contains(v)) {
+                let has = if counts[0] == 0 { "none".to_owned() } else { format!("1 to {}", counts[0]) };
                 return Err((line, format!("face uses vertex {wrong}, but the file has {has}")));
             }
-            out.faces.push(corners.into_iter().map(|c| (c - 1) as u32).collect());
+            // A corner whose texture coordinates are not there has none: they are no part of the surface.
+            let textured = corners.iter().all(|[_, t]| (1..=counts[1]).contains(t));
+            let texture = if textured { corners.iter().map(|[_, t]| (t - 1) as u32).collect() } else { Vec::new() };
+            out.texture_of_face.push(texture);
+            out.faces.push(corners.into_iter().map(|[v, _]| (v - 1) as u32).collect());
         }
         Ok(out)
     }
@@ -224,14 +236,29 @@ fn position<'a>(words: impl Iterator<Item = &'a str>) -> Result<Vec3, String> {
     }
 }
 
-/// Vertex numbers of a face, from 1; negative ones count back from the vertices read `so_far`.
-fn corners<'a>(words: impl Iterator<Item = &'a str>, so_far: usize) -> Result<Vec<i64>, String> {
+/// `u v`, after which a depth may follow.
+fn texture<'a>(words: impl Iterator<Item = &'a str>) -> Result<[f64; 2], String> {
+    let mut numbers = [0.0; 2];
+    for (number, word) in numbers.iter_mut().zip(words) {
+        *number = word.parse().map_err(|_| format!("'{}' is no number; texture is vt u v", shown(word, WORD)))?;
+    }
+    Ok(numbers)
+}
+
+/// Numbers of a corner's vertex and texture coordinates, from 1; 0 where there are none.
+type Corner = [i64; 2];
+
+/// A face's corners; negative numbers count back from what was read `so_far`.
+fn corners<'a>(words: impl Iterator<Item = &'a str>, so_far: [usize; 2]) -> Result<Vec<Corner>, String> {
     let mut out = Vec::with_capacity(4);
     for word in words {
-        let first = word.split('/').next().unwrap_or(word);
-        let index: i64 =
+        let mut parts = word.split('/');
+        let first = parts.next().unwrap_or(word);
+        let vertex: i64 =
             first.parse().map_err(|_| format!("'{}' is no vertex number; a face is f 1 2 3", shown(word, WORD)))?;
-        out.push(if index < 0 { so_far as i64 + 1 + index } else { index });
+        let texture: i64 = parts.next().and_then(|t| t.parse().ok()).unwrap_or(0);
+        let counted = |k: i64, n: usize| if k < 0 { n as i64 + 1 + k } else { k };
+        out.push([counted(vertex, so_far[0]), counted(texture, so_far[1])]);
     }
     if out.len() < 3 {
         return Err(format!("a face of {} corners; three or more are needed", out.len()));

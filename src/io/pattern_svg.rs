@@ -50,7 +50,8 @@ pub enum PatternSvgError {
 /// the garment's; a notch on an edge that the mesh does not have is left out.
 ///
 /// Group ids are piece names, path ids `piece.edge`; classes are `piece`, `edge`, `line`, `grain`, `notch`, `text` and
-/// `scale`.
+/// `scale`. Where `flat` is not the pattern as it was, that lies below, dashed, in a group `drawn` of its own: each piece
+/// as the flat one has been laid onto it.
 ///
 /// # Errors
 /// Positions that do not belong to the mesh or are not finite.
@@ -61,12 +62,16 @@ pub fn pattern_svg(cloth: &ClothMesh, flat: &[Vec2], notches: &[Notch]) -> Resul
     if let Some(v) = flat.iter().position(|p| !(p.x.is_finite() && p.y.is_finite())) {
         return Err(PatternSvgError::NotFinite(v));
     }
-    let mut sheets: Vec<Sheet<'_>> = cloth.pieces.iter().map(|piece| Sheet::new(piece, flat)).collect();
+    let mut sheets: Vec<Sheet<'_>> = cloth.pieces.iter().map(|piece| Sheet::new(piece, flat, &cloth.flat)).collect();
     let size = lay_out(&mut sheets);
     let mut document = Document::new()
         .set("width", format!("{}mm", number(size.x)))
         .set("height", format!("{}mm", number(size.y)))
         .set("viewBox", format!("0 0 {} {}", number(size.x), number(size.y)));
+    if flat != cloth.flat {
+        let drawn = Group::new().set("id", "drawn").set("class", "layer").set("fill", "none");
+        document = document.add(sheets.iter().flat_map(Sheet::outline).fold(drawn, Group::add));
+    }
     for sheet in &sheets {
         document = document.add(sheet.draw(&cloth.flat, notches));
     }
@@ -78,6 +83,8 @@ struct Sheet<'a> {
     piece: &'a PieceMesh,
     /// Of its particles.
     points: Vec<Vec2>,
+    /// The same as drawn, where they lie on the sheet.
+    drawn: Vec<Vec2>,
     /// Warp on the sheet: up or down.
     warp: Vec2,
     /// Upper left and lower right corner of its box.
@@ -86,12 +93,13 @@ struct Sheet<'a> {
 
 impl<'a> Sheet<'a> {
     /// Turns the piece so that its warp is upright, by the smaller angle.
-    fn new(piece: &'a PieceMesh, flat: &[Vec2]) -> Self {
+    fn new(piece: &'a PieceMesh, flat: &[Vec2], drawn: &[Vec2]) -> Self {
         let up = if piece.warp.y > 0.0 { -piece.warp } else { piece.warp };
         // The rotation that takes `up` to (0, −1).
         let turn = |p: Vec2| Vec2::new(-up.y * p.x + up.x * p.y, -up.x * p.x - up.y * p.y);
-        let points: Vec<Vec2> = flat[piece.particles.clone()].iter().map(|&p| turn(p) * MM).collect();
-        let mut sheet = Self { piece, points, warp: turn(piece.warp), corners: [Vec2::zeros(); 2] };
+        let placed = |at: &[Vec2]| at[piece.particles.clone()].iter().map(|&p| turn(p) * MM).collect();
+        let (points, drawn) = (placed(flat), placed(drawn));
+        let mut sheet = Self { piece, points, drawn, warp: turn(piece.warp), corners: [Vec2::zeros(); 2] };
         sheet.corners = sheet.bounds();
         sheet
     }
@@ -108,7 +116,7 @@ impl<'a> Sheet<'a> {
     /// Moves the upper left corner of the box.
     fn put(&mut self, corner: Vec2) {
         let shift = corner - self.corners[0];
-        for p in &mut self.points {
+        for p in self.points.iter_mut().chain(&mut self.drawn) {
             *p += shift;
         }
         self.corners = self.corners.map(|c| c + shift);
@@ -142,6 +150,17 @@ impl<'a> Sheet<'a> {
             }
         }
         group.add(self.grain()).add(self.label())
+    }
+
+    /// The edges as they were drawn.
+    fn outline(&self) -> Vec<Path> {
+        let first = self.piece.particles.start;
+        let at = |&v: &u32| self.drawn.get((v as usize).checked_sub(first)?).copied();
+        let edge = |e: &EdgeParticles| {
+            let points: Vec<Vec2> = e.particles.iter().filter_map(at).collect();
+            stroke(&points, "drawn", 0.3).set("stroke", "gray").set("stroke-dasharray", "2 2")
+        };
+        self.piece.edges.iter().map(edge).collect()
     }
 
     /// Middle of the particles: inside any piece that is not much bent.

@@ -8,6 +8,7 @@ mod camera;
 mod canvas;
 mod color;
 mod dressed;
+mod flat;
 mod font;
 mod light;
 mod occlusion;
@@ -16,6 +17,7 @@ mod raster;
 mod view;
 
 pub use dressed::{Dressed, rim_lines};
+pub use flat::draw_flat;
 
 use crate::geometry::{TriMesh, Vec3};
 
@@ -52,11 +54,11 @@ pub enum PictureError {
     #[error("cannot draw the garment: it has no triangles, or positions that are not finite")]
     NothingToDraw,
     /// `Scene::strain` has another length than the cloth has vertices.
-    #[error("cannot colour the garment by strain: {values} values for {vertices} vertices")]
+    #[error("cannot colour by strain: {values} values for {vertices} vertices or triangles")]
     StrainLength {
         /// Values given.
         values: usize,
-        /// Vertices of the cloth.
+        /// Vertices of the cloth, triangles of flat pieces.
         vertices: usize,
     },
     /// The PNG encoder failed.

@@ -38,7 +38,7 @@ impl Paint {
 }
 
 /// A round number (1, 2 or 5 times a power of ten) that nearly all values stay below.
-fn limit(values: &[f64]) -> f64 {
+pub(super) fn limit(values: &[f64]) -> f64 {
     let mut sizes: Vec<f64> = values.iter().map(|v| v.abs()).filter(|v| v.is_finite()).collect();
     sizes.sort_unstable_by(f64::total_cmp);
     let last = sizes.len().saturating_sub(1) as f64;

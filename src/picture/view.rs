@@ -240,7 +240,7 @@ fn words(canvas: &mut Canvas, scene: &Scene, cameras: &[Camera], paint: &Paint) 
         scale_bar(canvas, camera.scale, foot);
     }
     if let Paint::Strain(_, limit) = paint {
-        legend(canvas, *limit);
+        legend(canvas, *limit, "warp and weft strain");
     }
 }
 
@@ -257,7 +257,7 @@ fn scale_bar(canvas: &mut Canvas, pixels_per_metre: f64, foot: f32) {
 }
 
 /// The strain scale, at the right above.
-fn legend(canvas: &mut Canvas, limit: f64) {
+pub(super) fn legend(canvas: &mut Canvas, limit: f64, title: &str) {
     const SIZE: [usize; 2] = [420, 22];
     const TOP: usize = 34;
     let left = WIDTH - 76 - SIZE[0];
@@ -272,6 +272,5 @@ fn legend(canvas: &mut Canvas, limit: f64) {
         let middle = 0.5 * Canvas::text_width(&label, 2.4);
         canvas.text(&label, [x - middle, (TOP + SIZE[1] + 32) as f32], 2.4, PALE_INK);
     }
-    let title = "warp and weft strain";
     canvas.text(title, [left as f32 - 44.0 - Canvas::text_width(title, 2.6), 56.0], 2.6, PALE_INK);
 }

@@ -67,6 +67,26 @@ pub enum PipelineError {
         /// Which part, and why.
         source: FlattenError,
     },
+    /// A surface is no disk, and a way to make it one is known.
+    #[error("{}: {source}; {advice}", file.display())]
+    NoDisk {
+        /// The file.
+        file: PathBuf,
+        /// Which part, and what it is.
+        source: FlattenError,
+        /// Where to cut.
+        advice: String,
+    },
+    /// A cut that cannot be made.
+    #[error("{}: --cut {cut}: {why}", file.display())]
+    Cut {
+        /// The file.
+        file: PathBuf,
+        /// As given.
+        cut: String,
+        /// What is wrong with it.
+        why: String,
+    },
     /// Sewing failed.
     #[error(transparent)]
     Sew(SewError),
@@ -98,7 +118,9 @@ impl PipelineError {
             | Self::Mesh { .. }
             | Self::Place { .. }
             | Self::Obj(_)
-            | Self::Saved { .. } => true,
+            | Self::Saved { .. }
+            | Self::NoDisk { .. }
+            | Self::Cut { .. } => true,
             Self::Surface { source, .. } => !is_breakdown(source),
             Self::Sew(_) | Self::Drape(_) | Self::Flatten(_) | Self::Svg(_) | Self::Picture(_) | Self::Json(_) => false,
         }

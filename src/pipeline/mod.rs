@@ -28,4 +28,4 @@ pub use results::{
     Color, GARMENT_OBJ, GARMENT_PNG, PATTERN_SVG, PLACED_OBJ, REPORT_JSON, ResultFile, SEWN_OBJ, json_text,
 };
 pub use run::{Progress, Run};
-pub use surface::{FLAT_OBJ, FlatSurface, SurfaceReport, flatten_surface};
+pub use surface::{Cuts, FLAT_OBJ, FLAT_PNG, FlatSurface, PartReport, SurfaceOptions, SurfaceReport, flatten_surface};

@@ -2,7 +2,7 @@
 
 use super::errors::{Way, area, area_error, boundary_error};
 use super::openings::{opening_names, openings};
-use super::rim::{RimEdge, beside_elastic, rims};
+use super::rim::{RimEdge, beside_elastic, outline_distance, rims};
 use super::schema::{Contact, PieceReport, Quartet, Report, SeamReport, Sizes, Stage, Worn};
 use super::statistics::largest;
 use super::strain::{PieceStrain, piece_strain};
@@ -143,7 +143,10 @@ fn pieces(run: &Measured, shapes: &Shapes, last: Option<&[Vec3]>) -> (Vec<PieceR
         total.gathered.extend(&part.gathered);
         total.strain.extend(&part.strain);
     }
-    (reports, row(&total, shapes))
+    let mut whole = row(&total, shapes);
+    // Outlines of different pieces have nothing to do with each other.
+    whole.outline_distance = reports.iter().filter_map(|r| r.outline_distance).reduce(f64::max);
+    (reports, whole)
 }
 
 fn row(part: &Part, shapes: &Shapes) -> PieceReport {
@@ -166,6 +169,7 @@ fn row(part: &Part, shapes: &Shapes) -> PieceReport {
         strain: part.strain.strain(),
         shear: part.strain.shear(),
         largest_edge_error: part.strain.largest,
+        outline_distance: shapes.flattened.as_deref().map(|at| outline_distance(&part.rim, &shapes.flat, at) * MM),
         stretched: None,
     }
 }

@@ -58,6 +58,9 @@ pub struct PieceReport {
     pub shear: Spread,
     /// Largest |length / flat length − 1| of any mesh edge, bias ones too.
     pub largest_edge_error: f64,
+    /// Largest distance between the drawn outline and the flattened one laid onto it, mm.
+    #[serde(default)]
+    pub outline_distance: Option<f64>,
     /// Set where the piece had to stretch.
     pub stretched: Option<Stretched>,
 }

@@ -1,0 +1,158 @@
+//! Where a surface is cut: as asked, where it must be, and where it should be.
+
+use std::collections::{HashMap, HashSet};
+use std::path::Path;
+
+use super::super::error::PipelineError;
+use super::parts::{Nodes, Part, sorted};
+use super::report::DartReport;
+use crate::flatten::{self, FlattenError, disk_cuts, shortest_path};
+use crate::io::obj_read::ObjFaces;
+
+/// Millimetres in a metre.
+const MM: f64 = 1e3;
+
+/// Where to cut besides groups and texture seams.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Cuts {
+    /// Along the shortest ways through these vertices, numbered from 1 as in the file.
+    pub paths: Vec<Vec<u32>>,
+    /// Whether to cut what is no disk into one.
+    pub auto: bool,
+}
+
+/// Edges of nodes that are cut.
+#[derive(Default)]
+pub(super) struct Marks {
+    pub(super) edges: HashSet<[u32; 2]>,
+    /// The same as chains of the file's vertices, from 1.
+    pub(super) chains: Vec<Vec<u32>>,
+}
+
+impl Marks {
+    /// The cuts asked for, `parts` being the surface without them.
+    pub(super) fn new(
+        file: &Path,
+        faces: &ObjFaces,
+        nodes: &Nodes,
+        parts: &[Part],
+        cuts: &Cuts,
+    ) -> Result<Self, PipelineError> {
+        let mut out = Self::default();
+        let mut of_file = HashSet::new();
+        for path in &cuts.paths {
+            let way = way(faces, parts, path).map_err(|why| {
+                let cut = path.iter().map(u32::to_string).collect::<Vec<_>>().join(",");
+                PipelineError::Cut { file: file.to_owned(), cut, why }
+            })?;
+            of_file.extend(way.windows(2).map(|w| sorted(w[0], w[1])));
+            out.chains.push(way.iter().map(|v| v + 1).collect());
+        }
+        out.edges = nodes.edges_on(&of_file);
+        if cuts.auto {
+            for part in parts {
+                for chain in chains(&disk_cuts(&part.surface, &part.diagonals)) {
+                    out.cut(part, &chain);
+                }
+            }
+        }
+        Ok(out)
+    }
+
+    /// Cuts a part along a chain of its vertices.
+    pub(super) fn cut(&mut self, part: &Part, chain: &[u32]) {
+        if chain.len() > 1 {
+            let node = |v: u32| part.nodes[v as usize];
+            self.edges.extend(chain.windows(2).map(|w| sorted(node(w[0]), node(w[1]))));
+            self.chains.push(chain.iter().map(|&v| part.number(v)).collect());
+        }
+    }
+}
+
+/// The shortest way through vertices numbered from 1, as the file's vertices from 0.
+fn way(faces: &ObjFaces, parts: &[Part], stops: &[u32]) -> Result<Vec<u32>, String> {
+    if stops.len() < 2 {
+        return Err("a cut goes through two vertices or more".into());
+    }
+    let count = faces.vertices.len();
+    if let Some(wrong) = stops.iter().find(|v| **v == 0 || **v as usize > count) {
+        return Err(format!("there is no vertex {wrong}; the file has 1 to {count}"));
+    }
+    let mut way = vec![stops[0] - 1];
+    for leg in stops.windows(2) {
+        let local = |part: &Part, v: u32| part.vertices.iter().position(|&w| w + 1 == v).map(|k| k as u32);
+        let shared = parts.iter().find_map(|part| Some((part, local(part, leg[0])?, local(part, leg[1])?)));
+        let Some((part, from, to)) = shared else {
+            return Err(format!("vertices {} and {} do not lie in one part of the surface", leg[0], leg[1]));
+        };
+        // In one part, so there is a way.
+        let path = shortest_path(&part.surface, &part.diagonals, from, to).unwrap_or_default();
+        way.extend(path.iter().skip(1).map(|&v| part.vertices[v as usize]));
+    }
+    Ok(way)
+}
+
+/// Edges as chains that end where one or more than two of them meet.
+fn chains(edges: &[[u32; 2]]) -> Vec<Vec<u32>> {
+    let mut at: HashMap<u32, Vec<u32>> = HashMap::new();
+    for &[a, b] in edges {
+        at.entry(a).or_default().push(b);
+        at.entry(b).or_default().push(a);
+    }
+    let mut left: HashSet<[u32; 2]> = edges.iter().copied().collect();
+    let mut starts: Vec<u32> = at.keys().copied().filter(|v| at[v].len() != 2).collect();
+    starts.sort_unstable();
+    // Closed chains begin anywhere.
+    starts.extend(edges.iter().map(|e| e[0]));
+    let mut chains = Vec::new();
+    for start in starts {
+        for &first in &at[&start] {
+            let mut chain = vec![start];
+            let mut next = Some(first);
+            while let Some(v) = next.filter(|&v| left.remove(&sorted(chain[chain.len() - 1], v))) {
+                chain.push(v);
+                let open = |w: &&u32| left.contains(&sorted(v, **w));
+                next = if at[&v].len() == 2 { at[&v].iter().find(open).copied() } else { None };
+            }
+            if chain.len() > 1 {
+                chains.push(chain);
+            }
+        }
+    }
+    chains
+}
+
+/// A part's error in the file's numbers, with where to cut if that is the remedy.
+pub(super) fn advise(file: &Path, part: &Part, error: FlattenError) -> PipelineError {
+    let curable = matches!(error, FlattenError::Closed | FlattenError::Rims(_) | FlattenError::Handles(_));
+    let source = FlattenError::Piece { piece: part.name.clone(), source: Box::new(part.blame(error)) };
+    let ways = if curable { chains(&disk_cuts(&part.surface, &part.diagonals)) } else { Vec::new() };
+    if ways.is_empty() {
+        return PipelineError::Surface { file: file.to_owned(), source };
+    }
+    let named: Vec<String> = ways.iter().map(|way| described(part, way)).collect();
+    let advice = format!("--cut auto would cut {}; --cut A,B,… cuts along a way of your own", named.join(" and "));
+    PipelineError::NoDisk { file: file.to_owned(), source, advice }
+}
+
+fn described(part: &Part, way: &[u32]) -> String {
+    let ends = [way[0], way[way.len() - 1]].map(|v| part.number(v));
+    format!("from vertex {} to vertex {} ({:.1} mm)", ends[0], ends[1], length(part, way))
+}
+
+/// Millimetres.
+fn length(part: &Part, way: &[u32]) -> f64 {
+    let at = |v: u32| part.surface.vertices[v as usize];
+    way.windows(2).map(|w| (at(w[1]) - at(w[0])).norm()).sum::<f64>() * MM
+}
+
+/// Where a dart would relieve a part that is a disk; empty where none can be told.
+pub(super) fn dart(part: &Part) -> Vec<u32> {
+    flatten::dart(&part.surface, &part.diagonals).unwrap_or_default()
+}
+
+/// A dart as it is reported.
+pub(super) fn proposal(part: &Part, dart: &[u32]) -> Option<DartReport> {
+    let (&rim, &tip) = (dart.first()?, dart.last()?);
+    Some(DartReport { rim: part.number(rim), tip: part.number(tip), length: length(part, dart) })
+}

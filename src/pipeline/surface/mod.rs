@@ -1,0 +1,156 @@
+//! Any surface laid flat: every group, texture island or connected part of an OBJ file as a piece of its own.
+
+mod cuts;
+mod parts;
+mod report;
+mod write;
+
+use std::path::Path;
+use std::time::Instant;
+
+use rayon::prelude::*;
+
+use super::error::PipelineError;
+use crate::flatten::{FlattenError, Flattened, Options, flatten};
+use crate::geometry::Vec3;
+use crate::io::obj_read::{ObjFaces, read_obj_faces};
+use crate::report::Stage;
+pub use cuts::Cuts;
+use cuts::Marks;
+use parts::{Nodes, Part, parts};
+pub use report::{PartReport, SurfaceReport};
+pub use write::{FLAT_OBJ, FLAT_PNG};
+
+/// A surface smaller than this many file units is in metres, smaller than the next in centimetres, else in millimetres:
+/// pieces of garments are between 4 cm and 4 m large.
+const METRES_BELOW: f64 = 4.0;
+const CENTIMETRES_BELOW: f64 = 250.0;
+/// Darts that `auto` cuts into one surface at most: what is not below the limit then needs a seam.
+const DARTS: usize = 8;
+
+/// How to read and flatten a surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceOptions {
+    /// Metres in a unit of the file; `None` guesses it from the size.
+    pub unit: Option<f64>,
+    /// Whether to cut along the seams of the texture.
+    pub texture_seams: bool,
+    /// Where to cut besides.
+    pub cuts: Cuts,
+    /// Whether to cut darts where the strain passes the limit.
+    pub darts: bool,
+    /// The |stretch − 1| that 99 % of a piece's area should stay below.
+    pub limit: f64,
+    /// How to flatten.
+    pub flatten: Options,
+}
+
+/// A surface laid flat.
+pub struct FlatSurface {
+    faces: ObjFaces,
+    parts: Vec<Part>,
+    flat: Vec<Flattened>,
+    /// What it did to the cloth.
+    pub report: SurfaceReport,
+    /// What was read in a way its author may not have meant: one sentence each.
+    pub notes: Vec<String>,
+}
+
+/// Lays every part of an OBJ flat.
+///
+/// # Errors
+/// A file that cannot be read, a cut that cannot be made, or a part that is no disk, with what it is instead and where
+/// to cut it.
+pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurface, PipelineError> {
+    let faces = read_obj_faces(file)?;
+    let stem = file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+    let begin = Instant::now();
+    let (unit, units) = options.unit.map_or_else(|| guess(&faces), |unit| (unit, name_of(unit)));
+    let mut notes = Vec::new();
+    if options.unit.is_none() {
+        notes.push(format!("{units} assumed, from the size of the surface; say --units mm, cm or m if that is wrong"));
+    }
+    let textured = options.texture_seams && faces.texture_of_face.iter().any(|t| !t.is_empty());
+    let nodes = Nodes::new(&faces, textured);
+    let whole = parts(&faces, &nodes, &Marks::default().edges, unit, &stem);
+    let mut marks = Marks::new(file, &faces, &nodes, &whole, &options.cuts)?;
+    let mut darts = if options.darts { DARTS } else { 0 };
+    let (parts, flat, proposals) = loop {
+        let parts = parts(&faces, &nodes, &marks.edges, unit, &stem);
+        let flat = lay_out(file, &parts, &options.flatten)?;
+        let mut proposals = Vec::with_capacity(parts.len());
+        for (part, flat) in parts.iter().zip(&flat) {
+            let strained = flat.report.strain_p99 > options.limit;
+            proposals.push(if strained { cuts::dart(part) } else { Vec::new() });
+        }
+        let wanted = proposals.iter().filter(|d| d.len() > 1).count();
+        if wanted == 0 || wanted > darts {
+            break (parts, flat, proposals);
+        }
+        darts -= wanted;
+        parts.iter().zip(&proposals).for_each(|(part, dart)| marks.cut(part, dart));
+    };
+    if textured && parts.len() > whole_without_texture(&faces, unit, &stem) {
+        notes.push("cut along the seams of its texture; --no-texture-seams leaves them closed".into());
+    }
+    let reports = parts.iter().zip(&flat).zip(&proposals);
+    let report = SurfaceReport {
+        toile: env!("CARGO_PKG_VERSION").into(),
+        surface: stem.clone(),
+        units,
+        pieces: reports.map(|((p, f), d)| PartReport::new(p, &f.report, cuts::proposal(p, d))).collect(),
+        cuts: marks.chains,
+        stages: vec![stage(&flat, begin)],
+    };
+    Ok(FlatSurface { faces, parts, flat, report, notes })
+}
+
+/// Number of parts that there are without looking at the texture.
+fn whole_without_texture(faces: &ObjFaces, unit: f64, stem: &str) -> usize {
+    parts(faces, &Nodes::new(faces, false), &Marks::default().edges, unit, stem).len()
+}
+
+/// Metres per unit of a file of this size, and the unit's name.
+fn guess(faces: &ObjFaces) -> (f64, &'static str) {
+    let used = || faces.faces.iter().flatten().map(|&v| faces.vertices[v as usize]);
+    let low = used().fold(Vec3::repeat(f64::INFINITY), |a, p| a.inf(&p));
+    let high = used().fold(Vec3::repeat(f64::NEG_INFINITY), |a, p| a.sup(&p));
+    let size = (high - low).max();
+    let unit = if size < METRES_BELOW {
+        1.0
+    } else if size < CENTIMETRES_BELOW {
+        1e-2
+    } else {
+        1e-3
+    };
+    (unit, name_of(unit))
+}
+
+fn name_of(unit: f64) -> &'static str {
+    if unit == 1.0 {
+        "m"
+    } else if unit == 1e-2 {
+        "cm"
+    } else {
+        "mm"
+    }
+}
+
+fn lay_out(file: &Path, parts: &[Part], options: &Options) -> Result<Vec<Flattened>, PipelineError> {
+    let flat: Vec<Result<Flattened, FlattenError>> =
+        parts.par_iter().map(|part| flatten(&part.surface, options)).collect();
+    // Of several errors the first in the file's order, not the first in time.
+    parts.iter().zip(flat).map(|(part, flat)| flat.map_err(|error| cuts::advise(file, part, error))).collect()
+}
+
+fn stage(flat: &[Flattened], begin: Instant) -> Stage {
+    let reports = flat.iter().map(|f| f.report);
+    Stage {
+        name: "flatten".into(),
+        seconds: begin.elapsed().as_secs_f64(),
+        iterations: reports.clone().map(|r| r.iterations).max().unwrap_or(0),
+        converged: reports.clone().all(|r| r.converged),
+        energy: Some(reports.map(|r| r.energy).sum()),
+        drift: None,
+    }
+}

@@ -1,0 +1,205 @@
+//! From an OBJ's faces to the parts that are laid flat one by one.
+//!
+//! Faces hang together across an edge unless it lies between two groups, is a seam of the texture or is marked as a cut.
+//! Every fan of faces that hang together round a vertex gets a vertex of its own, so that cuts open and parts that only
+//! touch come apart.
+
+use std::collections::{HashMap, HashSet};
+
+use crate::flatten::{FlattenError, Solid};
+use crate::geometry::TriMesh;
+use crate::io::obj_read::ObjFaces;
+
+/// A connected part of the surface.
+pub(super) struct Part {
+    pub(super) name: String,
+    /// The file's vertex of every vertex.
+    pub(super) vertices: Vec<u32>,
+    /// The node of every vertex.
+    pub(super) nodes: Vec<u32>,
+    /// Indices of its faces in the file.
+    pub(super) faces: Vec<u32>,
+    /// Corners of each of these, as vertices of the part.
+    pub(super) corners: Vec<Vec<u32>>,
+    /// Edges of the surface that are inside a polygon of the file.
+    pub(super) diagonals: Solid,
+    /// In metres, its triangles turned round: a flat piece shows the side that faces outward in space.
+    pub(super) surface: TriMesh,
+}
+
+/// What the faces are made of: the vertices of the file, once for every group and texture position they have.
+pub(super) struct Nodes {
+    /// Of every face's corners.
+    of_face: Vec<Vec<u32>>,
+    /// The file's vertex of every node.
+    vertex: Vec<u32>,
+}
+
+impl Nodes {
+    /// With `texture`, a vertex that has several texture positions is several nodes.
+    pub(super) fn new(faces: &ObjFaces, texture: bool) -> Self {
+        let mut numbers = HashMap::new();
+        let mut out = Self { of_face: Vec::with_capacity(faces.faces.len()), vertex: Vec::new() };
+        for (f, corners) in faces.faces.iter().enumerate() {
+            let textured = faces.texture_of_face.get(f).filter(|t| texture && !t.is_empty());
+            let nodes = corners.iter().enumerate().map(|(k, &v)| {
+                // Equal positions count as one even if they are written twice; −0 is 0.
+                let at = textured.map(|t| faces.texture[t[k] as usize].map(|x| (x + 0.0).to_bits()));
+                *numbers.entry((faces.group_of_face[f], v, at)).or_insert_with(|| {
+                    out.vertex.push(v);
+                    out.vertex.len() as u32 - 1
+                })
+            });
+            let nodes = nodes.collect();
+            out.of_face.push(nodes);
+        }
+        out
+    }
+
+    /// Edges of nodes, smaller first, that lie on one of the file's edges.
+    pub(super) fn edges_on(&self, of_file: &HashSet<[u32; 2]>) -> HashSet<[u32; 2]> {
+        let on = |[a, b]: &[u32; 2]| of_file.contains(&sorted(self.vertex[*a as usize], self.vertex[*b as usize]));
+        self.of_face.iter().flat_map(|face| sides(face)).filter(on).collect()
+    }
+}
+
+/// Smaller first.
+pub(super) fn sorted(a: u32, b: u32) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
+fn sides(face: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
+    (0..face.len()).map(|k| sorted(face[k], face[(k + 1) % face.len()]))
+}
+
+/// The parts in the order of their first faces, group by group; named by their group or, without one, by `stem`.
+pub(super) fn parts(faces: &ObjFaces, nodes: &Nodes, cuts: &HashSet<[u32; 2]>, unit: f64, stem: &str) -> Vec<Part> {
+    let fans = Fans::new(nodes, cuts);
+    let mut parts: Vec<Part> = Vec::new();
+    for (g, group) in faces.groups.iter().enumerate() {
+        let own = (0..faces.faces.len() as u32).filter(|&f| faces.group_of_face[f as usize] == g as u32);
+        let mut number = HashMap::new();
+        let mut split: Vec<Vec<u32>> = Vec::new();
+        for f in own {
+            let k = *number.entry(fans.part_of_face[f as usize]).or_insert(split.len());
+            split.resize_with(split.len().max(k + 1), Vec::new);
+            split[k].push(f);
+        }
+        let name = if group.is_empty() { stem } else { group };
+        let several = split.len() > 1;
+        for (k, own) in split.into_iter().enumerate() {
+            let name = if several { format!("{name}.{}", k + 1) } else { name.to_owned() };
+            parts.push(Part::new(faces, nodes, &fans, name, own, unit));
+        }
+    }
+    parts
+}
+
+/// Which corners are one vertex, and which faces one part.
+struct Fans {
+    /// First corner of every face.
+    starts: Vec<usize>,
+    of_corner: Vec<u32>,
+    part_of_face: Vec<u32>,
+}
+
+impl Fans {
+    fn new(nodes: &Nodes, cuts: &HashSet<[u32; 2]>) -> Self {
+        let mut starts = vec![0];
+        let mut sides: Vec<([u32; 2], u32, u32)> = Vec::new();
+        for (f, face) in nodes.of_face.iter().enumerate() {
+            for k in 0..face.len() {
+                sides.push((sorted(face[k], face[(k + 1) % face.len()]), f as u32, k as u32));
+            }
+            starts.push(starts[f] + face.len());
+        }
+        sides.sort_unstable();
+        let mut corners: Vec<u32> = (0..starts[nodes.of_face.len()] as u32).collect();
+        let mut faces: Vec<u32> = (0..nodes.of_face.len() as u32).collect();
+        for shared in sides.chunk_by(|a, b| a.0 == b.0).filter(|s| s.len() > 1 && !cuts.contains(&s[0].0)) {
+            // The corner of a side at one of its nodes.
+            let at = |(_, f, k): (_, u32, u32), node: u32| {
+                let face = &nodes.of_face[f as usize];
+                let here = k as usize;
+                let corner = if face[here] == node { here } else { (here + 1) % face.len() };
+                (starts[f as usize] + corner) as u32
+            };
+            for other in &shared[1..] {
+                shared[0].0.iter().for_each(|&node| join(&mut corners, at(shared[0], node), at(*other, node)));
+                join(&mut faces, shared[0].1, other.1);
+            }
+        }
+        let of_corner = (0..corners.len() as u32).map(|c| root(&mut corners, c)).collect();
+        let part_of_face = (0..faces.len() as u32).map(|f| root(&mut faces, f)).collect();
+        Self { starts, of_corner, part_of_face }
+    }
+}
+
+fn join(parent: &mut [u32], a: u32, b: u32) {
+    let (a, b) = (root(parent, a), root(parent, b));
+    parent[a.max(b) as usize] = a.min(b);
+}
+
+fn root(parent: &mut [u32], mut k: u32) -> u32 {
+    while parent[k as usize] != k {
+        parent[k as usize] = parent[parent[k as usize] as usize];
+        k = parent[k as usize];
+    }
+    k
+}
+
+/// The edges that [`fan`] adds to a polygon.
+fn diagonals(corners: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
+    (2..corners.len() - 1).map(|k| sorted(corners[0], corners[k]))
+}
+
+/// A polygon as triangles round its first corner.
+fn fan(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> + '_ {
+    (1..corners.len() - 1).map(|k| [corners[0], corners[k], corners[k + 1]])
+}
+
+impl Part {
+    fn new(faces: &ObjFaces, nodes: &Nodes, fans: &Fans, name: String, own: Vec<u32>, unit: f64) -> Self {
+        // Vertices in the file's order, of those that a cut has made of one the first face's first.
+        let mut all: Vec<(u32, u32, u32)> = Vec::new();
+        let fan_of = |f: u32, k: usize| fans.of_corner[fans.starts[f as usize] + k];
+        for &f in &own {
+            for (k, &v) in faces.faces[f as usize].iter().enumerate() {
+                all.push((v, fan_of(f, k), nodes.of_face[f as usize][k]));
+            }
+        }
+        all.sort_unstable();
+        all.dedup_by_key(|(_, fan, _)| *fan);
+        let local: HashMap<u32, u32> = all.iter().enumerate().map(|(k, &(_, fan, _))| (fan, k as u32)).collect();
+        let corners: Vec<Vec<u32>> =
+            own.iter().map(|&f| (0..faces.faces[f as usize].len()).map(|k| local[&fan_of(f, k)]).collect()).collect();
+        let triangles = corners.iter().flat_map(|c| fan(c)).map(|[a, b, c]| [a, c, b]).collect();
+        let vertices: Vec<u32> = all.iter().map(|a| a.0).collect();
+        let positions = vertices.iter().map(|&v| faces.vertices[v as usize] * unit).collect();
+        let nodes = all.iter().map(|a| a.2).collect();
+        let diagonals = corners.iter().flat_map(|c| diagonals(c)).collect();
+        let surface = TriMesh { vertices: positions, triangles };
+        Self { name, vertices, nodes, faces: own, corners, diagonals, surface }
+    }
+
+    /// The file's number of a vertex, from 1.
+    pub(super) fn number(&self, vertex: u32) -> u32 {
+        self.vertices.get(vertex as usize).map_or(0, |v| v + 1)
+    }
+
+    /// An error in the file's numbers.
+    pub(super) fn blame(&self, error: FlattenError) -> FlattenError {
+        let face_of = |triangle: usize| {
+            let mut first = 0;
+            let counts = self.corners.iter().map(|c| c.len() - 2);
+            let face = counts
+                .take_while(|n| {
+                    first += n;
+                    first <= triangle
+                })
+                .count();
+            self.faces.get(face).map_or(0, |f| *f as usize + 1)
+        };
+        error.renumbered(&|v| self.number(v as u32) as usize, &face_of)
+    }
+}

@@ -1,0 +1,126 @@
+//! The figures of a flattened surface: keys and units of its `report.json`.
+
+use std::f64::consts::PI;
+
+use serde::Serialize;
+
+use super::parts::Part;
+use crate::flatten;
+use crate::report::{Quartet, Stage};
+
+/// Millimetres in a metre.
+const MM: f64 = 1e3;
+
+/// What flattening did to a surface; written as `report.json`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SurfaceReport {
+    /// Version of this program.
+    pub toile: String,
+    /// The file's stem.
+    pub surface: String,
+    /// Unit of the file: `mm`, `cm` or `m`.
+    pub units: &'static str,
+    /// One per part.
+    pub pieces: Vec<PartReport>,
+    /// Where the surface was cut besides its groups and texture seams: chains of the file's vertices, from 1.
+    pub cuts: Vec<Vec<u32>>,
+    /// The one stage.
+    pub stages: Vec<Stage>,
+}
+
+/// What flattening did to one part. Keys and units are those of a garment's report; the surface in space is `draped`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PartReport {
+    /// The group's name; numbered where a group has several parts.
+    pub name: String,
+    /// Vertices.
+    pub particles: usize,
+    /// Triangles.
+    pub triangles: usize,
+    /// Area in space, mm².
+    pub area_draped: f64,
+    /// Area of the flat piece, mm².
+    pub area_flattened: f64,
+    /// Length of the rim in space, mm.
+    pub boundary_draped: f64,
+    /// Length of the flat rim, mm.
+    pub boundary_flattened: f64,
+    /// Flat against space.
+    pub area_error: Quartet,
+    /// The same for the rim.
+    pub boundary_error: Quartet,
+    /// Largest |length / length in space − 1| of an edge.
+    pub largest_edge_error: f64,
+    /// Largest |length / length in space − 1| of an edge of the rim.
+    pub largest_rim_error: f64,
+    /// Root mean square of the triangles' stretches minus one.
+    pub distortion: f64,
+    /// Root mean square of the triangles' relative change of area.
+    pub area_distortion: f64,
+    /// |stretch − 1| in the worst direction: what all but a hundredth of the area stays below, and the largest.
+    pub strain: StrainReport,
+    /// L²/4πS of the rim and the area in space. Below 1 no flat piece has both that rim and that area.
+    pub isoperimetric: f64,
+    /// The least area error of any flat piece with the same length of rim: 1 − L²/4πS, or 0.
+    pub area_error_bound: f64,
+    /// Total Gauss curvature, degrees: by so much less, all together, are the flat rim's angles.
+    pub curvature: f64,
+    /// Largest change of the rim's angle in one vertex, degrees.
+    pub corner_change: f64,
+    /// Triangles turned over: always 0.
+    pub flips: usize,
+    /// Crossings of the flat rim: 0 unless the piece lies on itself.
+    pub overlaps: usize,
+    /// A dart that would relieve the piece, where its strain passes the limit.
+    pub dart: Option<DartReport>,
+}
+
+/// Strain of a part, fractions.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct StrainReport {
+    /// 99 % of the area is strained no more.
+    pub p99: f64,
+    /// Largest.
+    pub max: f64,
+}
+
+/// A dart, from the rim to its tip.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct DartReport {
+    /// The file's vertex on the rim, from 1.
+    pub rim: u32,
+    /// The file's vertex at the tip, from 1.
+    pub tip: u32,
+    /// Length, mm.
+    pub length: f64,
+}
+
+impl PartReport {
+    pub(super) fn new(part: &Part, r: &flatten::Report, dart: Option<DartReport>) -> Self {
+        let error = |e: f64| Quartet { flatten: Some(e), ..Quartet::default() };
+        let isoperimetric = r.boundary_before.powi(2) / (4.0 * PI * r.area_before);
+        Self {
+            name: part.name.clone(),
+            particles: part.surface.vertices.len(),
+            triangles: part.surface.triangles.len(),
+            area_draped: r.area_before * MM * MM,
+            area_flattened: r.area_after * MM * MM,
+            boundary_draped: r.boundary_before * MM,
+            boundary_flattened: r.boundary_after * MM,
+            area_error: error(r.area_error),
+            boundary_error: error(r.boundary_error),
+            largest_edge_error: r.largest_edge_error,
+            largest_rim_error: r.largest_rim_error,
+            distortion: r.distortion,
+            area_distortion: r.area_distortion,
+            strain: StrainReport { p99: r.strain_p99, max: r.strain_max },
+            isoperimetric,
+            area_error_bound: (1.0 - isoperimetric).max(0.0),
+            curvature: r.curvature.to_degrees(),
+            corner_change: r.corner_change.to_degrees(),
+            flips: r.flips,
+            overlaps: r.overlaps,
+            dart,
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! The files of a flattened surface.
+
+use std::fmt::Write as _;
+
+use super::super::error::PipelineError;
+use super::super::results::{PATTERN_SVG, REPORT_JSON, ResultFile, json_text};
+use super::FlatSurface;
+use super::parts::Part;
+use crate::flatten::triangle_strain;
+use crate::geometry::{Vec2, rim_loops};
+use crate::io::pattern_svg::pattern_svg;
+use crate::mesh::{ClothMesh, EdgeParticles, PieceMesh};
+use crate::pattern::EdgeId;
+use crate::picture::draw_flat;
+
+/// The surface as read, with flat texture coordinates.
+pub const FLAT_OBJ: &str = "flat.obj";
+/// The flat pieces coloured by strain.
+pub const FLAT_PNG: &str = "flat.png";
+
+/// Millimetres in a metre.
+const MM: f64 = 1e3;
+
+impl FlatSurface {
+    /// `flat.obj`, `flat.png`, `pattern.svg` and `report.json`.
+    ///
+    /// # Errors
+    /// When one of them cannot be drawn.
+    pub fn results(&self) -> Result<Vec<ResultFile>, PipelineError> {
+        let sheet = self.sheet();
+        Ok(vec![
+            (FLAT_OBJ, self.obj().into_bytes()),
+            (FLAT_PNG, self.picture(&sheet)?),
+            (PATTERN_SVG, pattern_svg(&sheet, &sheet.flat, &[])?.into_bytes()),
+            (REPORT_JSON, json_text(&self.report)?.into_bytes()),
+        ])
+    }
+
+    /// The file's vertices and faces as they were, with flat texture coordinates in mm. Numbers are written so that
+    /// they read back as the same.
+    fn obj(&self) -> String {
+        let mut out = format!(
+            "# toile {}: {}; vt = flat position (x, -y), millimetres\n",
+            env!("CARGO_PKG_VERSION"),
+            self.report.surface
+        );
+        for p in &self.faces.vertices {
+            let _ = writeln!(out, "v {} {} {}", p.x, p.y, p.z);
+        }
+        let mut first = Vec::with_capacity(self.parts.len());
+        let mut written = 1;
+        for flat in &self.flat {
+            first.push(written);
+            written += flat.positions.len();
+            for p in &flat.positions {
+                let _ = writeln!(out, "vt {} {}", p.x * MM, -p.y * MM);
+            }
+        }
+        let mut part_of_face = vec![0; self.faces.faces.len()];
+        for (k, part) in self.parts.iter().enumerate() {
+            part.faces.iter().for_each(|&f| part_of_face[f as usize] = k);
+        }
+        let mut group = None;
+        let mut seen = vec![0; self.parts.len()];
+        for (f, corners) in self.faces.faces.iter().enumerate() {
+            let k = part_of_face[f];
+            let own = &self.parts[k].corners[seen[k]];
+            seen[k] += 1;
+            if group != Some(k) {
+                let _ = writeln!(out, "g {}", self.parts[k].name);
+                group = Some(k);
+            }
+            out.push('f');
+            for (&v, &local) in corners.iter().zip(own) {
+                let _ = write!(out, " {}/{}", v + 1, first[k] + local as usize);
+            }
+            out.push('\n');
+        }
+        out
+    }
+
+    /// The pieces coloured by strain.
+    fn picture(&self, sheet: &ClothMesh) -> Result<Vec<u8>, PipelineError> {
+        let strain: Vec<f64> =
+            self.parts.iter().zip(&self.flat).flat_map(|(p, f)| triangle_strain(&p.surface, &f.positions)).collect();
+        Ok(draw_flat(sheet, &strain, &self.report.surface)?)
+    }
+
+    /// The flat parts as the pieces of a cloth, each with its rims as edges.
+    fn sheet(&self) -> ClothMesh {
+        let mut cloth = ClothMesh::default();
+        for (k, (part, flat)) in self.parts.iter().zip(&self.flat).enumerate() {
+            let (particle, triangle) = (cloth.flat.len(), cloth.triangles.len());
+            cloth.flat.extend(&flat.positions);
+            cloth.triangles.extend(part.surface.triangles.iter().map(|t| t.map(|v| v + particle as u32)));
+            cloth.pieces.push(PieceMesh {
+                name: part.name.clone(),
+                particles: particle..cloth.flat.len(),
+                triangles: triangle..cloth.triangles.len(),
+                edges: rims(part, k, particle as u32),
+                lines: Vec::new(),
+                smallest_angle: 0.0,
+                warp: -Vec2::y(),
+            });
+        }
+        cloth
+    }
+}
+
+/// The rims of a part as closed edges, `rim` and, for holes, `rim.2` ….
+fn rims(part: &Part, piece: usize, first: u32) -> Vec<EdgeParticles> {
+    let edge = |(ring, mut vertices): (usize, Vec<u32>)| {
+        vertices.extend(vertices.first().copied());
+        EdgeParticles {
+            edge: EdgeId { piece, ring, index: 0 },
+            name: if ring == 0 { "rim".into() } else { format!("rim.{}", ring + 1) },
+            particles: vertices.iter().map(|v| v + first).collect(),
+        }
+    };
+    rim_loops(&part.surface.triangles).into_iter().enumerate().map(edge).collect()
+}
