@@ -15,6 +15,7 @@
 
 pub mod cli;
 pub mod contact;
+pub mod cutting;
 pub mod drape;
 pub mod dynamics;
 pub mod fabric;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules in building order, each with those it may use. The ground floor first, the edge last.
-const FLOORS: [(&str, &[&str]); 18] = [
+const FLOORS: [(&str, &[&str]); 19] = [
     ("geometry", &[]),
     ("input", &[]),
     ("linear", &["geometry"]),
@@ -20,7 +20,8 @@ const FLOORS: [(&str, &[&str]); 18] = [
     ("verify", &["geometry", "mannequin", "mesh"]),
     ("report", &["geometry", "pattern", "mannequin", "mesh", "verify"]),
     ("picture", &["geometry", "mesh", "verify"]),
-    ("io", &["geometry", "input", "pattern", "mannequin", "mesh", "verify"]),
+    ("cutting", &["geometry", "input", "pattern"]),
+    ("io", &["geometry", "input", "pattern", "mannequin", "mesh", "verify", "cutting"]),
     (
         "pipeline",
         &[
@@ -40,7 +41,7 @@ const FLOORS: [(&str, &[&str]); 18] = [
             "io",
         ],
     ),
-    ("cli", &["fabric", "pattern", "mannequin", "flatten", "report", "io", "pipeline"]),
+    ("cli", &["fabric", "pattern", "mannequin", "flatten", "report", "cutting", "io", "pipeline"]),
 ];
 
 /// Crates and the paths below `src` that may name them.
@@ -49,8 +50,10 @@ const CRATES: [(&str, &[&str]); 16] = [
     ("faer", &["linear/"]),
     ("spade", &["mesh/"]),
     ("kurbo", &["geometry/"]),
+    ("i_overlay", &["cutting/clean.rs"]),
+    ("pdf_writer", &["io/pdf_write/"]),
     ("svgtypes", &["geometry/"]),
-    ("svg", &["io/pattern_svg.rs"]),
+    ("svg", &["io/pattern_svg.rs", "io/svg_write/"]),
     ("obj", &["io/obj_read.rs"]),
     // Written in `picture`; what users hand in is read where it is measured.
     ("png", &["picture/", "fabric/measure/photo.rs"]),

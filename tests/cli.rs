@@ -107,7 +107,10 @@ fn make_within_bounds_writes_everything() {
     let room = Room::new();
     let run = room.make("skirt.yaml", &[]);
     run.ends(0);
-    assert_eq!(room.names("out"), ["garment.obj", "garment.png", "pattern.svg", "report.json", "sewn.obj"]);
+    assert_eq!(
+        room.names("out"),
+        ["garment.glb", "garment.obj", "garment.png", "pattern.svg", "report.json", "sewn.obj"]
+    );
     assert!(run.out.contains("skirt on woman_92, cotton_poplin"), "{}", run.out);
     let obj = String::from_utf8(room.bytes("out/garment.obj")).expect("text");
     assert!(obj.contains("\ng front\n") && obj.contains("\ng back\n"));
@@ -211,7 +214,8 @@ fn any_number_of_threads_gives_the_same_bytes() {
     let room = Room::new();
     let files = |threads: &str| {
         room.run(&["make", "skirt.yaml", "-o", "out", "--spacing", FINE, "-q", "--threads", threads]).ends(0);
-        ["sewn.obj", "garment.obj", "pattern.svg", "garment.png"].map(|name| room.bytes(&format!("out/{name}")))
+        ["sewn.obj", "garment.obj", "garment.glb", "pattern.svg", "garment.png"]
+            .map(|name| room.bytes(&format!("out/{name}")))
     };
     let one = files("1");
     for threads in ["2", "4"] {

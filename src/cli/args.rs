@@ -53,6 +53,17 @@ pub(super) enum Command {
     Flatten(FlattenArgs),
     /// Run garments against their own tests
     Test(TestArgs),
+    /// Write patterns for cutting: pieces with seam allowance, notches, grain and labels
+    #[command(
+        subcommand,
+        long_about = "Write patterns for cutting: the pieces as the file draws them, with seam allowance, notches, \
+                      grain and labels.\n\n\
+                      A pair is drawn once, a piece on the fold as its half; --whole draws every piece that is cut. \
+                      Allowances are the file's (`allowance:` of an edge, a seam, a piece or the garment). Free edges \
+                      are hems, whose allowance ends so that it lies flat when turned up; say `30 mitred` or \
+                      `30 squared` in the file for another corner."
+    )]
+    Export(ExportCommand),
     /// The library of fabrics, and fabric files from readings
     #[command(subcommand)]
     Fabric(FabricCommand),
@@ -176,6 +187,83 @@ pub(super) struct TestArgs {
     pub(super) junit: Option<PathBuf>,
     #[command(flatten)]
     pub(super) overrides: OverrideArgs,
+}
+
+/// `toile export …`
+#[derive(Debug, Subcommand)]
+pub(super) enum ExportCommand {
+    /// One drawing in millimetres, to plot, cut with a laser or edit
+    Svg {
+        #[command(flatten)]
+        common: ExportArgs,
+        /// Width of the paper in millimetres [default: about as wide as high]
+        #[arg(long, value_name = "MM", value_parser = width)]
+        width: Option<f64>,
+    },
+    /// To print at home on pages that are joined, or as one page for a plotter or projector
+    Pdf {
+        #[command(flatten)]
+        common: ExportArgs,
+        /// Paper
+        #[arg(long, value_enum, default_value_t)]
+        page: PageArg,
+        /// Width of the paper in millimetres, with --page one [default: about as wide as high]
+        #[arg(long, value_name = "MM", value_parser = width)]
+        width: Option<f64>,
+    },
+    /// DXF-AAMA (ASTM D6673) for cutters and other pattern programs, a block per piece
+    Dxf {
+        #[command(flatten)]
+        common: ExportArgs,
+    },
+}
+
+/// What every export takes.
+#[derive(Debug, clap::Args)]
+pub(super) struct ExportArgs {
+    /// The garment file
+    #[arg(value_name = "GARMENT.yaml")]
+    pub(super) garment: PathBuf,
+    /// The file to write [default: out/NAME/cutting.svg, .pdf or .dxf]
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+    /// Seam allowance in millimetres of edges for which the file gives none [default: 10]
+    #[arg(long, value_name = "MM", value_parser = allowance, allow_negative_numbers = true)]
+    pub(super) allowance: Option<f64>,
+    /// Draw every piece as it is cut: folds opened, left and right, every copy
+    #[arg(long)]
+    pub(super) whole: bool,
+}
+
+/// Widest allowance, mm: more is a wrong unit.
+const WIDEST_ALLOWANCE: f64 = 200.0;
+/// Narrowest and widest paper, mm: the test square must fit, and no plotter takes more.
+const PAPER: (f64, f64) = (150.0, 5000.0);
+
+fn allowance(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(mm) if (0.0..=WIDEST_ALLOWANCE).contains(&mm) => Ok(mm),
+        _ => Err(format!("a number of millimetres from 0 to {WIDEST_ALLOWANCE} is expected, such as 10")),
+    }
+}
+
+fn width(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(mm) if (PAPER.0..=PAPER.1).contains(&mm) => Ok(mm),
+        _ => Err(format!("a number of millimetres from {} to {} is expected, such as 914", PAPER.0, PAPER.1)),
+    }
+}
+
+/// `--page`
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum PageArg {
+    /// 210 × 297 mm pages to be joined
+    #[default]
+    A4,
+    /// 8.5 × 11 inch pages to be joined
+    Letter,
+    /// Everything on one page
+    One,
 }
 
 /// `toile fabric …`

@@ -8,8 +8,8 @@ use super::exit::{CliError, Exit};
 use crate::flatten;
 use crate::io::files::{check_writable, write_all};
 use crate::pipeline::{
-    Color, GARMENT_OBJ, GARMENT_PNG, Job, Overrides, PATTERN_SVG, PLACED_OBJ, PipelineError, REPORT_JSON, ResultFile,
-    Run, SEWN_OBJ, read,
+    Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, Job, Overrides, PATTERN_SVG, PLACED_OBJ, PipelineError, REPORT_JSON,
+    ResultFile, Run, SEWN_OBJ, read,
 };
 use crate::report::{Report, restless, table, verdicts};
 
@@ -44,10 +44,10 @@ impl<'a> Goal<'a> {
         let mut names = vec![GARMENT_PNG, REPORT_JSON];
         match self {
             Goal::Sewn => names.push(SEWN_OBJ),
-            Goal::Draped { from: Some(_) } => names.push(GARMENT_OBJ),
-            Goal::Draped { from: None } => names.extend([SEWN_OBJ, GARMENT_OBJ]),
+            Goal::Draped { from: Some(_) } => names.extend([GARMENT_OBJ, GARMENT_GLB]),
+            Goal::Draped { from: None } => names.extend([SEWN_OBJ, GARMENT_OBJ, GARMENT_GLB]),
             Goal::Flat { from: Some(_), .. } => names.push(PATTERN_SVG),
-            Goal::Flat { from: None, .. } => names.extend([SEWN_OBJ, GARMENT_OBJ, PATTERN_SVG]),
+            Goal::Flat { from: None, .. } => names.extend([SEWN_OBJ, GARMENT_OBJ, GARMENT_GLB, PATTERN_SVG]),
         }
         names
     }

@@ -7,6 +7,7 @@ mod args;
 mod check;
 mod console;
 mod exit;
+mod export;
 mod fabric;
 mod flatten;
 mod junit;
@@ -59,6 +60,7 @@ fn run(command: &Command, console: &Console) -> Result<Exit, CliError> {
         Command::Drape(args) => make::drape(args, console),
         Command::Flatten(args) => flatten::flatten(args, console),
         Command::Test(args) => test::test(args, console),
+        Command::Export(command) => export::export(command, console),
         Command::Fabric(command) => fabric::fabric(command, console),
         Command::Mannequin(command) => mannequin::mannequin(command, console),
     }

@@ -20,6 +20,18 @@ pub struct Path {
     at: Vec<f64>,
 }
 
+/// A point of a path and the unit tangent there, along the path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Station {
+    /// The point.
+    pub at: Vec2,
+    /// The direction.
+    pub tangent: Vec2,
+}
+
+/// Halvings of a segment in search of [`Path::stations`]: past this many the curve has no tangent worth following.
+const MOST_HALVINGS: usize = 14;
+
 /// Why a path could not be read.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PathError {
@@ -37,9 +49,9 @@ pub enum PathError {
 /// Arcs become cubics that stay within this many file units of them (a nanometre in millimetres).
 const ARC_ACCURACY: f64 = 1e-6;
 
-/// One connected SVG path, or `None` when the text is no such path. (kurbo's and svgtypes' own conversions of arcs are
-/// off by up to 0.1 units; this one is not.)
-fn bezier_path(text: &str) -> Option<BezPath> {
+/// An SVG path, of one connected run or (`many`) of several; `None` when the text is no such path. (kurbo's and svgtypes'
+/// own conversions of arcs are off by up to 0.1 units; this one is not.)
+fn bezier_path(text: &str, many: bool) -> Option<BezPath> {
     use svgtypes::PathSegment as S;
     let mut bez = BezPath::new();
     let (mut at, mut first) = (Point::ZERO, Point::ZERO);
@@ -50,7 +62,7 @@ fn bezier_path(text: &str) -> Option<BezPath> {
         let mirrored = |c: Option<Point>| c.map_or(at, |c| at + (at - c));
         let (mut next_cubic, mut next_quad) = (None, None);
         let to = match segment.ok()? {
-            S::MoveTo { abs, x, y } if bez.elements().is_empty() => {
+            S::MoveTo { abs, x, y } if many || bez.elements().is_empty() => {
                 first = p(abs, x, y);
                 bez.move_to(first);
                 first
@@ -160,7 +172,7 @@ impl Path {
     /// # Errors
     /// As [`Path::parse`].
     pub fn parse_absolute(text: &str, unit: f64) -> Result<Self, PathError> {
-        let bez = bezier_path(text).ok_or_else(|| PathError::Syntax(text.to_owned()))?;
+        let bez = bezier_path(text, false).ok_or_else(|| PathError::Syntax(text.to_owned()))?;
         let bez = kurbo::Affine::scale(unit) * bez;
         if !bez.is_finite() {
             return Err(PathError::NotFinite(text.to_owned()));
@@ -170,6 +182,28 @@ impl Path {
             return Err(PathError::Empty(text.to_owned()));
         }
         Ok(Self::from_segments(segments))
+    }
+
+    /// Reads every connected run of an SVG path, its numbers as they stand; runs without length are left out. What
+    /// follows a `Z` without an `M` goes on from where the closed run began.
+    ///
+    /// # Errors
+    /// [`PathError`] when the text is no path or holds a number that is not finite.
+    pub fn parse_many(text: &str) -> Result<Vec<Self>, PathError> {
+        let bez = bezier_path(text, true).ok_or_else(|| PathError::Syntax(text.to_owned()))?;
+        if !bez.is_finite() {
+            return Err(PathError::NotFinite(text.to_owned()));
+        }
+        let mut runs: Vec<Vec<PathSeg>> = Vec::new();
+        let mut end: Option<Point> = None;
+        for segment in bez.segments().filter(|s| s.arclen(LENGTH_ACCURACY) > LENGTH_ACCURACY) {
+            match runs.last_mut() {
+                Some(run) if end == Some(segment.start()) => run.push(segment),
+                _ => runs.push(vec![segment]),
+            }
+            end = Some(segment.end());
+        }
+        Ok(runs.into_iter().map(Self::from_segments).collect())
     }
 
     /// Total arc length, metres, exact to a nanometre per segment.
@@ -209,6 +243,11 @@ impl Path {
     /// The unit tangent at arc length `s` (clamped), pointing along the path.
     pub fn tangent(&self, s: f64) -> Vec2 {
         let (i, t) = self.locate(s.clamp(0.0, self.length()));
+        self.direction(i, t)
+    }
+
+    /// The unit tangent of a segment at its parameter `t`.
+    fn direction(&self, i: usize, t: f64) -> Vec2 {
         let derivative = |t: f64| -> KVec {
             match self.segments[i] {
                 PathSeg::Line(l) => l.p1 - l.p0,
@@ -224,6 +263,56 @@ impl Path {
             }
         }
         (self.end() - self.start()).normalize()
+    }
+
+    /// Stations along every segment, its ends included, so close that the chords between them leave the path by at
+    /// most `tolerance`, and likewise those between the points `reach` to the left or right of them the curves that run
+    /// beside the path. Metres.
+    pub fn stations(&self, reach: f64, tolerance: f64) -> Vec<Vec<Station>> {
+        (0..self.segments.len()).map(|i| self.segment_stations(i, reach, tolerance)).collect()
+    }
+
+    fn segment_stations(&self, i: usize, reach: f64, tolerance: f64) -> Vec<Station> {
+        let station = |t: f64| Station { at: vector(self.segments[i].eval(t)), tangent: self.direction(i, t) };
+        let beside = |s: &Station, d: f64| s.at + d * Vec2::new(-s.tangent.y, s.tangent.x);
+        // How far the point `s` between `a` and `b` is from their chord, on the path and to both sides of it.
+        let off = |a: &Station, s: &Station, b: &Station| {
+            let from_chord = |d: f64| {
+                let (p, q, x) = (beside(a, d), beside(b, d), beside(s, d));
+                (q - p).try_normalize(1e-12).map_or((x - p).norm(), |u| u.perp(&(x - p)).abs())
+            };
+            [0.0, reach, -reach].map(from_chord).into_iter().fold(0.0, f64::max)
+        };
+        let mut found = vec![station(0.0)];
+        // Open spans of the parameter, the first one last.
+        let mut open = vec![(0.0, 1.0, 0)];
+        if matches!(self.segments[i], PathSeg::Line(_)) {
+            open = vec![(0.0, 1.0, MOST_HALVINGS)];
+        }
+        while let Some((from, to, halvings)) = open.pop() {
+            let (a, b) = (station(from), station(to));
+            let at = |share: f64| station(from + (to - from) * share);
+            let straight = || [0.25, 0.5, 0.75].iter().all(|&share| off(&a, &at(share), &b) <= tolerance);
+            if halvings == MOST_HALVINGS || straight() {
+                found.push(b);
+            } else {
+                let middle = 0.5 * (from + to);
+                open.extend([(middle, to, halvings + 1), (from, middle, halvings + 1)]);
+            }
+        }
+        found
+    }
+
+    /// The path as cubic Bézier curves: start, two control points and end each; lines are `None` in between.
+    pub fn beziers(&self) -> impl Iterator<Item = (Vec2, Option<[Vec2; 2]>, Vec2)> + '_ {
+        self.segments.iter().map(|segment| {
+            let controls = match segment {
+                PathSeg::Line(_) => None,
+                PathSeg::Quad(q) => Some(q.raise()),
+                PathSeg::Cubic(c) => Some(*c),
+            };
+            (vector(segment.start()), controls.map(|c| [vector(c.p1), vector(c.p2)]), vector(segment.end()))
+        })
     }
 
     /// Arc length of the point nearest to `p` (the first of several), and its distance from `p`.
@@ -321,6 +410,14 @@ impl Path {
         }
         out.trim_end().to_owned()
     }
+}
+
+/// Reads an SVG `transform`: the linear part and the shift; `None` when the text is none or holds a number that is not
+/// finite.
+pub fn parse_transform(text: &str) -> Option<(nalgebra::Matrix2<f64>, Vec2)> {
+    let t: svgtypes::Transform = text.parse().ok()?;
+    let numbers = [t.a, t.b, t.c, t.d, t.e, t.f];
+    numbers.iter().all(|x| x.is_finite()).then(|| (nalgebra::Matrix2::new(t.a, t.c, t.b, t.d), Vec2::new(t.e, t.f)))
 }
 
 /// Six decimals, no negative zero, no trailing zeros.

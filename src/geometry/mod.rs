@@ -3,7 +3,7 @@
 mod curve;
 mod trimesh;
 
-pub use curve::{Path, PathError};
+pub use curve::{Path, PathError, Station, parse_transform};
 pub use trimesh::{Edge, Topology, TriMesh, rim_loops};
 
 /// A point or direction in a flat piece, metres, y **down**, the right side of the cloth facing the reader.

@@ -1,8 +1,12 @@
 //! The edge of the house: files in and out. No stage reads or writes a file itself.
 
 pub mod body;
+pub mod dxf_write;
 pub mod files;
 pub mod garment;
+pub mod glb_write;
 pub mod obj_read;
 pub mod obj_write;
 pub mod pattern_svg;
+pub mod pdf_write;
+pub mod svg_write;

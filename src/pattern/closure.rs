@@ -4,7 +4,7 @@ use super::Closure;
 use super::cut::{Instance, Pieces};
 use super::diagnostic::{Findings, Located};
 use super::draft::{Draft, shown};
-use super::file::{ClosureFile, GarmentFile, Side};
+use super::file::{ClosureFile, GarmentFile, Side, Unit};
 use super::inherit::unknown_piece;
 use super::problem::Problem;
 use super::reference::piece_of;
@@ -18,6 +18,34 @@ pub(super) fn closures(file: &GarmentFile, drafts: &[Draft], cut: &Pieces, findi
         .iter()
         .map(|c| Closure { kind: c.kind.value.clone(), tacks: wardrobe.tacks(c, findings).unwrap_or_default() })
         .collect()
+}
+
+/// Where closures go on a drawn piece: their kind, and the point in the drawing.
+pub(super) fn drawn_points(file: &GarmentFile, drawn: &Draft) -> Vec<(String, Vec2)> {
+    let unit = file.unit();
+    let mut points = Vec::new();
+    for closure in &file.closures {
+        let across = if closure.meets_at.is_empty() { &closure.at } else { &closure.meets_at };
+        for (carrier, at) in [(&closure.on, &closure.at), (&closure.meets, across)] {
+            if carrier.as_ref().is_none_or(|c| piece_of(&c.value).0 != drawn.name) {
+                continue;
+            }
+            for first in at {
+                let first = Vec2::from(first.value) * unit.factor();
+                points.extend(repeated(closure, first, drawn.warp, unit).map(|p| (closure.kind.value.clone(), p)));
+            }
+        }
+    }
+    // Both of a pair may carry the same: the drawing has it once.
+    points.dedup();
+    points
+}
+
+/// A closure's point, repeated along the grain as it says.
+fn repeated(closure: &ClosureFile, first: Vec2, grain: Vec2, unit: Unit) -> impl Iterator<Item = Vec2> + Clone + use<> {
+    let pitch = closure.pitch.as_ref().map_or(0.0, |p| p.value.value(unit));
+    let count = closure.count.as_ref().map_or(1, |c| c.value);
+    (0..count).map(move |i| first + grain * (pitch * i as f64))
 }
 
 struct Wardrobe<'a> {
@@ -77,14 +105,12 @@ impl Wardrobe<'_> {
     ) -> Vec<Vec2> {
         let unit = self.file.unit();
         let grain = self.drafts[on.draft].warp;
-        let pitch = closure.pitch.as_ref().map_or(0.0, |p| p.value.value(unit));
-        let count = closure.count.as_ref().map_or(1, |c| c.value);
         let piece = &self.cut.pieces[on.piece];
         let cloth = Region::new(&piece.loops);
         let mut points = Vec::new();
         for p in at {
             let first = Vec2::from(p.value) * unit.factor();
-            let drawn = (0..count).map(|i| first + grain * (pitch * i as f64));
+            let drawn = repeated(closure, first, grain, unit);
             if let Some(off) = drawn.clone().find(|&p| !cloth.holds(on.point(p))) {
                 let (kind, piece) = (closure.kind.value.clone(), piece.name.clone());
                 findings.error(p.at, Problem::PointOff { kind, piece, at: shown(off) });

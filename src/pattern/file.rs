@@ -195,9 +195,45 @@ pub struct PieceFile {
 #[derive(Clone, Debug, PartialEq)]
 pub enum AllowanceFile {
     /// One for all edges.
-    All(Located<Quantity>),
+    All(Located<AllowanceWidth>),
     /// By edge.
-    Edges(Vec<(Located<String>, Located<Quantity>)>),
+    Edges(Vec<(Located<String>, Located<AllowanceWidth>)>),
+}
+
+/// A width of seam allowance: `10`, `30 folded`, `1.5 cm squared`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AllowanceWidth {
+    /// From the sewing line to the cut line.
+    pub width: Quantity,
+    /// How it ends at the edge's corners, if said.
+    pub corner: Option<Corner>,
+}
+
+/// How the allowance of an edge ends at its corners.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Corner {
+    /// Both cut lines go on until they meet.
+    Mitred,
+    /// Square to the edge, from where its sewing line leaves the neighbour's allowance: for the seam sewn first.
+    Squared,
+    /// As the neighbour's cut line mirrored in the edge, so that it lies on it when it is folded back: for hems.
+    Folded,
+}
+
+impl Corner {
+    /// As written in files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Mitred => "mitred",
+            Self::Squared => "squared",
+            Self::Folded => "folded",
+        }
+    }
+
+    /// The corner with this name.
+    pub fn from_word(word: &str) -> Option<Self> {
+        [Self::Mitred, Self::Squared, Self::Folded].into_iter().find(|c| c.word() == word)
+    }
 }
 
 /// An outline: a start point and named edges with their path commands.

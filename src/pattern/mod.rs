@@ -25,6 +25,7 @@ mod cut;
 mod dart;
 mod diagnostic;
 mod draft;
+mod drawing;
 mod expand;
 mod file;
 mod inherit;
@@ -42,10 +43,12 @@ mod spelling;
 mod walk;
 
 pub use diagnostic::{Diagnostic, Findings, Located, Severity, Spot};
+pub use drawing::{Allowance, Dart, Drawing, DrawnEdge, DrawnFold, DrawnNotch, drawings};
 pub use expand::expand;
 pub use file::{
-    AllowanceFile, ClosureFile, Cut, DartFile, DartShape, GarmentFile, LineFile, NotchFile, OpenFile, OutlineFile,
-    PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, Side, TestEntry, TestFile, Unit, Value,
+    AllowanceFile, AllowanceWidth, ClosureFile, Corner, Cut, DartFile, DartShape, GarmentFile, LineFile, NotchFile,
+    OpenFile, OutlineFile, PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, Side, TestEntry, TestFile,
+    Unit, Value,
 };
 pub use place_word::{PlaceWord, place_word};
 pub use problem::Problem;

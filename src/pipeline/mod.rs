@@ -25,7 +25,7 @@ pub use error::PipelineError;
 pub use job::{Job, Overrides, read};
 pub use material::check_materials;
 pub use results::{
-    Color, GARMENT_OBJ, GARMENT_PNG, PATTERN_SVG, PLACED_OBJ, REPORT_JSON, ResultFile, SEWN_OBJ, json_text,
+    Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, PATTERN_SVG, PLACED_OBJ, REPORT_JSON, ResultFile, SEWN_OBJ, json_text,
 };
 pub use run::{Progress, Run};
 pub use surface::{Cuts, FLAT_OBJ, FLAT_PNG, FlatSurface, PartReport, SurfaceOptions, SurfaceReport, flatten_surface};

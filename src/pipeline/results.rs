@@ -3,6 +3,7 @@
 use super::error::PipelineError;
 use super::run::Run;
 use crate::geometry::Vec3;
+use crate::io::glb_write::garment_glb;
 use crate::io::obj_write::garment_obj;
 use crate::io::pattern_svg::pattern_svg;
 use crate::pattern::Notch;
@@ -11,6 +12,8 @@ use crate::report::{Report, vertex_strain};
 
 /// The draped garment.
 pub const GARMENT_OBJ: &str = "garment.obj";
+/// The draped garment for 3D programs.
+pub const GARMENT_GLB: &str = "garment.glb";
 /// The sewn garment, before it was draped.
 pub const SEWN_OBJ: &str = "sewn.obj";
 /// The pieces as they were placed, not sewn yet: written when sewing them fails.
@@ -44,6 +47,8 @@ impl Run<'_> {
         let mut files = self.state(color)?;
         if let Some(draped) = &self.draped {
             files.push((GARMENT_OBJ, self.obj(draped)));
+            let (garment, mesh) = (&self.job.garment, &self.job.mesh);
+            files.push((GARMENT_GLB, garment_glb(garment, mesh, &self.stitching.class, draped)));
         }
         if let Some(flat) = &self.flattened {
             let notches: Vec<Notch> = self.job.garment.pieces.iter().flat_map(|p| p.notches.clone()).collect();

@@ -5,8 +5,8 @@ use super::fields::{
     Fields, entries, integer, items, length, number, numbers, quantity, text, width, within, word, wrong,
 };
 use crate::pattern::{
-    AllowanceFile, Cut, DartFile, DartShape, Findings, LineFile, Located, NotchFile, OutlineFile, PieceFile, PlaceFile,
-    PleatFile, PleatKind, Problem, Side, Value, parse_quantity,
+    AllowanceFile, AllowanceWidth, Corner, Cut, DartFile, DartShape, Findings, LineFile, Located, NotchFile,
+    OutlineFile, PieceFile, PlaceFile, PleatFile, PleatKind, Problem, Side, Value, parse_quantity,
 };
 
 /// A piece may be cut so often at most: more is a slip of the pen, and every copy costs.
@@ -62,10 +62,23 @@ fn cut(value: &Located<Value>, _: &str, findings: &mut Findings) -> Option<Locat
 
 fn allowance(value: &Located<Value>, findings: &mut Findings) -> Option<AllowanceFile> {
     if let Value::Map(entries) = &value.value {
-        let edge = |(k, v): &(Located<String>, Located<Value>)| Some((k.clone(), width(v, "allowance", findings)?));
+        let edge = |(k, v): &(Located<String>, Located<Value>)| Some((k.clone(), allowance_width(v, findings)?));
         return Some(AllowanceFile::Edges(entries.iter().filter_map(edge).collect()));
     }
-    width(value, "allowance", findings).map(AllowanceFile::All)
+    allowance_width(value, findings).map(AllowanceFile::All)
+}
+
+/// A width and perhaps how it ends: `30 folded`.
+fn allowance_width(value: &Located<Value>, findings: &mut Findings) -> Option<Located<AllowanceWidth>> {
+    let written = match &value.value {
+        Value::Text(text) => text.trim_end(),
+        _ => "",
+    };
+    let (number, last) = written.rsplit_once(' ').unwrap_or((written, ""));
+    let corner = Corner::from_word(last);
+    let number = if corner.is_some() { Located::new(Value::Text(number.to_owned()), value.at) } else { value.clone() };
+    let width = width(&number, "allowance", findings)?;
+    Some(Located::new(AllowanceWidth { width: width.value, corner }, value.at))
 }
 
 /// Stands for a grain that was reported, so that it is not said to be missing as well.

@@ -3,8 +3,8 @@
 use serde_yaml::{Mapping, Value as Yaml};
 
 use crate::pattern::{
-    AllowanceFile, ClosureFile, Cut, DartFile, DartShape, GarmentFile, LineFile, Located, OpenFile, PieceFile,
-    PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, TestEntry, TestFile, Value,
+    AllowanceFile, AllowanceWidth, ClosureFile, Cut, DartFile, DartShape, GarmentFile, LineFile, Located, OpenFile,
+    PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, TestEntry, TestFile, Value,
 };
 
 /// A garment file that YAML cannot hold, and why.
@@ -117,6 +117,16 @@ fn quantity(q: Quantity) -> Yaml {
     q.unit.map_or_else(|| number(q.number), |u| format!("{} {}", q.number, u.symbol()).into())
 }
 
+fn allowance(of: AllowanceWidth) -> Yaml {
+    match of.corner {
+        None => quantity(of.width),
+        Some(corner) => {
+            let unit = of.width.unit.map_or_else(String::new, |u| format!(" {}", u.symbol()));
+            format!("{}{unit} {}", of.width.number, corner.word()).into()
+        }
+    }
+}
+
 fn piece(piece: &PieceFile) -> Yaml {
     let mut map = Map::default();
     map.text("like", &piece.like);
@@ -125,9 +135,9 @@ fn piece(piece: &PieceFile) -> Yaml {
     map.some("drawn", piece.drawn.as_ref().map(|d| d.value.letter()));
     map.some("layer", piece.layer.as_ref().map(|l| l.value));
     match &piece.allowance {
-        Some(AllowanceFile::All(q)) => map.put("allowance", quantity(q.value)),
+        Some(AllowanceFile::All(q)) => map.put("allowance", allowance(q.value)),
         Some(AllowanceFile::Edges(edges)) => {
-            map.put("allowance", named(edges, |(k, q)| (k, quantity(q.value))));
+            map.put("allowance", named(edges, |(k, q)| (k, allowance(q.value))));
         }
         None => {}
     }

@@ -1,0 +1,142 @@
+//! `export`: patterns for cutting.
+
+use std::path::PathBuf;
+
+use super::args::{ExportArgs, ExportCommand, PageArg};
+use super::console::Console;
+use super::exit::{CliError, Exit};
+use super::make::folder;
+use crate::cutting::{DEFAULT_ALLOWANCE, Layout, Options, Paper, Sheet, papers};
+use crate::io::dxf_write::cutting_dxf;
+use crate::io::files::write_all;
+use crate::io::pdf_write::{Page, one_page, tiled};
+use crate::io::svg_write::cutting_svg;
+use crate::pattern::{Drawing, drawings};
+use crate::pipeline::read;
+use crate::report::aligned;
+
+/// Empty rim of a sheet that is one page, metres.
+const MARGIN: f64 = 0.010;
+/// Metres in a millimetre.
+const MM: f64 = 1e-3;
+
+/// `toile export …`
+pub(super) fn export(command: &ExportCommand, console: &Console) -> Result<Exit, CliError> {
+    match command {
+        ExportCommand::Svg { common, width } => {
+            let job = Job::new(common, console)?;
+            let sheet = Sheet::new(&job.papers, &one_sheet(*width));
+            job.write(cutting_svg(&sheet).into_bytes(), "svg", console)
+        }
+        ExportCommand::Pdf { common, page, width } => {
+            let job = Job::new(common, console)?;
+            let pdf = match page {
+                PageArg::A4 => tiled(&job.title, &job.papers, Page::A4),
+                PageArg::Letter => tiled(&job.title, &job.papers, Page::LETTER),
+                PageArg::One => one_page(&job.title, &Sheet::new(&job.papers, &one_sheet(*width))),
+            };
+            let pdf = pdf.map_err(|e| CliError::Argument(e.to_string()))?;
+            job.write(pdf, "pdf", console)
+        }
+        ExportCommand::Dxf { common } => {
+            let job = Job::new(common, console)?;
+            job.write(cutting_dxf(&job.title, &job.papers).into_bytes(), "dxf", console)
+        }
+    }
+}
+
+fn one_sheet(width: Option<f64>) -> Layout {
+    Layout { width: width.map(|w| w * MM), margin: MARGIN, square: true }
+}
+
+/// A garment's papers on their way into a file.
+struct Job<'a> {
+    args: &'a ExportArgs,
+    name: String,
+    title: String,
+    papers: Vec<Paper>,
+}
+
+impl<'a> Job<'a> {
+    fn new(args: &'a ExportArgs, console: &Console) -> Result<Self, CliError> {
+        let loaded = read(&args.garment)?;
+        loaded.warnings.iter().for_each(|warning| console.note(&warning.to_string()));
+        let drawn = drawings(&loaded.file, &loaded.garment);
+        if args.allowance.is_none() && drawn.iter().any(lacks_allowance) {
+            let usual = DEFAULT_ALLOWANCE / MM;
+            console.note(&format!(
+                "the file does not give every edge an allowance; these get {usual} mm (--allowance MM for another)"
+            ));
+        }
+        let allowance = args.allowance.map_or(DEFAULT_ALLOWANCE, |mm| mm * MM);
+        let papers = papers(&drawn, &Options { allowance, whole: args.whole });
+        Ok(Self { args, name: loaded.garment.name, title: loaded.garment.title, papers })
+    }
+
+    fn write(&self, bytes: Vec<u8>, kind: &str, console: &Console) -> Result<Exit, CliError> {
+        let usual = || folder(None, &self.name).join(format!("cutting.{kind}"));
+        let target: PathBuf = self.args.output.clone().unwrap_or_else(usual);
+        write_all(&[(target.clone(), bytes)], &[&self.args.garment])?;
+        let rows: Vec<Row> = self.papers.iter().map(Row::new).collect();
+        let written = Written { file: target.display().to_string(), pieces: rows };
+        console.results(&written, || written.text())?;
+        Ok(Exit::Done)
+    }
+}
+
+/// Whether an edge that will be cut has no allowance of its own.
+fn lacks_allowance(drawing: &Drawing) -> bool {
+    let outline = drawing.rings[0].iter().enumerate();
+    outline
+        .filter(|(i, _)| drawing.fold != Some(*i) && !drawing.darts.iter().any(|d| d.legs.contains(i)))
+        .any(|(_, edge)| edge.allowance.width.is_none())
+}
+
+/// What was written. Lengths are mm.
+#[derive(serde::Serialize)]
+struct Written {
+    file: String,
+    pieces: Vec<Row>,
+}
+
+#[derive(serde::Serialize)]
+struct Row {
+    name: String,
+    cut: usize,
+    mirrored: bool,
+    on_fold: bool,
+    fabric: String,
+    width: f64,
+    height: f64,
+}
+
+impl Row {
+    fn new(paper: &Paper) -> Self {
+        let [low, high] = paper.bounds();
+        Self {
+            name: paper.name.clone(),
+            cut: paper.quantity,
+            mirrored: paper.mirrored,
+            on_fold: paper.fold.is_some(),
+            fabric: paper.fabric.clone(),
+            width: (high.x - low.x) / MM,
+            height: (high.y - low.y) / MM,
+        }
+    }
+}
+
+impl Written {
+    fn text(&self) -> String {
+        let mut rows = vec![["piece", "cut", "mm wide", "mm high", "", "fabric"].map(String::from).to_vec()];
+        rows.extend(self.pieces.iter().map(|p| {
+            let how = match (p.on_fold, p.mirrored) {
+                (true, _) => "on the fold",
+                (_, true) => "left and right",
+                _ => "",
+            };
+            let number = |x: f64| format!("{x:.0}");
+            vec![p.name.clone(), p.cut.to_string(), number(p.width), number(p.height), how.into(), p.fabric.clone()]
+        }));
+        format!("{}\n  written to {}\n", aligned(&rows), self.file)
+    }
+}

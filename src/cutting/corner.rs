@@ -1,0 +1,250 @@
+//! How two allowances meet.
+//!
+//! A corner is looked at as two polylines: `x`, the cut line that comes to it, and `y`, the one that leaves it; both
+//! are as far from their sewing lines as these are wide. Where a maker speaks of an allowance that is *folded* or
+//! *squared* at its ends, she looks from the neighbour: its cut line goes on as far as the sewing line of the special
+//! edge, and from there straight out, or mirrored in that sewing line, to the special edge's cut line.
+
+use super::offset::Run;
+use crate::geometry::Vec2;
+use crate::pattern::Corner;
+
+/// A mitre may be this many times as long as the wider allowance; past it (corners of less than 39 degrees) its point
+/// is cut off.
+pub(super) const MITRE_LIMIT: f64 = 3.0;
+/// Edges that turn less than this (radians) go on as one.
+const STRAIGHT: f64 = 1e-4;
+/// And folded or squared ends want a turn of at least this (radians, 20 degrees): along a smooth course there is no end.
+const LEAST_TURN: f64 = 0.35;
+/// Nearer than this (metres) is the same.
+const SAME: f64 = 1e-9;
+
+/// A place on a polyline: how many points from its start, with a fraction; before and past its ends, too.
+pub(super) type At = (f64, Vec2);
+
+/// How a contour goes from one run to the next.
+#[derive(Clone, Debug)]
+pub(super) struct Join {
+    /// Where it leaves the first run.
+    pub(super) leave: At,
+    pub(super) between: Vec<Vec2>,
+    /// Where it enters the second.
+    pub(super) enter: At,
+}
+
+/// Joins two runs as their edges wish. Of two wishes that differ the mitre gives way, then the narrower allowance; two
+/// equal ones make a mitre.
+pub(super) fn join(a: &Run, b: &Run, wishes: [Corner; 2]) -> Join {
+    let special = match wishes {
+        [one, other] if one == other => None,
+        [Corner::Mitred, other] => Some((other, false)),
+        [one, Corner::Mitred] => Some((one, true)),
+        [one, other] => Some(if a.width > b.width { (one, true) } else { (other, false) }),
+    };
+    special.and_then(|(kind, of_first)| ended(a, b, kind, of_first)).unwrap_or_else(|| mitred(a, b))
+}
+
+/// A run as seen from its corner.
+struct Arm {
+    /// Its cut line, the corner's end first.
+    line: Vec<Vec2>,
+    /// Away from the corner along the sewing line.
+    along: Vec2,
+    /// Away from the cloth.
+    out: Vec2,
+    width: f64,
+}
+
+impl Arm {
+    fn before(run: &Run) -> Self {
+        let t = run.ends[1];
+        let line = run.moved.iter().rev().copied().collect();
+        Self { line, along: -t, out: Vec2::new(t.y, -t.x), width: run.width }
+    }
+
+    fn after(run: &Run) -> Self {
+        let t = run.ends[0];
+        Self { line: run.moved.clone(), along: t, out: Vec2::new(t.y, -t.x), width: run.width }
+    }
+
+    /// Its cut line, begun earlier by `reach`.
+    fn extended(&self, reach: f64) -> Vec<Vec2> {
+        [&[self.line[0] - self.along * reach], self.line.as_slice()].concat()
+    }
+}
+
+fn corner_of(a: &Run) -> Vec2 {
+    a.base[a.base.len() - 1]
+}
+
+fn turn(a: &Run, b: &Run) -> f64 {
+    let (t, u) = (a.ends[1], b.ends[0]);
+    t.perp(&u).atan2(t.dot(&u))
+}
+
+/// From the two arms' places back to those of the runs. Places on an arm count from the corner, its extension first.
+fn joined(a: &Run, on_a: At, between: Vec<Vec2>, on_b: At) -> Join {
+    let last = (a.moved.len() - 1) as f64;
+    Join { leave: (last - (on_a.0 - 1.0), on_a.1), between, enter: (on_b.0 - 1.0, on_b.1) }
+}
+
+/// Straight from the end of one run to the start of the next, over `between`.
+fn plain(a: &Run, b: &Run, between: Vec<Vec2>) -> Join {
+    let last = a.moved.len() - 1;
+    Join { leave: (last as f64, a.moved[last]), between, enter: (0.0, b.moved[0]) }
+}
+
+fn mitred(a: &Run, b: &Run) -> Join {
+    let (end, start) = (a.moved[a.moved.len() - 1], b.moved[0]);
+    if (end - start).norm() < SAME {
+        return plain(a, b, Vec::new());
+    }
+    let wide = a.width.max(b.width);
+    let turn = turn(a, b);
+    if turn.abs() > STRAIGHT {
+        let arms = [Arm::before(a), Arm::after(b)];
+        let [x, y] = arms.each_ref().map(|arm| arm.extended(MITRE_LIMIT * wide));
+        if let Some((on_a, on_b)) = first_crossing(&x, &y) {
+            // A step of the width along a nearly straight course is not spread over more than the width.
+            let cut_away = |line: &[Vec2], at: At| length(&line[1..], at.0 - 1.0);
+            if turn < 0.0 || cut_away(&x, on_a).max(cut_away(&y, on_b)) <= wide {
+                return joined(a, on_a, Vec::new(), on_b);
+            }
+        }
+    }
+    if turn < 0.0 {
+        // Too short to meet: by way of the corner, whence the loop falls away.
+        return plain(a, b, vec![corner_of(a)]);
+    }
+    if turn < LEAST_TURN {
+        return plain(a, b, Vec::new());
+    }
+    // The point of a long mitre is cut off square to its axis.
+    let (sin, cos) = (turn / 2.0).sin_cos();
+    let past = |width: f64| ((MITRE_LIMIT * wide - width * cos) / sin).max(0.0);
+    plain(a, b, vec![end + a.ends[1] * past(a.width), start - b.ends[0] * past(b.width)])
+}
+
+/// The special edge, the second or (`of_first`) the first, ends squared or folded. `None` where it cannot.
+fn ended(a: &Run, b: &Run, kind: Corner, of_first: bool) -> Option<Join> {
+    if turn(a, b) < LEAST_TURN {
+        return None;
+    }
+    let (before, after) = (Arm::before(a), Arm::after(b));
+    let (x, y) = if of_first { (&after, &before) } else { (&before, &after) };
+    let corner = corner_of(a);
+    let reach = MITRE_LIMIT * x.width.max(y.width);
+    let own = x.extended(reach);
+    let (on_x, _) = first_crossing(&own, &[corner + y.along * SAME, corner - y.along * reach])?;
+    let ray = match kind {
+        Corner::Squared => vec![on_x.1, on_x.1 + y.out * (2.0 * y.width)],
+        Corner::Folded => {
+            let back = std::iter::once(on_x.1).chain(rest(&own, on_x.0));
+            back.map(|p| mirrored(p, corner, y.along)).collect()
+        }
+        Corner::Mitred => return None,
+    };
+    let far = y.extended(reach);
+    let (on_ray, on_y) = first_crossing(&ray, &far)?;
+    let mut between = vec![on_x.1];
+    between.extend(ray.iter().enumerate().filter(|&(k, _)| k > 0 && (k as f64) < on_ray.0).map(|(_, p)| *p));
+    if length(&ray, on_ray.0) > reach {
+        return None;
+    }
+    Some(if of_first {
+        between.reverse();
+        joined(a, on_y, between, on_x)
+    } else {
+        joined(a, on_x, between, on_y)
+    })
+}
+
+/// Over the mouth of a dart between `a` and `b`, so that the allowance meets when the dart is sewn and pressed onto
+/// one of them: over the half of the intake next to that edge its cut line mirrored in the leg, over the other half
+/// the same mirrored in the dart's axis. Straight across where that gives nothing.
+pub(super) fn cap(a: &Run, b: &Run, tip: Vec2, onto_first: bool) -> Join {
+    let (before, after) = (Arm::before(a), Arm::after(b));
+    let (first, second) = if onto_first { (&before, &after) } else { (&after, &before) };
+    let mouths = [corner_of(a), b.base[0]];
+    let (near, far) = if onto_first { (mouths[0], mouths[1]) } else { (mouths[1], mouths[0]) };
+    let reach = MITRE_LIMIT * a.width.max(b.width) + (far - near).norm();
+    let Some((on_first, on_second, between)) = folded_cap(first, second, [near, far], tip, reach) else {
+        return plain(a, b, Vec::new());
+    };
+    if onto_first {
+        joined(a, on_first, between, on_second)
+    } else {
+        joined(a, on_second, between.into_iter().rev().collect(), on_first)
+    }
+}
+
+fn folded_cap(x: &Arm, y: &Arm, [near, far]: [Vec2; 2], tip: Vec2, reach: f64) -> Option<(At, At, Vec<Vec2>)> {
+    let middle = (near + far) / 2.0;
+    let axis = (middle - tip).try_normalize(SAME)?;
+    let [one, other] = [near, far].map(|mouth| (mouth - tip).try_normalize(SAME));
+    let (one, other) = (one?, other?);
+    let (own, far_line) = (x.extended(reach), y.extended(reach));
+    // Without allowance the line ends on the leg already.
+    let on_leg = |line: &[Vec2], arm: &Arm, mouth: Vec2, leg: Vec2| {
+        if arm.width < SAME {
+            return Some((1.0, arm.line[0]));
+        }
+        first_crossing(line, &[mouth - leg * arm.width, mouth + leg * reach]).map(|c| c.0)
+    };
+    let on_x = on_leg(&own, x, near, one)?;
+    let on_y = on_leg(&far_line, y, far, other)?;
+    let folded: Vec<Vec2> = std::iter::once(on_x.1).chain(rest(&own, on_x.0)).map(|p| mirrored(p, near, one)).collect();
+    let (at_axis, _) = first_crossing(&folded, &[middle - axis * reach, middle + axis * reach])?;
+    let mut half = vec![on_x.1];
+    half.extend(folded.iter().enumerate().filter(|&(k, _)| k > 0 && (k as f64) < at_axis.0).map(|(_, p)| *p));
+    let back: Vec<Vec2> = half.iter().rev().map(|&p| mirrored(p, middle, axis)).collect();
+    half.push(at_axis.1);
+    half.extend(back);
+    Some((on_x, on_y, half))
+}
+
+/// The points of a polyline after a place on it.
+fn rest(line: &[Vec2], at: f64) -> impl Iterator<Item = Vec2> + '_ {
+    line.iter().enumerate().filter(move |&(k, _)| k as f64 > at).map(|(_, p)| *p)
+}
+
+fn mirrored(p: Vec2, on: Vec2, along: Vec2) -> Vec2 {
+    on + 2.0 * along * along.dot(&(p - on)) - (p - on)
+}
+
+/// Length of a polyline up to a place on it.
+fn length(line: &[Vec2], at: f64) -> f64 {
+    line.windows(2).enumerate().map(|(k, w)| (w[1] - w[0]).norm() * (at - k as f64).clamp(0.0, 1.0)).sum()
+}
+
+/// Where `p` first meets `q`, as places on both.
+fn first_crossing(p: &[Vec2], q: &[Vec2]) -> Option<(At, At)> {
+    for (i, u) in p.windows(2).enumerate() {
+        let mut first: Option<(f64, f64)> = None;
+        for (k, v) in q.windows(2).enumerate() {
+            if let Some((s, t)) = crossing([u[0], u[1]], [v[0], v[1]])
+                && first.is_none_or(|f| s < f.0)
+            {
+                first = Some((s, k as f64 + t));
+            }
+        }
+        if let Some((s, t)) = first {
+            let point = u[0] + (u[1] - u[0]) * s;
+            return Some(((i as f64 + s, point), (t, point)));
+        }
+    }
+    None
+}
+
+/// Shares of two segments at which they cross, touching included.
+fn crossing(a: [Vec2; 2], b: [Vec2; 2]) -> Option<(f64, f64)> {
+    let (u, v, w) = (a[1] - a[0], b[1] - b[0], b[0] - a[0]);
+    let det = u.perp(&v);
+    if det.abs() <= 1e-12 * u.norm() * v.norm() {
+        return None;
+    }
+    let (s, t) = (w.perp(&v) / det, w.perp(&u) / det);
+    let slack = |length: f64| SAME / length.max(SAME);
+    let on = |x: f64, length: f64| (-slack(length)..=1.0 + slack(length)).contains(&x);
+    (on(s, u.norm()) && on(t, v.norm())).then(|| (s.clamp(0.0, 1.0), t.clamp(0.0, 1.0)))
+}

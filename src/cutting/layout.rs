@@ -1,0 +1,78 @@
+//! Papers side by side on a sheet.
+
+use nalgebra::Matrix2;
+
+use super::Paper;
+use crate::geometry::Vec2;
+
+/// Side of the square to measure after printing, metres.
+pub const TEST_SQUARE: f64 = 0.100;
+/// Space between papers, metres: room for scissors.
+const GAP: f64 = 0.010;
+/// A sheet of free width is about this much wider than a square of the papers' boxes, which leaves it roughly as high
+/// as wide.
+const SLACK: f64 = 1.2;
+
+/// How papers are laid out.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Layout {
+    /// Width of the sheet, metres; wider only where a single piece is. `None`: about as wide as high.
+    pub width: Option<f64>,
+    /// Empty rim, metres.
+    pub margin: f64,
+    /// Whether a corner is kept for the test square.
+    pub square: bool,
+}
+
+/// Papers laid out, metres from the upper left corner of the sheet.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    /// Nothing on it is outside of this.
+    pub size: Vec2,
+    /// The papers.
+    pub papers: Vec<Paper>,
+    /// Upper left corner of the test square, if there is one.
+    pub square: Option<Vec2>,
+}
+
+impl Sheet {
+    /// Lays papers out, the highest first.
+    pub fn new(papers: &[Paper], layout: &Layout) -> Self {
+        let mut sizes: Vec<Vec2> = papers.iter().map(|p| p.bounds()[1] - p.bounds()[0]).collect();
+        if layout.square {
+            sizes.push(Vec2::repeat(TEST_SQUARE));
+        }
+        let width = layout.width.map(|w| w - 2.0 * layout.margin);
+        let (corners, size) = shelves(&sizes, width, GAP);
+        let margin = Vec2::repeat(layout.margin);
+        let put =
+            |(paper, corner): (&Paper, &Vec2)| paper.mapped(Matrix2::identity(), corner + margin - paper.bounds()[0]);
+        Self {
+            papers: papers.iter().zip(&corners).map(put).collect(),
+            square: layout.square.then(|| corners[papers.len()] + margin),
+            size: size + 2.0 * margin,
+        }
+    }
+}
+
+/// Puts boxes of these sizes on shelves, the highest first: their upper left corners and the size of it all. `width`
+/// is exceeded only by a box that is wider.
+pub fn shelves(sizes: &[Vec2], width: Option<f64>, gap: f64) -> (Vec<Vec2>, Vec2) {
+    let boxes: f64 = sizes.iter().map(|s| (s.x + gap) * (s.y + gap)).sum();
+    let width = width.unwrap_or(SLACK * boxes.sqrt());
+    let mut order: Vec<usize> = (0..sizes.len()).collect();
+    order.sort_by(|&a, &b| sizes[b].y.total_cmp(&sizes[a].y).then(a.cmp(&b)));
+    let mut corners = vec![Vec2::zeros(); sizes.len()];
+    let (mut at, mut shelf, mut right) = (Vec2::zeros(), 0.0, 0.0);
+    for k in order {
+        if at.x > 0.0 && at.x + sizes[k].x > width {
+            at = Vec2::new(0.0, at.y + shelf + gap);
+            shelf = 0.0;
+        }
+        corners[k] = at;
+        shelf = f64::max(shelf, sizes[k].y);
+        right = f64::max(right, at.x + sizes[k].x);
+        at.x += sizes[k].x + gap;
+    }
+    (corners, Vec2::new(right, at.y + shelf))
+}

@@ -1,0 +1,140 @@
+//! Notches, grain, folds, pleats and drill marks.
+
+use super::{Mark, MarkKind, NotchMark};
+use crate::geometry::{Path, Vec2};
+use crate::pattern::{Cut, Drawing};
+
+/// Least length of a notch's mark, metres: shorter ones are overlooked when cutting.
+const NOTCH: f64 = 0.006;
+/// Distance of a double notch's two marks, metres.
+const DOUBLE: f64 = 0.006;
+/// A grain line shorter than this (metres) cannot be laid along a thread; one is worked out instead.
+const SHORTEST_GRAIN: f64 = 0.020;
+/// Share of the piece's height that a worked-out grain line takes.
+const GRAIN_SHARE: f64 = 0.5;
+/// Depth of a fold's bent arrow, and how far from the fold's ends it stands at most, metres.
+const BENT: (f64, f64) = (0.020, 0.040);
+/// Length of a pleat's lines from the edge, metres.
+const PLEAT: f64 = 0.040;
+/// Barbs of arrows, metres.
+pub(super) const BARB: f64 = 0.004;
+
+pub(super) fn notches(drawing: &Drawing, width: impl Fn(usize, usize) -> f64) -> Vec<NotchMark> {
+    let mut marks = Vec::new();
+    let mut add = |edge: (usize, usize), at: f64, double: bool| {
+        let path = &drawing.edge(edge).path;
+        let (sewn, t) = (path.point(at), path.tangent(at));
+        let out = Vec2::new(t.y, -t.x);
+        let width = width(edge.0, edge.1);
+        let inside = sewn - out * (NOTCH - width).max(0.0);
+        marks.push(NotchMark { at: sewn + out * width, sewn, inside, double });
+    };
+    for notch in &drawing.notches {
+        if notch.double {
+            add(notch.edge, notch.at - DOUBLE / 2.0, true);
+            add(notch.edge, notch.at + DOUBLE / 2.0, true);
+        } else {
+            add(notch.edge, notch.at, false);
+        }
+    }
+    for fold in &drawing.folds {
+        add(fold.edge, fold.from, false);
+        add(fold.edge, fold.to, false);
+    }
+    for dart in &drawing.darts {
+        // The mouth of a dart is snipped where its legs leave the edge.
+        let [one, other] = dart.legs;
+        let count = drawing.rings[0].len();
+        let (before, after) = ((one + count - 1) % count, (other + 1) % count);
+        add((0, before), drawing.rings[0][before].path.length(), false);
+        add((0, after), 0.0, false);
+    }
+    marks
+}
+
+/// The file's grain arrow, or one through the middle of the piece.
+pub(super) fn grain(drawing: &Drawing) -> [Vec2; 2] {
+    if let Some([tail, head]) = drawing.grain
+        && (head - tail).norm() >= SHORTEST_GRAIN
+    {
+        return [tail, head];
+    }
+    let points: Vec<Vec2> = drawing.rings[0].iter().flat_map(|e| e.path.sampled(1e-4)).collect();
+    let middle = points.iter().sum::<Vec2>() / points.len().max(1) as f64;
+    let reach = points.iter().map(|p| drawing.warp.dot(&(p - middle)).abs()).fold(0.0, f64::max);
+    let half = drawing.warp * (GRAIN_SHARE * reach).max(SHORTEST_GRAIN / 2.0);
+    [middle - half, middle + half]
+}
+
+/// Arrows and inner lines.
+pub(super) fn marks(drawing: &Drawing, fold: Option<[Vec2; 2]>) -> Vec<Mark> {
+    let mut marks: Vec<Mark> = drawing
+        .lines
+        .iter()
+        .map(|l| Mark { kind: MarkKind::Line, name: l.name.clone(), path: l.path.clone() })
+        .collect();
+    for fold in &drawing.folds {
+        marks.extend(pleat(drawing, fold.edge, fold.from, fold.to));
+    }
+    if let (Some(fold), Cut::Fold(name)) = (fold, &drawing.cut) {
+        let path = bent_arrow(fold);
+        marks.push(Mark { kind: MarkKind::Fold, name: name.clone(), path });
+    }
+    marks
+}
+
+/// The two lines of a fold of a pleat, from the edge inwards, and the arrow from where the cloth is folded to where the
+/// fold comes to lie.
+fn pleat(drawing: &Drawing, edge: (usize, usize), from: f64, to: f64) -> Vec<Mark> {
+    let path = &drawing.edge(edge).path;
+    let inward = |at: f64| {
+        let t = path.tangent(at);
+        Vec2::new(-t.y, t.x)
+    };
+    let [one, other] = [from, to].map(|at| [path.point(at), path.point(at) + inward(at) * PLEAT]);
+    let middle = |ends: [Vec2; 2]| (ends[0] + ends[1]) / 2.0;
+    let arrow = arrow(middle(one), middle(other));
+    let mark = |path: Path| Mark { kind: MarkKind::Pleat, name: drawing.edge(edge).name.clone(), path };
+    vec![mark(Path::line(one[0], one[1])), mark(Path::line(other[0], other[1])), mark(arrow)]
+}
+
+/// An arrow with its two barbs, drawn without lifting the pen.
+pub(super) fn arrow(tail: Vec2, head: Vec2) -> Path {
+    let along = (head - tail).try_normalize(0.0).unwrap_or_else(Vec2::y);
+    let across = Vec2::new(-along.y, along.x);
+    let barb = |side: f64| head - along * BARB + across * (side * BARB / 2.0);
+    Path::polyline(&[tail, head, barb(1.0), head, barb(-1.0)])
+}
+
+/// Along the fold, both ends bent to it and barbed. The cloth lies to the right of `from → to`.
+fn bent_arrow([from, to]: [Vec2; 2]) -> Path {
+    let length = (to - from).norm();
+    let along = (to - from).try_normalize(0.0).unwrap_or_else(Vec2::y);
+    let inward = Vec2::new(-along.y, along.x) * BENT.0;
+    let clear = along * (length / 5.0).min(BENT.1);
+    let (one, other) = (from + clear, to - clear);
+    let barb = |at: Vec2, side: f64| at + inward.normalize() * BARB + along * (side * BARB / 2.0);
+    Path::polyline(&[
+        barb(one, 1.0),
+        one,
+        barb(one, -1.0),
+        one,
+        one + inward,
+        other + inward,
+        other,
+        barb(other, 1.0),
+        other,
+        barb(other, -1.0),
+    ])
+}
+
+/// Tips of darts, ends and middle of fish-eyes, buttons.
+pub(super) fn drills(drawing: &Drawing) -> Vec<(String, Vec2)> {
+    let tip = |d: &crate::pattern::Dart| ("dart".to_owned(), drawing.rings[0][d.legs[0]].path.end());
+    let mut drills: Vec<(String, Vec2)> = drawing.darts.iter().map(tip).collect();
+    for &ring in &drawing.fish_eyes {
+        drills.extend(drawing.rings[ring].iter().map(|e| ("dart".to_owned(), e.path.start())));
+    }
+    drills.extend(drawing.points.iter().cloned());
+    drills
+}

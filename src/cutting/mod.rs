@@ -1,0 +1,175 @@
+//! Patterns for cutting: what a maker prints, lays on the cloth and cuts round.
+//!
+//! A [`Sheet`] is a set of [`Paper`] pieces laid out side by side; every paper has a cut line (the sewing line moved out
+//! by the allowance of each edge), the sewing lines, notches, grain and fold arrows, inner lines, drill marks and its
+//! lettering. Writers of formats draw what is here and add nothing. Lengths are metres, y down, the right side of the
+//! cloth up.
+
+mod clean;
+mod corner;
+mod label;
+mod layout;
+mod marks;
+mod offset;
+mod outline;
+mod whole;
+
+pub use layout::{Layout, Sheet, TEST_SQUARE, shelves};
+pub use outline::papers;
+
+use nalgebra::Matrix2;
+
+use crate::geometry::{Path, Vec2};
+
+/// What the file does not say.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// Allowance of edges for which the file gives none, metres.
+    pub allowance: f64,
+    /// Pieces as they are cut: folds opened, both of a pair, every copy.
+    pub whole: bool,
+}
+
+/// The usual allowance of metric patterns, metres.
+pub const DEFAULT_ALLOWANCE: f64 = 0.010;
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { allowance: DEFAULT_ALLOWANCE, whole: false }
+    }
+}
+
+/// A piece on paper.
+#[derive(Clone, Debug)]
+pub struct Paper {
+    /// `front`, or `front.L` where pieces are drawn as they are cut.
+    pub name: String,
+    /// How many are cut, in words: `cut 2 (left and right)`.
+    pub count: String,
+    /// How many of it the garment takes.
+    pub quantity: usize,
+    /// Whether half of these are mirrored.
+    pub mirrored: bool,
+    /// Name of its fabric.
+    pub fabric: String,
+    /// Cut lines: the outline, then bays and holes. Closed; but with a [`Paper::fold`] the outline is open and runs
+    /// from the end of the fold to its start.
+    pub cut: Vec<Vec<Vec2>>,
+    /// The line that lies on the fold of the cloth, along the outline.
+    pub fold: Option<[Vec2; 2]>,
+    /// Sewing lines by edge: of the outline, of holes and of darts.
+    pub sew: Vec<SewLine>,
+    /// Notches.
+    pub notches: Vec<NotchMark>,
+    /// Tail and head of the grain line.
+    pub grain: [Vec2; 2],
+    /// Arrows, inner lines and the like.
+    pub marks: Vec<Mark>,
+    /// Points to be marked through all layers: ends of darts, buttons.
+    pub drills: Vec<(String, Vec2)>,
+    /// What is written on it.
+    pub texts: Vec<Lettering>,
+}
+
+/// A sewing line.
+#[derive(Clone, Debug)]
+pub struct SewLine {
+    /// The edge's name.
+    pub name: String,
+    /// Its course.
+    pub path: Path,
+    /// What it belongs to.
+    pub of: SewKind,
+}
+
+/// What a sewing line belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SewKind {
+    /// The outline; part of it, together with the fold and the darts' legs.
+    Outline,
+    /// A hole that is cut out.
+    Hole,
+    /// A dart's leg or a fish-eye dart.
+    Dart,
+    /// Where a seam runs over the mouth of a dart that is sewn and pressed.
+    Mouth,
+}
+
+/// A notch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NotchMark {
+    /// On the cut line.
+    pub at: Vec2,
+    /// On the sewing line.
+    pub sewn: Vec2,
+    /// The end of its mark: on the sewing line, or where that is near, a little inside.
+    pub inside: Vec2,
+    /// One of two that mark the back.
+    pub double: bool,
+}
+
+/// A line that is drawn and neither cut nor sewn.
+#[derive(Clone, Debug)]
+pub struct Mark {
+    /// What it is.
+    pub kind: MarkKind,
+    /// Its name, if it has one.
+    pub name: String,
+    /// Its course.
+    pub path: Path,
+}
+
+/// What a mark is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MarkKind {
+    /// The bent arrow at a fold.
+    Fold,
+    /// A pleat: its lines and the arrow from the fold to where it comes to lie.
+    Pleat,
+    /// A line of the file.
+    Line,
+}
+
+/// A line of text, centred.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lettering {
+    /// The words.
+    pub text: String,
+    /// Middle of the line's foot.
+    pub at: Vec2,
+    /// Height of the letters, metres.
+    pub height: f64,
+    /// Whether it is turned to be read from the right.
+    pub upright: bool,
+}
+
+impl Paper {
+    /// Every point moved by `p ↦ linear · p + shift`; `linear` keeps lengths.
+    #[must_use]
+    fn mapped(&self, linear: Matrix2<f64>, shift: Vec2) -> Self {
+        let to = |p: Vec2| linear * p + shift;
+        let path = |p: &Path| p.mapped(linear, shift);
+        Self {
+            cut: self.cut.iter().map(|c| c.iter().map(|&p| to(p)).collect()).collect(),
+            fold: self.fold.map(|f| f.map(to)),
+            sew: self.sew.iter().map(|s| SewLine { path: path(&s.path), ..s.clone() }).collect(),
+            notches: self
+                .notches
+                .iter()
+                .map(|n| NotchMark { at: to(n.at), sewn: to(n.sewn), inside: to(n.inside), ..*n })
+                .collect(),
+            grain: self.grain.map(to),
+            marks: self.marks.iter().map(|m| Mark { path: path(&m.path), ..m.clone() }).collect(),
+            drills: self.drills.iter().map(|(k, p)| (k.clone(), to(*p))).collect(),
+            texts: self.texts.iter().map(|t| Lettering { at: to(t.at), ..t.clone() }).collect(),
+            ..self.clone()
+        }
+    }
+
+    /// Least and greatest coordinates of its cut lines.
+    pub fn bounds(&self) -> [Vec2; 2] {
+        let mut points = self.cut.iter().flatten().chain(self.fold.iter().flatten());
+        let Some(first) = points.next() else { return [Vec2::zeros(); 2] };
+        points.fold([*first; 2], |[low, high], p| [low.inf(p), high.sup(p)])
+    }
+}

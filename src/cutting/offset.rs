@@ -1,0 +1,160 @@
+//! The cut line of a ring of edges: each edge's sewing line moved out by its own allowance, joined at the corners.
+
+use super::clean::{grown, shrunk};
+use super::corner::{Join, cap, join};
+use crate::geometry::{Path, Station, Vec2};
+use crate::pattern::Corner;
+
+/// Chords of cut lines leave the true line by at most this much (metres): a fifth of the hundredth of a millimetre that
+/// paper patterns are exact to, so that rounding fits in beside it.
+pub(super) const CHORD_ERROR: f64 = 2e-6;
+
+/// An edge and its allowance.
+#[derive(Clone, Debug)]
+pub(super) struct Border<'a> {
+    pub(super) path: &'a Path,
+    /// Metres.
+    pub(super) width: f64,
+    pub(super) corner: Corner,
+}
+
+/// What stands between an edge and the next.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Between {
+    /// A corner of the piece.
+    Corner,
+    /// A dart, whose mouth lies between the two edges.
+    Dart {
+        /// Where its legs meet.
+        tip: Vec2,
+        /// Pressed onto the edge before it, or else the one after it.
+        onto_first: bool,
+    },
+}
+
+/// A smooth stretch of a ring, walked with the cloth on the right.
+#[derive(Clone, Debug)]
+pub(super) struct Run {
+    /// The sewing line.
+    pub(super) base: Vec<Vec2>,
+    /// The same, moved out.
+    pub(super) moved: Vec<Vec2>,
+    /// Tangents at its ends, along the walk.
+    pub(super) ends: [Vec2; 2],
+    pub(super) width: f64,
+}
+
+impl Run {
+    fn new(stations: &[Station], width: f64) -> Self {
+        // The cloth is on the right of the walk (y down), so the allowance is on its left.
+        let out = |s: &Station| s.at + width * Vec2::new(s.tangent.y, -s.tangent.x);
+        let tangent = |s: Option<&Station>| s.map_or_else(Vec2::zeros, |s| s.tangent);
+        Self {
+            base: stations.iter().map(|s| s.at).collect(),
+            moved: stations.iter().map(out).collect(),
+            ends: [tangent(stations.first()), tangent(stations.last())],
+            width,
+        }
+    }
+
+    /// The stretch as it is sewn: without allowance.
+    fn sewn(&self) -> Self {
+        Self { moved: self.base.clone(), width: 0.0, ..self.clone() }
+    }
+}
+
+/// A ring as smooth runs and what joins each to the next.
+struct Ring {
+    runs: Vec<Run>,
+    joins: Vec<Joint>,
+}
+
+#[derive(Clone, Copy)]
+enum Joint {
+    /// Within an edge.
+    Smooth,
+    /// Between two edges, as the first and the second wish it.
+    Corner([Corner; 2]),
+    Dart {
+        tip: Vec2,
+        onto_first: bool,
+    },
+}
+
+impl Ring {
+    fn new(borders: &[Border], between: &[Between]) -> Self {
+        let mut ring = Self { runs: Vec::new(), joins: Vec::new() };
+        for (i, border) in borders.iter().enumerate() {
+            let next = &borders[(i + 1) % borders.len()];
+            for stations in border.path.stations(border.width, CHORD_ERROR) {
+                ring.runs.push(Run::new(&stations, border.width));
+                ring.joins.push(Joint::Smooth);
+            }
+            if let Some(last) = ring.joins.last_mut() {
+                *last = match between[i] {
+                    Between::Corner => Joint::Corner([border.corner, next.corner]),
+                    Between::Dart { tip, onto_first } => Joint::Dart { tip, onto_first },
+                };
+            }
+        }
+        ring
+    }
+
+    fn sewn(&self) -> Self {
+        Self { runs: self.runs.iter().map(Run::sewn).collect(), joins: self.joins.clone() }
+    }
+
+    /// Its moved runs as one closed contour, which may still cross itself.
+    fn contour(&self) -> Vec<Vec2> {
+        let count = self.runs.len();
+        let joins: Vec<Join> = (0..count)
+            .map(|i| {
+                let (a, b) = (&self.runs[i], &self.runs[(i + 1) % count]);
+                match self.joins[i] {
+                    Joint::Smooth => join(a, b, [Corner::Mitred; 2]),
+                    Joint::Corner(wishes) => join(a, b, wishes),
+                    Joint::Dart { tip, onto_first } => cap(a, b, tip, onto_first),
+                }
+            })
+            .collect();
+        let mut contour = Vec::new();
+        for (i, run) in self.runs.iter().enumerate() {
+            let (enter, leave) = (&joins[(i + count - 1) % count].enter, &joins[i].leave);
+            contour.push(enter.1);
+            let inner = run.moved.iter().enumerate().filter(|&(k, _)| enter.0 < k as f64 && (k as f64) < leave.0);
+            contour.extend(inner.map(|(_, p)| *p));
+            contour.push(leave.1);
+            contour.extend(&joins[i].between);
+        }
+        contour
+    }
+}
+
+/// The cut line round an outline (clockwise on screen): closed, never crossing itself, the outline inside it. More than
+/// one contour where an allowance closes round a bay of the piece: the outer one first.
+pub(super) fn around(borders: &[Border], between: &[Between]) -> Vec<Vec<Vec2>> {
+    let ring = Ring::new(borders, between);
+    grown(&ring.contour(), &ring.sewn().contour())
+}
+
+/// The sewing line of an outline with its darts closed and pressed: what a seam along the edge is sewn on.
+pub(super) fn sewn_mouths(borders: &[Border], between: &[Between]) -> Vec<Vec<Vec2>> {
+    let ring = Ring::new(borders, between).sewn();
+    let count = ring.runs.len();
+    let mut mouths = Vec::new();
+    for i in 0..count {
+        if let Joint::Dart { tip, onto_first } = ring.joins[i] {
+            let join = cap(&ring.runs[i], &ring.runs[(i + 1) % count], tip, onto_first);
+            let mut points = vec![join.leave.1];
+            points.extend(join.between);
+            points.push(join.enter.1);
+            mouths.push(points);
+        }
+    }
+    mouths
+}
+
+/// The cut lines of a hole (counter-clockwise on screen), smaller by its allowance; none if nothing is left to cut out.
+pub(super) fn within(borders: &[Border]) -> Vec<Vec<Vec2>> {
+    shrunk(&Ring::new(borders, &vec![Between::Corner; borders.len()]).contour())
+}

@@ -1,0 +1,195 @@
+//! From a drawing to a piece on paper.
+
+use nalgebra::Matrix2;
+
+use super::label;
+use super::marks;
+use super::offset::{Between, Border, around, sewn_mouths, within};
+use super::whole;
+use super::{Lettering, Options, Paper, SewKind, SewLine};
+use crate::geometry::{Path, Vec2};
+use crate::pattern::{Corner, Cut, Dart, Drawing, DrawnEdge};
+
+/// A point within this (metres) of the fold's line is on it.
+const ON_FOLD: f64 = 1e-6;
+
+/// The papers of a garment, their warp upright: one per drawing, or one per piece as cut with [`Options::whole`].
+pub fn papers(drawings: &[Drawing], options: &Options) -> Vec<Paper> {
+    drawings
+        .iter()
+        .flat_map(|drawing| {
+            let drawn = paper(drawing, options);
+            let papers = if options.whole { whole::as_cut(&drawn, drawing) } else { vec![drawn] };
+            papers
+                .iter()
+                .map(|paper| {
+                    let mut paper = upright(paper);
+                    paper.texts = lettering(&paper, drawing, options);
+                    paper
+                })
+                .collect::<Vec<_>>()
+        })
+        .collect()
+}
+
+/// Width and ends of an edge's allowance where the file does not say.
+struct Rule<'a> {
+    drawing: &'a Drawing,
+    options: &'a Options,
+}
+
+impl Rule<'_> {
+    fn width(&self, ring: usize, index: usize) -> f64 {
+        if ring == 0 && self.drawing.fold == Some(index) {
+            return 0.0;
+        }
+        // A hole is a slit or a welt that is turned in on its own lines, unless the file says otherwise.
+        let usual = if ring == 0 { self.options.allowance } else { 0.0 };
+        self.drawing.rings[ring][index].allowance.width.unwrap_or(usual)
+    }
+
+    /// Free edges are hems: turned up, their ends must lie on the piece.
+    fn corner(&self, edge: &DrawnEdge, on_fold: bool) -> Corner {
+        let usual = if edge.sewn || on_fold { Corner::Mitred } else { Corner::Folded };
+        edge.allowance.corner.unwrap_or(usual)
+    }
+
+    fn border(&self, ring: usize, index: usize) -> Border<'_> {
+        let edge = &self.drawing.rings[ring][index];
+        let on_fold = ring == 0 && self.drawing.fold == Some(index);
+        Border { path: &edge.path, width: self.width(ring, index), corner: self.corner(edge, on_fold) }
+    }
+}
+
+/// The paper turned so that its warp is upright, by the smaller angle.
+fn upright(paper: &Paper) -> Paper {
+    let warp = (paper.grain[1] - paper.grain[0]).try_normalize(0.0).unwrap_or_else(Vec2::y);
+    let up = if warp.y > 0.0 { -warp } else { warp };
+    // The rotation that takes `up` to (0, −1).
+    paper.mapped(Matrix2::new(-up.y, up.x, -up.x, -up.y), Vec2::zeros())
+}
+
+fn paper(drawing: &Drawing, options: &Options) -> Paper {
+    let rule = Rule { drawing, options };
+    let (borders, between) = outline_borders(drawing, &rule);
+    let mut cut = around(&borders, &between);
+    let fold = drawing.fold.map(|f| open_at_fold(&mut cut, &drawing.rings[0][f].path));
+    let holes = (1..drawing.rings.len()).filter(|r| !drawing.fish_eyes.contains(r));
+    for ring in holes.clone() {
+        let borders: Vec<Border> = (0..drawing.rings[ring].len()).map(|i| rule.border(ring, i)).collect();
+        cut.extend(within(&borders));
+    }
+    let (quantity, mirrored) = match drawing.cut {
+        Cut::One | Cut::Fold(_) => (1, false),
+        Cut::Pair => (2, true),
+        Cut::Count(n) => (n, false),
+    };
+    let mouths = sewn_mouths(&borders, &between);
+    Paper {
+        name: drawing.name.clone(),
+        count: label::count(&drawing.cut),
+        quantity,
+        mirrored,
+        fabric: drawing.fabric.clone(),
+        cut,
+        fold,
+        sew: sew_lines(drawing, &mouths),
+        notches: marks::notches(drawing, |ring, index| rule.width(ring, index)),
+        grain: marks::grain(drawing),
+        marks: marks::marks(drawing, fold),
+        drills: marks::drills(drawing),
+        texts: Vec::new(),
+    }
+}
+
+/// The outline without the legs of its darts.
+fn outline_borders<'a>(drawing: &'a Drawing, rule: &'a Rule) -> (Vec<Border<'a>>, Vec<Between>) {
+    let is_leg = |i: usize| drawing.darts.iter().any(|d| d.legs.contains(&i));
+    let count = drawing.rings[0].len();
+    let (mut borders, mut between) = (Vec::new(), Vec::new());
+    for i in (0..count).filter(|&i| !is_leg(i)) {
+        borders.push(rule.border(0, i));
+        let dart = drawing.darts.iter().find(|d| d.legs.contains(&((i + 1) % count)));
+        between.push(dart.map_or(Between::Corner, |dart| pressed(drawing, *dart)));
+    }
+    (borders, between)
+}
+
+/// Upright darts are pressed towards the middle of the body, lying ones down.
+fn pressed(drawing: &Drawing, dart: Dart) -> Between {
+    let [one, other] = dart.legs.map(|leg| &drawing.rings[0][leg].path);
+    let tip = one.end();
+    let (near, far) = (one.start(), other.end());
+    let middle = (near + far) / 2.0;
+    let upright = (middle - tip).y.abs() >= (middle - tip).x.abs();
+    let onto_first = if upright {
+        let centre = centre(drawing);
+        (near.x - centre).abs() <= (far.x - centre).abs()
+    } else {
+        near.y >= far.y
+    };
+    Between::Dart { tip, onto_first }
+}
+
+/// Where the middle of the body is: the fold, the line a pair is mirrored in, or the middle of the piece.
+fn centre(drawing: &Drawing) -> f64 {
+    match (drawing.fold, &drawing.cut) {
+        (Some(fold), _) => drawing.rings[0][fold].path.start().x,
+        (None, Cut::Pair) => 0.0,
+        _ => {
+            let xs = || drawing.rings[0].iter().map(|e| e.path.start().x);
+            (xs().fold(f64::INFINITY, f64::min) + xs().fold(f64::NEG_INFINITY, f64::max)) / 2.0
+        }
+    }
+}
+
+/// Cuts the outline open along the fold and gives the stretch that lies on it, walked with the outline.
+fn open_at_fold(cut: &mut [Vec<Vec2>], fold: &Path) -> [Vec2; 2] {
+    let (start, end) = (fold.start(), fold.end());
+    let along = (end - start).normalize();
+    let on = |p: &Vec2| along.perp(&(p - start)).abs() < ON_FOLD;
+    let Some(outline) = cut.first_mut() else { return [start, end] };
+    let reach = |p: &Vec2| along.dot(&(p - start));
+    let ends = || outline.iter().enumerate().filter(|(_, p)| on(p));
+    let first = ends().min_by(|a, b| reach(a.1).total_cmp(&reach(b.1)));
+    let last = ends().max_by(|a, b| reach(a.1).total_cmp(&reach(b.1)));
+    let (Some((first, &from)), Some((last, &to))) = (first, last) else { return [start, end] };
+    // The outline runs from `from` along the fold to `to` and then round the piece.
+    let count = outline.len();
+    let round = (first + count - last) % count;
+    *outline = (0..=round).map(|k| outline[(last + k) % count]).collect();
+    [from, to]
+}
+
+fn sew_lines(drawing: &Drawing, mouths: &[Vec<Vec2>]) -> Vec<SewLine> {
+    let mut lines = Vec::new();
+    for (r, ring) in drawing.rings.iter().enumerate() {
+        for (i, edge) in ring.iter().enumerate() {
+            let dart =
+                if r == 0 { drawing.darts.iter().any(|d| d.legs.contains(&i)) } else { drawing.fish_eyes.contains(&r) };
+            let of = match (dart, r) {
+                (true, _) => SewKind::Dart,
+                (false, 0) => SewKind::Outline,
+                (false, _) => SewKind::Hole,
+            };
+            if !(r == 0 && drawing.fold == Some(i)) {
+                lines.push(SewLine { name: edge.name.clone(), path: edge.path.clone(), of });
+            }
+        }
+    }
+    let mouth =
+        |points: &Vec<Vec2>| SewLine { name: "mouth".to_owned(), path: Path::polyline(points), of: SewKind::Mouth };
+    lines.extend(mouths.iter().map(mouth));
+    lines
+}
+
+fn lettering(paper: &Paper, drawing: &Drawing, options: &Options) -> Vec<Lettering> {
+    let rule = Rule { drawing, options };
+    let widths: Vec<(&str, f64)> = drawing.rings[0]
+        .iter()
+        .enumerate()
+        .filter(|&(i, _)| drawing.fold != Some(i) && !drawing.darts.iter().any(|d| d.legs.contains(&i)))
+        .map(|(i, e)| (e.name.as_str(), rule.width(0, i)))
+        .collect();
+    label::lettering(paper, &widths, drawing.note.as_deref())
+}

@@ -1,0 +1,215 @@
+//! Lines and letters on a page.
+
+use pdf_writer::{Content, Name, Str};
+
+use super::POINTS;
+use crate::cutting::{MarkKind, Paper, SewKind, Sheet, TEST_SQUARE};
+use crate::geometry::{Path, Vec2};
+
+/// Widths of lines, points: what is cut, and everything else.
+const CUT: f32 = 1.4;
+const FINE: f32 = 0.7;
+/// Dashes of the sewing line and of the fold, points.
+const SEWN: [f32; 2] = [8.0, 5.0];
+const FOLD: [f32; 4] = [24.0, 6.0, 4.0, 6.0];
+/// Half the arms of a drill mark's cross, metres.
+const DRILL: f64 = 0.002;
+/// Barbs of arrows, metres.
+const BARB: f64 = 0.006;
+/// Widths of Helvetica's letters from the blank to `~`, thousandths of the size, as its metrics give them; other letters
+/// are about as wide as an `n`.
+const WIDTHS: [u16; 95] = [
+    278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278, 556, 556, 556, 556, 556, 556, 556,
+    556, 556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667, 611, 778, 722, 278, 500, 667, 556, 833,
+    722, 778, 667, 778, 722, 667, 611, 722, 667, 944, 667, 667, 611, 278, 278, 278, 469, 556, 333, 556, 556, 500, 556,
+    556, 278, 556, 556, 222, 222, 500, 222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500, 500, 334,
+    260, 334, 584,
+];
+const OTHER_WIDTH: u16 = 556;
+/// Height of the capitals of Helvetica over its size.
+const CAPITALS: f64 = 0.72;
+
+/// A page being drawn on; positions are metres from the upper left corner of what it shows, y down.
+pub(super) struct Pen {
+    content: Content,
+    /// Of the page, metres.
+    height: f64,
+    /// Where on the page the drawing's origin lies.
+    origin: Vec2,
+}
+
+impl Pen {
+    pub(super) fn new(height: f64, origin: Vec2) -> Self {
+        let mut content = Content::new();
+        content.set_line_cap(pdf_writer::types::LineCapStyle::RoundCap);
+        content.set_line_join(pdf_writer::types::LineJoinStyle::RoundJoin);
+        Self { content, height, origin }
+    }
+
+    pub(super) fn finish(self) -> Content {
+        self.content
+    }
+
+    /// Nothing is drawn outside of this any more, until [`Pen::unclip`].
+    pub(super) fn clip(&mut self, low: Vec2, high: Vec2) {
+        self.content.save_state();
+        let (a, b) = (self.place(low), self.place(high));
+        self.content.rect(a[0], b[1], b[0] - a[0], a[1] - b[1]).clip_nonzero().end_path();
+    }
+
+    pub(super) fn unclip(&mut self) {
+        self.content.restore_state();
+    }
+
+    pub(super) fn moved_to(&mut self, origin: Vec2) {
+        self.origin = origin;
+    }
+
+    fn place(&self, p: Vec2) -> [f32; 2] {
+        let on_page = p + self.origin;
+        [(on_page.x * POINTS) as f32, ((self.height - on_page.y) * POINTS) as f32]
+    }
+
+    fn style(&mut self, width: f32, dashes: &[f32]) {
+        self.content.set_line_width(width).set_dash_pattern(dashes.iter().copied(), 0.0);
+    }
+
+    fn trace(&mut self, points: &[Vec2]) {
+        for (i, &p) in points.iter().enumerate() {
+            let [x, y] = self.place(p);
+            if i == 0 {
+                self.content.move_to(x, y);
+            } else {
+                self.content.line_to(x, y);
+            }
+        }
+    }
+
+    pub(super) fn line(&mut self, points: &[Vec2], fine: bool) {
+        self.style(if fine { FINE } else { CUT }, &[]);
+        self.trace(points);
+        self.content.stroke();
+    }
+
+    pub(super) fn closed(&mut self, points: &[Vec2], fine: bool) {
+        self.style(if fine { FINE } else { CUT }, &[]);
+        self.trace(points);
+        self.content.close_and_stroke();
+    }
+
+    fn path(&mut self, path: &Path, dashes: &[f32]) {
+        self.style(FINE, dashes);
+        for (i, (from, controls, to)) in path.beziers().enumerate() {
+            if i == 0 {
+                let [x, y] = self.place(from);
+                self.content.move_to(x, y);
+            }
+            let [x, y] = self.place(to);
+            match controls.map(|c| c.map(|p| self.place(p))) {
+                Some([one, two]) => self.content.cubic_to(one[0], one[1], two[0], two[1], x, y),
+                None => self.content.line_to(x, y),
+            };
+        }
+        self.content.stroke();
+    }
+
+    /// A line of text with its foot at `at`: begun there, or (`centred`) its middle there.
+    pub(super) fn text(&mut self, words: &str, at: Vec2, height: f64, centred: bool, upright: bool) {
+        let letters = windows_letters(words);
+        let size = height / CAPITALS;
+        let back = if centred { width(&letters) * size / 2.0 } else { 0.0 };
+        let along = if upright { Vec2::y() } else { Vec2::x() };
+        let [x, y] = self.place(at - along * back);
+        let matrix = if upright { [0.0, -1.0, 1.0, 0.0, x, y] } else { [1.0, 0.0, 0.0, 1.0, x, y] };
+        self.content.begin_text().set_font(Name(b"F"), (size * POINTS) as f32).set_text_matrix(matrix);
+        self.content.show(Str(&letters)).end_text();
+    }
+
+    /// What of a sheet lies in the box from `low` to `high`, or touches it.
+    pub(super) fn sheet(&mut self, sheet: &Sheet, [low, high]: [Vec2; 2]) {
+        for paper in &sheet.papers {
+            let [least, greatest] = paper.bounds();
+            if (0..2).all(|k| least[k] <= high[k] && greatest[k] >= low[k]) {
+                self.paper(paper);
+            }
+        }
+        if let Some(corner) = sheet.square {
+            self.square(corner);
+        }
+    }
+
+    /// The square to measure.
+    pub(super) fn square(&mut self, corner: Vec2) {
+        let side = TEST_SQUARE;
+        let corners = [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)];
+        self.closed(&corners.map(|(x, y)| corner + Vec2::new(x, y)), true);
+        self.text("100 mm", corner + Vec2::repeat(side / 2.0), 0.005, true, false);
+    }
+
+    fn paper(&mut self, paper: &Paper) {
+        for (i, contour) in paper.cut.iter().enumerate() {
+            if i == 0 && paper.fold.is_some() {
+                self.line(contour, false);
+            } else {
+                self.closed(contour, false);
+            }
+        }
+        if let Some(fold) = paper.fold {
+            self.style(CUT, &FOLD);
+            self.trace(&fold);
+            self.content.stroke();
+        }
+        for line in &paper.sew {
+            let dashes: &[f32] = if line.of == SewKind::Dart { &[] } else { &SEWN };
+            self.path(&line.path, dashes);
+        }
+        for notch in &paper.notches {
+            self.line(&[notch.at, notch.inside], false);
+        }
+        for mark in &paper.marks {
+            self.path(&mark.path, if mark.kind == MarkKind::Line { &SEWN } else { &[] });
+        }
+        for (_, at) in &paper.drills {
+            self.line(&[at - Vec2::x() * DRILL, at + Vec2::x() * DRILL], true);
+            self.line(&[at - Vec2::y() * DRILL, at + Vec2::y() * DRILL], true);
+        }
+        self.arrow(paper.grain);
+        for t in &paper.texts {
+            self.text(&t.text, t.at, t.height, true, t.upright);
+        }
+    }
+
+    /// The grain: barbs at both ends.
+    fn arrow(&mut self, [tail, head]: [Vec2; 2]) {
+        let along = (head - tail).try_normalize(0.0).unwrap_or_else(Vec2::y);
+        let across = Vec2::new(-along.y, along.x);
+        self.line(&[tail, head], true);
+        for (end, back) in [(tail, 1.0), (head, -1.0)] {
+            let barb = |side: f64| end + (along * back + across * (side / 2.0)) * BARB;
+            self.line(&[barb(1.0), end, barb(-1.0)], true);
+        }
+    }
+}
+
+/// Width of letters set in size 1.
+fn width(letters: &[u8]) -> f64 {
+    let one = |&l: &u8| WIDTHS.get(usize::from(l).wrapping_sub(32)).copied().unwrap_or(OTHER_WIDTH);
+    letters.iter().map(|l| f64::from(one(l))).sum::<f64>() / 1000.0
+}
+
+/// Text in code page 1252; letters it does not have become `?`.
+fn windows_letters(text: &str) -> Vec<u8> {
+    let letter = |c: char| match c {
+        ' '..='~' | '\u{a0}'..='\u{ff}' => c as u32 as u8,
+        '–' => 0x96,
+        '—' => 0x97,
+        '…' => 0x85,
+        '€' => 0x80,
+        '‘' => 0x91,
+        '’' => 0x92,
+        '“' => 0x93,
+        '”' => 0x94,
+        _ => b'?',
+    };
+    text.chars().map(letter).collect()
+}

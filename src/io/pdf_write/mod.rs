@@ -1,0 +1,79 @@
+//! Patterns for cutting as PDF: pages to be joined, or one page; the only user of pdf-writer.
+//!
+//! Sizes are true: one millimetre is 72/25.4 points, no scaling. Lettering is in Helvetica, which every reader has, and
+//! in the letters it has (Windows code page 1252).
+
+mod draw;
+mod pages;
+
+use pdf_writer::{Content, Finish as _, Name, Pdf, Rect, Ref, TextStr};
+
+pub use pages::{one_page, tiled};
+
+/// Points per metre.
+const POINTS: f64 = 72.0 / 0.0254;
+/// Longest side of a page, points: readers refuse more (14400 units, ISO 32000-1 annex C).
+const LONGEST_SIDE: f64 = 14400.0;
+
+/// A format of paper, metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Page {
+    /// Across.
+    pub width: f64,
+    /// Down.
+    pub height: f64,
+    /// Its name.
+    pub name: &'static str,
+}
+
+impl Page {
+    /// ISO 216.
+    pub const A4: Self = Self { width: 0.210, height: 0.297, name: "A4" };
+    /// ANSI A.
+    pub const LETTER: Self = Self { width: 0.2159, height: 0.2794, name: "Letter" };
+}
+
+/// Why a pattern could not be put on pages.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PdfError {
+    /// A page longer than any reader shows.
+    #[error(
+        "the page would be {width:.0} × {height:.0} mm and PDF knows none over 5080 mm; \
+         give another --width, or print on joined pages with --page a4"
+    )]
+    TooLarge {
+        /// Millimetres.
+        width: f64,
+        /// Millimetres.
+        height: f64,
+    },
+    /// More pages than anybody joins.
+    #[error("the pattern would take {pages} pages, and at most {most} are written; check the file's units")]
+    TooMany {
+        /// Pages needed.
+        pages: usize,
+        /// The limit.
+        most: usize,
+    },
+}
+
+/// Pages of one size as a PDF file. The same pages give the same bytes.
+fn document(title: &str, [width, height]: [f64; 2], pages: Vec<Content>) -> Vec<u8> {
+    let mut pdf = Pdf::new();
+    let (catalog, tree, font, info) = (Ref::new(1), Ref::new(2), Ref::new(3), Ref::new(4));
+    let id = |k: usize, of: usize| Ref::new((5 + 2 * k + of) as i32);
+    pdf.catalog(catalog).pages(tree);
+    pdf.pages(tree).kids((0..pages.len()).map(|k| id(k, 0))).count(pages.len() as i32);
+    let name = Name(b"F");
+    for (k, content) in pages.into_iter().enumerate() {
+        let mut page = pdf.page(id(k, 0));
+        page.media_box(Rect::new(0.0, 0.0, (width * POINTS) as f32, (height * POINTS) as f32));
+        page.parent(tree).contents(id(k, 1));
+        page.resources().fonts().pair(name, font);
+        page.finish();
+        pdf.stream(id(k, 1), &content.finish());
+    }
+    pdf.type1_font(font).base_font(Name(b"Helvetica")).encoding_predefined(Name(b"WinAnsiEncoding"));
+    pdf.document_info(info).title(TextStr(title)).producer(TextStr(concat!("toile ", env!("CARGO_PKG_VERSION"))));
+    pdf.finish()
+}

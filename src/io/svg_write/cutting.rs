@@ -1,0 +1,110 @@
+//! Patterns for cutting as SVG.
+//!
+//! A group per piece with its name as id; classes `cut` (solid), `sew` (dashed; ids `piece.edge`), `fold`, `notch`,
+//! `grain`, `line`, `drill` and `text`; the test square in a group of class `scale`.
+
+use svg::node::element::{Circle, Group, Path};
+
+use super::{MM, document, identifier, number, polyline, square, stroke, text};
+use crate::cutting::{Lettering, Paper, SewKind, Sheet};
+use crate::geometry::Vec2;
+
+/// Widths of lines, mm: what is cut, and everything else.
+const CUT: f64 = 0.5;
+const FINE: f64 = 0.25;
+/// Radius of a drill mark, mm.
+const DRILL: f64 = 1.5;
+/// Barbs of arrows, mm.
+const BARB: f64 = 6.0;
+/// Height of the test square's letters, mm.
+const LETTERS: f64 = 6.0;
+
+/// The sheet as SVG text.
+pub fn cutting_svg(sheet: &Sheet) -> String {
+    let mut document = document(sheet.size * MM);
+    for paper in &sheet.papers {
+        document = document.add(draw(paper));
+    }
+    if let Some(corner) = sheet.square {
+        document = document.add(square(corner * MM, LETTERS));
+    }
+    document.to_string()
+}
+
+fn draw(paper: &Paper) -> Group {
+    let name = identifier(&paper.name);
+    let mut group = Group::new().set("id", name.as_str()).set("class", "piece").set("fill", "none");
+    for (i, contour) in paper.cut.iter().enumerate() {
+        let open = i == 0 && paper.fold.is_some();
+        group = group.add(contour_path(contour, open));
+    }
+    if let Some(fold) = paper.fold {
+        let line = polyline(&fold.map(|p| p * MM), "fold", CUT);
+        group = group.add(line.set("id", format!("{name}.fold")).set("stroke-dasharray", "12 3 2 3"));
+    }
+    for line in &paper.sew {
+        let path = stroke(line.path.to_svg(MM, true), "sew", FINE).set("stroke-dasharray", "4 2");
+        // A dart's mouth is no edge of the piece, and there may be several.
+        group = group.add(match line.of {
+            SewKind::Mouth => path,
+            _ => path.set("id", format!("{name}.{}", identifier(&line.name))),
+        });
+    }
+    for notch in &paper.notches {
+        group = group.add(polyline(&[notch.at * MM, notch.inside * MM], "notch", FINE));
+    }
+    for mark in &paper.marks {
+        let class = match mark.kind {
+            crate::cutting::MarkKind::Fold => "fold",
+            crate::cutting::MarkKind::Pleat => "pleat",
+            crate::cutting::MarkKind::Line => "line",
+        };
+        group = group.add(stroke(mark.path.to_svg(MM, true), class, FINE));
+    }
+    for (kind, at) in &paper.drills {
+        let cross = format!("drill {}", identifier(kind));
+        let at = at * MM;
+        let circle = Circle::new()
+            .set("class", cross)
+            .set("cx", number(at.x))
+            .set("cy", number(at.y))
+            .set("r", DRILL)
+            .set("fill", "none")
+            .set("stroke", "black")
+            .set("stroke-width", FINE);
+        group = group.add(circle);
+    }
+    group = group.add(grain(paper.grain.map(|p| p * MM)));
+    paper.texts.iter().fold(group, |group, t| group.add(letters(t)))
+}
+
+fn contour_path(contour: &[Vec2], open: bool) -> Path {
+    let points: Vec<Vec2> = contour.iter().map(|p| p * MM).collect();
+    let steps: Vec<String> = points.iter().map(|p| format!("{} {}", number(p.x), number(p.y))).collect();
+    let end = if open { "" } else { " Z" };
+    stroke(format!("M{}{end}", steps.join(" L")), "cut", CUT)
+}
+
+/// The grain's double arrow.
+fn grain([tail, head]: [Vec2; 2]) -> Path {
+    let along = (head - tail).try_normalize(0.0).unwrap_or_else(Vec2::y);
+    let across = Vec2::new(-along.y, along.x);
+    let barb = |at: Vec2, back: f64, side: f64| at + (along * back + across * (side / 2.0)) * BARB;
+    let points = [
+        barb(tail, 1.0, 1.0),
+        tail,
+        barb(tail, 1.0, -1.0),
+        tail,
+        head,
+        barb(head, -1.0, 1.0),
+        head,
+        barb(head, -1.0, -1.0),
+    ];
+    polyline(&points, "grain", FINE)
+}
+
+fn letters(line: &Lettering) -> svg::node::element::Text {
+    let at = line.at * MM;
+    let text = text(&line.text, at, line.height * MM).set("text-anchor", "middle");
+    if line.upright { text.set("transform", format!("rotate(90 {} {})", number(at.x), number(at.y))) } else { text }
+}

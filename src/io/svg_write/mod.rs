@@ -1,0 +1,83 @@
+//! SVG out: patterns for cutting.
+//!
+//! One user unit is one millimetre and width, height and viewBox say so. Coordinates are absolute (no transforms but for
+//! turned text) and every element carries its own styling, so that any program sees the same drawing.
+
+mod cutting;
+
+use svg::Document;
+use svg::node::element::{Group, Path, Rectangle, Text};
+
+pub use cutting::cutting_svg;
+
+use crate::cutting::TEST_SQUARE;
+use crate::geometry::Vec2;
+
+/// Millimetres per metre.
+const MM: f64 = 1000.0;
+
+/// An empty sheet, mm.
+fn document(size: Vec2) -> Document {
+    Document::new()
+        .set("width", format!("{}mm", number(size.x)))
+        .set("height", format!("{}mm", number(size.y)))
+        .set("viewBox", format!("0 0 {} {}", number(size.x), number(size.y)))
+}
+
+/// The test square with its upper left corner at `corner`, mm.
+fn square(corner: Vec2, letters: f64) -> Group {
+    let side = TEST_SQUARE * MM;
+    let square = Rectangle::new()
+        .set("x", number(corner.x))
+        .set("y", number(corner.y))
+        .set("width", side)
+        .set("height", side)
+        .set("fill", "none")
+        .set("stroke", "black")
+        .set("stroke-width", 0.3);
+    let label = text(&format!("{side} mm"), corner + Vec2::new(letters, side / 2.0), letters);
+    Group::new().set("class", "scale").add(square).add(label)
+}
+
+fn text(content: &str, at: Vec2, height: f64) -> Text {
+    Text::new(printable(content))
+        .set("class", "text")
+        .set("x", number(at.x))
+        .set("y", number(at.y))
+        .set("font-family", "sans-serif")
+        .set("font-size", number(height))
+        .set("fill", "black")
+        .set("stroke", "none")
+}
+
+/// A line through points, mm.
+fn polyline(points: &[Vec2], class: &str, width: f64) -> Path {
+    let steps: Vec<String> = points.iter().map(|p| format!("{} {}", number(p.x), number(p.y))).collect();
+    stroke(if steps.is_empty() { String::new() } else { format!("M{}", steps.join(" L")) }, class, width)
+}
+
+fn stroke(commands: String, class: &str, width: f64) -> Path {
+    Path::new()
+        .set("class", class)
+        .set("d", commands)
+        .set("fill", "none")
+        .set("stroke", "black")
+        .set("stroke-width", width)
+        .set("stroke-linejoin", "round")
+        .set("stroke-linecap", "round")
+}
+
+/// A tenth of a micrometre: sums over an edge's hundred particles stay exact to a hundredth of a millimetre.
+fn number(x: f64) -> String {
+    format!("{x:.4}")
+}
+
+/// A name as an attribute's value: XML forbids control characters, quotes would end the value and an id has no spaces.
+fn identifier(name: &str) -> String {
+    name.chars().map(|c| if c.is_control() || c.is_whitespace() || c == '"' { '_' } else { c }).collect()
+}
+
+/// Text without the control characters XML forbids.
+fn printable(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+}

@@ -1,0 +1,399 @@
+//! Patterns for cutting: cut lines against the definition of an allowance, and every format read back by a reader that
+//! shares nothing with its writer.
+
+use proptest::prelude::*;
+use toile::cutting::{Layout, Options, Paper, Sheet, papers};
+use toile::geometry::Vec2;
+use toile::io::dxf_write::cutting_dxf;
+use toile::io::garment::read_text;
+use toile::io::pdf_write::{Page, one_page, tiled};
+use toile::io::svg_write::cutting_svg;
+use toile::pattern::{Drawing, drawings};
+
+/// A hundredth of a millimetre, metres: how exact a pattern is.
+const EXACT: f64 = 1e-5;
+
+fn drawn(text: &str) -> Vec<Drawing> {
+    let loaded = read_text("garment", "garment.yaml", text).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    drawings(&loaded.file, &loaded.garment)
+}
+
+/// A garment of one free piece with these lines in it.
+fn one_piece(lines: &str) -> String {
+    format!("garment: 1\nfree: ['*.*']\npieces:\n  front:\n    grain: [[0, 50], [0, 0]]\n{lines}")
+}
+
+fn paper_of(lines: &str) -> Paper {
+    papers(&drawn(&one_piece(lines)), &Options::default()).remove(0)
+}
+
+fn mm(x: f64, y: f64) -> Vec2 {
+    Vec2::new(x, y) * 1e-3
+}
+
+fn has_point(contour: &[Vec2], p: Vec2) -> bool {
+    contour.iter().any(|q| (q - p).norm() < EXACT)
+}
+
+fn area(contour: &[Vec2]) -> f64 {
+    let next = contour.iter().cycle().skip(1);
+    contour.iter().zip(next).map(|(a, b)| a.perp(b)).sum::<f64>() / 2.0
+}
+
+/// Whether two segments of a closed contour that are not neighbours meet.
+fn crosses_itself(contour: &[Vec2]) -> Option<Vec2> {
+    let n = contour.len();
+    let segment = |i: usize| (contour[i], contour[(i + 1) % n]);
+    for i in 0..n {
+        for k in i + 2..n {
+            if i == 0 && k == n - 1 {
+                continue;
+            }
+            let ((a, b), (c, d)) = (segment(i), segment(k));
+            let side = |p: Vec2, q: Vec2, r: Vec2| (q - p).perp(&(r - p));
+            let apart = side(a, b, c) * side(a, b, d) > 0.0 || side(c, d, a) * side(c, d, b) > 0.0;
+            if !apart && (b - a).perp(&(d - c)).abs() > 0.0 {
+                return Some(a);
+            }
+        }
+    }
+    None
+}
+
+#[test]
+fn a_mitre_goes_to_where_the_cut_lines_meet() {
+    let square = "    outline: {start: 0 0, top: L 200 0, right: L 200 100, hem: L 0 100, left: L 0 0}\n";
+    let paper = paper_of(&format!("    allowance: {{top: 10, right: 20, hem: 30, left: 5}}\n{square}"));
+    assert_eq!(paper.cut.len(), 1);
+    assert_eq!(paper.cut[0].len(), 4, "{:?}", paper.cut[0]);
+    for corner in [mm(-5.0, -10.0), mm(220.0, -10.0), mm(220.0, 130.0), mm(-5.0, 130.0)] {
+        assert!(has_point(&paper.cut[0], corner), "{corner}: {:?}", paper.cut[0]);
+    }
+}
+
+#[test]
+fn ends_are_mitred_squared_or_folded_as_the_file_says() {
+    // A skirt's side flares by one in two: the hem's end tells the three apart.
+    let flared = |kind: &str| {
+        paper_of(&format!(
+            "    allowance: {{hem: 40 {kind}, waist: 10 mitred, left: 10 mitred, right: 10 mitred}}\n\
+                 outline: {{start: 0 0, waist: L 100 0, right: L 150 100, hem: L 0 100, left: L 0 0}}\n"
+        ))
+    };
+    // Where the right cut line meets the hem's sewing line, and its slope.
+    let meets = 150.0 + 10.0 * 1.25f64.sqrt();
+    let mitred = flared("mitred");
+    assert!(has_point(&mitred.cut[0], mm(meets + 20.0, 140.0)), "{:?}", mitred.cut);
+    let squared = flared("squared");
+    assert!(has_point(&squared.cut[0], mm(meets, 140.0)), "{:?}", squared.cut);
+    let folded = flared("folded");
+    assert!(has_point(&folded.cut[0], mm(meets - 20.0, 140.0)), "{:?}", folded.cut);
+    assert!(has_point(&folded.cut[0], mm(meets, 100.0)), "{:?}", folded.cut);
+}
+
+#[test]
+fn a_sharp_point_is_cut_off_and_a_bay_is_not_overlapped() {
+    let paper = paper_of("    allowance: 10\n    outline: {start: 0 0, upper: L 300 30, lower: L 0 60, left: L 0 0}\n");
+    let far = paper.cut[0].iter().map(|p| p.x).fold(0.0, f64::max);
+    assert!(far > 0.310 && far < 0.3301, "three widths at most past the point: {far}");
+    // A slot narrower than two allowances: both cut lines would cross in it.
+    let slot = paper_of(
+        "    allowance: 10 mitred\n    outline: {start: 0 0, a: L 100 0, b: L 100 80, c: L 112 80, d: L 112 0, e: L 200 0, f: L 200 \
+         150, g: L 0 150, h: L 0 0}\n",
+    );
+    assert_eq!(slot.cut.len(), 1);
+    assert!(crosses_itself(&slot.cut[0]).is_none());
+    // The slot closes: 220 × 170.
+    assert!((area(&slot.cut[0]) - 0.220 * 0.170).abs() < 1e-9, "{}", area(&slot.cut[0]));
+}
+
+#[test]
+fn the_cap_of_a_dart_lies_on_the_allowance_when_the_dart_is_pressed() {
+    let paper = paper_of(
+        "    allowance: 15 mitred\n    outline: {start: -100 0, waist: L 100 0, right: L 100 200, hem: L -100 200, left: L -100 0}\n\
+             darts: [{edge: waist, at: 50, intake: 20, length: 90}]\n",
+    );
+    // Pressed to the middle, onto the part of the waist after the dart: the cap over the right half of the intake is
+    // the waist's cut line mirrored in the right leg.
+    let (tip, mouth) = (mm(-50.0, 90.0), mm(-40.0, 0.0));
+    let leg = (mouth - tip).normalize();
+    let mirror = |p: Vec2| mouth + 2.0 * leg * leg.dot(&(p - mouth)) - (p - mouth);
+    let over: Vec<Vec2> =
+        paper.cut[0].iter().copied().filter(|p| p.y < -0.0151 && p.x > -0.0501 && p.x < -0.0380).collect();
+    assert!(!over.is_empty(), "{:?}", paper.cut[0]);
+    for p in over {
+        assert!((mirror(p).y + 0.015).abs() < EXACT, "{p} is folded onto {}", mirror(p));
+    }
+    // And both halves are alike about the dart's axis.
+    let peak = paper.cut[0].iter().min_by(|a, b| a.y.total_cmp(&b.y)).expect("points");
+    assert!((peak.x + 0.050).abs() < EXACT, "{peak}");
+}
+
+#[test]
+fn a_piece_on_the_fold_ends_on_it_and_opens_to_a_whole() {
+    let text = one_piece(
+        "    cut: fold center\n    allowance: {hem: 30}\n    outline: {start: 0 20, neck: C 40 20, 60 0, 80 -20, side: L 120 300, hem: \
+         L 0 300, center: L 0 20}\n",
+    );
+    let half = papers(&drawn(&text), &Options::default()).remove(0);
+    let [from, to] = half.fold.expect("a fold");
+    assert!(from.x.abs() < 1e-9 && to.x.abs() < 1e-9);
+    assert!((from.y - 0.330).abs() < EXACT && (to.y - 0.010).abs() < EXACT, "{from} {to}");
+    let whole = papers(&drawn(&text), &Options { whole: true, ..Options::default() }).remove(0);
+    assert!(whole.fold.is_none());
+    assert!((area(&whole.cut[0]) - 2.0 * area(&half.cut[0])).abs() < 1e-9);
+    assert!(crosses_itself(&whole.cut[0]).is_none());
+}
+
+/// Random pieces: corners round a middle, straight or bent edges, allowances and ends of every kind.
+fn any_piece() -> impl Strategy<Value = String> {
+    let edge = (60.0..220.0f64, -0.25..0.25f64, any::<bool>(), 0usize..4, 0usize..3);
+    proptest::collection::vec(edge, 3..8).prop_map(|edges| {
+        let n = edges.len();
+        let corner = |i: usize| {
+            let angle = std::f64::consts::TAU * (i % n) as f64 / n as f64;
+            Vec2::new(angle.cos(), angle.sin()) * edges[i % n].0
+        };
+        let (mut outline, mut allowance) = (String::new(), String::new());
+        for (i, (_, bend, straight, width, kind)) in edges.iter().enumerate() {
+            let (a, b) = (corner(i), corner(i + 1));
+            let way = b - a;
+            let control = (a + b) / 2.0 + Vec2::new(-way.y, way.x) * *bend;
+            let path = if *straight {
+                format!("L {} {}", b.x, b.y)
+            } else {
+                format!("Q {} {}, {} {}", control.x, control.y, b.x, b.y)
+            };
+            outline.push_str(&format!("      e{i}: {path}\n"));
+            let (width, kind) = ([5, 10, 15, 30][*width], ["mitred", "squared", "folded"][*kind]);
+            allowance.push_str(&format!("      e{i}: {width} {kind}\n"));
+        }
+        let start = corner(0);
+        one_piece(&format!("    allowance:\n{allowance}    outline:\n      start: {} {}\n{outline}", start.x, start.y))
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_cut_line_is_at_the_allowance_from_the_sewing_line(text in any_piece()) {
+        // Edges that bend into each other make no piece.
+        let Ok(loaded) = read_text("garment", "garment.yaml", &text) else { return Ok(()) };
+        let drawing = drawings(&loaded.file, &loaded.garment).remove(0);
+        let paper = papers(&[drawing.clone()], &Options::default()).remove(0);
+        let edges = &drawing.rings[0];
+        let width = |i: usize| edges[i % edges.len()].allowance.width.expect("given");
+        for contour in &paper.cut {
+            prop_assert!(crosses_itself(contour).is_none(), "crosses near {:?}\n{text}", crosses_itself(contour));
+        }
+        prop_assert!(area(&paper.cut[0]) > edges.iter().map(|e| e.path.double_area()).sum::<f64>() / 2.0);
+        for p in paper.cut.iter().flatten() {
+            // Three times the wider allowance is how far a mitre may go.
+            let at_corner = (0..edges.len()).any(|i| {
+                let reach = 3.0 * width(i).max(width(i + edges.len() - 1));
+                (edges[i].path.start() - p).norm() <= reach + EXACT
+            });
+            let off = |i: usize| edges[i].path.nearest(*p).1 - width(i);
+            let nearest = (0..edges.len()).map(off).fold(f64::INFINITY, f64::min);
+            prop_assert!(at_corner || nearest.abs() <= EXACT, "{p} is {nearest} m off\n{text}");
+        }
+    }
+}
+
+/// A garment with everything that is drawn.
+const SAMPLE: &str = "
+garment: 1
+name: Sample
+allowance: 12
+pieces:
+  front:
+    cut: fold center
+    grain: [[60, 250], [60, 60]]
+    allowance: {hem: 40, neck: 6}
+    outline: {start: 0 20, neck: C 40 20, 60 0, 80 -20, side: C 100 100, 90 200, 140 300, hem: L 0 300, center: L 0 20}
+    notches: {side: [100, 200 double]}
+    darts: [{edge: hem, at: 60, intake: 12, length: 80}]
+  back: {like: front, cut: pair, notches: {}, note: 'cut with the nap'}
+  patch:
+    cut: 2
+    grain: [[10, 10], [60, 10]]
+    outline: {start: 0 0, top: L 90 0, right: L 90 50, bottom: L 0 50, left: L 0 0}
+    holes: {slit: M 20 20 L 20 30 L 60 30 L 60 20 Z}
+    lines: {fold: {path: M 0 25 L 90 25, fold: 90}}
+free: ['*.*']
+";
+
+fn sample() -> Vec<Paper> {
+    papers(&drawn(SAMPLE), &Options::default())
+}
+
+/// Longest distance of a point of one polyline from the other, both ways, as the points say.
+fn apart(one: &[Vec2], other: &[Vec2]) -> f64 {
+    let to = |p: &Vec2, line: &[Vec2]| line.iter().map(|q| (q - p).norm()).fold(f64::INFINITY, f64::min);
+    let way = |a: &[Vec2], b: &[Vec2]| a.iter().map(|p| to(p, b)).fold(0.0, f64::max);
+    way(one, other).max(way(other, one))
+}
+
+#[test]
+fn dxf_read_back_has_the_same_lines_on_the_standards_layers() {
+    let papers = sample();
+    let text = cutting_dxf("Sample", &papers);
+    let pairs: Vec<(i32, &str)> = text
+        .lines()
+        .collect::<Vec<_>>()
+        .chunks(2)
+        .map(|c| (c[0].trim().parse().expect("a group code"), c[1]))
+        .collect();
+    assert_eq!(pairs.last(), Some(&(0, "EOF")));
+    let blocks: Vec<&[(i32, &str)]> = pairs.split(|p| *p == (0, "BLOCK")).skip(1).collect();
+    assert_eq!(blocks.len(), papers.len());
+    for (block, paper) in blocks.iter().zip(&papers) {
+        assert!(block.contains(&(2, paper.name.as_str())));
+        let entities: Vec<&[(i32, &str)]> = block.split(|p| p.0 == 0).collect();
+        let kinds: Vec<&str> = block.iter().filter(|p| p.0 == 0).map(|p| p.1).collect();
+        let value = |e: &[(i32, &str)], code: i32| e.iter().find(|p| p.0 == code).map(|p| p.1.to_owned());
+        let number = |e: &[(i32, &str)], code: i32| value(e, code).map(|v| v.parse::<f64>().expect("a number"));
+        let at = |e: &[(i32, &str)]| Vec2::new(number(e, 10).unwrap_or(0.0), -number(e, 20).unwrap_or(0.0)) * 1e-3;
+        let on = |kind: &str, layer: &str| -> Vec<Vec2> {
+            let fits = |(k, e): (&&str, &&[(i32, &str)])| **k == *kind && value(e, 8).as_deref() == Some(layer);
+            kinds.iter().zip(&entities[1..]).filter(|(k, e)| fits((k, e))).map(|(_, e)| at(e)).collect()
+        };
+        assert!(apart(&on("VERTEX", "1"), &paper.cut[0]) <= EXACT, "{}", paper.name);
+        let notches: Vec<Vec2> = paper.notches.iter().map(|n| n.at).collect();
+        assert_eq!(on("POINT", "4").len(), notches.len());
+        if !notches.is_empty() {
+            assert!(apart(&on("POINT", "4"), &notches) <= EXACT);
+        }
+        assert_eq!(on("LINE", "6").len(), usize::from(paper.fold.is_some()));
+        assert_eq!(on("LINE", "7").len(), 1);
+        assert_eq!(on("POINT", "13").len(), paper.drills.len());
+        assert_eq!(on("TEXT", "15").len(), paper.texts.len());
+        let vertices = on("VERTEX", "1").len() + on("VERTEX", "14").len();
+        let told = on("POINT", "2").len() + on("POINT", "3").len();
+        assert!(
+            told >= vertices && !on("POINT", "2").is_empty() && !on("POINT", "3").is_empty() || paper.name == "patch"
+        );
+        // The sewing line of every edge, straight or bent.
+        for line in paper.sew.iter().filter(|l| l.name == "side") {
+            for p in on("VERTEX", "14") {
+                let near = paper.sew.iter().map(|l| l.path.nearest(p).1).fold(f64::INFINITY, f64::min);
+                assert!(near <= EXACT, "{p} is {near} m off");
+            }
+            assert!((line.path.start() - on("VERTEX", "14").first().copied().unwrap_or_default()).norm() < 1.0);
+        }
+    }
+    let inserts = pairs.iter().filter(|p| **p == (0, "INSERT")).count();
+    assert_eq!(inserts, papers.len());
+    assert!(pairs.contains(&(1, "Units: METRIC")) && pairs.contains(&(1, "Quantity: 1,1")));
+}
+
+/// Value of an attribute of an element's text.
+fn attribute<'a>(element: &'a str, name: &str) -> Option<&'a str> {
+    let from = element.find(&format!(" {name}=\""))? + name.len() + 3;
+    element[from..].split('"').next()
+}
+
+#[test]
+fn svg_read_back_is_full_size_and_has_the_same_cut_lines() {
+    let papers = sample();
+    let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
+    let svg = cutting_svg(&sheet);
+    let head = svg.split('>').next().expect("a head");
+    let size: Vec<f64> = ["width", "height"]
+        .iter()
+        .map(|a| attribute(head, a).and_then(|v| v.strip_suffix("mm")).expect("mm").parse().expect("a number"))
+        .collect();
+    let view: Vec<f64> = attribute(head, "viewBox").expect("one").split(' ').map(|v| v.parse().expect("one")).collect();
+    assert_eq!(view, [0.0, 0.0, size[0], size[1]], "one unit is a millimetre");
+    let cut: Vec<Vec<Vec2>> = svg
+        .split('<')
+        .filter(|e| attribute(e, "class") == Some("cut"))
+        .map(|e| {
+            let numbers: Vec<f64> = attribute(e, "d")
+                .expect("commands")
+                .split(|c: char| c.is_ascii_alphabetic() || c == ' ')
+                .filter(|w| !w.is_empty())
+                .map(|w| w.parse().expect("a number"))
+                .collect();
+            numbers.chunks(2).map(|p| mm(p[0], p[1])).collect()
+        })
+        .collect();
+    let drawn: Vec<&Vec<Vec2>> = sheet.papers.iter().flat_map(|p| &p.cut).collect();
+    assert_eq!(cut.len(), drawn.len());
+    for (read, drawn) in cut.iter().zip(drawn) {
+        assert!(apart(read, drawn) <= EXACT);
+    }
+    for id in ["front", "front.side", "back.hem", "patch.slit"] {
+        assert_eq!(svg.matches(&format!("id=\"{id}\"")).count(), 1, "{id}");
+    }
+    for words in ["cut 1 on the fold", "cut 2 (left and right)", "cut with the nap", "hem 40"] {
+        assert!(svg.contains(words), "{words}");
+    }
+}
+
+/// The numbers before every operator of the page streams of an uncompressed PDF.
+fn operations(pdf: &[u8]) -> Vec<(String, Vec<f64>)> {
+    let text: String = pdf.iter().map(|&b| char::from(b)).collect();
+    let mut found = Vec::new();
+    for stream in text.split("stream\n").skip(1).step_by(2) {
+        let mut numbers = Vec::new();
+        for word in stream.split("endstream").next().unwrap_or("").split_whitespace() {
+            match word.parse::<f64>() {
+                Ok(number) => numbers.push(number),
+                Err(_) => found.push((word.to_owned(), std::mem::take(&mut numbers))),
+            }
+        }
+    }
+    found
+}
+
+/// Side lengths of the squares in a PDF, millimetres.
+fn squares(pdf: &[u8]) -> Vec<f64> {
+    let operations = operations(pdf);
+    let names: Vec<&str> = operations.iter().map(|o| o.0.as_str()).collect();
+    let mut sides = Vec::new();
+    for (k, five) in names.windows(5).enumerate() {
+        if five == ["m", "l", "l", "l", "s"] {
+            let corner = |i: usize| Vec2::new(operations[k + i].1[0], operations[k + i].1[1]);
+            let side = |i: usize| (corner((i + 1) % 4) - corner(i)).norm() / 72.0 * 25.4;
+            if (side(0) - side(1)).abs() < 1e-3 {
+                sides.extend((0..4).map(side));
+            }
+        }
+    }
+    sides
+}
+
+#[test]
+fn pdf_pages_have_the_paper_s_size_and_a_square_of_100_mm() {
+    let papers = sample();
+    let a4 = tiled("Sample", &papers, Page::A4).expect("pages");
+    let letter = tiled("Sample", &papers, Page::LETTER).expect("pages");
+    let sheet = Sheet::new(&papers, &Layout { width: Some(0.914), margin: 0.010, square: true });
+    let one = one_page("Sample", &sheet).expect("a page");
+    let boxes = |pdf: &[u8]| -> Vec<Vec<f64>> {
+        let text = String::from_utf8_lossy(pdf).into_owned();
+        let numbers =
+            |t: &str| t.split(']').next().unwrap_or("").split_whitespace().filter_map(|w| w.parse().ok()).collect();
+        text.split("/MediaBox [").skip(1).map(numbers).collect()
+    };
+    for (pdf, width, height) in
+        [(&a4, 210.0, 297.0), (&letter, 215.9, 279.4), (&one, sheet.size.x * 1e3, sheet.size.y * 1e3)]
+    {
+        for page in boxes(pdf) {
+            assert!((page[2] / 72.0 * 25.4 - width).abs() < 1e-3 && (page[3] / 72.0 * 25.4 - height).abs() < 1e-3);
+        }
+        let sides = squares(pdf);
+        assert!(sides.iter().filter(|s| (**s - 100.0).abs() < 1e-3).count() >= 4, "{sides:?}");
+    }
+    assert!(boxes(&a4).len() > 2 && boxes(&one).len() == 1);
+}
+
+#[test]
+fn a_sheet_no_reader_shows_is_refused() {
+    let papers = sample();
+    let sheet = Sheet { size: Vec2::new(1.0, 6.0), ..Sheet::new(&papers, &Layout::default()) };
+    let error = one_page("Sample", &sheet).expect_err("too long").to_string();
+    assert!(error.contains("6000 mm") && error.contains("--width"), "{error}");
+}
