@@ -16,6 +16,7 @@
 pub mod cli;
 pub mod contact;
 pub mod cutting;
+pub mod digitize;
 pub mod drape;
 pub mod dynamics;
 pub mod fabric;

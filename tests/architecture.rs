@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules in building order, each with those it may use. The ground floor first, the edge last.
-const FLOORS: [(&str, &[&str]); 19] = [
+const FLOORS: [(&str, &[&str]); 20] = [
     ("geometry", &[]),
     ("input", &[]),
     ("linear", &["geometry"]),
@@ -21,7 +21,8 @@ const FLOORS: [(&str, &[&str]); 19] = [
     ("report", &["geometry", "pattern", "mannequin", "mesh", "verify"]),
     ("picture", &["geometry", "mesh", "verify"]),
     ("cutting", &["geometry", "input", "pattern"]),
-    ("io", &["geometry", "input", "pattern", "mannequin", "mesh", "verify", "cutting"]),
+    ("digitize", &["geometry", "pattern"]),
+    ("io", &["geometry", "input", "pattern", "mannequin", "mesh", "verify", "cutting", "digitize"]),
     (
         "pipeline",
         &[
@@ -41,16 +42,17 @@ const FLOORS: [(&str, &[&str]); 19] = [
             "io",
         ],
     ),
-    ("cli", &["fabric", "pattern", "mannequin", "flatten", "report", "cutting", "io", "pipeline"]),
+    ("cli", &["fabric", "pattern", "mannequin", "flatten", "report", "cutting", "digitize", "io", "pipeline"]),
 ];
 
 /// Crates and the paths below `src` that may name them.
-const CRATES: [(&str, &[&str]); 16] = [
+const CRATES: [(&str, &[&str]); 17] = [
     ("parry3d_f64", &["contact/"]),
     ("faer", &["linear/"]),
     ("spade", &["mesh/"]),
     ("kurbo", &["geometry/"]),
     ("i_overlay", &["cutting/clean.rs"]),
+    ("roxmltree", &["io/svg_read.rs"]),
     ("pdf_writer", &["io/pdf_write/"]),
     ("svgtypes", &["geometry/"]),
     ("svg", &["io/pattern_svg.rs", "io/svg_write/"]),

@@ -1,6 +1,7 @@
 //! The edge of the house: files in and out. No stage reads or writes a file itself.
 
 pub mod body;
+pub mod dxf_read;
 pub mod dxf_write;
 pub mod files;
 pub mod garment;
@@ -9,4 +10,5 @@ pub mod obj_read;
 pub mod obj_write;
 pub mod pattern_svg;
 pub mod pdf_write;
+pub mod svg_read;
 pub mod svg_write;

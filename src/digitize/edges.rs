@@ -1,0 +1,172 @@
+//! An outline as named edges.
+
+use crate::geometry::{Path, Vec2};
+
+/// A turn of more than this (radians, 20 degrees) between two segments is a corner.
+const CORNER: f64 = 0.35;
+/// Splits nearer to each other than this (metres) are one.
+const LEAST_EDGE: f64 = 3e-3;
+/// A notch is on an outline it is no farther from than this (metres): the widest usual allowance.
+const REACH: f64 = 0.045;
+/// Two notches at most so far apart (metres) are a double one.
+const DOUBLE: f64 = 0.011;
+
+/// An edge of the file to come.
+#[derive(Clone, Debug)]
+pub(super) struct Edge {
+    pub(super) name: String,
+    pub(super) path: Path,
+    /// Whether a notch stands at its end, and whether that is double.
+    pub(super) notch: Option<bool>,
+}
+
+/// Splits an outline at its corners and notches and names what has no name: `a`, `b`, `c` … clockwise from the upper
+/// left corner.
+pub(super) fn edges(outline: &[(Option<String>, Path)], notches: &[Vec2]) -> Vec<Edge> {
+    let clockwise = outline.iter().map(|e| e.1.double_area()).sum::<f64>() > 0.0;
+    let turned: Vec<(Option<String>, Path)> = if clockwise {
+        outline.to_vec()
+    } else {
+        outline.iter().rev().map(|(name, path)| (name.clone(), path.reversed())).collect()
+    };
+    let notches = singled(notches);
+    let mut edges: Vec<(Option<String>, Path, Option<bool>)> = Vec::new();
+    if let [(None, whole)] = turned.as_slice() {
+        edges.extend(split_ring(whole, &notches, &turned));
+    } else {
+        for (name, path) in &turned {
+            let parts = split(path, &corners(path), &notches, &turned);
+            let alone = parts.len() == 1;
+            for (k, (part, notch)) in parts.into_iter().enumerate() {
+                let name = name.as_ref().map(|n| if alone { n.clone() } else { format!("{n}_{}", k + 1) });
+                edges.push((name, part, notch));
+            }
+        }
+    }
+    let first = (0..edges.len()).min_by(|&a, &b| {
+        let low = |k: usize| edges[k].1.start().sum();
+        low(a).total_cmp(&low(b))
+    });
+    edges.rotate_left(first.unwrap_or(0));
+    named(edges)
+}
+
+/// A closed path without names: begun at one of its corners.
+fn split_ring(
+    whole: &Path,
+    notches: &[(Vec2, bool)],
+    outline: &[(Option<String>, Path)],
+) -> Vec<(Option<String>, Path, Option<bool>)> {
+    let mut at = corners(whole);
+    let closing = turn(whole.tangent(whole.length()), whole.tangent(0.0)) > CORNER;
+    if closing || at.is_empty() {
+        return split(whole, &at, notches, outline).into_iter().map(|(p, n)| (None, p, n)).collect();
+    }
+    let begin = at.remove(0);
+    let length = whole.length();
+    let turned = whole.part(begin, length).joined(&whole.part(0.0, begin));
+    let at: Vec<f64> = at.iter().map(|s| s - begin).collect();
+    split(&turned, &at, notches, outline).into_iter().map(|(p, n)| (None, p, n)).collect()
+}
+
+/// Arc lengths at which a path turns.
+fn corners(path: &Path) -> Vec<f64> {
+    let stations = path.stations(0.0, 1e-3);
+    let joints = path.joints();
+    let turns = |k: &usize| match (stations[*k].last(), stations[k + 1].first()) {
+        (Some(before), Some(after)) => turn(before.tangent, after.tangent) > CORNER,
+        _ => false,
+    };
+    (0..stations.len().saturating_sub(1)).filter(turns).map(|k| joints[k + 1]).collect()
+}
+
+fn turn(before: Vec2, after: Vec2) -> f64 {
+    before.perp(&after).atan2(before.dot(&after)).abs()
+}
+
+/// Parts of a path between corners and the notches that are nearest to it.
+fn split(
+    path: &Path,
+    corners: &[f64],
+    notches: &[(Vec2, bool)],
+    outline: &[(Option<String>, Path)],
+) -> Vec<(Path, Option<bool>)> {
+    let length = path.length();
+    let mut cuts: Vec<(f64, Option<bool>)> = corners.iter().map(|&s| (s, None)).collect();
+    for &(p, double) in notches {
+        let (at, off) = path.nearest(p);
+        let elsewhere = outline.iter().map(|e| e.1.nearest(p).1).fold(f64::INFINITY, f64::min);
+        if off <= REACH && off <= elsewhere + 1e-9 {
+            cuts.push((at, Some(double)));
+        }
+    }
+    cuts.push((length, None));
+    cuts.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut parts: Vec<(Path, Option<bool>)> = Vec::new();
+    let mut from = 0.0;
+    for (k, &(at, notch)) in cuts.iter().enumerate() {
+        let last = k + 1 == cuts.len();
+        if at - from < LEAST_EDGE || (!last && length - at < LEAST_EDGE) {
+            // A notch at a corner marks the end of the edge before it.
+            if let (Some(part), Some(_)) = (parts.last_mut(), notch) {
+                part.1 = part.1.or(notch);
+            }
+            if !last {
+                continue;
+            }
+        }
+        if at - from >= LEAST_EDGE || parts.is_empty() {
+            parts.push((path.part(from, at), notch));
+        } else if let Some(part) = parts.last_mut() {
+            part.0 = part.0.joined(&path.part(from, at));
+        }
+        from = at;
+    }
+    parts
+}
+
+/// Notches without their doubles.
+fn singled(notches: &[Vec2]) -> Vec<(Vec2, bool)> {
+    let mut out: Vec<(Vec2, bool)> = Vec::new();
+    for &p in notches {
+        match out.iter_mut().find(|(q, _)| (*q - p).norm() <= DOUBLE) {
+            Some((q, double)) if (*q - p).norm() > 1e-4 => {
+                *q = (*q + p) / 2.0;
+                *double = true;
+            }
+            Some(_) => {}
+            None => out.push((p, false)),
+        }
+    }
+    out
+}
+
+fn named(edges: Vec<(Option<String>, Path, Option<bool>)>) -> Vec<Edge> {
+    let mut taken: Vec<String> = Vec::new();
+    let mut next = 0;
+    let mut out = Vec::new();
+    for (name, path, notch) in edges {
+        let mut name = name.map(|n| super::file::word(&n)).filter(|n| !n.is_empty() && !taken.contains(n));
+        while name.is_none() {
+            let made_up = letters(next);
+            next += 1;
+            name = (!taken.contains(&made_up)).then_some(made_up);
+        }
+        let name = name.unwrap_or_default();
+        taken.push(name.clone());
+        out.push(Edge { name, path, notch });
+    }
+    out
+}
+
+/// `a` to `z`, then `aa`.
+fn letters(mut k: usize) -> String {
+    let mut out = String::new();
+    loop {
+        out.insert(0, char::from(b'a' + (k % 26) as u8));
+        if k < 26 {
+            return out;
+        }
+        k = k / 26 - 1;
+    }
+}

@@ -1,0 +1,78 @@
+//! From lines on somebody else's pattern to a garment file.
+//!
+//! A reader of a format gives [`Traced`] pieces: sewing and cut lines, grain, notches and inner lines, in metres, y down.
+//! [`garment_file`] makes of them a [`GarmentFile`] in which only the seams are missing: outlines split into named edges
+//! at corners and notches, allowances measured, and [`Suggestion`]s of what may be sewn to what.
+
+mod chain;
+mod contours;
+mod edges;
+mod file;
+mod suggest;
+
+pub use chain::chained;
+pub use contours::pieces;
+pub use file::{Digitized, garment_file};
+pub use suggest::Suggestion;
+
+use crate::geometry::{Path, Vec2};
+use crate::pattern::Cut;
+
+/// A line of a foreign file.
+#[derive(Clone, Debug)]
+pub struct Stroke {
+    /// Its course.
+    pub path: Path,
+    /// What it is, as far as the format says.
+    pub role: Role,
+    /// Its name, if it has one.
+    pub name: Option<String>,
+    /// The name of the group it is in, if that has one.
+    pub group: Option<String>,
+}
+
+/// What a line is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Not said.
+    Unknown,
+    /// A cut line.
+    Cut,
+    /// A sewing line.
+    Sew,
+    /// One edge of a sewing line.
+    Edge,
+    /// A grain line.
+    Grain,
+    /// The line on the fold.
+    Fold,
+    /// A notch: a short line, or a point as a line without length to speak of.
+    Notch,
+}
+
+/// A piece as traced.
+#[derive(Clone, Debug, Default)]
+pub struct Traced {
+    /// As the format names it.
+    pub name: String,
+    /// The sewing line, walked round once; edges that have names keep them.
+    pub sew: Vec<(Option<String>, Path)>,
+    /// The cut line.
+    pub cut: Option<Path>,
+    /// What is cut out.
+    pub holes: Vec<Path>,
+    /// Lines inside.
+    pub lines: Vec<(Option<String>, Path)>,
+    /// Points inside: drill holes.
+    pub points: Vec<Vec2>,
+    /// Tail and head of the grain line.
+    pub grain: Option<[Vec2; 2]>,
+    /// Places of notches, near the outline.
+    pub notches: Vec<Vec2>,
+    /// The line in which a half is mirrored.
+    pub mirror: Option<[Vec2; 2]>,
+    /// How it is cut, if said.
+    pub cut_how: Option<Cut>,
+    /// Its material.
+    pub fabric: Option<String>,
+}

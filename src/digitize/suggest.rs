@@ -1,0 +1,59 @@
+//! Which edges may be sewn together.
+
+use super::edges::Edge;
+
+/// Edges of a seam differ by no more than this (metres), or by this share of their length.
+const ALIKE: (f64, f64) = (1.5e-3, 0.004);
+/// Shorter edges (metres) fit too many.
+const SHORTEST: f64 = 0.02;
+
+/// Two edges that may be sewn together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Suggestion {
+    /// `front.a`.
+    pub sew: String,
+    /// `back.c`.
+    pub to: String,
+    /// Their lengths, metres.
+    pub lengths: [f64; 2],
+    /// Whether both end in a notch.
+    pub notched: bool,
+}
+
+struct End<'a> {
+    piece: usize,
+    name: String,
+    edge: &'a Edge,
+}
+
+/// Edges of which each fits the other best: pieces first, then edges of one piece (darts, sleeves).
+pub(super) fn suggest(outlines: &[(String, Vec<Edge>, bool)]) -> Vec<Suggestion> {
+    let mut ends = Vec::new();
+    for (piece, (name, edges, _)) in outlines.iter().enumerate() {
+        let long = edges.iter().filter(|e| e.path.length() >= SHORTEST);
+        ends.extend(long.map(|edge| End { piece, name: format!("{name}.{}", edge.name), edge }));
+    }
+    let best: Vec<Option<usize>> = (0..ends.len()).map(|i| best(&ends, i)).collect();
+    let mut found = Vec::new();
+    for (i, partner) in best.iter().enumerate() {
+        if let Some(k) = partner.filter(|&k| k > i && best[k] == Some(i)) {
+            let lengths = [ends[i].edge.path.length(), ends[k].edge.path.length()];
+            let notched = ends[i].edge.notch.is_some() && ends[k].edge.notch.is_some();
+            found.push(Suggestion { sew: ends[i].name.clone(), to: ends[k].name.clone(), lengths, notched });
+        }
+    }
+    found
+}
+
+/// The edge most like this one.
+fn best(ends: &[End], i: usize) -> Option<usize> {
+    let length = |k: usize| ends[k].edge.path.length();
+    let apart = |k: usize| (length(k) - length(i)).abs();
+    let alike = |k: &usize| *k != i && apart(*k) <= ALIKE.0.max(ALIKE.1 * length(i).max(length(*k)));
+    // Notched alike, in another piece, then by length; the earlier of two that are equal.
+    let worse = |k: usize| {
+        let notches = ends[k].edge.notch != ends[i].edge.notch;
+        (notches, ends[k].piece == ends[i].piece)
+    };
+    (0..ends.len()).filter(alike).min_by(|&a, &b| worse(a).cmp(&worse(b)).then(apart(a).total_cmp(&apart(b))))
+}

@@ -1,0 +1,323 @@
+//! SVG in: drawings of Inkscape, FreeSewing, Seamly2D and toile itself; the only user of roxmltree.
+//!
+//! Lengths follow width, height and viewBox (a drawing without units has 96 to the inch, as CSS says). What a line is
+//! follows from its class (`cut`, `sew`, `edge`, `grain`, `notch`, `fold`; FreeSewing's `fabric`, `sa` and markers) where
+//! it has one, and else from what lies in what.
+
+use std::path::Path as FilePath;
+
+use nalgebra::Matrix2;
+use roxmltree::{Document, Node, ParsingOptions};
+
+use crate::digitize::{Role, Stroke, Traced, pieces};
+use crate::geometry::{Path, Vec2, parse_transform};
+use crate::input::{InputError, bytes, shown};
+
+/// Larger files are not patterns.
+const MOST_BYTES: u64 = 50 << 20;
+/// More elements than this are a picture, not a pattern.
+const MOST_NODES: u32 = 500_000;
+/// Metres per CSS pixel.
+const PIXEL: f64 = 0.0254 / 96.0;
+/// Coordinates beyond this (metres) are a wrong unit or no pattern.
+const FARTHEST: f64 = 1e3;
+/// More lines than this cannot be looked at one against the other.
+const MOST_STROKES: usize = 5_000;
+/// Letters of a path that messages show.
+const SHOWN: usize = 60;
+
+/// Elements that are not drawn where they stand.
+const NOT_DRAWN: [&str; 9] =
+    ["defs", "symbol", "marker", "clipPath", "mask", "pattern", "metadata", "style", "namedview"];
+/// Classes of what is no line of the pattern.
+const SKIPPED: [&str; 10] =
+    ["help", "note", "mark", "text", "hidden", "scale", "pleat", "drill", "scalebox", "miniscale"];
+
+/// Why an SVG file could not be read.
+#[derive(Debug, thiserror::Error)]
+pub enum SvgError {
+    /// The system refused.
+    #[error("{0}")]
+    Input(#[from] InputError),
+    /// Not XML.
+    #[error("it is not an SVG file: {0}")]
+    Xml(String),
+    /// XML of another kind.
+    #[error("it is not an SVG file: its first element is '{0}'")]
+    NotSvg(String),
+    /// Something that cannot be read.
+    #[error("line {line}: cannot read {what} '{text}'")]
+    Value {
+        /// From 1.
+        line: u32,
+        /// `a path`.
+        what: &'static str,
+        /// As it stands there, shortened.
+        text: String,
+    },
+    /// Too many lines.
+    #[error("it has more than {most} lines; hide or remove those that do not belong to the pattern")]
+    TooMany {
+        /// The limit.
+        most: usize,
+    },
+    /// No outline.
+    #[error(
+        "no closed line of the size of a piece was found; outlines must be closed paths, or paths that meet end to end \
+         with the class 'edge' in one group per piece"
+    )]
+    NoPieces,
+}
+
+/// Reads the pieces of an SVG file.
+///
+/// # Errors
+/// [`SvgError`].
+pub fn read_svg(path: &FilePath) -> Result<Vec<Traced>, SvgError> {
+    read_svg_text(&String::from_utf8_lossy(&bytes(path, MOST_BYTES)?))
+}
+
+/// Reads the pieces of an SVG text.
+///
+/// # Errors
+/// As [`read_svg`].
+pub fn read_svg_text(text: &str) -> Result<Vec<Traced>, SvgError> {
+    let options = ParsingOptions { nodes_limit: MOST_NODES, allow_dtd: true, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text, options).map_err(|e| SvgError::Xml(e.to_string()))?;
+    let root = document.root_element();
+    if root.tag_name().name() != "svg" {
+        return Err(SvgError::NotSvg(shown(root.tag_name().name(), SHOWN)));
+    }
+    let mut reader = Reader { document: &document, strokes: Vec::new() };
+    reader.walk(root)?;
+    let pieces = pieces(&reader.strokes);
+    if pieces.is_empty() { Err(SvgError::NoPieces) } else { Ok(pieces) }
+}
+
+/// From an element's coordinates to metres on the sheet.
+#[derive(Clone, Copy)]
+struct Frame {
+    linear: Matrix2<f64>,
+    shift: Vec2,
+}
+
+impl Frame {
+    /// This after an element's own transform.
+    fn after(self, (linear, shift): (Matrix2<f64>, Vec2)) -> Self {
+        Self { linear: self.linear * linear, shift: self.linear * shift + self.shift }
+    }
+}
+
+/// What an element inherits.
+#[derive(Clone)]
+struct Scope {
+    frame: Frame,
+    group: Option<String>,
+    classes: String,
+}
+
+struct Reader<'a, 'i> {
+    document: &'a Document<'i>,
+    strokes: Vec<Stroke>,
+}
+
+impl Reader<'_, '_> {
+    fn walk(&mut self, root: Node) -> Result<(), SvgError> {
+        let scope = Scope { frame: sheet(root), group: None, classes: String::new() };
+        // Elements with what they inherit, the next one last: files may nest deeper than a stack of calls.
+        let mut open = vec![(root, scope)];
+        while let Some((node, scope)) = open.pop() {
+            let mut inner = scope.clone();
+            if let Some(text) = node.attribute("transform").filter(|_| node != root) {
+                let own = parse_transform(text).ok_or_else(|| self.value(node, "a transform", text))?;
+                inner.frame = scope.frame.after(own);
+            }
+            let name = node.tag_name().name();
+            if let Some(own) = node.attribute("class") {
+                inner.classes = if name == "g" { own.to_owned() } else { format!("{own} {}", scope.classes) };
+            }
+            if name == "g" || name == "svg" {
+                inner.group = group_name(node).or(scope.group);
+                let children = node.children().filter(|c| c.is_element() && is_drawn(*c));
+                open.extend(children.map(|c| (c, inner.clone())).collect::<Vec<_>>().into_iter().rev());
+            } else {
+                self.element(node, name, &inner)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn element(&mut self, node: Node, name: &str, scope: &Scope) -> Result<(), SvgError> {
+        let Some(role) = role(node, &scope.classes) else { return Ok(()) };
+        let Some(commands) = commands(node, name) else { return Ok(()) };
+        let paths = Path::parse_many(&commands).map_err(|_| self.value(node, "a path", &commands))?;
+        for path in paths {
+            let path = path.mapped(scope.frame.linear, scope.frame.shift);
+            let reaches = [path.start().amax(), path.end().amax(), path.length()];
+            if reaches.iter().any(|r| r.is_nan() || *r > FARTHEST) {
+                return Err(self.value(node, "a path of this size", &commands));
+            }
+            // A transform may have made a point of it.
+            if path.length() > 1e-8 {
+                let group = scope.group.clone();
+                self.strokes.push(Stroke { path, role, name: own_name(node, group.as_deref()), group });
+            }
+        }
+        if self.strokes.len() > MOST_STROKES { Err(SvgError::TooMany { most: MOST_STROKES }) } else { Ok(()) }
+    }
+
+    fn value(&self, node: Node, what: &'static str, text: &str) -> SvgError {
+        let line = self.document.text_pos_at(node.range().start).row;
+        SvgError::Value { line, what, text: shown(text, SHOWN) }
+    }
+}
+
+/// From user units to metres: width and height over viewBox, the smaller of the two scales.
+fn sheet(root: Node) -> Frame {
+    let view: Vec<f64> = root
+        .attribute("viewBox")
+        .map(|v| v.split([' ', ',']).filter_map(|w| w.parse().ok()).collect())
+        .unwrap_or_default();
+    let scale = |side: &str, units: Option<&f64>| {
+        let metres = root.attribute(side).and_then(length)?;
+        let units = *units?;
+        (units > 0.0 && metres > 0.0).then(|| metres / units)
+    };
+    let scales = [scale("width", view.get(2)), scale("height", view.get(3))];
+    let scale = scales.into_iter().flatten().fold(f64::INFINITY, f64::min);
+    let scale = if scale.is_finite() { scale } else { PIXEL };
+    let origin = if view.len() == 4 { Vec2::new(view[0], view[1]) } else { Vec2::zeros() };
+    Frame { linear: Matrix2::identity() * scale, shift: -origin * scale }
+}
+
+/// A length in metres; percentages and units of type have none.
+fn length(text: &str) -> Option<f64> {
+    let text = text.trim();
+    let split = text.find(|c: char| c.is_alphabetic() && !"eE".contains(c) || c == '%').unwrap_or(text.len());
+    let number: f64 = text[..split].trim().parse().ok()?;
+    let unit = match text[split..].trim() {
+        "" | "px" => PIXEL,
+        "mm" => 1e-3,
+        "cm" => 1e-2,
+        "m" => 1.0,
+        "in" => 0.0254,
+        "pt" => 0.0254 / 72.0,
+        "pc" => 0.0254 / 6.0,
+        _ => return None,
+    };
+    Some(number * unit)
+}
+
+fn is_drawn(node: Node) -> bool {
+    let style = node.attribute("style").unwrap_or("").replace(' ', "");
+    let hidden = node.attribute("display") == Some("none")
+        || node.attribute("visibility") == Some("hidden")
+        || style.contains("display:none")
+        || style.contains("visibility:hidden");
+    !hidden && !NOT_DRAWN.contains(&node.tag_name().name())
+}
+
+/// A group's label, or its id where that was not made up by a program.
+fn group_name(node: Node) -> Option<String> {
+    if node.attribute("class").is_some_and(|c| c.split_whitespace().any(|w| SKIPPED.contains(&w))) {
+        return None;
+    }
+    let label = node.attributes().find(|a| a.name() == "label").map(|a| a.value());
+    let id = node.attribute("id").filter(|id| !is_made_up(id));
+    let name = label.or(id)?;
+    // FreeSewing: fs-stack-DESIGN.PART.
+    let part = name.strip_prefix("fs-stack-").or(name.strip_prefix("fs-part-")).unwrap_or(name);
+    if name == part {
+        // Layers hold pieces; they are none.
+        let layer = node.attributes().any(|a| a.name() == "groupmode" && a.value() == "layer");
+        let container = name.starts_with("fs-") || layer && node.children().any(|c| c.tag_name().name() == "g");
+        return (!container).then(|| name.to_owned());
+    }
+    Some(part.rsplit('.').next().unwrap_or(part).to_owned())
+}
+
+/// `g123`, `path45-6`, `layer1`, `svg8`: names that programs give.
+fn is_made_up(id: &str) -> bool {
+    let stem = id.trim_end_matches(|c: char| c.is_ascii_digit() || c == '-' || c == '_');
+    ["g", "path", "rect", "layer", "svg", "polygon", "polyline", "circle", "use", "group", "Group", ""].contains(&stem)
+}
+
+/// The element's own name; of `piece.edge` in the group `piece` it is the edge.
+fn own_name(node: Node, group: Option<&str>) -> Option<String> {
+    let label = node.attributes().find(|a| a.name() == "label").map(|a| a.value());
+    let name = label.or(node.attribute("id").filter(|id| !is_made_up(id)))?;
+    let edge = group.and_then(|g| name.strip_prefix(g)).and_then(|rest| rest.strip_prefix('.'));
+    Some(edge.unwrap_or(name).to_owned())
+}
+
+/// What a line is by its classes, its markers and its name; `None` for what is no line of the pattern.
+fn role(node: Node, classes: &str) -> Option<Role> {
+    let has = |word: &str| classes.split_whitespace().any(|c| c == word);
+    let refers = |name: &str| {
+        let marker = ["marker-start", "marker-end", "style", "href"];
+        node.attributes().any(|a| marker.contains(&a.name()) && a.value().contains(name))
+    };
+    let called = |word: &str| {
+        let named = node.attributes().filter(|a| a.name() == "id" || a.name() == "label");
+        named.map(|a| a.value().to_lowercase()).any(|v| v.contains(word))
+    };
+    if has("grain") || has("grainline") || refers("grainline") || called("grain") {
+        return Some(Role::Grain);
+    }
+    if refers("cutonfold") || has("cutonfold") || has("fold") && is_line(node) {
+        return Some(Role::Fold);
+    }
+    if has("notch") || refers("notch") || called("notch") {
+        return Some(Role::Notch);
+    }
+    if has("fold") || SKIPPED.iter().any(|w| has(w)) || node.tag_name().name() == "text" {
+        return None;
+    }
+    Some(if has("cut") || has("sa") {
+        Role::Cut
+    } else if has("edge") || has("sew") {
+        Role::Edge
+    } else if has("fabric") || has("seam") {
+        Role::Sew
+    } else {
+        Role::Unknown
+    })
+}
+
+/// Whether a path has two points only: the fold itself, not its arrow.
+fn is_line(node: Node) -> bool {
+    let commands = node.attribute("d").unwrap_or("");
+    commands.chars().filter(|c| c.is_ascii_alphabetic()).count() == 2
+}
+
+/// The element as path commands; `None` where it is no line or its numbers are none.
+fn commands(node: Node, name: &str) -> Option<String> {
+    let number = |key: &str| -> Option<f64> {
+        let text = node.attribute(key)?;
+        text.trim().trim_end_matches("px").parse().ok().filter(|x: &f64| x.is_finite())
+    };
+    let zero = |key: &str| number(key).unwrap_or(0.0);
+    match name {
+        "path" => node.attribute("d").map(str::trim).filter(|d| !d.is_empty()).map(str::to_owned),
+        "polygon" | "polyline" => {
+            let points = node.attribute("points")?.trim();
+            let end = if name == "polygon" { " Z" } else { "" };
+            (!points.is_empty()).then(|| format!("M {points}{end}"))
+        }
+        "line" => Some(format!("M {} {} L {} {}", zero("x1"), zero("y1"), zero("x2"), zero("y2"))),
+        "rect" => {
+            let (w, h) = (number("width")?, number("height")?);
+            (w > 0.0 && h > 0.0).then(|| format!("M {} {} h {w} v {h} h {} Z", zero("x"), zero("y"), -w))
+        }
+        "circle" | "ellipse" => {
+            let r = number("r");
+            let (rx, ry) = (r.or_else(|| number("rx"))?, r.or_else(|| number("ry"))?);
+            let (x, y) = (zero("cx") - rx, zero("cy"));
+            let arc = |by: f64| format!("a {rx} {ry} 0 0 1 {by} 0");
+            (rx > 0.0 && ry > 0.0).then(|| format!("M {x} {y} {} {} Z", arc(2.0 * rx), arc(-2.0 * rx)))
+        }
+        // A notch or a button is a symbol put in a place.
+        "use" => Some(format!("M {x} {y} L {x} {}", zero("y") + 0.001, x = zero("x"), y = zero("y"))),
+        _ => None,
+    }
+}

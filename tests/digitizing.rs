@@ -1,0 +1,228 @@
+//! Foreign drawings as garment files: lengths against the drawing's own numbers, and toile's patterns there and back.
+
+use toile::cutting::{Layout, Options, Paper, SewKind, Sheet, papers};
+use toile::digitize::{Digitized, garment_file};
+use toile::geometry::{Path, Vec2};
+use toile::io::dxf_read::read_dxf_text;
+use toile::io::dxf_write::cutting_dxf;
+use toile::io::garment::{Loaded, read_text, write};
+use toile::io::svg_read::read_svg_text;
+use toile::io::svg_write::cutting_svg;
+use toile::pattern::{Drawing, drawings};
+
+const INKSCAPE: &str = include_str!("data/inkscape.svg");
+const FREESEWING: &str = include_str!("data/freesewing.svg");
+/// A hundredth of a millimetre, metres.
+const EXACT: f64 = 1e-5;
+
+/// The garment that the made file is, read by the same door as any other.
+fn loaded(made: &Digitized) -> Loaded {
+    let yaml = write(&made.file).expect("YAML");
+    read_text("drawing", "drawing.yaml", &yaml).unwrap_or_else(|e| panic!("{e}\n{yaml}"))
+}
+
+fn drawn(made: &Digitized) -> Vec<Drawing> {
+    let loaded = loaded(made);
+    drawings(&loaded.file, &loaded.garment)
+}
+
+fn from_svg(text: &str) -> Digitized {
+    garment_file("drawing", &read_svg_text(text).expect("pieces"))
+}
+
+fn lengths(drawing: &Drawing) -> Vec<(String, f64)> {
+    drawing.rings[0].iter().map(|e| (e.name.clone(), e.path.length() * 1e3)).collect()
+}
+
+fn length(drawing: &Drawing, edge: &str) -> f64 {
+    lengths(drawing).iter().find(|e| e.0 == edge).unwrap_or_else(|| panic!("{edge} in {:?}", lengths(drawing))).1
+}
+
+/// Length of a cubic, by its own polynomial at many points: shares nothing with the library's.
+fn cubic(p: [[f64; 2]; 4]) -> f64 {
+    let at = |t: f64| -> [f64; 2] {
+        let s = 1.0 - t;
+        let w = [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
+        [0, 1].map(|k| (0..4).map(|i| w[i] * p[i][k]).sum())
+    };
+    let n = 20_000;
+    (0..n)
+        .map(|i| (at(i as f64 / n as f64), at((i + 1) as f64 / n as f64)))
+        .map(|(a, b)| (b[0] - a[0]).hypot(b[1] - a[1]))
+        .sum()
+}
+
+#[test]
+fn an_inkscape_drawing_has_its_units_transforms_and_labels() {
+    let made = from_svg(INKSCAPE);
+    let pieces = drawn(&made);
+    let names: Vec<&str> = pieces.iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(names, ["front", "back"], "hidden and unused shapes are no pieces");
+    // Half a millimetre per unit.
+    let side = cubic([[420.0, 20.0], [460.0, 120.0], [460.0, 220.0], [420.0, 320.0]]) * 0.5;
+    let front = &pieces[0];
+    // Clockwise from the upper left; the left side is split at its notch.
+    assert!((length(front, "a") - 200.0).abs() < 0.01, "{:?}", lengths(front));
+    assert!((length(front, "b") - side).abs() < 0.01, "{} {side}", length(front, "b"));
+    assert!((length(front, "d") + length(front, "e") - 150.0).abs() < 0.01);
+    assert!((length(front, "d") - 75.0).abs() < 0.1 && front.notches.len() == 1);
+    let [tail, head] = front.grain.expect("a grain");
+    assert!((tail - head).norm() - 0.110 < 1e-6 && tail.y > head.y);
+    assert_eq!(front.lines.iter().map(|l| l.name.as_str()).collect::<Vec<_>>(), ["pocket"]);
+    // The straight sides are 10 mm from the cut line.
+    let widths: Vec<Option<f64>> = front.rings[0].iter().map(|e| e.allowance.width).collect();
+    assert!((widths[0].expect("measured") - 0.010).abs() < 1e-4, "{widths:?}");
+    let back = &pieces[1];
+    assert_eq!(lengths(back).iter().map(|l| l.1.round()).collect::<Vec<_>>(), [200.0, 150.0, 200.0, 150.0]);
+}
+
+#[test]
+fn a_freesewing_drawing_gives_seam_fold_grain_and_notches() {
+    let made = from_svg(FREESEWING);
+    let pieces = drawn(&made);
+    assert_eq!(pieces.len(), 1);
+    let front = &pieces[0];
+    assert_eq!(front.name, "front");
+    let fold = front.fold.expect("a fold");
+    assert!((front.rings[0][fold].path.length() - 0.250).abs() < EXACT);
+    let neck = cubic([[0.0, 50.0], [40.0, 50.0], [60.0, 30.0], [80.0, 0.0]]);
+    let armhole = cubic([[140.0, 20.0], [130.0, 60.0], [130.0, 100.0], [160.0, 130.0]]);
+    for (wanted, what) in [
+        (neck, "neck"),
+        (60f64.hypot(20.0), "shoulder"),
+        (armhole, "armhole"),
+        (70.0, "side above the notch"),
+        (100.0, "side below"),
+        (160.0, "hem"),
+    ] {
+        assert!(lengths(front).iter().any(|l| (l.1 - wanted).abs() < 0.01), "{what} {wanted}: {:?}", lengths(front));
+    }
+    assert!(front.grain.is_some() && front.notches.len() == 1);
+}
+
+/// Two pieces that are sewn at the side, one of them on the fold, with everything that is drawn.
+const SAMPLE: &str = "
+garment: 1
+name: Sample
+pieces:
+  front:
+    cut: fold center
+    grain: [[60, 250], [60, 60]]
+    allowance: {hem: 40, neck: 6, shoulder: 12 , side: 12 mitred}
+    outline: {start: 0 20, neck: C 40 20, 60 0, 80 -20, shoulder: L 130 0, side: C 100 100, 90 200, 140 300, hem: L 0 300, center: L 0 20}
+    notches: {side: [100]}
+  back:
+    cut: pair
+    grain: [[60, 250], [60, 60]]
+    allowance: 10
+    outline: {start: 0 40, neck: C 40 30, 60 0, 80 -20, shoulder: L 130 0, side: C 100 100, 90 200, 140 300, hem: L 20 300, center: L 0 40}
+    notches: {side: [100]}
+free: ['*.*']
+";
+
+fn sample() -> (Vec<Drawing>, Vec<Paper>) {
+    let loaded = read_text("sample", "sample.yaml", SAMPLE).expect("a garment");
+    let drawings = drawings(&loaded.file, &loaded.garment);
+    let papers = papers(&drawings, &Options::default());
+    (drawings, papers)
+}
+
+/// The outline begun at its upper left corner and moved there, sampled.
+fn outline(drawing: &Drawing) -> (Vec<Vec2>, f64, Path) {
+    let whole = drawing.rings[0].iter().map(|e| e.path.clone()).reduce(|a, b| a.joined(&b)).expect("edges");
+    let points = whole.sampled(1e-7);
+    let low = points.iter().fold(points[0], |low, p| low.inf(p));
+    let moved = whole.mapped(nalgebra::Matrix2::identity(), -low);
+    (points.iter().map(|p| p - low).collect(), whole.double_area() / 2.0, moved)
+}
+
+fn same_outlines(made: &Digitized, drawn_before: &[Drawing]) {
+    let after = drawn(made);
+    assert_eq!(after.len(), drawn_before.len());
+    for before in drawn_before {
+        let again = after.iter().find(|p| p.name == before.name).expect("the piece");
+        let ((points, area, path), (points_again, area_again, path_again)) = (outline(before), outline(again));
+        assert!((area - area_again).abs() < 1e-7, "{}: {area} {area_again}", before.name);
+        let off = |points: &[Vec2], path: &Path| points.iter().map(|p| path.nearest(*p).1).fold(0.0, f64::max);
+        let worst = off(&points, &path_again).max(off(&points_again, &path));
+        assert!(worst <= EXACT, "{} is {worst} m off", before.name);
+        assert_eq!(before.fold.is_some(), again.fold.is_some(), "{}", before.name);
+        assert_eq!(before.notches.len(), again.notches.len(), "{}", before.name);
+        for edge in &again.rings[0] {
+            let nearest = |e: &toile::pattern::DrawnEdge| {
+                let middle = edge.path.point(edge.path.length() / 2.0);
+                e.path.nearest(middle + path_shift(before, again)).1
+            };
+            let own = before.rings[0].iter().min_by(|a, b| nearest(a).total_cmp(&nearest(b))).expect("edges");
+            if before.fold.is_none_or(|f| before.rings[0][f].name != own.name) {
+                let (wanted, found) = (own.allowance.width.expect("given"), edge.allowance.width.expect("measured"));
+                assert!((wanted - found).abs() < 1.5e-4, "{}.{}: {wanted} {found}", before.name, own.name);
+            }
+        }
+    }
+}
+
+/// From the second's drawing to the first's.
+fn path_shift(before: &Drawing, again: &Drawing) -> Vec2 {
+    let low = |d: &Drawing| {
+        let points: Vec<Vec2> = d.rings[0].iter().flat_map(|e| e.path.sampled(1e-6)).collect();
+        points.iter().fold(points[0], |low, p| low.inf(p))
+    };
+    low(before) - low(again)
+}
+
+#[test]
+fn an_exported_svg_is_read_back() {
+    let (drawings, papers) = sample();
+    let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
+    let made = from_svg(&cutting_svg(&sheet));
+    same_outlines(&made, &drawings);
+    let again = drawn(&made);
+    assert!(again.iter().all(|p| p.rings[0].iter().any(|e| e.name == "hem")), "edges keep their names");
+}
+
+#[test]
+fn an_exported_dxf_is_read_back() {
+    let (drawings, papers) = sample();
+    let made = garment_file("sample", &read_dxf_text(&cutting_dxf("Sample", &papers), None).expect("pieces"));
+    same_outlines(&made, &drawings);
+    let pair = drawn(&made).into_iter().find(|p| p.name == "back").expect("the back");
+    assert_eq!(pair.cut, toile::pattern::Cut::Pair);
+}
+
+#[test]
+fn seams_are_suggested_by_length_and_notches() {
+    let (_, papers) = sample();
+    assert!(papers.iter().all(|p| p.sew.iter().any(|s| s.of == SewKind::Outline)));
+    let made = garment_file("sample", &read_dxf_text(&cutting_dxf("Sample", &papers), None).expect("pieces"));
+    let upper = made.suggestions.iter().find(|s| (s.lengths[0] - 0.100).abs() < 1e-4).expect("the side to its notch");
+    assert!(upper.notched && upper.sew.starts_with("front.") && upper.to.starts_with("back."), "{upper:?}");
+    assert!(made.suggestions.iter().any(|s| (s.lengths[0] - 0.050f64.hypot(0.020)).abs() < 1e-4), "shoulders");
+}
+
+#[test]
+fn inches_are_told_by_the_style_and_millimetres_are_meant_otherwise() {
+    let (_, papers) = sample();
+    let metric = cutting_dxf("Sample", &papers);
+    let area = |text: &str, unit: Option<f64>| {
+        let pieces = read_dxf_text(text, unit).expect("pieces");
+        pieces[0].cut.as_ref().expect("a cut line").double_area().abs()
+    };
+    let inches = metric.replace("Units: METRIC", "Units: ENGLISH");
+    assert!((area(&inches, None) / area(&metric, None) - 25.4 * 25.4).abs() < 1e-6);
+    assert!((area(&inches, Some(1e-3)) / area(&metric, None) - 1.0).abs() < 1e-9, "what is said aloud counts");
+}
+
+#[test]
+fn what_is_no_pattern_is_refused_with_a_reason() {
+    let svg = |text: &str| read_svg_text(text).expect_err("no pattern").to_string();
+    assert!(svg("hello").contains("not an SVG"));
+    assert!(svg("<html/>").contains("'html'"));
+    assert!(svg("<svg xmlns='http://www.w3.org/2000/svg'><path d='M 0 0 L 10 10'/></svg>").contains("no closed line"));
+    let wrong = "<svg xmlns='http://www.w3.org/2000/svg'>\n<path d='M 0 0 L 10 ten'/></svg>";
+    assert!(svg(wrong).contains("line 2: cannot read a path 'M 0 0 L 10 ten'"), "{}", svg(wrong));
+    let dxf = |text: &str| read_dxf_text(text, None).expect_err("no pattern").to_string();
+    assert!(dxf("AutoCAD Binary DXF").contains("line 1"));
+    assert!(dxf("0\nSECTION\n0\nLINE\n8\nwalls\n0\nEOF\n").contains("walls"));
+    assert!(dxf("0\nBLOCK\n2\nA\n0\nLINE\n8\n1\n10\nnan\n0\nENDBLK\n").contains("'nan' is not a coordinate"));
+}
