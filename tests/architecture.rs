@@ -46,7 +46,7 @@ const FLOORS: [(&str, &[&str]); 20] = [
 ];
 
 /// Crates and the paths below `src` that may name them.
-const CRATES: [(&str, &[&str]); 17] = [
+const CRATES: [(&str, &[&str]); 19] = [
     ("parry3d_f64", &["contact/"]),
     ("faer", &["linear/"]),
     ("spade", &["mesh/"]),

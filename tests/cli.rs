@@ -119,6 +119,87 @@ fn make_within_bounds_writes_everything() {
     assert!(svg.contains("id=\"front.waist\""));
 }
 
+/// What an accessor of a GLB holds, as numbers, and how many stand together.
+fn glb_numbers(glb: &[u8], json: &Value, accessor: &Value) -> Vec<Vec<f64>> {
+    let whole = |v: &Value| v.as_u64().unwrap_or(0) as usize;
+    let accessor = &json["accessors"][whole(accessor)];
+    let view = &json["bufferViews"][whole(&accessor["bufferView"])];
+    // Header, JSON chunk, header of the binary chunk.
+    let json_length = u32::from_le_bytes(glb[12..16].try_into().expect("four bytes")) as usize;
+    let begin = 12 + 8 + json_length + 8 + whole(&view["byteOffset"]);
+    let bytes = &glb[begin..begin + whole(&view["byteLength"])];
+    let word = |b: &[u8]| match whole(&accessor["componentType"]) {
+        5126 => f64::from(f32::from_le_bytes(b.try_into().expect("four bytes"))),
+        _ => f64::from(u32::from_le_bytes(b.try_into().expect("four bytes"))),
+    };
+    let wide = match accessor["type"].as_str() {
+        Some("VEC3") => 3,
+        Some("VEC2") => 2,
+        _ => 1,
+    };
+    let numbers: Vec<f64> = bytes.chunks(4).map(word).collect();
+    let rows: Vec<Vec<f64>> = numbers.chunks(wide).map(<[f64]>::to_vec).collect();
+    assert_eq!(rows.len(), whole(&accessor["count"]));
+    rows
+}
+
+#[test]
+fn the_glb_is_the_obj() {
+    let room = Room::new();
+    room.make("skirt.yaml", &["-q"]).ends(0);
+    let (glb, obj) = (room.bytes("out/garment.glb"), String::from_utf8(room.bytes("out/garment.obj")).expect("text"));
+    assert_eq!(&glb[..4], b"glTF");
+    assert_eq!(u32::from_le_bytes(glb[8..12].try_into().expect("four bytes")) as usize, glb.len());
+    let json_length = u32::from_le_bytes(glb[12..16].try_into().expect("four bytes")) as usize;
+    let json: Value = serde_json::from_slice(&glb[20..20 + json_length]).expect("JSON");
+    let numbers = |line: &str| line.split_whitespace().skip(1).map(|w| w.parse::<f64>().expect("a number")).collect();
+    let rows = |key: &str| -> Vec<Vec<f64>> { obj.lines().filter(|l| l.starts_with(key)).map(numbers).collect() };
+    let (places, flat) = (rows("v "), rows("vt "));
+    let mut faces = obj.split("\ng ").skip(1).map(|group| {
+        let corner = |w: &str| w.split('/').map(|n| n.parse::<usize>().expect("a number") - 1).collect::<Vec<_>>();
+        let corners = group.lines().filter(|l| l.starts_with("f ")).flat_map(|l| l.split_whitespace().skip(1));
+        (group.lines().next().expect("a name").to_owned(), corners.map(corner).collect::<Vec<_>>())
+    });
+    for mesh in json["meshes"].as_array().expect("meshes") {
+        let (name, corners) = faces.next().expect("a group per mesh");
+        assert_eq!(mesh["name"], name.as_str());
+        let primitive = &mesh["primitives"][0];
+        let attribute = |key: &str| glb_numbers(&glb, &json, &primitive["attributes"][key]);
+        let (at, uv, normals) = (attribute("POSITION"), attribute("TEXCOORD_0"), attribute("NORMAL"));
+        let indices = glb_numbers(&glb, &json, &primitive["indices"]);
+        assert_eq!(indices.len(), corners.len());
+        for (index, corner) in indices.iter().zip(&corners) {
+            let i = index[0] as usize;
+            // Millimetres in the one, metres in the other; a hundredth of a millimetre is asked for.
+            let off = |k: usize| (at[i][k] * 1e3 - places[corner[0]][k]).abs();
+            assert!((0..3).all(|k| off(k) < 0.001));
+            assert!((uv[i][0] - flat[corner[1]][0]).abs() < 0.001 && (uv[i][1] + flat[corner[1]][1]).abs() < 0.001);
+            let length: f64 = normals[i].iter().map(|x| x * x).sum();
+            assert!((length - 1.0).abs() < 1e-5);
+        }
+        let material = primitive["material"].as_u64().expect("a material") as usize;
+        assert_eq!(json["materials"][material]["name"], "shell");
+    }
+    assert!(faces.next().is_none());
+}
+
+#[test]
+fn export_writes_what_cutters_take() {
+    let room = Room::new();
+    for kind in ["svg", "pdf", "dxf"] {
+        room.run(&["export", kind, "skirt.yaml", "-q"]).ends(0);
+    }
+    assert_eq!(room.names("out/skirt"), ["cutting.dxf", "cutting.pdf", "cutting.svg"]);
+    assert!(room.bytes("out/skirt/cutting.pdf").starts_with(b"%PDF"));
+    let run = room.run(&["export", "svg", "skirt.yaml", "-o", "whole.svg", "--whole", "--allowance", "15", "--json"]);
+    run.ends(0);
+    let json = run.json();
+    assert_eq!(json["file"], "whole.svg");
+    assert!(json["pieces"].as_array().expect("a list").iter().all(|p| p["cut"] == 1));
+    room.run(&["export", "svg", "skirt.yaml", "-o", "skirt.yaml"]).ends(2).says(&["skirt.yaml", "is an input"]);
+    room.run(&["export", "pdf", "skirt.yaml", "--allowance", "-3"]).ends(2).says(&["from 0 to 200"]);
+}
+
 #[test]
 fn without_o_results_go_to_out_name() {
     let room = Room::new();

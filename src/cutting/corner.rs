@@ -107,7 +107,8 @@ fn mitred(a: &Run, b: &Run) -> Join {
         if let Some((on_a, on_b)) = first_crossing(&x, &y) {
             // A step of the width along a nearly straight course is not spread over more than the width.
             let cut_away = |line: &[Vec2], at: At| length(&line[1..], at.0 - 1.0);
-            if turn < 0.0 || cut_away(&x, on_a).max(cut_away(&y, on_b)) <= wide {
+            let short = (on_a.1 - corner_of(a)).norm() <= MITRE_LIMIT * wide;
+            if turn < 0.0 || short && cut_away(&x, on_a).max(cut_away(&y, on_b)) <= wide {
                 return joined(a, on_a, Vec::new(), on_b);
             }
         }
@@ -119,9 +120,8 @@ fn mitred(a: &Run, b: &Run) -> Join {
     if turn < LEAST_TURN {
         return plain(a, b, Vec::new());
     }
-    // The point of a long mitre is cut off square to its axis.
-    let (sin, cos) = (turn / 2.0).sin_cos();
-    let past = |width: f64| ((MITRE_LIMIT * wide - width * cos) / sin).max(0.0);
+    // The point of a long mitre is cut off.
+    let past = |width: f64| ((MITRE_LIMIT * wide).powi(2) - width.powi(2)).sqrt();
     plain(a, b, vec![end + a.ends[1] * past(a.width), start - b.ends[0] * past(b.width)])
 }
 
@@ -148,7 +148,8 @@ fn ended(a: &Run, b: &Run, kind: Corner, of_first: bool) -> Option<Join> {
     let (on_ray, on_y) = first_crossing(&ray, &far)?;
     let mut between = vec![on_x.1];
     between.extend(ray.iter().enumerate().filter(|&(k, _)| k > 0 && (k as f64) < on_ray.0).map(|(_, p)| *p));
-    if length(&ray, on_ray.0) > reach {
+    // As far from the corner as a mitre may go, and no farther.
+    if between.iter().chain([&on_y.1]).any(|p| (p - corner).norm() > MITRE_LIMIT * x.width.max(y.width)) {
         return None;
     }
     Some(if of_first {

@@ -18,6 +18,13 @@ const PLACES: usize = 40;
 /// Longest line of a remark that is written, letters.
 const LONGEST_NOTE: usize = 60;
 
+/// An edge's allowance and length, metres.
+pub(super) struct EdgeWidth<'a> {
+    pub(super) name: &'a str,
+    pub(super) width: f64,
+    pub(super) length: f64,
+}
+
 /// How many are cut.
 pub(super) fn count(cut: &Cut) -> String {
     match cut {
@@ -28,8 +35,8 @@ pub(super) fn count(cut: &Cut) -> String {
     }
 }
 
-/// The lines of text on a piece; `widths` are the allowances of its edges, metres.
-pub(super) fn lettering(paper: &Paper, widths: &[(&str, f64)], note: Option<&str>) -> Vec<Lettering> {
+/// The lines of text on a piece; `widths` are those of its edges.
+pub(super) fn lettering(paper: &Paper, widths: &[EdgeWidth], note: Option<&str>) -> Vec<Lettering> {
     let mut lines = vec![paper.name.clone(), format!("{}, {}", paper.count, paper.fabric)];
     lines.push(allowances(widths));
     lines.extend(note.map(|n| crate::input::shown(n.trim(), LONGEST_NOTE)));
@@ -45,14 +52,20 @@ pub(super) fn lettering(paper: &Paper, widths: &[(&str, f64)], note: Option<&str
     write(&lines, middle, height, upright)
 }
 
-/// The commonest allowance, and edges that have another.
-fn allowances(widths: &[(&str, f64)]) -> String {
+/// The allowance of most of the outline, and edges that have another.
+fn allowances(widths: &[EdgeWidth]) -> String {
     let mm = |w: f64| (w * 1e5).round() / 100.0;
-    let times = |w: f64| widths.iter().filter(|(_, other)| mm(*other) == mm(w)).count();
-    let common = widths.iter().map(|(_, w)| mm(*w)).max_by_key(|&w| (times(w / 1e3), (w * 100.0) as u64));
-    let Some(common) = common else { return String::new() };
-    let others: Vec<String> =
-        widths.iter().filter(|(_, w)| mm(*w) != common).map(|(name, w)| format!("{name} {}", mm(*w))).collect();
+    let along = |w: f64| widths.iter().filter(|e| mm(e.width) == mm(w)).map(|e| e.length).sum::<f64>();
+    let Some(common) = widths.iter().max_by(|a, b| along(a.width).total_cmp(&along(b.width))) else {
+        return String::new();
+    };
+    let common = mm(common.width);
+    // What a dart cuts in two, `hem` and `hem.2`, is one edge to a reader.
+    let others: Vec<String> = widths
+        .iter()
+        .filter(|e| mm(e.width) != common && !e.name.contains('.'))
+        .map(|e| format!("{} {}", e.name, mm(e.width)))
+        .collect();
     let but = if others.is_empty() { String::new() } else { format!("; {}", others.join(", ")) };
     format!("allowance {common} mm{but}")
 }

@@ -185,11 +185,11 @@ fn sew_lines(drawing: &Drawing, mouths: &[Vec<Vec2>]) -> Vec<SewLine> {
 
 fn lettering(paper: &Paper, drawing: &Drawing, options: &Options) -> Vec<Lettering> {
     let rule = Rule { drawing, options };
-    let widths: Vec<(&str, f64)> = drawing.rings[0]
+    let widths: Vec<label::EdgeWidth> = drawing.rings[0]
         .iter()
         .enumerate()
         .filter(|&(i, _)| drawing.fold != Some(i) && !drawing.darts.iter().any(|d| d.legs.contains(&i)))
-        .map(|(i, e)| (e.name.as_str(), rule.width(0, i)))
+        .map(|(i, e)| label::EdgeWidth { name: &e.name, width: rule.width(0, i), length: e.path.length() })
         .collect();
     label::lettering(paper, &widths, drawing.note.as_deref())
 }

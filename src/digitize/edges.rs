@@ -4,6 +4,10 @@ use crate::geometry::{Path, Vec2};
 
 /// A turn of more than this (radians, 20 degrees) between two segments is a corner.
 const CORNER: f64 = 0.35;
+/// A path that turns at more places than this is no drawn line.
+const MOST_CORNERS: usize = 400;
+/// Notches past this many are no notches.
+const MOST_NOTCHES: usize = 400;
 /// Splits nearer to each other than this (metres) are one.
 const LEAST_EDGE: f64 = 3e-3;
 /// A notch is on an outline it is no farther from than this (metres): the widest usual allowance.
@@ -71,6 +75,12 @@ fn split_ring(
 
 /// Arc lengths at which a path turns.
 fn corners(path: &Path) -> Vec<f64> {
+    let found = turns(path);
+    // A scanned or rough line turns everywhere and has no corners.
+    if found.len() > MOST_CORNERS { Vec::new() } else { found }
+}
+
+fn turns(path: &Path) -> Vec<f64> {
     let stations = path.stations(0.0, 1e-3);
     let joints = path.joints();
     let turns = |k: &usize| match (stations[*k].last(), stations[k + 1].first()) {
@@ -128,7 +138,7 @@ fn split(
 /// Notches without their doubles.
 fn singled(notches: &[Vec2]) -> Vec<(Vec2, bool)> {
     let mut out: Vec<(Vec2, bool)> = Vec::new();
-    for &p in notches {
+    for &p in notches.iter().take(MOST_NOTCHES) {
         match out.iter_mut().find(|(q, _)| (*q - p).norm() <= DOUBLE) {
             Some((q, double)) if (*q - p).norm() > 1e-4 => {
                 *q = (*q + p) / 2.0;
@@ -146,7 +156,7 @@ fn named(edges: Vec<(Option<String>, Path, Option<bool>)>) -> Vec<Edge> {
     let mut next = 0;
     let mut out = Vec::new();
     for (name, path, notch) in edges {
-        let mut name = name.map(|n| super::file::word(&n)).filter(|n| !n.is_empty() && !taken.contains(n));
+        let mut name = name.map(|n| super::file::word(&n)).filter(|n| super::file::is_usable(n) && !taken.contains(n));
         while name.is_none() {
             let made_up = letters(next);
             next += 1;

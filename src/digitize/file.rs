@@ -15,8 +15,8 @@ const MM: f64 = 1e3;
 const ON_FOLD: f64 = 1e-3;
 /// Widest allowance that is measured (metres): farther apart, two lines have nothing to do with each other.
 const WIDEST: f64 = 0.1;
-/// Places along an edge at which its allowance is measured.
-const LOOKS: usize = 9;
+/// Where along an edge its allowance is measured.
+const LOOKS: [f64; 3] = [0.4, 0.5, 0.6];
 /// Length of the line that stands for a drill hole, metres.
 const DRILL: f64 = 2e-3;
 /// Longest name.
@@ -73,10 +73,19 @@ pub(super) fn word(name: &str) -> String {
     word.trim_matches('_').to_owned()
 }
 
+/// Text without control characters, which YAML does not take.
+fn plain(text: &str) -> String {
+    text.chars().filter(|c| !c.is_control()).take(LONGEST).collect()
+}
+
+/// Whether a garment file takes it as a name of an edge, a piece or a line.
+pub(super) fn is_usable(name: &str) -> bool {
+    !name.is_empty() && !["L", "R", "mirror", "all", "start"].contains(&name) && name.parse::<f64>().is_err()
+}
+
 fn fresh(name: &str, taken: &[String]) -> String {
     let word = word(name);
-    let reserved = ["L", "R", "mirror", "all"].contains(&word.as_str()) || word.parse::<f64>().is_ok();
-    let stem = if word.is_empty() || reserved { format!("piece{word}") } else { word };
+    let stem = if is_usable(&word) { word } else { format!("piece{word}") };
     let mut fresh = if stem == "piece" { "piece1".to_owned() } else { stem.clone() };
     let mut again = 2;
     while taken.contains(&fresh) {
@@ -95,7 +104,9 @@ fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile
         _ => piece.sew.clone(),
     };
     let edges = edges(&outline, &piece.notches);
-    if piece.grain.is_none() {
+    // What lies on the fold of the cloth lies along the warp.
+    let grain = piece.grain.or(piece.mirror);
+    if grain.is_none() {
         notes.push(format!("'{name}' has no grain line: the warp is taken as upright; add 'grain: [[x, y], [x, y]]'"));
     }
     let fold = piece.mirror.and_then(|mirror| fold_edge(&edges, mirror));
@@ -106,10 +117,10 @@ fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile
         like: None,
         fabric: None,
         allowance: whole.and_then(|line| allowance(&edges, line, &cut)),
-        cut: cut.map(at_no_place),
+        cut: cut.as_ref().map(|c| at_no_place(if *c == Cut::Pair { Cut::Count(2) } else { c.clone() })),
         drawn: None,
         layer: None,
-        grain: piece.grain.map(|g| at_no_place(g.map(file_point))),
+        grain: grain.map(|g| at_no_place(g.map(file_point))),
         place: None,
         outline: Some(outline_file(&edges)),
         notches: notches(&edges),
@@ -117,9 +128,17 @@ fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile
         pleats: Vec::new(),
         holes: numbered("hole", &piece.holes, &edges),
         lines: lines(piece),
-        note: piece.fabric.as_ref().map(|f| at_no_place(format!("material: {f}"))),
+        note: note(piece, cut.as_ref()),
     };
     (file, edges)
+}
+
+/// The material, and what cannot be said before the seams are written: the two of a pair are told apart by them.
+fn note(piece: &Traced, cut: Option<&Cut>) -> Option<Located<String>> {
+    let material = piece.fabric.as_ref().map(|f| format!("material: {}", plain(f)));
+    let pair = (cut == Some(&Cut::Pair)).then(|| "left and right: say cut: pair when its seams are written".to_owned());
+    let words: Vec<String> = material.into_iter().chain(pair).collect();
+    (!words.is_empty()).then(|| at_no_place(words.join("; ")))
 }
 
 /// Ten nanometres in a millimetre file: nobody's rounding, and short.
@@ -179,9 +198,7 @@ fn lines(piece: &Traced) -> Vec<LineFile> {
     };
     let mut lines = Vec::new();
     for (name, path) in &piece.lines {
-        let stem =
-            name.as_deref().map(word).filter(|w| w.chars().any(char::is_alphabetic)).unwrap_or("line".to_owned());
-        let stem = if ["L", "R", "mirror", "all"].contains(&stem.as_str()) { format!("line_{stem}") } else { stem };
+        let stem = name.as_deref().map(word).filter(|w| is_usable(w)).unwrap_or_else(|| "line".to_owned());
         lines.push(add(&stem, path, "mark"));
     }
     for &p in &piece.points {
@@ -204,10 +221,10 @@ fn fold_edge(edges: &[Edge], [from, to]: [Vec2; 2]) -> Option<String> {
 fn allowance(edges: &[Edge], cut: &Path, how: &Option<Cut>) -> Option<AllowanceFile> {
     let on_fold = |e: &Edge| matches!(how, Some(Cut::Fold(name)) if *name == e.name);
     let width = |e: &Edge| {
-        let at = |k: usize| e.path.length() * (k as f64 + 0.5) / LOOKS as f64;
-        let mut looks: Vec<f64> = (0..LOOKS).map(|k| cut.nearest(e.path.point(at(k))).1).collect();
+        // Round its middle: near its ends the neighbours' cut lines may be nearer than its own.
+        let mut looks = LOOKS.map(|share| cut.nearest(e.path.point(e.path.length() * share)).1);
         looks.sort_by(f64::total_cmp);
-        (looks[LOOKS / 2] * 1e4).round() / 10.0
+        (looks[LOOKS.len() / 2] * 1e4).round() / 10.0
     };
     let said = |number: f64| at_no_place(AllowanceWidth { width: Quantity { number, unit: None }, corner: None });
     let widths: Vec<(&Edge, f64)> = edges.iter().filter(|e| !on_fold(e)).map(|e| (e, width(e))).collect();

@@ -7,6 +7,9 @@ const ALIKE: (f64, f64) = (1.5e-3, 0.004);
 /// Shorter edges (metres) fit too many.
 const SHORTEST: f64 = 0.02;
 
+/// Among more edges than this every length fits by chance.
+const MOST_EDGES: usize = 2000;
+
 /// Two edges that may be sewn together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Suggestion {
@@ -32,6 +35,9 @@ pub(super) fn suggest(outlines: &[(String, Vec<Edge>, bool)]) -> Vec<Suggestion>
     for (piece, (name, edges, _)) in outlines.iter().enumerate() {
         let long = edges.iter().filter(|e| e.path.length() >= SHORTEST);
         ends.extend(long.map(|edge| End { piece, name: format!("{name}.{}", edge.name), edge }));
+    }
+    if ends.len() > MOST_EDGES {
+        return Vec::new();
     }
     let best: Vec<Option<usize>> = (0..ends.len()).map(|i| best(&ends, i)).collect();
     let mut found = Vec::new();

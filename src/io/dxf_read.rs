@@ -12,7 +12,7 @@ use crate::input::{InputError, bytes, shown};
 use crate::pattern::Cut;
 
 /// Larger files are not patterns.
-const MOST_BYTES: u64 = 100 << 20;
+const MOST_BYTES: u64 = 30 << 20;
 /// Coordinates beyond this (metres) are a wrong unit or no pattern.
 const FARTHEST: f64 = 1e3;
 /// More lines in a block than this cannot be looked at one against the other.

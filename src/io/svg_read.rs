@@ -14,7 +14,7 @@ use crate::geometry::{Path, Vec2, parse_transform};
 use crate::input::{InputError, bytes, shown};
 
 /// Larger files are not patterns.
-const MOST_BYTES: u64 = 50 << 20;
+const MOST_BYTES: u64 = 30 << 20;
 /// More elements than this are a picture, not a pattern.
 const MOST_NODES: u32 = 500_000;
 /// Metres per CSS pixel.
@@ -270,7 +270,8 @@ fn role(node: Node, classes: &str) -> Option<Role> {
     if has("notch") || refers("notch") || called("notch") {
         return Some(Role::Notch);
     }
-    if has("fold") || SKIPPED.iter().any(|w| has(w)) || node.tag_name().name() == "text" {
+    // Of symbols only notches tell something about the outline; others are logos and buttons.
+    if has("fold") || SKIPPED.iter().any(|w| has(w)) || ["text", "use"].contains(&node.tag_name().name()) {
         return None;
     }
     Some(if has("cut") || has("sa") {
@@ -316,7 +317,7 @@ fn commands(node: Node, name: &str) -> Option<String> {
             let arc = |by: f64| format!("a {rx} {ry} 0 0 1 {by} 0");
             (rx > 0.0 && ry > 0.0).then(|| format!("M {x} {y} {} {} Z", arc(2.0 * rx), arc(-2.0 * rx)))
         }
-        // A notch or a button is a symbol put in a place.
+        // A notch is a symbol put in a place.
         "use" => Some(format!("M {x} {y} L {x} {}", zero("y") + 0.001, x = zero("x"), y = zero("y"))),
         _ => None,
     }

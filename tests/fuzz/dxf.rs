@@ -14,7 +14,7 @@ pieces:
   front:
     cut: fold center
     grain: [[60, 250], [60, 60]]
-    outline: {start: 0 20, neck: C 40 20, 60 0, 80 -20, side: L 140 300, hem: L 0 300, center: L 0 20}
+    outline: {start: 0 20, neck: C 40 20 60 0 80 -20, side: L 140 300, hem: L 0 300, center: L 0 20}
     notches: {side: [100 double]}
     darts: [{edge: hem, at: 60, intake: 12, length: 80}]
     holes: {slit: M 20 120 L 20 130 L 60 130 L 60 120 Z}

@@ -36,7 +36,7 @@ pub fn one_page(title: &str, sheet: &Sheet) -> Result<Vec<u8>, PdfError> {
 /// Pages to be joined: the first has the test square, the plan of the pages and what to cut; then a page for every
 /// field of the plan on which something is drawn, row by row.
 ///
-/// Every page shows its frame and a strip of [`OVERLAP`]/2 beyond it; frames of neighbours are the same line, and the
+/// Every page shows its frame and a strip of 5 mm beyond it; frames of neighbours are the same line, and the
 /// halves of a match mark on it make a diamond.
 ///
 /// # Errors
@@ -174,7 +174,14 @@ fn marks(pen: &mut Pen, plan: &Plan, row: usize, column: usize) {
     pen.closed(&corners.map(|(x, y)| Vec2::new(x, y)), true);
     // Middle of the side, along it, out of the frame, and the field on whose right or lower side it is.
     let sides = [
-        (column > 0, Vec2::new(0.0, size.y / 2.0), Vec2::y(), Vec2::x(), field_name(row, column.wrapping_sub(1)), "r"),
+        (
+            column > 0,
+            Vec2::new(0.0, size.y / 2.0),
+            Vec2::y(),
+            Vec2::x(),
+            field_name(row, column.saturating_sub(1)),
+            "r",
+        ),
         (
             column + 1 < plan.columns,
             Vec2::new(size.x, size.y / 2.0),

@@ -2,10 +2,13 @@
 //! memory, and what is made of it is a garment file that can be read.
 //!
 //! Every run tries some hundred damaged files, the same ones each time. `TOILE_FUZZ_SECONDS=600 cargo test --release
-//! --test fuzz` goes on with others for so long.
+//! --test fuzz_drawings` goes on with others for so long.
 
+#[path = "fuzz/damage.rs"]
 mod damage;
+#[path = "fuzz/dxf.rs"]
 mod dxf;
+#[path = "fuzz/svg.rs"]
 mod svg;
 
 use std::time::{Duration, Instant};
