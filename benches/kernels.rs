@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use criterion::{BatchSize, Criterion};
 use toile::contact::{ClothDetector, Neighbourhood};
-use toile::dynamics::{Friction, StepError, World};
+use toile::dynamics::{StepError, World};
 use toile::geometry::{Mat3, Vec3};
 use toile::linear::{Cholesky, Ordering, SymmetricMatrix, SymmetricPattern, nested_dissection};
 use toile::pipeline::Job;
@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn hung<'a>(job: &'a Job, sewn: &Sewn) -> Result<World<'a>, StepError> {
     let mut world = sewn_world(&job.cut(), &job.collider, &sewn.stitching, sewn.nodes.clone())?;
     world.gravity = 1.0;
-    world.friction = Some(Friction::new(world.x.len(), 10.0));
+    world.grip(10.0);
     Ok(world)
 }
 

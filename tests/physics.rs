@@ -82,7 +82,17 @@ fn noise(count: usize) -> Vec<f64> {
 
 fn body_contact(node: u32, normal: Vec3, offset: f64) -> Contact {
     let weights = [1.0, 0.0, 0.0, 0.0];
-    Contact { nodes: [node, 0, 0, 0], weights, count: 1, normal, offset, body: true, above: 1, pushes: true }
+    Contact {
+        nodes: [node, 0, 0, 0],
+        weights,
+        count: 1,
+        normal,
+        offset,
+        body: true,
+        above: 1,
+        feature: 0,
+        pushes: true,
+    }
 }
 
 /// Six contacts that press on a node from all sides: a spring to `at` that both integrators know.
@@ -190,6 +200,7 @@ fn forces_are_the_slope_of_the_energy() {
             offset: normal.dot(&(x[20] * 0.2 + x[21] * 0.3 + x[22] * 0.5 - x[30])) - 1e-4,
             body: false,
             above: 3,
+            feature: 0,
             pushes: true,
         });
         let pulls =

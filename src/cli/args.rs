@@ -43,7 +43,7 @@ pub(super) struct Global {
 pub(super) enum Command {
     /// Sew, drape and flatten a garment, and write everything
     Make(GarmentArgs),
-    /// Read and check a garment file; walk every seam
+    /// Read and check a garment file and walk every seam; or look for crossings in a mesh
     Check(CheckArgs),
     /// Sew a garment; writes sewn.obj, garment.png and report.json
     Sew(GarmentArgs),
@@ -137,8 +137,17 @@ pub(super) struct DrapeArgs {
 #[derive(Debug, clap::Args)]
 pub(super) struct CheckArgs {
     /// The garment file
-    #[arg(value_name = "GARMENT.yaml")]
-    pub(super) garment: PathBuf,
+    #[arg(value_name = "GARMENT.yaml", required_unless_present = "mesh")]
+    pub(super) garment: Option<PathBuf>,
+    /// Look for crossings in this surface instead, whoever made it
+    #[arg(long, value_name = "FILE.obj", conflicts_with = "garment")]
+    pub(super) mesh: Option<PathBuf>,
+    /// What the surface should lie on: a mannequin, or a closed OBJ in the same unit and place
+    #[arg(long, value_name = "NAME|FILE.obj", requires = "mesh")]
+    pub(super) body: Option<String>,
+    /// Unit of the OBJ files
+    #[arg(long, value_enum, default_value = "mm", requires = "mesh")]
+    pub(super) units: UnitArg,
 }
 
 /// Arguments of `flatten`.

@@ -1,8 +1,11 @@
 //! `check`: is this garment file right, and what does it make?
 
+use std::path::Path;
+
 use serde::Serialize;
 
 use super::args::CheckArgs;
+use super::check_mesh::check_mesh;
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use crate::pattern::{Diagnostic, Garment, Give, SeamWalk, Severity, openings, walk};
@@ -11,11 +14,20 @@ use crate::report::aligned;
 
 /// `toile check`
 pub(super) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, CliError> {
-    let checked = read(&args.garment).and_then(|l| check_materials(&args.garment, &l).map(|()| l));
+    match (&args.mesh, &args.garment) {
+        (Some(mesh), _) => check_mesh(mesh, args, console),
+        (None, Some(garment)) => check_garment(garment, console),
+        // clap asks for one of them.
+        (None, None) => Err(CliError::Argument("a garment file or --mesh is needed".into())),
+    }
+}
+
+fn check_garment(file: &Path, console: &Console) -> Result<Exit, CliError> {
+    let checked = read(file).and_then(|l| check_materials(file, &l).map(|()| l));
     let loaded = match checked {
         Err(PipelineError::Garment(refused)) if console.json() => {
             let rows = refused.diagnostics.iter().map(DiagnosticRow::new).collect();
-            let refusal = Findings { file: args.garment.display().to_string(), ok: false, diagnostics: rows };
+            let refusal = Findings { file: file.display().to_string(), ok: false, diagnostics: rows };
             console.results(&refusal, String::new)?;
             return Ok(Exit::Input);
         }

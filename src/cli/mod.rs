@@ -5,6 +5,7 @@
 
 mod args;
 mod check;
+mod check_mesh;
 mod console;
 mod exit;
 mod export;

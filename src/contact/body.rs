@@ -143,7 +143,7 @@ impl Collider {
             if !self.is_highest(p, normal, &self.neighbours[v as usize]) {
                 return;
             }
-            out.push(Contact::with_body([tri[0], tri[1], tri[2], 0], [w[0], w[1], w[2], 0.0], 3, normal, p));
+            out.push(Contact::with_body([tri[0], tri[1], tri[2], 0], [w[0], w[1], w[2], 0.0], 3, normal, (v + 1, p)));
         });
     }
 
@@ -169,7 +169,7 @@ impl Collider {
             if !self.is_highest(p, normal, &beside) {
                 return;
             }
-            out.push(Contact::with_body([ends[0], ends[1], 0, 0], [1.0 - s, s, 0.0, 0.0], 2, normal, on_body));
+            out.push(Contact::with_body([ends[0], ends[1], 0, 0], [1.0 - s, s, 0.0, 0.0], 2, normal, (e + 1, on_body)));
         });
     }
 

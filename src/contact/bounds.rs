@@ -236,6 +236,7 @@ mod tests {
             offset: 0.0,
             body: false,
             above: 1,
+            feature: 0,
             pushes: true,
         };
         (x, contact)

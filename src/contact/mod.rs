@@ -41,6 +41,8 @@ pub struct Contact {
     pub body: bool,
     /// How many of the nodes, counted from the first, are on the side the normal points to.
     pub above: u8,
+    /// Which vertex or edge of the body it meets, from 1; 0 where that is the nearest point, or a layer.
+    pub feature: u32,
     /// Whether it pushes; a pair of cloth edges that are nearest at an end of one is only kept apart.
     pub pushes: bool,
 }
@@ -48,20 +50,27 @@ pub struct Contact {
 impl Contact {
     /// A node and the body's surface, of unit direction `normal` at `point`.
     pub(crate) fn on_body(node: u32, normal: Vec3, point: Vec3) -> Self {
-        Self::with_body([node, 0, 0, 0], [1.0, 0.0, 0.0, 0.0], 1, normal, point)
+        Self::with_body([node, 0, 0, 0], [1.0, 0.0, 0.0, 0.0], 1, normal, (0, point))
     }
 
-    /// The first `count` of `nodes`, a point of the cloth by their `weights`, and the body at `point`.
-    pub(crate) fn with_body(nodes: [u32; 4], weights: [f64; 4], count: u8, normal: Vec3, point: Vec3) -> Self {
-        Self { nodes, weights, count, normal, offset: normal.dot(&point), body: true, above: count, pushes: true }
+    /// The first `count` of `nodes`, a point of the cloth by their `weights`, and a feature of the body with a point of it.
+    pub(crate) fn with_body(
+        nodes: [u32; 4],
+        weights: [f64; 4],
+        count: u8,
+        normal: Vec3,
+        (feature, point): (u32, Vec3),
+    ) -> Self {
+        let offset = normal.dot(&point);
+        Self { nodes, weights, count, normal, offset, body: true, above: count, feature, pushes: true }
     }
 
     /// Two primitives of the cloth at positions `x`: a vertex and a triangle if one node is `above`, two edges if two
     /// are. `None` where they meet in a point.
     pub(crate) fn within_cloth(nodes: [u32; 4], above: u8, x: &[Vec3]) -> Option<Self> {
         let weights = [0.0; 4];
-        let mut out =
-            Self { nodes, weights, count: 4, normal: Vec3::zeros(), offset: 0.0, body: false, above, pushes: true };
+        let (normal, offset) = (Vec3::zeros(), 0.0);
+        let mut out = Self { nodes, weights, count: 4, normal, offset, body: false, above, feature: 0, pushes: true };
         out.refresh(x);
         (out.normal != Vec3::zeros()).then_some(out)
     }

@@ -1,7 +1,7 @@
 //! From sewn to at rest.
 
 use crate::contact::Collider;
-use crate::dynamics::{Cut, Friction, StepError, World};
+use crate::dynamics::{Cut, StepError, World};
 use crate::geometry::Vec3;
 use crate::sew::{Stitching, sewn_world};
 
@@ -51,7 +51,7 @@ const NEWTON_STEP: f64 = 1.0;
 /// Share of the last motion by which a falling garment looks ahead, and the most it does so, metres.
 const MOMENTUM: f64 = 0.9;
 const LOOK_AHEAD: f64 = 4e-3;
-/// Tangential stiffness of the grip on the body, N/m. A node of 1 mN weight slips after 0.03 mm; a sliding garment gets
+/// Tangential stiffness of a contact, N/m. A node of 1 mN weight slips after 0.03 mm; a sliding garment gets
 /// on by its unbalanced force over this in a step, so that a stiffer grip would never let it arrive.
 const GRIP: f64 = 10.0;
 /// Steps between two looks at how far the garment still moves.
@@ -89,7 +89,7 @@ pub fn drape(
 ) -> Result<Draped, DrapeError> {
     let mut world = sewn_world(cut, body, stitching, nodes)?;
     world.gravity = 1.0;
-    world.friction = Some(Friction::new(world.x.len(), GRIP));
+    world.grip(GRIP);
     let mut fall = Fall { last: world.x.clone(), world, steps: 0, near: false, trust: TRUST[0] };
     let (drift, residual, converged) = loop {
         fall.settle(options.max_steps, progress)?;

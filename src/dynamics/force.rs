@@ -115,7 +115,7 @@ pub struct Forces<'a> {
     pub law: ContactLaw,
     /// Stitches that are open.
     pub pulls: &'a [Pull],
-    /// Friction against the body.
+    /// Friction of the contacts.
     pub friction: Option<&'a Friction>,
 }
 
@@ -138,29 +138,22 @@ impl Forces<'_> {
 /// All forces on the nodes at `x`, N.
 pub(crate) fn cloth_forces(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Vec3> {
     let mut out = free_forces(cloth, x, forces);
-    for contact in forces.contacts {
-        let load = forces.law.load(cloth, x, contact);
+    for k in 0..forces.contacts.len() {
+        let load = forces.law.load(cloth, x, &forces.contacts[k]);
         if load > 0.0 {
-            push(&mut out, cloth, x, contact, load, forces.friction);
+            push(&mut out, cloth, x, forces, k, load);
         }
     }
     out
 }
 
-/// Adds a contact's normal force and its friction.
-pub(super) fn push(
-    out: &mut [Vec3],
-    cloth: &Cloth,
-    x: &[Vec3],
-    contact: &Contact,
-    load: f64,
-    friction: Option<&Friction>,
-) {
+/// Adds the normal force of contact number `k` and its friction.
+pub(super) fn push(out: &mut [Vec3], cloth: &Cloth, x: &[Vec3], forces: &Forces, k: usize, load: f64) {
+    let contact = &forces.contacts[k];
+    let grip = forces.friction.and_then(|f| f.grip(k, contact, x, load, &cloth.friction));
+    let force = contact.normal * load + grip.map_or_else(Vec3::zeros, |g| g.force);
     for (i, w) in contact.parts() {
-        out[i] += contact.normal * (load * w);
-    }
-    if let Some((i, grip)) = friction.and_then(|f| f.grip(contact, x, load, &cloth.friction)) {
-        out[i] += grip.force;
+        out[i] += force * w;
     }
 }
 

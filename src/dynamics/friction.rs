@@ -1,88 +1,173 @@
-//! Coulomb friction against the body with stored anchors.
+//! Coulomb friction with a memory: of cloth on the body, and of cloth on cloth.
+
+use std::collections::HashMap;
 
 use crate::contact::Contact;
-use crate::geometry::Vec3;
+use crate::geometry::{Mat3, Vec3};
 
-/// Where every node sticks to the body: a tangential spring from the anchor holds up to μ times the normal force; beyond
-/// that the anchor is dragged along. Anchors that are stored (not set anew every step) are what lets a garment rest.
+/// How far every contact has been dragged across its normal: it holds like a spring, up to μ times its load; beyond that
+/// it slides, and what is stored stays what the spring can hold. That it is stored from step to step (not measured anew
+/// in every step) is what lets a garment rest.
+///
+/// A contact that is found for the first time begins without memory: a node that slides from one triangle of another
+/// layer to the next takes friction up again within μ · load / stiffness of way.
 #[derive(Clone, Debug)]
 pub struct Friction {
-    /// Tangential stiffness, N/m.
+    /// Tangential stiffness of a contact, N/m.
     stiffness: f64,
-    anchors: Vec<Option<Vec3>>,
+    /// In the contacts' order.
+    memory: Vec<Memory>,
+    /// Where in `memory` a contact is.
+    index: HashMap<Key, usize>,
+    /// Positions when that was last brought up to date.
+    at: Vec<Vec3>,
 }
 
-/// The friction on one node in one step.
+/// What a contact remembers of the last step; one that was open, nothing.
+#[derive(Clone, Copy, Debug, Default)]
+struct Memory {
+    /// By how far its spring is drawn, metres.
+    drawn: Vec3,
+    /// Whether it slid. (Its load may be another where the body is looked at anew, so the spring cannot tell.)
+    slid: bool,
+}
+
+/// What makes a contact the same one in two detections: its nodes, how many are above, and what of the body it meets.
+type Key = ([u32; 4], u8, u32);
+
+fn key(contact: &Contact) -> Key {
+    (contact.nodes, contact.above, contact.feature)
+}
+
+/// The friction of one contact in one step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grip {
-    /// Force on the node, N.
+    /// Force on a node of weight one, N.
     pub(super) force: Vec3,
-    /// Stiffness across the normal, N/m.
-    pub(super) stiffness: f64,
+    /// Whether it slides.
+    pub(super) slides: bool,
+    /// Its stiffness, N/m: across the normal while the contact sticks; none along the way that it slides.
+    pub(super) stiffness: Mat3,
 }
 
 impl Friction {
-    /// No node touches yet.
-    pub fn new(nodes: usize, stiffness: f64) -> Self {
-        Self { stiffness, anchors: vec![None; nodes] }
+    /// Nothing is drawn yet.
+    pub(super) fn new(x: &[Vec3], contacts: &[Contact], stiffness: f64) -> Self {
+        let mut out = Self { stiffness, memory: Vec::new(), index: HashMap::new(), at: x.to_vec() };
+        out.detected(contacts);
+        out
     }
 
-    /// The node that a contact grips, and how, for the normal force `load` and the nodes' coefficients `mu`; `None` for
-    /// contacts that grip nothing: within the cloth, of faces and edges (their nodes have their own), and open ones.
-    pub(super) fn grip(&self, contact: &Contact, x: &[Vec3], load: f64, mu: &[f64]) -> Option<(usize, Grip)> {
-        if !contact.body || contact.count != 1 || load <= 0.0 {
+    /// Takes over from the contacts of the last detection what is known of those found by a new one.
+    pub(super) fn detected(&mut self, contacts: &[Contact]) {
+        let known = |c: &Contact| self.index.get(&key(c)).map_or_else(Memory::default, |&k| self.memory[k]);
+        self.memory = contacts.iter().map(known).collect();
+        self.index = contacts.iter().enumerate().map(|(k, c)| (key(c), k)).collect();
+    }
+
+    /// By how far the spring of contact `k` is drawn at `x`.
+    fn slip(&self, k: usize, contact: &Contact, x: &[Vec3]) -> Vec3 {
+        let since: Vec3 = contact.parts().map(|(i, w)| (x[i] - self.at[i]) * w).sum();
+        across(contact) * (self.memory[k].drawn + since)
+    }
+
+    /// How contact number `k` grips for the normal force `load` and the nodes' coefficients `mu`; `None` while it is
+    /// open.
+    pub(super) fn grip(&self, k: usize, contact: &Contact, x: &[Vec3], load: f64, mu: &[f64]) -> Option<Grip> {
+        if load <= 0.0 {
             return None;
         }
-        let i = contact.nodes[0] as usize;
-        let Some(anchor) = self.anchors[i] else {
-            return Some((i, Grip { force: Vec3::zeros(), stiffness: self.stiffness }));
-        };
-        let slip = tangential(x[i] - anchor, contact.normal);
-        let pull = self.stiffness * slip.norm();
-        let share = if pull > mu[i] * load { mu[i] * load / pull } else { 1.0 };
-        Some((i, Grip { force: slip * (-self.stiffness * share), stiffness: self.stiffness * share }))
+        let slip = self.slip(k, contact, x);
+        let (pull, most) = (self.stiffness * slip.norm(), coefficient(contact, mu) * load);
+        if pull <= most && !self.memory[k].slid {
+            let stiffness = across(contact) * self.stiffness;
+            return Some(Grip { force: slip * -self.stiffness, slides: false, stiffness });
+        }
+        // μ · load against the way it slides; to turn that way takes as much force as to turn any pull of that size.
+        let held = self.stiffness * if pull > most { most / pull } else { 1.0 };
+        let along = slip.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
+        let stiffness = (across(contact) - along * along.transpose()) * held;
+        Some(Grip { force: slip * -held, slides: true, stiffness })
     }
 
-    /// Energy of the anchors' springs, J, for the given normal forces (one per contact): a quadratic while the node
-    /// sticks, a constant force beyond.
+    /// Energy of the springs, J, for the given normal forces (one per contact): a quadratic while a contact sticks, a
+    /// constant force beyond.
     pub(super) fn energy(&self, x: &[Vec3], contacts: &[Contact], loads: &[f64], mu: &[f64]) -> f64 {
-        let held = contacts.iter().zip(loads).filter(|(c, load)| c.body && c.count == 1 && **load > 0.0);
-        held.map(|(contact, load)| {
-            let i = contact.nodes[0] as usize;
-            let Some(anchor) = self.anchors[i] else { return 0.0 };
-            let slip = tangential(x[i] - anchor, contact.normal).norm();
-            let stuck = slip.min(mu[i] * load / self.stiffness);
+        let held = contacts.iter().zip(loads).enumerate().filter(|(_, (_, load))| **load > 0.0);
+        held.map(|(k, (contact, load))| {
+            let slip = self.slip(k, contact, x).norm();
+            let stuck = slip.min(coefficient(contact, mu) * load / self.stiffness);
             self.stiffness * stuck * (slip - 0.5 * stuck)
         })
         .sum()
     }
 
-    /// Takes the anchors along after a step: a node that touches for the first time gets one, one that slipped drags
-    /// it, one that left loses it. `load(contact)` is the normal force.
-    pub fn update(&mut self, x: &[Vec3], contacts: &[Contact], mu: &[f64], load: impl Fn(&Contact) -> f64) {
-        let mut touching = vec![false; self.anchors.len()];
-        for contact in contacts.iter().filter(|c| c.body && c.count == 1) {
-            let i = contact.nodes[0] as usize;
+    /// After a step to `x`: what sticks is drawn further, what slides keeps what it can hold, what left lets go.
+    /// `load(contact)` is the normal force.
+    pub(super) fn update(&mut self, x: &[Vec3], contacts: &[Contact], mu: &[f64], load: impl Fn(&Contact) -> f64) {
+        for (k, contact) in contacts.iter().enumerate() {
             let normal_force = load(contact);
-            if normal_force <= 0.0 {
-                continue;
-            }
-            touching[i] = true;
-            let anchor = self.anchors[i].get_or_insert(x[i]);
-            let slip = tangential(x[i] - *anchor, contact.normal);
-            let (pull, most) = (self.stiffness * slip.norm(), mu[i] * normal_force);
-            if pull > most {
-                *anchor += slip * (1.0 - most / pull);
-            }
+            self.memory[k] = if normal_force > 0.0 {
+                let slip = self.slip(k, contact, x);
+                let (pull, most) = (self.stiffness * slip.norm(), coefficient(contact, mu) * normal_force);
+                let slid = pull > most;
+                Memory { drawn: if slid { slip * (most / pull) } else { slip }, slid }
+            } else {
+                Memory::default()
+            };
         }
-        for (anchor, touches) in self.anchors.iter_mut().zip(touching) {
-            if !touches {
-                *anchor = None;
-            }
-        }
+        self.at.copy_from_slice(x);
     }
 }
 
-fn tangential(v: Vec3, n: Vec3) -> Vec3 {
-    v - n * n.dot(&v)
+/// Projects onto the plane across a contact's normal.
+fn across(contact: &Contact) -> Mat3 {
+    Mat3::identity() - contact.normal * contact.normal.transpose()
+}
+
+/// The coefficient of a contact: its nodes', as they take part in it; of two layers the mean.
+fn coefficient(contact: &Contact, mu: &[f64]) -> f64 {
+    let (sum, whole) = contact.parts().fold((0.0, 0.0), |(s, n), (i, w)| (s + w.abs() * mu[i], n + w.abs()));
+    sum / whole
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_contact_sticks_then_slides_and_remembers_across_detections() {
+        // A node on a floor and one on an edge of another layer, both under 2 N with μ = 0.5: 1 N at most.
+        let floor = Contact::on_body(0, Vec3::y(), Vec3::zeros());
+        let edge = Contact {
+            nodes: [1, 2, 3, 0],
+            weights: [1.0, -0.5, -0.5, 0.0],
+            count: 3,
+            above: 1,
+            body: false,
+            ..Contact::on_body(1, Vec3::y(), Vec3::zeros())
+        };
+        let mu = [0.5; 4];
+        let mut x = vec![Vec3::zeros(), Vec3::zeros(), Vec3::z(), -Vec3::z()];
+        let mut friction = Friction::new(&x, &[floor, edge], 100.0);
+        let force = |friction: &Friction, k: usize, c: &Contact, x: &[Vec3]| {
+            friction.grip(k, c, x, 2.0, &mu).map_or(f64::NAN, |g| g.force.x)
+        };
+        for (to, expected) in [(0.004, -0.4), (0.009, -0.9), (0.013, -1.0), (0.010, -0.7), (-0.02, 1.0)] {
+            x[0].x = to;
+            x[1].x = to;
+            assert_relative_eq!(force(&friction, 0, &floor, &x), expected, epsilon = 1e-12);
+            assert_relative_eq!(force(&friction, 1, &edge, &x), expected, epsilon = 1e-12);
+            friction.update(&x, &[floor, edge], &mu, |_| 2.0);
+        }
+        // Found again in another order; then the other layer is carried along with the node: nothing changes.
+        friction.detected(&[edge, floor]);
+        x.iter_mut().for_each(|p| p.x += 0.5);
+        assert_relative_eq!(force(&friction, 0, &edge, &x), 1.0, epsilon = 1e-12);
+        assert_relative_eq!(force(&friction, 1, &floor, &x), -1.0, epsilon = 1e-12);
+        // What is open forgets.
+        friction.update(&x, &[edge, floor], &mu, |_| 0.0);
+        assert_relative_eq!(force(&friction, 0, &edge, &x), 0.0);
+    }
 }

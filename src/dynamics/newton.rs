@@ -129,15 +129,15 @@ impl<'a> Tangent<'a> {
     /// (M/Δt² + true stiffness) p, with the contacts marked in `active`.
     fn apply(&self, p: &[Vec3], active: &[bool]) -> Vec<Vec3> {
         let mut out = self.apply_free(p);
-        let pushing = self.forces.contacts.iter().zip(self.presses).zip(active).filter(|(_, on)| **on);
-        for ((contact, press), _) in pushing {
-            let back = press.slope * opening(contact, p);
-            for (i, w) in contact.parts() {
-                out[i] += contact.normal * (back * w);
+        let pushing = self.forces.contacts.iter().zip(self.presses).zip(active).enumerate().filter(|(_, (_, on))| **on);
+        for (k, ((contact, press), _)) in pushing {
+            let mut back = contact.normal * (press.slope * opening(contact, p));
+            let grip = self.forces.friction.and_then(|f| f.grip(k, contact, self.x, press.load, &self.cloth.friction));
+            if let Some(grip) = grip {
+                back += grip.stiffness * contact.parts().map(|(i, w)| p[i] * w).sum::<Vec3>();
             }
-            let grip = self.forces.friction.and_then(|f| f.grip(contact, self.x, press.load, &self.cloth.friction));
-            if let Some((i, grip)) = grip {
-                out[i] += (p[i] - contact.normal * contact.normal.dot(&p[i])) * grip.stiffness;
+            for (i, w) in contact.parts() {
+                out[i] += back * w;
             }
         }
         out

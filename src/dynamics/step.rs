@@ -38,7 +38,7 @@ const MISJUDGED: f64 = 1e-4;
 pub(super) struct Reuse {
     /// While no node is further from where it was made than this, metres,
     pub(super) moved: f64,
-    /// and no more contacts have begun or ceased to push.
+    /// and no more contacts have begun or ceased to push, or, where it is to be the very step (0), to slide.
     pub(super) contacts: usize,
 }
 
@@ -66,8 +66,9 @@ pub struct Stepper {
 struct Made {
     x: Vec<Vec3>,
     dt: f64,
-    /// Nodes of the contacts that pushed, sorted.
+    /// Nodes of the contacts that pushed, sorted, and numbers of those that slid.
     pushing: Vec<[u32; 4]>,
+    sliding: Vec<u32>,
 }
 
 impl Stepper {
@@ -166,22 +167,27 @@ impl Stepper {
         pushing.sort_unstable();
         if let Some(made) = &self.made {
             let near = || made.x.iter().zip(x).all(|(a, b)| (a - b).norm_squared() < reuse.moved * reuse.moved);
-            let same = || differences(&made.pushing, &pushing) <= reuse.contacts;
+            let same = || {
+                differences(&made.pushing, &pushing) <= reuse.contacts
+                    && (reuse.contacts > 0 || made.sliding == sliding(cloth, x, forces, presses, active))
+            };
             if forces.pulls.is_empty() && made.dt == dt && near() && same() {
                 return Ok(());
             }
         }
         self.made = None;
         self.assemble(cloth, x, dt, forces);
-        for ((contact, press), _) in forces.contacts.iter().zip(presses).zip(active).filter(|(_, on)| **on) {
-            self.add_contact(contact, press.slope);
-            if let Some((i, grip)) = forces.friction.and_then(|f| f.grip(contact, x, press.load, &cloth.friction)) {
-                let across = Mat3::identity() - contact.normal * contact.normal.transpose();
-                self.matrix.add_block(self.diagonal[i], &(across * grip.stiffness));
+        for k in (0..active.len()).filter(|&k| active[k]) {
+            let (contact, press) = (&forces.contacts[k], &presses[k]);
+            let mut stiffness = contact.normal * contact.normal.transpose() * press.slope;
+            if let Some(grip) = forces.friction.and_then(|f| f.grip(k, contact, x, press.load, &cloth.friction)) {
+                stiffness += grip.stiffness;
             }
+            self.add_contact(contact, &stiffness);
         }
         self.factor(cloth, x)?;
-        self.made = Some(Made { x: x.to_vec(), dt, pushing });
+        let sliding = sliding(cloth, x, forces, presses, active);
+        self.made = Some(Made { x: x.to_vec(), dt, pushing, sliding });
         Ok(())
     }
 
@@ -248,9 +254,8 @@ impl Stepper {
         }
     }
 
-    /// Adds k w wᵀ ⊗ n nᵀ where the pattern has all its blocks; otherwise its bound (Σ|w|) k diag(|w|) ⊗ n nᵀ.
-    fn add_contact(&mut self, contact: &Contact, k: f64) {
-        let nn = contact.normal * contact.normal.transpose();
+    /// Adds w wᵀ ⊗ K where the pattern has all its blocks; otherwise its bound (Σ|w|) diag(|w|) ⊗ K.
+    fn add_contact(&mut self, contact: &Contact, stiffness: &Mat3) {
         let parts = || contact.parts().filter(|p| p.1 != 0.0);
         let mut blocks: [Option<(BlockSlot, f64)>; 6] = [None; 6];
         let mut count = 0;
@@ -266,10 +271,10 @@ impl Stepper {
         let whole: f64 = parts().map(|p| p.1.abs()).sum();
         for (i, w) in parts() {
             let w = if complete { w * w } else { whole * w.abs() };
-            self.matrix.add_block(self.diagonal[i], &(nn * (k * w)));
+            self.matrix.add_block(self.diagonal[i], &(stiffness * w));
         }
         for (slot, w) in blocks.into_iter().flatten().filter(|_| complete) {
-            self.matrix.add_block(slot, &(nn * (k * w)));
+            self.matrix.add_block(slot, &(stiffness * w));
         }
     }
 }
@@ -285,6 +290,13 @@ fn differences(a: &[[u32; 4]], b: &[[u32; 4]]) -> usize {
         }
     }
     a.len() + b.len() - 2 * common
+}
+
+/// Numbers of the contacts marked in `active` that slide at `x`.
+fn sliding(cloth: &Cloth, x: &[Vec3], forces: &Forces, presses: &[Press], active: &[bool]) -> Vec<u32> {
+    let Some(friction) = forces.friction else { return Vec::new() };
+    let grip = |k: usize| friction.grip(k, &forces.contacts[k], x, presses[k].load, &cloth.friction);
+    (0..active.len()).filter(|&k| active[k] && grip(k).is_some_and(|g| g.slides)).map(|k| k as u32).collect()
 }
 
 /// Loads and slopes of all contacts at `x`.
@@ -307,8 +319,8 @@ pub(super) fn contact_forces(
     active: &[bool],
 ) -> Vec<Vec3> {
     let mut out = free.to_vec();
-    for ((contact, press), _) in forces.contacts.iter().zip(presses).zip(active).filter(|(_, on)| **on) {
-        push(&mut out, cloth, x, contact, press.load, forces.friction);
+    for k in (0..active.len()).filter(|&k| active[k]) {
+        push(&mut out, cloth, x, forces, k, presses[k].load);
     }
     out
 }

@@ -36,8 +36,8 @@ pub struct World<'a> {
     pub x: Vec<Vec3>,
     /// Node velocities (what inertia keeps).
     pub velocity: Vec<Vec3>,
-    /// Friction against the body; none while sewing.
-    pub friction: Option<Friction>,
+    /// Friction of the contacts; none while sewing.
+    friction: Option<Friction>,
     /// Share of gravity.
     pub gravity: f64,
     law: ContactLaw,
@@ -200,8 +200,16 @@ impl<'a> World<'a> {
         self.contacts_changed()
     }
 
-    /// Gives the system the couplings of layers that have come near each other.
+    /// Lets every contact grip, with the tangential `stiffness` given, N/m.
+    pub fn grip(&mut self, stiffness: f64) {
+        self.friction = Some(Friction::new(&self.x, &self.proximity.contacts, stiffness));
+    }
+
+    /// Gives the system the couplings of layers that have come near each other, and friction the new contacts.
     fn contacts_changed(&mut self) -> Result<(), StepError> {
+        if let Some(friction) = &mut self.friction {
+            friction.detected(&self.proximity.contacts);
+        }
         let Some(known) = &mut self.touching else { return Ok(()) };
         let touching = self.proximity.touching(&self.x, COUPLED);
         if touching.iter().any(|t| known.binary_search(t).is_err()) {

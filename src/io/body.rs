@@ -23,7 +23,7 @@ const CROSSING: f64 = 0.01;
 /// A body that was read, and what was guessed or done on the way.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// In metres, y up, feet at y = 0, facing +z.
+    /// In metres, y up, feet at y = 0, facing +z; an object without parts as its file has it.
     pub mannequin: Mannequin,
     /// One sentence each: the unit taken, turns, disconnected parts, crossings.
     pub notes: Vec<String>,
@@ -105,15 +105,27 @@ pub fn load_body(name_or_path: &str) -> Result<Body, BodyError> {
 }
 
 /// Reads a closed OBJ in millimetres, centimetres or metres (guessed from its height and said in the notes), y up or
-/// z up. Vertices that coincide are merged where the surface is not closed otherwise.
+/// z up. Vertices that coincide are merged where the surface is not closed otherwise. A surface in which no torso, neck,
+/// arms and legs can be found is an object without parts, as a ball or a table: it stays where the file has it.
 ///
 /// # Errors
-/// [`BodyError`] when the file cannot be read, the surface is open, not manifold, inside out or runs through itself in
-/// many places, or no torso, neck, arms and legs can be found.
+/// [`BodyError`] when the file cannot be read, or the surface is open, not manifold, inside out or runs through itself
+/// in many places.
 pub fn read_body(path: &Path) -> Result<Body, BodyError> {
     let file = path.display().to_string();
     let name = path.file_stem().map_or_else(|| file.clone(), |s| s.to_string_lossy().into_owned());
     body(read_obj(path)?, name, file)
+}
+
+/// Reads a closed OBJ as it stands, `metres` to the unit.
+///
+/// # Errors
+/// [`BodyError`] when the file cannot be read, or the surface is open, not manifold, inside out or runs through itself
+/// in many places.
+pub fn read_solid(path: &Path, metres: f64) -> Result<TriMesh, BodyError> {
+    let surface = read_obj(path)?;
+    let vertices = surface.vertices.iter().map(|p| p * metres).collect();
+    checked(vertices, surface.triangles, &path.display().to_string(), &mut Vec::new())
 }
 
 /// As [`read_body`], from a surface already read; `file` names it in errors.
@@ -121,26 +133,59 @@ pub fn read_body(path: &Path) -> Result<Body, BodyError> {
 /// # Errors
 /// As [`read_body`].
 pub fn body(surface: ObjSurface, name: String, file: String) -> Result<Body, BodyError> {
+    match person(&surface, &name, &file) {
+        Err(BodyError::Shape { why, .. }) => object(surface, name, file, &why),
+        Err(BodyError::Size { .. }) if lies(&surface.vertices) => object(surface, name, file, "it lies"),
+        other => other,
+    }
+}
+
+/// A surface as somebody to dress: upright, in metres, with the parts of a body.
+fn person(surface: &ObjSurface, name: &str, file: &str) -> Result<Body, BodyError> {
     let mut notes = Vec::new();
-    let shape = |why: &str| BodyError::Shape { file: file.clone(), why: why.to_owned() };
-    let mut vertices = surface.vertices;
+    let shape = |why: &str| BodyError::Shape { file: file.to_owned(), why: why.to_owned() };
+    let mut vertices = surface.vertices.clone();
     stand_up(&mut vertices, &mut notes);
     let (low, height) = extent(&vertices).ok_or_else(|| shape("the body has no height"))?;
     let (scale, unit) = unit(height);
     if !HEIGHTS.contains(&(scale * height)) {
-        return Err(BodyError::Size { file, units: height, unit, metres: scale * height });
+        return Err(BodyError::Size { file: file.to_owned(), units: height, unit, metres: scale * height });
     }
     notes.push(format!("{unit} assumed, since the body is {height:.2} units high"));
     for p in &mut vertices {
         *p = Vec3::new(p.x, p.y - low, p.z) * scale;
     }
-    let mut mesh = closed(vertices, surface.triangles);
-    let check = check_body(&mesh).map_err(|fault| BodyError::Fault { file: file.clone(), fault })?;
-    refuse_crossings(&mesh, &check, &file)?;
-    notes.extend(findings(&check));
+    let mut mesh = checked(vertices, surface.triangles.clone(), file, &mut notes)?;
     face_forward(&mut mesh, height * scale, &mut notes);
     let parts = find_parts(&mesh).map_err(|why| shape(&why))?;
-    Ok(Body { mannequin: Mannequin { name, mesh, parts }, notes })
+    Ok(Body { mannequin: Mannequin { name: name.to_owned(), mesh, parts }, notes })
+}
+
+/// A surface as a thing that cloth lies on or is wound round: where the file has it, without parts; `why` is what it
+/// lacks to be somebody.
+fn object(surface: ObjSurface, name: String, file: String, why: &str) -> Result<Body, BodyError> {
+    let mut notes = vec![format!("an object without body parts ({why}): its coordinates are taken as they are")];
+    let mut vertices = surface.vertices;
+    let longest = (bounds(&vertices).1 - bounds(&vertices).0).max();
+    let (scale, unit) = unit(longest);
+    notes.push(format!("{unit} assumed, since the object is {longest:.2} units long"));
+    vertices.iter_mut().for_each(|p| *p *= scale);
+    let mesh = checked(vertices, surface.triangles, &file, &mut notes)?;
+    Ok(Body { mannequin: Mannequin { name, mesh, parts: Vec::new() }, notes })
+}
+
+/// The closed surface that cloth can touch, with what its user should know of it.
+fn checked(
+    vertices: Vec<Vec3>,
+    triangles: Vec<[u32; 3]>,
+    file: &str,
+    notes: &mut Vec<String>,
+) -> Result<TriMesh, BodyError> {
+    let mesh = closed(vertices, triangles);
+    let check = check_body(&mesh).map_err(|fault| BodyError::Fault { file: file.to_owned(), fault })?;
+    refuse_crossings(&mesh, &check, file)?;
+    notes.extend(findings(&check));
+    Ok(mesh)
 }
 
 /// Refuses a surface that runs through itself in more than a few places: there is no telling its inside.
@@ -173,9 +218,7 @@ fn findings(check: &BodyCheck) -> Vec<String> {
 
 /// Turns a body that lies along z upright.
 fn stand_up(vertices: &mut [Vec3], notes: &mut Vec<String>) {
-    let (low, high) = vertices
-        .iter()
-        .fold((Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY)), |b, p| (b.0.inf(p), b.1.sup(p)));
+    let (low, high) = bounds(vertices);
     if high.z - low.z <= high.y - low.y {
         return;
     }
@@ -183,6 +226,19 @@ fn stand_up(vertices: &mut [Vec3], notes: &mut Vec<String>) {
         *p = Vec3::new(p.x, p.z, -p.y);
     }
     notes.push("z is the tall axis: turned so that y is up".to_owned());
+}
+
+/// The corners of the box round the vertices.
+fn bounds(vertices: &[Vec3]) -> (Vec3, Vec3) {
+    let nothing = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+    vertices.iter().fold(nothing, |b, p| (b.0.inf(p), b.1.sup(p)))
+}
+
+/// Whether this is longer than it is high, as nobody is who stands with the arms stretched out.
+fn lies(vertices: &[Vec3]) -> bool {
+    let (low, high) = bounds(vertices);
+    let size = high - low;
+    size.max() > 2.0 * size.y
 }
 
 /// Lowest point and height, if there is any.

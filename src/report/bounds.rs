@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::schema::{PieceReport, Quartet, Report};
+use super::schema::{Crossing, PieceReport, Quartet, Report};
 use crate::pattern::{Bound, Garment, Test, walk};
 
 /// Bounds of a garment that states none: closed seams, no crossing. Metres.
@@ -161,7 +161,9 @@ fn crossings(report: &Report, most: usize) -> Verdict {
         ("cloth through cloth", c.cloth_cloth_intersections),
     ];
     let sum: usize = counts.iter().map(|c| c.1).sum();
-    let at = counts.iter().filter(|c| c.1 > 0).map(|c| format!("{} {}", c.1, c.0)).collect::<Vec<_>>().join(", ");
+    let found = counts.iter().filter(|c| c.1 > 0).map(|c| format!("{} {}", c.1, c.0)).collect::<Vec<_>>().join(", ");
+    let who = |c: &Crossing| format!("{} through {}", c.piece, c.through.as_deref().unwrap_or("the body"));
+    let at = report.crossings.first().map_or(found.clone(), |first| format!("{found}: {}", who(first)));
     Verdict {
         bound: "crossings".into(),
         measured: sum as f64,

@@ -1,9 +1,10 @@
 //! From positions to a report.
 
+use super::crossings::{Seen, look};
 use super::errors::{Way, area, area_error, boundary_error};
 use super::openings::{opening_names, openings};
 use super::rim::{RimEdge, beside_elastic, outline_distance, rims};
-use super::schema::{Contact, PieceReport, Quartet, Report, SeamReport, Sizes, Stage, Worn};
+use super::schema::{PieceReport, Quartet, Report, SeamReport, Sizes, Stage, Worn};
 use super::statistics::largest;
 use super::strain::{PieceStrain, piece_strain};
 use super::stretched::stretched;
@@ -11,7 +12,7 @@ use crate::geometry::{Vec2, Vec3};
 use crate::mannequin::Mannequin;
 use crate::mesh::{ClothMesh, Stitches};
 use crate::pattern::Garment;
-use crate::verify::{Welded, crossings, crossings_between, inside, worn};
+use crate::verify::{Welded, worn};
 
 /// Millimetres in a metre.
 const MM: f64 = 1e3;
@@ -52,7 +53,7 @@ pub struct Measured<'a> {
 pub fn measure(run: &Measured) -> Report {
     let shapes = Shapes::new(run);
     let last = run.draped.or(run.sewn);
-    let (contact, worn) = last.map_or_else(Default::default, |at| seen(run, at));
+    let (seen, worn) = last.map_or_else(Default::default, |at| seen(run, at));
     let (pieces, total) = pieces(run, &shapes, last);
     Report {
         toile: env!("CARGO_PKG_VERSION").into(),
@@ -63,7 +64,8 @@ pub fn measure(run: &Measured) -> Report {
         pieces,
         total,
         seams: run.mesh.seams.iter().enumerate().map(|(k, s)| seam(run, k, s)).collect(),
-        contact,
+        contact: seen.contact,
+        crossings: seen.crossings,
         worn,
         stages: run.stages.to_vec(),
     }
@@ -217,17 +219,13 @@ fn seam(run: &Measured, index: usize, stitches: &Stitches) -> SeamReport {
 }
 
 /// What the independent checks see at these positions.
-fn seen(run: &Measured, at: &[Vec3]) -> (Contact, Vec<Worn>) {
+fn seen(run: &Measured, at: &[Vec3]) -> (Seen, Vec<Worn>) {
     let welded = Welded::new(run.mesh, run.weld, at);
-    let cloth = &welded.surface;
-    let within = inside(&cloth.vertices, &run.body.mesh);
-    let contact = Contact {
-        inside_body: within.count(),
-        deepest: within.deepest * MM,
-        cloth_body_intersections: crossings_between(cloth, &run.body.mesh).cloth_triangles.len(),
-        cloth_cloth_intersections: crossings(cloth).len(),
+    let piece = |t: u32| {
+        let first = run.mesh.triangles[t as usize][0] as usize;
+        run.mesh.pieces.iter().find(|p| p.particles.contains(&first)).map_or("", |p| p.name.as_str())
     };
-    (contact, worn_rows(run, &welded))
+    (look(&welded.surface, Some(&run.body.mesh), piece), worn_rows(run, &welded))
 }
 
 fn worn_rows(run: &Measured, welded: &Welded) -> Vec<Worn> {

@@ -5,6 +5,7 @@
 //! [`Report`] holds what the file holds: millimetres, square millimetres, fractions and seconds.
 
 mod bounds;
+mod crossings;
 mod errors;
 mod measure;
 mod openings;
@@ -17,9 +18,12 @@ mod stretched;
 mod table;
 
 pub use bounds::{Verdict, verdicts};
+pub use crossings::{Seen, look};
 pub use measure::{Measured, measure};
 pub use openings::opening_names;
 pub use rest::{Restless, restless};
-pub use schema::{Contact, Drift, PieceReport, Quartet, Report, SeamReport, Sizes, Spread, Stage, Stretched, Worn};
+pub use schema::{
+    Contact, Crossing, Drift, PieceReport, Quartet, Report, SeamReport, Sizes, Spread, Stage, Stretched, Worn,
+};
 pub use strain::vertex_strain;
-pub use table::{aligned, table};
+pub use table::{aligned, contact_lines, table};

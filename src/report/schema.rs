@@ -23,6 +23,9 @@ pub struct Report {
     pub seams: Vec<SeamReport>,
     /// What crosses what.
     pub contact: Contact,
+    /// Who crosses whom, the busiest first; empty as it should be.
+    #[serde(default)]
+    pub crossings: Vec<Crossing>,
     /// One per opening.
     pub worn: Vec<Worn>,
     /// One per stage that ran.
@@ -147,6 +150,19 @@ pub struct Contact {
     pub cloth_body_intersections: usize,
     /// Pairs of cloth triangles that cross.
     pub cloth_cloth_intersections: usize,
+}
+
+/// Two pieces, or a piece and the body, that pass through each other.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Crossing {
+    /// The piece.
+    pub piece: String,
+    /// The piece it passes through, which may be itself; `null` for the body.
+    pub through: Option<String>,
+    /// How many pairs of triangles cross; through the body, how many triangles of the piece do.
+    pub pairs: usize,
+    /// Near the first of them, mm.
+    pub near: [f64; 3],
 }
 
 /// What passes through an opening.

@@ -1,6 +1,6 @@
 //! The report for people.
 
-use super::schema::{PieceReport, Quartet, Report, SeamReport, Stage, Worn};
+use super::schema::{Contact, Crossing, PieceReport, Quartet, Report, SeamReport, Stage, Worn};
 
 /// Shown where there is no value.
 const NONE: &str = "–";
@@ -19,7 +19,7 @@ pub fn table(report: &Report) -> String {
         pieces(&report.pieces, &report.total),
         seams(&report.seams),
         worn(&report.worn),
-        contact(report),
+        contact_lines(&report.contact, &report.crossings),
         stages(&report.stages),
     ];
     sections.iter().filter(|s| !s.is_empty()).map(String::as_str).collect::<Vec<_>>().join("\n")
@@ -79,15 +79,20 @@ fn worn(worn: &[Worn]) -> String {
     aligned(&rows)
 }
 
-fn contact(report: &Report) -> String {
-    let c = &report.contact;
-    format!(
+/// A line with the figures of contact, and one for every two pieces that cross.
+pub fn contact_lines(c: &Contact, crossings: &[Crossing]) -> String {
+    let mut out = format!(
         "  inside the body {} (deepest {} mm) · cloth through body {} · cloth through cloth {}\n",
         c.inside_body,
         number(Some(c.deepest), 2),
         c.cloth_body_intersections,
         c.cloth_cloth_intersections
-    )
+    );
+    for Crossing { piece, through, pairs, near: [x, y, z] } in crossings {
+        let through = through.as_deref().unwrap_or("the body");
+        out.push_str(&format!("    {piece} through {through}: {pairs}, near ({x:.0}, {y:.0}, {z:.0}) mm\n"));
+    }
+    out
 }
 
 fn stages(stages: &[Stage]) -> String {

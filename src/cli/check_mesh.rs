@@ -1,0 +1,38 @@
+//! `check --mesh`: does this surface pass through itself or a body?
+
+use serde::Serialize;
+
+use super::args::CheckArgs;
+use super::console::Console;
+use super::exit::{CliError, Exit};
+use crate::pipeline::judge;
+use crate::report::{Contact, Crossing, contact_lines};
+
+/// What was found, as JSON.
+#[derive(Serialize)]
+struct Found {
+    file: String,
+    triangles: usize,
+    ok: bool,
+    contact: Contact,
+    crossings: Vec<Crossing>,
+}
+
+/// `toile check --mesh`
+pub(super) fn check_mesh(mesh: &std::path::Path, args: &CheckArgs, console: &Console) -> Result<Exit, CliError> {
+    let judged = judge(mesh, args.body.as_deref(), args.units.metres())?;
+    judged.notes.iter().for_each(|note| console.note(note));
+    let contact = judged.seen.contact;
+    let ok = contact == Contact::default();
+    let found = Found {
+        file: mesh.display().to_string(),
+        triangles: judged.triangles,
+        ok,
+        contact,
+        crossings: judged.seen.crossings,
+    };
+    console.results(&found, || {
+        format!("{}: {} triangles\n{}", found.file, found.triangles, contact_lines(&found.contact, &found.crossings))
+    })?;
+    Ok(if ok { Exit::Done } else { Exit::OutOfBounds })
+}

@@ -1,0 +1,78 @@
+//! Anybody's surface before the independent eye.
+
+use std::path::Path;
+
+use super::error::PipelineError;
+use crate::geometry::{TriMesh, Vec3};
+use crate::io::body::{BodyError, read_solid};
+use crate::io::obj_read::read_obj_faces;
+use crate::mannequin::{check_body, load};
+use crate::report::{Seen, look};
+
+/// A mesh this much longer than the body is in another unit.
+const LARGER: f64 = 5.0;
+
+/// What was seen.
+#[derive(Clone, Debug)]
+pub struct Judged {
+    /// Triangles looked at.
+    pub triangles: usize,
+    /// The figures and the crossings; parts are the file's groups.
+    pub seen: Seen,
+    /// What its user may not have meant: one text each.
+    pub notes: Vec<String>,
+}
+
+/// Looks for crossings in the OBJ file `mesh` of `metres` to the unit, with itself and with `body`: a mannequin's name
+/// or a closed OBJ in the same unit and place.
+///
+/// # Errors
+/// [`PipelineError::Obj`] and [`PipelineError::Body`]: files that cannot be read, or a body that is not closed.
+pub fn judge(mesh: &Path, body: Option<&str>, metres: f64) -> Result<Judged, PipelineError> {
+    let faces = read_obj_faces(mesh)?;
+    let mut cloth = TriMesh { vertices: faces.vertices.iter().map(|p| p * metres).collect(), triangles: Vec::new() };
+    let mut group_of = Vec::new();
+    for (face, &group) in faces.faces.iter().zip(&faces.group_of_face) {
+        for k in 1..face.len() - 1 {
+            cloth.triangles.push([face[0], face[k], face[k + 1]]);
+            group_of.push(group);
+        }
+    }
+    let body = body.map(|name| solid(name, metres)).transpose()?;
+    let notes = body.as_ref().and_then(|body| misplaced(&cloth, body)).into_iter().collect();
+    let name = |t: u32| match faces.groups[group_of[t as usize] as usize].as_str() {
+        "" => "mesh",
+        name => name,
+    };
+    Ok(Judged { triangles: cloth.triangles.len(), seen: look(&cloth, body.as_ref(), name), notes })
+}
+
+/// A mannequin's surface by name, or a closed OBJ as it stands.
+fn solid(name: &str, metres: f64) -> Result<TriMesh, PipelineError> {
+    let path = Path::new(name);
+    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
+        return Ok(read_solid(path, metres)?);
+    }
+    let mannequin = load(name).map_err(BodyError::from)?;
+    check_body(&mannequin.mesh).map_err(|fault| BodyError::Fault { file: name.to_owned(), fault })?;
+    Ok(mannequin.mesh)
+}
+
+/// What to say when cloth and body cannot belong together.
+fn misplaced(cloth: &TriMesh, body: &TriMesh) -> Option<String> {
+    let [(low, high), (l, h)] = [bounds(cloth), bounds(body)];
+    let apart = (0..3).any(|k| low[k] > h[k] || l[k] > high[k]);
+    let larger = (high - low).norm() > LARGER * (h - l).norm();
+    let (cloth_mm, body_mm) = (1e3 * (high - low).norm(), 1e3 * (h - l).norm());
+    (apart || larger).then(|| {
+        format!(
+            "the mesh ({cloth_mm:.0} mm across) and the body ({body_mm:.0} mm across) do not lie in the same place; are \
+             both in the unit that --units says, and is the body where the mesh is worn?"
+        )
+    })
+}
+
+fn bounds(mesh: &TriMesh) -> (Vec3, Vec3) {
+    let nothing = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+    mesh.triangles.iter().flatten().map(|&v| mesh.vertices[v as usize]).fold(nothing, |b, p| (b.0.inf(&p), b.1.sup(&p)))
+}

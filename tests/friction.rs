@@ -1,0 +1,182 @@
+//! Friction against known answers: sliding down a plane, and the strap over a cylinder.
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use toile::contact::{Collider, Neighbourhood};
+use toile::dynamics::{ContactLaw, GRAVITY, Reach, World};
+use toile::geometry::{TriMesh, Vec3};
+use toile::pipeline::{Job, Overrides, read};
+
+/// Contact as a drape has it.
+const LAW: ContactLaw = ContactLaw { stiffness: 60.0, body_clearance: 0.25e-3, cloth_gap: None };
+/// A grip that holds a node of 1 mN within a hundredth of a millimetre.
+const GRIP: f64 = 100.0;
+
+/// A sheet of `width` × `length` mm of poplin with friction `mu`, meshed at `spacing` mm; the body is only there to be replaced.
+fn sheet(width: f64, length: f64, spacing: f64, mu: f64) -> Job {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = format!(
+        "garment: 1\nname: sheet\nbody: child_110\nfabrics: {{cloth: {{base: cotton_poplin, friction: {mu}}}}}\npieces:\n  \
+         sheet: {{grain: [[0, 0], [0, 1]], place: {{at: [0, 0, 0]}}, outline: {{start: 0 0, a: L {width} 0, \
+         b: L {width} {length}, c: L 0 {length}, d: L 0 0}}}}\nfree: [sheet.*]\n"
+    );
+    let file = folder.path().join("sheet.yaml");
+    std::fs::write(&file, text).expect("written");
+    let loaded = read(&file).expect("a garment");
+    Job::new(Path::new(&file), loaded, &Overrides { spacing: Some(1e-3 * spacing), ..Overrides::default() })
+        .expect("a job")
+}
+
+fn world<'a>(job: &Job, body: &'a Collider, x: Vec<Vec3>) -> World<'a> {
+    let stitching = toile::sew::Stitching::new(&job.mesh);
+    let cloth = toile::dynamics::Cloth::new(&job.cut(), stitching.class, toile::dynamics::SpringModel::Measured);
+    let hood = Neighbourhood { class: (0..x.len() as u32).collect(), tangled: Vec::new() };
+    World::new(cloth, x, &[], body, hood, LAW, Reach::new(0.8 * job.mesh.spacing)).expect("a world")
+}
+
+/// A slab 4 m long whose top is the plane through the origin that rises at `angle` along x.
+fn slope(angle: f64) -> Collider {
+    let turn = nalgebra::Rotation3::from_axis_angle(&nalgebra::Vector3::z_axis(), angle);
+    let corner = |i: usize| Vec3::new([-2.0, 2.0][i & 1], [-0.1, 0.0][i >> 1 & 1], [-1.0, 1.0][i >> 2 & 1]);
+    let vertices = (0..8).map(|i| turn * corner(i)).collect();
+    let quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+    let triangles = quads.iter().flat_map(|q: &[u32; 4]| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]).collect();
+    Collider::new(&TriMesh { vertices, triangles }).expect("a slab")
+}
+
+/// How far down the slope the middle of a sheet is after each of `steps` steps of `dt` seconds, from when it lies still.
+fn slide(mu: f64, angle: f64, dt: f64, steps: usize) -> Vec<f64> {
+    let job = sheet(120.0, 120.0, 20.0, mu);
+    let body = slope(angle);
+    let (along, up) = (Vec3::new(angle.cos(), angle.sin(), 0.0), Vec3::new(-angle.sin(), angle.cos(), 0.0));
+    // The distance at which it floats: half its thickness and the clearance; the weight presses it in from there.
+    let height = 0.5 * job.fabrics[0].thickness + LAW.body_clearance;
+    let x = job.mesh.flat.iter().map(|p| along * (1.5 - p.x) + Vec3::z() * p.y + up * height).collect();
+    let mut world = world(&job, &body, x);
+    world.gravity = 1.0;
+    world.grip(GRIP);
+    let middle = |w: &World| w.x.iter().map(|p| -p.dot(&along)).sum::<f64>() / w.x.len() as f64;
+    let begin = middle(&world);
+    (0..steps)
+        .map(|_| {
+            world.advance(dt, 1.0, &[]).expect("a step");
+            middle(&world) - begin
+        })
+        .collect()
+}
+
+#[test]
+fn a_sheet_on_a_slope_slides_if_and_only_if_the_slope_is_steeper_than_its_friction() {
+    for mu in [0.3, 0.5] {
+        let angle = f64::atan(mu);
+        let end = |angle: f64| slide(mu, angle, 1.0 / 100.0, 100).pop().expect("steps");
+        let (below, above) = (end(angle - 1f64.to_radians()), end(angle + 1f64.to_radians()));
+        assert!(below < 1e-3, "μ {mu}: slides {below} m below the threshold");
+        // g (sin α − μ cos α) t² / 2 is 79 mm for μ = 0.3 and 72 mm for 0.5.
+        assert!(above > 0.05, "μ {mu}: goes only {above} m above the threshold");
+    }
+}
+
+#[test]
+fn a_sliding_sheet_gains_speed_as_coulomb_says() {
+    for (mu, degrees) in [(0.3, 25.0), (0.5, 35.0), (0.2, 15.0)] {
+        let angle = f64::to_radians(degrees);
+        let (dt, steps) = (1e-3, 400);
+        let way = slide(mu, angle, dt, steps);
+        let speed = |k: usize| (way[k] - way[k - 1]) / dt;
+        let measured = (speed(steps - 1) - speed(steps / 3)) / (dt * (steps - 1 - steps / 3) as f64);
+        let expected = GRAVITY * (angle.sin() - mu * angle.cos());
+        assert!((measured / expected - 1.0).abs() < 0.05, "μ {mu}, {degrees}°: {measured} against {expected} m/s²");
+    }
+}
+
+/// A cylinder along z, `radius` metres, its axis through the origin.
+fn cylinder(radius: f64) -> Collider {
+    let round = 128u32;
+    let ring = |z: f64| (0..round).map(move |k| (2.0 * PI * f64::from(k) / f64::from(round), z));
+    let mut vertices: Vec<Vec3> =
+        ring(-0.2).chain(ring(0.2)).map(|(a, z)| Vec3::new(radius * a.cos(), radius * a.sin(), z)).collect();
+    let ends = vertices.len() as u32;
+    vertices.extend([Vec3::z() * -0.2, Vec3::z() * 0.2]);
+    let mut triangles = Vec::new();
+    for k in 0..round {
+        let (a, b) = (k, (k + 1) % round);
+        triangles.extend([
+            [a, b, b + round],
+            [a, b + round, a + round],
+            [ends, b, a],
+            [ends + 1, a + round, b + round],
+        ]);
+    }
+    Collider::new(&TriMesh { vertices, triangles }).expect("a cylinder")
+}
+
+/// Tension ratio of a strap that is drawn over a cylinder by `turn` radians and held at its other end. It stretches
+/// and so slides everywhere towards the end that is drawn.
+fn capstan(mu: f64, turn: f64) -> f64 {
+    let (radius, width) = (0.05, 0.02);
+    let arc = radius * turn;
+    let tail = 0.06;
+    let length = arc + 2.0 * tail;
+    let job = sheet(1e3 * width, 1e3 * length, 5.0, mu);
+    let body = cylinder(radius);
+    let r = radius + 0.5 * job.fabrics[0].thickness + 0.5 * LAW.body_clearance;
+    // The strap's first end hangs straight down from the cylinder's side at angle 0, its other leaves at `turn`.
+    let x: Vec<Vec3> = job
+        .mesh
+        .flat
+        .iter()
+        .map(|p| {
+            let (s, z) = (p.y - tail, p.x - 0.5 * width);
+            let a = (s / radius).clamp(0.0, turn);
+            let beyond = s - radius * a;
+            Vec3::new(r * a.cos() - beyond * a.sin(), r * a.sin() + beyond * a.cos(), z)
+        })
+        .collect();
+    let direction = Vec3::new(-turn.sin(), turn.cos(), 0.0);
+    let mut world = world(&job, &body, x);
+    let ends = |at: f64| -> Vec<usize> {
+        (0..job.mesh.flat.len()).filter(|&i| (job.mesh.flat[i].y - at).abs() < 1e-6).collect()
+    };
+    let (held, drawn) = (ends(0.0), ends(length));
+    // Nothing but the test moves the ends, and nothing weighs.
+    for &i in held.iter().chain(&drawn) {
+        world.cloth.mass[i] = 1e9;
+    }
+    world.grip(GRIP);
+    for _ in 0..120 {
+        for &i in &drawn {
+            world.x[i] += direction * 5e-5;
+        }
+        world.newton(1.0, 1e-3).expect("a step");
+    }
+    pull(&world, &drawn).norm() / pull(&world, &held).norm()
+}
+
+/// Force of the springs on some nodes, N.
+fn pull(world: &World, nodes: &[usize]) -> Vec3 {
+    let mut sum = Vec3::zeros();
+    for s in &world.cloth.springs {
+        let [a, b] = s.ends.map(|n| n as usize);
+        let d = world.x[b] - world.x[a];
+        let f = d.normalize() * (world.cloth.laws[s.law as usize].load(d.norm() / s.rest - 1.0) * s.width);
+        if nodes.contains(&a) {
+            sum += f;
+        }
+        if nodes.contains(&b) {
+            sum -= f;
+        }
+    }
+    sum
+}
+
+#[test]
+fn a_strap_over_a_cylinder_holds_e_to_the_mu_theta() {
+    for mu in [0.3, 0.5] {
+        for turn in [0.5 * PI, PI] {
+            let (measured, expected) = (capstan(mu, turn), f64::exp(mu * turn));
+            assert!((measured / expected - 1.0).abs() < 0.05, "μ {mu}, {turn:.2} rad: {measured} against {expected}");
+        }
+    }
+}
