@@ -42,7 +42,7 @@ const FLOORS: [(&str, &[&str]); 20] = [
             "io",
         ],
     ),
-    ("cli", &["fabric", "pattern", "mannequin", "flatten", "report", "cutting", "digitize", "io", "pipeline"]),
+    ("cli", &["input", "fabric", "pattern", "mannequin", "flatten", "report", "cutting", "digitize", "io", "pipeline"]),
 ];
 
 /// Crates and the paths below `src` that may name them.

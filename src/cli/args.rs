@@ -45,6 +45,8 @@ pub(super) enum Command {
     Make(GarmentArgs),
     /// Read and check a garment file and walk every seam; or look for crossings in a mesh
     Check(CheckArgs),
+    /// Print the JSON Schema of garment files, for editors
+    Schema,
     /// Sew a garment; writes sewn.obj, garment.png and report.json
     Sew(GarmentArgs),
     /// Sew and drape a garment; writes garment.obj as well
@@ -64,6 +66,9 @@ pub(super) enum Command {
                       `30 squared` in the file for another corner."
     )]
     Export(ExportCommand),
+    /// Read a pattern of another program and write it as a garment file
+    #[command(subcommand)]
+    Import(ImportCommand),
     /// The library of fabrics, and fabric files from readings
     #[command(subcommand)]
     Fabric(FabricCommand),
@@ -194,6 +199,9 @@ pub(super) struct TestArgs {
     /// Write the results as JUnit XML, too
     #[arg(long, value_name = "FILE.xml")]
     pub(super) junit: Option<PathBuf>,
+    /// Write what was measured, with a margin, into the garment files as their new bounds
+    #[arg(long)]
+    pub(super) update: bool,
     #[command(flatten)]
     pub(super) overrides: OverrideArgs,
 }
@@ -273,6 +281,27 @@ pub(super) enum PageArg {
     Letter,
     /// Everything on one page
     One,
+}
+
+/// `toile import …`
+#[derive(Debug, Subcommand)]
+pub(super) enum ImportCommand {
+    /// GarmentCode's pattern specification (JSON)
+    Garmentcode(GarmentcodeArgs),
+}
+
+/// Arguments of `import garmentcode`.
+#[derive(Debug, clap::Args)]
+pub(super) struct GarmentcodeArgs {
+    /// The specification
+    #[arg(value_name = "SPEC.json")]
+    pub(super) spec: PathBuf,
+    /// The garment file to write
+    #[arg(short, long, value_name = "GARMENT.yaml")]
+    pub(super) output: PathBuf,
+    /// The body it is made for, named in the garment file
+    #[arg(long, value_name = "NAME|FILE.obj")]
+    pub(super) body: Option<String>,
 }
 
 /// `toile fabric …`

@@ -96,6 +96,9 @@ struct SeamRow {
     /// What is left once ease, gather or stretch has had its share.
     difference: f64,
     give: String,
+    /// Notches from the start of each side.
+    notches_a: Vec<f64>,
+    notches_b: Vec<f64>,
 }
 
 #[derive(Serialize)]
@@ -141,12 +144,13 @@ impl Summary {
     }
 
     fn seam_table(&self) -> String {
-        let mut rows = vec![["seam", "mm", "to mm", "difference", "", "edges"].map(String::from).to_vec()];
+        let head = ["seam", "mm", "to mm", "difference", "", "notches", "edges"];
+        let mut rows = vec![head.map(String::from).to_vec()];
         rows.extend(self.seams.iter().map(|s| {
             let number = |x: f64| format!("{x:.1}");
             let edges = format!("{} – {}", s.a, s.b);
             let numbers = [s.length_a, s.length_b, s.difference].map(number);
-            [vec![s.name.clone()], numbers.to_vec(), vec![s.give.clone(), edges]].concat()
+            [vec![s.name.clone()], numbers.to_vec(), vec![s.give.clone(), s.notches(), edges]].concat()
         }));
         aligned(&rows)
     }
@@ -158,6 +162,20 @@ impl Summary {
     }
 }
 
+impl SeamRow {
+    /// `60, 120 – 61, 120`, or nothing.
+    fn notches(&self) -> String {
+        let side = |at: &[f64]| match at {
+            [] => "none".to_owned(),
+            at => at.iter().map(|x| format!("{x:.1}")).collect::<Vec<String>>().join(", "),
+        };
+        if self.notches_a.is_empty() && self.notches_b.is_empty() {
+            return String::new();
+        }
+        format!("{} – {}", side(&self.notches_a), side(&self.notches_b))
+    }
+}
+
 fn seam(walked: SeamWalk) -> SeamRow {
     SeamRow {
         give: match walked.give {
@@ -166,6 +184,8 @@ fn seam(walked: SeamWalk) -> SeamRow {
             Give::Gather(ratio) => format!("gather {ratio}"),
             Give::Stretch(ratio) => format!("stretch {ratio}"),
         },
+        notches_a: walked.notches_a.iter().map(|x| x * MM).collect(),
+        notches_b: walked.notches_b.iter().map(|x| x * MM).collect(),
         name: walked.name,
         a: walked.a,
         b: walked.b,

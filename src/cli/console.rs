@@ -37,6 +37,11 @@ impl Console {
         }
     }
 
+    /// Prints a text that is itself what was asked for.
+    pub(super) fn document(&self, text: &str) -> Result<(), CliError> {
+        print(text)
+    }
+
     /// Says something besides the results, unless all should be quiet.
     pub(super) fn note(&self, text: &str) {
         if !self.quiet {

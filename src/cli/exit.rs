@@ -48,6 +48,14 @@ pub(super) enum CliError {
     /// No such mannequin.
     #[error(transparent)]
     Mannequin(#[from] MannequinError),
+    /// A pattern of another program that cannot be read.
+    #[error("{file}: {reason}")]
+    Import {
+        /// As the user named it.
+        file: String,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// An argument that makes no sense.
     #[error("{0}")]
     Argument(String),

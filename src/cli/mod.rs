@@ -11,10 +11,12 @@ mod exit;
 mod export;
 mod fabric;
 mod flatten;
+mod import;
 mod junit;
 mod make;
 mod mannequin;
 mod test;
+mod update;
 
 use std::num::NonZeroUsize;
 use std::process::ExitCode;
@@ -57,12 +59,14 @@ fn run(command: &Command, console: &Console) -> Result<Exit, CliError> {
     match command {
         Command::Make(args) => make::make(args, console),
         Command::Check(args) => check::check(args, console),
+        Command::Schema => console.document(crate::io::garment::SCHEMA).map(|()| Exit::Done),
         Command::Sew(args) => make::sew(args, console),
         Command::Drape(args) => make::drape(args, console),
         Command::Flatten(args) => flatten::flatten(args, console),
         Command::Test(args) => test::test(args, console),
         Command::Export(command) => export::export(command, console),
         Command::Fabric(command) => fabric::fabric(command, console),
+        Command::Import(command) => import::import(command, console),
         Command::Mannequin(command) => mannequin::mannequin(command, console),
     }
 }

@@ -4,18 +4,20 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use rayon::prelude::*;
 use serde::Serialize;
 
 use super::args::TestArgs;
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use super::junit;
+use super::update::updated;
 use crate::flatten::Options;
 use crate::io::files::{check_writable, write_all};
 use crate::io::garment::Loaded;
 use crate::pattern::Garment;
 use crate::pipeline::{Job, Overrides, PipelineError, Run, read};
-use crate::report::{Report, Restless, Verdict, aligned, restless, verdicts};
+use crate::report::{Report, Restless, Verdict, aligned, restless, verdicts, verdicts_by_test};
 
 /// How a garment did.
 #[derive(Serialize)]
@@ -36,6 +38,11 @@ pub(super) struct Outcome {
     pub(super) error: Option<String>,
     #[serde(skip)]
     exit: Exit,
+    #[serde(skip)]
+    path: PathBuf,
+    /// The verdicts of each of the file's tests.
+    #[serde(skip)]
+    by_test: Vec<Vec<Verdict>>,
 }
 
 /// `toile test`
@@ -46,15 +53,61 @@ pub(super) fn test(args: &TestArgs, console: &Console) -> Result<Exit, CliError>
         check_writable(std::slice::from_ref(junit), &inputs)?;
     }
     let overrides = args.overrides.checked();
-    let outcomes: Vec<Outcome> = files.iter().flat_map(|file| outcomes(file, &overrides, console)).collect();
+    let outcomes: Vec<Outcome> = files.par_iter().flat_map_iter(|file| outcomes(file, &overrides)).collect();
+    let updated = if args.update { update(&outcomes)? } else { Vec::new() };
     if let Some(file) = &args.junit {
         write_all(&[(file.clone(), junit::xml(&outcomes).into_bytes())], &inputs)?;
     }
     console.results(&outcomes, || summary(&outcomes))?;
+    updated.iter().for_each(|file| console.note(&format!("{}: bounds updated", file.display())));
+    let mut exit = Exit::Done;
     for outcome in &outcomes {
-        complain(outcome, console);
+        let new = updated.contains(&outcome.path);
+        // Lengths and shares have new limits, counts keep theirs.
+        let out: Vec<&Verdict> = outcome.bounds.iter().filter(|v| !v.ok && (!new || v.unit.is_empty())).collect();
+        complain(outcome, &out, console);
+        if !new || !out.is_empty() {
+            exit = exit.max(outcome.exit);
+        }
     }
-    Ok(outcomes.iter().map(|o| o.exit).max().unwrap_or(Exit::Done))
+    Ok(exit)
+}
+
+/// Writes new bounds into the files of garments that were made and came to rest, and says which these are.
+fn update(outcomes: &[Outcome]) -> Result<Vec<PathBuf>, CliError> {
+    let mut written = Vec::new();
+    for of_file in outcomes.chunk_by(|a, b| a.path == b.path) {
+        let path = &of_file[0].path;
+        if of_file.iter().any(|o| o.error.is_some() || !o.restless.is_empty()) {
+            continue;
+        }
+        let text = fs::read_to_string(path);
+        let text = text.map_err(|e| CliError::Argument(format!("cannot read {}: {e}", path.display())))?;
+        let file = read(path)?.file;
+        if file.tests.is_empty() {
+            continue;
+        }
+        let new = updated(&text, &file, &worst(of_file));
+        write_all(&[(path.clone(), new.into_bytes())], &[])?;
+        written.push(path.clone());
+    }
+    Ok(written)
+}
+
+/// For every test the worst verdicts of a garment's runs.
+fn worst(runs: &[Outcome]) -> Vec<Vec<Verdict>> {
+    let mut worst: Vec<Vec<Verdict>> = runs[0].by_test.clone();
+    for run in &runs[1..] {
+        for (worst, other) in worst.iter_mut().zip(&run.by_test) {
+            if worst.is_empty() {
+                worst.clone_from(other);
+            }
+            for (worst, other) in worst.iter_mut().zip(other) {
+                worst.measured = worst.measured.max(other.measured);
+            }
+        }
+    }
+    worst
 }
 
 /// The files as given, and every garment of the folders, sorted by name.
@@ -82,7 +135,7 @@ fn is_yaml(path: &Path) -> bool {
 }
 
 /// Makes one garment as its file says, and once more in every fabric that it has bounds for.
-fn outcomes(file: &Path, overrides: &Overrides, console: &Console) -> Vec<Outcome> {
+fn outcomes(file: &Path, overrides: &Overrides) -> Vec<Outcome> {
     let begin = Instant::now();
     let loaded = match read(file) {
         Ok(loaded) => loaded,
@@ -95,7 +148,7 @@ fn outcomes(file: &Path, overrides: &Overrides, console: &Console) -> Vec<Outcom
     }
     let run = |(fabric, overrides): &(Option<String>, Overrides)| {
         let begin = Instant::now();
-        Outcome::new(file, fabric.as_deref(), begin, made(file, loaded.clone(), overrides, console))
+        Outcome::new(file, fabric.as_deref(), begin, made(file, loaded.clone(), overrides))
     };
     runs.iter().map(run).collect()
 }
@@ -111,12 +164,17 @@ fn fabrics_with_bounds(garment: &Garment) -> Vec<&str> {
 /// What was measured of a garment that was made.
 struct Made {
     bounds: Vec<Verdict>,
+    by_test: Vec<Vec<Verdict>>,
     restless: Vec<Restless>,
 }
 
 impl Made {
     fn new(garment: &Garment, report: &Report) -> Self {
-        Self { bounds: verdicts(garment, report), restless: restless(&report.stages) }
+        Self {
+            bounds: verdicts(garment, report),
+            by_test: verdicts_by_test(garment, report),
+            restless: restless(&report.stages),
+        }
     }
 
     /// Figures of a garment that still moves prove nothing, however good they are.
@@ -126,11 +184,11 @@ impl Made {
 }
 
 /// Makes one garment, in memory.
-fn made(file: &Path, loaded: Loaded, overrides: &Overrides, console: &Console) -> Result<Made, PipelineError> {
+fn made(file: &Path, loaded: Loaded, overrides: &Overrides) -> Result<Made, PipelineError> {
     let job = Job::new(file, loaded, overrides)?;
-    let bars = console.progress();
     let mut run = Run::new(&job);
-    run.flatten(&Options::default(), &mut |stage, share| bars.show(stage, share))?;
+    // Several garments are under way at once; a bar can show one.
+    run.flatten(&Options::default(), &mut |_, _| {})?;
     Ok(Made::new(&job.garment, &run.report()))
 }
 
@@ -138,14 +196,14 @@ impl Outcome {
     /// How the garment of `file` did since `begin`, if need be in another fabric than its own.
     fn new(file: &Path, fabric: Option<&str>, begin: Instant, made: Result<Made, PipelineError>) -> Self {
         let name = |text: String| fabric.map_or_else(|| text.clone(), |fabric| format!("{text} in {fabric}"));
-        let (bounds, restless, error, exit) = match made {
+        let (bounds, by_test, restless, error, exit) = match made {
             Ok(made) => {
                 let exit = if made.ok() { Exit::Done } else { Exit::OutOfBounds };
-                (made.bounds, made.restless, None, exit)
+                (made.bounds, made.by_test, made.restless, None, exit)
             }
             Err(e) => {
                 let exit = if e.is_input() { Exit::Input } else { Exit::Failed };
-                (Vec::new(), Vec::new(), Some(e.to_string()), exit)
+                (Vec::new(), Vec::new(), Vec::new(), Some(e.to_string()), exit)
             }
         };
         Self {
@@ -157,6 +215,8 @@ impl Outcome {
             restless,
             error,
             exit,
+            path: file.to_owned(),
+            by_test,
         }
     }
 }
@@ -194,8 +254,8 @@ fn failed(outcome: &Outcome, what: String) -> Vec<String> {
     row
 }
 
-fn complain(outcome: &Outcome, console: &Console) {
-    for verdict in outcome.bounds.iter().filter(|v| !v.ok) {
+fn complain(outcome: &Outcome, out: &[&Verdict], console: &Console) {
+    for verdict in out {
         console.complain(&format!("{}: out of bounds: {verdict}", outcome.file));
     }
     for stage in &outcome.restless {

@@ -134,12 +134,22 @@ fn vector(p: Point) -> Vec2 {
     Vec2::new(p.x, p.y)
 }
 
+/// Lengths of paths of kilometres are exact to this share only: nothing exact can be said of them, and trying to takes for
+/// ever.
+const RELATIVE_ACCURACY: f64 = 1e-12;
+
+fn arc_length(segment: &PathSeg) -> f64 {
+    let c = segment.to_cubic();
+    let size = [c.p0, c.p1, c.p2, c.p3].iter().fold(0.0f64, |size, p| size.max(p.x.abs()).max(p.y.abs()));
+    segment.arclen(LENGTH_ACCURACY.max(RELATIVE_ACCURACY * size))
+}
+
 impl Path {
     fn from_segments(segments: Vec<PathSeg>) -> Self {
         let mut at = vec![0.0];
         let mut sum = 0.0;
         for segment in &segments {
-            sum += segment.arclen(LENGTH_ACCURACY);
+            sum += arc_length(segment);
             at.push(sum);
         }
         Self { segments, at }
@@ -177,7 +187,7 @@ impl Path {
         if !bez.is_finite() {
             return Err(PathError::NotFinite(text.to_owned()));
         }
-        let segments: Vec<_> = bez.segments().filter(|s| s.arclen(LENGTH_ACCURACY) > LENGTH_ACCURACY).collect();
+        let segments: Vec<_> = bez.segments().filter(|s| arc_length(s) > LENGTH_ACCURACY).collect();
         if segments.is_empty() {
             return Err(PathError::Empty(text.to_owned()));
         }

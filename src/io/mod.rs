@@ -5,6 +5,7 @@ pub mod dxf_read;
 pub mod dxf_write;
 pub mod files;
 pub mod garment;
+pub mod garmentcode;
 pub mod glb_write;
 pub mod obj_read;
 pub mod obj_write;

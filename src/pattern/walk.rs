@@ -21,6 +21,10 @@ pub struct SeamWalk {
     pub give: Give,
     /// Where the seam comes from.
     pub kind: SeamKind,
+    /// Notches of the first chain, metres from its start.
+    pub notches_a: Vec<f64>,
+    /// Notches of the second chain.
+    pub notches_b: Vec<f64>,
 }
 
 /// Walks every seam of a garment.
@@ -39,6 +43,8 @@ pub fn walk(garment: &Garment) -> Vec<SeamWalk> {
                 difference: difference(length_a, length_b, seam.give),
                 give: seam.give,
                 kind: seam.kind,
+                notches_a: notches(garment, &seam.a),
+                notches_b: notches(garment, &seam.b),
             }
         })
         .collect()
@@ -51,6 +57,20 @@ pub(super) fn difference(length_a: f64, length_b: f64, give: Give) -> f64 {
         Give::Ease(extra) => length_b - length_a - extra,
         Give::Gather(ratio) | Give::Stretch(ratio) => length_b - length_a / ratio,
     }
+}
+
+/// Where a walk along the chain meets notches, in order.
+fn notches(garment: &Garment, chain: &[Span]) -> Vec<f64> {
+    let mut walked = 0.0;
+    let mut met = Vec::new();
+    for span in chain {
+        let (low, high) = (span.from.min(span.to), span.from.max(span.to));
+        let on = garment.pieces[span.edge.piece].notches.iter().filter(|n| n.edge == span.edge);
+        met.extend(on.filter(|n| (low..=high).contains(&n.at)).map(|n| walked + (n.at - span.from).abs()));
+        walked += span.length();
+    }
+    met.sort_by(f64::total_cmp);
+    met
 }
 
 fn chain_name(garment: &Garment, chain: &[Span]) -> String {

@@ -42,11 +42,22 @@ impl std::fmt::Display for Verdict {
 /// Bounds on stages that did not run, and for other fabrics, are left out. Pieces that had to stretch are reported as
 /// such and not bounded.
 pub fn verdicts(garment: &Garment, report: &Report) -> Vec<Verdict> {
-    let used = |name: &str| report.fabric.split(" + ").any(|f| f == name);
-    let holds = |test: &&Test| test.fabric.as_deref().is_none_or(used);
-    let bounds: Vec<&Bound> = garment.tests.iter().filter(holds).map(|test| &test.bound).collect();
+    let bounds: Vec<&Bound> = garment.tests.iter().filter(|t| holds(t, report)).map(|test| &test.bound).collect();
     let bounds = if bounds.is_empty() { DEFAULTS.iter().collect() } else { bounds };
     bounds.into_iter().flat_map(|bound| verdict(garment, report, bound)).collect()
+}
+
+/// The verdicts of every one of the garment's `tests`, in their order; none of a test for another fabric or a stage that
+/// did not run.
+pub fn verdicts_by_test(garment: &Garment, report: &Report) -> Vec<Vec<Verdict>> {
+    let of = |test: &Test| if holds(test, report) { verdict(garment, report, &test.bound) } else { Vec::new() };
+    garment.tests.iter().map(of).collect()
+}
+
+/// Whether the test is for the fabric the garment was made in.
+fn holds(test: &Test, report: &Report) -> bool {
+    let used = |name: &str| report.fabric.split(" + ").any(|f| f == name);
+    test.fabric.as_deref().is_none_or(used)
 }
 
 fn verdict(garment: &Garment, report: &Report, bound: &Bound) -> Vec<Verdict> {

@@ -17,7 +17,7 @@ mod strain;
 mod stretched;
 mod table;
 
-pub use bounds::{Verdict, verdicts};
+pub use bounds::{Verdict, verdicts, verdicts_by_test};
 pub use crossings::{Seen, look};
 pub use measure::{Measured, measure};
 pub use openings::opening_names;

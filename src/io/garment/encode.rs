@@ -2,6 +2,7 @@
 
 use serde_yaml::{Mapping, Value as Yaml};
 
+use super::layout;
 use crate::pattern::{
     AllowanceFile, AllowanceWidth, ClosureFile, Cut, DartFile, DartShape, GarmentFile, LineFile, Located, OpenFile,
     PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, TestEntry, TestFile, Value,
@@ -11,6 +12,12 @@ use crate::pattern::{
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the garment cannot be written as YAML: {0}")]
 pub struct EncodeError(String);
+
+impl EncodeError {
+    pub(super) fn new(reason: &dyn std::fmt::Display) -> Self {
+        Self(reason.to_string())
+    }
+}
 
 /// Writes the file as YAML that reads as the same [`GarmentFile`].
 ///
@@ -30,7 +37,7 @@ pub fn write(file: &GarmentFile) -> Result<String, EncodeError> {
     map.list("closures", &file.closures, closure);
     map.list("free", &file.free, |f| f.value.as_str().into());
     map.list("tests", &file.tests, |t| test_entry(&t.value));
-    serde_yaml::to_string(&map.0).map_err(|e| EncodeError(e.to_string()))
+    layout::document(&map.into())
 }
 
 /// A YAML mapping under construction; absent things leave no key.
@@ -145,7 +152,8 @@ fn piece(piece: &PieceFile) -> Yaml {
     map.some("place", piece.place.as_ref().map(|p| place(&p.value)));
     if let Some(outline) = &piece.outline {
         let mut edges = Map::default();
-        edges.put("start", numbers(&outline.start.value));
+        let [x, y] = outline.start.value;
+        edges.put("start", format!("{x} {y}"));
         edges.0.extend(named(&outline.edges, |(k, v)| (k, v.value.as_str().into())).0);
         map.put("outline", edges);
     }

@@ -9,6 +9,7 @@ mod decode_seam;
 mod decode_test;
 mod encode;
 mod fields;
+mod layout;
 mod source;
 mod tree;
 
@@ -18,6 +19,9 @@ use std::path::Path;
 use crate::pattern::{self, Diagnostic, Findings, Garment, GarmentFile, Severity};
 
 pub use encode::{EncodeError, write};
+
+/// JSON Schema (2020-12) of the format, for editors that complete and check as one types.
+pub const SCHEMA: &str = include_str!("schema.json");
 
 /// A garment that passed its checks.
 #[derive(Clone, Debug)]

@@ -1,0 +1,18 @@
+//! `import garmentcode`
+
+use super::{Imported, finish, text};
+use crate::cli::args::GarmentcodeArgs;
+use crate::cli::console::Console;
+use crate::cli::exit::{CliError, Exit};
+use crate::io::garmentcode::read;
+
+/// `toile import garmentcode SPEC.json -o GARMENT.yaml`
+pub(super) fn import(args: &GarmentcodeArgs, console: &Console) -> Result<Exit, CliError> {
+    let refused = |reason: String| CliError::Import { file: args.spec.display().to_string(), reason };
+    let text = text(&args.spec).map_err(refused)?;
+    let stem = args.spec.file_stem().map_or_else(|| "garment".to_owned(), |s| s.to_string_lossy().into_owned());
+    let name = stem.strip_suffix("_specification").unwrap_or(&stem);
+    let file = read(name, &text, super::body(args.body.as_deref(), &args.output).as_deref());
+    let file = file.map_err(|e| refused(e.to_string()))?;
+    finish(&Imported { source: &args.spec, output: &args.output, file: &file }, console)
+}

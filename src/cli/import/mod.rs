@@ -1,0 +1,79 @@
+//! `import`: patterns of other programs as garment files; a file per format.
+
+mod garmentcode;
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::args::ImportCommand;
+use super::console::Console;
+use super::exit::{CliError, Exit};
+use crate::input::bytes;
+use crate::io::files::{check_writable, write_all};
+use crate::io::garment::{read_text, write};
+use crate::mannequin;
+use crate::pattern::GarmentFile;
+
+/// `toile import …`
+pub(super) fn import(command: &ImportCommand, console: &Console) -> Result<Exit, CliError> {
+    match command {
+        ImportCommand::Garmentcode(args) => garmentcode::import(args, console),
+    }
+}
+
+/// Patterns of more bytes than this are none.
+const LARGEST: u64 = 64 << 20;
+
+/// The text of a pattern.
+fn text(path: &Path) -> Result<String, String> {
+    let bytes = bytes(path, LARGEST).map_err(|e| e.to_string())?;
+    String::from_utf8(bytes).map_err(|e| format!("it is not UTF-8 text (byte {})", e.utf8_error().valid_up_to()))
+}
+
+/// How a garment file written to `output` names a body that the user named from here.
+fn body(named: Option<&str>, output: &Path) -> Option<String> {
+    let named = named?;
+    let beside = output.parent().is_none_or(|folder| folder.as_os_str().is_empty());
+    if beside || mannequin::library().contains(&named) {
+        return Some(named.to_owned());
+    }
+    // A garment file's paths are relative to it.
+    Some(std::path::absolute(named).map_or_else(|_| named.to_owned(), |path| path.display().to_string()))
+}
+
+/// A pattern that was read.
+struct Imported<'a> {
+    source: &'a Path,
+    output: &'a Path,
+    file: &'a GarmentFile,
+}
+
+/// What was made of it.
+#[derive(Serialize)]
+struct Summary {
+    file: String,
+    pieces: usize,
+    seams: usize,
+    /// Whether `toile check` accepts it as it is.
+    ok: bool,
+}
+
+/// Writes the garment file and says what a check finds in it.
+fn finish(imported: &Imported, console: &Console) -> Result<Exit, CliError> {
+    let text = write(imported.file).map_err(|e| CliError::Argument(e.to_string()))?;
+    let shown = imported.output.display().to_string();
+    let name = imported.output.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+    let target = imported.output.to_owned();
+    check_writable(std::slice::from_ref(&target), &[imported.source])?;
+    write_all(&[(target, text.clone().into_bytes())], &[imported.source])?;
+    let read = read_text(&name, &shown, &text);
+    match &read {
+        Ok(loaded) => loaded.warnings.iter().for_each(|w| console.note(&w.to_string())),
+        Err(refused) => console.complain(&refused.to_string()),
+    }
+    let (pieces, seams) = (imported.file.pieces.len(), imported.file.seams.len());
+    let summary = Summary { file: shown, pieces, seams, ok: read.is_ok() };
+    console.results(&summary, || format!("{pieces} pieces and {seams} seams, written to {}\n", summary.file))?;
+    Ok(if summary.ok { Exit::Done } else { Exit::OutOfBounds })
+}

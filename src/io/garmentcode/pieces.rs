@@ -1,0 +1,102 @@
+//! Panels as pieces of a garment: which two are a pair, what each is called and where it starts.
+
+use super::drawing::Drawing;
+use super::role::{Facing, Role, piece_name, side, unique};
+use super::spec::Specification;
+use crate::pattern::Side;
+
+/// A panel with what follows from it alone.
+pub(super) struct Part {
+    pub(super) drawing: Drawing,
+    pub(super) role: Role,
+    pub(super) facing: Option<Facing>,
+    pub(super) side: Option<Side>,
+}
+
+/// A piece of the garment file.
+pub(super) struct Piece {
+    pub(super) name: String,
+    /// The panel that is drawn.
+    pub(super) panel: usize,
+    /// For a pair: the other panel, and the shift between their edges, see [`Drawing::mirror_shift`].
+    pub(super) twin: Option<(usize, usize)>,
+    /// Over what it is sewn to, right side on wrong side.
+    pub(super) layer: i32,
+}
+
+impl Piece {
+    /// The piece's edge that edge `k` of `panel` (numbered as in the specification) is, if the panel is one of its two.
+    pub(super) fn edge(&self, panel: usize, k: usize, count: usize) -> Option<usize> {
+        if panel == self.panel {
+            return Some(count - 1 - k);
+        }
+        let (_, by) = self.twin.filter(|(twin, _)| *twin == panel)?;
+        // The twin's own drawing has it at count − 1 − k, which is count − 1 − e + by of the drawn one's e.
+        Some((k + by) % count)
+    }
+}
+
+/// Pieces in the order of their panels; a pair stands where its first panel does.
+pub(super) fn pieces(spec: &Specification, parts: &[Part]) -> Vec<Piece> {
+    let mut out: Vec<Piece> = Vec::new();
+    let mut names: Vec<String> = Vec::new();
+    for panel in 0..parts.len() {
+        if out.iter().any(|p| p.twin.is_some_and(|t| t.0 == panel)) {
+            continue;
+        }
+        let twin = (panel + 1..parts.len()).find_map(|other| {
+            let free = !out.iter().any(|p| p.twin.is_some_and(|t| t.0 == other));
+            let by = twins(&parts[panel], &parts[other]).filter(|_| free)?;
+            Some((other, by))
+        });
+        let plain = piece_name(&spec.panels[panel]);
+        let sided = parts[panel].side.filter(|_| twin.is_none() && names_side(&spec.panels[panel].name));
+        let wanted = match sided {
+            Some(Side::Left) => format!("{plain}_left"),
+            Some(Side::Right) => format!("{plain}_right"),
+            None => plain,
+        };
+        let name = unique(&wanted, &names);
+        names.push(name.clone());
+        out.push(Piece { name, panel, twin, layer: layer(spec, parts, panel) });
+    }
+    out
+}
+
+/// Whether a panel's name says on which side it is.
+fn names_side(name: &str) -> bool {
+    name.to_lowercase().split(|c: char| !c.is_alphanumeric()).any(|w| ["left", "right", "l", "r"].contains(&w))
+}
+
+/// Whether two panels are each other's mirror image, drawing and place.
+fn twins(one: &Part, other: &Part) -> Option<usize> {
+    let opposite = one.side.is_some() && other.side.is_some() && one.side != other.side;
+    if !opposite || one.role != other.role || one.facing != other.facing {
+        return None;
+    }
+    one.drawing.mirror_shift(&other.drawing).filter(|_| {
+        let [a, b] = [one, other].map(|p| p.drawing.space(p.drawing.middle()));
+        (a.x + b.x).abs() < PLACED && (a.y - b.y).abs() < PLACED && (a.z - b.z).abs() < PLACED
+    })
+}
+
+/// Twins stand opposite each other to this many millimetres.
+const PLACED: f64 = 5.0;
+
+/// A panel whose right side lies on the wrong side of a larger one, or the other way round, is worn over it.
+fn layer(spec: &Specification, parts: &[Part], panel: usize) -> i32 {
+    let size = |p: usize| parts[p].drawing.area;
+    let over = spec.stitches.iter().filter(|s| s.right_wrong).any(|s| {
+        let [a, b] = s.ends.map(|e| e.0);
+        (a == panel && size(a) < size(b)) || (b == panel && size(b) < size(a))
+    });
+    i32::from(over)
+}
+
+/// The part a panel is.
+pub(super) fn part(spec: &Specification, panel: usize) -> Option<Part> {
+    let role = Role::of(&spec.panels[panel]);
+    let drawing = Drawing::new(&spec.panels[panel], role.round_arm())?;
+    let (facing, side) = (Facing::of(&drawing), side(&drawing));
+    Some(Part { drawing, role, facing, side })
+}

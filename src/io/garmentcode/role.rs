@@ -1,0 +1,141 @@
+//! What a panel is, from what its maker called it and how it hangs.
+
+use super::drawing::Drawing;
+use super::spec::Panel;
+use crate::pattern::Side;
+
+/// The part of a garment a panel is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Role {
+    Bodice,
+    Sleeve,
+    Cuff,
+    TrouserCuff,
+    Collar,
+    Hood,
+    Skirt,
+    Trousers,
+    Waistband,
+}
+
+/// Parts of panel names, in the order in which they count.
+const WORDS: [(&str, Role); 14] = [
+    ("cuff", Role::Cuff),
+    ("sleeve", Role::Sleeve),
+    ("hood", Role::Hood),
+    ("collar", Role::Collar),
+    ("lapel", Role::Collar),
+    ("turtle", Role::Collar),
+    ("wb", Role::Waistband),
+    ("waistband", Role::Waistband),
+    ("belt", Role::Waistband),
+    ("pant", Role::Trousers),
+    ("skirt", Role::Skirt),
+    ("torso", Role::Bodice),
+    ("bodice", Role::Bodice),
+    ("shirt", Role::Bodice),
+];
+
+impl Role {
+    pub(super) fn of(panel: &Panel) -> Self {
+        let name = panel.name.to_lowercase();
+        let named = WORDS.iter().find(|(word, _)| name.contains(word)).map(|(_, role)| *role);
+        match (named, panel.label.as_deref()) {
+            (Some(Self::Cuff), Some("leg")) => Self::TrouserCuff,
+            (Some(role), _) => role,
+            (None, Some("arm")) => Self::Sleeve,
+            (None, Some("leg")) => Self::Skirt,
+            (None, _) => Self::Bodice,
+        }
+    }
+
+    /// Whether it goes round an arm.
+    pub(super) fn round_arm(self) -> bool {
+        matches!(self, Self::Sleeve | Self::Cuff)
+    }
+
+    /// The word of `place:` for the part of the body it goes round; `None` for one that stands free.
+    pub(super) fn body_part(self) -> Option<&'static str> {
+        match self {
+            Self::Bodice => Some("torso"),
+            Self::Sleeve => Some("arm"),
+            Self::Cuff => Some("wrist"),
+            Self::Waistband => Some("waist"),
+            Self::Skirt => Some("skirt"),
+            Self::Trousers => Some("hip"),
+            Self::TrouserCuff => Some("leg"),
+            Self::Collar | Self::Hood => None,
+        }
+    }
+}
+
+/// Front or back of the wearer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Facing {
+    Front,
+    Back,
+}
+
+impl Facing {
+    /// A right side that looks this far forward or back (cosine) says where its panel is.
+    const CLEAR: f64 = 0.5;
+
+    pub(super) fn of(drawing: &Drawing) -> Option<Self> {
+        if drawing.normal.z > Self::CLEAR {
+            return Some(Self::Front);
+        }
+        (drawing.normal.z < -Self::CLEAR).then_some(Self::Back)
+    }
+
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            Self::Front => "front",
+            Self::Back => "back",
+        }
+    }
+}
+
+/// Nearer the middle of the body than this, mm, a panel is on neither side.
+const MIDDLE: f64 = 10.0;
+
+/// Which side of the body a panel is on.
+pub(super) fn side(drawing: &Drawing) -> Option<Side> {
+    let xs = || drawing.edges.iter().map(|e| drawing.space(e.start).x);
+    let (low, high) = (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max));
+    if low > -MIDDLE && high > MIDDLE {
+        return Some(Side::Left);
+    }
+    (high < MIDDLE && low < -MIDDLE).then_some(Side::Right)
+}
+
+/// A name a maker would give the panel: without its side, in whole words, `front` or `back` last.
+pub(super) fn piece_name(panel: &Panel) -> String {
+    let lower = panel.name.to_lowercase();
+    let (mut words, mut facing) = (Vec::new(), None);
+    for word in lower.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()) {
+        match word {
+            "left" | "right" | "l" | "r" | "sl" => {}
+            "front" | "f" | "ftorso" => facing = Some("front"),
+            "back" | "b" | "btorso" => facing = Some("back"),
+            "wb" => words.push("waistband"),
+            "pant" | "pants" => words.push("trousers"),
+            other => words.push(other),
+        }
+    }
+    words.extend(facing);
+    if words.is_empty() { "piece".to_owned() } else { words.join("_") }
+}
+
+/// `name`, or with a number behind it if it is taken; a word that is no name gets one before it.
+pub(super) fn unique(name: &str, taken: &[String]) -> String {
+    let reserved = name.parse::<f64>().is_ok() || ["L", "R", "mirror", "all"].contains(&name);
+    let name = if reserved { format!("piece_{name}") } else { name.to_owned() };
+    if !taken.contains(&name) {
+        return name;
+    }
+    let mut number = 2;
+    while taken.contains(&format!("{name}_{number}")) {
+        number += 1;
+    }
+    format!("{name}_{number}")
+}

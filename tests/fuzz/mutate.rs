@@ -1,0 +1,114 @@
+//! Mutations of text: bits of the seeds and words of the format, moved, repeated, lost and broken.
+
+/// What a fuzzer starts from.
+pub(crate) struct Source<'a> {
+    /// Texts that are right.
+    pub(crate) seeds: &'a [&'a str],
+    /// Words that mean something.
+    pub(crate) words: &'a [&'a str],
+}
+
+/// A small generator (xorshift, Marsaglia 2003): the same inputs on every machine.
+pub(crate) struct Mutator(u64);
+
+/// Texts are cut to this many characters: what is slow at a few kilobytes is told apart from what is merely long.
+const LONGEST: usize = 8_000;
+
+impl Mutator {
+    pub(crate) fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+    }
+
+    fn next(&mut self) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0
+    }
+
+    fn below(&mut self, n: usize) -> usize {
+        (self.next() % n.max(1) as u64) as usize
+    }
+
+    fn pick<'a>(&mut self, from: &[&'a str]) -> &'a str {
+        from[self.below(from.len())]
+    }
+
+    /// A seed with one to eight things wrong.
+    pub(crate) fn mutated(&mut self, source: &Source) -> String {
+        let mut text: Vec<char> = self.pick(source.seeds).chars().collect();
+        for _ in 0..=self.below(8) {
+            match self.below(7) {
+                0 => self.lose(&mut text),
+                1 => self.repeat(&mut text),
+                2 => self.insert_word(&mut text, source),
+                3 => self.change_number(&mut text),
+                4 => self.swap_lines(&mut text),
+                5 => self.change_character(&mut text),
+                _ => self.splice(&mut text, source),
+            }
+        }
+        text.truncate(LONGEST);
+        text.into_iter().collect()
+    }
+
+    fn range(&mut self, length: usize, most: usize) -> std::ops::Range<usize> {
+        let from = self.below(length);
+        from..(from + 1 + self.below(most)).min(length)
+    }
+
+    fn lose(&mut self, text: &mut Vec<char>) {
+        let range = self.range(text.len(), 40);
+        text.drain(range);
+    }
+
+    fn repeat(&mut self, text: &mut Vec<char>) {
+        let range = self.range(text.len(), 200);
+        let piece: Vec<char> = text[range].to_vec();
+        let times = 1 + self.below(20);
+        let at = self.below(text.len());
+        text.splice(at..at, piece.repeat(times));
+    }
+
+    fn insert_word(&mut self, text: &mut Vec<char>, source: &Source) {
+        let word = self.pick(source.words);
+        let at = self.below(text.len());
+        text.splice(at..at, word.chars());
+    }
+
+    fn change_number(&mut self, text: &mut Vec<char>) {
+        let digits: Vec<usize> = (0..text.len()).filter(|&i| text[i].is_ascii_digit()).collect();
+        if digits.is_empty() {
+            return;
+        }
+        let at = digits[self.below(digits.len())];
+        let new = self.pick(&["0", "-1", "1e9", "0.0001", "9999999", "1e308", ".", "--1", "7"]);
+        text.splice(at..=at, new.chars());
+    }
+
+    fn swap_lines(&mut self, text: &mut Vec<char>) {
+        let whole: String = text.iter().collect();
+        let mut lines: Vec<&str> = whole.split('\n').collect();
+        let (a, b) = (self.below(lines.len()), self.below(lines.len()));
+        lines.swap(a, b);
+        *text = lines.join("\n").chars().collect();
+    }
+
+    fn change_character(&mut self, text: &mut [char]) {
+        if text.is_empty() {
+            return;
+        }
+        let at = self.below(text.len());
+        let signs =
+            [':', ',', '[', ']', '{', '}', '"', '\'', '\n', ' ', '#', '&', '*', '-', '%', '@', '.', '\0', '\u{202e}'];
+        text[at] = signs[self.below(signs.len())];
+    }
+
+    /// A stretch of a seed somewhere else.
+    fn splice(&mut self, text: &mut Vec<char>, source: &Source) {
+        let other: Vec<char> = self.pick(source.seeds).chars().collect();
+        let from = self.range(other.len(), 300);
+        let range = self.range(text.len(), 300);
+        text.splice(range, other[from].iter().copied());
+    }
+}

@@ -1,0 +1,309 @@
+//! GarmentCode specifications: what comes out has their lengths, their seams and their sides. The curves are measured
+//! here by sampling their definitions, with no code of the program.
+
+use std::f64::consts::TAU;
+use std::path::PathBuf;
+
+use serde_json::{Value, json};
+use toile::geometry::Vec2;
+use toile::io::garment::{read_text, write};
+use toile::io::garmentcode::{ImportError, read};
+use toile::pattern::{Garment, Give, PieceFile, PlaceFile, SeamKind};
+
+/// A front and a back in centimetres, half of each, with every kind of curve, and a band over the back.
+fn specification() -> Value {
+    let line = |a: usize, b: usize| json!({"endpoints": [a, b]});
+    let curved = |a: usize, b: usize, c: Value| json!({"endpoints": [a, b], "curvature": c});
+    let half = |front: bool, side: f64| {
+        let corners = [[0.0, 0.0], [side * 25.0, 0.0], [side * 25.0, 30.0], [side * 17.0, 50.0], [side * 9.0, 52.0]];
+        let mut vertices: Vec<[f64; 2]> = corners.to_vec();
+        vertices.push([0.0, if front { 40.0 } else { 48.0 }]);
+        let edge = |k: usize| {
+            let next = (k + 1) % 6;
+            match k {
+                1 => curved(1, 2, json!([0.5, -0.02 * side])),
+                2 => curved(2, 3, json!({"type": "cubic", "params": [[0.3, 0.2 * side], [0.6, 0.25 * side]]})),
+                4 => curved(4, 5, json!({"type": "circle", "params": [16.0, 0, if side > 0.0 { 0 } else { 1 }]})),
+                _ => line(k, next),
+            }
+        };
+        let mut edges: Vec<Value> = (0..6).map(edge).collect();
+        // A front runs counter-clockwise, a back clockwise: its right side looks backward.
+        if (side > 0.0) != front {
+            edges = reversed(&edges);
+        }
+        let z = if front { 20.0 } else { -20.0 };
+        json!({"translation": [0, 90, z], "rotation": [0, 0, 0], "vertices": vertices, "edges": edges, "label": "body"})
+    };
+    // Edge k of a reversed loop of six is 5 − k.
+    let stitch = |a: (&str, usize), b: (&str, usize)| json!([{"panel": a.0, "edge": a.1}, {"panel": b.0, "edge": b.1}]);
+    json!({
+        "pattern": {
+            "panels": {
+                "left_ftorso": half(true, 1.0), "right_ftorso": half(true, -1.0),
+                "left_btorso": half(false, 1.0), "right_btorso": half(false, -1.0),
+            },
+            "stitches": [
+                stitch(("left_ftorso", 5), ("right_ftorso", 0)), stitch(("left_btorso", 0), ("right_btorso", 5)),
+                stitch(("left_ftorso", 1), ("left_btorso", 4)), stitch(("right_ftorso", 4), ("right_btorso", 1)),
+                stitch(("left_ftorso", 3), ("left_btorso", 2)), stitch(("right_ftorso", 2), ("right_btorso", 3)),
+            ],
+        },
+        "properties": {"curvature_coords": "relative", "units_in_meter": 100},
+    })
+}
+
+/// The same loop the other way round.
+fn reversed(edges: &[Value]) -> Vec<Value> {
+    let turn = |e: &Value| {
+        let ends = [e["endpoints"][1].clone(), e["endpoints"][0].clone()];
+        let mut out = json!({"endpoints": ends});
+        if let Some(c) = e.get("curvature") {
+            // Seen from the other end a point at (x, y) is at (1 − x, −y).
+            let back = |p: &Value| json!([1.0 - p[0].as_f64().expect("x"), -p[1].as_f64().expect("y")]);
+            out["curvature"] = match (c.get("type").and_then(Value::as_str), c.get("params")) {
+                (Some("cubic"), Some(p)) => json!({"type": "cubic", "params": [back(&p[1]), back(&p[0])]}),
+                (Some("circle"), Some(p)) => {
+                    json!({"type": "circle", "params": [p[0], p[1], 1 - p[2].as_i64().expect("0 or 1")]})
+                }
+                _ => back(c),
+            };
+        }
+        out
+    };
+    edges.iter().rev().map(turn).collect()
+}
+
+/// Points of an edge in its panel, millimetres, from the definition of the format.
+fn sampled(panel: &Value, edge: &Value, unit: f64) -> Vec<Vec2> {
+    let vertex = |k: &Value| {
+        let v = &panel["vertices"][k.as_u64().expect("an index") as usize];
+        unit * Vec2::new(v[0].as_f64().expect("x"), v[1].as_f64().expect("y"))
+    };
+    let (a, b) = (vertex(&edge["endpoints"][0]), vertex(&edge["endpoints"][1]));
+    let e = b - a;
+    let point = |p: &Value| a + p[0].as_f64().expect("x") * e + p[1].as_f64().expect("y") * Vec2::new(-e.y, e.x);
+    let n = 4_000;
+    let bezier = |control: &[Vec2]| {
+        (0..=n)
+            .map(|i| {
+                let mut points = control.to_vec();
+                let t = f64::from(i) / f64::from(n);
+                while points.len() > 1 {
+                    points = points.windows(2).map(|w| w[0] + t * (w[1] - w[0])).collect();
+                }
+                points[0]
+            })
+            .collect()
+    };
+    let Some(curvature) = edge.get("curvature").filter(|c| !c.is_null()) else { return vec![a, b] };
+    let params = &curvature["params"];
+    match curvature.get("type").and_then(Value::as_str) {
+        None => bezier(&[a, point(curvature), b]),
+        Some("quadratic") => bezier(&[a, point(&params[0]), b]),
+        Some("cubic") => bezier(&[a, point(&params[0]), point(&params[1]), b]),
+        Some("circle") => {
+            let yes = |k: usize| params[k].as_f64().map_or_else(|| params[k].as_bool() == Some(true), |x| x != 0.0);
+            let (large, positive) = (yes(1), yes(2));
+            let r = (unit * params[0].as_f64().expect("a radius")).max(0.5 * e.norm());
+            // Of the two centres the one from which the arc turns the way it says.
+            let h = (r * r - 0.25 * e.norm_squared()).max(0.0).sqrt();
+            let across = Vec2::new(-e.y, e.x) / e.norm();
+            let center = a + 0.5 * e + if large == positive { -h } else { h } * across;
+            let angle = |p: Vec2| (p - center).y.atan2((p - center).x);
+            let mut sweep = (angle(b) - angle(a)).rem_euclid(TAU);
+            if !positive {
+                sweep -= TAU;
+            }
+            let at = |i: i32| angle(a) + sweep * f64::from(i) / f64::from(n);
+            (0..=n).map(|i| center + r * Vec2::new(at(i).cos(), at(i).sin())).collect()
+        }
+        Some(other) => panic!("{other}"),
+    }
+}
+
+fn length(points: &[Vec2]) -> f64 {
+    points.windows(2).map(|w| (w[1] - w[0]).norm()).sum()
+}
+
+/// Lengths of a panel's edges in order, millimetres.
+fn lengths(spec: &Value, panel: &str) -> Vec<f64> {
+    let unit = 1000.0 / spec["properties"]["units_in_meter"].as_f64().unwrap_or(100.0);
+    let panel = &spec["pattern"]["panels"][panel];
+    panel["edges"].as_array().expect("edges").iter().map(|e| length(&sampled(panel, e, unit))).collect()
+}
+
+fn import(spec: &Value) -> (Garment, Vec<PieceFile>) {
+    let file = read("trial", &spec.to_string(), None).expect("a specification");
+    let text = write(&file).expect("YAML");
+    let loaded = read_text("trial", "trial.yaml", &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    assert_eq!(loaded.file, file, "reads as it was written");
+    (loaded.garment, file.pieces)
+}
+
+/// Whether two lists of lengths are the same going round, in either sense.
+fn same_round(one: &[f64], other: &[f64], within: f64) -> bool {
+    let n = one.len();
+    let near = |a: f64, b: f64| (a - b).abs() <= within;
+    n == other.len()
+        && (0..n).any(|s| {
+            (0..n).all(|k| near(one[k], other[(s + k) % n])) || (0..n).all(|k| near(one[k], other[(s + n - k) % n]))
+        })
+}
+
+/// Every panel is a piece with its lengths to 0.01 mm, and every stitch is in a seam that has its length.
+fn check_lengths(spec: &Value, garment: &Garment) {
+    let panels = spec["pattern"]["panels"].as_object().expect("panels");
+    assert_eq!(garment.pieces.len(), panels.len());
+    let mut free: Vec<Vec<f64>> =
+        garment.pieces.iter().map(|p| p.loops[0].iter().map(|e| 1e3 * e.path.length()).collect()).collect();
+    let mut sewn = [0.0; 2];
+    for name in panels.keys() {
+        let expected = lengths(spec, name);
+        let found = free.iter().position(|f| same_round(&expected, f, 0.01));
+        free.swap_remove(found.unwrap_or_else(|| panic!("no piece has the edges of {name}: {expected:?}")));
+    }
+    for stitch in spec["pattern"]["stitches"].as_array().expect("stitches") {
+        for end in &stitch.as_array().expect("ends")[..2] {
+            let panel = end["panel"].as_str().expect("a panel");
+            sewn[0] += lengths(spec, panel)[end["edge"].as_u64().expect("an edge") as usize];
+        }
+    }
+    for seam in &garment.seams {
+        assert_eq!(seam.kind, SeamKind::Written);
+        sewn[1] += 1e3 * (seam.length_a() + seam.length_b());
+    }
+    assert!((sewn[0] - sewn[1]).abs() < 0.01 * garment.seams.len() as f64, "{sewn:?} mm sewn");
+}
+
+#[test]
+fn every_curve_keeps_its_length_and_mirrored_panels_are_pairs() {
+    let spec = specification();
+    let (garment, pieces) = import(&spec);
+    check_lengths(&spec, &garment);
+    let names: Vec<&str> = garment.pieces.iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(names, ["front.L", "front.R", "back.L", "back.R"]);
+    let edges: Vec<&str> = garment.pieces[0].loops[0].iter().map(|e| e.name.as_str()).collect();
+    assert_eq!(edges, ["center", "neck", "shoulder", "armhole", "side", "hem"]);
+    assert!(matches!(&pieces[1].place.as_ref().expect("a place").value, PlaceFile::Words(w) if w == "torso back"));
+    let seams: Vec<&str> = garment.seams.iter().map(|s| s.name.as_str()).collect();
+    assert_eq!(seams, ["front_center", "back_center", "side.L", "side.R", "shoulder.L", "shoulder.R"]);
+}
+
+#[test]
+fn sides_of_a_piece_are_where_its_wearer_has_them() {
+    let (garment, _) = import(&specification());
+    // Seen from outside the wearer's left is at larger x on a front and at smaller x on a back.
+    for (piece, sign) in garment.pieces.iter().zip([1.0, -1.0, -1.0, 1.0]) {
+        let xs = piece.loops[0].iter().map(|e| e.path.start().x);
+        assert!(xs.clone().all(|x| sign * x > -1e-9) && xs.clone().any(|x| sign * x > 0.2), "{}", piece.name);
+    }
+}
+
+#[test]
+fn other_units_and_absolute_control_points_are_the_same_garment() {
+    let spec = specification();
+    let mut inches = spec.clone();
+    inches["properties"]["units_in_meter"] = json!(1000.0 / 25.4);
+    let scale = 25.4 / 10.0;
+    let (centimetres, _) = import(&spec);
+    let (large, _) = import(&inches);
+    for (a, b) in centimetres.pieces.iter().zip(&large.pieces) {
+        for (a, b) in a.loops[0].iter().zip(&b.loops[0]) {
+            let (a, b) = (1e3 * scale * a.path.length(), 1e3 * b.path.length());
+            // Only the arc, whose radius is in units too, must scale like everything else.
+            assert!((a - b).abs() < 0.03, "{a} {b}");
+        }
+    }
+}
+
+#[test]
+fn a_longer_edge_is_eased_or_gathered_and_says_so() {
+    let mut spec = specification();
+    for panel in ["left_ftorso", "right_ftorso"] {
+        for v in spec["pattern"]["panels"][panel]["vertices"].as_array_mut().expect("vertices") {
+            v[1] = json!(v[1].as_f64().expect("y") * 1.05);
+        }
+    }
+    let (garment, _) = import(&spec);
+    check_lengths(&spec, &garment);
+    let side = garment.seams.iter().find(|s| s.name == "side.L").expect("a side seam");
+    assert!(matches!(side.give, Give::Ease(extra) if extra > 0.010 && extra < 0.016), "{:?}", side.give);
+}
+
+#[test]
+fn what_is_wrong_is_named() {
+    let broken = |change: &dyn Fn(&mut Value)| {
+        let mut spec = specification();
+        change(&mut spec);
+        read("trial", &spec.to_string(), None).expect_err("an error").to_string()
+    };
+    let edge = |spec: &mut Value, k: usize, key: &str, value: Value| {
+        spec["pattern"]["panels"]["left_ftorso"]["edges"][k][key] = value;
+    };
+    let cases: [(&str, String); 11] = [
+        (
+            "panel 'left_ftorso', edge 1: ends at vertex 3, but the next edge starts at vertex 2",
+            broken(&|s| edge(s, 1, "endpoints", json!([1, 3]))),
+        ),
+        (
+            "panel 'left_ftorso', edge 4: has the unknown curvature 'spline'; known are quadratic, cubic and circle",
+            broken(&|s| edge(s, 4, "curvature", json!({"type": "spline", "params": []}))),
+        ),
+        (
+            "panel 'left_ftorso', edge 4: its curvature 'circle' needs three numbers: radius, large arc, direction",
+            broken(&|s| edge(s, 4, "curvature", json!({"type": "circle", "params": [3]}))),
+        ),
+        (
+            "panel 'left_ftorso', edge 2: its curvature 'cubic' needs two control points",
+            broken(&|s| edge(s, 2, "curvature", json!({"type": "cubic", "params": [[0.1, 0.2]]}))),
+        ),
+        ("stitch 0: no panel 'front'", broken(&|s| s["pattern"]["stitches"][0][0]["panel"] = json!("front"))),
+        (
+            "stitch 0: panel 'left_ftorso' has 6 edges, no edge 9",
+            broken(&|s| s["pattern"]["stitches"][0][0]["edge"] = json!(9)),
+        ),
+        (
+            "stitch 2: edge 5 of 'left_ftorso' is sewn by stitch 0 already",
+            broken(&|s| s["pattern"]["stitches"][2][0]["edge"] = json!(5)),
+        ),
+        (
+            "stitch 1: says \"wrong_wrong\"; only \"right_wrong\" is known",
+            broken(&|s| s["pattern"]["stitches"][1].as_array_mut().expect("ends").push(json!("wrong_wrong"))),
+        ),
+        (
+            "units_in_meter must be above zero, not 0; GarmentCode writes 100 for centimetres",
+            broken(&|s| s["properties"]["units_in_meter"] = json!(0)),
+        ),
+        ("curvature_coords 'polar' is not known; use relative or absolute", {
+            broken(&|s| s["properties"]["curvature_coords"] = json!("polar"))
+        }),
+        ("panel 'left_ftorso' holds a number beyond 100 m", {
+            broken(&|s| s["pattern"]["panels"]["left_ftorso"]["vertices"][0][0] = json!(1e9))
+        }),
+    ];
+    for (expected, found) in cases {
+        assert_eq!(found, expected);
+    }
+    assert!(matches!(read("trial", "{", None), Err(ImportError::Json(_))));
+    assert!(matches!(read("trial", "{\"garment\": 1}", None), Err(ImportError::NoPattern)));
+}
+
+#[test]
+fn garments_of_the_program_itself_keep_lengths_and_sew_every_stitch() {
+    let folder = std::env::var_os("TOILE_GARMENTCODE").map_or("../shared/garmentcode".into(), PathBuf::from);
+    let Ok(entries) = std::fs::read_dir(&folder) else {
+        eprintln!("skipped: {} is not here", folder.display());
+        return;
+    };
+    let mut count = 0;
+    for entry in entries.filter_map(Result::ok).filter(|e| e.path().is_dir()) {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let text = std::fs::read_to_string(entry.path().join(format!("{name}_specification.json"))).expect("a file");
+        let spec: Value = serde_json::from_str(&text).expect("JSON");
+        let (garment, _) = import(&spec);
+        check_lengths(&spec, &garment);
+        count += 1;
+    }
+    assert_eq!(count, 10);
+}
