@@ -442,7 +442,8 @@ fn a_bodice_is_as_good_as_the_best_known() {
     assert!(free.report.distortion < 0.0669 && free.report.area_error < 0.0045, "{:?}", free.report);
     let balanced = flatten(&mesh, &Options::default()).unwrap();
     assert_sound(&mesh, &balanced);
-    assert!(balanced.report.boundary_error < 1e-5 && balanced.report.area_distortion < 0.01, "{:?}", balanced.report);
+    assert!(balanced.report.boundary_error < 1e-5 && balanced.report.area_distortion < 0.012, "{:?}", balanced.report);
+    assert!(balanced.report.distortion < 0.11, "{:?}", balanced.report);
 }
 
 /// Two bulging panels of 2,600 particles each, strained by a few per cent as on a body.
