@@ -288,6 +288,27 @@ pub(super) enum PageArg {
 pub(super) enum ImportCommand {
     /// GarmentCode's pattern specification (JSON)
     Garmentcode(GarmentcodeArgs),
+    /// A drawing, as Inkscape, FreeSewing and Seamly2D write them: pieces with named edges; seams are suggested
+    Svg(DrawingArgs),
+    /// DXF-AAMA (ASTM D6673), as pattern programs and cutters exchange it; seams are suggested
+    Dxf {
+        #[command(flatten)]
+        common: DrawingArgs,
+        /// Unit of the drawing where the file does not say [default: mm]
+        #[arg(long, value_enum)]
+        units: Option<UnitArg>,
+    },
+}
+
+/// What the imports of drawings take.
+#[derive(Debug, clap::Args)]
+pub(super) struct DrawingArgs {
+    /// The drawing
+    #[arg(value_name = "DRAWING")]
+    pub(super) drawing: PathBuf,
+    /// The garment file to write
+    #[arg(short, long, value_name = "GARMENT.yaml")]
+    pub(super) output: PathBuf,
 }
 
 /// Arguments of `import garmentcode`.

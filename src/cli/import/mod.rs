@@ -1,12 +1,13 @@
 //! `import`: patterns of other programs as garment files; a file per format.
 
+mod drawing;
 mod garmentcode;
 
 use std::path::Path;
 
 use serde::Serialize;
 
-use super::args::ImportCommand;
+use super::args::{ImportCommand, UnitArg};
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use crate::input::bytes;
@@ -19,6 +20,8 @@ use crate::pattern::GarmentFile;
 pub(super) fn import(command: &ImportCommand, console: &Console) -> Result<Exit, CliError> {
     match command {
         ImportCommand::Garmentcode(args) => garmentcode::import(args, console),
+        ImportCommand::Svg(args) => drawing::svg(args, console),
+        ImportCommand::Dxf { common, units } => drawing::dxf(common, units.map(UnitArg::metres), console),
     }
 }
 

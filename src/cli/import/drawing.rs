@@ -1,0 +1,44 @@
+//! `import svg` and `import dxf`
+
+use super::{Imported, finish};
+use crate::cli::args::DrawingArgs;
+use crate::cli::console::Console;
+use crate::cli::exit::{CliError, Exit};
+use crate::digitize::{Suggestion, Traced, garment_file};
+use crate::io::dxf_read::read_dxf;
+use crate::io::svg_read::read_svg;
+
+/// `toile import svg FILE.svg -o GARMENT.yaml`
+pub(super) fn svg(args: &DrawingArgs, console: &Console) -> Result<Exit, CliError> {
+    let pieces = read_svg(&args.drawing).map_err(|e| refused(args, e.to_string()))?;
+    write(args, &pieces, console)
+}
+
+/// `toile import dxf FILE.dxf -o GARMENT.yaml`
+pub(super) fn dxf(args: &DrawingArgs, unit: Option<f64>, console: &Console) -> Result<Exit, CliError> {
+    let pieces = read_dxf(&args.drawing, unit).map_err(|e| refused(args, e.to_string()))?;
+    write(args, &pieces, console)
+}
+
+fn refused(args: &DrawingArgs, reason: String) -> CliError {
+    CliError::Import { file: args.drawing.display().to_string(), reason }
+}
+
+/// Writes the pieces with all edges free, and says which may belong together.
+fn write(args: &DrawingArgs, pieces: &[Traced], console: &Console) -> Result<Exit, CliError> {
+    let name = args.drawing.file_stem().map_or_else(|| "garment".to_owned(), |s| s.to_string_lossy().into_owned());
+    let made = garment_file(&name, pieces);
+    let exit = finish(&Imported { source: &args.drawing, output: &args.output, file: &made.file }, console)?;
+    made.notes.iter().for_each(|note| console.note(note));
+    if !made.suggestions.is_empty() {
+        console.note("seams are to be written; by their lengths these edges may belong together:");
+    }
+    made.suggestions.iter().for_each(|s| console.note(&suggestion(s)));
+    Ok(exit)
+}
+
+fn suggestion(s: &Suggestion) -> String {
+    let [sew, to] = s.lengths.map(|metres| 1e3 * metres);
+    let notches = if s.notched { ", both end at a notch" } else { "" };
+    format!("  {{sew: {}, to: {}}}   # {sew:.1} and {to:.1} mm{notches}", s.sew, s.to)
+}
