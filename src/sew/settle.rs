@@ -11,6 +11,10 @@ const CLEARANCE: f64 = 0.25e-3;
 /// Stiffness of a contact as it begins, N/m: a particle's weight presses 0.02 mm. Soft, so that a contact that comes or
 /// goes does not shake the rest; it hardens as the gap closes.
 const PENALTY: f64 = 60.0;
+/// Layers are looked for this near, in grid spacings and at most in metres: between two looks a node goes 0.45 of it,
+/// and must not go further than edges and vertices of the body are looked for.
+const REACH: f64 = 0.8;
+const LONGEST_REACH: f64 = 8.8e-3;
 /// Rounds of leading tangles apart.
 const UNTANGLE: usize = 60;
 /// The measured springs pull the cloth true after the last tangle is gone: at most so many steps, until no node goes
@@ -34,7 +38,7 @@ pub fn sewn_world<'a>(
 ) -> Result<World<'a>, StepError> {
     let cloth = Cloth::new(cut, stitching.class.clone(), SpringModel::Measured);
     let law = ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, cloth_gap: None };
-    let reach = Reach::new(0.8 * cut.mesh.spacing);
+    let reach = Reach::new((REACH * cut.mesh.spacing).min(LONGEST_REACH));
     let n = nodes.len();
     let hood = Neighbourhood { class: (0..n as u32).collect(), tangled: Vec::new() };
     World::new(cloth, nodes, &[], body, hood, law, reach)
