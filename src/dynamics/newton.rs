@@ -11,7 +11,7 @@ use super::force::{Forces, Press, free_forces};
 use super::model::Cloth;
 use super::springs::SpringTangent;
 use super::step::{Reuse, StepError, Stepper, contact_forces, opening, presses};
-use crate::geometry::Vec3;
+use crate::geometry::{Mat3, Vec3};
 
 /// Most conjugate gradient iterations of a step; more would cost more than a new factor.
 const ITERATIONS: usize = 16;
@@ -36,13 +36,14 @@ pub(super) struct Proposal {
 /// What the true stiffness is made of at one position.
 struct Tangent<'a> {
     cloth: &'a Cloth,
-    x: &'a [Vec3],
     dt: f64,
     forces: &'a Forces<'a>,
     presses: &'a [Press],
     springs: Vec<SpringTangent>,
     /// [`super::crease::Crease::root`] of every crease.
     creases: Vec<[Vec3; 4]>,
+    /// Stiffness of every contact's friction, N/m.
+    grips: Vec<Mat3>,
 }
 
 impl Stepper {
@@ -123,19 +124,21 @@ impl<'a> Tangent<'a> {
     fn new(cloth: &'a Cloth, x: &'a [Vec3], dt: f64, forces: &'a Forces<'a>, presses: &'a [Press]) -> Self {
         let springs = cloth.springs.iter().map(|s| s.tangent(&cloth.laws[s.law as usize], x)).collect();
         let creases = cloth.creases.iter().map(|c| c.root(x)).collect();
-        Self { cloth, x, dt, forces, presses, springs, creases }
+        let grip = |k: usize| {
+            let grip = forces.friction?.grip(k, &forces.contacts[k], x, presses[k].load, &cloth.friction)?;
+            Some(grip.stiffness)
+        };
+        let grips = (0..presses.len()).map(|k| grip(k).unwrap_or_else(Mat3::zeros)).collect();
+        Self { cloth, dt, forces, presses, springs, creases, grips }
     }
 
     /// (M/Δt² + true stiffness) p, with the contacts marked in `active`.
     fn apply(&self, p: &[Vec3], active: &[bool]) -> Vec<Vec3> {
         let mut out = self.apply_free(p);
-        let pushing = self.forces.contacts.iter().zip(self.presses).zip(active).enumerate().filter(|(_, (_, on))| **on);
-        for (k, ((contact, press), _)) in pushing {
-            let mut back = contact.normal * (press.slope * opening(contact, p));
-            let grip = self.forces.friction.and_then(|f| f.grip(k, contact, self.x, press.load, &self.cloth.friction));
-            if let Some(grip) = grip {
-                back += grip.stiffness * contact.parts().map(|(i, w)| p[i] * w).sum::<Vec3>();
-            }
+        for k in (0..active.len()).filter(|&k| active[k]) {
+            let (contact, press) = (&self.forces.contacts[k], &self.presses[k]);
+            let way: Vec3 = contact.parts().map(|(i, w)| p[i] * w).sum();
+            let back = contact.normal * (press.slope * opening(contact, p)) + self.grips[k] * way;
             for (i, w) in contact.parts() {
                 out[i] += back * w;
             }
