@@ -6,6 +6,7 @@
 use svg::Document;
 use svg::node::element::{Group, Path, Rectangle, Text};
 
+use super::svg_write::{identifier, number, polyline, printable};
 use crate::geometry::Vec2;
 use crate::mesh::{ClothMesh, EdgeParticles, PieceMesh};
 use crate::pattern::Notch;
@@ -135,11 +136,11 @@ impl<'a> Sheet<'a> {
         let mut group = Group::new().set("id", name.as_str()).set("class", "piece").set("fill", "none");
         for edge in &self.piece.edges {
             let id = format!("{name}.{}", identifier(&edge.name));
-            group = group.add(stroke(&self.polyline(&edge.particles), "edge", 0.5).set("id", id));
+            group = group.add(polyline(&self.polyline(&edge.particles), "edge", 0.5).set("id", id));
         }
         for line in &self.piece.lines {
             let id = format!("{name}.{}", identifier(&line.name));
-            let path = stroke(&self.polyline(&line.particles), "line", 0.3);
+            let path = polyline(&self.polyline(&line.particles), "line", 0.3);
             group = group.add(path.set("id", id).set("stroke-dasharray", "4 2"));
         }
         for notch in notches {
@@ -158,7 +159,7 @@ impl<'a> Sheet<'a> {
         let at = |&v: &u32| self.drawn.get((v as usize).checked_sub(first)?).copied();
         let edge = |e: &EdgeParticles| {
             let points: Vec<Vec2> = e.particles.iter().filter_map(at).collect();
-            stroke(&points, "drawn", 0.3).set("stroke", "gray").set("stroke-dasharray", "2 2")
+            polyline(&points, "drawn", 0.3).set("stroke", "gray").set("stroke-dasharray", "2 2")
         };
         self.piece.edges.iter().map(edge).collect()
     }
@@ -174,7 +175,7 @@ impl<'a> Sheet<'a> {
         let (tail, head) = (self.middle() - half, self.middle() + half);
         let across = Vec2::new(-self.warp.y, self.warp.x);
         let barb = |side: f64| head - (self.warp * 2.0 + across * side) * (BARB / 2.0);
-        stroke(&[tail, head, barb(1.0), head, barb(-1.0)], "grain", 0.3)
+        polyline(&[tail, head, barb(1.0), head, barb(-1.0)], "grain", 0.3)
     }
 
     fn label(&self) -> Text {
@@ -187,7 +188,7 @@ impl<'a> Sheet<'a> {
         let offsets: &[f64] = if notch.double { &[-0.5, 0.5] } else { &[0.0] };
         let place = |&offset: &f64| self.along(edge, drawn, notch.at * MM + offset * NOTCH.1);
         let marks = offsets.iter().filter_map(place);
-        marks.map(|(at, inward)| stroke(&[at, at + inward * NOTCH.0], "notch", 0.3)).collect()
+        marks.map(|(at, inward)| polyline(&[at, at + inward * NOTCH.0], "notch", 0.3)).collect()
     }
 
     /// Where the drawn distance `wanted` (mm) along an edge has come to lie, and the direction into the piece.
@@ -257,31 +258,4 @@ fn text(content: &str, at: Vec2) -> Text {
         .set("font-size", LETTERS)
         .set("fill", "black")
         .set("stroke", "none")
-}
-
-fn stroke(points: &[Vec2], class: &str, width: f64) -> Path {
-    let steps: Vec<String> = points.iter().map(|p| format!("{} {}", number(p.x), number(p.y))).collect();
-    Path::new()
-        .set("class", class)
-        .set("d", if steps.is_empty() { String::new() } else { format!("M{}", steps.join(" L")) })
-        .set("fill", "none")
-        .set("stroke", "black")
-        .set("stroke-width", width)
-        .set("stroke-linejoin", "round")
-        .set("stroke-linecap", "round")
-}
-
-/// A tenth of a micrometre: sums over an edge's hundred particles stay exact to a hundredth of a millimetre.
-fn number(x: f64) -> String {
-    format!("{x:.4}")
-}
-
-/// A name as an attribute's value: XML forbids control characters, quotes would end the value and an id has no spaces.
-fn identifier(name: &str) -> String {
-    name.chars().map(|c| if c.is_control() || c.is_whitespace() || c == '"' { '_' } else { c }).collect()
-}
-
-/// Text without the control characters XML forbids.
-fn printable(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }

@@ -51,7 +51,7 @@ fn text(content: &str, at: Vec2, height: f64) -> Text {
 }
 
 /// A line through points, mm.
-fn polyline(points: &[Vec2], class: &str, width: f64) -> Path {
+pub(super) fn polyline(points: &[Vec2], class: &str, width: f64) -> Path {
     let steps: Vec<String> = points.iter().map(|p| format!("{} {}", number(p.x), number(p.y))).collect();
     stroke(if steps.is_empty() { String::new() } else { format!("M{}", steps.join(" L")) }, class, width)
 }
@@ -68,16 +68,16 @@ fn stroke(commands: String, class: &str, width: f64) -> Path {
 }
 
 /// A tenth of a micrometre: sums over an edge's hundred particles stay exact to a hundredth of a millimetre.
-fn number(x: f64) -> String {
+pub(super) fn number(x: f64) -> String {
     format!("{x:.4}")
 }
 
 /// A name as an attribute's value: XML forbids control characters, quotes would end the value and an id has no spaces.
-fn identifier(name: &str) -> String {
+pub(super) fn identifier(name: &str) -> String {
     name.chars().map(|c| if c.is_control() || c.is_whitespace() || c == '"' { '_' } else { c }).collect()
 }
 
 /// Text without the control characters XML forbids.
-fn printable(text: &str) -> String {
+pub(super) fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
