@@ -7,7 +7,7 @@
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashSet};
 
-use super::{FlattenError, start, topology};
+use super::topology;
 use crate::geometry::{Topology, TriMesh};
 
 /// A shortest way along edges from `from` to `to`, not along `solid` ones; `None` where there is none.
@@ -54,20 +54,15 @@ pub fn disk_cuts(surface: &TriMesh, solid: &Solid) -> Vec<[u32; 2]> {
 
 /// The dart that relieves a disk most: from the place where a conformal map would have to scale most, which is where a
 /// cone point helps most (Ben-Chen, Gotsman & Bunin 2008, section 4), to the nearest rim vertex along edges that are not
-/// `solid`; rim first.
-///
-/// # Errors
-/// As [`super::flatten`]; a surface without vertices inside its rim has no place for a dart: an empty path.
-pub fn dart(surface: &TriMesh, solid: &Solid) -> Result<Vec<u32>, FlattenError> {
-    let (topology, rims) = topology::check(surface)?;
-    let [rim] = &rims[..] else { return Err(FlattenError::Rims(rims.len())) };
-    let scale = start::log_scale(surface, &topology, rim)?;
-    let tip = (0..scale.len() as u32).max_by(|&a, &b| {
-        let [x, y] = [a, b].map(|v| scale[v as usize].abs());
-        x.total_cmp(&y).then(b.cmp(&a))
-    });
-    let Some(tip) = tip.filter(|&v| scale[v as usize] != 0.0) else { return Ok(Vec::new()) };
-    Ok(Tree::new(surface, &topology, solid, rim, false).path(tip))
+/// `solid`; rim first. `log_scale` is [`super::Flattened::log_scale`]. Empty where no place can be told: without scales,
+/// or with none inside the rim.
+pub fn dart(surface: &TriMesh, log_scale: &[f64], solid: &Solid) -> Vec<u32> {
+    let size = |v: u32| log_scale[v as usize].abs();
+    let tip = (0..log_scale.len() as u32).max_by(|&a, &b| size(a).total_cmp(&size(b)).then(b.cmp(&a)));
+    let Some(tip) = tip.filter(|&v| size(v) > 0.0) else { return Vec::new() };
+    let topology = Topology::new(&surface.triangles);
+    let rim: Vec<u32> = topology.rim_edges().flat_map(|e| e.ends).collect();
+    Tree::new(surface, &topology, solid, &rim, false).path(tip)
 }
 
 /// Edges (smaller vertex first) that are no edges of what is cut: the diagonals that make triangles of its polygons.

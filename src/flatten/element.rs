@@ -10,7 +10,7 @@ pub(super) struct Element {
     /// Its corners in the flat piece.
     pub(super) corners: [u32; 3],
     /// Gradients of the corners' hat functions in the triangle's own plane, 1/m: J = Σ xₖ gₖᵀ.
-    gradients: [Vec2; 3],
+    pub(super) gradients: [Vec2; 3],
     /// Its share in the energy: true area, m².
     pub(super) area: f64,
 }

@@ -7,6 +7,7 @@ use nalgebra::Matrix2;
 use super::FlattenError;
 use super::element::{CORNER_PAIRS, Element};
 use super::law::Law;
+use super::spring::{Spring, Springs};
 use crate::geometry::Vec2;
 use crate::linear::{BlockSlot, SymmetricMatrix, SymmetricPattern};
 
@@ -18,28 +19,6 @@ const TIE: f64 = 1e-4;
 /// The numbers of the curvature.
 pub(super) type Real = f64;
 
-/// A spring that wants a flat edge to have a length: with e = length/target − 1 its energy is weight · e² + pull · e.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Spring {
-    /// Its vertices.
-    pub(super) ends: [u32; 2],
-    /// Wanted length, metres.
-    pub(super) target: f64,
-    /// Its weight in the energy, m².
-    pub(super) weight: f64,
-    /// The force it has besides, m²: that which holds the edge at its very length, once it is found.
-    pub(super) pull: f64,
-}
-
-/// The springs of an energy.
-#[derive(Default)]
-pub(super) struct Springs {
-    /// Those that get exactly their lengths.
-    pub(super) held: Vec<Spring>,
-    /// Those that do not.
-    pub(super) free: Vec<Spring>,
-}
-
 /// What a piece's flat position is measured by. Divided by the piece's area, so it has no unit: a uniform stretch by
 /// one per cent both ways costs 2·10⁻⁴.
 pub(super) struct Energy {
@@ -47,9 +26,11 @@ pub(super) struct Energy {
     pub(super) springs: Vec<Spring>,
     /// The first so many springs get exactly their lengths; the others are only springs.
     held: usize,
-    law: Law,
+    pub(super) law: Law,
     total_area: f64,
     vertices: usize,
+    /// Vertices from this one on stay where they are.
+    pub(super) free: usize,
 }
 
 impl Energy {
@@ -57,14 +38,22 @@ impl Energy {
         let total_area = elements.iter().map(|e| e.area).sum();
         let held = springs.held.len();
         let springs = [springs.held, springs.free].concat();
-        Self { elements, springs, held, law, total_area, vertices }
+        Self { elements, springs, held, law, total_area, vertices, free: vertices }
     }
 
-    /// Pairs of vertices whose positions the energy couples, some of them twice.
+    /// The energy of a part, in the same measure, of which only the first `free` vertices move.
+    pub(super) fn part(&self, vertices: usize, free: usize, elements: Vec<Element>, springs: Springs) -> Self {
+        Self { total_area: self.total_area, free, ..Self::new(vertices, elements, springs, self.law) }
+    }
+
+    /// Pairs of free vertices whose positions the energy couples, some of them twice.
     pub(super) fn couplings(&self) -> Vec<[u32; 2]> {
+        let free = |pair: &[u32; 2]| pair.iter().all(|&v| (v as usize) < self.free);
         let sides =
             self.elements.iter().flat_map(|e| CORNER_PAIRS[3..].iter().map(|&(k, l)| [e.corners[k], e.corners[l]]));
-        sides.chain(self.springs.iter().map(|s| s.ends)).collect()
+        let springs =
+            self.springs.iter().flat_map(|s| CORNER_PAIRS[3..].iter().map(|&(k, l)| [s.nodes[k], s.nodes[l]]));
+        sides.chain(springs).filter(free).collect()
     }
 
     /// The energy; infinite where a triangle is flipped.
@@ -84,23 +73,32 @@ impl Energy {
             }
         }
         for s in &self.springs {
-            let [a, b] = s.ends.map(|v| v as usize);
-            let along = flat[b] - flat[a];
+            let along = s.along(flat);
             let length = along.norm();
             if length > 0.0 {
-                let scale = s.tension(length) / (length * self.total_area);
-                out[a] -= along * scale;
-                out[b] += along * scale;
+                let force = along * (s.tension(length) / (length * self.total_area));
+                for (v, share) in s.nodes.into_iter().zip(s.shares) {
+                    out[v as usize] += force * share;
+                }
             }
         }
+        out[self.free..].fill(Vec2::zeros());
     }
 }
 
 impl Energy {
+    pub(super) fn held(&self) -> &[Spring] {
+        &self.springs[..self.held]
+    }
+
+    pub(super) fn held_mut(&mut self) -> &mut [Spring] {
+        &mut self.springs[..self.held]
+    }
+
     /// The share by which held springs are too long or too short in the mean: no chain of them is off by more than this share
     /// of the length of all.
     pub(super) fn slack(&self, flat: &[Vec2]) -> f64 {
-        let held = &self.springs[..self.held];
+        let held = self.held();
         let off: f64 = held.iter().map(|s| (s.length(flat) - s.target).abs()).sum();
         if held.is_empty() { 0.0 } else { off / held.iter().map(|s| s.target).sum::<f64>() }
     }
@@ -108,83 +106,37 @@ impl Energy {
     /// Lets every held spring keep the force it has as its own (method of multipliers: Hestenes 1969, Powell 1969): in the
     /// next minimum it needs less excess for it.
     pub(super) fn hold(&mut self, flat: &[Vec2]) {
-        for s in &mut self.springs[..self.held] {
-            s.pull = s.tension(s.length(flat)) * s.target;
+        for s in self.held_mut() {
+            s.hold(flat);
         }
-    }
-}
-
-impl Spring {
-    pub(super) fn length(&self, flat: &[Vec2]) -> f64 {
-        (flat[self.ends[1] as usize] - flat[self.ends[0] as usize]).norm()
-    }
-
-    /// Share by which it is too long.
-    fn excess(&self, length: f64) -> f64 {
-        length / self.target - 1.0
-    }
-
-    fn energy(&self, flat: &[Vec2]) -> f64 {
-        let excess = self.excess(self.length(flat));
-        (self.weight * excess + self.pull) * excess
-    }
-
-    /// Derivative of its energy by its length, m.
-    fn tension(&self, length: f64) -> f64 {
-        (2.0 * self.weight * self.excess(length) + self.pull) / self.target
-    }
-
-    /// The positive semidefinite part of its second derivative by one end.
-    fn curvature(&self, flat: &[Vec2]) -> Matrix2<f64> {
-        let along = flat[self.ends[1] as usize] - flat[self.ends[0] as usize];
-        let length = along.norm();
-        let stiffness = 2.0 * self.weight / (self.target * self.target);
-        if length <= 0.0 {
-            return Matrix2::identity() * stiffness;
-        }
-        let n = along / length;
-        let dyad = n * n.transpose();
-        // A compressed spring pushes sideways: that part is negative and left out.
-        let across = (self.tension(length) / length).max(0.0);
-        dyad * stiffness + (Matrix2::identity() - dyad) * across
     }
 }
 
 /// The second derivative of an [`Energy`], made positive definite, with the places of its blocks worked out once.
 pub(super) struct Curvature {
     matrix: SymmetricMatrix<Real>,
-    element_slots: Vec<[BlockSlot; 6]>,
-    /// End a, end b, and the two coupled.
-    spring_slots: Vec<[BlockSlot; 3]>,
+    /// None where a vertex stays where it is.
+    element_slots: Vec<[Option<BlockSlot>; 6]>,
+    spring_slots: Vec<[Option<BlockSlot>; 6]>,
     ties: Vec<(BlockSlot, f64)>,
 }
 
 impl Curvature {
     pub(super) fn new(energy: &Energy) -> Result<Self, FlattenError> {
         let pairs = energy.couplings().into_iter().map(|[a, b]| (a as usize, b as usize));
-        let pattern = SymmetricPattern::planar_blocks(energy.vertices, pairs);
-        let pattern = Arc::new(pattern.map_err(|_| FlattenError::Breakdown)?);
-        // Every pair asked for below was given above.
-        let slot = |i: u32, j: u32| pattern.block_slot(i as usize, j as usize).ok_or(FlattenError::Breakdown);
-        let mut element_slots = Vec::with_capacity(energy.elements.len());
+        let pattern = SymmetricPattern::planar_blocks(energy.free, pairs).map_err(|_| FlattenError::Breakdown)?;
+        let pattern = Arc::new(pattern);
+        let slots =
+            |nodes: [u32; 3]| CORNER_PAIRS.map(|(k, l)| pattern.block_slot(nodes[k] as usize, nodes[l] as usize));
+        let element_slots = energy.elements.iter().map(|e| slots(e.corners)).collect();
+        let spring_slots = energy.springs.iter().map(|s| slots(s.nodes)).collect();
         let mut ties = vec![0.0; energy.vertices];
         for e in &energy.elements {
-            let mut slots = [slot(e.corners[0], e.corners[0])?; 6];
-            for (place, (k, l)) in slots.iter_mut().zip(CORNER_PAIRS) {
-                *place = slot(e.corners[k], e.corners[l])?;
-            }
-            element_slots.push(slots);
             for v in e.corners {
                 ties[v as usize] += TIE * e.area / 3.0 / (energy.total_area * energy.total_area);
             }
         }
-        let spring_slots = energy.springs.iter().map(|s| {
-            let [a, b] = s.ends;
-            Ok([slot(a, a)?, slot(b, b)?, slot(b, a)?])
-        });
-        let spring_slots = spring_slots.collect::<Result<_, FlattenError>>()?;
-        let ties = ties.into_iter().enumerate().map(|(v, tie)| Ok((slot(v as u32, v as u32)?, tie)));
-        let ties = ties.collect::<Result<_, FlattenError>>()?;
+        let ties = ties.into_iter().enumerate().filter_map(|(v, tie)| Some((pattern.block_slot(v, v)?, tie))).collect();
         Ok(Self { matrix: SymmetricMatrix::zeros(pattern), element_slots, spring_slots, ties })
     }
 
@@ -194,15 +146,20 @@ impl Curvature {
         for (e, slots) in energy.elements.iter().zip(&self.element_slots) {
             let mut blocks = [Matrix2::zeros(); 6];
             energy.law.modes(&e.jacobian(flat), |mode| e.add_mode(mode, &mut blocks));
-            for (&slot, block) in slots.iter().zip(blocks) {
-                self.matrix.add_block(slot, &(block * (e.area / energy.total_area)));
+            for (slot, block) in slots.iter().zip(blocks) {
+                if let Some(slot) = slot {
+                    self.matrix.add_block(*slot, &(block * (e.area / energy.total_area)));
+                }
             }
         }
         for (s, slots) in energy.springs.iter().zip(&self.spring_slots) {
             let block = s.curvature(flat) / energy.total_area;
-            self.matrix.add_block(slots[0], &block);
-            self.matrix.add_block(slots[1], &block);
-            self.matrix.add_block(slots[2], &-block);
+            for (slot, (k, l)) in slots.iter().zip(CORNER_PAIRS) {
+                let share = s.shares[k] * s.shares[l];
+                if let Some(slot) = slot.filter(|_| share != 0.0) {
+                    self.matrix.add_block(slot, &(block * share));
+                }
+            }
         }
         self.tie(1.0)
     }

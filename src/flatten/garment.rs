@@ -89,7 +89,7 @@ fn flatten_piece(
     let start = match (check_start(&surface, drawn), &rims[..]) {
         (Ok(()), _) => drawn.to_vec(),
         // A drawing with flaws is no start, but a disk does not need it.
-        (Err(_), [rim]) => start::start(&surface, &topology, rim)?,
+        (Err(_), [rim]) => start::start(&surface, &topology, rim)?.0,
         (Err(flaw), _) => return Err(flaw),
     };
     let mut sheet = Sheet::as_it_is(&surface, topology, rims);

@@ -14,6 +14,7 @@
 //! convention of drawn pieces, clockwise on a screen with y down.
 
 mod align;
+mod coarse;
 mod cut;
 mod distortion;
 mod element;
@@ -25,9 +26,11 @@ mod law;
 mod measure;
 mod overlap;
 mod relax;
+mod spring;
 mod start;
 mod topology;
 mod woven;
+mod zone;
 
 pub use cut::{Solid, dart, disk_cuts, shortest_path};
 pub use error::FlattenError;
@@ -40,8 +43,11 @@ use std::collections::HashMap;
 use crate::geometry::{Topology, TriMesh, Vec2};
 use distortion::Weights;
 use element::Element;
-use energy::{Energy, Spring, Springs};
+use energy::Energy;
 use law::Law;
+use relax::{Descent, Goal};
+use spring::{Spring, Springs};
+use zone::Zone;
 
 /// Stiffness of rim edges in the modes that keep the boundary, for a piece one metre square. This alone brings the rim
 /// of a bodice without darts to 0.05 %; the forces that hold it do the rest.
@@ -106,6 +112,9 @@ impl Default for Options {
 pub struct Flattened {
     /// Flat position of every vertex, metres.
     pub positions: Vec<Vec2>,
+    /// Logarithm of the scale at every vertex of the conformal map that keeps the rim's lengths: where a cut helps most
+    /// ([`dart`]). Empty where no such map was computed.
+    pub log_scale: Vec<f64>,
     /// What it did to the cloth.
     pub report: Report,
 }
@@ -122,12 +131,13 @@ pub struct Flattened {
 pub fn flatten(surface: &TriMesh, options: &Options) -> Result<Flattened, FlattenError> {
     let (topology, rims) = topology::check(surface)?;
     let [rim] = &rims[..] else { return Err(FlattenError::Rims(rims.len())) };
-    let mut start = start::start(surface, &topology, rim)?;
+    let (mut start, log_scale) = start::start(surface, &topology, rim)?;
     align::upright(&mut start, surface);
     let sheet = Sheet::as_it_is(surface, topology, rims);
     let mut flattened = relax_sheet(&sheet, start, options)?;
     // Not turned again: the woven mode's grain is the plane's.
     align::centre(&mut flattened.positions);
+    flattened.log_scale = log_scale;
     Ok(flattened)
 }
 
@@ -194,7 +204,7 @@ impl<'a> Sheet<'a> {
     /// bends a little in every vertex.
     fn rim_springs(&self) -> Springs {
         let size = self.elements.iter().map(|e| e.area).sum::<f64>().sqrt();
-        let spring = |ends, target| Spring { ends, target, weight: RIM_WEIGHT * size * target, pull: 0.0 };
+        let spring = |ends, target| Spring::between(ends, target, RIM_WEIGHT * size * target);
         let edges = self.topology.rim_edges().map(|e| e.ends);
         let targets: Vec<([u32; 2], f64)> = edges.zip(self.rim_targets.iter().copied()).collect();
         let of_edge: HashMap<[u32; 2], f64> = targets.iter().copied().collect();
@@ -226,7 +236,7 @@ impl<'a> Sheet<'a> {
                 None => rim_targets.next().copied(),
             };
             let target = target.unwrap_or_else(|| measure::length(self.surface, e.ends));
-            Spring { ends: e.ends, target, weight: area / 3.0, pull: 0.0 }
+            Spring::between(e.ends, target, area / 3.0)
         });
         Springs { held: Vec::new(), free: springs.collect() }
     }
@@ -235,7 +245,13 @@ impl<'a> Sheet<'a> {
 fn relax_sheet(sheet: &Sheet<'_>, start: Vec<Vec2>, options: &Options) -> Result<Flattened, FlattenError> {
     let mut positions = start;
     let mut energy = sheet.energy(options.mode);
-    let outcome = relax::relax(&mut energy, &mut positions, options)?;
+    let mut zone = None;
+    if options.mode.keeps_rim() {
+        coarse::approach(&energy, &mut positions);
+        zone = Zone::new(&energy, &positions);
+    }
+    let mut descent = Descent::new(&energy, &positions)?;
+    let outcome = descent.down(&mut energy, &mut positions, &Goal::of(options), zone.as_mut())?;
     let report = measure::report(sheet, &positions, &outcome);
-    Ok(Flattened { positions, report })
+    Ok(Flattened { positions, log_scale: Vec::new(), report })
 }

@@ -6,6 +6,7 @@
 //! 2015, section 3.3).
 
 use super::energy::{Curvature, Energy, Real};
+use super::zone::Zone;
 use super::{FlattenError, Mode, Options};
 use crate::geometry::{Vec2, Vec3};
 use crate::linear::{Cholesky, Ordering, nested_dissection};
@@ -41,78 +42,126 @@ pub(super) struct Outcome {
     pub(super) converged: bool,
 }
 
-/// Moves `flat`, which must have no flipped triangle, to a minimum of `energy`. Converged when the next step promises
-/// to win less than `options.tolerance` of the energy and, where `options.mode` keeps the rim, its edges have their
-/// lengths; the forces that hold them are then those in `energy`.
-pub(super) fn relax(energy: &mut Energy, flat: &mut [Vec2], options: &Options) -> Result<Outcome, FlattenError> {
-    let mut curvature = Curvature::new(energy)?;
-    let order = Ordering::Given(nested_dissection(&lifted(flat), &energy.couplings()));
-    let mut factor = Cholesky::new(curvature.pattern().clone(), &order).map_err(|_| FlattenError::Breakdown)?;
-    let mut memory = Memory::default();
-    let mut gradient = vec![Vec2::zeros(); flat.len()];
-    let mut value = energy.value(flat);
-    energy.gradient(flat, &mut gradient);
-    let mut stale = true;
-    let mut holds = if options.mode.keeps_rim() { HOLDS } else { 0 };
-    let mut held = false;
-    let exact = if options.mode == Mode::Boundary { RIM_EXACT[0] } else { RIM_EXACT[1] };
-    for iterations in 0..options.max_iterations {
-        let fresh = stale || memory.pairs.len() >= STEPS_PER_FACTOR;
-        if fresh {
-            renew(&mut factor, &mut curvature, energy, flat)?;
-            memory.pairs.clear();
+/// When to stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Goal {
+    /// Settled when the next step promises to win less than this share of the energy.
+    pub(super) tolerance: f64,
+    pub(super) max_iterations: usize,
+    /// How often the forces that hold the springs may be found anew.
+    pub(super) holds: usize,
+    /// The mean share by which held springs may be off: with this they need no other forces.
+    pub(super) exact: f64,
+}
+
+impl Goal {
+    pub(super) fn of(options: &Options) -> Self {
+        Self {
+            tolerance: options.tolerance,
+            max_iterations: options.max_iterations,
+            holds: if options.mode.keeps_rim() { HOLDS } else { 0 },
+            exact: if options.mode == Mode::Boundary { RIM_EXACT[0] } else { RIM_EXACT[1] },
         }
-        let direction = memory.direction(&gradient, &factor);
-        let slope = dot(&direction, &gradient);
-        let settled = -slope <= (options.tolerance * value.abs()).max(ENERGY_FLOOR);
-        if settled && (holds == 0 || energy.slack(flat) <= exact) {
-            return Ok(Outcome { energy: value, iterations, converged: true });
-        }
-        // Forces are found from lengths, so every time they have changed the lengths must answer first.
-        if settled && !std::mem::replace(&mut held, true) {
-            // What is left of the way is short: one factor at its beginning serves to its end.
-            stale = holds == HOLDS;
-            holds -= 1;
-            energy.hold(flat);
-            value = energy.value(flat);
-            energy.gradient(flat, &mut gradient);
-            continue;
-        }
-        held = false;
-        let Some((step, lower)) = search(energy, flat, &direction, slope, value) else {
-            if fresh {
-                // The factor is that of this very place: rounding hides what is left to win.
-                return Ok(Outcome { energy: value, iterations, converged: settled });
-            }
-            stale = true;
-            continue;
-        };
-        stale = step < SHORT;
-        value = lower;
-        advance(flat, &direction, step);
-        let before = std::mem::replace(&mut gradient, vec![Vec2::zeros(); flat.len()]);
-        energy.gradient(flat, &mut gradient);
-        memory.remember(&direction, step, &before, &gradient);
     }
-    Ok(Outcome { energy: value, iterations: options.max_iterations, converged: false })
+}
+
+/// A way down an energy, prepared for its couplings.
+pub(super) struct Descent {
+    curvature: Curvature,
+    factor: Cholesky<Real>,
+}
+
+impl Descent {
+    pub(super) fn new(energy: &Energy, flat: &[Vec2]) -> Result<Self, FlattenError> {
+        let curvature = Curvature::new(energy)?;
+        let order = Ordering::Given(nested_dissection(&lifted(&flat[..energy.free]), &energy.couplings()));
+        let factor = Cholesky::new(curvature.pattern().clone(), &order).map_err(|_| FlattenError::Breakdown)?;
+        Ok(Self { curvature, factor })
+    }
+
+    /// Moves `flat`, which must have no flipped triangle, to a minimum of `energy`. Converged when the goal is met; the
+    /// forces that hold the springs are then those in `energy`. On the long way to the first minimum `zone` settles
+    /// before every step.
+    pub(super) fn down(
+        &mut self,
+        energy: &mut Energy,
+        flat: &mut [Vec2],
+        goal: &Goal,
+        mut zone: Option<&mut Zone>,
+    ) -> Result<Outcome, FlattenError> {
+        let mut memory = Memory::default();
+        let mut gradient = vec![Vec2::zeros(); flat.len()];
+        let mut value = energy.value(flat);
+        energy.gradient(flat, &mut gradient);
+        let mut stale = true;
+        let mut holds = goal.holds;
+        let mut held = false;
+        for iterations in 0..goal.max_iterations {
+            let zone = zone.as_deref_mut().filter(|_| holds == goal.holds);
+            if zone.is_some_and(|zone| zone.settle(flat)) {
+                value = energy.value(flat);
+                energy.gradient(flat, &mut gradient);
+                memory.pairs.clear();
+            }
+            let fresh = stale || memory.pairs.len() >= STEPS_PER_FACTOR;
+            if fresh {
+                self.renew(energy, flat)?;
+                memory.pairs.clear();
+            }
+            let direction = memory.direction(&gradient, &self.factor, energy.free);
+            let slope = dot(&direction, &gradient);
+            let settled = -slope <= (goal.tolerance * value.abs()).max(ENERGY_FLOOR);
+            if settled && (holds == 0 || energy.slack(flat) <= goal.exact) {
+                return Ok(Outcome { energy: value, iterations, converged: true });
+            }
+            // Forces are found from lengths, so every time they have changed the lengths must answer first.
+            if settled && !std::mem::replace(&mut held, true) {
+                // What is left of the way is short: one factor at its beginning serves to its end.
+                stale = holds == goal.holds;
+                holds -= 1;
+                energy.hold(flat);
+                value = energy.value(flat);
+                energy.gradient(flat, &mut gradient);
+                continue;
+            }
+            held = false;
+            let Some((step, lower)) = search(energy, flat, &direction, slope, value) else {
+                if fresh {
+                    // The factor is that of this very place: rounding hides what is left to win.
+                    return Ok(Outcome { energy: value, iterations, converged: settled });
+                }
+                stale = true;
+                continue;
+            };
+            stale = step < SHORT;
+            value = lower;
+            advance(flat, &direction, step);
+            let before = std::mem::replace(&mut gradient, vec![Vec2::zeros(); flat.len()]);
+            energy.gradient(flat, &mut gradient);
+            memory.remember(&direction, step, &before, &gradient);
+        }
+        Ok(Outcome { energy: value, iterations: goal.max_iterations, converged: false })
+    }
+
+    /// Factors the curvature at `flat`, tied down more and more where it is not positive to rounding.
+    fn renew(&mut self, energy: &Energy, flat: &[Vec2]) -> Result<(), FlattenError> {
+        let mut made = self.factor.factor(self.curvature.update(energy, flat));
+        for times in TIES {
+            made = made.or_else(|_| self.factor.factor(self.curvature.tie(times)));
+        }
+        made.map_err(|_| FlattenError::Breakdown)
+    }
 }
 
 fn lifted(flat: &[Vec2]) -> Vec<Vec3> {
     flat.iter().map(|p| Vec3::new(p.x, p.y, 0.0)).collect()
 }
 
-/// Factors the curvature at `flat`, tied down more and more where it is not positive to rounding.
-fn renew(
-    factor: &mut Cholesky<Real>,
-    curvature: &mut Curvature,
-    energy: &Energy,
-    flat: &[Vec2],
-) -> Result<(), FlattenError> {
-    let mut made = factor.factor(curvature.update(energy, flat));
-    for times in TIES {
-        made = made.or_else(|_| factor.factor(curvature.tie(times)));
+/// Goes along `direction` as far as the energy falls and nothing flips, if only so far as not at all.
+pub(super) fn go(energy: &Energy, flat: &mut [Vec2], direction: &[Vec2]) {
+    if let Some((step, _)) = search(energy, flat, direction, 0.0, energy.value(flat)) {
+        advance(flat, direction, step);
     }
-    made.map_err(|_| FlattenError::Breakdown)
 }
 
 /// Backtracks from the full step, or from just before the first flip, to a lower energy; the step and that energy.
@@ -193,7 +242,7 @@ impl Memory {
     }
 
     /// Minus the guessed inverse curvature times the gradient (two-loop recursion).
-    fn direction(&self, gradient: &[Vec2], factor: &Cholesky<Real>) -> Vec<Vec2> {
+    fn direction(&self, gradient: &[Vec2], factor: &Cholesky<Real>, free: usize) -> Vec<Vec2> {
         let mut d: Vec<Vec2> = gradient.iter().map(|g| -g).collect();
         let mut shares = Vec::with_capacity(self.pairs.len());
         for pair in self.pairs.iter().rev() {
@@ -202,7 +251,8 @@ impl Memory {
             shares.push(share);
         }
         let mut flat: Vec<f64> = d.iter().flat_map(|v| [v.x, v.y]).collect();
-        factor.solve_f64(&mut flat);
+        // What stays where it is has no row.
+        factor.solve_f64(&mut flat[..2 * free]);
         for (d, xy) in d.iter_mut().zip(flat.chunks_exact(2)) {
             *d = Vec2::new(xy[0], xy[1]);
         }

@@ -6,20 +6,23 @@ use super::FlattenError;
 use super::harmonic::{Laplacian, Weights};
 use crate::geometry::{Topology, TriMesh, Vec2};
 
+/// A first flat position, and the logarithm of the scale at every vertex of the conformal map that keeps the rim's
+/// lengths; no scales where that map cannot be computed.
+pub(super) type Start = (Vec<Vec2>, Vec<f64>);
+
 /// Lays a disk flat: conformally with the rim's own lengths if that flips nothing, else onto a circle.
 ///
 /// # Errors
 /// If even the map onto a circle has a triangle without area (rounding in a very large or uneven mesh).
-pub(super) fn start(surface: &TriMesh, topology: &Topology, rim: &[u32]) -> Result<Vec<Vec2>, FlattenError> {
+pub(super) fn start(surface: &TriMesh, topology: &Topology, rim: &[u32]) -> Result<Start, FlattenError> {
     let on_rim = marked(surface, rim);
-    if let Ok(flat) = boundary_first(surface, topology, rim, &on_rim)
-        && first_flipped(&surface.triangles, &flat).is_none()
-    {
-        return Ok(flat);
+    let (flat, scale) = boundary_first(surface, topology, rim, &on_rim).unwrap_or_default();
+    if !flat.is_empty() && first_flipped(&surface.triangles, &flat).is_none() {
+        return Ok((flat, scale));
     }
     let flat = onto_circle(surface, topology, rim, &on_rim)?;
     match first_flipped(&surface.triangles, &flat) {
-        None => Ok(flat),
+        None => Ok((flat, scale)),
         Some(t) => Err(FlattenError::FlippedStart(t)),
     }
 }
@@ -35,12 +38,7 @@ pub(super) fn first_flipped(triangles: &[[u32; 3]], flat: &[Vec2]) -> Option<usi
 
 /// Boundary-first flattening with free angles and fixed rim lengths (Sawhney & Crane 2017, sections 4.1, 4.3 and 6):
 /// scale factor 0 along the rim, hence lengths exact up to closing the curve.
-fn boundary_first(
-    surface: &TriMesh,
-    topology: &Topology,
-    rim: &[u32],
-    on_rim: &[bool],
-) -> Result<Vec<Vec2>, FlattenError> {
+fn boundary_first(surface: &TriMesh, topology: &Topology, rim: &[u32], on_rim: &[bool]) -> Result<Start, FlattenError> {
     let laplacian = Laplacian::new(surface, topology, on_rim, Weights::Cotangent)?;
     let angles = angle_sums(surface);
     let scale = yamabe(&laplacian, &angles);
@@ -49,7 +47,7 @@ fn boundary_first(
     let turning: Vec<f64> = rim.iter().map(|&v| PI - angles[v as usize] + flux[v as usize]).collect();
     let lengths: Vec<f64> = rim_lengths(surface, rim);
     let outline = closed_curve(&lengths, &turning);
-    Ok(extend(&laplacian, surface.vertices.len(), rim, &outline))
+    Ok((extend(&laplacian, surface.vertices.len(), rim, &outline), scale))
 }
 
 /// The u with Δu = K inside and u = 0 on the rim (Yamabe). A is −Δ, integrated.
@@ -58,12 +56,6 @@ fn yamabe(laplacian: &Laplacian, angles: &[f64]) -> Vec<f64> {
     let mut scale = vec![0.0; angles.len()];
     laplacian.solve(&source, &mut scale);
     scale
-}
-
-/// Logarithm of the scale at every vertex of the conformal map that keeps the rim's lengths.
-pub(super) fn log_scale(surface: &TriMesh, topology: &Topology, rim: &[u32]) -> Result<Vec<f64>, FlattenError> {
-    let laplacian = Laplacian::new(surface, topology, &marked(surface, rim), Weights::Cotangent)?;
-    Ok(yamabe(&laplacian, &angle_sums(surface)))
 }
 
 fn marked(surface: &TriMesh, rim: &[u32]) -> Vec<bool> {

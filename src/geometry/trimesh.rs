@@ -36,21 +36,15 @@ pub struct Topology {
 impl Topology {
     /// Reads the connectivity of `triangles`.
     pub fn new(triangles: &[[u32; 3]]) -> Self {
-        let mut half: Vec<([u32; 2], u32, bool)> = Vec::with_capacity(3 * triangles.len());
-        for (t, tri) in triangles.iter().enumerate() {
-            for k in 0..3 {
-                let (a, b) = (tri[k], tri[(k + 1) % 3]);
-                half.push(([a.min(b), a.max(b)], t as u32, a < b));
-            }
-        }
-        half.sort_unstable();
-        let mut out = Self::default();
-        for group in half.chunk_by(|x, y| x.0 == y.0) {
-            out.edges.push(Edge { ends: group[0].0, triangles: [Some(group[0].1), group.get(1).map(|h| h.1)] });
+        let sides = sides(triangles);
+        let mut out = Self { edges: Vec::with_capacity(sides.len() / 2), ..Self::default() };
+        for group in sides.chunk_by(|x, y| x.ends == y.ends) {
+            let triangle = |k: usize| group.get(k).map(|s: &Side| s.index / 3);
+            out.edges.push(Edge { ends: group[0].ends, triangles: [triangle(0), triangle(1)] });
             if group.len() > 2 {
-                out.non_manifold.push(group[0].0);
-            } else if group.len() == 2 && group[0].2 == group[1].2 {
-                out.misoriented.push([group[0].1, group[1].1]);
+                out.non_manifold.push(group[0].ends);
+            } else if group.len() == 2 && group[0].rising == group[1].rising {
+                out.misoriented.push([group[0].index / 3, group[1].index / 3]);
             }
         }
         out
@@ -62,6 +56,52 @@ impl Topology {
     }
 }
 
+/// A triangle's side.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+struct Side {
+    /// Its ends, the smaller first.
+    ends: [u32; 2],
+    /// Three times the triangle, plus the place of its first corner in it.
+    index: u32,
+    /// Whether the triangle runs from the smaller end to the larger.
+    rising: bool,
+}
+
+/// The sides of all triangles, sorted. Vertices are mostly numbered without large gaps, so the sides are spread over
+/// drawers by their smaller end first, and what is in a drawer is soon sorted.
+fn sides(triangles: &[[u32; 3]]) -> Vec<Side> {
+    let all = || {
+        triangles.iter().enumerate().flat_map(|(t, tri)| {
+            (0..3).map(move |k| {
+                let (a, b) = (tri[k], tri[(k + 1) % 3]);
+                Side { ends: [a.min(b), a.max(b)], index: (3 * t + k) as u32, rising: a < b }
+            })
+        })
+    };
+    let largest = triangles.iter().flatten().copied().max().unwrap_or(0) as usize;
+    let mut shift = 0;
+    while largest >> shift > 3 * triangles.len() {
+        shift += 1;
+    }
+    let drawer = |side: &Side| (side.ends[0] >> shift) as usize;
+    let mut starts = vec![0u32; (largest >> shift) + 2];
+    all().for_each(|side| starts[drawer(&side) + 1] += 1);
+    for k in 1..starts.len() {
+        starts[k] += starts[k - 1];
+    }
+    let mut at = starts.clone();
+    let mut sorted = vec![Side::default(); 3 * triangles.len()];
+    for side in all() {
+        let place = &mut at[drawer(&side)];
+        sorted[*place as usize] = side;
+        *place += 1;
+    }
+    for range in starts.windows(2) {
+        sorted[range[0] as usize..range[1] as usize].sort_unstable();
+    }
+    sorted
+}
+
 /// Rim loops of an oriented mesh: closed vertex chains that run with their triangles. Where rims touch in one vertex
 /// they are walked as one loop if the walk meets that vertex again before closing.
 ///
@@ -69,20 +109,21 @@ impl Topology {
 /// that run opposite ways cancel, and what is left is the rim: a pleated waist is one loop. A rim of several layers is
 /// one loop, not several.
 pub fn rim_loops(triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
-    let sides = || triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).filter(|(a, b)| a != b);
-    // How many more triangles run along the edge than against it.
-    let mut surplus: HashMap<(u32, u32), usize> = HashMap::new();
-    for (a, b) in sides() {
-        match surplus.get_mut(&(b, a)).filter(|n| **n > 0) {
-            Some(against) => *against -= 1,
-            None => *surplus.entry((a, b)).or_default() += 1,
+    // Where more triangles run along an edge than against it: the first of them, the edge, and how many more.
+    let mut surplus = Vec::new();
+    for group in sides(triangles).chunk_by(|x, y| x.ends == y.ends) {
+        let ([a, b], rising) = (group[0].ends, group.iter().filter(|s| s.rising).count());
+        let (more, less) = (rising.max(group.len() - rising), rising.min(group.len() - rising));
+        let along = rising == more;
+        let first = group.iter().find(|s| s.rising == along);
+        if let Some(first) = first.filter(|_| more > less && a != b) {
+            surplus.push((first.index, if along { [a, b] } else { [b, a] }, more - less));
         }
     }
+    surplus.sort_unstable();
     let mut next: HashMap<u32, Vec<u32>> = HashMap::new();
-    for (a, b) in sides() {
-        if let Some(layers) = surplus.remove(&(a, b)) {
-            next.entry(a).or_default().extend(std::iter::repeat_n(b, layers));
-        }
+    for (_, [a, b], layers) in surplus {
+        next.entry(a).or_default().extend(std::iter::repeat_n(b, layers));
     }
     let mut starts: Vec<u32> = next.keys().copied().collect();
     starts.sort_unstable();

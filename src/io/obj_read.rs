@@ -3,6 +3,7 @@
 //! obj-rs reads 32-bit numbers, refuses vertex colours (`v x y z r g b`) and says no line when it fails. So a first pass
 //! here reads the positions in full precision, checks every index and hands obj-rs a file of bare `v` and `f` lines.
 
+use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -196,44 +197,44 @@ impl ObjFaces {
 }
 
 /// Lines without comments, those ending in a backslash joined with the next, each with the number of its first line.
-fn logical_lines(text: &str) -> impl Iterator<Item = (usize, String)> {
+fn logical_lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
     let mut lines = text.lines().enumerate();
     std::iter::from_fn(move || {
         let (number, first) = lines.next()?;
-        let mut whole = String::new();
-        let mut part = first;
-        loop {
-            let code = part.split('#').next().unwrap_or("").trim_end();
-            let Some(open) = code.strip_suffix('\\') else {
-                whole.push_str(code);
-                break;
-            };
-            whole.push_str(open);
-            whole.push(' ');
-            match lines.next() {
-                Some((_, next)) => part = next,
-                None => break,
-            }
+        let mut whole = Cow::Borrowed(code(first));
+        while whole.ends_with('\\') {
+            let joined = whole.to_mut();
+            joined.pop();
+            joined.push(' ');
+            joined.push_str(lines.next().map_or("", |(_, next)| code(next)));
         }
         Some((number + 1, whole))
     })
 }
 
+/// A line without its comment.
+fn code(line: &str) -> &str {
+    line.split('#').next().unwrap_or("").trim_end()
+}
+
 /// `x y z`, after which a weight or a colour may follow.
 fn position<'a>(words: impl Iterator<Item = &'a str>) -> Result<Vec3, String> {
-    let mut numbers = Vec::with_capacity(3);
+    let mut numbers = Vec3::zeros();
+    let mut count = 0;
     for word in words {
         match word.parse::<f64>() {
             // obj-rs reads 32 bits; what overflows there is no body in any unit.
-            Ok(v) if (v as f32).is_finite() => numbers.push(v),
+            Ok(v) if (v as f32).is_finite() => {
+                if let Some(number) = numbers.get_mut(count) {
+                    *number = v;
+                }
+                count += 1;
+            }
             Ok(_) => return Err(format!("coordinate '{}' is not finite", shown(word, WORD))),
             Err(_) => return Err(format!("'{}' is no number; a vertex is v x y z", shown(word, WORD))),
         }
     }
-    match numbers[..] {
-        [x, y, z, ..] => Ok(Vec3::new(x, y, z)),
-        _ => Err(format!("{} coordinates; a vertex is v x y z", numbers.len())),
-    }
+    if count < 3 { Err(format!("{count} coordinates; a vertex is v x y z")) } else { Ok(numbers) }
 }
 
 /// `u v`, after which a depth may follow.

@@ -37,20 +37,22 @@ pub fn draw_flat(cloth: &ClothMesh, values: &[f64], title: &str) -> Result<Vec<u
         let p = (cloth.flat[v as usize] - places[piece].from) * scale + places[piece].to;
         [p.x as f32, p.y as f32]
     };
+    let mut shapes = Vec::with_capacity(cloth.triangles.len());
+    for (k, piece) in cloth.pieces.iter().enumerate() {
+        for t in piece.triangles.clone() {
+            let color = strain((values[t] / limit) as f32);
+            let corner = |v: u32| {
+                let [x, y] = at(k, v);
+                Corner { at: [x * SAMPLES as f32, y * SAMPLES as f32, 0.0], color }
+            };
+            shapes.push(cloth.triangles[t].map(corner));
+        }
+    }
     let mut canvas = Canvas::new(WIDTH, HEIGHT, PAPER);
     for top in (HEAD..HEIGHT).step_by(BAND) {
         let rows = BAND.min(HEIGHT - top);
         let mut band = Band::new(WIDTH * SAMPLES, top * SAMPLES, rows * SAMPLES);
-        for (k, piece) in cloth.pieces.iter().enumerate() {
-            for t in piece.triangles.clone() {
-                let color = strain((values[t] / limit) as f32);
-                let corner = |v: u32| {
-                    let [x, y] = at(k, v);
-                    Corner { at: [x * SAMPLES as f32, y * SAMPLES as f32, 0.0], color }
-                };
-                band.triangle(&cloth.triangles[t].map(corner));
-            }
-        }
+        shapes.iter().for_each(|shape| band.triangle(shape));
         canvas.paste(0, top, WIDTH, &band.pixels());
     }
     for (k, piece) in cloth.pieces.iter().enumerate() {

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::super::error::PipelineError;
 use super::parts::{Nodes, Part, sorted};
 use super::report::DartReport;
-use crate::flatten::{self, FlattenError, disk_cuts, shortest_path};
+use crate::flatten::{self, FlattenError, Flattened, disk_cuts, shortest_path};
 use crate::io::obj_read::ObjFaces;
 
 /// Millimetres in a metre.
@@ -147,12 +147,12 @@ fn length(part: &Part, way: &[u32]) -> f64 {
 }
 
 /// Where a dart would relieve a part that is a disk; empty where none can be told.
-pub(super) fn dart(part: &Part) -> Vec<u32> {
-    flatten::dart(&part.surface, &part.diagonals).unwrap_or_default()
+pub(super) fn dart(part: &Part, flat: &Flattened) -> Vec<u32> {
+    flatten::dart(&part.surface, &flat.log_scale, &part.diagonals)
 }
 
 /// A dart as it is reported.
 pub(super) fn proposal(part: &Part, dart: &[u32]) -> Option<DartReport> {
-    let (&rim, &tip) = (dart.first()?, dart.last()?);
+    let [rim, .., tip] = *dart else { return None };
     Some(DartReport { rim: part.number(rim), tip: part.number(tip), length: length(part, dart) })
 }

@@ -72,8 +72,11 @@ pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurf
     }
     let textured = options.texture_seams && faces.texture_of_face.iter().any(|t| !t.is_empty());
     let nodes = Nodes::new(&faces, textured);
-    let whole = parts(&faces, &nodes, &Marks::default().edges, unit, &stem);
-    let mut marks = Marks::new(file, &faces, &nodes, &whole, &options.cuts)?;
+    let mut marks = Marks::default();
+    if options.cuts != Cuts::default() {
+        let whole = parts(&faces, &nodes, &marks.edges, unit, &stem);
+        marks = Marks::new(file, &faces, &nodes, &whole, &options.cuts)?;
+    }
     let mut darts = if options.darts { DARTS } else { 0 };
     let (parts, flat, proposals) = loop {
         let parts = parts(&faces, &nodes, &marks.edges, unit, &stem);
@@ -81,7 +84,7 @@ pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurf
         let mut proposals = Vec::with_capacity(parts.len());
         for (part, flat) in parts.iter().zip(&flat) {
             let strained = flat.report.strain_p99 > options.limit;
-            proposals.push(if strained { cuts::dart(part) } else { Vec::new() });
+            proposals.push(if strained { cuts::dart(part, flat) } else { Vec::new() });
         }
         let wanted = proposals.iter().filter(|d| d.len() > 1).count();
         if wanted == 0 || wanted > darts {

@@ -35,20 +35,35 @@ pub(super) struct Nodes {
     vertex: Vec<u32>,
 }
 
+/// No node.
+const NONE: u32 = u32::MAX;
+
+/// Group and, where it counts, texture position of a node.
+type NodeKey = (u32, Option<[u64; 2]>);
+
 impl Nodes {
     /// With `texture`, a vertex that has several texture positions is several nodes.
     pub(super) fn new(faces: &ObjFaces, texture: bool) -> Self {
-        let mut numbers = HashMap::new();
         let mut out = Self { of_face: Vec::with_capacity(faces.faces.len()), vertex: Vec::new() };
+        // The nodes of a vertex, which are few: the last made, and from each to the one before.
+        let mut last = vec![NONE; faces.vertices.len()];
+        let mut made: Vec<(NodeKey, u32)> = Vec::new();
         for (f, corners) in faces.faces.iter().enumerate() {
             let textured = faces.texture_of_face.get(f).filter(|t| texture && !t.is_empty());
             let nodes = corners.iter().enumerate().map(|(k, &v)| {
                 // Equal positions count as one even if they are written twice; −0 is 0.
                 let at = textured.map(|t| faces.texture[t[k] as usize].map(|x| (x + 0.0).to_bits()));
-                *numbers.entry((faces.group_of_face[f], v, at)).or_insert_with(|| {
+                let key = (faces.group_of_face[f], at);
+                let mut node = last[v as usize];
+                while node != NONE && made[node as usize].0 != key {
+                    node = made[node as usize].1;
+                }
+                if node == NONE {
+                    node = made.len() as u32;
+                    made.push((key, std::mem::replace(&mut last[v as usize], node)));
                     out.vertex.push(v);
-                    out.vertex.len() as u32 - 1
-                })
+                }
+                node
             });
             let nodes = nodes.collect();
             out.of_face.push(nodes);
@@ -75,9 +90,12 @@ fn sides(face: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
 /// The parts in the order of their first faces, group by group; named by their group or, without one, by `stem`.
 pub(super) fn parts(faces: &ObjFaces, nodes: &Nodes, cuts: &HashSet<[u32; 2]>, unit: f64, stem: &str) -> Vec<Part> {
     let fans = Fans::new(nodes, cuts);
+    let source = Source { faces, nodes, fans: &fans, unit };
+    let mut local = vec![0; fans.of_corner.len()];
     let mut parts: Vec<Part> = Vec::new();
-    for (g, group) in faces.groups.iter().enumerate() {
-        let own = (0..faces.faces.len() as u32).filter(|&f| faces.group_of_face[f as usize] == g as u32);
+    let mut of_group: Vec<Vec<u32>> = vec![Vec::new(); faces.groups.len()];
+    (0..).zip(&faces.group_of_face).for_each(|(f, &g)| of_group[g as usize].push(f));
+    for (group, own) in faces.groups.iter().zip(of_group) {
         let mut number = HashMap::new();
         let mut split: Vec<Vec<u32>> = Vec::new();
         for f in own {
@@ -89,10 +107,20 @@ pub(super) fn parts(faces: &ObjFaces, nodes: &Nodes, cuts: &HashSet<[u32; 2]>, u
         let several = split.len() > 1;
         for (k, own) in split.into_iter().enumerate() {
             let name = if several { format!("{name}.{}", k + 1) } else { name.to_owned() };
-            parts.push(Part::new(faces, nodes, &fans, name, own, unit));
+            parts.push(Part::new(&source, name, own, &mut local));
         }
     }
     parts
+}
+
+/// What parts are made from.
+#[derive(Clone, Copy)]
+struct Source<'a> {
+    faces: &'a ObjFaces,
+    nodes: &'a Nodes,
+    fans: &'a Fans,
+    /// Metres per unit of the file.
+    unit: f64,
 }
 
 /// Which corners are one vertex, and which faces one part.
@@ -159,7 +187,9 @@ fn fan(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> + '_ {
 }
 
 impl Part {
-    fn new(faces: &ObjFaces, nodes: &Nodes, fans: &Fans, name: String, own: Vec<u32>, unit: f64) -> Self {
+    /// `local` has room for every fan; a part uses its own places only.
+    fn new(source: &Source<'_>, name: String, own: Vec<u32>, local: &mut [u32]) -> Self {
+        let Source { faces, nodes, fans, unit } = *source;
         // Vertices in the file's order, of those that a cut has made of one the first face's first.
         let mut all: Vec<(u32, u32, u32)> = Vec::new();
         let fan_of = |f: u32, k: usize| fans.of_corner[fans.starts[f as usize] + k];
@@ -170,9 +200,9 @@ impl Part {
         }
         all.sort_unstable();
         all.dedup_by_key(|(_, fan, _)| *fan);
-        let local: HashMap<u32, u32> = all.iter().enumerate().map(|(k, &(_, fan, _))| (fan, k as u32)).collect();
-        let corners: Vec<Vec<u32>> =
-            own.iter().map(|&f| (0..faces.faces[f as usize].len()).map(|k| local[&fan_of(f, k)]).collect()).collect();
+        all.iter().enumerate().for_each(|(k, &(_, fan, _))| local[fan as usize] = k as u32);
+        let number = |f: u32| (0..faces.faces[f as usize].len()).map(move |k| fan_of(f, k));
+        let corners: Vec<Vec<u32>> = own.iter().map(|&f| number(f).map(|fan| local[fan as usize]).collect()).collect();
         let triangles = corners.iter().flat_map(|c| fan(c)).map(|[a, b, c]| [a, c, b]).collect();
         let vertices: Vec<u32> = all.iter().map(|a| a.0).collect();
         let positions = vertices.iter().map(|&v| faces.vertices[v as usize] * unit).collect();
