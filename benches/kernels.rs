@@ -29,7 +29,7 @@ const TRUST: f64 = 1.5e-3;
 fn main() -> Result<(), Box<dyn Error>> {
     let mut criterion = common::criterion();
     let job = common::job(GARMENT, SPACING)?;
-    let start = place(&job.garment, &job.mesh, &job.body)?;
+    let start = place(&job.garment, &job.mesh, &job.body, &job.collider)?;
     let sewn = sew(&job.cut(), &job.collider, start, &SewOptions::default(), &mut |_| {})?;
     factor(&mut criterion, &hung(&job, &sewn)?)?;
     detection(&mut criterion, &job, &hung(&job, &sewn)?);

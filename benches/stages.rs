@@ -23,13 +23,15 @@ const SPACING: f64 = 0.025;
 fn main() -> Result<(), Box<dyn Error>> {
     let mut criterion = common::criterion();
     let job = common::job(GARMENT, SPACING)?;
-    let start = place(&job.garment, &job.mesh, &job.body)?;
+    let start = place(&job.garment, &job.mesh, &job.body, &job.collider)?;
     let sewn = sewn(&job, &start)?;
     let draped = draped(&job, &sewn)?;
     let mut group = criterion.benchmark_group("stages");
     let named = |stage: &str| BenchmarkId::new(stage, format!("{} at {} mm", job.garment.name, 1e3 * SPACING));
     group.bench_function(named("mesh"), |b| b.iter(|| build(black_box(&job.garment), SPACING)));
-    group.bench_function(named("place"), |b| b.iter(|| place(&job.garment, black_box(&job.mesh), &job.body)));
+    group.bench_function(named("place"), |b| {
+        b.iter(|| place(&job.garment, black_box(&job.mesh), &job.body, &job.collider));
+    });
     group.bench_function(named("sew"), |b| b.iter(|| self::sewn(&job, black_box(&start)).is_ok()));
     group.bench_function(named("drape"), |b| b.iter(|| self::draped(&job, black_box(&sewn)).is_ok()));
     group.bench_function(named("flatten"), |b| {

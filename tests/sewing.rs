@@ -39,7 +39,8 @@ impl Made {
     }
 
     fn placed(&self, body: &Mannequin) -> Vec<Vec3> {
-        place(&self.garment, &self.mesh, body).expect("a place for every piece")
+        let collider = Collider::new(&body.mesh).expect("closed");
+        place(&self.garment, &self.mesh, body, &collider).expect("a place for every piece")
     }
 }
 
@@ -187,7 +188,7 @@ fn seams_that_meet_make_one_particle_of_four() {
 // Where the pieces start.
 
 #[test]
-fn shipped_garments_start_outside_their_bodies() {
+fn shipped_garments_start_outside_their_bodies_and_uncrossed() {
     for name in ["child_dress", "gore_skirt", "sheath_dress", "trousers", "tshirt"] {
         let file = format!("{}/patterns/{name}.yaml", env!("CARGO_MANIFEST_DIR"));
         let made = Made::new(&std::fs::read_to_string(file).expect("shipped"), 20.0);
@@ -201,6 +202,112 @@ fn shipped_garments_start_outside_their_bodies() {
             // Under an arm a few points may start in it, by less than sewing pushes out (15 mm).
             let said = format!("{name}: {inside} of {}, the deepest at {} mm", piece.name, deepest / MM);
             assert!(deepest > -10.0 * MM && 100 * inside <= piece.particles.len(), "{said}");
+        }
+        let cloth = TriMesh { vertices: start, triangles: made.mesh.triangles.clone() };
+        assert_eq!(crossings(&cloth).len(), 0, "{name}");
+    }
+}
+
+#[test]
+fn shoulder_seams_start_over_the_shoulders() {
+    for name in ["child_dress", "sheath_dress", "tshirt"] {
+        let file = format!("{}/patterns/{name}.yaml", env!("CARGO_MANIFEST_DIR"));
+        let made = Made::new(&std::fs::read_to_string(file).expect("shipped"), 20.0);
+        let body = load(made.garment.body.as_deref().expect("a body")).expect("shipped");
+        let neck =
+            body.parts.iter().find(|p| p.kind == PartKind::Neck).and_then(|p| p.sections.first()).expect("a neck");
+        let start = made.placed(&body);
+        for seam in made.mesh.seams.iter().filter(|s| s.name.starts_with("shoulder")) {
+            for [a, b] in seam.pairs.iter().map(|p| p.map(|p| start[p as usize])) {
+                // Nearer each other than the chest is deep, one before the other, and as high as shoulders are.
+                assert!((a - b).norm() < 130.0 * MM, "{name}: {} mm apart", (a - b).norm() / MM);
+                assert!(a.z > b.z, "{name}: front at {a}, back at {b}");
+                let low = (neck.center.y - a.y).max(neck.center.y - b.y);
+                assert!((-80.0 * MM..80.0 * MM).contains(&low), "{name}: {} mm under the neck", low / MM);
+            }
+        }
+    }
+}
+
+/// A skirt of two sectors of 130 degrees, waist 180 mm and hem 600 mm from their apex.
+fn circle_skirt() -> Made {
+    let at = |radius: f64, degrees: f64| {
+        let angle: f64 = degrees.to_radians();
+        format!("{} {}", radius * angle.sin(), radius * angle.cos())
+    };
+    let (a, b, c, d) = (at(180.0, -65.0), at(180.0, 65.0), at(600.0, 65.0), at(600.0, -65.0));
+    Made::new(
+        &format!(
+            "garment: 1\nbody: woman_92\nfabrics: {{shell: cotton_poplin}}\npieces:\n  front:\n    \
+             place: skirt front\n    grain: [[0, 250], [0, 550]]\n    \
+             outline: {{start: {a}, waist: 'A 180 180 0 0 0 {b}', left: L {c}, hem: 'A 600 600 0 0 1 {d}', right: L {a}}}\n  \
+             back: {{like: front, place: skirt back}}\n\
+             seams:\n  left: {{sew: front.left, to: back.right}}\n  right: {{sew: front.right, to: back.left}}\n\
+             free: ['*.waist', '*.hem']\n"
+        ),
+        20.0,
+    )
+}
+
+#[test]
+fn a_circle_skirt_starts_as_a_cone() {
+    let (body, collider) = woman();
+    let made = circle_skirt();
+    let x = made.placed(&body);
+    let flat = &made.mesh.flat;
+    assert!(x.iter().all(|p| collider.nearest(*p, 1.0).is_none_or(|n| n.distance > 0.0)));
+    assert_eq!(crossings(&TriMesh { vertices: x.clone(), triangles: made.mesh.triangles.clone() }).len(), 0);
+    // What is as far from the apex lies as high: r of 180 to 600 mm falls by 420 mm times cos α, sin α = 260° / 360°.
+    let top = (0..x.len()).find(|&p| (flat[p].norm() - 180.0 * MM).abs() < 1e-6).map(|p| x[p].y).expect("a waist");
+    let fall = (1.0 - (260.0f64 / 360.0).powi(2)).sqrt();
+    for (p, flat) in x.iter().zip(flat) {
+        let expected = (flat.norm() - 180.0 * MM) * fall;
+        assert!((top - p.y - expected).abs() < 1.0 * MM, "{} mm under the waist, not {expected}", (top - p.y) / MM);
+    }
+    // Nearly isometric: it falls more steeply where the ring is the body's own, and less so right below.
+    let edges = made.mesh.triangles.iter().flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]]);
+    let ratio =
+        |[a, b]: [u32; 2]| (x[a as usize] - x[b as usize]).norm() / (flat[a as usize] - flat[b as usize]).norm();
+    let strains: Vec<f64> = edges.map(|e| ratio(e) - 1.0).collect();
+    let rms = (strains.iter().map(|e| e * e).sum::<f64>() / strains.len() as f64).sqrt();
+    let sheared = strains.iter().filter(|e| e.abs() > 0.3).count();
+    // But at the ends of the side seams, where the body's ring and the cone part.
+    assert!(rms < 0.12 && 100 * sheared < 2 * strains.len(), "{rms}, {sheared} of {}", strains.len());
+    // Two seams share what the ring, two centimetres off the hips, is longer than the cloth.
+    let gaps = Stitching::new(&made.mesh).gaps(&x);
+    assert!(gaps.iter().all(|&g| g < 125.0 * MM), "{:?}", gaps.iter().copied().fold(0.0, f64::max));
+}
+
+#[test]
+fn cuffs_start_round_their_own_legs_and_trousers_round_both() {
+    let (body, _) = woman();
+    let text = |seams: &str| {
+        format!(
+            "garment: 1\nbody: woman_92\nfabrics: {{shell: cotton_poplin}}\npieces:\n  front:\n    \
+             cut: pair\n    place: leg front\n    grain: [[100, 10], [100, 90]]\n    \
+             outline: {{start: 0 0, top: L 250 0, out: L 250 200, hem: L 0 200, in: L 0 0}}\n  \
+             back:\n    cut: pair\n    place: leg back\n    grain: [[-100, 10], [-100, 90]]\n    \
+             outline: {{start: 0 0, in: L 0 200, hem: L -250 200, out: L -250 0, top: L 0 0}}\n\
+             seams: {{outseam: {{sew: front.out, to: back.out}}, {seams}}}\nfree: ['*.top', '*.hem']\n"
+        )
+    };
+    let cuffs = Made::new(&text("inseam: {sew: front.in, to: back.in}"), 20.0);
+    let trousers = Made::new(&text("rise: {sew: front.in, to: mirror}, seat: {sew: back.in, to: mirror}"), 20.0);
+    let leg = body.parts.iter().find(|p| p.kind == PartKind::LeftLeg).expect("a leg");
+    let middle = leg.sections.iter().map(|s| s.center.x).sum::<f64>() / leg.sections.len() as f64;
+    let x = cuffs.placed(&body);
+    for piece in &cuffs.mesh.pieces {
+        let sign = if piece.name.ends_with(".L") { 1.0 } else { -1.0 };
+        let mean = piece.particles.clone().map(|p| x[p].x).sum::<f64>() / piece.particles.len() as f64;
+        assert!((sign * mean - middle).abs() < 60.0 * MM, "{} is at {} mm", piece.name, mean / MM);
+        let forward = piece.particles.clone().map(|p| x[p].z).sum::<f64>() / piece.particles.len() as f64;
+        assert!(piece.name.starts_with("front") == (forward > leg.sections[0].center.z), "{}: {forward}", piece.name);
+    }
+    // Round the trunk the two fronts meet in the middle, and so do the two backs.
+    let x = trousers.placed(&body);
+    for seam in trousers.mesh.seams.iter().filter(|s| s.name != "outseam.L" && s.name != "outseam.R") {
+        for [a, b] in seam.pairs.iter().map(|p| p.map(|p| x[p as usize])) {
+            assert!(a.x.abs() < 30.0 * MM && b.x.abs() < 30.0 * MM, "{}: {a} {b}", seam.name);
         }
     }
 }
@@ -316,7 +423,7 @@ fn a_tube_narrower_than_the_body_starts_clear_of_it() {
 
 #[test]
 fn a_place_must_name_a_part_that_the_body_has() {
-    let (mut body, _) = woman();
+    let (mut body, collider) = woman();
     let text = "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  cuff:\n    place: WHERE\n    \
                 grain: [[10, 10], [10, 90]]\n    \
                 outline: {start: 0 0, a: L 200 0, b: L 200 100, c: L 0 100, d: L 0 0}\nfree: ['*.*']\n";
@@ -324,12 +431,12 @@ fn a_place_must_name_a_part_that_the_body_has() {
     let mut made = somewhere("left arm");
     // A file cannot say this; a garment built in code can.
     made.garment.pieces[0].place = Some(Place::Around { words: vec!["moon".into()] });
-    let refused = place(&made.garment, &made.mesh, &body);
+    let refused = place(&made.garment, &made.mesh, &body, &collider);
     assert!(matches!(&refused, Err(PlaceError::Words { piece, .. }) if piece == "cuff"), "{refused:?}");
     let made = somewhere("left arm");
-    assert!(place(&made.garment, &made.mesh, &body).is_ok());
+    assert!(place(&made.garment, &made.mesh, &body, &collider).is_ok());
     body.parts.retain(|p| p.kind != PartKind::LeftArm);
-    let refused = place(&made.garment, &made.mesh, &body);
+    let refused = place(&made.garment, &made.mesh, &body, &collider);
     assert!(matches!(&refused, Err(PlaceError::NoPart { part: "left arm", .. })), "{refused:?}");
 }
 

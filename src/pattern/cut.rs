@@ -9,6 +9,7 @@ use nalgebra::Matrix2;
 
 use super::draft::{Draft, Stretch};
 use super::file::{Cut, Side};
+use super::place_word::{PlaceWord, place_word};
 use super::{Edge, EdgeId, Line, Notch, Piece, Place, Span};
 use crate::geometry::{Path, Vec2};
 
@@ -245,18 +246,15 @@ fn notches(draft: &Draft, to: &Instance) -> Vec<Notch> {
     draft.notches.iter().filter_map(notch).collect()
 }
 
-/// Words that a pair shares and that mean the piece's own side.
-const LIMBS: [&str; 3] = ["arm", "leg", "sleeve"];
-
 fn place(place: Option<&Place>, side: Option<Side>, mirrored: bool) -> Option<Place> {
     Some(match place? {
         Place::Around { words } => {
             let mut words = words.clone();
-            let sided = words.iter().any(|w| w == "left" || w == "right");
-            if let Some(side) = side
-                && !sided
-                && words.iter().any(|w| LIMBS.contains(&w.as_str()))
-            {
+            let says =
+                |meanings: [PlaceWord; 2]| words.iter().any(|w| place_word(w).is_some_and(|m| meanings.contains(&m)));
+            // A pair shares its words; on a limb they mean the piece's own side.
+            let limb = says([PlaceWord::Arm, PlaceWord::Leg]) && !says([PlaceWord::Left, PlaceWord::Right]);
+            if let Some(side) = side.filter(|_| limb) {
                 words.insert(0, if side == Side::Left { "left" } else { "right" }.to_owned());
             }
             Place::Around { words }

@@ -14,6 +14,8 @@ pub enum PlaceWord {
     Neck,
     /// Round the trunk or the legs below it.
     Trunk,
+    /// Round one leg; for what is sewn to the other leg too (trousers), round the trunk.
+    Leg,
     /// The wearer's left.
     Left,
     /// The wearer's right.
@@ -26,11 +28,9 @@ pub enum PlaceWord {
 
 /// Every word that means something. Those of one or two letters, and those run together, are how other programs name
 /// their pieces.
-const WORDS: [(PlaceWord, &[&str]); 7] = [
-    (
-        PlaceWord::Trunk,
-        &["torso", "hip", "hips", "waist", "skirt", "bodice", "chest", "bust", "body", "trunk", "leg", "legs"],
-    ),
+const WORDS: [(PlaceWord, &[&str]); 8] = [
+    (PlaceWord::Trunk, &["torso", "hip", "hips", "waist", "skirt", "bodice", "chest", "bust", "body", "trunk"]),
+    (PlaceWord::Leg, &["leg", "thigh", "knee", "ankle"]),
     (PlaceWord::Arm, &["arm", "sleeve", "wrist", "cuff", "biceps", "elbow", "armband", "forearm"]),
     (PlaceWord::Neck, &["neck", "collar", "neckband", "hood", "stand", "necktie", "choker"]),
     (PlaceWord::Left, &["left", "l"]),
@@ -40,7 +40,7 @@ const WORDS: [(PlaceWord, &[&str]); 7] = [
 ];
 
 /// What is said to those who look for a word.
-const KNOWN: &str = "torso, hip, waist, skirt, bodice, chest, bust or leg; arm, sleeve, elbow, wrist or cuff; neck, \
+const KNOWN: &str = "torso, hip, waist, skirt, bodice, chest, bust; leg, knee or ankle; arm, sleeve, elbow, wrist or cuff; neck, \
                      collar or hood; with left or right, front or back";
 
 /// What a lower-case word says, also in the plural.

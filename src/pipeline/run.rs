@@ -49,7 +49,7 @@ impl<'a> Run<'a> {
         let job = self.job;
         let begin = Instant::now();
         let failed = |e| PipelineError::sewing(&job.file, e);
-        let start = place(&job.garment, &job.mesh, &job.body).map_err(|e| failed(e.into()))?;
+        let start = place(&job.garment, &job.mesh, &job.body, &job.collider).map_err(|e| failed(e.into()))?;
         self.placed = Some(start.clone());
         let options = SewOptions::default();
         let mut tell = |share| progress("sew", share);

@@ -46,6 +46,7 @@ pub(super) fn assign(garment: &Garment, mesh: &ClothMesh) -> Result<Vec<Assigned
         out.push(assigned);
     }
     sort_out_sides(garment, mesh, &mut out);
+    join_legs(mesh, &mut out);
     Ok(out)
 }
 
@@ -65,6 +66,9 @@ fn part_of(words: &[String], side: Option<Side>) -> Option<PartKind> {
     if says(words, PlaceWord::Neck) {
         return Some(PartKind::Neck);
     }
+    if says(words, PlaceWord::Leg) {
+        return Some(if side == Some(Side::Right) { PartKind::RightLeg } else { PartKind::LeftLeg });
+    }
     says(words, PlaceWord::Trunk).then_some(PartKind::Torso)
 }
 
@@ -82,23 +86,58 @@ fn facing_of(words: &[String]) -> Option<Facing> {
     says(words, PlaceWord::Back).then_some(Facing::Back)
 }
 
-/// A piece for an arm whose side nothing says goes where the pieces it is sewn to are.
+/// A piece for an arm or a leg whose side nothing says goes where the pieces it is sewn to are.
 fn sort_out_sides(garment: &Garment, mesh: &ClothMesh, out: &mut [Assigned]) {
     let mut seen = [false; 2];
     for (i, piece) in garment.pieces.iter().enumerate() {
-        let is_arm = matches!(out[i].part, PartKind::LeftArm | PartKind::RightArm);
+        let limbs = match out[i].part {
+            PartKind::LeftArm | PartKind::RightArm => [PartKind::LeftArm, PartKind::RightArm],
+            PartKind::LeftLeg | PartKind::RightLeg => [PartKind::LeftLeg, PartKind::RightLeg],
+            _ => continue,
+        };
         let said = piece.side.is_some()
             || side_of(&words_of(&piece.name)).is_some()
             || matches!(&piece.place, Some(Place::Around { words }) if side_of(words).is_some());
-        if !is_arm || said {
+        if said {
             continue;
         }
         // The trunk is drawn as seen from outside: on a front the wearer's left is at larger x.
         let lean = lean(mesh, out, i);
         let left = if lean == 0.0 { !seen[0] } else { lean > 0.0 };
         seen[usize::from(!left)] = true;
-        out[i].part = if left { PartKind::LeftArm } else { PartKind::RightArm };
+        out[i].part = limbs[usize::from(!left)];
     }
+}
+
+/// Pieces for a leg that are sewn to one another across both legs are trousers: they go round the trunk.
+fn join_legs(mesh: &ClothMesh, out: &mut [Assigned]) {
+    let is_leg = |a: &Assigned| matches!(a.part, PartKind::LeftLeg | PartKind::RightLeg);
+    if !out.iter().any(is_leg) {
+        return;
+    }
+    let piece_of = |p: u32| mesh.pieces.iter().position(|m| m.particles.contains(&(p as usize)));
+    let mut joined: Vec<[usize; 2]> = mesh
+        .seams
+        .iter()
+        .flat_map(|s| &s.pairs)
+        .filter_map(|[a, b]| Some([piece_of(*a)?, piece_of(*b)?]))
+        .filter(|&[i, j]| i != j && is_leg(&out[i]) && is_leg(&out[j]))
+        .collect();
+    joined.dedup();
+    let mut trunk = vec![false; out.len()];
+    for [i, j] in &joined {
+        if out[*i].part != out[*j].part {
+            (trunk[*i], trunk[*j]) = (true, true);
+        }
+    }
+    // Once round for every piece: as far as seams can lead.
+    for _ in 0..out.len() {
+        for [i, j] in &joined {
+            let either = trunk[*i] || trunk[*j];
+            (trunk[*i], trunk[*j]) = (either, either);
+        }
+    }
+    out.iter_mut().zip(trunk).filter(|(_, t)| *t).for_each(|(a, _)| a.part = PartKind::Torso);
 }
 
 /// Positive when piece `i` is sewn to the wearer's left of trunk pieces.

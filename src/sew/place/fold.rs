@@ -1,6 +1,6 @@
 //! Pieces with a pressed fold start folded, and pleats start laid.
 
-use super::pleat;
+use super::{flare, pleat};
 use crate::geometry::Vec2;
 use crate::mesh::ClothMesh;
 use crate::pattern::{Garment, LineKind};
@@ -12,13 +12,16 @@ const PRESSED: f64 = 2.0;
 pub(super) struct Sheet {
     /// Flat position of every particle, y down.
     pub(super) flat: Vec<Vec2>,
+    /// The same without what a sector widens towards its hem: its sides run straight down.
+    pub(super) straight: Vec<Vec2>,
     /// Layers towards the wrong side: 0, or 1 where the cloth is folded under; up to 4 in a pleat.
     pub(super) under: Vec<f64>,
 }
 
-/// Folds every piece along its pressed lines, the part with the shorter sewn rim under the other, and lays its pleats.
+/// Folds every piece along its pressed lines, the part with the shorter sewn rim under the other, lays its pleats, and unrolls
+/// what is a sector of a circle.
 pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
-    let mut sheet = Sheet { flat: mesh.flat.clone(), under: vec![0.0; mesh.flat.len()] };
+    let mut sheet = Sheet { flat: mesh.flat.clone(), straight: Vec::new(), under: vec![0.0; mesh.flat.len()] };
     let mut sewn = vec![0u32; mesh.flat.len()];
     for p in mesh.seams.iter().flat_map(|s| s.pairs.iter().flatten()) {
         sewn[*p as usize] += 1;
@@ -46,5 +49,7 @@ pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
         }
     }
     pleat::lay(garment, mesh, &mut sheet);
+    sheet.straight = sheet.flat.clone();
+    flare::lay(garment, mesh, &mut sheet);
     sheet
 }

@@ -1,7 +1,7 @@
 //! A row level by level: where its members are, and how they stand side by side round a ring.
 
 use super::fold::Sheet;
-use super::rows::{Link, Member, ROOM, Row};
+use super::rows::{Link, Member, Middle, ROOM, Row};
 use crate::mesh::ClothMesh;
 
 /// Height of a level, metres: outlines are read off, and rings made, this often.
@@ -50,24 +50,32 @@ pub(super) fn levels(mesh: &ClothMesh, sheet: &Sheet, row: &Row, links: &[Link])
             }
         }
     }
+    let joints = joints(mesh, sheet, row, links, &level_of);
+    prolong(&mut out, &joints);
     widen(&mut out);
-    let joints = joints(sheet, row, links, &level_of);
     for (k, level) in out.iter_mut().enumerate() {
         pack(row, level, k, &joints);
     }
     out
 }
 
-/// Lets every span cover those of the levels that its shift will be averaged with: each of these shifts keeps the
-/// members apart at this level too, and so does their average.
+/// Widens every span so far that its mean over the levels that its shift will be averaged with still covers it: each of
+/// these shifts keeps the widened spans apart, and so does their average. Where an outline runs straight, nothing has to
+/// be added.
 fn widen(levels: &mut [Level]) {
-    let spans: Vec<_> = levels.iter().map(|l| l.spans.clone()).collect();
-    for (k, level) in levels.iter_mut().enumerate() {
-        for (i, span) in level.spans.iter_mut().enumerate() {
-            let Some(own) = span else { continue };
-            for near in &spans[k.saturating_sub(SMOOTHING)..(k + SMOOTHING + 1).min(spans.len())] {
-                if let Some(other) = near[i] {
-                    *own = [own[0].min(other[0]), own[1].max(other[1])];
+    let members = levels.first().map_or(0, |l| l.spans.len());
+    for i in 0..members {
+        let there: Vec<usize> = (0..levels.len()).filter(|&k| levels[k].spans[i].is_some()).collect();
+        for side in 0..2 {
+            let sign = if side == 0 { -1.0 } else { 1.0 };
+            let reach: Vec<f64> = there.iter().map(|&k| levels[k].spans[i].map_or(0.0, |s| sign * s[side])).collect();
+            let lacking: Vec<f64> =
+                reach.iter().zip(smoothed(&reach)).map(|(own, mean)| (own - mean).max(0.0)).collect();
+            for (at, &k) in there.iter().enumerate() {
+                let near = at.saturating_sub(SMOOTHING)..(at + SMOOTHING + 1).min(there.len());
+                let most = lacking[near].iter().copied().fold(0.0, f64::max);
+                if let Some(span) = &mut levels[k].spans[i] {
+                    span[side] += sign * most;
                 }
             }
         }
@@ -82,11 +90,19 @@ struct Joint {
     jump: f64,
 }
 
-fn joints(sheet: &Sheet, row: &Row, links: &[Link], level_of: &impl Fn(f64) -> usize) -> Vec<Joint> {
+fn joints(mesh: &ClothMesh, sheet: &Sheet, row: &Row, links: &[Link], level_of: &impl Fn(f64) -> usize) -> Vec<Joint> {
     let n = row.members.len();
+    let middle = |m: &Member| {
+        let (lo, hi) = mesh.pieces[m.piece]
+            .particles
+            .clone()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), p| (lo.min(sheet.flat[p].x), hi.max(sheet.flat[p].x)));
+        0.5 * (lo + hi)
+    };
     (0..n)
         .map(|i| {
             let (a, b) = (&row.members[i], &row.members[(i + 1) % n]);
+            let middles = [middle(a), middle(b)];
             let mut sewn: Option<[usize; 2]> = None;
             let (mut jump, mut count) = (0.0, 0.0);
             for link in links.iter().filter(|l| l.upright && n > 1) {
@@ -95,13 +111,13 @@ fn joints(sheet: &Sheet, row: &Row, links: &[Link], level_of: &impl Fn(f64) -> u
                 else {
                     continue;
                 };
-                // With two members the same two pieces meet twice: right of a with left of b is this joint.
-                let mean = |m: &Member, k: usize| {
-                    link.pairs.iter().map(|p| sheet.flat[p[k] as usize].x + m.shift.x).sum::<f64>()
-                        / link.pairs.len() as f64
+                // The same two pieces may meet round the ring or between the legs as well: this joint is where the right
+                // of one meets the left of the other.
+                let mean = |k: usize| {
+                    link.pairs.iter().map(|p| sheet.flat[p[k] as usize].x).sum::<f64>() / link.pairs.len() as f64
                 };
-                let (ua, ub) = (mean(a, k), mean(b, 1 - k));
-                if n == 2 && (i == 0) != ((ub - ua).abs() < 0.5 * spread(row, sheet, link)) {
+                let (ua, ub) = (mean(k), mean(1 - k));
+                if ua < middles[0] || ub > middles[1] {
                     continue;
                 }
                 for p in &link.pairs {
@@ -110,7 +126,7 @@ fn joints(sheet: &Sheet, row: &Row, links: &[Link], level_of: &impl Fn(f64) -> u
                     let s = sewn.get_or_insert([l, l]);
                     *s = [s[0].min(l), s[1].max(l)];
                 }
-                jump += (ub - ua) * link.pairs.len() as f64;
+                jump += (ub + b.shift.x - ua - a.shift.x) * link.pairs.len() as f64;
                 count += link.pairs.len() as f64;
             }
             Joint { sewn, jump: if count > 0.0 { jump / count } else { 0.0 } }
@@ -118,15 +134,21 @@ fn joints(sheet: &Sheet, row: &Row, links: &[Link], level_of: &impl Fn(f64) -> u
         .collect()
 }
 
-/// A length to tell "meets here" from "meets round the ring": the two pieces' width at the link, at least 10 cm.
-fn spread(row: &Row, sheet: &Sheet, link: &Link) -> f64 {
-    let u = |k: usize| {
-        let shift = row.members.iter().find(|m| m.piece == link.pieces[k]).map_or(0.0, |m| m.shift.x);
-        link.pairs.iter().map(move |p| sheet.flat[p[k] as usize].x + shift)
-    };
-    let lo = u(0).chain(u(1)).fold(f64::INFINITY, f64::min);
-    let hi = u(0).chain(u(1)).fold(f64::NEG_INFINITY, f64::max);
-    (hi - lo).max(0.1)
+/// Beyond the ends of a sewn joint (over a curved waist, under the crotch) its two sides go on as they end: what lies
+/// side by side stays so where one of the outlines turns away.
+fn prolong(levels: &mut [Level], joints: &[Joint]) {
+    for (i, joint) in joints.iter().enumerate() {
+        let Some(sewn) = joint.sewn else { continue };
+        for (member, side) in [(i, 1), ((i + 1) % joints.len(), 0)] {
+            let ends = sewn.map(|k| levels[k].spans[member].map(|s| s[side]));
+            for k in (0..sewn[0]).chain(sewn[1] + 1..levels.len()) {
+                let end = ends[usize::from(k > sewn[1])];
+                if let (Some(end), Some(span)) = (end, &mut levels[k].spans[member]) {
+                    span[side] = if side == 0 { span[side].min(end) } else { span[side].max(end) };
+                }
+            }
+        }
+    }
 }
 
 /// Packs one level: sewn joints get a little room, others what the layout leaves, never an overlap.
@@ -152,16 +174,25 @@ fn pack(row: &Row, level: &mut Level, k: usize, joints: &[Joint]) {
 }
 
 /// Puts the members of a level on a ring of `perimeter` metres: what the ring is longer than the cloth goes into the
-/// gaps between them.
+/// gaps between them; what it is shorter comes first out of those that are not sewn.
 pub(super) fn spread_out(row: &Row, level: &mut Level, perimeter: f64) {
     let present = level.present();
-    let slack = (perimeter - level.length).max(0.0) / present.len().max(1) as f64;
+    let missing = (level.length - perimeter).max(0.0);
+    let spare = |gap: f64| (gap - ROOM).max(0.0);
+    let all: f64 = present.iter().map(|&i| spare(level.gaps[i])).sum();
+    let taken = missing.min(all);
+    for &i in &present {
+        level.gaps[i] -= spare(level.gaps[i]) * taken / all.max(f64::MIN_POSITIVE);
+    }
+    // Still less than nothing where a ring was smoothed to less than its cloth: neighbouring levels make up for it.
+    let slack = (perimeter - level.length + taken) / present.len().max(1) as f64;
+    present.iter().for_each(|&i| level.gaps[i] += slack);
     let mut starts = vec![0.0; row.members.len()];
     let mut at = 0.0;
     for &i in &present {
         let Some(span) = level.spans[i] else { continue };
         starts[i] = at;
-        at += span[1] - span[0] + level.gaps[i] + slack;
+        at += span[1] - span[0] + level.gaps[i];
     }
     let zero = middle(row, level, &present, &starts);
     for &i in &present {
@@ -175,17 +206,25 @@ pub(super) fn spread_out(row: &Row, level: &mut Level, perimeter: f64) {
 fn middle(row: &Row, level: &Level, present: &[usize], starts: &[f64]) -> f64 {
     let span = |i: usize| level.spans[i].unwrap_or([0.0, 0.0]);
     let Some(front) = row.front else { return 0.5 * level.length };
+    let u = match front {
+        Middle::On(u) => u,
+        Middle::LeftOf(piece) => {
+            let at = present.iter().position(|&i| row.members[i].piece == piece).unwrap_or(0);
+            let before = present.get((at + present.len() - 1) % present.len().max(1)).map_or(0.0, |&i| level.gaps[i]);
+            return present.get(at).map_or(0.0, |&i| starts[i] - 0.5 * before);
+        }
+    };
     let center = |i: usize| 0.5 * (span(i)[0] + span(i)[1]);
-    let over = present.iter().find(|&&i| (center(i) - front).abs() < 0.25 * (span(i)[1] - span(i)[0]));
+    let over = present.iter().find(|&&i| (center(i) - u).abs() < 0.25 * (span(i)[1] - span(i)[0]));
     if let Some(&i) = over {
-        return starts[i] + front - span(i)[0];
+        return starts[i] + u - span(i)[0];
     }
-    let before = present.iter().filter(|&&i| center(i) < front).max_by(|&&a, &&b| center(a).total_cmp(&center(b)));
-    let after = present.iter().filter(|&&i| center(i) >= front).min_by(|&&a, &&b| center(a).total_cmp(&center(b)));
+    let before = present.iter().filter(|&&i| center(i) < u).max_by(|&&a, &&b| center(a).total_cmp(&center(b)));
+    let after = present.iter().filter(|&&i| center(i) >= u).min_by(|&&a, &&b| center(a).total_cmp(&center(b)));
     match (before, after) {
         (Some(&a), Some(&b)) => 0.5 * (starts[a] + span(a)[1] - span(a)[0] + starts[b]),
-        (Some(&a), None) => starts[a] + front - span(a)[0],
-        (None, Some(&b)) => starts[b] + front - span(b)[0],
+        (Some(&a), None) => starts[a] + u - span(a)[0],
+        (None, Some(&b)) => starts[b] + u - span(b)[0],
         (None, None) => 0.0,
     }
 }
@@ -256,7 +295,7 @@ mod tests {
     /// Three members side by side on one level, u in metres, with the room after each.
     fn level() -> (Row, Level) {
         let members = (0..3).map(|piece| Member { piece, shift: Vec2::zeros() }).collect();
-        let row = Row { part: PartKind::Torso, members, front: Some(0.05), v: [0.0, 0.0], layer: 0 };
+        let row = Row { part: PartKind::Torso, members, front: Some(Middle::On(0.05)), v: [0.0, 0.0], layer: 0 };
         let spans = vec![Some([0.0, 0.1]), Some([0.1, 0.3]), Some([0.3, 0.45])];
         let gaps = vec![ROOM, 2.0 * ROOM, ROOM];
         let length = 0.45 + 4.0 * ROOM;
@@ -267,15 +306,16 @@ mod tests {
     fn what_the_ring_is_longer_than_the_cloth_goes_into_the_gaps() {
         let perimeter = 0.6;
         let (row, mut level) = level();
+        let gaps = level.gaps.clone();
         spread_out(&row, &mut level, perimeter);
         let slack = (perimeter - level.length) / 3.0;
         let at = |i: usize| level.spans[i].map(|s| s.map(|u| u + level.shift[i])).expect("there");
         // The front middle, u = 0.05 on the first, is where the ring begins.
         assert!((at(0)[0] + 0.05).abs() < 1e-12);
         let after = |i: usize| if i < 2 { at(i + 1)[0] } else { at(0)[0] + perimeter };
-        for i in 0..3 {
+        for (i, gap) in gaps.into_iter().enumerate() {
             let room = after(i) - at(i)[1];
-            assert!((room - level.gaps[i] - slack).abs() < 1e-12, "{room} after {i}");
+            assert!((room - gap - slack).abs() < 1e-12, "{room} after {i}");
         }
     }
 

@@ -1,9 +1,9 @@
 //! Where the pieces start (F10): bent round the body part each one is made for.
 //!
 //! ```text
-//! assign ─▶ rows ─▶ levels ─▶ wrap
-//!  which part  pieces side by side,   how they pack   rings round the part,
-//!              rows one over another  at every height seams nearly meeting
+//! fold · pleat · flare ─▶ assign ─▶ rows ─▶ levels ─▶ wrap · ring · shoulders
+//!  folded, laid,          which part  pieces side by side,  how they pack   rings round the part, seams nearly
+//!  unrolled                           rows one over another at every height meeting; tops leaning over the body
 //! ```
 //!
 //! A garment is laid out as it would hang on a lampshade: pieces that share an upright seam stand side by side in a
@@ -14,13 +14,17 @@
 
 mod assign;
 mod ellipse;
+mod flare;
 mod fold;
 mod levels;
 mod pleat;
+mod ring;
 mod rows;
+mod shoulders;
 mod stations;
 mod wrap;
 
+use crate::contact::Collider;
 use crate::geometry::Vec3;
 use crate::mannequin::Mannequin;
 use crate::mesh::ClothMesh;
@@ -53,15 +57,20 @@ pub enum PlaceError {
     },
 }
 
-/// Start positions of all particles.
+/// Start positions of all particles, on `body`; `collider` is its surface.
 ///
 /// # Errors
 /// [`PlaceError`] when a piece's place names a part that is none or that the body has not.
-pub fn place(garment: &Garment, mesh: &ClothMesh, body: &Mannequin) -> Result<Vec<Vec3>, PlaceError> {
+pub fn place(
+    garment: &Garment,
+    mesh: &ClothMesh,
+    body: &Mannequin,
+    collider: &Collider,
+) -> Result<Vec<Vec3>, PlaceError> {
     let sheet = fold::folded(garment, mesh);
     let assigned = assign::assign(garment, mesh)?;
     let rows = rows::rows(garment, mesh, &sheet, &assigned);
-    let mut x = wrap::wrap(garment, mesh, body, &sheet, &rows)?;
+    let mut x = wrap::wrap(garment, mesh, body, collider, &sheet, &rows)?;
     for (piece, part) in garment.pieces.iter().zip(&mesh.pieces) {
         if let Some(Place::At { at, turn }) = &piece.place {
             let [rx, ry, rz] = [turn.x, turn.y, turn.z].map(f64::to_radians);

@@ -30,6 +30,15 @@ pub(super) struct Member {
     pub(super) shift: Vec2,
 }
 
+/// The front middle of a row, as a u.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Middle {
+    /// On a piece, or where a piece would be.
+    On(f64),
+    /// At the left side of this piece, where another one joins it.
+    LeftOf(usize),
+}
+
 /// Pieces that stand side by side round a part.
 #[derive(Clone, Debug)]
 pub(super) struct Row {
@@ -39,7 +48,7 @@ pub(super) struct Row {
     /// From right to left of the wearer at the front: u rises.
     pub(super) members: Vec<Member>,
     /// Where the front middle is, if the row knows.
-    pub(super) front: Option<f64>,
+    pub(super) front: Option<Middle>,
     /// Lowest and highest v.
     pub(super) v: [f64; 2],
 }
@@ -138,7 +147,7 @@ fn finish_row(
     Row { part, layer: 0, members, front, v }
 }
 
-/// u of the front middle: the seam between two front pieces, or the middle of a single one; failing that, opposite the
+/// The front middle: the middle front piece, or the seam between the two in the middle; failing that, opposite the
 /// back's.
 fn front_middle(
     assigned: &[Assigned],
@@ -146,40 +155,55 @@ fn front_middle(
     boxes: &[(Vec2, Vec2)],
     links: &[Link],
     sheet: &Sheet,
-) -> Option<f64> {
-    for facing in [Facing::Front, Facing::Back] {
-        let these: Vec<usize> =
-            (0..members.len()).filter(|&i| assigned[members[i].piece].facing == Some(facing)).collect();
-        let middle = match these[..] {
-            [] => continue,
-            [one] => 0.5 * (boxes[one].0.x + boxes[one].1.x),
-            _ => {
-                let joined = these.iter().find_map(|&i| {
-                    these.iter().filter(|&&j| j != i).find_map(|&j| {
-                        let pair = [members[i].piece, members[j].piece];
-                        let link = links
-                            .iter()
-                            .filter(|l| l.upright && l.pieces == pair)
-                            .max_by(|a, b| a.length.total_cmp(&b.length))?;
-                        let sum: f64 = link.pairs.iter().map(|p| sheet.flat[p[0] as usize].x).sum();
-                        Some(sum / link.pairs.len() as f64 + members[i].shift.x)
-                    })
-                });
-                joined.unwrap_or_else(|| {
-                    let lo = these.iter().map(|&i| boxes[i].0.x).fold(f64::INFINITY, f64::min);
-                    let hi = these.iter().map(|&i| boxes[i].1.x).fold(f64::NEG_INFINITY, f64::max);
-                    0.5 * (lo + hi)
-                })
-            }
-        };
-        if facing == Facing::Front {
-            return Some(middle);
-        }
-        let lo = boxes.iter().map(|b| b.0.x).fold(f64::INFINITY, f64::min);
-        let hi = boxes.iter().map(|b| b.1.x).fold(f64::NEG_INFINITY, f64::max);
-        return Some(middle - 0.5 * (hi - lo));
+) -> Option<Middle> {
+    let facing = |facing| move |&i: &usize| assigned[members[i].piece].facing == Some(facing);
+    let center = |i: usize| 0.5 * (boxes[i].0.x + boxes[i].1.x);
+    let fronts: Vec<usize> = (0..members.len()).filter(facing(Facing::Front)).collect();
+    let chain = in_order(&fronts, members, links, sheet, &center);
+    match (&chain[..], chain.len() % 2) {
+        ([], _) => {}
+        (chain, 1) => return Some(Middle::On(center(chain[chain.len() / 2]))),
+        (chain, _) => return Some(Middle::LeftOf(members[chain[chain.len() / 2]].piece)),
     }
-    None
+    let extent = |these: &[usize]| {
+        let lo = these.iter().map(|&i| boxes[i].0.x).fold(f64::INFINITY, f64::min);
+        (lo, these.iter().map(|&i| boxes[i].1.x).fold(f64::NEG_INFINITY, f64::max))
+    };
+    let middle = |(lo, hi): (f64, f64)| 0.5 * (lo + hi);
+    if !fronts.is_empty() {
+        return Some(Middle::On(middle(extent(&fronts))));
+    }
+    let backs: Vec<usize> = (0..members.len()).filter(facing(Facing::Back)).collect();
+    let all: Vec<usize> = (0..members.len()).collect();
+    let (lo, hi) = extent(&all);
+    (!backs.is_empty()).then(|| Middle::On(middle(extent(&backs)) - 0.5 * (hi - lo)))
+}
+
+/// These members from right to left of the wearer, each sewn to the next; empty if they are not one such chain.
+fn in_order(
+    these: &[usize],
+    members: &[Member],
+    links: &[Link],
+    sheet: &Sheet,
+    center: &impl Fn(usize) -> f64,
+) -> Vec<usize> {
+    let side = |i: usize, link: &Link, k: usize| {
+        let sum: f64 = link.pairs.iter().map(|p| sheet.flat[p[k] as usize].x).sum();
+        sum / link.pairs.len() as f64 + members[i].shift.x - center(i)
+    };
+    let follows = |i: usize, j: usize| {
+        links.iter().filter(|l| l.upright).any(|l| {
+            let k = (0..2).find(|&k| l.pieces[k] == members[i].piece && l.pieces[1 - k] == members[j].piece);
+            k.is_some_and(|k| side(i, l, k) > 0.0 && side(j, l, 1 - k) < 0.0)
+        })
+    };
+    let first = these.iter().copied().find(|&j| !these.iter().any(|&i| i != j && follows(i, j)));
+    let mut chain: Vec<usize> = first.into_iter().collect();
+    while let Some(&last) = chain.last() {
+        let Some(next) = these.iter().copied().find(|j| !chain.contains(j) && follows(last, *j)) else { break };
+        chain.push(next);
+    }
+    if chain.len() == these.len() { chain } else { Vec::new() }
 }
 
 /// Seams cut into links between pairs of pieces.
@@ -201,9 +225,8 @@ fn links(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Link> {
             let mut length = 0.0;
             for w in run.windows(2) {
                 for (from, to) in w[0].iter().zip(&w[1]) {
-                    let d = sheet.flat[*to as usize] - sheet.flat[*from as usize];
-                    extent += d.abs();
-                    length += 0.5 * d.norm();
+                    extent += (sheet.straight[*to as usize] - sheet.straight[*from as usize]).abs();
+                    length += 0.5 * (sheet.flat[*to as usize] - sheet.flat[*from as usize]).norm();
                 }
             }
             out.push(Link { pieces, pairs: run.to_vec(), upright: extent.y > extent.x, length });
@@ -212,12 +235,26 @@ fn links(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Link> {
     out
 }
 
+/// Whether level seams join pieces of the row in its upper half: shoulders.
+pub(super) fn has_shoulders(row: &Row, links: &[Link], sheet: &Sheet) -> bool {
+    let member = |p: usize| row.members.iter().find(|m| m.piece == p);
+    links.iter().filter(|l| !l.upright).any(|l| {
+        let [Some(m), Some(_)] = l.pieces.map(member) else { return false };
+        let sum: f64 = l.pairs.iter().map(|p| sheet.flat[p[0] as usize].y + m.shift.y).sum();
+        sum / (l.pairs.len() as f64) < 0.5 * (row.v[0] + row.v[1])
+    })
+}
+
 /// Puts rows of one part over each other and says in which order to place them: rows of the trunk first.
 fn stack(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet) -> Vec<(usize, Option<usize>)> {
     let mut order: Vec<(usize, Option<usize>)> = Vec::new();
     let mut done = vec![false; rows.len()];
     let mut roots: Vec<usize> = (0..rows.len()).collect();
-    roots.sort_by_key(|&r| (rows[r].part, std::cmp::Reverse((1e6 * (rows[r].v[1] - rows[r].v[0])) as i64), r));
+    // What hangs from the shoulders begins there; everything else hangs from its longest row.
+    roots.sort_by_key(|&r| {
+        let height = (1e6 * (rows[r].v[1] - rows[r].v[0])) as i64;
+        (rows[r].part, !has_shoulders(&rows[r], links, sheet), std::cmp::Reverse(height), r)
+    });
     for root in roots {
         if done[root] {
             continue;

@@ -17,6 +17,7 @@ pub(super) struct Station {
 }
 
 /// Stations of one part; the coordinate grows downward on trunk and neck (it is −y) and outward along an arm.
+#[derive(Clone)]
 pub(super) struct Stations {
     list: Vec<(f64, Station)>,
     landmarks: Vec<(String, f64)>,
@@ -53,6 +54,20 @@ impl Stations {
     /// Coordinate of the first landmark that the part has.
     pub(super) fn landmark(&self, names: &[&str]) -> Option<f64> {
         names.iter().find_map(|n| self.landmarks.iter().find(|l| l.0.contains(n)).map(|l| l.1))
+    }
+
+    /// Coordinate of the place at this height, straight on beyond the ends.
+    pub(super) fn at_height(&self, y: f64) -> f64 {
+        let n = self.list.len();
+        if n == 1 {
+            return self.list[0].0;
+        }
+        let height = |k: usize| self.list[k].1.center.y;
+        // Downward from station to station, as limbs and trunks do.
+        let k = (1..n - 1).find(|&k| height(k) < y).unwrap_or(n - 1);
+        let fall = height(k - 1) - height(k);
+        let share = if fall.abs() > 1e-9 { (height(k - 1) - y) / fall } else { 0.0 };
+        self.list[k - 1].0 + share * (self.list[k].0 - self.list[k - 1].0)
     }
 
     /// The station at a coordinate, linear between sections, straight on beyond the ends.

@@ -1,0 +1,169 @@
+//! A row as a ring on its body part.
+
+use super::ellipse::Ellipse;
+use super::fold::Sheet;
+use super::levels::{LEVEL, Level, complete_shifts, smooth_shifts, smoothed, spread_out};
+use super::rows::{Link, Member, Row};
+use super::shoulders::Lean;
+use super::stations::Stations;
+use crate::geometry::Vec3;
+use crate::mannequin::PartKind;
+use crate::mesh::ClothMesh;
+
+/// How far the ring stays from the body, metres, before the cloth's own width makes it wider.
+const CLEARANCE: f64 = 0.02;
+/// A fold's under layer starts this much nearer the body, and an overlap's end this much further out, metres.
+pub(super) const LAYER: f64 = 0.004;
+
+/// A row on its body part.
+pub(super) struct Ring<'a> {
+    pub(super) links: &'a [Link],
+    pub(super) mesh: &'a ClothMesh,
+    pub(super) sheet: &'a Sheet,
+    pub(super) row: &'a Row,
+    pub(super) levels: Vec<Level>,
+    pub(super) stations: Stations,
+    /// Station of v = 0.
+    pub(super) anchor: f64,
+    /// How each member leans over the shoulders, if the row has any.
+    pub(super) leans: Vec<Lean<'a>>,
+}
+
+impl Ring<'_> {
+    /// Puts the row's particles on rings with these half axes; `placed` says which pieces have their place, none if empty.
+    pub(super) fn bend(&mut self, axes: Vec<[f64; 2]>, placed: &[bool], x: &mut [Vec3]) {
+        let ellipses: Vec<Ellipse> = axes.into_iter().map(|[a, b]| Ellipse::new(a, b)).collect();
+        for (level, ellipse) in self.levels.iter_mut().zip(&ellipses) {
+            spread_out(self.row, level, ellipse.perimeter);
+        }
+        complete_shifts(&mut self.levels);
+        smooth_shifts(&mut self.levels);
+        let turn = if self.row.front.is_some() && self.row.part == PartKind::Torso {
+            0.0
+        } else {
+            self.turn(placed, x, &ellipses)
+        };
+        // A band whose ends overlap winds outward like a spiral, by as many layers as it has.
+        let folded = |m: &Member| self.mesh.pieces[m.piece].particles.clone().any(|p| self.sheet.under[p] > 0.0);
+        let layers = match (self.overlaps(), self.row.members.iter().any(folded)) {
+            (false, _) => 0.0,
+            (true, false) => LAYER,
+            (true, true) => 2.0 * LAYER,
+        };
+        for (i, m) in self.row.members.iter().enumerate() {
+            for p in self.mesh.pieces[m.piece].particles.clone() {
+                let at = self.sheet.flat[p] + m.shift;
+                let arc = at.x + self.shift(i, at.y);
+                let station = self.stations.at(self.anchor + at.y);
+                let on = |ellipse: &Ellipse| {
+                    // An overlapping band goes once round by what is sewn of it, however wide the ring.
+                    let share = arc / if layers > 0.0 { self.sewn_length() } else { ellipse.perimeter };
+                    let outward = layers * (2.0 * share).clamp(0.0, 1.0) - LAYER * self.sheet.under[p];
+                    station.point(ellipse, share + turn, outward)
+                };
+                let ([k, next], f) = self.between(at.y);
+                let upright = on(&ellipses[k]).lerp(&on(&ellipses[next]), f);
+                x[p] = self.leans.get(i).map_or(upright, |lean| lean.over(upright, at.y));
+            }
+        }
+    }
+
+    /// Whether the row is one piece whose ends are not sewn to each other.
+    fn overlaps(&self) -> bool {
+        self.row.members.len() == 1 && !self.closed_on_itself()
+    }
+
+    /// Whether a row of one piece is a closed ring: its own two upright sides are sewn to each other.
+    fn closed_on_itself(&self) -> bool {
+        let range = self.mesh.pieces[self.row.members[0].piece].particles.clone();
+        self.mesh.seams.iter().flat_map(|s| &s.pairs).any(|[a, b]| {
+            range.contains(&(*a as usize))
+                && range.contains(&(*b as usize))
+                && (self.mesh.flat[*a as usize].x - self.mesh.flat[*b as usize].x).abs() > 0.5 * self.levels[0].length
+        })
+    }
+
+    /// Length of the row's seams with other rows.
+    fn sewn_length(&self) -> f64 {
+        let own = |p: usize| self.row.members.iter().any(|m| m.piece == p);
+        self.links.iter().filter(|l| own(l.pieces[0]) != own(l.pieces[1])).map(|l| l.length).sum()
+    }
+
+    /// The first level at which the row goes all the way round: under the armholes.
+    pub(super) fn first_closed(&self) -> usize {
+        self.levels.iter().position(|l| l.closed).unwrap_or(0)
+    }
+
+    fn level(&self, v: f64) -> usize {
+        (((v - self.row.v[0]) / LEVEL).round().max(0.0) as usize).min(self.levels.len() - 1)
+    }
+
+    /// The levels above and below v, and how far it is from the one to the other.
+    fn between(&self, v: f64) -> ([usize; 2], f64) {
+        let last = self.levels.len() - 1;
+        let t = ((v - self.row.v[0]) / LEVEL).clamp(0.0, last as f64);
+        let k = t as usize;
+        ([k, (k + 1).min(last)], t - k as f64)
+    }
+
+    /// Shift of member `i`, linear between levels.
+    fn shift(&self, i: usize, v: f64) -> f64 {
+        let ([k, next], f) = self.between(v);
+        self.levels[k].shift[i] * (1.0 - f) + self.levels[next].shift[i] * f
+    }
+
+    /// Half width and half depth at every level: room for the body and for the cloth.
+    pub(super) fn axes(&self) -> Vec<[f64; 2]> {
+        let overlapping = self.overlaps();
+        let first_closed = self.first_closed();
+        let last_closed = self.levels.iter().rposition(|l| l.closed).unwrap_or(self.levels.len() - 1);
+        let mut axes: Vec<[f64; 2]> = Vec::with_capacity(self.levels.len());
+        for k in 0..self.levels.len() {
+            let station = self.stations.at(self.anchor + self.row.v[0] + k.max(first_closed) as f64 * LEVEL);
+            // Beyond the levels where the ring is whole (armholes above, a curved hem below) it stays as wide as there.
+            let whole = self.levels[k.clamp(first_closed, last_closed)].length;
+            let need = if overlapping { self.sewn_length() } else { whole };
+            let clearance = if overlapping { 2.0 * LAYER } else { CLEARANCE };
+            let extra = ((need - station.perimeter(clearance)) / std::f64::consts::TAU).max(0.0);
+            let mut ab = [station.half_width, station.half_depth].map(|half| half + clearance + extra);
+            // An ellipse is a little shorter than a curve so far outside another one.
+            let short = (need / Ellipse::new(ab[0], ab[1]).perimeter).max(1.0);
+            ab = ab.map(|half| half * short);
+            axes.push(ab);
+        }
+        let a = smoothed(&axes.iter().map(|x| x[0]).collect::<Vec<_>>());
+        let b = smoothed(&axes.iter().map(|x| x[1]).collect::<Vec<_>>());
+        a.into_iter().zip(b).map(|(a, b)| [a, b]).collect()
+    }
+
+    /// Share of a turn that brings the row's stitches nearest to their placed partners.
+    fn turn(&self, placed: &[bool], x: &[Vec3], ellipses: &[Ellipse]) -> f64 {
+        let (mut c, mut s) = (0.0, 0.0);
+        for link in self.links {
+            for k in 0..2 {
+                let Some(i) = self.row.members.iter().position(|m| m.piece == link.pieces[k]) else { continue };
+                if !placed.get(link.pieces[1 - k]).copied().unwrap_or(false) {
+                    continue;
+                }
+                for pair in &link.pairs {
+                    let at = self.sheet.flat[pair[k] as usize] + self.row.members[i].shift;
+                    let round = if self.overlaps() { self.sewn_length() } else { ellipses[self.level(at.y)].perimeter };
+                    let own = (at.x + self.shift(i, at.y)) / round;
+                    let station = self.stations.at(self.anchor + at.y);
+                    let angle = station.angle(x[pair[1 - k] as usize]) - own * std::f64::consts::TAU;
+                    c += angle.cos();
+                    s += angle.sin();
+                }
+            }
+        }
+        if c != 0.0 || s != 0.0 {
+            return s.atan2(c) / std::f64::consts::TAU;
+        }
+        // Nothing to turn to: the front of a limb is a quarter of a turn from its outer side.
+        match self.row.part {
+            PartKind::LeftArm | PartKind::LeftLeg if self.row.front.is_some() => -0.25,
+            PartKind::RightArm | PartKind::RightLeg if self.row.front.is_some() => 0.25,
+            _ => 0.0,
+        }
+    }
+}

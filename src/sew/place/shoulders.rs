@@ -1,0 +1,156 @@
+//! Fronts and backs lean towards each other over the shoulders, so that shoulder seams start nearly closed.
+//!
+//! ```text
+//!   seen from the side:   │     │            ╲ ╱
+//!                         │     │     ─▶     ╱ ╲
+//!        armholes end ────│─────│───        │   │
+//! ```
+
+use super::levels::LEVEL;
+use super::ring::Ring;
+use super::rows::Member;
+use crate::contact::Collider;
+use crate::geometry::Vec3;
+use crate::mannequin::{Mannequin, PartKind};
+
+/// A garment with shoulder seams starts so much higher than it will hang, metres: the seams close above the shoulders.
+const LIFT: f64 = 0.04;
+/// It is lowered, in steps of so many metres, until its sides are out of the arms,
+const STEP: f64 = 0.005;
+/// at most so often,
+const STEPS: usize = 12;
+/// looking so far down from where its armholes end, metres.
+const UNDERARM: f64 = 0.06;
+/// Pieces bend over this length above the armholes, metres, and are straight beyond.
+const BEND: f64 = 0.06;
+/// They lean until this share of their distance from the middle of the body is left.
+const LEFT: f64 = 0.15;
+/// They lean by no more than this from upright, radians: what is short above the armholes does not reach the middle.
+const STEEPEST: f64 = 1.2;
+/// Cloth keeps so far from the body, metres,
+const CLEAR: f64 = 0.008;
+/// which is looked for no deeper than this.
+const DEEPEST: f64 = 0.5;
+/// Between leaning and upright so many places are tried.
+const TRIES: usize = 40;
+/// Where even upright it would be in the body (an arm), it stands off by this share of its height more.
+const OFF: f64 = 0.5;
+
+/// How a piece leans over the shoulders.
+#[derive(Clone)]
+pub(super) struct Lean<'a> {
+    body: &'a Collider,
+    /// Above this v it leans.
+    from: f64,
+    /// By this angle from upright, radians.
+    angle: f64,
+    /// The ring's half depth there, metres.
+    depth: f64,
+    /// z of the middle of the body at the shoulders.
+    middle: f64,
+}
+
+impl Lean<'_> {
+    /// The angle at which a piece that goes on for `height` metres comes as far in as it should.
+    fn reaching(mut self, height: f64) -> Self {
+        // How far in it comes rises with the angle: halve the interval until it is far below a degree.
+        let (mut low, mut high) = (0.0, STEEPEST);
+        for _ in 0..12 {
+            self.angle = 0.5 * (low + high);
+            let short = self.course(height)[1] < (1.0 - LEFT) * self.depth;
+            if short { low = self.angle } else { high = self.angle }
+        }
+        self
+    }
+
+    /// How far up and how far in the piece has come `height` metres above where it begins to lean.
+    fn course(&self, height: f64) -> [f64; 2] {
+        let bent = height.min(BEND);
+        let turned = self.angle * bent / BEND;
+        // An arc; without an angle a straight line.
+        let arc = if turned > 1e-9 { [turned.sin() / turned, (1.0 - turned.cos()) / turned] } else { [1.0, 0.0] };
+        let straight = height - bent;
+        [bent * arc[0] + straight * self.angle.cos(), bent * arc[1] + straight * self.angle.sin()]
+    }
+
+    /// How much lower than upright the piece ends, metres.
+    fn fall(&self, height: f64) -> f64 {
+        height - self.course(height)[0]
+    }
+
+    /// Where the point of height v goes that was at `p` on the upright ring: in towards the middle, but off the body.
+    pub(super) fn over(&self, p: Vec3, v: f64) -> Vec3 {
+        let height = self.from - v;
+        if height <= 0.0 {
+            return p;
+        }
+        let [up, inward] = self.course(height);
+        let y = p.y - height + up;
+        let (leaning, upright) = ((1.0 - inward / self.depth).max(0.0), 1.0 + OFF * height / self.depth);
+        let tries = (0..=TRIES).map(|k| leaning + (upright - leaning) * k as f64 / TRIES as f64);
+        let mut places = tries.map(|share| Vec3::new(p.x, y, self.middle + share * (p.z - self.middle)));
+        let clear = |at: &Vec3| self.body.nearest(*at, DEEPEST).is_none_or(|n| n.distance >= CLEAR);
+        places.find(clear).unwrap_or(Vec3::new(p.x, y, p.z))
+    }
+}
+
+impl<'a> Ring<'a> {
+    /// Lets the members lean over the shoulders; a row that hangs from no other is `free` to begin above them.
+    pub(super) fn hang_from_shoulders(&mut self, body: &Mannequin, collider: &'a Collider, free: bool) {
+        let part = |kind| body.parts.iter().find(|p| p.kind == kind);
+        let neck = part(PartKind::Neck).and_then(|p| p.sections.first());
+        let shoulders = neck.map_or_else(|| self.stations.low(), |s| -s.center.y);
+        let middle = self.stations.at(shoulders).center.z;
+        let first = self.first_closed();
+        let from = self.row.v[0] + first as f64 * LEVEL;
+        let tops: Vec<f64> = self.row.members.iter().map(|m| self.top(m.piece) + m.shift.y).collect();
+        let leans = |ring: &Self| -> Vec<Lean<'a>> {
+            let depth = ring.axes()[first][1];
+            let lean = Lean { body: collider, from, angle: 0.0, depth, middle };
+            tops.iter().map(|top| lean.clone().reaching((from - top).max(0.0))).collect()
+        };
+        self.leans = leans(self);
+        if free {
+            let falls = tops.iter().zip(&self.leans).map(|(top, lean)| top + lean.fall((from - top).max(0.0)));
+            self.anchor = shoulders - LIFT - falls.fold(f64::INFINITY, f64::min);
+            self.leave_arms(collider, from);
+            // Where it begins the ring may be of another depth.
+            self.leans = leans(self);
+        }
+    }
+
+    /// Lowers the row to where least of its sides, under the armholes, is in the arms.
+    fn leave_arms(&mut self, body: &Collider, from: f64) {
+        let mut best = (usize::MAX, self.anchor);
+        for _ in 0..STEPS {
+            let inside = self.inside(body, [from, from + UNDERARM]);
+            if inside < best.0 {
+                best = (inside, self.anchor);
+            }
+            if inside == 0 {
+                break;
+            }
+            self.anchor += STEP;
+        }
+        self.anchor = best.1;
+    }
+
+    /// How many particles between two values of v are in the body or touch it.
+    fn inside(&self, body: &Collider, [low, high]: [f64; 2]) -> usize {
+        let mut trial =
+            Self { leans: Vec::new(), levels: self.levels.clone(), stations: self.stations.clone(), ..*self };
+        let mut x = vec![Vec3::zeros(); self.mesh.flat.len()];
+        trial.bend(self.axes(), &[], &mut x);
+        let there = |m: &Member| {
+            let range = self.mesh.pieces[m.piece].particles.clone();
+            let shift = m.shift.y;
+            range.filter(move |&p| (low..high).contains(&(self.sheet.flat[p].y + shift)))
+        };
+        let touches = |p: &usize| body.nearest(x[*p], DEEPEST).is_some_and(|n| n.distance < CLEAR);
+        self.row.members.iter().flat_map(there).filter(touches).count()
+    }
+
+    fn top(&self, piece: usize) -> f64 {
+        self.mesh.pieces[piece].particles.clone().map(|p| self.sheet.flat[p].y).fold(f64::INFINITY, f64::min)
+    }
+}
