@@ -201,6 +201,29 @@ fn export_writes_what_cutters_take() {
 }
 
 #[test]
+fn drawings_come_back_as_garment_files() {
+    let room = Room::new();
+    for kind in ["svg", "dxf"] {
+        let (drawing, made) = (format!("out/skirt/cutting.{kind}"), format!("from_{kind}.yaml"));
+        room.run(&["export", kind, "skirt.yaml", "-q"]).ends(0);
+        let run = room.run(&["import", kind, &drawing, "-o", &made, "--json"]);
+        let json = run.ends(0).json();
+        assert_eq!((&json["file"], &json["pieces"]), (&Value::from(made.as_str()), &Value::from(2)), "{json}");
+        // Seams are only suggested, so that everything is still free: a check of the file as it is passes.
+        assert_eq!((&json["seams"], &json["ok"]), (&Value::from(0), &Value::from(true)), "{json}");
+        room.run(&["check", &made, "-q"]).ends(0);
+        let text = String::from_utf8(room.bytes(&made)).expect("UTF-8");
+        for piece in ["  front:", "  back:"] {
+            assert!(text.contains(piece), "{text}");
+        }
+        room.run(&["import", kind, &drawing, "-o", &drawing]).ends(2).says(&["is an input"]);
+        room.run(&["import", kind, "skirt.yaml", "-o", "no.yaml"]).ends(2).says(&["skirt.yaml"]);
+        room.run(&["import", kind, "nowhere", "-o", "no.yaml"]).ends(2).says(&["nowhere"]);
+        assert!(!room.dir.path().join("no.yaml").exists());
+    }
+}
+
+#[test]
 fn without_o_results_go_to_out_name() {
     let room = Room::new();
     room.run(&["sew", "skirt.yaml", "--spacing", COARSE, "-q"]).ends(0);

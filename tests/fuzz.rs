@@ -7,7 +7,13 @@ mod mutate;
 use std::time::{Duration, Instant};
 
 use mutate::{Mutator, Source};
+use toile::cutting::{Options, papers};
+use toile::digitize::{Digitized, garment_file};
+use toile::io::dxf_read::read_dxf_text;
+use toile::io::dxf_write::cutting_dxf;
+use toile::io::svg_read::read_svg_text;
 use toile::io::{body, garment, garmentcode, obj_read};
+use toile::pattern::drawings;
 
 /// A reader's answer to one input; what it says does not matter, that it comes back does.
 type Reader = fn(&str);
@@ -65,6 +71,26 @@ fn read_surface(text: &str) {
         }
         Err(error) => assert!(!error.to_string().is_empty()),
     }
+}
+
+fn read_svg(text: &str) {
+    match read_svg_text(text) {
+        Ok(traced) => read_digitized(&garment_file("fuzz", &traced)),
+        Err(error) => assert!(!error.to_string().is_empty()),
+    }
+}
+
+fn read_dxf(text: &str) {
+    match read_dxf_text(text, None) {
+        Ok(traced) => read_digitized(&garment_file("fuzz", &traced)),
+        Err(error) => assert!(!error.to_string().is_empty()),
+    }
+}
+
+/// Whatever a drawing says, what is made of it is a file that can be read.
+fn read_digitized(made: &Digitized) {
+    let yaml = garment::write(&made.file).expect("YAML");
+    garment::read_file_only("fuzz.yaml", &yaml).unwrap_or_else(|e| panic!("{e}\n{yaml}"));
 }
 
 #[test]
@@ -158,4 +184,73 @@ fn surfaces() {
         "\\",
     ];
     fuzz("surface", &Source { seeds: &[cube], words: &words }, read_surface);
+}
+
+#[test]
+fn drawings_in_svg() {
+    let seeds = [include_str!("data/inkscape.svg"), include_str!("data/freesewing.svg")];
+    let words = [
+        "nan",
+        "1e308",
+        "-0",
+        "0.0000001",
+        "M",
+        "z m 0 0",
+        "L",
+        "A 0 0 0 1 1 5 5",
+        "C",
+        "<g>",
+        "</g>",
+        "<",
+        "\"",
+        "transform=\"scale(0)\"",
+        "transform=\"rotate(1e9)\"",
+        "viewBox=\"0 0 0 0\"",
+        "width=\"1e9in\"",
+        "<use href=\"#a\"/>",
+        "style=\"display:none\"",
+        "&#0;",
+        "é",
+    ];
+    fuzz("SVG", &Source { seeds: &seeds, words: &words }, read_svg);
+}
+
+/// A piece on the fold, with a notch, a dart and a hole.
+const FOLDED: &str = "
+garment: 1
+pieces:
+  front:
+    cut: fold center
+    grain: [[60, 250], [60, 60]]
+    outline: {start: 0 20, neck: C 40 20 60 0 80 -20, side: L 140 300, hem: L 0 300, center: L 0 20}
+    notches: {side: [100 double]}
+    darts: [{edge: hem, at: 60, intake: 12, length: 80}]
+    holes: {slit: M 20 120 L 20 130 L 60 130 L 60 120 Z}
+free: ['*.*']
+";
+
+#[test]
+fn drawings_in_dxf() {
+    let loaded = garment::read_text("garment", "garment.yaml", FOLDED).expect("a garment");
+    let seed = cutting_dxf("seed", &papers(&drawings(&loaded.file, &loaded.garment), &Options::default()));
+    let words = [
+        "\n0\nPOLYLINE\n",
+        "\n0\nVERTEX\n",
+        "\n0\nSEQEND\n",
+        "\n0\nBLOCK\n",
+        "\n0\nENDBLK\n",
+        "\n0\nINSERT\n",
+        "\n0\nEOF\n",
+        "\n8\n14\n",
+        "\n10\nnan\n",
+        "\n20\n1e308\n",
+        "\n42\n1e9\n",
+        "\n70\n1\n",
+        "99999999999999999999",
+        "-1",
+        "\r\n",
+        "\0",
+        "é",
+    ];
+    fuzz("DXF", &Source { seeds: &[&seed], words: &words }, read_dxf);
 }

@@ -11,7 +11,8 @@ pub(crate) struct Source<'a> {
 /// A small generator (xorshift, Marsaglia 2003): the same inputs on every machine.
 pub(crate) struct Mutator(u64);
 
-/// Texts are cut to this many characters: what is slow at a few kilobytes is told apart from what is merely long.
+/// Texts are cut to this many characters, or to twice their seed's: what is slow at a few kilobytes is told apart from
+/// what is merely long.
 const LONGEST: usize = 8_000;
 
 impl Mutator {
@@ -37,6 +38,7 @@ impl Mutator {
     /// A seed with one to eight things wrong.
     pub(crate) fn mutated(&mut self, source: &Source) -> String {
         let mut text: Vec<char> = self.pick(source.seeds).chars().collect();
+        let longest = LONGEST.max(2 * text.len());
         for _ in 0..=self.below(8) {
             match self.below(7) {
                 0 => self.lose(&mut text),
@@ -48,7 +50,7 @@ impl Mutator {
                 _ => self.splice(&mut text, source),
             }
         }
-        text.truncate(LONGEST);
+        text.truncate(longest);
         text.into_iter().collect()
     }
 

@@ -1,8 +1,11 @@
 //! A body part as stations along its axis, downward or outward.
 
 use super::ellipse::Ellipse;
-use crate::geometry::Vec3;
+use crate::geometry::{TriMesh, Vec3};
 use crate::mannequin::{BodyPart, Mannequin, PartKind};
+
+/// Over this height above the ankles the ring round both legs widens to the feet, metres.
+const INSTEP: f64 = 0.12;
 
 /// A cross-section with the frame that rows are bent in.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +35,7 @@ impl Stations {
             PartKind::Torso | PartKind::Neck => {
                 let mut list: Vec<(f64, Station)> = own.sections.iter().map(|s| (-s.center.y, upright(s))).collect();
                 if part == PartKind::Torso {
-                    let legs = find(PartKind::LeftLeg).map(|leg| both_legs(leg, &list));
+                    let legs = find(PartKind::LeftLeg).map(|leg| both_legs(leg, &list, &body.mesh));
                     list.extend(legs.into_iter().flatten());
                 }
                 list
@@ -116,16 +119,26 @@ fn upright(s: &crate::mannequin::Section) -> Station {
     Station { center: s.center, front: Vec3::z(), right: Vec3::x(), half_width: s.half_width, half_depth: s.half_depth }
 }
 
-/// Below the crotch the trunk's ring goes round both legs.
-fn both_legs(leg: &BodyPart, trunk: &[(f64, Station)]) -> Vec<(f64, Station)> {
+/// Below the crotch the trunk's ring goes round both legs, and round the feet where the body has any.
+fn both_legs(leg: &BodyPart, trunk: &[(f64, Station)], body: &TriMesh) -> Vec<(f64, Station)> {
     let lowest = trunk.iter().map(|s| s.0).fold(f64::NEG_INFINITY, f64::max);
+    let ankle = leg.sections.iter().map(|s| s.center.y).fold(f64::INFINITY, f64::min);
+    // How far the feet reach back and forward.
+    let feet = body.vertices.iter().filter(|v| v.y < ankle).map(|v| v.z);
+    let feet = feet.fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], z| [lo.min(z), hi.max(z)]);
     leg.sections
         .iter()
         .filter(|s| -s.center.y > lowest)
         .map(|s| {
-            let center = Vec3::new(0.0, s.center.y, s.center.z);
+            let share = (1.0 - (s.center.y - ankle) / INSTEP).clamp(0.0, 1.0);
+            let (low, high) = (s.center.z - s.half_depth, s.center.z + s.half_depth);
+            // Without feet the share of nothing is nothing.
+            let back = if feet[0] < low { low + share * (feet[0] - low) } else { low };
+            let front = if feet[1] > high { high + share * (feet[1] - high) } else { high };
+            let center = Vec3::new(0.0, s.center.y, 0.5 * (back + front));
             let half_width = s.center.x.abs() + s.half_width;
-            (-s.center.y, Station { center, front: Vec3::z(), right: Vec3::x(), half_width, half_depth: s.half_depth })
+            let half_depth = 0.5 * (front - back);
+            (-s.center.y, Station { center, front: Vec3::z(), right: Vec3::x(), half_width, half_depth })
         })
         .collect()
 }
