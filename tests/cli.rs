@@ -457,8 +457,23 @@ fn any_surface_can_be_laid_flat() {
     }
     room.put("tube.obj", &text);
     let report = room.run(&["flatten", "tube.obj", "--units", "cm", "-o", "flat", "--json"]).ends(0).json();
-    assert_eq!(room.names("flat"), ["flat.obj", "flat.png", "pattern.svg", "report.json"]);
+    assert_eq!(room.names("flat"), ["flat.obj", "flat.png", "outline.svg", "pattern.svg", "report.json"]);
     assert_eq!(report["pieces"][1]["name"], "high");
+    // The edges run between the corners, and know what is on the other side.
+    let edges = |piece: usize| report["pieces"][piece]["edges"].as_array().expect("a list").clone();
+    let sewn =
+        |piece: usize| edges(piece).iter().filter_map(|e| e["sewn_to"].as_str().map(str::to_owned)).collect::<Vec<_>>();
+    assert_eq!((edges(0).len(), edges(1).len()), (4, 4));
+    assert_eq!([sewn(0).len(), sewn(1).len()], [1, 1]);
+    let partner = edges(1).iter().position(|e| e["sewn_to"] != Value::Null).expect("one");
+    assert_eq!(sewn(0), [format!("high.{}", edges(1)[partner]["name"].as_str().expect("a name"))]);
+    let length = edges(1)[partner]["length_flattened"].as_f64().expect("a number");
+    assert!((length - 8.0 * 2.0 * 500.0 * (std::f64::consts::PI / 16.0).sin()).abs() < 0.01, "{length}");
+    let outline = String::from_utf8(room.bytes("flat/outline.svg")).expect("text");
+    assert_eq!(outline.matches("class=\"edge\"").count(), 8);
+    assert_eq!(outline.matches(" C").count(), 8, "straight edges are one curve each");
+    let pattern = String::from_utf8(room.bytes("flat/pattern.svg")).expect("text");
+    assert_eq!(pattern.matches("class=\"notch\"").count(), 2, "one in the middle on either side");
     let width = 8.0 * 2.0 * 500.0 * (std::f64::consts::PI / 16.0).sin();
     let area = report["pieces"][0]["area_flattened"].as_f64().expect("a number");
     assert!((area - 200.0 * width).abs() < 1e-3 * area, "{area}");

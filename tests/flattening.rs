@@ -375,6 +375,67 @@ proptest! {
     }
 }
 
+/// Half a front: a cylinder of 15 cm radius with a bust of 5 cm.
+fn front(cells: usize) -> TriMesh {
+    sheet(cells, cells, whole, |u, v| {
+        let (x, y) = (0.25 * u, 0.4 * v);
+        let bust = 0.05 * (-((x - 0.1).powi(2) + (y - 0.22).powi(2)) / 0.005).exp();
+        let (sine, cosine) = (x / 0.15).sin_cos();
+        Vec3::new(sine, 0.0, cosine) * (0.15 + bust) + Vec3::y() * y
+    })
+}
+
+#[test]
+fn a_weave_shears_by_thirty_degrees_at_most_and_its_threads_stay() {
+    let mesh = front(40);
+    let woven = flatten(&mesh, &mode(Mode::Woven)).unwrap();
+    assert_sound(&mesh, &woven);
+    let r = &woven.report;
+    assert!(r.threads.shear_max.to_degrees() < 30.0, "{r:?}");
+    assert!(r.largest_rim_error < 1e-4, "{r:?}");
+    let other = flatten(&mesh, &mode(Mode::Balanced)).unwrap().report;
+    let most = |r: &toile::flatten::Report| r.threads.warp.max(r.threads.weft);
+    println!("woven {:?}, balanced {:?}", r.threads, other.threads);
+    assert!(most(r) < 0.01 && most(r) < 0.3 * most(&other), "{:?} {:?}", r.threads, other.threads);
+    // A dome's rim is too short for its cloth, so the threads alone count.
+    let dome = flatten(&cap(40, f64::to_radians(60.0), 0.15), &mode(Mode::Woven)).unwrap().report;
+    assert!(most(&dome) < 3e-3 && dome.threads.shear_max.to_degrees() < 30.0, "{:?}", dome.threads);
+    // cos(shear) of the flat area lies in space: it cannot be smaller.
+    assert!(dome.area_after > dome.area_before);
+}
+
+#[test]
+fn corners_resist_as_much_as_is_asked() {
+    let mesh = front(40);
+    let worst = |corners: f64| flatten(&mesh, &Options { corners, ..Options::default() }).unwrap().report;
+    let [free, usual, stiff] = [0.0, 1.0, 10.0].map(worst);
+    println!("{} {} {}", free.corner_change, usual.corner_change, stiff.corner_change);
+    assert!(free.corner_change > usual.corner_change && usual.corner_change > stiff.corner_change);
+    assert!(stiff.largest_rim_error < 1e-4 && stiff.corner_change > stiff.corner_change_forced);
+}
+
+#[test]
+fn a_large_piece_comes_to_the_same_end_in_as_few_steps() {
+    // With more than 12,000 vertices a piece goes down on a grid first; what it comes to must not show it.
+    for m in [Mode::Balanced, Mode::Boundary] {
+        let [small, large] = [80, 120].map(|cells| {
+            let mesh = front(cells);
+            let flat = flatten(&mesh, &mode(m)).unwrap();
+            assert_sound(&mesh, &flat);
+            flat.report
+        });
+        println!("{m:?}: {} and {} steps, {} and {}", small.iterations, large.iterations, small.energy, large.energy);
+        assert!((large.energy / small.energy - 1.0).abs() < 0.02, "{m:?}: {} {}", small.energy, large.energy);
+        assert!(large.largest_rim_error < 1e-4 && large.iterations <= small.iterations + 5);
+    }
+    // Nothing is spoiled where there is nothing to win.
+    let bent = sheet(130, 110, whole, |u, v| Vec3::new(0.4 * u.min(0.5), 0.3 * v, 0.4 * (u - 0.5).max(0.0)));
+    for m in MODES {
+        let flat = flatten(&bent, &mode(m)).unwrap();
+        assert!(flat.report.largest_edge_error < 1e-9, "{m:?}: {:e}", flat.report.largest_edge_error);
+    }
+}
+
 /// Measured surfaces that are not part of this repository.
 fn surface(name: &str) -> Option<(PathBuf, TriMesh)> {
     let folder = std::env::var_os("TOILE_SURFACES").map_or(Path::new("../shared/surfaces").into(), PathBuf::from);

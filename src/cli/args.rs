@@ -121,6 +121,13 @@ fn spacing(text: &str) -> Result<f64, String> {
     }
 }
 
+fn weight(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (0.0..=1000.0).contains(&value) => Ok(value),
+        _ => Err("a number from 0 to 1000 is expected, such as 1".into()),
+    }
+}
+
 fn percent(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
@@ -180,6 +187,9 @@ pub(super) struct FlattenArgs {
     /// Strain in per cent that all but a hundredth of a piece should stay below (OBJ only)
     #[arg(long, value_name = "PERCENT", default_value_t = 10.0, value_parser = percent)]
     pub(super) limit: f64,
+    /// How much corners and curves of the rim resist being turned: 1 is usual, 10 turns the worst corner less, 0 not at all
+    #[arg(long, value_name = "WEIGHT", default_value_t = 1.0, value_parser = weight)]
+    pub(super) corners: f64,
     /// Leave seams of the texture closed; otherwise the surface is cut along them (OBJ only)
     #[arg(long)]
     pub(super) no_texture_seams: bool,

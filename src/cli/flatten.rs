@@ -9,14 +9,14 @@ use super::make::{Goal, Plan, carry_out, folder, write};
 use crate::flatten::Options;
 use crate::io::files::check_writable;
 use crate::pipeline::{
-    Color, Cuts, FLAT_OBJ, FLAT_PNG, PATTERN_SVG, PartReport, REPORT_JSON, SurfaceOptions, SurfaceReport,
+    Color, Cuts, FLAT_OBJ, FLAT_PNG, OUTLINE_SVG, PATTERN_SVG, PartReport, REPORT_JSON, SurfaceOptions, SurfaceReport,
     flatten_surface,
 };
 use crate::report::{aligned, restless};
 
 /// `toile flatten`
 pub(super) fn flatten(args: &FlattenArgs, console: &Console) -> Result<Exit, CliError> {
-    let options = Options { mode: args.mode.into(), ..Options::default() };
+    let options = Options { mode: args.mode.into(), corners: args.corners, ..Options::default() };
     if is_garment(&args.input) {
         let plan = Plan {
             garment: &args.input,
@@ -64,7 +64,8 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
     let stem = args.input.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
     let folder = folder(args.output.as_deref(), &stem);
     let inputs = [args.input.as_path()];
-    let targets: Vec<PathBuf> = [FLAT_OBJ, FLAT_PNG, PATTERN_SVG, REPORT_JSON].map(|name| folder.join(name)).into();
+    let targets: Vec<PathBuf> =
+        [FLAT_OBJ, FLAT_PNG, OUTLINE_SVG, PATTERN_SVG, REPORT_JSON].map(|name| folder.join(name)).into();
     check_writable(&targets, &inputs)?;
     let flat = flatten_surface(&args.input, &options)?;
     flat.notes.iter().for_each(|note| console.note(note));

@@ -59,25 +59,20 @@ impl Laplacian {
         out
     }
 
-    /// The u with A·u = `source` inside and `u` as given on the rim (inner values of `u` are overwritten).
-    pub(super) fn solve(&self, source: &[f64], u: &mut [f64]) {
-        for (value, inner) in u.iter_mut().zip(&self.inner) {
-            if inner.is_some() {
-                *value = 0.0;
-            }
-        }
-        let lifted = self.apply(u);
-        let mut rhs = vec![0.0; self.inner_count];
-        for (v, inner) in self.inner.iter().enumerate() {
-            if let Some(k) = inner {
-                rhs[*k as usize] = source[v] - lifted[v];
-            }
+    /// For each of several functions the u with A·u = `source` inside and `u` as given on the rim (inner values of `u` are
+    /// overwritten).
+    pub(super) fn solve<const N: usize>(&self, source: &[f64], functions: [&mut [f64]; N]) {
+        let inside = || self.inner.iter().enumerate().filter_map(|(v, inner)| Some((v, (*inner)? as usize)));
+        let mut rhs = vec![0.0; N * self.inner_count];
+        let mut functions = functions;
+        for (u, rhs) in functions.iter_mut().zip(rhs.chunks_mut(self.inner_count.max(1))) {
+            inside().for_each(|(v, _)| u[v] = 0.0);
+            let lifted = self.apply(u);
+            inside().for_each(|(v, k)| rhs[k] = source[v] - lifted[v]);
         }
         self.factor.solve(&mut rhs);
-        for (value, inner) in u.iter_mut().zip(&self.inner) {
-            if let Some(k) = inner {
-                *value = rhs[*k as usize];
-            }
+        for (u, rhs) in functions.iter_mut().zip(rhs.chunks(self.inner_count.max(1))) {
+            inside().for_each(|(v, k)| u[v] = rhs[k]);
         }
     }
 }

@@ -8,6 +8,7 @@ use super::element::Element;
 use super::overlap::rim_crossings;
 use super::relax::Outcome;
 use super::start::angle_sums;
+use super::woven;
 use crate::geometry::{TriMesh, Vec2, Vec3};
 
 /// Share of the area that may be strained more than [`Report::strain_p99`] says: single triangles at a corner.
@@ -48,14 +49,49 @@ pub struct Report {
     pub strain_p99: f64,
     /// The largest of any triangle.
     pub strain_max: f64,
+    /// What happened to warp and weft.
+    pub threads: Threads,
     /// Largest change of the rim's inner angle in one of its vertices, radians.
     pub corner_change: f64,
+    /// The least that any flat piece has there: the curvature, spread evenly over the rim's vertices.
+    pub corner_change_forced: f64,
     /// Total Gauss curvature inside the rim, radians: by this much less, all together, the rim's inner angles are flat.
     pub curvature: f64,
     /// Flipped triangles: always 0.
     pub flips: usize,
     /// Crossings of the flat rims: 0 unless the piece lies on itself.
     pub overlaps: usize,
+}
+
+/// Threads of the flat cloth as they lie on the surface in space.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Threads {
+    /// Root mean square (by area) of the warp's stretch minus one.
+    pub warp: f64,
+    /// The same of the weft.
+    pub weft: f64,
+    /// Root mean square (by area) of the change of the angle between them, radians.
+    pub shear: f64,
+    /// The largest of any triangle.
+    pub shear_max: f64,
+}
+
+impl Threads {
+    fn of(sheet: &Sheet<'_>, flat: &[Vec2]) -> Self {
+        let mut sums = Self::default();
+        let mut area = 0.0;
+        for (t, &corners) in sheet.surface.triangles.iter().enumerate() {
+            let element = Element::new(corners, sheet.surface.corners(t));
+            let [warp, weft, shear] = woven::measured(&element.jacobian(flat), sheet.warp);
+            sums.warp += element.area * warp * warp;
+            sums.weft += element.area * weft * weft;
+            sums.shear += element.area * shear * shear;
+            sums.shear_max = sums.shear_max.max(shear.abs());
+            area += element.area;
+        }
+        let root = |sum: f64| (sum / area).sqrt();
+        Self { warp: root(sums.warp), weft: root(sums.weft), shear: root(sums.shear), ..sums }
+    }
 }
 
 /// Length of an edge in space.
@@ -91,7 +127,9 @@ pub(super) fn report(sheet: &Sheet<'_>, flat: &[Vec2], outcome: &Outcome) -> Rep
         area_distortion: (areas.change / area_before).sqrt(),
         strain_p99: areas.exceeded_by(LARGEST_SHARE),
         strain_max: areas.exceeded_by(0.0),
+        threads: Threads::of(sheet, flat),
         corner_change: angles.corner_change,
+        corner_change_forced: angles.curvature.abs() / sheet.rims.iter().map(Vec::len).sum::<usize>() as f64,
         curvature: angles.curvature,
         flips: areas.flips,
         overlaps: rim_crossings(flat, &sheet.rims),

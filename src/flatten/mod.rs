@@ -35,10 +35,11 @@ mod zone;
 pub use cut::{Solid, dart, disk_cuts, shortest_path};
 pub use error::FlattenError;
 pub use garment::{FlatGarment, FlatPiece, flatten_garment};
-pub use measure::{Report, triangle_strain};
+pub use measure::{Report, Threads, triangle_strain};
 pub use overlap::rim_crossings;
 
 use std::collections::HashMap;
+use std::f64::consts::TAU;
 
 use crate::geometry::{Topology, TriMesh, Vec2};
 use distortion::Weights;
@@ -60,8 +61,11 @@ const BRACED: f64 = 0.1;
 /// Weight of (det J − 1)² in the balanced mode: brings the area of a bodice's triangles from 6 % to 1.1 % (RMS), at
 /// the price of more shear (the stretches' root mean square rises from 7 to 11 %), which cloth gives easily.
 const AREA_WEIGHT: f64 = 7.0;
-/// In the woven mode this share of the distortion energy stays, against shear beyond what a weave can.
-const WOVEN_WALL: f64 = 0.05;
+/// In the woven mode this share of the distortion energy stays, as the wall before a flip.
+const WOVEN_WALL: f64 = 1e-4;
+/// Stiffness of rim edges in the woven mode against that in the others: there the cloth gives so easily that a stiffer
+/// rim only takes longer to find.
+const WOVEN_RIM: f64 = 0.1;
 /// In the isometric and spring modes this share of the distortion energy is there as the wall before a flip. It moves
 /// the minimum so little that the strain is within 10⁻⁵ of the least.
 const WALL: f64 = 1e-3;
@@ -76,15 +80,17 @@ pub enum Mode {
     Isometric,
     /// Rim lengths first, then distances.
     Boundary,
-    /// Rim lengths and the lengths of warp and weft threads; the angle between them gives. The warp is the piece's
-    /// own, or upright (space's y) where there is no drawn piece.
+    /// Rim lengths and the lengths of warp and weft threads; the angle between them gives, by 30° at most where that is
+    /// enough. The warp is the piece's own, or upright (space's y) where there is no drawn piece. Where the rim is too
+    /// short for the area (L² < 4πS) only the threads count: cloth whose threads keep their lengths is flat at least as
+    /// large as in space.
     Woven,
     /// The lengths of all mesh edges: the published springs (F13).
     Spring,
 }
 
 impl Mode {
-    /// Whether rim edges get exactly the lengths they should have.
+    /// Whether rim edges get exactly the lengths they should have; in the woven mode where the rim is long enough.
     pub fn keeps_rim(self) -> bool {
         matches!(self, Self::Balanced | Self::Boundary | Self::Woven)
     }
@@ -99,11 +105,14 @@ pub struct Options {
     pub tolerance: f64,
     /// Steps after which to stop anyway.
     pub max_iterations: usize,
+    /// How much corners and curves of the rim resist being turned, against the mode's own measure; 1 is usual, with 10
+    /// the largest change of a corner is about a third smaller and the rest of the piece pays.
+    pub corners: f64,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { mode: Mode::default(), tolerance: 1e-5, max_iterations: 300 }
+        Self { mode: Mode::default(), tolerance: 1e-5, max_iterations: 1000, corners: 1.0 }
     }
 }
 
@@ -184,15 +193,26 @@ impl<'a> Sheet<'a> {
         Self { surface, topology, rims, elements, rim_targets, warp: -Vec2::y() }
     }
 
-    fn energy(&self, mode: Mode) -> Energy {
+    /// Whether a mode can hold the rim's lengths.
+    fn holds_rim(&self, mode: Mode) -> bool {
+        let rim: f64 = self.rim_targets.iter().sum();
+        mode.keeps_rim() && (mode != Mode::Woven || rim * rim >= 2.0 * TAU * self.surface.area())
+    }
+
+    fn energy(&self, options: &Options) -> Energy {
+        let rim_springs = |stiffness: f64| self.rim_springs(stiffness, options.corners);
         let law = |weights: Weights| Law { weights, warp: None };
-        let (springs, law) = match mode {
-            Mode::Balanced => (self.rim_springs(), law(Weights { dirichlet: 1.0, area: AREA_WEIGHT, strain: 0.0 })),
+        let (springs, law) = match options.mode {
+            Mode::Balanced => {
+                (rim_springs(RIM_WEIGHT), law(Weights { dirichlet: 1.0, area: AREA_WEIGHT, strain: 0.0 }))
+            }
             Mode::Isometric => (Springs::default(), law(Weights { dirichlet: WALL, strain: 1.0, area: 0.0 })),
-            Mode::Boundary => (self.rim_springs(), law(Weights { dirichlet: 1.0, ..Weights::default() })),
+            Mode::Boundary => (rim_springs(RIM_WEIGHT), law(Weights { dirichlet: 1.0, ..Weights::default() })),
             Mode::Woven => {
                 let weights = Weights { dirichlet: WOVEN_WALL, ..Weights::default() };
-                (self.rim_springs(), Law { warp: Some(self.warp), weights })
+                let rim =
+                    if self.holds_rim(Mode::Woven) { rim_springs(WOVEN_RIM * RIM_WEIGHT) } else { Springs::default() };
+                (rim, Law { warp: Some(self.warp), weights })
             }
             Mode::Spring => (self.edge_springs(), law(Weights { dirichlet: WALL, ..Weights::default() })),
         };
@@ -202,9 +222,9 @@ impl<'a> Sheet<'a> {
     /// Rim edges, weighted by length: the weight of a rim does not change with the mesh. Braces over two edges each keep
     /// a rim that is longer than its surroundings want from taking the length up in kinks: they do not feel a rim that
     /// bends a little in every vertex.
-    fn rim_springs(&self) -> Springs {
+    fn rim_springs(&self, stiffness: f64, corners: f64) -> Springs {
         let size = self.elements.iter().map(|e| e.area).sum::<f64>().sqrt();
-        let spring = |ends, target| Spring::between(ends, target, RIM_WEIGHT * size * target);
+        let spring = |ends, target| Spring::between(ends, target, stiffness * size * target);
         let edges = self.topology.rim_edges().map(|e| e.ends);
         let targets: Vec<([u32; 2], f64)> = edges.zip(self.rim_targets.iter().copied()).collect();
         let of_edge: HashMap<[u32; 2], f64> = targets.iter().copied().collect();
@@ -219,7 +239,7 @@ impl<'a> Sheet<'a> {
                 // Where the rim turns back on itself there is nothing to span.
                 if a != c && square > (BRACED * (before + after)).powi(2) {
                     let brace = spring([a.min(c), a.max(c)], square.sqrt());
-                    free.push(Spring { weight: BRACE * brace.weight, ..brace });
+                    free.push(Spring { weight: BRACE * corners * brace.weight, ..brace });
                 }
             }
         }
@@ -244,14 +264,15 @@ impl<'a> Sheet<'a> {
 
 fn relax_sheet(sheet: &Sheet<'_>, start: Vec<Vec2>, options: &Options) -> Result<Flattened, FlattenError> {
     let mut positions = start;
-    let mut energy = sheet.energy(options.mode);
+    let mut energy = sheet.energy(options);
     let mut zone = None;
-    if options.mode.keeps_rim() {
+    let held = sheet.holds_rim(options.mode);
+    if held {
         coarse::approach(&energy, &mut positions);
         zone = Zone::new(&energy, &positions);
     }
     let mut descent = Descent::new(&energy, &positions)?;
-    let outcome = descent.down(&mut energy, &mut positions, &Goal::of(options), zone.as_mut())?;
+    let outcome = descent.down(&mut energy, &mut positions, &Goal::of(options, held), zone.as_mut())?;
     let report = measure::report(sheet, &positions, &outcome);
     Ok(Flattened { positions, log_scale: Vec::new(), report })
 }

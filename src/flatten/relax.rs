@@ -55,11 +55,12 @@ pub(super) struct Goal {
 }
 
 impl Goal {
-    pub(super) fn of(options: &Options) -> Self {
+    /// `held` says whether there are springs to be held.
+    pub(super) fn of(options: &Options, held: bool) -> Self {
         Self {
             tolerance: options.tolerance,
             max_iterations: options.max_iterations,
-            holds: if options.mode.keeps_rim() { HOLDS } else { 0 },
+            holds: if held { HOLDS } else { 0 },
             exact: if options.mode == Mode::Boundary { RIM_EXACT[0] } else { RIM_EXACT[1] },
         }
     }

@@ -54,7 +54,7 @@ fn boundary_first(surface: &TriMesh, topology: &Topology, rim: &[u32], on_rim: &
 fn yamabe(laplacian: &Laplacian, angles: &[f64]) -> Vec<f64> {
     let source: Vec<f64> = angles.iter().map(|a| a - TAU).collect();
     let mut scale = vec![0.0; angles.len()];
-    laplacian.solve(&source, &mut scale);
+    laplacian.solve(&source, [&mut scale]);
     scale
 }
 
@@ -88,19 +88,15 @@ fn onto_circle(
 }
 
 fn extend(laplacian: &Laplacian, vertices: usize, rim: &[u32], outline: &[Vec2]) -> Vec<Vec2> {
-    let mut flat = vec![Vec2::zeros(); vertices];
-    let none = vec![0.0; vertices];
-    for axis in 0..2 {
-        let mut u = vec![0.0; vertices];
-        for (&v, p) in rim.iter().zip(outline) {
-            u[v as usize] = p[axis];
-        }
-        laplacian.solve(&none, &mut u);
-        for (p, u) in flat.iter_mut().zip(u) {
-            p[axis] = u;
-        }
+    let mut coordinates = [vec![0.0; vertices], vec![0.0; vertices]];
+    for (&v, p) in rim.iter().zip(outline) {
+        coordinates[0][v as usize] = p.x;
+        coordinates[1][v as usize] = p.y;
     }
-    flat
+    let [x, y] = &mut coordinates;
+    laplacian.solve(&vec![0.0; vertices], [x, y]);
+    let [x, y] = coordinates;
+    x.into_iter().zip(y).map(|(x, y)| Vec2::new(x, y)).collect()
 }
 
 /// Length of the rim edge from each rim vertex to the next.

@@ -1,9 +1,11 @@
 //! The ground floor: vectors, curves, triangle meshes.
 
 mod curve;
+mod fit;
 mod trimesh;
 
 pub use curve::{Path, PathError, Station, parse_transform};
+pub use fit::{Cubic, smooth_curves};
 pub use trimesh::{Edge, Topology, TriMesh, rim_loops};
 
 /// A point or direction in a flat piece, metres, y **down**, the right side of the cloth facing the reader.

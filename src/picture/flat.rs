@@ -52,7 +52,9 @@ pub fn draw_flat(cloth: &ClothMesh, values: &[f64], title: &str) -> Result<Vec<u
     for top in (HEAD..HEIGHT).step_by(BAND) {
         let rows = BAND.min(HEIGHT - top);
         let mut band = Band::new(WIDTH * SAMPLES, top * SAMPLES, rows * SAMPLES);
-        shapes.iter().for_each(|shape| band.triangle(shape));
+        let (first, last) = ((top * SAMPLES) as f32, ((top + rows) * SAMPLES) as f32);
+        let meets = |s: &&[Corner; 3]| s.iter().any(|c| c.at[1] <= last) && s.iter().any(|c| c.at[1] >= first);
+        shapes.iter().filter(meets).for_each(|shape| band.triangle(shape));
         canvas.paste(0, top, WIDTH, &band.pixels());
     }
     for (k, piece) in cloth.pieces.iter().enumerate() {

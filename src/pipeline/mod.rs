@@ -30,4 +30,7 @@ pub use results::{
     Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, PATTERN_SVG, PLACED_OBJ, REPORT_JSON, ResultFile, SEWN_OBJ, json_text,
 };
 pub use run::{Progress, Run};
-pub use surface::{Cuts, FLAT_OBJ, FLAT_PNG, FlatSurface, PartReport, SurfaceOptions, SurfaceReport, flatten_surface};
+pub use surface::{
+    Cuts, EdgeReport, FLAT_OBJ, FLAT_PNG, FlatSurface, OUTLINE_SVG, PartReport, SurfaceOptions, SurfaceReport,
+    flatten_surface,
+};

@@ -11,7 +11,7 @@ use svg::node::element::{Group, Path, Rectangle, Text};
 pub use cutting::cutting_svg;
 
 use crate::cutting::TEST_SQUARE;
-use crate::geometry::Vec2;
+use crate::geometry::{Cubic, Vec2};
 
 /// Millimetres per metre.
 const MM: f64 = 1000.0;
@@ -54,6 +54,14 @@ fn text(content: &str, at: Vec2, height: f64) -> Text {
 pub(super) fn polyline(points: &[Vec2], class: &str, width: f64) -> Path {
     let steps: Vec<String> = points.iter().map(|p| format!("{} {}", number(p.x), number(p.y))).collect();
     stroke(if steps.is_empty() { String::new() } else { format!("M{}", steps.join(" L")) }, class, width)
+}
+
+/// Curves end to end, mm.
+pub(super) fn curved(curves: &[Cubic], class: &str, width: f64) -> Path {
+    let at = |p: &Vec2| format!("{} {}", number(p.x), number(p.y));
+    let start = curves.first().map_or_else(String::new, |c| format!("M{}", at(&c[0])));
+    let steps = curves.iter().map(|[_, a, b, to]| format!(" C{} {} {}", at(a), at(b), at(to)));
+    stroke(start + &steps.collect::<String>(), class, width)
 }
 
 fn stroke(commands: String, class: &str, width: f64) -> Path {

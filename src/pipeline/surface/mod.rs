@@ -1,6 +1,7 @@
 //! Any surface laid flat: every group, texture island or connected part of an OBJ file as a piece of its own.
 
 mod cuts;
+mod edges;
 mod parts;
 mod report;
 mod write;
@@ -17,9 +18,10 @@ use crate::io::obj_read::{ObjFaces, read_obj_faces};
 use crate::report::Stage;
 pub use cuts::Cuts;
 use cuts::Marks;
+use edges::{NamedEdge, named_edges};
 use parts::{Nodes, Part, parts};
-pub use report::{PartReport, SurfaceReport};
-pub use write::{FLAT_OBJ, FLAT_PNG};
+pub use report::{EdgeReport, PartReport, SurfaceReport};
+pub use write::{FLAT_OBJ, FLAT_PNG, OUTLINE_SVG};
 
 /// A surface smaller than this many file units is in metres, smaller than the next in centimetres, else in millimetres:
 /// pieces of garments are between 4 cm and 4 m large.
@@ -50,6 +52,8 @@ pub struct FlatSurface {
     faces: ObjFaces,
     parts: Vec<Part>,
     flat: Vec<Flattened>,
+    /// Of every part.
+    edges: Vec<Vec<NamedEdge>>,
     /// What it did to the cloth.
     pub report: SurfaceReport,
     /// What was read in a way its author may not have meant: one sentence each.
@@ -96,16 +100,22 @@ pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurf
     if textured && parts.len() > whole_without_texture(&faces, unit, &stem) {
         notes.push("cut along the seams of its texture; --no-texture-seams leaves them closed".into());
     }
+    let edges = named_edges(&parts);
     let reports = parts.iter().zip(&flat).zip(&proposals);
+    let mut pieces: Vec<PartReport> =
+        reports.map(|((p, f), d)| PartReport::new(p, &f.report, cuts::proposal(p, d))).collect();
+    for (k, piece) in pieces.iter_mut().enumerate() {
+        piece.edges = edges[k].iter().map(|e| report::edge(&parts, &edges, k, e, &flat[k].positions)).collect();
+    }
     let report = SurfaceReport {
         toile: env!("CARGO_PKG_VERSION").into(),
         surface: stem.clone(),
         units,
-        pieces: reports.map(|((p, f), d)| PartReport::new(p, &f.report, cuts::proposal(p, d))).collect(),
+        pieces,
         cuts: marks.chains,
         stages: vec![stage(&flat, begin)],
     };
-    Ok(FlatSurface { faces, parts, flat, report, notes })
+    Ok(FlatSurface { faces, parts, flat, edges, report, notes })
 }
 
 /// Number of parts that there are without looking at the texture.

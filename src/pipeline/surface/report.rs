@@ -4,8 +4,10 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
+use super::edges::NamedEdge;
 use super::parts::Part;
 use crate::flatten;
+use crate::geometry::Vec2;
 use crate::report::{Quartet, Stage};
 
 /// Millimetres in a metre.
@@ -59,6 +61,8 @@ pub struct PartReport {
     pub area_distortion: f64,
     /// |stretch − 1| in the worst direction: what all but a hundredth of the area stays below, and the largest.
     pub strain: StrainReport,
+    /// What happened to warp and weft.
+    pub threads: ThreadReport,
     /// L²/4πS of the rim and the area in space. Below 1 no flat piece has both that rim and that area.
     pub isoperimetric: f64,
     /// The least area error of any flat piece with the same length of rim: 1 − L²/4πS, or 0.
@@ -67,10 +71,14 @@ pub struct PartReport {
     pub curvature: f64,
     /// Largest change of the rim's angle in one vertex, degrees.
     pub corner_change: f64,
+    /// The least that any flat piece has: the curvature spread over all vertices of the rim, degrees.
+    pub corner_change_forced: f64,
     /// Triangles turned over: always 0.
     pub flips: usize,
     /// Crossings of the flat rim: 0 unless the piece lies on itself.
     pub overlaps: usize,
+    /// The rims, between corners and where the other side of a cut changes.
+    pub edges: Vec<EdgeReport>,
     /// A dart that would relieve the piece, where its strain passes the limit.
     pub dart: Option<DartReport>,
 }
@@ -82,6 +90,49 @@ pub struct StrainReport {
     pub p99: f64,
     /// Largest.
     pub max: f64,
+}
+
+/// An edge of a part, as `pattern.svg` names it after the part: `NAME.1`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct EdgeReport {
+    /// Its number along the rim.
+    pub name: String,
+    /// The file's vertices at its ends, from 1.
+    pub ends: [u32; 2],
+    /// Length in space, mm.
+    pub length_draped: f64,
+    /// Length in the flat piece, mm.
+    pub length_flattened: f64,
+    /// The edge on the other side of the cut, `PART.EDGE`.
+    pub sewn_to: Option<String>,
+}
+
+/// An edge of part `k` as it is reported.
+pub(super) fn edge(parts: &[Part], all: &[Vec<NamedEdge>], k: usize, edge: &NamedEdge, flat: &[Vec2]) -> EdgeReport {
+    let (part, vertices) = (&parts[k], &edge.vertices);
+    let ends = [vertices[0], vertices[vertices.len() - 1]].map(|v| part.number(v));
+    let pairs = || vertices.windows(2).map(|w| [w[0] as usize, w[1] as usize]);
+    let at = &part.surface.vertices;
+    EdgeReport {
+        name: edge.name.clone(),
+        ends,
+        length_draped: pairs().map(|[a, b]| (at[b] - at[a]).norm()).sum::<f64>() * MM,
+        length_flattened: pairs().map(|[a, b]| (flat[b] - flat[a]).norm()).sum::<f64>() * MM,
+        sewn_to: edge.partner.map(|[p, e]| format!("{}.{}", parts[p].name, all[p][e].name)),
+    }
+}
+
+/// Threads of the flat cloth on the surface in space.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ThreadReport {
+    /// Root mean square of the warp's stretch minus one.
+    pub warp: f64,
+    /// The same of the weft.
+    pub weft: f64,
+    /// Root mean square of the change of the angle between them, degrees.
+    pub shear: f64,
+    /// The largest, degrees.
+    pub shear_max: f64,
 }
 
 /// A dart, from the rim to its tip.
@@ -114,12 +165,20 @@ impl PartReport {
             distortion: r.distortion,
             area_distortion: r.area_distortion,
             strain: StrainReport { p99: r.strain_p99, max: r.strain_max },
+            threads: ThreadReport {
+                warp: r.threads.warp,
+                weft: r.threads.weft,
+                shear: r.threads.shear.to_degrees(),
+                shear_max: r.threads.shear_max.to_degrees(),
+            },
             isoperimetric,
             area_error_bound: (1.0 - isoperimetric).max(0.0),
             curvature: r.curvature.to_degrees(),
             corner_change: r.corner_change.to_degrees(),
+            corner_change_forced: r.corner_change_forced.to_degrees(),
             flips: r.flips,
             overlaps: r.overlaps,
+            edges: Vec::new(),
             dart,
         }
     }

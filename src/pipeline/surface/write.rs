@@ -5,12 +5,12 @@ use std::fmt::Write as _;
 use super::super::error::PipelineError;
 use super::super::results::{PATTERN_SVG, REPORT_JSON, ResultFile, json_text};
 use super::FlatSurface;
-use super::parts::Part;
+use super::edges::NamedEdge;
 use crate::flatten::triangle_strain;
-use crate::geometry::{Vec2, rim_loops};
-use crate::io::pattern_svg::pattern_svg;
+use crate::geometry::Vec2;
+use crate::io::pattern_svg::{outline_svg, pattern_svg};
 use crate::mesh::{ClothMesh, EdgeParticles, PieceMesh};
-use crate::pattern::EdgeId;
+use crate::pattern::{EdgeId, Notch};
 use crate::picture::draw_flat;
 
 /// The surface as read, with flat texture coordinates.
@@ -18,11 +18,14 @@ pub const FLAT_OBJ: &str = "flat.obj";
 /// The flat pieces coloured by strain.
 pub const FLAT_PNG: &str = "flat.png";
 
+/// The outlines as smooth curves.
+pub const OUTLINE_SVG: &str = "outline.svg";
+
 /// Millimetres in a metre.
 const MM: f64 = 1e3;
 
 impl FlatSurface {
-    /// `flat.obj`, `flat.png`, `pattern.svg` and `report.json`.
+    /// `flat.obj`, `flat.png`, `pattern.svg`, `outline.svg` and `report.json`.
     ///
     /// # Errors
     /// When one of them cannot be drawn.
@@ -31,7 +34,8 @@ impl FlatSurface {
         Ok(vec![
             (FLAT_OBJ, self.obj().into_bytes()),
             (FLAT_PNG, self.picture(&sheet)?),
-            (PATTERN_SVG, pattern_svg(&sheet, &sheet.flat, &[])?.into_bytes()),
+            (PATTERN_SVG, pattern_svg(&sheet, &sheet.flat, &self.notches())?.into_bytes()),
+            (OUTLINE_SVG, outline_svg(&sheet, &sheet.flat)?.into_bytes()),
             (REPORT_JSON, json_text(&self.report)?.into_bytes()),
         ])
     }
@@ -86,6 +90,30 @@ impl FlatSurface {
         Ok(draw_flat(sheet, &strain, &self.report.surface)?)
     }
 
+    /// A notch in the middle of every edge that is sewn to another, at the same vertex on both sides.
+    fn notches(&self) -> Vec<Notch> {
+        let mut notches = Vec::new();
+        for (piece, edges) in self.edges.iter().enumerate() {
+            for (index, edge) in edges.iter().enumerate().filter(|(_, e)| e.partner.is_some()) {
+                let at = |v: u32| self.flat[piece].positions[v as usize];
+                let lengths: Vec<f64> = edge.vertices.windows(2).map(|w| (at(w[1]) - at(w[0])).norm()).collect();
+                let half = lengths.len() / 2;
+                // An edge between three vertices or fewer is matched by its ends.
+                if half > 1 {
+                    // Partners run against each other: from their ends to one vertex are as many steps.
+                    let middle = if lengths.len().is_multiple_of(2) || edge.partner > Some([piece, index]) {
+                        half
+                    } else {
+                        half + 1
+                    };
+                    let edge = EdgeId { piece, ring: edge.ring, index };
+                    notches.push(Notch { edge, at: lengths[..middle].iter().sum(), double: false });
+                }
+            }
+        }
+        notches
+    }
+
     /// The flat parts as the pieces of a cloth, each with its rims as edges.
     fn sheet(&self) -> ClothMesh {
         let mut cloth = ClothMesh::default();
@@ -97,7 +125,7 @@ impl FlatSurface {
                 name: part.name.clone(),
                 particles: particle..cloth.flat.len(),
                 triangles: triangle..cloth.triangles.len(),
-                edges: rims(part, k, particle as u32),
+                edges: self.edges[k].iter().enumerate().map(|(n, e)| particles(k, n, e, particle as u32)).collect(),
                 lines: Vec::new(),
                 smallest_angle: 0.0,
                 warp: -Vec2::y(),
@@ -107,15 +135,11 @@ impl FlatSurface {
     }
 }
 
-/// The rims of a part as closed edges, `rim` and, for holes, `rim.2` ….
-fn rims(part: &Part, piece: usize, first: u32) -> Vec<EdgeParticles> {
-    let edge = |(ring, mut vertices): (usize, Vec<u32>)| {
-        vertices.extend(vertices.first().copied());
-        EdgeParticles {
-            edge: EdgeId { piece, ring, index: 0 },
-            name: if ring == 0 { "rim".into() } else { format!("rim.{}", ring + 1) },
-            particles: vertices.iter().map(|v| v + first).collect(),
-        }
-    };
-    rim_loops(&part.surface.triangles).into_iter().enumerate().map(edge).collect()
+/// An edge as particles of the sheet.
+fn particles(piece: usize, index: usize, edge: &NamedEdge, first: u32) -> EdgeParticles {
+    EdgeParticles {
+        edge: EdgeId { piece, ring: edge.ring, index },
+        name: edge.name.clone(),
+        particles: edge.vertices.iter().map(|v| v + first).collect(),
+    }
 }

@@ -1,0 +1,187 @@
+//! Few smooth curves through many points.
+//!
+//! Cubic Bézier curves by least squares at chord-length parameters that are improved by Newton's method (Schneider 1990,
+//! "An algorithm for automatically fitting digitized curves", Graphics Gems): each as long as the tolerance lets it be,
+//! and with the direction of the one before where they meet.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::Vec2;
+
+/// A cubic Bézier curve: its ends and, between them, its two handles.
+pub type Cubic = [Vec2; 4];
+
+/// Rounds of improving the parameters.
+const ROUNDS: usize = 4;
+/// Points on both sides of a joint that say which way it points.
+const REACH: usize = 4;
+
+/// Cubic curves end to end through `points` that none of them is further from than `tolerance`. The first begins at the
+/// first point, the last ends at the last; where two meet the direction is one and the same. None for fewer than two
+/// points.
+pub fn smooth_curves(points: &[Vec2], tolerance: f64) -> Vec<Cubic> {
+    let mut curves: Vec<Cubic> = Vec::new();
+    let last = points.len().saturating_sub(1);
+    let mut from = 0;
+    while from < last {
+        let start = (from > 0).then(|| direction(points, from));
+        let fitted = |to: usize| {
+            let end = (to < last).then(|| direction(points, to));
+            fit(&points[from..=to], start, end).filter(|(_, off)| *off <= tolerance)
+        };
+        // The longest stretch that is near enough: more of the same length each time, then halving. Two points always are.
+        let (mut good, mut bad) = (from + 1, last + 1);
+        let mut best = fitted(good);
+        let mut stride = last - from;
+        while stride > 0 {
+            let to = good + stride;
+            match (to < bad).then(|| fitted(to)).flatten() {
+                Some(found) => (good, best) = (to, Some(found)),
+                None => {
+                    bad = bad.min(to);
+                    stride /= 2;
+                }
+            }
+        }
+        let straight = || [points[from], points[from], points[good], points[good]];
+        curves.push(best.map_or_else(straight, |(curve, _)| curve));
+        from = good;
+    }
+    curves
+}
+
+/// Which way the points run at one of them.
+fn direction(points: &[Vec2], k: usize) -> Vec2 {
+    let (before, after) = (points[k.saturating_sub(REACH)], points[(k + REACH).min(points.len() - 1)]);
+    (after - before).try_normalize(0.0).unwrap_or_else(Vec2::zeros)
+}
+
+/// The best curve between the first and the last point, and how far the points are from it at most. Where a direction is
+/// given the curve has it.
+fn fit(points: &[Vec2], start: Option<Vec2>, end: Option<Vec2>) -> Option<(Cubic, f64)> {
+    let (first, last) = (points[0], points[points.len() - 1]);
+    let mut at = chord_lengths(points)?;
+    let mut best: Option<(Cubic, f64)> = None;
+    for _ in 0..ROUNDS {
+        let curve = least_squares(points, &at, [first, last], [start, end])?;
+        for (p, t) in points.iter().zip(&mut at) {
+            *t = nearer(&curve, *p, *t);
+        }
+        let off = points.iter().zip(&at).map(|(p, &t)| (point(&curve, t) - p).norm()).fold(0.0, f64::max);
+        if best.is_none_or(|(_, least)| off < least) {
+            best = Some((curve, off));
+        }
+    }
+    best
+}
+
+/// Lengths along the points, from 0 to 1; `None` where they have none.
+fn chord_lengths(points: &[Vec2]) -> Option<Vec<f64>> {
+    let mut walked = vec![0.0];
+    for step in points.windows(2) {
+        walked.push(walked[walked.len() - 1] + (step[1] - step[0]).norm());
+    }
+    let all = walked[walked.len() - 1];
+    (all > 0.0).then(|| walked.into_iter().map(|w| w / all).collect())
+}
+
+/// Bernstein's polynomials of the third degree.
+fn shares(t: f64) -> [f64; 4] {
+    let s = 1.0 - t;
+    [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t]
+}
+
+fn point(curve: &Cubic, t: f64) -> Vec2 {
+    curve.iter().zip(shares(t)).map(|(p, share)| p * share).sum()
+}
+
+/// One Newton step from `t` towards the parameter of the curve's point nearest to `p`.
+fn nearer(curve: &Cubic, p: Vec2, t: f64) -> f64 {
+    let s = 1.0 - t;
+    let [a, b, c] = [curve[1] - curve[0], curve[2] - curve[1], curve[3] - curve[2]];
+    let slope = (a * (s * s) + b * (2.0 * s * t) + c * (t * t)) * 3.0;
+    let bend = ((b - a) * s + (c - b) * t) * 6.0;
+    let off = point(curve, t) - p;
+    let curvature = slope.norm_squared() + off.dot(&bend);
+    if curvature > 0.0 { (t - off.dot(&slope) / curvature).clamp(0.0, 1.0) } else { t }
+}
+
+/// Handles that bring the curve nearest to the points at their parameters: anywhere, or along a given direction.
+fn least_squares(points: &[Vec2], at: &[f64], ends: [Vec2; 2], directions: [Option<Vec2>; 2]) -> Option<Cubic> {
+    // What each unknown moves the handle of its end by.
+    let mut moves: Vec<(usize, Vec2)> = Vec::new();
+    for (side, direction) in directions.into_iter().enumerate() {
+        match direction {
+            Some(d) if side == 0 => moves.push((0, d)),
+            Some(d) => moves.push((1, -d)),
+            None => moves.extend([(side, Vec2::x()), (side, Vec2::y())]),
+        }
+    }
+    let mut normal = DMatrix::<f64>::zeros(moves.len(), moves.len());
+    let mut right = DVector::<f64>::zeros(moves.len());
+    for (p, &t) in points.iter().zip(at) {
+        let share = shares(t);
+        let off = p - ends[0] * (share[0] + share[1]) - ends[1] * (share[2] + share[3]);
+        for (i, (side, d)) in moves.iter().enumerate() {
+            right[i] += share[1 + side] * d.dot(&off);
+            for (j, (other, e)) in moves.iter().enumerate() {
+                normal[(i, j)] += share[1 + side] * share[1 + other] * d.dot(e);
+            }
+        }
+    }
+    // With few points there are many best curves: of these the one with the shortest handles.
+    let little = 1e-9 * normal.trace();
+    (0..moves.len()).for_each(|i| normal[(i, i)] += little);
+    let solution = normal.cholesky()?.solve(&right);
+    let mut handles = ends;
+    for ((side, d), length) in moves.iter().zip(solution.iter()) {
+        // A handle that points backwards would make a loop.
+        let forward = if directions[*side].is_some() { length.max(0.0) } else { *length };
+        handles[*side] += d * forward;
+    }
+    Some([ends[0], handles[0], handles[1], ends[1]])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn farthest(points: &[Vec2], curves: &[Cubic]) -> f64 {
+        let dense: Vec<Vec2> =
+            curves.iter().flat_map(|c| (0..=20_000).map(|k| point(c, f64::from(k) / 20_000.0))).collect();
+        let off = |p: &Vec2| dense.iter().map(|q| (p - q).norm()).fold(f64::INFINITY, f64::min);
+        points.iter().map(off).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn a_circle_is_a_few_curves_and_a_line_is_one() {
+        let circle: Vec<Vec2> = (0..=300)
+            .map(|k| f64::from(k) * std::f64::consts::TAU / 300.0)
+            .map(|a| Vec2::new(a.cos(), a.sin()))
+            .collect();
+        let curves = smooth_curves(&circle, 1e-3);
+        assert!(curves.len() <= 5, "{}", curves.len());
+        assert!(farthest(&circle, &curves) < 1.1e-3);
+        for pair in curves.windows(2) {
+            assert_eq!(pair[0][3], pair[1][0]);
+            let (a, b) = ((pair[0][3] - pair[0][2]).normalize(), (pair[1][1] - pair[1][0]).normalize());
+            assert!(a.dot(&b) > 1.0 - 1e-9, "{a} {b}");
+        }
+        let line: Vec<Vec2> = (0..50).map(|k| Vec2::new(f64::from(k), 2.0 * f64::from(k))).collect();
+        assert_eq!(smooth_curves(&line, 1e-6).len(), 1);
+    }
+
+    #[test]
+    fn noise_within_the_tolerance_costs_no_curve_and_what_has_no_length_none() {
+        let wave = |k: u32| {
+            let x = f64::from(k) / 100.0;
+            Vec2::new(x, 0.2 * x * x + 1e-4 * f64::from(k * 7919 % 101) / 101.0)
+        };
+        let points: Vec<Vec2> = (0..=100).map(wave).collect();
+        let curves = smooth_curves(&points, 2e-4);
+        assert_eq!(curves.len(), 1);
+        assert!(farthest(&points, &curves) < 2.1e-4);
+        assert!(smooth_curves(&[], 1.0).is_empty() && smooth_curves(&[Vec2::zeros()], 1.0).is_empty());
+        assert_eq!(smooth_curves(&[Vec2::zeros(); 3], 1.0).len(), 2);
+    }
+}

@@ -1,0 +1,198 @@
+//! The rim of a part as named edges: between corners, and where what lies on the other side of a cut changes.
+//!
+//! Corners are found by the surface's own angles, which are the same before and after flattening but for what curvature
+//! changes, so that edges and their names do not depend on the mode. Edges are numbered along each rim from the corner
+//! with the lowest number in the file.
+
+use std::collections::HashMap;
+use std::f64::consts::PI;
+
+use super::parts::{Part, sorted};
+use crate::geometry::rim_loops;
+
+/// A corner turns by more than this, radians, over the reach on both sides of it: 30°.
+const CORNER: f64 = PI / 6.0;
+/// Share of a rim's length over which a turn counts as one corner: a circle turns by 4° there.
+const REACH: f64 = 0.006;
+
+/// A named edge of a part.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct NamedEdge {
+    /// Its number along its rim from 1, with the rim's before it where there are several: `3`, `2.1`.
+    pub(super) name: String,
+    /// Index of its rim.
+    pub(super) ring: usize,
+    /// Vertices of the part, in the rim's direction; a rim without corners begins and ends in the same.
+    pub(super) vertices: Vec<u32>,
+    /// The edge it was cut from or is sewn to: index of its part and of the edge in it.
+    pub(super) partner: Option<[usize; 2]>,
+}
+
+/// What lies on the other side of a rim edge: a part, and the vertices of its own there.
+type Other = Option<(usize, [u32; 2])>;
+
+/// The named edges of every part.
+pub(super) fn named_edges(parts: &[Part]) -> Vec<Vec<NamedEdge>> {
+    let loops: Vec<Vec<Vec<u32>>> = parts.iter().map(|p| rim_loops(&p.surface.triangles)).collect();
+    let others = Others::new(parts, &loops);
+    let mut all: Vec<Vec<NamedEdge>> = Vec::with_capacity(parts.len());
+    for (k, part) in parts.iter().enumerate() {
+        let mut edges = Vec::new();
+        for (ring, rim) in loops[k].iter().enumerate() {
+            let several = loops[k].len() > 1;
+            let name = |n: usize| if several { format!("{}.{n}", ring + 1) } else { n.to_string() };
+            let chains = chains(rim, &breaks(part, k, rim, &others), part);
+            edges.extend((1..).zip(chains).map(|(n, vertices)| NamedEdge {
+                name: name(n),
+                ring,
+                vertices,
+                partner: None,
+            }));
+        }
+        all.push(edges);
+    }
+    pair(&mut all, &others);
+    all
+}
+
+/// Which rim edges of the parts are the same edge of the file.
+struct Others {
+    /// By part and the vertices at the ends, smaller first.
+    of: HashMap<(usize, [u32; 2]), (usize, [u32; 2])>,
+}
+
+impl Others {
+    fn new(parts: &[Part], loops: &[Vec<Vec<u32>>]) -> Self {
+        let mut at: HashMap<[u32; 2], Vec<(usize, [u32; 2])>> = HashMap::new();
+        for (k, (part, loops)) in parts.iter().zip(loops).enumerate() {
+            for ends in loops.iter().flat_map(|rim| sides(rim)) {
+                let file = ends.map(|v| part.vertices[v as usize]);
+                at.entry(sorted(file[0], file[1])).or_default().push((k, sorted(ends[0], ends[1])));
+            }
+        }
+        let mut of = HashMap::new();
+        for two in at.values() {
+            // More than two cannot be sewn two by two.
+            if let [a, b] = two[..] {
+                of.extend([(a, b), (b, a)]);
+            }
+        }
+        Self { of }
+    }
+
+    fn of(&self, part: usize, [a, b]: [u32; 2]) -> Other {
+        self.of.get(&(part, sorted(a, b))).copied()
+    }
+}
+
+fn sides(rim: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
+    (0..rim.len()).map(|k| [rim[k], rim[(k + 1) % rim.len()]])
+}
+
+/// For every vertex of a rim whether an edge ends there.
+fn breaks(part: &Part, index: usize, rim: &[u32], others: &Others) -> Vec<bool> {
+    let mut breaks = corners(part, rim);
+    for k in 0..rim.len() {
+        let [a, b, c] = [rim.len() - 1, 0, 1].map(|step| rim[(k + step) % rim.len()]);
+        let continued = match (others.of(index, [a, b]), others.of(index, [b, c])) {
+            (None, None) => true,
+            // The other side goes on as well where both its edges meet, unless the cut turns back there: its own end.
+            (Some((p, before)), Some((q, after))) => {
+                p == q
+                    && before != after
+                    && before.iter().any(|v| after.contains(v))
+                    && !(p == index && before.contains(&b))
+            }
+            _ => false,
+        };
+        breaks[k] |= !continued;
+    }
+    breaks
+}
+
+/// Where a rim turns sharply: of the vertices within reach of each other the one that turns most.
+fn corners(part: &Part, rim: &[u32]) -> Vec<bool> {
+    let turns = turns(part, rim);
+    let at = |v: u32| part.surface.vertices[v as usize];
+    let lengths: Vec<f64> = sides(rim).map(|[a, b]| (at(b) - at(a)).norm()).collect();
+    let reach = REACH * lengths.iter().sum::<f64>();
+    // Vertices within reach before and after each, at least one.
+    let near = |k: usize| {
+        let n = rim.len();
+        let walk = |step: usize, side: usize| {
+            let mut walked = 0.0;
+            let mut at = k;
+            let mut count = 0;
+            while count == 0 || (walked < reach && count < n / 4) {
+                walked += lengths[(at + side) % n];
+                at = (at + step) % n;
+                count += 1;
+            }
+            count
+        };
+        let (before, after) = (walk(n - 1, n - 1), walk(1, 0));
+        (0..=before + after).map(move |i| (k + n - before + i) % n)
+    };
+    (0..rim.len())
+        .map(|k| {
+            let turn: f64 = near(k).map(|i| turns[i]).sum();
+            let leads = |i: usize| turns[k].abs() > turns[i].abs() || (turns[k].abs() == turns[i].abs() && k <= i);
+            turn.abs().max(turns[k].abs()) > CORNER && near(k).all(leads)
+        })
+        .collect()
+}
+
+/// By how much the rim turns at each of its vertices on the surface: half a turn less the angles of the triangles there.
+fn turns(part: &Part, rim: &[u32]) -> Vec<f64> {
+    let place: HashMap<u32, usize> = rim.iter().enumerate().map(|(k, &v)| (v, k)).collect();
+    let mut turns = vec![PI; rim.len()];
+    for (t, corners) in part.surface.triangles.iter().enumerate() {
+        for (k, v) in corners.iter().enumerate() {
+            if let Some(&at) = place.get(v) {
+                let p = part.surface.corners(t);
+                let (u, w) = (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
+                turns[at] -= u.cross(&w).norm().atan2(u.dot(&w));
+            }
+        }
+    }
+    turns
+}
+
+/// A rim cut at its breaks, from the break with the lowest number in the file on; without breaks, from the lowest vertex.
+fn chains(rim: &[u32], breaks: &[bool], part: &Part) -> Vec<Vec<u32>> {
+    let number = |k: &usize| (part.number(rim[*k]), *k);
+    let open = (0..rim.len()).filter(|&k| breaks[k]).min_by_key(number);
+    let Some(first) = open.or_else(|| (0..rim.len()).min_by_key(number)) else { return Vec::new() };
+    let mut chains = Vec::new();
+    let mut chain = vec![rim[first]];
+    for step in 1..=rim.len() {
+        let k = (first + step) % rim.len();
+        chain.push(rim[k]);
+        if breaks[k] || step == rim.len() {
+            chains.push(std::mem::replace(&mut chain, vec![rim[k]]));
+        }
+    }
+    chains
+}
+
+/// Says of every edge which one lies on the other side, where it is one edge from end to end.
+fn pair(all: &mut [Vec<NamedEdge>], others: &Others) {
+    let mut home: HashMap<(usize, [u32; 2]), [usize; 2]> = HashMap::new();
+    for (p, edges) in all.iter().enumerate() {
+        for (e, edge) in edges.iter().enumerate() {
+            home.extend(edge.vertices.windows(2).map(|w| ((p, sorted(w[0], w[1])), [p, e])));
+        }
+    }
+    for p in 0..all.len() {
+        for e in 0..all[p].len() {
+            let edge = &all[p][e];
+            let mut sides = edge.vertices.windows(2).map(|w| {
+                let (part, ends) = others.of(p, [w[0], w[1]])?;
+                home.get(&(part, ends)).copied()
+            });
+            let first = sides.next().flatten();
+            let one = first.filter(|f| sides.all(|s| s == Some(*f)));
+            all[p][e].partner = one.filter(|[q, f]| all[*q][*f].vertices.len() == all[p][e].vertices.len());
+        }
+    }
+}
