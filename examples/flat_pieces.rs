@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use toile::flatten::{Mode, Options};
 use toile::io::files::write_all;
-use toile::pipeline::{Cuts, SurfaceOptions, flatten_surface};
+use toile::pipeline::{Cuts, Limit, SurfaceOptions, flatten_surface};
 
 /// Vertices along each side of a surface.
 const SIDE: u32 = 60;
@@ -46,9 +46,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         let options = SurfaceOptions {
             unit: Some(1.0),
             texture_seams: true,
+            weld: false,
             cuts: Cuts::default(),
             darts: case.darts,
-            limit: 0.1,
+            limit: Limit::Strain(0.1),
             flatten: Options { mode: case.mode, ..Options::default() },
         };
         let flat = flatten_surface(&file, &options)?;

@@ -485,6 +485,20 @@ fn any_surface_can_be_laid_flat() {
     let bare = |l: &String| l.split(' ').map(|w| w.split('/').next().unwrap_or("").to_owned()).collect::<Vec<_>>();
     let faces: Vec<_> = lines(&flat, "f ").iter().map(bare).collect();
     assert_eq!(faces, lines(&text, "f ").iter().map(bare).collect::<Vec<_>>());
+    // Faces that share no vertices fall apart, which is said, and are joined when asked.
+    let mut soup = String::new();
+    for (count, face) in lines(&text, "f ").iter().enumerate() {
+        for word in face.split(' ').skip(1) {
+            let place = lines(&text, "v ")[word.parse::<usize>().expect("a number") - 1].clone();
+            soup += &format!("{place}\n");
+        }
+        soup += &format!("f{}\n", (1..=4).map(|k| format!(" {}", 4 * count + k)).collect::<String>());
+    }
+    room.put("soup.obj", &soup);
+    room.run(&["flatten", "soup.obj", "--units", "cm", "-o", "soup"]).ends(0).says(&["--weld"]);
+    let joined = room.run(&["flatten", "soup.obj", "--units", "cm", "--weld", "-o", "soup", "--json"]).ends(0).json();
+    assert_eq!(joined["pieces"].as_array().map(Vec::len), Some(1));
+    assert_eq!(joined["pieces"][0]["particles"], 45);
     // What is no disk is refused with what it is.
     room.put("closed.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
     room.run(&["flatten", "closed.obj", "-o", "no"]).ends(2).says(&["closed.obj", "cut it first"]);
@@ -561,6 +575,11 @@ fn a_dart_is_proposed_where_cloth_would_be_strained_and_cut_when_asked() {
     let strain = |report: &Value| report["pieces"][0]["strain"]["p99"].as_f64().expect("a number");
     assert!(strain(&whole) > 0.1, "{}", strain(&whole));
     assert_eq!(whole["pieces"][0]["dart"]["tip"], 25 * 12 + 12 + 1, "the summit");
+    // What a fabric gives is less than ten per cent for poplin and more for a rib.
+    run(&["--fabric", "cotton_poplin"]).ends(0).says(&["cotton_poplin gives", "--dart auto"]);
+    assert_eq!(run(&["--fabric", "rib", "--mode", "woven"]).ends(0).json()["pieces"][0]["dart"], Value::Null);
+    run(&["--fabric", "rib", "--limit", "5"]).ends(2).says(&["--limit", "--fabric"]);
+    run(&["--spacing", "5"]).ends(2).says(&["--spacing", "garment file"]);
     let darted = run(&["--dart", "auto"]).ends(0).json();
     assert!(strain(&darted) < 0.8 * strain(&whole), "{} {}", strain(&darted), strain(&whole));
     assert!(darted["cuts"].as_array().is_some_and(|c| !c.is_empty()));
@@ -611,6 +630,8 @@ fn mistakes_in_arguments() {
     wrong(&["make", "skirt.yaml", "--body", "no.obj"], &["no.obj"]);
     wrong(&["make", "skirt.yaml", "--threads", "0"], &["--threads"]);
     wrong(&["flatten", "a.obj", "--from", "b.obj"], &["--from"]);
+    wrong(&["flatten", "a.yaml", "--cut", "auto"], &["--cut", "OBJ"]);
+    wrong(&["flatten", "a.obj", "--corners", "-1"], &["0 to 1000"]);
     wrong(&["sow", "skirt.yaml"], &["sow", "sew"]);
     room.run(&["--help"]).ends(0);
     assert!(room.run(&["--version"]).ends(0).out.contains(env!("CARGO_PKG_VERSION")));

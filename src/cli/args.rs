@@ -184,15 +184,19 @@ pub(super) struct FlattenArgs {
     /// Cut a dart where the strain passes the limit (OBJ only)
     #[arg(long, value_enum)]
     pub(super) dart: Option<DartArg>,
-    /// Strain in per cent that all but a hundredth of a piece should stay below (OBJ only)
-    #[arg(long, value_name = "PERCENT", default_value_t = 10.0, value_parser = percent)]
-    pub(super) limit: f64,
+    /// Strain in per cent that all but a hundredth of a piece should stay below (OBJ only) [default: 10, or with --fabric
+    /// what its threads give]
+    #[arg(long, value_name = "PERCENT", value_parser = percent, conflicts_with = "fabric")]
+    pub(super) limit: Option<f64>,
     /// How much corners and curves of the rim resist being turned: 1 is usual, 10 turns the worst corner less, 0 not at all
-    #[arg(long, value_name = "WEIGHT", default_value_t = 1.0, value_parser = weight)]
+    #[arg(long, value_name = "WEIGHT", default_value_t = 1.0, value_parser = weight, allow_negative_numbers = true)]
     pub(super) corners: f64,
     /// Leave seams of the texture closed; otherwise the surface is cut along them (OBJ only)
     #[arg(long)]
     pub(super) no_texture_seams: bool,
+    /// Join vertices at the same place, for files whose faces share none; a dart that is sewn up would be closed (OBJ only)
+    #[arg(long)]
+    pub(super) weld: bool,
     /// Begin with the garment as `toile make` has draped it, at the same spacing (garment files only)
     #[arg(long, value_name = "garment.obj")]
     pub(super) from: Option<PathBuf>,

@@ -6,16 +6,18 @@ use super::args::{DartArg, FlattenArgs, UnitArg};
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use super::make::{Goal, Plan, carry_out, folder, write};
+use crate::fabric;
 use crate::flatten::Options;
 use crate::io::files::check_writable;
 use crate::pipeline::{
-    Color, Cuts, FLAT_OBJ, FLAT_PNG, OUTLINE_SVG, PATTERN_SVG, PartReport, REPORT_JSON, SurfaceOptions, SurfaceReport,
-    flatten_surface,
+    Color, Cuts, FLAT_OBJ, FLAT_PNG, Limit, OUTLINE_SVG, PATTERN_SVG, PartReport, REPORT_JSON, SurfaceOptions,
+    SurfaceReport, flatten_surface,
 };
 use crate::report::{aligned, restless};
 
 /// `toile flatten`
 pub(super) fn flatten(args: &FlattenArgs, console: &Console) -> Result<Exit, CliError> {
+    foreign(args)?;
     let options = Options { mode: args.mode.into(), corners: args.corners, ..Options::default() };
     if is_garment(&args.input) {
         let plan = Plan {
@@ -27,14 +29,49 @@ pub(super) fn flatten(args: &FlattenArgs, console: &Console) -> Result<Exit, Cli
         };
         return carry_out(&plan, console);
     }
-    if args.from.is_some() {
-        return Err(CliError::Argument("--from belongs to a garment file; a surface is flattened as it is".into()));
-    }
     surface(args, options, console)
 }
 
 fn is_garment(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("yaml") || e.eq_ignore_ascii_case("yml"))
+}
+
+/// What an option was given for that it has no meaning for.
+fn foreign(args: &FlattenArgs) -> Result<(), CliError> {
+    let overrides = args.overrides.checked();
+    let wrong = if is_garment(&args.input) {
+        let options = [
+            ("--cut", !args.cut.is_empty()),
+            ("--dart", args.dart.is_some()),
+            ("--limit", args.limit.is_some()),
+            ("--units", args.units.is_some()),
+            ("--no-texture-seams", args.no_texture_seams),
+            ("--weld", args.weld),
+        ];
+        options
+            .into_iter()
+            .find(|o| o.1)
+            .map(|(name, _)| format!("{name} belongs to a surface (OBJ), not to a garment file"))
+    } else {
+        let options = [
+            ("--from", args.from.is_some()),
+            ("--spacing", overrides.spacing.is_some()),
+            ("--body", overrides.body.is_some()),
+        ];
+        let found = options.into_iter().find(|o| o.1);
+        found.map(|(name, _)| format!("{name} belongs to a garment file; a surface is flattened as it is"))
+    };
+    wrong.map_or(Ok(()), |why| Err(CliError::Argument(why)))
+}
+
+/// The strain asked for, or that of the fabric.
+fn limit(args: &FlattenArgs) -> Result<Limit, CliError> {
+    /// Per cent.
+    const USUAL: f64 = 10.0;
+    match args.overrides.checked().fabric {
+        Some(name) => Ok(Limit::of(&fabric::load(&name)?)),
+        None => Ok(Limit::Strain(args.limit.unwrap_or(USUAL) / 100.0)),
+    }
 }
 
 /// `auto`, or vertices from 1 with commas between them.
@@ -56,9 +93,10 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
     let options = SurfaceOptions {
         unit: args.units.map(UnitArg::metres),
         texture_seams: !args.no_texture_seams,
+        weld: args.weld,
         cuts: cuts(&args.cut)?,
         darts: args.dart == Some(DartArg::Auto),
-        limit: args.limit / 100.0,
+        limit: limit(args)?,
         flatten,
     };
     let stem = args.input.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
@@ -76,7 +114,7 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
         console.note(&stage.to_string());
     }
     for piece in &report.pieces {
-        if let Some(text) = strained(piece, args.limit) {
+        if let Some(text) = strained(piece, &options.limit) {
             console.note(&text);
         }
     }
@@ -89,16 +127,23 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
 }
 
 /// What is beyond the limit, why, and what would help.
-fn strained(piece: &PartReport, limit: f64) -> Option<String> {
+fn strained(piece: &PartReport, limit: &Limit) -> Option<String> {
     let dart = piece.dart?;
+    let percent = |x: f64| format!("{:.1} %", 100.0 * x);
+    let strain = match limit {
+        Limit::Strain(most) => format!("up to {} (limit {})", percent(piece.strain.p99), percent(*most)),
+        Limit::Fabric { name, warp, weft } => format!(
+            "up to {} along the warp and {} along the weft ({name} gives {} and {})",
+            percent(piece.threads.warp_p99),
+            percent(piece.threads.weft_p99),
+            percent(*warp),
+            percent(*weft)
+        ),
+    };
     let mut text = format!(
-        "'{}' is strained by up to {:.1} % (limit {limit} %): a dart from vertex {} on the rim to vertex {} ({:.0} mm) \
-         would relieve it most; --dart auto cuts it",
-        piece.name,
-        100.0 * piece.strain.p99,
-        dart.rim,
-        dart.tip,
-        dart.length
+        "'{}' is strained by {strain}: a dart from vertex {} on the rim to vertex {} ({:.0} mm) would relieve it most; \
+         --dart auto cuts it",
+        piece.name, dart.rim, dart.tip, dart.length
     );
     if piece.area_error_bound > 0.0 {
         let bound = 100.0 * piece.area_error_bound;

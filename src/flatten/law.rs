@@ -65,7 +65,7 @@ mod tests {
                 for k in 0..4 {
                     let value = |by: f64| law.density(&moved(&jacobian, k, by));
                     let numeric = (value(STEP) - value(-STEP)) / (2.0 * STEP);
-                    assert!((numeric - law.stress(&jacobian)[k]).abs() < 1e-7);
+                    assert!((numeric - law.stress(&jacobian)[k]).abs() < 1e-8);
                 }
             }
         }

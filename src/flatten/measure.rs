@@ -70,6 +70,10 @@ pub struct Threads {
     pub warp: f64,
     /// The same of the weft.
     pub weft: f64,
+    /// Largest |stretch − 1| of the warp that all but a hundredth of the area stays below.
+    pub warp_p99: f64,
+    /// The same of the weft.
+    pub weft_p99: f64,
     /// Root mean square (by area) of the change of the angle between them, radians.
     pub shear: f64,
     /// The largest of any triangle.
@@ -79,10 +83,13 @@ pub struct Threads {
 impl Threads {
     fn of(sheet: &Sheet<'_>, flat: &[Vec2]) -> Self {
         let mut sums = Self::default();
+        let mut strains = [const { Vec::new() }; 2];
         let mut area = 0.0;
         for (t, &corners) in sheet.surface.triangles.iter().enumerate() {
             let element = Element::new(corners, sheet.surface.corners(t));
             let [warp, weft, shear] = woven::measured(&element.jacobian(flat), sheet.warp);
+            strains[0].push([warp.abs(), element.area]);
+            strains[1].push([weft.abs(), element.area]);
             sums.warp += element.area * warp * warp;
             sums.weft += element.area * weft * weft;
             sums.shear += element.area * shear * shear;
@@ -90,7 +97,8 @@ impl Threads {
             area += element.area;
         }
         let root = |sum: f64| (sum / area).sqrt();
-        Self { warp: root(sums.warp), weft: root(sums.weft), shear: root(sums.shear), ..sums }
+        let [warp_p99, weft_p99] = strains.map(|mut strains| exceeded_by(LARGEST_SHARE, &mut strains));
+        Self { warp: root(sums.warp), weft: root(sums.weft), warp_p99, weft_p99, shear: root(sums.shear), ..sums }
     }
 }
 
@@ -106,7 +114,7 @@ pub(super) fn report(sheet: &Sheet<'_>, flat: &[Vec2], outcome: &Outcome) -> Rep
     let area_before = surface.area();
     let boundary_before = topology.rim_edges().map(|e| length(surface, e.ends)).sum();
     let boundary_after = topology.rim_edges().map(|e| flat_length(e.ends)).sum();
-    let areas = Areas::of(surface, flat);
+    let mut areas = Areas::of(surface, flat);
     let angles = Angles::of(sheet, flat);
     let edges = topology.edges.iter().map(|e| error(flat_length(e.ends), length(surface, e.ends)));
     let rim = topology.rim_edges().zip(&sheet.rim_targets).map(|(e, &target)| error(flat_length(e.ends), target));
@@ -125,8 +133,8 @@ pub(super) fn report(sheet: &Sheet<'_>, flat: &[Vec2], outcome: &Outcome) -> Rep
         largest_rim_error: rim.fold(0.0, f64::max),
         distortion: (areas.stretch / area_before).sqrt(),
         area_distortion: (areas.change / area_before).sqrt(),
-        strain_p99: areas.exceeded_by(LARGEST_SHARE),
-        strain_max: areas.exceeded_by(0.0),
+        strain_p99: exceeded_by(LARGEST_SHARE, &mut areas.strains),
+        strain_max: exceeded_by(0.0, &mut areas.strains),
         threads: Threads::of(sheet, flat),
         corner_change: angles.corner_change,
         corner_change_forced: angles.curvature.abs() / sheet.rims.iter().map(Vec::len).sum::<usize>() as f64,
@@ -167,7 +175,7 @@ struct Areas {
     stretch: f64,
     /// Σ A (det J − 1)².
     change: f64,
-    /// Largest |σ − 1| and area of every triangle, the largest first.
+    /// Largest |σ − 1| and area of every triangle.
     strains: Vec<[f64; 2]>,
 }
 
@@ -186,19 +194,19 @@ impl Areas {
             sums.change += element.area * (det - 1.0).powi(2);
             sums.strains.push([f64::max(larger - 1.0, 1.0 - smaller), element.area]);
         }
-        sums.strains.sort_unstable_by(|a, b| b[0].total_cmp(&a[0]));
         sums
     }
+}
 
-    /// The strain that this share of the area passes.
-    fn exceeded_by(&self, share: f64) -> f64 {
-        let mut left = share * self.strains.iter().map(|s| s[1]).sum::<f64>();
-        let reached = self.strains.iter().find(|s| {
-            left -= s[1];
-            left < 0.0
-        });
-        reached.map_or(0.0, |s| s[0])
-    }
+/// The strain that this share of the area passes, of strains with their areas.
+fn exceeded_by(share: f64, strains: &mut [[f64; 2]]) -> f64 {
+    strains.sort_unstable_by(|a, b| b[0].total_cmp(&a[0]));
+    let mut left = share * strains.iter().map(|s| s[1]).sum::<f64>();
+    let reached = strains.iter().find(|s| {
+        left -= s[1];
+        left < 0.0
+    });
+    reached.map_or(0.0, |s| s[0])
 }
 
 /// Signed strain of every triangle: the stretch furthest from one, minus one.

@@ -31,6 +31,6 @@ pub use results::{
 };
 pub use run::{Progress, Run};
 pub use surface::{
-    Cuts, EdgeReport, FLAT_OBJ, FLAT_PNG, FlatSurface, OUTLINE_SVG, PartReport, SurfaceOptions, SurfaceReport,
+    Cuts, EdgeReport, FLAT_OBJ, FLAT_PNG, FlatSurface, Limit, OUTLINE_SVG, PartReport, SurfaceOptions, SurfaceReport,
     flatten_surface,
 };

@@ -12,7 +12,8 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use super::error::PipelineError;
-use crate::flatten::{FlattenError, Flattened, Options, flatten};
+use crate::fabric::Fabric;
+use crate::flatten::{FlattenError, Flattened, Options, Report, flatten};
 use crate::geometry::Vec3;
 use crate::io::obj_read::{ObjFaces, read_obj_faces};
 use crate::report::Stage;
@@ -37,14 +38,52 @@ pub struct SurfaceOptions {
     pub unit: Option<f64>,
     /// Whether to cut along the seams of the texture.
     pub texture_seams: bool,
+    /// Whether vertices at the same place are one: the legs of a dart that is sewn up must not be, the triangles of a
+    /// file whose faces share no vertices must.
+    pub weld: bool,
     /// Where to cut besides.
     pub cuts: Cuts,
     /// Whether to cut darts where the strain passes the limit.
     pub darts: bool,
-    /// The |stretch − 1| that 99 % of a piece's area should stay below.
-    pub limit: f64,
+    /// What 99 % of a piece's area should stay below.
+    pub limit: Limit,
     /// How to flatten.
     pub flatten: Options,
+}
+
+/// How much strain is too much.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Limit {
+    /// This |stretch − 1| in any direction.
+    Strain(f64),
+    /// What the threads of a fabric give under 100 gf/cm, the load at which the FAST test reads how far cloth can be
+    /// worked; the angle between them is free.
+    Fabric {
+        /// Its name.
+        name: String,
+        /// |stretch − 1| of the warp.
+        warp: f64,
+        /// |stretch − 1| of the weft.
+        weft: f64,
+    },
+}
+
+impl Limit {
+    /// That of a fabric.
+    pub fn of(fabric: &Fabric) -> Self {
+        /// 100 gf/cm in N/m.
+        const WORKED: f64 = 98.0665;
+        let [warp, weft] = [&fabric.warp, &fabric.weft].map(|curve| curve.strain(WORKED));
+        Self::Fabric { name: fabric.name.clone(), warp, weft }
+    }
+
+    /// Whether a piece is strained more.
+    pub fn passed(&self, piece: &Report) -> bool {
+        match self {
+            Self::Strain(most) => piece.strain_p99 > *most,
+            Self::Fabric { warp, weft, .. } => piece.threads.warp_p99 > *warp || piece.threads.weft_p99 > *weft,
+        }
+    }
 }
 
 /// A surface laid flat.
@@ -75,7 +114,7 @@ pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurf
         notes.push(format!("{units} assumed, from the size of the surface; say --units mm, cm or m if that is wrong"));
     }
     let textured = options.texture_seams && faces.texture_of_face.iter().any(|t| !t.is_empty());
-    let nodes = Nodes::new(&faces, textured);
+    let nodes = Nodes::new(&faces, textured, options.weld);
     let mut marks = Marks::default();
     if options.cuts != Cuts::default() {
         let whole = parts(&faces, &nodes, &marks.edges, unit, &stem);
@@ -87,8 +126,7 @@ pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurf
         let flat = lay_out(file, &parts, &options.flatten)?;
         let mut proposals = Vec::with_capacity(parts.len());
         for (part, flat) in parts.iter().zip(&flat) {
-            let strained = flat.report.strain_p99 > options.limit;
-            proposals.push(if strained { cuts::dart(part, flat) } else { Vec::new() });
+            proposals.push(if options.limit.passed(&flat.report) { cuts::dart(part, flat) } else { Vec::new() });
         }
         let wanted = proposals.iter().filter(|d| d.len() > 1).count();
         if wanted == 0 || wanted > darts {
@@ -97,8 +135,12 @@ pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurf
         darts -= wanted;
         parts.iter().zip(&proposals).for_each(|(part, dart)| marks.cut(part, dart));
     };
-    if textured && parts.len() > whole_without_texture(&faces, unit, &stem) {
+    let otherwise = |texture, weld| count(&faces, &Nodes::new(&faces, texture, weld), unit, &stem);
+    if textured && parts.len() > otherwise(false, options.weld) {
         notes.push("cut along the seams of its texture; --no-texture-seams leaves them closed".into());
+    }
+    if !options.weld && parts.len() > faces.groups.len() && parts.len() > otherwise(textured, true) {
+        notes.push("parts meet in vertices of their own at the same places; --weld joins them".into());
     }
     let edges = named_edges(&parts);
     let reports = parts.iter().zip(&flat).zip(&proposals);
@@ -118,9 +160,9 @@ pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurf
     Ok(FlatSurface { faces, parts, flat, edges, report, notes })
 }
 
-/// Number of parts that there are without looking at the texture.
-fn whole_without_texture(faces: &ObjFaces, unit: f64, stem: &str) -> usize {
-    parts(faces, &Nodes::new(faces, false), &Marks::default().edges, unit, stem).len()
+/// Number of parts that nodes hang together in.
+fn count(faces: &ObjFaces, nodes: &Nodes, unit: f64, stem: &str) -> usize {
+    parts(faces, nodes, &Marks::default().edges, unit, stem).len()
 }
 
 /// Metres per unit of a file of this size, and the unit's name.

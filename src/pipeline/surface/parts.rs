@@ -7,7 +7,7 @@
 use std::collections::{HashMap, HashSet};
 
 use crate::flatten::{FlattenError, Solid};
-use crate::geometry::TriMesh;
+use crate::geometry::{TriMesh, Vec3};
 use crate::io::obj_read::ObjFaces;
 
 /// A connected part of the surface.
@@ -42,8 +42,10 @@ const NONE: u32 = u32::MAX;
 type NodeKey = (u32, Option<[u64; 2]>);
 
 impl Nodes {
-    /// With `texture`, a vertex that has several texture positions is several nodes.
-    pub(super) fn new(faces: &ObjFaces, texture: bool) -> Self {
+    /// With `texture`, a vertex that has several texture positions is several nodes; with `weld`, vertices at the same
+    /// place are one.
+    pub(super) fn new(faces: &ObjFaces, texture: bool, weld: bool) -> Self {
+        let same = if weld { welded(&faces.vertices) } else { (0..faces.vertices.len() as u32).collect() };
         let mut out = Self { of_face: Vec::with_capacity(faces.faces.len()), vertex: Vec::new() };
         // The nodes of a vertex, which are few: the last made, and from each to the one before.
         let mut last = vec![NONE; faces.vertices.len()];
@@ -51,6 +53,7 @@ impl Nodes {
         for (f, corners) in faces.faces.iter().enumerate() {
             let textured = faces.texture_of_face.get(f).filter(|t| texture && !t.is_empty());
             let nodes = corners.iter().enumerate().map(|(k, &v)| {
+                let v = same[v as usize];
                 // Equal positions count as one even if they are written twice; −0 is 0.
                 let at = textured.map(|t| faces.texture[t[k] as usize].map(|x| (x + 0.0).to_bits()));
                 let key = (faces.group_of_face[f], at);
@@ -76,6 +79,14 @@ impl Nodes {
         let on = |[a, b]: &[u32; 2]| of_file.contains(&sorted(self.vertex[*a as usize], self.vertex[*b as usize]));
         self.of_face.iter().flat_map(|face| sides(face)).filter(on).collect()
     }
+}
+
+/// Of every vertex the first at the same place.
+fn welded(vertices: &[Vec3]) -> Vec<u32> {
+    let mut first = HashMap::with_capacity(vertices.len());
+    // −0 is 0.
+    let place = |p: &Vec3| [p.x, p.y, p.z].map(|x| (x + 0.0).to_bits());
+    (0..).zip(vertices).map(|(k, p)| *first.entry(place(p)).or_insert(k)).collect()
 }
 
 /// Smaller first.
@@ -194,8 +205,8 @@ impl Part {
         let mut all: Vec<(u32, u32, u32)> = Vec::new();
         let fan_of = |f: u32, k: usize| fans.of_corner[fans.starts[f as usize] + k];
         for &f in &own {
-            for (k, &v) in faces.faces[f as usize].iter().enumerate() {
-                all.push((v, fan_of(f, k), nodes.of_face[f as usize][k]));
+            for (k, &node) in nodes.of_face[f as usize].iter().enumerate() {
+                all.push((nodes.vertex[node as usize], fan_of(f, k), node));
             }
         }
         all.sort_unstable();

@@ -129,6 +129,10 @@ pub struct ThreadReport {
     pub warp: f64,
     /// The same of the weft.
     pub weft: f64,
+    /// |stretch − 1| of the warp that all but a hundredth of the area stays below.
+    pub warp_p99: f64,
+    /// The same of the weft.
+    pub weft_p99: f64,
     /// Root mean square of the change of the angle between them, degrees.
     pub shear: f64,
     /// The largest, degrees.
@@ -168,6 +172,8 @@ impl PartReport {
             threads: ThreadReport {
                 warp: r.threads.warp,
                 weft: r.threads.weft,
+                warp_p99: r.threads.warp_p99,
+                weft_p99: r.threads.weft_p99,
                 shear: r.threads.shear.to_degrees(),
                 shear_max: r.threads.shear_max.to_degrees(),
             },
