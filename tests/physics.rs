@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use toile::contact::Contact;
+use toile::contact::{Contact, Under};
 use toile::dynamics::explicit::{Explicit, ExplicitError, Rest, Start, StepControl, explicit_cloth, law_of};
 use toile::dynamics::{
     Cloth, ContactLaw, Cut, Forces, GRAVITY, Pull, Spring, SpringModel, Stepper, StretchLaw, identity_nodes,
@@ -82,17 +82,7 @@ fn noise(count: usize) -> Vec<f64> {
 
 fn body_contact(node: u32, normal: Vec3, offset: f64) -> Contact {
     let weights = [1.0, 0.0, 0.0, 0.0];
-    Contact {
-        nodes: [node, 0, 0, 0],
-        weights,
-        count: 1,
-        normal,
-        offset,
-        body: true,
-        above: 1,
-        feature: 0,
-        pushes: true,
-    }
+    Contact { nodes: [node, 0, 0, 0], weights, count: 1, normal, offset, under: Under::Plane, above: 1, pushes: true }
 }
 
 /// Six contacts that press on a node from all sides: a spring to `at` that both integrators know.
@@ -173,9 +163,10 @@ fn contact_pushes_within_its_distance_only() {
     let (cloth, mut x) = slack();
     let contacts = [body_contact(0, Vec3::z(), 0.0)];
     let kept = cloth.half_thickness[0] + LAW.body_clearance;
-    // d · kept / gap: ever harder as the gap closes, by its tangent below a tenth of the distance kept.
-    let tangent = |gap: f64| 9.0 + 100.0 * (0.1 - gap);
-    let expected = [(-1.0, tangent(-1.0)), (0.0, tangent(0.0)), (0.1, 9.0), (0.2, 4.0), (0.5, 1.0), (1.1, 0.0)];
+    // d · kept / gap: ever harder as the gap closes, by its tangent below a fiftieth of the distance kept.
+    let tangent = |gap: f64| 49.0 + 2500.0 * (0.02 - gap);
+    let expected =
+        [(-1.0, tangent(-1.0)), (0.0, tangent(0.0)), (0.02, 49.0), (0.1, 9.0), (0.2, 4.0), (0.5, 1.0), (1.1, 0.0)];
     for (height, load) in expected {
         x[0].z = height * kept;
         let force = added(&cloth, Forces { contacts: &contacts, ..NOTHING }, &x);
@@ -198,9 +189,8 @@ fn forces_are_the_slope_of_the_energy() {
             count: 4,
             normal,
             offset: normal.dot(&(x[20] * 0.2 + x[21] * 0.3 + x[22] * 0.5 - x[30])) - 1e-4,
-            body: false,
+            under: Under::Cloth,
             above: 3,
-            feature: 0,
             pushes: true,
         });
         let pulls =
@@ -241,7 +231,7 @@ fn energy(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> f64 {
 fn contact_energy(cloth: &Cloth, x: &[Vec3], contact: &Contact) -> f64 {
     let half = |k: usize| cloth.half_thickness[contact.nodes[k] as usize];
     let gap = contact.gap(x);
-    let beyond = if contact.body { LAW.body_clearance } else { half(contact.count as usize - 1) };
+    let beyond = if contact.is_on_body() { LAW.body_clearance } else { half(contact.count as usize - 1) };
     let (k, kept) = (LAW.stiffness, half(0) + beyond);
     if gap >= kept { 0.0 } else { k * kept * (kept * (kept / gap).ln() - kept + gap) }
 }

@@ -4,17 +4,20 @@ use parry3d_f64::math::Vector;
 use parry3d_f64::query::PointQueryWithLocation;
 use parry3d_f64::shape::{TriMesh as ParryMesh, TriMeshFlags};
 
-use super::Contact;
 use super::grid::Grid;
-use super::narrow::{closest_on_segments, closest_on_triangle};
+use super::{Contact, Under};
 use crate::geometry::{Topology, TriMesh, Vec3};
 
-/// Body edges whose faces meet flatter than this (cosine, 2.6°) cannot catch a cloth edge between two of its vertices:
-/// a chord of 10 mm sinks 0.1 mm into them, less than the distance its ends keep.
-const SHARP_EDGE: f64 = 0.999;
+/// Body edges whose faces meet flatter than this (cosine, 0.26°) cannot catch a cloth edge between two of its vertices.
+/// Much less than a chord over one edge would ask for: a body in fine triangles bends away over many of them.
+const SHARP_EDGE: f64 = 0.999_99;
 /// A body edge or vertex is met from a direction in which nothing of the body beside it reaches higher; up to this
 /// slope (sine) higher is still met, so that a contact does not come and go where a face begins.
 const LEVEL: f64 = 0.1;
+
+/// Cloth that a feature of the body sees within this of its outward direction (cosine, 78°) is outside, whatever lies
+/// beside the feature: in a cleft a cheek rises beyond the triangle that is met, and higher than its plane.
+const FACING: f64 = 0.2;
 
 /// A convex edge of the body.
 struct BodyEdge {
@@ -126,51 +129,54 @@ impl Collider {
         let low = a.inf(&b).inf(&c).add_scalar(-reach);
         let high = a.sup(&b).sup(&c).add_scalar(reach);
         self.vertex_grid.query(low, high, |v| {
-            let p = self.vertices[v as usize];
-            let w = closest_on_triangle(p, a, b, c);
-            // At a corner or rim of the triangle the cloth's own vertices and edges are in charge.
-            if w.iter().any(|&w| w < 1e-6) {
+            let at = self.vertices[v as usize];
+            if apart(low, high, at, at) {
                 return;
             }
-            let away = a * w[0] + b * w[1] + c * w[2] - p;
-            if away.norm_squared() > reach * reach {
-                return;
-            }
-            let mut normal = (b - a).cross(&(c - a)).normalize();
-            if normal.dot(&self.normals[v as usize]) < 0.0 {
-                normal = -normal;
-            }
-            if !self.is_highest(p, normal, &self.neighbours[v as usize]) {
-                return;
-            }
-            out.push(Contact::with_body([tri[0], tri[1], tri[2], 0], [w[0], w[1], w[2], 0.0], 3, normal, (v + 1, p)));
+            let under = Under::Vertex { number: v, at };
+            let outward = self.normals[v as usize];
+            let nodes = [tri[0], tri[1], tri[2], 0];
+            self.meet(nodes, 3, under, outward, &self.neighbours[v as usize], x, reach, out);
         });
     }
 
     /// Contacts of the body's convex edges with the cloth edge `ends`, within `reach`.
     pub fn edges_near_edge(&self, x: &[Vec3], ends: [u32; 2], reach: f64, out: &mut Vec<Contact>) {
         let [a, b] = ends.map(|n| x[n as usize]);
-        self.edge_grid.query(a.inf(&b).add_scalar(-reach), a.sup(&b).add_scalar(reach), |e| {
+        let (low, high) = (a.inf(&b).add_scalar(-reach), a.sup(&b).add_scalar(reach));
+        self.edge_grid.query(low, high, |e| {
             let BodyEdge { ends: [i, j], beside } = self.edges[e as usize];
             let (p, q) = (self.vertices[i as usize], self.vertices[j as usize]);
-            let (s, t) = closest_on_segments(a, b, p, q);
-            if !INNER.contains(&s) || !INNER.contains(&t) {
+            if apart(low, high, p.inf(&q), p.sup(&q)) {
                 return;
             }
-            let on_body = p + (q - p) * t;
-            let away = a + (b - a) * s - on_body;
-            let across = (b - a).cross(&(q - p));
-            let length = across.norm();
-            if away.norm_squared() > reach * reach || length < PARALLEL * (b - a).norm() * (q - p).norm() {
-                return;
-            }
-            let outward = self.normals[i as usize] * (1.0 - t) + self.normals[j as usize] * t;
-            let normal = across * (across.dot(&outward).signum() / length);
-            if !self.is_highest(p, normal, &beside) {
-                return;
-            }
-            out.push(Contact::with_body([ends[0], ends[1], 0, 0], [1.0 - s, s, 0.0, 0.0], 2, normal, (e + 1, on_body)));
+            let under = Under::Edge { number: e, ends: [p, q] };
+            let outward = self.normals[i as usize] + self.normals[j as usize];
+            self.meet([ends[0], ends[1], 0, 0], 2, under, outward, &beside, x, reach, out);
         });
+    }
+
+    /// Adds the contact of cloth with a feature of the body, unless it is further than `reach`, or what is `beside` the
+    /// feature is met first.
+    #[expect(clippy::too_many_arguments, reason = "two primitives and where they may meet")]
+    fn meet(
+        &self,
+        nodes: [u32; 4],
+        count: u8,
+        under: Under,
+        outward: Vec3,
+        beside: &[u32],
+        x: &[Vec3],
+        reach: f64,
+        out: &mut Vec<Contact>,
+    ) {
+        let Some(contact) = Contact::on_feature(nodes, count, under, outward, x) else { return };
+        let gap = contact.gap(x);
+        let near = gap.abs() <= reach && (contact.pushes || gap > 0.0);
+        let faces = gap > 0.0 && contact.normal.dot(&outward) > FACING * outward.norm();
+        if near && (faces || self.is_highest(under.points()[0], contact.normal, beside)) {
+            out.push(contact);
+        }
     }
 
     /// Whether the body's vertices `around` lie no higher than `p` along `normal`: only then is it the feature of `p`
@@ -183,10 +189,10 @@ impl Collider {
     }
 }
 
-/// Closest points of two edges this near (in shares of the edge) to their ends are the vertices' business.
-const INNER: std::ops::RangeInclusive<f64> = 1e-3..=1.0 - 1e-3;
-/// Edges that enclose less than this angle (sine) have no direction across both.
-const PARALLEL: f64 = 1e-3;
+/// Whether two boxes (low and high corner of each) have nothing in common.
+fn apart(low: Vec3, high: Vec3, other_low: Vec3, other_high: Vec3) -> bool {
+    (0..3).any(|k| other_high[k] < low[k] || other_low[k] > high[k])
+}
 
 /// Vertices that share a face with each vertex of a closed mesh.
 fn neighbours(body: &TriMesh) -> Vec<Vec<u32>> {

@@ -9,7 +9,7 @@
 //! difference e(t) of two nodes is the quadratic with the Bézier coefficients n·e₀, ½ (n·e₁ + m·e₀) and m·e₁: where
 //! none of the three is negative, for no two nodes, the pair is separated all the way as well.
 
-use super::Contact;
+use super::{Contact, Under};
 use crate::geometry::Vec3;
 
 /// How often the pairs are gone through, pushing those that would meet apart again.
@@ -17,7 +17,7 @@ const SWEEPS: usize = 12;
 /// Share of its gap that a pair must keep in a step, up to [`Bounds::new`]'s margin.
 const KEPT: f64 = 0.2;
 /// A gap smaller than this, metres, shrinks no further: gaps that halved without end would end in rounding.
-const LEAST: f64 = 1e-5;
+const LEAST: f64 = 2e-6;
 /// Metres.
 const ROUNDING: f64 = 1e-9;
 /// A pair that has all but rounding of what it needs is not pushed.
@@ -31,24 +31,34 @@ pub struct Bounds {
     origin: Vec<Vec3>,
     leash: f64,
     margin: f64,
+    /// Primitives of the cloth above one another, or above an edge or a vertex of the body.
     pairs: Vec<Contact>,
-    /// Nodes, edges and triangles of the cloth, each above the body's surface where it was nearest.
-    on_body: Vec<Contact>,
+    /// Which of the contacts they are.
+    number: Vec<u32>,
+    /// Nodes, each above the plane where the body was nearest.
+    planes: Vec<Contact>,
 }
 
 impl Bounds {
     /// Bounds for nodes at `x` and the contacts found there within `reach`; every pair keeps `margin` metres, or the
     /// share `KEPT` of its gap if that is less.
     pub fn new(x: &[Vec3], contacts: &[Contact], reach: f64, margin: f64) -> Self {
-        let pairs = contacts.iter().filter(|c| !c.body).copied().collect();
-        let on_body = contacts.iter().filter(|c| c.body && c.gap(x) > 0.0).copied().collect();
-        Self { origin: x.to_vec(), leash: Self::allowance(reach), margin, pairs, on_body }
+        // What is in the body must come out.
+        let outside = |c: &Contact| !c.is_on_body() || c.gap(x) > 0.0;
+        let planes = contacts.iter().filter(|c| c.under == Under::Plane && outside(c)).copied().collect();
+        let paired = |k: &u32| {
+            let contact = &contacts[*k as usize];
+            contact.under != Under::Plane && outside(contact)
+        };
+        let number: Vec<u32> = (0..contacts.len() as u32).filter(paired).collect();
+        let pairs = number.iter().map(|&k| contacts[k as usize]).collect();
+        Self { origin: x.to_vec(), leash: Self::allowance(reach), margin, pairs, number, planes }
     }
 
     /// Takes over the directions of refreshed contacts, which must be those this was made with.
     pub fn refresh(&mut self, contacts: &[Contact]) {
-        for (pair, contact) in self.pairs.iter_mut().zip(contacts.iter().filter(|c| !c.body)) {
-            *pair = *contact;
+        for (pair, &k) in self.pairs.iter_mut().zip(&self.number) {
+            *pair = contacts[k as usize];
         }
     }
 
@@ -76,7 +86,7 @@ impl Bounds {
         let needs: Vec<f64> = self.pairs.iter().map(|c| self.need(separation(c, from))).collect();
         for _ in 0..SWEEPS {
             let mut clean = true;
-            for contact in &self.on_body {
+            for contact in &self.planes {
                 clean &= !lift(contact, to, self.need(contact.gap(from)));
             }
             for (contact, &need) in self.pairs.iter().zip(&needs) {
@@ -105,7 +115,7 @@ impl Bounds {
     fn hold(&self, from: &[Vec3], to: &mut [Vec3], needs: &[f64]) {
         loop {
             let mut clean = true;
-            for contact in &self.on_body {
+            for contact in &self.planes {
                 let start = contact.gap(from);
                 if start > 0.0 && contact.gap(to) < HELD * self.need(start) {
                     clean &= !put_back(contact, from, to);
@@ -140,6 +150,9 @@ impl Bounds {
 /// Positions of a pair's sides along its direction: the lowest node of the upper side, the highest of the lower.
 fn sides(contact: &Contact, x: &[Vec3]) -> (f64, f64) {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for q in contact.under.points() {
+        high = high.max(contact.normal.dot(q));
+    }
     for (k, (node, _)) in contact.parts().enumerate() {
         let at = contact.normal.dot(&x[node]);
         if k < contact.above as usize {
@@ -175,12 +188,15 @@ fn rolled(contact: &Contact, from: &[Vec3], to: &[Vec3]) -> Contact {
     let mut turned = *contact;
     turned.refresh(to);
     let (n, m) = (contact.normal, turned.normal);
-    let (above, below) = contact.nodes.split_at(contact.above as usize);
-    let apart = above.iter().flat_map(|p| below.iter().map(move |q| (*p as usize, *q as usize))).all(|(p, q)| {
-        let (before, after) = (from[p] - from[q], to[p] - to[q]);
+    let (above, below) = contact.nodes[..contact.count as usize].split_at(contact.above as usize);
+    let apart = |before: Vec3, after: Vec3| {
         n.dot(&before) >= 0.0 && n.dot(&after) + m.dot(&before) >= 0.0 && m.dot(&after) >= 0.0
-    });
-    if apart { turned } else { *contact }
+    };
+    let from_all = |p: usize| {
+        let cloth = below.iter().map(|&q| q as usize).all(|q| apart(from[p] - from[q], to[p] - to[q]));
+        cloth && contact.under.points().iter().all(|q| apart(from[p] - q, to[p] - q))
+    };
+    if above.iter().all(|&p| from_all(p as usize)) { turned } else { *contact }
 }
 
 /// Keeps a pair apart by `need` at the end of a step; whether it had to be pushed.
@@ -204,13 +220,17 @@ fn push_apart(contact: &Contact, x: &mut [Vec3], need: f64) -> bool {
     if low - high >= need * SLACK {
         return false;
     }
-    let middle = 0.5 * (low + high);
+    // Only what is cloth can give way.
+    let (floor, ceiling) = match contact.under {
+        Under::Cloth => (0.5 * (low + high + need), 0.5 * (low + high - need)),
+        _ => (high + need, high),
+    };
     for (k, (node, _)) in contact.parts().enumerate() {
         let at = contact.normal.dot(&x[node]);
         if k < contact.above as usize {
-            x[node] += contact.normal * (middle + 0.5 * need - at).max(0.0);
+            x[node] += contact.normal * (floor - at).max(0.0);
         } else {
-            x[node] += contact.normal * (middle - 0.5 * need - at).min(0.0);
+            x[node] += contact.normal * (ceiling - at).min(0.0);
         }
     }
     true
@@ -234,9 +254,8 @@ mod tests {
             count: 4,
             normal: Vec3::y(),
             offset: 0.0,
-            body: false,
+            under: Under::Cloth,
             above: 1,
-            feature: 0,
             pushes: true,
         };
         (x, contact)

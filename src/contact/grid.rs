@@ -11,6 +11,8 @@ pub(super) struct Grid {
     /// `starts[c]..starts[c + 1]` in `items` are the primitives whose box touches cell `c`.
     starts: Vec<u32>,
     items: Vec<u32>,
+    /// The first cell of every primitive's box, by axes.
+    first: Vec<[usize; 3]>,
 }
 
 /// More cells than this are never made: the cells grow instead.
@@ -22,17 +24,24 @@ impl Grid {
         let low = boxes.iter().fold(Vec3::repeat(f64::INFINITY), |m, b| m.inf(&b.0));
         let high = boxes.iter().fold(Vec3::repeat(f64::NEG_INFINITY), |m, b| m.sup(&b.1));
         if boxes.is_empty() {
-            return Self { origin: Vec3::zeros(), cell, size: [0; 3], starts: vec![0], items: Vec::new() };
+            return Self {
+                origin: Vec3::zeros(),
+                cell,
+                size: [0; 3],
+                starts: vec![0],
+                items: Vec::new(),
+                first: Vec::new(),
+            };
         }
         let extent = high - low;
         let volume = extent.add_scalar(cell).product() / cell.powi(3);
         let cell = if volume > MAX_CELLS { cell * (volume / MAX_CELLS).cbrt() } else { cell };
         let size = [extent.x, extent.y, extent.z].map(|e| (e / cell) as usize + 1);
-        let mut grid = Self { origin: low, cell, size, starts: Vec::new(), items: Vec::new() };
+        let mut grid = Self { origin: low, cell, size, starts: Vec::new(), items: Vec::new(), first: Vec::new() };
         let cells = size.iter().product::<usize>();
         let mut counts = vec![0u32; cells + 1];
         for b in boxes {
-            grid.for_cells(b.0, b.1, |c| counts[c + 1] += 1);
+            grid.for_cells(b.0, b.1, |c, _, _| counts[c + 1] += 1);
         }
         for c in 0..cells {
             counts[c + 1] += counts[c];
@@ -40,16 +49,20 @@ impl Grid {
         let mut items = vec![0u32; counts[cells] as usize];
         let mut fill = counts.clone();
         for (i, b) in boxes.iter().enumerate() {
-            grid.for_cells(b.0, b.1, |c| {
+            let mut first = [0; 3];
+            grid.for_cells(b.0, b.1, |c, _, from| {
                 items[fill[c] as usize] = i as u32;
                 fill[c] += 1;
+                first = from;
             });
+            grid.first.push(first);
         }
         (grid.starts, grid.items) = (counts, items);
         grid
     }
 
-    fn for_cells(&self, low: Vec3, high: Vec3, mut visit: impl FnMut(usize)) {
+    /// Visits the cells that a box touches: number, place, and the place of the first of them.
+    fn for_cells(&self, low: Vec3, high: Vec3, mut visit: impl FnMut(usize, [usize; 3], [usize; 3])) {
         if self.size[0] == 0 {
             return;
         }
@@ -67,17 +80,21 @@ impl Grid {
         for z in from[2]..=to[2] {
             for y in from[1]..=to[1] {
                 for x in from[0]..=to[0] {
-                    visit((z * self.size[1] + y) * self.size[0] + x);
+                    visit((z * self.size[1] + y) * self.size[0] + x, [x, y, z], from);
                 }
             }
         }
     }
 
-    /// Visits every primitive whose cells touch the box `low..high`; one that spans several cells may come more than once.
+    /// Visits every primitive whose cells touch the box `low..high`, once.
     pub(super) fn query(&self, low: Vec3, high: Vec3, mut visit: impl FnMut(u32)) {
-        self.for_cells(low, high, |c| {
+        self.for_cells(low, high, |c, cell, from| {
             for &i in &self.items[self.starts[c] as usize..self.starts[c + 1] as usize] {
-                visit(i);
+                // Of the cells that a primitive shares with the box, the first reports it.
+                let first = self.first[i as usize];
+                if (0..3).all(|k| cell[k] == first[k].max(from[k])) {
+                    visit(i);
+                }
             }
         });
     }

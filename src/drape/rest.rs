@@ -1,9 +1,9 @@
 //! From sewn to at rest.
 
 use crate::contact::Collider;
-use crate::dynamics::{Cut, StepError, World};
+use crate::dynamics::{Cut, Reach, StepError, World};
 use crate::geometry::Vec3;
-use crate::sew::{Stitching, sewn_world};
+use crate::sew::{Stitching, drape_reach, sewn_world};
 
 /// How a garment is draped.
 #[derive(Clone, Copy, Debug)]
@@ -51,8 +51,8 @@ const NEWTON_STEP: f64 = 1.0;
 /// Share of the last motion by which a falling garment looks ahead, and the most it does so, metres.
 const MOMENTUM: f64 = 0.9;
 const LOOK_AHEAD: f64 = 4e-3;
-/// Tangential stiffness of a contact, N/m. A node of 1 mN weight slips after 0.03 mm; a sliding garment gets
-/// on by its unbalanced force over this in a step, so that a stiffer grip would never let it arrive.
+/// Tangential stiffness of a contact of little load, N/m. A node of 1 mN weight slips after 0.03 mm; a sliding garment
+/// gets on by its unbalanced force over this in a step, so that a stiffer grip would never let it arrive.
 const GRIP: f64 = 10.0;
 /// Steps between two looks at how far the garment still moves.
 const STRETCH: usize = 10;
@@ -69,8 +69,13 @@ const TRUST: [f64; 3] = [1.5e-3, 0.1e-3, 10e-3];
 /// At rest: drift (RMS) over as many steps again, metres, and residual force in particle weights.
 const DRIFT: f64 = 0.3e-3;
 const RESIDUAL: f64 = 1.0;
-/// Steps so short that all that are left could not move any node by this share of [`DRIFT`] need not be made.
-const STILL: f64 = 0.1;
+/// Steps so short that as many as are left move the garment by no more than this share of [`DRIFT`] need not be made.
+const STILL: f64 = 1.0 / 3.0;
+/// A garment whose nodes went so far in one stretch is looked at this many times as far around in the next: a look is due
+/// when a node has gone a third of that, so that one stretch seldom needs two.
+const LOOK: f64 = 5.0;
+/// It is looked at least this far around, beyond its thickness, metres.
+const NEAREST_LOOK: f64 = 2e-3;
 
 /// Drapes a sewn garment.
 ///
@@ -90,7 +95,10 @@ pub fn drape(
     let mut world = sewn_world(cut, body, stitching, nodes)?;
     world.gravity = 1.0;
     world.grip(GRIP);
-    let mut fall = Fall { last: world.x.clone(), world, steps: 0, near: false, trust: TRUST[0] };
+    let thickest = 2.0 * world.cloth.half_thickness.iter().copied().fold(0.0, f64::max);
+    let widest = drape_reach(cut.mesh.spacing);
+    let look = [(NEAREST_LOOK + thickest).min(widest), widest];
+    let mut fall = Fall { last: world.x.clone(), world, steps: 0, near: false, trust: TRUST[0], look };
     let (drift, residual, converged) = loop {
         fall.settle(options.max_steps, progress)?;
         let out_of_steps = fall.steps >= options.max_steps;
@@ -120,6 +128,8 @@ struct Fall<'a> {
     near: bool,
     /// How far a Newton step is trusted, metres.
     trust: f64,
+    /// How far around the cloth is looked at, at least and at most, metres.
+    look: [f64; 2],
 }
 
 impl Fall<'_> {
@@ -136,8 +146,10 @@ impl Fall<'_> {
                 }
                 self.steps += 1;
             }
-            [moved, _] = motion(&before, &self.world.x);
-            self.world.detect()?;
+            let [mean, most_moved] = motion(&before, &self.world.x);
+            moved = mean;
+            let [nearest, widest] = self.look;
+            self.world.look_within(Reach::new((LOOK * most_moved).clamp(nearest, widest)))?;
             self.near |= moved < NEAR_REST || self.steps >= LONGEST_FALL;
             progress((self.steps as f64 / most as f64).max(SETTLED / moved).min(0.9));
         }
@@ -167,15 +179,22 @@ impl Fall<'_> {
     }
 
     /// As many steps again as were made, at half the step size: how far the garment goes, metres, root mean square and
-    /// largest.
+    /// largest. Where it hardly moves any more, the steps that are left count as if each went as far as the last, all the
+    /// same way.
     fn drift(&mut self) -> Result<[f64; 2], StepError> {
         let before = self.world.x.clone();
+        let mut left_out = [0.0; 2];
         for left in (0..self.steps).rev() {
-            if self.step(0.5 * NEWTON_STEP)? * left as f64 <= STILL * DRIFT {
+            let from = self.world.x.clone();
+            self.step(0.5 * NEWTON_STEP)?;
+            let [mean, most] = motion(&from, &self.world.x).map(|way| way * left as f64);
+            if mean <= STILL * DRIFT {
+                left_out = [mean, most];
                 break;
             }
         }
-        Ok(motion(&before, &self.world.x))
+        let [mean, most] = motion(&before, &self.world.x);
+        Ok([mean + left_out[0], most + left_out[1]])
     }
 }
 

@@ -23,9 +23,8 @@ pub struct ContactLaw {
 }
 
 /// Gaps below this share of the distance kept count as this: the force has to stay finite, also where a node starts
-/// inside the body. Layers get nearer to each other than to the body, which never moves.
+/// inside the body.
 const THINNEST: f64 = 0.02;
-const THINNEST_ON_BODY: f64 = 0.1;
 
 /// A contact at given positions: the load it carries, and how fast that falls as it opens.
 #[derive(Clone, Copy, Debug)]
@@ -40,7 +39,7 @@ impl ContactLaw {
     /// Distance at which a contact begins to push, metres.
     fn kept(&self, cloth: &Cloth, contact: &Contact) -> f64 {
         let first = cloth.half_thickness[contact.nodes[0] as usize];
-        if contact.body {
+        if contact.is_on_body() {
             return first + self.body_clearance;
         }
         self.cloth_gap
@@ -57,7 +56,7 @@ impl ContactLaw {
         if gap >= kept {
             return Press { load: k * (kept - gap), slope: k };
         }
-        let thin = gap.max(thinnest(contact) * kept);
+        let thin = gap.max(THINNEST * kept);
         let slope = k * (kept / thin).powi(2);
         Press { load: k * (kept - thin) * kept / thin + slope * (thin - gap), slope }
     }
@@ -74,15 +73,11 @@ impl ContactLaw {
         if gap >= kept || !contact.pushes {
             return 0.0;
         }
-        let thin = gap.max(thinnest(contact) * kept);
+        let thin = gap.max(THINNEST * kept);
         let down_to_thin = k * kept * (kept * (kept / thin).ln() - (kept - thin));
         let below = thin - gap;
         down_to_thin + below * (k * (kept - thin) * kept / thin + 0.5 * k * (kept / thin).powi(2) * below)
     }
-}
-
-fn thinnest(contact: &Contact) -> f64 {
-    if contact.body { THINNEST_ON_BODY } else { THINNEST }
 }
 
 /// A stitch being closed (F5): both nodes pull each other with stiffness × min(gap, cap).

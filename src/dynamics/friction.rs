@@ -2,26 +2,33 @@
 
 use std::collections::HashMap;
 
-use crate::contact::Contact;
+use crate::contact::{Contact, Under};
 use crate::geometry::{Mat3, Vec3};
 
 /// How far every contact has been dragged across its normal: it holds like a spring, up to μ times its load; beyond that
 /// it slides, and what is stored stays what the spring can hold. That it is stored from step to step (not measured anew
 /// in every step) is what lets a garment rest.
 ///
-/// A contact that is found for the first time begins without memory: a node that slides from one triangle of another
-/// layer to the next takes friction up again within μ · load / stiffness of way.
+/// A contact with the body that begins takes over what the others of its nodes remember: cloth that slides goes from one
+/// edge or vertex of the body to the next, and is held all the while. One between layers begins without memory: a node
+/// that slides from one triangle of another layer to the next takes friction up again within the way a contact gives.
 #[derive(Clone, Debug)]
 pub struct Friction {
-    /// Tangential stiffness of a contact, N/m.
+    /// Tangential stiffness of a contact of little load, N/m.
     stiffness: f64,
     /// In the contacts' order.
     memory: Vec<Memory>,
     /// Where in `memory` a contact is.
     index: HashMap<Key, usize>,
-    /// Positions when that was last brought up to date.
+    /// By how far the springs of a node's contacts with the body are drawn, in the mean of their loads, metres.
+    on_body: Vec<Vec3>,
+    /// Positions when all that was last brought up to date.
     at: Vec<Vec3>,
 }
+
+/// No contact gives further than this before it slides, metres: the spring is as stiff as its load asks for. Cloth that is
+/// pulled tight over an edge would otherwise slide for millimetres before friction holds it.
+const GIVE: f64 = 1e-4;
 
 /// What a contact remembers of the last step; one that was open, nothing.
 #[derive(Clone, Copy, Debug, Default)]
@@ -30,13 +37,19 @@ struct Memory {
     drawn: Vec3,
     /// Whether it slid. (Its load may be another where the body is looked at anew, so the spring cannot tell.)
     slid: bool,
+    /// Whether it touched.
+    touched: bool,
 }
 
 /// What makes a contact the same one in two detections: its nodes, how many are above, and what of the body it meets.
-type Key = ([u32; 4], u8, u32);
+type Key = ([u32; 4], u8, Option<u32>);
 
 fn key(contact: &Contact) -> Key {
-    (contact.nodes, contact.above, contact.feature)
+    let feature = match contact.under {
+        Under::Cloth | Under::Plane => None,
+        Under::Vertex { number, .. } | Under::Edge { number, .. } => Some(number),
+    };
+    (contact.nodes, contact.above, feature)
 }
 
 /// The friction of one contact in one step.
@@ -53,7 +66,8 @@ pub(super) struct Grip {
 impl Friction {
     /// Nothing is drawn yet.
     pub(super) fn new(x: &[Vec3], contacts: &[Contact], stiffness: f64) -> Self {
-        let mut out = Self { stiffness, memory: Vec::new(), index: HashMap::new(), at: x.to_vec() };
+        let on_body = vec![Vec3::zeros(); x.len()];
+        let mut out = Self { stiffness, memory: Vec::new(), index: HashMap::new(), on_body, at: x.to_vec() };
         out.detected(contacts);
         out
     }
@@ -68,7 +82,18 @@ impl Friction {
     /// By how far the spring of contact `k` is drawn at `x`.
     fn slip(&self, k: usize, contact: &Contact, x: &[Vec3]) -> Vec3 {
         let since: Vec3 = contact.parts().map(|(i, w)| (x[i] - self.at[i]) * w).sum();
-        across(contact) * (self.memory[k].drawn + since)
+        let drawn = match self.memory[k] {
+            Memory { touched: true, drawn, .. } => drawn,
+            _ if contact.is_on_body() => contact.parts().map(|(i, w)| self.on_body[i] * w).sum(),
+            _ => Vec3::zeros(),
+        };
+        across(contact) * (drawn + since)
+    }
+
+    /// Stiffness of the spring of a contact that holds `most` N, N/m, and the pull of a slip.
+    fn pull(&self, slip: &Vec3, most: f64) -> (f64, f64) {
+        let stiffness = self.stiffness.max(most / GIVE);
+        (stiffness, stiffness * slip.norm())
     }
 
     /// How contact number `k` grips for the normal force `load` and the nodes' coefficients `mu`; `None` while it is
@@ -78,13 +103,13 @@ impl Friction {
             return None;
         }
         let slip = self.slip(k, contact, x);
-        let (pull, most) = (self.stiffness * slip.norm(), coefficient(contact, mu) * load);
+        let most = coefficient(contact, mu) * load;
+        let (stiffness, pull) = self.pull(&slip, most);
         if pull <= most && !self.memory[k].slid {
-            let stiffness = across(contact) * self.stiffness;
-            return Some(Grip { force: slip * -self.stiffness, slides: false, stiffness });
+            return Some(Grip { force: slip * -stiffness, slides: false, stiffness: across(contact) * stiffness });
         }
         // μ · load against the way it slides; to turn that way takes as much force as to turn any pull of that size.
-        let held = self.stiffness * if pull > most { most / pull } else { 1.0 };
+        let held = stiffness * if pull > most { most / pull } else { 1.0 };
         let along = slip.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
         let stiffness = (across(contact) - along * along.transpose()) * held;
         Some(Grip { force: slip * -held, slides: true, stiffness })
@@ -96,8 +121,10 @@ impl Friction {
         let held = contacts.iter().zip(loads).enumerate().filter(|(_, (_, load))| **load > 0.0);
         held.map(|(k, (contact, load))| {
             let slip = self.slip(k, contact, x).norm();
-            let stuck = slip.min(coefficient(contact, mu) * load / self.stiffness);
-            self.stiffness * stuck * (slip - 0.5 * stuck)
+            let most = coefficient(contact, mu) * load;
+            let stiffness = self.stiffness.max(most / GIVE);
+            let stuck = slip.min(most / stiffness);
+            stiffness * stuck * (slip - 0.5 * stuck)
         })
         .sum()
     }
@@ -105,17 +132,27 @@ impl Friction {
     /// After a step to `x`: what sticks is drawn further, what slides keeps what it can hold, what left lets go.
     /// `load(contact)` is the normal force.
     pub(super) fn update(&mut self, x: &[Vec3], contacts: &[Contact], mu: &[f64], load: impl Fn(&Contact) -> f64) {
+        let mut on_body = vec![(Vec3::zeros(), 0.0); x.len()];
         for (k, contact) in contacts.iter().enumerate() {
             let normal_force = load(contact);
             self.memory[k] = if normal_force > 0.0 {
                 let slip = self.slip(k, contact, x);
-                let (pull, most) = (self.stiffness * slip.norm(), coefficient(contact, mu) * normal_force);
+                let most = coefficient(contact, mu) * normal_force;
+                let (_, pull) = self.pull(&slip, most);
                 let slid = pull > most;
-                Memory { drawn: if slid { slip * (most / pull) } else { slip }, slid }
+                Memory { drawn: if slid { slip * (most / pull) } else { slip }, slid, touched: true }
             } else {
                 Memory::default()
             };
+            if contact.is_on_body() && normal_force > 0.0 {
+                for (i, w) in contact.parts() {
+                    let share = w * normal_force;
+                    on_body[i] = (on_body[i].0 + self.memory[k].drawn * share, on_body[i].1 + share);
+                }
+            }
         }
+        self.on_body =
+            on_body.iter().map(|(drawn, load)| if *load > 0.0 { drawn / *load } else { Vec3::zeros() }).collect();
         self.at.copy_from_slice(x);
     }
 }
@@ -138,14 +175,14 @@ mod tests {
 
     #[test]
     fn a_contact_sticks_then_slides_and_remembers_across_detections() {
-        // A node on a floor and one on an edge of another layer, both under 2 N with μ = 0.5: 1 N at most.
+        // A node on a floor and one on an edge of another layer, both under 2 N with μ = 0.5: 1 N at most, after 0.1 mm.
         let floor = Contact::on_body(0, Vec3::y(), Vec3::zeros());
         let edge = Contact {
             nodes: [1, 2, 3, 0],
             weights: [1.0, -0.5, -0.5, 0.0],
             count: 3,
             above: 1,
-            body: false,
+            under: Under::Cloth,
             ..Contact::on_body(1, Vec3::y(), Vec3::zeros())
         };
         let mu = [0.5; 4];
@@ -155,8 +192,8 @@ mod tests {
             friction.grip(k, c, x, 2.0, &mu).map_or(f64::NAN, |g| g.force.x)
         };
         for (to, expected) in [(0.004, -0.4), (0.009, -0.9), (0.013, -1.0), (0.010, -0.7), (-0.02, 1.0)] {
-            x[0].x = to;
-            x[1].x = to;
+            x[0].x = 0.01 * to;
+            x[1].x = 0.01 * to;
             assert_relative_eq!(force(&friction, 0, &floor, &x), expected, epsilon = 1e-12);
             assert_relative_eq!(force(&friction, 1, &edge, &x), expected, epsilon = 1e-12);
             friction.update(&x, &[floor, edge], &mu, |_| 2.0);

@@ -19,11 +19,6 @@ const ITERATIONS: usize = 16;
 const OLD: Reuse = Reuse { moved: 1e-3, contacts: 8 };
 /// They end when the preconditioned residual has fallen to this share (squared).
 const SOLVED: f64 = 1e-4;
-/// Contacts that a step would press deeper than this, metres, are added and the step is solved again: the energy they
-/// would hold must be small beside what a step near rest gains.
-const PRESSED: f64 = 5e-6;
-/// How often.
-const ROUNDS: usize = 3;
 
 /// A proposed step.
 pub(super) struct Proposal {
@@ -42,8 +37,8 @@ struct Tangent<'a> {
     springs: Vec<SpringTangent>,
     /// [`super::crease::Crease::root`] of every crease.
     creases: Vec<[Vec3; 4]>,
-    /// Stiffness of every contact's friction, N/m.
-    grips: Vec<Mat3>,
+    /// Numbers of the contacts that push, and the stiffness of their friction, N/m.
+    grips: Vec<(usize, Mat3)>,
 }
 
 impl Stepper {
@@ -61,28 +56,17 @@ impl Stepper {
     ) -> Result<Proposal, StepError> {
         let free = free_forces(cloth, x, forces);
         let presses = presses(cloth, x, forces);
+        let active: Vec<bool> = presses.iter().map(|p| p.load > 0.0).collect();
         let tangent = Tangent::new(cloth, x, dt, forces, &presses);
-        let mut active: Vec<bool> = presses.iter().map(|p| p.load > 0.0).collect();
-        let mut round = 1;
-        loop {
-            self.prepare(cloth, x, dt, forces, &presses, &active, OLD)?;
-            let rhs = contact_forces(&free, cloth, x, forces, &presses, &active);
-            let d = self.truncated(&tangent, &active, &rhs, radius)?;
-            let mut more = false;
-            for ((contact, press), on) in forces.contacts.iter().zip(&presses).zip(&mut active) {
-                if !*on && press.load - press.slope * opening(contact, &d) > PRESSED * press.slope {
-                    (*on, more) = (true, true);
-                }
-            }
-            if !more || round >= ROUNDS {
-                return Ok(Proposal { gain: tangent.gain(&free, &d), d });
-            }
-            round += 1;
-        }
+        self.prepare(cloth, x, dt, forces, &presses, &active, OLD)?;
+        let rhs = contact_forces(&free, cloth, x, forces, &presses, &active);
+        let d = self.truncated(&tangent, &rhs, radius)?;
+        // A contact that the step closes is not in its stiffness: to solve again with it costs more than the next step.
+        Ok(Proposal { gain: tangent.gain(&free, &d), d })
     }
 
     /// Conjugate gradients on the tangent, from zero.
-    fn truncated(&self, tangent: &Tangent, active: &[bool], rhs: &[Vec3], radius: f64) -> Result<Vec<Vec3>, StepError> {
+    fn truncated(&self, tangent: &Tangent, rhs: &[Vec3], radius: f64) -> Result<Vec<Vec3>, StepError> {
         let mut d = vec![Vec3::zeros(); rhs.len()];
         let mut r = rhs.to_vec();
         let mut z = self.apply_inverse(&r)?;
@@ -93,7 +77,7 @@ impl Stepper {
             if rz <= solved {
                 break;
             }
-            let ap = tangent.apply(&p, active);
+            let ap = tangent.apply(&p);
             let curvature = dot(&p, &ap);
             if curvature <= 0.0 {
                 let part = ((radius - tangent.change(&d)) / tangent.change(&p)).max(0.0);
@@ -128,17 +112,18 @@ impl<'a> Tangent<'a> {
             let grip = forces.friction?.grip(k, &forces.contacts[k], x, presses[k].load, &cloth.friction)?;
             Some(grip.stiffness)
         };
-        let grips = (0..presses.len()).map(|k| grip(k).unwrap_or_else(Mat3::zeros)).collect();
+        let pushing = (0..presses.len()).filter(|&k| presses[k].load > 0.0);
+        let grips = pushing.map(|k| (k, grip(k).unwrap_or_else(Mat3::zeros))).collect();
         Self { cloth, dt, forces, presses, springs, creases, grips }
     }
 
-    /// (M/Δt² + true stiffness) p, with the contacts marked in `active`.
-    fn apply(&self, p: &[Vec3], active: &[bool]) -> Vec<Vec3> {
+    /// (M/Δt² + true stiffness) p, with the contacts that push.
+    fn apply(&self, p: &[Vec3]) -> Vec<Vec3> {
         let mut out = self.apply_free(p);
-        for k in (0..active.len()).filter(|&k| active[k]) {
-            let (contact, press) = (&self.forces.contacts[k], &self.presses[k]);
+        for (k, grip) in &self.grips {
+            let (contact, press) = (&self.forces.contacts[*k], &self.presses[*k]);
             let way: Vec3 = contact.parts().map(|(i, w)| p[i] * w).sum();
-            let back = contact.normal * (press.slope * opening(contact, p)) + self.grips[k] * way;
+            let back = contact.normal * (press.slope * contact.normal.dot(&way)) + grip * way;
             for (i, w) in contact.parts() {
                 out[i] += back * w;
             }

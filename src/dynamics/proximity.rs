@@ -11,14 +11,17 @@ use crate::geometry::Vec3;
 pub struct Reach {
     /// Cloth primitives nearer than this are pairs, metres. Nodes may go 0.45 of it between two detections.
     pub cloth: f64,
-    /// The body is looked for this near, metres.
+    /// The body is looked for this near to a node, metres.
     pub body: f64,
+    /// Its edges and vertices are looked for this near to edges and triangles of the cloth, metres.
+    pub features: f64,
 }
 
 impl Reach {
     /// The reach within the cloth given, metres.
     pub fn new(cloth: f64) -> Self {
-        Self { cloth, body: (0.5 * cloth).max(BODY) }
+        let farthest = Bounds::allowance(cloth);
+        Self { cloth, body: (0.5 * cloth).max(BODY), features: farthest.min(FEATURES) }
     }
 }
 
@@ -27,9 +30,9 @@ const BODY: f64 = 0.02;
 /// A new detection is due when any node has gone this share of the reach.
 const RENEW: f64 = 0.3;
 
-/// Body vertices and edges are contacts of cloth triangles and edges nearer than this, metres: what a node goes between
-/// two detections.
-const FACE_REACH: f64 = 4e-3;
+/// Edges and vertices of the body are contacts of edges and triangles of the cloth as near as a node goes between two
+/// detections, at most this near, metres: while seams are closed nodes go far, over a body they are still far from.
+const FEATURES: f64 = 4e-3;
 /// A node's distance to the body is measured up to this many reaches, so that far nodes need not be asked every time.
 const FAR: f64 = 4.0;
 /// Room for rounding in distances, metres.
@@ -73,6 +76,12 @@ impl<'a> Proximity<'a> {
         out
     }
 
+    /// Looks for contacts anew, from now on within `reach`.
+    pub(super) fn look_within(&mut self, reach: Reach, cloth: &Cloth, x: &[Vec3]) {
+        self.reach = reach;
+        self.detect(cloth, x);
+    }
+
     /// Looks for contacts anew.
     pub(super) fn detect(&mut self, cloth: &Cloth, x: &[Vec3]) {
         let mut contacts = self.body_contacts(x);
@@ -89,7 +98,9 @@ impl<'a> Proximity<'a> {
             self.detect(cloth, x);
             return true;
         }
-        self.contacts.par_iter_mut().with_min_len(super::ONE_THREAD).for_each(|c| c.refresh(x));
+        self.contacts.par_iter_mut().with_min_len(super::ONE_THREAD).for_each(|c| {
+            c.refresh(x);
+        });
         self.bounds.refresh(&self.contacts);
         false
     }
@@ -97,7 +108,7 @@ impl<'a> Proximity<'a> {
     /// Pairs of nodes (smaller first, sorted) that contacts of the cloth with itself couple, for gaps below `gap`.
     pub(super) fn touching(&self, x: &[Vec3], gap: f64) -> Vec<[u32; 2]> {
         let mut out = Vec::new();
-        for contact in self.contacts.iter().filter(|c| !c.body && c.gap(x) < gap) {
+        for contact in self.contacts.iter().filter(|c| !c.is_on_body() && c.gap(x) < gap) {
             let nodes = || contact.parts().filter(|p| p.1 != 0.0).map(|p| p.0 as u32);
             for (a, i) in nodes().enumerate() {
                 out.extend(nodes().skip(a + 1).map(|j| [i.min(j), i.max(j)]));
@@ -158,7 +169,8 @@ impl<'a> Proximity<'a> {
         let near = |nodes: &[u32]| {
             let side = |a: u32, b: u32| (x[a as usize] - x[b as usize]).norm();
             let longest = nodes.iter().flat_map(|&a| nodes.iter().map(move |&b| side(a, b))).fold(0.0, f64::max);
-            nodes.iter().map(|&n| far(n)).fold(f64::INFINITY, f64::min) < FACE_REACH + 3f64.sqrt().recip() * longest
+            nodes.iter().map(|&n| far(n)).fold(f64::INFINITY, f64::min)
+                < self.reach.features + 3f64.sqrt().recip() * longest
         };
         let faces: Vec<Contact> = cloth
             .triangles
@@ -167,7 +179,7 @@ impl<'a> Proximity<'a> {
             .filter(|t| near(*t))
             .flat_map_iter(|t| {
                 let mut out = Vec::new();
-                self.body.vertices_near_triangle(x, *t, FACE_REACH, &mut out);
+                self.body.vertices_near_triangle(x, *t, self.reach.features, &mut out);
                 out
             })
             .collect();
@@ -178,7 +190,7 @@ impl<'a> Proximity<'a> {
             .filter(|e| near(*e))
             .flat_map_iter(|e| {
                 let mut out = Vec::new();
-                self.body.edges_near_edge(x, *e, FACE_REACH, &mut out);
+                self.body.edges_near_edge(x, *e, self.reach.features, &mut out);
                 out
             })
             .collect();

@@ -190,6 +190,15 @@ impl<'a> World<'a> {
         Ok(largest.sqrt())
     }
 
+    /// [`World::detect`], from now on within `reach`: cloth that hardly moves need not look far.
+    ///
+    /// # Errors
+    /// As [`Stepper::new`].
+    pub fn look_within(&mut self, reach: Reach) -> Result<(), StepError> {
+        self.proximity.look_within(reach, &self.cloth, &self.x);
+        self.contacts_changed()
+    }
+
     /// Looks for contacts anew. Between detections a node slides on the plane where it met the body; on a curved body
     /// that plane is wrong by as much as the surface bends away.
     ///
@@ -200,7 +209,7 @@ impl<'a> World<'a> {
         self.contacts_changed()
     }
 
-    /// Lets every contact grip, with the tangential `stiffness` given, N/m.
+    /// Lets every contact grip, with at least the tangential `stiffness` given, N/m.
     pub fn grip(&mut self, stiffness: f64) {
         self.friction = Some(Friction::new(&self.x, &self.proximity.contacts, stiffness));
     }

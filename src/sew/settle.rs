@@ -38,10 +38,15 @@ pub fn sewn_world<'a>(
 ) -> Result<World<'a>, StepError> {
     let cloth = Cloth::new(cut, stitching.class.clone(), SpringModel::Measured);
     let law = ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, cloth_gap: None };
-    let reach = Reach::new((REACH * cut.mesh.spacing).min(LONGEST_REACH));
+    let reach = Reach::new(drape_reach(cut.mesh.spacing));
     let n = nodes.len();
     let hood = Neighbourhood { class: (0..n as u32).collect(), tangled: Vec::new() };
     World::new(cloth, nodes, &[], body, hood, law, reach)
+}
+
+/// How near layers are looked for in a sewn garment of grid spacing `spacing`, metres, while it moves freely.
+pub fn drape_reach(spacing: f64) -> f64 {
+    (REACH * spacing).min(LONGEST_REACH)
 }
 
 /// Lets the measured springs pull a newly stitched cloth true, out of its tangles first. Returns the steps made and the
