@@ -1,11 +1,12 @@
 //! Contact: cloth with the body and cloth with cloth (F6, F14). The only user of parry.
 //!
-//! Detection finds every pair of primitives closer than a *reach* and turns it into a [`Contact`]: a frozen direction
-//! and the weights of the nodes that take part. Between two detections no node moves further than
-//! [`Bounds::allowance`], so a pair that was not found cannot meet; a pair that was found is kept apart by a plane
-//! between its two sides ([`Bounds`]). Cloth that starts without a crossing therefore ends without one; the exceptions
-//! are pairs left out on purpose (neighbours in the cloth, both sides of a seam that is being closed), and edges and
-//! faces of the cloth against the body, which only the penalty holds off.
+//! Detection finds every pair of primitives closer than a *reach* and turns it into a [`Contact`]: a direction and the
+//! weights of the nodes that take part, both turned with the pair as it moves. Between two detections no node moves
+//! further than [`Bounds::allowance`], so a pair that was not found cannot meet; a pair that was found is kept apart by a
+//! plane between its two sides ([`Bounds`]). Cloth that starts without a crossing therefore ends without one. The
+//! exceptions: pairs left out on purpose (neighbours in the cloth, both sides of a seam that is being closed); a node over
+//! a hollow of the body, which is held to the plane of the last detection only; and, while seams are closed in long
+//! steps, edges and vertices of the body further off than they are looked for.
 
 mod body;
 mod bounds;
