@@ -322,6 +322,13 @@ fn what_is_wrong_with_darts_and_pleats_is_named_with_its_place() {
     says(&with(&format!("darts: [{twice}]")), 3, "a", "edge name 'd.a' used twice in 'a'");
     let toward = with("pleats: [{edge: top, at: [50], depth: 10, toward: bottom}]");
     says(&toward, 4, "top", "'toward: bottom' is not next to 'top', whose neighbours are left and right");
+    says(
+        &with("pleats: [{edge: top, at:, depth: 10}]"),
+        4,
+        ":, depth",
+        "at must be a length, or a list of lengths, not nothing",
+    );
+    says(&with("pleats: [{edge: top, at: [], depth: 10}]"), 4, "[]", "at must be a length, or a list of lengths");
     says(&with("pleats: [{edge: top, at: [50], depth: 10, sewn: 30}]"), 4, "30", "'sewn' is kept, not simulated");
 }
 

@@ -194,7 +194,12 @@ fn dart(value: &Located<Value>, findings: &mut Findings) -> Option<DartFile> {
 fn pleat(value: &Located<Value>, findings: &mut Findings) -> Option<PleatFile> {
     let mut fields = Fields::new(value, "a pleat", findings)?;
     let edge = fields.require("edge", findings, text);
-    let at = fields.need("at", findings).map(items).unwrap_or_default();
+    let where_from = fields.need("at", findings);
+    let at = where_from.map(items).unwrap_or_default();
+    // Without a place a pleat would be lost when the file is written again.
+    if let Some(value) = where_from.filter(|_| at.is_empty()) {
+        wrong(value, "at", "a length, or a list of lengths", findings);
+    }
     let pleat = |depth, fields: &mut Fields, findings: &mut Findings| PleatFile {
         edge: edge.clone().unwrap_or_default(),
         at: at.iter().filter_map(|v| quantity(v, "at", findings)).collect(),
