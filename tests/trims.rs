@@ -54,8 +54,9 @@ fn a_waist_elastic_draws_the_cloth_in_and_the_flat_piece_stays_as_drawn() {
     let length = |at: &dyn Fn(u32) -> Vec3| line.windows(2).map(|w| (at(w[1]) - at(w[0])).norm()).sum::<f64>();
     let flat = length(&|p| skirt.job.mesh.flat[p as usize].push(0.0));
     let worn = length(&|p| skirt.x[p as usize]);
-    // At 0.7 the band is slack; the body and the gathers keep it a little longer.
-    assert!((0.69..0.85).contains(&(worn / flat)), "{}", worn / flat);
+    // At 0.7 the band is slack, no longer than the body's waist of 740 mm; how far it slides down from there depends on
+    // friction, but it stays on the slope over the hip, 980 mm.
+    assert!(worn > 0.69 * flat && worn < 0.95 * 0.98, "{worn} m of {flat} m");
     for piece in &skirt.report.pieces {
         assert!(piece.area_error.round_trip.is_some_and(|e| e < 2e-3), "{:?}", piece.area_error);
         assert!(piece.boundary_error.round_trip.is_some_and(|e| e < 3e-3), "{:?}", piece.boundary_error);
