@@ -5,6 +5,7 @@ use parry3d_f64::query::PointQueryWithLocation;
 use parry3d_f64::shape::{TriMesh as ParryMesh, TriMeshFlags};
 
 use super::grid::Grid;
+use super::narrow::apart;
 use super::{Contact, Under};
 use crate::geometry::{Topology, TriMesh, Vec3};
 
@@ -187,11 +188,6 @@ impl Collider {
             normal.dot(&d) <= LEVEL * d.norm()
         })
     }
-}
-
-/// Whether two boxes (low and high corner of each) have nothing in common.
-fn apart(low: Vec3, high: Vec3, other_low: Vec3, other_high: Vec3) -> bool {
-    (0..3).any(|k| other_high[k] < low[k] || other_low[k] > high[k])
 }
 
 /// Vertices that share a face with each vertex of a closed mesh.

@@ -5,6 +5,7 @@ use parry3d_f64::partitioning::{Bvh, BvhWorkspace};
 use rayon::prelude::*;
 
 use super::Contact;
+use super::narrow::apart;
 use crate::geometry::{Topology, Vec2, Vec3};
 
 /// Triangles per leaf: small enough for tight boxes, large enough that the tree costs little.
@@ -140,8 +141,7 @@ impl ClothDetector {
                     let tri = self.triangles[t as usize];
                     let [c, d, f] = tri.map(|n| x[n as usize]);
                     let (l, h) = (c.inf(&d).inf(&f), c.sup(&d).sup(&f));
-                    let apart = (0..3).any(|k| h[k] < low[k] || l[k] > high[k]);
-                    if !apart && !tri.contains(&e[0]) && !tri.contains(&e[1]) {
+                    if !apart(low, high, l, h) && !tri.contains(&e[0]) && !tri.contains(&e[1]) {
                         out.push((e, tri));
                     }
                 }
@@ -245,11 +245,9 @@ impl Search<'_> {
             for &t in &q.triangles {
                 let tri = self.detector.triangles[t as usize];
                 let [a, b, c] = tri.map(|n| self.x[n as usize]);
-                let low = a.inf(&b).inf(&c);
-                let high = a.sup(&b).sup(&c);
-                if (0..3).any(|k| point[k] < low[k] - self.reach || point[k] > high[k] + self.reach)
-                    || self.detector.joined(&[v], &tri)
-                {
+                let low = a.inf(&b).inf(&c).add_scalar(-self.reach);
+                let high = a.sup(&b).sup(&c).add_scalar(self.reach);
+                if apart(low, high, point, point) || self.detector.joined(&[v], &tri) {
                     continue;
                 }
                 let Some(contact) = Contact::within_cloth([v, tri[0], tri[1], tri[2]], 1, self.x) else { continue };
@@ -259,8 +257,8 @@ impl Search<'_> {
                 }
                 let [_, k, l, m] = contact.weights;
                 let [f, g, h] = self.detector.flat[t as usize];
-                let apart = (p.piece == q.piece).then(|| flat + f * k + g * l + h * m);
-                if !self.same_sheet(distance, apart, &[v], &tri) {
+                let between = (p.piece == q.piece).then(|| flat + f * k + g * l + h * m);
+                if !self.same_sheet(distance, between, &[v], &tri) {
                     out.push(contact);
                 }
             }
@@ -270,12 +268,11 @@ impl Search<'_> {
     fn edges(&self, p: &Patch, q: &Patch, same: bool, out: &mut Vec<Contact>) {
         for (i, (e, flat)) in p.edges.iter().enumerate() {
             let [a, b] = e.map(|n| self.x[n as usize]);
-            let (low, high) = (a.inf(&b), a.sup(&b));
+            let (low, high) = (a.inf(&b).add_scalar(-self.reach), a.sup(&b).add_scalar(self.reach));
             let from = if same { i + 1 } else { 0 };
             for (f, other) in &q.edges[from..] {
                 let [c, d] = f.map(|n| self.x[n as usize]);
-                let (l2, h2) = (c.inf(&d), c.sup(&d));
-                if (0..3).any(|k| h2[k] < low[k] - self.reach || l2[k] > high[k] + self.reach) {
+                if apart(low, high, c.inf(&d), c.sup(&d)) {
                     continue;
                 }
                 if p.piece == q.piece {
@@ -294,8 +291,8 @@ impl Search<'_> {
                     continue;
                 }
                 let [k, l, m, n] = contact.weights;
-                let apart = (p.piece == q.piece).then(|| flat[0] * k + flat[1] * l + other[0] * m + other[1] * n);
-                if !self.same_sheet(distance, apart, e, f) {
+                let between = (p.piece == q.piece).then(|| flat[0] * k + flat[1] * l + other[0] * m + other[1] * n);
+                if !self.same_sheet(distance, between, e, f) {
                     out.push(contact);
                 }
             }

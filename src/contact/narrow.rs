@@ -2,6 +2,11 @@
 
 use crate::geometry::Vec3;
 
+/// Whether two boxes (low and high corner of each) have nothing in common.
+pub(super) fn apart(low: Vec3, high: Vec3, other_low: Vec3, other_high: Vec3) -> bool {
+    (0..3).any(|k| other_high[k] < low[k] || other_low[k] > high[k])
+}
+
 /// Barycentric coordinates of the point of triangle `abc` closest to `p` (Ericson, *Real-Time Collision Detection*,
 /// 5.1.5: by Voronoi regions, so that an obtuse triangle is right too).
 pub fn closest_on_triangle(p: Vec3, a: Vec3, b: Vec3, c: Vec3) -> [f64; 3] {

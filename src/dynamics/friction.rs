@@ -90,10 +90,9 @@ impl Friction {
         across(contact) * (drawn + since)
     }
 
-    /// Stiffness of the spring of a contact that holds `most` N, N/m, and the pull of a slip.
-    fn pull(&self, slip: &Vec3, most: f64) -> (f64, f64) {
-        let stiffness = self.stiffness.max(most / GIVE);
-        (stiffness, stiffness * slip.norm())
+    /// Stiffness of the spring of a contact that holds `most` N, N/m.
+    fn stiffness_for(&self, most: f64) -> f64 {
+        self.stiffness.max(most / GIVE)
     }
 
     /// How contact number `k` grips for the normal force `load` and the nodes' coefficients `mu`; `None` while it is
@@ -104,7 +103,8 @@ impl Friction {
         }
         let slip = self.slip(k, contact, x);
         let most = coefficient(contact, mu) * load;
-        let (stiffness, pull) = self.pull(&slip, most);
+        let stiffness = self.stiffness_for(most);
+        let pull = stiffness * slip.norm();
         if pull <= most && !self.memory[k].slid {
             return Some(Grip { force: slip * -stiffness, slides: false, stiffness: across(contact) * stiffness });
         }
@@ -122,7 +122,7 @@ impl Friction {
         held.map(|(k, (contact, load))| {
             let slip = self.slip(k, contact, x).norm();
             let most = coefficient(contact, mu) * load;
-            let stiffness = self.stiffness.max(most / GIVE);
+            let stiffness = self.stiffness_for(most);
             let stuck = slip.min(most / stiffness);
             stiffness * stuck * (slip - 0.5 * stuck)
         })
@@ -138,7 +138,7 @@ impl Friction {
             self.memory[k] = if normal_force > 0.0 {
                 let slip = self.slip(k, contact, x);
                 let most = coefficient(contact, mu) * normal_force;
-                let (_, pull) = self.pull(&slip, most);
+                let pull = self.stiffness_for(most) * slip.norm();
                 let slid = pull > most;
                 Memory { drawn: if slid { slip * (most / pull) } else { slip }, slid, touched: true }
             } else {
@@ -175,7 +175,8 @@ mod tests {
 
     #[test]
     fn a_contact_sticks_then_slides_and_remembers_across_detections() {
-        // A node on a floor and one on an edge of another layer, both under 2 N with μ = 0.5: 1 N at most, after half a millimetre.
+        // A node on a floor and one on an edge of another layer, both under 2 N with μ = 0.5: 1 N at most, after half a
+        // millimetre.
         let floor = Contact::on_body(0, Vec3::y(), Vec3::zeros());
         let edge = Contact {
             nodes: [1, 2, 3, 0],

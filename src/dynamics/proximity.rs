@@ -46,7 +46,8 @@ pub(super) struct Proximity<'a> {
     pub(super) bounds: Bounds,
     body: &'a Collider,
     detector: ClothDetector,
-    reach: Reach,
+    /// How near contacts are looked for at the next detection.
+    pub(super) reach: Reach,
     /// Separation that pairs keep, metres.
     margin: f64,
     /// Distance to the body when last measured, and where.
@@ -74,12 +75,6 @@ impl<'a> Proximity<'a> {
         };
         out.detect(cloth, x);
         out
-    }
-
-    /// Looks for contacts anew, from now on within `reach`.
-    pub(super) fn look_within(&mut self, reach: Reach, cloth: &Cloth, x: &[Vec3]) {
-        self.reach = reach;
-        self.detect(cloth, x);
     }
 
     /// Looks for contacts anew.

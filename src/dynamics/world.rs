@@ -195,8 +195,8 @@ impl<'a> World<'a> {
     /// # Errors
     /// As [`Stepper::new`].
     pub fn look_within(&mut self, reach: Reach) -> Result<(), StepError> {
-        self.proximity.look_within(reach, &self.cloth, &self.x);
-        self.contacts_changed()
+        self.proximity.reach = reach;
+        self.detect()
     }
 
     /// Looks for contacts anew. Between detections a node slides on the plane where it met the body; on a curved body
