@@ -8,7 +8,7 @@ use toile::io::dxf_write::cutting_dxf;
 use toile::io::garment::{Loaded, read_text, write};
 use toile::io::svg_read::read_svg_text;
 use toile::io::svg_write::cutting_svg;
-use toile::pattern::{Drawing, drawings};
+use toile::pattern::{Cut, Drawing, drawings};
 
 const INKSCAPE: &str = include_str!("data/inkscape.svg");
 const FREESEWING: &str = include_str!("data/freesewing.svg");
@@ -182,6 +182,77 @@ fn an_exported_svg_is_read_back() {
     same_outlines(&made, &drawings);
     let again = drawn(&made);
     assert!(again.iter().all(|p| p.rings[0].iter().any(|e| e.name == "hem")), "edges keep their names");
+    // What is written on the piece says so.
+    assert_eq!(again.iter().find(|p| p.name == "back").map(|p| &p.cut), Some(&Cut::Pair));
+}
+
+/// Both of a pair on the paper are a pair again, by name and mirrored shape; two of a kind are not.
+#[test]
+fn pieces_drawn_left_and_right_are_a_pair() {
+    let loaded = read_text("sample", "sample.yaml", SAMPLE).expect("a garment");
+    let whole = Options { whole: true, ..Options::default() };
+    let papers = papers(&drawings(&loaded.file, &loaded.garment), &whole);
+    let names: Vec<&str> = papers.iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(names, ["front", "back.L", "back.R"]);
+    let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
+    let svg = from_svg(&cutting_svg(&sheet));
+    let dxf = garment_file("sample", &read_dxf_text(&cutting_dxf("Sample", &papers), None).expect("pieces"));
+    for made in [svg, dxf] {
+        let pieces = drawn(&made);
+        let cuts: Vec<(&str, &Cut)> = pieces.iter().map(|p| (p.name.as_str(), &p.cut)).collect();
+        assert_eq!(cuts, [("front", &Cut::One), ("back", &Cut::Pair)]);
+        // It lies where it begins, wherever on the sheet it was.
+        let low = outline(&pieces[1]).2.start() - pieces[1].rings[0][0].path.start();
+        assert!(low.norm() < EXACT, "{low}");
+    }
+    // Triangles without names, each other's mirror image; and two that are both the same and mirrored.
+    let svg = |shapes: &str| {
+        let text = format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' width='900mm' height='900mm' viewBox='0 0 900 900'>{shapes}</svg>"
+        );
+        drawn(&from_svg(&text)).into_iter().map(|p| p.cut).collect::<Vec<Cut>>()
+    };
+    assert_eq!(svg("<path d='M 0 0 L 100 0 L 0 200 Z'/><path d='M 300 0 L 200 0 L 300 200 Z'/>"), [Cut::Pair]);
+    assert_eq!(svg("<path d='M 0 0 L 100 0 L 0 200 Z'/><path d='M 200 0 L 300 0 L 200 200 Z'/>"), [Cut::One, Cut::One]);
+    assert_eq!(svg("<rect width='100' height='200'/><rect x='200' width='100' height='200'/>"), [Cut::One, Cut::One]);
+}
+
+/// The cut line passes a dart's mouth: its legs have no allowance, however far the line is from them.
+#[test]
+fn legs_of_a_dart_have_no_allowance() {
+    let text = SAMPLE
+        .replace("  back:\n", "  back:\n    darts: [{name: bust, edge: side, at: 200, intake: 20, length: 70}]\n");
+    let loaded = read_text("sample", "sample.yaml", &text).expect("a garment");
+    let papers = papers(&drawings(&loaded.file, &loaded.garment), &Options { whole: true, ..Options::default() });
+    let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
+    let made = from_svg(&cutting_svg(&sheet));
+    let back = drawn(&made).into_iter().find(|p| p.name == "back").expect("the back");
+    let width = |edge: &str| back.rings[0].iter().find(|e| e.name == edge).expect("an edge").allowance.width;
+    assert_eq!(width("shoulder"), Some(0.010));
+    assert!(
+        back.rings[0].iter().filter_map(|e| e.allowance.width).all(|w| w < 0.011),
+        "{:?}",
+        made.file.pieces[1].allowance
+    );
+}
+
+#[test]
+fn what_is_written_on_a_piece_says_how_it_is_cut() {
+    let cut = |words: &str| {
+        let text = format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' width='900mm' height='900mm' viewBox='0 0 900 900'>\
+             <rect x='100' width='100' height='200'/><g transform='translate(100, 0)'><text><tspan x='50' y='90'>{words}\
+             </tspan></text></g><text x='300' y='90'>cut 7</text></svg>"
+        );
+        drawn(&from_svg(&text)).remove(0).cut
+    };
+    for pair in ["Cut 1 pair", "Sleeve – cut 2 (left and right), shell", "CUT 2 MIRRORED"] {
+        assert_eq!(cut(pair), Cut::Pair, "{pair}");
+    }
+    assert_eq!(cut("cut: 4, lining"), Cut::Count(4));
+    for once in ["cut 1", "cut here", "undercut", "cut 1 on the fold", "cut 99999999999999999999"] {
+        assert_eq!(cut(once), Cut::One, "{once}");
+    }
 }
 
 #[test]
@@ -190,9 +261,10 @@ fn an_exported_dxf_is_read_back() {
     let made = garment_file("sample", &read_dxf_text(&cutting_dxf("Sample", &papers), None).expect("pieces"));
     same_outlines(&made, &drawings);
     let pair = drawn(&made).into_iter().find(|p| p.name == "back").expect("the back");
-    // `cut: pair` wants seams that join the two, and those are still to be written.
-    assert_eq!(pair.cut, toile::pattern::Cut::Count(2));
-    assert!(pair.note.is_some_and(|n| n.contains("cut: pair")));
+    assert_eq!(pair.cut, Cut::Pair);
+    // Curves are curves again, not the hundreds of points that the format makes of them.
+    let segments: usize = drawn(&made).iter().flat_map(|p| &p.rings[0]).map(|e| e.path.joints().len() - 1).sum();
+    assert!(segments < 40, "{segments}");
 }
 
 #[test]

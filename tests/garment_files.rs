@@ -411,39 +411,6 @@ fn a_seam_before_the_one_it_hangs_by_is_warned_of() {
 }
 
 #[test]
-fn ten_mistakes_are_found_in_one_run() {
-    let text = "\
-garment: 1
-units: inch
-body: woman_92
-pieces:
-  a:
-    grain: [[1, 1], [1, 1]]
-    outline: {start: 0 0, top: L 100 0, right: L 100 100, bottom: L 0 100, left: L 0 0}
-    notches: {tpo: [10]}
-  b:
-    colour: red
-    outline: {start: 0 0, top: L 100 0, right: L 100 100, bottom: L 0 100, left: L 0 9}
-  c:
-    fabric: 7
-    cut: twice
-    outline: {start: 0 0, top: L 100 0, top: L 100 100, bottom: L 0 100, left: L 0 0}
-seams:
-  one: {sew: c.top, to: d.top}
-  two: {sew: c.bottom, ease: 3}
-  three: {sew: c.left@9..3, to: c.bottom}
-  four: {sew: c.side, to: c.left}
-tests:
-  - {seam: all, length: long}
-";
-    let found = mistakes(text);
-    let lines: Vec<usize> = found.iter().filter(|d| d.severity == Severity::Error).map(|d| d.line).collect();
-    for line in [2, 6, 8, 10, 11, 14, 15, 17, 18, 19, 20, 22] {
-        assert!(lines.contains(&line), "line {line}: {found:#?}");
-    }
-}
-
-#[test]
 fn a_message_shows_the_line_and_what_to_do() {
     let text = squares("sew: a.right", "sew: a.rigth");
     let shown = read_text("test", "t.yaml", &text).unwrap_err().to_string();

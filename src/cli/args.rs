@@ -151,6 +151,9 @@ pub(super) struct CheckArgs {
     /// The garment file
     #[arg(value_name = "GARMENT.yaml", required_unless_present = "mesh")]
     pub(super) garment: Option<PathBuf>,
+    /// Distance of neighbouring particles in millimetres that the garment will be made with [default: 10]
+    #[arg(long, value_name = "MM", value_parser = spacing, allow_negative_numbers = true, conflicts_with = "mesh")]
+    pub(super) spacing: Option<f64>,
     /// Look for crossings in this surface instead, whoever made it
     #[arg(long, value_name = "FILE.obj", conflicts_with = "garment")]
     pub(super) mesh: Option<PathBuf>,

@@ -9,29 +9,28 @@ use super::check_mesh::check_mesh;
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use crate::pattern::{Diagnostic, Garment, Give, SeamWalk, Severity, openings, walk};
-use crate::pipeline::{PipelineError, check_materials, piece_area, read};
+use crate::pipeline::{self, PipelineError, piece_area};
 use crate::report::aligned;
 
 /// `toile check`
 pub(super) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, CliError> {
     match (&args.mesh, &args.garment) {
         (Some(mesh), _) => check_mesh(mesh, args, console),
-        (None, Some(garment)) => check_garment(garment, console),
+        (None, Some(garment)) => check_garment(garment, args.spacing.map(|mm| mm / MM), console),
         // clap asks for one of them.
         (None, None) => Err(CliError::Argument("a garment file or --mesh is needed".into())),
     }
 }
 
-fn check_garment(file: &Path, console: &Console) -> Result<Exit, CliError> {
-    let checked = read(file).and_then(|l| check_materials(file, &l).map(|()| l));
-    let loaded = match checked {
-        Err(PipelineError::Garment(refused)) if console.json() => {
+fn check_garment(file: &Path, spacing: Option<f64>, console: &Console) -> Result<Exit, CliError> {
+    let loaded = match pipeline::check(file, spacing) {
+        Err(refused) if console.json() => {
             let rows = refused.diagnostics.iter().map(DiagnosticRow::new).collect();
             let refusal = Findings { file: file.display().to_string(), ok: false, diagnostics: rows };
             console.results(&refusal, String::new)?;
             return Ok(Exit::Input);
         }
-        other => other?,
+        other => other.map_err(PipelineError::from)?,
     };
     loaded.warnings.iter().for_each(|warning| console.note(&warning.to_string()));
     let summary = Summary::new(&loaded.garment, &loaded.warnings);

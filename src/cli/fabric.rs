@@ -65,6 +65,7 @@ fn shown(sheet: &FabricSheet, fabric: &Fabric) -> Value {
         "assumed": fabric.defaults,
         "bending_length_mm": 1e3 * fabric.bending_length_mean(),
         "note": sheet.note,
+        "notes": fabric.notes(),
         "liu": liu,
     })
 }
@@ -82,6 +83,9 @@ fn text(sheet: &FabricSheet, fabric: &Fabric) -> String {
     out.push_str(&format!("\n  bending length {:.1} mm\n", 1e3 * fabric.bending_length_mean()));
     if !fabric.defaults.is_empty() {
         out.push_str(&format!("  not measured but assumed: {}\n", fabric.defaults.join(", ")));
+    }
+    for note in fabric.notes() {
+        out.push_str(&format!("  {note}\n"));
     }
     if let Some(note) = &sheet.note {
         out.push_str(&format!("  {note}\n"));
@@ -124,7 +128,7 @@ fn from_readings(readings: &Path, output: &Path, console: &Console) -> Result<()
     let fabric = load(&output.display().to_string())?;
     let mut value = shown(&sheet, &fabric);
     value["file"] = json!(output.display().to_string());
-    value["notes"] = json!(notes);
+    value["notes"] = json!([notes, fabric.notes()].concat());
     value["ranges"] = json!(tests.map(|t| t.map(|m| m.range)));
     console.results(&value, || format!("{}\nwritten to {}\n", text(&sheet, &fabric), output.display()))
 }

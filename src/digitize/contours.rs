@@ -3,8 +3,9 @@
 use std::collections::HashMap;
 
 use super::chain::{chained, is_closed};
-use super::{Role, Stroke, Traced};
+use super::{Remark, Role, Stroke, Traced};
 use crate::geometry::{Path, Vec2};
+use crate::pattern::Cut;
 
 /// A closed line round less than this (square metres, a square of 3 cm) is no piece.
 const SMALLEST_PIECE: f64 = 9e-4;
@@ -69,8 +70,8 @@ impl Contour {
     }
 }
 
-/// The pieces that strokes make, in the order of the drawing.
-pub fn pieces(strokes: &[Stroke]) -> Vec<Traced> {
+/// The pieces that strokes make, in the order of the drawing; what is written on one may say how it is cut.
+pub fn pieces(strokes: &[Stroke], remarks: &[Remark]) -> Vec<Traced> {
     let (contours, rest) = contours(strokes);
     let mut outer: Vec<usize> = (0..contours.len()).filter(|&i| contours[i].area() >= SMALLEST_PIECE).collect();
     let within = |i: usize, k: usize| i != k && contours[i].lies_in(&contours[k]);
@@ -79,9 +80,23 @@ pub fn pieces(strokes: &[Stroke]) -> Vec<Traced> {
         .iter()
         .map(|&o| {
             let inner: Vec<&Contour> = (0..contours.len()).filter(|&i| within(i, o)).map(|i| &contours[i]).collect();
-            piece(&contours[o], &inner, &rest)
+            let own = remarks.iter().filter(|r| contours[o].holds(r.at));
+            Traced { cut_how: own.clone().find_map(|r| cut_how(&r.text)), ..piece(&contours[o], &inner, &rest) }
         })
         .collect()
+}
+
+/// `cut 2 (left and right)`, `Cut 1 pair`, `cut 4`: how a piece is cut, as makers write it on.
+fn cut_how(text: &str) -> Option<Cut> {
+    let text = text.to_lowercase();
+    let (_, after) = text.split_once("cut")?;
+    let count: usize = after.split(|c: char| !c.is_alphanumeric()).find(|w| !w.is_empty())?.parse().ok()?;
+    let mirrored = ["left and right", "l and r", "mirror", "pair"].iter().any(|words| after.contains(words));
+    match count {
+        1 | 2 if mirrored => Some(Cut::Pair),
+        2..=100 => Some(Cut::Count(count)),
+        _ => None,
+    }
 }
 
 /// Strokes of one group and kind that are not closed by themselves.

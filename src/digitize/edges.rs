@@ -1,5 +1,6 @@
 //! An outline as named edges.
 
+use super::smooth::smoothed;
 use crate::geometry::{Path, Vec2};
 
 /// A turn of more than this (radians, 20 degrees) between two segments is a corner.
@@ -164,7 +165,7 @@ fn named(edges: Vec<(Option<String>, Path, Option<bool>)>) -> Vec<Edge> {
         }
         let name = name.unwrap_or_default();
         taken.push(name.clone());
-        out.push(Edge { name, path, notch });
+        out.push(Edge { name, path: smoothed(&path), notch });
     }
     out
 }

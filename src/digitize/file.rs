@@ -2,6 +2,7 @@
 
 use super::Traced;
 use super::edges::{Edge, edges};
+use super::pairs::paired;
 use super::suggest::{Suggestion, suggest};
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{
@@ -17,6 +18,8 @@ const ON_FOLD: f64 = 1e-3;
 const WIDEST: f64 = 0.1;
 /// Where along an edge its allowance is measured.
 const LOOKS: [f64; 3] = [0.4, 0.5, 0.6];
+/// Where these differ by more (metres), the cut line does not run along the edge: it passes the mouth of a dart.
+const ALONG: f64 = 2e-3;
 /// Length of the line that stands for a drill hole, metres.
 const DRILL: f64 = 2e-3;
 /// Longest name.
@@ -38,10 +41,10 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
     let mut notes = Vec::new();
     let mut names: Vec<String> = Vec::new();
     let (mut pieces, mut outlines) = (Vec::new(), Vec::new());
-    for piece in traced {
+    for piece in &paired(traced) {
         let name = fresh(&piece.name, &names);
         names.push(name.clone());
-        let (file, edges) = piece_file(&name, piece, &mut notes);
+        let (file, edges) = piece_file(&name, &piece.at_origin(), &mut notes);
         outlines.push((name, edges, matches!(&file.cut, Some(c) if c.value == Cut::Pair)));
         pieces.push(file);
     }
@@ -117,8 +120,8 @@ fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile
         like: None,
         fabric: None,
         allowance: whole.and_then(|line| allowance(&edges, line, &cut)),
-        cut: cut.as_ref().map(|c| at_no_place(if *c == Cut::Pair { Cut::Count(2) } else { c.clone() })),
-        drawn: None,
+        drawn: piece.drawn.filter(|_| cut == Some(Cut::Pair)).map(at_no_place),
+        cut: cut.map(at_no_place),
         layer: None,
         grain: grain.map(|g| at_no_place(g.map(file_point))),
         place: None,
@@ -128,17 +131,9 @@ fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile
         pleats: Vec::new(),
         holes: numbered("hole", &piece.holes, &edges),
         lines: lines(piece),
-        note: note(piece, cut.as_ref()),
+        note: piece.fabric.as_ref().map(|f| at_no_place(format!("material: {}", plain(f)))),
     };
     (file, edges)
-}
-
-/// The material, and what cannot be said before the seams are written: the two of a pair are told apart by them.
-fn note(piece: &Traced, cut: Option<&Cut>) -> Option<Located<String>> {
-    let material = piece.fabric.as_ref().map(|f| format!("material: {}", plain(f)));
-    let pair = (cut == Some(&Cut::Pair)).then(|| "left and right: say cut: pair when its seams are written".to_owned());
-    let words: Vec<String> = material.into_iter().chain(pair).collect();
-    (!words.is_empty()).then(|| at_no_place(words.join("; ")))
 }
 
 /// Ten nanometres in a millimetre file: nobody's rounding, and short.
@@ -224,10 +219,11 @@ fn allowance(edges: &[Edge], cut: &Path, how: &Option<Cut>) -> Option<AllowanceF
         // Round its middle: near its ends the neighbours' cut lines may be nearer than its own.
         let mut looks = LOOKS.map(|share| cut.nearest(e.path.point(e.path.length() * share)).1);
         looks.sort_by(f64::total_cmp);
-        (looks[LOOKS.len() / 2] * 1e4).round() / 10.0
+        let along = looks[LOOKS.len() - 1] - looks[0] <= ALONG;
+        along.then(|| (looks[LOOKS.len() / 2] * 1e4).round() / 10.0)
     };
     let said = |number: f64| at_no_place(AllowanceWidth { width: Quantity { number, unit: None }, corner: None });
-    let widths: Vec<(&Edge, f64)> = edges.iter().filter(|e| !on_fold(e)).map(|e| (e, width(e))).collect();
+    let widths: Vec<(&Edge, f64)> = edges.iter().filter(|e| !on_fold(e)).filter_map(|e| Some((e, width(e)?))).collect();
     if widths.iter().any(|(_, w)| w / MM > WIDEST) {
         return None;
     }

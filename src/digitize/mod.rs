@@ -8,6 +8,8 @@ mod chain;
 mod contours;
 mod edges;
 mod file;
+mod pairs;
+mod smooth;
 mod suggest;
 
 pub use chain::chained;
@@ -16,7 +18,7 @@ pub use file::{Digitized, garment_file};
 pub use suggest::Suggestion;
 
 use crate::geometry::{Path, Vec2};
-use crate::pattern::Cut;
+use crate::pattern::{Cut, Side};
 
 /// A line of a foreign file.
 #[derive(Clone, Debug)]
@@ -29,6 +31,15 @@ pub struct Stroke {
     pub name: Option<String>,
     /// The name of the group it is in, if that has one.
     pub group: Option<String>,
+}
+
+/// Words of a foreign file.
+#[derive(Clone, Debug)]
+pub struct Remark {
+    /// Where they stand.
+    pub at: Vec2,
+    /// What they say.
+    pub text: String,
 }
 
 /// What a line is.
@@ -73,6 +84,34 @@ pub struct Traced {
     pub mirror: Option<[Vec2; 2]>,
     /// How it is cut, if said.
     pub cut_how: Option<Cut>,
+    /// Which of a pair is drawn, if said.
+    pub drawn: Option<Side>,
     /// Its material.
     pub fabric: Option<String>,
+}
+
+impl Traced {
+    /// The line walked round once: the sewing line, or the cut line where that is all there is.
+    fn outline(&self) -> Option<Path> {
+        let sewn = self.sew.iter().map(|e| e.1.clone()).reduce(|whole, next| whole.joined(&next));
+        sewn.or_else(|| self.cut.clone())
+    }
+
+    /// The piece with its upper left corner at (0, 0): where on a sheet it lay is nobody's business.
+    fn at_origin(&self) -> Self {
+        let Some(shift) = self.outline().map(|outline| -pairs::low_corner(&outline)) else { return self.clone() };
+        let path = |p: &Path| p.mapped(nalgebra::Matrix2::identity(), shift);
+        let named = |lines: &[(Option<String>, Path)]| lines.iter().map(|(n, p)| (n.clone(), path(p))).collect();
+        Self {
+            sew: named(&self.sew),
+            cut: self.cut.as_ref().map(path),
+            holes: self.holes.iter().map(path).collect(),
+            lines: named(&self.lines),
+            points: self.points.iter().map(|p| p + shift).collect(),
+            grain: self.grain.map(|g| g.map(|p| p + shift)),
+            notches: self.notches.iter().map(|p| p + shift).collect(),
+            mirror: self.mirror.map(|m| m.map(|p| p + shift)),
+            ..self.clone()
+        }
+    }
 }

@@ -14,6 +14,8 @@ pub struct TensileCurve {
 const KNOTS: [f64; 6] = [5.0, 20.0, 50.0, 100.0, 200.0, 500.0];
 /// The load at which EMT is read, gf/cm.
 const FULL_LOAD: f64 = 500.0;
+/// Share of it at which it counts as reached: a tester turns round a few gf/cm early or late.
+const REACHED: f64 = 0.98;
 
 impl TensileCurve {
     /// The curve F = 500 gf/cm · (ε/EMT)^(2/LT − 1) of an extension `emt` (a fraction) at 500 gf/cm and a linearity
@@ -22,6 +24,12 @@ impl TensileCurve {
         let power = 2.0 / lt - 1.0;
         let knot = |load: f64| (emt * (load / FULL_LOAD).powf(1.0 / power), load * GF_PER_CM);
         Self { points: std::iter::once((0.0, 0.0)).chain(KNOTS.map(knot)).collect() }
+    }
+
+    /// The last load in gf/cm, if the test ended well before the 500 gf/cm of a Kawabata sheet.
+    pub fn ends_early(&self) -> Option<f64> {
+        let last = self.points.last().map_or(0.0, |p| p.1) / GF_PER_CM;
+        (last < REACHED * FULL_LOAD).then_some(last)
     }
 
     /// Both ends of the segment that holds `strain`, or the last segment beyond the curve.

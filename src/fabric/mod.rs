@@ -70,6 +70,21 @@ impl Fabric {
         self.bending_length_of(0.5 * (self.bend_warp + self.bend_weft))
     }
 
+    /// What its user should know of how it behaves where nothing was measured.
+    pub fn notes(&self) -> Vec<String> {
+        let curves = [&self.warp, &self.weft].map(TensileCurve::ends_early);
+        let mut ends: Vec<f64> = curves.into_iter().flatten().collect();
+        ends.dedup();
+        let note = |end: f64| {
+            format!(
+                "fabric '{}': tensile curve ends at {end:.0} gf/cm; KES runs to 500. Beyond the last point the last slope is \
+                 kept",
+                self.name
+            )
+        };
+        ends.into_iter().map(note).collect()
+    }
+
     fn bending_length_of(&self, rigidity: f64) -> f64 {
         (rigidity / (self.areal_density * GRAVITY)).cbrt()
     }

@@ -4,7 +4,7 @@ use kurbo::{
     BezPath, ParamCurve, ParamCurveArclen, ParamCurveDeriv, ParamCurveNearest, PathSeg, Point, Shape, Vec2 as KVec,
 };
 
-use super::Vec2;
+use super::{Cubic, Vec2};
 
 /// Arc lengths are exact to this many metres (a nanometre): far below any drafting tolerance, still cheap.
 const LENGTH_ACCURACY: f64 = 1e-9;
@@ -165,6 +165,17 @@ impl Path {
         Self::from_segments(
             points.windows(2).map(|w| PathSeg::Line(kurbo::Line::new(point(w[0]), point(w[1])))).collect(),
         )
+    }
+
+    /// Curves end to end (one or more). Those with their handles at their ends are straight lines.
+    pub fn cubics(curves: &[Cubic]) -> Self {
+        let segment = |&[a, b, c, d]: &Cubic| {
+            if a == b && c == d {
+                return PathSeg::Line(kurbo::Line::new(point(a), point(d)));
+            }
+            PathSeg::Cubic(kurbo::CubicBez::new(point(a), point(b), point(c), point(d)))
+        };
+        Self::from_segments(curves.iter().map(segment).collect())
     }
 
     /// Reads SVG path commands (absolute or relative, without the leading `M`) that go on from `start`; the numbers

@@ -1,18 +1,21 @@
 //! Few smooth curves through many points.
 //!
 //! Cubic Bézier curves by least squares at chord-length parameters that are improved by Newton's method (Schneider 1990,
-//! "An algorithm for automatically fitting digitized curves", Graphics Gems): each as long as the tolerance lets it be,
-//! and with the direction of the one before where they meet.
+//! "An algorithm for automatically fitting digitized curves", Graphics Gems), then by distances from the tangents at those
+//! parameters, which converges to what was sampled instead of creeping there (Blake & Isard 1998, Active Contours): each
+//! curve as long as the tolerance lets it be, and with the direction of the one before where they meet.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Matrix2};
 
 use super::Vec2;
 
 /// A cubic Bézier curve: its ends and, between them, its two handles.
 pub type Cubic = [Vec2; 4];
 
-/// Rounds of improving the parameters.
-const ROUNDS: usize = 4;
+/// Rounds of improving the parameters; so many of them by distances from points.
+const ROUNDS: (usize, usize) = (8, 2);
+/// Weight of the distance along the tangent in the others: it only keeps the equations solvable.
+const ALONG: f64 = 1e-3;
 /// Points on both sides of a joint that say which way it points.
 const REACH: usize = 4;
 
@@ -52,8 +55,13 @@ pub fn smooth_curves(points: &[Vec2], tolerance: f64) -> Vec<Cubic> {
 
 /// Which way the points run at one of them.
 fn direction(points: &[Vec2], k: usize) -> Vec2 {
-    let (before, after) = (points[k.saturating_sub(REACH)], points[(k + REACH).min(points.len() - 1)]);
-    (after - before).try_normalize(0.0).unwrap_or_else(Vec2::zeros)
+    let reach = REACH.min(k).min(points.len() - 1 - k).max(1);
+    let (before, after) = (points[k.saturating_sub(reach)], points[(k + reach).min(points.len() - 1)]);
+    // That of the parabola through the three, run through at even speed.
+    let [back, on] = [points[k] - before, after - points[k]];
+    let [b, c] = [back.norm(), on.norm()];
+    let way = if b > 0.0 && c > 0.0 { back * (c / b) + on * (b / c) } else { after - before };
+    way.try_normalize(0.0).unwrap_or_else(Vec2::zeros)
 }
 
 /// The best curve between the first and the last point, and how far the points are from it at most. Where a direction is
@@ -62,8 +70,12 @@ fn fit(points: &[Vec2], start: Option<Vec2>, end: Option<Vec2>) -> Option<(Cubic
     let (first, last) = (points[0], points[points.len() - 1]);
     let mut at = chord_lengths(points)?;
     let mut best: Option<(Cubic, f64)> = None;
-    for _ in 0..ROUNDS {
-        let curve = least_squares(points, &at, [first, last], [start, end])?;
+    let mut before: Option<Cubic> = None;
+    for round in 0..ROUNDS.0 {
+        let near = before.filter(|_| round >= ROUNDS.1);
+        let weight = |t: f64| near.map_or_else(Matrix2::identity, |curve| across(&curve, t));
+        let curve = least_squares(points, &at, &weight, [first, last], [start, end])?;
+        before = Some(curve);
         for (p, t) in points.iter().zip(&mut at) {
             *t = nearer(&curve, *p, *t);
         }
@@ -95,6 +107,15 @@ fn point(curve: &Cubic, t: f64) -> Vec2 {
     curve.iter().zip(shares(t)).map(|(p, share)| p * share).sum()
 }
 
+/// What of a distance counts beside a curve: all of it across, little along.
+fn across(curve: &Cubic, t: f64) -> Matrix2<f64> {
+    let s = 1.0 - t;
+    let [a, b, c] = [curve[1] - curve[0], curve[2] - curve[1], curve[3] - curve[2]];
+    let slope = a * (s * s) + b * (2.0 * s * t) + c * (t * t);
+    let tangent = slope.try_normalize(0.0).unwrap_or_else(Vec2::zeros);
+    Matrix2::identity() - tangent * tangent.transpose() * (1.0 - ALONG)
+}
+
 /// One Newton step from `t` towards the parameter of the curve's point nearest to `p`.
 fn nearer(curve: &Cubic, p: Vec2, t: f64) -> f64 {
     let s = 1.0 - t;
@@ -106,8 +127,15 @@ fn nearer(curve: &Cubic, p: Vec2, t: f64) -> f64 {
     if curvature > 0.0 { (t - off.dot(&slope) / curvature).clamp(0.0, 1.0) } else { t }
 }
 
-/// Handles that bring the curve nearest to the points at their parameters: anywhere, or along a given direction.
-fn least_squares(points: &[Vec2], at: &[f64], ends: [Vec2; 2], directions: [Option<Vec2>; 2]) -> Option<Cubic> {
+/// Handles that bring the curve nearest to the points at their parameters, distances weighted: anywhere, or along a given
+/// direction.
+fn least_squares(
+    points: &[Vec2],
+    at: &[f64],
+    weight: &dyn Fn(f64) -> Matrix2<f64>,
+    ends: [Vec2; 2],
+    directions: [Option<Vec2>; 2],
+) -> Option<Cubic> {
     // What each unknown moves the handle of its end by.
     let mut moves: Vec<(usize, Vec2)> = Vec::new();
     for (side, direction) in directions.into_iter().enumerate() {
@@ -120,12 +148,12 @@ fn least_squares(points: &[Vec2], at: &[f64], ends: [Vec2; 2], directions: [Opti
     let mut normal = DMatrix::<f64>::zeros(moves.len(), moves.len());
     let mut right = DVector::<f64>::zeros(moves.len());
     for (p, &t) in points.iter().zip(at) {
-        let share = shares(t);
-        let off = p - ends[0] * (share[0] + share[1]) - ends[1] * (share[2] + share[3]);
+        let (share, weight) = (shares(t), weight(t));
+        let off = weight * (p - ends[0] * (share[0] + share[1]) - ends[1] * (share[2] + share[3]));
         for (i, (side, d)) in moves.iter().enumerate() {
             right[i] += share[1 + side] * d.dot(&off);
             for (j, (other, e)) in moves.iter().enumerate() {
-                normal[(i, j)] += share[1 + side] * share[1 + other] * d.dot(e);
+                normal[(i, j)] += share[1 + side] * share[1 + other] * d.dot(&(weight * e));
             }
         }
     }

@@ -4,9 +4,10 @@
 //! every element carries its own styling, so that any program sees the same drawing.
 
 use svg::Document;
-use svg::node::element::{Group, Path, Rectangle, Text};
+use svg::node::element::{Group, Path, Text};
 
-use super::svg_write::{curved, identifier, number, polyline, printable};
+use super::svg_write::{curved, document, identifier, polyline, square, text};
+use crate::cutting::{TEST_SQUARE, shelves};
 use crate::geometry::{Vec2, smooth_curves};
 use crate::mesh::{ClothMesh, EdgeParticles, PieceMesh};
 use crate::pattern::Notch;
@@ -17,10 +18,6 @@ const MM: f64 = 1000.0;
 const MARGIN: f64 = 10.0;
 /// Space between pieces, mm: room for two seam allowances.
 const GAP: f64 = 30.0;
-/// Side of the test square, mm.
-const TEST_SQUARE: f64 = 100.0;
-/// The sheet is about this much wider than a square of the pieces' boxes, which leaves it roughly as high as wide.
-const SHEET_SLACK: f64 = 1.2;
 /// Share of the piece's height that its grain line takes, and its longest, mm.
 const GRAIN: (f64, f64) = (0.4, 250.0);
 /// Barbs of the grain arrow, mm.
@@ -60,7 +57,7 @@ pub enum PatternSvgError {
 /// # Errors
 /// Positions that do not belong to the mesh or are not finite.
 pub fn pattern_svg(cloth: &ClothMesh, flat: &[Vec2], notches: &[Notch]) -> Result<String, PatternSvgError> {
-    let (sheets, size, mut document) = begin(cloth, flat)?;
+    let Begun { sheets, square, mut document } = begin(cloth, flat)?;
     if flat != cloth.flat {
         let drawn = Group::new().set("id", "drawn").set("class", "layer").set("fill", "none");
         document = document.add(sheets.iter().flat_map(Sheet::outline).fold(drawn, Group::add));
@@ -68,7 +65,7 @@ pub fn pattern_svg(cloth: &ClothMesh, flat: &[Vec2], notches: &[Notch]) -> Resul
     for sheet in &sheets {
         document = document.add(sheet.draw(&cloth.flat, notches));
     }
-    Ok(document.add(test_square(size)).to_string())
+    Ok(document.add(square).to_string())
 }
 
 /// Draws the outlines as [`pattern_svg`] lays them out, every edge as few smooth curves that its particles are no further
@@ -77,12 +74,21 @@ pub fn pattern_svg(cloth: &ClothMesh, flat: &[Vec2], notches: &[Notch]) -> Resul
 /// # Errors
 /// As [`pattern_svg`].
 pub fn outline_svg(cloth: &ClothMesh, flat: &[Vec2]) -> Result<String, PatternSvgError> {
-    let (sheets, size, document) = begin(cloth, flat)?;
-    Ok(sheets.iter().map(Sheet::curves).fold(document, Document::add).add(test_square(size)).to_string())
+    let Begun { sheets, square, document } = begin(cloth, flat)?;
+    Ok(sheets.iter().map(Sheet::curves).fold(document, Document::add).add(square).to_string())
 }
 
-/// The pieces where they lie, the sheet's size, and the sheet still empty.
-fn begin<'a>(cloth: &'a ClothMesh, flat: &[Vec2]) -> Result<(Vec<Sheet<'a>>, Vec2, Document), PatternSvgError> {
+/// A drawing before its pieces are drawn.
+struct Begun<'a> {
+    /// The pieces where they lie.
+    sheets: Vec<Sheet<'a>>,
+    /// The square to measure after printing.
+    square: Group,
+    /// Of the right size, and empty.
+    document: Document,
+}
+
+fn begin<'a>(cloth: &'a ClothMesh, flat: &[Vec2]) -> Result<Begun<'a>, PatternSvgError> {
     if flat.len() != cloth.flat.len() {
         return Err(PatternSvgError::Positions { expected: cloth.flat.len(), found: flat.len() });
     }
@@ -90,12 +96,15 @@ fn begin<'a>(cloth: &'a ClothMesh, flat: &[Vec2]) -> Result<(Vec<Sheet<'a>>, Vec
         return Err(PatternSvgError::NotFinite(v));
     }
     let mut sheets: Vec<Sheet<'_>> = cloth.pieces.iter().map(|piece| Sheet::new(piece, flat, &cloth.flat)).collect();
-    let size = lay_out(&mut sheets);
-    let document = Document::new()
-        .set("width", format!("{}mm", number(size.x)))
-        .set("height", format!("{}mm", number(size.y)))
-        .set("viewBox", format!("0 0 {} {}", number(size.x), number(size.y)));
-    Ok((sheets, size, document))
+    let side = Vec2::repeat(TEST_SQUARE * MM);
+    let sizes: Vec<Vec2> = sheets.iter().map(Sheet::size).chain([side]).collect();
+    let (corners, size) = shelves(&sizes, None, GAP);
+    let margin = Vec2::repeat(MARGIN);
+    for (sheet, corner) in sheets.iter_mut().zip(&corners) {
+        sheet.put(corner + margin);
+    }
+    let square = square(corners[sheets.len()] + margin, LETTERS);
+    Ok(Begun { sheets, square, document: document(size + 2.0 * margin) })
 }
 
 /// A piece in millimetres on the sheet.
@@ -211,7 +220,7 @@ impl<'a> Sheet<'a> {
 
     fn label(&self) -> Text {
         let at = self.middle();
-        text(&self.piece.name, at + Vec2::new(LETTERS / 2.0, 0.0))
+        text(&self.piece.name, at + Vec2::new(LETTERS / 2.0, 0.0), LETTERS)
     }
 
     /// One or two marks from the edge into the piece.
@@ -240,53 +249,4 @@ impl<'a> Sheet<'a> {
         }
         found
     }
-}
-
-/// Puts the pieces on shelves, the highest first, and gives the size of the sheet.
-fn lay_out(sheets: &mut [Sheet<'_>]) -> Vec2 {
-    let boxes: f64 = sheets.iter().map(|s| (s.size().x + GAP) * (s.size().y + GAP)).sum();
-    let widest = sheets.iter().map(|s| s.size().x).fold(TEST_SQUARE, f64::max);
-    let width = widest.max(SHEET_SLACK * boxes.sqrt());
-    let mut order: Vec<usize> = (0..sheets.len()).collect();
-    order.sort_by(|&a, &b| sheets[b].size().y.total_cmp(&sheets[a].size().y).then(a.cmp(&b)));
-    let (mut at, mut shelf, mut right) = (Vec2::repeat(MARGIN), 0.0, MARGIN + TEST_SQUARE);
-    for k in order {
-        let size = sheets[k].size();
-        if at.x > MARGIN && at.x + size.x > MARGIN + width {
-            at = Vec2::new(MARGIN, at.y + shelf + GAP);
-            shelf = 0.0;
-        }
-        sheets[k].put(at);
-        shelf = f64::max(shelf, size.y);
-        right = f64::max(right, at.x + size.x);
-        at.x += size.x + GAP;
-    }
-    let below = if sheets.is_empty() { 0.0 } else { shelf + GAP };
-    Vec2::new(right + MARGIN, at.y + below + TEST_SQUARE + MARGIN)
-}
-
-/// A square to measure after printing, lower left.
-fn test_square(size: Vec2) -> Group {
-    let corner = Vec2::new(MARGIN, size.y - MARGIN - TEST_SQUARE);
-    let square = Rectangle::new()
-        .set("x", number(corner.x))
-        .set("y", number(corner.y))
-        .set("width", TEST_SQUARE)
-        .set("height", TEST_SQUARE)
-        .set("fill", "none")
-        .set("stroke", "black")
-        .set("stroke-width", 0.3);
-    let label = text(&format!("{TEST_SQUARE} mm"), corner + Vec2::new(LETTERS, TEST_SQUARE / 2.0));
-    Group::new().set("class", "scale").add(square).add(label)
-}
-
-fn text(content: &str, at: Vec2) -> Text {
-    Text::new(printable(content))
-        .set("class", "text")
-        .set("x", number(at.x))
-        .set("y", number(at.y))
-        .set("font-family", "sans-serif")
-        .set("font-size", LETTERS)
-        .set("fill", "black")
-        .set("stroke", "none")
 }

@@ -9,7 +9,7 @@ use std::path::Path as FilePath;
 use nalgebra::Matrix2;
 use roxmltree::{Document, Node, ParsingOptions};
 
-use crate::digitize::{Role, Stroke, Traced, pieces};
+use crate::digitize::{Remark, Role, Stroke, Traced, pieces};
 use crate::geometry::{Path, Vec2, parse_transform};
 use crate::input::{InputError, bytes, shown};
 
@@ -23,6 +23,8 @@ const PIXEL: f64 = 0.0254 / 96.0;
 const FARTHEST: f64 = 1e3;
 /// More lines than this cannot be looked at one against the other.
 const MOST_STROKES: usize = 5_000;
+/// Letters of a text that are read.
+const REMARK: usize = 200;
 /// Letters of a path that messages show.
 const SHOWN: usize = 60;
 
@@ -88,9 +90,9 @@ pub fn read_svg_text(text: &str) -> Result<Vec<Traced>, SvgError> {
     if root.tag_name().name() != "svg" {
         return Err(SvgError::NotSvg(shown(root.tag_name().name(), SHOWN)));
     }
-    let mut reader = Reader { document: &document, strokes: Vec::new() };
+    let mut reader = Reader { document: &document, strokes: Vec::new(), remarks: Vec::new() };
     reader.walk(root)?;
-    let pieces = pieces(&reader.strokes);
+    let pieces = pieces(&reader.strokes, &reader.remarks);
     if pieces.is_empty() { Err(SvgError::NoPieces) } else { Ok(pieces) }
 }
 
@@ -119,6 +121,7 @@ struct Scope {
 struct Reader<'a, 'i> {
     document: &'a Document<'i>,
     strokes: Vec<Stroke>,
+    remarks: Vec<Remark>,
 }
 
 impl Reader<'_, '_> {
@@ -148,6 +151,9 @@ impl Reader<'_, '_> {
     }
 
     fn element(&mut self, node: Node, name: &str, scope: &Scope) -> Result<(), SvgError> {
+        if name == "text" && self.remarks.len() < MOST_STROKES {
+            self.remarks.extend(remark(node, scope.frame));
+        }
         let Some(role) = role(node, &scope.classes) else { return Ok(()) };
         let Some(commands) = commands(node, name) else { return Ok(()) };
         let paths = Path::parse_many(&commands).map_err(|_| self.value(node, "a path", &commands))?;
@@ -170,6 +176,17 @@ impl Reader<'_, '_> {
         let line = self.document.text_pos_at(node.range().start).row;
         SvgError::Value { line, what, text: shown(text, SHOWN) }
     }
+}
+
+/// A text's words and its beginning, which may stand at its first line.
+fn remark(node: Node, frame: Frame) -> Option<Remark> {
+    let number = |key: &str| {
+        let own = node.descendants().find_map(|n| n.attribute(key))?;
+        own.split([' ', ',']).next()?.parse::<f64>().ok().filter(|x| x.is_finite())
+    };
+    let words: Vec<&str> = node.descendants().filter_map(|n| n.text()).collect();
+    let at = Vec2::new(number("x").unwrap_or(0.0), number("y").unwrap_or(0.0));
+    (!words.is_empty()).then(|| Remark { at: frame.linear * at + frame.shift, text: shown(&words.join(" "), REMARK) })
 }
 
 /// From user units to metres: width and height over viewBox, the smaller of the two scales.

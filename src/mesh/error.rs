@@ -150,9 +150,10 @@ impl MeshError {
             | Self::Grain { piece, .. }
             | Self::InsideOut { piece, .. }
             | Self::Crossing { piece, .. }
+            | Self::TooCoarse { piece, .. }
             | Self::Triangulation { piece, .. } => (Some(piece), None),
             Self::Seam { seam, .. } => (None, Some(seam)),
-            Self::Spacing(_) | Self::TooCoarse { .. } | Self::TooMany { .. } => (None, None),
+            Self::Spacing(_) | Self::TooMany { .. } => (None, None),
         }
     }
 }

@@ -78,7 +78,8 @@ fn without_undrawn(file: &GarmentFile, drafts: &[Draft]) -> GarmentFile {
     readable
 }
 
-fn fabrics(file: &GarmentFile) -> Vec<FabricUse> {
+/// The fabrics a file names, in its order; the usual one if it names none.
+pub fn fabrics(file: &GarmentFile) -> Vec<FabricUse> {
     if file.fabrics.is_empty() {
         let spec = FabricSpec { base: Some(DEFAULT_CLOTH.to_owned()), values: Vec::new() };
         return vec![FabricUse { name: DEFAULT_FABRIC.to_owned(), spec }];

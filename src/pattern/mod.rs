@@ -44,7 +44,7 @@ mod walk;
 
 pub use diagnostic::{Diagnostic, Findings, Located, Severity, Spot};
 pub use drawing::{Allowance, Dart, Drawing, DrawnEdge, DrawnFold, DrawnNotch, drawings};
-pub use expand::expand;
+pub use expand::{expand, fabrics};
 pub use file::{
     AllowanceFile, AllowanceWidth, ClosureFile, Corner, Cut, DartFile, DartShape, GarmentFile, LineFile, NotchFile,
     OpenFile, OutlineFile, PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, Side, TestEntry, TestFile,

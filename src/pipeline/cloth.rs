@@ -4,38 +4,63 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::fabric::{Context, Fabric, FabricError, FabricSpec, resolve};
-use crate::pattern::{Garment, Piece};
+use crate::pattern::{FabricUse, Garment, Piece};
 
-/// The fabric of every piece, the same `Arc` for pieces of the same fabric; `instead` takes the place of the main one.
-///
-/// Every fabric of the file is read, also one that no piece uses: its mistakes are the user's to know. An error comes
-/// with the number of the garment's fabric that cannot be had, `None` if that is the one asked for instead.
-pub(super) fn fabrics(
-    garment: &Garment,
-    folder: &Path,
-    instead: Option<&str>,
-) -> Result<Vec<Arc<Fabric>>, (Option<usize>, FabricError)> {
-    let mut specs: Vec<(String, FabricSpec)> =
-        garment.fabrics.iter().map(|f| (f.name.clone(), f.spec.clone())).collect();
-    let replaced = instead.and_then(|_| main_fabric(garment));
-    if let (Some(name), Some(main)) = (instead, replaced) {
-        // Replaced where it is defined, so that an interfacing "based on the shell" follows.
-        specs[main].1 = FabricSpec { base: Some(absolute(name)), values: Vec::new() };
-        // First of all: what is based on it would be blamed for it.
-        resolve(&specs[main].1, &Context { name: &specs[main].0, folder, garment: &specs }).map_err(|e| (None, e))?;
+/// The fabrics of a garment by name, as they are to be had.
+pub(super) struct Fabrics<'a> {
+    specs: Vec<(String, FabricSpec)>,
+    folder: &'a Path,
+    /// The one that is replaced by what the user asks for.
+    pub(super) replaced: Option<usize>,
+}
+
+impl<'a> Fabrics<'a> {
+    /// Those that a file in `folder` names.
+    pub(super) fn named(fabrics: &[FabricUse], folder: &'a Path) -> Self {
+        let specs = fabrics.iter().map(|f| (f.name.clone(), f.spec.clone())).collect();
+        Self { specs, folder, replaced: None }
     }
-    let mut resolved: Vec<Arc<Fabric>> = Vec::with_capacity(specs.len());
-    for (k, (name, spec)) in specs.iter().enumerate() {
-        let fabric = resolve(spec, &Context { name, folder, garment: &specs }).map_err(|e| (Some(k), e))?;
-        resolved.push(Arc::new(fabric));
+
+    /// Those of a garment; `instead` takes the place of the main one where that is defined, so that an interfacing "based
+    /// on the shell" follows.
+    ///
+    /// # Errors
+    /// `instead` cannot be had.
+    pub(super) fn of(garment: &Garment, folder: &'a Path, instead: Option<&str>) -> Result<Self, FabricError> {
+        let mut fabrics = Self::named(&garment.fabrics, folder);
+        fabrics.replaced = instead.and_then(|_| main_fabric(garment));
+        if let (Some(name), Some(main)) = (instead, fabrics.replaced) {
+            fabrics.specs[main].1 = FabricSpec { base: Some(absolute(name)), values: Vec::new() };
+            // First of all: what is based on it would be blamed for it.
+            fabrics.resolve(main)?;
+        }
+        Ok(fabrics)
     }
-    let of_piece = |piece: &Piece| {
-        let k = specs.iter().position(|s| s.0 == piece.fabric);
-        let known = || specs.iter().map(|s| s.0.as_str()).collect::<Vec<_>>().join(", ");
-        let unknown = || FabricError::Unknown { name: piece.fabric.clone(), nearest: None, known: known() };
-        k.map(|k| Arc::clone(&resolved[k])).ok_or_else(|| (None, unknown()))
-    };
-    garment.pieces.iter().map(of_piece).collect()
+
+    /// All of them in the file's order, also one that no piece uses: its mistakes are the user's to know.
+    pub(super) fn all(&self) -> Vec<Result<Fabric, FabricError>> {
+        (0..self.specs.len()).map(|k| self.resolve(k)).collect()
+    }
+
+    fn resolve(&self, k: usize) -> Result<Fabric, FabricError> {
+        let (name, spec) = &self.specs[k];
+        resolve(spec, &Context { name, folder: self.folder, garment: &self.specs })
+    }
+
+    /// The fabric of every piece among the `resolved`, the same `Arc` for pieces of the same fabric.
+    ///
+    /// # Errors
+    /// A piece of a fabric that the garment does not name.
+    pub(super) fn by_piece(&self, garment: &Garment, resolved: Vec<Fabric>) -> Result<Vec<Arc<Fabric>>, FabricError> {
+        let resolved: Vec<Arc<Fabric>> = resolved.into_iter().map(Arc::new).collect();
+        let of_piece = |piece: &Piece| {
+            let k = self.specs.iter().position(|s| s.0 == piece.fabric);
+            let known = || self.specs.iter().map(|s| s.0.as_str()).collect::<Vec<_>>().join(", ");
+            let unknown = || FabricError::Unknown { name: piece.fabric.clone(), nearest: None, known: known() };
+            k.map(|k| Arc::clone(&resolved[k])).ok_or_else(unknown)
+        };
+        garment.pieces.iter().map(of_piece).collect()
+    }
 }
 
 /// The fabric that most of the cloth is cut from; of equals the one named first.
@@ -90,11 +115,16 @@ mod tests {
     #[test]
     fn the_main_fabric_is_replaced_and_what_is_based_on_it_follows() {
         let garment = garment();
-        let of = |instead| fabrics(&garment, Path::new(""), instead).expect("fabrics");
+        let of = |instead| {
+            let fabrics = Fabrics::of(&garment, Path::new(""), instead).expect("fabrics");
+            let resolved = fabrics.all().into_iter().collect::<Result<Vec<_>, _>>().expect("resolved");
+            fabrics.by_piece(&garment, resolved).expect("every piece")
+        };
         assert_eq!(names(&of(None)[..2]), "rib + denim");
         let changed = of(Some("canvas"));
         assert_eq!(names(&changed[..2]), "rib + canvas");
         assert_eq!(changed[2].bend_warp, 2.0 * changed[1].bend_warp);
-        assert!(matches!(fabrics(&garment, Path::new(""), Some("denin")), Err((None, FabricError::Unknown { .. }))));
+        let denin = Fabrics::of(&garment, Path::new(""), Some("denin"));
+        assert!(matches!(denin.map(|_| ()), Err(FabricError::Unknown { .. })));
     }
 }

@@ -17,7 +17,7 @@ use crate::report::Stage;
 use crate::sew::SewError;
 
 /// Spacing when none is asked for, metres.
-const SPACING: f64 = 0.010;
+pub(super) const SPACING: f64 = 0.010;
 
 /// What the caller wants other than the file says.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -72,7 +72,8 @@ impl Job {
     /// [`PipelineError`]: always the input's fault, but for a body that cannot be touched.
     pub fn new(file: &Path, loaded: Loaded, overrides: &Overrides) -> Result<Self, PipelineError> {
         let mut notes: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
-        let fabrics = material::fabrics(file, &loaded, overrides.fabric.as_deref())?;
+        let (fabrics, told) = material::fabrics(file, &loaded, overrides.fabric.as_deref())?;
+        notes.extend(told);
         let (wanted, worn_by) = material::body(file, &loaded, overrides.body.as_deref())?;
         notes.extend(worn_by.notes.iter().map(|note| format!("{wanted}: {note}")));
         let body = worn_by.mannequin;

@@ -3,40 +3,91 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::cloth;
+use super::cloth::Fabrics;
 use super::error::PipelineError;
+use super::job::SPACING;
 use crate::fabric::{Fabric, FabricError};
 use crate::io::body::{Body, BodyError, load_body};
-use crate::io::garment::Loaded;
+use crate::io::garment::{self, Loaded, Refused};
 use crate::mannequin::{self, MannequinError};
-use crate::mesh::MeshError;
-use crate::pattern::{GarmentFile, Located, Problem, Spot, Value};
+use crate::mesh::{self, MeshError};
+use crate::pattern::{self, Findings, GarmentFile, Located, Problem, Spot, Value};
 
-/// Checks that the fabrics of a garment read from `file` can be had, and its body, if it names one.
+/// Reads a garment file and finds everything that is wrong before cloth moves: in its text, pieces and seams, its fabrics
+/// and its body, and, if nothing is, in its mesh of this spacing (metres).
 ///
 /// # Errors
-/// The first that cannot.
-pub fn check_materials(file: &Path, loaded: &Loaded) -> Result<(), PipelineError> {
-    fabrics(file, loaded, None)?;
-    if loaded.garment.body.is_some() {
-        body(file, loaded, None)?;
+/// Every mistake of the file.
+pub fn check(file: &Path, spacing: Option<f64>) -> Result<Loaded, Refused> {
+    let mut examined = garment::examine(file);
+    if let Some(said) = &examined.file {
+        look(file, said, &mut examined.findings);
     }
-    Ok(())
+    let loaded = examined.finish()?;
+    match mesh::build(&loaded.garment, spacing.unwrap_or(SPACING)) {
+        Ok(_) => Ok(loaded),
+        Err(error) => {
+            let at = mesh_spot(&loaded.file, error.culprit()).unwrap_or_default();
+            Err(loaded.refusal(at, Problem::Mesh(error.to_string())))
+        }
+    }
 }
 
-/// Fabrics by piece.
-pub(super) fn fabrics(file: &Path, loaded: &Loaded, instead: Option<&str>) -> Result<Vec<Arc<Fabric>>, PipelineError> {
+/// What is wrong with the fabrics and the body that a file names.
+fn look(file: &Path, said: &GarmentFile, findings: &mut Findings) {
     let folder = file.parent().unwrap_or(Path::new(""));
-    cloth::fabrics(&loaded.garment, folder, instead).map_err(|(number, source)| {
-        let entry = number.and_then(|k| loaded.file.fabrics.get(k));
-        match entry {
-            Some(entry) => {
-                let at = fabric_spot(&loaded.file, entry, &source);
-                PipelineError::Garment(loaded.refusal(at, Problem::Fabric(source.to_string())))
+    let all = Fabrics::named(&pattern::fabrics(said), folder).all();
+    for (entry, fabric) in said.fabrics.iter().zip(&all) {
+        blame_fabric(said, entry, fabric, findings);
+    }
+    let Some(name) = &said.body else { return };
+    // A file without a body is told so by whatever needs one.
+    let wanted = body_name(file, Some(&name.value), None);
+    if let Some(Err(error)) = wanted.ok().map(|wanted| load_body(&wanted)) {
+        findings.error(name.at, Problem::Body(error.to_string()));
+    }
+}
+
+/// What is wrong with a fabric, or to be known of it, goes to the place where the file says it.
+fn blame_fabric(said: &GarmentFile, entry: &Entry, fabric: &Result<Fabric, FabricError>, findings: &mut Findings) {
+    match fabric {
+        Err(error) => findings.error(fabric_spot(said, entry, error), Problem::Fabric(error.to_string())),
+        Ok(fabric) => {
+            let notes = fabric.notes();
+            if let Some(at) = curve_spot(&entry.1) {
+                notes.into_iter().for_each(|note| findings.warn(at, Problem::Fabric(note)));
             }
-            None => PipelineError::Fabric(Box::new(source)),
         }
-    })
+    }
+}
+
+/// Fabrics by piece, and what their user should know of them.
+pub(super) fn fabrics(
+    file: &Path,
+    loaded: &Loaded,
+    instead: Option<&str>,
+) -> Result<(Vec<Arc<Fabric>>, Vec<String>), PipelineError> {
+    let folder = file.parent().unwrap_or(Path::new(""));
+    let other = |source| PipelineError::Fabric(Box::new(source));
+    let fabrics = Fabrics::of(&loaded.garment, folder, instead).map_err(other)?;
+    let mut findings = loaded.findings();
+    let mut notes = Vec::new();
+    let mut resolved = Vec::new();
+    for (k, fabric) in fabrics.all().into_iter().enumerate() {
+        match loaded.file.fabrics.get(k).filter(|_| fabrics.replaced != Some(k)) {
+            Some(entry) => blame_fabric(&loaded.file, entry, &fabric, &mut findings),
+            None => notes.extend(fabric.as_ref().map(Fabric::notes).unwrap_or_default()),
+        }
+        resolved.push(fabric);
+    }
+    let refused = findings.errors() > 0;
+    let diagnostics = findings.into_sorted();
+    if refused {
+        return Err(Refused { diagnostics }.into());
+    }
+    notes.extend(diagnostics.iter().map(ToString::to_string));
+    let resolved = resolved.into_iter().collect::<Result<Vec<Fabric>, FabricError>>().map_err(other)?;
+    Ok((fabrics.by_piece(&loaded.garment, resolved).map_err(other)?, notes))
 }
 
 type Entry = (Located<String>, Located<Value>);
@@ -52,6 +103,31 @@ fn fabric_spot(file: &GarmentFile, entry: &Entry, error: &FabricError) -> Spot {
         Value::Text(_) => value.at,
         _ => key.map_or_else(|| at_key(value, "base"), |key| at_key(value, key)).unwrap_or(name.at),
     }
+}
+
+/// Where a file says how the cloth stretches, or names the fabric file that does; not where it multiplies what another
+/// fabric of the garment has, of which the other is told.
+fn curve_spot(value: &Located<Value>) -> Option<Spot> {
+    let is_file = |value: &&Located<Value>| match &value.value {
+        Value::Text(text) => text.parse::<f64>().is_err() && Path::new(text.trim()).extension().is_some(),
+        _ => false,
+    };
+    let entries = match &value.value {
+        Value::Text(_) => return Some(value).filter(is_file).map(|v| v.at),
+        Value::List(_) => return None,
+        Value::Map(entries) => entries,
+    };
+    let get = |key: &str| entries.iter().find(|e| e.0.value == key).map(|e| &e.1);
+    let curve = get("tensile").and_then(|tensile| match &tensile.value {
+        Value::Map(ways) => {
+            let has_points = |way: &Located<Value>| {
+                matches!(&way.value, Value::Map(entries) if entries.iter().any(|e| e.0.value == "curve"))
+            };
+            ways.iter().map(|(_, way)| way).find(|way| is_file(way) || has_points(way))
+        }
+        _ => Some(tensile).filter(is_file),
+    });
+    curve.or_else(|| get("base").filter(is_file)).map(|v| v.at)
 }
 
 /// The place of `tensile.warp.EMT` in nested mappings, or of as much of it as is written.

@@ -25,7 +25,7 @@ pub use cloth::piece_area;
 pub use error::PipelineError;
 pub use job::{Job, Overrides, read};
 pub use judged::{Judged, judge};
-pub use material::check_materials;
+pub use material::check;
 pub use results::{
     Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, PATTERN_SVG, PLACED_OBJ, REPORT_JSON, ResultFile, SEWN_OBJ, json_text,
 };

@@ -43,11 +43,46 @@ struct Source {
 }
 
 impl Loaded {
+    /// For what is found in the file later on.
+    pub fn findings(&self) -> Findings {
+        Findings::new(&self.source.shown, &self.source.text)
+    }
+
     /// The garment refused after all, for something that stands at this place of its file.
     pub fn refusal(&self, at: pattern::Spot, problem: pattern::Problem) -> Refused {
-        let mut findings = Findings::new(&self.source.shown, &self.source.text);
+        let mut findings = self.findings();
         findings.error(at, problem);
         Refused { diagnostics: findings.into_sorted() }
+    }
+}
+
+/// A garment file read as far as it goes, with what was found on the way, so that others can look further before it is
+/// decided whether it can be used.
+#[derive(Debug)]
+pub struct Examined {
+    /// What the file says, if that much can be read.
+    pub file: Option<GarmentFile>,
+    /// What was found so far.
+    pub findings: Findings,
+    garment: Option<Garment>,
+    source: Source,
+}
+
+impl Examined {
+    /// The garment, if no error was found.
+    ///
+    /// # Errors
+    /// [`Refused`] with all that was found.
+    pub fn finish(self) -> Result<Loaded, Refused> {
+        let refused = self.findings.errors() > 0;
+        let diagnostics = self.findings.into_sorted();
+        match (self.file, self.garment) {
+            (Some(file), Some(garment)) if !refused => {
+                let warnings = diagnostics.into_iter().filter(|d| d.severity == Severity::Warning).collect();
+                Ok(Loaded { garment, file, warnings, source: self.source })
+            }
+            _ => Err(Refused { diagnostics }),
+        }
     }
 }
 
@@ -77,16 +112,7 @@ impl std::error::Error for Refused {}
 /// # Errors
 /// [`Refused`] with every mistake of the file, not only the first.
 pub fn read(path: &Path) -> Result<Loaded, Refused> {
-    let shown = path.display().to_string();
-    let name = path.file_stem().map_or_else(|| shown.clone(), |s| s.to_string_lossy().into_owned());
-    match source::text(path) {
-        Ok(text) => read_text(&name, &shown, &text),
-        Err(problem) => {
-            let mut findings = Findings::new(&shown, "");
-            findings.error(pattern::Spot::default(), problem);
-            Err(Refused { diagnostics: findings.into_sorted() })
-        }
-    }
+    examine(path).finish()
 }
 
 /// Reads and checks a garment from text; `name` is its short name, `shown` the file's name in messages.
@@ -94,20 +120,28 @@ pub fn read(path: &Path) -> Result<Loaded, Refused> {
 /// # Errors
 /// As [`read`].
 pub fn read_text(name: &str, shown: &str, text: &str) -> Result<Loaded, Refused> {
+    examine_text(name, shown, text).finish()
+}
+
+/// Reads and checks a garment file, and leaves it open whether it can be used.
+pub fn examine(path: &Path) -> Examined {
+    let shown = path.display().to_string();
+    let name = path.file_stem().map_or_else(|| shown.clone(), |s| s.to_string_lossy().into_owned());
+    match source::text(path) {
+        Ok(text) => examine_text(&name, &shown, &text),
+        Err(problem) => {
+            let mut findings = Findings::new(&shown, "");
+            findings.error(pattern::Spot::default(), problem);
+            Examined { file: None, findings, garment: None, source: Source { shown, text: String::new() } }
+        }
+    }
+}
+
+fn examine_text(name: &str, shown: &str, text: &str) -> Examined {
     let mut findings = Findings::new(shown, text);
     let file = tree::parse(text, &mut findings).and_then(|tree| decode::garment(&tree, &mut findings));
     let garment = file.as_ref().and_then(|file| pattern::expand(name, file, &mut findings));
-    let refused = findings.errors() > 0;
-    let diagnostics = findings.into_sorted();
-    match (file, garment) {
-        (Some(file), Some(garment)) if !refused => Ok(Loaded {
-            garment,
-            file,
-            warnings: diagnostics.into_iter().filter(|d| d.severity == Severity::Warning).collect(),
-            source: Source { shown: shown.to_owned(), text: text.to_owned() },
-        }),
-        _ => Err(Refused { diagnostics }),
-    }
+    Examined { file, findings, garment, source: Source { shown: shown.to_owned(), text: text.to_owned() } }
 }
 
 /// Reads what a garment file says without checking that it makes a garment.

@@ -17,7 +17,7 @@ use crate::geometry::{Cubic, Vec2};
 const MM: f64 = 1000.0;
 
 /// An empty sheet, mm.
-fn document(size: Vec2) -> Document {
+pub(super) fn document(size: Vec2) -> Document {
     Document::new()
         .set("width", format!("{}mm", number(size.x)))
         .set("height", format!("{}mm", number(size.y)))
@@ -25,7 +25,7 @@ fn document(size: Vec2) -> Document {
 }
 
 /// The test square with its upper left corner at `corner`, mm.
-fn square(corner: Vec2, letters: f64) -> Group {
+pub(super) fn square(corner: Vec2, letters: f64) -> Group {
     let side = TEST_SQUARE * MM;
     let square = Rectangle::new()
         .set("x", number(corner.x))
@@ -39,7 +39,7 @@ fn square(corner: Vec2, letters: f64) -> Group {
     Group::new().set("class", "scale").add(square).add(label)
 }
 
-fn text(content: &str, at: Vec2, height: f64) -> Text {
+pub(super) fn text(content: &str, at: Vec2, height: f64) -> Text {
     Text::new(printable(content))
         .set("class", "text")
         .set("x", number(at.x))
@@ -76,7 +76,7 @@ fn stroke(commands: String, class: &str, width: f64) -> Path {
 }
 
 /// A tenth of a micrometre: sums over an edge's hundred particles stay exact to a hundredth of a millimetre.
-pub(super) fn number(x: f64) -> String {
+fn number(x: f64) -> String {
     format!("{x:.4}")
 }
 
@@ -86,6 +86,6 @@ pub(super) fn identifier(name: &str) -> String {
 }
 
 /// Text without the control characters XML forbids.
-pub(super) fn printable(text: &str) -> String {
+fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }

@@ -1,0 +1,396 @@
+//! The kinds of mistake a garment file can hold, one by one and all at once, as `toile check` finds them: with the place,
+//! and without moving any cloth. (What only sewing shows is in `cli.rs` and `sewing.rs`.)
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use tempfile::TempDir;
+use toile::pattern::{Diagnostic, Severity};
+use toile::pipeline::check;
+
+/// Two squares sewn at one side, with the tensile curve of a machine that stopped early and one that slipped.
+const SQUARES: &str = "\
+garment: 1
+units: mm
+body: woman_92
+fabrics: {shell: denim}
+pieces:
+  front:
+    grain: [[0, 0], [0, 9]]
+    outline:
+      start: 0 0
+      shoulder: L 100 0
+      side: L 100 100
+      hem: L 0 100
+      center: L 0 0
+  back:
+    grain: [[0, 0], [0, 9]]
+    outline:
+      start: 0 0
+      shoulder: L 100 0
+      side: L 100 100
+      hem: L 0 100
+      center: L 0 0
+seams:
+  side: {sew: front.side, to: back.center}
+free: [front.shoulder, front.hem, front.center, back.shoulder, back.hem, back.side]
+";
+
+struct Room {
+    folder: TempDir,
+}
+
+impl Room {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let room = Self { folder };
+        room.put("slipped.csv", "strain %, load gf/cm\n1, 40\n2, 100\n3, 92\n");
+        room.put("stopped.csv", "strain %, load gf/cm\n1, 40\n2, 120\n");
+        room
+    }
+
+    fn put(&self, name: &str, text: &str) -> PathBuf {
+        let path = self.folder.path().join(name);
+        fs::write(&path, text).expect("written");
+        path
+    }
+
+    /// Everything `check` finds in the text, at a spacing in mm.
+    fn finds(&self, text: &str, spacing: Option<f64>) -> Vec<Diagnostic> {
+        match check(&self.put("wrong.yaml", text), spacing.map(|mm| 1e-3 * mm)) {
+            Ok(loaded) => loaded.warnings,
+            Err(refused) => refused.diagnostics,
+        }
+    }
+}
+
+/// What is changed in [`SQUARES`], and what is said of it: at which text of the changed file, in which words.
+struct Mistake {
+    number: u32,
+    changes: &'static [(&'static str, &'static str)],
+    severity: Severity,
+    at: &'static str,
+    says: &'static str,
+}
+
+const fn wrong(
+    number: u32,
+    changes: &'static [(&'static str, &'static str)],
+    at: &'static str,
+    says: &'static str,
+) -> Mistake {
+    Mistake { number, changes, severity: Severity::Error, at, says }
+}
+
+const fn doubtful(
+    number: u32,
+    changes: &'static [(&'static str, &'static str)],
+    at: &'static str,
+    says: &'static str,
+) -> Mistake {
+    Mistake { number, changes, severity: Severity::Warning, at, says }
+}
+
+const SIDE: &str = "{sew: front.side, to: back.center}";
+const FRONT: &str = "  front:\n";
+
+/// In the order in which patterns are written: units, names, outlines, seams, closing of the surface, shaping, cutting,
+/// fabric, mesh, the file itself. 30 and 31, a piece that starts in the body and a seam that stays open, need cloth.
+const MISTAKES: [Mistake; 31] = [
+    wrong(1, &[("units: mm", "units: inch")], "inch", "unknown unit 'inch'; use mm, cm or in"),
+    wrong(2, &[("front.side,", "frnt.side,")], "frnt.side", "piece 'frnt' not found; did you mean 'front'?"),
+    wrong(
+        3,
+        &[("front.side,", "front.sied,")],
+        "front.sied",
+        "edge 'front.sied' not found; front has: shoulder, side, hem, center",
+    ),
+    wrong(
+        4,
+        &[("center: L 0 0\n  back", "center: L 0 3.2\n  back")],
+        "L 0 3.2",
+        "outline of 'front' does not close: last point (0, 3.2) is 3.2 mm from start (0, 0)",
+    ),
+    wrong(
+        5,
+        &[("hem: L 0 100\n      center: L 0 0\n  back", "hem: L 150 70\n      center: L 0 0\n  back")],
+        "center: L 0 0\n  back",
+        "outline of 'front' crosses itself near (100, 46.7), between side and center",
+    ),
+    doubtful(
+        6,
+        &[(
+            "shoulder: L 100 0\n      side: L 100 100\n      hem: L 0 100\n      center: L 0 0\n  back",
+            "center: L 0 100\n      hem: L 100 100\n      side: L 100 0\n      shoulder: L 0 0\n  back",
+        )],
+        "0 0\n      center",
+        "outline of 'front' runs counter-clockwise; reversed it",
+    ),
+    wrong(
+        7,
+        &[(
+            FRONT,
+            "  front:\n    darts:\n      - {name: d, edge: hem, at: 20, intake: 5, length: 9}\n      \
+             - {name: d, edge: hem, at: 70, intake: 5, length: 9}\n",
+        )],
+        "front:",
+        "edge name 'd.a' used twice in 'front'",
+    ),
+    wrong(
+        8,
+        &[(SIDE, "{sew: front.side@0..92.3, to: back.center}")],
+        "side: {",
+        "front.side@0..92.3 92.3 mm, back.center 100.0 mm, 7.7 mm apart",
+    ),
+    wrong(
+        9,
+        &[(SIDE, "{sew: front.side@0..88, to: back.center, ease: 12}")],
+        "12}",
+        "seam 'side': ease 12 mm is 14 % of 88 mm; more than 8 % gathers, say gather: 1.14",
+    ),
+    wrong(
+        10,
+        &[("back.center}", "back.center, gather: 0.6}")],
+        "0.6",
+        "gather: 0.6 would stretch the cloth by 67 %; did you swap sew and to?",
+    ),
+    wrong(
+        11,
+        &[("free: [", "  pocket: {sew: front.side@0..50, to: back.side@0..50}\nfree: [")],
+        "pocket",
+        "front.side is sewn twice on 0..50 mm: in 'side' and in 'pocket'",
+    ),
+    wrong(12, &[("front.hem, ", "")], "side: {", "edges neither sewn nor free: front.hem"),
+    wrong(
+        13,
+        &[("back.center}", "back.center@0..900}")],
+        "back.center@",
+        "seam 'side' uses back.center@0..900 but the edge is 100.0 mm long",
+    ),
+    wrong(14, &[("front.side,", "front.side@80%..20%,")], "front.side@", "range 80%..20% runs backwards"),
+    wrong(
+        15,
+        &[(SIDE, "{sew: [front.side, front.center], to: [back.center, back.side]}")],
+        "front.center], to",
+        "chain in 'side' is not continuous: front.side ends at (100, 100), front.center starts at (0, 100)",
+    ),
+    wrong(
+        16,
+        &[(SIDE, "{sew: [front.side, front.hem], to: [back.center, back.shoulder]}")],
+        "side: {",
+        "seam 'side' is twisted: its ends meet",
+    ),
+    wrong(
+        17,
+        &[("free: [", "  ring: {sew: front.center, to: back.side, face: same}\nfree: [")],
+        "ring",
+        "sewing closes the surface into a non-orientable band at 'ring'",
+    ),
+    wrong(
+        18,
+        &[("free: [", "tests: [{openings: 4}]\nfree: [")],
+        "{openings",
+        "garment has 1 openings, expected 4: at front.shoulder",
+    ),
+    wrong(
+        19,
+        &[(FRONT, "  front:\n    darts: [{edge: hem, at: 50, intake: 10, tip: [60, 50]}]\n")],
+        "10, tip",
+        "dart at front.hem@50: legs differ 50.2 / 52.2 mm",
+    ),
+    wrong(
+        20,
+        &[(FRONT, "  front:\n    darts: [{edge: hem, at: 50, intake: 10, length: 120}]\n")],
+        "50, intake",
+        "dart tip (50, -20) lies outside piece 'front'",
+    ),
+    wrong(
+        21,
+        &[(FRONT, "  front:\n    cut: fold center\n"), ("center: L 0 0\n  back", "center: C 9 70, 9 30, 0 0\n  back")],
+        "fold center",
+        "fold edge 'center' is curved; only straight edges can be folded",
+    ),
+    wrong(
+        22,
+        &[("seams:", "  collar: {like: back, cut: pair}\nseams:"), ("free: [", "free: ['collar.*', ")],
+        "pair}",
+        "cut: pair piece 'collar' has no L/R seams; use cut: 2",
+    ),
+    wrong(
+        23,
+        &[(FRONT, "  front:\n    pleats: [{edge: hem, at: [10, 50], depth: 30}]\n")],
+        "hem, at",
+        "pleats on 'front.hem' take 120 mm but the edge has 100 mm",
+    ),
+    wrong(
+        24,
+        &[
+            (FRONT, "  front:\n    notches: {side: [10, 20]}\n"),
+            ("  back:\n", "  back:\n    notches: {center: [80]}\n"),
+            ("back.center}", "back.center, match: notches}"),
+        ],
+        "side: {",
+        "notch 2 of front.side has no partner on back.center",
+    ),
+    wrong(
+        25,
+        &[("denim}", "{weight: 70 g/m2}}")],
+        "shell",
+        "fabric 'shell' has no bend value; give bend in gf.cm2/cm, uN.m",
+    ),
+    wrong(
+        26,
+        &[("denim}", "{base: denim, tensile: slipped.csv}}")],
+        "slipped.csv",
+        "tensile curve slipped.csv, row 4: load falls from 100 to 92; curves must rise",
+    ),
+    doubtful(
+        27,
+        &[("denim}", "{base: denim, tensile: {weft: stopped.csv}}}")],
+        "stopped.csv",
+        "tensile curve ends at 120 gf/cm; KES runs to 500. Beyond the last point the last slope is kept",
+    ),
+    wrong(
+        28,
+        &[("grain: [[0, 0], [0, 9]]\n    outline", "grain: [[5, 5], [5, 5]]\n    outline")],
+        "[[5, 5]",
+        "grain of 'front' has zero length",
+    ),
+    wrong(
+        29,
+        &[
+            ("side: L 100 100\n      hem: L 0 100", "side: L 100 18\n      hem: L 0 18"),
+            ("back.center}", "back.center@0..18}"),
+            ("free: [", "free: [back.center, "),
+        ],
+        "front:",
+        "mesh size 20 mm leaves 1 spring across 'front' (18 mm wide); use <= 6 mm",
+    ),
+    wrong(
+        32,
+        &[("hem: L 0 100\n", "side: L 0 100\n")],
+        "side: L 0 100",
+        "duplicate key 'side' at line 12 (first at line 11)",
+    ),
+    doubtful(
+        33,
+        &[
+            ("front.hem, ", "band.shoulder, band.side, band.center, "),
+            ("back.hem, ", ""),
+            ("  side: {", "  cuff: {sew: [front.hem, back.hem], to: band.hem}\n  side: {"),
+            (
+                "seams:",
+                "  band:\n    grain: [[0, 0], [0, 9]]\n    outline: {start: 0 0, shoulder: L 200 0, side: L 200 50, \
+                 hem: L 0 50, center: L 0 0}\nseams:",
+            ),
+        ],
+        "cuff",
+        "seam order: 'cuff' is sewn before 'side' that makes it a ring; order kept, stage them to change",
+    ),
+];
+
+/// Line and column (from 1) of the last occurrence of a text.
+#[track_caller]
+fn place(text: &str, part: &str) -> (usize, usize) {
+    let at = text.rfind(part).unwrap_or_else(|| panic!("no {part:?} in\n{text}"));
+    let before = &text[..at];
+    let line = before.matches('\n').count() + 1;
+    (line, at - before.rfind('\n').map_or(0, |n| n + 1) + 1)
+}
+
+fn changed(changes: &[(&str, &str)]) -> String {
+    changes.iter().fold(SQUARES.to_owned(), |text, (from, to)| {
+        assert!(text.contains(from), "nothing to replace: {from:?}");
+        text.replacen(from, to, 1)
+    })
+}
+
+#[test]
+fn the_squares_are_right() {
+    assert_eq!(Room::new().finds(SQUARES, None), []);
+}
+
+#[test]
+fn every_kind_of_mistake_is_found_with_its_place() {
+    let room = Room::new();
+    for Mistake { number, changes, severity, at, says } in &MISTAKES {
+        let text = changed(changes);
+        let spacing = (*number == 29).then_some(20.0);
+        let found = room.finds(&text, spacing);
+        let shown: Vec<String> = found.iter().map(ToString::to_string).collect();
+        let hit = found.iter().find(|d| d.message.contains(says));
+        let hit = hit.unwrap_or_else(|| panic!("{number}: no '{says}' among:\n{}", shown.join("\n")));
+        assert_eq!((hit.severity, hit.line, hit.column), (*severity, place(&text, at).0, place(&text, at).1), "{hit}");
+        assert!(hit.to_string().contains('^'), "{number}: the source is underlined:\n{hit}");
+    }
+}
+
+/// Ten mistakes that have nothing to do with each other, of every part of a file.
+#[test]
+fn ten_mistakes_are_found_in_one_run() {
+    let text = "\
+garment: 1
+units: inch
+body: woman_29
+fabrics:
+  shell: {weight: 70 g/m2}
+  lining: {base: denim, tensile: slipped.csv}
+pieces:
+  a:
+    grain: [[1, 1], [1, 1]]
+    outline: {start: 0 0, top: L 100 0, right: L 100 100, bottom: L 0 100, left: L 0 0}
+    notches: {tpo: [10]}
+  b:
+    colour: red
+    outline: {start: 0 0, top: L 100 0, right: L 100 100, bottom: L 0 100, left: L 0 9}
+  c:
+    fabric: 7
+    cut: twice
+    outline: {start: 0 0, top: L 100 0, top: L 100 100, bottom: L 0 100, left: L 0 0}
+  d:
+    darts: [{edge: top, at: 50, intake: 10, length: 120}]
+    outline: {start: 0 0, top: L 100 0, right: L 100 100, bottom: L 0 100, left: L 0 0}
+seams:
+  one: {sew: c.top, to: e.top}
+  two: {sew: c.bottom, ease: 3}
+  three: {sew: c.left@9..3, to: c.bottom}
+  four: {sew: c.side, to: c.left}
+tests:
+  - {seam: all, length: long}
+";
+    let room = Room::new();
+    let found = room.finds(text, None);
+    let errors: Vec<&Diagnostic> = found.iter().filter(|d| d.severity == Severity::Error).collect();
+    for line in [2, 3, 5, 6, 9, 11, 13, 14, 17, 18, 20, 23, 24, 25, 26, 28] {
+        let here: Vec<String> = errors.iter().filter(|d| d.line == line).map(ToString::to_string).collect();
+        assert!(!here.is_empty(), "line {line}: {found:#?}");
+        let source = text.lines().nth(line - 1).unwrap_or_default();
+        assert!(here.iter().all(|d| d.contains(source) && d.contains('^')), "{here:?}");
+    }
+    assert!(errors.iter().filter(|d| d.hint.is_some()).count() >= 5, "{found:#?}");
+}
+
+/// The curve is told of where it is named, and nowhere else.
+#[test]
+fn a_curve_that_ends_early_is_told_of_once() {
+    let room = Room::new();
+    let sheet = "weight: 100 g/m2\nbend: 5 uN.m\ntensile: {warp: stopped.csv, weft: stopped.csv}\n";
+    room.put("mine.yaml", sheet);
+    let places = |fabrics: &str| -> Vec<(usize, usize)> {
+        let text = SQUARES.replace("fabrics: {shell: denim}", fabrics);
+        let found = room.finds(&text, None);
+        found
+            .iter()
+            .inspect(|d| assert!(d.message.contains("ends at 120 gf/cm"), "{d}"))
+            .map(|d| (d.line, d.column))
+            .collect()
+    };
+    assert_eq!(places("fabrics: {shell: mine.yaml}"), [(4, 18)]);
+    assert_eq!(places("fabrics: {shell: {base: mine.yaml, bend: 2}}"), [(4, 25)]);
+    // The interfacing stretches as its base does, of which it is said there.
+    assert_eq!(places("fabrics: {shell: mine.yaml, fuse: {base: shell, bend: 2}, same: shell}"), [(4, 18)]);
+    // Half as stiff is no shorter a test.
+    assert_eq!(places("fabrics: {shell: {base: denim, tensile: 0.5}}"), []);
+    assert_eq!(places("fabrics: {shell: {base: denim, tensile: {EMT: 5 %, LT: 0.7}}}"), []);
+    assert!(Path::new(&room.folder.path().join("mine.yaml")).exists());
+}
