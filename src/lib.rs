@@ -32,4 +32,5 @@ pub mod picture;
 pub mod pipeline;
 pub mod report;
 pub mod sew;
+pub mod specimen;
 pub mod verify;

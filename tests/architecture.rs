@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules in building order, each with those it may use. The ground floor first, the edge last.
-const FLOORS: [(&str, &[&str]); 20] = [
+const FLOORS: [(&str, &[&str]); 21] = [
     ("geometry", &[]),
     ("input", &[]),
     ("linear", &["geometry"]),
@@ -16,6 +16,7 @@ const FLOORS: [(&str, &[&str]); 20] = [
     ("dynamics", &["geometry", "linear", "fabric", "pattern", "contact", "mesh"]),
     ("sew", &["geometry", "linear", "fabric", "pattern", "mannequin", "contact", "mesh", "dynamics"]),
     ("drape", &["geometry", "linear", "fabric", "pattern", "contact", "mesh", "dynamics", "sew"]),
+    ("specimen", &["geometry", "fabric", "pattern", "contact", "mesh", "dynamics", "sew"]),
     ("flatten", &["geometry", "linear", "pattern", "mesh"]),
     ("verify", &["geometry", "mannequin", "mesh"]),
     ("report", &["geometry", "pattern", "mannequin", "mesh", "verify"]),
@@ -42,7 +43,23 @@ const FLOORS: [(&str, &[&str]); 20] = [
             "io",
         ],
     ),
-    ("cli", &["input", "fabric", "pattern", "mannequin", "flatten", "report", "cutting", "digitize", "io", "pipeline"]),
+    (
+        "cli",
+        &[
+            "input",
+            "fabric",
+            "pattern",
+            "mannequin",
+            "specimen",
+            "flatten",
+            "report",
+            "picture",
+            "cutting",
+            "digitize",
+            "io",
+            "pipeline",
+        ],
+    ),
 ];
 
 /// Crates and the paths below `src` that may name them.

@@ -425,6 +425,23 @@ fn readings_become_a_fabric() {
 }
 
 #[test]
+fn a_fabric_is_tested_beside_known_answers() {
+    let room = Room::new();
+    let run = |more: &[&str]| room.run(&[&["fabric", "test", "cotton_poplin"], more].concat());
+    let found = run(&["--only", "catenary", "--json"]).ends(0).json();
+    let figures = found["figures"].as_array().expect("figures");
+    assert_eq!(figures.len(), 6);
+    assert!(figures.iter().all(|f| f["holds"] == true && f["error"].as_f64().expect("error").abs() < 0.02));
+    assert!(run(&["--only", "catenary"]).ends(0).out.contains("level pull over weight"));
+    run(&["--only", "drape", "-o", "shadow.png", "--quiet"]).ends(0);
+    let picture = fs::read(room.dir.path().join("shadow.png")).expect("a picture");
+    assert!(picture.starts_with(b"\x89PNG"));
+    run(&["--only", "catenary", "-o", "other.png"]).ends(2).says(&["--only drape"]);
+    run(&["--only", "hope"]).ends(2).says(&["catenary"]);
+    room.run(&["fabric", "test", "denin"]).ends(2).says(&["did you mean 'denim'"]);
+}
+
+#[test]
 fn libraries_are_listed_and_shown() {
     let room = Room::new();
     assert!(room.run(&["fabric", "list"]).ends(0).out.contains("cotton_poplin"));

@@ -353,6 +353,18 @@ pub(super) enum FabricCommand {
         #[arg(value_name = "NAME|FILE.yaml")]
         name: String,
     },
+    /// Hang, bend, pull, shear and drape virtual specimens of a fabric and compare them with known answers
+    Test {
+        /// Library name or file
+        #[arg(value_name = "NAME|FILE.yaml")]
+        name: String,
+        /// Only this test; may be given several times
+        #[arg(long = "only", value_name = "TEST", value_parser = crate::specimen::TESTS.map(|t| t.name))]
+        only: Vec<String>,
+        /// Where to draw the shadow of the draped disc
+        #[arg(short, long, value_name = "SHADOW.png")]
+        output: Option<PathBuf>,
+    },
     /// Make a fabric file from readings of the three tests, photographs, or KES and FAST sheets
     Measure {
         /// Readings, or a sheet

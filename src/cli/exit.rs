@@ -6,7 +6,9 @@ use crate::fabric::FabricError;
 use crate::fabric::measure::MeasureError;
 use crate::io::files::WriteError;
 use crate::mannequin::MannequinError;
+use crate::picture::PictureError;
 use crate::pipeline::{PipelineError, SewError};
+use crate::specimen::SpecimenError;
 
 /// Exit codes, the worst last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -45,6 +47,12 @@ pub(super) enum CliError {
     /// Readings that make no fabric.
     #[error(transparent)]
     Measure(#[from] MeasureError),
+    /// A specimen that cannot be tested.
+    #[error(transparent)]
+    Specimen(#[from] SpecimenError),
+    /// A picture that cannot be drawn.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
     /// No such mannequin.
     #[error(transparent)]
     Mannequin(#[from] MannequinError),
@@ -68,7 +76,7 @@ impl CliError {
     pub(super) fn exit(&self) -> Exit {
         match self {
             Self::Pipeline(e) if !e.is_input() => Exit::Failed,
-            Self::Threads(_) => Exit::Failed,
+            Self::Specimen(_) | Self::Picture(_) | Self::Threads(_) => Exit::Failed,
             _ => Exit::Input,
         }
     }

@@ -1,4 +1,4 @@
-//! `fabric`: the library of fabrics, and fabric files from readings.
+//! `fabric`: the library of fabrics, fabric files from readings; `specimen` holds its tests.
 
 use std::path::Path;
 
@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use super::args::FabricCommand;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::specimen;
 use crate::fabric::measure::{Measured, TESTS, fabric_yaml, measure};
 use crate::fabric::{Fabric, FabricSheet, LiuMeasures, library, load, sheet};
 use crate::io::files::{check_writable, write_all};
@@ -17,6 +18,7 @@ pub(super) fn fabric(command: &FabricCommand, console: &Console) -> Result<Exit,
     match command {
         FabricCommand::List => list(console)?,
         FabricCommand::Show { name } => show(name, console)?,
+        FabricCommand::Test { name, only, output } => return specimen::test(name, only, output.as_deref(), console),
         FabricCommand::Measure { readings, output } => from_readings(readings, output, console)?,
     }
     Ok(Exit::Done)

@@ -15,6 +15,7 @@ mod import;
 mod junit;
 mod make;
 mod mannequin;
+mod specimen;
 mod test;
 mod update;
 

@@ -16,6 +16,8 @@ use crate::pattern::{Garment, Give};
 pub enum SpringModel {
     /// Every fabric by its measured curves.
     Measured,
+    /// The same, with rims as they are cut: a specimen has no hem.
+    Raw,
     /// One stiffness, N/m, along warp and weft and a share of it on the bias: for the first closing of the seams,
     /// when the cloth must give way to be led home.
     Soft {
@@ -78,6 +80,8 @@ pub struct Cloth {
     pub friction: Vec<f64>,
     /// [`Bending::bound`] of every edge, N/m.
     pub bending_bound: Vec<f64>,
+    /// Nodes that stay where they are, in the jaws of a clamp; to be set before the first step.
+    pub held: Vec<u32>,
 }
 
 /// Pairs of nodes with a spring between them, smaller first, sorted.
@@ -115,6 +119,7 @@ impl Cloth {
             creases: creases(mesh, &node_of, fabrics),
             edges: Vec::new(),
             bending_bound: Vec::new(),
+            held: Vec::new(),
             node_of,
             triangles,
             flat,
@@ -187,7 +192,7 @@ impl Cloth {
                 }
                 None => push(rest, width, law),
             }
-            if rim {
+            if rim && model != SpringModel::Raw {
                 push(rest, RIM_WIDTH, laws_of[p]);
             }
         }
@@ -227,7 +232,7 @@ impl Cloth {
             for step in 0..=ANGLE_STEPS {
                 let angle = std::f64::consts::FRAC_PI_2 * step as f64 / ANGLE_STEPS as f64;
                 self.laws.push(match model {
-                    SpringModel::Measured => StretchLaw::of(fabric, angle),
+                    SpringModel::Measured | SpringModel::Raw => StretchLaw::of(fabric, angle),
                     SpringModel::Soft { stiffness, bias } => {
                         let diagonal = (2.0 * angle).sin().powi(2);
                         StretchLaw::linear(stiffness * (1.0 - (1.0 - bias) * diagonal))

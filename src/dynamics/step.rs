@@ -46,6 +46,9 @@ pub(super) struct Reuse {
 /// degree.
 const SAME: Reuse = Reuse { moved: 2e-5, contacts: 0 };
 
+/// Stiffness of what holds a node, in those of the stiffest spring.
+const WALL: f64 = 1e6;
+
 /// Shares of the largest spring stiffness that are tried one after another, ten times as much each, where a matrix is
 /// singular to rounding: from a few units in the last place of single precision.
 const FIRST_RIDGE: f64 = 1e-6;
@@ -59,6 +62,8 @@ pub struct Stepper {
     springs: Vec<BlockSlot>,
     edges: Vec<BlockSlot>,
     pulls: Vec<Option<BlockSlot>>,
+    /// [`Cloth::held`].
+    held: Vec<u32>,
     made: Option<Made>,
 }
 
@@ -95,6 +100,7 @@ impl Stepper {
             pulls: pulls.iter().map(|e| slot(e[0] as usize, e[1] as usize)).collect(),
             matrix: SymmetricMatrix::zeros(pattern.clone()),
             factor: Cholesky::new(pattern, &order)?,
+            held: cloth.held.clone(),
             made: None,
         })
     }
@@ -139,10 +145,13 @@ impl Stepper {
         }
     }
 
-    /// H⁻¹ r.
+    /// H⁻¹ r, of the nodes that are not held.
     pub(super) fn apply_inverse(&self, r: &[Vec3]) -> Result<Vec<Vec3>, StepError> {
         let mut flat: Vec<f32> = r.iter().flat_map(|v| [v.x as f32, v.y as f32, v.z as f32]).collect();
+        let hold = |flat: &mut [f32]| self.held.iter().for_each(|&n| flat[3 * n as usize..][..3].fill(0.0));
+        hold(&mut flat);
         self.factor.solve(&mut flat);
+        hold(&mut flat);
         let d: Vec<Vec3> = flat.chunks_exact(3).map(|c| Vec3::new(c[0].into(), c[1].into(), c[2].into())).collect();
         match d.iter().position(|v| !v.iter().all(|c| c.is_finite())) {
             Some(node) => Err(StepError::Singular { node }),
@@ -185,18 +194,29 @@ impl Stepper {
             }
             self.add_contact(contact, &stiffness);
         }
+        self.hold(cloth, x);
         self.factor(cloth, x)?;
         let sliding = sliding(cloth, x, forces, presses, active);
         self.made = Some(Made { x: x.to_vec(), dt, pushing, sliding });
         Ok(())
     }
 
+    /// Makes the nodes that are held so stiff that the others are solved as if they were walls.
+    fn hold(&mut self, cloth: &Cloth, x: &[Vec3]) {
+        if self.held.is_empty() {
+            return;
+        }
+        let wall = Mat3::identity() * (WALL * stiffest(cloth, x));
+        for &n in &self.held {
+            self.matrix.add_block(self.diagonal[n as usize], &wall);
+        }
+    }
+
     /// Factors the matrix. Cloth that nothing holds, in a long step, is singular to single precision: its inertia is lost
     /// beside its stiffness. A little of that stiffness against every motion stands in for it.
     fn factor(&mut self, cloth: &Cloth, x: &[Vec3]) -> Result<(), StepError> {
         let Err(mut failed) = self.factor.factor(&self.matrix) else { return Ok(()) };
-        let along = cloth.springs.iter().map(|s| s.tangent(&cloth.laws[s.law as usize], x).along);
-        let stiffest = along.fold(0.0, |most: f64, k| if most.is_nan() || k <= most { most } else { k });
+        let stiffest = stiffest(cloth, x);
         let mut ridge = FIRST_RIDGE * stiffest;
         // A number that is not finite is no matter of rounding.
         while stiffest.is_finite() && ridge > 0.0 && ridge <= LAST_RIDGE * stiffest {
@@ -277,6 +297,12 @@ impl Stepper {
             self.matrix.add_block(slot, &(stiffness * w));
         }
     }
+}
+
+/// The largest stiffness of a spring at `x`, N/m; not a number where one of them is none.
+fn stiffest(cloth: &Cloth, x: &[Vec3]) -> f64 {
+    let along = cloth.springs.iter().map(|s| s.tangent(&cloth.laws[s.law as usize], x).along);
+    along.fold(0.0, |most: f64, k| if most.is_nan() || k <= most { most } else { k })
 }
 
 /// Entries of two sorted lists that the other does not have.

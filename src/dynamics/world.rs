@@ -237,9 +237,15 @@ impl<'a> World<'a> {
         forces(self.gravity, &self.proximity, self.law, pulls, self.friction.as_ref())
     }
 
+    /// The sum of all forces on every node, N: what is unbalanced, and at nodes that are held what holds them, reversed.
+    pub fn unbalanced(&self) -> Vec<Vec3> {
+        cloth_forces(&self.cloth, &self.x, &self.forces(&[]))
+    }
+
     /// Root mean square of the unbalanced force over the particle's weight.
     pub fn residual_in_weights(&self) -> f64 {
-        let r = cloth_forces(&self.cloth, &self.x, &self.forces(&[]));
+        let mut r = self.unbalanced();
+        self.cloth.held.iter().for_each(|&n| r[n as usize] = Vec3::zeros());
         let mean_mass = self.cloth.mass.iter().sum::<f64>() / self.cloth.mass.len().max(1) as f64;
         let rms = (r.iter().map(Vec3::norm_squared).sum::<f64>() / r.len().max(1) as f64).sqrt();
         rms / (mean_mass * super::GRAVITY)

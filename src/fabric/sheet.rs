@@ -76,6 +76,18 @@ impl LiuMeasures {
 }
 
 impl FabricSheet {
+    /// The drape coefficients that were measured of such cloths, per cent, from `drape: 60-83 %`.
+    pub fn drape_band(&self) -> Option<[f64; 2]> {
+        let text = &self.measurements.iter().find(|m| m.key == "drape")?.value;
+        let numbers: Option<Vec<f64>> =
+            text.trim_end_matches('%').split('-').map(|n| n.trim().parse::<f64>().ok()).collect();
+        match numbers?[..] {
+            [one] => Some([one, one]),
+            [low, high] => Some([low, high]),
+            _ => None,
+        }
+    }
+
     /// Reads a fabric file's text; `from` names it in errors.
     ///
     /// # Errors

@@ -14,10 +14,12 @@ mod light;
 mod occlusion;
 mod paint;
 mod raster;
+mod shadow;
 mod view;
 
 pub use dressed::{Dressed, rim_lines};
 pub use flat::draw_flat;
+pub use shadow::draw_shadow;
 
 use crate::geometry::{TriMesh, Vec3};
 

@@ -37,8 +37,16 @@ pub fn sewn_world<'a>(
     nodes: Vec<Vec3>,
 ) -> Result<World<'a>, StepError> {
     let cloth = Cloth::new(cut, stitching.class.clone(), SpringModel::Measured);
+    draping_world(cloth, nodes, cut.mesh.spacing, body)
+}
+
+/// Cloth of grid spacing `spacing` (metres) at `nodes`, with contact as draped garments have it.
+///
+/// # Errors
+/// As [`World::new`].
+pub fn draping_world(cloth: Cloth, nodes: Vec<Vec3>, spacing: f64, body: &Collider) -> Result<World<'_>, StepError> {
     let law = ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, cloth_gap: None };
-    let reach = Reach::new(drape_reach(cut.mesh.spacing));
+    let reach = Reach::new(drape_reach(spacing));
     let n = nodes.len();
     let hood = Neighbourhood { class: (0..n as u32).collect(), tangled: Vec::new() };
     World::new(cloth, nodes, &[], body, hood, law, reach)

@@ -1,0 +1,92 @@
+//! `fabric test`: virtual specimens of a fabric beside what is known.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use rayon::prelude::*;
+use serde_json::{Value, json};
+
+use super::console::Console;
+use super::exit::{CliError, Exit};
+use crate::fabric::{load, sheet};
+use crate::io::files::{check_writable, write_all};
+use crate::picture::draw_shadow;
+use crate::report::aligned;
+use crate::specimen::{Figure, Known, Sample, Shadow, TESTS, Test};
+
+/// `toile fabric test …`; out of bounds when a figure with a known value is further off than it may be.
+pub(super) fn test(name: &str, only: &[String], output: Option<&Path>, console: &Console) -> Result<Exit, CliError> {
+    let sample = Sample { fabric: Arc::new(load(name)?), drape: sheet(name)?.drape_band() };
+    let tests: Vec<&Test> = TESTS.iter().filter(|t| only.is_empty() || only.iter().any(|o| o == t.name)).collect();
+    if let Some(output) = output {
+        check_writable(&[output.to_owned()], &[Path::new(name)])?;
+        if !tests.iter().any(|t| t.name == "drape") {
+            return Err(CliError::Argument("-o draws the shadow of the drape test: add --only drape".to_owned()));
+        }
+    }
+    // One test does not wait for another; of several errors the first in their order counts.
+    let outcomes: Vec<_> = tests.par_iter().map(|t| t.run(&sample)).collect();
+    let (mut figures, mut shadow) = (Vec::new(), None);
+    for outcome in outcomes {
+        let outcome = outcome?;
+        figures.extend(outcome.figures);
+        shadow = outcome.shadow.or(shadow);
+    }
+    if let (Some(output), Some(shadow)) = (output, shadow) {
+        write_all(&[(output.to_owned(), picture(&sample, &figures, &shadow)?)], &[])?;
+    }
+    let value = json!({
+        "fabric": sample.fabric.name,
+        "assumed": sample.fabric.defaults,
+        "figures": figures.iter().map(figure_value).collect::<Vec<_>>(),
+    });
+    console.results(&value, || table(&figures))?;
+    Ok(if figures.iter().all(|f| f.holds() != Some(false)) { Exit::Done } else { Exit::OutOfBounds })
+}
+
+fn picture(sample: &Sample, figures: &[Figure], shadow: &Shadow) -> Result<Vec<u8>, CliError> {
+    let last = |what: &str| figures.iter().rev().find(|f| f.test == "drape" && f.what.ends_with(what));
+    let words = match (last("coefficient"), last("folds")) {
+        (Some(c), Some(f)) => format!("drape coefficient {:.0} %, {} folds", c.measured, f.measured),
+        _ => String::new(),
+    };
+    Ok(draw_shadow(&shadow.dark, shadow.width, &sample.fabric.name, &words)?)
+}
+
+fn figure_value(f: &Figure) -> Value {
+    let mut value = json!({"test": f.test, "what": f.what, "unit": f.unit, "measured": f.measured});
+    match f.known {
+        Known::Value { value: known, tolerance } => {
+            value["known"] = json!(known);
+            value["error"] = json!(f.error());
+            value["tolerance"] = json!(tolerance);
+            value["holds"] = json!(f.holds());
+        }
+        Known::Band(band) => value["band"] = json!(band),
+        Known::Nothing => {}
+    }
+    value
+}
+
+fn table(figures: &[Figure]) -> String {
+    let mut rows = vec![["test", "figure", "measured", "known", "error %", "at most", ""].map(String::from).to_vec()];
+    for f in figures {
+        let number = |x: f64| if x.abs() < 0.1 || x.abs() >= 1e4 { format!("{x:.3e}") } else { format!("{x:.4}") };
+        let (known, error, most, holds) = match f.known {
+            Known::Value { value, tolerance } => (
+                number(value),
+                f.error().map_or_else(String::new, |e| format!("{:.2}", 100.0 * e)),
+                format!("{:.0}", 100.0 * tolerance),
+                if f.holds() == Some(true) { "" } else { "off" }.to_owned(),
+            ),
+            Known::Band([low, high]) => {
+                let inside = (low..=high).contains(&f.measured);
+                (format!("{low}…{high}"), String::new(), String::new(), if inside { "" } else { "outside" }.to_owned())
+            }
+            Known::Nothing => Default::default(),
+        };
+        let what = if f.unit.is_empty() { f.what.clone() } else { format!("{}, {}", f.what, f.unit) };
+        rows.push(vec![f.test.to_owned(), what, number(f.measured), known, error, most, holds]);
+    }
+    aligned(&rows)
+}

@@ -1,0 +1,205 @@
+//! Bending: strips that bend under their own weight, stand, or give way sideways, and sheets rolled up.
+
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+use std::sync::Arc;
+
+use super::rig::{ALONG_WARP, ALONG_WEFT, Sheet, nothing, settle};
+use super::{Figure, Known, Outcome, Sample, SpecimenError, theory};
+use crate::fabric::Fabric;
+use crate::geometry::{Vec2, Vec3};
+
+/// Segments along a strip.
+const SEGMENTS: usize = 50;
+/// Segments across it.
+const ACROSS: usize = 4;
+/// A specimen is at rest when ten steps move it by less than this share of its length.
+const STILL: f64 = 1e-6;
+/// Γ of the cantilevers.
+const GAMMAS: [f64; 8] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 100.0];
+
+/// The two ways a strip is cut, and what they are called.
+const WAYS: [(f64, &str); 2] = [(ALONG_WARP, "warp"), (ALONG_WEFT, "weft")];
+
+/// Bending length along a strip, metres.
+fn length_of(fabric: &Fabric, angle: f64) -> f64 {
+    if angle == ALONG_WARP { fabric.bending_length_warp() } else { fabric.bending_length_weft() }
+}
+
+/// A strip in a clamp, Γ = σ g L³/B.
+struct Strip {
+    sheet: Sheet,
+    spacing: f64,
+    /// From the jaws to the free end.
+    length: f64,
+}
+
+impl Strip {
+    /// The first two rows are held. What bends at the second is the cloth from half-way to it on, so the jaws are
+    /// half-way between the two.
+    fn new(fabric: &Arc<Fabric>, angle: f64, gamma: f64, segments: usize) -> Result<Self, SpecimenError> {
+        let length = length_of(fabric, angle) * gamma.cbrt();
+        let spacing = length / (segments as f64 - 0.5);
+        let size = [ACROSS as f64 * spacing, segments as f64 * spacing];
+        Ok(Self { sheet: Sheet::strip(fabric, size, angle, spacing)?, spacing, length })
+    }
+
+    /// Lets it go from the plane that `along` (its length) and `across` span; returns the middle of its free end, seen
+    /// from the jaws.
+    fn end(&self, along: Vec3, across: Vec3) -> Result<Vec3, SpecimenError> {
+        let bench = nothing()?;
+        let middle = 0.5 * ACROSS as f64 * self.spacing;
+        let jaws = 0.5 * self.spacing;
+        let cloth = self.sheet.cloth(|p| p.y < 1.5 * self.spacing);
+        let x = self.sheet.placed(|p| along * (p.y - jaws) + across * (p.x - middle));
+        let mut world = self.sheet.hang(cloth, x, &bench)?;
+        settle(&mut world, self.spacing, STILL * self.length)?;
+        let end = self.sheet.particles(|p| p.y > self.length + 0.25 * self.spacing);
+        Ok(end.iter().map(|&n| world.x[n as usize]).sum::<Vec3>() / end.len() as f64)
+    }
+}
+
+/// Share of its length that a cantilever's end is down over that it is out.
+pub(super) fn fall_over_reach(
+    fabric: &Arc<Fabric>,
+    angle: f64,
+    gamma: f64,
+    segments: usize,
+) -> Result<f64, SpecimenError> {
+    let end = Strip::new(fabric, angle, gamma, segments)?.end(Vec3::x(), Vec3::z())?;
+    Ok(-end.y / end.x)
+}
+
+/// The heavy cantilever against the master curve (Peirce 1930, ASTM D1388).
+pub(super) fn cantilever(sample: &Sample) -> Result<Outcome, SpecimenError> {
+    let fabric = &sample.fabric;
+    let mut out = Vec::new();
+    for (angle, way) in WAYS {
+        for gamma in GAMMAS {
+            let [reach, fall] = theory::cantilever(gamma);
+            out.push(Figure {
+                test: "cantilever",
+                what: format!("{way}, Γ = {gamma}: fall over reach"),
+                unit: "",
+                measured: fall_over_reach(fabric, angle, gamma, SEGMENTS)?,
+                known: Known::Value { value: fall / reach, tolerance: 0.01 },
+            });
+        }
+    }
+    Ok(out.into())
+}
+
+/// The overhang at which the line from the jaws to the strip's end falls by 41.5°: twice the bending length.
+pub(super) fn bending_length(sample: &Sample) -> Result<Outcome, SpecimenError> {
+    let fabric = &sample.fabric;
+    let chord = 41.5f64.to_radians();
+    let lengths = theory::gamma_of_chord(chord).cbrt();
+    let measure = |(angle, way): (f64, &str)| {
+        let angle_at = |gamma: f64| Ok::<_, SpecimenError>(fall_over_reach(fabric, angle, gamma, SEGMENTS)?.atan());
+        // The angle is nearly straight in the logarithm of Γ between two lengths on either side.
+        let (low, high) = (7f64, 9f64);
+        let (below, above) = (angle_at(low)?, angle_at(high)?);
+        let gamma = (low.ln() + (high / low).ln() * (chord - below) / (above - below)).exp();
+        let c = length_of(fabric, angle);
+        Ok(Figure {
+            test: "bending length",
+            what: format!("{way}, from the overhang at 41.5°"),
+            unit: "mm",
+            measured: 1e3 * c * gamma.cbrt() / lengths,
+            known: Known::Value { value: 1e3 * c, tolerance: 0.01 },
+        })
+    };
+    Ok(WAYS.into_iter().map(measure).collect::<Result<Vec<_>, SpecimenError>>()?.into())
+}
+
+/// How far the strips of the next two tests lean or are turned before they are let go, radians: small, but far above
+/// rounding.
+const LEAN: f64 = 0.02;
+
+/// The Γ at which a load grows without end, from the sideways deflection of strips that lean a little, at two Γ below
+/// it (Southwell 1932: Γ over deflection is a straight line in Γ to the power `power`, which falls to 0).
+fn southwell(
+    gammas: [f64; 2],
+    power: f64,
+    deflection: impl Fn(f64) -> Result<f64, SpecimenError>,
+) -> Result<f64, SpecimenError> {
+    let [a, b] = gammas;
+    let (stiff, soft) = (a / deflection(a)?, b / deflection(b)?);
+    let (x, y) = (a.powf(power), b.powf(power));
+    // A strip without stiffness leans as much at any length; the line then ends below 0.
+    Ok((x + (y - x) * stiff / (stiff - soft)).max(0.0).powf(1.0 / power))
+}
+
+/// The length at which a strip can no longer stand on its clamp (Greenhill 1881).
+pub(super) fn standing(sample: &Sample) -> Result<Outcome, SpecimenError> {
+    let fabric = &sample.fabric;
+    let critical = theory::standing();
+    let measure = |(angle, way): (f64, &str)| {
+        let (up, side) = (Vec3::new(LEAN.sin(), LEAN.cos(), 0.0), Vec3::new(LEAN.cos(), -LEAN.sin(), 0.0));
+        let deflection = |gamma: f64| {
+            let strip = Strip::new(fabric, angle, gamma, SEGMENTS)?;
+            Ok(strip.end(up, Vec3::z())?.dot(&side) / strip.length)
+        };
+        let gamma = southwell([5.0, 6.5], 1.0, deflection)?;
+        let c = 1e3 * length_of(fabric, angle);
+        Ok(Figure {
+            test: "standing strip",
+            what: format!("{way}, longest that stands"),
+            unit: "mm",
+            measured: c * gamma.cbrt(),
+            known: Known::Value { value: c * critical.cbrt(), tolerance: 0.02 },
+        })
+    };
+    Ok(WAYS.into_iter().map(measure).collect::<Result<Vec<_>, SpecimenError>>()?.into())
+}
+
+/// The length at which a strip clamped on edge gives way sideways.
+pub(super) fn on_edge(sample: &Sample) -> Result<Outcome, SpecimenError> {
+    let fabric = &sample.fabric;
+    let critical = theory::on_edge();
+    let measure = |(angle, way): (f64, &str)| {
+        let (across, side) = (Vec3::new(0.0, LEAN.cos(), LEAN.sin()), Vec3::new(0.0, -LEAN.sin(), LEAN.cos()));
+        let deflection = |gamma: f64| {
+            let strip = Strip::new(fabric, angle, gamma, SEGMENTS)?;
+            Ok(strip.end(Vec3::x(), across)?.dot(&side).abs() / strip.length)
+        };
+        let gamma = southwell([11.0, 14.5], 2.0, deflection)?;
+        // Bent along its length and twisted by the mean of warp and weft.
+        let ratio = (fabric.bend_warp / fabric.bend_weft).powf(if angle == ALONG_WARP { -0.25 } else { 0.25 });
+        let c = 1e3 * length_of(fabric, angle);
+        Ok(Figure {
+            test: "strip on edge",
+            what: format!("{way}, longest that stays upright"),
+            unit: "mm",
+            measured: c * gamma.cbrt(),
+            known: Known::Value { value: c * (critical * ratio).cbrt(), tolerance: 0.02 },
+        })
+    };
+    Ok(WAYS.into_iter().map(measure).collect::<Result<Vec<_>, SpecimenError>>()?.into())
+}
+
+/// Rigidity of a sheet of 100 mm rolled to a cylinder of 50 mm radius, by the energy it holds: ½ B/R² per area.
+pub(super) fn roll(sample: &Sample) -> Result<Outcome, SpecimenError> {
+    let fabric = &sample.fabric;
+    const SIDE: f64 = 0.1;
+    const RADIUS: f64 = 0.05;
+    let sheet = Sheet::strip(fabric, [SIDE, SIDE], ALONG_WARP, SIDE / SEGMENTS as f64)?;
+    let cloth = sheet.cloth(|_| false);
+    let (root_warp, root_weft) = (fabric.bend_warp.sqrt(), fabric.bend_weft.sqrt());
+    let measure = |(angle, way): (f64, &str)| {
+        let (round, along) = (Vec2::new(angle.sin(), angle.cos()), Vec2::new(angle.cos(), -angle.sin()));
+        let x = sheet.placed(|p| {
+            let turn = p.dot(&round) / RADIUS;
+            Vec3::new(RADIUS * turn.sin(), RADIUS * turn.cos(), p.dot(&along))
+        });
+        let rigidity = 2.0 * cloth.bending.energy(&x) * (RADIUS / SIDE).powi(2);
+        let known = (root_warp * angle.cos().powi(2) + root_weft * angle.sin().powi(2)).powi(2);
+        Figure {
+            test: "roll",
+            what: format!("{way}, rigidity"),
+            unit: "µN·m",
+            measured: 1e6 * rigidity,
+            known: Known::Value { value: 1e6 * known, tolerance: 0.01 },
+        }
+    };
+    Ok([(0.0, "warp"), (FRAC_PI_2, "weft"), (FRAC_PI_4, "45°"), (0.75 * PI, "135°")].map(measure).to_vec().into())
+}

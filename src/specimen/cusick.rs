@@ -1,0 +1,190 @@
+//! The drape test (Cusick 1968, BS 5058, ISO 9073-9): a disc of cloth over a smaller pedestal, and its shadow.
+
+use std::f64::consts::{PI, TAU};
+
+use super::rig::{Sheet, settle};
+use super::{Figure, Known, Outcome, Sample, SpecimenError};
+use crate::contact::Collider;
+use crate::dynamics::World;
+use crate::geometry::{TriMesh, Vec2, Vec3, rim_loops};
+
+/// Radius of the disc of cloth and of the pedestal, metres.
+const DISC: f64 = 0.15;
+const PEDESTAL: f64 = 0.09;
+/// Height of the pedestal, metres: more than cloth hangs down.
+const HEIGHT: f64 = 0.2;
+/// Corners of the pedestal's rim: its chords leave the circle by 0.03 mm.
+const ROUND: u32 = 128;
+/// Grid spacing, metres, and the finer one that shows what the mesh does.
+const SPACINGS: [f64; 2] = [0.01, 0.005];
+/// Size of the shadow's pixels, metres.
+const PIXEL: f64 = 0.5e-3;
+/// Height of the dents the cloth has before it falls, metres: something must say where the first fold goes.
+const DENT: f64 = 0.3e-3;
+/// Tangential stiffness of the pedestal's grip on a node, N/m, as in garments.
+const GRIP: f64 = 10.0;
+/// Steps of falling, s, and how far they look ahead, metres and as a share of the last one.
+const FALLING: usize = 150;
+const FALL_STEP: f64 = 0.1;
+const MOMENTUM: f64 = 0.9;
+const LOOK_AHEAD: f64 = 4e-3;
+/// A draped disc is at rest when ten steps move it by less than this, metres.
+const STILL: f64 = 5e-5;
+/// A fold stands out from the shadow's hollows by this share of the mean overhang.
+const FOLD: f64 = 0.05;
+
+/// A shadow seen from above.
+#[derive(Clone, Debug)]
+pub struct Shadow {
+    /// Pixels along a side; the disc's middle is in the middle.
+    pub width: usize,
+    /// Row by row: whether cloth or pedestal stands in the light.
+    pub dark: Vec<bool>,
+}
+
+/// A draped disc.
+#[derive(Clone, Debug)]
+pub struct Draped {
+    /// Its shadow.
+    pub shadow: Shadow,
+    /// Drape coefficient: share of the overhang that is in the shadow.
+    pub coefficient: f64,
+    /// Number of folds.
+    pub folds: usize,
+    /// Where it hangs, y up, the pedestal's top at 0.
+    pub cloth: TriMesh,
+}
+
+/// Drape coefficient and folds at two spacings.
+pub(super) fn cusick(sample: &Sample) -> Result<Outcome, SpecimenError> {
+    let (mut out, mut shadow) = (Vec::new(), None);
+    for spacing in SPACINGS {
+        let draped = drape(sample, spacing)?;
+        let grid = format!("30 cm disc in {:.0} mm", 1e3 * spacing);
+        out.push(Figure {
+            test: "drape",
+            what: format!("{grid}: coefficient"),
+            unit: "%",
+            measured: 100.0 * draped.coefficient,
+            known: sample.drape.map_or(Known::Nothing, Known::Band),
+        });
+        out.push(Figure {
+            test: "drape",
+            what: format!("{grid}: folds"),
+            unit: "",
+            measured: draped.folds as f64,
+            known: Known::Nothing,
+        });
+        shadow = Some(draped.shadow);
+    }
+    Ok(Outcome { figures: out, shadow })
+}
+
+/// Drapes a disc of 30 cm in a grid of `spacing` metres over a pedestal of 18 cm.
+///
+/// # Errors
+/// [`SpecimenError`] when it cannot be meshed or does not come to rest.
+pub fn drape(sample: &Sample, spacing: f64) -> Result<Draped, SpecimenError> {
+    let body = pedestal()?;
+    let sheet = Sheet::disc(&sample.fabric, DISC, spacing)?;
+    // The upper disc holds the cloth down up to the pedestal's edge, over which it bends.
+    let cloth = sheet.cloth(|p| p.norm() < PEDESTAL - spacing);
+    let lift = 0.5 * sample.fabric.thickness + 0.25e-3;
+    let x = sheet.placed(|p| Vec3::new(p.x, lift + dent(p), p.y));
+    let mut world = sheet.hang(cloth, x, &body)?;
+    world.grip(GRIP);
+    fall(&mut world)?;
+    settle(&mut world, spacing, STILL)?;
+    let shadow = Shadow::of(&world.x, &sheet.mesh.triangles);
+    let area = |r: f64| PI * r * r;
+    let coefficient = (shadow.area() - area(PEDESTAL)) / (area(DISC) - area(PEDESTAL));
+    let folds = folds(&world.x, &sheet.mesh.triangles);
+    Ok(Draped { shadow, coefficient, folds, cloth: TriMesh { vertices: world.x, triangles: sheet.mesh.triangles } })
+}
+
+fn fall(world: &mut World) -> Result<(), SpecimenError> {
+    let mut last = world.x.clone();
+    for _ in 0..FALLING {
+        let now = world.x.clone();
+        world.relax(FALL_STEP, MOMENTUM, LOOK_AHEAD, &last)?;
+        last = now;
+    }
+    Ok(())
+}
+
+/// Dents outside the pedestal, the same for every mesh, with no order that a fold could follow: waves whose numbers have
+/// no common divisor.
+fn dent(p: &Vec2) -> f64 {
+    let (r, turn) = (p.norm(), p.y.atan2(p.x));
+    let waves = [(2.0, 0.3), (3.0, 1.1), (5.0, 2.0), (7.0, 0.7), (11.0, 2.9)];
+    let sum: f64 = waves.iter().map(|(n, phase)| f64::cos(n * turn + phase)).sum();
+    DENT * ((r - PEDESTAL) / (DISC - PEDESTAL)).max(0.0) * sum / waves.len() as f64
+}
+
+/// A round pedestal whose top is at height 0.
+fn pedestal() -> Result<Collider, SpecimenError> {
+    let ring = |y: f64| {
+        (0..ROUND).map(move |k| {
+            let a = TAU * f64::from(k) / f64::from(ROUND);
+            Vec3::new(PEDESTAL * a.cos(), y, PEDESTAL * a.sin())
+        })
+    };
+    let mut vertices: Vec<Vec3> = ring(0.0).chain(ring(-HEIGHT)).collect();
+    let [top, bottom] = [2 * ROUND, 2 * ROUND + 1];
+    vertices.extend([Vec3::zeros(), Vec3::y() * -HEIGHT]);
+    let triangles = (0..ROUND).flat_map(|a| {
+        let b = (a + 1) % ROUND;
+        [[a, b + ROUND, a + ROUND], [a, b, b + ROUND], [top, b, a], [bottom, a + ROUND, b + ROUND]]
+    });
+    Collider::new(&TriMesh { triangles: triangles.collect(), vertices }).ok_or(SpecimenError::Bench)
+}
+
+impl Shadow {
+    /// The shadow of triangles and of the pedestal under light from straight above.
+    fn of(x: &[Vec3], triangles: &[[u32; 3]]) -> Self {
+        let width = (2.2 * DISC / PIXEL).ceil() as usize;
+        let middle = |k: usize| (k as f64 + 0.5 - 0.5 * width as f64) * PIXEL;
+        let pixel = |at: f64| ((at / PIXEL + 0.5 * width as f64).floor().max(0.0) as usize).min(width - 1);
+        let mut dark: Vec<bool> =
+            (0..width * width).map(|k| middle(k % width).hypot(middle(k / width)) < PEDESTAL).collect();
+        for t in triangles {
+            let [a, b, c] = t.map(|n| Vec2::new(x[n as usize].x, x[n as usize].z));
+            let (low, high) = (a.inf(&b).inf(&c), a.sup(&b).sup(&c));
+            for row in pixel(low.y)..=pixel(high.y) {
+                for column in pixel(low.x)..=pixel(high.x) {
+                    let p = Vec2::new(middle(column), middle(row));
+                    let side = |u: Vec2, v: Vec2| (v - u).perp(&(p - u));
+                    let sides = [side(a, b), side(b, c), side(c, a)];
+                    if sides.iter().all(|s| *s >= 0.0) || sides.iter().all(|s| *s <= 0.0) {
+                        dark[row * width + column] = true;
+                    }
+                }
+            }
+        }
+        Self { width, dark }
+    }
+
+    /// Its area, m².
+    fn area(&self) -> f64 {
+        self.dark.iter().filter(|d| **d).count() as f64 * PIXEL * PIXEL
+    }
+}
+
+/// Folds of a draped disc: how often its rim, walked once round, comes out from a hollow.
+fn folds(x: &[Vec3], triangles: &[[u32; 3]]) -> usize {
+    let Some(rim) = rim_loops(triangles).into_iter().max_by_key(Vec::len) else { return 0 };
+    let radius: Vec<f64> = rim.iter().map(|&n| x[n as usize].x.hypot(x[n as usize].z)).collect();
+    let mean = radius.iter().sum::<f64>() / radius.len() as f64;
+    let band = FOLD * (DISC - PEDESTAL);
+    // Twice round, as the first time begins anywhere; only the second counts.
+    let (mut out, mut count) = (None, 0);
+    for (k, r) in radius.iter().chain(&radius).enumerate() {
+        if *r > mean + band {
+            count += usize::from(out == Some(false) && k >= radius.len());
+            out = Some(true);
+        } else if *r < mean - band {
+            out = Some(false);
+        }
+    }
+    count
+}

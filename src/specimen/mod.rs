@@ -1,0 +1,150 @@
+//! A test bench: virtual specimens of a fabric are hung, bent, pulled, sheared and draped, with the mesh, the springs,
+//! the bending and the steps that `make` uses for garments, and what they do is set beside what is known.
+//!
+//! ```text
+//! Fabric ─▶ rig (a sheet in its clamps) ─▶ bending · stretching · shearing · cusick ─▶ Figure
+//!                                               ▲ theory (the known answers)
+//! ```
+
+mod bending;
+mod cusick;
+mod rig;
+mod shearing;
+mod stretching;
+mod theory;
+
+use std::sync::Arc;
+
+pub use cusick::{Draped, Shadow, drape};
+
+use crate::dynamics::StepError;
+use crate::fabric::Fabric;
+use crate::mesh::MeshError;
+
+/// What is known of a figure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Known {
+    /// A value by theory, and the share of it that a measured one may be off.
+    Value {
+        /// In the figure's unit.
+        value: f64,
+        /// Share of the value.
+        tolerance: f64,
+    },
+    /// A band of published measurements, for comparison: nothing is computed from it.
+    Band([f64; 2]),
+    /// Nothing.
+    Nothing,
+}
+
+/// One figure of one test.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// The test.
+    pub test: &'static str,
+    /// What was measured, and in which state.
+    pub what: String,
+    /// Unit, empty for a ratio.
+    pub unit: &'static str,
+    /// The specimen's.
+    pub measured: f64,
+    /// What it should be.
+    pub known: Known,
+}
+
+impl Figure {
+    /// Share by which the measured value is off a known one.
+    pub fn error(&self) -> Option<f64> {
+        match self.known {
+            Known::Value { value, .. } => Some(self.measured / value - 1.0),
+            Known::Band(_) | Known::Nothing => None,
+        }
+    }
+
+    /// Whether it is as near to a known value as it should be; `None` where there is none.
+    pub fn holds(&self) -> Option<bool> {
+        match self.known {
+            Known::Value { value, tolerance } => Some((self.measured / value - 1.0).abs() <= tolerance),
+            Known::Band(_) | Known::Nothing => None,
+        }
+    }
+}
+
+/// Why a specimen could not be tested.
+#[derive(Debug, thiserror::Error)]
+pub enum SpecimenError {
+    /// It could not be meshed.
+    #[error("a specimen cannot be meshed: {0}")]
+    Mesh(#[from] MeshError),
+    /// A step could not be made.
+    #[error("a specimen cannot be moved: {0}")]
+    Step(#[from] StepError),
+    /// It did not come to rest.
+    #[error("a specimen still moves by {} mm after {steps} steps", 1e3 * moved)]
+    Unrest {
+        /// Steps made.
+        steps: usize,
+        /// Metres in the last ten of them.
+        moved: f64,
+    },
+    /// The objects round it could not be built.
+    #[error("the test bench itself cannot be built")]
+    Bench,
+}
+
+/// What specimens are cut from.
+#[derive(Clone, Debug)]
+pub struct Sample {
+    /// The fabric.
+    pub fabric: Arc<Fabric>,
+    /// Drape coefficients that were measured of such cloths, per cent.
+    pub drape: Option<[f64; 2]>,
+}
+
+/// A test of the bench.
+#[derive(Clone, Copy, Debug)]
+pub struct Test {
+    /// As [`Figure::test`] has it.
+    pub name: &'static str,
+    run: fn(&Sample) -> Result<Outcome, SpecimenError>,
+}
+
+/// What a test gives.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// Its figures.
+    pub figures: Vec<Figure>,
+    /// The draped disc's shadow, of the drape test.
+    pub shadow: Option<Shadow>,
+}
+
+impl From<Vec<Figure>> for Outcome {
+    fn from(figures: Vec<Figure>) -> Self {
+        Self { figures, shadow: None }
+    }
+}
+
+/// Every test, in the order of a report.
+pub const TESTS: [Test; 11] = [
+    Test { name: "cantilever", run: bending::cantilever },
+    Test { name: "bending length", run: bending::bending_length },
+    Test { name: "standing strip", run: bending::standing },
+    Test { name: "strip on edge", run: bending::on_edge },
+    Test { name: "roll", run: bending::roll },
+    Test { name: "pulled strip", run: stretching::pulled },
+    Test { name: "hanging strip", run: stretching::hanging },
+    Test { name: "catenary", run: stretching::between_hooks },
+    Test { name: "picture frame", run: shearing::picture_frame },
+    Test { name: "bias extension", run: shearing::bias_extension },
+    Test { name: "drape", run: cusick::cusick },
+];
+
+impl Test {
+    /// Tests specimens of `sample`.
+    ///
+    /// # Errors
+    /// [`SpecimenError`] for a fabric so far from cloth that no specimen of it can be meshed or comes to rest.
+    pub fn run(&self, sample: &Sample) -> Result<Outcome, SpecimenError> {
+        (self.run)(sample)
+    }
+}
