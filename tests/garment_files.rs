@@ -289,6 +289,7 @@ fn what_is_wrong_with_an_outline_is_named_with_its_place() {
     says(&squares("top: L 100 0", "top: L 1e9 0"), 7, "L 1e9", "at most 200 m are read");
     // Found by tests/fuzz.rs: measured to the nanometre, this takes seconds.
     says(&squares("top: L 100 0", "top: C 0 0, 1e300 1, 100 0"), 7, "C 0 0", "at most 200 m are read");
+    says(&squares("top: L 100 0", "top: C 60 0, 120 -1e308, 100 0"), 7, "C 60 0", "at most 200 m are read");
     says(&squares("top: L 100 0", "top: L 0 0"), 7, "L 0 0", "has no length");
     says(&squares("    grain: [[0, 0], [0, 9]]\n", ""), 3, "a", "piece 'a' has no grain");
     let flat = squares("right: L 100 100\n      bottom: L 0 100", "right: L 50 0\n      bottom: L 20 0");

@@ -137,10 +137,16 @@ fn vector(p: Point) -> Vec2 {
 /// Lengths of paths of kilometres are exact to this share only: nothing exact can be said of them, and trying to takes for
 /// ever.
 const RELATIVE_ACCURACY: f64 = 1e-12;
+/// Beyond this size (metres) squares may overflow and no length converges: that of the control points must do, to tell that
+/// it is too long.
+const MEASURABLE: f64 = 1e9;
 
 fn arc_length(segment: &PathSeg) -> f64 {
     let c = segment.to_cubic();
     let size = [c.p0, c.p1, c.p2, c.p3].iter().fold(0.0f64, |size, p| size.max(p.x.abs()).max(p.y.abs()));
+    if size > MEASURABLE {
+        return (c.p1 - c.p0).hypot() + (c.p2 - c.p1).hypot() + (c.p3 - c.p2).hypot();
+    }
     segment.arclen(LENGTH_ACCURACY.max(RELATIVE_ACCURACY * size))
 }
 
@@ -217,7 +223,7 @@ impl Path {
         }
         let mut runs: Vec<Vec<PathSeg>> = Vec::new();
         let mut end: Option<Point> = None;
-        for segment in bez.segments().filter(|s| s.arclen(LENGTH_ACCURACY) > LENGTH_ACCURACY) {
+        for segment in bez.segments().filter(|s| arc_length(s) > LENGTH_ACCURACY) {
             match runs.last_mut() {
                 Some(run) if end == Some(segment.start()) => run.push(segment),
                 _ => runs.push(vec![segment]),
