@@ -10,9 +10,11 @@ const LETTERS: (f64, f64) = (0.007, 0.0025);
 /// Height of the name over the other lines'.
 const NAME: f64 = 1.4;
 /// Width of a letter of a sans-serif type over its height, on average, with some air.
-const LETTER_WIDTH: f64 = 0.62;
+pub const LETTER_WIDTH: f64 = 0.62;
 /// Distance of lines over the height of letters.
 const LINE: f64 = 1.45;
+/// Share of the room between lines that a block of text takes.
+const AIR: f64 = 0.85;
 /// Places looked at along each side of the piece's box.
 const PLACES: usize = 40;
 /// Longest line of a remark that is written, letters.
@@ -75,7 +77,8 @@ fn write(lines: &[String], middle: Vec2, height: f64, upright: bool) -> Vec<Lett
     let mut down = -whole / 2.0 + height * NAME;
     let mut out = Vec::new();
     for (i, line) in lines.iter().enumerate() {
-        let at = if upright { Vec2::new(down, 0.0) } else { Vec2::new(0.0, down) };
+        // Turned, the heads of the letters are to the right: the first line is the rightmost.
+        let at = if upright { Vec2::new(-down, 0.0) } else { Vec2::new(0.0, down) };
         let height = if i == 0 { height * NAME } else { height };
         out.push(Lettering { text: line.clone(), at: middle + at, height, upright });
         down += LINE * height.min(whole);
@@ -103,7 +106,7 @@ fn walls(paper: &Paper) -> Vec<[Vec2; 2]> {
 /// Where in the piece a block of this size (in heights of letters) has most room, and how high its letters may be.
 fn roomiest(paper: &Paper, walls: &[[Vec2; 2]], block: Vec2, upright: bool) -> (Vec2, f64) {
     let block = if upright { Vec2::new(block.y, block.x) } else { block };
-    // In these units the block is a square of side 1 per letter height, whose corners a circle of radius √½ clears.
+    // In these units the block is a square of side 1 per letter height.
     let scaled = |p: Vec2| p.component_div(&block);
     let walls: Vec<[Vec2; 2]> = walls.iter().map(|w| w.map(scaled)).collect();
     let [low, high] = paper.bounds();
@@ -114,7 +117,7 @@ fn roomiest(paper: &Paper, walls: &[[Vec2; 2]], block: Vec2, upright: bool) -> (
             let p = low + (high - low).component_mul(&share);
             if inside(paper, p) {
                 let clear = walls.iter().map(|w| distance(scaled(p), *w)).fold(f64::INFINITY, f64::min);
-                let room = clear / std::f64::consts::FRAC_1_SQRT_2;
+                let room = 2.0 * AIR * clear;
                 if room > best.1 {
                     best = (p, room);
                 }
@@ -138,9 +141,45 @@ fn inside(paper: &Paper, p: Vec2) -> bool {
     inside
 }
 
+/// Half the side of the largest square round `p` that a segment does not enter.
 fn distance(p: Vec2, [a, b]: [Vec2; 2]) -> f64 {
-    let along = b - a;
-    let square = along.norm_squared();
-    let share = if square > 0.0 { (along.dot(&(p - a)) / square).clamp(0.0, 1.0) } else { 0.0 };
-    (a + along * share - p).norm()
+    let (from, along) = (a - p, b - a);
+    // Along the segment |x| and |y| are straight between their zeros, and the greater of them between where they are equal.
+    let turning = [(1.0, 0.0), (0.0, 1.0), (1.0, -1.0), (1.0, 1.0)].map(|(x, y)| {
+        let slope = x * along.x + y * along.y;
+        if slope == 0.0 { 0.0 } else { (-(x * from.x + y * from.y) / slope).clamp(0.0, 1.0) }
+    });
+    turning.into_iter().chain([0.0, 1.0]).map(|share| (from + along * share).amax()).fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_square_grows_to_the_segment() {
+        let from_origin = |a: [f64; 2], b: [f64; 2]| distance(Vec2::zeros(), [a, b].map(|p| Vec2::new(p[0], p[1])));
+        assert_eq!(from_origin([-5.0, 2.0], [5.0, 2.0]), 2.0);
+        assert_eq!(from_origin([3.0, -9.0], [3.0, 9.0]), 3.0);
+        // A diagonal meets the square's corner first; a short one its own end.
+        assert_eq!(from_origin([4.0, 0.0], [0.0, 4.0]), 2.0);
+        assert_eq!(from_origin([4.0, 1.0], [3.5, 1.5]), 3.5);
+        assert_eq!(from_origin([-1.0, -1.0], [1.0, 1.0]), 0.0);
+        let dense = |a: Vec2, b: Vec2| {
+            (0..=10_000).map(|k| (a + (b - a) * (f64::from(k) / 1e4)).amax()).fold(f64::INFINITY, f64::min)
+        };
+        for k in 0..50 {
+            let at = |seed: i32| f64::from(seed * 7919 % 41 - 20) / 4.0;
+            let (a, b) = (Vec2::new(at(k), at(3 * k + 1)), Vec2::new(at(5 * k + 2), at(7 * k + 3)));
+            assert!((distance(Vec2::zeros(), [a, b]) - dense(a, b)).abs() < 2e-3, "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn turned_lines_are_read_from_the_right() {
+        let lines = ["front".to_owned(), "cut 1".to_owned()];
+        let level = write(&lines, Vec2::zeros(), 0.01, false);
+        let turned = write(&lines, Vec2::zeros(), 0.01, true);
+        assert!(level[0].at.y < level[1].at.y && turned[0].at.x > turned[1].at.x);
+    }
 }

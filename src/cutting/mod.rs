@@ -14,6 +14,7 @@ mod offset;
 mod outline;
 mod whole;
 
+pub use label::LETTER_WIDTH;
 pub use layout::{Layout, Sheet, TEST_SQUARE, shelves};
 pub use outline::papers;
 

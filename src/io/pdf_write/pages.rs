@@ -4,7 +4,7 @@ use pdf_writer::Content;
 
 use super::draw::Pen;
 use super::{LONGEST_SIDE, POINTS, Page, PdfError, document};
-use crate::cutting::{Layout, Paper, Sheet, TEST_SQUARE};
+use crate::cutting::{LETTER_WIDTH, Layout, Paper, Sheet, TEST_SQUARE};
 use crate::geometry::Vec2;
 
 /// What home printers leave white at every side, metres, with a little to spare.
@@ -17,6 +17,8 @@ const MATCH: f64 = 0.004;
 const MOST_PAGES: usize = 600;
 /// Points of the outline nearer than this (metres) are one on the plan.
 const MAP_DETAIL: f64 = 0.003;
+/// Most letters of a title on the first page.
+const LONGEST_TITLE: usize = 80;
 /// Letters of the first page and of the pages' names, metres.
 const LETTERS: f64 = 0.0035;
 
@@ -213,7 +215,9 @@ fn cover(title: &str, papers: &[Paper], plan: &Plan, page: Page) -> Content {
         pen.text(words, Vec2::new(0.0, line), height, false, false);
         line += 1.7 * height;
     };
-    write(&mut pen, &crate::input::shown(title, 60), 0.006);
+    let title = crate::input::shown(title, LONGEST_TITLE);
+    let fitting = (page.width - 0.030) / (LETTER_WIDTH * title.chars().count().max(1) as f64);
+    write(&mut pen, &title, fitting.min(0.006));
     let how = format!("{} pages of {}, {} rows of {}", plan.pages(), page.name, plan.rows, plan.columns);
     write(&mut pen, &how, LETTERS);
     write(&mut pen, "Print at 100 % (actual size). The square must measure 100 mm both ways.", LETTERS);
