@@ -705,6 +705,14 @@ fn lines_and_places_that_cloth_cannot_have_are_named_with_their_place() {
     says(&far, 4, "{at", "place of 'a': [0, 1000000, 0] is more than 10 m from the body's feet");
 }
 
+/// Found by tests/fuzz.rs: YAML itself would not take it where it stands on a line of its own.
+#[test]
+fn a_key_that_could_not_be_written_again_is_refused() {
+    let long = "x.".repeat(600);
+    let text = squares("pieces:", &format!("fabrics: {{{long}: denim}}\npieces:"));
+    says(&text, 2, &format!("{long}: denim"), "a key has more than 150 characters");
+}
+
 #[test]
 fn numbers_of_no_size_are_not_spelt_out() {
     says(&squares("to: b.left", "to: b.left, ease: 1e300"), 20, "1e300", "not '1e300'");

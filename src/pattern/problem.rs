@@ -27,6 +27,8 @@ pub enum Problem {
     EndlessAlias,
     #[error("a key must be a word, not a list or a mapping")]
     KeyNotText,
+    #[error("a key has more than {0} characters; names are shorter")]
+    KeyTooLong(usize),
     #[error("duplicate key '{key}' at line {line} (first at line {first})")]
     DuplicateKey { key: String, line: usize, first: usize },
 

@@ -11,6 +11,9 @@ const DEEPEST: usize = 64;
 /// Values after aliases are unfolded.
 const MOST_VALUES: usize = 400_000;
 
+/// Characters of a key. YAML takes 1024 on one line, escapes as they are written: a longer one could not be written again.
+const LONGEST_KEY: usize = 150;
+
 /// A list or mapping that is still being read.
 struct Open {
     at: Spot,
@@ -136,6 +139,9 @@ impl Builder<'_> {
             Kind::Map { entries, key, lines } => match key.take() {
                 None => {
                     let Value::Text(text) = value.value else { return Err((at, Problem::KeyNotText)) };
+                    if text.chars().count() > LONGEST_KEY {
+                        return Err((at, Problem::KeyTooLong(LONGEST_KEY)));
+                    }
                     *key = Some(Located::new(text, at));
                 }
                 Some(name) => match lines.get(&name.value) {

@@ -4,7 +4,7 @@ use super::drawing::number;
 use super::edges::{Partner, Subject};
 use super::error::ImportError;
 use super::pieces::{Part, Piece, part, pieces};
-use super::role::{Role, unique};
+use super::role::{Facing, Role, unique};
 use super::seams::{Joined, Place, Table};
 use super::spec::{PanelEdge, Specification};
 use crate::geometry::Path;
@@ -104,6 +104,9 @@ fn outline(edges: &[PanelEdge], names: &[String]) -> OutlineFile {
     OutlineFile { start: here(start), edges }
 }
 
+/// A panel whose right side looks up or down by less (cosine) stands upright.
+const UPRIGHT: f64 = 0.5;
+
 struct Writer<'a> {
     table: &'a Table<'a>,
     parts: &'a [Part],
@@ -139,12 +142,14 @@ impl Writer<'_> {
     /// In words where there are words for it.
     fn place(&self, piece: &Piece) -> PlaceFile {
         let part = &self.parts[piece.panel];
-        let words = part.role.body_part().zip(part.facing).map(|(body, facing)| {
+        // A panel at the side of a skirt looks neither forward nor back, and goes round the body with the others.
+        let beside = part.role.round_trunk() && part.drawing.normal.y.abs() < UPRIGHT;
+        let words = part.role.body_part().filter(|_| part.facing.is_some() || beside).map(|body| {
             let side = part.side.filter(|_| part.role.round_arm() && piece.twin.is_none()).map(|s| match s {
                 Side::Left => "left",
                 Side::Right => "right",
             });
-            [side, Some(body), Some(facing.word())].into_iter().flatten().collect::<Vec<&str>>().join(" ")
+            [side, Some(body), part.facing.map(Facing::word)].into_iter().flatten().collect::<Vec<&str>>().join(" ")
         });
         words.map_or_else(
             || {

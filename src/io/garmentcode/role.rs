@@ -54,6 +54,11 @@ impl Role {
         matches!(self, Self::Sleeve | Self::Cuff)
     }
 
+    /// Whether it goes round the trunk.
+    pub(super) fn round_trunk(self) -> bool {
+        matches!(self, Self::Bodice | Self::Waistband | Self::Skirt | Self::Trousers)
+    }
+
     /// The word of `place:` for the part of the body it goes round; `None` for one that stands free.
     pub(super) fn body_part(self) -> Option<&'static str> {
         match self {

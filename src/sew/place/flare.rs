@@ -11,14 +11,21 @@
 use super::fold::Sheet;
 use crate::geometry::{Path, Vec2};
 use crate::mesh::ClothMesh;
-use crate::pattern::{Garment, Piece, Place};
+use crate::pattern::{Garment, Place};
 
 /// A piece that opens by less, radians, hangs well enough as it is drawn; 60°.
 const WIDE: f64 = std::f64::consts::FRAC_PI_3;
 /// A sector's straight sides reach over this share of its radii.
 const SIDE: f64 = 0.6;
-/// Waist and hem keep their distance from the apex: they rise or fall by no more than this share of their length.
+/// Where both are of one length, by this share, the hem may dip between them
+const ALIKE: f64 = 0.9;
+/// until they reach over this share only. (Shoulders reach over less of the shortest top.)
+const DIPPED: f64 = 0.5;
+/// The waist keeps its distance from the apex: it rises or falls by no more than this share of its length. (The hem may
+/// dip as it likes.)
 const ROUND: f64 = 0.35;
+/// Sides that differ by less from one line, radians, are one: of half a ring, whose apex is in their middle.
+const IN_LINE: f64 = 0.01;
 /// Particles this far beyond a side, radians, still lie on it.
 const BEYOND: f64 = 0.02;
 /// The apex is above: cosine between the sector's middle and straight down.
@@ -55,7 +62,8 @@ pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &mut Sheet) {
             let plain = part.particles.clone().all(|p| sheet.under[p] == 0.0 && sheet.flat[p] == mesh.flat[p]);
             let bent = !matches!(piece.place, Some(Place::At { .. }));
             let points = &mesh.flat[part.particles.clone()];
-            (plain && bent).then(|| sector(piece, points)).flatten()
+            let rim: Vec<&Path> = piece.loops.first().into_iter().flatten().map(|e| &e.path).collect();
+            (plain && bent).then(|| sector(&rim, points)).flatten()
         })
         .collect();
     let openings = openings(mesh, &sectors);
@@ -95,13 +103,14 @@ fn openings(mesh: &ClothMesh, sectors: &[Option<Sector>]) -> Vec<f64> {
 
 /// The sector that a piece is, if it is one and opens wide: two straight sides on lines through one point, and the
 /// rest of the rim round that point.
-fn sector(piece: &Piece, points: &[Vec2]) -> Option<Sector> {
-    let rim = piece.loops.first()?;
-    let sides: Vec<&Path> = rim.iter().map(|e| &e.path).filter(|p| p.is_straight()).collect();
+fn sector(rim: &[&Path], points: &[Vec2]) -> Option<Sector> {
+    let sides: Vec<&Path> = rim.iter().copied().filter(|p| p.is_straight()).collect();
     let pairs = (0..sides.len()).flat_map(|i| (i + 1..sides.len()).map(move |j| (i, j)));
     let mut found: Vec<Sector> = pairs
-        .filter_map(|(i, j)| between(sides[i], sides[j], points))
-        .filter(|s| is_round(s, rim.iter().map(|e| &e.path)))
+        .filter_map(|(i, j)| {
+            let sector = between(sides[i], sides[j], points)?;
+            is_round(&sector, [sides[i], sides[j]], rim.iter().copied()).then_some(sector)
+        })
         .collect();
     // Sides in several straight edges give the same sector several times; the widest has all of the piece.
     found.sort_by(|a, b| a.half.total_cmp(&b.half));
@@ -110,12 +119,7 @@ fn sector(piece: &Piece, points: &[Vec2]) -> Option<Sector> {
 
 /// The sector between two sides that holds all points.
 fn between(one: &Path, other: &Path, points: &[Vec2]) -> Option<Sector> {
-    let (a, b) = (one.end() - one.start(), other.end() - other.start());
-    let cross = a.perp(&b);
-    if cross.abs() < 1e-6 * a.norm() * b.norm() {
-        return None;
-    }
-    let apex = one.start() + a * ((other.start() - one.start()).perp(&b) / cross);
+    let apex = apex(one, other)?;
     let outward = |p: &Path| {
         let d = p.point(0.5 * p.length()) - apex;
         d.x.atan2(d.y)
@@ -125,7 +129,9 @@ fn between(one: &Path, other: &Path, points: &[Vec2]) -> Option<Sector> {
         .iter()
         .map(|p| (p - apex).norm())
         .fold([f64::INFINITY, 0.0], |r: [f64; 2], d| [r[0].min(d), r[1].max(d)]);
-    let long = [one, other].iter().all(|p| p.length() >= SIDE * (radii[1] - radii[0]));
+    let lengths = [one.length(), other.length()];
+    let (least, most) = (lengths[0].min(lengths[1]), lengths[0].max(lengths[1]));
+    let long = least >= if least >= ALIKE * most { DIPPED } else { SIDE } * (radii[1] - radii[0]);
     let near = 0.5 * (ends[0] + ends[1]);
     [near, near + std::f64::consts::PI].into_iter().find_map(|middle| {
         let sector = Sector { apex, middle: wrapped(middle), half: wrapped(ends[0] - middle).abs(), radii };
@@ -134,14 +140,32 @@ fn between(one: &Path, other: &Path, points: &[Vec2]) -> Option<Sector> {
     })
 }
 
-/// Whether what of the rim is no side goes round the apex.
-fn is_round<'a>(sector: &Sector, rim: impl Iterator<Item = &'a Path>) -> bool {
+/// Where the lines of two sides meet; for sides on one line, half way between them.
+fn apex(one: &Path, other: &Path) -> Option<Vec2> {
+    let (a, b) = (one.end() - one.start(), other.end() - other.start());
+    let cross = a.perp(&b);
+    if cross.abs() > IN_LINE * a.norm() * b.norm() {
+        return Some(one.start() + a * ((other.start() - one.start()).perp(&b) / cross));
+    }
+    let middle = |p: &Path| p.point(0.5 * p.length());
+    let between = middle(other) - middle(one);
+    if a.perp(&between).abs() > IN_LINE * a.norm() * between.norm() {
+        return None;
+    }
+    let near = |p: &Path, to: Vec2| if (p.start() - to).norm() < (p.end() - to).norm() { p.start() } else { p.end() };
+    Some(0.5 * (near(one, middle(other)) + near(other, middle(one))))
+}
+
+/// Whether the waist, what of the rim is no side and nearer the apex than the sides' middles, goes round the apex.
+fn is_round<'a>(sector: &Sector, sides: [&Path; 2], rim: impl Iterator<Item = &'a Path>) -> bool {
+    let middles = sides.map(|side| sector.polar(side.point(0.5 * side.length())).0);
+    let waist = middles[0].min(middles[1]);
     let (mut length, mut rise) = (0.0, 0.0);
     for path in rim {
         let points = path.sampled(1e-3);
         for step in points.windows(2) {
             let [(r0, f0), (r1, f1)] = [sector.polar(step[0]), sector.polar(step[1])];
-            if f0.abs().min(f1.abs()) < sector.half - BEYOND {
+            if f0.abs().min(f1.abs()) < sector.half - BEYOND && r0.min(r1) < waist {
                 length += (step[1] - step[0]).norm();
                 rise += (r1 - r0).abs();
             }
@@ -153,4 +177,51 @@ fn is_round<'a>(sector: &Sector, rim: impl Iterator<Item = &'a Path>) -> bool {
 fn wrapped(angle: f64) -> f64 {
     let turned = angle.rem_euclid(std::f64::consts::TAU);
     if turned > std::f64::consts::PI { turned - std::f64::consts::TAU } else { turned }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The sector of an outline in millimetres, begun with `M`, an edge per command.
+    fn found(edges: &[&str]) -> Option<Sector> {
+        let mut paths: Vec<Path> = Vec::new();
+        for edge in edges {
+            let path = match paths.last() {
+                None => Path::parse_absolute(edge, 1e-3),
+                Some(last) => Path::parse(last.end() * 1e3, edge, 1e-3),
+            };
+            paths.push(path.expect("a path"));
+        }
+        let points: Vec<Vec2> = paths.iter().flat_map(|p| p.sampled(1e-4)).collect();
+        sector(&paths.iter().collect::<Vec<&Path>>(), &points)
+    }
+
+    #[test]
+    fn a_half_ring_has_its_apex_between_its_sides() {
+        let half = found(&["M 400 0 L 480 0", "A 480 480 0 0 1 -480 0", "L -400 0", "A 400 400 0 0 0 400 0"]);
+        let half = half.expect("a sector");
+        assert!(half.apex.norm() < 1e-9 && (2.0 * half.half - std::f64::consts::PI).abs() < 1e-9, "{half:?}");
+        assert!((half.radii[0] - 0.4).abs() < 1e-6 && (half.radii[1] - 0.48).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_hem_may_dip_and_a_waist_may_not() {
+        let quarter = |hem: &str| found(&["M 100 100 L 300 300", hem, "L -100 100", "A 142 142 0 0 0 100 100"]);
+        assert!(quarter("A 425 425 0 0 1 -300 300").is_some());
+        let dipped = quarter("C 260 600, -260 600, -300 300").expect("a sector");
+        assert!(dipped.apex.norm() < 1e-9 && dipped.radii[1] > 0.5, "{dipped:?}");
+        // A front's shoulder and middle are no sides of a skirt, though everything is between their lines.
+        let front = [
+            "M 0 640 L 0 60",
+            "C 30 60, 45 40, 54 0",
+            "L 142 32",
+            "C 125 90, 130 150, 180 160",
+            "L 230 640",
+            "L 0 640",
+        ];
+        assert!(found(&front).is_none());
+        let waist = found(&["M 100 100 L 300 300", "A 425 425 0 0 1 -300 300", "L -100 100", "L 0 330", "L 100 100"]);
+        assert!(waist.is_none(), "{waist:?}");
+    }
 }
