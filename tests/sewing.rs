@@ -278,6 +278,33 @@ fn a_circle_skirt_starts_as_a_cone() {
     assert!(gaps.iter().all(|&g| g < 125.0 * MM), "{:?}", gaps.iter().copied().fold(0.0, f64::max));
 }
 
+/// Two godets in the front, one by one seam that turns at its point, one by a seam on either side.
+#[test]
+fn godets_start_in_their_slits() {
+    let (body, collider) = woman();
+    let made = Made::new(
+        "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  front:\n    place: skirt front\n    \
+         grain: [[300, 50], [300, 250]]\n    outline: {start: 0 0, waist: L 600 0, left: L 600 600, h1: L 560 600, \
+         a1: L 450 350, a2: L 340 600, h2: L 260 600, b1: L 150 350, b2: L 40 600, h3: L 0 600, right: L 0 0}\n  \
+         back: {place: skirt back, grain: [[300, 50], [300, 250]], outline: {start: 0 0, waist: L 600 0, \
+         right: L 600 600, hem: L 0 600, left: L 0 0}}\n  \
+         one: {place: skirt front, grain: [[100, 150], [100, 250]], outline: {start: 0 254.161, l: L 100 0, r: L 200 254.161, \
+         hem: L 0 254.161}}\n  two: {like: one}\nseams:\n  left: {sew: front.left, to: back.left}\n  \
+         right: {sew: front.right, to: back.right}\n  one: {sew: [one.l, one.r], to: [front.a2, front.a1]}\n  two_l: {sew: two.l, \
+         to: front.b2}\n  two_r: {sew: two.r, to: front.b1}\nfree: ['*.waist', '*.hem', front.h1, front.h2, front.h3]\n",
+        20.0,
+    );
+    let x = made.placed(&body);
+    assert!(x.iter().all(|p| collider.nearest(*p, 1.0).is_none_or(|n| n.distance > 0.0)));
+    assert_eq!(crossings(&TriMesh { vertices: x.clone(), triangles: made.mesh.triangles.clone() }).len(), 0);
+    // The slits are 220 mm wide at the hem, the godets 200: 10 mm on either side, and a little off.
+    for seam in made.mesh.seams.iter().filter(|s| s.name.starts_with("one") || s.name.starts_with("two")) {
+        let gaps = seam.pairs.iter().map(|[a, b]| (x[*a as usize] - x[*b as usize]).norm());
+        let widest = gaps.fold(0.0, f64::max);
+        assert!(widest < 25.0 * MM, "{}: {} mm", seam.name, widest / MM);
+    }
+}
+
 #[test]
 fn cuffs_start_round_their_own_legs_and_trousers_round_both() {
     let (body, _) = woman();

@@ -97,6 +97,6 @@ fn layer(spec: &Specification, parts: &[Part], panel: usize) -> i32 {
 pub(super) fn part(spec: &Specification, panel: usize) -> Option<Part> {
     let role = Role::of(&spec.panels[panel]);
     let drawing = Drawing::new(&spec.panels[panel], role.round_arm())?;
-    let (facing, side) = (Facing::of(&drawing), side(&drawing));
+    let (facing, side) = (Facing::of(&drawing), side(&drawing, role));
     Some(Part { drawing, role, facing, side })
 }

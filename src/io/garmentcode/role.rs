@@ -103,8 +103,12 @@ impl Facing {
 /// Nearer the middle of the body than this, mm, a panel is on neither side.
 const MIDDLE: f64 = 10.0;
 
-/// Which side of the body a panel is on.
-pub(super) fn side(drawing: &Drawing) -> Option<Side> {
+/// Which side of the body a panel is on: all of it, or, for what goes round one limb however wide, its middle.
+pub(super) fn side(drawing: &Drawing, role: Role) -> Option<Side> {
+    if role.round_arm() || role == Role::TrouserCuff {
+        let x = drawing.space(drawing.middle()).x;
+        return (x.abs() > MIDDLE).then_some(if x > 0.0 { Side::Left } else { Side::Right });
+    }
     let xs = || drawing.edges.iter().map(|e| drawing.space(e.start).x);
     let (low, high) = (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max));
     if low > -MIDDLE && high > MIDDLE {

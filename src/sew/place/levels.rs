@@ -295,7 +295,14 @@ mod tests {
     /// Three members side by side on one level, u in metres, with the room after each.
     fn level() -> (Row, Level) {
         let members = (0..3).map(|piece| Member { piece, shift: Vec2::zeros() }).collect();
-        let row = Row { part: PartKind::Torso, members, front: Some(Middle::On(0.05)), v: [0.0, 0.0], layer: 0 };
+        let row = Row {
+            part: PartKind::Torso,
+            members,
+            inserts: Vec::new(),
+            front: Some(Middle::On(0.05)),
+            v: [0.0, 0.0],
+            layer: 0,
+        };
         let spans = vec![Some([0.0, 0.1]), Some([0.1, 0.3]), Some([0.3, 0.45])];
         let gaps = vec![ROOM, 2.0 * ROOM, ROOM];
         let length = 0.45 + 4.0 * ROOM;

@@ -16,6 +16,7 @@ mod assign;
 mod ellipse;
 mod flare;
 mod fold;
+mod insert;
 mod levels;
 mod pleat;
 mod ring;

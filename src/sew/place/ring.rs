@@ -50,7 +50,8 @@ impl Ring<'_> {
             (true, false) => LAYER,
             (true, true) => 2.0 * LAYER,
         };
-        for (i, m) in self.row.members.iter().enumerate() {
+        let inserts = self.row.inserts.iter().map(|insert| (insert.host, &insert.own, LAYER * insert.over as f64));
+        for (i, m, off) in self.row.members.iter().enumerate().map(|(i, m)| (i, m, 0.0)).chain(inserts) {
             for p in self.mesh.pieces[m.piece].particles.clone() {
                 let at = self.sheet.flat[p] + m.shift;
                 let arc = at.x + self.shift(i, at.y);
@@ -58,7 +59,7 @@ impl Ring<'_> {
                 let on = |ellipse: &Ellipse| {
                     // An overlapping band goes once round by what is sewn of it, however wide the ring.
                     let share = arc / if layers > 0.0 { self.sewn_length() } else { ellipse.perimeter };
-                    let outward = layers * (2.0 * share).clamp(0.0, 1.0) - LAYER * self.sheet.under[p];
+                    let outward = off + layers * (2.0 * share).clamp(0.0, 1.0) - LAYER * self.sheet.under[p];
                     station.point(ellipse, share + turn, outward)
                 };
                 let ([k, next], f) = self.between(at.y);

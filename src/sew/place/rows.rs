@@ -2,6 +2,7 @@
 
 use super::assign::{Assigned, Facing};
 use super::fold::Sheet;
+use super::insert::{Insert, inserts, slit};
 use crate::geometry::Vec2;
 use crate::mannequin::PartKind;
 use crate::mesh::ClothMesh;
@@ -47,6 +48,8 @@ pub(super) struct Row {
     pub(super) layer: i32,
     /// From right to left of the wearer at the front: u rises.
     pub(super) members: Vec<Member>,
+    /// Godets and the like, which lie in a slit of a member.
+    pub(super) inserts: Vec<Insert>,
     /// Where the front middle is, if the row knows.
     pub(super) front: Option<Middle>,
     /// Lowest and highest v.
@@ -66,10 +69,12 @@ pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned:
     let links = links(mesh, sheet);
     let rigid: Vec<bool> = garment.pieces.iter().map(|p| matches!(p.place, Some(Place::At { .. }))).collect();
     let area = |p: usize| mesh.pieces[p].triangles.len();
+    let hosts: Vec<Option<(usize, Vec2)>> =
+        (0..mesh.pieces.len()).map(|p| slit(&links, sheet, assigned, garment, p).filter(|_| !rigid[p])).collect();
     let mut row_of = vec![usize::MAX; mesh.pieces.len()];
     let mut rows: Vec<Row> = Vec::new();
     // Larger pieces first, those that face front before the others: a row's first piece fixes its middle.
-    let mut seeds: Vec<usize> = (0..mesh.pieces.len()).filter(|&p| !rigid[p]).collect();
+    let mut seeds: Vec<usize> = (0..mesh.pieces.len()).filter(|&p| !rigid[p] && hosts[p].is_none()).collect();
     seeds.sort_by_key(|&p| (assigned[p].facing != Some(Facing::Front), std::cmp::Reverse(area(p)), p));
     for seed in seeds {
         if row_of[seed] != usize::MAX {
@@ -80,14 +85,18 @@ pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned:
         let mut members = vec![Member { piece: seed, shift: Vec2::zeros() }];
         let layer = garment.pieces[seed].layer;
         // Layers lie one over another, not side by side.
-        let apart: Vec<bool> = (0..mesh.pieces.len()).map(|p| rigid[p] || garment.pieces[p].layer != layer).collect();
+        let apart: Vec<bool> = (0..mesh.pieces.len())
+            .map(|p| rigid[p] || hosts[p].is_some() || garment.pieces[p].layer != layer)
+            .collect();
         while let Some((from, to, shift)) = widest_next(&links, &row_of, assigned, &apart, sheet, index, &members) {
             let base = members.iter().find(|m| m.piece == from).map_or(Vec2::zeros(), |m| m.shift);
             row_of[to] = index;
             members.push(Member { piece: to, shift: base + shift });
         }
         let row = finish_row(mesh, sheet, assigned, assigned[seed].part, members, &links);
-        rows.push(Row { layer, ..row });
+        let inserts = inserts(mesh, sheet, &row.members, &hosts);
+        inserts.iter().for_each(|insert| row_of[insert.own.piece] = index);
+        rows.push(Row { layer, inserts, ..row });
     }
     let order = stack(&mut rows, &links, &row_of, sheet);
     Rows { rows, links, order }
@@ -144,7 +153,7 @@ fn finish_row(
     let mut order: Vec<usize> = (0..members.len()).collect();
     order.sort_by(|&a, &b| (boxes[a].0.x + boxes[a].1.x).total_cmp(&(boxes[b].0.x + boxes[b].1.x)));
     members = order.into_iter().map(|i| members[i]).collect();
-    Row { part, layer: 0, members, front, v }
+    Row { part, layer: 0, members, inserts: Vec::new(), front, v }
 }
 
 /// The front middle: the middle front piece, or the seam between the two in the middle; failing that, opposite the
@@ -250,10 +259,20 @@ fn stack(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet) -> V
     let mut order: Vec<(usize, Option<usize>)> = Vec::new();
     let mut done = vec![false; rows.len()];
     let mut roots: Vec<usize> = (0..rows.len()).collect();
-    // What hangs from the shoulders begins there; everything else hangs from its longest row.
+    // What hangs from the shoulders begins there, what goes round a limb where it is sewn to the trunk; everything else
+    // hangs from its longest row.
+    let parts: Vec<PartKind> = rows.iter().map(|r| r.part).collect();
+    let joins_trunk = |r: usize| {
+        parts[r] != PartKind::Torso
+            && links.iter().any(|link| {
+                let [a, b] = link.pieces.map(|p| row_of[p]);
+                let other = if a == r { b } else { a };
+                (a == r || b == r) && parts.get(other) == Some(&PartKind::Torso)
+            })
+    };
     roots.sort_by_key(|&r| {
         let height = (1e6 * (rows[r].v[1] - rows[r].v[0])) as i64;
-        (rows[r].part, !has_shoulders(&rows[r], links, sheet), std::cmp::Reverse(height), r)
+        (rows[r].part, !has_shoulders(&rows[r], links, sheet), !joins_trunk(r), std::cmp::Reverse(height), r)
     });
     for root in roots {
         if done[root] {
@@ -327,7 +346,7 @@ fn put_beside(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet,
     };
     let row = &mut rows[other];
     row.v = row.v.map(|v| v + dv);
-    for m in &mut row.members {
+    for m in row.members.iter_mut().chain(row.inserts.iter_mut().map(|i| &mut i.own)) {
         m.shift.y += dv;
     }
 }
