@@ -3,7 +3,7 @@
 use std::sync::{Arc, LazyLock};
 
 use toile::fabric::{load, sheet};
-use toile::specimen::{Figure, Known, Sample, TESTS};
+use toile::specimen::{Figure, Known, Sample, TESTS, cantilever_error};
 
 static POPLIN: LazyLock<Sample> = LazyLock::new(|| Sample {
     fabric: Arc::new(load("cotton_poplin").expect("shipped")),
@@ -25,12 +25,58 @@ fn holds(test: &str) {
 }
 
 #[test]
+fn a_cantilever_follows_the_master_curve() {
+    holds("cantilever");
+}
+
+#[test]
+fn half_the_spacing_halves_the_error_of_a_cantilever() {
+    for gamma in [2.0, 16.0, 64.0] {
+        let [coarse, fine] =
+            [20, 40].map(|segments| cantilever_error(&POPLIN, gamma, segments).expect("a strip").abs());
+        // What is left of small errors is what the cloth stretches.
+        assert!(fine <= 0.5 * coarse || fine < 5e-4, "Γ = {gamma}: {coarse} and {fine}");
+    }
+}
+
+#[test]
+fn the_bending_length_is_half_the_overhang() {
+    holds("bending length");
+}
+
+#[test]
+fn a_strip_stands_as_long_as_it_should() {
+    holds("standing strip");
+}
+
+#[test]
+fn a_strip_on_edge_gives_way_where_it_should() {
+    holds("strip on edge");
+}
+
+#[test]
+fn a_pulled_strip_gives_the_curve_back() {
+    holds("pulled strip");
+}
+
+#[test]
+fn a_hanging_strip_is_drawn_out_by_its_weight() {
+    holds("hanging strip");
+}
+
+#[test]
+fn a_picture_frame_shears_as_the_fabric_says() {
+    holds("picture frame");
+}
+
+#[test]
 fn a_strip_between_two_hooks_hangs_in_a_catenary() {
     holds("catenary");
 }
 
 #[test]
 fn a_rolled_sheet_shows_no_direction_of_the_grid() {
+    holds("roll");
     let rigidity: Vec<f64> = figures("roll").iter().map(|f| f.measured).collect();
     let (least, most) = rigidity.iter().fold((f64::MAX, 0.0f64), |(a, b), &r| (a.min(r), b.max(r)));
     assert!(most / least < 1.01, "{rigidity:?}");

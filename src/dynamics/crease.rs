@@ -140,7 +140,7 @@ fn across_edges(triangles: &[[u32; 3]]) -> impl Fn(u32, u32) -> Option<[u32; 4]>
 }
 
 /// Bending rigidity across an edge, N·m, as the sheet's own energy has it: (√B₁ cos² + √B₂ sin²)².
-fn rigidity_across(fabric: &Fabric, edge: Vec2, warp: Vec2) -> f64 {
+pub(super) fn rigidity_across(fabric: &Fabric, edge: Vec2, warp: Vec2) -> f64 {
     let along_warp = (edge.perp(&warp) / edge.norm()).powi(2);
     (fabric.bend_warp.sqrt() * along_warp + fabric.bend_weft.sqrt() * (1.0 - along_warp)).powi(2)
 }

@@ -4,6 +4,7 @@
 
 mod bending;
 mod crease;
+mod curvature;
 mod elastic;
 pub mod explicit;
 mod force;

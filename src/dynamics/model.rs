@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use super::bending::{Bending, FlatTriangle};
+use super::bending::Bending;
 use super::crease::{Crease, creases};
+use super::curvature;
 use super::elastic::Elastics;
 use super::springs::{Spring, StretchLaw};
 use crate::fabric::Fabric;
@@ -131,7 +132,8 @@ impl Cloth {
             out.add_tacks(mesh, garment);
         }
         out.edges = joined(&out.springs);
-        out.add_bending(mesh, garment, fabrics);
+        let hem = if model == SpringModel::Raw { 0.0 } else { RIM_WIDTH };
+        out.add_bending(mesh, garment, fabrics, hem);
         out
     }
 
@@ -232,7 +234,7 @@ impl Cloth {
             for step in 0..=ANGLE_STEPS {
                 let angle = std::f64::consts::FRAC_PI_2 * step as f64 / ANGLE_STEPS as f64;
                 self.laws.push(match model {
-                    SpringModel::Measured | SpringModel::Raw => StretchLaw::of(fabric, angle),
+                    SpringModel::Measured | SpringModel::Raw => StretchLaw::in_grid(fabric, step, ANGLE_STEPS),
                     SpringModel::Soft { stiffness, bias } => {
                         let diagonal = (2.0 * angle).sin().powi(2);
                         StretchLaw::linear(stiffness * (1.0 - (1.0 - bias) * diagonal))
@@ -243,35 +245,13 @@ impl Cloth {
         firsts
     }
 
-    fn add_bending(&mut self, mesh: &ClothMesh, garment: &Garment, fabrics: &[Arc<Fabric>]) {
-        let mut interior = vec![true; self.mass.len()];
-        for edge in Topology::new(&self.triangles).rim_edges() {
-            for n in edge.ends {
-                interior[n as usize] = false;
-            }
+    fn add_bending(&mut self, mesh: &ClothMesh, garment: &Garment, fabrics: &[Arc<Fabric>], hem: f64) {
+        let mut stencils = curvature::of_pieces(mesh, fabrics, hem);
+        stencils.extend(curvature::of_seams(mesh, garment, &self.node_of, fabrics));
+        for flow in stencils.iter_mut().flat_map(|s| &mut s.flows) {
+            *flow = (self.node_of[flow.0 as usize], self.node_of[flow.1 as usize], flow.2);
         }
-        // Layers sewn on each other turn freely at the seam.
-        for (stitches, _) in mesh.seams.iter().zip(&garment.seams).filter(|(_, seam)| garment.is_lapped(seam)) {
-            for p in stitches.pairs.iter().flatten() {
-                interior[self.node_of[*p as usize] as usize] = false;
-            }
-        }
-        // A crease bends at its hinges instead.
-        for n in self.creases.iter().flat_map(|c| &c.nodes[..2]) {
-            interior[*n as usize] = false;
-        }
-        let flat_triangles: Vec<FlatTriangle> = (0..self.triangles.len())
-            .map(|t| {
-                let p = self.piece[t] as usize;
-                FlatTriangle {
-                    nodes: self.triangles[t],
-                    corners: self.flat[t],
-                    warp: mesh.pieces[p].warp,
-                    rigidity: [fabrics[p].bend_warp, fabrics[p].bend_weft],
-                }
-            })
-            .collect();
-        self.bending = Bending::new(self.mass.len(), &flat_triangles, &interior);
+        self.bending = Bending::new(self.mass.len(), &stencils);
         self.bending_bound = self.edges.iter().map(|e| self.bending.bound(*e)).collect();
     }
 

@@ -1,7 +1,12 @@
 //! Springs with the fabric's measured, piecewise-linear load–extension curve (F3, F4).
 
-use crate::fabric::Fabric;
+use std::f64::consts::FRAC_PI_2;
+
+use crate::fabric::{Fabric, TensileCurve};
 use crate::geometry::Vec3;
+
+/// The springs along a thread leave at most this share of its softest stretch to the diagonals.
+const MOST_TRELLIS: f64 = 0.5;
 
 /// Load per width against strain in one direction of the cloth: linear between knots, the last slope goes on, and
 /// compression keeps the first slope (cloth buckles out of its plane long before its threads shorten).
@@ -30,6 +35,23 @@ impl StretchLaw {
             |f: f64| c2 * c2 * fabric.warp.strain(f) + s2 * s2 * fabric.weft.strain(f) + c2 * s2 * f / fabric.shear;
         let knots = std::iter::once((0.0, 0.0)).chain(loads.into_iter().map(|f| (strain(f), f))).collect();
         Self { knots }
+    }
+
+    /// The law of a spring at `step` of `steps` from warp to weft in a grid whose cells have one diagonal each. There the
+    /// trellis is the diagonals' business alone, 4 G at 45°; drawn along the threads they pull too, as much as G, which
+    /// the springs along the threads leave to them.
+    pub(super) fn in_grid(fabric: &Fabric, step: usize, steps: usize) -> Self {
+        let without_trellis = |curve: &TensileCurve| {
+            let slopes = curve.points.windows(2).map(|w| (w[1].1 - w[0].1) / (w[1].0 - w[0].0));
+            let trellis = fabric.shear.min(MOST_TRELLIS * slopes.fold(f64::INFINITY, f64::min));
+            Self { knots: curve.points.iter().map(|(strain, load)| (*strain, load - trellis * strain)).collect() }
+        };
+        match 2 * step {
+            0 => without_trellis(&fabric.warp),
+            twice if twice == steps => Self::linear(4.0 * fabric.shear),
+            twice if twice == 2 * steps => without_trellis(&fabric.weft),
+            _ => Self::of(fabric, FRAC_PI_2 * step as f64 / steps as f64),
+        }
     }
 
     /// The same law without resistance to compression.

@@ -31,42 +31,52 @@ struct Strip {
     spacing: f64,
     /// From the jaws to the free end.
     length: f64,
+    width: f64,
 }
 
 impl Strip {
-    /// The first two rows are held. What bends at the second is the cloth from half-way to it on, so the jaws are
-    /// half-way between the two.
-    fn new(fabric: &Arc<Fabric>, angle: f64, gamma: f64, segments: usize) -> Result<Self, SpecimenError> {
+    /// The first three rows are held. What bends at the third is the cloth from half-way to it on, so the jaws are
+    /// half-way between the second and it.
+    fn new(
+        fabric: &Arc<Fabric>,
+        angle: f64,
+        gamma: f64,
+        [segments, across]: [usize; 2],
+    ) -> Result<Self, SpecimenError> {
         let length = length_of(fabric, angle) * gamma.cbrt();
         let spacing = length / (segments as f64 - 0.5);
-        let size = [ACROSS as f64 * spacing, segments as f64 * spacing];
-        Ok(Self { sheet: Sheet::strip(fabric, size, angle, spacing)?, spacing, length })
+        let size = [across as f64 * spacing, (segments + 1) as f64 * spacing];
+        Ok(Self { sheet: Sheet::strip(fabric, size, angle, spacing)?, spacing, length, width: size[0] })
     }
 
     /// Lets it go from the plane that `along` (its length) and `across` span; returns the middle of its free end, seen
     /// from the jaws.
     fn end(&self, along: Vec3, across: Vec3) -> Result<Vec3, SpecimenError> {
         let bench = nothing()?;
-        let middle = 0.5 * ACROSS as f64 * self.spacing;
-        let jaws = 0.5 * self.spacing;
-        let cloth = self.sheet.cloth(|p| p.y < 1.5 * self.spacing);
+        let middle = 0.5 * self.width;
+        let jaws = 1.5 * self.spacing;
+        let cloth = self.sheet.cloth(|p| p.y < 2.5 * self.spacing);
         let x = self.sheet.placed(|p| along * (p.y - jaws) + across * (p.x - middle));
         let mut world = self.sheet.hang(cloth, x, &bench)?;
         settle(&mut world, self.spacing, STILL * self.length)?;
-        let end = self.sheet.particles(|p| p.y > self.length + 0.25 * self.spacing);
+        let end = self.sheet.particles(|p| p.y > self.length + self.spacing);
         Ok(end.iter().map(|&n| world.x[n as usize]).sum::<Vec3>() / end.len() as f64)
     }
 }
 
 /// Share of its length that a cantilever's end is down over that it is out.
-pub(super) fn fall_over_reach(
-    fabric: &Arc<Fabric>,
-    angle: f64,
-    gamma: f64,
-    segments: usize,
-) -> Result<f64, SpecimenError> {
-    let end = Strip::new(fabric, angle, gamma, segments)?.end(Vec3::x(), Vec3::z())?;
+fn fall_over_reach(fabric: &Arc<Fabric>, angle: f64, gamma: f64, segments: usize) -> Result<f64, SpecimenError> {
+    let end = Strip::new(fabric, angle, gamma, [segments, ACROSS])?.end(Vec3::x(), Vec3::z())?;
     Ok(-end.y / end.x)
+}
+
+/// By which share a cantilever of `gamma` = σ g L³/B in so many segments, cut along the warp, is off the master curve.
+///
+/// # Errors
+/// [`SpecimenError`] when it does not come to rest.
+pub fn cantilever_error(sample: &Sample, gamma: f64, segments: usize) -> Result<f64, SpecimenError> {
+    let [reach, fall] = theory::cantilever(gamma);
+    Ok(fall_over_reach(&sample.fabric, ALONG_WARP, gamma, segments)? * reach / fall - 1.0)
 }
 
 /// The heavy cantilever against the master curve (Peirce 1930, ASTM D1388).
@@ -111,9 +121,9 @@ pub(super) fn bending_length(sample: &Sample) -> Result<Outcome, SpecimenError> 
     Ok(WAYS.into_iter().map(measure).collect::<Result<Vec<_>, SpecimenError>>()?.into())
 }
 
-/// How far the strips of the next two tests lean or are turned before they are let go, radians: small, but far above
-/// rounding.
-const LEAN: f64 = 0.02;
+/// How far the strips of the next two tests lean or are turned before they are let go, radians: so little that they are
+/// still near straight when they lean ten times as far.
+const LEAN: f64 = 0.004;
 
 /// The Γ at which a load grows without end, from the sideways deflection of strips that lean a little, at two Γ below
 /// it (Southwell 1932: Γ over deflection is a straight line in Γ to the power `power`, which falls to 0).
@@ -136,7 +146,7 @@ pub(super) fn standing(sample: &Sample) -> Result<Outcome, SpecimenError> {
     let measure = |(angle, way): (f64, &str)| {
         let (up, side) = (Vec3::new(LEAN.sin(), LEAN.cos(), 0.0), Vec3::new(LEAN.cos(), -LEAN.sin(), 0.0));
         let deflection = |gamma: f64| {
-            let strip = Strip::new(fabric, angle, gamma, SEGMENTS)?;
+            let strip = Strip::new(fabric, angle, gamma, [SEGMENTS, ACROSS])?;
             Ok(strip.end(up, Vec3::z())?.dot(&side) / strip.length)
         };
         let gamma = southwell([5.0, 6.5], 1.0, deflection)?;
@@ -158,11 +168,15 @@ pub(super) fn on_edge(sample: &Sample) -> Result<Outcome, SpecimenError> {
     let critical = theory::on_edge();
     let measure = |(angle, way): (f64, &str)| {
         let (across, side) = (Vec3::new(0.0, LEAN.cos(), LEAN.sin()), Vec3::new(0.0, -LEAN.sin(), LEAN.cos()));
-        let deflection = |gamma: f64| {
-            let strip = Strip::new(fabric, angle, gamma, SEGMENTS)?;
-            Ok(strip.end(Vec3::x(), across)?.dot(&side).abs() / strip.length)
+        let critical_of = |segments: usize| {
+            let deflection = |gamma: f64| {
+                let strip = Strip::new(fabric, angle, gamma, [SEGMENTS, segments])?;
+                Ok(strip.end(Vec3::x(), across)?.dot(&side).abs() / strip.length)
+            };
+            Ok::<_, SpecimenError>(southwell([15.5, 17.0], 2.0, deflection)?.cbrt())
         };
-        let gamma = southwell([11.0, 14.5], 2.0, deflection)?;
+        // The clamp keeps the strip from twisting a share of its width beyond it; a strip without width has none.
+        let gamma = (2.0 * critical_of(ACROSS / 2)? - critical_of(ACROSS)?).powi(3);
         // Bent along its length and twisted by the mean of warp and weft.
         let ratio = (fabric.bend_warp / fabric.bend_weft).powf(if angle == ALONG_WARP { -0.25 } else { 0.25 });
         let c = 1e3 * length_of(fabric, angle);

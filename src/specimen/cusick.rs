@@ -29,7 +29,7 @@ const FALL_STEP: f64 = 0.1;
 const MOMENTUM: f64 = 0.9;
 const LOOK_AHEAD: f64 = 4e-3;
 /// A draped disc is at rest when ten steps move it by less than this, metres.
-const STILL: f64 = 5e-5;
+const STILL: f64 = 1e-4;
 /// A fold stands out from the shadow's hollows by this share of the mean overhang.
 const FOLD: f64 = 0.05;
 

@@ -15,6 +15,7 @@ mod theory;
 
 use std::sync::Arc;
 
+pub use bending::cantilever_error;
 pub use cusick::{Draped, Shadow, drape};
 
 use crate::dynamics::StepError;

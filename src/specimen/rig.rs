@@ -18,8 +18,8 @@ const STEP: f64 = 10.0;
 const TRUST: [f64; 3] = [0.15, 1e-3, 0.5];
 /// Steps between two looks at how far the specimen still moves.
 const STRETCH: usize = 10;
-/// Steps after which a specimen that is not at rest is given up.
-const MOST: usize = 6000;
+/// Stretches after which a specimen that is not at rest is given up.
+const MOST: usize = 300;
 
 /// A flat sheet of one fabric, not yet held by anything.
 pub(super) struct Sheet {

@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, SQRT_2};
 /// Grid spacing, metres.
 const SPACING: f64 = 0.01;
 /// A specimen is at rest when ten steps move it by less than this, metres.
-const STILL: f64 = 1e-7;
+const STILL: f64 = 1e-9;
 /// Side of the picture frame, metres.
 const FRAME: f64 = 0.1;
 /// By how much the frame's diagonal is drawn out, in sides.
