@@ -87,8 +87,9 @@ pub(super) fn cusick(sample: &Sample) -> Result<Outcome, SpecimenError> {
 pub fn drape(sample: &Sample, spacing: f64) -> Result<Draped, SpecimenError> {
     let body = pedestal()?;
     let sheet = Sheet::disc(&sample.fabric, DISC, spacing)?;
-    // The upper disc holds the cloth down up to the pedestal's edge, over which it bends.
-    let cloth = sheet.cloth(|p| p.norm() < PEDESTAL - spacing);
+    // The upper disc holds the cloth down up to the pedestal's edge. What bends at the last particle that is held is the
+    // cloth from half a spacing before it on, and that particle is on average half a spacing from where holding ends.
+    let cloth = sheet.cloth(|p| p.norm() < PEDESTAL + spacing);
     let lift = 0.5 * sample.fabric.thickness + 0.25e-3;
     let x = sheet.placed(|p| Vec3::new(p.x, lift + dent(p), p.y));
     let mut world = sheet.hang(cloth, x, &body)?;
