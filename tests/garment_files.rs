@@ -705,6 +705,15 @@ fn lines_and_places_that_cloth_cannot_have_are_named_with_their_place() {
     says(&far, 4, "{at", "place of 'a': [0, 1000000, 0] is more than 10 m from the body's feet");
 }
 
+/// Found by tests/fuzz.rs.
+#[test]
+fn a_dash_before_a_bracket_is_written_as_text() {
+    let file = read_file_only("dash.yaml", &squares("pieces:", "fabrics: {shell: denim - - }\npieces:")).unwrap();
+    let text = write(&file).unwrap();
+    assert!(text.contains("{shell: \"denim - -\"}"), "{text}");
+    assert_eq!(read_file_only("again.yaml", &text).unwrap(), file);
+}
+
 /// Found by tests/fuzz.rs: YAML itself would not take it where it stands on a line of its own.
 #[test]
 fn a_key_that_could_not_be_written_again_is_refused() {

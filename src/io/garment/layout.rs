@@ -63,7 +63,8 @@ fn flow(value: &Yaml) -> Result<String, EncodeError> {
             let entry = |(k, v): (&Yaml, &Yaml)| Ok(format!("{}: {}", flow(k)?, flow(v)?));
             format!("{{{}}}", map.iter().map(entry).collect::<Result<Vec<String>, EncodeError>>()?.join(", "))
         }
-        Yaml::String(text) if text.contains([',', '[', ']', '{', '}', '\n']) => quoted(text),
+        // A dash before the bracket that ends the list would be read as a list of its own.
+        Yaml::String(text) if text.contains([',', '[', ']', '{', '}', '\n']) || text.ends_with(" -") => quoted(text),
         _ => scalar(value)?,
     })
 }
