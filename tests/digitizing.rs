@@ -236,6 +236,18 @@ fn legs_of_a_dart_have_no_allowance() {
     );
 }
 
+/// In Inkscape a layer is a sheet, and what is drawn on it has a label of its own.
+#[test]
+fn labels_of_paths_on_a_layer_are_names_of_pieces() {
+    let text = "<svg xmlns='http://www.w3.org/2000/svg' xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' \
+                width='400mm' height='400mm' viewBox='0 0 400 400'><g inkscape:groupmode='layer' inkscape:label='Layer 1'>\
+                <path inkscape:label='left front' d='M 0 0 L 100 0 L 0 200 Z'/>\
+                <path inkscape:label='right front' d='M 300 0 L 200 0 L 300 200 Z'/>\
+                <path inkscape:label='yoke' d='M 0 220 H 100 V 300 H 0 Z'/></g></svg>";
+    let cuts: Vec<(String, Cut)> = drawn(&from_svg(text)).into_iter().map(|p| (p.name, p.cut)).collect();
+    assert_eq!(cuts, [("front".to_owned(), Cut::Pair), ("yoke".to_owned(), Cut::One)]);
+}
+
 #[test]
 fn what_is_written_on_a_piece_says_how_it_is_cut() {
     let cut = |words: &str| {

@@ -109,9 +109,6 @@ fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile
     let edges = edges(&outline, &piece.notches);
     // What lies on the fold of the cloth lies along the warp.
     let grain = piece.grain.or(piece.mirror);
-    if grain.is_none() {
-        notes.push(format!("'{name}' has no grain line: the warp is taken as upright; add 'grain: [[x, y], [x, y]]'"));
-    }
     let fold = piece.mirror.and_then(|mirror| fold_edge(&edges, mirror));
     let cut = fold.map(Cut::Fold).or(piece.cut_how.clone());
     let whole = piece.cut.as_ref().filter(|_| !piece.sew.is_empty());

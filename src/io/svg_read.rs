@@ -247,7 +247,9 @@ fn group_name(node: Node) -> Option<String> {
     if name == part {
         // Layers hold pieces; they are none.
         let layer = node.attributes().any(|a| a.name() == "groupmode" && a.value() == "layer");
-        let container = name.starts_with("fs-") || layer && node.children().any(|c| c.tag_name().name() == "g");
+        let is_label = |c: Node| c.attributes().any(|a| a.name() == "label");
+        let container = name.starts_with("fs-")
+            || layer && node.children().any(|c| c.tag_name().name() == "g" || c.is_element() && is_label(c));
         return (!container).then(|| name.to_owned());
     }
     Some(part.rsplit('.').next().unwrap_or(part).to_owned())
