@@ -30,7 +30,7 @@ const MOMENTUM: f64 = 0.9;
 const LOOK_AHEAD: f64 = 4e-3;
 /// A draped disc is at rest when ten steps move it by less than this, metres.
 const STILL: f64 = 1e-4;
-/// A fold stands out from the shadow's hollows by this share of the mean overhang.
+/// A fold stands out from the hollows beside it by more than this share of the overhang.
 const FOLD: f64 = 0.05;
 
 /// A shadow seen from above.
@@ -171,21 +171,50 @@ impl Shadow {
     }
 }
 
-/// Folds of a draped disc: how often its rim, walked once round, comes out from a hollow.
+/// Folds of a draped disc: how often its rim, walked once round, comes out of a hollow by [`FOLD`] of the overhang and goes
+/// back in.
 fn folds(x: &[Vec3], triangles: &[[u32; 3]]) -> usize {
     let Some(rim) = rim_loops(triangles).into_iter().max_by_key(Vec::len) else { return 0 };
     let radius: Vec<f64> = rim.iter().map(|&n| x[n as usize].x.hypot(x[n as usize].z)).collect();
-    let mean = radius.iter().sum::<f64>() / radius.len() as f64;
-    let band = FOLD * (DISC - PEDESTAL);
-    // Twice round, as the first time begins anywhere; only the second counts.
-    let (mut out, mut count) = (None, 0);
-    for (k, r) in radius.iter().chain(&radius).enumerate() {
-        if *r > mean + band {
-            count += usize::from(out == Some(false) && k >= radius.len());
-            out = Some(true);
-        } else if *r < mean - band {
-            out = Some(false);
+    swings(&radius, FOLD * (DISC - PEDESTAL))
+}
+
+/// How often values round a ring rise by more than `least` from where they were lowest and fall by as much again.
+fn swings(ring: &[f64], least: f64) -> usize {
+    let Some(lowest) = (0..ring.len()).min_by(|&a, &b| ring[a].total_cmp(&ring[b])) else { return 0 };
+    let (mut count, mut rising, mut extreme) = (0, true, ring[lowest]);
+    // From the lowest round to it again, so that none is cut in two.
+    for k in 1..=ring.len() {
+        let value = ring[(lowest + k) % ring.len()];
+        if rising {
+            // The lowest so far, until it has risen far enough.
+            extreme = value.min(extreme);
+            rising = value - extreme <= least;
+            extreme = if rising { extreme } else { value };
+        } else {
+            extreme = value.max(extreme);
+            if extreme - value > least {
+                (count, rising, extreme) = (count + 1, true, value);
+            }
         }
     }
     count
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folds_are_counted_whatever_their_hollows_depth() {
+        let ring = |wave: &dyn Fn(f64) -> f64| (0..200).map(|k| wave(TAU * f64::from(k) / 200.0)).collect::<Vec<_>>();
+        assert_eq!(swings(&ring(&|a| 0.01 * (7.0 * a).cos()), 0.003), 7);
+        // Folds on a slope, and ripples too small to count.
+        assert_eq!(
+            swings(&ring(&|a| 0.01 * (8.0 * a + 0.3).cos() + 0.02 * a.sin() + 0.0005 * (40.0 * a).cos()), 0.003),
+            8
+        );
+        assert_eq!(swings(&ring(&|_| 0.1), 0.003), 0);
+        assert_eq!(swings(&[], 0.003), 0);
+    }
 }
