@@ -1,8 +1,10 @@
 //! Meshes of garments built by hand: every promise of `mesh::build` on every kind of piece and seam.
 
 use proptest::prelude::*;
-use toile::geometry::{Path, Vec2};
-use toile::mesh::{ClothMesh, MeshError, MeshOptions, Method, SeamFault, SpringClass, build, build_with, check};
+use toile::geometry::{Path, Vec2, Vec3};
+use toile::mesh::{
+    ClothMesh, MeshError, MeshOptions, Method, SeamFault, SpringClass, Transfer, build, build_with, check,
+};
 use toile::pattern::{Edge, EdgeId, Garment, Give, Line, LineKind, Piece, Seam, SeamKind, Span};
 
 const MM: f64 = 1e-3;
@@ -585,5 +587,33 @@ fn of_several_mistakes_the_first_piece_is_named() {
     for _ in 0..20 {
         let error = pool.install(|| build(&garment, 0.004)).expect_err("lines on one another");
         assert!(matches!(&error, MeshError::Crossing { piece, .. } if piece == "p0"), "{error}");
+    }
+}
+
+/// A linear map of the plane into space is carried over exactly, inside the pieces and beyond what coarse rims cut off.
+#[test]
+fn positions_are_carried_between_coarse_and_fine() {
+    let disk = piece("disk", vec![circle(0.0, 0.0, 100.0, false), circle(20.0, 10.0, 30.0, true)]);
+    let strip = piece("strip", vec![polygon(&[(0.0, 0.0), (300.0, 0.0), (300.0, 30.0), (0.0, 30.0)])]);
+    let garment = garment(vec![disk, strip], vec![]);
+    let (coarse, _) = meshed(&garment, 24.0);
+    let (fine, _) = meshed(&garment, 9.0);
+    let plane = |p: &Vec2| Vec3::new(p.x + 0.2 * p.y, 0.3 * p.x - p.y, 0.1 + 0.5 * p.x + 0.7 * p.y);
+    for (from, to) in [(&coarse, &fine), (&fine, &coarse)] {
+        let transfer = Transfer::new(from, to);
+        let x: Vec<Vec3> = from.flat.iter().map(plane).collect();
+        for (got, p) in transfer.apply(&x).iter().zip(&to.flat) {
+            assert!((got - plane(p)).norm() < 1e-12, "{got} is not {}", plane(p));
+        }
+        // The pieces apart in space: none is mixed with the other.
+        let apart: Vec<Vec3> = (0..from.flat.len())
+            .map(|n| {
+                Vec3::new(from.flat[n].x, from.flat[n].y, if from.pieces[1].particles.contains(&n) { 9.0 } else { 0.0 })
+            })
+            .collect();
+        for (n, got) in transfer.apply(&apart).iter().enumerate() {
+            let level = if to.pieces[1].particles.contains(&n) { 9.0 } else { 0.0 };
+            assert!((got.z - level).abs() < 1e-12, "particle {n} is carried to another piece");
+        }
     }
 }

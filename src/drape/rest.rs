@@ -10,11 +10,22 @@ use crate::sew::{Stitching, drape_reach, sewn_world};
 pub struct DrapeOptions {
     /// Steps after which draping ends, at rest or not.
     pub max_steps: usize,
+    /// How far it is taken.
+    pub until: Until,
+}
+
+/// How far a garment is draped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Until {
+    /// Until it rests, tested by as many steps again.
+    Rest,
+    /// Until it moves little: a start for finer cloth.
+    Near,
 }
 
 impl Default for DrapeOptions {
     fn default() -> Self {
-        Self { max_steps: 600 }
+        Self { max_steps: 600, until: Until::Rest }
     }
 }
 
@@ -63,6 +74,8 @@ const NEAR_REST: f64 = 1.5e-3;
 const LONGEST_FALL: usize = 80;
 /// A garment has settled when it moves less than this, metres RMS, in so many steps.
 const SETTLED: f64 = 0.12e-3;
+/// One that goes on in finer cloth, when it moves less than this.
+const HARDLY: f64 = 0.5e-3;
 /// How far a Newton step is trusted to change an edge: at first, at least and at most, metres. What turns a spring
 /// further is too much for its tangent.
 const TRUST: [f64; 3] = [1.5e-3, 0.1e-3, 10e-3];
@@ -99,19 +112,11 @@ pub fn drape(
     let widest = drape_reach(cut.mesh.spacing);
     let look = [(NEAREST_LOOK + thickest).min(widest), widest];
     let mut fall = Fall { last: world.x.clone(), world, steps: 0, near: false, trust: TRUST[0], look };
-    let (drift, residual, converged) = loop {
-        fall.settle(options.max_steps, progress)?;
-        let out_of_steps = fall.steps >= options.max_steps;
-        let residual = fall.world.residual_in_weights();
-        // A garment that is out of balance, or drifts, falls on, while there are steps left.
-        if residual > RESIDUAL && !out_of_steps {
-            continue;
-        }
-        let drift = fall.drift()?;
-        let residual = fall.world.residual_in_weights();
-        let rests = drift[0] <= DRIFT && residual <= RESIDUAL;
-        if rests || out_of_steps {
-            break (drift, residual, rests);
+    let (drift, residual, converged) = match options.until {
+        Until::Rest => fall.to_rest(options.max_steps, progress)?,
+        Until::Near => {
+            fall.settle(options.max_steps, HARDLY, progress)?;
+            ([f64::INFINITY; 2], fall.world.residual_in_weights(), false)
         }
     };
     progress(1.0);
@@ -133,10 +138,28 @@ struct Fall<'a> {
 }
 
 impl Fall<'_> {
-    /// Steps until a stretch of them moves the garment hardly at all, or `most` are made in all.
-    fn settle(&mut self, most: usize, progress: &mut dyn FnMut(f64)) -> Result<(), StepError> {
+    /// Steps until the garment rests, or `most` are made. Returns its drift, its residual force, and whether it rests.
+    fn to_rest(&mut self, most: usize, progress: &mut dyn FnMut(f64)) -> Result<([f64; 2], f64, bool), StepError> {
+        loop {
+            self.settle(most, SETTLED, progress)?;
+            let out_of_steps = self.steps >= most;
+            // A garment that is out of balance, or drifts, falls on, while there are steps left.
+            if self.world.residual_in_weights() > RESIDUAL && !out_of_steps {
+                continue;
+            }
+            let drift = self.drift()?;
+            let residual = self.world.residual_in_weights();
+            let rests = drift[0] <= DRIFT && residual <= RESIDUAL;
+            if rests || out_of_steps {
+                return Ok((drift, residual, rests));
+            }
+        }
+    }
+
+    /// Steps until a stretch of them moves the garment less than `settled` metres RMS, or `most` are made in all.
+    fn settle(&mut self, most: usize, settled: f64, progress: &mut dyn FnMut(f64)) -> Result<(), StepError> {
         let mut moved = f64::INFINITY;
-        while moved > SETTLED && self.steps < most {
+        while moved > settled && self.steps < most {
             let before = self.world.x.clone();
             for _ in 0..STRETCH {
                 if self.near {
@@ -151,7 +174,7 @@ impl Fall<'_> {
             let [nearest, widest] = self.look;
             self.world.look_within(Reach::new((LOOK * most_moved).clamp(nearest, widest)))?;
             self.near |= moved < NEAR_REST || self.steps >= LONGEST_FALL;
-            progress((self.steps as f64 / most as f64).max(SETTLED / moved).min(0.9));
+            progress((self.steps as f64 / most as f64).max(settled / moved).min(0.9));
         }
         Ok(())
     }

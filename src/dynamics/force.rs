@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::GRAVITY;
-use super::friction::Friction;
+use super::friction::{Friction, Grip, Hold};
 use super::model::Cloth;
 use super::springs::SHORTEST;
 use crate::contact::Contact;
@@ -33,6 +33,13 @@ pub(super) struct Press {
     pub(super) load: f64,
     /// N/m.
     pub(super) slope: f64,
+}
+
+impl Press {
+    /// Load, N, when the gap has grown by `opening` metres: below 0 it does not touch.
+    pub(super) fn after(&self, opening: f64) -> f64 {
+        self.load - self.slope * opening
+    }
 }
 
 impl ContactLaw {
@@ -120,6 +127,11 @@ impl Forces<'_> {
         self.law.load(cloth, x, contact)
     }
 
+    /// The friction spring of contact number `k` under `load` N; `None` where there is no friction or it is open.
+    pub(super) fn hold(&self, cloth: &Cloth, x: &[Vec3], k: usize, load: f64) -> Option<Hold> {
+        self.friction?.hold(k, &self.contacts[k], x, load, &cloth.friction)
+    }
+
     /// Elastic energy, contact energy, weight × height and what friction stores, J. Sliding friction has no energy: it
     /// is taken for a force that stays as large as at the normal forces `loads` (one per contact).
     pub(super) fn energy(&self, cloth: &Cloth, x: &[Vec3], loads: &[f64]) -> f64 {
@@ -136,16 +148,15 @@ pub(crate) fn cloth_forces(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Ve
     for k in 0..forces.contacts.len() {
         let load = forces.law.load(cloth, x, &forces.contacts[k]);
         if load > 0.0 {
-            push(&mut out, cloth, x, forces, k, load);
+            let grip = forces.hold(cloth, x, k, load).map(|hold| hold.grip());
+            push(&mut out, &forces.contacts[k], load, grip);
         }
     }
     out
 }
 
-/// Adds the normal force of contact number `k` and its friction.
-pub(super) fn push(out: &mut [Vec3], cloth: &Cloth, x: &[Vec3], forces: &Forces, k: usize, load: f64) {
-    let contact = &forces.contacts[k];
-    let grip = forces.friction.and_then(|f| f.grip(k, contact, x, load, &cloth.friction));
+/// Adds the normal force of a contact and its friction.
+pub(super) fn push(out: &mut [Vec3], contact: &Contact, load: f64, grip: Option<Grip>) {
     let force = contact.normal * load + grip.map_or_else(Vec3::zeros, |g| g.force);
     for (i, w) in contact.parts() {
         out[i] += force * w;

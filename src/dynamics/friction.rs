@@ -30,12 +30,13 @@ pub struct Friction {
 /// pulled tight over an edge would otherwise slide for millimetres before friction holds it.
 const GIVE: f64 = 5e-4;
 
-/// What a contact remembers of the last step; one that was open, nothing.
+/// What a contact remembers of when it was last dragged; one that was open, nothing.
 #[derive(Clone, Copy, Debug, Default)]
 struct Memory {
     /// By how far its spring is drawn, metres.
     drawn: Vec3,
-    /// Whether it slid. (Its load may be another where the body is looked at anew, so the spring cannot tell.)
+    /// Whether it slid when it was last dragged; it does until it moves again. (Its load may be another where the body is
+    /// looked at anew, so the spring cannot tell.)
     slid: bool,
     /// Whether it touched.
     touched: bool,
@@ -52,15 +53,77 @@ fn key(contact: &Contact) -> Key {
     (contact.nodes, contact.above, feature)
 }
 
-/// The friction of one contact in one step.
+/// The friction of one contact in one step, as far as a step's linear model knows it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grip {
-    /// Force on a node of weight one, N.
+    /// Force on a node of weight one before the step, N.
     pub(super) force: Vec3,
     /// Whether it slides.
     pub(super) slides: bool,
     /// Its stiffness, N/m: across the normal while the contact sticks; none along the way that it slides.
     pub(super) stiffness: Mat3,
+}
+
+/// The spring of a contact that pushes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hold {
+    /// By how far it is drawn, metres.
+    drawn: Vec3,
+    /// N/m.
+    stiffness: f64,
+    /// What it holds at most, N: μ times the load.
+    most: f64,
+    /// Projects onto the plane across the contact's normal.
+    across: Mat3,
+    /// Whether the contact has slid up to here.
+    slid: bool,
+}
+
+impl Hold {
+    fn slides(&self, slip: Vec3) -> bool {
+        self.stiffness * slip.norm() > self.most
+    }
+
+    /// What is drawn after the contact went `way`, metres: no more than it can hold.
+    fn kept(&self, way: Vec3) -> Vec3 {
+        let slip = self.drawn + self.across * way;
+        if self.slides(slip) { slip * (self.most / (self.stiffness * slip.norm())) } else { slip }
+    }
+
+    /// Force after the contact went `way`, N.
+    pub(super) fn force(&self, way: Vec3) -> Vec3 {
+        self.kept(way) * -self.stiffness
+    }
+
+    /// Energy after the contact went `way`, J: a quadratic while it sticks, a constant force beyond.
+    pub(super) fn energy(&self, way: Vec3) -> f64 {
+        let slip = (self.drawn + self.across * way).norm();
+        let stuck = slip.min(self.most / self.stiffness);
+        self.stiffness * stuck * (slip - 0.5 * stuck)
+    }
+
+    /// The grip now. What slid slides on.
+    pub(super) fn grip(&self) -> Grip {
+        self.linear(Vec3::zeros(), self.slid || self.slides(self.drawn))
+    }
+
+    /// The law as it is after the contact went `way`, continued back to where it is now.
+    pub(super) fn grip_after(&self, way: Vec3) -> Grip {
+        let way = self.across * way;
+        self.linear(way, self.slides(self.drawn + way))
+    }
+
+    fn linear(&self, way: Vec3, slides: bool) -> Grip {
+        if !slides {
+            return Grip { force: self.drawn * -self.stiffness, slides, stiffness: self.across * self.stiffness };
+        }
+        // μ · load against the way it slides; to turn that way takes as much force as to turn any pull of that size.
+        let slip = self.drawn + way;
+        let held = self.stiffness.min(self.most / slip.norm());
+        let along = slip.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
+        let stiffness = (self.across - along * along.transpose()) * held;
+        Grip { force: stiffness * way - slip * held, slides, stiffness }
+    }
 }
 
 impl Friction {
@@ -90,43 +153,23 @@ impl Friction {
         across(contact) * (drawn + since)
     }
 
-    /// Stiffness of the spring of a contact that holds `most` N, N/m.
-    fn stiffness_for(&self, most: f64) -> f64 {
-        self.stiffness.max(most / GIVE)
-    }
-
-    /// How contact number `k` grips for the normal force `load` and the nodes' coefficients `mu`; `None` while it is
-    /// open.
-    pub(super) fn grip(&self, k: usize, contact: &Contact, x: &[Vec3], load: f64, mu: &[f64]) -> Option<Grip> {
+    /// The spring of contact number `k` for the normal force `load` and the nodes' coefficients `mu`; `None` while the
+    /// contact is open.
+    pub(super) fn hold(&self, k: usize, contact: &Contact, x: &[Vec3], load: f64, mu: &[f64]) -> Option<Hold> {
         if load <= 0.0 {
             return None;
         }
-        let slip = self.slip(k, contact, x);
         let most = coefficient(contact, mu) * load;
-        let stiffness = self.stiffness_for(most);
-        let pull = stiffness * slip.norm();
-        if pull <= most && !self.memory[k].slid {
-            return Some(Grip { force: slip * -stiffness, slides: false, stiffness: across(contact) * stiffness });
-        }
-        // μ · load against the way it slides; to turn that way takes as much force as to turn any pull of that size.
-        let held = stiffness * if pull > most { most / pull } else { 1.0 };
-        let along = slip.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
-        let stiffness = (across(contact) - along * along.transpose()) * held;
-        Some(Grip { force: slip * -held, slides: true, stiffness })
+        let stiffness = self.stiffness.max(most / GIVE);
+        let drawn = self.slip(k, contact, x);
+        let slid = self.memory[k].slid && contact.parts().all(|(i, _)| x[i] == self.at[i]);
+        Some(Hold { drawn, stiffness, most, across: across(contact), slid })
     }
 
-    /// Energy of the springs, J, for the given normal forces (one per contact): a quadratic while a contact sticks, a
-    /// constant force beyond.
+    /// Energy of the springs, J, for the given normal forces (one per contact).
     pub(super) fn energy(&self, x: &[Vec3], contacts: &[Contact], loads: &[f64], mu: &[f64]) -> f64 {
-        let held = contacts.iter().zip(loads).enumerate().filter(|(_, (_, load))| **load > 0.0);
-        held.map(|(k, (contact, load))| {
-            let slip = self.slip(k, contact, x).norm();
-            let most = coefficient(contact, mu) * load;
-            let stiffness = self.stiffness_for(most);
-            let stuck = slip.min(most / stiffness);
-            stiffness * stuck * (slip - 0.5 * stuck)
-        })
-        .sum()
+        let holds = contacts.iter().zip(loads).enumerate().filter_map(|(k, (c, load))| self.hold(k, c, x, *load, mu));
+        holds.map(|hold| hold.energy(Vec3::zeros())).sum()
     }
 
     /// After a step to `x`: what sticks is drawn further, what slides keeps what it can hold, what left lets go.
@@ -135,15 +178,12 @@ impl Friction {
         let mut on_body = vec![(Vec3::zeros(), 0.0); x.len()];
         for (k, contact) in contacts.iter().enumerate() {
             let normal_force = load(contact);
-            self.memory[k] = if normal_force > 0.0 {
-                let slip = self.slip(k, contact, x);
-                let most = coefficient(contact, mu) * normal_force;
-                let pull = self.stiffness_for(most) * slip.norm();
-                let slid = pull > most;
-                Memory { drawn: if slid { slip * (most / pull) } else { slip }, slid, touched: true }
-            } else {
-                Memory::default()
-            };
+            let hold = self.hold(k, contact, x, normal_force, mu);
+            self.memory[k] = hold.map_or_else(Memory::default, |hold| Memory {
+                drawn: hold.kept(Vec3::zeros()),
+                slid: hold.slides(hold.drawn),
+                touched: true,
+            });
             if contact.is_on_body() && normal_force > 0.0 {
                 for (i, w) in contact.parts() {
                     let share = w * normal_force;
@@ -190,7 +230,7 @@ mod tests {
         let mut x = vec![Vec3::zeros(), Vec3::zeros(), Vec3::z(), -Vec3::z()];
         let mut friction = Friction::new(&x, &[floor, edge], 100.0);
         let force = |friction: &Friction, k: usize, c: &Contact, x: &[Vec3]| {
-            friction.grip(k, c, x, 2.0, &mu).map_or(f64::NAN, |g| g.force.x)
+            friction.hold(k, c, x, 2.0, &mu).map_or(f64::NAN, |h| h.grip().force.x)
         };
         for (to, expected) in [(0.004, -0.4), (0.009, -0.9), (0.013, -1.0), (0.010, -0.7), (-0.02, 1.0)] {
             x[0].x = 0.05 * to;

@@ -4,19 +4,29 @@
 //! a compressed spring as if it stiffened it. The true stiffness has neither fault; conjugate gradients solve it, with
 //! the majorant's factor as preconditioner (Steihaug 1983: stopped where the curvature turns negative or the step gets
 //! longer than the model can be trusted).
+//!
+//! Contacts that begin or cease to push, to hold or to slide on the way are kinks in the energy. A step that takes them
+//! on their wrong side may be no step at all: garments swung to and fro on their friction.
 
 use rayon::prelude::*;
 
 use super::force::{Forces, Press, free_forces};
+use super::friction::{Grip, Hold};
 use super::model::Cloth;
 use super::springs::SpringTangent;
-use super::step::{Reuse, StepError, Stepper, contact_forces, opening, presses};
+use super::step::{Pushing, Reuse, StepError, Stepper, opening, presses};
+use crate::contact::Contact;
 use crate::geometry::{Mat3, Vec3};
 
 /// Most conjugate gradient iterations of a step; more would cost more than a new factor.
 const ITERATIONS: usize = 16;
 /// A preconditioner need not be new: an older factor costs iterations, about one for every contact it does not know.
 const OLD: Reuse = Reuse { moved: 1e-3, contacts: 8 };
+/// A step is solved up to so often: with what pushes and what slides as it was, then as it comes out (a semismooth Newton
+/// method; Qi and Sun 1993).
+const ROUNDS: usize = 3;
+/// It is solved again where the energy of contact and friction is misjudged by more than this share of what it gains.
+const MISJUDGED: f64 = 0.3;
 /// They end when the preconditioned residual has fallen to this share (squared).
 const SOLVED: f64 = 1e-4;
 
@@ -56,13 +66,26 @@ impl Stepper {
     ) -> Result<Proposal, StepError> {
         let free = free_forces(cloth, x, forces);
         let presses = presses(cloth, x, forces);
-        let active: Vec<bool> = presses.iter().map(|p| p.load > 0.0).collect();
-        let tangent = Tangent::new(cloth, x, dt, forces, &presses);
-        self.prepare(cloth, x, dt, forces, &presses, &active, OLD)?;
-        let rhs = contact_forces(&free, cloth, x, forces, &presses, &active);
-        let d = self.truncated(&tangent, &rhs, radius)?;
-        // A contact that the step closes is not in its stiffness: to solve again with it costs more than the next step.
-        Ok(Proposal { gain: tangent.gain(&free, &d), d })
+        let mut active: Vec<bool> = presses.iter().map(|p| p.load > 0.0).collect();
+        let holds: Vec<Option<Hold>> =
+            presses.iter().enumerate().map(|(k, p)| forces.hold(cloth, x, k, p.load)).collect();
+        let mut grips: Vec<Option<Grip>> = holds.iter().map(|hold| Some(hold.as_ref()?.grip())).collect();
+        let mut round = 1;
+        loop {
+            let pushing = Pushing { presses: &presses, active: &active, grips: &grips };
+            self.prepare(cloth, x, dt, forces, &pushing, OLD)?;
+            let tangent = Tangent::new(cloth, x, dt, forces, &pushing);
+            let d = self.truncated(&tangent, &pushing.forces(&free, forces), radius)?;
+            let Judged { gain, misjudged } = judge(forces.contacts, &holds, &pushing, &d);
+            let gain = tangent.gain(&free, &d) + gain;
+            if round >= ROUNDS || misjudged <= MISJUDGED * gain {
+                return Ok(Proposal { d, gain });
+            }
+            let after = |k: usize| Some(holds[k].as_ref()?.grip_after(way(&forces.contacts[k], &d)));
+            grips = (0..holds.len()).map(after).collect();
+            active = presses.iter().zip(forces.contacts).map(|(p, c)| p.after(opening(c, &d)) > 0.0).collect();
+            round += 1;
+        }
     }
 
     /// Conjugate gradients on the tangent, from zero.
@@ -105,16 +128,12 @@ impl Stepper {
 }
 
 impl<'a> Tangent<'a> {
-    fn new(cloth: &'a Cloth, x: &'a [Vec3], dt: f64, forces: &'a Forces<'a>, presses: &'a [Press]) -> Self {
+    fn new(cloth: &'a Cloth, x: &'a [Vec3], dt: f64, forces: &'a Forces<'a>, pushing: &Pushing<'a>) -> Self {
         let springs = cloth.springs.iter().map(|s| s.tangent(&cloth.laws[s.law as usize], x)).collect();
         let creases = cloth.creases.iter().map(|c| c.root(x)).collect();
-        let grip = |k: usize| {
-            let grip = forces.friction?.grip(k, &forces.contacts[k], x, presses[k].load, &cloth.friction)?;
-            Some(grip.stiffness)
-        };
-        let pushing = (0..presses.len()).filter(|&k| presses[k].load > 0.0);
-        let grips = pushing.map(|k| (k, grip(k).unwrap_or_else(Mat3::zeros))).collect();
-        Self { cloth, dt, forces, presses, springs, creases, grips }
+        let grips =
+            pushing.numbers().map(|k| (k, pushing.grips[k].map_or_else(Mat3::zeros, |g| g.stiffness))).collect();
+        Self { cloth, dt, forces, presses: pushing.presses, springs, creases, grips }
     }
 
     /// (M/Δt² + true stiffness) p, with the contacts that push.
@@ -122,7 +141,7 @@ impl<'a> Tangent<'a> {
         let mut out = self.apply_free(p);
         for (k, grip) in &self.grips {
             let (contact, press) = (&self.forces.contacts[*k], &self.presses[*k]);
-            let way: Vec3 = contact.parts().map(|(i, w)| p[i] * w).sum();
+            let way = way(contact, p);
             let back = contact.normal * (press.slope * contact.normal.dot(&way)) + grip * way;
             for (i, w) in contact.parts() {
                 out[i] += back * w;
@@ -160,15 +179,42 @@ impl<'a> Tangent<'a> {
         self.cloth.edges.iter().map(square).fold(0.0, f64::max).sqrt()
     }
 
-    /// Decrease of the energy's model along `d`: quadratic, but every contact pushes only while it touches.
+    /// Decrease of the energy's quadratic model along `d`, without contact.
     fn gain(&self, free: &[Vec3], d: &[Vec3]) -> f64 {
-        let smooth = dot(free, d) - 0.5 * dot(d, &self.apply_free(d));
-        let contact = self.forces.contacts.iter().zip(self.presses).map(|(contact, press)| {
-            let after = (press.load - press.slope * opening(contact, d)).max(0.0);
-            (press.load.max(0.0).powi(2) - after * after) / (2.0 * press.slope)
-        });
-        smooth + contact.sum::<f64>()
+        dot(free, d) - 0.5 * dot(d, &self.apply_free(d))
     }
+}
+
+/// How far a step carries a contact, metres.
+fn way(contact: &Contact, d: &[Vec3]) -> Vec3 {
+    contact.parts().map(|(i, w)| d[i] * w).sum()
+}
+
+/// What a step does to the energy of contact and friction, J.
+struct Judged {
+    /// By how much it falls: every contact pushes only while it touches, and slides only beyond what it can hold.
+    gain: f64,
+    /// By how much the linear model of the step misjudges that, in the sum of all contacts.
+    misjudged: f64,
+}
+
+fn judge(contacts: &[Contact], holds: &[Option<Hold>], pushing: &Pushing, d: &[Vec3]) -> Judged {
+    let mut out = Judged { gain: 0.0, misjudged: 0.0 };
+    for (k, (contact, press)) in contacts.iter().zip(pushing.presses).enumerate() {
+        let after = press.after(opening(contact, d));
+        let energy = |load: f64| load.max(0.0).powi(2) / (2.0 * press.slope);
+        out.gain += energy(press.load) - energy(after);
+        if pushing.active[k] != (after > 0.0) {
+            out.misjudged += energy(after.abs());
+        }
+        if let (Some(hold), Some(grip)) = (&holds[k], &pushing.grips[k]) {
+            let way = way(contact, d);
+            out.gain += hold.energy(Vec3::zeros()) - hold.energy(way);
+            let error = grip.force - grip.stiffness * way - hold.force(way);
+            out.misjudged += 0.5 * error.norm() * way.norm();
+        }
+    }
+    out
 }
 
 fn dot(a: &[Vec3], b: &[Vec3]) -> f64 {

@@ -86,10 +86,15 @@ impl<'a> Proximity<'a> {
         self.contacts = contacts;
     }
 
+    /// Whether a node has gone so far that contacts have to be looked for anew.
+    pub(super) fn is_due(&self, x: &[Vec3]) -> bool {
+        self.bounds.travelled(x) > RENEW * self.reach.cloth
+    }
+
     /// Follows the nodes to `x`: a new detection when one has gone far, otherwise the pairs of cloth are turned to
     /// where their closest points are now. Returns whether the contacts are others.
     pub(super) fn follow(&mut self, cloth: &Cloth, x: &[Vec3]) -> bool {
-        if self.bounds.travelled(x) > RENEW * self.reach.cloth {
+        if self.is_due(x) {
             self.detect(cloth, x);
             return true;
         }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::force::{Forces, Press, free_forces, push};
+use super::friction::Grip;
 use super::model::Cloth;
 use super::springs::SpringTangent;
 use crate::contact::Contact;
@@ -67,6 +68,37 @@ pub struct Stepper {
     made: Option<Made>,
 }
 
+/// All contacts, as a step's linear model knows them.
+pub(super) struct Pushing<'a> {
+    /// Their loads and slopes.
+    pub(super) presses: &'a [Press],
+    /// Which of them push at the end of the step.
+    pub(super) active: &'a [bool],
+    /// Their friction.
+    pub(super) grips: &'a [Option<Grip>],
+}
+
+impl Pushing<'_> {
+    /// Those that push.
+    pub(super) fn numbers(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.active.len()).filter(|&k| self.active[k])
+    }
+
+    /// Those that slide.
+    fn sliding(&self) -> Vec<u32> {
+        self.numbers().filter(|&k| self.grips[k].is_some_and(|g| g.slides)).map(|k| k as u32).collect()
+    }
+
+    /// `free` with the loads and the friction of those that push.
+    pub(super) fn forces(&self, free: &[Vec3], forces: &Forces) -> Vec<Vec3> {
+        let mut out = free.to_vec();
+        for k in self.numbers() {
+            push(&mut out, &forces.contacts[k], self.presses[k].load, self.grips[k]);
+        }
+        out
+    }
+}
+
 /// What a factor was made for.
 struct Made {
     x: Vec<Vec3>,
@@ -125,14 +157,17 @@ impl Stepper {
             *f += v * (m / dt);
         }
         let presses = presses(cloth, x, forces);
+        let grips: Vec<Option<Grip>> =
+            presses.iter().enumerate().map(|(k, p)| Some(forces.hold(cloth, x, k, p.load)?.grip())).collect();
         let mut active: Vec<bool> = presses.iter().map(|p| p.load > 0.0).collect();
         let mut round = 1;
         loop {
-            self.prepare(cloth, x, dt, forces, &presses, &active, SAME)?;
-            let d = self.apply_inverse(&contact_forces(&free, cloth, x, forces, &presses, &active))?;
+            let pushing = Pushing { presses: &presses, active: &active, grips: &grips };
+            self.prepare(cloth, x, dt, forces, &pushing, SAME)?;
+            let d = self.apply_inverse(&pushing.forces(&free, forces))?;
             let mut misjudged = false;
             for ((contact, press), on) in forces.contacts.iter().zip(&presses).zip(&mut active) {
-                let left = press.load - press.slope * opening(contact, &d);
+                let left = press.after(opening(contact, &d));
                 if (left > 0.0) != *on {
                     misjudged |= left.abs() > MISJUDGED * press.slope;
                     *on = left > 0.0;
@@ -159,26 +194,23 @@ impl Stepper {
         }
     }
 
-    /// Factors M/Δt² + H at `x` for the contacts marked in `active`, unless an older factor serves.
-    #[expect(clippy::too_many_arguments, reason = "what a matrix is made of")]
+    /// Factors M/Δt² + H at `x` for the contacts that push, unless an older factor serves.
     pub(super) fn prepare(
         &mut self,
         cloth: &Cloth,
         x: &[Vec3],
         dt: f64,
         forces: &Forces,
-        presses: &[Press],
-        active: &[bool],
+        contacts: &Pushing,
         reuse: Reuse,
     ) -> Result<(), StepError> {
-        let mut pushing: Vec<[u32; 4]> =
-            forces.contacts.iter().zip(active).filter(|(_, on)| **on).map(|(c, _)| c.nodes).collect();
+        let mut pushing: Vec<[u32; 4]> = contacts.numbers().map(|k| forces.contacts[k].nodes).collect();
         pushing.sort_unstable();
         if let Some(made) = &self.made {
             let near = || made.x.iter().zip(x).all(|(a, b)| (a - b).norm_squared() < reuse.moved * reuse.moved);
             let same = || {
                 differences(&made.pushing, &pushing) <= reuse.contacts
-                    && (reuse.contacts > 0 || made.sliding == sliding(cloth, x, forces, presses, active))
+                    && (reuse.contacts > 0 || made.sliding == contacts.sliding())
             };
             if forces.pulls.is_empty() && made.dt == dt && near() && same() {
                 return Ok(());
@@ -186,18 +218,17 @@ impl Stepper {
         }
         self.made = None;
         self.assemble(cloth, x, dt, forces);
-        for k in (0..active.len()).filter(|&k| active[k]) {
-            let (contact, press) = (&forces.contacts[k], &presses[k]);
-            let mut stiffness = contact.normal * contact.normal.transpose() * press.slope;
-            if let Some(grip) = forces.friction.and_then(|f| f.grip(k, contact, x, press.load, &cloth.friction)) {
+        for k in contacts.numbers() {
+            let normal = forces.contacts[k].normal;
+            let mut stiffness = normal * normal.transpose() * contacts.presses[k].slope;
+            if let Some(grip) = contacts.grips[k] {
                 stiffness += grip.stiffness;
             }
-            self.add_contact(contact, &stiffness);
+            self.add_contact(&forces.contacts[k], &stiffness);
         }
         self.hold(cloth, x);
         self.factor(cloth, x)?;
-        let sliding = sliding(cloth, x, forces, presses, active);
-        self.made = Some(Made { x: x.to_vec(), dt, pushing, sliding });
+        self.made = Some(Made { x: x.to_vec(), dt, pushing, sliding: contacts.sliding() });
         Ok(())
     }
 
@@ -318,13 +349,6 @@ fn differences(a: &[[u32; 4]], b: &[[u32; 4]]) -> usize {
     a.len() + b.len() - 2 * common
 }
 
-/// Numbers of the contacts marked in `active` that slide at `x`.
-fn sliding(cloth: &Cloth, x: &[Vec3], forces: &Forces, presses: &[Press], active: &[bool]) -> Vec<u32> {
-    let Some(friction) = forces.friction else { return Vec::new() };
-    let grip = |k: usize| friction.grip(k, &forces.contacts[k], x, presses[k].load, &cloth.friction);
-    (0..active.len()).filter(|&k| active[k] && grip(k).is_some_and(|g| g.slides)).map(|k| k as u32).collect()
-}
-
 /// Loads and slopes of all contacts at `x`.
 pub(super) fn presses(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Press> {
     forces.contacts.iter().map(|c| forces.law.press(cloth, x, c)).collect()
@@ -333,22 +357,6 @@ pub(super) fn presses(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Press> 
 /// By how much a step opens a contact, metres.
 pub(super) fn opening(contact: &Contact, d: &[Vec3]) -> f64 {
     contact.parts().map(|(i, w)| w * contact.normal.dot(&d[i])).sum()
-}
-
-/// `free` with the loads of the contacts marked in `active`.
-pub(super) fn contact_forces(
-    free: &[Vec3],
-    cloth: &Cloth,
-    x: &[Vec3],
-    forces: &Forces,
-    presses: &[Press],
-    active: &[bool],
-) -> Vec<Vec3> {
-    let mut out = free.to_vec();
-    for k in (0..active.len()).filter(|&k| active[k]) {
-        push(&mut out, cloth, x, forces, k, presses[k].load);
-    }
-    out
 }
 
 fn couple(matrix: &mut SymmetricMatrix<f32>, diagonal: &[BlockSlot], ends: [u32; 2], slot: BlockSlot, k: &Mat3) {

@@ -97,7 +97,7 @@ impl<'a> World<'a> {
         let d = self.stepper.solve(&self.cloth, &self.x, &inertia, dt, &forces, 1)?;
         let share = self.proximity.bounds.share(&self.x, &d);
         let target: Vec<Vec3> = self.x.iter().zip(&d).map(|(x, d)| x + d * share).collect();
-        self.move_to(target, dt)
+        self.move_to(target, dt, true)
     }
 
     /// A step without inertia from an extrapolated position: x + `momentum` × the last motion (at most `most` metres).
@@ -127,11 +127,15 @@ impl<'a> World<'a> {
         let still = vec![Vec3::zeros(); ahead.len()];
         let d = self.stepper.solve(&self.cloth, &ahead, &still, dt, &forces, ROUNDS)?;
         let target: Vec<Vec3> = ahead.iter().zip(&d).map(|(x, d)| x + d).collect();
-        self.move_to(target, dt)
+        self.move_to(target, dt, true)
     }
 
     /// A step with the true stiffness that changes no edge by more than `radius` metres, shortened until the energy
     /// falls; where it does not, a step with the majorant, shortened likewise.
+    ///
+    /// Friction is reckoned from where contacts were last looked for: steps until the next look are iterations towards
+    /// the rest of one energy. A memory that followed each of them would be a ratchet, on which their errors drag the
+    /// garment along for hundreds of steps.
     ///
     /// # Errors
     /// [`StepError::Singular`] when a number is not finite.
@@ -142,13 +146,13 @@ impl<'a> World<'a> {
         if down.gain >= -ROUNDING {
             let ratio = if step.gain > 0.0 { down.gain / step.gain } else { 0.0 };
             let shortened = down.halvings > 0;
-            return Ok(NewtonStep { moved: self.move_to(down.target, dt)?, shortened, ratio });
+            return Ok(NewtonStep { moved: self.move_to(down.target, dt, false)?, shortened, ratio });
         }
         let still = vec![Vec3::zeros(); self.x.len()];
         let d = self.stepper.solve(&self.cloth, &self.x, &still, dt, &forces, ROUNDS)?;
         let down = self.descend(&forces, &d, 0.0, MORE_HALVINGS);
         // The bounds may ask for more room than there is: the shortest step then still makes that room.
-        Ok(NewtonStep { moved: self.move_to(down.target, dt)?, shortened: true, ratio: 0.0 })
+        Ok(NewtonStep { moved: self.move_to(down.target, dt, false)?, shortened: true, ratio: 0.0 })
     }
 
     /// Halves a step, as the bounds let it be made, until the energy falls by a share of `expected` (J).
@@ -170,7 +174,7 @@ impl<'a> World<'a> {
         }
     }
 
-    fn move_to(&mut self, mut target: Vec<Vec3>, dt: f64) -> Result<f64, StepError> {
+    fn move_to(&mut self, mut target: Vec<Vec3>, dt: f64, drag: bool) -> Result<f64, StepError> {
         self.proximity.bounds.clamp(&self.x, &mut target);
         let mut largest = 0.0f64;
         for ((x, t), v) in self.x.iter_mut().zip(&target).zip(&mut self.velocity) {
@@ -180,14 +184,21 @@ impl<'a> World<'a> {
             *x = *t;
         }
         self.cloth.follow(&self.x);
-        if let Some(friction) = &mut self.friction {
-            let (cloth, law, x) = (&self.cloth, self.law, &self.x);
-            friction.update(x, &self.proximity.contacts, &cloth.friction, |c| law.load(cloth, x, c));
+        if drag || self.proximity.is_due(&self.x) {
+            self.drag_friction();
         }
         if self.proximity.follow(&self.cloth, &self.x) {
             self.contacts_changed()?;
         }
         Ok(largest.sqrt())
+    }
+
+    /// Friction remembers how far every contact has been dragged up to now.
+    fn drag_friction(&mut self) {
+        if let Some(friction) = &mut self.friction {
+            let (cloth, law, x) = (&self.cloth, self.law, &self.x);
+            friction.update(x, &self.proximity.contacts, &cloth.friction, |c| law.load(cloth, x, c));
+        }
     }
 
     /// [`World::detect`], from now on within `reach`: cloth that hardly moves need not look far.
@@ -205,6 +216,7 @@ impl<'a> World<'a> {
     /// # Errors
     /// As [`Stepper::new`].
     pub fn detect(&mut self) -> Result<(), StepError> {
+        self.drag_friction();
         self.proximity.detect(&self.cloth, &self.x);
         self.contacts_changed()
     }

@@ -21,6 +21,7 @@ mod sampling;
 mod shape;
 mod springs;
 mod strip;
+mod transfer;
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -29,6 +30,7 @@ pub use build::{build, build_with};
 pub use check::{CheckError, check};
 pub use error::{MeshError, SeamFault};
 pub use springs::{Spring, SpringClass};
+pub use transfer::Transfer;
 
 use build::Fill;
 

@@ -14,6 +14,7 @@ mod cloth;
 mod error;
 mod job;
 mod judged;
+mod levels;
 mod material;
 mod results;
 mod run;

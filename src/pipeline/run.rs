@@ -5,12 +5,13 @@ use std::time::Instant;
 
 use super::error::PipelineError;
 use super::job::Job;
+use super::levels::{COARSE_SHARE, Closed, Coarse};
 use crate::drape::{DrapeOptions, drape};
 use crate::flatten::{self, flatten_garment};
 use crate::geometry::{Vec2, Vec3};
 use crate::report::{Drift, Measured, Report, Stage, measure};
 use crate::sew::place::place;
-use crate::sew::{SewOptions, Sewn, Stitching, sew};
+use crate::sew::{SewOptions, Sewn, Stitching};
 
 /// Told the name of the stage under way and the share of it that is done.
 pub type Progress<'a> = &'a mut dyn FnMut(&str, f64);
@@ -31,6 +32,8 @@ pub struct Run<'a> {
     pub(super) draped: Option<Vec<Vec3>>,
     pub(super) flattened: Option<Vec<Vec2>>,
     stages: Vec<Stage>,
+    /// What the garment was sewn from, for draping to begin with.
+    coarse: Option<Box<Coarse>>,
 }
 
 impl<'a> Run<'a> {
@@ -38,7 +41,17 @@ impl<'a> Run<'a> {
     pub fn new(job: &'a Job) -> Self {
         let stages = vec![job.meshing.clone()];
         let stitching = Stitching::new(&job.mesh);
-        Self { job, stitching, gaps: None, placed: None, sewn: None, draped: None, flattened: None, stages }
+        Self {
+            job,
+            stitching,
+            gaps: None,
+            placed: None,
+            sewn: None,
+            draped: None,
+            flattened: None,
+            stages,
+            coarse: None,
+        }
     }
 
     /// Places the pieces round the body and closes the seams.
@@ -50,11 +63,11 @@ impl<'a> Run<'a> {
         let begin = Instant::now();
         let failed = |e| PipelineError::sewing(&job.file, e);
         let start = place(&job.garment, &job.mesh, &job.body, &job.collider).map_err(|e| failed(e.into()))?;
-        self.placed = Some(start.clone());
-        let options = SewOptions::default();
+        self.placed = Some(start);
         let mut tell = |share| progress("sew", share);
-        let sewn = sew(&job.cut(), &job.collider, start, &options, &mut tell).map_err(failed)?;
-        let closed = sewn.closed(&job.mesh, options.tolerance);
+        let Closed { sewn, coarse } = job.sew_from_coarse(&job.mesh, &mut tell).map_err(failed)?;
+        self.coarse = coarse;
+        let closed = sewn.closed(&job.mesh, SewOptions::default().tolerance);
         self.stages.push(Stage {
             name: "sew".into(),
             seconds: begin.elapsed().as_secs_f64(),
@@ -82,7 +95,13 @@ impl<'a> Run<'a> {
         let begin = Instant::now();
         let nodes = gathered(&self.stitching, self.sewn.as_deref().unwrap_or_default());
         let mut tell = |share| progress("drape", share);
+        let coarse =
+            self.coarse.as_deref().map(|coarse| job.start_from_coarse(&job.mesh, coarse, &mut tell)).transpose()?;
+        let start = coarse.flatten();
         let options = DrapeOptions::default();
+        let begun = if start.is_some() { COARSE_SHARE } else { 0.0 };
+        let mut tell = |share| progress("drape", begun + (1.0 - begun) * share);
+        let nodes = start.unwrap_or(nodes);
         let draped = drape(&job.cut(), &job.collider, &self.stitching, nodes, &options, &mut tell)?;
         self.stages.push(Stage {
             name: "drape".into(),

@@ -8,5 +8,5 @@ mod stitch;
 
 pub use close::{SewOptions, Sewn, sew};
 pub use error::SewError;
-pub use settle::{drape_reach, draping_world, settle, sewn_world};
+pub use settle::{drape_reach, draping_world, join, settle, sewn_world};
 pub use stitch::Stitching;

@@ -57,6 +57,22 @@ pub fn drape_reach(spacing: f64) -> f64 {
     (REACH * spacing).min(LONGEST_REACH)
 }
 
+/// Stitches particles that already lie as a sewn garment does: positions of the classes, or `None` where the cloth passes
+/// through itself and cannot be led out.
+///
+/// # Errors
+/// As [`World::new`].
+pub fn join(
+    cut: &Cut,
+    body: &Collider,
+    stitching: &Stitching,
+    particles: &[Vec3],
+) -> Result<Option<Vec<Vec3>>, StepError> {
+    let mut world = sewn_world(cut, body, stitching, stitching.welded(particles))?;
+    untangle(&mut world, true)?;
+    Ok(world.tangles().is_empty().then_some(world.x))
+}
+
 /// Lets the measured springs pull a newly stitched cloth true, out of its tangles first. Returns the steps made and the
 /// tangles left.
 ///

@@ -1,0 +1,104 @@
+//! From coarse to fine: a garment is sewn and draped with few particles first, where a step costs little and carries
+//! folds far, and what comes out is where more particles start (cascadic multigrid; Bornemann and Deuflhard 1996).
+
+use super::error::PipelineError;
+use super::job::Job;
+use crate::drape::{DrapeOptions, Until, drape};
+use crate::dynamics::Cut;
+use crate::geometry::Vec3;
+use crate::mesh::{self, ClothMesh, Transfer};
+use crate::sew::place::place;
+use crate::sew::{SewError, SewOptions, Sewn, Stitching, join, sew};
+
+/// How much coarser each level is than the next.
+const COARSER: f64 = 2.0;
+/// No level is coarser than this, metres: a neckband or a waistband is one cell wide then, and a wrist has seven round it.
+const COARSEST: f64 = 0.025;
+/// Share of a stage's progress that its coarser levels are.
+pub(super) const COARSE_SHARE: f64 = 0.3;
+
+/// A garment with its seams closed.
+pub(super) struct Closed {
+    pub(super) sewn: Sewn,
+    /// The coarser one it was made from.
+    pub(super) coarse: Option<Box<Coarse>>,
+}
+
+/// A coarser mesh of a garment with its seams closed.
+pub(super) struct Coarse {
+    mesh: ClothMesh,
+    closed: Closed,
+}
+
+impl Job {
+    /// Sews `mesh`: coarser first, where that goes.
+    ///
+    /// # Errors
+    /// A piece without a place, or a garment that cannot be sewn.
+    pub(super) fn sew_from_coarse(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Result<Closed, SewError> {
+        let (cut, options) = (self.cut_of(mesh), SewOptions::default());
+        if let Some(coarse) = self.coarser(mesh, &mut |share| progress(COARSE_SHARE * share)) {
+            let start = coarse.carry(&coarse.closed.sewn.nodes, mesh);
+            let mut tell = |share| progress(COARSE_SHARE + (1.0 - COARSE_SHARE) * share);
+            // What does not come out whole begins anew, as it would without a coarser level.
+            let sewn = sew(&cut, &self.collider, start, &options, &mut tell).ok().filter(|sewn| is_whole(mesh, sewn));
+            if let Some(sewn) = sewn {
+                return Ok(Closed { sewn, coarse: Some(coarse) });
+            }
+        }
+        let start = place(&self.garment, mesh, &self.body, &self.collider)?;
+        let sewn = sew(&cut, &self.collider, start, &options, progress)?;
+        Ok(Closed { sewn, coarse: None })
+    }
+
+    /// The next coarser level, sewn; none where the garment cannot be meshed or sewn so coarse.
+    fn coarser(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Option<Box<Coarse>> {
+        let spacing = COARSER * mesh.spacing;
+        if spacing > COARSEST {
+            return None;
+        }
+        let mesh = mesh::build(&self.garment, spacing).ok()?;
+        let closed = self.sew_from_coarse(&mesh, progress).ok()?;
+        is_whole(&mesh, &closed.sewn).then(|| Box::new(Coarse { mesh, closed }))
+    }
+
+    /// Where the nodes of a garment on `mesh` begin to drape: as the coarser one has come to hang, if that gives a whole
+    /// garment.
+    ///
+    /// # Errors
+    /// A garment that cannot be draped.
+    pub(super) fn start_from_coarse(
+        &self,
+        mesh: &ClothMesh,
+        coarse: &Coarse,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Option<Vec<Vec3>>, PipelineError> {
+        let Closed { sewn, coarse: coarser } = &coarse.closed;
+        let lower =
+            coarser.as_deref().map(|lower| self.start_from_coarse(&coarse.mesh, lower, progress)).transpose()?;
+        let start = lower.flatten().unwrap_or_else(|| sewn.nodes.clone());
+        let options = DrapeOptions { until: Until::Near, ..DrapeOptions::default() };
+        let mut tell = |share| progress(COARSE_SHARE * share);
+        let draped = drape(&self.cut_of(&coarse.mesh), &self.collider, &sewn.stitching, start, &options, &mut tell)?;
+        let start = coarse.carry(&draped.nodes, mesh);
+        let joined = join(&self.cut_of(mesh), &self.collider, &Stitching::new(mesh), &start);
+        joined.map_err(|error| PipelineError::Sew(error.into()))
+    }
+
+    fn cut_of<'a>(&'a self, mesh: &'a ClothMesh) -> Cut<'a> {
+        Cut { mesh, ..self.cut() }
+    }
+}
+
+impl Coarse {
+    /// Positions of the particles of `mesh` from those of this level's classes.
+    fn carry(&self, nodes: &[Vec3], mesh: &ClothMesh) -> Vec<Vec3> {
+        let particles: Vec<Vec3> = self.closed.sewn.stitching.class.iter().map(|&c| nodes[c as usize]).collect();
+        Transfer::new(&self.mesh, mesh).apply(&particles)
+    }
+}
+
+/// Whether all seams have closed and the cloth does not pass through itself.
+fn is_whole(mesh: &ClothMesh, sewn: &Sewn) -> bool {
+    sewn.tangles == 0 && sewn.closed(mesh, SewOptions::default().tolerance).is_ok()
+}
