@@ -1,5 +1,7 @@
 //! Meshes of garments built by hand: every promise of `mesh::build` on every kind of piece and seam.
 
+use std::collections::HashSet;
+
 use proptest::prelude::*;
 use toile::geometry::{Path, Vec2, Vec3};
 use toile::mesh::{
@@ -590,11 +592,12 @@ fn of_several_mistakes_the_first_piece_is_named() {
     }
 }
 
-/// A linear map of the plane into space is carried over exactly, inside the pieces and beyond what coarse rims cut off.
+/// A linear map of the plane into space is carried over exactly, but for what coarse rims cut off of curves; rims stay
+/// rims, and pieces apart.
 #[test]
 fn positions_are_carried_between_coarse_and_fine() {
     let disk = piece("disk", vec![circle(0.0, 0.0, 100.0, false), circle(20.0, 10.0, 30.0, true)]);
-    let strip = piece("strip", vec![polygon(&[(0.0, 0.0), (300.0, 0.0), (300.0, 30.0), (0.0, 30.0)])]);
+    let strip = piece("strip", vec![polygon(&[(0.0, 0.0), (300.0, 0.0), (300.0, 60.0), (0.0, 60.0)])]);
     let garment = garment(vec![disk, strip], vec![]);
     let (coarse, _) = meshed(&garment, 24.0);
     let (fine, _) = meshed(&garment, 9.0);
@@ -602,8 +605,11 @@ fn positions_are_carried_between_coarse_and_fine() {
     for (from, to) in [(&coarse, &fine), (&fine, &coarse)] {
         let transfer = Transfer::new(from, to);
         let x: Vec<Vec3> = from.flat.iter().map(plane).collect();
-        for (got, p) in transfer.apply(&x).iter().zip(&to.flat) {
-            assert!((got - plane(p)).norm() < 1e-12, "{got} is not {}", plane(p));
+        let rim: HashSet<u32> = to.pieces[0].edges.iter().flat_map(|e| e.particles.iter().copied()).collect();
+        for (n, (got, p)) in transfer.apply(&x).iter().zip(&to.flat).enumerate() {
+            // The sagitta of the hole's longest chord, as steep as the plane.
+            let cut_off = if rim.contains(&(n as u32)) { 1.4 * 0.024_f64.powi(2) / (8.0 * 0.03) } else { 1e-12 };
+            assert!((got - plane(p)).norm() <= cut_off, "particle {n}: {got} is not {}", plane(p));
         }
         // The pieces apart in space: none is mixed with the other.
         let apart: Vec<Vec3> = (0..from.flat.len())

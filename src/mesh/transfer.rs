@@ -4,7 +4,8 @@ use super::ClothMesh;
 use crate::geometry::{Vec2, Vec3};
 
 /// Where the particles of one mesh lie in another of the same garment: each in the triangle of its piece that holds its
-/// flat position, or continued beyond the one that comes nearest (a coarser rim cuts off its curves).
+/// flat position, or continued beyond the one that comes nearest (a coarser rim cuts off its curves). Those of an edge
+/// lie on that edge, as far along it, so that what is sewn together stays together.
 #[derive(Clone, Debug)]
 pub struct Transfer {
     /// Per particle the corners of the triangle and their weights, which sum to 1.
@@ -22,6 +23,12 @@ impl Transfer {
         for (source, target) in from.pieces.iter().zip(&to.pieces) {
             let locator = Locator::new(&from.flat, &from.triangles[source.triangles.clone()], from.spacing);
             places.extend(to.flat[target.particles.clone()].iter().map(|&p| locator.place(p)));
+            for (edge, finer) in source.edges.iter().zip(&target.edges) {
+                let along = (shares(&from.flat, &edge.particles), shares(&to.flat, &finer.particles));
+                for (&n, &share) in finer.particles.iter().zip(&along.1) {
+                    places[n as usize] = between(&edge.particles, &along.0, share);
+                }
+            }
         }
         Self { places }
     }
@@ -33,6 +40,23 @@ impl Transfer {
         };
         self.places.iter().map(place).collect()
     }
+}
+
+/// How far along a chain each of its particles is, 0 … 1.
+fn shares(flat: &[Vec2], chain: &[u32]) -> Vec<f64> {
+    let mut out = vec![0.0; chain.len()];
+    for (k, pair) in chain.windows(2).enumerate() {
+        out[k + 1] = out[k] + (flat[pair[1] as usize] - flat[pair[0] as usize]).norm();
+    }
+    let whole = out.last().copied().unwrap_or(0.0).max(f64::MIN_POSITIVE);
+    out.iter().map(|s| s / whole).collect()
+}
+
+/// The place `share` of the way along a chain whose particles are at `shares` of it.
+fn between(chain: &[u32], shares: &[f64], share: f64) -> ([u32; 3], [f64; 3]) {
+    let k = shares.partition_point(|s| *s <= share).clamp(1, chain.len() - 1);
+    let t = (share - shares[k - 1]) / (shares[k] - shares[k - 1]).max(f64::MIN_POSITIVE);
+    ([chain[k - 1], chain[k], chain[k]], [1.0 - t, t, 0.0])
 }
 
 /// Triangles of a piece by the square cells of the plane that they are near to.

@@ -8,7 +8,7 @@ use crate::dynamics::Cut;
 use crate::geometry::Vec3;
 use crate::mesh::{self, ClothMesh, Transfer};
 use crate::sew::place::place;
-use crate::sew::{SewError, SewOptions, Sewn, Stitching, join, sew};
+use crate::sew::{SewError, SewOptions, Sewn, Stitching, join, sew, stitch};
 
 /// How much coarser each level is than the next.
 const COARSER: f64 = 2.0;
@@ -38,11 +38,9 @@ impl Job {
     pub(super) fn sew_from_coarse(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Result<Closed, SewError> {
         let (cut, options) = (self.cut_of(mesh), SewOptions::default());
         if let Some(coarse) = self.coarser(mesh, &mut |share| progress(COARSE_SHARE * share)) {
-            let start = coarse.carry(&coarse.closed.sewn.nodes, mesh);
-            let mut tell = |share| progress(COARSE_SHARE + (1.0 - COARSE_SHARE) * share);
+            let sewn = stitch(&cut, &self.collider, &coarse.carry(&coarse.closed.sewn.nodes, mesh)).ok();
             // What does not come out whole begins anew, as it would without a coarser level.
-            let sewn = sew(&cut, &self.collider, start, &options, &mut tell).ok().filter(|sewn| is_whole(mesh, sewn));
-            if let Some(sewn) = sewn {
+            if let Some(sewn) = sewn.filter(|sewn| is_whole(mesh, sewn)) {
                 return Ok(Closed { sewn, coarse: Some(coarse) });
             }
         }

@@ -162,10 +162,21 @@ pub fn sew(
         let way = (first / widest).ln() / (first / options.tolerance).ln().max(1e-9);
         progress(way.clamp(0.0, 1.0));
     }
-    let gaps = stitching.gaps(&world.x);
-    let nodes = stitching.welded(&world.x);
-    let mut world = sewn_world(cut, body, &stitching, nodes)?;
+    stitched(cut, body, stitching, &world.x, steps)
+}
+
+/// Stitches particles that already lie as those of a sewn garment do, as a coarser one's have come to lie.
+///
+/// # Errors
+/// [`SewError`]: a step that cannot be made.
+pub fn stitch(cut: &Cut, body: &Collider, particles: &[Vec3]) -> Result<Sewn, SewError> {
+    stitched(cut, body, Stitching::new(cut.mesh), particles, 0)
+}
+
+/// Makes one of the particles of every class, and lets the cloth settle.
+fn stitched(cut: &Cut, body: &Collider, stitching: Stitching, x: &[Vec3], steps: usize) -> Result<Sewn, SewError> {
+    let gaps = stitching.gaps(x);
+    let mut world = sewn_world(cut, body, &stitching, stitching.welded(x))?;
     let (more, tangles) = settle(&mut world)?;
-    steps += more;
-    Ok(Sewn { nodes: world.x, stitching, gaps, steps, tangles })
+    Ok(Sewn { nodes: world.x, stitching, gaps, steps: steps + more, tangles })
 }

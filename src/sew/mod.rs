@@ -6,7 +6,7 @@ pub mod place;
 mod settle;
 mod stitch;
 
-pub use close::{SewOptions, Sewn, sew};
+pub use close::{SewOptions, Sewn, sew, stitch};
 pub use error::SewError;
 pub use settle::{drape_reach, draping_world, join, settle, sewn_world};
 pub use stitch::Stitching;
