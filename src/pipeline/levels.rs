@@ -38,7 +38,7 @@ impl Job {
     pub(super) fn sew_from_coarse(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Result<Closed, SewError> {
         let (cut, options) = (self.cut_of(mesh), SewOptions::default());
         if let Some(coarse) = self.coarser(mesh, &mut |share| progress(COARSE_SHARE * share)) {
-            let sewn = stitch(&cut, &self.collider, &coarse.carry(&coarse.closed.sewn.nodes, mesh)).ok();
+            let sewn = stitch(&cut, &self.collider, &coarse.carry(&coarse.closed.sewn.nodes, mesh)).ok().flatten();
             // What does not come out whole begins anew, as it would without a coarser level.
             if let Some(sewn) = sewn.filter(|sewn| is_whole(mesh, sewn)) {
                 return Ok(Closed { sewn, coarse: Some(coarse) });

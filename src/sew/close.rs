@@ -1,7 +1,7 @@
 //! Drawing the seams shut.
 
 use super::error::SewError;
-use super::settle::{settle, sewn_world, untangle};
+use super::settle::{UNTANGLE, join, settle, sewn_world, untangle};
 use super::stitch::Stitching;
 use crate::contact::{Collider, Neighbourhood};
 use crate::dynamics::{Cloth, ContactLaw, Cut, Pull, Reach, SpringModel, World, identity_nodes};
@@ -127,7 +127,7 @@ pub fn sew(
     let hood = Neighbourhood { class: stitching.class.clone(), tangled: Vec::new() };
     let mut world = World::new(cloth, start, &pairs, body, hood, law, reach)?;
 
-    untangle(&mut world, false)?;
+    untangle(&mut world, false, UNTANGLE)?;
     let mut phase = 0;
     let mut history: Vec<f64> = Vec::new();
     let (mut steps, mut first) = (0, options.tolerance);
@@ -162,21 +162,32 @@ pub fn sew(
         let way = (first / widest).ln() / (first / options.tolerance).ln().max(1e-9);
         progress(way.clamp(0.0, 1.0));
     }
-    stitched(cut, body, stitching, &world.x, steps)
+    let (gaps, nodes) = (stitching.gaps(&world.x), stitching.welded(&world.x));
+    settled(cut, body, stitching, nodes, gaps, steps)
 }
 
-/// Stitches particles that already lie as those of a sewn garment do, as a coarser one's have come to lie.
+/// Stitches particles that already lie as those of a sewn garment do, as a coarser one's have come to lie. `None` where
+/// the cloth passes through itself and is not soon led out.
 ///
 /// # Errors
 /// [`SewError`]: a step that cannot be made.
-pub fn stitch(cut: &Cut, body: &Collider, particles: &[Vec3]) -> Result<Sewn, SewError> {
-    stitched(cut, body, Stitching::new(cut.mesh), particles, 0)
+pub fn stitch(cut: &Cut, body: &Collider, particles: &[Vec3]) -> Result<Option<Sewn>, SewError> {
+    let stitching = Stitching::new(cut.mesh);
+    let gaps = stitching.gaps(particles);
+    let nodes = join(cut, body, &stitching, particles)?;
+    nodes.map(|nodes| settled(cut, body, stitching, nodes, gaps, 0)).transpose()
 }
 
-/// Makes one of the particles of every class, and lets the cloth settle.
-fn stitched(cut: &Cut, body: &Collider, stitching: Stitching, x: &[Vec3], steps: usize) -> Result<Sewn, SewError> {
-    let gaps = stitching.gaps(x);
-    let mut world = sewn_world(cut, body, &stitching, stitching.welded(x))?;
+/// Lets a garment with its seams closed settle.
+fn settled(
+    cut: &Cut,
+    body: &Collider,
+    stitching: Stitching,
+    nodes: Vec<Vec3>,
+    gaps: Vec<f64>,
+    steps: usize,
+) -> Result<Sewn, SewError> {
+    let mut world = sewn_world(cut, body, &stitching, nodes)?;
     let (more, tangles) = settle(&mut world)?;
     Ok(Sewn { nodes: world.x, stitching, gaps, steps: steps + more, tangles })
 }

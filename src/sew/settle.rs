@@ -15,8 +15,9 @@ const PENALTY: f64 = 60.0;
 /// and must not go further than edges and vertices of the body are looked for.
 const REACH: f64 = 0.8;
 const LONGEST_REACH: f64 = 8.8e-3;
-/// Rounds of leading tangles apart.
-const UNTANGLE: usize = 60;
+/// Rounds of leading tangles apart: where nothing else can be done, and where the garment can be sewn from the beginning.
+pub(super) const UNTANGLE: usize = 60;
+const SOON: usize = 8;
 /// The measured springs pull the cloth true after the last tangle is gone: at most so many steps, until no node goes
 /// further than so many metres in one.
 const SETTLE: usize = 40;
@@ -58,7 +59,7 @@ pub fn drape_reach(spacing: f64) -> f64 {
 }
 
 /// Stitches particles that already lie as a sewn garment does: positions of the classes, or `None` where the cloth passes
-/// through itself and cannot be led out.
+/// through itself and is not soon led out.
 ///
 /// # Errors
 /// As [`World::new`].
@@ -69,7 +70,7 @@ pub fn join(
     particles: &[Vec3],
 ) -> Result<Option<Vec<Vec3>>, StepError> {
     let mut world = sewn_world(cut, body, stitching, stitching.welded(particles))?;
-    untangle(&mut world, true)?;
+    untangle(&mut world, true, SOON)?;
     Ok(world.tangles().is_empty().then_some(world.x))
 }
 
@@ -79,7 +80,7 @@ pub fn join(
 /// # Errors
 /// As [`World::advance`].
 pub fn settle(world: &mut World) -> Result<(usize, usize), StepError> {
-    let mut steps = untangle(world, true)?;
+    let mut steps = untangle(world, true, UNTANGLE)?;
     for _ in 0..SETTLE {
         steps += 1;
         if step(world)? < SETTLED {
@@ -91,15 +92,15 @@ pub fn settle(world: &mut World) -> Result<(usize, usize), StepError> {
 
 /// Leads the cloth out of itself where it crosses: tangled nodes do not touch each other and move to the middle of their
 /// neighbours until the last crossing is gone. With `spring` the springs pull after every round; pieces that are not
-/// sewn yet are only smoothed. Returns the rounds that took.
+/// sewn yet are only smoothed. Returns the rounds that took, `most` at most.
 ///
 /// # Errors
 /// As [`World::advance`].
-pub(super) fn untangle(world: &mut World, spring: bool) -> Result<usize, StepError> {
+pub(super) fn untangle(world: &mut World, spring: bool, most: usize) -> Result<usize, StepError> {
     let mut rounds = 0;
     let mut left = world.tangles();
     let any = !left.is_empty();
-    while !left.is_empty() && rounds < UNTANGLE {
+    while !left.is_empty() && rounds < most {
         let tangled = neighbourhood(world, &left);
         smooth(world, &tangled);
         if spring {
