@@ -113,7 +113,7 @@ pub fn drape(
     let look = [(NEAREST_LOOK + thickest).min(widest), widest];
     let mut fall = Fall { last: world.x.clone(), world, steps: 0, near: false, trust: TRUST[0], look };
     let (drift, residual, converged) = match options.until {
-        Until::Rest => fall.to_rest(options.max_steps, progress)?,
+        Until::Rest => fall.come_to_rest(options.max_steps, progress)?,
         Until::Near => {
             fall.settle(options.max_steps, HARDLY, progress)?;
             ([f64::INFINITY; 2], fall.world.residual_in_weights(), false)
@@ -139,7 +139,7 @@ struct Fall<'a> {
 
 impl Fall<'_> {
     /// Steps until the garment rests, or `most` are made. Returns its drift, its residual force, and whether it rests.
-    fn to_rest(&mut self, most: usize, progress: &mut dyn FnMut(f64)) -> Result<([f64; 2], f64, bool), StepError> {
+    fn come_to_rest(&mut self, most: usize, progress: &mut dyn FnMut(f64)) -> Result<([f64; 2], f64, bool), StepError> {
         loop {
             self.settle(most, SETTLED, progress)?;
             let out_of_steps = self.steps >= most;
