@@ -95,9 +95,7 @@ impl<'a> Run<'a> {
         let begin = Instant::now();
         let nodes = gathered(&self.stitching, self.sewn.as_deref().unwrap_or_default());
         let mut tell = |share| progress("drape", share);
-        let coarse =
-            self.coarse.as_deref().map(|coarse| job.start_from_coarse(&job.mesh, coarse, &mut tell)).transpose()?;
-        let start = coarse.flatten();
+        let start = self.coarse.as_deref().and_then(|coarse| job.start_from_coarse(&job.mesh, coarse, &mut tell));
         let options = DrapeOptions::default();
         let begun = if start.is_some() { COARSE_SHARE } else { 0.0 };
         let mut tell = |share| progress("drape", begun + (1.0 - begun) * share);
@@ -141,9 +139,11 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Takes up the positions of an earlier run, one per class of stitched particles, as sewn or as draped.
+    /// Takes up the positions of an earlier run, one per class of stitched particles, as sewn or as draped, in place of
+    /// what this one has made: draping goes on from there and nowhere else.
     pub(super) fn resume(&mut self, nodes: &[Vec3], draped: bool) {
         let positions = spread(&self.stitching, nodes);
+        (self.coarse, self.draped, self.flattened) = (None, None, None);
         if draped {
             self.draped = Some(positions);
         } else {
