@@ -154,12 +154,13 @@ impl Friction {
     }
 
     /// The spring of contact number `k` for the normal force `load` and the nodes' coefficients `mu`; `None` while the
-    /// contact is open.
+    /// contact is open or without friction.
     pub(super) fn hold(&self, k: usize, contact: &Contact, x: &[Vec3], load: f64, mu: &[f64]) -> Option<Hold> {
-        if load <= 0.0 {
+        let most = coefficient(contact, mu) * load.max(0.0);
+        // Also where nothing rubs: what can hold nothing neither sticks nor slides.
+        if most <= 0.0 {
             return None;
         }
-        let most = coefficient(contact, mu) * load;
         let stiffness = self.stiffness.max(most / GIVE);
         let drawn = self.slip(k, contact, x);
         let slid = self.memory[k].slid && contact.parts().all(|(i, _)| x[i] == self.at[i]);
@@ -181,7 +182,7 @@ impl Friction {
             let hold = self.hold(k, contact, x, normal_force, mu);
             self.memory[k] = hold.map_or_else(Memory::default, |hold| Memory {
                 drawn: hold.kept(Vec3::zeros()),
-                slid: hold.slides(hold.drawn),
+                slid: hold.slid || hold.slides(hold.drawn),
                 touched: true,
             });
             if contact.is_on_body() && normal_force > 0.0 {
@@ -212,6 +213,22 @@ fn coefficient(contact: &Contact, mu: &[f64]) -> f64 {
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
+
+    #[test]
+    fn what_slid_slides_on_until_it_moves_however_often_it_is_dragged() {
+        let floor = Contact::on_body(0, Vec3::y(), Vec3::zeros());
+        let mut friction = Friction::new(&[Vec3::zeros()], &[floor], 100.0);
+        let x = [Vec3::x() * 0.1];
+        for _ in 0..3 {
+            friction.update(&x, &[floor], &[0.5], |_| 2.0);
+            let grip = friction.hold(0, &floor, &x, 2.0, &[0.5]).map(|hold| hold.grip()).expect("it touches");
+            assert!(grip.slides);
+            assert_relative_eq!(grip.force.x, -1.0, epsilon = 1e-12);
+        }
+        let back = [Vec3::x() * 0.0999];
+        assert!(friction.hold(0, &floor, &back, 2.0, &[0.5]).is_some_and(|hold| !hold.grip().slides));
+        assert!(friction.hold(0, &floor, &x, 2.0, &[0.0]).is_none(), "without friction nothing holds");
+    }
 
     #[test]
     fn a_contact_sticks_then_slides_and_remembers_across_detections() {
