@@ -186,19 +186,11 @@ impl Fall<'_> {
         Ok(())
     }
 
-    /// A step with the true stiffness; the model is trusted further where it was right.
-    /// Returns the largest motion, metres.
-    fn step(&mut self, dt: f64) -> Result<f64, StepError> {
+    /// A step with the true stiffness.
+    fn step(&mut self, dt: f64) -> Result<(), StepError> {
         let [_, least, most] = TRUST;
-        let step = self.world.newton(dt, self.trust)?;
-        self.trust = match step {
-            s if s.shortened => 0.5 * self.trust,
-            s if s.ratio < 0.25 => 0.7 * self.trust,
-            s if s.ratio > 0.5 => 1.5 * self.trust,
-            _ => self.trust,
-        };
-        self.trust = self.trust.clamp(least, most);
-        Ok(step.moved)
+        self.trust = self.world.newton(dt, self.trust)?.trust(self.trust).clamp(least, most);
+        Ok(())
     }
 
     /// As many steps again as were made, at half the step size: how far the garment goes, metres, root mean square and

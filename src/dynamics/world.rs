@@ -59,6 +59,19 @@ pub struct NewtonStep {
     pub ratio: f64,
 }
 
+impl NewtonStep {
+    /// How far the next step is trusted to change an edge after one that was trusted to change it by `radius`, metres:
+    /// further where the model was right.
+    pub fn trust(&self, radius: f64) -> f64 {
+        match self {
+            s if s.shortened => 0.5 * radius,
+            s if s.ratio < 0.25 => 0.7 * radius,
+            s if s.ratio > 0.5 => 1.5 * radius,
+            _ => radius,
+        }
+    }
+}
+
 impl<'a> World<'a> {
     /// Prepares a garment at `x` (one position per node) with stitches between `pulls`.
     ///

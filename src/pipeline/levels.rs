@@ -31,11 +31,16 @@ pub(super) struct Coarse {
 }
 
 impl Job {
-    /// Sews `mesh`: coarser first, where that goes.
+    /// Sews `mesh`: coarser first, where that goes, else from `start`.
     ///
     /// # Errors
-    /// A piece without a place, or a garment that cannot be sewn.
-    pub(super) fn sew_from_coarse(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Result<Closed, SewError> {
+    /// A garment that cannot be sewn.
+    pub(super) fn sew_from_coarse(
+        &self,
+        mesh: &ClothMesh,
+        start: Vec<Vec3>,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Closed, SewError> {
         let (cut, options) = (self.cut_of(mesh), SewOptions::default());
         if let Some(coarse) = self.coarser(mesh, &mut |share| progress(COARSE_SHARE * share)) {
             let sewn = stitch(&cut, &self.collider, &coarse.carry(&coarse.closed.sewn.nodes, mesh)).ok().flatten();
@@ -44,7 +49,6 @@ impl Job {
                 return Ok(Closed { sewn, coarse: Some(coarse) });
             }
         }
-        let start = place(&self.garment, mesh, &self.body, &self.collider)?;
         let sewn = sew(&cut, &self.collider, start, &options, progress)?;
         Ok(Closed { sewn, coarse: None })
     }
@@ -56,7 +60,8 @@ impl Job {
             return None;
         }
         let mesh = mesh::build(&self.garment, spacing).ok()?;
-        let closed = self.sew_from_coarse(&mesh, progress).ok()?;
+        let start = place(&self.garment, &mesh, &self.body, &self.collider).ok()?;
+        let closed = self.sew_from_coarse(&mesh, start, progress).ok()?;
         is_whole(&mesh, &closed.sewn).then(|| Box::new(Coarse { mesh, closed }))
     }
 

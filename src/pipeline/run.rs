@@ -63,9 +63,9 @@ impl<'a> Run<'a> {
         let begin = Instant::now();
         let failed = |e| PipelineError::sewing(&job.file, e);
         let start = place(&job.garment, &job.mesh, &job.body, &job.collider).map_err(|e| failed(e.into()))?;
-        self.placed = Some(start);
+        self.placed = Some(start.clone());
         let mut tell = |share| progress("sew", share);
-        let Closed { sewn, coarse } = job.sew_from_coarse(&job.mesh, &mut tell).map_err(failed)?;
+        let Closed { sewn, coarse } = job.sew_from_coarse(&job.mesh, start, &mut tell).map_err(failed)?;
         self.coarse = coarse;
         let closed = sewn.closed(&job.mesh, SewOptions::default().tolerance);
         self.stages.push(Stage {

@@ -23,9 +23,10 @@ const PIXEL: f64 = 0.5e-3;
 const DENT: f64 = 0.3e-3;
 /// Tangential stiffness of the pedestal's grip on a node, N/m, as in garments.
 const GRIP: f64 = 10.0;
-/// Steps of falling, s, and how far they look ahead, metres and as a share of the last one.
+/// Steps of falling, and their length, s.
 const FALLING: usize = 150;
 const FALL_STEP: f64 = 0.1;
+/// Share of the last step by which the next looks ahead, and the most it does so, metres.
 const MOMENTUM: f64 = 0.9;
 const LOOK_AHEAD: f64 = 4e-3;
 /// A draped disc is at rest when ten steps move it by less than this, metres.

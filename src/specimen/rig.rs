@@ -136,14 +136,7 @@ pub(super) fn settle(world: &mut World, spacing: f64, still: f64) -> Result<usiz
     for step in 0..MOST {
         let before = world.x.clone();
         for _ in 0..STRETCH {
-            let step = world.newton(STEP, trust)?;
-            trust = match step {
-                s if s.shortened => 0.5 * trust,
-                s if s.ratio < 0.25 => 0.7 * trust,
-                s if s.ratio > 0.5 => 1.5 * trust,
-                _ => trust,
-            };
-            trust = trust.clamp(least, most);
+            trust = world.newton(STEP, trust)?.trust(trust).clamp(least, most);
         }
         moved = before.iter().zip(&world.x).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
         if moved <= still {
