@@ -82,7 +82,7 @@ fn noise(count: usize) -> Vec<f64> {
 
 fn body_contact(node: u32, normal: Vec3, offset: f64) -> Contact {
     let weights = [1.0, 0.0, 0.0, 0.0];
-    Contact { nodes: [node, 0, 0, 0], weights, count: 1, normal, offset, under: Under::Plane, above: 1, pushes: true }
+    Contact { nodes: [node, 0, 0, 0], weights, count: 1, normal, offset, under: Under::Plane, above: 1, share: 1.0 }
 }
 
 /// Six contacts that press on a node from all sides: a spring to `at` that both integrators know.
@@ -191,7 +191,7 @@ fn forces_are_the_slope_of_the_energy() {
             offset: normal.dot(&(x[20] * 0.2 + x[21] * 0.3 + x[22] * 0.5 - x[30])) - 1e-4,
             under: Under::Cloth,
             above: 3,
-            pushes: true,
+            share: 1.0,
         });
         let pulls =
             [Pull { ends: [0, 40], stiffness: 3.0, cap: 0.01 }, Pull { ends: [2, 3], stiffness: 3.0, cap: 0.05 }];

@@ -20,6 +20,10 @@ const LEVEL: f64 = 0.1;
 /// beside the feature: in a cleft a cheek rises beyond the triangle that is met, and higher than its plane.
 const FACING: f64 = 0.2;
 
+/// Cloth that is inside the body under a feature meets it where it pushes with at least this share: next to an end, where
+/// two neighbours share the force, both do.
+const MEETS: f64 = 0.25;
+
 /// A convex edge of the body.
 struct BodyEdge {
     ends: [u32; 2],
@@ -173,7 +177,7 @@ impl Collider {
     ) {
         let Some(contact) = Contact::on_feature(nodes, count, under, outward, x) else { return };
         let gap = contact.gap(x);
-        let near = gap.abs() <= reach && (contact.pushes || gap > 0.0);
+        let near = gap.abs() <= reach && (contact.share >= MEETS || gap > 0.0);
         let faces = gap > 0.0 && contact.normal.dot(&outward) > FACING * outward.norm();
         if near && (faces || self.is_highest(under.points()[0], contact.normal, beside)) {
             out.push(contact);

@@ -17,7 +17,7 @@ const SWEEPS: usize = 12;
 /// Share of its gap that a pair must keep in a step, up to [`Bounds::new`]'s margin.
 const KEPT: f64 = 0.2;
 /// A gap smaller than this, metres, shrinks no further: gaps that halved without end would end in rounding.
-const LEAST: f64 = 2e-6;
+const LEAST: f64 = 5e-7;
 /// Metres.
 const ROUNDING: f64 = 1e-9;
 /// A pair that has all but rounding of what it needs is not pushed.
@@ -256,7 +256,7 @@ mod tests {
             offset: 0.0,
             under: Under::Cloth,
             above: 1,
-            pushes: true,
+            share: 1.0,
         };
         (x, contact)
     }

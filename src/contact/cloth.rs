@@ -21,7 +21,8 @@ const UNFOLDED_MIDDLES: f64 = 0.8;
 /// of the reach.
 const BLUNT: f64 = 0.4;
 /// Where a seam lies between two neighbours there is no flat distance; they are one sheet down to this share of the
-/// reach.
+/// reach, or to where they begin to push if that is more: a contact that came and went while it pushes would never let a
+/// seam rest.
 const BESIDE_SEAM: f64 = 0.3;
 
 /// Which pairs are neighbours by construction and therefore no contact.
@@ -53,11 +54,14 @@ pub struct ClothDetector {
     /// Class → classes it shares an edge with, sorted.
     adjacent: Vec<Vec<u32>>,
     hood: Neighbourhood,
+    /// Largest distance at which two layers push, metres.
+    kept: f64,
 }
 
 impl ClothDetector {
-    /// Prepares `triangles` over nodes. `flat[t]` are the flat corners of triangle t and `piece[t]` its piece.
-    pub fn new(triangles: &[[u32; 3]], flat: &[[Vec2; 3]], piece: &[u32], hood: Neighbourhood) -> Self {
+    /// Prepares `triangles` over nodes. `flat[t]` are the flat corners of triangle t and `piece[t]` its piece; layers
+    /// begin to push no further apart than `kept` metres.
+    pub fn new(triangles: &[[u32; 3]], flat: &[[Vec2; 3]], piece: &[u32], hood: Neighbourhood, kept: f64) -> Self {
         let centers: Vec<Vec2> = flat.iter().map(|c| (c[0] + c[1] + c[2]) / 3.0).collect();
         let mut order: Vec<u32> = (0..triangles.len() as u32).collect();
         order.sort_by_key(|&t| piece[t as usize]);
@@ -86,6 +90,7 @@ impl ClothDetector {
             workspace: BvhWorkspace::default(),
             adjacent,
             hood,
+            kept,
         }
     }
 
@@ -236,7 +241,8 @@ impl Search<'_> {
     /// Whether two points at `distance` in space are on one unfolded sheet: `flat` apart in one piece, or beside a seam.
     fn same_sheet(&self, distance: f64, flat: Option<Vec2>, p: &[u32], q: &[u32]) -> bool {
         let unfolded = flat.is_some_and(|flat| distance >= UNFOLDED * flat.norm());
-        unfolded || (distance >= BESIDE_SEAM * self.reach && self.detector.neighbours(p, q))
+        let apart = (BESIDE_SEAM * self.reach).max(self.detector.kept);
+        unfolded || (distance >= apart && self.detector.neighbours(p, q))
     }
 
     fn points(&self, p: &Patch, q: &Patch, out: &mut Vec<Contact>) {
@@ -287,7 +293,7 @@ impl Search<'_> {
                 let Some(contact) = Contact::within_cloth([e[0], e[1], f[0], f[1]], 2, self.x) else { continue };
                 let distance = contact.gap(self.x);
                 // Ends of segments are pushed by the vertex–triangle pairs.
-                if distance >= self.reach * if contact.pushes { 1.0 } else { BLUNT } {
+                if distance >= self.reach * if contact.share > 0.0 { 1.0 } else { BLUNT } {
                     continue;
                 }
                 let [k, l, m, n] = contact.weights;
@@ -391,7 +397,7 @@ mod tests {
 
     fn detector(x: &[Vec3], t: &[[u32; 3]], f: &[[Vec2; 3]], p: &[u32]) -> ClothDetector {
         let hood = Neighbourhood { class: (0..x.len() as u32).collect(), tangled: Vec::new() };
-        ClothDetector::new(t, f, p, hood)
+        ClothDetector::new(t, f, p, hood, 0.0)
     }
 
     #[test]

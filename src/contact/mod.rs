@@ -19,14 +19,19 @@ mod tangle;
 pub use body::{Collider, Nearest};
 pub use bounds::Bounds;
 pub use cloth::{ClothDetector, Neighbourhood};
+use narrow::{closest_on_lines, on_plane};
 pub use narrow::{closest_on_segments, closest_on_triangle};
 pub use swept::{Hit, swept_point_triangle};
 pub use tangle::Tangle;
 
 use crate::geometry::Vec3;
 
-/// An edge that encloses less than this angle (sine) with one of the body has no point where it meets it: its ends push.
-const PARALLEL: f64 = 1e-2;
+/// Over this share of an edge or a triangle, on either side of its end, a contact hands over to its neighbour. Without
+/// that an edge that lies across a vertex of the body would be pushed by one, two or three contacts in turn, and never
+/// rest.
+const BLEND: f64 = 0.1;
+/// Edges that enclose less than this angle (sine) have less and less a point where they meet: their ends push.
+const PARALLEL: f64 = 0.02;
 
 /// What the nodes of a contact are above of.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,8 +84,9 @@ pub struct Contact {
     pub under: Under,
     /// How many of the nodes, counted from the first, are on the side the normal points to.
     pub above: u8,
-    /// Whether it pushes; a pair of edges that are nearest at an end of one is only kept apart.
-    pub pushes: bool,
+    /// Share of the law's force with which it pushes, 0 … 1. It falls to nothing as the closest point passes the end of
+    /// an edge, where a neighbour takes over; then the pair is only kept apart.
+    pub share: f64,
 }
 
 impl Contact {
@@ -94,7 +100,7 @@ impl Contact {
             offset: normal.dot(&point),
             under: Under::Plane,
             above: 1,
-            pushes: true,
+            share: 1.0,
         }
     }
 
@@ -102,7 +108,7 @@ impl Contact {
     /// where their closest points are. `None` where they meet in a point.
     pub(crate) fn on_feature(nodes: [u32; 4], count: u8, under: Under, outward: Vec3, x: &[Vec3]) -> Option<Self> {
         let (weights, normal) = ([0.0; 4], outward);
-        let mut out = Self { nodes, weights, count, normal, offset: 0.0, under, above: count, pushes: true };
+        let mut out = Self { nodes, weights, count, normal, offset: 0.0, under, above: count, share: 1.0 };
         out.refresh(x).then_some(out)
     }
 
@@ -111,7 +117,7 @@ impl Contact {
     pub(crate) fn within_cloth(nodes: [u32; 4], above: u8, x: &[Vec3]) -> Option<Self> {
         let (weights, normal) = ([0.0; 4], Vec3::zeros());
         let under = Under::Cloth;
-        let mut out = Self { nodes, weights, count: 4, normal, offset: 0.0, under, above, pushes: true };
+        let mut out = Self { nodes, weights, count: 4, normal, offset: 0.0, under, above, share: 1.0 };
         out.refresh(x).then_some(out)
     }
 
@@ -130,35 +136,33 @@ impl Contact {
     }
 
     /// Turns a pair of primitives to where its closest points are now; the plane under a node stays. A pair whose closest
-    /// point is an end of an edge, or on the rim of a triangle over a vertex of the body, pushes no more: that is the
+    /// point is beyond an end of an edge, or the rim of a triangle over a vertex of the body, pushes no more: that is the
     /// business of others. Returns `false`, and changes nothing, where the two meet in a point.
     pub fn refresh(&mut self, x: &[Vec3]) -> bool {
         let at = |k: usize| x[self.nodes[k] as usize];
-        let inner = |s: f64| s > 0.0 && s < 1.0;
-        let (weights, away, pushes) = match self.under {
+        let (weights, away, share) = match self.under {
             Under::Plane => return true,
             Under::Cloth if self.above == 1 => {
                 let w = closest_on_triangle(at(0), at(1), at(2), at(3));
                 let away = at(0) - (at(1) * w[0] + at(2) * w[1] + at(3) * w[2]);
-                ([1.0, -w[0], -w[1], -w[2]], away, true)
+                ([1.0, -w[0], -w[1], -w[2]], away, 1.0)
             }
             Under::Cloth => {
                 let (a, b, c, d) = (at(0), at(1), at(2), at(3));
                 let (s, t) = closest_on_segments(a, b, c, d);
                 let away = a + (b - a) * s - c - (d - c) * t;
-                ([1.0 - s, s, t - 1.0, -t], away, inner(s) && inner(t))
+                ([1.0 - s, s, t - 1.0, -t], away, share_of_edges(a, b, c, d))
             }
             Under::Vertex { at: p, .. } => {
                 let [k, l, m] = closest_on_triangle(p, at(0), at(1), at(2));
                 let away = at(0) * k + at(1) * l + at(2) * m - p;
-                ([k, l, m, 0.0], away, k > 0.0 && l > 0.0 && m > 0.0)
+                ([k, l, m, 0.0], away, on_plane(p, at(0), at(1), at(2)).map(fade).iter().product())
             }
             Under::Edge { ends: [p, q], .. } => {
-                let (s, t) = closest_on_segments(at(0), at(1), p, q);
-                let (along, body) = (at(1) - at(0), q - p);
-                let away = at(0) + along * s - p - body * t;
-                let cross = along.cross(&body).norm() > PARALLEL * along.norm() * body.norm();
-                ([1.0 - s, s, 0.0, 0.0], away, cross && inner(s) && inner(t))
+                let (a, b) = (at(0), at(1));
+                let (s, t) = closest_on_segments(a, b, p, q);
+                let away = a + (b - a) * s - p - (q - p) * t;
+                ([1.0 - s, s, 0.0, 0.0], away, share_of_edges(a, b, p, q))
             }
         };
         let distance = away.norm();
@@ -167,7 +171,7 @@ impl Contact {
         }
         // The body has an inside, from which cloth must come back the way it went.
         let inside = self.is_on_body() && away.dot(&self.normal) < 0.0;
-        (self.weights, self.pushes) = (weights, pushes);
+        (self.weights, self.share) = (weights, share);
         self.normal = away / if inside { -distance } else { distance };
         self.offset = match self.under {
             Under::Vertex { at, .. } | Under::Edge { ends: [at, _], .. } => self.normal.dot(&at),
@@ -180,4 +184,22 @@ impl Contact {
     pub fn parts(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.nodes.iter().zip(&self.weights).take(self.count as usize).map(|(&n, &w)| (n as usize, w))
     }
+}
+
+/// How much of a contact's force is left whose closest point lies at `s` between two ends at 0 and 1, or beyond one.
+fn fade(s: f64) -> f64 {
+    let inside = ((s.min(1.0 - s) + BLEND) / (2.0 * BLEND)).clamp(0.0, 1.0);
+    inside * inside * (3.0 - 2.0 * inside)
+}
+
+/// The same of two edges.
+fn share_of_edges(a: Vec3, b: Vec3, c: Vec3, d: Vec3) -> f64 {
+    let (first, second) = (b - a, d - c);
+    let sine = first.cross(&second).norm() / (first.norm() * second.norm());
+    // Also where an edge has no length.
+    if !(sine > 0.0) {
+        return 0.0;
+    }
+    let (s, t) = closest_on_lines(a, b, c, d);
+    fade(s) * fade(t) * (sine / PARALLEL).min(1.0)
 }

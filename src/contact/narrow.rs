@@ -72,6 +72,24 @@ pub fn closest_on_segments(p0: Vec3, p1: Vec3, q0: Vec3, q1: Vec3) -> (f64, f64)
     }
 }
 
+/// Parameters (s, t) of the closest points of the lines through `p0 p1` and `q0 q1`, which must not be parallel.
+pub(super) fn closest_on_lines(p0: Vec3, p1: Vec3, q0: Vec3, q1: Vec3) -> (f64, f64) {
+    let (d1, d2, r) = (p1 - p0, q1 - q0, p0 - q0);
+    let (a, b, c, e, f) = (d1.norm_squared(), d1.dot(&d2), d1.dot(&r), d2.norm_squared(), d2.dot(&r));
+    let determinant = a * e - b * b;
+    ((b * f - c * e) / determinant, (a * f - b * c) / determinant)
+}
+
+/// Barycentric coordinates of the foot of `p` in the plane of triangle `abc`, beyond its rim too; none are numbers where
+/// it has no area.
+pub(super) fn on_plane(p: Vec3, a: Vec3, b: Vec3, c: Vec3) -> [f64; 3] {
+    let (ab, ac, ap) = (b - a, c - a, p - a);
+    let (bb, bc, cc, pb, pc) = (ab.norm_squared(), ab.dot(&ac), ac.norm_squared(), ap.dot(&ab), ap.dot(&ac));
+    let determinant = bb * cc - bc * bc;
+    let (v, w) = ((cc * pb - bc * pc) / determinant, (bb * pc - bc * pb) / determinant);
+    [1.0 - v - w, v, w]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -24,7 +24,7 @@ pub struct ContactLaw {
 
 /// Gaps below this share of the distance kept count as this: the force has to stay finite, also where a node starts
 /// inside the body.
-const THINNEST: f64 = 0.02;
+const THINNEST: f64 = 1e-3;
 
 /// A contact at given positions: the load it carries, and how fast that falls as it opens.
 #[derive(Clone, Copy, Debug)]
@@ -53,11 +53,16 @@ impl ContactLaw {
             .unwrap_or_else(|| first + cloth.half_thickness[contact.nodes[contact.count as usize - 1] as usize])
     }
 
+    /// The largest distance at which two layers of `cloth` push, metres.
+    pub(super) fn thickest(&self, cloth: &Cloth) -> f64 {
+        self.cloth_gap.unwrap_or_else(|| 2.0 * cloth.half_thickness.iter().copied().fold(0.0, f64::max))
+    }
+
     /// Load and slope at `x`.
     pub(super) fn press(&self, cloth: &Cloth, x: &[Vec3], contact: &Contact) -> Press {
-        let k = self.stiffness;
-        if !contact.pushes {
-            return Press { load: f64::NEG_INFINITY, slope: k };
+        let k = self.stiffness * contact.share;
+        if contact.share == 0.0 {
+            return Press { load: f64::NEG_INFINITY, slope: self.stiffness };
         }
         let (kept, gap) = (self.kept(cloth, contact), contact.gap(x));
         if gap >= kept {
@@ -76,8 +81,8 @@ impl ContactLaw {
     /// Energy of a contact at `x`, J.
     fn energy(&self, cloth: &Cloth, x: &[Vec3], contact: &Contact) -> f64 {
         let (kept, gap) = (self.kept(cloth, contact), contact.gap(x));
-        let k = self.stiffness;
-        if gap >= kept || !contact.pushes {
+        let k = self.stiffness * contact.share;
+        if gap >= kept {
             return 0.0;
         }
         let thin = gap.max(THINNEST * kept);

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::force::ContactLaw;
 use super::model::Cloth;
 use crate::contact::{Bounds, ClothDetector, Collider, Contact, Neighbourhood, Tangle};
 use crate::geometry::Vec3;
@@ -35,6 +36,8 @@ const RENEW: f64 = 0.3;
 const FEATURES: f64 = 4e-3;
 /// A node's distance to the body is measured up to this many reaches, so that far nodes need not be asked every time.
 const FAR: f64 = 4.0;
+/// Pairs keep this share of the distance kept from the body.
+const MARGIN: f64 = 0.25;
 /// Room for rounding in distances, metres.
 const ROUNDING: f64 = 1e-9;
 
@@ -55,20 +58,21 @@ pub(super) struct Proximity<'a> {
 }
 
 impl<'a> Proximity<'a> {
-    /// Looks at `cloth` in position `x` for the first time.
+    /// Looks at `cloth` in position `x` for the first time; its contacts follow `law`.
     pub(super) fn new(
         cloth: &Cloth,
         x: &[Vec3],
         body: &'a Collider,
         hood: Neighbourhood,
         reach: Reach,
-        margin: f64,
+        law: &ContactLaw,
     ) -> Self {
+        let margin = MARGIN * law.body_clearance;
         let mut out = Self {
             contacts: Vec::new(),
             bounds: Bounds::new(x, &[], reach.cloth, margin),
             body,
-            detector: ClothDetector::new(&cloth.triangles, &cloth.flat, &cloth.piece, hood),
+            detector: ClothDetector::new(&cloth.triangles, &cloth.flat, &cloth.piece, hood, law.thickest(cloth)),
             reach,
             margin,
             body_distance: vec![(f64::NEG_INFINITY, Vec3::zeros()); x.len()],

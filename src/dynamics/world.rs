@@ -92,7 +92,7 @@ impl<'a> World<'a> {
             friction: None,
             gravity: 0.0,
             law,
-            proximity: Proximity::new(&cloth, &x, body, hood, reach, 0.25 * law.body_clearance),
+            proximity: Proximity::new(&cloth, &x, body, hood, reach, &law),
             stepper: Stepper::new(&cloth, pulls, &[], &x)?,
             touching: pulls.is_empty().then(Vec::new),
             cloth,
