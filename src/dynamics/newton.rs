@@ -22,8 +22,8 @@ use crate::geometry::{Mat3, Vec3};
 const ITERATIONS: usize = 16;
 /// A preconditioner need not be new: an older factor costs iterations, about one for every contact it does not know.
 const OLD: Reuse = Reuse { moved: 1e-3, contacts: 8 };
-/// A step is solved up to so often: with what pushes and what slides as it was, then as it comes out (a semismooth Newton
-/// method; Qi and Sun 1993).
+/// A step is solved up to so often: with what pushes and what slides as it was, then, from there on, as it comes out (a
+/// semismooth Newton method; Qi and Sun 1993).
 const ROUNDS: usize = 3;
 /// It is solved again where the energy of contact and friction is misjudged by more than this share of what it gains.
 const MISJUDGED: f64 = 0.3;
@@ -70,12 +70,15 @@ impl Stepper {
         let holds: Vec<Option<Hold>> =
             presses.iter().enumerate().map(|(k, p)| forces.hold(cloth, x, k, p.load)).collect();
         let mut grips: Vec<Option<Grip>> = holds.iter().map(|hold| Some(hold.as_ref()?.grip())).collect();
+        let mut d = vec![Vec3::zeros(); x.len()];
         let mut round = 1;
         loop {
             let pushing = Pushing { presses: &presses, active: &active, grips: &grips };
-            self.prepare(cloth, x, dt, forces, &pushing, OLD)?;
+            if round == 1 {
+                self.prepare(cloth, x, dt, forces, &pushing, OLD)?;
+            }
             let tangent = Tangent::new(cloth, x, dt, forces, &pushing);
-            let d = self.truncated(&tangent, &pushing.forces(&free, forces), radius)?;
+            d = self.truncated(&tangent, &pushing.forces(&free, forces), d, radius)?;
             let Judged { gain, misjudged } = judge(forces.contacts, &holds, &pushing, &d);
             let gain = tangent.gain(&free, &d) + gain;
             if round >= ROUNDS || misjudged <= MISJUDGED * gain {
@@ -88,10 +91,15 @@ impl Stepper {
         }
     }
 
-    /// Conjugate gradients on the tangent, from zero.
-    fn truncated(&self, tangent: &Tangent, rhs: &[Vec3], radius: f64) -> Result<Vec<Vec3>, StepError> {
-        let mut d = vec![Vec3::zeros(); rhs.len()];
-        let mut r = rhs.to_vec();
+    /// Conjugate gradients on the tangent, from the step `d`.
+    fn truncated(
+        &self,
+        tangent: &Tangent,
+        rhs: &[Vec3],
+        mut d: Vec<Vec3>,
+        radius: f64,
+    ) -> Result<Vec<Vec3>, StepError> {
+        let mut r: Vec<Vec3> = rhs.iter().zip(tangent.apply(&d)).map(|(r, a)| r - a).collect();
         let mut z = self.apply_inverse(&r)?;
         let mut p = z.clone();
         let mut rz = dot(&r, &z);
