@@ -29,6 +29,8 @@ struct BodyEdge {
     ends: [u32; 2],
     /// The third corners of its two faces.
     beside: [u32; 2],
+    /// Unit direction away from the body.
+    outward: Vec3,
 }
 
 /// A closed body prepared for contact; built once, never moved.
@@ -70,7 +72,8 @@ impl Collider {
         let flags = TriMeshFlags::ORIENTED | TriMeshFlags::MERGE_DUPLICATE_VERTICES;
         let vertices: Vec<_> = body.vertices.iter().map(|&v| to_parry(v)).collect();
         let mesh = ParryMesh::with_flags(vertices, body.triangles.clone(), flags).ok()?;
-        let edges = convex_edges(body);
+        let normals = body.vertex_normals();
+        let edges = convex_edges(body, &normals);
         let point_boxes: Vec<_> = body.vertices.iter().map(|&v| (v, v)).collect();
         let edge_boxes: Vec<_> = edges
             .iter()
@@ -87,7 +90,7 @@ impl Collider {
             vertex_grid: Grid::new(&point_boxes, cell),
             edge_grid: Grid::new(&edge_boxes, cell),
             vertices: body.vertices.clone(),
-            normals: body.vertex_normals(),
+            normals,
             neighbours: neighbours(body),
             edges,
             floor: None,
@@ -138,8 +141,11 @@ impl Collider {
             if apart(low, high, at, at) {
                 return;
             }
-            let under = Under::Vertex { number: v, at };
             let outward = self.normals[v as usize];
+            if [a, b, c].iter().all(|x| outward.dot(&(x - at)) > reach) {
+                return;
+            }
+            let under = Under::Vertex { number: v, at };
             let nodes = [tri[0], tri[1], tri[2], 0];
             self.meet(nodes, 3, under, outward, &self.neighbours[v as usize], x, reach, out);
         });
@@ -150,13 +156,16 @@ impl Collider {
         let [a, b] = ends.map(|n| x[n as usize]);
         let (low, high) = (a.inf(&b).add_scalar(-reach), a.sup(&b).add_scalar(reach));
         self.edge_grid.query(low, high, |e| {
-            let BodyEdge { ends: [i, j], beside } = self.edges[e as usize];
+            let BodyEdge { ends: [i, j], beside, outward } = self.edges[e as usize];
             let (p, q) = (self.vertices[i as usize], self.vertices[j as usize]);
             if apart(low, high, p.inf(&q), p.sup(&q)) {
                 return;
             }
+            let highest = outward.dot(&p).max(outward.dot(&q));
+            if outward.dot(&a).min(outward.dot(&b)) - highest > reach {
+                return;
+            }
             let under = Under::Edge { number: e, ends: [p, q] };
-            let outward = self.normals[i as usize] + self.normals[j as usize];
             self.meet([ends[0], ends[1], 0, 0], 2, under, outward, &beside, x, reach, out);
         });
     }
@@ -178,7 +187,7 @@ impl Collider {
         let Some(contact) = Contact::on_feature(nodes, count, under, outward, x) else { return };
         let gap = contact.gap(x);
         let near = gap.abs() <= reach && (contact.share >= MEETS || gap > 0.0);
-        let faces = gap > 0.0 && contact.normal.dot(&outward) > FACING * outward.norm();
+        let faces = gap > 0.0 && contact.normal.dot(&outward) > FACING;
         if near && (faces || self.is_highest(under.points()[0], contact.normal, beside)) {
             out.push(contact);
         }
@@ -206,7 +215,7 @@ fn neighbours(body: &TriMesh) -> Vec<Vec<u32>> {
 }
 
 /// Edges where the body is convex and not flat.
-fn convex_edges(body: &TriMesh) -> Vec<BodyEdge> {
+fn convex_edges(body: &TriMesh, outward: &[Vec3]) -> Vec<BodyEdge> {
     let normals: Vec<Vec3> =
         (0..body.triangles.len()).map(|t| body.double_normal(t).try_normalize(0.0).unwrap_or_default()).collect();
     let mut out = Vec::new();
@@ -217,7 +226,9 @@ fn convex_edges(body: &TriMesh) -> Vec<BodyEdge> {
         let (Some(left), Some(right)) = (apex(s), apex(t)) else { continue };
         let below = n.dot(&(body.vertices[right as usize] - body.vertices[edge.ends[0] as usize]));
         if n.dot(&m) < SHARP_EDGE && below < 0.0 {
-            out.push(BodyEdge { ends: edge.ends, beside: [left, right] });
+            let outward = edge.ends.map(|v| outward[v as usize]).iter().sum::<Vec3>();
+            let outward = outward.try_normalize(0.0).unwrap_or_default();
+            out.push(BodyEdge { ends: edge.ends, beside: [left, right], outward });
         }
     }
     out
@@ -275,7 +286,8 @@ mod tests {
 
     #[test]
     fn only_the_cubes_twelve_edges_are_convex() {
-        assert_eq!(convex_edges(&cube()).len(), 12);
+        let cube = cube();
+        assert_eq!(convex_edges(&cube, &cube.vertex_normals()).len(), 12);
     }
 
     #[test]
