@@ -10,9 +10,15 @@ pub(super) struct Grid {
     size: [usize; 3],
     /// `starts[c]..starts[c + 1]` in `items` are the primitives whose box touches cell `c`.
     starts: Vec<u32>,
-    items: Vec<u32>,
-    /// The first cell of every primitive's box, by axes.
-    first: Vec<[usize; 3]>,
+    items: Vec<Item>,
+}
+
+/// A primitive in one of its cells.
+#[derive(Clone, Copy, Debug, Default)]
+struct Item {
+    number: u32,
+    /// The first cell of its box, by axes.
+    first: [u32; 3],
 }
 
 /// More cells than this are never made: the cells grow instead.
@@ -24,20 +30,13 @@ impl Grid {
         let low = boxes.iter().fold(Vec3::repeat(f64::INFINITY), |m, b| m.inf(&b.0));
         let high = boxes.iter().fold(Vec3::repeat(f64::NEG_INFINITY), |m, b| m.sup(&b.1));
         if boxes.is_empty() {
-            return Self {
-                origin: Vec3::zeros(),
-                cell,
-                size: [0; 3],
-                starts: vec![0],
-                items: Vec::new(),
-                first: Vec::new(),
-            };
+            return Self { origin: Vec3::zeros(), cell, size: [0; 3], starts: vec![0], items: Vec::new() };
         }
         let extent = high - low;
         let volume = extent.add_scalar(cell).product() / cell.powi(3);
         let cell = if volume > MAX_CELLS { cell * (volume / MAX_CELLS).cbrt() } else { cell };
         let size = [extent.x, extent.y, extent.z].map(|e| (e / cell) as usize + 1);
-        let mut grid = Self { origin: low, cell, size, starts: Vec::new(), items: Vec::new(), first: Vec::new() };
+        let mut grid = Self { origin: low, cell, size, starts: Vec::new(), items: Vec::new() };
         let cells = size.iter().product::<usize>();
         let mut counts = vec![0u32; cells + 1];
         for b in boxes {
@@ -46,41 +45,37 @@ impl Grid {
         for c in 0..cells {
             counts[c + 1] += counts[c];
         }
-        let mut items = vec![0u32; counts[cells] as usize];
+        let mut items = vec![Item::default(); counts[cells] as usize];
         let mut fill = counts.clone();
         for (i, b) in boxes.iter().enumerate() {
-            let mut first = [0; 3];
-            grid.for_cells(b.0, b.1, |c, _, from| {
-                items[fill[c] as usize] = i as u32;
+            grid.for_cells(b.0, b.1, |c, _, first| {
+                items[fill[c] as usize] = Item { number: i as u32, first };
                 fill[c] += 1;
-                first = from;
             });
-            grid.first.push(first);
         }
         (grid.starts, grid.items) = (counts, items);
         grid
     }
 
     /// Visits the cells that a box touches: number, place, and the place of the first of them.
-    fn for_cells(&self, low: Vec3, high: Vec3, mut visit: impl FnMut(usize, [usize; 3], [usize; 3])) {
+    fn for_cells(&self, low: Vec3, high: Vec3, mut visit: impl FnMut(usize, [u32; 3], [u32; 3])) {
         if self.size[0] == 0 {
             return;
         }
         let index = |x: f64, k: usize| ((x - self.origin[k]) / self.cell).floor();
-        let mut from = [0usize; 3];
-        let mut to = [0usize; 3];
+        let (mut from, mut to) = ([0u32; 3], [0u32; 3]);
         for k in 0..3 {
             let (a, b) = (index(low[k], k), index(high[k], k));
             if b < 0.0 || a >= self.size[k] as f64 {
                 return;
             }
-            from[k] = a.max(0.0) as usize;
-            to[k] = b.min((self.size[k] - 1) as f64) as usize;
+            from[k] = a.max(0.0) as u32;
+            to[k] = b.min((self.size[k] - 1) as f64) as u32;
         }
         for z in from[2]..=to[2] {
             for y in from[1]..=to[1] {
                 for x in from[0]..=to[0] {
-                    visit((z * self.size[1] + y) * self.size[0] + x, [x, y, z], from);
+                    visit((z as usize * self.size[1] + y as usize) * self.size[0] + x as usize, [x, y, z], from);
                 }
             }
         }
@@ -89,11 +84,10 @@ impl Grid {
     /// Visits every primitive whose cells touch the box `low..high`, once.
     pub(super) fn query(&self, low: Vec3, high: Vec3, mut visit: impl FnMut(u32)) {
         self.for_cells(low, high, |c, cell, from| {
-            for &i in &self.items[self.starts[c] as usize..self.starts[c + 1] as usize] {
+            for item in &self.items[self.starts[c] as usize..self.starts[c + 1] as usize] {
                 // Of the cells that a primitive shares with the box, the first reports it.
-                let first = self.first[i as usize];
-                if (0..3).all(|k| cell[k] == first[k].max(from[k])) {
-                    visit(i);
+                if (0..3).all(|k| cell[k] == item.first[k].max(from[k])) {
+                    visit(item.number);
                 }
             }
         });

@@ -18,8 +18,8 @@ pub struct Friction {
     stiffness: f64,
     /// In the contacts' order.
     memory: Vec<Memory>,
-    /// Where in `memory` a contact is.
-    index: HashMap<Key, usize>,
+    /// What the contacts that touch remember, to be found again at the next detection.
+    touching: HashMap<Key, Memory>,
     /// By how far the springs of a node's contacts with the body are drawn, in the mean of their loads, metres.
     on_body: Vec<Vec3>,
     /// Positions when all that was last brought up to date.
@@ -130,16 +130,14 @@ impl Friction {
     /// Nothing is drawn yet.
     pub(super) fn new(x: &[Vec3], contacts: &[Contact], stiffness: f64) -> Self {
         let on_body = vec![Vec3::zeros(); x.len()];
-        let mut out = Self { stiffness, memory: Vec::new(), index: HashMap::new(), on_body, at: x.to_vec() };
+        let mut out = Self { stiffness, memory: Vec::new(), touching: HashMap::new(), on_body, at: x.to_vec() };
         out.detected(contacts);
         out
     }
 
     /// Takes over from the contacts of the last detection what is known of those found by a new one.
     pub(super) fn detected(&mut self, contacts: &[Contact]) {
-        let known = |c: &Contact| self.index.get(&key(c)).map_or_else(Memory::default, |&k| self.memory[k]);
-        self.memory = contacts.iter().map(known).collect();
-        self.index = contacts.iter().enumerate().map(|(k, c)| (key(c), k)).collect();
+        self.memory = contacts.iter().map(|c| self.touching.get(&key(c)).copied().unwrap_or_default()).collect();
     }
 
     /// By how far the spring of contact `k` is drawn at `x`.
@@ -177,6 +175,7 @@ impl Friction {
     /// `load(contact)` is the normal force.
     pub(super) fn update(&mut self, x: &[Vec3], contacts: &[Contact], mu: &[f64], load: impl Fn(&Contact) -> f64) {
         let mut on_body = vec![(Vec3::zeros(), 0.0); x.len()];
+        self.touching.clear();
         for (k, contact) in contacts.iter().enumerate() {
             let normal_force = load(contact);
             let hold = self.hold(k, contact, x, normal_force, mu);
@@ -185,6 +184,9 @@ impl Friction {
                 slid: hold.slid || hold.slides(hold.drawn),
                 touched: true,
             });
+            if self.memory[k].touched {
+                self.touching.insert(key(contact), self.memory[k]);
+            }
             if contact.is_on_body() && normal_force > 0.0 {
                 for (i, w) in contact.parts() {
                     let share = w * normal_force;
