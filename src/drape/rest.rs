@@ -84,9 +84,9 @@ const DRIFT: f64 = 0.3e-3;
 const RESIDUAL: f64 = 1.0;
 /// Steps so short that as many as are left move the garment by no more than this share of [`DRIFT`] need not be made.
 const STILL: f64 = 1.0 / 3.0;
-/// A garment whose nodes went so far in one stretch is looked at this many times as far around in the next: a look is due
-/// when a node has gone a third of that, so that one stretch seldom needs two.
-const LOOK: f64 = 5.0;
+/// A garment whose nodes went so far in one stretch is looked at this many times as far around in the next: further
+/// finds more than pays, less needs too many looks (one is due when a node has gone a third of that).
+const LOOK: f64 = 2.0;
 /// It is looked at least this far around, beyond its thickness, metres.
 const NEAREST_LOOK: f64 = 2e-3;
 
