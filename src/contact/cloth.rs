@@ -459,6 +459,6 @@ mod tests {
                 expected += usize::from((x[v as usize] - a * w[0] - b * w[1] - c * w[2]).norm() < 0.008);
             }
         }
-        assert_eq!(contacts.iter().filter(|c| c.weights[0] == 1.0).count(), expected);
+        assert_eq!(contacts.iter().filter(|c| c.above == 1).count(), expected);
     }
 }

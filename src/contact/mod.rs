@@ -197,7 +197,7 @@ fn share_of_edges(a: Vec3, b: Vec3, c: Vec3, d: Vec3) -> f64 {
     let (first, second) = (b - a, d - c);
     let sine = first.cross(&second).norm() / (first.norm() * second.norm());
     // Also where an edge has no length.
-    if !(sine > 0.0) {
+    if sine.is_nan() || sine == 0.0 {
         return 0.0;
     }
     let (s, t) = closest_on_lines(a, b, c, d);
