@@ -25,6 +25,10 @@ const BLUNT: f64 = 0.4;
 /// seam rest.
 const BESIDE_SEAM: f64 = 0.3;
 
+/// Nor are patches with an edge shorter than this share of what it is drawn: pushed together along its own plane cloth
+/// passes through itself without turning a normal.
+const SHRUNK: f64 = 0.8;
+
 /// Which pairs are neighbours by construction and therefore no contact.
 #[derive(Clone, Debug, Default)]
 pub struct Neighbourhood {
@@ -168,10 +172,15 @@ impl ClothDetector {
         let mut low = Vec3::repeat(f64::INFINITY);
         let mut high = -low;
         let mut axis = Vec3::zeros();
+        let mut shrunk = false;
         for &t in &patch.triangles {
-            for n in self.triangles[t as usize] {
-                low = low.inf(&x[n as usize]);
-                high = high.sup(&x[n as usize]);
+            let at = self.triangles[t as usize].map(|n| x[n as usize]);
+            for (corner, next) in [(0, 1), (1, 2), (2, 0)] {
+                low = low.inf(&at[corner]);
+                high = high.sup(&at[corner]);
+                let flat = self.flat[t as usize];
+                let drawn = (flat[corner] - flat[next]).norm_squared();
+                shrunk |= (at[corner] - at[next]).norm_squared() < SHRUNK * SHRUNK * drawn;
             }
             axis += normals[t as usize];
         }
@@ -179,16 +188,19 @@ impl ClothDetector {
         let cosine = patch.triangles.iter().map(|&t| axis.dot(&normals[t as usize])).fold(1.0, f64::min);
         let half = 0.5 * reach;
         let aabb = Aabb::new(low.add_scalar(-half).into(), high.add_scalar(half).into());
-        (aabb, Cone { axis, spread: cosine.clamp(-1.0, 1.0).acos() })
+        (aabb, Cone { axis, spread: cosine.clamp(-1.0, 1.0).acos(), shrunk })
     }
 
-    /// Whether two patches are one smooth sheet (neighbours in the flat piece, normals alike).
+    /// Whether two patches are one smooth sheet (neighbours in the flat piece, normals alike, nothing pushed together).
     fn smooth(&self, a: usize, b: usize, cones: &[Cone], reach: f64) -> bool {
         let (p, q) = (&self.patches[a], &self.patches[b]);
         if p.piece != q.piece {
             return false;
         }
         let (ca, cb) = (&cones[a], &cones[b]);
+        if ca.shrunk || cb.shrunk {
+            return false;
+        }
         let between = ca.axis.dot(&cb.axis).clamp(-1.0, 1.0).acos();
         if between + ca.spread + cb.spread > SMOOTH_CONE {
             return false;
@@ -218,6 +230,8 @@ impl ClothDetector {
 struct Cone {
     axis: Vec3,
     spread: f64,
+    /// Whether an edge is much shorter than drawn.
+    shrunk: bool,
 }
 
 struct Search<'a> {
