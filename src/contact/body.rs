@@ -5,7 +5,7 @@ use parry3d_f64::query::PointQueryWithLocation;
 use parry3d_f64::shape::{TriMesh as ParryMesh, TriMeshFlags};
 
 use super::grid::Grid;
-use super::narrow::apart;
+use super::narrow::{apart, closest_on_triangle};
 use super::{Contact, Under};
 use crate::geometry::{Topology, TriMesh, Vec3};
 
@@ -20,6 +20,8 @@ const LEVEL: f64 = 0.1;
 /// beside the feature: in a cleft a cheek rises beyond the triangle that is met, and higher than its plane.
 const FACING: f64 = 0.2;
 
+/// A face that rises no higher over a node's plane than this, metres, is no other than the plane's.
+const RISES: f64 = 1e-9;
 /// Cloth that is inside the body under a feature meets it where it pushes with at least this share: next to an end, where
 /// two neighbours share the force, both do.
 const MEETS: f64 = 0.25;
@@ -43,6 +45,8 @@ pub struct Collider {
     edges: Vec<BodyEdge>,
     vertex_grid: Grid,
     edge_grid: Grid,
+    triangles: Vec<[u32; 3]>,
+    triangle_grid: Grid,
     /// Height of the floor, metres.
     floor: Option<f64>,
 }
@@ -81,6 +85,12 @@ impl Collider {
                 (a.inf(&b), a.sup(&b))
             })
             .collect();
+        let triangle_boxes: Vec<_> = (0..body.triangles.len())
+            .map(|t| {
+                let [a, b, c] = body.corners(t);
+                (a.inf(&b).inf(&c), a.sup(&b).sup(&c))
+            })
+            .collect();
         // Cells about the size of a body triangle.
         let mean_area = body.area() / body.triangles.len().max(1) as f64;
         let cell = (2.0 * mean_area).sqrt().max(1e-4);
@@ -88,6 +98,8 @@ impl Collider {
             mesh,
             vertex_grid: Grid::new(&point_boxes, cell),
             edge_grid: Grid::new(&edge_boxes, cell),
+            triangle_grid: Grid::new(&triangle_boxes, cell),
+            triangles: body.triangles.clone(),
             vertices: body.vertices.clone(),
             normals: body.vertex_normals(),
             neighbours: neighbours(body),
@@ -128,6 +140,25 @@ impl Collider {
             self.mesh.triangle(triangle).normal().map_or_else(Vec3::y, from_parry)
         };
         Some(Nearest { point, normal, distance: sign * distance })
+    }
+
+    /// Planes of the body's faces within `reach` of `node`, which is at `p` above them, that rise over the plane through
+    /// the point `nearest` to it: in a hollow, that plane alone would let the node run into the next face.
+    pub fn faces_of_hollow(&self, node: u32, p: Vec3, nearest: &Nearest, reach: f64, out: &mut Vec<Contact>) {
+        self.triangle_grid.query(p.add_scalar(-reach), p.add_scalar(reach), |t| {
+            let [a, b, c] = self.triangles[t as usize].map(|v| self.vertices[v as usize]);
+            let rises = |q: Vec3| nearest.normal.dot(&(q - nearest.point)) > RISES;
+            if !(rises(a) || rises(b) || rises(c)) {
+                return;
+            }
+            let [k, l, m] = closest_on_triangle(p, a, b, c);
+            let near = (a * k + b * l + c * m - p).norm() <= reach;
+            let normal = (b - a).cross(&(c - a)).try_normalize(0.0);
+            if let Some(normal) = normal.filter(|n| near && n.dot(&(p - a)) > 0.0) {
+                // What lies nearest pushes; the others only bar the way.
+                out.push(Contact { share: 0.0, ..Contact::on_body(node, normal, a) });
+            }
+        });
     }
 
     /// Contacts of body vertices with the cloth triangle of nodes `tri`, within `reach`.

@@ -22,9 +22,12 @@ pub struct ContactLaw {
     pub cloth_gap: Option<f64>,
 }
 
-/// Gaps below this share of the distance kept count as this: the force has to stay finite, also where a node starts
-/// inside the body.
+/// The law ends at this share of the distance kept: the force has to stay finite, also where a node starts inside the
+/// body. A waistband in tight cloth presses on one corner of the body with newtons, which asks for gaps as small as that.
 const THINNEST: f64 = 1e-3;
+/// From there the force grows so many times as fast as where the contact begins: what is inside is to be pushed out, not
+/// shot.
+const INSIDE: f64 = 2500.0;
 
 /// A contact at given positions: the load it carries, and how fast that falls as it opens.
 #[derive(Clone, Copy, Debug)]
@@ -69,8 +72,8 @@ impl ContactLaw {
             return Press { load: k * (kept - gap), slope: k };
         }
         let thin = gap.max(THINNEST * kept);
-        let slope = k * (kept / thin).powi(2);
-        Press { load: k * (kept - thin) * kept / thin + slope * (thin - gap), slope }
+        let slope = if gap < thin { k * INSIDE } else { k * (kept / thin).powi(2) };
+        Press { load: k * (kept - thin) * kept / thin + (thin - gap) * k * INSIDE, slope }
     }
 
     /// Normal force at `x`, N (0 when it does not touch).
@@ -88,7 +91,7 @@ impl ContactLaw {
         let thin = gap.max(THINNEST * kept);
         let down_to_thin = k * kept * (kept * (kept / thin).ln() - (kept - thin));
         let below = thin - gap;
-        down_to_thin + below * (k * (kept - thin) * kept / thin + 0.5 * k * (kept / thin).powi(2) * below)
+        down_to_thin + below * (k * (kept - thin) * kept / thin + 0.5 * k * INSIDE * below)
     }
 }
 

@@ -137,7 +137,8 @@ impl<'a> Proximity<'a> {
         let (body, reach) = (self.body, self.reach.body);
         // A node whose last measured distance minus its way since cannot have come within reach is not asked for again;
         // that distance plus its way is as far as the surface can be now.
-        let found: Vec<Option<(f64, Option<Contact>)>> = self
+        let features = self.reach.features;
+        let found: Vec<Option<(f64, Vec<Contact>)>> = self
             .body_distance
             .par_iter()
             .with_min_len(128)
@@ -149,16 +150,22 @@ impl<'a> Proximity<'a> {
                 }
                 let far = FAR * reach;
                 let limit = if distance.is_finite() { far.min(distance.abs() + way + ROUNDING) } else { far };
-                let near = body.nearest(x[i], limit);
-                let contact = near.map(|near| Contact::on_body(i as u32, near.normal, near.point));
-                Some((near.map_or(limit, |near| near.distance), contact))
+                let Some(near) = body.nearest(x[i], limit) else { return Some((limit, Vec::new())) };
+                let mut contacts = Vec::new();
+                if near.distance < reach {
+                    contacts.push(Contact::on_body(i as u32, near.normal, near.point));
+                }
+                if near.distance < features {
+                    body.faces_of_hollow(i as u32, x[i], &near, features, &mut contacts);
+                }
+                Some((near.distance, contacts))
             })
             .collect();
         let mut contacts = Vec::new();
         for (i, entry) in found.into_iter().enumerate() {
-            if let Some((distance, contact)) = entry {
+            if let Some((distance, found)) = entry {
                 self.body_distance[i] = (distance, x[i]);
-                contacts.extend(contact.filter(|_| distance < reach));
+                contacts.extend(found);
             }
         }
         contacts
