@@ -307,7 +307,8 @@ impl Search<'_> {
                 let Some(contact) = Contact::within_cloth([e[0], e[1], f[0], f[1]], 2, self.x) else { continue };
                 let distance = contact.gap(self.x);
                 // Ends of segments are pushed by the vertex–triangle pairs.
-                if distance >= self.reach * if contact.share > 0.0 { 1.0 } else { BLUNT } {
+                let inner = contact.weights.iter().all(|w| *w != 0.0);
+                if distance >= self.reach * if inner { 1.0 } else { BLUNT } {
                     continue;
                 }
                 let [k, l, m, n] = contact.weights;

@@ -30,6 +30,8 @@ use crate::geometry::Vec3;
 /// that an edge that lies across a vertex of the body would be pushed by one, two or three contacts in turn, and never
 /// rest.
 const BLEND: f64 = 0.1;
+/// What lies beyond an end is pushed the less, the more sideways it is: not at all beyond this angle (cosine, 75°).
+const SIDEWAYS: f64 = 0.25;
 /// Edges that enclose less than this angle (sine) have less and less a point where they meet: their ends push.
 const PARALLEL: f64 = 0.02;
 
@@ -151,18 +153,18 @@ impl Contact {
                 let (a, b, c, d) = (at(0), at(1), at(2), at(3));
                 let (s, t) = closest_on_segments(a, b, c, d);
                 let away = a + (b - a) * s - c - (d - c) * t;
-                ([1.0 - s, s, t - 1.0, -t], away, share_of_edges(a, b, c, d))
+                ([1.0 - s, s, t - 1.0, -t], away, share_of_edges(a, b, c, d, away.norm()))
             }
             Under::Vertex { at: p, .. } => {
                 let [k, l, m] = closest_on_triangle(p, at(0), at(1), at(2));
                 let away = at(0) * k + at(1) * l + at(2) * m - p;
-                ([k, l, m, 0.0], away, on_plane(p, at(0), at(1), at(2)).map(fade).iter().product())
+                ([k, l, m, 0.0], away, share_of_triangle(p, at(0), at(1), at(2), away.norm()))
             }
             Under::Edge { ends: [p, q], .. } => {
                 let (a, b) = (at(0), at(1));
                 let (s, t) = closest_on_segments(a, b, p, q);
                 let away = a + (b - a) * s - p - (q - p) * t;
-                ([1.0 - s, s, 0.0, 0.0], away, share_of_edges(a, b, p, q))
+                ([1.0 - s, s, 0.0, 0.0], away, share_of_edges(a, b, p, q, away.norm()))
             }
         };
         let distance = away.norm();
@@ -186,20 +188,34 @@ impl Contact {
     }
 }
 
-/// How much of a contact's force is left whose closest point lies at `s` between two ends at 0 and 1, or beyond one.
-fn fade(s: f64) -> f64 {
-    let inside = ((s.min(1.0 - s) + BLEND) / (2.0 * BLEND)).clamp(0.0, 1.0);
-    inside * inside * (3.0 - 2.0 * inside)
+/// How much of a contact's force is left whose closest point lies at `s` between two ends at 0 and 1, or beyond one, of
+/// what is `long` metres long and `apart` from the other.
+fn left(s: f64, long: f64, apart: f64) -> f64 {
+    let inner = s.min(1.0 - s);
+    let faded = ((inner + BLEND) / (2.0 * BLEND)).clamp(0.0, 1.0);
+    let sine = (-inner * long / apart).clamp(0.0, 1.0);
+    let upright = ((1.0 - sine * sine).sqrt() - SIDEWAYS) / (1.0 - SIDEWAYS);
+    faded * faded * (3.0 - 2.0 * faded) * upright.max(0.0)
 }
 
 /// The same of two edges.
-fn share_of_edges(a: Vec3, b: Vec3, c: Vec3, d: Vec3) -> f64 {
+fn share_of_edges(a: Vec3, b: Vec3, c: Vec3, d: Vec3, apart: f64) -> f64 {
     let (first, second) = (b - a, d - c);
-    let sine = first.cross(&second).norm() / (first.norm() * second.norm());
+    let (long, wide) = (first.norm(), second.norm());
+    let sine = first.cross(&second).norm() / (long * wide);
     // Also where an edge has no length.
     if sine.is_nan() || sine == 0.0 {
         return 0.0;
     }
     let (s, t) = closest_on_lines(a, b, c, d);
-    fade(s) * fade(t) * (sine / PARALLEL).min(1.0)
+    left(s, long, apart) * left(t, wide, apart) * (sine / PARALLEL).min(1.0)
+}
+
+/// The same of a triangle and the point `p`.
+fn share_of_triangle(p: Vec3, a: Vec3, b: Vec3, c: Vec3, apart: f64) -> f64 {
+    let double_area = (b - a).cross(&(c - a)).norm();
+    let sides = [(c - b).norm(), (a - c).norm(), (b - a).norm()];
+    let foot = on_plane(p, a, b, c);
+    // A triangle without area has no foot, and no share.
+    (0..3).map(|k| left(foot[k], double_area / sides[k], apart)).product::<f64>().max(0.0)
 }
