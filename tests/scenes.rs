@@ -38,7 +38,8 @@ fn a_sheet_hangs_over_a_thin_bar() {
 
 #[test]
 fn a_sheet_hangs_over_the_edge_of_a_block() {
-    lies_well("sheet_on_edge.yaml", 40.0);
+    // At 40 mm the hundredth part that is stretched most would be the few cells that lie across a corner of the block.
+    lies_well("sheet_on_edge.yaml", 25.0);
 }
 
 #[test]

@@ -266,6 +266,7 @@ fn convex_edges(body: &TriMesh) -> Vec<BodyEdge> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::Bounds;
     use approx::assert_relative_eq;
 
     fn cube() -> TriMesh {
@@ -372,5 +373,31 @@ mod tests {
             assert!(now.y > 0.02, "step {step}: nothing holds the cloth");
             last = now;
         }
+    }
+
+    #[test]
+    fn a_node_in_a_hollow_is_kept_out_of_every_face_of_it() {
+        // The cube with a pit in its upper face.
+        let TriMesh { mut vertices, mut triangles } = cube();
+        vertices.push(Vec3::new(0.5, 0.5, 0.6));
+        triangles.retain(|t| t.iter().any(|&v| v < 4));
+        triangles.extend([[4, 5, 8], [5, 7, 8], [7, 6, 8], [6, 4, 8]]);
+        let body = Collider::new(&TriMesh { vertices, triangles }).expect("collider");
+        let planes = |p: Vec3| {
+            let nearest = body.nearest(p, 0.2).expect("near");
+            let mut out = vec![Contact::on_body(0, nearest.normal, nearest.point)];
+            body.faces_of_hollow(0, p, &nearest, 0.2, &mut out);
+            out
+        };
+        let from = [Vec3::new(0.53, 0.5, 0.66)];
+        let pit = planes(from[0]);
+        assert_eq!(pit.len(), 4, "the face it is nearest to and the three others: {pit:?}");
+        assert!(pit.iter().all(|c| c.gap(&from) > 0.0));
+        let mut to = [Vec3::new(0.45, 0.5, 0.62)];
+        assert!(body.nearest(to[0], 1.0).expect("near").distance < 0.0);
+        Bounds::new(&from, &pit, 1.0, 1e-3).clamp(&from, &mut to);
+        assert!(body.nearest(to[0], 1.0).expect("near").distance > 0.0, "{to:?}");
+        // Over the rim of the cube nothing rises.
+        assert_eq!(planes(Vec3::new(1.02, 0.5, 0.9)).len(), 1);
     }
 }

@@ -4,9 +4,9 @@
 //! weights of the nodes that take part, both turned with the pair as it moves. Between two detections no node moves
 //! further than [`Bounds::allowance`], so a pair that was not found cannot meet; a pair that was found is kept apart by a
 //! plane between its two sides ([`Bounds`]). Cloth that starts without a crossing therefore ends without one. The
-//! exceptions: pairs left out on purpose (neighbours in the cloth, both sides of a seam that is being closed); a node over
-//! a hollow of the body, which is held to the plane of the last detection only; and, while seams are closed in long
-//! steps, edges and vertices of the body further off than they are looked for.
+//! exceptions: pairs left out on purpose (neighbours in the cloth, both sides of a seam that is being closed); and, while
+//! seams are closed in long steps, edges, vertices and the faces of hollows of the body further off than they are looked
+//! for.
 
 mod body;
 mod bounds;
