@@ -82,8 +82,10 @@ const TRUST: [f64; 3] = [1.5e-3, 0.1e-3, 10e-3];
 /// At rest: drift (RMS) over as many steps again, metres, and residual force in particle weights.
 const DRIFT: f64 = 0.3e-3;
 const RESIDUAL: f64 = 1.0;
-/// Steps so short that as many as are left move the garment by no more than this share of [`DRIFT`] need not be made.
+/// Steps so short that as many as are left move the garment by no more than this share of [`DRIFT`] need not be made,
+/// once so many in a row were: a single short one may be one that could not be made longer.
 const STILL: f64 = 1.0 / 3.0;
+const IN_A_ROW: usize = 3;
 /// A garment whose nodes went so far in one stretch is looked at this many times as far around in the next: further
 /// finds more than pays, less needs too many looks (one is due when a node has gone a third of that).
 const LOOK: f64 = 2.0;
@@ -198,12 +200,13 @@ impl Fall<'_> {
     /// same way.
     fn drift(&mut self) -> Result<[f64; 2], StepError> {
         let before = self.world.x.clone();
-        let mut left_out = [0.0; 2];
+        let (mut left_out, mut still) = ([0.0; 2], 0);
         for left in (0..self.steps).rev() {
             let from = self.world.x.clone();
             self.step(0.5 * NEWTON_STEP)?;
             let [mean, most] = motion(&from, &self.world.x).map(|way| way * left as f64);
-            if mean <= STILL * DRIFT {
+            still = if mean <= STILL * DRIFT { still + 1 } else { 0 };
+            if still == IN_A_ROW {
                 left_out = [mean, most];
                 break;
             }

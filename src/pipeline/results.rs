@@ -1,7 +1,7 @@
 //! The files of a run, in memory.
 
 use super::error::PipelineError;
-use super::run::Run;
+use super::run::{Run, alone};
 use crate::geometry::Vec3;
 use crate::io::glb_write::garment_glb;
 use crate::io::obj_write::garment_obj;
@@ -65,19 +65,19 @@ impl Run<'_> {
     /// When the picture cannot be drawn.
     pub fn state(&self, color: Color) -> Result<Vec<ResultFile>, PipelineError> {
         if let Some(last) = self.last() {
-            let picture = (GARMENT_PNG, self.picture(last, &self.stitching.class, color)?);
+            let picture = (GARMENT_PNG, self.picture(last, &self.class(), color)?);
             let sewn = self.sewn.as_ref().map(|sewn| (SEWN_OBJ, self.obj(sewn)));
             return Ok(sewn.into_iter().chain([picture]).collect());
         }
         let Some(placed) = &self.placed else { return Ok(Vec::new()) };
         // Every particle stands alone: partners are still apart.
-        let alone: Vec<u32> = (0..placed.len() as u32).collect();
+        let alone = alone(placed.len());
         let surface = garment_obj(&self.job.garment.name, &self.job.mesh, &alone, placed).into_bytes();
         Ok(vec![(PLACED_OBJ, surface), (GARMENT_PNG, self.picture(placed, &alone, color)?)])
     }
 
     fn obj(&self, at: &[Vec3]) -> Vec<u8> {
-        garment_obj(&self.job.garment.name, &self.job.mesh, &self.stitching.class, at).into_bytes()
+        garment_obj(&self.job.garment.name, &self.job.mesh, &self.class(), at).into_bytes()
     }
 
     fn picture(&self, at: &[Vec3], class: &[u32], color: Color) -> Result<Vec<u8>, PipelineError> {

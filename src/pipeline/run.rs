@@ -1,5 +1,6 @@
 //! One garment through the stages.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::time::Instant;
 
@@ -29,6 +30,8 @@ pub struct Run<'a> {
     /// Positions of every particle before sewing and after each stage.
     pub(super) placed: Option<Vec<Vec3>>,
     pub(super) sewn: Option<Vec<Vec3>>,
+    /// Whether sewing left a seam open; every particle stands alone then.
+    open: bool,
     pub(super) draped: Option<Vec<Vec3>>,
     pub(super) flattened: Option<Vec<Vec2>>,
     stages: Vec<Stage>,
@@ -47,6 +50,7 @@ impl<'a> Run<'a> {
             gaps: None,
             placed: None,
             sewn: None,
+            open: false,
             draped: None,
             flattened: None,
             stages,
@@ -77,7 +81,8 @@ impl<'a> Run<'a> {
             drift: None,
         });
         self.gaps = Some(self.gaps_of(&sewn));
-        self.sewn = Some(spread(&sewn.stitching, &sewn.nodes));
+        self.open = sewn.open.is_some();
+        self.sewn = Some(sewn.open.unwrap_or_else(|| spread(&sewn.stitching, &sewn.nodes)));
         self.stitching = sewn.stitching;
         // The state is kept first: a garment that did not close is worth a look.
         closed.map_err(failed)
@@ -88,7 +93,7 @@ impl<'a> Run<'a> {
     /// # Errors
     /// A garment that cannot be sewn or draped.
     pub fn drape(&mut self, progress: Progress) -> Result<(), PipelineError> {
-        if self.sewn.is_none() {
+        if self.sewn.is_none() || self.open {
             self.sew(progress)?;
         }
         let job = self.job;
@@ -143,12 +148,17 @@ impl<'a> Run<'a> {
     /// what this one has made: draping goes on from there and nowhere else.
     pub(super) fn resume(&mut self, nodes: &[Vec3], draped: bool) {
         let positions = spread(&self.stitching, nodes);
-        (self.coarse, self.draped, self.flattened) = (None, None, None);
+        (self.coarse, self.draped, self.flattened, self.open) = (None, None, None, false);
         if draped {
             self.draped = Some(positions);
         } else {
             self.sewn = Some(positions);
         }
+    }
+
+    /// Which particles are one: those that are stitched together.
+    pub(super) fn class(&self) -> Cow<'_, [u32]> {
+        if self.open { alone(self.job.mesh.flat.len()).into() } else { (&self.stitching.class).into() }
     }
 
     /// The latest positions in space, if the garment has been sewn.
@@ -161,7 +171,7 @@ impl<'a> Run<'a> {
         measure(&Measured {
             garment: &self.job.garment,
             mesh: &self.job.mesh,
-            weld: &self.stitching.class,
+            weld: &self.class(),
             body: &self.job.body,
             fabric: &self.job.fabric_names(),
             gaps: self.gaps.as_deref(),
@@ -184,6 +194,11 @@ impl<'a> Run<'a> {
 
 fn key([a, b]: [u32; 2]) -> [u32; 2] {
     [a.min(b), a.max(b)]
+}
+
+/// Every particle a class of its own.
+pub(super) fn alone(particles: usize) -> Vec<u32> {
+    (0..particles as u32).collect()
 }
 
 /// Positions per particle from positions per class.

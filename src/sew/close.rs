@@ -36,6 +36,8 @@ pub struct Sewn {
     pub steps: usize,
     /// Crossings of the cloth with itself that could not be led out.
     pub tangles: usize,
+    /// Where every particle lies, if a seam did not close: nothing has been stitched then.
+    pub open: Option<Vec<Vec3>>,
 }
 
 impl Sewn {
@@ -163,6 +165,10 @@ pub fn sew(
         progress(way.clamp(0.0, 1.0));
     }
     let (gaps, nodes) = (stitching.gaps(&world.x), stitching.welded(&world.x));
+    if gaps.iter().any(|gap| *gap > options.tolerance) {
+        let tangles = world.tangles().len();
+        return Ok(Sewn { stitching, nodes, gaps, steps, tangles, open: Some(world.x) });
+    }
     settled(cut, body, stitching, nodes, gaps, steps)
 }
 
@@ -189,5 +195,5 @@ fn settled(
 ) -> Result<Sewn, SewError> {
     let mut world = sewn_world(cut, body, &stitching, nodes)?;
     let (more, tangles) = settle(&mut world)?;
-    Ok(Sewn { nodes: world.x, stitching, gaps, steps: steps + more, tangles })
+    Ok(Sewn { nodes: world.x, stitching, gaps, steps: steps + more, tangles, open: None })
 }
