@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use criterion::{BatchSize, Criterion};
 use toile::contact::{ClothDetector, Neighbourhood};
-use toile::dynamics::{StepError, World};
+use toile::dynamics::{GRIP, StepError, World};
 use toile::geometry::{Mat3, Vec3};
 use toile::linear::{Cholesky, Ordering, SymmetricMatrix, SymmetricPattern, nested_dissection};
 use toile::pipeline::Job;
@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn hung<'a>(job: &'a Job, sewn: &Sewn) -> Result<World<'a>, StepError> {
     let mut world = sewn_world(&job.cut(), &job.collider, &sewn.stitching, sewn.nodes.clone())?;
     world.gravity = 1.0;
-    world.grip(10.0);
+    world.grip(GRIP);
     Ok(world)
 }
 
@@ -109,7 +109,7 @@ fn steps(criterion: &mut Criterion, job: &Job, sewn: &Sewn) {
     group.bench_function("falling", |b| {
         b.iter_batched(
             || hung(job, sewn),
-            |world| world.and_then(|mut w| w.relax(0.1 * STEP, 0.0, 0.0, &still(&w))).is_ok(),
+            |world| world.and_then(|mut w| w.fall(&still(&w))).is_ok(),
             BatchSize::PerIteration,
         );
     });

@@ -50,5 +50,5 @@ fn sewn(job: &Job, start: &[Vec3]) -> Result<Sewn, Box<dyn Error>> {
 fn draped(job: &Job, sewn: &Sewn) -> Result<Vec<Vec3>, Box<dyn Error>> {
     let (stitching, nodes) = (&sewn.stitching, sewn.nodes.clone());
     let draped = drape(&job.cut(), &job.collider, stitching, nodes, &DrapeOptions::default(), &mut |_| {})?;
-    Ok(stitching.class.iter().map(|&c| draped.nodes[c as usize]).collect())
+    Ok(stitching.spread(&draped.nodes))
 }

@@ -45,7 +45,6 @@ pub struct Collider {
     edges: Vec<BodyEdge>,
     vertex_grid: Grid,
     edge_grid: Grid,
-    triangles: Vec<[u32; 3]>,
     triangle_grid: Grid,
     /// Height of the floor, metres.
     floor: Option<f64>,
@@ -99,7 +98,6 @@ impl Collider {
             vertex_grid: Grid::new(&point_boxes, cell),
             edge_grid: Grid::new(&edge_boxes, cell),
             triangle_grid: Grid::new(&triangle_boxes, cell),
-            triangles: body.triangles.clone(),
             vertices: body.vertices.clone(),
             normals: body.vertex_normals(),
             neighbours: neighbours(body),
@@ -146,7 +144,7 @@ impl Collider {
     /// the point `nearest` to it: in a hollow, that plane alone would let the node run into the next face.
     pub fn faces_of_hollow(&self, node: u32, p: Vec3, nearest: &Nearest, reach: f64, out: &mut Vec<Contact>) {
         self.triangle_grid.query(p.add_scalar(-reach), p.add_scalar(reach), |t| {
-            let [a, b, c] = self.triangles[t as usize].map(|v| self.vertices[v as usize]);
+            let [a, b, c] = self.mesh.triangle(t).vertices().map(from_parry);
             let rises = |q: Vec3| nearest.normal.dot(&(q - nearest.point)) > RISES;
             if !(rises(a) || rises(b) || rises(c)) {
                 return;

@@ -1,7 +1,7 @@
 //! From sewn to at rest.
 
 use crate::contact::Collider;
-use crate::dynamics::{Cut, Reach, StepError, World};
+use crate::dynamics::{Cut, GRIP, Reach, StepError, World};
 use crate::geometry::Vec3;
 use crate::sew::{Stitching, drape_reach, sewn_world};
 
@@ -54,17 +54,9 @@ pub struct Draped {
     pub residual: f64,
 }
 
-/// Step length while falling, s: long, for inertia only delays rest; the step is a Newton step on the energy.
-const STEP: f64 = 0.1;
 /// Step length near rest, s. A garment hangs like a pendulum of a second or two; in shorter steps inertia would hide how
 /// far it still has to go.
 const NEWTON_STEP: f64 = 1.0;
-/// Share of the last motion by which a falling garment looks ahead, and the most it does so, metres.
-const MOMENTUM: f64 = 0.9;
-const LOOK_AHEAD: f64 = 4e-3;
-/// Tangential stiffness of a contact of little load, N/m. A node of 1 mN weight slips after 0.03 mm; a sliding garment
-/// gets on by its unbalanced force over this in a step, so that a stiffer grip would never let it arrive.
-const GRIP: f64 = 10.0;
 /// Steps between two looks at how far the garment still moves.
 const STRETCH: usize = 10;
 /// A garment that falls no further than this, metres RMS, in so many steps is near its rest: what is left are long
@@ -110,9 +102,8 @@ pub fn drape(
     let mut world = sewn_world(cut, body, stitching, nodes)?;
     world.gravity = 1.0;
     world.grip(GRIP);
-    let thickest = 2.0 * world.cloth.half_thickness.iter().copied().fold(0.0, f64::max);
     let widest = drape_reach(cut.mesh.spacing);
-    let look = [(NEAREST_LOOK + thickest).min(widest), widest];
+    let look = [(NEAREST_LOOK + world.cloth.thickest()).min(widest), widest];
     let mut fall = Fall { last: world.x.clone(), world, steps: 0, near: false, trust: TRUST[0], look };
     let (drift, residual, converged) = match options.until {
         Until::Rest => fall.come_to_rest(options.max_steps, progress)?,
@@ -183,7 +174,7 @@ impl Fall<'_> {
 
     fn fall(&mut self) -> Result<(), StepError> {
         let now = self.world.x.clone();
-        self.world.relax(STEP, MOMENTUM, LOOK_AHEAD, &self.last)?;
+        self.world.fall(&self.last)?;
         self.last = now;
         Ok(())
     }

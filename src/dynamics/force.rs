@@ -58,7 +58,7 @@ impl ContactLaw {
 
     /// The largest distance at which two layers of `cloth` push, metres.
     pub(super) fn thickest(&self, cloth: &Cloth) -> f64 {
-        self.cloth_gap.unwrap_or_else(|| 2.0 * cloth.half_thickness.iter().copied().fold(0.0, f64::max))
+        self.cloth_gap.unwrap_or_else(|| cloth.thickest())
     }
 
     /// Load and slope at `x`.

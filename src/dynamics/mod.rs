@@ -18,7 +18,7 @@ mod world;
 
 pub use bending::Bending;
 pub use force::{ContactLaw, Forces, Pull};
-pub use friction::Friction;
+pub use friction::{Friction, GRIP};
 pub use model::{Cloth, Cut, SpringModel, identity_nodes};
 pub use proximity::Reach;
 pub use springs::{Spring, StretchLaw};

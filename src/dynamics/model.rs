@@ -137,6 +137,11 @@ impl Cloth {
         out
     }
 
+    /// Thickness of its thickest cloth, metres.
+    pub(crate) fn thickest(&self) -> f64 {
+        2.0 * self.half_thickness.iter().copied().fold(0.0, f64::max)
+    }
+
     /// Masses by the cloth nearest to each particle: they add up to areal density × area (F7).
     fn weigh(&mut self, mesh: &ClothMesh, fabrics: &[Arc<Fabric>]) {
         for (t, nodes) in self.triangles.iter().enumerate() {

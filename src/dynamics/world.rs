@@ -10,6 +10,11 @@ use crate::geometry::Vec3;
 
 /// Layers nearer than this, metres, are coupled in the matrix: pressed together they move together.
 const COUPLED: f64 = 1.5e-3;
+/// Length of a step of falling, s: long, for inertia only delays rest; the step is a Newton step on the energy.
+const FALL: f64 = 0.1;
+/// Share of the last motion by which falling cloth looks ahead, and the most it does so, metres.
+const MOMENTUM: f64 = 0.9;
+const LOOK_AHEAD: f64 = 4e-3;
 /// Times a step is solved to find the contacts that push at its end.
 const ROUNDS: usize = 2;
 /// A Newton step is halved until the energy falls by this share of what the model says, at most so often.
@@ -113,19 +118,19 @@ impl<'a> World<'a> {
         self.move_to(target, dt, true)
     }
 
-    /// A step without inertia from an extrapolated position: x + `momentum` × the last motion (at most `most` metres).
-    /// It goes to rest much faster than real time. Returns the largest motion, metres.
+    /// A step without inertia from an extrapolated position, a share of the last motion, which came from `last`, on. It
+    /// goes to rest much faster than real time. Returns the largest motion, metres.
     ///
     /// # Errors
     /// As [`Stepper::solve`].
-    pub fn relax(&mut self, dt: f64, momentum: f64, most: f64, last: &[Vec3]) -> Result<f64, StepError> {
+    pub fn fall(&mut self, last: &[Vec3]) -> Result<f64, StepError> {
         let forces = forces(self.gravity, &self.proximity, self.law, &[], self.friction.as_ref());
         // Looking ahead pays only while the forces still point the way of the last motion (O'Donoghue and Candès 2015).
         let uphill = || {
             let f = cloth_forces(&self.cloth, &self.x, &forces);
             f.iter().zip(self.x.iter().zip(last)).map(|(f, (x, l))| f.dot(&(x - l))).sum::<f64>() < 0.0
         };
-        let momentum = if momentum > 0.0 && uphill() { 0.0 } else { momentum };
+        let momentum = if uphill() { 0.0 } else { MOMENTUM };
         let mut ahead: Vec<Vec3> = self
             .x
             .iter()
@@ -133,14 +138,14 @@ impl<'a> World<'a> {
             .map(|(x, l)| {
                 let d = (x - l) * momentum;
                 let length = d.norm();
-                x + if length > most { d * (most / length) } else { d }
+                x + if length > LOOK_AHEAD { d * (LOOK_AHEAD / length) } else { d }
             })
             .collect();
         self.proximity.bounds.clamp(&self.x, &mut ahead);
         let still = vec![Vec3::zeros(); ahead.len()];
-        let d = self.stepper.solve(&self.cloth, &ahead, &still, dt, &forces, ROUNDS)?;
+        let d = self.stepper.solve(&self.cloth, &ahead, &still, FALL, &forces, ROUNDS)?;
         let target: Vec<Vec3> = ahead.iter().zip(&d).map(|(x, d)| x + d).collect();
-        self.move_to(target, dt, true)
+        self.move_to(target, FALL, true)
     }
 
     /// A step with the true stiffness that changes no edge by more than `radius` metres, shortened until the energy

@@ -92,8 +92,7 @@ impl Job {
 impl Coarse {
     /// Positions of the particles of `mesh` from those of this level's classes.
     fn carry(&self, nodes: &[Vec3], mesh: &ClothMesh) -> Vec<Vec3> {
-        let particles: Vec<Vec3> = self.closed.sewn.stitching.class.iter().map(|&c| nodes[c as usize]).collect();
-        Transfer::new(&self.mesh, mesh).apply(&particles)
+        Transfer::new(&self.mesh, mesh).apply(&self.closed.sewn.stitching.spread(nodes))
     }
 }
 

@@ -1,7 +1,8 @@
 //! The files of a run, in memory.
 
 use super::error::PipelineError;
-use super::run::{Run, alone};
+use super::run::Run;
+use crate::dynamics::identity_nodes;
 use crate::geometry::Vec3;
 use crate::io::glb_write::garment_glb;
 use crate::io::obj_write::garment_obj;
@@ -71,7 +72,7 @@ impl Run<'_> {
         }
         let Some(placed) = &self.placed else { return Ok(Vec::new()) };
         // Every particle stands alone: partners are still apart.
-        let alone = alone(placed.len());
+        let alone = identity_nodes(&self.job.mesh);
         let surface = garment_obj(&self.job.garment.name, &self.job.mesh, &alone, placed).into_bytes();
         Ok(vec![(PLACED_OBJ, surface), (GARMENT_PNG, self.picture(placed, &alone, color)?)])
     }

@@ -8,6 +8,7 @@ use super::error::PipelineError;
 use super::job::Job;
 use super::levels::{COARSE_SHARE, Closed, Coarse};
 use crate::drape::{DrapeOptions, drape};
+use crate::dynamics::identity_nodes;
 use crate::flatten::{self, flatten_garment};
 use crate::geometry::{Vec2, Vec3};
 use crate::report::{Drift, Measured, Report, Stage, measure};
@@ -82,7 +83,7 @@ impl<'a> Run<'a> {
         });
         self.gaps = Some(self.gaps_of(&sewn));
         self.open = sewn.open.is_some();
-        self.sewn = Some(sewn.open.unwrap_or_else(|| spread(&sewn.stitching, &sewn.nodes)));
+        self.sewn = Some(sewn.open.unwrap_or_else(|| sewn.stitching.spread(&sewn.nodes)));
         self.stitching = sewn.stitching;
         // The state is kept first: a garment that did not close is worth a look.
         closed.map_err(failed)
@@ -114,7 +115,7 @@ impl<'a> Run<'a> {
             energy: Some(draped.energy),
             drift: Some(Drift { rms: draped.drift[0] * MM, max: draped.drift[1] * MM }),
         });
-        self.draped = Some(spread(&self.stitching, &draped.nodes));
+        self.draped = Some(self.stitching.spread(&draped.nodes));
         Ok(())
     }
 
@@ -147,7 +148,7 @@ impl<'a> Run<'a> {
     /// Takes up the positions of an earlier run, one per class of stitched particles, as sewn or as draped, in place of
     /// what this one has made: draping goes on from there and nowhere else.
     pub(super) fn resume(&mut self, nodes: &[Vec3], draped: bool) {
-        let positions = spread(&self.stitching, nodes);
+        let positions = self.stitching.spread(nodes);
         (self.coarse, self.draped, self.flattened, self.open) = (None, None, None, false);
         if draped {
             self.draped = Some(positions);
@@ -158,7 +159,7 @@ impl<'a> Run<'a> {
 
     /// Which particles are one: those that are stitched together.
     pub(super) fn class(&self) -> Cow<'_, [u32]> {
-        if self.open { alone(self.job.mesh.flat.len()).into() } else { (&self.stitching.class).into() }
+        if self.open { identity_nodes(&self.job.mesh).into() } else { (&self.stitching.class).into() }
     }
 
     /// The latest positions in space, if the garment has been sewn.
@@ -194,16 +195,6 @@ impl<'a> Run<'a> {
 
 fn key([a, b]: [u32; 2]) -> [u32; 2] {
     [a.min(b), a.max(b)]
-}
-
-/// Every particle a class of its own.
-pub(super) fn alone(particles: usize) -> Vec<u32> {
-    (0..particles as u32).collect()
-}
-
-/// Positions per particle from positions per class.
-fn spread(stitching: &Stitching, nodes: &[Vec3]) -> Vec<Vec3> {
-    stitching.class.iter().map(|&c| nodes[c as usize]).collect()
 }
 
 /// Positions per class from positions per particle, those of a class being equal.

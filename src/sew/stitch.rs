@@ -57,6 +57,11 @@ impl Stitching {
         out
     }
 
+    /// Position of every particle from that of its class.
+    pub fn spread(&self, nodes: &[Vec3]) -> Vec<Vec3> {
+        self.class.iter().map(|&c| nodes[c as usize]).collect()
+    }
+
     /// Gap of every pair, metres.
     pub fn gaps(&self, x: &[Vec3]) -> Vec<f64> {
         self.pairs.iter().map(|([a, b], _)| (x[*a as usize] - x[*b as usize]).norm()).collect()

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::rig::{Sheet, settle};
 use super::{Figure, Known, Outcome, Sample, SpecimenError};
 use crate::contact::Collider;
-use crate::dynamics::World;
+use crate::dynamics::{GRIP, World};
 use crate::geometry::{TriMesh, Vec2, Vec3, rim_loops};
 
 /// Radius of the disc of cloth and of the pedestal, metres.
@@ -21,14 +21,8 @@ const SPACINGS: [f64; 2] = [0.01, 0.005];
 const PIXEL: f64 = 0.5e-3;
 /// Height of the dents the cloth has before it falls, metres: something must say where the first fold goes.
 const DENT: f64 = 0.3e-3;
-/// Tangential stiffness of the pedestal's grip on a node, N/m, as in garments.
-const GRIP: f64 = 10.0;
-/// Steps of falling, and their length, s.
+/// Steps of falling.
 const FALLING: usize = 150;
-const FALL_STEP: f64 = 0.1;
-/// Share of the last step by which the next looks ahead, and the most it does so, metres.
-const MOMENTUM: f64 = 0.9;
-const LOOK_AHEAD: f64 = 4e-3;
 /// A draped disc is at rest when ten steps move it by less than this, metres.
 const STILL: f64 = 1e-4;
 /// A fold stands out from the hollows beside it by more than this share of the overhang.
@@ -108,7 +102,7 @@ fn fall(world: &mut World) -> Result<(), SpecimenError> {
     let mut last = world.x.clone();
     for _ in 0..FALLING {
         let now = world.x.clone();
-        world.relax(FALL_STEP, MOMENTUM, LOOK_AHEAD, &last)?;
+        world.fall(&last)?;
         last = now;
     }
     Ok(())
