@@ -7,6 +7,7 @@ use std::time::Instant;
 use super::error::PipelineError;
 use super::job::Job;
 use super::levels::{COARSE_SHARE, Closed, Coarse};
+use super::surface;
 use crate::drape::{DrapeOptions, drape};
 use crate::dynamics::identity_nodes;
 use crate::flatten::{self, flatten_garment};
@@ -132,15 +133,7 @@ impl<'a> Run<'a> {
         let draped = self.draped.as_deref().unwrap_or_default();
         let flat = flatten_garment(&self.job.mesh, &self.job.garment.seams, draped, options)?;
         progress("flatten", 1.0);
-        let reports = flat.pieces.iter().map(|p| p.report);
-        self.stages.push(Stage {
-            name: "flatten".into(),
-            seconds: begin.elapsed().as_secs_f64(),
-            iterations: reports.clone().map(|r| r.iterations).max().unwrap_or(0),
-            converged: reports.clone().all(|r| r.converged),
-            energy: Some(reports.map(|r| r.energy).sum()),
-            drift: None,
-        });
+        self.stages.push(surface::stage(flat.pieces.iter().map(|p| p.report), begin));
         self.flattened = Some(flat.positions);
         Ok(())
     }

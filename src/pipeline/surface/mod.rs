@@ -155,7 +155,7 @@ pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurf
         units,
         pieces,
         cuts: marks.chains,
-        stages: vec![stage(&flat, begin)],
+        stages: vec![stage(flat.iter().map(|f| f.report), begin)],
     };
     Ok(FlatSurface { faces, parts, flat, edges, report, notes })
 }
@@ -198,8 +198,8 @@ fn lay_out(file: &Path, parts: &[Part], options: &Options) -> Result<Vec<Flatten
     parts.iter().zip(flat).map(|(part, flat)| flat.map_err(|error| cuts::advise(file, part, error))).collect()
 }
 
-fn stage(flat: &[Flattened], begin: Instant) -> Stage {
-    let reports = flat.iter().map(|f| f.report);
+/// The stage that laid pieces with these figures flat.
+pub(super) fn stage(reports: impl Iterator<Item = Report> + Clone, begin: Instant) -> Stage {
     Stage {
         name: "flatten".into(),
         seconds: begin.elapsed().as_secs_f64(),

@@ -210,7 +210,7 @@ fn middle(row: &Row, level: &Level, present: &[usize], starts: &[f64]) -> f64 {
         Middle::On(u) => u,
         Middle::LeftOf(piece) => {
             let at = present.iter().position(|&i| row.members[i].piece == piece).unwrap_or(0);
-            let before = present.get((at + present.len() - 1) % present.len().max(1)).map_or(0.0, |&i| level.gaps[i]);
+            let before = present[..at].last().or(present.last()).map_or(0.0, |&i| level.gaps[i]);
             return present.get(at).map_or(0.0, |&i| starts[i] - 0.5 * before);
         }
     };
