@@ -140,9 +140,10 @@ impl Collider {
         Some(Nearest { point, normal, distance: sign * distance })
     }
 
-    /// Planes of the body's faces within `reach` of `node`, which is at `p` above them, that rise over the plane through
-    /// the point `nearest` to it: in a hollow, that plane alone would let the node run into the next face.
-    pub fn faces_of_hollow(&self, node: u32, p: Vec3, nearest: &Nearest, reach: f64, out: &mut Vec<Contact>) {
+    /// Contacts of `node` with the body's faces within `reach` below it that rise over the plane through the point
+    /// `nearest` to it: in a hollow, that plane alone would let the node run into the next face.
+    pub fn faces_of_hollow(&self, x: &[Vec3], node: u32, nearest: &Nearest, reach: f64, out: &mut Vec<Contact>) {
+        let p = x[node as usize];
         self.triangle_grid.query(p.add_scalar(-reach), p.add_scalar(reach), |t| {
             let [a, b, c] = self.mesh.triangle(t).vertices().map(from_parry);
             let rises = |q: Vec3| nearest.normal.dot(&(q - nearest.point)) > RISES;
@@ -153,8 +154,7 @@ impl Collider {
             let near = (a * k + b * l + c * m - p).norm() <= reach;
             let normal = (b - a).cross(&(c - a)).try_normalize(0.0);
             if let Some(normal) = normal.filter(|n| near && n.dot(&(p - a)) > 0.0) {
-                // What lies nearest pushes; the others only bar the way.
-                out.push(Contact { share: 0.0, ..Contact::on_body(node, normal, a) });
+                out.extend(Contact::on_feature([node, 0, 0, 0], 1, Under::Face { corners: [a, b, c] }, normal, x));
             }
         });
     }
@@ -384,7 +384,7 @@ mod tests {
         let planes = |p: Vec3| {
             let nearest = body.nearest(p, 0.2).expect("near");
             let mut out = vec![Contact::on_body(0, nearest.normal, nearest.point)];
-            body.faces_of_hollow(0, p, &nearest, 0.2, &mut out);
+            body.faces_of_hollow(&[p], 0, &nearest, 0.2, &mut out);
             out
         };
         let from = [Vec3::new(0.53, 0.5, 0.66)];
@@ -397,5 +397,27 @@ mod tests {
         assert!(body.nearest(to[0], 1.0).expect("near").distance > 0.0, "{to:?}");
         // Over the rim of the cube nothing rises.
         assert_eq!(planes(Vec3::new(1.02, 0.5, 0.9)).len(), 1);
+    }
+
+    #[test]
+    fn a_face_of_a_hollow_bars_the_way_through_it_and_not_past_it() {
+        let corners = [Vec3::new(0.0, 0.0, -1.0), Vec3::new(0.0, 0.0, 1.0), Vec3::new(-1.0, 0.0, 0.0)];
+        let mut x = [Vec3::new(-0.02, 0.01, 0.0)];
+        let mut face = Contact::on_feature([0; 4], 1, Under::Face { corners }, Vec3::y(), &x).expect("apart");
+        let mut bounds = Bounds::new(&x, &[face], 1.0, 1e-3);
+        let mut through = [Vec3::new(-0.2, -0.01, 0.0)];
+        bounds.clamp(&x, &mut through);
+        assert!(through[0].y > 0.0, "{through:?}");
+        // Beyond the face's edge, and then lower than the face.
+        for _ in 0..12 {
+            let wish = [x[0] + Vec3::new(0.01, -0.00125, 0.0)];
+            let mut to = wish;
+            bounds.clamp(&x, &mut to);
+            assert_eq!(to, wish);
+            x = to;
+            assert!(face.refresh(&x));
+            bounds.refresh(&[face]);
+        }
+        assert!(x[0].y < 0.0);
     }
 }

@@ -18,6 +18,8 @@ const SWEEPS: usize = 12;
 const KEPT: f64 = 0.2;
 /// A gap smaller than this, metres, shrinks no further: gaps that halved without end would end in rounding.
 const LEAST: f64 = 5e-7;
+/// Contacts are to be looked for anew when a node has gone this share of what it may.
+const DUE: f64 = 2.0 / 3.0;
 /// Metres.
 const ROUNDING: f64 = 1e-9;
 /// A pair that has all but rounding of what it needs is not pushed.
@@ -30,6 +32,9 @@ const HELD: f64 = 0.5;
 pub struct Bounds {
     origin: Vec<Vec3>,
     leash: f64,
+    /// Where nodes are tethered to, besides, and how long the tethers are, metres.
+    posts: Vec<Vec3>,
+    tether: f64,
     margin: f64,
     /// Primitives of the cloth above one another, or above an edge or a vertex of the body.
     pairs: Vec<Contact>,
@@ -52,7 +57,28 @@ impl Bounds {
         };
         let number: Vec<u32> = (0..contacts.len() as u32).filter(paired).collect();
         let pairs = number.iter().map(|&k| contacts[k as usize]).collect();
-        Self { origin: x.to_vec(), leash: Self::allowance(reach), margin, pairs, number, planes }
+        let leash = Self::allowance(reach);
+        Self { origin: x.to_vec(), leash, posts: Vec::new(), tether: leash, margin, pairs, number, planes }
+    }
+
+    /// From now on no node goes further than `length` metres from its post.
+    pub fn tether(&mut self, posts: &[Vec3], length: f64) {
+        (self.posts, self.tether) = (posts.to_vec(), length);
+    }
+
+    /// How far the node that has least left may go, metres.
+    pub fn left(&self, x: &[Vec3]) -> f64 {
+        (self.leash - farthest(x, &self.origin)).min(self.tether - farthest(x, &self.posts))
+    }
+
+    /// How far a node may go after a detection, metres.
+    pub fn most(&self) -> f64 {
+        self.leash.min(self.tether)
+    }
+
+    /// Whether a node has gone two thirds of what it may between two detections.
+    pub fn is_due(&self, x: &[Vec3]) -> bool {
+        farthest(x, &self.origin) > DUE * self.leash || farthest(x, &self.posts) > DUE * self.tether
     }
 
     /// Takes over the directions of refreshed contacts, which must be those this was made with.
@@ -67,16 +93,11 @@ impl Bounds {
         0.45 * reach
     }
 
-    /// Largest distance any node has gone since the detection, metres.
-    pub fn travelled(&self, x: &[Vec3]) -> f64 {
-        x.iter().zip(&self.origin).map(|(a, b)| (a - b).norm_squared()).fold(0.0, f64::max).sqrt()
-    }
-
     /// The share (≤ 1) of a step that keeps every node on its leash. Shortening the step as a whole keeps its shape;
     /// cutting it node by node crumples the cloth.
     pub fn share(&self, x: &[Vec3], step: &[Vec3]) -> f64 {
         let longest = step.iter().map(Vec3::norm_squared).fold(0.0, f64::max).sqrt();
-        let left = self.leash - self.travelled(x);
+        let left = self.left(x);
         if longest > left { (left / longest).max(0.0) } else { 1.0 }
     }
 
@@ -136,15 +157,22 @@ impl Bounds {
     /// The largest share of the step that breaks no leash.
     fn leash_share(&self, from: &[Vec3], to: &[Vec3]) -> f64 {
         let mut share = 1.0f64;
-        for ((a, b), o) in from.iter().zip(to).zip(&self.origin) {
-            let (d, r) = (b - a, a - o);
-            let (q, p, c) = (d.norm_squared(), r.dot(&d), r.norm_squared() - self.leash * self.leash);
-            if q > 0.0 && c <= 0.0 && q + 2.0 * p + c > 0.0 {
-                share = share.min(((p * p - q * c).max(0.0).sqrt() - p) / q);
+        for (posts, length) in [(&self.origin, self.leash), (&self.posts, self.tether)] {
+            for ((a, b), o) in from.iter().zip(to).zip(posts) {
+                let (d, r) = (b - a, a - o);
+                let (q, p, c) = (d.norm_squared(), r.dot(&d), r.norm_squared() - length * length);
+                if q > 0.0 && c <= 0.0 && q + 2.0 * p + c > 0.0 {
+                    share = share.min(((p * p - q * c).max(0.0).sqrt() - p) / q);
+                }
             }
         }
         share
     }
+}
+
+/// The largest distance between a node and its post, metres.
+fn farthest(x: &[Vec3], posts: &[Vec3]) -> f64 {
+    x.iter().zip(posts).map(|(a, b)| (a - b).norm_squared()).fold(0.0, f64::max).sqrt()
 }
 
 /// Positions of a pair's sides along its direction: the lowest node of the upper side, the highest of the lower.

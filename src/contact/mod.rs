@@ -42,6 +42,11 @@ pub enum Under {
     Cloth,
     /// The plane through the point of the body's surface that was nearest to a node.
     Plane,
+    /// A face of a hollow of the body, beside the one nearest to a node.
+    Face {
+        /// Its corners.
+        corners: [Vec3; 3],
+    },
     /// A vertex of the body, under a triangle.
     Vertex {
         /// Its number.
@@ -63,6 +68,7 @@ impl Under {
     fn points(&self) -> &[Vec3] {
         match self {
             Self::Cloth | Self::Plane => &[],
+            Self::Face { corners } => corners,
             Self::Vertex { at, .. } => std::slice::from_ref(at),
             Self::Edge { ends, .. } => ends,
         }
@@ -155,6 +161,11 @@ impl Contact {
                 let away = a + (b - a) * s - c - (d - c) * t;
                 ([1.0 - s, s, t - 1.0, -t], away, share_of_edges(a, b, c, d, away.norm()))
             }
+            Under::Face { corners: [p, q, r] } => {
+                let [k, l, m] = closest_on_triangle(at(0), p, q, r);
+                // What lies nearest pushes; the others only bar the way.
+                ([1.0, 0.0, 0.0, 0.0], at(0) - (p * k + q * l + r * m), 0.0)
+            }
             Under::Vertex { at: p, .. } => {
                 let [k, l, m] = closest_on_triangle(p, at(0), at(1), at(2));
                 let away = at(0) * k + at(1) * l + at(2) * m - p;
@@ -176,6 +187,7 @@ impl Contact {
         (self.weights, self.share) = (weights, share);
         self.normal = away / if inside { -distance } else { distance };
         self.offset = match self.under {
+            Under::Face { .. } => self.normal.dot(&(at(0) - away)),
             Under::Vertex { at, .. } | Under::Edge { ends: [at, _], .. } => self.normal.dot(&at),
             Under::Cloth | Under::Plane => self.offset,
         };
@@ -208,7 +220,8 @@ fn share_of_edges(a: Vec3, b: Vec3, c: Vec3, d: Vec3, apart: f64) -> f64 {
         return 0.0;
     }
     let (s, t) = closest_on_lines(a, b, c, d);
-    left(s, long, apart) * left(t, wide, apart) * (sine / PARALLEL).min(1.0)
+    // Lines that are parallel but for rounding need not have a number for their closest points.
+    (left(s, long, apart) * left(t, wide, apart) * (sine / PARALLEL).min(1.0)).max(0.0)
 }
 
 /// The same of a triangle and the point `p`.
@@ -218,4 +231,20 @@ fn share_of_triangle(p: Vec3, a: Vec3, b: Vec3, c: Vec3, apart: f64) -> f64 {
     let foot = on_plane(p, a, b, c);
     // A triangle without area has no foot, and no share.
     (0..3).map(|k| left(foot[k], double_area / sides[k], apart)).product::<f64>().max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edges_that_are_parallel_but_for_rounding_have_a_share() {
+        for k in 1..2000 {
+            let k = f64::from(k);
+            let d = Vec3::new(k.cos(), k.sin(), 0.3 * (2.0 * k).sin());
+            let apart = Vec3::z() * 0.01;
+            let share = share_of_edges(Vec3::zeros(), d, apart, apart + d * (0.1 * k), 0.01);
+            assert!((0.0..=1e-6).contains(&share), "{k}: {share}");
+        }
+    }
 }

@@ -28,8 +28,10 @@ impl Reach {
 
 /// The body is looked for at least this near, metres, and further than a node may go between two looks.
 const BODY: f64 = 0.02;
-/// A new detection is due when any node has gone this share of the reach.
-const RENEW: f64 = 0.3;
+/// What was found at triangles and edges of the cloth holds until a node of theirs has gone this share of the reach.
+const MOVED: f64 = 0.15;
+/// All are searched again where less than this share of the reach would do.
+const NARROWER: f64 = 0.6;
 
 /// Edges and vertices of the body are contacts of edges and triangles of the cloth as near as a node goes between two
 /// detections, at most this near, metres: while seams are closed nodes go far, over a body they are still far from.
@@ -55,6 +57,18 @@ pub(super) struct Proximity<'a> {
     margin: f64,
     /// Distance to the body when last measured, and where.
     body_distance: Vec<(f64, Vec3)>,
+    searched: Searched,
+}
+
+/// The contacts with edges and vertices of the body, triangle by triangle and edge by edge of the cloth: what has hardly
+/// moved is not searched again.
+struct Searched {
+    /// Where every node was when all triangles and edges at it were last searched.
+    at: Vec<Vec3>,
+    /// How near, metres.
+    reach: f64,
+    /// Where the contacts of each triangle, then of each edge, begin in [`Proximity::contacts`], and where the last end.
+    begin: Vec<u32>,
 }
 
 impl<'a> Proximity<'a> {
@@ -76,6 +90,7 @@ impl<'a> Proximity<'a> {
             reach,
             margin,
             body_distance: vec![(f64::NEG_INFINITY, Vec3::zeros()); x.len()],
+            searched: Searched { at: x.to_vec(), reach: 0.0, begin: Vec::new() },
         };
         out.detect(cloth, x);
         out
@@ -87,12 +102,15 @@ impl<'a> Proximity<'a> {
         self.face_contacts(cloth, x, &mut contacts);
         contacts.extend(self.detector.detect(x, self.reach.cloth));
         self.bounds = Bounds::new(x, &contacts, self.reach.cloth, self.margin);
+        if self.reach.features >= Bounds::allowance(self.reach.cloth) {
+            self.bounds.tether(&self.searched.at, (1.0 - MOVED) * self.searched.reach);
+        }
         self.contacts = contacts;
     }
 
     /// Whether a node has gone so far that contacts have to be looked for anew.
     pub(super) fn is_due(&self, x: &[Vec3]) -> bool {
-        self.bounds.travelled(x) > RENEW * self.reach.cloth
+        self.bounds.is_due(x)
     }
 
     /// Follows the nodes to `x`: a new detection when one has gone far, otherwise the pairs of cloth are turned to
@@ -102,9 +120,7 @@ impl<'a> Proximity<'a> {
             self.detect(cloth, x);
             return true;
         }
-        self.contacts.par_iter_mut().with_min_len(super::ONE_THREAD).for_each(|c| {
-            c.refresh(x);
-        });
+        self.contacts.par_iter_mut().with_min_len(super::ONE_THREAD).for_each(|c| turn(c, x));
         self.bounds.refresh(&self.contacts);
         false
     }
@@ -156,7 +172,7 @@ impl<'a> Proximity<'a> {
                     contacts.push(Contact::on_body(i as u32, near.normal, near.point));
                 }
                 if near.distance < features {
-                    body.faces_of_hollow(i as u32, x[i], &near, features, &mut contacts);
+                    body.faces_of_hollow(x, i as u32, &near, features, &mut contacts);
                 }
                 Some((near.distance, contacts))
             })
@@ -171,7 +187,49 @@ impl<'a> Proximity<'a> {
         contacts
     }
 
-    fn face_contacts(&self, cloth: &Cloth, x: &[Vec3], contacts: &mut Vec<Contact>) {
+    fn face_contacts(&mut self, cloth: &Cloth, x: &[Vec3], contacts: &mut Vec<Contact>) {
+        let stale = self.stale(x);
+        let found = self.search(cloth, x, &stale);
+        let mut begin = Vec::with_capacity(found.len() + 1);
+        for (k, found) in found.into_iter().enumerate() {
+            begin.push(contacts.len() as u32);
+            match found {
+                Some(found) => contacts.extend(found),
+                None => {
+                    let [from, to] = [k, k + 1].map(|k| self.searched.begin[k] as usize);
+                    contacts.extend_from_slice(&self.contacts[from..to]);
+                    contacts[begin[k] as usize..].iter_mut().for_each(|c| turn(c, x));
+                }
+            }
+        }
+        begin.push(contacts.len() as u32);
+        self.searched.begin = begin;
+    }
+
+    /// Which nodes have gone too far for what was found at them to hold; they are taken to be searched at `x` from now on.
+    fn stale(&mut self, x: &[Vec3]) -> Vec<bool> {
+        let Searched { at, reach, .. } = &mut self.searched;
+        let wanted = self.reach.features;
+        let all = wanted > *reach || wanted < NARROWER * *reach;
+        if all {
+            *reach = wanted;
+        }
+        let far = MOVED * *reach;
+        at.iter_mut()
+            .zip(x)
+            .map(|(at, x)| {
+                let stale = all || (x - *at).norm_squared() > far * far;
+                if stale {
+                    *at = *x;
+                }
+                stale
+            })
+            .collect()
+    }
+
+    /// Contacts of the body's edges and vertices with each triangle and edge at a node that is `stale`.
+    fn search(&self, cloth: &Cloth, x: &[Vec3], stale: &[bool]) -> Vec<Option<Vec<Contact>>> {
+        let reach = self.searched.reach;
         let far = |n: u32| {
             let (distance, at) = self.body_distance[n as usize];
             distance - (x[n as usize] - at).norm()
@@ -180,32 +238,35 @@ impl<'a> Proximity<'a> {
         let near = |nodes: &[u32]| {
             let side = |a: u32, b: u32| (x[a as usize] - x[b as usize]).norm();
             let longest = nodes.iter().flat_map(|&a| nodes.iter().map(move |&b| side(a, b))).fold(0.0, f64::max);
-            nodes.iter().map(|&n| far(n)).fold(f64::INFINITY, f64::min)
-                < self.reach.features + 3f64.sqrt().recip() * longest
+            nodes.iter().map(|&n| far(n)).fold(f64::INFINITY, f64::min) < reach + 3f64.sqrt().recip() * longest
         };
-        let faces: Vec<Contact> = cloth
-            .triangles
-            .par_iter()
-            .with_min_len(512)
-            .filter(|t| near(*t))
-            .flat_map_iter(|t| {
+        let again = |nodes: &[u32]| nodes.iter().any(|&n| stale[n as usize]);
+        let faces = cloth.triangles.par_iter().with_min_len(512).map(|t| {
+            again(t).then(|| {
                 let mut out = Vec::new();
-                self.body.vertices_near_triangle(x, *t, self.reach.features, &mut out);
+                if near(t) {
+                    self.body.vertices_near_triangle(x, *t, reach, &mut out);
+                }
                 out
             })
-            .collect();
-        let edges: Vec<Contact> = cloth
-            .edges
-            .par_iter()
-            .with_min_len(512)
-            .filter(|e| near(*e))
-            .flat_map_iter(|e| {
+        });
+        let edges = cloth.edges.par_iter().with_min_len(512).map(|e| {
+            again(e).then(|| {
                 let mut out = Vec::new();
-                self.body.edges_near_edge(x, *e, self.reach.features, &mut out);
+                if near(e) {
+                    self.body.edges_near_edge(x, *e, reach, &mut out);
+                }
                 out
             })
-            .collect();
-        contacts.extend(faces);
-        contacts.extend(edges);
+        });
+        faces.chain(edges).collect()
     }
+}
+
+/// Turns a contact to where its closest points are now. Its share follows half the way: a large load that changed with it
+/// at once would throw its nodes to and fro for ever.
+fn turn(contact: &mut Contact, x: &[Vec3]) {
+    let share = contact.share;
+    contact.refresh(x);
+    contact.share = 0.5 * (contact.share + share);
 }
