@@ -24,7 +24,9 @@ const ITERATIONS: usize = 16;
 const OLD: Reuse = Reuse { moved: 1e-3, contacts: 8 };
 /// A step is solved up to so often: with what pushes and what slides as it was, then, from there on, as it comes out (a
 /// semismooth Newton method; Qi and Sun 1993).
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 4;
+/// Shorter than this share of the way from one round's step to the next it is not worth looking for a better one.
+const SHORTEST_WAY: f64 = 0.1;
 /// It is solved again where the energy of contact and friction is misjudged by more than this share of what it gains.
 const MISJUDGED: f64 = 0.3;
 /// They end when the preconditioned residual has fallen to this share (squared).
@@ -66,29 +68,31 @@ impl Stepper {
     ) -> Result<Proposal, StepError> {
         let free = free_forces(cloth, x, forces);
         let presses = presses(cloth, x, forces);
-        let mut active: Vec<bool> = presses.iter().map(|p| p.load > 0.0).collect();
         let holds: Vec<Option<Hold>> =
             presses.iter().enumerate().map(|(k, p)| forces.hold(cloth, x, k, p.load)).collect();
+        let mut step = Proposal { d: vec![Vec3::zeros(); x.len()], gain: 0.0 };
+        let mut active: Vec<bool> = presses.iter().map(|p| p.load > 0.0).collect();
         let mut grips: Vec<Option<Grip>> = holds.iter().map(|hold| Some(hold.as_ref()?.grip())).collect();
-        let mut d = vec![Vec3::zeros(); x.len()];
-        let mut round = 1;
-        loop {
+        for round in 1..=ROUNDS {
             let pushing = Pushing { presses: &presses, active: &active, grips: &grips };
             if round == 1 {
                 self.prepare(cloth, x, dt, forces, &pushing, OLD)?;
             }
             let tangent = Tangent::new(cloth, x, dt, forces, &pushing);
-            d = self.truncated(&tangent, &pushing.forces(&free, forces), d, radius)?;
-            let Judged { gain, misjudged } = judge(forces.contacts, &holds, &pushing, &d);
-            let gain = tangent.gain(&free, &d) + gain;
-            if round >= ROUNDS || misjudged <= MISJUDGED * gain {
-                return Ok(Proposal { d, gain });
+            let next = self.truncated(&tangent, &pushing.forces(&free, forces), step.d.clone(), radius)?;
+            let model = Model { tangent, free: &free, holds: &holds, pushing };
+            let (to, judged) = model.best_on_the_way(&step, next);
+            if judged.gain >= step.gain {
+                step = Proposal { d: to.clone(), gain: judged.gain };
+                if judged.misjudged <= MISJUDGED * judged.gain {
+                    break;
+                }
             }
-            let after = |k: usize| Some(holds[k].as_ref()?.grip_after(way(&forces.contacts[k], &d)));
+            let after = |k: usize| Some(holds[k].as_ref()?.grip_after(way(&forces.contacts[k], &to)));
             grips = (0..holds.len()).map(after).collect();
-            active = presses.iter().zip(forces.contacts).map(|(p, c)| p.after(opening(c, &d)) > 0.0).collect();
-            round += 1;
+            active = presses.iter().zip(forces.contacts).map(|(p, c)| p.after(opening(c, &to)) > 0.0).collect();
         }
+        Ok(step)
     }
 
     /// Conjugate gradients on the tangent, from the step `d`.
@@ -198,31 +202,60 @@ fn way(contact: &Contact, d: &[Vec3]) -> Vec3 {
     contact.parts().map(|(i, w)| d[i] * w).sum()
 }
 
-/// What a step does to the energy of contact and friction, J.
+/// The energy near one position as a step sees it: quadratic without contact, every contact piece by piece.
+struct Model<'a> {
+    tangent: Tangent<'a>,
+    /// Forces without contact, N.
+    free: &'a [Vec3],
+    holds: &'a [Option<Hold>],
+    /// What the step was solved with.
+    pushing: Pushing<'a>,
+}
+
+/// What a step does to the energy, J.
+#[derive(Clone, Copy)]
 struct Judged {
     /// By how much it falls: every contact pushes only while it touches, and slides only beyond what it can hold.
     gain: f64,
-    /// By how much the linear model of the step misjudges that, in the sum of all contacts.
+    /// By how much the linear model of the step misjudges contact and friction, in the sum of all.
     misjudged: f64,
 }
 
-fn judge(contacts: &[Contact], holds: &[Option<Hold>], pushing: &Pushing, d: &[Vec3]) -> Judged {
-    let mut out = Judged { gain: 0.0, misjudged: 0.0 };
-    for (k, (contact, press)) in contacts.iter().zip(pushing.presses).enumerate() {
-        let after = press.after(opening(contact, d));
-        let energy = |load: f64| load.max(0.0).powi(2) / (2.0 * press.slope);
-        out.gain += energy(press.load) - energy(after);
-        if pushing.active[k] != (after > 0.0) {
-            out.misjudged += energy(after.abs());
+impl Model<'_> {
+    /// The step on the way from `from` to `to`, halved again and again, where the energy is lowest. What the step was
+    /// solved with may be wrong all along: then the shortest that was tried.
+    fn best_on_the_way(&self, from: &Proposal, to: Vec<Vec3>) -> (Vec<Vec3>, Judged) {
+        let (mut best, mut share) = ((self.judge(&to), to), 1.0);
+        while share > SHORTEST_WAY {
+            let half: Vec<Vec3> = from.d.iter().zip(&best.1).map(|(a, b)| 0.5 * (a + b)).collect();
+            let judged = self.judge(&half);
+            if best.0.gain >= judged.gain && best.0.gain > from.gain {
+                break;
+            }
+            (best, share) = ((judged, half), 0.5 * share);
         }
-        if let (Some(hold), Some(grip)) = (&holds[k], &pushing.grips[k]) {
-            let way = way(contact, d);
-            out.gain += hold.energy(Vec3::zeros()) - hold.energy(way);
-            let error = grip.force - grip.stiffness * way - hold.force(way);
-            out.misjudged += 0.5 * error.norm() * way.norm();
-        }
+        (best.1, best.0)
     }
-    out
+
+    fn judge(&self, d: &[Vec3]) -> Judged {
+        let mut out = Judged { gain: self.tangent.gain(self.free, d), misjudged: 0.0 };
+        let Pushing { presses, active, grips } = self.pushing;
+        for (k, (contact, press)) in self.tangent.forces.contacts.iter().zip(presses).enumerate() {
+            let after = press.after(opening(contact, d));
+            let energy = |load: f64| load.max(0.0).powi(2) / (2.0 * press.slope);
+            out.gain += energy(press.load) - energy(after);
+            if active[k] != (after > 0.0) {
+                out.misjudged += energy(after.abs());
+            }
+            if let (Some(hold), Some(grip)) = (&self.holds[k], &grips[k]) {
+                let way = way(contact, d);
+                out.gain += hold.energy(Vec3::zeros()) - hold.energy(way);
+                let error = grip.force - grip.stiffness * way - hold.force(way);
+                out.misjudged += 0.5 * error.norm() * way.norm();
+            }
+        }
+        out
+    }
 }
 
 fn dot(a: &[Vec3], b: &[Vec3]) -> f64 {

@@ -20,6 +20,11 @@ const ROUNDS: usize = 2;
 /// A Newton step is halved until the energy falls by this share of what the model says, at most so often.
 const ENOUGH: f64 = 0.05;
 const HALVINGS: usize = 5;
+/// It may raise the energy, but not above what it was so many steps before: along the narrow valley in which stiff cloth
+/// turns, the way that always leads down goes in much shorter steps (Grippo, Lampariello and Lucidi 1986).
+const MEMORY: usize = 2;
+/// A step for which less than this share of the way between two detections is left may call for one.
+const ROOM: f64 = 0.6;
 /// Halvings of a step with the majorant: springs that stiffen have no majorant, but a step short enough goes down.
 const MORE_HALVINGS: usize = 12;
 /// Energy differences below this are rounding, J.
@@ -31,6 +36,8 @@ struct Descent {
     /// By how much the energy falls, J.
     gain: f64,
     halvings: usize,
+    /// The share of it that was made, but for what the bounds changed.
+    share: f64,
 }
 
 /// A garment in motion.
@@ -43,6 +50,10 @@ pub struct World<'a> {
     pub velocity: Vec<Vec3>,
     /// Friction of the contacts; none while sewing.
     friction: Option<Friction>,
+    /// By how much the energy fell in every Newton step since contacts were last looked for, J.
+    gains: Vec<f64>,
+    /// How far the last Newton step would have liked to take a node, metres.
+    wished: f64,
     /// Share of gravity.
     pub gravity: f64,
     law: ContactLaw,
@@ -95,6 +106,8 @@ impl<'a> World<'a> {
         Ok(Self {
             velocity: vec![Vec3::zeros(); x.len()],
             friction: None,
+            gains: Vec::new(),
+            wished: 0.0,
             gravity: 0.0,
             law,
             proximity: Proximity::new(&cloth, &x, body, hood, reach, &law),
@@ -149,7 +162,7 @@ impl<'a> World<'a> {
     }
 
     /// A step with the true stiffness that changes no edge by more than `radius` metres, shortened until the energy
-    /// falls; where it does not, a step with the majorant, shortened likewise.
+    /// falls below what it was a few steps ago; where it does not, a step with the majorant, shortened until it falls.
     ///
     /// Friction is reckoned from where contacts were last looked for: steps until the next look are iterations towards
     /// the rest of one energy. A memory that followed each of them would be a ratchet, on which their errors drag the
@@ -158,23 +171,46 @@ impl<'a> World<'a> {
     /// # Errors
     /// [`StepError::Singular`] when a number is not finite.
     pub fn newton(&mut self, dt: f64, radius: f64) -> Result<NewtonStep, StepError> {
+        self.make_room()?;
         let forces = forces(self.gravity, &self.proximity, self.law, &[], self.friction.as_ref());
         let step = self.stepper.newton(&self.cloth, &self.x, dt, &forces, radius)?;
-        let down = self.descend(&forces, &step.d, step.gain, HALVINGS);
-        if down.gain >= -ROUNDING {
-            let ratio = if step.gain > 0.0 { down.gain / step.gain } else { 0.0 };
+        self.wished = step.d.iter().map(Vec3::norm).fold(0.0, f64::max);
+        let allowed = self.allowed_rise();
+        let down = self.descend(&forces, &step.d, step.gain, HALVINGS, allowed);
+        if down.gain >= -ROUNDING - allowed {
+            self.gains.push(down.gain);
+            // What the model says of the share that was made.
+            let expected = step.gain * down.share * (2.0 - down.share);
+            let ratio = if expected > 0.0 { down.gain / expected } else { 0.0 };
             let shortened = down.halvings > 0;
             return Ok(NewtonStep { moved: self.move_to(down.target, dt, false)?, shortened, ratio });
         }
+        self.gains.clear();
         let still = vec![Vec3::zeros(); self.x.len()];
         let d = self.stepper.solve(&self.cloth, &self.x, &still, dt, &forces, ROUNDS)?;
-        let down = self.descend(&forces, &d, 0.0, MORE_HALVINGS);
+        let down = self.descend(&forces, &d, 0.0, MORE_HALVINGS, 0.0);
         // The bounds may ask for more room than there is: the shortest step then still makes that room.
         Ok(NewtonStep { moved: self.move_to(down.target, dt, false)?, shortened: true, ratio: 0.0 })
     }
 
-    /// Halves a step, as the bounds let it be made, until the energy falls by a share of `expected` (J).
-    fn descend(&self, forces: &Forces, d: &[Vec3], expected: f64, most: usize) -> Descent {
+    /// Looks for contacts anew where the last step would have liked to go further than there is room left for.
+    fn make_room(&mut self) -> Result<(), StepError> {
+        let bounds = &self.proximity.bounds;
+        if bounds.left(&self.x) < self.wished.min(ROOM * bounds.most()) { self.detect() } else { Ok(()) }
+    }
+
+    /// By how much the energy may rise without becoming more than it was [`MEMORY`] steps ago, J.
+    fn allowed_rise(&self) -> f64 {
+        let mut fallen = 0.0;
+        self.gains.iter().rev().take(MEMORY).fold(0.0, |most: f64, gain| {
+            fallen += gain;
+            most.max(fallen)
+        })
+    }
+
+    /// Halves a step, as the bounds let it be made, until the energy falls by a share of `expected` (J), or rises by no
+    /// more than `allowed`.
+    fn descend(&self, forces: &Forces, d: &[Vec3], expected: f64, most: usize, allowed: f64) -> Descent {
         let loads: Vec<f64> = forces.contacts.iter().map(|c| forces.load(&self.cloth, &self.x, c)).collect();
         let energy = |x: &[Vec3]| forces.energy(&self.cloth, x, &loads);
         let from = energy(&self.x);
@@ -184,8 +220,8 @@ impl<'a> World<'a> {
             let mut target: Vec<Vec3> = self.x.iter().zip(d).map(|(x, d)| x + d * share).collect();
             self.proximity.bounds.clamp(&self.x, &mut target);
             let gain = from - energy(&target);
-            if gain > ENOUGH * share * expected.max(0.0) || gain.abs() < ROUNDING || halvings >= most {
-                return Descent { target, gain, halvings };
+            if gain > ENOUGH * share * expected.max(0.0) - allowed || gain.abs() < ROUNDING || halvings >= most {
+                return Descent { target, gain, halvings, share };
             }
             share *= 0.5;
             halvings += 1;
@@ -246,6 +282,8 @@ impl<'a> World<'a> {
 
     /// Gives the system the couplings of layers that have come near each other, and friction the new contacts.
     fn contacts_changed(&mut self) -> Result<(), StepError> {
+        // Its energy is another one now.
+        self.gains.clear();
         if let Some(friction) = &mut self.friction {
             friction.detected(&self.proximity.contacts);
         }
