@@ -140,7 +140,7 @@ impl Collider {
         Some(Nearest { point, normal, distance: sign * distance })
     }
 
-    /// Contacts of `node` with the body's faces within `reach` below it that rise over the plane through the point
+    /// Contacts of `node`, outside the body, with the body's faces within `reach` that rise over the plane through the point
     /// `nearest` to it: in a hollow, that plane alone would let the node run into the next face.
     pub fn faces_of_hollow(&self, x: &[Vec3], node: u32, nearest: &Nearest, reach: f64, out: &mut Vec<Contact>) {
         let p = x[node as usize];
@@ -151,10 +151,10 @@ impl Collider {
                 return;
             }
             let [k, l, m] = closest_on_triangle(p, a, b, c);
-            let near = (a * k + b * l + c * m - p).norm() <= reach;
-            let normal = (b - a).cross(&(c - a)).try_normalize(0.0);
-            if let Some(normal) = normal.filter(|n| near && n.dot(&(p - a)) > 0.0) {
-                out.extend(Contact::on_feature([node, 0, 0, 0], 1, Under::Face { corners: [a, b, c] }, normal, x));
+            let away = p - (a * k + b * l + c * m);
+            if away.norm() <= reach {
+                // Also one that faces the other way: the node may come round its edge.
+                out.extend(Contact::on_feature([node, 0, 0, 0], 1, Under::Face { corners: [a, b, c] }, away, x));
             }
         });
     }
@@ -419,5 +419,31 @@ mod tests {
             bounds.refresh(&[face]);
         }
         assert!(x[0].y < 0.0);
+    }
+
+    #[test]
+    fn both_sides_of_a_ridge_bar_the_way_of_a_node_beside_it() {
+        // A slab with a ridge along y; its profile is seen whole from the middle of its lower side.
+        let profile =
+            [[0.0, -1.0], [1.0, -1.0], [1.0, 0.0], [0.1, 0.0], [0.0, 0.2], [-0.1, 0.0], [-1.0, 0.0], [-1.0, -1.0]];
+        let n = profile.len() as u32;
+        let vertices = [1.0, -1.0].iter().flat_map(|y| profile.map(|[x, z]| Vec3::new(x, *y, z))).collect();
+        let sides = (0..n).flat_map(|k| {
+            let next = (k + 1) % n;
+            [[k, next + n, k + n], [k, next, next + n]]
+        });
+        let caps = (1..n - 1).flat_map(|k| [[0, k + 1, k], [n, k + n, k + 1 + n]]);
+        let body = TriMesh { vertices, triangles: sides.chain(caps).collect() };
+        let volume: f64 = (0..body.triangles.len()).map(|t| body.double_normal(t).dot(&body.corners(t)[0])).sum();
+        assert!(volume > 0.0, "inside out");
+        let body = Collider::new(&body).expect("collider");
+        let x = [Vec3::new(-0.12, 0.3, 0.01)];
+        let nearest = body.nearest(x[0], 1.0).expect("near");
+        assert_relative_eq!(nearest.normal, Vec3::z(), epsilon = 1e-9);
+        let mut found = Vec::new();
+        body.faces_of_hollow(&x, 0, &nearest, 0.4, &mut found);
+        let beyond = |c: &Contact| matches!(c.under, Under::Face { corners } if corners.iter().any(|p| p.x > 0.05));
+        assert!(found.iter().any(beyond), "{found:?}");
+        assert!(found.iter().all(|c| c.gap(&x) > 0.0 && c.share == 0.0));
     }
 }

@@ -171,7 +171,7 @@ impl<'a> Proximity<'a> {
                 if near.distance < reach {
                     contacts.push(Contact::on_body(i as u32, near.normal, near.point));
                 }
-                if near.distance < features {
+                if (0.0..features).contains(&near.distance) {
                     body.faces_of_hollow(x, i as u32, &near, features, &mut contacts);
                 }
                 Some((near.distance, contacts))

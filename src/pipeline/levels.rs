@@ -75,8 +75,8 @@ impl Job {
     ) -> Option<Vec<Vec3>> {
         let Closed { sewn, coarse: coarser } = &coarse.closed;
         let lower = coarser.as_deref().and_then(|lower| self.start_from_coarse(&coarse.mesh, lower, progress));
+        let options = DrapeOptions { until: Until::Near, near: lower.is_some(), ..DrapeOptions::default() };
         let start = lower.unwrap_or_else(|| sewn.nodes.clone());
-        let options = DrapeOptions { until: Until::Near, ..DrapeOptions::default() };
         let mut tell = |share| progress(COARSE_SHARE * share);
         let cut = self.cut_of(&coarse.mesh);
         let draped = drape(&cut, &self.collider, &sewn.stitching, start, &options, &mut tell).ok()?;

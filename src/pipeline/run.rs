@@ -103,7 +103,7 @@ impl<'a> Run<'a> {
         let nodes = gathered(&self.stitching, self.sewn.as_deref().unwrap_or_default());
         let mut tell = |share| progress("drape", share);
         let start = self.coarse.as_deref().and_then(|coarse| job.start_from_coarse(&job.mesh, coarse, &mut tell));
-        let options = DrapeOptions::default();
+        let options = DrapeOptions { near: start.is_some(), ..DrapeOptions::default() };
         let begun = if start.is_some() { COARSE_SHARE } else { 0.0 };
         let mut tell = |share| progress("drape", begun + (1.0 - begun) * share);
         let nodes = start.unwrap_or(nodes);
