@@ -36,7 +36,7 @@ pub struct Bounds {
     posts: Vec<Vec3>,
     tether: f64,
     margin: f64,
-    /// Primitives of the cloth above one another, or above an edge or a vertex of the body.
+    /// Primitives of the cloth above one another, or above an edge, a vertex or a hollow's face of the body.
     pairs: Vec<Contact>,
     /// Which of the contacts they are.
     number: Vec<u32>,

@@ -2,11 +2,12 @@
 //!
 //! Detection finds every pair of primitives closer than a *reach* and turns it into a [`Contact`]: a direction and the
 //! weights of the nodes that take part, both turned with the pair as it moves. Between two detections no node moves
-//! further than [`Bounds::allowance`], so a pair that was not found cannot meet; a pair that was found is kept apart by a
-//! plane between its two sides ([`Bounds`]). Cloth that starts without a crossing therefore ends without one. The
-//! exceptions: pairs left out on purpose (neighbours in the cloth, both sides of a seam that is being closed); and, while
-//! seams are closed in long steps, edges, vertices and the faces of hollows of the body further off than they are looked
-//! for.
+//! further than [`Bounds::allowance`], and none further than the reach from where the body's features were last looked for
+//! at it, so a pair that was not found cannot meet; a pair that was found is kept apart by a plane between its two sides
+//! ([`Bounds`]). Cloth that starts without a crossing therefore ends without one. The exceptions: pairs left out on purpose
+//! (neighbours in the cloth, both sides of a seam that is being closed, features of the body that another beside them
+//! hides); and, while seams are closed in long steps, edges, vertices and the faces of hollows of the body further off than
+//! about three millimetres.
 
 mod body;
 mod bounds;
@@ -112,7 +113,7 @@ impl Contact {
         }
     }
 
-    /// The first `count` of `nodes` above a vertex or an edge of the body, from which `outward` leads away; turned to
+    /// The first `count` of `nodes` above a vertex, an edge or a hollow's face of the body, from which `outward` leads away; turned to
     /// where their closest points are. `None` where they meet in a point.
     pub(crate) fn on_feature(nodes: [u32; 4], count: u8, under: Under, outward: Vec3, x: &[Vec3]) -> Option<Self> {
         let (weights, normal) = ([0.0; 4], outward);

@@ -1,4 +1,4 @@
-//! A Newton step with the cloth's true stiffness, for the last millimetres to rest.
+//! A Newton step with the cloth's true stiffness, for the way to rest of cloth that hangs already.
 //!
 //! The majorant of [`Stepper`] is safe but holds long waves back: it bounds bending edge by edge, and counts the load of
 //! a compressed spring as if it stiffened it. The true stiffness has neither fault; conjugate gradients solve it, with

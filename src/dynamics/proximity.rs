@@ -67,6 +67,8 @@ struct Searched {
     at: Vec<Vec3>,
     /// How near, metres.
     reach: f64,
+    /// By what share of that nodes may have been off from there at the last search: 0 if it was one of all.
+    moved: f64,
     /// Where the contacts of each triangle, then of each edge, begin in [`Proximity::contacts`], and where the last end.
     begin: Vec<u32>,
 }
@@ -90,7 +92,7 @@ impl<'a> Proximity<'a> {
             reach,
             margin,
             body_distance: vec![(f64::NEG_INFINITY, Vec3::zeros()); x.len()],
-            searched: Searched { at: x.to_vec(), reach: 0.0, begin: Vec::new() },
+            searched: Searched { at: x.to_vec(), reach: 0.0, moved: 0.0, begin: Vec::new() },
         };
         out.detect(cloth, x);
         out
@@ -103,7 +105,7 @@ impl<'a> Proximity<'a> {
         contacts.extend(self.detector.detect(x, self.reach.cloth));
         self.bounds = Bounds::new(x, &contacts, self.reach.cloth, self.margin);
         if self.reach.features >= Bounds::allowance(self.reach.cloth) {
-            self.bounds.tether(&self.searched.at, (1.0 - MOVED) * self.searched.reach);
+            self.bounds.tether(&self.searched.at, (1.0 - self.searched.moved) * self.searched.reach);
         }
         self.contacts = contacts;
     }
@@ -123,6 +125,11 @@ impl<'a> Proximity<'a> {
         self.contacts.par_iter_mut().with_min_len(super::ONE_THREAD).for_each(|c| turn(c, x));
         self.bounds.refresh(&self.contacts);
         false
+    }
+
+    /// Lets the next detection search all of the cloth: nodes may go further after it.
+    pub(super) fn forget(&mut self) {
+        self.searched.begin.clear();
     }
 
     /// Pairs of nodes (smaller first, sorted) that contacts of the cloth with itself couple, for gaps below `gap`.
@@ -196,8 +203,7 @@ impl<'a> Proximity<'a> {
             match found {
                 Some(found) => contacts.extend(found),
                 None => {
-                    let [from, to] = [k, k + 1].map(|k| self.searched.begin[k] as usize);
-                    contacts.extend_from_slice(&self.contacts[from..to]);
+                    contacts.extend_from_slice(self.found_at(k));
                     contacts[begin[k] as usize..].iter_mut().for_each(|c| turn(c, x));
                 }
             }
@@ -206,14 +212,20 @@ impl<'a> Proximity<'a> {
         self.searched.begin = begin;
     }
 
+    /// What was found at triangle `k`, or at the edge that comes so long after the last of them.
+    fn found_at(&self, k: usize) -> &[Contact] {
+        &self.contacts[self.searched.begin[k] as usize..self.searched.begin[k + 1] as usize]
+    }
+
     /// Which nodes have gone too far for what was found at them to hold; they are taken to be searched at `x` from now on.
     fn stale(&mut self, x: &[Vec3]) -> Vec<bool> {
-        let Searched { at, reach, .. } = &mut self.searched;
+        let Searched { at, reach, moved, begin } = &mut self.searched;
         let wanted = self.reach.features;
-        let all = wanted > *reach || wanted < NARROWER * *reach;
+        let all = begin.is_empty() || wanted > *reach || wanted < NARROWER * *reach;
         if all {
             *reach = wanted;
         }
+        *moved = if all { 0.0 } else { MOVED };
         let far = MOVED * *reach;
         at.iter_mut()
             .zip(x)
@@ -240,9 +252,11 @@ impl<'a> Proximity<'a> {
             let longest = nodes.iter().flat_map(|&a| nodes.iter().map(move |&b| side(a, b))).fold(0.0, f64::max);
             nodes.iter().map(|&n| far(n)).fold(f64::INFINITY, f64::min) < reach + 3f64.sqrt().recip() * longest
         };
-        let again = |nodes: &[u32]| nodes.iter().any(|&n| stale[n as usize]);
-        let faces = cloth.triangles.par_iter().with_min_len(512).map(|t| {
-            again(t).then(|| {
+        // A new search tells by the body whether cloth is under one of its features; what is known only goes on as it was.
+        let under = |k: usize| self.found_at(k).iter().any(|c| c.gap(x) <= 0.0);
+        let again = |k: usize, nodes: &[u32]| nodes.iter().any(|&n| stale[n as usize]) || under(k);
+        let faces = cloth.triangles.par_iter().with_min_len(512).enumerate().map(|(k, t)| {
+            again(k, t).then(|| {
                 let mut out = Vec::new();
                 if near(t) {
                     self.body.vertices_near_triangle(x, *t, reach, &mut out);
@@ -250,8 +264,8 @@ impl<'a> Proximity<'a> {
                 out
             })
         });
-        let edges = cloth.edges.par_iter().with_min_len(512).map(|e| {
-            again(e).then(|| {
+        let edges = cloth.edges.par_iter().with_min_len(512).enumerate().map(|(k, e)| {
+            again(cloth.triangles.len() + k, e).then(|| {
                 let mut out = Vec::new();
                 if near(e) {
                     self.body.edges_near_edge(x, *e, reach, &mut out);

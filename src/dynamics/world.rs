@@ -20,7 +20,8 @@ const ROUNDS: usize = 2;
 /// A Newton step is halved until the energy falls by this share of what the model says, at most so often.
 const ENOUGH: f64 = 0.05;
 const HALVINGS: usize = 5;
-/// It may raise the energy, but not above what it was so many steps before: along the narrow valley in which stiff cloth
+/// It may raise the energy, but not above the most it was in so many steps before (but for what contacts change as they
+/// turn between two steps): along the narrow valley in which stiff cloth
 /// turns, the way that always leads down goes in much shorter steps (Grippo, Lampariello and Lucidi 1986).
 const MEMORY: usize = 2;
 /// A step for which less than this share of the way between two detections is left may call for one.
@@ -162,7 +163,7 @@ impl<'a> World<'a> {
     }
 
     /// A step with the true stiffness that changes no edge by more than `radius` metres, shortened until the energy
-    /// falls below what it was a few steps ago; where it does not, a step with the majorant, shortened until it falls.
+    /// is below the most it was in the last few; where it does not, a step with the majorant, shortened until it falls.
     ///
     /// Friction is reckoned from where contacts were last looked for: steps until the next look are iterations towards
     /// the rest of one energy. A memory that followed each of them would be a ratchet, on which their errors drag the
@@ -177,7 +178,7 @@ impl<'a> World<'a> {
         self.wished = step.d.iter().map(Vec3::norm).fold(0.0, f64::max);
         let allowed = self.allowed_rise();
         let down = self.descend(&forces, &step.d, step.gain, HALVINGS, allowed);
-        if down.gain >= -ROUNDING - allowed {
+        if step.gain > 0.0 && down.gain >= -ROUNDING - allowed {
             self.gains.push(down.gain);
             // What the model says of the share that was made.
             let expected = step.gain * down.share * (2.0 - down.share);
@@ -199,7 +200,7 @@ impl<'a> World<'a> {
         if bounds.left(&self.x) < self.wished.min(ROOM * bounds.most()) { self.detect() } else { Ok(()) }
     }
 
-    /// By how much the energy may rise without becoming more than it was [`MEMORY`] steps ago, J.
+    /// By how much the energy may rise without becoming more than it was in the last [`MEMORY`] steps, J.
     fn allowed_rise(&self) -> f64 {
         let mut fallen = 0.0;
         self.gains.iter().rev().take(MEMORY).fold(0.0, |most: f64, gain| {
@@ -238,6 +239,10 @@ impl<'a> World<'a> {
             *x = *t;
         }
         self.cloth.follow(&self.x);
+        if self.wished > self.proximity.bounds.most() {
+            // Cloth that falls freely.
+            self.proximity.forget();
+        }
         if drag || self.proximity.is_due(&self.x) {
             self.drag_friction();
         }
