@@ -97,18 +97,7 @@ fn laid_out(f: &Fixture, scale: f64) -> Vec<Vec3> {
 
 fn report(f: &Fixture, sewn: &[Vec3], draped: &[Vec3], flattened: &[Vec2]) -> Report {
     let stage = Stage { name: "sew".into(), seconds: 1.5, iterations: 3, converged: true, energy: None, drift: None };
-    measure(&Measured {
-        garment: &f.garment,
-        mesh: &f.mesh,
-        weld: &f.weld,
-        body: &f.body,
-        fabric: "muslin",
-        gaps: None,
-        sewn: Some(sewn),
-        draped: Some(draped),
-        flattened: Some(flattened),
-        stages: &[stage],
-    })
+    measure(&Measured { draped: Some(draped), flattened: Some(flattened), stages: &[stage], ..run(f, sewn) })
 }
 
 #[test]

@@ -159,8 +159,10 @@ impl Collider {
         });
     }
 
-    /// Contacts of body vertices with the cloth triangle of nodes `tri`, within `reach`.
-    pub fn vertices_near_triangle(&self, x: &[Vec3], tri: [u32; 3], reach: f64, out: &mut Vec<Contact>) {
+    /// Adds the contacts of body vertices with the cloth triangle of nodes `tri`, within `reach`. Returns whether it left
+    /// any out that what lies beside them hides: a slight turn may bring them out.
+    pub fn vertices_near_triangle(&self, x: &[Vec3], tri: [u32; 3], reach: f64, out: &mut Vec<Contact>) -> bool {
+        let mut hidden = false;
         let [a, b, c] = tri.map(|n| x[n as usize]);
         let low = a.inf(&b).inf(&c).add_scalar(-reach);
         let high = a.sup(&b).sup(&c).add_scalar(reach);
@@ -175,12 +177,15 @@ impl Collider {
             }
             let under = Under::Vertex { number: v, at };
             let nodes = [tri[0], tri[1], tri[2], 0];
-            self.meet(nodes, 3, under, outward, &self.neighbours[v as usize], x, reach, out);
+            hidden |= self.meet(nodes, 3, under, outward, &self.neighbours[v as usize], x, reach, out);
         });
+        hidden
     }
 
-    /// Contacts of the body's convex edges with the cloth edge `ends`, within `reach`.
-    pub fn edges_near_edge(&self, x: &[Vec3], ends: [u32; 2], reach: f64, out: &mut Vec<Contact>) {
+    /// Adds the contacts of the body's convex edges with the cloth edge `ends`, within `reach`. Returns whether it left any
+    /// out that what lies beside them hides.
+    pub fn edges_near_edge(&self, x: &[Vec3], ends: [u32; 2], reach: f64, out: &mut Vec<Contact>) -> bool {
+        let mut hidden = false;
         let [a, b] = ends.map(|n| x[n as usize]);
         let (low, high) = (a.inf(&b).add_scalar(-reach), a.sup(&b).add_scalar(reach));
         self.edge_grid.query(low, high, |e| {
@@ -194,12 +199,13 @@ impl Collider {
                 return;
             }
             let under = Under::Edge { number: e, ends: [p, q] };
-            self.meet([ends[0], ends[1], 0, 0], 2, under, outward, &beside, x, reach, out);
+            hidden |= self.meet([ends[0], ends[1], 0, 0], 2, under, outward, &beside, x, reach, out);
         });
+        hidden
     }
 
     /// Adds the contact of cloth with a feature of the body, unless it is further than `reach`, or what is `beside` the
-    /// feature is met first.
+    /// feature is met first. Returns whether it is near and was left out.
     #[expect(clippy::too_many_arguments, reason = "two primitives and where they may meet")]
     fn meet(
         &self,
@@ -211,14 +217,19 @@ impl Collider {
         x: &[Vec3],
         reach: f64,
         out: &mut Vec<Contact>,
-    ) {
-        let Some(contact) = Contact::on_feature(nodes, count, under, outward, x) else { return };
+    ) -> bool {
+        let Some(contact) = Contact::on_feature(nodes, count, under, outward, x) else { return false };
         let gap = contact.gap(x);
-        let near = gap.abs() <= reach && (contact.share >= MEETS || gap > 0.0);
+        if gap.abs() > reach {
+            return false;
+        }
         let faces = gap > 0.0 && contact.normal.dot(&outward) > FACING;
-        if near && (faces || self.is_highest(under.points()[0], contact.normal, beside)) {
+        let pushes = contact.share >= MEETS || gap > 0.0;
+        let met = pushes && (faces || self.is_highest(under.points()[0], contact.normal, beside));
+        if met {
             out.push(contact);
         }
+        !met
     }
 
     /// Whether the body's vertices `around` lie no higher than `p` along `normal`: only then is it the feature of `p`

@@ -113,8 +113,8 @@ impl Contact {
         }
     }
 
-    /// The first `count` of `nodes` above a vertex, an edge or a hollow's face of the body, from which `outward` leads away; turned to
-    /// where their closest points are. `None` where they meet in a point.
+    /// The first `count` of `nodes` above a vertex, an edge or a hollow's face of the body, from which `outward` leads away;
+    /// turned to where their closest points are. `None` where they meet in a point.
     pub(crate) fn on_feature(nodes: [u32; 4], count: u8, under: Under, outward: Vec3, x: &[Vec3]) -> Option<Self> {
         let (weights, normal) = ([0.0; 4], outward);
         let mut out = Self { nodes, weights, count, normal, offset: 0.0, under, above: count, share: 1.0 };

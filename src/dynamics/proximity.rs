@@ -71,6 +71,8 @@ struct Searched {
     moved: f64,
     /// Where the contacts of each triangle, then of each edge, begin in [`Proximity::contacts`], and where the last end.
     begin: Vec<u32>,
+    /// Which triangles and edges have features near them that others hide.
+    hidden: Vec<bool>,
 }
 
 impl<'a> Proximity<'a> {
@@ -92,7 +94,7 @@ impl<'a> Proximity<'a> {
             reach,
             margin,
             body_distance: vec![(f64::NEG_INFINITY, Vec3::zeros()); x.len()],
-            searched: Searched { at: x.to_vec(), reach: 0.0, moved: 0.0, begin: Vec::new() },
+            searched: Searched { at: x.to_vec(), reach: 0.0, moved: 0.0, begin: Vec::new(), hidden: Vec::new() },
         };
         out.detect(cloth, x);
         out
@@ -110,15 +112,10 @@ impl<'a> Proximity<'a> {
         self.contacts = contacts;
     }
 
-    /// Whether a node has gone so far that contacts have to be looked for anew.
-    pub(super) fn is_due(&self, x: &[Vec3]) -> bool {
-        self.bounds.is_due(x)
-    }
-
     /// Follows the nodes to `x`: a new detection when one has gone far, otherwise the pairs of cloth are turned to
     /// where their closest points are now. Returns whether the contacts are others.
     pub(super) fn follow(&mut self, cloth: &Cloth, x: &[Vec3]) -> bool {
-        if self.is_due(x) {
+        if self.bounds.is_due(x) {
             self.detect(cloth, x);
             return true;
         }
@@ -198,10 +195,14 @@ impl<'a> Proximity<'a> {
         let stale = self.stale(x);
         let found = self.search(cloth, x, &stale);
         let mut begin = Vec::with_capacity(found.len() + 1);
+        self.searched.hidden.resize(found.len(), false);
         for (k, found) in found.into_iter().enumerate() {
             begin.push(contacts.len() as u32);
             match found {
-                Some(found) => contacts.extend(found),
+                Some((found, hidden)) => {
+                    contacts.extend(found);
+                    self.searched.hidden[k] = hidden;
+                }
                 None => {
                     contacts.extend_from_slice(self.found_at(k));
                     contacts[begin[k] as usize..].iter_mut().for_each(|c| turn(c, x));
@@ -219,7 +220,7 @@ impl<'a> Proximity<'a> {
 
     /// Which nodes have gone too far for what was found at them to hold; they are taken to be searched at `x` from now on.
     fn stale(&mut self, x: &[Vec3]) -> Vec<bool> {
-        let Searched { at, reach, moved, begin } = &mut self.searched;
+        let Searched { at, reach, moved, begin, .. } = &mut self.searched;
         let wanted = self.reach.features;
         let all = begin.is_empty() || wanted > *reach || wanted < NARROWER * *reach;
         if all {
@@ -239,8 +240,9 @@ impl<'a> Proximity<'a> {
             .collect()
     }
 
-    /// Contacts of the body's edges and vertices with each triangle and edge at a node that is `stale`.
-    fn search(&self, cloth: &Cloth, x: &[Vec3], stale: &[bool]) -> Vec<Option<Vec<Contact>>> {
+    /// Contacts of the body's edges and vertices with each triangle and edge at a node that is `stale`, and whether some
+    /// are hidden.
+    fn search(&self, cloth: &Cloth, x: &[Vec3], stale: &[bool]) -> Vec<Option<(Vec<Contact>, bool)>> {
         let reach = self.searched.reach;
         let far = |n: u32| {
             let (distance, at) = self.body_distance[n as usize];
@@ -254,23 +256,21 @@ impl<'a> Proximity<'a> {
         };
         // A new search tells by the body whether cloth is under one of its features; what is known only goes on as it was.
         let under = |k: usize| self.found_at(k).iter().any(|c| c.gap(x) <= 0.0);
-        let again = |k: usize, nodes: &[u32]| nodes.iter().any(|&n| stale[n as usize]) || under(k);
+        let again = |k: usize, nodes: &[u32]| {
+            nodes.iter().any(|&n| stale[n as usize]) || self.searched.hidden[k] || under(k)
+        };
         let faces = cloth.triangles.par_iter().with_min_len(512).enumerate().map(|(k, t)| {
             again(k, t).then(|| {
                 let mut out = Vec::new();
-                if near(t) {
-                    self.body.vertices_near_triangle(x, *t, reach, &mut out);
-                }
-                out
+                let hidden = near(t) && self.body.vertices_near_triangle(x, *t, reach, &mut out);
+                (out, hidden)
             })
         });
         let edges = cloth.edges.par_iter().with_min_len(512).enumerate().map(|(k, e)| {
             again(cloth.triangles.len() + k, e).then(|| {
                 let mut out = Vec::new();
-                if near(e) {
-                    self.body.edges_near_edge(x, *e, reach, &mut out);
-                }
-                out
+                let hidden = near(e) && self.body.edges_near_edge(x, *e, reach, &mut out);
+                (out, hidden)
             })
         });
         faces.chain(edges).collect()

@@ -21,8 +21,8 @@ const ROUNDS: usize = 2;
 const ENOUGH: f64 = 0.05;
 const HALVINGS: usize = 5;
 /// It may raise the energy, but not above the most it was in so many steps before (but for what contacts change as they
-/// turn between two steps): along the narrow valley in which stiff cloth
-/// turns, the way that always leads down goes in much shorter steps (Grippo, Lampariello and Lucidi 1986).
+/// turn between two steps): along the narrow valley in which stiff cloth turns, the way that always leads down goes in
+/// much shorter steps (Grippo, Lampariello and Lucidi 1986).
 const MEMORY: usize = 2;
 /// A step for which less than this share of the way between two detections is left may call for one.
 const ROOM: f64 = 0.6;
@@ -243,7 +243,7 @@ impl<'a> World<'a> {
             // Cloth that falls freely.
             self.proximity.forget();
         }
-        if drag || self.proximity.is_due(&self.x) {
+        if drag || self.proximity.bounds.is_due(&self.x) {
             self.drag_friction();
         }
         if self.proximity.follow(&self.cloth, &self.x) {
