@@ -256,9 +256,8 @@ impl<'a> Proximity<'a> {
         };
         // A new search tells by the body whether cloth is under one of its features; what is known only goes on as it was.
         let under = |k: usize| self.found_at(k).iter().any(|c| c.gap(x) <= 0.0);
-        let again = |k: usize, nodes: &[u32]| {
-            nodes.iter().any(|&n| stale[n as usize]) || self.searched.hidden[k] || under(k)
-        };
+        let again =
+            |k: usize, nodes: &[u32]| nodes.iter().any(|&n| stale[n as usize]) || self.searched.hidden[k] || under(k);
         let faces = cloth.triangles.par_iter().with_min_len(512).enumerate().map(|(k, t)| {
             again(k, t).then(|| {
                 let mut out = Vec::new();

@@ -1,6 +1,7 @@
 //! Drawing the seams shut.
 
 use super::error::SewError;
+use super::recover::lead_out;
 use super::settle::{UNTANGLE, join, settle, sewn_world, untangle};
 use super::stitch::Stitching;
 use crate::contact::{Collider, Neighbourhood};
@@ -64,25 +65,6 @@ impl Sewn {
     }
 }
 
-/// A piece of which more than this share starts deeper in the body than [`START_DEPTH`] is not where it should be.
-const START_SHARE: f64 = 0.25;
-/// Metres; a start less deep is pushed out by the contact.
-const START_DEPTH: f64 = 0.015;
-
-/// Refuses a start with a piece in the body: the penalty would push its halves out on different sides.
-fn check_start(cut: &Cut, body: &Collider, start: &[Vec3]) -> Result<(), SewError> {
-    for piece in &cut.mesh.pieces {
-        let depth = |p: usize| body.nearest(start[p], 1.0).map_or(0.0, |n| -n.distance);
-        let depths: Vec<f64> = piece.particles.clone().map(depth).collect();
-        let deep = depths.iter().filter(|&&d| d > START_DEPTH).count();
-        if deep as f64 > START_SHARE * depths.len() as f64 {
-            let depth_mm = 1e3 * depths.iter().copied().fold(0.0, f64::max);
-            return Err(SewError::InsideBody { piece: piece.name.clone(), depth_mm });
-        }
-    }
-    Ok(())
-}
-
 /// Time step while sewing, s. Inertia is what keeps the pieces apart until the seams have led them home.
 const STEP: f64 = 1.0 / 60.0;
 /// Share of the velocity that lives on from step to step.
@@ -114,13 +96,13 @@ const JUNCTION: f64 = 8.0;
 pub fn sew(
     cut: &Cut,
     body: &Collider,
-    start: Vec<Vec3>,
+    mut start: Vec<Vec3>,
     options: &SewOptions,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Sewn, SewError> {
     let mesh = cut.mesh;
     let stitching = Stitching::new(mesh);
-    check_start(cut, body, &start)?;
+    lead_out(cut, body, &mut start)?;
     let cloth = Cloth::new(cut, identity_nodes(mesh), SOFT);
     let pairs: Vec<[u32; 2]> = stitching.pairs.iter().map(|p| p.0).collect();
     let h = mesh.spacing;

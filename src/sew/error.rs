@@ -15,7 +15,7 @@ pub enum SewError {
     /// The body is no solid that cloth can touch.
     #[error("the mannequin '{0}' cannot be used for contact; check that its mesh is closed and oriented")]
     Body(String),
-    /// A piece starts in the body and does not come out.
+    /// A piece starts in the body, and no straight way of a few centimetres leads out.
     #[error("piece '{piece}' starts inside the body by {depth_mm:.0} mm; move its place")]
     InsideBody {
         /// The piece.

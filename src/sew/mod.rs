@@ -3,6 +3,7 @@
 mod close;
 mod error;
 pub mod place;
+mod recover;
 mod settle;
 mod stitch;
 
