@@ -5,23 +5,27 @@ use std::path::Path;
 use toile::pipeline::{Job, Overrides, Run, read};
 use toile::report::{Contact, Report};
 
-/// The scene draped at `spacing` mm.
-fn draped(name: &str, spacing: f64) -> Report {
+/// The scene at `spacing` mm.
+fn scene(name: &str, spacing: f64) -> Job {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes").join(name);
     let overrides = Overrides { spacing: Some(1e-3 * spacing), ..Overrides::default() };
-    let job = Job::new(&file, read(&file).expect(name), &overrides).expect(name);
-    let mut run = Run::new(&job);
-    run.drape(&mut |_, _| {}).expect(name);
-    run.report()
+    Job::new(&file, read(&file).expect(name), &overrides).expect(name)
 }
 
-/// Nothing crosses anything, everything rests, and the threads keep their length.
-fn lies_well(name: &str, spacing: f64) {
-    let report = draped(name, spacing);
+/// Drapes a scene: nothing crosses anything, and everything rests.
+fn rests<'a>(name: &str, job: &'a Job) -> (Run<'a>, Report) {
+    let mut run = Run::new(job);
+    run.drape(&mut |_, _| {}).expect(name);
+    let report = run.report();
     assert_eq!(report.contact, Contact::default(), "{name}: {:?}", report.crossings);
     let drape = report.stages.iter().find(|s| s.name == "drape").expect("draped");
     assert!(drape.converged, "{name}: still drifts by {:?} mm after {} steps", drape.drift, drape.iterations);
-    for piece in &report.pieces {
+    (run, report)
+}
+
+/// And the threads keep their length.
+fn lies_well(name: &str, spacing: f64) {
+    for piece in &rests(name, &scene(name, spacing)).1.pieces {
         assert!(piece.strain.p99 < 5e-3, "{name}: {} is stretched by {}", piece.name, piece.strain.p99);
     }
 }
@@ -45,4 +49,35 @@ fn a_sheet_hangs_over_the_edge_of_a_block() {
 #[test]
 fn a_sheet_dropped_on_the_floor_lies_in_a_heap() {
     lies_well("heap.yaml", 40.0);
+}
+
+#[test]
+fn a_sheet_drapes_over_the_tip_of_a_cone() {
+    lies_well("sheet_on_cone.yaml", 40.0);
+}
+
+#[test]
+fn five_sheets_lie_on_one_another_on_a_ball() {
+    lies_well("five_sheets.yaml", 62.5);
+}
+
+#[test]
+fn a_belt_is_pulled_tight_until_it_gathers() {
+    lies_well("belt.yaml", 16.0);
+}
+
+#[test]
+fn a_cuff_stays_turned_up() {
+    let name = "turned_cuff.yaml";
+    let job = scene(name, 16.0);
+    let (run, _) = rests(name, &job);
+    let x = run.last().expect("draped");
+    // Rows of the drawing, metres from its top: the fold and the hem.
+    let height = |row: f64| {
+        let on = |p: &usize| (job.mesh.flat[*p].y - row).abs() < 1e-6;
+        let all: Vec<f64> = (0..x.len()).filter(on).map(|p| x[p].y).collect();
+        all.iter().sum::<f64>() / all.len() as f64
+    };
+    let up = height(0.64) - height(0.57);
+    assert!((up - 0.07).abs() < 0.01, "the hem lies {up} m above the fold");
 }

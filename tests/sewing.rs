@@ -209,6 +209,37 @@ fn shipped_garments_start_outside_their_bodies_and_uncrossed() {
 }
 
 #[test]
+fn a_fold_starts_on_the_side_its_sign_says() {
+    let (body, collider) = woman();
+    let farther = |fold: f64| {
+        let made = Made::new(
+            &format!(
+                "garment: 1\nbody: woman_92\nfabrics: {{shell: cotton_poplin}}\npieces:\n  front:\n    \
+                 place: hip front\n    grain: [[10, 10], [10, 90]]\n    \
+                 outline: {{start: 0 0, top: L 560 0, right: L 560 300, hem: L 0 300, left: L 0 0}}\n    \
+                 lines: {{turn: {{path: M 0 240 L 560 240, fold: {fold}}}}}\n  \
+                 back: {{like: front, place: hip back}}\n\
+                 seams:\n  left: {{sew: front.right, to: back.left}}\n  right: {{sew: front.left, to: back.right}}\n\
+                 free: ['*.top', '*.hem']\n"
+            ),
+            20.0,
+        );
+        let start = made.placed(&body);
+        // The hem comes to lie on the row as far above the fold as it is drawn below it.
+        let from_body = |row: f64| {
+            let on = |p: &usize| (made.mesh.flat[*p].y - row * MM).abs() < 1e-6;
+            let all: Vec<f64> =
+                (0..start.len()).filter(on).filter_map(|p| Some(collider.nearest(start[p], 1.0)?.distance)).collect();
+            all.iter().sum::<f64>() / all.len() as f64
+        };
+        from_body(300.0) - from_body(180.0)
+    };
+    let (under, up) = (farther(180.0), farther(-180.0));
+    assert!(under < -1e-3, "wrong sides meet: the hem lies inside, {under} m");
+    assert!(up > 1e-3, "right sides meet: the hem lies outside, {up} m");
+}
+
+#[test]
 fn shoulder_seams_start_over_the_shoulders() {
     for name in ["child_dress", "sheath_dress", "tshirt"] {
         let file = format!("{}/patterns/{name}.yaml", env!("CARGO_MANIFEST_DIR"));

@@ -14,12 +14,12 @@ pub(super) struct Sheet {
     pub(super) flat: Vec<Vec2>,
     /// The same without what a sector widens towards its hem: its sides run straight down.
     pub(super) straight: Vec<Vec2>,
-    /// Layers towards the wrong side: 0, or 1 where the cloth is folded under; up to 4 in a pleat.
+    /// Layers towards the wrong side: 0, 1 where the cloth is folded under, -1 where it is turned up; up to 4 in a pleat.
     pub(super) under: Vec<f64>,
 }
 
-/// Folds every piece along its pressed lines, the part with the shorter sewn rim under the other, lays its pleats, and unrolls
-/// what is a sector of a circle.
+/// Folds every piece along its pressed lines, the part with the shorter sewn rim under the other, or over it where right sides
+/// meet, lays its pleats, and unrolls what is a sector of a circle.
 pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
     let mut sheet = Sheet { flat: mesh.flat.clone(), straight: Vec::new(), under: vec![0.0; mesh.flat.len()] };
     let mut sewn = vec![0u32; mesh.flat.len()];
@@ -28,7 +28,8 @@ pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
     }
     for piece in &mesh.pieces {
         for line in &piece.lines {
-            if !matches!(line.kind, LineKind::Fold(angle) if angle.abs() >= PRESSED) || line.particles.len() < 2 {
+            let LineKind::Fold(angle) = line.kind else { continue };
+            if angle.abs() < PRESSED || line.particles.len() < 2 {
                 continue;
             }
             let a = mesh.flat[line.particles[0] as usize];
@@ -36,14 +37,14 @@ pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
             let along = (b - a).normalize();
             let across = Vec2::new(-along.y, along.x);
             let side = |p: usize| across.dot(&(mesh.flat[p] - a));
-            // The side with fewer stitches goes under.
+            // The side with fewer stitches is turned over.
             let balance: f64 = piece.particles.clone().map(|p| side(p).signum() * f64::from(sewn[p])).sum();
             let keep = if balance >= 0.0 { 1.0 } else { -1.0 };
             for p in piece.particles.clone() {
                 let s = side(p) * keep;
                 if s < -1e-9 {
                     sheet.flat[p] += across * (-2.0 * s * keep);
-                    sheet.under[p] = 1.0;
+                    sheet.under[p] = angle.signum();
                 }
             }
         }

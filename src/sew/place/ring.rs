@@ -44,7 +44,7 @@ impl Ring<'_> {
             self.turn(placed, x, &ellipses)
         };
         // A band whose ends overlap winds outward like a spiral, by as many layers as it has.
-        let folded = |m: &Member| self.mesh.pieces[m.piece].particles.clone().any(|p| self.sheet.under[p] > 0.0);
+        let folded = |m: &Member| self.mesh.pieces[m.piece].particles.clone().any(|p| self.sheet.under[p] != 0.0);
         let layers = match (self.overlaps(), self.row.members.iter().any(folded)) {
             (false, _) => 0.0,
             (true, false) => LAYER,
