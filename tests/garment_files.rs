@@ -352,7 +352,7 @@ fn what_is_wrong_with_a_seam_is_named_with_its_place() {
     let swap =
         "seam 'side': a.right@0..92.3 92.3 mm, b.left 100.0 mm, 7.7 mm apart; swap sew and to and add gather: 1.08";
     says(&side("{sew: a.right@0..92.3, to: b.left}"), 20, "side", swap);
-    let ease = "5.0 mm apart; add ease: 5.0 or fix the outline (tolerance 2)";
+    let ease = "5.0 mm apart; add ease: 5.0 mm or fix the outline (tolerance 2)";
     says(&side("{sew: a.right@0..95, to: b.left}"), 20, "side", ease);
     let large = "ease 12 mm is 14 % of 88 mm; more than 8 % gathers, say gather: 1.14";
     says(&side("{sew: a.right@0..88, to: b.left, ease: 12}"), 20, "12", large);
@@ -665,6 +665,14 @@ fn what_lies_off_its_piece_is_named_with_its_place() {
     says(&unlike, 21, "[7, 9]", "the button has 2 points that are to meet 1");
     says(&closure("edge: a.tpo, at: [5, 0]"), 21, "a.tpo", "edge 'a.tpo' not found");
     assert!(mistakes(&closure("edge: a.top, at: [[5, 0], [100, 100]], meets: b")).is_empty());
+}
+
+#[test]
+fn a_piece_sewn_to_nothing_is_named() {
+    let pocket = "  pocket:\n    grain: [[0, 0], [0, 9]]\n    \
+                  outline: {start: 0 0, top: L 50 0, side: L 50 50, hem: L 0 50, in: L 0 0}\nseams:";
+    let text = squares("seams:", pocket).replacen("free: [", "free: ['pocket.*', ", 1);
+    says(&text, 19, "pocket", "piece 'pocket' is sewn to nothing");
 }
 
 #[test]

@@ -480,6 +480,36 @@ fn a_tube_narrower_than_the_body_starts_clear_of_it() {
 }
 
 #[test]
+fn a_piece_sewn_to_nothing_starts_round_its_part_all_the_same() {
+    let made = Made::new(
+        "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  pocket:\n    place: hip front\n    \
+         grain: [[10, 10], [10, 90]]\n    outline: {start: 0 0, a: L 150 0, b: L 150 160, c: L 0 160, d: L 0 0}\n\
+         free: ['*.*']\n",
+        20.0,
+    );
+    let (body, collider) = woman();
+    let start = made.placed(&body);
+    let far = |p: &Vec3| collider.nearest(*p, 1.0).map_or(f64::INFINITY, |n| n.distance);
+    assert!(start.iter().all(|p| (0.0..0.2).contains(&far(p))), "{start:?}");
+}
+
+#[test]
+fn seams_that_contradict_each_other_leave_a_piece_no_place() {
+    let made = Made::new(
+        "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  front:\n    place: hip front\n    \
+         grain: [[0, 50], [0, 250]]\n    \
+         outline: {start: -200 0, waist: L 200 0, right: L 290 300, hem: L -290 300, left: L -200 0}\n  \
+         back: {like: front, place: hip back}\n\
+         seams:\n  left: {sew: front.right, to: back.right}\n  right: {sew: front.left, to: back.left}\n\
+         free: ['*.waist', '*.hem']\n",
+        20.0,
+    );
+    let (body, collider) = woman();
+    let refused = place(&made.garment, &made.mesh, &body, &collider);
+    assert!(matches!(&refused, Err(PlaceError::Nowhere { .. })), "{refused:?}");
+}
+
+#[test]
 fn a_place_must_name_a_part_that_the_body_has() {
     let (mut body, collider) = woman();
     let text = "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  cuff:\n    place: WHERE\n    \

@@ -137,7 +137,7 @@ fn entities(text: &str) -> Result<Vec<Entity<'_>>, DxfError> {
     let mut entities: Vec<Entity> = Vec::new();
     let mut lines = text.lines().enumerate();
     while let Some((k, code)) = lines.next() {
-        let code = code.trim().trim_start_matches('\u{feff}');
+        let code = code.trim_start_matches('\u{feff}').trim();
         if code.is_empty() && entities.last().is_none_or(|e| e.kind == "EOF") {
             continue;
         }

@@ -27,6 +27,12 @@ pub enum WriteError {
     /// A target exists and is a folder.
     #[error("cannot write {}: it is a folder", .0.display())]
     IsFolder(PathBuf),
+    /// A target exists and is a device or a pipe.
+    #[error("cannot write {}: it is no ordinary file; give another name with -o", .0.display())]
+    NotFile(PathBuf),
+    /// A target exists and is write-protected.
+    #[error("cannot write {}: it is write-protected; give another name with -o, or lift the protection", .0.display())]
+    Protected(PathBuf),
     /// The folder to write into is a file.
     #[error("cannot write {}: {} is a file, not a folder", target.display(), path.display())]
     NotFolder {
@@ -58,7 +64,8 @@ pub enum WriteError {
 
 /// Writes every (path, contents) pair, making folders as needed, or writes no file.
 ///
-/// `inputs` are the files the program has read; none is overwritten, also not through a link. All contents are on disk
+/// A file that exists keeps its permissions, and a link to it stays one. `inputs` are the files the program has read; none
+/// is overwritten, also not through a link. All contents are on disk
 /// under temporary names before the first rename. Only if a rename itself fails (a folder loses its permissions in
 /// that moment) may earlier files of the set be in place; each one is whole even then.
 ///
@@ -70,7 +77,7 @@ pub fn write_all(files: &[(PathBuf, Vec<u8>)], inputs: &[&Path]) -> Result<(), W
     }
     let mut temporary = Vec::with_capacity(files.len());
     for (path, contents) in files {
-        temporary.push(Pending::create(path, contents)?);
+        temporary.push(Pending::create(&behind_links(path), contents)?);
     }
     // Once more, now that the folders are there: a path through one that was missing (`new/../input`) led nowhere before.
     for (path, _) in files {
@@ -78,7 +85,7 @@ pub fn write_all(files: &[(PathBuf, Vec<u8>)], inputs: &[&Path]) -> Result<(), W
     }
     let mut registry = registry();
     for (pending, (path, _)) in temporary.into_iter().zip(files) {
-        pending.rename(path, &mut registry)?;
+        pending.rename(&behind_links(path), &mut registry)?;
     }
     Ok(())
 }
@@ -134,7 +141,18 @@ fn refuse(path: &Path, inputs: &[&Path]) -> Result<(), WriteError> {
     if inputs.iter().any(|input| input.canonicalize().is_ok_and(|i| i == real)) {
         return Err(WriteError::IsInput(path.to_owned()));
     }
-    if real.is_dir() { Err(WriteError::IsFolder(path.to_owned())) } else { Ok(()) }
+    let Ok(is) = fs::metadata(&real) else { return Ok(()) };
+    match path.to_owned() {
+        path if is.is_dir() => Err(WriteError::IsFolder(path)),
+        path if !is.is_file() => Err(WriteError::NotFile(path)),
+        path if is.permissions().readonly() => Err(WriteError::Protected(path)),
+        _ => Ok(()),
+    }
+}
+
+/// The file a path leads to, or the path where there is none yet.
+fn behind_links(path: &Path) -> PathBuf {
+    path.canonicalize().unwrap_or_else(|_| path.to_owned())
 }
 
 /// A complete file under a temporary name; removed when dropped.
@@ -160,6 +178,9 @@ impl Pending {
         let mut pending = Self { file: Some(file) };
         if let Some(file) = &mut pending.file {
             file.write_all(contents).and_then(|()| file.flush()).map_err(failed)?;
+            if let Ok(old) = fs::metadata(target) {
+                file.as_file().set_permissions(old.permissions()).map_err(failed)?;
+            }
         }
         Ok(pending)
     }
@@ -210,6 +231,39 @@ mod tests {
         let mut names: Vec<String> = entries.filter_map(|e| e.ok()?.file_name().into_string().ok()).collect();
         names.sort();
         names
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_link_stays_a_link_and_a_file_keeps_its_permissions() {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let folder = tempfile::tempdir().expect("a folder");
+        let (file, link) = (folder.path().join("file"), folder.path().join("link"));
+        fs::write(&file, "old").expect("written");
+        fs::set_permissions(&file, fs::Permissions::from_mode(0o600)).expect("set");
+        symlink(&file, &link).expect("linked");
+        write_all(&[(link.clone(), b"new".to_vec())], &[]).expect("written");
+        assert!(fs::symlink_metadata(&link).expect("there").is_symlink());
+        assert_eq!(fs::read(&file).expect("there"), b"new");
+        assert_eq!(fs::metadata(&file).expect("there").permissions().mode() & 0o777, 0o600);
+
+        fs::set_permissions(&file, fs::Permissions::from_mode(0o400)).expect("set");
+        let refused = write_all(&[(file.clone(), b"newer".to_vec())], &[]);
+        assert!(matches!(refused, Err(WriteError::Protected(_))), "{refused:?}");
+        assert_eq!(fs::read(&file).expect("there"), b"new");
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn what_is_no_file_stays_what_it_is() {
+        use std::os::unix::fs::FileTypeExt;
+        use std::os::unix::net::UnixListener;
+        let folder = tempfile::tempdir().expect("a folder");
+        let socket = folder.path().join("socket");
+        let _listener = UnixListener::bind(&socket).expect("bound");
+        let refused = write_all(&[(socket.clone(), b"new".to_vec())], &[]);
+        assert!(matches!(refused, Err(WriteError::NotFile(_))), "{refused:?}");
+        assert!(fs::metadata(&socket).expect("there").file_type().is_socket());
     }
 
     #[test]

@@ -196,9 +196,10 @@ impl ObjFaces {
     }
 }
 
-/// Lines without comments, those ending in a backslash joined with the next, each with the number of its first line.
+/// Lines without comments and without a byte order mark, those ending in a backslash joined with the next, each with the
+/// number of its first line.
 fn logical_lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
-    let mut lines = text.lines().enumerate();
+    let mut lines = text.trim_start_matches('\u{feff}').lines().enumerate();
     std::iter::from_fn(move || {
         let (number, first) = lines.next()?;
         let mut whole = Cow::Borrowed(code(first));
@@ -270,6 +271,13 @@ fn corners<'a>(words: impl Iterator<Item = &'a str>, so_far: [usize; 2]) -> Resu
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_byte_order_mark_costs_no_vertex() {
+        let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+        let marked = parse_obj(&format!("\u{feff}{text}"), "a.obj").expect("a triangle");
+        assert_eq!(marked.vertices, parse_obj(text, "a.obj").expect("a triangle").vertices);
+    }
 
     #[test]
     fn colours_quads_negative_indices_and_continuations_are_read() {

@@ -179,12 +179,13 @@ pub(super) fn check_free_but_sewn(
     }
 }
 
-/// A pair that no seam joins is two copies of one piece, unless all seams are still to be written.
-pub(super) fn check_pairs(file: &GarmentFile, drafts: &[Draft], cut: &Pieces, seams: &Seams, findings: &mut Findings) {
+/// A pair that no seam joins is two copies of one piece, and another piece that none joins falls, unless all seams are still
+/// to be written.
+pub(super) fn check_joined(file: &GarmentFile, drafts: &[Draft], cut: &Pieces, seams: &Seams, findings: &mut Findings) {
     if file.seams.is_empty() {
         return;
     }
-    for (i, draft) in drafts.iter().enumerate().filter(|(_, d)| d.cut == Cut::Pair) {
+    for (i, draft) in drafts.iter().enumerate() {
         let pieces: Vec<usize> = cut.instances.iter().filter(|n| n.draft == i).map(|n| n.piece).collect();
         let mut spans = seams
             .seams
@@ -192,9 +193,14 @@ pub(super) fn check_pairs(file: &GarmentFile, drafts: &[Draft], cut: &Pieces, se
             .zip(&seams.written)
             .filter(|(_, w)| w.is_some())
             .flat_map(|(s, _)| s.a.iter().chain(&s.b));
-        if !spans.any(|s| pieces.contains(&s.edge.piece)) {
+        if spans.any(|s| pieces.contains(&s.edge.piece)) {
+            continue;
+        }
+        if draft.cut == Cut::Pair {
             let at = file.pieces.iter().find(|p| p.name.value == draft.name).and_then(|p| p.cut.as_ref());
             findings.error(at.map_or(draft.at, |c| c.at), Problem::PairUnsewn(draft.name.clone()));
+        } else {
+            findings.warn(draft.at, Problem::PieceUnsewn(draft.name.clone()));
         }
     }
 }

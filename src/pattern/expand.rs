@@ -44,7 +44,7 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
     if sound && findings.errors() == before {
         cover::check(&readable, &drafts, &cut, &seams, findings);
         cover::check_free_but_sewn(&readable, &drafts, &cut, &seams, findings);
-        cover::check_pairs(&readable, &drafts, &cut, &seams, findings);
+        cover::check_joined(&readable, &drafts, &cut, &seams, findings);
     }
     let closures = if sound { closure::closures(file, &drafts, &cut, findings) } else { Vec::new() };
     let Seams { seams, written, .. } = seams;

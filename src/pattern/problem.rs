@@ -138,6 +138,8 @@ pub enum Problem {
     BeyondFold(String),
     #[error("cut: pair piece '{0}' has no L/R seams; use cut: 2")]
     PairUnsewn(String),
+    #[error("piece '{0}' is sewn to nothing; it will fall where the body does not hold it")]
+    PieceUnsewn(String),
 
     // Darts and pleats.
     #[error(

@@ -304,11 +304,11 @@ fn check_lengths(candidate: &Candidate, lengths: (f64, f64), give: Give, toleran
 
 fn advice(la: f64, lb: f64, give: Give) -> String {
     match give {
-        Give::Ease(_) => format!("say ease: {:.1} or fix the outline", (lb - la) * 1e3),
+        Give::Ease(_) => format!("say ease: {:.1} mm or fix the outline", (lb - la) * 1e3),
         Give::Gather(_) => format!("say gather: {:.3} or fix the outline", la / lb),
         Give::Stretch(_) => format!("say stretch: {:.3} or fix the outline", la / lb),
         Give::Even if (lb - la).abs() <= LARGEST_EASE * la => {
-            format!("add ease: {:.1} or fix the outline", (lb - la) * 1e3)
+            format!("add ease: {:.1} mm or fix the outline", (lb - la) * 1e3)
         }
         Give::Even if la > lb => format!("add gather: {:.2} or stretch: {:.2}", la / lb, la / lb),
         Give::Even => format!("swap sew and to and add gather: {:.2}", lb / la),

@@ -28,8 +28,11 @@ mod wrap;
 use crate::contact::Collider;
 use crate::geometry::Vec3;
 use crate::mannequin::Mannequin;
-use crate::mesh::ClothMesh;
+use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::{Garment, Place};
+
+/// A piece that starts smaller than this share of its size has no place; one wound round the body many times is larger.
+const SMALLEST: f64 = 0.02;
 
 /// Why pieces cannot be placed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -55,6 +58,14 @@ pub enum PlaceError {
         part: &'static str,
         /// The mannequin.
         mannequin: String,
+    },
+    /// The seams of a piece ask for it to be nowhere.
+    #[error(
+        "piece '{piece}' finds no place: its seams contradict each other; check which edges they name (a front's right side is sewn to a back's left), or give it a place: {{at: [x, y, z]}}"
+    )]
+    Nowhere {
+        /// The piece.
+        piece: String,
     },
 }
 
@@ -82,5 +93,17 @@ pub fn place(
             }
         }
     }
-    Ok(x)
+    match mesh.pieces.iter().find(|piece| !has_room(mesh, piece, &x)) {
+        Some(piece) => Err(PlaceError::Nowhere { piece: piece.name.clone() }),
+        None => Ok(x),
+    }
+}
+
+/// Whether a piece is anywhere, and not all in one point.
+fn has_room(mesh: &ClothMesh, piece: &PieceMesh, x: &[Vec3]) -> bool {
+    let range = piece.particles.clone();
+    let first = range.start;
+    let drawn = range.clone().map(|p| (mesh.flat[p] - mesh.flat[first]).norm()).fold(0.0, f64::max);
+    let start = range.clone().map(|p| (x[p] - x[first]).norm()).fold(0.0, f64::max);
+    range.into_iter().all(|p| x[p].iter().all(|c| c.is_finite())) && start > SMALLEST * drawn
 }

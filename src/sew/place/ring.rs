@@ -69,9 +69,9 @@ impl Ring<'_> {
         }
     }
 
-    /// Whether the row is one piece whose ends are not sewn to each other.
+    /// Whether the row is one piece that is sewn to others, and its ends not to each other.
     fn overlaps(&self) -> bool {
-        self.row.members.len() == 1 && !self.closed_on_itself()
+        self.row.members.len() == 1 && self.sewn_length() > 0.0 && !self.closed_on_itself()
     }
 
     /// Whether a row of one piece is a closed ring: its own two upright sides are sewn to each other.
