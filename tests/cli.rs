@@ -461,6 +461,9 @@ fn libraries_are_listed_and_shown() {
     assert_eq!(room.run(&["fabric", "show", "denim", "--json"]).json()["name"], "denim");
     room.run(&["fabric", "show", "denin"]).ends(2).says(&["did you mean 'denim'"]);
     assert!(room.run(&["mannequin", "list"]).ends(0).out.contains("child_110"));
+    let girths = room.run(&["mannequin", "show", "woman_92", "--json"]).ends(0).json();
+    let waist = girths["sections"].as_array().and_then(|all| all.iter().find(|s| s["name"] == "waist"));
+    assert_eq!(waist.map(|w| (w["girth"].as_f64(), w["height"].as_f64())), Some((Some(735.0), Some(1030.0))));
     room.run(&["mannequin", "build", "nobody", "-o", "a.obj"]).ends(2).says(&["nobody", "woman_92"]);
 }
 

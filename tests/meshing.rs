@@ -367,7 +367,7 @@ fn a_spacing_that_does_not_suit_is_explained() {
     };
     assert_eq!(
         message(rectangle("binding", 600.0, 18.0), 0.02),
-        "mesh size 20 mm leaves 1 spring across 'binding' (18 mm wide); use <= 6 mm"
+        "mesh size 20 mm leaves 1 spring across 'binding' (18 mm wide); use <= 6 mm, or check the file's units"
     );
     for spacing in [0.0, -0.01, f64::NAN, f64::INFINITY] {
         assert!(message(rectangle("panel", 100.0, 100.0), spacing).starts_with("mesh size must be a positive length"));

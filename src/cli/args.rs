@@ -381,6 +381,12 @@ pub(super) enum FabricCommand {
 pub(super) enum MannequinCommand {
     /// List the mannequins
     List,
+    /// Show the girths a mannequin is built from, and at what heights
+    Show {
+        /// Library name or file
+        #[arg(value_name = "NAME|FILE.yaml")]
+        name: String,
+    },
     /// Build a mannequin and write its surface: millimetres, y up, feet at y = 0
     Build {
         /// Library name or file

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::args::MannequinCommand;
 use super::console::Console;
@@ -10,11 +10,13 @@ use super::exit::{CliError, Exit};
 use crate::io::body::mannequin_obj;
 use crate::io::files::{check_writable, write_all};
 use crate::mannequin::{MannequinSpec, library, load};
+use crate::report::aligned;
 
 /// `toile mannequin …`
 pub(super) fn mannequin(command: &MannequinCommand, console: &Console) -> Result<Exit, CliError> {
     match command {
         MannequinCommand::List => list(console)?,
+        MannequinCommand::Show { name } => show(name, console)?,
         MannequinCommand::Build { name, output } => build(name, output, console)?,
     }
     Ok(Exit::Done)
@@ -22,6 +24,27 @@ pub(super) fn mannequin(command: &MannequinCommand, console: &Console) -> Result
 
 fn list(console: &Console) -> Result<(), CliError> {
     console.results(&library(), || library().iter().map(|name| format!("{name}\n")).collect())
+}
+
+/// The sections from above to below, arms and legs last, as a tape would take them.
+fn show(name: &str, console: &Console) -> Result<(), CliError> {
+    let spec = MannequinSpec::load(name)?;
+    let torso = spec.torso.iter().rev().map(|r| ("torso", &r.name, "height", r.y, r.girth));
+    let leg = spec.leg.rows.iter().map(|r| ("leg", &r.name, "height", r.y, r.girth));
+    let arm = spec.arm.rows.iter().map(|r| ("arm", &r.name, "from_shoulder", r.at, r.girth));
+    let sections: Vec<_> = torso.chain(leg).chain(arm).collect();
+    let values: Vec<Value> = sections
+        .iter()
+        .map(|(part, name, along, at, girth)| json!({"part": part, "name": name, *along: at, "girth": girth}))
+        .collect();
+    console.results(&json!({"name": spec.name, "unit": "mm", "sections": values}), || {
+        let mut rows = vec![["part", "section", "at mm", "girth mm"].map(String::from).to_vec()];
+        rows.extend(sections.iter().map(|(part, name, along, at, girth)| {
+            let from = if *along == "height" { "from the floor" } else { "from the shoulder" };
+            vec![(*part).to_owned(), (*name).clone(), format!("{at} {from}"), girth.to_string()]
+        }));
+        format!("{}\n\n{}", spec.name, aligned(&rows))
+    })
 }
 
 fn build(name: &str, output: &Path, console: &Console) -> Result<(), CliError> {

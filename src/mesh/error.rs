@@ -10,7 +10,7 @@ pub enum MeshError {
     Spacing(f64),
     /// A piece would be less than two springs wide.
     #[error(
-        "mesh size {} mm leaves {springs} spring{} across '{piece}' ({} mm wide); use <= {} mm",
+        "mesh size {} mm leaves {springs} spring{} across '{piece}' ({} mm wide); use <= {} mm, or check the file's units",
         mm(*.spacing), plural(*.springs), mm(*.width), mm(*.usable)
     )]
     TooCoarse {

@@ -16,7 +16,7 @@ pub enum SewError {
     #[error("the mannequin '{0}' cannot be used for contact; check that its mesh is closed and oriented")]
     Body(String),
     /// A piece starts in the body, and no straight way of a few centimetres leads out.
-    #[error("piece '{piece}' starts inside the body by {depth_mm:.0} mm; move its place")]
+    #[error("piece '{piece}' starts inside the body by {depth_mm:.0} mm; move its place, or check the file's units")]
     InsideBody {
         /// The piece.
         piece: String,
