@@ -276,7 +276,8 @@ mod tests {
         let text = include_str!("../../tests/data/skirt.yaml");
         let loaded = crate::io::garment::read_text("skirt", "skirt.yaml", text).map_err(|e| e.to_string());
         let stage = |name: &str, converged| Stage { name: name.into(), converged, ..Stage::default() };
-        let drape = Stage { iterations: 600, drift: Some(Drift { rms: 2.0, max: 9.0 }), ..stage("drape", converged) };
+        let (drift, residual) = (Some(Drift { rms: 2.0, max: 9.0 }), Some(18.2));
+        let drape = Stage { iterations: 600, drift, residual, ..stage("drape", converged) };
         let report = Report { stages: vec![stage("sew", true), drape, stage("flatten", true)], ..Report::default() };
         let mut made = Made::new(&loaded.expect("a garment").garment, &report);
         // Nobody wears a report without openings.
@@ -297,6 +298,7 @@ mod tests {
             xml.contains("name=\"drape at rest\"><failure message=\"drape did not come to rest in 600 steps"),
             "{xml}"
         );
+        assert!(xml.contains("still drifts by 2.000 mm and is out of balance by 18.2 particle weights"), "{xml}");
         let table = summary(&[moving]);
         assert!(table.contains("drape at rest") && table.contains("0 of 1 garments"), "{table}");
     }

@@ -81,6 +81,7 @@ impl<'a> Run<'a> {
             converged: closed.is_ok(),
             energy: None,
             drift: None,
+            residual: None,
         });
         self.gaps = Some(self.gaps_of(&sewn));
         self.open = sewn.open.is_some();
@@ -115,6 +116,7 @@ impl<'a> Run<'a> {
             converged: draped.converged,
             energy: Some(draped.energy),
             drift: Some(Drift { rms: draped.drift[0] * MM, max: draped.drift[1] * MM }),
+            residual: Some(draped.residual),
         });
         self.draped = Some(self.stitching.spread(&draped.nodes));
         Ok(())

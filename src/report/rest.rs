@@ -13,17 +13,27 @@ pub struct Restless {
     pub steps: usize,
     /// How far the garment went in as many steps again, mm (root mean square), where that was measured.
     pub drift: Option<f64>,
+    /// How far its forces were out of balance, in particle weights (root mean square), where that was measured.
+    pub residual: Option<f64>,
 }
 
 impl std::fmt::Display for Restless {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{} did not come to rest in {} steps", self.stage, self.steps)?;
-        self.drift.map_or(Ok(()), |drift| write!(f, " (it still drifts by {drift:.3} mm)"))
+        let drift = self.drift.map(|drift| format!("still drifts by {drift:.3} mm"));
+        let residual = self.residual.map(|weights| format!("is out of balance by {weights:.1} particle weights"));
+        let why: Vec<String> = drift.into_iter().chain(residual).collect();
+        if why.is_empty() { Ok(()) } else { write!(f, " (it {})", why.join(" and ")) }
     }
 }
 
 /// The stages that ended before the cloth was still, in their order.
 pub fn restless(stages: &[Stage]) -> Vec<Restless> {
-    let of = |s: &Stage| Restless { stage: s.name.clone(), steps: s.iterations, drift: s.drift.map(|d| d.rms) };
+    let of = |s: &Stage| Restless {
+        stage: s.name.clone(),
+        steps: s.iterations,
+        drift: s.drift.map(|d| d.rms),
+        residual: s.residual,
+    };
     stages.iter().filter(|s| !s.converged).map(of).collect()
 }

@@ -193,6 +193,8 @@ pub struct Stage {
     pub energy: Option<f64>,
     /// Motion of the last check for rest; `null` for a stage without one.
     pub drift: Option<Drift>,
+    /// Unbalanced force at the end, in particle weights (root mean square); `null` for a stage without one.
+    pub residual: Option<f64>,
 }
 
 /// How far the garment moved in as many steps again.

@@ -207,5 +207,6 @@ pub(super) fn stage(reports: impl Iterator<Item = Report> + Clone, begin: Instan
         converged: reports.clone().all(|r| r.converged),
         energy: Some(reports.map(|r| r.energy).sum()),
         drift: None,
+        residual: None,
     }
 }
