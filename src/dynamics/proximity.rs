@@ -71,7 +71,7 @@ struct Searched {
     moved: f64,
     /// Where the contacts of each triangle, then of each edge, begin in [`Proximity::contacts`], and where the last end.
     begin: Vec<u32>,
-    /// Which triangles and edges have features near them that others hide.
+    /// Of which triangles and edges features near them were left out.
     hidden: Vec<bool>,
 }
 
@@ -241,7 +241,7 @@ impl<'a> Proximity<'a> {
     }
 
     /// Contacts of the body's edges and vertices with each triangle and edge at a node that is `stale`, and whether some
-    /// are hidden.
+    /// near them were left out.
     fn search(&self, cloth: &Cloth, x: &[Vec3], stale: &[bool]) -> Vec<Option<(Vec<Contact>, bool)>> {
         let reach = self.searched.reach;
         let far = |n: u32| {

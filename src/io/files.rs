@@ -65,9 +65,9 @@ pub enum WriteError {
 /// Writes every (path, contents) pair, making folders as needed, or writes no file.
 ///
 /// A file that exists keeps its permissions, and a link to it stays one. `inputs` are the files the program has read; none
-/// is overwritten, also not through a link. All contents are on disk
-/// under temporary names before the first rename. Only if a rename itself fails (a folder loses its permissions in
-/// that moment) may earlier files of the set be in place; each one is whole even then.
+/// is overwritten, also not through a link. All contents are on disk under temporary names before the first rename. Only
+/// if a rename itself fails (a folder loses its permissions in that moment) may earlier files of the set be in place; each
+/// one is whole even then.
 ///
 /// # Errors
 /// [`WriteError`], naming the path.
@@ -77,7 +77,7 @@ pub fn write_all(files: &[(PathBuf, Vec<u8>)], inputs: &[&Path]) -> Result<(), W
     }
     let mut temporary = Vec::with_capacity(files.len());
     for (path, contents) in files {
-        temporary.push(Pending::create(&behind_links(path), contents)?);
+        temporary.push(Pending::create(path, contents)?);
     }
     // Once more, now that the folders are there: a path through one that was missing (`new/../input`) led nowhere before.
     for (path, _) in files {
@@ -85,7 +85,7 @@ pub fn write_all(files: &[(PathBuf, Vec<u8>)], inputs: &[&Path]) -> Result<(), W
     }
     let mut registry = registry();
     for (pending, (path, _)) in temporary.into_iter().zip(files) {
-        pending.rename(&behind_links(path), &mut registry)?;
+        pending.rename(path, &mut registry)?;
     }
     Ok(())
 }
@@ -159,11 +159,14 @@ fn behind_links(path: &Path) -> PathBuf {
 struct Pending {
     /// `None` only once renamed.
     file: Option<NamedTempFile>,
+    /// Where it goes: the file behind the target, where that is a link.
+    real: PathBuf,
 }
 
 impl Pending {
     fn create(target: &Path, contents: &[u8]) -> Result<Self, WriteError> {
-        let folder = match target.parent() {
+        let real = behind_links(target);
+        let folder = match real.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
         };
@@ -175,10 +178,11 @@ impl Pending {
             registry.push(file.path().to_owned());
             file
         };
-        let mut pending = Self { file: Some(file) };
+        let old = fs::metadata(&real);
+        let mut pending = Self { file: Some(file), real };
         if let Some(file) = &mut pending.file {
             file.write_all(contents).and_then(|()| file.flush()).map_err(failed)?;
-            if let Ok(old) = fs::metadata(target) {
+            if let Ok(old) = old {
                 file.as_file().set_permissions(old.permissions()).map_err(failed)?;
             }
         }
@@ -188,7 +192,7 @@ impl Pending {
     fn rename(mut self, target: &Path, registry: &mut Vec<PathBuf>) -> Result<(), WriteError> {
         let Some(file) = self.file.take() else { return Ok(()) };
         registry.retain(|path| path != file.path());
-        match file.persist(target) {
+        match file.persist(&self.real) {
             Ok(_) => Ok(()),
             // Dropping the error removes the temporary file.
             Err(e) => Err(WriteError::File { path: target.to_owned(), source: e.error }),
