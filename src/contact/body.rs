@@ -225,7 +225,8 @@ impl Collider {
         }
         let faces = gap > 0.0 && contact.normal.dot(&outward) > FACING;
         let pushes = contact.share >= MEETS || gap > 0.0;
-        let met = pushes && (faces || self.is_highest(under.points()[0], contact.normal, beside));
+        let at = contact.closest(x) - contact.normal * gap;
+        let met = pushes && (faces || self.is_highest(at, contact.normal, beside));
         if met {
             out.push(contact);
         }

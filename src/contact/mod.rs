@@ -187,12 +187,15 @@ impl Contact {
         let inside = self.is_on_body() && away.dot(&self.normal) < 0.0;
         (self.weights, self.share) = (weights, share);
         self.normal = away / if inside { -distance } else { distance };
-        self.offset = match self.under {
-            Under::Face { .. } => self.normal.dot(&(at(0) - away)),
-            Under::Vertex { at, .. } | Under::Edge { ends: [at, _], .. } => self.normal.dot(&at),
-            Under::Cloth | Under::Plane => self.offset,
-        };
+        if self.is_on_body() {
+            self.offset = self.normal.dot(&(self.closest(x) - away));
+        }
         true
+    }
+
+    /// The point of the cloth over the body that is closest to it.
+    fn closest(&self, x: &[Vec3]) -> Vec3 {
+        self.parts().map(|(n, w)| x[n] * w).sum()
     }
 
     /// Its nodes and their weights.
@@ -246,6 +249,29 @@ mod tests {
             let apart = Vec3::z() * 0.01;
             let share = share_of_edges(Vec3::zeros(), d, apart, apart + d * (0.1 * k), 0.01);
             assert!((0.0..=1e-6).contains(&share), "{k}: {share}");
+        }
+    }
+
+    #[test]
+    fn the_gap_over_a_feature_is_the_distance_from_it_also_over_its_ends() {
+        let number = |k: u32| (43_758.5 * (12.9898 * f64::from(k)).sin()).fract();
+        let point = |k: u32| Vec3::new(number(k), number(k + 1), number(k + 2));
+        for trial in 0..500 {
+            let x: Vec<Vec3> = (0..3).map(|i| point(100 * trial + 3 * i)).collect();
+            let [p, q] = [20, 30].map(|k| point(100 * trial + k));
+            let up = Vec3::y();
+            let edge = Contact::on_feature([0, 1, 0, 0], 2, Under::Edge { number: 0, ends: [p, q] }, up, &x).expect("apart");
+            // No pair of points of the two is nearer, and one is as near.
+            let sampled = (0..=100 * 100)
+                .map(|k| (f64::from(k / 100) / 100.0, f64::from(k % 101) / 100.0))
+                .map(|(s, t)| (x[0].lerp(&x[1], s) - p.lerp(&q, t)).norm())
+                .fold(f64::INFINITY, f64::min);
+            let gap = edge.gap(&x).abs();
+            assert!(gap <= sampled + 1e-12 && gap > sampled - 0.03, "{trial}: a gap of {gap}, {sampled} apart");
+            let corner = Contact::on_feature([0, 1, 2, 0], 3, Under::Vertex { number: 0, at: p }, up, &x).expect("apart");
+            let [k, l, m] = closest_on_triangle(p, x[0], x[1], x[2]);
+            let expected = (x[0] * k + x[1] * l + x[2] * m - p).norm();
+            assert!((corner.gap(&x).abs() - expected).abs() < 1e-12, "{trial}");
         }
     }
 }
