@@ -218,11 +218,15 @@ impl Collider {
         reach: f64,
         out: &mut Vec<Contact>,
     ) -> bool {
-        let Some(contact) = Contact::on_feature(nodes, count, under, outward, x) else { return false };
-        let gap = contact.gap(x);
-        if gap.abs() > reach {
+        let Some(mut contact) = Contact::on_feature(nodes, count, under, outward, x) else { return false };
+        if contact.gap(x).abs() > reach {
             return false;
         }
+        // In a cleft cloth may be under a feature and outside all the same.
+        if contact.gap(x) < 0.0 && !self.holds(contact.closest(x), reach) {
+            contact.turn_over();
+        }
+        let gap = contact.gap(x);
         let faces = gap > 0.0 && contact.normal.dot(&outward) > FACING;
         let pushes = contact.share >= MEETS || gap > 0.0;
         let at = contact.closest(x) - contact.normal * gap;
@@ -231,6 +235,11 @@ impl Collider {
             out.push(contact);
         }
         !met
+    }
+
+    /// Whether `p`, not further than `reach` from the surface, is inside the body.
+    fn holds(&self, p: Vec3, reach: f64) -> bool {
+        self.nearest_skin(p, reach).is_some_and(|nearest| nearest.distance < 0.0)
     }
 
     /// Whether the body's vertices `around` lie no higher than `p` along `normal`: only then is it the feature of `p`
@@ -409,6 +418,27 @@ mod tests {
         assert!(body.nearest(to[0], 1.0).expect("near").distance > 0.0, "{to:?}");
         // Over the rim of the cube nothing rises.
         assert_eq!(planes(Vec3::new(1.02, 0.5, 0.9)).len(), 1);
+    }
+
+    #[test]
+    fn cloth_beside_a_blade_is_not_pushed_through_it() {
+        // A blade 20° sharp with its edge along z on top.
+        let w = 0.2 * 10f64.to_radians().tan();
+        let vertices = [1.0, -1.0].iter().flat_map(|&z| [[0.0, 0.0], [-w, -0.2], [w, -0.2]].map(|[x, y]| Vec3::new(x, y, z)));
+        let triangles = vec![[0, 1, 2], [3, 5, 4], [0, 2, 5], [0, 5, 3], [2, 1, 4], [2, 4, 5], [1, 0, 3], [1, 3, 4]];
+        let blade = TriMesh { vertices: vertices.collect(), triangles };
+        let body = Collider::new(&blade).expect("collider");
+        assert!(body.holds(Vec3::new(0.0, -0.1, 0.0), 0.1));
+        for lower in [0.0, 1e-4, 2e-4] {
+            // A cloth edge beside the upper end of its right side, nearest to its edge a little lower than that.
+            let nearest = Vec3::new(1e-3, -lower, 0.0);
+            let along = Vec3::new(lower / 1e-3, 1.0, 1.5).normalize() * 3e-3;
+            let x = [nearest - along, nearest + along];
+            let mut found = Vec::new();
+            let hidden = body.edges_near_edge(&x, [0, 1], 0.01, &mut found);
+            assert!(hidden || !found.is_empty());
+            assert!(found.iter().all(|c| c.gap(&x) > 0.0 && c.normal.x > 0.0), "{lower}: {found:?}");
+        }
     }
 
     #[test]

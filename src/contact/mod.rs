@@ -193,6 +193,11 @@ impl Contact {
         true
     }
 
+    /// Takes the cloth for being on the other side of what is under it.
+    fn turn_over(&mut self) {
+        (self.normal, self.offset) = (-self.normal, -self.offset);
+    }
+
     /// The point of the cloth over the body that is closest to it.
     fn closest(&self, x: &[Vec3]) -> Vec3 {
         self.parts().map(|(n, w)| x[n] * w).sum()
