@@ -44,6 +44,13 @@ fn block(corner: impl Fn(usize) -> Vec3) -> Collider {
     Collider::new(&TriMesh { vertices, triangles }).expect("a block")
 }
 
+/// A block between `side[0]` and `side[1]` in x, y and z, one of which is 0, turned until its corner at the origin points up.
+fn corner_up(side: [f64; 2]) -> Collider {
+    let up = -Vec3::repeat(side[0] + side[1]);
+    let turn = nalgebra::Rotation3::rotation_between(&up, &Vec3::y()).expect("a turn");
+    block(|i| turn * Vec3::new(side[i & 1], side[i >> 1 & 1], side[i >> 2 & 1]))
+}
+
 /// A slab 4 m long whose top is the plane through the origin that rises at `angle` along x.
 fn slope(angle: f64) -> Collider {
     let turn = nalgebra::Rotation3::from_axis_angle(&nalgebra::Vector3::z_axis(), angle);
@@ -220,14 +227,8 @@ fn a_search_that_remembers_finds_what_a_new_one_finds() {
 
 #[test]
 fn a_search_that_remembers_misses_nothing_round_a_corner() {
-    // A block whose corner points up, its first or its last, whose faces are cut otherwise; and a sheet that lies across
-    // the corner and its edges.
+    // Its first and its last corner, whose faces are cut otherwise, and a sheet that lies across them and their edges.
     let job = sheet(18.0, 18.0, 6.0, 0.3);
-    let corner_up = |side: [f64; 2]| {
-        let up = -Vec3::repeat(side[0] + side[1]);
-        let turn = nalgebra::Rotation3::rotation_between(&up, &Vec3::y()).expect("a turn");
-        block(|i| turn * Vec3::new(side[i & 1], side[i >> 1 & 1], side[i >> 2 & 1]))
-    };
     let bodies = [[0.0, 0.05], [-0.05, 0.0]].map(corner_up);
     for trial in 0..400 {
         let body = &bodies[trial % 2];
@@ -249,4 +250,32 @@ fn a_search_that_remembers_misses_nothing_round_a_corner() {
         let (found, expected) = (known.energy(), new.energy());
         assert!(found >= expected * (1.0 - 1e-9) - 1e-15, "trial {trial}: {found:e} J, less than {expected:e} J");
     }
+}
+
+#[test]
+fn a_sheet_drawn_hard_over_a_corner_comes_to_rest() {
+    // Nothing else carries what the drawn rim pulls: all of it goes through the few contacts at the corner.
+    let size = 42.0;
+    let job = sheet(size, size, 6.0, 0.0);
+    let body = corner_up([-0.05, 0.0]);
+    let lift = 0.5 * job.fabrics[0].thickness + LAW.body_clearance;
+    let middle = 0.5e-3 * size + 1e-3;
+    let x = job.mesh.flat.iter().map(|p| Vec3::new(p.x - middle, lift, p.y - middle)).collect();
+    let mut world = world(&job, &body, x);
+    let is_rim = |p: &toile::geometry::Vec2| p.iter().any(|c| c.min(1e-3 * size - c) < 1e-6);
+    let rim: Vec<usize> = (0..world.x.len()).filter(|&i| is_rim(&job.mesh.flat[i])).collect();
+    for &i in &rim {
+        world.cloth.mass[i] = 1e9;
+    }
+    for step in 0..300 {
+        if step < 200 {
+            rim.iter().for_each(|&i| world.x[i].y -= 4e-5);
+        }
+        world.newton(1.0, 1e-3).expect("a step");
+    }
+    let forces = world.unbalanced();
+    let pulled = rim.iter().map(|&i| forces[i].y).sum::<f64>();
+    let left = (0..forces.len()).filter(|i| !rim.contains(i)).map(|i| forces[i].norm()).fold(0.0, f64::max);
+    assert!(pulled > 30.0, "the rim pulls with {pulled} N only");
+    assert!(left < 1e-3 * pulled, "{left} N of {pulled} N are out of balance");
 }

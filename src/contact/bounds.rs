@@ -16,8 +16,9 @@ use crate::geometry::Vec3;
 const SWEEPS: usize = 12;
 /// Share of its gap that a pair must keep in a step, up to [`Bounds::new`]'s margin.
 const KEPT: f64 = 0.2;
-/// A gap smaller than this, metres, shrinks no further: gaps that halved without end would end in rounding.
-const LEAST: f64 = 5e-7;
+/// A gap smaller than this, metres, shrinks no further: gaps that halved without end would end in rounding. Whatever force
+/// a contact is to carry it must carry at a larger gap, or the cloth is held by the bounds, out of balance.
+const LEAST: f64 = 5e-8;
 /// Contacts are to be looked for anew when a node has gone this share of what it may.
 const DUE: f64 = 2.0 / 3.0;
 /// Metres.
