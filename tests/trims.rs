@@ -4,10 +4,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use approx::assert_relative_eq;
-use toile::contact::Collider;
+use toile::contact::{Collider, closest_on_triangle};
 use toile::dynamics::Cut;
 use toile::fabric::{self, Fabric};
 use toile::geometry::Vec3;
+use toile::mesh::ClothMesh;
 use toile::pipeline::{Job, Overrides, Run, read};
 use toile::report::Report;
 use toile::sew::{Stitching, sewn_world};
@@ -105,6 +106,74 @@ fn a_lining_hangs_inside() {
         assert!(count > 50.0 && sum / count > 2e-4, "{} over {count}", sum / count);
     }
     assert_eq!(skirt.report.worn.iter().filter(|w| w.body_part.as_deref() == Some("legs")).count(), 2);
+}
+
+/// How far outside piece `over` the particles of `piece` at `x` are, metres, each from the triangle nearest to it; without
+/// those within `rim` of where the two are one.
+fn outside(mesh: &ClothMesh, x: &[Vec3], piece: &str, over: &str, rim: f64) -> Vec<f64> {
+    let piece_of = |name: &str| mesh.pieces.iter().find(|p| p.name == name).expect("a piece");
+    let (piece, over) = (piece_of(piece), piece_of(over));
+    let triangles: Vec<[Vec3; 3]> =
+        mesh.triangles[over.triangles.clone()].iter().map(|t| t.map(|p| x[p as usize])).collect();
+    let signed = |p: Vec3| {
+        let from = |[a, b, c]: [Vec3; 3]| {
+            let [k, l, m] = closest_on_triangle(p, a, b, c);
+            let away = p - (a * k + b * l + c * m);
+            (away.norm(), (c - a).cross(&(b - a)).dot(&away).signum() * away.norm())
+        };
+        triangles.iter().map(|t| from(*t)).min_by(|a, b| a.0.total_cmp(&b.0)).expect("a triangle").1
+    };
+    let joined: Vec<Vec3> =
+        piece.particles.clone().map(|p| x[p]).filter(|p| over.particles.clone().any(|q| x[q] == *p)).collect();
+    let far = |p: &Vec3| joined.iter().all(|j| (j - p).norm() > rim);
+    piece.particles.clone().map(|p| x[p]).filter(far).map(signed).collect()
+}
+
+#[test]
+fn a_facing_over_the_shoulders_hangs_on_its_side_of_the_shell() {
+    let top = draped("faced_top.yaml", 15.0);
+    for (facing, shell) in [("front_facing", "front"), ("back_facing", "back")] {
+        let off = outside(&top.job.mesh, &top.x, facing, shell, 0.01);
+        assert!(off.len() > 40, "{}", off.len());
+        let wrong = off.iter().filter(|d| **d > 0.0).count();
+        assert_eq!(wrong, 0, "{facing}: {wrong} of {} outside the shell", off.len());
+    }
+}
+
+#[test]
+fn a_facing_starts_on_what_it_faces_and_a_yoke_of_another_layer_beside_it() {
+    let file = Path::new("tests/data/faced_top.yaml");
+    let job = Job::new(file, read(file).expect("a garment"), &Overrides::default()).map_err(|e| e.to_string());
+    let job = job.expect("a job");
+    let start = toile::sew::place::place(&job.garment, &job.mesh, &job.body, &job.collider).expect("a start");
+    for (facing, shell) in [("front_facing", "front"), ("back_facing", "back")] {
+        let off = outside(&job.mesh, &start, facing, shell, 0.0);
+        assert!(off.iter().all(|d| (-0.005..-0.003).contains(d)), "{facing}: {off:?}");
+    }
+    assert!(start.iter().all(|p| job.collider.nearest(*p, 0.1).is_none_or(|near| near.distance > 0.0)), "in the body");
+    // A flounce goes on from the hem, whatever its layer.
+    let panel = |width: i32| {
+        format!(
+            "outline: {{start: -{width} 0, top: L {width} 0, right: L 290 300, hem: L -290 300, left: L -{width} 0}}"
+        )
+    };
+    let text = format!(
+        "garment: 1\nbody: woman_92\nfabrics: {{shell: cotton_poplin}}\npieces:\n  front: {{place: hip front, {}}}\n  \
+         back: {{like: front, place: hip back}}\n  flounce: {{place: hip front, layer: -1, {}}}\n\
+         seams:\n  left: {{sew: front.right, to: back.left}}\n  right: {{sew: front.left, to: back.right}}\n  \
+         flounce: {{sew: flounce.top, to: front.hem}}\nfree: ['*.top', '*.hem', 'flounce.*']\n",
+        panel(200),
+        panel(290)
+    );
+    let garment = toile::io::garment::read_text("skirt", "skirt.yaml", &text).map_err(|e| e.to_string());
+    let garment = garment.expect("a garment").garment;
+    let mesh = toile::mesh::build(&garment, 0.015).expect("a mesh");
+    let start = toile::sew::place::place(&garment, &mesh, &job.body, &job.collider).expect("a start");
+    let lowest = |name: &str| {
+        let piece = mesh.pieces.iter().find(|p| p.name == name).expect("a piece");
+        piece.particles.clone().map(|p| start[p].y).fold(f64::INFINITY, f64::min)
+    };
+    assert!(lowest("flounce") < lowest("front") - 0.2, "{} {}", lowest("flounce"), lowest("front"));
 }
 
 #[test]

@@ -424,7 +424,8 @@ mod tests {
     fn cloth_beside_a_blade_is_not_pushed_through_it() {
         // A blade 20° sharp with its edge along z on top.
         let w = 0.2 * 10f64.to_radians().tan();
-        let vertices = [1.0, -1.0].iter().flat_map(|&z| [[0.0, 0.0], [-w, -0.2], [w, -0.2]].map(|[x, y]| Vec3::new(x, y, z)));
+        let vertices =
+            [1.0, -1.0].iter().flat_map(|&z| [[0.0, 0.0], [-w, -0.2], [w, -0.2]].map(|[x, y]| Vec3::new(x, y, z)));
         let triangles = vec![[0, 1, 2], [3, 5, 4], [0, 2, 5], [0, 5, 3], [2, 1, 4], [2, 4, 5], [1, 0, 3], [1, 3, 4]];
         let blade = TriMesh { vertices: vertices.collect(), triangles };
         let body = Collider::new(&blade).expect("collider");

@@ -265,7 +265,8 @@ mod tests {
             let x: Vec<Vec3> = (0..3).map(|i| point(100 * trial + 3 * i)).collect();
             let [p, q] = [20, 30].map(|k| point(100 * trial + k));
             let up = Vec3::y();
-            let edge = Contact::on_feature([0, 1, 0, 0], 2, Under::Edge { number: 0, ends: [p, q] }, up, &x).expect("apart");
+            let edge =
+                Contact::on_feature([0, 1, 0, 0], 2, Under::Edge { number: 0, ends: [p, q] }, up, &x).expect("apart");
             // No pair of points of the two is nearer, and one is as near.
             let sampled = (0..=100 * 100)
                 .map(|k| (f64::from(k / 100) / 100.0, f64::from(k % 101) / 100.0))
@@ -273,7 +274,8 @@ mod tests {
                 .fold(f64::INFINITY, f64::min);
             let gap = edge.gap(&x).abs();
             assert!(gap <= sampled + 1e-12 && gap > sampled - 0.03, "{trial}: a gap of {gap}, {sampled} apart");
-            let corner = Contact::on_feature([0, 1, 2, 0], 3, Under::Vertex { number: 0, at: p }, up, &x).expect("apart");
+            let corner =
+                Contact::on_feature([0, 1, 2, 0], 3, Under::Vertex { number: 0, at: p }, up, &x).expect("apart");
             let [k, l, m] = closest_on_triangle(p, x[0], x[1], x[2]);
             let expected = (x[0] * k + x[1] * l + x[2] * m - p).norm();
             assert!((corner.gap(&x).abs() - expected).abs() < 1e-12, "{trial}");

@@ -2,10 +2,12 @@
 
 mod curve;
 mod fit;
+mod locator;
 mod trimesh;
 
 pub use curve::{Path, PathError, Station, parse_transform};
 pub use fit::{Cubic, smooth_curves};
+pub(crate) use locator::Locator;
 pub use trimesh::{Edge, Topology, TriMesh, rim_loops};
 
 /// A point or direction in a flat piece, metres, y **down**, the right side of the cloth facing the reader.

@@ -66,7 +66,7 @@ pub struct ClothMesh {
     pub spacing: f64,
     /// Flat position of every particle, metres, y down (as drawn).
     pub flat: Vec<Vec2>,
-    /// Triangles; clockwise on screen in the y-down flat frame, so that the normal in space points out of the cloth's right side when x is right, y down and the right side faces the reader.
+    /// Triangles; clockwise on screen in the flat: in space (c − a) × (b − a) points out of the cloth's right side.
     pub triangles: Vec<[u32; 3]>,
     /// One per piece of the garment, same order.
     pub pieces: Vec<PieceMesh>,

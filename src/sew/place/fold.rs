@@ -10,9 +10,11 @@ const PRESSED: f64 = 2.0;
 
 /// The pieces laid out flat, pressed folds folded over.
 pub(super) struct Sheet {
-    /// Flat position of every particle, y down.
+    /// Flat position of every particle as drawn, but for what is folded over, y down.
+    pub(super) drawn: Vec<Vec2>,
+    /// The same with sectors of circles unrolled.
     pub(super) flat: Vec<Vec2>,
-    /// The same without what a sector widens towards its hem: its sides run straight down.
+    /// That without what a sector widens towards its hem: its sides run straight down.
     pub(super) straight: Vec<Vec2>,
     /// Layers towards the wrong side: 0, 1 where the cloth is folded under, -1 where it is turned up; up to 4 in a pleat.
     pub(super) under: Vec<f64>,
@@ -21,7 +23,8 @@ pub(super) struct Sheet {
 /// Folds every piece along its pressed lines, the part with the shorter sewn rim under the other, or over it where right sides
 /// meet, lays its pleats, and unrolls what is a sector of a circle.
 pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
-    let mut sheet = Sheet { flat: mesh.flat.clone(), straight: Vec::new(), under: vec![0.0; mesh.flat.len()] };
+    let (flat, under) = (mesh.flat.clone(), vec![0.0; mesh.flat.len()]);
+    let mut sheet = Sheet { drawn: Vec::new(), flat, straight: Vec::new(), under };
     let mut sewn = vec![0u32; mesh.flat.len()];
     for p in mesh.seams.iter().flat_map(|s| s.pairs.iter().flatten()) {
         sewn[*p as usize] += 1;
@@ -50,6 +53,7 @@ pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
         }
     }
     pleat::lay(garment, mesh, &mut sheet);
+    sheet.drawn = sheet.flat.clone();
     sheet.straight = sheet.flat.clone();
     flare::lay(garment, mesh, &mut sheet);
     sheet

@@ -1,9 +1,10 @@
 //! Where the pieces start (F10): bent round the body part each one is made for.
 //!
 //! ```text
-//! fold · pleat · flare ─▶ assign ─▶ rows ─▶ levels ─▶ wrap · ring · shoulders
-//!  folded, laid,          which part  pieces side by side,  how they pack   rings round the part, seams nearly
-//!  unrolled                           rows one over another at every height meeting; tops leaning over the body
+//! fold · pleat · flare ─▶ assign ─▶ rows ─▶ levels ─▶ wrap · ring · shoulders ─▶ lay
+//!  folded, laid,          which part  pieces side by side,  how they pack   rings round the part, seams    facings and
+//!  unrolled                           rows one over another at every height nearly meeting; tops leaning  linings on
+//!                                                                           over the body                 what they line
 //! ```
 //!
 //! A garment is laid out as it would hang on a lampshade: pieces that share an upright seam stand side by side in a
@@ -17,6 +18,7 @@ mod ellipse;
 mod flare;
 mod fold;
 mod insert;
+mod lay;
 mod levels;
 mod pleat;
 mod ring;
@@ -93,6 +95,7 @@ pub fn place(
             }
         }
     }
+    lay::lay(garment, mesh, &sheet, &rows.hosts, &mut x);
     match mesh.pieces.iter().find(|piece| !has_room(mesh, piece, &x)) {
         Some(piece) => Err(PlaceError::Nowhere { piece: piece.name.clone() }),
         None => Ok(x),

@@ -3,6 +3,7 @@
 use super::assign::{Assigned, Facing};
 use super::fold::Sheet;
 use super::insert::{Insert, inserts, slit};
+use super::lay::{self, Host};
 use crate::geometry::Vec2;
 use crate::mannequin::PartKind;
 use crate::mesh::ClothMesh;
@@ -60,21 +61,26 @@ pub(super) struct Row {
 pub(super) struct Rows {
     pub(super) rows: Vec<Row>,
     pub(super) links: Vec<Link>,
+    /// The pieces that every piece lies on; those of rows lie on none.
+    pub(super) hosts: Vec<Vec<Host>>,
     /// Rows in the order they are placed, with the row they stand next to and the link between them.
     pub(super) order: Vec<(usize, Option<usize>)>,
 }
 
-/// Lays the pieces out. Pieces with a rigid place of their own are left out.
+/// Lays the pieces out. Pieces with a rigid place of their own are left out, and those that lie on others.
 pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned: &[Assigned]) -> Rows {
     let links = links(mesh, sheet);
-    let rigid: Vec<bool> = garment.pieces.iter().map(|p| matches!(p.place, Some(Place::At { .. }))).collect();
+    let hosts = lay::hosts(garment, mesh, sheet, &links);
+    let is_at = |place: &Option<Place>| matches!(place, Some(Place::At { .. }));
+    let rigid: Vec<bool> =
+        garment.pieces.iter().zip(&hosts).map(|(p, hosts)| is_at(&p.place) || !hosts.is_empty()).collect();
     let area = |p: usize| mesh.pieces[p].triangles.len();
-    let hosts: Vec<Option<(usize, Vec2)>> =
+    let slits: Vec<Option<(usize, Vec2)>> =
         (0..mesh.pieces.len()).map(|p| slit(&links, sheet, assigned, garment, p).filter(|_| !rigid[p])).collect();
     let mut row_of = vec![usize::MAX; mesh.pieces.len()];
     let mut rows: Vec<Row> = Vec::new();
     // Larger pieces first, those that face front before the others: a row's first piece fixes its middle.
-    let mut seeds: Vec<usize> = (0..mesh.pieces.len()).filter(|&p| !rigid[p] && hosts[p].is_none()).collect();
+    let mut seeds: Vec<usize> = (0..mesh.pieces.len()).filter(|&p| !rigid[p] && slits[p].is_none()).collect();
     seeds.sort_by_key(|&p| (assigned[p].facing != Some(Facing::Front), std::cmp::Reverse(area(p)), p));
     for seed in seeds {
         if row_of[seed] != usize::MAX {
@@ -86,7 +92,7 @@ pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned:
         let layer = garment.pieces[seed].layer;
         // Layers lie one over another, not side by side.
         let apart: Vec<bool> = (0..mesh.pieces.len())
-            .map(|p| rigid[p] || hosts[p].is_some() || garment.pieces[p].layer != layer)
+            .map(|p| rigid[p] || slits[p].is_some() || garment.pieces[p].layer != layer)
             .collect();
         while let Some((from, to, shift)) = widest_next(&links, &row_of, assigned, &apart, sheet, index, &members) {
             let base = members.iter().find(|m| m.piece == from).map_or(Vec2::zeros(), |m| m.shift);
@@ -94,12 +100,12 @@ pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned:
             members.push(Member { piece: to, shift: base + shift });
         }
         let row = finish_row(mesh, sheet, assigned, assigned[seed].part, members, &links);
-        let inserts = inserts(mesh, sheet, &row.members, &hosts);
+        let inserts = inserts(mesh, sheet, &row.members, &slits);
         inserts.iter().for_each(|insert| row_of[insert.own.piece] = index);
         rows.push(Row { layer, inserts, ..row });
     }
     let order = stack(&mut rows, &links, &row_of, sheet);
-    Rows { rows, links, order }
+    Rows { rows, links, hosts, order }
 }
 
 /// The longest upright link that leads from the row to a piece not yet placed: (from, to, shift of to against from).

@@ -7,7 +7,7 @@
 //! ```
 
 use super::levels::LEVEL;
-use super::ring::Ring;
+use super::ring::{LAYER, Ring};
 use super::rows::Member;
 use crate::contact::Collider;
 use crate::geometry::Vec3;
@@ -27,7 +27,7 @@ const BEND: f64 = 0.06;
 const LEFT: f64 = 0.15;
 /// They lean by no more than this from upright, radians: what is short above the armholes does not reach the middle.
 const STEEPEST: f64 = 1.2;
-/// Cloth keeps so far from the body, metres,
+/// Cloth keeps so far from the body, metres, and a layer further for every one that lies under it,
 const CLEAR: f64 = 0.008;
 /// which is looked for no deeper than this.
 const DEEPEST: f64 = 0.5;
@@ -48,6 +48,8 @@ pub(super) struct Lean<'a> {
     depth: f64,
     /// z of the middle of the body at the shoulders.
     middle: f64,
+    /// How far it keeps from the body, metres.
+    clear: f64,
 }
 
 impl Lean<'_> {
@@ -89,14 +91,15 @@ impl Lean<'_> {
         let (leaning, upright) = ((1.0 - inward / self.depth).max(0.0), 1.0 + OFF * height / self.depth);
         let tries = (0..=TRIES).map(|k| leaning + (upright - leaning) * k as f64 / TRIES as f64);
         let mut places = tries.map(|share| Vec3::new(p.x, y, self.middle + share * (p.z - self.middle)));
-        let clear = |at: &Vec3| self.body.nearest(*at, DEEPEST).is_none_or(|n| n.distance >= CLEAR);
+        let clear = |at: &Vec3| self.body.nearest(*at, DEEPEST).is_none_or(|n| n.distance >= self.clear);
         places.find(clear).unwrap_or(Vec3::new(p.x, y, p.z))
     }
 }
 
 impl<'a> Ring<'a> {
-    /// Lets the members lean over the shoulders; a row that hangs from no other is `free` to begin above them.
-    pub(super) fn hang_from_shoulders(&mut self, body: &Mannequin, collider: &'a Collider, free: bool) {
+    /// Lets the members lean over the shoulders, with so many layers `beneath` them; a row that hangs from no other is
+    /// `free` to begin above them.
+    pub(super) fn hang_from_shoulders(&mut self, body: &Mannequin, collider: &'a Collider, free: bool, beneath: i32) {
         let part = |kind| body.parts.iter().find(|p| p.kind == kind);
         let neck = part(PartKind::Neck).and_then(|p| p.sections.first());
         let shoulders = neck.map_or_else(|| self.stations.low(), |s| -s.center.y);
@@ -106,7 +109,8 @@ impl<'a> Ring<'a> {
         let tops: Vec<f64> = self.row.members.iter().map(|m| self.top(m.piece) + m.shift.y).collect();
         let leans = |ring: &Self| -> Vec<Lean<'a>> {
             let depth = ring.axes()[first][1];
-            let lean = Lean { body: collider, from, angle: 0.0, depth, middle };
+            let clear = CLEAR + LAYER * f64::from(beneath);
+            let lean = Lean { body: collider, from, angle: 0.0, depth, middle, clear };
             tops.iter().map(|top| lean.clone().reaching((from - top).max(0.0))).collect()
         };
         self.leans = leans(self);

@@ -2,6 +2,7 @@
 
 use super::PlaceError;
 use super::fold::Sheet;
+use super::lay::beneath;
 use super::levels::{LEVEL, Level, SMOOTHING, levels};
 use super::ring::{LAYER, Ring};
 use super::rows::{ROOM, Row, Rows, has_shoulders};
@@ -19,7 +20,7 @@ const HIGHEST: f64 = 0.05;
 /// A layer's ring is so much wider than the one it is worn over, metres: room for the folds of that.
 const LAYERS_APART: f64 = 5.0 * LAYER;
 
-/// Start positions; pieces in no row stay at the origin (they have a place of their own).
+/// Start positions; pieces in no row stay at the origin (they have a place of their own, or lie on others).
 pub(super) fn wrap(
     garment: &Garment,
     mesh: &ClothMesh,
@@ -42,7 +43,8 @@ pub(super) fn wrap(
         let anchor = anchored.unwrap_or_else(|| anchor(body, &stations, row, &levels));
         let mut ring = Ring { links: &rows.links, mesh, sheet, row, levels, stations, anchor, leans: Vec::new() };
         if row.part == PartKind::Torso && has_shoulders(row, &rows.links, sheet) {
-            ring.hang_from_shoulders(body, collider, anchored.is_none());
+            let pieces: Vec<usize> = row.members.iter().map(|m| m.piece).collect();
+            ring.hang_from_shoulders(body, collider, anchored.is_none(), beneath(&rows.hosts, &pieces));
         }
         rings.push((index, ring));
     }
