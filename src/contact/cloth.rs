@@ -10,22 +10,10 @@ use crate::geometry::{Topology, Vec2, Vec3};
 
 /// Triangles per leaf: small enough for tight boxes, large enough that the tree costs little.
 const PATCH: usize = 10;
-/// Patches whose normals all lie within this angle (radians) of one another are one smooth sheet there.
+/// Patches whose normals all lie within this angle (radians) of one another are one smooth sheet there: nothing in it comes
+/// to meet before the next detection.
 const SMOOTH_CONE: f64 = 1.2;
-/// Two points of a piece that are no nearer to each other in space than this share of their distance in the flat piece
-/// are one sheet. Folded cloth brings them together to its thickness, whatever way its normals point.
-const UNFOLDED: f64 = 0.6;
-/// The same for the middles of two edges, before their closest points are looked for: those lie within an edge of them.
-const UNFOLDED_MIDDLES: f64 = 0.8;
-/// Edges whose closest points are their ends may cross before the next detection; they are kept apart within this share
-/// of the reach.
-const BLUNT: f64 = 0.4;
-/// Where a seam lies between two neighbours there is no flat distance; they are one sheet down to this share of the
-/// reach, or to where they begin to push if that is more: a contact that came and went while it pushes would never let a
-/// seam rest.
-const BESIDE_SEAM: f64 = 0.3;
-
-/// Nor are patches with an edge shorter than this share of what it is drawn: pushed together along its own plane cloth
+/// Not so patches with an edge shorter than this share of what it is drawn: pushed together along its own plane cloth
 /// passes through itself without turning a normal.
 const SHRUNK: f64 = 0.8;
 
@@ -41,8 +29,9 @@ pub struct Neighbourhood {
 struct Patch {
     piece: u32,
     triangles: Vec<u32>,
-    nodes: Vec<(u32, Vec2)>,
-    edges: Vec<([u32; 2], [Vec2; 2])>,
+    nodes: Vec<u32>,
+    edges: Vec<[u32; 2]>,
+    /// Corners of the box round it in the flat piece.
     flat: (Vec2, Vec2),
 }
 
@@ -55,17 +44,12 @@ pub struct ClothDetector {
     patches: Vec<Patch>,
     bvh: Bvh,
     workspace: BvhWorkspace,
-    /// Class → classes it shares an edge with, sorted.
-    adjacent: Vec<Vec<u32>>,
     hood: Neighbourhood,
-    /// Largest distance at which two layers push, metres.
-    kept: f64,
 }
 
 impl ClothDetector {
-    /// Prepares `triangles` over nodes. `flat[t]` are the flat corners of triangle t and `piece[t]` its piece; layers
-    /// begin to push no further apart than `kept` metres.
-    pub fn new(triangles: &[[u32; 3]], flat: &[[Vec2; 3]], piece: &[u32], hood: Neighbourhood, kept: f64) -> Self {
+    /// Prepares `triangles` over nodes. `flat[t]` are the flat corners of triangle t and `piece[t]` its piece.
+    pub fn new(triangles: &[[u32; 3]], flat: &[[Vec2; 3]], piece: &[u32], hood: Neighbourhood) -> Self {
         let centers: Vec<Vec2> = flat.iter().map(|c| (c[0] + c[1] + c[2]) / 3.0).collect();
         let mut order: Vec<u32> = (0..triangles.len() as u32).collect();
         order.sort_by_key(|&t| piece[t as usize]);
@@ -74,27 +58,13 @@ impl ClothDetector {
             split(group, &centers, &mut leaves);
         }
         let patches = own_primitives(leaves, triangles, flat, piece);
-        let mut adjacent = vec![Vec::new(); hood.class.len()];
-        for tri in triangles {
-            for k in 0..3 {
-                let (a, b) = (hood.class[tri[k] as usize], hood.class[tri[(k + 1) % 3] as usize]);
-                adjacent[a as usize].push(b);
-                adjacent[b as usize].push(a);
-            }
-        }
-        for list in &mut adjacent {
-            list.sort_unstable();
-            list.dedup();
-        }
         Self {
             triangles: triangles.to_vec(),
             flat: flat.to_vec(),
             patches,
             bvh: Bvh::new(),
             workspace: BvhWorkspace::default(),
-            adjacent,
             hood,
-            kept,
         }
     }
 
@@ -143,7 +113,7 @@ impl ClothDetector {
         let (pairs, _) = self.patch_pairs(x, &normals, 0.0);
         let near = |p: &Patch, q: &Patch| {
             let mut out = Vec::new();
-            for &(e, _) in &p.edges {
+            for &e in &p.edges {
                 let [a, b] = e.map(|n| x[n as usize]);
                 let (low, high) = (a.inf(&b), a.sup(&b));
                 for &t in &q.triangles {
@@ -217,14 +187,6 @@ impl ClothDetector {
         }
         p.iter().any(|&a| q.iter().any(|&b| self.hood.class[a as usize] == self.hood.class[b as usize]))
     }
-
-    /// Whether an edge of the cloth leads from one of `p` to one of `q`.
-    fn neighbours(&self, p: &[u32], q: &[u32]) -> bool {
-        p.iter().any(|&a| {
-            let near = &self.adjacent[self.hood.class[a as usize] as usize];
-            q.iter().any(|&b| near.binary_search(&self.hood.class[b as usize]).is_ok())
-        })
-    }
 }
 
 struct Cone {
@@ -252,15 +214,8 @@ impl Search<'_> {
         out
     }
 
-    /// Whether two points at `distance` in space are on one unfolded sheet: `flat` apart in one piece, or beside a seam.
-    fn same_sheet(&self, distance: f64, flat: Option<Vec2>, p: &[u32], q: &[u32]) -> bool {
-        let unfolded = flat.is_some_and(|flat| distance >= UNFOLDED * flat.norm());
-        let apart = (BESIDE_SEAM * self.reach).max(self.detector.kept);
-        unfolded || (distance >= apart && self.detector.neighbours(p, q))
-    }
-
     fn points(&self, p: &Patch, q: &Patch, out: &mut Vec<Contact>) {
-        for &(v, flat) in &p.nodes {
+        for &v in &p.nodes {
             let point = self.x[v as usize];
             for &t in &q.triangles {
                 let tri = self.detector.triangles[t as usize];
@@ -271,14 +226,7 @@ impl Search<'_> {
                     continue;
                 }
                 let Some(contact) = Contact::within_cloth([v, tri[0], tri[1], tri[2]], 1, self.x) else { continue };
-                let distance = contact.gap(self.x);
-                if distance >= self.reach {
-                    continue;
-                }
-                let [_, k, l, m] = contact.weights;
-                let [f, g, h] = self.detector.flat[t as usize];
-                let between = (p.piece == q.piece).then(|| flat + f * k + g * l + h * m);
-                if !self.same_sheet(distance, between, &[v], &tri) {
+                if contact.gap(self.x) < self.reach {
                     out.push(contact);
                 }
             }
@@ -286,34 +234,17 @@ impl Search<'_> {
     }
 
     fn edges(&self, p: &Patch, q: &Patch, same: bool, out: &mut Vec<Contact>) {
-        for (i, (e, flat)) in p.edges.iter().enumerate() {
+        for (i, e) in p.edges.iter().enumerate() {
             let [a, b] = e.map(|n| self.x[n as usize]);
             let (low, high) = (a.inf(&b).add_scalar(-self.reach), a.sup(&b).add_scalar(self.reach));
             let from = if same { i + 1 } else { 0 };
-            for (f, other) in &q.edges[from..] {
+            for f in &q.edges[from..] {
                 let [c, d] = f.map(|n| self.x[n as usize]);
-                if apart(low, high, c.inf(&d), c.sup(&d)) {
-                    continue;
-                }
-                if p.piece == q.piece {
-                    let middles = (flat[0] + flat[1] - other[0] - other[1]).norm_squared();
-                    if (a + b - c - d).norm_squared() >= UNFOLDED_MIDDLES * UNFOLDED_MIDDLES * middles {
-                        continue;
-                    }
-                }
-                if self.detector.joined(e, f) {
+                if apart(low, high, c.inf(&d), c.sup(&d)) || self.detector.joined(e, f) {
                     continue;
                 }
                 let Some(contact) = Contact::within_cloth([e[0], e[1], f[0], f[1]], 2, self.x) else { continue };
-                let distance = contact.gap(self.x);
-                // Ends of segments are pushed by the vertex–triangle pairs.
-                let inner = contact.weights.iter().all(|w| *w != 0.0);
-                if distance >= self.reach * if inner { 1.0 } else { BLUNT } {
-                    continue;
-                }
-                let [k, l, m, n] = contact.weights;
-                let between = (p.piece == q.piece).then(|| flat[0] * k + flat[1] * l + other[0] * m + other[1] * n);
-                if !self.same_sheet(distance, between, e, f) {
+                if contact.gap(self.x) < self.reach {
                     out.push(contact);
                 }
             }
@@ -362,14 +293,13 @@ fn own_primitives(leaves: Vec<Vec<u32>>, triangles: &[[u32; 3]], flat: &[[Vec2; 
                 low = low.inf(&corners[k]);
                 high = high.sup(&corners[k]);
                 if !std::mem::replace(&mut node_owned[tri[k] as usize], true) {
-                    patch.nodes.push((tri[k], corners[k]));
+                    patch.nodes.push(tri[k]);
                 }
-                let (a, b) = (k, (k + 1) % 3);
-                let (a, b) = if tri[a] < tri[b] { (a, b) } else { (b, a) };
-                let ends = [tri[a], tri[b]];
+                let (a, b) = (tri[k], tri[(k + 1) % 3]);
+                let ends = [a.min(b), a.max(b)];
                 let Ok(e) = topology.edges.binary_search_by(|x| x.ends.cmp(&ends)) else { continue };
                 if !std::mem::replace(&mut edge_owned[e], true) {
-                    patch.edges.push((ends, [corners[a], corners[b]]));
+                    patch.edges.push(ends);
                 }
             }
         }
@@ -412,13 +342,14 @@ mod tests {
 
     fn detector(x: &[Vec3], t: &[[u32; 3]], f: &[[Vec2; 3]], p: &[u32]) -> ClothDetector {
         let hood = Neighbourhood { class: (0..x.len() as u32).collect(), tangled: Vec::new() };
-        ClothDetector::new(t, f, p, hood, 0.0)
+        ClothDetector::new(t, f, p, hood)
     }
 
     #[test]
     fn a_flat_sheet_has_no_contact_with_itself_and_two_near_sheets_have() {
         let (x, t, f, p) = sheets(12, 0.01, 0.1);
-        assert!(detector(&x, &t, &f, &p).detect(&x, 0.016).is_empty());
+        // As far as a drape looks.
+        assert!(detector(&x, &t, &f, &p).detect(&x, 0.008).is_empty());
         let (x, t, f, p) = sheets(12, 0.01, 0.005);
         let contacts = detector(&x, &t, &f, &p).detect(&x, 0.008);
         // Every vertex of one sheet sees the triangle straight above it.

@@ -5,7 +5,7 @@
 //! further than [`Bounds::allowance`], and none further than the reach from where the body's features were last looked for
 //! at it, so a pair that was not found cannot meet; a pair that was found is kept apart by a plane between its two sides
 //! ([`Bounds`]). Cloth that starts without a crossing therefore ends without one. The exceptions: pairs left out on purpose
-//! (neighbours in the cloth, both sides of a seam that is being closed, features of the body that another beside them
+//! (pairs within one smooth sheet, both sides of a seam that is being closed, features of the body that another beside them
 //! hides); and, while seams are closed in long steps, edges, vertices and the faces of hollows of the body further off than
 //! about three millimetres.
 

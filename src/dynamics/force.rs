@@ -57,11 +57,6 @@ impl ContactLaw {
             .unwrap_or_else(|| first + cloth.half_thickness[contact.nodes[contact.count as usize - 1] as usize])
     }
 
-    /// The largest distance at which two layers of `cloth` push, metres.
-    pub(super) fn thickest(&self, cloth: &Cloth) -> f64 {
-        self.cloth_gap.unwrap_or_else(|| cloth.thickest())
-    }
-
     /// Load and slope at `x`.
     pub(super) fn press(&self, cloth: &Cloth, x: &[Vec3], contact: &Contact) -> Press {
         let k = self.stiffness * contact.share;

@@ -90,7 +90,7 @@ impl<'a> Proximity<'a> {
             contacts: Vec::new(),
             bounds: Bounds::new(x, &[], reach.cloth, margin),
             body,
-            detector: ClothDetector::new(&cloth.triangles, &cloth.flat, &cloth.piece, hood, law.thickest(cloth)),
+            detector: ClothDetector::new(&cloth.triangles, &cloth.flat, &cloth.piece, hood),
             reach,
             margin,
             body_distance: vec![(f64::NEG_INFINITY, Vec3::zeros()); x.len()],
