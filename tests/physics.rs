@@ -163,10 +163,10 @@ fn contact_pushes_within_its_distance_only() {
     let (cloth, mut x) = slack();
     let contacts = [body_contact(0, Vec3::z(), 0.0)];
     let kept = cloth.half_thickness[0] + LAW.body_clearance;
-    // d · kept / gap: ever harder as the gap closes, and in proportion below a thousandth of the distance kept.
-    let inside = |gap: f64| 999.0 + 2500.0 * (1e-3 - gap);
+    // d · kept / gap: ever harder as the gap closes, and in proportion below a five-thousandth of the distance kept.
+    let inside = |gap: f64| 4999.0 + 2500.0 * (2e-4 - gap);
     let deep = [-1.0, 0.0].map(|height| (height, inside(height)));
-    let shallow = [(1e-3, 999.0), (0.02, 49.0), (0.1, 9.0), (0.2, 4.0), (0.5, 1.0), (1.1, 0.0)];
+    let shallow = [(2e-4, 4999.0), (1e-3, 999.0), (0.02, 49.0), (0.1, 9.0), (0.2, 4.0), (0.5, 1.0), (1.1, 0.0)];
     for (height, load) in deep.into_iter().chain(shallow) {
         x[0].z = height * kept;
         let force = added(&cloth, Forces { contacts: &contacts, ..NOTHING }, &x);
