@@ -151,6 +151,22 @@ fn a_facing_starts_on_what_it_faces_and_a_yoke_of_another_layer_beside_it() {
         assert!(off.iter().all(|d| (-0.005..-0.003).contains(d)), "{facing}: {off:?}");
     }
     assert!(start.iter().all(|p| job.collider.nearest(*p, 0.1).is_none_or(|near| near.distance > 0.0)), "in the body");
+    // A cape reaches far beyond the top, round the arms: it has a ring of its own.
+    let text = std::fs::read_to_string(file).expect("a file").replace("layer: -1", "layer: 1");
+    let text = text.replace(
+        "shoulder: L 14 2.105, outer: \"C 13 9, 9 16, 0 16\"",
+        "shoulder: L 18.5 4, wide: L 34 20, outer: L 0 36",
+    );
+    let text = text.replace(
+        "shoulder: L 14 2.105, outer: \"C 12 8, 8 9, 0 9\"",
+        "shoulder: L 18.5 4, wide: L 34 20, outer: L 0 32",
+    );
+    let text = text.replace("\"*.outer\"", "\"*.outer\", \"*.wide\"");
+    let cape = toile::io::garment::read_text("cape", "cape.yaml", &text).map_err(|e| e.to_string()).expect("a garment");
+    let mesh = toile::mesh::build(&cape.garment, 0.015).expect("a mesh");
+    let start = toile::sew::place::place(&cape.garment, &mesh, &job.body, &job.collider).expect("a start");
+    let off = outside(&mesh, &start, "front_facing", "front", 0.0);
+    assert!(off.iter().any(|d| d.abs() > 0.015), "a cape starts flat on the top");
     // A flounce goes on from the hem, whatever its layer.
     let panel = |width: i32| {
         format!(

@@ -14,6 +14,10 @@ use crate::pattern::{Garment, Place};
 /// way: such a piece has a place in a row of its own.
 const MISFIT: f64 = 0.02;
 
+/// What reaches further than this beyond the rims of what it is sewn to, metres, does not lie on it: a cape over the
+/// shoulders of a bodice goes round the arms.
+const BEYOND: f64 = 0.05;
+
 /// A piece that another one lies on.
 #[derive(Clone, Debug)]
 pub(super) struct Host {
@@ -22,27 +26,28 @@ pub(super) struct Host {
     pub(super) layers: i32,
     /// From the flat piece to the flat host.
     to_host: Isometry2<f64>,
+    /// The host's triangles of which nothing is folded under.
+    open: Vec<[u32; 3]>,
 }
 
 /// For every piece those it lies on; none for those that have a place in a row.
 pub(super) fn hosts(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, links: &[Link]) -> Vec<Vec<Host>> {
     let inward = inward(mesh, sheet);
     let of = |own: usize| -> Vec<Host> {
-        if matches!(garment.pieces[own].place, Some(Place::At { .. })) {
-            return Vec::new();
-        }
         let layer = garment.pieces[own].layer;
         let inner = |&other: &usize| garment.pieces[other].layer.abs() < layer.abs();
-        (0..mesh.pieces.len())
-            .filter(inner)
-            .filter_map(|piece| {
-                let to_host = lies(sheet, &stitches(links, own, piece), &inward)?;
-                Some(Host { piece, layers: layer - garment.pieces[piece].layer, to_host })
-            })
-            .collect()
+        let lies_on = |piece: usize| {
+            let to_host = lies(sheet, &stitches(links, own, piece), &inward)?;
+            let open = open(mesh, sheet, piece);
+            (!open.is_empty()).then_some(Host { piece, layers: layer - garment.pieces[piece].layer, to_host, open })
+        };
+        let hosts: Vec<Host> = (0..mesh.pieces.len()).filter(inner).filter_map(lies_on).collect();
+        let grounds = grounds(mesh, sheet, &hosts);
+        let beyond = |p: usize| grounds.iter().map(|ground| ground.under(p).beyond).fold(f64::INFINITY, f64::min);
+        if mesh.pieces[own].particles.clone().any(|p| beyond(p) > BEYOND) { Vec::new() } else { hosts }
     };
-    let all_folded = |host: &Host| open(mesh, sheet, host.piece).is_empty();
-    (0..mesh.pieces.len()).map(|own| of(own).into_iter().filter(|host| !all_folded(host)).collect()).collect()
+    let is_at = |own: usize| matches!(garment.pieces[own].place, Some(Place::At { .. }));
+    (0..mesh.pieces.len()).map(|own| if is_at(own) { Vec::new() } else { of(own) }).collect()
 }
 
 /// How many layers the deepest of the pieces that lie on one of `pieces` lies under it.
@@ -112,14 +117,13 @@ pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, hosts: &[V
     let mut order: Vec<usize> = (0..hosts.len()).filter(|&piece| !hosts[piece].is_empty()).collect();
     order.sort_by_key(|&piece| (garment.pieces[piece].layer.abs(), piece));
     for own in order {
-        let open: Vec<Vec<[u32; 3]>> = hosts[own].iter().map(|host| open(mesh, sheet, host.piece)).collect();
-        let grounds: Vec<Ground> =
-            hosts[own].iter().zip(&open).map(|(host, open)| Ground::new(mesh, sheet, host, open, x)).collect();
+        let grounds = grounds(mesh, sheet, &hosts[own]);
+        let normals: Vec<Vec<Vec3>> = hosts[own].iter().map(|host| normals(&host.open, x)).collect();
         for p in mesh.pieces[own].particles.clone() {
-            let places = grounds.iter().map(|ground| ground.over(sheet, p, x));
+            let spots = grounds.iter().map(|ground| ground.under(p)).zip(&hosts[own]).zip(&normals);
             // On the one right under it rather than beyond the rim of another.
-            if let Some((_, at)) = places.min_by(|a, b| a.0.total_cmp(&b.0)) {
-                x[p] = at;
+            if let Some(((spot, host), normals)) = spots.min_by(|a, b| a.0.0.beyond.total_cmp(&b.0.0.beyond)) {
+                x[p] = spot.raised(x, normals, LAYER * (f64::from(host.layers) - sheet.under[p]));
             }
         }
     }
@@ -131,31 +135,49 @@ fn open(mesh: &ClothMesh, sheet: &Sheet, piece: usize) -> Vec<[u32; 3]> {
     mesh.triangles[mesh.pieces[piece].triangles.clone()].iter().filter(open).copied().collect()
 }
 
-/// A host in its place.
+/// A host, flat.
 struct Ground<'a> {
-    host: &'a Host,
+    to_host: Isometry2<f64>,
+    drawn: &'a [Vec2],
     locator: Locator<'a>,
-    /// Directions out of its right side.
-    normals: Vec<Vec3>,
 }
 
-impl<'a> Ground<'a> {
-    fn new(mesh: &ClothMesh, sheet: &'a Sheet, host: &'a Host, open: &'a [[u32; 3]], x: &[Vec3]) -> Self {
-        Self { host, locator: Locator::new(&sheet.drawn, open, mesh.spacing), normals: normals(open, x) }
-    }
+fn grounds<'a>(mesh: &ClothMesh, sheet: &'a Sheet, hosts: &'a [Host]) -> Vec<Ground<'a>> {
+    let locator = |host: &'a Host| Locator::new(&sheet.drawn, &host.open, mesh.spacing);
+    hosts.iter().map(|host| Ground { to_host: host.to_host, drawn: &sheet.drawn, locator: locator(host) }).collect()
+}
 
-    /// How far particle `p` lies beyond the host's rim in the flat, metres, and where it comes to lie.
-    fn over(&self, sheet: &Sheet, p: usize, x: &[Vec3]) -> (f64, Vec3) {
-        let at = (self.host.to_host * Point2::from(sheet.drawn[p])).coords;
+impl Ground<'_> {
+    /// The spot of the host on which particle `p` lies.
+    fn under(&self, p: usize) -> Spot {
+        let at = (self.to_host * Point2::from(self.drawn[p])).coords;
         let (corners, weights) = self.locator.place(at);
         let within = weights.map(|w| w.clamp(0.0, 1.0));
         let within = within.map(|w| w / within.iter().sum::<f64>());
-        let nearest: Vec2 = corners.iter().zip(within).map(|(&n, w)| sheet.drawn[n as usize] * w).sum();
-        // Beyond its rim the host goes straight on, and faces where it faces there.
-        let ground: Vec3 = corners.iter().zip(weights).map(|(&n, w)| x[n as usize] * w).sum();
-        let out: Vec3 = corners.iter().zip(within).map(|(&n, w)| self.normals[n as usize] * w).sum();
-        let layers = f64::from(self.host.layers) - sheet.under[p];
-        ((at - nearest).norm(), ground + out.try_normalize(0.0).unwrap_or_default() * (LAYER * layers))
+        let nearest: Vec2 = corners.iter().zip(within).map(|(&n, w)| self.drawn[n as usize] * w).sum();
+        Spot { beyond: (at - nearest).norm(), corners, weights, within }
+    }
+}
+
+/// A spot on a host or beyond its rim.
+struct Spot {
+    /// How far beyond the rim in the flat, metres.
+    beyond: f64,
+    /// The triangle there, or the nearest.
+    corners: [u32; 3],
+    /// Their shares in it; beyond the rim the host goes straight on.
+    weights: [f64; 3],
+    /// Their shares in a point of the triangle near to it.
+    within: [f64; 3],
+}
+
+impl Spot {
+    /// Its place in space, `off` metres out of the host's right side.
+    fn raised(&self, x: &[Vec3], normals: &[Vec3], off: f64) -> Vec3 {
+        let sum = |of: &[Vec3], weights: [f64; 3]| -> Vec3 {
+            self.corners.iter().zip(weights).map(|(&n, w)| of[n as usize] * w).sum()
+        };
+        sum(x, self.weights) + sum(normals, self.within).try_normalize(0.0).unwrap_or_default() * off
     }
 }
 
