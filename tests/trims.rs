@@ -165,8 +165,10 @@ fn a_facing_starts_on_what_it_faces_and_a_yoke_of_another_layer_beside_it() {
     let cape = toile::io::garment::read_text("cape", "cape.yaml", &text).map_err(|e| e.to_string()).expect("a garment");
     let mesh = toile::mesh::build(&cape.garment, 0.015).expect("a mesh");
     let start = toile::sew::place::place(&cape.garment, &mesh, &job.body, &job.collider).expect("a start");
+    assert_eq!(text.matches("wide").count(), 3, "the facings have become a cape");
     let off = outside(&mesh, &start, "front_facing", "front", 0.0);
-    assert!(off.iter().any(|d| d.abs() > 0.015), "a cape starts flat on the top");
+    let flat_on_it = off.iter().filter(|d| (0.0035..0.0045).contains(*d)).count();
+    assert!(flat_on_it < off.len() / 4, "{flat_on_it} of {} particles of a cape start flat on the top", off.len());
     // A flounce goes on from the hem, whatever its layer.
     let panel = |width: i32| {
         format!(

@@ -430,7 +430,8 @@ mod tests {
         let blade = TriMesh { vertices: vertices.collect(), triangles };
         let body = Collider::new(&blade).expect("collider");
         assert!(body.holds(Vec3::new(0.0, -0.1, 0.0), 0.1));
-        for lower in [0.0, 1e-4, 2e-4] {
+        let mut seen = 0;
+        for lower in [-1e-4, 0.0, 1e-4, 2e-4] {
             // A cloth edge beside the upper end of its right side, nearest to its edge a little lower than that.
             let nearest = Vec3::new(1e-3, -lower, 0.0);
             let along = Vec3::new(lower / 1e-3, 1.0, 1.5).normalize() * 3e-3;
@@ -438,8 +439,10 @@ mod tests {
             let mut found = Vec::new();
             let hidden = body.edges_near_edge(&x, [0, 1], 0.01, &mut found);
             assert!(hidden || !found.is_empty());
+            seen += found.len();
             assert!(found.iter().all(|c| c.gap(&x) > 0.0 && c.normal.x > 0.0), "{lower}: {found:?}");
         }
+        assert!(seen > 0, "its edge is never met");
     }
 
     #[test]

@@ -18,7 +18,7 @@ const SWEEPS: usize = 12;
 const KEPT: f64 = 0.2;
 /// A gap smaller than this, metres, shrinks no further: gaps that halved without end would end in rounding. Whatever force
 /// a contact is to carry it must carry at a larger gap, or the cloth is held by the bounds, out of balance.
-const LEAST: f64 = 5e-8;
+const LEAST: f64 = 1e-8;
 /// Contacts are to be looked for anew when a node has gone this share of what it may.
 const DUE: f64 = 2.0 / 3.0;
 /// Metres.

@@ -35,11 +35,16 @@ pub(super) fn hosts(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, links: &
     let inward = inward(mesh, sheet);
     let of = |own: usize| -> Vec<Host> {
         let layer = garment.pieces[own].layer;
-        let inner = |&other: &usize| garment.pieces[other].layer.abs() < layer.abs();
+        let inner = |&other: &usize| garment.pieces[other].layer.unsigned_abs() < layer.unsigned_abs();
         let lies_on = |piece: usize| {
             let to_host = lies(sheet, &stitches(links, own, piece), &inward)?;
             let open = open(mesh, sheet, piece);
-            (!open.is_empty()).then_some(Host { piece, layers: layer - garment.pieces[piece].layer, to_host, open })
+            (!open.is_empty()).then_some(Host {
+                piece,
+                layers: layer.saturating_sub(garment.pieces[piece].layer),
+                to_host,
+                open,
+            })
         };
         let hosts: Vec<Host> = (0..mesh.pieces.len()).filter(inner).filter_map(lies_on).collect();
         let grounds = grounds(mesh, sheet, &hosts);
@@ -53,9 +58,10 @@ pub(super) fn hosts(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, links: &
 /// How many layers the deepest of the pieces that lie on one of `pieces` lies under it.
 pub(super) fn beneath(hosts: &[Vec<Host>], pieces: &[usize]) -> i32 {
     let under = |own: usize| {
-        let layers = hosts[own].iter().filter(|host| pieces.contains(&host.piece)).map(|host| -host.layers);
+        let layers =
+            hosts[own].iter().filter(|host| pieces.contains(&host.piece)).map(|host| host.layers.saturating_neg());
         // Every host is of a layer nearer to 0: this ends.
-        layers.max().map(|layers| layers + beneath(hosts, &[own]))
+        layers.max().map(|layers| layers.saturating_add(beneath(hosts, &[own])))
     };
     (0..hosts.len()).filter_map(under).fold(0, i32::max)
 }
@@ -115,7 +121,7 @@ fn inward(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Vec2> {
 /// Puts the pieces that lie on others on them, those first whose hosts have their place in `x` from the first.
 pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, hosts: &[Vec<Host>], x: &mut [Vec3]) {
     let mut order: Vec<usize> = (0..hosts.len()).filter(|&piece| !hosts[piece].is_empty()).collect();
-    order.sort_by_key(|&piece| (garment.pieces[piece].layer.abs(), piece));
+    order.sort_by_key(|&piece| (garment.pieces[piece].layer.unsigned_abs(), piece));
     for own in order {
         let grounds = grounds(mesh, sheet, &hosts[own]);
         let normals: Vec<Vec<Vec3>> = hosts[own].iter().map(|host| normals(&host.open, x)).collect();
@@ -123,10 +129,19 @@ pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, hosts: &[V
             let spots = grounds.iter().map(|ground| ground.under(p)).zip(&hosts[own]).zip(&normals);
             // On the one right under it rather than beyond the rim of another.
             if let Some(((spot, host), normals)) = spots.min_by(|a, b| a.0.0.beyond.total_cmp(&b.0.0.beyond)) {
-                x[p] = spot.raised(x, normals, LAYER * (f64::from(host.layers) - sheet.under[p]));
+                x[p] = spot.raised(x, normals, LAYER * (off(mesh, sheet, host, own) - sheet.under[p]));
             }
         }
     }
+}
+
+/// How many layers out of its host a piece lies: beyond what the host has folded there (hems, pleats), and with its own
+/// folds between the two.
+fn off(mesh: &ClothMesh, sheet: &Sheet, host: &Host, own: usize) -> f64 {
+    let side = f64::from(host.layers.signum());
+    let deepest =
+        |piece: usize, way: f64| mesh.pieces[piece].particles.clone().map(|p| way * sheet.under[p]).fold(0.0, f64::max);
+    f64::from(host.layers) + side * (deepest(host.piece, -side) + deepest(own, side))
 }
 
 /// The triangles of a piece of which nothing is folded under.

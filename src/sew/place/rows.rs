@@ -72,15 +72,16 @@ pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned:
     let links = links(mesh, sheet);
     let hosts = lay::hosts(garment, mesh, sheet, &links);
     let is_at = |place: &Option<Place>| matches!(place, Some(Place::At { .. }));
-    let rigid: Vec<bool> =
+    let elsewhere: Vec<bool> =
         garment.pieces.iter().zip(&hosts).map(|(p, hosts)| is_at(&p.place) || !hosts.is_empty()).collect();
     let area = |p: usize| mesh.pieces[p].triangles.len();
-    let slits: Vec<Option<(usize, Vec2)>> =
-        (0..mesh.pieces.len()).map(|p| slit(&links, sheet, assigned, garment, p).filter(|_| !rigid[p])).collect();
+    let slits: Vec<Option<(usize, Vec2)>> = (0..mesh.pieces.len())
+        .map(|p| slit(&links, sheet, assigned, garment, p).filter(|s| !elsewhere[p] && !elsewhere[s.0]))
+        .collect();
     let mut row_of = vec![usize::MAX; mesh.pieces.len()];
     let mut rows: Vec<Row> = Vec::new();
     // Larger pieces first, those that face front before the others: a row's first piece fixes its middle.
-    let mut seeds: Vec<usize> = (0..mesh.pieces.len()).filter(|&p| !rigid[p] && slits[p].is_none()).collect();
+    let mut seeds: Vec<usize> = (0..mesh.pieces.len()).filter(|&p| !elsewhere[p] && slits[p].is_none()).collect();
     seeds.sort_by_key(|&p| (assigned[p].facing != Some(Facing::Front), std::cmp::Reverse(area(p)), p));
     for seed in seeds {
         if row_of[seed] != usize::MAX {
@@ -92,7 +93,7 @@ pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned:
         let layer = garment.pieces[seed].layer;
         // Layers lie one over another, not side by side.
         let apart: Vec<bool> = (0..mesh.pieces.len())
-            .map(|p| rigid[p] || slits[p].is_some() || garment.pieces[p].layer != layer)
+            .map(|p| elsewhere[p] || slits[p].is_some() || garment.pieces[p].layer != layer)
             .collect();
         while let Some((from, to, shift)) = widest_next(&links, &row_of, assigned, &apart, sheet, index, &members) {
             let base = members.iter().find(|m| m.piece == from).map_or(Vec2::zeros(), |m| m.shift);
