@@ -70,6 +70,16 @@ fn a_picture_frame_shears_as_the_fabric_says() {
 }
 
 #[test]
+fn a_strip_on_the_bias_turns_its_threads_as_the_membrane_of_least_energy() {
+    holds("bias extension");
+    // And by less than the trellis shares out among all of them, whatever it is drawn out by.
+    let figures = figures("bias extension");
+    for (figure, trellis) in figures.iter().zip([0.573, 5.883, 12.122, 26.104]) {
+        assert!((0.7 * trellis..0.9 * trellis).contains(&figure.measured), "{figure:?}");
+    }
+}
+
+#[test]
 fn a_strip_between_two_hooks_hangs_in_a_catenary() {
     holds("catenary");
 }

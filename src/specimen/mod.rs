@@ -3,11 +3,12 @@
 //!
 //! ```text
 //! Fabric ─▶ rig (a sheet in its clamps) ─▶ bending · stretching · shearing · cusick ─▶ Figure
-//!                                               ▲ theory (the known answers)
+//!                                               ▲ theory, membrane (the known answers)
 //! ```
 
 mod bending;
 mod cusick;
+mod membrane;
 mod rig;
 mod shearing;
 mod stretching;
