@@ -14,7 +14,8 @@ use crate::picture::draw_shadow;
 use crate::report::aligned;
 use crate::specimen::{Figure, Known, Sample, Shadow, TESTS, Test};
 
-/// `toile fabric test …`; out of bounds when a figure with a known value is further off than it may be.
+/// `toile fabric test …`; out of bounds when a figure with a known value is further off than it may be or a test
+/// gives none.
 pub(super) fn test(name: &str, only: &[String], output: Option<&Path>, console: &Console) -> Result<Exit, CliError> {
     let sample = Sample { fabric: Arc::new(load(name)?), drape: sheet(name)?.drape_band() };
     let tests: Vec<&Test> = TESTS.iter().filter(|t| only.is_empty() || only.iter().any(|o| o == t.name)).collect();
@@ -24,13 +25,17 @@ pub(super) fn test(name: &str, only: &[String], output: Option<&Path>, console: 
             return Err(CliError::Argument("-o draws the shadow of the drape test: add --only drape".to_owned()));
         }
     }
-    // One test does not wait for another; of several errors the first in their order counts.
+    // No test waits for another, and one that fails takes none with it.
     let outcomes: Vec<_> = tests.par_iter().map(|t| t.run(&sample)).collect();
-    let (mut figures, mut shadow) = (Vec::new(), None);
-    for outcome in outcomes {
-        let outcome = outcome?;
-        figures.extend(outcome.figures);
-        shadow = outcome.shadow.or(shadow);
+    let (mut figures, mut shadow, mut failed) = (Vec::new(), None, Vec::new());
+    for (test, outcome) in tests.iter().zip(outcomes) {
+        match outcome {
+            Ok(outcome) => {
+                figures.extend(outcome.figures);
+                shadow = outcome.shadow.or(shadow);
+            }
+            Err(error) => failed.push((test.name, error.to_string())),
+        }
     }
     if let (Some(output), Some(shadow)) = (output, shadow) {
         write_all(&[(output.to_owned(), picture(&sample, &figures, &shadow)?)], &[])?;
@@ -39,9 +44,12 @@ pub(super) fn test(name: &str, only: &[String], output: Option<&Path>, console: 
         "fabric": sample.fabric.name,
         "assumed": sample.fabric.defaults,
         "figures": figures.iter().map(figure_value).collect::<Vec<_>>(),
+        "failed": failed.iter().map(|(test, why)| json!({"test": test, "why": why})).collect::<Vec<_>>(),
     });
-    console.results(&value, || table(&figures))?;
-    Ok(if figures.iter().all(|f| f.holds() != Some(false)) { Exit::Done } else { Exit::OutOfBounds })
+    let lines = || failed.iter().map(|(test, why)| format!("\n  {test}: no figure, {why}")).collect::<String>();
+    console.results(&value, || table(&figures) + &lines())?;
+    let holds = failed.is_empty() && figures.iter().all(|f| f.holds() != Some(false));
+    Ok(if holds { Exit::Done } else { Exit::OutOfBounds })
 }
 
 fn picture(sample: &Sample, figures: &[Figure], shadow: &Shadow) -> Result<Vec<u8>, CliError> {

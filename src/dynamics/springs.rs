@@ -5,8 +5,12 @@ use std::f64::consts::FRAC_PI_2;
 use crate::fabric::{Fabric, TensileCurve};
 use crate::geometry::Vec3;
 
-/// The springs along a thread leave at most this share of its softest stretch to the diagonals.
-const MOST_TRELLIS: f64 = 0.5;
+/// The springs along a thread keep at least this share of its stretch, however little it is beside the trellis.
+const LEAST_THREAD: f64 = 0.1;
+/// Strain over which what the diagonals hold is as good as straight.
+const STRAIGHT: f64 = 0.02;
+/// Rounds in which two values that depend on one another are found; they settle by a factor of two or more in each.
+const ROUNDS: usize = 60;
 
 /// Load per width against strain in one direction of the cloth: linear between knots, the last slope goes on, and
 /// compression keeps the first slope (cloth buckles out of its plane long before its threads shorten).
@@ -38,18 +42,29 @@ impl StretchLaw {
     }
 
     /// The law of a spring at `step` of `steps` from warp to weft in a grid whose cells have one diagonal each. There the
-    /// trellis is the diagonals' business alone, 4 G at 45°; drawn along the threads they pull too, as much as G, which
-    /// the springs along the threads leave to them.
+    /// trellis is the diagonals' business alone, 4 G at 45°; drawn along the threads they pull too, and the springs along
+    /// the threads leave that to them ([`trellis_load`]).
     pub(super) fn in_grid(fabric: &Fabric, step: usize, steps: usize) -> Self {
-        let without_trellis = |curve: &TensileCurve| {
-            let slopes = curve.points.windows(2).map(|w| (w[1].1 - w[0].1) / (w[1].0 - w[0].0));
-            let trellis = fabric.shear.min(MOST_TRELLIS * slopes.fold(f64::INFINITY, f64::min));
-            Self { knots: curve.points.iter().map(|(strain, load)| (*strain, load - trellis * strain)).collect() }
+        let [warp, weft] = thread_stiffness(fabric);
+        let without = |curve: &TensileCurve, across: f64| {
+            let held = |strain: f64| trellis_load(fabric.shear, across, strain);
+            let mut knots = vec![(0.0, 0.0)];
+            for pair in curve.points.windows(2) {
+                let [from, to] = [pair[0], pair[1]];
+                let parts = ((to.0 - from.0) / STRAIGHT).ceil();
+                let (step, rise) = ((to.0 - from.0) / parts, (to.1 - from.1) / parts);
+                for part in 0..parts as usize {
+                    let strain = from.0 + step * part as f64;
+                    let left = (rise - held(strain + step) + held(strain)).max(LEAST_THREAD * rise);
+                    knots.push((strain + step, knots[knots.len() - 1].1 + left));
+                }
+            }
+            Self { knots }
         };
         match 2 * step {
-            0 => without_trellis(&fabric.warp),
+            0 => without(&fabric.warp, weft),
             twice if twice == steps => Self::linear(4.0 * fabric.shear),
-            twice if twice == 2 * steps => without_trellis(&fabric.weft),
+            twice if twice == 2 * steps => without(&fabric.weft, warp),
             _ => Self::of(fabric, FRAC_PI_2 * step as f64 / steps as f64),
         }
     }
@@ -90,6 +105,37 @@ impl StretchLaw {
         let d = strain - e;
         below + f * d + 0.5 * slope * d * d
     }
+}
+
+/// First slopes (N/m) of the springs along warp and weft, so that cloth drawn out a little along one thread and free to
+/// contract along the other has the slope of its curve. The diagonals hold G of the sum of both strains and the sheet
+/// contracts until the threads across, of stiffness s, press as much: along the pull G s / (s + G) is left.
+fn thread_stiffness(fabric: &Fabric) -> [f64; 2] {
+    let (shear, [warp, weft]) = (fabric.shear, [&fabric.warp, &fabric.weft].map(|c| c.slope(0.0)));
+    let left = |whole: f64, across: f64| (whole - shear * across / (across + shear)).max(LEAST_THREAD * whole);
+    let (mut of_warp, mut of_weft) = (warp, weft);
+    for _ in 0..ROUNDS {
+        of_warp = left(warp, of_weft);
+        of_weft = left(weft, of_warp);
+    }
+    [of_warp, of_weft]
+}
+
+/// What the diagonals of a grid of shear stiffness `shear` hold (N/m) when cloth is drawn out by `strain` along one thread
+/// and free to contract across, where its springs have the slope `across`: with the stretches λ and μ of both, a diagonal
+/// is √((λ² + μ²)/2) of its length d, holds 4 G (d − 1), and the forces across are in balance.
+fn trellis_load(shear: f64, across: f64, strain: f64) -> f64 {
+    let along = 1.0 + strain;
+    let mut contracted: f64 = 1.0;
+    let mut load = 0.0;
+    for _ in 0..ROUNDS {
+        let diagonal = (0.5 * (along * along + contracted * contracted)).sqrt();
+        let pull = 2.0 * shear * (diagonal - 1.0) / diagonal;
+        load = pull * along;
+        // Half the way: where the diagonals are the stiffer ones the whole way would go back and forth.
+        contracted = 0.5 * (contracted + across / (across + pull));
+    }
+    load
 }
 
 /// A spring between two nodes.
@@ -137,6 +183,35 @@ pub(super) const SHORTEST: f64 = 1e-9;
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
+
+    /// Sheets that are drawn out along a thread and contract across give the fabric's curve back, stiff ones and soft ones.
+    #[test]
+    fn threads_and_trellis_together_are_the_curve() {
+        for name in ["cotton_poplin", "jersey", "rib", "nylon_spandex_knit"] {
+            let fabric = crate::fabric::load(name).expect("shipped");
+            let [warp, diagonal, weft] = [0, 1, 2].map(|step| StretchLaw::in_grid(&fabric, step, 2));
+            for (curve, along, across) in [(&fabric.warp, &warp, &weft), (&fabric.weft, &weft, &warp)] {
+                for &(strain, load) in &curve.points[1..] {
+                    // Work per area of a cell, and the stretch across at which it is least.
+                    let work = |e: f64, c: f64| {
+                        let d = (0.5 * ((1.0 + e).powi(2) + (1.0 + c).powi(2))).sqrt() - 1.0;
+                        along.energy(e) + across.energy(c) + diagonal.energy(d)
+                    };
+                    let least = |e: f64| {
+                        let (mut low, mut high) = (-0.7, 0.1);
+                        for _ in 0..200 {
+                            let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+                            if work(e, a) < work(e, b) { high = b } else { low = a }
+                        }
+                        work(e, low)
+                    };
+                    let h = 1e-5;
+                    let found = (least(strain) - least(strain - h)) / h;
+                    assert_relative_eq!(found, load, max_relative = 0.01);
+                }
+            }
+        }
+    }
 
     #[test]
     fn load_and_energy_belong_together() {

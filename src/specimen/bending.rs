@@ -12,10 +12,15 @@ use crate::geometry::{Vec2, Vec3};
 const SEGMENTS: usize = 50;
 /// Segments across it.
 const ACROSS: usize = 4;
+/// Cells across the strips on edge.
+const ON_EDGE: [usize; 3] = [4, 8, 12];
 /// A specimen is at rest when ten steps move it by less than this share of its length.
 const STILL: f64 = 1e-6;
 /// Γ of the cantilevers.
 const GAMMAS: [f64; 8] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 100.0];
+
+/// Thickness of a strip at most, in grid spacings: its own cells must not count as layers that touch.
+const THIN: f64 = 0.1;
 
 /// The two ways a strip is cut, and what they are called.
 const WAYS: [(f64, &str); 2] = [(ALONG_WARP, "warp"), (ALONG_WEFT, "weft")];
@@ -46,7 +51,9 @@ impl Strip {
         let length = length_of(fabric, angle) * gamma.cbrt();
         let spacing = length / (segments as f64 - 0.5);
         let size = [across as f64 * spacing, (segments + 1) as f64 * spacing];
-        Ok(Self { sheet: Sheet::strip(fabric, size, angle, spacing)?, spacing, length, width: size[0] })
+        // A strip touches nothing, and its grid may be finer than the cloth is thick.
+        let thin = Arc::new(Fabric { thickness: fabric.thickness.min(THIN * spacing), ..fabric.as_ref().clone() });
+        Ok(Self { sheet: Sheet::strip(&thin, size, angle, spacing)?, spacing, length, width: size[0] })
     }
 
     /// Lets it go from the plane that `along` (its length) and `across` span; returns the middle of its free end, seen
@@ -175,8 +182,8 @@ pub(super) fn on_edge(sample: &Sample) -> Result<Outcome, SpecimenError> {
             };
             Ok::<_, SpecimenError>(southwell([15.5, 17.0], 2.0, deflection)?.cbrt())
         };
-        // The clamp keeps the strip from twisting a share of its width beyond it; a strip without width has none.
-        let gamma = (2.0 * critical_of(ACROSS / 2)? - critical_of(ACROSS)?).powi(3);
+        let measured = [critical_of(ON_EDGE[0])?, critical_of(ON_EDGE[1])?, critical_of(ON_EDGE[2])?];
+        let gamma = narrow_and_rigid(measured).ok_or(SpecimenError::Bench)?.powi(3);
         // Bent along its length and twisted by the mean of warp and weft.
         let ratio = (fabric.bend_warp / fabric.bend_weft).powf(if angle == ALONG_WARP { -0.25 } else { 0.25 });
         let c = 1e3 * length_of(fabric, angle);
@@ -189,6 +196,15 @@ pub(super) fn on_edge(sample: &Sample) -> Result<Outcome, SpecimenError> {
         })
     };
     Ok(WAYS.into_iter().map(measure).collect::<Result<Vec<_>, SpecimenError>>()?.into())
+}
+
+/// What strips on edge of the widths [`ON_EDGE`] would come to if they were narrow and did not bend in their own plane: the
+/// clamp keeps a strip from twisting a share of its width beyond it, and what it gives upright goes by one over the
+/// square of its width.
+fn narrow_and_rigid(measured: [f64; 3]) -> Option<f64> {
+    let rows = ON_EDGE.map(|w| nalgebra::RowVector3::new(1.0, w as f64, (w as f64).powi(-2)));
+    let solved: Vec3 = nalgebra::Matrix3::from_rows(&rows).lu().solve(&measured.into())?;
+    Some(solved.x)
 }
 
 /// Rigidity of a sheet of 100 mm rolled to a cylinder of 50 mm radius, by the energy it holds: ½ B/R² per area.

@@ -82,7 +82,7 @@ pub enum SpecimenError {
     #[error("a specimen cannot be moved: {0}")]
     Step(#[from] StepError),
     /// It did not come to rest.
-    #[error("a specimen still moves by {} mm after {steps} steps", 1e3 * moved)]
+    #[error("a specimen still moves by {:.2e} mm after {steps} steps", 1e3 * moved)]
     Unrest {
         /// Steps made.
         steps: usize,
