@@ -18,7 +18,7 @@ const SPACINGS: [f64; 2] = [0.01, 0.005];
 const GRAVITY: f64 = toile::dynamics::GRAVITY;
 
 fn coefficient(fabric: Fabric, spacing: f64) -> Result<Draped, SpecimenError> {
-    drape(&Sample { fabric: Arc::new(fabric), drape: None }, spacing)
+    drape(&Sample { fabric: Arc::new(fabric), drape: None, published: None }, spacing)
 }
 
 fn row(name: &str) -> Result<(String, Draped), Box<dyn Error + Send + Sync>> {

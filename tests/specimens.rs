@@ -8,6 +8,7 @@ use toile::specimen::{Figure, Known, Sample, TESTS, cantilever_error};
 static POPLIN: LazyLock<Sample> = LazyLock::new(|| Sample {
     fabric: Arc::new(load("cotton_poplin").expect("shipped")),
     drape: sheet("cotton_poplin").expect("shipped").drape_band(),
+    published: None,
 });
 
 fn figures_of(sample: &Sample, test: &str) -> Vec<Figure> {
@@ -34,7 +35,7 @@ fn holds(test: &str) {
 }
 
 fn sample(name: &str) -> Sample {
-    Sample { fabric: Arc::new(load(name).expect("shipped")), drape: None }
+    Sample { fabric: Arc::new(load(name).expect("shipped")), drape: None, published: None }
 }
 
 #[test]
@@ -139,4 +140,19 @@ fn a_disc_drapes_in_folds_and_knows_its_band() {
             _ => assert!((3.0..=12.0).contains(&f.measured), "{} folds", f.measured),
         }
     }
+}
+
+/// By hand, as in the paper: soft silk gives more on the bias than canvas and folds lower; what is pushed together on a plate
+/// does not cover more than it did, nor less than its sides leave it.
+#[test]
+fn specimens_drawn_out_and_folded_by_hand_tell_fabrics_apart() {
+    let [silk, canvas] = ["silk_charmeuse", "canvas"].map(|name| figures_of(&sample(name), "hand tests"));
+    for figures in [&silk, &canvas] {
+        let [light, heavy, height, left] = &figures[..] else { panic!("{figures:?}") };
+        assert!(1.0 < light.measured && light.measured < heavy.measured && heavy.measured < 1.1, "{figures:?}");
+        assert!((10.0..90.0).contains(&height.measured), "{figures:?}");
+        assert!((0.91..1.001).contains(&left.measured), "{figures:?}");
+    }
+    assert!(silk[1].measured - 1.0 > 1.5 * (canvas[1].measured - 1.0), "{silk:?}, {canvas:?}");
+    assert!(silk[2].measured < canvas[2].measured, "{silk:?}, {canvas:?}");
 }

@@ -17,7 +17,12 @@ use crate::specimen::{Figure, Known, Sample, Shadow, TESTS, Test};
 /// `toile fabric test …`; out of bounds when a figure with a known value is further off than it may be or a test
 /// gives none.
 pub(super) fn test(name: &str, only: &[String], output: Option<&Path>, console: &Console) -> Result<Exit, CliError> {
-    let sample = Sample { fabric: Arc::new(load(name)?), drape: sheet(name)?.drape_band() };
+    let sheet = sheet(name)?;
+    let sample = Sample {
+        fabric: Arc::new(load(name)?),
+        drape: sheet.drape_band(),
+        published: sheet.liu.as_ref().map(|liu| liu.means),
+    };
     let tests: Vec<&Test> = TESTS.iter().filter(|t| only.is_empty() || only.iter().any(|o| o == t.name)).collect();
     if let Some(output) = output {
         check_writable(&[output.to_owned()], &[Path::new(name)])?;

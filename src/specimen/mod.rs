@@ -2,12 +2,13 @@
 //! the bending and the steps that `make` uses for garments, and what they do is set beside what is known.
 //!
 //! ```text
-//! Fabric ─▶ rig (a sheet in its clamps) ─▶ bending · stretching · shearing · cusick ─▶ Figure
+//! Fabric ─▶ rig (a sheet in its clamps) ─▶ bending · stretching · shearing · cusick · hand ─▶ Figure
 //!                                               ▲ theory, membrane (the known answers)
 //! ```
 
 mod bending;
 mod cusick;
+mod hand;
 mod membrane;
 mod rig;
 mod shearing;
@@ -101,6 +102,8 @@ pub struct Sample {
     pub fabric: Arc<Fabric>,
     /// Drape coefficients that were measured of such cloths, per cent.
     pub drape: Option<[f64; 2]>,
+    /// Recovery, stretch and bend as Liu, Wang & Luo 2015 measured them, ratios.
+    pub published: Option<[f64; 3]>,
 }
 
 /// A test of the bench.
@@ -127,7 +130,7 @@ impl From<Vec<Figure>> for Outcome {
 }
 
 /// Every test, in the order of a report.
-pub const TESTS: [Test; 11] = [
+pub const TESTS: [Test; 12] = [
     Test { name: "cantilever", run: bending::cantilever },
     Test { name: "bending length", run: bending::bending_length },
     Test { name: "standing strip", run: bending::standing },
@@ -139,6 +142,7 @@ pub const TESTS: [Test; 11] = [
     Test { name: "picture frame", run: shearing::picture_frame },
     Test { name: "bias extension", run: shearing::bias_extension },
     Test { name: "drape", run: cusick::cusick },
+    Test { name: "hand tests", run: hand::measurements },
 ];
 
 impl Test {

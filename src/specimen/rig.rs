@@ -120,7 +120,12 @@ impl Sheet {
 
 /// A bench so far below that no specimen touches it.
 pub(super) fn nothing() -> Result<Collider, SpecimenError> {
-    let corner = |i: usize| Vec3::new([-1.0, 1.0][i & 1], [-101.0, -100.0][i >> 1 & 1], [-1.0, 1.0][i >> 2 & 1]);
+    block([-1.0, -101.0, -1.0], [1.0, -100.0, 1.0])
+}
+
+/// A block from its lowest corner to its highest, metres.
+pub(super) fn block(low: [f64; 3], high: [f64; 3]) -> Result<Collider, SpecimenError> {
+    let corner = |i: usize| Vec3::from_fn(|k, _| if i >> k & 1 == 0 { low[k] } else { high[k] });
     let sides = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
     let triangles = sides.iter().flat_map(|s: &[u32; 4]| [[s[0], s[1], s[2]], [s[0], s[2], s[3]]]).collect();
     Collider::new(&TriMesh { vertices: (0..8).map(corner).collect(), triangles }).ok_or(SpecimenError::Bench)
