@@ -140,6 +140,21 @@ fn a_facing_over_the_shoulders_hangs_on_its_side_of_the_shell() {
     }
 }
 
+/// Sewn to the facing alone, a lining goes on from it over the shell, and hangs inside it.
+#[test]
+fn a_lining_goes_on_from_its_facing() {
+    let top = draped("lined_top.yaml", 18.0);
+    let job = &top.job;
+    let start = toile::sew::place::place(&job.garment, &job.mesh, &job.body, &job.collider).expect("a start");
+    for (lining, shell) in [("front_lining", "front"), ("back_lining", "back")] {
+        let off = outside(&job.mesh, &start, lining, shell, 0.0);
+        assert!(off.iter().all(|d| (-0.005..-0.003).contains(d)), "{lining} starts {off:?}");
+        let off = outside(&job.mesh, &top.x, lining, shell, 0.01);
+        let wrong = off.iter().filter(|d| **d > 0.0).count();
+        assert!(off.len() > 100 && wrong == 0, "{lining}: {wrong} of {} outside the shell", off.len());
+    }
+}
+
 #[test]
 fn a_facing_starts_on_what_it_faces_and_a_yoke_of_another_layer_beside_it() {
     let file = Path::new("tests/data/faced_top.yaml");

@@ -5,10 +5,10 @@ use nalgebra::{Isometry2, Point2, UnitComplex};
 
 use super::fold::Sheet;
 use super::ring::LAYER;
-use super::rows::Link;
+use super::rows::{Link, is_at};
 use crate::geometry::{Locator, Vec2, Vec3};
 use crate::mesh::ClothMesh;
-use crate::pattern::{Garment, Place};
+use crate::pattern::Garment;
 
 /// Sides that do not match within this once the piece is turned and shifted, metres RMS, are gathered, or go round another
 /// way: such a piece has a place in a row of its own.
@@ -20,50 +20,186 @@ const BEYOND: f64 = 0.05;
 
 /// A piece that another one lies on.
 #[derive(Clone, Debug)]
-pub(super) struct Host {
-    pub(super) piece: usize,
+struct Host {
+    piece: usize,
     /// Layers outward from there; negative towards the body.
-    pub(super) layers: i32,
+    layers: i32,
     /// From the flat piece to the flat host.
     to_host: Isometry2<f64>,
-    /// The host's triangles of which nothing is folded under.
-    open: Vec<[u32; 3]>,
 }
 
-/// For every piece those it lies on; none for those that have a place in a row.
-pub(super) fn hosts(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, links: &[Link]) -> Vec<Vec<Host>> {
-    let inward = inward(mesh, sheet);
-    let of = |own: usize| -> Vec<Host> {
-        let layer = garment.pieces[own].layer;
-        let inner = |&other: &usize| garment.pieces[other].layer.unsigned_abs() < layer.unsigned_abs();
-        let lies_on = |piece: usize| {
-            let to_host = lies(sheet, &stitches(links, own, piece), &inward)?;
-            let open = open(mesh, sheet, piece);
-            (!open.is_empty()).then_some(Host {
-                piece,
-                layers: layer.saturating_sub(garment.pieces[piece].layer),
-                to_host,
-                open,
-            })
+/// How a piece lies on others.
+#[derive(Clone, Debug)]
+pub(super) struct Laid {
+    hosts: Vec<Host>,
+    /// For every particle, in their order, which of the hosts it lies on, and where there.
+    spots: Vec<(usize, Spot)>,
+}
+
+/// For every piece how it lies on others; `None` for those that have a place in a row.
+pub(super) fn laid(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, links: &[Link]) -> Vec<Option<Laid>> {
+    let table = Table { garment, mesh, sheet, links, inward: inward(mesh, sheet) };
+    let movable = |own: &usize| !is_at(&garment.pieces[*own].place) && garment.pieces[*own].layer != 0;
+    let pieces: Vec<usize> = (0..mesh.pieces.len()).filter(movable).collect();
+    let mut out: Vec<Option<Laid>> = vec![None; mesh.pieces.len()];
+    for &own in &pieces {
+        out[own] = table.on_what_it_is_sewn_to(own);
+    }
+    // A lining goes on from its facing, over the cloth that lies under both: all of it, or none.
+    for group in table.groups(pieces.into_iter().filter(|&own| out[own].is_none()).collect()) {
+        let found: Option<Vec<Laid>> = group.iter().map(|&own| table.beside_laid(own, &out)).collect();
+        for (own, laid) in group.into_iter().zip(found.into_iter().flatten()) {
+            out[own] = Some(laid);
+        }
+    }
+    out
+}
+
+/// Flat pieces on a table.
+struct Table<'a> {
+    garment: &'a Garment,
+    mesh: &'a ClothMesh,
+    sheet: &'a Sheet,
+    links: &'a [Link],
+    inward: Vec<Vec2>,
+}
+
+impl Table<'_> {
+    /// These pieces in groups that are sewn together within their layer.
+    fn groups(&self, mut rest: Vec<usize>) -> Vec<Vec<usize>> {
+        let layer = |piece: usize| self.garment.pieces[piece].layer;
+        let joined = |a: usize, b: usize| {
+            layer(a) == layer(b) && self.links.iter().any(|l| l.pieces == [a, b] || l.pieces == [b, a])
         };
-        let hosts: Vec<Host> = (0..mesh.pieces.len()).filter(inner).filter_map(lies_on).collect();
-        let grounds = grounds(mesh, sheet, &hosts);
-        let beyond = |p: usize| grounds.iter().map(|ground| ground.under(p).beyond).fold(f64::INFINITY, f64::min);
-        if mesh.pieces[own].particles.clone().any(|p| beyond(p) > BEYOND) { Vec::new() } else { hosts }
-    };
-    let is_at = |own: usize| matches!(garment.pieces[own].place, Some(Place::At { .. }));
-    (0..mesh.pieces.len()).map(|own| if is_at(own) { Vec::new() } else { of(own) }).collect()
+        let mut out = Vec::new();
+        while let Some(first) = rest.pop() {
+            let mut group = vec![first];
+            let mut next = 0;
+            while next < group.len() {
+                let (near, far): (Vec<usize>, _) = rest.iter().partition(|&&other| joined(group[next], other));
+                group.extend(near);
+                (rest, next) = (far, next + 1);
+            }
+            out.push(group);
+        }
+        out
+    }
+
+    /// On pieces nearer to the shell that its sides match and whose cloth goes the same way from there.
+    fn on_what_it_is_sewn_to(&self, own: usize) -> Option<Laid> {
+        let layer = self.garment.pieces[own].layer;
+        let inner = |&other: &usize| self.garment.pieces[other].layer.unsigned_abs() < layer.unsigned_abs();
+        let lies_on = |piece: usize| {
+            let to_host = self.matched(own, piece, Way::Same)?;
+            Some(Host { piece, layers: layer.saturating_sub(self.garment.pieces[piece].layer), to_host })
+        };
+        self.spread(own, (0..self.mesh.pieces.len()).filter(inner).filter_map(lies_on).collect())
+    }
+
+    /// On what a piece of its own layer lies on, if its sides match that one's and its cloth goes on from there.
+    fn beside_laid(&self, own: usize, laid: &[Option<Laid>]) -> Option<Laid> {
+        let layer = self.garment.pieces[own].layer;
+        let of_layer = |other: &usize| *other != own && self.garment.pieces[*other].layer == layer;
+        let beside = |other: usize| {
+            let hosts = &laid[other].as_ref()?.hosts;
+            let to_other = self.matched(own, other, Way::On)?;
+            Some(hosts.iter().map(move |host| Host { to_host: host.to_host * to_other, ..host.clone() }))
+        };
+        self.spread(own, (0..laid.len()).filter(of_layer).filter_map(beside).flatten().collect())
+    }
+
+    /// The turn and shift that lay a piece where its stitches with another one meet, if they match there and its cloth goes
+    /// the `way` asked for. (Of a band and what hangs from it, it goes on.)
+    fn matched(&self, own: usize, other: usize, way: Way) -> Option<Isometry2<f64>> {
+        let stitches = stitches(self.links, own, other);
+        let ends: Vec<[Vec2; 2]> = stitches.iter().map(|pair| pair.map(|p| self.sheet.drawn[p as usize])).collect();
+        let to_other = fit(&ends)?;
+        let misfit: f64 = ends.iter().map(|[a, b]| ((to_other * Point2::from(*a)).coords - b).norm_squared()).sum();
+        let inward = stitches.iter().map(|pair| pair.map(|p| self.inward[p as usize]));
+        let same_way = inward.map(|[a, b]| (to_other * a).dot(&b)).sum::<f64>() > 0.0;
+        (misfit <= MISFIT * MISFIT * ends.len() as f64 && same_way == (way == Way::Same)).then_some(to_other)
+    }
+
+    /// Spread out over `hosts`, every particle on the one right under it rather than beyond the rim of another; not if there
+    /// is none or it reaches far beyond them.
+    fn spread(&self, own: usize, mut hosts: Vec<Host>) -> Option<Laid> {
+        let opened: Vec<Vec<[u32; 3]>> = hosts.iter().map(|host| open(self.mesh, self.sheet, host.piece)).collect();
+        let grounds: Vec<Ground> = hosts
+            .iter()
+            .zip(&opened)
+            .filter(|(_, open)| !open.is_empty())
+            .map(|(host, open)| Ground {
+                to_host: host.to_host,
+                drawn: &self.sheet.drawn,
+                locator: Locator::new(&self.sheet.drawn, open, self.mesh.spacing),
+            })
+            .collect();
+        let nearest = |p: usize| {
+            let spots = grounds.iter().map(|ground| ground.under(p)).enumerate();
+            spots.min_by(|a, b| a.1.beyond.total_cmp(&b.1.beyond)).filter(|(_, spot)| spot.beyond <= BEYOND)
+        };
+        let spots = self.mesh.pieces[own].particles.clone().map(nearest).collect::<Option<Vec<_>>>()?;
+        let mut open = opened.iter().map(|open| !open.is_empty());
+        hosts.retain(|_| open.next() == Some(true));
+        Some(Laid { hosts, spots })
+    }
+}
+
+/// Where the cloth of a piece goes from a seam: over the other piece, or on from it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Way {
+    Same,
+    On,
+}
+
+/// The same links, but from what lies on a host to the nearest of that host's particles: rows know nothing of what is laid.
+pub(super) fn through(links: Vec<Link>, mesh: &ClothMesh, laid: &[Option<Laid>]) -> Vec<Link> {
+    let mut out = Vec::new();
+    for link in links {
+        let Some(k) = (0..2).find(|&k| laid[link.pieces[k]].is_some() && laid[link.pieces[1 - k]].is_none()) else {
+            out.push(link);
+            continue;
+        };
+        let below = |p: u32| under(mesh, laid, link.pieces[k], p);
+        let ends: Vec<(usize, [u32; 2])> = link
+            .pairs
+            .iter()
+            .map(|pair| {
+                let (piece, p) = below(pair[k]);
+                (piece, if k == 0 { [p, pair[1]] } else { [pair[0], p] })
+            })
+            .collect();
+        for run in ends.chunk_by(|a, b| a.0 == b.0).filter(|run| run[0].0 != link.pieces[1 - k]) {
+            let mut pieces = link.pieces;
+            pieces[k] = run[0].0;
+            let share = run.len() as f64 / ends.len() as f64;
+            let pairs = run.iter().map(|(_, pair)| *pair).collect();
+            out.push(Link { pieces, pairs, length: link.length * share, upright: link.upright });
+        }
+    }
+    out
+}
+
+/// The piece in a row, and its particle, that particle `p` of `piece` lies over.
+fn under(mesh: &ClothMesh, laid: &[Option<Laid>], mut piece: usize, mut p: u32) -> (usize, u32) {
+    // Every host is of a layer nearer to 0: this ends.
+    while let Some(on) = &laid[piece] {
+        let (host, spot) = &on.spots[p as usize - mesh.pieces[piece].particles.start];
+        let largest = (0..3).max_by(|&a, &b| spot.within[a].total_cmp(&spot.within[b])).unwrap_or(0);
+        (piece, p) = (on.hosts[*host].piece, spot.corners[largest]);
+    }
+    (piece, p)
 }
 
 /// How many layers the deepest of the pieces that lie on one of `pieces` lies under it.
-pub(super) fn beneath(hosts: &[Vec<Host>], pieces: &[usize]) -> i32 {
+pub(super) fn beneath(laid: &[Option<Laid>], pieces: &[usize]) -> i32 {
     let under = |own: usize| {
-        let layers =
-            hosts[own].iter().filter(|host| pieces.contains(&host.piece)).map(|host| host.layers.saturating_neg());
+        let hosts = &laid[own].as_ref()?.hosts;
+        let layers = hosts.iter().filter(|host| pieces.contains(&host.piece)).map(|host| host.layers.saturating_neg());
         // Every host is of a layer nearer to 0: this ends.
-        layers.max().map(|layers| layers.saturating_add(beneath(hosts, &[own])))
+        layers.max().map(|layers| layers.saturating_add(beneath(laid, &[own])))
     };
-    (0..hosts.len()).filter_map(under).fold(0, i32::max)
+    (0..laid.len()).filter_map(under).fold(0, i32::max)
 }
 
 /// Stitches between two pieces, the particle of `own` first.
@@ -77,17 +213,6 @@ fn stitches(links: &[Link], own: usize, other: usize) -> Vec<[u32; 2]> {
         }
     }
     out
-}
-
-/// The turn and shift that lay a piece on the one it is sewn to, if they match there and from the seam the cloth of both
-/// goes the same way. (Of a band and what hangs from it, it does not.)
-fn lies(sheet: &Sheet, stitches: &[[u32; 2]], inward: &[Vec2]) -> Option<Isometry2<f64>> {
-    let ends: Vec<[Vec2; 2]> = stitches.iter().map(|pair| pair.map(|p| sheet.drawn[p as usize])).collect();
-    let to_host = fit(&ends)?;
-    let misfit: f64 = ends.iter().map(|[a, b]| ((to_host * Point2::from(*a)).coords - b).norm_squared()).sum();
-    let same_way: f64 =
-        stitches.iter().map(|pair| pair.map(|p| inward[p as usize])).map(|[a, b]| (to_host * a).dot(&b)).sum();
-    (misfit <= MISFIT * MISFIT * ends.len() as f64 && same_way > 0.0).then_some(to_host)
 }
 
 /// The turn and shift that bring points nearest to their partners (least squares).
@@ -119,18 +244,16 @@ fn inward(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Vec2> {
 }
 
 /// Puts the pieces that lie on others on them, those first whose hosts have their place in `x` from the first.
-pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, hosts: &[Vec<Host>], x: &mut [Vec3]) {
-    let mut order: Vec<usize> = (0..hosts.len()).filter(|&piece| !hosts[piece].is_empty()).collect();
-    order.sort_by_key(|&piece| (garment.pieces[piece].layer.unsigned_abs(), piece));
-    for own in order {
-        let grounds = grounds(mesh, sheet, &hosts[own]);
-        let normals: Vec<Vec<Vec3>> = hosts[own].iter().map(|host| normals(&host.open, x)).collect();
-        for p in mesh.pieces[own].particles.clone() {
-            let spots = grounds.iter().map(|ground| ground.under(p)).zip(&hosts[own]).zip(&normals);
-            // On the one right under it rather than beyond the rim of another.
-            if let Some(((spot, host), normals)) = spots.min_by(|a, b| a.0.0.beyond.total_cmp(&b.0.0.beyond)) {
-                x[p] = spot.raised(x, normals, LAYER * (off(mesh, sheet, host, own) - sheet.under[p]));
-            }
+pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, laid: &[Option<Laid>], x: &mut [Vec3]) {
+    let mut order: Vec<(usize, &Laid)> =
+        laid.iter().enumerate().filter_map(|(own, laid)| Some((own, laid.as_ref()?))).collect();
+    order.sort_by_key(|&(own, _)| (garment.pieces[own].layer.unsigned_abs(), own));
+    for (own, laid) in order {
+        let skin = |host: &Host| (normals(&open(mesh, sheet, host.piece), x), off(mesh, sheet, host, own));
+        let skins: Vec<(Vec<Vec3>, f64)> = laid.hosts.iter().map(skin).collect();
+        for (p, (host, spot)) in mesh.pieces[own].particles.clone().zip(&laid.spots) {
+            let (normals, off) = &skins[*host];
+            x[p] = spot.raised(x, normals, LAYER * (off - sheet.under[p]));
         }
     }
 }
@@ -157,11 +280,6 @@ struct Ground<'a> {
     locator: Locator<'a>,
 }
 
-fn grounds<'a>(mesh: &ClothMesh, sheet: &'a Sheet, hosts: &'a [Host]) -> Vec<Ground<'a>> {
-    let locator = |host: &'a Host| Locator::new(&sheet.drawn, &host.open, mesh.spacing);
-    hosts.iter().map(|host| Ground { to_host: host.to_host, drawn: &sheet.drawn, locator: locator(host) }).collect()
-}
-
 impl Ground<'_> {
     /// The spot of the host on which particle `p` lies.
     fn under(&self, p: usize) -> Spot {
@@ -175,6 +293,7 @@ impl Ground<'_> {
 }
 
 /// A spot on a host or beyond its rim.
+#[derive(Clone, Debug)]
 struct Spot {
     /// How far beyond the rim in the flat, metres.
     beyond: f64,

@@ -95,7 +95,7 @@ pub fn place(
             }
         }
     }
-    lay::lay(garment, mesh, &sheet, &rows.hosts, &mut x);
+    lay::lay(garment, mesh, &sheet, &rows.laid, &mut x);
     match mesh.pieces.iter().find(|piece| !has_room(mesh, piece, &x)) {
         Some(piece) => Err(PlaceError::Nowhere { piece: piece.name.clone() }),
         None => Ok(x),

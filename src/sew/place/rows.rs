@@ -3,7 +3,7 @@
 use super::assign::{Assigned, Facing};
 use super::fold::Sheet;
 use super::insert::{Insert, inserts, slit};
-use super::lay::{self, Host};
+use super::lay::{self, Laid};
 use crate::geometry::Vec2;
 use crate::mannequin::PartKind;
 use crate::mesh::ClothMesh;
@@ -61,8 +61,8 @@ pub(super) struct Row {
 pub(super) struct Rows {
     pub(super) rows: Vec<Row>,
     pub(super) links: Vec<Link>,
-    /// The pieces that every piece lies on; those of rows lie on none.
-    pub(super) hosts: Vec<Vec<Host>>,
+    /// How pieces lie on others; those of rows lie on none.
+    pub(super) laid: Vec<Option<Laid>>,
     /// Rows in the order they are placed, with the row they stand next to and the link between them.
     pub(super) order: Vec<(usize, Option<usize>)>,
 }
@@ -70,10 +70,10 @@ pub(super) struct Rows {
 /// Lays the pieces out. Pieces with a rigid place of their own are left out, and those that lie on others.
 pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned: &[Assigned]) -> Rows {
     let links = links(mesh, sheet);
-    let hosts = lay::hosts(garment, mesh, sheet, &links);
-    let is_at = |place: &Option<Place>| matches!(place, Some(Place::At { .. }));
+    let laid = lay::laid(garment, mesh, sheet, &links);
+    let links = lay::through(links, mesh, &laid);
     let elsewhere: Vec<bool> =
-        garment.pieces.iter().zip(&hosts).map(|(p, hosts)| is_at(&p.place) || !hosts.is_empty()).collect();
+        garment.pieces.iter().zip(&laid).map(|(p, laid)| is_at(&p.place) || laid.is_some()).collect();
     let area = |p: usize| mesh.pieces[p].triangles.len();
     let slits: Vec<Option<(usize, Vec2)>> = (0..mesh.pieces.len())
         .map(|p| slit(&links, sheet, assigned, garment, p).filter(|s| !elsewhere[p] && !elsewhere[s.0]))
@@ -106,7 +106,12 @@ pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned:
         rows.push(Row { layer, inserts, ..row });
     }
     let order = stack(&mut rows, &links, &row_of, sheet);
-    Rows { rows, links, hosts, order }
+    Rows { rows, links, laid, order }
+}
+
+/// Whether a piece has a rigid place of its own.
+pub(super) fn is_at(place: &Option<Place>) -> bool {
+    matches!(place, Some(Place::At { .. }))
 }
 
 /// The longest upright link that leads from the row to a piece not yet placed: (from, to, shift of to against from).

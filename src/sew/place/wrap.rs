@@ -44,7 +44,7 @@ pub(super) fn wrap(
         let mut ring = Ring { links: &rows.links, mesh, sheet, row, levels, stations, anchor, leans: Vec::new() };
         if row.part == PartKind::Torso && has_shoulders(row, &rows.links, sheet) {
             let pieces: Vec<usize> = row.members.iter().map(|m| m.piece).collect();
-            ring.hang_from_shoulders(body, collider, anchored.is_none(), beneath(&rows.hosts, &pieces));
+            ring.hang_from_shoulders(body, collider, anchored.is_none(), beneath(&rows.laid, &pieces));
         }
         rings.push((index, ring));
     }
