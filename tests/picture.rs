@@ -186,6 +186,27 @@ fn a_long_ribbon_lying_flat_still_has_three_views() {
     assert!(draw(&scene(&point, None)).is_ok());
 }
 
+/// A line on a lining half a millimetre behind the shell does not show through it; on the shell itself it does.
+#[test]
+fn a_piece_hides_the_lines_of_another_right_behind_it() {
+    let square = |z: f64| [[0.0, 0.0], [0.1, 0.0], [0.1, 0.2], [0.0, 0.2]].map(|[x, y]| Vec3::new(x, y, z));
+    let mut cloth = TriMesh::default();
+    for z in [0.0, -5e-4] {
+        add(&mut cloth, TriMesh { vertices: square(z).to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]] });
+    }
+    let seen_in_front = |line: Option<[u32; 2]>| {
+        let seams: Vec<Vec<Vec3>> = line.iter().map(|l| l.map(|v| cloth.vertices[v as usize]).to_vec()).collect();
+        let png =
+            draw(&Scene { piece_of_triangle: &[0, 0, 1, 1], seams: &seams, ..scene(&cloth, None) }).expect("a scene");
+        // The views stand side by side, front first. Its middle: at the corners a line's round ends stick out.
+        let rows = decode(&png).chunks(WIDTH).map(|row| row[..WIDTH / 3].to_vec()).collect::<Vec<_>>();
+        rows[2 * HEIGHT / 5..3 * HEIGHT / 5].to_vec()
+    };
+    let without = seen_in_front(None);
+    assert_eq!(seen_in_front(Some([4, 6])), without, "the diagonal of the square behind");
+    assert_ne!(seen_in_front(Some([0, 2])), without, "the diagonal of the square in front");
+}
+
 fn scene<'a>(cloth: &'a TriMesh, strain: Option<&'a [f64]>) -> Scene<'a> {
     static NOBODY: TriMesh = TriMesh { vertices: vec![], triangles: vec![] };
     Scene { body: &NOBODY, cloth, piece_of_triangle: &[], seams: &[], rims: &[], title: "", subtitle: "", strain }

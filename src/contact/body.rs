@@ -219,14 +219,15 @@ impl Collider {
         out: &mut Vec<Contact>,
     ) -> bool {
         let Some(mut contact) = Contact::on_feature(nodes, count, under, outward, x) else { return false };
-        if contact.gap(x).abs() > reach {
+        let mut gap = contact.gap(x);
+        if gap.abs() > reach {
             return false;
         }
         // In a cleft cloth may be under a feature and outside all the same.
-        if contact.gap(x) < 0.0 && !self.holds(contact.closest(x), reach) {
+        if gap < 0.0 && !self.holds(contact.closest(x), reach) {
             contact.turn_over();
+            gap = -gap;
         }
-        let gap = contact.gap(x);
         let faces = gap > 0.0 && contact.normal.dot(&outward) > FACING;
         let pushes = contact.share >= MEETS || gap > 0.0;
         let at = contact.closest(x) - contact.normal * gap;

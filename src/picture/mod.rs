@@ -49,6 +49,13 @@ pub struct Scene<'a> {
     pub strain: Option<&'a [f64]>,
 }
 
+impl Scene<'_> {
+    /// The piece of a triangle of the cloth.
+    fn piece_of(&self, triangle: usize) -> u32 {
+        self.piece_of_triangle.get(triangle).copied().unwrap_or(0)
+    }
+}
+
 /// Why a picture could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {

@@ -30,7 +30,7 @@ impl Paint {
     /// Colours of the corners of a cloth triangle, seen from its right or its wrong side.
     pub(super) fn corners(&self, scene: &Scene, triangle: usize, right_side: bool) -> [Rgb; 3] {
         let of_right = match self {
-            Self::Pieces(colors) => [colors[scene.piece_of_triangle.get(triangle).copied().unwrap_or(0) as usize]; 3],
+            Self::Pieces(colors) => [colors[scene.piece_of(triangle) as usize]; 3],
             Self::Strain(colors, _) => scene.cloth.triangles[triangle].map(|v| colors[v as usize]),
         };
         if right_side { of_right } else { of_right.map(wrong_side) }

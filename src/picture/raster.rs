@@ -12,12 +12,27 @@ pub(super) struct Corner {
     pub(super) color: Rgb,
 }
 
+/// What a triangle or a sample belongs to: a piece of cloth, or this, anything else.
+pub(super) const NO_PIECE: u32 = u32::MAX;
+
+/// A piece of a drawn line, in samples.
+pub(super) struct Stroke {
+    pub(super) ends: [[f32; 3]; 2],
+    pub(super) radius: f32,
+    pub(super) color: Rgb,
+    /// The pieces it lies on; these do not hide it unless they are nearer by `lift`, metres, others do. `NO_PIECE` fills
+    /// up; a line on no piece is hidden by all alike.
+    pub(super) pieces: [u32; 4],
+    pub(super) lift: f32,
+}
+
 /// Some rows of a panel, in samples.
 pub(super) struct Band {
     width: usize,
     first_row: usize,
     rows: usize,
     nearness: Vec<f32>,
+    piece: Vec<u32>,
     color: Vec<[u8; 4]>,
 }
 
@@ -26,7 +41,14 @@ impl Band {
     pub(super) fn new(width: usize, first_row: usize, rows: usize) -> Self {
         let [r, g, b] = PAPER.map(byte);
         let size = width * rows;
-        Self { width, first_row, rows, nearness: vec![f32::NEG_INFINITY; size], color: vec![[r, g, b, 0]; size] }
+        Self {
+            width,
+            first_row,
+            rows,
+            nearness: vec![f32::NEG_INFINITY; size],
+            piece: vec![NO_PIECE; size],
+            color: vec![[r, g, b, 0]; size],
+        }
     }
 
     /// Columns and rows of this band whose sample centres lie in a box; `None` when there are none.
@@ -38,8 +60,8 @@ impl Band {
         (x0 as isize <= x1 && y0 as isize <= y1).then_some([x0, x1 as usize, y0, y1 as usize])
     }
 
-    /// Fills a triangle where it is nearer than what is there.
-    pub(super) fn triangle(&mut self, corners: &[Corner; 3]) {
+    /// Fills a triangle of `piece` where it is nearer than what is there.
+    pub(super) fn triangle(&mut self, corners: &[Corner; 3], piece: u32) {
         let [a, b, c] = corners.map(|c| c.at);
         let lo = [a[0].min(b[0]).min(c[0]), a[1].min(b[1]).min(c[1])];
         let hi = [a[0].max(b[0]).max(c[0]), a[1].max(b[1]).max(c[1])];
@@ -70,6 +92,7 @@ impl Band {
                 let near = depth[0] + depth[1] * dx + depth[2] * dy;
                 if near > self.nearness[row + x] {
                     self.nearness[row + x] = near;
+                    self.piece[row + x] = piece;
                     let [r, g, b] = tint.map(|t| byte(t[0] + t[1] * dx + t[2] * dy));
                     self.color[row + x] = [r, g, b, 0];
                 }
@@ -77,8 +100,10 @@ impl Band {
         }
     }
 
-    /// Draws a straight stroke with round ends where it is nearer than what is there; `radius` in samples.
-    pub(super) fn stroke(&mut self, a: [f32; 3], b: [f32; 3], radius: f32, color: Rgb) {
+    /// Draws a straight stroke with round ends where nothing hides it.
+    pub(super) fn stroke(&mut self, stroke: &Stroke) {
+        let &Stroke { ends: [a, b], radius, color, pieces, lift } = stroke;
+        let anywhere = pieces[0] == NO_PIECE;
         let lo = [a[0].min(b[0]) - radius, a[1].min(b[1]) - radius];
         let hi = [a[0].max(b[0]) + radius, a[1].max(b[1]) + radius];
         let Some([x0, x1, y0, y1]) = self.window(lo, hi) else { return };
@@ -92,7 +117,9 @@ impl Band {
                 let dx = x as f32 + 0.5 - a[0];
                 let t = ((dx * along[0] + dy * along[1]) / length2).clamp(0.0, 1.0);
                 let (ox, oy) = (dx - t * along[0], dy - t * along[1]);
-                let near = a[2] + t * (b[2] - a[2]);
+                let on = self.piece[row + x];
+                let over = if anywhere || on == NO_PIECE || pieces.contains(&on) { lift } else { 0.0 };
+                let near = a[2] + t * (b[2] - a[2]) + over;
                 if ox * ox + oy * oy <= radius * radius && near > self.nearness[row + x] {
                     self.nearness[row + x] = near;
                     self.color[row + x] = [r, g, blue, 0];

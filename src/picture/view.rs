@@ -1,5 +1,6 @@
 //! From the scene to the canvas.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use rayon::prelude::*;
@@ -10,7 +11,7 @@ use super::color::{BODY, INK, PALE_INK, PAPER, RIM, Rgb, SEAM, strain};
 use super::light::Lights;
 use super::occlusion::Surroundings;
 use super::paint::Paint;
-use super::raster::{Band, Corner, SAMPLES};
+use super::raster::{Band, Corner, NO_PIECE, SAMPLES, Stroke};
 use super::{HEIGHT, Scene, WIDTH};
 use crate::geometry::{TriMesh, Vec3};
 
@@ -21,7 +22,7 @@ const BAND: usize = 64;
 const SEAM_RADIUS: f32 = 0.95;
 const RIM_RADIUS: f32 = 0.7;
 
-/// Lines are drawn as if this much nearer (metres), or the cloth they lie on would hide them; less than the distance
+/// Lines are drawn as if this much nearer (metres) than the pieces they lie on, which would hide them; less than the distance
 /// from one side of a body to the other by far.
 const LINE_LIFT: f32 = 0.004;
 
@@ -47,7 +48,7 @@ pub(super) fn render(scene: &Scene) -> Canvas {
     canvas
 }
 
-/// Normals, and how much of its surroundings every vertex sees; the same in all views.
+/// Normals, how much of its surroundings every vertex sees and the pieces it lies on; the same in all views.
 struct Lit {
     body_normals: Vec<Vec3>,
     body_seen: Vec<f32>,
@@ -56,6 +57,7 @@ struct Lit {
     cloth_seen: [Vec<f32>; 2],
     floor: TriMesh,
     floor_seen: Vec<f32>,
+    pieces_at: HashMap<[u64; 3], Vec<u32>>,
 }
 
 impl Lit {
@@ -72,6 +74,7 @@ impl Lit {
             body_normals,
             cloth_normals,
             floor,
+            pieces_at: pieces_at(scene),
         }
     }
 }
@@ -94,31 +97,26 @@ fn floor(scene: &Scene) -> TriMesh {
 /// Everything one view shows, projected, and sorted into bands.
 struct Panel {
     width: usize,
-    triangles: Vec<[Corner; 3]>,
+    /// With the piece of cloth each one is of.
+    triangles: Vec<([Corner; 3], u32)>,
     strokes: Vec<Stroke>,
     triangle_bands: Vec<Vec<u32>>,
     stroke_bands: Vec<Vec<u32>>,
 }
 
-/// A piece of a drawn line, in samples.
-struct Stroke {
-    ends: [[f32; 3]; 2],
-    radius: f32,
-    color: Rgb,
-}
-
 impl Panel {
     fn new(scene: &Scene, lit: &Lit, paint: &Paint, camera: &Camera) -> Self {
-        let mut triangles = floor_triangles(lit, camera);
-        triangles.extend(body_triangles(scene, lit, camera));
-        triangles.extend(cloth_triangles(scene, lit, paint, camera));
-        let mut strokes = strokes(scene.seams, SEAM_RADIUS, SEAM, camera);
-        strokes.extend(strokes_of_rims(scene, camera));
+        let around = floor_triangles(lit, camera).into_iter().chain(body_triangles(scene, lit, camera));
+        let mut triangles: Vec<_> = around.map(|corners| (corners, NO_PIECE)).collect();
+        let cloth = cloth_triangles(scene, lit, paint, camera).into_iter().enumerate();
+        triangles.extend(cloth.map(|(t, corners)| (corners, scene.piece_of(t))));
+        let mut strokes = strokes(scene.seams, SEAM_RADIUS, SEAM, lit, camera);
+        strokes.extend(self::strokes(scene.rims, RIM_RADIUS, RIM, lit, camera));
         let rows = |at: &[[f32; 3]], radius: f32| {
             let y = at.iter().map(|p| p[1]);
             (y.clone().fold(f32::INFINITY, f32::min) - radius, y.fold(f32::NEG_INFINITY, f32::max) + radius)
         };
-        let triangle_bands = sorted(triangles.iter().map(|t| rows(&t.map(|c| c.at), 0.0)));
+        let triangle_bands = sorted(triangles.iter().map(|(t, _)| rows(&t.map(|c| c.at), 0.0)));
         let stroke_bands = sorted(strokes.iter().map(|s| rows(&s.ends, s.radius)));
         Self { width: camera.width, triangles, strokes, triangle_bands, stroke_bands }
     }
@@ -128,11 +126,11 @@ impl Panel {
         let rows = band_rows(index);
         let mut band = Band::new(self.width * SAMPLES, rows.start * SAMPLES, rows.len() * SAMPLES);
         for &t in &self.triangle_bands[index] {
-            band.triangle(&self.triangles[t as usize]);
+            let (corners, piece) = &self.triangles[t as usize];
+            band.triangle(corners, *piece);
         }
         for &s in &self.stroke_bands[index] {
-            let stroke = &self.strokes[s as usize];
-            band.stroke(stroke.ends[0], stroke.ends[1], stroke.radius, stroke.color);
+            band.stroke(&self.strokes[s as usize]);
         }
         band.pixels()
     }
@@ -213,24 +211,44 @@ fn times(a: Rgb, b: Rgb) -> Rgb {
     [a[0] * b[0], a[1] * b[1], a[2] * b[2]]
 }
 
-fn strokes_of_rims(scene: &Scene, camera: &Camera) -> Vec<Stroke> {
-    strokes(scene.rims, RIM_RADIUS, RIM, camera)
+/// The pieces round every vertex of the cloth, by its position.
+fn pieces_at(scene: &Scene) -> HashMap<[u64; 3], Vec<u32>> {
+    let mut out: HashMap<[u64; 3], Vec<u32>> = HashMap::new();
+    for (t, corners) in scene.cloth.triangles.iter().enumerate() {
+        for &v in corners {
+            let pieces = out.entry(bits(&scene.cloth.vertices[v as usize])).or_default();
+            if !pieces.contains(&scene.piece_of(t)) {
+                pieces.push(scene.piece_of(t));
+            }
+        }
+    }
+    out
 }
 
-fn strokes(lines: &[Vec<Vec3>], radius: f32, color: Rgb, camera: &Camera) -> Vec<Stroke> {
-    let end = |p: &Vec3| {
-        let [x, y, near] = in_samples(camera, p);
-        [x, y, near + LINE_LIFT]
+fn bits(p: &Vec3) -> [u64; 3] {
+    [p.x, p.y, p.z].map(f64::to_bits)
+}
+
+/// Lines on the cloth; what leads from one of its vertices to another lies on the pieces round both.
+fn strokes(lines: &[Vec<Vec3>], radius: f32, color: Rgb, lit: &Lit, camera: &Camera) -> Vec<Stroke> {
+    let at = |p: &Vec3| lit.pieces_at.get(&bits(p)).map_or(&[][..], Vec::as_slice);
+    let stroke = |w: &[Vec3]| {
+        let mut pieces = [NO_PIECE; 4];
+        let both = at(&w[0]).iter().filter(|piece| at(&w[1]).contains(piece));
+        pieces.iter_mut().zip(both).for_each(|(slot, piece)| *slot = *piece);
+        let ends = [in_samples(camera, &w[0]), in_samples(camera, &w[1])];
+        Stroke { ends, radius: radius * SAMPLES as f32, color, pieces, lift: LINE_LIFT }
     };
-    let steps = lines.iter().flat_map(|l| l.windows(2));
-    steps.map(|w| Stroke { ends: [end(&w[0]), end(&w[1])], radius: radius * SAMPLES as f32, color }).collect()
+    lines.iter().flat_map(|l| l.windows(2)).map(stroke).collect()
 }
 
 /// Title, names of the views, scale, legend.
 fn words(canvas: &mut Canvas, scene: &Scene, cameras: &[Camera], paint: &Paint) {
     const LEFT: f32 = 56.0;
     let end = canvas.text(scene.title, [LEFT, 72.0], 5.0, INK);
-    canvas.text(scene.subtitle, [end + 34.0, 72.0], 3.0, PALE_INK);
+    let room = WIDTH as f32 - LEFT - (end + 34.0);
+    let size = (3.0 * room / Canvas::text_width(scene.subtitle, 3.0)).clamp(1.5, 3.0);
+    canvas.text(scene.subtitle, [end + 34.0, 72.0], size, PALE_INK);
     let foot = (HEIGHT - FOOT / 2 + 12) as f32;
     for camera in cameras {
         let middle = camera.left as f32 + 0.5 * camera.width as f32;
