@@ -128,8 +128,9 @@ fn drawing(curve: &[[f64; 2]], rows: &[Row]) -> String {
     for (k, row) in sorted.iter().enumerate() {
         let Some([low, high]) = row.band else { continue };
         sheet = sheet.add(line(at(row.length, 0.01 * low), at(row.length, 0.01 * high), "#bcd0e6", 1.6));
-        // Names by turns over and under the bars: neighbours stand close.
-        let (share, anchor) = if k % 2 == 0 { (low - 1.0, "end") } else { (high + 1.0, "start") };
+        // Names under their bars where these end high enough, of neighbours by turns.
+        let under = low >= 35.0 && (k % 2 == 0 || low <= 50.0);
+        let (share, anchor) = if under { (low - 1.0, "end") } else { (high + 1.0, "start") };
         let (x, y) = at(row.length, 0.01 * share);
         let name = words(row.name.replace('_', " "), (x + 0.8, y), 2.5).set("text-anchor", anchor);
         sheet = sheet.add(name.set("transform", format!("rotate(-90 {} {y})", x + 0.8)));

@@ -143,15 +143,16 @@ fn a_disc_drapes_in_folds_and_knows_its_band() {
 }
 
 /// By hand, as in the paper: soft silk gives more on the bias than canvas and folds lower; what is pushed together on a plate
-/// does not cover more than it did, nor less than its sides leave it.
+/// stays.
 #[test]
 fn specimens_drawn_out_and_folded_by_hand_tell_fabrics_apart() {
     let [silk, canvas] = ["silk_charmeuse", "canvas"].map(|name| figures_of(&sample(name), "hand tests"));
     for figures in [&silk, &canvas] {
         let [light, heavy, height, left] = &figures[..] else { panic!("{figures:?}") };
         assert!(1.0 < light.measured && light.measured < heavy.measured && heavy.measured < 1.1, "{figures:?}");
-        assert!((10.0..90.0).contains(&height.measured), "{figures:?}");
-        assert!((0.91..1.001).contains(&left.measured), "{figures:?}");
+        assert!((25.0..50.0).contains(&height.measured), "{figures:?}");
+        // The plate holds both: what was pushed in by 40 of 460 mm stays so.
+        assert!((left.measured - 420.0 / 460.0).abs() < 0.002, "{figures:?}");
     }
     assert!(silk[1].measured - 1.0 > 1.5 * (canvas[1].measured - 1.0), "{silk:?}, {canvas:?}");
     assert!(silk[2].measured < canvas[2].measured, "{silk:?}, {canvas:?}");

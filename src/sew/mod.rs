@@ -9,5 +9,6 @@ mod stitch;
 
 pub use close::{SewOptions, Sewn, sew, stitch};
 pub use error::SewError;
+pub(crate) use settle::CLEARANCE;
 pub use settle::{drape_reach, draping_world, join, settle, sewn_world};
 pub use stitch::Stitching;

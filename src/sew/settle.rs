@@ -7,7 +7,7 @@ use crate::geometry::Vec3;
 
 /// Distance kept from the body beyond half the cloth's thickness, metres. A band without ease stands off by it, and
 /// every 0.1 mm of it is 0.08 % of a waist.
-const CLEARANCE: f64 = 0.25e-3;
+pub(crate) const CLEARANCE: f64 = 0.25e-3;
 /// Stiffness of a contact as it begins, N/m: a particle's weight presses 0.02 mm. Soft, so that a contact that comes or
 /// goes does not shake the rest; it hardens as the gap closes.
 const PENALTY: f64 = 60.0;

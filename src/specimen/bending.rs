@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use std::sync::Arc;
 
-use super::rig::{ALONG_WARP, ALONG_WEFT, Sheet, nothing, settle};
+use super::rig::{ALONG_WARP, Sheet, WAYS, nothing, settle};
 use super::{Figure, Known, Outcome, Sample, SpecimenError, theory};
 use crate::fabric::Fabric;
 use crate::geometry::{Vec2, Vec3};
@@ -21,9 +21,6 @@ const GAMMAS: [f64; 8] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 100.0];
 
 /// Thickness of a strip at most, in grid spacings: its own cells must not count as layers that touch.
 const THIN: f64 = 0.1;
-
-/// The two ways a strip is cut, and what they are called.
-const WAYS: [(f64, &str); 2] = [(ALONG_WARP, "warp"), (ALONG_WEFT, "weft")];
 
 /// Bending length along a strip, metres.
 fn length_of(fabric: &Fabric, angle: f64) -> f64 {
@@ -183,7 +180,7 @@ pub(super) fn on_edge(sample: &Sample) -> Result<Outcome, SpecimenError> {
             Ok::<_, SpecimenError>(southwell([15.5, 17.0], 2.0, deflection)?.cbrt())
         };
         let measured = [critical_of(ON_EDGE[0])?, critical_of(ON_EDGE[1])?, critical_of(ON_EDGE[2])?];
-        let gamma = narrow_and_rigid(measured).ok_or(SpecimenError::Bench)?.powi(3);
+        let lengths = narrow_and_rigid(measured).ok_or(SpecimenError::Extreme)?;
         // Bent along its length and twisted by the mean of warp and weft.
         let ratio = (fabric.bend_warp / fabric.bend_weft).powf(if angle == ALONG_WARP { -0.25 } else { 0.25 });
         let c = 1e3 * length_of(fabric, angle);
@@ -191,7 +188,7 @@ pub(super) fn on_edge(sample: &Sample) -> Result<Outcome, SpecimenError> {
             test: "strip on edge",
             what: format!("{way}, longest that stays upright"),
             unit: "mm",
-            measured: c * gamma.cbrt(),
+            measured: c * lengths,
             known: Known::Value { value: c * (critical * ratio).cbrt(), tolerance: 0.02 },
         })
     };

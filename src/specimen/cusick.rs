@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::rig::{Sheet, settle};
+use super::rig::{Sheet, lift, settle};
 use super::{Figure, Known, Outcome, Sample, SpecimenError};
 use crate::contact::Collider;
 use crate::dynamics::{GRIP, World};
@@ -78,7 +78,7 @@ pub fn drape(sample: &Sample, spacing: f64) -> Result<Draped, SpecimenError> {
     // The upper disc holds the cloth down up to the pedestal's edge. What bends at the last particle that is held is the
     // cloth from half a spacing before it on, and that particle is on average half a spacing from where holding ends.
     let cloth = sheet.cloth(|p| p.norm() < PEDESTAL + spacing);
-    let lift = 0.5 * sample.fabric.thickness + 0.25e-3;
+    let lift = lift(&sample.fabric);
     let x = sheet.placed(|p| Vec3::new(p.x, lift + dent(p), p.y));
     let mut world = sheet.hang(cloth, x, &body)?;
     world.grip(GRIP);

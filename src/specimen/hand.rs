@@ -6,7 +6,7 @@
 
 use std::f64::consts::PI;
 
-use super::rig::{ALONG_WARP, Sheet, block, nothing, settle};
+use super::rig::{ALONG_WARP, Sheet, block, lift, nothing, settle};
 use super::{Figure, Known, Outcome, Sample, SpecimenError, theory};
 use crate::contact::Collider;
 use crate::dynamics::{GRAVITY, GRIP, World};
@@ -53,7 +53,7 @@ pub(super) fn measurements(sample: &Sample) -> Result<Outcome, SpecimenError> {
     }
     let [height, left] = fold(sample)?;
     out.push(figure(format!("height of a fold pushed in by {:.0} mm", 1e3 * PUSH), "mm", 1e3 * height));
-    out.push(figure(format!("area in the shadow when let go, over the whole{}", published(0)), "", left));
+    out.push(figure(format!("area within its rim from above when let go, over the whole{}", published(0)), "", left));
     Ok(out.into())
 }
 
@@ -63,13 +63,20 @@ fn diagonal(sample: &Sample, load: f64) -> Result<f64, SpecimenError> {
     let sheet = Sheet::strip(&sample.fabric, SIZE, ALONG_WARP, SPACING)?;
     let corner = Vec2::from(SIZE);
     let clip = |p: &Vec2, c: Vec2| (p - c).amax() < CLIP;
+    const DRAWN: usize = 3;
     let corners = [Vec2::zeros(), Vec2::new(SIZE[0], 0.0), Vec2::new(0.0, SIZE[1]), corner];
     let drawn = sheet.particles(|p| clip(p, corner));
     let way = corner.normalize();
     let pull = |stretch: f64| {
         let cloth = sheet.cloth(|p| corners.iter().any(|&c| clip(p, c)));
         let out = way * stretch * corner.norm();
-        let place = |p: &Vec2| if clip(p, corner) { p + out } else { p + out * (p.dot(&way) / corner.norm()).powi(4) };
+        // What is not clipped starts somewhere between.
+        let share = |p: &Vec2| match corners.iter().position(|&c| clip(p, c)) {
+            Some(DRAWN) => 1.0,
+            Some(_) => 0.0,
+            None => (p.dot(&way) / corner.norm()).powi(4),
+        };
+        let place = |p: &Vec2| p + out * share(p);
         let mut world = sheet.hang(cloth, sheet.placed(|p| place(p).push(0.0)), &bench)?;
         world.gravity = 0.0;
         settle(&mut world, SPACING, STILL)?;
@@ -78,15 +85,18 @@ fn diagonal(sample: &Sample, load: f64) -> Result<f64, SpecimenError> {
         Ok::<_, SpecimenError>(held.dot(&way.push(0.0)))
     };
     let missing = |stretch: f64| pull(stretch).map(|force| force - load * GRAVITY);
+    if missing(FURTHEST)? < 0.0 {
+        return Err(SpecimenError::Soft { strain: FURTHEST, load: load * GRAVITY });
+    }
     Ok(1.0 + theory::try_root([0.0, FURTHEST], HALVINGS, missing)?)
 }
 
-/// Height of the fold of a cloth on a plate whose far side was pushed in, and the share of its area that it covers when it
-/// has been let go.
+/// Height of the fold of a cloth on a plate whose far side was pushed in, and the area within its rim, seen from above, over
+/// the whole when it has been let go.
 fn fold(sample: &Sample) -> Result<[f64; 2], SpecimenError> {
     let plate = plate()?;
     let sheet = Sheet::strip(&sample.fabric, SIZE, ALONG_WARP, FINE)?;
-    let lift = 0.5 * sample.fabric.thickness + 0.25e-3;
+    let lift = lift(&sample.fabric);
     let raised = raised();
     let place = |p: &Vec2| {
         let part = (p.y - 0.5 * (SIZE[1] - RAISED)) / RAISED;
@@ -125,7 +135,7 @@ fn let_go(sheet: &Sheet, folded: World, plate: &Collider) -> Result<Vec<Vec3>, S
     Ok(world.x)
 }
 
-/// Area of the shadow under light from above, m², of cloth that is nowhere turned over.
+/// Area within the rim of a cloth seen from above, m²: what is turned over counts against what lies over it.
 fn covered(x: &[Vec3], triangles: &[[u32; 3]]) -> f64 {
     let area = |t: &[u32; 3]| {
         let [a, b, c] = t.map(|n| Vec2::new(x[n as usize].x, x[n as usize].z));

@@ -90,6 +90,17 @@ pub enum SpecimenError {
         /// Metres in the last ten of them.
         moved: f64,
     },
+    /// A load that it does not reach.
+    #[error("a specimen drawn out by {:.0} % does not hold {load} N", 100.0 * strain)]
+    Soft {
+        /// Share of its length.
+        strain: f64,
+        /// N.
+        load: f64,
+    },
+    /// Its stiffnesses differ by more than numbers can tell.
+    #[error("the stiffnesses of this fabric differ too much from one another")]
+    Extreme,
     /// The objects round it could not be built.
     #[error("the test bench itself cannot be built")]
     Bench,

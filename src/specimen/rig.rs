@@ -10,7 +10,7 @@ use crate::fabric::Fabric;
 use crate::geometry::{Path, TriMesh, Vec2, Vec3};
 use crate::mesh::{ClothMesh, build};
 use crate::pattern::{Edge, Garment, Piece};
-use crate::sew::draping_world;
+use crate::sew::{CLEARANCE, draping_world};
 
 /// Step length, s: so long that inertia does not hide how far there still is to go.
 const STEP: f64 = 10.0;
@@ -34,6 +34,14 @@ pub(super) struct Sheet {
 pub(super) const ALONG_WARP: f64 = 0.0;
 /// See [`ALONG_WARP`].
 pub(super) const ALONG_WEFT: f64 = 0.5 * PI;
+
+/// The two ways a strip is cut, and what they are called.
+pub(super) const WAYS: [(f64, &str); 2] = [(ALONG_WARP, "warp"), (ALONG_WEFT, "weft")];
+
+/// How high over what it lies on the middle of a cloth is, metres.
+pub(super) fn lift(fabric: &Fabric) -> f64 {
+    0.5 * fabric.thickness + CLEARANCE
+}
 
 impl Sheet {
     /// A rectangle `width` × `length` metres, its corner at the origin, its length along y and at `angle` (radians) to

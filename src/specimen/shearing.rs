@@ -1,6 +1,6 @@
 //! Shearing: the picture frame and the bias extension.
 
-use super::membrane::BiasStrip;
+use super::membrane::{BiasStrip, ORDERS};
 use super::rig::{ALONG_WARP, Sheet, nothing, settle};
 use super::{Figure, Known, Outcome, Sample, SpecimenError};
 use crate::geometry::{Vec2, Vec3};
@@ -58,8 +58,9 @@ pub(super) fn bias_extension(sample: &Sample) -> Result<Outcome, SpecimenError> 
     let fabric = &sample.fabric;
     let [width, length] = BIAS;
     let sheet = Sheet::strip(fabric, BIAS, FRAC_PI_4, SPACING)?;
-    let strip = BiasStrip { size: BIAS, stiffness: [fabric.warp.slope(0.0), fabric.weft.slope(0.0), fabric.shear] };
-    let per_metre = strip.shear_in_the_middle(MIDDLE * width).ok_or(SpecimenError::Bench)?;
+    let stiffness = [fabric.warp.slope(0.0), fabric.weft.slope(0.0), fabric.shear];
+    let strip = BiasStrip { size: BIAS, stiffness, orders: ORDERS };
+    let per_metre = strip.shear_in_the_middle(MIDDLE * width).ok_or(SpecimenError::Extreme)?;
     let mut out = Vec::new();
     for extended in EXTENDED {
         let way = extended * (length - width);
@@ -69,7 +70,7 @@ pub(super) fn bias_extension(sample: &Sample) -> Result<Outcome, SpecimenError> 
             test: "bias extension",
             what: format!("shear in the middle at {} % (trellis {:.2}°)", 100.0 * extended, trellis.to_degrees()),
             unit: "°",
-            measured: shear_in_the_middle(&sheet, &drawn_out(&sheet, way)?).abs().to_degrees(),
+            measured: shear_in_the_middle(&sheet, &drawn_out(&sheet, way)?).to_degrees(),
             known: if extended == EXTENDED[0] { known } else { Known::Nothing },
         });
     }

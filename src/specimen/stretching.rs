@@ -1,6 +1,6 @@
 //! Stretching: a strip in a tensile tester, one that hangs, and one between two hooks.
 
-use super::rig::{ALONG_WARP, ALONG_WEFT, Sheet, nothing, settle};
+use super::rig::{ALONG_WARP, Sheet, WAYS, nothing, settle};
 use super::{Figure, Known, Outcome, Sample, SpecimenError, theory};
 use crate::dynamics::{GRAVITY, World};
 use crate::fabric::{Fabric, TensileCurve};
@@ -16,9 +16,6 @@ const TESTER: [f64; 2] = [0.2, 0.05];
 const HANGING: [f64; 2] = [1.0, 0.05];
 /// Lengths of the strip between two hooks over their distance.
 const SLACK: [f64; 3] = [1.05, 1.2, 1.5];
-
-/// The two ways a strip is cut, and what they are called.
-const WAYS: [(f64, &str); 2] = [(ALONG_WARP, "warp"), (ALONG_WEFT, "weft")];
 
 fn curve_of(fabric: &Fabric, angle: f64) -> &TensileCurve {
     if angle == ALONG_WARP { &fabric.warp } else { &fabric.weft }

@@ -9,9 +9,10 @@
 //! ```
 
 use super::fold::Sheet;
+use super::rows::is_at;
 use crate::geometry::{Path, Vec2};
 use crate::mesh::ClothMesh;
-use crate::pattern::{Garment, Place};
+use crate::pattern::Garment;
 
 /// A piece that opens by less, radians, hangs well enough as it is drawn; 60°.
 const WIDE: f64 = std::f64::consts::FRAC_PI_3;
@@ -60,7 +61,7 @@ pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &mut Sheet) {
         .zip(&mesh.pieces)
         .map(|(piece, part)| {
             let plain = part.particles.clone().all(|p| sheet.under[p] == 0.0 && sheet.flat[p] == mesh.flat[p]);
-            let bent = !matches!(piece.place, Some(Place::At { .. }));
+            let bent = !is_at(&piece.place);
             let points = &mesh.flat[part.particles.clone()];
             let rim: Vec<&Path> = piece.loops.first().into_iter().flatten().map(|e| &e.path).collect();
             (plain && bent).then(|| sector(&rim, points)).flatten()

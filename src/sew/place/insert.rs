@@ -30,7 +30,7 @@ pub(super) fn slit(
     garment: &Garment,
     piece: usize,
 ) -> Option<(usize, Vec2)> {
-    let own: Vec<&Link> = links.iter().filter(|l| l.pieces.contains(&piece)).collect();
+    let own: Vec<&Link> = links.iter().filter(|l| !l.through && l.pieces.contains(&piece)).collect();
     let side = |l: &Link| usize::from(l.pieces[1] == piece);
     let host = own.first().map(|l| l.pieces[1 - side(l)])?;
     let together = |p: usize| (assigned[p].part, garment.pieces[p].layer);

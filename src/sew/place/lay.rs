@@ -3,6 +3,7 @@
 
 use nalgebra::{Isometry2, Point2, UnitComplex};
 
+use super::assign::Assigned;
 use super::fold::Sheet;
 use super::ring::LAYER;
 use super::rows::{Link, is_at};
@@ -17,6 +18,9 @@ const MISFIT: f64 = 0.02;
 /// What reaches further than this beyond the rims of what it is sewn to, metres, does not lie on it: a cape over the
 /// shoulders of a bodice goes round the arms.
 const BEYOND: f64 = 0.05;
+
+/// What lies no further beyond a rim than this, metres, lies within it.
+const ROUNDING: f64 = 1e-9;
 
 /// A piece that another one lies on.
 #[derive(Clone, Debug)]
@@ -37,15 +41,21 @@ pub(super) struct Laid {
 }
 
 /// For every piece how it lies on others; `None` for those that have a place in a row.
-pub(super) fn laid(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, links: &[Link]) -> Vec<Option<Laid>> {
-    let table = Table { garment, mesh, sheet, links, inward: inward(mesh, sheet) };
+pub(super) fn laid(
+    garment: &Garment,
+    mesh: &ClothMesh,
+    sheet: &Sheet,
+    assigned: &[Assigned],
+    links: &[Link],
+) -> Vec<Option<Laid>> {
+    let table = Table { garment, mesh, sheet, assigned, links, inward: inward(mesh, sheet) };
     let movable = |own: &usize| !is_at(&garment.pieces[*own].place) && garment.pieces[*own].layer != 0;
     let pieces: Vec<usize> = (0..mesh.pieces.len()).filter(movable).collect();
     let mut out: Vec<Option<Laid>> = vec![None; mesh.pieces.len()];
     for &own in &pieces {
         out[own] = table.on_what_it_is_sewn_to(own);
     }
-    // A lining goes on from its facing, over the cloth that lies under both: all of it, or none.
+    // A lining goes on from its facing, over the cloth that lies under both: all of it round one body part, or none.
     for group in table.groups(pieces.into_iter().filter(|&own| out[own].is_none()).collect()) {
         let found: Option<Vec<Laid>> = group.iter().map(|&own| table.beside_laid(own, &out)).collect();
         for (own, laid) in group.into_iter().zip(found.into_iter().flatten()) {
@@ -60,16 +70,17 @@ struct Table<'a> {
     garment: &'a Garment,
     mesh: &'a ClothMesh,
     sheet: &'a Sheet,
+    assigned: &'a [Assigned],
     links: &'a [Link],
     inward: Vec<Vec2>,
 }
 
 impl Table<'_> {
-    /// These pieces in groups that are sewn together within their layer.
+    /// These pieces in groups that are sewn together within their layer, round one body part.
     fn groups(&self, mut rest: Vec<usize>) -> Vec<Vec<usize>> {
-        let layer = |piece: usize| self.garment.pieces[piece].layer;
+        let place = |piece: usize| (self.garment.pieces[piece].layer, self.assigned[piece].part);
         let joined = |a: usize, b: usize| {
-            layer(a) == layer(b) && self.links.iter().any(|l| l.pieces == [a, b] || l.pieces == [b, a])
+            place(a) == place(b) && self.links.iter().any(|l| l.pieces == [a, b] || l.pieces == [b, a])
         };
         let mut out = Vec::new();
         while let Some(first) = rest.pop() {
@@ -123,11 +134,12 @@ impl Table<'_> {
     /// Spread out over `hosts`, every particle on the one right under it rather than beyond the rim of another; not if there
     /// is none or it reaches far beyond them.
     fn spread(&self, own: usize, mut hosts: Vec<Host>) -> Option<Laid> {
-        let opened: Vec<Vec<[u32; 3]>> = hosts.iter().map(|host| open(self.mesh, self.sheet, host.piece)).collect();
+        let open = |host: &Host| open(self.mesh, self.sheet, host.piece);
+        hosts.retain(|host| !open(host).is_empty());
+        let opened: Vec<Vec<[u32; 3]>> = hosts.iter().map(open).collect();
         let grounds: Vec<Ground> = hosts
             .iter()
             .zip(&opened)
-            .filter(|(_, open)| !open.is_empty())
             .map(|(host, open)| Ground {
                 to_host: host.to_host,
                 drawn: &self.sheet.drawn,
@@ -139,8 +151,6 @@ impl Table<'_> {
             spots.min_by(|a, b| a.1.beyond.total_cmp(&b.1.beyond)).filter(|(_, spot)| spot.beyond <= BEYOND)
         };
         let spots = self.mesh.pieces[own].particles.clone().map(nearest).collect::<Option<Vec<_>>>()?;
-        let mut open = opened.iter().map(|open| !open.is_empty());
-        hosts.retain(|_| open.next() == Some(true));
         Some(Laid { hosts, spots })
     }
 }
@@ -174,7 +184,7 @@ pub(super) fn through(links: Vec<Link>, mesh: &ClothMesh, laid: &[Option<Laid>])
             pieces[k] = run[0].0;
             let share = run.len() as f64 / ends.len() as f64;
             let pairs = run.iter().map(|(_, pair)| *pair).collect();
-            out.push(Link { pieces, pairs, length: link.length * share, upright: link.upright });
+            out.push(Link { pieces, pairs, length: link.length * share, upright: link.upright, through: true });
         }
     }
     out
@@ -288,7 +298,9 @@ impl Ground<'_> {
         let within = weights.map(|w| w.clamp(0.0, 1.0));
         let within = within.map(|w| w / within.iter().sum::<f64>());
         let nearest: Vec2 = corners.iter().zip(within).map(|(&n, w)| self.drawn[n as usize] * w).sum();
-        Spot { beyond: (at - nearest).norm(), corners, weights, within }
+        // Within the rim nothing but rounding tells hosts apart: the first one has it.
+        let beyond = Some((at - nearest).norm()).filter(|d| *d > ROUNDING).unwrap_or(0.0);
+        Spot { beyond, corners, weights, within }
     }
 }
 

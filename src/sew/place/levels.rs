@@ -105,7 +105,7 @@ fn joints(mesh: &ClothMesh, sheet: &Sheet, row: &Row, links: &[Link], level_of: 
             let middles = [middle(a), middle(b)];
             let mut sewn: Option<[usize; 2]> = None;
             let (mut jump, mut count) = (0.0, 0.0);
-            for link in links.iter().filter(|l| l.upright && n > 1) {
+            for link in links.iter().filter(|l| l.upright && !l.through && n > 1) {
                 let Some(k) =
                     (0..2).find(|&k| link.pieces == if k == 0 { [a.piece, b.piece] } else { [b.piece, a.piece] })
                 else {

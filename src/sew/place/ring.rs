@@ -87,7 +87,8 @@ impl Ring<'_> {
     /// Length of the row's seams with other rows.
     fn sewn_length(&self) -> f64 {
         let own = |p: usize| self.row.members.iter().any(|m| m.piece == p);
-        self.links.iter().filter(|l| own(l.pieces[0]) != own(l.pieces[1])).map(|l| l.length).sum()
+        let sewn = |l: &&Link| !l.through && own(l.pieces[0]) != own(l.pieces[1]);
+        self.links.iter().filter(sewn).map(|l| l.length).sum()
     }
 
     /// The first level at which the row goes all the way round: under the armholes.

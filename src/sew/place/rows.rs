@@ -22,6 +22,8 @@ pub(super) struct Link {
     pub(super) upright: bool,
     /// Mean of its two lengths, metres.
     pub(super) length: f64,
+    /// Whether it leads through a piece that lies between the two, which themselves are not sewn together.
+    pub(super) through: bool,
 }
 
 /// A piece in its row.
@@ -70,7 +72,7 @@ pub(super) struct Rows {
 /// Lays the pieces out. Pieces with a rigid place of their own are left out, and those that lie on others.
 pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned: &[Assigned]) -> Rows {
     let links = links(mesh, sheet);
-    let laid = lay::laid(garment, mesh, sheet, &links);
+    let laid = lay::laid(garment, mesh, sheet, assigned, &links);
     let links = lay::through(links, mesh, &laid);
     let elsewhere: Vec<bool> =
         garment.pieces.iter().zip(&laid).map(|(p, laid)| is_at(&p.place) || laid.is_some()).collect();
@@ -250,7 +252,7 @@ fn links(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Link> {
                     length += 0.5 * (sheet.flat[*to as usize] - sheet.flat[*from as usize]).norm();
                 }
             }
-            out.push(Link { pieces, pairs: run.to_vec(), upright: extent.y > extent.x, length });
+            out.push(Link { pieces, pairs: run.to_vec(), upright: extent.y > extent.x, length, through: false });
         }
     }
     out
