@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::fabric::{Fabric, TensileCurve};
-use crate::geometry::Vec3;
+use crate::geometry::{Vec3, bisect};
 
 /// The springs along a thread keep at least this share of its stretch, however little it is beside the trellis.
 const LEAST_THREAD: f64 = 0.1;
@@ -109,19 +109,6 @@ impl StretchLaw {
     }
 }
 
-/// Where `f`, which rises, passes 0 between `low` and `high`; the end nearer to it where it does not.
-fn crossing(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if f(middle) < 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    0.5 * (low + high)
-}
-
 /// First slopes (N/m) of the springs along warp and weft, so that cloth drawn out a little along one thread and free to
 /// contract along the other has the slope of its curve. The diagonals hold G of the sum of both strains and the sheet
 /// contracts until the threads across, of stiffness s, press as much: along the pull G s / (s + G) is left. Where the
@@ -130,7 +117,7 @@ fn thread_stiffness(fabric: &Fabric) -> [f64; 2] {
     let (shear, [warp, weft]) = (fabric.shear, [&fabric.warp, &fabric.weft].map(|c| c.slope(0.0)));
     let held = |across: f64| shear * across / (across + shear);
     let of_warp = |of_weft: f64| (warp - held(of_weft)).max(LEAST_THREAD * warp);
-    let of_weft = crossing(LEAST_THREAD * weft, weft, |of_weft| of_weft + held(of_warp(of_weft)) - weft);
+    let of_weft = bisect([LEAST_THREAD * weft, weft], HALVINGS, |of_weft| of_weft + held(of_warp(of_weft)) - weft);
     [of_warp(of_weft), of_weft]
 }
 
@@ -143,7 +130,8 @@ fn trellis_load(shear: f64, across: f64, strain: f64) -> f64 {
         let diagonal = (0.5 * (along * along + contracted * contracted)).sqrt();
         2.0 * shear * (diagonal - 1.0) / diagonal
     };
-    along * pull(crossing(0.0, 1.0, |contracted| across * (contracted - 1.0) + pull(contracted) * contracted))
+    let unbalanced = |contracted: f64| across * (contracted - 1.0) + pull(contracted) * contracted;
+    along * pull(bisect([0.0, 1.0], HALVINGS, unbalanced))
 }
 
 /// A spring between two nodes.

@@ -1,10 +1,12 @@
 //! The ground floor: vectors, curves, triangle meshes.
 
+mod bisect;
 mod curve;
 mod fit;
 mod locator;
 mod trimesh;
 
+pub(crate) use bisect::{bisect, try_bisect};
 pub use curve::{Path, PathError, Station, parse_transform};
 pub use fit::{Cubic, smooth_curves};
 pub(crate) use locator::Locator;

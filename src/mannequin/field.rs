@@ -2,7 +2,7 @@
 
 use super::loft::{Profile, ellipse, perimeter};
 use super::spec::{MannequinSpec, TorsoRow};
-use crate::geometry::Vec3;
+use crate::geometry::{Vec3, bisect};
 
 /// Metres per millimetre.
 const MM: f64 = 1e-3;
@@ -204,14 +204,9 @@ fn leg_rows(spec: &MannequinSpec) -> Vec<(f64, [f64; 4])> {
     rows
 }
 
-/// The half depth that gives an ellipse of half width `a` that girth (bisection; the girth rises with the depth).
+/// The half depth that gives an ellipse of half width `a` that girth, which rises with the depth.
 fn ellipse_depth(girth: f64, a: f64) -> f64 {
-    let (mut low, mut high) = (0.0, girth / 4.0);
-    for _ in 0..40 {
-        let middle = 0.5 * (low + high);
-        if perimeter(a, middle, 2.0) < girth { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
+    bisect([0.0, girth / 4.0], 40, |depth| perimeter(a, depth, 2.0) - girth)
 }
 
 fn smoothstep(from: f64, to: f64, at: f64) -> f64 {

@@ -6,11 +6,11 @@
 
 use std::f64::consts::PI;
 
-use super::rig::{ALONG_WARP, Sheet, block, lift, nothing, settle};
+use super::rig::{ALONG_WARP, Sheet, block, held_with, lift, nothing, settle};
 use super::{Figure, Known, Outcome, Sample, SpecimenError, theory};
 use crate::contact::Collider;
 use crate::dynamics::{GRAVITY, GRIP, World};
-use crate::geometry::{Vec2, Vec3};
+use crate::geometry::{Vec2, Vec3, try_bisect};
 
 /// Width (weft) and length (warp) of the specimen, metres.
 const SIZE: [f64; 2] = [0.40, 0.46];
@@ -80,15 +80,13 @@ fn diagonal(sample: &Sample, load: f64) -> Result<f64, SpecimenError> {
         let mut world = sheet.hang(cloth, sheet.placed(|p| place(p).push(0.0)), &bench)?;
         world.gravity = 0.0;
         settle(&mut world, SPACING, STILL)?;
-        let forces = world.unbalanced();
-        let held: Vec3 = -drawn.iter().map(|&n| forces[n as usize]).sum::<Vec3>();
-        Ok::<_, SpecimenError>(held.dot(&way.push(0.0)))
+        Ok::<_, SpecimenError>(held_with(&world, &drawn).dot(&way.push(0.0)))
     };
     let missing = |stretch: f64| pull(stretch).map(|force| force - load * GRAVITY);
     if missing(FURTHEST)? < 0.0 {
         return Err(SpecimenError::Soft { strain: FURTHEST, load: load * GRAVITY });
     }
-    Ok(1.0 + theory::try_root([0.0, FURTHEST], HALVINGS, missing)?)
+    Ok(1.0 + try_bisect([0.0, FURTHEST], HALVINGS, missing)?)
 }
 
 /// Height of the fold of a cloth on a plate whose far side was pushed in, and the area within its rim, seen from above, over

@@ -139,6 +139,33 @@ pub(super) fn block(low: [f64; 3], high: [f64; 3]) -> Result<Collider, SpecimenE
     Collider::new(&TriMesh { vertices: (0..8).map(corner).collect(), triangles }).ok_or(SpecimenError::Bench)
 }
 
+/// Sum of the forces with which some nodes hold the cloth, N.
+pub(super) fn held_with(world: &World, nodes: &[u32]) -> Vec3 {
+    let forces = world.unbalanced();
+    -nodes.iter().map(|&n| forces[n as usize]).sum::<Vec3>()
+}
+
+/// A strip of `length` metres at rest whose two ends are drawn apart by `strain` of it, without weight; at rest as
+/// [`settle`] has it.
+///
+/// # Errors
+/// As [`settle`].
+pub(super) fn drawn_out<'a>(
+    sheet: &Sheet,
+    length: f64,
+    strain: f64,
+    bench: &'a Collider,
+    still: f64,
+) -> Result<World<'a>, SpecimenError> {
+    let spacing = sheet.mesh.spacing;
+    let cloth = sheet.cloth(|p| p.y < 0.5 * spacing || p.y > length - 0.5 * spacing);
+    let x = sheet.placed(|p| Vec3::new(p.x, p.y * (1.0 + strain), 0.0));
+    let mut world = sheet.hang(cloth, x, bench)?;
+    world.gravity = 0.0;
+    settle(&mut world, spacing, still)?;
+    Ok(world)
+}
+
 /// Steps `world` until ten of them move no node further than `still` metres.
 ///
 /// # Errors

@@ -1,7 +1,7 @@
 //! Shearing: the picture frame and the bias extension.
 
 use super::membrane::{BiasStrip, ORDERS};
-use super::rig::{ALONG_WARP, Sheet, nothing, settle};
+use super::rig::{ALONG_WARP, Sheet, drawn_out, nothing, settle};
 use super::{Figure, Known, Outcome, Sample, SpecimenError};
 use crate::geometry::{Vec2, Vec3};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, SQRT_2};
@@ -55,7 +55,7 @@ pub(super) fn picture_frame(sample: &Sample) -> Result<Outcome, SpecimenError> {
 /// A strip cut on the bias and drawn out: by little, against the membrane of least energy; by more, beside the trellis,
 /// which no cloth of constant shear stiffness can follow in the middle ([`membrane`](super::membrane)).
 pub(super) fn bias_extension(sample: &Sample) -> Result<Outcome, SpecimenError> {
-    let fabric = &sample.fabric;
+    let (fabric, bench) = (&sample.fabric, nothing()?);
     let [width, length] = BIAS;
     let sheet = Sheet::strip(fabric, BIAS, FRAC_PI_4, SPACING)?;
     let stiffness = [fabric.warp.slope(0.0), fabric.weft.slope(0.0), fabric.shear];
@@ -64,28 +64,18 @@ pub(super) fn bias_extension(sample: &Sample) -> Result<Outcome, SpecimenError> 
     let mut out = Vec::new();
     for extended in EXTENDED {
         let way = extended * (length - width);
+        let drawn = drawn_out(&sheet, length, way / length, &bench, STILL)?;
         let trellis = FRAC_PI_2 - 2.0 * ((1.0 + extended) / SQRT_2).acos();
         let known = Known::Value { value: (per_metre * way).to_degrees(), tolerance: 0.05 };
         out.push(Figure {
             test: "bias extension",
             what: format!("shear in the middle at {} % (trellis {:.2}°)", 100.0 * extended, trellis.to_degrees()),
             unit: "°",
-            measured: shear_in_the_middle(&sheet, &drawn_out(&sheet, way)?).to_degrees(),
+            measured: shear_in_the_middle(&sheet, &drawn.x).to_degrees(),
             known: if extended == EXTENDED[0] { known } else { Known::Nothing },
         });
     }
     Ok(out.into())
-}
-
-/// Where a bias strip is at rest whose jaws are drawn apart by `way` metres.
-fn drawn_out(sheet: &Sheet, way: f64) -> Result<Vec<Vec3>, SpecimenError> {
-    let (length, bench) = (BIAS[1], nothing()?);
-    let cloth = sheet.cloth(|p| p.y < 0.5 * SPACING || p.y > length - 0.5 * SPACING);
-    let x = sheet.placed(|p| Vec3::new(p.x, p.y * (1.0 + way / length), 0.0));
-    let mut world = sheet.hang(cloth, x, &bench)?;
-    world.gravity = 0.0;
-    settle(&mut world, SPACING, STILL)?;
-    Ok(world.x)
 }
 
 /// Mean angle (radians) by which the threads of the triangles in the middle of a bias strip are off a right one.

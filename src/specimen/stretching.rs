@@ -1,8 +1,8 @@
 //! Stretching: a strip in a tensile tester, one that hangs, and one between two hooks.
 
-use super::rig::{ALONG_WARP, Sheet, WAYS, nothing, settle};
+use super::rig::{ALONG_WARP, Sheet, WAYS, drawn_out, held_with, nothing, settle};
 use super::{Figure, Known, Outcome, Sample, SpecimenError, theory};
-use crate::dynamics::{GRAVITY, World};
+use crate::dynamics::GRAVITY;
 use crate::fabric::{Fabric, TensileCurve};
 use crate::geometry::Vec3;
 
@@ -19,12 +19,6 @@ const SLACK: [f64; 3] = [1.05, 1.2, 1.5];
 
 fn curve_of(fabric: &Fabric, angle: f64) -> &TensileCurve {
     if angle == ALONG_WARP { &fabric.warp } else { &fabric.weft }
-}
-
-/// Sum of the forces with which some nodes hold the cloth, N.
-fn held_with(world: &World, nodes: &[u32]) -> Vec3 {
-    let forces = world.unbalanced();
-    -nodes.iter().map(|&n| forces[n as usize]).sum::<Vec3>()
 }
 
 /// Strain between two gauge marks a quarter of the strip from its jaws, which keep the cloth beside them from contracting.
@@ -47,11 +41,7 @@ pub(super) fn pulled(sample: &Sample) -> Result<Outcome, SpecimenError> {
     for (angle, way) in WAYS {
         let sheet = Sheet::strip(fabric, [width, length], angle, SPACING)?;
         for &(strain, _) in curve_of(fabric, angle).points.iter().filter(|p| p.1 > 0.0) {
-            let cloth = sheet.cloth(|p| p.y < 0.5 * SPACING || p.y > length - 0.5 * SPACING);
-            let x = sheet.placed(|p| Vec3::new(p.x, p.y * (1.0 + strain), 0.0));
-            let mut world = sheet.hang(cloth, x, &bench)?;
-            world.gravity = 0.0;
-            settle(&mut world, SPACING, STILL)?;
+            let world = drawn_out(&sheet, length, strain, &bench, STILL)?;
             let jaw = sheet.particles(|p| p.y > length - 0.5 * SPACING);
             let strain = strain_in_the_middle(&sheet, &world.x);
             out.push(Figure {

@@ -3,8 +3,9 @@
 //! All of them are initial value problems walked from the free end, with t = 1 there less the share of the length
 //! that has been walked from it: t = 0 at the free end, 1 in the clamp.
 
-use std::convert::Infallible;
 use std::f64::consts::FRAC_PI_2;
+
+use crate::geometry::bisect;
 
 /// Steps of an integration from one end to the other; halving them changes no figure in its sixth digit.
 const STEPS: usize = 4000;
@@ -31,25 +32,7 @@ fn walk(from: f64, f: impl Fn(f64, f64) -> f64, mut see: impl FnMut(f64, f64)) -
 
 /// Where `f` passes from negative to positive between `low` and `high`.
 pub(super) fn root(low: f64, high: f64, f: impl Fn(f64) -> f64) -> f64 {
-    let Ok(found) = try_root([low, high], BISECTIONS, |x| Ok::<_, Infallible>(f(x)));
-    found
-}
-
-/// As [`root`], in so many `halvings`, of a function that may fail.
-pub(super) fn try_root<E>(
-    [mut low, mut high]: [f64; 2],
-    halvings: usize,
-    f: impl Fn(f64) -> Result<f64, E>,
-) -> Result<f64, E> {
-    for _ in 0..halvings {
-        let middle = 0.5 * (low + high);
-        if f(middle)? < 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    Ok(0.5 * (low + high))
+    bisect([low, high], BISECTIONS, f)
 }
 
 /// A strip clamped level at one end, under its own weight, Γ = σ g L³/B (Peirce 1930; the elastica θ'' = −Γ (1−s) cos θ,

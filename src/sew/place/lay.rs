@@ -7,7 +7,7 @@ use super::assign::Assigned;
 use super::fold::Sheet;
 use super::ring::LAYER;
 use super::rows::{Link, is_at};
-use crate::geometry::{Locator, Vec2, Vec3};
+use crate::geometry::{Locator, TriMesh, Vec2, Vec3};
 use crate::mesh::ClothMesh;
 use crate::pattern::Garment;
 
@@ -133,10 +133,9 @@ impl Table<'_> {
 
     /// Spread out over `hosts`, every particle on the one right under it rather than beyond the rim of another; not if there
     /// is none or it reaches far beyond them.
-    fn spread(&self, own: usize, mut hosts: Vec<Host>) -> Option<Laid> {
-        let open = |host: &Host| open(self.mesh, self.sheet, host.piece);
-        hosts.retain(|host| !open(host).is_empty());
-        let opened: Vec<Vec<[u32; 3]>> = hosts.iter().map(open).collect();
+    fn spread(&self, own: usize, hosts: Vec<Host>) -> Option<Laid> {
+        let opened = hosts.into_iter().map(|host| (open(self.mesh, self.sheet, host.piece), host));
+        let (opened, hosts): (Vec<_>, Vec<_>) = opened.filter(|(open, _)| !open.is_empty()).unzip();
         let grounds: Vec<Ground> = hosts
             .iter()
             .zip(&opened)
@@ -259,7 +258,7 @@ pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, laid: &[Op
         laid.iter().enumerate().filter_map(|(own, laid)| Some((own, laid.as_ref()?))).collect();
     order.sort_by_key(|&(own, _)| (garment.pieces[own].layer.unsigned_abs(), own));
     for (own, laid) in order {
-        let skin = |host: &Host| (normals(&open(mesh, sheet, host.piece), x), off(mesh, sheet, host, own));
+        let skin = |host: &Host| (normals(open(mesh, sheet, host.piece), x), off(mesh, sheet, host, own));
         let skins: Vec<(Vec<Vec3>, f64)> = laid.hosts.iter().map(skin).collect();
         for (p, (host, spot)) in mesh.pieces[own].particles.clone().zip(&laid.spots) {
             let (normals, off) = &skins[*host];
@@ -327,13 +326,8 @@ impl Spot {
     }
 }
 
-/// Directions out of the cloth's right side at the corners of these triangles, weighted by area.
-fn normals(triangles: &[[u32; 3]], x: &[Vec3]) -> Vec<Vec3> {
-    let mut out = vec![Vec3::zeros(); x.len()];
-    for t in triangles {
-        let [a, b, c] = t.map(|n| x[n as usize]);
-        let normal = (c - a).cross(&(b - a));
-        t.iter().for_each(|&n| out[n as usize] += normal);
-    }
-    out.iter().map(|n| n.try_normalize(0.0).unwrap_or_default()).collect()
+/// Directions out of the cloth's right side at the corners of these triangles, weighted by area. (Seen from there their
+/// corners go round clockwise.)
+fn normals(triangles: Vec<[u32; 3]>, x: &[Vec3]) -> Vec<Vec3> {
+    TriMesh { vertices: x.to_vec(), triangles }.vertex_normals().iter().map(|n| -n).collect()
 }
