@@ -251,3 +251,21 @@ fn timing_of_a_70_by_70_grid() {
         measure::<f32>(&format!("{name} f32"), &pattern, &edges, &ordering);
     }
 }
+
+#[test]
+fn a_stronger_diagonal_leaves_the_rest_as_it_is() {
+    let (_, edges) = grid(4);
+    let pattern = Arc::new(SymmetricPattern::blocks(16, pairs(&edges)).unwrap());
+    let before = springs::<f64>(&pattern, &edges);
+    let mut after = before.clone();
+    after.strengthen_diagonal(0.25);
+    for row in 0..48 {
+        let mut unit = vec![0.0; 48];
+        unit[row] = 1.0;
+        let [mut old, mut new] = [vec![0.0; 48], vec![0.0; 48]];
+        before.multiply(&unit, &mut old);
+        after.multiply(&unit, &mut new);
+        old[row] *= 1.25;
+        assert_eq!(old, new);
+    }
+}

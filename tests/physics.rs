@@ -178,6 +178,35 @@ fn contact_pushes_within_its_distance_only() {
     }
 }
 
+/// Gaps of a tenth of a micrometre ask for a stiffness of 1e9 N/m, beside which the springs are lost in single precision.
+#[test]
+fn a_step_can_be_made_where_contacts_press_hard() {
+    let (cloth, x) = panel(70.0, 60.0, 10.0, SpringModel::Measured);
+    let kept = cloth.half_thickness[0] + LAW.body_clearance;
+    let noise = noise(3 * 24);
+    let contacts: Vec<Contact> = noise
+        .chunks_exact(3)
+        .zip(20u32..)
+        .map(|(d, node)| {
+            let normal = Vec3::from_column_slice(d).normalize();
+            let weights = [0.4, 0.6, -0.5, -0.5];
+            let nodes = [node, node + 1, node + 8, node + 9];
+            let at: Vec3 = nodes.iter().zip(weights).map(|(&n, w)| x[n as usize] * w).sum();
+            let offset = normal.dot(&at) - 2e-4 * kept;
+            Contact { nodes, weights, count: 4, normal, offset, under: Under::Cloth, above: 2, share: 1.0 }
+        })
+        .collect();
+    let touching: Vec<[u32; 2]> = contacts
+        .iter()
+        .flat_map(|c| (0..4).flat_map(|i| (i + 1..4).map(move |j| [c.nodes[i], c.nodes[j]])))
+        .collect();
+    let mut stepper = Stepper::new(&cloth, &[], &touching, &x).expect("a system");
+    let still = vec![Vec3::zeros(); x.len()];
+    let step = stepper.solve(&cloth, &x, &still, 1.0, &Forces { contacts: &contacts, ..NOTHING }, 1).expect("a step");
+    let longest = step.iter().map(Vec3::norm).fold(0.0, f64::max);
+    assert!(longest > 1e-6 && longest < 0.1, "{longest}");
+}
+
 #[test]
 fn forces_are_the_slope_of_the_energy() {
     for model in [SpringModel::Measured, SpringModel::Soft { stiffness: 50.0, bias: 0.3 }] {

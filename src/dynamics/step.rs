@@ -23,8 +23,8 @@ pub enum StepError {
     /// Its factor cannot be analysed.
     #[error(transparent)]
     Analysis(#[from] CholeskyError),
-    /// The matrix is not positive definite: some position or force is not finite.
-    #[error("the step's matrix is singular near particle {node}: a position or a force is not finite")]
+    /// The matrix is not positive definite, nor with a thousandth more on its diagonal.
+    #[error("the step's matrix is singular near particle {node}: what holds it there is not finite, or too stiff")]
     Singular {
         /// The node.
         node: usize,
@@ -50,10 +50,9 @@ const SAME: Reuse = Reuse { moved: 2e-5, contacts: 0 };
 /// Stiffness of what holds a node, in those of the stiffest spring.
 const WALL: f64 = 1e6;
 
-/// Shares of the largest spring stiffness that are tried one after another, ten times as much each, where a matrix is
-/// singular to rounding: from a few units in the last place of single precision.
-const FIRST_RIDGE: f64 = 1e-6;
-const LAST_RIDGE: f64 = 1.1e-3;
+/// Shares of the diagonal that are added to it one after another where a matrix is singular to rounding: from a few units
+/// in the last place of single precision.
+const RIDGES: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
 
 /// The linear system of a cloth, analysed once, filled and factored for every step.
 pub struct Stepper {
@@ -227,7 +226,7 @@ impl Stepper {
             self.add_contact(&forces.contacts[k], &stiffness);
         }
         self.hold(cloth, x);
-        self.factor(cloth, x)?;
+        self.factor()?;
         self.made = Some(Made { x: x.to_vec(), dt, pushing, sliding: contacts.sliding() });
         Ok(())
     }
@@ -243,22 +242,18 @@ impl Stepper {
         }
     }
 
-    /// Factors the matrix. Cloth that nothing holds, in a long step, is singular to single precision: its inertia is lost
-    /// beside its stiffness. A little of that stiffness against every motion stands in for it.
-    fn factor(&mut self, cloth: &Cloth, x: &[Vec3]) -> Result<(), StepError> {
+    /// Factors the matrix. Two kinds are singular to single precision: cloth that nothing holds, in a long step (its
+    /// inertia is lost beside its stiffness), and a node that contacts press so hard that its springs are lost beside
+    /// them. What rounding takes from a row is a share of its diagonal entry: a little more than that, added to it, makes
+    /// the matrix positive definite again, and each node is slowed by no more than its own stiffness asks for.
+    fn factor(&mut self) -> Result<(), StepError> {
         let Err(mut failed) = self.factor.factor(&self.matrix) else { return Ok(()) };
-        let stiffest = stiffest(cloth, x);
-        let mut ridge = FIRST_RIDGE * stiffest;
-        // A number that is not finite is no matter of rounding.
-        while stiffest.is_finite() && ridge > 0.0 && ridge <= LAST_RIDGE * stiffest {
-            for slot in &self.diagonal {
-                self.matrix.add_block(*slot, &(Mat3::identity() * ridge));
-            }
+        for ridge in RIDGES {
+            self.matrix.strengthen_diagonal(ridge);
             match self.factor.factor(&self.matrix) {
                 Ok(()) => return Ok(()),
                 Err(again) => failed = again,
             }
-            ridge *= 10.0;
         }
         Err(StepError::Singular { node: failed.dof / 3 })
     }

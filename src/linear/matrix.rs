@@ -61,6 +61,15 @@ impl<T: Scalar> SymmetricMatrix<T> {
         }
     }
 
+    /// Adds `share` of itself to every entry of the diagonal.
+    pub fn strengthen_diagonal(&mut self, share: f64) {
+        // Columns hold the lower triangle: each begins with its diagonal entry.
+        for column in 0..self.pattern.size() {
+            let entry = &mut self.values[self.pattern.starts()[column] as usize];
+            *entry += T::from_f64(entry.to_f64() * share);
+        }
+    }
+
     /// out = A·x, summed in f64.
     ///
     /// # Panics

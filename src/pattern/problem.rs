@@ -242,6 +242,9 @@ impl Problem {
             Self::CounterClockwise(_) => "distances along its edges are measured the clockwise way".to_owned(),
             Self::NoGrain(_) => "give it as grain: [[x, y], [x, y]], tail to head".to_owned(),
             Self::DartLegs { .. } => "give 'length' instead of 'tip' and both legs are equal".to_owned(),
+            Self::BackwardsRange(_) => {
+                "the smaller number comes first, along the edge; which way a seam runs follows from its 'face'".to_owned()
+            }
             Self::ChainBroken { .. } => "name the edges in the order they are sewn, end to end".to_owned(),
             Self::TooManyValues(_) => "write the pieces with 'like' instead".to_owned(),
             _ => return None,

@@ -1,5 +1,7 @@
 //! A row as a ring on its body part.
 
+use std::collections::BTreeSet;
+
 use super::ellipse::Ellipse;
 use super::fold::Sheet;
 use super::levels::{LEVEL, Level, complete_shifts, smooth_shifts, smoothed, spread_out};
@@ -84,11 +86,20 @@ impl Ring<'_> {
         })
     }
 
-    /// Length of the row's seams with other rows.
+    /// How much of the row's rim is sewn to other rows, metres; what is sewn to several layers counts once.
     fn sewn_length(&self) -> f64 {
         let own = |p: usize| self.row.members.iter().any(|m| m.piece == p);
-        let sewn = |l: &&Link| !l.through && own(l.pieces[0]) != own(l.pieces[1]);
-        self.links.iter().filter(sewn).map(|l| l.length).sum()
+        let mut counted = BTreeSet::new();
+        let mut length = 0.0;
+        for link in self.links.iter().filter(|l| !l.through) {
+            let Some(k) = (0..2).find(|&k| own(link.pieces[k]) && !own(link.pieces[1 - k])) else { continue };
+            for [a, b] in link.pairs.array_windows().map(|[a, b]: &[[u32; 2]; 2]| [a[k], b[k]]) {
+                if counted.insert([a.min(b), a.max(b)]) {
+                    length += (self.sheet.flat[a as usize] - self.sheet.flat[b as usize]).norm();
+                }
+            }
+        }
+        length
     }
 
     /// The first level at which the row goes all the way round: under the armholes.
