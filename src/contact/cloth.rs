@@ -1,5 +1,7 @@
 //! Pairs of cloth primitives near each other.
 
+use std::collections::HashMap;
+
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::partitioning::{Bvh, BvhWorkspace};
 use rayon::prelude::*;
@@ -31,7 +33,7 @@ struct Patch {
     triangles: Vec<u32>,
     nodes: Vec<u32>,
     edges: Vec<[u32; 2]>,
-    /// Patches that it shares a node with, and itself, sorted.
+    /// Patches that it shares a particle with, and itself, sorted.
     beside: Vec<u32>,
 }
 
@@ -57,7 +59,7 @@ impl ClothDetector {
         for group in order.chunk_by_mut(|&a, &b| piece[a as usize] == piece[b as usize]) {
             split(group, &centers, &mut leaves);
         }
-        let patches = own_primitives(leaves, triangles, piece);
+        let patches = own_primitives(leaves, triangles, flat, piece);
         Self {
             triangles: triangles.to_vec(),
             flat: flat.to_vec(),
@@ -271,7 +273,7 @@ fn split(group: &mut [u32], centers: &[Vec2], leaves: &mut Vec<Vec<u32>>) {
 }
 
 /// Gives every node and every edge to the first patch that has it.
-fn own_primitives(leaves: Vec<Vec<u32>>, triangles: &[[u32; 3]], piece: &[u32]) -> Vec<Patch> {
+fn own_primitives(leaves: Vec<Vec<u32>>, triangles: &[[u32; 3]], flat: &[[Vec2; 3]], piece: &[u32]) -> Vec<Patch> {
     let topology = Topology::new(triangles);
     let nodes = triangles.iter().flatten().max().map_or(0, |&n| n as usize + 1);
     let mut node_owned = vec![false; nodes];
@@ -296,23 +298,28 @@ fn own_primitives(leaves: Vec<Vec<u32>>, triangles: &[[u32; 3]], piece: &[u32]) 
         }
         patches.push(patch);
     }
-    find_beside(&mut patches, triangles, nodes);
+    find_beside(&mut patches, triangles, flat);
     patches
 }
 
-/// Finds the patches that share nodes.
-fn find_beside(patches: &mut [Patch], triangles: &[[u32; 3]], nodes: usize) {
-    let mut at = vec![Vec::new(); nodes];
+/// Finds the patches that share particles: nodes at one place of the flat piece. What meets in a seam only (the ends of a
+/// band, the sides of a sleeve) may well slide one over the other.
+fn find_beside(patches: &mut [Patch], triangles: &[[u32; 3]], flat: &[[Vec2; 3]]) {
+    let particles = |t: u32| {
+        let place = flat[t as usize].map(|p| [p.x.to_bits(), p.y.to_bits()]);
+        triangles[t as usize].into_iter().zip(place)
+    };
+    let mut at: HashMap<(u32, [u64; 2]), Vec<u32>> = HashMap::new();
     for (number, patch) in patches.iter().enumerate() {
-        for &node in patch.triangles.iter().flat_map(|&t| &triangles[t as usize]) {
-            let at: &mut Vec<u32> = &mut at[node as usize];
+        for particle in patch.triangles.iter().flat_map(|&t| particles(t)) {
+            let at = at.entry(particle).or_default();
             if at.last() != Some(&(number as u32)) {
                 at.push(number as u32);
             }
         }
     }
     for patch in patches {
-        let of = |&t: &u32| triangles[t as usize].iter().flat_map(|&node| at[node as usize].iter().copied());
+        let of = |&t: &u32| particles(t).flat_map(|particle| at[&particle].iter().copied());
         patch.beside = patch.triangles.iter().flat_map(of).collect();
         patch.beside.sort_unstable();
         patch.beside.dedup();
@@ -394,6 +401,21 @@ mod tests {
         for v in 14..25u32 {
             let third = |c: &&Contact| c.nodes[0] == v && c.above == 1 && c.nodes[1..].iter().all(|&n| n >= 26);
             assert!(contacts.iter().any(|c| third(&c)), "vertex {v}");
+        }
+    }
+
+    #[test]
+    fn the_ends_of_a_band_sewn_together_at_one_corner_touch() {
+        // Both sheets are ends of one band, a metre apart in the flat; their first corners are one node.
+        let (x, mut t, mut f, p) = sheets(12, 0.01, 0.005);
+        for (t, f) in t.iter_mut().zip(&mut f).skip(288) {
+            f.iter_mut().for_each(|at| at.x += 1.0);
+            t.iter_mut().filter(|n| **n == 169).for_each(|n| *n = 0);
+        }
+        let contacts = detector(&x, &t, &f, &vec![0; p.len()]).detect(&x, 0.008);
+        // All but what has that corner, or what pulling it to the other sheet has moved away.
+        for v in (0..169u32).filter(|v| v % 13 > 1 || *v > 26) {
+            assert!(contacts.iter().any(|c| c.nodes[0] == v && c.weights[0] == 1.0), "vertex {v}");
         }
     }
 
