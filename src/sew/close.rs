@@ -2,7 +2,7 @@
 
 use super::error::SewError;
 use super::recover::lead_out;
-use super::settle::{UNTANGLE, join, settle, sewn_world, untangle};
+use super::settle::{UNTANGLE, join, neighbourhood, settle, sewn_world, untangle};
 use super::stitch::Stitching;
 use crate::contact::{Collider, Neighbourhood};
 use crate::dynamics::{Cloth, ContactLaw, Cut, Pull, Reach, SpringModel, World, identity_nodes};
@@ -86,6 +86,9 @@ const NEAR: f64 = 7.5e-3;
 /// The next phase also begins when the widest gap has not shrunk to this share of itself in so many steps.
 const STALL: usize = 6;
 const PROGRESS: f64 = 0.8;
+/// In the last phase, pairs that have not closed by as much in so many steps are jammed: their rims lie folded over one
+/// another. They and their neighbours let each other pass; what is tangled once they are stitched is led out.
+const JAMMED: usize = 12;
 /// Classes of three and more particles pull so much harder: closed last they jam.
 const JUNCTION: f64 = 8.0;
 
@@ -125,9 +128,16 @@ pub fn sew(
             first = widest;
         }
         history.push(widest);
-        let stalled = history.len() > STALL && widest > PROGRESS * history[history.len() - 1 - STALL];
-        if phase + 1 < PHASES.len() && (stalled || (phase == 0 && widest < NEAR)) {
-            phase += 1;
+        let stuck_for = |steps: usize| history.len() > steps && widest > PROGRESS * history[history.len() - 1 - steps];
+        if phase + 1 < PHASES.len() {
+            if stuck_for(STALL) || (phase == 0 && widest < NEAR) {
+                phase += 1;
+                history.clear();
+            }
+        } else if stuck_for(JAMMED) {
+            let open = stitching.pairs.iter().zip(&gaps).filter(|(_, gap)| **gap > options.tolerance);
+            let jammed = neighbourhood(&world, open.flat_map(|((ends, _), _)| ends));
+            world.set_tangled(jammed)?;
             history.clear();
         }
         let (stiffness, force) = PHASES[phase];

@@ -101,7 +101,7 @@ pub(super) fn untangle(world: &mut World, spring: bool, most: usize) -> Result<u
     let mut left = world.tangles();
     let any = !left.is_empty();
     while !left.is_empty() && rounds < most {
-        let tangled = neighbourhood(world, &left);
+        let tangled = neighbourhood(world, left.iter().flat_map(|t| t.edge.iter().chain(&t.triangle)));
         smooth(world, &tangled);
         if spring {
             world.set_tangled(tangled)?;
@@ -121,12 +121,10 @@ fn step(world: &mut World) -> Result<f64, StepError> {
     Ok(world.newton(STEP, TRUST)?.moved)
 }
 
-/// Nodes of the tangles and one ring round them.
-fn neighbourhood(world: &World, tangles: &[Tangle]) -> Vec<bool> {
+/// These nodes and one ring round them.
+pub(super) fn neighbourhood<'a>(world: &World, nodes: impl Iterator<Item = &'a u32>) -> Vec<bool> {
     let mut core = vec![false; world.x.len()];
-    for n in tangles.iter().flat_map(|t| t.edge.iter().chain(&t.triangle)) {
-        core[*n as usize] = true;
-    }
+    nodes.for_each(|n| core[*n as usize] = true);
     let mut out = core.clone();
     for [a, b] in world.cloth.edges.iter().map(|e| e.map(|n| n as usize)) {
         out[a] |= core[b];
