@@ -18,10 +18,11 @@ const LONGEST_REACH: f64 = 8.8e-3;
 /// Rounds of leading tangles apart: where nothing else can be done, and where the garment can be sewn from the beginning.
 pub(super) const UNTANGLE: usize = 60;
 const SOON: usize = 8;
-/// The measured springs pull the cloth true after the last tangle is gone: at most so many steps, until no node goes
-/// further than so many metres in one.
+/// The measured springs pull the cloth true after the last tangle is gone: at most so many steps, until the energy of the
+/// last few falls by no more than this share of itself. (What still moves then are waves of cloth without weight.)
 const SETTLE: usize = 40;
-const SETTLED: f64 = 0.2e-3;
+const LAST_FEW: usize = 5;
+const SETTLED: f64 = 0.05;
 /// The most a step changes an edge, metres: half a cell at the usual spacing.
 const TRUST: f64 = 5e-3;
 /// Step length, s: long, for inertia only delays rest.
@@ -81,9 +82,12 @@ pub fn join(
 /// As [`World::advance`].
 pub fn settle(world: &mut World) -> Result<(usize, usize), StepError> {
     let mut steps = untangle(world, true, UNTANGLE)?;
-    for _ in 0..SETTLE {
+    let mut energies = vec![world.energy()];
+    for made in 1..=SETTLE {
+        step(world)?;
         steps += 1;
-        if step(world)? < SETTLED {
+        energies.push(world.energy());
+        if made >= LAST_FEW && energies[made] > (1.0 - SETTLED) * energies[made - LAST_FEW] {
             break;
         }
     }
@@ -116,9 +120,9 @@ pub(super) fn untangle(world: &mut World, spring: bool, most: usize) -> Result<u
     Ok(rounds)
 }
 
-/// One step down the energy; returns the largest motion, metres.
-fn step(world: &mut World) -> Result<f64, StepError> {
-    Ok(world.newton(STEP, TRUST)?.moved)
+/// One step down the energy.
+fn step(world: &mut World) -> Result<(), StepError> {
+    world.newton(STEP, TRUST).map(|_| ())
 }
 
 /// These nodes and one ring round them.
