@@ -14,6 +14,8 @@ const COARSER: f64 = 2.0;
 /// No level is coarser than this, metres: a waistband of 40 mm can just be meshed then, and a wrist has seven cells round
 /// it. Skirts and trousers begun at 28 to 32 mm came to rest no sooner.
 const COARSEST: f64 = 0.025;
+/// A level has to be so much coarser to pay.
+const LEAST: f64 = 1.5;
 /// Share of a stage's progress that its coarser levels are.
 pub(super) const COARSE_SHARE: f64 = 0.3;
 
@@ -55,8 +57,8 @@ impl Job {
 
     /// The next coarser level, sewn; none where the garment cannot be meshed or sewn so coarse.
     fn coarser(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Option<Box<Coarse>> {
-        let spacing = COARSER * mesh.spacing;
-        if spacing > COARSEST {
+        let spacing = (COARSER * mesh.spacing).min(COARSEST);
+        if spacing < LEAST * mesh.spacing {
             return None;
         }
         let mesh = mesh::build(&self.garment, spacing).ok()?;
