@@ -2,8 +2,9 @@
 
 use super::error::SewError;
 use super::recover::lead_out;
-use super::settle::{UNTANGLE, join, neighbourhood, settle, sewn_world, untangle};
+use super::settle::{join, settle, sewn_world};
 use super::stitch::Stitching;
+use super::untangle::{neighbourhood, untangle};
 use crate::contact::{Collider, Neighbourhood};
 use crate::dynamics::{Cloth, ContactLaw, Cut, Pull, Reach, SpringModel, World, identity_nodes};
 use crate::geometry::Vec3;
@@ -114,7 +115,7 @@ pub fn sew(
     let hood = Neighbourhood { class: stitching.class.clone(), tangled: Vec::new() };
     let mut world = World::new(cloth, start, &pairs, body, hood, law, reach)?;
 
-    untangle(&mut world, false, UNTANGLE)?;
+    untangle(&mut world)?;
     let mut phase = 0;
     let mut history: Vec<f64> = Vec::new();
     let (mut steps, mut first) = (0, options.tolerance);

@@ -6,6 +6,7 @@ pub mod place;
 mod recover;
 mod settle;
 mod stitch;
+mod untangle;
 
 pub use close::{SewOptions, Sewn, sew, stitch};
 pub use error::SewError;

@@ -1,7 +1,8 @@
 //! The moment after stitching: crossings left beside the seams are led out, and the cloth gets its own springs.
 
 use super::stitch::Stitching;
-use crate::contact::{Collider, Neighbourhood, Tangle};
+use super::untangle::untangle;
+use crate::contact::{Collider, Neighbourhood};
 use crate::dynamics::{Cloth, ContactLaw, Cut, Reach, SpringModel, StepError, World};
 use crate::geometry::Vec3;
 
@@ -15,9 +16,6 @@ const PENALTY: f64 = 60.0;
 /// and must not go further than edges and vertices of the body are looked for.
 const REACH: f64 = 0.8;
 const LONGEST_REACH: f64 = 8.8e-3;
-/// Rounds of leading tangles apart: where nothing else can be done, and where the garment can be sewn from the beginning.
-pub(super) const UNTANGLE: usize = 60;
-const SOON: usize = 8;
 /// The measured springs pull the cloth true after the last tangle is gone: at most so many steps, until the energy of the
 /// last few falls by no more than this share of itself. (What still moves then are waves of cloth without weight.)
 const SETTLE: usize = 40;
@@ -71,7 +69,7 @@ pub fn join(
     particles: &[Vec3],
 ) -> Result<Option<Vec<Vec3>>, StepError> {
     let mut world = sewn_world(cut, body, stitching, stitching.welded(particles))?;
-    untangle(&mut world, true, SOON)?;
+    untangle(&mut world)?;
     Ok(world.tangles().is_empty().then_some(world.x))
 }
 
@@ -81,7 +79,7 @@ pub fn join(
 /// # Errors
 /// As [`World::advance`].
 pub fn settle(world: &mut World) -> Result<(usize, usize), StepError> {
-    let mut steps = untangle(world, true, UNTANGLE)?;
+    let mut steps = untangle(world)?;
     let mut energies = vec![world.energy()];
     for made in 1..=SETTLE {
         step(world)?;
@@ -94,59 +92,7 @@ pub fn settle(world: &mut World) -> Result<(usize, usize), StepError> {
     Ok((steps, world.tangles().len()))
 }
 
-/// Leads the cloth out of itself where it crosses: tangled nodes do not touch each other and move to the middle of their
-/// neighbours until the last crossing is gone. With `spring` the springs pull after every round; pieces that are not
-/// sewn yet are only smoothed. Returns the rounds that took, `most` at most.
-///
-/// # Errors
-/// As [`World::advance`].
-pub(super) fn untangle(world: &mut World, spring: bool, most: usize) -> Result<usize, StepError> {
-    let mut rounds = 0;
-    let mut left = world.tangles();
-    let any = !left.is_empty();
-    while !left.is_empty() && rounds < most {
-        let tangled = neighbourhood(world, left.iter().flat_map(|t| t.edge.iter().chain(&t.triangle)));
-        smooth(world, &tangled);
-        if spring {
-            world.set_tangled(tangled)?;
-            step(world)?;
-        }
-        rounds += 1;
-        left = world.tangles();
-    }
-    if any {
-        world.set_tangled(Vec::new())?;
-    }
-    Ok(rounds)
-}
-
 /// One step down the energy.
 fn step(world: &mut World) -> Result<(), StepError> {
     world.newton(STEP, TRUST).map(|_| ())
-}
-
-/// These nodes and one ring round them.
-pub(super) fn neighbourhood<'a>(world: &World, nodes: impl Iterator<Item = &'a u32>) -> Vec<bool> {
-    let mut core = vec![false; world.x.len()];
-    nodes.for_each(|n| core[*n as usize] = true);
-    let mut out = core.clone();
-    for [a, b] in world.cloth.edges.iter().map(|e| e.map(|n| n as usize)) {
-        out[a] |= core[b];
-        out[b] |= core[a];
-    }
-    out
-}
-
-/// Moves tangled nodes half-way to the middle of their neighbours.
-fn smooth(world: &mut World, tangled: &[bool]) {
-    let mut sum = vec![(Vec3::zeros(), 0.0); world.x.len()];
-    for [a, b] in world.cloth.edges.iter().map(|e| e.map(|n| n as usize)) {
-        sum[a] = (sum[a].0 + world.x[b], sum[a].1 + 1.0);
-        sum[b] = (sum[b].0 + world.x[a], sum[b].1 + 1.0);
-    }
-    for (i, (total, count)) in sum.into_iter().enumerate() {
-        if tangled[i] && count > 0.0 {
-            world.x[i] = 0.5 * (world.x[i] + total / count);
-        }
-    }
 }
