@@ -198,7 +198,7 @@ fn a_step_can_be_made_where_contacts_press_hard() {
         .collect();
     let touching: Vec<[u32; 2]> = contacts
         .iter()
-        .flat_map(|c| (0..4).flat_map(|i| (i + 1..4).map(move |j| [c.nodes[i], c.nodes[j]])))
+        .flat_map(|c| (0..4).flat_map(move |i| (i + 1..4).map(move |j| [c.nodes[i], c.nodes[j]])))
         .collect();
     let mut stepper = Stepper::new(&cloth, &[], &touching, &x).expect("a system");
     let still = vec![Vec3::zeros(); x.len()];

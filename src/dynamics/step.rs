@@ -52,7 +52,7 @@ const WALL: f64 = 1e6;
 
 /// Shares of the diagonal that are added to it one after another where a matrix is singular to rounding: from a few units
 /// in the last place of single precision.
-const RIDGES: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
+const RIDGES: [f64; 4] = [3e-7, 3e-6, 3e-5, 3e-4];
 
 /// The linear system of a cloth, analysed once, filled and factored for every step.
 pub struct Stepper {

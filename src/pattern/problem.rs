@@ -243,7 +243,8 @@ impl Problem {
             Self::NoGrain(_) => "give it as grain: [[x, y], [x, y]], tail to head".to_owned(),
             Self::DartLegs { .. } => "give 'length' instead of 'tip' and both legs are equal".to_owned(),
             Self::BackwardsRange(_) => {
-                "the smaller number comes first, along the edge; which way a seam runs follows from its 'face'".to_owned()
+                "the smaller number comes first, along the edge; which way a seam runs follows from its 'face'"
+                    .to_owned()
             }
             Self::ChainBroken { .. } => "name the edges in the order they are sewn, end to end".to_owned(),
             Self::TooManyValues(_) => "write the pieces with 'like' instead".to_owned(),

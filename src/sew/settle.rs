@@ -16,9 +16,12 @@ const PENALTY: f64 = 60.0;
 /// and must not go further than edges and vertices of the body are looked for.
 const REACH: f64 = 0.8;
 const LONGEST_REACH: f64 = 8.8e-3;
-/// The measured springs pull the cloth true after the last tangle is gone: at most so many steps, until the energy of the
-/// last few falls by no more than this share of itself. (What still moves then are waves of cloth without weight.)
+/// The measured springs pull the cloth true after the last tangle is gone: at most so many steps, until no node goes
+/// further than so many metres in one,
 const SETTLE: usize = 40;
+const STILL: f64 = 0.2e-3;
+/// or the energy falls by no more than this share of itself in the last few. (What moves then are waves of cloth without
+/// weight.)
 const LAST_FEW: usize = 5;
 const SETTLED: f64 = 0.05;
 /// The most a step changes an edge, metres: half a cell at the usual spacing.
@@ -82,17 +85,13 @@ pub fn settle(world: &mut World) -> Result<(usize, usize), StepError> {
     let mut steps = untangle(world)?;
     let mut energies = vec![world.energy()];
     for made in 1..=SETTLE {
-        step(world)?;
+        let moved = world.newton(STEP, TRUST)?.moved;
         steps += 1;
         energies.push(world.energy());
-        if made >= LAST_FEW && energies[made] > (1.0 - SETTLED) * energies[made - LAST_FEW] {
+        let flat = made >= LAST_FEW && energies[made] > (1.0 - SETTLED) * energies[made - LAST_FEW];
+        if moved < STILL || flat {
             break;
         }
     }
     Ok((steps, world.tangles().len()))
-}
-
-/// One step down the energy.
-fn step(world: &mut World) -> Result<(), StepError> {
-    world.newton(STEP, TRUST).map(|_| ())
 }

@@ -5,10 +5,11 @@ use crate::dynamics::{StepError, World};
 use crate::geometry::{Edge, Topology, Vec3};
 
 /// Rounds of leading the cloth out of itself.
-const ROUNDS: usize = 60;
-/// How far a round moves the two that cross away from each other, metres. Further overshoots what is thin; the cloth has
-/// springs and contacts again only when the last crossing is gone.
+const ROUNDS: usize = 200;
+/// How far a round moves the two that cross away from each other, metres: little at first, for most crossings are
+/// shallow and further would overshoot; as much more again every so many rounds, for what crosses deep.
 const PULL: f64 = 0.3e-3;
+const MORE: f64 = 20.0;
 
 /// Leads the cloth out of itself where it crosses: edges and the triangles they pass through are moved so that the line
 /// along which they cross gets shorter, until nothing is left of it (Volino and Magnenat-Thalmann 2006). No spring pulls
@@ -24,7 +25,7 @@ pub(super) fn untangle(world: &mut World) -> Result<usize, StepError> {
     let edges = Topology::new(&world.cloth.triangles).edges;
     let mut rounds = 0;
     while !tangles.is_empty() && rounds < ROUNDS {
-        shorten(world, &edges, &tangles);
+        shorten(world, &edges, &tangles, PULL * (1.0 + rounds as f64 / MORE));
         rounds += 1;
         tangles = world.tangles();
     }
@@ -32,14 +33,14 @@ pub(super) fn untangle(world: &mut World) -> Result<usize, StepError> {
     Ok(rounds)
 }
 
-/// Moves the nodes of everything that crosses by up to [`PULL`].
-fn shorten(world: &mut World, edges: &[Edge], tangles: &[Tangle]) {
+/// Moves the two of every crossing by up to `pull` metres.
+fn shorten(world: &mut World, edges: &[Edge], tangles: &[Tangle], pull: f64) {
     let mut sum = vec![(Vec3::zeros(), 0.0); world.x.len()];
     for tangle in tangles {
         let Some(way) = way_out(world, edges, tangle) else { continue };
         let both = tangle.edge.iter().map(|n| (n, way)).chain(tangle.triangle.iter().map(|n| (n, -way)));
         for (n, way) in both {
-            sum[*n as usize].0 += way * (0.5 * PULL);
+            sum[*n as usize].0 += way * (0.5 * pull);
             sum[*n as usize].1 += 1.0;
         }
     }
