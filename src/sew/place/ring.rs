@@ -93,7 +93,7 @@ impl Ring<'_> {
         let mut length = 0.0;
         for link in self.links.iter().filter(|l| !l.through) {
             let Some(k) = (0..2).find(|&k| own(link.pieces[k]) && !own(link.pieces[1 - k])) else { continue };
-            for [a, b] in link.pairs.array_windows().map(|[a, b]: &[[u32; 2]; 2]| [a[k], b[k]]) {
+            for [a, b] in link.pairs.windows(2).map(|pair| [pair[0][k], pair[1][k]]) {
                 if counted.insert([a.min(b), a.max(b)]) {
                     length += (self.sheet.flat[a as usize] - self.sheet.flat[b as usize]).norm();
                 }
