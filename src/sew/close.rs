@@ -87,9 +87,11 @@ const NEAR: f64 = 7.5e-3;
 /// The next phase also begins when the widest gap has not shrunk to this share of itself in so many steps.
 const STALL: usize = 6;
 const PROGRESS: f64 = 0.8;
-/// In the last phase, pairs that have not closed by as much in so many steps are jammed: their rims lie folded over one
-/// another. They and their neighbours let each other pass; what is tangled once they are stitched is led out.
+/// In the last phase, near pairs that have not closed by as much in so many steps are jammed: their rims lie folded over
+/// one another. They and their neighbours let each other pass, and every stitch may pull twice as hard each time, up to so
+/// many times; what is tangled once they are stitched is led out.
 const JAMMED: usize = 12;
+const HARDER: i32 = 4;
 /// Classes of three and more particles pull so much harder: closed last they jam.
 const JUNCTION: f64 = 8.0;
 
@@ -116,7 +118,7 @@ pub fn sew(
     let mut world = World::new(cloth, start, &pairs, body, hood, law, reach)?;
 
     untangle(&mut world)?;
-    let mut phase = 0;
+    let (mut phase, mut jams) = (0, 0);
     let mut history: Vec<f64> = Vec::new();
     let (mut steps, mut first) = (0, options.tolerance);
     while steps < options.max_steps {
@@ -135,13 +137,15 @@ pub fn sew(
                 phase += 1;
                 history.clear();
             }
-        } else if stuck_for(JAMMED) {
+        } else if widest < NEAR && stuck_for(JAMMED) {
+            jams = (jams + 1).min(HARDER);
             let open = stitching.pairs.iter().zip(&gaps).filter(|(_, gap)| **gap > options.tolerance);
             let jammed = neighbourhood(&world, open.flat_map(|((ends, _), _)| ends));
             world.set_tangled(jammed)?;
             history.clear();
         }
         let (stiffness, force) = PHASES[phase];
+        let force = force * 2f64.powi(jams);
         let pulls: Vec<Pull> = stitching
             .pairs
             .iter()
