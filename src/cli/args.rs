@@ -184,7 +184,7 @@ pub(super) struct FlattenArgs {
     /// be given several times (OBJ only)
     #[arg(long, value_name = "auto|V,V,…")]
     pub(super) cut: Vec<String>,
-    /// Cut a dart where the strain passes the limit (OBJ only)
+    /// Cut darts where the strain passes the limit, eight at most (OBJ only)
     #[arg(long, value_enum)]
     pub(super) dart: Option<DartArg>,
     /// Strain in per cent that all but a hundredth of a piece should stay below (OBJ only) [default: 10, or with --fabric

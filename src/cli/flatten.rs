@@ -10,7 +10,7 @@ use crate::fabric;
 use crate::flatten::Options;
 use crate::io::files::check_writable;
 use crate::pipeline::{
-    Color, Cuts, FLAT_OBJ, FLAT_PNG, Limit, OUTLINE_SVG, PATTERN_SVG, PartReport, REPORT_JSON, SurfaceOptions,
+    Color, Cuts, DARTS, FLAT_OBJ, FLAT_PNG, Limit, OUTLINE_SVG, PATTERN_SVG, PartReport, REPORT_JSON, SurfaceOptions,
     SurfaceReport, flatten_surface,
 };
 use crate::report::{aligned, restless};
@@ -114,7 +114,7 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
         console.note(&stage.to_string());
     }
     for piece in &report.pieces {
-        if let Some(text) = strained(piece, &options.limit) {
+        if let Some(text) = strained(piece, &options) {
             console.note(&text);
         }
     }
@@ -127,11 +127,13 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
 }
 
 /// What is beyond the limit, why, and what would help.
-fn strained(piece: &PartReport, limit: &Limit) -> Option<String> {
+fn strained(piece: &PartReport, options: &SurfaceOptions) -> Option<String> {
     let dart = piece.dart?;
     let percent = |x: f64| format!("{:.1} %", 100.0 * x);
-    let strain = match limit {
-        Limit::Strain(most) => format!("up to {} (limit {})", percent(piece.strain.p99), percent(*most)),
+    let strain = match &options.limit {
+        Limit::Strain(most) => {
+            format!("up to {} in all but a hundredth of it (limit {})", percent(piece.strain.p99), percent(*most))
+        }
         Limit::Fabric { name, warp, weft } => format!(
             "up to {} along the warp and {} along the weft ({name} gives {} and {})",
             percent(piece.threads.warp_p99),
@@ -140,9 +142,14 @@ fn strained(piece: &PartReport, limit: &Limit) -> Option<String> {
             percent(*weft)
         ),
     };
+    let remedy = if options.darts {
+        format!("--dart auto cuts no more than {DARTS} for all pieces together; cut it in two with --cut")
+    } else {
+        "--dart auto cuts it".to_owned()
+    };
     let mut text = format!(
         "'{}' is strained by {strain}: a dart from vertex {} on the rim to vertex {} ({:.0} mm) would relieve it most; \
-         --dart auto cuts it",
+         {remedy}",
         piece.name, dart.rim, dart.tip, dart.length
     );
     if piece.area_error_bound > 0.0 {

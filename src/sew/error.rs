@@ -25,7 +25,7 @@ pub enum SewError {
     },
     /// A seam does not close.
     #[error(
-        "seam '{seam}' is still open by {gap_mm:.1} mm after {iterations} steps (limit {limit_mm:.1} mm); check that its two edges begin at the same end, that a facing or overlay has a layer of its own and `face: same`, that the garment is large enough for the body there, and the place of '{piece_a}' and '{piece_b}'"
+        "seam '{seam}' is still open by {gap_mm:.1} mm after {iterations} steps (limit {limit_mm:.1} mm); check that its two edges begin at the same end, that a half that is drawn for the right says `drawn: R`, that a facing or overlay has a layer of its own and `face: same`, that the garment is large enough for the body there, and the place of '{piece_a}' and '{piece_b}'; if it is open by little, try another --spacing"
     )]
     Open {
         /// The seam.

@@ -29,7 +29,7 @@ pub use write::{FLAT_OBJ, FLAT_PNG, OUTLINE_SVG};
 const METRES_BELOW: f64 = 4.0;
 const CENTIMETRES_BELOW: f64 = 250.0;
 /// Darts that `auto` cuts into one surface at most: what is not below the limit then needs a seam.
-const DARTS: usize = 8;
+pub const DARTS: usize = 8;
 
 /// How to read and flatten a surface.
 #[derive(Clone, Debug, PartialEq)]
