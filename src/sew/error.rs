@@ -3,6 +3,9 @@
 use super::place::PlaceError;
 use crate::dynamics::StepError;
 
+/// A seam that is open by less than so many times its limit is jammed rather than wrong.
+const NEARLY: f64 = 5.0;
+
 /// Why sewing ended without a garment.
 #[derive(Debug, thiserror::Error)]
 pub enum SewError {
@@ -25,7 +28,7 @@ pub enum SewError {
     },
     /// A seam does not close.
     #[error(
-        "seam '{seam}' is still open by {gap_mm:.1} mm after {iterations} steps (limit {limit_mm:.1} mm); check that its two edges begin at the same end, that a half that is drawn for the right says `drawn: R`, that a facing or overlay has a layer of its own and `face: same`, that the garment is large enough for the body there, and the place of '{piece_a}' and '{piece_b}'; if it is open by little, try another --spacing"
+        "seam '{seam}' is still open by {gap_mm:.1} mm after {iterations} steps (limit {limit_mm:.1} mm); check that its two edges begin at the same end, that a half that is drawn for the right says `drawn: R`, that a facing or overlay has a layer of its own and `face: same`, that the garment is large enough for the body there, and the place of '{piece_a}' and '{piece_b}'{}", nearly(*gap_mm, *limit_mm)
     )]
     Open {
         /// The seam.
@@ -41,4 +44,9 @@ pub enum SewError {
         /// The other.
         piece_b: String,
     },
+}
+
+/// What else to try where a seam is all but closed.
+fn nearly(gap: f64, limit: f64) -> &'static str {
+    if gap < NEARLY * limit { "; it is all but closed: another --spacing may do" } else { "" }
 }
