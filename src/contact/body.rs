@@ -9,9 +9,10 @@ use super::narrow::{apart, closest_on_triangle};
 use super::{Contact, Under};
 use crate::geometry::{Topology, TriMesh, Vec3};
 
-/// Body edges whose faces meet flatter than this (cosine, 0.26°) cannot catch a cloth edge between two of its vertices.
-/// Much less than a chord over one edge would ask for: a body in fine triangles bends away over many of them.
-const SHARP_EDGE: f64 = 0.999_99;
+/// Body edges whose faces meet flatter than this (cosine, 0.001°) are flat but for rounding. Every other convex edge can be
+/// met: a tight band of long cloth edges cuts a face it bends over by next to nothing, and is pushed out of it by one node
+/// and then the other without ever coming to rest.
+const SHARP_EDGE: f64 = 1.0 - 1.5e-10;
 /// A body edge or vertex is met from a direction in which nothing of the body beside it reaches higher; up to this
 /// slope (sine) higher is still met, so that a contact does not come and go where a face begins.
 const LEVEL: f64 = 0.1;
@@ -337,6 +338,15 @@ mod tests {
     #[test]
     fn only_the_cubes_twelve_edges_are_convex() {
         assert_eq!(convex_edges(&cube()).len(), 12);
+    }
+
+    #[test]
+    fn a_ridge_of_a_tenth_of_a_degree_is_an_edge() {
+        let mut roof = cube();
+        // Two opposite corners of the top lowered: its diagonal is 2 x 0.62 mm / 0.71 m = 0.1 degree sharp.
+        roof.vertices[4].z -= 0.62e-3;
+        roof.vertices[7].z -= 0.62e-3;
+        assert_eq!(convex_edges(&roof).len(), 13);
     }
 
     #[test]
