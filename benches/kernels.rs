@@ -96,7 +96,7 @@ fn detection(criterion: &mut Criterion, job: &Job, world: &World) {
         });
     });
     let class = (0..x.len() as u32).collect();
-    let hood = Neighbourhood { class, tangled: Vec::new() };
+    let hood = Neighbourhood { class, passing: Vec::new() };
     let mut detector = ClothDetector::new(&cloth.triangles, &cloth.flat, &cloth.piece, hood);
     group.bench_function("cloth", |b| b.iter(|| detector.detect(black_box(x), CLOTH_REACH)));
     group.finish();

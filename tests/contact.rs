@@ -43,7 +43,7 @@ fn garment(pieces: &str, spacing: f64, mu: f64) -> Job {
 fn world<'a>(job: &Job, body: &'a Collider, x: Vec<Vec3>) -> World<'a> {
     let stitching = Stitching::new(&job.mesh);
     let cloth = toile::dynamics::Cloth::new(&job.cut(), stitching.class, toile::dynamics::SpringModel::Measured);
-    let hood = Neighbourhood { class: (0..x.len() as u32).collect(), tangled: Vec::new() };
+    let hood = Neighbourhood { class: (0..x.len() as u32).collect(), passing: Vec::new() };
     World::new(cloth, x, &[], body, hood, LAW, Reach::new(0.8 * job.mesh.spacing)).expect("a world")
 }
 

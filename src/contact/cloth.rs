@@ -1,6 +1,6 @@
 //! Pairs of cloth primitives near each other.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::partitioning::{Bvh, BvhWorkspace};
@@ -24,9 +24,13 @@ const SHRUNK: f64 = 0.8;
 pub struct Neighbourhood {
     /// Node → class of nodes that are, or will be, sewn together. Primitives that share a class are incident.
     pub class: Vec<u32>,
-    /// Node → whether it is being led out of a tangle; pairs of primitives with such nodes on both sides are left out.
-    pub tangled: Vec<bool>,
+    /// Node → whether it may pass through others that may; pairs of primitives with such nodes on both sides are left out.
+    pub passing: Vec<bool>,
 }
+
+/// A particle of the rim with at least so much of its piece around it (radians, 315°) is the end of a slit or a narrow dart,
+/// whose sides may slide one over the other without turning a normal.
+const SLIT: f64 = 5.5;
 
 struct Patch {
     piece: u32,
@@ -35,6 +39,8 @@ struct Patch {
     edges: Vec<[u32; 2]>,
     /// Patches that it shares a particle with, and itself, sorted.
     beside: Vec<u32>,
+    /// Whether a slit ends in it.
+    slit: bool,
 }
 
 /// Finds near pairs in one garment; the grouping into patches is made once in the flat pieces, the tree over them is
@@ -59,7 +65,11 @@ impl ClothDetector {
         for group in order.chunk_by_mut(|&a, &b| piece[a as usize] == piece[b as usize]) {
             split(group, &centers, &mut leaves);
         }
-        let patches = own_primitives(leaves, triangles, flat, piece);
+        let corners = particles(triangles, flat, piece);
+        let leaves = leaves.iter().flat_map(|leaf| connected(leaf, &corners)).collect();
+        let mut patches = own_primitives(leaves, triangles, piece);
+        find_beside(&mut patches, &corners);
+        find_slits(&mut patches, &corners, flat);
         Self {
             triangles: triangles.to_vec(),
             flat: flat.to_vec(),
@@ -70,9 +80,9 @@ impl ClothDetector {
         }
     }
 
-    /// Changes which nodes are being led out of a tangle.
-    pub fn set_tangled(&mut self, tangled: Vec<bool>) {
-        self.hood.tangled = tangled;
+    /// Changes which nodes may pass through one another.
+    pub fn set_passing(&mut self, passing: Vec<bool>) {
+        self.hood.passing = passing;
     }
 
     /// Every vertex–triangle and edge–edge pair closer than `reach` at positions `x`, in an order that depends on
@@ -170,21 +180,21 @@ impl ClothDetector {
             return false;
         }
         let (ca, cb) = (&cones[a], &cones[b]);
-        if ca.shrunk || cb.shrunk {
+        if ca.shrunk || cb.shrunk || p.slit || q.slit {
             return false;
         }
         let between = ca.axis.dot(&cb.axis).clamp(-1.0, 1.0).acos();
         if between + ca.spread + cb.spread > SMOOTH_CONE {
             return false;
         }
-        // Both sides of a slit or a dart are near each other in the flat piece, and may slide one over the other.
+        // Both sides of a dart are near each other in the flat piece, and may slide one over the other.
         p.beside.binary_search(&(b as u32)).is_ok()
     }
 
-    /// Whether nodes `p` and `q` (of two primitives) are sewn together or lie in one tangle.
+    /// Whether nodes `p` and `q` (of two primitives) are sewn together or may pass through one another.
     fn joined(&self, p: &[u32], q: &[u32]) -> bool {
-        let tangled = |n: &u32| self.hood.tangled.get(*n as usize).copied().unwrap_or(false);
-        if p.iter().any(tangled) && q.iter().any(tangled) {
+        let passing = |n: &u32| self.hood.passing.get(*n as usize).copied().unwrap_or(false);
+        if p.iter().any(passing) && q.iter().any(passing) {
             return true;
         }
         p.iter().any(|&a| q.iter().any(|&b| self.hood.class[a as usize] == self.hood.class[b as usize]))
@@ -273,14 +283,15 @@ fn split(group: &mut [u32], centers: &[Vec2], leaves: &mut Vec<Vec<u32>>) {
 }
 
 /// Gives every node and every edge to the first patch that has it.
-fn own_primitives(leaves: Vec<Vec<u32>>, triangles: &[[u32; 3]], flat: &[[Vec2; 3]], piece: &[u32]) -> Vec<Patch> {
+fn own_primitives(leaves: Vec<Vec<u32>>, triangles: &[[u32; 3]], piece: &[u32]) -> Vec<Patch> {
     let topology = Topology::new(triangles);
     let nodes = triangles.iter().flatten().max().map_or(0, |&n| n as usize + 1);
     let mut node_owned = vec![false; nodes];
     let mut edge_owned = vec![false; topology.edges.len()];
     let mut patches = Vec::with_capacity(leaves.len());
     for leaf in leaves {
-        let mut patch = Patch { piece: 0, triangles: leaf, nodes: Vec::new(), edges: Vec::new(), beside: Vec::new() };
+        let (nodes, edges, beside) = (Vec::new(), Vec::new(), Vec::new());
+        let mut patch = Patch { piece: 0, triangles: leaf, nodes, edges, beside, slit: false };
         for &t in &patch.triangles {
             let tri = triangles[t as usize];
             patch.piece = piece[t as usize];
@@ -298,20 +309,52 @@ fn own_primitives(leaves: Vec<Vec<u32>>, triangles: &[[u32; 3]], flat: &[[Vec2; 
         }
         patches.push(patch);
     }
-    find_beside(&mut patches, triangles, flat);
     patches
 }
 
-/// Finds the patches that share particles: nodes at one place of the flat piece. What meets in a seam only (the ends of a
-/// band, the sides of a sleeve) may well slide one over the other.
-fn find_beside(patches: &mut [Patch], triangles: &[[u32; 3]], flat: &[[Vec2; 3]]) {
-    let particles = |t: u32| {
-        let place = flat[t as usize].map(|p| [p.x.to_bits(), p.y.to_bits()]);
-        triangles[t as usize].into_iter().zip(place)
+/// The particles of every triangle, numbered: nodes at one place of one flat piece. What meets in a seam only has one node
+/// there, and two particles.
+fn particles(triangles: &[[u32; 3]], flat: &[[Vec2; 3]], piece: &[u32]) -> Vec<[u32; 3]> {
+    let mut number: HashMap<(u32, u32, [u64; 2]), u32> = HashMap::new();
+    let particle = |t: usize, k: usize| {
+        let at = flat[t][k];
+        (piece[t], triangles[t][k], [at.x.to_bits(), at.y.to_bits()])
     };
-    let mut at: HashMap<(u32, [u64; 2]), Vec<u32>> = HashMap::new();
+    let mut numbered = |t: usize, k: usize| {
+        let next = number.len() as u32;
+        *number.entry(particle(t, k)).or_insert(next)
+    };
+    (0..triangles.len()).map(|t| [numbered(t, 0), numbered(t, 1), numbered(t, 2)]).collect()
+}
+
+/// The parts of a group of triangles that hang together: both sides of a slit are near each other and apart.
+fn connected(group: &[u32], corners: &[[u32; 3]]) -> Vec<Vec<u32>> {
+    let shared = |s: u32, t: u32| {
+        let of = |t: u32| corners[t as usize];
+        of(s).iter().filter(|p| of(t).contains(p)).count()
+    };
+    let mut left = group.to_vec();
+    let mut out = Vec::new();
+    while let Some(first) = left.first().copied() {
+        let mut part = vec![first];
+        left.remove(0);
+        let mut at = 0;
+        while at < part.len() {
+            let (beside, others) = left.iter().partition(|t| shared(part[at], **t) == 2);
+            part.extend::<Vec<u32>>(beside);
+            (left, at) = (others, at + 1);
+        }
+        out.push(part);
+    }
+    out
+}
+
+/// Finds the patches that share particles. What meets in a seam only (the ends of a band, the sides of a sleeve) may well
+/// slide one over the other.
+fn find_beside(patches: &mut [Patch], corners: &[[u32; 3]]) {
+    let mut at: HashMap<u32, Vec<u32>> = HashMap::new();
     for (number, patch) in patches.iter().enumerate() {
-        for particle in patch.triangles.iter().flat_map(|&t| particles(t)) {
+        for particle in patch.triangles.iter().flat_map(|&t| corners[t as usize]) {
             let at = at.entry(particle).or_default();
             if at.last() != Some(&(number as u32)) {
                 at.push(number as u32);
@@ -319,10 +362,26 @@ fn find_beside(patches: &mut [Patch], triangles: &[[u32; 3]], flat: &[[Vec2; 3]]
         }
     }
     for patch in patches {
-        let of = |&t: &u32| particles(t).flat_map(|particle| at[&particle].iter().copied());
+        let of = |&t: &u32| corners[t as usize].into_iter().flat_map(|particle| at[&particle].iter().copied());
         patch.beside = patch.triangles.iter().flat_map(of).collect();
         patch.beside.sort_unstable();
         patch.beside.dedup();
+    }
+}
+
+/// Finds the patches in which a slit ends.
+fn find_slits(patches: &mut [Patch], corners: &[[u32; 3]], flat: &[[Vec2; 3]]) {
+    let mut around: HashMap<u32, f64> = HashMap::new();
+    for (tri, at) in corners.iter().zip(flat) {
+        for k in 0..3 {
+            let (u, v) = (at[(k + 1) % 3] - at[k], at[(k + 2) % 3] - at[k]);
+            *around.entry(tri[k]).or_default() += u.angle(&v);
+        }
+    }
+    let topology = Topology::new(corners);
+    let ends: HashSet<u32> = topology.rim_edges().flat_map(|e| e.ends).filter(|p| around[p] >= SLIT).collect();
+    for patch in patches {
+        patch.slit = patch.triangles.iter().flat_map(|&t| corners[t as usize]).any(|p| ends.contains(&p));
     }
 }
 
@@ -358,7 +417,7 @@ mod tests {
     }
 
     fn detector(x: &[Vec3], t: &[[u32; 3]], f: &[[Vec2; 3]], p: &[u32]) -> ClothDetector {
-        let hood = Neighbourhood { class: (0..x.len() as u32).collect(), tangled: Vec::new() };
+        let hood = Neighbourhood { class: (0..x.len() as u32).collect(), passing: Vec::new() };
         ClothDetector::new(t, f, p, hood)
     }
 
@@ -429,6 +488,35 @@ mod tests {
     }
 
     #[test]
+    fn the_sides_of_a_slit_touch_up_to_its_end() {
+        let (n, h) = (12u32, 0.01);
+        let (mut x, mut t, mut f, mut p) = sheets(n, h, 0.1);
+        let middle = |v: u32| v % (n + 1) == n / 2 && v / (n + 1) <= n / 2 && v < (n + 1) * (n + 1);
+        // The first sheet is slit along its middle from one rim to its centre, and what lies beyond moved over 1 mm.
+        let tip = (n / 2) * (n + 1) + n / 2;
+        let mut twin: HashMap<u32, u32> = HashMap::new();
+        for tri in &mut t {
+            let beyond = tri.iter().all(|v| v % (n + 1) >= n / 2);
+            for v in tri.iter_mut().filter(|v| beyond && middle(**v) && **v != tip) {
+                let next = x.len() as u32;
+                let at = x[*v as usize];
+                *v = *twin.entry(*v).or_insert(next);
+                if *v == next {
+                    x.push(at + Vec3::x() * 1e-3);
+                }
+            }
+        }
+        f.iter_mut().zip(&t).for_each(|(f, t)| *f = t.map(|v| Vec2::new(x[v as usize].x, x[v as usize].z)));
+        p.truncate(t.len());
+        let contacts = detector(&x, &t, &f, &p).detect(&x, 0.003);
+        for (left, right) in twin.iter().filter(|(left, _)| tip - **left > n + 1) {
+            let meets = |c: &Contact| c.nodes.contains(left) && c.nodes.contains(right);
+            assert!(contacts.iter().any(meets), "{left} does not meet {right}");
+        }
+        assert_eq!(twin.len(), n as usize / 2);
+    }
+
+    #[test]
     fn every_pair_within_reach_is_found_whatever_the_grouping() {
         let (mut x, t, f, p) = sheets(9, 0.01, 0.006);
         for (i, v) in x.iter_mut().enumerate() {
@@ -446,6 +534,8 @@ mod tests {
                 expected += usize::from((x[v as usize] - a * w[0] - b * w[1] - c * w[2]).norm() < 0.008);
             }
         }
-        assert_eq!(contacts.iter().filter(|c| c.above == 1).count(), expected);
+        // Within a sheet neighbours are near each other, too.
+        let between = |c: &&Contact| c.above == 1 && (c.nodes[0] < 100) != (c.nodes[1] < 100);
+        assert_eq!(contacts.iter().filter(between).count(), expected);
     }
 }

@@ -3,7 +3,7 @@
 use crate::contact::Collider;
 use crate::dynamics::{Cut, GRIP, Reach, StepError, World};
 use crate::geometry::Vec3;
-use crate::sew::{Stitching, drape_reach, sewn_world};
+use crate::sew::{NEAREST_LOOK, Stitching, drape_reach, sewn_world};
 
 /// How a garment is draped.
 #[derive(Clone, Copy, Debug)]
@@ -83,8 +83,6 @@ const IN_A_ROW: usize = 3;
 /// A garment whose nodes went so far in one stretch is looked at this many times as far around in the next: further
 /// finds more than pays, less needs too many looks (one is due when a node has gone a third of that).
 const LOOK: f64 = 2.0;
-/// It is looked at least this far around, beyond its thickness, metres.
-const NEAREST_LOOK: f64 = 2e-3;
 
 /// Drapes a sewn garment.
 ///
@@ -104,8 +102,8 @@ pub fn drape(
     let mut world = sewn_world(cut, body, stitching, nodes)?;
     world.gravity = 1.0;
     world.grip(GRIP);
-    let widest = drape_reach(cut.mesh.spacing);
-    let look = [(NEAREST_LOOK + world.cloth.thickest()).min(widest), widest];
+    let thick = world.cloth.thickest();
+    let look = [thick + NEAREST_LOOK, drape_reach(cut.mesh.spacing, thick)];
     let near = options.near;
     let mut fall = Fall { last: world.x.clone(), world, steps: 0, near, trust: TRUST[0], look };
     let (drift, residual, converged) = match options.until {

@@ -148,9 +148,9 @@ impl<'a> Proximity<'a> {
         self.detector.tangles(x)
     }
 
-    /// Changes which nodes are being led out of a tangle, for the next detection.
-    pub(super) fn set_tangled(&mut self, tangled: Vec<bool>) {
-        self.detector.set_tangled(tangled);
+    /// Changes which nodes may pass through one another, for the next detection.
+    pub(super) fn set_passing(&mut self, passing: Vec<bool>) {
+        self.detector.set_passing(passing);
     }
 
     fn body_contacts(&mut self, x: &[Vec3]) -> Vec<Contact> {

@@ -83,9 +83,15 @@ impl Pushing<'_> {
         (0..self.active.len()).filter(|&k| self.active[k])
     }
 
-    /// Those that slide.
-    fn sliding(&self) -> Vec<u32> {
-        self.numbers().filter(|&k| self.grips[k].is_some_and(|g| g.slides)).map(|k| k as u32).collect()
+    /// The nodes of those that push, sorted: a contact keeps its nodes, and not its number, from one look to the next.
+    fn nodes(&self, contacts: &[Contact]) -> Vec<[u32; 4]> {
+        sorted(self.numbers().map(|k| contacts[k].nodes).collect())
+    }
+
+    /// The nodes of those that slide.
+    fn sliding(&self, contacts: &[Contact]) -> Vec<[u32; 4]> {
+        let slides = |k: &usize| self.grips[*k].is_some_and(|g| g.slides);
+        sorted(self.numbers().filter(slides).map(|k| contacts[k].nodes).collect())
     }
 
     /// `free` with the loads and the friction of those that push.
@@ -102,9 +108,9 @@ impl Pushing<'_> {
 struct Made {
     x: Vec<Vec3>,
     dt: f64,
-    /// Nodes of the contacts that pushed, sorted, and numbers of those that slid.
+    /// Nodes of the contacts that pushed, and of those that slid, sorted.
     pushing: Vec<[u32; 4]>,
-    sliding: Vec<u32>,
+    sliding: Vec<[u32; 4]>,
 }
 
 impl Stepper {
@@ -203,13 +209,12 @@ impl Stepper {
         contacts: &Pushing,
         reuse: Reuse,
     ) -> Result<(), StepError> {
-        let mut pushing: Vec<[u32; 4]> = contacts.numbers().map(|k| forces.contacts[k].nodes).collect();
-        pushing.sort_unstable();
+        let pushing = contacts.nodes(forces.contacts);
         if let Some(made) = &self.made {
             let near = || made.x.iter().zip(x).all(|(a, b)| (a - b).norm_squared() < reuse.moved * reuse.moved);
             let same = || {
                 differences(&made.pushing, &pushing) <= reuse.contacts
-                    && (reuse.contacts > 0 || made.sliding == contacts.sliding())
+                    && (reuse.contacts > 0 || made.sliding == contacts.sliding(forces.contacts))
             };
             if forces.pulls.is_empty() && made.dt == dt && near() && same() {
                 return Ok(());
@@ -227,7 +232,7 @@ impl Stepper {
         }
         self.hold(cloth, x);
         self.factor()?;
-        self.made = Some(Made { x: x.to_vec(), dt, pushing, sliding: contacts.sliding() });
+        self.made = Some(Made { x: x.to_vec(), dt, pushing, sliding: contacts.sliding(forces.contacts) });
         Ok(())
     }
 
@@ -323,6 +328,11 @@ impl Stepper {
             self.matrix.add_block(slot, &(stiffness * w));
         }
     }
+}
+
+fn sorted(mut nodes: Vec<[u32; 4]>) -> Vec<[u32; 4]> {
+    nodes.sort_unstable();
+    nodes
 }
 
 /// The largest stiffness of a spring at `x`, N/m; not a number where one of them is none.

@@ -329,12 +329,12 @@ impl<'a> World<'a> {
         self.proximity.tangles(&self.x)
     }
 
-    /// Leaves contacts between nodes that are being led out of a tangle out; none if `tangled` is empty.
+    /// Lets nodes pass through one another; none if `passing` is empty.
     ///
     /// # Errors
     /// As [`Stepper::new`].
-    pub fn set_tangled(&mut self, tangled: Vec<bool>) -> Result<(), StepError> {
-        self.proximity.set_tangled(tangled);
+    pub fn set_passing(&mut self, passing: Vec<bool>) -> Result<(), StepError> {
+        self.proximity.set_passing(passing);
         self.detect()
     }
 }

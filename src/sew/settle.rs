@@ -16,6 +16,8 @@ const PENALTY: f64 = 60.0;
 /// and must not go further than edges and vertices of the body are looked for.
 const REACH: f64 = 0.8;
 const LONGEST_REACH: f64 = 8.8e-3;
+/// Cloth is looked at at least this far around, beyond its thickness, metres.
+pub(crate) const NEAREST_LOOK: f64 = 2e-3;
 /// The measured springs pull the cloth true after the last tangle is gone: at most so many steps, until no node goes
 /// further than so many metres in one,
 const SETTLE: usize = 40;
@@ -49,15 +51,16 @@ pub fn sewn_world<'a>(
 /// As [`World::new`].
 pub fn draping_world(cloth: Cloth, nodes: Vec<Vec3>, spacing: f64, body: &Collider) -> Result<World<'_>, StepError> {
     let law = ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, cloth_gap: None };
-    let reach = Reach::new(drape_reach(spacing));
+    let reach = Reach::new(drape_reach(spacing, cloth.thickest()));
     let n = nodes.len();
-    let hood = Neighbourhood { class: (0..n as u32).collect(), tangled: Vec::new() };
+    let hood = Neighbourhood { class: (0..n as u32).collect(), passing: Vec::new() };
     World::new(cloth, nodes, &[], body, hood, law, reach)
 }
 
-/// How near layers are looked for in a sewn garment of grid spacing `spacing`, metres, while it moves freely.
-pub fn drape_reach(spacing: f64) -> f64 {
-    (REACH * spacing).min(LONGEST_REACH)
+/// How near layers are looked for in a sewn garment of grid spacing `spacing` and thickness `thick`, metres, while it moves
+/// freely.
+pub fn drape_reach(spacing: f64, thick: f64) -> f64 {
+    (REACH * spacing).min(LONGEST_REACH).max(thick + NEAREST_LOOK)
 }
 
 /// Stitches particles that already lie as a sewn garment does: positions of the classes, or `None` where the cloth passes
