@@ -11,30 +11,38 @@ use crate::geometry::Vec3;
 const DEEP: f64 = 0.015;
 /// What lies deeper than this, metres, was meant for another place.
 const DEEPEST: f64 = 0.05;
+/// A piece whose cells are in the body by so much in their middle, metres, and by half as much more than at their corners,
+/// is pierced: contact at its particles would push them along what pokes through, not off it.
+const PIERCED: f64 = 4e-3;
 /// A piece of which more than this share is deeper than [`DEEP`] is pushed out on both sides.
 const SHARE: f64 = 0.25;
 /// A piece is moved by so much at a time, at most so often, metres.
 const STEP: f64 = 4e-3;
 const STEPS: usize = 25;
-/// So many particles of a piece stand for all when its way out is looked for.
+/// So many points of a piece stand for all when its way out is looked for.
 const SAMPLES: usize = 200;
 /// How far the body's surface is looked for, metres.
 const LOOK: f64 = 0.5;
 
-/// Moves every piece that lies in the body, up to 50 mm deep, out of it as it is, the shortest straight way.
+/// Moves every piece that lies in the body, up to 50 mm deep, or that the body pokes through, out of it as it is, the
+/// shortest straight way.
 ///
 /// # Errors
 /// [`SewError::InsideBody`] for one that is still deep then, or was deeper: the penalty would push its halves out on
 /// different sides.
 pub(super) fn lead_out(cut: &Cut, body: &Collider, start: &mut [Vec3]) -> Result<(), SewError> {
     for piece in &cut.mesh.pieces {
-        let x = &mut start[piece.particles.clone()];
-        let deepest = depths(body, x).fold(0.0, f64::max);
-        if deepest <= DEEP {
+        let deepest = depths(body, &start[piece.particles.clone()]).fold(0.0, f64::max);
+        let triangles = &cut.mesh.triangles[piece.triangles.clone()];
+        let pierced = is_pierced(body, start, triangles);
+        if deepest <= DEEP && !pierced {
             continue;
         }
+        let middles = triangles.iter().map(|t| middle(start, t));
+        let points: Vec<Vec3> = start[piece.particles.clone()].iter().copied().chain(middles).collect();
+        let x = &mut start[piece.particles.clone()];
         if deepest <= DEEPEST {
-            let way = way_out(body, x);
+            let way = way_out(body, &points);
             x.iter_mut().for_each(|p| *p += way);
         }
         let deep = depths(body, x).filter(|&d| d > DEEP).count();
@@ -45,12 +53,26 @@ pub(super) fn lead_out(cut: &Cut, body: &Collider, start: &mut [Vec3]) -> Result
     Ok(())
 }
 
-/// How deep each of some particles lies in the body, metres; negative outside.
-fn depths(body: &Collider, x: &[Vec3]) -> impl Iterator<Item = f64> {
+/// Whether the body pokes through a triangle between its corners.
+fn is_pierced(body: &Collider, x: &[Vec3], triangles: &[[u32; 3]]) -> bool {
+    let pokes = |t: &[u32; 3]| {
+        let inside = depths(body, &[middle(x, t)]).next().unwrap_or(-LOOK);
+        let corners = t.map(|n| x[n as usize]);
+        inside > PIERCED && depths(body, &corners).fold(-LOOK, f64::max) < inside - 0.5 * PIERCED
+    };
+    triangles.par_iter().any(pokes)
+}
+
+fn middle(x: &[Vec3], t: &[u32; 3]) -> Vec3 {
+    t.iter().map(|n| x[*n as usize]).sum::<Vec3>() / 3.0
+}
+
+/// How deep each of some points lies in the body, metres; negative outside.
+fn depths<'a>(body: &'a Collider, x: &'a [Vec3]) -> impl Iterator<Item = f64> + 'a {
     x.iter().map(|&p| body.nearest(p, LOOK).map_or(-LOOK, |n| -n.distance))
 }
 
-/// The shortest straight way after which no particle lies in the body, or the fewest do so.
+/// The shortest straight way after which no point lies in the body, or all together lie the least deep.
 fn way_out(body: &Collider, x: &[Vec3]) -> Vec3 {
     let sample: Vec<Vec3> = x.iter().step_by(x.len().div_ceil(SAMPLES)).copied().collect();
     let depth_after = |way: Vec3| {
@@ -81,4 +103,46 @@ fn directions() -> Vec<Vec3> {
     let signs = || [-1.0, 0.0, 1.0].into_iter();
     let all = signs().flat_map(|x| signs().flat_map(move |y| signs().map(move |z| Vec3::new(x, y, z))));
     all.filter_map(|d| d.try_normalize(0.0)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::TriMesh;
+
+    /// A spike along z, 20 mm wide at z = 0 and with its tip at z = 40 mm.
+    fn spike() -> Collider {
+        let base = [[-0.01, -0.01], [0.01, -0.01], [0.01, 0.01], [-0.01, 0.01]];
+        let mut vertices: Vec<Vec3> = base.iter().map(|[x, y]| Vec3::new(*x, *y, 0.0)).collect();
+        vertices.push(Vec3::new(0.0, 0.0, 0.04));
+        let triangles = vec![[0, 2, 1], [0, 3, 2], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
+        Collider::new(&TriMesh { vertices, triangles }).expect("collider")
+    }
+
+    /// A triangle round the spike, at this height.
+    fn collar(z: f64) -> [Vec3; 3] {
+        [Vec3::new(-0.03, -0.02, z), Vec3::new(0.03, -0.02, z), Vec3::new(0.0, 0.04, z)]
+    }
+
+    #[test]
+    fn cloth_that_a_spike_pokes_through_between_its_particles_is_pierced_and_comes_off() {
+        let body = spike();
+        let x = collar(0.015);
+        assert!(depths(&body, &x).all(|d| d < 0.0), "its particles are outside");
+        assert!(is_pierced(&body, &x, &[[0, 1, 2]]));
+        let points = [x[0], x[1], x[2], middle(&x, &[0, 1, 2])];
+        let way = way_out(&body, &points);
+        let moved = x.map(|p| p + way);
+        assert!(!is_pierced(&body, &moved, &[[0, 1, 2]]), "{way:?}");
+        assert!(way.norm() < 0.03, "{way:?}");
+    }
+
+    #[test]
+    fn cloth_over_the_tip_or_as_deep_at_its_corners_is_not_pierced() {
+        let body = spike();
+        assert!(!is_pierced(&body, &collar(0.045), &[[0, 1, 2]]));
+        let inside = collar(0.01).map(|p| Vec3::new(0.05 * p.x, 0.05 * p.y, p.z));
+        assert!(depths(&body, &inside).all(|d| d > PIERCED));
+        assert!(!is_pierced(&body, &inside, &[[0, 1, 2]]));
+    }
 }
