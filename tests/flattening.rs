@@ -246,7 +246,7 @@ fn two_panels(columns: [usize; 2], rows: usize, ratio: f64) -> ClothMesh {
         });
     }
     let pairs = sides[0][1].iter().zip(&sides[1][0]).map(|(&a, &b)| [a, b]).collect();
-    cloth.seams.push(Stitches { name: "side".into(), pairs });
+    cloth.seams.push(Stitches { name: "side".into(), stage: 1, pairs });
     cloth
 }
 

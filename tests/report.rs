@@ -66,7 +66,7 @@ fn fixture(second_height: f64) -> Fixture {
     let pairs: Vec<[u32; 2]> = right.iter().zip(&left).map(|(&a, &b)| [a, b]).collect();
     let mut weld: Vec<u32> = (0..mesh.flat.len() as u32).collect();
     pairs.iter().for_each(|&[a, b]| weld[b as usize] = a);
-    mesh.seams.push(Stitches { name: "side".into(), pairs });
+    mesh.seams.push(Stitches { name: "side".into(), stage: 1, pairs });
     let garment = Garment {
         name: "patch".into(),
         title: "Patch".into(),

@@ -66,6 +66,19 @@ fn squares(apart: f64) -> Made {
     )
 }
 
+/// Three squares as those of [`squares`] in a row; the seam of the first two belongs to stage 2.
+fn three_squares() -> Made {
+    Made::new(
+        "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  one:\n    \
+         place: {at: [0, 1000, 1000]}\n    grain: [[10, 10], [10, 90]]\n    \
+         outline: {start: 0 0, top: L 120 0, right: L 120 120, hem: L 0 120, left: L 0 0}\n  \
+         two: {like: one, place: {at: [130, 1000, 1000]}}\n  three: {like: one, place: {at: [260, 1000, 1000]}}\n\
+         seams:\n  later: {sew: one.right, to: two.left, stage: 2}\n  first: {sew: two.right, to: three.left}\n\
+         free: [one.left, three.right, '*.top', '*.hem']\n",
+        15.0,
+    )
+}
+
 /// A tube of two rectangles `width` mm wide and 300 mm long.
 fn tube(width: f64) -> Made {
     Made::new(
@@ -85,7 +98,8 @@ fn tube(width: f64) -> Made {
 
 /// A mesh of `n` particles and nothing but seams.
 fn seams_only(n: usize, seams: Vec<Vec<[u32; 2]>>) -> ClothMesh {
-    let seams = seams.into_iter().enumerate().map(|(k, pairs)| Stitches { name: k.to_string(), pairs }).collect();
+    let seams =
+        seams.into_iter().enumerate().map(|(k, pairs)| Stitches { name: k.to_string(), stage: 1, pairs }).collect();
     ClothMesh { spacing: 0.01, flat: vec![Vec2::zeros(); n], triangles: Vec::new(), pieces: Vec::new(), seams }
 }
 
@@ -563,6 +577,27 @@ fn two_squares_are_sewn_together() {
             .fold(if k == 0 { f64::INFINITY } else { f64::NEG_INFINITY }, if k == 0 { f64::min } else { f64::max })
     });
     assert!((right - left - 240.0 * MM).abs() < 1.0 * MM, "{}", right - left);
+}
+
+#[test]
+fn a_seam_of_a_later_stage_waits_until_those_before_have_closed() {
+    let made = three_squares();
+    let (body, collider) = woman();
+    let widest = |sewn: &Sewn| {
+        let gaps = sewn.gaps_of_seams(&made.mesh);
+        ["later", "first"].map(|name| {
+            let of = made.mesh.seams.iter().position(|seam| seam.name == name).expect(name);
+            gaps[of].iter().copied().fold(0.0, f64::max)
+        })
+    };
+    let sewn = |max_steps: usize| {
+        let options = SewOptions { max_steps, ..SewOptions::default() };
+        sew(&made.cut(), &collider, made.placed(&body), &options, &mut |_| {}).expect("sewn")
+    };
+    let [later, first] = widest(&sewn(1));
+    assert!(first < 1.0 * MM, "nothing holds these pieces back, and the first seam is open by {first}");
+    assert!(later > 10.0 * MM, "the later one has not waited: {later}");
+    sewn(400).closed(&made.mesh, 1.0 * MM).expect("closed");
 }
 
 #[test]

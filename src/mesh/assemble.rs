@@ -56,7 +56,7 @@ impl Layout<'_> {
             let particle = |(edge, k): (usize, usize)| edges[edge].particles[k];
             let mut pairs: Vec<[u32; 2]> = chains.map(|(a, b)| [particle(a), particle(b)]).collect();
             pairs.dedup();
-            Stitches { name: seam.name.clone(), pairs }
+            Stitches { name: seam.name.clone(), stage: seam.stage, pairs }
         });
         stitch.collect()
     }

@@ -16,12 +16,17 @@ const COARSER: f64 = 2.0;
 const COARSEST: f64 = 0.025;
 /// A level has to be so much coarser to pay.
 const LEAST: f64 = 1.5;
+/// A garment that stays open, or crossed, at the coarsest level is sewn so much coarser and carried over: other particles lie
+/// otherwise beside a seam that has jammed, and fewer of them fold less.
+const DETOUR: f64 = 1.35;
 /// Share of a stage's progress that its coarser levels are.
 pub(super) const COARSE_SHARE: f64 = 0.3;
 
 /// A garment with its seams closed.
 pub(super) struct Closed {
     pub(super) sewn: Sewn,
+    /// For every seam the gaps of its pairs before they were stitched, metres, on the mesh whose seams were drawn shut.
+    pub(super) gaps: Vec<Vec<f64>>,
     /// The coarser one it was made from.
     pub(super) coarse: Option<Box<Coarse>>,
 }
@@ -43,16 +48,23 @@ impl Job {
         start: Vec<Vec3>,
         progress: &mut dyn FnMut(f64),
     ) -> Result<Closed, SewError> {
-        let (cut, options) = (self.cut_of(mesh), SewOptions::default());
         if let Some(coarse) = self.coarser(mesh, &mut |share| progress(COARSE_SHARE * share)) {
-            let sewn = stitch(&cut, &self.collider, &coarse.carry(&coarse.closed.sewn.nodes, mesh)).ok().flatten();
             // What does not come out whole begins anew, as it would without a coarser level.
-            if let Some(sewn) = sewn.filter(|sewn| is_whole(mesh, sewn)) {
-                return Ok(Closed { sewn, coarse: Some(coarse) });
+            if let Some((sewn, gaps)) = self.carried(&coarse, mesh) {
+                return Ok(Closed { sewn, gaps, coarse: Some(coarse) });
             }
         }
-        let sewn = sew(&cut, &self.collider, start, &options, progress)?;
-        Ok(Closed { sewn, coarse: None })
+        let closed = self.sew_here(mesh, start, progress)?;
+        if is_whole(mesh, &closed.sewn) {
+            return Ok(closed);
+        }
+        Ok(self.detour(mesh, progress).unwrap_or(closed))
+    }
+
+    /// Draws the seams of `mesh` itself shut.
+    fn sew_here(&self, mesh: &ClothMesh, start: Vec<Vec3>, progress: &mut dyn FnMut(f64)) -> Result<Closed, SewError> {
+        let sewn = sew(&self.cut_of(mesh), &self.collider, start, &SewOptions::default(), progress)?;
+        Ok(Closed { gaps: sewn.gaps_of_seams(mesh), sewn, coarse: None })
     }
 
     /// The next coarser level, sewn; none where the garment cannot be meshed or sewn so coarse.
@@ -61,10 +73,36 @@ impl Job {
         if spacing < LEAST * mesh.spacing {
             return None;
         }
-        let mesh = mesh::build(&self.garment, spacing).ok()?;
-        let start = place(&self.garment, &mesh, &self.body, &self.collider).ok()?;
+        let (mesh, start) = self.placed_at(spacing)?;
         let closed = self.sew_from_coarse(&mesh, start, progress).ok()?;
         is_whole(&mesh, &closed.sewn).then(|| Box::new(Coarse { mesh, closed }))
+    }
+
+    /// `mesh` sewn by way of a slightly coarser one; none where that does not come out whole either. The coarser one is no
+    /// better a start for draping, and forgotten.
+    fn detour(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Option<Closed> {
+        let (coarse, start) = self.placed_at(DETOUR * mesh.spacing)?;
+        let closed = self.sew_here(&coarse, start, progress).ok()?;
+        let coarse = is_whole(&coarse, &closed.sewn).then_some(Coarse { mesh: coarse, closed })?;
+        let (sewn, gaps) = self.carried(&coarse, mesh)?;
+        Some(Closed { sewn, gaps, coarse: None })
+    }
+
+    /// The garment meshed at `spacing`, and where its pieces start.
+    fn placed_at(&self, spacing: f64) -> Option<(ClothMesh, Vec<Vec3>)> {
+        let mesh = mesh::build(&self.garment, spacing).ok()?;
+        let start = place(&self.garment, &mesh, &self.body, &self.collider).ok()?;
+        Some((mesh, start))
+    }
+
+    /// `mesh` stitched where a coarser one's particles lie, and the gaps of that one; none where it comes out torn or
+    /// crossed.
+    fn carried(&self, coarse: &Coarse, mesh: &ClothMesh) -> Option<(Sewn, Vec<Vec<f64>>)> {
+        let closed = &coarse.closed;
+        let mut sewn =
+            stitch(&self.cut_of(mesh), &self.collider, &coarse.carry(&closed.sewn.nodes, mesh)).ok().flatten()?;
+        sewn.steps += closed.sewn.steps;
+        is_whole(mesh, &sewn).then(|| (sewn, closed.gaps.clone()))
     }
 
     /// Where the nodes of a garment on `mesh` begin to drape: as the coarser one has come to hang. None where that cannot
@@ -75,7 +113,7 @@ impl Job {
         coarse: &Coarse,
         progress: &mut dyn FnMut(f64),
     ) -> Option<Vec<Vec3>> {
-        let Closed { sewn, coarse: coarser } = &coarse.closed;
+        let Closed { sewn, coarse: coarser, .. } = &coarse.closed;
         let lower = coarser.as_deref().and_then(|lower| self.start_from_coarse(&coarse.mesh, lower, progress));
         let options = DrapeOptions { until: Until::Near, near: lower.is_some(), ..DrapeOptions::default() };
         let start = lower.unwrap_or_else(|| sewn.nodes.clone());
@@ -101,4 +139,49 @@ impl Coarse {
 /// Whether all seams have closed and the cloth does not pass through itself.
 fn is_whole(mesh: &ClothMesh, sewn: &Sewn) -> bool {
     sewn.tangles == 0 && sewn.closed(mesh, SewOptions::default().tolerance).is_ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::pipeline::{Overrides, read};
+
+    fn skirt(spacing: f64) -> Job {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("patterns/gore_skirt.yaml");
+        let overrides = Overrides { spacing: Some(spacing), ..Overrides::default() };
+        Job::new(&file, read(&file).expect("read"), &overrides).expect("job")
+    }
+
+    fn pairs(mesh: &ClothMesh) -> Vec<usize> {
+        mesh.seams.iter().map(|seam| seam.pairs.len()).collect()
+    }
+
+    fn counts(gaps: &[Vec<f64>]) -> Vec<usize> {
+        gaps.iter().map(Vec::len).collect()
+    }
+
+    #[test]
+    fn a_garment_carried_over_tells_the_gaps_and_the_steps_of_the_one_that_was_sewn() {
+        let job = skirt(0.014);
+        let (mesh, start) = job.placed_at(0.014).expect("placed");
+        let closed = job.sew_from_coarse(&mesh, start, &mut |_| {}).expect("sewn");
+        let coarse = closed.coarse.as_deref().expect("a coarser level");
+        assert_eq!(counts(&closed.gaps), pairs(&coarse.mesh));
+        assert_eq!(closed.gaps, coarse.closed.sewn.gaps_of_seams(&coarse.mesh));
+        assert!(closed.sewn.steps > coarse.closed.sewn.steps, "settling takes steps of its own");
+    }
+
+    #[test]
+    fn a_detour_leads_to_a_whole_garment_of_the_spacing_asked_for() {
+        let job = skirt(0.016);
+        let (mesh, _) = job.placed_at(0.016).expect("placed");
+        let (coarse, _) = job.placed_at(DETOUR * 0.016).expect("placed");
+        let closed = job.detour(&mesh, &mut |_| {}).expect("a detour");
+        assert!(is_whole(&mesh, &closed.sewn));
+        assert_eq!(closed.sewn.stitching.class.len(), mesh.flat.len());
+        assert_eq!(counts(&closed.gaps), pairs(&coarse));
+        assert!(closed.coarse.is_none());
+    }
 }

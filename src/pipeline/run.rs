@@ -1,7 +1,6 @@
 //! One garment through the stages.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
 use std::time::Instant;
 
 use super::error::PipelineError;
@@ -14,7 +13,7 @@ use crate::flatten::{self, flatten_garment};
 use crate::geometry::{Vec2, Vec3};
 use crate::report::{Drift, Measured, Report, Stage, measure};
 use crate::sew::place::place;
-use crate::sew::{SewOptions, Sewn, Stitching};
+use crate::sew::{SewOptions, Stitching};
 
 /// Told the name of the stage under way and the share of it that is done.
 pub type Progress<'a> = &'a mut dyn FnMut(&str, f64);
@@ -27,7 +26,7 @@ pub struct Run<'a> {
     pub(super) job: &'a Job,
     /// Who is sewn to whom.
     pub(super) stitching: Stitching,
-    /// For every seam the gaps of its pairs before they were stitched, metres.
+    /// [`Closed::gaps`].
     gaps: Option<Vec<Vec<f64>>>,
     /// Positions of every particle before sewing and after each stage.
     pub(super) placed: Option<Vec<Vec3>>,
@@ -71,7 +70,7 @@ impl<'a> Run<'a> {
         let start = place(&job.garment, &job.mesh, &job.body, &job.collider).map_err(|e| failed(e.into()))?;
         self.placed = Some(start.clone());
         let mut tell = |share| progress("sew", share);
-        let Closed { sewn, coarse } = job.sew_from_coarse(&job.mesh, start, &mut tell).map_err(failed)?;
+        let Closed { sewn, gaps, coarse } = job.sew_from_coarse(&job.mesh, start, &mut tell).map_err(failed)?;
         self.coarse = coarse;
         let closed = sewn.closed(&job.mesh, SewOptions::default().tolerance);
         self.stages.push(Stage {
@@ -83,7 +82,7 @@ impl<'a> Run<'a> {
             drift: None,
             residual: None,
         });
-        self.gaps = Some(self.gaps_of(&sewn));
+        self.gaps = Some(gaps);
         self.open = sewn.open.is_some();
         self.sewn = Some(sewn.open.unwrap_or_else(|| sewn.stitching.spread(&sewn.nodes)));
         self.stitching = sewn.stitching;
@@ -177,19 +176,6 @@ impl<'a> Run<'a> {
             stages: &self.stages,
         })
     }
-
-    /// Gaps by seam and pair of the mesh. Sewing counts a pair that two seams share once.
-    fn gaps_of(&self, sewn: &Sewn) -> Vec<Vec<f64>> {
-        let pairs = sewn.stitching.pairs.iter().map(|(ends, _)| key(*ends));
-        let of_pair: HashMap<[u32; 2], f64> = pairs.zip(sewn.gaps.iter().copied()).collect();
-        // A pair of one particle with itself (the tip of a dart) is never open.
-        let gap = |ends: &[u32; 2]| of_pair.get(&key(*ends)).copied().unwrap_or(0.0);
-        self.job.mesh.seams.iter().map(|seam| seam.pairs.iter().map(gap).collect()).collect()
-    }
-}
-
-fn key([a, b]: [u32; 2]) -> [u32; 2] {
-    [a.min(b), a.max(b)]
 }
 
 /// Positions per class from positions per particle, those of a class being equal.

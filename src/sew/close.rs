@@ -1,10 +1,13 @@
 //! Drawing the seams shut.
 
+use std::cmp::Ordering;
+use std::collections::HashMap;
+
 use super::error::SewError;
 use super::recover::lead_out;
 use super::settle::{join, settle, sewn_world};
 use super::stitch::Stitching;
-use super::untangle::{neighbourhood, untangle};
+use super::untangle::untangle;
 use crate::contact::{Collider, Neighbourhood};
 use crate::dynamics::{Cloth, ContactLaw, Cut, Pull, Reach, SpringModel, World, identity_nodes};
 use crate::geometry::Vec3;
@@ -43,6 +46,15 @@ pub struct Sewn {
 }
 
 impl Sewn {
+    /// Gaps by seam and pair of the mesh, metres; [`Self::gaps`] has a pair that two seams share once.
+    pub fn gaps_of_seams(&self, mesh: &ClothMesh) -> Vec<Vec<f64>> {
+        let pairs = self.stitching.pairs.iter().map(|(ends, _)| sorted(*ends));
+        let of_pair: HashMap<[u32; 2], f64> = pairs.zip(self.gaps.iter().copied()).collect();
+        // A pair of one particle with itself (the tip of a dart) is never open.
+        let gap = |ends: &[u32; 2]| of_pair.get(&sorted(*ends)).copied().unwrap_or(0.0);
+        mesh.seams.iter().map(|seam| seam.pairs.iter().map(gap).collect()).collect()
+    }
+
     /// Whether every seam has closed to within `tolerance` metres.
     ///
     /// # Errors
@@ -64,6 +76,10 @@ impl Sewn {
             piece_b: piece(ends[1]),
         })
     }
+}
+
+fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
 }
 
 /// Time step while sewing, s. Inertia is what keeps the pieces apart until the seams have led them home.
@@ -114,52 +130,20 @@ pub fn sew(
     let h = mesh.spacing;
     let law = ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, cloth_gap: Some((GAP * h).min(WIDEST_GAP)) };
     let reach = Reach::new(1.6 * h);
-    let hood = Neighbourhood { class: stitching.class.clone(), tangled: Vec::new() };
+    let hood = Neighbourhood { class: stitching.class.clone(), passing: Vec::new() };
     let mut world = World::new(cloth, start, &pairs, body, hood, law, reach)?;
-
     untangle(&mut world)?;
-    let (mut phase, mut jams) = (0, 0);
-    let mut history: Vec<f64> = Vec::new();
-    let (mut steps, mut first) = (0, options.tolerance);
-    while steps < options.max_steps {
-        let gaps = stitching.gaps(&world.x);
-        let widest = gaps.iter().copied().fold(0.0, f64::max);
-        if widest <= options.tolerance {
-            break;
-        }
-        if steps == 0 {
-            first = widest;
-        }
-        history.push(widest);
-        let stuck_for = |steps: usize| history.len() > steps && widest > PROGRESS * history[history.len() - 1 - steps];
-        if phase + 1 < PHASES.len() {
-            if stuck_for(STALL) || (phase == 0 && widest < NEAR) {
-                phase += 1;
-                history.clear();
-            }
-        } else if widest < NEAR && stuck_for(JAMMED) {
-            jams = (jams + 1).min(HARDER);
-            let open = stitching.pairs.iter().zip(&gaps).filter(|(_, gap)| **gap > options.tolerance);
-            let jammed = neighbourhood(&world, open.flat_map(|((ends, _), _)| ends));
-            world.set_tangled(jammed)?;
-            history.clear();
-        }
-        let (stiffness, force) = PHASES[phase];
-        let force = force * 2f64.powi(jams);
-        let pulls: Vec<Pull> = stitching
-            .pairs
-            .iter()
-            .map(|(ends, _)| {
-                let junction = stitching.size[stitching.class[ends[0] as usize] as usize] > 2;
-                let factor = if junction { JUNCTION } else { 1.0 };
-                Pull { ends: *ends, stiffness: stiffness * factor, cap: force / stiffness }
-            })
-            .collect();
-        world.advance(STEP, KEEP, &pulls)?;
-        steps += 1;
-        // Gaps shrink by decades: the share of the way in their logarithm.
-        let way = (first / widest).ln() / (first / options.tolerance).ln().max(1e-9);
-        progress(way.clamp(0.0, 1.0));
+    let mut stages: Vec<i32> = mesh.seams.iter().map(|seam| seam.stage).collect();
+    stages.sort_unstable();
+    stages.dedup();
+    let mut steps = 0;
+    for (nth, &stage) in stages.iter().enumerate() {
+        let of = |seam: u32| mesh.seams[seam as usize].stage;
+        let order: Vec<Ordering> = stitching.pairs.iter().map(|(_, seam)| of(*seam).cmp(&stage)).collect();
+        let budget = options.max_steps - steps;
+        let mut tell = |way: f64| progress((nth as f64 + way) / stages.len() as f64);
+        steps += Closing { stitching: &stitching, order: &order, tolerance: options.tolerance }
+            .close(&mut world, budget, &mut tell)?;
     }
     let (gaps, nodes) = (stitching.gaps(&world.x), stitching.welded(&world.x));
     if gaps.iter().any(|gap| *gap > options.tolerance) {
@@ -167,6 +151,86 @@ pub fn sew(
         return Ok(Sewn { stitching, nodes, gaps, steps, tangles, open: Some(world.x) });
     }
     settled(cut, body, stitching, nodes, gaps, steps)
+}
+
+/// The seams of one stage on their way shut.
+struct Closing<'a> {
+    stitching: &'a Stitching,
+    /// Whether a pair belongs to an earlier stage, this one, or a later one, which does not pull yet.
+    order: &'a [Ordering],
+    /// Metres.
+    tolerance: f64,
+}
+
+impl Closing<'_> {
+    /// Closes them, and keeps closed what is. Returns the steps that took, at most `max_steps`.
+    fn close(&self, world: &mut World, max_steps: usize, progress: &mut dyn FnMut(f64)) -> Result<usize, SewError> {
+        let (mut phase, mut jams, mut passing) = (0, 0, Vec::new());
+        let mut history: Vec<f64> = Vec::new();
+        let mut first = None;
+        for steps in 0..max_steps {
+            let gaps = self.stitching.gaps(&world.x);
+            let pulling = gaps.iter().zip(self.order).filter(|(_, order)| order.is_le());
+            let widest = pulling.fold(0.0, |widest, (gap, _)| f64::max(widest, *gap));
+            if widest <= self.tolerance {
+                return Ok(steps);
+            }
+            let first = *first.get_or_insert(widest);
+            history.push(widest);
+            let stuck_for =
+                |steps: usize| history.len() > steps && widest > PROGRESS * history[history.len() - 1 - steps];
+            if phase + 1 < PHASES.len() {
+                if stuck_for(STALL) || (phase == 0 && widest < NEAR) {
+                    phase += 1;
+                    history.clear();
+                }
+            } else if widest < NEAR && stuck_for(JAMMED) {
+                jams = (jams + 1).min(HARDER);
+                self.let_pass(world, &gaps, &mut passing)?;
+                history.clear();
+            }
+            world.advance(STEP, KEEP, &self.pulls(phase, jams))?;
+            // Gaps shrink by decades: the share of the way in their logarithm.
+            let way = (first / widest).ln() / (first / self.tolerance).ln().max(1e-9);
+            progress(way.clamp(0.0, 1.0));
+        }
+        Ok(max_steps)
+    }
+
+    /// What the pairs pull with: those of earlier stages as they did last, those of later ones with nothing.
+    fn pulls(&self, phase: usize, jams: i32) -> Vec<Pull> {
+        let pull = |(ends, order): (&[u32; 2], &Ordering)| {
+            let (stiffness, force) = PHASES[if order.is_lt() { PHASES.len() - 1 } else { phase }];
+            let force = force * 2f64.powi(jams);
+            let junction = self.stitching.size[self.stitching.class[ends[0] as usize] as usize] > 2;
+            let factor = if junction { JUNCTION } else { 1.0 };
+            let stiffness_now = if order.is_gt() { 0.0 } else { stiffness * factor };
+            Pull { ends: *ends, stiffness: stiffness_now, cap: force / stiffness }
+        };
+        self.stitching.pairs.iter().map(|p| &p.0).zip(self.order).map(pull).collect()
+    }
+
+    /// Lets what lies beside pairs that are open pass through itself, and what was let pass before.
+    fn let_pass(&self, world: &mut World, gaps: &[f64], passing: &mut Vec<bool>) -> Result<(), SewError> {
+        let pairs = self.stitching.pairs.iter().zip(gaps).zip(self.order);
+        let open = pairs.filter(|((_, gap), order)| order.is_le() && **gap > self.tolerance);
+        let jammed = neighbourhood(world, open.flat_map(|(((ends, _), _), _)| ends));
+        passing.resize(jammed.len(), false);
+        passing.iter_mut().zip(jammed).for_each(|(passing, jammed)| *passing |= jammed);
+        Ok(world.set_passing(passing.clone())?)
+    }
+}
+
+/// These nodes and one ring round them.
+fn neighbourhood<'a>(world: &World, nodes: impl Iterator<Item = &'a u32>) -> Vec<bool> {
+    let mut core = vec![false; world.x.len()];
+    nodes.for_each(|n| core[*n as usize] = true);
+    let mut out = core.clone();
+    for [a, b] in world.cloth.edges.iter().map(|e| e.map(|n| n as usize)) {
+        out[a] |= core[b];
+        out[b] |= core[a];
+    }
+    out
 }
 
 /// Stitches particles that already lie as those of a sewn garment do, as a coarser one's have come to lie. `None` where

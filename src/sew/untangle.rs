@@ -23,12 +23,17 @@ pub(super) fn untangle(world: &mut World) -> Result<usize, StepError> {
         return Ok(0);
     }
     let edges = Topology::new(&world.cloth.triangles).edges;
-    let mut rounds = 0;
+    let (mut rounds, mut best) = (0, (tangles.len(), world.x.clone()));
     while !tangles.is_empty() && rounds < ROUNDS {
         shorten(world, &edges, &tangles, PULL * (1.0 + rounds as f64 / MORE));
         rounds += 1;
         tangles = world.tangles();
+        if tangles.len() < best.0 {
+            best = (tangles.len(), world.x.clone());
+        }
     }
+    // What could not be led out is left as it was least crossed.
+    world.x = best.1;
     world.detect()?;
     Ok(rounds)
 }
@@ -68,16 +73,4 @@ fn way_out(world: &World, edges: &[Edge], tangle: &Tangle) -> Option<Vec3> {
         slope += line - normal * (2.0 * along.dot(&line) / along.dot(&normal));
     }
     Some(slope / (slope.norm_squared() + 1.0).sqrt())
-}
-
-/// These nodes and one ring round them.
-pub(super) fn neighbourhood<'a>(world: &World, nodes: impl Iterator<Item = &'a u32>) -> Vec<bool> {
-    let mut core = vec![false; world.x.len()];
-    nodes.for_each(|n| core[*n as usize] = true);
-    let mut out = core.clone();
-    for [a, b] in world.cloth.edges.iter().map(|e| e.map(|n| n as usize)) {
-        out[a] |= core[b];
-        out[b] |= core[a];
-    }
-    out
 }
