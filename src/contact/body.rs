@@ -5,7 +5,7 @@ use parry3d_f64::query::PointQueryWithLocation;
 use parry3d_f64::shape::{TriMesh as ParryMesh, TriMeshFlags};
 
 use super::grid::Grid;
-use super::narrow::{apart, closest_on_triangle};
+use super::narrow::{apart, closest_on_segments, closest_on_triangle};
 use super::{Contact, Under};
 use crate::geometry::{Topology, TriMesh, Vec3};
 
@@ -176,6 +176,10 @@ impl Collider {
             if [a, b, c].iter().all(|x| outward.dot(&(x - at)) > reach) {
                 return;
             }
+            let [k, l, m] = closest_on_triangle(at, a, b, c);
+            if (a * k + b * l + c * m - at).norm_squared() > reach * reach {
+                return;
+            }
             let under = Under::Vertex { number: v, at };
             let nodes = [tri[0], tri[1], tri[2], 0];
             hidden |= self.meet(nodes, 3, under, outward, &self.neighbours[v as usize], x, reach, out);
@@ -199,14 +203,18 @@ impl Collider {
             if outward.dot(&a).min(outward.dot(&b)) - highest > reach {
                 return;
             }
+            let (s, t) = closest_on_segments(a, b, p, q);
+            if (a + (b - a) * s - p - (q - p) * t).norm_squared() > reach * reach {
+                return;
+            }
             let under = Under::Edge { number: e, ends: [p, q] };
             hidden |= self.meet([ends[0], ends[1], 0, 0], 2, under, outward, &beside, x, reach, out);
         });
         hidden
     }
 
-    /// Adds the contact of cloth with a feature of the body, unless it is further than `reach`, or what is `beside` the
-    /// feature is met first. Returns whether it is near and was left out.
+    /// Adds the contact of cloth with a feature of the body that is within `reach`, unless what is `beside` the feature is
+    /// met first. Returns whether it was left out.
     #[expect(clippy::too_many_arguments, reason = "two primitives and where they may meet")]
     fn meet(
         &self,
@@ -221,9 +229,6 @@ impl Collider {
     ) -> bool {
         let Some(mut contact) = Contact::on_feature(nodes, count, under, outward, x) else { return false };
         let mut gap = contact.gap(x);
-        if gap.abs() > reach {
-            return false;
-        }
         // In a cleft cloth may be under a feature and outside all the same.
         if gap < 0.0 && !self.holds(contact.closest(x), reach) {
             contact.turn_over();
@@ -425,7 +430,7 @@ mod tests {
         assert!(pit.iter().all(|c| c.gap(&from) > 0.0));
         let mut to = [Vec3::new(0.45, 0.5, 0.62)];
         assert!(body.nearest(to[0], 1.0).expect("near").distance < 0.0);
-        Bounds::new(&from, &pit, 1.0, 1e-3).clamp(&from, &mut to);
+        Bounds::new(&from, 1.0, 1e-3).clamp(&pit.iter().collect::<Vec<_>>(), &from, &mut to);
         assert!(body.nearest(to[0], 1.0).expect("near").distance > 0.0, "{to:?}");
         // Over the rim of the cube nothing rises.
         assert_eq!(planes(Vec3::new(1.02, 0.5, 0.9)).len(), 1);
@@ -461,19 +466,18 @@ mod tests {
         let corners = [Vec3::new(0.0, 0.0, -1.0), Vec3::new(0.0, 0.0, 1.0), Vec3::new(-1.0, 0.0, 0.0)];
         let mut x = [Vec3::new(-0.02, 0.01, 0.0)];
         let mut face = Contact::on_feature([0; 4], 1, Under::Face { corners }, Vec3::y(), &x).expect("apart");
-        let mut bounds = Bounds::new(&x, &[face], 1.0, 1e-3);
+        let bounds = Bounds::new(&x, 1.0, 1e-3);
         let mut through = [Vec3::new(-0.2, -0.01, 0.0)];
-        bounds.clamp(&x, &mut through);
+        bounds.clamp(&[&face], &x, &mut through);
         assert!(through[0].y > 0.0, "{through:?}");
         // Beyond the face's edge, and then lower than the face.
         for _ in 0..12 {
             let wish = [x[0] + Vec3::new(0.01, -0.00125, 0.0)];
             let mut to = wish;
-            bounds.clamp(&x, &mut to);
+            bounds.clamp(&[&face], &x, &mut to);
             assert_eq!(to, wish);
             x = to;
             assert!(face.refresh(&x));
-            bounds.refresh(&[face]);
         }
         assert!(x[0].y < 0.0);
     }

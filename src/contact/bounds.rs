@@ -28,7 +28,10 @@ const SLACK: f64 = 1.0 - 1e-3;
 /// A pair that keeps this share of what it needs is left alone: sweeps converge slowly.
 const HELD: f64 = 0.5;
 
-/// The pairs found by a detection, and how far nodes may go until the next one.
+/// A contact, and the separation that it must keep in a step, metres.
+type Kept<'a> = (&'a Contact, f64);
+
+/// How far nodes may go until contacts are looked for anew, and how near pairs may come.
 #[derive(Clone, Debug)]
 pub struct Bounds {
     origin: Vec<Vec3>,
@@ -37,29 +40,14 @@ pub struct Bounds {
     posts: Vec<Vec3>,
     tether: f64,
     margin: f64,
-    /// Primitives of the cloth above one another, or above an edge, a vertex or a hollow's face of the body.
-    pairs: Vec<Contact>,
-    /// Which of the contacts they are.
-    number: Vec<u32>,
-    /// Nodes, each above the plane where the body was nearest.
-    planes: Vec<Contact>,
 }
 
 impl Bounds {
-    /// Bounds for nodes at `x` and the contacts found there within `reach`; every pair keeps `margin` metres, or the
+    /// Bounds for nodes at `x`, whose contacts were looked for within `reach`; every pair keeps `margin` metres, or the
     /// share `KEPT` of its gap if that is less.
-    pub fn new(x: &[Vec3], contacts: &[Contact], reach: f64, margin: f64) -> Self {
-        // What is in the body must come out.
-        let outside = |c: &Contact| !c.is_on_body() || c.gap(x) > 0.0;
-        let planes = contacts.iter().filter(|c| c.under == Under::Plane && outside(c)).copied().collect();
-        let paired = |k: &u32| {
-            let contact = &contacts[*k as usize];
-            contact.under != Under::Plane && outside(contact)
-        };
-        let number: Vec<u32> = (0..contacts.len() as u32).filter(paired).collect();
-        let pairs = number.iter().map(|&k| contacts[k as usize]).collect();
+    pub fn new(x: &[Vec3], reach: f64, margin: f64) -> Self {
         let leash = Self::allowance(reach);
-        Self { origin: x.to_vec(), leash, posts: Vec::new(), tether: leash, margin, pairs, number, planes }
+        Self { origin: x.to_vec(), leash, posts: Vec::new(), tether: leash, margin }
     }
 
     /// From now on no node goes further than `length` metres from its post.
@@ -82,13 +70,6 @@ impl Bounds {
         farthest(x, &self.origin) > DUE * self.leash || farthest(x, &self.posts) > DUE * self.tether
     }
 
-    /// Takes over the directions of refreshed contacts, which must be those this was made with.
-    pub fn refresh(&mut self, contacts: &[Contact]) {
-        for (pair, &k) in self.pairs.iter_mut().zip(&self.number) {
-            *pair = contacts[k as usize];
-        }
-    }
-
     /// How far a node may go between two detections: less than half the reach, so that a pair not found cannot meet.
     pub fn allowance(reach: f64) -> f64 {
         0.45 * reach
@@ -102,57 +83,36 @@ impl Bounds {
         if longest > left { (left / longest).max(0.0) } else { 1.0 }
     }
 
-    /// Moves the targets in `to` so that no pair meets on the way from `from`. Nodes of pairs that the sweeps cannot mend
-    /// stay where they are; what breaks a leash shortens the whole step, and the share of it that is left is returned.
-    pub fn clamp(&self, from: &[Vec3], to: &mut [Vec3]) -> f64 {
-        let needs: Vec<f64> = self.pairs.iter().map(|c| self.need(separation(c, from))).collect();
+    /// Moves the targets in `to` so that none of `contacts` meets on the way from `from`, where they were last turned.
+    /// Nodes of pairs that the sweeps cannot mend stay where they are; what breaks a leash shortens the whole step.
+    pub fn clamp(&self, contacts: &[&Contact], from: &[Vec3], to: &mut [Vec3]) {
+        let (planes, pairs): (Vec<&Contact>, _) = contacts.iter().partition(|c| c.under == Under::Plane);
+        let planes: Vec<Kept> = planes.into_iter().map(|c| (c, self.need(c.gap(from)))).collect();
+        let pairs: Vec<Kept> = pairs.into_iter().map(|c: &Contact| (c, self.need(separation(c, from)))).collect();
         for _ in 0..SWEEPS {
             let mut clean = true;
-            for contact in &self.planes {
-                clean &= !lift(contact, to, self.need(contact.gap(from)));
+            for &(contact, need) in &planes {
+                clean &= !lift(contact, to, need);
             }
-            for (contact, &need) in self.pairs.iter().zip(&needs) {
+            for &(contact, need) in &pairs {
                 clean &= !keep_apart(contact, from, to, need);
             }
             if clean {
                 break;
             }
         }
-        self.hold(from, to, &needs);
+        hold(&planes, &pairs, from, to);
         let share = self.leash_share(from, to);
         if share < 1.0 {
             for (a, b) in from.iter().zip(to) {
                 *b = a + (*b - a) * share;
             }
         }
-        share
     }
 
     /// The separation that a pair (or a node and the body) must keep when it has `now`.
     fn need(&self, now: f64) -> f64 {
         self.margin.min((KEPT * now).max(LEAST)).min(now).max(0.0)
-    }
-
-    /// Leaves nodes that would still meet another or the body where they are, and those that would then run into them.
-    fn hold(&self, from: &[Vec3], to: &mut [Vec3], needs: &[f64]) {
-        loop {
-            let mut clean = true;
-            for contact in &self.planes {
-                let start = contact.gap(from);
-                if start > 0.0 && contact.gap(to) < HELD * self.need(start) {
-                    clean &= !put_back(contact, from, to);
-                }
-            }
-            for (contact, &need) in self.pairs.iter().zip(needs) {
-                let close = |c: &Contact, to: &[Vec3]| separation(c, to) < HELD * need;
-                if close(contact, to) && close(&rolled(contact, from, to), to) {
-                    clean &= !put_back(contact, from, to);
-                }
-            }
-            if clean {
-                return;
-            }
-        }
     }
 
     /// The largest share of the step that breaks no leash.
@@ -168,6 +128,27 @@ impl Bounds {
             }
         }
         share
+    }
+}
+
+/// Leaves nodes that would still meet another or the body where they are, and those that would then run into them.
+fn hold(planes: &[Kept], pairs: &[Kept], from: &[Vec3], to: &mut [Vec3]) {
+    loop {
+        let mut clean = true;
+        for &(contact, need) in planes {
+            if contact.gap(from) > 0.0 && contact.gap(to) < HELD * need {
+                clean &= !put_back(contact, from, to);
+            }
+        }
+        for &(contact, need) in pairs {
+            let close = |c: &Contact, to: &[Vec3]| separation(c, to) < HELD * need;
+            if close(contact, to) && close(&rolled(contact, from, to), to) {
+                clean &= !put_back(contact, from, to);
+            }
+        }
+        if clean {
+            return;
+        }
     }
 }
 
@@ -293,11 +274,10 @@ mod tests {
     #[test]
     fn a_pair_that_rushes_together_is_kept_apart_and_may_slide() {
         let (x, contact) = pair();
-        let bounds = Bounds::new(&x, &[contact], 0.1, 1e-3);
+        let bounds = Bounds::new(&x, 0.1, 1e-3);
         let mut to = x;
         to[0] += Vec3::new(0.02, -0.02, 0.0);
-        let share = bounds.clamp(&x, &mut to);
-        assert_relative_eq!(share, 1.0);
+        bounds.clamp(&[&contact], &x, &mut to);
         assert!(separation(&contact, &to) >= 1e-3 - 1e-8);
         assert_relative_eq!(to[0].x, 0.02, epsilon = 1e-12);
     }
@@ -305,10 +285,10 @@ mod tests {
     #[test]
     fn a_pair_that_moves_together_is_not_held_back() {
         let (x, contact) = pair();
-        let bounds = Bounds::new(&x, &[contact], 0.1, 1e-3);
+        let bounds = Bounds::new(&x, 0.1, 1e-3);
         let mut to = x.map(|p| p + Vec3::new(0.0, -0.03, 0.0));
         let wish = to;
-        bounds.clamp(&x, &mut to);
+        bounds.clamp(&[&contact], &x, &mut to);
         assert_eq!(to, wish);
     }
 
@@ -316,10 +296,10 @@ mod tests {
     fn a_gap_pressed_again_and_again_never_closes() {
         let (mut x, contact) = pair();
         for _ in 0..200 {
-            let bounds = Bounds::new(&x, &[contact], 0.1, 1e-3);
+            let bounds = Bounds::new(&x, 0.1, 1e-3);
             let mut to = x;
             to[0].y -= 0.02;
-            bounds.clamp(&x, &mut to);
+            bounds.clamp(&[&contact], &x, &mut to);
             x = to;
         }
         assert!(separation(&contact, &x) >= 0.99 * LEAST, "{:e}", separation(&contact, &x));
@@ -334,13 +314,13 @@ mod tests {
             x[4 + k] = x[1 + k] + Vec3::y() * 0.02;
         }
         let above = Contact { nodes: [0, 4, 5, 6], weights: [1.0, -0.25, -0.25, -0.5], normal: -Vec3::y(), ..contact };
-        let bounds = Bounds::new(&x, &[contact, above], 0.2, 1e-3);
+        let bounds = Bounds::new(&x, 0.2, 1e-3);
         let mut to = x.clone();
         for k in 0..3 {
             to[1 + k].y += 0.04;
             to[4 + k].y -= 0.04;
         }
-        bounds.clamp(&x, &mut to);
+        bounds.clamp(&[&contact, &above], &x, &mut to);
         for pair in [contact, above] {
             assert!(separation(&pair, &to) > 0.0, "{:?} {:e}", pair.nodes, separation(&pair, &to));
         }
@@ -352,9 +332,9 @@ mod tests {
         // The body's surface lies 5 mm under the node's sheet, and the node comes down on the sheet.
         let planes = (1..4).map(|n| Contact::on_body(n, Vec3::y(), Vec3::y() * -0.005));
         let contacts: Vec<Contact> = std::iter::once(contact).chain(planes).collect();
-        let bounds = Bounds::new(&x, &contacts, 0.2, 1e-3);
+        let bounds = Bounds::new(&x, 0.2, 1e-3);
         let mut to = x.map(|p| p + Vec3::new(0.0, -0.08, 0.0));
-        bounds.clamp(&x, &mut to);
+        bounds.clamp(&contacts.iter().collect::<Vec<_>>(), &x, &mut to);
         assert!(contacts[1..].iter().all(|c| c.gap(&to) > 0.0));
         assert!(separation(&contact, &to) > 0.0);
     }
@@ -365,17 +345,17 @@ mod tests {
         // lower triangle pass the node's height, but the gap does not change.
         let (mut x, contact) = pair();
         x[0].y = 1e-4;
-        let bounds = Bounds::new(&x, &[contact], 1.0, 1e-3);
+        let bounds = Bounds::new(&x, 1.0, 1e-3);
         let mut to = x;
         for p in &mut to[1..] {
             p.y += 0.05 * p.x;
         }
         let wish = to;
-        bounds.clamp(&x, &mut to);
+        bounds.clamp(&[&contact], &x, &mut to);
         assert_eq!(to, wish);
         // A node that goes through is held, however the triangle turns meanwhile.
         to[0].y = -0.01;
-        bounds.clamp(&x, &mut to);
+        bounds.clamp(&[&contact], &x, &mut to);
         let above = (to[2] - to[1]).cross(&(to[3] - to[1])).dot(&(to[0] - to[1]));
         assert!(above * (x[2] - x[1]).cross(&(x[3] - x[1])).dot(&(x[0] - x[1])) > 0.0);
     }
@@ -383,9 +363,9 @@ mod tests {
     #[test]
     fn nothing_goes_further_than_its_leash() {
         let (x, contact) = pair();
-        let bounds = Bounds::new(&x, &[contact], 0.1, 1e-3);
+        let bounds = Bounds::new(&x, 0.1, 1e-3);
         let mut to = x.map(|p| p + Vec3::new(0.0, 1.0, 0.0));
-        bounds.clamp(&x, &mut to);
+        bounds.clamp(&[&contact], &x, &mut to);
         assert_relative_eq!((to[0] - x[0]).norm(), 0.045, epsilon = 1e-12);
     }
 }

@@ -194,7 +194,7 @@ impl Contact {
     }
 
     /// Takes the cloth for being on the other side of what is under it.
-    fn turn_over(&mut self) {
+    pub(crate) fn turn_over(&mut self) {
         (self.normal, self.offset) = (-self.normal, -self.offset);
     }
 

@@ -57,6 +57,12 @@ impl ContactLaw {
             .unwrap_or_else(|| first + cloth.half_thickness[contact.nodes[contact.count as usize - 1] as usize])
     }
 
+    /// The largest distance at which a contact of `cloth` begins to push, metres.
+    pub(super) fn widest(&self, cloth: &Cloth) -> f64 {
+        let thickest = cloth.thickest();
+        (0.5 * thickest + self.body_clearance).max(self.cloth_gap.unwrap_or(thickest))
+    }
+
     /// Load and slope at `x`.
     pub(super) fn press(&self, cloth: &Cloth, x: &[Vec3], contact: &Contact) -> Press {
         let k = self.stiffness * contact.share;

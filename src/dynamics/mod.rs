@@ -10,6 +10,7 @@ pub mod explicit;
 mod force;
 mod friction;
 mod model;
+mod near;
 mod newton;
 mod proximity;
 mod springs;

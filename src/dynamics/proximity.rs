@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::force::ContactLaw;
 use super::model::Cloth;
+use super::near::Near;
 use crate::contact::{Bounds, ClothDetector, Collider, Contact, Neighbourhood, Tangle};
 use crate::geometry::Vec3;
 
@@ -45,9 +46,11 @@ const ROUNDING: f64 = 1e-9;
 
 /// Contacts between cloth and body and within the cloth.
 pub(super) struct Proximity<'a> {
-    /// Those found at the last detection, turned to where their closest points have gone since.
-    pub(super) contacts: Vec<Contact>,
-    /// What keeps them apart.
+    /// Those found at the last detection.
+    contacts: Vec<Contact>,
+    /// Those of them that matter, turned to where their closest points have gone since.
+    near: Near,
+    /// How far nodes may go.
     pub(super) bounds: Bounds,
     body: &'a Collider,
     detector: ClothDetector,
@@ -88,7 +91,8 @@ impl<'a> Proximity<'a> {
         let margin = MARGIN * law.body_clearance;
         let mut out = Self {
             contacts: Vec::new(),
-            bounds: Bounds::new(x, &[], reach.cloth, margin),
+            near: Near::new(x.len(), law.widest(cloth)),
+            bounds: Bounds::new(x, reach.cloth, margin),
             body,
             detector: ClothDetector::new(&cloth.triangles, &cloth.flat, &cloth.piece, hood),
             reach,
@@ -105,23 +109,40 @@ impl<'a> Proximity<'a> {
         let mut contacts = self.body_contacts(x);
         self.face_contacts(cloth, x, &mut contacts);
         contacts.extend(self.detector.detect(x, self.reach.cloth));
-        self.bounds = Bounds::new(x, &contacts, self.reach.cloth, self.margin);
+        self.bounds = Bounds::new(x, self.reach.cloth, self.margin);
         if self.reach.features >= Bounds::allowance(self.reach.cloth) {
             self.bounds.tether(&self.searched.at, (1.0 - self.searched.moved) * self.searched.reach);
         }
         self.contacts = contacts;
+        self.near.begin(&mut self.contacts, x);
     }
 
-    /// Follows the nodes to `x`: a new detection when one has gone far, otherwise the pairs of cloth are turned to
-    /// where their closest points are now. Returns whether the contacts are others.
-    pub(super) fn follow(&mut self, cloth: &Cloth, x: &[Vec3]) -> bool {
-        if self.bounds.is_due(x) {
+    /// The contacts that matter in the next step.
+    pub(super) fn near(&self) -> &[Contact] {
+        &self.near.contacts
+    }
+
+    /// Takes in the contacts that matter when the nodes go from `x` to `to`. Returns whether those that did already are all.
+    pub(super) fn covers(&mut self, x: &[Vec3], to: &[Vec3]) -> bool {
+        self.near.covers(&mut self.contacts, x, to)
+    }
+
+    /// [`Bounds::clamp`] with the contacts that matter.
+    pub(super) fn clamp(&self, from: &[Vec3], to: &mut [Vec3]) {
+        self.bounds.clamp(&self.near.apart(), from, to);
+    }
+
+    /// Follows the nodes from `last` to `x`: a new detection when one has gone far, otherwise the contacts that matter are
+    /// turned to where their closest points are now. Returns whether there was a detection.
+    pub(super) fn follow(&mut self, cloth: &Cloth, last: &[Vec3], x: &[Vec3]) -> bool {
+        let due = self.bounds.is_due(x);
+        self.near.foresee(last, x);
+        if due {
             self.detect(cloth, x);
-            return true;
+        } else {
+            self.near.follow(&mut self.contacts, x);
         }
-        self.contacts.par_iter_mut().with_min_len(super::ONE_THREAD).for_each(|c| turn(c, x));
-        self.bounds.refresh(&self.contacts);
-        false
+        due
     }
 
     /// Lets the next detection search all of the cloth: nodes may go further after it.
@@ -204,8 +225,10 @@ impl<'a> Proximity<'a> {
                     self.searched.hidden[k] = hidden;
                 }
                 None => {
+                    let first = self.searched.begin[k] as usize;
                     contacts.extend_from_slice(self.found_at(k));
-                    contacts[begin[k] as usize..].iter_mut().for_each(|c| turn(c, x));
+                    let turned = contacts[begin[k] as usize..].iter_mut().enumerate();
+                    turned.for_each(|(i, c)| self.near.turn(first + i, c, x));
                 }
             }
         }
@@ -274,12 +297,4 @@ impl<'a> Proximity<'a> {
         });
         faces.chain(edges).collect()
     }
-}
-
-/// Turns a contact to where its closest points are now. Its share follows half the way: a large load that changed with it
-/// at once would throw its nodes to and fro for ever.
-fn turn(contact: &mut Contact, x: &[Vec3]) {
-    let share = contact.share;
-    contact.refresh(x);
-    contact.share = 0.5 * (contact.share + share);
 }

@@ -8,8 +8,10 @@ use super::step::{StepError, Stepper};
 use crate::contact::{Collider, Neighbourhood, Tangle};
 use crate::geometry::Vec3;
 
-/// Layers nearer than this, metres, are coupled in the matrix: pressed together they move together.
+/// Layers nearer than this, metres, are coupled in the matrix: pressed together they move together. It is made anew only
+/// when one comes nearer than the other that is not.
 const COUPLED: f64 = 1.5e-3;
+const TOUCHING: f64 = 0.7e-3;
 /// Length of a step of falling, s: long, for inertia only delays rest; the step is a Newton step on the energy.
 const FALL: f64 = 0.1;
 /// Share of the last motion by which falling cloth looks ahead, and the most it does so, metres.
@@ -129,6 +131,7 @@ impl<'a> World<'a> {
         let d = self.stepper.solve(&self.cloth, &self.x, &inertia, dt, &forces, 1)?;
         let share = self.proximity.bounds.share(&self.x, &d);
         let target: Vec<Vec3> = self.x.iter().zip(&d).map(|(x, d)| x + d * share).collect();
+        let target = self.clamped(&target);
         self.move_to(target, dt, true)
     }
 
@@ -138,14 +141,13 @@ impl<'a> World<'a> {
     /// # Errors
     /// As [`Stepper::solve`].
     pub fn fall(&mut self, last: &[Vec3]) -> Result<f64, StepError> {
-        let forces = forces(self.gravity, &self.proximity, self.law, &[], self.friction.as_ref());
         // Looking ahead pays only while the forces still point the way of the last motion (O'Donoghue and Candès 2015).
         let uphill = || {
-            let f = cloth_forces(&self.cloth, &self.x, &forces);
+            let f = self.unbalanced();
             f.iter().zip(self.x.iter().zip(last)).map(|(f, (x, l))| f.dot(&(x - l))).sum::<f64>() < 0.0
         };
         let momentum = if uphill() { 0.0 } else { MOMENTUM };
-        let mut ahead: Vec<Vec3> = self
+        let ahead: Vec<Vec3> = self
             .x
             .iter()
             .zip(last)
@@ -155,10 +157,12 @@ impl<'a> World<'a> {
                 x + if length > LOOK_AHEAD { d * (LOOK_AHEAD / length) } else { d }
             })
             .collect();
-        self.proximity.bounds.clamp(&self.x, &mut ahead);
+        let ahead = self.clamped(&ahead);
         let still = vec![Vec3::zeros(); ahead.len()];
+        let forces = forces(self.gravity, &self.proximity, self.law, &[], self.friction.as_ref());
         let d = self.stepper.solve(&self.cloth, &ahead, &still, FALL, &forces, ROUNDS)?;
         let target: Vec<Vec3> = ahead.iter().zip(&d).map(|(x, d)| x + d).collect();
+        let target = self.clamped(&target);
         self.move_to(target, FALL, true)
     }
 
@@ -173,11 +177,11 @@ impl<'a> World<'a> {
     /// [`StepError::Singular`] when a number is not finite.
     pub fn newton(&mut self, dt: f64, radius: f64) -> Result<NewtonStep, StepError> {
         self.make_room()?;
-        let forces = forces(self.gravity, &self.proximity, self.law, &[], self.friction.as_ref());
-        let step = self.stepper.newton(&self.cloth, &self.x, dt, &forces, radius)?;
+        let now = forces(self.gravity, &self.proximity, self.law, &[], self.friction.as_ref());
+        let step = self.stepper.newton(&self.cloth, &self.x, dt, &now, radius)?;
         self.wished = step.d.iter().map(Vec3::norm).fold(0.0, f64::max);
         let allowed = self.allowed_rise();
-        let down = self.descend(&forces, &step.d, step.gain, HALVINGS, allowed);
+        let down = self.descend(&step.d, step.gain, HALVINGS, allowed);
         if step.gain > 0.0 && down.gain >= -ROUNDING - allowed {
             self.gains.push(down.gain);
             // What the model says of the share that was made.
@@ -188,8 +192,9 @@ impl<'a> World<'a> {
         }
         self.gains.clear();
         let still = vec![Vec3::zeros(); self.x.len()];
-        let d = self.stepper.solve(&self.cloth, &self.x, &still, dt, &forces, ROUNDS)?;
-        let down = self.descend(&forces, &d, 0.0, MORE_HALVINGS, 0.0);
+        let now = forces(self.gravity, &self.proximity, self.law, &[], self.friction.as_ref());
+        let d = self.stepper.solve(&self.cloth, &self.x, &still, dt, &now, ROUNDS)?;
+        let down = self.descend(&d, 0.0, MORE_HALVINGS, 0.0);
         // The bounds may ask for more room than there is: the shortest step then still makes that room.
         Ok(NewtonStep { moved: self.move_to(down.target, dt, false)?, shortened: true, ratio: 0.0 })
     }
@@ -211,15 +216,27 @@ impl<'a> World<'a> {
 
     /// Halves a step, as the bounds let it be made, until the energy falls by a share of `expected` (J), or rises by no
     /// more than `allowed`.
-    fn descend(&self, forces: &Forces, d: &[Vec3], expected: f64, most: usize, allowed: f64) -> Descent {
+    fn descend(&mut self, d: &[Vec3], expected: f64, most: usize, allowed: f64) -> Descent {
+        let share = self.proximity.bounds.share(&self.x, d);
+        self.cover(&self.x.iter().zip(d).map(|(x, d)| x + d * share).collect::<Vec<_>>());
+        loop {
+            let down = self.shortened(d, share, expected, most, allowed);
+            if self.cover(&down.target) {
+                return down;
+            }
+        }
+    }
+
+    /// The same with the contacts that are known to matter.
+    fn shortened(&self, d: &[Vec3], mut share: f64, expected: f64, most: usize, allowed: f64) -> Descent {
+        let forces = self.forces(&[]);
         let loads: Vec<f64> = forces.contacts.iter().map(|c| forces.load(&self.cloth, &self.x, c)).collect();
         let energy = |x: &[Vec3]| forces.energy(&self.cloth, x, &loads);
         let from = energy(&self.x);
-        let mut share = self.proximity.bounds.share(&self.x, d);
         let mut halvings = 0;
         loop {
             let mut target: Vec<Vec3> = self.x.iter().zip(d).map(|(x, d)| x + d * share).collect();
-            self.proximity.bounds.clamp(&self.x, &mut target);
+            self.proximity.clamp(&self.x, &mut target);
             let gain = from - energy(&target);
             if gain > ENOUGH * share * expected.max(0.0) - allowed || gain.abs() < ROUNDING || halvings >= most {
                 return Descent { target, gain, halvings, share };
@@ -229,15 +246,34 @@ impl<'a> World<'a> {
         }
     }
 
-    fn move_to(&mut self, mut target: Vec<Vec3>, dt: f64, drag: bool) -> Result<f64, StepError> {
-        self.proximity.bounds.clamp(&self.x, &mut target);
+    /// `target` as the bounds let it be reached.
+    fn clamped(&mut self, target: &[Vec3]) -> Vec<Vec3> {
+        loop {
+            let mut to = target.to_vec();
+            self.proximity.clamp(&self.x, &mut to);
+            if self.cover(&to) {
+                return to;
+            }
+        }
+    }
+
+    /// Takes in the contacts that matter on the way to `target`. Returns whether those that did already are all.
+    fn cover(&mut self, target: &[Vec3]) -> bool {
+        let covered = self.proximity.covers(&self.x, target);
+        if !covered && let Some(friction) = &mut self.friction {
+            friction.detected(self.proximity.near());
+        }
+        covered
+    }
+
+    fn move_to(&mut self, target: Vec<Vec3>, dt: f64, drag: bool) -> Result<f64, StepError> {
         let mut largest = 0.0f64;
-        for ((x, t), v) in self.x.iter_mut().zip(&target).zip(&mut self.velocity) {
-            let d = t - *x;
+        for ((x, t), v) in self.x.iter().zip(&target).zip(&mut self.velocity) {
+            let d = t - x;
             *v = d / dt;
             largest = largest.max(d.norm_squared());
-            *x = *t;
         }
+        let last = std::mem::replace(&mut self.x, target);
         self.cloth.follow(&self.x);
         if self.wished > self.proximity.bounds.most() {
             // Cloth that falls freely.
@@ -246,8 +282,10 @@ impl<'a> World<'a> {
         if drag || self.proximity.bounds.is_due(&self.x) {
             self.drag_friction();
         }
-        if self.proximity.follow(&self.cloth, &self.x) {
+        if self.proximity.follow(&self.cloth, &last, &self.x) {
             self.contacts_changed()?;
+        } else if let Some(friction) = &mut self.friction {
+            friction.detected(self.proximity.near());
         }
         Ok(largest.sqrt())
     }
@@ -256,7 +294,7 @@ impl<'a> World<'a> {
     fn drag_friction(&mut self) {
         if let Some(friction) = &mut self.friction {
             let (cloth, law, x) = (&self.cloth, self.law, &self.x);
-            friction.update(x, &self.proximity.contacts, &cloth.friction, |c| law.load(cloth, x, c));
+            friction.update(x, self.proximity.near(), &cloth.friction, |c| law.load(cloth, x, c));
         }
     }
 
@@ -282,7 +320,7 @@ impl<'a> World<'a> {
 
     /// Lets every contact grip, with at least the tangential `stiffness` given, N/m.
     pub fn grip(&mut self, stiffness: f64) {
-        self.friction = Some(Friction::new(&self.x, &self.proximity.contacts, stiffness));
+        self.friction = Some(Friction::new(&self.x, self.proximity.near(), stiffness));
     }
 
     /// Gives the system the couplings of layers that have come near each other, and friction the new contacts.
@@ -290,20 +328,20 @@ impl<'a> World<'a> {
         // Its energy is another one now.
         self.gains.clear();
         if let Some(friction) = &mut self.friction {
-            friction.detected(&self.proximity.contacts);
+            friction.detected(self.proximity.near());
         }
         let Some(known) = &mut self.touching else { return Ok(()) };
-        let touching = self.proximity.touching(&self.x, COUPLED);
+        let touching = self.proximity.touching(&self.x, TOUCHING);
         if touching.iter().any(|t| known.binary_search(t).is_err()) {
-            self.stepper = Stepper::new(&self.cloth, &[], &touching, &self.x)?;
-            *known = touching;
+            *known = self.proximity.touching(&self.x, COUPLED);
+            self.stepper = Stepper::new(&self.cloth, &[], known, &self.x)?;
         }
         Ok(())
     }
 
     /// Elastic energy, contact energy and weight × height, J.
     pub fn energy(&self) -> f64 {
-        self.forces(&[]).energy(&self.cloth, &self.x, &vec![0.0; self.proximity.contacts.len()])
+        self.forces(&[]).energy(&self.cloth, &self.x, &vec![0.0; self.proximity.near().len()])
     }
 
     fn forces<'b>(&'b self, pulls: &'b [Pull]) -> Forces<'b> {
@@ -347,5 +385,5 @@ fn forces<'b>(
     pulls: &'b [Pull],
     friction: Option<&'b Friction>,
 ) -> Forces<'b> {
-    Forces { gravity, contacts: &proximity.contacts, law, pulls, friction }
+    Forces { gravity, contacts: proximity.near(), law, pulls, friction }
 }
