@@ -1,4 +1,5 @@
-//! The house keeps its shape: modules use only what they may, and each foreign crate lives in one place.
+//! The house keeps its shape: modules use only what they may, each foreign crate lives in one place, and no file lies about
+//! that no module declares.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -130,6 +131,44 @@ fn foreign_crates_live_in_one_place() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_source_file_is_a_module_of_its_parent() {
+    let files = sources();
+    let stray: Vec<String> = files
+        .iter()
+        .filter(|(file, _)| !is_declared(file, &files))
+        .map(|(file, _)| file.display().to_string())
+        .collect();
+    assert!(stray.is_empty(), "no module declares {}", stray.join(", "));
+}
+
+/// Whether the file that stands for the folder of `file` declares it: the compiler passes over what nobody declares, and
+/// so do the linter and every test.
+fn is_declared(file: &Path, files: &[(PathBuf, String)]) -> bool {
+    let named = |path: &Path| path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let folder = file.parent().unwrap_or(Path::new(""));
+    let (parents, module) = match named(file).as_str() {
+        "lib" | "main" if folder == Path::new("") => return true,
+        "mod" => (heads(folder.parent().unwrap_or(Path::new(""))), named(folder)),
+        own => (heads(folder), own.to_owned()),
+    };
+    let declares = |text: &str| {
+        let declaration = format!("mod {module};");
+        text.lines()
+            .map(str::trim_end)
+            .any(|line| line.ends_with(&declaration) && stands_alone(line, line.len() - declaration.len()))
+    };
+    files.iter().any(|(parent, text)| parents.contains(parent) && declares(text))
+}
+
+/// The files that can declare the modules of a folder.
+fn heads(folder: &Path) -> Vec<PathBuf> {
+    if folder == Path::new("") {
+        return vec!["lib.rs".into(), "main.rs".into()];
+    }
+    vec![folder.join("mod.rs"), folder.with_extension("rs")]
 }
 
 /// Every Rust file below `src`, its path from there and its text without comments.
