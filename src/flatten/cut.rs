@@ -7,8 +7,7 @@
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashSet};
 
-use super::topology;
-use crate::geometry::{Topology, TriMesh};
+use crate::geometry::{DisjointSets, Topology, TriMesh};
 
 /// A shortest way along edges from `from` to `to`, not along `solid` ones; `None` where there is none.
 pub fn shortest_path(surface: &TriMesh, solid: &Solid, from: u32, to: u32) -> Option<Vec<u32>> {
@@ -170,15 +169,11 @@ fn interlocking(
     let mut order: Vec<usize> = (0..topology.edges.len()).filter(|&k| !in_tree(&topology.edges[k].ends)).collect();
     let cuttable = |k: usize| !solid.contains(&topology.edges[k].ends);
     order.sort_by(|&a, &b| cuttable(a).cmp(&cuttable(b)).then_with(|| far(b).total_cmp(&far(a))).then(a.cmp(&b)));
-    let mut parent: Vec<u32> = (0..surface.triangles.len() as u32).collect();
+    let mut sets = DisjointSets::new(surface.triangles.len());
     let mut joined = vec![false; topology.edges.len()];
     for k in order {
         if let [Some(s), Some(t)] = topology.edges[k].triangles {
-            let (s, t) = (topology::root(&mut parent, s), topology::root(&mut parent, t));
-            if s != t {
-                parent[s.max(t) as usize] = s.min(t);
-                joined[k] = true;
-            }
+            joined[k] = sets.join(s, t);
         }
     }
     joined

@@ -1,7 +1,7 @@
 //! Is it a disk, with or without holes?
 
 use super::FlattenError;
-use crate::geometry::{Topology, TriMesh, Vec3, rim_loops};
+use crate::geometry::{DisjointSets, Topology, TriMesh, Vec3, rim_loops};
 
 /// A triangle is degenerate below this share of its longest side squared (twice its area): about a thousand roundings
 /// of a coordinate of the same size.
@@ -74,25 +74,9 @@ fn is_degenerate([a, b, c]: [Vec3; 3]) -> bool {
 
 /// Number of parts connected by edges.
 fn components(vertices: usize, topology: &Topology) -> usize {
-    let mut parent: Vec<u32> = (0..vertices as u32).collect();
-    let mut parts = vertices;
-    for edge in &topology.edges {
-        let (a, b) = (root(&mut parent, edge.ends[0]), root(&mut parent, edge.ends[1]));
-        if a != b {
-            parent[a as usize] = b;
-            parts -= 1;
-        }
-    }
-    parts
-}
-
-/// The member that stands for the set of `v` in a forest of parents.
-pub(super) fn root(parent: &mut [u32], mut v: u32) -> u32 {
-    while parent[v as usize] != v {
-        parent[v as usize] = parent[parent[v as usize] as usize];
-        v = parent[v as usize];
-    }
-    v
+    let mut sets = DisjointSets::new(vertices);
+    let joins = topology.edges.iter().filter(|e| sets.join(e.ends[0], e.ends[1])).count();
+    vertices - joins
 }
 
 /// Every rim vertex lies on two rim edges; with four, two sheets touch in it.

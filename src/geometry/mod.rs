@@ -1,15 +1,17 @@
-//! The ground floor: vectors, curves, triangle meshes.
+//! The ground floor: vectors, curves, triangle meshes, disjoint sets.
 
 mod bisect;
 mod curve;
 mod fit;
 mod locator;
+mod sets;
 mod trimesh;
 
 pub(crate) use bisect::{bisect, try_bisect};
 pub use curve::{Path, PathError, Station, parse_transform};
 pub use fit::{Cubic, smooth_curves};
 pub(crate) use locator::Locator;
+pub(crate) use sets::DisjointSets;
 pub use trimesh::{Edge, Topology, TriMesh, rim_loops};
 
 /// A point or direction in a flat piece, metres, y **down**, the right side of the cloth facing the reader.

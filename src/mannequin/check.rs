@@ -1,7 +1,7 @@
 //! What a surface must be to serve as a body.
 
 use super::crossing::crossings;
-use crate::geometry::{Topology, TriMesh, Vec3};
+use crate::geometry::{DisjointSets, Topology, TriMesh, Vec3};
 
 /// Why a surface is no body; places are in metres in the body's own frame (feet at y = 0).
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -95,22 +95,11 @@ pub fn check_body(mesh: &TriMesh) -> Result<BodyCheck, BodyFault> {
 
 /// Number of connected pieces of surface.
 fn parts(mesh: &TriMesh, topology: &Topology) -> usize {
-    let mut parent: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
-    fn root(parent: &mut [u32], mut t: u32) -> u32 {
-        while parent[t as usize] != t {
-            parent[t as usize] = parent[parent[t as usize] as usize];
-            t = parent[t as usize];
-        }
-        t
-    }
-    let mut count = parent.len();
+    let mut sets = DisjointSets::new(mesh.triangles.len());
+    let mut count = sets.len();
     for edge in &topology.edges {
         if let [Some(s), Some(t)] = edge.triangles {
-            let (s, t) = (root(&mut parent, s), root(&mut parent, t));
-            if s != t {
-                parent[s.max(t) as usize] = s.min(t);
-                count -= 1;
-            }
+            count -= usize::from(sets.join(s, t));
         }
     }
     count

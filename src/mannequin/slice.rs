@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::geometry::{TriMesh, Vec3};
+use crate::geometry::{DisjointSets, TriMesh, Vec3};
 
 /// One closed curve of a cut.
 #[derive(Clone, Debug)]
@@ -33,8 +33,8 @@ impl Loop {
 pub(super) fn slice(mesh: &TriMesh, at: Vec3, axis: Vec3) -> Vec<Loop> {
     let side: Vec<f64> = mesh.vertices.iter().map(|p| (p - at).dot(&axis)).collect();
     // Every triangle that the plane crosses joins two of its edges; chains of joined edges are the loops.
-    let mut index: BTreeMap<[u32; 2], usize> = BTreeMap::new();
-    let (mut points, mut parent): (Vec<Vec3>, Vec<usize>) = (Vec::new(), Vec::new());
+    let mut index: BTreeMap<[u32; 2], u32> = BTreeMap::new();
+    let (mut points, mut sets) = (Vec::new(), DisjointSets::default());
     for tri in &mesh.triangles {
         let mut last = None;
         for k in 0..3 {
@@ -45,28 +45,18 @@ pub(super) fn slice(mesh: &TriMesh, at: Vec3, axis: Vec3) -> Vec<Loop> {
             }
             let here = *index.entry([a, b]).or_insert_with(|| {
                 points.push(mesh.vertices[a as usize].lerp(&mesh.vertices[b as usize], s / (s - t)));
-                parent.push(parent.len());
-                parent.len() - 1
+                sets.add()
             });
             if let Some(other) = last.replace(here) {
-                let (p, q) = (root(&mut parent, here), root(&mut parent, other));
-                parent[p.max(q)] = p.min(q);
+                sets.join(here, other);
             }
         }
     }
-    let mut groups: BTreeMap<usize, Vec<Vec3>> = BTreeMap::new();
-    for (i, p) in points.into_iter().enumerate() {
-        groups.entry(root(&mut parent, i)).or_default().push(p);
+    let mut groups: BTreeMap<u32, Vec<Vec3>> = BTreeMap::new();
+    for (i, p) in (0..).zip(points) {
+        groups.entry(sets.root(i)).or_default().push(p);
     }
     groups.into_values().map(Loop::new).collect()
-}
-
-fn root(parent: &mut [usize], mut i: usize) -> usize {
-    while parent[i] != i {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    i
 }
 
 /// Length of a tape round `points` in the plane spanned by `u` and `v`: their convex hull's perimeter.

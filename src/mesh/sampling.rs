@@ -3,6 +3,7 @@
 use super::breaks::{Breaks, Run};
 use super::error::{MeshError, SeamFault};
 use super::links::{EdgeTable, Link};
+use crate::geometry::DisjointSets;
 
 /// Springs of a rim are at most this many spacings long. Both sides of a gathered seam get the count of their mean
 /// length; past this the longer side decides.
@@ -73,7 +74,7 @@ fn spread(breaks: &[f64], counts: &[usize]) -> Vec<f64> {
 struct Groups {
     /// Number of the first interval of every edge, and the total.
     first: Vec<usize>,
-    parent: Vec<usize>,
+    sets: DisjointSets,
 }
 
 impl Groups {
@@ -82,29 +83,25 @@ impl Groups {
         for e in 0..edges {
             first.push(first[e] + breaks.of(e).len() - 1);
         }
-        Self { parent: (0..first[edges]).collect(), first }
+        Self { sets: DisjointSets::new(first[edges]), first }
     }
 
-    fn root(&mut self, mut i: usize) -> usize {
-        while self.parent[i] != i {
-            self.parent[i] = self.parent[self.parent[i]];
-            i = self.parent[i];
-        }
-        i
+    fn root(&mut self, edge: usize, interval: usize) -> usize {
+        self.sets.root((self.first[edge] + interval) as u32) as usize
     }
 
     fn join(&mut self, a: &Run, b: &Run) {
-        let (a, b) = (self.root(self.first[a.edge] + a.index), self.root(self.first[b.edge] + b.index));
-        self.parent[a.max(b)] = a.min(b);
+        let [a, b] = [a, b].map(|run| (self.first[run.edge] + run.index) as u32);
+        self.sets.join(a, b);
     }
 
     fn counts(&mut self, breaks: &Breaks, spacing: f64) -> Vec<Vec<usize>> {
         let edges = self.first.len() - 1;
         // Shortest and longest interval of every group, kept at its root.
-        let mut extremes = vec![(f64::INFINITY, 0.0_f64); self.parent.len()];
+        let mut extremes = vec![(f64::INFINITY, 0.0_f64); self.sets.len()];
         for e in 0..edges {
             for (k, w) in breaks.of(e).windows(2).enumerate() {
-                let (short, long) = &mut extremes[self.root(self.first[e] + k)];
+                let (short, long) = &mut extremes[self.root(e, k)];
                 *short = short.min(w[1] - w[0]);
                 *long = long.max(w[1] - w[0]);
             }
@@ -113,8 +110,6 @@ impl Groups {
             let least = (long / (LONGEST_SPRING * spacing)).ceil() as usize;
             springs_for(0.5 * (short + long), spacing).max(least)
         };
-        (0..edges)
-            .map(|e| (self.first[e]..self.first[e + 1]).map(|i| count(extremes[self.root(i)])).collect())
-            .collect()
+        (0..edges).map(|e| (0..breaks.of(e).len() - 1).map(|k| count(extremes[self.root(e, k)])).collect()).collect()
     }
 }

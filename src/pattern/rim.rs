@@ -1,6 +1,7 @@
 //! Points on the rims of pieces, which of them sewing brings together, and the openings that remain.
 
 use super::{EdgeId, Garment, Piece, Span};
+use crate::geometry::DisjointSets;
 
 /// Points of one rim closer than this (metres) are one: the largest difference a seam may have by default is 2 mm.
 const SAME: f64 = 1e-3;
@@ -62,44 +63,39 @@ impl Rims {
     }
 }
 
-/// Which rim points sewing makes one (a disjoint-set forest over the points met so far).
+/// Which rim points sewing makes one, of those met so far.
 #[derive(Clone, Default)]
 pub(super) struct Identities {
     points: Vec<RimPoint>,
-    parent: Vec<usize>,
+    sets: DisjointSets,
 }
 
 impl Identities {
-    fn find(&self, mut i: usize) -> usize {
-        while self.parent[i] != i {
-            i = self.parent[i];
-        }
-        i
+    fn known(&self, rims: &Rims, p: RimPoint) -> Option<u32> {
+        self.points.iter().position(|&q| rims.same(p, q)).map(|i| i as u32)
     }
 
-    fn node(&mut self, rims: &Rims, p: RimPoint) -> usize {
-        let known = self.points.iter().position(|&q| rims.same(p, q));
-        known.unwrap_or_else(|| {
+    fn node(&mut self, rims: &Rims, p: RimPoint) -> u32 {
+        self.known(rims, p).unwrap_or_else(|| {
             self.points.push(p);
-            self.parent.push(self.points.len() - 1);
-            self.points.len() - 1
+            self.sets.add()
         })
     }
 
-    fn class(&mut self, rims: &Rims, p: RimPoint) -> usize {
+    fn class(&mut self, rims: &Rims, p: RimPoint) -> u32 {
         let node = self.node(rims, p);
-        self.find(node)
+        self.sets.root(node)
     }
 
     pub(super) fn join(&mut self, rims: &Rims, p: RimPoint, q: RimPoint) {
-        let (p, q) = (self.class(rims, p), self.class(rims, q));
-        self.parent[p.max(q)] = p.min(q);
+        let (p, q) = (self.node(rims, p), self.node(rims, q));
+        self.sets.join(p, q);
     }
 
     /// Whether the two points are one, drawn so or sewn so.
     pub(super) fn one(&self, rims: &Rims, p: RimPoint, q: RimPoint) -> bool {
-        let class = |p| self.points.iter().position(|&x| rims.same(p, x)).map(|i| self.find(i));
-        rims.same(p, q) || class(p).is_some_and(|c| class(q) == Some(c))
+        let both = self.known(rims, p).zip(self.known(rims, q));
+        rims.same(p, q) || both.is_some_and(|(p, q)| self.sets.same(p, q))
     }
 
     /// Joins what a seam brings together: its ends, and every joint of one chain with what lies across.
@@ -159,7 +155,7 @@ pub fn openings(garment: &Garment) -> Vec<Opening> {
     for span in &free {
         one.join(&rims, rims.point(span.edge, span.from), rims.point(span.edge, span.to));
     }
-    let mut found: Vec<(usize, Opening)> = Vec::new();
+    let mut found: Vec<(u32, Opening)> = Vec::new();
     for span in free {
         let class = one.class(&rims, rims.point(span.edge, span.from));
         let i = found.iter().position(|(c, _)| *c == class).unwrap_or_else(|| {

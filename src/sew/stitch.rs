@@ -1,6 +1,6 @@
 //! Which particles are sewn together.
 
-use crate::geometry::Vec3;
+use crate::geometry::{DisjointSets, Vec3};
 use crate::mesh::ClothMesh;
 
 /// Classes of particles that stitches join, and the pairs that pull them.
@@ -19,25 +19,23 @@ pub struct Stitching {
 impl Stitching {
     /// Reads the seams of a mesh.
     pub fn new(mesh: &ClothMesh) -> Self {
-        let mut parent: Vec<u32> = (0..mesh.flat.len() as u32).collect();
+        let mut sets = DisjointSets::new(mesh.flat.len());
         let mut pairs = Vec::new();
         for (s, seam) in mesh.seams.iter().enumerate() {
             for &[a, b] in &seam.pairs {
                 if a != b {
                     pairs.push(([a, b], s as u32));
-                    let (ra, rb) = (root(&mut parent, a), root(&mut parent, b));
-                    // The smaller index leads, so that classes are numbered in the order of their first particle.
-                    parent[ra.max(rb) as usize] = ra.min(rb);
+                    sets.join(a, b);
                 }
             }
         }
         pairs.sort_by_key(|p| ([p.0[0].min(p.0[1]), p.0[0].max(p.0[1])], p.1));
         pairs.dedup_by_key(|p| [p.0[0].min(p.0[1]), p.0[0].max(p.0[1])]);
-        let mut number = vec![u32::MAX; parent.len()];
-        let mut class = vec![0; parent.len()];
+        let mut number = vec![u32::MAX; sets.len()];
+        let mut class = vec![0; sets.len()];
         let mut size: Vec<u32> = Vec::new();
-        for p in 0..parent.len() as u32 {
-            let r = root(&mut parent, p) as usize;
+        for p in 0..sets.len() as u32 {
+            let r = sets.root(p) as usize;
             if number[r] == u32::MAX {
                 number[r] = size.len() as u32;
                 size.push(0);
@@ -66,12 +64,4 @@ impl Stitching {
     pub fn gaps(&self, x: &[Vec3]) -> Vec<f64> {
         self.pairs.iter().map(|([a, b], _)| (x[*a as usize] - x[*b as usize]).norm()).collect()
     }
-}
-
-fn root(parent: &mut [u32], mut p: u32) -> u32 {
-    while parent[p as usize] != p {
-        parent[p as usize] = parent[parent[p as usize] as usize];
-        p = parent[p as usize];
-    }
-    p
 }

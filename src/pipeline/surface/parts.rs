@@ -7,7 +7,7 @@
 use std::collections::{HashMap, HashSet};
 
 use crate::flatten::{FlattenError, Solid};
-use crate::geometry::{TriMesh, Vec3};
+use crate::geometry::{DisjointSets, TriMesh, Vec3};
 use crate::io::obj_read::ObjFaces;
 
 /// A connected part of the surface.
@@ -153,8 +153,8 @@ impl Fans {
             starts.push(starts[f] + face.len());
         }
         sides.sort_unstable();
-        let mut corners: Vec<u32> = (0..starts[nodes.of_face.len()] as u32).collect();
-        let mut faces: Vec<u32> = (0..nodes.of_face.len() as u32).collect();
+        let mut corners = DisjointSets::new(starts[nodes.of_face.len()]);
+        let mut faces = DisjointSets::new(nodes.of_face.len());
         for shared in sides.chunk_by(|a, b| a.0 == b.0).filter(|s| s.len() > 1 && !cuts.contains(&s[0].0)) {
             // The corner of a side at one of its nodes.
             let at = |(_, f, k): (_, u32, u32), node: u32| {
@@ -164,27 +164,16 @@ impl Fans {
                 (starts[f as usize] + corner) as u32
             };
             for other in &shared[1..] {
-                shared[0].0.iter().for_each(|&node| join(&mut corners, at(shared[0], node), at(*other, node)));
-                join(&mut faces, shared[0].1, other.1);
+                for &node in &shared[0].0 {
+                    corners.join(at(shared[0], node), at(*other, node));
+                }
+                faces.join(shared[0].1, other.1);
             }
         }
-        let of_corner = (0..corners.len() as u32).map(|c| root(&mut corners, c)).collect();
-        let part_of_face = (0..faces.len() as u32).map(|f| root(&mut faces, f)).collect();
+        let of_corner = (0..corners.len() as u32).map(|c| corners.root(c)).collect();
+        let part_of_face = (0..faces.len() as u32).map(|f| faces.root(f)).collect();
         Self { starts, of_corner, part_of_face }
     }
-}
-
-fn join(parent: &mut [u32], a: u32, b: u32) {
-    let (a, b) = (root(parent, a), root(parent, b));
-    parent[a.max(b) as usize] = a.min(b);
-}
-
-fn root(parent: &mut [u32], mut k: u32) -> u32 {
-    while parent[k as usize] != k {
-        parent[k as usize] = parent[parent[k as usize] as usize];
-        k = parent[k as usize];
-    }
-    k
 }
 
 /// The edges that [`fan`] adds to a polygon.
