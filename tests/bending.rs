@@ -151,14 +151,48 @@ fn a_seam_bends_as_the_cloth_beside_it() {
     assert!((found / hinge - 1.0).abs() < 0.01, "{found} against {hinge}");
 }
 
+/// A square decimetre with a fold across its middle, the warp across the fold.
+fn creased(angle: f64) -> Job {
+    let outline = "{start: 0 0, a: L 100 0, b: L 100 100, c: L 0 100, d: L 0 0}";
+    job(
+        &format!(
+            "  panel: {{grain: [[0, 0], [0, 1]], place: {{at: [0, 0, 0]}}, outline: {outline}, \
+             lines: {{crease: {{path: M 0 50 L 100 50, fold: {angle}}}}}}}"
+        ),
+        "free: [panel.*]",
+        10.0,
+    )
+}
+
+/// The square turned up at a right angle along its fold.
+fn turned_up(p: &Vec2) -> Vec3 {
+    if p.y < 0.05 { Vec3::new(p.x, p.y, 0.0) } else { Vec3::new(p.x, 0.05, p.y - 0.05) }
+}
+
 #[test]
 fn a_crease_parts_the_cloth() {
-    let pieces = "  panel: {grain: [[0, 0], [0, 1]], place: {at: [0, 0, 0]}, \
-                  outline: {start: 0 0, a: L 100 0, b: L 100 100, c: L 0 100, d: L 0 0}, \
-                  lines: {crease: {path: M 0 50 L 100 50, fold: 90}}}";
-    let job = job(pieces, "free: [panel.*]", 10.0);
+    let job = creased(90.0);
     let cloth = unsewn(&job, SpringModel::Raw);
-    let folded = |p: &Vec2| if p.y < 0.05 { Vec3::new(p.x, p.y, 0.0) } else { Vec3::new(p.x, 0.05, p.y - 0.05) };
-    let x: Vec<Vec3> = job.mesh.flat.iter().map(folded).collect();
+    let x: Vec<Vec3> = job.mesh.flat.iter().map(turned_up).collect();
     assert!(cloth.bending.energy(&x).abs() < 1e-15);
+}
+
+#[test]
+fn cloth_bends_over_a_fold_of_angle_zero_as_everywhere() {
+    let job = creased(0.0);
+    let cloth = unsewn(&job, SpringModel::Raw);
+    let energy =
+        |place: &dyn Fn(&Vec2) -> Vec3| cloth.elastic_energy(&job.mesh.flat.iter().map(place).collect::<Vec<_>>());
+    assert!(energy(&|p| p.push(0.0)).abs() < 1e-15);
+    // Curved as any cloth that bends evenly.
+    let radius = 0.05;
+    let parabola = |p: &Vec2| p.push(0.5 * p.y * p.y / radius);
+    let x: Vec<Vec3> = job.mesh.flat.iter().map(parabola).collect();
+    let known = 0.5 * WARP * area(&job) / (radius * radius);
+    let found = cloth.bending.energy(&x);
+    assert!((found / known - 1.0).abs() < 1e-3, "{found} against {known}");
+    // What a crease would give for nothing bends the row of particles on the line.
+    let sharp = 0.5 * WARP * 0.1 * 2.0 / 0.01;
+    let found = energy(&turned_up);
+    assert!((found / sharp - 1.0).abs() < 0.02, "{found} against {sharp}");
 }

@@ -10,7 +10,6 @@ use std::sync::Arc;
 use crate::fabric::Fabric;
 use crate::geometry::{Vec2, Vec3};
 use crate::mesh::{ClothMesh, LineParticles};
-use crate::pattern::LineKind;
 
 /// A pressed fold turns like a strip of the cloth this wide, metres: what an iron's edge sets, and independent of the
 /// spacing. Not measured; recovery angles of creased cloth (ISO 2313) are given without a moment.
@@ -104,14 +103,8 @@ impl Crease {
 pub(super) fn creases(mesh: &ClothMesh, node_of: &[u32], fabrics: &[Arc<Fabric>]) -> Vec<Crease> {
     let mut out = Vec::new();
     for (piece, fabric) in mesh.pieces.iter().zip(fabrics) {
-        let folds: Vec<(&LineParticles, f64)> = piece
-            .lines
-            .iter()
-            .filter_map(|line| match line.kind {
-                LineKind::Fold(rest) if rest != 0.0 => Some((line, rest)),
-                _ => None,
-            })
-            .collect();
+        let folds: Vec<(&LineParticles, f64)> =
+            piece.lines.iter().filter_map(|line| Some((line, line.kind.hinge()?))).collect();
         if folds.is_empty() {
             continue;
         }

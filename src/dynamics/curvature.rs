@@ -7,9 +7,10 @@
 //! strip between rim and grid, they are those of the quadratic surface through the particle that fits its neighbours
 //! best. So edges are natural: cloth bends to its rim as it does inside, and nothing bends it beyond.
 //!
-//! Creases cut the cloth: neither side takes part in the curvature of the other. Seams join pieces that have no plane in
-//! common; both are bent up to their rims, and a hinge with the rigidity of the cloth beside it joins them. Hems and seam
-//! allowances are bent along the rim with the cloth.
+//! Creases cut the cloth: neither side takes part in the curvature of the other, and a hinge of their own joins them (a
+//! fold of angle 0 is no crease). Seams join pieces that have no plane in common; both are bent up to their rims, and a
+//! hinge with the rigidity of the cloth beside it joins them. Hems and seam allowances are bent along the rim with the
+//! cloth.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -21,7 +22,7 @@ use super::crease::rigidity_across;
 use crate::fabric::Fabric;
 use crate::geometry::{Topology, Vec2};
 use crate::mesh::{ClothMesh, PieceMesh};
-use crate::pattern::{Garment, LineKind};
+use crate::pattern::Garment;
 
 /// Grid lines may leave the thread by this sine, 0.3°: rounding, and what a lattice gives to fit its rim.
 const STRAIGHT: f64 = 5e-3;
@@ -129,7 +130,7 @@ fn sorted(a: u32, b: u32) -> [u32; 2] {
 impl<'a> Sheet<'a> {
     fn new(mesh: &'a ClothMesh, piece: &'a PieceMesh, fabric: &Fabric) -> Self {
         let first = piece.triangles.start as u32;
-        let folds = piece.lines.iter().filter(|l| matches!(l.kind, LineKind::Fold(_)));
+        let folds = piece.lines.iter().filter(|l| l.kind.hinge().is_some());
         let cuts: HashSet<[u32; 2]> = folds.flat_map(|l| l.particles.windows(2)).map(|w| sorted(w[0], w[1])).collect();
         let topology = Topology::new(&mesh.triangles[piece.triangles.clone()]);
         let inner = topology.edges.iter().filter(|e| !cuts.contains(&e.ends));

@@ -241,6 +241,17 @@ pub enum LineKind {
     Mark(String),
 }
 
+impl LineKind {
+    /// The angle of a fold in which the cloth hinges, radians. A fold of angle 0 is pressed flat again: there the cloth
+    /// bends as everywhere.
+    pub fn hinge(&self) -> Option<f64> {
+        match *self {
+            Self::Fold(angle) if angle != 0.0 => Some(angle),
+            _ => None,
+        }
+    }
+}
+
 /// A notch on an edge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Notch {
