@@ -38,7 +38,7 @@ pub struct FlatPiece {
 /// `cloth.seams`; `draped` has one position per particle.
 ///
 /// Edges that an even seam joins get one common length, the mean of both sides as draped (as nearly as the mode keeps
-/// boundaries; exactly the same target). Edges of a seam with ease, gather or stretch get their drawn ratio back: their
+/// boundaries; exactly the same target); an edge in several seams gets the first one's. Edges of a seam with ease, gather or stretch get their drawn ratio back: their
 /// drawn lengths times the stretch beyond the range between the two. Never flips a triangle.
 ///
 /// # Errors
@@ -104,8 +104,12 @@ fn flatten_piece(
 /// Wanted flat lengths of sewn rim edges by their ends (global particles, smaller first).
 type Targets = HashMap<[u32; 2], f64>;
 
+/// Of an edge that several seams join, as a waist between band and lining, the first seam's target counts: a later one
+/// that took it over would leave the first one's sides with two lengths. What a later even seam joins to such an edge
+/// takes its target.
 fn seam_targets(cloth: &ClothMesh, seams: &[Seam], draped: &[Vec3]) -> Targets {
     let mut targets = Targets::new();
+    let key = |ends: [u32; 2]| [ends[0].min(ends[1]), ends[0].max(ends[1])];
     for (k, stitches) in cloth.seams.iter().enumerate() {
         let give = seams.get(k).map_or(Give::Even, |s| s.give);
         for step in stitches.pairs.windows(2) {
@@ -116,10 +120,14 @@ fn seam_targets(cloth: &ClothMesh, seams: &[Seam], draped: &[Vec3]) -> Targets {
             }
             let drawn = [a, b].map(|e| (cloth.flat[e[1] as usize] - cloth.flat[e[0] as usize]).norm());
             let sewn = [a, b].map(|e| (draped[e[1] as usize] - draped[e[0] as usize]).norm());
-            let wanted = wanted_lengths(give, drawn, (sewn[0] + sewn[1]) / 2.0);
+            let known = [a, b].iter().find_map(|&ends| targets.get(&key(ends)).copied());
+            let wanted = match known {
+                Some(length) if give == Give::Even => [length; 2],
+                _ => wanted_lengths(give, drawn, (sewn[0] + sewn[1]) / 2.0),
+            };
             for (ends, length) in [(a, wanted[0]), (b, wanted[1])] {
                 if length > 0.0 {
-                    targets.insert([ends[0].min(ends[1]), ends[0].max(ends[1])], length);
+                    targets.entry(key(ends)).or_insert(length);
                 }
             }
         }
@@ -186,4 +194,51 @@ fn stretched(surface: &TriMesh, t: usize, ends: [u32; 2], ratio: f64) -> Element
     let height = (c - a).cross(&along).norm();
     let plane = [Vec2::zeros(), Vec2::new(length * ratio, 0.0), Vec2::new(foot * ratio, height)];
     Element::from_plane(corners, plane)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Stitches;
+    use crate::pattern::SeamKind;
+    use approx::assert_relative_eq;
+
+    fn seam(give: Give) -> Seam {
+        let (name, a, b, marks) = (String::new(), Vec::new(), Vec::new(), Vec::new());
+        Seam { name, a, b, marks, give, stage: 0, kind: SeamKind::Written, closure: None }
+    }
+
+    /// Flat lengths wanted of a band, a shell and a lining, drawn 100, 150 and 150 mm long and sewn 110, for seams between
+    /// two of them.
+    fn wanted(seams: &[(Give, [u32; 2])]) -> [f64; 3] {
+        let line = |length: f64| [Vec2::zeros(), Vec2::new(length, 0.0)];
+        let flat = [0.10, 0.15, 0.15].into_iter().flat_map(line).collect();
+        let draped: Vec<Vec3> = (0..3).flat_map(|_| line(0.11)).map(|p| p.push(0.0)).collect();
+        let stitches = |&(_, [a, b]): &(Give, [u32; 2])| Stitches {
+            name: String::new(),
+            pairs: vec![[2 * a, 2 * b], [2 * a + 1, 2 * b + 1]],
+        };
+        let cloth = ClothMesh { flat, seams: seams.iter().map(stitches).collect(), ..ClothMesh::default() };
+        let gives: Vec<Seam> = seams.iter().map(|s| seam(s.0)).collect();
+        let targets = seam_targets(&cloth, &gives, &draped);
+        [0, 1, 2].map(|k| targets[&[2 * k, 2 * k + 1]])
+    }
+
+    #[test]
+    fn of_an_edge_in_two_seams_the_first_ones_target_counts() {
+        const BAND: u32 = 0;
+        const SHELL: u32 = 1;
+        const LINING: u32 = 2;
+        let (gathers, lines) = ((Give::Gather(1.5), [SHELL, BAND]), (Give::Even, [SHELL, LINING]));
+        // The gathered shell keeps its drawn length, and its lining fits it.
+        let [band, shell, lining] = wanted(&[gathers, lines]);
+        assert_relative_eq!(band, 0.10, epsilon = 1e-12);
+        assert_relative_eq!(shell, 0.15, epsilon = 1e-12);
+        assert_eq!(shell, lining);
+        // The other way round shell and lining have their sewn length.
+        let [band, shell, lining] = wanted(&[lines, gathers]);
+        assert_relative_eq!(band, 0.10, epsilon = 1e-12);
+        assert_relative_eq!(shell, 0.11, epsilon = 1e-12);
+        assert_eq!(shell, lining);
+    }
 }
