@@ -353,15 +353,20 @@ fn floor(x: &[Vec3]) -> Vec<Vec3> {
     x.iter().map(|v| Vec3::y() * (-MASS * GRAVITY + 2e6 * (-v.y).max(0.0))).collect()
 }
 
+/// Steps that the adaptive runs below need at most (they take 2,200 and 1,300). One whose step collapsed would not end.
+const MAX_STEPS: usize = 3_000;
+
 #[test]
 fn the_step_grows_in_the_air_and_shrinks_on_the_floor() {
     let control = StepControl::Adaptive { first: 1e-5, smallest: 1e-9, largest: 5e-3, most: 0.1 };
     let start = vec![Vec3::y() * 0.5];
     let mut run = Explicit::new(start, &[MASS], 0.05, Start::Published, control, floor).expect("usable");
     let (mut longest, mut after_landing, mut highest) = (0.0f64, f64::INFINITY, 0.0f64);
-    let mut landed = false;
+    let (mut landed, mut steps) = (false, 0);
     while run.time() < 4.0 {
         let step = run.advance().expect("never diverges");
+        steps += 1;
+        assert!(steps <= 2 * MAX_STEPS, "only {} s after {steps} steps", run.time());
         let height = run.positions()[0].y;
         landed |= height < 0.0;
         if landed {
@@ -387,8 +392,10 @@ fn the_adaptive_step_finds_the_limit_of_stability() {
     let x = vec![Vec3::x(), Vec3::x() * 1e-9];
     let control = StepControl::Adaptive { first: 1e-6, smallest: 1e-9, largest: 1.0, most: 1.0 };
     let mut run = Explicit::new(x, &[MASS, MASS], 0.3, Start::Published, control, law).expect("usable");
-    let mut longest = 0.0f64;
+    let (mut longest, mut steps) = (0.0f64, 0);
     while run.time() < 0.5 {
+        steps += 1;
+        assert!(steps <= 2 * MAX_STEPS, "only {} s after {steps} steps", run.time());
         longest = longest.max(run.advance().expect("never diverges"));
         assert!(run.positions()[0].norm() < 1.1 && run.positions()[1].norm() < 0.1);
     }

@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
+use toile::drape::{DrapeOptions, Until, drape};
 use toile::pipeline::{Job, Overrides, Run, read};
 use toile::report::{Contact, Report};
+use toile::sew::{SewOptions, place, sew};
 
 /// The scene at `spacing` mm.
 fn scene(name: &str, spacing: f64) -> Job {
@@ -80,4 +82,24 @@ fn a_cuff_stays_turned_up() {
     };
     let up = height(0.64) - height(0.57);
     assert!((up - 0.07).abs() < 0.01, "the hem lies {up} m above the fold");
+}
+
+#[test]
+fn tests_of_rest_take_no_more_than_twice_the_steps_allowed() {
+    let job = scene("sheet_on_sphere.yaml", 40.0);
+    let placed = place::place(&job.garment, &job.mesh, &job.body, &job.collider).expect("placed");
+    let sewn = sew(&job.cut(), &job.collider, placed, &SewOptions::default(), &mut |_| {}).expect("nothing to sew");
+    for max_steps in [0, 1, 4] {
+        let options = DrapeOptions { max_steps, until: Until::Rest, near: false };
+        let nodes = sewn.nodes.clone();
+        // Steps come ten at a time, so that a test of as many would be more than what is allowed.
+        let draped = drape(&job.cut(), &job.collider, &sewn.stitching, nodes, &options, &mut |_| {}).expect("finite");
+        assert!(
+            draped.tested <= 2 * max_steps && draped.steps >= max_steps,
+            "{} after {}",
+            draped.tested,
+            draped.steps
+        );
+        assert!(!draped.converged && draped.drift.iter().all(|d| d.is_finite()), "{:?}", draped.drift);
+    }
 }

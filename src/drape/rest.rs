@@ -46,6 +46,8 @@ pub struct Draped {
     pub nodes: Vec<Vec3>,
     /// Steps made.
     pub steps: usize,
+    /// Steps that tests of its rest made besides, no more than twice those that were allowed.
+    pub tested: usize,
     /// Whether it is at rest: unbalanced force within a particle's weight, drift within bounds.
     pub converged: bool,
     /// Elastic, contact and gravity energy, J.
@@ -80,6 +82,9 @@ const RESIDUAL: f64 = 1.0;
 /// once so many in a row were: a single short one may be one that could not be made longer.
 const STILL: f64 = 1.0 / 3.0;
 const IN_A_ROW: usize = 3;
+/// Tests of rest take no more than this many times the steps that draping may: one test as long as the longest fall, and
+/// as much for those before it. A garment that creeps fails one after the other, each as long as its whole way.
+const TESTS: usize = 2;
 /// A garment whose nodes went so far in one stretch is looked at this many times as far around in the next: further
 /// finds more than pays, less needs too many looks (one is due when a node has gone a third of that).
 const LOOK: f64 = 2.0;
@@ -105,7 +110,8 @@ pub fn drape(
     let thick = world.cloth.thickest();
     let look = [thick + NEAREST_LOOK, drape_reach(cut.mesh.spacing, thick)];
     let near = options.near;
-    let mut fall = Fall { last: world.x.clone(), world, steps: 0, near, trust: TRUST[0], look };
+    let (last, trust) = (world.x.clone(), TRUST[0]);
+    let mut fall = Fall { last, world, steps: 0, tested: 0, near, trust, look };
     let (drift, residual, converged) = match options.until {
         Until::Rest => fall.come_to_rest(options.max_steps, progress)?,
         Until::Near => {
@@ -114,7 +120,8 @@ pub fn drape(
         }
     };
     progress(1.0);
-    Ok(Draped { energy: fall.world.energy(), nodes: fall.world.x, steps: fall.steps, converged, drift, residual })
+    let Fall { world, steps, tested, .. } = fall;
+    Ok(Draped { energy: world.energy(), nodes: world.x, steps, tested, converged, drift, residual })
 }
 
 /// A garment on its way down.
@@ -123,6 +130,8 @@ struct Fall<'a> {
     /// Positions before the last step.
     last: Vec<Vec3>,
     steps: usize,
+    /// Steps of tests.
+    tested: usize,
     /// Whether it is near its rest, and stays so.
     near: bool,
     /// How far a Newton step is trusted, metres.
@@ -132,7 +141,8 @@ struct Fall<'a> {
 }
 
 impl Fall<'_> {
-    /// Steps until the garment rests, or `most` are made. Returns its drift, its residual force, and whether it rests.
+    /// Steps until the garment rests, or `most` are made, or [`TESTS`] times as many for tests. Returns its drift, its
+    /// residual force, and whether it rests.
     fn come_to_rest(&mut self, most: usize, progress: &mut dyn FnMut(f64)) -> Result<([f64; 2], f64, bool), StepError> {
         loop {
             self.settle(most, SETTLED, progress)?;
@@ -141,10 +151,10 @@ impl Fall<'_> {
             if self.world.residual_in_weights() > RESIDUAL && !out_of_steps {
                 continue;
             }
-            let drift = self.drift()?;
+            let drift = self.drift(TESTS * most)?;
             let residual = self.world.residual_in_weights();
             let rests = drift[0] <= DRIFT && residual <= RESIDUAL;
-            if rests || out_of_steps {
+            if rests || out_of_steps || self.tested >= TESTS * most {
                 return Ok((drift, residual, rests));
             }
         }
@@ -188,23 +198,24 @@ impl Fall<'_> {
     }
 
     /// As many steps again as were made, at half the step size: how far the garment goes, metres, root mean square and
-    /// largest. Where it hardly moves any more, the steps that are left count as if each went as far as the last, all the
-    /// same way.
-    fn drift(&mut self) -> Result<[f64; 2], StepError> {
+    /// largest. Where it hardly moves any more, or tests have made `most` steps, those that are left count as if each went
+    /// as far as the last, all the same way.
+    fn drift(&mut self, most: usize) -> Result<[f64; 2], StepError> {
         let before = self.world.x.clone();
         let (mut left_out, mut still) = ([0.0; 2], 0);
         for left in (0..self.steps).rev() {
             let from = self.world.x.clone();
             self.step(0.5 * STEP)?;
-            let [mean, most] = motion(&from, &self.world.x).map(|way| way * left as f64);
-            still = if mean <= STILL * DRIFT { still + 1 } else { 0 };
-            if still == IN_A_ROW {
-                left_out = [mean, most];
+            self.tested += 1;
+            let still_to_go = motion(&from, &self.world.x).map(|way| way * left as f64);
+            still = if still_to_go[0] <= STILL * DRIFT { still + 1 } else { 0 };
+            if still == IN_A_ROW || self.tested >= most {
+                left_out = still_to_go;
                 break;
             }
         }
-        let [mean, most] = motion(&before, &self.world.x);
-        Ok([mean + left_out[0], most + left_out[1]])
+        let [mean, largest] = motion(&before, &self.world.x);
+        Ok([mean + left_out[0], largest + left_out[1]])
     }
 }
 

@@ -216,6 +216,7 @@ mod tests {
         let draped: Vec<Vec3> = (0..3).flat_map(|_| line(0.11)).map(|p| p.push(0.0)).collect();
         let stitches = |&(_, [a, b]): &(Give, [u32; 2])| Stitches {
             name: String::new(),
+            stage: 1,
             pairs: vec![[2 * a, 2 * b], [2 * a + 1, 2 * b + 1]],
         };
         let cloth = ClothMesh { flat, seams: seams.iter().map(stitches).collect(), ..ClothMesh::default() };
