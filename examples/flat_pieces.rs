@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use toile::flatten::{Mode, Options};
 use toile::io::files::write_all;
-use toile::pipeline::{Cuts, Limit, SurfaceOptions, flatten_surface};
+use toile::pipeline::{Cuts, DARTS, Limit, SurfaceOptions, flatten_surface};
 
 /// Vertices along each side of a surface.
 const SIDE: u32 = 60;
@@ -48,7 +48,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             texture_seams: true,
             weld: false,
             cuts: Cuts::default(),
-            darts: case.darts,
+            darts: if case.darts { DARTS } else { 0 },
             limit: Limit::Strain(0.1),
             flatten: Options { mode: case.mode, ..Options::default() },
         };

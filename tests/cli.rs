@@ -587,20 +587,28 @@ fn what_is_no_disk_is_cut_where_asked_or_where_it_must_be() {
     assert!(room.names("no").is_empty());
 }
 
+/// Domes over squares of 20 cm, so many mm high, side by side in an OBJ, a group each.
+fn domes(heights: &[(&str, f64)]) -> String {
+    let mut text = String::new();
+    for (k, (name, height)) in (0..).zip(heights) {
+        text += &format!("g {name}\n");
+        for (row, column) in (0..=24).flat_map(|row| (0..=24).map(move |column| (row, column))) {
+            let [x, y] = [row, column].map(|k| f64::from(k) / 12.0 - 1.0);
+            let up = height * (1.0 - x * x) * (1.0 - y * y);
+            text += &format!("v {} {} {up}\n", 100.0 * x + 300.0 * f64::from(k), 100.0 * y);
+        }
+        for (row, column) in (0..24).flat_map(|row| (0..24).map(move |column| (row, column))) {
+            let a = 625 * k + 25 * row + column + 1;
+            text += &format!("f {a} {} {} {}\n", a + 25, a + 26, a + 1);
+        }
+    }
+    text
+}
+
 #[test]
 fn a_dart_is_proposed_where_cloth_would_be_strained_and_cut_when_asked() {
     let room = Room::new();
-    // A dome: half a sphere of 10 cm, flattened at its rim.
-    let mut text = String::new();
-    for (row, column) in (0..=24).flat_map(|row| (0..=24).map(move |column| (row, column))) {
-        let [x, y] = [row, column].map(|k| f64::from(k) / 12.0 - 1.0);
-        text += &format!("v {} {} {}\n", 100.0 * x, 100.0 * y, 60.0 * (1.0 - x * x) * (1.0 - y * y));
-    }
-    for (row, column) in (0..24).flat_map(|row| (0..24).map(move |column| (row, column))) {
-        let a = 25 * row + column + 1;
-        text += &format!("f {a} {} {} {}\n", a + 25, a + 26, a + 1);
-    }
-    room.put("dome.obj", &text);
+    room.put("dome.obj", &domes(&[("dome", 60.0)]));
     let run =
         |more: &[&str]| room.run(&[&["flatten", "dome.obj", "-o", "flat", "--json", "--units", "mm"], more].concat());
     let whole = run(&[]).ends(0).says(&["--dart auto"]).json();
@@ -616,6 +624,45 @@ fn a_dart_is_proposed_where_cloth_would_be_strained_and_cut_when_asked() {
     assert!(strain(&darted) < 0.8 * strain(&whole), "{} {}", strain(&darted), strain(&whole));
     assert!(darted["cuts"].as_array().is_some_and(|c| !c.is_empty()));
     assert_eq!(darted["pieces"][0]["flips"], 0);
+    run(&["--dart", "0"]).ends(2).says(&["--dart", "'auto' or a number"]);
+}
+
+#[test]
+fn the_next_dart_goes_into_the_part_that_is_strained_most() {
+    let room = Room::new();
+    room.put("two.obj", &domes(&[("shallow", 25.0), ("steep", 90.0)]));
+    let run = |dart: &str, limit: &str| {
+        let args = ["flatten", "two.obj", "-o", "flat", "--json", "--units", "mm", "--dart", dart, "--limit", limit];
+        room.run(&args)
+    };
+    let darts = |report: &Value| [0, 1].map(|k| report["pieces"][k]["darts"].as_u64().expect("a count"));
+    let stopped = |report: &Value| [0, 1].map(|k| report["pieces"][k]["darts_stopped"].clone());
+    // Both are beyond the limit; with a dart the steep one still needs the second more than the shallow one its first.
+    let two = run("2", "3").ends(0).says(&["'steep'", "has 2 darts", "'shallow'", "--dart allows 2"]).json();
+    assert_eq!(darts(&two), [0, 2]);
+    assert_eq!(stopped(&two), ["none_left", "none_left"]);
+    assert_eq!(two["cuts"].as_array().map(Vec::len), Some(2));
+    // No more are cut than are needed.
+    let enough = run("auto", "10").ends(0).json();
+    assert_eq!(stopped(&enough), [Value::Null, Value::Null]);
+    let [shallow, steep] = darts(&enough);
+    assert!(shallow == 0 && (2..8).contains(&steep), "{shallow} {steep}");
+    assert!(enough["pieces"][1]["strain"]["p99"].as_f64().is_some_and(|s| s <= 0.1));
+}
+
+#[test]
+fn a_dart_that_would_make_a_piece_lie_on_itself_is_not_cut() {
+    let room = Room::new();
+    room.put("deep.obj", &domes(&[("deep", 300.0), ("steep", 90.0)]));
+    let args = ["flatten", "deep.obj", "-o", "flat", "--json", "--units", "mm", "--dart", "40", "--limit", "5"];
+    let report = room.run(&args).ends(0).says(&["'deep'", "lie on itself", "--cut"]).json();
+    let [deep, steep] = [0, 1].map(|k| &report["pieces"][k]);
+    assert_eq!((&deep["overlaps"], &deep["darts_stopped"]), (&Value::from(0), &Value::from("overlap")));
+    // The other gets what it needs all the same.
+    assert_eq!(steep["darts_stopped"], Value::Null);
+    let cut = [deep, steep].map(|piece| piece["darts"].as_u64().expect("a count"));
+    assert!(cut[0] > 0 && cut[1] > 0 && cut[0] + cut[1] < 40, "{cut:?}");
+    assert_eq!(report["cuts"].as_array().map(Vec::len), Some((cut[0] + cut[1]) as usize));
 }
 
 /// Every one of these must end with 2, say this, and write nothing.

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand, ValueEnum};
 
 use crate::flatten::Mode;
-use crate::pipeline::{Color, Overrides};
+use crate::pipeline::{Color, DARTS, Overrides};
 
 /// Sew flat patterns onto a mannequin, drape them in a measured fabric and lay them flat again.
 #[derive(Debug, Parser)]
@@ -135,6 +135,15 @@ fn percent(text: &str) -> Result<f64, String> {
     }
 }
 
+/// How many darts at most.
+fn darts(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        _ if text == "auto" => Ok(DARTS),
+        Ok(count) if count > 0 => Ok(count),
+        _ => Err("'auto' or a number of darts is expected, such as 4".into()),
+    }
+}
+
 /// Arguments of `drape`.
 #[derive(Debug, clap::Args)]
 pub(super) struct DrapeArgs {
@@ -184,9 +193,10 @@ pub(super) struct FlattenArgs {
     /// be given several times (OBJ only)
     #[arg(long, value_name = "auto|V,V,…")]
     pub(super) cut: Vec<String>,
-    /// Cut darts where the strain passes the limit, eight at most (OBJ only)
-    #[arg(long, value_enum)]
-    pub(super) dart: Option<DartArg>,
+    /// Cut darts where the strain passes the limit, N at most for all pieces together, the next always where it is needed
+    /// most; auto cuts eight at most (OBJ only)
+    #[arg(long, value_name = "auto|N", value_parser = darts)]
+    pub(super) dart: Option<usize>,
     /// Strain in per cent that all but a hundredth of a piece should stay below (OBJ only) [default: 10, or with --fabric
     /// what its threads give]
     #[arg(long, value_name = "PERCENT", value_parser = percent, conflicts_with = "fabric")]
@@ -443,13 +453,6 @@ impl From<ModeArg> for Mode {
             ModeArg::Spring => Self::Spring,
         }
     }
-}
-
-/// `--dart`
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum DartArg {
-    /// Where it relieves most, until the strain is below the limit
-    Auto,
 }
 
 /// `--units`

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::args::{DartArg, FlattenArgs, UnitArg};
+use super::args::{FlattenArgs, UnitArg};
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use super::make::{Goal, Plan, carry_out, folder, write};
@@ -10,8 +10,8 @@ use crate::fabric;
 use crate::flatten::Options;
 use crate::io::files::check_writable;
 use crate::pipeline::{
-    Color, Cuts, DARTS, FLAT_OBJ, FLAT_PNG, Limit, OUTLINE_SVG, PATTERN_SVG, PartReport, REPORT_JSON, SurfaceOptions,
-    SurfaceReport, flatten_surface,
+    Color, Cuts, DartStop, FLAT_OBJ, FLAT_PNG, Limit, OUTLINE_SVG, PATTERN_SVG, PartReport, REPORT_JSON,
+    SurfaceOptions, SurfaceReport, flatten_surface,
 };
 use crate::report::{aligned, restless};
 
@@ -95,7 +95,7 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
         texture_seams: !args.no_texture_seams,
         weld: args.weld,
         cuts: cuts(&args.cut)?,
-        darts: args.dart == Some(DartArg::Auto),
+        darts: args.dart.unwrap_or(0),
         limit: limit(args)?,
         flatten,
     };
@@ -128,9 +128,22 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
 
 /// What is beyond the limit, why, and what would help.
 fn strained(piece: &PartReport, options: &SurfaceOptions) -> Option<String> {
-    let dart = piece.dart?;
+    if piece.dart.is_none() && piece.darts_stopped.is_none() {
+        return None;
+    }
+    let mut text =
+        format!("'{}' is strained by {}: {}", piece.name, strain(piece, &options.limit), remedy(piece, options));
+    if piece.area_error_bound > 0.0 {
+        let bound = 100.0 * piece.area_error_bound;
+        text += &format!("; no flat piece with this length of rim has more than {:.1} % of its area", 100.0 - bound);
+    }
+    Some(text)
+}
+
+/// How much it is strained, beside the limit.
+fn strain(piece: &PartReport, limit: &Limit) -> String {
     let percent = |x: f64| format!("{:.1} %", 100.0 * x);
-    let strain = match &options.limit {
+    match limit {
         Limit::Strain(most) => {
             format!("up to {} in all but a hundredth of it (limit {})", percent(piece.strain.p99), percent(*most))
         }
@@ -141,22 +154,30 @@ fn strained(piece: &PartReport, options: &SurfaceOptions) -> Option<String> {
             percent(*warp),
             percent(*weft)
         ),
-    };
-    let remedy = if options.darts {
-        format!("--dart auto cuts no more than {DARTS} for all pieces together; cut it in two with --cut")
-    } else {
-        "--dart auto cuts it".to_owned()
-    };
-    let mut text = format!(
-        "'{}' is strained by {strain}: a dart from vertex {} on the rim to vertex {} ({:.0} mm) would relieve it most; \
-         {remedy}",
-        piece.name, dart.rim, dart.tip, dart.length
-    );
-    if piece.area_error_bound > 0.0 {
-        let bound = 100.0 * piece.area_error_bound;
-        text += &format!("; no flat piece with this length of rim has more than {:.1} % of its area", 100.0 - bound);
     }
-    Some(text)
+}
+
+/// Where a dart would help, and why it is not there.
+fn remedy(piece: &PartReport, options: &SurfaceOptions) -> String {
+    let place = piece.dart.map(|dart| {
+        let (rim, tip, length) = (dart.rim, dart.tip, dart.length);
+        format!("a dart from vertex {rim} on the rim to vertex {tip} ({length:.0} mm) would ")
+    });
+    let stopped = match piece.darts_stopped {
+        None => return place.unwrap_or_default() + "relieve it most; --dart auto cuts it",
+        Some(DartStop::NoneLeft) => format!(
+            "relieve it most, but --dart allows {} for all pieces together; allow more, or cut it in two with --cut",
+            options.darts
+        ),
+        Some(DartStop::Overlap) => "relieve it most, but make it lie on itself; cut it in two with --cut".to_owned(),
+        Some(DartStop::NoPlace) => "no place for a dart can be told; cut it in two with --cut".to_owned(),
+    };
+    let cut = match piece.darts {
+        0 => String::new(),
+        1 => "it has a dart; ".to_owned(),
+        several => format!("it has {several} darts; "),
+    };
+    cut + &place.unwrap_or_default() + &stopped
 }
 
 fn figures(report: &SurfaceReport) -> String {

@@ -32,6 +32,6 @@ pub use results::{
 };
 pub use run::{Progress, Run};
 pub use surface::{
-    Cuts, DARTS, EdgeReport, FLAT_OBJ, FLAT_PNG, FlatSurface, Limit, OUTLINE_SVG, PartReport, SurfaceOptions,
+    Cuts, DARTS, DartStop, EdgeReport, FLAT_OBJ, FLAT_PNG, FlatSurface, Limit, OUTLINE_SVG, PartReport, SurfaceOptions,
     SurfaceReport, flatten_surface,
 };

@@ -22,7 +22,7 @@ pub struct Cuts {
 }
 
 /// Edges of nodes that are cut.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Marks {
     pub(super) edges: HashSet<[u32; 2]>,
     /// The same as chains of the file's vertices, from 1.

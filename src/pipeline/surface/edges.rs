@@ -7,6 +7,7 @@
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
+use super::darts::Laid;
 use super::parts::{Part, sorted};
 use crate::geometry::rim_loops;
 
@@ -32,9 +33,10 @@ pub(super) struct NamedEdge {
 type Other = Option<(usize, [u32; 2])>;
 
 /// The named edges of every part.
-pub(super) fn named_edges(parts: &[Part]) -> Vec<Vec<NamedEdge>> {
+pub(super) fn named_edges(laid: &[Laid]) -> Vec<Vec<NamedEdge>> {
+    let parts: Vec<&Part> = laid.iter().map(|l| &l.part).collect();
     let loops: Vec<Vec<Vec<u32>>> = parts.iter().map(|p| rim_loops(&p.surface.triangles)).collect();
-    let others = Others::new(parts, &loops);
+    let others = Others::new(&parts, &loops);
     let mut all: Vec<Vec<NamedEdge>> = Vec::with_capacity(parts.len());
     for (k, part) in parts.iter().enumerate() {
         let mut edges = Vec::new();
@@ -62,7 +64,7 @@ struct Others {
 }
 
 impl Others {
-    fn new(parts: &[Part], loops: &[Vec<Vec<u32>>]) -> Self {
+    fn new(parts: &[&Part], loops: &[Vec<Vec<u32>>]) -> Self {
         let mut at: HashMap<[u32; 2], Vec<(usize, [u32; 2])>> = HashMap::new();
         for (k, (part, loops)) in parts.iter().zip(loops).enumerate() {
             for ends in loops.iter().flat_map(|rim| sides(rim)) {

@@ -1,6 +1,7 @@
 //! Any surface laid flat: every group, texture island or connected part of an OBJ file as a piece of its own.
 
 mod cuts;
+mod darts;
 mod edges;
 mod parts;
 mod report;
@@ -9,18 +10,18 @@ mod write;
 use std::path::Path;
 use std::time::Instant;
 
-use rayon::prelude::*;
-
 use super::error::PipelineError;
 use crate::fabric::Fabric;
-use crate::flatten::{FlattenError, Flattened, Options, Report, flatten};
+use crate::flatten::{Options, Report};
 use crate::geometry::Vec3;
 use crate::io::obj_read::{ObjFaces, read_obj_faces};
 use crate::report::Stage;
 pub use cuts::Cuts;
 use cuts::Marks;
+pub use darts::DartStop;
+use darts::{Laid, Source, with_darts};
 use edges::{NamedEdge, named_edges};
-use parts::{Nodes, Part, parts};
+use parts::Nodes;
 pub use report::{EdgeReport, PartReport, SurfaceReport};
 pub use write::{FLAT_OBJ, FLAT_PNG, OUTLINE_SVG};
 
@@ -28,7 +29,7 @@ pub use write::{FLAT_OBJ, FLAT_PNG, OUTLINE_SVG};
 /// pieces of garments are between 4 cm and 4 m large.
 const METRES_BELOW: f64 = 4.0;
 const CENTIMETRES_BELOW: f64 = 250.0;
-/// Darts that `auto` cuts into one surface at most: what is not below the limit then needs a seam.
+/// Darts that `auto` cuts into all parts of a surface together: what is not below the limit then needs a seam.
 pub const DARTS: usize = 8;
 
 /// How to read and flatten a surface.
@@ -43,8 +44,8 @@ pub struct SurfaceOptions {
     pub weld: bool,
     /// Where to cut besides.
     pub cuts: Cuts,
-    /// Whether to cut darts where the strain passes the limit.
-    pub darts: bool,
+    /// How many darts to cut at most, into all parts together, where the strain passes the limit.
+    pub darts: usize,
     /// What 99 % of a piece's area should stay below.
     pub limit: Limit,
     /// How to flatten.
@@ -77,20 +78,24 @@ impl Limit {
         Self::Fabric { name: fabric.name.clone(), warp, weft }
     }
 
+    /// How much a piece is strained, 1 at the limit.
+    fn share(&self, piece: &Report) -> f64 {
+        match self {
+            Self::Strain(most) => piece.strain_p99 / most,
+            Self::Fabric { warp, weft, .. } => (piece.threads.warp_p99 / warp).max(piece.threads.weft_p99 / weft),
+        }
+    }
+
     /// Whether a piece is strained more.
     pub fn passed(&self, piece: &Report) -> bool {
-        match self {
-            Self::Strain(most) => piece.strain_p99 > *most,
-            Self::Fabric { warp, weft, .. } => piece.threads.warp_p99 > *warp || piece.threads.weft_p99 > *weft,
-        }
+        self.share(piece) > 1.0
     }
 }
 
 /// A surface laid flat.
 pub struct FlatSurface {
     faces: ObjFaces,
-    parts: Vec<Part>,
-    flat: Vec<Flattened>,
+    laid: Vec<Laid>,
     /// Of every part.
     edges: Vec<Vec<NamedEdge>>,
     /// What it did to the cloth.
@@ -115,54 +120,42 @@ pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurf
     }
     let textured = options.texture_seams && faces.texture_of_face.iter().any(|t| !t.is_empty());
     let nodes = Nodes::new(&faces, textured, options.weld);
+    let source = Source { file, faces: &faces, nodes: &nodes, unit, stem: &stem, options };
     let mut marks = Marks::default();
     if options.cuts != Cuts::default() {
-        let whole = parts(&faces, &nodes, &marks.edges, unit, &stem);
-        marks = Marks::new(file, &faces, &nodes, &whole, &options.cuts)?;
+        marks = Marks::new(file, &faces, &nodes, &source.parts(&marks), &options.cuts)?;
     }
-    let mut darts = if options.darts { DARTS } else { 0 };
-    let (parts, flat, proposals) = loop {
-        let parts = parts(&faces, &nodes, &marks.edges, unit, &stem);
-        let flat = lay_out(file, &parts, &options.flatten)?;
-        let mut proposals = Vec::with_capacity(parts.len());
-        for (part, flat) in parts.iter().zip(&flat) {
-            proposals.push(if options.limit.passed(&flat.report) { cuts::dart(part, flat) } else { Vec::new() });
-        }
-        let wanted = proposals.iter().filter(|d| d.len() > 1).count();
-        if wanted == 0 || wanted > darts {
-            break (parts, flat, proposals);
-        }
-        darts -= wanted;
-        parts.iter().zip(&proposals).for_each(|(part, dart)| marks.cut(part, dart));
-    };
-    let otherwise = |texture, weld| count(&faces, &Nodes::new(&faces, texture, weld), unit, &stem);
-    if textured && parts.len() > otherwise(false, options.weld) {
-        notes.push("cut along the seams of its texture; --no-texture-seams leaves them closed".into());
-    }
-    if !options.weld && parts.len() > faces.groups.len() && parts.len() > otherwise(textured, true) {
-        notes.push("parts meet in vertices of their own at the same places; --weld joins them".into());
-    }
-    let edges = named_edges(&parts);
-    let reports = parts.iter().zip(&flat).zip(&proposals);
-    let mut pieces: Vec<PartReport> =
-        reports.map(|((p, f), d)| PartReport::new(p, &f.report, cuts::proposal(p, d))).collect();
-    for (k, piece) in pieces.iter_mut().enumerate() {
-        piece.edges = edges[k].iter().map(|e| report::edge(&parts, &edges, k, e, &flat[k].positions)).collect();
-    }
+    let laid = with_darts(&source, &mut marks)?;
+    notes.extend(source.split_notes(textured, laid.len()));
+    let edges = named_edges(&laid);
     let report = SurfaceReport {
         toile: env!("CARGO_PKG_VERSION").into(),
         surface: stem.clone(),
         units,
-        pieces,
+        pieces: report::pieces(&laid, &edges),
         cuts: marks.chains,
-        stages: vec![stage(flat.iter().map(|f| f.report), begin)],
+        stages: vec![stage(laid.iter().map(|l| l.flat.report), begin)],
     };
-    Ok(FlatSurface { faces, parts, flat, edges, report, notes })
+    Ok(FlatSurface { faces, laid, edges, report, notes })
 }
 
-/// Number of parts that nodes hang together in.
-fn count(faces: &ObjFaces, nodes: &Nodes, unit: f64, stem: &str) -> usize {
-    parts(faces, nodes, &Marks::default().edges, unit, stem).len()
+impl Source<'_> {
+    /// Why the surface is in so many parts, where its author may have meant fewer.
+    fn split_notes(&self, textured: bool, count: usize) -> Vec<String> {
+        let weld = self.options.weld;
+        let otherwise = |texture, weld| {
+            let nodes = Nodes::new(self.faces, texture, weld);
+            Source { nodes: &nodes, ..*self }.parts(&Marks::default()).len()
+        };
+        let mut notes = Vec::new();
+        if textured && count > otherwise(false, weld) {
+            notes.push("cut along the seams of its texture; --no-texture-seams leaves them closed".into());
+        }
+        if !weld && count > self.faces.groups.len() && count > otherwise(textured, true) {
+            notes.push("parts meet in vertices of their own at the same places; --weld joins them".into());
+        }
+        notes
+    }
 }
 
 /// Metres per unit of a file of this size, and the unit's name.
@@ -189,13 +182,6 @@ fn name_of(unit: f64) -> &'static str {
     } else {
         "mm"
     }
-}
-
-fn lay_out(file: &Path, parts: &[Part], options: &Options) -> Result<Vec<Flattened>, PipelineError> {
-    let flat: Vec<Result<Flattened, FlattenError>> =
-        parts.par_iter().map(|part| flatten(&part.surface, options)).collect();
-    // Of several errors the first in the file's order, not the first in time.
-    parts.iter().zip(flat).map(|(part, flat)| flat.map_err(|error| cuts::advise(file, part, error))).collect()
 }
 
 /// The stage that laid pieces with these figures flat.

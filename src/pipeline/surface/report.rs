@@ -4,10 +4,9 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
+use super::cuts;
+use super::darts::{DartStop, Laid};
 use super::edges::NamedEdge;
-use super::parts::Part;
-use crate::flatten;
-use crate::geometry::Vec2;
 use crate::report::{Quartet, Stage};
 
 /// Millimetres in a metre.
@@ -81,6 +80,11 @@ pub struct PartReport {
     pub edges: Vec<EdgeReport>,
     /// A dart that would relieve the piece, where its strain passes the limit.
     pub dart: Option<DartReport>,
+    /// How many darts were cut into it.
+    pub darts: usize,
+    /// Why there are no more where they were asked for and the strain still passes the limit: `none_left` (of those
+    /// allowed), `overlap` (the piece would lie on itself) or `no_place` (none can be told that would help).
+    pub darts_stopped: Option<DartStop>,
 }
 
 /// Strain of a part, fractions.
@@ -107,9 +111,18 @@ pub struct EdgeReport {
     pub sewn_to: Option<String>,
 }
 
+/// All parts as they are reported, with their edges.
+pub(super) fn pieces(laid: &[Laid], edges: &[Vec<NamedEdge>]) -> Vec<PartReport> {
+    let piece = |(k, own): (usize, &Laid)| PartReport {
+        edges: edges[k].iter().map(|e| edge(laid, edges, k, e)).collect(),
+        ..PartReport::new(own)
+    };
+    laid.iter().enumerate().map(piece).collect()
+}
+
 /// An edge of part `k` as it is reported.
-pub(super) fn edge(parts: &[Part], all: &[Vec<NamedEdge>], k: usize, edge: &NamedEdge, flat: &[Vec2]) -> EdgeReport {
-    let (part, vertices) = (&parts[k], &edge.vertices);
+fn edge(laid: &[Laid], all: &[Vec<NamedEdge>], k: usize, edge: &NamedEdge) -> EdgeReport {
+    let (part, flat, vertices) = (&laid[k].part, &laid[k].flat.positions, &edge.vertices);
     let ends = [vertices[0], vertices[vertices.len() - 1]].map(|v| part.number(v));
     let pairs = || vertices.windows(2).map(|w| [w[0] as usize, w[1] as usize]);
     let at = &part.surface.vertices;
@@ -118,7 +131,7 @@ pub(super) fn edge(parts: &[Part], all: &[Vec<NamedEdge>], k: usize, edge: &Name
         ends,
         length_draped: pairs().map(|[a, b]| (at[b] - at[a]).norm()).sum::<f64>() * MM,
         length_flattened: pairs().map(|[a, b]| (flat[b] - flat[a]).norm()).sum::<f64>() * MM,
-        sewn_to: edge.partner.map(|[p, e]| format!("{}.{}", parts[p].name, all[p][e].name)),
+        sewn_to: edge.partner.map(|[p, e]| format!("{}.{}", laid[p].part.name, all[p][e].name)),
     }
 }
 
@@ -151,7 +164,8 @@ pub struct DartReport {
 }
 
 impl PartReport {
-    pub(super) fn new(part: &Part, r: &flatten::Report, dart: Option<DartReport>) -> Self {
+    fn new(laid: &Laid) -> Self {
+        let (part, r) = (&laid.part, &laid.flat.report);
         let error = |e: f64| Quartet { flatten: Some(e), ..Quartet::default() };
         let isoperimetric = r.boundary_before.powi(2) / (4.0 * PI * r.area_before);
         Self {
@@ -185,7 +199,9 @@ impl PartReport {
             flips: r.flips,
             overlaps: r.overlaps,
             edges: Vec::new(),
-            dart,
+            dart: cuts::proposal(part, &laid.dart),
+            darts: laid.darts,
+            darts_stopped: laid.stop,
         }
     }
 }

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use super::super::error::PipelineError;
 use super::super::results::{PATTERN_SVG, REPORT_JSON, ResultFile, json_text};
 use super::FlatSurface;
+use super::darts::Laid;
 use super::edges::NamedEdge;
 use crate::flatten::triangle_strain;
 use crate::geometry::Vec2;
@@ -51,27 +52,27 @@ impl FlatSurface {
         for p in &self.faces.vertices {
             let _ = writeln!(out, "v {} {} {}", p.x, p.y, p.z);
         }
-        let mut first = Vec::with_capacity(self.parts.len());
+        let mut first = Vec::with_capacity(self.laid.len());
         let mut written = 1;
-        for flat in &self.flat {
+        for flat in self.laid.iter().map(|l| &l.flat.positions) {
             first.push(written);
-            written += flat.positions.len();
-            for p in &flat.positions {
+            written += flat.len();
+            for p in flat {
                 let _ = writeln!(out, "vt {} {}", p.x * MM, -p.y * MM);
             }
         }
         let mut part_of_face = vec![0; self.faces.faces.len()];
-        for (k, part) in self.parts.iter().enumerate() {
-            part.faces.iter().for_each(|&f| part_of_face[f as usize] = k);
+        for (k, laid) in self.laid.iter().enumerate() {
+            laid.part.faces.iter().for_each(|&f| part_of_face[f as usize] = k);
         }
         let mut group = None;
-        let mut seen = vec![0; self.parts.len()];
+        let mut seen = vec![0; self.laid.len()];
         for (f, corners) in self.faces.faces.iter().enumerate() {
             let k = part_of_face[f];
-            let own = &self.parts[k].corners[seen[k]];
+            let own = &self.laid[k].part.corners[seen[k]];
             seen[k] += 1;
             if group != Some(k) {
-                let _ = writeln!(out, "g {}", self.parts[k].name);
+                let _ = writeln!(out, "g {}", self.laid[k].part.name);
                 group = Some(k);
             }
             out.push('f');
@@ -86,7 +87,7 @@ impl FlatSurface {
     /// The pieces coloured by strain.
     fn picture(&self, sheet: &ClothMesh) -> Result<Vec<u8>, PipelineError> {
         let strain: Vec<f64> =
-            self.parts.iter().zip(&self.flat).flat_map(|(p, f)| triangle_strain(&p.surface, &f.positions)).collect();
+            self.laid.iter().flat_map(|l| triangle_strain(&l.part.surface, &l.flat.positions)).collect();
         Ok(draw_flat(sheet, &strain, &self.report.surface)?)
     }
 
@@ -95,7 +96,7 @@ impl FlatSurface {
         let mut notches = Vec::new();
         for (piece, edges) in self.edges.iter().enumerate() {
             for (index, edge) in edges.iter().enumerate().filter(|(_, e)| e.partner.is_some()) {
-                let at = |v: u32| self.flat[piece].positions[v as usize];
+                let at = |v: u32| self.laid[piece].flat.positions[v as usize];
                 let lengths: Vec<f64> = edge.vertices.windows(2).map(|w| (at(w[1]) - at(w[0])).norm()).collect();
                 let half = lengths.len() / 2;
                 // An edge between three vertices or fewer is matched by its ends.
@@ -117,7 +118,7 @@ impl FlatSurface {
     /// The flat parts as the pieces of a cloth, each with its rims as edges.
     fn sheet(&self) -> ClothMesh {
         let mut cloth = ClothMesh::default();
-        for (k, (part, flat)) in self.parts.iter().zip(&self.flat).enumerate() {
+        for (k, Laid { part, flat, .. }) in self.laid.iter().enumerate() {
             let (particle, triangle) = (cloth.flat.len(), cloth.triangles.len());
             cloth.flat.extend(&flat.positions);
             cloth.triangles.extend(part.surface.triangles.iter().map(|t| t.map(|v| v + particle as u32)));

@@ -1,0 +1,120 @@
+//! Parts laid flat, and darts where they are strained too much: one at a time, the next always into the part that needs it
+//! most.
+
+use std::path::Path;
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::super::error::PipelineError;
+use super::SurfaceOptions;
+use super::cuts::{self, Marks};
+use super::parts::{Nodes, Part, parts};
+use crate::flatten::{Flattened, flatten};
+use crate::io::obj_read::ObjFaces;
+
+/// A surface as it was read, to be cut and laid flat.
+pub(super) struct Source<'a> {
+    pub(super) file: &'a Path,
+    pub(super) faces: &'a ObjFaces,
+    pub(super) nodes: &'a Nodes,
+    /// Metres per unit of the file.
+    pub(super) unit: f64,
+    /// Name of what has none.
+    pub(super) stem: &'a str,
+    pub(super) options: &'a SurfaceOptions,
+}
+
+/// A part of the surface laid flat.
+pub(super) struct Laid {
+    pub(super) part: Part,
+    pub(super) flat: Flattened,
+    /// Where a dart would relieve it, rim first; empty where it is within the limit, or where no place can be told.
+    pub(super) dart: Vec<u32>,
+    /// Darts that were cut into it.
+    pub(super) darts: usize,
+    /// Why it got no more, where it is still beyond the limit.
+    pub(super) stop: Option<DartStop>,
+}
+
+/// Why a part that is strained beyond the limit got no further dart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DartStop {
+    /// All that were allowed are cut.
+    NoneLeft,
+    /// With the next the flat piece would lie on itself, or more so.
+    Overlap,
+    /// Nothing says where the next would help: no place has cloth to spare.
+    NoPlace,
+}
+
+impl Source<'_> {
+    pub(super) fn parts(&self, marks: &Marks) -> Vec<Part> {
+        parts(self.faces, self.nodes, &marks.edges, self.unit, self.stem)
+    }
+
+    fn lay(&self, part: Part) -> Result<Laid, PipelineError> {
+        let flat = match flatten(&part.surface, &self.options.flatten) {
+            Ok(flat) => flat,
+            Err(error) => return Err(cuts::advise(self.file, &part, error)),
+        };
+        let strained = self.options.limit.passed(&flat.report);
+        let dart = if strained { cuts::dart(&part, &flat) } else { Vec::new() };
+        Ok(Laid { part, flat, dart, darts: 0, stop: None })
+    }
+
+    fn lay_all(&self, parts: Vec<Part>) -> Result<Vec<Laid>, PipelineError> {
+        let laid: Vec<Result<Laid, PipelineError>> = parts.into_par_iter().map(|part| self.lay(part)).collect();
+        // Of several errors the first in the file's order, not the first in time.
+        laid.into_iter().collect()
+    }
+
+    /// A part with its next dart, and the cuts that make it.
+    fn with_next_dart(&self, laid: &[Laid], k: usize, marks: &Marks) -> Result<(Laid, Marks), PipelineError> {
+        let mut marks = marks.clone();
+        marks.cut(&laid[k].part, &laid[k].dart);
+        // A dart ends inside its part and leaves it whole, so that all parts keep their numbers.
+        let part = self.parts(&marks).swap_remove(k);
+        let cut = self.lay(part)?;
+        Ok((Laid { darts: laid[k].darts + 1, ..cut }, marks))
+    }
+
+    /// Of the parts beyond the limit that may get a dart the one that is strained most, the first of several.
+    fn neediest(&self, laid: &[Laid]) -> Option<usize> {
+        let strain = |k: usize| self.options.limit.share(&laid[k].flat.report);
+        let open = (0..laid.len()).filter(|&k| laid[k].dart.len() > 1 && laid[k].stop.is_none());
+        open.max_by(|&a, &b| strain(a).total_cmp(&strain(b)).then(b.cmp(&a)))
+    }
+}
+
+/// Lays all parts flat. The part that is strained most gets the next dart, until all are within the limit or the darts
+/// that `source.options` allows are cut. A dart that would make a flat piece lie on itself is not cut, and its part gets
+/// no other; `marks` has those that are.
+pub(super) fn with_darts(source: &Source<'_>, marks: &mut Marks) -> Result<Vec<Laid>, PipelineError> {
+    let mut laid = source.lay_all(source.parts(marks))?;
+    let mut left = source.options.darts;
+    while left > 0
+        && let Some(k) = source.neediest(&laid)
+    {
+        let (cut, cuts) = source.with_next_dart(&laid, k, marks)?;
+        if cut.flat.report.overlaps > laid[k].flat.report.overlaps {
+            laid[k].stop = Some(DartStop::Overlap);
+        } else {
+            (laid[k], *marks) = (cut, cuts);
+            left -= 1;
+        }
+    }
+    if source.options.darts > 0 {
+        laid.iter_mut().filter(|l| source.options.limit.passed(&l.flat.report)).for_each(Laid::say_why);
+    }
+    Ok(laid)
+}
+
+impl Laid {
+    /// Says why a part beyond the limit got no further dart.
+    fn say_why(&mut self) {
+        let other = if self.dart.len() > 1 { DartStop::NoneLeft } else { DartStop::NoPlace };
+        self.stop.get_or_insert(other);
+    }
+}
