@@ -323,6 +323,49 @@ fn a_circle_skirt_starts_as_a_cone() {
     assert!(gaps.iter().all(|&g| g < 125.0 * MM), "{:?}", gaps.iter().copied().fold(0.0, f64::max));
 }
 
+/// A waistband drawn level, upright with its sewn side to the left, upright with it to the right: all start alike.
+#[test]
+fn a_band_drawn_upright_starts_level() {
+    let (body, collider) = woman();
+    let bands = [
+        ("L 760 0", "L 760 40", "L 0 40", "bottom"),
+        ("L 0 760", "L -40 760", "L -40 0", "bottom"),
+        ("L 0 760", "L 40 760", "L 40 0", "bottom"),
+        ("L 0 760", "L 40 760", "L 40 0", "top"),
+    ];
+    let mut first = None;
+    for (top, right, bottom, sewn) in bands {
+        let grain = if top == "L 760 0" { "[[10, 20], [90, 20]]" } else { "[[0, 10], [0, 90]]" };
+        let free = if sewn == "top" { "bottom" } else { "top" };
+        let made = Made::new(
+            &format!(
+                "garment: 1\nbody: woman_92\nfabrics: {{shell: cotton_poplin}}\npieces:\n  front:\n    \
+                 place: skirt front\n    grain: [[10, 10], [10, 390]]\n    \
+                 outline: {{start: 0 0, waist: L 380 0, left: L 480 400, hem: L -100 400, right: L 0 0}}\n  \
+                 back: {{like: front, place: skirt back}}\n  band:\n    place: waist\n    grain: {grain}\n    \
+                 outline: {{start: 0 0, top: {top}, end: {right}, bottom: {bottom}, begin: L 0 0}}\n\
+                 seams:\n  left: {{sew: front.left, to: back.right}}\n  right: {{sew: front.right, to: back.left}}\n  \
+                 waist: {{sew: [front.waist, back.waist], to: band.{sewn}}}\n  ends: {{sew: band.begin, to: band.end}}\n\
+                 free: ['*.hem', band.{free}]\n"
+            ),
+            20.0,
+        );
+        let x = made.placed(&body);
+        assert!(x.iter().all(|p| collider.nearest(*p, 1.0).is_none_or(|n| n.distance > 0.0)));
+        assert_eq!(crossings(&TriMesh { vertices: x.clone(), triangles: made.mesh.triangles.clone() }).len(), 0);
+        let heights = |name: &str| {
+            let piece = made.mesh.pieces.iter().find(|p| p.name == name).expect("a piece");
+            let ys = piece.particles.clone().map(|p| x[p].y);
+            ys.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)])
+        };
+        let ([band, _], [_, skirt]) = (heights("band"), heights("front"));
+        assert!((1.0 * MM..10.0 * MM).contains(&(band - skirt)), "{top}: {} mm above", (band - skirt) / MM);
+        let widest = Stitching::new(&made.mesh).gaps(&x).into_iter().fold(0.0, f64::max);
+        // The ring two centimetres off the body is so much longer than the waist.
+        assert!(*first.get_or_insert(widest) * 1.1 > widest, "{top}, {sewn}: {} mm", widest / MM);
+    }
+}
+
 /// Two godets in the front, one by one seam that turns at its point, one by a seam on either side.
 #[test]
 fn godets_start_in_their_slits() {

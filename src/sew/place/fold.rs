@@ -1,6 +1,6 @@
 //! Pieces with a pressed fold start folded, and pleats start laid.
 
-use super::{flare, pleat};
+use super::{band, flare, pleat};
 use crate::geometry::Vec2;
 use crate::mesh::ClothMesh;
 use crate::pattern::{Garment, LineKind};
@@ -12,7 +12,7 @@ const PRESSED: f64 = 2.0;
 pub(super) struct Sheet {
     /// Flat position of every particle as drawn, but for what is folded over, y down.
     pub(super) drawn: Vec<Vec2>,
-    /// The same with sectors of circles unrolled.
+    /// The same with sectors of circles unrolled, and upright bands laid level.
     pub(super) flat: Vec<Vec2>,
     /// That without what a sector widens towards its hem: its sides run straight down.
     pub(super) straight: Vec<Vec2>,
@@ -21,7 +21,7 @@ pub(super) struct Sheet {
 }
 
 /// Folds every piece along its pressed lines, the part with the shorter sewn rim under the other, or over it where right sides
-/// meet, lays its pleats, and unrolls what is a sector of a circle.
+/// meet, lays its pleats, unrolls what is a sector of a circle, and lays level what is an upright band.
 pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
     let (flat, under) = (mesh.flat.clone(), vec![0.0; mesh.flat.len()]);
     let mut sheet = Sheet { drawn: Vec::new(), flat, straight: Vec::new(), under };
@@ -56,5 +56,6 @@ pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
     sheet.drawn = sheet.flat.clone();
     sheet.straight = sheet.flat.clone();
     flare::lay(garment, mesh, &mut sheet);
+    band::lay(garment, mesh, &mut sheet);
     sheet
 }

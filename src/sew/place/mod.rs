@@ -1,10 +1,11 @@
 //! Where the pieces start (F10): bent round the body part each one is made for.
 //!
 //! ```text
-//! fold · pleat · flare ─▶ assign ─▶ rows ─▶ levels ─▶ wrap · ring · shoulders ─▶ lay
-//!  folded, laid,          which part  pieces side by side,  how they pack   rings round the part, seams    facings and
-//!  unrolled                           rows one over another at every height nearly meeting; tops leaning  linings on
-//!                                                                           over the body                 what they line
+//! fold · pleat · flare · band ─▶ assign ─▶ rows ─▶ levels ─▶ wrap · ring · shoulders ─▶ lay
+//!  folded, laid, unrolled,       which      pieces side by     how they      rings round the part,   facings and
+//!  turned level                  part       side, rows one     pack at       seams nearly meeting;   linings on what
+//!                                           over another       every height  tops leaning over       they line
+//!                                                                            the body
 //! ```
 //!
 //! A garment is laid out as it would hang on a lampshade: pieces that share an upright seam stand side by side in a
@@ -14,6 +15,7 @@
 //! seam starts on the right side of the body with its partner near, and that no piece starts in another or in the body.
 
 mod assign;
+mod band;
 mod ellipse;
 mod flare;
 mod fold;

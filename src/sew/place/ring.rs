@@ -82,7 +82,7 @@ impl Ring<'_> {
         self.mesh.seams.iter().flat_map(|s| &s.pairs).any(|[a, b]| {
             range.contains(&(*a as usize))
                 && range.contains(&(*b as usize))
-                && (self.mesh.flat[*a as usize].x - self.mesh.flat[*b as usize].x).abs() > 0.5 * self.levels[0].length
+                && (self.sheet.flat[*a as usize].x - self.sheet.flat[*b as usize].x).abs() > 0.5 * self.levels[0].length
         })
     }
 
