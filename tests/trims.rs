@@ -260,10 +260,11 @@ fn a_fold_comes_to_rest_at_the_angle_it_was_pressed_to() {
             let side = |t: &&[u32; 3]| (t.iter().map(|&p| mesh.flat[p as usize].x).sum::<f64>() < 0.18) == left;
             mesh.triangles.iter().filter(side).fold(Vec3::zeros(), |sum, t| {
                 let [a, b, c] = t.map(|p| world.x[p as usize]);
-                sum + (b - a).cross(&(c - a))
+                sum + (c - a).cross(&(b - a))
             })
         };
         let (left, right) = (normal(true), normal(false));
+        assert!(left.z + right.z > 0.0, "the right side faces where it was drawn from");
         let turned = left.angle(&right).to_degrees();
         assert!((turned - f64::abs(angle)).abs() < 1.0, "{turned}");
         // Positive: the wrong sides (away from the normals) turn towards each other, the crease stands out.

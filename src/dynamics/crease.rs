@@ -76,7 +76,7 @@ impl Crease {
         let [a, b, c, d] = self.corners(x);
         let along = (b - a).try_normalize(0.0).unwrap_or_else(Vec3::zeros);
         let (m, n) = ((b - a).cross(&(c - a)), (d - a).cross(&(b - a)));
-        let angle = m.cross(&n).dot(&along).atan2(m.dot(&n));
+        let angle = n.cross(&m).dot(&along).atan2(m.dot(&n));
         angle + TAU * ((self.last - angle) / TAU).round()
     }
 
@@ -91,7 +91,7 @@ impl Crease {
             let height = normal.norm() / length;
             if height > LOWEST { normal * (1.0 / (normal.norm() * height)) } else { Vec3::zeros() }
         };
-        let (wing_c, wing_d) = (-swing(m), -swing(n));
+        let (wing_c, wing_d) = (swing(m), swing(n));
         let share = |p: Vec3| (p - a).dot(&e) / (length * length);
         let (s, t) = (share(c), share(d));
         [-(wing_c * (1.0 - s) + wing_d * (1.0 - t)), -(wing_c * s + wing_d * t), wing_c, wing_d]
@@ -147,10 +147,10 @@ mod tests {
         Crease::new([0, 1, 2, 3], rest, 0.3)
     }
 
-    /// Two triangles whose right sides face +z, folded by `angle`: wings go down when it is positive.
+    /// Two triangles, clockwise seen from +z where their right sides face, folded by `angle`: wings go down when it is positive.
     fn folded(angle: f64) -> Vec<Vec3> {
         let (s, c) = (0.5 * angle).sin_cos();
-        [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-0.7 * c, 0.3, -0.7 * s], [0.4 * c, 0.8, -0.4 * s]].map(Vec3::from).to_vec()
+        [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.7 * c, 0.3, -0.7 * s], [-0.4 * c, 0.8, -0.4 * s]].map(Vec3::from).to_vec()
     }
 
     #[test]
