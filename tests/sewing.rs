@@ -253,6 +253,34 @@ fn a_fold_starts_on_the_side_its_sign_says() {
     assert!(up > 1e-3, "right sides meet: the hem lies outside, {up} m");
 }
 
+/// The crease of a leg, between two seams to the other half, and the hem turned up under it.
+#[test]
+fn a_crease_between_seams_starts_open_and_a_hem_turned_up() {
+    let (body, _) = woman();
+    let starts = |line: &str| {
+        let made = Made::new(
+            &format!(
+                "garment: 1\nbody: woman_92\nfabrics: {{shell: cotton_poplin}}\npieces:\n  front:\n    \
+                 place: skirt front\n    grain: [[10, 10], [10, 90]]\n    \
+                 outline: {{start: 0 0, top: L 560 0, right: L 560 300, hem: L 0 300, left: L 0 0}}\n    \
+                 lines: {{press: {{path: {line}, fold: 180}}}}\n  back: {{like: front, place: skirt back}}\n\
+                 seams:\n  left: {{sew: front.right, to: back.left}}\n  right: {{sew: front.left, to: back.right}}\n\
+                 free: ['*.top', '*.hem']\n"
+            ),
+            20.0,
+        );
+        let x = made.placed(&body);
+        let front = made.mesh.pieces.iter().find(|p| p.name == "front").expect("a piece").particles.clone();
+        [0, 1].map(|axis| {
+            let along = front.clone().map(|p| x[p][axis]);
+            along.clone().fold(f64::NEG_INFINITY, f64::max) - along.fold(f64::INFINITY, f64::min)
+        })
+    };
+    let [open, [_, turned]] = ["M 280 0 L 280 300", "M 0 240 L 560 240"].map(starts);
+    assert!(open[0] > 300.0 * MM && open[1] > 290.0 * MM, "folded along its crease: {open:?}");
+    assert!((turned - 240.0 * MM).abs() < 10.0 * MM, "{} mm tall", turned / MM);
+}
+
 #[test]
 fn shoulder_seams_start_over_the_shoulders() {
     for name in ["child_dress", "sheath_dress", "tshirt"] {
@@ -364,6 +392,36 @@ fn a_band_drawn_upright_starts_level() {
         // The ring two centimetres off the body is so much longer than the waist.
         assert!(*first.get_or_insert(widest) * 1.1 > widest, "{top}, {sewn}: {} mm", widest / MM);
     }
+}
+
+/// Front and back meet at the shoulders only.
+#[test]
+fn a_tabard_starts_over_the_shoulders_open_at_its_sides() {
+    let (body, collider) = woman();
+    let made = Made::new(
+        "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  front:\n    place: torso front\n    \
+         grain: [[0, 250], [0, 550]]\n    outline: {start: -110 0, neck: 'C -80 110, 80 110, 110 0', left: L 200 25, \
+         edge_left: L 215 600, hem: L -215 600, edge_right: L -200 25, right: L -110 0}\n  \
+         back: {like: front, place: torso back}\nseams:\n  left: {sew: front.left, to: back.right}\n  \
+         right: {sew: front.right, to: back.left}\nfree: ['*.neck', '*.hem', '*.edge_left', '*.edge_right']\n",
+        20.0,
+    );
+    let x = made.placed(&body);
+    for p in &x {
+        if let Some(n) = collider.nearest(*p, 1.0) {
+            if n.distance <= 0.0 {}
+        }
+    }
+    assert!(x.iter().all(|p| collider.nearest(*p, 1.0).is_none_or(|n| n.distance > 0.0)));
+    assert_eq!(crossings(&TriMesh { vertices: x.clone(), triangles: made.mesh.triangles.clone() }).len(), 0);
+    let shoulders = Stitching::new(&made.mesh).gaps(&x).into_iter().fold(0.0, f64::max);
+    assert!(shoulders < 120.0 * MM, "{} mm apart at the shoulders", shoulders / MM);
+    let mean = |name: &str| {
+        let piece = made.mesh.pieces.iter().find(|p| p.name == name).expect("a piece");
+        piece.particles.clone().map(|p| x[p]).sum::<Vec3>() / piece.particles.len() as f64
+    };
+    let (front, back) = (mean("front"), mean("back"));
+    assert!((front.y - back.y).abs() < 20.0 * MM && front.z > back.z + 100.0 * MM, "{front} {back}");
 }
 
 /// Two godets in the front, one by one seam that turns at its point, one by a seam on either side.

@@ -9,7 +9,7 @@
 //! ```
 
 use super::fold::Sheet;
-use super::rows::is_at;
+use super::rows::{extent, is_at};
 use crate::geometry::Vec2;
 use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::Garment;
@@ -20,8 +20,8 @@ const TALL: f64 = 2.0;
 /// Turns every upright band of the unrolled sheet by a quarter. One that is sewn to another band follows it.
 pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &mut Sheet) {
     let mut waiting: Vec<usize> = (0..mesh.pieces.len()).filter(|&i| !is_at(&garment.pieces[i].place)).collect();
-    while let Some(at) = waiting.iter().position(|&i| is_upright_band(mesh, sheet, &mesh.pieces[i])) {
-        turn(mesh, sheet, &mesh.pieces[waiting.remove(at)]);
+    while let Some(at) = waiting.iter().position(|&i| is_upright_band(mesh, sheet, i)) {
+        turn(mesh, sheet, waiting.remove(at));
     }
 }
 
@@ -37,8 +37,9 @@ fn stitches<'a>(mesh: &'a ClothMesh, piece: &'a PieceMesh) -> impl Iterator<Item
 }
 
 /// Whether a piece is tall, and its long side is sewn to a level one, or its ends to each other.
-fn is_upright_band(mesh: &ClothMesh, sheet: &Sheet, piece: &PieceMesh) -> bool {
-    let [low, high] = extent(sheet, piece);
+fn is_upright_band(mesh: &ClothMesh, sheet: &Sheet, band: usize) -> bool {
+    let piece = &mesh.pieces[band];
+    let [low, high] = extent(mesh, sheet, band);
     if high.y - low.y < TALL * (high.x - low.x) {
         return false;
     }
@@ -60,24 +61,19 @@ fn is_upright_band(mesh: &ClothMesh, sheet: &Sheet, piece: &PieceMesh) -> bool {
     drawn.y > drawn.x && partner.x > partner.y
 }
 
-fn extent(sheet: &Sheet, piece: &PieceMesh) -> [Vec2; 2] {
-    let start = [Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)];
-    piece.particles.clone().fold(start, |[low, high], p| [low.inf(&sheet.flat[p]), high.sup(&sheet.flat[p])])
-}
-
 /// Turns a band so that its sewn side comes to lie towards what it is sewn to: below what is sewn at its top.
-fn turn(mesh: &ClothMesh, sheet: &mut Sheet, piece: &PieceMesh) {
+fn turn(mesh: &ClothMesh, sheet: &mut Sheet, band: usize) {
+    let middle = |piece: usize| 0.5 * extent(mesh, sheet, piece).iter().sum::<Vec2>();
     let mut away = 0.0;
-    for [a, b] in stitches(mesh, piece).flatten() {
-        let Some(other) = mesh.pieces.iter().find(|other| other.particles.contains(&b)) else { continue };
-        if other.particles != piece.particles {
+    for [a, b] in stitches(mesh, &mesh.pieces[band]).flatten() {
+        let other = (0..mesh.pieces.len()).find(|&i| mesh.pieces[i].particles.contains(&b));
+        if let Some(other) = other.filter(|&i| i != band) {
             // Right of its own middle and at the top of the other, or left and at the bottom: what is right goes down.
-            let middle = |piece: &PieceMesh| 0.5 * extent(sheet, piece).iter().sum::<Vec2>();
-            away += (sheet.flat[a].x - middle(piece).x).signum() * (middle(other).y - sheet.flat[b].y).signum();
+            away += (sheet.flat[a].x - middle(band).x).signum() * (middle(other).y - sheet.flat[b].y).signum();
         }
     }
     let turned = |p: Vec2| if away >= 0.0 { Vec2::new(-p.y, p.x) } else { Vec2::new(p.y, -p.x) };
-    for p in piece.particles.clone() {
+    for p in mesh.pieces[band].particles.clone() {
         sheet.flat[p] = turned(sheet.flat[p]);
         sheet.straight[p] = turned(sheet.straight[p]);
     }

@@ -1,8 +1,10 @@
 //! Pieces with a pressed fold start folded, and pleats start laid.
 
+use std::collections::BTreeSet;
+
 use super::{band, flare, pleat};
 use crate::geometry::Vec2;
-use crate::mesh::ClothMesh;
+use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::{Garment, LineKind};
 
 /// A fold of at least this angle (radians) is folded over before the start; a smaller one is left to the drape.
@@ -20,7 +22,7 @@ pub(super) struct Sheet {
     pub(super) under: Vec<f64>,
 }
 
-/// Folds every piece along its pressed lines, the part with the shorter sewn rim under the other, or over it where right sides
+/// Folds every piece along its pressed lines, but for creases that its seams hold open, the part with the shorter sewn rim under the other, or over it where right sides
 /// meet, lays its pleats, unrolls what is a sector of a circle, and lays level what is an upright band.
 pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
     let (flat, under) = (mesh.flat.clone(), vec![0.0; mesh.flat.len()]);
@@ -40,6 +42,9 @@ pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
             let along = (b - a).normalize();
             let across = Vec2::new(-along.y, along.x);
             let side = |p: usize| across.dot(&(mesh.flat[p] - a));
+            if opens(garment, mesh, piece, along, side) {
+                continue;
+            }
             // The side with fewer stitches is turned over.
             let balance: f64 = piece.particles.clone().map(|p| side(p).signum() * f64::from(sewn[p])).sum();
             let keep = if balance >= 0.0 { 1.0 } else { -1.0 };
@@ -58,4 +63,33 @@ pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
     flare::lay(garment, mesh, &mut sheet);
     band::lay(garment, mesh, &mut sheet);
     sheet
+}
+
+/// Whether seams along a fold lead from its two sides to different places, as from the crease of a trouser leg: the piece
+/// is worn open. (Both sides of a waistband go to one edge, or one of them to the lining under it; side seams that run on
+/// into a hem turned up do not run along its fold.)
+fn opens(garment: &Garment, mesh: &ClothMesh, piece: &PieceMesh, along: Vec2, side: impl Fn(usize) -> f64) -> bool {
+    let own = |p: usize| piece.particles.contains(&p);
+    let layer = |p: usize| {
+        let other = mesh.pieces.iter().position(|m| m.particles.contains(&p));
+        other.map_or(0, |other| garment.pieces[other].layer)
+    };
+    let mut partners: [Vec<usize>; 2] = [Vec::new(), Vec::new()];
+    for steps in mesh.seams.iter().flat_map(|seam| seam.pairs.windows(2)) {
+        for k in 0..2 {
+            let [from, to] = [0, 1].map(|n| steps[n][k] as usize);
+            let other = [0, 1].map(|n| steps[n][1 - k] as usize);
+            let step = mesh.flat[to] - mesh.flat[from];
+            if own(from)
+                && own(to)
+                && !other.iter().any(|&p| own(p))
+                && step.dot(&along).abs() > step.perp(&along).abs()
+            {
+                partners[usize::from(side(from) + side(to) > 0.0)].extend(other);
+            }
+        }
+    }
+    let [under, over] = &partners;
+    let layers = |these: &[usize]| these.iter().map(|&p| layer(p)).collect::<BTreeSet<i32>>();
+    !under.is_empty() && !over.is_empty() && layers(under) == layers(over) && !under.iter().any(|p| over.contains(p))
 }

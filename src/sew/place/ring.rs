@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::ellipse::Ellipse;
 use super::fold::Sheet;
 use super::levels::{LEVEL, Level, complete_shifts, smooth_shifts, smoothed, spread_out};
-use super::rows::{Link, Member, Row};
+use super::rows::{Link, Member, Row, has_shoulders};
 use super::shoulders::Lean;
 use super::stations::Stations;
 use crate::geometry::Vec3;
@@ -16,6 +16,8 @@ use crate::mesh::ClothMesh;
 const CLEARANCE: f64 = 0.02;
 /// A fold's under layer starts this much nearer the body, and an overlap's end this much further out, metres.
 pub(super) const LAYER: f64 = 0.004;
+/// An armhole ends so far under the shoulder, metres; as the shipped T-shirt's does.
+const ARMHOLE: f64 = 0.2;
 
 /// A row on its body part.
 pub(super) struct Ring<'a> {
@@ -102,9 +104,14 @@ impl Ring<'_> {
         length
     }
 
-    /// The first level at which the row goes all the way round: under the armholes.
+    /// The first level at which the row goes all the way round: under the armholes. What hangs from the shoulders and is
+    /// open at its sides goes round from where they would be.
     pub(super) fn first_closed(&self) -> usize {
-        self.levels.iter().position(|l| l.closed).unwrap_or(0)
+        let open = || {
+            let arms = if has_shoulders(self.row, self.links, self.sheet) { ARMHOLE } else { 0.0 };
+            ((arms / LEVEL) as usize).min(self.levels.len() - 1)
+        };
+        self.levels.iter().position(|l| l.closed).unwrap_or_else(open)
     }
 
     fn level(&self, v: f64) -> usize {

@@ -97,7 +97,9 @@ pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned:
         let apart: Vec<bool> = (0..mesh.pieces.len())
             .map(|p| elsewhere[p] || slits[p].is_some() || garment.pieces[p].layer != layer)
             .collect();
-        while let Some((from, to, shift)) = widest_next(&links, &row_of, assigned, &apart, sheet, index, &members) {
+        while let Some((from, to, shift)) = widest_next(&links, &row_of, assigned, &apart, sheet, index, &members)
+            .or_else(|| over_the_shoulder(&links, &row_of, assigned, &apart, mesh, sheet, &members))
+        {
             let base = members.iter().find(|m| m.piece == from).map_or(Vec2::zeros(), |m| m.shift);
             row_of[to] = index;
             members.push(Member { piece: to, shift: base + shift });
@@ -147,6 +149,51 @@ fn widest_next(
     best.map(|b| (b.1, b.2, b.3))
 }
 
+/// A back that hangs from the top of the row's front, or the other way round, and has no side seam with it, as in a
+/// tabard: it stands beside the row. (From to, and shift of to against from.)
+fn over_the_shoulder(
+    links: &[Link],
+    row_of: &[usize],
+    assigned: &[Assigned],
+    apart: &[bool],
+    mesh: &ClothMesh,
+    sheet: &Sheet,
+    members: &[Member],
+) -> Option<(usize, usize, Vec2)> {
+    links.iter().filter(|l| !l.upright).find_map(|link| {
+        let k = (0..2).find(|&k| members.iter().any(|m| m.piece == link.pieces[k]))?;
+        let [from, to] = [link.pieces[k], link.pieces[1 - k]];
+        let opposite = matches!(
+            (assigned[from].facing, assigned[to].facing),
+            (Some(Facing::Front), Some(Facing::Back)) | (Some(Facing::Back), Some(Facing::Front))
+        );
+        let hangs = |piece: usize, k: usize| {
+            let [low, high] = extent(mesh, sheet, piece);
+            stitched(link, sheet, k) < 0.5 * (low.y + high.y)
+        };
+        let beside = row_of[to] == usize::MAX && assigned[to].part == assigned[from].part && !apart[to];
+        if !(beside && opposite && hangs(from, k) && hangs(to, 1 - k)) {
+            return None;
+        }
+        let base = members.iter().find(|m| m.piece == from)?.shift;
+        let right = members.iter().map(|m| extent(mesh, sheet, m.piece)[1].x + m.shift.x).fold(f64::MIN, f64::max);
+        let down = stitched(link, sheet, k) - stitched(link, sheet, 1 - k);
+        Some((from, to, Vec2::new(right + ROOM - extent(mesh, sheet, to)[0].x - base.x, down)))
+    })
+}
+
+/// Mean v of a link's stitches on its piece number `k`, as the piece is drawn.
+fn stitched(link: &Link, sheet: &Sheet, k: usize) -> f64 {
+    link.pairs.iter().map(|pair| sheet.flat[pair[k] as usize].y).sum::<f64>() / link.pairs.len() as f64
+}
+
+/// The corners of the box round a piece.
+pub(super) fn extent(mesh: &ClothMesh, sheet: &Sheet, piece: usize) -> [Vec2; 2] {
+    let start = [Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)];
+    let particles = mesh.pieces[piece].particles.clone();
+    particles.fold(start, |[low, high], p| [low.inf(&sheet.flat[p]), high.sup(&sheet.flat[p])])
+}
+
 fn finish_row(
     mesh: &ClothMesh,
     sheet: &Sheet,
@@ -155,13 +202,11 @@ fn finish_row(
     mut members: Vec<Member>,
     links: &[Link],
 ) -> Row {
-    let extent = |m: &Member| {
-        let range = mesh.pieces[m.piece].particles.clone();
-        range.fold((Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)), |(lo, hi), p| {
-            (lo.inf(&(sheet.flat[p] + m.shift)), hi.sup(&(sheet.flat[p] + m.shift)))
-        })
+    let shifted = |m: &Member| {
+        let [low, high] = extent(mesh, sheet, m.piece);
+        (low + m.shift, high + m.shift)
     };
-    let boxes: Vec<(Vec2, Vec2)> = members.iter().map(extent).collect();
+    let boxes: Vec<(Vec2, Vec2)> = members.iter().map(shifted).collect();
     let v = boxes.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |v, b| [v[0].min(b.0.y), v[1].max(b.1.y)]);
     let front = front_middle(assigned, &members, &boxes, links, sheet);
     let mut order: Vec<usize> = (0..members.len()).collect();
@@ -263,8 +308,7 @@ pub(super) fn has_shoulders(row: &Row, links: &[Link], sheet: &Sheet) -> bool {
     let member = |p: usize| row.members.iter().find(|m| m.piece == p);
     links.iter().filter(|l| !l.upright).any(|l| {
         let [Some(m), Some(_)] = l.pieces.map(member) else { return false };
-        let sum: f64 = l.pairs.iter().map(|p| sheet.flat[p[0] as usize].y + m.shift.y).sum();
-        sum / (l.pairs.len() as f64) < 0.5 * (row.v[0] + row.v[1])
+        stitched(l, sheet, 0) + m.shift.y < 0.5 * (row.v[0] + row.v[1])
     })
 }
 

@@ -33,8 +33,12 @@ const CLEAR: f64 = 0.008;
 const DEEPEST: f64 = 0.5;
 /// Between leaning and upright so many places are tried.
 const TRIES: usize = 40;
-/// Where even upright it would be in the body (an arm), it stands off by this share of its height more.
+/// Where even upright it would be in the body (an arm), it stands off by this share of its height more,
 const OFF: f64 = 0.5;
+/// and what is open at its sides, where a tabard stands beside the arms, by as much as so many metres,
+const FURTHEST: f64 = 0.15;
+/// looked for in steps of so many.
+const AWAY: f64 = 0.005;
 
 /// How a piece leans over the shoulders.
 #[derive(Clone)]
@@ -50,6 +54,8 @@ pub(super) struct Lean<'a> {
     middle: f64,
     /// How far it keeps from the body, metres.
     clear: f64,
+    /// How far beyond it may stand off to do so, metres.
+    furthest: f64,
 }
 
 impl Lean<'_> {
@@ -82,15 +88,18 @@ impl Lean<'_> {
 
     /// Where the point of height v goes that was at `p` on the upright ring: in towards the middle, but off the body.
     pub(super) fn over(&self, p: Vec3, v: f64) -> Vec3 {
-        let height = self.from - v;
-        if height <= 0.0 {
+        let height = (self.from - v).max(0.0);
+        if height == 0.0 && self.furthest == 0.0 {
             return p;
         }
         let [up, inward] = self.course(height);
         let y = p.y - height + up;
         let (leaning, upright) = ((1.0 - inward / self.depth).max(0.0), 1.0 + OFF * height / self.depth);
         let tries = (0..=TRIES).map(|k| leaning + (upright - leaning) * k as f64 / TRIES as f64);
-        let mut places = tries.map(|share| Vec3::new(p.x, y, self.middle + share * (p.z - self.middle)));
+        let depth = p.z - self.middle;
+        let leaning = tries.map(|share| share * depth);
+        let away = (1..=(self.furthest / AWAY) as usize).map(|k| upright * depth + depth.signum() * AWAY * k as f64);
+        let mut places = leaning.chain(away).map(|depth| Vec3::new(p.x, y, self.middle + depth));
         let clear = |at: &Vec3| self.body.nearest(*at, DEEPEST).is_none_or(|n| n.distance >= self.clear);
         places.find(clear).unwrap_or(Vec3::new(p.x, y, p.z))
     }
@@ -107,10 +116,11 @@ impl<'a> Ring<'a> {
         let first = self.first_closed();
         let from = self.row.v[0] + first as f64 * LEVEL;
         let tops: Vec<f64> = self.row.members.iter().map(|m| self.top(m.piece) + m.shift.y).collect();
+        let furthest = if self.levels.iter().any(|l| l.closed) { 0.0 } else { FURTHEST };
         let leans = |ring: &Self| -> Vec<Lean<'a>> {
             let depth = ring.axes()[first][1];
             let clear = CLEAR + LAYER * f64::from(beneath);
-            let lean = Lean { body: collider, from, angle: 0.0, depth, middle, clear };
+            let lean = Lean { body: collider, from, angle: 0.0, depth, middle, clear, furthest };
             tops.iter().map(|top| lean.clone().reaching((from - top).max(0.0))).collect()
         };
         self.leans = leans(self);
