@@ -451,6 +451,26 @@ fn godets_start_in_their_slits() {
     }
 }
 
+/// Nothing starts where the origin is: garments start on a body that stands somewhere else as they do on one in the middle.
+#[test]
+fn a_garment_starts_on_its_body_wherever_that_stands() {
+    let (body, _) = woman();
+    let to = Vec3::new(0.7, 0.0, -0.4);
+    let mut moved = body.clone();
+    moved.mesh.vertices.iter_mut().for_each(|v| *v += to);
+    for part in &mut moved.parts {
+        part.sections.iter_mut().for_each(|s| s.center += to);
+        part.landmarks.iter_mut().for_each(|l| l.1 += to);
+    }
+    for name in ["tshirt", "trousers", "gore_skirt"] {
+        let file = format!("{}/patterns/{name}.yaml", env!("CARGO_MANIFEST_DIR"));
+        let made = Made::new(&std::fs::read_to_string(file).expect("shipped"), 25.0);
+        let (here, there) = (made.placed(&body), made.placed(&moved));
+        let off = here.iter().zip(&there).map(|(a, b)| (b - a - to).norm()).fold(0.0, f64::max);
+        assert!(off < 1e-6, "{name}: {} mm off", off / MM);
+    }
+}
+
 #[test]
 fn cuffs_start_round_their_own_legs_and_trousers_round_both() {
     let (body, _) = woman();

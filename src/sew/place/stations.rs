@@ -22,6 +22,7 @@ pub(super) struct Station {
 /// Stations of one part; the coordinate grows downward on trunk and neck (it is −y) and outward along an arm.
 #[derive(Clone)]
 pub(super) struct Stations {
+    part: PartKind,
     list: Vec<(f64, Station)>,
     landmarks: Vec<(String, f64)>,
 }
@@ -44,14 +45,13 @@ impl Stations {
         };
         list.sort_by(|a, b| a.0.total_cmp(&b.0));
         let landmarks = own.landmarks.iter().map(|(n, p)| (n.to_lowercase(), -p.y)).collect();
-        (!list.is_empty()).then_some(Self { list, landmarks })
+        (!list.is_empty()).then_some(Self { part, list, landmarks })
     }
 
     /// Coordinate of the end where rows begin: the neck side of the trunk, the shoulder end of an arm, the foot of the neck.
     pub(super) fn low(&self) -> f64 {
-        let upright = self.list[0].1.front == Vec3::z();
-        let neck = upright && self.list.iter().all(|s| s.1.half_width < 0.12);
-        if neck { self.list[self.list.len() - 1].0 } else { self.list[0].0 }
+        let end = if self.part == PartKind::Neck { self.list.len() - 1 } else { 0 };
+        self.list[end].0
     }
 
     /// Coordinate of the first landmark that the part has.
@@ -122,6 +122,8 @@ fn upright(s: &crate::mannequin::Section) -> Station {
 /// Below the crotch the trunk's ring goes round both legs, and round the feet where the body has any.
 fn both_legs(leg: &BodyPart, trunk: &[(f64, Station)], body: &TriMesh) -> Vec<(f64, Station)> {
     let lowest = trunk.iter().map(|s| s.0).fold(f64::NEG_INFINITY, f64::max);
+    // A body may stand anywhere: its middle is the trunk's.
+    let middle = trunk.iter().map(|s| s.1.center.x).sum::<f64>() / trunk.len().max(1) as f64;
     let ankle = leg.sections.iter().map(|s| s.center.y).fold(f64::INFINITY, f64::min);
     // How far the feet reach back and forward.
     let feet = body.vertices.iter().filter(|v| v.y < ankle).map(|v| v.z);
@@ -135,8 +137,8 @@ fn both_legs(leg: &BodyPart, trunk: &[(f64, Station)], body: &TriMesh) -> Vec<(f
             // Without feet the share of nothing is nothing.
             let back = if feet[0] < low { low + share * (feet[0] - low) } else { low };
             let front = if feet[1] > high { high + share * (feet[1] - high) } else { high };
-            let center = Vec3::new(0.0, s.center.y, 0.5 * (back + front));
-            let half_width = s.center.x.abs() + s.half_width;
+            let center = Vec3::new(middle, s.center.y, 0.5 * (back + front));
+            let half_width = (s.center.x - middle).abs() + s.half_width;
             let half_depth = 0.5 * (front - back);
             (-s.center.y, Station { center, front: Vec3::z(), right: Vec3::x(), half_width, half_depth })
         })
