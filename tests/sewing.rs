@@ -407,11 +407,6 @@ fn a_tabard_starts_over_the_shoulders_open_at_its_sides() {
         20.0,
     );
     let x = made.placed(&body);
-    for p in &x {
-        if let Some(n) = collider.nearest(*p, 1.0) {
-            if n.distance <= 0.0 {}
-        }
-    }
     assert!(x.iter().all(|p| collider.nearest(*p, 1.0).is_none_or(|n| n.distance > 0.0)));
     assert_eq!(crossings(&TriMesh { vertices: x.clone(), triangles: made.mesh.triangles.clone() }).len(), 0);
     let shoulders = Stitching::new(&made.mesh).gaps(&x).into_iter().fold(0.0, f64::max);
