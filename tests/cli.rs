@@ -15,7 +15,7 @@ use toile::mannequin::{Mannequin, load};
 const SKIRT: &str = include_str!("data/skirt.yaml");
 const COARSE: &str = "40";
 /// Two garments that cannot be sewn.
-const NARROW_NECK: &str = include_str!("data/narrow_neck.yaml");
+const NARROW_TUBE: &str = include_str!("data/narrow_tube.yaml");
 const IN_THE_BODY: &str = include_str!("data/in_the_body.yaml");
 
 /// A folder to work in.
@@ -252,13 +252,13 @@ fn vertices_of(obj: &str, group: &str) -> HashSet<String> {
 #[test]
 fn a_garment_too_small_ends_with_3_and_leaves_its_last_state() {
     let room = Room::new();
-    room.put("yoke.yaml", NARROW_NECK);
-    let run = room.run(&["make", "yoke.yaml", "-o", "out", "--spacing", "20"]);
+    room.put("tube.yaml", NARROW_TUBE);
+    let run = room.run(&["make", "tube.yaml", "-o", "out", "--spacing", "20"]);
     let out = Path::new("out");
     let left = ["sewn.obj", "garment.png"].map(|name| out.join(name).display().to_string());
-    run.ends(3).says(&["seam 'shoulder_", "still open by", "large enough for the body", "'front' and 'back'"]);
+    run.ends(3).says(&["seam 'side_", "still open by", "large enough for the body", "'front' and 'back'"]);
     run.says(&["the last state is in", &left[0], &left[1]]);
-    // The message says what to do: another spacing makes no neck smaller.
+    // The message says what to do: another spacing makes no waist smaller.
     assert!(!run.err.contains("--spacing"), "{}", run.err);
     assert_eq!(run.out, "");
     assert_eq!(room.names("out"), ["garment.png", "sewn.obj"]);

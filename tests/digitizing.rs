@@ -1,5 +1,7 @@
 //! Foreign drawings as garment files: lengths against the drawing's own numbers, and toile's patterns there and back.
 
+use std::f64::consts::PI;
+
 use toile::cutting::{Layout, Options, Paper, SewKind, Sheet, papers};
 use toile::digitize::{Digitized, garment_file};
 use toile::geometry::{Path, Vec2};
@@ -215,6 +217,35 @@ fn pieces_drawn_left_and_right_are_a_pair() {
     assert_eq!(svg("<path d='M 0 0 L 100 0 L 0 200 Z'/><path d='M 300 0 L 200 0 L 300 200 Z'/>"), [Cut::Pair]);
     assert_eq!(svg("<path d='M 0 0 L 100 0 L 0 200 Z'/><path d='M 200 0 L 300 0 L 200 200 Z'/>"), [Cut::One, Cut::One]);
     assert_eq!(svg("<rect width='100' height='200'/><rect x='200' width='100' height='200'/>"), [Cut::One, Cut::One]);
+}
+
+/// A potholder and a cushion: corners rounded by one radius, by two, to a circle; lengths with units of their own.
+#[test]
+fn rounded_rectangles_keep_their_corners() {
+    let svg = |shape: &str| {
+        let text = format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' width='900mm' height='900mm' viewBox='0 0 900 900'>{shape}</svg>"
+        );
+        let (_, area, path) = outline(&drawn(&from_svg(&text))[0]);
+        (area * 1e6, path.length() * 1e3)
+    };
+    let close = |(area, length): (f64, f64), wanted: [f64; 2]| {
+        assert!((area / wanted[0] - 1.0).abs() < 1e-3, "{area} mm2, not {}", wanted[0]);
+        assert!((length / wanted[1] - 1.0).abs() < 1e-3, "{length} mm, not {}", wanted[1]);
+    };
+    // One radius is both: 200 × 300 less (4 − π) r², 2 (200 + 300) less (8 − 2π) r.
+    let rounded = |r: f64| [60_000.0 - (4.0 - PI) * r * r, 1000.0 - (8.0 - 2.0 * PI) * r];
+    close(svg("<rect width='200' height='300' rx='40'/>"), rounded(40.0));
+    close(svg("<rect x='-7' y='9' width='200' height='300' ry='25'/>"), rounded(25.0));
+    // As far as half a side: a circle of 200 mm across.
+    close(svg("<rect width='200' height='200' rx='500' ry='500'/>"), [1e4 * PI, 200.0 * PI]);
+    // Two radii: the corners make an ellipse of 60 and 30 mm.
+    let (area, _) = svg("<rect width='200' height='300' rx='60' ry='30'/>");
+    assert!((area - (60_000.0 - (4.0 - PI) * 1800.0)).abs() < 60.0, "{area}");
+    // Sharp without a radius, and with one that is nought.
+    close(svg("<rect width='200' height='300' rx='0' ry='30'/>"), [60_000.0, 1000.0]);
+    // In a drawing whose unit is a millimetre, 96 units to the inch are 200 and 300 mm.
+    close(svg("<rect width='52.916667mm' height='79.375mm'/>"), [60_000.0, 1000.0]);
 }
 
 /// The cut line passes a dart's mouth: its legs have no allowance, however far the line is from them.

@@ -312,10 +312,8 @@ fn is_line(node: Node) -> bool {
 
 /// The element as path commands; `None` where it is no line or its numbers are none.
 fn commands(node: Node, name: &str) -> Option<String> {
-    let number = |key: &str| -> Option<f64> {
-        let text = node.attribute(key)?;
-        text.trim().trim_end_matches("px").parse().ok().filter(|x: &f64| x.is_finite())
-    };
+    // In user units: of a length with a unit of its own there are 96 to the inch.
+    let number = |key: &str| length(node.attribute(key)?).map(|x| x / PIXEL).filter(|x| x.is_finite());
     let zero = |key: &str| number(key).unwrap_or(0.0);
     match name {
         "path" => node.attribute("d").map(str::trim).filter(|d| !d.is_empty()).map(str::to_owned),
@@ -327,7 +325,8 @@ fn commands(node: Node, name: &str) -> Option<String> {
         "line" => Some(format!("M {} {} L {} {}", zero("x1"), zero("y1"), zero("x2"), zero("y2"))),
         "rect" => {
             let (w, h) = (number("width")?, number("height")?);
-            (w > 0.0 && h > 0.0).then(|| format!("M {} {} h {w} v {h} h {} Z", zero("x"), zero("y"), -w))
+            let round = [number("rx"), number("ry")];
+            (w > 0.0 && h > 0.0).then(|| rectangle([zero("x"), zero("y")], [w, h], round))
         }
         "circle" | "ellipse" => {
             let r = number("r");
@@ -340,4 +339,28 @@ fn commands(node: Node, name: &str) -> Option<String> {
         "use" => Some(format!("M {x} {y} L {x} {}", zero("y") + 0.001, x = zero("x"), y = zero("y"))),
         _ => None,
     }
+}
+
+/// A rectangle from its corner on, with its corners rounded to half its sides at most; of two radii the one that is not
+/// given is as the other.
+fn rectangle([x, y]: [f64; 2], [w, h]: [f64; 2], round: [Option<f64>; 2]) -> String {
+    let radius = |own: Option<f64>, other: Option<f64>, side: f64| own.or(other).unwrap_or(0.0).clamp(0.0, 0.5 * side);
+    let (rx, ry) = (radius(round[0], round[1], w), radius(round[1], round[0], h));
+    if rx == 0.0 || ry == 0.0 {
+        return format!("M {x} {y} h {w} v {h} h {} Z", -w);
+    }
+    // Where nothing is left of a side, its arcs meet.
+    let side = |command: &str, length: f64| if length == 0.0 { String::new() } else { format!(" {command} {length}") };
+    let arc = |dx: f64, dy: f64| format!(" a {rx} {ry} 0 0 1 {dx} {dy}");
+    let (across, down) = (w - 2.0 * rx, h - 2.0 * ry);
+    format!("M {} {y}", x + rx)
+        + &side("h", across)
+        + &arc(rx, ry)
+        + &side("v", down)
+        + &arc(-rx, ry)
+        + &side("h", -across)
+        + &arc(-rx, -ry)
+        + &side("v", -down)
+        + &arc(rx, -ry)
+        + " Z"
 }
