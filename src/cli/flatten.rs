@@ -10,7 +10,7 @@ use crate::fabric;
 use crate::flatten::Options;
 use crate::io::files::check_writable;
 use crate::pipeline::{
-    Color, Cuts, DartStop, FLAT_OBJ, FLAT_PNG, Limit, OUTLINE_SVG, PATTERN_SVG, PartReport, REPORT_JSON,
+    AT_REST, Color, Cuts, DartStop, FLAT_OBJ, FLAT_PNG, Limit, OUTLINE_SVG, PATTERN_SVG, PartReport, REPORT_JSON,
     SurfaceOptions, SurfaceReport, flatten_surface,
 };
 use crate::report::{aligned, restless};
@@ -110,7 +110,7 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
     write(flat.results()?, &folder, &inputs)?;
     let report = &flat.report;
     console.results(report, || format!("{}\n  written to {}\n", figures(report), folder.display()))?;
-    for stage in restless(&report.stages) {
+    for stage in restless(&report.stages, AT_REST) {
         console.note(&stage.to_string());
     }
     for piece in &report.pieces {

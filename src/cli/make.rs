@@ -8,8 +8,8 @@ use super::exit::{CliError, Exit};
 use crate::flatten;
 use crate::io::files::{check_writable, write_all};
 use crate::pipeline::{
-    Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, Job, Overrides, PATTERN_SVG, PLACED_OBJ, PipelineError, REPORT_JSON,
-    ResultFile, Run, SEWN_OBJ, read,
+    AT_REST, Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, Job, Overrides, PATTERN_SVG, PLACED_OBJ, PipelineError,
+    REPORT_JSON, ResultFile, Run, SEWN_OBJ, read,
 };
 use crate::report::{Report, restless, table, verdicts};
 
@@ -157,7 +157,7 @@ fn leave_state(run: &Run, plan: &Plan, folder: &Path, inputs: &[PathBuf], consol
 
 /// Says what is out of bounds, and what did not come to rest.
 fn judge(job: &Job, report: &Report, console: &Console) -> Exit {
-    for stage in restless(&report.stages) {
+    for stage in restless(&report.stages, AT_REST) {
         console.note(&stage.to_string());
     }
     let mut exit = Exit::Done;

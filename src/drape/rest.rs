@@ -75,9 +75,10 @@ const HARDLY: f64 = 0.5e-3;
 /// How far a Newton step is trusted to change an edge: at first, at least and at most, metres. What turns a spring
 /// further is too much for its tangent.
 const TRUST: [f64; 3] = [1.5e-3, 0.1e-3, 10e-3];
-/// At rest: drift (RMS) over as many steps again, metres, and residual force in particle weights.
-const DRIFT: f64 = 0.3e-3;
-const RESIDUAL: f64 = 1.0;
+/// At rest a garment drifts by no more than this over as many steps again, metres (RMS),
+pub const DRIFT: f64 = 0.3e-3;
+/// and its forces are out of balance by no more than so many particle weights (RMS).
+pub const RESIDUAL: f64 = 1.0;
 /// Steps so short that as many as are left move the garment by no more than this share of [`DRIFT`] need not be made,
 /// once so many in a row were: a single short one may be one that could not be made longer.
 const STILL: f64 = 1.0 / 3.0;

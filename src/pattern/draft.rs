@@ -17,6 +17,8 @@ use crate::input::nearest;
 
 /// A drawn outline may miss its start by this much (metres): rounding of the file's numbers.
 const CLOSURE: f64 = 5e-5;
+/// An edge whose ends are nearer than this share of its length is a ring.
+const RING: f64 = 1e-2;
 /// A hole that encloses less (square metres) is a line or a point drawn as one.
 const SMALLEST_HOLE: f64 = 1e-6;
 /// Longer edges (metres) are a wrong unit or a slip of the pen, and would take for ever to look at.
@@ -267,12 +269,16 @@ pub(super) fn check_size(path: Path) -> Result<Path, String> {
     Ok(path)
 }
 
-/// The path turned and scaled about its start by a hair, so that it ends exactly at `end`.
+/// The path turned and scaled about its start by a hair, so that it ends exactly at `end`; of one that comes back to its
+/// start, which has no direction to turn in, the second half.
 fn ended_at(path: &Path, end: Vec2) -> Path {
     let (a, b) = (path.end() - path.start(), end - path.start());
-    let square = a.norm_squared();
-    if a == b || square == 0.0 {
+    if a == b {
         return path.clone();
+    }
+    let (square, length) = (a.norm_squared(), path.length());
+    if square < (RING * length).powi(2) {
+        return path.part(0.0, 0.5 * length).joined(&ended_at(&path.part(0.5 * length, length), end));
     }
     let (cos, sin) = (a.dot(&b) / square, a.perp(&b) / square);
     let linear = nalgebra::Matrix2::new(cos, -sin, sin, cos);

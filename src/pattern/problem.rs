@@ -204,7 +204,7 @@ pub enum Problem {
     Openings { found: usize, expected: usize, rims: String },
     #[error("seam '{seam}' has no end at '{from}'; its ends are at {known}")]
     OpenFrom { seam: String, from: String, known: String },
-    #[error("seam '{seam}' is {length:.1} mm long but opens {open:.1} mm")]
+    #[error("seam '{seam}' is {length:.1} mm long but opens {open:.1} mm in all")]
     OpenTooLong { seam: String, length: f64, open: f64 },
     #[error("notch {notch} of {edge} has no partner on {other}")]
     NotchAlone { notch: usize, edge: String, other: String },
@@ -246,7 +246,7 @@ impl Problem {
                 "the smaller number comes first, along the edge; which way a seam runs follows from its 'face'"
                     .to_owned()
             }
-            Self::ChainBroken { .. } => "name the edges in the order they are sewn, end to end".to_owned(),
+            Self::ChainBroken { .. } => "name the edges in the order they are sewn, end to end; of a piece drawn as its right half say `drawn: R`".to_owned(),
             Self::TooManyValues(_) => "write the pieces with 'like' instead".to_owned(),
             _ => return None,
         };

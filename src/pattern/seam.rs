@@ -188,7 +188,8 @@ impl Finish<'_> {
             let closed = open.closure.is_some() || file.closure.is_some();
             if ends[1 - end] + long >= whole - 1e-6 && !(closed && long <= whole + 1e-6) {
                 let (seam, length) = (file.name.value.clone(), whole * 1e3);
-                findings.error(open.length.at, Problem::OpenTooLong { seam, length, open: long * 1e3 });
+                findings
+                    .error(open.length.at, Problem::OpenTooLong { seam, length, open: (ends[1 - end] + long) * 1e3 });
             } else if !closed {
                 ends[end] = long;
             }

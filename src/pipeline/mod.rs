@@ -21,6 +21,7 @@ mod run;
 mod saved;
 mod surface;
 
+use crate::report::AtRest;
 pub use crate::sew::SewError;
 pub use cloth::piece_area;
 pub use error::PipelineError;
@@ -35,3 +36,6 @@ pub use surface::{
     Cuts, DARTS, DartStop, EdgeReport, FLAT_OBJ, FLAT_PNG, FlatSurface, Limit, OUTLINE_SVG, PartReport, SurfaceOptions,
     SurfaceReport, flatten_surface,
 };
+
+/// What counts as rest of a draped garment.
+pub const AT_REST: AtRest = AtRest { drift: 1e3 * crate::drape::DRIFT, residual: crate::drape::RESIDUAL };

@@ -21,7 +21,7 @@ pub use bounds::{Verdict, verdicts, verdicts_by_test};
 pub use crossings::{Seen, look};
 pub use measure::{Measured, measure};
 pub use openings::opening_names;
-pub use rest::{Restless, restless};
+pub use rest::{AtRest, Restless, restless};
 pub use schema::{
     Contact, Crossing, Drift, PieceReport, Quartet, Report, SeamReport, Sizes, Spread, Stage, Stretched, Worn,
 };
