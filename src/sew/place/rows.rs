@@ -12,6 +12,10 @@ use crate::pattern::{Garment, Place};
 /// Room left between two rows, and between two pieces of a row, metres.
 pub(super) const ROOM: f64 = 0.004;
 
+/// A side seam reaches over at least this share of its pieces' heights; cuffs and peplums that flare widely have sides
+/// that run more across than down.
+const FLANK: f64 = 0.8;
+
 /// The stitches between two pieces.
 #[derive(Clone, Debug)]
 pub(super) struct Link {
@@ -297,10 +301,28 @@ fn links(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Link> {
                     length += 0.5 * (sheet.flat[*to as usize] - sheet.flat[*from as usize]).norm();
                 }
             }
-            out.push(Link { pieces, pairs: run.to_vec(), upright: extent.y > extent.x, length, through: false });
+            let flanks = (0..2).all(|k| is_flank(mesh, sheet, pieces[k], run.iter().map(|pair| pair[k])));
+            out.push(Link {
+                pieces,
+                pairs: run.to_vec(),
+                upright: extent.y > extent.x || flanks,
+                length,
+                through: false,
+            });
         }
     }
     out
+}
+
+/// Whether stitches run all the way down one side of a piece, however far it flares: from its top to its hem within half
+/// of its width. (Shoulders end far above the hem, waists go from side to side.)
+fn is_flank(mesh: &ClothMesh, sheet: &Sheet, piece: usize, stitches: impl Iterator<Item = u32>) -> bool {
+    let range = |[low, high]: [Vec2; 2], p: usize| [low.inf(&sheet.straight[p]), high.sup(&sheet.straight[p])];
+    let none = [Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)];
+    let [low, high] = mesh.pieces[piece].particles.clone().fold(none, range);
+    let [top, bottom] = stitches.map(|p| p as usize).fold(none, range);
+    let (whole, seam) = (high - low, bottom - top);
+    seam.y >= FLANK * whole.y && seam.x <= 0.5 * whole.x
 }
 
 /// Whether level seams join pieces of the row in its upper half: shoulders.
