@@ -419,6 +419,29 @@ fn a_tabard_starts_over_the_shoulders_open_at_its_sides() {
     assert!((front.y - back.y).abs() < 20.0 * MM && front.z > back.z + 100.0 * MM, "{front} {back}");
 }
 
+/// Cuffs that flare so widely that their sides run more across than down.
+#[test]
+fn a_cuff_that_flares_widely_starts_as_one_ring() {
+    let (body, _) = woman();
+    let made = Made::new(
+        "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  front:\n    place: left arm front\n    \
+         grain: [[0, 10], [0, 40]]\n    outline: {start: -110 0, top: L 110 0, over: L 230 54, hem: L -230 54, \
+         under: L -110 0}\n  back: {like: front, place: left arm back}\nseams:\n  over: {sew: front.over, to: back.under}\n  \
+         under: {sew: front.under, to: back.over}\nfree: ['*.top', '*.hem']\n",
+        12.0,
+    );
+    let x = made.placed(&body);
+    assert_eq!(crossings(&TriMesh { vertices: x.clone(), triangles: made.mesh.triangles.clone() }).len(), 0);
+    // Side by side: neither lies along the arm above the other.
+    let arm = body.parts.iter().find(|p| p.kind == PartKind::LeftArm).expect("an arm");
+    let along = |piece: usize| {
+        let particles = made.mesh.pieces[piece].particles.clone();
+        particles.clone().map(|p| (x[p] - arm.sections[0].center).dot(&arm.sections[0].axis)).sum::<f64>()
+            / particles.len() as f64
+    };
+    assert!((along(0) - along(1)).abs() < 10.0 * MM, "{} and {}", along(0), along(1));
+}
+
 /// Two godets in the front, one by one seam that turns at its point, one by a seam on either side.
 #[test]
 fn godets_start_in_their_slits() {
@@ -757,6 +780,20 @@ fn a_piece_that_starts_in_the_body_is_refused_before_anything_moves() {
     let refused = sew(&made.cut(), &collider, start, &SewOptions::default(), &mut |_| {});
     let Err(SewError::InsideBody { piece, depth_mm }) = &refused else { panic!("{:?}", refused.map(|s| s.steps)) };
     assert!(piece == "two" && *depth_mm > 15.0, "{piece} by {depth_mm}");
+}
+
+#[test]
+fn a_piece_that_starts_under_the_floor_is_refused_as_too_low() {
+    let made = squares(30.0);
+    let (body, collider) = woman();
+    let collider = collider.on_floor(body.floor());
+    let mut start = made.placed(&body);
+    let two = made.mesh.pieces[1].particles.clone();
+    let lowest = start[two.clone()].iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
+    two.for_each(|p| start[p].y -= lowest + 0.3);
+    let refused = sew(&made.cut(), &collider, start, &SewOptions::default(), &mut |_| {});
+    let Err(SewError::UnderFloor { piece, depth_mm }) = &refused else { panic!("{:?}", refused.map(|s| s.steps)) };
+    assert!(piece == "two" && (*depth_mm - 300.0).abs() < 1e-6, "{piece} by {depth_mm}");
 }
 
 // The moment after stitching.

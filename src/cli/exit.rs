@@ -84,7 +84,7 @@ impl CliError {
     /// What to do, where the message itself does not say.
     pub(super) fn help(&self) -> Option<&'static str> {
         match self {
-            Self::Pipeline(PipelineError::Sew(SewError::InsideBody { .. })) => {
+            Self::Pipeline(PipelineError::Sew(SewError::InsideBody { .. } | SewError::UnderFloor { .. })) => {
                 Some("garment.png shows where every piece was placed")
             }
             Self::Pipeline(e) if !e.has_remedy() => {

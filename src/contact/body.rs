@@ -114,6 +114,11 @@ impl Collider {
         self
     }
 
+    /// Height of the floor, metres.
+    pub fn floor(&self) -> Option<f64> {
+        self.floor
+    }
+
     /// The closest point of the surface or the floor, if it is within `reach` of `p`.
     pub fn nearest(&self, p: Vec3, reach: f64) -> Option<Nearest> {
         let skin = self.nearest_skin(p, reach);

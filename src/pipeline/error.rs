@@ -128,7 +128,11 @@ impl PipelineError {
 
     /// Whether the message itself says what to do.
     pub fn has_remedy(&self) -> bool {
-        self.is_input() || matches!(self, Self::Sew(SewError::InsideBody { .. } | SewError::Open { .. }))
+        self.is_input()
+            || matches!(
+                self,
+                Self::Sew(SewError::InsideBody { .. } | SewError::UnderFloor { .. } | SewError::Open { .. })
+            )
     }
 
     /// Sewing's error: a piece that no place suits is a matter of the garment file.

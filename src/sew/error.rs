@@ -26,6 +26,16 @@ pub enum SewError {
         /// Depth of its deepest particle, mm.
         depth_mm: f64,
     },
+    /// A piece hangs through the floor that the body stands on.
+    #[error(
+        "piece '{piece}' reaches {depth_mm:.0} mm under the floor that the body stands on; shorten what it hangs from, or move its place"
+    )]
+    UnderFloor {
+        /// The piece.
+        piece: String,
+        /// Depth of its lowest particle, mm.
+        depth_mm: f64,
+    },
     /// A seam does not close.
     #[error(
         "seam '{seam}' is still open by {gap_mm:.1} mm after {iterations} steps (limit {limit_mm:.1} mm); check that its two edges begin at the same end, that a half that is drawn for the right says `drawn: R`, that a facing or overlay has a layer of its own and `face: same`, that the garment is large enough for the body there, and the place of '{piece_a}' and '{piece_b}'{}", nearly(*gap_mm, *limit_mm)

@@ -28,8 +28,8 @@ const LOOK: f64 = 0.5;
 /// shortest straight way.
 ///
 /// # Errors
-/// [`SewError::InsideBody`] for one that is still deep then, or was deeper: the penalty would push its halves out on
-/// different sides.
+/// [`SewError::InsideBody`] or [`SewError::UnderFloor`] for one that is still deep then, or was deeper: the penalty would
+/// push its halves out on different sides.
 pub(super) fn lead_out(cut: &Cut, body: &Collider, start: &mut [Vec3]) -> Result<(), SewError> {
     for piece in &cut.mesh.pieces {
         let deepest = depths(body, &start[piece.particles.clone()]).fold(0.0, f64::max);
@@ -41,13 +41,18 @@ pub(super) fn lead_out(cut: &Cut, body: &Collider, start: &mut [Vec3]) -> Result
         let middles = triangles.iter().map(|t| middle(start, t));
         let points: Vec<Vec3> = start[piece.particles.clone()].iter().copied().chain(middles).collect();
         let x = &mut start[piece.particles.clone()];
+        let sunk = body.floor().is_some_and(|floor| x.iter().any(|p| floor - p.y >= deepest));
         if deepest <= DEEPEST {
             let way = way_out(body, &points);
             x.iter_mut().for_each(|p| *p += way);
         }
         let deep = depths(body, x).filter(|&d| d > DEEP).count();
         if deep as f64 > SHARE * x.len() as f64 {
-            return Err(SewError::InsideBody { piece: piece.name.clone(), depth_mm: 1e3 * deepest });
+            let (piece, depth_mm) = (piece.name.clone(), 1e3 * deepest);
+            return Err(match sunk {
+                true => SewError::UnderFloor { piece, depth_mm },
+                false => SewError::InsideBody { piece, depth_mm },
+            });
         }
     }
     Ok(())
