@@ -36,8 +36,9 @@ impl Stations {
             PartKind::Torso | PartKind::Neck => {
                 let mut list: Vec<(f64, Station)> = own.sections.iter().map(|s| (-s.center.y, upright(s))).collect();
                 if part == PartKind::Torso {
-                    let legs = find(PartKind::LeftLeg).map(|leg| both_legs(leg, &list, &body.mesh));
-                    list.extend(legs.into_iter().flatten());
+                    if let (Some(left), Some(right)) = (find(PartKind::LeftLeg), find(PartKind::RightLeg)) {
+                        list.extend(both_legs([left, right], &list, &body.mesh));
+                    }
                 }
                 list
             }
@@ -120,26 +121,25 @@ fn upright(s: &crate::mannequin::Section) -> Station {
 }
 
 /// Below the crotch the trunk's ring goes round both legs, and round the feet where the body has any.
-fn both_legs(leg: &BodyPart, trunk: &[(f64, Station)], body: &TriMesh) -> Vec<(f64, Station)> {
+fn both_legs(legs: [&BodyPart; 2], trunk: &[(f64, Station)], body: &TriMesh) -> Vec<(f64, Station)> {
     let lowest = trunk.iter().map(|s| s.0).fold(f64::NEG_INFINITY, f64::max);
-    // A body may stand anywhere: its middle is the trunk's.
-    let middle = trunk.iter().map(|s| s.1.center.x).sum::<f64>() / trunk.len().max(1) as f64;
-    let ankle = leg.sections.iter().map(|s| s.center.y).fold(f64::INFINITY, f64::min);
+    let ankle = legs.iter().flat_map(|leg| &leg.sections).map(|s| s.center.y).fold(f64::INFINITY, f64::min);
     // How far the feet reach back and forward.
     let feet = body.vertices.iter().filter(|v| v.y < ankle).map(|v| v.z);
     let feet = feet.fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], z| [lo.min(z), hi.max(z)]);
-    leg.sections
-        .iter()
-        .filter(|s| -s.center.y > lowest)
-        .map(|s| {
+    let [left, right] = legs.map(|leg| leg.sections.iter());
+    left.zip(right)
+        .filter(|(s, _)| -s.center.y > lowest)
+        .map(|(s, other)| {
             let share = (1.0 - (s.center.y - ankle) / INSTEP).clamp(0.0, 1.0);
             let (low, high) = (s.center.z - s.half_depth, s.center.z + s.half_depth);
             // Without feet the share of nothing is nothing.
             let back = if feet[0] < low { low + share * (feet[0] - low) } else { low };
             let front = if feet[1] > high { high + share * (feet[1] - high) } else { high };
-            let center = Vec3::new(middle, s.center.y, 0.5 * (back + front));
-            let half_width = (s.center.x - middle).abs() + s.half_width;
-            let half_depth = 0.5 * (front - back);
+            // From the right side of one to the left side of the other, wherever the body stands.
+            let sides = [other.center.x - other.half_width, s.center.x + s.half_width];
+            let center = Vec3::new(0.5 * (sides[0] + sides[1]), s.center.y, 0.5 * (back + front));
+            let (half_width, half_depth) = (0.5 * (sides[1] - sides[0]), 0.5 * (front - back));
             (-s.center.y, Station { center, front: Vec3::z(), right: Vec3::x(), half_width, half_depth })
         })
         .collect()
