@@ -49,9 +49,10 @@ pub(super) fn lead_out(cut: &Cut, body: &Collider, start: &mut [Vec3]) -> Result
         let deep = depths(body, x).filter(|&d| d > DEEP).count();
         if deep as f64 > SHARE * x.len() as f64 {
             let (piece, depth_mm) = (piece.name.clone(), 1e3 * deepest);
-            return Err(match sunk {
-                true => SewError::UnderFloor { piece, depth_mm },
-                false => SewError::InsideBody { piece, depth_mm },
+            return Err(if sunk {
+                SewError::UnderFloor { piece, depth_mm }
+            } else {
+                SewError::InsideBody { piece, depth_mm }
             });
         }
     }

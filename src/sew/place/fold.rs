@@ -22,8 +22,9 @@ pub(super) struct Sheet {
     pub(super) under: Vec<f64>,
 }
 
-/// Folds every piece along its pressed lines, but for creases that its seams hold open, the part with the shorter sewn rim under the other, or over it where right sides
-/// meet, lays its pleats, unrolls what is a sector of a circle, and lays level what is an upright band.
+/// Folds every piece along its pressed lines, but for creases that its seams hold open: the part with the shorter sewn rim
+/// under the other, or over it where right sides meet. Lays its pleats, unrolls what is a sector of a circle, and lays
+/// level what is an upright band.
 pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
     let (flat, under) = (mesh.flat.clone(), vec![0.0; mesh.flat.len()]);
     let mut sheet = Sheet { drawn: Vec::new(), flat, straight: Vec::new(), under };
