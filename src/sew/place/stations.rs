@@ -35,10 +35,10 @@ impl Stations {
         let mut list = match part {
             PartKind::Torso | PartKind::Neck => {
                 let mut list: Vec<(f64, Station)> = own.sections.iter().map(|s| (-s.center.y, upright(s))).collect();
-                if part == PartKind::Torso {
-                    if let (Some(left), Some(right)) = (find(PartKind::LeftLeg), find(PartKind::RightLeg)) {
-                        list.extend(both_legs([left, right], &list, &body.mesh));
-                    }
+                if part == PartKind::Torso
+                    && let (Some(left), Some(right)) = (find(PartKind::LeftLeg), find(PartKind::RightLeg))
+                {
+                    list.extend(both_legs([left, right], &list, &body.mesh));
                 }
                 list
             }
