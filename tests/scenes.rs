@@ -64,6 +64,18 @@ fn five_sheets_lie_on_one_another_on_a_ball() {
 }
 
 #[test]
+fn two_round_pieces_are_sewn_all_round() {
+    let name = "cushion.yaml";
+    let report = rests(name, &scene(name, 40.0)).1;
+    assert!(
+        report.seams.iter().all(|s| s.gap_max < 1.0) && report.worn.is_empty(),
+        "{:?} {:?}",
+        report.seams,
+        report.worn
+    );
+}
+
+#[test]
 fn a_belt_is_pulled_tight_until_it_gathers() {
     lies_well("belt.yaml", 16.0);
 }

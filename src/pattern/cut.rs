@@ -169,7 +169,7 @@ fn reflection(a: Vec2, b: Vec2) -> (Matrix2<f64>, Vec2) {
 /// The edges of a ring in a cut piece, clockwise again if mirrored.
 fn transformed(ring: &[Edge], to: &Instance) -> Vec<Edge> {
     let moved = ring.iter().map(|e| Edge { name: e.name.clone(), path: e.path.mapped(to.linear, to.shift) });
-    if to.mirrored { super::draft::reversed(&moved.collect::<Vec<_>>()) } else { moved.collect() }
+    if to.mirrored { super::outline::reversed(&moved.collect::<Vec<_>>()) } else { moved.collect() }
 }
 
 fn folded_edges(draft: &Draft, piece: usize, fold: usize, mirrored: bool) -> Vec<Vec<Option<EdgeId>>> {

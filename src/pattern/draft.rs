@@ -8,6 +8,7 @@ use super::dart;
 use super::diagnostic::{Findings, Located, Spot};
 use super::file::{AllowanceFile, Cut, OutlineFile, PieceFile, PlaceFile, Side, Unit};
 use super::line;
+use super::outline::{CLOSURE, check_size, ended_at, outline};
 use super::pleat;
 use super::problem::Problem;
 use super::region::Region;
@@ -15,14 +16,8 @@ use super::{Edge, Line, Place, SeamKind};
 use crate::geometry::{Path, Vec2, Vec3};
 use crate::input::nearest;
 
-/// A drawn outline may miss its start by this much (metres): rounding of the file's numbers.
-const CLOSURE: f64 = 5e-5;
-/// An edge whose ends are nearer than this share of its length is a ring.
-const RING: f64 = 1e-2;
 /// A hole that encloses less (square metres) is a line or a point drawn as one.
 const SMALLEST_HOLE: f64 = 1e-6;
-/// Longer edges (metres) are a wrong unit or a slip of the pen, and would take for ever to look at.
-const LONGEST_EDGE: f64 = 200.0;
 
 /// A stretch of a drawn edge: `(ring, index)`, walked from `from` to `to`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -199,110 +194,6 @@ fn place(place: &PlaceFile, unit: Unit) -> Place {
     }
 }
 
-/// Reads the outline's edges: closed, clockwise, every name once.
-fn outline(piece: &str, file: &OutlineFile, unit: Unit, findings: &mut Findings) -> Option<Vec<Edge>> {
-    let scale = unit.factor();
-    let start = Vec2::from(file.start.value);
-    let mut at = start;
-    let mut edges: Vec<Edge> = Vec::new();
-    let mut seen = HashSet::new();
-    let mut sound = true;
-    for (name, commands) in &file.edges {
-        if !seen.insert(name.value.as_str()) {
-            findings.error(name.at, Problem::EdgeTwice { piece: piece.to_owned(), edge: name.value.clone() });
-        }
-        match edge_path(at, &commands.value, scale) {
-            Ok(path) => {
-                at = path.end() / scale;
-                edges.push(Edge { name: name.value.clone(), path });
-            }
-            Err(reason) => {
-                let (piece, edge) = (piece.to_owned(), name.value.clone());
-                findings.error(commands.at, Problem::BadPath { piece, edge, reason });
-                sound = false;
-            }
-        }
-    }
-    if !sound {
-        return None;
-    }
-    let Some(last) = edges.last() else {
-        findings.error(file.start.at, Problem::NoOutline(piece.to_owned()));
-        return None;
-    };
-    let (end, first) = (last.path.end(), start * scale);
-    let gap = (end - first).norm();
-    if gap > CLOSURE {
-        let at = file.edges.last().map_or(file.start.at, |e| e.1.at);
-        let (last, start) = (shown(end), shown(first));
-        findings.error(at, Problem::NotClosed { piece: piece.to_owned(), last, start, gap: gap * 1e3 });
-        return None;
-    }
-    let closed = ended_at(&last.path, edges[0].path.start());
-    if let Some(last) = edges.last_mut() {
-        last.path = closed;
-    }
-    orient(piece, edges, file.start.at, findings)
-}
-
-fn edge_path(at: Vec2, commands: &str, scale: f64) -> Result<Path, String> {
-    if commands.contains(['M', 'm', 'Z', 'z']) {
-        return Err("an edge goes on from the one before it; use L, C, Q or A, without M or Z".to_owned());
-    }
-    // SVG's own words would show the `M` that is put in front: say what the file has.
-    let path = Path::parse(at, commands, scale).map_err(|e| match e {
-        crate::geometry::PathError::Syntax(_) => {
-            format!("cannot read '{commands}'; expected commands L C Q A with numbers")
-        }
-        crate::geometry::PathError::NotFinite(_) => format!("'{commands}' holds a number that is not finite"),
-        crate::geometry::PathError::Empty(_) => format!("'{commands}' has no length"),
-    })?;
-    check_size(path)
-}
-
-pub(super) fn check_size(path: Path) -> Result<Path, String> {
-    if path.length() > LONGEST_EDGE {
-        let length = path.length();
-        let shown = if length < 1e6 { format!("{length:.0}") } else { format!("{length:.1e}") };
-        return Err(format!("it is {shown} m long; at most {LONGEST_EDGE} m are read"));
-    }
-    Ok(path)
-}
-
-/// The path turned and scaled about its start by a hair, so that it ends exactly at `end`; of one that comes back to its
-/// start, which has no direction to turn in, the second half.
-fn ended_at(path: &Path, end: Vec2) -> Path {
-    let (a, b) = (path.end() - path.start(), end - path.start());
-    if a == b {
-        return path.clone();
-    }
-    let (square, length) = (a.norm_squared(), path.length());
-    if square < (RING * length).powi(2) {
-        return path.part(0.0, 0.5 * length).joined(&ended_at(&path.part(0.5 * length, length), end));
-    }
-    let (cos, sin) = (a.dot(&b) / square, a.perp(&b) / square);
-    let linear = nalgebra::Matrix2::new(cos, -sin, sin, cos);
-    path.mapped(linear, path.start() - linear * path.start())
-}
-
-fn orient(piece: &str, mut edges: Vec<Edge>, at: Spot, findings: &mut Findings) -> Option<Vec<Edge>> {
-    let double_area: f64 = edges.iter().map(|e| e.path.double_area()).sum();
-    if double_area.abs() < 1e-9 {
-        findings.error(at, Problem::NoArea(piece.to_owned()));
-        return None;
-    }
-    if double_area < 0.0 {
-        findings.warn(at, Problem::CounterClockwise(piece.to_owned()));
-        edges = reversed(&edges);
-    }
-    Some(edges)
-}
-
-/// The ring walked the other way.
-pub(super) fn reversed(ring: &[Edge]) -> Vec<Edge> {
-    ring.iter().rev().map(|e| Edge { name: e.name.clone(), path: e.path.reversed() }).collect()
-}
-
 impl Draft {
     /// Adds a ring of which every edge can be sewn under its own name.
     pub(super) fn add_ring(&mut self, ring: Vec<Edge>) {
@@ -347,6 +238,7 @@ fn holes(drawn: &mut Draft, piece: &PieceFile, unit: Unit, findings: &mut Findin
             findings.error(text.at, Problem::HoleNoArea { piece, hole: edge });
             continue;
         }
+        let path = ended_at(&path, path.start());
         let path = if path.double_area() > 0.0 { path.reversed() } else { path };
         let ring = vec![Edge { name: edge, path }];
         let within =

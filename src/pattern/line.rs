@@ -1,8 +1,9 @@
 //! Lines inside a piece: folds, elastic and marks.
 
 use super::diagnostic::Findings;
-use super::draft::{Draft, check_size, shown};
+use super::draft::{Draft, shown};
 use super::file::{LineFile, PieceFile, Unit};
+use super::outline::check_size;
 use super::problem::Problem;
 use super::region::{Region, first_off};
 use super::{Line, LineKind};

@@ -31,6 +31,7 @@ mod file;
 mod inherit;
 mod line;
 mod measure;
+mod outline;
 mod place_word;
 mod pleat;
 mod problem;

@@ -1,0 +1,128 @@
+//! The outline of a piece as the file writes it, edge by edge: read, closed, clockwise.
+
+use std::collections::HashSet;
+
+use super::Edge;
+use super::diagnostic::{Findings, Spot};
+use super::draft::shown;
+use super::file::{OutlineFile, Unit};
+use super::problem::Problem;
+use crate::geometry::{Path, Vec2};
+
+/// A drawn outline may miss its start by this much (metres): rounding of the file's numbers.
+pub(super) const CLOSURE: f64 = 5e-5;
+/// Longer edges (metres) are a wrong unit or a slip of the pen, and would take for ever to look at.
+const LONGEST_EDGE: f64 = 200.0;
+
+/// Reads the outline's edges: closed, clockwise, every name once.
+pub(super) fn outline(piece: &str, file: &OutlineFile, unit: Unit, findings: &mut Findings) -> Option<Vec<Edge>> {
+    let scale = unit.factor();
+    let start = Vec2::from(file.start.value);
+    let mut at = start;
+    let mut edges: Vec<Edge> = Vec::new();
+    let mut seen = HashSet::new();
+    let mut sound = true;
+    for (name, commands) in &file.edges {
+        if !seen.insert(name.value.as_str()) {
+            findings.error(name.at, Problem::EdgeTwice { piece: piece.to_owned(), edge: name.value.clone() });
+        }
+        match edge_path(at, &commands.value, scale) {
+            Ok(path) => {
+                at = path.end() / scale;
+                edges.push(Edge { name: name.value.clone(), path });
+            }
+            Err(reason) => {
+                let (piece, edge) = (piece.to_owned(), name.value.clone());
+                findings.error(commands.at, Problem::BadPath { piece, edge, reason });
+                sound = false;
+            }
+        }
+    }
+    if !sound {
+        return None;
+    }
+    let Some(last) = edges.last() else {
+        findings.error(file.start.at, Problem::NoOutline(piece.to_owned()));
+        return None;
+    };
+    let (end, first) = (last.path.end(), start * scale);
+    let gap = (end - first).norm();
+    if gap > CLOSURE {
+        let at = file.edges.last().map_or(file.start.at, |e| e.1.at);
+        let (last, start) = (shown(end), shown(first));
+        findings.error(at, Problem::NotClosed { piece: piece.to_owned(), last, start, gap: gap * 1e3 });
+        return None;
+    }
+    let closed = ended_at(&last.path, edges[0].path.start());
+    if let Some(last) = edges.last_mut() {
+        last.path = closed;
+    }
+    orient(piece, edges, file.start.at, findings)
+}
+
+fn edge_path(at: Vec2, commands: &str, scale: f64) -> Result<Path, String> {
+    if commands.contains(['M', 'm', 'Z', 'z']) {
+        return Err("an edge goes on from the one before it; use L, C, Q or A, without M or Z".to_owned());
+    }
+    // SVG's own words would show the `M` that is put in front: say what the file has.
+    let path = Path::parse(at, commands, scale).map_err(|e| match e {
+        crate::geometry::PathError::Syntax(_) => {
+            format!("cannot read '{commands}'; expected commands L C Q A with numbers")
+        }
+        crate::geometry::PathError::NotFinite(_) => format!("'{commands}' holds a number that is not finite"),
+        crate::geometry::PathError::Empty(_) if commands.contains(['A', 'a']) => {
+            format!("'{commands}' has no length; an arc ends elsewhere than it starts, a circle takes two")
+        }
+        crate::geometry::PathError::Empty(_) => format!("'{commands}' has no length"),
+    })?;
+    check_size(path)
+}
+
+pub(super) fn check_size(path: Path) -> Result<Path, String> {
+    if path.length() > LONGEST_EDGE {
+        let length = path.length();
+        let shown = if length < 1e6 { format!("{length:.0}") } else { format!("{length:.1e}") };
+        return Err(format!("it is {shown} m long; at most {LONGEST_EDGE} m are read"));
+    }
+    Ok(path)
+}
+
+/// The path changed by a hair, so that it ends exactly at `end`. One that comes back to its start, as a circle does, has
+/// no chord to turn: its second half is taken.
+pub(super) fn ended_at(path: &Path, end: Vec2) -> Path {
+    let length = path.length();
+    if path.end() == end || (path.end() - path.start()).norm() > length / 2.0 {
+        return turned_to(path, end);
+    }
+    path.part(0.0, length / 2.0).joined(&turned_to(&path.part(length / 2.0, length), end))
+}
+
+/// The path turned and scaled about its start, so that it ends at `end`.
+fn turned_to(path: &Path, end: Vec2) -> Path {
+    let (a, b) = (path.end() - path.start(), end - path.start());
+    let square = a.norm_squared();
+    if a == b || square == 0.0 {
+        return path.clone();
+    }
+    let (cos, sin) = (a.dot(&b) / square, a.perp(&b) / square);
+    let linear = nalgebra::Matrix2::new(cos, -sin, sin, cos);
+    path.mapped(linear, path.start() - linear * path.start())
+}
+
+fn orient(piece: &str, mut edges: Vec<Edge>, at: Spot, findings: &mut Findings) -> Option<Vec<Edge>> {
+    let double_area: f64 = edges.iter().map(|e| e.path.double_area()).sum();
+    if double_area.abs() < 1e-9 {
+        findings.error(at, Problem::NoArea(piece.to_owned()));
+        return None;
+    }
+    if double_area < 0.0 {
+        findings.warn(at, Problem::CounterClockwise(piece.to_owned()));
+        edges = reversed(&edges);
+    }
+    Some(edges)
+}
+
+/// The ring walked the other way.
+pub(super) fn reversed(ring: &[Edge]) -> Vec<Edge> {
+    ring.iter().rev().map(|e| Edge { name: e.name.clone(), path: e.path.reversed() }).collect()
+}
