@@ -242,10 +242,36 @@ fn rounded_rectangles_keep_their_corners() {
     // Two radii: the corners make an ellipse of 60 and 30 mm.
     let (area, _) = svg("<rect width='200' height='300' rx='60' ry='30'/>");
     assert!((area - (60_000.0 - (4.0 - PI) * 1800.0)).abs() < 60.0, "{area}");
+    // A radius that SVG does not take, `auto` or negative, is as the other.
+    close(svg("<rect width='200' height='300' rx='auto' ry='25'/>"), rounded(25.0));
+    close(svg("<rect width='200' height='300' rx='40' ry='-1'/>"), rounded(40.0));
     // Sharp without a radius, and with one that is nought.
     close(svg("<rect width='200' height='300' rx='0' ry='30'/>"), [60_000.0, 1000.0]);
     // In a drawing whose unit is a millimetre, 96 units to the inch are 200 and 300 mm.
     close(svg("<rect width='52.916667mm' height='79.375mm'/>"), [60_000.0, 1000.0]);
+}
+
+/// The file's numbers are rounded: the one edge of this circle ends 4 millionths of a millimetre from where it starts.
+#[test]
+fn circles_and_ellipses_are_pieces_of_one_edge() {
+    let made = from_svg(
+        "<svg xmlns='http://www.w3.org/2000/svg' width='900mm' height='900mm' viewBox='0 0 900 900'>\
+         <circle id='disc' cx='300.123' cy='300.777' r='200.3337'/><ellipse id='oval' cx='700' cy='200' rx='120.5' \
+         ry='80.25'/><ellipse id='round' cx='700' cy='500' rx='50'/><circle id='none' cx='700' cy='700' r='0'/></svg>",
+    );
+    // Circumference by chords: shares nothing with the library's.
+    let around = |[rx, ry]: [f64; 2]| {
+        let at = |i: usize| (2.0 * PI * i as f64 / 20_000.0).sin_cos();
+        (0..20_000).map(|i| (at(i), at(i + 1))).map(|(a, b)| ((b.0 - a.0) * ry).hypot((b.1 - a.1) * rx)).sum::<f64>()
+    };
+    let pieces = drawn(&made);
+    assert_eq!(pieces.iter().map(|p| p.name.as_str()).collect::<Vec<_>>(), ["disc", "oval", "round"]);
+    for (piece, radii) in pieces.iter().zip([[200.3337; 2], [120.5, 80.25], [50.0; 2]]) {
+        let [(_, length)] = lengths(piece)[..] else { panic!("one edge: {:?}", lengths(piece)) };
+        assert!((length - around(radii)).abs() < 0.01, "{}: {length}", piece.name);
+        let area = piece.rings[0][0].path.double_area() * 0.5e6;
+        assert!((area - PI * radii[0] * radii[1]).abs() < 0.1, "{}: {area}", piece.name);
+    }
 }
 
 /// The cut line passes a dart's mouth: its legs have no allowance, however far the line is from them.

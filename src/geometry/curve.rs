@@ -223,9 +223,11 @@ impl Path {
         }
         let mut runs: Vec<Vec<PathSeg>> = Vec::new();
         let mut end: Option<Point> = None;
+        // What is too short to count may lie between two segments of a run.
+        let near = |a: Point, b: Point| a.distance(b) <= LENGTH_ACCURACY;
         for segment in bez.segments().filter(|s| arc_length(s) > LENGTH_ACCURACY) {
             match runs.last_mut() {
-                Some(run) if end == Some(segment.start()) => run.push(segment),
+                Some(run) if end.is_some_and(|end| near(end, segment.start())) => run.push(segment),
                 _ => runs.push(vec![segment]),
             }
             end = Some(segment.end());
@@ -463,6 +465,12 @@ mod tests {
         let p = Path::parse(Vec2::new(100.0, 0.0), "A 100 100 0 0 1 0 100", 1e-3).expect("path");
         assert_relative_eq!(p.length(), std::f64::consts::PI * 0.05, epsilon = 1e-5);
         assert_relative_eq!(p.point(p.length() / 2.0).norm(), 0.1, epsilon = 1e-5);
+    }
+
+    #[test]
+    fn a_line_too_short_to_count_does_not_end_a_run() {
+        let runs = Path::parse_many("M 0 0 L 100 0 l 1e-12 0 L 100 50 M 200 0 l 10 0").expect("paths");
+        assert_eq!(runs.iter().map(Path::length).collect::<Vec<_>>(), [150.0, 10.0]);
     }
 
     #[test]

@@ -325,12 +325,12 @@ fn commands(node: Node, name: &str) -> Option<String> {
         "line" => Some(format!("M {} {} L {} {}", zero("x1"), zero("y1"), zero("x2"), zero("y2"))),
         "rect" => {
             let (w, h) = (number("width")?, number("height")?);
-            let round = [number("rx"), number("ry")];
+            let round = radii(number("rx"), number("ry")).unwrap_or([0.0; 2]);
             (w > 0.0 && h > 0.0).then(|| rectangle([zero("x"), zero("y")], [w, h], round))
         }
         "circle" | "ellipse" => {
-            let r = number("r");
-            let (rx, ry) = (r.or_else(|| number("rx"))?, r.or_else(|| number("ry"))?);
+            let own = if name == "circle" { number("r").map(|r| [r; 2]) } else { radii(number("rx"), number("ry")) };
+            let [rx, ry] = own?;
             let (x, y) = (zero("cx") - rx, zero("cy"));
             let arc = |by: f64| format!("a {rx} {ry} 0 0 1 {by} 0");
             (rx > 0.0 && ry > 0.0).then(|| format!("M {x} {y} {} {} Z", arc(2.0 * rx), arc(-2.0 * rx)))
@@ -341,11 +341,15 @@ fn commands(node: Node, name: &str) -> Option<String> {
     }
 }
 
-/// A rectangle from its corner on, with its corners rounded to half its sides at most; of two radii the one that is not
-/// given is as the other.
-fn rectangle([x, y]: [f64; 2], [w, h]: [f64; 2], round: [Option<f64>; 2]) -> String {
-    let radius = |own: Option<f64>, other: Option<f64>, side: f64| own.or(other).unwrap_or(0.0).clamp(0.0, 0.5 * side);
-    let (rx, ry) = (radius(round[0], round[1], w), radius(round[1], round[0], h));
+/// Radii as SVG means them: one that is missing (`auto`, or negative) is as the other; `None` where both are.
+fn radii(rx: Option<f64>, ry: Option<f64>) -> Option<[f64; 2]> {
+    let [rx, ry] = [rx, ry].map(|r| r.filter(|r| *r >= 0.0));
+    Some([rx.or(ry)?, ry.or(rx)?])
+}
+
+/// A rectangle from its corner on, with its corners rounded to half its sides at most.
+fn rectangle([x, y]: [f64; 2], [w, h]: [f64; 2], round: [f64; 2]) -> String {
+    let (rx, ry) = (round[0].min(0.5 * w), round[1].min(0.5 * h));
     if rx == 0.0 || ry == 0.0 {
         return format!("M {x} {y} h {w} v {h} h {} Z", -w);
     }
