@@ -9,7 +9,7 @@ use super::rim::{Identities, Rims, joint_marks};
 use super::seam::marks_between;
 use super::select::{Candidate, Run, turned};
 use super::walk::edge_name;
-use super::{Give, Piece, Seam, SeamKind, Span};
+use super::{EdgeId, Give, Piece, Seam, SeamKind, Span};
 
 /// A candidate with its direction.
 pub(super) struct Directed<'a> {
@@ -138,7 +138,26 @@ impl Table<'_> {
             seam,
             end: format!("{} ends at {}", chain[i].text, point(runs[i].last(), true)),
             start: format!("{} starts at {}", chain[i + 1].text, point(runs[i + 1].first(), false)),
+            drawn: self.meets_elsewhere(&runs[i], &runs[i + 1]),
         }
+    }
+
+    /// Whether the first run ends where the second one's piece is sewn on, but at another corner of it, and one of them
+    /// is a half: taken for the half of the other side, its seams join it upside down.
+    fn meets_elsewhere(&self, run: &[Span], next: &[Span]) -> bool {
+        let (Some(end), Some(start)) = (run.last(), next.first()) else { return false };
+        let is_half = |edge: EdgeId| {
+            let piece = &self.pieces[edge.piece];
+            let name = &piece.loops[edge.ring][edge.index].name;
+            piece.side.is_some() || name.ends_with(".L") || name.ends_with(".R")
+        };
+        if end.edge.piece == start.edge.piece || !(is_half(end.edge) || is_half(start.edge)) {
+            return false;
+        }
+        let p = self.rims.point(end.edge, end.to);
+        let mut corners = 0..self.pieces[start.edge.piece].loops[start.edge.ring].len();
+        let corner = |index| self.rims.point(EdgeId { index, ..start.edge }, 0.0);
+        corners.any(|index| self.one.one(&self.rims, p, corner(index)))
     }
 
     /// Warns of chains that hang together only through seams that are sewn later.

@@ -195,7 +195,7 @@ pub enum Problem {
     #[error("{edge} is listed free but sewn in '{seam}'")]
     FreeButSewn { edge: String, seam: String },
     #[error("chain in '{seam}' is not continuous: {end}, {start}")]
-    ChainBroken { seam: String, end: String, start: String },
+    ChainBroken { seam: String, end: String, start: String, drawn: bool },
     #[error("seam '{seam}' is twisted: its ends meet {one} and {other}; use face: same if wanted")]
     Twisted { seam: String, one: String, other: String },
     #[error("sewing closes the surface into a non-orientable band at '{0}'")]
@@ -246,7 +246,15 @@ impl Problem {
                 "the smaller number comes first, along the edge; which way a seam runs follows from its 'face'"
                     .to_owned()
             }
-            Self::ChainBroken { .. } => "name the edges in the order they are sewn, end to end; of a piece drawn as its right half say `drawn: R`".to_owned(),
+            Self::ChainBroken { drawn: true, .. } => {
+                "name the edges in the order they are sewn, end to end; if they are, a half drawn for the wearer's right \
+                 needs 'drawn: R'"
+                    .to_owned()
+            }
+            Self::ChainBroken { .. } => "name the edges in the order they are sewn, end to end".to_owned(),
+            Self::OpenTooLong { .. } => {
+                "leave more of it sewn, give it a 'closure', or list its edges under 'free' instead".to_owned()
+            }
             Self::TooManyValues(_) => "write the pieces with 'like' instead".to_owned(),
             _ => return None,
         };

@@ -9,10 +9,12 @@ use crate::io::body::BodyError;
 use crate::io::garment::Refused;
 use crate::io::obj_read::ObjError;
 use crate::io::pattern_svg::PatternSvgError;
+use crate::mannequin::Mannequin;
 use crate::mesh::MeshError;
 use crate::picture::PictureError;
 use crate::sew::SewError;
 use crate::sew::place::PlaceError;
+use crate::verify::Through;
 
 /// Why there is no result, or only a part of one.
 #[derive(Debug, thiserror::Error)]
@@ -41,12 +43,14 @@ pub enum PipelineError {
         source: Box<MeshError>,
     },
     /// A piece has no place on this body.
-    #[error("{}: {source}", file.display())]
+    #[error("{}: {source}{advice}", file.display())]
     Place {
         /// The garment file.
         file: PathBuf,
         /// Which piece, and why.
         source: PlaceError,
+        /// What a position means and what the body has, where that is the question.
+        advice: String,
     },
     /// A file of an earlier run cannot be read.
     #[error(transparent)]
@@ -136,12 +140,22 @@ impl PipelineError {
     }
 
     /// Sewing's error: a piece that no place suits is a matter of the garment file.
-    pub(super) fn sewing(file: &std::path::Path, error: SewError) -> Self {
+    pub(super) fn sewing(file: &std::path::Path, body: &Mannequin, error: SewError) -> Self {
         match error {
-            SewError::Place(source) => Self::Place { file: file.to_owned(), source },
+            SewError::Place(source) => {
+                let absent = matches!(source, PlaceError::NoPart { .. });
+                Self::Place { file: file.to_owned(), source, advice: if absent { parts(body) } else { String::new() } }
+            }
             other => Self::Sew(other),
         }
     }
+}
+
+/// How to read a position, and what else a piece could go round on this body.
+fn parts(body: &Mannequin) -> String {
+    let names: Vec<&str> = body.parts.iter().map(|part| Through::Part(part.kind).name()).collect();
+    let known = if names.is_empty() { "nothing to go round".to_owned() } else { names.join(", ") };
+    format!(" (x to the wearer's left, y up, z forward); it has {known}")
 }
 
 /// Whether flattening failed on a surface that it should have managed.

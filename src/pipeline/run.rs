@@ -66,7 +66,7 @@ impl<'a> Run<'a> {
     pub fn sew(&mut self, progress: Progress) -> Result<(), PipelineError> {
         let job = self.job;
         let begin = Instant::now();
-        let failed = |e| PipelineError::sewing(&job.file, e);
+        let failed = |e| PipelineError::sewing(&job.file, &job.body, e);
         let start = place(&job.garment, &job.mesh, &job.body, &job.collider).map_err(|e| failed(e.into()))?;
         self.placed = Some(start.clone());
         let mut tell = |share| progress("sew", share);

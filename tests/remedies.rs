@@ -1,0 +1,101 @@
+//! What messages tell a maker to do, where the mistake shows far from where it was made.
+
+use std::path::Path;
+
+use toile::io::garment::{Refused, read_text};
+use toile::mannequin::{PartKind, load};
+use toile::pattern::{Diagnostic, Problem};
+use toile::pipeline::{Job, Overrides, Run, read};
+
+/// What is wrong with a file that cannot be used.
+fn mistakes(text: &str) -> Vec<Diagnostic> {
+    match read_text("wrong", "wrong.yaml", text) {
+        Ok(_) => panic!("accepted:\n{text}"),
+        Err(Refused { diagnostics }) => diagnostics,
+    }
+}
+
+/// A waistband sewn to the front and the back of a skirt; `BACK` is the key that the back's half needs.
+fn skirt(cut: &str, back: &str) -> String {
+    let half = "grain: [[10, 50], [10, 250]]
+    outline: {start: 0 0, waist: L 200 0, side: L 240 300, hem: L 0 300, center: L 0 0}";
+    let (band, sewn) = match cut {
+        "pair" => (400, "center: {sew: front.center, to: mirror}\n  back: {sew: back.center, to: mirror}"),
+        _ => (800, "ring: {sew: band.right, to: band.left}"),
+    };
+    format!(
+        "garment: 1
+pieces:
+  front:
+    cut: {cut}
+    {half}
+  back:
+    cut: {cut}
+    {back}
+    {half}
+  band:
+    {}
+    grain: [[10, 0], [10, 30]]
+    outline: {{start: 0 0, upper: L {band} 0, right: L {band} 30, lower: L 0 30, left: L 0 0}}
+seams:
+  side: {{sew: front.side, to: back.side}}
+  waist: {{sew: [front.waist, back.waist], to: band.lower}}
+  {sewn}
+free: ['*.hem', band.upper{}]
+",
+        if cut == "pair" { "cut: pair" } else { "" },
+        if cut == "pair" { ", band.right, band.left" } else { "" },
+    )
+}
+
+/// Drawn as the half of the wrong side, the back is sewn to the front upside down, which only the waist's chain shows.
+#[test]
+fn a_broken_chain_names_drawn_where_a_half_may_be_the_other_one() {
+    for cut in ["pair", "fold center"] {
+        assert!(read_text("skirt", "skirt.yaml", &skirt(cut, "drawn: R")).is_ok());
+        let found = mistakes(&skirt(cut, ""));
+        let broken = found.iter().find(|d| matches!(d.problem, Problem::ChainBroken { .. })).expect("a broken chain");
+        assert!(broken.hint.as_deref().is_some_and(|h| h.contains("'drawn: R'")), "{cut}: {broken}");
+    }
+    // A chain that goes round one piece in the wrong order has nothing to do with it.
+    let found = mistakes(&skirt("pair", "drawn: R").replace("[front.waist, back.waist]", "[front.waist, front.hem]"));
+    let broken = found.iter().find(|d| matches!(d.problem, Problem::ChainBroken { .. })).expect("a broken chain");
+    assert_eq!(broken.hint.as_deref(), Some("name the edges in the order they are sewn, end to end"));
+}
+
+/// Openings of both ends add up, against all edges of the chain together.
+#[test]
+fn openings_too_long_say_what_to_do_instead() {
+    let opened = |open: &str| {
+        let to = format!("to: band.lower, {open}}}");
+        mistakes(&skirt("fold center", "drawn: R").replace("to: band.lower}", &to))
+    };
+    for (open, sum) in [
+        ("open: {from: start, length: 900}", "900.0"),
+        ("open: [{from: start, length: 300}, {from: end, length: 600}]", "900.0"),
+        ("open: {from: start, length: 900, closure: buttons}", "900.0"),
+    ] {
+        let found = opened(open);
+        let said = format!("seam 'waist' is 800.0 mm long but opens {sum} mm in all");
+        let hit = found.iter().find(|d| d.message == said).unwrap_or_else(|| panic!("{open}: {found:#?}"));
+        assert!(hit.hint.as_deref().is_some_and(|h| h.contains("'free'")), "{hit}");
+    }
+}
+
+#[test]
+fn a_body_without_the_part_says_which_it_has_and_how_positions_count() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let file = root.join("tests/data/skirt.yaml");
+    let body = root.join("tests/scenes/sphere.obj").display().to_string();
+    let overrides = Overrides { spacing: Some(0.04), body: Some(body), ..Overrides::default() };
+    let mut job = Job::new(&file, read(&file).expect("a skirt"), &overrides).expect("a job");
+    let refused = |job: &Job| Run::new(job).sew(&mut |_, _| {}).expect_err("no torso").to_string();
+    let said = refused(&job);
+    for words in ["goes round the torso", "x to the wearer's left, y up, z forward", "it has nothing to go round"] {
+        assert!(said.contains(words), "{said}");
+    }
+    job.body.parts = load("woman_92").expect("a body").parts;
+    job.body.parts.retain(|part| part.kind != PartKind::Torso);
+    let said = refused(&job);
+    assert!(said.ends_with("it has neck, left arm, right arm, left leg, right leg"), "{said}");
+}
