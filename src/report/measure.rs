@@ -2,7 +2,7 @@
 
 use super::crossings::{Seen, look};
 use super::errors::{Way, area, area_error, boundary_error};
-use super::openings::{opening_names, openings};
+use super::openings::{Opening, flaps, opening_names, openings};
 use super::rim::{RimEdge, beside_elastic, outline_distance, rims};
 use super::schema::{PieceReport, Quartet, Report, SeamReport, Sizes, Stage, Worn};
 use super::statistics::largest;
@@ -229,16 +229,21 @@ fn seen(run: &Measured, at: &[Vec3]) -> (Seen, Vec<Worn>) {
 }
 
 fn worn_rows(run: &Measured, welded: &Welded) -> Vec<Worn> {
-    let openings = openings(run.mesh, welded);
-    let names = opening_names(&openings.iter().map(|o| o.edges.clone()).collect::<Vec<_>>());
-    let rings: Vec<Vec<Vec3>> = openings.iter().map(|o| o.positions(welded)).collect();
-    let through = worn(&rings, run.body);
-    let rows = openings.iter().zip(names).zip(rings.iter().zip(through));
-    rows.map(|((opening, name), (ring, part))| Worn {
+    let rims = openings(run.mesh, welded);
+    let through = worn(&rims.iter().map(|o| o.positions(welded)).collect::<Vec<_>>(), run.body);
+    let rings: Vec<&[u32]> = rims.iter().map(|o| o.ring.as_slice()).collect();
+    let flaps = flaps(&rings, &through.iter().map(Option::is_some).collect::<Vec<bool>>());
+    let open: Vec<_> = rims.iter().zip(through).zip(flaps).filter(|(_, flap)| !flap).map(|(o, _)| o).collect();
+    let names = opening_names(&open.iter().map(|(o, _)| o.edges.clone()).collect::<Vec<_>>());
+    let length = |opening: &Opening| {
+        let ring = opening.positions(welded);
+        (0..ring.len()).map(|k| (ring[(k + 1) % ring.len()] - ring[k]).norm()).sum::<f64>()
+    };
+    let rows = open.into_iter().zip(names).map(|((opening, part), name)| Worn {
         opening: name,
         body_part: part.map(|p| p.name().into()),
         edges: opening.edges.iter().map(|(piece, edge)| format!("{piece}.{edge}")).collect(),
-        length: (0..ring.len()).map(|k| (ring[(k + 1) % ring.len()] - ring[k]).norm()).sum::<f64>() * MM,
-    })
-    .collect()
+        length: length(opening) * MM,
+    });
+    rows.collect()
 }

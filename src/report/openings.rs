@@ -1,6 +1,6 @@
 //! Openings: the rims of the sewn garment, and what to call them.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use crate::geometry::{Vec3, rim_loops};
 use crate::mesh::ClothMesh;
@@ -36,6 +36,16 @@ pub(super) fn openings(mesh: &ClothMesh, welded: &Welded) -> Vec<Opening> {
         Opening { ring, edges }
     };
     rim_loops(&welded.surface.triangles).into_iter().map(opening).collect()
+}
+
+/// Which rims are no openings but the edges of flaps: of a collar, say, sewn on over a neckline (`face: same`). The rim
+/// of the one half of the seam is then the neckline, the other's runs round the collar and back along the same stitches;
+/// nothing goes through it. So is every ring that nothing goes through and that shares rim edges with one that is worn.
+pub(super) fn flaps(rings: &[&[u32]], worn: &[bool]) -> Vec<bool> {
+    let edges =
+        |ring: &[u32]| (0..ring.len()).map(|k| key(ring[k], ring[(k + 1) % ring.len()])).collect::<HashSet<[u32; 2]>>();
+    let of_worn: HashSet<[u32; 2]> = rings.iter().zip(worn).filter(|(_, w)| **w).flat_map(|(r, _)| edges(r)).collect();
+    rings.iter().zip(worn).map(|(ring, worn)| !worn && !edges(ring).is_disjoint(&of_worn)).collect()
 }
 
 fn key(a: u32, b: u32) -> [u32; 2] {
@@ -103,4 +113,20 @@ fn without_number(edge: &str) -> &str {
 /// `L` or `R` of one of a pair.
 fn side(piece: &str) -> Option<&str> {
     piece.rsplit_once('.').map(|(_, side)| side).filter(|s| matches!(*s, "L" | "R"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A neckline 0 1 2 3 with a collar 4 5 6 sewn on from 0 over 1 to 2; a pocket 7 8 9 elsewhere.
+    #[test]
+    fn the_edge_of_a_collar_is_no_opening_and_a_pocket_is() {
+        let rings: [&[u32]; 3] = [&[0, 1, 2, 3], &[4, 5, 6, 2, 1, 0], &[7, 8, 9]];
+        assert_eq!(flaps(&rings, &[true, false, false]), [false, true, false]);
+        // Nobody wears it: both are said to be empty.
+        assert_eq!(flaps(&rings, &[false; 3]), [false; 3]);
+        // What something goes through is an opening, whatever it shares.
+        assert_eq!(flaps(&rings, &[true, true, false]), [false; 3]);
+    }
 }
