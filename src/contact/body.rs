@@ -1,7 +1,7 @@
 //! The body as something cloth can touch.
 
 use parry3d_f64::math::Vector;
-use parry3d_f64::query::PointQueryWithLocation;
+use parry3d_f64::query::{PointQueryWithLocation, Ray, RayCast};
 use parry3d_f64::shape::{TriMesh as ParryMesh, TriMeshFlags};
 
 use super::grid::Grid;
@@ -144,6 +144,11 @@ impl Collider {
             self.mesh.triangle(triangle).normal().map_or_else(Vec3::y, from_parry)
         };
         Some(Nearest { point, normal, distance: sign * distance })
+    }
+
+    /// Whether the body's surface is between two points.
+    pub fn is_in_the_way(&self, from: Vec3, to: Vec3) -> bool {
+        self.mesh.intersects_local_ray(&Ray::new(to_parry(from), to_parry(to - from)), 1.0)
     }
 
     /// Contacts of `node`, outside the body, with the body's faces within `reach` that rise over the plane through the point

@@ -19,13 +19,17 @@ const SHARE: f64 = 0.25;
 /// A piece is moved by so much at a time, at most so often, metres.
 const STEP: f64 = 4e-3;
 const STEPS: usize = 25;
+/// A way out of the body ends in a hollow if it meets the body again within this, metres: a mouth is no wider.
+const HOLLOW: f64 = 0.08;
+/// The surface itself is not in its own way, metres.
+const OFF_SKIN: f64 = 1e-4;
 /// So many points of a piece stand for all when its way out is looked for.
 const SAMPLES: usize = 200;
 /// How far the body's surface is looked for, metres.
 const LOOK: f64 = 0.5;
 
-/// Moves every piece that lies in the body, up to 50 mm deep, or that the body pokes through, out of it as it is, the
-/// shortest straight way.
+/// Moves every piece that lies in the body, up to 50 mm deep, that the body pokes through, or that would be pushed into a
+/// hollow of it (a scanned head has a mouth), out of it as it is, the shortest straight way.
 ///
 /// # Errors
 /// [`SewError::InsideBody`] or [`SewError::UnderFloor`] for one that is still deep then, or was deeper: the penalty would
@@ -35,7 +39,8 @@ pub(super) fn lead_out(cut: &Cut, body: &Collider, start: &mut [Vec3]) -> Result
         let deepest = depths(body, &start[piece.particles.clone()]).fold(0.0, f64::max);
         let triangles = &cut.mesh.triangles[piece.triangles.clone()];
         let pierced = is_pierced(body, start, triangles);
-        if deepest <= DEEP && !pierced {
+        let hidden = deepest > 0.0 && start[piece.particles.clone()].iter().any(|&p| is_hidden(body, p));
+        if deepest <= DEEP && !pierced && !hidden {
             continue;
         }
         let middles = triangles.iter().map(|t| middle(start, t));
@@ -57,6 +62,13 @@ pub(super) fn lead_out(cut: &Cut, body: &Collider, start: &mut [Vec3]) -> Result
         }
     }
     Ok(())
+}
+
+/// Whether the nearest way out of the body for a point in it ends in a hollow: what is behind the skin there is the body
+/// again. Its neighbours may well be nearest to the other side of a chin.
+fn is_hidden(body: &Collider, p: Vec3) -> bool {
+    let out = body.nearest(p, LOOK).filter(|out| out.distance < 0.0);
+    out.is_some_and(|out| body.is_in_the_way(out.point + out.normal * OFF_SKIN, out.point + out.normal * HOLLOW))
 }
 
 /// Whether the body pokes through a triangle between its corners.
@@ -150,5 +162,37 @@ mod tests {
         let inside = collar(0.01).map(|p| Vec3::new(0.05 * p.x, 0.05 * p.y, p.z));
         assert!(depths(&body, &inside).all(|d| d > PIERCED));
         assert!(!is_pierced(&body, &inside, &[[0, 1, 2]]));
+    }
+    /// A box with a cavity: a mouth, open towards +z. Outer walls 100 mm, the cavity 60 mm wide and high and 80 mm deep.
+    fn head() -> Collider {
+        let corner = |half: f64, z: f64| {
+            [[-half, -half], [half, -half], [half, half], [-half, half]].map(|[x, y]| Vec3::new(x, y, z))
+        };
+        let rings = [corner(0.05, 0.0), corner(0.05, 0.1), corner(0.03, 0.1), corner(0.03, 0.02)];
+        let mut triangles = vec![[0, 2, 1], [0, 3, 2], [12, 13, 14], [12, 14, 15]];
+        for ring in 0..3 {
+            for k in 0..4 {
+                let [a, b] = [4 * ring + k, 4 * ring + (k + 1) % 4];
+                triangles.extend([[a, b, b + 4], [a, b + 4, a + 4]]);
+            }
+        }
+        Collider::new(&TriMesh { vertices: rings.concat(), triangles }).expect("collider")
+    }
+
+    #[test]
+    fn what_would_be_pushed_into_the_mouth_is_led_out() {
+        let body = head();
+        // In the cheek, 20 mm thick: nearest to the mouth, and nearest to the outside.
+        let cheek = |x: f64| Vec3::new(x, 0.0, 0.06);
+        assert!(is_hidden(&body, cheek(0.035)) && !is_hidden(&body, cheek(0.045)));
+        // The mouth itself and what is outside are not in the body.
+        assert!(!is_hidden(&body, cheek(0.0)) && !is_hidden(&body, cheek(0.06)));
+        let x: Vec<Vec3> = [0.035, 0.055, 0.075].into_iter().map(cheek).collect();
+        let moved: Vec<Vec3> = {
+            let way = way_out(&body, &x);
+            x.iter().map(|p| p + way).collect()
+        };
+        assert!(depths(&body, &moved).all(|d| d <= 0.0));
+        assert!(moved.iter().all(|p| p.x > 0.05), "outside, not in the mouth: {moved:?}");
     }
 }
