@@ -442,30 +442,61 @@ fn a_cuff_that_flares_widely_starts_as_one_ring() {
     assert!((along(0) - along(1)).abs() < 10.0 * MM, "{} and {}", along(0), along(1));
 }
 
-/// Two godets in the front, one by one seam that turns at its point, one by a seam on either side.
-#[test]
-fn godets_start_in_their_slits() {
-    let (body, collider) = woman();
-    let made = Made::new(
-        "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  front:\n    place: skirt front\n    \
-         grain: [[300, 50], [300, 250]]\n    outline: {start: 0 0, waist: L 600 0, left: L 600 600, h1: L 560 600, \
-         a1: L 450 350, a2: L 340 600, h2: L 260 600, b1: L 150 350, b2: L 40 600, h3: L 0 600, right: L 0 0}\n  \
-         back: {place: skirt back, grain: [[300, 50], [300, 250]], outline: {start: 0 0, waist: L 600 0, \
-         right: L 600 600, hem: L 0 600, left: L 0 0}}\n  \
-         one: {place: skirt front, grain: [[100, 150], [100, 250]], outline: {start: 0 254.161, l: L 100 0, r: L 200 254.161, \
-         hem: L 0 254.161}}\n  two: {like: one}\nseams:\n  left: {sew: front.left, to: back.left}\n  \
-         right: {sew: front.right, to: back.right}\n  one: {sew: [one.l, one.r], to: [front.a2, front.a1]}\n  two_l: {sew: two.l, \
-         to: front.b2}\n  two_r: {sew: two.r, to: front.b1}\nfree: ['*.waist', '*.hem', front.h1, front.h2, front.h3]\n",
-        20.0,
+/// A skirt with two godets in its front, one by one seam that turns at its point, one by a seam on either side; half of
+/// either is `half` wide at the hem, in millimetres, and its sides are 273.1 long as those of the slits are.
+fn godets(half: f64) -> Made {
+    let height = (273.13_f64.powi(2) - half.powi(2)).sqrt();
+    let text = format!(
+        "garment: 1\nbody: woman_92\nfabrics: {{shell: cotton_poplin}}\npieces:\n  front:\n    place: skirt front\n    \
+         grain: [[300, 50], [300, 250]]\n    outline: {{start: 0 0, waist: L 600 0, left: L 600 600, h1: L 560 600, \
+         a1: L 450 350, a2: L 340 600, h2: L 260 600, b1: L 150 350, b2: L 40 600, h3: L 0 600, right: L 0 0}}\n  \
+         back: {{place: skirt back, grain: [[300, 50], [300, 250]], outline: {{start: 0 0, waist: L 600 0, \
+         right: L 600 600, hem: L 0 600, left: L 0 0}}}}\n  \
+         one: {{place: skirt front, grain: [[{half}, 50], [{half}, {height}]], outline: {{start: 0 {height}, l: L {half} 0, \
+         r: L {wide} {height}, hem: L 0 {height}}}}}\n  two: {{like: one}}\nseams:\n  \
+         left: {{sew: front.left, to: back.left}}\n  \
+         right: {{sew: front.right, to: back.right}}\n  one: {{sew: [one.l, one.r], to: [front.a2, front.a1]}}\n  \
+         two_l: {{sew: two.l, to: front.b2}}\n  \
+         two_r: {{sew: two.r, to: front.b1}}\nfree: ['*.waist', '*.hem', front.h1, front.h2, front.h3]\n",
+        wide = 2.0 * half
     );
+    Made::new(&text, 20.0)
+}
+
+/// The widest gap of the godets' seams at the start, mm; nothing is in the body or crosses anything.
+fn widest_gap_of_godets(made: &Made) -> f64 {
+    let (body, collider) = woman();
     let x = made.placed(&body);
     assert!(x.iter().all(|p| collider.nearest(*p, 1.0).is_none_or(|n| n.distance > 0.0)));
     assert_eq!(crossings(&TriMesh { vertices: x.clone(), triangles: made.mesh.triangles.clone() }).len(), 0);
+    let seams = made.mesh.seams.iter().filter(|s| s.name.starts_with("one") || s.name.starts_with("two"));
+    let gaps = seams.flat_map(|s| &s.pairs).map(|[a, b]| (x[*a as usize] - x[*b as usize]).norm());
+    gaps.fold(0.0, f64::max) / MM
+}
+
+#[test]
+fn godets_start_in_their_slits() {
+    let made = godets(100.0);
     // The slits are 220 mm wide at the hem, the godets 200: 10 mm on either side, and a little off.
-    for seam in made.mesh.seams.iter().filter(|s| s.name.starts_with("one") || s.name.starts_with("two")) {
-        let gaps = seam.pairs.iter().map(|[a, b]| (x[*a as usize] - x[*b as usize]).norm());
-        let widest = gaps.fold(0.0, f64::max);
-        assert!(widest < 25.0 * MM, "{}: {} mm", seam.name, widest / MM);
+    let widest = widest_gap_of_godets(&made);
+    assert!(widest < 25.0, "{widest} mm");
+}
+
+/// Godets 400 mm wide overlap where their slits are 300 mm apart, and reach beyond the front. Lying flat one over the other
+/// they are up to 90 mm from their slits.
+#[test]
+fn wide_godets_start_folded_out_of_their_slits() {
+    let made = godets(200.0);
+    let widest = widest_gap_of_godets(&made);
+    // The godet is as much lower than its slit, 250 mm, as it is spread: 64 mm, half of that at either end.
+    assert!(widest < 45.0, "{widest} mm");
+    // Cloth keeps its width: the way from side to side over the fold at the hem is the hem's.
+    let (body, _) = woman();
+    let x = made.placed(&body);
+    for piece in made.mesh.pieces.iter().filter(|p| ["one", "two"].contains(&p.name.as_str())) {
+        let hem = &piece.edges.iter().find(|e| e.name == "hem").expect("a hem").particles;
+        let length: f64 = hem.windows(2).map(|w| (x[w[1] as usize] - x[w[0] as usize]).norm()).sum();
+        assert!((length - 400.0 * MM).abs() < 20.0 * MM, "{}: {} mm", piece.name, length / MM);
     }
 }
 

@@ -1,9 +1,17 @@
-//! Godets: pieces in slits of others, which start where they will be, a little over the edges of the slit.
+//! Godets: pieces in slits of others, which start where they will be, a little over the edges of the slit. Those that are
+//! wider than the room for them, and would lie over one another, start folded in half and stand out like fins.
+//!
+//! ```text
+//!    ─┐    ╭────────╮    ┌─              │╲ ╱│    fold
+//!     │slit│ godet  │slit│     ─▶        │ V │    outward
+//!    ─┘    ╰────────╯    └─      ────────┘   └────────  host
+//! ```
 
 use super::assign::Assigned;
 use super::fold::Sheet;
-use super::rows::{Link, Member};
-use crate::geometry::Vec2;
+use super::ring::LAYER;
+use super::rows::{Link, Member, ROOM, extent};
+use crate::geometry::{Vec2, Vec3};
 use crate::mesh::ClothMesh;
 use crate::pattern::Garment;
 
@@ -11,13 +19,100 @@ use crate::pattern::Garment;
 const IN_SLIT: f64 = 0.1;
 
 /// A piece in a slit of another one.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Insert {
     pub(super) own: Member,
     /// Number of the member it lies in.
     pub(super) host: usize,
-    /// How many layers it lies over the host: of neighbours wider than the room between their slits, each on its own.
-    pub(super) over: usize,
+    /// How it stands out, if it has no room to lie flat.
+    fin: Option<Fin>,
+}
+
+impl Insert {
+    /// Where a point of the piece starts, given in row positions; `on` puts such a point on the ring, so far off it.
+    pub(super) fn start(&self, at: Vec2, on: impl Fn(Vec2, f64) -> Vec3) -> Vec3 {
+        let shift = self.own.shift;
+        match &self.fin {
+            None => on(at, LAYER),
+            Some(fin) => fin.folded(at - shift, |at, off| on(at + shift, off + LAYER)),
+        }
+    }
+}
+
+/// A godet folded in half along its middle.
+#[derive(Clone, Debug)]
+struct Fin {
+    /// Its middle, u of the flat piece.
+    middle: f64,
+    /// Its left and its right side, downward.
+    sides: [Vec<Rib>; 2],
+}
+
+/// A fin at one height.
+#[derive(Clone, Copy, Debug)]
+struct Rib {
+    /// v of the flat piece.
+    v: f64,
+    /// From the middle to the side, metres.
+    wide: f64,
+    /// From the middle of the slit to its edge, metres.
+    open: f64,
+}
+
+impl Fin {
+    /// The fin that a piece makes, sewn by these pairs: its own particle's flat position, and its partner's, moved so that
+    /// the slit is where the piece is. Without pairs on both sides there is none.
+    fn new(pairs: &[[Vec2; 2]]) -> Option<Self> {
+        let low = pairs.iter().map(|p| p[0].x).fold(f64::INFINITY, f64::min);
+        let high = pairs.iter().map(|p| p[0].x).fold(f64::NEG_INFINITY, f64::max);
+        let middle = 0.5 * (low + high);
+        let side = |sign: f64| {
+            let own = pairs.iter().filter(|[own, _]| (own.x - middle) * sign > 0.0);
+            let rib = |[own, host]: &[Vec2; 2]| {
+                let open = (sign * (host.x - middle)).max(0.0);
+                Rib { v: own.y, wide: sign * (own.x - middle), open }
+            };
+            let mut ribs: Vec<Rib> = own.map(rib).collect();
+            ribs.sort_by(|a, b| a.v.total_cmp(&b.v));
+            ribs
+        };
+        let sides = [side(-1.0), side(1.0)];
+        sides.iter().all(|side| !side.is_empty()).then_some(Self { middle, sides })
+    }
+
+    /// Where a point of the flat piece starts: at every height the piece is a V whose arms are as long as the cloth is wide
+    /// and end at the edges of the slit; `on` puts points of the flat piece on the ring, so far off it.
+    fn folded(&self, at: Vec2, on: impl Fn(Vec2, f64) -> Vec3) -> Vec3 {
+        let u = at.x - self.middle;
+        let ribs = [0, 1].map(|side| rib_at(&self.sides[side], at.y));
+        // Edges of a slit without width start a little apart, as neighbours do.
+        let open = ribs.map(|rib| rib.open.max(0.5 * ROOM).min(rib.wide));
+        let edges = [-open[0], open[1]].map(|u| on(Vec2::new(self.middle + u, at.y), 0.0));
+        let middle = |off: f64| on(Vec2::new(self.middle, at.y), off);
+        let outward = middle(1.0) - middle(0.0);
+        let (chord, wide) = (0.5 * (edges[1] - edges[0]).norm(), 0.5 * (ribs[0].wide + ribs[1].wide));
+        let fold = 0.5 * (edges[0] + edges[1]) + outward * (wide.powi(2) - chord.powi(2)).max(0.0).sqrt();
+        // A ring may be further out than the straight way between the edges.
+        let fold = if (fold - middle(0.0)).dot(&outward) > 0.0 { fold } else { middle(0.0) };
+        let side = usize::from(u > 0.0);
+        let share = if ribs[side].wide > 0.0 { (u.abs() / ribs[side].wide).min(1.0) } else { 1.0 };
+        fold.lerp(&edges[side], share)
+    }
+}
+
+/// A side between its ribs, and beyond the last of them as there.
+fn rib_at(ribs: &[Rib], v: f64) -> Rib {
+    let next = ribs.partition_point(|rib| rib.v < v);
+    match (next.checked_sub(1).map(|k| ribs[k]), ribs.get(next)) {
+        (Some(a), Some(&b)) if b.v > a.v => {
+            let t = (v - a.v) / (b.v - a.v);
+            let mix = |a: f64, b: f64| a + t * (b - a);
+            Rib { v, wide: mix(a.wide, b.wide), open: mix(a.open, b.open) }
+        }
+        (Some(rib), _) => rib,
+        (None, Some(&rib)) => rib,
+        (None, None) => Rib { v, wide: 0.0, open: 0.0 },
+    }
 }
 
 /// Where a piece lies in a slit of another one: the host, and the shift against it. It is sewn to nothing else, along both
@@ -69,31 +164,79 @@ fn goes_round(own: &[&Link], sheet: &Sheet, side: impl Fn(&Link) -> usize) -> bo
     }
 }
 
-/// The pieces in slits of these members, each put into its slit.
+/// The pieces in slits of these members, each put into its slit: flat, or folded if it would lie over another one or
+/// beyond its host.
 pub(super) fn inserts(
     mesh: &ClothMesh,
     sheet: &Sheet,
+    links: &[Link],
     members: &[Member],
     hosts: &[Option<(usize, Vec2)>],
 ) -> Vec<Insert> {
     let lies = |(piece, host): (usize, &Option<(usize, Vec2)>)| {
         let (in_piece, shift) = (*host)?;
         let host = members.iter().position(|m| m.piece == in_piece)?;
-        Some(Insert { own: Member { piece, shift: members[host].shift + shift }, host, over: 1 })
+        Some(Insert { own: Member { piece, shift: members[host].shift + shift }, host, fin: None })
     };
     let mut all: Vec<Insert> = hosts.iter().enumerate().filter_map(lies).collect();
-    let span = |insert: &Insert| {
-        let us = mesh.pieces[insert.own.piece].particles.clone().map(|p| sheet.flat[p].x + insert.own.shift.x);
-        us.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], u| [low.min(u), high.max(u)])
+    let span = |m: &Member| extent(mesh, sheet, m.piece).map(|corner| corner.x + m.shift.x);
+    let spans: Vec<[f64; 2]> = all.iter().map(|insert| span(&insert.own)).collect();
+    let crowded = |k: usize| {
+        let ([low, high], host) = (spans[k], span(&members[all[k].host]));
+        let meets = |l: usize| l != k && all[l].host == all[k].host && spans[l][0] < high && low < spans[l][1];
+        low < host[0] || host[1] < high || (0..all.len()).any(meets)
     };
-    for k in 1..all.len() {
-        let own = span(&all[k]);
-        let meets = |other: &&Insert| {
-            let [low, high] = span(other);
-            other.host == all[k].host && low < own[1] && own[0] < high
-        };
-        let taken: Vec<usize> = all[..k].iter().filter(meets).map(|other| other.over).collect();
-        all[k].over = (1..).find(|over| !taken.contains(over)).unwrap_or(1);
+    let folded: Vec<usize> = (0..all.len()).filter(|&k| crowded(k)).collect();
+    for k in folded {
+        let (own, host) = (all[k].own, members[all[k].host]);
+        let shift = host.shift - own.shift;
+        let sewn = links.iter().filter(|l| !l.through && l.pieces.contains(&own.piece)).flat_map(|l| {
+            let side = usize::from(l.pieces[1] == own.piece);
+            l.pairs
+                .iter()
+                .map(move |pair| [sheet.flat[pair[side] as usize], sheet.flat[pair[1 - side] as usize] + shift])
+        });
+        all[k].fin = Fin::new(&sewn.collect::<Vec<[Vec2; 2]>>());
     }
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    /// A godet 200 mm high, 60 mm wide at its foot, round u = 1; its slit is 20 mm wide there.
+    fn fin() -> Fin {
+        let pair = |sign: f64, share: f64| [0.03, 0.01].map(|half| Vec2::new(1.0 + sign * share * half, 0.2 * share));
+        let pairs: Vec<[Vec2; 2]> =
+            [-1.0, 1.0].iter().flat_map(|&s| [0.1, 0.5, 1.0].map(|share| pair(s, share))).collect();
+        Fin::new(&pairs).expect("a fin")
+    }
+
+    #[test]
+    fn a_fin_keeps_the_width_of_its_cloth_and_ends_at_the_slit() {
+        // On a ring of radius 0.2 m round the y axis.
+        let on = |at: Vec2, off: f64| {
+            let angle = (at.x - 1.0) / 0.2;
+            Vec3::new(angle.sin(), 0.0, angle.cos()) * (0.2 + off) - Vec3::y() * at.y
+        };
+        let fin = fin();
+        let at = |u: f64, v: f64| fin.folded(Vec2::new(u, v), on);
+        let (left, fold, right) = (at(0.97, 0.2), at(1.0, 0.2), at(1.03, 0.2));
+        assert_relative_eq!(left, on(Vec2::new(0.99, 0.2), 0.0), epsilon = 1e-12);
+        assert_relative_eq!(right, on(Vec2::new(1.01, 0.2), 0.0), epsilon = 1e-12);
+        assert_relative_eq!((fold - left).norm(), 0.03, epsilon = 1e-12);
+        assert_relative_eq!((fold - right).norm(), 0.03, epsilon = 1e-12);
+        assert!(fold.z > 0.2, "it stands out: {fold:?}");
+        // Half way up it is half as wide; beyond the ends it is as there.
+        assert_relative_eq!((at(1.0, 0.1) - at(0.985, 0.1)).norm(), 0.015, epsilon = 1e-12);
+        assert_relative_eq!(at(1.0, 0.3) + Vec3::y() * 0.1, fold, epsilon = 1e-12);
+    }
+
+    #[test]
+    fn a_fin_needs_two_sides() {
+        let one_side = [0.1, 0.2].map(|v| [Vec2::new(0.0, v), Vec2::new(0.0, v)]);
+        assert!(Fin::new(&one_side).is_none());
+    }
 }

@@ -8,7 +8,7 @@ use super::levels::{LEVEL, Level, complete_shifts, smooth_shifts, smoothed, spre
 use super::rows::{Link, Member, Row, has_shoulders};
 use super::shoulders::Lean;
 use super::stations::Stations;
-use crate::geometry::Vec3;
+use crate::geometry::{Vec2, Vec3};
 use crate::mannequin::PartKind;
 use crate::mesh::ClothMesh;
 
@@ -54,20 +54,26 @@ impl Ring<'_> {
             (true, false) => LAYER,
             (true, true) => 2.0 * LAYER,
         };
-        let inserts = self.row.inserts.iter().map(|insert| (insert.host, &insert.own, LAYER * insert.over as f64));
-        for (i, m, off) in self.row.members.iter().enumerate().map(|(i, m)| (i, m, 0.0)).chain(inserts) {
+        let on_ring = |i: usize, at: Vec2, off: f64, under: f64| {
+            let arc = at.x + self.shift(i, at.y);
+            let station = self.stations.at(self.anchor + at.y);
+            let on = |ellipse: &Ellipse| {
+                // An overlapping band goes once round by what is sewn of it, however wide the ring.
+                let share = arc / if layers > 0.0 { self.sewn_length() } else { ellipse.perimeter };
+                let outward = off + layers * (2.0 * share).clamp(0.0, 1.0) - LAYER * under;
+                station.point(ellipse, share + turn, outward)
+            };
+            let ([k, next], f) = self.between(at.y);
+            on(&ellipses[k]).lerp(&on(&ellipses[next]), f)
+        };
+        let inserts = self.row.inserts.iter().map(|insert| (insert.host, &insert.own, Some(insert)));
+        for (i, m, insert) in self.row.members.iter().enumerate().map(|(i, m)| (i, m, None)).chain(inserts) {
             for p in self.mesh.pieces[m.piece].particles.clone() {
-                let at = self.sheet.flat[p] + m.shift;
-                let arc = at.x + self.shift(i, at.y);
-                let station = self.stations.at(self.anchor + at.y);
-                let on = |ellipse: &Ellipse| {
-                    // An overlapping band goes once round by what is sewn of it, however wide the ring.
-                    let share = arc / if layers > 0.0 { self.sewn_length() } else { ellipse.perimeter };
-                    let outward = off + layers * (2.0 * share).clamp(0.0, 1.0) - LAYER * self.sheet.under[p];
-                    station.point(ellipse, share + turn, outward)
+                let (at, under) = (self.sheet.flat[p] + m.shift, self.sheet.under[p]);
+                let upright = match insert {
+                    None => on_ring(i, at, 0.0, under),
+                    Some(insert) => insert.start(at, |at, off| on_ring(i, at, off, under)),
                 };
-                let ([k, next], f) = self.between(at.y);
-                let upright = on(&ellipses[k]).lerp(&on(&ellipses[next]), f);
                 x[p] = self.leans.get(i).map_or(upright, |lean| lean.over(upright, at.y));
             }
         }

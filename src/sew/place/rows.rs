@@ -109,7 +109,7 @@ pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned:
             members.push(Member { piece: to, shift: base + shift });
         }
         let row = finish_row(mesh, sheet, assigned, assigned[seed].part, members, &links);
-        let inserts = inserts(mesh, sheet, &row.members, &slits);
+        let inserts = inserts(mesh, sheet, &links, &row.members, &slits);
         inserts.iter().for_each(|insert| row_of[insert.own.piece] = index);
         rows.push(Row { layer, inserts, ..row });
     }
