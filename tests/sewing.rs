@@ -181,7 +181,7 @@ fn a_seam_of_n_stitches_makes_n_particles_one() {
 fn seams_that_meet_make_one_particle_of_four() {
     let made = Made::new(include_str!("../patterns/trousers.yaml"), 20.0);
     let stitching = Stitching::new(&made.mesh);
-    let name = |p: usize| made.mesh.pieces.iter().find(|m| m.particles.contains(&p)).map_or("", |m| m.name.as_str());
+    let name = |p: usize| made.mesh.piece_of(p as u32).map_or("", |i| made.mesh.pieces[i].name.as_str());
     let members = |c: usize| -> Vec<&str> {
         let mut names: Vec<&str> =
             (0..made.mesh.flat.len()).filter(|&p| stitching.class[p] as usize == c).map(name).collect();

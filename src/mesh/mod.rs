@@ -93,6 +93,13 @@ pub struct PieceMesh {
     pub warp: Vec2,
 }
 
+impl ClothMesh {
+    /// The piece that a particle is of; `None` for one that is not the mesh's.
+    pub fn piece_of(&self, particle: u32) -> Option<usize> {
+        self.pieces.iter().position(|piece| piece.particles.contains(&(particle as usize)))
+    }
+}
+
 impl PieceMesh {
     /// Particles that lie on elastic lines.
     pub fn on_elastic(&self) -> HashSet<u32> {

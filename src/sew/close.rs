@@ -63,10 +63,7 @@ impl Sewn {
         let widest = (0..self.gaps.len()).max_by(|&a, &b| self.gaps[a].total_cmp(&self.gaps[b]));
         let Some(widest) = widest.filter(|&w| self.gaps[w] > tolerance) else { return Ok(()) };
         let (ends, seam) = self.stitching.pairs[widest];
-        let piece = |p: u32| {
-            let found = mesh.pieces.iter().find(|m| m.particles.contains(&(p as usize)));
-            found.map_or_else(String::new, |m| m.name.clone())
-        };
+        let piece = |p: u32| mesh.piece_of(p).map_or_else(String::new, |i| mesh.pieces[i].name.clone());
         Err(SewError::Open {
             seam: mesh.seams[seam as usize].name.clone(),
             gap_mm: 1e3 * self.gaps[widest],

@@ -66,8 +66,7 @@ fn turn(mesh: &ClothMesh, sheet: &mut Sheet, band: usize) {
     let middle = |piece: usize| 0.5 * extent(mesh, sheet, piece).iter().sum::<Vec2>();
     let mut away = 0.0;
     for [a, b] in stitches(mesh, &mesh.pieces[band]).flatten() {
-        let other = (0..mesh.pieces.len()).find(|&i| mesh.pieces[i].particles.contains(&b));
-        if let Some(other) = other.filter(|&i| i != band) {
+        if let Some(other) = mesh.piece_of(b as u32).filter(|&other| other != band) {
             // Right of its own middle and at the top of the other, or left and at the bottom: what is right goes down.
             away += (sheet.flat[a].x - middle(band).x).signum() * (middle(other).y - sheet.flat[b].y).signum();
         }

@@ -71,10 +71,7 @@ pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
 /// into a hem turned up do not run along its fold.)
 fn opens(garment: &Garment, mesh: &ClothMesh, piece: &PieceMesh, along: Vec2, side: impl Fn(usize) -> f64) -> bool {
     let own = |p: usize| piece.particles.contains(&p);
-    let layer = |p: usize| {
-        let other = mesh.pieces.iter().position(|m| m.particles.contains(&p));
-        other.map_or(0, |other| garment.pieces[other].layer)
-    };
+    let layer = |p: usize| mesh.piece_of(p as u32).map_or(0, |other| garment.pieces[other].layer);
     let mut partners: [Vec<usize>; 2] = [Vec::new(), Vec::new()];
     for steps in mesh.seams.iter().flat_map(|seam| seam.pairs.windows(2)) {
         for k in 0..2 {

@@ -280,19 +280,15 @@ fn in_order(
 
 /// Seams cut into links between pairs of pieces.
 fn links(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Link> {
-    let mut piece_of = vec![0usize; mesh.flat.len()];
-    for (i, piece) in mesh.pieces.iter().enumerate() {
-        piece_of[piece.particles.clone()].fill(i);
-    }
+    let joined = |pair: &[u32; 2]| pair.map(|p| mesh.piece_of(p));
     let mut out = Vec::new();
     for seam in &mesh.seams {
-        for run in seam.pairs.chunk_by(|a, b| {
-            piece_of[a[0] as usize] == piece_of[b[0] as usize] && piece_of[a[1] as usize] == piece_of[b[1] as usize]
-        }) {
-            let pieces = [piece_of[run[0][0] as usize], piece_of[run[0][1] as usize]];
-            if pieces[0] == pieces[1] {
+        for run in seam.pairs.chunk_by(|a, b| joined(a) == joined(b)) {
+            let [Some(one), Some(other)] = joined(&run[0]) else { continue };
+            if one == other {
                 continue;
             }
+            let pieces = [one, other];
             let mut extent = Vec2::zeros();
             let mut length = 0.0;
             for w in run.windows(2) {
