@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::Contact;
 use super::narrow::apart;
-use crate::geometry::{Topology, Vec2, Vec3};
+use crate::geometry::{Topology, Vec2, Vec3, box_of, sorted_pair};
 
 /// Triangles per leaf: small enough for tight boxes, large enough that the tree costs little.
 const PATCH: usize = 10;
@@ -270,11 +270,7 @@ fn split(group: &mut [u32], centers: &[Vec2], leaves: &mut Vec<Vec<u32>>) {
         leaves.push(group.to_vec());
         return;
     }
-    let (mut low, mut high) = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
-    for &t in group.iter() {
-        low = low.inf(&centers[t as usize]);
-        high = high.sup(&centers[t as usize]);
-    }
+    let [low, high] = box_of(group.iter().map(|&t| centers[t as usize]));
     let axis = usize::from((high - low).y > (high - low).x);
     group.sort_by(|&a, &b| centers[a as usize][axis].total_cmp(&centers[b as usize][axis]).then(a.cmp(&b)));
     let (left, right) = group.split_at_mut(group.len() / 2);
@@ -299,8 +295,7 @@ fn own_primitives(leaves: Vec<Vec<u32>>, triangles: &[[u32; 3]], piece: &[u32]) 
                 if !std::mem::replace(&mut node_owned[tri[k] as usize], true) {
                     patch.nodes.push(tri[k]);
                 }
-                let (a, b) = (tri[k], tri[(k + 1) % 3]);
-                let ends = [a.min(b), a.max(b)];
+                let ends = sorted_pair([tri[k], tri[(k + 1) % 3]]);
                 let Ok(e) = topology.edges.binary_search_by(|x| x.ends.cmp(&ends)) else { continue };
                 if !std::mem::replace(&mut edge_owned[e], true) {
                     patch.edges.push(ends);

@@ -20,7 +20,7 @@ use nalgebra::{Matrix2, Matrix3, SymmetricEigen, Vector3};
 use super::bending::Stencil;
 use super::crease::rigidity_across;
 use crate::fabric::Fabric;
-use crate::geometry::{Topology, Vec2};
+use crate::geometry::{Topology, Vec2, sorted_pair};
 use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::Garment;
 
@@ -123,15 +123,12 @@ struct Cell {
 /// Second derivatives as sums of differences: (from, to, factor) for x_uu, x_vv and x_uv.
 type Flows = Vec<(u32, u32, f64)>;
 
-fn sorted(a: u32, b: u32) -> [u32; 2] {
-    [a.min(b), a.max(b)]
-}
-
 impl<'a> Sheet<'a> {
     fn new(mesh: &'a ClothMesh, piece: &'a PieceMesh, fabric: &Fabric) -> Self {
         let first = piece.triangles.start as u32;
         let folds = piece.lines.iter().filter(|l| l.kind.hinge().is_some());
-        let cuts: HashSet<[u32; 2]> = folds.flat_map(|l| l.particles.windows(2)).map(|w| sorted(w[0], w[1])).collect();
+        let cuts: HashSet<[u32; 2]> =
+            folds.flat_map(|l| l.particles.windows(2)).map(|w| sorted_pair([w[0], w[1]])).collect();
         let topology = Topology::new(&mesh.triangles[piece.triangles.clone()]);
         let inner = topology.edges.iter().filter(|e| !cuts.contains(&e.ends));
         let across: HashMap<[u32; 2], [u32; 2]> =
@@ -270,7 +267,7 @@ impl<'a> Sheet<'a> {
     /// Triangles across the sides of `t` that nothing cuts.
     fn neighbours(&self, t: u32) -> impl Iterator<Item = u32> + '_ {
         let [a, b, c] = self.mesh.triangles[t as usize];
-        let sides = [sorted(a, b), sorted(b, c), sorted(c, a)];
+        let sides = [[a, b], [b, c], [c, a]].map(sorted_pair);
         sides.into_iter().filter_map(move |s| self.across.get(&s).map(|[l, r]| if *l == t { *r } else { *l }))
     }
 

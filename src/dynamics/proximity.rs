@@ -6,7 +6,7 @@ use super::force::ContactLaw;
 use super::model::Cloth;
 use super::near::Near;
 use crate::contact::{Bounds, ClothDetector, Collider, Contact, Neighbourhood, Tangle};
-use crate::geometry::Vec3;
+use crate::geometry::{Vec3, sorted_pair};
 
 /// How contact is looked for.
 #[derive(Clone, Copy, Debug)]
@@ -156,7 +156,7 @@ impl<'a> Proximity<'a> {
         for contact in self.contacts.iter().filter(|c| !c.is_on_body() && c.gap(x) < gap) {
             let nodes = || contact.parts().filter(|p| p.1 != 0.0).map(|p| p.0 as u32);
             for (a, i) in nodes().enumerate() {
-                out.extend(nodes().skip(a + 1).map(|j| [i.min(j), i.max(j)]));
+                out.extend(nodes().skip(a + 1).map(|j| sorted_pair([i, j])));
             }
         }
         out.sort_unstable();

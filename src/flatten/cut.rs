@@ -7,7 +7,7 @@
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashSet};
 
-use crate::geometry::{DisjointSets, Topology, TriMesh};
+use crate::geometry::{DisjointSets, Topology, TriMesh, sorted_pair};
 
 /// A shortest way along edges from `from` to `to`, not along `solid` ones; `None` where there is none.
 pub fn shortest_path(surface: &TriMesh, solid: &Solid, from: u32, to: u32) -> Option<Vec<u32>> {
@@ -33,7 +33,7 @@ pub fn disk_cuts(surface: &TriMesh, solid: &Solid) -> Vec<[u32; 2]> {
     for (edge, joined) in topology.edges.iter().zip(&joined) {
         if !joined && !in_tree(&edge.ends) {
             for end in edge.ends {
-                cuts.extend(tree.path(end).windows(2).map(|w| [w[0].min(w[1]), w[0].max(w[1])]));
+                cuts.extend(tree.path(end).windows(2).map(|w| sorted_pair([w[0], w[1]])));
             }
             cuts.insert(edge.ends);
         }
@@ -41,7 +41,7 @@ pub fn disk_cuts(surface: &TriMesh, solid: &Solid) -> Vec<[u32; 2]> {
     if cuts.is_empty() && topology.rim_edges().next().is_none() {
         let far = tree.farthest();
         let path = Tree::new(surface, &topology, solid, &[far], false);
-        cuts.extend(path.path(path.farthest()).windows(2).map(|w| [w[0].min(w[1]), w[0].max(w[1])]));
+        cuts.extend(path.path(path.farthest()).windows(2).map(|w| sorted_pair([w[0], w[1]])));
     }
     for edge in topology.rim_edges() {
         cuts.remove(&edge.ends);

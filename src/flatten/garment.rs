@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::element::Element;
 use super::{FlattenError, Options, Report, Sheet, align, check_start, measure, relax_sheet, start, topology};
-use crate::geometry::{TriMesh, Vec2, Vec3};
+use crate::geometry::{TriMesh, Vec2, Vec3, sorted_pair};
 use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::{Give, Seam};
 
@@ -109,7 +109,6 @@ type Targets = HashMap<[u32; 2], f64>;
 /// takes its target.
 fn seam_targets(cloth: &ClothMesh, seams: &[Seam], draped: &[Vec3]) -> Targets {
     let mut targets = Targets::new();
-    let key = |ends: [u32; 2]| [ends[0].min(ends[1]), ends[0].max(ends[1])];
     for (k, stitches) in cloth.seams.iter().enumerate() {
         let give = seams.get(k).map_or(Give::Even, |s| s.give);
         for step in stitches.pairs.windows(2) {
@@ -120,14 +119,14 @@ fn seam_targets(cloth: &ClothMesh, seams: &[Seam], draped: &[Vec3]) -> Targets {
             }
             let drawn = [a, b].map(|e| (cloth.flat[e[1] as usize] - cloth.flat[e[0] as usize]).norm());
             let sewn = [a, b].map(|e| (draped[e[1] as usize] - draped[e[0] as usize]).norm());
-            let known = [a, b].iter().find_map(|&ends| targets.get(&key(ends)).copied());
+            let known = [a, b].iter().find_map(|&ends| targets.get(&sorted_pair(ends)).copied());
             let wanted = match known {
                 Some(length) if give == Give::Even => [length; 2],
                 _ => wanted_lengths(give, drawn, (sewn[0] + sewn[1]) / 2.0),
             };
             for (ends, length) in [(a, wanted[0]), (b, wanted[1])] {
                 if length > 0.0 {
-                    targets.entry(key(ends)).or_insert(length);
+                    targets.entry(sorted_pair(ends)).or_insert(length);
                 }
             }
         }

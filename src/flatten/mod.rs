@@ -41,7 +41,7 @@ pub use overlap::rim_crossings;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-use crate::geometry::{Topology, TriMesh, Vec2};
+use crate::geometry::{Topology, TriMesh, Vec2, sorted_pair};
 use distortion::Weights;
 use element::Element;
 use energy::Energy;
@@ -228,7 +228,7 @@ impl<'a> Sheet<'a> {
         let edges = self.topology.rim_edges().map(|e| e.ends);
         let targets: Vec<([u32; 2], f64)> = edges.zip(self.rim_targets.iter().copied()).collect();
         let of_edge: HashMap<[u32; 2], f64> = targets.iter().copied().collect();
-        let length = |a: u32, b: u32| of_edge.get(&[a.min(b), a.max(b)]).copied().unwrap_or(0.0);
+        let length = |a: u32, b: u32| of_edge.get(&sorted_pair([a, b])).copied().unwrap_or(0.0);
         let angles = start::angle_sums(self.surface);
         let mut free = Vec::new();
         for rim in &self.rims {
@@ -238,7 +238,7 @@ impl<'a> Sheet<'a> {
                 let square = before * before + after * after - 2.0 * before * after * angles[b as usize].cos();
                 // Where the rim turns back on itself there is nothing to span.
                 if a != c && square > (BRACED * (before + after)).powi(2) {
-                    let brace = spring([a.min(c), a.max(c)], square.sqrt());
+                    let brace = spring(sorted_pair([a, c]), square.sqrt());
                     free.push(Spring { weight: BRACE * corners * brace.weight, ..brace });
                 }
             }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::geometry::{Vec3, rim_loops};
+use crate::geometry::{Vec3, rim_loops, sorted_pair};
 use crate::mesh::ClothMesh;
 use crate::verify::Welded;
 
@@ -28,7 +28,7 @@ pub(super) fn openings(mesh: &ClothMesh, welded: &Welded) -> Vec<Opening> {
     let opening = |ring: Vec<u32>| {
         let mut edges: Vec<(String, String)> = Vec::new();
         for (k, &v) in ring.iter().enumerate() {
-            let Some(owner) = owners.get(&key(v, ring[(k + 1) % ring.len()])) else { continue };
+            let Some(owner) = owners.get(&sorted_pair([v, ring[(k + 1) % ring.len()]])) else { continue };
             if !edges.contains(owner) {
                 edges.push(owner.clone());
             }
@@ -38,18 +38,14 @@ pub(super) fn openings(mesh: &ClothMesh, welded: &Welded) -> Vec<Opening> {
     rim_loops(&welded.surface.triangles).into_iter().map(opening).collect()
 }
 
-fn key(a: u32, b: u32) -> [u32; 2] {
-    [a.min(b), a.max(b)]
-}
-
 /// The piece edge that every rim edge of the surface belongs to.
 fn edge_owners(mesh: &ClothMesh, welded: &Welded) -> HashMap<[u32; 2], (String, String)> {
     let mut owners = HashMap::new();
     for piece in &mesh.pieces {
         for edge in &piece.edges {
             for step in edge.particles.windows(2) {
-                let [a, b] = [step[0], step[1]].map(|p| welded.vertex_of[p as usize]);
-                owners.entry(key(a, b)).or_insert_with(|| (piece.name.clone(), edge.name.clone()));
+                let ends = [step[0], step[1]].map(|p| welded.vertex_of[p as usize]);
+                owners.entry(sorted_pair(ends)).or_insert_with(|| (piece.name.clone(), edge.name.clone()));
             }
         }
     }

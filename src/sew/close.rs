@@ -10,7 +10,7 @@ use super::stitch::Stitching;
 use super::untangle::untangle;
 use crate::contact::{Collider, Neighbourhood};
 use crate::dynamics::{Cloth, ContactLaw, Cut, Pull, Reach, SpringModel, World, identity_nodes};
-use crate::geometry::Vec3;
+use crate::geometry::{Vec3, sorted_pair};
 use crate::mesh::ClothMesh;
 
 /// How a garment is sewn.
@@ -48,10 +48,10 @@ pub struct Sewn {
 impl Sewn {
     /// Gaps by seam and pair of the mesh, metres; [`Self::gaps`] has a pair that two seams share once.
     pub fn gaps_of_seams(&self, mesh: &ClothMesh) -> Vec<Vec<f64>> {
-        let pairs = self.stitching.pairs.iter().map(|(ends, _)| sorted(*ends));
+        let pairs = self.stitching.pairs.iter().map(|(ends, _)| sorted_pair(*ends));
         let of_pair: HashMap<[u32; 2], f64> = pairs.zip(self.gaps.iter().copied()).collect();
         // A pair of one particle with itself (the tip of a dart) is never open.
-        let gap = |ends: &[u32; 2]| of_pair.get(&sorted(*ends)).copied().unwrap_or(0.0);
+        let gap = |ends: &[u32; 2]| of_pair.get(&sorted_pair(*ends)).copied().unwrap_or(0.0);
         mesh.seams.iter().map(|seam| seam.pairs.iter().map(gap).collect()).collect()
     }
 
@@ -73,10 +73,6 @@ impl Sewn {
             piece_b: piece(ends[1]),
         })
     }
-}
-
-fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
-    [a.min(b), a.max(b)]
 }
 
 /// Time step while sewing, s. Inertia is what keeps the pieces apart until the seams have led them home.

@@ -1,7 +1,8 @@
 //! A row level by level: where its members are, and how they stand side by side round a ring.
 
 use super::fold::Sheet;
-use super::rows::{Link, Member, Middle, ROOM, Row};
+use super::rows::{Link, Member, Middle, ROOM, Row, extent};
+use crate::geometry::box_of;
 use crate::mesh::ClothMesh;
 
 /// Height of a level, metres: outlines are read off, and rings made, this often.
@@ -40,13 +41,10 @@ pub(super) fn levels(mesh: &ClothMesh, sheet: &Sheet, row: &Row, links: &[Link])
     for (i, m) in row.members.iter().enumerate() {
         for tri in &mesh.triangles[mesh.pieces[m.piece].triangles.clone()] {
             let corners = tri.map(|p| sheet.flat[p as usize] + m.shift);
-            let lo = corners.iter().map(|c| c.y).fold(f64::INFINITY, f64::min);
-            let hi = corners.iter().map(|c| c.y).fold(f64::NEG_INFINITY, f64::max);
-            let left = corners.iter().map(|c| c.x).fold(f64::INFINITY, f64::min);
-            let right = corners.iter().map(|c| c.x).fold(f64::NEG_INFINITY, f64::max);
-            for level in &mut out[level_of(lo)..=level_of(hi)] {
-                let span = level.spans[i].get_or_insert([left, right]);
-                *span = [span[0].min(left), span[1].max(right)];
+            let [low, high] = box_of(corners);
+            for level in &mut out[level_of(low.y)..=level_of(high.y)] {
+                let span = level.spans[i].get_or_insert([low.x, high.x]);
+                *span = [span[0].min(low.x), span[1].max(high.x)];
             }
         }
     }
@@ -93,11 +91,8 @@ struct Joint {
 fn joints(mesh: &ClothMesh, sheet: &Sheet, row: &Row, links: &[Link], level_of: &impl Fn(f64) -> usize) -> Vec<Joint> {
     let n = row.members.len();
     let middle = |m: &Member| {
-        let (lo, hi) = mesh.pieces[m.piece]
-            .particles
-            .clone()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), p| (lo.min(sheet.flat[p].x), hi.max(sheet.flat[p].x)));
-        0.5 * (lo + hi)
+        let [low, high] = extent(mesh, sheet, m.piece);
+        0.5 * (low.x + high.x)
     };
     (0..n)
         .map(|i| {

@@ -8,7 +8,7 @@ use super::levels::{LEVEL, Level, complete_shifts, smooth_shifts, smoothed, spre
 use super::rows::{Link, Member, Row, has_shoulders};
 use super::shoulders::Lean;
 use super::stations::Stations;
-use crate::geometry::Vec3;
+use crate::geometry::{Vec3, sorted_pair};
 use crate::mannequin::PartKind;
 use crate::mesh::ClothMesh;
 
@@ -96,7 +96,7 @@ impl Ring<'_> {
         for link in self.links.iter().filter(|l| !l.through) {
             let Some(k) = (0..2).find(|&k| own(link.pieces[k]) && !own(link.pieces[1 - k])) else { continue };
             for [a, b] in link.pairs.windows(2).map(|pair| [pair[0][k], pair[1][k]]) {
-                if counted.insert([a.min(b), a.max(b)]) {
+                if counted.insert(sorted_pair([a, b])) {
                     length += (self.sheet.flat[a as usize] - self.sheet.flat[b as usize]).norm();
                 }
             }

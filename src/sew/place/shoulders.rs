@@ -8,7 +8,7 @@
 
 use super::levels::LEVEL;
 use super::ring::{LAYER, Ring};
-use super::rows::Member;
+use super::rows::{Member, extent};
 use crate::contact::Collider;
 use crate::geometry::Vec3;
 use crate::mannequin::{Mannequin, PartKind};
@@ -165,6 +165,6 @@ impl<'a> Ring<'a> {
     }
 
     fn top(&self, piece: usize) -> f64 {
-        self.mesh.pieces[piece].particles.clone().map(|p| self.sheet.flat[p].y).fold(f64::INFINITY, f64::min)
+        extent(self.mesh, self.sheet, piece)[0].y
     }
 }

@@ -1,7 +1,7 @@
 //! A body part as stations along its axis, downward or outward.
 
 use super::ellipse::Ellipse;
-use crate::geometry::{TriMesh, Vec3};
+use crate::geometry::{TriMesh, Vec3, range_of};
 use crate::mannequin::{BodyPart, Mannequin, PartKind};
 
 /// Over this height above the ankles the ring round both legs widens to the feet, metres.
@@ -125,8 +125,7 @@ fn both_legs(legs: [&BodyPart; 2], trunk: &[(f64, Station)], body: &TriMesh) -> 
     let lowest = trunk.iter().map(|s| s.0).fold(f64::NEG_INFINITY, f64::max);
     let ankle = legs.iter().flat_map(|leg| &leg.sections).map(|s| s.center.y).fold(f64::INFINITY, f64::min);
     // How far the feet reach back and forward.
-    let feet = body.vertices.iter().filter(|v| v.y < ankle).map(|v| v.z);
-    let feet = feet.fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], z| [lo.min(z), hi.max(z)]);
+    let feet = range_of(body.vertices.iter().filter(|v| v.y < ankle).map(|v| v.z));
     let [left, right] = legs.map(|leg| leg.sections.iter());
     left.zip(right)
         .filter(|(s, _)| -s.center.y > lowest)
