@@ -4,7 +4,7 @@ use super::assign::{Assigned, Facing};
 use super::fold::Sheet;
 use super::insert::{Insert, inserts, slit};
 use super::lay::{self, Laid};
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, box_of, range_of};
 use crate::mannequin::PartKind;
 use crate::mesh::ClothMesh;
 use crate::pattern::{Garment, Place};
@@ -101,9 +101,14 @@ pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned:
         let apart: Vec<bool> = (0..mesh.pieces.len())
             .map(|p| elsewhere[p] || slits[p].is_some() || garment.pieces[p].layer != layer)
             .collect();
-        while let Some((from, to, shift)) = widest_next(&links, &row_of, assigned, &apart, sheet, index, &members)
-            .or_else(|| over_the_shoulder(&links, &row_of, assigned, &apart, mesh, sheet, &members))
-        {
+        loop {
+            let joins = |from: usize, to: usize| {
+                let part = assigned[from].part;
+                row_of[from] == index && row_of[to] == usize::MAX && assigned[to].part == part && !apart[to]
+            };
+            let next = widest_next(&links, sheet, &joins)
+                .or_else(|| over_the_shoulder(&links, assigned, mesh, sheet, &members, &joins));
+            let Some((from, to, shift)) = next else { break };
             let base = members.iter().find(|m| m.piece == from).map_or(Vec2::zeros(), |m| m.shift);
             row_of[to] = index;
             members.push(Member { piece: to, shift: base + shift });
@@ -122,50 +127,37 @@ pub(super) fn is_at(place: &Option<Place>) -> bool {
     matches!(place, Some(Place::At { .. }))
 }
 
-/// The longest upright link that leads from the row to a piece not yet placed: (from, to, shift of to against from).
-fn widest_next(
-    links: &[Link],
-    row_of: &[usize],
-    assigned: &[Assigned],
-    apart: &[bool],
-    sheet: &Sheet,
-    row: usize,
-    members: &[Member],
-) -> Option<(usize, usize, Vec2)> {
-    let part = assigned[members[0].piece].part;
-    let mut best: Option<(f64, usize, usize, Vec2)> = None;
+/// A piece that comes into a row: from which member, itself, and its shift against that one.
+type Joining = (usize, usize, Vec2);
+
+/// The longest upright link from a member of the row to a piece that `joins` it there.
+fn widest_next(links: &[Link], sheet: &Sheet, joins: &impl Fn(usize, usize) -> bool) -> Option<Joining> {
+    let mut best: Option<(f64, Joining)> = None;
     for link in links.iter().filter(|l| l.upright) {
         for k in 0..2 {
             let (from, to) = (link.pieces[k], link.pieces[1 - k]);
-            if row_of[from] != row || row_of[to] != usize::MAX || assigned[to].part != part || apart[to] {
-                continue;
-            }
-            if best.as_ref().is_none_or(|b| link.length > b.0) {
-                let count = link.pairs.len() as f64;
-                let sum = link
-                    .pairs
-                    .iter()
-                    .fold(Vec2::zeros(), |s, pair| s + sheet.flat[pair[k] as usize] - sheet.flat[pair[1 - k] as usize]);
-                best = Some((link.length, from, to, sum / count));
+            if joins(from, to) && best.as_ref().is_none_or(|b| link.length > b.0) {
+                let at = |p: u32| sheet.flat[p as usize];
+                let sum = link.pairs.iter().fold(Vec2::zeros(), |sum, pair| sum + at(pair[k]) - at(pair[1 - k]));
+                best = Some((link.length, (from, to, sum / link.pairs.len() as f64)));
             }
         }
     }
-    best.map(|b| (b.1, b.2, b.3))
+    best.map(|b| b.1)
 }
 
 /// A back that hangs from the top of the row's front, or the other way round, and has no side seam with it, as in a
-/// tabard: it stands beside the row. (From to, and shift of to against from.)
+/// tabard: it stands beside the row.
 fn over_the_shoulder(
     links: &[Link],
-    row_of: &[usize],
     assigned: &[Assigned],
-    apart: &[bool],
     mesh: &ClothMesh,
     sheet: &Sheet,
     members: &[Member],
-) -> Option<(usize, usize, Vec2)> {
+    joins: &impl Fn(usize, usize) -> bool,
+) -> Option<Joining> {
     links.iter().filter(|l| !l.upright).find_map(|link| {
-        let k = (0..2).find(|&k| members.iter().any(|m| m.piece == link.pieces[k]))?;
+        let k = (0..2).find(|&k| joins(link.pieces[k], link.pieces[1 - k]))?;
         let [from, to] = [link.pieces[k], link.pieces[1 - k]];
         let opposite = matches!(
             (assigned[from].facing, assigned[to].facing),
@@ -175,8 +167,7 @@ fn over_the_shoulder(
             let [low, high] = extent(mesh, sheet, piece);
             stitched(link, sheet, k) < 0.5 * (low.y + high.y)
         };
-        let beside = row_of[to] == usize::MAX && assigned[to].part == assigned[from].part && !apart[to];
-        if !(beside && opposite && hangs(from, k) && hangs(to, 1 - k)) {
+        if !(opposite && hangs(from, k) && hangs(to, 1 - k)) {
             return None;
         }
         let base = members.iter().find(|m| m.piece == from)?.shift;
@@ -193,9 +184,7 @@ fn stitched(link: &Link, sheet: &Sheet, k: usize) -> f64 {
 
 /// The corners of the box round a piece.
 pub(super) fn extent(mesh: &ClothMesh, sheet: &Sheet, piece: usize) -> [Vec2; 2] {
-    let start = [Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)];
-    let particles = mesh.pieces[piece].particles.clone();
-    particles.fold(start, |[low, high], p| [low.inf(&sheet.flat[p]), high.sup(&sheet.flat[p])])
+    box_of(mesh.pieces[piece].particles.clone().map(|p| sheet.flat[p]))
 }
 
 fn finish_row(
@@ -206,17 +195,19 @@ fn finish_row(
     mut members: Vec<Member>,
     links: &[Link],
 ) -> Row {
-    let shifted = |m: &Member| {
-        let [low, high] = extent(mesh, sheet, m.piece);
-        (low + m.shift, high + m.shift)
-    };
-    let boxes: Vec<(Vec2, Vec2)> = members.iter().map(shifted).collect();
-    let v = boxes.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |v, b| [v[0].min(b.0.y), v[1].max(b.1.y)]);
+    let boxes: Vec<[Vec2; 2]> =
+        members.iter().map(|m| extent(mesh, sheet, m.piece).map(|corner| corner + m.shift)).collect();
+    let v = range_of(boxes.iter().flatten().map(|corner| corner.y));
     let front = front_middle(assigned, &members, &boxes, links, sheet);
     let mut order: Vec<usize> = (0..members.len()).collect();
-    order.sort_by(|&a, &b| (boxes[a].0.x + boxes[a].1.x).total_cmp(&(boxes[b].0.x + boxes[b].1.x)));
+    order.sort_by(|&a, &b| center(&boxes[a]).total_cmp(&center(&boxes[b])));
     members = order.into_iter().map(|i| members[i]).collect();
     Row { part, layer: 0, members, inserts: Vec::new(), front, v }
+}
+
+/// u of the middle of a box.
+fn center([low, high]: &[Vec2; 2]) -> f64 {
+    0.5 * (low.x + high.x)
 }
 
 /// The front middle: the middle front piece, or the seam between the two in the middle; failing that, opposite the
@@ -224,12 +215,12 @@ fn finish_row(
 fn front_middle(
     assigned: &[Assigned],
     members: &[Member],
-    boxes: &[(Vec2, Vec2)],
+    boxes: &[[Vec2; 2]],
     links: &[Link],
     sheet: &Sheet,
 ) -> Option<Middle> {
     let facing = |facing| move |&i: &usize| assigned[members[i].piece].facing == Some(facing);
-    let center = |i: usize| 0.5 * (boxes[i].0.x + boxes[i].1.x);
+    let center = |i: usize| center(&boxes[i]);
     let fronts: Vec<usize> = (0..members.len()).filter(facing(Facing::Front)).collect();
     let chain = in_order(&fronts, members, links, sheet, &center);
     match (&chain[..], chain.len() % 2) {
@@ -237,18 +228,15 @@ fn front_middle(
         (chain, 1) => return Some(Middle::On(center(chain[chain.len() / 2]))),
         (chain, _) => return Some(Middle::LeftOf(members[chain[chain.len() / 2]].piece)),
     }
-    let extent = |these: &[usize]| {
-        let lo = these.iter().map(|&i| boxes[i].0.x).fold(f64::INFINITY, f64::min);
-        (lo, these.iter().map(|&i| boxes[i].1.x).fold(f64::NEG_INFINITY, f64::max))
-    };
-    let middle = |(lo, hi): (f64, f64)| 0.5 * (lo + hi);
+    let reach = |these: &[usize]| range_of(these.iter().flat_map(|&i| boxes[i]).map(|corner| corner.x));
+    let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
     if !fronts.is_empty() {
-        return Some(Middle::On(middle(extent(&fronts))));
+        return Some(Middle::On(middle(reach(&fronts))));
     }
     let backs: Vec<usize> = (0..members.len()).filter(facing(Facing::Back)).collect();
     let all: Vec<usize> = (0..members.len()).collect();
-    let (lo, hi) = extent(&all);
-    (!backs.is_empty()).then(|| Middle::On(middle(extent(&backs)) - 0.5 * (hi - lo)))
+    let [low, high] = reach(&all);
+    (!backs.is_empty()).then(|| Middle::On(middle(reach(&backs)) - 0.5 * (high - low)))
 }
 
 /// These members from right to left of the wearer, each sewn to the next; empty if they are not one such chain.
@@ -313,11 +301,12 @@ fn links(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Link> {
 /// Whether stitches run all the way down one side of a piece, however far it flares: from its top to its hem within half
 /// of its width. (Shoulders end far above the hem, waists go from side to side.)
 fn is_flank(mesh: &ClothMesh, sheet: &Sheet, piece: usize, stitches: impl Iterator<Item = u32>) -> bool {
-    let range = |[low, high]: [Vec2; 2], p: usize| [low.inf(&sheet.straight[p]), high.sup(&sheet.straight[p])];
-    let none = [Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)];
-    let [low, high] = mesh.pieces[piece].particles.clone().fold(none, range);
-    let [top, bottom] = stitches.map(|p| p as usize).fold(none, range);
-    let (whole, seam) = (high - low, bottom - top);
+    let size = |particles: &mut dyn Iterator<Item = usize>| {
+        let [low, high] = box_of(particles.map(|p| sheet.straight[p]));
+        high - low
+    };
+    let whole = size(&mut mesh.pieces[piece].particles.clone());
+    let seam = size(&mut stitches.map(|p| p as usize));
     seam.y >= FLANK * whole.y && seam.x <= 0.5 * whole.x
 }
 
