@@ -303,41 +303,6 @@ fn what_is_wrong_with_an_outline_is_named_with_its_place() {
     says(&squares("  a:\n", "  a:\n    notches: {top: [120]}\n"), 4, "120", "notch at 120.0 mm lies off a.top");
 }
 
-/// A disc of one edge, by arcs, by curves, and by numbers that miss its start by as much as is let pass.
-#[test]
-fn one_edge_may_go_all_the_way_round() {
-    let disc = |rim: &str| {
-        let text = format!(
-            "garment: 1\nbody: woman_92\nfabrics: {{shell: cotton_poplin}}\npieces:\n  disc:\n    \
-             place: {{at: [0, 1900, 0]}}\n    grain: [[0, -50], [0, 50]]\n    \
-             outline: {{start: -100 0, rim: '{rim}'}}\nfree: ['*.*']\n"
-        );
-        let garment = garment(&text);
-        let path = &garment.pieces[0].loops[0][0].path;
-        assert_eq!(garment.pieces[0].loops[0].len(), 1);
-        assert!((path.start() - path.end()).norm() < 1e-12, "{rim}");
-        (path.length() * 1e3, path.double_area() * 0.5e6)
-    };
-    let [round, full] = [200.0 * std::f64::consts::PI, 1e4 * std::f64::consts::PI];
-    for rim in [
-        "A 100 100 0 0 1 100 0 A 100 100 0 0 1 -100 0",
-        "A 100 100 0 0 1 100 0 A 100 100 0 0 1 -100 0.04",
-        "C -100 -55.2285 -55.2285 -100 0 -100 C 55.2285 -100 100 -55.2285 100 0 C 100 55.2285 55.2285 100 0 100 \
-         C -55.2285 100 -100 55.2285 -100 0",
-        "C -100 -55.2285 -55.2285 -100 0 -100 C 55.2285 -100 100 -55.2285 100 0 C 100 55.2285 55.2285 100 0 100 \
-         C -55.2285 100 -100 55.2285 -99.97 0.02",
-    ] {
-        let (length, area) = disc(rim);
-        assert!(
-            (length / round - 1.0).abs() < 1e-3 && (area / full - 1.0).abs() < 1e-3,
-            "{rim}: {length} mm, {area} mm2"
-        );
-    }
-    // One curve that comes back to where it began.
-    let (length, area) = disc("C 100 -200 100 200 -100 0");
-    assert!(length > 300.0 && area > 1e4, "{length} mm, {area} mm2");
-}
-
 #[test]
 fn what_is_wrong_with_darts_and_pleats_is_named_with_its_place() {
     let with = |what: &str| squares("  a:\n", &format!("  a:\n    {what}\n"));
