@@ -89,6 +89,11 @@ pub const HEIGHTS: std::ops::RangeInclusive<f64> = 0.2..=3.0;
 const STANDS: f64 = 0.3;
 
 impl Mannequin {
+    /// The part of this kind, if the body has it.
+    pub fn part(&self, kind: PartKind) -> Option<&BodyPart> {
+        self.parts.iter().find(|part| part.kind == kind)
+    }
+
     /// Height of the floor it stands on, metres; a form without legs hangs or stands on a pole, over no floor that its
     /// clothes could reach.
     pub fn floor(&self) -> Option<f64> {

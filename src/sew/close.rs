@@ -104,10 +104,14 @@ const HARDER: i32 = 4;
 /// Classes of three and more particles pull so much harder: closed last they jam.
 const JUNCTION: f64 = 8.0;
 
+/// Layers are looked for this near while the seams close, in grid spacings.
+const REACH: f64 = 1.6;
+
 /// Sews a garment whose particles start at `start`.
 ///
 /// # Errors
-/// [`SewError`]: a step that cannot be made, or a seam that does not close.
+/// [`SewError`]: a piece that starts in the body, or a step that cannot be made. A seam that does not close is no error
+/// yet: see [`Sewn::open`] and [`Sewn::closed`].
 pub fn sew(
     cut: &Cut,
     body: &Collider,
@@ -122,7 +126,7 @@ pub fn sew(
     let pairs: Vec<[u32; 2]> = stitching.pairs.iter().map(|p| p.0).collect();
     let h = mesh.spacing;
     let law = ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, cloth_gap: Some((GAP * h).min(WIDEST_GAP)) };
-    let reach = Reach::new(1.6 * h);
+    let reach = Reach::new(REACH * h);
     let hood = Neighbourhood { class: stitching.class.clone(), passing: Vec::new() };
     let mut world = World::new(cloth, start, &pairs, body, hood, law, reach)?;
     untangle(&mut world)?;

@@ -9,6 +9,8 @@ use crate::pattern::{Garment, LineKind};
 
 /// A fold of at least this angle (radians) is folded over before the start; a smaller one is left to the drape.
 const PRESSED: f64 = 2.0;
+/// What lies no further over a fold than this, metres, lies on it.
+const ON_FOLD: f64 = 1e-9;
 
 /// The pieces laid out flat, pressed folds folded over.
 pub(super) struct Sheet {
@@ -51,7 +53,7 @@ pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
             let keep = if balance >= 0.0 { 1.0 } else { -1.0 };
             for p in piece.particles.clone() {
                 let s = side(p) * keep;
-                if s < -1e-9 {
+                if s < -ON_FOLD {
                     sheet.flat[p] += across * (-2.0 * s * keep);
                     sheet.under[p] = angle.signum();
                 }

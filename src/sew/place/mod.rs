@@ -76,7 +76,8 @@ pub enum PlaceError {
 /// Start positions of all particles, on `body`; `collider` is its surface.
 ///
 /// # Errors
-/// [`PlaceError`] when a piece's place names a part that is none or that the body has not.
+/// [`PlaceError`] when a piece's place names a part that is none or that the body has not, or when its seams leave it
+/// no place.
 pub fn place(
     garment: &Garment,
     mesh: &ClothMesh,

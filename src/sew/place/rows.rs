@@ -16,6 +16,9 @@ pub(super) const ROOM: f64 = 0.004;
 /// that run more across than down.
 const FLANK: f64 = 0.8;
 
+/// Heights of rows are compared in whole parts of a metre, so many of them: rounding must not tell rows apart.
+const HEIGHTS: f64 = 1e6;
+
 /// The stitches between two pieces.
 #[derive(Clone, Debug)]
 pub(super) struct Link {
@@ -113,10 +116,10 @@ pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned:
             row_of[to] = index;
             members.push(Member { piece: to, shift: base + shift });
         }
-        let row = finish_row(mesh, sheet, assigned, assigned[seed].part, members, &links);
-        let inserts = inserts(mesh, sheet, &row.members, &slits);
-        inserts.iter().for_each(|insert| row_of[insert.own.piece] = index);
-        rows.push(Row { layer, inserts, ..row });
+        let mut row = finish_row(mesh, sheet, assigned, &links, layer, members);
+        row.inserts = inserts(mesh, sheet, &row.members, &slits);
+        row.inserts.iter().for_each(|insert| row_of[insert.own.piece] = index);
+        rows.push(row);
     }
     let order = stack(&mut rows, &links, &row_of, sheet);
     Rows { rows, links, laid, order }
@@ -165,21 +168,21 @@ fn over_the_shoulder(
         );
         let hangs = |piece: usize, k: usize| {
             let [low, high] = extent(mesh, sheet, piece);
-            stitched(link, sheet, k) < 0.5 * (low.y + high.y)
+            stitched(link, sheet, k).y < 0.5 * (low.y + high.y)
         };
         if !(opposite && hangs(from, k) && hangs(to, 1 - k)) {
             return None;
         }
         let base = members.iter().find(|m| m.piece == from)?.shift;
         let right = members.iter().map(|m| extent(mesh, sheet, m.piece)[1].x + m.shift.x).fold(f64::MIN, f64::max);
-        let down = stitched(link, sheet, k) - stitched(link, sheet, 1 - k);
+        let down = stitched(link, sheet, k).y - stitched(link, sheet, 1 - k).y;
         Some((from, to, Vec2::new(right + ROOM - extent(mesh, sheet, to)[0].x - base.x, down)))
     })
 }
 
-/// Mean v of a link's stitches on its piece number `k`, as the piece is drawn.
-fn stitched(link: &Link, sheet: &Sheet, k: usize) -> f64 {
-    link.pairs.iter().map(|pair| sheet.flat[pair[k] as usize].y).sum::<f64>() / link.pairs.len() as f64
+/// The mean place of a link's stitches on its piece number `k`, as the piece is drawn.
+pub(super) fn stitched(link: &Link, sheet: &Sheet, k: usize) -> Vec2 {
+    link.pairs.iter().map(|pair| sheet.flat[pair[k] as usize]).sum::<Vec2>() / link.pairs.len() as f64
 }
 
 /// The corners of the box round a piece.
@@ -187,14 +190,16 @@ pub(super) fn extent(mesh: &ClothMesh, sheet: &Sheet, piece: usize) -> [Vec2; 2]
     box_of(mesh.pieces[piece].particles.clone().map(|p| sheet.flat[p]))
 }
 
+/// A row of these members, put in order, without inserts.
 fn finish_row(
     mesh: &ClothMesh,
     sheet: &Sheet,
     assigned: &[Assigned],
-    part: PartKind,
-    mut members: Vec<Member>,
     links: &[Link],
+    layer: i32,
+    mut members: Vec<Member>,
 ) -> Row {
+    let part = assigned[members[0].piece].part;
     let boxes: Vec<[Vec2; 2]> =
         members.iter().map(|m| extent(mesh, sheet, m.piece).map(|corner| corner + m.shift)).collect();
     let v = range_of(boxes.iter().flatten().map(|corner| corner.y));
@@ -202,7 +207,7 @@ fn finish_row(
     let mut order: Vec<usize> = (0..members.len()).collect();
     order.sort_by(|&a, &b| center(&boxes[a]).total_cmp(&center(&boxes[b])));
     members = order.into_iter().map(|i| members[i]).collect();
-    Row { part, layer: 0, members, inserts: Vec::new(), front, v }
+    Row { part, layer, members, inserts: Vec::new(), front, v }
 }
 
 /// u of the middle of a box.
@@ -247,10 +252,7 @@ fn in_order(
     sheet: &Sheet,
     center: &impl Fn(usize) -> f64,
 ) -> Vec<usize> {
-    let side = |i: usize, link: &Link, k: usize| {
-        let sum: f64 = link.pairs.iter().map(|p| sheet.flat[p[k] as usize].x).sum();
-        sum / link.pairs.len() as f64 + members[i].shift.x - center(i)
-    };
+    let side = |i: usize, link: &Link, k: usize| stitched(link, sheet, k).x + members[i].shift.x - center(i);
     let follows = |i: usize, j: usize| {
         links.iter().filter(|l| l.upright).any(|l| {
             let k = (0..2).find(|&k| l.pieces[k] == members[i].piece && l.pieces[1 - k] == members[j].piece);
@@ -315,7 +317,7 @@ pub(super) fn has_shoulders(row: &Row, links: &[Link], sheet: &Sheet) -> bool {
     let member = |p: usize| row.members.iter().find(|m| m.piece == p);
     links.iter().filter(|l| !l.upright).any(|l| {
         let [Some(m), Some(_)] = l.pieces.map(member) else { return false };
-        stitched(l, sheet, 0) + m.shift.y < 0.5 * (row.v[0] + row.v[1])
+        stitched(l, sheet, 0).y + m.shift.y < 0.5 * (row.v[0] + row.v[1])
     })
 }
 
@@ -336,7 +338,7 @@ fn stack(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet) -> V
             })
     };
     roots.sort_by_key(|&r| {
-        let height = (1e6 * (rows[r].v[1] - rows[r].v[0])) as i64;
+        let height = (HEIGHTS * (rows[r].v[1] - rows[r].v[0])) as i64;
         (rows[r].part, !has_shoulders(&rows[r], links, sheet), !joins_trunk(r), std::cmp::Reverse(height), r)
     });
     for root in roots {
@@ -350,26 +352,8 @@ fn stack(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet) -> V
         while next < order.len() {
             let at = order[next].0;
             next += 1;
-            let mut near: Vec<(usize, f64)> = Vec::new();
-            for link in links {
-                let [a, b] = link.pieces.map(|p| row_of[p]);
-                let other = if a == at {
-                    b
-                } else if b == at {
-                    a
-                } else {
-                    continue;
-                };
-                if other == usize::MAX || other == at || done[other] || rows[other].part != rows[at].part {
-                    continue;
-                }
-                match near.iter_mut().find(|n| n.0 == other) {
-                    Some(n) => n.1 += link.length,
-                    None => near.push((other, link.length)),
-                }
-            }
-            near.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
-            for (other, _) in near {
+            let waits = |other: usize| other != usize::MAX && !done[other] && rows[other].part == rows[at].part;
+            for other in rows_beside(links, row_of, at, waits) {
                 done[other] = true;
                 put_beside(rows, links, row_of, sheet, at, other);
                 order.push((other, Some(at)));
@@ -379,27 +363,43 @@ fn stack(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet) -> V
     order
 }
 
+/// The rows sewn to row `at` that still `wait` for their place, that with the longest seams first.
+fn rows_beside(links: &[Link], row_of: &[usize], at: usize, waits: impl Fn(usize) -> bool) -> Vec<usize> {
+    let mut near: Vec<(usize, f64)> = Vec::new();
+    for link in links {
+        let [a, b] = link.pieces.map(|p| row_of[p]);
+        let other = if a == at { b } else { a };
+        if (a != at && b != at) || other == at || !waits(other) {
+            continue;
+        }
+        match near.iter_mut().find(|n| n.0 == other) {
+            Some(n) => n.1 += link.length,
+            None => near.push((other, link.length)),
+        }
+    }
+    near.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+    near.into_iter().map(|n| n.0).collect()
+}
+
 /// Shifts row `other` up or down so that its seam with row `at` meets, without overlap; another layer lies over it.
 fn put_beside(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet, at: usize, other: usize) {
     let level = |rows: &[Row], row: usize, p: u32, piece: usize| {
         let shift = rows[row].members.iter().find(|m| m.piece == piece).map_or(0.0, |m| m.shift.y);
         sheet.flat[p as usize].y + shift
     };
-    let mut of_at = [f64::INFINITY, f64::NEG_INFINITY];
-    let mut of_other = of_at;
+    let (mut on_at, mut on_other) = (Vec::new(), Vec::new());
     for link in links {
         for k in 0..2 {
             if row_of[link.pieces[k]] != at || row_of[link.pieces[1 - k]] != other {
                 continue;
             }
             for pair in &link.pairs {
-                let a = level(rows, at, pair[k], link.pieces[k]);
-                let b = level(rows, other, pair[1 - k], link.pieces[1 - k]);
-                of_at = [of_at[0].min(a), of_at[1].max(a)];
-                of_other = [of_other[0].min(b), of_other[1].max(b)];
+                on_at.push(level(rows, at, pair[k], link.pieces[k]));
+                on_other.push(level(rows, other, pair[1 - k], link.pieces[1 - k]));
             }
         }
     }
+    let (of_at, of_other) = (range_of(on_at), range_of(on_other));
     let middle = |v: [f64; 2]| 0.5 * (v[0] + v[1]);
     let above = middle(of_at) < middle(rows[at].v);
     let dv = if rows[at].layer != rows[other].layer {

@@ -2,7 +2,7 @@
 
 use super::ellipse::Ellipse;
 use crate::geometry::{TriMesh, Vec3, range_of};
-use crate::mannequin::{BodyPart, Mannequin, PartKind};
+use crate::mannequin::{BodyPart, Mannequin, PartKind, Section};
 
 /// Over this height above the ankles the ring round both legs widens to the feet, metres.
 const INSTEP: f64 = 0.12;
@@ -30,13 +30,12 @@ pub(super) struct Stations {
 impl Stations {
     /// `None` when the body has no such part.
     pub(super) fn new(body: &Mannequin, part: PartKind) -> Option<Self> {
-        let find = |kind: PartKind| body.parts.iter().find(|p| p.kind == kind);
-        let own = find(part)?;
+        let own = body.part(part)?;
         let mut list = match part {
             PartKind::Torso | PartKind::Neck => {
                 let mut list: Vec<(f64, Station)> = own.sections.iter().map(|s| (-s.center.y, upright(s))).collect();
                 if part == PartKind::Torso
-                    && let (Some(left), Some(right)) = (find(PartKind::LeftLeg), find(PartKind::RightLeg))
+                    && let (Some(left), Some(right)) = (body.part(PartKind::LeftLeg), body.part(PartKind::RightLeg))
                 {
                     list.extend(both_legs([left, right], &list, &body.mesh));
                 }
@@ -116,7 +115,8 @@ impl Station {
     }
 }
 
-fn upright(s: &crate::mannequin::Section) -> Station {
+/// A section of the trunk or the neck as a station: rows begin at its front.
+fn upright(s: &Section) -> Station {
     Station { center: s.center, front: Vec3::z(), right: Vec3::x(), half_width: s.half_width, half_depth: s.half_depth }
 }
 
@@ -144,6 +144,7 @@ fn both_legs(legs: [&BodyPart; 2], trunk: &[(f64, Station)], body: &TriMesh) -> 
         .collect()
 }
 
+/// Stations along a limb, from the trunk outward: a row's front middle goes to the side away from the other limb.
 fn along_limb(part: &BodyPart, kind: PartKind) -> Vec<(f64, Station)> {
     let sideways = if matches!(kind, PartKind::LeftArm | PartKind::LeftLeg) { Vec3::x() } else { -Vec3::x() };
     let mut out = Vec::new();
