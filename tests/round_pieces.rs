@@ -86,7 +86,8 @@ fn an_edge_that_all_but_closes_stays_what_it_is() {
 #[test]
 fn an_edge_whose_ends_are_near_keeps_its_far_end() {
     let text = "garment: 1\npieces:\n  tag:\n    grain: [[0, 50], [0, 90]]\n    \
-                outline: {start: 0 0, neck: L 5 0, rim: L 5 20 L 40 20 L 40 140 L -35 140 L -35 20 L 0 20 L 0.03 0.03}\n\
+                outline: {start: 0 0, neck: L 5 0, \
+                rim: L 5 20 L 40 20 L 40 140 L -35 140 L -35 20 L 0 20 L 0.03 0.03}\n\
                 free: [tag.neck, tag.rim]\n";
     let garment = garment(text);
     let rim = &garment.pieces[0].loops[0][1].path;

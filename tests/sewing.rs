@@ -313,7 +313,8 @@ fn circle_skirt() -> Made {
         &format!(
             "garment: 1\nbody: woman_92\nfabrics: {{shell: cotton_poplin}}\npieces:\n  front:\n    \
              place: skirt front\n    grain: [[0, 250], [0, 550]]\n    \
-             outline: {{start: {a}, waist: 'A 180 180 0 0 0 {b}', left: L {c}, hem: 'A 600 600 0 0 1 {d}', right: L {a}}}\n  \
+             outline: {{start: {a}, waist: 'A 180 180 0 0 0 {b}', left: L {c}, hem: 'A 600 600 0 0 1 {d}', \
+             right: L {a}}}\n  \
              back: {{like: front, place: skirt back}}\n\
              seams:\n  left: {{sew: front.left, to: back.right}}\n  right: {{sew: front.right, to: back.left}}\n\
              free: ['*.waist', '*.hem']\n"
@@ -373,7 +374,8 @@ fn a_band_drawn_upright_starts_level() {
                  back: {{like: front, place: skirt back}}\n  band:\n    place: waist\n    grain: {grain}\n    \
                  outline: {{start: 0 0, top: {top}, end: {right}, bottom: {bottom}, begin: L 0 0}}\n\
                  seams:\n  left: {{sew: front.left, to: back.right}}\n  right: {{sew: front.right, to: back.left}}\n  \
-                 waist: {{sew: [front.waist, back.waist], to: band.{sewn}}}\n  ends: {{sew: band.begin, to: band.end}}\n\
+                 waist: {{sew: [front.waist, back.waist], to: band.{sewn}}}\n  \
+                 ends: {{sew: band.begin, to: band.end}}\n\
                  free: ['*.hem', band.{free}]\n"
             ),
             20.0,
@@ -424,9 +426,11 @@ fn a_tabard_starts_over_the_shoulders_open_at_its_sides() {
 fn a_cuff_that_flares_widely_starts_as_one_ring() {
     let (body, _) = woman();
     let made = Made::new(
-        "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  front:\n    place: left arm front\n    \
+        "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  front:\n    \
+         place: left arm front\n    \
          grain: [[0, 10], [0, 40]]\n    outline: {start: -110 0, top: L 110 0, over: L 230 54, hem: L -230 54, \
-         under: L -110 0}\n  back: {like: front, place: left arm back}\nseams:\n  over: {sew: front.over, to: back.under}\n  \
+         under: L -110 0}\n  back: {like: front, place: left arm back}\nseams:\n  \
+         over: {sew: front.over, to: back.under}\n  \
          under: {sew: front.under, to: back.over}\nfree: ['*.top', '*.hem']\n",
         12.0,
     );
@@ -452,10 +456,12 @@ fn godets_start_in_their_slits() {
          a1: L 450 350, a2: L 340 600, h2: L 260 600, b1: L 150 350, b2: L 40 600, h3: L 0 600, right: L 0 0}\n  \
          back: {place: skirt back, grain: [[300, 50], [300, 250]], outline: {start: 0 0, waist: L 600 0, \
          right: L 600 600, hem: L 0 600, left: L 0 0}}\n  \
-         one: {place: skirt front, grain: [[100, 150], [100, 250]], outline: {start: 0 254.161, l: L 100 0, r: L 200 254.161, \
-         hem: L 0 254.161}}\n  two: {like: one}\nseams:\n  left: {sew: front.left, to: back.left}\n  \
-         right: {sew: front.right, to: back.right}\n  one: {sew: [one.l, one.r], to: [front.a2, front.a1]}\n  two_l: {sew: two.l, \
-         to: front.b2}\n  two_r: {sew: two.r, to: front.b1}\nfree: ['*.waist', '*.hem', front.h1, front.h2, front.h3]\n",
+         one: {place: skirt front, grain: [[100, 150], [100, 250]], outline: {start: 0 254.161, l: L 100 0, \
+         r: L 200 254.161, hem: L 0 254.161}}\n  two: {like: one}\nseams:\n  left: {sew: front.left, to: back.left}\n  \
+         right: {sew: front.right, to: back.right}\n  one: {sew: [one.l, one.r], to: [front.a2, front.a1]}\n  \
+         two_l: {sew: two.l, \
+         to: front.b2}\n  two_r: {sew: two.r, to: front.b1}\nfree: ['*.waist', '*.hem', front.h1, front.h2, \
+         front.h3]\n",
         20.0,
     );
     let x = made.placed(&body);
@@ -469,7 +475,8 @@ fn godets_start_in_their_slits() {
     }
 }
 
-/// Nothing starts where the origin is: garments start on a body that stands somewhere else as they do on one in the middle.
+/// Nothing starts where the origin is: garments start on a body that stands somewhere else as they
+/// do on one in the middle.
 #[test]
 fn a_garment_starts_on_its_body_wherever_that_stands() {
     let (body, _) = woman();

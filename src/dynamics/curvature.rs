@@ -1,11 +1,11 @@
 //! Curvatures of a flat piece as sums over its particles: the stencils that bending is made of.
 //!
-//! Every particle stands for the cloth nearest to it and has the second derivatives of its position along warp u, weft v
-//! and mixed: E = ½ Σ A (B₁ |x_uu|² + B₂ |x_vv|² + 2 √(B₁B₂) |x_uv|²), a plate without lateral contraction; rolled to a
-//! cylinder at any angle φ to the warp it has the rigidity (√B₁ cos²φ + √B₂ sin²φ)². Where the grid is regular x_uu and
-//! x_vv are second differences along a thread and x_uv the mixed difference of each cell. Elsewhere, at rims and in the
-//! strip between rim and grid, they are those of the quadratic surface through the particle that fits its neighbours
-//! best. So edges are natural: cloth bends to its rim as it does inside, and nothing bends it beyond.
+//! Every particle stands for the cloth nearest to it and has the second derivatives of its position along warp u, weft
+//! v and mixed: E = ½ Σ A (B₁ |x_uu|² + B₂ |x_vv|² + 2 √(B₁B₂) |x_uv|²), a plate without lateral contraction; rolled to
+//! a cylinder at any angle φ to the warp it has the rigidity (√B₁ cos²φ + √B₂ sin²φ)². Where the grid is regular x_uu
+//! and x_vv are second differences along a thread and x_uv the mixed difference of each cell. Elsewhere, at rims and in
+//! the strip between rim and grid, they are those of the quadratic surface through the particle that fits its
+//! neighbours best. So edges are natural: cloth bends to its rim as it does inside, and nothing bends it beyond.
 //!
 //! Creases cut the cloth: neither side takes part in the curvature of the other, and a hinge of their own joins them (a
 //! fold of angle 0 is no crease). Seams join pieces that have no plane in common; both are bent up to their rims, and a

@@ -52,10 +52,10 @@ pub fn disk_cuts(surface: &TriMesh, solid: &Solid) -> Vec<[u32; 2]> {
 }
 
 /// The dart that relieves a disk most: from the place where a conformal map would have to shrink most, which is where a
-/// cone point helps most (Ben-Chen, Gotsman & Bunin 2008, section 4), to the nearest rim vertex along edges that are not
-/// `solid`; rim first. Where the map would have to stretch, cloth is missing and the legs of a dart would lie on each
-/// other. `log_scale` is [`super::Flattened::log_scale`]. Empty where no place can be told: without scales, or where none
-/// shrinks.
+/// cone point helps most (Ben-Chen, Gotsman & Bunin 2008, section 4), to the nearest rim vertex along edges that are
+/// not `solid`; rim first. Where the map would have to stretch, cloth is missing and the legs of a dart would lie on
+/// each other. `log_scale` is [`super::Flattened::log_scale`]. Empty where no place can be told: without scales, or
+/// where none shrinks.
 pub fn dart(surface: &TriMesh, log_scale: &[f64], solid: &Solid) -> Vec<u32> {
     let size = |v: u32| -log_scale[v as usize];
     let tip = (0..log_scale.len() as u32).max_by(|&a, &b| size(a).total_cmp(&size(b)).then(b.cmp(&a)));

@@ -38,8 +38,9 @@ pub struct FlatPiece {
 /// `cloth.seams`; `draped` has one position per particle.
 ///
 /// Edges that an even seam joins get one common length, the mean of both sides as draped (as nearly as the mode keeps
-/// boundaries; exactly the same target); an edge in several seams gets the first one's. Edges of a seam with ease, gather or stretch get their drawn ratio back: their
-/// drawn lengths times the stretch beyond the range between the two. Never flips a triangle.
+/// boundaries; exactly the same target); an edge in several seams gets the first one's. Edges of a seam with ease,
+/// gather or stretch get their drawn ratio back: their drawn lengths times the stretch beyond the range between the
+/// two. Never flips a triangle.
 ///
 /// # Errors
 /// [`FlattenError::Piece`] around the reason; [`FlattenError::StartLength`] if `draped` has not one position per
@@ -207,8 +208,8 @@ mod tests {
         Seam { name, a, b, marks, give, stage: 0, kind: SeamKind::Written, closure: None }
     }
 
-    /// Flat lengths wanted of a band, a shell and a lining, drawn 100, 150 and 150 mm long and sewn 110, for seams between
-    /// two of them.
+    /// Flat lengths wanted of a band, a shell and a lining, drawn 100, 150 and 150 mm long and sewn 110, for seams
+    /// between two of them.
     fn wanted(seams: &[(Give, [u32; 2])]) -> [f64; 3] {
         let line = |length: f64| [Vec2::zeros(), Vec2::new(length, 0.0)];
         let flat = [0.10, 0.15, 0.15].into_iter().flat_map(line).collect();

@@ -53,8 +53,9 @@ use zone::Zone;
 /// Stiffness of rim edges in the modes that keep the boundary, for a piece one metre square. This alone brings the rim
 /// of a bodice without darts to 0.05 %; the forces that hold it do the rest.
 const RIM_WEIGHT: f64 = 30.0;
-/// Weight of a brace against that of a rim edge. On a bodice the largest change of a corner falls from 28° without braces
-/// to 15°, and to 10° with ten times as much; but then the forces that hold the edges take twice as long to find.
+/// Weight of a brace against that of a rim edge. On a bodice the largest change of a corner falls from 28° without
+/// braces to 15°, and to 10° with ten times as much; but then the forces that hold the edges take
+/// twice as long to find.
 const BRACE: f64 = 0.1;
 /// A brace spans two rim edges whose ends are further apart than this share of their lengths.
 const BRACED: f64 = 0.1;
@@ -219,9 +220,9 @@ impl<'a> Sheet<'a> {
         Energy::new(self.surface.vertices.len(), self.elements.clone(), springs, law)
     }
 
-    /// Rim edges, weighted by length: the weight of a rim does not change with the mesh. Braces over two edges each keep
-    /// a rim that is longer than its surroundings want from taking the length up in kinks: they do not feel a rim that
-    /// bends a little in every vertex.
+    /// Rim edges, weighted by length: the weight of a rim does not change with the mesh. Braces over two edges each
+    /// keep a rim that is longer than its surroundings want from taking the length up in kinks: they do not feel a rim
+    /// that bends a little in every vertex.
     fn rim_springs(&self, stiffness: f64, corners: f64) -> Springs {
         let size = self.elements.iter().map(|e| e.area).sum::<f64>().sqrt();
         let spring = |ends, target| Spring::between(ends, target, stiffness * size * target);

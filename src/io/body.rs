@@ -105,8 +105,8 @@ pub fn load_body(name_or_path: &str) -> Result<Body, BodyError> {
 }
 
 /// Reads a closed OBJ in millimetres, centimetres or metres (guessed from its height and said in the notes), y up or
-/// z up. Vertices that coincide are merged where the surface is not closed otherwise. A surface in which no torso, neck,
-/// arms and legs can be found is an object without parts, as a ball or a table: it stays where the file has it.
+/// z up. Vertices that coincide are merged where the surface is not closed otherwise. A surface in which no torso,
+/// neck, arms and legs can be found is an object without parts, as a ball or a table: it stays where the file has it.
 ///
 /// # Errors
 /// [`BodyError`] when the file cannot be read, or the surface is open, not manifold, inside out or runs through itself

@@ -128,8 +128,8 @@ pub struct BodyPart {
     pub kind: PartKind,
     /// Sections from the end next to the trunk outward (the torso from the crotch up).
     pub sections: Vec<Section>,
-    /// Named points: centres of the sections called `crotch`, `hip`, `waist`, `bust`, `shoulder`, `neck base` (torso and
-    /// neck), `shoulder`, `biceps`, `elbow`, `wrist` (arms; a shipped mannequin's `shoulder` is the acromion on the
+    /// Named points: centres of the sections called `crotch`, `hip`, `waist`, `bust`, `shoulder`, `neck base` (torso
+    /// and neck), `shoulder`, `biceps`, `elbow`, `wrist` (arms; a shipped mannequin's `shoulder` is the acromion on the
     /// skin), `crotch`, `thigh`, `knee`, `ankle` (legs). Shipped mannequins have more, named as in their files.
     pub landmarks: Vec<(String, Vec3)>,
 }
@@ -141,7 +141,8 @@ pub struct Section {
     pub center: Vec3,
     /// Unit axis direction, outward along the part.
     pub axis: Vec3,
-    /// Half extent sideways: along the body's x for torso, neck and legs, for arms across the axis in the frontal plane.
+    /// Half extent sideways: along the body's x for torso, neck and legs,
+    /// for arms across the axis in the frontal plane.
     pub half_width: f64,
     /// Half extent front to back.
     pub half_depth: f64,

@@ -137,6 +137,7 @@ pub struct Stitches {
     pub name: String,
     /// Sewing order: all seams of a stage close before the next stage starts.
     pub stage: i32,
-    /// Pairs (a, b) from the seam's start to its end, both ends included. A pair may hold the same particle twice (the tip of a dart).
+    /// Pairs (a, b) from the seam's start to its end, both ends included. A pair may hold the same particle twice (the
+    /// tip of a dart).
     pub pairs: Vec<[u32; 2]>,
 }

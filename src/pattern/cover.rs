@@ -179,8 +179,8 @@ pub(super) fn check_free_but_sewn(
     }
 }
 
-/// A pair that no seam joins is two copies of one piece, and another piece that none joins falls, unless all seams are still
-/// to be written.
+/// A pair that no seam joins is two copies of one piece, and another piece that none joins falls, unless all seams are
+/// still to be written.
 pub(super) fn check_joined(file: &GarmentFile, drafts: &[Draft], cut: &Pieces, seams: &Seams, findings: &mut Findings) {
     if file.seams.is_empty() {
         return;

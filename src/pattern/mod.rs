@@ -277,7 +277,8 @@ pub enum Place {
         /// The words of the file, lower case.
         words: Vec<String>,
     },
-    /// A rigid position: the flat piece's origin goes to `at` (metres) after turning by `turn` (degrees about x, y, z, in this order about the fixed axes).
+    /// A rigid position: the flat piece's origin goes to `at` (metres) after turning by `turn` (degrees about x, y, z,
+    /// in this order about the fixed axes).
     At {
         /// Position.
         at: Vec3,

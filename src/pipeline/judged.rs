@@ -66,8 +66,8 @@ fn misplaced(cloth: &TriMesh, body: &TriMesh) -> Option<String> {
     let (cloth_mm, body_mm) = (1e3 * (high - low).norm(), 1e3 * (h - l).norm());
     (apart || larger).then(|| {
         format!(
-            "the mesh ({cloth_mm:.0} mm across) and the body ({body_mm:.0} mm across) do not lie in the same place; are \
-             both in the unit that --units says, and is the body where the mesh is worn?"
+            "the mesh ({cloth_mm:.0} mm across) and the body ({body_mm:.0} mm across) do not lie in the same place; \
+             are both in the unit that --units says, and is the body where the mesh is worn?"
         )
     })
 }

@@ -96,9 +96,9 @@ const NEAR: f64 = 7.5e-3;
 /// The next phase also begins when the widest gap has not shrunk to this share of itself in so many steps.
 const STALL: usize = 6;
 const PROGRESS: f64 = 0.8;
-/// In the last phase, near pairs that have not closed by as much in so many steps are jammed: their rims lie folded over
-/// one another. They and their neighbours let each other pass, and every stitch may pull twice as hard each time, up to so
-/// many times; what is tangled once they are stitched is led out.
+/// In the last phase, near pairs that have not closed by as much in so many steps are jammed: their rims lie folded
+/// over one another. They and their neighbours let each other pass, and every stitch may pull twice as hard each time,
+/// up to so many times; what is tangled once they are stitched is led out.
 const JAMMED: usize = 12;
 const HARDER: i32 = 4;
 /// Classes of three and more particles pull so much harder: closed last they jam.

@@ -144,7 +144,8 @@ fn corners(part: &Part, rim: &[u32]) -> Vec<bool> {
         .collect()
 }
 
-/// By how much the rim turns at each of its vertices on the surface: half a turn less the angles of the triangles there.
+/// By how much the rim turns at each of its vertices on the surface:
+/// half a turn less the angles of the triangles there.
 fn turns(part: &Part, rim: &[u32]) -> Vec<f64> {
     let place: HashMap<u32, usize> = rim.iter().enumerate().map(|(k, &v)| (v, k)).collect();
     let mut turns = vec![PI; rim.len()];
@@ -160,7 +161,8 @@ fn turns(part: &Part, rim: &[u32]) -> Vec<f64> {
     turns
 }
 
-/// A rim cut at its breaks, from the break with the lowest number in the file on; without breaks, from the lowest vertex.
+/// A rim cut at its breaks, from the break with the lowest number in the file on; without breaks,
+/// from the lowest vertex.
 fn chains(rim: &[u32], breaks: &[bool], part: &Part) -> Vec<Vec<u32>> {
     let number = |k: &usize| (part.number(rim[*k]), *k);
     let open = (0..rim.len()).filter(|&k| breaks[k]).min_by_key(number);

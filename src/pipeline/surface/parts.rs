@@ -1,8 +1,8 @@
 //! From an OBJ's faces to the parts that are laid flat one by one.
 //!
-//! Faces hang together across an edge unless it lies between two groups, is a seam of the texture or is marked as a cut.
-//! Every fan of faces that hang together round a vertex gets a vertex of its own, so that cuts open and parts that only
-//! touch come apart.
+//! Faces hang together across an edge unless it lies between two groups, is a seam of the texture or is marked as a
+//! cut. Every fan of faces that hang together round a vertex gets a vertex of its own, so that cuts open and parts that
+//! only touch come apart.
 
 use std::collections::{HashMap, HashSet};
 

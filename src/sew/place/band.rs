@@ -1,4 +1,5 @@
-//! Bands drawn upright are laid level: what a maker draws with its grain running down goes round the body like any other.
+//! Bands drawn upright are laid level: what a maker draws with its grain running down goes round
+//! the body like any other.
 //!
 //! ```text
 //!   ┌─┐                 ┌──────────────────────┐  its sewn side towards

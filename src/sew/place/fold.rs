@@ -20,13 +20,14 @@ pub(super) struct Sheet {
     pub(super) flat: Vec<Vec2>,
     /// That without what a sector widens towards its hem: its sides run straight down.
     pub(super) straight: Vec<Vec2>,
-    /// Layers towards the wrong side: 0, 1 where the cloth is folded under, -1 where it is turned up; up to 4 in a pleat.
+    /// Layers towards the wrong side: 0, 1 where the cloth is folded under, -1 where it is turned up;
+    /// up to 4 in a pleat.
     pub(super) under: Vec<f64>,
 }
 
-/// Folds every piece along its pressed lines, but for creases that its seams hold open: the part with the shorter sewn rim
-/// under the other, or over it where right sides meet. Lays its pleats, unrolls what is a sector of a circle, and lays
-/// level what is an upright band.
+/// Folds every piece along its pressed lines, but for creases that its seams hold open: the part with the shorter sewn
+/// rim under the other, or over it where right sides meet. Lays its pleats, unrolls what is a sector of a circle, and
+/// lays level what is an upright band.
 pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
     let (flat, under) = (mesh.flat.clone(), vec![0.0; mesh.flat.len()]);
     let mut sheet = Sheet { drawn: Vec::new(), flat, straight: Vec::new(), under };
@@ -68,9 +69,9 @@ pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
     sheet
 }
 
-/// Whether seams along a fold lead from its two sides to different places, as from the crease of a trouser leg: the piece
-/// is worn open. (Both sides of a waistband go to one edge, or one of them to the lining under it; side seams that run on
-/// into a hem turned up do not run along its fold.)
+/// Whether seams along a fold lead from its two sides to different places, as from the crease of a trouser leg: the
+/// piece is worn open. (Both sides of a waistband go to one edge, or one of them to the lining under it; side seams
+/// that run on into a hem turned up do not run along its fold.)
 fn opens(garment: &Garment, mesh: &ClothMesh, piece: &PieceMesh, along: Vec2, side: impl Fn(usize) -> f64) -> bool {
     let own = |p: usize| piece.particles.contains(&p);
     let layer = |p: usize| mesh.piece_of(p as u32).map_or(0, |other| garment.pieces[other].layer);

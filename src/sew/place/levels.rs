@@ -65,8 +65,8 @@ pub(super) fn nearest_level(row: &Row, count: usize, v: f64) -> usize {
 }
 
 /// Widens every span so far that its mean over the levels that its shift will be averaged with still covers it: each of
-/// these shifts keeps the widened spans apart, and so does their average. Where an outline runs straight, nothing has to
-/// be added.
+/// these shifts keeps the widened spans apart, and so does their average. Where an outline runs straight, nothing has
+/// to be added.
 fn widen(levels: &mut [Level]) {
     let members = levels.first().map_or(0, |l| l.spans.len());
     for i in 0..members {
@@ -114,8 +114,8 @@ fn joints(mesh: &ClothMesh, sheet: &Sheet, row: &Row, links: &[Link], level_of: 
                 else {
                     continue;
                 };
-                // The same two pieces may meet round the ring or between the legs as well: this joint is where the right
-                // of one meets the left of the other.
+                // The same two pieces may meet round the ring or between the legs as well: this joint is where the
+                // right of one meets the left of the other.
                 let (ua, ub) = (stitched(link, sheet, k).x, stitched(link, sheet, 1 - k).x);
                 if ua < middles[0] || ub > middles[1] {
                     continue;

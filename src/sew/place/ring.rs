@@ -34,7 +34,8 @@ pub(super) struct Ring<'a> {
 }
 
 impl Ring<'_> {
-    /// Puts the row's particles on rings with these half axes; `placed` says which pieces have their place, none if empty.
+    /// Puts the row's particles on rings with these half axes; `placed` says which pieces have their place,
+    /// none if empty.
     pub(super) fn bend(&mut self, axes: Vec<[f64; 2]>, placed: &[bool], x: &mut [Vec3]) {
         let ellipses: Vec<Ellipse> = axes.into_iter().map(|[a, b]| Ellipse::new(a, b)).collect();
         for (level, ellipse) in self.levels.iter_mut().zip(&ellipses) {
@@ -105,8 +106,8 @@ impl Ring<'_> {
         length
     }
 
-    /// The first level at which the row goes all the way round: under the armholes. What hangs from the shoulders and is
-    /// open at its sides goes round from where they would be.
+    /// The first level at which the row goes all the way round: under the armholes. What hangs from the shoulders and
+    /// is open at its sides goes round from where they would be.
     pub(super) fn first_closed(&self) -> usize {
         let open = || {
             let arms = if has_shoulders(self.row, self.links, self.sheet) { ARMHOLE } else { 0.0 };

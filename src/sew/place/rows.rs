@@ -300,8 +300,8 @@ fn links(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Link> {
     out
 }
 
-/// Whether stitches run all the way down one side of a piece, however far it flares: from its top to its hem within half
-/// of its width. (Shoulders end far above the hem, waists go from side to side.)
+/// Whether stitches run all the way down one side of a piece, however far it flares: from its top to its hem within
+/// half of its width. (Shoulders end far above the hem, waists go from side to side.)
 fn is_flank(mesh: &ClothMesh, sheet: &Sheet, piece: usize, stitches: impl Iterator<Item = u32>) -> bool {
     let size = |particles: &mut dyn Iterator<Item = usize>| {
         let [low, high] = box_of(particles.map(|p| sheet.straight[p]));

@@ -48,7 +48,8 @@ impl Stations {
         (!list.is_empty()).then_some(Self { part, list, landmarks })
     }
 
-    /// Coordinate of the end where rows begin: the neck side of the trunk, the shoulder end of an arm, the foot of the neck.
+    /// Coordinate of the end where rows begin: the neck side of the trunk, the shoulder end of an arm,
+    /// the foot of the neck.
     pub(super) fn low(&self) -> f64 {
         let end = if self.part == PartKind::Neck { self.list.len() - 1 } else { 0 };
         self.list[end].0
