@@ -98,7 +98,7 @@ impl Mannequin {
     /// clothes could reach.
     pub fn floor(&self) -> Option<f64> {
         let top = self.mesh.vertices.iter().map(|v| v.y).fold(0.0, f64::max);
-        let legs = self.parts.iter().filter(|p| matches!(p.kind, PartKind::LeftLeg | PartKind::RightLeg));
+        let legs = self.parts.iter().filter(|p| p.kind.is_leg());
         let crotch = |leg: &BodyPart| leg.sections.iter().map(|s| s.center.y).fold(0.0, f64::max);
         (legs.filter(|leg| crotch(leg) > STANDS * top).count() == 2).then_some(0.0)
     }
@@ -119,6 +119,25 @@ pub enum PartKind {
     LeftLeg,
     /// Crotch to ankle.
     RightLeg,
+}
+
+impl PartKind {
+    /// `torso`, `neck`, `left arm`, `right arm`, `left leg`, `right leg`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Torso => "torso",
+            Self::Neck => "neck",
+            Self::LeftArm => "left arm",
+            Self::RightArm => "right arm",
+            Self::LeftLeg => "left leg",
+            Self::RightLeg => "right leg",
+        }
+    }
+
+    /// Whether it is a leg.
+    pub fn is_leg(self) -> bool {
+        matches!(self, Self::LeftLeg | Self::RightLeg)
+    }
 }
 
 /// A limb or the trunk as a bent cylinder.

@@ -111,7 +111,7 @@ fn sort_out_sides(garment: &Garment, mesh: &ClothMesh, out: &mut [Assigned]) {
 
 /// Pieces for a leg that are sewn to one another across both legs are trousers: they go round the trunk.
 fn join_legs(mesh: &ClothMesh, out: &mut [Assigned]) {
-    let is_leg = |a: &Assigned| matches!(a.part, PartKind::LeftLeg | PartKind::RightLeg);
+    let is_leg = |a: &Assigned| a.part.is_leg();
     if !out.iter().any(is_leg) {
         return;
     }

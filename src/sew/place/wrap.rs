@@ -44,7 +44,7 @@ pub(super) fn wrap(
         let row = &rows.rows[index];
         let stations = Stations::new(body, row.part).ok_or_else(|| PlaceError::NoPart {
             piece: garment.pieces[row.members[0].piece].name.clone(),
-            part: part_name(row.part),
+            part: row.part.name(),
             mannequin: body.name.clone(),
         })?;
         let levels = levels(mesh, sheet, row, &rows.links);
@@ -72,7 +72,7 @@ pub(super) fn wrap(
 
 /// Station of v = 0 for a row round a leg that hangs from rows round the trunk: just under what it is sewn to.
 fn hung(stations: &Stations, row: &Row, rings: &[(usize, Ring)]) -> Option<f64> {
-    if !matches!(row.part, PartKind::LeftLeg | PartKind::RightLeg) {
+    if !row.part.is_leg() {
         return None;
     }
     let trunk = || rings.iter().map(|r| &r.1).filter(|r| r.row.part == PartKind::Torso);
@@ -119,17 +119,6 @@ fn nested(rings: &[(usize, Ring)]) -> Vec<Vec<[f64; 2]>> {
         }
     }
     axes
-}
-
-fn part_name(part: PartKind) -> &'static str {
-    match part {
-        PartKind::Torso => "torso",
-        PartKind::Neck => "neck",
-        PartKind::LeftArm => "left arm",
-        PartKind::RightArm => "right arm",
-        PartKind::LeftLeg => "left leg",
-        PartKind::RightLeg => "right leg",
-    }
 }
 
 /// Station (metres along the part) of v = 0 for a row that stands alone.
