@@ -1,9 +1,9 @@
-//! The drape test (Cusick 1968) of the fifteen fabrics of Liu, Wang & Luo 2015: coefficient and folds of a disc of 30 cm
-//! in two grids, beside the band measured of such cloths, and what the published weights alone would give.
+//! The drape test (Cusick 1968) of the fifteen fabrics of Liu, Wang & Luo 2015: coefficient and folds of a disc of 30
+//! cm in two grids, beside the band measured of such cloths, and what the published weights alone would give.
 //!
-//! `cargo run --release --example cusick [FOLDER]` prints the table, with the disc's own curve of coefficient over bending
-//! length below, and draws `FABRIC.png`, the shadows, and `curve.svg`, that curve through the bands. It takes minutes: the
-//! finer grid has 11,000 particles.
+//! `cargo run --release --example cusick [FOLDER]` prints the table, with the disc's own curve of coefficient over
+//! bending length below, and draws `FABRIC.png`, the shadows, and `curve.svg`, that curve through the bands. It takes
+//! minutes: the finer grid has 11,000 particles.
 
 use std::error::Error;
 use std::path::PathBuf;

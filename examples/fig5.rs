@@ -1,8 +1,9 @@
 //! Fig. 5 of Liu, Wang & Luo 2015: one rectangle of 2,000 vertices in fifteen fabrics.
 //!
-//! `cargo run --release --example fig5` prints how the shapes differ and writes fifteen pictures into `out/experiments`.
-//! With the targets at the initial mesh, as (4) is printed, recovery holds every vertex beside a lifted one back: with most
-//! of the published weights the lifted places stand up as spikes. Only linen, which has next to no recovery, follows them.
+//! `cargo run --release --example fig5` prints how the shapes differ and writes fifteen pictures into
+//! `out/experiments`. With the targets at the initial mesh, as (4) is printed, recovery holds every vertex beside a
+//! lifted one back: with most of the published weights the lifted places stand up as spikes. Only linen, which has next
+//! to no recovery, follows them.
 
 mod common;
 

@@ -1,10 +1,11 @@
 //! Fig. 6 of Liu, Wang & Luo 2015: the shape does not depend on the mesh. An irregular Delaunay mesh of 329 vertices
-//! against a regular one of 323 (19 × 17; no square grid of the specimen has 329), and 48 (8 × 6) against 441 (21 × 21).
+//! against a regular one of 323 (19 × 17; no square grid of the specimen has 329), and 48 (8 × 6)
+//! against 441 (21 × 21).
 //!
 //! `cargo run --release --example fig6` prints distances between the surfaces for every fabric and writes pictures. The
 //! sums are weighted by area (`Weighting::PerArea`); printed as they stand, (4)–(6) depend on the mesh.
-//! What is left comes from the handles: the cloth falls from what is lifted to what recovery holds within a cell or two,
-//! which no mesh of these sizes resolves.
+//! What is left comes from the handles: the cloth falls from what is lifted to what recovery holds within a cell or
+//! two, which no mesh of these sizes resolves.
 
 mod common;
 

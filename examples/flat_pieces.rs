@@ -1,7 +1,9 @@
-//! Surfaces laid flat, with pictures: the cap of a sphere, a cone, half a bodice without a dart and with darts, a sleeve.
+//! Surfaces laid flat, with pictures: the cap of a sphere, a cone, half a bodice without a dart and with darts,
+//! a sleeve.
 //!
-//! `cargo run --release --example flat_pieces` writes each surface to `out/flat_pieces/NAME.obj` and its flat piece to the
-//! folder of that name (`flat.png` is strain, `pattern.svg` and `outline.svg` the pattern), and prints what it cost.
+//! `cargo run --release --example flat_pieces` writes each surface to `out/flat_pieces/NAME.obj` and its flat piece to
+//! the folder of that name (`flat.png` is strain, `pattern.svg` and `outline.svg` the pattern),
+//! and prints what it cost.
 
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_3, PI};

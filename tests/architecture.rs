@@ -1,5 +1,5 @@
-//! The house keeps its shape: modules use only what they may, each foreign crate lives in one place, and no file lies about
-//! that no module declares.
+//! The house keeps its shape: modules use only what they may, each foreign crate lives in one place, and no file lies
+//! about that no module declares.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -144,8 +144,8 @@ fn every_source_file_is_a_module_of_its_parent() {
     assert!(stray.is_empty(), "no module declares {}", stray.join(", "));
 }
 
-/// Whether the file that stands for the folder of `file` declares it: the compiler passes over what nobody declares, and
-/// so do the linter and every test.
+/// Whether the file that stands for the folder of `file` declares it: the compiler passes over what nobody declares,
+/// and so do the linter and every test.
 fn is_declared(file: &Path, files: &[(PathBuf, String)]) -> bool {
     let named = |path: &Path| path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     let folder = file.parent().unwrap_or(Path::new(""));

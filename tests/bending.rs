@@ -25,8 +25,8 @@ fn job(pieces: &str, rest: &str, spacing: f64) -> Job {
 
 /// A piece with curves in and out and a grain of its own.
 fn round_piece(spacing: f64) -> Job {
-    let outline = "{start: 0 40, top: 'C 40 0, 90 0, 130 30', side: 'C 90 60, 90 110, 140 150', low: 'C 90 180, 40 170, 0 150', \
-                   back: L 0 40}";
+    let outline = "{start: 0 40, top: 'C 40 0, 90 0, 130 30', side: 'C 90 60, 90 110, 140 150', low: 'C 90 180, \
+                   40 170, 0 150', back: L 0 40}";
     job(
         &format!("  round: {{grain: [[20, 40], [60, 140]], place: {{at: [0, 0, 0]}}, outline: {outline}}}"),
         "free: [round.*]",

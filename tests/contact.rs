@@ -1,5 +1,5 @@
-//! Contact and friction against known answers: what a search that remembers finds, sliding down a plane, the strap over a
-//! cylinder, a sheet over a corner, and a tube wrung out.
+//! Contact and friction against known answers: what a search that remembers finds, sliding down a plane, the strap over
+//! a cylinder, a sheet over a corner, and a tube wrung out.
 
 use std::f64::consts::PI;
 use std::path::Path;
@@ -16,7 +16,8 @@ const LAW: ContactLaw = ContactLaw { stiffness: 60.0, body_clearance: 0.25e-3, c
 /// A grip that holds a node of 1 mN within a hundredth of a millimetre.
 const GRIP: f64 = 100.0;
 
-/// A sheet of `width` × `length` mm of poplin with friction `mu`, meshed at `spacing` mm; the body is only there to be replaced.
+/// A sheet of `width` × `length` mm of poplin with friction `mu`, meshed at `spacing` mm;
+/// the body is only there to be replaced.
 fn sheet(width: f64, length: f64, spacing: f64, mu: f64) -> Job {
     garment(&format!("{}free: [sheet.*]\n", rectangle(width, length)), spacing, mu)
 }
@@ -55,7 +56,8 @@ fn block(corner: impl Fn(usize) -> Vec3) -> Collider {
     Collider::new(&TriMesh { vertices, triangles }).expect("a block")
 }
 
-/// A block between `side[0]` and `side[1]` in x, y and z, one of which is 0, turned until its corner at the origin points up.
+/// A block between `side[0]` and `side[1]` in x, y and z, one of which is 0,
+/// turned until its corner at the origin points up.
 fn corner_up(side: [f64; 2]) -> Collider {
     let up = -Vec3::repeat(side[0] + side[1]);
     let turn = nalgebra::Rotation3::rotation_between(&up, &Vec3::y()).expect("a turn");
@@ -69,7 +71,8 @@ fn slope(angle: f64) -> Collider {
     block(|i| turn * corner(i))
 }
 
-/// How far down the slope the middle of a sheet is after each of `steps` steps of `dt` seconds, from when it lies still.
+/// How far down the slope the middle of a sheet is after each of `steps` steps of `dt` seconds,
+/// from when it lies still.
 fn slide(mu: f64, angle: f64, dt: f64, steps: usize) -> Vec<f64> {
     let job = sheet(120.0, 120.0, 20.0, mu);
     let body = slope(angle);
@@ -217,7 +220,8 @@ fn a_search_that_remembers_finds_what_a_new_one_finds() {
     };
     let mut known = world(&job, &body, job.mesh.flat.iter().map(lie).collect());
     for round in 1..=30 {
-        // Some nodes go far enough for what was found at them to be searched again, most do not; none gets into the body.
+        // Some nodes go far enough for what was found at them to be searched again, most do not;
+        // none gets into the body.
         for (i, x) in known.x.iter_mut().enumerate() {
             let k = (i * 37 + round * 101) as f64;
             let out = Vec3::new(x.x, x.y, 0.0).normalize();

@@ -76,7 +76,8 @@ fn ends_are_mitred_squared_or_folded_as_the_file_says() {
     // A skirt's side flares by one in two: the hem's end tells the three apart.
     let flared = |kind: &str| {
         paper_of(&format!(
-            "    allowance: {{hem: 40 {kind}, waist: 10 mitred, left: 10 mitred, right: 10 mitred}}\n    outline: {{start: 0 0, waist: L 100 0, right: L 150 100, hem: L 0 100, left: L 0 0}}\n"
+            "    allowance: {{hem: 40 {kind}, waist: 10 mitred, left: 10 mitred, right: 10 mitred}}\n    \
+             outline: {{start: 0 0, waist: L 100 0, right: L 150 100, hem: L 0 100, left: L 0 0}}\n"
         ))
     };
     // Where the right cut line meets the hem's sewing line, and its slope.
@@ -97,7 +98,8 @@ fn a_sharp_point_is_cut_off_and_a_bay_is_not_overlapped() {
     assert!(far > 0.310 && far < 0.3301, "three widths at most past the point: {far}");
     // A slot narrower than two allowances: both cut lines would cross in it.
     let slot = paper_of(
-        "    allowance: 10 mitred\n    outline: {start: 0 0, a: L 100 0, b: L 100 80, c: L 112 80, d: L 112 0, e: L 200 0, f: L 200 150, g: L 0 150, h: L 0 0}\n",
+        "    allowance: 10 mitred\n    outline: {start: 0 0, a: L 100 0, b: L 100 80, c: L 112 80, d: L 112 0, \
+         e: L 200 0, f: L 200 150, g: L 0 150, h: L 0 0}\n",
     );
     assert_eq!(slot.cut.len(), 1);
     assert!(crosses_itself(&slot.cut[0]).is_none());
@@ -108,7 +110,8 @@ fn a_sharp_point_is_cut_off_and_a_bay_is_not_overlapped() {
 #[test]
 fn the_cap_of_a_dart_lies_on_the_allowance_when_the_dart_is_pressed() {
     let paper = paper_of(
-        "    allowance: 15 mitred\n    outline: {start: -100 0, waist: L 100 0, right: L 100 200, hem: L -100 200, left: L -100 0}
+        "    allowance: 15 mitred\n    outline: {start: -100 0, waist: L 100 0, right: L 100 200, hem: L -100 200, \
+         left: L -100 0}
     darts: [{edge: waist, at: 50, intake: 20, length: 90}]\n",
     );
     // Pressed to the middle, onto the part of the waist after the dart: the cap over the right half of the intake is
@@ -130,7 +133,8 @@ fn the_cap_of_a_dart_lies_on_the_allowance_when_the_dart_is_pressed() {
 #[test]
 fn a_piece_on_the_fold_ends_on_it_and_opens_to_a_whole() {
     let text = one_piece(
-        "    cut: fold center\n    allowance: {hem: 30}\n    outline: {start: 0 20, neck: C 40 20 60 0 80 -20, side: L 120 300, hem: L 0 300, center: L 0 20}\n",
+        "    cut: fold center\n    allowance: {hem: 30}\n    outline: {start: 0 20, neck: C 40 20 60 0 80 -20, \
+         side: L 120 300, hem: L 0 300, center: L 0 20}\n",
     );
     let half = papers(&drawn(&text), &Options::default()).remove(0);
     let [from, to] = half.fold.expect("a fold");

@@ -297,7 +297,8 @@ fn legs_of_a_dart_have_no_allowance() {
 #[test]
 fn labels_of_paths_on_a_layer_are_names_of_pieces() {
     let text = "<svg xmlns='http://www.w3.org/2000/svg' xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' \
-                width='400mm' height='400mm' viewBox='0 0 400 400'><g inkscape:groupmode='layer' inkscape:label='Layer 1'>\
+                width='400mm' height='400mm' viewBox='0 0 400 400'>\
+                <g inkscape:groupmode='layer' inkscape:label='Layer 1'>\
                 <path inkscape:label='left front' d='M 0 0 L 100 0 L 0 200 Z'/>\
                 <path inkscape:label='right front' d='M 300 0 L 200 0 L 300 200 Z'/>\
                 <path inkscape:label='yoke' d='M 0 220 H 100 V 300 H 0 Z'/></g></svg>";
@@ -310,8 +311,8 @@ fn what_is_written_on_a_piece_says_how_it_is_cut() {
     let cut = |words: &str| {
         let text = format!(
             "<svg xmlns='http://www.w3.org/2000/svg' width='900mm' height='900mm' viewBox='0 0 900 900'>\
-             <rect x='100' width='100' height='200'/><g transform='translate(100, 0)'><text><tspan x='50' y='90'>{words}\
-             </tspan></text></g><text x='300' y='90'>cut 7</text></svg>"
+             <rect x='100' width='100' height='200'/><g transform='translate(100, 0)'>\
+             <text><tspan x='50' y='90'>{words}</tspan></text></g><text x='300' y='90'>cut 7</text></svg>"
         );
         drawn(&from_svg(&text)).remove(0).cut
     };

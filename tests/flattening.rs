@@ -209,8 +209,8 @@ fn repeats_are_bit_identical() {
     assert_eq!(once, flatten(&mesh, &Options::default()).unwrap());
 }
 
-/// Two panels of the given widths (cells of 10 mm across, `rows` down), the first's right edge sewn to the second's left,
-/// whose height is `ratio` times that of the first.
+/// Two panels of the given widths (cells of 10 mm across, `rows` down), the first's right edge sewn to the second's
+/// left, whose height is `ratio` times that of the first.
 fn two_panels(columns: [usize; 2], rows: usize, ratio: f64) -> ClothMesh {
     let mut cloth = ClothMesh { spacing: 0.01, ..ClothMesh::default() };
     let mut sides = Vec::new();
@@ -542,8 +542,8 @@ fn timing_of_measured_surfaces() {
             let flat = flat.unwrap();
             let r = &flat.report;
             println!(
-                "{name} {m:?}: {seconds:.3} s, {} steps, converged {}, area {:+.3} % rms {:.2} %, rim {:+.4} %, edge {:.3} %, \
-                 l2 {:.3} %, flips {}, overlaps {}",
+                "{name} {m:?}: {seconds:.3} s, {} steps, converged {}, area {:+.3} % rms {:.2} %, rim {:+.4} %, \
+                 edge {:.3} %, l2 {:.3} %, flips {}, overlaps {}",
                 r.iterations,
                 r.converged,
                 100.0 * (r.area_after / r.area_before - 1.0),

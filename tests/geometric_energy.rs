@@ -234,7 +234,8 @@ fn both_solvers_reach_the_same_minimum() {
             let squares = LeastSquares::new(&cloth, &held).expect("system").solve(&mut b, &aim, EXACT).expect("solved");
             let energy = (alternating.energy.total / squares.energy.total - 1.0).abs();
             println!(
-                "{name} {weighting:?}: {} alternations ({:.1} ms), {} least squares ({:.1} ms), apart {energy:.1e}, {:.1e} mm",
+                "{name} {weighting:?}: {} alternations ({:.1} ms), {} least squares ({:.1} ms), apart {energy:.1e}, \
+                 {:.1e} mm",
                 alternating.iterations,
                 1e3 * (alternating.linearise_seconds + alternating.solve_seconds),
                 squares.iterations,

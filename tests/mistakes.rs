@@ -1,5 +1,5 @@
-//! The kinds of mistake a garment file can hold, one by one and all at once, as `toile check` finds them: with the place,
-//! and without moving any cloth. (What only sewing shows is in `cli.rs` and `sewing.rs`.)
+//! The kinds of mistake a garment file can hold, one by one and all at once, as `toile check` finds them: with the
+//! place, and without moving any cloth. (What only sewing shows is in `cli.rs` and `sewing.rs`.)
 
 use std::fs;
 use std::path::{Path, PathBuf};

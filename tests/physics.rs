@@ -178,7 +178,8 @@ fn contact_pushes_within_its_distance_only() {
     }
 }
 
-/// Gaps of a tenth of a micrometre ask for a stiffness of 1e9 N/m, beside which the springs are lost in single precision.
+/// Gaps of a tenth of a micrometre ask for a stiffness of 1e9 N/m,
+/// beside which the springs are lost in single precision.
 #[test]
 fn a_step_can_be_made_where_contacts_press_hard() {
     let (cloth, x) = panel(70.0, 60.0, 10.0, SpringModel::Measured);

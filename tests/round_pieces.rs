@@ -33,6 +33,41 @@ fn garment(text: &str) -> Garment {
     read_text("round", "round.yaml", text).unwrap_or_else(|e| panic!("{e}\n{text}")).garment
 }
 
+/// A disc of one edge, by arcs, by curves, and by numbers that miss its start by as much as is let pass.
+#[test]
+fn one_edge_may_go_all_the_way_round() {
+    let measured = |rim: &str| {
+        let text = format!(
+            "garment: 1\nbody: woman_92\nfabrics: {{shell: cotton_poplin}}\npieces:\n  disc:\n    \
+             place: {{at: [0, 1900, 0]}}\n    grain: [[0, -50], [0, 50]]\n    \
+             outline: {{start: -100 0, rim: '{rim}'}}\nfree: ['*.*']\n"
+        );
+        let garment = garment(&text);
+        let path = &garment.pieces[0].loops[0][0].path;
+        assert_eq!(garment.pieces[0].loops[0].len(), 1);
+        assert!((path.start() - path.end()).norm() < 1e-12, "{rim}");
+        (path.length() * 1e3, path.double_area() * 0.5e6)
+    };
+    let [round, full] = [200.0 * PI, 1e4 * PI];
+    for rim in [
+        "A 100 100 0 0 1 100 0 A 100 100 0 0 1 -100 0",
+        "A 100 100 0 0 1 100 0 A 100 100 0 0 1 -100 0.04",
+        "C -100 -55.2285 -55.2285 -100 0 -100 C 55.2285 -100 100 -55.2285 100 0 C 100 55.2285 55.2285 100 0 100 \
+         C -55.2285 100 -100 55.2285 -100 0",
+        "C -100 -55.2285 -55.2285 -100 0 -100 C 55.2285 -100 100 -55.2285 100 0 C 100 55.2285 55.2285 100 0 100 \
+         C -55.2285 100 -100 55.2285 -99.97 0.02",
+    ] {
+        let (length, area) = measured(rim);
+        assert!(
+            (length / round - 1.0).abs() < 1e-3 && (area / full - 1.0).abs() < 1e-3,
+            "{rim}: {length} mm, {area} mm2"
+        );
+    }
+    // One curve that comes back to where it began.
+    let (length, area) = measured("C 100 -200 100 200 -100 0");
+    assert!(length > 300.0 && area > 1e4, "{length} mm, {area} mm2");
+}
+
 /// Its chord has no direction: turning the edge about its start to close it made a point of it.
 #[test]
 fn an_edge_that_all_but_closes_stays_what_it_is() {
@@ -51,7 +86,8 @@ fn an_edge_that_all_but_closes_stays_what_it_is() {
 #[test]
 fn an_edge_whose_ends_are_near_keeps_its_far_end() {
     let text = "garment: 1\npieces:\n  tag:\n    grain: [[0, 50], [0, 90]]\n    \
-                outline: {start: 0 0, neck: L 5 0, rim: L 5 20 L 40 20 L 40 140 L -35 140 L -35 20 L 0 20 L 0.03 0.03}\n\
+                outline: {start: 0 0, neck: L 5 0, \
+                rim: L 5 20 L 40 20 L 40 140 L -35 140 L -35 20 L 0 20 L 0.03 0.03}\n\
                 free: [tag.neck, tag.rim]\n";
     let garment = garment(text);
     let rim = &garment.pieces[0].loops[0][1].path;

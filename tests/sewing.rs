@@ -181,7 +181,7 @@ fn a_seam_of_n_stitches_makes_n_particles_one() {
 fn seams_that_meet_make_one_particle_of_four() {
     let made = Made::new(include_str!("../patterns/trousers.yaml"), 20.0);
     let stitching = Stitching::new(&made.mesh);
-    let name = |p: usize| made.mesh.pieces.iter().find(|m| m.particles.contains(&p)).map_or("", |m| m.name.as_str());
+    let name = |p: usize| made.mesh.piece_of(p as u32).map_or("", |i| made.mesh.pieces[i].name.as_str());
     let members = |c: usize| -> Vec<&str> {
         let mut names: Vec<&str> =
             (0..made.mesh.flat.len()).filter(|&p| stitching.class[p] as usize == c).map(name).collect();
@@ -313,7 +313,8 @@ fn circle_skirt() -> Made {
         &format!(
             "garment: 1\nbody: woman_92\nfabrics: {{shell: cotton_poplin}}\npieces:\n  front:\n    \
              place: skirt front\n    grain: [[0, 250], [0, 550]]\n    \
-             outline: {{start: {a}, waist: 'A 180 180 0 0 0 {b}', left: L {c}, hem: 'A 600 600 0 0 1 {d}', right: L {a}}}\n  \
+             outline: {{start: {a}, waist: 'A 180 180 0 0 0 {b}', left: L {c}, hem: 'A 600 600 0 0 1 {d}', \
+             right: L {a}}}\n  \
              back: {{like: front, place: skirt back}}\n\
              seams:\n  left: {{sew: front.left, to: back.right}}\n  right: {{sew: front.right, to: back.left}}\n\
              free: ['*.waist', '*.hem']\n"
@@ -373,7 +374,8 @@ fn a_band_drawn_upright_starts_level() {
                  back: {{like: front, place: skirt back}}\n  band:\n    place: waist\n    grain: {grain}\n    \
                  outline: {{start: 0 0, top: {top}, end: {right}, bottom: {bottom}, begin: L 0 0}}\n\
                  seams:\n  left: {{sew: front.left, to: back.right}}\n  right: {{sew: front.right, to: back.left}}\n  \
-                 waist: {{sew: [front.waist, back.waist], to: band.{sewn}}}\n  ends: {{sew: band.begin, to: band.end}}\n\
+                 waist: {{sew: [front.waist, back.waist], to: band.{sewn}}}\n  \
+                 ends: {{sew: band.begin, to: band.end}}\n\
                  free: ['*.hem', band.{free}]\n"
             ),
             20.0,
@@ -424,9 +426,11 @@ fn a_tabard_starts_over_the_shoulders_open_at_its_sides() {
 fn a_cuff_that_flares_widely_starts_as_one_ring() {
     let (body, _) = woman();
     let made = Made::new(
-        "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  front:\n    place: left arm front\n    \
+        "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  front:\n    \
+         place: left arm front\n    \
          grain: [[0, 10], [0, 40]]\n    outline: {start: -110 0, top: L 110 0, over: L 230 54, hem: L -230 54, \
-         under: L -110 0}\n  back: {like: front, place: left arm back}\nseams:\n  over: {sew: front.over, to: back.under}\n  \
+         under: L -110 0}\n  back: {like: front, place: left arm back}\nseams:\n  \
+         over: {sew: front.over, to: back.under}\n  \
          under: {sew: front.under, to: back.over}\nfree: ['*.top', '*.hem']\n",
         12.0,
     );
@@ -500,7 +504,8 @@ fn wide_godets_start_folded_out_of_their_slits() {
     }
 }
 
-/// Nothing starts where the origin is: garments start on a body that stands somewhere else as they do on one in the middle.
+/// Nothing starts where the origin is: garments start on a body that stands somewhere else as they
+/// do on one in the middle.
 #[test]
 fn a_garment_starts_on_its_body_wherever_that_stands() {
     let (body, _) = woman();

@@ -55,7 +55,8 @@ fn a_pulled_knit_gives_the_curve_back() {
     }
 }
 
-/// Wool gives so much in its own plane that a narrow strip on edge stands longer; velvet is thicker than its strips' cells.
+/// Wool gives so much in its own plane that a narrow strip on edge stands longer;
+/// velvet is thicker than its strips' cells.
 #[test]
 fn soft_and_thick_strips_bend_as_they_should() {
     holds_of(&sample("wool_suiting"), "strip on edge");
@@ -142,8 +143,8 @@ fn a_disc_drapes_in_folds_and_knows_its_band() {
     }
 }
 
-/// By hand, as in the paper: soft silk gives more on the bias than canvas and folds lower; what is pushed together on a plate
-/// stays.
+/// By hand, as in the paper: soft silk gives more on the bias than canvas and folds lower;
+/// what is pushed together on a plate stays.
 #[test]
 fn specimens_drawn_out_and_folded_by_hand_tell_fabrics_apart() {
     let [silk, canvas] = ["silk_charmeuse", "canvas"].map(|name| figures_of(&sample(name), "hand tests"));

@@ -83,8 +83,8 @@ fn pleats_hang_with_their_top_layer_outside() {
     assert_relative_eq!(waist.length, 2.0 * 520.0 - 2.0 * 4.0 * 30.0, max_relative = 0.01);
 }
 
-/// How much further from the body's axis the particles of `outer` are than those of `inner` beside them, metres on average;
-/// of those on the way down from a waist to the hem.
+/// How much further from the body's axis the particles of `outer` are than those of `inner` beside them, metres on
+/// average; of those on the way down from a waist to the hem.
 fn further_out(skirt: &Draped, outer: &str, inner: &str) -> f64 {
     let hem = |p: &usize| skirt.x[*p].y > 0.75;
     let near =
@@ -116,8 +116,8 @@ fn a_lining_hangs_inside() {
     assert_eq!(skirt.report.worn.iter().filter(|w| w.body_part.as_deref() == Some("legs")).count(), 2);
 }
 
-/// How far outside piece `over` the particles of `piece` at `x` are, metres, each from the triangle nearest to it; without
-/// those within `rim` of where the two are one.
+/// How far outside piece `over` the particles of `piece` at `x` are, metres, each from the triangle nearest to it;
+/// without those within `rim` of where the two are one.
 fn outside(mesh: &ClothMesh, x: &[Vec3], piece: &str, over: &str, rim: f64) -> Vec<f64> {
     let piece_of = |name: &str| mesh.pieces.iter().find(|p| p.name == name).expect("a piece");
     let (piece, over) = (piece_of(piece), piece_of(over));

@@ -193,21 +193,23 @@ pub(super) struct FlattenArgs {
     /// be given several times (OBJ only)
     #[arg(long, value_name = "auto|V,V,…")]
     pub(super) cut: Vec<String>,
-    /// Cut darts where the strain passes the limit, N at most for all pieces together, the next always where it is needed
-    /// most; auto cuts eight at most (OBJ only)
+    /// Cut darts where the strain passes the limit, N at most for all pieces together, the next always where it is
+    /// needed most; auto cuts eight at most (OBJ only)
     #[arg(long, value_name = "auto|N", value_parser = darts)]
     pub(super) dart: Option<usize>,
-    /// Strain in per cent that all but a hundredth of a piece should stay below (OBJ only) [default: 10, or with --fabric
-    /// what its threads give]
+    /// Strain in per cent that all but a hundredth of a piece should stay below (OBJ only) [default: 10, or with
+    /// --fabric what its threads give]
     #[arg(long, value_name = "PERCENT", value_parser = percent, conflicts_with = "fabric")]
     pub(super) limit: Option<f64>,
-    /// How much corners and curves of the rim resist being turned: 1 is usual, 10 turns the worst corner less, 0 not at all
+    /// How much corners and curves of the rim resist being turned: 1 is usual, 10 turns the worst corner less,
+    /// 0 not at all
     #[arg(long, value_name = "WEIGHT", default_value_t = 1.0, value_parser = weight, allow_negative_numbers = true)]
     pub(super) corners: f64,
     /// Leave seams of the texture closed; otherwise the surface is cut along them (OBJ only)
     #[arg(long)]
     pub(super) no_texture_seams: bool,
-    /// Join vertices at the same place, for files whose faces share none; a dart that is sewn up would be closed (OBJ only)
+    /// Join vertices at the same place, for files whose faces share none;
+    /// a dart that is sewn up would be closed (OBJ only)
     #[arg(long)]
     pub(super) weld: bool,
     /// Begin with the garment as `toile make` has draped it, at the same spacing (garment files only)

@@ -73,8 +73,10 @@ mod tests {
 
     #[test]
     fn numbers_change_and_the_rest_of_the_file_stays() {
-        let text = "garment: 1   # a remark\npieces: {}\ntests:\n  - {gap: all, below: 1 mm}  # tight\n  - {openings: 2}\n  \
-                    - {drape: all, area: 0.005, boundary: 1 %}\n  - {flatten: all, boundary: 0.2 cm}\n  - {crossings: 0}\n";
+        let text = "garment: 1   # a remark\npieces: {}\ntests:\n  - {gap: all, below: 1 mm}  # tight\n  \
+                    - {openings: 2}\n  \
+                    - {drape: all, area: 0.005, boundary: 1 %}\n  - {flatten: all, boundary: 0.2 cm}\n  \
+                    - {crossings: 0}\n";
         let file = read_file_only("test.yaml", text).expect("a file");
         let measured = [
             vec![verdict(0.4, "mm")],

@@ -9,9 +9,9 @@ use super::narrow::{apart, closest_on_segments, closest_on_triangle};
 use super::{Contact, Under};
 use crate::geometry::{Topology, TriMesh, Vec3};
 
-/// Body edges whose faces meet flatter than this (cosine, 0.001°) are flat but for rounding. Every other convex edge can be
-/// met: a tight band of long cloth edges cuts a face it bends over by next to nothing, and is pushed out of it by one node
-/// and then the other without ever coming to rest.
+/// Body edges whose faces meet flatter than this (cosine, 0.001°) are flat but for rounding. Every other convex edge
+/// can be met: a tight band of long cloth edges cuts a face it bends over by next to nothing, and is pushed out of it
+/// by one node and then the other without ever coming to rest.
 const SHARP_EDGE: f64 = 1.0 - 1.5e-10;
 /// A body edge or vertex is met from a direction in which nothing of the body beside it reaches higher; up to this
 /// slope (sine) higher is still met, so that a contact does not come and go where a face begins.
@@ -23,8 +23,8 @@ const FACING: f64 = 0.2;
 
 /// A face that rises no higher over a node's plane than this, metres, is no other than the plane's.
 const RISES: f64 = 1e-9;
-/// Cloth that is inside the body under a feature meets it where it pushes with at least this share: next to an end, where
-/// two neighbours share the force, both do.
+/// Cloth that is inside the body under a feature meets it where it pushes with at least this share: next to an end,
+/// where two neighbours share the force, both do.
 const MEETS: f64 = 0.25;
 
 /// A convex edge of the body.
@@ -151,8 +151,8 @@ impl Collider {
         self.mesh.intersects_local_ray(&Ray::new(to_parry(from), to_parry(to - from)), 1.0)
     }
 
-    /// Contacts of `node`, outside the body, with the body's faces within `reach` that rise over the plane through the point
-    /// `nearest` to it: in a hollow, that plane alone would let the node run into the next face.
+    /// Contacts of `node`, outside the body, with the body's faces within `reach` that rise over the plane through the
+    /// point `nearest` to it: in a hollow, that plane alone would let the node run into the next face.
     pub fn faces_of_hollow(&self, x: &[Vec3], node: u32, nearest: &Nearest, reach: f64, out: &mut Vec<Contact>) {
         let p = x[node as usize];
         self.triangle_grid.query(p.add_scalar(-reach), p.add_scalar(reach), |t| {
@@ -170,8 +170,8 @@ impl Collider {
         });
     }
 
-    /// Adds the contacts of body vertices with the cloth triangle of nodes `tri`, within `reach`. Returns whether it left
-    /// any out that what lies beside them hides: a slight turn may bring them out.
+    /// Adds the contacts of body vertices with the cloth triangle of nodes `tri`, within `reach`. Returns whether it
+    /// left any out that what lies beside them hides: a slight turn may bring them out.
     pub fn vertices_near_triangle(&self, x: &[Vec3], tri: [u32; 3], reach: f64, out: &mut Vec<Contact>) -> bool {
         let mut hidden = false;
         let [a, b, c] = tri.map(|n| x[n as usize]);
@@ -197,8 +197,8 @@ impl Collider {
         hidden
     }
 
-    /// Adds the contacts of the body's convex edges with the cloth edge `ends`, within `reach`. Returns whether it left any
-    /// out that what lies beside them hides.
+    /// Adds the contacts of the body's convex edges with the cloth edge `ends`, within `reach`. Returns whether it left
+    /// any out that what lies beside them hides.
     pub fn edges_near_edge(&self, x: &[Vec3], ends: [u32; 2], reach: f64, out: &mut Vec<Contact>) -> bool {
         let mut hidden = false;
         let [a, b] = ends.map(|n| x[n as usize]);
@@ -223,8 +223,8 @@ impl Collider {
         hidden
     }
 
-    /// Adds the contact of cloth with a feature of the body that is within `reach`, unless what is `beside` the feature is
-    /// met first. Returns whether it was left out.
+    /// Adds the contact of cloth with a feature of the body that is within `reach`, unless what is `beside` the feature
+    /// is met first. Returns whether it was left out.
     #[expect(clippy::too_many_arguments, reason = "two primitives and where they may meet")]
     fn meet(
         &self,

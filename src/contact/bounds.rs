@@ -5,8 +5,8 @@
 //! in time. So it is enough to keep every found pair separated at the *end* of the step, wherever the pair has moved
 //! to; cloth that moves together is not held back, as it would be by planes fixed in space.
 //!
-//! Layers that roll on each other are separated at the end too, but along another direction m. Along (1 − t) n + t m the
-//! difference e(t) of two nodes is the quadratic with the Bézier coefficients n·e₀, ½ (n·e₁ + m·e₀) and m·e₁: where
+//! Layers that roll on each other are separated at the end too, but along another direction m. Along (1 − t) n + t m
+//! the difference e(t) of two nodes is the quadratic with the Bézier coefficients n·e₀, ½ (n·e₁ + m·e₀) and m·e₁: where
 //! none of the three is negative, for no two nodes, the pair is separated all the way as well.
 
 use super::{Contact, Under};
@@ -16,8 +16,8 @@ use crate::geometry::Vec3;
 const SWEEPS: usize = 12;
 /// Share of its gap that a pair must keep in a step, up to [`Bounds::new`]'s margin.
 const KEPT: f64 = 0.2;
-/// A gap smaller than this, metres, shrinks no further: gaps that halved without end would end in rounding. Whatever force
-/// a contact is to carry it must carry at a larger gap, or the cloth is held by the bounds, out of balance.
+/// A gap smaller than this, metres, shrinks no further: gaps that halved without end would end in rounding. Whatever
+/// force a contact is to carry it must carry at a larger gap, or the cloth is held by the bounds, out of balance.
 const LEAST: f64 = 1e-8;
 /// Contacts are to be looked for anew when a node has gone this share of what it may.
 const DUE: f64 = 2.0 / 3.0;

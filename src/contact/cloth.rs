@@ -8,12 +8,12 @@ use rayon::prelude::*;
 
 use super::Contact;
 use super::narrow::apart;
-use crate::geometry::{Topology, Vec2, Vec3};
+use crate::geometry::{Topology, Vec2, Vec3, box_of, sorted_pair};
 
 /// Triangles per leaf: small enough for tight boxes, large enough that the tree costs little.
 const PATCH: usize = 10;
-/// Patches whose normals all lie within this angle (radians) of one another are one smooth sheet there: nothing in it comes
-/// to meet before the next detection.
+/// Patches whose normals all lie within this angle (radians) of one another are one smooth sheet there: nothing in it
+/// comes to meet before the next detection.
 const SMOOTH_CONE: f64 = 1.2;
 /// Not so patches with an edge shorter than this share of what it is drawn: pushed together along its own plane cloth
 /// passes through itself without turning a normal.
@@ -24,12 +24,13 @@ const SHRUNK: f64 = 0.8;
 pub struct Neighbourhood {
     /// Node → class of nodes that are, or will be, sewn together. Primitives that share a class are incident.
     pub class: Vec<u32>,
-    /// Node → whether it may pass through others that may; pairs of primitives with such nodes on both sides are left out.
+    /// Node → whether it may pass through others that may; pairs of primitives with such nodes on both
+    /// sides are left out.
     pub passing: Vec<bool>,
 }
 
-/// A particle of the rim with at least so much of its piece around it (radians, 315°) is the end of a slit or a narrow dart,
-/// whose sides may slide one over the other without turning a normal.
+/// A particle of the rim with at least so much of its piece around it (radians, 315°) is the end of a slit or a narrow
+/// dart, whose sides may slide one over the other without turning a normal.
 const SLIT: f64 = 5.5;
 
 struct Patch {
@@ -270,11 +271,7 @@ fn split(group: &mut [u32], centers: &[Vec2], leaves: &mut Vec<Vec<u32>>) {
         leaves.push(group.to_vec());
         return;
     }
-    let (mut low, mut high) = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
-    for &t in group.iter() {
-        low = low.inf(&centers[t as usize]);
-        high = high.sup(&centers[t as usize]);
-    }
+    let [low, high] = box_of(group.iter().map(|&t| centers[t as usize]));
     let axis = usize::from((high - low).y > (high - low).x);
     group.sort_by(|&a, &b| centers[a as usize][axis].total_cmp(&centers[b as usize][axis]).then(a.cmp(&b)));
     let (left, right) = group.split_at_mut(group.len() / 2);
@@ -299,8 +296,7 @@ fn own_primitives(leaves: Vec<Vec<u32>>, triangles: &[[u32; 3]], piece: &[u32]) 
                 if !std::mem::replace(&mut node_owned[tri[k] as usize], true) {
                     patch.nodes.push(tri[k]);
                 }
-                let (a, b) = (tri[k], tri[(k + 1) % 3]);
-                let ends = [a.min(b), a.max(b)];
+                let ends = sorted_pair([tri[k], tri[(k + 1) % 3]]);
                 let Ok(e) = topology.edges.binary_search_by(|x| x.ends.cmp(&ends)) else { continue };
                 if !std::mem::replace(&mut edge_owned[e], true) {
                     patch.edges.push(ends);
@@ -312,8 +308,8 @@ fn own_primitives(leaves: Vec<Vec<u32>>, triangles: &[[u32; 3]], piece: &[u32]) 
     patches
 }
 
-/// The particles of every triangle, numbered: nodes at one place of one flat piece. What meets in a seam only has one node
-/// there, and two particles.
+/// The particles of every triangle, numbered: nodes at one place of one flat piece. What meets in a seam only has one
+/// node there, and two particles.
 fn particles(triangles: &[[u32; 3]], flat: &[[Vec2; 3]], piece: &[u32]) -> Vec<[u32; 3]> {
     let mut number: HashMap<(u32, u32, [u64; 2]), u32> = HashMap::new();
     let particle = |t: usize, k: usize| {
@@ -349,8 +345,8 @@ fn connected(group: &[u32], corners: &[[u32; 3]]) -> Vec<Vec<u32>> {
     out
 }
 
-/// Finds the patches that share particles. What meets in a seam only (the ends of a band, the sides of a sleeve) may well
-/// slide one over the other.
+/// Finds the patches that share particles. What meets in a seam only (the ends of a band, the sides of a sleeve) may
+/// well slide one over the other.
 fn find_beside(patches: &mut [Patch], corners: &[[u32; 3]]) {
     let mut at: HashMap<u32, Vec<u32>> = HashMap::new();
     for (number, patch) in patches.iter().enumerate() {

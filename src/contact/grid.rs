@@ -1,6 +1,6 @@
 //! A static uniform grid over small primitives (the body's vertices and edges).
 
-use crate::geometry::Vec3;
+use crate::geometry::{Vec3, box_of};
 
 /// Primitives sorted into cubic cells; built once, queried by box.
 #[derive(Clone, Debug)]
@@ -27,8 +27,7 @@ const MAX_CELLS: f64 = 4e6;
 impl Grid {
     /// Sorts boxes (low corner, high corner) into cells of about `cell` metres.
     pub(super) fn new(boxes: &[(Vec3, Vec3)], cell: f64) -> Self {
-        let low = boxes.iter().fold(Vec3::repeat(f64::INFINITY), |m, b| m.inf(&b.0));
-        let high = boxes.iter().fold(Vec3::repeat(f64::NEG_INFINITY), |m, b| m.sup(&b.1));
+        let [low, high] = box_of(boxes.iter().flat_map(|b| [b.0, b.1]));
         if boxes.is_empty() {
             return Self { origin: Vec3::zeros(), cell, size: [0; 3], starts: vec![0], items: Vec::new() };
         }

@@ -2,12 +2,12 @@
 //!
 //! Detection finds every pair of primitives closer than a *reach* and turns it into a [`Contact`]: a direction and the
 //! weights of the nodes that take part, both turned with the pair as it moves. Between two detections no node moves
-//! further than [`Bounds::allowance`], and none further than the reach from where the body's features were last looked for
-//! at it, so a pair that was not found cannot meet; a pair that was found is kept apart by a plane between its two sides
-//! ([`Bounds`]). Cloth that starts without a crossing therefore ends without one. The exceptions: pairs left out on purpose
-//! (pairs within one smooth sheet, both sides of a seam that is being closed, features of the body that another beside them
-//! hides); and, while seams are closed in long steps, edges, vertices and the faces of hollows of the body further off than
-//! about three millimetres.
+//! further than [`Bounds::allowance`], and none further than the reach from where the body's features were last looked
+//! for at it, so a pair that was not found cannot meet; a pair that was found is kept apart by a plane between its two
+//! sides ([`Bounds`]). Cloth that starts without a crossing therefore ends without one. The exceptions: pairs left out
+//! on purpose (pairs within one smooth sheet, both sides of a seam that is being closed, features of the body that
+//! another beside them hides); and, while seams are closed in long steps, edges, vertices and the faces of hollows of
+//! the body further off than about three millimetres.
 
 mod body;
 mod bounds;
@@ -113,8 +113,8 @@ impl Contact {
         }
     }
 
-    /// The first `count` of `nodes` above a vertex, an edge or a hollow's face of the body, from which `outward` leads away;
-    /// turned to where their closest points are. `None` where they meet in a point.
+    /// The first `count` of `nodes` above a vertex, an edge or a hollow's face of the body, from which `outward` leads
+    /// away; turned to where their closest points are. `None` where they meet in a point.
     pub(crate) fn on_feature(nodes: [u32; 4], count: u8, under: Under, outward: Vec3, x: &[Vec3]) -> Option<Self> {
         let (weights, normal) = ([0.0; 4], outward);
         let mut out = Self { nodes, weights, count, normal, offset: 0.0, under, above: count, share: 1.0 };
@@ -144,9 +144,9 @@ impl Contact {
         sum
     }
 
-    /// Turns a pair of primitives to where its closest points are now; the plane under a node stays. A pair whose closest
-    /// point is beyond an end of an edge, or the rim of a triangle over a vertex of the body, pushes no more: that is the
-    /// business of others. Returns `false`, and changes nothing, where the two meet in a point.
+    /// Turns a pair of primitives to where its closest points are now; the plane under a node stays. A pair whose
+    /// closest point is beyond an end of an edge, or the rim of a triangle over a vertex of the body, pushes no more:
+    /// that is the business of others. Returns `false`, and changes nothing, where the two meet in a point.
     pub fn refresh(&mut self, x: &[Vec3]) -> bool {
         let at = |k: usize| x[self.nodes[k] as usize];
         let (weights, away, share) = match self.under {

@@ -80,8 +80,8 @@ pub(super) fn closest_on_lines(p0: Vec3, p1: Vec3, q0: Vec3, q1: Vec3) -> (f64, 
     ((b * f - c * e) / determinant, (a * f - b * c) / determinant)
 }
 
-/// Barycentric coordinates of the foot of `p` in the plane of triangle `abc`, beyond its rim too; none are numbers where
-/// it has no area.
+/// Barycentric coordinates of the foot of `p` in the plane of triangle `abc`, beyond its rim too; none are numbers
+/// where it has no area.
 pub(super) fn on_plane(p: Vec3, a: Vec3, b: Vec3, c: Vec3) -> [f64; 3] {
     let (ab, ac, ap) = (b - a, c - a, p - a);
     let (bb, bc, cc, pb, pc) = (ab.norm_squared(), ab.dot(&ac), ac.norm_squared(), ap.dot(&ab), ap.dot(&ac));

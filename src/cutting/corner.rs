@@ -14,7 +14,8 @@ use crate::pattern::Corner;
 pub(super) const MITRE_LIMIT: f64 = 3.0;
 /// Edges that turn less than this (radians) go on as one.
 const STRAIGHT: f64 = 1e-4;
-/// And folded or squared ends want a turn of at least this (radians, 20 degrees): along a smooth course there is no end.
+/// And folded or squared ends want a turn of at least this (radians, 20 degrees):
+/// along a smooth course there is no end.
 const LEAST_TURN: f64 = 0.35;
 /// Nearer than this (metres) is the same.
 const SAME: f64 = 1e-9;

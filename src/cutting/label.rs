@@ -144,7 +144,8 @@ fn inside(paper: &Paper, p: Vec2) -> bool {
 /// Half the side of the largest square round `p` that a segment does not enter.
 fn distance(p: Vec2, [a, b]: [Vec2; 2]) -> f64 {
     let (from, along) = (a - p, b - a);
-    // Along the segment |x| and |y| are straight between their zeros, and the greater of them between where they are equal.
+    // Along the segment |x| and |y| are straight between their zeros,
+    // and the greater of them between where they are equal.
     let turning = [(1.0, 0.0), (0.0, 1.0), (1.0, -1.0), (1.0, 1.0)].map(|(x, y)| {
         let slope = x * along.x + y * along.y;
         if slope == 0.0 { 0.0 } else { (-(x * from.x + y * from.y) / slope).clamp(0.0, 1.0) }

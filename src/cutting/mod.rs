@@ -1,9 +1,9 @@
 //! Patterns for cutting: what a maker prints, lays on the cloth and cuts round.
 //!
-//! A [`Sheet`] is a set of [`Paper`] pieces laid out side by side; every paper has a cut line (the sewing line moved out
-//! by the allowance of each edge), the sewing lines, notches, grain and fold arrows, inner lines, drill marks and its
-//! lettering. Writers of formats draw what is here and add nothing. Lengths are metres, y down, the right side of the
-//! cloth up.
+//! A [`Sheet`] is a set of [`Paper`] pieces laid out side by side; every paper has a cut line (the sewing line moved
+//! out by the allowance of each edge), the sewing lines, notches, grain and fold arrows, inner lines, drill marks and
+//! its lettering. Writers of formats draw what is here and add nothing. Lengths are metres, y down, the right side of
+//! the cloth up.
 
 mod clean;
 mod corner;

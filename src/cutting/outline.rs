@@ -7,7 +7,7 @@ use super::marks;
 use super::offset::{Between, Border, around, sewn_mouths, within};
 use super::whole;
 use super::{Lettering, Options, Paper, SewKind, SewLine};
-use crate::geometry::{Path, Vec2};
+use crate::geometry::{Path, Vec2, range_of};
 use crate::pattern::{Corner, Cut, Dart, Drawing, DrawnEdge};
 
 /// A point within this (metres) of the fold's line is on it.
@@ -137,8 +137,8 @@ fn centre(drawing: &Drawing) -> f64 {
         (Some(fold), _) => drawing.rings[0][fold].path.start().x,
         (None, Cut::Pair) => 0.0,
         _ => {
-            let xs = || drawing.rings[0].iter().map(|e| e.path.start().x);
-            (xs().fold(f64::INFINITY, f64::min) + xs().fold(f64::NEG_INFINITY, f64::max)) / 2.0
+            let [low, high] = range_of(drawing.rings[0].iter().map(|e| e.path.start().x));
+            (low + high) / 2.0
         }
     }
 }

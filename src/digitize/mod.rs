@@ -1,8 +1,8 @@
 //! From lines on somebody else's pattern to a garment file.
 //!
-//! A reader of a format gives [`Traced`] pieces: sewing and cut lines, grain, notches and inner lines, in metres, y down.
-//! [`garment_file`] makes of them a `GarmentFile` in which only the seams are missing: outlines split into named edges
-//! at corners and notches, allowances measured, and [`Suggestion`]s of what may be sewn to what.
+//! A reader of a format gives [`Traced`] pieces: sewing and cut lines, grain, notches and inner lines, in metres, y
+//! down. [`garment_file`] makes of them a `GarmentFile` in which only the seams are missing: outlines split into named
+//! edges at corners and notches, allowances measured, and [`Suggestion`]s of what may be sewn to what.
 
 mod chain;
 mod contours;

@@ -8,8 +8,8 @@ const FEWEST: usize = 12;
 const MOST: usize = 3_000;
 /// How far a vertex may be from its curve, metres; the less of these that keeps the curve near its chords, too.
 const OFF: [f64; 3] = [4e-6, 2e-6, 1e-6];
-/// How far a curve may be from the chords it stands for, metres: with what those had left of the original, still within a
-/// hundredth of a millimetre.
+/// How far a curve may be from the chords it stands for, metres: with what those had left of the original, still within
+/// a hundredth of a millimetre.
 const BETWEEN: f64 = 6e-6;
 /// Vertices that one curve must stand for on average: otherwise the points say more than curves would.
 const WORTH: usize = 8;

@@ -58,8 +58,8 @@ pub struct Draped {
     pub residual: f64,
 }
 
-/// Step length near rest, s. A garment hangs like a pendulum of a second or two; in shorter steps inertia would hide how
-/// far it still has to go.
+/// Step length near rest, s. A garment hangs like a pendulum of a second or two; in shorter steps inertia would hide
+/// how far it still has to go.
 const STEP: f64 = 1.0;
 /// Steps between two looks at how far the garment still moves.
 const STRETCH: usize = 10;
@@ -83,8 +83,8 @@ pub const RESIDUAL: f64 = 1.0;
 /// once so many in a row were: a single short one may be one that could not be made longer.
 const STILL: f64 = 1.0 / 3.0;
 const IN_A_ROW: usize = 3;
-/// Tests of rest take no more than this many times the steps that draping may: one test as long as the longest fall, and
-/// as much for those before it. A garment that creeps fails one after the other, each as long as its whole way.
+/// Tests of rest take no more than this many times the steps that draping may: one test as long as the longest fall,
+/// and as much for those before it. A garment that creeps fails one after the other, each as long as its whole way.
 const TESTS: usize = 2;
 /// A garment whose nodes went so far in one stretch is looked at this many times as far around in the next: further
 /// finds more than pays, less needs too many looks (one is due when a node has gone a third of that).
@@ -199,8 +199,8 @@ impl Fall<'_> {
     }
 
     /// As many steps again as were made, at half the step size: how far the garment goes, metres, root mean square and
-    /// largest. Where it hardly moves any more, or tests have made `most` steps, those that are left count as if each went
-    /// as far as the last, all the same way.
+    /// largest. Where it hardly moves any more, or tests have made `most` steps, those that are left count as if each
+    /// went as far as the last, all the same way.
     fn drift(&mut self, most: usize) -> Result<[f64; 2], StepError> {
         let before = self.world.x.clone();
         let (mut left_out, mut still) = ([0.0; 2], 0);

@@ -147,7 +147,8 @@ mod tests {
         Crease::new([0, 1, 2, 3], rest, 0.3)
     }
 
-    /// Two triangles, clockwise seen from +z where their right sides face, folded by `angle`: wings go down when it is positive.
+    /// Two triangles, clockwise seen from +z where their right sides face, folded by `angle`:
+    /// wings go down when it is positive.
     fn folded(angle: f64) -> Vec<Vec3> {
         let (s, c) = (0.5 * angle).sin_cos();
         [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.7 * c, 0.3, -0.7 * s], [-0.4 * c, 0.8, -0.4 * s]].map(Vec3::from).to_vec()

@@ -1,11 +1,11 @@
 //! Curvatures of a flat piece as sums over its particles: the stencils that bending is made of.
 //!
-//! Every particle stands for the cloth nearest to it and has the second derivatives of its position along warp u, weft v
-//! and mixed: E = ½ Σ A (B₁ |x_uu|² + B₂ |x_vv|² + 2 √(B₁B₂) |x_uv|²), a plate without lateral contraction; rolled to a
-//! cylinder at any angle φ to the warp it has the rigidity (√B₁ cos²φ + √B₂ sin²φ)². Where the grid is regular x_uu and
-//! x_vv are second differences along a thread and x_uv the mixed difference of each cell. Elsewhere, at rims and in the
-//! strip between rim and grid, they are those of the quadratic surface through the particle that fits its neighbours
-//! best. So edges are natural: cloth bends to its rim as it does inside, and nothing bends it beyond.
+//! Every particle stands for the cloth nearest to it and has the second derivatives of its position along warp u, weft
+//! v and mixed: E = ½ Σ A (B₁ |x_uu|² + B₂ |x_vv|² + 2 √(B₁B₂) |x_uv|²), a plate without lateral contraction; rolled to
+//! a cylinder at any angle φ to the warp it has the rigidity (√B₁ cos²φ + √B₂ sin²φ)². Where the grid is regular x_uu
+//! and x_vv are second differences along a thread and x_uv the mixed difference of each cell. Elsewhere, at rims and in
+//! the strip between rim and grid, they are those of the quadratic surface through the particle that fits its
+//! neighbours best. So edges are natural: cloth bends to its rim as it does inside, and nothing bends it beyond.
 //!
 //! Creases cut the cloth: neither side takes part in the curvature of the other, and a hinge of their own joins them (a
 //! fold of angle 0 is no crease). Seams join pieces that have no plane in common; both are bent up to their rims, and a
@@ -20,7 +20,7 @@ use nalgebra::{Matrix2, Matrix3, SymmetricEigen, Vector3};
 use super::bending::Stencil;
 use super::crease::rigidity_across;
 use crate::fabric::Fabric;
-use crate::geometry::{Topology, Vec2};
+use crate::geometry::{Topology, Vec2, sorted_pair};
 use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::Garment;
 
@@ -123,15 +123,12 @@ struct Cell {
 /// Second derivatives as sums of differences: (from, to, factor) for x_uu, x_vv and x_uv.
 type Flows = Vec<(u32, u32, f64)>;
 
-fn sorted(a: u32, b: u32) -> [u32; 2] {
-    [a.min(b), a.max(b)]
-}
-
 impl<'a> Sheet<'a> {
     fn new(mesh: &'a ClothMesh, piece: &'a PieceMesh, fabric: &Fabric) -> Self {
         let first = piece.triangles.start as u32;
         let folds = piece.lines.iter().filter(|l| l.kind.hinge().is_some());
-        let cuts: HashSet<[u32; 2]> = folds.flat_map(|l| l.particles.windows(2)).map(|w| sorted(w[0], w[1])).collect();
+        let cuts: HashSet<[u32; 2]> =
+            folds.flat_map(|l| l.particles.windows(2)).map(|w| sorted_pair([w[0], w[1]])).collect();
         let topology = Topology::new(&mesh.triangles[piece.triangles.clone()]);
         let inner = topology.edges.iter().filter(|e| !cuts.contains(&e.ends));
         let across: HashMap<[u32; 2], [u32; 2]> =
@@ -270,7 +267,7 @@ impl<'a> Sheet<'a> {
     /// Triangles across the sides of `t` that nothing cuts.
     fn neighbours(&self, t: u32) -> impl Iterator<Item = u32> + '_ {
         let [a, b, c] = self.mesh.triangles[t as usize];
-        let sides = [sorted(a, b), sorted(b, c), sorted(c, a)];
+        let sides = [[a, b], [b, c], [c, a]].map(sorted_pair);
         sides.into_iter().filter_map(move |s| self.across.get(&s).map(|[l, r]| if *l == t { *r } else { *l }))
     }
 

@@ -6,6 +6,7 @@
 use std::collections::HashMap;
 
 use super::springs::StretchLaw;
+use crate::geometry::sorted_pair;
 use crate::mesh::ClothMesh;
 use crate::pattern::LineKind;
 
@@ -28,15 +29,15 @@ impl Elastics {
         let mut ratios = HashMap::new();
         for line in mesh.pieces.iter().flat_map(|p| &p.lines) {
             if let LineKind::Elastic(ratio) = line.kind {
-                ratios.extend(line.particles.windows(2).map(|w| ([w[0].min(w[1]), w[0].max(w[1])], ratio)));
+                ratios.extend(line.particles.windows(2).map(|w| (sorted_pair([w[0], w[1]]), ratio)));
             }
         }
         Self { ratios, band: None, gathered: HashMap::new() }
     }
 
     /// To which share an edge of the mesh is drawn in, if it lies on an elastic line.
-    pub(super) fn ratio(&self, [a, b]: [u32; 2]) -> Option<f64> {
-        self.ratios.get(&[a.min(b), a.max(b)]).copied()
+    pub(super) fn ratio(&self, ends: [u32; 2]) -> Option<f64> {
+        self.ratios.get(&sorted_pair(ends)).copied()
     }
 
     /// The laws of the cloth in gathers and of the band, added to `laws` where they are missing.

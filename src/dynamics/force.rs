@@ -23,11 +23,11 @@ pub struct ContactLaw {
 }
 
 /// The law ends at this share of the distance kept: the force has to stay finite, also where a node starts inside the
-/// body. The armhole of a tight garment presses on one corner of a scanned arm with a dozen newtons, which asks for gaps
-/// as small as that: here a contact carries more than a hundred.
+/// body. The armhole of a tight garment presses on one corner of a scanned arm with a dozen newtons, which asks for
+/// gaps as small as that: here a contact carries more than a hundred.
 const THINNEST: f64 = 2e-4;
-/// From there the force grows so many times as fast as where the contact begins: what is inside is to be pushed out, not
-/// shot.
+/// From there the force grows so many times as fast as where the contact begins:
+/// what is inside is to be pushed out, not shot.
 const INSIDE: f64 = 2500.0;
 
 /// A contact at given positions: the load it carries, and how fast that falls as it opens.

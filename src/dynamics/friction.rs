@@ -5,13 +5,14 @@ use std::collections::HashMap;
 use crate::contact::{Contact, Under};
 use crate::geometry::{Mat3, Vec3};
 
-/// How far every contact has been dragged across its normal: it holds like a spring, up to μ times its load; beyond that
-/// it slides, and what is stored stays what the spring can hold. That it is stored from step to step (not measured anew
-/// in every step) is what lets a garment rest.
+/// How far every contact has been dragged across its normal: it holds like a spring, up to μ times its load; beyond
+/// that it slides, and what is stored stays what the spring can hold. That it is stored from step to step (not measured
+/// anew in every step) is what lets a garment rest.
 ///
-/// A contact with the body that begins takes over what the others of its nodes remember: cloth that slides goes from one
-/// edge or vertex of the body to the next, and is held all the while. One between layers begins without memory: a node
-/// that slides from one triangle of another layer to the next takes friction up again within the way a contact gives.
+/// A contact with the body that begins takes over what the others of its nodes remember: cloth that slides goes from
+/// one edge or vertex of the body to the next, and is held all the while. One between layers begins without memory: a
+/// node that slides from one triangle of another layer to the next takes friction up again within
+/// the way a contact gives.
 #[derive(Clone, Debug)]
 pub struct Friction {
     /// Tangential stiffness of a contact of little load, N/m.
@@ -29,8 +30,8 @@ pub struct Friction {
 /// Tangential stiffness of a contact of little load, N/m. A node of 1 mN weight slips after 0.03 mm; a sliding garment
 /// gets on by its unbalanced force over this in a step, so that a stiffer grip would never let it arrive.
 pub const GRIP: f64 = 10.0;
-/// No contact gives further than this before it slides, metres: the spring is as stiff as its load asks for. Cloth that is
-/// pulled tight over an edge would otherwise slide for millimetres before friction holds it.
+/// No contact gives further than this before it slides, metres: the spring is as stiff as its load asks for. Cloth that
+/// is pulled tight over an edge would otherwise slide for millimetres before friction holds it.
 const GIVE: f64 = 5e-4;
 
 /// What a contact remembers of when it was last dragged; one that was open, nothing.
@@ -38,8 +39,8 @@ const GIVE: f64 = 5e-4;
 struct Memory {
     /// By how far its spring is drawn, metres.
     drawn: Vec3,
-    /// Whether it slid when it was last dragged; it does until it moves again. (Its load may be another where the body is
-    /// looked at anew, so the spring cannot tell.)
+    /// Whether it slid when it was last dragged; it does until it moves again. (Its load may be another where the body
+    /// is looked at anew, so the spring cannot tell.)
     slid: bool,
     /// Whether it touched.
     touched: bool,

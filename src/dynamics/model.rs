@@ -8,7 +8,7 @@ use super::curvature;
 use super::elastic::Elastics;
 use super::springs::{Spring, StretchLaw};
 use crate::fabric::Fabric;
-use crate::geometry::{Topology, Vec2, Vec3};
+use crate::geometry::{Topology, Vec2, Vec3, sorted_pair};
 use crate::mesh::ClothMesh;
 use crate::pattern::{Garment, Give};
 
@@ -87,8 +87,7 @@ pub struct Cloth {
 
 /// Pairs of nodes with a spring between them, smaller first, sorted.
 fn joined(springs: &[Spring]) -> Vec<[u32; 2]> {
-    let mut edges: Vec<[u32; 2]> =
-        springs.iter().map(|s| [s.ends[0].min(s.ends[1]), s.ends[0].max(s.ends[1])]).collect();
+    let mut edges: Vec<[u32; 2]> = springs.iter().map(|s| sorted_pair(s.ends)).collect();
     edges.sort_unstable();
     edges.dedup();
     edges
@@ -302,7 +301,7 @@ fn seam_rest_lengths(mesh: &ClothMesh, garment: &Garment) -> Vec<([u32; 2], f64)
                 Give::Even => 0.5 * (a + b),
             };
             for (&p, &q) in w[0].iter().zip(&w[1]) {
-                out.push(([p.min(q), p.max(q)], rest));
+                out.push((sorted_pair([p, q]), rest));
             }
         }
     }

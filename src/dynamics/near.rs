@@ -1,7 +1,7 @@
 //! Of the contacts that were found, those that matter in the next step.
 //!
-//! Contacts are looked for far enough around that many steps can do without looking again; so most of what is found lies
-//! too far apart to push, or to be kept apart, in any one of them (nineteen out of twenty, in a garment that hangs
+//! Contacts are looked for far enough around that many steps can do without looking again; so most of what is found
+//! lies too far apart to push, or to be kept apart, in any one of them (nineteen out of twenty, in a garment that hangs
 //! almost still). A gap shrinks by no more than its nodes move: that bound, which is cheap, says which to evaluate.
 
 use rayon::prelude::*;
@@ -34,7 +34,8 @@ impl Found {
         Self { nodes, count, above, outside: !contact.is_on_body() || gap > 0.0, turned: 0, gap }
     }
 
-    /// A gap that it cannot be below where node i is within `moved[i]` of where it was when the contact was found, metres.
+    /// A gap that it cannot be below where node i is within `moved[i]` of where it was when the
+    /// contact was found, metres.
     fn least(&self, moved: &[f64]) -> f64 {
         let most = |nodes: &[u32]| nodes.iter().map(|&n| moved[n as usize]).fold(0.0, f64::max);
         let (above, below) = self.nodes[..self.count as usize].split_at(self.above as usize);
@@ -139,9 +140,9 @@ impl Near {
     }
 }
 
-/// Turns a contact to where its closest points are now. The share of one that mattered in the last step follows half the
-/// way: a large load that changed with it at once would throw its nodes to and fro for ever. One that did not has stayed
-/// on its side.
+/// Turns a contact to where its closest points are now. The share of one that mattered in the last step follows half
+/// the way: a large load that changed with it at once would throw its nodes to and fro for ever. One that did not has
+/// stayed on its side.
 fn turn(contact: &mut Contact, found: &Found, mattered: bool, x: &[Vec3]) {
     let share = contact.share;
     contact.refresh(x);

@@ -1,9 +1,9 @@
 //! A Newton step with the cloth's true stiffness, for the way to rest of cloth that hangs already.
 //!
-//! The majorant of [`Stepper`] is safe but holds long waves back: it bounds bending edge by edge, and counts the load of
-//! a compressed spring as if it stiffened it. The true stiffness has neither fault; conjugate gradients solve it, with
-//! the majorant's factor as preconditioner (Steihaug 1983: stopped where the curvature turns negative or the step gets
-//! longer than the model can be trusted).
+//! The majorant of [`Stepper`] is safe but holds long waves back: it bounds bending edge by edge, and counts the load
+//! of a compressed spring as if it stiffened it. The true stiffness has neither fault; conjugate gradients solve it,
+//! with the majorant's factor as preconditioner (Steihaug 1983: stopped where the curvature turns negative or the step
+//! gets longer than the model can be trusted).
 //!
 //! Contacts that begin or cease to push, to hold or to slide on the way are kinks in the energy. A step that takes them
 //! on their wrong side may be no step at all: garments swung to and fro on their friction.

@@ -6,7 +6,7 @@ use super::force::ContactLaw;
 use super::model::Cloth;
 use super::near::Near;
 use crate::contact::{Bounds, ClothDetector, Collider, Contact, Neighbourhood, Tangle};
-use crate::geometry::Vec3;
+use crate::geometry::{Vec3, sorted_pair};
 
 /// How contact is looked for.
 #[derive(Clone, Copy, Debug)]
@@ -63,8 +63,8 @@ pub(super) struct Proximity<'a> {
     searched: Searched,
 }
 
-/// The contacts with edges and vertices of the body, triangle by triangle and edge by edge of the cloth: what has hardly
-/// moved is not searched again.
+/// The contacts with edges and vertices of the body, triangle by triangle and edge by edge of the cloth: what has
+/// hardly moved is not searched again.
 struct Searched {
     /// Where every node was when all triangles and edges at it were last searched.
     at: Vec<Vec3>,
@@ -72,7 +72,8 @@ struct Searched {
     reach: f64,
     /// By what share of that nodes may have been off from there at the last search: 0 if it was one of all.
     moved: f64,
-    /// Where the contacts of each triangle, then of each edge, begin in [`Proximity::contacts`], and where the last end.
+    /// Where the contacts of each triangle, then of each edge, begin in [`Proximity::contacts`],
+    /// and where the last end.
     begin: Vec<u32>,
     /// Of which triangles and edges features near them were left out.
     hidden: Vec<bool>,
@@ -122,7 +123,8 @@ impl<'a> Proximity<'a> {
         &self.near.contacts
     }
 
-    /// Takes in the contacts that matter when the nodes go from `x` to `to`. Returns whether those that did already are all.
+    /// Takes in the contacts that matter when the nodes go from `x` to `to`.
+    /// Returns whether those that did already are all.
     pub(super) fn covers(&mut self, x: &[Vec3], to: &[Vec3]) -> bool {
         self.near.covers(&mut self.contacts, x, to)
     }
@@ -132,8 +134,8 @@ impl<'a> Proximity<'a> {
         self.bounds.clamp(&self.near.apart(), from, to);
     }
 
-    /// Follows the nodes from `last` to `x`: a new detection when one has gone far, otherwise the contacts that matter are
-    /// turned to where their closest points are now. Returns whether there was a detection.
+    /// Follows the nodes from `last` to `x`: a new detection when one has gone far, otherwise the contacts that matter
+    /// are turned to where their closest points are now. Returns whether there was a detection.
     pub(super) fn follow(&mut self, cloth: &Cloth, last: &[Vec3], x: &[Vec3]) -> bool {
         let due = self.bounds.is_due(x);
         self.near.foresee(last, x);
@@ -156,7 +158,7 @@ impl<'a> Proximity<'a> {
         for contact in self.contacts.iter().filter(|c| !c.is_on_body() && c.gap(x) < gap) {
             let nodes = || contact.parts().filter(|p| p.1 != 0.0).map(|p| p.0 as u32);
             for (a, i) in nodes().enumerate() {
-                out.extend(nodes().skip(a + 1).map(|j| [i.min(j), i.max(j)]));
+                out.extend(nodes().skip(a + 1).map(|j| sorted_pair([i, j])));
             }
         }
         out.sort_unstable();
@@ -241,7 +243,8 @@ impl<'a> Proximity<'a> {
         &self.contacts[self.searched.begin[k] as usize..self.searched.begin[k + 1] as usize]
     }
 
-    /// Which nodes have gone too far for what was found at them to hold; they are taken to be searched at `x` from now on.
+    /// Which nodes have gone too far for what was found at them to hold;
+    /// they are taken to be searched at `x` from now on.
     fn stale(&mut self, x: &[Vec3]) -> Vec<bool> {
         let Searched { at, reach, moved, begin, .. } = &mut self.searched;
         let wanted = self.reach.features;
@@ -263,8 +266,8 @@ impl<'a> Proximity<'a> {
             .collect()
     }
 
-    /// Contacts of the body's edges and vertices with each triangle and edge at a node that is `stale`, and whether some
-    /// near them were left out.
+    /// Contacts of the body's edges and vertices with each triangle and edge at a node that is `stale`, and whether
+    /// some near them were left out.
     fn search(&self, cloth: &Cloth, x: &[Vec3], stale: &[bool]) -> Vec<Option<(Vec<Contact>, bool)>> {
         let reach = self.searched.reach;
         let far = |n: u32| {
@@ -277,7 +280,8 @@ impl<'a> Proximity<'a> {
             let longest = nodes.iter().flat_map(|&a| nodes.iter().map(move |&b| side(a, b))).fold(0.0, f64::max);
             nodes.iter().map(|&n| far(n)).fold(f64::INFINITY, f64::min) < reach + 3f64.sqrt().recip() * longest
         };
-        // A new search tells by the body whether cloth is under one of its features; what is known only goes on as it was.
+        // A new search tells by the body whether cloth is under one of its features;
+        // what is known only goes on as it was.
         let under = |k: usize| self.found_at(k).iter().any(|c| c.gap(x) <= 0.0);
         let again =
             |k: usize, nodes: &[u32]| nodes.iter().any(|&n| stale[n as usize]) || self.searched.hidden[k] || under(k);

@@ -43,9 +43,9 @@ impl StretchLaw {
         Self { knots }
     }
 
-    /// The law of a spring at `step` of `steps` from warp to weft in a grid whose cells have one diagonal each. There the
-    /// trellis is the diagonals' business alone, 4 G at 45°; drawn along the threads they pull too, and the springs along
-    /// the threads leave that to them ([`trellis_load`]).
+    /// The law of a spring at `step` of `steps` from warp to weft in a grid whose cells have one diagonal each. There
+    /// the trellis is the diagonals' business alone, 4 G at 45°; drawn along the threads they pull too, and the springs
+    /// along the threads leave that to them ([`trellis_load`]).
     pub(super) fn in_grid(fabric: &Fabric, step: usize, steps: usize) -> Self {
         let [warp, weft] = thread_stiffness(fabric);
         let without = |curve: &TensileCurve, across: f64| {
@@ -121,9 +121,9 @@ fn thread_stiffness(fabric: &Fabric) -> [f64; 2] {
     [of_warp(of_weft), of_weft]
 }
 
-/// What the diagonals of a grid of shear stiffness `shear` hold (N/m) when cloth is drawn out by `strain` along one thread
-/// and free to contract across, where its springs have the slope `across`: with the stretches λ and μ of both, a diagonal
-/// is √((λ² + μ²)/2) of its length d, holds 4 G (d − 1), and the forces across are in balance.
+/// What the diagonals of a grid of shear stiffness `shear` hold (N/m) when cloth is drawn out by `strain` along one
+/// thread and free to contract across, where its springs have the slope `across`: with the stretches λ and μ of both, a
+/// diagonal is √((λ² + μ²)/2) of its length d, holds 4 G (d − 1), and the forces across are in balance.
 fn trellis_load(shear: f64, across: f64, strain: f64) -> f64 {
     let along = 1.0 + strain;
     let pull = |contracted: f64| {
@@ -147,7 +147,8 @@ pub struct Spring {
     pub law: u32,
 }
 
-/// A spring's stiffness at one position: `along` its direction t and `across` it, k = along · t tᵀ + across · (1 − t tᵀ).
+/// A spring's stiffness at one position: `along` its direction t and `across` it,
+/// k = along · t tᵀ + across · (1 − t tᵀ).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SpringTangent {
     /// Unit direction from the first to the second end.
@@ -180,8 +181,8 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// Sheets that are drawn out along a thread and contract across give the fabric's curve back, stiff ones and soft ones,
-    /// also those whose diagonals are stiffer than their threads.
+    /// Sheets that are drawn out along a thread and contract across give the fabric's curve back, stiff ones and soft
+    /// ones, also those whose diagonals are stiffer than their threads.
     #[test]
     fn threads_and_trellis_together_are_the_curve() {
         let shipped = |name: &str| crate::fabric::load(name).expect("shipped");

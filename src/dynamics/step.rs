@@ -43,15 +43,15 @@ pub(super) struct Reuse {
     pub(super) contacts: usize,
 }
 
-/// A step taken with the factor as it is must be that step: a five-hundredth of a cell turns the springs by a tenth of a
-/// degree.
+/// A step taken with the factor as it is must be that step: a five-hundredth of a cell turns the
+/// springs by a tenth of a degree.
 const SAME: Reuse = Reuse { moved: 2e-5, contacts: 0 };
 
 /// Stiffness of what holds a node, in those of the stiffest spring.
 const WALL: f64 = 1e6;
 
-/// Shares of the diagonal that are added to it one after another where a matrix is singular to rounding: from a few units
-/// in the last place of single precision.
+/// Shares of the diagonal that are added to it one after another where a matrix is singular to rounding: from a few
+/// units in the last place of single precision.
 const RIDGES: [f64; 4] = [3e-7, 3e-6, 3e-5, 3e-4];
 
 /// The linear system of a cloth, analysed once, filled and factored for every step.
@@ -143,8 +143,8 @@ impl Stepper {
     }
 
     /// The step d with (M/Δt² + H) d = f(x) + M v/Δt, where H majorises the stiffness at `x` (compressed springs lose
-    /// their negative part, bending is bounded edge by edge) and `velocity` is what inertia keeps. Contacts that push at
-    /// the end of the step are found by solving up to `rounds` times (a primal–dual active set).
+    /// their negative part, bending is bounded edge by edge) and `velocity` is what inertia keeps. Contacts that push
+    /// at the end of the step are found by solving up to `rounds` times (a primal–dual active set).
     ///
     /// # Errors
     /// [`StepError::Singular`] when a number is not finite.
@@ -249,8 +249,8 @@ impl Stepper {
 
     /// Factors the matrix. Two kinds are singular to single precision: cloth that nothing holds, in a long step (its
     /// inertia is lost beside its stiffness), and a node that contacts press so hard that its springs are lost beside
-    /// them. What rounding takes from a row is a share of its diagonal entry: a little more than that, added to it, makes
-    /// the matrix positive definite again, and each node is slowed by no more than its own stiffness asks for.
+    /// them. What rounding takes from a row is a share of its diagonal entry: a little more than that, added to it,
+    /// makes the matrix positive definite again, and each node is slowed by no more than its own stiffness asks for.
     fn factor(&mut self) -> Result<(), StepError> {
         let Err(mut failed) = self.factor.factor(&self.matrix) else { return Ok(()) };
         for ridge in RIDGES {

@@ -8,8 +8,8 @@ use super::step::{StepError, Stepper};
 use crate::contact::{Collider, Neighbourhood, Tangle};
 use crate::geometry::Vec3;
 
-/// Layers nearer than this, metres, are coupled in the matrix: pressed together they move together. It is made anew only
-/// when one comes nearer than the other that is not.
+/// Layers nearer than this, metres, are coupled in the matrix: pressed together they move together. It is made anew
+/// only when one comes nearer than the other that is not.
 const COUPLED: f64 = 1.5e-3;
 const TOUCHING: f64 = 0.7e-3;
 /// Length of a step of falling, s: long, for inertia only delays rest; the step is a Newton step on the energy.
@@ -348,7 +348,8 @@ impl<'a> World<'a> {
         forces(self.gravity, &self.proximity, self.law, pulls, self.friction.as_ref())
     }
 
-    /// The sum of all forces on every node, N: what is unbalanced, and at nodes that are held what holds them, reversed.
+    /// The sum of all forces on every node, N: what is unbalanced,
+    /// and at nodes that are held what holds them, reversed.
     pub fn unbalanced(&self) -> Vec<Vec3> {
         cloth_forces(&self.cloth, &self.x, &self.forces(&[]))
     }

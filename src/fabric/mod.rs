@@ -22,8 +22,8 @@ const GRAVITY: f64 = 9.80665;
 pub struct FabricSpec {
     /// Library name (`cotton_poplin`), path, or another fabric of the same garment.
     pub base: Option<String>,
-    /// Inline values, key and text as written (`weight: 70 g/m2`, `bend: 2.5`). Nested values come as `tensile.weft.EMT`
-    /// or as the text of the whole map, `{weft: {EMT: 5 %}}`.
+    /// Inline values, key and text as written (`weight: 70 g/m2`, `bend: 2.5`). Nested values come as
+    /// `tensile.weft.EMT` or as the text of the whole map, `{weft: {EMT: 5 %}}`.
     pub values: Vec<(String, String)>,
 }
 
@@ -77,8 +77,8 @@ impl Fabric {
         ends.dedup();
         let note = |end: f64| {
             format!(
-                "fabric '{}': tensile curve ends at {end:.0} gf/cm; KES runs to 500. Beyond the last point the last slope is \
-                 kept",
+                "fabric '{}': tensile curve ends at {end:.0} gf/cm; KES runs to 500. Beyond the last point the last \
+                 slope is kept",
                 self.name
             )
         };

@@ -64,8 +64,8 @@ pub struct Context<'a> {
 
 /// The fabric a garment file describes: its base, if any, with the inline values on top. A plain number multiplies the
 /// base's value (friction has no unit, so there it is the value itself). What neither gives is assumed and listed in
-/// [`Fabric::defaults`]; weight and bending have no default, except that a fabric file with the three published measures
-/// and no bending has the bending length that follows from its weights ([`LiuMeasures::bending_length`]).
+/// [`Fabric::defaults`]; weight and bending have no default, except that a fabric file with the three published
+/// measures and no bending has the bending length that follows from its weights ([`LiuMeasures::bending_length`]).
 ///
 /// # Errors
 /// [`FabricError`] for a base that does not exist or leads back to itself, an unknown key, a bad unit, a number out of

@@ -55,14 +55,15 @@ pub struct LiuMeasures {
     pub weights: [f64; 3],
 }
 
-/// The bending length of a fabric with ω_B = ω_R under gravity, metres: the one constant of [`LiuMeasures::bending_length`].
-/// A trial of disc drapes put it at 20 to 22 mm, where silk, poplin, denim and canvas come in their known order.
+/// The bending length of a fabric with ω_B = ω_R under gravity, metres: the one constant of
+/// [`LiuMeasures::bending_length`]. A trial of disc drapes put it at 20 to 22 mm, where silk, poplin, denim and canvas
+/// come in their known order.
 const EVEN_BENDING_LENGTH: f64 = 0.022;
 
 impl LiuMeasures {
     /// Bending length by the weights alone, metres: c = c₀ (ω_B/ω_R)^⅓, as recovery takes gravity's place in (7) and
-    /// fixes, with bending, the one length of a hanging cloth. It knows nothing of the cloth's weight or thickness: by it
-    /// linen is a board (ω_R = 0.01 %) and fine cotton hangs like water (ω_B = 0.001 %).
+    /// fixes, with bending, the one length of a hanging cloth. It knows nothing of the cloth's weight or thickness: by
+    /// it linen is a board (ω_R = 0.01 %) and fine cotton hangs like water (ω_B = 0.001 %).
     pub fn bending_length(&self) -> f64 {
         let [recovery, _, bend] = self.weights;
         EVEN_BENDING_LENGTH * (bend / recovery).cbrt()

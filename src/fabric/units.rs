@@ -64,7 +64,8 @@ impl Quantity {
     }
 }
 
-/// One spelling of a unit: `gf·cm²/cm`, `gf*cm^2/cm` and `gf.cm2/cm` are the same, as are `gf/(cm deg)` and `gf/cm.deg`.
+/// One spelling of a unit: `gf·cm²/cm`, `gf*cm^2/cm` and `gf.cm2/cm` are the same,
+/// as are `gf/(cm deg)` and `gf/cm.deg`.
 fn plain(text: &str) -> String {
     let mut out = String::new();
     let mut chars = text.trim().chars().peekable();

@@ -1,9 +1,9 @@
 //! The first part of the way down, with few unknowns.
 //!
-//! A regular grid of triangles lies over the flat start, and the piece moves with its nodes. What the grid's triangles do
-//! to the piece is measured on some of the piece's own triangles in each, so a rim that runs across the grid and a surface
-//! that is curved inside its cells are seen as they are. The long waves of the way, which take an iteration on the piece
-//! itself the most steps, are found here for a small part of their price.
+//! A regular grid of triangles lies over the flat start, and the piece moves with its nodes. What the grid's triangles
+//! do to the piece is measured on some of the piece's own triangles in each, so a rim that runs across the grid and a
+//! surface that is curved inside its cells are seen as they are. The long waves of the way, which take an iteration on
+//! the piece itself the most steps, are found here for a small part of their price.
 
 use std::collections::HashMap;
 
@@ -24,7 +24,8 @@ const SAMPLES: usize = 4;
 /// The grid's own errors are larger than what is left to win then.
 const GOAL: Goal = Goal { tolerance: 1e-2, max_iterations: 50, holds: 0, exact: 0.0 };
 
-/// Moves `flat`, which must have no flipped triangle, towards a minimum of `energy`; leaves it where that does not help.
+/// Moves `flat`, which must have no flipped triangle, towards a minimum of `energy`;
+/// leaves it where that does not help.
 pub(super) fn approach(energy: &Energy, flat: &mut [Vec2]) {
     if (flat.len() as f64) < CELLS * VERTICES_PER_CELL {
         return;
@@ -113,8 +114,8 @@ impl Grid {
         sums.into_iter().map(|(sum, count)| sum / count).collect()
     }
 
-    /// The field with these values and slopes at the nodes. Half of each node's slope beside linear interpolation has no
-    /// kinks where the field is a quadratic one: kinks would flip thin triangles.
+    /// The field with these values and slopes at the nodes. Half of each node's slope beside linear interpolation has
+    /// no kinks where the field is a quadratic one: kinks would flip thin triangles.
     fn smooth(&self, cell: u32, p: Vec2, values: &[Vec2], slopes: &[Matrix2<f64>]) -> Vec2 {
         let (nodes, (_, _, upper), _) = &self.cells[cell as usize];
         let from = nodes.map(|n| p - self.nodes[n as usize]);

@@ -7,7 +7,7 @@
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashSet};
 
-use crate::geometry::{DisjointSets, Topology, TriMesh};
+use crate::geometry::{DisjointSets, Topology, TriMesh, sorted_pair};
 
 /// A shortest way along edges from `from` to `to`, not along `solid` ones; `None` where there is none.
 pub fn shortest_path(surface: &TriMesh, solid: &Solid, from: u32, to: u32) -> Option<Vec<u32>> {
@@ -33,7 +33,7 @@ pub fn disk_cuts(surface: &TriMesh, solid: &Solid) -> Vec<[u32; 2]> {
     for (edge, joined) in topology.edges.iter().zip(&joined) {
         if !joined && !in_tree(&edge.ends) {
             for end in edge.ends {
-                cuts.extend(tree.path(end).windows(2).map(|w| [w[0].min(w[1]), w[0].max(w[1])]));
+                cuts.extend(tree.path(end).windows(2).map(|w| sorted_pair([w[0], w[1]])));
             }
             cuts.insert(edge.ends);
         }
@@ -41,7 +41,7 @@ pub fn disk_cuts(surface: &TriMesh, solid: &Solid) -> Vec<[u32; 2]> {
     if cuts.is_empty() && topology.rim_edges().next().is_none() {
         let far = tree.farthest();
         let path = Tree::new(surface, &topology, solid, &[far], false);
-        cuts.extend(path.path(path.farthest()).windows(2).map(|w| [w[0].min(w[1]), w[0].max(w[1])]));
+        cuts.extend(path.path(path.farthest()).windows(2).map(|w| sorted_pair([w[0], w[1]])));
     }
     for edge in topology.rim_edges() {
         cuts.remove(&edge.ends);
@@ -52,10 +52,10 @@ pub fn disk_cuts(surface: &TriMesh, solid: &Solid) -> Vec<[u32; 2]> {
 }
 
 /// The dart that relieves a disk most: from the place where a conformal map would have to shrink most, which is where a
-/// cone point helps most (Ben-Chen, Gotsman & Bunin 2008, section 4), to the nearest rim vertex along edges that are not
-/// `solid`; rim first. Where the map would have to stretch, cloth is missing and the legs of a dart would lie on each
-/// other. `log_scale` is [`super::Flattened::log_scale`]. Empty where no place can be told: without scales, or where none
-/// shrinks.
+/// cone point helps most (Ben-Chen, Gotsman & Bunin 2008, section 4), to the nearest rim vertex along edges that are
+/// not `solid`; rim first. Where the map would have to stretch, cloth is missing and the legs of a dart would lie on
+/// each other. `log_scale` is [`super::Flattened::log_scale`]. Empty where no place can be told: without scales, or
+/// where none shrinks.
 pub fn dart(surface: &TriMesh, log_scale: &[f64], solid: &Solid) -> Vec<u32> {
     let size = |v: u32| -log_scale[v as usize];
     let tip = (0..log_scale.len() as u32).max_by(|&a, &b| size(a).total_cmp(&size(b)).then(b.cmp(&a)));

@@ -95,16 +95,16 @@ impl Energy {
         &mut self.springs[..self.held]
     }
 
-    /// The share by which held springs are too long or too short in the mean: no chain of them is off by more than this share
-    /// of the length of all.
+    /// The share by which held springs are too long or too short in the mean: no chain of them is off by more than this
+    /// share of the length of all.
     pub(super) fn slack(&self, flat: &[Vec2]) -> f64 {
         let held = self.held();
         let off: f64 = held.iter().map(|s| (s.length(flat) - s.target).abs()).sum();
         if held.is_empty() { 0.0 } else { off / held.iter().map(|s| s.target).sum::<f64>() }
     }
 
-    /// Lets every held spring keep the force it has as its own (method of multipliers: Hestenes 1969, Powell 1969): in the
-    /// next minimum it needs less excess for it.
+    /// Lets every held spring keep the force it has as its own (method of multipliers: Hestenes 1969, Powell 1969): in
+    /// the next minimum it needs less excess for it.
     pub(super) fn hold(&mut self, flat: &[Vec2]) {
         for s in self.held_mut() {
             s.hold(flat);
@@ -164,8 +164,8 @@ impl Curvature {
         self.tie(1.0)
     }
 
-    /// The matrix with every vertex tied `times` as fast again to where it is, for where it is not positive to rounding:
-    /// at a triangle that is almost flat one stretch has millions of times the curvature of its neighbours.
+    /// The matrix with every vertex tied `times` as fast again to where it is, for where it is not positive to
+    /// rounding: at a triangle that is almost flat one stretch has millions of times the curvature of its neighbours.
     pub(super) fn tie(&mut self, times: f64) -> &SymmetricMatrix<Real> {
         for &(slot, tie) in &self.ties {
             self.matrix.add_block(slot, &(Matrix2::identity() * (tie * times)));

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::element::Element;
 use super::{FlattenError, Options, Report, Sheet, align, check_start, measure, relax_sheet, start, topology};
-use crate::geometry::{TriMesh, Vec2, Vec3};
+use crate::geometry::{TriMesh, Vec2, Vec3, sorted_pair};
 use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::{Give, Seam};
 
@@ -38,8 +38,9 @@ pub struct FlatPiece {
 /// `cloth.seams`; `draped` has one position per particle.
 ///
 /// Edges that an even seam joins get one common length, the mean of both sides as draped (as nearly as the mode keeps
-/// boundaries; exactly the same target); an edge in several seams gets the first one's. Edges of a seam with ease, gather or stretch get their drawn ratio back: their
-/// drawn lengths times the stretch beyond the range between the two. Never flips a triangle.
+/// boundaries; exactly the same target); an edge in several seams gets the first one's. Edges of a seam with ease,
+/// gather or stretch get their drawn ratio back: their drawn lengths times the stretch beyond the range between the
+/// two. Never flips a triangle.
 ///
 /// # Errors
 /// [`FlattenError::Piece`] around the reason; [`FlattenError::StartLength`] if `draped` has not one position per
@@ -109,7 +110,6 @@ type Targets = HashMap<[u32; 2], f64>;
 /// takes its target.
 fn seam_targets(cloth: &ClothMesh, seams: &[Seam], draped: &[Vec3]) -> Targets {
     let mut targets = Targets::new();
-    let key = |ends: [u32; 2]| [ends[0].min(ends[1]), ends[0].max(ends[1])];
     for (k, stitches) in cloth.seams.iter().enumerate() {
         let give = seams.get(k).map_or(Give::Even, |s| s.give);
         for step in stitches.pairs.windows(2) {
@@ -120,14 +120,14 @@ fn seam_targets(cloth: &ClothMesh, seams: &[Seam], draped: &[Vec3]) -> Targets {
             }
             let drawn = [a, b].map(|e| (cloth.flat[e[1] as usize] - cloth.flat[e[0] as usize]).norm());
             let sewn = [a, b].map(|e| (draped[e[1] as usize] - draped[e[0] as usize]).norm());
-            let known = [a, b].iter().find_map(|&ends| targets.get(&key(ends)).copied());
+            let known = [a, b].iter().find_map(|&ends| targets.get(&sorted_pair(ends)).copied());
             let wanted = match known {
                 Some(length) if give == Give::Even => [length; 2],
                 _ => wanted_lengths(give, drawn, (sewn[0] + sewn[1]) / 2.0),
             };
             for (ends, length) in [(a, wanted[0]), (b, wanted[1])] {
                 if length > 0.0 {
-                    targets.entry(key(ends)).or_insert(length);
+                    targets.entry(sorted_pair(ends)).or_insert(length);
                 }
             }
         }
@@ -208,8 +208,8 @@ mod tests {
         Seam { name, a, b, marks, give, stage: 0, kind: SeamKind::Written, closure: None }
     }
 
-    /// Flat lengths wanted of a band, a shell and a lining, drawn 100, 150 and 150 mm long and sewn 110, for seams between
-    /// two of them.
+    /// Flat lengths wanted of a band, a shell and a lining, drawn 100, 150 and 150 mm long and sewn 110, for seams
+    /// between two of them.
     fn wanted(seams: &[(Give, [u32; 2])]) -> [f64; 3] {
         let line = |length: f64| [Vec2::zeros(), Vec2::new(length, 0.0)];
         let flat = [0.10, 0.15, 0.15].into_iter().flat_map(line).collect();

@@ -59,8 +59,8 @@ impl Laplacian {
         out
     }
 
-    /// For each of several functions the u with A·u = `source` inside and `u` as given on the rim (inner values of `u` are
-    /// overwritten).
+    /// For each of several functions the u with A·u = `source` inside and `u` as given on the rim
+    /// (inner values of `u` are overwritten).
     pub(super) fn solve<const N: usize>(&self, source: &[f64], functions: [&mut [f64]; N]) {
         let inside = || self.inner.iter().enumerate().filter_map(|(v, inner)| Some((v, (*inner)? as usize)));
         let mut rhs = vec![0.0; N * self.inner_count];

@@ -41,7 +41,7 @@ pub use overlap::rim_crossings;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-use crate::geometry::{Topology, TriMesh, Vec2};
+use crate::geometry::{Topology, TriMesh, Vec2, sorted_pair};
 use distortion::Weights;
 use element::Element;
 use energy::Energy;
@@ -53,8 +53,9 @@ use zone::Zone;
 /// Stiffness of rim edges in the modes that keep the boundary, for a piece one metre square. This alone brings the rim
 /// of a bodice without darts to 0.05 %; the forces that hold it do the rest.
 const RIM_WEIGHT: f64 = 30.0;
-/// Weight of a brace against that of a rim edge. On a bodice the largest change of a corner falls from 28° without braces
-/// to 15°, and to 10° with ten times as much; but then the forces that hold the edges take twice as long to find.
+/// Weight of a brace against that of a rim edge. On a bodice the largest change of a corner falls from 28° without
+/// braces to 15°, and to 10° with ten times as much; but then the forces that hold the edges take
+/// twice as long to find.
 const BRACE: f64 = 0.1;
 /// A brace spans two rim edges whose ends are further apart than this share of their lengths.
 const BRACED: f64 = 0.1;
@@ -219,16 +220,16 @@ impl<'a> Sheet<'a> {
         Energy::new(self.surface.vertices.len(), self.elements.clone(), springs, law)
     }
 
-    /// Rim edges, weighted by length: the weight of a rim does not change with the mesh. Braces over two edges each keep
-    /// a rim that is longer than its surroundings want from taking the length up in kinks: they do not feel a rim that
-    /// bends a little in every vertex.
+    /// Rim edges, weighted by length: the weight of a rim does not change with the mesh. Braces over two edges each
+    /// keep a rim that is longer than its surroundings want from taking the length up in kinks: they do not feel a rim
+    /// that bends a little in every vertex.
     fn rim_springs(&self, stiffness: f64, corners: f64) -> Springs {
         let size = self.elements.iter().map(|e| e.area).sum::<f64>().sqrt();
         let spring = |ends, target| Spring::between(ends, target, stiffness * size * target);
         let edges = self.topology.rim_edges().map(|e| e.ends);
         let targets: Vec<([u32; 2], f64)> = edges.zip(self.rim_targets.iter().copied()).collect();
         let of_edge: HashMap<[u32; 2], f64> = targets.iter().copied().collect();
-        let length = |a: u32, b: u32| of_edge.get(&[a.min(b), a.max(b)]).copied().unwrap_or(0.0);
+        let length = |a: u32, b: u32| of_edge.get(&sorted_pair([a, b])).copied().unwrap_or(0.0);
         let angles = start::angle_sums(self.surface);
         let mut free = Vec::new();
         for rim in &self.rims {
@@ -238,7 +239,7 @@ impl<'a> Sheet<'a> {
                 let square = before * before + after * after - 2.0 * before * after * angles[b as usize].cos();
                 // Where the rim turns back on itself there is nothing to span.
                 if a != c && square > (BRACED * (before + after)).powi(2) {
-                    let brace = spring([a.min(c), a.max(c)], square.sqrt());
+                    let brace = spring(sorted_pair([a, c]), square.sqrt());
                     free.push(Spring { weight: BRACE * corners * brace.weight, ..brace });
                 }
             }

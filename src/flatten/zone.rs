@@ -1,8 +1,8 @@
 //! The cloth along the rim by itself.
 //!
 //! Rim edges that keep their lengths turn like stiff rods where the rim takes up curvature, most at its corners. Such
-//! turns are short in space and long in steps, and would take the whole piece as many; so they are left to a narrow zone
-//! along the rim, whose inner side stays where it is meanwhile (a nonlinear Schwarz method: Cai & Keyes 2002).
+//! turns are short in space and long in steps, and would take the whole piece as many; so they are left to a narrow
+//! zone along the rim, whose inner side stays where it is meanwhile (a nonlinear Schwarz method: Cai & Keyes 2002).
 
 use super::element::Element;
 use super::energy::Energy;
@@ -51,7 +51,8 @@ impl Zone {
         Some(Self { vertices, energy, descent, flat })
     }
 
-    /// Lets the zone come to rest within `flat`, before any force has been found that holds its springs; whether it moved.
+    /// Lets the zone come to rest within `flat`, before any force has been found that holds its springs;
+    /// whether it moved.
     pub(super) fn settle(&mut self, flat: &mut [Vec2]) -> bool {
         for (own, &v) in self.flat.iter_mut().zip(&self.vertices) {
             *own = flat[v as usize];

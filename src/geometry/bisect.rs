@@ -2,7 +2,8 @@
 
 use std::convert::Infallible;
 
-/// Where `f`, which rises, passes 0 between `low` and `high`, in so many halvings; the end nearer to it where it does not.
+/// Where `f`, which rises, passes 0 between `low` and `high`, in so many halvings;
+/// the end nearer to it where it does not.
 pub(crate) fn bisect(range: [f64; 2], halvings: usize, f: impl Fn(f64) -> f64) -> f64 {
     let Ok(found) = try_bisect(range, halvings, |x| Ok::<_, Infallible>(f(x)));
     found

@@ -49,8 +49,8 @@ pub enum PathError {
 /// Arcs become cubics that stay within this many file units of them (a nanometre in millimetres).
 const ARC_ACCURACY: f64 = 1e-6;
 
-/// An SVG path, of one connected run or (`many`) of several; `None` when the text is no such path. (kurbo's and svgtypes'
-/// own conversions of arcs are off by up to 0.1 units; this one is not.)
+/// An SVG path, of one connected run or (`many`) of several; `None` when the text is no such path. (kurbo's and
+/// svgtypes' own conversions of arcs are off by up to 0.1 units; this one is not.)
 fn bezier_path(text: &str, many: bool) -> Option<BezPath> {
     use svgtypes::PathSegment as S;
     let mut bez = BezPath::new();
@@ -134,11 +134,11 @@ fn vector(p: Point) -> Vec2 {
     Vec2::new(p.x, p.y)
 }
 
-/// Lengths of paths of kilometres are exact to this share only: nothing exact can be said of them, and trying to takes for
-/// ever.
+/// Lengths of paths of kilometres are exact to this share only: nothing exact can be said of them,
+/// and trying to takes for ever.
 const RELATIVE_ACCURACY: f64 = 1e-12;
-/// Beyond this size (metres) squares may overflow and no length converges: that of the control points must do, to tell that
-/// it is too long.
+/// Beyond this size (metres) squares may overflow and no length converges: that of the control points must do, to tell
+/// that it is too long.
 const MEASURABLE: f64 = 1e9;
 
 fn arc_length(segment: &PathSeg) -> f64 {

@@ -1,9 +1,9 @@
 //! Few smooth curves through many points.
 //!
-//! Cubic Bézier curves by least squares at chord-length parameters that are improved by Newton's method (Schneider 1990,
-//! "An algorithm for automatically fitting digitized curves", Graphics Gems), then by distances from the tangents at those
-//! parameters, which converges to what was sampled instead of creeping there (Blake & Isard 1998, Active Contours): each
-//! curve as long as the tolerance lets it be, and with the direction of the one before where they meet.
+//! Cubic Bézier curves by least squares at chord-length parameters that are improved by Newton's method (Schneider
+//! 1990, "An algorithm for automatically fitting digitized curves", Graphics Gems), then by distances from the tangents
+//! at those parameters, which converges to what was sampled instead of creeping there (Blake & Isard 1998, Active
+//! Contours): each curve as long as the tolerance lets it be, and with the direction of the one before where they meet.
 
 use nalgebra::{DMatrix, DVector, Matrix2};
 
@@ -32,7 +32,8 @@ pub fn smooth_curves(points: &[Vec2], tolerance: f64) -> Vec<Cubic> {
             let end = (to < last).then(|| direction(points, to));
             fit(&points[from..=to], start, end).filter(|(_, off)| *off <= tolerance)
         };
-        // The longest stretch that is near enough: more of the same length each time, then halving. Two points always are.
+        // The longest stretch that is near enough: more of the same length each time, then halving.
+        // Two points always are.
         let (mut good, mut bad) = (from + 1, last + 1);
         let mut best = fitted(good);
         let mut stride = last - from;
@@ -64,8 +65,8 @@ fn direction(points: &[Vec2], k: usize) -> Vec2 {
     way.try_normalize(0.0).unwrap_or_else(Vec2::zeros)
 }
 
-/// The best curve between the first and the last point, and how far the points are from it at most. Where a direction is
-/// given the curve has it.
+/// The best curve between the first and the last point, and how far the points are from it at most. Where a direction
+/// is given the curve has it.
 fn fit(points: &[Vec2], start: Option<Vec2>, end: Option<Vec2>) -> Option<(Cubic, f64)> {
     let (first, last) = (points[0], points[points.len() - 1]);
     let mut at = chord_lengths(points)?;
@@ -127,8 +128,8 @@ fn nearer(curve: &Cubic, p: Vec2, t: f64) -> f64 {
     if curvature > 0.0 { (t - off.dot(&slope) / curvature).clamp(0.0, 1.0) } else { t }
 }
 
-/// Handles that bring the curve nearest to the points at their parameters, distances weighted: anywhere, or along a given
-/// direction.
+/// Handles that bring the curve nearest to the points at their parameters, distances weighted: anywhere,
+/// or along a given direction.
 fn least_squares(
     points: &[Vec2],
     at: &[f64],

@@ -1,6 +1,6 @@
 //! Which triangle of a flat mesh a point lies in.
 
-use super::Vec2;
+use super::{Vec2, box_of};
 
 /// Triangles of a piece by the square cells of the plane that they are near to.
 pub(crate) struct Locator<'a> {
@@ -15,9 +15,8 @@ pub(crate) struct Locator<'a> {
 impl<'a> Locator<'a> {
     /// `cell`: about the length of the triangles' sides.
     pub(crate) fn new(flat: &'a [Vec2], triangles: &'a [[u32; 3]], cell: f64) -> Self {
-        let corners = || triangles.iter().flatten().map(|&n| flat[n as usize]);
-        let low = corners().fold(Vec2::repeat(f64::INFINITY), |a, p| a.inf(&p)).add_scalar(-cell);
-        let high = corners().fold(Vec2::repeat(f64::NEG_INFINITY), |a, p| a.sup(&p)).add_scalar(cell);
+        let [low, high] = box_of(triangles.iter().flatten().map(|&n| flat[n as usize]));
+        let (low, high) = (low.add_scalar(-cell), high.add_scalar(cell));
         let along = |k: usize| ((high[k] - low[k]) / cell).ceil().max(1.0) as usize;
         let columns = along(0);
         let mut out = Self { flat, triangles, low, cell, columns, cells: vec![Vec::new(); columns * along(1)] };

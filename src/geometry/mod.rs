@@ -2,6 +2,7 @@
 
 mod bisect;
 mod curve;
+mod extent;
 mod fit;
 mod locator;
 mod sets;
@@ -9,9 +10,11 @@ mod trimesh;
 
 pub(crate) use bisect::{bisect, try_bisect};
 pub use curve::{Path, PathError, Station, parse_transform};
+pub(crate) use extent::{box_of, range_of};
 pub use fit::{Cubic, smooth_curves};
 pub(crate) use locator::Locator;
 pub(crate) use sets::DisjointSets;
+pub(crate) use trimesh::sorted_pair;
 pub use trimesh::{Edge, Topology, TriMesh, rim_loops};
 
 /// A point or direction in a flat piece, metres, y **down**, the right side of the cloth facing the reader.

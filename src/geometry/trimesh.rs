@@ -22,6 +22,11 @@ pub struct Edge {
     pub triangles: [Option<u32>; 2],
 }
 
+/// The ends of an undirected edge, the smaller index first.
+pub(crate) fn sorted_pair([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
 /// Connectivity of a triangle mesh, derived once.
 #[derive(Clone, Debug, Default)]
 pub struct Topology {
@@ -74,7 +79,7 @@ fn sides(triangles: &[[u32; 3]]) -> Vec<Side> {
         triangles.iter().enumerate().flat_map(|(t, tri)| {
             (0..3).map(move |k| {
                 let (a, b) = (tri[k], tri[(k + 1) % 3]);
-                Side { ends: [a.min(b), a.max(b)], index: (3 * t + k) as u32, rising: a < b }
+                Side { ends: sorted_pair([a, b]), index: (3 * t + k) as u32, rising: a < b }
             })
         })
     };

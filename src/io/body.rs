@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use super::obj_read::{ObjError, ObjSurface, read_obj};
-use crate::geometry::{Topology, TriMesh, Vec3};
+use crate::geometry::{Topology, TriMesh, Vec3, box_of, range_of};
 use crate::mannequin::{BodyCheck, BodyFault, HEIGHTS, Mannequin, MannequinError, check_body, find_parts, load};
 
 /// Vertices nearer than this are one, metres: far below a mesh's edges, far above the rounding of a file.
@@ -105,8 +105,8 @@ pub fn load_body(name_or_path: &str) -> Result<Body, BodyError> {
 }
 
 /// Reads a closed OBJ in millimetres, centimetres or metres (guessed from its height and said in the notes), y up or
-/// z up. Vertices that coincide are merged where the surface is not closed otherwise. A surface in which no torso, neck,
-/// arms and legs can be found is an object without parts, as a ball or a table: it stays where the file has it.
+/// z up. Vertices that coincide are merged where the surface is not closed otherwise. A surface in which no torso,
+/// neck, arms and legs can be found is an object without parts, as a ball or a table: it stays where the file has it.
 ///
 /// # Errors
 /// [`BodyError`] when the file cannot be read, or the surface is open, not manifold, inside out or runs through itself
@@ -166,7 +166,8 @@ fn person(surface: &ObjSurface, name: &str, file: &str) -> Result<Body, BodyErro
 fn object(surface: ObjSurface, name: String, file: String, why: &str) -> Result<Body, BodyError> {
     let mut notes = vec![format!("an object without body parts ({why}): its coordinates are taken as they are")];
     let mut vertices = surface.vertices;
-    let longest = (bounds(&vertices).1 - bounds(&vertices).0).max();
+    let [low, high] = bounds(&vertices);
+    let longest = (high - low).max();
     let (scale, unit) = unit(longest);
     notes.push(format!("{unit} assumed, since the object is {longest:.2} units long"));
     vertices.iter_mut().for_each(|p| *p *= scale);
@@ -218,7 +219,7 @@ fn findings(check: &BodyCheck) -> Vec<String> {
 
 /// Turns a body that lies along z upright.
 fn stand_up(vertices: &mut [Vec3], notes: &mut Vec<String>) {
-    let (low, high) = bounds(vertices);
+    let [low, high] = bounds(vertices);
     if high.z - low.z <= high.y - low.y {
         return;
     }
@@ -229,14 +230,13 @@ fn stand_up(vertices: &mut [Vec3], notes: &mut Vec<String>) {
 }
 
 /// The corners of the box round the vertices.
-fn bounds(vertices: &[Vec3]) -> (Vec3, Vec3) {
-    let nothing = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
-    vertices.iter().fold(nothing, |b, p| (b.0.inf(p), b.1.sup(p)))
+fn bounds(vertices: &[Vec3]) -> [Vec3; 2] {
+    box_of(vertices.iter().copied())
 }
 
 /// Whether this is longer than it is high, as nobody is who stands with the arms stretched out.
 fn lies(vertices: &[Vec3]) -> bool {
-    let (low, high) = bounds(vertices);
+    let [low, high] = bounds(vertices);
     let size = high - low;
     size.max() > 2.0 * size.y
 }
@@ -291,7 +291,7 @@ fn weld(vertices: &[Vec3], triangles: &[[u32; 3]]) -> TriMesh {
 fn face_forward(mesh: &mut TriMesh, height: f64, notes: &mut Vec<String>) {
     let middle = |from: f64, to: f64| {
         let z = mesh.vertices.iter().filter(|p| (from * height..to * height).contains(&p.y)).map(|p| p.z);
-        let (low, high) = z.fold((f64::INFINITY, f64::NEG_INFINITY), |b, z| (b.0.min(z), b.1.max(z)));
+        let [low, high] = range_of(z);
         0.5 * (low + high)
     };
     let toes = middle(0.0, FOOT) - middle(ANKLE[0], ANKLE[1]);

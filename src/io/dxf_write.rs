@@ -2,8 +2,8 @@
 //!
 //! One block per piece, inserted once; layers are numbers (see [`layer`]). The dialect is DXF R12 as text, with neither
 //! tables nor layout blocks, which the trade's readers do not expect. Coordinates are millimetres, y up; units are said
-//! in the style's text, for DXF R12 has no place for them. Curves are polylines; a point on layer 2 or 3 says of each of
-//! their vertices whether the line turns or runs smoothly there.
+//! in the style's text, for DXF R12 has no place for them. Curves are polylines; a point on layer 2 or 3 says of each
+//! of their vertices whether the line turns or runs smoothly there.
 
 use std::fmt::Write as _;
 

@@ -64,10 +64,10 @@ pub enum WriteError {
 
 /// Writes every (path, contents) pair, making folders as needed, or writes no file.
 ///
-/// A file that exists keeps its permissions, and a link to it stays one. `inputs` are the files the program has read; none
-/// is overwritten, also not through a link. All contents are on disk under temporary names before the first rename. Only
-/// if a rename itself fails (a folder loses its permissions in that moment) may earlier files of the set be in place; each
-/// one is whole even then.
+/// A file that exists keeps its permissions, and a link to it stays one. `inputs` are the files the program has read;
+/// none is overwritten, also not through a link. All contents are on disk under temporary names before the first
+/// rename. Only if a rename itself fails (a folder loses its permissions in that moment) may earlier files of the set
+/// be in place; each one is whole even then.
 ///
 /// # Errors
 /// [`WriteError`], naming the path.
@@ -79,7 +79,8 @@ pub fn write_all(files: &[(PathBuf, Vec<u8>)], inputs: &[&Path]) -> Result<(), W
     for (path, contents) in files {
         temporary.push(Pending::create(path, contents)?);
     }
-    // Once more, now that the folders are there: a path through one that was missing (`new/../input`) led nowhere before.
+    // Once more, now that the folders are there: a path through one that was missing (`new/../input`)
+    // led nowhere before.
     for (path, _) in files {
         refuse(path, inputs)?;
     }

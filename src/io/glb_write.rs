@@ -21,7 +21,8 @@ const BIN_CHUNK: &[u8; 4] = b"BIN\0";
 const MM: f64 = 1e3;
 /// Cloth scatters nearly all light it does not swallow.
 const ROUGHNESS: f64 = 0.9;
-/// Colours of the fabrics in turn (linear red, green, blue): told apart by eye, also by those who confuse red and green.
+/// Colours of the fabrics in turn (linear red, green, blue): told apart by eye,
+/// also by those who confuse red and green.
 const COLORS: [[f64; 3]; 6] = [
     [0.53, 0.62, 0.76],
     [0.80, 0.55, 0.32],
@@ -39,8 +40,8 @@ const COLORS: [[f64; 3]; 6] = [
 /// - Faces run counter-clockwise seen from the right side.
 ///
 /// # Panics
-/// When `weld` or `positions` is shorter than the particles of `mesh`, or `garment` is not what was meshed: a mistake of
-/// the caller.
+/// When `weld` or `positions` is shorter than the particles of `mesh`, or `garment` is not what was meshed: a mistake
+/// of the caller.
 pub fn garment_glb(garment: &Garment, mesh: &ClothMesh, weld: &[u32], positions: &[Vec3]) -> Vec<u8> {
     let welded = Welded::new(mesh, weld, positions);
     let normals = welded.surface.vertex_normals();
@@ -82,7 +83,11 @@ fn cloth(index: usize, name: &str) -> Value {
     json!({
         "name": name,
         "doubleSided": true,
-        "pbrMetallicRoughness": { "baseColorFactor": [r, g, b, 1.0], "metallicFactor": 0.0, "roughnessFactor": ROUGHNESS },
+        "pbrMetallicRoughness": {
+            "baseColorFactor": [r, g, b, 1.0],
+            "metallicFactor": 0.0,
+            "roughnessFactor": ROUGHNESS,
+        },
     })
 }
 

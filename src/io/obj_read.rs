@@ -1,7 +1,8 @@
 //! Reads the surface out of a Wavefront OBJ file: positions and triangles. The only user of obj-rs.
 //!
-//! obj-rs reads 32-bit numbers, refuses vertex colours (`v x y z r g b`) and says no line when it fails. So a first pass
-//! here reads the positions in full precision, checks every index and hands obj-rs a file of bare `v` and `f` lines.
+//! obj-rs reads 32-bit numbers, refuses vertex colours (`v x y z r g b`) and says no line when it fails. So a first
+//! pass here reads the positions in full precision, checks every index and hands obj-rs a file of
+//! bare `v` and `f` lines.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
@@ -196,8 +197,8 @@ impl ObjFaces {
     }
 }
 
-/// Lines without comments and without a byte order mark, those ending in a backslash joined with the next, each with the
-/// number of its first line.
+/// Lines without comments and without a byte order mark, those ending in a backslash joined with the next, each with
+/// the number of its first line.
 fn logical_lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
     let mut lines = text.trim_start_matches('\u{feff}').lines().enumerate();
     std::iter::from_fn(move || {
@@ -281,7 +282,8 @@ mod tests {
 
     #[test]
     fn colours_quads_negative_indices_and_continuations_are_read() {
-        let text = "# a square\nv 0 0 0 1 0 0\nv 1.000000001 0 0 0 1 0\r\nv 1 1 0\nvn 0 0 1\nv 0 1 \\\n 0\nf 1//1 2//1 -2 -1\n";
+        let text = "# a square\nv 0 0 0 1 0 0\nv 1.000000001 0 0 0 1 0\r\nv 1 1 0\nvn 0 0 1\nv 0 1 \\\n 0\n\
+                    f 1//1 2//1 -2 -1\n";
         let surface = parse_obj(text, "square.obj").expect("a square");
         assert_eq!(surface.vertices[1].x, 1.000_000_001);
         assert_eq!(surface.triangles, [[0, 1, 2], [0, 2, 3]]);

@@ -51,8 +51,8 @@ pub enum PatternSvgError {
 /// the garment's; a notch on an edge that the mesh does not have is left out.
 ///
 /// Group ids are piece names, path ids `piece.edge`; classes are `piece`, `edge`, `line`, `grain`, `notch`, `text` and
-/// `scale`. Where `flat` is not the pattern as it was, that lies below, dashed, in a group `drawn` of its own: each piece
-/// as the flat one has been laid onto it.
+/// `scale`. Where `flat` is not the pattern as it was, that lies below, dashed, in a group `drawn` of its own: each
+/// piece as the flat one has been laid onto it.
 ///
 /// # Errors
 /// Positions that do not belong to the mesh or are not finite.
@@ -68,8 +68,8 @@ pub fn pattern_svg(cloth: &ClothMesh, flat: &[Vec2], notches: &[Notch]) -> Resul
     Ok(document.add(square).to_string())
 }
 
-/// Draws the outlines as [`pattern_svg`] lays them out, every edge as few smooth curves that its particles are no further
-/// from than 0.1 mm: to edit, where hundreds of points are in the way. The path ids are the same.
+/// Draws the outlines as [`pattern_svg`] lays them out, every edge as few smooth curves that its particles are no
+/// further from than 0.1 mm: to edit, where hundreds of points are in the way. The path ids are the same.
 ///
 /// # Errors
 /// As [`pattern_svg`].

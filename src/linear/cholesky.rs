@@ -62,9 +62,9 @@ pub enum Ordering {
     /// Approximate minimum degree: good for any matrix.
     #[default]
     MinimumDegree,
-    /// Nodes in the order of their elimination, such as [`super::nested_dissection`] gives: analysed faster. Measured on
-    /// a 70×70 grid of 3×3 blocks, factor and solve cost the same within a tenth. The rows of a block pattern's vertex
-    /// stay together.
+    /// Nodes in the order of their elimination, such as [`super::nested_dissection`] gives: analysed faster. Measured
+    /// on a 70×70 grid of 3×3 blocks, factor and solve cost the same within a tenth. The rows of a block pattern's
+    /// vertex stay together.
     Given(Vec<u32>),
 }
 

@@ -1,6 +1,6 @@
 //! Geometric nested dissection (George 1973): an elimination order for meshes that lie in space.
 
-use crate::geometry::Vec3;
+use crate::geometry::{Vec3, box_of};
 
 /// Parts of this many nodes are not cut further: their factor is one dense block anyway.
 const LEAF: usize = 24;
@@ -64,12 +64,7 @@ fn halve(points: &[Vec3], graph: &Graph, part: &mut [u32], half: &mut [Half]) ->
 }
 
 fn longest_extent(points: &[Vec3], part: &[u32]) -> usize {
-    let mut low = Vec3::repeat(f64::INFINITY);
-    let mut high = Vec3::repeat(f64::NEG_INFINITY);
-    for &v in part {
-        low = low.inf(&points[v as usize]);
-        high = high.sup(&points[v as usize]);
-    }
+    let [low, high] = box_of(part.iter().map(|&v| points[v as usize]));
     (high - low).imax()
 }
 

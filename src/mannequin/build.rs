@@ -15,7 +15,8 @@ const CELL: f64 = 0.010;
 /// curves, down to [`SMALLEST`] of the size.
 const GROWN: f64 = 1.45;
 const SMALLEST: f64 = 0.7;
-/// The sizes tried in turn. Where a narrow fold falls badly on the grid the net may touch itself; another grid mends it.
+/// The sizes tried in turn. Where a narrow fold falls badly on the grid the net may touch itself;
+/// another grid mends it.
 const TRIES: [f64; 4] = [1.0, 0.97, 0.91, 0.83];
 
 /// Builds a mannequin: closed, manifold, outward, exactly symmetric, metres, feet at y = 0. The same spec gives the

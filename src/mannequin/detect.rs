@@ -4,7 +4,7 @@
 
 use super::slice::{Loop, slice, tape};
 use super::{BodyPart, PartKind, Section};
-use crate::geometry::{TriMesh, Vec3};
+use crate::geometry::{TriMesh, Vec3, range_of};
 
 /// Distance of the cuts, metres.
 const STEP: f64 = 0.02;
@@ -244,20 +244,17 @@ fn limb_section(mesh: &TriMesh, at: Vec3, axis: Vec3, across: Vec3) -> Option<Se
     let found = slice(mesh, at, axis)
         .into_iter()
         .min_by(|a, b| (a.center() - at).norm().total_cmp(&(b.center() - at).norm()))?;
-    let extent = |d: Vec3| {
-        let dots = found.points.iter().map(|p| p.dot(&d));
-        dots.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
-    };
+    let extent = |d: Vec3| range_of(found.points.iter().map(|p| p.dot(&d)));
     let (w, d) = (extent(across), extent(along));
     let center = found.center();
-    if (center - at).norm() > (w.1 - w.0).max(d.1 - d.0) {
+    if (center - at).norm() > (w[1] - w[0]).max(d[1] - d[0]) {
         return None;
     }
     Some(Section {
         center,
         axis,
-        half_width: 0.5 * (w.1 - w.0),
-        half_depth: 0.5 * (d.1 - d.0),
+        half_width: 0.5 * (w[1] - w[0]),
+        half_depth: 0.5 * (d[1] - d[0]),
         girth: tape(&found.points, across, along),
     })
 }

@@ -89,11 +89,16 @@ pub const HEIGHTS: std::ops::RangeInclusive<f64> = 0.2..=3.0;
 const STANDS: f64 = 0.3;
 
 impl Mannequin {
+    /// The part of this kind, if the body has it.
+    pub fn part(&self, kind: PartKind) -> Option<&BodyPart> {
+        self.parts.iter().find(|part| part.kind == kind)
+    }
+
     /// Height of the floor it stands on, metres; a form without legs hangs or stands on a pole, over no floor that its
     /// clothes could reach.
     pub fn floor(&self) -> Option<f64> {
         let top = self.mesh.vertices.iter().map(|v| v.y).fold(0.0, f64::max);
-        let legs = self.parts.iter().filter(|p| matches!(p.kind, PartKind::LeftLeg | PartKind::RightLeg));
+        let legs = self.parts.iter().filter(|p| p.kind.is_leg());
         let crotch = |leg: &BodyPart| leg.sections.iter().map(|s| s.center.y).fold(0.0, f64::max);
         (legs.filter(|leg| crotch(leg) > STANDS * top).count() == 2).then_some(0.0)
     }
@@ -116,6 +121,25 @@ pub enum PartKind {
     RightLeg,
 }
 
+impl PartKind {
+    /// `torso`, `neck`, `left arm`, `right arm`, `left leg`, `right leg`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Torso => "torso",
+            Self::Neck => "neck",
+            Self::LeftArm => "left arm",
+            Self::RightArm => "right arm",
+            Self::LeftLeg => "left leg",
+            Self::RightLeg => "right leg",
+        }
+    }
+
+    /// Whether it is a leg.
+    pub fn is_leg(self) -> bool {
+        matches!(self, Self::LeftLeg | Self::RightLeg)
+    }
+}
+
 /// A limb or the trunk as a bent cylinder.
 #[derive(Clone, Debug)]
 pub struct BodyPart {
@@ -123,8 +147,8 @@ pub struct BodyPart {
     pub kind: PartKind,
     /// Sections from the end next to the trunk outward (the torso from the crotch up).
     pub sections: Vec<Section>,
-    /// Named points: centres of the sections called `crotch`, `hip`, `waist`, `bust`, `shoulder`, `neck base` (torso and
-    /// neck), `shoulder`, `biceps`, `elbow`, `wrist` (arms; a shipped mannequin's `shoulder` is the acromion on the
+    /// Named points: centres of the sections called `crotch`, `hip`, `waist`, `bust`, `shoulder`, `neck base` (torso
+    /// and neck), `shoulder`, `biceps`, `elbow`, `wrist` (arms; a shipped mannequin's `shoulder` is the acromion on the
     /// skin), `crotch`, `thigh`, `knee`, `ankle` (legs). Shipped mannequins have more, named as in their files.
     pub landmarks: Vec<(String, Vec3)>,
 }
@@ -136,7 +160,8 @@ pub struct Section {
     pub center: Vec3,
     /// Unit axis direction, outward along the part.
     pub axis: Vec3,
-    /// Half extent sideways: along the body's x for torso, neck and legs, for arms across the axis in the frontal plane.
+    /// Half extent sideways: along the body's x for torso, neck and legs,
+    /// for arms across the axis in the frontal plane.
     pub half_width: f64,
     /// Half extent front to back.
     pub half_depth: f64,

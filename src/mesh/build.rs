@@ -39,9 +39,10 @@ pub fn build(garment: &Garment, spacing: f64) -> Result<ClothMesh, MeshError> {
 /// Meshes every piece of `garment`.
 ///
 /// Rims lie on the drawn edges; both sides of a seam have the same number of particles at matching arc length, and a
-/// particle at every mark, span end, edge end and kink of either side, also of edges they are sewn to indirectly. Inside is a
-/// regular grid along the grain whose diagonals alternate, with an irregular strip of about one spacing along rims
-/// that are not in line with it. The same garment and options give the same bytes, for any number of threads.
+/// particle at every mark, span end, edge end and kink of either side, also of edges they are sewn to indirectly.
+/// Inside is a regular grid along the grain whose diagonals alternate, with an irregular strip of about one spacing
+/// along rims that are not in line with it. The same garment and options give the same bytes,
+/// for any number of threads.
 ///
 /// The smallest angle is normally above 25°. Exceptions are corners of the outline sharper than that, strips and
 /// gaps narrower than a spacing, and neighbouring springs of very different length where marks lie close together:

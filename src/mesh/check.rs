@@ -1,7 +1,7 @@
 //! What must hold for every mesh, looked at afresh: shares no code with the mesher.
 
 use super::{ClothMesh, PieceMesh};
-use crate::geometry::{Topology, Vec2, rim_loops};
+use crate::geometry::{Topology, Vec2, rim_loops, sorted_pair};
 use crate::pattern::{Garment, Piece};
 
 /// Rim particles lie on the drawn edge to this distance (metres).
@@ -135,8 +135,7 @@ fn check_piece(mesh: &ClothMesh, piece: &PieceMesh, drawn: &Piece) -> Result<(),
     }
     check_edges(mesh, piece, drawn)?;
     for line in &piece.lines {
-        let joined =
-            |w: &[u32]| topology.edges.binary_search_by_key(&[w[0].min(w[1]), w[0].max(w[1])], |e| e.ends).is_ok();
+        let joined = |w: &[u32]| topology.edges.binary_search_by_key(&sorted_pair([w[0], w[1]]), |e| e.ends).is_ok();
         if line.particles.len() < 2 || !line.particles.windows(2).all(joined) {
             return Err(CheckError::Line { piece: piece.name.clone(), line: line.name.clone() });
         }
@@ -219,7 +218,7 @@ fn check_edges(mesh: &ClothMesh, piece: &PieceMesh, drawn: &Piece) -> Result<(),
 fn check_seams(mesh: &ClothMesh, garment: &Garment) -> Result<(), CheckError> {
     let topology = Topology::new(&mesh.triangles);
     let inner = |a: u32, b: u32| {
-        let edge = topology.edges.binary_search_by_key(&[a.min(b), a.max(b)], |e| e.ends);
+        let edge = topology.edges.binary_search_by_key(&sorted_pair([a, b]), |e| e.ends);
         edge.is_ok_and(|k| topology.edges[k].triangles[1].is_some())
     };
     for (stitches, seam) in mesh.seams.iter().zip(&garment.seams) {
@@ -263,7 +262,7 @@ fn walked(mesh: &ClothMesh, garment: &Garment, span: &crate::pattern::Span) -> V
     let places: Vec<f64> = edge.particles.iter().enumerate().map(place).collect();
     let off = |k: usize, s: f64| (places[k] - s).abs();
     let nearest = |s: f64| (0..=last).min_by(|&j, &k| off(j, s).total_cmp(&off(k, s))).unwrap_or(0);
-    let (low, high) = (span.from.min(span.to), span.from.max(span.to));
+    let (low, high) = span.sorted();
     let on = (nearest(low)..=nearest(high)).filter(|&k| places[k] >= low - OFF_END && places[k] <= high + OFF_END);
     let mut out: Vec<u32> = on.map(|k| edge.particles[k]).collect();
     if span.from > span.to {

@@ -10,7 +10,8 @@ pub enum MeshError {
     Spacing(f64),
     /// A piece would be less than two springs wide.
     #[error(
-        "mesh size {} mm leaves {springs} spring{} across '{piece}' ({} mm wide); use <= {} mm, or check the file's units",
+        "mesh size {} mm leaves {springs} spring{} across '{piece}' ({} mm wide); use <= {} mm, or check the file's \
+         units",
         mm(*.spacing), plural(*.springs), mm(*.width), mm(*.usable)
     )]
     TooCoarse {
@@ -55,7 +56,10 @@ pub enum MeshError {
         length: f64,
     },
     /// The edges of a piece enclose no positive area.
-    #[error("outline of '{piece}' encloses {} mm2; it must run clockwise on screen, with its holes inside", (area * 1e6).round())]
+    #[error(
+        "outline of '{piece}' encloses {} mm2; it must run clockwise on screen, with its holes inside",
+        (area * 1e6).round()
+    )]
     InsideOut {
         /// The piece.
         piece: String,
@@ -63,7 +67,10 @@ pub enum MeshError {
         area: f64,
     },
     /// An edge does not start where the one before it ends.
-    #[error("outline of '{piece}' does not close: edge '{edge}' starts {} mm from the end of the edge before it", mm(*.gap))]
+    #[error(
+        "outline of '{piece}' does not close: edge '{edge}' starts {} mm from the end of the edge before it",
+        mm(*.gap)
+    )]
     Open {
         /// The piece.
         piece: String,
@@ -172,7 +179,10 @@ pub enum SeamFault {
         index: usize,
     },
     /// A span reaches past its edge.
-    #[error("range {}..{} mm of edge '{edge}' reaches past its ends (it is {} mm long)", mm(*.from), mm(*.to), mm(*.length))]
+    #[error(
+        "range {}..{} mm of edge '{edge}' reaches past its ends (it is {} mm long)",
+        mm(*.from), mm(*.to), mm(*.length)
+    )]
     PastTheEnd {
         /// The edge.
         edge: String,
@@ -191,7 +201,8 @@ pub enum SeamFault {
     Marks(f64, f64),
     /// The two sides could not be cut into the same number of stretches.
     #[error(
-        "cannot match {a} stretches of one side with {b} of the other; marks or edge ends lie within 0.01 mm of each other"
+        "cannot match {a} stretches of one side with {b} of the other; marks or edge ends lie within 0.01 mm of each \
+         other"
     )]
     Unmatched {
         /// Stretches of the first chain.

@@ -2,7 +2,7 @@
 
 use super::frame::Frame;
 use super::lattice::Lattice;
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, box_of, sorted_pair};
 
 /// Lattice points nearer than this many spacings to the frame are dropped. Any point of a cell's side is within half
 /// a step of an end of that side, so no frame spring can slip between two kept neighbours.
@@ -55,10 +55,7 @@ struct Raster {
 impl Raster {
     fn new(frame: &Frame, lattice: &Lattice) -> Self {
         let cells: Vec<Vec2> = frame.points.iter().map(|&p| lattice.cells(p)).collect();
-        let bound = |pick: fn(f64, f64) -> f64, start: f64| {
-            cells.iter().fold(Vec2::repeat(start), |b, c| Vec2::new(pick(b.x, c.x), pick(b.y, c.y)))
-        };
-        let (min, max) = (bound(f64::min, f64::INFINITY), bound(f64::max, f64::NEG_INFINITY));
+        let [min, max] = box_of(cells.iter().copied());
         let low = [min.x.floor() as i64 - 1, min.y.floor() as i64 - 1];
         let size = [(max.x.ceil() as i64 + 2 - low[0]) as usize, (max.y.ceil() as i64 + 2 - low[1]) as usize];
         let corner = Vec2::new(low[0] as f64, low[1] as f64);
@@ -175,7 +172,7 @@ impl Raster {
     /// Cells with all four corners, at least one of them off the frame, and no frame spring inside.
     fn cells(&self, frame: &Frame, points: Vec<Vec2>) -> Core {
         let fixed = frame.points.len() as u32;
-        let mut springs: Vec<[u32; 2]> = frame.springs().map(|[a, b]| [a.min(b), a.max(b)]).collect();
+        let mut springs: Vec<[u32; 2]> = frame.springs().map(sorted_pair).collect();
         springs.sort_unstable();
         let mut core = Core { in_cell: vec![false; points.len()], points, triangles: Vec::new(), sides: Vec::new() };
         for j in 0..self.size[1] - 1 {
@@ -187,9 +184,8 @@ impl Raster {
                 }
                 let sides = [0, 1, 2, 3].map(|k| [corners[k], corners[(k + 1) % 4]]);
                 // A side between two frame particles must itself be a spring of the frame.
-                let bad = |&[a, b]: &[u32; 2]| {
-                    a < fixed && b < fixed && springs.binary_search(&[a.min(b), a.max(b)]).is_err()
-                };
+                let bad =
+                    |&[a, b]: &[u32; 2]| a < fixed && b < fixed && springs.binary_search(&sorted_pair([a, b])).is_err();
                 if sides.iter().any(bad) {
                     continue;
                 }

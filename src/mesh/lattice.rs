@@ -1,7 +1,7 @@
 //! The grain-aligned lattice of a piece: where its rows and columns run.
 
 use super::frame::{Frame, Straight};
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, range_of};
 
 /// A straight stretch runs along an axis when it strays from it by less than this share of the spacing.
 const STRAY: f64 = 0.05;
@@ -50,7 +50,7 @@ fn fit_axis(frame: &Frame, axis: Vec2, spacing: f64) -> (f64, f64) {
         d.perp(&axis).abs() < STRAY * spacing && (step / spacing - 1.0).abs() < STEP_SLACK
     };
     let across = |s: &&Straight| (s.to - s.from).dot(&axis).abs() < STRAY * spacing;
-    let (low, high) = extent(frame, axis);
+    let [low, high] = extent(frame, axis);
     if let Some(s) = longest(frame.straights.iter().filter(along))
         && length(s) >= SPAN * (high - low)
     {
@@ -75,7 +75,6 @@ fn longest<'a>(stretches: impl Iterator<Item = &'a Straight>) -> Option<&'a Stra
     })
 }
 
-fn extent(frame: &Frame, axis: Vec2) -> (f64, f64) {
-    let along = frame.points[..frame.rim].iter().map(|p| p.dot(&axis));
-    along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+fn extent(frame: &Frame, axis: Vec2) -> [f64; 2] {
+    range_of(frame.points[..frame.rim].iter().map(|p| p.dot(&axis)))
 }

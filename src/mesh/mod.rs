@@ -93,6 +93,13 @@ pub struct PieceMesh {
     pub warp: Vec2,
 }
 
+impl ClothMesh {
+    /// The piece that a particle is of; `None` for one that is not the mesh's.
+    pub fn piece_of(&self, particle: u32) -> Option<usize> {
+        self.pieces.iter().position(|piece| piece.particles.contains(&(particle as usize)))
+    }
+}
+
 impl PieceMesh {
     /// Particles that lie on elastic lines.
     pub fn on_elastic(&self) -> HashSet<u32> {
@@ -130,6 +137,7 @@ pub struct Stitches {
     pub name: String,
     /// Sewing order: all seams of a stage close before the next stage starts.
     pub stage: i32,
-    /// Pairs (a, b) from the seam's start to its end, both ends included. A pair may hold the same particle twice (the tip of a dart).
+    /// Pairs (a, b) from the seam's start to its end, both ends included. A pair may hold the same particle twice (the
+    /// tip of a dart).
     pub pairs: Vec<[u32; 2]>,
 }

@@ -1,7 +1,7 @@
 //! A planar triangulation that can be edited, tried out and taken back.
 
 use super::shape::{Score, quality};
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, sorted_pair};
 
 /// No triangle.
 const NONE: u32 = u32::MAX;
@@ -59,14 +59,13 @@ impl Patch {
             triangles: triangles.iter().map(|&v| Tri { v, ..DEAD }).collect(),
             trial: None,
         };
-        let mut locked: Vec<[u32; 2]> = lines.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
+        let mut locked: Vec<[u32; 2]> = lines.iter().copied().map(sorted_pair).collect();
         locked.sort_unstable();
         let mut sides: Vec<([u32; 2], u32, usize)> = Vec::with_capacity(3 * triangles.len());
         for (t, v) in triangles.iter().enumerate() {
             for k in 0..3 {
                 patch.at[v[k] as usize] = t as u32;
-                let (a, b) = (v[(k + 1) % 3], v[(k + 2) % 3]);
-                let ends = [a.min(b), a.max(b)];
+                let ends = sorted_pair([v[(k + 1) % 3], v[(k + 2) % 3]]);
                 sides.push((ends, t as u32, k));
                 patch.triangles[t].locked[k] = locked.binary_search(&ends).is_ok();
             }

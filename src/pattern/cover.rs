@@ -9,7 +9,7 @@ use super::rim::{SLIVER, edge_ids, gaps};
 use super::seam::Seams;
 use super::spelling::glob;
 use super::walk::edge_name;
-use super::{EdgeId, SeamKind};
+use super::{EdgeId, SeamKind, Span};
 
 /// A stretch of an edge and the seam that takes it.
 struct Taken {
@@ -37,7 +37,7 @@ fn taken(edge: EdgeId, seams: &Seams) -> Vec<Taken> {
     let mut taken = Vec::new();
     for (i, seam) in seams.seams.iter().enumerate() {
         let spans = seam.a.iter().chain(&seam.b).filter(|s| s.edge == edge);
-        taken.extend(spans.map(|s| Taken { from: s.from.min(s.to), to: s.from.max(s.to), seam: i }));
+        taken.extend(spans.map(Span::sorted).map(|(from, to)| Taken { from, to, seam: i }));
     }
     taken
 }
@@ -87,7 +87,7 @@ impl Lists {
         if self.free.contains(&edge) {
             return;
         }
-        let opened = seams.open.iter().filter(|s| s.edge == edge).map(|s| (s.from.min(s.to), s.from.max(s.to)));
+        let opened = seams.open.iter().filter(|s| s.edge == edge).map(Span::sorted);
         let length = cut.pieces[edge.piece].loops[edge.ring][edge.index].path.length();
         let covered = taken.iter().map(|t| (t.from, t.to)).chain(opened).collect();
         for (from, to) in gaps(covered, length) {
@@ -179,8 +179,8 @@ pub(super) fn check_free_but_sewn(
     }
 }
 
-/// A pair that no seam joins is two copies of one piece, and another piece that none joins falls, unless all seams are still
-/// to be written.
+/// A pair that no seam joins is two copies of one piece, and another piece that none joins falls, unless all seams are
+/// still to be written.
 pub(super) fn check_joined(file: &GarmentFile, drafts: &[Draft], cut: &Pieces, seams: &Seams, findings: &mut Findings) {
     if file.seams.is_empty() {
         return;

@@ -151,6 +151,11 @@ impl Span {
     pub fn length(&self) -> f64 {
         (self.to - self.from).abs()
     }
+
+    /// Its two ends, the one nearer to the edge's start first.
+    pub fn sorted(&self) -> (f64, f64) {
+        (self.from.min(self.to), self.from.max(self.to))
+    }
 }
 
 /// Two chains of spans that are stitched together, start to start and end to end, in proportion to their lengths
@@ -272,7 +277,8 @@ pub enum Place {
         /// The words of the file, lower case.
         words: Vec<String>,
     },
-    /// A rigid position: the flat piece's origin goes to `at` (metres) after turning by `turn` (degrees about x, y, z, in this order about the fixed axes).
+    /// A rigid position: the flat piece's origin goes to `at` (metres) after turning by `turn` (degrees about x, y, z,
+    /// in this order about the fixed axes).
     At {
         /// Position.
         at: Vec3,

@@ -87,8 +87,8 @@ pub(super) fn check_size(path: Path) -> Result<Path, String> {
     Ok(path)
 }
 
-/// The path changed by a hair, so that it ends exactly at `end`. One that comes back to its start, as a circle does, has
-/// no chord to turn: its second half is taken.
+/// The path changed by a hair, so that it ends exactly at `end`. One that comes back to its start, as a circle does,
+/// has no chord to turn: its second half is taken.
 pub(super) fn ended_at(path: &Path, end: Vec2) -> Path {
     let length = path.length();
     if path.end() == end || (path.end() - path.start()).norm() > length / 2.0 {

@@ -40,8 +40,8 @@ const WORDS: [(PlaceWord, &[&str]); 8] = [
 ];
 
 /// What is said to those who look for a word.
-const KNOWN: &str = "torso, hip, waist, skirt, bodice, chest, bust; leg, knee or ankle; arm, sleeve, elbow, wrist or cuff; neck, \
-                     collar or hood; with left or right, front or back";
+const KNOWN: &str = "torso, hip, waist, skirt, bodice, chest, bust; leg, knee or ankle; arm, sleeve, elbow, wrist or \
+                     cuff; neck, collar or hood; with left or right, front or back";
 
 /// What a lower-case word says, also in the plural.
 pub fn place_word(word: &str) -> Option<PlaceWord> {

@@ -247,8 +247,8 @@ impl Problem {
                     .to_owned()
             }
             Self::ChainBroken { drawn: true, .. } => {
-                "name the edges in the order they are sewn, end to end; if they are, a half drawn for the wearer's right \
-                 needs 'drawn: R'"
+                "name the edges in the order they are sewn, end to end; if they are, a half drawn for the wearer's \
+                 right needs 'drawn: R'"
                     .to_owned()
             }
             Self::ChainBroken { .. } => "name the edges in the order they are sewn, end to end".to_owned(),

@@ -148,7 +148,7 @@ pub fn openings(garment: &Garment) -> Vec<Opening> {
     let mut free: Vec<Span> = Vec::new();
     for edge in edge_ids(&garment.pieces) {
         let spans = garment.seams.iter().flat_map(|s| s.a.iter().chain(&s.b)).filter(|s| s.edge == edge);
-        let taken = spans.map(|s| (s.from.min(s.to), s.from.max(s.to))).collect();
+        let taken = spans.map(Span::sorted).collect();
         let gaps = gaps(taken, garment.pieces[edge.piece].loops[edge.ring][edge.index].path.length());
         free.extend(gaps.into_iter().map(|(from, to)| Span { edge, from, to }));
     }

@@ -64,7 +64,7 @@ fn notches(garment: &Garment, chain: &[Span]) -> Vec<f64> {
     let mut walked = 0.0;
     let mut met = Vec::new();
     for span in chain {
-        let (low, high) = (span.from.min(span.to), span.from.max(span.to));
+        let (low, high) = span.sorted();
         let on = garment.pieces[span.edge.piece].notches.iter().filter(|n| n.edge == span.edge);
         met.extend(on.filter(|n| (low..=high).contains(&n.at)).map(|n| walked + (n.at - span.from).abs()));
         walked += span.length();

@@ -19,8 +19,8 @@ const BAND: usize = 64;
 /// Half the width of the outlines, pixels.
 const OUTLINE: f32 = 1.4;
 
-/// Draws the pieces of `cloth` at its flat positions, side by side to one scale. `values` are strains, one per triangle:
-/// red is longer, blue shorter.
+/// Draws the pieces of `cloth` at its flat positions, side by side to one scale. `values` are strains, one per
+/// triangle: red is longer, blue shorter.
 ///
 /// # Errors
 /// When there is nothing to draw or values are missing ([`PictureError`]).

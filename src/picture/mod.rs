@@ -2,7 +2,8 @@
 //!
 //! [`draw`] is a small renderer of its own: orthographic views (so that all parts are to one scale), a depth buffer
 //! with four samples per pixel, soft light from above and from the viewer's left, darker where little sky is seen.
-//! [`Dressed`] gathers a [`Scene`] from a garment's mesh. The same scene gives the same bytes, on any number of threads.
+//! [`Dressed`] gathers a [`Scene`] from a garment's mesh. The same scene gives the same bytes,
+//! on any number of threads.
 
 mod camera;
 mod canvas;
@@ -45,7 +46,8 @@ pub struct Scene<'a> {
     pub title: &'a str,
     /// Small text beside it, mannequin and fabric.
     pub subtitle: &'a str,
-    /// Strain of every vertex of the cloth (shrinking is negative): colours the cloth by it instead of by piece, with a legend.
+    /// Strain of every vertex of the cloth (shrinking is negative): colours the cloth by it instead of by piece,
+    /// with a legend.
     pub strain: Option<&'a [f64]>,
 }
 

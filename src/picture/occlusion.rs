@@ -6,7 +6,7 @@
 use rayon::prelude::*;
 
 use super::camera::SMALLEST;
-use crate::geometry::{TriMesh, Vec3};
+use crate::geometry::{TriMesh, Vec3, box_of};
 
 /// Directions, spread evenly over the sphere.
 const DIRECTIONS: usize = 28;
@@ -36,8 +36,7 @@ struct Map {
 impl Surroundings {
     pub(super) fn new(meshes: &[&TriMesh]) -> Self {
         let points = || meshes.iter().flat_map(|m| &m.vertices);
-        let (lo, hi) = points()
-            .fold((Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY)), |(lo, hi), p| (lo.inf(p), hi.sup(p)));
+        let [lo, hi] = box_of(points().copied());
         let center = (lo + hi) / 2.0;
         let radius = points().map(|p| (p - center).norm()).fold(SMALLEST, f64::max);
         let map = |k: usize| {

@@ -20,8 +20,8 @@ pub(super) struct Stroke {
     pub(super) ends: [[f32; 3]; 2],
     pub(super) radius: f32,
     pub(super) color: Rgb,
-    /// The pieces it lies on; these do not hide it unless they are nearer by `lift`, metres, others do. `NO_PIECE` fills
-    /// up; a line on no piece is hidden by all alike.
+    /// The pieces it lies on; these do not hide it unless they are nearer by `lift`, metres, others do. `NO_PIECE`
+    /// fills up; a line on no piece is hidden by all alike.
     pub(super) pieces: [u32; 4],
     pub(super) lift: f32,
 }

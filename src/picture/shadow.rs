@@ -7,7 +7,8 @@ use super::{PictureError, encode};
 /// Pixels above the shadow, for words.
 const HEAD: usize = 110;
 
-/// Draws a square of `dark.len()` places, row by row, `width` in each: dark ones in ink, and below the title one line of words.
+/// Draws a square of `dark.len()` places, row by row, `width` in each: dark ones in ink,
+/// and below the title one line of words.
 ///
 /// # Errors
 /// When there is nothing to draw ([`PictureError`]).

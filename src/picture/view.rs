@@ -22,8 +22,8 @@ const BAND: usize = 64;
 const SEAM_RADIUS: f32 = 0.95;
 const RIM_RADIUS: f32 = 0.7;
 
-/// Lines are drawn as if this much nearer (metres) than the pieces they lie on, which would hide them; less than the distance
-/// from one side of a body to the other by far.
+/// Lines are drawn as if this much nearer (metres) than the pieces they lie on, which would hide them; less than the
+/// distance from one side of a body to the other by far.
 const LINE_LIFT: f32 = 0.004;
 
 /// Cells along each side of the floor.

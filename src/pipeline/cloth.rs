@@ -21,8 +21,8 @@ impl<'a> Fabrics<'a> {
         Self { specs, folder, replaced: None }
     }
 
-    /// Those of a garment; `instead` takes the place of the main one where that is defined, so that an interfacing "based
-    /// on the shell" follows.
+    /// Those of a garment; `instead` takes the place of the main one where that is defined, so that an interfacing
+    /// "based on the shell" follows.
     ///
     /// # Errors
     /// `instead` cannot be had.
@@ -104,11 +104,16 @@ mod tests {
     use super::*;
 
     fn garment() -> Garment {
-        let text = "garment: 1\nbody: woman_92\nfabrics: {band: rib, cloth: denim, fuse: {base: cloth, bend: 2}}\npieces:\n  \
-             small: {fabric: band, grain: [[0, 0], [0, 1]], outline: {start: 0 0, a: L 50 0, b: L 50 50, c: L 0 50, d: L 0 0}}\n  \
-             large: {fabric: cloth, grain: [[0, 0], [0, 1]], outline: {start: 0 0, a: L 90 0, b: L 90 90, c: L 0 90, d: L 0 0}}\n  \
-             stiff: {fabric: fuse, grain: [[0, 0], [0, 1]], outline: {start: 0 0, a: L 50 0, b: L 50 50, c: L 0 50, d: L 0 0}}\n\
-             seams: {s: {sew: small.a, to: stiff.a}}\nfree: [small.b, small.c, small.d, 'large.*', stiff.b, stiff.c, stiff.d]\n";
+        let text = "garment: 1\nbody: woman_92\nfabrics: {band: rib, cloth: denim, fuse: {base: cloth, bend: 2}}\n\
+             pieces:\n  \
+             small: {fabric: band, grain: [[0, 0], [0, 1]], outline: {start: 0 0, a: L 50 0, b: L 50 50, c: L 0 50, \
+             d: L 0 0}}\n  \
+             large: {fabric: cloth, grain: [[0, 0], [0, 1]], outline: {start: 0 0, a: L 90 0, b: L 90 90, c: L 0 90, \
+             d: L 0 0}}\n  \
+             stiff: {fabric: fuse, grain: [[0, 0], [0, 1]], outline: {start: 0 0, a: L 50 0, b: L 50 50, c: L 0 50, \
+             d: L 0 0}}\n\
+             seams: {s: {sew: small.a, to: stiff.a}}\nfree: [small.b, small.c, small.d, 'large.*', stiff.b, stiff.c, \
+             stiff.d]\n";
         crate::io::garment::read_text("test", "test.yaml", text).map_err(|e| e.to_string()).expect("a garment").garment
     }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::error::PipelineError;
-use crate::geometry::{TriMesh, Vec3};
+use crate::geometry::{TriMesh, Vec3, box_of};
 use crate::io::body::{BodyError, read_solid};
 use crate::io::obj_read::read_obj_faces;
 use crate::mannequin::{check_body, load};
@@ -60,19 +60,18 @@ fn solid(name: &str, metres: f64) -> Result<TriMesh, PipelineError> {
 
 /// What to say when cloth and body cannot belong together.
 fn misplaced(cloth: &TriMesh, body: &TriMesh) -> Option<String> {
-    let [(low, high), (l, h)] = [bounds(cloth), bounds(body)];
+    let [[low, high], [l, h]] = [bounds(cloth), bounds(body)];
     let apart = (0..3).any(|k| low[k] > h[k] || l[k] > high[k]);
     let larger = (high - low).norm() > LARGER * (h - l).norm();
     let (cloth_mm, body_mm) = (1e3 * (high - low).norm(), 1e3 * (h - l).norm());
     (apart || larger).then(|| {
         format!(
-            "the mesh ({cloth_mm:.0} mm across) and the body ({body_mm:.0} mm across) do not lie in the same place; are \
-             both in the unit that --units says, and is the body where the mesh is worn?"
+            "the mesh ({cloth_mm:.0} mm across) and the body ({body_mm:.0} mm across) do not lie in the same place; \
+             are both in the unit that --units says, and is the body where the mesh is worn?"
         )
     })
 }
 
-fn bounds(mesh: &TriMesh) -> (Vec3, Vec3) {
-    let nothing = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
-    mesh.triangles.iter().flatten().map(|&v| mesh.vertices[v as usize]).fold(nothing, |b, p| (b.0.inf(&p), b.1.sup(&p)))
+fn bounds(mesh: &TriMesh) -> [Vec3; 2] {
+    box_of(mesh.triangles.iter().flatten().map(|&v| mesh.vertices[v as usize]))
 }

@@ -11,13 +11,13 @@ use crate::sew::{SewError, SewOptions, Sewn, Stitching, join, sew, stitch};
 
 /// How much coarser each level is than the next.
 const COARSER: f64 = 2.0;
-/// No level is coarser than this, metres: a waistband of 40 mm can just be meshed then, and a wrist has seven cells round
-/// it. Skirts and trousers begun at 28 to 32 mm came to rest no sooner.
+/// No level is coarser than this, metres: a waistband of 40 mm can just be meshed then, and a wrist has seven cells
+/// round it. Skirts and trousers begun at 28 to 32 mm came to rest no sooner.
 const COARSEST: f64 = 0.025;
 /// A level has to be so much coarser to pay.
 const LEAST: f64 = 1.5;
-/// A garment that stays open, or crossed, at the coarsest level is sewn so much coarser and carried over: other particles lie
-/// otherwise beside a seam that has jammed, and fewer of them fold less.
+/// A garment that stays open, or crossed, at the coarsest level is sewn so much coarser and carried over: other
+/// particles lie otherwise beside a seam that has jammed, and fewer of them fold less.
 const DETOUR: f64 = 1.35;
 /// Share of a stage's progress that its coarser levels are.
 pub(super) const COARSE_SHARE: f64 = 0.3;
@@ -78,8 +78,8 @@ impl Job {
         is_whole(&mesh, &closed.sewn).then(|| Box::new(Coarse { mesh, closed }))
     }
 
-    /// `mesh` sewn by way of a slightly coarser one; none where that does not come out whole either. The coarser one is no
-    /// better a start for draping, and forgotten.
+    /// `mesh` sewn by way of a slightly coarser one; none where that does not come out whole either. The coarser one is
+    /// no better a start for draping, and forgotten.
     fn detour(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Option<Closed> {
         let (coarse, start) = self.placed_at(DETOUR * mesh.spacing)?;
         let closed = self.sew_here(&coarse, start, progress).ok()?;
@@ -105,8 +105,8 @@ impl Job {
         is_whole(mesh, &sewn).then(|| (sewn, closed.gaps.clone()))
     }
 
-    /// Where the nodes of a garment on `mesh` begin to drape: as the coarser one has come to hang. None where that cannot
-    /// be had, or gives no whole garment.
+    /// Where the nodes of a garment on `mesh` begin to drape: as the coarser one has come to hang. None where that
+    /// cannot be had, or gives no whole garment.
     pub(super) fn start_from_coarse(
         &self,
         mesh: &ClothMesh,

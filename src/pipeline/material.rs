@@ -13,8 +13,8 @@ use crate::mannequin::{self, MannequinError};
 use crate::mesh::{self, MeshError};
 use crate::pattern::{self, Findings, GarmentFile, Located, Problem, Spot, Value};
 
-/// Reads a garment file and finds everything that is wrong before cloth moves: in its text, pieces and seams, its fabrics
-/// and its body, and, if nothing is, in its mesh of this spacing (metres).
+/// Reads a garment file and finds everything that is wrong before cloth moves: in its text, pieces and seams, its
+/// fabrics and its body, and, if nothing is, in its mesh of this spacing (metres).
 ///
 /// # Errors
 /// Every mistake of the file.

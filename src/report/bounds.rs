@@ -47,8 +47,8 @@ pub fn verdicts(garment: &Garment, report: &Report) -> Vec<Verdict> {
     bounds.into_iter().flat_map(|bound| verdict(garment, report, bound)).collect()
 }
 
-/// The verdicts of every one of the garment's `tests`, in their order; none of a test for another fabric or a stage that
-/// did not run.
+/// The verdicts of every one of the garment's `tests`, in their order; none of a test for another fabric or a stage
+/// that did not run.
 pub fn verdicts_by_test(garment: &Garment, report: &Report) -> Vec<Vec<Verdict>> {
     let of = |test: &Test| if holds(test, report) { verdict(garment, report, &test.bound) } else { Vec::new() };
     garment.tests.iter().map(of).collect()

@@ -222,8 +222,8 @@ fn seam(run: &Measured, index: usize, stitches: &Stitches) -> SeamReport {
 fn seen(run: &Measured, at: &[Vec3]) -> (Seen, Vec<Worn>) {
     let welded = Welded::new(run.mesh, run.weld, at);
     let piece = |t: u32| {
-        let first = run.mesh.triangles[t as usize][0] as usize;
-        run.mesh.pieces.iter().find(|p| p.particles.contains(&first)).map_or("", |p| p.name.as_str())
+        let first = run.mesh.triangles[t as usize][0];
+        run.mesh.piece_of(first).map_or("", |i| run.mesh.pieces[i].name.as_str())
     };
     (look(&welded.surface, Some(&run.body.mesh), piece), worn_rows(run, &welded))
 }

@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::geometry::{Vec3, rim_loops};
+use crate::geometry::{Vec3, rim_loops, sorted_pair};
 use crate::mesh::ClothMesh;
 use crate::verify::Welded;
 
@@ -28,7 +28,7 @@ pub(super) fn openings(mesh: &ClothMesh, welded: &Welded) -> Vec<Opening> {
     let opening = |ring: Vec<u32>| {
         let mut edges: Vec<(String, String)> = Vec::new();
         for (k, &v) in ring.iter().enumerate() {
-            let Some(owner) = owners.get(&key(v, ring[(k + 1) % ring.len()])) else { continue };
+            let Some(owner) = owners.get(&sorted_pair([v, ring[(k + 1) % ring.len()]])) else { continue };
             if !edges.contains(owner) {
                 edges.push(owner.clone());
             }
@@ -42,14 +42,11 @@ pub(super) fn openings(mesh: &ClothMesh, welded: &Welded) -> Vec<Opening> {
 /// of the one half of the seam is then the neckline, the other's runs round the collar and back along the same stitches;
 /// nothing goes through it. So is every ring that nothing goes through and that shares rim edges with one that is worn.
 pub(super) fn flaps(rings: &[&[u32]], worn: &[bool]) -> Vec<bool> {
-    let edges =
-        |ring: &[u32]| (0..ring.len()).map(|k| key(ring[k], ring[(k + 1) % ring.len()])).collect::<HashSet<[u32; 2]>>();
+    let edges = |ring: &[u32]| {
+        (0..ring.len()).map(|k| sorted_pair([ring[k], ring[(k + 1) % ring.len()]])).collect::<HashSet<[u32; 2]>>()
+    };
     let of_worn: HashSet<[u32; 2]> = rings.iter().zip(worn).filter(|(_, w)| **w).flat_map(|(r, _)| edges(r)).collect();
     rings.iter().zip(worn).map(|(ring, worn)| !worn && !edges(ring).is_disjoint(&of_worn)).collect()
-}
-
-fn key(a: u32, b: u32) -> [u32; 2] {
-    [a.min(b), a.max(b)]
 }
 
 /// The piece edge that every rim edge of the surface belongs to.
@@ -58,8 +55,8 @@ fn edge_owners(mesh: &ClothMesh, welded: &Welded) -> HashMap<[u32; 2], (String, 
     for piece in &mesh.pieces {
         for edge in &piece.edges {
             for step in edge.particles.windows(2) {
-                let [a, b] = [step[0], step[1]].map(|p| welded.vertex_of[p as usize]);
-                owners.entry(key(a, b)).or_insert_with(|| (piece.name.clone(), edge.name.clone()));
+                let ends = [step[0], step[1]].map(|p| welded.vertex_of[p as usize]);
+                owners.entry(sorted_pair(ends)).or_insert_with(|| (piece.name.clone(), edge.name.clone()));
             }
         }
     }

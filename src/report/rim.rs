@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::geometry::{Topology, Vec3};
+use crate::geometry::{Topology, Vec3, sorted_pair};
 use crate::mesh::{ClothMesh, PieceMesh};
 
 /// Sides of a seam further apart than this (one over the other, less one) are eased, gathered or stretched: the cloth
@@ -60,10 +60,7 @@ fn distance(p: Vec3, [a, b]: [Vec3; 2]) -> f64 {
 /// The rim edges of every piece, in the pieces' order; `weld` has one label per particle, the same for stitched ones.
 pub(super) fn rims(mesh: &ClothMesh, weld: &[u32]) -> Vec<Vec<RimEdge>> {
     let mut rims: Vec<Vec<RimEdge>> = mesh.pieces.iter().map(|p| rim_of(mesh, p.triangles.clone())).collect();
-    let key = |e: &RimEdge| {
-        let [a, b] = e.ends.map(|v| weld[v as usize]);
-        [a.min(b), a.max(b)]
-    };
+    let key = |e: &RimEdge| sorted_pair(e.ends.map(|v| weld[v as usize]));
     let mut drawn: HashMap<[u32; 2], [f64; 2]> = HashMap::new();
     for edge in rims.iter().flatten() {
         let range = drawn.entry(key(edge)).or_insert(edge.drawn);

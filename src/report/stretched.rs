@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::rim::{RimEdge, UNEVEN};
 use super::schema::Stretched;
-use crate::geometry::Vec3;
+use crate::geometry::{Vec3, sorted_pair};
 use crate::mesh::{ClothMesh, Stitches};
 
 /// The shorter side of an uneven seam counts as drawn out from this strain on: the rest may have been eased away.
@@ -46,7 +46,7 @@ fn longest_seam<'a>(mesh: &'a ClothMesh, edges: &[&RimEdge]) -> Option<&'a Stitc
     let flat_length: HashMap<[u32; 2], f64> = edges.iter().map(|e| (e.ends, e.flat)).collect();
     let on_seam = |seam: &Stitches| -> f64 {
         let steps = seam.pairs.windows(2).flat_map(|w| [[w[0][0], w[1][0]], [w[0][1], w[1][1]]]);
-        steps.filter_map(|[a, b]| flat_length.get(&[a.min(b), a.max(b)])).sum()
+        steps.filter_map(|ends| flat_length.get(&sorted_pair(ends))).sum()
     };
     mesh.seams.iter().max_by(|x, y| on_seam(x).total_cmp(&on_seam(y)))
 }

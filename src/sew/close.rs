@@ -10,7 +10,7 @@ use super::stitch::Stitching;
 use super::untangle::untangle;
 use crate::contact::{Collider, Neighbourhood};
 use crate::dynamics::{Cloth, ContactLaw, Cut, Pull, Reach, SpringModel, World, identity_nodes};
-use crate::geometry::Vec3;
+use crate::geometry::{Vec3, sorted_pair};
 use crate::mesh::ClothMesh;
 
 /// How a garment is sewn.
@@ -48,10 +48,10 @@ pub struct Sewn {
 impl Sewn {
     /// Gaps by seam and pair of the mesh, metres; [`Self::gaps`] has a pair that two seams share once.
     pub fn gaps_of_seams(&self, mesh: &ClothMesh) -> Vec<Vec<f64>> {
-        let pairs = self.stitching.pairs.iter().map(|(ends, _)| sorted(*ends));
+        let pairs = self.stitching.pairs.iter().map(|(ends, _)| sorted_pair(*ends));
         let of_pair: HashMap<[u32; 2], f64> = pairs.zip(self.gaps.iter().copied()).collect();
         // A pair of one particle with itself (the tip of a dart) is never open.
-        let gap = |ends: &[u32; 2]| of_pair.get(&sorted(*ends)).copied().unwrap_or(0.0);
+        let gap = |ends: &[u32; 2]| of_pair.get(&sorted_pair(*ends)).copied().unwrap_or(0.0);
         mesh.seams.iter().map(|seam| seam.pairs.iter().map(gap).collect()).collect()
     }
 
@@ -63,10 +63,7 @@ impl Sewn {
         let widest = (0..self.gaps.len()).max_by(|&a, &b| self.gaps[a].total_cmp(&self.gaps[b]));
         let Some(widest) = widest.filter(|&w| self.gaps[w] > tolerance) else { return Ok(()) };
         let (ends, seam) = self.stitching.pairs[widest];
-        let piece = |p: u32| {
-            let found = mesh.pieces.iter().find(|m| m.particles.contains(&(p as usize)));
-            found.map_or_else(String::new, |m| m.name.clone())
-        };
+        let piece = |p: u32| mesh.piece_of(p).map_or_else(String::new, |i| mesh.pieces[i].name.clone());
         Err(SewError::Open {
             seam: mesh.seams[seam as usize].name.clone(),
             gap_mm: 1e3 * self.gaps[widest],
@@ -76,10 +73,6 @@ impl Sewn {
             piece_b: piece(ends[1]),
         })
     }
-}
-
-fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
-    [a.min(b), a.max(b)]
 }
 
 /// Time step while sewing, s. Inertia is what keeps the pieces apart until the seams have led them home.
@@ -103,18 +96,22 @@ const NEAR: f64 = 7.5e-3;
 /// The next phase also begins when the widest gap has not shrunk to this share of itself in so many steps.
 const STALL: usize = 6;
 const PROGRESS: f64 = 0.8;
-/// In the last phase, near pairs that have not closed by as much in so many steps are jammed: their rims lie folded over
-/// one another. They and their neighbours let each other pass, and every stitch may pull twice as hard each time, up to so
-/// many times; what is tangled once they are stitched is led out.
+/// In the last phase, near pairs that have not closed by as much in so many steps are jammed: their rims lie folded
+/// over one another. They and their neighbours let each other pass, and every stitch may pull twice as hard each time,
+/// up to so many times; what is tangled once they are stitched is led out.
 const JAMMED: usize = 12;
 const HARDER: i32 = 4;
 /// Classes of three and more particles pull so much harder: closed last they jam.
 const JUNCTION: f64 = 8.0;
 
+/// Layers are looked for this near while the seams close, in grid spacings.
+const REACH: f64 = 1.6;
+
 /// Sews a garment whose particles start at `start`.
 ///
 /// # Errors
-/// [`SewError`]: a step that cannot be made, or a seam that does not close.
+/// [`SewError`]: a piece that starts in the body, or a step that cannot be made. A seam that does not close is no error
+/// yet: see [`Sewn::open`] and [`Sewn::closed`].
 pub fn sew(
     cut: &Cut,
     body: &Collider,
@@ -129,7 +126,7 @@ pub fn sew(
     let pairs: Vec<[u32; 2]> = stitching.pairs.iter().map(|p| p.0).collect();
     let h = mesh.spacing;
     let law = ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, cloth_gap: Some((GAP * h).min(WIDEST_GAP)) };
-    let reach = Reach::new(1.6 * h);
+    let reach = Reach::new(REACH * h);
     let hood = Neighbourhood { class: stitching.class.clone(), passing: Vec::new() };
     let mut world = World::new(cloth, start, &pairs, body, hood, law, reach)?;
     untangle(&mut world)?;

@@ -28,7 +28,8 @@ pub enum SewError {
     },
     /// A piece hangs through the floor that the body stands on.
     #[error(
-        "piece '{piece}' reaches {depth_mm:.0} mm under the floor that the body stands on; shorten what it hangs from, or move its place"
+        "piece '{piece}' reaches {depth_mm:.0} mm under the floor that the body stands on; shorten what it hangs from, \
+         or move its place"
     )]
     UnderFloor {
         /// The piece.
@@ -38,7 +39,11 @@ pub enum SewError {
     },
     /// A seam does not close.
     #[error(
-        "seam '{seam}' is still open by {gap_mm:.1} mm after {iterations} steps (limit {limit_mm:.1} mm); check that its two edges begin at the same end, that a half that is drawn for the right says `drawn: R`, that a facing or overlay has a layer of its own and `face: same`, that the garment is large enough for the body there, and the place of '{piece_a}' and '{piece_b}'{}", nearly(*gap_mm, *limit_mm)
+        "seam '{seam}' is still open by {gap_mm:.1} mm after {iterations} steps (limit {limit_mm:.1} mm); check that \
+         its two edges begin at the same end, that a half that is drawn for the right says `drawn: R`, that a facing \
+         or overlay has a layer of its own and `face: same`, that the garment is large enough for the body there, and \
+         the place of '{piece_a}' and '{piece_b}'{}",
+        nearly(*gap_mm, *limit_mm)
     )]
     Open {
         /// The seam.

@@ -22,8 +22,8 @@ pub(crate) const NEAREST_LOOK: f64 = 2e-3;
 /// further than so many metres in one,
 const SETTLE: usize = 40;
 const STILL: f64 = 0.2e-3;
-/// or the energy falls by no more than this share of itself in the last few. (What moves then are waves of cloth without
-/// weight.)
+/// or the energy falls by no more than this share of itself in the last few.
+/// (What moves then are waves of cloth without weight.)
 const LAST_FEW: usize = 5;
 const SETTLED: f64 = 0.05;
 /// The most a step changes an edge, metres: half a cell at the usual spacing.
@@ -57,14 +57,14 @@ pub fn draping_world(cloth: Cloth, nodes: Vec<Vec3>, spacing: f64, body: &Collid
     World::new(cloth, nodes, &[], body, hood, law, reach)
 }
 
-/// How near layers are looked for in a sewn garment of grid spacing `spacing` and thickness `thick`, metres, while it moves
-/// freely.
+/// How near layers are looked for in a sewn garment of grid spacing `spacing` and thickness `thick`, metres,
+/// while it moves freely.
 pub fn drape_reach(spacing: f64, thick: f64) -> f64 {
     (REACH * spacing).min(LONGEST_REACH).max(thick + NEAREST_LOOK)
 }
 
-/// Stitches particles that already lie as a sewn garment does: positions of the classes, or `None` where the cloth passes
-/// through itself and is not soon led out.
+/// Stitches particles that already lie as a sewn garment does: positions of the classes, or `None` where the cloth
+/// passes through itself and is not soon led out.
 ///
 /// # Errors
 /// As [`World::new`].

@@ -1,6 +1,6 @@
 //! Which particles are sewn together.
 
-use crate::geometry::{DisjointSets, Vec3};
+use crate::geometry::{DisjointSets, Vec3, sorted_pair};
 use crate::mesh::ClothMesh;
 
 /// Classes of particles that stitches join, and the pairs that pull them.
@@ -29,8 +29,8 @@ impl Stitching {
                 }
             }
         }
-        pairs.sort_by_key(|p| ([p.0[0].min(p.0[1]), p.0[0].max(p.0[1])], p.1));
-        pairs.dedup_by_key(|p| [p.0[0].min(p.0[1]), p.0[0].max(p.0[1])]);
+        pairs.sort_by_key(|p| (sorted_pair(p.0), p.1));
+        pairs.dedup_by_key(|p| sorted_pair(p.0));
         let mut number = vec![u32::MAX; sets.len()];
         let mut class = vec![0; sets.len()];
         let mut size: Vec<u32> = Vec::new();

@@ -12,8 +12,8 @@ const PULL: f64 = 0.3e-3;
 const MORE: f64 = 20.0;
 
 /// Leads the cloth out of itself where it crosses: edges and the triangles they pass through are moved so that the line
-/// along which they cross gets shorter, until nothing is left of it (Volino and Magnenat-Thalmann 2006). No spring pulls
-/// meanwhile: it would pull the cloth further through where it presses on itself. Returns the rounds that took.
+/// along which they cross gets shorter, until nothing is left of it (Volino and Magnenat-Thalmann 2006). No spring
+/// pulls meanwhile: it would pull the cloth further through where it presses on itself. Returns the rounds that took.
 ///
 /// # Errors
 /// As [`World::detect`].

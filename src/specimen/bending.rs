@@ -195,8 +195,8 @@ pub(super) fn on_edge(sample: &Sample) -> Result<Outcome, SpecimenError> {
     Ok(WAYS.into_iter().map(measure).collect::<Result<Vec<_>, SpecimenError>>()?.into())
 }
 
-/// What strips on edge of the widths [`ON_EDGE`] would come to if they were narrow and did not bend in their own plane: the
-/// clamp keeps a strip from twisting a share of its width beyond it, and what it gives upright goes by one over the
+/// What strips on edge of the widths [`ON_EDGE`] would come to if they were narrow and did not bend in their own plane:
+/// the clamp keeps a strip from twisting a share of its width beyond it, and what it gives upright goes by one over the
 /// square of its width.
 fn narrow_and_rigid(measured: [f64; 3]) -> Option<f64> {
     let rows = ON_EDGE.map(|w| nalgebra::RowVector3::new(1.0, w as f64, (w as f64).powi(-2)));

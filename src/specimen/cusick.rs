@@ -75,8 +75,9 @@ pub(super) fn cusick(sample: &Sample) -> Result<Outcome, SpecimenError> {
 pub fn drape(sample: &Sample, spacing: f64) -> Result<Draped, SpecimenError> {
     let body = pedestal()?;
     let sheet = Sheet::disc(&sample.fabric, DISC, spacing)?;
-    // The upper disc holds the cloth down up to the pedestal's edge. What bends at the last particle that is held is the
-    // cloth from half a spacing before it on, and that particle is on average half a spacing from where holding ends.
+    // The upper disc holds the cloth down up to the pedestal's edge. What bends at the last particle that is held is
+    // the cloth from half a spacing before it on, and that particle is on average half a spacing
+    // from where holding ends.
     let cloth = sheet.cloth(|p| p.norm() < PEDESTAL + spacing);
     let lift = lift(&sample.fabric);
     let x = sheet.placed(|p| Vec3::new(p.x, lift + dent(p), p.y));
@@ -101,8 +102,8 @@ fn fall(world: &mut World) -> Result<(), SpecimenError> {
     Ok(())
 }
 
-/// Dents outside the pedestal, the same for every mesh, with no order that a fold could follow: waves whose numbers have
-/// no common divisor.
+/// Dents outside the pedestal, the same for every mesh, with no order that a fold could follow: waves whose numbers
+/// have no common divisor.
 fn dent(p: &Vec2) -> f64 {
     let (r, turn) = (p.norm(), p.y.atan2(p.x));
     let waves = [(2.0, 0.3), (3.0, 1.1), (5.0, 2.0), (7.0, 0.7), (11.0, 2.9)];
@@ -159,8 +160,8 @@ impl Shadow {
     }
 }
 
-/// Folds of a draped disc: how often its rim, walked once round, comes out of a hollow by [`FOLD`] of the overhang and goes
-/// back in.
+/// Folds of a draped disc: how often its rim, walked once round, comes out of a hollow by [`FOLD`] of the overhang and
+/// goes back in.
 fn folds(x: &[Vec3], triangles: &[[u32; 3]]) -> usize {
     let Some(rim) = rim_loops(triangles).into_iter().max_by_key(Vec::len) else { return 0 };
     let radius: Vec<f64> = rim.iter().map(|&n| x[n as usize].x.hypot(x[n as usize].z)).collect();

@@ -1,8 +1,8 @@
-//! The measurements of Liu, Wang & Luo 2015 (L2) on their own specimen, 460 × 400 mm: drawn out along its diagonal, pushed
-//! into a fold on a plate, and let go.
+//! The measurements of Liu, Wang & Luo 2015 (L2) on their own specimen, 460 × 400 mm: drawn out along its diagonal,
+//! pushed into a fold on a plate, and let go.
 //!
-//! The paper's cloth is crumpled by hand; what it keeps of that is set in its yarns. This cloth is elastic, so that what is
-//! left after it is let go is held by the plate's friction alone.
+//! The paper's cloth is crumpled by hand; what it keeps of that is set in its yarns. This cloth is elastic, so that
+//! what is left after it is let go is held by the plate's friction alone.
 
 use std::f64::consts::PI;
 
@@ -27,8 +27,8 @@ const FURTHEST: f64 = 0.3;
 const HALVINGS: usize = 18;
 /// By how much the far side is pushed in, metres.
 const PUSH: f64 = 0.04;
-/// Length of cloth in the middle that is raised before it is let down to its fold, metres: a flat sheet on a plate stays
-/// flat whatever it is pushed.
+/// Length of cloth in the middle that is raised before it is let down to its fold, metres: a flat sheet on a plate
+/// stays flat whatever it is pushed.
 const RAISED: f64 = 0.2;
 /// Parts in which the raised length is summed up.
 const PARTS: usize = 400;
@@ -89,8 +89,8 @@ fn diagonal(sample: &Sample, load: f64) -> Result<f64, SpecimenError> {
     Ok(1.0 + try_bisect([0.0, FURTHEST], HALVINGS, missing)?)
 }
 
-/// Height of the fold of a cloth on a plate whose far side was pushed in, and the area within its rim, seen from above, over
-/// the whole when it has been let go.
+/// Height of the fold of a cloth on a plate whose far side was pushed in, and the area within its rim, seen from above,
+/// over the whole when it has been let go.
 fn fold(sample: &Sample) -> Result<[f64; 2], SpecimenError> {
     let plate = plate()?;
     let sheet = Sheet::strip(&sample.fabric, SIZE, ALONG_WARP, FINE)?;
@@ -110,8 +110,8 @@ fn fold(sample: &Sample) -> Result<[f64; 2], SpecimenError> {
     Ok([height, covered(&released, &sheet.mesh.triangles) / (SIZE[0] * SIZE[1])])
 }
 
-/// How far back and how high every part of the raised length lies: its slope swings once as a sine, as far as uses up what
-/// the side is pushed in by.
+/// How far back and how high every part of the raised length lies: its slope swings once as a sine, as far as uses up
+/// what the side is pushed in by.
 fn raised() -> Vec<[f64; 2]> {
     let part = RAISED / PARTS as f64;
     let slope = |most: f64, k: usize| most * (2.0 * PI * (k as f64 + 0.5) / PARTS as f64).sin();

@@ -1,10 +1,10 @@
 //! Known answers of the plane: a strip cut on the bias, drawn out a little between two jaws.
 //!
-//! The trellis says how far the threads turn *in the mean*: threads that give nothing cross the strip from one free side to
-//! the other, and what the jaws part by is shared among them. It does not say that all share alike. A thread near a jaw's
-//! corner crosses cloth that is sheared by one system only and so turns more easily than one in the middle; with a shear
-//! stiffness that does not grow with the angle the middle turns by 15 % less than the trellis if the threads give nothing, and
-//! by more if they give. What is known is the
+//! The trellis says how far the threads turn *in the mean*: threads that give nothing cross the strip from one free
+//! side to the other, and what the jaws part by is shared among them. It does not say that all share alike. A thread
+//! near a jaw's corner crosses cloth that is sheared by one system only and so turns more easily than one in the
+//! middle; with a shear stiffness that does not grow with the angle the middle turns by 15 % less than the trellis if
+//! the threads give nothing, and by more if they give. What is known is the
 //! state of least energy, found here by Ritz's method in polynomials and so without a mesh.
 
 use nalgebra::{DMatrix, DVector};
@@ -50,9 +50,9 @@ fn gauss(count: usize) -> Vec<[f64; 2]> {
 }
 
 impl BiasStrip {
-    /// Warp and weft strain and shear at `[x, y]` in −1…1 of a displacement by each of the trial functions: those of the
-    /// sideways one, then those of the lengthwise one. All vanish in the jaws and turn into themselves when the strip is
-    /// turned by half.
+    /// Warp and weft strain and shear at `[x, y]` in −1…1 of a displacement by each of the trial functions: those of
+    /// the sideways one, then those of the lengthwise one. All vanish in the jaws and turn into themselves when the
+    /// strip is turned by half.
     fn strains(&self, [x, y]: [f64; 2]) -> Vec<[f64; 3]> {
         let (across, along) = (legendre(self.orders[0], x), legendre(self.orders[1], y));
         let mut slopes = Vec::new();
@@ -138,8 +138,8 @@ mod tests {
         }
     }
 
-    /// A strip of one stiffness in all directions (warp = weft = s, shear = s/2: it does not contract sideways) is strained
-    /// evenly from jaw to jaw.
+    /// A strip of one stiffness in all directions (warp = weft = s, shear = s/2: it does not contract sideways) is
+    /// strained evenly from jaw to jaw.
     #[test]
     fn an_isotropic_strip_is_drawn_out_evenly() {
         let strip = BiasStrip { size: [0.1, 0.6], stiffness: [100.0, 100.0, 50.0], orders: ORDERS };
@@ -157,9 +157,9 @@ mod tests {
         }
     }
 
-    /// Threads that give next to nothing: the closed form. With a(v), b(u) the ways of the threads and lengths in widths
-    /// over √2, the free threads of a strip of 3 : 1 have 2 p(v) + ∫ p over the threads crossed = const, p = a′, whose
-    /// answer is A cos(v/2) + B sin(v/2) with B/A = −(1 − sin ½)/cos ½ for v from 0 to the middle, 1.
+    /// Threads that give next to nothing: the closed form. With a(v), b(u) the ways of the threads and lengths in
+    /// widths over √2, the free threads of a strip of 3 : 1 have 2 p(v) + ∫ p over the threads crossed = const, p = a′,
+    /// whose answer is A cos(v/2) + B sin(v/2) with B/A = −(1 − sin ½)/cos ½ for v from 0 to the middle, 1.
     #[test]
     fn threads_that_give_little_turn_as_the_closed_form_says() {
         let (sin, cos) = 0.5f64.sin_cos();

@@ -21,7 +21,8 @@ fn curve_of(fabric: &Fabric, angle: f64) -> &TensileCurve {
     if angle == ALONG_WARP { &fabric.warp } else { &fabric.weft }
 }
 
-/// Strain between two gauge marks a quarter of the strip from its jaws, which keep the cloth beside them from contracting.
+/// Strain between two gauge marks a quarter of the strip from its jaws,
+/// which keep the cloth beside them from contracting.
 fn strain_in_the_middle(sheet: &Sheet, x: &[Vec3]) -> f64 {
     let length = TESTER[0];
     let [low, high] = [0.25, 0.75].map(|share| {

@@ -35,8 +35,8 @@ pub(super) fn root(low: f64, high: f64, f: impl Fn(f64) -> f64) -> f64 {
     bisect([low, high], BISECTIONS, f)
 }
 
-/// A strip clamped level at one end, under its own weight, Γ = σ g L³/B (Peirce 1930; the elastica θ'' = −Γ (1−s) cos θ,
-/// θ(0) = 0, θ'(1) = 0). Returns how far its end is out and down, as shares of its length.
+/// A strip clamped level at one end, under its own weight, Γ = σ g L³/B (Peirce 1930; the elastica θ'' = −Γ (1−s) cos
+/// θ, θ(0) = 0, θ'(1) = 0). Returns how far its end is out and down, as shares of its length.
 pub(super) fn cantilever(gamma: f64) -> [f64; 2] {
     // φ = π/2 − θ, the angle from the plumb line: φ'' = Γ t sin φ, φ = π/2 in the clamp. It grows from the free end by
     // a factor, so the angle there is found by its logarithm.
@@ -71,8 +71,9 @@ pub(super) fn standing() -> f64 {
     critical(1, 12.0)
 }
 
-/// Γ at which a narrow strip on edge, clamped level at one end, gives way sideways (Prandtl 1899, under its own weight):
-/// σ g w L³/√(EI·GJ) = 12.85 with EI = B w and GJ = 2 B w for a sheet that does not contract sideways as it bends.
+/// Γ at which a narrow strip on edge, clamped level at one end, gives way sideways (Prandtl 1899, under its own
+/// weight): σ g w L³/√(EI·GJ) = 12.85 with EI = B w and GJ = 2 B w for a sheet that does not contract
+/// sideways as it bends.
 pub(super) fn on_edge() -> f64 {
     // The moment is q t²/2: y'' + (q L³)²/(4 EI GJ) t⁴ y = 0.
     2.0 * critical(4, 60.0).sqrt() * 2f64.sqrt()

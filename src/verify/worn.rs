@@ -31,12 +31,7 @@ impl Through {
     /// `torso`, `neck`, `left arm`, `right arm`, `left leg`, `right leg`, `legs`.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Part(PartKind::Torso) => "torso",
-            Self::Part(PartKind::Neck) => "neck",
-            Self::Part(PartKind::LeftArm) => "left arm",
-            Self::Part(PartKind::RightArm) => "right arm",
-            Self::Part(PartKind::LeftLeg) => "left leg",
-            Self::Part(PartKind::RightLeg) => "right leg",
+            Self::Part(part) => part.name(),
             Self::Legs => "legs",
         }
     }
@@ -71,7 +66,7 @@ impl Skeleton {
         let mut ends = Vec::new();
         for kind in [PartKind::Neck, PartKind::LeftArm, PartKind::RightArm, PartKind::LeftLeg, PartKind::RightLeg] {
             let Some(limb) = line(kind) else { continue };
-            let mut path = if is_leg(kind) { torso.clone() } else { vec![top] };
+            let mut path = if kind.is_leg() { torso.clone() } else { vec![top] };
             path.extend(limb);
             carry_on(&mut path, kind);
             ends.push((kind, path));
@@ -108,15 +103,11 @@ impl Skeleton {
     /// A waist and a hem part the ends alike; what lies in the rim's plane is what takes the larger share of the turn.
     fn torso_or_legs(&self, rim: &[Vec3], shares: &[(PartKind, f64)]) -> Through {
         let trunk = linking(rim, &self.torso).abs();
-        let legs = shares.iter().filter(|(kind, _)| is_leg(*kind));
+        let legs = shares.iter().filter(|(kind, _)| kind.is_leg());
         let (sum, count) = legs.fold((0.0, 0.0), |(sum, n), &(_, s)| (sum + s, n + 1.0));
         let beside_trunk = (sum / count - linking(rim, &self.torso)).abs();
         if trunk >= beside_trunk { Through::Part(PartKind::Torso) } else { Through::Legs }
     }
-}
-
-fn is_leg(kind: PartKind) -> bool {
-    matches!(kind, PartKind::LeftLeg | PartKind::RightLeg)
 }
 
 /// Carries a line on to far away: the head up, the legs down, the arms on for a while and then out to their side.

@@ -1,9 +1,9 @@
 //! The published alternation with one factor (L11): fix the directions of the edges, solve for the positions.
 //!
-//! With directions d_e fixed, Σ w ‖(v_b − v_a) − L_M d_e‖² takes the place of E_L. It is never below E_L and equal to it
-//! where the d_e are the edges' own directions, so its minimum lies no higher: the alternation goes downhill. Everything
-//! is quadratic with one constant scalar matrix K = ω_R P + ω_S (graph Laplacian) + ω_B AᵀA for x, y and z; as both
-//! functions have the same gradient at v, the minimum is v − K⁻¹ ½∇E(v).
+//! With directions d_e fixed, Σ w ‖(v_b − v_a) − L_M d_e‖² takes the place of E_L. It is never below E_L and equal to
+//! it where the d_e are the edges' own directions, so its minimum lies no higher: the alternation goes downhill.
+//! Everything is quadratic with one constant scalar matrix K = ω_R P + ω_S (graph Laplacian) + ω_B AᵀA for x, y and z;
+//! as both functions have the same gradient at v, the minimum is v − K⁻¹ ½∇E(v).
 //!
 //! Taken alone, that step creeps where K is much stiffer than the cloth. So it is taken from a point extrapolated from
 //! the last two (Nesterov 1983, with the restart of O'Donoghue & Candès 2015): where that would raise the energy, the

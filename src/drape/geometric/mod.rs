@@ -69,8 +69,8 @@ impl Weights {
 /// How much every vertex, edge and hinge counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Weighting {
-    /// All the same, as (4)–(6) are printed. Halving the spacing then multiplies E_P by 4, leaves E_L and divides E_A by
-    /// 4: the shape depends on the mesh.
+    /// All the same, as (4)–(6) are printed. Halving the spacing then multiplies E_P by 4, leaves E_L and divides E_A
+    /// by 4: the shape depends on the mesh.
     Plain,
     /// E_P by area, E_L by (area at the edge)/L², E_A as the discrete shell's 3 L²/A times the squared angle, each
     /// scaled once ([`PUBLISHED_CELL`]): integrals over the cloth, which converge under refinement.
@@ -145,11 +145,11 @@ impl GeometricCloth {
         out
     }
 
-    /// What gravity adds to a target per iteration, metres, so that a cloth with equal ω_B and ω_R has the bending length
-    /// `c0` (metres) with [`Weighting::PerArea`]; others have c₀·(ω_B/ω_R)^⅓. See [`Aim::Falling`].
+    /// What gravity adds to a target per iteration, metres, so that a cloth with equal ω_B and ω_R has the bending
+    /// length `c0` (metres) with [`Weighting::PerArea`]; others have c₀·(ω_B/ω_R)^⅓. See [`Aim::Falling`].
     ///
-    /// With g = this drop and h = [`PUBLISHED_CELL`], a cylinder of curvature κ costs ω_B κ² h²/4 per area and the weight
-    /// per area is 2 ω_R g/h²; c³ is rigidity over weight, h⁴/(4 g)·ω_B/ω_R.
+    /// With g = this drop and h = [`PUBLISHED_CELL`], a cylinder of curvature κ costs ω_B κ² h²/4 per area and the
+    /// weight per area is 2 ω_R g/h²; c³ is rigidity over weight, h⁴/(4 g)·ω_B/ω_R.
     pub fn drop_for_bending_length(c0: f64) -> Vec3 {
         Vec3::new(0.0, -PUBLISHED_CELL.powi(4) / (4.0 * c0.powi(3)), 0.0)
     }

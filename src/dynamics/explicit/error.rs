@@ -37,7 +37,8 @@ pub enum ExplicitError {
     },
     /// No step is short enough.
     #[error(
-        "the motion diverges at {time} s with steps of {step} s (particle {particle}); use shorter steps, more mass or softer springs"
+        "the motion diverges at {time} s with steps of {step} s (particle {particle}); use shorter steps, more mass or \
+         softer springs"
     )]
     Diverged {
         /// When, seconds.

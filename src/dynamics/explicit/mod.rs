@@ -23,12 +23,12 @@
 //! which loses no digits to the difference of large numbers and holds for steps of changing length; it is what is
 //! computed here.
 //!
-//! **The step.** Over a step d = V₊ Δt the forces change by F(X) − F(X₊) ≈ K d. The ratio s = Δt² dᵀ(F(X) − F(X₊)) / dᵀMd
-//! is (ω Δt)² for the frequencies ω that d is made of, and the scheme is unstable from s = 4. It is also an energy:
-//! kinetic energy plus the mean of the potentials at both ends exceeds what the scheme keeps constant by s/2 times the
-//! kinetic energy, so a bound on s is a bound on the energy that a step can add. After Desbrun & Gascuel 1996 the step
-//! is as large as that allows: it grows slowly while s is small and is undone and halved when s, or the way of any
-//! particle, is too large. Every step costs one evaluation of the forces.
+//! **The step.** Over a step d = V₊ Δt the forces change by F(X) − F(X₊) ≈ K d. The ratio s = Δt² dᵀ(F(X) − F(X₊)) /
+//! dᵀMd is (ω Δt)² for the frequencies ω that d is made of, and the scheme is unstable from s = 4. It is also an
+//! energy: kinetic energy plus the mean of the potentials at both ends exceeds what the scheme keeps constant by s/2
+//! times the kinetic energy, so a bound on s is a bound on the energy that a step can add. After Desbrun & Gascuel 1996
+//! the step is as large as that allows: it grows slowly while s is small and is undone and halved when s, or the way of
+//! any particle, is too large. Every step costs one evaluation of the forces.
 
 mod control;
 mod error;
@@ -44,7 +44,8 @@ use crate::geometry::Vec3;
 const LARGEST_INDEX: f64 = 1.0;
 /// The step grows while s is below this: wide enough apart that growing is not followed by halving at once.
 const CALM_INDEX: f64 = 0.5;
-/// Growth per step. Unstable modes that a slightly too large step wakes grow slowly, and are seen before they are large.
+/// Growth per step. Unstable modes that a slightly too large step wakes grow slowly,
+/// and are seen before they are large.
 const GROWTH: f64 = 1.02;
 /// What an undone step is multiplied by.
 const SHRINK: f64 = 0.5;

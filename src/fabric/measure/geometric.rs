@@ -1,8 +1,9 @@
 //! The three tests of Liu, Wang & Luo 2015 (L2–L4, L6): from readings to measures, normalised values and weights.
 //!
-//! A measure v is printed in their Table 2 as a ratio: projected area after crumpling over the flat area, diagonal pulled
-//! over diagonal at rest, mean fold height over the highest. Equation (1) as printed would give 1 − v; the ratios are
-//! what the table holds and what is computed here, so that a new fabric stands in one column with the fifteen.
+//! A measure v is printed in their Table 2 as a ratio: projected area after crumpling over the flat area, diagonal
+//! pulled over diagonal at rest, mean fold height over the highest. Equation (1) as printed would give 1 − v; the
+//! ratios are what the table holds and what is computed here, so that a new fabric stands in one
+//! column with the fifteen.
 
 use super::super::sheet::LiuMeasures;
 use super::MeasureError;

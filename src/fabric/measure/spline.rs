@@ -13,8 +13,8 @@ pub struct NaturalSpline {
 }
 
 impl NaturalSpline {
-    /// Through `points`, in any order; those of one x count as one, with the mean of their y. `None` when fewer than two
-    /// are left or a number is not finite.
+    /// Through `points`, in any order; those of one x count as one, with the mean of their y. `None` when fewer than
+    /// two are left or a number is not finite.
     pub fn new(mut points: Vec<(f64, f64)>) -> Option<Self> {
         if points.iter().any(|p| !(p.0.is_finite() && p.1.is_finite())) {
             return None;

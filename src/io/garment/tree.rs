@@ -11,7 +11,8 @@ const DEEPEST: usize = 64;
 /// Values after aliases are unfolded.
 const MOST_VALUES: usize = 400_000;
 
-/// Characters of a key. YAML takes 1024 on one line, escapes as they are written: a longer one could not be written again.
+/// Characters of a key. YAML takes 1024 on one line, escapes as they are written:
+/// a longer one could not be written again.
 const LONGEST_KEY: usize = 150;
 
 /// A list or mapping that is still being read.

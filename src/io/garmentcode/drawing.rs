@@ -63,8 +63,8 @@ impl Drawing {
         middle(&self.edges)
     }
 
-    /// Whether `other` is this drawing's mirror image, in which case edge `k` of one is edge `count − 1 − k + by` of the
-    /// other (modulo count).
+    /// Whether `other` is this drawing's mirror image, in which case edge `k` of one is edge `count − 1 − k + by` of
+    /// the other (modulo count).
     pub(super) fn mirror_shift(&self, other: &Self) -> Option<usize> {
         let n = self.edges.len();
         if n != other.edges.len() {

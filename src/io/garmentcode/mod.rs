@@ -6,8 +6,9 @@
 //!                  clockwise  places             long ones in one
 //! ```
 //!
-//! Every edge of a panel is an edge of its piece with the same length; every stitch is in one seam. What the format does
-//! not know (grain, fabric, allowance) is filled in: the grain runs down the drawing, the cloth is a cotton poplin.
+//! Every edge of a panel is an edge of its piece with the same length; every stitch is in one seam. What the format
+//! does not know (grain, fabric, allowance) is filled in: the grain runs down the drawing,
+//! the cloth is a cotton poplin.
 
 mod drawing;
 mod edges;

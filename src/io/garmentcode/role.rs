@@ -2,6 +2,7 @@
 
 use super::drawing::Drawing;
 use super::spec::Panel;
+use crate::geometry::range_of;
 use crate::pattern::Side;
 
 /// The part of a garment a panel is.
@@ -109,8 +110,7 @@ pub(super) fn side(drawing: &Drawing, role: Role) -> Option<Side> {
         let x = drawing.space(drawing.middle()).x;
         return (x.abs() > MIDDLE).then_some(if x > 0.0 { Side::Left } else { Side::Right });
     }
-    let xs = || drawing.edges.iter().map(|e| drawing.space(e.start).x);
-    let (low, high) = (xs().fold(f64::INFINITY, f64::min), xs().fold(f64::NEG_INFINITY, f64::max));
+    let [low, high] = range_of(drawing.edges.iter().map(|e| drawing.space(e.start).x));
     if low > -MIDDLE && high > MIDDLE {
         return Some(Side::Left);
     }

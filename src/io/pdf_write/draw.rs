@@ -16,8 +16,8 @@ const FOLD: [f32; 4] = [24.0, 6.0, 4.0, 6.0];
 const DRILL: f64 = 0.002;
 /// Barbs of arrows, metres.
 const BARB: f64 = 0.006;
-/// Widths of Helvetica's letters from the blank to `~`, thousandths of the size, as its metrics give them; other letters
-/// are about as wide as an `n`.
+/// Widths of Helvetica's letters from the blank to `~`, thousandths of the size, as its metrics give them; other
+/// letters are about as wide as an `n`.
 const WIDTHS: [u16; 95] = [
     278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278, 556, 556, 556, 556, 556, 556, 556,
     556, 556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667, 611, 778, 722, 278, 500, 667, 556, 833,

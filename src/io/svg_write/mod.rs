@@ -1,7 +1,7 @@
 //! SVG out: patterns for cutting.
 //!
-//! One user unit is one millimetre and width, height and viewBox say so. Coordinates are absolute (no transforms but for
-//! turned text) and every element carries its own styling, so that any program sees the same drawing.
+//! One user unit is one millimetre and width, height and viewBox say so. Coordinates are absolute (no transforms but
+//! for turned text) and every element carries its own styling, so that any program sees the same drawing.
 
 mod cutting;
 

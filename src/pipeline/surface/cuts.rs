@@ -4,9 +4,10 @@ use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 use super::super::error::PipelineError;
-use super::parts::{Nodes, Part, sorted};
+use super::parts::{Nodes, Part};
 use super::report::DartReport;
 use crate::flatten::{self, FlattenError, Flattened, disk_cuts, shortest_path};
+use crate::geometry::sorted_pair;
 use crate::io::obj_read::ObjFaces;
 
 /// Millimetres in a metre.
@@ -45,7 +46,7 @@ impl Marks {
                 let cut = path.iter().map(u32::to_string).collect::<Vec<_>>().join(",");
                 PipelineError::Cut { file: file.to_owned(), cut, why }
             })?;
-            of_file.extend(way.windows(2).map(|w| sorted(w[0], w[1])));
+            of_file.extend(way.windows(2).map(|w| sorted_pair([w[0], w[1]])));
             out.chains.push(way.iter().map(|v| v + 1).collect());
         }
         out.edges = nodes.edges_on(&of_file);
@@ -63,7 +64,7 @@ impl Marks {
     pub(super) fn cut(&mut self, part: &Part, chain: &[u32]) {
         if chain.len() > 1 {
             let node = |v: u32| part.nodes[v as usize];
-            self.edges.extend(chain.windows(2).map(|w| sorted(node(w[0]), node(w[1]))));
+            self.edges.extend(chain.windows(2).map(|w| sorted_pair([node(w[0]), node(w[1])])));
             self.chains.push(chain.iter().map(|&v| part.number(v)).collect());
         }
     }
@@ -109,9 +110,9 @@ fn chains(edges: &[[u32; 2]]) -> Vec<Vec<u32>> {
         for &first in &at[&start] {
             let mut chain = vec![start];
             let mut next = Some(first);
-            while let Some(v) = next.filter(|&v| left.remove(&sorted(chain[chain.len() - 1], v))) {
+            while let Some(v) = next.filter(|&v| left.remove(&sorted_pair([chain[chain.len() - 1], v]))) {
                 chain.push(v);
-                let open = |w: &&u32| left.contains(&sorted(v, **w));
+                let open = |w: &&u32| left.contains(&sorted_pair([v, **w]));
                 next = if at[&v].len() == 2 { at[&v].iter().find(open).copied() } else { None };
             }
             if chain.len() > 1 {

@@ -1,5 +1,5 @@
-//! Parts laid flat, and darts where they are strained too much: one at a time, the next always into the part that needs it
-//! most.
+//! Parts laid flat, and darts where they are strained too much: one at a time,
+//! the next always into the part that needs it most.
 
 use std::path::Path;
 
@@ -89,8 +89,8 @@ impl Source<'_> {
 }
 
 /// Lays all parts flat. The part that is strained most gets the next dart, until all are within the limit or the darts
-/// that `source.options` allows are cut. A dart that would make a flat piece lie on itself is not cut, and its part gets
-/// no other; `marks` has those that are.
+/// that `source.options` allows are cut. A dart that would make a flat piece lie on itself is not cut, and its part
+/// gets no other; `marks` has those that are.
 pub(super) fn with_darts(source: &Source<'_>, marks: &mut Marks) -> Result<Vec<Laid>, PipelineError> {
     let mut laid = source.lay_all(source.parts(marks))?;
     let mut left = source.options.darts;

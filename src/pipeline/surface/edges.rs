@@ -8,8 +8,8 @@ use std::collections::HashMap;
 use std::f64::consts::PI;
 
 use super::darts::Laid;
-use super::parts::{Part, sorted};
-use crate::geometry::rim_loops;
+use super::parts::Part;
+use crate::geometry::{rim_loops, sorted_pair};
 
 /// A corner turns by more than this, radians, over the reach on both sides of it: 30°.
 const CORNER: f64 = PI / 6.0;
@@ -69,7 +69,7 @@ impl Others {
         for (k, (part, loops)) in parts.iter().zip(loops).enumerate() {
             for ends in loops.iter().flat_map(|rim| sides(rim)) {
                 let file = ends.map(|v| part.vertices[v as usize]);
-                at.entry(sorted(file[0], file[1])).or_default().push((k, sorted(ends[0], ends[1])));
+                at.entry(sorted_pair(file)).or_default().push((k, sorted_pair(ends)));
             }
         }
         let mut of = HashMap::new();
@@ -82,8 +82,8 @@ impl Others {
         Self { of }
     }
 
-    fn of(&self, part: usize, [a, b]: [u32; 2]) -> Other {
-        self.of.get(&(part, sorted(a, b))).copied()
+    fn of(&self, part: usize, ends: [u32; 2]) -> Other {
+        self.of.get(&(part, sorted_pair(ends))).copied()
     }
 }
 
@@ -144,7 +144,8 @@ fn corners(part: &Part, rim: &[u32]) -> Vec<bool> {
         .collect()
 }
 
-/// By how much the rim turns at each of its vertices on the surface: half a turn less the angles of the triangles there.
+/// By how much the rim turns at each of its vertices on the surface:
+/// half a turn less the angles of the triangles there.
 fn turns(part: &Part, rim: &[u32]) -> Vec<f64> {
     let place: HashMap<u32, usize> = rim.iter().enumerate().map(|(k, &v)| (v, k)).collect();
     let mut turns = vec![PI; rim.len()];
@@ -160,7 +161,8 @@ fn turns(part: &Part, rim: &[u32]) -> Vec<f64> {
     turns
 }
 
-/// A rim cut at its breaks, from the break with the lowest number in the file on; without breaks, from the lowest vertex.
+/// A rim cut at its breaks, from the break with the lowest number in the file on; without breaks,
+/// from the lowest vertex.
 fn chains(rim: &[u32], breaks: &[bool], part: &Part) -> Vec<Vec<u32>> {
     let number = |k: &usize| (part.number(rim[*k]), *k);
     let open = (0..rim.len()).filter(|&k| breaks[k]).min_by_key(number);
@@ -182,7 +184,7 @@ fn pair(all: &mut [Vec<NamedEdge>], others: &Others) {
     let mut home: HashMap<(usize, [u32; 2]), [usize; 2]> = HashMap::new();
     for (p, edges) in all.iter().enumerate() {
         for (e, edge) in edges.iter().enumerate() {
-            home.extend(edge.vertices.windows(2).map(|w| ((p, sorted(w[0], w[1])), [p, e])));
+            home.extend(edge.vertices.windows(2).map(|w| ((p, sorted_pair([w[0], w[1]])), [p, e])));
         }
     }
     for p in 0..all.len() {

@@ -13,7 +13,7 @@ use std::time::Instant;
 use super::error::PipelineError;
 use crate::fabric::Fabric;
 use crate::flatten::{Options, Report};
-use crate::geometry::Vec3;
+use crate::geometry::box_of;
 use crate::io::obj_read::{ObjFaces, read_obj_faces};
 use crate::report::Stage;
 pub use cuts::Cuts;
@@ -160,9 +160,7 @@ impl Source<'_> {
 
 /// Metres per unit of a file of this size, and the unit's name.
 fn guess(faces: &ObjFaces) -> (f64, &'static str) {
-    let used = || faces.faces.iter().flatten().map(|&v| faces.vertices[v as usize]);
-    let low = used().fold(Vec3::repeat(f64::INFINITY), |a, p| a.inf(&p));
-    let high = used().fold(Vec3::repeat(f64::NEG_INFINITY), |a, p| a.sup(&p));
+    let [low, high] = box_of(faces.faces.iter().flatten().map(|&v| faces.vertices[v as usize]));
     let size = (high - low).max();
     let unit = if size < METRES_BELOW {
         1.0

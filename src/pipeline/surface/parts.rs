@@ -1,13 +1,13 @@
 //! From an OBJ's faces to the parts that are laid flat one by one.
 //!
-//! Faces hang together across an edge unless it lies between two groups, is a seam of the texture or is marked as a cut.
-//! Every fan of faces that hang together round a vertex gets a vertex of its own, so that cuts open and parts that only
-//! touch come apart.
+//! Faces hang together across an edge unless it lies between two groups, is a seam of the texture or is marked as a
+//! cut. Every fan of faces that hang together round a vertex gets a vertex of its own, so that cuts open and parts that
+//! only touch come apart.
 
 use std::collections::{HashMap, HashSet};
 
 use crate::flatten::{FlattenError, Solid};
-use crate::geometry::{DisjointSets, TriMesh, Vec3};
+use crate::geometry::{DisjointSets, TriMesh, Vec3, sorted_pair};
 use crate::io::obj_read::ObjFaces;
 
 /// A connected part of the surface.
@@ -76,7 +76,7 @@ impl Nodes {
 
     /// Edges of nodes, smaller first, that lie on one of the file's edges.
     pub(super) fn edges_on(&self, of_file: &HashSet<[u32; 2]>) -> HashSet<[u32; 2]> {
-        let on = |[a, b]: &[u32; 2]| of_file.contains(&sorted(self.vertex[*a as usize], self.vertex[*b as usize]));
+        let on = |ends: &[u32; 2]| of_file.contains(&sorted_pair(ends.map(|n| self.vertex[n as usize])));
         self.of_face.iter().flat_map(|face| sides(face)).filter(on).collect()
     }
 }
@@ -89,13 +89,8 @@ fn welded(vertices: &[Vec3]) -> Vec<u32> {
     (0..).zip(vertices).map(|(k, p)| *first.entry(place(p)).or_insert(k)).collect()
 }
 
-/// Smaller first.
-pub(super) fn sorted(a: u32, b: u32) -> [u32; 2] {
-    [a.min(b), a.max(b)]
-}
-
 fn sides(face: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
-    (0..face.len()).map(|k| sorted(face[k], face[(k + 1) % face.len()]))
+    (0..face.len()).map(|k| sorted_pair([face[k], face[(k + 1) % face.len()]]))
 }
 
 /// The parts in the order of their first faces, group by group; named by their group or, without one, by `stem`.
@@ -148,7 +143,7 @@ impl Fans {
         let mut sides: Vec<([u32; 2], u32, u32)> = Vec::new();
         for (f, face) in nodes.of_face.iter().enumerate() {
             for k in 0..face.len() {
-                sides.push((sorted(face[k], face[(k + 1) % face.len()]), f as u32, k as u32));
+                sides.push((sorted_pair([face[k], face[(k + 1) % face.len()]]), f as u32, k as u32));
             }
             starts.push(starts[f] + face.len());
         }
@@ -178,7 +173,7 @@ impl Fans {
 
 /// The edges that [`fan`] adds to a polygon.
 fn diagonals(corners: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
-    (2..corners.len() - 1).map(|k| sorted(corners[0], corners[k]))
+    (2..corners.len() - 1).map(|k| sorted_pair([corners[0], corners[k]]))
 }
 
 /// A polygon as triangles round its first corner.

@@ -111,16 +111,15 @@ fn sort_out_sides(garment: &Garment, mesh: &ClothMesh, out: &mut [Assigned]) {
 
 /// Pieces for a leg that are sewn to one another across both legs are trousers: they go round the trunk.
 fn join_legs(mesh: &ClothMesh, out: &mut [Assigned]) {
-    let is_leg = |a: &Assigned| matches!(a.part, PartKind::LeftLeg | PartKind::RightLeg);
+    let is_leg = |a: &Assigned| a.part.is_leg();
     if !out.iter().any(is_leg) {
         return;
     }
-    let piece_of = |p: u32| mesh.pieces.iter().position(|m| m.particles.contains(&(p as usize)));
     let mut joined: Vec<[usize; 2]> = mesh
         .seams
         .iter()
         .flat_map(|s| &s.pairs)
-        .filter_map(|[a, b]| Some([piece_of(*a)?, piece_of(*b)?]))
+        .filter_map(|[a, b]| Some([mesh.piece_of(*a)?, mesh.piece_of(*b)?]))
         .filter(|&[i, j]| i != j && is_leg(&out[i]) && is_leg(&out[j]))
         .collect();
     joined.dedup();
@@ -147,14 +146,14 @@ fn lean(mesh: &ClothMesh, assigned: &[Assigned], i: usize) -> f64 {
         let count = range.len().max(1) as f64;
         range.map(|p| mesh.flat[p].x).sum::<f64>() / count
     };
-    let piece_of = |p: u32| mesh.pieces.iter().position(|m| m.particles.contains(&(p as usize)));
     let mut sum = 0.0;
     for [a, b] in mesh.seams.iter().flat_map(|s| &s.pairs) {
         for (p, q) in [(*a, *b), (*b, *a)] {
-            if piece_of(p) != Some(i) {
+            if mesh.piece_of(p) != Some(i) {
                 continue;
             }
-            let Some(other) = piece_of(q).filter(|&o| o != i && assigned[o].part == PartKind::Torso) else { continue };
+            let of_trunk = |&other: &usize| other != i && assigned[other].part == PartKind::Torso;
+            let Some(other) = mesh.piece_of(q).filter(of_trunk) else { continue };
             let x = mesh.flat[q as usize].x - middle(other);
             sum += if assigned[other].facing == Some(Facing::Back) { -x } else { x };
         }

@@ -1,4 +1,5 @@
-//! Bands drawn upright are laid level: what a maker draws with its grain running down goes round the body like any other.
+//! Bands drawn upright are laid level: what a maker draws with its grain running down goes round
+//! the body like any other.
 //!
 //! ```text
 //!   ┌─┐                 ┌──────────────────────┐  its sewn side towards
@@ -64,12 +65,11 @@ fn is_upright_band(mesh: &ClothMesh, sheet: &Sheet, band: usize) -> bool {
 /// Turns a band so that its sewn side comes to lie towards what it is sewn to: below what is sewn at its top.
 fn turn(mesh: &ClothMesh, sheet: &mut Sheet, band: usize) {
     let middle = |piece: usize| 0.5 * extent(mesh, sheet, piece).iter().sum::<Vec2>();
-    let mut away = 0.0;
+    let (own, mut away) = (middle(band), 0.0);
     for [a, b] in stitches(mesh, &mesh.pieces[band]).flatten() {
-        let other = (0..mesh.pieces.len()).find(|&i| mesh.pieces[i].particles.contains(&b));
-        if let Some(other) = other.filter(|&i| i != band) {
+        if let Some(other) = mesh.piece_of(b as u32).filter(|&other| other != band) {
             // Right of its own middle and at the top of the other, or left and at the bottom: what is right goes down.
-            away += (sheet.flat[a].x - middle(band).x).signum() * (middle(other).y - sheet.flat[b].y).signum();
+            away += (sheet.flat[a].x - own.x).signum() * (middle(other).y - sheet.flat[b].y).signum();
         }
     }
     let turned = |p: Vec2| if away >= 0.0 { Vec2::new(-p.y, p.x) } else { Vec2::new(p.y, -p.x) };

@@ -85,12 +85,11 @@ pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &mut Sheet) {
 /// How far the sectors open together that are sewn to one another, for each.
 fn openings(mesh: &ClothMesh, sectors: &[Option<Sector>]) -> Vec<f64> {
     let mut group: Vec<usize> = (0..sectors.len()).collect();
-    let piece_of = |p: u32| mesh.pieces.iter().position(|m| m.particles.contains(&(p as usize)));
     let on_side =
         |p: u32, piece: usize| sectors[piece].is_some_and(|s| s.polar(mesh.flat[p as usize]).1.abs() > s.half - BEYOND);
     for seam in &mesh.seams {
         for [a, b] in &seam.pairs {
-            let (Some(i), Some(j)) = (piece_of(*a), piece_of(*b)) else { continue };
+            let (Some(i), Some(j)) = (mesh.piece_of(*a), mesh.piece_of(*b)) else { continue };
             if group[i] != group[j] && on_side(*a, i) && on_side(*b, j) {
                 let (keep, gone) = (group[i].min(group[j]), group[i].max(group[j]));
                 group.iter_mut().filter(|g| **g == gone).for_each(|g| *g = keep);

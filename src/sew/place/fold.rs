@@ -9,6 +9,8 @@ use crate::pattern::{Garment, LineKind};
 
 /// A fold of at least this angle (radians) is folded over before the start; a smaller one is left to the drape.
 const PRESSED: f64 = 2.0;
+/// What lies no further over a fold than this, metres, lies on it.
+const ON_FOLD: f64 = 1e-9;
 
 /// The pieces laid out flat, pressed folds folded over.
 pub(super) struct Sheet {
@@ -18,13 +20,14 @@ pub(super) struct Sheet {
     pub(super) flat: Vec<Vec2>,
     /// That without what a sector widens towards its hem: its sides run straight down.
     pub(super) straight: Vec<Vec2>,
-    /// Layers towards the wrong side: 0, 1 where the cloth is folded under, -1 where it is turned up; up to 4 in a pleat.
+    /// Layers towards the wrong side: 0, 1 where the cloth is folded under, -1 where it is turned up;
+    /// up to 4 in a pleat.
     pub(super) under: Vec<f64>,
 }
 
-/// Folds every piece along its pressed lines, but for creases that its seams hold open: the part with the shorter sewn rim
-/// under the other, or over it where right sides meet. Lays its pleats, unrolls what is a sector of a circle, and lays
-/// level what is an upright band.
+/// Folds every piece along its pressed lines, but for creases that its seams hold open: the part with the shorter sewn
+/// rim under the other, or over it where right sides meet. Lays its pleats, unrolls what is a sector of a circle, and
+/// lays level what is an upright band.
 pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
     let (flat, under) = (mesh.flat.clone(), vec![0.0; mesh.flat.len()]);
     let mut sheet = Sheet { drawn: Vec::new(), flat, straight: Vec::new(), under };
@@ -51,7 +54,7 @@ pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
             let keep = if balance >= 0.0 { 1.0 } else { -1.0 };
             for p in piece.particles.clone() {
                 let s = side(p) * keep;
-                if s < -1e-9 {
+                if s < -ON_FOLD {
                     sheet.flat[p] += across * (-2.0 * s * keep);
                     sheet.under[p] = angle.signum();
                 }
@@ -66,15 +69,12 @@ pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
     sheet
 }
 
-/// Whether seams along a fold lead from its two sides to different places, as from the crease of a trouser leg: the piece
-/// is worn open. (Both sides of a waistband go to one edge, or one of them to the lining under it; side seams that run on
-/// into a hem turned up do not run along its fold.)
+/// Whether seams along a fold lead from its two sides to different places, as from the crease of a trouser leg: the
+/// piece is worn open. (Both sides of a waistband go to one edge, or one of them to the lining under it; side seams
+/// that run on into a hem turned up do not run along its fold.)
 fn opens(garment: &Garment, mesh: &ClothMesh, piece: &PieceMesh, along: Vec2, side: impl Fn(usize) -> f64) -> bool {
     let own = |p: usize| piece.particles.contains(&p);
-    let layer = |p: usize| {
-        let other = mesh.pieces.iter().position(|m| m.particles.contains(&p));
-        other.map_or(0, |other| garment.pieces[other].layer)
-    };
+    let layer = |p: usize| mesh.piece_of(p as u32).map_or(0, |other| garment.pieces[other].layer);
     let mut partners: [Vec<usize>; 2] = [Vec::new(), Vec::new()];
     for steps in mesh.seams.iter().flat_map(|seam| seam.pairs.windows(2)) {
         for k in 0..2 {

@@ -1,5 +1,5 @@
-//! Pieces that lie on others: facings and linings start where they will be, over the cloth they are sewn to, as many layers
-//! nearer to the body or further from it as the garment says.
+//! Pieces that lie on others: facings and linings start where they will be, over the cloth they are sewn to, as many
+//! layers nearer to the body or further from it as the garment says.
 
 use nalgebra::{Isometry2, Point2, UnitComplex};
 
@@ -11,8 +11,8 @@ use crate::geometry::{Locator, TriMesh, Vec2, Vec3};
 use crate::mesh::ClothMesh;
 use crate::pattern::Garment;
 
-/// Sides that do not match within this once the piece is turned and shifted, metres RMS, are gathered, or go round another
-/// way: such a piece has a place in a row of its own.
+/// Sides that do not match within this once the piece is turned and shifted, metres RMS, are gathered, or go round
+/// another way: such a piece has a place in a row of its own.
 const MISFIT: f64 = 0.02;
 
 /// What reaches further than this beyond the rims of what it is sewn to, metres, does not lie on it: a cape over the
@@ -119,8 +119,8 @@ impl Table<'_> {
         self.spread(own, (0..laid.len()).filter(of_layer).filter_map(beside).flatten().collect())
     }
 
-    /// The turn and shift that lay a piece where its stitches with another one meet, if they match there and its cloth goes
-    /// the `way` asked for. (Of a band and what hangs from it, it goes on.)
+    /// The turn and shift that lay a piece where its stitches with another one meet, if they match there and its cloth
+    /// goes the `way` asked for. (Of a band and what hangs from it, it goes on.)
     fn matched(&self, own: usize, other: usize, way: Way) -> Option<Isometry2<f64>> {
         let stitches = stitches(self.links, own, other);
         let ends: Vec<[Vec2; 2]> = stitches.iter().map(|pair| pair.map(|p| self.sheet.drawn[p as usize])).collect();
@@ -131,8 +131,8 @@ impl Table<'_> {
         (misfit <= MISFIT * MISFIT * ends.len() as f64 && same_way == (way == Way::Same)).then_some(to_other)
     }
 
-    /// Spread out over `hosts`, every particle on the one right under it rather than beyond the rim of another; not if there
-    /// is none or it reaches far beyond them.
+    /// Spread out over `hosts`, every particle on the one right under it rather than beyond the rim of another; not if
+    /// there is none or it reaches far beyond them.
     fn spread(&self, own: usize, hosts: Vec<Host>) -> Option<Laid> {
         let opened = hosts.into_iter().map(|host| (open(self.mesh, self.sheet, host.piece), host));
         let (opened, hosts): (Vec<_>, Vec<_>) = opened.filter(|(open, _)| !open.is_empty()).unzip();
@@ -161,7 +161,8 @@ enum Way {
     On,
 }
 
-/// The same links, but from what lies on a host to the nearest of that host's particles: rows know nothing of what is laid.
+/// The same links, but from what lies on a host to the nearest of that host's particles:
+/// rows know nothing of what is laid.
 pub(super) fn through(links: Vec<Link>, mesh: &ClothMesh, laid: &[Option<Laid>]) -> Vec<Link> {
     let mut out = Vec::new();
     for link in links {

@@ -1,13 +1,16 @@
 //! A row level by level: where its members are, and how they stand side by side round a ring.
 
 use super::fold::Sheet;
-use super::rows::{Link, Member, Middle, ROOM, Row};
+use super::rows::{Link, Member, Middle, ROOM, Row, extent, stitched};
+use crate::geometry::box_of;
 use crate::mesh::ClothMesh;
 
 /// Height of a level, metres: outlines are read off, and rings made, this often.
 pub(super) const LEVEL: f64 = 0.005;
 /// Levels on either side over which shifts and rings are smoothed.
 pub(super) const SMOOTHING: usize = 6;
+/// A front middle that is no further than this share of a member's width from its middle is on that member.
+const WITHIN: f64 = 0.25;
 
 /// A row at one level.
 #[derive(Clone, Debug, Default)]
@@ -36,17 +39,14 @@ pub(super) fn levels(mesh: &ClothMesh, sheet: &Sheet, row: &Row, links: &[Link])
     let count = ((row.v[1] - row.v[0]) / LEVEL).ceil() as usize + 1;
     let members = row.members.len();
     let mut out = vec![Level { spans: vec![None; members], shift: vec![0.0; members], ..Level::default() }; count];
-    let level_of = |v: f64| (((v - row.v[0]) / LEVEL).round().max(0.0) as usize).min(count - 1);
+    let level_of = |v: f64| nearest_level(row, count, v);
     for (i, m) in row.members.iter().enumerate() {
         for tri in &mesh.triangles[mesh.pieces[m.piece].triangles.clone()] {
             let corners = tri.map(|p| sheet.flat[p as usize] + m.shift);
-            let lo = corners.iter().map(|c| c.y).fold(f64::INFINITY, f64::min);
-            let hi = corners.iter().map(|c| c.y).fold(f64::NEG_INFINITY, f64::max);
-            let left = corners.iter().map(|c| c.x).fold(f64::INFINITY, f64::min);
-            let right = corners.iter().map(|c| c.x).fold(f64::NEG_INFINITY, f64::max);
-            for level in &mut out[level_of(lo)..=level_of(hi)] {
-                let span = level.spans[i].get_or_insert([left, right]);
-                *span = [span[0].min(left), span[1].max(right)];
+            let [low, high] = box_of(corners);
+            for level in &mut out[level_of(low.y)..=level_of(high.y)] {
+                let span = level.spans[i].get_or_insert([low.x, high.x]);
+                *span = [span[0].min(low.x), span[1].max(high.x)];
             }
         }
     }
@@ -59,9 +59,14 @@ pub(super) fn levels(mesh: &ClothMesh, sheet: &Sheet, row: &Row, links: &[Link])
     out
 }
 
+/// The one of the `count` levels of a row that is nearest to v.
+pub(super) fn nearest_level(row: &Row, count: usize, v: f64) -> usize {
+    (((v - row.v[0]) / LEVEL).round().max(0.0) as usize).min(count - 1)
+}
+
 /// Widens every span so far that its mean over the levels that its shift will be averaged with still covers it: each of
-/// these shifts keeps the widened spans apart, and so does their average. Where an outline runs straight, nothing has to
-/// be added.
+/// these shifts keeps the widened spans apart, and so does their average. Where an outline runs straight, nothing has
+/// to be added.
 fn widen(levels: &mut [Level]) {
     let members = levels.first().map_or(0, |l| l.spans.len());
     for i in 0..members {
@@ -90,14 +95,12 @@ struct Joint {
     jump: f64,
 }
 
+/// The joints after every member, the last one's being that with the first.
 fn joints(mesh: &ClothMesh, sheet: &Sheet, row: &Row, links: &[Link], level_of: &impl Fn(f64) -> usize) -> Vec<Joint> {
     let n = row.members.len();
     let middle = |m: &Member| {
-        let (lo, hi) = mesh.pieces[m.piece]
-            .particles
-            .clone()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), p| (lo.min(sheet.flat[p].x), hi.max(sheet.flat[p].x)));
-        0.5 * (lo + hi)
+        let [low, high] = extent(mesh, sheet, m.piece);
+        0.5 * (low.x + high.x)
     };
     (0..n)
         .map(|i| {
@@ -111,12 +114,9 @@ fn joints(mesh: &ClothMesh, sheet: &Sheet, row: &Row, links: &[Link], level_of: 
                 else {
                     continue;
                 };
-                // The same two pieces may meet round the ring or between the legs as well: this joint is where the right
-                // of one meets the left of the other.
-                let mean = |k: usize| {
-                    link.pairs.iter().map(|p| sheet.flat[p[k] as usize].x).sum::<f64>() / link.pairs.len() as f64
-                };
-                let (ua, ub) = (mean(k), mean(1 - k));
+                // The same two pieces may meet round the ring or between the legs as well: this joint is where the
+                // right of one meets the left of the other.
+                let (ua, ub) = (stitched(link, sheet, k).x, stitched(link, sheet, 1 - k).x);
                 if ua < middles[0] || ub > middles[1] {
                     continue;
                 }
@@ -215,7 +215,7 @@ fn middle(row: &Row, level: &Level, present: &[usize], starts: &[f64]) -> f64 {
         }
     };
     let center = |i: usize| 0.5 * (span(i)[0] + span(i)[1]);
-    let over = present.iter().find(|&&i| (center(i) - u).abs() < 0.25 * (span(i)[1] - span(i)[0]));
+    let over = present.iter().find(|&&i| (center(i) - u).abs() < WITHIN * (span(i)[1] - span(i)[0]));
     if let Some(&i) = over {
         return starts[i] + u - span(i)[0];
     }

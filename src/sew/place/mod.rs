@@ -43,7 +43,8 @@ const SMALLEST: f64 = 0.02;
 pub enum PlaceError {
     /// A word of `place:` names no body part.
     #[error(
-        "piece '{piece}': place '{words}' names no body part; use torso, hip, waist, skirt, neck, arm or leg, with left or right, front or back"
+        "piece '{piece}': place '{words}' names no body part; use torso, hip, waist, skirt, neck, arm or leg, with \
+         left or right, front or back"
     )]
     Words {
         /// The piece.
@@ -53,7 +54,8 @@ pub enum PlaceError {
     },
     /// The body has no such part.
     #[error(
-        "piece '{piece}' goes round the {part}, which mannequin '{mannequin}' does not have; give it a place: {{at: [x, y, z]}}"
+        "piece '{piece}' goes round the {part}, which mannequin '{mannequin}' does not have; give it a place: {{at: \
+         [x, y, z]}}"
     )]
     NoPart {
         /// The piece.
@@ -65,7 +67,8 @@ pub enum PlaceError {
     },
     /// The seams of a piece ask for it to be nowhere.
     #[error(
-        "piece '{piece}' finds no place: its seams contradict each other; check which edges they name (a front's right side is sewn to a back's left), or give it a place: {{at: [x, y, z]}}"
+        "piece '{piece}' finds no place: its seams contradict each other; check which edges they name (a front's right \
+         side is sewn to a back's left), or give it a place: {{at: [x, y, z]}}"
     )]
     Nowhere {
         /// The piece.
@@ -76,7 +79,8 @@ pub enum PlaceError {
 /// Start positions of all particles, on `body`; `collider` is its surface.
 ///
 /// # Errors
-/// [`PlaceError`] when a piece's place names a part that is none or that the body has not.
+/// [`PlaceError`] when a piece's place names a part that is none or that the body has not, or when its seams leave it
+/// no place.
 pub fn place(
     garment: &Garment,
     mesh: &ClothMesh,

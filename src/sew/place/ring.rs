@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 
 use super::ellipse::Ellipse;
 use super::fold::Sheet;
-use super::levels::{LEVEL, Level, complete_shifts, smooth_shifts, smoothed, spread_out};
+use super::levels::{LEVEL, Level, complete_shifts, nearest_level, smooth_shifts, smoothed, spread_out};
 use super::rows::{Link, Member, Row, has_shoulders};
 use super::shoulders::Lean;
 use super::stations::Stations;
-use crate::geometry::{Vec2, Vec3};
+use crate::geometry::{Vec2, Vec3, sorted_pair};
 use crate::mannequin::PartKind;
 use crate::mesh::ClothMesh;
 
@@ -34,7 +34,8 @@ pub(super) struct Ring<'a> {
 }
 
 impl Ring<'_> {
-    /// Puts the row's particles on rings with these half axes; `placed` says which pieces have their place, none if empty.
+    /// Puts the row's particles on rings with these half axes; `placed` says which pieces have their place,
+    /// none if empty.
     pub(super) fn bend(&mut self, axes: Vec<[f64; 2]>, placed: &[bool], x: &mut [Vec3]) {
         let ellipses: Vec<Ellipse> = axes.into_iter().map(|[a, b]| Ellipse::new(a, b)).collect();
         for (level, ellipse) in self.levels.iter_mut().zip(&ellipses) {
@@ -54,12 +55,13 @@ impl Ring<'_> {
             (true, false) => LAYER,
             (true, true) => 2.0 * LAYER,
         };
+        let sewn = self.sewn_length();
         let on_ring = |i: usize, at: Vec2, off: f64, under: f64| {
             let arc = at.x + self.shift(i, at.y);
             let station = self.stations.at(self.anchor + at.y);
             let on = |ellipse: &Ellipse| {
                 // An overlapping band goes once round by what is sewn of it, however wide the ring.
-                let share = arc / if layers > 0.0 { self.sewn_length() } else { ellipse.perimeter };
+                let share = arc / if layers > 0.0 { sewn } else { ellipse.perimeter };
                 let outward = off + layers * (2.0 * share).clamp(0.0, 1.0) - LAYER * under;
                 station.point(ellipse, share + turn, outward)
             };
@@ -102,7 +104,7 @@ impl Ring<'_> {
         for link in self.links.iter().filter(|l| !l.through) {
             let Some(k) = (0..2).find(|&k| own(link.pieces[k]) && !own(link.pieces[1 - k])) else { continue };
             for [a, b] in link.pairs.windows(2).map(|pair| [pair[0][k], pair[1][k]]) {
-                if counted.insert([a.min(b), a.max(b)]) {
+                if counted.insert(sorted_pair([a, b])) {
                     length += (self.sheet.flat[a as usize] - self.sheet.flat[b as usize]).norm();
                 }
             }
@@ -110,18 +112,14 @@ impl Ring<'_> {
         length
     }
 
-    /// The first level at which the row goes all the way round: under the armholes. What hangs from the shoulders and is
-    /// open at its sides goes round from where they would be.
+    /// The first level at which the row goes all the way round: under the armholes. What hangs from the shoulders and
+    /// is open at its sides goes round from where they would be.
     pub(super) fn first_closed(&self) -> usize {
         let open = || {
             let arms = if has_shoulders(self.row, self.links, self.sheet) { ARMHOLE } else { 0.0 };
             ((arms / LEVEL) as usize).min(self.levels.len() - 1)
         };
         self.levels.iter().position(|l| l.closed).unwrap_or_else(open)
-    }
-
-    fn level(&self, v: f64) -> usize {
-        (((v - self.row.v[0]) / LEVEL).round().max(0.0) as usize).min(self.levels.len() - 1)
     }
 
     /// The levels above and below v, and how far it is from the one to the other.
@@ -140,7 +138,7 @@ impl Ring<'_> {
 
     /// Half width and half depth at every level: room for the body and for the cloth.
     pub(super) fn axes(&self) -> Vec<[f64; 2]> {
-        let overlapping = self.overlaps();
+        let (overlapping, sewn) = (self.overlaps(), self.sewn_length());
         let first_closed = self.first_closed();
         let last_closed = self.levels.iter().rposition(|l| l.closed).unwrap_or(self.levels.len() - 1);
         let mut axes: Vec<[f64; 2]> = Vec::with_capacity(self.levels.len());
@@ -148,7 +146,7 @@ impl Ring<'_> {
             let station = self.stations.at(self.anchor + self.row.v[0] + k.max(first_closed) as f64 * LEVEL);
             // Beyond the levels where the ring is whole (armholes above, a curved hem below) it stays as wide as there.
             let whole = self.levels[k.clamp(first_closed, last_closed)].length;
-            let need = if overlapping { self.sewn_length() } else { whole };
+            let need = if overlapping { sewn } else { whole };
             let clearance = if overlapping { 2.0 * LAYER } else { CLEARANCE };
             let extra = ((need - station.perimeter(clearance)) / std::f64::consts::TAU).max(0.0);
             let mut ab = [station.half_width, station.half_depth].map(|half| half + clearance + extra);
@@ -165,6 +163,8 @@ impl Ring<'_> {
     /// Share of a turn that brings the row's stitches nearest to their placed partners.
     fn turn(&self, placed: &[bool], x: &[Vec3], ellipses: &[Ellipse]) -> f64 {
         let (mut c, mut s) = (0.0, 0.0);
+        let once_round = self.overlaps().then(|| self.sewn_length());
+        let perimeter = |v: f64| ellipses[nearest_level(self.row, self.levels.len(), v)].perimeter;
         for link in self.links {
             for k in 0..2 {
                 let Some(i) = self.row.members.iter().position(|m| m.piece == link.pieces[k]) else { continue };
@@ -173,7 +173,7 @@ impl Ring<'_> {
                 }
                 for pair in &link.pairs {
                     let at = self.sheet.flat[pair[k] as usize] + self.row.members[i].shift;
-                    let round = if self.overlaps() { self.sewn_length() } else { ellipses[self.level(at.y)].perimeter };
+                    let round = once_round.unwrap_or_else(|| perimeter(at.y));
                     let own = (at.x + self.shift(i, at.y)) / round;
                     let station = self.stations.at(self.anchor + at.y);
                     let angle = station.angle(x[pair[1 - k] as usize]) - own * std::f64::consts::TAU;

@@ -4,7 +4,7 @@ use super::assign::{Assigned, Facing};
 use super::fold::Sheet;
 use super::insert::{Insert, inserts, slit};
 use super::lay::{self, Laid};
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, box_of, range_of};
 use crate::mannequin::PartKind;
 use crate::mesh::ClothMesh;
 use crate::pattern::{Garment, Place};
@@ -15,6 +15,9 @@ pub(super) const ROOM: f64 = 0.004;
 /// A side seam reaches over at least this share of its pieces' heights; cuffs and peplums that flare widely have sides
 /// that run more across than down.
 const FLANK: f64 = 0.8;
+
+/// Heights of rows are compared in whole parts of a metre, so many of them: rounding must not tell rows apart.
+const HEIGHTS: f64 = 1e6;
 
 /// The stitches between two pieces.
 #[derive(Clone, Debug)]
@@ -101,17 +104,22 @@ pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned:
         let apart: Vec<bool> = (0..mesh.pieces.len())
             .map(|p| elsewhere[p] || slits[p].is_some() || garment.pieces[p].layer != layer)
             .collect();
-        while let Some((from, to, shift)) = widest_next(&links, &row_of, assigned, &apart, sheet, index, &members)
-            .or_else(|| over_the_shoulder(&links, &row_of, assigned, &apart, mesh, sheet, &members))
-        {
+        loop {
+            let joins = |from: usize, to: usize| {
+                let part = assigned[from].part;
+                row_of[from] == index && row_of[to] == usize::MAX && assigned[to].part == part && !apart[to]
+            };
+            let next = widest_next(&links, sheet, &joins)
+                .or_else(|| over_the_shoulder(&links, assigned, mesh, sheet, &members, &joins));
+            let Some((from, to, shift)) = next else { break };
             let base = members.iter().find(|m| m.piece == from).map_or(Vec2::zeros(), |m| m.shift);
             row_of[to] = index;
             members.push(Member { piece: to, shift: base + shift });
         }
-        let row = finish_row(mesh, sheet, assigned, assigned[seed].part, members, &links);
-        let inserts = inserts(mesh, sheet, &links, &row.members, &slits);
-        inserts.iter().for_each(|insert| row_of[insert.own.piece] = index);
-        rows.push(Row { layer, inserts, ..row });
+        let mut row = finish_row(mesh, sheet, assigned, &links, layer, members);
+        row.inserts = inserts(mesh, sheet, &links, &row.members, &slits);
+        row.inserts.iter().for_each(|insert| row_of[insert.own.piece] = index);
+        rows.push(row);
     }
     let order = stack(&mut rows, &links, &row_of, sheet);
     Rows { rows, links, laid, order }
@@ -122,50 +130,37 @@ pub(super) fn is_at(place: &Option<Place>) -> bool {
     matches!(place, Some(Place::At { .. }))
 }
 
-/// The longest upright link that leads from the row to a piece not yet placed: (from, to, shift of to against from).
-fn widest_next(
-    links: &[Link],
-    row_of: &[usize],
-    assigned: &[Assigned],
-    apart: &[bool],
-    sheet: &Sheet,
-    row: usize,
-    members: &[Member],
-) -> Option<(usize, usize, Vec2)> {
-    let part = assigned[members[0].piece].part;
-    let mut best: Option<(f64, usize, usize, Vec2)> = None;
+/// A piece that comes into a row: from which member, itself, and its shift against that one.
+type Joining = (usize, usize, Vec2);
+
+/// The longest upright link from a member of the row to a piece that `joins` it there.
+fn widest_next(links: &[Link], sheet: &Sheet, joins: &impl Fn(usize, usize) -> bool) -> Option<Joining> {
+    let mut best: Option<(f64, Joining)> = None;
     for link in links.iter().filter(|l| l.upright) {
         for k in 0..2 {
             let (from, to) = (link.pieces[k], link.pieces[1 - k]);
-            if row_of[from] != row || row_of[to] != usize::MAX || assigned[to].part != part || apart[to] {
-                continue;
-            }
-            if best.as_ref().is_none_or(|b| link.length > b.0) {
-                let count = link.pairs.len() as f64;
-                let sum = link
-                    .pairs
-                    .iter()
-                    .fold(Vec2::zeros(), |s, pair| s + sheet.flat[pair[k] as usize] - sheet.flat[pair[1 - k] as usize]);
-                best = Some((link.length, from, to, sum / count));
+            if joins(from, to) && best.as_ref().is_none_or(|b| link.length > b.0) {
+                let at = |p: u32| sheet.flat[p as usize];
+                let sum = link.pairs.iter().fold(Vec2::zeros(), |sum, pair| sum + at(pair[k]) - at(pair[1 - k]));
+                best = Some((link.length, (from, to, sum / link.pairs.len() as f64)));
             }
         }
     }
-    best.map(|b| (b.1, b.2, b.3))
+    best.map(|b| b.1)
 }
 
 /// A back that hangs from the top of the row's front, or the other way round, and has no side seam with it, as in a
-/// tabard: it stands beside the row. (From to, and shift of to against from.)
+/// tabard: it stands beside the row.
 fn over_the_shoulder(
     links: &[Link],
-    row_of: &[usize],
     assigned: &[Assigned],
-    apart: &[bool],
     mesh: &ClothMesh,
     sheet: &Sheet,
     members: &[Member],
-) -> Option<(usize, usize, Vec2)> {
+    joins: &impl Fn(usize, usize) -> bool,
+) -> Option<Joining> {
     links.iter().filter(|l| !l.upright).find_map(|link| {
-        let k = (0..2).find(|&k| members.iter().any(|m| m.piece == link.pieces[k]))?;
+        let k = (0..2).find(|&k| joins(link.pieces[k], link.pieces[1 - k]))?;
         let [from, to] = [link.pieces[k], link.pieces[1 - k]];
         let opposite = matches!(
             (assigned[from].facing, assigned[to].facing),
@@ -173,50 +168,51 @@ fn over_the_shoulder(
         );
         let hangs = |piece: usize, k: usize| {
             let [low, high] = extent(mesh, sheet, piece);
-            stitched(link, sheet, k) < 0.5 * (low.y + high.y)
+            stitched(link, sheet, k).y < 0.5 * (low.y + high.y)
         };
-        let beside = row_of[to] == usize::MAX && assigned[to].part == assigned[from].part && !apart[to];
-        if !(beside && opposite && hangs(from, k) && hangs(to, 1 - k)) {
+        if !(opposite && hangs(from, k) && hangs(to, 1 - k)) {
             return None;
         }
         let base = members.iter().find(|m| m.piece == from)?.shift;
         let right = members.iter().map(|m| extent(mesh, sheet, m.piece)[1].x + m.shift.x).fold(f64::MIN, f64::max);
-        let down = stitched(link, sheet, k) - stitched(link, sheet, 1 - k);
+        let down = stitched(link, sheet, k).y - stitched(link, sheet, 1 - k).y;
         Some((from, to, Vec2::new(right + ROOM - extent(mesh, sheet, to)[0].x - base.x, down)))
     })
 }
 
-/// Mean v of a link's stitches on its piece number `k`, as the piece is drawn.
-fn stitched(link: &Link, sheet: &Sheet, k: usize) -> f64 {
-    link.pairs.iter().map(|pair| sheet.flat[pair[k] as usize].y).sum::<f64>() / link.pairs.len() as f64
+/// The mean place of a link's stitches on its piece number `k`, as the piece is drawn.
+pub(super) fn stitched(link: &Link, sheet: &Sheet, k: usize) -> Vec2 {
+    link.pairs.iter().map(|pair| sheet.flat[pair[k] as usize]).sum::<Vec2>() / link.pairs.len() as f64
 }
 
 /// The corners of the box round a piece.
 pub(super) fn extent(mesh: &ClothMesh, sheet: &Sheet, piece: usize) -> [Vec2; 2] {
-    let start = [Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)];
-    let particles = mesh.pieces[piece].particles.clone();
-    particles.fold(start, |[low, high], p| [low.inf(&sheet.flat[p]), high.sup(&sheet.flat[p])])
+    box_of(mesh.pieces[piece].particles.clone().map(|p| sheet.flat[p]))
 }
 
+/// A row of these members, put in order, without inserts.
 fn finish_row(
     mesh: &ClothMesh,
     sheet: &Sheet,
     assigned: &[Assigned],
-    part: PartKind,
-    mut members: Vec<Member>,
     links: &[Link],
+    layer: i32,
+    mut members: Vec<Member>,
 ) -> Row {
-    let shifted = |m: &Member| {
-        let [low, high] = extent(mesh, sheet, m.piece);
-        (low + m.shift, high + m.shift)
-    };
-    let boxes: Vec<(Vec2, Vec2)> = members.iter().map(shifted).collect();
-    let v = boxes.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |v, b| [v[0].min(b.0.y), v[1].max(b.1.y)]);
+    let part = assigned[members[0].piece].part;
+    let boxes: Vec<[Vec2; 2]> =
+        members.iter().map(|m| extent(mesh, sheet, m.piece).map(|corner| corner + m.shift)).collect();
+    let v = range_of(boxes.iter().flatten().map(|corner| corner.y));
     let front = front_middle(assigned, &members, &boxes, links, sheet);
     let mut order: Vec<usize> = (0..members.len()).collect();
-    order.sort_by(|&a, &b| (boxes[a].0.x + boxes[a].1.x).total_cmp(&(boxes[b].0.x + boxes[b].1.x)));
+    order.sort_by(|&a, &b| center(&boxes[a]).total_cmp(&center(&boxes[b])));
     members = order.into_iter().map(|i| members[i]).collect();
-    Row { part, layer: 0, members, inserts: Vec::new(), front, v }
+    Row { part, layer, members, inserts: Vec::new(), front, v }
+}
+
+/// u of the middle of a box.
+fn center([low, high]: &[Vec2; 2]) -> f64 {
+    0.5 * (low.x + high.x)
 }
 
 /// The front middle: the middle front piece, or the seam between the two in the middle; failing that, opposite the
@@ -224,12 +220,12 @@ fn finish_row(
 fn front_middle(
     assigned: &[Assigned],
     members: &[Member],
-    boxes: &[(Vec2, Vec2)],
+    boxes: &[[Vec2; 2]],
     links: &[Link],
     sheet: &Sheet,
 ) -> Option<Middle> {
     let facing = |facing| move |&i: &usize| assigned[members[i].piece].facing == Some(facing);
-    let center = |i: usize| 0.5 * (boxes[i].0.x + boxes[i].1.x);
+    let center = |i: usize| center(&boxes[i]);
     let fronts: Vec<usize> = (0..members.len()).filter(facing(Facing::Front)).collect();
     let chain = in_order(&fronts, members, links, sheet, &center);
     match (&chain[..], chain.len() % 2) {
@@ -237,18 +233,15 @@ fn front_middle(
         (chain, 1) => return Some(Middle::On(center(chain[chain.len() / 2]))),
         (chain, _) => return Some(Middle::LeftOf(members[chain[chain.len() / 2]].piece)),
     }
-    let extent = |these: &[usize]| {
-        let lo = these.iter().map(|&i| boxes[i].0.x).fold(f64::INFINITY, f64::min);
-        (lo, these.iter().map(|&i| boxes[i].1.x).fold(f64::NEG_INFINITY, f64::max))
-    };
-    let middle = |(lo, hi): (f64, f64)| 0.5 * (lo + hi);
+    let reach = |these: &[usize]| range_of(these.iter().flat_map(|&i| boxes[i]).map(|corner| corner.x));
+    let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
     if !fronts.is_empty() {
-        return Some(Middle::On(middle(extent(&fronts))));
+        return Some(Middle::On(middle(reach(&fronts))));
     }
     let backs: Vec<usize> = (0..members.len()).filter(facing(Facing::Back)).collect();
     let all: Vec<usize> = (0..members.len()).collect();
-    let (lo, hi) = extent(&all);
-    (!backs.is_empty()).then(|| Middle::On(middle(extent(&backs)) - 0.5 * (hi - lo)))
+    let [low, high] = reach(&all);
+    (!backs.is_empty()).then(|| Middle::On(middle(reach(&backs)) - 0.5 * (high - low)))
 }
 
 /// These members from right to left of the wearer, each sewn to the next; empty if they are not one such chain.
@@ -259,10 +252,7 @@ fn in_order(
     sheet: &Sheet,
     center: &impl Fn(usize) -> f64,
 ) -> Vec<usize> {
-    let side = |i: usize, link: &Link, k: usize| {
-        let sum: f64 = link.pairs.iter().map(|p| sheet.flat[p[k] as usize].x).sum();
-        sum / link.pairs.len() as f64 + members[i].shift.x - center(i)
-    };
+    let side = |i: usize, link: &Link, k: usize| stitched(link, sheet, k).x + members[i].shift.x - center(i);
     let follows = |i: usize, j: usize| {
         links.iter().filter(|l| l.upright).any(|l| {
             let k = (0..2).find(|&k| l.pieces[k] == members[i].piece && l.pieces[1 - k] == members[j].piece);
@@ -280,19 +270,15 @@ fn in_order(
 
 /// Seams cut into links between pairs of pieces.
 fn links(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Link> {
-    let mut piece_of = vec![0usize; mesh.flat.len()];
-    for (i, piece) in mesh.pieces.iter().enumerate() {
-        piece_of[piece.particles.clone()].fill(i);
-    }
+    let joined = |pair: &[u32; 2]| pair.map(|p| mesh.piece_of(p));
     let mut out = Vec::new();
     for seam in &mesh.seams {
-        for run in seam.pairs.chunk_by(|a, b| {
-            piece_of[a[0] as usize] == piece_of[b[0] as usize] && piece_of[a[1] as usize] == piece_of[b[1] as usize]
-        }) {
-            let pieces = [piece_of[run[0][0] as usize], piece_of[run[0][1] as usize]];
-            if pieces[0] == pieces[1] {
+        for run in seam.pairs.chunk_by(|a, b| joined(a) == joined(b)) {
+            let [Some(one), Some(other)] = joined(&run[0]) else { continue };
+            if one == other {
                 continue;
             }
+            let pieces = [one, other];
             let mut extent = Vec2::zeros();
             let mut length = 0.0;
             for w in run.windows(2) {
@@ -314,14 +300,15 @@ fn links(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Link> {
     out
 }
 
-/// Whether stitches run all the way down one side of a piece, however far it flares: from its top to its hem within half
-/// of its width. (Shoulders end far above the hem, waists go from side to side.)
+/// Whether stitches run all the way down one side of a piece, however far it flares: from its top to its hem within
+/// half of its width. (Shoulders end far above the hem, waists go from side to side.)
 fn is_flank(mesh: &ClothMesh, sheet: &Sheet, piece: usize, stitches: impl Iterator<Item = u32>) -> bool {
-    let range = |[low, high]: [Vec2; 2], p: usize| [low.inf(&sheet.straight[p]), high.sup(&sheet.straight[p])];
-    let none = [Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)];
-    let [low, high] = mesh.pieces[piece].particles.clone().fold(none, range);
-    let [top, bottom] = stitches.map(|p| p as usize).fold(none, range);
-    let (whole, seam) = (high - low, bottom - top);
+    let size = |particles: &mut dyn Iterator<Item = usize>| {
+        let [low, high] = box_of(particles.map(|p| sheet.straight[p]));
+        high - low
+    };
+    let whole = size(&mut mesh.pieces[piece].particles.clone());
+    let seam = size(&mut stitches.map(|p| p as usize));
     seam.y >= FLANK * whole.y && seam.x <= 0.5 * whole.x
 }
 
@@ -330,7 +317,7 @@ pub(super) fn has_shoulders(row: &Row, links: &[Link], sheet: &Sheet) -> bool {
     let member = |p: usize| row.members.iter().find(|m| m.piece == p);
     links.iter().filter(|l| !l.upright).any(|l| {
         let [Some(m), Some(_)] = l.pieces.map(member) else { return false };
-        stitched(l, sheet, 0) + m.shift.y < 0.5 * (row.v[0] + row.v[1])
+        stitched(l, sheet, 0).y + m.shift.y < 0.5 * (row.v[0] + row.v[1])
     })
 }
 
@@ -351,7 +338,7 @@ fn stack(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet) -> V
             })
     };
     roots.sort_by_key(|&r| {
-        let height = (1e6 * (rows[r].v[1] - rows[r].v[0])) as i64;
+        let height = (HEIGHTS * (rows[r].v[1] - rows[r].v[0])) as i64;
         (rows[r].part, !has_shoulders(&rows[r], links, sheet), !joins_trunk(r), std::cmp::Reverse(height), r)
     });
     for root in roots {
@@ -365,26 +352,8 @@ fn stack(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet) -> V
         while next < order.len() {
             let at = order[next].0;
             next += 1;
-            let mut near: Vec<(usize, f64)> = Vec::new();
-            for link in links {
-                let [a, b] = link.pieces.map(|p| row_of[p]);
-                let other = if a == at {
-                    b
-                } else if b == at {
-                    a
-                } else {
-                    continue;
-                };
-                if other == usize::MAX || other == at || done[other] || rows[other].part != rows[at].part {
-                    continue;
-                }
-                match near.iter_mut().find(|n| n.0 == other) {
-                    Some(n) => n.1 += link.length,
-                    None => near.push((other, link.length)),
-                }
-            }
-            near.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
-            for (other, _) in near {
+            let waits = |other: usize| other != usize::MAX && !done[other] && rows[other].part == rows[at].part;
+            for other in rows_beside(links, row_of, at, waits) {
                 done[other] = true;
                 put_beside(rows, links, row_of, sheet, at, other);
                 order.push((other, Some(at)));
@@ -394,27 +363,43 @@ fn stack(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet) -> V
     order
 }
 
+/// The rows sewn to row `at` that still `wait` for their place, that with the longest seams first.
+fn rows_beside(links: &[Link], row_of: &[usize], at: usize, waits: impl Fn(usize) -> bool) -> Vec<usize> {
+    let mut near: Vec<(usize, f64)> = Vec::new();
+    for link in links {
+        let [a, b] = link.pieces.map(|p| row_of[p]);
+        let other = if a == at { b } else { a };
+        if (a != at && b != at) || other == at || !waits(other) {
+            continue;
+        }
+        match near.iter_mut().find(|n| n.0 == other) {
+            Some(n) => n.1 += link.length,
+            None => near.push((other, link.length)),
+        }
+    }
+    near.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+    near.into_iter().map(|n| n.0).collect()
+}
+
 /// Shifts row `other` up or down so that its seam with row `at` meets, without overlap; another layer lies over it.
 fn put_beside(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet, at: usize, other: usize) {
     let level = |rows: &[Row], row: usize, p: u32, piece: usize| {
         let shift = rows[row].members.iter().find(|m| m.piece == piece).map_or(0.0, |m| m.shift.y);
         sheet.flat[p as usize].y + shift
     };
-    let mut of_at = [f64::INFINITY, f64::NEG_INFINITY];
-    let mut of_other = of_at;
+    let (mut on_at, mut on_other) = (Vec::new(), Vec::new());
     for link in links {
         for k in 0..2 {
             if row_of[link.pieces[k]] != at || row_of[link.pieces[1 - k]] != other {
                 continue;
             }
             for pair in &link.pairs {
-                let a = level(rows, at, pair[k], link.pieces[k]);
-                let b = level(rows, other, pair[1 - k], link.pieces[1 - k]);
-                of_at = [of_at[0].min(a), of_at[1].max(a)];
-                of_other = [of_other[0].min(b), of_other[1].max(b)];
+                on_at.push(level(rows, at, pair[k], link.pieces[k]));
+                on_other.push(level(rows, other, pair[1 - k], link.pieces[1 - k]));
             }
         }
     }
+    let (of_at, of_other) = (range_of(on_at), range_of(on_other));
     let middle = |v: [f64; 2]| 0.5 * (v[0] + v[1]);
     let above = middle(of_at) < middle(rows[at].v);
     let dv = if rows[at].layer != rows[other].layer {

@@ -8,7 +8,7 @@
 
 use super::levels::LEVEL;
 use super::ring::{LAYER, Ring};
-use super::rows::Member;
+use super::rows::{Member, extent};
 use crate::contact::Collider;
 use crate::geometry::Vec3;
 use crate::mannequin::{Mannequin, PartKind};
@@ -25,6 +25,8 @@ const UNDERARM: f64 = 0.06;
 const BEND: f64 = 0.06;
 /// They lean until this share of their distance from the middle of the body is left.
 const LEFT: f64 = 0.15;
+/// That angle is found in so many halvings, far below a degree.
+const HALVINGS: usize = 12;
 /// They lean by no more than this from upright, radians: what is short above the armholes does not reach the middle.
 const STEEPEST: f64 = 1.2;
 /// Cloth keeps so far from the body, metres, and a layer further for every one that lies under it,
@@ -61,9 +63,9 @@ pub(super) struct Lean<'a> {
 impl Lean<'_> {
     /// The angle at which a piece that goes on for `height` metres comes as far in as it should.
     fn reaching(mut self, height: f64) -> Self {
-        // How far in it comes rises with the angle: halve the interval until it is far below a degree.
+        // How far in it comes rises with the angle.
         let (mut low, mut high) = (0.0, STEEPEST);
-        for _ in 0..12 {
+        for _ in 0..HALVINGS {
             self.angle = 0.5 * (low + high);
             let short = self.course(height)[1] < (1.0 - LEFT) * self.depth;
             if short { low = self.angle } else { high = self.angle }
@@ -109,8 +111,7 @@ impl<'a> Ring<'a> {
     /// Lets the members lean over the shoulders, with so many layers `beneath` them; a row that hangs from no other is
     /// `free` to begin above them.
     pub(super) fn hang_from_shoulders(&mut self, body: &Mannequin, collider: &'a Collider, free: bool, beneath: i32) {
-        let part = |kind| body.parts.iter().find(|p| p.kind == kind);
-        let neck = part(PartKind::Neck).and_then(|p| p.sections.first());
+        let neck = body.part(PartKind::Neck).and_then(|p| p.sections.first());
         let shoulders = neck.map_or_else(|| self.stations.low(), |s| -s.center.y);
         let middle = self.stations.at(shoulders).center.z;
         let first = self.first_closed();
@@ -164,7 +165,8 @@ impl<'a> Ring<'a> {
         self.row.members.iter().flat_map(there).filter(touches).count()
     }
 
+    /// Lowest v of a piece as it is drawn: its highest place.
     fn top(&self, piece: usize) -> f64 {
-        self.mesh.pieces[piece].particles.clone().map(|p| self.sheet.flat[p].y).fold(f64::INFINITY, f64::min)
+        extent(self.mesh, self.sheet, piece)[0].y
     }
 }

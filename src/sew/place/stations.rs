@@ -1,8 +1,8 @@
 //! A body part as stations along its axis, downward or outward.
 
 use super::ellipse::Ellipse;
-use crate::geometry::{TriMesh, Vec3};
-use crate::mannequin::{BodyPart, Mannequin, PartKind};
+use crate::geometry::{TriMesh, Vec3, range_of};
+use crate::mannequin::{BodyPart, Mannequin, PartKind, Section};
 
 /// Over this height above the ankles the ring round both legs widens to the feet, metres.
 const INSTEP: f64 = 0.12;
@@ -30,13 +30,12 @@ pub(super) struct Stations {
 impl Stations {
     /// `None` when the body has no such part.
     pub(super) fn new(body: &Mannequin, part: PartKind) -> Option<Self> {
-        let find = |kind: PartKind| body.parts.iter().find(|p| p.kind == kind);
-        let own = find(part)?;
+        let own = body.part(part)?;
         let mut list = match part {
             PartKind::Torso | PartKind::Neck => {
                 let mut list: Vec<(f64, Station)> = own.sections.iter().map(|s| (-s.center.y, upright(s))).collect();
                 if part == PartKind::Torso
-                    && let (Some(left), Some(right)) = (find(PartKind::LeftLeg), find(PartKind::RightLeg))
+                    && let (Some(left), Some(right)) = (body.part(PartKind::LeftLeg), body.part(PartKind::RightLeg))
                 {
                     list.extend(both_legs([left, right], &list, &body.mesh));
                 }
@@ -49,7 +48,8 @@ impl Stations {
         (!list.is_empty()).then_some(Self { part, list, landmarks })
     }
 
-    /// Coordinate of the end where rows begin: the neck side of the trunk, the shoulder end of an arm, the foot of the neck.
+    /// Coordinate of the end where rows begin: the neck side of the trunk, the shoulder end of an arm,
+    /// the foot of the neck.
     pub(super) fn low(&self) -> f64 {
         let end = if self.part == PartKind::Neck { self.list.len() - 1 } else { 0 };
         self.list[end].0
@@ -116,7 +116,8 @@ impl Station {
     }
 }
 
-fn upright(s: &crate::mannequin::Section) -> Station {
+/// A section of the trunk or the neck as a station: rows begin at its front.
+fn upright(s: &Section) -> Station {
     Station { center: s.center, front: Vec3::z(), right: Vec3::x(), half_width: s.half_width, half_depth: s.half_depth }
 }
 
@@ -125,8 +126,7 @@ fn both_legs(legs: [&BodyPart; 2], trunk: &[(f64, Station)], body: &TriMesh) -> 
     let lowest = trunk.iter().map(|s| s.0).fold(f64::NEG_INFINITY, f64::max);
     let ankle = legs.iter().flat_map(|leg| &leg.sections).map(|s| s.center.y).fold(f64::INFINITY, f64::min);
     // How far the feet reach back and forward.
-    let feet = body.vertices.iter().filter(|v| v.y < ankle).map(|v| v.z);
-    let feet = feet.fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], z| [lo.min(z), hi.max(z)]);
+    let feet = range_of(body.vertices.iter().filter(|v| v.y < ankle).map(|v| v.z));
     let [left, right] = legs.map(|leg| leg.sections.iter());
     left.zip(right)
         .filter(|(s, _)| -s.center.y > lowest)
@@ -145,6 +145,7 @@ fn both_legs(legs: [&BodyPart; 2], trunk: &[(f64, Station)], body: &TriMesh) -> 
         .collect()
 }
 
+/// Stations along a limb, from the trunk outward: a row's front middle goes to the side away from the other limb.
 fn along_limb(part: &BodyPart, kind: PartKind) -> Vec<(f64, Station)> {
     let sideways = if matches!(kind, PartKind::LeftArm | PartKind::LeftLeg) { Vec3::x() } else { -Vec3::x() };
     let mut out = Vec::new();

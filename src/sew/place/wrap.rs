@@ -19,6 +19,16 @@ const OFF_FLOOR: f64 = 0.005;
 const HIGHEST: f64 = 0.05;
 /// A layer's ring is so much wider than the one it is worn over, metres: room for the folds of that.
 const LAYERS_APART: f64 = 5.0 * LAYER;
+/// A row that stands alone round the trunk slips down from the waist by so much at a time, metres,
+const SLIP: f64 = 0.005;
+/// at most so far,
+const LOWEST: f64 = 0.15;
+/// until the body with so much room all round holds the top of it, metres,
+const TOP_ROOM: f64 = 0.003;
+/// which is read off so many levels down: the ends of its outline may be points.
+const TOP_LEVEL: usize = 2;
+/// A row that stands alone round the neck or a limb begins so far from where that does, metres.
+const FROM_END: f64 = 0.015;
 
 /// Start positions; pieces in no row stay at the origin (they have a place of their own, or lie on others).
 pub(super) fn wrap(
@@ -34,7 +44,7 @@ pub(super) fn wrap(
         let row = &rows.rows[index];
         let stations = Stations::new(body, row.part).ok_or_else(|| PlaceError::NoPart {
             piece: garment.pieces[row.members[0].piece].name.clone(),
-            part: part_name(row.part),
+            part: row.part.name(),
             mannequin: body.name.clone(),
         })?;
         let levels = levels(mesh, sheet, row, &rows.links);
@@ -62,7 +72,7 @@ pub(super) fn wrap(
 
 /// Station of v = 0 for a row round a leg that hangs from rows round the trunk: just under what it is sewn to.
 fn hung(stations: &Stations, row: &Row, rings: &[(usize, Ring)]) -> Option<f64> {
-    if !matches!(row.part, PartKind::LeftLeg | PartKind::RightLeg) {
+    if !row.part.is_leg() {
         return None;
     }
     let trunk = || rings.iter().map(|r| &r.1).filter(|r| r.row.part == PartKind::Torso);
@@ -111,32 +121,21 @@ fn nested(rings: &[(usize, Ring)]) -> Vec<Vec<[f64; 2]>> {
     axes
 }
 
-fn part_name(part: PartKind) -> &'static str {
-    match part {
-        PartKind::Torso => "torso",
-        PartKind::Neck => "neck",
-        PartKind::LeftArm => "left arm",
-        PartKind::RightArm => "right arm",
-        PartKind::LeftLeg => "left leg",
-        PartKind::RightLeg => "right leg",
-    }
-}
-
 /// Station (metres along the part) of v = 0 for a row that stands alone.
 fn anchor(body: &Mannequin, stations: &Stations, row: &Row, levels: &[Level]) -> f64 {
     match row.part {
         PartKind::Torso => {
             // As low below the waist as the body lets the row's top slip.
-            let girth = levels.get(2).or(levels.first()).map_or(0.0, |l| l.length);
+            let girth = levels.get(TOP_LEVEL).or(levels.first()).map_or(0.0, |l| l.length);
             let waist = stations.landmark(&["natural waist", "waist", "omphalion"]).unwrap_or_else(|| stations.low());
             let mut at = waist;
-            while at < waist + 0.15 && stations.at(at).perimeter(0.003) < girth {
-                at += 0.005;
+            while at < waist + LOWEST && stations.at(at).perimeter(TOP_ROOM) < girth {
+                at += SLIP;
             }
             above_floor(body, at - row.v[0], row).max(waist - HIGHEST - row.v[0])
         }
-        PartKind::Neck => stations.low() - 0.015 - row.v[1],
-        _ => stations.low() + 0.015 - row.v[0],
+        PartKind::Neck => stations.low() - FROM_END - row.v[1],
+        _ => stations.low() + FROM_END - row.v[0],
     }
 }
 
