@@ -302,13 +302,14 @@ fn shoulder_seams_start_over_the_shoulders() {
     }
 }
 
-/// A skirt of two sectors of 130 degrees, waist 180 mm and hem 600 mm from their apex.
-fn circle_skirt() -> Made {
+/// A skirt of two sectors of `opening` degrees, waist 180 mm and hem 600 mm from their apex.
+fn circle_skirt(opening: f64) -> Made {
     let at = |radius: f64, degrees: f64| {
         let angle: f64 = degrees.to_radians();
         format!("{} {}", radius * angle.sin(), radius * angle.cos())
     };
-    let (a, b, c, d) = (at(180.0, -65.0), at(180.0, 65.0), at(600.0, 65.0), at(600.0, -65.0));
+    let half = 0.5 * opening;
+    let (a, b, c, d) = (at(180.0, -half), at(180.0, half), at(600.0, half), at(600.0, -half));
     Made::new(
         &format!(
             "garment: 1\nbody: woman_92\nfabrics: {{shell: cotton_poplin}}\npieces:\n  front:\n    \
@@ -326,14 +327,14 @@ fn circle_skirt() -> Made {
 #[test]
 fn a_circle_skirt_starts_as_a_cone() {
     let (body, collider) = woman();
-    let made = circle_skirt();
+    let made = circle_skirt(110.0);
     let x = made.placed(&body);
     let flat = &made.mesh.flat;
     assert!(x.iter().all(|p| collider.nearest(*p, 1.0).is_none_or(|n| n.distance > 0.0)));
     assert_eq!(crossings(&TriMesh { vertices: x.clone(), triangles: made.mesh.triangles.clone() }).len(), 0);
-    // What is as far from the apex lies as high: r of 180 to 600 mm falls by 420 mm times cos α, sin α = 260° / 360°.
+    // What is as far from the apex lies as high: r of 180 to 600 mm falls by 420 mm times cos α, sin α = 220° / 360°.
     let top = (0..x.len()).find(|&p| (flat[p].norm() - 180.0 * MM).abs() < 1e-6).map(|p| x[p].y).expect("a waist");
-    let fall = (1.0 - (260.0f64 / 360.0).powi(2)).sqrt();
+    let fall = (1.0 - (220.0f64 / 360.0).powi(2)).sqrt();
     for (p, flat) in x.iter().zip(flat) {
         let expected = (flat.norm() - 180.0 * MM) * fall;
         assert!((top - p.y - expected).abs() < 1.0 * MM, "{} mm under the waist, not {expected}", (top - p.y) / MM);
@@ -350,6 +351,28 @@ fn a_circle_skirt_starts_as_a_cone() {
     // Two seams share what the ring, two centimetres off the hips, is longer than the cloth.
     let gaps = Stitching::new(&made.mesh).gaps(&x);
     assert!(gaps.iter().all(|&g| g < 125.0 * MM), "{:?}", gaps.iter().copied().fold(0.0, f64::max));
+}
+
+/// Two sectors of 175 degrees would make a cone that is nearly flat: they start in waves, as long as their cloth.
+#[test]
+fn a_fuller_circle_skirt_starts_in_waves() {
+    let (body, collider) = woman();
+    let made = circle_skirt(175.0);
+    let (x, flat) = (made.placed(&body), &made.mesh.flat);
+    assert!(x.iter().all(|p| collider.nearest(*p, 1.0).is_none_or(|n| n.distance > 0.0)));
+    assert_eq!(crossings(&TriMesh { vertices: x.clone(), triangles: made.mesh.triangles.clone() }).len(), 0);
+    let radius = |p: usize| flat[p].norm() / MM;
+    let top = (0..x.len()).find(|&p| (radius(p) - 180.0).abs() < 1e-3).map(|p| x[p].y).expect("a waist");
+    // 420 mm of cloth fall by 336 on the cone; crests fall less, valleys more.
+    let falls: Vec<f64> = (0..x.len()).filter(|&p| radius(p) > 599.0).map(|p| (top - x[p].y) / MM).collect();
+    let (least, most) = falls.iter().fold((f64::MAX, 0.0f64), |(a, b), f| (a.min(*f), b.max(*f)));
+    assert!(least > 230.0 && most < 420.0 && most - least > 30.0, "{least} to {most}");
+    let edges = made.mesh.triangles.iter().flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]]);
+    let ratio =
+        |[a, b]: [u32; 2]| (x[a as usize] - x[b as usize]).norm() / (flat[a as usize] - flat[b as usize]).norm();
+    let strains: Vec<f64> = edges.map(|e| ratio(e) - 1.0).collect();
+    let rms = (strains.iter().map(|e| e * e).sum::<f64>() / strains.len() as f64).sqrt();
+    assert!(rms < 0.12, "{rms}");
 }
 
 /// A waistband drawn level, upright with its sewn side to the left, upright with it to the right: all start alike.

@@ -1,4 +1,5 @@
-//! Sectors of a circle (circle skirts, flounces) are laid out by radius and angle, as the cones they will be.
+//! Sectors of a circle (circle skirts, flounces) are laid out by radius and angle, as the cones they will be; what opens
+//! to nearly a full circle or more lies in waves.
 //!
 //! ```text
 //!      ╲ waist ╱               ────waist────
@@ -8,6 +9,9 @@
 //!      ╲╱ hem ╲╱               ─────hem─────
 //! ```
 
+use std::f64::consts::TAU;
+
+use super::flute::{self, Flutes};
 use super::fold::Sheet;
 use super::rows::is_at;
 use crate::geometry::{Path, Vec2};
@@ -25,13 +29,20 @@ const DIPPED: f64 = 0.5;
 /// The waist keeps its distance from the apex: it rises or falls by no more than this share of its length. (The hem may
 /// dip as it likes.)
 const ROUND: f64 = 0.35;
+/// It is looked at in so many directions, at points of the rim so far apart, metres.
+const DIRECTIONS: usize = 90;
+const SAMPLED: f64 = 1e-3;
 /// Sides that differ by less from one line, radians, are one: of half a ring, whose apex is in their middle.
 const IN_LINE: f64 = 0.01;
 /// Particles this far beyond a side, radians, still lie on it.
 const BEYOND: f64 = 0.02;
 /// The apex is above: cosine between the sector's middle and straight down.
 const DOWN: f64 = 0.5;
-/// Cloth that opens to more than this share of a full circle lies in waves; its ring is no longer than this.
+/// Cloth that opens to more than this share of a full circle lies in waves: a cone would be flatter than cloth hangs.
+const WAVY: f64 = 0.65;
+/// The cone such cloth lies on widens by this share of its side, or by more if the waves would be too steep.
+const CONE: f64 = 0.6;
+/// A cone never widens by more than this share of its side.
 const FLATTEST: f64 = 0.95;
 
 /// A sector with its apex, in the flat piece.
@@ -68,17 +79,58 @@ pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &mut Sheet) {
         })
         .collect();
     let openings = openings(mesh, &sectors);
+    // Waves of one layer would stand in the next.
+    let layered = garment.pieces.windows(2).any(|pair| pair[0].layer != pair[1].layer);
     for (i, part) in mesh.pieces.iter().enumerate() {
         let Some(sector) = sectors[i] else { continue };
-        let turns = openings[i] / std::f64::consts::TAU;
-        let fall = (1.0 - turns.min(FLATTEST).powi(2)).sqrt();
-        let widening = (FLATTEST / turns).min(1.0);
+        let cone = Cone::new(&sector, openings[i], layered);
         for p in part.particles.clone() {
             let (r, angle) = sector.polar(mesh.flat[p]);
-            let inner = sector.radii[0];
-            sheet.straight[p] = Vec2::new(inner * angle, r);
-            sheet.flat[p] = Vec2::new((inner + (r - inner) * widening) * angle, r * fall);
+            sheet.straight[p] = Vec2::new(sector.radii[0] * angle, r);
+            (sheet.flat[p], sheet.out[p]) = cone.lay(r, angle);
         }
+    }
+}
+
+/// The cone that a sector becomes.
+struct Cone {
+    inner: f64,
+    /// How far all its sectors open, radians.
+    opening: f64,
+    /// By how much of its side it widens.
+    slope: f64,
+    /// From one side of the sector to the middle.
+    half: f64,
+    /// Its waves, and how wide one of them is, radians.
+    waves: Option<(Flutes, f64)>,
+}
+
+impl Cone {
+    fn new(sector: &Sector, opening: f64, layered: bool) -> Self {
+        let turns = opening / TAU;
+        let wavy = turns > WAVY && !layered;
+        let slope = if wavy { CONE.max(flute::shortest() * turns) } else { turns };
+        let slope = slope.min(FLATTEST);
+        let (half, inner) = (sector.half, sector.radii[0]);
+        let waves = wavy.then(|| {
+            // Whole waves, so that both sides end in crests, as the sectors beside it do.
+            let wave = 2.0 * half / flute::waves(2.0 * half);
+            (Flutes::new(sector.radii, opening, slope, wave), wave)
+        });
+        Self { inner, opening, slope, half, waves }
+    }
+
+    /// Where a point of the sector lies on its ring, and how far off it.
+    fn lay(&self, r: f64, angle: f64) -> (Vec2, f64) {
+        let fall = (1.0 - self.slope * self.slope).sqrt();
+        let Some((flutes, wave)) = &self.waves else {
+            let widening = (self.slope * TAU / self.opening).min(1.0);
+            return (Vec2::new((self.inner + (r - self.inner) * widening) * angle, r * fall), 0.0);
+        };
+        let lies = flutes.at(r, (angle + self.half) / wave);
+        // The ring's radius at the waist is that of the cloth's own length.
+        let round = self.inner + lies.wider * TAU / self.opening;
+        (Vec2::new(round * (angle + lies.ahead * wave), self.inner * fall + lies.down), lies.out)
     }
 }
 
@@ -109,7 +161,7 @@ fn sector(rim: &[&Path], points: &[Vec2]) -> Option<Sector> {
     let mut found: Vec<Sector> = pairs
         .filter_map(|(i, j)| {
             let sector = between(sides[i], sides[j], points)?;
-            is_round(&sector, [sides[i], sides[j]], rim.iter().copied()).then_some(sector)
+            is_round(&sector, rim.iter().copied()).then_some(sector)
         })
         .collect();
     // Sides in several straight edges give the same sector several times; the widest has all of the piece.
@@ -156,27 +208,34 @@ fn apex(one: &Path, other: &Path) -> Option<Vec2> {
     Some(0.5 * (near(one, middle(other)) + near(other, middle(one))))
 }
 
-/// Whether the waist, what of the rim is no side and nearer the apex than the sides' middles, goes round the apex.
-fn is_round<'a>(sector: &Sector, sides: [&Path; 2], rim: impl Iterator<Item = &'a Path>) -> bool {
-    let middles = sides.map(|side| sector.polar(side.point(0.5 * side.length())).0);
-    let waist = middles[0].min(middles[1]);
-    let (mut length, mut rise) = (0.0, 0.0);
+/// Whether the waist, what of the rim is nearest to the apex in every direction, goes round the apex. (Slits may cut deep
+/// into the hem.)
+fn is_round<'a>(sector: &Sector, rim: impl Iterator<Item = &'a Path>) -> bool {
+    let mut nearest = [f64::INFINITY; DIRECTIONS];
     for path in rim {
-        let points = path.sampled(1e-3);
-        for step in points.windows(2) {
-            let [(r0, f0), (r1, f1)] = [sector.polar(step[0]), sector.polar(step[1])];
-            if f0.abs().min(f1.abs()) < sector.half - BEYOND && r0.min(r1) < waist {
-                length += (step[1] - step[0]).norm();
-                rise += (r1 - r0).abs();
+        let points = (path.length() / SAMPLED).ceil().max(1.0);
+        for k in 0..=points as usize {
+            let (r, angle) = sector.polar(path.point(path.length() * k as f64 / points));
+            if angle.abs() < sector.half - BEYOND {
+                let direction = (0.5 * (angle / sector.half + 1.0) * DIRECTIONS as f64) as usize;
+                nearest[direction] = nearest[direction].min(r);
             }
         }
+    }
+    let waist: Vec<f64> = nearest.into_iter().filter(|r| r.is_finite()).collect();
+    let turn = 2.0 * sector.half / DIRECTIONS as f64;
+    let (mut length, mut rise) = (0.0, 0.0);
+    for step in waist.windows(2) {
+        let up = (step[1] - step[0]).abs();
+        rise += up;
+        length += up.hypot(0.5 * (step[0] + step[1]) * turn);
     }
     length > 0.0 && rise <= ROUND * length
 }
 
 fn wrapped(angle: f64) -> f64 {
-    let turned = angle.rem_euclid(std::f64::consts::TAU);
-    if turned > std::f64::consts::PI { turned - std::f64::consts::TAU } else { turned }
+    let turned = angle.rem_euclid(TAU);
+    if turned > std::f64::consts::PI { turned - TAU } else { turned }
 }
 
 #[cfg(test)]
@@ -211,6 +270,10 @@ mod tests {
         assert!(quarter("A 425 425 0 0 1 -300 300").is_some());
         let dipped = quarter("C 260 600, -260 600, -300 300").expect("a sector");
         assert!(dipped.apex.norm() < 1e-9 && dipped.radii[1] > 0.5, "{dipped:?}");
+        // A slit does not touch the waist.
+        let slit =
+            ["M 100 100 L 300 300", "A 425 425 0 0 1 10 424", "L 0 160", "L -10 424", "A 425 425 0 0 1 -300 300"];
+        assert!(found(&[&slit[..], &["L -100 100", "A 142 142 0 0 0 100 100"]].concat()).is_some());
         // A front's shoulder and middle are no sides of a skirt, though everything is between their lines.
         let front = [
             "M 0 640 L 0 60",

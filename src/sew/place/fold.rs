@@ -23,14 +23,16 @@ pub(super) struct Sheet {
     /// Layers towards the wrong side: 0, 1 where the cloth is folded under, -1 where it is turned up;
     /// up to 4 in a pleat.
     pub(super) under: Vec<f64>,
+    /// Off the ring that a piece is bent into, outward, metres: the waves of a circle skirt.
+    pub(super) out: Vec<f64>,
 }
 
 /// Folds every piece along its pressed lines, but for creases that its seams hold open: the part with the shorter sewn
 /// rim under the other, or over it where right sides meet. Lays its pleats, unrolls what is a sector of a circle, and
 /// lays level what is an upright band.
 pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
-    let (flat, under) = (mesh.flat.clone(), vec![0.0; mesh.flat.len()]);
-    let mut sheet = Sheet { drawn: Vec::new(), flat, straight: Vec::new(), under };
+    let [under, out] = [(); 2].map(|()| vec![0.0; mesh.flat.len()]);
+    let mut sheet = Sheet { drawn: Vec::new(), flat: mesh.flat.clone(), straight: Vec::new(), under, out };
     let mut sewn = vec![0u32; mesh.flat.len()];
     for p in mesh.seams.iter().flat_map(|s| s.pairs.iter().flatten()) {
         sewn[*p as usize] += 1;

@@ -18,6 +18,7 @@ mod assign;
 mod band;
 mod ellipse;
 mod flare;
+mod flute;
 mod fold;
 mod insert;
 mod lay;

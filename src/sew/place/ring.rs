@@ -73,7 +73,7 @@ impl Ring<'_> {
             for p in self.mesh.pieces[m.piece].particles.clone() {
                 let (at, under) = (self.sheet.flat[p] + m.shift, self.sheet.under[p]);
                 let upright = match insert {
-                    None => on_ring(i, at, 0.0, under),
+                    None => on_ring(i, at, self.sheet.out[p], under),
                     Some(insert) => insert.start(at, |at, off| on_ring(i, at, off, under)),
                 };
                 x[p] = self.leans.get(i).map_or(upright, |lean| lean.over(upright, at.y));
