@@ -93,6 +93,14 @@ pub struct PieceMesh {
     pub warp: Vec2,
 }
 
+impl ClothMesh {
+    /// The particle of a piece that is nearest to a place of its flat shape.
+    pub fn nearest(&self, piece: usize, at: Vec2) -> Option<usize> {
+        let far = |p: &usize| (self.flat[*p] - at).norm_squared();
+        self.pieces.get(piece)?.particles.clone().min_by(|p, q| far(p).total_cmp(&far(q)))
+    }
+}
+
 impl PieceMesh {
     /// Particles that lie on elastic lines.
     pub fn on_elastic(&self) -> HashSet<u32> {
