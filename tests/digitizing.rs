@@ -8,6 +8,7 @@ use toile::geometry::{Path, Vec2};
 use toile::io::dxf_read::read_dxf_text;
 use toile::io::dxf_write::cutting_dxf;
 use toile::io::garment::{Loaded, read_text, write};
+use toile::io::pattern_svg::pattern_svg;
 use toile::io::svg_read::read_svg_text;
 use toile::io::svg_write::cutting_svg;
 use toile::pattern::{Cut, Drawing, drawings};
@@ -186,6 +187,35 @@ fn an_exported_svg_is_read_back() {
     assert!(again.iter().all(|p| p.rings[0].iter().any(|e| e.name == "hem")), "edges keep their names");
     // What is written on the piece says so.
     assert_eq!(again.iter().find(|p| p.name == "back").map(|p| &p.cut), Some(&Cut::Pair));
+}
+
+/// What `make` draws is read back with its edges, notches and lines, and without the drawn outlines dashed below.
+#[test]
+fn a_flattened_pattern_is_read_back() {
+    let text = SAMPLE
+        .replacen("notches: {side: [100]}\n  back:", "notches: {side: [100, 220 double]}\n    lines: {tape: {path: M 10 200 L 90 200, kind: elastic, ratio: 0.7}, crease: {path: M 10 250 L 90 250, fold: -90}}\n  back:", 1);
+    let garment = read_text("sample", "sample.yaml", &text).expect("a garment").garment;
+    let mesh = toile::mesh::build(&garment, 0.02).expect("a mesh");
+    let flat: Vec<Vec2> = mesh.flat.iter().map(|p| p * 1.001).collect();
+    let notches: Vec<_> = garment.pieces.iter().flat_map(|p| p.notches.clone()).collect();
+    let made = from_svg(&pattern_svg(&mesh, &flat, &notches).expect("a drawing"));
+    let again = loaded(&made).garment;
+    assert_eq!(again.pieces.len(), mesh.pieces.len());
+    for (piece, cut) in again.pieces.iter().zip(&mesh.pieces) {
+        let mut names: Vec<&str> = piece.loops[0].iter().map(|e| e.name.as_str()).collect();
+        let mut drawn: Vec<String> = cut.edges.iter().map(|e| e.name.replace('.', "_")).collect();
+        names.sort_unstable();
+        drawn.sort_unstable();
+        assert_eq!(names, drawn, "{}", piece.name);
+    }
+    let front = &again.pieces[0];
+    assert_eq!(front.notches.len(), 4, "two on either side");
+    let kinds: Vec<String> = front.lines.iter().map(|l| format!("{} {:?}", l.name, l.kind)).collect();
+    assert!(
+        kinds.iter().any(|k| k.contains("Elastic(0.7)")) && kinds.iter().any(|k| k.contains("Fold(-1.57")),
+        "{kinds:?}"
+    );
+    assert!(kinds.iter().all(|k| !k.contains("Mark")), "{kinds:?}");
 }
 
 /// Both of a pair on the paper are a pair again, by name and mirrored shape; two of a kind are not.

@@ -12,6 +12,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 use crate::digitize::{Remark, Role, Stroke, Traced, pieces};
 use crate::geometry::{Path, Vec2, parse_transform};
 use crate::input::{InputError, bytes, shown};
+use crate::pattern::LineKind;
 
 /// Larger files are not patterns.
 const MOST_BYTES: u64 = 30 << 20;
@@ -32,8 +33,8 @@ const SHOWN: usize = 60;
 const NOT_DRAWN: [&str; 9] =
     ["defs", "symbol", "marker", "clipPath", "mask", "pattern", "metadata", "style", "namedview"];
 /// Classes of what is no line of the pattern.
-const SKIPPED: [&str; 10] =
-    ["help", "note", "mark", "text", "hidden", "scale", "pleat", "drill", "scalebox", "miniscale"];
+const SKIPPED: [&str; 11] =
+    ["drawn", "help", "note", "mark", "text", "hidden", "scale", "pleat", "drill", "scalebox", "miniscale"];
 
 /// Why an SVG file could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -166,7 +167,8 @@ impl Reader<'_, '_> {
             // A transform may have made a point of it.
             if path.length() > 1e-8 {
                 let group = scope.group.clone();
-                self.strokes.push(Stroke { path, role, name: own_name(node, group.as_deref()), group });
+                let kind = line_kind(node);
+                self.strokes.push(Stroke { path, role, name: own_name(node, group.as_deref()), group, kind });
             }
         }
         if self.strokes.len() > MOST_STROKES { Err(SvgError::TooMany { most: MOST_STROKES }) } else { Ok(()) }
@@ -267,6 +269,17 @@ fn own_name(node: Node, group: Option<&str>) -> Option<String> {
     let name = label.or(node.attribute("id").filter(|id| !is_made_up(id)))?;
     let edge = group.and_then(|g| name.strip_prefix(g)).and_then(|rest| rest.strip_prefix('.'));
     Some(edge.unwrap_or(name).to_owned())
+}
+
+/// What a line inside a piece does, as toile itself writes it.
+fn line_kind(node: Node) -> Option<LineKind> {
+    let number = |key: &str, least: f64, most: f64| {
+        node.attribute(key)?.trim().parse::<f64>().ok().filter(|x| (least..=most).contains(x))
+    };
+    let fold = number("data-fold", -180.0, 180.0).map(|degrees| LineKind::Fold(degrees.to_radians()));
+    let elastic = || number("data-elastic", 0.05, 1.0).map(LineKind::Elastic);
+    let mark = || node.attribute("data-kind").map(|kind| LineKind::Mark(shown(kind, SHOWN)));
+    fold.or_else(elastic).or_else(mark)
 }
 
 /// What a line is by its classes, its markers and its name; `None` for what is no line of the pattern.

@@ -39,6 +39,6 @@ fn write(args: &DrawingArgs, pieces: &[Traced], console: &Console) -> Result<Exi
 
 fn suggestion(s: &Suggestion) -> String {
     let [sew, to] = s.lengths.map(|metres| 1e3 * metres);
-    let notches = if s.notched { ", both end at a notch" } else { "" };
+    let notches = if s.notched { ", both notched" } else { "" };
     format!("  {{sew: {}, to: {}}}   # {sew:.1} and {to:.1} mm{notches}", s.sew, s.to)
 }
