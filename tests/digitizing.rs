@@ -30,7 +30,7 @@ fn drawn(made: &Digitized) -> Vec<Drawing> {
 }
 
 fn from_svg(text: &str) -> Digitized {
-    garment_file("drawing", &read_svg_text(text).expect("pieces"))
+    garment_file("drawing", &read_svg_text(text).expect("pieces").pieces)
 }
 
 fn lengths(drawing: &Drawing) -> Vec<(String, f64)> {
@@ -352,6 +352,34 @@ fn what_is_written_on_a_piece_says_how_it_is_cut() {
     for once in ["cut 1", "cut here", "undercut", "cut 1 on the fold", "cut 99999999999999999999"] {
         assert_eq!(cut(once), Cut::One, "{once}");
     }
+}
+
+#[test]
+fn what_a_drawing_shows_besides_is_said() {
+    let text = "<svg xmlns='http://www.w3.org/2000/svg' width='400mm' height='400mm' viewBox='0 0 400 400'>\n\
+                <rect id='yoke' width='100' height='100'/>\n<image href='photo.png'/>\n<use href='#yoke' x='150'/>\n\
+                <g><text x='9' y='9'>front</text>\n<use href='#yoke' x='250'/></g>\n\
+                <rect width='20%' height='10%'/>\n<g style='display: none'><path d='M 0 0 L 9 9'/></g>\n\
+                <a><rect id='linked' y='200' width='100' height='100'/></a></svg>";
+    let drawing = read_svg_text(text).expect("pieces");
+    let names: Vec<&str> = drawing.pieces.iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(names, ["yoke", "linked"], "what is in a link is drawn");
+    let said = drawing.left_out.join("\n");
+    for words in [
+        "1 image in line 3",
+        "2 clones",
+        "first in line 4",
+        "1 text in line 5",
+        "1 shape without a size in line 7",
+        "1 hidden",
+    ] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    let (_, papers) = sample();
+    let own = cutting_svg(&Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true }));
+    assert_eq!(read_svg_text(&own).expect("pieces").left_out, Vec::<String>::new());
+    let nothing = text.replace("<rect", "<use");
+    assert!(read_svg_text(&nothing).expect_err("no piece").to_string().contains("clones"));
 }
 
 #[test]

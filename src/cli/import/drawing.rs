@@ -10,8 +10,10 @@ use crate::io::svg_read::read_svg;
 
 /// `toile import svg FILE.svg -o GARMENT.yaml`
 pub(super) fn svg(args: &DrawingArgs, console: &Console) -> Result<Exit, CliError> {
-    let pieces = read_svg(&args.drawing).map_err(|e| refused(args, e.to_string()))?;
-    write(args, &pieces, console)
+    let drawing = read_svg(&args.drawing).map_err(|e| refused(args, e.to_string()))?;
+    let exit = write(args, &drawing.pieces, console)?;
+    drawing.left_out.iter().for_each(|sentence| console.note(sentence));
+    Ok(exit)
 }
 
 /// `toile import dxf FILE.dxf -o GARMENT.yaml`
