@@ -52,9 +52,9 @@ pub fn fastenings(garment: &Garment) -> Vec<Fastening> {
             if row.iter().any(|tack| tack.iter().any(|end| patches.contains(&end.0))) {
                 continue;
             }
-            let sides = [0, 1].map(|side| spots(garment, &free, row, side));
-            for k in 0..row.len() {
-                let [Some((a, to_a)), Some((b, to_b))] = [sides[0][k], sides[1][k]] else { continue };
+            let [own, met] = [0, 1].map(|side| spots(garment, &free, row, side));
+            for (k, ends) in own.into_iter().zip(met).enumerate() {
+                let (Some((a, to_a)), Some((b, to_b))) = ends else { continue };
                 let tack = [index, r * closure.row.max(1) + k];
                 // Points listed at both sides of a poncho are not one row.
                 let goes_on = k > 0

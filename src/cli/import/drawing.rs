@@ -11,27 +11,25 @@ use crate::io::svg_read::read_svg;
 /// `toile import svg FILE.svg -o GARMENT.yaml`
 pub(super) fn svg(args: &DrawingArgs, console: &Console) -> Result<Exit, CliError> {
     let drawing = read_svg(&args.drawing).map_err(|e| refused(args, e.to_string()))?;
-    let exit = write(args, &drawing.pieces, console)?;
-    drawing.left_out.iter().for_each(|sentence| console.note(sentence));
-    Ok(exit)
+    write(args, &drawing.pieces, &drawing.left_out, console)
 }
 
 /// `toile import dxf FILE.dxf -o GARMENT.yaml`
 pub(super) fn dxf(args: &DrawingArgs, unit: Option<f64>, console: &Console) -> Result<Exit, CliError> {
     let pieces = read_dxf(&args.drawing, unit).map_err(|e| refused(args, e.to_string()))?;
-    write(args, &pieces, console)
+    write(args, &pieces, &[], console)
 }
 
 fn refused(args: &DrawingArgs, reason: String) -> CliError {
     CliError::Import { file: args.drawing.display().to_string(), reason }
 }
 
-/// Writes the pieces with all edges free, and says which may belong together.
-fn write(args: &DrawingArgs, pieces: &[Traced], console: &Console) -> Result<Exit, CliError> {
+/// Writes the pieces with all edges free, and says what is not among them and which may belong together.
+fn write(args: &DrawingArgs, pieces: &[Traced], left_out: &[String], console: &Console) -> Result<Exit, CliError> {
     let name = args.drawing.file_stem().map_or_else(|| "garment".to_owned(), |s| s.to_string_lossy().into_owned());
     let made = garment_file(&name, pieces);
     let exit = finish(&Imported { source: &args.drawing, output: &args.output, file: &made.file }, console)?;
-    made.notes.iter().for_each(|note| console.note(note));
+    left_out.iter().chain(&made.notes).for_each(|note| console.note(note));
     if !made.suggestions.is_empty() {
         console.note("seams are to be written; by their lengths these edges may belong together:");
     }
