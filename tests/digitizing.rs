@@ -192,8 +192,10 @@ fn an_exported_svg_is_read_back() {
 /// What `make` draws is read back with its edges, notches and lines, and without the drawn outlines dashed below.
 #[test]
 fn a_flattened_pattern_is_read_back() {
-    let text = SAMPLE
-        .replacen("notches: {side: [100]}\n  back:", "notches: {side: [100, 220 double]}\n    lines: {tape: {path: M 10 200 L 90 200, kind: elastic, ratio: 0.7}, crease: {path: M 10 250 L 90 250, fold: -90}}\n  back:", 1);
+    let more = "notches: {side: [100, 220 double]}\n    lines:\n      \
+                tape: {path: M 10 200 L 90 200, kind: elastic, ratio: 0.7}\n      \
+                crease: {path: M 10 250 L 90 250, fold: -90}\n  back:";
+    let text = SAMPLE.replacen("notches: {side: [100]}\n  back:", more, 1);
     let garment = read_text("sample", "sample.yaml", &text).expect("a garment").garment;
     let mesh = toile::mesh::build(&garment, 0.02).expect("a mesh");
     let flat: Vec<Vec2> = mesh.flat.iter().map(|p| p * 1.001).collect();

@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 
 use crate::geometry::{DisjointSets, Topology};
 
-/// Turns triangles round so that neighbours agree, in every connected part those that are fewer; gives which were turned.
-/// `None`, and nothing turned, where there is no such way: the surface has one side only.
+/// Turns triangles round so that neighbours agree, in every connected part those that are fewer; gives which were
+/// turned. `None`, and nothing turned, where there is no such way: the surface has one side only.
 pub fn orient(triangles: &mut [[u32; 3]]) -> Option<Vec<usize>> {
     let topology = Topology::new(triangles);
     if topology.misoriented.is_empty() {

@@ -227,10 +227,8 @@ impl Part {
         faces.dedup();
         let (count, all, first) = (faces.len(), self.faces.len(), faces[0]);
         let (run, were) = if count == 1 { ("face runs", "was") } else { ("faces run", "were") };
-        Some(format!(
-            "'{}': {count} of its {all} {run} against the others and {were} turned to lay it flat; the first is face {first}",
-            self.name
-        ))
+        let said = format!("{count} of its {all} {run} against the others and {were} turned to lay it flat");
+        Some(format!("'{}': {said}; the first is face {first}", self.name))
     }
 
     /// The file's number of the face a triangle is of, from 1.
