@@ -70,7 +70,7 @@ const CRATES: [(&str, &[&str]); 19] = [
     ("spade", &["mesh/"]),
     ("kurbo", &["geometry/"]),
     ("i_overlay", &["cutting/clean.rs"]),
-    ("roxmltree", &["io/svg_read.rs"]),
+    ("roxmltree", &["io/svg_read/"]),
     ("pdf_writer", &["io/pdf_write/"]),
     ("svgtypes", &["geometry/"]),
     ("svg", &["io/pattern_svg.rs", "io/svg_write/"]),

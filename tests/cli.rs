@@ -576,6 +576,10 @@ fn what_is_no_disk_is_cut_where_asked_or_where_it_must_be() {
     let auto = laid(&["tube.obj", "--cut", "auto"]);
     assert_eq!(auto["cuts"][0].as_array().map(Vec::len), Some(7));
     assert_eq!(auto["pieces"][0]["particles"], 25 * 7);
+    let made = &auto["cuts_made"][0];
+    assert_eq!((made["piece"].as_str(), made["why"].as_str()), (Some("tube"), Some("auto")));
+    assert!(made["length"].as_f64().is_some_and(|l| (l - 100.0).abs() < 1e-6), "{made}");
+    room.run(&["flatten", "tube.obj", "--cut", "auto", "-o", "flat"]).ends(0).says(&["cut 'tube' from", "100.0 mm"]);
     assert_eq!(laid(&["tube.obj", "--cut", "5,149"])["cuts"][0][6], 149);
     laid(&["seam.obj"]);
     // Every corner of the file has a place of its own on the flat piece, in the file's order.
@@ -585,6 +589,45 @@ fn what_is_no_disk_is_cut_where_asked_or_where_it_must_be() {
     room.run(&["flatten", "tube.obj", "--cut", "1,999", "-o", "no"]).ends(2).says(&["999", "1 to 168"]);
     room.run(&["flatten", "tube.obj", "--cut", "1;2", "-o", "no"]).ends(2).says(&["--cut 1;2"]);
     assert!(room.names("no").is_empty());
+}
+
+#[test]
+fn faces_that_run_against_the_others_are_turned_and_one_sided_surfaces_are_named() {
+    let room = Room::new();
+    // Two faces the other way round.
+    let turned = |line: &str| {
+        let words: Vec<&str> = line.split(' ').collect();
+        [words[0], words[4], words[3], words[2], words[1]].join(" ")
+    };
+    let mut faces = 0;
+    let spoilt = tube(true).lines().fold(String::new(), |mut text, line| {
+        faces += usize::from(line.starts_with('f'));
+        text += &if line.starts_with('f') && [7, 40].contains(&faces) { turned(line) } else { line.to_owned() };
+        text + "\n"
+    });
+    room.put("tube.obj", &spoilt);
+    let said = ["2 of its 144 faces", "face 7"];
+    let report = room.run(&["flatten", "tube.obj", "-o", "flat", "--json"]).ends(0).says(&said).json();
+    assert_eq!(report["pieces"][0]["flips"], 0);
+    // A strip of paper with half a turn.
+    let mut strip = String::new();
+    for k in 0..40 {
+        let angle = f64::from(k) * std::f64::consts::TAU / 40.0;
+        for side in [-20.0, 20.0] {
+            let (out, up) = (100.0 + side * (angle / 2.0).cos(), side * (angle / 2.0).sin());
+            strip += &format!("v {} {up} {}\n", out * angle.cos(), out * angle.sin());
+        }
+    }
+    for k in 0..39 {
+        let a = 2 * k + 1;
+        strip += &format!("f {a} {} {} {}\n", a + 1, a + 3, a + 2);
+    }
+    strip += "f 79 80 1 2\n";
+    room.put("strip.obj", &strip);
+    let said = ["a Möbius strip", "one side only", "--cut auto would cut from vertex"];
+    room.run(&["flatten", "strip.obj", "--units", "mm", "-o", "no"]).ends(2).says(&said);
+    let flat = room.run(&["flatten", "strip.obj", "--units", "mm", "--cut", "auto", "-o", "flat", "--json"]).json();
+    assert_eq!(flat["pieces"][0]["particles"], 82);
 }
 
 /// Domes over squares of 20 cm, so many mm high, side by side in an OBJ, a group each.

@@ -397,6 +397,29 @@ fn pdf_pages_have_the_paper_s_size_and_a_square_of_100_mm() {
 }
 
 #[test]
+fn elastic_is_labelled_beside_its_line() {
+    let paper = paper_of(
+        "    outline: {start: 0 0, top: L 300 0, right: L 300 200, hem: L 0 200, left: L 0 0}\n\
+         \x20   lines: {casing: {path: M 0 20 L 300 20, kind: elastic, ratio: 0.7}}\n",
+    );
+    let label = paper.texts.iter().find(|t| t.text == "elastic, 70 %").expect("a label");
+    let [low, high] = [label.at.y - label.height, label.at.y];
+    let line = paper.marks[0].path.start().y;
+    assert!(low > line || high < line, "{low} {line} {high}");
+    assert!((high - line).abs() < 0.015);
+}
+
+#[test]
+fn the_grain_is_on_the_piece_wherever_it_was_drawn() {
+    let beside = "garment: 1\nfree: ['*.*']\npieces:\n  front:\n    grain: [[500, 90], [500, 10]]\n    \
+                  outline: {start: 0 0, top: L 100 0, right: L 100 200, hem: L 0 200, left: L 0 0}\n";
+    let paper = papers(&drawn(beside), &Options::default()).remove(0);
+    let [tail, head] = paper.grain;
+    let [low, high] = paper.bounds();
+    assert!(tail.x > low.x && tail.x < high.x && (tail.y - head.y - 0.080).abs() < 1e-9, "{tail} {head}");
+}
+
+#[test]
 fn a_sheet_no_reader_shows_is_refused() {
     let papers = sample();
     let sheet = Sheet { size: Vec2::new(1.0, 6.0), ..Sheet::new(&papers, &Layout::default()) };

@@ -8,6 +8,7 @@ use toile::geometry::{Path, Vec2};
 use toile::io::dxf_read::read_dxf_text;
 use toile::io::dxf_write::cutting_dxf;
 use toile::io::garment::{Loaded, read_text, write};
+use toile::io::pattern_svg::pattern_svg;
 use toile::io::svg_read::read_svg_text;
 use toile::io::svg_write::cutting_svg;
 use toile::pattern::{Cut, Drawing, drawings};
@@ -29,7 +30,7 @@ fn drawn(made: &Digitized) -> Vec<Drawing> {
 }
 
 fn from_svg(text: &str) -> Digitized {
-    garment_file("drawing", &read_svg_text(text).expect("pieces"))
+    garment_file("drawing", &read_svg_text(text).expect("pieces").pieces)
 }
 
 fn lengths(drawing: &Drawing) -> Vec<(String, f64)> {
@@ -188,6 +189,37 @@ fn an_exported_svg_is_read_back() {
     assert_eq!(again.iter().find(|p| p.name == "back").map(|p| &p.cut), Some(&Cut::Pair));
 }
 
+/// What `make` draws is read back with its edges, notches and lines, and without the drawn outlines dashed below.
+#[test]
+fn a_flattened_pattern_is_read_back() {
+    let more = "notches: {side: [100, 220 double]}\n    lines:\n      \
+                tape: {path: M 10 200 L 90 200, kind: elastic, ratio: 0.7}\n      \
+                crease: {path: M 10 250 L 90 250, fold: -90}\n  back:";
+    let text = SAMPLE.replacen("notches: {side: [100]}\n  back:", more, 1);
+    let garment = read_text("sample", "sample.yaml", &text).expect("a garment").garment;
+    let mesh = toile::mesh::build(&garment, 0.02).expect("a mesh");
+    let flat: Vec<Vec2> = mesh.flat.iter().map(|p| p * 1.001).collect();
+    let notches: Vec<_> = garment.pieces.iter().flat_map(|p| p.notches.clone()).collect();
+    let made = from_svg(&pattern_svg(&mesh, &flat, &notches).expect("a drawing"));
+    let again = loaded(&made).garment;
+    assert_eq!(again.pieces.len(), mesh.pieces.len());
+    for (piece, cut) in again.pieces.iter().zip(&mesh.pieces) {
+        let mut names: Vec<&str> = piece.loops[0].iter().map(|e| e.name.as_str()).collect();
+        let mut drawn: Vec<String> = cut.edges.iter().map(|e| e.name.replace('.', "_")).collect();
+        names.sort_unstable();
+        drawn.sort_unstable();
+        assert_eq!(names, drawn, "{}", piece.name);
+    }
+    let front = &again.pieces[0];
+    assert_eq!(front.notches.len(), 4, "two on either side");
+    let kinds: Vec<String> = front.lines.iter().map(|l| format!("{} {:?}", l.name, l.kind)).collect();
+    assert!(
+        kinds.iter().any(|k| k.contains("Elastic(0.7)")) && kinds.iter().any(|k| k.contains("Fold(-1.57")),
+        "{kinds:?}"
+    );
+    assert!(kinds.iter().all(|k| !k.contains("Mark")), "{kinds:?}");
+}
+
 /// Both of a pair on the paper are a pair again, by name and mirrored shape; two of a kind are not.
 #[test]
 fn pieces_drawn_left_and_right_are_a_pair() {
@@ -323,6 +355,34 @@ fn what_is_written_on_a_piece_says_how_it_is_cut() {
     for once in ["cut 1", "cut here", "undercut", "cut 1 on the fold", "cut 99999999999999999999"] {
         assert_eq!(cut(once), Cut::One, "{once}");
     }
+}
+
+#[test]
+fn what_a_drawing_shows_besides_is_said() {
+    let text = "<svg xmlns='http://www.w3.org/2000/svg' width='400mm' height='400mm' viewBox='0 0 400 400'>\n\
+                <rect id='yoke' width='100' height='100'/>\n<image href='photo.png'/>\n<use href='#yoke' x='150'/>\n\
+                <g><text x='9' y='9'>front</text>\n<use href='#yoke' x='250'/></g>\n\
+                <rect width='20%' height='10%'/>\n<g style='display: none'><path d='M 0 0 L 9 9'/></g>\n\
+                <a><rect id='linked' y='200' width='100' height='100'/></a></svg>";
+    let drawing = read_svg_text(text).expect("pieces");
+    let names: Vec<&str> = drawing.pieces.iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(names, ["yoke", "linked"], "what is in a link is drawn");
+    let said = drawing.left_out.join("\n");
+    for words in [
+        "1 image in line 3",
+        "2 clones",
+        "first in line 4",
+        "1 text in line 5",
+        "1 shape without a size in line 7",
+        "1 hidden",
+    ] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    let (_, papers) = sample();
+    let own = cutting_svg(&Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true }));
+    assert_eq!(read_svg_text(&own).expect("pieces").left_out, Vec::<String>::new());
+    let nothing = text.replace("<rect", "<use");
+    assert!(read_svg_text(&nothing).expect_err("no piece").to_string().contains("clones"));
 }
 
 #[test]

@@ -81,7 +81,7 @@ fn read_surface(text: &str) {
 
 fn read_svg(text: &str) {
     match read_svg_text(text) {
-        Ok(traced) => read_digitized(&garment_file("fuzz", &traced)),
+        Ok(drawing) => read_digitized(&garment_file("fuzz", &drawing.pieces)),
         Err(error) => assert!(!error.to_string().is_empty()),
     }
 }

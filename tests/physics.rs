@@ -130,7 +130,8 @@ fn a_hooke_spring_pulls_in_proportion() {
 fn a_closure_ties_what_it_joins_with_a_short_thread() {
     let (mut garment, mesh) = rectangle(100.0, 60.0, 10.0);
     let ends = [Vec2::new(0.012, 0.031), Vec2::new(0.078, 0.049)];
-    garment.closures = vec![Closure { kind: "hook".into(), tacks: vec![[(0, ends[0]), (0, ends[1])]] }];
+    garment.closures =
+        vec![Closure { kind: "hook".into(), tacks: vec![[(0, ends[0]), (0, ends[1])]], ..Closure::default() }];
     let fabrics = vec![Arc::new(fabric::load("cotton_poplin").expect("fabric"))];
     let cut = Cut { garment: &garment, mesh: &mesh, fabrics: &fabrics };
     let springs = |model| Cloth::new(&cut, identity_nodes(&mesh), model).springs;

@@ -1,8 +1,9 @@
 //! What is written on a piece, and where there is room for it.
 
+use super::room::Room;
 use super::{Lettering, Paper};
-use crate::geometry::Vec2;
-use crate::pattern::Cut;
+use crate::geometry::{Path, Vec2};
+use crate::pattern::{Cut, LineKind};
 
 /// Largest and smallest height of letters, metres: easily read at arm's length, and the least that home printers draw
 /// clearly.
@@ -13,10 +14,11 @@ const NAME: f64 = 1.4;
 pub const LETTER_WIDTH: f64 = 0.62;
 /// Distance of lines over the height of letters.
 const LINE: f64 = 1.45;
-/// Share of the room between lines that a block of text takes.
-const AIR: f64 = 0.85;
-/// Places looked at along each side of the piece's box.
-const PLACES: usize = 40;
+/// Height of letters along a line, metres, and the share of its box that they take.
+const BESIDE: f64 = 0.004;
+const AIR_BESIDE: f64 = 0.75;
+/// Where along a line words are tried: near its middle first.
+const BESIDE_AT: [f64; 7] = [0.5, 0.35, 0.65, 0.25, 0.75, 0.12, 0.88];
 /// Longest line of a remark that is written, letters.
 const LONGEST_NOTE: usize = 60;
 
@@ -44,14 +46,16 @@ pub(super) fn lettering(paper: &Paper, widths: &[EdgeWidth], note: Option<&str>)
     lines.extend(note.map(|n| crate::input::shown(n.trim(), LONGEST_NOTE)));
     let longest = lines.iter().map(|l| l.chars().count()).max().unwrap_or(1) as f64;
     let block = Vec2::new(longest * LETTER_WIDTH, lines.len() as f64 * LINE + (NAME - 1.0));
-    let walls = walls(paper);
-    let flat = roomiest(paper, &walls, block, false);
-    let turned = roomiest(paper, &walls, block, true);
+    let mut room = room(paper);
+    let mut texts = elastic(paper, &room);
+    texts.iter().for_each(|t| room.add_wall(&outline(t)));
+    let flat = room.roomiest(block);
+    let turned = room.roomiest(block.yx());
     // Text is easier to read level; it is turned where that makes it clearly larger.
     let upright = turned.1 > 1.3 * flat.1 && flat.1 < LETTERS.0;
-    let (middle, room) = if upright { turned } else { flat };
-    let height = room.clamp(LETTERS.1, LETTERS.0);
-    write(&lines, middle, height, upright)
+    let (middle, height) = if upright { turned } else { flat };
+    texts.extend(write(&lines, middle, height.clamp(LETTERS.1, LETTERS.0), upright));
+    texts
 }
 
 /// The allowance of most of the outline, and edges that have another.
@@ -86,95 +90,68 @@ fn write(lines: &[String], middle: Vec2, height: f64, upright: bool) -> Vec<Lett
     out
 }
 
-/// What the text should keep clear of.
-fn walls(paper: &Paper) -> Vec<[Vec2; 2]> {
-    let mut walls = Vec::new();
-    let mut add = |points: &[Vec2]| walls.extend(points.windows(2).map(|w| [w[0], w[1]]));
+/// The cloth of a paper, and the lines that text should keep clear of.
+fn room(paper: &Paper) -> Room {
+    // A half piece is closed by its fold.
+    let mut room = Room { contours: paper.cut.clone(), walls: Vec::new() };
     for line in &paper.sew {
-        add(&line.path.sampled(1e-4));
+        room.add_wall(&line.path.sampled(1e-4));
     }
     for mark in &paper.marks {
-        add(&mark.path.sampled(1e-4));
+        room.add_wall(&mark.path.sampled(1e-4));
     }
-    add(&paper.grain);
+    room.add_wall(&paper.grain);
     if let Some(fold) = paper.fold {
-        add(&fold);
+        room.add_wall(&fold);
     }
-    walls
+    room
 }
 
-/// Where in the piece a block of this size (in heights of letters) has most room, and how high its letters may be.
-fn roomiest(paper: &Paper, walls: &[[Vec2; 2]], block: Vec2, upright: bool) -> (Vec2, f64) {
-    let block = if upright { Vec2::new(block.y, block.x) } else { block };
-    // In these units the block is a square of side 1 per letter height.
-    let scaled = |p: Vec2| p.component_div(&block);
-    let walls: Vec<[Vec2; 2]> = walls.iter().map(|w| w.map(scaled)).collect();
-    let [low, high] = paper.bounds();
-    let mut best = ((low + high) / 2.0, 0.0);
-    for i in 1..PLACES {
-        for k in 1..PLACES {
-            let share = Vec2::new(i as f64, k as f64) / PLACES as f64;
-            let p = low + (high - low).component_mul(&share);
-            if inside(paper, p) {
-                let clear = walls.iter().map(|w| distance(scaled(p), *w)).fold(f64::INFINITY, f64::min);
-                let room = 2.0 * AIR * clear;
-                if room > best.1 {
-                    best = (p, room);
-                }
-            }
+/// What is written along elastic: to which share of its length it is drawn in.
+fn elastic(paper: &Paper, room: &Room) -> Vec<Lettering> {
+    let mut texts = Vec::new();
+    for mark in &paper.marks {
+        if let Some(LineKind::Elastic(ratio)) = mark.line {
+            texts.push(beside(room, &mark.path, format!("elastic, {:.0} %", 100.0 * ratio)));
         }
     }
-    best
+    texts
 }
 
-/// Whether `p` is on the cloth; a half piece is closed by its fold.
-fn inside(paper: &Paper, p: Vec2) -> bool {
-    let mut inside = false;
-    for contour in &paper.cut {
-        let next = contour.iter().cycle().skip(1);
-        for (a, b) in contour.iter().zip(next) {
-            if (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) {
-                inside = !inside;
-            }
-        }
-    }
-    inside
+/// A text beside a line, where it is clear of all lines if there is such a place.
+fn beside(room: &Room, path: &Path, text: String) -> Lettering {
+    let height = BESIDE;
+    let wide = text.chars().count() as f64 * LETTER_WIDTH * height;
+    let place = |share: f64, side: f64| {
+        let t = path.tangent(path.length() * share);
+        let upright = t.y.abs() > t.x.abs();
+        let size = if upright { Vec2::new(height, wide) } else { Vec2::new(wide, height) } * (1.0 / AIR_BESIDE);
+        let across = Vec2::new(-t.y, t.x) * side;
+        // As far off as the corner of its box needs.
+        let off = (across.x.abs() * size.x + across.y.abs() * size.y) / 2.0;
+        (path.point(path.length() * share) + across * (off * 1.01), size, upright)
+    };
+    let places = BESIDE_AT.iter().flat_map(|&share| [place(share, -1.0), place(share, 1.0)]);
+    let clear = places.clone().find(|(middle, size, _)| room.is_clear(*middle, *size));
+    let (middle, _, upright) = clear.unwrap_or_else(|| place(0.5, -1.0));
+    // From the middle of the letters to their foot; turned, that is to the left.
+    let foot = if upright { Vec2::new(-height / 2.0, 0.0) } else { Vec2::new(0.0, height / 2.0) };
+    Lettering { text, at: middle + foot, height, upright }
 }
 
-/// Half the side of the largest square round `p` that a segment does not enter.
-fn distance(p: Vec2, [a, b]: [Vec2; 2]) -> f64 {
-    let (from, along) = (a - p, b - a);
-    // Along the segment |x| and |y| are straight between their zeros,
-    // and the greater of them between where they are equal.
-    let turning = [(1.0, 0.0), (0.0, 1.0), (1.0, -1.0), (1.0, 1.0)].map(|(x, y)| {
-        let slope = x * along.x + y * along.y;
-        if slope == 0.0 { 0.0 } else { (-(x * from.x + y * from.y) / slope).clamp(0.0, 1.0) }
-    });
-    turning.into_iter().chain([0.0, 1.0]).map(|share| (from + along * share).amax()).fold(f64::INFINITY, f64::min)
+/// The box round a text, as a line.
+fn outline(text: &Lettering) -> [Vec2; 5] {
+    let wide = text.text.chars().count() as f64 * LETTER_WIDTH * text.height / 2.0;
+    let corner = |along: f64, up: f64| {
+        let (along, up) = (along * wide, up * text.height);
+        text.at + if text.upright { Vec2::new(up, along) } else { Vec2::new(along, -up) }
+    };
+    [corner(-1.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(-1.0, 1.0), corner(-1.0, 0.0)]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_square_grows_to_the_segment() {
-        let from_origin = |a: [f64; 2], b: [f64; 2]| distance(Vec2::zeros(), [a, b].map(|p| Vec2::new(p[0], p[1])));
-        assert_eq!(from_origin([-5.0, 2.0], [5.0, 2.0]), 2.0);
-        assert_eq!(from_origin([3.0, -9.0], [3.0, 9.0]), 3.0);
-        // A diagonal meets the square's corner first; a short one its own end.
-        assert_eq!(from_origin([4.0, 0.0], [0.0, 4.0]), 2.0);
-        assert_eq!(from_origin([4.0, 1.0], [3.5, 1.5]), 3.5);
-        assert_eq!(from_origin([-1.0, -1.0], [1.0, 1.0]), 0.0);
-        let dense = |a: Vec2, b: Vec2| {
-            (0..=10_000).map(|k| (a + (b - a) * (f64::from(k) / 1e4)).amax()).fold(f64::INFINITY, f64::min)
-        };
-        for k in 0..50 {
-            let at = |seed: i32| f64::from(seed * 7919 % 41 - 20) / 4.0;
-            let (a, b) = (Vec2::new(at(k), at(3 * k + 1)), Vec2::new(at(5 * k + 2), at(7 * k + 3)));
-            assert!((distance(Vec2::zeros(), [a, b]) - dense(a, b)).abs() < 2e-3, "{a} {b}");
-        }
-    }
 
     #[test]
     fn turned_lines_are_read_from_the_right() {

@@ -1,5 +1,6 @@
 //! Notches, grain, folds, pleats and drill marks.
 
+use super::room::Room;
 use super::{Mark, MarkKind, NotchMark};
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{Cut, Drawing};
@@ -52,8 +53,13 @@ pub(super) fn notches(drawing: &Drawing, width: impl Fn(usize, usize) -> f64) ->
     marks
 }
 
-/// The file's grain arrow, or one through the middle of the piece.
-pub(super) fn grain(drawing: &Drawing) -> [Vec2; 2] {
+/// The file's grain arrow, or one through the middle of the piece; on the cloth within the `cut` lines, wherever the file
+/// has drawn it.
+pub(super) fn grain(drawing: &Drawing, cut: &[Vec<Vec2>]) -> [Vec2; 2] {
+    Room { contours: cut.to_vec(), walls: Vec::new() }.arrow(grain_as_drawn(drawing))
+}
+
+fn grain_as_drawn(drawing: &Drawing) -> [Vec2; 2] {
     if let Some([tail, head]) = drawing.grain
         && (head - tail).norm() >= SHORTEST_GRAIN
     {
@@ -71,14 +77,14 @@ pub(super) fn marks(drawing: &Drawing, fold: Option<[Vec2; 2]>) -> Vec<Mark> {
     let mut marks: Vec<Mark> = drawing
         .lines
         .iter()
-        .map(|l| Mark { kind: MarkKind::Line, name: l.name.clone(), path: l.path.clone() })
+        .map(|l| Mark { kind: MarkKind::Line, name: l.name.clone(), path: l.path.clone(), line: Some(l.kind.clone()) })
         .collect();
     for fold in &drawing.folds {
         marks.extend(pleat(drawing, fold.edge, fold.from, fold.to));
     }
     if let (Some(fold), Cut::Fold(name)) = (fold, &drawing.cut) {
         let path = bent_arrow(fold);
-        marks.push(Mark { kind: MarkKind::Fold, name: name.clone(), path });
+        marks.push(Mark { kind: MarkKind::Fold, name: name.clone(), path, line: None });
     }
     marks
 }
@@ -94,7 +100,7 @@ fn pleat(drawing: &Drawing, edge: (usize, usize), from: f64, to: f64) -> Vec<Mar
     let [one, other] = [from, to].map(|at| [path.point(at), path.point(at) + inward(at) * PLEAT]);
     let middle = |ends: [Vec2; 2]| (ends[0] + ends[1]) / 2.0;
     let arrow = arrow(middle(one), middle(other));
-    let mark = |path: Path| Mark { kind: MarkKind::Pleat, name: drawing.edge(edge).name.clone(), path };
+    let mark = |path: Path| Mark { kind: MarkKind::Pleat, name: drawing.edge(edge).name.clone(), path, line: None };
     vec![mark(Path::line(one[0], one[1])), mark(Path::line(other[0], other[1])), mark(arrow)]
 }
 

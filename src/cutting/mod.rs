@@ -12,15 +12,18 @@ mod layout;
 mod marks;
 mod offset;
 mod outline;
+mod room;
 mod whole;
 
 pub use label::LETTER_WIDTH;
 pub use layout::{Layout, Sheet, TEST_SQUARE, shelves};
 pub use outline::papers;
+pub use room::Room;
 
 use nalgebra::Matrix2;
 
 use crate::geometry::{Path, Vec2};
+use crate::pattern::LineKind;
 
 /// What the file does not say.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,6 +121,8 @@ pub struct Mark {
     pub name: String,
     /// Its course.
     pub path: Path,
+    /// What a line of the file does.
+    pub line: Option<LineKind>,
 }
 
 /// What a mark is.

@@ -85,6 +85,7 @@ fn paper(drawing: &Drawing, options: &Options) -> Paper {
         Cut::Count(n) => (n, false),
     };
     let mouths = sewn_mouths(&borders, &between);
+    let grain = marks::grain(drawing, &cut);
     Paper {
         name: drawing.name.clone(),
         count: label::count(&drawing.cut),
@@ -95,7 +96,7 @@ fn paper(drawing: &Drawing, options: &Options) -> Paper {
         fold,
         sew: sew_lines(drawing, &mouths),
         notches: marks::notches(drawing, |ring, index| rule.width(ring, index)),
-        grain: marks::grain(drawing),
+        grain,
         marks: marks::marks(drawing, fold),
         drills: marks::drills(drawing),
         texts: Vec::new(),

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::chain::{chained, is_closed};
-use super::{Remark, Role, Stroke, Traced};
+use super::{Inner, Remark, Role, Stroke, Traced};
 use crate::geometry::{Path, Vec2};
 use crate::pattern::Cut;
 
@@ -197,7 +197,11 @@ fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> Traced {
             Role::Unknown if short && ends.iter().any(|&p| near(p)) => {
                 traced.notches.push(nearest_end(ends, &outlines));
             }
-            _ => traced.lines.push((stroke.name.clone(), stroke.path.clone())),
+            _ => traced.lines.push(Inner {
+                name: stroke.name.clone(),
+                path: stroke.path.clone(),
+                kind: stroke.kind.clone(),
+            }),
         }
     }
     traced

@@ -21,12 +21,22 @@ const DOUBLE: f64 = 0.011;
 pub(super) struct Edge {
     pub(super) name: String,
     pub(super) path: Path,
-    /// Whether a notch stands at its end, and whether that is double.
-    pub(super) notch: Option<bool>,
+    /// Notches on it, metres from its start, and whether they are double.
+    pub(super) notches: Vec<(f64, bool)>,
 }
 
+impl Edge {
+    /// Whether it has a notch, and whether its last one is double.
+    pub(super) fn notch(&self) -> Option<bool> {
+        self.notches.last().map(|n| n.1)
+    }
+}
+
+/// An edge that may not have a name yet.
+type Unnamed = (Option<String>, Path, Vec<(f64, bool)>);
+
 /// Splits an outline at its corners and notches and names what has no name: `a`, `b`, `c` … clockwise from the upper
-/// left corner.
+/// left corner. Edges that have names stay as they are: a garment drawn by toile keeps its edges.
 pub(super) fn edges(outline: &[(Option<String>, Path)], notches: &[Vec2]) -> Vec<Edge> {
     let clockwise = outline.iter().map(|e| e.1.double_area()).sum::<f64>() > 0.0;
     let turned: Vec<(Option<String>, Path)> = if clockwise {
@@ -35,12 +45,19 @@ pub(super) fn edges(outline: &[(Option<String>, Path)], notches: &[Vec2]) -> Vec
         outline.iter().rev().map(|(name, path)| (name.clone(), path.reversed())).collect()
     };
     let notches = singled(notches);
-    let mut edges: Vec<(Option<String>, Path, Option<bool>)> = Vec::new();
+    let mut edges: Vec<Unnamed> = Vec::new();
     if let [(None, whole)] = turned.as_slice() {
         edges.extend(split_ring(whole, &notches, &turned));
     } else {
+        let several = turned.len() > 1;
         for (name, path) in &turned {
-            let parts = split(path, &corners(path), &notches, &turned);
+            let corners = corners(path);
+            if name.is_some() && (several || corners.is_empty()) {
+                let on_it = notches_on(path, &notches, &turned).collect();
+                edges.push((name.clone(), path.clone(), on_it));
+                continue;
+            }
+            let parts = split(path, &corners, &notches, &turned);
             let alone = parts.len() == 1;
             for (k, (part, notch)) in parts.into_iter().enumerate() {
                 let name = name.as_ref().map(|n| if alone { n.clone() } else { format!("{n}_{}", k + 1) });
@@ -57,11 +74,7 @@ pub(super) fn edges(outline: &[(Option<String>, Path)], notches: &[Vec2]) -> Vec
 }
 
 /// A closed path without names: begun at one of its corners.
-fn split_ring(
-    whole: &Path,
-    notches: &[(Vec2, bool)],
-    outline: &[(Option<String>, Path)],
-) -> Vec<(Option<String>, Path, Option<bool>)> {
+fn split_ring(whole: &Path, notches: &[(Vec2, bool)], outline: &[(Option<String>, Path)]) -> Vec<Unnamed> {
     let mut at = corners(whole);
     let closing = turn(whole.tangent(whole.length()), whole.tangent(0.0)) > CORNER;
     if closing || at.is_empty() {
@@ -95,22 +108,29 @@ fn turn(before: Vec2, after: Vec2) -> f64 {
     before.perp(&after).atan2(before.dot(&after)).abs()
 }
 
+/// Where along a path the notches are that are nearest to it.
+fn notches_on<'a>(
+    path: &'a Path,
+    notches: &'a [(Vec2, bool)],
+    outline: &'a [(Option<String>, Path)],
+) -> impl Iterator<Item = (f64, bool)> + 'a {
+    notches.iter().filter_map(|&(p, double)| {
+        let (at, off) = path.nearest(p);
+        let elsewhere = outline.iter().map(|e| e.1.nearest(p).1).fold(f64::INFINITY, f64::min);
+        (off <= REACH && off <= elsewhere + 1e-9).then_some((at, double))
+    })
+}
+
 /// Parts of a path between corners and the notches that are nearest to it.
 fn split(
     path: &Path,
     corners: &[f64],
     notches: &[(Vec2, bool)],
     outline: &[(Option<String>, Path)],
-) -> Vec<(Path, Option<bool>)> {
+) -> Vec<(Path, Vec<(f64, bool)>)> {
     let length = path.length();
     let mut cuts: Vec<(f64, Option<bool>)> = corners.iter().map(|&s| (s, None)).collect();
-    for &(p, double) in notches {
-        let (at, off) = path.nearest(p);
-        let elsewhere = outline.iter().map(|e| e.1.nearest(p).1).fold(f64::INFINITY, f64::min);
-        if off <= REACH && off <= elsewhere + 1e-9 {
-            cuts.push((at, Some(double)));
-        }
-    }
+    cuts.extend(notches_on(path, notches, outline).map(|(at, double)| (at, Some(double))));
     cuts.push((length, None));
     cuts.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut parts: Vec<(Path, Option<bool>)> = Vec::new();
@@ -133,7 +153,12 @@ fn split(
         }
         from = at;
     }
-    parts
+    // The notches at which a line is split stand at the ends of its parts.
+    let at_end = |(part, notch): (Path, Option<bool>)| {
+        let notch = notch.map(|double| (part.length(), double));
+        (part, notch.into_iter().collect())
+    };
+    parts.into_iter().map(at_end).collect()
 }
 
 /// Notches without their doubles.
@@ -152,11 +177,11 @@ fn singled(notches: &[Vec2]) -> Vec<(Vec2, bool)> {
     out
 }
 
-fn named(edges: Vec<(Option<String>, Path, Option<bool>)>) -> Vec<Edge> {
+fn named(edges: Vec<Unnamed>) -> Vec<Edge> {
     let mut taken: Vec<String> = Vec::new();
     let mut next = 0;
     let mut out = Vec::new();
-    for (name, path, notch) in edges {
+    for (name, path, mut notches) in edges {
         let mut name = name.map(|n| super::file::word(&n)).filter(|n| super::file::is_usable(n) && !taken.contains(n));
         while name.is_none() {
             let made_up = letters(next);
@@ -165,7 +190,11 @@ fn named(edges: Vec<(Option<String>, Path, Option<bool>)>) -> Vec<Edge> {
         }
         let name = name.unwrap_or_default();
         taken.push(name.clone());
-        out.push(Edge { name, path: smoothed(&path), notch });
+        let smooth = smoothed(&path);
+        let longer = smooth.length() / path.length();
+        notches.iter_mut().for_each(|n| n.0 *= longer);
+        notches.sort_by(|a, b| a.0.total_cmp(&b.0));
+        out.push(Edge { name, path: smooth, notches });
     }
     out
 }

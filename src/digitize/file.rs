@@ -6,8 +6,8 @@ use super::pairs::paired;
 use super::suggest::{Suggestion, suggest};
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{
-    AllowanceFile, AllowanceWidth, Cut, GarmentFile, LineFile, Located, NotchFile, OutlineFile, PieceFile, Quantity,
-    Spot,
+    AllowanceFile, AllowanceWidth, Cut, GarmentFile, LineFile, LineKind, Located, NotchFile, OutlineFile, PieceFile,
+    Quantity, Spot,
 };
 
 /// Millimetres per metre.
@@ -151,12 +151,14 @@ fn outline_file(edges: &[Edge]) -> OutlineFile {
 
 fn notches(edges: &[Edge]) -> Vec<(Located<String>, Vec<Located<NotchFile>>)> {
     let mut all = Vec::new();
-    for edge in edges {
-        if let Some(double) = edge.notch {
-            // Never past the end: the file's numbers are rounded.
-            let at = Quantity { number: ((edge.path.length() * MM - 1e-5) * 1e4).floor() / 1e4, unit: None };
-            all.push((at_no_place(edge.name.clone()), vec![at_no_place(NotchFile { at, double })]));
-        }
+    for edge in edges.iter().filter(|e| !e.notches.is_empty()) {
+        // Never past the end: the file's numbers are rounded.
+        let most = ((edge.path.length() * MM - 1e-5) * 1e4).floor() / 1e4;
+        let notch = |&(at, double): &(f64, bool)| {
+            let at = Quantity { number: ((at * MM * 1e4).round() / 1e4).min(most), unit: None };
+            at_no_place(NotchFile { at, double })
+        };
+        all.push((at_no_place(edge.name.clone()), edge.notches.iter().map(notch).collect()));
     }
     all
 }
@@ -172,7 +174,7 @@ fn numbered(stem: &str, paths: &[Path], edges: &[Edge]) -> Vec<(Located<String>,
 
 fn lines(piece: &Traced) -> Vec<LineFile> {
     let mut taken: Vec<String> = Vec::new();
-    let mut add = |stem: &str, path: &Path, kind: &str| {
+    let mut add = |stem: &str, path: &Path, kind: LineKind| {
         let mut name = stem.to_owned();
         let mut again = 2;
         while taken.contains(&name) {
@@ -180,22 +182,29 @@ fn lines(piece: &Traced) -> Vec<LineFile> {
             again += 1;
         }
         taken.push(name.clone());
-        LineFile {
-            name: at_no_place(name),
-            path: at_no_place(path.to_svg(MM, true)),
-            fold: None,
-            kind: Some(at_no_place(kind.to_owned())),
-            ratio: None,
-        }
+        let (mut fold, mut ratio) = (None, None);
+        let kind = match kind {
+            LineKind::Fold(angle) => {
+                fold = Some(at_no_place((angle.to_degrees() * 1e3).round() / 1e3));
+                None
+            }
+            LineKind::Elastic(share) => {
+                ratio = Some(at_no_place(share));
+                Some("elastic".to_owned())
+            }
+            LineKind::Mark(kind) => Some(kind),
+        };
+        let path = at_no_place(path.to_svg(MM, true));
+        LineFile { name: at_no_place(name), path, fold, kind: kind.map(at_no_place), ratio }
     };
     let mut lines = Vec::new();
-    for (name, path) in &piece.lines {
-        let stem = name.as_deref().map(word).filter(|w| is_usable(w)).unwrap_or_else(|| "line".to_owned());
-        lines.push(add(&stem, path, "mark"));
+    for line in &piece.lines {
+        let stem = line.name.as_deref().map(word).filter(|w| is_usable(w)).unwrap_or_else(|| "line".to_owned());
+        lines.push(add(&stem, &line.path, line.kind.clone().unwrap_or_else(|| LineKind::Mark("mark".to_owned()))));
     }
     for &p in &piece.points {
         let half = Vec2::new(DRILL / 2.0, 0.0);
-        lines.push(add("drill", &Path::line(p - half, p + half), "drill"));
+        lines.push(add("drill", &Path::line(p - half, p + half), LineKind::Mark("drill".to_owned())));
     }
     lines
 }

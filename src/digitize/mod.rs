@@ -18,7 +18,7 @@ pub use file::{Digitized, garment_file};
 pub use suggest::Suggestion;
 
 use crate::geometry::{Path, Vec2};
-use crate::pattern::{Cut, Side};
+use crate::pattern::{Cut, LineKind, Side};
 
 /// A line of a foreign file.
 #[derive(Clone, Debug)]
@@ -31,6 +31,19 @@ pub struct Stroke {
     pub name: Option<String>,
     /// The name of the group it is in, if that has one.
     pub group: Option<String>,
+    /// What it does if it is a line inside a piece, where the file says so.
+    pub kind: Option<LineKind>,
+}
+
+/// A line inside a piece.
+#[derive(Clone, Debug)]
+pub struct Inner {
+    /// Its name, if it has one.
+    pub name: Option<String>,
+    /// Its course.
+    pub path: Path,
+    /// What it does, where the file says so.
+    pub kind: Option<LineKind>,
 }
 
 /// Words of a foreign file.
@@ -73,7 +86,7 @@ pub struct Traced {
     /// What is cut out.
     pub holes: Vec<Path>,
     /// Lines inside.
-    pub lines: Vec<(Option<String>, Path)>,
+    pub lines: Vec<Inner>,
     /// Points inside: drill holes.
     pub points: Vec<Vec2>,
     /// Tail and head of the grain line.
@@ -106,7 +119,7 @@ impl Traced {
             sew: named(&self.sew),
             cut: self.cut.as_ref().map(path),
             holes: self.holes.iter().map(path).collect(),
-            lines: named(&self.lines),
+            lines: self.lines.iter().map(|l| Inner { path: path(&l.path), ..l.clone() }).collect(),
             points: self.points.iter().map(|p| p + shift).collect(),
             grain: self.grain.map(|g| g.map(|p| p + shift)),
             notches: self.notches.iter().map(|p| p + shift).collect(),

@@ -19,7 +19,7 @@ pub struct Suggestion {
     pub to: String,
     /// Their lengths, metres.
     pub lengths: [f64; 2],
-    /// Whether both end in a notch.
+    /// Whether both have a notch: parts of an outline split at notches end there.
     pub notched: bool,
 }
 
@@ -44,7 +44,7 @@ pub(super) fn suggest(outlines: &[(String, Vec<Edge>, bool)]) -> Vec<Suggestion>
     for (i, partner) in best.iter().enumerate() {
         if let Some(k) = partner.filter(|&k| k > i && best[k] == Some(i)) {
             let lengths = [ends[i].edge.path.length(), ends[k].edge.path.length()];
-            let notched = ends[i].edge.notch.is_some() && ends[k].edge.notch.is_some();
+            let notched = ends[i].edge.notch().is_some() && ends[k].edge.notch().is_some();
             found.push(Suggestion { sew: ends[i].name.clone(), to: ends[k].name.clone(), lengths, notched });
         }
     }
@@ -58,7 +58,7 @@ fn best(ends: &[End], i: usize) -> Option<usize> {
     let alike = |k: &usize| *k != i && apart(*k) <= ALIKE.0.max(ALIKE.1 * length(i).max(length(*k)));
     // Notched alike, in another piece, then by length; the earlier of two that are equal.
     let worse = |k: usize| {
-        let notches = ends[k].edge.notch != ends[i].edge.notch;
+        let notches = ends[k].edge.notch() != ends[i].edge.notch();
         (notches, ends[k].piece == ends[i].piece)
     };
     (0..ends.len()).filter(alike).min_by(|&a, &b| worse(a).cmp(&worse(b)).then(apart(a).total_cmp(&apart(b))))

@@ -206,11 +206,7 @@ impl Cloth {
 
     /// A short strong spring for every tack of the closures, between the particles nearest to its ends.
     fn add_tacks(&mut self, mesh: &ClothMesh, garment: &Garment) {
-        let nearest = |&(piece, at): &(usize, Vec2)| {
-            let far = |p: &usize| (mesh.flat[*p] - at).norm_squared();
-            let particles = mesh.pieces.get(piece)?.particles.clone();
-            particles.min_by(|p, q| far(p).total_cmp(&far(q))).map(|p| self.node_of[p])
-        };
+        let nearest = |&(piece, at): &(usize, Vec2)| mesh.nearest(piece, at).map(|p| self.node_of[p]);
         let law = self.laws.len() as u32;
         let tacks: Vec<Spring> = garment
             .closures

@@ -34,6 +34,9 @@ pub enum FlattenError {
     /// Neighbouring triangles that run against each other.
     #[error("triangles {0} and {1} run against each other: turn one of them round")]
     Misoriented(u32, u32),
+    /// A surface with one side only.
+    #[error("the surface is {0}: it has one side only, and cloth has two; cut it first, across the twist")]
+    OneSided(&'static str),
     /// Several unconnected parts.
     #[error("the surface has {0} unconnected parts: flatten them one by one")]
     Components(usize),

@@ -24,6 +24,7 @@ mod garment;
 mod harmonic;
 mod law;
 mod measure;
+mod orient;
 mod overlap;
 mod relax;
 mod spring;
@@ -36,6 +37,7 @@ pub use cut::{Solid, dart, disk_cuts, shortest_path};
 pub use error::FlattenError;
 pub use garment::{FlatGarment, FlatPiece, flatten_garment};
 pub use measure::{Report, Threads, triangle_strain};
+pub use orient::{one_sided, orient};
 pub use overlap::rim_crossings;
 
 use std::collections::HashMap;

@@ -6,7 +6,7 @@
 use std::path::Path as FilePath;
 
 use super::dxf_write::layer;
-use crate::digitize::{Traced, chained};
+use crate::digitize::{Inner, Traced, chained};
 use crate::geometry::{Path, Vec2};
 use crate::input::{InputError, bytes, shown};
 use crate::pattern::Cut;
@@ -288,7 +288,7 @@ impl<'a> Block<'a> {
             sew: sew.into_iter().map(|e| (None, e.1)).collect(),
             cut: Some(cut),
             holes: holes.into_iter().filter(|h| h.double_area().abs() > 0.0).collect(),
-            lines: self.on(layer::INTERNAL).into_iter().map(|l| (None, l.1)).collect(),
+            lines: self.on(layer::INTERNAL).into_iter().map(|l| Inner { name: None, path: l.1, kind: None }).collect(),
             points: at(&|on| on == layer::DRILL),
             grain: self.ends_on(layer::GRAIN),
             notches: at(&is_notch),

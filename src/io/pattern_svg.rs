@@ -1,13 +1,13 @@
 //! `pattern.svg`: the flat pieces at full size, to print, plot or cut.
 //!
-//! One user unit is one millimetre and width, height and viewBox say so. Coordinates are absolute (no transforms) and
-//! every element carries its own styling, so that any program sees the same drawing.
+//! One user unit is one millimetre and width, height and viewBox say so. Coordinates are absolute (no transforms but for
+//! turned text) and every element carries its own styling, so that any program sees the same drawing.
 
-use svg::Document;
 use svg::node::element::{Group, Path, Text};
+use svg::{Document, Node};
 
-use super::svg_write::{curved, document, identifier, polyline, square, text};
-use crate::cutting::{TEST_SQUARE, shelves};
+use super::svg_write::{centered, curved, document, identifier, polyline, square, with_kind};
+use crate::cutting::{LETTER_WIDTH, Room, TEST_SQUARE, shelves};
 use crate::geometry::{Vec2, smooth_curves};
 use crate::mesh::{ClothMesh, EdgeParticles, PieceMesh};
 use crate::pattern::Notch;
@@ -22,8 +22,9 @@ const GAP: f64 = 30.0;
 const GRAIN: (f64, f64) = (0.4, 250.0);
 /// Barbs of the grain arrow, mm.
 const BARB: f64 = 6.0;
-/// Height of letters, mm.
+/// Height of letters, and the least that home printers draw clearly, mm.
 const LETTERS: f64 = 8.0;
+const LEAST_LETTERS: f64 = 2.5;
 /// Depth of a notch and distance of a double one's two marks, mm.
 const NOTCH: (f64, f64) = (6.0, 5.0);
 
@@ -107,6 +108,14 @@ fn begin<'a>(cloth: &'a ClothMesh, flat: &[Vec2]) -> Result<Begun<'a>, PatternSv
     Ok(Begun { sheets, square, document: document(size + 2.0 * margin) })
 }
 
+/// An arrow with its barbs.
+fn arrow([tail, head]: [Vec2; 2]) -> Path {
+    let along = (head - tail).try_normalize(0.0).unwrap_or_else(Vec2::y);
+    let across = Vec2::new(-along.y, along.x);
+    let barb = |side: f64| head - (along * 2.0 + across * side) * (BARB / 2.0);
+    polyline(&[tail, head, barb(1.0), head, barb(-1.0)], "grain", 0.3)
+}
+
 /// A piece in millimetres on the sheet.
 struct Sheet<'a> {
     piece: &'a PieceMesh,
@@ -169,16 +178,15 @@ impl<'a> Sheet<'a> {
         for line in &self.piece.lines {
             let id = format!("{name}.{}", identifier(&line.name));
             let path = polyline(&self.polyline(&line.particles), "line", 0.3);
-            group = group.add(path.set("id", id).set("stroke-dasharray", "4 2"));
+            group = group.add(with_kind(path, &line.kind).set("id", id).set("stroke-dasharray", "4 2"));
         }
-        for notch in notches {
-            if let Some(edge) = self.piece.edges.iter().find(|e| e.edge == notch.edge) {
-                for path in self.notch(edge, drawn, notch) {
-                    group = group.add(path);
-                }
-            }
+        let own = |n: &Notch| self.piece.edges.iter().find(|e| e.edge == n.edge).map(|edge| self.notch(edge, drawn, n));
+        let marks: Vec<[Vec2; 2]> = notches.iter().filter_map(own).flatten().collect();
+        for mark in &marks {
+            group = group.add(polyline(mark, "notch", 0.3));
         }
-        group.add(self.grain()).add(self.label())
+        let [grain, label] = self.grain_and_label(&marks);
+        group.add(grain).add(label)
     }
 
     /// The edges as smooth curves.
@@ -190,45 +198,75 @@ impl<'a> Sheet<'a> {
             let curves = smooth_curves(&self.polyline(&edge.particles), SMOOTH);
             group = group.add(curved(&curves, "edge", 0.5).set("id", id));
         }
-        group.add(self.grain()).add(self.label())
+        let [grain, label] = self.grain_and_label(&[]);
+        group.add(grain).add(label)
     }
 
-    /// The edges as they were drawn.
+    /// The edges and inner lines as they were drawn.
     fn outline(&self) -> Vec<Path> {
         let first = self.piece.particles.start;
         let at = |&v: &u32| self.drawn.get((v as usize).checked_sub(first)?).copied();
-        let edge = |e: &EdgeParticles| {
-            let points: Vec<Vec2> = e.particles.iter().filter_map(at).collect();
+        let line = |particles: &Vec<u32>| {
+            let points: Vec<Vec2> = particles.iter().filter_map(at).collect();
             polyline(&points, "drawn", 0.3).set("stroke", "gray").set("stroke-dasharray", "2 2")
         };
-        self.piece.edges.iter().map(edge).collect()
+        let edges = self.piece.edges.iter().map(|e| &e.particles);
+        edges.chain(self.piece.lines.iter().map(|l| &l.particles)).map(line).collect()
     }
 
-    /// Middle of the particles: inside any piece that is not much bent.
+    /// The cloth, for finding room on it, and its lines.
+    fn room(&self) -> Room {
+        let mut room = Room::default();
+        let mut ring = None;
+        for edge in &self.piece.edges {
+            let points = self.polyline(&edge.particles);
+            room.add_wall(&points);
+            if ring.replace(edge.edge.ring) != Some(edge.edge.ring) {
+                room.contours.push(Vec::new());
+            }
+            room.contours.iter_mut().last().into_iter().for_each(|contour| contour.extend(&points));
+        }
+        for line in &self.piece.lines {
+            room.add_wall(&self.polyline(&line.particles));
+        }
+        room
+    }
+
+    /// The grain's arrow on the cloth, and the piece's name clear of every line.
+    fn grain_and_label(&self, marks: &[[Vec2; 2]]) -> [Box<dyn Node>; 2] {
+        let mut room = self.room();
+        let grain = room.arrow(self.grain());
+        marks.iter().chain([&grain]).for_each(|line| room.add_wall(line));
+        [Box::new(arrow(grain)), Box::new(self.label(&room))]
+    }
+
+    /// Middle of the particles: on any piece that is not much bent.
     fn middle(&self) -> Vec2 {
         self.points.iter().sum::<Vec2>() / self.points.len().max(1) as f64
     }
 
-    /// An arrow along the warp, from tail to head.
-    fn grain(&self) -> Path {
+    /// Tail and head of an arrow along the warp.
+    fn grain(&self) -> [Vec2; 2] {
         let half = self.warp * (GRAIN.0 * self.size().y).min(GRAIN.1) / 2.0;
-        let (tail, head) = (self.middle() - half, self.middle() + half);
-        let across = Vec2::new(-self.warp.y, self.warp.x);
-        let barb = |side: f64| head - (self.warp * 2.0 + across * side) * (BARB / 2.0);
-        polyline(&[tail, head, barb(1.0), head, barb(-1.0)], "grain", 0.3)
+        [self.middle() - half, self.middle() + half]
     }
 
-    fn label(&self) -> Text {
-        let at = self.middle();
-        text(&self.piece.name, at + Vec2::new(LETTERS / 2.0, 0.0), LETTERS)
+    fn label(&self, room: &Room) -> Text {
+        let block = Vec2::new(self.piece.name.chars().count().max(1) as f64 * LETTER_WIDTH, 1.0);
+        let (level, turned) = (room.roomiest(block), room.roomiest(block.yx()));
+        let upright = level.1 < LETTERS && turned.1 > level.1;
+        let (middle, height) = if upright { turned } else { level };
+        let height = height.clamp(LEAST_LETTERS, LETTERS);
+        let foot = if upright { Vec2::new(-height / 2.0, 0.0) } else { Vec2::new(0.0, height / 2.0) };
+        centered(&self.piece.name, middle + foot, height, upright)
     }
 
     /// One or two marks from the edge into the piece.
-    fn notch(&self, edge: &EdgeParticles, drawn: &[Vec2], notch: &Notch) -> Vec<Path> {
+    fn notch(&self, edge: &EdgeParticles, drawn: &[Vec2], notch: &Notch) -> Vec<[Vec2; 2]> {
         let offsets: &[f64] = if notch.double { &[-0.5, 0.5] } else { &[0.0] };
         let place = |&offset: &f64| self.along(edge, drawn, notch.at * MM + offset * NOTCH.1);
         let marks = offsets.iter().filter_map(place);
-        marks.map(|(at, inward)| polyline(&[at, at + inward * NOTCH.0], "notch", 0.3)).collect()
+        marks.map(|(at, inward)| [at, at + inward * NOTCH.0]).collect()
     }
 
     /// Where the drawn distance `wanted` (mm) along an edge has come to lie, and the direction into the piece.

@@ -98,6 +98,12 @@ impl ClothMesh {
     pub fn piece_of(&self, particle: u32) -> Option<usize> {
         self.pieces.iter().position(|piece| piece.particles.contains(&(particle as usize)))
     }
+
+    /// The particle of a piece that is nearest to a place of its flat shape.
+    pub fn nearest(&self, piece: usize, at: Vec2) -> Option<usize> {
+        let far = |p: &usize| (self.flat[*p] - at).norm_squared();
+        self.pieces.get(piece)?.particles.clone().min_by(|p, q| far(p).total_cmp(&far(q)))
+    }
 }
 
 impl PieceMesh {

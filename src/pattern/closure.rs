@@ -4,7 +4,7 @@ use super::Closure;
 use super::cut::{Instance, Pieces};
 use super::diagnostic::{Findings, Located};
 use super::draft::{Draft, shown};
-use super::file::{ClosureFile, GarmentFile, Side, Unit};
+use super::file::{ClosureFile, Cut, GarmentFile, Side, Unit};
 use super::inherit::unknown_piece;
 use super::problem::Problem;
 use super::reference::piece_of;
@@ -14,10 +14,7 @@ use crate::geometry::Vec2;
 /// Reads all closures. One that does not say what it meets is kept without tacks.
 pub(super) fn closures(file: &GarmentFile, drafts: &[Draft], cut: &Pieces, findings: &mut Findings) -> Vec<Closure> {
     let wardrobe = Wardrobe { file, drafts, cut };
-    file.closures
-        .iter()
-        .map(|c| Closure { kind: c.kind.value.clone(), tacks: wardrobe.tacks(c, findings).unwrap_or_default() })
-        .collect()
+    file.closures.iter().map(|c| wardrobe.closure(c, findings)).collect()
 }
 
 /// Where closures go on a drawn piece: their kind, and the point in the drawing.
@@ -55,22 +52,57 @@ struct Wardrobe<'a> {
 }
 
 impl Wardrobe<'_> {
-    fn tacks(&self, closure: &ClosureFile, findings: &mut Findings) -> Option<Vec<[(usize, Vec2); 2]>> {
-        let on = self.piece(closure.on.as_ref()?, None, findings);
-        if let (Some(on), None) = (on, &closure.meets) {
-            self.points(closure, on, &closure.at, findings);
-        }
+    fn closure(&self, closure: &ClosureFile, findings: &mut Findings) -> Closure {
+        let on = closure.on.as_ref().and_then(|name| self.piece(name, None, findings));
         let other_side = on.and_then(|i| i.side).map(Side::other);
-        let meets = self.piece(closure.meets.as_ref()?, other_side, findings);
-        let (on, meets) = (on?, meets?);
-        let own = self.points(closure, on, &closure.at, findings);
+        let meets = closure.meets.as_ref().and_then(|name| self.piece(name, other_side, findings));
+        let own = on.map(|on| self.points(closure, on, &closure.at, findings));
+        let tacks = match (on, meets, &own) {
+            (Some(on), Some(meets), Some(own)) => self.tacks(closure, [on, meets], own, findings),
+            _ => Vec::new(),
+        };
+        let unsaid = on.filter(|_| closure.meets.is_none());
+        let name = |i: &Instance| self.cut.pieces[i.piece].name.clone();
+        let count = closure.count.as_ref().map_or(1, |c| c.value);
+        Closure {
+            kind: closure.kind.value.clone(),
+            on: on.map(name),
+            meets: meets.map(name),
+            tacks,
+            // Several given points are a row, unless each begins one.
+            row: if count > 1 { count } else { closure.at.len() },
+            mirrored: unsaid.map(|on| self.mirrored(closure, on)).unwrap_or_default(),
+        }
+    }
+
+    /// The closure's points on a piece cut as a pair, and the same points of the other half.
+    fn mirrored(&self, closure: &ClosureFile, on: &Instance) -> Vec<[(usize, Vec2); 2]> {
+        let draft = &self.drafts[on.draft];
+        let other = on.side.map(Side::other).filter(|_| draft.cut == Cut::Pair);
+        let Some(twin) = self.cut.instances.iter().find(|i| i.draft == on.draft && other.is_some() && i.side == other)
+        else {
+            return Vec::new();
+        };
+        let unit = self.file.unit();
+        let firsts = closure.at.iter().map(|p| Vec2::from(p.value) * unit.factor());
+        let drawn = firsts.flat_map(|first| repeated(closure, first, draft.warp, unit));
+        drawn.map(|p| [on, twin].map(|i| (i.piece, i.point(p)))).collect()
+    }
+
+    fn tacks(
+        &self,
+        closure: &ClosureFile,
+        [on, meets]: [&Instance; 2],
+        own: &[Vec2],
+        findings: &mut Findings,
+    ) -> Vec<[(usize, Vec2); 2]> {
         let across = if closure.meets_at.is_empty() { &closure.at } else { &closure.meets_at };
         if let Some(first) = across.first().filter(|_| across.len() != closure.at.len()) {
             let (kind, on, met) = (closure.kind.value.clone(), closure.at.len(), across.len());
             findings.error(first.at, Problem::PointsUnlike { kind, on, met });
         }
         let met = self.points(closure, meets, across, findings);
-        Some(own.into_iter().zip(met).map(|(a, b)| [(on.piece, a), (meets.piece, b)]).collect())
+        own.iter().zip(met).map(|(&a, b)| [(on.piece, a), (meets.piece, b)]).collect()
     }
 
     /// The cut piece (or half) named by `front.L`, `front.L.center` or, for a piece cut once, `band`.

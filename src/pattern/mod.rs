@@ -27,6 +27,7 @@ mod diagnostic;
 mod draft;
 mod drawing;
 mod expand;
+mod fasten;
 mod file;
 mod inherit;
 mod line;
@@ -46,6 +47,7 @@ mod walk;
 pub use diagnostic::{Diagnostic, Findings, Located, Severity, Spot};
 pub use drawing::{Allowance, Dart, Drawing, DrawnEdge, DrawnFold, DrawnNotch, drawings};
 pub use expand::{expand, fabrics};
+pub use fasten::{Bridge, Fastening, RimSpot, Step, fastenings, patches, worn_rims};
 pub use file::{
     AllowanceFile, AllowanceWidth, ClosureFile, Corner, Cut, DartFile, DartShape, GarmentFile, LineFile, NotchFile,
     OpenFile, OutlineFile, PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, Side, TestEntry, TestFile,
@@ -297,12 +299,20 @@ pub struct FabricUse {
 }
 
 /// A closure: simulated as tacks where `a` meets `b` when both are given, else kept only.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Closure {
     /// button, hook, zip, …
     pub kind: String,
+    /// The cut piece that carries it.
+    pub on: Option<String>,
+    /// The cut piece it meets.
+    pub meets: Option<String>,
     /// Points that are worn together: (piece, flat position) twice.
     pub tacks: Vec<[(usize, Vec2); 2]>,
+    /// So many of the points that follow each other are one row.
+    pub row: usize,
+    /// Of one that does not say what it meets, on one of a pair: its points and the same of the other half. Not tied.
+    pub mirrored: Vec<[(usize, Vec2); 2]>,
 }
 
 /// An entry of the garment's own `tests`.

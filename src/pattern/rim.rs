@@ -1,5 +1,6 @@
 //! Points on the rims of pieces, which of them sewing brings together, and the openings that remain.
 
+use super::fasten::{Bridge, Fastening, RimSpot, Step, fastenings, patches, worn_rims};
 use super::{EdgeId, Garment, Piece, Span};
 use crate::geometry::DisjointSets;
 
@@ -137,35 +138,115 @@ pub struct Opening {
 /// Free stretches shorter than this (metres) are rounding, not openings.
 pub(super) const SLIVER: f64 = 1e-3;
 
-/// The openings of the sewn garment, from the seams alone: every stretch of rim that no seam takes, joined where
-/// seams or corners join them.
+/// The openings of the sewn garment, from seams and closures alone: every stretch of rim that no seam takes, joined
+/// where seams or corners join them, without what closures close.
 pub fn openings(garment: &Garment) -> Vec<Opening> {
-    let rims = Rims::new(&garment.pieces);
-    let mut one = Identities::default();
-    for seam in &garment.seams {
-        one.add_seam(&rims, &seam.a, &seam.b, &joint_marks(seam));
+    let fastened = fastenings(garment);
+    let rims = free_rims(garment, &fastened);
+    let worn = if fastened.is_empty() { None } else { worn_spans(&rims, &fastened) };
+    let patches = patches(garment);
+    let patch = |spans: &[Span]| spans.iter().all(|s| patches.contains(&s.edge.piece));
+    let whole = || rims.into_iter().map(|r| r.spans).collect();
+    let spans = worn.unwrap_or_else(whole).into_iter().filter(|spans: &Vec<Span>| !patch(spans));
+    spans.map(|spans| Opening { length: spans.iter().map(Span::length).sum(), spans }).collect()
+}
+
+/// The openings that are left when `fastened` are closed; none if a rim has no order that could be told.
+fn worn_spans(rims: &[FreeRim], fastened: &[Fastening]) -> Option<Vec<Vec<Span>>> {
+    let rings: Vec<Vec<Span>> = rims.iter().map(FreeRim::ordered).collect::<Option<_>>()?;
+    let steps: Vec<Vec<Step<EdgeId>>> =
+        rings.iter().map(|ring| ring.iter().map(|s| Step { along: s.edge, length: s.length() }).collect()).collect();
+    let corner = |spot: &RimSpot| {
+        let starts =
+            rings.iter().enumerate().flat_map(|(r, ring)| ring.iter().enumerate().map(move |(k, s)| (r, k, s)));
+        let near = |s: &Span| if s.edge == spot.edge { (s.from - spot.at).abs() } else { f64::INFINITY };
+        let after = |s: &Span| if s.edge == spot.edge { (s.to - spot.at).abs() } else { f64::INFINITY };
+        let ends = starts.flat_map(|(r, k, s)| [(near(s), [r, k]), (after(s), [r, (k + 1) % rings[r].len()])]);
+        ends.filter(|e| e.0 <= SLIVER).min_by(|a, b| a.0.total_cmp(&b.0)).map(|e| e.1)
+    };
+    let bridge = |f: &Fastening| {
+        let [a, b] = f.ends.each_ref().map(corner);
+        Some(Bridge { corners: [a?, b?], along: f.ends.map(|e| e.edge), reach: f.reach, row: f.row })
+    };
+    let bridges: Vec<Bridge<EdgeId>> = fastened.iter().filter_map(bridge).collect();
+    let kept = worn_rims(&steps, &bridges);
+    Some(kept.into_iter().map(|steps| steps.into_iter().map(|[r, k]| rings[r][k]).collect()).collect())
+}
+
+/// The stretches no seam takes that are joined to one rim, and the points (by number) at which each begins and ends.
+struct FreeRim {
+    spans: Vec<Span>,
+    ends: Vec<[u32; 2]>,
+}
+
+impl FreeRim {
+    /// The stretches as they follow each other round the rim; none where they do not make one ring.
+    fn ordered(&self) -> Option<Vec<Span>> {
+        let (first, count) = (*self.ends.first()?, self.spans.len());
+        let mut left: Vec<usize> = (1..count).collect();
+        let mut ring = vec![self.spans[0]];
+        let mut at = first[1];
+        while !left.is_empty() {
+            // Round a piece that is sewn right side to wrong side, the way is back along its edges.
+            let next = |from: usize| left.iter().position(|&k| self.ends[k][from] == at).map(|i| (i, from));
+            let (i, from) = next(0).or_else(|| next(1))?;
+            let k = left.remove(i);
+            let Span { edge, from: low, to: high } = self.spans[k];
+            ring.push(if from == 0 { self.spans[k] } else { Span { edge, from: high, to: low } });
+            at = self.ends[k][1 - from];
+        }
+        (at == first[0]).then_some(ring)
     }
+}
+
+/// What no seam takes of an edge, cut where something is fastened.
+pub(super) fn free_spans(garment: &Garment, fastened: &[Fastening]) -> Vec<Span> {
     let mut free: Vec<Span> = Vec::new();
     for edge in edge_ids(&garment.pieces) {
         let spans = garment.seams.iter().flat_map(|s| s.a.iter().chain(&s.b)).filter(|s| s.edge == edge);
         let taken = spans.map(Span::sorted).collect();
         let gaps = gaps(taken, garment.pieces[edge.piece].loops[edge.ring][edge.index].path.length());
-        free.extend(gaps.into_iter().map(|(from, to)| Span { edge, from, to }));
+        let mut cuts: Vec<f64> =
+            fastened.iter().flat_map(|f| f.ends).filter(|e| e.edge == edge).map(|e| e.at).collect();
+        cuts.sort_by(f64::total_cmp);
+        for (mut from, to) in gaps {
+            for &at in &cuts {
+                if at - from > SLIVER && to - at > SLIVER {
+                    free.push(Span { edge, from, to: at });
+                    from = at;
+                }
+            }
+            free.push(Span { edge, from, to });
+        }
     }
+    free
+}
+
+/// The free stretches by the rims they are joined to.
+fn free_rims(garment: &Garment, fastened: &[Fastening]) -> Vec<FreeRim> {
+    let rims = Rims::new(&garment.pieces);
+    let mut one = Identities::default();
+    for seam in &garment.seams {
+        one.add_seam(&rims, &seam.a, &seam.b, &joint_marks(seam));
+    }
+    let free = free_spans(garment, fastened);
+    let ends_of = |s: &Span| [s.from, s.to].map(|at| rims.point(s.edge, at));
+    let ends: Vec<[u32; 2]> = free.iter().map(|s| ends_of(s).map(|p| one.class(&rims, p))).collect();
     for span in &free {
-        one.join(&rims, rims.point(span.edge, span.from), rims.point(span.edge, span.to));
+        let [from, to] = ends_of(span);
+        one.join(&rims, from, to);
     }
-    let mut found: Vec<(u32, Opening)> = Vec::new();
-    for span in free {
+    let mut found: Vec<(u32, FreeRim)> = Vec::new();
+    for (span, ends) in free.into_iter().zip(ends) {
         let class = one.class(&rims, rims.point(span.edge, span.from));
         let i = found.iter().position(|(c, _)| *c == class).unwrap_or_else(|| {
-            found.push((class, Opening { spans: Vec::new(), length: 0.0 }));
+            found.push((class, FreeRim { spans: Vec::new(), ends: Vec::new() }));
             found.len() - 1
         });
-        found[i].1.length += span.length();
         found[i].1.spans.push(span);
+        found[i].1.ends.push(ends);
     }
-    found.into_iter().map(|(_, o)| o).collect()
+    found.into_iter().map(|(_, rim)| rim).collect()
 }
 
 /// The seam's marks and, in proportion between them, every joint of either chain.

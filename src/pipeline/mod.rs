@@ -33,8 +33,8 @@ pub use results::{
 };
 pub use run::{Progress, Run};
 pub use surface::{
-    Cuts, DARTS, DartStop, EdgeReport, FLAT_OBJ, FLAT_PNG, FlatSurface, Limit, OUTLINE_SVG, PartReport, SurfaceOptions,
-    SurfaceReport, flatten_surface,
+    CutReport, CutWhy, Cuts, DARTS, DartStop, EdgeReport, FLAT_OBJ, FLAT_PNG, FlatSurface, Limit, OUTLINE_SVG,
+    PartReport, SurfaceOptions, SurfaceReport, flatten_surface,
 };
 
 /// What counts as rest of a draped garment.

@@ -1,5 +1,6 @@
 //! From positions to a report.
 
+use super::closures::Closures;
 use super::crossings::{Seen, look};
 use super::errors::{Way, area, area_error, boundary_error};
 use super::openings::{Opening, flaps, opening_names, openings};
@@ -53,7 +54,8 @@ pub struct Measured<'a> {
 pub fn measure(run: &Measured) -> Report {
     let shapes = Shapes::new(run);
     let last = run.draped.or(run.sewn);
-    let (seen, worn) = last.map_or_else(Default::default, |at| seen(run, at));
+    let closures = last.map_or_else(Closures::default, |at| Closures::new(run.garment, run.mesh, at));
+    let (seen, worn) = last.map_or_else(Default::default, |at| seen(run, at, &closures));
     let (pieces, total) = pieces(run, &shapes, last);
     Report {
         toile: env!("CARGO_PKG_VERSION").into(),
@@ -64,6 +66,7 @@ pub fn measure(run: &Measured) -> Report {
         pieces,
         total,
         seams: run.mesh.seams.iter().enumerate().map(|(k, s)| seam(run, k, s)).collect(),
+        closures: closures.rows,
         contact: seen.contact,
         crossings: seen.crossings,
         worn,
@@ -219,17 +222,17 @@ fn seam(run: &Measured, index: usize, stitches: &Stitches) -> SeamReport {
 }
 
 /// What the independent checks see at these positions.
-fn seen(run: &Measured, at: &[Vec3]) -> (Seen, Vec<Worn>) {
+fn seen(run: &Measured, at: &[Vec3], closures: &Closures) -> (Seen, Vec<Worn>) {
     let welded = Welded::new(run.mesh, run.weld, at);
     let piece = |t: u32| {
         let first = run.mesh.triangles[t as usize][0];
         run.mesh.piece_of(first).map_or("", |i| run.mesh.pieces[i].name.as_str())
     };
-    (look(&welded.surface, Some(&run.body.mesh), piece), worn_rows(run, &welded))
+    (look(&welded.surface, Some(&run.body.mesh), piece), worn_rows(run, &welded, closures))
 }
 
-fn worn_rows(run: &Measured, welded: &Welded) -> Vec<Worn> {
-    let rims = openings(run.mesh, welded);
+fn worn_rows(run: &Measured, welded: &Welded, closures: &Closures) -> Vec<Worn> {
+    let rims = openings(run.garment, run.mesh, welded, &closures.closed);
     let through = worn(&rims.iter().map(|o| o.positions(welded)).collect::<Vec<_>>(), run.body);
     let rings: Vec<&[u32]> = rims.iter().map(|o| o.ring.as_slice()).collect();
     let flaps = flaps(&rings, &through.iter().map(Option::is_some).collect::<Vec<bool>>());

@@ -5,6 +5,7 @@
 //! [`Report`] holds what the file holds: millimetres, square millimetres, fractions and seconds.
 
 mod bounds;
+mod closures;
 mod crossings;
 mod errors;
 mod measure;
@@ -23,7 +24,8 @@ pub use measure::{Measured, measure};
 pub use openings::opening_names;
 pub use rest::{AtRest, Restless, restless};
 pub use schema::{
-    Contact, Crossing, Drift, PieceReport, Quartet, Report, SeamReport, Sizes, Spread, Stage, Stretched, Worn,
+    ClosureReport, Contact, Crossing, Drift, PieceReport, Quartet, Report, SeamReport, Sizes, Spread, Stage, Stretched,
+    Worn,
 };
 pub use strain::vertex_strain;
 pub use table::{aligned, contact_lines, table};

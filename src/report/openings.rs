@@ -4,7 +4,11 @@ use std::collections::{HashMap, HashSet};
 
 use crate::geometry::{Vec3, rim_loops, sorted_pair};
 use crate::mesh::ClothMesh;
+use crate::pattern::{Bridge, EdgeId, Fastening, Garment, RimSpot, Step, patches, worn_rims};
 use crate::verify::Welded;
+
+/// The edge that a stretch of rim belongs to; none for a chord that joins no two particles of one edge.
+type Owner = Option<EdgeId>;
 
 /// A rim of the sewn garment.
 #[derive(Clone, Debug)]
@@ -22,20 +26,66 @@ impl Opening {
     }
 }
 
-/// Every rim of the garment with the free edges on it.
-pub(super) fn openings(mesh: &ClothMesh, welded: &Welded) -> Vec<Opening> {
+/// Every rim of the garment with the free edges on it, without what `closed` closes and the rims of patches.
+pub(super) fn openings(garment: &Garment, mesh: &ClothMesh, welded: &Welded, closed: &[Fastening]) -> Vec<Opening> {
     let owners = edge_owners(mesh, welded);
-    let opening = |ring: Vec<u32>| {
-        let mut edges: Vec<(String, String)> = Vec::new();
-        for (k, &v) in ring.iter().enumerate() {
-            let Some(owner) = owners.get(&sorted_pair([v, ring[(k + 1) % ring.len()]])) else { continue };
-            if !edges.contains(owner) {
-                edges.push(owner.clone());
+    let loops = rim_loops(&welded.surface.triangles);
+    let rims: Vec<Vec<Step<Owner>>> = loops
+        .iter()
+        .map(|ring| {
+            let pairs = ring.iter().zip(ring.iter().cycle().skip(1));
+            let step = |(&v, &w): (&u32, &u32)| {
+                let [p, q] = [v, w].map(|v| welded.surface.vertices[v as usize]);
+                Step { along: owners.get(&sorted_pair([v, w])).copied(), length: (q - p).norm() }
+            };
+            pairs.map(step).collect()
+        })
+        .collect();
+    let bridges: Vec<Bridge<Owner>> = closed.iter().filter_map(|f| bridge(mesh, welded, &loops, f)).collect();
+    let patches = patches(garment);
+    let opening = |steps: Vec<[usize; 2]>| {
+        let mut edges: Vec<EdgeId> = Vec::new();
+        for edge in steps.iter().filter_map(|&[r, k]| rims[r][k].along) {
+            if !edges.contains(&edge) {
+                edges.push(edge);
             }
         }
-        Opening { ring, edges }
+        let patch = !edges.is_empty() && edges.iter().all(|e| patches.contains(&e.piece));
+        let ring = steps.iter().map(|&[r, k]| loops[r][k]).collect();
+        (!patch).then(|| Opening { ring, edges: edges.iter().map(|&e| names(mesh, e)).collect() })
     };
-    rim_loops(&welded.surface.triangles).into_iter().map(opening).collect()
+    worn_rims(&rims, &bridges).into_iter().filter_map(opening).collect()
+}
+
+/// A fastening between the vertices of the rims that are nearest to its ends, if they are on rims.
+fn bridge(mesh: &ClothMesh, welded: &Welded, loops: &[Vec<u32>], f: &Fastening) -> Option<Bridge<Owner>> {
+    let corner = |spot: &RimSpot| {
+        let edges = &mesh.pieces.get(spot.edge.piece)?.edges;
+        let edge = edges.iter().find(|e| e.edge == spot.edge)?;
+        let mut best: Option<(f64, [usize; 2])> = None;
+        let mut along = 0.0;
+        for (i, &p) in edge.particles.iter().enumerate() {
+            if i > 0 {
+                along += (mesh.flat[p as usize] - mesh.flat[edge.particles[i - 1] as usize]).norm();
+            }
+            let far = (along - spot.at).abs();
+            if best.is_none_or(|b| far < b.0) {
+                let v = welded.vertex_of[p as usize];
+                let found = loops.iter().enumerate().find_map(|(r, l)| Some([r, l.iter().position(|&w| w == v)?]));
+                best = found.map(|found| (far, found)).or(best);
+            }
+        }
+        best.map(|b| b.1)
+    };
+    let [a, b] = f.ends.each_ref().map(corner);
+    Some(Bridge { corners: [a?, b?], along: f.ends.map(|e| Some(e.edge)), reach: f.reach, row: f.row })
+}
+
+fn names(mesh: &ClothMesh, id: EdgeId) -> (String, String) {
+    let piece = &mesh.pieces[id.piece];
+    let edge =
+        piece.edges.iter().find(|e| (e.edge.ring, e.edge.index) == (id.ring, id.index)).map_or("", |e| e.name.as_str());
+    (piece.name.clone(), edge.to_owned())
 }
 
 /// Which rims are no openings but the edges of flaps: of a collar, say, sewn on over a neckline (`face: same`). The rim
@@ -50,13 +100,13 @@ pub(super) fn flaps(rings: &[&[u32]], worn: &[bool]) -> Vec<bool> {
 }
 
 /// The piece edge that every rim edge of the surface belongs to.
-fn edge_owners(mesh: &ClothMesh, welded: &Welded) -> HashMap<[u32; 2], (String, String)> {
+fn edge_owners(mesh: &ClothMesh, welded: &Welded) -> HashMap<[u32; 2], EdgeId> {
     let mut owners = HashMap::new();
-    for piece in &mesh.pieces {
+    for (index, piece) in mesh.pieces.iter().enumerate() {
         for edge in &piece.edges {
             for step in edge.particles.windows(2) {
                 let ends = [step[0], step[1]].map(|p| welded.vertex_of[p as usize]);
-                owners.entry(sorted_pair(ends)).or_insert_with(|| (piece.name.clone(), edge.name.clone()));
+                owners.entry(sorted_pair(ends)).or_insert(EdgeId { piece: index, ..edge.edge });
             }
         }
     }

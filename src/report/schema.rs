@@ -21,6 +21,9 @@ pub struct Report {
     pub total: PieceReport,
     /// One per seam.
     pub seams: Vec<SeamReport>,
+    /// One per closure; a zip in a seam is that seam.
+    #[serde(default)]
+    pub closures: Vec<ClosureReport>,
     /// What crosses what.
     pub contact: Contact,
     /// Who crosses whom, the busiest first; empty as it should be.
@@ -137,6 +140,29 @@ pub struct SeamReport {
     pub gap_mean: f64,
     /// Largest such distance, mm.
     pub gap_max: f64,
+}
+
+/// One closure, on the garment as it was left.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ClosureReport {
+    /// button, hook, zip, …
+    pub kind: String,
+    /// The piece that carries it, `null` where the file does not say.
+    pub on: Option<String>,
+    /// The piece it meets, given or, as `note` says, the other half of a pair.
+    pub meets: Option<String>,
+    /// How many points it has.
+    pub points: usize,
+    /// Mean distance of what its points tie, mm; `null` where nothing could be measured.
+    pub gap_mean: Option<f64>,
+    /// Largest such distance, mm.
+    pub gap_max: Option<f64>,
+    /// Between neighbouring points, how far the line through them on one side is from that on the other at most, mm.
+    pub gape: Option<f64>,
+    /// Whether all its points came together, so that what it closes is no opening.
+    pub closed: bool,
+    /// What is to be known about these figures.
+    pub note: Option<String>,
 }
 
 /// What the independent checks found on the final garment.

@@ -1,6 +1,6 @@
 //! The report for people.
 
-use super::schema::{Contact, Crossing, PieceReport, Quartet, Report, SeamReport, Stage, Worn};
+use super::schema::{ClosureReport, Contact, Crossing, PieceReport, Quartet, Report, SeamReport, Stage, Worn};
 
 /// Shown where there is no value.
 const NONE: &str = "–";
@@ -18,6 +18,7 @@ pub fn table(report: &Report) -> String {
         head,
         pieces(&report.pieces, &report.total),
         seams(&report.seams),
+        closures(&report.closures),
         worn(&report.worn),
         contact_lines(&report.contact, &report.crossings),
         stages(&report.stages),
@@ -62,6 +63,21 @@ fn seams(seams: &[SeamReport]) -> String {
         let numbers = [(s.length_a, 1), (s.length_b, 1), (s.gap_mean, 3), (s.gap_max, 3)];
         let mut row = vec![s.name.clone()];
         row.extend(numbers.map(|(x, digits)| number(Some(x), digits)));
+        row
+    }));
+    aligned(&rows)
+}
+
+fn closures(closures: &[ClosureReport]) -> String {
+    if closures.is_empty() {
+        return String::new();
+    }
+    let mut rows = vec![["closure", "on", "meets", "points", "gap", "largest", "gape", ""].map(String::from).to_vec()];
+    rows.extend(closures.iter().map(|c| {
+        let name = |n: &Option<String>| n.clone().unwrap_or_else(|| NONE.into());
+        let mut row = vec![c.kind.clone(), name(&c.on), name(&c.meets), c.points.to_string()];
+        row.extend([c.gap_mean, c.gap_max, c.gape].map(|x| number(x, 1)));
+        row.push(if c.closed { String::new() } else { c.note.clone().unwrap_or_else(|| "OPEN".into()) });
         row
     }));
     aligned(&rows)

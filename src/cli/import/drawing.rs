@@ -10,26 +10,26 @@ use crate::io::svg_read::read_svg;
 
 /// `toile import svg FILE.svg -o GARMENT.yaml`
 pub(super) fn svg(args: &DrawingArgs, console: &Console) -> Result<Exit, CliError> {
-    let pieces = read_svg(&args.drawing).map_err(|e| refused(args, e.to_string()))?;
-    write(args, &pieces, console)
+    let drawing = read_svg(&args.drawing).map_err(|e| refused(args, e.to_string()))?;
+    write(args, &drawing.pieces, &drawing.left_out, console)
 }
 
 /// `toile import dxf FILE.dxf -o GARMENT.yaml`
 pub(super) fn dxf(args: &DrawingArgs, unit: Option<f64>, console: &Console) -> Result<Exit, CliError> {
     let pieces = read_dxf(&args.drawing, unit).map_err(|e| refused(args, e.to_string()))?;
-    write(args, &pieces, console)
+    write(args, &pieces, &[], console)
 }
 
 fn refused(args: &DrawingArgs, reason: String) -> CliError {
     CliError::Import { file: args.drawing.display().to_string(), reason }
 }
 
-/// Writes the pieces with all edges free, and says which may belong together.
-fn write(args: &DrawingArgs, pieces: &[Traced], console: &Console) -> Result<Exit, CliError> {
+/// Writes the pieces with all edges free, and says what is not among them and which may belong together.
+fn write(args: &DrawingArgs, pieces: &[Traced], left_out: &[String], console: &Console) -> Result<Exit, CliError> {
     let name = args.drawing.file_stem().map_or_else(|| "garment".to_owned(), |s| s.to_string_lossy().into_owned());
     let made = garment_file(&name, pieces);
     let exit = finish(&Imported { source: &args.drawing, output: &args.output, file: &made.file }, console)?;
-    made.notes.iter().for_each(|note| console.note(note));
+    left_out.iter().chain(&made.notes).for_each(|note| console.note(note));
     if !made.suggestions.is_empty() {
         console.note("seams are to be written; by their lengths these edges may belong together:");
     }
@@ -39,6 +39,6 @@ fn write(args: &DrawingArgs, pieces: &[Traced], console: &Console) -> Result<Exi
 
 fn suggestion(s: &Suggestion) -> String {
     let [sew, to] = s.lengths.map(|metres| 1e3 * metres);
-    let notches = if s.notched { ", both end at a notch" } else { "" };
+    let notches = if s.notched { ", both notched" } else { "" };
     format!("  {{sew: {}, to: {}}}   # {sew:.1} and {to:.1} mm{notches}", s.sew, s.to)
 }

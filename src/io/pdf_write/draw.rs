@@ -16,6 +16,8 @@ const FOLD: [f32; 4] = [24.0, 6.0, 4.0, 6.0];
 const DRILL: f64 = 0.002;
 /// Barbs of arrows, metres.
 const BARB: f64 = 0.006;
+/// How far chords may be from the curves they stand for where only the page counts, metres.
+const CHORDS: f64 = 1e-4;
 /// Widths of Helvetica's letters from the blank to `~`, thousandths of the size, as its metrics give them; other
 /// letters are about as wide as an `n`.
 const WIDTHS: [u16; 95] = [
@@ -180,15 +182,49 @@ impl Pen {
     }
 
     /// The grain: barbs at both ends.
-    fn arrow(&mut self, [tail, head]: [Vec2; 2]) {
-        let along = (head - tail).try_normalize(0.0).unwrap_or_else(Vec2::y);
-        let across = Vec2::new(-along.y, along.x);
-        self.line(&[tail, head], true);
-        for (end, back) in [(tail, 1.0), (head, -1.0)] {
-            let barb = |side: f64| end + (along * back + across * (side / 2.0)) * BARB;
-            self.line(&[barb(1.0), end, barb(-1.0)], true);
+    fn arrow(&mut self, grain: [Vec2; 2]) {
+        self.line(&grain, true);
+        barbs(grain).iter().for_each(|barb| self.line(barb, true));
+    }
+}
+
+/// Every line that [`Pen::paper`] draws, curves as chords, and the boxes of the letters.
+pub(super) fn lines(paper: &Paper) -> Vec<[Vec2; 2]> {
+    let mut lines = Vec::new();
+    let mut add = |points: &[Vec2]| lines.extend(points.windows(2).map(|w| [w[0], w[1]]));
+    for (i, contour) in paper.cut.iter().enumerate() {
+        add(contour);
+        // A half piece is open at its fold, which has a line of its own.
+        if let (Some(first), Some(last), true) = (contour.first(), contour.last(), i > 0 || paper.fold.is_none()) {
+            add(&[*last, *first]);
         }
     }
+    paper.fold.iter().for_each(|fold| add(fold));
+    paper.sew.iter().for_each(|line| add(&line.path.sampled(CHORDS)));
+    paper.marks.iter().for_each(|mark| add(&mark.path.sampled(CHORDS)));
+    paper.notches.iter().for_each(|notch| add(&[notch.at, notch.inside]));
+    for (_, at) in &paper.drills {
+        [Vec2::x(), Vec2::y()].iter().for_each(|arm| add(&[at - arm * DRILL, at + arm * DRILL]));
+    }
+    add(&paper.grain);
+    barbs(paper.grain).iter().for_each(|barb| add(barb));
+    for t in &paper.texts {
+        let along = if t.upright { Vec2::y() } else { Vec2::x() };
+        let up = Vec2::new(along.y, -along.x) * t.height;
+        let half = along * (width(&windows_letters(&t.text)) * t.height / CAPITALS / 2.0);
+        add(&[t.at - half, t.at + half, t.at + half + up, t.at - half + up, t.at - half]);
+    }
+    lines
+}
+
+/// At both ends of the grain's arrow.
+fn barbs([tail, head]: [Vec2; 2]) -> [[Vec2; 3]; 2] {
+    let along = (head - tail).try_normalize(0.0).unwrap_or_else(Vec2::y);
+    let across = Vec2::new(-along.y, along.x);
+    [(tail, 1.0), (head, -1.0)].map(|(end, back)| {
+        let barb = |side: f64| end + (along * back + across * (side / 2.0)) * BARB;
+        [barb(1.0), end, barb(-1.0)]
+    })
 }
 
 /// Width of letters set in size 1.

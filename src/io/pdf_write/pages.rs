@@ -2,7 +2,7 @@
 
 use pdf_writer::Content;
 
-use super::draw::Pen;
+use super::draw::{Pen, lines};
 use super::{LONGEST_SIDE, POINTS, Page, PdfError, document};
 use crate::cutting::{LETTER_WIDTH, Layout, Paper, Sheet, TEST_SQUARE};
 use crate::geometry::Vec2;
@@ -13,6 +13,8 @@ const MARGIN: f64 = 0.007;
 const OVERLAP: f64 = 0.010;
 /// Half the diagonal of a match mark, metres.
 const MATCH: f64 = 0.004;
+/// What ends on a frame (metres) is on the pages at both of its sides: half the width of a cut line.
+const TOUCH: f64 = 2.5e-4;
 /// More pages than this are a wrong unit.
 const MOST_PAGES: usize = 600;
 /// Points of the outline nearer than this (metres) are one on the plan.
@@ -87,7 +89,7 @@ impl Plan {
         let sheet = Sheet::new(papers, &layout);
         let (columns, rows) = (fields(sheet.size.x, frame.x), fields(sheet.size.y, frame.y));
         let mut plan = Self { sheet, frame, columns, rows, used: Vec::new() };
-        plan.used = (0..rows * columns).map(|k| plan.has_lines(k / columns, k % columns)).collect();
+        plan.used = plan.drawn_on();
         plan
     }
 
@@ -104,18 +106,32 @@ impl Plan {
         Vec2::new(column as f64, row as f64).component_mul(&self.frame)
     }
 
-    /// Whether the box of a piece reaches into a field and, if it only encloses it, the field is not all inside or all
-    /// outside of the piece's lines.
-    fn has_lines(&self, row: usize, column: usize) -> bool {
-        let low = self.corner(row, column) - Vec2::repeat(OVERLAP / 2.0);
-        let high = self.corner(row + 1, column + 1) + Vec2::repeat(OVERLAP / 2.0);
-        let meets = |a: &Vec2, b: &Vec2| segment_meets(*a, *b, low, high);
-        self.sheet.papers.iter().any(|paper| {
-            let texts = paper.texts.iter().any(|t| meets(&t.at, &t.at));
-            let fold = paper.fold.is_some_and(|[a, b]| meets(&a, &b));
-            let lines = paper.cut.iter().any(|c| c.windows(2).any(|w| meets(&w[0], &w[1])));
-            texts || fold || lines || meets(&paper.grain[0], &paper.grain[1])
-        })
+    /// Of every field whether a line or a letter is within its frame. What is only in the strip beyond the frame is on
+    /// the neighbour.
+    fn drawn_on(&self) -> Vec<bool> {
+        let mut used = vec![false; self.rows * self.columns];
+        // The fields that coordinates reach, at least the last one: a sheet ends on its last frame.
+        let reach = |from: f64, to: f64, of: f64, count: usize| {
+            let field = |x: f64| ((x / of).max(0.0) as usize).min(count - 1);
+            field(from - TOUCH)..=field(to + TOUCH)
+        };
+        for [a, b] in self.sheet.papers.iter().flat_map(lines) {
+            for row in reach(a.y.min(b.y), a.y.max(b.y), self.frame.y, self.rows) {
+                for column in reach(a.x.min(b.x), a.x.max(b.x), self.frame.x, self.columns) {
+                    let low = self.corner(row, column) - Vec2::repeat(TOUCH);
+                    let high = self.corner(row + 1, column + 1) + Vec2::repeat(TOUCH);
+                    let field = &mut used[row * self.columns + column];
+                    *field = *field || segment_meets(a, b, low, high);
+                }
+            }
+        }
+        used
+    }
+
+    /// Whether a field is one of the plan and has a page.
+    fn has_page(&self, row: Option<usize>, column: Option<usize>) -> bool {
+        let inside = row.filter(|r| *r < self.rows).zip(column.filter(|c| *c < self.columns));
+        inside.is_some_and(|(r, c)| self.is_used(r, c))
     }
 }
 
@@ -177,7 +193,7 @@ fn marks(pen: &mut Pen, plan: &Plan, row: usize, column: usize) {
     // Middle of the side, along it, out of the frame, and the field on whose right or lower side it is.
     let sides = [
         (
-            column > 0,
+            plan.has_page(Some(row), column.checked_sub(1)),
             Vec2::new(0.0, size.y / 2.0),
             Vec2::y(),
             Vec2::x(),
@@ -185,15 +201,29 @@ fn marks(pen: &mut Pen, plan: &Plan, row: usize, column: usize) {
             "r",
         ),
         (
-            column + 1 < plan.columns,
+            plan.has_page(Some(row), Some(column + 1)),
             Vec2::new(size.x, size.y / 2.0),
             Vec2::y(),
             -Vec2::x(),
             field_name(row, column),
             "r",
         ),
-        (row > 0, Vec2::new(size.x / 2.0, 0.0), Vec2::x(), Vec2::y(), above(row, column), "d"),
-        (row + 1 < plan.rows, Vec2::new(size.x / 2.0, size.y), Vec2::x(), -Vec2::y(), field_name(row, column), "d"),
+        (
+            plan.has_page(row.checked_sub(1), Some(column)),
+            Vec2::new(size.x / 2.0, 0.0),
+            Vec2::x(),
+            Vec2::y(),
+            above(row, column),
+            "d",
+        ),
+        (
+            plan.has_page(Some(row + 1), Some(column)),
+            Vec2::new(size.x / 2.0, size.y),
+            Vec2::x(),
+            -Vec2::y(),
+            field_name(row, column),
+            "d",
+        ),
     ];
     for (joined, middle, along, inward, name, side) in sides {
         if joined {
@@ -259,5 +289,49 @@ fn map(pen: &mut Pen, plan: &Plan, corner: Vec2, room: Vec2) {
         let mut points = contour.clone();
         points.dedup_by(|b, a| (*b - *a).norm() < MAP_DETAIL);
         pen.closed(&points.into_iter().map(at).collect::<Vec<_>>(), true);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A piece with these corners and nothing on it but a short grain in its middle.
+    fn paper(corners: &[[f64; 2]], grain: [f64; 2]) -> Paper {
+        let middle = Vec2::new(grain[0], grain[1]);
+        Paper {
+            name: "piece".into(),
+            count: "cut 1".into(),
+            quantity: 1,
+            mirrored: false,
+            fabric: "shell".into(),
+            cut: vec![corners.iter().map(|&[x, y]| Vec2::new(x, y)).collect()],
+            fold: None,
+            sew: Vec::new(),
+            notches: Vec::new(),
+            grain: [middle, middle - Vec2::new(0.0, 0.01)],
+            marks: Vec::new(),
+            drills: Vec::new(),
+            texts: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn every_page_with_a_line_is_printed_and_no_blank_one() {
+        // Frames of 10 cm; the side from the last corner to the first runs down the left.
+        let square = [[0.0, 0.0], [0.45, 0.0], [0.45, 0.45], [0.0, 0.45]];
+        let plan = Plan::of_width(&[paper(&square, [0.05, 0.05])], Vec2::repeat(0.1), 5);
+        let used: Vec<String> = (0..plan.rows)
+            .map(|row| (0..plan.columns).map(|c| if plan.is_used(row, c) { '#' } else { '.' }).collect())
+            .collect();
+        assert_eq!(used, ["#####", "#...#", "#...#", "#...#", "#####"]);
+    }
+
+    #[test]
+    fn what_is_only_in_the_strip_beside_a_page_takes_none() {
+        // Three millimetres past the second frame would be in the strip of a third page.
+        let square = [[0.0, 0.0], [0.197, 0.0], [0.197, 0.09], [0.0, 0.09]];
+        let plan = Plan::of_width(&[paper(&square, [0.05, 0.05])], Vec2::repeat(0.1), 3);
+        assert_eq!(plan.pages(), 2);
     }
 }

@@ -5,7 +5,7 @@
 
 use svg::node::element::{Circle, Group, Path};
 
-use super::{MM, document, identifier, number, polyline, square, stroke, text};
+use super::{MM, centered, document, identifier, number, polyline, square, stroke, with_kind};
 use crate::cutting::{Lettering, Paper, SewKind, Sheet};
 use crate::geometry::Vec2;
 
@@ -59,7 +59,11 @@ fn draw(paper: &Paper) -> Group {
             crate::cutting::MarkKind::Pleat => "pleat",
             crate::cutting::MarkKind::Line => "line",
         };
-        group = group.add(stroke(mark.path.to_svg(MM, true), class, FINE));
+        let path = stroke(mark.path.to_svg(MM, true), class, FINE);
+        group = group.add(match &mark.line {
+            Some(kind) => with_kind(path, kind).set("id", format!("{name}.{}", identifier(&mark.name))),
+            None => path,
+        });
     }
     for (kind, at) in &paper.drills {
         let cross = format!("drill {}", identifier(kind));
@@ -104,7 +108,5 @@ fn grain([tail, head]: [Vec2; 2]) -> Path {
 }
 
 fn letters(line: &Lettering) -> svg::node::element::Text {
-    let at = line.at * MM;
-    let text = text(&line.text, at, line.height * MM).set("text-anchor", "middle");
-    if line.upright { text.set("transform", format!("rotate(90 {} {})", number(at.x), number(at.y))) } else { text }
+    centered(&line.text, line.at * MM, line.height * MM, line.upright)
 }

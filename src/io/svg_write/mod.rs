@@ -12,6 +12,7 @@ pub use cutting::cutting_svg;
 
 use crate::cutting::TEST_SQUARE;
 use crate::geometry::{Cubic, Vec2};
+use crate::pattern::LineKind;
 
 /// Millimetres per metre.
 const MM: f64 = 1000.0;
@@ -48,6 +49,21 @@ pub(super) fn text(content: &str, at: Vec2, height: f64) -> Text {
         .set("font-size", number(height))
         .set("fill", "black")
         .set("stroke", "none")
+}
+
+/// Words centred on the middle of their foot, mm, turned to be read from the right if `upright`.
+pub(super) fn centered(content: &str, at: Vec2, height: f64, upright: bool) -> Text {
+    let text = text(content, at, height).set("text-anchor", "middle");
+    if upright { text.set("transform", format!("rotate(90 {} {})", number(at.x), number(at.y))) } else { text }
+}
+
+/// What a line does, for programs: `data-fold` in degrees, `data-elastic` as a share of its length.
+pub(super) fn with_kind(path: Path, kind: &LineKind) -> Path {
+    match kind {
+        LineKind::Fold(angle) => path.set("data-fold", number(angle.to_degrees())),
+        LineKind::Elastic(ratio) => path.set("data-elastic", number(*ratio)),
+        LineKind::Mark(kind) => path.set("data-kind", identifier(kind)),
+    }
 }
 
 /// A line through points, mm.

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::super::error::PipelineError;
 use super::parts::{Nodes, Part};
-use super::report::DartReport;
+use super::report::{CutReport, CutWhy, DartReport};
 use crate::flatten::{self, FlattenError, Flattened, disk_cuts, shortest_path};
 use crate::geometry::sorted_pair;
 use crate::io::obj_read::ObjFaces;
@@ -28,32 +28,39 @@ pub(super) struct Marks {
     pub(super) edges: HashSet<[u32; 2]>,
     /// The same as chains of the file's vertices, from 1.
     pub(super) chains: Vec<Vec<u32>>,
+    /// A row for each of these.
+    pub(super) made: Vec<CutReport>,
 }
 
 impl Marks {
-    /// The cuts asked for, `parts` being the surface without them.
+    /// The cuts asked for, `parts` being the surface without them; `unit` is metres per unit of the file.
     pub(super) fn new(
         file: &Path,
         faces: &ObjFaces,
         nodes: &Nodes,
         parts: &[Part],
         cuts: &Cuts,
+        unit: f64,
     ) -> Result<Self, PipelineError> {
         let mut out = Self::default();
         let mut of_file = HashSet::new();
         for path in &cuts.paths {
-            let way = way(faces, parts, path).map_err(|why| {
+            let (way, part) = way(faces, parts, path).map_err(|why| {
                 let cut = path.iter().map(u32::to_string).collect::<Vec<_>>().join(",");
                 PipelineError::Cut { file: file.to_owned(), cut, why }
             })?;
             of_file.extend(way.windows(2).map(|w| sorted_pair([w[0], w[1]])));
             out.chains.push(way.iter().map(|v| v + 1).collect());
+            let step = |w: &[u32]| (faces.vertices[w[1] as usize] - faces.vertices[w[0] as usize]).norm();
+            let (from, to) = (way[0] + 1, way[way.len() - 1] + 1);
+            let length = way.windows(2).map(step).sum::<f64>() * unit * MM;
+            out.made.push(CutReport { piece: part, why: CutWhy::Asked, from, to, length });
         }
         out.edges = nodes.edges_on(&of_file);
         if cuts.auto {
             for part in parts {
                 for chain in chains(&disk_cuts(&part.surface, &part.diagonals)) {
-                    out.cut(part, &chain);
+                    out.cut(part, &chain, CutWhy::Auto);
                 }
             }
         }
@@ -61,8 +68,10 @@ impl Marks {
     }
 
     /// Cuts a part along a chain of its vertices.
-    pub(super) fn cut(&mut self, part: &Part, chain: &[u32]) {
+    pub(super) fn cut(&mut self, part: &Part, chain: &[u32], why: CutWhy) {
         if chain.len() > 1 {
+            let [from, to] = [chain[0], chain[chain.len() - 1]].map(|v| part.number(v));
+            self.made.push(CutReport { piece: part.name.clone(), why, from, to, length: length(part, chain) });
             let node = |v: u32| part.nodes[v as usize];
             self.edges.extend(chain.windows(2).map(|w| sorted_pair([node(w[0]), node(w[1])])));
             self.chains.push(chain.iter().map(|&v| part.number(v)).collect());
@@ -70,8 +79,8 @@ impl Marks {
     }
 }
 
-/// The shortest way through vertices numbered from 1, as the file's vertices from 0.
-fn way(faces: &ObjFaces, parts: &[Part], stops: &[u32]) -> Result<Vec<u32>, String> {
+/// The shortest way through vertices numbered from 1, as the file's vertices from 0, and the part in which it begins.
+fn way(faces: &ObjFaces, parts: &[Part], stops: &[u32]) -> Result<(Vec<u32>, String), String> {
     if stops.len() < 2 {
         return Err("a cut goes through two vertices or more".into());
     }
@@ -80,17 +89,19 @@ fn way(faces: &ObjFaces, parts: &[Part], stops: &[u32]) -> Result<Vec<u32>, Stri
         return Err(format!("there is no vertex {wrong}; the file has 1 to {count}"));
     }
     let mut way = vec![stops[0] - 1];
+    let mut begun = None;
     for leg in stops.windows(2) {
         let local = |part: &Part, v: u32| part.vertices.iter().position(|&w| w + 1 == v).map(|k| k as u32);
         let shared = parts.iter().find_map(|part| Some((part, local(part, leg[0])?, local(part, leg[1])?)));
         let Some((part, from, to)) = shared else {
             return Err(format!("vertices {} and {} do not lie in one part of the surface", leg[0], leg[1]));
         };
+        begun.get_or_insert_with(|| part.name.clone());
         // In one part, so there is a way.
         let path = shortest_path(&part.surface, &part.diagonals, from, to).unwrap_or_default();
         way.extend(path.iter().skip(1).map(|&v| part.vertices[v as usize]));
     }
-    Ok(way)
+    Ok((way, begun.unwrap_or_default()))
 }
 
 /// Edges as chains that end where one or more than two of them meet.
@@ -125,7 +136,10 @@ fn chains(edges: &[[u32; 2]]) -> Vec<Vec<u32>> {
 
 /// A part's error in the file's numbers, with where to cut if that is the remedy.
 pub(super) fn advise(file: &Path, part: &Part, error: FlattenError) -> PipelineError {
-    let curable = matches!(error, FlattenError::Closed | FlattenError::Rims(_) | FlattenError::Handles(_));
+    let curable = matches!(
+        error,
+        FlattenError::Closed | FlattenError::Rims(_) | FlattenError::Handles(_) | FlattenError::OneSided(_)
+    );
     let source = FlattenError::Piece { piece: part.name.clone(), source: Box::new(part.blame(error)) };
     let ways = if curable { chains(&disk_cuts(&part.surface, &part.diagonals)) } else { Vec::new() };
     if ways.is_empty() {

@@ -10,7 +10,8 @@ use super::super::error::PipelineError;
 use super::SurfaceOptions;
 use super::cuts::{self, Marks};
 use super::parts::{Nodes, Part, parts};
-use crate::flatten::{Flattened, flatten};
+use super::report::CutWhy;
+use crate::flatten::{FlattenError, Flattened, flatten, one_sided};
 use crate::io::obj_read::ObjFaces;
 
 /// A surface as it was read, to be cut and laid flat.
@@ -55,6 +56,10 @@ impl Source<'_> {
     }
 
     fn lay(&self, part: Part) -> Result<Laid, PipelineError> {
+        if part.turned.is_none() {
+            let error = FlattenError::OneSided(one_sided(&part.surface.triangles));
+            return Err(cuts::advise(self.file, &part, error));
+        }
         let flat = match flatten(&part.surface, &self.options.flatten) {
             Ok(flat) => flat,
             Err(error) => return Err(cuts::advise(self.file, &part, error)),
@@ -73,7 +78,7 @@ impl Source<'_> {
     /// A part with its next dart, and the cuts that make it.
     fn with_next_dart(&self, laid: &[Laid], k: usize, marks: &Marks) -> Result<(Laid, Marks), PipelineError> {
         let mut marks = marks.clone();
-        marks.cut(&laid[k].part, &laid[k].dart);
+        marks.cut(&laid[k].part, &laid[k].dart, CutWhy::Dart);
         // A dart ends inside its part and leaves it whole, so that all parts keep their numbers.
         let part = self.parts(&marks).swap_remove(k);
         let cut = self.lay(part)?;

@@ -22,7 +22,7 @@ pub use darts::DartStop;
 use darts::{Laid, Source, with_darts};
 use edges::{NamedEdge, named_edges};
 use parts::Nodes;
-pub use report::{EdgeReport, PartReport, SurfaceReport};
+pub use report::{CutReport, CutWhy, EdgeReport, PartReport, SurfaceReport};
 pub use write::{FLAT_OBJ, FLAT_PNG, OUTLINE_SVG};
 
 /// A surface smaller than this many file units is in metres, smaller than the next in centimetres, else in millimetres:
@@ -123,10 +123,12 @@ pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurf
     let source = Source { file, faces: &faces, nodes: &nodes, unit, stem: &stem, options };
     let mut marks = Marks::default();
     if options.cuts != Cuts::default() {
-        marks = Marks::new(file, &faces, &nodes, &source.parts(&marks), &options.cuts)?;
+        marks = Marks::new(file, &faces, &nodes, &source.parts(&marks), &options.cuts, unit)?;
     }
     let laid = with_darts(&source, &mut marks)?;
     notes.extend(source.split_notes(textured, laid.len()));
+    notes.extend(laid.iter().filter_map(|l| l.part.turned_note()));
+    notes.extend(marks.made.iter().map(ToString::to_string));
     let edges = named_edges(&laid);
     let report = SurfaceReport {
         toile: env!("CARGO_PKG_VERSION").into(),
@@ -134,6 +136,7 @@ pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurf
         units,
         pieces: report::pieces(&laid, &edges),
         cuts: marks.chains,
+        cuts_made: marks.made,
         stages: vec![stage(laid.iter().map(|l| l.flat.report), begin)],
     };
     Ok(FlatSurface { faces, laid, edges, report, notes })

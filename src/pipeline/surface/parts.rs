@@ -6,7 +6,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::flatten::{FlattenError, Solid};
+use crate::flatten::{FlattenError, Solid, orient};
 use crate::geometry::{DisjointSets, TriMesh, Vec3, sorted_pair};
 use crate::io::obj_read::ObjFaces;
 
@@ -25,6 +25,8 @@ pub(super) struct Part {
     pub(super) diagonals: Solid,
     /// In metres, its triangles turned round: a flat piece shows the side that faces outward in space.
     pub(super) surface: TriMesh,
+    /// Triangles that ran against most others and were turned; none where no turning makes them agree.
+    pub(super) turned: Option<Vec<usize>>,
 }
 
 /// What the faces are made of: the vertices of the file, once for every group and texture position they have.
@@ -198,13 +200,14 @@ impl Part {
         all.iter().enumerate().for_each(|(k, &(_, fan, _))| local[fan as usize] = k as u32);
         let number = |f: u32| (0..faces.faces[f as usize].len()).map(move |k| fan_of(f, k));
         let corners: Vec<Vec<u32>> = own.iter().map(|&f| number(f).map(|fan| local[fan as usize]).collect()).collect();
-        let triangles = corners.iter().flat_map(|c| fan(c)).map(|[a, b, c]| [a, c, b]).collect();
+        let mut triangles: Vec<[u32; 3]> = corners.iter().flat_map(|c| fan(c)).map(|[a, b, c]| [a, c, b]).collect();
+        let turned = orient(&mut triangles);
         let vertices: Vec<u32> = all.iter().map(|a| a.0).collect();
         let positions = vertices.iter().map(|&v| faces.vertices[v as usize] * unit).collect();
         let nodes = all.iter().map(|a| a.2).collect();
         let diagonals = corners.iter().flat_map(|c| diagonals(c)).collect();
         let surface = TriMesh { vertices: positions, triangles };
-        Self { name, vertices, nodes, faces: own, corners, diagonals, surface }
+        Self { name, vertices, nodes, faces: own, corners, diagonals, surface, turned }
     }
 
     /// The file's number of a vertex, from 1.
@@ -212,19 +215,32 @@ impl Part {
         self.vertices.get(vertex as usize).map_or(0, |v| v + 1)
     }
 
+    /// What is to be said of faces that were turned.
+    pub(super) fn turned_note(&self) -> Option<String> {
+        let turned = self.turned.as_ref().filter(|t| !t.is_empty())?;
+        let mut faces: Vec<usize> = turned.iter().map(|&t| self.face_of(t)).collect();
+        faces.dedup();
+        let (count, all, first) = (faces.len(), self.faces.len(), faces[0]);
+        let (run, were) = if count == 1 { ("face runs", "was") } else { ("faces run", "were") };
+        let said = format!("{count} of its {all} {run} against the others and {were} turned to lay it flat");
+        Some(format!("'{}': {said}; the first is face {first}", self.name))
+    }
+
+    /// The file's number of the face a triangle is of, from 1.
+    fn face_of(&self, triangle: usize) -> usize {
+        let mut first = 0;
+        let counts = self.corners.iter().map(|c| c.len() - 2);
+        let face = counts
+            .take_while(|n| {
+                first += n;
+                first <= triangle
+            })
+            .count();
+        self.faces.get(face).map_or(0, |f| *f as usize + 1)
+    }
+
     /// An error in the file's numbers.
     pub(super) fn blame(&self, error: FlattenError) -> FlattenError {
-        let face_of = |triangle: usize| {
-            let mut first = 0;
-            let counts = self.corners.iter().map(|c| c.len() - 2);
-            let face = counts
-                .take_while(|n| {
-                    first += n;
-                    first <= triangle
-                })
-                .count();
-            self.faces.get(face).map_or(0, |f| *f as usize + 1)
-        };
-        error.renumbered(&|v| self.number(v as u32) as usize, &face_of)
+        error.renumbered(&|v| self.number(v as u32) as usize, &|t| self.face_of(t))
     }
 }

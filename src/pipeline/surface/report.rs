@@ -25,6 +25,8 @@ pub struct SurfaceReport {
     pub pieces: Vec<PartReport>,
     /// Where the surface was cut besides its groups and texture seams: chains of the file's vertices, from 1.
     pub cuts: Vec<Vec<u32>>,
+    /// A row for each of these: what it is, and how long.
+    pub cuts_made: Vec<CutReport>,
     /// The one stage.
     pub stages: Vec<Stage>,
 }
@@ -150,6 +152,41 @@ pub struct ThreadReport {
     pub shear: f64,
     /// The largest, degrees.
     pub shear_max: f64,
+}
+
+/// A cut besides groups and texture seams.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CutReport {
+    /// The part that was cut, named as it was before.
+    pub piece: String,
+    /// What for.
+    pub why: CutWhy,
+    /// The file's vertex at its start, from 1.
+    pub from: u32,
+    /// The file's vertex at its end, from 1.
+    pub to: u32,
+    /// Length, mm.
+    pub length: f64,
+}
+
+/// Why a surface was cut: `asked` for, `auto` to make a disk of it, or as a `dart`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CutWhy {
+    /// `--cut A,B`.
+    Asked,
+    /// `--cut auto`.
+    Auto,
+    /// `--dart`.
+    Dart,
+}
+
+impl std::fmt::Display for CutReport {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { piece, why, from, to, length } = self;
+        let what = if *why == CutWhy::Dart { "a dart in" } else { "cut" };
+        write!(f, "{what} '{piece}' from vertex {from} to vertex {to} ({length:.1} mm)")
+    }
 }
 
 /// A dart, from the rim to its tip.

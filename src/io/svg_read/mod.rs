@@ -4,21 +4,25 @@
 //! follows from its class (`cut`, `sew`, `edge`, `grain`, `notch`, `fold`; FreeSewing's `fabric`, `sa` and markers)
 //! where it has one, and else from what lies in what.
 
+mod left_out;
+mod shapes;
+
 use std::path::Path as FilePath;
 
 use nalgebra::Matrix2;
 use roxmltree::{Document, Node, ParsingOptions};
 
+use self::left_out::{LeftOut, What};
+use self::shapes::{PIXEL, commands, length};
 use crate::digitize::{Remark, Role, Stroke, Traced, pieces};
 use crate::geometry::{Path, Vec2, parse_transform};
 use crate::input::{InputError, bytes, shown};
+use crate::pattern::LineKind;
 
 /// Larger files are not patterns.
 const MOST_BYTES: u64 = 30 << 20;
 /// More elements than this are a picture, not a pattern.
 const MOST_NODES: u32 = 500_000;
-/// Metres per CSS pixel.
-const PIXEL: f64 = 0.0254 / 96.0;
 /// Coordinates beyond this (metres) are a wrong unit or no pattern.
 const FARTHEST: f64 = 1e3;
 /// More lines than this cannot be looked at one against the other.
@@ -28,12 +32,16 @@ const REMARK: usize = 200;
 /// Letters of a path that messages show.
 const SHOWN: usize = 60;
 
+/// Elements that hold others.
+const CONTAINERS: [&str; 4] = ["g", "svg", "a", "switch"];
+/// Shapes that are sizes and places.
+const SHAPES: [&str; 3] = ["rect", "circle", "ellipse"];
 /// Elements that are not drawn where they stand.
 const NOT_DRAWN: [&str; 9] =
     ["defs", "symbol", "marker", "clipPath", "mask", "pattern", "metadata", "style", "namedview"];
 /// Classes of what is no line of the pattern.
-const SKIPPED: [&str; 10] =
-    ["help", "note", "mark", "text", "hidden", "scale", "pleat", "drill", "scalebox", "miniscale"];
+const SKIPPED: [&str; 11] =
+    ["drawn", "help", "note", "mark", "text", "hidden", "scale", "pleat", "drill", "scalebox", "miniscale"];
 
 /// Why an SVG file could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -66,16 +74,28 @@ pub enum SvgError {
     /// No outline.
     #[error(
         "no closed line of the size of a piece was found; outlines must be closed paths, or paths that meet end to end \
-         with the class 'edge' in one group per piece"
+         with the class 'edge' in one group per piece{besides}"
     )]
-    NoPieces,
+    NoPieces {
+        /// What was left out, which may be the reason.
+        besides: String,
+    },
+}
+
+/// What a drawing holds.
+#[derive(Clone, Debug, Default)]
+pub struct SvgDrawing {
+    /// Its pieces.
+    pub pieces: Vec<Traced>,
+    /// What it shows besides that was not read: a sentence for each kind.
+    pub left_out: Vec<String>,
 }
 
 /// Reads the pieces of an SVG file.
 ///
 /// # Errors
 /// [`SvgError`].
-pub fn read_svg(path: &FilePath) -> Result<Vec<Traced>, SvgError> {
+pub fn read_svg(path: &FilePath) -> Result<SvgDrawing, SvgError> {
     read_svg_text(&String::from_utf8_lossy(&bytes(path, MOST_BYTES)?))
 }
 
@@ -83,17 +103,28 @@ pub fn read_svg(path: &FilePath) -> Result<Vec<Traced>, SvgError> {
 ///
 /// # Errors
 /// As [`read_svg`].
-pub fn read_svg_text(text: &str) -> Result<Vec<Traced>, SvgError> {
+pub fn read_svg_text(text: &str) -> Result<SvgDrawing, SvgError> {
     let options = ParsingOptions { nodes_limit: MOST_NODES, allow_dtd: true, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|e| SvgError::Xml(e.to_string()))?;
     let root = document.root_element();
     if root.tag_name().name() != "svg" {
         return Err(SvgError::NotSvg(shown(root.tag_name().name(), SHOWN)));
     }
-    let mut reader = Reader { document: &document, strokes: Vec::new(), remarks: Vec::new() };
+    let left_out = LeftOut::default();
+    let mut reader = Reader { document: &document, strokes: Vec::new(), remarks: Vec::new(), left_out };
     reader.walk(root)?;
     let pieces = pieces(&reader.strokes, &reader.remarks);
-    if pieces.is_empty() { Err(SvgError::NoPieces) } else { Ok(pieces) }
+    let left_out = reader.left_out.sentences();
+    if pieces.is_empty() {
+        Err(SvgError::NoPieces { besides: besides(&left_out) })
+    } else {
+        Ok(SvgDrawing { pieces, left_out })
+    }
+}
+
+/// What else is there, for a drawing in which no piece was found.
+fn besides(left_out: &[String]) -> String {
+    left_out.iter().map(|sentence| format!("; {sentence}")).collect()
 }
 
 /// From an element's coordinates to metres on the sheet.
@@ -122,6 +153,7 @@ struct Reader<'a, 'i> {
     document: &'a Document<'i>,
     strokes: Vec<Stroke>,
     remarks: Vec<Remark>,
+    left_out: LeftOut,
 }
 
 impl Reader<'_, '_> {
@@ -139,9 +171,11 @@ impl Reader<'_, '_> {
             if let Some(own) = node.attribute("class") {
                 inner.classes = if name == "g" { own.to_owned() } else { format!("{own} {}", scope.classes) };
             }
-            if name == "g" || name == "svg" {
+            if CONTAINERS.contains(&name) {
                 inner.group = group_name(node).or(scope.group);
-                let children = node.children().filter(|c| c.is_element() && is_drawn(*c));
+                let elements = || node.children().filter(Node::is_element);
+                elements().filter(|c| is_hidden(*c)).for_each(|c| self.leave_out(c, What::Hidden));
+                let children = elements().filter(|c| !is_hidden(*c) && !NOT_DRAWN.contains(&c.tag_name().name()));
                 open.extend(children.map(|c| (c, inner.clone())).collect::<Vec<_>>().into_iter().rev());
             } else {
                 self.element(node, name, &inner)?;
@@ -154,8 +188,19 @@ impl Reader<'_, '_> {
         if name == "text" && self.remarks.len() < MOST_STROKES {
             self.remarks.extend(remark(node, scope.frame));
         }
-        let Some(role) = role(node, &scope.classes) else { return Ok(()) };
-        let Some(commands) = commands(node, name) else { return Ok(()) };
+        let role = role(node, &scope.classes);
+        let known = scope.classes.split_whitespace().any(|c| SKIPPED.contains(&c));
+        if let Some(what) = What::of(name, role.is_some()).filter(|_| !known) {
+            self.leave_out(node, what);
+        }
+        let Some(role) = role else { return Ok(()) };
+        let Some(commands) = commands(node, name) else {
+            // An empty path draws nothing; a shape that has no numbers may have been meant to.
+            if SHAPES.contains(&name) {
+                self.leave_out(node, What::Unsized);
+            }
+            return Ok(());
+        };
         let paths = Path::parse_many(&commands).map_err(|_| self.value(node, "a path", &commands))?;
         for path in paths {
             let path = path.mapped(scope.frame.linear, scope.frame.shift);
@@ -166,10 +211,15 @@ impl Reader<'_, '_> {
             // A transform may have made a point of it.
             if path.length() > 1e-8 {
                 let group = scope.group.clone();
-                self.strokes.push(Stroke { path, role, name: own_name(node, group.as_deref()), group });
+                let kind = line_kind(node);
+                self.strokes.push(Stroke { path, role, name: own_name(node, group.as_deref()), group, kind });
             }
         }
         if self.strokes.len() > MOST_STROKES { Err(SvgError::TooMany { most: MOST_STROKES }) } else { Ok(()) }
+    }
+
+    fn leave_out(&mut self, node: Node, what: What) {
+        self.left_out.add(what, self.document.text_pos_at(node.range().start).row);
     }
 
     fn value(&self, node: Node, what: &'static str, text: &str) -> SvgError {
@@ -207,31 +257,12 @@ fn sheet(root: Node) -> Frame {
     Frame { linear: Matrix2::identity() * scale, shift: -origin * scale }
 }
 
-/// A length in metres; percentages and units of type have none.
-fn length(text: &str) -> Option<f64> {
-    let text = text.trim();
-    let split = text.find(|c: char| c.is_alphabetic() && !"eE".contains(c) || c == '%').unwrap_or(text.len());
-    let number: f64 = text[..split].trim().parse().ok()?;
-    let unit = match text[split..].trim() {
-        "" | "px" => PIXEL,
-        "mm" => 1e-3,
-        "cm" => 1e-2,
-        "m" => 1.0,
-        "in" => 0.0254,
-        "pt" => 0.0254 / 72.0,
-        "pc" => 0.0254 / 6.0,
-        _ => return None,
-    };
-    Some(number * unit)
-}
-
-fn is_drawn(node: Node) -> bool {
+fn is_hidden(node: Node) -> bool {
     let style = node.attribute("style").unwrap_or("").replace(' ', "");
-    let hidden = node.attribute("display") == Some("none")
+    node.attribute("display") == Some("none")
         || node.attribute("visibility") == Some("hidden")
         || style.contains("display:none")
-        || style.contains("visibility:hidden");
-    !hidden && !NOT_DRAWN.contains(&node.tag_name().name())
+        || style.contains("visibility:hidden")
 }
 
 /// A group's label, or its id where that was not made up by a program.
@@ -267,6 +298,17 @@ fn own_name(node: Node, group: Option<&str>) -> Option<String> {
     let name = label.or(node.attribute("id").filter(|id| !is_made_up(id)))?;
     let edge = group.and_then(|g| name.strip_prefix(g)).and_then(|rest| rest.strip_prefix('.'));
     Some(edge.unwrap_or(name).to_owned())
+}
+
+/// What a line inside a piece does, as toile itself writes it.
+fn line_kind(node: Node) -> Option<LineKind> {
+    let number = |key: &str, least: f64, most: f64| {
+        node.attribute(key)?.trim().parse::<f64>().ok().filter(|x| (least..=most).contains(x))
+    };
+    let fold = number("data-fold", -180.0, 180.0).map(|degrees| LineKind::Fold(degrees.to_radians()));
+    let elastic = || number("data-elastic", 0.05, 1.0).map(LineKind::Elastic);
+    let mark = || node.attribute("data-kind").map(|kind| LineKind::Mark(shown(kind, SHOWN)));
+    fold.or_else(elastic).or_else(mark)
 }
 
 /// What a line is by its classes, its markers and its name; `None` for what is no line of the pattern.
@@ -308,63 +350,4 @@ fn role(node: Node, classes: &str) -> Option<Role> {
 fn is_line(node: Node) -> bool {
     let commands = node.attribute("d").unwrap_or("");
     commands.chars().filter(|c| c.is_ascii_alphabetic()).count() == 2
-}
-
-/// The element as path commands; `None` where it is no line or its numbers are none.
-fn commands(node: Node, name: &str) -> Option<String> {
-    // In user units: of a length with a unit of its own there are 96 to the inch.
-    let number = |key: &str| length(node.attribute(key)?).map(|x| x / PIXEL).filter(|x| x.is_finite());
-    let zero = |key: &str| number(key).unwrap_or(0.0);
-    match name {
-        "path" => node.attribute("d").map(str::trim).filter(|d| !d.is_empty()).map(str::to_owned),
-        "polygon" | "polyline" => {
-            let points = node.attribute("points")?.trim();
-            let end = if name == "polygon" { " Z" } else { "" };
-            (!points.is_empty()).then(|| format!("M {points}{end}"))
-        }
-        "line" => Some(format!("M {} {} L {} {}", zero("x1"), zero("y1"), zero("x2"), zero("y2"))),
-        "rect" => {
-            let (w, h) = (number("width")?, number("height")?);
-            let round = radii(number("rx"), number("ry")).unwrap_or([0.0; 2]);
-            (w > 0.0 && h > 0.0).then(|| rectangle([zero("x"), zero("y")], [w, h], round))
-        }
-        "circle" | "ellipse" => {
-            let own = if name == "circle" { number("r").map(|r| [r; 2]) } else { radii(number("rx"), number("ry")) };
-            let [rx, ry] = own?;
-            let (x, y) = (zero("cx") - rx, zero("cy"));
-            let arc = |by: f64| format!("a {rx} {ry} 0 0 1 {by} 0");
-            (rx > 0.0 && ry > 0.0).then(|| format!("M {x} {y} {} {} Z", arc(2.0 * rx), arc(-2.0 * rx)))
-        }
-        // A notch is a symbol put in a place.
-        "use" => Some(format!("M {x} {y} L {x} {}", zero("y") + 0.001, x = zero("x"), y = zero("y"))),
-        _ => None,
-    }
-}
-
-/// Radii as SVG means them: one that is missing (`auto`, or negative) is as the other; `None` where both are.
-fn radii(rx: Option<f64>, ry: Option<f64>) -> Option<[f64; 2]> {
-    let [rx, ry] = [rx, ry].map(|r| r.filter(|r| *r >= 0.0));
-    Some([rx.or(ry)?, ry.or(rx)?])
-}
-
-/// A rectangle from its corner on, with its corners rounded to half its sides at most.
-fn rectangle([x, y]: [f64; 2], [w, h]: [f64; 2], round: [f64; 2]) -> String {
-    let (rx, ry) = (round[0].min(0.5 * w), round[1].min(0.5 * h));
-    if rx == 0.0 || ry == 0.0 {
-        return format!("M {x} {y} h {w} v {h} h {} Z", -w);
-    }
-    // Where nothing is left of a side, its arcs meet.
-    let side = |command: &str, length: f64| if length == 0.0 { String::new() } else { format!(" {command} {length}") };
-    let arc = |dx: f64, dy: f64| format!(" a {rx} {ry} 0 0 1 {dx} {dy}");
-    let (across, down) = (w - 2.0 * rx, h - 2.0 * ry);
-    format!("M {} {y}", x + rx)
-        + &side("h", across)
-        + &arc(rx, ry)
-        + &side("v", down)
-        + &arc(-rx, ry)
-        + &side("h", -across)
-        + &arc(-rx, -ry)
-        + &side("v", -down)
-        + &arc(rx, -ry)
-        + " Z"
 }

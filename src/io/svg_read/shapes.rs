@@ -1,0 +1,83 @@
+//! Lengths, and shapes as paths.
+
+use roxmltree::Node;
+
+/// Metres per CSS pixel.
+pub(super) const PIXEL: f64 = 0.0254 / 96.0;
+
+/// A length in metres; percentages and units of type have none.
+pub(super) fn length(text: &str) -> Option<f64> {
+    let text = text.trim();
+    let split = text.find(|c: char| c.is_alphabetic() && !"eE".contains(c) || c == '%').unwrap_or(text.len());
+    let number: f64 = text[..split].trim().parse().ok()?;
+    let unit = match text[split..].trim() {
+        "" | "px" => PIXEL,
+        "mm" => 1e-3,
+        "cm" => 1e-2,
+        "m" => 1.0,
+        "in" => 0.0254,
+        "pt" => 0.0254 / 72.0,
+        "pc" => 0.0254 / 6.0,
+        _ => return None,
+    };
+    Some(number * unit)
+}
+
+/// The element as path commands; `None` where it is no line or its numbers are none.
+pub(super) fn commands(node: Node, name: &str) -> Option<String> {
+    // In user units: of a length with a unit of its own there are 96 to the inch.
+    let number = |key: &str| length(node.attribute(key)?).map(|x| x / PIXEL).filter(|x| x.is_finite());
+    let zero = |key: &str| number(key).unwrap_or(0.0);
+    match name {
+        "path" => node.attribute("d").map(str::trim).filter(|d| !d.is_empty()).map(str::to_owned),
+        "polygon" | "polyline" => {
+            let points = node.attribute("points")?.trim();
+            let end = if name == "polygon" { " Z" } else { "" };
+            (!points.is_empty()).then(|| format!("M {points}{end}"))
+        }
+        "line" => Some(format!("M {} {} L {} {}", zero("x1"), zero("y1"), zero("x2"), zero("y2"))),
+        "rect" => {
+            let (w, h) = (number("width")?, number("height")?);
+            let round = radii(number("rx"), number("ry")).unwrap_or([0.0; 2]);
+            (w > 0.0 && h > 0.0).then(|| rectangle([zero("x"), zero("y")], [w, h], round))
+        }
+        "circle" | "ellipse" => {
+            let own = if name == "circle" { number("r").map(|r| [r; 2]) } else { radii(number("rx"), number("ry")) };
+            let [rx, ry] = own?;
+            let (x, y) = (zero("cx") - rx, zero("cy"));
+            let arc = |by: f64| format!("a {rx} {ry} 0 0 1 {by} 0");
+            (rx > 0.0 && ry > 0.0).then(|| format!("M {x} {y} {} {} Z", arc(2.0 * rx), arc(-2.0 * rx)))
+        }
+        // A notch is a symbol put in a place.
+        "use" => Some(format!("M {x} {y} L {x} {}", zero("y") + 0.001, x = zero("x"), y = zero("y"))),
+        _ => None,
+    }
+}
+
+/// Radii as SVG means them: one that is missing (`auto`, or negative) is as the other; `None` where both are.
+fn radii(rx: Option<f64>, ry: Option<f64>) -> Option<[f64; 2]> {
+    let [rx, ry] = [rx, ry].map(|r| r.filter(|r| *r >= 0.0));
+    Some([rx.or(ry)?, ry.or(rx)?])
+}
+
+/// A rectangle from its corner on, with its corners rounded to half its sides at most.
+fn rectangle([x, y]: [f64; 2], [w, h]: [f64; 2], round: [f64; 2]) -> String {
+    let (rx, ry) = (round[0].min(0.5 * w), round[1].min(0.5 * h));
+    if rx == 0.0 || ry == 0.0 {
+        return format!("M {x} {y} h {w} v {h} h {} Z", -w);
+    }
+    // Where nothing is left of a side, its arcs meet.
+    let side = |command: &str, length: f64| if length == 0.0 { String::new() } else { format!(" {command} {length}") };
+    let arc = |dx: f64, dy: f64| format!(" a {rx} {ry} 0 0 1 {dx} {dy}");
+    let (across, down) = (w - 2.0 * rx, h - 2.0 * ry);
+    format!("M {} {y}", x + rx)
+        + &side("h", across)
+        + &arc(rx, ry)
+        + &side("v", down)
+        + &arc(-rx, ry)
+        + &side("h", -across)
+        + &arc(-rx, -ry)
+        + &side("v", -down)
+        + &arc(rx, -ry)
+        + " Z"
+}

@@ -1,0 +1,270 @@
+//! What closures close: rims that are open once the seams are sewn, and not as the garment is worn.
+
+use super::rim::free_spans;
+use super::{Closure, EdgeId, Garment, Span};
+use crate::geometry::{DisjointSets, Vec2};
+
+/// A point further than this (metres) from every free edge fastens no edge: what is tied there is a patch or a flap.
+/// Double-breasted fronts have their buttons up to 120 mm from the edge.
+const REACH: f64 = 0.15;
+
+/// Where fastened edges overlap, the rim goes this many overlaps at most from one of them to the other: one where the
+/// underlap ends, and as much again where corners are rounded or the points lie slanting.
+const TURN: f64 = 2.0;
+
+/// And this much (metres) where they only meet.
+const TURN_SLACK: f64 = 5e-3;
+
+/// A point of a rim.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RimSpot {
+    /// The edge.
+    pub edge: EdgeId,
+    /// Metres from its start.
+    pub at: f64,
+}
+
+/// Where a point of a closure holds two rims together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fastening {
+    /// The rims' points nearest to it.
+    pub ends: [RimSpot; 2],
+    /// How far the two edges overlap there, metres.
+    pub reach: f64,
+    /// Points of one closure that follow each other along the same two edges have the same row.
+    pub row: usize,
+    /// The closure and which of its tacks this is.
+    pub tack: [usize; 2],
+}
+
+/// Every point of the garment's closures that fastens a free edge to another.
+pub fn fastenings(garment: &Garment) -> Vec<Fastening> {
+    if garment.closures.iter().all(|c| c.tacks.is_empty()) {
+        return Vec::new();
+    }
+    let free = free_spans(garment, &[]);
+    let patches = patches(garment);
+    let mut found = Vec::new();
+    let mut rows = 0;
+    for (index, closure) in garment.closures.iter().enumerate() {
+        for (r, row) in closure.tacks.chunks(closure.row.max(1)).enumerate() {
+            // A patch is fastened to cloth, not to an edge.
+            if row.iter().any(|tack| tack.iter().any(|end| patches.contains(&end.0))) {
+                continue;
+            }
+            let [own, met] = [0, 1].map(|side| spots(garment, &free, row, side));
+            for (k, ends) in own.into_iter().zip(met).enumerate() {
+                let (Some((a, to_a)), Some((b, to_b))) = ends else { continue };
+                let tack = [index, r * closure.row.max(1) + k];
+                // Points listed at both sides of a poncho are not one row.
+                let goes_on = k > 0
+                    && found.last().is_some_and(|f: &Fastening| {
+                        f.tack == [index, tack[1] - 1] && f.ends.map(|e| e.edge) == [a.edge, b.edge]
+                    });
+                rows += usize::from(!goes_on);
+                found.push(Fastening { ends: [a, b], reach: to_a + to_b, row: rows, tack });
+            }
+        }
+    }
+    found
+}
+
+/// For one side of a row, every point's spot on the rim and how far it is. A row follows one edge: beside a neckline
+/// its first point may be nearer to that.
+fn spots(garment: &Garment, free: &[Span], row: &[[(usize, Vec2); 2]], side: usize) -> Vec<Option<(RimSpot, f64)>> {
+    let near = |span: &Span, (piece, p): (usize, Vec2)| {
+        (span.edge.piece == piece).then(|| {
+            let path = &garment.pieces[piece].loops[span.edge.ring][span.edge.index].path;
+            let at = path.nearest(p).0.clamp(span.from, span.to);
+            (RimSpot { edge: span.edge, at }, (path.point(at) - p).norm())
+        })
+    };
+    let furthest = |span: &Span| -> f64 {
+        row.iter().map(|t| near(span, t[side]).map_or(f64::INFINITY, |n| n.1)).fold(0.0, f64::max)
+    };
+    let of_row = free.iter().map(|s| (s, furthest(s))).min_by(|a, b| a.1.total_cmp(&b.1));
+    let of_row = of_row.filter(|found| found.1 <= REACH).map(|found| found.0);
+    let nearest = |end| free.iter().filter_map(|s| near(s, end)).min_by(|a, b| a.1.total_cmp(&b.1));
+    row.iter()
+        .map(|tack| of_row.map_or_else(|| nearest(tack[side]), |s| near(s, tack[side])).filter(|n| n.1 <= REACH))
+        .collect()
+}
+
+/// Pieces that only closures hold to the others, such as a pocket tacked at its corners: their rims are no openings.
+pub fn patches(garment: &Garment) -> Vec<usize> {
+    let sewn = |piece: usize| garment.seams.iter().any(|s| s.a.iter().chain(&s.b).any(|span| span.edge.piece == piece));
+    let mut found: Vec<usize> = Vec::new();
+    for tack in garment.closures.iter().flat_map(|c: &Closure| &c.tacks) {
+        let [a, b] = [tack[0].0, tack[1].0];
+        match [sewn(a), sewn(b)] {
+            [true, false] => found.push(b),
+            [false, true] => found.push(a),
+            _ => {}
+        }
+    }
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+/// A stretch of a rim.
+#[derive(Clone, Copy, Debug)]
+pub struct Step<K> {
+    /// The edge it belongs to.
+    pub along: K,
+    /// Metres.
+    pub length: f64,
+}
+
+/// A fastening as corners of rims: corner `k` of a rim is where its step `k` begins.
+#[derive(Clone, Copy, Debug)]
+pub struct Bridge<K> {
+    /// (rim, corner) twice.
+    pub corners: [[usize; 2]; 2],
+    /// The edges it fastens.
+    pub along: [K; 2],
+    /// How far they overlap, metres.
+    pub reach: f64,
+    /// As in [`Fastening::row`].
+    pub row: usize,
+}
+
+/// The openings that are left of `rims` when `bridges` hold their points together: the steps of each, in order.
+///
+/// A bridge is a narrow band of cloth: whoever walks along the rim comes to it, crosses, and goes on along the other
+/// side. What is left between two neighbours of a row, and beyond its end as far as the fastened edges and their overlap
+/// go, is closed. Of rims that would be closed altogether the longest part is left open.
+pub fn worn_rims<K: PartialEq + Clone>(rims: &[Vec<Step<K>>], bridges: &[Bridge<K>]) -> Vec<Vec<[usize; 2]>> {
+    let mut joined = DisjointSets::new(rims.len());
+    let mut next: Vec<Vec<[usize; 2]>> =
+        rims.iter().enumerate().map(|(r, rim)| (0..rim.len()).map(|k| [r, (k + 1) % rim.len()]).collect()).collect();
+    // The bridge that is crossed after a step.
+    let mut crossed: Vec<Vec<Option<usize>>> = rims.iter().map(|rim| vec![None; rim.len()]).collect();
+    for (i, bridge) in bridges.iter().enumerate() {
+        let [a, b] = bridge.corners.map(|[r, k]| [r, (k + rims[r].len() - 1) % rims[r].len()]);
+        // Points nearer to each other than the rim has corners count once.
+        if a == b || [a, b].iter().any(|&[r, k]| crossed[r][k].is_some()) {
+            continue;
+        }
+        let after = [a, b].map(|[r, k]| next[r][k]);
+        (next[a[0]][a[1]], next[b[0]][b[1]]) = (after[1], after[0]);
+        [a, b].iter().for_each(|&[r, k]| crossed[r][k] = Some(i));
+        joined.join(a[0] as u32, b[0] as u32);
+    }
+    let parts: Vec<Part> = walked(&next).into_iter().map(|steps| Part::new(steps, rims, bridges, &crossed)).collect();
+    let mut open: Vec<bool> = parts.iter().map(|p| !p.closed).collect();
+    for (i, part) in parts.iter().enumerate() {
+        let together = |other: &Part| joined.same(part.steps[0][0] as u32, other.steps[0][0] as u32);
+        let rest = || parts.iter().enumerate().filter(|(_, p)| together(p));
+        if !rest().any(|(j, p)| open[j] || p.length > part.length) {
+            open[i] = true;
+        }
+    }
+    parts.into_iter().zip(open).filter(|(_, open)| *open).map(|(p, _)| p.steps).collect()
+}
+
+/// The rings that `next` makes of all steps.
+fn walked(next: &[Vec<[usize; 2]>]) -> Vec<Vec<[usize; 2]>> {
+    let mut seen: Vec<Vec<bool>> = next.iter().map(|rim| vec![false; rim.len()]).collect();
+    let mut rings = Vec::new();
+    for (r, rim) in next.iter().enumerate() {
+        for k in 0..rim.len() {
+            let mut ring = Vec::new();
+            let mut at = [r, k];
+            while !std::mem::replace(&mut seen[at[0]][at[1]], true) {
+                ring.push(at);
+                at = next[at[0]][at[1]];
+            }
+            if !ring.is_empty() {
+                rings.push(ring);
+            }
+        }
+    }
+    rings
+}
+
+/// A ring between bridges.
+struct Part {
+    steps: Vec<[usize; 2]>,
+    length: f64,
+    closed: bool,
+}
+
+impl Part {
+    fn new<K: PartialEq>(
+        steps: Vec<[usize; 2]>,
+        rims: &[Vec<Step<K>>],
+        bridges: &[Bridge<K>],
+        crossed: &[Vec<Option<usize>>],
+    ) -> Self {
+        let at: Vec<&Bridge<K>> = steps.iter().filter_map(|&[r, k]| Some(&bridges[crossed[r][k]?])).collect();
+        let fastened = |edge: &K| at.iter().any(|b| b.along.contains(edge));
+        let step = |[r, k]: [usize; 2]| &rims[r][k];
+        let beside = steps.iter().map(|&s| step(s)).filter(|s| !fastened(&s.along));
+        let turn: f64 = beside.map(|s| s.length).sum();
+        let reach = at.iter().map(|b| b.reach).fold(0.0, f64::max);
+        let between = at.len() == 2 && at[0].row == at[1].row && !std::ptr::eq(at[0], at[1]);
+        let closed = !at.is_empty() && (between || turn <= TURN * reach + TURN_SLACK);
+        Self { length: steps.iter().map(|&s| step(s).length).sum(), closed, steps }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A rim of steps of a centimetre, edge by edge.
+    fn rim(edges: &[(char, usize)]) -> Vec<Step<char>> {
+        edges.iter().flat_map(|&(along, n)| vec![Step { along, length: 0.01 }; n]).collect()
+    }
+
+    fn lengths(rims: &[Vec<Step<char>>], bridges: &[Bridge<char>]) -> Vec<usize> {
+        worn_rims(rims, bridges).iter().map(Vec::len).collect()
+    }
+
+    fn button(corners: [[usize; 2]; 2], along: [char; 2], row: usize) -> Bridge<char> {
+        Bridge { corners, along, reach: 0.03, row }
+    }
+
+    #[test]
+    fn a_buttoned_front_leaves_neck_and_hem() {
+        // Down the left front, round the hem, up the right one, round the neck.
+        let rims = [rim(&[('l', 60), ('h', 100), ('r', 60), ('n', 40)])];
+        let row = |n: usize| -> Vec<Bridge<char>> {
+            (0..n).map(|i| button([[0, 5 + 10 * i], [0, 215 - 10 * i]], ['l', 'r'], 0)).collect()
+        };
+        assert_eq!(lengths(&rims, &[]), [260]);
+        // Five steps of either front go with the neck, those below the last button with the hem.
+        assert_eq!(lengths(&rims, &row(1)), [50, 210]);
+        assert_eq!(lengths(&rims, &row(6)), [50, 110]);
+    }
+
+    #[test]
+    fn a_hooked_band_leaves_one_opening() {
+        // The underlap's lower edge is as long as the band overlaps.
+        let rims = [rim(&[('t', 80), ('r', 8), ('b', 3), ('l', 8)])];
+        let hooks = [button([[0, 85], [0, 94]], ['r', 'l'], 0), button([[0, 87], [0, 92]], ['r', 'l'], 1)];
+        assert_eq!(lengths(&rims, &hooks), [90]);
+        // The same point twice is one.
+        assert_eq!(lengths(&rims, &[hooks[0], hooks[0]]), [90]);
+    }
+
+    #[test]
+    fn panels_that_are_buttoned_at_both_sides_make_a_waist_and_a_hem() {
+        // Two panels, each its own rim.
+        let panel = |w, r, h, l| rim(&[(w, 40), (r, 50), (h, 60), (l, 50)]);
+        let rims = [panel('w', 'r', 'h', 'l'), panel('W', 'R', 'H', 'L')];
+        let pair = |k: usize, row: usize| {
+            let (right, left) = ([row, 40 + k], [1 - row, 200 - k]);
+            button([right, left], if row == 0 { ['r', 'L'] } else { ['R', 'l'] }, row)
+        };
+        let bridges: Vec<Bridge<char>> = [0, 1].into_iter().flat_map(|r| [5, 25, 45].map(|k| pair(k, r))).collect();
+        assert_eq!(lengths(&rims, &bridges), [100, 140]);
+    }
+
+    #[test]
+    fn a_slit_that_is_closed_altogether_stays_one_rim() {
+        let rims = [rim(&[('u', 15), ('o', 15)])];
+        assert_eq!(lengths(&rims, &[button([[0, 5], [0, 25]], ['u', 'o'], 0)]).len(), 1);
+    }
+}

@@ -1,0 +1,130 @@
+//! Closures: what they close, and how far they stand apart.
+
+#![allow(clippy::unwrap_used, reason = "tests may")]
+
+use toile::geometry::Vec3;
+use toile::io::garment::read_text;
+use toile::mannequin::Mannequin;
+use toile::mesh::{ClothMesh, build};
+use toile::pattern::{Garment, openings};
+use toile::report::{Measured, Report, measure, table};
+
+/// A tube of a pair of halves, 100 mm wide each, open in front; `closures` and what else is drawn.
+fn tube(closures: &str, more: &str) -> Garment {
+    let text = format!(
+        "\
+garment: 1
+pieces:
+  half:
+    cut: pair
+    drawn: R
+    grain: [[0, 0], [0, 9]]
+    outline:
+      start: 0 0
+      top: L 100 0
+      back: L 100 200
+      hem: L 0 200
+      front: L 0 0
+{more}seams:
+  back: {{sew: half.back, to: mirror}}
+closures: [{closures}]
+free: [half.top, half.hem, half.front{}]
+",
+        if more.is_empty() { "" } else { ", \"patch.*\"" }
+    );
+    read_text("tube", "tube.yaml", &text).unwrap_or_else(|e| panic!("{e}")).garment
+}
+
+const BUTTONS: &str = "{kind: button, piece: half.L, at: [10, 20], meets: half.R, pitch: 50, count: 4}";
+const PATCH: &str = "  patch:
+    grain: [[0, 0], [0, 9]]
+    outline: {start: 0 0, top: L 40 0, right: L 40 40, bottom: L 0 40, left: L 0 0}
+";
+
+/// The tube bent round so that its fronts are `apart` (metres), further by `bulge` half-way between two buttons.
+fn worn(garment: &Garment, apart: f64, bulge: f64) -> Report {
+    let mesh = build(garment, 0.01).unwrap();
+    let mut weld: Vec<u32> = (0..mesh.flat.len() as u32).collect();
+    mesh.seams.iter().flat_map(|s| &s.pairs).for_each(|&[a, b]| weld[b as usize] = a);
+    let radius = (0.2 + apart) / std::f64::consts::TAU;
+    let at: Vec<Vec3> = (0..mesh.flat.len()).map(|p| bent(&mesh, p, radius, apart, bulge)).collect();
+    let body = Mannequin { name: "nobody".into(), mesh: Default::default(), parts: vec![] };
+    measure(&Measured {
+        garment,
+        mesh: &mesh,
+        weld: &weld,
+        body: &body,
+        fabric: "muslin",
+        gaps: None,
+        sewn: Some(&at),
+        draped: None,
+        flattened: None,
+        stages: &[],
+    })
+}
+
+fn bent(mesh: &ClothMesh, p: usize, radius: f64, apart: f64, bulge: f64) -> Vec3 {
+    let piece = mesh.pieces.iter().find(|piece| piece.particles.contains(&p)).unwrap();
+    let flat = mesh.flat[p];
+    // Distance of the particle from the front edge; the left half is the mirror image.
+    let low = mesh.flat[piece.particles.clone()].iter().map(|q| q.x.abs()).fold(f64::INFINITY, f64::min);
+    let across = flat.x.abs() - low;
+    let side = if piece.name.ends_with('R') { -1.0 } else { 1.0 };
+    let wave = (std::f64::consts::TAU * (flat.y - 0.02) / 0.05).cos();
+    let out = if across < 0.025 { side * bulge * (1.0 - wave) / 2.0 } else { 0.0 };
+    let angle = side * (apart / 2.0 + across) / radius;
+    Vec3::new(radius * angle.sin(), -flat.y, radius * angle.cos() + out)
+}
+
+#[test]
+fn a_buttoned_front_leaves_a_neck_and_a_hem() {
+    assert_eq!(openings(&tube("", "")).len(), 1);
+    let buttoned = openings(&tube(BUTTONS, ""));
+    let lengths: Vec<f64> = buttoned.iter().map(|o| (o.length * 1e3).round()).collect();
+    // Both tops and 20 mm of either front; both hems and 30 mm.
+    assert_eq!(lengths, [240.0, 260.0]);
+}
+
+#[test]
+fn what_is_tacked_on_is_no_opening() {
+    let corners = "{kind: tack, piece: patch, at: [[2, 2], [38, 2]], meets: half.R, meets_at: [[40, 60], [76, 60]]}";
+    assert_eq!(openings(&tube("", PATCH)).len(), 2);
+    assert_eq!(openings(&tube(corners, PATCH)).len(), 1);
+}
+
+#[test]
+fn a_closed_front_is_no_opening_of_the_report() {
+    let garment = tube(BUTTONS, "");
+    let closed = worn(&garment, -0.02, 0.0);
+    let names: Vec<&str> = closed.worn.iter().map(|w| w.opening.as_str()).collect();
+    assert_eq!(names, ["front + top", "front + hem"]);
+    let row = &closed.closures[0];
+    assert_eq!((row.on.as_deref(), row.meets.as_deref(), row.points), (Some("half.L"), Some("half.R"), 4));
+    assert!(row.closed && row.note.is_none() && row.gap_max.unwrap() < 3.0, "{row:?}");
+    // Buttons that did not come together close nothing.
+    let open = worn(&garment, 0.03, 0.0);
+    assert_eq!(open.worn.len(), 1);
+    assert!(!open.closures[0].closed && table(&open).contains("OPEN"), "{}", table(&open));
+}
+
+#[test]
+fn sides_that_bulge_between_the_buttons_gape() {
+    let garment = tube(BUTTONS, "");
+    let row = worn(&garment, -0.02, 0.006).closures[0].clone();
+    // 6 mm to either side.
+    assert!(row.closed && (row.gape.unwrap() - 12.0).abs() < 1.5, "{row:?}");
+    assert!(worn(&garment, -0.02, 0.0).closures[0].gape.unwrap() < 3.0);
+}
+
+#[test]
+fn a_closure_without_a_partner_says_so() {
+    let alone = worn(&tube("{kind: button, piece: half.L, at: [5, 15]}", ""), -0.02, 0.0);
+    let row = &alone.closures[0];
+    assert_eq!(row.meets.as_deref(), Some("half.R"));
+    assert!(!row.closed && row.gap_max.is_some() && row.note.as_ref().unwrap().contains("not tied"), "{row:?}");
+    assert_eq!(alone.worn.len(), 1);
+    let patch = worn(&tube("{kind: button, piece: patch, at: [5, 15]}", PATCH), -0.02, 0.0);
+    assert!(patch.closures[0].note.as_ref().unwrap().contains("not clear"), "{:?}", patch.closures[0]);
+    let zip = worn(&tube("{kind: zip, edge: half.L.front, meets: half.R.front}", ""), -0.02, 0.0);
+    assert!(zip.closures[0].note.as_ref().unwrap().contains("no points"), "{:?}", zip.closures[0]);
+}
