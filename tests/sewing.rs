@@ -469,6 +469,59 @@ fn a_cuff_that_flares_widely_starts_as_one_ring() {
     assert!((along(0) - along(1)).abs() < 10.0 * MM, "{} and {}", along(0), along(1));
 }
 
+/// A shirt without sleeves, open in front, the fronts 20 mm over the middle; and what more its file says.
+fn open_shirt(closures: &str) -> Made {
+    let text = format!(
+        "garment: 1\nbody: woman_92\nfabrics: {{shell: cotton_poplin}}\npieces:\n  back:\n    cut: fold center\n    \
+         drawn: R\n    grain: [[60, 100], [60, 400]]\n    place: torso back\n    outline: {{start: 0 20, \
+         neck: 'C 40 20, 65 15, 75 0', shoulder: L 195 40, armhole: 'C 180 120, 190 180, 250 200', side: L 255 620, \
+         hem: L 0 620, center: L 0 20}}\n  front:\n    cut: pair\n    drawn: L\n    grain: [[60, 100], [60, 400]]\n    \
+         place: torso front\n    outline: {{start: -20 70, neck: 'C 35 70, 70 40, 75 0', shoulder: L 195 40, \
+         armhole: 'C 170 120, 185 180, 250 200', side: L 255 620, hem: L -20 620, edge: L -20 70}}\n{closures}seams:\n  \
+         shoulder_l: {{sew: front.L.shoulder, to: back.shoulder.L}}\n  \
+         shoulder_r: {{sew: front.R.shoulder, to: back.shoulder.R}}\n  \
+         side_l: {{sew: front.L.side, to: back.side.L}}\n  side_r: {{sew: front.R.side, to: back.side.R}}\n\
+         free: [front.neck, front.hem, front.edge, back.neck, back.hem, '*.armhole']\n"
+    );
+    Made::new(&text, 20.0)
+}
+
+#[test]
+fn what_is_open_in_front_starts_with_its_fronts_in_front() {
+    let (body, collider) = woman();
+    let made = open_shirt("");
+    let x = made.placed(&body);
+    assert!(x.iter().all(|p| collider.nearest(*p, 1.0).is_none_or(|n| n.distance > 0.0)));
+    assert_eq!(crossings(&TriMesh { vertices: x.clone(), triangles: made.mesh.triangles.clone() }).len(), 0);
+    let middle = |name: &str| {
+        let piece = made.mesh.pieces.iter().find(|p| p.name == name).expect("a piece");
+        piece.particles.clone().map(|p| x[p]).sum::<Vec3>() / piece.particles.len() as f64
+    };
+    let [left, right, back] = ["front.L", "front.R", "back"].map(middle);
+    assert!(left.z > back.z + 100.0 * MM && right.z > back.z + 100.0 * MM, "{left:?}, {right:?}, {back:?}");
+    assert!(left.x > 50.0 * MM && right.x < -50.0 * MM, "{left:?}, {right:?}");
+}
+
+#[test]
+fn buttoned_fronts_start_one_over_the_other() {
+    let (body, collider) = woman();
+    let made = open_shirt(
+        "closures:\n  - {kind: button, piece: front.L, at: [0, 100], meets: front.R, meets_at: [0, 100], pitch: 90, \
+         count: 6}\n",
+    );
+    let x = made.placed(&body);
+    assert!(x.iter().all(|p| collider.nearest(*p, 1.0).is_none_or(|n| n.distance > 0.0)));
+    assert_eq!(crossings(&TriMesh { vertices: x.clone(), triangles: made.mesh.triangles.clone() }).len(), 0);
+    let tacks: Vec<_> = made.garment.closures.iter().flat_map(|c| &c.tacks).collect();
+    assert_eq!(tacks.len(), 6);
+    for tack in tacks {
+        // Particles are up to a cell's diagonal from the point.
+        let [on, meets] = tack.map(|(piece, at)| x[made.mesh.nearest(piece, at).expect("a particle")]);
+        assert!((on - meets).norm() < 35.0 * MM, "{on:?} and {meets:?}");
+        assert!(meets.z > on.z + 2.0 * MM, "the buttonhole is outside: {on:?} and {meets:?}");
+    }
+}
+
 /// A skirt with two godets in its front, one by one seam that turns at its point, one by a seam on either side; half of
 /// either is `half` wide at the hem, in millimetres, and its sides are 273.1 long as those of the slits are.
 fn godets(half: f64) -> Made {

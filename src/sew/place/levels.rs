@@ -51,7 +51,11 @@ pub(super) fn levels(mesh: &ClothMesh, sheet: &Sheet, row: &Row, links: &[Link])
         }
     }
     let joints = joints(mesh, sheet, row, links, &level_of);
-    prolong(&mut out, &joints);
+    let sewn = joints.iter().enumerate().filter_map(|(i, joint)| Some((i, joint.sewn?)));
+    let lapped = row.laps.iter().map(|lap| (lap.joint, lap.v.map(level_of)));
+    for (i, range) in sewn.chain(lapped) {
+        prolong(&mut out, [i, (i + 1) % members], range);
+    }
     widen(&mut out);
     for (k, level) in out.iter_mut().enumerate() {
         pack(row, level, k, &joints);
@@ -134,24 +138,21 @@ fn joints(mesh: &ClothMesh, sheet: &Sheet, row: &Row, links: &[Link], level_of: 
         .collect()
 }
 
-/// Beyond the ends of a sewn joint (over a curved waist, under the crotch) its two sides go on as they end: what lies
-/// side by side stays so where one of the outlines turns away.
-fn prolong(levels: &mut [Level], joints: &[Joint]) {
-    for (i, joint) in joints.iter().enumerate() {
-        let Some(sewn) = joint.sewn else { continue };
-        for (member, side) in [(i, 1), ((i + 1) % joints.len(), 0)] {
-            let ends = sewn.map(|k| levels[k].spans[member].map(|s| s[side]));
-            for k in (0..sewn[0]).chain(sewn[1] + 1..levels.len()) {
-                let end = ends[usize::from(k > sewn[1])];
-                if let (Some(end), Some(span)) = (end, &mut levels[k].spans[member]) {
-                    span[side] = if side == 0 { span[side].min(end) } else { span[side].max(end) };
-                }
+/// Beyond the ends of a joint that is sewn or buttoned at these levels (over a curved waist, under the crotch, beside the
+/// neck) its two sides go on as they end: what lies side by side stays so where one of the outlines turns away.
+fn prolong(levels: &mut [Level], members: [usize; 2], [first, last]: [usize; 2]) {
+    for (member, side) in members.into_iter().zip([1, 0]) {
+        let ends = [first, last].map(|k| levels[k].spans[member].map(|s| s[side]));
+        for k in (0..first).chain(last + 1..levels.len()) {
+            let end = ends[usize::from(k > last)];
+            if let (Some(end), Some(span)) = (end, &mut levels[k].spans[member]) {
+                span[side] = if side == 0 { span[side].min(end) } else { span[side].max(end) };
             }
         }
     }
 }
 
-/// Packs one level: sewn joints get a little room, others what the layout leaves, never an overlap.
+/// Packs one level: sewn joints get a little room, others what the layout leaves, and only what is buttoned overlaps.
 fn pack(row: &Row, level: &mut Level, k: usize, joints: &[Joint]) {
     let n = row.members.len();
     let present = level.present();
@@ -167,14 +168,19 @@ fn pack(row: &Row, level: &mut Level, k: usize, joints: &[Joint]) {
             (Some(own), Some(other)) if j + 1 < present.len() => other[0] - own[1],
             _ => 0.0,
         };
-        level.gaps[i] = if sewn || n == 1 { ROOM } else { left.max(ROOM) };
+        let lap = row.laps.iter().find(|lap| lap.joint == i && next == (i + 1) % n && !sewn);
+        level.gaps[i] = match (lap, level.spans[i], level.spans[next]) {
+            (Some(lap), Some(own), Some(next)) => lap.gap([own, next]).min(ROOM),
+            _ if sewn || n == 1 => ROOM,
+            _ => left.max(ROOM),
+        };
     }
     let cloth: f64 = level.spans.iter().flatten().map(|s| s[1] - s[0]).sum();
     level.length = cloth + level.gaps.iter().sum::<f64>();
 }
 
 /// Puts the members of a level on a ring of `perimeter` metres: what the ring is longer than the cloth goes into the
-/// gaps between them; what it is shorter comes first out of those that are not sewn.
+/// gaps between them, but for those that closures hold; what it is shorter comes first out of those that are not sewn.
 pub(super) fn spread_out(row: &Row, level: &mut Level, perimeter: f64) {
     let present = level.present();
     let missing = (level.length - perimeter).max(0.0);
@@ -185,8 +191,10 @@ pub(super) fn spread_out(row: &Row, level: &mut Level, perimeter: f64) {
         level.gaps[i] -= spare(level.gaps[i]) * taken / all.max(f64::MIN_POSITIVE);
     }
     // Still less than nothing where a ring was smoothed to less than its cloth: neighbouring levels make up for it.
-    let slack = (perimeter - level.length + taken) / present.len().max(1) as f64;
-    present.iter().for_each(|&i| level.gaps[i] += slack);
+    let lapped = |i: usize| row.laps.iter().any(|lap| lap.joint == i);
+    let loose: Vec<usize> = present.iter().copied().filter(|&i| !lapped(i)).collect();
+    let slack = (perimeter - level.length + taken) / loose.len().max(1) as f64;
+    loose.iter().for_each(|&i| level.gaps[i] += slack);
     let mut starts = vec![0.0; row.members.len()];
     let mut at = 0.0;
     for &i in &present {
@@ -299,6 +307,7 @@ mod tests {
             part: PartKind::Torso,
             members,
             inserts: Vec::new(),
+            laps: Vec::new(),
             front: Some(Middle::On(0.05)),
             v: [0.0, 0.0],
             layer: 0,

@@ -21,6 +21,7 @@ mod flare;
 mod flute;
 mod fold;
 mod insert;
+mod lap;
 mod lay;
 mod levels;
 mod pleat;

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::ellipse::Ellipse;
 use super::fold::Sheet;
+use super::lap::Lap;
 use super::levels::{LEVEL, Level, complete_shifts, nearest_level, smooth_shifts, smoothed, spread_out};
 use super::rows::{Link, Member, Row, has_shoulders};
 use super::shoulders::Lean;
@@ -72,13 +73,25 @@ impl Ring<'_> {
         for (i, m, insert) in self.row.members.iter().enumerate().map(|(i, m)| (i, m, None)).chain(inserts) {
             for p in self.mesh.pieces[m.piece].particles.clone() {
                 let (at, under) = (self.sheet.flat[p] + m.shift, self.sheet.under[p]);
+                let lifted = if insert.is_none() { self.lifted(i, at) } else { 0.0 };
                 let upright = match insert {
-                    None => on_ring(i, at, self.sheet.out[p], under),
+                    None => on_ring(i, at, self.sheet.out[p] + lifted, under),
                     Some(insert) => insert.start(at, |at, off| on_ring(i, at, off, under)),
                 };
-                x[p] = self.leans.get(i).map_or(upright, |lean| lean.over(upright, at.y));
+                x[p] = self.leans.get(i).map_or(upright, |lean| lean.over(upright, at.y, lifted));
             }
         }
+    }
+
+    /// How far off the ring member `i` is at a row position, over one that it is buttoned to.
+    fn lifted(&self, i: usize, at: Vec2) -> f64 {
+        let level = &self.levels[nearest_level(self.row, self.levels.len(), at.y)];
+        let off = |lap: &Lap| {
+            let next = (lap.joint + 1) % self.row.members.len();
+            let [Some(own), Some(next)] = [lap.joint, next].map(|k| level.spans[k]) else { return 0.0 };
+            lap.off(i, at.x, [own, next])
+        };
+        self.row.laps.iter().map(off).fold(0.0, f64::max)
     }
 
     /// Whether the row is one piece that is sewn to others, and its ends not to each other.

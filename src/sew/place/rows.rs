@@ -3,6 +3,7 @@
 use super::assign::{Assigned, Facing};
 use super::fold::Sheet;
 use super::insert::{Insert, inserts, slit};
+use super::lap::{Lap, laps};
 use super::lay::{self, Laid};
 use crate::geometry::{Vec2, box_of, range_of};
 use crate::mannequin::PartKind;
@@ -60,6 +61,8 @@ pub(super) struct Row {
     pub(super) members: Vec<Member>,
     /// Godets and the like, which lie in a slit of a member.
     pub(super) inserts: Vec<Insert>,
+    /// Where closures hold members one over the other.
+    pub(super) laps: Vec<Lap>,
     /// Where the front middle is, if the row knows.
     pub(super) front: Option<Middle>,
     /// Lowest and highest v.
@@ -116,8 +119,9 @@ pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned:
             row_of[to] = index;
             members.push(Member { piece: to, shift: base + shift });
         }
-        let mut row = finish_row(mesh, sheet, assigned, &links, layer, members);
+        let mut row = finish_row(mesh, sheet, assigned, layer, members);
         row.inserts = inserts(mesh, sheet, &links, &row.members, &slits);
+        row.laps = laps(&garment.closures, mesh, sheet, &row.members);
         row.inserts.iter().for_each(|insert| row_of[insert.own.piece] = index);
         rows.push(row);
     }
@@ -191,23 +195,14 @@ pub(super) fn extent(mesh: &ClothMesh, sheet: &Sheet, piece: usize) -> [Vec2; 2]
 }
 
 /// A row of these members, put in order, without inserts.
-fn finish_row(
-    mesh: &ClothMesh,
-    sheet: &Sheet,
-    assigned: &[Assigned],
-    links: &[Link],
-    layer: i32,
-    mut members: Vec<Member>,
-) -> Row {
+fn finish_row(mesh: &ClothMesh, sheet: &Sheet, assigned: &[Assigned], layer: i32, mut members: Vec<Member>) -> Row {
     let part = assigned[members[0].piece].part;
-    let boxes: Vec<[Vec2; 2]> =
-        members.iter().map(|m| extent(mesh, sheet, m.piece).map(|corner| corner + m.shift)).collect();
+    let size = |m: &Member| extent(mesh, sheet, m.piece).map(|corner| corner + m.shift);
+    members.sort_by(|a, b| center(&size(a)).total_cmp(&center(&size(b))));
+    let boxes: Vec<[Vec2; 2]> = members.iter().map(size).collect();
     let v = range_of(boxes.iter().flatten().map(|corner| corner.y));
-    let front = front_middle(assigned, &members, &boxes, links, sheet);
-    let mut order: Vec<usize> = (0..members.len()).collect();
-    order.sort_by(|&a, &b| center(&boxes[a]).total_cmp(&center(&boxes[b])));
-    members = order.into_iter().map(|i| members[i]).collect();
-    Row { part, layer, members, inserts: Vec::new(), front, v }
+    let front = front_middle(assigned, &members, &boxes);
+    Row { part, layer, members, inserts: Vec::new(), laps: Vec::new(), front, v }
 }
 
 /// u of the middle of a box.
@@ -215,57 +210,28 @@ fn center([low, high]: &[Vec2; 2]) -> f64 {
     0.5 * (low.x + high.x)
 }
 
-/// The front middle: the middle front piece, or the seam between the two in the middle; failing that, opposite the
-/// back's.
-fn front_middle(
-    assigned: &[Assigned],
-    members: &[Member],
-    boxes: &[[Vec2; 2]],
-    links: &[Link],
-    sheet: &Sheet,
-) -> Option<Middle> {
-    let facing = |facing| move |&i: &usize| assigned[members[i].piece].facing == Some(facing);
-    let center = |i: usize| center(&boxes[i]);
-    let fronts: Vec<usize> = (0..members.len()).filter(facing(Facing::Front)).collect();
-    let chain = in_order(&fronts, members, links, sheet, &center);
-    match (&chain[..], chain.len() % 2) {
-        ([], _) => {}
-        (chain, 1) => return Some(Middle::On(center(chain[chain.len() / 2]))),
-        (chain, _) => return Some(Middle::LeftOf(members[chain[chain.len() / 2]].piece)),
-    }
+/// The front middle: the middle one of the front pieces, or where the two in the middle meet, sewn or open; failing that,
+/// opposite the back's. The members stand side by side, and the last beside the first.
+fn front_middle(assigned: &[Assigned], members: &[Member], boxes: &[[Vec2; 2]]) -> Option<Middle> {
+    let is = |facing: Facing| move |&i: &usize| assigned[members[i].piece].facing == Some(facing);
+    let fronts: Vec<usize> = (0..members.len()).filter(is(Facing::Front)).collect();
     let reach = |these: &[usize]| range_of(these.iter().flat_map(|&i| boxes[i]).map(|corner| corner.x));
     let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
-    if !fronts.is_empty() {
-        return Some(Middle::On(middle(reach(&fronts))));
+    let n = members.len();
+    let is_front = |i: usize| fronts.contains(&(i % n));
+    // The fronts from right to left of the wearer, if nothing stands between them.
+    let first = fronts.iter().copied().find(|&i| !is_front(i + n - 1) || fronts.len() == n);
+    let run = first.map(|first| (first..first + fronts.len()).filter(|&i| is_front(i)).collect::<Vec<usize>>());
+    match run.filter(|run| run.len() == fronts.len()) {
+        Some(run) if run.len() % 2 == 1 => return Some(Middle::On(center(&boxes[run[run.len() / 2] % n]))),
+        Some(run) => return Some(Middle::LeftOf(members[run[run.len() / 2] % n].piece)),
+        None if !fronts.is_empty() => return Some(Middle::On(middle(reach(&fronts)))),
+        None => {}
     }
-    let backs: Vec<usize> = (0..members.len()).filter(facing(Facing::Back)).collect();
-    let all: Vec<usize> = (0..members.len()).collect();
+    let backs: Vec<usize> = (0..n).filter(is(Facing::Back)).collect();
+    let all: Vec<usize> = (0..n).collect();
     let [low, high] = reach(&all);
     (!backs.is_empty()).then(|| Middle::On(middle(reach(&backs)) - 0.5 * (high - low)))
-}
-
-/// These members from right to left of the wearer, each sewn to the next; empty if they are not one such chain.
-fn in_order(
-    these: &[usize],
-    members: &[Member],
-    links: &[Link],
-    sheet: &Sheet,
-    center: &impl Fn(usize) -> f64,
-) -> Vec<usize> {
-    let side = |i: usize, link: &Link, k: usize| stitched(link, sheet, k).x + members[i].shift.x - center(i);
-    let follows = |i: usize, j: usize| {
-        links.iter().filter(|l| l.upright).any(|l| {
-            let k = (0..2).find(|&k| l.pieces[k] == members[i].piece && l.pieces[1 - k] == members[j].piece);
-            k.is_some_and(|k| side(i, l, k) > 0.0 && side(j, l, 1 - k) < 0.0)
-        })
-    };
-    let first = these.iter().copied().find(|&j| !these.iter().any(|&i| i != j && follows(i, j)));
-    let mut chain: Vec<usize> = first.into_iter().collect();
-    while let Some(&last) = chain.last() {
-        let Some(next) = these.iter().copied().find(|j| !chain.contains(j) && follows(last, *j)) else { break };
-        chain.push(next);
-    }
-    if chain.len() == these.len() { chain } else { Vec::new() }
 }
 
 /// Seams cut into links between pairs of pieces.

@@ -88,8 +88,9 @@ impl Lean<'_> {
         height - self.course(height)[0]
     }
 
-    /// Where the point of height v goes that was at `p` on the upright ring: in towards the middle, but off the body.
-    pub(super) fn over(&self, p: Vec3, v: f64) -> Vec3 {
+    /// Where the point of height v goes that was at `p` on the upright ring, `off` metres off it: in towards the middle,
+    /// but as much further off the body.
+    pub(super) fn over(&self, p: Vec3, v: f64, off: f64) -> Vec3 {
         let height = (self.from - v).max(0.0);
         if height == 0.0 && self.furthest == 0.0 {
             return p;
@@ -102,7 +103,7 @@ impl Lean<'_> {
         let leaning = tries.map(|share| share * depth);
         let away = (1..=(self.furthest / AWAY) as usize).map(|k| upright * depth + depth.signum() * AWAY * k as f64);
         let mut places = leaning.chain(away).map(|depth| Vec3::new(p.x, y, self.middle + depth));
-        let clear = |at: &Vec3| self.body.nearest(*at, DEEPEST).is_none_or(|n| n.distance >= self.clear);
+        let clear = |at: &Vec3| self.body.nearest(*at, DEEPEST).is_none_or(|n| n.distance >= self.clear + off);
         places.find(clear).unwrap_or(Vec3::new(p.x, y, p.z))
     }
 }
