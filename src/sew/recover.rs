@@ -19,6 +19,8 @@ const SHARE: f64 = 0.25;
 /// A piece is moved by so much at a time, at most so often, metres.
 const STEP: f64 = 4e-3;
 const STEPS: usize = 25;
+/// What lies less deep, metres, may come out anywhere: sleeves touch the trunk under the arm, which is no hollow.
+const SHALLOW: f64 = 4e-3;
 /// A way out of the body ends in a hollow if it meets the body again within this, metres: a mouth is no wider.
 const HOLLOW: f64 = 0.08;
 /// The surface itself is not in its own way, metres.
@@ -64,10 +66,10 @@ pub(super) fn lead_out(cut: &Cut, body: &Collider, start: &mut [Vec3]) -> Result
     Ok(())
 }
 
-/// Whether the nearest way out of the body for a point in it ends in a hollow: what is behind the skin there is the body
+/// Whether the nearest way out of the body for a point well in it ends in a hollow: what is behind the skin there is the body
 /// again. Its neighbours may well be nearest to the other side of a chin.
 fn is_hidden(body: &Collider, p: Vec3) -> bool {
-    let out = body.nearest(p, LOOK).filter(|out| out.distance < 0.0);
+    let out = body.nearest(p, LOOK).filter(|out| out.distance < -SHALLOW);
     out.is_some_and(|out| body.is_in_the_way(out.point + out.normal * OFF_SKIN, out.point + out.normal * HOLLOW))
 }
 
