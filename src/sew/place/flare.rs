@@ -40,6 +40,12 @@ const BEYOND: f64 = 0.02;
 const DOWN: f64 = 0.5;
 /// Cloth that opens to more than this share of a full circle lies in waves: a cone would be flatter than cloth hangs.
 const WAVY: f64 = 0.65;
+/// A piece of another layer that has at least this share of a sector's triangles may lie all over it.
+const COVER: f64 = 0.5;
+/// Between these shares of its way from the smallest to the largest radius a seam is neither at a sector's waist nor at
+/// its hem.
+const WAIST: f64 = 0.3;
+const HEM: f64 = 0.7;
 /// The cone such cloth lies on widens by this share of its side, or by more if the waves would be too steep.
 const CONE: f64 = 0.6;
 /// A cone never widens by more than this share of its side.
@@ -79,17 +85,30 @@ pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &mut Sheet) {
         })
         .collect();
     let openings = openings(mesh, &sectors);
-    // Waves of one layer would stand in the next.
-    let layered = garment.pieces.windows(2).any(|pair| pair[0].layer != pair[1].layer);
     for (i, part) in mesh.pieces.iter().enumerate() {
         let Some(sector) = sectors[i] else { continue };
-        let cone = Cone::new(&sector, openings[i], layered);
+        let cone = Cone::new(&sector, openings[i], is_free(garment, mesh, i, &sector));
         for p in part.particles.clone() {
             let (r, angle) = sector.polar(mesh.flat[p]);
             sheet.straight[p] = Vec2::new(sector.radii[0] * angle, r);
             (sheet.flat[p], sheet.out[p]) = cone.lay(r, angle);
         }
     }
+}
+
+/// Whether nothing is in the way of a sector's waves: no piece of a size with it lies over it, which they would stand in,
+/// and nothing is sewn into it between waist and hem, which would start off them.
+fn is_free(garment: &Garment, mesh: &ClothMesh, i: usize, sector: &Sector) -> bool {
+    let size = |piece: usize| mesh.pieces[piece].triangles.len() as f64;
+    let covered = |other: usize| garment.pieces[other].layer > garment.pieces[i].layer && size(other) > COVER * size(i);
+    let [inner, outer] = sector.radii;
+    let within = |p: u32| {
+        let (r, angle) = sector.polar(mesh.flat[p as usize]);
+        let share = (r - inner) / (outer - inner);
+        mesh.piece_of(p) == Some(i) && angle.abs() < sector.half - BEYOND && (WAIST..HEM).contains(&share)
+    };
+    !(0..mesh.pieces.len()).any(covered)
+        && !mesh.seams.iter().flat_map(|s| s.pairs.iter().flatten()).any(|p| within(*p))
 }
 
 /// The cone that a sector becomes.
@@ -106,9 +125,10 @@ struct Cone {
 }
 
 impl Cone {
-    fn new(sector: &Sector, opening: f64, layered: bool) -> Self {
+    /// Of a sector that is `free` to lie in waves.
+    fn new(sector: &Sector, opening: f64, free: bool) -> Self {
         let turns = opening / TAU;
-        let wavy = turns > WAVY && !layered;
+        let wavy = turns > WAVY && free;
         let slope = if wavy { CONE.max(flute::shortest() * turns) } else { turns };
         let slope = slope.min(FLATTEST);
         let (half, inner) = (sector.half, sector.radii[0]);

@@ -144,6 +144,25 @@ pub(super) fn slit(
     (common > -IN_SLIT * spread).then_some((host, means[1] - means[0]))
 }
 
+/// Pieces in slits with their hosts. A piece that is sewn to nothing but its godet could as well lie in that: the smaller
+/// of the two is the godet. What lies in a godet stands beside it instead.
+pub(super) fn hosted(
+    mut slits: Vec<Option<(usize, Vec2)>>,
+    area: impl Fn(usize) -> usize,
+) -> Vec<Option<(usize, Vec2)>> {
+    let host = |slits: &[Option<(usize, Vec2)>], p: usize| slits[p].map(|slit| slit.0);
+    for p in 0..slits.len() {
+        if let Some(other) = host(&slits, p)
+            && host(&slits, other) == Some(p)
+        {
+            slits[if area(p) < area(other) { other } else { p }] = None;
+        }
+    }
+    let hosts = slits.clone();
+    slits.iter_mut().for_each(|slit| *slit = slit.filter(|s| hosts[s.0].is_none()));
+    slits
+}
+
 /// Whether links run down one side of a piece and up the other: one that turns, or one on either side.
 fn goes_round(own: &[&Link], sheet: &Sheet, side: impl Fn(&Link) -> usize) -> bool {
     let at = |l: &Link, n: usize| sheet.flat[l.pairs[n][side(l)] as usize];
@@ -238,5 +257,17 @@ mod tests {
     fn a_fin_needs_two_sides() {
         let one_side = [0.1, 0.2].map(|v| [Vec2::new(0.0, v), Vec2::new(0.0, v)]);
         assert!(Fin::new(&one_side).is_none());
+    }
+    #[test]
+    fn of_two_that_could_lie_in_each_other_the_smaller_one_does() {
+        let area = |p: usize| [900, 90, 10][p];
+        let in_slit = |host: usize| Some((host, Vec2::zeros()));
+        let kept = |slits: Vec<Option<(usize, Vec2)>>| {
+            hosted(slits, area).iter().map(|s| s.map(|s| s.0)).collect::<Vec<Option<usize>>>()
+        };
+        assert_eq!(kept(vec![in_slit(1), in_slit(0), None]), [None, Some(0), None]);
+        assert_eq!(kept(vec![None, in_slit(0), in_slit(0)]), [None, Some(0), Some(0)]);
+        // A godet in a godet stands beside it.
+        assert_eq!(kept(vec![None, in_slit(0), in_slit(1)]), [None, Some(0), None]);
     }
 }

@@ -8,11 +8,13 @@ use crate::geometry::{Vec2, range_of};
 use crate::mesh::ClothMesh;
 use crate::pattern::Closure;
 
+/// Two members lap by no more than this share of the narrower one.
+const WIDEST: f64 = 0.8;
 /// What lies over comes down to the ring again over this length, metres.
 const RAMP: f64 = 0.03;
 
 /// Two neighbours of a row, one over the other.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Lap {
     /// Number of the first of the two in its row; the other one is next, or the row's first after its last.
     pub(super) joint: usize,
@@ -24,15 +26,14 @@ pub(super) struct Lap {
     pub(super) v: [f64; 2],
 }
 
-/// The laps of a row of these members: what a closure is on lies under what it meets, as a button under its hole.
+/// The laps of a row of these members, one for a joint: what a closure is on lies under what it meets, as a button under its hole.
 pub(super) fn laps(closures: &[Closure], mesh: &ClothMesh, sheet: &Sheet, members: &[Member]) -> Vec<Lap> {
     let n = members.len();
     let mut all: Vec<(usize, usize, Vec<[Vec2; 2]>)> = Vec::new();
     for tack in closures.iter().flat_map(|c| &c.tacks) {
         let [Some(on), Some(meets)] = tack.map(|end| held(mesh, sheet, members, end)) else { continue };
         for (a, b) in [(on, meets), (meets, on)] {
-            // The left of the one meets the right of the other.
-            if n > 1 && b.member == (a.member + 1) % n && a.share > 0.5 && b.share < 0.5 {
+            if n > 1 && b.member == (a.member + 1) % n && meet(a, b) {
                 match all.iter_mut().find(|lap| (lap.0, lap.1) == (a.member, meets.member)) {
                     Some(lap) => lap.2.push([a.at, b.at]),
                     None => all.push((a.member, meets.member, vec![[a.at, b.at]])),
@@ -40,6 +41,9 @@ pub(super) fn laps(closures: &[Closure], mesh: &ClothMesh, sheet: &Sheet, member
             }
         }
     }
+    // An inner button may hold the other way: most points say which one is outside, and of as many the first.
+    all.sort_by_key(|lap| (lap.0, std::cmp::Reverse(lap.2.len())));
+    all.dedup_by_key(|lap| lap.0);
     let lap = |(joint, over, ends): (usize, usize, Vec<[Vec2; 2]>)| {
         let mean = |k: usize| ends.iter().map(|end| end[k].x).sum::<f64>() / ends.len() as f64;
         Lap { joint, over, at: [mean(0), mean(1)], v: range_of(ends.iter().flatten().map(|end| end.y)) }
@@ -53,15 +57,23 @@ struct Held {
     member: usize,
     /// In row positions.
     at: Vec2,
-    /// 0 at the member's right side seen from the wearer, 1 at its left.
-    share: f64,
+    /// Lowest and highest u of the member.
+    ends: [f64; 2],
+}
+
+/// Whether a tack holds the left end of one member over the right end of the other: it is nearer to these than to their
+/// other ends, and they lap by less than either is wide.
+fn meet(a: Held, b: Held) -> bool {
+    let lap = |a: Held, b: Held| (a.ends[1] - a.at.x) + (b.at.x - b.ends[0]);
+    let width = |held: Held| held.ends[1] - held.ends[0];
+    lap(a, b) < lap(b, a) && lap(a, b) < WIDEST * width(a).min(width(b))
 }
 
 fn held(mesh: &ClothMesh, sheet: &Sheet, members: &[Member], (piece, at): (usize, Vec2)) -> Option<Held> {
     let member = members.iter().position(|m| m.piece == piece)?;
     let at = sheet.flat[mesh.nearest(piece, at)?];
-    let [low, high] = extent(mesh, sheet, piece).map(|corner| corner.x);
-    Some(Held { member, at: at + members[member].shift, share: (at.x - low) / (high - low) })
+    let shift = members[member].shift;
+    Some(Held { member, at: at + shift, ends: extent(mesh, sheet, piece).map(|corner| corner.x + shift.x) })
 }
 
 impl Lap {
@@ -97,5 +109,19 @@ mod tests {
         assert_relative_eq!(off(0.055), 0.5 * LAYER, epsilon = 1e-12);
         assert_relative_eq!(off(0.07), 0.0, epsilon = 1e-12);
         assert_relative_eq!(lap.off(3, 1.0, spans), 0.0);
+    }
+    #[test]
+    fn a_tie_holds_the_ends_that_it_laps_by_less() {
+        let held = |member: usize, u: f64, ends: [f64; 2]| Held { member, at: Vec2::new(u, 0.0), ends };
+        // A wrap: either end is tied near the other's middle.
+        let (right, left) = ([0.0, 0.45], [0.45, 0.9]);
+        for (a, b) in [(0.2, 0.46), (0.44, 0.7)] {
+            let [a, b] = [held(0, a, right), held(1, b, left)];
+            assert!(meet(a, b) && !meet(b, a));
+        }
+        // A button at the end of either.
+        assert!(meet(held(0, 0.43, right), held(1, 0.47, left)));
+        // Tied all the way across, neither laps.
+        assert!(!meet(held(0, 0.02, right), held(1, 0.8, left)));
     }
 }

@@ -192,7 +192,10 @@ pub(super) fn spread_out(row: &Row, level: &mut Level, perimeter: f64) {
     }
     // Still less than nothing where a ring was smoothed to less than its cloth: neighbouring levels make up for it.
     let lapped = |i: usize| row.laps.iter().any(|lap| lap.joint == i);
-    let loose: Vec<usize> = present.iter().copied().filter(|&i| !lapped(i)).collect();
+    let mut loose: Vec<usize> = present.iter().copied().filter(|&i| !lapped(i)).collect();
+    if loose.is_empty() {
+        loose.clone_from(&present);
+    }
     let slack = (perimeter - level.length + taken) / loose.len().max(1) as f64;
     loose.iter().for_each(|&i| level.gaps[i] += slack);
     let mut starts = vec![0.0; row.members.len()];

@@ -2,7 +2,7 @@
 
 use super::assign::{Assigned, Facing};
 use super::fold::Sheet;
-use super::insert::{Insert, inserts, slit};
+use super::insert::{Insert, hosted, inserts, slit};
 use super::lap::{Lap, laps};
 use super::lay::{self, Laid};
 use crate::geometry::{Vec2, box_of, range_of};
@@ -69,6 +69,17 @@ pub(super) struct Row {
     pub(super) v: [f64; 2],
 }
 
+impl Row {
+    /// Moves all of it down.
+    fn lower(&mut self, dv: f64) {
+        self.v = self.v.map(|v| v + dv);
+        for m in self.members.iter_mut().chain(self.inserts.iter_mut().map(|i| &mut i.own)) {
+            m.shift.y += dv;
+        }
+        self.laps.iter_mut().for_each(|lap| lap.v = lap.v.map(|v| v + dv));
+    }
+}
+
 /// All rows of a garment.
 pub(super) struct Rows {
     pub(super) rows: Vec<Row>,
@@ -90,6 +101,7 @@ pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned:
     let slits: Vec<Option<(usize, Vec2)>> = (0..mesh.pieces.len())
         .map(|p| slit(&links, sheet, assigned, garment, p).filter(|s| !elsewhere[p] && !elsewhere[s.0]))
         .collect();
+    let slits = hosted(slits, area);
     let mut row_of = vec![usize::MAX; mesh.pieces.len()];
     let mut rows: Vec<Row> = Vec::new();
     // Larger pieces first, those that face front before the others: a row's first piece fixes its middle.
@@ -210,25 +222,28 @@ fn center([low, high]: &[Vec2; 2]) -> f64 {
     0.5 * (low.x + high.x)
 }
 
-/// The front middle: the middle one of the front pieces, or where the two in the middle meet, sewn or open; failing that,
-/// opposite the back's. The members stand side by side, and the last beside the first.
+/// The front middle: the middle one of the front pieces and what stands between them, or where the two in the middle meet,
+/// sewn or open; failing that, opposite the back's. The members stand side by side, and the last beside the first.
 fn front_middle(assigned: &[Assigned], members: &[Member], boxes: &[[Vec2; 2]]) -> Option<Middle> {
     let is = |facing: Facing| move |&i: &usize| assigned[members[i].piece].facing == Some(facing);
     let fronts: Vec<usize> = (0..members.len()).filter(is(Facing::Front)).collect();
+    let n = members.len();
+    let backs: Vec<usize> = (0..n).filter(is(Facing::Back)).collect();
+    // From right to left of the wearer: from the first front after the most that is back to the last one before it.
+    let turned = |i: usize, from: usize| (i + n - from) % n;
+    let behind = |k: usize| {
+        let (last, next) = (fronts[k], fronts[(k + 1) % fronts.len()]);
+        let between = (turned(next, last) + n - 1) % n;
+        (backs.iter().filter(|&&i| (1..=between).contains(&turned(i, last))).count(), between)
+    };
+    if let Some(k) = (0..fronts.len()).max_by_key(|&k| behind(k)) {
+        let (last, first) = (fronts[k], fronts[(k + 1) % fronts.len()]);
+        let count = turned(last, first) + 1;
+        let at = (first + count / 2) % n;
+        return Some(if count % 2 == 1 { Middle::On(center(&boxes[at])) } else { Middle::LeftOf(members[at].piece) });
+    }
     let reach = |these: &[usize]| range_of(these.iter().flat_map(|&i| boxes[i]).map(|corner| corner.x));
     let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
-    let n = members.len();
-    let is_front = |i: usize| fronts.contains(&(i % n));
-    // The fronts from right to left of the wearer, if nothing stands between them.
-    let first = fronts.iter().copied().find(|&i| !is_front(i + n - 1) || fronts.len() == n);
-    let run = first.map(|first| (first..first + fronts.len()).filter(|&i| is_front(i)).collect::<Vec<usize>>());
-    match run.filter(|run| run.len() == fronts.len()) {
-        Some(run) if run.len() % 2 == 1 => return Some(Middle::On(center(&boxes[run[run.len() / 2] % n]))),
-        Some(run) => return Some(Middle::LeftOf(members[run[run.len() / 2] % n].piece)),
-        None if !fronts.is_empty() => return Some(Middle::On(middle(reach(&fronts)))),
-        None => {}
-    }
-    let backs: Vec<usize> = (0..n).filter(is(Facing::Back)).collect();
     let all: Vec<usize> = (0..n).collect();
     let [low, high] = reach(&all);
     (!backs.is_empty()).then(|| Middle::On(middle(reach(&backs)) - 0.5 * (high - low)))
@@ -375,9 +390,63 @@ fn put_beside(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet,
     } else {
         of_at[1] + ROOM - of_other[0]
     };
-    let row = &mut rows[other];
-    row.v = row.v.map(|v| v + dv);
-    for m in row.members.iter_mut().chain(row.inserts.iter_mut().map(|i| &mut i.own)) {
-        m.shift.y += dv;
+    rows[other].lower(dv);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Members side by side, 0.2 m each: `f` faces front, `b` back, `-` says nothing.
+    fn middle(facing: &str) -> Option<Middle> {
+        let said = |c: char| match c {
+            'f' => Some(Facing::Front),
+            'b' => Some(Facing::Back),
+            _ => None,
+        };
+        let assigned: Vec<Assigned> =
+            facing.chars().map(|c| Assigned { part: PartKind::Torso, facing: said(c) }).collect();
+        let members: Vec<Member> = (0..assigned.len()).map(|piece| Member { piece, shift: Vec2::zeros() }).collect();
+        let boxes: Vec<[Vec2; 2]> =
+            (0..assigned.len()).map(|k| [0.2 * k as f64, 0.2 * (k + 1) as f64].map(|u| Vec2::new(u, 0.0))).collect();
+        front_middle(&assigned, &members, &boxes)
+    }
+
+    fn on(member: usize) -> Option<Middle> {
+        let [low, high] = [0.2 * member as f64, 0.2 * (member + 1) as f64];
+        Some(Middle::On(0.5 * (low + high)))
+    }
+
+    #[test]
+    fn the_front_middle_is_among_the_fronts_wherever_the_row_begins() {
+        assert_eq!(middle("fb"), on(0));
+        assert_eq!(middle("ffb"), Some(Middle::LeftOf(1)));
+        assert_eq!(middle("fffb"), on(1));
+        // Open in front: round the ring the first stands beside the last.
+        assert_eq!(middle("fbf"), Some(Middle::LeftOf(0)));
+        assert_eq!(middle("f-b-f"), Some(Middle::LeftOf(0)));
+        // Godets between panels are on the side that their neighbours are on.
+        assert_eq!(middle("f-f-f-b-b-b-"), on(2));
+        assert_eq!(middle("b-f-f-f-b-b-"), on(4));
+        assert_eq!(middle("f-b-b-b-f-f-"), on(10));
+        assert_eq!(middle("ff"), Some(Middle::LeftOf(1)));
+        assert_eq!(middle("--"), None);
+        assert!(middle("b-").is_some());
+    }
+
+    #[test]
+    fn a_row_is_moved_with_all_that_is_in_it() {
+        let members = vec![Member { piece: 0, shift: Vec2::zeros() }];
+        let mut row = Row {
+            part: PartKind::Torso,
+            layer: 0,
+            members,
+            inserts: Vec::new(),
+            laps: vec![Lap::default()],
+            front: None,
+            v: [0.0, 1.0],
+        };
+        row.lower(0.5);
+        assert_eq!((row.v, row.members[0].shift.y, row.laps[0].v), ([0.5, 1.5], 0.5, [0.5, 0.5]));
     }
 }
