@@ -15,7 +15,7 @@ use crate::geometry::bisect;
 /// A full circle of cloth lies in so many waves: skirts of cotton hang in seven to ten.
 const WAVES: f64 = 8.0;
 /// The largest angle, radians, between the meandering cloth and the cone: it touches itself from 2.2 on.
-const STEEPEST: f64 = 1.6;
+const STEEPEST: f64 = 1.8;
 /// A crest rises over the cone by no more than this share of its way down the skirt: the share of what the cone itself
 /// widens, so that valleys do not run back to the axis.
 const RISE: f64 = 0.85;
