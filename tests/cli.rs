@@ -587,6 +587,9 @@ fn what_is_no_disk_is_cut_where_asked_or_where_it_must_be() {
     assert_eq!(flat.lines().filter(|l| l.starts_with("vt ")).count(), 25 * 7);
     room.run(&["flatten", "seam.obj", "--no-texture-seams", "-o", "no"]).ends(2).says(&["2 rims"]);
     room.run(&["flatten", "tube.obj", "--cut", "1,999", "-o", "no"]).ends(2).says(&["999", "1 to 168"]);
+    room.run(&["flatten", "tube.obj", "--cut", "5,5", "-o", "no"])
+        .ends(2)
+        .says(&["vertex 5 follows itself", "another"]);
     room.run(&["flatten", "tube.obj", "--cut", "1;2", "-o", "no"]).ends(2).says(&["--cut 1;2"]);
     assert!(room.names("no").is_empty());
 }

@@ -397,6 +397,17 @@ fn pdf_pages_have_the_paper_s_size_and_a_square_of_100_mm() {
 }
 
 #[test]
+fn a_row_that_both_of_a_pair_carry_is_drilled_once() {
+    let lines = "    cut: pair
+    outline: {start: 0 0, top: L 100 0, side: L 100 200, hem: L 0 200, edge: L 0 0}
+closures:
+- {kind: button, piece: front.L, at: [10, 180], meets: front.R, pitch: 50, count: 3}
+";
+    let drills = paper_of(lines).drills;
+    assert_eq!(drills.len(), 3, "{drills:?}");
+}
+
+#[test]
 fn elastic_is_labelled_beside_its_line() {
     let paper = paper_of(
         "    outline: {start: 0 0, top: L 300 0, right: L 300 200, hem: L 0 200, left: L 0 0}\n\

@@ -386,6 +386,35 @@ fn what_a_drawing_shows_besides_is_said() {
 }
 
 #[test]
+fn of_a_switch_one_alternative_is_read() {
+    let read = |inner: &str| {
+        let open = "<svg xmlns='http://www.w3.org/2000/svg' width='400mm' height='400mm' viewBox='0 0 400 400'>";
+        let drawing = read_svg_text(&format!("{open}<switch>{inner}</switch></svg>")).expect("pieces");
+        (drawing.pieces.into_iter().map(|p| p.name).collect::<Vec<_>>(), drawing.left_out)
+    };
+    let nothing = Vec::<String>::new();
+    let piece = |name: &str, more: &str| format!("<g {more}><rect id='{name}' width='100' height='100'/></g>");
+    let (german, other) = (piece("passe", "systemLanguage='de'"), piece("yoke", ""));
+    assert_eq!(read(&format!("<title>a</title>{german}{other}")), (vec!["yoke".to_owned()], nothing.clone()));
+    assert_eq!(read(&german), (vec!["passe".to_owned()], nothing.clone()));
+    // As Illustrator writes it.
+    let foreign = "<foreignObject requiredExtensions='http://ns.adobe.com/AdobeIllustrator/10.0/'/>";
+    assert_eq!(read(&format!("{foreign}{other}")), (vec!["yoke".to_owned()], nothing));
+}
+
+#[test]
+fn what_is_read_or_draws_nothing_is_not_left_out() {
+    let text = "<svg xmlns='http://www.w3.org/2000/svg' width='400mm' height='400mm' viewBox='0 0 400 400'>\n\
+                <defs style='display:none'><path d='M 0 0 L 9 9'/></defs><g display='none'><title>a</title></g>\n\
+                <rect id='yoke' width='100' height='100'/><text x='40' y='60'>cut 2</text>{}</svg>";
+    let left_out = |more: &str| read_svg_text(&text.replace("{}", more)).expect("pieces").left_out;
+    assert_eq!(left_out(""), Vec::<String>::new());
+    // Beside the piece, or where another has said it.
+    let said = left_out("\n<text x='200' y='60'>cut 2</text><text x='40' y='80'>cut 4</text>");
+    assert!(said.len() == 1 && said[0].contains("2 texts, the first in line 4"), "{said:?}");
+}
+
+#[test]
 fn an_exported_dxf_is_read_back() {
     let (drawings, papers) = sample();
     let made = garment_file("sample", &read_dxf_text(&cutting_dxf("Sample", &papers), None).expect("pieces"));

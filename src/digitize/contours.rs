@@ -80,8 +80,9 @@ pub fn pieces(strokes: &[Stroke], remarks: &[Remark]) -> Vec<Traced> {
         .iter()
         .map(|&o| {
             let inner: Vec<&Contour> = (0..contours.len()).filter(|&i| within(i, o)).map(|i| &contours[i]).collect();
-            let own = remarks.iter().filter(|r| contours[o].holds(r.at));
-            Traced { cut_how: own.clone().find_map(|r| cut_how(&r.text)), ..piece(&contours[o], &inner, &rest) }
+            let mut own = remarks.iter().enumerate().filter(|(_, r)| contours[o].holds(r.at));
+            let (said_by, cut_how) = own.find_map(|(i, r)| Some((i, cut_how(&r.text)?))).unzip();
+            Traced { cut_how, said_by, ..piece(&contours[o], &inner, &rest) }
         })
         .collect()
 }

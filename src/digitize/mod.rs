@@ -97,6 +97,8 @@ pub struct Traced {
     pub mirror: Option<[Vec2; 2]>,
     /// How it is cut, if said.
     pub cut_how: Option<Cut>,
+    /// Which of the drawing's remarks says so.
+    pub said_by: Option<usize>,
     /// Which of a pair is drawn, if said.
     pub drawn: Option<Side>,
     /// Its material.

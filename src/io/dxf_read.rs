@@ -294,6 +294,7 @@ impl<'a> Block<'a> {
             notches: at(&is_notch),
             mirror,
             cut_how: self.text("quantity:").and_then(quantity),
+            said_by: None,
             drawn: None,
             fabric: self.text("material:").map(str::to_owned),
         })

@@ -20,7 +20,7 @@ pub(super) fn closures(file: &GarmentFile, drafts: &[Draft], cut: &Pieces, findi
 /// Where closures go on a drawn piece: their kind, and the point in the drawing.
 pub(super) fn drawn_points(file: &GarmentFile, drawn: &Draft) -> Vec<(String, Vec2)> {
     let unit = file.unit();
-    let mut points = Vec::new();
+    let mut points: Vec<(String, Vec2)> = Vec::new();
     for closure in &file.closures {
         let across = if closure.meets_at.is_empty() { &closure.at } else { &closure.meets_at };
         for (carrier, at) in [(&closure.on, &closure.at), (&closure.meets, across)] {
@@ -29,12 +29,16 @@ pub(super) fn drawn_points(file: &GarmentFile, drawn: &Draft) -> Vec<(String, Ve
             }
             for first in at {
                 let first = Vec2::from(first.value) * unit.factor();
-                points.extend(repeated(closure, first, drawn.warp, unit).map(|p| (closure.kind.value.clone(), p)));
+                for p in repeated(closure, first, drawn.warp, unit) {
+                    let point = (closure.kind.value.clone(), p);
+                    // Both of a pair may carry the same, a whole row after the other: the drawing has it once.
+                    if !points.contains(&point) {
+                        points.push(point);
+                    }
+                }
             }
         }
     }
-    // Both of a pair may carry the same: the drawing has it once.
-    points.dedup();
     points
 }
 

@@ -15,6 +15,9 @@ const TURN: f64 = 2.0;
 /// And this much (metres) where they only meet.
 const TURN_SLACK: f64 = 5e-3;
 
+/// So much (metres) of a fastened edge beyond its last fastening is never an opening's: half the width of a band.
+const BEYOND: f64 = 0.05;
+
 /// A point of a rim.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RimSpot {
@@ -132,8 +135,8 @@ pub struct Bridge<K> {
 /// The openings that are left of `rims` when `bridges` hold their points together: the steps of each, in order.
 ///
 /// A bridge is a narrow band of cloth: whoever walks along the rim comes to it, crosses, and goes on along the other
-/// side. What is left between two neighbours of a row, and beyond its end as far as the fastened edges and their overlap
-/// go, is closed. Of rims that would be closed altogether the longest part is left open.
+/// side. What is left between two neighbours of a row, and beyond its end as far as the overlap goes, is closed, and
+/// so is a slit between fastened edges alone. Of rims that would be closed altogether the longest part is left open.
 pub fn worn_rims<K: PartialEq + Clone>(rims: &[Vec<Step<K>>], bridges: &[Bridge<K>]) -> Vec<Vec<[usize; 2]>> {
     let mut joined = DisjointSets::new(rims.len());
     let mut next: Vec<Vec<[usize; 2]>> =
@@ -200,8 +203,14 @@ impl Part {
         let at: Vec<&Bridge<K>> = steps.iter().filter_map(|&[r, k]| Some(&bridges[crossed[r][k]?])).collect();
         let fastened = |edge: &K| at.iter().any(|b| b.along.contains(edge));
         let step = |[r, k]: [usize; 2]| &rims[r][k];
-        let beside = steps.iter().map(|&s| step(s)).filter(|s| !fastened(&s.along));
-        let turn: f64 = beside.map(|s| s.length).sum();
+        let sum = |own: bool| -> f64 {
+            steps.iter().map(|&s| step(s)).filter(|s| fastened(&s.along) == own).map(|s| s.length).sum()
+        };
+        // A wrapped front overlaps by more than half a back neck: what goes round that is told by its long way along
+        // the fastened edges, of which there are two at each bridge.
+        let beside = sum(false);
+        let along = (sum(true) - 2.0 * BEYOND * at.len() as f64).max(0.0);
+        let turn = if beside > 0.0 { beside + along } else { 0.0 };
         let reach = at.iter().map(|b| b.reach).fold(0.0, f64::max);
         let between = at.len() == 2 && at[0].row == at[1].row && !std::ptr::eq(at[0], at[1]);
         let closed = !at.is_empty() && (between || turn <= TURN * reach + TURN_SLACK);
@@ -237,6 +246,21 @@ mod tests {
         // Five steps of either front go with the neck, those below the last button with the hem.
         assert_eq!(lengths(&rims, &row(1)), [50, 210]);
         assert_eq!(lengths(&rims, &row(6)), [50, 110]);
+    }
+
+    #[test]
+    fn a_wrap_top_with_one_tie_keeps_its_neck() {
+        // The fronts overlap further than the back neck is wide.
+        let rims = [rim(&[('l', 40), ('n', 15), ('r', 40), ('h', 100)])];
+        let tie = Bridge { reach: 0.2, ..button([[0, 20], [0, 75]], ['l', 'r'], 0) };
+        assert_eq!(lengths(&rims, &[tie]), [140, 55]);
+    }
+
+    #[test]
+    fn one_hook_closes_the_end_of_a_band() {
+        // In the middle of a band 80 mm wide that overlaps by 30 mm.
+        let rims = [rim(&[('t', 80), ('r', 8), ('b', 3), ('l', 8)])];
+        assert_eq!(lengths(&rims, &[button([[0, 84], [0, 95]], ['r', 'l'], 0)]), [88]);
     }
 
     #[test]

@@ -36,6 +36,8 @@ const SHOWN: usize = 60;
 const CONTAINERS: [&str; 4] = ["g", "svg", "a", "switch"];
 /// Shapes that are sizes and places.
 const SHAPES: [&str; 3] = ["rect", "circle", "ellipse"];
+/// Shapes that are points.
+const LINES: [&str; 4] = ["path", "polygon", "polyline", "line"];
 /// Elements that are not drawn where they stand.
 const NOT_DRAWN: [&str; 9] =
     ["defs", "symbol", "marker", "clipPath", "mask", "pattern", "metadata", "style", "namedview"];
@@ -111,9 +113,11 @@ pub fn read_svg_text(text: &str) -> Result<SvgDrawing, SvgError> {
         return Err(SvgError::NotSvg(shown(root.tag_name().name(), SHOWN)));
     }
     let left_out = LeftOut::default();
-    let mut reader = Reader { document: &document, strokes: Vec::new(), remarks: Vec::new(), left_out };
+    let (strokes, remarks, texts) = (Vec::new(), Vec::new(), Vec::new());
+    let mut reader = Reader { document: &document, strokes, remarks, texts, left_out };
     reader.walk(root)?;
     let pieces = pieces(&reader.strokes, &reader.remarks);
+    reader.leave_out_unread(&pieces);
     let left_out = reader.left_out.sentences();
     if pieces.is_empty() {
         Err(SvgError::NoPieces { besides: besides(&left_out) })
@@ -153,6 +157,8 @@ struct Reader<'a, 'i> {
     document: &'a Document<'i>,
     strokes: Vec<Stroke>,
     remarks: Vec<Remark>,
+    /// Remarks that are left out unless a piece is cut as they say, and the lines they stand in.
+    texts: Vec<(usize, u32)>,
     left_out: LeftOut,
 }
 
@@ -173,8 +179,12 @@ impl Reader<'_, '_> {
             }
             if CONTAINERS.contains(&name) {
                 inner.group = group_name(node).or(scope.group);
-                let elements = || node.children().filter(Node::is_element);
-                elements().filter(|c| is_hidden(*c)).for_each(|c| self.leave_out(c, What::Hidden));
+                let chosen = (name == "switch").then(|| alternative(node));
+                let elements = || {
+                    let all = node.children().filter(Node::is_element);
+                    all.filter(|c| chosen.is_none_or(|chosen| chosen == Some(*c)))
+                };
+                elements().filter(|c| is_hidden(*c) && draws(*c)).for_each(|c| self.leave_out(c, What::Hidden));
                 let children = elements().filter(|c| !is_hidden(*c) && !NOT_DRAWN.contains(&c.tag_name().name()));
                 open.extend(children.map(|c| (c, inner.clone())).collect::<Vec<_>>().into_iter().rev());
             } else {
@@ -185,14 +195,18 @@ impl Reader<'_, '_> {
     }
 
     fn element(&mut self, node: Node, name: &str, scope: &Scope) -> Result<(), SvgError> {
-        if name == "text" && self.remarks.len() < MOST_STROKES {
-            self.remarks.extend(remark(node, scope.frame));
-        }
+        let read = name == "text" && self.remarks.len() < MOST_STROKES;
+        let remark = if read { remark(node, scope.frame) } else { None };
         let role = role(node, &scope.classes);
         let known = scope.classes.split_whitespace().any(|c| SKIPPED.contains(&c));
         if let Some(what) = What::of(name, role.is_some()).filter(|_| !known) {
-            self.leave_out(node, what);
+            if remark.is_some() {
+                self.texts.push((self.remarks.len(), self.line(node)));
+            } else {
+                self.leave_out(node, what);
+            }
         }
+        self.remarks.extend(remark);
         let Some(role) = role else { return Ok(()) };
         let Some(commands) = commands(node, name) else {
             // An empty path draws nothing; a shape that has no numbers may have been meant to.
@@ -219,12 +233,24 @@ impl Reader<'_, '_> {
     }
 
     fn leave_out(&mut self, node: Node, what: What) {
-        self.left_out.add(what, self.document.text_pos_at(node.range().start).row);
+        self.left_out.add(what, self.line(node));
+    }
+
+    /// Counts the texts that say of none of these pieces how it is cut.
+    fn leave_out_unread(&mut self, pieces: &[Traced]) {
+        let mut used = vec![false; self.remarks.len()];
+        pieces.iter().filter_map(|p| p.said_by).for_each(|i| used[i] = true);
+        for &(_, line) in self.texts.iter().filter(|(i, _)| !used[*i]) {
+            self.left_out.add(What::Text, line);
+        }
+    }
+
+    fn line(&self, node: Node) -> u32 {
+        self.document.text_pos_at(node.range().start).row
     }
 
     fn value(&self, node: Node, what: &'static str, text: &str) -> SvgError {
-        let line = self.document.text_pos_at(node.range().start).row;
-        SvgError::Value { line, what, text: shown(text, SHOWN) }
+        SvgError::Value { line: self.line(node), what, text: shown(text, SHOWN) }
     }
 }
 
@@ -255,6 +281,35 @@ fn sheet(root: Node) -> Frame {
     let scale = if scale.is_finite() { scale } else { PIXEL };
     let origin = if view.len() == 4 { Vec2::new(view[0], view[1]) } else { Vec2::zeros() };
     Frame { linear: Matrix2::identity() * scale, shift: -origin * scale }
+}
+
+/// The one child of a `switch` that is shown: the first that asks for nothing. What it holds in another program's words
+/// (Illustrator wraps its drawings so) could not be read, and there is no language to choose by.
+fn alternative<'a, 'i>(switch: Node<'a, 'i>) -> Option<Node<'a, 'i>> {
+    let asks = |node: &Node| ["requiredExtensions", "systemLanguage"].iter().any(|key| node.has_attribute(*key));
+    let is_seen = |name: &str| CONTAINERS.contains(&name) || is_drawing(name);
+    let shown = || switch.children().filter(|c| is_seen(c.tag_name().name()));
+    let plain = shown().find(|c| !asks(c) && c.tag_name().name() != "foreignObject");
+    plain.or_else(|| shown().next())
+}
+
+/// Whether elements of this name show something of their own.
+fn is_drawing(name: &str) -> bool {
+    LINES.contains(&name) || SHAPES.contains(&name) || What::of(name, false).is_some()
+}
+
+/// Whether anything would be seen of an element that is shown.
+fn draws(node: Node) -> bool {
+    let mut open = vec![node];
+    while let Some(node) = open.pop() {
+        let name = node.tag_name().name();
+        if CONTAINERS.contains(&name) {
+            open.extend(node.children().filter(Node::is_element));
+        } else if is_drawing(name) {
+            return true;
+        }
+    }
+    false
 }
 
 fn is_hidden(node: Node) -> bool {

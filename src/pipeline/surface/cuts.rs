@@ -50,11 +50,9 @@ impl Marks {
                 PipelineError::Cut { file: file.to_owned(), cut, why }
             })?;
             of_file.extend(way.windows(2).map(|w| sorted_pair([w[0], w[1]])));
-            out.chains.push(way.iter().map(|v| v + 1).collect());
             let step = |w: &[u32]| (faces.vertices[w[1] as usize] - faces.vertices[w[0] as usize]).norm();
-            let (from, to) = (way[0] + 1, way[way.len() - 1] + 1);
             let length = way.windows(2).map(step).sum::<f64>() * unit * MM;
-            out.made.push(CutReport { piece: part, why: CutWhy::Asked, from, to, length });
+            out.record(part, CutWhy::Asked, way.iter().map(|v| v + 1).collect(), length);
         }
         out.edges = nodes.edges_on(&of_file);
         if cuts.auto {
@@ -70,11 +68,18 @@ impl Marks {
     /// Cuts a part along a chain of its vertices.
     pub(super) fn cut(&mut self, part: &Part, chain: &[u32], why: CutWhy) {
         if chain.len() > 1 {
-            let [from, to] = [chain[0], chain[chain.len() - 1]].map(|v| part.number(v));
-            self.made.push(CutReport { piece: part.name.clone(), why, from, to, length: length(part, chain) });
+            let numbers = chain.iter().map(|&v| part.number(v)).collect();
+            self.record(part.name.clone(), why, numbers, length(part, chain));
             let node = |v: u32| part.nodes[v as usize];
             self.edges.extend(chain.windows(2).map(|w| sorted_pair([node(w[0]), node(w[1])])));
-            self.chains.push(chain.iter().map(|&v| part.number(v)).collect());
+        }
+    }
+
+    /// Notes a cut of `length` millimetres through these of the file's vertices, from 1.
+    fn record(&mut self, piece: String, why: CutWhy, chain: Vec<u32>, length: f64) {
+        if let [from, .., to] = chain[..] {
+            self.made.push(CutReport { piece, why, from, to, length });
+            self.chains.push(chain);
         }
     }
 }
@@ -87,6 +92,10 @@ fn way(faces: &ObjFaces, parts: &[Part], stops: &[u32]) -> Result<(Vec<u32>, Str
     let count = faces.vertices.len();
     if let Some(wrong) = stops.iter().find(|v| **v == 0 || **v as usize > count) {
         return Err(format!("there is no vertex {wrong}; the file has 1 to {count}"));
+    }
+    if let Some(twice) = stops.windows(2).find(|leg| leg[0] == leg[1]) {
+        let said = "from a vertex to itself there is nothing to cut";
+        return Err(format!("vertex {0} follows itself, and {said}; leave one {0} out or name another", twice[0]));
     }
     let mut way = vec![stops[0] - 1];
     let mut begun = None;

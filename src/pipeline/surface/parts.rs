@@ -217,10 +217,17 @@ impl Part {
 
     /// What is to be said of faces that were turned.
     pub(super) fn turned_note(&self) -> Option<String> {
-        let turned = self.turned.as_ref().filter(|t| !t.is_empty())?;
-        let mut faces: Vec<usize> = turned.iter().map(|&t| self.face_of(t)).collect();
-        faces.dedup();
-        let (count, all, first) = (faces.len(), self.faces.len(), faces[0]);
+        let mut is_turned = vec![false; self.surface.triangles.len()];
+        self.turned.as_ref()?.iter().for_each(|&t| is_turned[t] = true);
+        let mut done = 0;
+        // All faces at once: looked up one by one, each would be counted from the first.
+        let turned = self.faces.iter().zip(&self.corners).filter(|(_, corners)| {
+            let own = done..done + corners.len() - 2;
+            done = own.end;
+            is_turned[own].contains(&true)
+        });
+        let faces: Vec<usize> = turned.map(|(f, _)| *f as usize + 1).collect();
+        let (count, all, first) = (faces.len(), self.faces.len(), *faces.first()?);
         let (run, were) = if count == 1 { ("face runs", "was") } else { ("faces run", "were") };
         let said = format!("{count} of its {all} {run} against the others and {were} turned to lay it flat");
         Some(format!("'{}': {said}; the first is face {first}", self.name))
