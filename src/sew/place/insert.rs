@@ -18,6 +18,9 @@ use crate::pattern::Garment;
 /// Slits that are cut without width have sides at one u; rounding must not make a tube of them.
 const IN_SLIT: f64 = 0.1;
 
+/// A godet has less than this share of its host's triangles where nothing else says which of the two it is.
+const GODET: f64 = 0.5;
+
 /// A piece in a slit of another one.
 #[derive(Clone, Debug)]
 pub(super) struct Insert {
@@ -144,8 +147,9 @@ pub(super) fn slit(
     (common > -IN_SLIT * spread).then_some((host, means[1] - means[0]))
 }
 
-/// Pieces in slits with their hosts. A piece that is sewn to nothing but its godet could as well lie in that: the smaller
-/// of the two is the godet. What lies in a godet stands beside it instead.
+/// Pieces in slits with their hosts. A piece that is sewn to nothing but its godet could as well lie in that: the much
+/// smaller of the two is the godet. (Of two panels sewn right to right neither is, and they find no place.) What lies in a
+/// godet stands beside it instead.
 pub(super) fn hosted(
     mut slits: Vec<Option<(usize, Vec2)>>,
     area: impl Fn(usize) -> usize,
@@ -155,11 +159,19 @@ pub(super) fn hosted(
         if let Some(other) = host(&slits, p)
             && host(&slits, other) == Some(p)
         {
-            slits[if area(p) < area(other) { other } else { p }] = None;
+            let [own, others] = [p, other].map(|p| area(p) as f64);
+            if own < GODET * others {
+                slits[other] = None;
+            } else if others < GODET * own {
+                slits[p] = None;
+            }
         }
     }
     let hosts = slits.clone();
-    slits.iter_mut().for_each(|slit| *slit = slit.filter(|s| hosts[s.0].is_none()));
+    let mutual = |p: usize, other: usize| host(&hosts, other) == Some(p);
+    for (p, slit) in slits.iter_mut().enumerate() {
+        *slit = slit.filter(|s| hosts[s.0].is_none() || mutual(p, s.0));
+    }
     slits
 }
 
@@ -269,5 +281,7 @@ mod tests {
         assert_eq!(kept(vec![None, in_slit(0), in_slit(0)]), [None, Some(0), Some(0)]);
         // A godet in a godet stands beside it.
         assert_eq!(kept(vec![None, in_slit(0), in_slit(1)]), [None, Some(0), None]);
+        // Two of a size contradict each other.
+        assert_eq!(hosted(vec![in_slit(1), in_slit(0)], |_| 900), [in_slit(1), in_slit(0)]);
     }
 }
