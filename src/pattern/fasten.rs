@@ -149,6 +149,11 @@ pub fn worn_rims<K: PartialEq + Clone>(rims: &[Vec<Step<K>>], bridges: &[Bridge<
         if a == b || [a, b].iter().any(|&[r, k]| crossed[r][k].is_some()) {
             continue;
         }
+        // Two ties of a wrap, each from one front's end to the other's middle: in the plane they would cross. One of them
+        // tells the waist from the hem; with both, the walk would go from the one to the other.
+        if joined.same(a[0] as u32, b[0] as u32) && !on_one_ring(&next, a, b) {
+            continue;
+        }
         let after = [a, b].map(|[r, k]| next[r][k]);
         (next[a[0]][a[1]], next[b[0]][b[1]]) = (after[1], after[0]);
         [a, b].iter().for_each(|&[r, k]| crossed[r][k] = Some(i));
@@ -164,6 +169,17 @@ pub fn worn_rims<K: PartialEq + Clone>(rims: &[Vec<Step<K>>], bridges: &[Bridge<
         }
     }
     parts.into_iter().zip(open).filter(|(_, open)| *open).map(|(p, _)| p.steps).collect()
+}
+
+/// Whether the ring from step `from` comes to step `to`.
+fn on_one_ring(next: &[Vec<[usize; 2]>], from: [usize; 2], to: [usize; 2]) -> bool {
+    let mut at = from;
+    loop {
+        at = next[at[0]][at[1]];
+        if at == to || at == from {
+            return at == to;
+        }
+    }
 }
 
 /// The rings that `next` makes of all steps.
@@ -254,6 +270,16 @@ mod tests {
         let rims = [rim(&[('l', 40), ('n', 15), ('r', 40), ('h', 100)])];
         let tie = Bridge { reach: 0.2, ..button([[0, 20], [0, 75]], ['l', 'r'], 0) };
         assert_eq!(lengths(&rims, &[tie]), [140, 55]);
+    }
+
+    #[test]
+    fn two_ties_of_a_wrap_leave_waist_and_hem() {
+        // The back's waist, the right front's waist, its edge, the hem, the left front's edge and its waist.
+        let rims = [rim(&[('w', 40), ('r', 30), ('e', 60), ('h', 120), ('f', 60), ('l', 30)])];
+        // Either front's corner is tied to the other front's waist.
+        let tie = |right: usize, left: usize, row: usize| button([[0, right], [0, left]], ['r', 'l'], row);
+        assert_eq!(lengths(&rims, &[tie(45, 312, 0)]), [73, 267]);
+        assert_eq!(lengths(&rims, &[tie(45, 312, 0), tie(68, 335, 1)]), [73, 267]);
     }
 
     #[test]
