@@ -371,6 +371,15 @@ tests:
 }
 
 /// The curve is told of where it is named, and nowhere else.
+/// What is gathered is the longer side: with the two the wrong way round a ratio under 1 would be refused in turn.
+#[test]
+fn a_gathered_seam_the_wrong_way_round_is_told_to_swap_its_sides() {
+    let text = changed(&[(SIDE, "{sew: front.side@0..60, to: back.center, gather: 1.5}")]);
+    let found = Room::new().finds(&text, None);
+    let told = |advice: &str| found.iter().any(|d| d.to_string().contains(advice));
+    assert!(told("swap sew and to and say gather: 1.667"), "{found:?}");
+}
+
 #[test]
 fn a_curve_that_ends_early_is_told_of_once() {
     let room = Room::new();

@@ -306,6 +306,9 @@ fn check_lengths(candidate: &Candidate, lengths: (f64, f64), give: Give, toleran
 fn advice(la: f64, lb: f64, give: Give) -> String {
     match give {
         Give::Ease(_) => format!("say ease: {:.1} mm or fix the outline", (lb - la) * 1e3),
+        // What is sewn is the longer one.
+        Give::Gather(_) if la < lb => format!("swap sew and to and say gather: {:.3}, or fix the outline", lb / la),
+        Give::Stretch(_) if la < lb => format!("swap sew and to and say stretch: {:.3}, or fix the outline", lb / la),
         Give::Gather(_) => format!("say gather: {:.3} or fix the outline", la / lb),
         Give::Stretch(_) => format!("say stretch: {:.3} or fix the outline", la / lb),
         Give::Even if (lb - la).abs() <= LARGEST_EASE * la => {
