@@ -1,6 +1,6 @@
 //! What is written on a piece, and where there is room for it.
 
-use super::room::Room;
+use super::room::{Room, foot};
 use super::{Lettering, Paper};
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{Cut, LineKind};
@@ -8,6 +8,8 @@ use crate::pattern::{Cut, LineKind};
 /// Largest and smallest height of letters, metres: easily read at arm's length, and the least that home printers draw
 /// clearly.
 const LETTERS: (f64, f64) = (0.007, 0.0025);
+/// A block of text is turned where that makes its letters so many times larger.
+const CLEARLY: f64 = 1.3;
 /// Height of the name over the other lines'.
 const NAME: f64 = 1.4;
 /// Width of a letter of a sans-serif type over its height, on average, with some air.
@@ -49,11 +51,7 @@ pub(super) fn lettering(paper: &Paper, widths: &[EdgeWidth], note: Option<&str>)
     let mut room = room(paper);
     let mut texts = elastic(paper, &room);
     texts.iter().for_each(|t| room.add_wall(&outline(t)));
-    let flat = room.roomiest(block);
-    let turned = room.roomiest(block.yx());
-    // Text is easier to read level; it is turned where that makes it clearly larger.
-    let upright = turned.1 > 1.3 * flat.1 && flat.1 < LETTERS.0;
-    let (middle, height) = if upright { turned } else { flat };
+    let (middle, height, upright) = room.level_or_turned(block, LETTERS.0, CLEARLY);
     texts.extend(write(&lines, middle, height.clamp(LETTERS.1, LETTERS.0), upright));
     texts
 }
@@ -134,9 +132,7 @@ fn beside(room: &Room, path: &Path, text: String) -> Lettering {
     let places = BESIDE_AT.iter().flat_map(|&share| [place(share, -1.0), place(share, 1.0)]);
     let clear = places.clone().find(|(middle, size, _)| room.is_clear(*middle, *size));
     let (middle, _, upright) = clear.unwrap_or_else(|| place(0.5, -1.0));
-    // From the middle of the letters to their foot; turned, that is to the left.
-    let foot = if upright { Vec2::new(-height / 2.0, 0.0) } else { Vec2::new(0.0, height / 2.0) };
-    Lettering { text, at: middle + foot, height, upright }
+    Lettering { text, at: middle + foot(height, upright), height, upright }
 }
 
 /// The box round a text, as a line.

@@ -18,7 +18,7 @@ mod whole;
 pub use label::LETTER_WIDTH;
 pub use layout::{Layout, Sheet, TEST_SQUARE, shelves};
 pub use outline::papers;
-pub use room::Room;
+pub use room::{Room, foot};
 
 use nalgebra::Matrix2;
 

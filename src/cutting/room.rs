@@ -1,6 +1,6 @@
 //! Where on a piece there is room: for letters clear of all lines, and for an arrow along the grain.
 
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, range_of};
 
 /// Places looked at along each side of the piece's box.
 const PLACES: usize = 40;
@@ -8,6 +8,8 @@ const PLACES: usize = 40;
 const AIR: f64 = 0.85;
 /// Share of the cloth along a thread that an arrow takes at most.
 const ARROW: f64 = 0.8;
+/// This share of its length is not worth going farther for.
+const ALIKE: f64 = 0.01;
 /// Places of an arrow at which it must be on the cloth.
 const LOOKS: usize = 16;
 
@@ -70,6 +72,15 @@ impl Room {
         best
     }
 
+    /// As [`Self::roomiest`], turned (and true) where letters as high as `wanted` have no room level, and turned they
+    /// may be so many times `larger`: text is easier to read level.
+    pub fn level_or_turned(&self, block: Vec2, wanted: f64, larger: f64) -> (Vec2, f64, bool) {
+        let (level, turned) = (self.roomiest(block), self.roomiest(block.yx()));
+        let upright = level.1 < wanted && turned.1 > larger * level.1;
+        let (middle, height) = if upright { turned } else { level };
+        (middle, height, upright)
+    }
+
     /// Whether a box round `middle` is on the cloth and no line enters it.
     pub fn is_clear(&self, middle: Vec2, size: Vec2) -> bool {
         let scaled = |p: Vec2| p.component_div(&size);
@@ -85,7 +96,7 @@ impl Room {
         };
         let (across, middle) = (Vec2::new(-along.y, along.x), (tail + head) / 2.0);
         let reach = self.contours.iter().flatten().map(|p| across.dot(&(p - middle)));
-        let [low, high] = reach.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
+        let [low, high] = range_of(reach);
         let mut best = (0.0, f64::INFINITY, [tail, head]);
         for k in 1..PLACES {
             let aside = low + (high - low) * (k as f64 / PLACES as f64);
@@ -93,8 +104,7 @@ impl Room {
                 let half = (ARROW * (to - from)).min((head - tail).norm()) / 2.0;
                 let at = 0f64.clamp(from + half / ARROW, (to - half / ARROW).max(from + half / ARROW));
                 let far = aside.hypot(at);
-                // A hundredth of its length is not worth going farther for.
-                if half > 1.01 * best.0 || half > 0.99 * best.0 && far < best.1 {
+                if half > (1.0 + ALIKE) * best.0 || half > (1.0 - ALIKE) * best.0 && far < best.1 {
                     let center = middle + across * aside + along * at;
                     best = (half, far, [center - along * half, center + along * half]);
                 }
@@ -119,6 +129,11 @@ impl Room {
         at.sort_by(f64::total_cmp);
         at.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()
     }
+}
+
+/// From the middle of a line of letters to the middle of its foot; turned, that is to the left.
+pub fn foot(height: f64, upright: bool) -> Vec2 {
+    if upright { Vec2::new(-height / 2.0, 0.0) } else { Vec2::new(0.0, height / 2.0) }
 }
 
 /// Half the side of the largest square round `p` that a segment does not enter.

@@ -7,7 +7,7 @@ use svg::node::element::{Group, Path, Text};
 use svg::{Document, Node};
 
 use super::svg_write::{centered, curved, document, identifier, polyline, square, with_kind};
-use crate::cutting::{LETTER_WIDTH, Room, TEST_SQUARE, shelves};
+use crate::cutting::{LETTER_WIDTH, Room, TEST_SQUARE, foot, shelves};
 use crate::geometry::{Vec2, smooth_curves};
 use crate::mesh::{ClothMesh, EdgeParticles, PieceMesh};
 use crate::pattern::Notch;
@@ -253,12 +253,9 @@ impl<'a> Sheet<'a> {
 
     fn label(&self, room: &Room) -> Text {
         let block = Vec2::new(self.piece.name.chars().count().max(1) as f64 * LETTER_WIDTH, 1.0);
-        let (level, turned) = (room.roomiest(block), room.roomiest(block.yx()));
-        let upright = level.1 < LETTERS && turned.1 > level.1;
-        let (middle, height) = if upright { turned } else { level };
+        let (middle, height, upright) = room.level_or_turned(block, LETTERS, 1.0);
         let height = height.clamp(LEAST_LETTERS, LETTERS);
-        let foot = if upright { Vec2::new(-height / 2.0, 0.0) } else { Vec2::new(0.0, height / 2.0) };
-        centered(&self.piece.name, middle + foot, height, upright)
+        centered(&self.piece.name, middle + foot(height, upright), height, upright)
     }
 
     /// One or two marks from the edge into the piece.

@@ -64,7 +64,7 @@ impl Cloth<'_> {
             points: pairs.len(),
             gap_mean: measured.then_some(mean * MM),
             gap_max: measured.then(|| largest(&gaps) * MM),
-            gape: between.fold(None, |most: Option<f64>, x| Some(most.map_or(x, |m| m.max(x)))).map(|x| x * MM),
+            gape: between.reduce(f64::max).map(|x| x * MM),
             closed: measured && !assumed && gaps.iter().all(|&g| g <= APART),
             note: note(closure, assumed),
         }

@@ -83,8 +83,7 @@ fn bridge(mesh: &ClothMesh, welded: &Welded, loops: &[Vec<u32>], f: &Fastening) 
 
 fn names(mesh: &ClothMesh, id: EdgeId) -> (String, String) {
     let piece = &mesh.pieces[id.piece];
-    let edge =
-        piece.edges.iter().find(|e| (e.edge.ring, e.edge.index) == (id.ring, id.index)).map_or("", |e| e.name.as_str());
+    let edge = piece.edges.iter().find(|e| e.edge == id).map_or("", |e| e.name.as_str());
     (piece.name.clone(), edge.to_owned())
 }
 
@@ -102,12 +101,10 @@ pub(super) fn flaps(rings: &[&[u32]], worn: &[bool]) -> Vec<bool> {
 /// The piece edge that every rim edge of the surface belongs to.
 fn edge_owners(mesh: &ClothMesh, welded: &Welded) -> HashMap<[u32; 2], EdgeId> {
     let mut owners = HashMap::new();
-    for (index, piece) in mesh.pieces.iter().enumerate() {
-        for edge in &piece.edges {
-            for step in edge.particles.windows(2) {
-                let ends = [step[0], step[1]].map(|p| welded.vertex_of[p as usize]);
-                owners.entry(sorted_pair(ends)).or_insert(EdgeId { piece: index, ..edge.edge });
-            }
+    for edge in mesh.pieces.iter().flat_map(|piece| &piece.edges) {
+        for step in edge.particles.windows(2) {
+            let ends = [step[0], step[1]].map(|p| welded.vertex_of[p as usize]);
+            owners.entry(sorted_pair(ends)).or_insert(edge.edge);
         }
     }
     owners

@@ -41,7 +41,7 @@ pub(super) fn lead_out(cut: &Cut, body: &Collider, start: &mut [Vec3]) -> Result
         let deepest = depths(body, &start[piece.particles.clone()]).fold(0.0, f64::max);
         let triangles = &cut.mesh.triangles[piece.triangles.clone()];
         let pierced = is_pierced(body, start, triangles);
-        let hidden = deepest > 0.0 && start[piece.particles.clone()].iter().any(|&p| is_hidden(body, p));
+        let hidden = deepest > SHALLOW && start[piece.particles.clone()].iter().any(|&p| is_hidden(body, p));
         if deepest <= DEEP && !pierced && !hidden {
             continue;
         }

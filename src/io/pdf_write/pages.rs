@@ -75,13 +75,15 @@ impl Plan {
             return Err(PdfError::TooMany { pages: least, most: MOST_PAGES });
         }
         // Twice the widest piece is wide enough for any two to lie side by side.
-        let plans = (least..=2 * least.max(2)).map(|columns| Self::of_width(papers, frame, columns));
-        let best = plans.min_by_key(Self::pages);
-        match best {
-            Some(plan) if plan.pages() <= MOST_PAGES => Ok(plan),
-            Some(plan) => Err(PdfError::TooMany { pages: plan.pages(), most: MOST_PAGES }),
-            None => Ok(Self::of_width(papers, frame, 1)),
+        let mut best = Self::of_width(papers, frame, least);
+        for columns in least + 1..=2 * least.max(2) {
+            let wider = Self::of_width(papers, frame, columns);
+            if wider.pages() < best.pages() {
+                best = wider;
+            }
         }
+        let pages = best.pages();
+        if pages > MOST_PAGES { Err(PdfError::TooMany { pages, most: MOST_PAGES }) } else { Ok(best) }
     }
 
     fn of_width(papers: &[Paper], frame: Vec2, columns: usize) -> Self {

@@ -233,9 +233,8 @@ fn apex(one: &Path, other: &Path) -> Option<Vec2> {
 fn is_round<'a>(sector: &Sector, rim: impl Iterator<Item = &'a Path>) -> bool {
     let mut nearest = [f64::INFINITY; DIRECTIONS];
     for path in rim {
-        let points = (path.length() / SAMPLED).ceil().max(1.0);
-        for k in 0..=points as usize {
-            let (r, angle) = sector.polar(path.point(path.length() * k as f64 / points));
+        for point in along(&path.sampled(SAMPLED)) {
+            let (r, angle) = sector.polar(point);
             if angle.abs() < sector.half - BEYOND {
                 let direction = (0.5 * (angle / sector.half + 1.0) * DIRECTIONS as f64) as usize;
                 nearest[direction] = nearest[direction].min(r);
@@ -251,6 +250,14 @@ fn is_round<'a>(sector: &Sector, rim: impl Iterator<Item = &'a Path>) -> bool {
         length += up.hypot(0.5 * (step[0] + step[1]) * turn);
     }
     length > 0.0 && rise <= ROUND * length
+}
+
+/// Points along a line of straight pieces, none further apart than [`SAMPLED`].
+fn along(line: &[Vec2]) -> impl Iterator<Item = Vec2> + '_ {
+    line.windows(2).flat_map(|ends| {
+        let count = ((ends[1] - ends[0]).norm() / SAMPLED).ceil().max(1.0);
+        (0..=count as usize).map(move |k| ends[0].lerp(&ends[1], k as f64 / count))
+    })
 }
 
 fn wrapped(angle: f64) -> f64 {

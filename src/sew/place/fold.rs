@@ -31,8 +31,9 @@ pub(super) struct Sheet {
 /// rim under the other, or over it where right sides meet. Lays its pleats, unrolls what is a sector of a circle, and
 /// lays level what is an upright band.
 pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
-    let [under, out] = [(); 2].map(|()| vec![0.0; mesh.flat.len()]);
-    let mut sheet = Sheet { drawn: Vec::new(), flat: mesh.flat.clone(), straight: Vec::new(), under, out };
+    let nowhere = || vec![0.0; mesh.flat.len()];
+    let mut sheet =
+        Sheet { drawn: Vec::new(), flat: mesh.flat.clone(), straight: Vec::new(), under: nowhere(), out: nowhere() };
     let mut sewn = vec![0u32; mesh.flat.len()];
     for p in mesh.seams.iter().flat_map(|s| s.pairs.iter().flatten()) {
         sewn[*p as usize] += 1;

@@ -11,7 +11,7 @@ use super::assign::Assigned;
 use super::fold::Sheet;
 use super::ring::LAYER;
 use super::rows::{Link, Member, ROOM, extent};
-use crate::geometry::{Vec2, Vec3};
+use crate::geometry::{Vec2, Vec3, range_of};
 use crate::mesh::ClothMesh;
 use crate::pattern::Garment;
 
@@ -20,6 +20,8 @@ const IN_SLIT: f64 = 0.1;
 
 /// A godet has less than this share of its host's triangles where nothing else says which of the two it is.
 const GODET: f64 = 0.5;
+/// Two links run down opposite sides of a piece where their means are apart by more than this share of its width.
+const SIDES_APART: f64 = 0.25;
 
 /// A piece in a slit of another one.
 #[derive(Clone, Debug)]
@@ -66,8 +68,7 @@ impl Fin {
     /// The fin that a piece makes, sewn by these pairs: its own particle's flat position, and its partner's, moved so that
     /// the slit is where the piece is. Without pairs on both sides there is none.
     fn new(pairs: &[[Vec2; 2]]) -> Option<Self> {
-        let low = pairs.iter().map(|p| p[0].x).fold(f64::INFINITY, f64::min);
-        let high = pairs.iter().map(|p| p[0].x).fold(f64::NEG_INFINITY, f64::max);
+        let [low, high] = range_of(pairs.iter().map(|p| p[0].x));
         let middle = 0.5 * (low + high);
         let side = |sign: f64| {
             let own = pairs.iter().filter(|[own, _]| (own.x - middle) * sign > 0.0);
@@ -187,9 +188,8 @@ fn goes_round(own: &[&Link], sheet: &Sheet, side: impl Fn(&Link) -> usize) -> bo
             let xs = |l: &Link| (0..l.pairs.len()).map(|n| at(l, n).x).collect::<Vec<f64>>();
             let (a, b) = (xs(one), xs(other));
             let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len() as f64;
-            let all = || a.iter().chain(&b).copied();
-            let width = all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min);
-            (mean(&a) - mean(&b)).abs() > 0.25 * width
+            let [low, high] = range_of(a.iter().chain(&b).copied());
+            (mean(&a) - mean(&b)).abs() > SIDES_APART * (high - low)
         }
         _ => false,
     }
@@ -270,6 +270,7 @@ mod tests {
         let one_side = [0.1, 0.2].map(|v| [Vec2::new(0.0, v), Vec2::new(0.0, v)]);
         assert!(Fin::new(&one_side).is_none());
     }
+
     #[test]
     fn of_two_that_could_lie_in_each_other_the_smaller_one_does() {
         let area = |p: usize| [900, 90, 10][p];
