@@ -52,78 +52,84 @@ const ARC_ACCURACY: f64 = 1e-6;
 /// An SVG path, of one connected run or (`many`) of several; `None` when the text is no such path. (kurbo's and
 /// svgtypes' own conversions of arcs are off by up to 0.1 units; this one is not.)
 fn bezier_path(text: &str, many: bool) -> Option<BezPath> {
-    use svgtypes::PathSegment as S;
-    let mut bez = BezPath::new();
-    let (mut at, mut first) = (Point::ZERO, Point::ZERO);
-    // The last control point of a cubic or a quadratic, for the smooth commands.
-    let (mut cubic, mut quad): (Option<Point>, Option<Point>) = (None, None);
-    for segment in svgtypes::PathParser::from(text) {
-        let p = |abs: bool, x: f64, y: f64| if abs { Point::new(x, y) } else { at + KVec::new(x, y) };
-        let mirrored = |c: Option<Point>| c.map_or(at, |c| at + (at - c));
-        let (mut next_cubic, mut next_quad) = (None, None);
-        let to = match segment.ok()? {
-            S::MoveTo { abs, x, y } if many || bez.elements().is_empty() => {
-                first = p(abs, x, y);
-                bez.move_to(first);
-                first
-            }
-            S::MoveTo { .. } => return None,
-            S::LineTo { abs, x, y } => line_to(&mut bez, p(abs, x, y)),
-            S::HorizontalLineTo { abs, x } => line_to(&mut bez, Point::new(p(abs, x, 0.0).x, at.y)),
-            S::VerticalLineTo { abs, y } => line_to(&mut bez, Point::new(at.x, p(abs, 0.0, y).y)),
-            S::CurveTo { abs, x1, y1, x2, y2, x, y } => {
-                let (c2, to) = (p(abs, x2, y2), p(abs, x, y));
-                bez.curve_to(p(abs, x1, y1), c2, to);
-                next_cubic = Some(c2);
-                to
-            }
-            S::SmoothCurveTo { abs, x2, y2, x, y } => {
-                let (c2, to) = (p(abs, x2, y2), p(abs, x, y));
-                bez.curve_to(mirrored(cubic), c2, to);
-                next_cubic = Some(c2);
-                to
-            }
-            S::Quadratic { abs, x1, y1, x, y } => {
-                let (c, to) = (p(abs, x1, y1), p(abs, x, y));
-                bez.quad_to(c, to);
-                next_quad = Some(c);
-                to
-            }
-            S::SmoothQuadratic { abs, x, y } => {
-                let (c, to) = (mirrored(quad), p(abs, x, y));
-                bez.quad_to(c, to);
-                next_quad = Some(c);
-                to
-            }
-            S::EllipticalArc { abs, rx, ry, x_axis_rotation, large_arc, sweep, x, y } => {
-                let to = p(abs, x, y);
-                let arc = kurbo::SvgArc {
-                    from: at,
-                    to,
-                    radii: KVec::new(rx, ry),
-                    x_rotation: x_axis_rotation.to_radians(),
-                    large_arc,
-                    sweep,
-                };
-                match kurbo::Arc::from_svg_arc(&arc) {
-                    Some(arc) => arc.to_cubic_beziers(ARC_ACCURACY, |a, b, c| bez.curve_to(a, b, c)),
-                    None => bez.line_to(to),
-                }
-                to
-            }
-            S::ClosePath { .. } => {
-                bez.close_path();
-                first
-            }
-        };
-        (at, cubic, quad) = (to, next_cubic, next_quad);
+    let mut pen = Pen::default();
+    for command in svgtypes::PathParser::from(text) {
+        let command = command.ok()?;
+        if matches!(command, svgtypes::PathSegment::MoveTo { .. }) && !many && !pen.bez.elements().is_empty() {
+            return None;
+        }
+        pen.draw(command);
     }
-    Some(bez)
+    Some(pen.bez)
 }
 
-fn line_to(bez: &mut BezPath, to: Point) -> Point {
-    bez.line_to(to);
-    to
+/// What has been drawn of a path, and what the next command needs to know of it.
+#[derive(Default)]
+struct Pen {
+    bez: BezPath,
+    at: Point,
+    /// Where the run began.
+    first: Point,
+    /// The last control point, if the last command was a cubic or a quadratic: the smooth commands mirror it.
+    cubic: Option<Point>,
+    quad: Option<Point>,
+}
+
+impl Pen {
+    fn draw(&mut self, command: svgtypes::PathSegment) {
+        use svgtypes::PathSegment as S;
+        let at = self.at;
+        let p = |abs: bool, x: f64, y: f64| if abs { Point::new(x, y) } else { at + KVec::new(x, y) };
+        let mirrored = |control: Option<Point>| control.map_or(at, |c| at + (at - c));
+        let (cubic, quad) = (self.cubic.take(), self.quad.take());
+        match command {
+            S::MoveTo { abs, x, y } => self.move_to(p(abs, x, y)),
+            S::LineTo { abs, x, y } => self.line_to(p(abs, x, y)),
+            S::HorizontalLineTo { abs, x } => self.line_to(Point::new(p(abs, x, 0.0).x, at.y)),
+            S::VerticalLineTo { abs, y } => self.line_to(Point::new(at.x, p(abs, 0.0, y).y)),
+            S::CurveTo { abs, x1, y1, x2, y2, x, y } => self.curve_to(p(abs, x1, y1), p(abs, x2, y2), p(abs, x, y)),
+            S::SmoothCurveTo { abs, x2, y2, x, y } => self.curve_to(mirrored(cubic), p(abs, x2, y2), p(abs, x, y)),
+            S::Quadratic { abs, x1, y1, x, y } => self.quad_to(p(abs, x1, y1), p(abs, x, y)),
+            S::SmoothQuadratic { abs, x, y } => self.quad_to(mirrored(quad), p(abs, x, y)),
+            S::EllipticalArc { abs, rx, ry, x_axis_rotation, large_arc, sweep, x, y } => {
+                let (radii, x_rotation) = (KVec::new(rx, ry), x_axis_rotation.to_radians());
+                self.arc_to(kurbo::SvgArc { from: at, to: p(abs, x, y), radii, x_rotation, large_arc, sweep });
+            }
+            S::ClosePath { .. } => {
+                self.bez.close_path();
+                self.at = self.first;
+            }
+        }
+    }
+
+    fn move_to(&mut self, to: Point) {
+        self.bez.move_to(to);
+        (self.at, self.first) = (to, to);
+    }
+
+    fn line_to(&mut self, to: Point) {
+        self.bez.line_to(to);
+        self.at = to;
+    }
+
+    fn curve_to(&mut self, c1: Point, c2: Point, to: Point) {
+        self.bez.curve_to(c1, c2, to);
+        (self.at, self.cubic) = (to, Some(c2));
+    }
+
+    fn quad_to(&mut self, c: Point, to: Point) {
+        self.bez.quad_to(c, to);
+        (self.at, self.quad) = (to, Some(c));
+    }
+
+    /// An arc, or the line that stands for one without radii.
+    fn arc_to(&mut self, arc: kurbo::SvgArc) {
+        match kurbo::Arc::from_svg_arc(&arc) {
+            Some(curved) => curved.to_cubic_beziers(ARC_ACCURACY, |a, b, c| self.bez.curve_to(a, b, c)),
+            None => self.bez.line_to(arc.to),
+        }
+        self.at = arc.to;
+    }
 }
 
 fn point(p: Vec2) -> Point {
