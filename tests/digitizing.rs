@@ -402,6 +402,38 @@ fn of_a_switch_one_alternative_is_read() {
     assert_eq!(read(&format!("{foreign}{other}")), (vec!["yoke".to_owned()], nothing));
 }
 
+/// A drawing within a drawing: the grain of a piece in the outer one, placed by the inner one's own box and units.
+#[test]
+fn drawings_within_a_drawing_lie_where_they_are_put() {
+    let arrow = |place: &str| -> [[f64; 2]; 2] {
+        let text = format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' width='400mm' height='400mm' viewBox='0 0 400 400'>\
+             <g id='yoke'><rect width='400' height='400'/>\
+             <svg {place}><path class='grain' d='M 10 10 L 10 60'/></svg></g></svg>"
+        );
+        let grain = read_svg_text(&text).expect("a piece").pieces[0].grain.expect("a grain");
+        grain.map(|p| [p.x, p.y].map(|x| (x * 1e5).round() / 1e2))
+    };
+    assert_eq!(arrow(""), [[10.0, 10.0], [10.0, 60.0]]);
+    assert_eq!(arrow("x='100' y='50'"), [[110.0, 60.0], [110.0, 110.0]]);
+    assert_eq!(arrow("x='25%' y='50%'"), [[110.0, 210.0], [110.0, 260.0]]);
+    let doubled = "x='100' y='50' width='200' height='200' viewBox='0 0 100 100'";
+    assert_eq!(arrow(doubled), [[120.0, 70.0], [120.0, 170.0]]);
+    // Without a size it is as large as what it stands in; its own corner need not be 0.
+    assert_eq!(arrow("viewBox='5 5 200 200'"), [[10.0, 10.0], [10.0, 110.0]]);
+    // In the middle of a box that is wider than it, at its right, stretched to it, filling it.
+    let wide =
+        |said: &str| arrow(&format!("width='300' height='100' viewBox='0 0 100 100' preserveAspectRatio='{said}'"));
+    assert_eq!(arrow("width='300' height='100' viewBox='0 0 100 100'"), [[110.0, 10.0], [110.0, 60.0]]);
+    assert_eq!(wide("xMidYMid meet"), [[110.0, 10.0], [110.0, 60.0]]);
+    assert_eq!(wide("xMaxYMin"), [[210.0, 10.0], [210.0, 60.0]]);
+    assert_eq!(wide("none"), [[30.0, 10.0], [30.0, 60.0]]);
+    assert_eq!(wide("xMinYMin slice"), [[30.0, 30.0], [30.0, 180.0]]);
+    // One in another.
+    let twice = "x='100'><svg x='50' viewBox='0 0 200 200' width='400' height='400'><path class='grain' d='M 10 10 L 10 60'/></svg></svg><svg class='note'";
+    assert_eq!(arrow(twice), [[170.0, 20.0], [170.0, 120.0]]);
+}
+
 #[test]
 fn what_is_read_or_draws_nothing_is_not_left_out() {
     let text = "<svg xmlns='http://www.w3.org/2000/svg' width='400mm' height='400mm' viewBox='0 0 400 400'>\n\

@@ -6,14 +6,15 @@
 
 mod left_out;
 mod shapes;
+mod viewport;
 
 use std::path::Path as FilePath;
 
-use nalgebra::Matrix2;
 use roxmltree::{Document, Node, ParsingOptions};
 
 use self::left_out::{LeftOut, What};
-use self::shapes::{PIXEL, commands, length};
+use self::shapes::commands;
+use self::viewport::{Frame, inner, sheet};
 use crate::digitize::{Remark, Role, Stroke, Traced, pieces};
 use crate::geometry::{Path, Vec2, parse_transform};
 use crate::input::{InputError, bytes, shown};
@@ -131,24 +132,12 @@ fn besides(left_out: &[String]) -> String {
     left_out.iter().map(|sentence| format!("; {sentence}")).collect()
 }
 
-/// From an element's coordinates to metres on the sheet.
-#[derive(Clone, Copy)]
-struct Frame {
-    linear: Matrix2<f64>,
-    shift: Vec2,
-}
-
-impl Frame {
-    /// This after an element's own transform.
-    fn after(self, (linear, shift): (Matrix2<f64>, Vec2)) -> Self {
-        Self { linear: self.linear * linear, shift: self.linear * shift + self.shift }
-    }
-}
-
 /// What an element inherits.
 #[derive(Clone)]
 struct Scope {
     frame: Frame,
+    /// Size of the drawing it stands in, its user units.
+    viewport: Vec2,
     group: Option<String>,
     classes: String,
 }
@@ -164,21 +153,26 @@ struct Reader<'a, 'i> {
 
 impl Reader<'_, '_> {
     fn walk(&mut self, root: Node) -> Result<(), SvgError> {
-        let scope = Scope { frame: sheet(root), group: None, classes: String::new() };
+        let (frame, viewport) = sheet(root);
+        let scope = Scope { frame, viewport, group: None, classes: String::new() };
         // Elements with what they inherit, the next one last: files may nest deeper than a stack of calls.
         let mut open = vec![(root, scope)];
         while let Some((node, scope)) = open.pop() {
-            let mut inner = scope.clone();
+            let mut within = scope.clone();
             if let Some(text) = node.attribute("transform").filter(|_| node != root) {
                 let own = parse_transform(text).ok_or_else(|| self.value(node, "a transform", text))?;
-                inner.frame = scope.frame.after(own);
+                within.frame = scope.frame.after(own);
             }
             let name = node.tag_name().name();
+            if name == "svg" && node != root {
+                let (place, viewport) = inner(node, scope.viewport);
+                (within.frame, within.viewport) = (within.frame.after(place), viewport);
+            }
             if let Some(own) = node.attribute("class") {
-                inner.classes = if name == "g" { own.to_owned() } else { format!("{own} {}", scope.classes) };
+                within.classes = if name == "g" { own.to_owned() } else { format!("{own} {}", scope.classes) };
             }
             if CONTAINERS.contains(&name) {
-                inner.group = group_name(node).or(scope.group);
+                within.group = group_name(node).or(scope.group);
                 let chosen = (name == "switch").then(|| alternative(node));
                 let elements = || {
                     let all = node.children().filter(Node::is_element);
@@ -186,9 +180,9 @@ impl Reader<'_, '_> {
                 };
                 elements().filter(|c| is_hidden(*c) && draws(*c)).for_each(|c| self.leave_out(c, What::Hidden));
                 let children = elements().filter(|c| !is_hidden(*c) && !NOT_DRAWN.contains(&c.tag_name().name()));
-                open.extend(children.map(|c| (c, inner.clone())).collect::<Vec<_>>().into_iter().rev());
+                open.extend(children.map(|c| (c, within.clone())).collect::<Vec<_>>().into_iter().rev());
             } else {
-                self.element(node, name, &inner)?;
+                self.element(node, name, &within)?;
             }
         }
         Ok(())
@@ -263,24 +257,6 @@ fn remark(node: Node, frame: Frame) -> Option<Remark> {
     let words: Vec<&str> = node.descendants().filter_map(|n| n.text()).collect();
     let at = Vec2::new(number("x").unwrap_or(0.0), number("y").unwrap_or(0.0));
     (!words.is_empty()).then(|| Remark { at: frame.linear * at + frame.shift, text: shown(&words.join(" "), REMARK) })
-}
-
-/// From user units to metres: width and height over viewBox, the smaller of the two scales.
-fn sheet(root: Node) -> Frame {
-    let view: Vec<f64> = root
-        .attribute("viewBox")
-        .map(|v| v.split([' ', ',']).filter_map(|w| w.parse().ok()).collect())
-        .unwrap_or_default();
-    let scale = |side: &str, units: Option<&f64>| {
-        let metres = root.attribute(side).and_then(length)?;
-        let units = *units?;
-        (units > 0.0 && metres > 0.0).then(|| metres / units)
-    };
-    let scales = [scale("width", view.get(2)), scale("height", view.get(3))];
-    let scale = scales.into_iter().flatten().fold(f64::INFINITY, f64::min);
-    let scale = if scale.is_finite() { scale } else { PIXEL };
-    let origin = if view.len() == 4 { Vec2::new(view[0], view[1]) } else { Vec2::zeros() };
-    Frame { linear: Matrix2::identity() * scale, shift: -origin * scale }
 }
 
 /// The one child of a `switch` that is shown: the first that asks for nothing. What it holds in another program's words
