@@ -548,6 +548,9 @@ fn the_halves_of_a_folded_piece_and_copies_are_sewn_one_by_one() {
         ("b.right.L".into(), "b.right.R".into())
     );
     assert_eq!(openings(&g).len(), 3);
+    // Openings go by the names in the file, whatever halves and darts make of them.
+    let names: Vec<Vec<String>> = openings(&g).iter().map(|o| g.opening_edges(o)).collect();
+    assert!(names.contains(&vec!["b.top".to_owned()]) && names.contains(&vec!["b.bottom".to_owned()]), "{names:?}");
     let strips = SQUARES.replace("    grain: [[0, 0], [0, 9]]\n", "    grain: [[0, 0], [0, 9]]\n    cut: 2\n");
     let g = garment(&strips);
     assert_eq!(g.pieces.iter().map(|p| p.name.as_str()).collect::<Vec<_>>(), ["a.1", "a.2", "b.1", "b.2"]);

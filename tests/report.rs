@@ -264,6 +264,10 @@ fn openings_have_readable_names() {
         named(&[&[("front", "hem"), ("back", "hem")], &[("lining", "top"), ("a", "hem")], &[]]),
         ["hem", "top + hem", "rim"]
     );
+    // The parts of an edge with a dart on either half of a folded back; a pocket on one half.
+    let halves: Vec<(&str, &str)> = ["waist.L", "waist.2.L", "waist.2.R", "waist.R"].map(|e| ("back", e)).into();
+    assert_eq!(named(&[&halves, &[("front", "pocket.R"), ("front", "pocket.2.R")]]), ["back.waist", "front.R.pocket"]);
+    assert_eq!(named(&[&[("front", "hem.R"), ("back.R", "hem")]]), ["hem.R"]);
     assert_eq!(named(&[&[("a", "hem"), ("b", "hem")], &[("c", "hem"), ("d", "hem")]]), ["hem", "hem (2)"]);
 }
 

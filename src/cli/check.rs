@@ -195,7 +195,5 @@ fn seam(walked: SeamWalk) -> SeamRow {
 }
 
 fn opening(garment: &Garment, opening: &crate::pattern::Opening) -> OpeningRow {
-    let mut edges: Vec<String> = opening.spans.iter().map(|s| garment.edge_name(s.edge)).collect();
-    edges.dedup();
-    OpeningRow { edges, length: opening.length * MM }
+    OpeningRow { edges: garment.opening_edges(opening), length: opening.length * MM }
 }

@@ -6,7 +6,6 @@ use super::diagnostic::{Findings, Located};
 use super::file::{GarmentFile, Quantity, TestEntry, TestFile, Unit};
 use super::inherit::unknown_piece;
 use super::problem::Problem;
-use super::walk::edge_name;
 use super::{Bound, Garment, Test, openings};
 use crate::input::nearest;
 
@@ -91,9 +90,8 @@ impl Reader<'_> {
         if found.len() == expected {
             return;
         }
-        let rim =
-            |o: &super::Opening| o.spans.first().map_or_else(String::new, |s| edge_name(&self.garment.pieces, s.edge));
-        let rims = format!("at {}", found.iter().map(rim).collect::<Vec<_>>().join(", "));
+        let rims: Vec<String> = found.iter().filter_map(|o| self.garment.opening_edges(o).into_iter().next()).collect();
+        let rims = format!("at {}", rims.join(", "));
         findings.error(test.at, Problem::Openings { found: found.len(), expected, rims });
     }
 }

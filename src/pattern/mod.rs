@@ -57,7 +57,7 @@ pub use place_word::{PlaceWord, place_word};
 pub use problem::Problem;
 pub use reference::parse_quantity;
 pub use rim::{Opening, openings};
-pub use walk::{SeamWalk, walk};
+pub use walk::{SeamWalk, walk, written_edge};
 
 use crate::geometry::{Path, Vec2, Vec3};
 

@@ -1,6 +1,6 @@
 //! Walking the seams: both lengths of each, and what they differ by beyond what was said.
 
-use super::{Garment, Give, SeamKind, Span};
+use super::{EdgeId, Garment, Give, Opening, SeamKind, Span};
 
 /// The lengths of one seam, metres.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,15 +79,34 @@ fn chain_name(garment: &Garment, chain: &[Span]) -> String {
     names.join(" + ")
 }
 
+/// `waist`, as the file has it, for `waist.2.R`: the second part of an edge that a dart cuts in two, on the right half
+/// of a folded piece. Names in files have no points.
+pub fn written_edge(name: &str) -> &str {
+    name.split('.').next().unwrap_or(name)
+}
+
 impl Garment {
     /// `front.L.side`.
-    pub fn edge_name(&self, edge: super::EdgeId) -> String {
+    pub fn edge_name(&self, edge: EdgeId) -> String {
         edge_name(&self.pieces, edge)
+    }
+
+    /// The edges round an opening, as the file names them, each once: `front.L.neck`.
+    pub fn opening_edges(&self, opening: &Opening) -> Vec<String> {
+        let mut names: Vec<String> = Vec::new();
+        for EdgeId { piece, ring, index } in opening.spans.iter().map(|s| s.edge) {
+            let piece = &self.pieces[piece];
+            let name = format!("{}.{}", piece.name, written_edge(&piece.loops[ring][index].name));
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names
     }
 }
 
 /// `front.L.side`.
-pub(super) fn edge_name(pieces: &[super::Piece], edge: super::EdgeId) -> String {
+pub(super) fn edge_name(pieces: &[super::Piece], edge: EdgeId) -> String {
     let piece = &pieces[edge.piece];
     format!("{}.{}", piece.name, piece.loops[edge.ring][edge.index].name)
 }

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::geometry::{Vec3, rim_loops, sorted_pair};
 use crate::mesh::ClothMesh;
-use crate::pattern::{Bridge, EdgeId, Fastening, Garment, RimSpot, Step, patches, worn_rims};
+use crate::pattern::{Bridge, EdgeId, Fastening, Garment, RimSpot, Step, patches, worn_rims, written_edge};
 use crate::verify::Welded;
 
 /// The edge that a stretch of rim belongs to; none for a chord that joins no two particles of one edge.
@@ -111,8 +111,8 @@ fn edge_owners(mesh: &ClothMesh, welded: &Welded) -> HashMap<[u32; 2], EdgeId> {
 }
 
 /// A name for every opening, given the (piece, edge) names round each: `neck` for `front.L.neck` and `back.neck`,
-/// `hem.L` where all pieces are left ones, `sleeve.L.hem` for one piece, `neck + front_edge` for different edges.
-/// Names that would be the same are numbered: `hem`, `hem (2)`.
+/// `hem.L` where all pieces are left ones, `sleeve.L.hem` for one piece or half, `neck + front_edge` for different
+/// edges. Names that would be the same are numbered: `hem`, `hem (2)`.
 pub fn opening_names(openings: &[Vec<(String, String)>]) -> Vec<String> {
     let mut used: HashMap<String, usize> = HashMap::new();
     let mut number = |name: String| {
@@ -129,7 +129,7 @@ const EDGES_NAMED: usize = 3;
 fn name(edges: &[(String, String)]) -> String {
     let mut bases: Vec<&str> = Vec::new();
     for (_, edge) in edges {
-        let base = without_number(edge);
+        let base = written_edge(edge);
         if !bases.contains(&base) {
             bases.push(base);
         }
@@ -137,26 +137,17 @@ fn name(edges: &[(String, String)]) -> String {
     let more = if bases.len() > EDGES_NAMED { " + …" } else { "" };
     let names = bases[..bases.len().min(EDGES_NAMED)].join(" + ");
     let Some((first, _)) = edges.first() else { return "rim".into() };
-    if edges.iter().all(|(piece, _)| piece == first) {
-        return format!("{first}.{names}{more}");
-    }
-    match side(first).filter(|s| edges.iter().all(|(piece, _)| side(piece) == Some(*s))) {
-        Some(side) => format!("{names}.{side}{more}"),
-        None => names + more,
-    }
+    let mut sides = edges.iter().map(|(piece, edge)| side(piece).or_else(|| side(edge)));
+    let common = sides.next().flatten().filter(|s| sides.all(|other| other == Some(*s)));
+    let one_piece = edges.iter().all(|(piece, _)| piece == first);
+    let unsaid = common.filter(|_| !(one_piece && side(first).is_some()));
+    let suffix = unsaid.map_or_else(String::new, |side| format!(".{side}"));
+    if one_piece { format!("{first}{suffix}.{names}{more}") } else { format!("{names}{suffix}{more}") }
 }
 
-/// `waist` for `waist.2`, the second half of an edge that a dart cuts in two.
-fn without_number(edge: &str) -> &str {
-    match edge.rsplit_once('.') {
-        Some((base, number)) if number.bytes().all(|b| b.is_ascii_digit()) => base,
-        _ => edge,
-    }
-}
-
-/// `L` or `R` of one of a pair.
-fn side(piece: &str) -> Option<&str> {
-    piece.rsplit_once('.').map(|(_, side)| side).filter(|s| matches!(*s, "L" | "R"))
+/// `L` or `R` of one of a pair, or of an edge of one half of a folded piece.
+fn side(name: &str) -> Option<&str> {
+    name.rsplit_once('.').map(|(_, side)| side).filter(|s| matches!(*s, "L" | "R"))
 }
 
 #[cfg(test)]
