@@ -5,6 +5,8 @@
 //! at those parameters, which converges to what was sampled instead of creeping there (Blake & Isard 1998, Active
 //! Contours): each curve as long as the tolerance lets it be, and with the direction of the one before where they meet.
 
+use std::cmp::Ordering;
+
 use nalgebra::{DMatrix, DVector, Matrix2};
 
 use super::Vec2;
@@ -16,6 +18,11 @@ pub type Cubic = [Vec2; 4];
 const ROUNDS: (usize, usize) = (8, 2);
 /// Weight of the distance along the tangent in the others: it only keeps the equations solvable.
 const ALONG: f64 = 1e-3;
+/// Longest handle as a share of the points' length: that of three quarters of a circle. (A straight curve run through at
+/// even speed has a third.) With longer ones a curve through few points runs back and forth on its way.
+const LONGEST_HANDLE: f64 = 2.0 / 3.0;
+/// A curve through fewer points than this is told its directions at both ends: left free, it hooks aside there.
+const FREE: usize = 7;
 /// Points on both sides of a joint that say which way it points.
 const REACH: usize = 4;
 
@@ -27,9 +34,10 @@ pub fn smooth_curves(points: &[Vec2], tolerance: f64) -> Vec<Cubic> {
     let last = points.len().saturating_sub(1);
     let mut from = 0;
     while from < last {
-        let start = (from > 0).then(|| direction(points, from));
         let fitted = |to: usize| {
-            let end = (to < last).then(|| direction(points, to));
+            let few = to - from + 1 < FREE;
+            let start = (few || from > 0).then(|| direction(points, from));
+            let end = (few || to < last).then(|| direction(points, to));
             fit(&points[from..=to], start, end).filter(|(_, off)| *off <= tolerance)
         };
         // The longest stretch that is near enough: more of the same length each time, then halving.
@@ -54,14 +62,21 @@ pub fn smooth_curves(points: &[Vec2], tolerance: f64) -> Vec<Cubic> {
     curves
 }
 
-/// Which way the points run at one of them.
+/// Which way the points run at one of them: as the parabola through three of them does, run through at even speed.
 fn direction(points: &[Vec2], k: usize) -> Vec2 {
-    let reach = REACH.min(k).min(points.len() - 1 - k).max(1);
-    let (before, after) = (points[k.saturating_sub(reach)], points[(k + reach).min(points.len() - 1)]);
-    // That of the parabola through the three, run through at even speed.
-    let [back, on] = [points[k] - before, after - points[k]];
+    let last = points.len() - 1;
+    let reach = REACH.min(k).min(last - k).max(1);
+    // At an end, the three are the first or the last ones; two points have a direction, too.
+    let middle = k.max(reach).min(last.saturating_sub(reach));
+    let (before, after) = (points[middle.saturating_sub(reach)], points[(middle + reach).min(last)]);
+    let [back, on] = [points[middle] - before, after - points[middle]];
     let [b, c] = [back.norm(), on.norm()];
-    let way = if b > 0.0 && c > 0.0 { back * (c / b) + on * (b / c) } else { after - before };
+    let way = match k.cmp(&middle) {
+        _ if b == 0.0 || c == 0.0 => after - before,
+        Ordering::Less => back * ((2.0 * b + c) / b) - on * (b / c),
+        Ordering::Equal => back * (c / b) + on * (b / c),
+        Ordering::Greater => on * ((2.0 * c + b) / c) - back * (c / b),
+    };
     way.try_normalize(0.0).unwrap_or_else(Vec2::zeros)
 }
 
@@ -86,6 +101,11 @@ fn fit(points: &[Vec2], start: Option<Vec2>, end: Option<Vec2>) -> Option<(Cubic
         }
     }
     best
+}
+
+/// Length along the points.
+fn walked(points: &[Vec2]) -> f64 {
+    points.windows(2).map(|step| (step[1] - step[0]).norm()).sum()
 }
 
 /// Lengths along the points, from 0 to 1; `None` where they have none.
@@ -162,13 +182,15 @@ fn least_squares(
     let little = 1e-9 * normal.trace();
     (0..moves.len()).for_each(|i| normal[(i, i)] += little);
     let solution = normal.cholesky()?.solve(&right);
-    let mut handles = ends;
+    let mut handles = [Vec2::zeros(); 2];
     for ((side, d), length) in moves.iter().zip(solution.iter()) {
         // A handle that points backwards would make a loop.
         let forward = if directions[*side].is_some() { length.max(0.0) } else { *length };
         handles[*side] += d * forward;
     }
-    Some([ends[0], handles[0], handles[1], ends[1]])
+    let longest = LONGEST_HANDLE * walked(points);
+    let [out, back] = handles.map(|handle| handle.cap_magnitude(longest));
+    Some([ends[0], ends[0] + out, ends[1] + back, ends[1]])
 }
 
 #[cfg(test)]
@@ -212,5 +234,43 @@ mod tests {
         assert!(farthest(&points, &curves) < 2.1e-4);
         assert!(smooth_curves(&[], 1.0).is_empty() && smooth_curves(&[Vec2::zeros()], 1.0).is_empty());
         assert_eq!(smooth_curves(&[Vec2::zeros(); 3], 1.0).len(), 2);
+    }
+
+    /// Hems of a coarse mesh: a few points nearly in a line, and directions that other points give.
+    #[test]
+    fn no_curve_runs_back_and_forth_through_few_points() {
+        let long = |points: &[Vec2]| points.windows(2).map(|w| (w[1] - w[0]).norm()).sum::<f64>();
+        for seed in 0..60_u32 {
+            let noise = |k: u32, salt: u32| f64::from((k + 1) * (seed * 2 + salt) * 7919 % 1013) / 1013.0 - 0.5;
+            let point_of = |k: u32| Vec2::new(25.0 * f64::from(k) + 6.0 * noise(k, 3), 0.8 * noise(k, 5));
+            let points: Vec<Vec2> = (0..22).map(point_of).collect();
+            let curves = smooth_curves(&points, 0.1);
+            let dense: Vec<Vec2> =
+                curves.iter().flat_map(|c| (0..=50).map(|k| point(c, f64::from(k) / 50.0))).collect();
+            assert!(long(&dense) < 1.01 * long(&points), "seed {seed}: {} {curves:?}", long(&dense));
+        }
+    }
+
+    /// Shoulder, half a neckline and an armhole of a dress in cells of 25 mm: no edge may reach over its neighbours.
+    #[test]
+    fn a_curve_through_few_points_begins_and_ends_as_they_do() {
+        let shoulder = [[843.48, 22.24], [872.21, 21.07], [897.99, 10.0]];
+        let neck = [[897.99, 10.0], [918.16, 18.8], [938.42, 27.36], [958.57, 36.2], [979.01, 44.3]];
+        let armhole =
+            [[979.01, 44.3], [970.89, 69.19], [969.19, 95.33], [968.88, 121.54], [975.1, 146.88], [991.02, 167.37]];
+        for edge in [&shoulder[..], &neck, &armhole, &shoulder[..2]] {
+            let points: Vec<Vec2> = edge.iter().map(|&p| Vec2::from(p)).collect();
+            let curves = smooth_curves(&points, 0.1);
+            let ends = [
+                (curves[0], points[1] - points[0]),
+                (curves[curves.len() - 1], points[points.len() - 1] - points[points.len() - 2]),
+            ];
+            for (k, (curve, step)) in ends.into_iter().enumerate() {
+                let handle = curve[2 * k + 1] - curve[2 * k];
+                // A straight one has none.
+                let aside = if handle.norm() > 0.0 { handle.angle(&step) } else { 0.0 };
+                assert!(aside < 0.5, "{aside} {curves:?}");
+            }
+        }
     }
 }
