@@ -5,20 +5,24 @@ use crate::geometry::{TriMesh, Vec3};
 /// Cells of the broad phase are this many mean edges wide: a few triangles in each.
 const CELL_IN_EDGES: f64 = 2.0;
 
+/// And at least so wide that a triangle meets no more of them on average: usual ones meet up to eight, one splinter of
+/// a surface could meet any number.
+const MOST_CELLS: f64 = 64.0;
+
 /// How many pairs of triangles of `mesh` cross without sharing a vertex, and where the first do; `None` when none do.
 pub(super) fn crossings(mesh: &TriMesh) -> Option<(usize, Vec3)> {
     let boxes: Vec<[Vec3; 2]> = (0..mesh.triangles.len()).map(|t| bounds(mesh.corners(t))).collect();
     let mut found: Option<(usize, Vec3)> = None;
-    for (s, t) in close_pairs(mesh, &boxes) {
+    each_close_pair(cell_width(mesh, &boxes), &boxes, |s, t| {
         let shared = mesh.triangles[s].iter().any(|v| mesh.triangles[t].contains(v));
         if shared || !overlap(&boxes[s], &boxes[t]) {
-            continue;
+            return;
         }
         let (a, b) = (mesh.corners(s), mesh.corners(t));
         if let Some(place) = pierces(a, b).or_else(|| pierces(b, a)) {
             found.get_or_insert((0, place)).0 += 1;
         }
-    }
+    });
     found
 }
 
@@ -30,10 +34,25 @@ fn overlap(a: &[Vec3; 2], b: &[Vec3; 2]) -> bool {
     (0..3).all(|k| a[0][k] <= b[1][k] && b[0][k] <= a[1][k])
 }
 
-/// Pairs that meet a common cell, each once, in order.
-fn close_pairs(mesh: &TriMesh, boxes: &[[Vec3; 2]]) -> Vec<(usize, usize)> {
+/// Width of the broad phase's cells.
+fn cell_width(mesh: &TriMesh, boxes: &[[Vec3; 2]]) -> f64 {
+    let count = boxes.len().max(1) as f64;
     // A mesh of n triangles has edges of about √(2.3 · area / n).
-    let cell = CELL_IN_EDGES * (2.3 * mesh.area() / boxes.len().max(1) as f64).sqrt();
+    let mut cell = CELL_IN_EDGES * (2.3 * mesh.area() / count).sqrt();
+    let cells = |cell: f64| -> f64 { boxes.iter().map(|[low, high]| met(low, high, cell)).sum() };
+    while cell > 0.0 && cells(cell) > MOST_CELLS * count {
+        cell *= 2.0;
+    }
+    cell
+}
+
+/// How many cells a box meets, about.
+fn met(low: &Vec3, high: &Vec3, cell: f64) -> f64 {
+    (high - low).map(|side| side / cell + 1.0).product()
+}
+
+/// Visits the pairs of boxes that meet a common cell, each once, in order.
+fn each_close_pair(cell: f64, boxes: &[[Vec3; 2]], mut visit: impl FnMut(usize, usize)) {
     let index = |x: f64| (x / cell).floor() as i64;
     let mut entries: Vec<([i64; 3], usize)> = Vec::new();
     for (t, [low, high]) in boxes.iter().enumerate() {
@@ -44,19 +63,17 @@ fn close_pairs(mesh: &TriMesh, boxes: &[[Vec3; 2]]) -> Vec<(usize, usize)> {
         }
     }
     entries.sort_unstable();
-    let mut pairs = Vec::new();
     for group in entries.chunk_by(|a, b| a.0 == b.0) {
         for (k, (cell_of, s)) in group.iter().enumerate() {
             for (_, t) in &group[k + 1..] {
                 // The pair belongs to the lowest cell that both boxes meet.
                 let first: [i64; 3] = std::array::from_fn(|k| index(boxes[*s][0][k].max(boxes[*t][0][k])));
                 if first == *cell_of {
-                    pairs.push((*s, *t));
+                    visit(*s, *t);
                 }
             }
         }
     }
-    pairs
 }
 
 /// Where an edge of `a` passes through the inside of `b`. Touching does not count.
@@ -87,6 +104,15 @@ mod tests {
             mesh.triangles.extend(faces.map(|f| f.map(|v| v + copy)));
         }
         mesh
+    }
+
+    /// In cells as wide as its mean edge a splinter across all axes would meet 10¹³ of them.
+    #[test]
+    fn a_splinter_meets_a_bounded_number_of_cells() {
+        let corners = [Vec3::zeros(), Vec3::repeat(1e3), Vec3::y() * 1e-6, Vec3::z() * 1e-6];
+        let triangles = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let splinter = TriMesh { vertices: corners.into(), triangles };
+        assert_eq!(crossings(&splinter), None);
     }
 
     #[test]
