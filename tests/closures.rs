@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "tests may")]
 
 use toile::geometry::Vec3;
-use toile::io::garment::read_text;
+use toile::io::garment::{Refused, read_text};
 use toile::mannequin::Mannequin;
 use toile::mesh::{ClothMesh, build};
 use toile::pattern::{Garment, openings};
@@ -11,6 +11,11 @@ use toile::report::{Measured, Report, measure, table};
 
 /// A tube of a pair of halves, 100 mm wide each, open in front; `closures` and what else is drawn.
 fn tube(closures: &str, more: &str) -> Garment {
+    file(closures, more, "").unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// `more` is nothing, [`PATCH`] or [`SLIT`].
+fn file(closures: &str, more: &str, test: &str) -> Result<Garment, Refused> {
     let text = format!(
         "\
 garment: 1
@@ -29,10 +34,15 @@ pieces:
   back: {{sew: half.back, to: mirror}}
 closures: [{closures}]
 free: [half.top, half.hem, half.front{}]
+tests: [{test}]
 ",
-        if more.is_empty() { "" } else { ", \"patch.*\"" }
+        match more {
+            PATCH => ", \"patch.*\"",
+            SLIT => ", half.slit",
+            _ => "",
+        }
     );
-    read_text("tube", "tube.yaml", &text).unwrap_or_else(|e| panic!("{e}")).garment
+    Ok(read_text("tube", "tube.yaml", &text)?.garment)
 }
 
 const BUTTONS: &str = "{kind: button, piece: half.L, at: [10, 20], meets: half.R, pitch: 50, count: 4}";
@@ -40,6 +50,7 @@ const PATCH: &str = "  patch:
     grain: [[0, 0], [0, 9]]
     outline: {start: 0 0, top: L 40 0, right: L 40 40, bottom: L 0 40, left: L 0 0}
 ";
+const SLIT: &str = "    holes: {slit: M 40 60 L 42 60 L 42 140 L 40 140 Z}\n";
 
 /// The tube bent round so that its fronts are `apart` (metres), further by `bulge` half-way between two buttons.
 fn worn(garment: &Garment, apart: f64, bulge: f64) -> Report {
@@ -105,6 +116,51 @@ fn a_closed_front_is_no_opening_of_the_report() {
     let open = worn(&garment, 0.03, 0.0);
     assert_eq!(open.worn.len(), 1);
     assert!(!open.closures[0].closed && table(&open).contains("OPEN"), "{}", table(&open));
+}
+
+#[test]
+fn a_buttoned_slit_is_no_opening() {
+    let tube = |closures: &str| file(closures, SLIT, "").unwrap();
+    let lengths = |g: &Garment| openings(g).iter().map(|o| (o.length * 1e3).round()).collect::<Vec<f64>>();
+    assert_eq!(lengths(&tube("")), [800.0, 164.0, 164.0]);
+    let button = |half: &str, x: [f64; 2]| {
+        format!(
+            "{{kind: button, piece: half.{half}, at: [{}, 100], meets: half.{half}, meets_at: [{}, 100]}}",
+            x[0], x[1]
+        )
+    };
+    let closed = tube(&format!("{}, {}", button("L", [38.0, 44.0]), button("R", [38.0, 44.0])));
+    assert_eq!(lengths(&closed), [800.0]);
+}
+
+/// A rim in a point of which three layers meet; beside it, a tube that is buttoned.
+#[test]
+fn a_rim_without_an_order_leaves_the_others_closed() {
+    let text = "\
+garment: 1
+pieces:
+  half:
+    cut: pair
+    drawn: R
+    grain: [[0, 0], [0, 9]]
+    outline: {start: 0 0, top: L 100 0, back: L 100 200, hem: L 0 200, front: L 0 0}
+  shell:
+    grain: [[0, 0], [0, 9]]
+    outline: {start: 0 0, top: L 100 0, right: L 100 90, bottom: L 0 90, left: L 0 0}
+  band: {like: shell}
+  lining: {like: shell, layer: -1}
+seams:
+  back: {sew: half.back, to: mirror}
+  waist: {sew: shell.top, to: band.bottom}
+  facing: {sew: shell.top, to: lining.top, face: same, layers: [0, -1]}
+closures: [{kind: button, piece: half.L, at: [10, 20], meets: half.R, pitch: 50, count: 4}]
+free: [\"half.*\", \"shell.*\", \"band.*\", \"lining.*\"]
+";
+    let garment = read_text("rims", "rims.yaml", text).unwrap_or_else(|e| panic!("{e}")).garment;
+    let rims = openings(&garment);
+    let lengths: Vec<f64> = rims.iter().map(|o| (o.length * 1e3).round()).collect();
+    assert_eq!(lengths[..2], [240.0, 260.0], "{lengths:?}");
+    assert!(rims[2..].iter().all(|o| garment.opening_edges(o).iter().all(|e| !e.starts_with("half"))));
 }
 
 #[test]

@@ -18,6 +18,10 @@ const TURN_SLACK: f64 = 5e-3;
 /// So much (metres) of a fastened edge beyond its last fastening is never an opening's: half the width of a band.
 const BEYOND: f64 = 0.05;
 
+/// A rim of this length (metres) between fastened edges alone is a slit: buttons are 100 mm apart at most, and no head
+/// goes through what is left between two of them; the neck of a newborn's vest is 300 mm.
+const SLIT: f64 = 0.25;
+
 /// A point of a rim.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RimSpot {
@@ -136,7 +140,8 @@ pub struct Bridge<K> {
 ///
 /// A bridge is a narrow band of cloth: whoever walks along the rim comes to it, crosses, and goes on along the other
 /// side. What is left between two neighbours of a row, and beyond its end as far as the overlap goes, is closed, and
-/// so is a slit between fastened edges alone. Of rims that would be closed altogether the longest part is left open.
+/// so is a slit between fastened edges alone. Of rims that would be closed altogether the longest part is left open, if
+/// it is more than a slit: two tops that are buttoned on either shoulder leave the neck between them.
 pub fn worn_rims<K: PartialEq + Clone>(rims: &[Vec<Step<K>>], bridges: &[Bridge<K>]) -> Vec<Vec<[usize; 2]>> {
     let mut joined = DisjointSets::new(rims.len());
     let mut next: Vec<Vec<[usize; 2]>> =
@@ -164,7 +169,7 @@ pub fn worn_rims<K: PartialEq + Clone>(rims: &[Vec<Step<K>>], bridges: &[Bridge<
     for (i, part) in parts.iter().enumerate() {
         let together = |other: &Part| joined.same(part.steps[0][0] as u32, other.steps[0][0] as u32);
         let rest = || parts.iter().enumerate().filter(|(_, p)| together(p));
-        if !rest().any(|(j, p)| open[j] || p.length > part.length) {
+        if !part.slit && !rest().any(|(j, p)| open[j] || p.length > part.length) {
             open[i] = true;
         }
     }
@@ -207,6 +212,8 @@ struct Part {
     steps: Vec<[usize; 2]>,
     length: f64,
     closed: bool,
+    /// Whether it is closed and no more than a gap between fastened edges.
+    slit: bool,
 }
 
 impl Part {
@@ -230,7 +237,8 @@ impl Part {
         let reach = at.iter().map(|b| b.reach).fold(0.0, f64::max);
         let between = at.len() == 2 && at[0].row == at[1].row && !std::ptr::eq(at[0], at[1]);
         let closed = !at.is_empty() && (between || turn <= TURN * reach + TURN_SLACK);
-        Self { length: steps.iter().map(|&s| step(s).length).sum(), closed, steps }
+        let length = steps.iter().map(|&s| step(s).length).sum();
+        Self { length, closed, slit: closed && length <= SLIT && sum(true) >= beside, steps }
     }
 }
 
@@ -313,8 +321,19 @@ mod tests {
     }
 
     #[test]
-    fn a_slit_that_is_closed_altogether_stays_one_rim() {
+    fn a_buttoned_slit_is_no_opening() {
         let rims = [rim(&[('u', 15), ('o', 15)])];
-        assert_eq!(lengths(&rims, &[button([[0, 5], [0, 25]], ['u', 'o'], 0)]).len(), 1);
+        assert_eq!(lengths(&rims, &[]), [30]);
+        assert!(lengths(&rims, &[button([[0, 5], [0, 25]], ['u', 'o'], 0)]).is_empty());
+        // Its ends may have an edge of their own.
+        let rims = [rim(&[('u', 12), ('e', 1), ('o', 12), ('f', 1)])];
+        assert!(lengths(&rims, &[button([[0, 6], [0, 19]], ['u', 'o'], 0)]).is_empty());
+    }
+
+    #[test]
+    fn tops_that_are_buttoned_on_the_shoulders_leave_a_neck() {
+        let rims = [rim(&[('f', 40), ('b', 40)])];
+        let row = [[10, 70], [30, 50]].map(|[f, b]| button([[0, f], [0, b]], ['f', 'b'], 0));
+        assert_eq!(lengths(&rims, &row), [40]);
     }
 }

@@ -143,34 +143,45 @@ pub(super) const SLIVER: f64 = 1e-3;
 pub fn openings(garment: &Garment) -> Vec<Opening> {
     let fastened = fastenings(garment);
     let rims = free_rims(garment, &fastened);
-    let worn = if fastened.is_empty() { None } else { worn_spans(&rims, &fastened) };
+    let left =
+        if fastened.is_empty() { rims.into_iter().map(|r| r.spans).collect() } else { worn_spans(rims, &fastened) };
     let patches = patches(garment);
     let patch = |spans: &[Span]| spans.iter().all(|s| patches.contains(&s.edge.piece));
-    let whole = || rims.into_iter().map(|r| r.spans).collect();
-    let spans = worn.unwrap_or_else(whole).into_iter().filter(|spans: &Vec<Span>| !patch(spans));
+    let spans = left.into_iter().filter(|spans: &Vec<Span>| !patch(spans));
     spans.map(|spans| Opening { length: spans.iter().map(Span::length).sum(), spans }).collect()
 }
 
-/// The openings that are left when `fastened` are closed; none if a rim has no order that could be told.
-fn worn_spans(rims: &[FreeRim], fastened: &[Fastening]) -> Option<Vec<Vec<Span>>> {
-    let rings: Vec<Vec<Span>> = rims.iter().map(FreeRim::ordered).collect::<Option<_>>()?;
+/// The openings that are left when `fastened` are closed. A rim whose stretches have no one order (three layers meet in
+/// a point of it) stays as it is, whatever is fastened there: which of its ways a closure cuts off cannot be told.
+fn worn_spans(rims: Vec<FreeRim>, fastened: &[Fastening]) -> Vec<Vec<Span>> {
+    let (mut rings, mut unordered) = (Vec::new(), Vec::new());
+    for rim in rims {
+        match rim.ordered() {
+            Some(ring) => rings.push(ring),
+            None => unordered.push(rim.spans),
+        }
+    }
     let steps: Vec<Vec<Step<EdgeId>>> =
         rings.iter().map(|ring| ring.iter().map(|s| Step { along: s.edge, length: s.length() }).collect()).collect();
-    let corner = |spot: &RimSpot| {
-        let starts =
-            rings.iter().enumerate().flat_map(|(r, ring)| ring.iter().enumerate().map(move |(k, s)| (r, k, s)));
-        let near = |s: &Span| if s.edge == spot.edge { (s.from - spot.at).abs() } else { f64::INFINITY };
-        let after = |s: &Span| if s.edge == spot.edge { (s.to - spot.at).abs() } else { f64::INFINITY };
-        let ends = starts.flat_map(|(r, k, s)| [(near(s), [r, k]), (after(s), [r, (k + 1) % rings[r].len()])]);
-        ends.filter(|e| e.0 <= SLIVER).min_by(|a, b| a.0.total_cmp(&b.0)).map(|e| e.1)
-    };
     let bridge = |f: &Fastening| {
-        let [a, b] = f.ends.each_ref().map(corner);
+        let [a, b] = f.ends.each_ref().map(|spot| corner(&rings, spot));
         Some(Bridge { corners: [a?, b?], along: f.ends.map(|e| e.edge), reach: f.reach, row: f.row })
     };
     let bridges: Vec<Bridge<EdgeId>> = fastened.iter().filter_map(bridge).collect();
     let kept = worn_rims(&steps, &bridges);
-    Some(kept.into_iter().map(|steps| steps.into_iter().map(|[r, k]| rings[r][k]).collect()).collect())
+    let worn = kept.into_iter().map(|steps| steps.into_iter().map(|[r, k]| rings[r][k]).collect());
+    worn.chain(unordered).collect()
+}
+
+/// The ring, and the corner of it, nearest to a spot where something is fastened.
+fn corner(rings: &[Vec<Span>], spot: &RimSpot) -> Option<[usize; 2]> {
+    let apart = |s: &Span, at: f64| if s.edge == spot.edge { (at - spot.at).abs() } else { f64::INFINITY };
+    let ends = rings.iter().enumerate().flat_map(|(r, ring)| {
+        let both =
+            move |(k, s): (usize, &Span)| [(apart(s, s.from), [r, k]), (apart(s, s.to), [r, (k + 1) % ring.len()])];
+        ring.iter().enumerate().flat_map(both)
+    });
+    ends.filter(|e| e.0 <= SLIVER).min_by(|a, b| a.0.total_cmp(&b.0)).map(|e| e.1)
 }
 
 /// The stretches no seam takes that are joined to one rim, and the points (by number) at which each begins and ends.
