@@ -7,11 +7,16 @@ use toile::io::garment::{Refused, read_text};
 use toile::mannequin::Mannequin;
 use toile::mesh::{ClothMesh, build};
 use toile::pattern::{Garment, openings};
-use toile::report::{Measured, Report, measure, table};
+use toile::report::{Measured, Report, measure, table, verdicts};
 
 /// A tube of a pair of halves, 100 mm wide each, open in front; `closures` and what else is drawn.
 fn tube(closures: &str, more: &str) -> Garment {
     file(closures, more, "").unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// The same with a test of its own.
+fn bounded(test: &str) -> Garment {
+    file(BUTTONS, "", test).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// `more` is nothing, [`PATCH`] or [`SLIT`].
@@ -116,6 +121,26 @@ fn a_closed_front_is_no_opening_of_the_report() {
     let open = worn(&garment, 0.03, 0.0);
     assert_eq!(open.worn.len(), 1);
     assert!(!open.closures[0].closed && table(&open).contains("OPEN"), "{}", table(&open));
+}
+
+#[test]
+fn a_closure_that_does_not_close_is_said_and_can_be_bounded() {
+    let garment = bounded("{closure: button, below: 5 mm}");
+    let closed = worn(&garment, -0.02, 0.0);
+    assert_eq!(closed.closures[0].unclosed(), None);
+    let kept = verdicts(&garment, &closed);
+    assert!(kept.len() == 1 && kept[0].ok && kept[0].bound == "closure button", "{kept:?}");
+    // The buttons are 10 mm from either front.
+    let open = worn(&garment, 0.03, 0.0);
+    let said = open.closures[0].unclosed().unwrap();
+    let words = ["button on half.L", "half.R", "closed: 20 mm", "'meets_at'"];
+    assert!(words.iter().all(|w| said.contains(w)), "{said}");
+    let broken = verdicts(&garment, &open);
+    assert!(!broken[0].ok && broken[0].measured > 45.0 && broken[0].at.as_deref() == Some("button on half.L"));
+    // Of closures that are only listed nothing can be measured.
+    let refused = |closures: &str, test: &str| file(closures, "", test).unwrap_err().to_string();
+    assert!(refused(BUTTONS, "{closure: buton, below: 5}").contains("did you mean 'button'"));
+    assert!(refused("{kind: zip}", "{closure: all, below: 5}").contains("'piece', 'at' and 'meets'"));
 }
 
 #[test]

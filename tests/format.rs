@@ -44,6 +44,7 @@ const MAPPINGS: [(&str, Option<&str>, &[&str]); 9] = [
         &[
             "garment: 1\npieces: {}\ntests: [{seam: all, length: 1, §}]\n",
             "garment: 1\npieces: {}\ntests: [{gap: all, below: 1, §}]\n",
+            "garment: 1\npieces: {}\ntests: [{closure: all, below: 1, §}]\n",
             "garment: 1\npieces: {}\ntests: [{drape: all, area: 1, §}]\n",
             "garment: 1\npieces: {}\ntests: [{flatten: all, area: 1, §}]\n",
             "garment: 1\npieces: {}\ntests: [{crossings: 1, §}]\n",

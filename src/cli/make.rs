@@ -11,7 +11,7 @@ use crate::pipeline::{
     AT_REST, Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, Job, Overrides, PATTERN_SVG, PLACED_OBJ, PipelineError,
     REPORT_JSON, ResultFile, Run, SEWN_OBJ, read,
 };
-use crate::report::{Report, restless, table, verdicts};
+use crate::report::{ClosureReport, Report, restless, table, verdicts};
 
 /// How far a garment is taken, and from where.
 pub(super) struct Plan<'a> {
@@ -155,11 +155,12 @@ fn leave_state(run: &Run, plan: &Plan, folder: &Path, inputs: &[PathBuf], consol
     }
 }
 
-/// Says what is out of bounds, and what did not come to rest.
+/// Says what is out of bounds, what did not come to rest and what does not close.
 fn judge(job: &Job, report: &Report, console: &Console) -> Exit {
     for stage in restless(&report.stages, AT_REST) {
         console.note(&stage.to_string());
     }
+    report.closures.iter().filter_map(ClosureReport::unclosed).for_each(|text| console.note(&text));
     let mut exit = Exit::Done;
     for verdict in verdicts(&job.garment, report).iter().filter(|v| !v.ok) {
         console.complain(&format!("out of bounds: {verdict}"));

@@ -32,7 +32,7 @@ pub(super) fn updated(text: &str, file: &GarmentFile, measured: &[Vec<Verdict>])
 /// The figures of a test, in the order of its verdicts.
 fn quantities(test: &TestFile) -> Vec<&Located<Quantity>> {
     match test {
-        TestFile::Seam(_, limit) | TestFile::Gap(_, limit) => vec![limit],
+        TestFile::Seam(_, limit) | TestFile::Gap(_, limit) | TestFile::Closure(_, limit) => vec![limit],
         TestFile::Flatten(_, area, boundary) | TestFile::Drape(_, area, boundary) => {
             area.iter().chain(boundary).collect()
         }

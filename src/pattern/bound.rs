@@ -30,6 +30,7 @@ impl Reader<'_> {
         Some(match &test.value.test {
             TestFile::Seam(name, limit) => Bound::SeamLength(self.seam(name, findings), value(limit)),
             TestFile::Gap(name, limit) => Bound::Gap(self.seam(name, findings), value(limit)),
+            TestFile::Closure(kind, limit) => Bound::Closure(self.closure(kind, findings), value(limit)),
             TestFile::Flatten(name, area, boundary) => Bound::Flatten {
                 piece: self.piece(name, findings),
                 area: area.as_ref().map(fraction),
@@ -73,6 +74,21 @@ impl Reader<'_> {
             findings.error(name.at, Problem::UnknownSeam { name: name.value.clone(), nearest: near, known });
         }
         Some(name.value.clone())
+    }
+
+    /// A kind of closure, of which one at least has points that can be measured.
+    fn closure(&self, kind: &Located<String>, findings: &mut Findings) -> Option<String> {
+        let measured = self.garment.closures.iter().filter(|c| !(c.tacks.is_empty() && c.mirrored.is_empty()));
+        let mut kinds: Vec<&str> = measured.map(|c| c.kind.as_str()).collect();
+        kinds.sort_unstable();
+        kinds.dedup();
+        let all = kind.value == "all";
+        if kinds.is_empty() || !all && !kinds.contains(&kind.value.as_str()) {
+            let near = nearest(&kind.value, kinds.iter().copied()).map(str::to_owned);
+            let (name, known) = (kind.value.clone(), kinds.join(", "));
+            findings.error(kind.at, Problem::UnknownClosure { name, nearest: near, known });
+        }
+        (!all).then(|| kind.value.clone())
     }
 
     fn piece(&self, name: &Located<String>, findings: &mut Findings) -> Option<String> {

@@ -430,6 +430,8 @@ pub enum TestFile {
     Seam(Located<String>, Located<Quantity>),
     /// `{gap: side, below: 2 mm}`.
     Gap(Located<String>, Located<Quantity>),
+    /// `{closure: button, below: 5 mm}`.
+    Closure(Located<String>, Located<Quantity>),
     /// `{flatten: skirt, area: 0.5 %, boundary: 1 mm}`.
     Flatten(Located<String>, Option<Located<Quantity>>, Option<Located<Quantity>>),
     /// `{drape: skirt, area: 0.5 %, boundary: 0.5 %}`.

@@ -331,6 +331,8 @@ pub enum Bound {
     SeamLength(Option<String>, f64),
     /// Largest gap of a seam before stitching, metres.
     Gap(Option<String>, f64),
+    /// Largest gap at the points of closures of a kind (`None` = all) on the garment as it was left, metres.
+    Closure(Option<String>, f64),
     /// Round trip of a piece: area (fraction), boundary (metres).
     Flatten {
         /// Drawn or cut piece; `None` = all.

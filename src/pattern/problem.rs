@@ -61,6 +61,8 @@ pub enum Problem {
     UnknownEdge { name: String, nearest: Option<String>, known: String },
     #[error("seam '{name}' not found{}", did_you_mean(.nearest))]
     UnknownSeam { name: String, nearest: Option<String>, known: String },
+    #[error("no closure '{name}' with points to measure{}", did_you_mean(.nearest))]
+    UnknownClosure { name: String, nearest: Option<String>, known: String },
     #[error("fabric '{name}' not found{}", did_you_mean(.nearest))]
     UnknownFabric { name: String, nearest: Option<String>, known: String },
     #[error("'{0}' names no edge; write piece.edge, piece.L.edge or piece.edge@20%..80%")]
@@ -226,6 +228,12 @@ impl Problem {
             Self::PlaceWord { known, .. } | Self::PlaceNowhere { known, .. } => format!("use {known}"),
             Self::PlaceBoth { .. } => "leave one of the two out".to_owned(),
             Self::UnknownSeam { known, .. } => format!("the seams are: {known}"),
+            Self::UnknownClosure { known, .. } if known.is_empty() => {
+                "a closure can be measured that says 'piece', 'at' and 'meets'".to_owned()
+            }
+            Self::UnknownClosure { known, .. } => {
+                format!("the kinds of closures with points are: {known}; or write all")
+            }
             Self::UnknownFabric { known, .. } => format!("the fabrics are: {known}"),
             Self::UnknownEdge { nearest: Some(n), .. } => format!("did you mean '{n}'?"),
             Self::NeitherSewnNorFree(_) => "sew them in a seam or list them under 'free'".to_owned(),

@@ -72,6 +72,7 @@ fn verdict(garment: &Garment, report: &Report, bound: &Bound) -> Vec<Verdict> {
             let values = seams.map(|s| (s.name.clone(), s.gap_max)).collect();
             vec![worst(format!("gap {}", all(seam)), values, limit * MM, "mm")]
         }
+        Bound::Closure(kind, limit) => closures(report, kind.as_deref(), *limit),
         Bound::Flatten { piece, area, boundary } => {
             let pieces = Pieces::new(garment, report, "flatten", piece.as_deref(), |q| q.round_trip);
             pieces.verdicts(*area, boundary.map(Length::Absolute))
@@ -87,6 +88,15 @@ fn verdict(garment: &Garment, report: &Report, bound: &Bound) -> Vec<Verdict> {
 
 fn all(name: &Option<String>) -> &str {
     name.as_deref().unwrap_or("all")
+}
+
+/// How far the points of closures of a kind are apart; nothing before the garment is sewn. A closure without points has
+/// no figure.
+fn closures(report: &Report, kind: Option<&str>, limit: f64) -> Vec<Verdict> {
+    let of_kind = report.closures.iter().filter(|c| kind.is_none_or(|kind| c.kind == kind));
+    let values: Vec<(String, f64)> = of_kind.filter_map(|c| Some((c.title(), c.gap_max?))).collect();
+    let bound = format!("closure {}", kind.unwrap_or("all"));
+    if values.is_empty() { Vec::new() } else { vec![worst(bound, values, limit * MM, "mm")] }
 }
 
 /// `side` means `side`, `side.L` and `side.R`.

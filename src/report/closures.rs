@@ -93,6 +93,30 @@ impl Cloth<'_> {
     }
 }
 
+impl ClosureReport {
+    /// `button on front.L`.
+    pub fn title(&self) -> String {
+        let on = self.on.as_ref().map(|piece| format!(" on {piece}"));
+        self.kind.clone() + &on.unwrap_or_default()
+    }
+
+    /// In words, that its points did not come together and what to do; nothing of one whose points did, or that has
+    /// none.
+    pub fn unclosed(&self) -> Option<String> {
+        let (far, most) = (self.gap_max?, APART * MM);
+        if far <= most {
+            return None;
+        }
+        let meets = self.meets.as_deref().unwrap_or("what it meets");
+        let apart = format!("its points are up to {far:.1} mm from those of {meets} (closed: {most} mm or less)");
+        let remedy = self.note.clone().unwrap_or_else(|| {
+            "check that 'at' and 'meets_at' lie opposite each other, and that the garment is wide enough there"
+                .to_owned()
+        });
+        Some(format!("the {} does not close: {apart}; {remedy}", self.title()))
+    }
+}
+
 /// Why a closure does not say all it should.
 fn note(closure: &Closure, assumed: bool) -> Option<String> {
     let text = if assumed {

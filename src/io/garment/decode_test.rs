@@ -4,8 +4,8 @@ use super::fields::{Fields, integer, share, text, width, word};
 use crate::pattern::{Findings, Located, Problem, Quantity, TestEntry, TestFile, Value};
 
 /// What can be bounded; a test names one of them.
-const KINDS: [&str; 7] = ["seam", "gap", "flatten", "drape", "crossings", "openings", "worn"];
-const KNOWN: &str = "seam, gap, flatten, drape, crossings, openings or worn";
+const KINDS: [&str; 8] = ["seam", "gap", "closure", "flatten", "drape", "crossings", "openings", "worn"];
+const KNOWN: &str = "seam, gap, closure, flatten, drape, crossings, openings or worn";
 
 /// Reads one entry of `tests`.
 pub(super) fn test(value: &Located<Value>, findings: &mut Findings) -> Option<Located<TestEntry>> {
@@ -37,6 +37,10 @@ fn bound(kind: &'static str, fields: &mut Fields, findings: &mut Findings) -> Op
         "gap" => {
             let (seam, limit) = (fields.get(kind, findings, text), fields.require("below", findings, width));
             TestFile::Gap(seam?, limit?)
+        }
+        "closure" => {
+            let (kind, limit) = (fields.get(kind, findings, text), fields.require("below", findings, width));
+            TestFile::Closure(kind?, limit?)
         }
         "flatten" => {
             let piece = fields.get(kind, findings, text);

@@ -311,6 +311,10 @@ fn test(test: &TestFile) -> Map {
             map.put("gap", name.value.as_str());
             map.put("below", quantity(limit.value));
         }
+        TestFile::Closure(kind, limit) => {
+            map.put("closure", kind.value.as_str());
+            map.put("below", quantity(limit.value));
+        }
         TestFile::Flatten(name, area, boundary) | TestFile::Drape(name, area, boundary) => {
             map.put(if matches!(test, TestFile::Drape(..)) { "drape" } else { "flatten" }, name.value.as_str());
             map.quantity("area", area);
