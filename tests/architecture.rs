@@ -64,8 +64,9 @@ const FLOORS: [(&str, &[&str]); 21] = [
 ];
 
 /// Crates and the paths below `src` that may name them.
-const CRATES: [(&str, &[&str]); 19] = [
+const CRATES: [(&str, &[&str]); 20] = [
     ("parry3d_f64", &["contact/"]),
+    ("robust", &["geometry/"]),
     ("faer", &["linear/"]),
     ("spade", &["mesh/"]),
     ("kurbo", &["geometry/"]),

@@ -1,10 +1,11 @@
-//! The ground floor: vectors, curves, triangle meshes, disjoint sets.
+//! The ground floor: vectors, curves, triangle meshes, disjoint sets, exact predicates.
 
 mod bisect;
 mod curve;
 mod extent;
 mod fit;
 mod locator;
+mod predicate;
 mod sets;
 mod trimesh;
 
@@ -13,6 +14,7 @@ pub use curve::{Path, PathError, Station, parse_transform};
 pub(crate) use extent::{box_of, range_of};
 pub use fit::{Cubic, smooth_curves};
 pub(crate) use locator::Locator;
+pub(crate) use predicate::pierces;
 pub(crate) use sets::DisjointSets;
 pub(crate) use trimesh::sorted_pair;
 pub use trimesh::{Edge, Topology, TriMesh, rim_loops};

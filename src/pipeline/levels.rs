@@ -149,7 +149,11 @@ mod tests {
     use crate::pipeline::{Overrides, read};
 
     fn skirt(spacing: f64) -> Job {
-        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("patterns/gore_skirt.yaml");
+        job("patterns/gore_skirt.yaml", spacing)
+    }
+
+    fn job(garment: &str, spacing: f64) -> Job {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(garment);
         let overrides = Overrides { spacing: Some(spacing), ..Overrides::default() };
         Job::new(&file, read(&file).expect("read"), &overrides).expect("job")
     }
@@ -171,6 +175,15 @@ mod tests {
         assert_eq!(counts(&closed.gaps), pairs(&coarse.mesh));
         assert_eq!(closed.gaps, coarse.closed.sewn.gaps_of_seams(&coarse.mesh));
         assert!(closed.sewn.steps > coarse.closed.sewn.steps, "settling takes steps of its own");
+    }
+
+    /// What lies between the particles of a coarser level lies in one plane but for rounding, which is no crossing.
+    #[test]
+    fn cloth_of_large_flat_cells_can_be_carried_over() {
+        let job = job("tests/scenes/sheet_on_sphere.yaml", 0.016);
+        let closed = job.sew_from_coarse(&job.mesh, job.placed_at(0.016).expect("placed").1, &mut |_| {});
+        let coarse = closed.expect("nothing to sew").coarse.expect("a coarser level");
+        assert!(job.start_from_coarse(&job.mesh, &coarse, &mut |_| {}).is_some());
     }
 
     #[test]
