@@ -318,6 +318,7 @@ fn json_has_the_keys_of_the_contract_and_is_the_report() {
         report["stages"].as_array().expect("a list").iter().filter_map(|s| s["name"].as_str()).collect();
     assert_eq!(stages, ["mesh", "sew", "drape", "flatten"]);
     has(&report["stages"][2], &["seconds", "iterations", "converged", "energy", "drift"]);
+    has(&report["stages"][2]["contact_seconds"], &["body", "features", "cloth", "follow", "of"]);
     assert_eq!(report["spacing"], 40.0);
 }
 

@@ -97,7 +97,7 @@ fn laid_out(f: &Fixture, scale: f64) -> Vec<Vec3> {
 
 fn report(f: &Fixture, sewn: &[Vec3], draped: &[Vec3], flattened: &[Vec2]) -> Report {
     let (name, seconds) = ("sew".into(), 1.5);
-    let stage = Stage { name, seconds, iterations: 3, converged: true, energy: None, drift: None, residual: None };
+    let stage = Stage { name, seconds, iterations: 3, converged: true, ..Stage::default() };
     measure(&Measured { draped: Some(draped), flattened: Some(flattened), stages: &[stage], ..run(f, sewn) })
 }
 

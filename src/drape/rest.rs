@@ -1,7 +1,7 @@
 //! From sewn to at rest.
 
 use crate::contact::Collider;
-use crate::dynamics::{Cut, GRIP, Reach, StepError, World};
+use crate::dynamics::{ContactTime, Cut, GRIP, Reach, StepError, World};
 use crate::geometry::Vec3;
 use crate::sew::{NEAREST_LOOK, Stitching, drape_reach, sewn_world};
 
@@ -56,6 +56,8 @@ pub struct Draped {
     pub drift: [f64; 2],
     /// Root mean square of the unbalanced force over a particle's weight.
     pub residual: f64,
+    /// What contact cost of the time it took.
+    pub contact: ContactTime,
 }
 
 /// Step length near rest, s. A garment hangs like a pendulum of a second or two; in shorter steps inertia would hide
@@ -122,7 +124,8 @@ pub fn drape(
     };
     progress(1.0);
     let Fall { world, steps, tested, .. } = fall;
-    Ok(Draped { energy: world.energy(), nodes: world.x, steps, tested, converged, drift, residual })
+    let (energy, contact) = (world.energy(), world.contact_time());
+    Ok(Draped { energy, nodes: world.x, steps, tested, converged, drift, residual, contact })
 }
 
 /// A garment on its way down.

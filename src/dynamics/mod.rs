@@ -3,6 +3,7 @@
 //! Particles that are sewn together are one *node*; everything here speaks of nodes.
 
 mod bending;
+mod cost;
 mod crease;
 mod curvature;
 mod elastic;
@@ -18,6 +19,7 @@ mod step;
 mod world;
 
 pub use bending::Bending;
+pub use cost::ContactTime;
 pub use force::{ContactLaw, Forces, Pull};
 pub use friction::{Friction, GRIP};
 pub use model::{Cloth, Cut, SpringModel, identity_nodes};

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::cost::{ContactTime, timed};
 use super::force::ContactLaw;
 use super::model::Cloth;
 use super::near::Near;
@@ -61,6 +62,8 @@ pub(super) struct Proximity<'a> {
     /// Distance to the body when last measured, and where.
     body_distance: Vec<(f64, Vec3)>,
     searched: Searched,
+    /// What all of it has cost.
+    pub(super) time: ContactTime,
 }
 
 /// The contacts with edges and vertices of the body, triangle by triangle and edge by edge of the cloth: what has
@@ -100,6 +103,7 @@ impl<'a> Proximity<'a> {
             margin,
             body_distance: vec![(f64::NEG_INFINITY, Vec3::zeros()); x.len()],
             searched: Searched { at: x.to_vec(), reach: 0.0, moved: 0.0, begin: Vec::new(), hidden: Vec::new() },
+            time: ContactTime::default(),
         };
         out.detect(cloth, x);
         out
@@ -107,15 +111,17 @@ impl<'a> Proximity<'a> {
 
     /// Looks for contacts anew.
     pub(super) fn detect(&mut self, cloth: &Cloth, x: &[Vec3]) {
-        let mut contacts = self.body_contacts(x);
-        self.face_contacts(cloth, x, &mut contacts);
-        contacts.extend(self.detector.detect(x, self.reach.cloth));
+        let mut time = self.time;
+        let mut contacts = timed(&mut time.body, || self.body_contacts(x));
+        timed(&mut time.features, || self.face_contacts(cloth, x, &mut contacts));
+        timed(&mut time.cloth, || contacts.extend(self.detector.detect(x, self.reach.cloth)));
+        self.time = time;
         self.bounds = Bounds::new(x, self.reach.cloth, self.margin);
         if self.reach.features >= Bounds::allowance(self.reach.cloth) {
             self.bounds.tether(&self.searched.at, (1.0 - self.searched.moved) * self.searched.reach);
         }
         self.contacts = contacts;
-        self.near.begin(&mut self.contacts, x);
+        timed(&mut self.time.follow, || self.near.begin(&mut self.contacts, x));
     }
 
     /// The contacts that matter in the next step.
@@ -126,7 +132,7 @@ impl<'a> Proximity<'a> {
     /// Takes in the contacts that matter when the nodes go from `x` to `to`.
     /// Returns whether those that did already are all.
     pub(super) fn covers(&mut self, x: &[Vec3], to: &[Vec3]) -> bool {
-        self.near.covers(&mut self.contacts, x, to)
+        timed(&mut self.time.follow, || self.near.covers(&mut self.contacts, x, to))
     }
 
     /// [`Bounds::clamp`] with the contacts that matter.
@@ -142,7 +148,7 @@ impl<'a> Proximity<'a> {
         if due {
             self.detect(cloth, x);
         } else {
-            self.near.follow(&mut self.contacts, x);
+            timed(&mut self.time.follow, || self.near.follow(&mut self.contacts, x));
         }
         due
     }

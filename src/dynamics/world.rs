@@ -1,5 +1,6 @@
 //! Cloth, body and contact together, advanced step by step.
 
+use super::cost::ContactTime;
 use super::force::{ContactLaw, Forces, Pull, cloth_forces};
 use super::friction::Friction;
 use super::model::Cloth;
@@ -361,6 +362,11 @@ impl<'a> World<'a> {
         let mean_mass = self.cloth.mass.iter().sum::<f64>() / self.cloth.mass.len().max(1) as f64;
         let rms = (r.iter().map(Vec3::norm_squared).sum::<f64>() / r.len().max(1) as f64).sqrt();
         rms / (mean_mass * super::GRAVITY)
+    }
+
+    /// What contact has cost up to now.
+    pub fn contact_time(&self) -> ContactTime {
+        self.proximity.time
     }
 
     /// Places where the cloth passes through itself.

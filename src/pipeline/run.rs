@@ -1,17 +1,17 @@
 //! One garment through the stages.
 
 use std::borrow::Cow;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use super::error::PipelineError;
 use super::job::Job;
 use super::levels::{COARSE_SHARE, Closed, Coarse};
 use super::surface;
 use crate::drape::{DrapeOptions, drape};
-use crate::dynamics::identity_nodes;
+use crate::dynamics::{ContactTime, identity_nodes};
 use crate::flatten::{self, flatten_garment};
 use crate::geometry::{Vec2, Vec3};
-use crate::report::{Drift, Measured, Report, Stage, measure};
+use crate::report::{ContactSeconds, Drift, Measured, Report, Stage, measure};
 use crate::sew::place::place;
 use crate::sew::{SewOptions, Stitching};
 
@@ -78,9 +78,7 @@ impl<'a> Run<'a> {
             seconds: begin.elapsed().as_secs_f64(),
             iterations: sewn.steps,
             converged: closed.is_ok(),
-            energy: None,
-            drift: None,
-            residual: None,
+            ..Stage::default()
         });
         self.gaps = Some(gaps);
         self.open = sewn.open.is_some();
@@ -107,7 +105,9 @@ impl<'a> Run<'a> {
         let begun = if start.is_some() { COARSE_SHARE } else { 0.0 };
         let mut tell = |share| progress("drape", begun + (1.0 - begun) * share);
         let nodes = start.unwrap_or(nodes);
+        let finest = Instant::now();
         let draped = drape(&job.cut(), &job.collider, &self.stitching, nodes, &options, &mut tell)?;
+        let contact_seconds = Some(contact_seconds(&draped.contact, finest.elapsed()));
         self.stages.push(Stage {
             name: "drape".into(),
             seconds: begin.elapsed().as_secs_f64(),
@@ -116,6 +116,7 @@ impl<'a> Run<'a> {
             energy: Some(draped.energy),
             drift: Some(Drift { rms: draped.drift[0] * MM, max: draped.drift[1] * MM }),
             residual: Some(draped.residual),
+            contact_seconds,
         });
         self.draped = Some(self.stitching.spread(&draped.nodes));
         Ok(())
@@ -176,6 +177,13 @@ impl<'a> Run<'a> {
             stages: &self.stages,
         })
     }
+}
+
+/// The share that contact has of a drape.
+fn contact_seconds(contact: &ContactTime, whole: Duration) -> ContactSeconds {
+    let [body, features, cloth, follow, of] =
+        [contact.body, contact.features, contact.cloth, contact.follow, whole].map(|d| d.as_secs_f64());
+    ContactSeconds { body, features, cloth, follow, of }
 }
 
 /// Positions per class from positions per particle, those of a class being equal.

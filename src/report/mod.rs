@@ -24,8 +24,8 @@ pub use measure::{Measured, measure};
 pub use openings::opening_names;
 pub use rest::{AtRest, Restless, restless};
 pub use schema::{
-    ClosureReport, Contact, Crossing, Drift, PieceReport, Quartet, Report, SeamReport, Sizes, Spread, Stage, Stretched,
-    Worn,
+    ClosureReport, Contact, ContactSeconds, Crossing, Drift, PieceReport, Quartet, Report, SeamReport, Sizes, Spread,
+    Stage, Stretched, Worn,
 };
 pub use strain::vertex_strain;
 pub use table::{aligned, contact_lines, table};

@@ -221,6 +221,23 @@ pub struct Stage {
     pub drift: Option<Drift>,
     /// Unbalanced force at the end, in particle weights (root mean square); `null` for a stage without one.
     pub residual: Option<f64>,
+    /// What contact cost of it; `null` for a stage without any.
+    pub contact_seconds: Option<ContactSeconds>,
+}
+
+/// Wall-clock time that finding and following contacts took, s, without coarser levels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ContactSeconds {
+    /// Looking for the body near particles.
+    pub body: f64,
+    /// Looking for its vertices and edges near triangles and edges of the cloth.
+    pub features: f64,
+    /// Looking for cloth near cloth.
+    pub cloth: f64,
+    /// Following what was found between two looks.
+    pub follow: f64,
+    /// All of the stage that these are parts of.
+    pub of: f64,
 }
 
 /// How far the garment moved in as many steps again.

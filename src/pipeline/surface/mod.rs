@@ -193,7 +193,6 @@ pub(super) fn stage(reports: impl Iterator<Item = Report> + Clone, begin: Instan
         iterations: reports.clone().map(|r| r.iterations).max().unwrap_or(0),
         converged: reports.clone().all(|r| r.converged),
         energy: Some(reports.map(|r| r.energy).sum()),
-        drift: None,
-        residual: None,
+        ..Stage::default()
     }
 }
