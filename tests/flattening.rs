@@ -7,11 +7,14 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use proptest::prelude::*;
-use toile::flatten::{FlattenError, Flattened, Mode, Options, flatten, flatten_from, flatten_garment, rim_crossings};
+use toile::flatten::{
+    FlattenError, Flattened, Mode, Options, flatten, flatten_between, flatten_from, flatten_garment, rim_crossings,
+};
 use toile::geometry::{TriMesh, Vec2, Vec3, rim_loops};
 use toile::io::pattern_svg::{PatternSvgError, pattern_svg};
 use toile::mesh::{ClothMesh, EdgeParticles, PieceMesh, Stitches};
 use toile::pattern::{EdgeId, Give, Notch, Seam, SeamKind};
+use toile::pipeline::{Cuts, Limit, SurfaceOptions, flatten_surface};
 
 const MODES: [Mode; 5] = [Mode::Balanced, Mode::Isometric, Mode::Boundary, Mode::Woven, Mode::Spring];
 
@@ -405,6 +408,73 @@ fn a_weave_shears_by_thirty_degrees_at_most_and_its_threads_stay() {
 }
 
 #[test]
+fn a_weave_held_between_breaks_keeps_these_lengths_and_its_threads_better() {
+    const CELLS: usize = 40;
+    let mesh = front(CELLS);
+    let rim = rim_loops(&mesh.triangles).remove(0);
+    // Corners and middles of the four sides; the grid's first vertex is a corner.
+    let corner = rim.iter().position(|&v| v == 0).unwrap();
+    let at = |k: usize| rim[(corner + k) % rim.len()] as usize;
+    let breaks: Vec<u32> = (0..8).map(|k| at(k * CELLS / 2) as u32).collect();
+    let every = flatten(&mesh, &mode(Mode::Woven)).unwrap().report.threads;
+    let woven = flatten_between(&mesh, &breaks, &mode(Mode::Woven)).unwrap();
+    assert_sound(&mesh, &woven);
+    let r = &woven.report;
+    println!("every edge held {every:?}, chains {:?}", r.threads);
+    assert!(r.threads.warp < 0.7 * every.warp && r.threads.weft < 0.7 * every.weft, "{:?} {every:?}", r.threads);
+    assert!(r.threads.shear_max.to_degrees() < 30.0, "{r:?}");
+    for chain in 0..8 {
+        let ends = |k: usize| [at(chain * CELLS / 2 + k), at(chain * CELLS / 2 + k + 1)];
+        let sum = |length: &dyn Fn([usize; 2]) -> f64| (0..CELLS / 2).map(|k| length(ends(k))).sum::<f64>();
+        let before = sum(&|[a, b]| (mesh.vertices[b] - mesh.vertices[a]).norm());
+        let after = sum(&|[a, b]| (woven.positions[b] - woven.positions[a]).norm());
+        assert!((after - before).abs() < 1e-6, "{chain}: {after} {before}");
+    }
+    // The other modes hold what they hold.
+    for m in [Mode::Balanced, Mode::Isometric, Mode::Boundary, Mode::Spring] {
+        assert_eq!(flatten_between(&mesh, &breaks, &mode(m)), flatten(&mesh, &mode(m)));
+    }
+}
+
+#[test]
+fn woven_partners_keep_one_length() {
+    let mesh = front(24);
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("front.obj");
+    let mut text = String::new();
+    mesh.vertices.iter().for_each(|p| writeln!(text, "v {} {} {}", p.x, p.y, p.z).unwrap());
+    let right = |t: &&[u32; 3]| t.iter().map(|v| v % 25).sum::<u32>() > 30;
+    for (name, own) in [("right", true), ("left", false)] {
+        writeln!(text, "g {name}").unwrap();
+        for [a, b, c] in mesh.triangles.iter().filter(|t| right(t) == own).map(|t| t.map(|v| v + 1)) {
+            writeln!(text, "f {a} {b} {c}").unwrap();
+        }
+    }
+    std::fs::write(&file, text).unwrap();
+    let options = SurfaceOptions {
+        unit: Some(1.0),
+        texture_seams: false,
+        weld: false,
+        cuts: Cuts::default(),
+        darts: 0,
+        limit: Limit::Strain(0.1),
+        flatten: mode(Mode::Woven),
+    };
+    let report = flatten_surface(&file, &options).unwrap().report;
+    let edges: Vec<_> = report.pieces.iter().flat_map(|p| p.edges.iter().map(move |e| (p, e))).collect();
+    assert!(report.pieces.iter().any(|p| p.largest_rim_error > 1e-3), "single edges give");
+    let mut sewn = 0;
+    for (_, edge) in &edges {
+        assert!((edge.length_flattened - edge.length_draped).abs() < 0.01, "{edge:?}");
+        let Some(partner) = &edge.sewn_to else { continue };
+        let (_, other) = edges.iter().find(|(p, e)| *partner == format!("{}.{}", p.name, e.name)).unwrap();
+        assert!((edge.length_flattened - other.length_flattened).abs() < 0.01, "{edge:?} {other:?}");
+        sewn += 1;
+    }
+    assert!(sewn >= 2);
+}
+
+#[test]
 fn corners_resist_as_much_as_is_asked() {
     let mesh = front(40);
     let worst = |corners: f64| flatten(&mesh, &Options { corners, ..Options::default() }).unwrap().report;
@@ -586,7 +656,14 @@ fn ten_thousand_random_disks_never_flip() {
             mesh.vertices[v] = mesh.vertices[v] + (mesh.vertices[v + 1] - mesh.vertices[v]) * share;
         }
         let name = MODES[k % MODES.len()];
-        match flatten(&mesh, &mode(name)) {
+        // Every other disk is held at two places of its rim only, which says something in the woven mode alone.
+        let rim = rim_loops(&mesh.triangles).remove(0);
+        let flat = if k % 2 == 0 {
+            flatten(&mesh, &mode(name))
+        } else {
+            flatten_between(&mesh, &[rim[0], rim[rim.len() / 2]], &mode(name))
+        };
+        match flat {
             Ok(flat) => {
                 assert_eq!(flips(&mesh, &flat.positions), 0, "disk {k}, {name:?}");
                 unsettled += usize::from(!flat.report.converged);

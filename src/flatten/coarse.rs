@@ -148,7 +148,7 @@ impl Grid {
             Spring { nodes: *nodes, shares: self.gradients(*upper).map(|g| g.dot(&along)), ..*s }
         };
         let (held, free) = energy.springs.split_at(energy.held().len());
-        Springs { held: held.iter().map(coarse).collect(), free: free.iter().map(coarse).collect() }
+        Springs { held: held.iter().map(coarse).collect(), free: free.iter().map(coarse).collect(), chains: Vec::new() }
     }
 }
 

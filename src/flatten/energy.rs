@@ -7,7 +7,7 @@ use nalgebra::Matrix2;
 use super::FlattenError;
 use super::element::{CORNER_PAIRS, Element};
 use super::law::Law;
-use super::spring::{Spring, Springs};
+use super::spring::{Chain, Spring, Springs};
 use crate::geometry::Vec2;
 use crate::linear::{BlockSlot, SymmetricMatrix, SymmetricPattern};
 
@@ -26,9 +26,11 @@ pub(super) struct Energy {
     pub(super) springs: Vec<Spring>,
     /// The first so many springs get exactly their lengths; the others are only springs.
     held: usize,
+    /// Runs of the others whose lengths together are exact.
+    pub(super) chains: Vec<Chain>,
     pub(super) law: Law,
     total_area: f64,
-    vertices: usize,
+    pub(super) vertices: usize,
     /// Vertices from this one on stay where they are.
     pub(super) free: usize,
 }
@@ -37,8 +39,9 @@ impl Energy {
     pub(super) fn new(vertices: usize, elements: Vec<Element>, springs: Springs, law: Law) -> Self {
         let total_area = elements.iter().map(|e| e.area).sum();
         let held = springs.held.len();
+        let chains = springs.chains;
         let springs = [springs.held, springs.free].concat();
-        Self { elements, springs, held, law, total_area, vertices, free: vertices }
+        Self { elements, springs, held, chains, law, total_area, vertices, free: vertices }
     }
 
     /// The energy of a part, in the same measure, of which only the first `free` vertices move.
@@ -59,8 +62,9 @@ impl Energy {
     /// The energy; infinite where a triangle is flipped.
     pub(super) fn value(&self, flat: &[Vec2]) -> f64 {
         let triangles: f64 = self.elements.iter().map(|e| e.area * self.law.density(&e.jacobian(flat))).sum();
-        let springs: f64 = self.springs.iter().map(|s| s.energy(flat)).sum();
-        (triangles + springs) / self.total_area
+        let springs: f64 = self.springs.iter().map(|s| s.elastic.energy(s.length(flat))).sum();
+        let chains: f64 = self.chains.iter().map(|c| c.elastic.energy(self.chain_length(c, flat))).sum();
+        (triangles + springs + chains) / self.total_area
     }
 
     /// Its derivative by every coordinate, 1/m.
@@ -72,11 +76,11 @@ impl Energy {
                 out[v as usize] += force * scale;
             }
         }
-        for s in &self.springs {
+        for (s, pulled) in self.springs.iter().zip(self.pulls(flat)) {
             let along = s.along(flat);
             let length = along.norm();
             if length > 0.0 {
-                let force = along * (s.tension(length) / (length * self.total_area));
+                let force = along * ((s.elastic.tension(length) + pulled) / (length * self.total_area));
                 for (v, share) in s.nodes.into_iter().zip(s.shares) {
                     out[v as usize] += force * share;
                 }
@@ -87,27 +91,65 @@ impl Energy {
 }
 
 impl Energy {
+    fn chain_length(&self, chain: &Chain, flat: &[Vec2]) -> f64 {
+        self.links(chain).iter().map(|s| s.length(flat)).sum()
+    }
+
+    /// The springs of a chain.
+    fn links(&self, chain: &Chain) -> &[Spring] {
+        &self.springs[self.held..][chain.springs.clone()]
+    }
+
+    /// The tension that every spring has from its chain, m.
+    fn pulls(&self, flat: &[Vec2]) -> Vec<f64> {
+        let mut pulls = vec![0.0; self.springs.len()];
+        for chain in &self.chains {
+            let tension = chain.elastic.tension(self.chain_length(chain, flat));
+            pulls[self.held..][chain.springs.clone()].fill(tension);
+        }
+        pulls
+    }
+
+    /// Of every chain its stiffness and, by vertex, the derivatives of its length: what its share of the second
+    /// derivative is made of besides the tensions.
+    pub(super) fn stiff_chains(&self, flat: &[Vec2]) -> Vec<(f64, Vec<(u32, Vec2)>)> {
+        let slopes = |chain: &Chain| {
+            let mut slopes = Vec::new();
+            for s in self.links(chain) {
+                let n = s.along(flat).try_normalize(0.0).unwrap_or_default();
+                slopes.extend(s.nodes.into_iter().zip(s.shares).map(|(v, share)| (v, n * share)));
+            }
+            (chain.elastic.stiffness() / self.total_area, slopes)
+        };
+        self.chains.iter().map(slopes).collect()
+    }
+
     pub(super) fn held(&self) -> &[Spring] {
         &self.springs[..self.held]
     }
 
-    pub(super) fn held_mut(&mut self) -> &mut [Spring] {
-        &mut self.springs[..self.held]
-    }
-
-    /// The share by which held springs are too long or too short in the mean: no chain of them is off by more than this
-    /// share of the length of all.
+    /// The share by which held springs and chains are too long or too short in the mean: no run of them is off by more
+    /// than this share of the length of all.
     pub(super) fn slack(&self, flat: &[Vec2]) -> f64 {
-        let held = self.held();
-        let off: f64 = held.iter().map(|s| (s.length(flat) - s.target).abs()).sum();
-        if held.is_empty() { 0.0 } else { off / held.iter().map(|s| s.target).sum::<f64>() }
+        let (mut off, mut all) = (0.0, 0.0);
+        let springs = self.held().iter().map(|s| (s.length(flat), s.elastic.target));
+        let chains = self.chains.iter().map(|c| (self.chain_length(c, flat), c.elastic.target));
+        for (length, target) in springs.chain(chains) {
+            off += (length - target).abs();
+            all += target;
+        }
+        if all > 0.0 { off / all } else { 0.0 }
     }
 
-    /// Lets every held spring keep the force it has as its own (method of multipliers: Hestenes 1969, Powell 1969): in
-    /// the next minimum it needs less excess for it.
+    /// Lets every held spring and chain keep the force it has as its own (method of multipliers: Hestenes 1969, Powell
+    /// 1969): in the next minimum it needs less excess for it.
     pub(super) fn hold(&mut self, flat: &[Vec2]) {
-        for s in self.held_mut() {
-            s.hold(flat);
+        for s in &mut self.springs[..self.held] {
+            s.elastic.hold(s.length(flat));
+        }
+        let lengths: Vec<f64> = self.chains.iter().map(|c| self.chain_length(c, flat)).collect();
+        for (chain, length) in self.chains.iter_mut().zip(lengths) {
+            chain.elastic.hold(length);
         }
     }
 }
@@ -140,7 +182,7 @@ impl Curvature {
         Ok(Self { matrix: SymmetricMatrix::zeros(pattern), element_slots, spring_slots, ties })
     }
 
-    /// Fills the matrix for a position without flipped triangles.
+    /// Fills the matrix for a position without flipped triangles; what [`Energy::stiff_chains`] adds to it is left out.
     pub(super) fn update(&mut self, energy: &Energy, flat: &[Vec2]) -> &SymmetricMatrix<Real> {
         self.matrix.clear();
         for (e, slots) in energy.elements.iter().zip(&self.element_slots) {
@@ -152,8 +194,9 @@ impl Curvature {
                 }
             }
         }
-        for (s, slots) in energy.springs.iter().zip(&self.spring_slots) {
-            let block = s.curvature(flat) / energy.total_area;
+        let pulls = energy.pulls(flat);
+        for ((s, slots), pulled) in energy.springs.iter().zip(&self.spring_slots).zip(pulls) {
+            let block = s.curvature(flat, pulled) / energy.total_area;
             for (slot, (k, l)) in slots.iter().zip(CORNER_PAIRS) {
                 let share = s.shares[k] * s.shares[l];
                 if let Some(slot) = slot.filter(|_| share != 0.0) {

@@ -14,6 +14,7 @@
 //! convention of drawn pieces, clockwise on a screen with y down.
 
 mod align;
+mod chains;
 mod coarse;
 mod cut;
 mod distortion;
@@ -22,6 +23,7 @@ mod energy;
 mod error;
 mod garment;
 mod harmonic;
+mod inverse;
 mod law;
 mod measure;
 mod orient;
@@ -40,7 +42,7 @@ pub use measure::{Report, Threads, triangle_strain};
 pub use orient::{one_sided, orient};
 pub use overlap::rim_crossings;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
 use crate::geometry::{Topology, TriMesh, Vec2, sorted_pair};
@@ -49,7 +51,7 @@ use element::Element;
 use energy::Energy;
 use law::Law;
 use relax::{Descent, Goal};
-use spring::{Spring, Springs};
+use spring::{Elastic, Spring, Springs};
 use zone::Zone;
 
 /// Stiffness of rim edges in the modes that keep the boundary, for a piece one metre square. This alone brings the rim
@@ -73,6 +75,10 @@ const WOVEN_RIM: f64 = 0.1;
 /// the minimum so little that the strain is within 10⁻⁵ of the least.
 const WALL: f64 = 1e-3;
 
+/// Where only chains of the rim are held, every edge is on the long way: stiff rims are what the zone is for, and so
+/// the whole way takes two thirds of the time. What is left of it is not worth its last steps.
+const FIRST_OF_TWO: Goal = Goal { tolerance: 1e-3, max_iterations: 1000, holds: 0, exact: 0.0 };
+
 /// What a flat piece should keep where it cannot keep everything.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
@@ -83,8 +89,8 @@ pub enum Mode {
     Isometric,
     /// Rim lengths first, then distances.
     Boundary,
-    /// Rim lengths and the lengths of warp and weft threads; the angle between them gives, by 30° at most where that is
-    /// enough. The warp is the piece's own, or upright (space's y) where there is no drawn piece. Where the rim is too
+    /// Rim lengths, edge by edge or as whole chains ([`flatten_between`]), and the lengths of warp and weft threads; the
+    /// angle between them gives, by 30° at most where that is enough. The warp is the piece's own, or upright (space's y) where there is no drawn piece. Where the rim is too
     /// short for the area (L² < 4πS) only the threads count: cloth whose threads keep their lengths is flat at least as
     /// large as in space.
     Woven,
@@ -93,7 +99,8 @@ pub enum Mode {
 }
 
 impl Mode {
-    /// Whether rim edges get exactly the lengths they should have; in the woven mode where the rim is long enough.
+    /// Whether rim edges, or chains of them ([`flatten_between`]), get exactly the lengths they should have; in the
+    /// woven mode where the rim is long enough.
     pub fn keeps_rim(self) -> bool {
         matches!(self, Self::Balanced | Self::Boundary | Self::Woven)
     }
@@ -141,11 +148,26 @@ pub struct Flattened {
 /// # Errors
 /// A surface that is no disk, with what it is instead; degenerate triangles; coordinates that are not finite.
 pub fn flatten(surface: &TriMesh, options: &Options) -> Result<Flattened, FlattenError> {
+    flatten_disk(surface, None, options)
+}
+
+/// As [`flatten`], but of the rim the woven mode holds only the lengths between one of `breaks` (vertices of the rim)
+/// and the next, each exactly; in between single edges may differ, as little as they can. Without breaks the rim's
+/// whole length is held. Other modes keep what they keep.
+///
+/// # Errors
+/// As [`flatten`].
+pub fn flatten_between(surface: &TriMesh, breaks: &[u32], options: &Options) -> Result<Flattened, FlattenError> {
+    flatten_disk(surface, Some(breaks), options)
+}
+
+fn flatten_disk(surface: &TriMesh, breaks: Option<&[u32]>, options: &Options) -> Result<Flattened, FlattenError> {
     let (topology, rims) = topology::check(surface)?;
     let [rim] = &rims[..] else { return Err(FlattenError::Rims(rims.len())) };
     let (mut start, log_scale) = start::start(surface, &topology, rim)?;
     align::upright(&mut start, surface);
-    let sheet = Sheet::as_it_is(surface, topology, rims);
+    let mut sheet = Sheet::as_it_is(surface, topology, rims);
+    sheet.breaks = breaks.map(|breaks| breaks.iter().copied().collect());
     let mut flattened = relax_sheet(&sheet, start, options)?;
     // Not turned again: the woven mode's grain is the plane's.
     align::centre(&mut flattened.positions);
@@ -185,6 +207,9 @@ struct Sheet<'a> {
     rim_targets: Vec<f64>,
     /// Direction of the warp in the flat piece (unit).
     warp: Vec2,
+    /// Where on the rim the chains end of which the woven mode holds the whole lengths; `None` where it holds every
+    /// edge.
+    breaks: Option<HashSet<u32>>,
 }
 
 impl<'a> Sheet<'a> {
@@ -193,7 +218,7 @@ impl<'a> Sheet<'a> {
         let elements =
             surface.triangles.iter().enumerate().map(|(t, &c)| Element::new(c, surface.corners(t))).collect();
         let rim_targets = topology.rim_edges().map(|e| measure::length(surface, e.ends)).collect();
-        Self { surface, topology, rims, elements, rim_targets, warp: -Vec2::y() }
+        Self { surface, topology, rims, elements, rim_targets, warp: -Vec2::y(), breaks: None }
     }
 
     /// Whether a mode can hold the rim's lengths.
@@ -242,11 +267,13 @@ impl<'a> Sheet<'a> {
                 // Where the rim turns back on itself there is nothing to span.
                 if a != c && square > (BRACED * (before + after)).powi(2) {
                     let brace = spring(sorted_pair([a, c]), square.sqrt());
-                    free.push(Spring { weight: BRACE * corners * brace.weight, ..brace });
+                    let weight = BRACE * corners * brace.elastic.weight;
+                    free.push(Spring { elastic: Elastic { weight, ..brace.elastic }, ..brace });
                 }
             }
         }
-        Springs { held: targets.into_iter().map(|(ends, target)| spring(ends, target)).collect(), free }
+        let held = targets.into_iter().map(|(ends, target)| spring(ends, target)).collect();
+        Springs { held, free, chains: Vec::new() }
     }
 
     /// All edges, weighted by a third of the area beside them.
@@ -261,7 +288,7 @@ impl<'a> Sheet<'a> {
             let target = target.unwrap_or_else(|| measure::length(self.surface, e.ends));
             Spring::between(e.ends, target, area / 3.0)
         });
-        Springs { held: Vec::new(), free: springs.collect() }
+        Springs { free: springs.collect(), ..Springs::default() }
     }
 }
 
@@ -274,8 +301,17 @@ fn relax_sheet(sheet: &Sheet<'_>, start: Vec<Vec2>, options: &Options) -> Result
         coarse::approach(&energy, &mut positions);
         zone = Zone::new(&energy, &positions);
     }
+    let goal = Goal::of(options, held);
+    let chained = sheet.breaks.as_ref().filter(|_| held && options.mode == Mode::Woven);
     let mut descent = Descent::new(&energy, &positions)?;
-    let outcome = descent.down(&mut energy, &mut positions, &Goal::of(options, held), zone.as_mut())?;
+    let mut outcome =
+        descent.down(&mut energy, &mut positions, &chained.map_or(goal, |_| FIRST_OF_TWO), zone.as_mut())?;
+    if let Some(breaks) = chained {
+        let mut energy = energy.with_chains(&sheet.rims, breaks);
+        let before = outcome.iterations;
+        outcome = Descent::new(&energy, &positions)?.down(&mut energy, &mut positions, &goal, None)?;
+        outcome.iterations += before;
+    }
     let report = measure::report(sheet, &positions, &outcome);
     Ok(Flattened { positions, log_scale: Vec::new(), report })
 }

@@ -5,11 +5,12 @@
 //! steps, and it knows the stiff springs of the rim. A step is never longer than to the first flip (Smith & Schaefer
 //! 2015, section 3.3).
 
-use super::energy::{Curvature, Energy, Real};
+use super::energy::Energy;
+use super::inverse::Inverse;
 use super::zone::Zone;
 use super::{FlattenError, Mode, Options};
 use crate::geometry::{Vec2, Vec3};
-use crate::linear::{Cholesky, Ordering, nested_dissection};
+use crate::linear::{Ordering, nested_dissection};
 
 /// Steps that one factorisation serves: a factor costs about as much as six steps, and later ones are worth less.
 const STEPS_PER_FACTOR: usize = 10;
@@ -21,8 +22,6 @@ const SHY_OF_FLIP: f64 = 0.9;
 const SUFFICIENT: f64 = 1e-4;
 /// Halvings before a line search gives up; 2⁻⁴⁰ is below any resolution of the positions that matters.
 const HALVINGS: usize = 40;
-/// Ties that are tried one after another where a factor fails, in those it has at first.
-const TIES: [f64; 4] = [1e2, 1e4, 1e6, 1e8];
 /// Energy below which nothing can be gained: it is a mean square strain, and this one is 10⁻⁸ squared.
 const ENERGY_FLOOR: f64 = 1e-16;
 
@@ -68,16 +67,13 @@ impl Goal {
 
 /// A way down an energy, prepared for its couplings.
 pub(super) struct Descent {
-    curvature: Curvature,
-    factor: Cholesky<Real>,
+    inverse: Inverse,
 }
 
 impl Descent {
     pub(super) fn new(energy: &Energy, flat: &[Vec2]) -> Result<Self, FlattenError> {
-        let curvature = Curvature::new(energy)?;
         let order = Ordering::Given(nested_dissection(&lifted(&flat[..energy.free]), &energy.couplings()));
-        let factor = Cholesky::new(curvature.pattern().clone(), &order).map_err(|_| FlattenError::Breakdown)?;
-        Ok(Self { curvature, factor })
+        Ok(Self { inverse: Inverse::new(energy, &order)? })
     }
 
     /// Moves `flat`, which must have no flipped triangle, to a minimum of `energy`. Converged when the goal is met; the
@@ -106,10 +102,10 @@ impl Descent {
             }
             let fresh = stale || memory.pairs.len() >= STEPS_PER_FACTOR;
             if fresh {
-                self.renew(energy, flat)?;
+                self.inverse.renew(energy, flat)?;
                 memory.pairs.clear();
             }
-            let direction = memory.direction(&gradient, &self.factor, energy.free);
+            let direction = memory.direction(&gradient, &self.inverse, energy.free);
             let slope = dot(&direction, &gradient);
             let settled = -slope <= (goal.tolerance * value.abs()).max(ENERGY_FLOOR);
             if settled && (holds == 0 || energy.slack(flat) <= goal.exact) {
@@ -142,15 +138,6 @@ impl Descent {
             memory.remember(&direction, step, &before, &gradient);
         }
         Ok(Outcome { energy: value, iterations: goal.max_iterations, converged: false })
-    }
-
-    /// Factors the curvature at `flat`, tied down more and more where it is not positive to rounding.
-    fn renew(&mut self, energy: &Energy, flat: &[Vec2]) -> Result<(), FlattenError> {
-        let mut made = self.factor.factor(self.curvature.update(energy, flat));
-        for times in TIES {
-            made = made.or_else(|_| self.factor.factor(self.curvature.tie(times)));
-        }
-        made.map_err(|_| FlattenError::Breakdown)
     }
 }
 
@@ -243,7 +230,7 @@ impl Memory {
     }
 
     /// Minus the guessed inverse curvature times the gradient (two-loop recursion).
-    fn direction(&self, gradient: &[Vec2], factor: &Cholesky<Real>, free: usize) -> Vec<Vec2> {
+    fn direction(&self, gradient: &[Vec2], inverse: &Inverse, free: usize) -> Vec<Vec2> {
         let mut d: Vec<Vec2> = gradient.iter().map(|g| -g).collect();
         let mut shares = Vec::with_capacity(self.pairs.len());
         for pair in self.pairs.iter().rev() {
@@ -253,7 +240,7 @@ impl Memory {
         }
         let mut flat: Vec<f64> = d.iter().flat_map(|v| [v.x, v.y]).collect();
         // What stays where it is has no row.
-        factor.solve_f64(&mut flat[..2 * free]);
+        inverse.apply(&mut flat[..2 * free]);
         for (d, xy) in d.iter_mut().zip(flat.chunks_exact(2)) {
             *d = Vec2::new(xy[0], xy[1]);
         }

@@ -1,22 +1,67 @@
 //! Springs: what wants to have a length.
 
+use std::ops::Range;
+
 use nalgebra::Matrix2;
 
 use crate::geometry::Vec2;
 
-/// A spring that wants a line to have a length: with e = length/target − 1 its energy is weight · e² + pull · e.
+/// What a length costs: with e = length/target − 1 its energy is weight · e² + pull · e.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spring {
-    /// What the line depends on.
-    pub(super) nodes: [u32; 3],
-    /// The line is the sum of the nodes' positions times these, which sum to zero.
-    pub(super) shares: [f64; 3],
+pub(super) struct Elastic {
     /// Wanted length, metres.
     pub(super) target: f64,
     /// Its weight in the energy, m².
     pub(super) weight: f64,
     /// The force it has besides, m²: that which holds the line at its very length, once it is found.
     pub(super) pull: f64,
+}
+
+impl Elastic {
+    /// Share by which a length is too long.
+    fn excess(&self, length: f64) -> f64 {
+        length / self.target - 1.0
+    }
+
+    pub(super) fn energy(&self, length: f64) -> f64 {
+        let excess = self.excess(length);
+        (self.weight * excess + self.pull) * excess
+    }
+
+    /// Derivative of its energy by the length, m.
+    pub(super) fn tension(&self, length: f64) -> f64 {
+        (2.0 * self.weight * self.excess(length) + self.pull) / self.target
+    }
+
+    /// Second derivative of its energy by the length.
+    pub(super) fn stiffness(&self) -> f64 {
+        2.0 * self.weight / (self.target * self.target)
+    }
+
+    /// Lets it keep the force it has as its own.
+    pub(super) fn hold(&mut self, length: f64) {
+        self.pull = self.tension(length) * self.target;
+    }
+}
+
+/// A spring that wants a line to have a length.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spring {
+    /// What the line depends on.
+    pub(super) nodes: [u32; 3],
+    /// The line is the sum of the nodes' positions times these, which sum to zero.
+    pub(super) shares: [f64; 3],
+    /// What its length costs.
+    pub(super) elastic: Elastic,
+}
+
+/// Springs of which only the lengths' sum is held.
+#[derive(Clone, Debug)]
+pub(super) struct Chain {
+    /// Which of the free springs.
+    pub(super) springs: Range<usize>,
+    /// What the sum of their lengths costs.
+    pub(super) elastic: Elastic,
 }
 
 /// The springs of an energy.
@@ -26,12 +71,15 @@ pub(super) struct Springs {
     pub(super) held: Vec<Spring>,
     /// Those that do not.
     pub(super) free: Vec<Spring>,
+    /// Those of the latter whose lengths together are exact.
+    pub(super) chains: Vec<Chain>,
 }
 
 impl Spring {
     /// Between two vertices.
     pub(super) fn between([a, b]: [u32; 2], target: f64, weight: f64) -> Self {
-        Self { nodes: [a, b, b], shares: [-1.0, 1.0, 0.0], target, weight, pull: 0.0 }
+        let elastic = Elastic { target, weight, pull: 0.0 };
+        Self { nodes: [a, b, b], shares: [-1.0, 1.0, 0.0], elastic }
     }
 
     pub(super) fn along(&self, flat: &[Vec2]) -> Vec2 {
@@ -44,38 +92,18 @@ impl Spring {
         self.along(flat).norm()
     }
 
-    /// Share by which it is too long.
-    fn excess(&self, length: f64) -> f64 {
-        length / self.target - 1.0
-    }
-
-    pub(super) fn energy(&self, flat: &[Vec2]) -> f64 {
-        let excess = self.excess(self.length(flat));
-        (self.weight * excess + self.pull) * excess
-    }
-
-    /// Derivative of its energy by its length, m.
-    pub(super) fn tension(&self, length: f64) -> f64 {
-        (2.0 * self.weight * self.excess(length) + self.pull) / self.target
-    }
-
-    /// Lets it keep the force it has as its own.
-    pub(super) fn hold(&mut self, flat: &[Vec2]) {
-        self.pull = self.tension(self.length(flat)) * self.target;
-    }
-
-    /// The positive semidefinite part of its second derivative by the line.
-    pub(super) fn curvature(&self, flat: &[Vec2]) -> Matrix2<f64> {
+    /// The positive semidefinite part of its second derivative by the line, along which `pulled` is another tension.
+    pub(super) fn curvature(&self, flat: &[Vec2], pulled: f64) -> Matrix2<f64> {
         let along = self.along(flat);
         let length = along.norm();
-        let stiffness = 2.0 * self.weight / (self.target * self.target);
+        let stiffness = self.elastic.stiffness();
         if length <= 0.0 {
             return Matrix2::identity() * stiffness;
         }
         let n = along / length;
         let dyad = n * n.transpose();
         // A compressed spring pushes sideways: that part is negative and left out.
-        let across = (self.tension(length) / length).max(0.0);
+        let across = ((self.elastic.tension(length) + pulled) / length).max(0.0);
         dyad * stiffness + (Matrix2::identity() - dyad) * across
     }
 }

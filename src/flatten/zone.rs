@@ -44,7 +44,11 @@ impl Zone {
         let elements = energy.elements.iter().filter(inside).map(element).collect();
         let spring = |s: &Spring| Spring { nodes: s.nodes.map(|v| local[v as usize]), ..*s };
         let (held, others) = energy.springs.split_at(energy.held().len());
-        let springs = Springs { held: held.iter().map(spring).collect(), free: others.iter().map(spring).collect() };
+        let springs = Springs {
+            held: held.iter().map(spring).collect(),
+            free: others.iter().map(spring).collect(),
+            chains: Vec::new(),
+        };
         let energy = energy.part(vertices.len(), free, elements, springs);
         let flat: Vec<Vec2> = vertices.iter().map(|&v| flat[v as usize]).collect();
         let descent = Descent::new(&energy, &flat).ok()?;

@@ -9,9 +9,10 @@ use serde::Serialize;
 use super::super::error::PipelineError;
 use super::SurfaceOptions;
 use super::cuts::{self, Marks};
+use super::edges::breaks_of;
 use super::parts::{Nodes, Part, parts};
 use super::report::CutWhy;
-use crate::flatten::{FlattenError, Flattened, flatten, one_sided};
+use crate::flatten::{FlattenError, Flattened, Mode, flatten_between, one_sided};
 use crate::io::obj_read::ObjFaces;
 
 /// A surface as it was read, to be cut and laid flat.
@@ -30,6 +31,8 @@ pub(super) struct Source<'a> {
 pub(super) struct Laid {
     pub(super) part: Part,
     pub(super) flat: Flattened,
+    /// Between which of its rim's vertices lengths were to stay.
+    breaks: Vec<u32>,
     /// Where a dart would relieve it, rim first; empty where it is within the limit, or where no place can be told.
     pub(super) dart: Vec<u32>,
     /// Darts that were cut into it.
@@ -55,22 +58,24 @@ impl Source<'_> {
         parts(self.faces, self.nodes, &marks.edges, self.unit, self.stem)
     }
 
-    fn lay(&self, part: Part) -> Result<Laid, PipelineError> {
+    fn lay(&self, part: Part, breaks: Vec<u32>) -> Result<Laid, PipelineError> {
         if part.turned.is_none() {
             let error = FlattenError::OneSided(one_sided(&part.surface.triangles));
             return Err(cuts::advise(self.file, &part, error));
         }
-        let flat = match flatten(&part.surface, &self.options.flatten) {
+        let flat = match flatten_between(&part.surface, &breaks, &self.options.flatten) {
             Ok(flat) => flat,
             Err(error) => return Err(cuts::advise(self.file, &part, error)),
         };
         let strained = self.options.limit.passed(&flat.report);
         let dart = if strained { cuts::dart(&part, &flat) } else { Vec::new() };
-        Ok(Laid { part, flat, dart, darts: 0, stop: None })
+        Ok(Laid { part, flat, breaks, dart, darts: 0, stop: None })
     }
 
     fn lay_all(&self, parts: Vec<Part>) -> Result<Vec<Laid>, PipelineError> {
-        let laid: Vec<Result<Laid, PipelineError>> = parts.into_par_iter().map(|part| self.lay(part)).collect();
+        let breaks = breaks_of(&parts.iter().collect::<Vec<_>>());
+        let laid = parts.into_par_iter().zip(breaks).map(|(part, breaks)| self.lay(part, breaks));
+        let laid: Vec<Result<Laid, PipelineError>> = laid.collect();
         // Of several errors the first in the file's order, not the first in time.
         laid.into_iter().collect()
     }
@@ -80,9 +85,23 @@ impl Source<'_> {
         let mut marks = marks.clone();
         marks.cut(&laid[k].part, &laid[k].dart, CutWhy::Dart);
         // A dart ends inside its part and leaves it whole, so that all parts keep their numbers.
-        let part = self.parts(&marks).swap_remove(k);
-        let cut = self.lay(part)?;
+        let mut parts = self.parts(&marks);
+        let breaks = breaks_of(&parts.iter().collect::<Vec<_>>()).swap_remove(k);
+        let cut = self.lay(parts.swap_remove(k), breaks)?;
         Ok((Laid { darts: laid[k].darts + 1, ..cut }, marks))
+    }
+
+    /// Lays those parts once more that a dart in another one has broken: what is sewn to its mouth must end there too.
+    fn match_breaks(&self, laid: &mut [Laid]) -> Result<(), PipelineError> {
+        let breaks = breaks_of(&laid.iter().map(|l| &l.part).collect::<Vec<_>>());
+        for (own, breaks) in laid.iter_mut().zip(breaks) {
+            if self.options.flatten.mode == Mode::Woven && own.breaks != breaks {
+                let flat = flatten_between(&own.part.surface, &breaks, &self.options.flatten);
+                own.flat = flat.map_err(|error| cuts::advise(self.file, &own.part, error))?;
+                own.breaks = breaks;
+            }
+        }
+        Ok(())
     }
 
     /// Of the parts beyond the limit that may get a dart the one that is strained most, the first of several.
@@ -110,6 +129,7 @@ pub(super) fn with_darts(source: &Source<'_>, marks: &mut Marks) -> Result<Vec<L
             left -= 1;
         }
     }
+    source.match_breaks(&mut laid)?;
     if source.options.darts > 0 {
         laid.iter_mut().filter(|l| source.options.limit.passed(&l.flat.report)).for_each(Laid::say_why);
     }

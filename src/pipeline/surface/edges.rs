@@ -4,10 +4,9 @@
 //! changes, so that edges and their names do not depend on the mode. Edges are numbered along each rim from the corner
 //! with the lowest number in the file.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::f64::consts::PI;
 
-use super::darts::Laid;
 use super::parts::Part;
 use crate::geometry::{rim_loops, sorted_pair};
 
@@ -32,11 +31,37 @@ pub(super) struct NamedEdge {
 /// What lies on the other side of a rim edge: a part, and the vertices of its own there.
 type Other = Option<(usize, [u32; 2])>;
 
-/// The named edges of every part.
-pub(super) fn named_edges(laid: &[Laid]) -> Vec<Vec<NamedEdge>> {
-    let parts: Vec<&Part> = laid.iter().map(|l| &l.part).collect();
+impl NamedEdge {
+    /// How many of its sides lie before its middle, `own` being the index of its part and of the edge in it. Partners
+    /// run against each other and have the same middle.
+    pub(super) fn middle(&self, own: [usize; 2]) -> usize {
+        let sides = self.vertices.len() - 1;
+        // From the ends of both to one vertex are as many steps.
+        let later = !sides.is_multiple_of(2) && self.partner.is_some_and(|partner| partner <= own);
+        sides / 2 + usize::from(later)
+    }
+}
+
+/// Vertices of every part's rims between which lengths must stay if edges are to be sewn together at their ends and at
+/// their middle: partners have the same.
+pub(super) fn breaks_of(parts: &[&Part]) -> Vec<Vec<u32>> {
+    let edges = named_edges(parts);
+    let mut breaks: Vec<BTreeSet<u32>> = vec![BTreeSet::new(); parts.len()];
+    for (p, edges) in edges.iter().enumerate() {
+        for (e, edge) in edges.iter().enumerate() {
+            breaks[p].extend([edge.vertices[0], edge.vertices[edge.middle([p, e])]]);
+        }
+    }
     let loops: Vec<Vec<Vec<u32>>> = parts.iter().map(|p| rim_loops(&p.surface.triangles)).collect();
-    let others = Others::new(&parts, &loops);
+    let others = Others::new(parts, &loops);
+    while others.pass_on(parts, &mut breaks) {}
+    breaks.into_iter().map(|breaks| breaks.into_iter().collect()).collect()
+}
+
+/// The named edges of every part.
+pub(super) fn named_edges(parts: &[&Part]) -> Vec<Vec<NamedEdge>> {
+    let loops: Vec<Vec<Vec<u32>>> = parts.iter().map(|p| rim_loops(&p.surface.triangles)).collect();
+    let others = Others::new(parts, &loops);
     let mut all: Vec<Vec<NamedEdge>> = Vec::with_capacity(parts.len());
     for (k, part) in parts.iter().enumerate() {
         let mut edges = Vec::new();
@@ -80,6 +105,18 @@ impl Others {
             }
         }
         Self { of }
+    }
+
+    /// Breaks the other side of every edge where this one is broken; whether that broke anything.
+    fn pass_on(&self, parts: &[&Part], breaks: &mut [BTreeSet<u32>]) -> bool {
+        let mut broken = false;
+        for (&(p, ends), &(q, across)) in &self.of {
+            for v in ends.into_iter().filter(|v| breaks[p].contains(v)).collect::<Vec<_>>() {
+                let same = |w: &u32| parts[q].vertices[*w as usize] == parts[p].vertices[v as usize];
+                broken |= across.into_iter().find(same).is_some_and(|w| breaks[q].insert(w));
+            }
+        }
+        broken
     }
 
     fn of(&self, part: usize, ends: [u32; 2]) -> Other {

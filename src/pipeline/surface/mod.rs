@@ -129,7 +129,7 @@ pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurf
     notes.extend(source.split_notes(textured, laid.len()));
     notes.extend(laid.iter().filter_map(|l| l.part.turned_note()));
     notes.extend(marks.made.iter().map(ToString::to_string));
-    let edges = named_edges(&laid);
+    let edges = named_edges(&laid.iter().map(|l| &l.part).collect::<Vec<_>>());
     let report = SurfaceReport {
         toile: env!("CARGO_PKG_VERSION").into(),
         surface: stem.clone(),

@@ -98,15 +98,9 @@ impl FlatSurface {
             for (index, edge) in edges.iter().enumerate().filter(|(_, e)| e.partner.is_some()) {
                 let at = |v: u32| self.laid[piece].flat.positions[v as usize];
                 let lengths: Vec<f64> = edge.vertices.windows(2).map(|w| (at(w[1]) - at(w[0])).norm()).collect();
-                let half = lengths.len() / 2;
                 // An edge between three vertices or fewer is matched by its ends.
-                if half > 1 {
-                    // Partners run against each other: from their ends to one vertex are as many steps.
-                    let middle = if lengths.len().is_multiple_of(2) || edge.partner > Some([piece, index]) {
-                        half
-                    } else {
-                        half + 1
-                    };
+                if lengths.len() > 3 {
+                    let middle = edge.middle([piece, index]);
                     let edge = EdgeId { piece, ring: edge.ring, index };
                     notches.push(Notch { edge, at: lengths[..middle].iter().sum(), double: false });
                 }
