@@ -10,8 +10,8 @@ use super::spring::{Chain, Elastic, Spring, Springs};
 use crate::geometry::sorted_pair;
 
 /// Stiffness of single edges, and of the braces over them, against that of the chain they are in. On a bodice without
-/// darts warp and weft are off by 0.26 and 0.26 % (root mean square) and edges by 1.6 % in the mean with 10⁻³, by 0.15
-/// and 0.20 % and 3.4 % with 10⁻⁴, by 0.15 and 0.19 % and 3.7 % with this, by 0.15 and 0.18 % and 4.3 % with 10⁻⁵.
+/// darts warp and weft are off by 0.27 and 0.27 % (root mean square) and edges by 1.5 % in the mean with 10⁻³, by 0.16
+/// and 0.20 % and 3.3 % with 10⁻⁴, by 0.15 and 0.19 % and 3.7 % with this, by 0.15 and 0.18 % and 4.3 % with 10⁻⁵.
 const EVENNESS: f64 = 5e-5;
 
 impl Energy {

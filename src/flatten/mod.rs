@@ -76,7 +76,7 @@ const WOVEN_RIM: f64 = 0.1;
 const WALL: f64 = 1e-3;
 
 /// Where only chains of the rim are held, every edge is on the long way: stiff rims are what the zone is for, and so
-/// the whole way takes two thirds of the time. What is left of it is not worth its last steps.
+/// the whole way takes three quarters of the time. What is left of it is not worth its last steps.
 const FIRST_OF_TWO: Goal = Goal { tolerance: 1e-3, max_iterations: 1000, holds: 0, exact: 0.0 };
 
 /// What a flat piece should keep where it cannot keep everything.

@@ -1,6 +1,6 @@
 //! Whether a closed surface runs through itself.
 
-use crate::geometry::{TriMesh, Vec3, pierces};
+use crate::geometry::{TriMesh, Vec3};
 
 /// Cells of the broad phase are this many mean edges wide: a few triangles in each.
 const CELL_IN_EDGES: f64 = 2.0;
@@ -19,7 +19,7 @@ pub(super) fn crossings(mesh: &TriMesh) -> Option<(usize, Vec3)> {
             return;
         }
         let (a, b) = (mesh.corners(s), mesh.corners(t));
-        if let Some(place) = place(a, b).or_else(|| place(b, a)) {
+        if let Some(place) = pierces(a, b).or_else(|| pierces(b, a)) {
             found.get_or_insert((0, place)).0 += 1;
         }
     });
@@ -77,27 +77,33 @@ fn each_close_pair(cell: f64, boxes: &[[Vec3; 2]], mut visit: impl FnMut(usize, 
 }
 
 /// Where an edge of `a` passes through the inside of `b`. Touching does not count.
-fn place(a: [Vec3; 3], b: [Vec3; 3]) -> Option<Vec3> {
-    let normal = (b[1] - b[0]).cross(&(b[2] - b[0]));
-    let edges = (0..3).map(|k| [a[k], a[(k + 1) % 3]]);
-    let [p, q] = edges.into_iter().find(|&[p, q]| pierces(p, q, b))?;
-    let [above, below] = [p, q].map(|end| (end - b[0]).dot(&normal).abs());
-    // Ends so near the plane that rounding makes both heights 0 are at the place.
-    let share = if above + below > 0.0 { above / (above + below) } else { 0.5 };
-    Some(p + (q - p) * share)
+///
+/// Decided in rounding on purpose, not by the exact predicate cloth has: halves of a mirrored body that run through each
+/// other meet edge on edge, where exactly no pair of triangles would cross.
+fn pierces(a: [Vec3; 3], b: [Vec3; 3]) -> Option<Vec3> {
+    let n = (b[1] - b[0]).cross(&(b[2] - b[0]));
+    let side = a.map(|p| (p - b[0]).dot(&n));
+    (0..3).find_map(|k| {
+        let (p, q, s, t) = (a[k], a[(k + 1) % 3], side[k], side[(k + 1) % 3]);
+        if s * t >= 0.0 {
+            return None;
+        }
+        let x = p + (q - p) * (s / (s - t));
+        let inside = (0..3).all(|m| (b[(m + 1) % 3] - b[m]).cross(&(x - b[m])).dot(&n) > 0.0);
+        inside.then_some(x)
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Two, side by side, no edge of one in the plane of a face of the other.
     fn tetrahedra(offset: f64) -> TriMesh {
         let corners = [Vec3::zeros(), Vec3::x(), Vec3::y(), Vec3::z()];
         let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
         let mut mesh = TriMesh::default();
-        for (copy, shift) in [(0_u32, Vec3::zeros()), (4, Vec3::new(offset, 0.05, 0.07))] {
-            mesh.vertices.extend(corners.map(|p| p + shift));
+        for (copy, shift) in [(0_u32, 0.0), (4, offset)] {
+            mesh.vertices.extend(corners.map(|p| p + Vec3::new(shift, 0.05, 0.05)));
             mesh.triangles.extend(faces.map(|f| f.map(|v| v + copy)));
         }
         mesh
