@@ -421,7 +421,7 @@ fn a_weave_held_between_breaks_keeps_these_lengths_and_its_threads_better() {
     assert_sound(&mesh, &woven);
     let r = &woven.report;
     println!("every edge held {every:?}, chains {:?}", r.threads);
-    assert!(r.threads.warp < 0.7 * every.warp && r.threads.weft < 0.7 * every.weft, "{:?} {every:?}", r.threads);
+    assert!(r.threads.warp < 0.8 * every.warp && r.threads.weft < 0.8 * every.weft, "{:?} {every:?}", r.threads);
     assert!(r.threads.shear_max.to_degrees() < 30.0, "{r:?}");
     for chain in 0..8 {
         let ends = |k: usize| [at(chain * CELLS / 2 + k), at(chain * CELLS / 2 + k + 1)];
