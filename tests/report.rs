@@ -269,6 +269,8 @@ fn openings_have_readable_names() {
     assert_eq!(named(&[&halves, &[("front", "pocket.R"), ("front", "pocket.2.R")]]), ["back.waist", "front.R.pocket"]);
     assert_eq!(named(&[&[("front", "hem.R"), ("back.R", "hem")]]), ["hem.R"]);
     assert_eq!(named(&[&[("a", "hem"), ("b", "hem")], &[("c", "hem"), ("d", "hem")]]), ["hem", "hem (2)"]);
+    let halves = halves.iter().copied().chain([("front", "pocket.2.R"), ("front.L", "hem"), ("back", "dart.a.L")]);
+    assert_eq!(toile::pattern::written_names(halves), ["back.waist", "front.R.pocket", "front.L.hem", "back.L.dart.a"]);
 }
 
 #[test]

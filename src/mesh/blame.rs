@@ -6,6 +6,7 @@ use super::grid::Core;
 use super::layout::Layout;
 use super::strip::StripError;
 use crate::geometry::Vec2;
+use crate::pattern::written_edge;
 
 impl Layout<'_> {
     /// The error for piece `n` in the words of its pattern.
@@ -54,7 +55,9 @@ impl Layout<'_> {
     /// The edges and lines a frame particle lies on.
     fn carriers(&self, n: usize, frame: &Frame, v: u32) -> Vec<String> {
         let edges = self.garment.pieces[n].loops.iter().flatten().zip(&frame.edges);
-        let on = edges.filter(|(_, chain)| chain.contains(&v)).map(|(edge, _)| format!("edge '{}'", edge.name));
+        let on = edges
+            .filter(|(_, chain)| chain.contains(&v))
+            .map(|(edge, _)| format!("edge '{}'", written_edge(&edge.name)));
         on.chain(self.line_through(n, frame, v).map(|name| format!("line '{name}'"))).collect()
     }
 

@@ -6,7 +6,7 @@ use super::lines::LinePlan;
 use super::links::{EdgeTable, SAME_PLACE};
 use super::sampling::Sampling;
 use crate::geometry::Vec2;
-use crate::pattern::{EdgeId, Piece};
+use crate::pattern::{EdgeId, Piece, written_edge};
 
 /// Neighbouring edges must meet within this distance (metres): the pattern stage closes outlines exactly, so anything
 /// more is a mistake in a garment built by hand.
@@ -131,12 +131,12 @@ fn check_edge(piece: &Piece, ring: usize, index: usize) -> Result<(), MeshError>
     // Written so that a NaN fails too.
     let long_enough = length > 2.0 * SAME_PLACE;
     if !long_enough {
-        return Err(MeshError::ShortEdge { piece: piece.name.clone(), edge: edge.name.clone(), length });
+        return Err(MeshError::ShortEdge { piece: piece.name.clone(), edge: written_edge(&edge.name), length });
     }
     let before = &edges[(index + edges.len() - 1) % edges.len()];
     let gap = (edge.path.start() - before.path.end()).norm();
     if gap > CLOSED {
-        return Err(MeshError::Open { piece: piece.name.clone(), edge: edge.name.clone(), gap });
+        return Err(MeshError::Open { piece: piece.name.clone(), edge: written_edge(&edge.name), gap });
     }
     Ok(())
 }

@@ -8,7 +8,7 @@ use super::problem::Problem;
 use super::rim::{Identities, Rims, joint_marks};
 use super::seam::marks_between;
 use super::select::{Candidate, Run, turned};
-use super::walk::edge_name;
+use super::walk::names_of;
 use super::{EdgeId, Give, Piece, Seam, SeamKind, Span};
 
 /// A candidate with its direction.
@@ -120,7 +120,7 @@ impl Table<'_> {
         }
         let end = |chain: &[Run], last: bool| {
             let run = if last { chain.last() } else { chain.first() };
-            run.and_then(|r| r.spans.first()).map_or_else(String::new, |s| edge_name(self.pieces, s.edge))
+            run.and_then(|r| r.spans.first()).map_or_else(String::new, |s| names_of(self.pieces, [s.edge]).concat())
         };
         let (one, other) = (end(&candidate.a, false), end(&candidate.b, true));
         findings.error(candidate.file.name.at, Problem::Twisted { seam, one, other });

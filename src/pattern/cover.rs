@@ -8,7 +8,7 @@ use super::problem::Problem;
 use super::rim::{SLIVER, edge_ids, gaps};
 use super::seam::Seams;
 use super::spelling::glob;
-use super::walk::edge_name;
+use super::walk::{edge_name, names_of};
 use super::{EdgeId, SeamKind, Span};
 
 /// A stretch of an edge and the seam that takes it.
@@ -21,15 +21,17 @@ struct Taken {
 /// Checks that no stretch is sewn twice, and none forgotten.
 pub(super) fn check(file: &GarmentFile, drafts: &[Draft], cut: &Pieces, seams: &Seams, findings: &mut Findings) {
     let names = EdgeNames { drafts, cut };
-    let mut lists = Lists { free: names.free(file, findings), forgotten: Vec::new() };
+    let mut lists = Lists { free: names.free(file, findings), forgotten: Vec::new(), forgotten_parts: Vec::new() };
     for edge in edge_ids(&cut.pieces) {
         let taken = taken(edge, seams);
         sewn_twice(file, cut, seams, edge, &taken, findings);
         lists.look_at(edge, &taken, cut, seams);
     }
-    if !lists.forgotten.is_empty() {
+    let mut forgotten = names_of(&cut.pieces, lists.forgotten);
+    forgotten.extend(lists.forgotten_parts);
+    if !forgotten.is_empty() {
         let at = file.seams.first().map_or(file.version.at, |s| s.name.at);
-        findings.error(at, Problem::NeitherSewnNorFree(lists.forgotten.join(", ")));
+        findings.error(at, Problem::NeitherSewnNorFree(forgotten.join(", ")));
     }
 }
 
@@ -79,7 +81,10 @@ fn sewn_twice(file: &GarmentFile, cut: &Pieces, seams: &Seams, edge: EdgeId, tak
 struct Lists {
     /// Edges the file lists as free.
     free: Vec<EdgeId>,
-    forgotten: Vec<String>,
+    /// Edges neither sewn nor free.
+    forgotten: Vec<EdgeId>,
+    /// Ranges of edges of which the rest is sewn.
+    forgotten_parts: Vec<String>,
 }
 
 impl Lists {
@@ -91,12 +96,12 @@ impl Lists {
         let length = cut.pieces[edge.piece].loops[edge.ring][edge.index].path.length();
         let covered = taken.iter().map(|t| (t.from, t.to)).chain(opened).collect();
         for (from, to) in gaps(covered, length) {
-            let name = edge_name(&cut.pieces, edge);
-            self.forgotten.push(if to - from > length - SLIVER {
-                name
+            if to - from > length - SLIVER {
+                self.forgotten.push(edge);
             } else {
-                format!("{name}@{:.0}..{:.0}", from * 1e3, to * 1e3)
-            });
+                let name = edge_name(&cut.pieces, edge);
+                self.forgotten_parts.push(format!("{name}@{:.0}..{:.0}", from * 1e3, to * 1e3));
+            }
         }
     }
 }

@@ -57,7 +57,7 @@ pub use place_word::{PlaceWord, place_word};
 pub use problem::Problem;
 pub use reference::parse_quantity;
 pub use rim::{Opening, openings};
-pub use walk::{SeamWalk, walk, written_edge};
+pub use walk::{SeamWalk, walk, written_edge, written_names};
 
 use crate::geometry::{Path, Vec2, Vec3};
 

@@ -1,6 +1,6 @@
 //! Walking the seams: both lengths of each, and what they differ by beyond what was said.
 
-use super::{EdgeId, Garment, Give, Opening, SeamKind, Span};
+use super::{EdgeId, Garment, Give, Opening, Piece, SeamKind, Span};
 
 /// The lengths of one seam, metres.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,39 +74,60 @@ fn notches(garment: &Garment, chain: &[Span]) -> Vec<f64> {
 }
 
 fn chain_name(garment: &Garment, chain: &[Span]) -> String {
-    let mut names: Vec<String> = chain.iter().map(|s| garment.edge_name(s.edge)).collect();
-    names.dedup();
-    names.join(" + ")
+    names_of(&garment.pieces, chain.iter().map(|s| s.edge)).join(" + ")
 }
 
 /// `waist`, as the file has it, for `waist.2.R`: the second part of an edge that a dart cuts in two, on the right half
-/// of a folded piece. Names in files have no points.
-pub fn written_edge(name: &str) -> &str {
-    name.split('.').next().unwrap_or(name)
+/// of a folded piece. Names in files have no points, but `dart.a` is the first leg of a dart.
+pub fn written_edge(name: &str) -> String {
+    let made = |word: &str| half(word).is_some() || word.parse::<usize>().is_ok();
+    let words = name.split('.').enumerate().filter(|(k, word)| *k == 0 || !made(word));
+    words.map(|(_, word)| word).collect::<Vec<_>>().join(".")
+}
+
+/// `L` or `R` at the end of the name of an edge of one half of a folded piece.
+fn half(name: &str) -> Option<&str> {
+    name.rsplit('.').next().filter(|word| matches!(*word, "L" | "R"))
+}
+
+/// Edges by their pieces and names, as the file has them, each once: `front.waist` for its parts and for both halves of
+/// a folded piece, `front.R.pocket` where only one half is meant.
+pub fn written_names<'a>(edges: impl IntoIterator<Item = (&'a str, &'a str)>) -> Vec<String> {
+    let mut found: Vec<(&str, String, Vec<Option<&str>>)> = Vec::new();
+    for (piece, edge) in edges {
+        let base = written_edge(edge);
+        match found.iter_mut().find(|f| f.0 == piece && f.1 == base) {
+            Some(f) => f.2.push(half(edge)),
+            None => found.push((piece, base, vec![half(edge)])),
+        }
+    }
+    let name = |(piece, base, halves): (&str, String, Vec<Option<&str>>)| match halves[0]
+        .filter(|side| halves.iter().all(|half| *half == Some(side)))
+    {
+        Some(side) => format!("{piece}.{side}.{base}"),
+        None => format!("{piece}.{base}"),
+    };
+    found.into_iter().map(name).collect()
+}
+
+/// [`written_names`] of edges of these pieces.
+pub(super) fn names_of(pieces: &[Piece], edges: impl IntoIterator<Item = EdgeId>) -> Vec<String> {
+    let names = |edge: EdgeId| {
+        let piece = &pieces[edge.piece];
+        (piece.name.as_str(), piece.loops[edge.ring][edge.index].name.as_str())
+    };
+    written_names(edges.into_iter().map(names))
 }
 
 impl Garment {
-    /// `front.L.side`.
-    pub fn edge_name(&self, edge: EdgeId) -> String {
-        edge_name(&self.pieces, edge)
-    }
-
     /// The edges round an opening, as the file names them, each once: `front.L.neck`.
     pub fn opening_edges(&self, opening: &Opening) -> Vec<String> {
-        let mut names: Vec<String> = Vec::new();
-        for EdgeId { piece, ring, index } in opening.spans.iter().map(|s| s.edge) {
-            let piece = &self.pieces[piece];
-            let name = format!("{}.{}", piece.name, written_edge(&piece.loops[ring][index].name));
-            if !names.contains(&name) {
-                names.push(name);
-            }
-        }
-        names
+        names_of(&self.pieces, opening.spans.iter().map(|s| s.edge))
     }
 }
 
-/// `front.L.side`.
-pub(super) fn edge_name(pieces: &[super::Piece], edge: EdgeId) -> String {
+/// `front.L.side`, and `front.waist.2.R` for a part of an edge: a range is measured along the part.
+pub(super) fn edge_name(pieces: &[Piece], edge: EdgeId) -> String {
     let piece = &pieces[edge.piece];
     format!("{}.{}", piece.name, piece.loops[edge.ring][edge.index].name)
 }

@@ -12,7 +12,7 @@ use super::stretched::stretched;
 use crate::geometry::{Vec2, Vec3};
 use crate::mannequin::Mannequin;
 use crate::mesh::{ClothMesh, Stitches};
-use crate::pattern::Garment;
+use crate::pattern::{Garment, written_names};
 use crate::verify::{Welded, worn};
 
 /// Millimetres in a metre.
@@ -245,7 +245,7 @@ fn worn_rows(run: &Measured, welded: &Welded, closures: &Closures) -> Vec<Worn> 
     let rows = open.into_iter().zip(names).map(|((opening, part), name)| Worn {
         opening: name,
         body_part: part.map(|p| p.name().into()),
-        edges: opening.edges.iter().map(|(piece, edge)| format!("{piece}.{edge}")).collect(),
+        edges: written_names(opening.edges.iter().map(|(piece, edge)| (piece.as_str(), edge.as_str()))),
         length: length(opening) * MM,
     });
     rows.collect()

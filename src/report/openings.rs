@@ -127,7 +127,7 @@ pub fn opening_names(openings: &[Vec<(String, String)>]) -> Vec<String> {
 const EDGES_NAMED: usize = 3;
 
 fn name(edges: &[(String, String)]) -> String {
-    let mut bases: Vec<&str> = Vec::new();
+    let mut bases: Vec<String> = Vec::new();
     for (_, edge) in edges {
         let base = written_edge(edge);
         if !bases.contains(&base) {
