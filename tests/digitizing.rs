@@ -458,6 +458,47 @@ fn an_exported_dxf_is_read_back() {
     assert!(segments < 40, "{segments}");
 }
 
+/// Programs draw notches as points, as slits or with both flanks, and drill holes as points or circles.
+#[test]
+fn notches_and_drill_holes_of_a_dxf_may_be_drawn() {
+    let entity = |kind: &str, on: u32, pairs: &[(i32, f64)]| {
+        let pairs: String = pairs.iter().map(|(code, value)| format!("{code}\n{value}\n")).collect();
+        format!("0\n{kind}\n8\n{on}\n{pairs}")
+    };
+    let corners = |points: &[(f64, f64)]| points.iter().flat_map(|p| [(10, p.0), (20, p.1)]).collect::<Vec<_>>();
+    let boundary = [vec![(70, 1.0)], corners(&[(0.0, 0.0), (300.0, 0.0), (300.0, 400.0), (0.0, 400.0)])].concat();
+    let text = [
+        "0\nBLOCK\n2\nFRONT\n".to_owned(),
+        entity("LWPOLYLINE", 1, &boundary),
+        entity("POINT", 4, &corners(&[(150.0, 0.0)])),
+        entity("LINE", 4, &[(10, 295.0), (20, 200.0), (11, 300.0), (21, 200.0)]),
+        entity("LWPOLYLINE", 4, &corners(&[(0.0, 98.0), (6.0, 100.0), (0.0, 102.0)])),
+        entity("CIRCLE", 13, &[(10, 150.0), (20, 250.0), (40, 3.0)]),
+        "0\nENDBLK\n".to_owned(),
+    ];
+    let pieces = read_dxf_text(&text.concat(), Some(1e-3)).expect("a piece");
+    let shown = |points: &[Vec2]| points.iter().map(|p| [p.x * 1e3, -p.y * 1e3].map(f64::round)).collect::<Vec<_>>();
+    let mut notches = shown(&pieces[0].notches);
+    notches.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    assert_eq!(notches, [[0.0, 100.0], [150.0, 0.0], [300.0, 200.0]]);
+    assert_eq!(shown(&pieces[0].points), [[150.0, 250.0]]);
+}
+
+#[test]
+fn a_drawing_that_is_stretched_is_read_stretched() {
+    let sides = |said: &str| {
+        let text = format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' width='1000mm' height='1000mm' viewBox='0 0 1000 500' {said}>\
+             <rect id='yoke' width='300' height='300'/></svg>"
+        );
+        let piece = read_svg_text(&text).expect("a piece").pieces.remove(0);
+        let points = piece.cut.iter().chain(piece.sew.iter().map(|s| &s.1)).flat_map(|path| path.sampled(1e-4));
+        points.fold([0.0, 0.0], |[x, y], p| [p.x.max(x), p.y.max(y)]).map(|m| (m * 1e3).round())
+    };
+    assert_eq!(sides(""), [300.0, 300.0]);
+    assert_eq!(sides("preserveAspectRatio='none'"), [300.0, 600.0]);
+}
+
 #[test]
 fn seams_are_suggested_by_length_and_notches() {
     let (_, papers) = sample();

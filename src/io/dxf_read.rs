@@ -19,6 +19,8 @@ const FARTHEST: f64 = 1e3;
 const MOST_LINES: usize = 5_000;
 /// Notches of other shapes than the slit: T, castle, check and U.
 const OTHER_NOTCHES: [u32; 4] = [80, 81, 82, 83];
+/// Both ends of a notch's flanks are as near to the cut line, to this (metres); a slit is longer.
+const FLANKS: f64 = 5e-4;
 /// Letters of a text that messages show.
 const SHOWN: usize = 40;
 
@@ -228,7 +230,8 @@ impl<'a> Block<'a> {
                     let ends = [entity.points(10, unit)?, entity.points(11, unit)?].concat();
                     block.add_line(on, ends, false);
                 }
-                "POINT" => {
+                // Drill holes come as either.
+                "POINT" | "CIRCLE" => {
                     let at = entity.points(10, unit)?;
                     block.points.extend(on.zip(at.first().copied()));
                 }
@@ -283,6 +286,8 @@ impl<'a> Block<'a> {
         let at = |wanted: &dyn Fn(u32) -> bool| -> Vec<Vec2> {
             self.points.iter().filter(|p| wanted(p.0)).map(|p| p.1).collect()
         };
+        let drawn = [layer::NOTCH].into_iter().chain(OTHER_NOTCHES).flat_map(|on| self.runs(on));
+        let drawn: Vec<Vec2> = drawn.filter_map(whole_line).map(|line| notch_at(&line, &cut)).collect();
         Some(Traced {
             name: self.text("piece name:").unwrap_or(self.name).to_owned(),
             sew: sew.into_iter().map(|e| (None, e.1)).collect(),
@@ -291,7 +296,7 @@ impl<'a> Block<'a> {
             lines: self.on(layer::INTERNAL).into_iter().map(|l| Inner { name: None, path: l.1, kind: None }).collect(),
             points: at(&|on| on == layer::DRILL),
             grain: self.ends_on(layer::GRAIN),
-            notches: at(&is_notch),
+            notches: at(&is_notch).into_iter().chain(drawn).collect(),
             mirror,
             cut_how: self.text("quantity:").and_then(quantity),
             said_by: None,
@@ -304,6 +309,16 @@ impl<'a> Block<'a> {
     fn ends_on(&self, layer: u32) -> Option<[Vec2; 2]> {
         let longest = |a: &((), Path), b: &((), Path)| a.1.length().total_cmp(&b.1.length());
         self.on(layer).into_iter().max_by(longest).map(|l| [l.1.start(), l.1.end()])
+    }
+}
+
+/// Where a notch that is drawn, as a slit or with both its flanks, stands on the cut line.
+fn notch_at(line: &Path, cut: &Path) -> Vec2 {
+    let [a, b] = [line.start(), line.end()].map(|end| (end, cut.nearest(end).1));
+    match a.1 - b.1 {
+        off if off.abs() <= FLANKS => (a.0 + b.0) / 2.0,
+        off if off < 0.0 => a.0,
+        _ => b.0,
     }
 }
 

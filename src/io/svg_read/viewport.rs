@@ -6,6 +6,9 @@ use roxmltree::Node;
 use super::shapes::{PIXEL, length};
 use crate::geometry::Vec2;
 
+/// How a drawing is fitted into its box.
+const ASPECT: &str = "preserveAspectRatio";
+
 /// From an element's coordinates to metres on the sheet.
 #[derive(Clone, Copy)]
 pub(super) struct Frame {
@@ -20,7 +23,8 @@ impl Frame {
     }
 }
 
-/// The drawing's frame, by width and height over viewBox, the smaller of the two scales; and its size in user units.
+/// The drawing's frame, by width and height over viewBox, the smaller of the two scales but where preserveAspectRatio
+/// is `none`; and its size in user units.
 pub(super) fn sheet(root: Node) -> (Frame, Vec2) {
     let view = view_box(root);
     let side = |key: &str| root.attribute(key).and_then(length).filter(|metres| *metres > 0.0);
@@ -30,8 +34,11 @@ pub(super) fn sheet(root: Node) -> (Frame, Vec2) {
         [Vec2::zeros(), Vec2::from(units)]
     });
     let scales = [0, 1].map(|k| view.and(sides[k]).map(|metres| metres / size[k]));
-    let scale = scales.into_iter().flatten().reduce(f64::min).unwrap_or(PIXEL);
-    (Frame { linear: Matrix2::identity() * scale, shift: -origin * scale }, size)
+    let scale = match scales {
+        [Some(x), Some(y)] => fitted(root.attribute(ASPECT).unwrap_or(""), Vec2::new(x, y)).0,
+        _ => Vec2::repeat(scales.into_iter().flatten().next().unwrap_or(PIXEL)),
+    };
+    (Frame { linear: Matrix2::from_diagonal(&scale), shift: -origin.component_mul(&scale) }, size)
 }
 
 /// The place of a drawing within one of the size `outer`, as a transform: its viewBox is fitted into the box that x, y,
@@ -43,7 +50,7 @@ pub(super) fn inner(node: Node, outer: Vec2) -> ((Matrix2<f64>, Vec2), Vec2) {
     let Some([origin, units]) = view_box(node).filter(|_| size.min() > 0.0) else {
         return ((Matrix2::identity(), corner), size);
     };
-    let (scale, align) = fitted(node.attribute("preserveAspectRatio").unwrap_or(""), size.component_div(&units));
+    let (scale, align) = fitted(node.attribute(ASPECT).unwrap_or(""), size.component_div(&units));
     let room = size - units.component_mul(&scale);
     let shift = corner + room.component_mul(&align) - origin.component_mul(&scale);
     ((Matrix2::from_diagonal(&scale), shift), units)
