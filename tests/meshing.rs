@@ -302,6 +302,75 @@ fn fold_lines_are_chains_of_springs() {
     }
 }
 
+/// Elastic through these points, in millimetres.
+fn elastic(points: &[(f64, f64)]) -> Line {
+    let path = Path::polyline(&points.iter().map(|p| mm(p.0, p.1)).collect::<Vec<_>>());
+    Line { name: "tape".into(), path, kind: LineKind::Elastic(0.7) }
+}
+
+/// Names of the parts of the lines of the first piece and their flat lengths, millimetres.
+fn parts(mesh: &ClothMesh) -> Vec<(&str, f64)> {
+    let length = |at: &[u32]| at.windows(2).map(|w| (mesh.flat[w[1] as usize] - mesh.flat[w[0] as usize]).norm()).sum();
+    let round = |metres: f64| (metres * 1e4).round() / 10.0;
+    mesh.pieces[0].lines.iter().map(|l| (l.name.as_str(), round(length(&l.particles)))).collect()
+}
+
+#[test]
+fn a_line_along_edges_shares_their_particles() {
+    let mut panel = rectangle("panel", 300.0, 240.0);
+    // Up the right side against the edge, round the corner, back along the top and down into the piece.
+    panel.lines = vec![elastic(&[(300.0, 120.0), (300.0, 0.3), (100.0, 0.3), (100.0, 150.0)])];
+    let (mesh, _) = meshed(&garment(vec![panel], vec![]), 10.0);
+    assert_eq!(parts(&mesh), [("tape.1", 320.0), ("tape.2", 150.0)]);
+    let [along, across] = [0, 1].map(|k| mesh.pieces[0].lines[k].particles.as_slice());
+    let rim: HashSet<u32> = mesh.pieces[0].edges.iter().flat_map(|e| e.particles.clone()).collect();
+    assert!(along.iter().all(|v| rim.contains(v)) && across[1..].iter().all(|v| !rim.contains(v)));
+    assert_eq!(along[along.len() - 1], across[0]);
+    // All round a hole, from a place that is no corner of it.
+    let mut ring = rectangle("ring", 300.0, 300.0);
+    ring.loops.push(circle(150.0, 150.0, 60.0, true));
+    let all_round = "M 150 90 A 60 60 0 0 0 150 210 A 60 60 0 0 0 150 90";
+    let path = Path::parse_absolute(all_round, MM).expect("a circle");
+    ring.lines = vec![Line { path, ..elastic(&[(0.0, 0.0), (1.0, 0.0)]) }];
+    let (mesh, _) = meshed(&garment(vec![ring], vec![]), 10.0);
+    let [line] = mesh.pieces[0].lines.as_slice() else { panic!("{:?}", mesh.pieces[0].lines) };
+    let hole: HashSet<u32> =
+        mesh.pieces[0].edges.iter().filter(|e| e.edge.ring == 1).flat_map(|e| e.particles.clone()).collect();
+    assert_eq!(line.particles.iter().copied().collect::<HashSet<u32>>(), hole);
+    assert_eq!(line.particles.len(), hole.len() + 1);
+}
+
+#[test]
+fn a_line_goes_on_beyond_a_dart() {
+    let dart = [(0.0, 0.0), (140.0, 0.0), (150.0, 80.0), (160.0, 0.0), (300.0, 0.0), (300.0, 240.0), (0.0, 240.0)];
+    let cut_in_two = |y: f64| {
+        let mut panel = piece("panel", vec![polygon(&dart)]);
+        panel.lines = vec![elastic(&[(0.0, y), (300.0, y)])];
+        let (mesh, _) = meshed(&garment(vec![panel], vec![]), 10.0);
+        parts(&mesh).into_iter().map(|(name, length)| (name.to_owned(), length)).collect::<Vec<_>>()
+    };
+    // On the edge that the dart opens, and a quarter of the way to its tip.
+    assert_eq!(cut_in_two(0.0), [("tape.1".to_owned(), 140.0), ("tape.2".to_owned(), 140.0)]);
+    assert_eq!(cut_in_two(20.0), [("tape.1".to_owned(), 142.5), ("tape.2".to_owned(), 142.5)]);
+}
+
+#[test]
+fn what_is_sewn_to_an_edge_with_elastic_is_drawn_in_with_it() {
+    let mut skirt = rectangle("skirt", 300.0, 240.0);
+    skirt.lines = vec![elastic(&[(0.0, 0.0), (300.0, 0.0)])];
+    let band = rectangle("band", 300.0, 60.0);
+    let waist = seam("waist", vec![span(0, 0, 0, 0.0, 300.0)], vec![span(1, 0, 2, 300.0, 0.0)]);
+    let (mesh, _) = meshed(&garment(vec![skirt, band], vec![waist]), 10.0);
+    let drawn = mesh.drawn_in();
+    let along = |piece: usize, edge: usize| {
+        let ends = mesh.pieces[piece].edges[edge].particles.windows(2).map(|w| [w[0].min(w[1]), w[0].max(w[1])]);
+        ends.map(|ends| drawn.get(&ends).map(|d| (d.ratio, d.band))).collect::<Vec<_>>()
+    };
+    assert_eq!(along(0, 0), vec![Some((0.7, true)); 30]);
+    assert_eq!(along(1, 2), vec![Some((0.7, false)); 30]);
+    assert_eq!(drawn.len(), 60);
+}
+
 #[test]
 fn a_line_outside_or_across_the_rim_is_named() {
     let with_line = |a: Vec2, b: Vec2| {

@@ -68,6 +68,25 @@ fn a_waist_elastic_draws_the_cloth_in_and_the_flat_piece_stays_as_drawn() {
     assert!(top > 0.8, "{top}");
 }
 
+/// Elastic on the very edge, over the mouth of a dart, draws the rim in; laid flat the rim has its drawn shape again.
+#[test]
+fn elastic_on_an_edge_draws_the_rim_in() {
+    let skirt = draped("elastic_edge.yaml", 15.0);
+    let names: Vec<&str> = skirt.job.mesh.pieces[0].lines.iter().map(|l| l.name.as_str()).collect();
+    assert_eq!(names, ["tape.1", "tape.2"]);
+    let waist = skirt.report.worn.iter().find(|w| w.opening == "waist").expect("a waist");
+    // Two waists of 520 mm less 18 mm of dart each; slack at 0.7 of it, and hips of 980 mm below.
+    assert!(waist.body_part.as_deref() == Some("torso") && (0.69 * 1004.0..0.95 * 980.0).contains(&waist.length));
+    assert_eq!(waist.edges.len(), 2, "{:?}", waist.edges);
+    for piece in &skirt.report.pieces {
+        let (area, boundary) = (piece.area_error, piece.boundary_error);
+        assert!([area.sew, area.drape, area.round_trip].into_iter().all(|e| e.is_some_and(|e| e < 2e-3)), "{area:?}");
+        assert!([boundary.drape, boundary.round_trip].into_iter().all(|e| e.is_some_and(|e| e < 3e-3)), "{boundary:?}");
+        assert!(piece.outline_distance.is_some_and(|mm| mm < 1.0), "{:?}", piece.outline_distance);
+        assert!(piece.strain.p99 < 0.01, "{:?}", piece.strain);
+    }
+}
+
 #[test]
 fn pleats_hang_with_their_top_layer_outside() {
     let skirt = draped("pleated.yaml", 15.0);

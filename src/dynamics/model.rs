@@ -190,16 +190,18 @@ impl Cloth {
             let step = (angle.acos() / std::f64::consts::FRAC_PI_2 * ANGLE_STEPS as f64).round() as usize;
             let rest = seam.unwrap_or(rest);
             let (law, width) = (laws_of[p] + step as u32, area / along.norm());
-            match elastics.ratio(edge.ends) {
-                Some(ratio) => {
-                    let [gathers, band] = elastics.laws(law, &mut self.laws);
-                    push(rest, width, gathers);
-                    push(rest * ratio, 1.0, band);
-                }
-                None => push(rest, width, law),
+            let elastic = elastics.on(edge.ends);
+            let mut cloth = |law: u32| match elastic {
+                Some(_) => elastics.gathers(law, &mut self.laws),
+                None => law,
+            };
+            push(rest, width, cloth(law));
+            let hem = (rim && model != SpringModel::Raw).then(|| cloth(laws_of[p]));
+            if let Some(band) = elastic.filter(|e| e.band) {
+                push(rest * band.ratio, 1.0, elastics.band(&mut self.laws));
             }
-            if rim && model != SpringModel::Raw {
-                push(rest, RIM_WIDTH, laws_of[p]);
+            if let Some(hem) = hem {
+                push(rest, RIM_WIDTH, hem);
             }
         }
     }

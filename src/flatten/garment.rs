@@ -40,7 +40,7 @@ pub struct FlatPiece {
 /// Edges that an even seam joins get one common length, the mean of both sides as draped (as nearly as the mode keeps
 /// boundaries; exactly the same target); an edge in several seams gets the first one's. Edges of a seam with ease,
 /// gather or stretch get their drawn ratio back: their drawn lengths times the stretch beyond the range between the
-/// two. Never flips a triangle.
+/// two. Edges that elastic draws in get their drawn lengths back. Never flips a triangle.
 ///
 /// # Errors
 /// [`FlattenError::Piece`] around the reason; [`FlattenError::StartLength`] if `draped` has not one position per
@@ -105,11 +105,12 @@ fn flatten_piece(
 /// Wanted flat lengths of sewn rim edges by their ends (global particles, smaller first).
 type Targets = HashMap<[u32; 2], f64>;
 
-/// Of an edge that several seams join, as a waist between band and lining, the first seam's target counts: a later one
+/// Edges along elastic get their drawn lengths. Of an edge that several seams join, as a waist between band and lining, the first seam's target counts: a later one
 /// that took it over would leave the first one's sides with two lengths. What a later even seam joins to such an edge
 /// takes its target.
 fn seam_targets(cloth: &ClothMesh, seams: &[Seam], draped: &[Vec3]) -> Targets {
-    let mut targets = Targets::new();
+    let length = |[a, b]: [u32; 2]| (cloth.flat[b as usize] - cloth.flat[a as usize]).norm();
+    let mut targets: Targets = cloth.drawn_in().into_keys().map(|ends| (ends, length(ends))).collect();
     for (k, stitches) in cloth.seams.iter().enumerate() {
         let give = seams.get(k).map_or(Give::Even, |s| s.give);
         for step in stitches.pairs.windows(2) {
@@ -172,11 +173,20 @@ fn draw_out(sheet: &mut Sheet<'_>, first: u32, targets: &Targets) {
 /// Gives triangles that elastic gathers their drawn shape: as draped they show the elastic, not the cloth.
 fn let_out(sheet: &mut Sheet<'_>, cloth: &ClothMesh, piece: &PieceMesh) {
     let first = piece.particles.start as u32;
-    let gathered = piece.on_elastic();
-    for element in sheet.elements.iter_mut().filter(|e| e.corners.iter().any(|v| gathered.contains(&(v + first)))) {
-        let drawn = element.corners.map(|v| cloth.flat[(v + first) as usize]);
-        *element = Element::from_plane(element.corners, drawn);
+    let gathered = cloth.on_elastic();
+    for element in &mut sheet.elements {
+        let corners = element.corners;
+        if !corners.iter().any(|v| gathered.contains(&(v + first))) {
+            continue;
+        }
+        let drawn = corners.map(|v| cloth.flat[(v + first) as usize]);
+        *element = Element::from_plane(corners, drawn);
         element.area *= SOFT;
+        let before = start::angles(corners.map(|v| sheet.surface.vertices[v as usize]));
+        let after = start::angles(drawn.map(|p| p.push(0.0)));
+        for (k, v) in corners.into_iter().enumerate() {
+            sheet.angles[v as usize] += after[k] - before[k];
+        }
     }
 }
 

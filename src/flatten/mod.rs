@@ -205,6 +205,8 @@ struct Sheet<'a> {
     elements: Vec<Element>,
     /// Wanted lengths of `topology.rim_edges()`, in that order.
     rim_targets: Vec<f64>,
+    /// Wanted sums of the triangles' angles at every vertex.
+    angles: Vec<f64>,
     /// Direction of the warp in the flat piece (unit).
     warp: Vec2,
     /// Where on the rim the chains end of which the woven mode holds the whole lengths; `None` where it holds every
@@ -218,7 +220,8 @@ impl<'a> Sheet<'a> {
         let elements =
             surface.triangles.iter().enumerate().map(|(t, &c)| Element::new(c, surface.corners(t))).collect();
         let rim_targets = topology.rim_edges().map(|e| measure::length(surface, e.ends)).collect();
-        Self { surface, topology, rims, elements, rim_targets, warp: -Vec2::y(), breaks: None }
+        let angles = start::angle_sums(surface);
+        Self { surface, topology, rims, elements, rim_targets, angles, warp: -Vec2::y(), breaks: None }
     }
 
     /// Whether a mode can hold the rim's lengths.
@@ -257,13 +260,12 @@ impl<'a> Sheet<'a> {
         let targets: Vec<([u32; 2], f64)> = edges.zip(self.rim_targets.iter().copied()).collect();
         let of_edge: HashMap<[u32; 2], f64> = targets.iter().copied().collect();
         let length = |a: u32, b: u32| of_edge.get(&sorted_pair([a, b])).copied().unwrap_or(0.0);
-        let angles = start::angle_sums(self.surface);
         let mut free = Vec::new();
         for rim in &self.rims {
             for k in 0..rim.len() {
                 let [a, b, c] = [0, 1, 2].map(|i| rim[(k + i) % rim.len()]);
                 let (before, after) = (length(a, b), length(b, c));
-                let square = before * before + after * after - 2.0 * before * after * angles[b as usize].cos();
+                let square = before * before + after * after - 2.0 * before * after * self.angles[b as usize].cos();
                 // Where the rim turns back on itself there is nothing to span.
                 if a != c && square > (BRACED * (before + after)).powi(2) {
                     let brace = spring(sorted_pair([a, c]), square.sqrt());

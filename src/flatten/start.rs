@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::FlattenError;
 use super::harmonic::{Laplacian, Weights};
-use crate::geometry::{Topology, TriMesh, Vec2};
+use crate::geometry::{Topology, TriMesh, Vec2, Vec3};
 
 /// A first flat position, and the logarithm of the scale at every vertex of the conformal map that keeps the rim's
 /// lengths; no scales where that map cannot be computed.
@@ -109,13 +109,19 @@ fn rim_lengths(surface: &TriMesh, rim: &[u32]) -> Vec<f64> {
 pub(super) fn angle_sums(surface: &TriMesh) -> Vec<f64> {
     let mut sums = vec![0.0; surface.vertices.len()];
     for (t, corners) in surface.triangles.iter().enumerate() {
-        let p = surface.corners(t);
-        for k in 0..3 {
-            let (u, v) = (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
-            sums[corners[k] as usize] += u.cross(&v).norm().atan2(u.dot(&v));
+        for (&corner, angle) in corners.iter().zip(angles(surface.corners(t))) {
+            sums[corner as usize] += angle;
         }
     }
     sums
+}
+
+/// The angles of a triangle, at each of its corners.
+pub(super) fn angles(p: [Vec3; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|k| {
+        let (u, v) = (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
+        u.cross(&v).norm().atan2(u.dot(&v))
+    })
 }
 
 /// The polygon with the given edge lengths that turns by `turning[k]` at its vertex k, lengths changed by the least

@@ -30,11 +30,10 @@ impl Layout<'_> {
             name: piece.loops[edge.ring][edge.index].name.clone(),
             particles: global(chain),
         });
-        let drawn = self.plans[n].lines.iter().map(|planned| &piece.lines[planned.number]);
-        let lines = drawn.zip(&fill.lines).map(|(line, chain)| LineParticles {
-            name: line.name.clone(),
-            kind: line.kind.clone(),
-            particles: global(chain),
+        let lines = self.line_chains(n, frame, fill).into_iter().map(|(number, name, chain)| LineParticles {
+            name,
+            kind: piece.lines[number].kind.clone(),
+            particles: global(&chain),
         });
         PieceMesh {
             name: piece.name.clone(),
@@ -45,6 +44,28 @@ impl Layout<'_> {
             smallest_angle: shape::smallest_angle(&fill.points, &fill.triangles),
             warp: piece.warp,
         }
+    }
+
+    /// Number, name and particles of every part of the lines of piece `n`, in the lines' order.
+    fn line_chains(&self, n: usize, frame: &Frame, fill: &Fill) -> Vec<(usize, String, Vec<u32>)> {
+        let (plan, first) = (&self.plans[n], self.first_edge(n));
+        let across = plan.lines.iter().zip(&fill.lines).map(|(line, chain)| (line.number, line.at, chain.clone()));
+        let along = plan.rim.iter().map(|line| {
+            let places = self.rim_chain(line).into_iter();
+            let mut chain: Vec<u32> = places.map(|(edge, k)| frame.edges[edge - first][k]).collect();
+            chain.dedup();
+            (line.number, line.at, chain)
+        });
+        let mut parts: Vec<_> = across.chain(along).collect();
+        parts.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let numbers: Vec<usize> = parts.iter().map(|part| part.0).collect();
+        let name = |k: usize, number: usize| {
+            let name = self.garment.pieces[n].lines[number].name.clone();
+            let before = numbers[..k].iter().filter(|&&other| other == number).count();
+            let alone = numbers.iter().filter(|&&other| other == number).count() == 1;
+            if alone { name } else { format!("{name}.{}", before + 1) }
+        };
+        parts.into_iter().enumerate().map(|(k, (number, _, chain))| (number, name(k, number), chain)).collect()
     }
 
     /// Pairs of every seam; a pair that repeats at a joint is kept once.

@@ -112,8 +112,9 @@ pub enum MeshError {
     },
     /// Two rims or lines cross once they are sampled.
     #[error(
-        "in '{piece}', {first} and {second} cross or touch near ({}, {}) at mesh size {} mm; mend the outline or use a \
-         smaller mesh size", mm(.at.x), mm(.at.y), mm(*.spacing)
+        "in '{piece}', {first} and {second} cross or touch near ({}, {}) at mesh size {} mm; {} or use a smaller mesh \
+         size",
+        mm(.at.x), mm(.at.y), mm(*.spacing), parted(first, second)
     )]
     Crossing {
         /// The piece.
@@ -227,6 +228,15 @@ fn count(particles: usize) -> String {
         usize::MAX => "more than 1e19".to_owned(),
         10_000_000.. => format!("{:.1e}", particles as f64),
         _ => particles.to_string(),
+    }
+}
+
+/// How to part two edges or lines, as [`MeshError::Crossing`] names them.
+fn parted(first: &str, second: &str) -> &'static str {
+    match [first, second].map(|name| name.starts_with("line ")) {
+        [true, true] => "make them one line, draw them further apart",
+        [false, false] => "mend the outline",
+        _ => "draw the line on the edge, to a millimetre, or further from it,",
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::breaks::Breaks;
 use super::error::MeshError;
-use super::lines::LinePlan;
+use super::lines::{LinePlan, RimLine};
 use super::links::{EdgeTable, Link};
 use super::sampling::Sampling;
 use super::{MeshOptions, coons};
@@ -20,7 +20,7 @@ pub(super) struct Layout<'g> {
     /// Its edges in one list.
     pub(super) edges: EdgeTable,
     /// Lines of every piece.
-    pub(super) plans: Vec<LinePlan<'g>>,
+    pub(super) plans: Vec<LinePlan>,
     /// Seams first, in the garment's order.
     pub(super) links: Vec<Link>,
     /// Where edges must have particles.
@@ -65,6 +65,16 @@ impl<'g> Layout<'g> {
     /// Number of the first edge of piece `n`.
     pub(super) fn first_edge(&self, n: usize) -> usize {
         self.edges.number(EdgeId { piece: n, ring: 0, index: 0 }).unwrap_or(0)
+    }
+
+    /// Particles of a line along edges, as (edge number, position along the edge); doubled where two edges meet.
+    pub(super) fn rim_chain(&self, line: &RimLine) -> Vec<(usize, usize)> {
+        let stretch = |&(edge, ends): &(usize, [f64; 2])| {
+            let [a, b] = ends.map(|s| self.sampling.particle_of_break(edge, self.breaks.nearest(edge, s)));
+            let ks: Vec<usize> = if a <= b { (a..=b).collect() } else { (b..=a).rev().collect() };
+            ks.into_iter().map(move |k| (edge, k))
+        };
+        line.stretches.iter().flat_map(stretch).collect()
     }
 
     /// The links that are seams.

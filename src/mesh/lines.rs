@@ -1,31 +1,46 @@
 //! Internal lines: which of them become chains of springs, where they meet the rim and each other.
 
+use super::course::{Course, courses};
 use super::links::EdgeTable;
 use super::sampling::springs_for;
 use crate::geometry::{Path, Vec2};
-use crate::pattern::{EdgeId, Garment, LineKind, Piece};
+use crate::pattern::{Along, EdgeId, Garment, LineKind, Piece};
 
 /// A line's end this near (metres) to the rim, to a corner or to another line is meant to be on it.
-const REACHES: f64 = 1e-3;
+pub(super) const REACHES: f64 = 1e-3;
 /// Lines are searched for crossings in chords of this length (metres): shorter than any bend of a sewn line.
 const CHORD: f64 = 2.5e-3;
 /// Newton steps that polish a crossing; each doubles the correct digits of a chord's guess.
 const POLISH: usize = 4;
 
 /// The lines of a piece, ready to be sampled.
-pub(super) struct LinePlan<'g> {
-    /// Lines that bend or gather, in the piece's order.
-    pub(super) lines: Vec<PlannedLine<'g>>,
+pub(super) struct LinePlan {
+    /// What of lines that bend or gather runs across the cloth, in the piece's order.
+    pub(super) lines: Vec<PlannedLine>,
+    /// What of them runs along edges.
+    pub(super) rim: Vec<RimLine>,
     /// Places where lines meet.
     pub(super) knots: Vec<Vec2>,
 }
 
-/// One line and the places where it must have a particle.
-pub(super) struct PlannedLine<'g> {
-    /// Its number in [`Piece::lines`].
+/// A part of a line along edges, whose particles it shares.
+pub(super) struct RimLine {
+    /// The line's number in [`Piece::lines`].
     pub(super) number: usize,
+    /// Arc length of the line where the part begins.
+    pub(super) at: f64,
+    /// Edge number, and arc lengths from where to where.
+    pub(super) stretches: Vec<(usize, [f64; 2])>,
+}
+
+/// A part of a line across the cloth and the places where it must have a particle.
+pub(super) struct PlannedLine {
+    /// The line's number in [`Piece::lines`].
+    pub(super) number: usize,
+    /// Arc length of the line where the part begins.
+    pub(super) at: f64,
     /// Its course.
-    pub(super) path: &'g Path,
+    pub(super) path: Path,
     /// Sorted along the line; the ends are the first and the last.
     pub(super) stops: Vec<Stop>,
     /// Springs between neighbouring stops.
@@ -43,22 +58,27 @@ pub(super) struct Stop {
     pub(super) knot: Option<usize>,
 }
 
-impl<'g> LinePlan<'g> {
+impl LinePlan {
     /// Plans the lines of piece `number`.
-    pub(super) fn new(garment: &'g Garment, number: usize, edges: &EdgeTable, spacing: f64) -> Self {
+    pub(super) fn new(garment: &Garment, number: usize, edges: &EdgeTable, spacing: f64) -> Self {
         let piece = &garment.pieces[number];
-        let kept = piece.lines.iter().enumerate().filter(|(_, l)| !matches!(l.kind, LineKind::Mark(_)));
-        let lines = kept
-            .map(|(n, line)| PlannedLine {
-                number: n,
-                path: &line.path,
-                stops: [0.0, line.path.length()]
-                    .map(|at| Stop { at, rim: rim_at(piece, number, edges, line.path.point(at)), knot: None })
-                    .to_vec(),
-                springs: Vec::new(),
-            })
-            .collect();
-        let mut plan = Self { lines, knots: Vec::new() };
+        let mut plan = Self { lines: Vec::new(), rim: Vec::new(), knots: Vec::new() };
+        for (n, line) in piece.lines.iter().enumerate().filter(|(_, l)| !matches!(l.kind, LineKind::Mark(_))) {
+            for course in courses(&line.path, piece) {
+                match course {
+                    Course::Across { at, path } => plan.lines.push(PlannedLine {
+                        number: n,
+                        at,
+                        stops: [0.0, path.length()]
+                            .map(|at| Stop { at, rim: rim_at(piece, number, edges, path.point(at)), knot: None })
+                            .to_vec(),
+                        path,
+                        springs: Vec::new(),
+                    }),
+                    Course::Rim(chain) => plan.rim.extend(RimLine::new(n, number, edges, &chain)),
+                }
+            }
+        }
         plan.meet();
         for line in &mut plan.lines {
             line.springs = line.stops.windows(2).map(|w| springs_for(w[1].at - w[0].at, spacing)).collect();
@@ -68,7 +88,8 @@ impl<'g> LinePlan<'g> {
 
     /// Rim places the lines ask for.
     pub(super) fn rim_seeds(&self) -> impl Iterator<Item = (usize, f64)> {
-        self.lines.iter().flat_map(|l| l.stops.iter().filter_map(|s| s.rim))
+        let ends = self.lines.iter().flat_map(|l| l.stops.iter().filter_map(|s| s.rim));
+        ends.chain(self.rim.iter().flat_map(|l| &l.stretches).flat_map(|&(edge, ends)| ends.map(|s| (edge, s))))
     }
 
     /// Finds where lines end on each other or cross.
@@ -79,7 +100,7 @@ impl<'g> LinePlan<'g> {
                     self.ends_on(i, j);
                 }
                 if i < j {
-                    for (s, t) in crossings(self.lines[i].path, self.lines[j].path) {
+                    for (s, t) in crossings(&self.lines[i].path, &self.lines[j].path) {
                         self.tie(i, s, j, t);
                     }
                 }
@@ -114,7 +135,19 @@ impl<'g> LinePlan<'g> {
     }
 }
 
-impl PlannedLine<'_> {
+impl RimLine {
+    /// Along these edges of piece `piece`.
+    fn new(number: usize, piece: usize, edges: &EdgeTable, chain: &[Along]) -> Option<Self> {
+        let stretch = |along: &Along| {
+            let (ring, index) = along.edge;
+            Some((edges.number(EdgeId { piece, ring, index })?, [along.from, along.to]))
+        };
+        let stretches = chain.iter().map(stretch).collect::<Option<_>>()?;
+        Some(Self { number, at: chain.first()?.line[0], stretches })
+    }
+}
+
+impl PlannedLine {
     fn stop_near(&self, s: f64) -> Option<usize> {
         self.stops.iter().position(|stop| (stop.at - s).abs() <= REACHES)
     }
@@ -152,7 +185,7 @@ fn rim_at(piece: &Piece, number: usize, edges: &EdgeTable, p: Vec2) -> Option<(u
 }
 
 /// Arc lengths on both paths where they cross.
-fn crossings(a: &Path, b: &Path) -> Vec<(f64, f64)> {
+pub(super) fn crossings(a: &Path, b: &Path) -> Vec<(f64, f64)> {
     let (a_chords, b_chords) = (chords(a), chords(b));
     let mut found = Vec::new();
     for v in a_chords.windows(2) {

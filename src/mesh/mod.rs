@@ -7,6 +7,8 @@ mod build;
 mod check;
 mod chords;
 mod coons;
+mod course;
+mod elastic;
 mod error;
 mod frame;
 mod grid;
@@ -23,11 +25,11 @@ mod springs;
 mod strip;
 mod transfer;
 
-use std::collections::HashSet;
 use std::ops::Range;
 
 pub use build::{build, build_with};
 pub use check::{CheckError, check};
+pub use elastic::DrawnIn;
 pub use error::{MeshError, SeamFault};
 pub use springs::{Spring, SpringClass};
 pub use transfer::Transfer;
@@ -106,14 +108,6 @@ impl ClothMesh {
     }
 }
 
-impl PieceMesh {
-    /// Particles that lie on elastic lines.
-    pub fn on_elastic(&self) -> HashSet<u32> {
-        let elastic = self.lines.iter().filter(|l| matches!(l.kind, LineKind::Elastic(_)));
-        elastic.flat_map(|l| l.particles.iter().copied()).collect()
-    }
-}
-
 /// Particles of an edge.
 #[derive(Clone, Debug)]
 pub struct EdgeParticles {
@@ -125,10 +119,10 @@ pub struct EdgeParticles {
     pub particles: Vec<u32>,
 }
 
-/// Particles of an internal line.
+/// Particles of an internal line, or of one of the parts that darts, holes and edges cut it into.
 #[derive(Clone, Debug)]
 pub struct LineParticles {
-    /// Its name.
+    /// The line's name; that of a part is numbered, `casing.1`, `casing.2`.
     pub name: String,
     /// What it does.
     pub kind: LineKind,

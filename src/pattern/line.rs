@@ -1,5 +1,6 @@
 //! Lines inside a piece: folds, elastic and marks.
 
+use super::along::{Along, along};
 use super::diagnostic::Findings;
 use super::draft::{Draft, shown};
 use super::file::{LineFile, PieceFile, Unit};
@@ -18,37 +19,56 @@ const SHORTEST_LINE: f64 = 1e-3;
 pub(super) fn lines(drawn: &mut Draft, whole: &Region, piece: &PieceFile, unit: Unit, findings: &mut Findings) {
     let across = drawn.fold.map(|fold| across(&drawn.rings[0][fold].path));
     let on_cloth = |p: Vec2| whole.holds(p) || across.as_ref().is_some_and(|across| whole.holds(across(p)));
-    for line in &piece.lines {
-        let names = (drawn.name.clone(), line.name.value.clone());
-        if let Some(contradiction) = contradiction(line) {
-            let (piece, name) = names.clone();
-            findings.error(line.name.at, Problem::LineKind { piece, line: name, contradiction });
+    for file in &piece.lines {
+        let names = || (drawn.name.clone(), file.name.value.clone());
+        if let Some(contradiction) = contradiction(file) {
+            let (piece, line) = names();
+            findings.error(file.name.at, Problem::LineKind { piece, line, contradiction });
         }
-        let kind = match (&line.fold, &line.ratio, &line.kind) {
+        let kind = match (&file.fold, &file.ratio, &file.kind) {
             (Some(angle), _, _) => LineKind::Fold(angle.value.to_radians()),
             (None, Some(ratio), _) => LineKind::Elastic(ratio.value),
             (None, None, kind) => LineKind::Mark(kind.as_ref().map_or_else(|| "mark".to_owned(), |k| k.value.clone())),
         };
-        match Path::parse_absolute(&line.path.value, unit.factor()).map_err(|e| e.to_string()).and_then(check_size) {
+        match Path::parse_absolute(&file.path.value, unit.factor()).map_err(|e| e.to_string()).and_then(check_size) {
             Ok(path) => {
-                if let Some(off) = first_off(&path, on_cloth) {
-                    let (piece, name) = names.clone();
-                    findings.error(line.path.at, Problem::LineOff { piece, line: name, near: shown(off) });
+                let line = Line { name: file.name.value.clone(), path, kind };
+                for problem in faults(drawn, &line, on_cloth) {
+                    findings.error(file.path.at, problem);
                 }
-                let length = path.length();
-                if length < SHORTEST_LINE && !matches!(kind, LineKind::Mark(_)) {
-                    let (piece, name) = names.clone();
-                    let (length, least) = ((length * 1e6).round() / 1e3, SHORTEST_LINE * 1e3);
-                    findings.error(line.path.at, Problem::LineShort { piece, line: name, length, least });
-                }
-                drawn.lines.push(Line { name: line.name.value.clone(), path, kind });
+                drawn.lines.push(line);
             }
             Err(reason) => {
-                let (piece, edge) = names;
-                findings.error(line.path.at, Problem::BadPath { piece, edge, reason });
+                let (piece, edge) = names();
+                findings.error(file.path.at, Problem::BadPath { piece, edge, reason });
             }
         }
     }
+}
+
+/// What is wrong with where a line lies.
+fn faults(drawn: &Draft, line: &Line, on_cloth: impl Fn(Vec2) -> bool) -> Vec<Problem> {
+    let names = || (drawn.name.clone(), line.name.clone());
+    let mut faults = Vec::new();
+    if let Some(off) = first_off(&line.path, on_cloth) {
+        let (piece, line) = names();
+        faults.push(Problem::LineOff { piece, line, near: shown(off) });
+    }
+    let length = line.path.length();
+    if length < SHORTEST_LINE && !matches!(line.kind, LineKind::Mark(_)) {
+        let (piece, line) = names();
+        let (length, least) = ((length * 1e6).round() / 1e3, SHORTEST_LINE * 1e3);
+        faults.push(Problem::LineShort { piece, line, length, least });
+    }
+    // Beyond the edge on which a piece is cut folded there is more of it.
+    let outer = |on: &Along| drawn.fold != Some(on.edge.1) || on.edge.0 != 0;
+    if line.kind.hinge().is_some()
+        && let Some(on) = along(&line.path, &drawn.rings).into_iter().find(outer)
+    {
+        let (piece, line) = names();
+        faults.push(Problem::FoldOnEdge { piece, line, edge: drawn.rings[on.edge.0][on.edge.1].name.clone() });
+    }
+    faults
 }
 
 /// What a line says against itself: kinds are free words, but 'elastic' and 'fold' mean that the cloth is drawn in or

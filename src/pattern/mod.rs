@@ -16,6 +16,7 @@
 //! * Ranges (`cap@20%..80%`), notches and pleats are measured along the edge as drawn, from its start in the drawing,
 //!   also on the mirrored piece.
 
+mod along;
 mod bound;
 mod chain;
 mod closure;
@@ -44,6 +45,7 @@ mod select;
 mod spelling;
 mod walk;
 
+pub use along::{Along, along};
 pub use diagnostic::{Diagnostic, Findings, Located, Severity, Spot};
 pub use drawing::{Allowance, Dart, Drawing, DrawnEdge, DrawnFold, DrawnNotch, drawings};
 pub use expand::{expand, fabrics};
@@ -56,6 +58,7 @@ pub use file::{
 pub use place_word::{PlaceWord, place_word};
 pub use problem::Problem;
 pub use reference::parse_quantity;
+pub(crate) use region::Region;
 pub use rim::{Opening, openings};
 pub use walk::{SeamWalk, walk, written_edge, written_names};
 

@@ -118,6 +118,8 @@ pub enum Problem {
     LineOff { piece: String, line: String, near: String },
     #[error("line '{line}' of '{piece}' is only {length} mm long; draw it at least {least} mm long or leave it out")]
     LineShort { piece: String, line: String, length: f64, least: f64 },
+    #[error("fold '{line}' of '{piece}' lies on edge '{edge}', beyond which there is no cloth to fold")]
+    FoldOnEdge { piece: String, line: String, edge: String },
     #[error("line '{line}' of '{piece}' {contradiction}")]
     LineKind { piece: String, line: String, contradiction: String },
     #[error("place of '{piece}': {at} is more than {most} m from the body's feet; positions are in the file's units")]
@@ -240,6 +242,9 @@ impl Problem {
             Self::NotClosed { .. } => "the last edge must end at 'start'".to_owned(),
             Self::LineOff { .. } | Self::PointOff { .. } => {
                 "positions are those of the drawing, in the file's units".to_owned()
+            }
+            Self::FoldOnEdge { .. } => {
+                "draw the fold within the piece, and the outline where the cloth that is turned over ends".to_owned()
             }
             Self::PointsUnlike { .. } => "give 'meets_at' as many points as 'at'".to_owned(),
             Self::MatchesNothing(_) => "write piece.edge, such as front.hem, or *.hem for every hem".to_owned(),

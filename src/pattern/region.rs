@@ -5,14 +5,14 @@ use super::crossing::CHORD_ERROR;
 use crate::geometry::{Path, Vec2};
 
 /// What misses the cloth by no more than this (metres) is meant to be on its rim.
-const SLACK: f64 = 1e-3;
+pub(super) const SLACK: f64 = 1e-3;
 /// A line is looked at so often, metres.
 const STEP: f64 = 5e-3;
 /// And no oftener than so many times, however long it is.
 const MOST_LOOKS: f64 = 400.0;
 
 /// The cloth within an outline, less the holes in it.
-pub(super) struct Region<'a> {
+pub(crate) struct Region<'a> {
     rings: &'a [Vec<Edge>],
     /// Each ring as chords.
     chords: Vec<Vec<[Vec2; 2]>>,
@@ -20,14 +20,14 @@ pub(super) struct Region<'a> {
 
 impl<'a> Region<'a> {
     /// Of an outline and the holes that follow it.
-    pub(super) fn new(rings: &'a [Vec<Edge>]) -> Self {
+    pub(crate) fn new(rings: &'a [Vec<Edge>]) -> Self {
         let chords = |path: &Path| path.sampled(CHORD_ERROR).windows(2).map(|w| [w[0], w[1]]).collect::<Vec<_>>();
         let ring = |edges: &Vec<Edge>| edges.iter().flat_map(|e| chords(&e.path)).collect();
         Self { rings, chords: rings.iter().map(ring).collect() }
     }
 
     /// Whether there is cloth at `p`, or its rim.
-    pub(super) fn holds(&self, p: Vec2) -> bool {
+    pub(crate) fn holds(&self, p: Vec2) -> bool {
         let within = |(k, chords): (usize, &Vec<[Vec2; 2]>)| surrounds(chords, p) == (k == 0);
         self.chords.iter().enumerate().all(within)
             || self.rings.iter().flatten().any(|edge| edge.path.nearest(p).1 <= SLACK)

@@ -1,9 +1,10 @@
 //! The rims of the pieces, which of their edges a seam makes one, and what elastic gathers.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use crate::geometry::{Topology, Vec3, sorted_pair};
-use crate::mesh::{ClothMesh, PieceMesh};
+use crate::mesh::{ClothMesh, DrawnIn, PieceMesh};
 
 /// Sides of a seam further apart than this (one over the other, less one) are eased, gathered or stretched: the cloth
 /// beside the seam cannot keep its drawn size.
@@ -18,7 +19,8 @@ pub(super) struct RimEdge {
     pub(super) triangle: u32,
     /// Drawn length, m.
     pub(super) flat: f64,
-    /// Shortest and longest drawn length of the edges sewn together here, its own among them, m.
+    /// Shortest and longest drawn length of the edges sewn together here, its own among them, m; elastic makes shortest
+    /// what it draws in to.
     pub(super) drawn: [f64; 2],
 }
 
@@ -59,12 +61,14 @@ fn distance(p: Vec3, [a, b]: [Vec3; 2]) -> f64 {
 
 /// The rim edges of every piece, in the pieces' order; `weld` has one label per particle, the same for stitched ones.
 pub(super) fn rims(mesh: &ClothMesh, weld: &[u32]) -> Vec<Vec<RimEdge>> {
-    let mut rims: Vec<Vec<RimEdge>> = mesh.pieces.iter().map(|p| rim_of(mesh, p.triangles.clone())).collect();
+    let drawn_in = mesh.drawn_in();
+    let mut rims: Vec<Vec<RimEdge>> =
+        mesh.pieces.iter().map(|p| rim_of(mesh, p.triangles.clone(), &drawn_in)).collect();
     let key = |e: &RimEdge| sorted_pair(e.ends.map(|v| weld[v as usize]));
     let mut drawn: HashMap<[u32; 2], [f64; 2]> = HashMap::new();
     for edge in rims.iter().flatten() {
         let range = drawn.entry(key(edge)).or_insert(edge.drawn);
-        *range = [range[0].min(edge.flat), range[1].max(edge.flat)];
+        *range = [range[0].min(edge.drawn[0]), range[1].max(edge.drawn[1])];
     }
     for edge in rims.iter_mut().flatten() {
         edge.drawn = drawn[&key(edge)];
@@ -72,12 +76,13 @@ pub(super) fn rims(mesh: &ClothMesh, weld: &[u32]) -> Vec<Vec<RimEdge>> {
     rims
 }
 
-fn rim_of(mesh: &ClothMesh, triangles: std::ops::Range<usize>) -> Vec<RimEdge> {
+fn rim_of(mesh: &ClothMesh, triangles: Range<usize>, drawn_in: &HashMap<[u32; 2], DrawnIn>) -> Vec<RimEdge> {
     let topology = Topology::new(&mesh.triangles[triangles.clone()]);
     let edge = |e: &crate::geometry::Edge| {
         let flat = (mesh.flat[e.ends[1] as usize] - mesh.flat[e.ends[0] as usize]).norm();
         let triangle = e.triangles[0]? + triangles.start as u32;
-        Some(RimEdge { ends: e.ends, triangle, flat, drawn: [flat; 2] })
+        let share = drawn_in.get(&sorted_pair(e.ends)).map_or(1.0, |elastic| elastic.ratio);
+        Some(RimEdge { ends: e.ends, triangle, flat, drawn: [flat * share, flat] })
     };
     topology.rim_edges().filter_map(edge).collect()
 }
@@ -85,6 +90,6 @@ fn rim_of(mesh: &ClothMesh, triangles: std::ops::Range<usize>) -> Vec<RimEdge> {
 /// Triangles of a piece (indices into the whole mesh) with a corner on an elastic line: like those on the rim of a
 /// gathered seam they cannot keep their drawn size.
 pub(super) fn beside_elastic<'a>(mesh: &'a ClothMesh, piece: &'a PieceMesh) -> impl Iterator<Item = u32> + 'a {
-    let on_line = piece.on_elastic();
+    let on_line = mesh.on_elastic();
     piece.triangles.clone().filter(move |&t| mesh.triangles[t].iter().any(|c| on_line.contains(c))).map(|t| t as u32)
 }

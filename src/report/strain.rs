@@ -43,7 +43,7 @@ impl PieceStrain {
 pub(super) fn piece_strain(mesh: &ClothMesh, piece: &PieceMesh, at: &[Vec3]) -> PieceStrain {
     let mut out = PieceStrain::default();
     let mut sums = [(0.0, 0.0); 2];
-    let elastic = piece.on_elastic();
+    let elastic = mesh.on_elastic();
     for (ends, strain) in edge_strains(mesh, piece, at) {
         if ends.iter().all(|p| elastic.contains(p)) {
             continue;

@@ -1,0 +1,81 @@
+//! What a line runs over: edges, cloth, or the open mouth of a dart or a hole.
+
+use super::lines::{REACHES, crossings};
+use crate::geometry::Path;
+use crate::pattern::{Along, Piece, Region, along};
+
+/// What is shorter than this (metres) between two parts of a line is none of its own: each of them may be off by the
+/// reach of a line's end.
+const NEAR: f64 = 2.0 * REACHES;
+
+/// A part of a line that the mesh can follow.
+pub(super) enum Course {
+    /// Across the cloth, from arc length `at` of the line.
+    Across {
+        /// Arc length of the line where it begins, metres.
+        at: f64,
+        /// Its way.
+        path: Path,
+    },
+    /// Along edges, each going on where the one before it ends.
+    Rim(Vec<Along>),
+}
+
+/// The parts of a line, in its order. What lies over no cloth is left out: a line runs through darts, which seams
+/// close, and over holes. A line that begins or ends off the cloth is left whole, to be complained of.
+pub(super) fn courses(line: &Path, piece: &Piece) -> Vec<Course> {
+    let cloth = Region::new(&piece.loops);
+    let mut out = Vec::new();
+    let mut reached = 0.0;
+    for stretch in along(line, &piece.loops) {
+        out.extend(across(line, [reached, stretch.line[0]], piece, &cloth));
+        reached = stretch.line[1].max(reached);
+        match out.last_mut() {
+            Some(Course::Rim(chain)) if chain.last().is_some_and(|last| goes_on(piece, last, &stretch)) => {
+                chain.push(stretch);
+            }
+            _ => out.push(Course::Rim(vec![stretch])),
+        }
+    }
+    out.extend(across(line, [reached, line.length()], piece, &cloth));
+    let begins = out.first().map_or(f64::INFINITY, |course| course.ends()[0]);
+    let ends = out.last().map_or(0.0, |course| course.ends()[1]);
+    if begins > NEAR || ends < line.length() - NEAR {
+        return vec![Course::Across { at: 0.0, path: line.clone() }];
+    }
+    out
+}
+
+impl Course {
+    /// Arc lengths of the line where it begins and ends.
+    fn ends(&self) -> [f64; 2] {
+        match self {
+            Self::Across { at, path } => [*at, at + path.length()],
+            Self::Rim(chain) => [chain[0].line[0], chain[chain.len() - 1].line[1]],
+        }
+    }
+}
+
+/// Whether a stretch begins in the point where the last one ends.
+fn goes_on(piece: &Piece, last: &Along, next: &Along) -> bool {
+    let point = |stretch: &Along, s: f64| piece.loops[stretch.edge.0][stretch.edge.1].path.point(s);
+    (point(last, last.to) - point(next, next.from)).norm() <= REACHES
+}
+
+/// The parts of a line between two of its arc lengths that lie on cloth: it is cut where it crosses the rim.
+fn across(line: &Path, [from, to]: [f64; 2], piece: &Piece, cloth: &Region) -> Vec<Course> {
+    if to - from <= NEAR {
+        return Vec::new();
+    }
+    let whole = from <= 0.0 && to >= line.length();
+    let part = if whole { line.clone() } else { line.part(from, to) };
+    let length = part.length();
+    let met = piece.loops.iter().flatten().flat_map(|edge| crossings(&part, &edge.path)).map(|(s, _)| s);
+    let inner = met.filter(|s| (REACHES..=length - REACHES).contains(s));
+    let mut cuts: Vec<f64> = [0.0, length].into_iter().chain(inner).collect();
+    cuts.sort_by(f64::total_cmp);
+    cuts.dedup_by(|b, a| *b - *a < REACHES);
+    let kept = cuts.windows(2).filter(|w| cloth.holds(part.point((w[0] + w[1]) / 2.0)));
+    let path = |w: &[f64]| if cuts.len() == 2 { part.clone() } else { part.part(w[0], w[1]) };
+    kept.map(|w| Course::Across { at: from + w[0], path: path(w) }).collect()
+}

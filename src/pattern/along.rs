@@ -1,0 +1,62 @@
+//! Where a line runs along the edges of its piece.
+
+use super::Edge;
+use super::region::SLACK;
+use crate::geometry::Path;
+
+/// An edge is compared with a line so often, metres.
+const STEP: f64 = 5e-3;
+/// And no oftener than so many times, however long it is.
+const MOST_LOOKS: f64 = 400.0;
+/// A stretch of an edge and a line on it go the same way or opposite ways: the cosine between them is at least this.
+/// Only stretches hardly longer than the slack could lie across a line and near it all the same.
+const SAME_WAY: f64 = 0.7;
+
+/// A stretch of an edge that a line runs along.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Along {
+    /// Ring of the edge, and its number in the ring.
+    pub edge: (usize, usize),
+    /// Arc length on the edge where the line comes to it, metres.
+    pub from: f64,
+    /// And where the line leaves it; less than `from` where the line runs against the edge.
+    pub to: f64,
+    /// Arc lengths on the line of both, metres.
+    pub line: [f64; 2],
+}
+
+/// The stretches of edges that `line` runs along, to a millimetre, in the line's order. A stretch ends at ends of the
+/// edge and where the line has its ends and corners.
+pub fn along(line: &Path, loops: &[Vec<Edge>]) -> Vec<Along> {
+    let edges = loops
+        .iter()
+        .enumerate()
+        .flat_map(|(ring, edges)| edges.iter().enumerate().map(move |(index, edge)| ((ring, index), &edge.path)));
+    let mut out: Vec<Along> = edges.flat_map(|(id, path)| on_edge(line, id, path)).collect();
+    out.sort_by(|a, b| a.line[0].total_cmp(&b.line[0]));
+    out
+}
+
+fn on_edge(line: &Path, edge: (usize, usize), path: &Path) -> Vec<Along> {
+    let length = path.length();
+    let joints = line.joints().iter().map(|&t| path.nearest(line.point(t))).filter(|near| near.1 <= SLACK);
+    let within = joints.map(|near| near.0).filter(|s| (SLACK..=length - SLACK).contains(s));
+    let mut cuts: Vec<f64> = [0.0, length].into_iter().chain(within).collect();
+    cuts.sort_by(f64::total_cmp);
+    cuts.dedup_by(|b, a| *b - *a < SLACK);
+    cuts.windows(2).filter_map(|w| stretch(line, path, [w[0], w[1]])).map(|found| Along { edge, ..found }).collect()
+}
+
+/// The stretch of an edge, if all of it lies on the line.
+fn stretch(line: &Path, path: &Path, [low, high]: [f64; 2]) -> Option<Along> {
+    let looks = ((high - low) / STEP).clamp(2.0, MOST_LOOKS).ceil();
+    let near = |k: usize| line.nearest(path.point(low + (high - low) * k as f64 / looks)).1 <= SLACK;
+    if !(0..=looks as usize).all(near) {
+        return None;
+    }
+    let middle = (low + high) / 2.0;
+    let (at, half) = (line.nearest(path.point(middle)).0, (high - low) / 2.0);
+    let cosine = path.tangent(middle).dot(&line.tangent(at));
+    let (from, to) = if cosine > 0.0 { (low, high) } else { (high, low) };
+    (cosine.abs() >= SAME_WAY).then_some(Along { edge: (0, 0), from, to, line: [at - half, at + half] })
+}
