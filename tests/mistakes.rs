@@ -403,3 +403,32 @@ fn a_curve_that_ends_early_is_told_of_once() {
     assert_eq!(places("fabrics: {shell: {base: denim, tensile: {EMT: 5 %, LT: 0.7}}}"), []);
     assert!(Path::new(&room.folder.path().join("mine.yaml")).exists());
 }
+
+/// An outline that misses its start by millimetres does not keep the rest of its piece from being looked at.
+#[test]
+fn an_open_outline_hides_nothing_else() {
+    let wrong = SQUARES
+        .replacen("center: L 0 0", "center: L 0 4", 1)
+        .replacen("grain: [[0, 0], [0, 9]]", "grain: [[0, 9], [0, 9]]\n    fabric: lining", 1)
+        .replacen(
+            "    outline:",
+            "    notches: {sid: [10]}\n    lines: {tape: {path: M 0 50 L 9 50, kind: elastc}}\n    outline:",
+            1,
+        );
+    let found = Room::new().finds(&wrong, None);
+    let texts: Vec<String> = found.iter().map(|d| d.message.clone()).collect();
+    for words in ["does not close", "zero length", "'lining'", "sid", "elastc"] {
+        assert!(texts.iter().any(|text| text.contains(words)), "{words}: {texts:?}");
+    }
+}
+
+#[test]
+fn a_fold_on_an_edge_is_told_from_one_on_the_fold_of_a_piece() {
+    let fold = |path: &str| format!("    lines: {{crease: {{path: {path}, fold: 90}}}}\n    outline:");
+    let found = |text: &str| Room::new().finds(text, Some(10.0));
+    let on_edge = found(&SQUARES.replacen("    outline:", &fold("M 0 100 L 100 100"), 1));
+    let [one] = on_edge.as_slice() else { panic!("{on_edge:?}") };
+    assert!(one.message.contains("'crease'") && one.message.contains("edge 'hem'"), "{one:?}");
+    let within = found(&SQUARES.replacen("    outline:", &fold("M 0 50 L 100 50"), 1));
+    assert!(within.iter().all(|d| d.severity != Severity::Error), "{within:?}");
+}

@@ -131,8 +131,9 @@ pub(super) fn draft(piece: &PieceFile, unit: Unit, findings: &mut Findings) -> O
         findings.error(piece.name.at, Problem::NoOutline(name));
         return None;
     };
-    let outline = outline(&name, outline_file, unit, findings)?;
     let before = findings.errors();
+    let warp = warp(piece, findings);
+    let outline = outline(&name, outline_file, unit, findings)?;
     let mut drawn = Draft {
         name,
         at: piece.name.at,
@@ -141,7 +142,7 @@ pub(super) fn draft(piece: &PieceFile, unit: Unit, findings: &mut Findings) -> O
         drawn: piece.drawn.as_ref().map_or(Side::Left, |d| d.value),
         fabric: piece.fabric.clone(),
         layer: piece.layer.as_ref().map_or(0, |l| l.value),
-        warp: warp(piece, findings),
+        warp,
         place: piece.place.as_ref().map(|p| place(&p.value, unit)),
         rings: vec![Vec::new()],
         named: Vec::new(),

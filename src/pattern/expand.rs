@@ -3,7 +3,7 @@
 use super::cut::cut;
 use super::diagnostic::{Findings, Located, Spot};
 use super::draft::{Draft, draft};
-use super::file::{GarmentFile, Value};
+use super::file::{GarmentFile, PieceFile, Value};
 use super::inherit::complete_pieces;
 use super::problem::Problem;
 use super::seam::{Seams, check_orientable, seams};
@@ -33,7 +33,7 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
     let pieces = complete_pieces(file, findings);
     let drafts: Vec<Draft> = pieces.iter().filter_map(|p| draft(p, file.unit(), findings)).collect();
     let fabrics = fabrics(file);
-    check_fabrics(&drafts, &fabrics, findings);
+    check_fabrics(&pieces, &fabrics, findings);
     let sound = drafts.len() == file.pieces.len();
     let default_fabric = fabrics.first().map_or(DEFAULT_FABRIC, |f| &f.name);
     let cut = cut(&drafts, default_fabric);
@@ -120,8 +120,8 @@ fn text(value: &Value) -> String {
     }
 }
 
-fn check_fabrics(drafts: &[Draft], fabrics: &[FabricUse], findings: &mut Findings) {
-    for fabric in drafts.iter().filter_map(|d| d.fabric.as_ref()) {
+fn check_fabrics(pieces: &[PieceFile], fabrics: &[FabricUse], findings: &mut Findings) {
+    for fabric in pieces.iter().filter_map(|p| p.fabric.as_ref()) {
         let names = || fabrics.iter().map(|f| f.name.as_str());
         if !names().any(|n| n == fabric.value) {
             let near = nearest(&fabric.value, names()).map(str::to_owned);

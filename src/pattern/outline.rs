@@ -11,6 +11,9 @@ use crate::geometry::{Path, Vec2};
 
 /// A drawn outline may miss its start by this much (metres): rounding of the file's numbers.
 pub(super) const CLOSURE: f64 = 5e-5;
+/// A gap up to this (metres) is an error like every other, but bridged, so that all the rest of the piece is looked at
+/// in the same run. A wider one is a side that is missing, and what lies off the piece without it may lie on it.
+const BRIDGED: f64 = 0.02;
 /// Longer edges (metres) are a wrong unit or a slip of the pen, and would take for ever to look at.
 const LONGEST_EDGE: f64 = 200.0;
 
@@ -51,7 +54,9 @@ pub(super) fn outline(piece: &str, file: &OutlineFile, unit: Unit, findings: &mu
         let at = file.edges.last().map_or(file.start.at, |e| e.1.at);
         let (last, start) = (shown(end), shown(first));
         findings.error(at, Problem::NotClosed { piece: piece.to_owned(), last, start, gap: gap * 1e3 });
-        return None;
+        if gap > BRIDGED {
+            return None;
+        }
     }
     let closed = ended_at(&last.path, edges[0].path.start());
     if let Some(last) = edges.last_mut() {
