@@ -1,6 +1,8 @@
 //! The meshes, handles and pictures that the experiments of Liu, Wang & Luo 2015 share.
 #![allow(dead_code, reason = "every example uses some of it")]
 
+pub(crate) mod pairs;
+
 use std::error::Error;
 use std::path::Path;
 
