@@ -75,6 +75,26 @@ fn two_round_pieces_are_sewn_all_round() {
     );
 }
 
+/// Sews and drapes a scene on a body whose limbs almost touch: worn as its pieces say, every seam closed.
+fn is_worn(name: &str, openings: usize) {
+    let job = scene(name, 25.0);
+    assert!(job.stance.is_some(), "{name}: the body's limbs have room");
+    let report = rests(name, &job).1;
+    assert!(report.seams.iter().all(|s| s.gap_max < 1.0), "{name}: {:?}", report.seams);
+    let limbs = report.worn.iter().filter(|worn| worn.body_part.is_some()).count();
+    assert_eq!((report.worn.len(), limbs), (openings, openings), "{name}: {:?}", report.worn);
+}
+
+#[test]
+fn trousers_are_sewn_over_legs_that_almost_touch() {
+    is_worn("close_legs.yaml", 3);
+}
+
+#[test]
+fn a_shirt_is_sewn_under_arms_that_almost_touch_the_trunk() {
+    is_worn("close_arms.yaml", 4);
+}
+
 #[test]
 fn a_belt_is_pulled_tight_until_it_gathers() {
     lies_well("belt.yaml", 16.0);

@@ -31,6 +31,8 @@ const MEMORY: usize = 2;
 const ROOM: f64 = 0.6;
 /// Halvings of a step with the majorant: springs that stiffen have no majorant, but a step short enough goes down.
 const MORE_HALVINGS: usize = 12;
+/// Cloth that is carried is looked at for contacts at most so often on the way.
+const CARRIES: usize = 10;
 /// Energy differences below this are rounding, J.
 const ROUNDING: f64 = 1e-12;
 
@@ -306,6 +308,24 @@ impl<'a> World<'a> {
     pub fn look_within(&mut self, reach: Reach) -> Result<(), StepError> {
         self.proximity.reach = reach;
         self.detect()
+    }
+
+    /// Moves the nodes to `target`, as far as the cloth lets itself be moved.
+    ///
+    /// # Errors
+    /// As [`Stepper::new`].
+    pub fn carry(&mut self, target: &[Vec3]) -> Result<(), StepError> {
+        for _ in 0..CARRIES {
+            let way: Vec<Vec3> = target.iter().zip(&self.x).map(|(to, x)| to - x).collect();
+            let share = self.proximity.bounds.share(&self.x, &way);
+            let to: Vec<Vec3> = self.x.iter().zip(&way).map(|(x, way)| x + way * share).collect();
+            let to = self.clamped(&to);
+            self.move_to(to, FALL, true)?;
+            if share == 1.0 {
+                break;
+            }
+        }
+        Ok(())
     }
 
     /// Looks for contacts anew. Between detections a node slides on the plane where it met the body; on a curved body

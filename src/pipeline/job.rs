@@ -10,11 +10,11 @@ use crate::contact::Collider;
 use crate::dynamics::Cut;
 use crate::fabric::Fabric;
 use crate::io::garment::{self, Loaded};
-use crate::mannequin::Mannequin;
+use crate::mannequin::{Mannequin, PartKind};
 use crate::mesh::{self, ClothMesh};
 use crate::pattern::Garment;
 use crate::report::Stage;
-use crate::sew::SewError;
+use crate::sew::{SewError, Stance};
 
 /// Spacing when none is asked for, metres.
 pub(super) const SPACING: f64 = 0.010;
@@ -42,6 +42,8 @@ pub struct Job {
     pub body: Mannequin,
     /// What cloth can touch of the body.
     pub collider: Collider,
+    /// The body as it is sewn on, where its limbs nearly touch.
+    pub stance: Option<Stance>,
     /// The mesh.
     pub mesh: ClothMesh,
     /// What was read in a way its author may not have meant: one text each.
@@ -85,15 +87,23 @@ impl Job {
         let collider =
             Collider::new(&body.mesh).ok_or_else(|| PipelineError::Sew(SewError::Body(body.name.clone())))?;
         let collider = collider.on_floor(body.floor());
+        let stance = Stance::of(&body);
+        notes.extend(stance.as_ref().map(|stance| format!("{wanted}: {}", spread(stance))));
         let named = [overrides.fabric.as_deref(), Some(wanted.as_str())];
         let files = named.into_iter().flatten().map(PathBuf::from).filter(|p| p.is_file());
         let inputs = std::iter::once(file.to_owned()).chain(files).collect();
         let garment = loaded.garment;
-        Ok(Self { file: file.to_owned(), garment, fabrics, body, collider, mesh, notes, inputs, meshing })
+        Ok(Self { file: file.to_owned(), garment, fabrics, body, collider, stance, mesh, notes, inputs, meshing })
     }
 
     /// Names of the fabrics in use, joined with ` + `.
     pub fn fabric_names(&self) -> String {
         cloth::names(&self.fabrics)
     }
+}
+
+/// What a user should know of a body that does not stand as it is sewn on.
+fn spread(stance: &Stance) -> String {
+    let limbs: Vec<&str> = stance.limbs().map(PartKind::name).collect();
+    format!("too little room at the {}: sewn with them apart, draped on the body as it stands", limbs.join(", "))
 }

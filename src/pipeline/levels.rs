@@ -6,7 +6,7 @@ use crate::drape::{DrapeOptions, Until, drape};
 use crate::dynamics::Cut;
 use crate::geometry::Vec3;
 use crate::mesh::{self, ClothMesh, Transfer};
-use crate::sew::place::place;
+use crate::sew::place::{PlaceError, place};
 use crate::sew::{SewError, SewOptions, Sewn, Stitching, join, sew, stitch};
 
 /// How much coarser each level is than the next.
@@ -63,7 +63,11 @@ impl Job {
 
     /// Draws the seams of `mesh` itself shut.
     fn sew_here(&self, mesh: &ClothMesh, start: Vec<Vec3>, progress: &mut dyn FnMut(f64)) -> Result<Closed, SewError> {
-        let sewn = sew(&self.cut_of(mesh), &self.collider, start, &SewOptions::default(), progress)?;
+        let (cut, options) = (self.cut_of(mesh), SewOptions::default());
+        let sewn = match &self.stance {
+            Some(stance) => stance.sew(&cut, &self.collider, start, &options, progress)?,
+            None => sew(&cut, &self.collider, start, &options, progress)?,
+        };
         Ok(Closed { gaps: sewn.gaps_of_seams(mesh), sewn, coarse: None })
     }
 
@@ -91,8 +95,15 @@ impl Job {
     /// The garment meshed at `spacing`, and where its pieces start.
     fn placed_at(&self, spacing: f64) -> Option<(ClothMesh, Vec<Vec3>)> {
         let mesh = mesh::build(&self.garment, spacing).ok()?;
-        let start = place(&self.garment, &mesh, &self.body, &self.collider).ok()?;
+        let start = self.placed(&mesh).ok()?;
         Some((mesh, start))
+    }
+
+    /// Where the pieces of `mesh` start.
+    pub(super) fn placed(&self, mesh: &ClothMesh) -> Result<Vec<Vec3>, PlaceError> {
+        let own = (&self.body, &self.collider);
+        let (body, collider) = self.stance.as_ref().map_or(own, |stance| (&stance.body, &stance.collider));
+        place(&self.garment, mesh, body, collider)
     }
 
     /// `mesh` stitched where a coarser one's particles lie, and the gaps of that one; none where it comes out torn or

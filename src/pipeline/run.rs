@@ -12,7 +12,6 @@ use crate::dynamics::{ContactTime, identity_nodes};
 use crate::flatten::{self, flatten_garment};
 use crate::geometry::{Vec2, Vec3};
 use crate::report::{ContactSeconds, Drift, Measured, Report, Stage, measure};
-use crate::sew::place::place;
 use crate::sew::{SewOptions, Stitching};
 
 /// Told the name of the stage under way and the share of it that is done.
@@ -67,7 +66,7 @@ impl<'a> Run<'a> {
         let job = self.job;
         let begin = Instant::now();
         let failed = |e| PipelineError::sewing(&job.file, &job.body, e);
-        let start = place(&job.garment, &job.mesh, &job.body, &job.collider).map_err(|e| failed(e.into()))?;
+        let start = job.placed(&job.mesh).map_err(|e| failed(e.into()))?;
         self.placed = Some(start.clone());
         let mut tell = |share| progress("sew", share);
         let Closed { sewn, gaps, coarse } = job.sew_from_coarse(&job.mesh, start, &mut tell).map_err(failed)?;

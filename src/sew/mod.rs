@@ -5,6 +5,7 @@ mod error;
 pub mod place;
 mod recover;
 mod settle;
+mod stance;
 mod stitch;
 mod untangle;
 
@@ -12,4 +13,5 @@ pub use close::{SewOptions, Sewn, sew, stitch};
 pub use error::SewError;
 pub(crate) use settle::{CLEARANCE, NEAREST_LOOK};
 pub use settle::{drape_reach, draping_world, join, settle, sewn_world};
+pub use stance::Stance;
 pub use stitch::Stitching;

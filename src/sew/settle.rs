@@ -27,9 +27,9 @@ const STILL: f64 = 0.2e-3;
 const LAST_FEW: usize = 5;
 const SETTLED: f64 = 0.05;
 /// The most a step changes an edge, metres: half a cell at the usual spacing.
-const TRUST: f64 = 5e-3;
+pub(super) const TRUST: f64 = 5e-3;
 /// Step length, s: long, for inertia only delays rest.
-const STEP: f64 = 0.1;
+pub(super) const STEP: f64 = 0.1;
 
 /// A sewn garment as one cloth in its measured fabric, ready to settle or to drape.
 ///

@@ -1,0 +1,91 @@
+//! A body whose limbs nearly touch is sewn on as if it stood with them apart, and takes its own stance again under the
+//! cloth.
+
+mod back;
+mod limbs;
+mod spread;
+
+use super::close::{SewOptions, Sewn, sew};
+use super::error::SewError;
+use super::settle::{settle, sewn_world};
+use crate::contact::Collider;
+use crate::dynamics::Cut;
+use crate::geometry::{TriMesh, Vec3};
+use crate::mannequin::{Mannequin, PartKind};
+use back::Carrier;
+use spread::{Spread, spreads};
+
+/// A body with its limbs apart.
+pub struct Stance {
+    /// The body so, for placing pieces round it.
+    pub body: Mannequin,
+    /// What cloth can touch of it.
+    pub collider: Collider,
+    /// The surface as it is.
+    own: TriMesh,
+    spreads: Vec<Spread>,
+}
+
+impl Stance {
+    /// `body` with its limbs apart; `None` where they are far enough apart as it stands, and for what is nobody.
+    pub fn of(body: &Mannequin) -> Option<Self> {
+        if body.parts.is_empty() {
+            return None;
+        }
+        let spreads = spreads(body);
+        if spreads.is_empty() {
+            return None;
+        }
+        let mesh = moved(&body.mesh, &spreads, 1.0);
+        let collider = Collider::new(&mesh)?.on_floor(body.floor());
+        let mut parts = body.parts.clone();
+        spreads.iter().for_each(|spread| spread.apply_to_part(&mut parts));
+        let apart = Mannequin { name: body.name.clone(), mesh, parts };
+        Some(Self { body: apart, collider, own: body.mesh.clone(), spreads })
+    }
+
+    /// The limbs that stand elsewhere.
+    pub fn limbs(&self) -> impl Iterator<Item = PartKind> {
+        self.spreads.iter().map(|spread| spread.kind)
+    }
+
+    /// Sews a garment whose particles start at `start` on the body with its limbs apart, and lets these go back to where
+    /// they are on `body`.
+    ///
+    /// # Errors
+    /// As [`sew`].
+    pub fn sew(
+        &self,
+        cut: &Cut,
+        body: &Collider,
+        start: Vec<Vec3>,
+        options: &SewOptions,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Sewn, SewError> {
+        let mut sewn = sew(cut, &self.collider, start, options, progress)?;
+        if sewn.open.is_some() {
+            return Ok(sewn);
+        }
+        let carrier = Carrier::new(&self.body.mesh, &self.spreads, &sewn.nodes);
+        let mut last = 1.0;
+        for share in carrier.stops(&sewn.nodes) {
+            let Some(stage) = Collider::new(&moved(&self.own, &self.spreads, share)) else { break };
+            let stage = stage.on_floor(body.floor());
+            let mut world = sewn_world(cut, &stage, &sewn.stitching, sewn.nodes)?;
+            sewn.steps += carrier.carry(&mut world, share - last)?;
+            (sewn.nodes, last) = (world.x, share);
+        }
+        let mut world = sewn_world(cut, body, &sewn.stitching, sewn.nodes)?;
+        sewn.steps += carrier.carry(&mut world, -last)?;
+        let (steps, tangles) = settle(&mut world)?;
+        sewn.steps += steps;
+        Ok(Sewn { nodes: world.x, tangles, ..sewn })
+    }
+}
+
+/// `mesh` with its limbs moved by a share of their spread.
+fn moved(mesh: &TriMesh, spreads: &[Spread], share: f64) -> TriMesh {
+    let mut mesh = mesh.clone();
+    spreads.iter().for_each(|spread| spread.apply(&mut mesh, share));
+    mesh
+}

@@ -1,0 +1,155 @@
+//! How far limbs are spread so that cloth has room between them.
+
+use super::limbs::{Junction, Side, apart, junctions};
+use crate::geometry::{Topology, TriMesh, Vec3};
+use crate::mannequin::{BodyPart, Mannequin, PartKind, Section};
+
+/// Spread limbs are apart by this share of how far down it is, metres; further down by this much and the other share of
+/// it. The shipped mannequins stand so.
+const OPENING: f64 = 0.6;
+const ROOM: f64 = 0.02;
+const STRIDE: f64 = 0.25;
+/// Limbs are spread that come nearer than this share of that.
+const NARROW: f64 = 0.4;
+/// Nearer to where they join than this, metres, nobody's limbs have room.
+const FORK: f64 = 0.06;
+/// No limb leans further out than this (tangent).
+const LEAN: f64 = 0.6;
+/// Heights are looked at so far apart, metres.
+const LEVEL: f64 = 0.005;
+/// A spread is smoothed over so many levels up and down.
+const SMOOTH: usize = 8;
+
+/// A limb, and how far it is moved sideways at every height.
+pub(super) struct Spread {
+    /// Its vertices.
+    pub(super) vertices: Vec<u32>,
+    /// Which it is.
+    pub(super) kind: PartKind,
+    /// Height of where it joins the body, metres.
+    top: f64,
+    /// How far along x, metres, at every level from the top down; further down as at the last.
+    by: Vec<f64>,
+}
+
+impl Spread {
+    fn new(junction: &Junction, side: Side, by: Vec<f64>) -> Self {
+        let vertices = (0..junction.side.len() as u32).filter(|v| junction.side[*v as usize] == side).collect();
+        let to_left = by.last().is_some_and(|by| *by > 0.0);
+        let kind = match (junction.pair, to_left) {
+            (true, true) => PartKind::LeftLeg,
+            (true, false) => PartKind::RightLeg,
+            (false, true) => PartKind::LeftArm,
+            (false, false) => PartKind::RightArm,
+        };
+        Self { vertices, kind, top: junction.top, by }
+    }
+
+    /// How far along x what is at height `y` is moved, metres.
+    pub(super) fn at(&self, y: f64) -> f64 {
+        let level = (self.top - y) / LEVEL;
+        if level <= 0.0 {
+            return 0.0;
+        }
+        let last = self.by.len() - 1;
+        let k = (level as usize).min(last);
+        let next = self.by[(k + 1).min(last)];
+        self.by[k] + (next - self.by[k]) * (level - k as f64).min(1.0)
+    }
+
+    /// Moves the limb of `mesh` by a share of its spread.
+    pub(super) fn apply(&self, mesh: &mut TriMesh, share: f64) {
+        for &v in &self.vertices {
+            let p = &mut mesh.vertices[v as usize];
+            p.x += share * self.at(p.y);
+        }
+    }
+
+    /// Moves the limb as a part of the body, for placing pieces round it.
+    pub(super) fn apply_to_part(&self, parts: &mut [BodyPart]) {
+        let moved = |p: Vec3| Vec3::new(p.x + self.at(p.y), p.y, p.z);
+        let turned = |s: &Section| {
+            let (from, to) = (moved(s.center - s.axis * LEVEL), moved(s.center + s.axis * LEVEL));
+            Section { center: moved(s.center), axis: (to - from).try_normalize(0.0).unwrap_or(s.axis), ..*s }
+        };
+        for part in parts.iter_mut().filter(|part| part.kind == self.kind) {
+            part.sections = part.sections.iter().map(turned).collect();
+            part.landmarks.iter_mut().for_each(|(_, p)| *p = moved(*p));
+        }
+    }
+}
+
+/// The limbs of `body` that are too near to others to sew between them, and how they are spread.
+pub(super) fn spreads(body: &Mannequin) -> Vec<Spread> {
+    let mut mesh = body.mesh.clone();
+    let edges = Topology::new(&mesh.triangles).edges;
+    let mut out = Vec::new();
+    for junction in junctions(&mesh, &edges) {
+        let depth = junction.top - junction.bottom;
+        let levels: Vec<f64> = (0..=(depth / LEVEL) as usize).map(|k| junction.top - k as f64 * LEVEL).collect();
+        // Legs come first: spread, they come nearer to the arms.
+        let (gaps, way) = apart(&mesh, &edges, &junction, &levels);
+        let Some(by) = opening(&gaps) else { continue };
+        let sides: &[_] = if junction.pair { &[(Side::Limb, 0.5), (Side::Beside, -0.5)] } else { &[(Side::Limb, 1.0)] };
+        for &(side, share) in sides {
+            let spread = Spread::new(&junction, side, by.iter().map(|by| by * share * way).collect());
+            spread.apply(&mut mesh, 1.0);
+            out.push(spread);
+        }
+    }
+    out
+}
+
+/// How far apart spread limbs are so far down from where they join, metres.
+fn room(down: f64) -> f64 {
+    (OPENING * down).min(ROOM + STRIDE * down)
+}
+
+/// By how much two limbs with these gaps (metres), level by level, are moved apart; none if they have room. What is
+/// further down goes at least as far.
+fn opening(gaps: &[Option<f64>]) -> Option<Vec<f64>> {
+    let down = |k: usize| k as f64 * LEVEL;
+    let narrow =
+        |(k, gap): (usize, &Option<f64>)| down(k) > FORK && gap.is_some_and(|gap| gap < NARROW * room(down(k)));
+    if !gaps.iter().enumerate().any(narrow) {
+        return None;
+    }
+    let mut most = 0.0;
+    let wanted = |(k, gap): (usize, &Option<f64>)| {
+        most = f64::max(most, gap.map_or(0.0, |gap| room(down(k)) - gap));
+        most
+    };
+    let raw: Vec<f64> = gaps.iter().enumerate().map(wanted).collect();
+    let at = |k: isize| if k < 0 { 0.0 } else { raw[(k as usize).min(raw.len() - 1)] };
+    let smooth = |k: usize| {
+        let around = k as isize - SMOOTH as isize..=k as isize + SMOOTH as isize;
+        (around.map(at).sum::<f64>() / (2 * SMOOTH + 1) as f64).min(LEAN * down(k))
+    };
+    Some((0..raw.len()).map(smooth).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limbs_with_room_stay_and_others_open_like_a_fork_from_where_they_join() {
+        let apart = |share: f64| (0..100).map(|k| Some(share * room(k as f64 * LEVEL))).collect::<Vec<_>>();
+        assert!(opening(&apart(0.5)).is_none());
+        let by = opening(&apart(0.3)).expect("narrow");
+        assert_eq!(by[0], 0.0);
+        for (k, by) in by.iter().enumerate().take(100 - SMOOTH).skip(2 * SMOOTH) {
+            let wanted = 0.7 * room(k as f64 * LEVEL);
+            assert!((by - wanted).abs() < 0.05 * wanted, "{k}: {by} for {wanted}");
+        }
+    }
+
+    #[test]
+    fn what_is_below_a_narrow_place_goes_as_far_as_that() {
+        let mut gaps = vec![Some(0.3); 100];
+        gaps[30] = Some(0.0);
+        let by = opening(&gaps).expect("narrow");
+        assert!((by[99] - room(30.0 * LEVEL)).abs() < 1e-12, "{}", by[99]);
+        assert!(by.windows(2).all(|w| w[1] >= w[0]), "{by:?}");
+    }
+}
