@@ -544,7 +544,7 @@ fn the_halves_of_a_folded_piece_and_copies_are_sewn_one_by_one() {
     let g = garment(&tube);
     assert_eq!(g.seams.len(), 1);
     assert_eq!(
-        toile::pattern::walk(&g).into_iter().map(|w| (w.a, w.b)).collect::<Vec<_>>(),
+        walk(&g).into_iter().map(|w| (w.a, w.b)).collect::<Vec<_>>(),
         [("b.L.right".to_owned(), "b.R.right".to_owned())]
     );
     assert_eq!(openings(&g).len(), 3);
