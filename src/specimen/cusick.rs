@@ -68,8 +68,9 @@ pub(super) fn cusick(sample: &Sample) -> Result<Outcome, SpecimenError> {
     Ok(Outcome { figures, shadow: Some(draped.shadow) })
 }
 
-/// Drapes a disc of 30 cm in a grid of `spacing` metres over a pedestal of 18 cm. `turn`, radians, says where it begins to
-/// fold: laid down again it may come to rest in another number of folds, as real cloth does, and with another coefficient.
+/// Drapes a disc of 30 cm in a grid of `spacing` metres over a pedestal of 18 cm. `turn`, radians, says where it begins
+/// to fold: laid down again it may come to rest in another number of folds, as real cloth does, and with another
+/// coefficient.
 ///
 /// # Errors
 /// [`SpecimenError`] when it cannot be meshed or does not come to rest.
@@ -103,8 +104,8 @@ fn fall(world: &mut World) -> Result<(), SpecimenError> {
     Ok(())
 }
 
-/// Dents outside the pedestal, turned by `turn`, the same for every mesh, with no order that a fold could follow: waves whose numbers
-/// have no common divisor.
+/// Dents outside the pedestal, turned by `turn`, the same for every mesh, with no order that a fold could follow: waves
+/// whose numbers have no common divisor.
 fn dent(p: &Vec2, turn: f64) -> f64 {
     let (r, turn) = (p.norm(), p.y.atan2(p.x) + turn);
     let waves = [(2.0, 0.3), (3.0, 1.1), (5.0, 2.0), (7.0, 0.7), (11.0, 2.9)];
