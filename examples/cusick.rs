@@ -2,10 +2,11 @@
 //! cm in two grids, beside the band measured of such cloths, and what the published weights alone would give.
 //!
 //! `cargo run --release --example cusick [FOLDER]` prints the table, with the disc's own curve of coefficient over
-//! bending length below, and draws `FABRIC.png`, the shadows, and `curve.svg`, that curve through the bands. It takes
-//! minutes: the finer grid has 11,000 particles.
+//! bending length below and two fabrics laid down eight times, and draws `FABRIC.png`, the shadows, and `curve.svg`,
+//! that curve through the bands. It takes minutes: the finer grid has 11,000 particles.
 
 use std::error::Error;
+use std::f64::consts::TAU;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -20,6 +21,9 @@ use toile::specimen::{Draped, Sample, SpecimenError, drape};
 
 /// Grid spacings, metres.
 const SPACINGS: [f64; 2] = [0.005, 0.0025];
+/// Fabrics that are laid down again and again, those whose number of folds changes most with the grid, and how often.
+const AGAIN: [&str; 2] = ["linen", "polyester"];
+const LAYS: u32 = 8;
 /// Bending lengths of the curve, metres: the first, the last, their step.
 const LENGTHS: [f64; 3] = [0.008, 0.034, 0.002];
 /// Size of the drawing of the curve, mm, and mm for a millimetre of bending length and a per cent.
@@ -29,7 +33,7 @@ const ORIGIN: [f64; 2] = [20.0, 130.0];
 const GRAVITY: f64 = toile::dynamics::GRAVITY;
 
 fn coefficient(fabric: Fabric, spacing: f64) -> Result<Draped, SpecimenError> {
-    drape(&Sample { fabric: Arc::new(fabric), drape: None, published: None }, spacing)
+    drape(&Sample { fabric: Arc::new(fabric), drape: None, published: None }, spacing, 0.0)
 }
 
 /// A fabric's place in the table and in the drawing.
@@ -92,6 +96,15 @@ fn curve() -> Result<Vec<[f64; 2]>, Box<dyn Error + Send + Sync>> {
         Ok([length, coefficient(fabric, SPACINGS[0])?.coefficient])
     };
     (0..=count).into_par_iter().map(point).collect()
+}
+
+/// Coefficients, and folds in brackets, of a fabric laid down again and again in the coarser grid.
+fn again(name: &str) -> Result<String, Box<dyn Error + Send + Sync>> {
+    let sample = Sample { fabric: Arc::new(load(name)?), drape: None, published: None };
+    let lay = |k: &u32| drape(&sample, SPACINGS[0], TAU * f64::from(*k) / f64::from(LAYS));
+    let lays: Result<Vec<Draped>, SpecimenError> = (0..LAYS).collect::<Vec<_>>().par_iter().map(lay).collect();
+    let words: Vec<String> = lays?.iter().map(|d| format!("{:.1} ({})", 100.0 * d.coefficient, d.folds)).collect();
+    Ok(format!("{name:20} {}", words.join(", ")))
 }
 
 /// The curve, the bands as bars and what was found as dots.
@@ -162,6 +175,10 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     println!("\nthe disc's own curve in 5 mm, cloth of poplin's weight");
     for [length, share] in &curve {
         println!("c = {:4.0} mm {:6.1} %", 1e3 * length, 100.0 * share);
+    }
+    println!("\nlaid down again in 5 mm, an eighth of a turn on each time: % (folds)");
+    for name in AGAIN {
+        println!("{}", again(name)?);
     }
     let Some(folder) = folder else { return Ok(()) };
     let mut files = vec![(folder.join("curve.svg"), drawing(&curve, &rows).into_bytes())];

@@ -4,11 +4,11 @@
 //! `cargo run --release --example fig6` prints the largest distances between the surfaces for every fabric and writes
 //! pictures. The sums are weighted by area (`Weighting::PerArea`); printed as they stand, (4)–(6) depend on the mesh.
 //!
-//! Stretch and bend alone give the same surface in both meshes where the same cloth is held: the arch is the same curve
-//! in all of them, the lifted middle the same vertices in the first pair. Recovery to the flat mesh does not. It holds
-//! every vertex beside a lifted one down, and the cloth falls between them, over a cell, where the energy itself wants a
-//! slope h (ω_B / 4 ω_R)^¼ wide: at most 9 mm (h = 9.6 mm), but for linen's 65. Cells are 25 to 80 mm. The last lines show
-//! the difference going as they become smaller.
+//! Stretch and bend alone give the same surface in both meshes where the same cloth is held: the arch is the same
+//! curve in all of them, the lifted middle the same vertices in the first pair. Recovery to the flat mesh does not. It
+//! holds every vertex beside a lifted one down, and the cloth falls between them, over a cell, where the energy itself
+//! wants a slope h (ω_B / 4 ω_R)^¼ wide: at most 9 mm (h = 9.6 mm), but for linen's 65. Cells are 20 to 80 mm. The last
+//! lines show the difference going as they become smaller.
 
 mod common;
 

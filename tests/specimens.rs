@@ -3,7 +3,7 @@
 use std::sync::{Arc, LazyLock};
 
 use toile::fabric::{library, load, sheet};
-use toile::specimen::{Figure, Known, Sample, TESTS, cantilever_error};
+use toile::specimen::{Figure, Known, Sample, TESTS, cantilever_error, drape};
 
 static POPLIN: LazyLock<Sample> = LazyLock::new(|| Sample {
     fabric: Arc::new(load("cotton_poplin").expect("shipped")),
@@ -129,6 +129,15 @@ fn a_rolled_sheet_shows_no_direction_of_the_grid() {
     let rigidity: Vec<f64> = figures("roll").iter().map(|f| f.measured).collect();
     let (least, most) = rigidity.iter().fold((f64::MAX, 0.0f64), |(a, b), &r| (a.min(r), b.max(r)));
     assert!(most / least < 1.01, "{rigidity:?}");
+}
+
+#[test]
+fn a_disc_laid_down_half_a_turn_on_drapes_the_same() {
+    // Cloth and grid look the same from both sides; only where the first folds come is elsewhere.
+    let linen = sample("linen");
+    let [a, b] = [0.0, std::f64::consts::PI].map(|turn| drape(&linen, 0.005, turn).expect("at rest"));
+    assert_eq!(a.folds, b.folds);
+    assert!((a.coefficient - b.coefficient).abs() < 2e-3, "{} {}", a.coefficient, b.coefficient);
 }
 
 #[test]

@@ -20,8 +20,8 @@ const LIFT: f64 = 0.06;
 /// Surfaces are compared in points no further from each other than this, metres.
 const SAMPLED: f64 = 0.01;
 
-/// 329 vertices in an irregular Delaunay mesh and 323 in a regular one (19 × 17; no square grid of the specimen has 329),
-/// then 48 (8 × 6) and 441 (21 × 21) in regular ones.
+/// 329 vertices in an irregular Delaunay mesh and 323 in a regular one (19 × 17; no square grid of the specimen has
+/// 329), then 48 (8 × 6) and 441 (21 × 21) in regular ones.
 pub(crate) fn pairs() -> Result<[[TriMesh; 2]; 2], Box<dyn Error>> {
     let regular = sheet(WIDTH, HEIGHT, 19, 17);
     Ok([[irregular(&regular)?, regular], [sheet(WIDTH, HEIGHT, 8, 6), sheet(WIDTH, HEIGHT, 21, 21)]])
@@ -53,8 +53,8 @@ fn in_middle(v: &Vec3) -> bool {
     (v.x - 0.5 * WIDTH).hypot(v.y - 0.5 * HEIGHT) <= LIFTED
 }
 
-/// A Delaunay mesh of the specimen: vertices along the rim, in the middle those of `partner`, so that the same points of
-/// the cloth are lifted, and the others apart from each other as far as chance allows.
+/// A Delaunay mesh of the specimen: vertices along the rim, in the middle those of `partner`, so that the same points
+/// of the cloth are lifted, and the others apart from each other as far as chance allows.
 fn irregular(partner: &TriMesh) -> Result<TriMesh, Box<dyn Error>> {
     let mut points: Vec<[f64; 2]> = partner.vertices.iter().filter(|v| in_middle(v)).map(|v| [v.x, v.y]).collect();
     for k in 0..ON_WIDTH {

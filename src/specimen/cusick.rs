@@ -15,8 +15,8 @@ const PEDESTAL: f64 = 0.09;
 const HEIGHT: f64 = 0.2;
 /// Corners of the pedestal's rim: its chords leave the circle by 0.03 mm.
 const ROUND: u32 = 128;
-/// Grid spacing, metres. In half of it coefficients are within 4 points, of a disc of 11,000 particles
-/// (`examples/cusick.rs`).
+/// Grid spacing, metres. In half of it coefficients are within 4 points, in as many folds within one
+/// (`examples/cusick.rs`); but that is a disc of 11,000 particles.
 const SPACING: f64 = 0.005;
 /// Size of the shadow's pixels, metres.
 const PIXEL: f64 = 0.5e-3;
@@ -53,7 +53,7 @@ pub struct Draped {
 
 /// Drape coefficient and folds.
 pub(super) fn cusick(sample: &Sample) -> Result<Outcome, SpecimenError> {
-    let draped = drape(sample, SPACING)?;
+    let draped = drape(sample, SPACING, 0.0)?;
     let figure = |what: &str, unit: &'static str, measured: f64, known: Known| Figure {
         test: "drape",
         what: format!("30 cm disc in {:.0} mm: {what}", 1e3 * SPACING),
@@ -68,11 +68,13 @@ pub(super) fn cusick(sample: &Sample) -> Result<Outcome, SpecimenError> {
     Ok(Outcome { figures, shadow: Some(draped.shadow) })
 }
 
-/// Drapes a disc of 30 cm in a grid of `spacing` metres over a pedestal of 18 cm.
+/// Drapes a disc of 30 cm in a grid of `spacing` metres over a pedestal of 18 cm. `turn`, radians, says where it begins
+/// to fold: laid down again it may come to rest in another number of folds, as real cloth does, and with another
+/// coefficient.
 ///
 /// # Errors
 /// [`SpecimenError`] when it cannot be meshed or does not come to rest.
-pub fn drape(sample: &Sample, spacing: f64) -> Result<Draped, SpecimenError> {
+pub fn drape(sample: &Sample, spacing: f64, turn: f64) -> Result<Draped, SpecimenError> {
     let body = pedestal()?;
     let sheet = Sheet::disc(&sample.fabric, DISC, spacing)?;
     // The upper disc holds the cloth down up to the pedestal's edge. What bends at the last particle that is held is
@@ -80,7 +82,7 @@ pub fn drape(sample: &Sample, spacing: f64) -> Result<Draped, SpecimenError> {
     // from where holding ends.
     let cloth = sheet.cloth(|p| p.norm() < PEDESTAL + spacing);
     let lift = lift(&sample.fabric);
-    let x = sheet.placed(|p| Vec3::new(p.x, lift + dent(p), p.y));
+    let x = sheet.placed(|p| Vec3::new(p.x, lift + dent(p, turn), p.y));
     let mut world = sheet.hang(cloth, x, &body)?;
     world.grip(GRIP);
     fall(&mut world)?;
@@ -102,10 +104,10 @@ fn fall(world: &mut World) -> Result<(), SpecimenError> {
     Ok(())
 }
 
-/// Dents outside the pedestal, the same for every mesh, with no order that a fold could follow: waves whose numbers
-/// have no common divisor.
-fn dent(p: &Vec2) -> f64 {
-    let (r, turn) = (p.norm(), p.y.atan2(p.x));
+/// Dents outside the pedestal, turned by `turn`, the same for every mesh, with no order that a fold could follow: waves
+/// whose numbers have no common divisor.
+fn dent(p: &Vec2, turn: f64) -> f64 {
+    let (r, turn) = (p.norm(), p.y.atan2(p.x) + turn);
     let waves = [(2.0, 0.3), (3.0, 1.1), (5.0, 2.0), (7.0, 0.7), (11.0, 2.9)];
     let sum: f64 = waves.iter().map(|(n, phase)| f64::cos(n * turn + phase)).sum();
     DENT * ((r - PEDESTAL) / (DISC - PEDESTAL)).max(0.0) * sum / waves.len() as f64

@@ -5,8 +5,8 @@
 //!
 //! Two things are ours, and neither moves the minimum. An edge longer than at rest also adds what its tension resists
 //! across d, ω_S (1 − L_M/L_T)(1 − d dᵀ): Gauss–Newton leaves that out, and where nothing else holds a sheet across its
-//! plane it leaps to and fro. What a shortened edge takes away is left out still, so that the matrix has a factor; steps
-//! in wrinkled cloth are too short for it. So each is doubled or halved for as long as that lowers the energy.
+//! plane it leaps to and fro. What a shortened edge takes away is left out still, so that the matrix has a factor;
+//! steps in wrinkled cloth are too short for it. So each is doubled or halved for as long as that lowers the energy.
 
 use std::sync::Arc;
 
