@@ -1,8 +1,8 @@
-//! A body whose limbs almost touch, as scanned bodies stand: the mannequin `woman_92` with her legs moved together until
-//! they are a few millimetres apart from the crotch to the knee, and her arms turned down about the shoulders. This
+//! A body whose limbs almost touch, as scanned bodies stand: the mannequin `woman_92` with her legs moved together
+//! until they are a few millimetres apart from the crotch to the knee, and her arms turned down about the shoulders. This
 //! wrote `tests/scenes/close_limbs.obj`:
 //!
-//! `cargo run --release --example close_limbs -- tests/scenes/close_limbs.obj 3 9 18`
+//! `cargo run --release --example close_limbs -- tests/scenes/close_limbs.obj 2 4 18`
 //!
 //! The numbers: millimetres between the legs, degrees of the arms from the vertical, and the length that edges of the
 //! surface have at least, mm.

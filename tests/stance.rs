@@ -4,18 +4,33 @@ use std::path::Path;
 
 use toile::contact::Collider;
 use toile::geometry::Vec3;
-use toile::io::body::load_body;
-use toile::mannequin::{Mannequin, PartKind, library, load};
+use toile::mannequin::{Mannequin, PartKind, library};
+use toile::pipeline::{Job, Overrides, read};
 use toile::sew::Stance;
 
-/// The body of the scenes, with its legs and arms almost together.
-fn close_limbs() -> Mannequin {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes/close_limbs.obj");
-    load_body(&file.display().to_string()).expect("a body").mannequin
+/// Trousers over legs, and a shirt under arms, that almost touch.
+const LEGS: &str = "tests/scenes/close_legs.yaml";
+const ARMS: &str = "tests/scenes/close_arms.yaml";
+
+/// A garment, on another body if one is asked for.
+fn job(garment: &str, body: Option<&str>) -> Job {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let file = root.join(garment);
+    // A name is one of the library's.
+    let body = body.map(|b| if b.contains('.') { root.join(b).display().to_string() } else { b.to_owned() });
+    let overrides = Overrides { spacing: Some(0.04), body, ..Overrides::default() };
+    Job::new(&file, read(&file).expect(garment), &overrides).expect(garment)
 }
 
-/// How far the skin of the left leg, to the right of its axis, is from the nearest skin further right, metres, at `share`
-/// of the way from the crotch to the ankle.
+/// The limbs that are spread for a job, in the order of their kinds.
+fn limbs(job: &Job) -> Vec<PartKind> {
+    let mut limbs: Vec<PartKind> = job.stance.iter().flat_map(Stance::limbs).collect();
+    limbs.sort_unstable();
+    limbs
+}
+
+/// How far the skin of the left leg, to the right of its axis, is from the nearest skin further right, metres, at
+/// `share` of the way from the crotch to the ankle.
 fn between_legs(body: &Mannequin, share: f64) -> f64 {
     let leg = body.part(PartKind::LeftLeg).expect("a leg");
     let inside = leg.sections[(share * (leg.sections.len() - 1) as f64) as usize].center;
@@ -31,19 +46,33 @@ fn between_legs(body: &Mannequin, share: f64) -> f64 {
 #[test]
 fn mannequins_that_stand_with_room_between_their_limbs_are_sewn_on_as_they_stand() {
     for name in library() {
-        assert!(Stance::of(&load(name).expect(name)).is_none(), "{name}");
+        for garment in [LEGS, ARMS] {
+            assert!(job(garment, Some(name)).stance.is_none(), "{garment} on {name}");
+        }
     }
 }
 
 #[test]
-fn limbs_that_almost_touch_are_spread_and_the_parts_with_them() {
-    let body = close_limbs();
-    let stance = Stance::of(&body).expect("narrow");
-    let mut limbs: Vec<PartKind> = stance.limbs().collect();
-    limbs.sort_unstable();
-    assert_eq!(limbs, [PartKind::LeftArm, PartKind::RightArm, PartKind::LeftLeg, PartKind::RightLeg]);
+fn limbs_that_almost_touch_are_spread_and_it_is_said() {
+    let all = [PartKind::LeftArm, PartKind::RightArm, PartKind::LeftLeg, PartKind::RightLeg];
+    let trousers = job(LEGS, None);
+    assert_eq!(limbs(&trousers), all);
+    assert!(trousers.notes.iter().any(|n| n.contains("left leg") && n.contains("apart")), "{:?}", trousers.notes);
+}
+
+#[test]
+fn legs_are_spread_only_for_what_goes_between_them() {
+    assert_eq!(limbs(&job(ARMS, None)), [PartKind::LeftArm, PartKind::RightArm]);
+    let skirt = job("patterns/gore_skirt.yaml", Some("tests/scenes/close_limbs.obj"));
+    assert_eq!(limbs(&skirt), [PartKind::LeftArm, PartKind::RightArm]);
+}
+
+#[test]
+fn spread_limbs_have_room_and_their_parts_are_in_them() {
+    let trousers = job(LEGS, None);
+    let stance = trousers.stance.as_ref().expect("narrow");
     for share in [0.2, 0.4] {
-        let (own, apart) = (between_legs(&body, share), between_legs(&stance.body, share));
+        let (own, apart) = (between_legs(&trousers.body, share), between_legs(&stance.body, share));
         assert!(own < 0.006, "{own}");
         assert!(apart > 0.04, "{apart}");
     }
@@ -55,8 +84,8 @@ fn limbs_that_almost_touch_are_spread_and_the_parts_with_them() {
 
 #[test]
 fn what_is_above_crotch_and_armpits_stays_and_nothing_changes_its_height() {
-    let body = close_limbs();
-    let stance = Stance::of(&body).expect("narrow");
+    let Job { body, stance, .. } = job(LEGS, None);
+    let stance = stance.expect("narrow");
     let shoulder = body.part(PartKind::Torso).and_then(|torso| torso.sections.last()).expect("a torso").center.y;
     for (own, apart) in body.mesh.vertices.iter().zip(&stance.body.mesh.vertices) {
         assert!(own.y == apart.y && own.z == apart.z);
@@ -66,7 +95,7 @@ fn what_is_above_crotch_and_armpits_stays_and_nothing_changes_its_height() {
 
 #[test]
 fn an_object_has_no_limbs() {
-    let mut body = close_limbs();
+    let Job { mut body, garment, .. } = job(LEGS, None);
     body.parts.clear();
-    assert!(Stance::of(&body).is_none());
+    assert!(Stance::of(&body, &garment).is_none());
 }

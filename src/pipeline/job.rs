@@ -87,7 +87,7 @@ impl Job {
         let collider =
             Collider::new(&body.mesh).ok_or_else(|| PipelineError::Sew(SewError::Body(body.name.clone())))?;
         let collider = collider.on_floor(body.floor());
-        let stance = Stance::of(&body);
+        let stance = Stance::of(&body, &loaded.garment);
         notes.extend(stance.as_ref().map(|stance| format!("{wanted}: {}", spread(stance))));
         let named = [overrides.fabric.as_deref(), Some(wanted.as_str())];
         let files = named.into_iter().flatten().map(PathBuf::from).filter(|p| p.is_file());

@@ -85,7 +85,10 @@ impl Run<'_> {
         let strain = (color == Color::Strain).then(|| vertex_strain(&self.job.mesh, at));
         let dressed = Dressed::new(&self.job.mesh, class, at, strain.as_deref());
         let subtitle = format!("{}, {}", self.job.body.name, self.job.fabric_names());
-        Ok(draw(&dressed.scene(&self.job.body.mesh, &self.job.garment.title, &subtitle))?)
+        // What has not been sewn is round the body as that is sewn on.
+        let apart = self.job.stance.as_ref().filter(|_| self.open || self.last().is_none());
+        let body = apart.map_or(&self.job.body, |stance| &stance.body);
+        Ok(draw(&dressed.scene(&body.mesh, &self.job.garment.title, &subtitle))?)
     }
 }
 

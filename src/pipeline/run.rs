@@ -31,7 +31,7 @@ pub struct Run<'a> {
     pub(super) placed: Option<Vec<Vec3>>,
     pub(super) sewn: Option<Vec<Vec3>>,
     /// Whether sewing left a seam open; every particle stands alone then.
-    open: bool,
+    pub(super) open: bool,
     pub(super) draped: Option<Vec<Vec3>>,
     pub(super) flattened: Option<Vec<Vec2>>,
     stages: Vec<Stage>,

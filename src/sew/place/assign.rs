@@ -50,6 +50,14 @@ pub(super) fn assign(garment: &Garment, mesh: &ClothMesh) -> Result<Vec<Assigned
     Ok(out)
 }
 
+/// Whether a garment has pieces for legs: each for one of its own, or trousers round both.
+pub(super) fn has_legs(garment: &Garment) -> bool {
+    garment.pieces.iter().any(|piece| match &piece.place {
+        Some(Place::Around { words }) => says(words, PlaceWord::Leg),
+        _ => says(&words_of(&piece.name), PlaceWord::Leg),
+    })
+}
+
 /// `sleeve_left.L` → sleeve, left, l.
 fn words_of(name: &str) -> Vec<String> {
     name.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).map(str::to_lowercase).collect()

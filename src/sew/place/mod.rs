@@ -78,6 +78,11 @@ pub enum PlaceError {
     },
 }
 
+/// Whether cloth of a garment comes to be between the legs.
+pub(super) fn goes_between_legs(garment: &Garment) -> bool {
+    assign::has_legs(garment)
+}
+
 /// Start positions of all particles, on `body`; `collider` is its surface.
 ///
 /// # Errors

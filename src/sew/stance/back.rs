@@ -24,8 +24,8 @@ pub(super) struct Carrier<'a> {
 }
 
 impl<'a> Carrier<'a> {
-    /// For nodes at `x` on a body with its limbs apart. Cloth goes the way of what it is near to: of limbs, or of the rest,
-    /// which stays.
+    /// For nodes at `x` on a body with its limbs apart. Cloth goes the way of what it is near to: of limbs, or of the
+    /// rest, which stays.
     pub(super) fn new(apart: &TriMesh, spreads: &'a [Spread], x: &[Vec3]) -> Self {
         // Of every vertex the number of its limb; the rest comes last.
         let mut limb = vec![spreads.len(); apart.vertices.len()];
@@ -57,8 +57,8 @@ impl<'a> Carrier<'a> {
         self.spreads.iter().zip(weights).map(|(spread, weight)| spread.at(p.y) * weight).sum()
     }
 
-    /// Carries the nodes of `world` along as limbs go on by a share of their spread, as far as cloth lets cloth, and lets
-    /// the measured springs pull. Returns the steps that took.
+    /// Carries the nodes of `world` along as limbs go on by a share of their spread, as far as cloth lets cloth, and
+    /// lets the measured springs pull. Returns the steps that took.
     ///
     /// # Errors
     /// As [`World::newton`].

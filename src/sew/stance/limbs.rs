@@ -4,8 +4,8 @@ use crate::geometry::{DisjointSets, Edge, TriMesh};
 
 /// What hangs down by less is no limb: fingers, a chin, a seat, metres.
 const LIMB: f64 = 0.15;
-/// Two that hang down by the same but for this share are a pair, as legs are; otherwise the shorter one hangs beside the
-/// other, as an arm beside the trunk.
+/// Two that hang down by the same but for this share are a pair, as legs are; otherwise the shorter one hangs beside
+/// the other, as an arm beside the trunk.
 const PAIR: f64 = 0.2;
 
 /// Two parts of a body that are one above a height and two below it.
@@ -130,8 +130,8 @@ mod tests {
     use super::*;
     use crate::geometry::{Topology, Vec3};
 
-    /// Square tubes, 100 mm wide and 50 mm apart, from these heights to 1 m, each joined to the last by two triangles that
-    /// meet at 1.1 m.
+    /// Square tubes, 100 mm wide and 50 mm apart, from these heights to 1 m, each joined to the last by two triangles
+    /// that meet at 1.1 m.
     fn legs(bottoms: &[f64]) -> (TriMesh, Vec<Edge>) {
         let mut mesh = TriMesh::default();
         let mut last = None;

@@ -7,11 +7,13 @@ mod spread;
 
 use super::close::{SewOptions, Sewn, sew};
 use super::error::SewError;
+use super::place::goes_between_legs;
 use super::settle::{settle, sewn_world};
 use crate::contact::Collider;
 use crate::dynamics::Cut;
 use crate::geometry::{TriMesh, Vec3};
 use crate::mannequin::{Mannequin, PartKind};
+use crate::pattern::Garment;
 use back::Carrier;
 use spread::{Spread, spreads};
 
@@ -27,12 +29,13 @@ pub struct Stance {
 }
 
 impl Stance {
-    /// `body` with its limbs apart; `None` where they are far enough apart as it stands, and for what is nobody.
-    pub fn of(body: &Mannequin) -> Option<Self> {
+    /// `body` with its limbs apart, the legs only for a garment that goes between them: a narrow skirt may fit legs as
+    /// they stand and no others. `None` where limbs are far enough apart as it stands, and for what is nobody.
+    pub fn of(body: &Mannequin, garment: &Garment) -> Option<Self> {
         if body.parts.is_empty() {
             return None;
         }
-        let spreads = spreads(body);
+        let spreads = spreads(body, goes_between_legs(garment));
         if spreads.is_empty() {
             return None;
         }
@@ -49,8 +52,8 @@ impl Stance {
         self.spreads.iter().map(|spread| spread.kind)
     }
 
-    /// Sews a garment whose particles start at `start` on the body with its limbs apart, and lets these go back to where
-    /// they are on `body`.
+    /// Sews a garment whose particles start at `start` on the body with its limbs apart, and lets these go back to
+    /// where they are on `body`.
     ///
     /// # Errors
     /// As [`sew`].

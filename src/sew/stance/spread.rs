@@ -79,12 +79,13 @@ impl Spread {
     }
 }
 
-/// The limbs of `body` that are too near to others to sew between them, and how they are spread.
-pub(super) fn spreads(body: &Mannequin) -> Vec<Spread> {
+/// The limbs of `body` that are too near to others to sew between them, with or without its legs, and how they are
+/// spread.
+pub(super) fn spreads(body: &Mannequin, legs: bool) -> Vec<Spread> {
     let mut mesh = body.mesh.clone();
     let edges = Topology::new(&mesh.triangles).edges;
     let mut out = Vec::new();
-    for junction in junctions(&mesh, &edges) {
+    for junction in junctions(&mesh, &edges).into_iter().filter(|j| legs || !j.pair) {
         let depth = junction.top - junction.bottom;
         let levels: Vec<f64> = (0..=(depth / LEVEL) as usize).map(|k| junction.top - k as f64 * LEVEL).collect();
         // Legs come first: spread, they come nearer to the arms.
