@@ -63,8 +63,47 @@ fn limbs_that_almost_touch_are_spread_and_it_is_said() {
 #[test]
 fn legs_are_spread_only_for_what_goes_between_them() {
     assert_eq!(limbs(&job(ARMS, None)), [PartKind::LeftArm, PartKind::RightArm]);
-    let skirt = job("patterns/gore_skirt.yaml", Some("tests/scenes/close_limbs.obj"));
-    assert_eq!(limbs(&skirt), [PartKind::LeftArm, PartKind::RightArm]);
+    let on = |garment: &str| limbs(&job(garment, Some("tests/scenes/close_limbs.obj")));
+    assert_eq!(on("patterns/gore_skirt.yaml"), [PartKind::LeftArm, PartKind::RightArm]);
+    // Its pieces go round the hip.
+    assert!(on("patterns/trousers.yaml").contains(&PartKind::LeftLeg));
+}
+
+/// A tail of hair, 320 mm long, down the back of the head.
+#[test]
+fn what_hangs_down_and_is_no_limb_stays_and_takes_no_part_along() {
+    let Job { mut body, garment, stance, .. } = job(ARMS, None);
+    let without = stance.expect("narrow");
+    let top = body.mesh.vertices.iter().map(|p| p.y).fold(0.0, f64::max);
+    let root = body.mesh.triangles.iter().position(|t| {
+        let [a, b, c] = t.map(|v| body.mesh.vertices[v as usize]);
+        let middle = (a + b + c) / 3.0;
+        middle.y > top - 0.1 && (b - a).cross(&(c - a)).z < 0.0
+    });
+    let [a, b, c] = body.mesh.triangles.swap_remove(root.expect("a back of the head"));
+    let first = body.mesh.vertices.len() as u32;
+    let [p, q, r] = [a, b, c].map(|v| body.mesh.vertices[v as usize]);
+    // Out, and then down, as a tube of three sides with a lid.
+    for down in [0.0, 0.32] {
+        let along = Vec3::new(0.0, -down, -0.1);
+        body.mesh.vertices.extend([p + along, q + along, r + along]);
+    }
+    let mut ring = [a, b, c];
+    for k in 0..2 {
+        let next = [0, 1, 2].map(|i| first + 3 * k + i);
+        for i in 0..3 {
+            let (j, [s, t]) = ((i + 1) % 3, [ring[i], next[i]]);
+            body.mesh.triangles.extend([[s, ring[j], next[j]], [s, next[j], t]]);
+        }
+        ring = next;
+    }
+    body.mesh.triangles.push(ring);
+    let with = Stance::of(&body, &garment).expect("narrow");
+    assert_eq!(with.limbs().collect::<Vec<_>>(), without.limbs().collect::<Vec<_>>());
+    assert_eq!(with.body.mesh.vertices[first as usize..], body.mesh.vertices[first as usize..]);
+    for (with, without) in with.body.parts.iter().zip(&without.body.parts) {
+        assert!(with.sections.iter().zip(&without.sections).all(|(a, b)| a.center == b.center));
+    }
 }
 
 #[test]
@@ -86,10 +125,11 @@ fn spread_limbs_have_room_and_their_parts_are_in_them() {
 fn what_is_above_crotch_and_armpits_stays_and_nothing_changes_its_height() {
     let Job { body, stance, .. } = job(LEGS, None);
     let stance = stance.expect("narrow");
-    let shoulder = body.part(PartKind::Torso).and_then(|torso| torso.sections.last()).expect("a torso").center.y;
+    let crotch = body.part(PartKind::Torso).and_then(|torso| torso.sections.first()).expect("a torso").center.y;
     for (own, apart) in body.mesh.vertices.iter().zip(&stance.body.mesh.vertices) {
         assert!(own.y == apart.y && own.z == apart.z);
-        assert!(own.y < shoulder || own.x == apart.x, "{own:?}");
+        // No arm is so near to the middle.
+        assert!(own.y < crotch || own.x.abs() > 0.1 || own.x == apart.x, "{own:?}");
     }
 }
 

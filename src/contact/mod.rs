@@ -14,6 +14,7 @@ mod bounds;
 mod cloth;
 mod grid;
 mod narrow;
+mod skin;
 mod swept;
 mod tangle;
 
@@ -22,6 +23,7 @@ pub use bounds::Bounds;
 pub use cloth::{ClothDetector, Neighbourhood};
 use narrow::{closest_on_lines, on_plane};
 pub use narrow::{closest_on_segments, closest_on_triangle};
+pub use skin::Skin;
 pub use swept::{Hit, swept_point_triangle};
 pub use tangle::Tangle;
 

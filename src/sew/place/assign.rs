@@ -3,7 +3,7 @@
 use super::PlaceError;
 use crate::mannequin::PartKind;
 use crate::mesh::ClothMesh;
-use crate::pattern::{Garment, Place, PlaceWord, Side, place_word};
+use crate::pattern::{Garment, Piece, Place, PlaceWord, Side, place_word};
 
 /// Where a piece goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,12 +50,22 @@ pub(super) fn assign(garment: &Garment, mesh: &ClothMesh) -> Result<Vec<Assigned
     Ok(out)
 }
 
-/// Whether a garment has pieces for legs: each for one of its own, or trousers round both.
-pub(super) fn has_legs(garment: &Garment) -> bool {
-    garment.pieces.iter().any(|piece| match &piece.place {
+/// Words in the names of pieces and seams for what goes between the legs: trousers are placed round the hip.
+const BETWEEN_LEGS: [&str; 12] = [
+    "trousers", "pants", "shorts", "briefs", "knickers", "leggings", "overalls", "bodysuit", "jumpsuit", "crotch",
+    "inseam", "gusset",
+];
+
+/// Whether cloth of a garment comes to be between the legs, by where its pieces are placed and what they and its seams
+/// are called.
+pub(in crate::sew) fn goes_between_legs(garment: &Garment) -> bool {
+    let leg = |piece: &Piece| match &piece.place {
         Some(Place::Around { words }) => says(words, PlaceWord::Leg),
         _ => says(&words_of(&piece.name), PlaceWord::Leg),
-    })
+    };
+    let names = garment.pieces.iter().map(|p| &p.name).chain(garment.seams.iter().map(|s| &s.name));
+    let between = |name: &String| words_of(name).iter().any(|word| BETWEEN_LEGS.contains(&word.as_str()));
+    garment.pieces.iter().any(leg) || names.into_iter().any(between)
 }
 
 /// `sleeve_left.L` → sleeve, left, l.

@@ -36,6 +36,7 @@ use crate::geometry::Vec3;
 use crate::mannequin::Mannequin;
 use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::{Garment, Place};
+pub(super) use assign::goes_between_legs;
 
 /// A piece that starts smaller than this share of its size has no place; one wound round the body many times is larger.
 const SMALLEST: f64 = 0.02;
@@ -76,11 +77,6 @@ pub enum PlaceError {
         /// The piece.
         piece: String,
     },
-}
-
-/// Whether cloth of a garment comes to be between the legs.
-pub(super) fn goes_between_legs(garment: &Garment) -> bool {
-    assign::has_legs(garment)
 }
 
 /// Start positions of all particles, on `body`; `collider` is its surface.

@@ -1,12 +1,10 @@
 //! The limbs of a body: what hangs down, apart from the rest, from where it joins that.
 
-use crate::geometry::{DisjointSets, Edge, TriMesh};
+use crate::geometry::{DisjointSets, Edge, TriMesh, Vec3};
+use crate::mannequin::{Mannequin, PartKind};
 
 /// What hangs down by less is no limb: fingers, a chin, a seat, metres.
 const LIMB: f64 = 0.15;
-/// Two that hang down by the same but for this share are a pair, as legs are; otherwise the shorter one hangs beside
-/// the other, as an arm beside the trunk.
-const PAIR: f64 = 0.2;
 
 /// Two parts of a body that are one above a height and two below it.
 pub(super) struct Junction {
@@ -14,8 +12,6 @@ pub(super) struct Junction {
     pub(super) top: f64,
     /// Height of the lower end of the shorter one, metres.
     pub(super) bottom: f64,
-    /// Whether they are as long as each other.
-    pub(super) pair: bool,
     /// What every vertex belongs to.
     pub(super) side: Vec<Side>,
 }
@@ -48,7 +44,7 @@ pub(super) fn junctions(mesh: &TriMesh, edges: &[Edge]) -> Vec<Junction> {
             let [low_a, low_b] = [a, b].map(|s| lowest[s as usize]);
             if top - low_a.max(low_b) > LIMB {
                 let (limb, beside) = if low_a > low_b { (a, b) } else { (b, a) };
-                out.push(junction(&mut sets, [limb, beside], [low_a.max(low_b), top], top - low_a.min(low_b)));
+                out.push(junction(&mut sets, [limb, beside], [low_a.max(low_b), top]));
             }
             sets.join(a, b);
             lowest[a.min(b) as usize] = low_a.min(low_b);
@@ -75,14 +71,40 @@ fn height(mesh: &TriMesh, v: u32) -> f64 {
     mesh.vertices[v as usize].y
 }
 
-/// The junction at the upper one of two heights of two sets, the longer of which hangs down by `longest` metres.
-fn junction(sets: &mut DisjointSets, [limb, beside]: [u32; 2], [bottom, top]: [f64; 2], longest: f64) -> Junction {
+/// The junction at the upper one of two heights of two sets.
+fn junction(sets: &mut DisjointSets, [limb, beside]: [u32; 2], [bottom, top]: [f64; 2]) -> Junction {
     let side = (0..sets.len() as u32).map(|v| match sets.root(v) {
         root if root == limb => Side::Limb,
         root if root == beside => Side::Beside,
         _ => Side::Neither,
     });
-    Junction { top, bottom, pair: top - bottom > (1.0 - PAIR) * longest, side: side.collect() }
+    Junction { top, bottom, side: side.collect() }
+}
+
+/// Of every arm and leg of a body the skin round it: the vertex nearest to each of its sections.
+pub(super) struct Limbs(Vec<(PartKind, Vec<u32>)>);
+
+impl Limbs {
+    /// That of `body`.
+    pub(super) fn new(body: &Mannequin) -> Self {
+        let nearest = |p: Vec3| {
+            let away = |v: &u32| (body.mesh.vertices[*v as usize] - p).norm_squared();
+            (0..body.mesh.vertices.len() as u32).min_by(|a, b| away(a).total_cmp(&away(b)))
+        };
+        let limbs = body.parts.iter().filter(|part| !matches!(part.kind, PartKind::Torso | PartKind::Neck));
+        Self(limbs.map(|part| (part.kind, part.sections.iter().filter_map(|s| nearest(s.center)).collect())).collect())
+    }
+
+    /// The arm or leg that the limb of a junction is, and the one that it hangs beside. Hair, a bag or a hand that has
+    /// grown to a hip hang down too, and are none: most of an arm must be in it.
+    pub(super) fn of(&self, junction: &Junction) -> [Option<PartKind>; 2] {
+        [Side::Limb, Side::Beside].map(|side| {
+            let is_in = |skin: &&(PartKind, Vec<u32>)| {
+                2 * skin.1.iter().filter(|v| junction.side[**v as usize] == side).count() > skin.1.len()
+            };
+            self.0.iter().find(is_in).map(|(kind, _)| *kind)
+        })
+    }
 }
 
 /// How far apart the two of a junction are sideways at each of `levels` (going down), metres, nothing where one of them
@@ -157,11 +179,11 @@ mod tests {
     }
 
     #[test]
-    fn two_as_long_as_each_other_are_a_pair_and_their_gap_is_what_is_between() {
+    fn the_gap_of_two_that_hang_down_is_what_is_between() {
         let (mesh, edges) = legs(&[0.0, 0.01]);
         let found = junctions(&mesh, &edges);
         assert_eq!(found.len(), 1);
-        assert!(found[0].pair && found[0].top == 1.1 && found[0].bottom == 0.01);
+        assert!(found[0].top == 1.1 && found[0].bottom == 0.01);
         // The second is the shorter.
         assert_eq!((found[0].side[0], found[0].side[8]), (Side::Beside, Side::Limb));
         let (gaps, way) = apart(&mesh, &edges, &found[0], &[0.9, 0.5, 0.005]);
@@ -174,7 +196,7 @@ mod tests {
         let (mesh, edges) = legs(&[0.5, 0.0, 0.97]);
         let found = junctions(&mesh, &edges);
         assert_eq!(found.len(), 1, "the last hangs down by 130 mm");
-        assert!(!found[0].pair && found[0].side[0] == Side::Limb);
+        assert_eq!(found[0].side[0], Side::Limb);
         let (gaps, way) = apart(&mesh, &edges, &found[0], &[0.7]);
         assert!(way == -1.0 && (gaps[0].expect("both") - 0.05).abs() < 1e-12, "{gaps:?}");
     }

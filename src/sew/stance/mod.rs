@@ -17,6 +17,9 @@ use crate::pattern::Garment;
 use back::Carrier;
 use spread::{Spread, spreads};
 
+/// Share of the progress that sewing is; the rest is the way back.
+const SEWN: f64 = 0.6;
+
 /// A body with its limbs apart.
 pub struct Stance {
     /// The body so, for placing pieces round it.
@@ -65,23 +68,26 @@ impl Stance {
         options: &SewOptions,
         progress: &mut dyn FnMut(f64),
     ) -> Result<Sewn, SewError> {
-        let mut sewn = sew(cut, &self.collider, start, options, progress)?;
+        let mut sewn = sew(cut, &self.collider, start, options, &mut |share| progress(SEWN * share))?;
         if sewn.open.is_some() {
             return Ok(sewn);
         }
-        let carrier = Carrier::new(&self.body.mesh, &self.spreads, &sewn.nodes);
+        let carrier = Carrier::new(&self.body.mesh, &self.spreads, &sewn.nodes)
+            .ok_or_else(|| SewError::Body(self.body.name.clone()))?;
+        let stops = carrier.stops(&sewn.nodes);
         let mut last = 1.0;
-        for share in carrier.stops(&sewn.nodes) {
-            let Some(stage) = Collider::new(&moved(&self.own, &self.spreads, share)) else { break };
-            let stage = stage.on_floor(body.floor());
+        for (k, &share) in stops.iter().enumerate() {
+            let stage = Collider::new(&moved(&self.own, &self.spreads, share));
+            let stage = stage.ok_or_else(|| SewError::Body(self.body.name.clone()))?.on_floor(body.floor());
             let mut world = sewn_world(cut, &stage, &sewn.stitching, sewn.nodes)?;
-            sewn.steps += carrier.carry(&mut world, share - last)?;
+            carrier.carry(&mut world, share - last)?;
             (sewn.nodes, last) = (world.x, share);
+            progress(SEWN + (1.0 - SEWN) * (k + 1) as f64 / (stops.len() + 1) as f64);
         }
         let mut world = sewn_world(cut, body, &sewn.stitching, sewn.nodes)?;
-        sewn.steps += carrier.carry(&mut world, -last)?;
+        carrier.carry(&mut world, -last)?;
         let (steps, tangles) = settle(&mut world)?;
-        sewn.steps += steps;
+        sewn.steps += steps + back::STEPS * (stops.len() + 1);
         Ok(Sewn { nodes: world.x, tangles, ..sewn })
     }
 }

@@ -1,6 +1,6 @@
 //! How far limbs are spread so that cloth has room between them.
 
-use super::limbs::{Junction, Side, apart, junctions};
+use super::limbs::{Junction, Limbs, Side, apart, junctions};
 use crate::geometry::{Topology, TriMesh, Vec3};
 use crate::mannequin::{BodyPart, Mannequin, PartKind, Section};
 
@@ -33,15 +33,8 @@ pub(super) struct Spread {
 }
 
 impl Spread {
-    fn new(junction: &Junction, side: Side, by: Vec<f64>) -> Self {
+    fn new(junction: &Junction, side: Side, kind: PartKind, by: Vec<f64>) -> Self {
         let vertices = (0..junction.side.len() as u32).filter(|v| junction.side[*v as usize] == side).collect();
-        let to_left = by.last().is_some_and(|by| *by > 0.0);
-        let kind = match (junction.pair, to_left) {
-            (true, true) => PartKind::LeftLeg,
-            (true, false) => PartKind::RightLeg,
-            (false, true) => PartKind::LeftArm,
-            (false, false) => PartKind::RightArm,
-        };
         Self { vertices, kind, top: junction.top, by }
     }
 
@@ -84,16 +77,25 @@ impl Spread {
 pub(super) fn spreads(body: &Mannequin, legs: bool) -> Vec<Spread> {
     let mut mesh = body.mesh.clone();
     let edges = Topology::new(&mesh.triangles).edges;
-    let mut out = Vec::new();
-    for junction in junctions(&mesh, &edges).into_iter().filter(|j| legs || !j.pair) {
+    let known = Limbs::new(body);
+    let mut out: Vec<Spread> = Vec::new();
+    for junction in junctions(&mesh, &edges) {
+        let [Some(limb), beside] = known.of(&junction) else { continue };
+        if (limb.is_leg() && !legs) || out.iter().any(|spread| spread.kind == limb) {
+            continue;
+        }
         let depth = junction.top - junction.bottom;
         let levels: Vec<f64> = (0..=(depth / LEVEL) as usize).map(|k| junction.top - k as f64 * LEVEL).collect();
         // Legs come first: spread, they come nearer to the arms.
         let (gaps, way) = apart(&mesh, &edges, &junction, &levels);
         let Some(by) = opening(&gaps) else { continue };
-        let sides: &[_] = if junction.pair { &[(Side::Limb, 0.5), (Side::Beside, -0.5)] } else { &[(Side::Limb, 1.0)] };
-        for &(side, share) in sides {
-            let spread = Spread::new(&junction, side, by.iter().map(|by| by * share * way).collect());
+        // Of two legs both give way; what an arm hangs beside stays.
+        let sides = match beside.filter(|beside| limb.is_leg() && beside.is_leg()) {
+            Some(beside) => vec![(Side::Limb, limb, 0.5), (Side::Beside, beside, -0.5)],
+            None => vec![(Side::Limb, limb, 1.0)],
+        };
+        for (side, kind, share) in sides {
+            let spread = Spread::new(&junction, side, kind, by.iter().map(|by| by * share * way).collect());
             spread.apply(&mut mesh, 1.0);
             out.push(spread);
         }

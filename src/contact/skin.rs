@@ -1,0 +1,41 @@
+//! A part of a body's surface, open or closed.
+
+use parry3d_f64::math::Vector;
+use parry3d_f64::query::PointQueryWithLocation;
+use parry3d_f64::shape::TriMesh as ParryMesh;
+
+use crate::geometry::Vec3;
+
+/// Triangles of which it is asked how far away they are.
+pub struct Skin(ParryMesh);
+
+impl Skin {
+    /// The `triangles` over `vertices`; `None` where there are none, or parry refuses them.
+    pub fn new(vertices: &[Vec3], triangles: Vec<[u32; 3]>) -> Option<Self> {
+        let vertices = vertices.iter().map(|&v| Vector::from(v)).collect();
+        ParryMesh::new(vertices, triangles).ok().map(Self)
+    }
+
+    /// How far `p` is from it on either side, metres, if that is no more than `reach`.
+    pub fn distance(&self, p: Vec3, reach: f64) -> Option<f64> {
+        let p = Vector::from(p);
+        let (projection, _) = self.0.project_local_point_and_get_location_with_max_dist(p, false, reach)?;
+        Some((Vec3::from(projection.point) - Vec3::from(p)).norm())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_distance_is_to_the_triangles_and_not_to_their_corners() {
+        let skin = Skin::new(&[Vec3::zeros(), Vec3::x(), Vec3::y()], vec![[0, 1, 2]]).expect("a triangle");
+        for side in [0.1, -0.1] {
+            let far = skin.distance(Vec3::new(0.3, 0.3, side), 1.0).expect("near");
+            assert!((far - 0.1).abs() < 1e-12, "{far}");
+        }
+        assert!(skin.distance(Vec3::z() * 2.0, 1.0).is_none());
+        assert!(Skin::new(&[Vec3::zeros()], Vec::new()).is_none());
+    }
+}
