@@ -61,6 +61,7 @@ fn units_and_axes_are_guessed_and_said() {
     }
     let found = read(turned(|p| Vec3::new(p.x, -p.z, p.y + 500.0))).expect("z up");
     assert!(found.notes.iter().any(|n| n.contains("z is the tall axis")));
+    assert!(found.notes.iter().any(|n| n.starts_with("lowered by 500.1 mm")), "{:?}", found.notes);
     assert!(mark(&found.mannequin, PartKind::LeftArm, "wrist").x > 0.2);
 }
 

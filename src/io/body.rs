@@ -8,6 +8,8 @@ use super::obj_read::{ObjError, ObjSurface, read_obj};
 use crate::geometry::{Topology, TriMesh, Vec3, box_of, range_of};
 use crate::mannequin::{BodyCheck, BodyFault, HEIGHTS, Mannequin, MannequinError, check_body, find_parts, load};
 
+/// A body whose lowest point is this near to y = 0, metres, stands there: it is left where the file has it.
+const STANDS: f64 = 0.01;
 /// Vertices nearer than this are one, metres: far below a mesh's edges, far above the rounding of a file.
 const WELD: f64 = 1e-6;
 /// A body lower than this many file units is in metres, lower than the next in centimetres, else in millimetres.
@@ -152,6 +154,11 @@ fn person(surface: &ObjSurface, name: &str, file: &str) -> Result<Body, BodyErro
         return Err(BodyError::Size { file: file.to_owned(), units: height, unit, metres: scale * height });
     }
     notes.push(format!("{unit} assumed, since the body is {height:.2} units high"));
+    let low = if (low * scale).abs() > STANDS { low } else { 0.0 };
+    if low != 0.0 {
+        let (way, far) = (if low > 0.0 { "lowered" } else { "raised" }, 1e3 * (low * scale).abs());
+        notes.push(format!("{way} by {far:.1} mm, so that its feet are at y = 0: what is made on it lies there too"));
+    }
     for p in &mut vertices {
         *p = Vec3::new(p.x, p.y - low, p.z) * scale;
     }
