@@ -1,6 +1,6 @@
 //! A body whose limbs almost touch, as scanned bodies stand: the mannequin `woman_92` with her legs moved together
-//! until they are a few millimetres apart from the crotch to the knee, and her arms turned down about the shoulders. This
-//! wrote `tests/scenes/close_limbs.obj`:
+//! until they are a few millimetres apart from the crotch to the knee, and her arms turned down about the shoulders.
+//! This wrote `tests/scenes/close_limbs.obj`:
 //!
 //! `cargo run --release --example close_limbs -- tests/scenes/close_limbs.obj 2 4 18`
 //!

@@ -112,13 +112,15 @@ pieces:
     cut: fold center
     grain: [[60, 250], [60, 60]]
     allowance: {hem: 40, neck: 6, shoulder: 12 , side: 12 mitred}
-    outline: {start: 0 20, neck: C 40 20 60 0 80 -20, shoulder: L 130 0, side: C 100 100 90 200 140 300, hem: L 0 300, center: L 0 20}
+    outline: {start: 0 20, neck: C 40 20 60 0 80 -20, shoulder: L 130 0, side: C 100 100 90 200 140 300, hem: L 0 300,
+      center: L 0 20}
     notches: {side: [100]}
   back:
     cut: pair
     grain: [[60, 250], [60, 60]]
     allowance: 10
-    outline: {start: 0 40, neck: C 40 30 60 0 80 -20, shoulder: L 130 0, side: C 100 100 90 200 140 300, hem: L 20 300, center: L 0 40}
+    outline: {start: 0 40, neck: C 40 30 60 0 80 -20, shoulder: L 130 0, side: C 100 100 90 200 140 300, hem: L 20 300,
+      center: L 0 40}
     notches: {side: [100]}
 seams:
   back: {sew: back.center, to: mirror}
@@ -430,7 +432,8 @@ fn drawings_within_a_drawing_lie_where_they_are_put() {
     assert_eq!(wide("none"), [[30.0, 10.0], [30.0, 60.0]]);
     assert_eq!(wide("xMinYMin slice"), [[30.0, 30.0], [30.0, 180.0]]);
     // One in another.
-    let twice = "x='100'><svg x='50' viewBox='0 0 200 200' width='400' height='400'><path class='grain' d='M 10 10 L 10 60'/></svg></svg><svg class='note'";
+    let twice = "x='100'><svg x='50' viewBox='0 0 200 200' width='400' height='400'>\
+                 <path class='grain' d='M 10 10 L 10 60'/></svg></svg><svg class='note'";
     assert_eq!(arrow(twice), [[170.0, 20.0], [170.0, 120.0]]);
 }
 
@@ -458,30 +461,70 @@ fn an_exported_dxf_is_read_back() {
     assert!(segments < 40, "{segments}");
 }
 
+/// An entity of a DXF on a layer.
+fn entity(kind: &str, on: u32, pairs: &[(i32, f64)]) -> String {
+    let pairs: String = pairs.iter().map(|(code, value)| format!("{code}\n{value}\n")).collect();
+    format!("0\n{kind}\n8\n{on}\n{pairs}")
+}
+
+/// A point, or a line of several.
+fn line(on: u32, points: &[[f64; 2]]) -> String {
+    let pairs: Vec<_> = points.iter().flat_map(|p| [(10, p[0]), (20, p[1])]).collect();
+    entity(if points.len() == 1 { "POINT" } else { "LWPOLYLINE" }, on, &pairs)
+}
+
+/// A line that ends where it begins.
+fn ring(on: u32, points: &[[f64; 2]]) -> String {
+    line(on, points) + "70\n1\n"
+}
+
+/// The notches, from left to right, and the drill holes of a piece of 300 × 400 mm, which its block has besides.
+fn marks_of(entities: &[String]) -> [Vec<[f64; 2]>; 2] {
+    let boundary = ring(1, &[[0.0, 0.0], [300.0, 0.0], [300.0, 400.0], [0.0, 400.0]]);
+    let text = format!("0\nBLOCK\n2\nFRONT\n{boundary}{}0\nENDBLK\n", entities.concat());
+    let pieces = read_dxf_text(&text, Some(1e-3)).expect("a piece");
+    [&pieces[0].notches, &pieces[0].points].map(|points| {
+        let mut shown: Vec<_> = points.iter().map(|p| [p.x * 1e3, -p.y * 1e3].map(f64::round)).collect();
+        shown.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        shown
+    })
+}
+
 /// Programs draw notches as points, as slits or with both flanks, and drill holes as points or circles.
 #[test]
 fn notches_and_drill_holes_of_a_dxf_may_be_drawn() {
-    let entity = |kind: &str, on: u32, pairs: &[(i32, f64)]| {
-        let pairs: String = pairs.iter().map(|(code, value)| format!("{code}\n{value}\n")).collect();
-        format!("0\n{kind}\n8\n{on}\n{pairs}")
-    };
-    let corners = |points: &[(f64, f64)]| points.iter().flat_map(|p| [(10, p.0), (20, p.1)]).collect::<Vec<_>>();
-    let boundary = [vec![(70, 1.0)], corners(&[(0.0, 0.0), (300.0, 0.0), (300.0, 400.0), (0.0, 400.0)])].concat();
-    let text = [
-        "0\nBLOCK\n2\nFRONT\n".to_owned(),
-        entity("LWPOLYLINE", 1, &boundary),
-        entity("POINT", 4, &corners(&[(150.0, 0.0)])),
+    let [notches, holes] = marks_of(&[
+        line(4, &[[150.0, 0.0]]),
         entity("LINE", 4, &[(10, 295.0), (20, 200.0), (11, 300.0), (21, 200.0)]),
-        entity("LWPOLYLINE", 4, &corners(&[(0.0, 98.0), (6.0, 100.0), (0.0, 102.0)])),
+        line(4, &[[0.0, 98.0], [6.0, 100.0], [0.0, 102.0]]),
         entity("CIRCLE", 13, &[(10, 150.0), (20, 250.0), (40, 3.0)]),
-        "0\nENDBLK\n".to_owned(),
-    ];
-    let pieces = read_dxf_text(&text.concat(), Some(1e-3)).expect("a piece");
-    let shown = |points: &[Vec2]| points.iter().map(|p| [p.x * 1e3, -p.y * 1e3].map(f64::round)).collect::<Vec<_>>();
-    let mut notches = shown(&pieces[0].notches);
-    notches.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    ]);
     assert_eq!(notches, [[0.0, 100.0], [150.0, 0.0], [300.0, 200.0]]);
-    assert_eq!(shown(&pieces[0].points), [[150.0, 250.0]]);
+    assert_eq!(holes, [[150.0, 250.0]]);
+}
+
+/// A shape is one notch, of however many lines it is, where it meets the cut line, or as near to it as it comes.
+#[test]
+fn a_drawn_notch_of_a_dxf_is_no_double_one() {
+    let notches = |entities: &[String]| marks_of(entities)[0].clone();
+    // A T whose bar is 6 mm within; on the sewing line 10 mm within, as allowances are; two as a double one.
+    let t = |x: f64, off: f64| {
+        [line(80, &[[x, off], [x, off + 6.0]]), line(80, &[[x - 3.0, off + 6.0], [x + 3.0, off + 6.0]])]
+    };
+    assert_eq!(notches(&t(80.0, 0.0)), [[80.0, 0.0]]);
+    assert_eq!(notches(&t(80.0, 10.0)), [[80.0, 10.0]]);
+    assert_eq!(notches(&[t(80.0, 0.0), t(88.0, 0.0)].concat()), [[80.0, 0.0], [88.0, 0.0]]);
+    // A closed one, wherever it begins, and a U.
+    let mut wedge = [[80.0, 6.0], [82.0, 0.0], [78.0, 0.0]];
+    for _ in 0..wedge.len() {
+        wedge.rotate_left(1);
+        assert_eq!(notches(&[ring(4, &wedge)]), [[80.0, 0.0]], "{wedge:?}");
+    }
+    assert_eq!(notches(&[line(83, &[[78.0, 0.0], [78.0, 6.0], [82.0, 6.0], [82.0, 0.0]])]), [[80.0, 0.0]]);
+    // Its point says more exactly where it is; another layer's is another notch.
+    let slit = line(4, &[[80.0, 0.0], [80.0, 6.0]]);
+    assert_eq!(notches(&[slit.clone(), line(4, &[[81.0, 0.0]])]), [[81.0, 0.0]]);
+    assert_eq!(notches(&[slit, line(80, &[[81.0, 0.0]])]), [[80.0, 0.0], [81.0, 0.0]]);
 }
 
 #[test]
@@ -497,6 +540,7 @@ fn a_drawing_that_is_stretched_is_read_stretched() {
     };
     assert_eq!(sides(""), [300.0, 300.0]);
     assert_eq!(sides("preserveAspectRatio='none'"), [300.0, 600.0]);
+    assert_eq!(sides("preserveAspectRatio='xMinYMin slice'"), [600.0, 600.0]);
 }
 
 #[test]

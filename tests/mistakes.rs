@@ -431,4 +431,14 @@ fn a_fold_on_an_edge_is_told_from_one_on_the_fold_of_a_piece() {
     assert!(one.message.contains("'crease'") && one.message.contains("edge 'hem'"), "{one:?}");
     let within = found(&SQUARES.replacen("    outline:", &fold("M 0 50 L 100 50"), 1));
     assert!(within.iter().all(|d| d.severity != Severity::Error), "{within:?}");
+    // The same line, on the edge a piece ends at and on the one it is unfolded at.
+    let upright = SQUARES.replacen("    outline:", &fold("M 0 0 L 0 100"), 1);
+    let on_center = found(&upright);
+    assert!(on_center.iter().any(|d| d.message.contains("edge 'center'")), "{on_center:?}");
+    let folded = upright
+        .replacen("  front:", "  front:\n    cut: fold center", 1)
+        .replacen("{sew: front.side, to: back.center}", "{sew: front.side.R, to: back.center}", 1)
+        .replacen("front.center,", "front.side.L,", 1);
+    let on_fold = found(&folded);
+    assert!(on_fold.iter().all(|d| d.severity != Severity::Error), "{on_fold:?}");
 }

@@ -14,7 +14,7 @@ const LEAST_EDGE: f64 = 3e-3;
 /// A notch is on an outline it is no farther from than this (metres): the widest usual allowance.
 const REACH: f64 = 0.045;
 /// Two notches at most so far apart (metres) are a double one.
-const DOUBLE: f64 = 0.011;
+pub(crate) const DOUBLE: f64 = 0.011;
 
 /// An edge of the file to come.
 #[derive(Clone, Debug)]

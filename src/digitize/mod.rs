@@ -14,6 +14,7 @@ mod suggest;
 
 pub use chain::chained;
 pub use contours::pieces;
+pub(crate) use edges::DOUBLE;
 pub use file::{Digitized, garment_file};
 pub use suggest::Suggestion;
 

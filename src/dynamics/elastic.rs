@@ -1,8 +1,8 @@
 //! Elastic sewn along a line: a band shorter than the cloth, which gathers to it.
 //!
 //! The gathers are finer than the grid. So along the line the cloth does not resist being drawn in, only being drawn
-//! out beyond its own length, and beside it lies a spring of the band's length, `ratio` × the line's. Cloth that is sewn
-//! to an edge with elastic on it gathers with it.
+//! out beyond its own length, and beside it lies a spring of the band's length, `ratio` × the line's. Cloth that is
+//! sewn to an edge with elastic on it gathers with it.
 
 use std::collections::HashMap;
 

@@ -1,6 +1,6 @@
 //! Flattening every piece of a draped garment.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use rayon::prelude::*;
 
@@ -55,11 +55,12 @@ pub fn flatten_garment(
         return Err(FlattenError::StartLength { expected: cloth.flat.len(), found: draped.len() });
     }
     let targets = seam_targets(cloth, seams, draped);
+    let gathered = cloth.on_elastic();
     let flattened: Vec<_> = cloth
         .pieces
         .par_iter()
         .map(|piece| {
-            flatten_piece(cloth, piece, draped, &targets, options)
+            flatten_piece(cloth, piece, draped, (&targets, &gathered), options)
                 .map_err(|source| FlattenError::Piece { piece: piece.name.clone(), source: Box::new(source) })
         })
         .collect();
@@ -77,7 +78,7 @@ fn flatten_piece(
     cloth: &ClothMesh,
     piece: &PieceMesh,
     draped: &[Vec3],
-    targets: &Targets,
+    (targets, gathered): (&Targets, &HashSet<u32>),
     options: &Options,
 ) -> Result<(Vec<Vec2>, Report), FlattenError> {
     let first = piece.particles.start as u32;
@@ -96,7 +97,7 @@ fn flatten_piece(
     let mut sheet = Sheet::as_it_is(&surface, topology, rims);
     sheet.warp = piece.warp;
     draw_out(&mut sheet, first, targets);
-    let_out(&mut sheet, cloth, piece);
+    let_out(&mut sheet, cloth, piece, gathered);
     let mut flattened = relax_sheet(&sheet, start, options)?;
     align::onto(&mut flattened.positions, drawn);
     Ok((flattened.positions, flattened.report))
@@ -105,9 +106,9 @@ fn flatten_piece(
 /// Wanted flat lengths of sewn rim edges by their ends (global particles, smaller first).
 type Targets = HashMap<[u32; 2], f64>;
 
-/// Edges along elastic get their drawn lengths. Of an edge that several seams join, as a waist between band and lining, the first seam's target counts: a later one
-/// that took it over would leave the first one's sides with two lengths. What a later even seam joins to such an edge
-/// takes its target.
+/// Edges along elastic get their drawn lengths, whatever is sewn to them. Of another edge that several seams join, as a
+/// waist between band and lining, the first seam's target counts: a later one that took it over would leave the first
+/// one's sides with two lengths. What a later even seam joins to such an edge takes its target.
 fn seam_targets(cloth: &ClothMesh, seams: &[Seam], draped: &[Vec3]) -> Targets {
     let length = |[a, b]: [u32; 2]| (cloth.flat[b as usize] - cloth.flat[a as usize]).norm();
     let mut targets: Targets = cloth.drawn_in().into_keys().map(|ends| (ends, length(ends))).collect();
@@ -170,10 +171,10 @@ fn draw_out(sheet: &mut Sheet<'_>, first: u32, targets: &Targets) {
     }
 }
 
-/// Gives triangles that elastic gathers their drawn shape: as draped they show the elastic, not the cloth.
-fn let_out(sheet: &mut Sheet<'_>, cloth: &ClothMesh, piece: &PieceMesh) {
+/// Gives triangles that elastic gathers, those with a corner on it, their drawn shape: as draped they show the elastic,
+/// not the cloth.
+fn let_out(sheet: &mut Sheet<'_>, cloth: &ClothMesh, piece: &PieceMesh, gathered: &HashSet<u32>) {
     let first = piece.particles.start as u32;
-    let gathered = cloth.on_elastic();
     for element in &mut sheet.elements {
         let corners = element.corners;
         if !corners.iter().any(|v| gathered.contains(&(v + first))) {

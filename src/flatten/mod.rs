@@ -89,10 +89,10 @@ pub enum Mode {
     Isometric,
     /// Rim lengths first, then distances.
     Boundary,
-    /// Rim lengths, edge by edge or as whole chains ([`flatten_between`]), and the lengths of warp and weft threads; the
-    /// angle between them gives, by 30° at most where that is enough. The warp is the piece's own, or upright (space's
-    /// y) where there is no drawn piece. Where the rim is too short for the area (L² < 4πS) only the threads count:
-    /// cloth whose threads keep their lengths is flat at least as large as in space.
+    /// Rim lengths, edge by edge or as whole chains ([`flatten_between`]), and the lengths of warp and weft threads;
+    /// the angle between them gives, by 30° at most where that is enough. The warp is the piece's own, or upright
+    /// (space's y) where there is no drawn piece. Where the rim is too short for the area (L² < 4πS) only the threads
+    /// count: cloth whose threads keep their lengths is flat at least as large as in space.
     Woven,
     /// The lengths of all mesh edges: the published springs (F13).
     Spring,

@@ -5,6 +5,7 @@
 
 use std::path::Path as FilePath;
 
+use super::dxf_notches;
 use super::dxf_write::layer;
 use crate::digitize::{Inner, Traced, chained};
 use crate::geometry::{Path, Vec2};
@@ -17,10 +18,6 @@ const MOST_BYTES: u64 = 30 << 20;
 const FARTHEST: f64 = 1e3;
 /// More lines in a block than this cannot be looked at one against the other.
 const MOST_LINES: usize = 5_000;
-/// Notches of other shapes than the slit: T, castle, check and U.
-const OTHER_NOTCHES: [u32; 4] = [80, 81, 82, 83];
-/// Both ends of a notch's flanks are as near to the cut line, to this (metres); a slit is longer.
-const FLANKS: f64 = 5e-4;
 /// Letters of a text that messages show.
 const SHOWN: usize = 40;
 
@@ -282,22 +279,22 @@ impl<'a> Block<'a> {
         let sew = closed_by(sew);
         let whole_line = |run: Vec<((), Path)>| run.into_iter().map(|e| e.1).reduce(|a, b| a.joined(&b));
         let holes: Vec<Path> = self.runs(layer::CUTOUT).into_iter().filter_map(whole_line).collect();
-        let is_notch = |on: u32| on == layer::NOTCH || OTHER_NOTCHES.contains(&on);
-        let at = |wanted: &dyn Fn(u32) -> bool| -> Vec<Vec2> {
-            self.points.iter().filter(|p| wanted(p.0)).map(|p| p.1).collect()
+        let at = |layer: u32| self.points.iter().filter(|p| p.0 == layer).map(|p| p.1).collect::<Vec<Vec2>>();
+        let notches = |layer: u32| {
+            let shapes: Vec<Path> = self.runs(layer).into_iter().filter_map(whole_line).collect();
+            dxf_notches::notches(at(layer), &shapes, &cut)
         };
-        let drawn = [layer::NOTCH].into_iter().chain(OTHER_NOTCHES).flat_map(|on| self.runs(on));
-        let drawn: Vec<Vec2> = drawn.filter_map(whole_line).map(|line| notch_at(&line, &cut)).collect();
+        let notches = dxf_notches::LAYERS.into_iter().flat_map(notches).collect();
         Some(Traced {
             name: self.text("piece name:").unwrap_or(self.name).to_owned(),
             sew: sew.into_iter().map(|e| (None, e.1)).collect(),
-            cut: Some(cut),
             holes: holes.into_iter().filter(|h| h.double_area().abs() > 0.0).collect(),
             lines: self.on(layer::INTERNAL).into_iter().map(|l| Inner { name: None, path: l.1, kind: None }).collect(),
-            points: at(&|on| on == layer::DRILL),
+            points: at(layer::DRILL),
             grain: self.ends_on(layer::GRAIN),
-            notches: at(&is_notch).into_iter().chain(drawn).collect(),
+            notches,
             mirror,
+            cut: Some(cut),
             cut_how: self.text("quantity:").and_then(quantity),
             said_by: None,
             drawn: None,
@@ -309,16 +306,6 @@ impl<'a> Block<'a> {
     fn ends_on(&self, layer: u32) -> Option<[Vec2; 2]> {
         let longest = |a: &((), Path), b: &((), Path)| a.1.length().total_cmp(&b.1.length());
         self.on(layer).into_iter().max_by(longest).map(|l| [l.1.start(), l.1.end()])
-    }
-}
-
-/// Where a notch that is drawn, as a slit or with both its flanks, stands on the cut line.
-fn notch_at(line: &Path, cut: &Path) -> Vec2 {
-    let [a, b] = [line.start(), line.end()].map(|end| (end, cut.nearest(end).1));
-    match a.1 - b.1 {
-        off if off.abs() <= FLANKS => (a.0 + b.0) / 2.0,
-        off if off < 0.0 => a.0,
-        _ => b.0,
     }
 }
 

@@ -4,10 +4,11 @@ use super::course::{Course, courses};
 use super::links::EdgeTable;
 use super::sampling::springs_for;
 use crate::geometry::{Path, Vec2};
-use crate::pattern::{Along, EdgeId, Garment, LineKind, Piece};
+use crate::pattern::{Along, EdgeId, Garment, LineKind, Piece, SLACK};
 
-/// A line's end this near (metres) to the rim, to a corner or to another line is meant to be on it.
-pub(super) const REACHES: f64 = 1e-3;
+/// A line's end this near (metres) to the rim, to a corner or to another line is meant to be on it: as near as `check`
+/// takes it to be.
+pub(super) const REACHES: f64 = SLACK;
 /// Lines are searched for crossings in chords of this length (metres): shorter than any bend of a sewn line.
 const CHORD: f64 = 2.5e-3;
 /// Newton steps that polish a crossing; each doubles the correct digits of a chord's guess.

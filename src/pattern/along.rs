@@ -1,13 +1,9 @@
 //! Where a line runs along the edges of its piece.
 
 use super::Edge;
-use super::region::SLACK;
-use crate::geometry::Path;
+use super::region::{SLACK, looks};
+use crate::geometry::{Path, Vec2, box_of};
 
-/// An edge is compared with a line so often, metres.
-const STEP: f64 = 5e-3;
-/// And no oftener than so many times, however long it is.
-const MOST_LOOKS: f64 = 400.0;
 /// A stretch of an edge and a line on it go the same way or opposite ways: the cosine between them is at least this.
 /// Only stretches hardly longer than the slack could lie across a line and near it all the same.
 const SAME_WAY: f64 = 0.7;
@@ -32,9 +28,22 @@ pub fn along(line: &Path, loops: &[Vec<Edge>]) -> Vec<Along> {
         .iter()
         .enumerate()
         .flat_map(|(ring, edges)| edges.iter().enumerate().map(move |(index, edge)| ((ring, index), &edge.path)));
-    let mut out: Vec<Along> = edges.flat_map(|(id, path)| on_edge(line, id, path)).collect();
+    let beside = reach(line);
+    let mut out: Vec<Along> =
+        edges.filter(|(_, path)| overlap(beside, reach(path))).flat_map(|(id, path)| on_edge(line, id, path)).collect();
     out.sort_by(|a, b| a.line[0].total_cmp(&b.line[0]));
     out
+}
+
+/// The corners of a box beyond which nothing runs along a path.
+fn reach(path: &Path) -> [Vec2; 2] {
+    // As much again for what the path has beyond the chords.
+    let [low, high] = box_of(path.sampled(SLACK));
+    [low.add_scalar(-2.0 * SLACK), high.add_scalar(2.0 * SLACK)]
+}
+
+fn overlap(a: [Vec2; 2], b: [Vec2; 2]) -> bool {
+    (0..2).all(|k| a[0][k] <= b[1][k] && b[0][k] <= a[1][k])
 }
 
 fn on_edge(line: &Path, edge: (usize, usize), path: &Path) -> Vec<Along> {
@@ -49,9 +58,9 @@ fn on_edge(line: &Path, edge: (usize, usize), path: &Path) -> Vec<Along> {
 
 /// The stretch of an edge, if all of it lies on the line.
 fn stretch(line: &Path, path: &Path, [low, high]: [f64; 2]) -> Option<Along> {
-    let looks = ((high - low) / STEP).clamp(2.0, MOST_LOOKS).ceil();
-    let near = |k: usize| line.nearest(path.point(low + (high - low) * k as f64 / looks)).1 <= SLACK;
-    if !(0..=looks as usize).all(near) {
+    let looks = looks(high - low);
+    let near = |k: usize| line.nearest(path.point(low + (high - low) * k as f64 / looks as f64)).1 <= SLACK;
+    if !(0..=looks).all(near) {
         return None;
     }
     let middle = (low + high) / 2.0;

@@ -58,7 +58,7 @@ pub use file::{
 pub use place_word::{PlaceWord, place_word};
 pub use problem::Problem;
 pub use reference::parse_quantity;
-pub(crate) use region::Region;
+pub(crate) use region::{Region, SLACK};
 pub use rim::{Opening, openings};
 pub use walk::{SeamWalk, walk, written_edge, written_names};
 

@@ -5,8 +5,8 @@ use super::crossing::CHORD_ERROR;
 use crate::geometry::{Path, Vec2};
 
 /// What misses the cloth by no more than this (metres) is meant to be on its rim.
-pub(super) const SLACK: f64 = 1e-3;
-/// A line is looked at so often, metres.
+pub(crate) const SLACK: f64 = 1e-3;
+/// Lines and edges are looked at so often, metres.
 const STEP: f64 = 5e-3;
 /// And no oftener than so many times, however long it is.
 const MOST_LOOKS: f64 = 400.0;
@@ -37,8 +37,13 @@ impl<'a> Region<'a> {
 /// The first place, of those looked at, where `path` is nowhere near what `holds` says is cloth.
 pub(super) fn first_off(path: &Path, holds: impl Fn(Vec2) -> bool) -> Option<Vec2> {
     let length = path.length();
-    let looks = (length / STEP).clamp(2.0, MOST_LOOKS).ceil();
-    (0..=looks as usize).map(|i| path.point(length * i as f64 / looks)).find(|&p| !holds(p))
+    let looks = looks(length);
+    (0..=looks).map(|i| path.point(length * i as f64 / looks as f64)).find(|&p| !holds(p))
+}
+
+/// In how many steps what is so long (metres) is looked at.
+pub(super) fn looks(length: f64) -> usize {
+    (length / STEP).clamp(2.0, MOST_LOOKS).ceil() as usize
 }
 
 /// Even–odd rule.

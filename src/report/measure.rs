@@ -130,6 +130,7 @@ fn pieces(run: &Measured, shapes: &Shapes, last: Option<&[Vec3]>) -> (Vec<PieceR
         strain: PieceStrain::default(),
     };
     let mut reports = Vec::new();
+    let elastic = mesh.on_elastic();
     for (piece, rim) in mesh.pieces.iter().zip(rims(mesh, run.weld)) {
         let part = Part {
             name: &piece.name,
@@ -137,8 +138,8 @@ fn pieces(run: &Measured, shapes: &Shapes, last: Option<&[Vec3]>) -> (Vec<PieceR
             smallest_angle: piece.smallest_angle,
             triangles: piece.triangles.clone().map(|t| (t as u32, mesh.triangles[t])).collect(),
             rim,
-            gathered: beside_elastic(mesh, piece).collect(),
-            strain: last.map_or_else(Default::default, |at| piece_strain(mesh, piece, at)),
+            gathered: beside_elastic(mesh, piece, &elastic),
+            strain: last.map_or_else(Default::default, |at| piece_strain(mesh, piece, &elastic, at)),
         };
         let mut report = row(&part, shapes);
         report.stretched = last.and_then(|at| stretched(mesh, &part.rim, part.strain.extension, at));

@@ -88,8 +88,9 @@ fn names(mesh: &ClothMesh, id: EdgeId) -> (String, String) {
 }
 
 /// Which rims are no openings but the edges of flaps: of a collar, say, sewn on over a neckline (`face: same`). The rim
-/// of the one half of the seam is then the neckline, the other's runs round the collar and back along the same stitches;
-/// nothing goes through it. So is every ring that nothing goes through and that shares rim edges with one that is worn.
+/// of the one half of the seam is then the neckline, the other's runs round the collar and back along the same
+/// stitches; nothing goes through it. So is every ring that nothing goes through and that shares rim edges with one
+/// that is worn.
 pub(super) fn flaps(rings: &[&[u32]], worn: &[bool]) -> Vec<bool> {
     let edges = |ring: &[u32]| {
         (0..ring.len()).map(|k| sorted_pair([ring[k], ring[(k + 1) % ring.len()]])).collect::<HashSet<[u32; 2]>>()

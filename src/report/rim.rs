@@ -1,6 +1,6 @@
 //! The rims of the pieces, which of their edges a seam makes one, and what elastic gathers.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 use crate::geometry::{Topology, Vec3, sorted_pair};
@@ -87,9 +87,9 @@ fn rim_of(mesh: &ClothMesh, triangles: Range<usize>, drawn_in: &HashMap<[u32; 2]
     topology.rim_edges().filter_map(edge).collect()
 }
 
-/// Triangles of a piece (indices into the whole mesh) with a corner on an elastic line: like those on the rim of a
-/// gathered seam they cannot keep their drawn size.
-pub(super) fn beside_elastic<'a>(mesh: &'a ClothMesh, piece: &'a PieceMesh) -> impl Iterator<Item = u32> + 'a {
-    let on_line = mesh.on_elastic();
-    piece.triangles.clone().filter(move |&t| mesh.triangles[t].iter().any(|c| on_line.contains(c))).map(|t| t as u32)
+/// Triangles of a piece (indices into the whole mesh) with a corner on an elastic line, which are particles `elastic`:
+/// like those on the rim of a gathered seam they cannot keep their drawn size.
+pub(super) fn beside_elastic(mesh: &ClothMesh, piece: &PieceMesh, elastic: &HashSet<u32>) -> Vec<u32> {
+    let is_beside = |t: &usize| mesh.triangles[*t].iter().any(|c| elastic.contains(c));
+    piece.triangles.clone().filter(is_beside).map(|t| t as u32).collect()
 }

@@ -1,5 +1,7 @@
 //! Strain along the threads, and shear between them.
 
+use std::collections::HashSet;
+
 use super::schema::Spread;
 use super::statistics::spread;
 use crate::geometry::{Topology, Vec2, Vec3};
@@ -38,12 +40,11 @@ impl PieceStrain {
     }
 }
 
-/// Strain of a piece at the positions `at`. Edges along elastic are left out: what the elastic draws in lies in gathers
-/// finer than the grid.
-pub(super) fn piece_strain(mesh: &ClothMesh, piece: &PieceMesh, at: &[Vec3]) -> PieceStrain {
+/// Strain of a piece at the positions `at`. Edges along elastic, between particles `elastic`, are left out: what the
+/// elastic draws in lies in gathers finer than the grid.
+pub(super) fn piece_strain(mesh: &ClothMesh, piece: &PieceMesh, elastic: &HashSet<u32>, at: &[Vec3]) -> PieceStrain {
     let mut out = PieceStrain::default();
     let mut sums = [(0.0, 0.0); 2];
-    let elastic = mesh.on_elastic();
     for (ends, strain) in edge_strains(mesh, piece, at) {
         if ends.iter().all(|p| elastic.contains(p)) {
             continue;

@@ -23,8 +23,8 @@ impl Frame {
     }
 }
 
-/// The drawing's frame, by width and height over viewBox, the smaller of the two scales but where preserveAspectRatio
-/// is `none`; and its size in user units.
+/// The drawing's frame, by width and height over viewBox as preserveAspectRatio says, by the one side's scale where
+/// only one is given; and its size in user units.
 pub(super) fn sheet(root: Node) -> (Frame, Vec2) {
     let view = view_box(root);
     let side = |key: &str| root.attribute(key).and_then(length).filter(|metres| *metres > 0.0);
