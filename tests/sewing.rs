@@ -11,7 +11,7 @@ use toile::mannequin::{Mannequin, PartKind, load};
 use toile::mesh::{ClothMesh, Stitches, build};
 use toile::pattern::{Garment, Place};
 use toile::sew::place::{PlaceError, place};
-use toile::sew::{SewError, SewOptions, Sewn, Stitching, settle, sew, sewn_world};
+use toile::sew::{Calm, SewError, SewOptions, Sewn, Stitching, settle, sew, sewn_world};
 use toile::verify::crossings;
 
 /// Metres.
@@ -938,7 +938,7 @@ fn a_sheet_without_a_strain_stays_as_it_is() {
     let (made, stitching, nodes) = sheet();
     let (_, collider) = woman();
     let mut world = sewn_world(&made.cut(), &collider, &stitching, nodes.clone()).expect("a world");
-    let (steps, tangles) = settle(&mut world).expect("settled");
+    let (steps, tangles) = settle(&mut world, Calm::TO_FALL).expect("settled");
     assert_eq!((steps, tangles), (1, 0));
     let moved = world.x.iter().zip(&nodes).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
     assert!(moved < 1e-6, "{moved} m");
@@ -951,7 +951,7 @@ fn springs_pull_a_stretched_sheet_true() {
     nodes.iter_mut().for_each(|p| p.x *= 1.02);
     let mut world = sewn_world(&made.cut(), &collider, &stitching, nodes).expect("a world");
     let before = world.energy();
-    settle(&mut world).expect("settled");
+    settle(&mut world, Calm::TO_FALL).expect("settled");
     let after = world.energy();
     assert!(after < 0.25 * before, "{before} J became {after} J");
     let width = |k: fn(f64, f64) -> f64, from: f64| world.x.iter().map(|p| p.x).fold(from, k);
@@ -981,6 +981,6 @@ fn a_corner_that_went_through_is_led_out() {
         crossings(&TriMesh { vertices: x.to_vec(), triangles: triangles.to_vec() }).len()
     };
     assert!(count(&world.x, &world.cloth.triangles) > 0, "nothing to lead out");
-    let (steps, tangles) = settle(&mut world).expect("settled");
+    let (steps, tangles) = settle(&mut world, Calm::TO_FALL).expect("settled");
     assert_eq!((tangles, count(&world.x, &world.cloth.triangles)), (0, 0), "after {steps} steps");
 }

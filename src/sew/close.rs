@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use super::error::SewError;
 use super::recover::lead_out;
-use super::settle::{join, settle, sewn_world};
+use super::settle::{Calm, join, settle, sewn_world};
 use super::stitch::Stitching;
 use super::untangle::untangle;
 use crate::contact::{Collider, Neighbourhood};
@@ -147,7 +147,7 @@ pub fn sew(
         let tangles = world.tangles().len();
         return Ok(Sewn { stitching, nodes, gaps, steps, tangles, open: Some(world.x) });
     }
-    settled(cut, body, stitching, nodes, gaps, steps)
+    settled(cut, body, stitching, nodes, gaps, steps, Calm::TO_FALL)
 }
 
 /// The seams of one stage on their way shut.
@@ -239,7 +239,7 @@ pub fn stitch(cut: &Cut, body: &Collider, particles: &[Vec3]) -> Result<Option<S
     let stitching = Stitching::new(cut.mesh);
     let gaps = stitching.gaps(particles);
     let nodes = join(cut, body, &stitching, particles)?;
-    nodes.map(|nodes| settled(cut, body, stitching, nodes, gaps, 0)).transpose()
+    nodes.map(|nodes| settled(cut, body, stitching, nodes, gaps, 0, Calm::TO_LIE)).transpose()
 }
 
 /// Lets a garment with its seams closed settle.
@@ -250,8 +250,9 @@ fn settled(
     nodes: Vec<Vec3>,
     gaps: Vec<f64>,
     steps: usize,
+    calm: Calm,
 ) -> Result<Sewn, SewError> {
     let mut world = sewn_world(cut, body, &stitching, nodes)?;
-    let (more, tangles) = settle(&mut world)?;
+    let (more, tangles) = settle(&mut world, calm)?;
     Ok(Sewn { nodes: world.x, stitching, gaps, steps: steps + more, tangles, open: None })
 }

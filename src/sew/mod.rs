@@ -12,6 +12,6 @@ mod untangle;
 pub use close::{SewOptions, Sewn, sew, stitch};
 pub use error::SewError;
 pub(crate) use settle::{CLEARANCE, NEAREST_LOOK};
-pub use settle::{drape_reach, draping_world, join, settle, sewn_world};
+pub use settle::{Calm, drape_reach, draping_world, join, settle, sewn_world};
 pub use stance::Stance;
 pub use stitch::Stitching;

@@ -19,17 +19,36 @@ const LONGEST_REACH: f64 = 8.8e-3;
 /// Cloth is looked at at least this far around, beyond its thickness, metres.
 pub(crate) const NEAREST_LOOK: f64 = 2e-3;
 /// The measured springs pull the cloth true after the last tangle is gone: at most so many steps, until no node goes
-/// further than so many metres in one,
+/// further than so many metres in one.
 const SETTLE: usize = 40;
 const STILL: f64 = 0.2e-3;
-/// or the energy falls by no more than this share of itself in the last few.
-/// (What moves then are waves of cloth without weight.)
-const LAST_FEW: usize = 5;
-const SETTLED: f64 = 0.05;
 /// The most a step changes an edge, metres: half a cell at the usual spacing.
 pub(super) const TRUST: f64 = 5e-3;
 /// Step length, s: long, for inertia only delays rest.
 pub(super) const STEP: f64 = 0.1;
+
+/// When newly stitched cloth has settled, its springs not yet still. (What moves then are waves of cloth without weight.)
+#[derive(Clone, Copy, Debug)]
+pub struct Calm {
+    /// So many steps lower the energy
+    steps: usize,
+    /// by no more than this share of itself.
+    share: f64,
+}
+
+impl Calm {
+    /// For cloth that drapes from where it settles: what it keeps of its energy here takes longer there.
+    pub const TO_FALL: Self = Self { steps: 5, share: 0.05 };
+    /// For cloth that lies as coarser cloth has settled, and drapes from where that comes to hang. Its pieces are as
+    /// large as drawn, to some .1 %, long before the last waves have gone.
+    pub const TO_LIE: Self = Self { steps: 3, share: 0.2 };
+
+    /// Whether the last of `energies` is hardly less than it was.
+    fn holds(&self, energies: &[f64]) -> bool {
+        let last = energies.len() - 1;
+        last >= self.steps && energies[last] > (1.0 - self.share) * energies[last - self.steps]
+    }
+}
 
 /// A sewn garment as one cloth in its measured fabric, ready to settle or to drape.
 ///
@@ -79,20 +98,19 @@ pub fn join(
     Ok(world.tangles().is_empty().then_some(world.x))
 }
 
-/// Lets the measured springs pull a newly stitched cloth true, out of its tangles first. Returns the steps made and the
-/// tangles left.
+/// Lets the measured springs pull a newly stitched cloth true, out of its tangles first, until it is `calm`. Returns the
+/// steps made and the tangles left.
 ///
 /// # Errors
 /// As [`World::advance`].
-pub fn settle(world: &mut World) -> Result<(usize, usize), StepError> {
+pub fn settle(world: &mut World, calm: Calm) -> Result<(usize, usize), StepError> {
     let mut steps = untangle(world)?;
     let mut energies = vec![world.energy()];
-    for made in 1..=SETTLE {
+    for _ in 0..SETTLE {
         let moved = world.newton(STEP, TRUST)?.moved;
         steps += 1;
         energies.push(world.energy());
-        let flat = made >= LAST_FEW && energies[made] > (1.0 - SETTLED) * energies[made - LAST_FEW];
-        if moved < STILL || flat {
+        if moved < STILL || calm.holds(&energies) {
             break;
         }
     }

@@ -8,7 +8,7 @@ mod spread;
 use super::close::{SewOptions, Sewn, sew};
 use super::error::SewError;
 use super::place::goes_between_legs;
-use super::settle::{settle, sewn_world};
+use super::settle::{Calm, settle, sewn_world};
 use crate::contact::Collider;
 use crate::dynamics::Cut;
 use crate::geometry::{TriMesh, Vec3};
@@ -86,7 +86,7 @@ impl Stance {
         }
         let mut world = sewn_world(cut, body, &sewn.stitching, sewn.nodes)?;
         carrier.carry(&mut world, -last)?;
-        let (steps, tangles) = settle(&mut world)?;
+        let (steps, tangles) = settle(&mut world, Calm::TO_FALL)?;
         sewn.steps += steps + back::STEPS * (stops.len() + 1);
         Ok(Sewn { nodes: world.x, tangles, ..sewn })
     }
