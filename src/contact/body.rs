@@ -21,6 +21,12 @@ const LEVEL: f64 = 0.1;
 /// beside the feature: in a cleft a cheek rises beyond the triangle that is met, and higher than its plane.
 const FACING: f64 = 0.2;
 
+/// Faces of a hollow turned from one another by less than the first angle (cosine, 37°) push one at a time, the nearest;
+/// by more than the second (66°) together. Where a sharp hollow's pushed in turn, what is wedged in an armpit was thrown
+/// from one to the other for ever.
+const SHALLOW: f64 = 0.8;
+const SHARP: f64 = 0.4;
+
 /// A face that rises no higher over a node's plane than this, metres, is no other than the plane's.
 const RISES: f64 = 1e-9;
 /// Cloth that is inside the body under a feature meets it where it pushes with at least this share: next to an end,
@@ -152,11 +158,13 @@ impl Collider {
     }
 
     /// Contacts of `node`, outside the body, with the body's faces within `reach` that rise over the plane through the
-    /// point `nearest` to it: in a hollow, that plane alone would let the node run into the next face.
+    /// point `nearest` to it: in a hollow, that plane alone would let the node run into the next face. The nearest of
+    /// those that stand steep on what is nearer pushes, the others only bar the way.
     pub fn faces_of_hollow(&self, x: &[Vec3], node: u32, nearest: &Nearest, reach: f64, out: &mut Vec<Contact>) {
         let p = x[node as usize];
+        let mut faces = Vec::new();
         self.triangle_grid.query(p.add_scalar(-reach), p.add_scalar(reach), |t| {
-            let [a, b, c] = self.mesh.triangle(t).vertices().map(from_parry);
+            let corners @ [a, b, c] = self.mesh.triangle(t).vertices().map(from_parry);
             let rises = |q: Vec3| nearest.normal.dot(&(q - nearest.point)) > RISES;
             if !(rises(a) || rises(b) || rises(c)) {
                 return;
@@ -164,10 +172,23 @@ impl Collider {
             let [k, l, m] = closest_on_triangle(p, a, b, c);
             let away = p - (a * k + b * l + c * m);
             if away.norm() <= reach {
-                // Also one that faces the other way: the node may come round its edge.
-                out.extend(Contact::on_feature([node, 0, 0, 0], 1, Under::Face { corners: [a, b, c] }, away, x));
+                faces.push((away.norm(), t, corners, away));
             }
         });
+        faces.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut pushing = vec![nearest.normal];
+        for (_, number, corners @ [a, b, c], away) in faces {
+            let normal = (b - a).cross(&(c - a)).normalize();
+            let beside = |n: &Vec3| share_in_hollow(n.dot(&normal));
+            // Also one that faces the other way bars it: the node may come round its edge.
+            let facing = normal.dot(&away) > 0.0;
+            let push = if facing { pushing.iter().map(beside).fold(1.0, f64::min) } else { 0.0 };
+            if push > 0.0 {
+                pushing.push(normal);
+            }
+            let under = Under::Face { number, corners, push };
+            out.extend(Contact::on_feature([node, 0, 0, 0], 1, under, away, x));
+        }
     }
 
     /// Adds the contacts of body vertices with the cloth triangle of nodes `tri`, within `reach`. Returns whether it
@@ -297,6 +318,12 @@ fn convex_edges(body: &TriMesh) -> Vec<BodyEdge> {
         }
     }
     out
+}
+
+/// The share with which a face of a hollow pushes beside the nearest one, by the cosine of the angle between the two.
+fn share_in_hollow(cosine: f64) -> f64 {
+    let sharp = ((SHALLOW - cosine) / (SHALLOW - SHARP)).clamp(0.0, 1.0);
+    sharp * sharp * (3.0 - 2.0 * sharp)
 }
 
 #[cfg(test)]
@@ -446,6 +473,41 @@ mod tests {
         assert_eq!(planes(Vec3::new(1.02, 0.5, 0.9)).len(), 1);
     }
 
+    /// What the sides of a groove, `steep` radians from level, do to a node at (x, 0, z) that they keep 10 mm off.
+    fn pushed_in_groove(steep: f64, x: f64, z: f64) -> Vec3 {
+        // A block 2 wide, 2 deep and 1 high with a groove along y in its upper face; its profile is seen whole from below.
+        let rise = 0.5 * steep.tan();
+        let profile =
+            [[0.0, -1.0], [1.0, -1.0], [1.0, rise], [0.5, rise], [0.0, 0.0], [-0.5, rise], [-1.0, rise], [-1.0, -1.0]];
+        let n = profile.len() as u32;
+        let vertices = [1.0, -1.0].iter().flat_map(|y| profile.map(|[x, z]| Vec3::new(x, *y, z))).collect();
+        let sides = (0..n).flat_map(|k| {
+            let next = (k + 1) % n;
+            [[k, next + n, k + n], [k, next, next + n]]
+        });
+        let caps = (1..n - 1).flat_map(|k| [[0, k + 1, k], [n, k + n, k + 1 + n]]);
+        let mesh = TriMesh { vertices, triangles: sides.chain(caps).collect() };
+        let body = Collider::new(&mesh).expect("collider");
+        let at = [Vec3::new(x, 0.13, z)];
+        let nearest = body.nearest(at[0], 0.1).expect("near");
+        let mut found = vec![Contact::on_body(0, nearest.normal, nearest.point)];
+        body.faces_of_hollow(&at, 0, &nearest, 0.1, &mut found);
+        found.iter().map(|c| c.normal * (c.share * (0.01 - c.gap(&at)).max(0.0))).sum()
+    }
+
+    #[test]
+    fn both_sides_of_a_sharp_groove_push_and_of_a_shallow_one_the_nearest() {
+        let (sharp, shallow) = (50f64.to_radians(), 10f64.to_radians());
+        // 5 mm over the bottom, on one side of the middle and on the other: no jolt between.
+        let [left, right] = [-1e-8, 1e-8].map(|x| pushed_in_groove(sharp, x, 5e-3));
+        assert!((left - right).norm() < 1e-4 * left.norm(), "{left:?} {right:?}");
+        // As far from either side as it is from the bottom along their normals.
+        assert_relative_eq!(left.z, 2.0 * (0.01 - 5e-3 * sharp.cos()) * sharp.cos(), epsilon = 1e-6);
+        assert_relative_eq!(left.x, 0.0, epsilon = 1e-6);
+        let one = pushed_in_groove(shallow, 1e-8, 5e-3);
+        assert_relative_eq!(one.norm(), 0.01 - 5e-3 * shallow.cos(), epsilon = 1e-6);
+    }
+
     #[test]
     fn cloth_beside_a_blade_is_not_pushed_through_it() {
         // A blade 20° sharp with its edge along z on top.
@@ -475,7 +537,8 @@ mod tests {
     fn a_face_of_a_hollow_bars_the_way_through_it_and_not_past_it() {
         let corners = [Vec3::new(0.0, 0.0, -1.0), Vec3::new(0.0, 0.0, 1.0), Vec3::new(-1.0, 0.0, 0.0)];
         let mut x = [Vec3::new(-0.02, 0.01, 0.0)];
-        let mut face = Contact::on_feature([0; 4], 1, Under::Face { corners }, Vec3::y(), &x).expect("apart");
+        let mut face = Contact::on_feature([0; 4], 1, Under::Face { number: 0, corners, push: 0.0 }, Vec3::y(), &x)
+            .expect("apart");
         let bounds = Bounds::new(&x, 1.0, 1e-3);
         let mut through = [Vec3::new(-0.2, -0.01, 0.0)];
         bounds.clamp(&[&face], &x, &mut through);
@@ -513,8 +576,11 @@ mod tests {
         assert_relative_eq!(nearest.normal, Vec3::z(), epsilon = 1e-9);
         let mut found = Vec::new();
         body.faces_of_hollow(&x, 0, &nearest, 0.4, &mut found);
-        let beyond = |c: &Contact| matches!(c.under, Under::Face { corners } if corners.iter().any(|p| p.x > 0.05));
+        let beyond = |c: &Contact| matches!(c.under, Under::Face { corners, .. } if corners.iter().any(|p| p.x > 0.05));
         assert!(found.iter().any(beyond), "{found:?}");
-        assert!(found.iter().all(|c| c.gap(&x) > 0.0 && c.share == 0.0));
+        assert!(found.iter().all(|c| c.gap(&x) > 0.0));
+        // The side that the node sees pushes, the one beyond only bars the way.
+        assert!(found.iter().all(|c| if beyond(c) { c.share == 0.0 } else { c.normal.x < 0.0 }), "{found:?}");
+        assert_eq!(found.iter().filter(|c| c.share > 0.0).count(), 1, "{found:?}");
     }
 }

@@ -47,8 +47,13 @@ pub enum Under {
     Plane,
     /// A face of a hollow of the body, beside the one nearest to a node.
     Face {
+        /// Its number.
+        number: u32,
         /// Its corners.
         corners: [Vec3; 3],
+        /// The share with which it pushes, 0 … 1: in a sharp hollow beside the nearest, in a shallow one not at all
+        /// until it is the nearest.
+        push: f64,
     },
     /// A vertex of the body, under a triangle.
     Vertex {
@@ -71,7 +76,7 @@ impl Under {
     fn points(&self) -> &[Vec3] {
         match self {
             Self::Cloth | Self::Plane => &[],
-            Self::Face { corners } => corners,
+            Self::Face { corners, .. } => corners,
             Self::Vertex { at, .. } => std::slice::from_ref(at),
             Self::Edge { ends, .. } => ends,
         }
@@ -164,10 +169,11 @@ impl Contact {
                 let away = a + (b - a) * s - c - (d - c) * t;
                 ([1.0 - s, s, t - 1.0, -t], away, share_of_edges(a, b, c, d, away.norm()))
             }
-            Under::Face { corners: [p, q, r] } => {
+            Under::Face { corners: [p, q, r], push, .. } => {
                 let [k, l, m] = closest_on_triangle(at(0), p, q, r);
-                // What lies nearest pushes; the others only bar the way.
-                ([1.0, 0.0, 0.0, 0.0], at(0) - (p * k + q * l + r * m), 0.0)
+                let away = at(0) - (p * k + q * l + r * m);
+                let cosine = (q - p).cross(&(r - p)).normalize().dot(&away) / away.norm();
+                ([1.0, 0.0, 0.0, 0.0], away, push * upright(cosine))
             }
             Under::Vertex { at: p, .. } => {
                 let [k, l, m] = closest_on_triangle(p, at(0), at(1), at(2));
@@ -217,8 +223,12 @@ fn left(s: f64, long: f64, apart: f64) -> f64 {
     let inner = s.min(1.0 - s);
     let faded = ((inner + BLEND) / (2.0 * BLEND)).clamp(0.0, 1.0);
     let sine = (-inner * long / apart).clamp(0.0, 1.0);
-    let upright = ((1.0 - sine * sine).sqrt() - SIDEWAYS) / (1.0 - SIDEWAYS);
-    faded * faded * (3.0 - 2.0 * faded) * upright.max(0.0)
+    faded * faded * (3.0 - 2.0 * faded) * upright((1.0 - sine * sine).sqrt())
+}
+
+/// How much of it is left where the direction to the closest point has that cosine with the upright one.
+fn upright(cosine: f64) -> f64 {
+    ((cosine - SIDEWAYS) / (1.0 - SIDEWAYS)).max(0.0)
 }
 
 /// The same of two edges.

@@ -51,8 +51,8 @@ type Key = ([u32; 4], u8, Option<u32>);
 
 fn key(contact: &Contact) -> Key {
     let feature = match contact.under {
-        Under::Cloth | Under::Plane | Under::Face { .. } => None,
-        Under::Vertex { number, .. } | Under::Edge { number, .. } => Some(number),
+        Under::Cloth | Under::Plane => None,
+        Under::Face { number, .. } | Under::Vertex { number, .. } | Under::Edge { number, .. } => Some(number),
     };
     (contact.nodes, contact.above, feature)
 }
