@@ -205,7 +205,7 @@ pub(super) fn spread_out(row: &Row, level: &mut Level, perimeter: f64) {
         starts[i] = at;
         at += span[1] - span[0] + level.gaps[i];
     }
-    let zero = middle(row, level, &present, &starts);
+    let zero = middle(row, level, &present, &starts, perimeter);
     for &i in &present {
         if let Some(span) = level.spans[i] {
             level.shift[i] = starts[i] - zero - span[0];
@@ -213,18 +213,23 @@ pub(super) fn spread_out(row: &Row, level: &mut Level, perimeter: f64) {
     }
 }
 
-/// Packed position of the front middle (or of the row's own middle when it has no front).
-fn middle(row: &Row, level: &Level, present: &[usize], starts: &[f64]) -> f64 {
-    let span = |i: usize| level.spans[i].unwrap_or([0.0, 0.0]);
+/// Packed position of the front middle (or of the row's own middle when it has no front) on a ring of that `perimeter`.
+fn middle(row: &Row, level: &Level, present: &[usize], starts: &[f64], perimeter: f64) -> f64 {
     let Some(front) = row.front else { return 0.5 * level.length };
-    let u = match front {
-        Middle::On(u) => u,
+    match front {
+        Middle::On(u) => packed(level, present, starts, u),
+        Middle::Opposite(u) => packed(level, present, starts, u) - 0.5 * perimeter,
         Middle::LeftOf(piece) => {
             let at = present.iter().position(|&i| row.members[i].piece == piece).unwrap_or(0);
             let before = present[..at].last().or(present.last()).map_or(0.0, |&i| level.gaps[i]);
-            return present.get(at).map_or(0.0, |&i| starts[i] - 0.5 * before);
+            present.get(at).map_or(0.0, |&i| starts[i] - 0.5 * before)
         }
-    };
+    }
+}
+
+/// Packed position of `u`, on a piece or between two.
+fn packed(level: &Level, present: &[usize], starts: &[f64], u: f64) -> f64 {
+    let span = |i: usize| level.spans[i].unwrap_or([0.0, 0.0]);
     let center = |i: usize| 0.5 * (span(i)[0] + span(i)[1]);
     let over = present.iter().find(|&&i| (center(i) - u).abs() < WITHIN * (span(i)[1] - span(i)[0]));
     if let Some(&i) = over {

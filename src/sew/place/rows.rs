@@ -49,6 +49,8 @@ pub(super) enum Middle {
     On(f64),
     /// At the left side of this piece, where another one joins it.
     LeftOf(usize),
+    /// Half way round the ring from the back middle, at this u.
+    Opposite(f64),
 }
 
 /// Pieces that stand side by side round a part.
@@ -242,11 +244,8 @@ fn front_middle(assigned: &[Assigned], members: &[Member], boxes: &[[Vec2; 2]]) 
         let at = (first + count / 2) % n;
         return Some(if count % 2 == 1 { Middle::On(center(&boxes[at])) } else { Middle::LeftOf(members[at].piece) });
     }
-    let reach = |these: &[usize]| range_of(these.iter().flat_map(|&i| boxes[i]).map(|corner| corner.x));
-    let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
-    let all: Vec<usize> = (0..n).collect();
-    let [low, high] = reach(&all);
-    (!backs.is_empty()).then(|| Middle::On(middle(reach(&backs)) - 0.5 * (high - low)))
+    let [low, high] = range_of(backs.iter().flat_map(|&i| boxes[i]).map(|corner| corner.x));
+    (!backs.is_empty()).then_some(Middle::Opposite(0.5 * (low + high)))
 }
 
 /// Seams cut into links between pairs of pieces.
@@ -431,7 +430,8 @@ mod tests {
         assert_eq!(middle("f-b-b-b-f-f-"), on(10));
         assert_eq!(middle("ff"), Some(Middle::LeftOf(1)));
         assert_eq!(middle("--"), None);
-        assert!(middle("b-").is_some());
+        assert_eq!(middle("b-"), Some(Middle::Opposite(0.1)));
+        assert_eq!(middle("-bb"), Some(Middle::Opposite(0.4)));
     }
 
     #[test]
