@@ -229,7 +229,8 @@ fn seen(run: &Measured, at: &[Vec3], closures: &Closures) -> (Seen, Vec<Worn>) {
         let first = run.mesh.triangles[t as usize][0];
         run.mesh.piece_of(first).map_or("", |i| run.mesh.pieces[i].name.as_str())
     };
-    (look(&welded.surface, Some(&run.body.mesh), piece), worn_rows(run, &welded, closures))
+    let seen = look(&welded.surface, Some(&run.body.mesh), piece, |p| run.body.frame.to_file(p));
+    (seen, worn_rows(run, &welded, closures))
 }
 
 fn worn_rows(run: &Measured, welded: &Welded, closures: &Closures) -> Vec<Worn> {

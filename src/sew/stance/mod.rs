@@ -46,7 +46,7 @@ impl Stance {
         let collider = Collider::new(&mesh)?.on_floor(body.floor());
         let mut parts = body.parts.clone();
         spreads.iter().for_each(|spread| spread.apply_to_part(&mut parts));
-        let apart = Mannequin { name: body.name.clone(), mesh, parts };
+        let apart = Mannequin { name: body.name.clone(), mesh, parts, frame: body.frame };
         Some(Self { body: apart, collider, own: body.mesh.clone(), spreads })
     }
 
