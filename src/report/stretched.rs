@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use super::rim::{RimEdge, UNEVEN};
 use super::schema::Stretched;
+use super::tight::Tight;
 use crate::geometry::{Vec3, sorted_pair};
 use crate::mesh::{ClothMesh, Stitches};
 
@@ -13,26 +14,40 @@ const DRAWN_OUT: f64 = 0.03;
 /// A piece counts as stretched when this share of its rim is drawn out: a neckband is, a front with a neckline is not.
 const SHARE_OF_RIM: f64 = 0.10;
 
-/// A piece is smaller than what is under it when its warp or its weft is longer by this much on average.
+/// Wherever its rims are, a piece is smaller than what is under it when its warp or its weft is longer by this much on
+/// average.
 const OVER_BODY: f64 = 0.05;
 
 /// Why the piece with this rim had to stretch, if it had to. `extension` is its mean strain along warp and weft.
-pub(super) fn stretched(mesh: &ClothMesh, rim: &[RimEdge], extension: [f64; 2], at: &[Vec3]) -> Option<Stretched> {
-    by_seam(mesh, rim, at).or_else(|| {
-        let by = extension[0].max(extension[1]);
-        (by > OVER_BODY).then(|| Stretched { by, why: "body".into() })
-    })
+pub(super) fn stretched(
+    mesh: &ClothMesh,
+    rim: &[RimEdge],
+    extension: [f64; 2],
+    tight: &Tight,
+    at: &[Vec3],
+) -> Option<Stretched> {
+    by_seam(mesh, rim, at).or_else(|| by_body(rim, extension, tight, at))
 }
 
 fn by_seam(mesh: &ClothMesh, rim: &[RimEdge], at: &[Vec3]) -> Option<Stretched> {
-    let length: f64 = rim.iter().map(|e| e.length(at)).sum();
     let drawn_out: Vec<&RimEdge> = rim.iter().filter(|e| is_drawn_out(e, at)).collect();
-    let stretched: f64 = drawn_out.iter().map(|e| e.length(at)).sum();
-    if drawn_out.is_empty() || stretched <= SHARE_OF_RIM * length {
-        return None;
-    }
-    let flat: f64 = drawn_out.iter().map(|e| e.flat).sum();
-    Some(Stretched { by: stretched / flat - 1.0, why: format!("seam {}", longest_seam(mesh, &drawn_out)?.name) })
+    let by = lengthened(rim, &drawn_out, at)?;
+    Some(Stretched { by, why: format!("seam {}", longest_seam(mesh, &drawn_out)?.name) })
+}
+
+fn by_body(rim: &[RimEdge], extension: [f64; 2], tight: &Tight, at: &[Vec3]) -> Option<Stretched> {
+    let given: Vec<&RimEdge> = rim.iter().filter(|e| tight.holds(e)).collect();
+    let over = extension[0].max(extension[1]);
+    let by = lengthened(rim, &given, at).or((over > OVER_BODY).then_some(over))?;
+    Some(Stretched { by, why: "body".into() })
+}
+
+/// By how much a part of a rim is longer than drawn, if it is more than [`SHARE_OF_RIM`] of it.
+fn lengthened(rim: &[RimEdge], part: &[&RimEdge], at: &[Vec3]) -> Option<f64> {
+    let length: f64 = rim.iter().map(|e| e.length(at)).sum();
+    let stretched: f64 = part.iter().map(|e| e.length(at)).sum();
+    let flat: f64 = part.iter().map(|e| e.flat).sum();
+    (stretched > SHARE_OF_RIM * length).then(|| stretched / flat - 1.0)
 }
 
 /// Whether the edge is the shorter partner of an uneven seam and gave way.
