@@ -9,7 +9,7 @@ use crate::io::body::BodyError;
 use crate::io::garment::Refused;
 use crate::io::obj_read::ObjError;
 use crate::io::pattern_svg::PatternSvgError;
-use crate::mannequin::Mannequin;
+use crate::mannequin::{Mannequin, PartKind};
 use crate::mesh::MeshError;
 use crate::picture::PictureError;
 use crate::sew::SewError;
@@ -91,6 +91,26 @@ pub enum PipelineError {
         /// What is wrong with it.
         why: String,
     },
+    /// A seam cannot close round what is between its edges.
+    #[error(
+        "{}: seam '{seam}' is still open by {gap_mm:.1} mm: the {} is between its two edges{}; take a body {}, or make \
+         '{}' and '{}' less wide, so that they start beside it and not round it",
+        file.display(), limb.name(), hung(opening.as_deref()), apart(*limb), pieces[0], pieces[1]
+    )]
+    Caught {
+        /// The garment file.
+        file: PathBuf,
+        /// The seam.
+        seam: String,
+        /// Its widest gap, mm.
+        gap_mm: f64,
+        /// The arm or leg.
+        limb: PartKind,
+        /// The opening at the end of the seam that is nearer to the hand or foot.
+        opening: Option<String>,
+        /// What the seam joins.
+        pieces: [String; 2],
+    },
     /// Sewing failed.
     #[error(transparent)]
     Sew(SewError),
@@ -126,7 +146,13 @@ impl PipelineError {
             | Self::NoDisk { .. }
             | Self::Cut { .. } => true,
             Self::Surface { source, .. } => !is_breakdown(source),
-            Self::Sew(_) | Self::Drape(_) | Self::Flatten(_) | Self::Svg(_) | Self::Picture(_) | Self::Json(_) => false,
+            Self::Caught { .. }
+            | Self::Sew(_)
+            | Self::Drape(_)
+            | Self::Flatten(_)
+            | Self::Svg(_)
+            | Self::Picture(_)
+            | Self::Json(_) => false,
         }
     }
 
@@ -135,7 +161,8 @@ impl PipelineError {
         self.is_input()
             || matches!(
                 self,
-                Self::Sew(SewError::InsideBody { .. } | SewError::UnderFloor { .. } | SewError::Open { .. })
+                Self::Caught { .. }
+                    | Self::Sew(SewError::InsideBody { .. } | SewError::UnderFloor { .. } | SewError::Open { .. })
             )
     }
 
@@ -148,6 +175,20 @@ impl PipelineError {
             }
             other => Self::Sew(other),
         }
+    }
+}
+
+/// What hangs on the hand or foot.
+fn hung(opening: Option<&str>) -> String {
+    opening.map_or_else(String::new, |opening| format!(", and the opening '{opening}' hangs on it"))
+}
+
+/// How a body stands with room round a limb.
+fn apart(limb: PartKind) -> &'static str {
+    if limb.is_leg() {
+        "with its legs further apart (--body)"
+    } else {
+        "with its arms further from the trunk (--body; `abduction` in a mannequin's file)"
     }
 }
 
