@@ -1,11 +1,11 @@
 //! A seam that cannot close because an arm or a leg is between its edges.
 
 use std::collections::HashSet;
+use std::path::PathBuf;
 
-use super::error::PipelineError;
 use super::job::Job;
 use crate::geometry::{Vec3, pierces};
-use crate::mannequin::BodyPart;
+use crate::mannequin::{BodyPart, PartKind};
 use crate::mesh::Stitches;
 use crate::report::opening_names;
 use crate::sew::SewError;
@@ -13,9 +13,45 @@ use crate::sew::SewError;
 /// A hand or a foot reaches so far beyond its limb's last section, metres.
 const BEYOND: f64 = 0.2;
 
+/// A seam that stayed open round an arm or a leg.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "{}: seam '{seam}' is still open by {gap_mm:.1} mm: the {} is between its two edges{}; take a body {}, or make \
+     '{}' and '{}' less wide, so that they start beside it and not round it",
+    file.display(), limb.name(), hung(opening.as_deref()), apart(*limb), pieces[0], pieces[1]
+)]
+pub struct Caught {
+    /// The garment file.
+    pub file: PathBuf,
+    /// The seam.
+    pub seam: String,
+    /// Its widest gap, mm.
+    pub gap_mm: f64,
+    /// The arm or leg.
+    pub limb: PartKind,
+    /// The opening at the end of the seam that is nearer to the hand or foot.
+    pub opening: Option<String>,
+    /// What the seam joins.
+    pub pieces: [String; 2],
+}
+
+/// What hangs on the hand or foot.
+fn hung(opening: Option<&str>) -> String {
+    opening.map_or_else(String::new, |opening| format!(", and the opening '{opening}' hangs on it"))
+}
+
+/// How a body stands with room round a limb.
+fn apart(limb: PartKind) -> &'static str {
+    if limb.is_leg() {
+        "with its legs further apart (--body)"
+    } else {
+        "with its arms further from the trunk (--body; `abduction` in a mannequin's file)"
+    }
+}
+
 impl Job {
     /// What is in the way of a seam that stayed open with the particles at `at`, if a limb is.
-    pub(super) fn caught(&self, error: &SewError, at: &[Vec3]) -> Option<PipelineError> {
+    pub(super) fn caught(&self, error: &SewError, at: &[Vec3]) -> Option<Caught> {
         let SewError::Open { seam, gap_mm, piece_a, piece_b, .. } = error else { return None };
         let stitches = self.mesh.seams.iter().find(|s| s.name == *seam)?;
         // Where limbs were held apart they still are.
@@ -23,7 +59,7 @@ impl Job {
         let limbs = body.parts.iter().filter(|part| part.kind.is_arm() || part.kind.is_leg());
         let (limb, line) = limbs.map(|part| (part, line(part))).find(|(_, line)| is_between(stitches, at, line))?;
         let tip = *line.last()?;
-        Some(PipelineError::Caught {
+        Some(Caught {
             file: self.file.clone(),
             seam: seam.clone(),
             gap_mm: *gap_mm,

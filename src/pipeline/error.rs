@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::caught::Caught;
 use crate::drape::DrapeError;
 use crate::fabric::FabricError;
 use crate::flatten::FlattenError;
@@ -9,7 +10,7 @@ use crate::io::body::BodyError;
 use crate::io::garment::Refused;
 use crate::io::obj_read::ObjError;
 use crate::io::pattern_svg::PatternSvgError;
-use crate::mannequin::{Mannequin, PartKind};
+use crate::mannequin::Mannequin;
 use crate::mesh::MeshError;
 use crate::picture::PictureError;
 use crate::sew::SewError;
@@ -92,25 +93,8 @@ pub enum PipelineError {
         why: String,
     },
     /// A seam cannot close round what is between its edges.
-    #[error(
-        "{}: seam '{seam}' is still open by {gap_mm:.1} mm: the {} is between its two edges{}; take a body {}, or make \
-         '{}' and '{}' less wide, so that they start beside it and not round it",
-        file.display(), limb.name(), hung(opening.as_deref()), apart(*limb), pieces[0], pieces[1]
-    )]
-    Caught {
-        /// The garment file.
-        file: PathBuf,
-        /// The seam.
-        seam: String,
-        /// Its widest gap, mm.
-        gap_mm: f64,
-        /// The arm or leg.
-        limb: PartKind,
-        /// The opening at the end of the seam that is nearer to the hand or foot.
-        opening: Option<String>,
-        /// What the seam joins.
-        pieces: [String; 2],
-    },
+    #[error(transparent)]
+    Caught(Box<Caught>),
     /// Sewing failed.
     #[error(transparent)]
     Sew(SewError),
@@ -146,7 +130,7 @@ impl PipelineError {
             | Self::NoDisk { .. }
             | Self::Cut { .. } => true,
             Self::Surface { source, .. } => !is_breakdown(source),
-            Self::Caught { .. }
+            Self::Caught(_)
             | Self::Sew(_)
             | Self::Drape(_)
             | Self::Flatten(_)
@@ -161,7 +145,7 @@ impl PipelineError {
         self.is_input()
             || matches!(
                 self,
-                Self::Caught { .. }
+                Self::Caught(_)
                     | Self::Sew(SewError::InsideBody { .. } | SewError::UnderFloor { .. } | SewError::Open { .. })
             )
     }
@@ -175,20 +159,6 @@ impl PipelineError {
             }
             other => Self::Sew(other),
         }
-    }
-}
-
-/// What hangs on the hand or foot.
-fn hung(opening: Option<&str>) -> String {
-    opening.map_or_else(String::new, |opening| format!(", and the opening '{opening}' hangs on it"))
-}
-
-/// How a body stands with room round a limb.
-fn apart(limb: PartKind) -> &'static str {
-    if limb.is_leg() {
-        "with its legs further apart (--body)"
-    } else {
-        "with its arms further from the trunk (--body; `abduction` in a mannequin's file)"
     }
 }
 

@@ -24,6 +24,7 @@ mod surface;
 
 use crate::report::AtRest;
 pub use crate::sew::SewError;
+pub use caught::Caught;
 pub use cloth::piece_area;
 pub use error::PipelineError;
 pub use job::{Job, Overrides, read};

@@ -84,8 +84,8 @@ impl<'a> Run<'a> {
         self.sewn = Some(sewn.open.unwrap_or_else(|| sewn.stitching.spread(&sewn.nodes)));
         self.stitching = sewn.stitching;
         // The state is kept first: a garment that did not close is worth a look.
-        let caught = |e: &SewError| job.caught(e, self.sewn.as_deref().unwrap_or_default());
-        closed.map_err(|e| caught(&e).unwrap_or_else(|| failed(e)))
+        let caught = |e: &SewError| job.caught(e, self.sewn.as_deref().unwrap_or_default()).map(Box::new);
+        closed.map_err(|e| caught(&e).map_or_else(|| failed(e), PipelineError::Caught))
     }
 
     /// Lets the sewn garment fall to rest; sews it first if that has not been done.
