@@ -1,5 +1,5 @@
-//! The house keeps its shape: modules use only what they may, each foreign crate lives in one place, and no file lies
-//! about that no module declares.
+//! The house keeps its shape: modules use only what they may, each foreign crate lives in one place, no file lies about
+//! that no module declares, and lines are of one width.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -145,6 +145,23 @@ fn every_source_file_is_a_module_of_its_parent() {
     assert!(stray.is_empty(), "no module declares {}", stray.join(", "));
 }
 
+/// The formatter breaks no comment and no text in quotes.
+#[test]
+fn no_line_is_wider_than_the_formatter_makes_them() {
+    let said = include_str!("../rustfmt.toml").lines().find_map(|line| line.strip_prefix("max_width = "));
+    let width: usize = said.and_then(|number| number.parse().ok()).expect("rustfmt.toml says how wide lines are");
+    let mut wide = Vec::new();
+    for folder in ["src", "tests", "examples", "benches"] {
+        let files = rust_files(folder);
+        assert!(!files.is_empty(), "{folder} was not found");
+        for (file, text) in files {
+            let lines = text.lines().zip(1..).filter(|(line, _)| line.chars().count() > width);
+            wide.extend(lines.map(|(_, n)| format!("{folder}/{}:{n}", file.display())));
+        }
+    }
+    assert!(wide.is_empty(), "more than {width} characters: {}", wide.join(", "));
+}
+
 /// Whether the file that stands for the folder of `file` declares it: the compiler passes over what nobody declares,
 /// and so do the linter and every test.
 fn is_declared(file: &Path, files: &[(PathBuf, String)]) -> bool {
@@ -174,7 +191,18 @@ fn heads(folder: &Path) -> Vec<PathBuf> {
 
 /// Every Rust file below `src`, its path from there and its text without comments.
 fn sources() -> Vec<(PathBuf, String)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let bare = |(file, text): (PathBuf, String)| {
+        let code: Vec<&str> = text.lines().map(|l| l.split("//").next().unwrap_or("")).collect();
+        (file, code.join("\n"))
+    };
+    let files: Vec<_> = rust_files("src").into_iter().map(bare).collect();
+    assert!(files.len() > 50, "the sources were not found");
+    files
+}
+
+/// Every Rust file below a folder of the house, its path from there and its text.
+fn rust_files(folder: &str) -> Vec<(PathBuf, String)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
     let mut files = Vec::new();
     let mut open = vec![root.clone()];
     while let Some(folder) = open.pop() {
@@ -184,12 +212,10 @@ fn sources() -> Vec<(PathBuf, String)> {
                 open.push(path);
             } else if path.extension().is_some_and(|e| e == "rs") {
                 let text = fs::read_to_string(&path).expect("a text");
-                let code: Vec<&str> = text.lines().map(|l| l.split("//").next().unwrap_or("")).collect();
-                files.push((path.strip_prefix(&root).expect("below src").to_owned(), code.join("\n")));
+                files.push((path.strip_prefix(&root).expect("below the folder").to_owned(), text));
             }
         }
     }
-    assert!(files.len() > 50, "the sources were not found");
     files
 }
 

@@ -1,11 +1,13 @@
 //! Bodies of one's own, read from OBJ.
 
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use toile::geometry::Vec3;
 use toile::io::body::{Body, BodyError, body, mannequin_obj, read_body};
 use toile::io::obj_read::{ObjSurface, parse_obj};
 use toile::mannequin::{BodyFault, Mannequin, MannequinSpec, PartKind, load};
+use toile::pipeline::{self, Color, Job, Overrides, Run, SEWN_OBJ, judge};
 
 fn child() -> ObjSurface {
     parse_obj(&mannequin_obj(&load("child_110").expect("child")), "child.obj").expect("our own OBJ")
@@ -61,8 +63,69 @@ fn units_and_axes_are_guessed_and_said() {
     }
     let found = read(turned(|p| Vec3::new(p.x, -p.z, p.y + 500.0))).expect("z up");
     assert!(found.notes.iter().any(|n| n.contains("z is the tall axis")));
-    assert!(found.notes.iter().any(|n| n.starts_with("lowered by 500.1 mm")), "{:?}", found.notes);
+    assert!(found.notes.iter().any(|n| n.contains("feet are at y = 500.1 mm")), "{:?}", found.notes);
     assert!(mark(&found.mannequin, PartKind::LeftArm, "wrist").x > 0.2);
+}
+
+/// The child with something to tell its front by: toes, 15 mm high and 160 mm long.
+fn with_toes() -> ObjSurface {
+    let mut surface = child();
+    add_corner(&mut surface, Vec3::new(40.0, 15.0, 160.0), Vec3::new(-20.0, 0.1, 0.0));
+    surface
+}
+
+/// Adds the corner of a box of this size at `at`.
+fn add_corner(surface: &mut ObjSurface, size: Vec3, at: Vec3) {
+    let first = surface.vertices.len() as u32;
+    let corners = [Vec3::zeros(), Vec3::x(), Vec3::y(), Vec3::z()];
+    surface.vertices.extend(corners.map(|p| p.component_mul(&size) + at));
+    surface.triangles.extend([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]].map(|t| t.map(|v| v + first)));
+}
+
+/// The same with its back to us and 300 mm further down.
+fn elsewhere() -> ObjSurface {
+    let mut surface = with_toes();
+    surface.vertices.iter_mut().for_each(|p| *p = Vec3::new(-p.x, p.y - 300.0, -p.z));
+    surface
+}
+
+#[test]
+fn a_body_that_stands_elsewhere_is_the_same_and_leads_back_to_its_file() {
+    let (surface, plain) = (elsewhere(), read(with_toes()).expect("a body").mannequin);
+    let Body { mannequin: found, notes } = read(surface.clone()).expect("a body");
+    assert!(notes.iter().any(|n| n.contains("toes point to -z")), "{notes:?}");
+    for (k, p) in found.mesh.vertices.iter().enumerate() {
+        assert!((p - plain.mesh.vertices[k]).norm() < 1e-9, "{p:?}");
+        let written = found.frame.to_file(*p);
+        assert!((1e3 * written - surface.vertices[k]).norm() < 1e-6, "{written:?}");
+        assert!((found.frame.from_file(written) - p).norm() < 1e-12);
+    }
+}
+
+#[test]
+fn what_is_sewn_on_a_body_that_stands_elsewhere_is_written_where_its_file_has_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let body = folder.path().join("elsewhere.obj");
+    let Body { mut mannequin, .. } = read(with_toes()).expect("a body");
+    mannequin.mesh.vertices = elsewhere().vertices.iter().map(|p| p / 1e3).collect();
+    fs::write(&body, mannequin_obj(&mannequin)).expect("the body");
+    let garment = Path::new(env!("CARGO_MANIFEST_DIR")).join("patterns/child_dress.yaml");
+    let named = body.to_str().map(str::to_owned);
+    let overrides = Overrides { spacing: Some(0.03), body: named.clone(), ..Overrides::default() };
+    let job = Job::new(&garment, pipeline::read(&garment).expect("a garment"), &overrides).expect("a job");
+    let mut run = Run::new(&job);
+    run.sew(&mut |_, _| {}).expect("sewn");
+    let files = run.results(&run.report(), Color::Piece).expect("files");
+    let sewn = folder.path().join(SEWN_OBJ);
+    fs::write(&sewn, &files.iter().find(|f| f.0 == SEWN_OBJ).expect("a sewn garment").1).expect("the garment");
+
+    let judged = judge(&sewn, named.as_deref(), 1e-3).expect("two surfaces");
+    assert_eq!((judged.notes.len(), judged.seen.contact.cloth_body_intersections), (0, 0), "{:?}", judged.notes);
+    let mut again = Run::new(&job);
+    again.resume_sewn(&sewn).expect("the same garment");
+    let [first, second] = [&run, &again].map(|run| run.last().expect("sewn"));
+    // OBJ coordinates have six decimals of a millimetre.
+    assert!(first.iter().zip(second).all(|(a, b)| (a - b).norm() < 2e-9));
 }
 
 #[test]
@@ -113,10 +176,7 @@ fn duplicate_vertices_are_merged() {
 #[test]
 fn parts_that_do_not_touch_are_said() {
     let mut surface = child();
-    let first = surface.vertices.len() as u32;
-    let corners = [Vec3::zeros(), Vec3::x(), Vec3::y(), Vec3::z()];
-    surface.vertices.extend(corners.map(|p| p * 50.0 + Vec3::new(0.0, 500.0, 500.0)));
-    surface.triangles.extend([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]].map(|t| t.map(|v| v + first)));
+    add_corner(&mut surface, Vec3::repeat(50.0), Vec3::new(0.0, 500.0, 500.0));
     let found = read(surface).expect("a body and a pebble");
     assert!(found.notes.iter().any(|n| n.contains("2 parts that do not touch")), "{:?}", found.notes);
 }

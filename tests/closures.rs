@@ -64,7 +64,7 @@ fn worn(garment: &Garment, apart: f64, bulge: f64) -> Report {
     mesh.seams.iter().flat_map(|s| &s.pairs).for_each(|&[a, b]| weld[b as usize] = a);
     let radius = (0.2 + apart) / std::f64::consts::TAU;
     let at: Vec<Vec3> = (0..mesh.flat.len()).map(|p| bent(&mesh, p, radius, apart, bulge)).collect();
-    let body = Mannequin { name: "nobody".into(), mesh: Default::default(), parts: vec![] };
+    let body = Mannequin { name: "nobody".into(), mesh: Default::default(), parts: vec![], frame: Default::default() };
     measure(&Measured {
         garment,
         mesh: &mesh,

@@ -99,3 +99,18 @@ fn a_body_without_the_part_says_which_it_has_and_how_positions_count() {
     let said = refused(&job);
     assert!(said.ends_with("it has neck, left arm, right arm, left leg, right leg"), "{said}");
 }
+
+/// Front and back are so wide that they start round the arms as well as round the hips.
+#[test]
+fn a_seam_with_an_arm_between_its_edges_says_so_and_what_hangs_on_the_hand() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/full_skirt.yaml");
+    let overrides = Overrides { spacing: Some(0.025), ..Overrides::default() };
+    let job = Job::new(&file, read(&file).expect("a skirt"), &overrides).expect("a job");
+    let error = Run::new(&job).sew(&mut |_, _| {}).expect_err("an arm is in the way");
+    assert!(!error.is_input() && error.has_remedy());
+    let said = error.to_string();
+    let side = if said.contains("seam 'right'") { "right arm" } else { "left arm" };
+    for words in [side, "is between its two edges", "the opening 'hem' hangs on it", "arms further from the trunk"] {
+        assert!(said.contains(words), "{said}");
+    }
+}

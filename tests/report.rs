@@ -77,7 +77,7 @@ fn fixture(second_height: f64) -> Fixture {
         closures: vec![],
         tests: vec![],
     };
-    let body = Mannequin { name: "nobody".into(), mesh: Default::default(), parts: vec![] };
+    let body = Mannequin { name: "nobody".into(), mesh: Default::default(), parts: vec![], frame: Default::default() };
     Fixture { mesh, weld, garment, body }
 }
 

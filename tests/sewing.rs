@@ -477,7 +477,8 @@ fn open_shirt(closures: &str) -> Made {
          neck: 'C 40 20, 65 15, 75 0', shoulder: L 195 40, armhole: 'C 180 120, 190 180, 250 200', side: L 255 620, \
          hem: L 0 620, center: L 0 20}}\n  front:\n    cut: pair\n    drawn: L\n    grain: [[60, 100], [60, 400]]\n    \
          place: torso front\n    outline: {{start: -20 70, neck: 'C 35 70, 70 40, 75 0', shoulder: L 195 40, \
-         armhole: 'C 170 120, 185 180, 250 200', side: L 255 620, hem: L -20 620, edge: L -20 70}}\n{closures}seams:\n  \
+         armhole: 'C 170 120, 185 180, 250 200', side: L 255 620, hem: L -20 620, edge: L -20 70}}\n\
+         {closures}seams:\n  \
          shoulder_l: {{sew: front.L.shoulder, to: back.shoulder.L}}\n  \
          shoulder_r: {{sew: front.R.shoulder, to: back.shoulder.R}}\n  \
          side_l: {{sew: front.L.side, to: back.side.L}}\n  side_r: {{sew: front.R.side, to: back.side.R}}\n\
@@ -532,8 +533,8 @@ fn godets(half: f64) -> Made {
          a1: L 450 350, a2: L 340 600, h2: L 260 600, b1: L 150 350, b2: L 40 600, h3: L 0 600, right: L 0 0}}\n  \
          back: {{place: skirt back, grain: [[300, 50], [300, 250]], outline: {{start: 0 0, waist: L 600 0, \
          right: L 600 600, hem: L 0 600, left: L 0 0}}}}\n  \
-         one: {{place: skirt front, grain: [[{half}, 50], [{half}, {height}]], outline: {{start: 0 {height}, l: L {half} 0, \
-         r: L {wide} {height}, hem: L 0 {height}}}}}\n  two: {{like: one}}\nseams:\n  \
+         one: {{place: skirt front, grain: [[{half}, 50], [{half}, {height}]], outline: {{start: 0 {height}, \
+         l: L {half} 0, r: L {wide} {height}, hem: L 0 {height}}}}}\n  two: {{like: one}}\nseams:\n  \
          left: {{sew: front.left, to: back.left}}\n  \
          right: {{sew: front.right, to: back.right}}\n  one: {{sew: [one.l, one.r], to: [front.a2, front.a1]}}\n  \
          two_l: {{sew: two.l, to: front.b2}}\n  \
@@ -562,8 +563,8 @@ fn godets_start_in_their_slits() {
     assert!(widest < 25.0, "{widest} mm");
 }
 
-/// Godets 400 mm wide overlap where their slits are 300 mm apart, and reach beyond the front. Lying flat one over the other
-/// they are up to 90 mm from their slits.
+/// Godets 400 mm wide overlap where their slits are 300 mm apart, and reach beyond the front. Lying flat one over the
+/// other they are up to 90 mm from their slits.
 #[test]
 fn wide_godets_start_folded_out_of_their_slits() {
     let made = godets(200.0);

@@ -72,6 +72,14 @@ pub enum Under {
 }
 
 impl Under {
+    /// The number of the body's face, vertex or edge.
+    pub(crate) fn number(&self) -> Option<u32> {
+        match self {
+            Self::Cloth | Self::Plane => None,
+            Self::Face { number, .. } | Self::Vertex { number, .. } | Self::Edge { number, .. } => Some(*number),
+        }
+    }
+
     /// The corners of the body's feature.
     fn points(&self) -> &[Vec3] {
         match self {

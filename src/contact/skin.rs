@@ -22,6 +22,12 @@ impl Skin {
         let (projection, _) = self.0.project_local_point_and_get_location_with_max_dist(p, false, reach)?;
         Some((Vec3::from(projection.point) - Vec3::from(p)).norm())
     }
+
+    /// The corners of the triangle that is nearest to `p`.
+    pub fn nearest(&self, p: Vec3) -> [u32; 3] {
+        let (_, (triangle, _)) = self.0.project_local_point_and_get_location(Vector::from(p), false);
+        self.0.indices()[triangle as usize]
+    }
 }
 
 #[cfg(test)]
@@ -37,5 +43,15 @@ mod tests {
         }
         assert!(skin.distance(Vec3::z() * 2.0, 1.0).is_none());
         assert!(Skin::new(&[Vec3::zeros()], Vec::new()).is_none());
+    }
+
+    #[test]
+    fn the_nearest_is_a_triangle_and_not_the_one_with_the_nearest_corner() {
+        let wide = [[-9.0, -9.0], [9.0, -9.0], [0.0, 9.0]].map(|[x, y]| Vec3::new(x, y, 0.0));
+        let small = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|[x, y]| Vec3::new(x, y, -1.0));
+        let vertices = [wide, small].concat();
+        let skin = Skin::new(&vertices, vec![[3, 4, 5], [0, 1, 2]]).expect("two triangles");
+        assert_eq!(skin.nearest(Vec3::new(0.1, 0.1, 0.1)), [0, 1, 2]);
+        assert_eq!(skin.nearest(Vec3::new(0.1, 0.1, -0.9)), [3, 4, 5]);
     }
 }

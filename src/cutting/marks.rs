@@ -53,8 +53,8 @@ pub(super) fn notches(drawing: &Drawing, width: impl Fn(usize, usize) -> f64) ->
     marks
 }
 
-/// The file's grain arrow, or one through the middle of the piece; on the cloth within the `cut` lines, wherever the file
-/// has drawn it.
+/// The file's grain arrow, or one through the middle of the piece; on the cloth within the `cut` lines, wherever the
+/// file has drawn it.
 pub(super) fn grain(drawing: &Drawing, cut: &[Vec<Vec2>]) -> [Vec2; 2] {
     Room { contours: cut.to_vec(), walls: Vec::new() }.arrow(grain_as_drawn(drawing))
 }

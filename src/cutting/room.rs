@@ -87,8 +87,8 @@ impl Room {
         self.holds(middle) && self.walls.iter().all(|w| distance(scaled(middle), w.map(scaled)) >= 0.5)
     }
 
-    /// An arrow as it is where it lies on the cloth, and else one of the same direction on the cloth: as long as there is
-    /// room for, and as near as that allows.
+    /// An arrow as it is where it lies on the cloth, and else one of the same direction on the cloth: as long as there
+    /// is room for, and as near as that allows.
     pub fn arrow(&self, [tail, head]: [Vec2; 2]) -> [Vec2; 2] {
         let look = |k: usize| tail + (head - tail) * (k as f64 / LOOKS as f64);
         let Some(along) = (head - tail).try_normalize(0.0).filter(|_| !(0..=LOOKS).all(|k| self.holds(look(k)))) else {
@@ -139,7 +139,8 @@ pub fn foot(height: f64, upright: bool) -> Vec2 {
 /// Half the side of the largest square round `p` that a segment does not enter.
 fn distance(p: Vec2, [a, b]: [Vec2; 2]) -> f64 {
     let (from, along) = (a - p, b - a);
-    // Along the segment |x| and |y| are straight between their zeros, and the greater of them between where they are equal.
+    // Along the segment |x| and |y| are straight between their zeros, and the greater of them between where they are
+    // equal.
     let turning = [(1.0, 0.0), (0.0, 1.0), (1.0, -1.0), (1.0, 1.0)].map(|(x, y)| {
         let slope = x * along.x + y * along.y;
         if slope == 0.0 { 0.0 } else { (-(x * from.x + y * from.y) / slope).clamp(0.0, 1.0) }

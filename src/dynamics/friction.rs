@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::contact::{Contact, Under};
+use crate::contact::Contact;
 use crate::geometry::{Mat3, Vec3};
 
 /// How far every contact has been dragged across its normal: it holds like a spring, up to μ times its load; beyond
@@ -50,11 +50,7 @@ struct Memory {
 type Key = ([u32; 4], u8, Option<u32>);
 
 fn key(contact: &Contact) -> Key {
-    let feature = match contact.under {
-        Under::Cloth | Under::Plane => None,
-        Under::Face { number, .. } | Under::Vertex { number, .. } | Under::Edge { number, .. } => Some(number),
-    };
-    (contact.nodes, contact.above, feature)
+    (contact.nodes, contact.above, contact.under.number())
 }
 
 /// The friction of one contact in one step, as far as a step's linear model knows it.
@@ -218,6 +214,7 @@ fn coefficient(contact: &Contact, mu: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::Under;
     use approx::assert_relative_eq;
 
     #[test]

@@ -229,7 +229,8 @@ impl<'a> Proximity<'a> {
             begin.push(contacts.len() as u32);
             match found {
                 Some((found, hidden)) => {
-                    contacts.extend(found);
+                    let kept = if hidden { self.kept(k, &found, x) } else { Vec::new() };
+                    contacts.extend(found.into_iter().chain(kept));
                     self.searched.hidden[k] = hidden;
                 }
                 None => {
@@ -247,6 +248,24 @@ impl<'a> Proximity<'a> {
     /// What was found at triangle `k`, or at the edge that comes so long after the last of them.
     fn found_at(&self, k: usize) -> &[Contact] {
         &self.contacts[self.searched.begin[k] as usize..self.searched.begin[k + 1] as usize]
+    }
+
+    /// Contacts that were found before at triangle or edge `k`, as [`Self::found_at`] counts, and not now, and are still
+    /// apart. Which of two features hides the other may depend on the last micrometre: one that was left out as soon as
+    /// it had pushed the cloth a little off, and found again without it, never let it rest.
+    fn kept(&self, k: usize, found: &[Contact], x: &[Vec3]) -> Vec<Contact> {
+        if self.searched.begin.is_empty() {
+            return Vec::new();
+        }
+        let first = self.searched.begin[k] as usize;
+        let turned = |(i, contact): (usize, &Contact)| {
+            let mut contact = *contact;
+            self.near.turn(first + i, &mut contact, x);
+            contact
+        };
+        let again = |c: &Contact| found.iter().any(|f| f.under.number() == c.under.number());
+        let apart = |c: &Contact| (0.0..self.searched.reach).contains(&c.gap(x));
+        self.found_at(k).iter().enumerate().map(turned).filter(|c| apart(c) && !again(c)).collect()
     }
 
     /// Which nodes have gone too far for what was found at them to hold;

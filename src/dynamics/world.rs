@@ -46,6 +46,14 @@ struct Descent {
     share: f64,
 }
 
+/// A way that was gone.
+struct Way {
+    /// The share of it that there was room for.
+    share: f64,
+    /// Largest motion, metres.
+    moved: f64,
+}
+
 /// A garment in motion.
 pub struct World<'a> {
     /// The cloth.
@@ -132,10 +140,7 @@ impl<'a> World<'a> {
         let inertia: Vec<Vec3> = self.velocity.iter().map(|v| v * keep).collect();
         let forces = forces(self.gravity, &self.proximity, self.law, pulls, self.friction.as_ref());
         let d = self.stepper.solve(&self.cloth, &self.x, &inertia, dt, &forces, 1)?;
-        let share = self.proximity.bounds.share(&self.x, &d);
-        let target: Vec<Vec3> = self.x.iter().zip(&d).map(|(x, d)| x + d * share).collect();
-        let target = self.clamped(&target);
-        self.move_to(target, dt, true)
+        Ok(self.go(&d, dt)?.moved)
     }
 
     /// A step without inertia from an extrapolated position, a share of the last motion, which came from `last`, on. It
@@ -317,15 +322,20 @@ impl<'a> World<'a> {
     pub fn carry(&mut self, target: &[Vec3]) -> Result<(), StepError> {
         for _ in 0..CARRIES {
             let way: Vec<Vec3> = target.iter().zip(&self.x).map(|(to, x)| to - x).collect();
-            let share = self.proximity.bounds.share(&self.x, &way);
-            let to: Vec<Vec3> = self.x.iter().zip(&way).map(|(x, way)| x + way * share).collect();
-            let to = self.clamped(&to);
-            self.move_to(to, FALL, true)?;
-            if share == 1.0 {
+            if self.go(&way, FALL)?.share == 1.0 {
                 break;
             }
         }
         Ok(())
+    }
+
+    /// Goes the share of the way `d` (a motion per node) that no two things are too near each other for, in `dt`
+    /// seconds, and of that what the bounds allow.
+    fn go(&mut self, d: &[Vec3], dt: f64) -> Result<Way, StepError> {
+        let share = self.proximity.bounds.share(&self.x, d);
+        let target: Vec<Vec3> = self.x.iter().zip(d).map(|(x, d)| x + d * share).collect();
+        let target = self.clamped(&target);
+        Ok(Way { share, moved: self.move_to(target, dt, true)? })
     }
 
     /// Looks for contacts anew. Between detections a node slides on the plane where it met the body; on a curved body

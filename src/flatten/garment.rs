@@ -185,9 +185,7 @@ fn let_out(sheet: &mut Sheet<'_>, cloth: &ClothMesh, piece: &PieceMesh, gathered
         element.area *= SOFT;
         let before = start::angles(corners.map(|v| sheet.surface.vertices[v as usize]));
         let after = start::angles(drawn.map(|p| p.push(0.0)));
-        for (k, v) in corners.into_iter().enumerate() {
-            sheet.angles[v as usize] += after[k] - before[k];
-        }
+        sheet.wider.extend((0..3).map(|k| (corners[k], after[k] - before[k])));
     }
 }
 

@@ -205,8 +205,8 @@ struct Sheet<'a> {
     elements: Vec<Element>,
     /// Wanted lengths of `topology.rim_edges()`, in that order.
     rim_targets: Vec<f64>,
-    /// Wanted sums of the triangles' angles at every vertex.
-    angles: Vec<f64>,
+    /// By how much the triangles' angles at a vertex should be wider than in the surface.
+    wider: Vec<(u32, f64)>,
     /// Direction of the warp in the flat piece (unit).
     warp: Vec2,
     /// Where on the rim the chains end of which the woven mode holds the whole lengths; `None` where it holds every
@@ -220,8 +220,7 @@ impl<'a> Sheet<'a> {
         let elements =
             surface.triangles.iter().enumerate().map(|(t, &c)| Element::new(c, surface.corners(t))).collect();
         let rim_targets = topology.rim_edges().map(|e| measure::length(surface, e.ends)).collect();
-        let angles = start::angle_sums(surface);
-        Self { surface, topology, rims, elements, rim_targets, angles, warp: -Vec2::y(), breaks: None }
+        Self { surface, topology, rims, elements, rim_targets, wider: Vec::new(), warp: -Vec2::y(), breaks: None }
     }
 
     /// Whether a mode can hold the rim's lengths.
@@ -250,10 +249,18 @@ impl<'a> Sheet<'a> {
         Energy::new(self.surface.vertices.len(), self.elements.clone(), springs, law)
     }
 
+    /// Wanted sums of the triangles' angles at every vertex.
+    fn angles(&self) -> Vec<f64> {
+        let mut sums = start::angle_sums(self.surface);
+        self.wider.iter().for_each(|(v, by)| sums[*v as usize] += by);
+        sums
+    }
+
     /// Rim edges, weighted by length: the weight of a rim does not change with the mesh. Braces over two edges each
     /// keep a rim that is longer than its surroundings want from taking the length up in kinks: they do not feel a rim
     /// that bends a little in every vertex.
     fn rim_springs(&self, stiffness: f64, corners: f64) -> Springs {
+        let angles = self.angles();
         let size = self.elements.iter().map(|e| e.area).sum::<f64>().sqrt();
         let spring = |ends, target| Spring::between(ends, target, stiffness * size * target);
         let edges = self.topology.rim_edges().map(|e| e.ends);
@@ -265,7 +272,7 @@ impl<'a> Sheet<'a> {
             for k in 0..rim.len() {
                 let [a, b, c] = [0, 1, 2].map(|i| rim[(k + i) % rim.len()]);
                 let (before, after) = (length(a, b), length(b, c));
-                let square = before * before + after * after - 2.0 * before * after * self.angles[b as usize].cos();
+                let square = before * before + after * after - 2.0 * before * after * angles[b as usize].cos();
                 // Where the rim turns back on itself there is nothing to span.
                 if a != c && square > (BRACED * (before + after)).powi(2) {
                     let brace = spring(sorted_pair([a, c]), square.sqrt());

@@ -18,8 +18,8 @@ pub type Cubic = [Vec2; 4];
 const ROUNDS: (usize, usize) = (8, 2);
 /// Weight of the distance along the tangent in the others: it only keeps the equations solvable.
 const ALONG: f64 = 1e-3;
-/// Longest handle as a share of the points' length: that of three quarters of a circle. (A straight curve run through at
-/// even speed has a third.) With longer ones a curve through few points runs back and forth on its way.
+/// Longest handle as a share of the points' length: that of three quarters of a circle. (A straight curve run through
+/// at even speed has a third.) With longer ones a curve through few points runs back and forth on its way.
 const LONGEST_HANDLE: f64 = 2.0 / 3.0;
 /// A curve through fewer points than this is told its directions at both ends: left free, it hooks aside there.
 const FREE: usize = 7;

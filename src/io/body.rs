@@ -6,10 +6,10 @@ use std::path::Path;
 
 use super::obj_read::{ObjError, ObjSurface, read_obj};
 use crate::geometry::{Topology, TriMesh, Vec3, box_of, range_of};
-use crate::mannequin::{BodyCheck, BodyFault, HEIGHTS, Mannequin, MannequinError, check_body, find_parts, load};
+use crate::mannequin::{BodyCheck, BodyFault, Frame, HEIGHTS, Mannequin, MannequinError, check_body, find_parts, load};
 
-/// A body whose lowest point is this near to y = 0, metres, stands there: it is left where the file has it.
-const STANDS: f64 = 0.01;
+/// Nobody needs to know that a body stands so little off y = 0, metres.
+const OFF: f64 = 1e-4;
 /// Vertices nearer than this are one, metres: far below a mesh's edges, far above the rounding of a file.
 const WELD: f64 = 1e-6;
 /// A body lower than this many file units is in metres, lower than the next in centimetres, else in millimetres.
@@ -27,7 +27,7 @@ const CROSSING: f64 = 0.01;
 pub struct Body {
     /// In metres, y up, feet at y = 0, facing +z; an object without parts as its file has it.
     pub mannequin: Mannequin,
-    /// One sentence each: the unit taken, turns, disconnected parts, crossings.
+    /// One sentence each: the unit taken, the stance, disconnected parts, crossings.
     pub notes: Vec<String>,
 }
 
@@ -107,8 +107,9 @@ pub fn load_body(name_or_path: &str) -> Result<Body, BodyError> {
 }
 
 /// Reads a closed OBJ in millimetres, centimetres or metres (guessed from its height and said in the notes), y up or
-/// z up. Vertices that coincide are merged where the surface is not closed otherwise. A surface in which no torso,
-/// neck, arms and legs can be found is an object without parts, as a ball or a table: it stays where the file has it.
+/// z up. Vertices that coincide are merged where the surface is not closed otherwise. A body that stands elsewhere than
+/// on y = 0, or faces −z, is moved and turned; its [`Frame`] leads back. A surface in which no torso, neck, arms and
+/// legs can be found is an object without parts, as a ball or a table: it stays where the file has it.
 ///
 /// # Errors
 /// [`BodyError`] when the file cannot be read, or the surface is open, not manifold, inside out or runs through itself
@@ -154,18 +155,27 @@ fn person(surface: &ObjSurface, name: &str, file: &str) -> Result<Body, BodyErro
         return Err(BodyError::Size { file: file.to_owned(), units: height, unit, metres: scale * height });
     }
     notes.push(format!("{unit} assumed, since the body is {height:.2} units high"));
-    let low = if (low * scale).abs() > STANDS { low } else { 0.0 };
-    if low != 0.0 {
-        let (way, far) = (if low > 0.0 { "lowered" } else { "raised" }, 1e3 * (low * scale).abs());
-        notes.push(format!("{way} by {far:.1} mm, so that its feet are at y = 0: what is made on it lies there too"));
-    }
-    for p in &mut vertices {
-        *p = Vec3::new(p.x, p.y - low, p.z) * scale;
-    }
+    vertices.iter_mut().for_each(|p| *p *= scale);
+    // Places of faults are those of the file.
     let mut mesh = checked(vertices, surface.triangles.clone(), file, &mut notes)?;
-    face_forward(&mut mesh, height * scale, &mut notes);
+    let frame = Frame { low: low * scale, backward: faces_back(&mesh, low * scale, height * scale) };
+    mesh.vertices.iter_mut().for_each(|p| *p = frame.from_file(*p));
+    notes.extend(stands(&frame));
     let parts = find_parts(&mesh).map_err(|why| shape(&why))?;
-    Ok(Body { mannequin: Mannequin { name: name.to_owned(), mesh, parts }, notes })
+    Ok(Body { mannequin: Mannequin { name: name.to_owned(), mesh, parts, frame }, notes })
+}
+
+/// What a user should know of a body that does not stand on y = 0 and face +z.
+fn stands(frame: &Frame) -> Vec<String> {
+    let mut notes = Vec::new();
+    if frame.low.abs() > OFF {
+        let low = 1e3 * frame.low;
+        notes.push(format!("its feet are at y = {low:.1} mm: a garment file counts heights from there"));
+    }
+    if frame.backward {
+        notes.push("the toes point to -z: that is its front".to_owned());
+    }
+    notes
 }
 
 /// A surface as a thing that cloth lies on or is wound round: where the file has it, without parts; `why` is what it
@@ -179,7 +189,7 @@ fn object(surface: ObjSurface, name: String, file: String, why: &str) -> Result<
     notes.push(format!("{unit} assumed, since the object is {longest:.2} units long"));
     vertices.iter_mut().for_each(|p| *p *= scale);
     let mesh = checked(vertices, surface.triangles, &file, &mut notes)?;
-    Ok(Body { mannequin: Mannequin { name, mesh, parts: Vec::new() }, notes })
+    Ok(Body { mannequin: Mannequin { name, mesh, parts: Vec::new(), frame: Frame::default() }, notes })
 }
 
 /// The closed surface that cloth can touch, with what its user should know of it.
@@ -233,7 +243,7 @@ fn stand_up(vertices: &mut [Vec3], notes: &mut Vec<String>) {
     for p in vertices {
         *p = Vec3::new(p.x, p.z, -p.y);
     }
-    notes.push("z is the tall axis: turned so that y is up".to_owned());
+    notes.push("z is the tall axis: turned so that y is up, as in what is written".to_owned());
 }
 
 /// The corners of the box round the vertices.
@@ -294,21 +304,15 @@ fn weld(vertices: &[Vec3], triangles: &[[u32; 3]]) -> TriMesh {
     mesh
 }
 
-/// Turns a body whose toes point to −z round, so that it faces +z. Feet without toes leave it as it is.
-fn face_forward(mesh: &mut TriMesh, height: f64, notes: &mut Vec<String>) {
+/// Whether the toes of a body, so high from `low` on (metres), point to −z. Feet may have none.
+fn faces_back(mesh: &TriMesh, low: f64, height: f64) -> bool {
     let middle = |from: f64, to: f64| {
-        let z = mesh.vertices.iter().filter(|p| (from * height..to * height).contains(&p.y)).map(|p| p.z);
+        let z = mesh.vertices.iter().filter(|p| (from * height..to * height).contains(&(p.y - low))).map(|p| p.z);
         let [low, high] = range_of(z);
         0.5 * (low + high)
     };
     let toes = middle(0.0, FOOT) - middle(ANKLE[0], ANKLE[1]);
-    if toes.is_nan() || toes >= -FOOT * height {
-        return;
-    }
-    for p in &mut mesh.vertices {
-        *p = Vec3::new(-p.x, p.y, -p.z);
-    }
-    notes.push("the toes point to -z: turned to face +z".to_owned());
+    toes < -FOOT * height
 }
 
 /// A mannequin as OBJ text: millimetres, y up, feet at y = 0.

@@ -8,8 +8,8 @@ use crate::geometry::{Path, Vec2, box_of};
 pub(super) const LAYERS: [u32; 5] = [layer::NOTCH, 80, 81, 82, 83];
 /// Corners of a shape are as near to the cut line, to this (metres), as its flanks are; a slit is longer.
 const FLANKS: f64 = 5e-4;
-/// A shape that stands farther from the cut line than one beside it, by this (metres), is a part of that one's notch, as
-/// the bar of a T is: no notch is shallower, and no allowance grows by so much from a notch to its double.
+/// A shape that stands farther from the cut line than one beside it, by this (metres), is a part of that one's notch,
+/// as the bar of a T is: no notch is shallower, and no allowance grows by so much from a notch to its double.
 const DEEPER: f64 = 1e-3;
 
 /// The notches of one layer, by its `points` and `shapes`; each shape is the lines of it that meet end to end.

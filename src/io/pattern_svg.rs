@@ -1,7 +1,7 @@
 //! `pattern.svg`: the flat pieces at full size, to print, plot or cut.
 //!
-//! One user unit is one millimetre and width, height and viewBox say so. Coordinates are absolute (no transforms but for
-//! turned text) and every element carries its own styling, so that any program sees the same drawing.
+//! One user unit is one millimetre and width, height and viewBox say so. Coordinates are absolute (no transforms but
+//! for turned text) and every element carries its own styling, so that any program sees the same drawing.
 
 use svg::node::element::{Group, Path, Text};
 use svg::{Document, Node};

@@ -5,7 +5,7 @@ use super::parts::parts;
 use super::relax::{mirrored, relax};
 use super::spec::MannequinSpec;
 use super::surface::surface_nets;
-use super::{Mannequin, MannequinError};
+use super::{Frame, Mannequin, MannequinError};
 use crate::geometry::{Topology, TriMesh, Vec3};
 
 /// Side of the cells the skin is found in, metres; edges come out about as long. Ten millimetres keep a grown body's
@@ -37,7 +37,14 @@ pub fn build(spec: &MannequinSpec) -> Result<Mannequin, MannequinError> {
         relax(&mut half, &body);
         let mesh = mirrored(&half);
         match skin_fault(&mesh, &body) {
-            None => return Ok(Mannequin { name: spec.name.clone(), mesh, parts: parts(spec, &body) }),
+            None => {
+                return Ok(Mannequin {
+                    name: spec.name.clone(),
+                    mesh,
+                    parts: parts(spec, &body),
+                    frame: Frame::default(),
+                });
+            }
             Some(why) => fault = why,
         }
     }

@@ -78,8 +78,8 @@ fn each_close_pair(cell: f64, boxes: &[[Vec3; 2]], mut visit: impl FnMut(usize, 
 
 /// Where an edge of `a` passes through the inside of `b`. Touching does not count.
 ///
-/// Decided in rounding on purpose, not by the exact predicate cloth has: halves of a mirrored body that run through each
-/// other meet edge on edge, where exactly no pair of triangles would cross.
+/// Decided in rounding on purpose, not by the exact predicate cloth has: halves of a mirrored body that run through
+/// each other meet edge on edge, where exactly no pair of triangles would cross.
 fn pierces(a: [Vec3; 3], b: [Vec3; 3]) -> Option<Vec3> {
     let n = (b[1] - b[0]).cross(&(b[2] - b[0]));
     let side = a.map(|p| (p - b[0]).dot(&n));

@@ -6,6 +6,7 @@ mod check;
 mod crossing;
 mod detect;
 mod field;
+mod frame;
 mod library;
 mod loft;
 mod parts;
@@ -17,6 +18,7 @@ mod surface;
 pub use build::build;
 pub use check::{BodyCheck, BodyFault, check_body};
 pub use detect::find_parts;
+pub use frame::Frame;
 pub use library::{library, load};
 pub use spec::{ArmRow, ArmSpec, LegRow, LegSpec, MannequinSpec, TorsoRow};
 
@@ -79,6 +81,8 @@ pub struct Mannequin {
     pub mesh: TriMesh,
     /// Torso, neck, arms, legs.
     pub parts: Vec<BodyPart>,
+    /// Where it stands in its own file.
+    pub frame: Frame,
 }
 
 /// Heights of bodies that are dressed, metres, from a doll's to a shop window's: others are in another unit than
@@ -92,6 +96,15 @@ impl Mannequin {
     /// The part of this kind, if the body has it.
     pub fn part(&self, kind: PartKind) -> Option<&BodyPart> {
         self.parts.iter().find(|part| part.kind == kind)
+    }
+
+    /// Length of a tape round what of it is in the plane through `at` square to the unit `axis`, metres: round those of
+    /// its closed curves there whose middles `is_in` takes; `None` if it takes none.
+    pub fn tape(&self, at: Vec3, axis: Vec3, is_in: impl Fn(Vec3) -> bool) -> Option<f64> {
+        let loops = slice::slice(&self.mesh, at, axis);
+        let points: Vec<Vec3> = loops.into_iter().filter(|l| is_in(l.center())).flat_map(|l| l.points).collect();
+        let across = axis.cross(&Vec3::ith(axis.iamin(), 1.0)).normalize();
+        (!points.is_empty()).then(|| slice::tape(&points, across, axis.cross(&across)))
     }
 
     /// Height of the floor it stands on, metres; a form without legs hangs or stands on a pole, over no floor that its
@@ -132,6 +145,11 @@ impl PartKind {
             Self::LeftLeg => "left leg",
             Self::RightLeg => "right leg",
         }
+    }
+
+    /// Whether it is an arm.
+    pub fn is_arm(self) -> bool {
+        matches!(self, Self::LeftArm | Self::RightArm)
     }
 
     /// Whether it is a leg.

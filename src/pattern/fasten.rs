@@ -154,8 +154,8 @@ pub fn worn_rims<K: PartialEq + Clone>(rims: &[Vec<Step<K>>], bridges: &[Bridge<
         if a == b || [a, b].iter().any(|&[r, k]| crossed[r][k].is_some()) {
             continue;
         }
-        // Two ties of a wrap, each from one front's end to the other's middle: in the plane they would cross. One of them
-        // tells the waist from the hem; with both, the walk would go from the one to the other.
+        // Two ties of a wrap, each from one front's end to the other's middle: in the plane they would cross. One of
+        // them tells the waist from the hem; with both, the walk would go from the one to the other.
         if joined.same(a[0] as u32, b[0] as u32) && !on_one_ring(&next, a, b) {
             continue;
         }

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::caught::Caught;
 use crate::drape::DrapeError;
 use crate::fabric::FabricError;
 use crate::flatten::FlattenError;
@@ -91,6 +92,9 @@ pub enum PipelineError {
         /// What is wrong with it.
         why: String,
     },
+    /// A seam cannot close round what is between its edges.
+    #[error(transparent)]
+    Caught(Box<Caught>),
     /// Sewing failed.
     #[error(transparent)]
     Sew(SewError),
@@ -126,7 +130,13 @@ impl PipelineError {
             | Self::NoDisk { .. }
             | Self::Cut { .. } => true,
             Self::Surface { source, .. } => !is_breakdown(source),
-            Self::Sew(_) | Self::Drape(_) | Self::Flatten(_) | Self::Svg(_) | Self::Picture(_) | Self::Json(_) => false,
+            Self::Caught(_)
+            | Self::Sew(_)
+            | Self::Drape(_)
+            | Self::Flatten(_)
+            | Self::Svg(_)
+            | Self::Picture(_)
+            | Self::Json(_) => false,
         }
     }
 
@@ -135,7 +145,8 @@ impl PipelineError {
         self.is_input()
             || matches!(
                 self,
-                Self::Sew(SewError::InsideBody { .. } | SewError::UnderFloor { .. } | SewError::Open { .. })
+                Self::Caught(_)
+                    | Self::Sew(SewError::InsideBody { .. } | SewError::UnderFloor { .. } | SewError::Open { .. })
             )
     }
 

@@ -44,7 +44,7 @@ pub fn judge(mesh: &Path, body: Option<&str>, metres: f64) -> Result<Judged, Pip
         "" => "mesh",
         name => name,
     };
-    Ok(Judged { triangles: cloth.triangles.len(), seen: look(&cloth, body.as_ref(), name), notes })
+    Ok(Judged { triangles: cloth.triangles.len(), seen: look(&cloth, body.as_ref(), name, |p| p), notes })
 }
 
 /// A mannequin's surface by name, or a closed OBJ as it stands.

@@ -10,6 +10,7 @@
 //! takes it through the stages one by one and keeps what each has made, so that a stage that fails leaves the state
 //! before it to look at. Nothing here writes a file: [`Run::results`] gives names and bytes.
 
+mod caught;
 mod cloth;
 mod error;
 mod job;
@@ -23,6 +24,7 @@ mod surface;
 
 use crate::report::AtRest;
 pub use crate::sew::SewError;
+pub use caught::Caught;
 pub use cloth::piece_area;
 pub use error::PipelineError;
 pub use job::{Job, Overrides, read};

@@ -47,9 +47,9 @@ impl Run<'_> {
     pub fn results(&self, report: &Report, color: Color) -> Result<Vec<ResultFile>, PipelineError> {
         let mut files = self.state(color)?;
         if let Some(draped) = &self.draped {
-            files.push((GARMENT_OBJ, self.obj(draped)));
+            files.push((GARMENT_OBJ, self.obj(draped, &self.class())));
             let (garment, mesh) = (&self.job.garment, &self.job.mesh);
-            files.push((GARMENT_GLB, garment_glb(garment, mesh, &self.stitching.class, draped)));
+            files.push((GARMENT_GLB, garment_glb(garment, mesh, &self.stitching.class, &self.in_file(draped))));
         }
         if let Some(flat) = &self.flattened {
             let notches: Vec<Notch> = self.job.garment.pieces.iter().flat_map(|p| p.notches.clone()).collect();
@@ -67,18 +67,22 @@ impl Run<'_> {
     pub fn state(&self, color: Color) -> Result<Vec<ResultFile>, PipelineError> {
         if let Some(last) = self.last() {
             let picture = (GARMENT_PNG, self.picture(last, &self.class(), color)?);
-            let sewn = self.sewn.as_ref().map(|sewn| (SEWN_OBJ, self.obj(sewn)));
+            let sewn = self.sewn.as_ref().map(|sewn| (SEWN_OBJ, self.obj(sewn, &self.class())));
             return Ok(sewn.into_iter().chain([picture]).collect());
         }
         let Some(placed) = &self.placed else { return Ok(Vec::new()) };
         // Every particle stands alone: partners are still apart.
         let alone = identity_nodes(&self.job.mesh);
-        let surface = garment_obj(&self.job.garment.name, &self.job.mesh, &alone, placed).into_bytes();
-        Ok(vec![(PLACED_OBJ, surface), (GARMENT_PNG, self.picture(placed, &alone, color)?)])
+        Ok(vec![(PLACED_OBJ, self.obj(placed, &alone)), (GARMENT_PNG, self.picture(placed, &alone, color)?)])
     }
 
-    fn obj(&self, at: &[Vec3]) -> Vec<u8> {
-        garment_obj(&self.job.garment.name, &self.job.mesh, &self.class(), at).into_bytes()
+    fn obj(&self, at: &[Vec3], class: &[u32]) -> Vec<u8> {
+        garment_obj(&self.job.garment.name, &self.job.mesh, class, &self.in_file(at)).into_bytes()
+    }
+
+    /// Positions as they are written: where the body's own file has it.
+    fn in_file(&self, at: &[Vec3]) -> Vec<Vec3> {
+        at.iter().map(|p| self.job.body.frame.to_file(*p)).collect()
     }
 
     fn picture(&self, at: &[Vec3], class: &[u32], color: Color) -> Result<Vec<u8>, PipelineError> {

@@ -12,7 +12,7 @@ use crate::dynamics::{ContactTime, identity_nodes};
 use crate::flatten::{self, flatten_garment};
 use crate::geometry::{Vec2, Vec3};
 use crate::report::{ContactSeconds, Drift, Measured, Report, Stage, measure};
-use crate::sew::{SewOptions, Stitching};
+use crate::sew::{SewError, SewOptions, Stitching};
 
 /// Told the name of the stage under way and the share of it that is done.
 pub type Progress<'a> = &'a mut dyn FnMut(&str, f64);
@@ -84,7 +84,8 @@ impl<'a> Run<'a> {
         self.sewn = Some(sewn.open.unwrap_or_else(|| sewn.stitching.spread(&sewn.nodes)));
         self.stitching = sewn.stitching;
         // The state is kept first: a garment that did not close is worth a look.
-        closed.map_err(failed)
+        let caught = |e: &SewError| job.caught(e, self.sewn.as_deref().unwrap_or_default()).map(Box::new);
+        closed.map_err(|e| caught(&e).map_or_else(|| failed(e), PipelineError::Caught))
     }
 
     /// Lets the sewn garment fall to rest; sews it first if that has not been done.

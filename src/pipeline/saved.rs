@@ -45,6 +45,6 @@ impl Run<'_> {
         if surface.triangles != welded.surface.triangles {
             return Err(other(format!("its triangles are not those of '{}'", self.job.garment.name)));
         }
-        Ok(surface.vertices.iter().map(|p| p * MM).collect())
+        Ok(surface.vertices.iter().map(|p| self.job.body.frame.from_file(p * MM)).collect())
     }
 }

@@ -17,8 +17,13 @@ pub struct Seen {
 }
 
 /// Looks at `cloth`, metres, and the closed `body` it should lie on, if there is one; `part_of` names the part of every
-/// triangle of the cloth.
-pub fn look<'a>(cloth: &TriMesh, body: Option<&TriMesh>, part_of: impl Fn(u32) -> &'a str) -> Seen {
+/// triangle of the cloth, and `written` says where what is at a point is told to be.
+pub fn look<'a>(
+    cloth: &TriMesh,
+    body: Option<&TriMesh>,
+    part_of: impl Fn(u32) -> &'a str,
+    written: impl Fn(Vec3) -> Vec3,
+) -> Seen {
     let within = body.map(|body| inside(&cloth.vertices, body)).unwrap_or_default();
     let through_body = body.map(|body| crossings_between(cloth, body).cloth_triangles).unwrap_or_default();
     let through_cloth = crossings(cloth);
@@ -28,7 +33,7 @@ pub fn look<'a>(cloth: &TriMesh, body: Option<&TriMesh>, part_of: impl Fn(u32) -
         cloth_body_intersections: through_body.len(),
         cloth_cloth_intersections: through_cloth.len(),
     };
-    let middle = |t: u32| cloth.corners(t as usize).iter().sum::<Vec3>() / 3.0;
+    let middle = |t: u32| written(cloth.corners(t as usize).iter().sum::<Vec3>() / 3.0);
     let mut rows = Vec::new();
     for t in through_body {
         add(&mut rows, part_of(t), None, middle(t));
@@ -65,7 +70,7 @@ mod tests {
         let lying = [Vec3::new(-5.0, 0.0, -5.0), Vec3::new(5.0, 0.0, -5.0), Vec3::new(0.0, 0.0, 9.0)];
         let vertices = [lying, upright(0.1), upright(0.5)].concat();
         let cloth = TriMesh { vertices, triangles: vec![[0, 1, 2], [3, 4, 5], [6, 7, 8]] };
-        let seen = look(&cloth, None, |t| if t == 2 { "sleeve" } else { "front" });
+        let seen = look(&cloth, None, |t| if t == 2 { "sleeve" } else { "front" }, |p| p);
         assert_eq!(seen.contact.cloth_cloth_intersections, 2);
         let found: Vec<(&str, Option<&str>)> =
             seen.crossings.iter().map(|c| (c.piece.as_str(), c.through.as_deref())).collect();

@@ -9,6 +9,7 @@ use super::schema::{PieceReport, Quartet, Report, SeamReport, Sizes, Stage, Worn
 use super::statistics::largest;
 use super::strain::{PieceStrain, piece_strain};
 use super::stretched::stretched;
+use super::tight::Tight;
 use crate::geometry::{Vec2, Vec3};
 use crate::mannequin::Mannequin;
 use crate::mesh::{ClothMesh, Stitches};
@@ -55,8 +56,9 @@ pub fn measure(run: &Measured) -> Report {
     let shapes = Shapes::new(run);
     let last = run.draped.or(run.sewn);
     let closures = last.map_or_else(Closures::default, |at| Closures::new(run.garment, run.mesh, at));
-    let (seen, worn) = last.map_or_else(Default::default, |at| seen(run, at, &closures));
-    let (pieces, total) = pieces(run, &shapes, last);
+    let space = last.map(|at| InSpace::new(run, at, &closures));
+    let (seen, worn) = space.as_ref().map_or_else(Default::default, |space| (space.seen(run), space.worn(run)));
+    let (pieces, total) = pieces(run, &shapes, space.as_ref());
     Report {
         toile: env!("CARGO_PKG_VERSION").into(),
         garment: run.garment.name.clone(),
@@ -118,7 +120,7 @@ struct Part<'a> {
     strain: PieceStrain,
 }
 
-fn pieces(run: &Measured, shapes: &Shapes, last: Option<&[Vec3]>) -> (Vec<PieceReport>, PieceReport) {
+fn pieces(run: &Measured, shapes: &Shapes, space: Option<&InSpace>) -> (Vec<PieceReport>, PieceReport) {
     let mesh = run.mesh;
     let mut total = Part {
         name: "total",
@@ -131,7 +133,10 @@ fn pieces(run: &Measured, shapes: &Shapes, last: Option<&[Vec3]>) -> (Vec<PieceR
     };
     let mut reports = Vec::new();
     let elastic = mesh.on_elastic();
-    for (piece, rim) in mesh.pieces.iter().zip(rims(mesh, run.weld)) {
+    let rims = rims(mesh, run.weld);
+    let tight = space.map(|space| Tight::new(&space.welded, &space.openings, &rims, run.body));
+    let given = space.map(|space| space.at).zip(tight.as_ref());
+    for (piece, rim) in mesh.pieces.iter().zip(rims) {
         let part = Part {
             name: &piece.name,
             particles: piece.particles.len(),
@@ -139,10 +144,10 @@ fn pieces(run: &Measured, shapes: &Shapes, last: Option<&[Vec3]>) -> (Vec<PieceR
             triangles: piece.triangles.clone().map(|t| (t as u32, mesh.triangles[t])).collect(),
             rim,
             gathered: beside_elastic(mesh, piece, &elastic),
-            strain: last.map_or_else(Default::default, |at| piece_strain(mesh, piece, &elastic, at)),
+            strain: space.map_or_else(Default::default, |space| piece_strain(mesh, piece, &elastic, space.at)),
         };
         let mut report = row(&part, shapes);
-        report.stretched = last.and_then(|at| stretched(mesh, &part.rim, part.strain.extension, at));
+        report.stretched = given.and_then(|(at, tight)| stretched(mesh, &part.rim, part.strain.extension, tight, at));
         reports.push(report);
         total.triangles.extend(&part.triangles);
         total.rim.extend(&part.rim);
@@ -222,32 +227,45 @@ fn seam(run: &Measured, index: usize, stitches: &Stitches) -> SeamReport {
     }
 }
 
-/// What the independent checks see at these positions.
-fn seen(run: &Measured, at: &[Vec3], closures: &Closures) -> (Seen, Vec<Worn>) {
-    let welded = Welded::new(run.mesh, run.weld, at);
-    let piece = |t: u32| {
-        let first = run.mesh.triangles[t as usize][0];
-        run.mesh.piece_of(first).map_or("", |i| run.mesh.pieces[i].name.as_str())
-    };
-    (look(&welded.surface, Some(&run.body.mesh), piece), worn_rows(run, &welded, closures))
+/// The garment at the end of the last stage in space.
+struct InSpace<'a> {
+    at: &'a [Vec3],
+    welded: Welded,
+    openings: Vec<Opening>,
 }
 
-fn worn_rows(run: &Measured, welded: &Welded, closures: &Closures) -> Vec<Worn> {
-    let rims = openings(run.garment, run.mesh, welded, &closures.closed);
-    let through = worn(&rims.iter().map(|o| o.positions(welded)).collect::<Vec<_>>(), run.body);
-    let rings: Vec<&[u32]> = rims.iter().map(|o| o.ring.as_slice()).collect();
-    let flaps = flaps(&rings, &through.iter().map(Option::is_some).collect::<Vec<bool>>());
-    let open: Vec<_> = rims.iter().zip(through).zip(flaps).filter(|(_, flap)| !flap).map(|(o, _)| o).collect();
-    let names = opening_names(&open.iter().map(|(o, _)| o.edges.clone()).collect::<Vec<_>>());
-    let length = |opening: &Opening| {
-        let ring = opening.positions(welded);
-        (0..ring.len()).map(|k| (ring[(k + 1) % ring.len()] - ring[k]).norm()).sum::<f64>()
-    };
-    let rows = open.into_iter().zip(names).map(|((opening, part), name)| Worn {
-        opening: name,
-        body_part: part.map(|p| p.name().into()),
-        edges: written_names(opening.edges.iter().map(|(piece, edge)| (piece.as_str(), edge.as_str()))),
-        length: length(opening) * MM,
-    });
-    rows.collect()
+impl<'a> InSpace<'a> {
+    fn new(run: &Measured, at: &'a [Vec3], closures: &Closures) -> Self {
+        let welded = Welded::new(run.mesh, run.weld, at);
+        let openings = openings(run.garment, run.mesh, &welded, &closures.closed);
+        Self { at, welded, openings }
+    }
+
+    /// What the independent checks see.
+    fn seen(&self, run: &Measured) -> Seen {
+        let piece = |t: u32| {
+            let first = run.mesh.triangles[t as usize][0];
+            run.mesh.piece_of(first).map_or("", |i| run.mesh.pieces[i].name.as_str())
+        };
+        look(&self.welded.surface, Some(&run.body.mesh), piece, |p| run.body.frame.to_file(p))
+    }
+
+    fn worn(&self, run: &Measured) -> Vec<Worn> {
+        let rims: Vec<Vec<Vec3>> = self.openings.iter().map(|o| o.positions(&self.welded)).collect();
+        let through = worn(&rims, run.body);
+        let rings: Vec<&[u32]> = self.openings.iter().map(|o| o.ring.as_slice()).collect();
+        let flaps = flaps(&rings, &through.iter().map(Option::is_some).collect::<Vec<bool>>());
+        let rows = self.openings.iter().zip(&rims).zip(through).zip(flaps);
+        let open: Vec<_> = rows.filter(|(_, flap)| !flap).map(|(row, _)| row).collect();
+        let names = opening_names(&open.iter().map(|((o, _), _)| o.edges.clone()).collect::<Vec<_>>());
+        let length =
+            |ring: &[Vec3]| (0..ring.len()).map(|k| (ring[(k + 1) % ring.len()] - ring[k]).norm()).sum::<f64>();
+        let rows = open.into_iter().zip(names).map(|(((opening, ring), part), name)| Worn {
+            opening: name,
+            body_part: part.map(|p| p.name().into()),
+            edges: written_names(opening.edges.iter().map(|(piece, edge)| (piece.as_str(), edge.as_str()))),
+            length: length(ring) * MM,
+        });
+        rows.collect()
+    }
 }

@@ -17,6 +17,7 @@ mod statistics;
 mod strain;
 mod stretched;
 mod table;
+mod tight;
 
 pub use bounds::{Verdict, verdicts, verdicts_by_test};
 pub use crossings::{Seen, look};

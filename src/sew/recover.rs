@@ -11,8 +11,8 @@ use crate::geometry::Vec3;
 const DEEP: f64 = 0.015;
 /// What lies deeper than this, metres, was meant for another place.
 const DEEPEST: f64 = 0.05;
-/// A piece whose cells are in the body by so much in their middle, metres, and by half as much more than at their corners,
-/// is pierced: contact at its particles would push them along what pokes through, not off it.
+/// A piece whose cells are in the body by so much in their middle, metres, and by half as much more than at their
+/// corners, is pierced: contact at its particles would push them along what pokes through, not off it.
 const PIERCED: f64 = 4e-3;
 /// A piece of which more than this share is deeper than [`DEEP`] is pushed out on both sides.
 const SHARE: f64 = 0.25;
@@ -30,12 +30,12 @@ const SAMPLES: usize = 200;
 /// How far the body's surface is looked for, metres.
 const LOOK: f64 = 0.5;
 
-/// Moves every piece that lies in the body, up to 50 mm deep, that the body pokes through, or that would be pushed into a
-/// hollow of it (a scanned head has a mouth), out of it as it is, the shortest straight way.
+/// Moves every piece that lies in the body, up to 50 mm deep, that the body pokes through, or that would be pushed into
+/// a hollow of it (a scanned head has a mouth), out of it as it is, the shortest straight way.
 ///
 /// # Errors
-/// [`SewError::InsideBody`] or [`SewError::UnderFloor`] for one that is still deep then, or was deeper: the penalty would
-/// push its halves out on different sides.
+/// [`SewError::InsideBody`] or [`SewError::UnderFloor`] for one that is still deep then, or was deeper: the penalty
+/// would push its halves out on different sides.
 pub(super) fn lead_out(cut: &Cut, body: &Collider, start: &mut [Vec3]) -> Result<(), SewError> {
     for piece in &cut.mesh.pieces {
         let deepest = depths(body, &start[piece.particles.clone()]).fold(0.0, f64::max);
@@ -66,8 +66,8 @@ pub(super) fn lead_out(cut: &Cut, body: &Collider, start: &mut [Vec3]) -> Result
     Ok(())
 }
 
-/// Whether the nearest way out of the body for a point well in it ends in a hollow: what is behind the skin there is the body
-/// again. Its neighbours may well be nearest to the other side of a chin.
+/// Whether the nearest way out of the body for a point well in it ends in a hollow: what is behind the skin there is
+/// the body again. Its neighbours may well be nearest to the other side of a chin.
 fn is_hidden(body: &Collider, p: Vec3) -> bool {
     let out = body.nearest(p, LOOK).filter(|out| out.distance < -SHALLOW);
     out.is_some_and(|out| body.is_in_the_way(out.point + out.normal * OFF_SKIN, out.point + out.normal * HOLLOW))
@@ -165,7 +165,8 @@ mod tests {
         assert!(depths(&body, &inside).all(|d| d > PIERCED));
         assert!(!is_pierced(&body, &inside, &[[0, 1, 2]]));
     }
-    /// A box with a cavity: a mouth, open towards +z. Outer walls 100 mm, the cavity 60 mm wide and high and 80 mm deep.
+    /// A box with a cavity: a mouth, open towards +z. Outer walls 100 mm, the cavity 60 mm wide and high and 80 mm
+    /// deep.
     fn head() -> Collider {
         let corner = |half: f64, z: f64| {
             [[-half, -half], [half, -half], [half, half], [-half, half]].map(|[x, y]| Vec3::new(x, y, z))

@@ -26,7 +26,13 @@ struct Open {
 
 enum Kind {
     List(Vec<Located<Value>>),
-    Map { entries: Vec<(Located<String>, Located<Value>)>, key: Option<Located<String>>, lines: HashMap<String, usize> },
+    Map {
+        entries: Vec<(Located<String>, Located<Value>)>,
+        /// The one whose value comes next.
+        key: Option<Located<String>>,
+        /// Where each key stands.
+        lines: HashMap<String, usize>,
+    },
 }
 
 struct Builder<'f> {

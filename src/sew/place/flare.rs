@@ -1,5 +1,5 @@
-//! Sectors of a circle (circle skirts, flounces) are laid out by radius and angle, as the cones they will be; what opens
-//! to nearly a full circle or more lies in waves.
+//! Sectors of a circle (circle skirts, flounces) are laid out by radius and angle, as the cones they will be; what
+//! opens to nearly a full circle or more lies in waves.
 //!
 //! ```text
 //!      ╲ waist ╱               ────waist────
@@ -96,8 +96,8 @@ pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &mut Sheet) {
     }
 }
 
-/// Whether nothing is in the way of a sector's waves: no piece of a size with it lies over it, which they would stand in,
-/// and nothing is sewn into it between waist and hem, which would start off them.
+/// Whether nothing is in the way of a sector's waves: no piece of a size with it lies over it, which they would stand
+/// in, and nothing is sewn into it between waist and hem, which would start off them.
 fn is_free(garment: &Garment, mesh: &ClothMesh, i: usize, sector: &Sector) -> bool {
     let size = |piece: usize| mesh.pieces[piece].triangles.len() as f64;
     let covered = |other: usize| garment.pieces[other].layer > garment.pieces[i].layer && size(other) > COVER * size(i);
@@ -228,8 +228,8 @@ fn apex(one: &Path, other: &Path) -> Option<Vec2> {
     Some(0.5 * (near(one, middle(other)) + near(other, middle(one))))
 }
 
-/// Whether the waist, what of the rim is nearest to the apex in every direction, goes round the apex. (Slits may cut deep
-/// into the hem.)
+/// Whether the waist, what of the rim is nearest to the apex in every direction, goes round the apex. (Slits may cut
+/// deep into the hem.)
 fn is_round<'a>(sector: &Sector, rim: impl Iterator<Item = &'a Path>) -> bool {
     let mut nearest = [f64::INFINITY; DIRECTIONS];
     for path in rim {

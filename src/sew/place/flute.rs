@@ -23,7 +23,8 @@ const RISE: f64 = 0.85;
 const RADII: usize = 64;
 const PHASES: usize = 64;
 
-/// Mean of cos(ω sin s) over a wave, the Bessel function J₀(ω): how much shorter cloth becomes that meanders so steeply.
+/// Mean of cos(ω sin s) over a wave, the Bessel function J₀(ω): how much shorter cloth becomes that meanders so
+/// steeply.
 fn shortening(steepest: f64) -> f64 {
     (0..PHASES).map(|k| (steepest * (TAU * k as f64 / PHASES as f64).sin()).cos()).sum::<f64>() / PHASES as f64
 }

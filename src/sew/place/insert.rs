@@ -1,5 +1,5 @@
-//! Godets: pieces in slits of others, which start where they will be, a little over the edges of the slit. Those that are
-//! wider than the room for them, and would lie over one another, start folded in half and stand out like fins.
+//! Godets: pieces in slits of others, which start where they will be, a little over the edges of the slit. Those that
+//! are wider than the room for them, and would lie over one another, start folded in half and stand out like fins.
 //!
 //! ```text
 //!    ─┐    ╭────────╮    ┌─              │╲ ╱│    fold
@@ -65,8 +65,8 @@ struct Rib {
 }
 
 impl Fin {
-    /// The fin that a piece makes, sewn by these pairs: its own particle's flat position, and its partner's, moved so that
-    /// the slit is where the piece is. Without pairs on both sides there is none.
+    /// The fin that a piece makes, sewn by these pairs: its own particle's flat position, and its partner's, moved so
+    /// that the slit is where the piece is. Without pairs on both sides there is none.
     fn new(pairs: &[[Vec2; 2]]) -> Option<Self> {
         let [low, high] = range_of(pairs.iter().map(|p| p[0].x));
         let middle = 0.5 * (low + high);
@@ -84,8 +84,8 @@ impl Fin {
         sides.iter().all(|side| !side.is_empty()).then_some(Self { middle, sides })
     }
 
-    /// Where a point of the flat piece starts: at every height the piece is a V whose arms are as long as the cloth is wide
-    /// and end at the edges of the slit; `on` puts points of the flat piece on the ring, so far off it.
+    /// Where a point of the flat piece starts: at every height the piece is a V whose arms are as long as the cloth is
+    /// wide and end at the edges of the slit; `on` puts points of the flat piece on the ring, so far off it.
     fn folded(&self, at: Vec2, on: impl Fn(Vec2, f64) -> Vec3) -> Vec3 {
         let u = at.x - self.middle;
         let ribs = [0, 1].map(|side| rib_at(&self.sides[side], at.y));
@@ -119,9 +119,9 @@ fn rib_at(ribs: &[Rib], v: f64) -> Rib {
     }
 }
 
-/// Where a piece lies in a slit of another one: the host, and the shift against it. It is sewn to nothing else, along both
-/// its sides, and its left to the left side of the slit. (Of two pieces that make a tube the left of one meets the right
-/// of the other.)
+/// Where a piece lies in a slit of another one: the host, and the shift against it. It is sewn to nothing else, along
+/// both its sides, and its left to the left side of the slit. (Of two pieces that make a tube the left of one meets the
+/// right of the other.)
 pub(super) fn slit(
     links: &[Link],
     sheet: &Sheet,
@@ -149,8 +149,8 @@ pub(super) fn slit(
 }
 
 /// Pieces in slits with their hosts. A piece that is sewn to nothing but its godet could as well lie in that: the much
-/// smaller of the two is the godet. (Of two panels sewn right to right neither is, and they find no place.) What lies in a
-/// godet stands beside it instead.
+/// smaller of the two is the godet. (Of two panels sewn right to right neither is, and they find no place.) What lies
+/// in a godet stands beside it instead.
 pub(super) fn hosted(
     mut slits: Vec<Option<(usize, Vec2)>>,
     area: impl Fn(usize) -> usize,

@@ -1,5 +1,5 @@
-//! Members that closures hold one over the other, as the fronts of a shirt: they start lapped, the one with the buttonholes
-//! outside.
+//! Members that closures hold one over the other, as the fronts of a shirt: they start lapped, the one with the
+//! buttonholes outside.
 
 use super::fold::Sheet;
 use super::ring::LAYER;
@@ -26,7 +26,8 @@ pub(super) struct Lap {
     pub(super) v: [f64; 2],
 }
 
-/// The laps of a row of these members, one for a joint: what a closure is on lies under what it meets, as a button under its hole.
+/// The laps of a row of these members, one for a joint: what a closure is on lies under what it meets, as a button
+/// under its hole.
 pub(super) fn laps(closures: &[Closure], mesh: &ClothMesh, sheet: &Sheet, members: &[Member]) -> Vec<Lap> {
     let n = members.len();
     let mut all: Vec<(usize, usize, Vec<[Vec2; 2]>)> = Vec::new();

@@ -138,8 +138,8 @@ fn joints(mesh: &ClothMesh, sheet: &Sheet, row: &Row, links: &[Link], level_of: 
         .collect()
 }
 
-/// Beyond the ends of a joint that is sewn or buttoned at these levels (over a curved waist, under the crotch, beside the
-/// neck) its two sides go on as they end: what lies side by side stays so where one of the outlines turns away.
+/// Beyond the ends of a joint that is sewn or buttoned at these levels (over a curved waist, under the crotch, beside
+/// the neck) its two sides go on as they end: what lies side by side stays so where one of the outlines turns away.
 fn prolong(levels: &mut [Level], members: [usize; 2], [first, last]: [usize; 2]) {
     for (member, side) in members.into_iter().zip([1, 0]) {
         let ends = [first, last].map(|k| levels[k].spans[member].map(|s| s[side]));

@@ -224,8 +224,9 @@ fn center([low, high]: &[Vec2; 2]) -> f64 {
     0.5 * (low.x + high.x)
 }
 
-/// The front middle: the middle one of the front pieces and what stands between them, or where the two in the middle meet,
-/// sewn or open; failing that, opposite the back's. The members stand side by side, and the last beside the first.
+/// The front middle: the middle one of the front pieces and what stands between them, or where the two in the middle
+/// meet, sewn or open; failing that, opposite the back's. The members stand side by side, and the last beside the
+/// first.
 fn front_middle(assigned: &[Assigned], members: &[Member], boxes: &[[Vec2; 2]]) -> Option<Middle> {
     let is = |facing: Facing| move |&i: &usize| assigned[members[i].piece].facing == Some(facing);
     let fronts: Vec<usize> = (0..members.len()).filter(is(Facing::Front)).collect();

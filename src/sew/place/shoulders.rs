@@ -88,8 +88,8 @@ impl Lean<'_> {
         height - self.course(height)[0]
     }
 
-    /// Where the point of height v goes that was at `p` on the upright ring, `off` metres off it: in towards the middle,
-    /// but as much further off the body.
+    /// Where the point of height v goes that was at `p` on the upright ring, `off` metres off it: in towards the
+    /// middle, but as much further off the body.
     pub(super) fn over(&self, p: Vec3, v: f64, off: f64) -> Vec3 {
         let height = (self.from - v).max(0.0);
         if height == 0.0 && self.furthest == 0.0 {

@@ -1,10 +1,16 @@
 //! The limbs of a body: what hangs down, apart from the rest, from where it joins that.
 
-use crate::geometry::{DisjointSets, Edge, TriMesh, Vec3};
-use crate::mannequin::{Mannequin, PartKind};
+use std::collections::BTreeMap;
+
+use crate::contact::Skin;
+use crate::geometry::{DisjointSets, Edge, TriMesh, Vec3, range_of};
+use crate::mannequin::{BodyPart, Mannequin, PartKind};
 
 /// What hangs down by less is no limb: fingers, a chin, a seat, metres.
 const LIMB: f64 = 0.15;
+/// What is nearer to each other than this from back to front, metres, has to have room sideways; what is further from
+/// each other than twice this has it there: cloth passes between.
+const SLICE: f64 = 0.02;
 
 /// Two parts of a body that are one above a height and two below it.
 pub(super) struct Junction {
@@ -81,18 +87,16 @@ fn junction(sets: &mut DisjointSets, [limb, beside]: [u32; 2], [bottom, top]: [f
     Junction { top, bottom, side: side.collect() }
 }
 
-/// Of every arm and leg of a body the skin round it: the vertex nearest to each of its sections.
+/// Of every arm and leg of a body the skin round it: a corner of the triangle nearest to each of its sections.
 pub(super) struct Limbs(Vec<(PartKind, Vec<u32>)>);
 
 impl Limbs {
-    /// That of `body`.
-    pub(super) fn new(body: &Mannequin) -> Self {
-        let nearest = |p: Vec3| {
-            let away = |v: &u32| (body.mesh.vertices[*v as usize] - p).norm_squared();
-            (0..body.mesh.vertices.len() as u32).min_by(|a, b| away(a).total_cmp(&away(b)))
-        };
-        let limbs = body.parts.iter().filter(|part| !matches!(part.kind, PartKind::Torso | PartKind::Neck));
-        Self(limbs.map(|part| (part.kind, part.sections.iter().filter_map(|s| nearest(s.center)).collect())).collect())
+    /// That of `body`; `None` if that has no skin.
+    pub(super) fn new(body: &Mannequin) -> Option<Self> {
+        let skin = Skin::new(&body.mesh.vertices, body.mesh.triangles.clone())?;
+        let limbs = body.parts.iter().filter(|part| part.kind.is_arm() || part.kind.is_leg());
+        let around = |part: &BodyPart| part.sections.iter().map(|s| skin.nearest(s.center)[0]).collect();
+        Some(Self(limbs.map(|part| (part.kind, around(part))).collect()))
     }
 
     /// The arm or leg that the limb of a junction is, and the one that it hangs beside. Hair, a bag or a hand that has
@@ -108,43 +112,78 @@ impl Limbs {
 }
 
 /// How far apart the two of a junction are sideways at each of `levels` (going down), metres, nothing where one of them
-/// is not met; and which way the limb lies, +1 or −1.
-pub(super) fn apart(mesh: &TriMesh, edges: &[Edge], junction: &Junction, levels: &[f64]) -> (Vec<Option<f64>>, f64) {
-    let widths = widths(mesh, edges, junction, levels);
-    let met = |widths: &&[Width; 2]| widths.iter().all(|w| w[0] <= w[1]);
-    let middles = widths.iter().filter(met).map(|[limb, beside]| limb[0] + limb[1] - beside[0] - beside[1]);
-    let way = if middles.sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
-    let gap = |widths: &[Width; 2]| {
-        let [limb, beside] = widths;
-        let gap = if way > 0.0 { limb[0] - beside[1] } else { beside[0] - limb[1] };
-        met(&widths).then_some(gap)
+/// is not met, or only in front of or behind the other; and which way the limb lies, +1 or −1.
+pub(super) fn apart(mesh: &TriMesh, junction: &Junction, levels: &[f64]) -> (Vec<Option<f64>>, f64) {
+    let outlines = outlines(mesh, junction, levels);
+    let middle = |outline: &Outline| {
+        let [least, most] = outline.values().copied().reduce(both)?;
+        Some(least + most)
     };
-    (widths.iter().map(gap).collect(), way)
+    let off = |[limb, beside]: &[Outline; 2]| Some(middle(limb)? - middle(beside)?);
+    let way = if outlines.iter().filter_map(off).sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
+    (outlines.iter().map(|[limb, beside]| gap(limb, beside, way)).collect(), way)
 }
 
 /// The least and the greatest x of something, metres.
 type Width = [f64; 2];
 
-/// From where to where the limb, and what it hangs beside, reach at each of `levels`.
-fn widths(mesh: &TriMesh, edges: &[Edge], junction: &Junction, levels: &[f64]) -> Vec<[Width; 2]> {
-    let mut out = vec![[[f64::INFINITY, f64::NEG_INFINITY]; 2]; levels.len()];
-    for [a, b] in edges.iter().map(|e| e.ends) {
-        let which = match [a, b].map(|v| junction.side[v as usize]) {
-            [Side::Limb, Side::Limb] => 0,
-            [Side::Beside, Side::Beside] => 1,
+/// The widths of something at one height, by their slices from back to front.
+type Outline = BTreeMap<i64, Width>;
+
+fn both(one: Width, other: Width) -> Width {
+    [one[0].min(other[0]), one[1].max(other[1])]
+}
+
+/// The least distance along x, metres, between a limb that lies that `way` and what it hangs beside, where both are in
+/// one slice or in two side by side.
+fn gap(limb: &Outline, beside: &Outline, way: f64) -> Option<f64> {
+    let between = |limb: &Width, beside: &Width| if way > 0.0 { limb[0] - beside[1] } else { beside[0] - limb[1] };
+    let nearest = |(slice, limb): (&i64, &Width)| {
+        beside.range(slice - 1..=slice + 1).map(|(_, beside)| between(limb, beside)).reduce(f64::min)
+    };
+    limb.iter().filter_map(nearest).reduce(f64::min)
+}
+
+/// What the limb, and what it hangs beside, are at each of `levels`.
+fn outlines(mesh: &TriMesh, junction: &Junction, levels: &[f64]) -> Vec<[Outline; 2]> {
+    let mut out = vec![[Outline::new(), Outline::new()]; levels.len()];
+    for (t, corners) in mesh.triangles.iter().enumerate() {
+        let which = match corners.map(|v| junction.side[v as usize]) {
+            [Side::Limb, Side::Limb, Side::Limb] => 0,
+            [Side::Beside, Side::Beside, Side::Beside] => 1,
             _ => continue,
         };
-        let [p, q] = [a, b].map(|v| mesh.vertices[v as usize]);
-        let (low, high) = if p.y <= q.y { (p, q) } else { (q, p) };
-        let first = levels.partition_point(|y| *y > high.y);
-        for (k, y) in levels.iter().enumerate().skip(first).take_while(|(_, y)| **y >= low.y) {
-            let share = if high.y > low.y { (y - low.y) / (high.y - low.y) } else { 0.0 };
-            let x = low.x + (high.x - low.x) * share;
-            let width = &mut out[k][which];
-            *width = [width[0].min(x), width[1].max(x)];
+        let corners = mesh.corners(t);
+        let [low, high] = range_of(corners.iter().map(|p| p.y));
+        let first = levels.partition_point(|y| *y > high);
+        for (k, y) in levels.iter().enumerate().skip(first).take_while(|(_, y)| **y >= low) {
+            if let Some(cut) = cut(corners, *y) {
+                add(&mut out[k][which], cut);
+            }
         }
     }
     out
+}
+
+/// The ends of what a triangle has at height `y`, if it is on both sides of it.
+fn cut(corners: [Vec3; 3], y: f64) -> Option<[Vec3; 2]> {
+    let sides = [0, 1, 2].map(|k| [corners[k], corners[(k + 1) % 3]]);
+    let mut ends = sides.into_iter().filter(|[p, q]| (p.y < y) != (q.y < y));
+    let mut next = || ends.next().map(|[p, q]| p.lerp(&q, (y - p.y) / (q.y - p.y)));
+    Some([next()?, next()?])
+}
+
+/// Adds a segment to the slices that it goes through.
+fn add(outline: &mut Outline, [p, q]: [Vec3; 2]) {
+    let (from, to) = if p.z <= q.z { (p, q) } else { (q, p) };
+    let at = |k: i64| from.x + (to.x - from.x) * (k as f64 * SLICE - from.z) / (to.z - from.z);
+    let [first, last] = [from.z, to.z].map(|z| (z / SLICE).floor() as i64);
+    for k in first..=last {
+        let a = if k == first { from.x } else { at(k) };
+        let b = if k == last { to.x } else { at(k + 1) };
+        let width = [a.min(b), a.max(b)];
+        outline.entry(k).and_modify(|known| *known = both(*known, width)).or_insert(width);
+    }
 }
 
 #[cfg(test)]
@@ -152,15 +191,15 @@ mod tests {
     use super::*;
     use crate::geometry::{Topology, Vec3};
 
-    /// Square tubes, 100 mm wide and 50 mm apart, from these heights to 1 m, each joined to the last by two triangles
-    /// that meet at 1.1 m.
-    fn legs(bottoms: &[f64]) -> (TriMesh, Vec<Edge>) {
+    /// Square tubes, 100 mm wide, with this corner (x and z), from these heights to 1 m, each joined to the last by two
+    /// triangles that meet at 1.1 m.
+    fn tubes(of: &[([f64; 2], f64)]) -> (TriMesh, Vec<Edge>) {
         let mut mesh = TriMesh::default();
         let mut last = None;
-        for (k, bottom) in bottoms.iter().enumerate() {
-            let at = |x: f64, y: f64, z: f64| Vec3::new(x + 0.15 * k as f64, y, z);
+        for &([left, back], bottom) in of {
+            let at = |x: f64, y: f64, z: f64| Vec3::new(left + x, y, back + z);
             let first = mesh.vertices.len() as u32;
-            for y in [*bottom, 1.0] {
+            for y in [bottom, 1.0] {
                 mesh.vertices.extend([at(0.0, y, 0.0), at(0.1, y, 0.0), at(0.1, y, 0.1), at(0.0, y, 0.1)]);
             }
             for i in 0..4 {
@@ -178,6 +217,11 @@ mod tests {
         (mesh, edges)
     }
 
+    /// Tubes side by side, 50 mm apart.
+    fn legs(bottoms: &[f64]) -> (TriMesh, Vec<Edge>) {
+        tubes(&bottoms.iter().enumerate().map(|(k, y)| ([0.15 * k as f64, 0.0], *y)).collect::<Vec<_>>())
+    }
+
     #[test]
     fn the_gap_of_two_that_hang_down_is_what_is_between() {
         let (mesh, edges) = legs(&[0.0, 0.01]);
@@ -186,7 +230,7 @@ mod tests {
         assert!(found[0].top == 1.1 && found[0].bottom == 0.01);
         // The second is the shorter.
         assert_eq!((found[0].side[0], found[0].side[8]), (Side::Beside, Side::Limb));
-        let (gaps, way) = apart(&mesh, &edges, &found[0], &[0.9, 0.5, 0.005]);
+        let (gaps, way) = apart(&mesh, &found[0], &[0.9, 0.5, 0.005]);
         assert_eq!((way, gaps[2]), (1.0, None));
         assert!(gaps[..2].iter().flatten().all(|gap| (gap - 0.05).abs() < 1e-12), "{gaps:?}");
     }
@@ -197,7 +241,32 @@ mod tests {
         let found = junctions(&mesh, &edges);
         assert_eq!(found.len(), 1, "the last hangs down by 130 mm");
         assert_eq!(found[0].side[0], Side::Limb);
-        let (gaps, way) = apart(&mesh, &edges, &found[0], &[0.7]);
+        let (gaps, way) = apart(&mesh, &found[0], &[0.7]);
         assert!(way == -1.0 && (gaps[0].expect("both") - 0.05).abs() < 1e-12, "{gaps:?}");
+    }
+
+    #[test]
+    fn a_hand_in_front_of_a_thigh_has_room_and_one_that_reaches_back_to_it_has_none() {
+        let gap = |back: f64| {
+            let (mesh, edges) = tubes(&[([0.0, 0.0], 0.0), ([0.06, back], 0.4)]);
+            let found = junctions(&mesh, &edges);
+            apart(&mesh, &found[0], &[0.7]).0[0]
+        };
+        assert_eq!(gap(0.1 + 2.1 * SLICE), None);
+        for back in [0.1 + 0.9 * SLICE, 0.05] {
+            assert!((gap(back).expect("side by side") + 0.04).abs() < 1e-12, "{:?}", gap(back));
+        }
+    }
+
+    #[test]
+    fn slanting_sides_are_as_near_as_where_they_face_each_other() {
+        // Of two that lean the same way, as thighs of one who stands sideways, slices are nearer than their boxes.
+        let mut outlines = [Outline::new(), Outline::new()];
+        for (outline, x) in outlines.iter_mut().zip([0.0, 0.1]) {
+            add(outline, [Vec3::new(x, 0.0, 0.0), Vec3::new(x + 0.2, 0.0, 0.2)]);
+        }
+        let [beside, limb] = outlines;
+        let near = gap(&limb, &beside, 1.0).expect("side by side");
+        assert!((near - (0.1 - 2.0 * SLICE)).abs() < 1e-12, "{near}");
     }
 }

@@ -46,7 +46,7 @@ impl Stance {
         let collider = Collider::new(&mesh)?.on_floor(body.floor());
         let mut parts = body.parts.clone();
         spreads.iter().for_each(|spread| spread.apply_to_part(&mut parts));
-        let apart = Mannequin { name: body.name.clone(), mesh, parts };
+        let apart = Mannequin { name: body.name.clone(), mesh, parts, frame: body.frame };
         Some(Self { body: apart, collider, own: body.mesh.clone(), spreads })
     }
 
@@ -72,13 +72,13 @@ impl Stance {
         if sewn.open.is_some() {
             return Ok(sewn);
         }
-        let carrier = Carrier::new(&self.body.mesh, &self.spreads, &sewn.nodes)
-            .ok_or_else(|| SewError::Body(self.body.name.clone()))?;
+        let no_solid = || SewError::Body(self.body.name.clone());
+        let carrier = Carrier::new(&self.body.mesh, &self.spreads, &sewn.nodes).ok_or_else(no_solid)?;
         let stops = carrier.stops(&sewn.nodes);
         let mut last = 1.0;
         for (k, &share) in stops.iter().enumerate() {
             let stage = Collider::new(&moved(&self.own, &self.spreads, share));
-            let stage = stage.ok_or_else(|| SewError::Body(self.body.name.clone()))?.on_floor(body.floor());
+            let stage = stage.ok_or_else(no_solid)?.on_floor(body.floor());
             let mut world = sewn_world(cut, &stage, &sewn.stitching, sewn.nodes)?;
             carrier.carry(&mut world, share - last)?;
             (sewn.nodes, last) = (world.x, share);

@@ -77,7 +77,7 @@ impl Spread {
 pub(super) fn spreads(body: &Mannequin, legs: bool) -> Vec<Spread> {
     let mut mesh = body.mesh.clone();
     let edges = Topology::new(&mesh.triangles).edges;
-    let known = Limbs::new(body);
+    let Some(known) = Limbs::new(body) else { return Vec::new() };
     let mut out: Vec<Spread> = Vec::new();
     for junction in junctions(&mesh, &edges) {
         let [Some(limb), beside] = known.of(&junction) else { continue };
@@ -87,7 +87,7 @@ pub(super) fn spreads(body: &Mannequin, legs: bool) -> Vec<Spread> {
         let depth = junction.top - junction.bottom;
         let levels: Vec<f64> = (0..=(depth / LEVEL) as usize).map(|k| junction.top - k as f64 * LEVEL).collect();
         // Legs come first: spread, they come nearer to the arms.
-        let (gaps, way) = apart(&mesh, &edges, &junction, &levels);
+        let (gaps, way) = apart(&mesh, &junction, &levels);
         let Some(by) = opening(&gaps) else { continue };
         // Of two legs both give way; what an arm hangs beside stays.
         let sides = match beside.filter(|beside| limb.is_leg() && beside.is_leg()) {
