@@ -21,9 +21,9 @@ const LEVEL: f64 = 0.1;
 /// beside the feature: in a cleft a cheek rises beyond the triangle that is met, and higher than its plane.
 const FACING: f64 = 0.2;
 
-/// Faces of a hollow turned from one another by less than the first angle (cosine, 37°) push one at a time, the nearest;
-/// by more than the second (66°) together. Where a sharp hollow's pushed in turn, what is wedged in an armpit was thrown
-/// from one to the other for ever.
+/// Faces of a hollow turned from one another by less than the first angle (cosine, 37°) push one at a time, the
+/// nearest; by more than the second (66°) together. Where a sharp hollow's pushed in turn, what is wedged in an armpit
+/// was thrown from one to the other for ever.
 const SHALLOW: f64 = 0.8;
 const SHARP: f64 = 0.4;
 
@@ -475,7 +475,8 @@ mod tests {
 
     /// What the sides of a groove, `steep` radians from level, do to a node at (x, 0, z) that they keep 10 mm off.
     fn pushed_in_groove(steep: f64, x: f64, z: f64) -> Vec3 {
-        // A block 2 wide, 2 deep and 1 high with a groove along y in its upper face; its profile is seen whole from below.
+        // A block 2 wide, 2 deep and 1 high with a groove along y in its upper face; its profile is seen whole from
+        // below.
         let rise = 0.5 * steep.tan();
         let profile =
             [[0.0, -1.0], [1.0, -1.0], [1.0, rise], [0.5, rise], [0.0, 0.0], [-0.5, rise], [-1.0, rise], [-1.0, -1.0]];

@@ -250,9 +250,9 @@ impl<'a> Proximity<'a> {
         &self.contacts[self.searched.begin[k] as usize..self.searched.begin[k + 1] as usize]
     }
 
-    /// Contacts that were found before at triangle or edge `k`, as [`Self::found_at`] counts, and not now, and are still
-    /// apart. Which of two features hides the other may depend on the last micrometre: one that was left out as soon as
-    /// it had pushed the cloth a little off, and found again without it, never let it rest.
+    /// Contacts that were found before at triangle or edge `k`, as [`Self::found_at`] counts, and not now, and are
+    /// still apart. Which of two features hides the other may depend on the last micrometre: one that was left out as
+    /// soon as it had pushed the cloth a little off, and found again without it, never let it rest.
     fn kept(&self, k: usize, found: &[Contact], x: &[Vec3]) -> Vec<Contact> {
         if self.searched.begin.is_empty() {
             return Vec::new();

@@ -27,7 +27,8 @@ pub(super) const TRUST: f64 = 5e-3;
 /// Step length, s: long, for inertia only delays rest.
 pub(super) const STEP: f64 = 0.1;
 
-/// When newly stitched cloth has settled, its springs not yet still. (What moves then are waves of cloth without weight.)
+/// When newly stitched cloth has settled, its springs not yet still.
+/// (What moves then are waves of cloth without weight.)
 #[derive(Clone, Copy, Debug)]
 pub struct Calm {
     /// So many steps lower the energy
@@ -41,7 +42,7 @@ impl Calm {
     pub const TO_FALL: Self = Self { steps: 5, share: 0.05 };
     /// For cloth that lies as coarser cloth has settled, and drapes from where that comes to hang. Its pieces are as
     /// large as drawn, to some .1 %, long before the last waves have gone.
-    pub const TO_LIE: Self = Self { steps: 3, share: 0.2 };
+    pub const TO_LIE: Self = Self { steps: 5, share: 0.1 };
 
     /// Whether the last of `energies` is hardly less than it was.
     fn holds(&self, energies: &[f64]) -> bool {
@@ -98,8 +99,8 @@ pub fn join(
     Ok(world.tangles().is_empty().then_some(world.x))
 }
 
-/// Lets the measured springs pull a newly stitched cloth true, out of its tangles first, until it is `calm`. Returns the
-/// steps made and the tangles left.
+/// Lets the measured springs pull a newly stitched cloth true, out of its tangles first, until it is `calm`. Returns
+/// the steps made and the tangles left.
 ///
 /// # Errors
 /// As [`World::advance`].
