@@ -473,22 +473,25 @@ mod tests {
         assert_eq!(planes(Vec3::new(1.02, 0.5, 0.9)).len(), 1);
     }
 
-    /// What the sides of a groove, `steep` radians from level, do to a node at (x, 0, z) that they keep 10 mm off.
-    fn pushed_in_groove(steep: f64, x: f64, z: f64) -> Vec3 {
-        // A block 2 wide, 2 deep and 1 high with a groove along y in its upper face; its profile is seen whole from
-        // below.
-        let rise = 0.5 * steep.tan();
-        let profile =
-            [[0.0, -1.0], [1.0, -1.0], [1.0, rise], [0.5, rise], [0.0, 0.0], [-0.5, rise], [-1.0, rise], [-1.0, -1.0]];
-        let n = profile.len() as u32;
+    /// From y = −1 to 1 along y, with this profile (x, z), counter-clockwise and seen whole from its first point.
+    fn prism<const N: usize>(profile: [[f64; 2]; N]) -> TriMesh {
+        let n = N as u32;
         let vertices = [1.0, -1.0].iter().flat_map(|y| profile.map(|[x, z]| Vec3::new(x, *y, z))).collect();
         let sides = (0..n).flat_map(|k| {
             let next = (k + 1) % n;
             [[k, next + n, k + n], [k, next, next + n]]
         });
         let caps = (1..n - 1).flat_map(|k| [[0, k + 1, k], [n, k + n, k + 1 + n]]);
-        let mesh = TriMesh { vertices, triangles: sides.chain(caps).collect() };
-        let body = Collider::new(&mesh).expect("collider");
+        TriMesh { vertices, triangles: sides.chain(caps).collect() }
+    }
+
+    /// What the sides of a groove, `steep` radians from level, do to a node at (x, 0, z) that they keep 10 mm off.
+    fn pushed_in_groove(steep: f64, x: f64, z: f64) -> Vec3 {
+        // A block 2 wide and 1 high with a groove along y in its upper face.
+        let rise = 0.5 * steep.tan();
+        let profile =
+            [[0.0, -1.0], [1.0, -1.0], [1.0, rise], [0.5, rise], [0.0, 0.0], [-0.5, rise], [-1.0, rise], [-1.0, -1.0]];
+        let body = Collider::new(&prism(profile)).expect("collider");
         let at = [Vec3::new(x, 0.13, z)];
         let nearest = body.nearest(at[0], 0.1).expect("near");
         let mut found = vec![Contact::on_body(0, nearest.normal, nearest.point)];
@@ -558,17 +561,10 @@ mod tests {
 
     #[test]
     fn both_sides_of_a_ridge_bar_the_way_of_a_node_beside_it() {
-        // A slab with a ridge along y; its profile is seen whole from the middle of its lower side.
+        // A slab with a ridge along y.
         let profile =
             [[0.0, -1.0], [1.0, -1.0], [1.0, 0.0], [0.1, 0.0], [0.0, 0.2], [-0.1, 0.0], [-1.0, 0.0], [-1.0, -1.0]];
-        let n = profile.len() as u32;
-        let vertices = [1.0, -1.0].iter().flat_map(|y| profile.map(|[x, z]| Vec3::new(x, *y, z))).collect();
-        let sides = (0..n).flat_map(|k| {
-            let next = (k + 1) % n;
-            [[k, next + n, k + n], [k, next, next + n]]
-        });
-        let caps = (1..n - 1).flat_map(|k| [[0, k + 1, k], [n, k + n, k + 1 + n]]);
-        let body = TriMesh { vertices, triangles: sides.chain(caps).collect() };
+        let body = prism(profile);
         let volume: f64 = (0..body.triangles.len()).map(|t| body.double_normal(t).dot(&body.corners(t)[0])).sum();
         assert!(volume > 0.0, "inside out");
         let body = Collider::new(&body).expect("collider");

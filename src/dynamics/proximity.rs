@@ -233,12 +233,7 @@ impl<'a> Proximity<'a> {
                     contacts.extend(found.into_iter().chain(kept));
                     self.searched.hidden[k] = hidden;
                 }
-                None => {
-                    let first = self.searched.begin[k] as usize;
-                    contacts.extend_from_slice(self.found_at(k));
-                    let turned = contacts[begin[k] as usize..].iter_mut().enumerate();
-                    turned.for_each(|(i, c)| self.near.turn(first + i, c, x));
-                }
+                None => contacts.extend(self.turned(k, x)),
             }
         }
         begin.push(contacts.len() as u32);
@@ -250,6 +245,16 @@ impl<'a> Proximity<'a> {
         &self.contacts[self.searched.begin[k] as usize..self.searched.begin[k + 1] as usize]
     }
 
+    /// The same, turned to where their closest points are at `x`.
+    fn turned(&self, k: usize, x: &[Vec3]) -> impl Iterator<Item = Contact> {
+        let first = self.searched.begin[k] as usize;
+        self.found_at(k).iter().enumerate().map(move |(i, contact)| {
+            let mut contact = *contact;
+            self.near.turn(first + i, &mut contact, x);
+            contact
+        })
+    }
+
     /// Contacts that were found before at triangle or edge `k`, as [`Self::found_at`] counts, and not now, and are
     /// still apart. Which of two features hides the other may depend on the last micrometre: one that was left out as
     /// soon as it had pushed the cloth a little off, and found again without it, never let it rest.
@@ -257,15 +262,9 @@ impl<'a> Proximity<'a> {
         if self.searched.begin.is_empty() {
             return Vec::new();
         }
-        let first = self.searched.begin[k] as usize;
-        let turned = |(i, contact): (usize, &Contact)| {
-            let mut contact = *contact;
-            self.near.turn(first + i, &mut contact, x);
-            contact
-        };
         let again = |c: &Contact| found.iter().any(|f| f.under.number() == c.under.number());
         let apart = |c: &Contact| (0.0..self.searched.reach).contains(&c.gap(x));
-        self.found_at(k).iter().enumerate().map(turned).filter(|c| apart(c) && !again(c)).collect()
+        self.turned(k, x).filter(|c| apart(c) && !again(c)).collect()
     }
 
     /// Which nodes have gone too far for what was found at them to hold;
