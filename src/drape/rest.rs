@@ -74,9 +74,9 @@ const LONGEST_FALL: usize = 80;
 const SETTLED: f64 = 0.12e-3;
 /// One that goes on in finer cloth, when it moves less than this.
 const HARDLY: f64 = 0.5e-3;
-/// How far a Newton step is trusted to change an edge: at first, at least and at most, metres. What turns a spring
-/// further is too much for its tangent.
-const TRUST: [f64; 3] = [1.5e-3, 0.1e-3, 10e-3];
+/// How far a Newton step is trusted to change an edge: at first, at least and at most, in grid spacings. Springs that
+/// are turned further are drawn out by more than the next step takes back.
+const TRUST: [f64; 3] = [0.125, 0.01, 0.2];
 /// At rest a garment drifts by no more than this over as many steps again, metres (RMS),
 pub const DRIFT: f64 = 0.3e-3;
 /// and its forces are out of balance by no more than so many particle weights (RMS).
@@ -113,8 +113,9 @@ pub fn drape(
     let thick = world.cloth.thickest();
     let look = [thick + NEAREST_LOOK, drape_reach(cut.mesh.spacing, thick)];
     let near = options.near;
-    let (last, trust) = (world.x.clone(), TRUST[0]);
-    let mut fall = Fall { last, world, steps: 0, tested: 0, near, trust, look };
+    let trusts = TRUST.map(|share| share * cut.mesh.spacing);
+    let (last, trust) = (world.x.clone(), trusts[0]);
+    let mut fall = Fall { last, world, steps: 0, tested: 0, near, trust, trusts, look };
     let (drift, residual, converged) = match options.until {
         Until::Rest => fall.come_to_rest(options.max_steps, progress)?,
         Until::Near => {
@@ -140,6 +141,8 @@ struct Fall<'a> {
     near: bool,
     /// How far a Newton step is trusted, metres.
     trust: f64,
+    /// [`TRUST`] in metres.
+    trusts: [f64; 3],
     /// How far around the cloth is looked at, at least and at most, metres.
     look: [f64; 2],
 }
@@ -196,7 +199,7 @@ impl Fall<'_> {
 
     /// A step with the true stiffness.
     fn step(&mut self, dt: f64) -> Result<(), StepError> {
-        let [_, least, most] = TRUST;
+        let [_, least, most] = self.trusts;
         self.trust = self.world.newton(dt, self.trust)?.trust(self.trust).clamp(least, most);
         Ok(())
     }

@@ -9,6 +9,7 @@ mod curvature;
 mod elastic;
 pub mod explicit;
 mod force;
+mod foreseen;
 mod friction;
 mod model;
 mod near;

@@ -83,6 +83,8 @@ pub struct Cloth {
     pub bending_bound: Vec<f64>,
     /// Nodes that stay where they are, in the jaws of a clamp; to be set before the first step.
     pub held: Vec<u32>,
+    /// Loads of the springs as the last step foresaw them, N/m; none: as they are.
+    pub(super) foreseen: Vec<f64>,
 }
 
 /// Pairs of nodes with a spring between them, smaller first, sorted.
@@ -120,6 +122,7 @@ impl Cloth {
             edges: Vec::new(),
             bending_bound: Vec::new(),
             held: Vec::new(),
+            foreseen: Vec::new(),
             node_of,
             triangles,
             flat,
@@ -262,9 +265,11 @@ impl Cloth {
         self.node_of.iter().map(|&n| nodes[n as usize]).collect()
     }
 
-    /// Takes note of where the cloth has gone: folds turn on from the angle they have.
-    pub(super) fn follow(&mut self, x: &[Vec3]) {
+    /// Takes note of where the cloth has gone, in a step that `foresaw` loads of its springs or in none that did: folds
+    /// turn on from the angle they have.
+    pub(super) fn follow(&mut self, x: &[Vec3], foresaw: Vec<f64>) {
         self.creases.iter_mut().for_each(|c| c.follow(x));
+        self.foreseen = foresaw;
     }
 
     /// Elastic energy (stretch, bending and creases), J.

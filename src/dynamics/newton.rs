@@ -141,7 +141,7 @@ impl Stepper {
 
 impl<'a> Tangent<'a> {
     fn new(cloth: &'a Cloth, x: &'a [Vec3], dt: f64, forces: &'a Forces<'a>, pushing: &Pushing<'a>) -> Self {
-        let springs = cloth.springs.iter().map(|s| s.tangent(&cloth.laws[s.law as usize], x)).collect();
+        let springs = (0..cloth.springs.len()).map(|k| cloth.spring_tangent(k, x)).collect();
         let creases = cloth.creases.iter().map(|c| c.root(x)).collect();
         let grips =
             pushing.numbers().map(|k| (k, pushing.grips[k].map_or_else(Mat3::zeros, |g| g.stiffness))).collect();

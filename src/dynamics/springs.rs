@@ -160,15 +160,15 @@ pub(super) struct SpringTangent {
 }
 
 impl Spring {
-    /// The tangent at positions `x`.
-    pub(super) fn tangent(&self, law: &StretchLaw, x: &[Vec3]) -> SpringTangent {
+    /// The tangent at positions `x`, across the spring by the `load` (N/m) given instead of its own.
+    pub(super) fn tangent(&self, law: &StretchLaw, x: &[Vec3], load: Option<f64>) -> SpringTangent {
         let d = x[self.ends[1] as usize] - x[self.ends[0] as usize];
         let length = d.norm().max(SHORTEST);
         let strain = length / self.rest - 1.0;
         SpringTangent {
             direction: d / length,
             along: law.slope(strain) * self.width / self.rest,
-            across: law.load(strain) * self.width / length,
+            across: load.unwrap_or_else(|| law.load(strain)) * self.width / length,
         }
     }
 }

@@ -265,12 +265,11 @@ impl Stepper {
 
     fn assemble(&mut self, cloth: &Cloth, x: &[Vec3], dt: f64, forces: &Forces) {
         self.matrix.clear();
-        let blocks: Vec<Mat3> = cloth
-            .springs
-            .par_iter()
+        let blocks: Vec<Mat3> = (0..cloth.springs.len())
+            .into_par_iter()
             .with_min_len(super::ONE_THREAD)
-            .map(|s| {
-                let SpringTangent { direction, along, across } = s.tangent(&cloth.laws[s.law as usize], x);
+            .map(|k| {
+                let SpringTangent { direction, along, across } = cloth.spring_tangent(k, x);
                 // A compressed spring would buckle within one step: the absolute value lets it, but gently.
                 let across = across.abs();
                 Mat3::identity() * across + direction * direction.transpose() * (along - across).max(0.0)
@@ -337,7 +336,7 @@ fn sorted(mut nodes: Vec<[u32; 4]>) -> Vec<[u32; 4]> {
 
 /// The largest stiffness of a spring at `x`, N/m; not a number where one of them is none.
 fn stiffest(cloth: &Cloth, x: &[Vec3]) -> f64 {
-    let along = cloth.springs.iter().map(|s| s.tangent(&cloth.laws[s.law as usize], x).along);
+    let along = (0..cloth.springs.len()).map(|k| cloth.spring_tangent(k, x).along);
     along.fold(0.0, |most: f64, k| if most.is_nan() || k <= most { most } else { k })
 }
 

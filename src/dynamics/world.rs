@@ -2,6 +2,7 @@
 
 use super::cost::ContactTime;
 use super::force::{ContactLaw, Forces, Pull, cloth_forces};
+use super::foreseen::Foreseen;
 use super::friction::Friction;
 use super::model::Cloth;
 use super::proximity::{Proximity, Reach};
@@ -36,6 +37,18 @@ const CARRIES: usize = 10;
 /// Energy differences below this are rounding, J.
 const ROUNDING: f64 = 1e-12;
 
+/// What a step must do to the energy to be made as long as it is.
+struct Demand {
+    /// By how much the energy is to fall, J; a share of it is enough.
+    expected: f64,
+    /// By how much it may rise, J.
+    allowed: f64,
+    /// How often the step is halved for it.
+    halvings: usize,
+    /// Whether the springs' loads follow the step's linear model, and what they hold beyond it does not count.
+    foresees: bool,
+}
+
 /// A step that was shortened.
 struct Descent {
     target: Vec<Vec3>,
@@ -44,6 +57,8 @@ struct Descent {
     halvings: usize,
     /// The share of it that was made, but for what the bounds changed.
     share: f64,
+    /// Loads of the springs as the step foresaw them, N/m, if it does.
+    foresaw: Vec<f64>,
 }
 
 /// A way that was gone.
@@ -116,7 +131,7 @@ impl<'a> World<'a> {
         law: ContactLaw,
         reach: Reach,
     ) -> Result<Self, StepError> {
-        cloth.follow(&x);
+        cloth.follow(&x, Vec::new());
         Ok(Self {
             velocity: vec![Vec3::zeros(); x.len()],
             friction: None,
@@ -171,7 +186,7 @@ impl<'a> World<'a> {
         let d = self.stepper.solve(&self.cloth, &ahead, &still, FALL, &forces, ROUNDS)?;
         let target: Vec<Vec3> = ahead.iter().zip(&d).map(|(x, d)| x + d).collect();
         let target = self.clamped(&target);
-        self.move_to(target, FALL, true)
+        self.move_to(target, FALL, true, Vec::new())
     }
 
     /// A step with the true stiffness that changes no edge by more than `radius` metres, shortened until the energy
@@ -189,22 +204,25 @@ impl<'a> World<'a> {
         let step = self.stepper.newton(&self.cloth, &self.x, dt, &now, radius)?;
         self.wished = step.d.iter().map(Vec3::norm).fold(0.0, f64::max);
         let allowed = self.allowed_rise();
-        let down = self.descend(&step.d, step.gain, HALVINGS, allowed);
+        let demand = Demand { expected: step.gain, allowed, halvings: HALVINGS, foresees: true };
+        let down = self.descend(&step.d, &demand);
         if step.gain > 0.0 && down.gain >= -ROUNDING - allowed {
             self.gains.push(down.gain);
             // What the model says of the share that was made.
             let expected = step.gain * down.share * (2.0 - down.share);
             let ratio = if expected > 0.0 { down.gain / expected } else { 0.0 };
             let shortened = down.halvings > 0;
-            return Ok(NewtonStep { moved: self.move_to(down.target, dt, false)?, shortened, ratio });
+            let moved = self.move_to(down.target, dt, false, down.foresaw)?;
+            return Ok(NewtonStep { moved, shortened, ratio });
         }
         self.gains.clear();
+        self.cloth.foreseen.clear();
         let still = vec![Vec3::zeros(); self.x.len()];
         let now = forces(self.gravity, &self.proximity, self.law, &[], self.friction.as_ref());
         let d = self.stepper.solve(&self.cloth, &self.x, &still, dt, &now, ROUNDS)?;
-        let down = self.descend(&d, 0.0, MORE_HALVINGS, 0.0);
+        let down = self.descend(&d, &Demand { expected: 0.0, allowed: 0.0, halvings: MORE_HALVINGS, foresees: false });
         // The bounds may ask for more room than there is: the shortest step then still makes that room.
-        Ok(NewtonStep { moved: self.move_to(down.target, dt, false)?, shortened: true, ratio: 0.0 })
+        Ok(NewtonStep { moved: self.move_to(down.target, dt, false, Vec::new())?, shortened: true, ratio: 0.0 })
     }
 
     /// Looks for contacts anew where the last step would have liked to go further than there is room left for.
@@ -222,13 +240,12 @@ impl<'a> World<'a> {
         })
     }
 
-    /// Halves a step, as the bounds let it be made, until the energy falls by a share of `expected` (J), or rises by no
-    /// more than `allowed`.
-    fn descend(&mut self, d: &[Vec3], expected: f64, most: usize, allowed: f64) -> Descent {
+    /// Halves a step, as the bounds let it be made, until it meets the `demand`.
+    fn descend(&mut self, d: &[Vec3], demand: &Demand) -> Descent {
         let share = self.proximity.bounds.share(&self.x, d);
         self.cover(&self.x.iter().zip(d).map(|(x, d)| x + d * share).collect::<Vec<_>>());
         loop {
-            let down = self.shortened(d, share, expected, most, allowed);
+            let down = self.shortened(d, share, demand);
             if self.cover(&down.target) {
                 return down;
             }
@@ -236,7 +253,7 @@ impl<'a> World<'a> {
     }
 
     /// The same with the contacts that are known to matter.
-    fn shortened(&self, d: &[Vec3], mut share: f64, expected: f64, most: usize, allowed: f64) -> Descent {
+    fn shortened(&self, d: &[Vec3], mut share: f64, demand: &Demand) -> Descent {
         let forces = self.forces(&[]);
         let loads: Vec<f64> = forces.contacts.iter().map(|c| forces.load(&self.cloth, &self.x, c)).collect();
         let energy = |x: &[Vec3]| forces.energy(&self.cloth, x, &loads);
@@ -245,9 +262,12 @@ impl<'a> World<'a> {
         loop {
             let mut target: Vec<Vec3> = self.x.iter().zip(d).map(|(x, d)| x + d * share).collect();
             self.proximity.clamp(&self.x, &mut target);
-            let gain = from - energy(&target);
-            if gain > ENOUGH * share * expected.max(0.0) - allowed || gain.abs() < ROUNDING || halvings >= most {
-                return Descent { target, gain, halvings, share };
+            let Foreseen { loads: foresaw, beyond } =
+                if demand.foresees { self.cloth.foresee(&self.x, &target) } else { Foreseen::default() };
+            let gain = from - energy(&target) + beyond;
+            let enough = ENOUGH * share * demand.expected.max(0.0) - demand.allowed;
+            if gain > enough || gain.abs() < ROUNDING || halvings >= demand.halvings {
+                return Descent { target, gain, halvings, share, foresaw };
             }
             share *= 0.5;
             halvings += 1;
@@ -274,7 +294,9 @@ impl<'a> World<'a> {
         covered
     }
 
-    fn move_to(&mut self, target: Vec<Vec3>, dt: f64, drag: bool) -> Result<f64, StepError> {
+    /// Goes to `target` in `dt` seconds, in a step that `foresaw` loads of the springs or in none that did, with what
+    /// friction remembers if it is to `drag` it along. Returns the largest motion, metres.
+    fn move_to(&mut self, target: Vec<Vec3>, dt: f64, drag: bool, foresaw: Vec<f64>) -> Result<f64, StepError> {
         let mut largest = 0.0f64;
         for ((x, t), v) in self.x.iter().zip(&target).zip(&mut self.velocity) {
             let d = t - x;
@@ -282,7 +304,7 @@ impl<'a> World<'a> {
             largest = largest.max(d.norm_squared());
         }
         let last = std::mem::replace(&mut self.x, target);
-        self.cloth.follow(&self.x);
+        self.cloth.follow(&self.x, foresaw);
         if self.wished > self.proximity.bounds.most() {
             // Cloth that falls freely.
             self.proximity.forget();
@@ -335,7 +357,7 @@ impl<'a> World<'a> {
         let share = self.proximity.bounds.share(&self.x, d);
         let target: Vec<Vec3> = self.x.iter().zip(d).map(|(x, d)| x + d * share).collect();
         let target = self.clamped(&target);
-        Ok(Way { share, moved: self.move_to(target, dt, true)? })
+        Ok(Way { share, moved: self.move_to(target, dt, true, Vec::new())? })
     }
 
     /// Looks for contacts anew. Between detections a node slides on the plane where it met the body; on a curved body
