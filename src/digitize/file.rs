@@ -58,6 +58,7 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
         about: Vec::new(),
         units: None,
         body: None,
+        body_units: None,
         allowance: None,
         fabrics: Vec::new(),
         pieces,
