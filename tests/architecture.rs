@@ -29,6 +29,7 @@ const FLOORS: [(&str, &[&str]); 21] = [
         "pipeline",
         &[
             "geometry",
+            "input",
             "fabric",
             "pattern",
             "mannequin",

@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use toile::geometry::Vec3;
-use toile::io::body::{Body, BodyError, body, mannequin_obj, read_body};
+use toile::input::LengthUnit;
+use toile::io::body::{Body, BodyError, body, load_body, mannequin_obj, read_body};
 use toile::io::obj_read::{ObjSurface, parse_obj};
 use toile::mannequin::{BodyFault, Mannequin, MannequinSpec, PartKind, load};
 use toile::pipeline::{self, Color, Job, Overrides, Run, SEWN_OBJ, judge};
@@ -14,7 +15,7 @@ fn child() -> ObjSurface {
 }
 
 fn read(surface: ObjSurface) -> Result<Body, BodyError> {
-    body(surface, "child".to_owned(), "child.obj".to_owned())
+    body(surface, "child".to_owned(), "child.obj".to_owned(), None)
 }
 
 fn turned(turn: impl Fn(Vec3) -> Vec3) -> ObjSurface {
@@ -33,7 +34,7 @@ fn our_own_mannequins_come_back_with_their_parts() {
     for name in ["woman_92", "man_100", "child_110"] {
         let ours = load(name).expect(name);
         let surface = parse_obj(&mannequin_obj(&ours), name).expect(name);
-        let back = body(surface, name.to_owned(), name.to_owned()).expect(name).mannequin;
+        let back = body(surface, name.to_owned(), name.to_owned(), None).expect(name).mannequin;
         assert_eq!(back.mesh.triangles.len(), ours.mesh.triangles.len());
         assert_eq!(back.parts.len(), 6);
         for (kind, landmark, within) in [
@@ -119,7 +120,7 @@ fn what_is_sewn_on_a_body_that_stands_elsewhere_is_written_where_its_file_has_it
     let sewn = folder.path().join(SEWN_OBJ);
     fs::write(&sewn, &files.iter().find(|f| f.0 == SEWN_OBJ).expect("a sewn garment").1).expect("the garment");
 
-    let judged = judge(&sewn, named.as_deref(), 1e-3).expect("two surfaces");
+    let judged = judge(&sewn, named.as_deref(), LengthUnit::Millimetre).expect("two surfaces");
     assert_eq!((judged.notes.len(), judged.seen.contact.cloth_body_intersections), (0, 0), "{:?}", judged.notes);
     let mut again = Run::new(&job);
     again.resume_sewn(&sewn).expect("the same garment");
@@ -191,6 +192,74 @@ fn a_body_of_no_bodys_size_is_refused_with_its_unit() {
     }
 }
 
+/// A ball of facets, `size` across, about (x, y, z) = (0, 10, 20) sizes.
+fn ball(size: f64) -> ObjSurface {
+    let (rows, columns) = (12, 16);
+    let at = |row: usize, column: usize| {
+        let [up, round] = [(row, rows, 1.0), (column, columns, 2.0)]
+            .map(|(k, n, turns): (usize, usize, f64)| std::f64::consts::PI * turns * k as f64 / n as f64);
+        0.5 * size * Vec3::new(up.sin() * round.sin(), up.cos(), up.sin() * round.cos())
+            + size * Vec3::new(0.0, 10.0, 20.0)
+    };
+    let mut surface = ObjSurface::default();
+    surface.vertices.push(at(0, 0));
+    surface.vertices.push(at(rows, 0));
+    surface.vertices.extend((1..rows).flat_map(|r| (0..columns).map(move |c| (r, c))).map(|(r, c)| at(r, c)));
+    let index = |r: usize, c: usize| match r {
+        0 => 0,
+        r if r == rows => 1,
+        r => (2 + (r - 1) * columns + c % columns) as u32,
+    };
+    for (r, c) in (0..rows).flat_map(|r| (0..columns).map(move |c| (r, c))) {
+        let quad = [index(r, c), index(r + 1, c), index(r + 1, c + 1), index(r, c + 1)];
+        let faces = [[quad[0], quad[1], quad[2]], [quad[0], quad[2], quad[3]]];
+        surface.triangles.extend(faces.iter().filter(|f| f[0] != f[1] && f[1] != f[2] && f[2] != f[0]));
+    }
+    surface
+}
+
+#[test]
+fn a_small_object_has_the_unit_that_is_said() {
+    let read = |unit| body(ball(190.0), "ball".to_owned(), "ball.obj".to_owned(), unit).expect("a ball");
+    let wide = |found: &Body| {
+        let x = found.mannequin.mesh.vertices.iter().map(|v| v.x);
+        2.0 * x.fold(0.0, f64::max)
+    };
+    let guessed = read(None);
+    assert!((wide(&guessed) - 1.9).abs() < 1e-9);
+    let note = "centimetres assumed, since the object is 190.00 units long; if that is wrong, say --body-units";
+    assert!(guessed.notes.iter().any(|n| n.starts_with(note)), "{:?}", guessed.notes);
+    for (unit, metres) in [(LengthUnit::Millimetre, 0.19), (LengthUnit::Centimetre, 1.9), (LengthUnit::Inch, 4.826)] {
+        let found = read(Some(unit));
+        assert!((wide(&found) - metres).abs() < 1e-9 && found.mannequin.parts.is_empty(), "{unit:?}");
+        assert!(found.notes.iter().all(|n| !n.contains("assumed")), "{:?}", found.notes);
+    }
+    // Of a named mannequin there is no doubt.
+    assert!(matches!(load_body("child_110", Some(LengthUnit::Inch)), Err(BodyError::NoUnit(_))));
+}
+
+#[test]
+fn places_of_faults_are_told_as_the_file_has_them() {
+    let said = |surface: ObjSurface, unit| {
+        body(surface, "a".to_owned(), "a.obj".to_owned(), unit).expect_err("open").to_string()
+    };
+    // The triangle that is missing begins at the top of the ball.
+    let mut open = ball(190.0);
+    open.triangles.remove(0);
+    assert!(said(open.clone(), Some(LengthUnit::Millimetre)).contains("near (0, 1995, 3800) mm"));
+    assert!(said(open.clone(), Some(LengthUnit::Centimetre)).contains("near (0.0, 1995.0, 3800.0) cm"));
+    open.vertices.iter_mut().for_each(|v| *v /= 1e3);
+    assert!(said(open, Some(LengthUnit::Metre)).contains("near (0.000, 1.995, 3.800) m"));
+    // Upright along z, in centimetres: turned to be looked at, told as it was.
+    let mut child = turned(|p| Vec3::new(p.x, -p.z, p.y) / 10.0);
+    let corner = child.vertices[child.triangles.pop().expect("triangles")[0] as usize];
+    let text = said(child, None);
+    let near = |p: &Vec3| text.contains(&format!("near ({:.1}, {:.1}, {:.1}) cm", p.x, p.y, p.z));
+    let rim = turned(|p| Vec3::new(p.x, -p.z, p.y) / 10.0);
+    let last = rim.triangles[rim.triangles.len() - 1].map(|v| rim.vertices[v as usize]);
+    assert!(last.contains(&corner) && last.iter().any(near), "{text} {last:?}");
+}
+
 #[test]
 fn a_flat_surface_is_not_called_inside_out() {
     let both_sides = "v 0 0 0\nv 500 0 0\nv 500 900 0\nv 0 900 0\nf 1 2 3\nf 1 3 4\nf 3 2 1\nf 4 3 1\n";
@@ -224,7 +293,7 @@ fn a_foreign_body_is_read() {
         return;
     }
     let start = std::time::Instant::now();
-    let found = read_body(&path).expect("mean_all.obj");
+    let found = read_body(&path, None).expect("mean_all.obj");
     println!("{:?} {:?}", start.elapsed(), found.notes);
     assert_eq!(found.mannequin.parts.len(), 6);
     for part in &found.mannequin.parts {

@@ -60,19 +60,35 @@ const SLIT: &str = "    holes: {slit: M 40 60 L 42 60 L 42 140 L 40 140 Z}\n";
 /// The tube bent round so that its fronts are `apart` (metres), further by `bulge` half-way between two buttons.
 fn worn(garment: &Garment, apart: f64, bulge: f64) -> Report {
     let mesh = build(garment, 0.01).unwrap();
-    let mut weld: Vec<u32> = (0..mesh.flat.len() as u32).collect();
-    mesh.seams.iter().flat_map(|s| &s.pairs).for_each(|&[a, b]| weld[b as usize] = a);
     let radius = (0.2 + apart) / std::f64::consts::TAU;
     let at: Vec<Vec3> = (0..mesh.flat.len()).map(|p| bent(&mesh, p, radius, apart, bulge)).collect();
+    measured(garment, &mesh, &welded(&mesh), &at)
+}
+
+/// A label per particle, the same for those that seams join.
+fn welded(mesh: &ClothMesh) -> Vec<u32> {
+    let mut weld: Vec<u32> = (0..mesh.flat.len() as u32).collect();
+    let pairs: Vec<[u32; 2]> = mesh.seams.iter().flat_map(|s| s.pairs.clone()).collect();
+    // Where several seams meet, until no label sinks any more.
+    while pairs.iter().any(|&[a, b]| weld[a as usize] != weld[b as usize]) {
+        for &[a, b] in &pairs {
+            let label = weld[a as usize].min(weld[b as usize]);
+            (weld[a as usize], weld[b as usize]) = (label, label);
+        }
+    }
+    weld
+}
+
+fn measured(garment: &Garment, mesh: &ClothMesh, weld: &[u32], at: &[Vec3]) -> Report {
     let body = Mannequin { name: "nobody".into(), mesh: Default::default(), parts: vec![], frame: Default::default() };
     measure(&Measured {
         garment,
-        mesh: &mesh,
-        weld: &weld,
+        mesh,
+        weld,
         body: &body,
         fabric: "muslin",
         gaps: None,
-        sewn: Some(&at),
+        sewn: Some(at),
         draped: None,
         flattened: None,
         stages: &[],
@@ -186,6 +202,81 @@ free: [\"half.*\", \"shell.*\", \"band.*\", \"lining.*\"]
     let lengths: Vec<f64> = rims.iter().map(|o| (o.length * 1e3).round()).collect();
     assert_eq!(lengths[..2], [240.0, 260.0], "{lengths:?}");
     assert!(rims[2..].iter().all(|o| garment.opening_edges(o).iter().all(|e| !e.starts_with("half"))));
+}
+
+/// How many openings the report finds in a vest whose fronts lie over each other with the buttons `inset` (metres) from
+/// their edges.
+fn rims_of_surface(garment: &Garment, inset: f64) -> usize {
+    let mesh = build(garment, 0.01).unwrap();
+    let weld = welded(&mesh);
+    let at = |p: usize| {
+        let (piece, flat) = (mesh.pieces.iter().find(|piece| piece.particles.contains(&p)).unwrap(), mesh.flat[p]);
+        let (shift, z) = match (piece.name.starts_with("front"), piece.name.ends_with('L')) {
+            (true, true) => (-inset, 0.1),
+            (true, false) => (inset, 0.102),
+            _ => (0.0, -0.1),
+        };
+        Vec3::new(flat.x + shift, -flat.y, z)
+    };
+    let at: Vec<Vec3> = (0..mesh.flat.len()).map(at).collect();
+    measured(garment, &mesh, &weld, &at).worn.len()
+}
+
+/// A vest of pairs, its lining sewn on all round: neck and fronts, armholes, hem; buttoned, so far from the edge.
+fn lined(inset: f64, closures: bool) -> Garment {
+    let at = format!("[[{inset}, 110], [{inset}, 190]]");
+    let buttons = format!("[{{kind: button, piece: front.R, at: {at}, meets: front.L, meets_at: {at}}}]");
+    let text = format!(
+        "\
+garment: 1
+pieces:
+  front:
+    cut: pair
+    grain: [[50, 50], [50, 150]]
+    outline: {{start: 0 80, neck: L 60 0, shoulder: L 110 10, armhole: L 120 90, side: L 120 200, hem: L 0 200,
+      edge: L 0 80}}
+  back:
+    cut: fold center
+    drawn: R
+    grain: [[50, 50], [50, 150]]
+    outline: {{start: 0 20, neck: L 60 0, shoulder: L 110 10, armhole: L 120 90, side: L 120 200, hem: L 0 200,
+      center: L 0 20}}
+  front_lining: {{like: front, layer: -1}}
+  back_lining: {{like: back, layer: -1}}
+seams:
+  shoulder: {{sew: front.shoulder, to: back.shoulder}}
+  side: {{sew: front.side, to: back.side}}
+  shoulder_lining: {{sew: front_lining.shoulder, to: back_lining.shoulder}}
+  side_lining: {{sew: front_lining.side, to: back_lining.side}}
+  fronts: {{sew: [front.neck, front.edge, front.hem], to: [front_lining.neck, front_lining.edge, front_lining.hem],
+    face: same}}
+  neck: {{sew: back.neck, to: back_lining.neck, face: same}}
+  hem: {{sew: back_lining.hem, to: back.hem, face: same}}
+  arm_front: {{sew: front.armhole, to: front_lining.armhole, face: same}}
+  arm_back: {{sew: back.armhole, to: back_lining.armhole, face: same}}
+closures: {}
+",
+        if closures { &buttons } else { "[]" }
+    );
+    read_text("vest", "vest.yaml", &text).unwrap_or_else(|e| panic!("{e}\n{text}")).garment
+}
+
+/// Where two layers end together, each is a rim of cloth; `check`, which knows seams alone, and the report, which knows
+/// the surface, say the same of it.
+#[test]
+fn a_lining_sewn_on_all_round_leaves_the_openings_of_its_shell() {
+    for (inset, closures, count) in [(20.0, false, 3), (20.0, true, 4), (4.0, true, 4)] {
+        let garment = lined(inset, closures);
+        let rims = openings(&garment);
+        let names: Vec<Vec<String>> = rims.iter().map(|o| garment.opening_edges(o)).collect();
+        assert_eq!(rims.len(), count, "{inset} {closures} {names:?}");
+        let has = |all: &[&str], none: &[&str]| {
+            let part = |names: &Vec<String>, word: &str| names.iter().any(|n| n.contains(word));
+            names.iter().any(|n| all.iter().all(|w| part(n, w)) && none.iter().all(|w| !part(n, w)))
+        };
+        assert!(has(&["neck"], &["hem", "armhole"]) == closures && has(&["armhole"], &["neck", "hem"]), "{names:?}");
+        assert_eq!(rims_of_surface(&garment, 1e-3 * inset), count, "{inset} {closures}");
+    }
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //! shares nothing with its writer.
 
 use proptest::prelude::*;
-use toile::cutting::{Layout, Options, Paper, Sheet, papers};
+use toile::cutting::{Layout, MarkKind, Options, Paper, SewKind, Sheet, papers};
 use toile::geometry::Vec2;
 use toile::io::dxf_write::cutting_dxf;
 use toile::io::garment::read_text;
@@ -274,7 +274,10 @@ fn dxf_read_back_has_the_same_lines_on_the_standards_layers() {
         assert_eq!(on("LINE", "6").len(), usize::from(paper.fold.is_some()));
         assert_eq!(on("LINE", "7").len(), 1);
         assert_eq!(on("POINT", "13").len(), paper.drills.len());
-        assert_eq!(on("TEXT", "15").len(), paper.texts.len());
+        // Edges, the legs of darts among them, and inner lines have a text each that tells what they are.
+        let told = paper.sew.iter().filter(|l| l.of != SewKind::Mouth).count()
+            + paper.marks.iter().filter(|m| m.kind != MarkKind::Fold).count();
+        assert_eq!(on("TEXT", "15").len(), paper.texts.len() + told);
         let vertices = on("VERTEX", "1").len() + on("VERTEX", "14").len();
         let told = on("POINT", "2").len() + on("POINT", "3").len();
         assert!(
@@ -418,6 +421,37 @@ fn elastic_is_labelled_beside_its_line() {
     let line = paper.marks[0].path.start().y;
     assert!(low > line || high < line, "{low} {line} {high}");
     assert!((high - line).abs() < 0.015);
+}
+
+/// A piece with a hole of this path, into which another is sewn or nothing.
+fn holed(hole: &str, sewn: bool) -> Paper {
+    let seams = if sewn { "seams: {w: {sew: body.win, to: patch.rim}}\n" } else { "" };
+    let text = format!(
+        "garment: 1\nallowance: 15\npieces:\n  body:\n    grain: [[10, 20], [10, 280]]\n    outline: {{start: 0 0, a: \
+         L 300 0, b: L 300 300, c: L 0 300, d: L 0 0}}\n    holes: {{win: {hole} Z}}\n  patch:\n    grain: [[10, 20], \
+         [10, 30]]\n    outline: {{start: {}, rim: {}}}\n{seams}free: ['*.*']\n",
+        hole.trim_start_matches("M ").split(" L ").next().expect("a start"),
+        hole.split_once(" L ").map(|(start, rest)| format!("L {rest} L {}", &start[2..])).expect("a path"),
+    );
+    papers(&drawn(&text), &Options::default()).remove(0)
+}
+
+#[test]
+fn a_hole_has_an_allowance_where_something_is_sewn_into_it() {
+    let square = "M 100 100 L 200 100 L 200 200 L 100 200";
+    let cut_out = |paper: &Paper| (area(&paper.cut[1]).abs() * 1e6).round();
+    let free = holed(square, false);
+    assert_eq!((cut_out(&free), free.narrowed.len()), (10_000.0, 0));
+    let sewn = holed(square, true);
+    assert_eq!((cut_out(&sewn), sewn.narrowed.len()), (4_900.0, 0));
+    assert!(has_point(&sewn.cut[1], mm(115.0, 115.0)));
+    assert!(sewn.texts.iter().any(|t| t.text == "allowance 15 mm"), "{:?}", sewn.texts);
+    // Ten millimetres wide: 15 and 7.5 leave nothing to cut out.
+    let welt = holed("M 100 100 L 200 100 L 200 110 L 100 110", true);
+    let [narrowed] = welt.narrowed.as_slice() else { panic!("{:?}", welt.narrowed) };
+    assert_eq!((narrowed.edge.as_str(), narrowed.asked, narrowed.drawn), ("win", 0.015, 0.00375));
+    assert_eq!(cut_out(&welt), (92.5_f64 * 2.5).round());
+    assert!(welt.texts.iter().any(|t| t.text == "allowance 15 mm; win 3.75"), "{:?}", welt.texts);
 }
 
 #[test]

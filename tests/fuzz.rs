@@ -73,7 +73,7 @@ fn read_specification(text: &str) {
 fn read_surface(text: &str) {
     match obj_read::parse_obj(text, "fuzz.obj") {
         Ok(surface) => {
-            let _ = body::body(surface, "fuzz".to_owned(), "fuzz.obj".to_owned());
+            let _ = body::body(surface, "fuzz".to_owned(), "fuzz.obj".to_owned(), None);
         }
         Err(error) => assert!(!error.to_string().is_empty()),
     }

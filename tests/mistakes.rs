@@ -442,3 +442,148 @@ fn a_fold_on_an_edge_is_told_from_one_on_the_fold_of_a_piece() {
     let on_fold = found(&folded);
     assert!(on_fold.iter().all(|d| d.severity != Severity::Error), "{on_fold:?}");
 }
+
+/// Half a metre wide, in millimetres.
+const CUBE: &str = "\
+v 0 0 0\nv 500 0 0\nv 500 500 0\nv 0 500 0\nv 0 0 500\nv 500 0 500\nv 500 500 500\nv 0 500 500
+f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6
+";
+
+/// A skirt of two like pieces, in a unit and with more in its front.
+fn skirt(unit: &str, scale: f64, more: &str) -> String {
+    let n = |x: f64| (x * scale).to_string();
+    format!(
+        "garment: 1
+{unit}body: woman_92
+pieces:
+  front:
+    grain: [[0, {}], [0, {}]]
+{more}    outline: {{start: {} 0, waist: L {} 0, right: L {} {}, hem: L {} {}, left: L {} 0}}
+  back: {{like: front}}
+seams:
+  left: {{sew: front.right, to: back.left}}
+  right: {{sew: front.left, to: back.right}}
+free: ['*.waist', '*.hem']
+",
+        n(50.0),
+        n(250.0),
+        n(-200.0),
+        n(200.0),
+        n(290.0),
+        n(300.0),
+        n(-290.0),
+        n(300.0),
+        n(-200.0)
+    )
+}
+
+#[track_caller]
+fn says_once(found: &[Diagnostic], words: &str) {
+    let count = found.iter().filter(|d| d.to_string().contains(words)).count();
+    assert_eq!(count, 1, "{words:?} in {found:#?}");
+}
+
+#[test]
+fn a_garment_in_another_unit_than_thought_is_doubted() {
+    let room = Room::new();
+    assert_eq!(room.finds(&skirt("", 1.0, ""), None), []);
+    assert_eq!(room.finds(&skirt("units: cm\n", 0.1, ""), None), []);
+    let small = room.finds(&skirt("", 0.1, ""), Some(3.0));
+    says_once(&small, "the largest piece, 'front', is 65 mm long");
+    says_once(&small, "write 'units: cm'");
+    let large = room.finds(&skirt("units: cm\n", 1.0, ""), Some(100.0));
+    says_once(&large, "is the drawing in another unit than cm?");
+    assert!(small.iter().chain(&large).all(|d| d.severity == Severity::Warning), "{small:#?} {large:#?}");
+    assert_eq!(place(&skirt("units: cm\n", 1.0, ""), "cm"), (large[0].line, large[0].column));
+}
+
+#[test]
+fn what_like_pieces_have_wrong_is_said_once() {
+    let found = Room::new().finds(&skirt("", 1.0, "    notches: {hem: [900]}\n"), None);
+    says_once(&found, "notch at 900.0 mm lies off front.hem, which is 580.0 mm long (the same in 'back')");
+    assert_eq!(found.len(), 1, "{found:#?}");
+    // What two pieces say for themselves is said of each.
+    let own = "    notches: {hem: [900]}\n";
+    let text = skirt("", 1.0, own).replace("{like: front}", "{like: front, notches: {hem: [901]}}");
+    assert_eq!(Room::new().finds(&text, None).len(), 2);
+}
+
+#[test]
+fn elastic_may_be_given_in_percent() {
+    let line = |ratio: &str| format!("    lines: {{c: {{path: M -200 20 L 200 20, kind: elastic, ratio: {ratio}}}}}\n");
+    assert_eq!(Room::new().finds(&skirt("", 1.0, &line("70 %")), None), []);
+    let found = Room::new().finds(&skirt("", 1.0, &line("170 %")), None);
+    assert!(found.iter().any(|d| d.message.contains("ratio must be between 0.05 and 1")), "{found:#?}");
+}
+
+#[test]
+fn units_within_a_path_are_called_so() {
+    let room = Room::new();
+    for (from, to, unit) in
+        [("L 200 0", "L 20cm 0", "cm"), ("L 200 0", "L 200 mm 0", "mm"), ("L 200 0", "L 8in 0", "in")]
+    {
+        let text = skirt("", 1.0, "").replace(from, to);
+        says_once(
+            &room.finds(&text, None),
+            &format!("has the unit {unit}; in a path all numbers are in the file's units"),
+        );
+    }
+    let line = skirt("", 1.0, "    lines: {c: {path: M 0cm 20 L 100 20}}\n");
+    says_once(&room.finds(&line, None), "has the unit cm");
+}
+
+#[test]
+fn places_are_looked_at_on_the_body() {
+    let room = Room::new();
+    let placed = |place: &str| skirt("", 1.0, &format!("    place: {place}\n"));
+    says_once(&room.finds(&placed("[0, 900, 300]"), None), "or a position as {at: [x, y, z]}");
+    let inside = placed("{at: [0, 900, 20]}").replace("{like: front}", "{like: front, place: {at: [0, 900, -300]}}");
+    let found = room.finds(&inside, None);
+    says_once(&found, "piece 'front' starts inside the body");
+    assert_eq!((found[0].severity, found[0].line), (Severity::Error, place(&inside, "{at: [0, 900, 20]}").0));
+    let before = placed("{at: [0, 900, 300]}").replace("{like: front}", "{like: front, place: {at: [0, 900, -300]}}");
+    assert_eq!(room.finds(&before, None), []);
+    // A cube has no hips.
+    room.put("cube.obj", CUBE);
+    let hips = placed("hip front").replace("body: woman_92", "body: cube.obj\nbody_units: mm");
+    says_once(&room.finds(&hips, None), "goes round the torso, which mannequin 'cube' does not have");
+}
+
+#[test]
+fn a_fold_is_neither_sewn_nor_free() {
+    let text = "garment: 1\npieces:\n  front:\n    cut: fold hem\n    grain: [[0, 50], [0, 250]]\n    outline: {start: \
+                -200 0, waist: L 200 0, right: L 200 300, hem: L -200 300, left: L -200 0}\nfree: ['*.hem', \
+                front.waist, front.right, front.left]\n";
+    says_once(&Room::new().finds(text, None), "'*.hem' matches only front.hem, which lies on the fold");
+}
+
+#[test]
+fn a_piece_that_closures_hold_is_not_sewn_to_nothing() {
+    let patch = |closures: &str| {
+        skirt("", 1.0, "").replace(
+            "seams:",
+            &format!(
+                "  patch:\n    grain: [[10, 10], [10, 90]]\n    outline: {{start: 0 0, rim: L 90 0 L 90 90 L 0 90 L 0 \
+                 0}}\n{closures}seams:"
+            ),
+        )
+        .replace("free: [", "free: [patch.rim, ")
+    };
+    says_once(&Room::new().finds(&patch(""), None), "piece 'patch' is sewn to nothing");
+    let tacks = "closures:\n  - {kind: tack, piece: patch, at: [[5, 5], [85, 5]], meets: front, meets_at: [[5, 105], \
+                 [85, 105]]}\n";
+    assert_eq!(Room::new().finds(&patch("").replace("seams:", &format!("{tacks}seams:")), None), []);
+}
+
+#[test]
+fn a_difference_is_shown_with_the_digits_that_tell() {
+    let text = changed(&[(SIDE, "{sew: front.side@0..89.99, to: back.center, tolerance: 10}")]);
+    says_once(&Room::new().finds(&text, None), "10.01 mm apart; ");
+    says_once(&Room::new().finds(&text, None), "(tolerance 10)");
+}
+
+#[test]
+fn friction_is_no_percentage() {
+    let text = SQUARES.replace("{shell: denim}", "{shell: {base: denim, friction: 4}}");
+    says_once(&Room::new().finds(&text, None), "friction");
+}

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand, ValueEnum};
 
 use crate::flatten::Mode;
+use crate::input::LengthUnit;
 use crate::pipeline::{Color, DARTS, Overrides};
 
 /// Sew flat patterns onto a mannequin, drape them in a measured fabric and lay them flat again.
@@ -105,12 +106,20 @@ pub(super) struct OverrideArgs {
     /// Body in place of the garment's own
     #[arg(long, value_name = "NAME|FILE.obj")]
     body: Option<String>,
+    /// Unit of the body's OBJ file [default: what the garment file says, or guessed from its size, and said]
+    #[arg(long, value_enum, value_name = "UNIT")]
+    body_units: Option<UnitArg>,
 }
 
 impl OverrideArgs {
     /// In metres.
     pub(super) fn checked(&self) -> Overrides {
-        Overrides { spacing: self.spacing.map(|mm| 1e-3 * mm), fabric: self.fabric.clone(), body: self.body.clone() }
+        Overrides {
+            spacing: self.spacing.map(|mm| 1e-3 * mm),
+            fabric: self.fabric.clone(),
+            body: self.body.clone(),
+            body_unit: self.body_units.map(UnitArg::unit),
+        }
     }
 }
 
@@ -466,15 +475,23 @@ pub(super) enum UnitArg {
     Cm,
     /// Metres
     M,
+    /// Inches
+    In,
 }
 
 impl UnitArg {
+    /// The same for the library.
+    pub(super) fn unit(self) -> LengthUnit {
+        match self {
+            Self::Mm => LengthUnit::Millimetre,
+            Self::Cm => LengthUnit::Centimetre,
+            Self::M => LengthUnit::Metre,
+            Self::In => LengthUnit::Inch,
+        }
+    }
+
     /// Metres in the unit.
     pub(super) fn metres(self) -> f64 {
-        match self {
-            Self::Mm => 1e-3,
-            Self::Cm => 1e-2,
-            Self::M => 1.0,
-        }
+        self.unit().metres()
     }
 }

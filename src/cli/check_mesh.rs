@@ -20,7 +20,7 @@ struct Found {
 
 /// `toile check --mesh`
 pub(super) fn check_mesh(mesh: &std::path::Path, args: &CheckArgs, console: &Console) -> Result<Exit, CliError> {
-    let judged = judge(mesh, args.body.as_deref(), args.units.metres())?;
+    let judged = judge(mesh, args.body.as_deref(), args.units.unit())?;
     judged.notes.iter().for_each(|note| console.note(note));
     let contact = judged.seen.contact;
     let ok = contact == Contact::default();

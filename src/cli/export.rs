@@ -6,7 +6,7 @@ use super::args::{ExportArgs, ExportCommand, PageArg};
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use super::make::folder;
-use crate::cutting::{DEFAULT_ALLOWANCE, Layout, Options, Paper, Sheet, papers};
+use crate::cutting::{DEFAULT_ALLOWANCE, Layout, MarkKind, Narrowed, Options, Paper, SewKind, Sheet, papers};
 use crate::io::dxf_write::cutting_dxf;
 use crate::io::files::write_all;
 use crate::io::pdf_write::{Page, one_page, tiled};
@@ -40,6 +40,12 @@ pub(super) fn export(command: &ExportCommand, console: &Console) -> Result<Exit,
         }
         ExportCommand::Dxf { common } => {
             let job = Job::new(common, console)?;
+            if job.papers.iter().any(is_told) {
+                console.note(
+                    "DXF-AAMA has no layers for darts, pleats, folds and elastic: they are inner lines (layer 8), and \
+                     texts on them (layer 15) say what they are, which 'toile import dxf' reads and others show",
+                );
+            }
             job.write(cutting_dxf(&job.title, &job.papers).into_bytes(), "dxf", console)
         }
     }
@@ -70,6 +76,7 @@ impl<'a> Job<'a> {
         }
         let allowance = args.allowance.map_or(DEFAULT_ALLOWANCE, |mm| mm * MM);
         let papers = papers(&drawn, &Options { allowance, whole: args.whole });
+        papers.iter().flat_map(narrowed).for_each(|note| console.note(&note));
         Ok(Self { args, name: loaded.garment.name, title: loaded.garment.title, papers })
     }
 
@@ -86,10 +93,32 @@ impl<'a> Job<'a> {
 
 /// Whether an edge that will be cut has no allowance of its own.
 fn lacks_allowance(drawing: &Drawing) -> bool {
-    let outline = drawing.rings[0].iter().enumerate();
-    outline
-        .filter(|(i, _)| drawing.fold != Some(*i) && !drawing.darts.iter().any(|d| d.legs.contains(i)))
-        .any(|(_, edge)| edge.allowance.width.is_none())
+    let is_cut = |i: usize| drawing.fold != Some(i) && !drawing.darts.iter().any(|d| d.legs.contains(&i));
+    let outline = drawing.rings[0].iter().enumerate().filter(|(i, _)| is_cut(*i)).map(|(_, edge)| edge);
+    let sewn_holes = drawing.rings[1..].iter().flatten().filter(|edge| edge.sewn);
+    outline.chain(sewn_holes).any(|edge| edge.allowance.width.is_none())
+}
+
+/// Whether a paper has lines that DXF has no layer for.
+fn is_told(paper: &Paper) -> bool {
+    let is_dart = |kind: SewKind| matches!(kind, SewKind::Dart | SewKind::FishEye);
+    paper.marks.iter().any(|m| m.kind != MarkKind::Fold) || paper.sew.iter().any(|line| is_dart(line.of))
+}
+
+/// Of holes that are too small for their allowances.
+fn narrowed(paper: &Paper) -> Vec<String> {
+    let mm = |width: f64| (width / MM * 100.0).round() / 100.0;
+    let note = |n: &Narrowed| {
+        format!(
+            "hole '{}' of '{}' has no room for an allowance of {} mm: {} mm are drawn; say a narrower one, or slash \
+             into its corners",
+            n.edge,
+            paper.name,
+            mm(n.asked),
+            mm(n.drawn)
+        )
+    };
+    paper.narrowed.iter().map(note).collect()
 }
 
 /// What was written. Lengths are mm.

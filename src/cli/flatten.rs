@@ -57,6 +57,7 @@ fn foreign(args: &FlattenArgs) -> Result<(), CliError> {
             ("--from", args.from.is_some()),
             ("--spacing", overrides.spacing.is_some()),
             ("--body", overrides.body.is_some()),
+            ("--body-units", overrides.body_unit.is_some()),
         ];
         let found = options.into_iter().find(|o| o.1);
         found.map(|(name, _)| format!("{name} belongs to a garment file; a surface is flattened as it is"))

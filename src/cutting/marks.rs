@@ -100,8 +100,12 @@ fn pleat(drawing: &Drawing, edge: (usize, usize), from: f64, to: f64) -> Vec<Mar
     let [one, other] = [from, to].map(|at| [path.point(at), path.point(at) + inward(at) * PLEAT]);
     let middle = |ends: [Vec2; 2]| (ends[0] + ends[1]) / 2.0;
     let arrow = arrow(middle(one), middle(other));
-    let mark = |path: Path| Mark { kind: MarkKind::Pleat, name: drawing.edge(edge).name.clone(), path, line: None };
-    vec![mark(Path::line(one[0], one[1])), mark(Path::line(other[0], other[1])), mark(arrow)]
+    let mark = |kind, path: Path| Mark { kind, name: drawing.edge(edge).name.clone(), path, line: None };
+    vec![
+        mark(MarkKind::PleatFold, Path::line(one[0], one[1])),
+        mark(MarkKind::PleatPlace, Path::line(other[0], other[1])),
+        mark(MarkKind::PleatArrow, arrow),
+    ]
 }
 
 /// An arrow with its two barbs, drawn without lifting the pen.

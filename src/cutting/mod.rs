@@ -23,7 +23,7 @@ pub use room::{Room, foot};
 use nalgebra::Matrix2;
 
 use crate::geometry::{Path, Vec2};
-use crate::pattern::LineKind;
+use crate::pattern::{LineKind, Side};
 
 /// What the file does not say.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,6 +54,8 @@ pub struct Paper {
     pub quantity: usize,
     /// Whether half of these are mirrored.
     pub mirrored: bool,
+    /// Which of a pair, or which half, is drawn; `None` where nothing is mirrored.
+    pub drawn: Option<Side>,
     /// Name of its fabric.
     pub fabric: String,
     /// Cut lines: the outline, then bays and holes. Closed; but with a [`Paper::fold`] the outline is open and runs
@@ -73,6 +75,19 @@ pub struct Paper {
     pub drills: Vec<(String, Vec2)>,
     /// What is written on it.
     pub texts: Vec<Lettering>,
+    /// Allowances of holes for which these are too small.
+    pub narrowed: Vec<Narrowed>,
+}
+
+/// An allowance that does not fit into its hole, and what is drawn in its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Narrowed {
+    /// The hole's edge.
+    pub edge: String,
+    /// As asked for, metres.
+    pub asked: f64,
+    /// As drawn, metres.
+    pub drawn: f64,
 }
 
 /// A sewing line.
@@ -93,8 +108,10 @@ pub enum SewKind {
     Outline,
     /// A hole that is cut out.
     Hole,
-    /// A dart's leg or a fish-eye dart.
+    /// A dart's leg.
     Dart,
+    /// A side of a fish-eye dart.
+    FishEye,
     /// Where a seam runs over the mouth of a dart that is sewn and pressed.
     Mouth,
 }
@@ -130,8 +147,12 @@ pub struct Mark {
 pub enum MarkKind {
     /// The bent arrow at a fold.
     Fold,
-    /// A pleat: its lines and the arrow from the fold to where it comes to lie.
-    Pleat,
+    /// The line along which a pleat is folded, from the edge.
+    PleatFold,
+    /// The line to which that fold is brought.
+    PleatPlace,
+    /// The arrow from the one to the other.
+    PleatArrow,
     /// A line of the file.
     Line,
 }

@@ -6,12 +6,16 @@ use super::label;
 use super::marks;
 use super::offset::{Between, Border, around, sewn_mouths, within};
 use super::whole;
-use super::{Lettering, Options, Paper, SewKind, SewLine};
+use super::{Lettering, Narrowed, Options, Paper, SewKind, SewLine};
 use crate::geometry::{Path, Vec2, range_of};
 use crate::pattern::{Corner, Cut, Dart, Drawing, DrawnEdge};
 
 /// A point within this (metres) of the fold's line is on it.
 const ON_FOLD: f64 = 1e-6;
+/// Less than this (square metres, a square of 3 mm) nobody cuts out of a hole.
+const LEAST_CUT: f64 = 1e-5;
+/// An allowance that does not fit into its hole is halved so often at most; then the hole is cut on its sewing line.
+const HALVINGS: i32 = 6;
 
 /// The papers of a garment, their warp upright: one per drawing, or one per piece as cut with [`Options::whole`].
 pub fn papers(drawings: &[Drawing], options: &Options) -> Vec<Paper> {
@@ -36,16 +40,48 @@ pub fn papers(drawings: &[Drawing], options: &Options) -> Vec<Paper> {
 struct Rule<'a> {
     drawing: &'a Drawing,
     options: &'a Options,
+    /// The share of its allowance that each ring has room for.
+    shares: Vec<f64>,
 }
 
-impl Rule<'_> {
+impl<'a> Rule<'a> {
+    fn new(drawing: &'a Drawing, options: &'a Options) -> Self {
+        let mut rule = Self { drawing, options, shares: vec![1.0; drawing.rings.len()] };
+        for ring in rule.holes() {
+            rule.shares[ring] = rule.share(ring);
+        }
+        rule
+    }
+
+    /// The rings that are cut out.
+    fn holes(&self) -> Vec<usize> {
+        (1..self.drawing.rings.len()).filter(|r| !self.drawing.fish_eyes.contains(r)).collect()
+    }
+
+    /// How much of its allowance fits into a hole.
+    fn share(&self, ring: usize) -> f64 {
+        let fits = |share: &f64| {
+            let mut borders = self.borders(ring);
+            borders.iter_mut().for_each(|b| b.width *= share);
+            let left: f64 = within(&borders).iter().map(|c| area(c)).sum();
+            left >= LEAST_CUT
+        };
+        (0..=HALVINGS).map(|k| 0.5_f64.powi(k)).find(fits).unwrap_or(0.0)
+    }
+
     fn width(&self, ring: usize, index: usize) -> f64 {
+        self.shares[ring] * self.asked(ring, index)
+    }
+
+    fn asked(&self, ring: usize, index: usize) -> f64 {
         if ring == 0 && self.drawing.fold == Some(index) {
             return 0.0;
         }
-        // A hole is a slit or a welt that is turned in on its own lines, unless the file says otherwise.
-        let usual = if ring == 0 { self.options.allowance } else { 0.0 };
-        self.drawing.rings[ring][index].allowance.width.unwrap_or(usual)
+        // A hole that nothing is sewn into is a slit or a welt that is turned in on its own lines, unless the file says
+        // otherwise.
+        let edge = &self.drawing.rings[ring][index];
+        let usual = if ring == 0 || edge.sewn { self.options.allowance } else { 0.0 };
+        edge.allowance.width.unwrap_or(usual)
     }
 
     /// Free edges are hems: turned up, their ends must lie on the piece.
@@ -59,6 +95,27 @@ impl Rule<'_> {
         let on_fold = ring == 0 && self.drawing.fold == Some(index);
         Border { path: &edge.path, width: self.width(ring, index), corner: self.corner(edge, on_fold) }
     }
+
+    fn borders(&self, ring: usize) -> Vec<Border<'_>> {
+        (0..self.drawing.rings[ring].len()).map(|i| self.border(ring, i)).collect()
+    }
+
+    /// The edges of holes whose allowances had to be made narrower.
+    fn narrowed(&self) -> Vec<Narrowed> {
+        let edges = self.holes().into_iter().flat_map(|r| (0..self.drawing.rings[r].len()).map(move |i| (r, i)));
+        let row = |(r, i): (usize, usize)| Narrowed {
+            edge: self.drawing.rings[r][i].name.clone(),
+            asked: self.asked(r, i),
+            drawn: self.width(r, i),
+        };
+        edges.map(row).filter(|n| n.drawn < n.asked).collect()
+    }
+}
+
+/// Area that a contour encloses.
+fn area(contour: &[Vec2]) -> f64 {
+    let next = contour.iter().cycle().skip(1);
+    contour.iter().zip(next).map(|(a, b)| a.perp(b)).sum::<f64>().abs() / 2.0
 }
 
 /// The paper turned so that its warp is upright, by the smaller angle.
@@ -70,14 +127,12 @@ fn upright(paper: &Paper) -> Paper {
 }
 
 fn paper(drawing: &Drawing, options: &Options) -> Paper {
-    let rule = Rule { drawing, options };
+    let rule = Rule::new(drawing, options);
     let (borders, between) = outline_borders(drawing, &rule);
     let mut cut = around(&borders, &between);
     let fold = drawing.fold.map(|f| open_at_fold(&mut cut, &drawing.rings[0][f].path));
-    let holes = (1..drawing.rings.len()).filter(|r| !drawing.fish_eyes.contains(r));
-    for ring in holes.clone() {
-        let borders: Vec<Border> = (0..drawing.rings[ring].len()).map(|i| rule.border(ring, i)).collect();
-        cut.extend(within(&borders));
+    for ring in rule.holes() {
+        cut.extend(within(&rule.borders(ring)));
     }
     let (quantity, mirrored) = match drawing.cut {
         Cut::One | Cut::Fold(_) => (1, false),
@@ -91,6 +146,7 @@ fn paper(drawing: &Drawing, options: &Options) -> Paper {
         count: label::count(&drawing.cut),
         quantity,
         mirrored,
+        drawn: matches!(drawing.cut, Cut::Pair | Cut::Fold(_)).then_some(drawing.drawn),
         fabric: drawing.fabric.clone(),
         cut,
         fold,
@@ -100,6 +156,7 @@ fn paper(drawing: &Drawing, options: &Options) -> Paper {
         marks: marks::marks(drawing, fold),
         drills: marks::drills(drawing),
         texts: Vec::new(),
+        narrowed: rule.narrowed(),
     }
 }
 
@@ -166,12 +223,11 @@ fn sew_lines(drawing: &Drawing, mouths: &[Vec<Vec2>]) -> Vec<SewLine> {
     let mut lines = Vec::new();
     for (r, ring) in drawing.rings.iter().enumerate() {
         for (i, edge) in ring.iter().enumerate() {
-            let dart =
-                if r == 0 { drawing.darts.iter().any(|d| d.legs.contains(&i)) } else { drawing.fish_eyes.contains(&r) };
-            let of = match (dart, r) {
-                (true, _) => SewKind::Dart,
-                (false, 0) => SewKind::Outline,
-                (false, _) => SewKind::Hole,
+            let of = match r {
+                0 if drawing.darts.iter().any(|d| d.legs.contains(&i)) => SewKind::Dart,
+                0 => SewKind::Outline,
+                _ if drawing.fish_eyes.contains(&r) => SewKind::FishEye,
+                _ => SewKind::Hole,
             };
             if !(r == 0 && drawing.fold == Some(i)) {
                 lines.push(SewLine { name: edge.name.clone(), path: edge.path.clone(), of });
@@ -185,12 +241,15 @@ fn sew_lines(drawing: &Drawing, mouths: &[Vec<Vec2>]) -> Vec<SewLine> {
 }
 
 fn lettering(paper: &Paper, drawing: &Drawing, options: &Options) -> Vec<Lettering> {
-    let rule = Rule { drawing, options };
-    let widths: Vec<label::EdgeWidth> = drawing.rings[0]
-        .iter()
-        .enumerate()
-        .filter(|&(i, _)| drawing.fold != Some(i) && !drawing.darts.iter().any(|d| d.legs.contains(&i)))
-        .map(|(i, e)| label::EdgeWidth { name: &e.name, width: rule.width(0, i), length: e.path.length() })
-        .collect();
+    let rule = Rule::new(drawing, options);
+    let width = |(r, i): (usize, usize)| {
+        let edge = &drawing.rings[r][i];
+        label::EdgeWidth { name: &edge.name, width: rule.width(r, i), length: edge.path.length() }
+    };
+    let is_cut =
+        |&(_, i): &(usize, usize)| drawing.fold != Some(i) && !drawing.darts.iter().any(|d| d.legs.contains(&i));
+    let outline = (0..drawing.rings[0].len()).map(|i| (0, i)).filter(is_cut);
+    let holes = rule.holes().into_iter().flat_map(|r| (0..drawing.rings[r].len()).map(move |i| (r, i)));
+    let widths: Vec<label::EdgeWidth> = outline.map(width).chain(holes.map(width).filter(|w| w.width > 0.0)).collect();
     label::lettering(paper, &widths, drawing.note.as_deref())
 }

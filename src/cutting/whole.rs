@@ -13,6 +13,7 @@ pub(super) fn as_cut(paper: &Paper, drawing: &Drawing) -> Vec<Paper> {
         count: "cut 1".to_owned(),
         quantity: 1,
         mirrored: false,
+        drawn: None,
         ..of.clone()
     };
     match &drawing.cut {

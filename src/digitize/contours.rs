@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::chain::{chained, is_closed};
+use super::holes::holes_of;
 use super::{Inner, Remark, Role, Stroke, Traced};
 use crate::geometry::{Path, Vec2};
 use crate::pattern::Cut;
@@ -21,20 +22,22 @@ const LOOKS: usize = 15;
 const MOST_ARROW_POINTS: usize = 100;
 /// Chords that stand for curves where only inside and outside is asked.
 const COARSE: f64 = 1e-4;
+/// Two contours are one line where their areas differ by less than a strip so wide (metres) along it.
+const STRIP: f64 = 1e-5;
 
 /// A closed line and the corners it goes through.
-struct Contour {
-    edges: Vec<(Option<String>, Path)>,
-    whole: Path,
+pub(super) struct Contour {
+    pub(super) edges: Vec<(Option<String>, Path)>,
+    pub(super) whole: Path,
     points: Vec<Vec2>,
     /// Least and greatest coordinates.
     bounds: [Vec2; 2],
-    role: Role,
+    pub(super) role: Role,
     name: Option<String>,
 }
 
 impl Contour {
-    fn new(edges: Vec<(Option<String>, Path)>, role: Role, name: Option<String>) -> Option<Self> {
+    pub(super) fn new(edges: Vec<(Option<String>, Path)>, role: Role, name: Option<String>) -> Option<Self> {
         let mut paths = edges.iter().map(|e| e.1.clone());
         let first = paths.next()?;
         let whole = paths.fold(first, |whole, next| whole.joined(&next));
@@ -43,15 +46,35 @@ impl Contour {
         Some(Self { points, bounds, whole, edges, role, name })
     }
 
-    /// Whether most of it lies in another: outlines may share a side, on which no point tells.
-    fn lies_in(&self, other: &Self) -> bool {
+    /// Whether most of it lies in another: outlines may share a side, on which no point tells. Where there is no
+    /// allowance, the sewing line lies in the cut line that is drawn over it.
+    pub(super) fn lies_in(&self, other: &Self) -> bool {
         let middle = (self.bounds[0] + self.bounds[1]) / 2.0;
         let beyond = (0..2).any(|k| middle[k] < other.bounds[0][k] || middle[k] > other.bounds[1][k]);
-        if beyond || other.area() <= self.area() {
+        let wider = other.area() - self.area();
+        let alike = wider.abs() <= STRIP * other.whole.length();
+        let over = self.role != Role::Cut && other.role == Role::Cut;
+        if beyond || wider <= 0.0 && !alike || alike && !over {
             return false;
         }
-        let place = |k: usize| self.whole.length() * (k as f64 + 0.5) / LOOKS as f64;
-        2 * (0..LOOKS).filter(|&k| other.holds(self.whole.point(place(k)))).count() > LOOKS
+        let place = |k: usize| self.whole.point(self.whole.length() * (k as f64 + 0.5) / LOOKS as f64);
+        let telling: Vec<Vec2> = (0..LOOKS).map(place).filter(|&p| other.off(p) > COARSE).collect();
+        if alike {
+            telling.is_empty()
+        } else {
+            2 * telling.iter().filter(|&&p| other.holds(p)).count() >= telling.len()
+        }
+    }
+
+    /// How far a point is from its line.
+    fn off(&self, p: Vec2) -> f64 {
+        let chords = self.points.iter().zip(self.points.iter().cycle().skip(1));
+        let to = |(&a, &b): (&Vec2, &Vec2)| {
+            let along = b - a;
+            let share = ((p - a).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+            (a + share * along - p).norm()
+        };
+        chords.map(to).fold(f64::INFINITY, f64::min)
     }
 
     fn area(&self) -> f64 {
@@ -174,14 +197,13 @@ fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> Traced {
     };
     let is_sewn = |c: &Contour| sewn.is_some_and(|s| std::ptr::eq(*s, c));
     let surface = sewn.map_or(outer, |s| s);
-    for hole in inner.iter().filter(|c| !is_sewn(c)) {
-        // A lozenge within is a dart, a ring of a few millimetres a mark; what is left was cut out.
-        if hole.area() >= SMALLEST_PIECE / 100.0 && hole.lies_in(surface) {
-            traced.holes.push(hole.whole.clone());
-        } else {
-            traced.points.push(hole.points.iter().sum::<Vec2>() / hole.points.len() as f64);
-        }
-    }
+    // A lozenge within is a dart, a ring of a few millimetres a mark; what is left was cut out.
+    let is_hole = |c: &&&Contour| c.area() >= SMALLEST_PIECE / 100.0 && c.lies_in(surface);
+    let others = inner.iter().copied().filter(|c| !is_sewn(c));
+    let (cut_out, marks): (Vec<&Contour>, Vec<&Contour>) = others.partition(|c| is_hole(&c));
+    traced.holes = holes_of(&cut_out);
+    traced.points.extend(marks.iter().map(|m| m.points.iter().sum::<Vec2>() / m.points.len() as f64));
+    let mut folds = Vec::new();
     for stroke in rest {
         let middle = stroke.path.point(stroke.path.length() / 2.0);
         let ends = [stroke.path.start(), stroke.path.end()];
@@ -193,6 +215,8 @@ fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> Traced {
         let short = stroke.path.length() <= NOTCH && stroke.path.is_straight();
         match stroke.role {
             Role::Grain => traced.grain = traced.grain.or(Some(grain_ends(&stroke.path))),
+            Role::PleatFold => folds.push(stroke.path.start()),
+            Role::PleatPlace => traced.pleats.extend(folds.pop().map(|fold| [fold, stroke.path.start()])),
             Role::Fold => traced.mirror = traced.mirror.or(Some(ends)),
             Role::Notch => traced.notches.push(nearest_end(ends, &outlines)),
             Role::Unknown if short && ends.iter().any(|&p| near(p)) => {

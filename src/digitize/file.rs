@@ -1,13 +1,15 @@
 //! The garment file of traced pieces.
 
 use super::Traced;
+use super::darts::{Wedge, closed};
 use super::edges::{Edge, edges};
+use super::holes::Hole;
 use super::pairs::paired;
 use super::suggest::{Suggestion, suggest};
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{
-    AllowanceFile, AllowanceWidth, Cut, GarmentFile, LineFile, LineKind, Located, NotchFile, OutlineFile, PieceFile,
-    Quantity, Spot,
+    AllowanceFile, AllowanceWidth, Cut, DartFile, DartShape, GarmentFile, LineFile, LineKind, Located, NotchFile,
+    OutlineFile, PieceFile, PleatFile, Quantity, Spot,
 };
 
 /// Millimetres per metre.
@@ -20,6 +22,8 @@ const WIDEST: f64 = 0.1;
 const LOOKS: [f64; 3] = [0.4, 0.5, 0.6];
 /// Where these differ by more (metres), the cut line does not run along the edge: it passes the mouth of a dart.
 const ALONG: f64 = 2e-3;
+/// What is so near to a notch or to the tip of a dart (metres) is that.
+const ON_NOTCH: f64 = 5e-4;
 /// Length of the line that stands for a drill hole, metres.
 const DRILL: f64 = 2e-3;
 /// Longest name.
@@ -54,6 +58,7 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
         about: Vec::new(),
         units: None,
         body: None,
+        body_units: None,
         allowance: None,
         fabrics: Vec::new(),
         pieces,
@@ -106,31 +111,48 @@ fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile
         }
         _ => piece.sew.clone(),
     };
-    let edges = edges(&outline, &piece.notches);
+    let (outline, wedges) = closed(&outline);
+    let mut edges = edges(&outline, &piece.notches);
+    let darts: Vec<DartFile> = wedges.iter().filter_map(|wedge| dart(wedge, &mut edges)).collect();
+    let pleats: Vec<PleatFile> = piece.pleats.iter().filter_map(|ends| pleat(*ends, &mut edges)).collect();
+    notes.extend(untold(name, piece));
     // What lies on the fold of the cloth lies along the warp.
     let grain = piece.grain.or(piece.mirror);
     let fold = piece.mirror.and_then(|mirror| fold_edge(&edges, mirror));
     let cut = fold.map(Cut::Fold).or(piece.cut_how.clone());
     let whole = piece.cut.as_ref().filter(|_| !piece.sew.is_empty());
+    let holes = named_holes(&piece.holes, &edges);
     let file = PieceFile {
         name: at_no_place(name.to_owned()),
         like: None,
         fabric: None,
-        allowance: whole.and_then(|line| allowance(&edges, line, &cut)),
-        drawn: piece.drawn.filter(|_| cut == Some(Cut::Pair)).map(at_no_place),
+        allowance: whole.and_then(|line| allowance(&edges, &wedges, &holes, line, &cut)),
+        drawn: piece.drawn.filter(|_| matches!(cut, Some(Cut::Pair | Cut::Fold(_)))).map(at_no_place),
         cut: cut.map(at_no_place),
         layer: None,
         grain: grain.map(|g| at_no_place(g.map(file_point))),
         place: None,
         outline: Some(outline_file(&edges)),
         notches: notches(&edges),
-        darts: Vec::new(),
-        pleats: Vec::new(),
-        holes: numbered("hole", &piece.holes, &edges),
-        lines: lines(piece),
+        darts,
+        pleats,
+        holes: holes.iter().map(|(name, hole)| (at_no_place(name.clone()), at_no_place(ring(&hole.sew)))).collect(),
+        lines: lines(piece, &wedges),
         note: piece.fabric.as_ref().map(|f| at_no_place(format!("material: {}", plain(f)))),
     };
     (file, edges)
+}
+
+/// Of lines inside of which the drawing does not say what they do.
+fn untold(name: &str, piece: &Traced) -> Option<String> {
+    let count = piece.lines.iter().filter(|line| line.kind.is_none()).count();
+    let (lines, are) = if count == 1 { ("line", "is") } else { ("lines", "are") };
+    (count > 0).then(|| {
+        format!(
+            "{count} {lines} inside '{name}' {are} taken as marks, for the drawing does not say what they do; give a \
+             fold its 'fold: 180', elastic its 'kind: elastic' and 'ratio', and write darts and pleats as such"
+        )
+    })
 }
 
 /// Ten nanometres in a millimetre file: nobody's rounding, and short.
@@ -163,16 +185,67 @@ fn notches(edges: &[Edge]) -> Vec<(Located<String>, Vec<Located<NotchFile>>)> {
     all
 }
 
-fn numbered(stem: &str, paths: &[Path], edges: &[Edge]) -> Vec<(Located<String>, Located<String>)> {
-    let name = |k: usize| {
-        let name = format!("{stem}{}", k + 1);
-        if edges.iter().any(|e| e.name == name) { format!("{name}_") } else { name }
-    };
-    let text = |p: &Path| format!("{} Z", p.to_svg(MM, true));
-    paths.iter().enumerate().map(|(k, p)| (at_no_place(name(k)), at_no_place(text(p)))).collect()
+/// The holes under their own names, or numbered, none named as an edge.
+fn named_holes<'a>(holes: &'a [Hole], edges: &[Edge]) -> Vec<(String, &'a Hole)> {
+    let mut named: Vec<(String, &Hole)> = Vec::new();
+    for (k, hole) in holes.iter().enumerate() {
+        let own = hole.name.as_deref().map(word).filter(|w| is_usable(w));
+        let mut name = own.unwrap_or_else(|| format!("hole{}", k + 1));
+        while edges.iter().any(|e| e.name == name) || named.iter().any(|(taken, _)| *taken == name) {
+            name.push('_');
+        }
+        named.push((name, hole));
+    }
+    named
 }
 
-fn lines(piece: &Traced) -> Vec<LineFile> {
+/// A closed path as text.
+fn ring(path: &Path) -> String {
+    format!("{} Z", path.to_svg(MM, true))
+}
+
+/// A length in millimetres, to a tenth of a micrometre.
+fn millimetres(metres: f64) -> Located<Quantity> {
+    at_no_place(Quantity { number: (metres * MM * 1e4).round() / 1e4, unit: None })
+}
+
+/// A dart that was closed, without the notches at its mouth, which it has by itself.
+fn dart(wedge: &Wedge, edges: &mut [Edge]) -> Option<DartFile> {
+    let (edge, at, intake) = wedge.on(edges)?;
+    let name = edge.name.clone();
+    unnotch(edges, &name, [at - intake / 2.0, at + intake / 2.0]);
+    let tip = Some(at_no_place(file_point(wedge.tip)));
+    let shape = DartShape::Edge { edge: at_no_place(name), at: millimetres(at), length: None, tip };
+    Some(DartFile { name: Some(at_no_place(word(&wedge.name))), intake: millimetres(intake), shape })
+}
+
+/// A knife pleat that is folded at the first point and brought to the second, without the notches there. (Box and
+/// inverted pleats are two of them.)
+fn pleat(ends: [Vec2; 2], edges: &mut [Edge]) -> Option<PleatFile> {
+    let off = |e: &Edge| ends.iter().map(|p| e.path.nearest(*p).1).sum::<f64>();
+    let on = (0..edges.len()).min_by(|&a, &b| off(&edges[a]).total_cmp(&off(&edges[b])))?;
+    let [fold, place] = ends.map(|p| edges[on].path.nearest(p).0);
+    let depth = (place - fold).abs() / 2.0;
+    if depth <= ON_NOTCH {
+        return None;
+    }
+    // Brought back along the edge it points to its end.
+    let before = edges[(on + edges.len() - 1) % edges.len()].name.clone();
+    let toward = (fold > place).then(|| at_no_place(before));
+    let name = edges[on].name.clone();
+    unnotch(edges, &name, [fold, place]);
+    let (at, depth) = (vec![millimetres(fold.min(place))], millimetres(depth));
+    Some(PleatFile { edge: at_no_place(name), at, depth, kind: None, toward, sewn: None })
+}
+
+/// Takes the notches at these places off an edge.
+fn unnotch(edges: &mut [Edge], name: &str, places: [f64; 2]) {
+    for edge in edges.iter_mut().filter(|e| e.name == name) {
+        edge.notches.retain(|(at, _)| places.iter().all(|place| (at - place).abs() > ON_NOTCH));
+    }
+}
+
+fn lines(piece: &Traced, wedges: &[Wedge]) -> Vec<LineFile> {
     let mut taken: Vec<String> = Vec::new();
     let mut add = |stem: &str, path: &Path, kind: LineKind| {
         let mut name = stem.to_owned();
@@ -202,7 +275,8 @@ fn lines(piece: &Traced) -> Vec<LineFile> {
         let stem = line.name.as_deref().map(word).filter(|w| is_usable(w)).unwrap_or_else(|| "line".to_owned());
         lines.push(add(&stem, &line.path, line.kind.clone().unwrap_or_else(|| LineKind::Mark("mark".to_owned()))));
     }
-    for &p in &piece.points {
+    let is_tip = |p: &Vec2| wedges.iter().any(|w| (w.tip - p).norm() <= ON_NOTCH);
+    for &p in piece.points.iter().filter(|p| !is_tip(p)) {
         let half = Vec2::new(DRILL / 2.0, 0.0);
         lines.push(add("drill", &Path::line(p - half, p + half), LineKind::Mark("drill".to_owned())));
     }
@@ -218,25 +292,49 @@ fn fold_edge(edges: &[Edge], [from, to]: [Vec2; 2]) -> Option<String> {
     edges.iter().filter(lies).max_by(longest).map(|e| e.name.clone())
 }
 
-/// The distance of the cut line from every edge, in tenths of a millimetre.
-fn allowance(edges: &[Edge], cut: &Path, how: &Option<Cut>) -> Option<AllowanceFile> {
+/// The longest stretch of an edge beside the mouths of its darts.
+fn clear_of_mouths(edge: &Edge, edges: &[Edge], wedges: &[Wedge]) -> [f64; 2] {
+    let on_it = wedges.iter().filter_map(|w| w.on(edges)).filter(|(e, ..)| e.name == edge.name);
+    let mut mouths: Vec<[f64; 2]> = on_it.map(|(_, at, intake)| [at - intake / 2.0, at + intake / 2.0]).collect();
+    mouths.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let begins = std::iter::once(0.0).chain(mouths.iter().map(|m| m[1]));
+    let ends = mouths.iter().map(|m| m[0]).chain([edge.path.length()]);
+    let longer = |a: &[f64; 2], b: &[f64; 2]| (a[1] - a[0]).total_cmp(&(b[1] - b[0]));
+    begins.zip(ends).map(|(from, to)| [from, to]).max_by(longer).unwrap_or_default()
+}
+
+/// The distance of the cut line from every edge and hole, in tenths of a millimetre.
+fn allowance(
+    edges: &[Edge],
+    wedges: &[Wedge],
+    holes: &[(String, &Hole)],
+    cut: &Path,
+    how: &Option<Cut>,
+) -> Option<AllowanceFile> {
     let on_fold = |e: &Edge| matches!(how, Some(Cut::Fold(name)) if *name == e.name);
+    let tenths = |metres: f64| (metres * 1e4).round() / 10.0;
     let width = |e: &Edge| {
-        // Round its middle: near its ends the neighbours' cut lines may be nearer than its own.
-        let mut looks = LOOKS.map(|share| cut.nearest(e.path.point(e.path.length() * share)).1);
+        // Round the middle: near its ends the neighbours' cut lines, or that over a dart, may be nearer than its own.
+        let [from, to] = clear_of_mouths(e, edges, wedges);
+        let mut looks = LOOKS.map(|share| cut.nearest(e.path.point(from + (to - from) * share)).1);
         looks.sort_by(f64::total_cmp);
         let along = looks[LOOKS.len() - 1] - looks[0] <= ALONG;
-        along.then(|| (looks[LOOKS.len() / 2] * 1e4).round() / 10.0)
+        along.then(|| tenths(looks[LOOKS.len() / 2]))
     };
     let said = |number: f64| at_no_place(AllowanceWidth { width: Quantity { number, unit: None }, corner: None });
-    let widths: Vec<(&Edge, f64)> = edges.iter().filter(|e| !on_fold(e)).filter_map(|e| Some((e, width(e)?))).collect();
-    if widths.iter().any(|(_, w)| w / MM > WIDEST) {
+    type Width<'a> = (&'a str, f64);
+    let outline = edges.iter().filter(|e| !on_fold(e)).filter_map(|e| Some((e.name.as_str(), width(e)?)));
+    let outline: Vec<Width> = outline.collect();
+    let cut_out = holes.iter().map(|(name, hole)| (name.as_str(), tenths(hole.allowance())));
+    let cut_out: Vec<Width> = cut_out.filter(|(_, w)| *w > 0.0).collect();
+    if outline.iter().any(|(_, w)| w / MM > WIDEST) {
         return None;
     }
-    let first = widths.first()?.1;
-    if widths.iter().all(|(_, w)| *w == first) {
+    let first = outline.first()?.1;
+    // A hole has an allowance only where that is said of it.
+    if cut_out.is_empty() && outline.iter().all(|(_, w)| *w == first) {
         return Some(AllowanceFile::All(said(first)));
     }
-    let edge = |(e, w): &(&Edge, f64)| (at_no_place(e.name.clone()), said(*w));
-    Some(AllowanceFile::Edges(widths.iter().map(edge).collect()))
+    let edge = |(name, w): &Width| (at_no_place((*name).to_owned()), said(*w));
+    Some(AllowanceFile::Edges(outline.iter().chain(&cut_out).map(edge).collect()))
 }

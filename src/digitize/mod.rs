@@ -6,8 +6,10 @@
 
 mod chain;
 mod contours;
+mod darts;
 mod edges;
 mod file;
+mod holes;
 mod pairs;
 mod smooth;
 mod suggest;
@@ -16,6 +18,7 @@ pub use chain::chained;
 pub use contours::pieces;
 pub(crate) use edges::DOUBLE;
 pub use file::{Digitized, garment_file};
+pub use holes::{Hole, holes};
 pub use suggest::Suggestion;
 
 use crate::geometry::{Path, Vec2};
@@ -73,6 +76,10 @@ pub enum Role {
     Fold,
     /// A notch: a short line, or a point as a line without length to speak of.
     Notch,
+    /// Where a pleat is folded: a line that begins at the edge.
+    PleatFold,
+    /// Where the fold that was drawn before it is brought to.
+    PleatPlace,
 }
 
 /// A piece as traced.
@@ -85,7 +92,7 @@ pub struct Traced {
     /// The cut line.
     pub cut: Option<Path>,
     /// What is cut out.
-    pub holes: Vec<Path>,
+    pub holes: Vec<Hole>,
     /// Lines inside.
     pub lines: Vec<Inner>,
     /// Points inside: drill holes.
@@ -94,13 +101,15 @@ pub struct Traced {
     pub grain: Option<[Vec2; 2]>,
     /// Places of notches, near the outline.
     pub notches: Vec<Vec2>,
+    /// Pleats, each by the points of an edge where it is folded and where the fold is brought to.
+    pub pleats: Vec<[Vec2; 2]>,
     /// The line in which a half is mirrored.
     pub mirror: Option<[Vec2; 2]>,
     /// How it is cut, if said.
     pub cut_how: Option<Cut>,
     /// Which of the drawing's remarks says so.
     pub said_by: Option<usize>,
-    /// Which of a pair is drawn, if said.
+    /// Which of a pair, or which half, is drawn, if said.
     pub drawn: Option<Side>,
     /// Its material.
     pub fabric: Option<String>,
@@ -121,11 +130,12 @@ impl Traced {
         Self {
             sew: named(&self.sew),
             cut: self.cut.as_ref().map(path),
-            holes: self.holes.iter().map(path).collect(),
+            holes: self.holes.iter().map(|h| h.moved(path)).collect(),
             lines: self.lines.iter().map(|l| Inner { path: path(&l.path), ..l.clone() }).collect(),
             points: self.points.iter().map(|p| p + shift).collect(),
             grain: self.grain.map(|g| g.map(|p| p + shift)),
             notches: self.notches.iter().map(|p| p + shift).collect(),
+            pleats: self.pleats.iter().map(|ends| ends.map(|p| p + shift)).collect(),
             mirror: self.mirror.map(|m| m.map(|p| p + shift)),
             ..self.clone()
         }

@@ -14,6 +14,8 @@ use super::{Fabric, FabricSpec, GRAVITY, TensileCurve};
 const THICKNESS: f64 = 0.3e-3;
 const SHEAR_STIFFNESS: f64 = 34.0;
 const FRICTION: f64 = 0.4;
+/// Rubber on rubber has 1 to 1.5; more is a percentage, or another quantity.
+const FRICTIONS: RangeInclusive<f64> = 0.0..=2.0;
 const EMT: f64 = 0.03;
 /// kg/m²: only for fabrics of which nothing but the three published measures is known, whose shape the ratio of bending
 /// to weight decides, not the weight.
@@ -210,7 +212,7 @@ impl<'a> Values<'a> {
         let weight = self.quantity(&["weight"], &WEIGHT, base.map(|b| b.areal_density))?;
         let thickness = self.quantity(&["thickness"], &LENGTH, base.map(|b| b.thickness))?;
         let shear = self.quantity(&["shear.G", "shear"], &SHEAR, base.map(|b| b.shear))?;
-        let friction = self.number(&["friction"], 0.0..=5.0)?.or(base.map(|b| b.friction));
+        let friction = self.number(&["friction"], FRICTIONS)?.or(base.map(|b| b.friction));
         let weight = match (weight, self.liu) {
             (None, Some(_)) => Some(defaults.note("weight", AREAL_DENSITY)),
             (weight, _) => weight,

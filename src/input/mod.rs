@@ -1,8 +1,10 @@
-//! What users hand in, within limits: bytes of a file, and how much of a text a message shows.
+//! What users hand in, within limits: bytes of a file, how much of a text a message shows, and units of length.
 
 mod nearest;
+mod unit;
 
 pub use nearest::nearest;
+pub use unit::LengthUnit;
 
 use std::fs::File;
 use std::io::Read as _;

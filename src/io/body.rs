@@ -6,7 +6,10 @@ use std::path::Path;
 
 use super::obj_read::{ObjError, ObjSurface, read_obj};
 use crate::geometry::{Topology, TriMesh, Vec3, box_of, range_of};
-use crate::mannequin::{BodyCheck, BodyFault, Frame, HEIGHTS, Mannequin, MannequinError, check_body, find_parts, load};
+use crate::input::LengthUnit;
+use crate::mannequin::{
+    BodyCheck, BodyFault, Frame, HEIGHTS, Mannequin, MannequinError, Place, check_body, find_parts, load,
+};
 
 /// Nobody needs to know that a body stands so little off y = 0, metres.
 const OFF: f64 = 1e-4;
@@ -47,9 +50,8 @@ pub enum BodyError {
     },
     /// A surface that runs through itself in more than a few places.
     #[error(
-        "{file}: the surface crosses itself ({pairs} pairs of {triangles} triangles, near ({:.0}, {:.0}, {:.0}) mm); \
-         separate the limbs or remesh it (in Blender: Remesh modifier, Voxel)",
-        1e3 * place.x, 1e3 * place.y, 1e3 * place.z
+        "{file}: the surface crosses itself ({pairs} pairs of {triangles} triangles, near {place}); separate the limbs \
+         or remesh it (in Blender: Remesh modifier, Voxel)"
     )]
     Crossing {
         /// Path.
@@ -58,14 +60,14 @@ pub enum BodyError {
         pairs: usize,
         /// Triangles of the surface.
         triangles: usize,
-        /// Where the first two cross, metres.
-        place: Vec3,
+        /// Where the first two cross.
+        place: Place,
     },
     /// A body that nobody dresses: its unit is not what it was taken for.
     #[error(
-        "{file}: the body is {:.3e} units high, taken for {unit}, which makes {} m; a body is {} to {} m high: scale \
-         the file to millimetres, centimetres or metres",
-        units, metres_shown(*metres), HEIGHTS.start(), HEIGHTS.end()
+        "{file}: the body is {:.3e} units high, taken for {}, which makes {} m; a body is {} to {} m high: scale the \
+         file to millimetres, centimetres or metres, or say its unit with --body-units or 'body_units'",
+        units, unit.name(), metres_shown(*metres), HEIGHTS.start(), HEIGHTS.end()
     )]
     Size {
         /// Path.
@@ -73,7 +75,7 @@ pub enum BodyError {
         /// Height in the file's unit.
         units: f64,
         /// What that was taken for.
-        unit: &'static str,
+        unit: LengthUnit,
         /// Height in metres.
         metres: f64,
     },
@@ -85,6 +87,9 @@ pub enum BodyError {
         /// What is missing.
         why: String,
     },
+    /// A unit for what has one.
+    #[error("{0}: a unit was given, but only .obj files come without one; leave out --body-units or 'body_units'")]
+    NoUnit(String),
     /// A mannequin by name or `.yaml`.
     #[error(transparent)]
     Mannequin(#[from] MannequinError),
@@ -94,75 +99,112 @@ fn metres_shown(metres: f64) -> String {
     if (1e-2..1e4).contains(&metres) { format!("{metres:.2}") } else { format!("{metres:.1e}") }
 }
 
-/// A mannequin by library name, `.yaml` or `.obj`: what `--body` takes.
+/// A mannequin by library name, `.yaml` or `.obj`: what `--body` takes; `unit` is that of an `.obj`, guessed from its
+/// size if none is given.
 ///
 /// # Errors
 /// [`BodyError`].
-pub fn load_body(name_or_path: &str) -> Result<Body, BodyError> {
+pub fn load_body(name_or_path: &str, unit: Option<LengthUnit>) -> Result<Body, BodyError> {
     let path = Path::new(name_or_path);
     if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
-        return read_body(path);
+        return read_body(path, unit);
+    }
+    if unit.is_some() {
+        return Err(BodyError::NoUnit(name_or_path.to_owned()));
     }
     Ok(Body { mannequin: load(name_or_path)?, notes: Vec::new() })
 }
 
-/// Reads a closed OBJ in millimetres, centimetres or metres (guessed from its height and said in the notes), y up or
-/// z up. Vertices that coincide are merged where the surface is not closed otherwise. A body that stands elsewhere than
-/// on y = 0, or faces −z, is moved and turned; its [`Frame`] leads back. A surface in which no torso, neck, arms and
-/// legs can be found is an object without parts, as a ball or a table: it stays where the file has it.
+/// Reads a closed OBJ in `unit` (or, without one, in millimetres, centimetres or metres as its height says, which the
+/// notes tell), y up or z up. Vertices that coincide are merged where the surface is not closed otherwise. A body that
+/// stands elsewhere than on y = 0, or faces −z, is moved and turned; its [`Frame`] leads back. A surface in which no
+/// torso, neck, arms and legs can be found is an object without parts, as a ball or a table: it stays where the file
+/// has it.
 ///
 /// # Errors
 /// [`BodyError`] when the file cannot be read, or the surface is open, not manifold, inside out or runs through itself
 /// in many places.
-pub fn read_body(path: &Path) -> Result<Body, BodyError> {
+pub fn read_body(path: &Path, unit: Option<LengthUnit>) -> Result<Body, BodyError> {
     let file = path.display().to_string();
     let name = path.file_stem().map_or_else(|| file.clone(), |s| s.to_string_lossy().into_owned());
-    body(read_obj(path)?, name, file)
+    body(read_obj(path)?, name, file, unit)
 }
 
-/// Reads a closed OBJ as it stands, `metres` to the unit.
+/// Reads a closed OBJ in `unit` as it stands.
 ///
 /// # Errors
 /// [`BodyError`] when the file cannot be read, or the surface is open, not manifold, inside out or runs through itself
 /// in many places.
-pub fn read_solid(path: &Path, metres: f64) -> Result<TriMesh, BodyError> {
+pub fn read_solid(path: &Path, unit: LengthUnit) -> Result<TriMesh, BodyError> {
     let surface = read_obj(path)?;
-    let vertices = surface.vertices.iter().map(|p| p * metres).collect();
-    checked(vertices, surface.triangles, &path.display().to_string(), &mut Vec::new())
+    let origin = Origin { file: &path.display().to_string(), unit, turned: false };
+    checked(surface.vertices, surface.triangles, &origin, &mut Vec::new())
 }
 
 /// As [`read_body`], from a surface already read; `file` names it in errors.
 ///
 /// # Errors
 /// As [`read_body`].
-pub fn body(surface: ObjSurface, name: String, file: String) -> Result<Body, BodyError> {
-    match person(&surface, &name, &file) {
-        Err(BodyError::Shape { why, .. }) => object(surface, name, file, &why),
-        Err(BodyError::Size { .. }) if lies(&surface.vertices) => object(surface, name, file, "it lies"),
+pub fn body(surface: ObjSurface, name: String, file: String, unit: Option<LengthUnit>) -> Result<Body, BodyError> {
+    match person(&surface, &name, &file, unit) {
+        Err(BodyError::Shape { why, .. }) => object(surface, name, &file, unit, &why),
+        Err(BodyError::Size { .. }) if lies(&surface.vertices) => object(surface, name, &file, unit, "it lies"),
+        // With a unit that is said there is no doubt of the size.
+        Err(BodyError::Size { metres, .. }) if unit.is_some() => {
+            let why = format!("it is {} m high", metres_shown(metres));
+            object(surface, name, &file, unit, &why)
+        }
         other => other,
     }
 }
 
+/// Where a surface comes from: what leads from metres, y up, back to its file.
+struct Origin<'a> {
+    file: &'a str,
+    unit: LengthUnit,
+    /// Whether it was turned from z up to y up.
+    turned: bool,
+}
+
+impl Origin<'_> {
+    /// A point (metres) as the file has it.
+    fn place(&self, p: Vec3) -> Place {
+        let p = if self.turned { Vec3::new(p.x, -p.z, p.y) } else { p };
+        Place { at: p / self.unit.metres(), unit: self.unit }
+    }
+}
+
 /// A surface as somebody to dress: upright, in metres, with the parts of a body.
-fn person(surface: &ObjSurface, name: &str, file: &str) -> Result<Body, BodyError> {
+fn person(surface: &ObjSurface, name: &str, file: &str, unit: Option<LengthUnit>) -> Result<Body, BodyError> {
     let mut notes = Vec::new();
     let shape = |why: &str| BodyError::Shape { file: file.to_owned(), why: why.to_owned() };
     let mut vertices = surface.vertices.clone();
-    stand_up(&mut vertices, &mut notes);
+    let turned = stand_up(&mut vertices, &mut notes);
     let (low, height) = extent(&vertices).ok_or_else(|| shape("the body has no height"))?;
-    let (scale, unit) = unit(height);
+    let taken = unit.unwrap_or_else(|| guessed(height));
+    let scale = taken.metres();
     if !HEIGHTS.contains(&(scale * height)) {
-        return Err(BodyError::Size { file: file.to_owned(), units: height, unit, metres: scale * height });
+        return Err(BodyError::Size { file: file.to_owned(), units: height, unit: taken, metres: scale * height });
     }
-    notes.push(format!("{unit} assumed, since the body is {height:.2} units high"));
-    vertices.iter_mut().for_each(|p| *p *= scale);
+    if unit.is_none() {
+        notes.push(assumed(taken, &format!("the body is {height:.2} units high")));
+    }
     // Places of faults are those of the file.
-    let mut mesh = checked(vertices, surface.triangles.clone(), file, &mut notes)?;
+    let origin = Origin { file, unit: taken, turned };
+    let mut mesh = checked(vertices, surface.triangles.clone(), &origin, &mut notes)?;
     let frame = Frame { low: low * scale, backward: faces_back(&mesh, low * scale, height * scale) };
     mesh.vertices.iter_mut().for_each(|p| *p = frame.from_file(*p));
     notes.extend(stands(&frame));
     let parts = find_parts(&mesh).map_err(|why| shape(&why))?;
     Ok(Body { mannequin: Mannequin { name: name.to_owned(), mesh, parts, frame }, notes })
+}
+
+/// What is said of a unit that the file's size suggests.
+fn assumed(unit: LengthUnit, since: &str) -> String {
+    format!(
+        "{} assumed, since {since}; if that is wrong, say --body-units mm, cm, m or in ('body_units' in the file)",
+        unit.name()
+    )
 }
 
 /// What a user should know of a body that does not stand on y = 0 and face +z.
@@ -180,70 +222,81 @@ fn stands(frame: &Frame) -> Vec<String> {
 
 /// A surface as a thing that cloth lies on or is wound round: where the file has it, without parts; `why` is what it
 /// lacks to be somebody.
-fn object(surface: ObjSurface, name: String, file: String, why: &str) -> Result<Body, BodyError> {
+fn object(
+    surface: ObjSurface,
+    name: String,
+    file: &str,
+    unit: Option<LengthUnit>,
+    why: &str,
+) -> Result<Body, BodyError> {
     let mut notes = vec![format!("an object without body parts ({why}): its coordinates are taken as they are")];
-    let mut vertices = surface.vertices;
-    let [low, high] = bounds(&vertices);
+    let [low, high] = bounds(&surface.vertices);
     let longest = (high - low).max();
-    let (scale, unit) = unit(longest);
-    notes.push(format!("{unit} assumed, since the object is {longest:.2} units long"));
-    vertices.iter_mut().for_each(|p| *p *= scale);
-    let mesh = checked(vertices, surface.triangles, &file, &mut notes)?;
+    let taken = unit.unwrap_or_else(|| guessed(longest));
+    if unit.is_none() {
+        notes.push(assumed(taken, &format!("the object is {longest:.2} units long")));
+    }
+    let origin = Origin { file, unit: taken, turned: false };
+    let mesh = checked(surface.vertices, surface.triangles, &origin, &mut notes)?;
     Ok(Body { mannequin: Mannequin { name, mesh, parts: Vec::new(), frame: Frame::default() }, notes })
 }
 
-/// The closed surface that cloth can touch, with what its user should know of it.
+/// The closed surface (metres) that cloth can touch, with what its user should know of it; `vertices` are in the file's
+/// unit, y up.
 fn checked(
-    vertices: Vec<Vec3>,
+    mut vertices: Vec<Vec3>,
     triangles: Vec<[u32; 3]>,
-    file: &str,
+    origin: &Origin,
     notes: &mut Vec<String>,
 ) -> Result<TriMesh, BodyError> {
+    let scale = origin.unit.metres();
+    vertices.iter_mut().for_each(|p| *p *= scale);
     let mesh = closed(vertices, triangles);
-    let check = check_body(&mesh).map_err(|fault| BodyError::Fault { file: file.to_owned(), fault })?;
-    refuse_crossings(&mesh, &check, file)?;
-    notes.extend(findings(&check));
+    let file = || origin.file.to_owned();
+    let check = check_body(&mesh, |p| origin.place(p)).map_err(|fault| BodyError::Fault { file: file(), fault })?;
+    refuse_crossings(&mesh, &check, origin)?;
+    notes.extend(findings(&check, origin));
     Ok(mesh)
 }
 
 /// Refuses a surface that runs through itself in more than a few places: there is no telling its inside.
-fn refuse_crossings(mesh: &TriMesh, check: &BodyCheck, file: &str) -> Result<(), BodyError> {
+fn refuse_crossings(mesh: &TriMesh, check: &BodyCheck, origin: &Origin) -> Result<(), BodyError> {
     let triangles = mesh.triangles.len();
     match check.crossings {
         Some((pairs, place)) if pairs as f64 > CROSSING * triangles as f64 => {
-            Err(BodyError::Crossing { file: file.to_owned(), pairs, triangles, place })
+            Err(BodyError::Crossing { file: origin.file.to_owned(), pairs, triangles, place: origin.place(place) })
         }
         _ => Ok(()),
     }
 }
 
 /// What a body's check found that its user should know.
-fn findings(check: &BodyCheck) -> Vec<String> {
+fn findings(check: &BodyCheck, origin: &Origin) -> Vec<String> {
     let mut notes = Vec::new();
     if check.parts > 1 {
         notes.push(format!("the body consists of {} parts that do not touch; all are kept", check.parts));
     }
     if let Some((pairs, p)) = check.crossings {
-        let p = 1e3 * p;
         notes.push(format!(
-            "the surface crosses itself ({pairs} pairs of triangles, near ({:.0}, {:.0}, {:.0}) mm); where cloth goes \
-             there, separate the limbs or remesh",
-            p.x, p.y, p.z
+            "the surface crosses itself ({pairs} pairs of triangles, near {}); where cloth goes there, separate the \
+             limbs or remesh",
+            origin.place(p)
         ));
     }
     notes
 }
 
-/// Turns a body that lies along z upright.
-fn stand_up(vertices: &mut [Vec3], notes: &mut Vec<String>) {
+/// Turns a body that lies along z upright, and says whether it did.
+fn stand_up(vertices: &mut [Vec3], notes: &mut Vec<String>) -> bool {
     let [low, high] = bounds(vertices);
     if high.z - low.z <= high.y - low.y {
-        return;
+        return false;
     }
     for p in vertices {
         *p = Vec3::new(p.x, p.z, -p.y);
     }
     notes.push("z is the tall axis: turned so that y is up, as in what is written".to_owned());
+    true
 }
 
 /// The corners of the box round the vertices.
@@ -265,14 +318,14 @@ fn extent(vertices: &[Vec3]) -> Option<(f64, f64)> {
     (high > low).then_some((low, high - low))
 }
 
-/// Metres per unit of a file whose body is that high, and the unit's name.
-fn unit(height: f64) -> (f64, &'static str) {
+/// The unit of a file whose body is that high.
+fn guessed(height: f64) -> LengthUnit {
     if height < METRES_BELOW {
-        (1.0, "metres")
+        LengthUnit::Metre
     } else if height < CENTIMETRES_BELOW {
-        (1e-2, "centimetres")
+        LengthUnit::Centimetre
     } else {
-        (1e-3, "millimetres")
+        LengthUnit::Millimetre
     }
 }
 

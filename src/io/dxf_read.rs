@@ -6,20 +6,20 @@
 use std::path::Path as FilePath;
 
 use super::dxf_notches;
+use super::dxf_text::{Entity, after, blocks, entities, letters, stated_unit};
+use super::dxf_told::{Told, told_of};
 use super::dxf_write::layer;
-use crate::digitize::{Inner, Traced, chained};
+use crate::digitize::{Inner, Traced, chained, holes};
 use crate::geometry::{Path, Vec2};
 use crate::input::{InputError, bytes, shown};
-use crate::pattern::Cut;
+use crate::pattern::{Cut, Side};
 
 /// Larger files are not patterns.
 const MOST_BYTES: u64 = 30 << 20;
-/// Coordinates beyond this (metres) are a wrong unit or no pattern.
-const FARTHEST: f64 = 1e3;
 /// More lines in a block than this cannot be looked at one against the other.
 const MOST_LINES: usize = 5_000;
 /// Letters of a text that messages show.
-const SHOWN: usize = 40;
+pub(super) const SHOWN: usize = 40;
 
 /// Why a DXF file could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -87,120 +87,18 @@ pub fn read_dxf_text(text: &str, unit: Option<f64>) -> Result<Vec<Traced>, DxfEr
     Ok(pieces)
 }
 
-/// A value and the line it stands on.
-#[derive(Clone, Copy, Debug)]
-struct Pair<'a> {
-    code: i32,
-    value: &'a str,
-    line: usize,
-}
-
-/// An entity: its kind and its pairs.
-#[derive(Debug)]
-struct Entity<'a> {
-    kind: &'a str,
-    pairs: Vec<Pair<'a>>,
-}
-
-impl<'a> Entity<'a> {
-    fn value(&self, code: i32) -> Option<&'a str> {
-        self.pairs.iter().find(|p| p.code == code).map(|p| p.value)
-    }
-
-    fn layer(&self) -> Option<u32> {
-        self.value(8)?.parse().ok()
-    }
-
-    /// The points at codes 10 and 20 (or 11 and 21), metres, y down.
-    fn points(&self, first: i32, unit: f64) -> Result<Vec<Vec2>, DxfError> {
-        let number = |p: &Pair| {
-            let wrong = || DxfError::Number { line: p.line, found: shown(p.value, SHOWN) };
-            let x: f64 = p.value.parse().map_err(|_| wrong())?;
-            if (x * unit).abs() <= FARTHEST { Ok(x * unit) } else { Err(wrong()) }
-        };
-        let mut points: Vec<Vec2> = Vec::new();
-        for pair in &self.pairs {
-            if pair.code == first {
-                points.push(Vec2::new(number(pair)?, 0.0));
-            } else if pair.code == first + 10
-                && let Some(last) = points.last_mut()
-            {
-                last.y = -number(pair)?;
-            }
-        }
-        Ok(points)
-    }
-}
-
-fn entities(text: &str) -> Result<Vec<Entity<'_>>, DxfError> {
-    let mut entities: Vec<Entity> = Vec::new();
-    let mut lines = text.lines().enumerate();
-    while let Some((k, code)) = lines.next() {
-        let code = code.trim_start_matches('\u{feff}').trim();
-        if code.is_empty() && entities.last().is_none_or(|e| e.kind == "EOF") {
-            continue;
-        }
-        let code: i32 = code.parse().map_err(|_| DxfError::NotText { line: k + 1, found: shown(code, SHOWN) })?;
-        let Some((k, value)) = lines.next() else { break };
-        let value = value.trim();
-        if code == 0 {
-            entities.push(Entity { kind: value, pairs: Vec::new() });
-        } else if let Some(entity) = entities.last_mut() {
-            entity.pairs.push(Pair { code, value, line: k + 1 });
-        }
-    }
-    Ok(entities)
-}
-
-/// The entities between BLOCK (included) and ENDBLK.
-fn blocks<'e, 'a>(entities: &'e [Entity<'a>]) -> Vec<&'e [Entity<'a>]> {
-    let mut blocks = Vec::new();
-    let mut begin = None;
-    for (k, entity) in entities.iter().enumerate() {
-        match entity.kind {
-            "BLOCK" => begin = Some(k),
-            "ENDBLK" => blocks.extend(begin.take().map(|b| &entities[b..k])),
-            _ => {}
-        }
-    }
-    blocks
-}
-
-/// Metres per unit by the style's text or the header.
-fn stated_unit(entities: &[Entity]) -> Option<f64> {
-    let said = entities.iter().filter(|e| e.kind == "TEXT").filter_map(|e| after(e.value(1)?, "units:"));
-    for words in said {
-        match words.to_ascii_uppercase().as_str() {
-            "METRIC" | "MM" => return Some(1e-3),
-            "ENGLISH" | "IMPERIAL" | "INCH" | "INCHES" => return Some(0.0254),
-            "CM" => return Some(1e-2),
-            _ => {}
-        }
-    }
-    // $INSUNITS stands among the pairs of the HEADER section.
-    let header = entities.iter().flat_map(|e| e.pairs.windows(2));
-    let code = header.filter(|w| w[0].value == "$INSUNITS").map(|w| w[1].value).next()?;
-    match code.trim() {
-        "1" => Some(0.0254),
-        "4" => Some(1e-3),
-        "5" => Some(1e-2),
-        "6" => Some(1.0),
-        _ => None,
-    }
-}
-
-/// What follows a key at the start of a text, in any case: `Piece Name: FRONT`.
-fn after<'a>(text: &'a str, key: &str) -> Option<&'a str> {
-    let head = text.get(..key.len())?;
-    head.eq_ignore_ascii_case(key).then(|| text[key.len()..].trim())
-}
-
 /// What a block holds, by layer.
 struct Block<'a> {
     name: &'a str,
     lines: Vec<(u32, Path)>,
     points: Vec<(u32, Vec2)>,
-    texts: Vec<&'a str>,
+    texts: Vec<Text>,
+}
+
+/// Words and where they stand.
+struct Text {
+    words: String,
+    at: Option<Vec2>,
 }
 
 impl<'a> Block<'a> {
@@ -232,7 +130,11 @@ impl<'a> Block<'a> {
                     let at = entity.points(10, unit)?;
                     block.points.extend(on.zip(at.first().copied()));
                 }
-                "TEXT" | "MTEXT" => block.texts.extend(entity.value(1)),
+                "TEXT" | "MTEXT" => {
+                    // Where a text stands matters for our own alone.
+                    let at = entity.points(10, unit).ok().and_then(|at| at.first().copied());
+                    block.texts.extend(entity.value(1).map(|words| Text { words: letters(words), at }));
+                }
                 _ => {}
             }
             if block.lines.len() > MOST_LINES {
@@ -258,27 +160,37 @@ impl<'a> Block<'a> {
 
     /// The lines of a layer, joined where they meet; the longest run first.
     fn runs(&self, layer: u32) -> Vec<Vec<((), Path)>> {
-        let mut runs = chained(&self.on(layer));
-        let length = |run: &Vec<((), Path)>| run.iter().map(|r| r.1.length()).sum::<f64>();
-        runs.sort_by(|a, b| length(b).total_cmp(&length(a)));
-        runs
+        longest_first(chained(&self.on(layer)))
     }
 
-    fn text(&self, key: &str) -> Option<&'a str> {
-        self.texts.iter().find_map(|t| after(t, key)).filter(|t| !t.is_empty())
+    fn text(&self, key: &str) -> Option<&str> {
+        self.texts.iter().find_map(|t| after(&t.words, key)).filter(|t| !t.is_empty())
+    }
+
+    /// The lines that may be told of, each with what is told of it.
+    fn told(&self) -> Vec<(u32, &Path, Option<Told>)> {
+        let texts: Vec<(Told, Vec2)> = self.texts.iter().filter_map(|t| Some((Told::read(&t.words)?, t.at?))).collect();
+        let lines = self.lines.iter().filter(|(on, _)| [layer::SEW, layer::INTERNAL].contains(on));
+        lines.map(|(on, path)| (*on, path, told_of(path, &texts).cloned())).collect()
     }
 
     fn piece(&self) -> Option<Traced> {
         let mirror = self.ends_on(layer::MIRROR);
         let boundary = self.runs(layer::BOUNDARY).into_iter().next()?;
-        let cut = closed_by(boundary).into_iter().map(|e| e.1).reduce(|a, b| a.joined(&b))?;
+        let cut = closed_by(boundary, ()).into_iter().map(|e| e.1).reduce(|a, b| a.joined(&b))?;
         if cut.double_area() == 0.0 {
             return None;
         }
-        let sew = self.runs(layer::SEW).into_iter().next().unwrap_or_default();
-        let sew = closed_by(sew);
-        let whole_line = |run: Vec<((), Path)>| run.into_iter().map(|e| e.1).reduce(|a, b| a.joined(&b));
-        let holes: Vec<Path> = self.runs(layer::CUTOUT).into_iter().filter_map(whole_line).collect();
+        let told = self.told();
+        let mut sewn = self.sewn(&told).into_iter();
+        let sew = sewn.next().unwrap_or_default();
+        // Where edges have names, so has the one on the fold.
+        let on_fold = sew.first().and_then(|(name, _)| name.as_ref().map(|_| "fold".to_owned()));
+        let sew = closed_by(sew, on_fold);
+        let whole_line = |run: Vec<((), Path)>| whole(run).map(|(_, path)| path);
+        let is_ring = |(_, line): &Named| (line.start() - line.end()).norm() < 1e-8 && line.double_area() != 0.0;
+        let cut_out = self.runs(layer::CUTOUT).into_iter().filter_map(whole_line).filter(|h| h.double_area() != 0.0);
+        let holes = holes(cut_out.collect(), sewn.filter_map(whole).filter(is_ring).collect());
         let at = |layer: u32| self.points.iter().filter(|p| p.0 == layer).map(|p| p.1).collect::<Vec<Vec2>>();
         let notches = |layer: u32| {
             let shapes: Vec<Path> = self.runs(layer).into_iter().filter_map(whole_line).collect();
@@ -287,19 +199,34 @@ impl<'a> Block<'a> {
         let notches = dxf_notches::LAYERS.into_iter().flat_map(notches).collect();
         Some(Traced {
             name: self.text("piece name:").unwrap_or(self.name).to_owned(),
-            sew: sew.into_iter().map(|e| (None, e.1)).collect(),
-            holes: holes.into_iter().filter(|h| h.double_area().abs() > 0.0).collect(),
-            lines: self.on(layer::INTERNAL).into_iter().map(|l| Inner { name: None, path: l.1, kind: None }).collect(),
+            sew,
+            holes,
+            lines: told.iter().filter_map(inner).collect(),
             points: at(layer::DRILL),
             grain: self.ends_on(layer::GRAIN),
             notches,
+            pleats: pleats(&told),
             mirror,
             cut: Some(cut),
             cut_how: self.text("quantity:").and_then(quantity),
             said_by: None,
-            drawn: None,
+            drawn: self.text("drawn:").and_then(Side::from_letter).filter(|side| *side == Side::Right),
             fabric: self.text("material:").map(str::to_owned),
         })
+    }
+
+    /// The sewing lines, joined where they meet: the outline, then those of holes. Where edges are told, they are these
+    /// alone: what else is on the layer are seams over the mouths of darts.
+    fn sewn(&self, told: &[(u32, &Path, Option<Told>)]) -> Vec<Vec<Named>> {
+        let edge = |(_, path, told): &(u32, &Path, Option<Told>)| match told {
+            Some(Told::Edge(name)) => Some((Some(name.clone()), (*path).clone())),
+            _ => None,
+        };
+        let mut edges: Vec<Named> = told.iter().filter_map(edge).collect();
+        if edges.is_empty() {
+            edges = self.on(layer::SEW).into_iter().map(|(_, path)| (None, path)).collect();
+        }
+        longest_first(chained(&edges))
     }
 
     /// The ends of the longest line of a layer.
@@ -313,15 +240,46 @@ fn is_closed(entity: &Entity) -> bool {
     entity.value(70).and_then(|v| v.parse::<u32>().ok()).is_some_and(|flags| flags & 1 == 1)
 }
 
+/// An edge that may have a name.
+type Named = (Option<String>, Path);
+
+fn longest_first<T>(mut runs: Vec<Vec<(T, Path)>>) -> Vec<Vec<(T, Path)>> {
+    let length = |run: &Vec<(T, Path)>| run.iter().map(|r| r.1.length()).sum::<f64>();
+    runs.sort_by(|a, b| length(b).total_cmp(&length(a)));
+    runs
+}
+
+/// A run as one line, under the name of its first.
+fn whole<T>(run: Vec<(T, Path)>) -> Option<(T, Path)> {
+    run.into_iter().reduce(|(name, path), (_, next)| (name, path.joined(&next)))
+}
+
 /// The run with its last side, which a half piece has on its mirror line.
-fn closed_by(mut run: Vec<((), Path)>) -> Vec<((), Path)> {
+fn closed_by<T>(mut run: Vec<(T, Path)>, side: T) -> Vec<(T, Path)> {
     let (Some(start), Some(end)) = (run.first().map(|r| r.1.start()), run.last().map(|r| r.1.end())) else {
         return run;
     };
     if (start - end).norm() > 1e-8 {
-        run.push(((), Path::line(end, start)));
+        run.push((side, Path::line(end, start)));
     }
     run
+}
+
+/// A line inside that is neither an edge nor a pleat's.
+fn inner((on, path, told): &(u32, &Path, Option<Told>)) -> Option<Inner> {
+    let (name, kind) = match told {
+        None if *on == layer::INTERNAL => (None, None),
+        Some(Told::Line(name, kind)) => (Some(name.clone()), Some(kind.clone())),
+        _ => return None,
+    };
+    Some(Inner { name, path: (*path).clone(), kind })
+}
+
+/// Where pleats begin on the edge; the line of each fold is followed by that of its place.
+fn pleats(told: &[(u32, &Path, Option<Told>)]) -> Vec<[Vec2; 2]> {
+    let begins =
+        |wanted: Told| told.iter().filter(move |t| t.2.as_ref() == Some(&wanted)).map(|(_, path, _)| path.start());
+    begins(Told::PleatFold).zip(begins(Told::PleatPlace)).map(|(fold, place)| [fold, place]).collect()
 }
 
 /// `1,1` is one as drawn and one mirrored; `2,0` or `2` two as drawn.

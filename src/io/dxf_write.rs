@@ -3,12 +3,15 @@
 //! One block per piece, inserted once; layers are numbers (see [`layer`]). The dialect is DXF R12 as text, with neither
 //! tables nor layout blocks, which the trade's readers do not expect. Coordinates are millimetres, y up; units are said
 //! in the style's text, for DXF R12 has no place for them. Curves are polylines; a point on layer 2 or 3 says of each
-//! of their vertices whether the line turns or runs smoothly there.
+//! of their vertices whether the line turns or runs smoothly there. What the standard has no layer for (names of edges,
+//! folds, elastic, darts, pleats) is told by small texts on the lines.
 
 use std::fmt::Write as _;
 
+use super::dxf_told::{Told, place};
 use crate::cutting::{MarkKind, NotchMark, Paper, SewKind};
-use crate::geometry::Vec2;
+use crate::geometry::{Path, Vec2};
+use crate::pattern::LineKind;
 
 /// The standard's layers.
 pub mod layer {
@@ -44,6 +47,8 @@ const CHORD_ERROR: f64 = 2e-6;
 const TURN: f64 = 0.175;
 /// Height of texts, mm.
 const LETTERS: f64 = 6.0;
+/// Height of texts on lines, mm.
+const SMALL_LETTERS: f64 = 3.0;
 /// Most letters of a block's name in DXF R12.
 const LONGEST_NAME: usize = 31;
 
@@ -69,6 +74,11 @@ pub fn cutting_dxf(style: &str, papers: &[Paper]) -> String {
     dxf.end();
     dxf.pair(0, "EOF");
     dxf.text
+}
+
+/// What is told of the sides of a fish-eye dart, which is sewn and neither an edge nor cut.
+fn fish_eye() -> LineKind {
+    LineKind::Mark("dart".to_owned())
 }
 
 /// Names of blocks: letters, digits, `_`, `-` and `$`, each once.
@@ -124,11 +134,23 @@ impl Dxf {
         self.piece_texts(style, paper);
         self.cut_lines(paper);
         for line in &paper.sew {
-            let on = if line.of == SewKind::Dart { layer::INTERNAL } else { layer::SEW };
-            self.polyline(&line.path.sampled(CHORD_ERROR), on, false);
+            let (on, told) = match line.of {
+                SewKind::Outline | SewKind::Hole => (layer::SEW, Some(Told::Edge(line.name.clone()))),
+                SewKind::Dart => (layer::INTERNAL, Some(Told::Edge(line.name.clone()))),
+                SewKind::FishEye => (layer::INTERNAL, Some(Told::Line(line.name.clone(), fish_eye()))),
+                SewKind::Mouth => (layer::SEW, None),
+            };
+            self.told_line(&line.path, on, told);
         }
-        for mark in paper.marks.iter().filter(|m| m.kind != MarkKind::Fold) {
-            self.polyline(&mark.path.sampled(CHORD_ERROR), layer::INTERNAL, false);
+        for mark in &paper.marks {
+            let told = match (mark.kind, &mark.line) {
+                (MarkKind::Fold, _) => continue,
+                (MarkKind::PleatFold, _) => Some(Told::PleatFold),
+                (MarkKind::PleatPlace, _) => Some(Told::PleatPlace),
+                (MarkKind::PleatArrow, _) => Some(Told::PleatArrow),
+                (MarkKind::Line, kind) => kind.clone().map(|kind| Told::Line(mark.name.clone(), kind)),
+            };
+            self.told_line(&mark.path, layer::INTERNAL, told);
         }
         for notch in &paper.notches {
             self.notch(notch);
@@ -166,7 +188,8 @@ impl Dxf {
             format!("Material: {}", paper.fabric),
             format!("Annotation: {}", paper.count),
         ];
-        for (i, text) in texts.iter().enumerate() {
+        let drawn = paper.drawn.map(|side| format!("Drawn: {}", side.letter()));
+        for (i, text) in texts.iter().chain(&drawn).enumerate() {
             let down = Vec2::new(0.0, i as f64 * 1.5 * LETTERS / MM);
             self.words(text, paper.grain[0] + down, LETTERS, layer::BOUNDARY);
         }
@@ -201,6 +224,15 @@ impl Dxf {
             let end = !closed && (k == 0 || k + 1 == points.len());
             let turns = end || turn_at(points, k).abs() > TURN;
             self.marker(points[k], if turns { layer::TURN } else { layer::CURVE });
+        }
+    }
+
+    /// A line, and on it what is told of it.
+    fn told_line(&mut self, path: &Path, on: u32, told: Option<Told>) {
+        let points = path.sampled(CHORD_ERROR);
+        self.polyline(&points, on, false);
+        if let Some(told) = told {
+            self.words(&told.text(), place(&Path::polyline(&points)), SMALL_LETTERS, layer::TEXT);
         }
     }
 

@@ -3,6 +3,8 @@
 pub mod body;
 mod dxf_notches;
 pub mod dxf_read;
+mod dxf_text;
+mod dxf_told;
 pub mod dxf_write;
 pub mod files;
 pub mod garment;

@@ -1,40 +1,64 @@
 //! What a surface must be to serve as a body.
 
+use std::fmt;
+
 use super::crossing::crossings;
 use crate::geometry::{DisjointSets, Topology, TriMesh, Vec3};
+use crate::input::LengthUnit;
 
-/// Why a surface is no body; places are in metres in the body's own frame (feet at y = 0).
+/// A place on a surface, in the coordinates and the unit of its own file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Coordinates.
+    pub at: Vec3,
+    /// Their unit.
+    pub unit: LengthUnit,
+}
+
+impl Place {
+    /// A point in metres, told in millimetres.
+    pub fn millimetres(p: Vec3) -> Self {
+        let unit = LengthUnit::Millimetre;
+        Self { at: p / unit.metres(), unit }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (p, digits) = (self.at, self.unit.decimals());
+        write!(f, "({:.digits$}, {:.digits$}, {:.digits$}) {}", p.x, p.y, p.z, self.unit.symbol())
+    }
+}
+
+/// Why a surface is no body.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BodyFault {
     /// Holes.
     #[error(
-        "the surface is open: {edges} rim edges, one near {}; close its holes (in Blender: Mesh, Clean Up, Fill Holes)",
-        millimetres(place)
+        "the surface is open: {edges} rim edges, one near {place}; close its holes (in Blender: Mesh, Clean Up, Fill \
+         Holes)"
     )]
     Open {
         /// Edges with one triangle.
         edges: usize,
         /// On one of them.
-        place: Vec3,
+        place: Place,
     },
     /// Edges with more than two triangles.
-    #[error("{edges} edges have more than two triangles, one near {}; remove inner faces", millimetres(place))]
+    #[error("{edges} edges have more than two triangles, one near {place}; remove inner faces")]
     NonManifold {
         /// How many.
         edges: usize,
         /// On one of them.
-        place: Vec3,
+        place: Place,
     },
     /// Neighbouring triangles that face opposite ways.
-    #[error(
-        "{pairs} neighbouring triangles face opposite ways, near {}; recalculate the normals outside",
-        millimetres(place)
-    )]
+    #[error("{pairs} neighbouring triangles face opposite ways, near {place}; recalculate the normals outside")]
     Misoriented {
         /// How many pairs.
         pairs: usize,
         /// On one of them.
-        place: Vec3,
+        place: Place,
     },
     /// A surface folded onto itself.
     #[error("the surface is flat: it encloses no volume; a body is a solid, so give a surface with an inside")]
@@ -56,22 +80,19 @@ const FLAT: f64 = 1e-5;
 pub struct BodyCheck {
     /// Pieces of surface that do not touch.
     pub parts: usize,
-    /// Pairs of triangles that cross, and a point of the first. Scans and average bodies often have some between the
-    /// thighs and in the armpits; they do no harm where no cloth goes.
+    /// Pairs of triangles that cross, and a point of the first, metres. Scans and average bodies often have some in
+    /// the armpits and between the thighs; they do no harm where no cloth goes.
     pub crossings: Option<(usize, Vec3)>,
 }
 
-fn millimetres(p: &Vec3) -> String {
-    format!("({:.0}, {:.0}, {:.0}) mm", 1e3 * p.x, 1e3 * p.y, 1e3 * p.z)
-}
-
-/// Checks that `mesh` is closed, manifold, oriented and outward, in this order, and looks for crossings.
+/// Checks that `mesh` (metres) is closed, manifold, oriented and outward, in this order, and looks for crossings;
+/// `told` gives the place to tell of a point.
 ///
 /// # Errors
 /// The first [`BodyFault`].
-pub fn check_body(mesh: &TriMesh) -> Result<BodyCheck, BodyFault> {
+pub fn check_body(mesh: &TriMesh, told: impl Fn(Vec3) -> Place) -> Result<BodyCheck, BodyFault> {
     let topology = Topology::new(&mesh.triangles);
-    let at = |v: u32| mesh.vertices[v as usize];
+    let at = |v: u32| told(mesh.vertices[v as usize]);
     let edges = topology.rim_edges().count();
     if let Some(rim) = topology.rim_edges().next() {
         return Err(BodyFault::Open { edges, place: at(rim.ends[0]) });
@@ -80,7 +101,7 @@ pub fn check_body(mesh: &TriMesh) -> Result<BodyCheck, BodyFault> {
         return Err(BodyFault::NonManifold { edges: topology.non_manifold.len(), place: at(edge[0]) });
     }
     if let Some(pair) = topology.misoriented.first() {
-        let place = mesh.corners(pair[0] as usize)[0];
+        let place = told(mesh.corners(pair[0] as usize)[0]);
         return Err(BodyFault::Misoriented { pairs: topology.misoriented.len(), place });
     }
     let volume = mesh.signed_volume();

@@ -16,7 +16,7 @@ mod spec;
 mod surface;
 
 pub use build::build;
-pub use check::{BodyCheck, BodyFault, check_body};
+pub use check::{BodyCheck, BodyFault, Place, check_body};
 pub use detect::find_parts;
 pub use frame::Frame;
 pub use library::{library, load};

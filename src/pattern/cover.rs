@@ -1,10 +1,11 @@
 //! Every stretch of rim is sewn once, or said to be free.
 
 use super::cut::Pieces;
-use super::diagnostic::Findings;
+use super::diagnostic::{Findings, Located};
 use super::draft::Draft;
-use super::file::{Cut, GarmentFile};
+use super::file::{ClosureFile, Cut, GarmentFile};
 use super::problem::Problem;
+use super::reference::piece_of;
 use super::rim::{SLIVER, edge_ids, gaps};
 use super::seam::Seams;
 use super::spelling::glob;
@@ -147,7 +148,14 @@ impl EdgeNames<'_> {
     }
 
     fn nothing(&self, pattern: &str) -> Problem {
-        let (piece, _, _) = super::reference::piece_of(pattern);
+        let folded = |draft: &&Draft| {
+            let edge = draft.fold.map(|f| format!("{}.{}", draft.name, draft.rings[0][f].name));
+            edge.filter(|edge| glob(pattern, edge))
+        };
+        if let Some(edge) = self.drafts.iter().find_map(|draft| folded(&draft)) {
+            return Problem::FreeOnFold { pattern: pattern.to_owned(), edge };
+        }
+        let (piece, _, _) = piece_of(pattern);
         let draft = self.drafts.iter().find(|d| d.name == piece);
         match (draft, pattern.split_once('.')) {
             (Some(draft), Some((_, edge))) if !pattern.contains('*') => draft.unknown_edge(edge),
@@ -184,8 +192,15 @@ pub(super) fn check_free_but_sewn(
     }
 }
 
-/// A pair that no seam joins is two copies of one piece, and another piece that none joins falls, unless all seams are
-/// still to be written.
+/// Whether points of a closure hold the piece to another.
+fn is_tacked(file: &GarmentFile, piece: &str) -> bool {
+    let carries = |name: &Option<Located<String>>| name.as_ref().is_some_and(|n| piece_of(&n.value).0 == piece);
+    let ties = |c: &&ClosureFile| c.on.is_some() && c.meets.is_some() && !c.at.is_empty();
+    file.closures.iter().filter(ties).any(|c| carries(&c.on) || carries(&c.meets))
+}
+
+/// A pair that no seam joins is two copies of one piece, and another piece that none joins falls, unless closures hold
+/// it or all seams are still to be written.
 pub(super) fn check_joined(file: &GarmentFile, drafts: &[Draft], cut: &Pieces, seams: &Seams, findings: &mut Findings) {
     if file.seams.is_empty() {
         return;
@@ -198,7 +213,7 @@ pub(super) fn check_joined(file: &GarmentFile, drafts: &[Draft], cut: &Pieces, s
             .zip(&seams.written)
             .filter(|(_, w)| w.is_some())
             .flat_map(|(s, _)| s.a.iter().chain(&s.b));
-        if spans.any(|s| pieces.contains(&s.edge.piece)) {
+        if spans.any(|s| pieces.contains(&s.edge.piece)) || is_tacked(file, &draft.name) {
             continue;
         }
         if draft.cut == Cut::Pair {

@@ -134,12 +134,19 @@ pub struct Findings {
     lines: Vec<String>,
     found: Vec<Diagnostic>,
     errors: usize,
+    /// Names of pieces, which may share statements.
+    pieces: Vec<String>,
 }
 
 impl Findings {
     /// For the file called `file` with this `text` (empty if the garment was not read from text).
     pub fn new(file: &str, text: &str) -> Self {
         Self { file: file.to_owned(), lines: text.lines().map(str::to_owned).collect(), ..Self::default() }
+    }
+
+    /// Names the pieces: what is said of several at one place of the file is said once.
+    pub fn know_pieces(&mut self, names: impl IntoIterator<Item = String>) {
+        self.pieces = names.into_iter().collect();
     }
 
     /// Adds an error.
@@ -186,6 +193,56 @@ impl Findings {
                 unique.push(diagnostic);
             }
         }
-        unique
+        told_once(unique, &self.pieces)
     }
+}
+
+/// Findings that a piece has with what others take from it by `like`, once for all of them.
+fn told_once(found: Vec<Diagnostic>, pieces: &[String]) -> Vec<Diagnostic> {
+    let mut kept: Vec<(Diagnostic, Vec<&str>)> = Vec::new();
+    for diagnostic in found {
+        let at_one_place = |k: &Diagnostic| {
+            diagnostic.line > 0
+                && (k.line, k.column, k.severity) == (diagnostic.line, diagnostic.column, diagnostic.severity)
+        };
+        let others = kept.iter_mut().filter(|(k, _)| at_one_place(k));
+        let same = others.map(|(k, also)| (other_piece(&k.message, &diagnostic.message, pieces), also));
+        match same.filter_map(|(piece, also)| Some((piece?, also))).next() {
+            Some((piece, also)) => also.push(piece),
+            None => kept.push((diagnostic, Vec::new())),
+        }
+    }
+    let told = |(mut diagnostic, also): (Diagnostic, Vec<&str>)| {
+        if !also.is_empty() {
+            let names: Vec<String> = also.iter().map(|name| format!("'{name}'")).collect();
+            diagnostic.message.push_str(&format!(" (the same in {})", names.join(", ")));
+        }
+        diagnostic
+    };
+    kept.into_iter().map(told).collect()
+}
+
+/// The piece that a message is about which says of it what `first` says of another.
+fn other_piece<'p>(first: &str, message: &str, pieces: &'p [String]) -> Option<&'p str> {
+    let named = pieces.iter().filter(|piece| renamed(first, piece, "") != first);
+    let pairs = named.flat_map(|one| pieces.iter().map(move |other| (one, other)));
+    pairs
+        .into_iter()
+        .find(|(one, other)| one != other && renamed(first, one, other) == message)
+        .map(|(_, o)| o.as_str())
+}
+
+/// A text with another name wherever it has this one as a word of its own.
+fn renamed(text: &str, from: &str, to: &str) -> String {
+    let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some(k) = rest.find(from).filter(|_| !from.is_empty()) {
+        let (before, after) = (&rest[..k], &rest[k + from.len()..]);
+        let alone = !after.starts_with(is_part) && !before.ends_with(is_part);
+        out.push_str(before);
+        out.push_str(if alone { to } else { from });
+        rest = after;
+    }
+    out + rest
 }

@@ -8,7 +8,7 @@ use super::dart;
 use super::diagnostic::{Findings, Located, Spot};
 use super::file::{AllowanceFile, Cut, OutlineFile, PieceFile, PlaceFile, Side, Unit};
 use super::line;
-use super::outline::{CLOSURE, check_size, ended_at, outline};
+use super::outline::{CLOSURE, ended_at, outline, whole_path};
 use super::pleat;
 use super::problem::Problem;
 use super::region::Region;
@@ -217,14 +217,13 @@ impl Draft {
 fn holes(drawn: &mut Draft, piece: &PieceFile, unit: Unit, findings: &mut Findings) {
     for (name, text) in &piece.holes {
         let (piece, edge) = (drawn.name.clone(), name.value.clone());
-        let path =
-            match Path::parse_absolute(&text.value, unit.factor()).map_err(|e| e.to_string()).and_then(check_size) {
-                Ok(path) => path,
-                Err(reason) => {
-                    findings.error(text.at, Problem::BadPath { piece, edge, reason });
-                    continue;
-                }
-            };
+        let path = match whole_path(&text.value, unit.factor()) {
+            Ok(path) => path,
+            Err(reason) => {
+                findings.error(text.at, Problem::BadPath { piece, edge, reason });
+                continue;
+            }
+        };
         let gap = (path.end() - path.start()).norm();
         if gap > CLOSURE {
             let (last, start) = (shown(path.end()), shown(path.start()));

@@ -101,7 +101,8 @@ pub struct DrawnNotch {
 
 /// The drawings of a garment file that has passed its checks as `garment`.
 ///
-/// An edge's allowance is what its piece says for it, or its seam, or its piece for all edges, or the file.
+/// An edge's allowance is what its piece says for it, or its seam, or its piece for all edges, or the file; a hole that
+/// nothing is sewn into has the first alone.
 pub fn drawings(file: &GarmentFile, garment: &Garment) -> Vec<Drawing> {
     // Everything wrong has been said when the garment was read.
     let mut said = Findings::new("", "");
@@ -129,7 +130,8 @@ impl Book<'_> {
         let edge = |at: (usize, usize)| {
             let edge = &drawn.rings[at.0][at.1];
             let (sewn, by_seam) = self.sewn(index, at);
-            let allowance = self.allowance(piece, drawn, at, by_seam);
+            let cut_out = at.0 > 0 && !sewn;
+            let allowance = self.allowance(piece, drawn, at, by_seam, cut_out);
             DrawnEdge { name: edge.name.clone(), path: edge.path.clone(), sewn, allowance }
         };
         let ring = |r: usize| (0..drawn.rings[r].len()).map(|i| edge((r, i))).collect();
@@ -169,7 +171,15 @@ impl Book<'_> {
         (sewn, width)
     }
 
-    fn allowance(&self, piece: &PieceFile, drawn: &Draft, at: (usize, usize), by_seam: Option<f64>) -> Allowance {
+    /// What is said of an edge's allowance; of what is merely `cut_out` only what is said of it by name.
+    fn allowance(
+        &self,
+        piece: &PieceFile,
+        drawn: &Draft,
+        at: (usize, usize),
+        by_seam: Option<f64>,
+        cut_out: bool,
+    ) -> Allowance {
         let unit = self.file.unit();
         let said = |w: &AllowanceWidth| Allowance { width: Some(w.width.value(unit)), corner: w.corner };
         let (mut of_edge, mut of_piece) = (None, None);
@@ -181,13 +191,10 @@ impl Book<'_> {
             }
             None => {}
         }
-        if at.0 > 0 {
-            // What is said of the whole piece or file is not meant for what is cut out of it.
-            of_piece = None;
-        }
         let plain = |width: f64| Allowance { width: Some(width), corner: None };
-        let of_file = self.file.allowance.as_ref().filter(|_| at.0 == 0).map(|q| plain(q.value.value(unit)));
-        of_edge.or(by_seam.map(plain)).or(of_piece).or(of_file).unwrap_or_default()
+        let of_file = self.file.allowance.as_ref().map(|q| plain(q.value.value(unit)));
+        let of_all = of_piece.or(of_file).filter(|_| !cut_out);
+        of_edge.or(by_seam.map(plain)).or(of_all).unwrap_or_default()
     }
 }
 

@@ -29,6 +29,7 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
         findings.error(file.version.at, Problem::NoPieces);
         return None;
     }
+    findings.know_pieces(file.pieces.iter().map(|p| p.name.value.clone()));
     place_word::check(file, findings);
     let pieces = complete_pieces(file, findings);
     let drafts: Vec<Draft> = pieces.iter().filter_map(|p| draft(p, file.unit(), findings)).collect();

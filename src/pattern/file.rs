@@ -1,6 +1,7 @@
 //! A garment file as it was written: every statement kept, also those no stage uses, each with its place in the text.
 
 use super::diagnostic::Located;
+use crate::input::LengthUnit;
 
 /// A YAML value with the place of every part of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -131,6 +132,8 @@ pub struct GarmentFile {
     pub units: Option<Located<Unit>>,
     /// Mannequin.
     pub body: Option<Located<String>>,
+    /// Unit of the body's `.obj` file.
+    pub body_units: Option<Located<LengthUnit>>,
     /// Default seam allowance.
     pub allowance: Option<Located<Quantity>>,
     /// Fabrics by name: a preset's name or a mapping.

@@ -4,7 +4,7 @@ use super::along::{Along, along};
 use super::diagnostic::Findings;
 use super::draft::{Draft, shown};
 use super::file::{LineFile, PieceFile, Unit};
-use super::outline::check_size;
+use super::outline::whole_path;
 use super::problem::Problem;
 use super::region::{Region, first_off};
 use super::{Line, LineKind};
@@ -30,7 +30,7 @@ pub(super) fn lines(drawn: &mut Draft, whole: &Region, piece: &PieceFile, unit: 
             (None, Some(ratio), _) => LineKind::Elastic(ratio.value),
             (None, None, kind) => LineKind::Mark(kind.as_ref().map_or_else(|| "mark".to_owned(), |k| k.value.clone())),
         };
-        match Path::parse_absolute(&file.path.value, unit.factor()).map_err(|e| e.to_string()).and_then(check_size) {
+        match whole_path(&file.path.value, unit.factor()) {
             Ok(path) => {
                 let line = Line { name: file.name.value.clone(), path, kind };
                 for problem in faults(drawn, &line, on_cloth) {

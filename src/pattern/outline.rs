@@ -65,7 +65,24 @@ pub(super) fn outline(piece: &str, file: &OutlineFile, unit: Unit, findings: &mu
     orient(piece, edges, file.start.at, findings)
 }
 
+/// Refuses numbers with units of their own, which would be read as commands.
+fn check_units(commands: &str) -> Result<(), String> {
+    let is_number = |before: &str| before.trim_end().ends_with(|c: char| c.is_ascii_digit() || c == '.');
+    let is_word = |after: &str| after.starts_with(|c: char| c.is_ascii_alphabetic());
+    let found = ["mm", "cm", "in"].into_iter().find(|unit| {
+        commands.match_indices(unit).any(|(k, _)| is_number(&commands[..k]) && !is_word(&commands[k + 2..]))
+    });
+    match found {
+        Some(unit) => Err(format!(
+            "a number of '{commands}' has the unit {unit}; in a path all numbers are in the file's units ('units: cm' \
+             makes them centimetres)"
+        )),
+        None => Ok(()),
+    }
+}
+
 fn edge_path(at: Vec2, commands: &str, scale: f64) -> Result<Path, String> {
+    check_units(commands)?;
     if commands.contains(['M', 'm', 'Z', 'z']) {
         return Err("an edge goes on from the one before it; use L, C, Q or A, without M or Z".to_owned());
     }
@@ -83,7 +100,13 @@ fn edge_path(at: Vec2, commands: &str, scale: f64) -> Result<Path, String> {
     check_size(path)
 }
 
-pub(super) fn check_size(path: Path) -> Result<Path, String> {
+/// A path with its own `M`.
+pub(super) fn whole_path(commands: &str, scale: f64) -> Result<Path, String> {
+    check_units(commands)?;
+    Path::parse_absolute(commands, scale).map_err(|e| e.to_string()).and_then(check_size)
+}
+
+fn check_size(path: Path) -> Result<Path, String> {
     if path.length() > LONGEST_EDGE {
         let length = path.length();
         let shown = if length < 1e6 { format!("{length:.0}") } else { format!("{length:.1e}") };

@@ -144,6 +144,17 @@ pub enum Problem {
     PairUnsewn(String),
     #[error("piece '{0}' is sewn to nothing; it will fall where the body does not hold it")]
     PieceUnsewn(String),
+    #[error("'{pattern}' matches only {edge}, which lies on the fold: the cloth goes on there, neither sewn nor free")]
+    FreeOnFold { pattern: String, edge: String },
+    #[error(
+        "the largest piece, '{piece}', is {piece_mm:.0} mm long, and the body {body_m:.2} m high: is the drawing in \
+         another unit than {unit}?"
+    )]
+    Size { piece: String, piece_mm: f64, body_m: f64, unit: &'static str, small: bool },
+    #[error("{0}")]
+    Place(String),
+    #[error("piece '{piece}' starts inside the body, up to {depth_mm:.0} mm deep")]
+    StartsInside { piece: String, depth_mm: f64 },
 
     // Darts and pleats.
     #[error(
@@ -182,7 +193,10 @@ pub enum Problem {
     WhichCopy { seam: String, reference: String, choice: String, count: usize },
     #[error("seam '{seam}': piece '{piece}' has no mirror; 'to: mirror' needs cut: pair or fold")]
     NoMirror { seam: String, piece: String },
-    #[error("seam '{seam}': {sides}, {apart:.1} mm apart; {advice} (tolerance {tolerance:.0})")]
+    #[error(
+        "seam '{seam}': {sides}, {} mm apart; {advice} (tolerance {})",
+        beyond(*apart, *tolerance), rounded(*tolerance)
+    )]
     LengthsApart { seam: String, sides: String, apart: f64, advice: String, tolerance: f64 },
     #[error(
         "seam '{seam}': ease {ease:.0} mm is {percent:.0} % of {length:.0} mm; more than 8 % gathers, say {advice}"
@@ -216,6 +230,20 @@ pub enum Problem {
     SeamOrder { seam: String, later: String },
 }
 
+/// A number with as many digits as tell that it is more than a limit.
+fn beyond(number: f64, limit: f64) -> String {
+    let shown = |digits: &usize| {
+        let text = format!("{number:.digits$}");
+        text.parse::<f64>().is_ok_and(|n| n > rounded(limit)).then_some(text)
+    };
+    (1..=6).find_map(|digits| shown(&digits)).unwrap_or_else(|| number.to_string())
+}
+
+/// To a micrometre.
+fn rounded(mm: f64) -> f64 {
+    (mm * 1e3).round() / 1e3
+}
+
 fn did_you_mean(nearest: &Option<String>) -> String {
     nearest.as_ref().map_or_else(String::new, |n| format!("; did you mean '{n}'?"))
 }
@@ -239,6 +267,16 @@ impl Problem {
             Self::UnknownFabric { known, .. } => format!("the fabrics are: {known}"),
             Self::UnknownEdge { nearest: Some(n), .. } => format!("did you mean '{n}'?"),
             Self::NeitherSewnNorFree(_) => "sew them in a seam or list them under 'free'".to_owned(),
+            Self::FreeOnFold { .. } => "leave it out of 'free', or fold another edge".to_owned(),
+            Self::Size { unit: "mm", small: true, .. } => {
+                "bare numbers are millimetres; write 'units: cm' or 'units: in' if they are meant so".to_owned()
+            }
+            Self::Size { .. } => "write the unit the numbers are meant in, 'units: mm', 'cm' or 'in'".to_owned(),
+            Self::StartsInside { .. } => {
+                "move its 'at' out of the body: x to the wearer's left, y up from the floor, z forward; with 'turn' a \
+                 piece lies as it says"
+                    .to_owned()
+            }
             Self::NotClosed { .. } => "the last edge must end at 'start'".to_owned(),
             Self::LineOff { .. } | Self::PointOff { .. } => {
                 "positions are those of the drawing, in the file's units".to_owned()

@@ -1,7 +1,7 @@
 //! Points on the rims of pieces, which of them sewing brings together, and the openings that remain.
 
 use super::fasten::{Bridge, Fastening, RimSpot, Step, fastenings, patches, worn_rims};
-use super::{EdgeId, Garment, Piece, Span};
+use super::{EdgeId, Garment, Piece, Seam, Span};
 use crate::geometry::DisjointSets;
 
 /// Points of one rim closer than this (metres) are one: the largest difference a seam may have by default is 2 mm.
@@ -210,11 +210,15 @@ impl FreeRim {
     }
 }
 
-/// What no seam takes of an edge, cut where something is fastened.
+/// What no seam takes of an edge, cut where something is fastened. Two layers that are sewn on each other the same way
+/// round and to nothing else, as a lining all round its shell, end there: the outer one's edge is a rim.
 pub(super) fn free_spans(garment: &Garment, fastened: &[Fastening]) -> Vec<Span> {
+    let ending: Vec<&Span> = garment.seams.iter().filter_map(|s| ending(garment, s)).flatten().collect();
+    let is_taken = |span: &&Span| !ending.iter().any(|e| std::ptr::eq(*e, *span));
     let mut free: Vec<Span> = Vec::new();
     for edge in edge_ids(&garment.pieces) {
-        let spans = garment.seams.iter().flat_map(|s| s.a.iter().chain(&s.b)).filter(|s| s.edge == edge);
+        let all = garment.seams.iter().flat_map(|s| s.a.iter().chain(&s.b));
+        let spans = all.filter(|s| s.edge == edge).filter(is_taken);
         let taken = spans.map(Span::sorted).collect();
         let gaps = gaps(taken, garment.pieces[edge.piece].loops[edge.ring][edge.index].path.length());
         let mut cuts: Vec<f64> =
@@ -231,6 +235,22 @@ pub(super) fn free_spans(garment: &Garment, fastened: &[Fastening]) -> Vec<Span>
         }
     }
     free
+}
+
+/// The outer chain of a seam along which both layers end.
+fn ending<'g>(garment: &'g Garment, seam: &'g Seam) -> Option<&'g [Span]> {
+    let with = |chain: &[Span]| chain.first().map(|s| s.to > s.from);
+    let overlap = |s: &Span, t: &Span| {
+        let ((a, b), (c, d)) = (s.sorted(), t.sorted());
+        s.edge == t.edge && b.min(d) - a.max(c) > SLIVER
+    };
+    let others = || garment.seams.iter().filter(|other| !std::ptr::eq(*other, seam));
+    let is_shared = |s: &Span| others().any(|other| other.a.iter().chain(&other.b).any(|t| overlap(s, t)));
+    if with(&seam.a) != with(&seam.b) || seam.a.iter().chain(&seam.b).any(is_shared) {
+        return None;
+    }
+    let layer = |chain: &[Span]| chain.first().map(|s| garment.pieces[s.edge.piece].layer);
+    Some(if layer(&seam.b) > layer(&seam.a) { &seam.b } else { &seam.a })
 }
 
 /// The free stretches by the rims they are joined to.
@@ -261,7 +281,7 @@ fn free_rims(garment: &Garment, fastened: &[Fastening]) -> Vec<FreeRim> {
 }
 
 /// The seam's marks and, in proportion between them, every joint of either chain.
-pub(super) fn joint_marks(seam: &super::Seam) -> Vec<(f64, f64)> {
+pub(super) fn joint_marks(seam: &Seam) -> Vec<(f64, f64)> {
     let mut all = seam.marks.clone();
     let across = |at: f64, from: fn(&(f64, f64)) -> f64, to: fn(&(f64, f64)) -> f64| {
         let pair = seam.marks.windows(2).find(|w| at <= from(&w[1]))?;

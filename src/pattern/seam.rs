@@ -298,7 +298,7 @@ fn check_lengths(candidate: &Candidate, lengths: (f64, f64), give: Give, toleran
             sides: format!("{} {:.1} mm, {} {:.1} mm", text(&candidate.a), la * 1e3, text(&candidate.b), lb * 1e3),
             apart: apart.abs() * 1e3,
             advice: advice(la, lb, give),
-            tolerance: tolerance * 1e3,
+            tolerance: allowed * 1e3,
         },
     );
 }

@@ -5,10 +5,11 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::error::PipelineError;
-use super::{cloth, material};
+use super::{cloth, fit, material};
 use crate::contact::Collider;
 use crate::dynamics::Cut;
 use crate::fabric::Fabric;
+use crate::input::LengthUnit;
 use crate::io::garment::{self, Loaded};
 use crate::mannequin::{Mannequin, PartKind};
 use crate::mesh::{self, ClothMesh};
@@ -28,6 +29,8 @@ pub struct Overrides {
     pub fabric: Option<String>,
     /// Mannequin name, or a `.yaml` or `.obj` file, in place of the garment's body.
     pub body: Option<String>,
+    /// Unit of the body's `.obj` file, in place of what the garment file says or its size suggests.
+    pub body_unit: Option<LengthUnit>,
 }
 
 /// A garment, its fabrics, the body it is made for and its mesh.
@@ -76,9 +79,12 @@ impl Job {
         let mut notes: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
         let (fabrics, told) = material::fabrics(file, &loaded, overrides.fabric.as_deref())?;
         notes.extend(told);
-        let (wanted, worn_by) = material::body(file, &loaded, overrides.body.as_deref())?;
+        let (wanted, worn_by) = material::body(file, &loaded, overrides)?;
         notes.extend(worn_by.notes.iter().map(|note| format!("{wanted}: {note}")));
         let body = worn_by.mannequin;
+        let mut findings = loaded.findings();
+        fit::doubt_size(&loaded, &body, &mut findings);
+        notes.extend(findings.into_sorted().iter().map(ToString::to_string));
         let begin = Instant::now();
         let mesh = mesh::build(&loaded.garment, overrides.spacing.unwrap_or(SPACING))
             .map_err(|source| material::mesh_error(file, &loaded, source))?;

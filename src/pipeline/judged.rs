@@ -4,9 +4,10 @@ use std::path::Path;
 
 use super::error::PipelineError;
 use crate::geometry::{TriMesh, Vec3, box_of};
+use crate::input::LengthUnit;
 use crate::io::body::{BodyError, read_solid};
 use crate::io::obj_read::read_obj_faces;
-use crate::mannequin::{check_body, load};
+use crate::mannequin::{Place, check_body, load};
 use crate::report::{Seen, look};
 
 /// A mesh this much longer than the body is in another unit.
@@ -23,13 +24,14 @@ pub struct Judged {
     pub notes: Vec<String>,
 }
 
-/// Looks for crossings in the OBJ file `mesh` of `metres` to the unit, with itself and with `body`: a mannequin's name
+/// Looks for crossings in the OBJ file `mesh` in `unit`, with itself and with `body`: a mannequin's name
 /// or a closed OBJ in the same unit and place.
 ///
 /// # Errors
 /// [`PipelineError::Obj`] and [`PipelineError::Body`]: files that cannot be read, or a body that is not closed.
-pub fn judge(mesh: &Path, body: Option<&str>, metres: f64) -> Result<Judged, PipelineError> {
+pub fn judge(mesh: &Path, body: Option<&str>, unit: LengthUnit) -> Result<Judged, PipelineError> {
     let faces = read_obj_faces(mesh)?;
+    let metres = unit.metres();
     let mut cloth = TriMesh { vertices: faces.vertices.iter().map(|p| p * metres).collect(), triangles: Vec::new() };
     let mut group_of = Vec::new();
     for (face, &group) in faces.faces.iter().zip(&faces.group_of_face) {
@@ -38,7 +40,7 @@ pub fn judge(mesh: &Path, body: Option<&str>, metres: f64) -> Result<Judged, Pip
             group_of.push(group);
         }
     }
-    let body = body.map(|name| solid(name, metres)).transpose()?;
+    let body = body.map(|name| solid(name, unit)).transpose()?;
     let notes = body.as_ref().and_then(|body| misplaced(&cloth, body)).into_iter().collect();
     let name = |t: u32| match faces.groups[group_of[t as usize] as usize].as_str() {
         "" => "mesh",
@@ -48,13 +50,14 @@ pub fn judge(mesh: &Path, body: Option<&str>, metres: f64) -> Result<Judged, Pip
 }
 
 /// A mannequin's surface by name, or a closed OBJ as it stands.
-fn solid(name: &str, metres: f64) -> Result<TriMesh, PipelineError> {
+fn solid(name: &str, unit: LengthUnit) -> Result<TriMesh, PipelineError> {
     let path = Path::new(name);
     if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
-        return Ok(read_solid(path, metres)?);
+        return Ok(read_solid(path, unit)?);
     }
     let mannequin = load(name).map_err(BodyError::from)?;
-    check_body(&mannequin.mesh).map_err(|fault| BodyError::Fault { file: name.to_owned(), fault })?;
+    check_body(&mannequin.mesh, Place::millimetres)
+        .map_err(|fault| BodyError::Fault { file: name.to_owned(), fault })?;
     Ok(mannequin.mesh)
 }
 

@@ -5,12 +5,13 @@ use std::sync::Arc;
 
 use super::cloth::Fabrics;
 use super::error::PipelineError;
-use super::job::SPACING;
+use super::fit;
+use super::job::{Overrides, SPACING};
 use crate::fabric::{Fabric, FabricError};
 use crate::io::body::{Body, BodyError, load_body};
 use crate::io::garment::{self, Loaded, Refused};
 use crate::mannequin::{self, MannequinError};
-use crate::mesh::{self, MeshError};
+use crate::mesh::{self, ClothMesh, MeshError};
 use crate::pattern::{self, Findings, GarmentFile, Located, Problem, Spot, Value};
 
 /// Reads a garment file and finds everything that is wrong before cloth moves: in its text, pieces and seams, its
@@ -20,31 +21,56 @@ use crate::pattern::{self, Findings, GarmentFile, Located, Problem, Spot, Value}
 /// Every mistake of the file.
 pub fn check(file: &Path, spacing: Option<f64>) -> Result<Loaded, Refused> {
     let mut examined = garment::examine(file);
-    if let Some(said) = &examined.file {
-        look(file, said, &mut examined.findings);
-    }
+    let said = examined.file.clone();
+    let body = said.and_then(|said| look(file, &said, &mut examined.findings));
     let loaded = examined.finish()?;
-    match mesh::build(&loaded.garment, spacing.unwrap_or(SPACING)) {
-        Ok(_) => Ok(loaded),
-        Err(error) => {
-            let at = mesh_spot(&loaded.file, error.culprit()).unwrap_or_default();
-            Err(loaded.refusal(at, Problem::Mesh(error.to_string())))
-        }
+    let mesh = mesh::build(&loaded.garment, spacing.unwrap_or(SPACING)).map_err(|error| {
+        let at = mesh_spot(&loaded.file, error.culprit()).unwrap_or_default();
+        loaded.refusal(at, Problem::Mesh(error.to_string()))
+    })?;
+    match body {
+        Some(body) => on_body(loaded, &mesh, &body),
+        None => Ok(loaded),
     }
 }
 
-/// What is wrong with the fabrics and the body that a file names.
-fn look(file: &Path, said: &GarmentFile, findings: &mut Findings) {
+/// What a garment that is right for itself has wrong on its body.
+fn on_body(mut loaded: Loaded, mesh: &ClothMesh, body: &Body) -> Result<Loaded, Refused> {
+    let mut findings = loaded.findings();
+    fit::doubt_size(&loaded, &body.mannequin, &mut findings);
+    fit::check_places(&loaded, mesh, &body.mannequin, &mut findings);
+    let refused = findings.errors() > 0;
+    let mut diagnostics = loaded.warnings.clone();
+    diagnostics.extend(findings.into_sorted());
+    diagnostics.sort_by_key(|d| (d.line, d.column));
+    if refused {
+        return Err(Refused { diagnostics });
+    }
+    loaded.warnings = diagnostics;
+    Ok(loaded)
+}
+
+/// What is wrong with the fabrics and the body that a file names; the body, if it can be had.
+fn look(file: &Path, said: &GarmentFile, findings: &mut Findings) -> Option<Body> {
     let folder = file.parent().unwrap_or(Path::new(""));
     let all = Fabrics::named(&pattern::fabrics(said), folder).all();
     for (entry, fabric) in said.fabrics.iter().zip(&all) {
         blame_fabric(said, entry, fabric, findings);
     }
-    let Some(name) = &said.body else { return };
     // A file without a body is told so by whatever needs one.
-    let wanted = body_name(file, Some(&name.value), None);
-    if let Some(Err(error)) = wanted.ok().map(|wanted| load_body(&wanted)) {
-        findings.error(name.at, Problem::Body(error.to_string()));
+    let name = said.body.as_ref()?;
+    let wanted = body_name(file, Some(&name.value), None).ok()?;
+    let unit = said.body_units.as_ref().map(|u| u.value);
+    match load_body(&wanted, unit) {
+        Ok(body) => {
+            let note = |note: &String| Problem::Body(format!("{wanted}: {note}"));
+            body.notes.iter().for_each(|told| findings.warn(name.at, note(told)));
+            Some(body)
+        }
+        Err(error) => {
+            findings.error(name.at, Problem::Body(error.to_string()));
+            None
+        }
     }
 }
 
@@ -149,11 +175,14 @@ fn at_file(value: &Located<Value>, file: &Path) -> Option<Spot> {
     }
 }
 
-/// The body, by the name it is asked for: what the user says, else what the file says.
-pub(super) fn body(file: &Path, loaded: &Loaded, instead: Option<&str>) -> Result<(String, Body), PipelineError> {
+/// The body, by the name it is asked for, and its file's unit: what the user says, else what the file says. (The unit
+/// that the file says is that of its own body.)
+pub(super) fn body(file: &Path, loaded: &Loaded, wanted: &Overrides) -> Result<(String, Body), PipelineError> {
+    let instead = wanted.body.as_deref();
     let name = body_name(file, loaded.garment.body.as_deref(), instead)?;
     let said = loaded.file.body.as_ref().filter(|_| instead.is_none());
-    let body = load_body(&name).map_err(|error| match said {
+    let own_unit = said.and(loaded.file.body_units.as_ref()).map(|u| u.value);
+    let body = load_body(&name, wanted.body_unit.or(own_unit)).map_err(|error| match said {
         Some(said) if cannot_be_had(&error) => {
             PipelineError::Garment(loaded.refusal(said.at, Problem::Body(error.to_string())))
         }

@@ -13,6 +13,7 @@
 mod caught;
 mod cloth;
 mod error;
+mod fit;
 mod job;
 mod judged;
 mod levels;

@@ -64,7 +64,8 @@ pub fn measure(run: &Measured) -> Report {
         garment: run.garment.name.clone(),
         mannequin: run.body.name.clone(),
         fabric: run.fabric.into(),
-        spacing: run.mesh.spacing * MM,
+        // To a nanometre: 18 was made 0.018 m, which is 18.000000000000004 mm.
+        spacing: (run.mesh.spacing * MM * MM * MM).round() / (MM * MM),
         pieces,
         total,
         seams: run.mesh.seams.iter().enumerate().map(|(k, s)| seam(run, k, s)).collect(),

@@ -3,7 +3,8 @@
 use super::decode_piece::piece;
 use super::decode_seam::seam;
 use super::decode_test::test;
-use super::fields::{Fields, entries, integer, items, length, numbers, text, width, wrong};
+use super::fields::{Fields, entries, integer, items, length, numbers, text, width, word, wrong};
+use crate::input::LengthUnit;
 use crate::pattern::{ClosureFile, Findings, GarmentFile, Located, Problem, Unit, Value};
 
 /// Statements about a file that are kept for people.
@@ -22,6 +23,9 @@ pub(super) fn garment(tree: &Located<Value>, findings: &mut Findings) -> Option<
         about: about(&mut fields),
         units: fields.take("units").and_then(|v| units(v, findings)),
         body: fields.get("body", findings, text),
+        body_units: fields.get("body_units", findings, |v, _, f| {
+            word(v, "body_units", "mm, cm, m or in", f, LengthUnit::from_symbol)
+        }),
         allowance: fields.get("allowance", findings, width),
         fabrics: fields.take("fabrics").map_or_else(Vec::new, |v| fabrics(v, findings)),
         pieces: fields.need("pieces", findings).map_or_else(Vec::new, |v| {

@@ -2,7 +2,7 @@
 
 use super::decode::name;
 use super::fields::{
-    Fields, entries, integer, items, length, number, numbers, quantity, text, width, within, word, wrong,
+    Fields, entries, integer, items, length, number, numbers, quantity, share, text, width, within, word, wrong,
 };
 use crate::pattern::{
     AllowanceFile, AllowanceWidth, Corner, Cut, DartFile, DartShape, Findings, LineFile, Located, NotchFile,
@@ -99,6 +99,10 @@ fn grain(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<
 }
 
 fn place(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<PlaceFile>> {
+    if let Value::List(_) = value.value {
+        wrong(value, what, "words such as 'torso front', or a position as {at: [x, y, z]}", findings);
+        return None;
+    }
     if !matches!(value.value, Value::Map(_)) {
         return text(value, what, findings).map(|t| Located::new(PlaceFile::Words(t.value), t.at));
     }
@@ -230,8 +234,10 @@ fn angle(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<
 
 /// What is left of a line's length when it is drawn in.
 fn drawn_in(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<f64>> {
+    let share = share(value, what, findings)?;
+    let ratio = if share.value.is_percent() { share.value.number / 100.0 } else { share.value.number };
     within(
-        number(value, what, findings)?,
+        Located::new(ratio, share.at),
         what,
         0.05..=1.0,
         "between 0.05 and 1, the length drawn in over that cut",

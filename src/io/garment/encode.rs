@@ -30,6 +30,7 @@ pub fn write(file: &GarmentFile) -> Result<String, EncodeError> {
     map.nodes(&file.about);
     map.some("units", file.units.as_ref().map(|u| u.value.symbol()));
     map.text("body", &file.body);
+    map.some("body_units", file.body_units.as_ref().map(|u| u.value.symbol()));
     map.quantity("allowance", &file.allowance);
     map.filled("fabrics", nodes(&file.fabrics));
     map.filled("pieces", named(&file.pieces, |p| (&p.name, piece(p))));

@@ -37,6 +37,7 @@ pub(super) fn garment(name: &str, spec: &Specification, body: Option<&str>) -> R
         about: vec![(here("source".to_owned()), here(Value::Text("GarmentCode pattern specification".to_owned())))],
         units: None,
         body: body.map(|b| here(b.to_owned())),
+        body_units: None,
         allowance: None,
         fabrics: vec![(here("shell".to_owned()), here(Value::Text(FABRIC.to_owned())))],
         pieces: pieces.iter().enumerate().map(|(i, p)| writer.piece(p, &names[i])).collect(),

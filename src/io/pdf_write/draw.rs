@@ -162,7 +162,7 @@ impl Pen {
             self.content.stroke();
         }
         for line in &paper.sew {
-            let dashes: &[f32] = if line.of == SewKind::Dart { &[] } else { &SEWN };
+            let dashes: &[f32] = if matches!(line.of, SewKind::Dart | SewKind::FishEye) { &[] } else { &SEWN };
             self.path(&line.path, dashes);
         }
         for notch in &paper.notches {

@@ -306,6 +306,7 @@ mod tests {
             count: "cut 1".into(),
             quantity: 1,
             mirrored: false,
+            drawn: None,
             fabric: "shell".into(),
             cut: vec![corners.iter().map(|&[x, y]| Vec2::new(x, y)).collect()],
             fold: None,
@@ -315,6 +316,7 @@ mod tests {
             marks: Vec::new(),
             drills: Vec::new(),
             texts: Vec::new(),
+            narrowed: Vec::new(),
         }
     }
 

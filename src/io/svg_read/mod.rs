@@ -18,7 +18,7 @@ use self::viewport::{Frame, inner, sheet};
 use crate::digitize::{Remark, Role, Stroke, Traced, pieces};
 use crate::geometry::{Path, Vec2, parse_transform};
 use crate::input::{InputError, bytes, shown};
-use crate::pattern::LineKind;
+use crate::pattern::{LineKind, Side};
 
 /// Larger files are not patterns.
 const MOST_BYTES: u64 = 30 << 20;
@@ -114,10 +114,13 @@ pub fn read_svg_text(text: &str) -> Result<SvgDrawing, SvgError> {
         return Err(SvgError::NotSvg(shown(root.tag_name().name(), SHOWN)));
     }
     let left_out = LeftOut::default();
-    let (strokes, remarks, texts) = (Vec::new(), Vec::new(), Vec::new());
-    let mut reader = Reader { document: &document, strokes, remarks, texts, left_out };
+    let (strokes, remarks, texts, right) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let mut reader = Reader { document: &document, strokes, remarks, texts, right, left_out };
     reader.walk(root)?;
-    let pieces = pieces(&reader.strokes, &reader.remarks);
+    let mut pieces = pieces(&reader.strokes, &reader.remarks);
+    for piece in pieces.iter_mut().filter(|p| reader.right.contains(&p.name)) {
+        piece.drawn = Some(Side::Right);
+    }
     reader.leave_out_unread(&pieces);
     let left_out = reader.left_out.sentences();
     if pieces.is_empty() {
@@ -148,6 +151,8 @@ struct Reader<'a, 'i> {
     remarks: Vec<Remark>,
     /// Remarks that are left out unless a piece is cut as they say, and the lines they stand in.
     texts: Vec<(usize, u32)>,
+    /// Groups whose pieces are the wearer's right ones, as toile itself writes it.
+    right: Vec<String>,
     left_out: LeftOut,
 }
 
@@ -173,6 +178,9 @@ impl Reader<'_, '_> {
             }
             if CONTAINERS.contains(&name) {
                 within.group = group_name(node).or(scope.group);
+                if node.attribute("data-drawn") == Some(Side::Right.letter()) {
+                    self.right.extend(within.group.clone());
+                }
                 let chosen = (name == "switch").then(|| alternative(node));
                 let elements = || {
                     let all = node.children().filter(Node::is_element);
@@ -358,6 +366,11 @@ fn role(node: Node, classes: &str) -> Option<Role> {
     }
     if refers("cutonfold") || has("cutonfold") || has("fold") && is_line(node) {
         return Some(Role::Fold);
+    }
+    match node.attribute("data-pleat") {
+        Some("fold") => return Some(Role::PleatFold),
+        Some("place") => return Some(Role::PleatPlace),
+        _ => {}
     }
     if has("notch") || refers("notch") || called("notch") {
         return Some(Role::Notch);

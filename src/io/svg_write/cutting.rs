@@ -6,7 +6,7 @@
 use svg::node::element::{Circle, Group, Path};
 
 use super::{MM, centered, document, identifier, number, polyline, square, stroke, with_kind};
-use crate::cutting::{Lettering, Paper, SewKind, Sheet};
+use crate::cutting::{Lettering, MarkKind, Paper, SewKind, Sheet};
 use crate::geometry::Vec2;
 
 /// Widths of lines, mm: what is cut, and everything else.
@@ -34,6 +34,9 @@ pub fn cutting_svg(sheet: &Sheet) -> String {
 fn draw(paper: &Paper) -> Group {
     let name = identifier(&paper.name);
     let mut group = Group::new().set("id", name.as_str()).set("class", "piece").set("fill", "none");
+    if let Some(side) = paper.drawn {
+        group = group.set("data-drawn", side.letter());
+    }
     for (i, contour) in paper.cut.iter().enumerate() {
         let open = i == 0 && paper.fold.is_some();
         group = group.add(contour_path(contour, open));
@@ -55,14 +58,16 @@ fn draw(paper: &Paper) -> Group {
     }
     for mark in &paper.marks {
         let class = match mark.kind {
-            crate::cutting::MarkKind::Fold => "fold",
-            crate::cutting::MarkKind::Pleat => "pleat",
-            crate::cutting::MarkKind::Line => "line",
+            MarkKind::Fold => "fold",
+            MarkKind::PleatFold | MarkKind::PleatPlace | MarkKind::PleatArrow => "pleat",
+            MarkKind::Line => "line",
         };
         let path = stroke(mark.path.to_svg(MM, true), class, FINE);
-        group = group.add(match &mark.line {
-            Some(kind) => with_kind(path, kind).set("id", format!("{name}.{}", identifier(&mark.name))),
-            None => path,
+        group = group.add(match (&mark.line, mark.kind) {
+            (Some(kind), _) => with_kind(path, kind).set("id", format!("{name}.{}", identifier(&mark.name))),
+            (None, MarkKind::PleatFold) => path.set("data-pleat", "fold"),
+            (None, MarkKind::PleatPlace) => path.set("data-pleat", "place"),
+            (None, _) => path,
         });
     }
     for (kind, at) in &paper.drills {

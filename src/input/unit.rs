@@ -1,0 +1,64 @@
+//! Units of length of files that do not say theirs.
+
+/// The unit of a file's coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LengthUnit {
+    /// Millimetres.
+    Millimetre,
+    /// Centimetres.
+    Centimetre,
+    /// Metres.
+    Metre,
+    /// Inches.
+    Inch,
+}
+
+impl LengthUnit {
+    /// All there are.
+    pub const ALL: [Self; 4] = [Self::Millimetre, Self::Centimetre, Self::Metre, Self::Inch];
+
+    /// Metres in it.
+    pub fn metres(self) -> f64 {
+        match self {
+            Self::Millimetre => 1e-3,
+            Self::Centimetre => 1e-2,
+            Self::Metre => 1.0,
+            Self::Inch => 0.0254,
+        }
+    }
+
+    /// `mm`, `cm`, `m` or `in`.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Millimetre => "mm",
+            Self::Centimetre => "cm",
+            Self::Metre => "m",
+            Self::Inch => "in",
+        }
+    }
+
+    /// `millimetres`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Millimetre => "millimetres",
+            Self::Centimetre => "centimetres",
+            Self::Metre => "metres",
+            Self::Inch => "inches",
+        }
+    }
+
+    /// The unit of this symbol.
+    pub fn from_symbol(symbol: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|unit| unit.symbol() == symbol)
+    }
+
+    /// Digits after the point that tell a millimetre.
+    pub fn decimals(self) -> usize {
+        match self {
+            Self::Millimetre => 0,
+            Self::Centimetre => 1,
+            Self::Metre => 3,
+            Self::Inch => 2,
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! The text of a DXF file as entities: each a kind and its pairs of a group code and a value.
+
+use super::dxf_read::{DxfError, SHOWN};
+use crate::geometry::Vec2;
+use crate::input::shown;
+
+/// Coordinates beyond this (metres) are a wrong unit or no pattern.
+const FARTHEST: f64 = 1e3;
+
+/// A value and the line it stands on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair<'a> {
+    pub(super) code: i32,
+    pub(super) value: &'a str,
+    pub(super) line: usize,
+}
+
+/// An entity: its kind and its pairs.
+#[derive(Debug)]
+pub(super) struct Entity<'a> {
+    pub(super) kind: &'a str,
+    pub(super) pairs: Vec<Pair<'a>>,
+}
+
+impl<'a> Entity<'a> {
+    pub(super) fn value(&self, code: i32) -> Option<&'a str> {
+        self.pairs.iter().find(|p| p.code == code).map(|p| p.value)
+    }
+
+    pub(super) fn layer(&self) -> Option<u32> {
+        self.value(8)?.parse().ok()
+    }
+
+    /// The points at codes 10 and 20 (or 11 and 21), metres, y down.
+    pub(super) fn points(&self, first: i32, unit: f64) -> Result<Vec<Vec2>, DxfError> {
+        let number = |p: &Pair| {
+            let wrong = || DxfError::Number { line: p.line, found: shown(p.value, SHOWN) };
+            let x: f64 = p.value.parse().map_err(|_| wrong())?;
+            if (x * unit).abs() <= FARTHEST { Ok(x * unit) } else { Err(wrong()) }
+        };
+        let mut points: Vec<Vec2> = Vec::new();
+        for pair in &self.pairs {
+            if pair.code == first {
+                points.push(Vec2::new(number(pair)?, 0.0));
+            } else if pair.code == first + 10
+                && let Some(last) = points.last_mut()
+            {
+                last.y = -number(pair)?;
+            }
+        }
+        Ok(points)
+    }
+}
+
+pub(super) fn entities(text: &str) -> Result<Vec<Entity<'_>>, DxfError> {
+    let mut entities: Vec<Entity> = Vec::new();
+    let mut lines = text.lines().enumerate();
+    while let Some((k, code)) = lines.next() {
+        let code = code.trim_start_matches('\u{feff}').trim();
+        if code.is_empty() && entities.last().is_none_or(|e| e.kind == "EOF") {
+            continue;
+        }
+        let code: i32 = code.parse().map_err(|_| DxfError::NotText { line: k + 1, found: shown(code, SHOWN) })?;
+        let Some((k, value)) = lines.next() else { break };
+        let value = value.trim();
+        if code == 0 {
+            entities.push(Entity { kind: value, pairs: Vec::new() });
+        } else if let Some(entity) = entities.last_mut() {
+            entity.pairs.push(Pair { code, value, line: k + 1 });
+        }
+    }
+    Ok(entities)
+}
+
+/// The entities between BLOCK (included) and ENDBLK.
+pub(super) fn blocks<'e, 'a>(entities: &'e [Entity<'a>]) -> Vec<&'e [Entity<'a>]> {
+    let mut blocks = Vec::new();
+    let mut begin = None;
+    for (k, entity) in entities.iter().enumerate() {
+        match entity.kind {
+            "BLOCK" => begin = Some(k),
+            "ENDBLK" => blocks.extend(begin.take().map(|b| &entities[b..k])),
+            _ => {}
+        }
+    }
+    blocks
+}
+
+/// Metres per unit by the style's text or the header.
+pub(super) fn stated_unit(entities: &[Entity]) -> Option<f64> {
+    let said = entities.iter().filter(|e| e.kind == "TEXT").filter_map(|e| after(e.value(1)?, "units:"));
+    for words in said {
+        match words.to_ascii_uppercase().as_str() {
+            "METRIC" | "MM" => return Some(1e-3),
+            "ENGLISH" | "IMPERIAL" | "INCH" | "INCHES" => return Some(0.0254),
+            "CM" => return Some(1e-2),
+            _ => {}
+        }
+    }
+    // $INSUNITS stands among the pairs of the HEADER section.
+    let header = entities.iter().flat_map(|e| e.pairs.windows(2));
+    let code = header.filter(|w| w[0].value == "$INSUNITS").map(|w| w[1].value).next()?;
+    match code.trim() {
+        "1" => Some(0.0254),
+        "4" => Some(1e-3),
+        "5" => Some(1e-2),
+        "6" => Some(1.0),
+        _ => None,
+    }
+}
+
+/// What follows a key at the start of a text, in any case: `Piece Name: FRONT`.
+pub(super) fn after<'a>(text: &'a str, key: &str) -> Option<&'a str> {
+    let head = text.get(..key.len())?;
+    head.eq_ignore_ascii_case(key).then(|| text[key.len()..].trim())
+}
+
+/// DXF R12 writes letters beyond ASCII as their codes: `\U+00FC` is ü.
+pub(super) fn letters(text: &str) -> String {
+    let mut parts = text.split("\\U+");
+    let mut out = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let code = part.get(..4).and_then(|hex| u32::from_str_radix(hex, 16).ok()).and_then(char::from_u32);
+        match code {
+            Some(c) => out.extend(std::iter::once(c).chain(part[4..].chars())),
+            None => {
+                out.push_str("\\U+");
+                out.push_str(part);
+            }
+        }
+    }
+    out
+}

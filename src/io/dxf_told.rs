@@ -1,0 +1,74 @@
+//! What DXF-AAMA has no layer for, told by texts on the lines themselves: names of edges, what inner lines do, how
+//! pleats lie. Other readers show them as any annotation; people find on the screen what a line is.
+
+use crate::geometry::{Path, Vec2};
+use crate::pattern::LineKind;
+
+/// A text stands at this share of its line: beyond it no two lines meet as they do at their ends and cross in their
+/// middles.
+const SHARE: f64 = 0.3;
+/// And no farther from there than this (metres): its coordinates are rounded.
+const NEAR: f64 = 1e-5;
+
+/// What is told of a line.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Told {
+    /// It is this edge of the piece.
+    Edge(String),
+    /// It is a line inside, and does this.
+    Line(String, LineKind),
+    /// A pleat is folded along it.
+    PleatFold,
+    /// And this is where that fold is brought to.
+    PleatPlace,
+    /// The arrow from the one to the other.
+    PleatArrow,
+}
+
+impl Told {
+    /// As it is written.
+    pub(super) fn text(&self) -> String {
+        match self {
+            Self::Edge(name) => format!("Edge: {name}"),
+            Self::Line(name, LineKind::Fold(angle)) => format!("Line: {name}, fold {:.4}", angle.to_degrees()),
+            Self::Line(name, LineKind::Elastic(ratio)) => format!("Line: {name}, elastic {ratio:.4}"),
+            Self::Line(name, LineKind::Mark(kind)) => format!("Line: {name}, {kind}"),
+            Self::PleatFold => "Pleat: fold".to_owned(),
+            Self::PleatPlace => "Pleat: place".to_owned(),
+            Self::PleatArrow => "Pleat: arrow".to_owned(),
+        }
+    }
+
+    /// What a text tells, if it is one of these.
+    pub(super) fn read(text: &str) -> Option<Self> {
+        let (key, value) = text.split_once(": ")?;
+        match (key, value.trim()) {
+            ("Edge", name) => Some(Self::Edge(name.to_owned())),
+            ("Line", value) => value.split_once(", ").map(|(name, kind)| Self::Line(name.to_owned(), line_kind(kind))),
+            ("Pleat", "fold") => Some(Self::PleatFold),
+            ("Pleat", "place") => Some(Self::PleatPlace),
+            ("Pleat", "arrow") => Some(Self::PleatArrow),
+            _ => None,
+        }
+    }
+}
+
+fn line_kind(text: &str) -> LineKind {
+    let number = |key: &str, least: f64, most: f64| {
+        text.strip_prefix(key)?.trim().parse::<f64>().ok().filter(|x| (least..=most).contains(x))
+    };
+    let fold = number("fold ", -180.0, 180.0).map(|degrees| LineKind::Fold(degrees.to_radians()));
+    let elastic = || number("elastic ", 0.05, 1.0).map(LineKind::Elastic);
+    fold.or_else(elastic).unwrap_or_else(|| LineKind::Mark(text.to_owned()))
+}
+
+/// Where what is told of a line stands.
+pub(super) fn place(line: &Path) -> Vec2 {
+    line.point(SHARE * line.length())
+}
+
+/// What the texts at these places tell of a line.
+pub(super) fn told_of<'t>(line: &Path, texts: &'t [(Told, Vec2)]) -> Option<&'t Told> {
+    let place = place(line);
+    texts.iter().find(|(_, at)| (at - place).norm() <= NEAR).map(|(told, _)| told)
+}

@@ -1,0 +1,86 @@
+//! Whether a garment suits its body before cloth moves: its size, and where its pieces start.
+
+use super::cloth::piece_area;
+use crate::contact::Collider;
+use crate::geometry::{Vec2, Vec3, box_of, range_of};
+use crate::io::garment::Loaded;
+use crate::mannequin::Mannequin;
+use crate::mesh::ClothMesh;
+use crate::pattern::{Findings, Piece, Place, Problem, Spot};
+use crate::sew::place::{PlaceError, place};
+
+/// A garment whose longest piece is shorter than this share of the body's height is drawn in another unit: a wristband
+/// has a tenth, trousers ten times too small have less than a twelfth.
+const SMALL: f64 = 0.09;
+/// And so is one with a piece as large as a square of so many heights: a sari is one of 1.5, the front of a skirt ten
+/// times too large one of 3.
+const LARGE: f64 = 2.0;
+/// What `place: {at: …}` puts deeper into the body than this (metres) is not moved out of it by sewing,
+const DEEPEST: f64 = 0.05;
+/// and where more than this share of it is deeper than that (metres), it is refused.
+const SHARE: f64 = 0.25;
+const DEEP: f64 = 0.015;
+/// How far the body's surface is looked for, metres.
+const LOOK: f64 = 0.5;
+
+/// Warns of a garment that is much too small or too large for the body. An object may be covered by anything.
+pub(super) fn doubt_size(loaded: &Loaded, body: &Mannequin, findings: &mut Findings) {
+    let [low, high] = range_of(body.mesh.vertices.iter().map(|v| v.y));
+    let height = high - low;
+    if body.parts.is_empty() {
+        return;
+    }
+    let longest = loaded.garment.pieces.iter().rev().map(|p| (p, diagonal(p))).max_by(|a, b| a.1.total_cmp(&b.1));
+    let largest = loaded.garment.pieces.iter().map(|p| piece_area(p).max(0.0).sqrt()).fold(0.0, f64::max);
+    let Some((piece, length)) = longest else { return };
+    let small = length < SMALL * height;
+    if small || largest > LARGE * height {
+        let unit = loaded.file.unit().symbol();
+        let spot = loaded.file.units.as_ref().map_or_else(|| spot_of(loaded, piece), |u| u.at);
+        let piece = piece.drawn_as.clone();
+        findings.warn(spot, Problem::Size { piece, piece_mm: 1e3 * length, body_m: height, unit, small });
+    }
+}
+
+/// From corner to corner of the box round a piece, metres.
+fn diagonal(piece: &Piece) -> f64 {
+    let points: Vec<Vec2> = piece.loops.first().into_iter().flatten().flat_map(|e| e.path.sampled(1e-4)).collect();
+    let [low, high] = box_of(points);
+    (high - low).norm()
+}
+
+/// Finds pieces that have no place on the body, or are put into it.
+pub(super) fn check_places(loaded: &Loaded, mesh: &ClothMesh, body: &Mannequin, findings: &mut Findings) {
+    let Some(collider) = Collider::new(&body.mesh).map(|c| c.on_floor(body.floor())) else { return };
+    let start = match place(&loaded.garment, mesh, body, &collider) {
+        Ok(start) => start,
+        Err(error) => {
+            let piece = loaded.garment.pieces.iter().find(|p| p.name == culprit(&error));
+            let spot = piece.map_or_else(Spot::default, |p| spot_of(loaded, p));
+            return findings.error(spot, Problem::Place(error.to_string()));
+        }
+    };
+    for (piece, cut) in loaded.garment.pieces.iter().zip(&mesh.pieces) {
+        let Some(Place::At { .. }) = piece.place else { continue };
+        let depth = |p: &Vec3| collider.nearest(*p, LOOK).map_or(0.0, |near| -near.distance);
+        let depths: Vec<f64> = start[cut.particles.clone()].iter().map(depth).collect();
+        let deepest = depths.iter().copied().fold(0.0, f64::max);
+        let deep = depths.iter().filter(|d| **d > DEEP).count();
+        if deepest > DEEPEST && deep as f64 > SHARE * depths.len() as f64 {
+            let problem = Problem::StartsInside { piece: piece.name.clone(), depth_mm: 1e3 * deepest };
+            findings.error(spot_of(loaded, piece), problem);
+        }
+    }
+}
+
+fn culprit(error: &PlaceError) -> &str {
+    match error {
+        PlaceError::Words { piece, .. } | PlaceError::NoPart { piece, .. } | PlaceError::Nowhere { piece } => piece,
+    }
+}
+
+/// Where a piece's place is said, or else its name.
+fn spot_of(loaded: &Loaded, piece: &Piece) -> Spot {
+    let written = loaded.file.pieces.iter().find(|p| p.name.value == piece.drawn_as);
+    written.map_or_else(Spot::default, |p| p.place.as_ref().map_or(p.name.at, |place| place.at))
+}

@@ -1,0 +1,205 @@
+//! Garments drawn as patterns for cutting and read back from them: what the formats have no lines for comes, too.
+
+use toile::cutting::{Layout, Options, Paper, Sheet, papers};
+use toile::digitize::{Digitized, garment_file};
+use toile::io::dxf_read::read_dxf_text;
+use toile::io::dxf_write::cutting_dxf;
+use toile::io::garment::{Loaded, read_text, write};
+use toile::io::svg_read::read_svg_text;
+use toile::io::svg_write::cutting_svg;
+use toile::pattern::{Cut, Drawing, DrawnEdge, LineKind, Side, drawings};
+
+/// A hundredth of a millimetre, metres.
+const EXACT: f64 = 1e-5;
+
+fn read(text: &str) -> Loaded {
+    read_text("garment", "garment.yaml", text).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+fn drawn(text: &str) -> Vec<Drawing> {
+    let loaded = read(text);
+    drawings(&loaded.file, &loaded.garment)
+}
+
+fn on_paper(text: &str) -> Vec<Paper> {
+    papers(&drawn(text), &Options::default())
+}
+
+/// The text exported and imported again, by way of SVG and of DXF.
+fn both_ways(text: &str) -> [Digitized; 2] {
+    let papers = on_paper(text);
+    let svg = cutting_svg(&Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true }));
+    let from_svg = read_svg_text(&svg).unwrap_or_else(|e| panic!("{e}\n{svg}")).pieces;
+    let from_dxf = read_dxf_text(&cutting_dxf("garment", &papers), None).expect("pieces");
+    [from_svg, from_dxf].map(|pieces| garment_file("garment", &pieces))
+}
+
+/// What a made file draws.
+fn again(made: &Digitized) -> Vec<Drawing> {
+    drawn(&write(&made.file).expect("YAML"))
+}
+
+/// A square with a hole, into which a patch is sewn or nothing.
+fn window(sewn: bool, about_hole: &str) -> String {
+    let (seams, free) = if sewn {
+        ("seams: {w: {sew: body.win, to: patch.rim}}", "free: [body.a, body.b, body.c, body.d]")
+    } else {
+        ("", "free: ['*.*']")
+    };
+    format!(
+        "garment: 1
+allowance: 15
+pieces:
+  body:
+    grain: [[0, 20], [0, 280]]
+    outline: {{start: -150 0, a: L 150 0, b: L 150 300, c: L -150 300, d: L -150 0}}
+    holes: {{win: M -50 100 L 50 100 L 50 200 L -50 200 Z}}
+    {about_hole}
+  patch:
+    grain: [[0, 110], [0, 190]]
+    outline: {{start: -50 100, rim: L 50 100 L 50 200 L -50 200 L -50 100}}
+{seams}
+{free}
+"
+    )
+}
+
+/// Length of the hole's rim and its allowance, metres.
+fn hole(drawing: &Drawing) -> (f64, Option<f64>) {
+    assert_eq!(drawing.rings.len(), 2, "one hole");
+    let [edge] = drawing.rings[1].as_slice() else { panic!("of one edge") };
+    assert_eq!(edge.name, "win");
+    (edge.path.length(), edge.allowance.width)
+}
+
+#[test]
+fn holes_come_back_with_their_names_and_allowances() {
+    let cases = [
+        (window(true, ""), Some(0.015_f64)),
+        (window(false, "allowance: {win: 5}"), Some(0.005)),
+        // Cut and turned in on one line.
+        (window(false, ""), None),
+    ];
+    for (text, allowance) in cases {
+        for made in both_ways(&text) {
+            let drawings = again(&made);
+            let body = drawings.iter().find(|d| d.name == "body").expect("the body");
+            let (length, width) = hole(body);
+            assert!((length - 0.4).abs() < EXACT, "{length}");
+            let tenths = |w: f64| (w * 1e4).round();
+            assert_eq!(width.map(tenths), allowance.map(tenths));
+            assert!(body.rings[0].iter().all(|e| e.allowance.width == Some(0.015)), "{:?}", body.rings[0]);
+        }
+    }
+}
+
+#[test]
+fn pieces_without_allowance_come_back() {
+    for rims in ["allowance: 0", "allowance: {a: 0, b: 0, c: 0, d: 10}", "allowance: {a: 12, b: 0, c: 0, d: 0}"] {
+        let text = window(false, rims);
+        for made in both_ways(&text) {
+            let (drawings, before) = (again(&made), drawn(&text));
+            assert_eq!(drawings.len(), before.len(), "{rims}");
+            let body = drawings.iter().find(|d| d.name == "body").expect("the body");
+            assert_eq!(hole(body).1, None);
+            for edge in &before[0].rings[0] {
+                let own = body.rings[0].iter().find(|e| e.name == edge.name).expect("the edge");
+                assert!((own.path.length() - edge.path.length()).abs() < EXACT);
+                assert_eq!(own.allowance.width, edge.allowance.width, "{rims}: {}", edge.name);
+            }
+        }
+    }
+}
+
+const SHAPED: &str = "
+garment: 1
+allowance: 10
+pieces:
+  back:
+    cut: pair
+    drawn: R
+    grain: [[-60, 250], [-60, 60]]
+    outline: {start: -150 0, waist: C -100 10 -50 10 0 0, center: L 0 300, hem: L -160 300, side: L -150 0}
+    notches: {side: [120]}
+    darts: [{name: tuck, edge: waist, at: 70, intake: 20, length: 90}]
+    lines:
+      crease: {path: M -150 250 L 0 250, fold: -90}
+      casing: {path: M -150 200 L 0 200, kind: elastic, ratio: 0.7}
+      pocket: {path: M -120 150 L -60 150, kind: place}
+  front:
+    cut: fold center
+    drawn: R
+    grain: [[-60, 250], [-60, 60]]
+    outline: {start: -200 0, waist: L 0 0, center: L 0 300, hem: L -200 300, side: L -200 0}
+    pleats:
+      - {edge: waist, at: [40, 90], depth: 8}
+      - {edge: hem, at: [60], depth: 10, toward: center}
+seams: {back: {sew: back.center, to: mirror}}
+free: [back.waist, back.hem, back.side, front.waist, front.hem, front.side]
+";
+
+#[test]
+fn darts_lines_pleats_and_sides_come_back() {
+    let before = drawn(SHAPED);
+    for (made, format) in both_ways(SHAPED).iter().zip(["SVG", "DXF"]) {
+        let yaml = write(&made.file).expect("YAML");
+        let after = again(made);
+        let same = |old: &Drawing| after.iter().find(|new| new.name == old.name).expect("the piece");
+        for (old, new) in before.iter().map(|old| (old, same(old))) {
+            // The edge on the fold is drawn as that, without its name.
+            let on_fold = |d: &Drawing, e: &DrawnEdge| d.fold.is_some_and(|f| d.rings[0][f].name == e.name);
+            let cut = if old.fold.is_some() { &Cut::Fold("fold".to_owned()) } else { &old.cut };
+            assert_eq!((new.drawn, &new.cut), (Side::Right, cut), "{format}\n{yaml}");
+            assert_eq!(new.rings[0].len(), old.rings[0].len(), "{format}\n{yaml}");
+            for edge in old.rings[0].iter().filter(|e| !on_fold(old, e)) {
+                let own = new.rings[0].iter().find(|e| e.name == edge.name);
+                let own = own.unwrap_or_else(|| panic!("{format}: no {}\n{yaml}", edge.name));
+                assert_eq!(own.allowance.width, edge.allowance.width, "{format}\n{yaml}");
+                let (a, b) = (own.path.length(), edge.path.length());
+                assert!((a - b).abs() < EXACT, "{format} {}: {a} {b}\n{yaml}", edge.name);
+            }
+            assert_eq!((new.darts.len(), new.notches.len()), (old.darts.len(), old.notches.len()), "{format}\n{yaml}");
+            let folds = |d: &Drawing| -> Vec<(String, i64, i64)> {
+                let mm = |x: f64| (x * 1e5).round() as i64;
+                let row = |f: &toile::pattern::DrawnFold| (d.edge(f.edge).name.clone(), mm(f.from), mm(f.to));
+                let mut rows: Vec<_> = d.folds.iter().map(row).collect();
+                rows.sort_unstable();
+                rows
+            };
+            assert_eq!(folds(new), folds(old), "{format}\n{yaml}");
+            let lines = |d: &Drawing| -> Vec<(String, LineKind)> {
+                d.lines.iter().map(|l| (l.name.clone(), l.kind.clone())).collect()
+            };
+            assert_eq!(lines(new), lines(old), "{format}\n{yaml}");
+        }
+        assert!(made.notes.is_empty(), "{format}: {:?}", made.notes);
+    }
+    let pair = before.iter().find(|d| d.cut == Cut::Pair).expect("a pair");
+    assert!(pair.folds.is_empty() && pair.darts.len() == 1 && before[1].folds.len() == 3);
+}
+
+/// Files of other programs tell nothing of the lines on layer 8: the import says so, once for a piece.
+#[test]
+fn lines_of_which_a_dxf_tells_nothing_are_said_to_be_marks() {
+    let mut silent = cutting_dxf("garment", &on_paper(SHAPED));
+    for key in ["Edge: ", "Line: ", "Pleat: "] {
+        assert!(silent.contains(key));
+        silent = silent.replace(key, "Remark: ");
+    }
+    let made = garment_file("garment", &read_dxf_text(&silent, None).expect("pieces"));
+    let said = |words: &str| made.notes.iter().filter(|n| n.contains(words)).count();
+    // Two legs of a dart and three lines; of three pleats three lines each.
+    assert_eq!((said("5 lines inside 'back' are taken as marks"), said("9 lines inside 'front'")), (1, 1));
+    assert_eq!(made.notes.len(), 2, "{:?}", made.notes);
+}
+
+#[test]
+fn letters_beyond_ascii_come_back_from_a_dxf() {
+    let text = "garment: 1\npieces:\n  rücken:\n    grain: [[5, 5], [5, 40]]\n    outline: {start: 0 0, größe: L 90 0, \
+                b: L 90 90, c: L 0 90, d: L 0 0}\nfree: ['*.*']\n";
+    for made in both_ways(text) {
+        let drawings = again(&made);
+        assert_eq!(drawings[0].name, "rücken");
+        assert!(drawings[0].rings[0].iter().any(|e| e.name == "größe"), "{:?}", drawings[0].rings[0]);
+    }
+}
