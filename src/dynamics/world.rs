@@ -191,6 +191,7 @@ impl<'a> World<'a> {
 
     /// A step with the true stiffness that changes no edge by more than `radius` metres, shortened until the energy
     /// is below the most it was in the last few; where it does not, a step with the majorant, shortened until it falls.
+    /// What springs hold beyond the loads that the step foresaw does not count: the next step takes it back.
     ///
     /// Friction is reckoned from where contacts were last looked for: steps until the next look are iterations towards
     /// the rest of one energy. A memory that followed each of them would be a ratchet, on which their errors drag the
