@@ -204,7 +204,8 @@ fn values_of_no_cloth_are_refused() {
         ("thickness", "1 m", "between 1e-6 and 0.03 m"),
         ("bend", "900 N.m", "between 1e-9 and 0.1 N.m"),
         ("shear", "1e9 N/m", "between 0.001 and 1e5 N/m"),
-        ("friction", "nan", "between 0 and 5"),
+        ("friction", "nan", "between 0 and 2"),
+        ("friction", "4", "between 0 and 2"),
     ] {
         let error = read(Some("denim"), &[(key, text)]).expect_err(text).to_string();
         assert!(error.contains(why) && error.contains(text), "{error}");
