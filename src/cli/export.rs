@@ -93,8 +93,7 @@ impl<'a> Job<'a> {
 
 /// Whether an edge that will be cut has no allowance of its own.
 fn lacks_allowance(drawing: &Drawing) -> bool {
-    let is_cut = |i: usize| drawing.fold != Some(i) && !drawing.darts.iter().any(|d| d.legs.contains(&i));
-    let outline = drawing.rings[0].iter().enumerate().filter(|(i, _)| is_cut(*i)).map(|(_, edge)| edge);
+    let outline = drawing.rings[0].iter().enumerate().filter(|(i, _)| drawing.is_cut(*i)).map(|(_, edge)| edge);
     let sewn_holes = drawing.rings[1..].iter().flatten().filter(|edge| edge.sewn);
     outline.chain(sewn_holes).any(|edge| edge.allowance.width.is_none())
 }

@@ -28,12 +28,12 @@ fn overlay(one: Contour, other: Contour) -> Vec<Vec<Vec2>> {
     let shapes = [one].overlay(&[other], OverlayRule::Union, FillRule::Positive);
     let mut contours: Vec<Vec<Vec2>> = shapes.into_iter().flatten().map(|c| tidy(&c)).collect();
     contours.retain(|c| c.len() > 2);
-    contours.sort_by(|a, b| area(b).abs().total_cmp(&area(a).abs()));
+    contours.sort_by(|a, b| double_area(b).abs().total_cmp(&double_area(a).abs()));
     contours
 }
 
 /// Twice the area a contour encloses, positive clockwise on screen.
-fn area(contour: &[Vec2]) -> f64 {
+pub(super) fn double_area(contour: &[Vec2]) -> f64 {
     let next = contour.iter().cycle().skip(1);
     contour.iter().zip(next).map(|(a, b)| a.perp(b)).sum()
 }

@@ -2,6 +2,7 @@
 
 use nalgebra::Matrix2;
 
+use super::clean::double_area;
 use super::label;
 use super::marks;
 use super::offset::{Between, Border, around, sewn_mouths, within};
@@ -22,13 +23,14 @@ pub fn papers(drawings: &[Drawing], options: &Options) -> Vec<Paper> {
     drawings
         .iter()
         .flat_map(|drawing| {
-            let drawn = paper(drawing, options);
+            let rule = Rule::new(drawing, options);
+            let drawn = paper(&rule);
             let papers = if options.whole { whole::as_cut(&drawn, drawing) } else { vec![drawn] };
             papers
                 .iter()
                 .map(|paper| {
                     let mut paper = upright(paper);
-                    paper.texts = lettering(&paper, drawing, options);
+                    paper.texts = lettering(&paper, &rule);
                     paper
                 })
                 .collect::<Vec<_>>()
@@ -63,7 +65,7 @@ impl<'a> Rule<'a> {
         let fits = |share: &f64| {
             let mut borders = self.borders(ring);
             borders.iter_mut().for_each(|b| b.width *= share);
-            let left: f64 = within(&borders).iter().map(|c| area(c)).sum();
+            let left: f64 = within(&borders).iter().map(|c| 0.5 * double_area(c).abs()).sum();
             left >= LEAST_CUT
         };
         (0..=HALVINGS).map(|k| 0.5_f64.powi(k)).find(fits).unwrap_or(0.0)
@@ -100,22 +102,20 @@ impl<'a> Rule<'a> {
         (0..self.drawing.rings[ring].len()).map(|i| self.border(ring, i)).collect()
     }
 
+    /// Rings and indices of their edges.
+    fn hole_edges(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.holes().into_iter().flat_map(|r| (0..self.drawing.rings[r].len()).map(move |i| (r, i)))
+    }
+
     /// The edges of holes whose allowances had to be made narrower.
     fn narrowed(&self) -> Vec<Narrowed> {
-        let edges = self.holes().into_iter().flat_map(|r| (0..self.drawing.rings[r].len()).map(move |i| (r, i)));
         let row = |(r, i): (usize, usize)| Narrowed {
             edge: self.drawing.rings[r][i].name.clone(),
             asked: self.asked(r, i),
             drawn: self.width(r, i),
         };
-        edges.map(row).filter(|n| n.drawn < n.asked).collect()
+        self.hole_edges().map(row).filter(|n| n.drawn < n.asked).collect()
     }
-}
-
-/// Area that a contour encloses.
-fn area(contour: &[Vec2]) -> f64 {
-    let next = contour.iter().cycle().skip(1);
-    contour.iter().zip(next).map(|(a, b)| a.perp(b)).sum::<f64>().abs() / 2.0
 }
 
 /// The paper turned so that its warp is upright, by the smaller angle.
@@ -126,9 +126,9 @@ fn upright(paper: &Paper) -> Paper {
     paper.mapped(Matrix2::new(-up.y, up.x, -up.x, -up.y), Vec2::zeros())
 }
 
-fn paper(drawing: &Drawing, options: &Options) -> Paper {
-    let rule = Rule::new(drawing, options);
-    let (borders, between) = outline_borders(drawing, &rule);
+fn paper(rule: &Rule) -> Paper {
+    let drawing = rule.drawing;
+    let (borders, between) = outline_borders(rule);
     let mut cut = around(&borders, &between);
     let fold = drawing.fold.map(|f| open_at_fold(&mut cut, &drawing.rings[0][f].path));
     for ring in rule.holes() {
@@ -161,11 +161,11 @@ fn paper(drawing: &Drawing, options: &Options) -> Paper {
 }
 
 /// The outline without the legs of its darts.
-fn outline_borders<'a>(drawing: &'a Drawing, rule: &'a Rule) -> (Vec<Border<'a>>, Vec<Between>) {
-    let is_leg = |i: usize| drawing.darts.iter().any(|d| d.legs.contains(&i));
+fn outline_borders<'a>(rule: &'a Rule) -> (Vec<Border<'a>>, Vec<Between>) {
+    let drawing = rule.drawing;
     let count = drawing.rings[0].len();
     let (mut borders, mut between) = (Vec::new(), Vec::new());
-    for i in (0..count).filter(|&i| !is_leg(i)) {
+    for i in (0..count).filter(|&i| !drawing.is_leg(i)) {
         borders.push(rule.border(0, i));
         let dart = drawing.darts.iter().find(|d| d.legs.contains(&((i + 1) % count)));
         between.push(dart.map_or(Between::Corner, |dart| pressed(drawing, *dart)));
@@ -224,7 +224,7 @@ fn sew_lines(drawing: &Drawing, mouths: &[Vec<Vec2>]) -> Vec<SewLine> {
     for (r, ring) in drawing.rings.iter().enumerate() {
         for (i, edge) in ring.iter().enumerate() {
             let of = match r {
-                0 if drawing.darts.iter().any(|d| d.legs.contains(&i)) => SewKind::Dart,
+                0 if drawing.is_leg(i) => SewKind::Dart,
                 0 => SewKind::Outline,
                 _ if drawing.fish_eyes.contains(&r) => SewKind::FishEye,
                 _ => SewKind::Hole,
@@ -240,16 +240,14 @@ fn sew_lines(drawing: &Drawing, mouths: &[Vec<Vec2>]) -> Vec<SewLine> {
     lines
 }
 
-fn lettering(paper: &Paper, drawing: &Drawing, options: &Options) -> Vec<Lettering> {
-    let rule = Rule::new(drawing, options);
+fn lettering(paper: &Paper, rule: &Rule) -> Vec<Lettering> {
+    let drawing = rule.drawing;
     let width = |(r, i): (usize, usize)| {
         let edge = &drawing.rings[r][i];
         label::EdgeWidth { name: &edge.name, width: rule.width(r, i), length: edge.path.length() }
     };
-    let is_cut =
-        |&(_, i): &(usize, usize)| drawing.fold != Some(i) && !drawing.darts.iter().any(|d| d.legs.contains(&i));
-    let outline = (0..drawing.rings[0].len()).map(|i| (0, i)).filter(is_cut);
-    let holes = rule.holes().into_iter().flat_map(|r| (0..drawing.rings[r].len()).map(move |i| (r, i)));
-    let widths: Vec<label::EdgeWidth> = outline.map(width).chain(holes.map(width).filter(|w| w.width > 0.0)).collect();
+    let outline = (0..drawing.rings[0].len()).filter(|&i| drawing.is_cut(i)).map(|i| (0, i));
+    let holes = rule.hole_edges().map(width).filter(|w| w.width > 0.0);
+    let widths: Vec<label::EdgeWidth> = outline.map(width).chain(holes).collect();
     label::lettering(paper, &widths, drawing.note.as_deref())
 }

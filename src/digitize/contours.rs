@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::chain::{chained, is_closed};
 use super::holes::holes_of;
 use super::{Inner, Remark, Role, Stroke, Traced};
-use crate::geometry::{Path, Vec2};
+use crate::geometry::{Path, Vec2, distance_to_segment};
 use crate::pattern::Cut;
 
 /// A closed line round less than this (square metres, a square of 3 cm) is no piece.
@@ -69,12 +69,7 @@ impl Contour {
     /// How far a point is from its line.
     fn off(&self, p: Vec2) -> f64 {
         let chords = self.points.iter().zip(self.points.iter().cycle().skip(1));
-        let to = |(&a, &b): (&Vec2, &Vec2)| {
-            let along = b - a;
-            let share = ((p - a).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-            (a + share * along - p).norm()
-        };
-        chords.map(to).fold(f64::INFINITY, f64::min)
+        chords.map(|(&a, &b)| distance_to_segment(p, [a, b])).fold(f64::INFINITY, f64::min)
     }
 
     fn area(&self) -> f64 {

@@ -1,6 +1,6 @@
 //! Darts on edges: legs out of an outline and into a garment file.
 
-use super::edges::Edge;
+use super::edges::{Edge, nearest_edge};
 use super::smooth::smoothed;
 use crate::geometry::{Path, Vec2};
 
@@ -22,8 +22,7 @@ pub(super) struct Wedge {
 impl Wedge {
     /// The edge that it opens, the middle of its mouth from there and its intake, metres.
     pub(super) fn on<'e>(&self, edges: &'e [Edge]) -> Option<(&'e Edge, f64, f64)> {
-        let off = |e: &&Edge| self.mouth.iter().map(|p| e.path.nearest(*p).1).sum::<f64>();
-        let edge = edges.iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
+        let edge = &edges[nearest_edge(edges, self.mouth)?];
         let [a, b] = self.mouth.map(|p| edge.path.nearest(p).0);
         Some((edge, (a + b) / 2.0, (b - a).abs()))
     }

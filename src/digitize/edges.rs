@@ -32,6 +32,12 @@ impl Edge {
     }
 }
 
+/// Number of the edge that two points together are nearest to.
+pub(super) fn nearest_edge(edges: &[Edge], points: [Vec2; 2]) -> Option<usize> {
+    let off = |k: &usize| points.iter().map(|p| edges[*k].path.nearest(*p).1).sum::<f64>();
+    (0..edges.len()).min_by(|a, b| off(a).total_cmp(&off(b)))
+}
+
 /// An edge that may not have a name yet.
 type Unnamed = (Option<String>, Path, Vec<(f64, bool)>);
 

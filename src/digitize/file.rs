@@ -2,7 +2,7 @@
 
 use super::Traced;
 use super::darts::{Wedge, closed};
-use super::edges::{Edge, edges};
+use super::edges::{Edge, edges, nearest_edge};
 use super::holes::Hole;
 use super::pairs::paired;
 use super::suggest::{Suggestion, suggest};
@@ -222,8 +222,7 @@ fn dart(wedge: &Wedge, edges: &mut [Edge]) -> Option<DartFile> {
 /// A knife pleat that is folded at the first point and brought to the second, without the notches there. (Box and
 /// inverted pleats are two of them.)
 fn pleat(ends: [Vec2; 2], edges: &mut [Edge]) -> Option<PleatFile> {
-    let off = |e: &Edge| ends.iter().map(|p| e.path.nearest(*p).1).sum::<f64>();
-    let on = (0..edges.len()).min_by(|&a, &b| off(&edges[a]).total_cmp(&off(&edges[b])))?;
+    let on = nearest_edge(edges, ends)?;
     let [fold, place] = ends.map(|p| edges[on].path.nearest(p).0);
     let depth = (place - fold).abs() / 2.0;
     if depth <= ON_NOTCH {

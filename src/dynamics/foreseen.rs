@@ -6,7 +6,7 @@
 //! them away again, for they are in the stiff, linear part of it. So, as in mixed formulations (Hellinger–Reissner),
 //! loads go their own way: the stiffness across a spring is that of the load which the step foresaw, and what the
 //! springs hold beyond it is not counted against the step (Magisano, Leonetti and Garcea 2017). Cloth comes to rest in
-//! half the conjugate gradient iterations, and its last steps converge quadratically.
+//! half the conjugate gradient iterations.
 
 use super::model::Cloth;
 use super::springs::{SHORTEST, Spring, SpringTangent, StretchLaw};

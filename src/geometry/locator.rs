@@ -1,6 +1,6 @@
 //! Which triangle of a flat mesh a point lies in.
 
-use super::{Vec2, box_of};
+use super::{Vec2, box_of, distance_to_segment};
 
 /// Triangles of a piece by the square cells of the plane that they are near to.
 pub(crate) struct Locator<'a> {
@@ -73,10 +73,6 @@ fn distance_to_triangle(p: Vec2, corners: [Vec2; 3]) -> f64 {
     if barycentric(p, corners).iter().all(|w| *w >= 0.0) {
         return 0.0;
     }
-    let to_side = |k: usize| {
-        let (a, b) = (corners[k], corners[(k + 1) % 3]);
-        let along = ((p - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0);
-        (p - a - (b - a) * along).norm()
-    };
+    let to_side = |k: usize| distance_to_segment(p, [corners[k], corners[(k + 1) % 3]]);
     (0..3).map(to_side).fold(f64::INFINITY, f64::min)
 }

@@ -6,6 +6,7 @@ mod extent;
 mod fit;
 mod locator;
 mod predicate;
+mod segment;
 mod sets;
 mod trimesh;
 
@@ -15,6 +16,7 @@ pub(crate) use extent::{box_of, range_of};
 pub use fit::{Cubic, smooth_curves};
 pub(crate) use locator::Locator;
 pub(crate) use predicate::pierces;
+pub(crate) use segment::distance_to_segment;
 pub(crate) use sets::DisjointSets;
 pub(crate) use trimesh::sorted_pair;
 pub use trimesh::{Edge, Topology, TriMesh, rim_loops};

@@ -54,11 +54,9 @@ impl Told {
 }
 
 fn line_kind(text: &str) -> LineKind {
-    let number = |key: &str, least: f64, most: f64| {
-        text.strip_prefix(key)?.trim().parse::<f64>().ok().filter(|x| (least..=most).contains(x))
-    };
-    let fold = number("fold ", -180.0, 180.0).map(|degrees| LineKind::Fold(degrees.to_radians()));
-    let elastic = || number("elastic ", 0.05, 1.0).map(LineKind::Elastic);
+    let number = |key: &str| text.strip_prefix(key)?.trim().parse::<f64>().ok();
+    let fold = number("fold ").and_then(LineKind::fold);
+    let elastic = || number("elastic ").and_then(LineKind::elastic);
     fold.or_else(elastic).unwrap_or_else(|| LineKind::Mark(text.to_owned()))
 }
 

@@ -2,7 +2,7 @@
 
 use super::frame::Frame;
 use super::lattice::Lattice;
-use crate::geometry::{Vec2, box_of, sorted_pair};
+use crate::geometry::{Vec2, box_of, distance_to_segment, sorted_pair};
 
 /// Lattice points nearer than this many spacings to the frame are dropped. Any point of a cell's side is within half
 /// a step of an end of that side, so no frame spring can slip between two kept neighbours.
@@ -105,8 +105,7 @@ impl Raster {
             for (i, j) in self.around(p, q, CLEARANCE * 1.2) {
                 let at = Vec2::new(i as f64, j as f64);
                 let (d, e) = ((q - p).component_mul(&scale), (at - p).component_mul(&scale));
-                let t = (e.dot(&d) / d.norm_squared()).clamp(0.0, 1.0);
-                if (e - t * d).norm() < clearance {
+                if distance_to_segment(e, [Vec2::zeros(), d]) < clearance {
                     let at = self.index(i, j);
                     self.vertex[at] = NONE;
                 }

@@ -92,7 +92,7 @@ impl Pieces {
         self.add_whole(index, draft, fabric, name, Some(side), None, mirrored);
     }
 
-    #[allow(clippy::too_many_arguments, reason = "the seven things that tell one cut piece from another")]
+    #[expect(clippy::too_many_arguments, reason = "the seven things that tell one cut piece from another")]
     fn add_whole(
         &mut self,
         index: usize,

@@ -48,6 +48,18 @@ pub struct Drawing {
     pub note: Option<String>,
 }
 
+impl Drawing {
+    /// Whether an edge of the outline is a leg of a dart.
+    pub fn is_leg(&self, edge: usize) -> bool {
+        self.darts.iter().any(|d| d.legs.contains(&edge))
+    }
+
+    /// Whether an edge of the outline is cut along, beyond its allowance: neither on the fold nor in a dart.
+    pub fn is_cut(&self, edge: usize) -> bool {
+        self.fold != Some(edge) && !self.is_leg(edge)
+    }
+}
+
 /// An edge of a drawing.
 #[derive(Clone, Debug)]
 pub struct DrawnEdge {

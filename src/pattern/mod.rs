@@ -62,6 +62,8 @@ pub(crate) use region::{Region, SLACK};
 pub use rim::{Opening, openings};
 pub use walk::{SeamWalk, walk, written_edge, written_names};
 
+use std::ops::RangeInclusive;
+
 use crate::geometry::{Path, Vec2, Vec3};
 
 /// A garment ready to be meshed.
@@ -253,6 +255,21 @@ pub enum LineKind {
 }
 
 impl LineKind {
+    /// Angles of folds, degrees: at 180 the cloth lies on itself, and no farther can it go.
+    pub(crate) const FOLDS: RangeInclusive<f64> = -180.0..=180.0;
+    /// What elastic leaves of a line's length.
+    pub(crate) const ELASTICS: RangeInclusive<f64> = 0.05..=1.0;
+
+    /// A fold of so many degrees, if there is one.
+    pub(crate) fn fold(degrees: f64) -> Option<Self> {
+        Self::FOLDS.contains(&degrees).then(|| Self::Fold(degrees.to_radians()))
+    }
+
+    /// Elastic that leaves this share of the length, if there is one.
+    pub(crate) fn elastic(ratio: f64) -> Option<Self> {
+        Self::ELASTICS.contains(&ratio).then_some(Self::Elastic(ratio))
+    }
+
     /// The angle of a fold in which the cloth hinges, radians. A fold of angle 0 is pressed flat again: there the cloth
     /// bends as everywhere.
     pub fn hinge(&self) -> Option<f64> {

@@ -2,7 +2,7 @@
 
 /// One kind of mistake, with what is needed to say it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[allow(missing_docs, reason = "every field is a word or a number of the message above it")]
+#[expect(missing_docs, reason = "every field is a word or a number of the message above it")]
 pub enum Problem {
     // The text.
     #[error("cannot read the file: {0}")]

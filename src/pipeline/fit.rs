@@ -2,11 +2,12 @@
 
 use super::cloth::piece_area;
 use crate::contact::Collider;
-use crate::geometry::{Vec2, Vec3, box_of, range_of};
+use crate::geometry::{Vec2, box_of, range_of};
 use crate::io::garment::Loaded;
 use crate::mannequin::Mannequin;
 use crate::mesh::ClothMesh;
 use crate::pattern::{Findings, Piece, Place, Problem, Spot};
+use crate::sew::left_inside;
 use crate::sew::place::{PlaceError, place};
 
 /// A garment whose longest piece is shorter than this share of the body's height is drawn in another unit: a wristband
@@ -15,21 +16,14 @@ const SMALL: f64 = 0.09;
 /// And so is one with a piece as large as a square of so many heights: a sari is one of 1.5, the front of a skirt ten
 /// times too large one of 3.
 const LARGE: f64 = 2.0;
-/// What `place: {at: …}` puts deeper into the body than this (metres) is not moved out of it by sewing,
-const DEEPEST: f64 = 0.05;
-/// and where more than this share of it is deeper than that (metres), it is refused.
-const SHARE: f64 = 0.25;
-const DEEP: f64 = 0.015;
-/// How far the body's surface is looked for, metres.
-const LOOK: f64 = 0.5;
 
 /// Warns of a garment that is much too small or too large for the body. An object may be covered by anything.
 pub(super) fn doubt_size(loaded: &Loaded, body: &Mannequin, findings: &mut Findings) {
-    let [low, high] = range_of(body.mesh.vertices.iter().map(|v| v.y));
-    let height = high - low;
     if body.parts.is_empty() {
         return;
     }
+    let [low, high] = range_of(body.mesh.vertices.iter().map(|v| v.y));
+    let height = high - low;
     let longest = loaded.garment.pieces.iter().rev().map(|p| (p, diagonal(p))).max_by(|a, b| a.1.total_cmp(&b.1));
     let largest = loaded.garment.pieces.iter().map(|p| piece_area(p).max(0.0).sqrt()).fold(0.0, f64::max);
     let Some((piece, length)) = longest else { return };
@@ -62,11 +56,7 @@ pub(super) fn check_places(loaded: &Loaded, mesh: &ClothMesh, body: &Mannequin, 
     };
     for (piece, cut) in loaded.garment.pieces.iter().zip(&mesh.pieces) {
         let Some(Place::At { .. }) = piece.place else { continue };
-        let depth = |p: &Vec3| collider.nearest(*p, LOOK).map_or(0.0, |near| -near.distance);
-        let depths: Vec<f64> = start[cut.particles.clone()].iter().map(depth).collect();
-        let deepest = depths.iter().copied().fold(0.0, f64::max);
-        let deep = depths.iter().filter(|d| **d > DEEP).count();
-        if deepest > DEEPEST && deep as f64 > SHARE * depths.len() as f64 {
+        if let Some(deepest) = left_inside(&collider, &start[cut.particles.clone()]) {
             let problem = Problem::StartsInside { piece: piece.name.clone(), depth_mm: 1e3 * deepest };
             findings.error(spot_of(loaded, piece), problem);
         }

@@ -21,8 +21,7 @@ use crate::pattern::{self, Findings, GarmentFile, Located, Problem, Spot, Value}
 /// Every mistake of the file.
 pub fn check(file: &Path, spacing: Option<f64>) -> Result<Loaded, Refused> {
     let mut examined = garment::examine(file);
-    let said = examined.file.clone();
-    let body = said.and_then(|said| look(file, &said, &mut examined.findings));
+    let body = examined.file.as_ref().and_then(|said| look(file, said, &mut examined.findings));
     let loaded = examined.finish()?;
     let mesh = mesh::build(&loaded.garment, spacing.unwrap_or(SPACING)).map_err(|error| {
         let at = mesh_spot(&loaded.file, error.culprit()).unwrap_or_default();

@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
-use crate::geometry::{Topology, Vec3, sorted_pair};
+use crate::geometry::{Topology, Vec3, distance_to_segment, sorted_pair};
 use crate::mesh::{ClothMesh, DrawnIn, PieceMesh};
 
 /// Sides of a seam further apart than this (one over the other, less one) are eased, gathered or stretched: the cloth
@@ -45,18 +45,11 @@ impl RimEdge {
 /// the other, and the other way round (Hausdorff distance, for curves of short edges).
 pub(super) fn outline_distance(rim: &[RimEdge], before: &[Vec3], after: &[Vec3]) -> f64 {
     let furthest = |from: &[Vec3], to: &[Vec3]| {
-        let nearest =
-            |p: Vec3| rim.iter().map(|e| distance(p, e.ends.map(|v| to[v as usize]))).fold(f64::INFINITY, f64::min);
+        let distance = |p: Vec3, e: &RimEdge| distance_to_segment(p, e.ends.map(|v| to[v as usize]));
+        let nearest = |p: Vec3| rim.iter().map(|e| distance(p, e)).fold(f64::INFINITY, f64::min);
         rim.iter().map(|e| nearest(from[e.ends[0] as usize])).fold(0.0, f64::max)
     };
     furthest(before, after).max(furthest(after, before))
-}
-
-/// Distance of a point from a straight edge.
-fn distance(p: Vec3, [a, b]: [Vec3; 2]) -> f64 {
-    let along = b - a;
-    let share = if along.norm_squared() > 0.0 { (p - a).dot(&along) / along.norm_squared() } else { 0.0 };
-    (p - a - along * share.clamp(0.0, 1.0)).norm()
 }
 
 /// The rim edges of every piece, in the pieces' order; `weld` has one label per particle, the same for stitched ones.

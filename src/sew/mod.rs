@@ -11,6 +11,7 @@ mod untangle;
 
 pub use close::{SewOptions, Sewn, sew, stitch};
 pub use error::SewError;
+pub(crate) use recover::left_inside;
 pub(crate) use settle::{CLEARANCE, NEAREST_LOOK};
 pub use settle::{Calm, drape_reach, draping_world, join, settle, sewn_world};
 pub use stance::Stance;

@@ -53,8 +53,7 @@ pub(super) fn lead_out(cut: &Cut, body: &Collider, start: &mut [Vec3]) -> Result
             let way = way_out(body, &points);
             x.iter_mut().for_each(|p| *p += way);
         }
-        let deep = depths(body, x).filter(|&d| d > DEEP).count();
-        if deep as f64 > SHARE * x.len() as f64 {
+        if is_deep(body, x) {
             let (piece, depth_mm) = (piece.name.clone(), 1e3 * deepest);
             return Err(if sunk {
                 SewError::UnderFloor { piece, depth_mm }
@@ -64,6 +63,18 @@ pub(super) fn lead_out(cut: &Cut, body: &Collider, start: &mut [Vec3]) -> Result
         }
     }
     Ok(())
+}
+
+/// How deep (metres) the deepest of a piece's particles lies in the body, if [`lead_out`] leaves it there.
+pub(crate) fn left_inside(body: &Collider, x: &[Vec3]) -> Option<f64> {
+    let deepest = depths(body, x).fold(0.0, f64::max);
+    (deepest > DEEPEST && is_deep(body, x)).then_some(deepest)
+}
+
+/// Whether so much of a piece is deep in the body that it would be pushed out on both sides.
+fn is_deep(body: &Collider, x: &[Vec3]) -> bool {
+    let deep = depths(body, x).filter(|&d| d > DEEP).count();
+    deep as f64 > SHARE * x.len() as f64
 }
 
 /// Whether the nearest way out of the body for a point well in it ends in a hollow: what is behind the skin there is

@@ -5,7 +5,7 @@ use super::fields::{
     Fields, entries, integer, items, length, number, numbers, quantity, share, text, width, within, word, wrong,
 };
 use crate::pattern::{
-    AllowanceFile, AllowanceWidth, Corner, Cut, DartFile, DartShape, Findings, LineFile, Located, NotchFile,
+    AllowanceFile, AllowanceWidth, Corner, Cut, DartFile, DartShape, Findings, LineFile, LineKind, Located, NotchFile,
     OutlineFile, PieceFile, PlaceFile, PleatFile, PleatKind, Problem, Side, Value, parse_quantity,
 };
 
@@ -227,9 +227,9 @@ fn pleat_kind(word: &str) -> Option<PleatKind> {
     }
 }
 
-/// A fold's angle: at 180 degrees the cloth lies on itself, and no farther can it go.
+/// A fold's angle.
 fn angle(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<f64>> {
-    within(number(value, what, findings)?, what, -180.0..=180.0, "between -180 and 180 degrees", findings)
+    within(number(value, what, findings)?, what, LineKind::FOLDS, "between -180 and 180 degrees", findings)
 }
 
 /// What is left of a line's length when it is drawn in.
@@ -239,7 +239,7 @@ fn drawn_in(value: &Located<Value>, what: &str, findings: &mut Findings) -> Opti
     within(
         Located::new(ratio, share.at),
         what,
-        0.05..=1.0,
+        LineKind::ELASTICS,
         "between 0.05 and 1, the length drawn in over that cut",
         findings,
     )

@@ -341,11 +341,9 @@ fn own_name(node: Node, group: Option<&str>) -> Option<String> {
 
 /// What a line inside a piece does, as toile itself writes it.
 fn line_kind(node: Node) -> Option<LineKind> {
-    let number = |key: &str, least: f64, most: f64| {
-        node.attribute(key)?.trim().parse::<f64>().ok().filter(|x| (least..=most).contains(x))
-    };
-    let fold = number("data-fold", -180.0, 180.0).map(|degrees| LineKind::Fold(degrees.to_radians()));
-    let elastic = || number("data-elastic", 0.05, 1.0).map(LineKind::Elastic);
+    let number = |key: &str| node.attribute(key)?.trim().parse::<f64>().ok();
+    let fold = number("data-fold").and_then(LineKind::fold);
+    let elastic = || number("data-elastic").and_then(LineKind::elastic);
     let mark = || node.attribute("data-kind").map(|kind| LineKind::Mark(shown(kind, SHOWN)));
     fold.or_else(elastic).or_else(mark)
 }
