@@ -21,6 +21,12 @@ const KEPT: f64 = 0.2;
 const LEAST: f64 = 1e-8;
 /// Contacts are to be looked for anew when a node has gone this share of what it may.
 const DUE: f64 = 2.0 / 3.0;
+/// At a look the contacts of nodes that have gone less than this share of what they may stay as they are.
+const STAYS: f64 = 0.2;
+/// A node for which less than this share of what it may is left can do with a look before a long step.
+const ROOM: f64 = 0.6;
+/// Share of a reach that nodes use: room for rounding.
+const USED: f64 = 0.99;
 /// Metres.
 const ROUNDING: f64 = 1e-9;
 /// A pair that has all but rounding of what it needs is not pushed.
@@ -31,14 +37,12 @@ const HELD: f64 = 0.5;
 /// A contact, and the separation that it must keep in a step, metres.
 type Kept<'a> = (&'a Contact, f64);
 
-/// How far nodes may go until contacts are looked for anew, and how near pairs may come.
+/// How far nodes may go from where contacts were last looked for at them, and how near pairs may come.
 #[derive(Clone, Debug)]
 pub struct Bounds {
     origin: Vec<Vec3>,
-    leash: f64,
-    /// Where nodes are tethered to, besides, and how long the tethers are, metres.
-    posts: Vec<Vec3>,
-    tether: f64,
+    /// How far each node may go from there, metres.
+    leash: Vec<f64>,
     margin: f64,
 }
 
@@ -46,41 +50,64 @@ impl Bounds {
     /// Bounds for nodes at `x`, whose contacts were looked for within `reach`; every pair keeps `margin` metres, or the
     /// share `KEPT` of its gap if that is less.
     pub fn new(x: &[Vec3], reach: f64, margin: f64) -> Self {
-        let leash = Self::allowance(reach);
-        Self { origin: x.to_vec(), leash, posts: Vec::new(), tether: leash, margin }
+        Self { origin: x.to_vec(), leash: vec![Self::allowance(reach); x.len()], margin }
     }
 
-    /// From now on no node goes further than `length` metres from its post.
-    pub fn tether(&mut self, posts: &[Vec3], length: f64) {
-        (self.posts, self.tether) = (posts.to_vec(), length);
+    /// Where contacts were last looked for at every node.
+    pub fn origin(&self) -> &[Vec3] {
+        &self.origin
     }
 
-    /// How far the node that has least left may go, metres.
-    pub fn left(&self, x: &[Vec3]) -> f64 {
-        (self.leash - farthest(x, &self.origin)).min(self.tether - farthest(x, &self.posts))
+    /// Contacts were looked for at `node` where it is `at`; from there it may go `leash` metres.
+    pub fn restart(&mut self, node: usize, at: Vec3, leash: f64) {
+        (self.origin[node], self.leash[node]) = (at, leash);
     }
 
-    /// How far a node may go after a detection, metres.
-    pub fn most(&self) -> f64 {
-        self.leash.min(self.tether)
+    /// Nodes at which contacts have to be looked for again in a look at `x`: those that have gone a fifth of what
+    /// they may, or `most` metres.
+    pub fn stale(&self, x: &[Vec3], most: f64) -> Vec<bool> {
+        let gone = x.iter().zip(&self.origin).zip(&self.leash);
+        gone.map(|((x, o), leash)| !((x - o).norm() <= most.min(STAYS * leash))).collect()
     }
 
-    /// Whether a node has gone two thirds of what it may between two detections.
+    /// Whether a node has gone two thirds of what it may between two looks.
     pub fn is_due(&self, x: &[Vec3]) -> bool {
-        farthest(x, &self.origin) > DUE * self.leash || farthest(x, &self.posts) > DUE * self.tether
+        let mut gone = x.iter().zip(&self.origin).zip(&self.leash);
+        gone.any(|((x, o), leash)| (x - o).norm_squared() > (DUE * leash).powi(2))
     }
 
-    /// How far a node may go between two detections: less than half the reach, so that a pair not found cannot meet.
+    /// Whether a node that is to make the `step` has little room left for it.
+    pub fn is_short_of_room(&self, x: &[Vec3], step: &[Vec3]) -> bool {
+        let short = |i: usize, leash: f64| {
+            let left = leash - (x[i] - self.origin[i]).norm();
+            left < ROOM * leash && left < step[i].norm()
+        };
+        self.leash.iter().enumerate().any(|(i, leash)| short(i, *leash))
+    }
+
+    /// How far a node may go between two looks that search within `reach`, metres. When two primitives were last
+    /// searched for one another, each of their nodes was where its leash begins or had gone no more than the share
+    /// `STAYS` of it: since then it has gone no more than 1 + `STAYS` leashes, and a pair that was not found cannot meet.
     pub fn allowance(reach: f64) -> f64 {
-        0.45 * reach
+        0.5 * Self::allowance_beside_body(reach)
+    }
+
+    /// The same where one of the two is the body, which never moves.
+    pub fn allowance_beside_body(reach: f64) -> f64 {
+        USED * reach / (1.0 + STAYS)
     }
 
     /// The share (≤ 1) of a step that keeps every node on its leash. Shortening the step as a whole keeps its shape;
     /// cutting it node by node crumples the cloth.
     pub fn share(&self, x: &[Vec3], step: &[Vec3]) -> f64 {
-        let longest = step.iter().map(Vec3::norm_squared).fold(0.0, f64::max).sqrt();
-        let left = self.left(x);
-        if longest > left { (left / longest).max(0.0) } else { 1.0 }
+        let mut share = 1.0f64;
+        for ((d, leash), (x, o)) in step.iter().zip(&self.leash).zip(x.iter().zip(&self.origin)) {
+            let (left, way) = (leash - (x - o).norm(), d.norm());
+            if way > left {
+                share = share.min((left / way).max(0.0));
+            }
+        }
+        share
     }
 
     /// Moves the targets in `to` so that none of `contacts` meets on the way from `from`, where they were last turned.
@@ -118,13 +145,11 @@ impl Bounds {
     /// The largest share of the step that breaks no leash.
     fn leash_share(&self, from: &[Vec3], to: &[Vec3]) -> f64 {
         let mut share = 1.0f64;
-        for (posts, length) in [(&self.origin, self.leash), (&self.posts, self.tether)] {
-            for ((a, b), o) in from.iter().zip(to).zip(posts) {
-                let (d, r) = (b - a, a - o);
-                let (q, p, c) = (d.norm_squared(), r.dot(&d), r.norm_squared() - length * length);
-                if q > 0.0 && c <= 0.0 && q + 2.0 * p + c > 0.0 {
-                    share = share.min(((p * p - q * c).max(0.0).sqrt() - p) / q);
-                }
+        for ((a, b), (o, length)) in from.iter().zip(to).zip(self.origin.iter().zip(&self.leash)) {
+            let (d, r) = (b - a, a - o);
+            let (q, p, c) = (d.norm_squared(), r.dot(&d), r.norm_squared() - length * length);
+            if q > 0.0 && c <= 0.0 && q + 2.0 * p + c > 0.0 {
+                share = share.min(((p * p - q * c).max(0.0).sqrt() - p) / q);
             }
         }
         share
@@ -150,11 +175,6 @@ fn hold(planes: &[Kept], pairs: &[Kept], from: &[Vec3], to: &mut [Vec3]) {
             return;
         }
     }
-}
-
-/// The largest distance between a node and its post, metres.
-fn farthest(x: &[Vec3], posts: &[Vec3]) -> f64 {
-    x.iter().zip(posts).map(|(a, b)| (a - b).norm_squared()).fold(0.0, f64::max).sqrt()
 }
 
 /// Positions of a pair's sides along its direction: the lowest node of the upper side, the highest of the lower.
@@ -366,6 +386,6 @@ mod tests {
         let bounds = Bounds::new(&x, 0.1, 1e-3);
         let mut to = x.map(|p| p + Vec3::new(0.0, 1.0, 0.0));
         bounds.clamp(&[&contact], &x, &mut to);
-        assert_relative_eq!((to[0] - x[0]).norm(), 0.045, epsilon = 1e-12);
+        assert_relative_eq!((to[0] - x[0]).norm(), Bounds::allowance(0.1), epsilon = 1e-12);
     }
 }

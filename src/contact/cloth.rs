@@ -54,6 +54,8 @@ pub struct ClothDetector {
     bvh: Bvh,
     workspace: BvhWorkspace,
     hood: Neighbourhood,
+    /// Pairs of patches near each other at the last look, but for smooth sheets, sorted.
+    open: Vec<(u32, u32)>,
 }
 
 impl ClothDetector {
@@ -78,6 +80,7 @@ impl ClothDetector {
             bvh: Bvh::new(),
             workspace: BvhWorkspace::default(),
             hood,
+            open: Vec::new(),
         }
     }
 
@@ -89,10 +92,37 @@ impl ClothDetector {
     /// Every vertex–triangle and edge–edge pair closer than `reach` at positions `x`, in an order that depends on
     /// nothing but the input.
     pub fn detect(&mut self, x: &[Vec3], reach: f64) -> Vec<Contact> {
+        let mut all = vec![true; x.len()];
+        self.look(x, reach, &mut all);
+        self.detect_at(x, reach, &all)
+    }
+
+    /// Groups the cloth at positions `x` for a search within `reach` at the nodes that are `stale`. They become more:
+    /// those of sheets that were smooth at the last look, and so not searched, and are no longer.
+    pub fn look(&mut self, x: &[Vec3], reach: f64, stale: &mut [bool]) {
         let normals = self.normals(x);
         let (mut pairs, cones) = self.patch_pairs(x, &normals, reach);
         pairs.retain(|&(a, b)| !self.smooth(a as usize, b as usize, &cones));
-        let find = Search { detector: self, x, reach };
+        for pair @ &(a, b) in &pairs {
+            let folded = self.patches[a as usize].beside.binary_search(&b).is_ok();
+            if folded && self.open.binary_search(pair).is_err() {
+                let both = [a, b].map(|p| &self.patches[p as usize].triangles).into_iter().flatten();
+                both.flat_map(|&t| self.triangles[t as usize]).for_each(|n| stale[n as usize] = true);
+            }
+        }
+        self.open = pairs;
+    }
+
+    /// The pairs of [`ClothDetector::detect`] that have a node which is `stale`,
+    /// after [`ClothDetector::look`] with the same.
+    pub fn detect_at(&self, x: &[Vec3], reach: f64, stale: &[bool]) -> Vec<Contact> {
+        let of_triangle = |t: &[u32; 3]| t.iter().any(|&n| stale[n as usize]);
+        let triangles: Vec<bool> = self.triangles.iter().map(of_triangle).collect();
+        let patches: Vec<bool> =
+            self.patches.iter().map(|p| p.triangles.iter().any(|&t| triangles[t as usize])).collect();
+        let find = Search { detector: self, x, reach, stale, triangles };
+        let mut pairs = self.open.clone();
+        pairs.retain(|&(a, b)| patches[a as usize] || patches[b as usize]);
         pairs.par_iter().flat_map_iter(|&(a, b)| find.pair(a as usize, b as usize)).collect()
     }
 
@@ -213,6 +243,9 @@ struct Search<'a> {
     detector: &'a ClothDetector,
     x: &'a [Vec3],
     reach: f64,
+    /// Nodes at which is searched, and triangles that have one.
+    stale: &'a [bool],
+    triangles: Vec<bool>,
 }
 
 impl Search<'_> {
@@ -229,8 +262,8 @@ impl Search<'_> {
 
     fn points(&self, p: &Patch, q: &Patch, out: &mut Vec<Contact>) {
         for &v in &p.nodes {
-            let point = self.x[v as usize];
-            for &t in &q.triangles {
+            let (point, stale) = (self.x[v as usize], self.stale[v as usize]);
+            for &t in q.triangles.iter().filter(|t| stale || self.triangles[**t as usize]) {
                 let tri = self.detector.triangles[t as usize];
                 let [a, b, c] = tri.map(|n| self.x[n as usize]);
                 let low = a.inf(&b).inf(&c).add_scalar(-self.reach);
@@ -247,11 +280,13 @@ impl Search<'_> {
     }
 
     fn edges(&self, p: &Patch, q: &Patch, same: bool, out: &mut Vec<Contact>) {
+        let is_stale = |e: &[u32; 2]| e.iter().any(|&n| self.stale[n as usize]);
         for (i, e) in p.edges.iter().enumerate() {
+            let stale = is_stale(e);
             let [a, b] = e.map(|n| self.x[n as usize]);
             let (low, high) = (a.inf(&b).add_scalar(-self.reach), a.sup(&b).add_scalar(self.reach));
             let from = if same { i + 1 } else { 0 };
-            for f in &q.edges[from..] {
+            for f in q.edges[from..].iter().filter(|f| stale || is_stale(f)) {
                 let [c, d] = f.map(|n| self.x[n as usize]);
                 if apart(low, high, c.inf(&d), c.sup(&d)) || self.detector.joined(e, f) {
                     continue;

@@ -23,19 +23,24 @@ struct Found {
     outside: bool,
     /// The step after which it was last turned to where its closest points are.
     turned: u32,
-    /// Gap where it was found, metres.
+    /// The triangle or edge of the cloth whose contact with a feature of the body it is, as the caller numbers them.
+    element: Option<u32>,
+    /// Gap where it was found, and what its nodes had gone there from where they are measured from, metres.
     gap: f64,
 }
 
 impl Found {
-    fn new(contact: &Contact, x: &[Vec3]) -> Self {
+    /// Of a `contact` found at `x`, where node i is `gone[i]` metres from where it is measured from, and turned there.
+    fn new((contact, element): &Source, x: &[Vec3], gone: &[f64], turned: u32) -> Self {
         let gap = contact.gap(x);
         let Contact { nodes, count, above, .. } = *contact;
-        Self { nodes, count, above, outside: !contact.is_on_body() || gap > 0.0, turned: 0, gap }
+        let outside = !contact.is_on_body() || gap > 0.0;
+        let mut out = Self { nodes, count, above, outside, turned, element: *element, gap };
+        out.gap = out.least(gone);
+        out
     }
 
-    /// A gap that it cannot be below where node i is within `moved[i]` of where it was when the
-    /// contact was found, metres.
+    /// A gap that it cannot be below where node i is within `moved[i]` of where it is measured from, metres.
     fn least(&self, moved: &[f64]) -> f64 {
         let most = |nodes: &[u32]| nodes.iter().map(|&n| moved[n as usize]).fold(0.0, f64::max);
         let (above, below) = self.nodes[..self.count as usize].split_at(self.above as usize);
@@ -43,14 +48,17 @@ impl Found {
     }
 }
 
+/// A contact, and the triangle or edge of the cloth whose contact with a feature of the body it is.
+pub(super) type Source = (Contact, Option<u32>);
+
 /// The contacts of a step, and how far each node may go in it for no other to matter.
 pub(super) struct Near {
+    /// All that was found, turned to where the closest points were when it last mattered.
+    pub(super) all: Vec<Contact>,
     found: Vec<Found>,
-    /// Where nodes were when contacts were looked for.
-    origin: Vec<Vec3>,
     /// Contacts matter below this gap, metres.
     gap: f64,
-    /// Steps since contacts were looked for.
+    /// Steps made.
     step: u32,
     /// How far each node may go, metres.
     may: Vec<f64>,
@@ -63,16 +71,42 @@ pub(super) struct Near {
 impl Near {
     /// For `nodes` nodes, whose contacts matter below `gap` metres.
     pub(super) fn new(nodes: usize, gap: f64) -> Self {
-        let (found, origin, contacts, number) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { found, origin, gap, step: 0, may: vec![LITTLE; nodes], contacts, number }
+        let (all, found, contacts, number) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { all, found, gap, step: 0, may: vec![LITTLE; nodes], contacts, number }
     }
 
-    /// Starts anew with the contacts found at `x`.
-    pub(super) fn begin(&mut self, all: &mut [Contact], x: &[Vec3]) {
-        self.found = all.par_iter().with_min_len(ONE_THREAD).map(|c| Found::new(c, x)).collect();
-        self.origin = x.to_vec();
-        self.step = 0;
-        self.choose(all, x);
+    /// The triangles and edges of the cloth that are in the body, by its features.
+    pub(super) fn under<'b>(&'b self, x: &'b [Vec3]) -> impl Iterator<Item = u32> + 'b {
+        let inside = self.contacts.iter().zip(&self.number).filter(|(contact, _)| contact.gap(x) <= 0.0);
+        inside.filter_map(|(_, k)| self.found[*k as usize].element)
+    }
+
+    /// Lets go of what does not `stay`. Returns what was found at triangles and edges of it, sorted by them and turned
+    /// to where its closest points are at `x`.
+    pub(super) fn retain(&mut self, x: &[Vec3], stay: impl Fn(&Contact, Option<u32>) -> bool) -> Vec<(u32, Contact)> {
+        let mut left = Vec::new();
+        let mut stays = Vec::with_capacity(self.all.len());
+        for (contact, found) in self.all.iter().zip(&self.found) {
+            stays.push(stay(contact, found.element));
+            if let Some(element) = found.element.filter(|_| !stays[stays.len() - 1]) {
+                let mut contact = *contact;
+                turn(&mut contact, found, found.turned == self.step, x);
+                left.push((element, contact));
+            }
+        }
+        retain_in_order(&mut self.all, &stays);
+        retain_in_order(&mut self.found, &stays);
+        left.sort_by_key(|l| l.0);
+        left
+    }
+
+    /// Takes in what was found at `x`; every node's way is measured from its `origin`.
+    pub(super) fn add(&mut self, sources: &[Source], x: &[Vec3], origin: &[Vec3]) {
+        let gone: Vec<f64> = x.iter().zip(origin).map(|(x, o)| (x - o).norm()).collect();
+        // In the step that now begins.
+        let turned = self.step + 1;
+        self.all.extend(sources.iter().map(|s| s.0));
+        self.found.par_extend(sources.par_iter().with_min_len(ONE_THREAD).map(|s| Found::new(s, x, &gone, turned)));
     }
 
     /// Expects the nodes, which went from `last` to `x`, to go on like that.
@@ -82,14 +116,15 @@ impl Near {
         }
     }
 
-    /// Follows the nodes, which made a step to `x`.
-    pub(super) fn follow(&mut self, all: &mut [Contact], x: &[Vec3]) {
+    /// Follows the nodes, which made a step to `x` and are measured from `origin`.
+    pub(super) fn follow(&mut self, x: &[Vec3], origin: &[Vec3]) {
         self.step += 1;
-        self.choose(all, x);
+        self.choose(x, origin);
     }
 
-    /// Takes in what matters when the nodes go from `x` to `to`. Returns whether all of that was there already.
-    pub(super) fn covers(&mut self, all: &mut [Contact], x: &[Vec3], to: &[Vec3]) -> bool {
+    /// Takes in what matters when the nodes, which are measured from `origin`, go from `x` to `to`.
+    /// Returns whether all of that was there already.
+    pub(super) fn covers(&mut self, x: &[Vec3], to: &[Vec3], origin: &[Vec3]) -> bool {
         let mut covered = true;
         for (may, (a, b)) in self.may.iter_mut().zip(x.iter().zip(to)) {
             let way = (b - a).norm();
@@ -98,7 +133,7 @@ impl Near {
             }
         }
         if !covered {
-            self.choose(all, x);
+            self.choose(x, origin);
         }
         covered
     }
@@ -109,16 +144,10 @@ impl Near {
         self.contacts.iter().zip(&self.number).filter(|(_, k)| outside(k)).map(|(c, _)| c).collect()
     }
 
-    /// Turns a contact that was found at or before the last step to `x`, wherever its nodes went meanwhile.
-    pub(super) fn turn(&self, k: usize, contact: &mut Contact, x: &[Vec3]) {
-        let found = &self.found[k];
-        turn(contact, found, found.turned == self.step, x);
-    }
-
-    fn choose(&mut self, all: &mut [Contact], x: &[Vec3]) {
+    fn choose(&mut self, x: &[Vec3], origin: &[Vec3]) {
         let (step, gap) = (self.step, self.gap);
         let moved: Vec<f64> =
-            x.iter().zip(&self.origin).zip(&self.may).map(|((x, o), may)| (x - o).norm() + may).collect();
+            x.iter().zip(origin).zip(&self.may).map(|((x, o), may)| (x - o).norm() + may).collect();
         let matters = |found: &mut Found, contact: &mut Contact| {
             let least = found.least(&moved);
             let matters = least < gap || least.is_nan();
@@ -131,13 +160,19 @@ impl Near {
         let chosen: Vec<bool> = self
             .found
             .par_iter_mut()
-            .zip(all.par_iter_mut())
+            .zip(self.all.par_iter_mut())
             .with_min_len(ONE_THREAD)
             .map(|(found, contact)| matters(found, contact))
             .collect();
-        self.number = (0..all.len() as u32).filter(|&k| chosen[k as usize]).collect();
-        self.contacts = self.number.iter().map(|&k| all[k as usize]).collect();
+        self.number = (0..chosen.len() as u32).filter(|&k| chosen[k as usize]).collect();
+        self.contacts = self.number.iter().map(|&k| self.all[k as usize]).collect();
     }
+}
+
+/// Keeps the `items` that stay.
+fn retain_in_order<T>(items: &mut Vec<T>, stays: &[bool]) {
+    let mut stays = stays.iter();
+    items.retain(|_| stays.next() == Some(&true));
 }
 
 /// Turns a contact to where its closest points are now. The share of one that mattered in the last step follows half

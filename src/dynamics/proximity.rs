@@ -5,14 +5,14 @@ use rayon::prelude::*;
 use super::cost::{ContactTime, timed};
 use super::force::ContactLaw;
 use super::model::Cloth;
-use super::near::Near;
+use super::near::{Near, Source};
 use crate::contact::{Bounds, ClothDetector, Collider, Contact, Neighbourhood, Tangle};
 use crate::geometry::{Vec3, sorted_pair};
 
 /// How contact is looked for.
 #[derive(Clone, Copy, Debug)]
 pub struct Reach {
-    /// Cloth primitives nearer than this are pairs, metres. Nodes may go 0.45 of it between two detections.
+    /// Cloth primitives nearer than this are pairs, metres. Nodes may go [`Bounds::allowance`] of it between two looks.
     pub cloth: f64,
     /// The body is looked for this near to a node, metres.
     pub body: f64,
@@ -23,63 +23,68 @@ pub struct Reach {
 impl Reach {
     /// The reach within the cloth given, metres.
     pub fn new(cloth: f64) -> Self {
-        let farthest = Bounds::allowance(cloth);
-        Self { cloth, body: (0.5 * cloth).max(BODY), features: farthest.min(FEATURES) }
+        Self { cloth, body: (0.5 * cloth).max(BODY), features: (0.5 * cloth).min(FEATURES) }
+    }
+
+    /// Whether nodes go no further between two looks than the body's features are looked for.
+    fn is_short(&self) -> bool {
+        Bounds::allowance(self.cloth) <= self.features
     }
 }
 
 /// The body is looked for at least this near, metres, and further than a node may go between two looks.
 const BODY: f64 = 0.02;
-/// What was found at triangles and edges of the cloth holds until a node of theirs has gone this share of the reach.
+/// Where a node has gone this share of the reach for features, they are looked for again however far it may go.
 const MOVED: f64 = 0.15;
+/// Where it has gone this share of it, so is the nearest point of the body, and what others hid.
+const TURNED: f64 = 0.05;
 /// All are searched again where less than this share of the reach would do.
 const NARROWER: f64 = 0.6;
 
 /// Edges and vertices of the body are contacts of edges and triangles of the cloth as near as a node goes between two
-/// detections, at most this near, metres: while seams are closed nodes go far, over a body they are still far from.
+/// looks, at most this near, metres: while seams are closed nodes go far, over a body they are still far from.
 const FEATURES: f64 = 4e-3;
 /// A node's distance to the body is measured up to this many reaches, so that far nodes need not be asked every time.
 const FAR: f64 = 4.0;
+/// Farther than so many ways that a node may go, beyond the longest edge at it, nothing at it comes to the body before
+/// it is searched at again.
+const CORNERS: f64 = 4.0;
 /// Pairs keep this share of the distance kept from the body.
 const MARGIN: f64 = 0.25;
 /// Room for rounding in distances, metres.
 const ROUNDING: f64 = 1e-9;
 
 /// Contacts between cloth and body and within the cloth.
+///
+/// A look searches only at the nodes that have gone some way since they were last searched at: near its rest a garment
+/// moves in one fold, and lies still everywhere else.
 pub(super) struct Proximity<'a> {
-    /// Those found at the last detection.
-    contacts: Vec<Contact>,
-    /// Those of them that matter, turned to where their closest points have gone since.
+    /// What was found, and which of it matters.
     near: Near,
     /// How far nodes may go.
     pub(super) bounds: Bounds,
     body: &'a Collider,
     detector: ClothDetector,
-    /// How near contacts are looked for at the next detection.
+    /// How near contacts are looked for at the next look that searches all of the cloth.
     pub(super) reach: Reach,
-    /// Separation that pairs keep, metres.
-    margin: f64,
+    /// How near they were looked for at the last one.
+    searched: Option<Reach>,
     /// Distance to the body when last measured, and where.
     body_distance: Vec<(f64, Vec3)>,
-    searched: Searched,
+    /// Where every node was when it was last looked at more closely than others.
+    turned: Vec<Vec3>,
+    /// Of which triangles and then edges of the cloth features near them were left out.
+    hidden: Vec<bool>,
     /// What all of it has cost.
     pub(super) time: ContactTime,
 }
 
-/// The contacts with edges and vertices of the body, triangle by triangle and edge by edge of the cloth: what has
-/// hardly moved is not searched again.
-struct Searched {
-    /// Where every node was when all triangles and edges at it were last searched.
-    at: Vec<Vec3>,
-    /// How near, metres.
-    reach: f64,
-    /// By what share of that nodes may have been off from there at the last search: 0 if it was one of all.
-    moved: f64,
-    /// Where the contacts of each triangle, then of each edge, begin in [`Proximity::contacts`],
-    /// and where the last end.
-    begin: Vec<u32>,
-    /// Of which triangles and edges features near them were left out.
-    hidden: Vec<bool>,
+/// At which nodes a look searches.
+struct Stale {
+    /// For everything,
+    node: Vec<bool>,
+    /// for the nearest point of the body and for what others hid.
+    turned: Vec<bool>,
 }
 
 impl<'a> Proximity<'a> {
@@ -92,17 +97,16 @@ impl<'a> Proximity<'a> {
         reach: Reach,
         law: &ContactLaw,
     ) -> Self {
-        let margin = MARGIN * law.body_clearance;
         let mut out = Self {
-            contacts: Vec::new(),
             near: Near::new(x.len(), law.widest(cloth)),
-            bounds: Bounds::new(x, reach.cloth, margin),
+            bounds: Bounds::new(x, reach.cloth, MARGIN * law.body_clearance),
             body,
             detector: ClothDetector::new(&cloth.triangles, &cloth.flat, &cloth.piece, hood),
             reach,
-            margin,
+            searched: None,
             body_distance: vec![(f64::NEG_INFINITY, Vec3::zeros()); x.len()],
-            searched: Searched { at: x.to_vec(), reach: 0.0, moved: 0.0, begin: Vec::new(), hidden: Vec::new() },
+            turned: x.to_vec(),
+            hidden: vec![false; cloth.triangles.len() + cloth.edges.len()],
             time: ContactTime::default(),
         };
         out.detect(cloth, x);
@@ -112,16 +116,21 @@ impl<'a> Proximity<'a> {
     /// Looks for contacts anew.
     pub(super) fn detect(&mut self, cloth: &Cloth, x: &[Vec3]) {
         let mut time = self.time;
-        let mut contacts = timed(&mut time.body, || self.body_contacts(x));
-        timed(&mut time.features, || self.face_contacts(cloth, x, &mut contacts));
-        timed(&mut time.cloth, || contacts.extend(self.detector.detect(x, self.reach.cloth)));
+        let all = self.is_all();
+        let reach = if all { self.reach } else { self.searched.unwrap_or(self.reach) };
+        let mut stale = self.stale(x, &reach, all);
+        timed(&mut time.cloth, || self.detector.look(x, reach.cloth, &mut stale.node));
+        let mut sources = timed(&mut time.body, || self.body_contacts(x, &reach, &stale.turned));
+        timed(&mut time.features, || self.face_contacts(cloth, x, &reach, &stale, &mut sources));
+        let found = timed(&mut time.cloth, || self.detector.detect_at(x, reach.cloth, &stale.node));
+        timed(&mut time.follow, || {
+            sources.extend(found.into_iter().map(|c| (c, None)));
+            self.restart(cloth, x, &reach, &stale.node);
+            self.near.add(&sources, x, self.bounds.origin());
+            self.near.follow(x, self.bounds.origin());
+        });
         self.time = time;
-        self.bounds = Bounds::new(x, self.reach.cloth, self.margin);
-        if self.reach.features >= Bounds::allowance(self.reach.cloth) {
-            self.bounds.tether(&self.searched.at, (1.0 - self.searched.moved) * self.searched.reach);
-        }
-        self.contacts = contacts;
-        timed(&mut self.time.follow, || self.near.begin(&mut self.contacts, x));
+        self.searched = Some(reach);
     }
 
     /// The contacts that matter in the next step.
@@ -132,7 +141,7 @@ impl<'a> Proximity<'a> {
     /// Takes in the contacts that matter when the nodes go from `x` to `to`.
     /// Returns whether those that did already are all.
     pub(super) fn covers(&mut self, x: &[Vec3], to: &[Vec3]) -> bool {
-        timed(&mut self.time.follow, || self.near.covers(&mut self.contacts, x, to))
+        timed(&mut self.time.follow, || self.near.covers(x, to, self.bounds.origin()))
     }
 
     /// [`Bounds::clamp`] with the contacts that matter.
@@ -140,28 +149,23 @@ impl<'a> Proximity<'a> {
         self.bounds.clamp(&self.near.apart(), from, to);
     }
 
-    /// Follows the nodes from `last` to `x`: a new detection when one has gone far, otherwise the contacts that matter
-    /// are turned to where their closest points are now. Returns whether there was a detection.
+    /// Follows the nodes from `last` to `x`: a look when one has gone far, otherwise the contacts that matter
+    /// are turned to where their closest points are now. Returns whether there was a look.
     pub(super) fn follow(&mut self, cloth: &Cloth, last: &[Vec3], x: &[Vec3]) -> bool {
         let due = self.bounds.is_due(x);
         self.near.foresee(last, x);
         if due {
             self.detect(cloth, x);
         } else {
-            timed(&mut self.time.follow, || self.near.follow(&mut self.contacts, x));
+            timed(&mut self.time.follow, || self.near.follow(x, self.bounds.origin()));
         }
         due
-    }
-
-    /// Lets the next detection search all of the cloth: nodes may go further after it.
-    pub(super) fn forget(&mut self) {
-        self.searched.begin.clear();
     }
 
     /// Pairs of nodes (smaller first, sorted) that contacts of the cloth with itself couple, for gaps below `gap`.
     pub(super) fn touching(&self, x: &[Vec3], gap: f64) -> Vec<[u32; 2]> {
         let mut out = Vec::new();
-        for contact in self.contacts.iter().filter(|c| !c.is_on_body() && c.gap(x) < gap) {
+        for contact in self.near.all.iter().filter(|c| !c.is_on_body() && c.gap(x) < gap) {
             let nodes = || contact.parts().filter(|p| p.1 != 0.0).map(|p| p.0 as u32);
             for (a, i) in nodes().enumerate() {
                 out.extend(nodes().skip(a + 1).map(|j| sorted_pair([i, j])));
@@ -180,13 +184,60 @@ impl<'a> Proximity<'a> {
     /// Changes which nodes may pass through one another, for the next detection.
     pub(super) fn set_passing(&mut self, passing: Vec<bool>) {
         self.detector.set_passing(passing);
+        self.searched = None;
     }
 
-    fn body_contacts(&mut self, x: &[Vec3]) -> Vec<Contact> {
-        let (body, reach) = (self.body, self.reach.body);
+    /// Whether the next look searches all of the cloth.
+    fn is_all(&self) -> bool {
+        let other = |searched: Reach| {
+            self.reach.cloth > searched.cloth || self.reach.cloth < NARROWER * searched.cloth
+        };
+        self.searched.is_none_or(other)
+    }
+
+    fn stale(&mut self, x: &[Vec3], reach: &Reach, all: bool) -> Stale {
+        let mut node = self.bounds.stale(x, MOVED * reach.features);
+        node.iter_mut().for_each(|stale| *stale |= all);
+        let far = TURNED * reach.features;
+        let turned = node.iter().zip(x).zip(&mut self.turned).map(|((stale, x), at)| {
+            let turned = *stale || (x - *at).norm_squared() > far * far;
+            if turned {
+                *at = *x;
+            }
+            turned
+        });
+        let turned = turned.collect();
+        Stale { node, turned }
+    }
+
+    /// From now on the ways of nodes that were searched at are measured from `x`. Those near the body may go no further
+    /// than its features were looked for at all that they are corners of.
+    fn restart(&mut self, cloth: &Cloth, x: &[Vec3], reach: &Reach, stale: &[bool]) {
+        let free = Bounds::allowance(reach.cloth);
+        let beside_body =
+            if reach.is_short() { free.min(Bounds::allowance_beside_body(reach.features)) } else { free };
+        let mut longest = vec![0.0f64; x.len()];
+        for [a, b] in cloth.edges.iter().map(|e| e.map(|n| n as usize)) {
+            let length = (x[a] - x[b]).norm();
+            longest[a] = longest[a].max(length);
+            longest[b] = longest[b].max(length);
+        }
+        for i in (0..x.len()).filter(|&i| stale[i]) {
+            let is_far = self.distance(i, x) > longest[i] + CORNERS * free;
+            self.bounds.restart(i, x[i], if is_far { free } else { beside_body });
+        }
+    }
+
+    /// A distance from the body that node `i` is not nearer than, metres.
+    fn distance(&self, i: usize, x: &[Vec3]) -> f64 {
+        let (distance, at) = self.body_distance[i];
+        distance - (x[i] - at).norm()
+    }
+
+    fn body_contacts(&mut self, x: &[Vec3], reach: &Reach, stale: &[bool]) -> Vec<Source> {
+        let body = self.body;
         // A node whose last measured distance minus its way since cannot have come within reach is not asked for again;
         // that distance plus its way is as far as the surface can be now.
-        let features = self.reach.features;
         let found: Vec<Option<(f64, Vec<Contact>)>> = self
             .body_distance
             .par_iter()
@@ -194,130 +245,82 @@ impl<'a> Proximity<'a> {
             .enumerate()
             .map(|(i, &(distance, at))| {
                 let way = (x[i] - at).norm();
-                if distance - way > reach {
+                if !stale[i] || distance - way > reach.body {
                     return None;
                 }
-                let far = FAR * reach;
+                let far = FAR * reach.body;
                 let limit = if distance.is_finite() { far.min(distance.abs() + way + ROUNDING) } else { far };
                 let Some(near) = body.nearest(x[i], limit) else { return Some((limit, Vec::new())) };
                 let mut contacts = Vec::new();
-                if near.distance < reach {
+                if near.distance < reach.body {
                     contacts.push(Contact::on_body(i as u32, near.normal, near.point));
                 }
-                if (0.0..features).contains(&near.distance) {
-                    body.faces_of_hollow(x, i as u32, &near, features, &mut contacts);
+                if (0.0..reach.features).contains(&near.distance) {
+                    body.faces_of_hollow(x, i as u32, &near, reach.features, &mut contacts);
                 }
                 Some((near.distance, contacts))
             })
             .collect();
-        let mut contacts = Vec::new();
+        let mut sources = Vec::new();
         for (i, entry) in found.into_iter().enumerate() {
             if let Some((distance, found)) = entry {
                 self.body_distance[i] = (distance, x[i]);
-                contacts.extend(found);
+                sources.extend(found.into_iter().map(|c| (c, None)));
             }
         }
-        contacts
+        sources
     }
 
-    fn face_contacts(&mut self, cloth: &Cloth, x: &[Vec3], contacts: &mut Vec<Contact>) {
-        let stale = self.stale(x);
-        let found = self.search(cloth, x, &stale);
-        let mut begin = Vec::with_capacity(found.len() + 1);
-        self.searched.hidden.resize(found.len(), false);
-        for (k, found) in found.into_iter().enumerate() {
-            begin.push(contacts.len() as u32);
-            match found {
-                Some((found, hidden)) => {
-                    let kept = if hidden { self.kept(k, &found, x) } else { Vec::new() };
-                    contacts.extend(found.into_iter().chain(kept));
-                    self.searched.hidden[k] = hidden;
-                }
-                None => contacts.extend(self.turned(k, x)),
-            }
+    /// Adds the contacts of the body's features with triangles and edges of the cloth that are searched, and lets go
+    /// of what was found before at all that is.
+    fn face_contacts(&mut self, cloth: &Cloth, x: &[Vec3], reach: &Reach, stale: &Stale, sources: &mut Vec<Source>) {
+        let is_searched = self.is_searched(cloth, x, stale);
+        let known = self.near.retain(x, |contact, element| match element {
+            Some(k) => !is_searched[k as usize],
+            None if contact.is_on_body() => !stale.turned[contact.nodes[0] as usize],
+            None => contact.nodes.iter().all(|&n| !stale.node[n as usize]),
+        });
+        for (k, found) in self.search(cloth, x, reach.features, &is_searched).into_iter().enumerate() {
+            let Some((found, hidden)) = found else { continue };
+            let element = Some(k as u32);
+            let kept = if hidden { kept(&known, k as u32, &found, x, reach.features) } else { Vec::new() };
+            sources.extend(found.into_iter().chain(kept).map(|c| (c, element)));
+            self.hidden[k] = hidden;
         }
-        begin.push(contacts.len() as u32);
-        self.searched.begin = begin;
     }
 
-    /// What was found at triangle `k`, or at the edge that comes so long after the last of them.
-    fn found_at(&self, k: usize) -> &[Contact] {
-        &self.contacts[self.searched.begin[k] as usize..self.searched.begin[k + 1] as usize]
+    /// Which triangles, and then edges, of the cloth are searched for features of the body: those at stale nodes; those
+    /// of which a feature was hidden, as soon as they have turned; and cloth that is under a feature, of which a new
+    /// search tells by the body whether it is: what is known only goes on as it was.
+    fn is_searched(&self, cloth: &Cloth, x: &[Vec3], stale: &Stale) -> Vec<bool> {
+        let any = |nodes: &[u32], of: &[bool]| nodes.iter().any(|&n| of[n as usize]);
+        let again = |(nodes, hidden): (&[u32], &bool)| any(nodes, &stale.node) || *hidden && any(nodes, &stale.turned);
+        let elements = cloth.triangles.iter().map(<[u32; 3]>::as_slice).chain(cloth.edges.iter().map(<[u32; 2]>::as_slice));
+        let mut out: Vec<bool> = elements.zip(&self.hidden).map(again).collect();
+        self.near.under(x).for_each(|k| out[k as usize] = true);
+        out
     }
 
-    /// The same, turned to where their closest points are at `x`.
-    fn turned(&self, k: usize, x: &[Vec3]) -> impl Iterator<Item = Contact> {
-        let first = self.searched.begin[k] as usize;
-        self.found_at(k).iter().enumerate().map(move |(i, contact)| {
-            let mut contact = *contact;
-            self.near.turn(first + i, &mut contact, x);
-            contact
-        })
-    }
-
-    /// Contacts that were found before at triangle or edge `k`, as [`Self::found_at`] counts, and not now, and are
-    /// still apart. Which of two features hides the other may depend on the last micrometre: one that was left out as
-    /// soon as it had pushed the cloth a little off, and found again without it, never let it rest.
-    fn kept(&self, k: usize, found: &[Contact], x: &[Vec3]) -> Vec<Contact> {
-        if self.searched.begin.is_empty() {
-            return Vec::new();
-        }
-        let again = |c: &Contact| found.iter().any(|f| f.under.number() == c.under.number());
-        let apart = |c: &Contact| (0.0..self.searched.reach).contains(&c.gap(x));
-        self.turned(k, x).filter(|c| apart(c) && !again(c)).collect()
-    }
-
-    /// Which nodes have gone too far for what was found at them to hold;
-    /// they are taken to be searched at `x` from now on.
-    fn stale(&mut self, x: &[Vec3]) -> Vec<bool> {
-        let Searched { at, reach, moved, begin, .. } = &mut self.searched;
-        let wanted = self.reach.features;
-        let all = begin.is_empty() || wanted > *reach || wanted < NARROWER * *reach;
-        if all {
-            *reach = wanted;
-        }
-        *moved = if all { 0.0 } else { MOVED };
-        let far = MOVED * *reach;
-        at.iter_mut()
-            .zip(x)
-            .map(|(at, x)| {
-                let stale = all || (x - *at).norm_squared() > far * far;
-                if stale {
-                    *at = *x;
-                }
-                stale
-            })
-            .collect()
-    }
-
-    /// Contacts of the body's edges and vertices with each triangle and edge at a node that is `stale`, and whether
+    /// Contacts of the body's edges and vertices within `reach` of each triangle and edge that is searched, and whether
     /// some near them were left out.
-    fn search(&self, cloth: &Cloth, x: &[Vec3], stale: &[bool]) -> Vec<Option<(Vec<Contact>, bool)>> {
-        let reach = self.searched.reach;
-        let far = |n: u32| {
-            let (distance, at) = self.body_distance[n as usize];
-            distance - (x[n as usize] - at).norm()
-        };
+    fn search(&self, cloth: &Cloth, x: &[Vec3], reach: f64, is_searched: &[bool]) -> Vec<Option<(Vec<Contact>, bool)>> {
         // No point of an edge or triangle is further from the nearest of its nodes than this share of its longest side.
         let near = |nodes: &[u32]| {
             let side = |a: u32, b: u32| (x[a as usize] - x[b as usize]).norm();
             let longest = nodes.iter().flat_map(|&a| nodes.iter().map(move |&b| side(a, b))).fold(0.0, f64::max);
-            nodes.iter().map(|&n| far(n)).fold(f64::INFINITY, f64::min) < reach + 3f64.sqrt().recip() * longest
+            let nearest = nodes.iter().map(|&n| self.distance(n as usize, x)).fold(f64::INFINITY, f64::min);
+            nearest < reach + 3f64.sqrt().recip() * longest
         };
-        // A new search tells by the body whether cloth is under one of its features;
-        // what is known only goes on as it was.
-        let under = |k: usize| self.found_at(k).iter().any(|c| c.gap(x) <= 0.0);
-        let again =
-            |k: usize, nodes: &[u32]| nodes.iter().any(|&n| stale[n as usize]) || self.searched.hidden[k] || under(k);
-        let faces = cloth.triangles.par_iter().with_min_len(512).enumerate().map(|(k, t)| {
-            again(k, t).then(|| {
+        let (of_faces, of_edges) = is_searched.split_at(cloth.triangles.len());
+        let faces = cloth.triangles.par_iter().zip(of_faces).with_min_len(512).map(|(t, again)| {
+            again.then(|| {
                 let mut out = Vec::new();
                 let hidden = near(t) && self.body.vertices_near_triangle(x, *t, reach, &mut out);
                 (out, hidden)
             })
         });
-        let edges = cloth.edges.par_iter().with_min_len(512).enumerate().map(|(k, e)| {
-            again(cloth.triangles.len() + k, e).then(|| {
+        let edges = cloth.edges.par_iter().zip(of_edges).with_min_len(512).map(|(e, again)| {
+            again.then(|| {
                 let mut out = Vec::new();
                 let hidden = near(e) && self.body.edges_near_edge(x, *e, reach, &mut out);
                 (out, hidden)
@@ -325,4 +328,15 @@ impl<'a> Proximity<'a> {
         });
         faces.chain(edges).collect()
     }
+}
+
+/// Of what was `known` at the triangle or edge `element`, what was not `found` again and is still apart, nearer than
+/// `reach`. Which of two features hides the other may depend on the last micrometre: one that was left out as soon as it
+/// had pushed the cloth a little off, and found again without it, never let it rest.
+fn kept(known: &[(u32, Contact)], element: u32, found: &[Contact], x: &[Vec3], reach: f64) -> Vec<Contact> {
+    let again = |c: &Contact| found.iter().any(|f| f.under.number() == c.under.number());
+    let apart = |c: &Contact| (0.0..reach).contains(&c.gap(x));
+    let first = known.partition_point(|k| k.0 < element);
+    let of_element = known[first..].iter().take_while(|k| k.0 == element).map(|k| k.1);
+    of_element.filter(|c| apart(c) && !again(c)).collect()
 }

@@ -28,8 +28,6 @@ const HALVINGS: usize = 5;
 /// turn between two steps): along the narrow valley in which stiff cloth turns, the way that always leads down goes in
 /// much shorter steps (Grippo, Lampariello and Lucidi 1986).
 const MEMORY: usize = 2;
-/// A step for which less than this share of the way between two detections is left may call for one.
-const ROOM: f64 = 0.6;
 /// Halvings of a step with the majorant: springs that stiffen have no majorant, but a step short enough goes down.
 const MORE_HALVINGS: usize = 12;
 /// Cloth that is carried is looked at for contacts at most so often on the way.
@@ -81,8 +79,8 @@ pub struct World<'a> {
     friction: Option<Friction>,
     /// By how much the energy fell in every Newton step since contacts were last looked for, J.
     gains: Vec<f64>,
-    /// How far the last Newton step would have liked to take a node, metres.
-    wished: f64,
+    /// Where the last Newton step would have liked to take every node.
+    wished: Vec<Vec3>,
     /// Share of gravity.
     pub gravity: f64,
     law: ContactLaw,
@@ -136,7 +134,7 @@ impl<'a> World<'a> {
             velocity: vec![Vec3::zeros(); x.len()],
             friction: None,
             gains: Vec::new(),
-            wished: 0.0,
+            wished: vec![Vec3::zeros(); x.len()],
             gravity: 0.0,
             law,
             proximity: Proximity::new(&cloth, &x, body, hood, reach, &law),
@@ -203,7 +201,7 @@ impl<'a> World<'a> {
         self.make_room()?;
         let now = forces(self.gravity, &self.proximity, self.law, &[], self.friction.as_ref());
         let step = self.stepper.newton(&self.cloth, &self.x, dt, &now, radius)?;
-        self.wished = step.d.iter().map(Vec3::norm).fold(0.0, f64::max);
+        self.wished.clone_from(&step.d);
         let allowed = self.allowed_rise();
         let demand = Demand { expected: step.gain, allowed, halvings: HALVINGS, foresees: true };
         let down = self.descend(&step.d, &demand);
@@ -228,8 +226,7 @@ impl<'a> World<'a> {
 
     /// Looks for contacts anew where the last step would have liked to go further than there is room left for.
     fn make_room(&mut self) -> Result<(), StepError> {
-        let bounds = &self.proximity.bounds;
-        if bounds.left(&self.x) < self.wished.min(ROOM * bounds.most()) { self.detect() } else { Ok(()) }
+        if self.proximity.bounds.is_short_of_room(&self.x, &self.wished) { self.detect() } else { Ok(()) }
     }
 
     /// By how much the energy may rise without becoming more than it was in the last [`MEMORY`] steps, J.
@@ -306,10 +303,6 @@ impl<'a> World<'a> {
         }
         let last = std::mem::replace(&mut self.x, target);
         self.cloth.follow(&self.x, foresaw);
-        if self.wished > self.proximity.bounds.most() {
-            // Cloth that falls freely.
-            self.proximity.forget();
-        }
         if drag || self.proximity.bounds.is_due(&self.x) {
             self.drag_friction();
         }
