@@ -24,6 +24,8 @@ const SETTLE: usize = 40;
 const STILL: f64 = 0.2e-3;
 /// The most a step changes an edge, metres: half a cell at the usual spacing.
 pub(super) const TRUST: f64 = 5e-3;
+/// However badly the model fits, it is trusted so far, metres.
+const LEAST_TRUST: f64 = 0.2e-3;
 /// Step length, s: long, for inertia only delays rest.
 pub(super) const STEP: f64 = 0.1;
 
@@ -107,11 +109,13 @@ pub fn join(
 pub fn settle(world: &mut World, calm: Calm) -> Result<(usize, usize), StepError> {
     let mut steps = untangle(world)?;
     let mut energies = vec![world.energy()];
+    let mut trust = TRUST;
     for _ in 0..SETTLE {
-        let moved = world.newton(STEP, TRUST)?.moved;
+        let step = world.newton(STEP, trust)?;
+        trust = step.trust(trust).clamp(LEAST_TRUST, TRUST);
         steps += 1;
         energies.push(world.energy());
-        if moved < STILL || calm.holds(&energies) {
+        if step.moved < STILL || calm.holds(&energies) {
             break;
         }
     }
