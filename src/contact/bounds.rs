@@ -87,7 +87,8 @@ impl Bounds {
 
     /// How far a node may go between two looks that search within `reach`, metres. When two primitives were last
     /// searched for one another, each of their nodes was where its leash begins or had gone no more than the share
-    /// `STAYS` of it: since then it has gone no more than 1 + `STAYS` leashes, and a pair that was not found cannot meet.
+    /// `STAYS` of it: since then it has gone no more than 1 + `STAYS` leashes, and a pair that was not found cannot
+    /// meet.
     pub fn allowance(reach: f64) -> f64 {
         0.5 * Self::allowance_beside_body(reach)
     }
@@ -378,6 +379,40 @@ mod tests {
         bounds.clamp(&[&contact], &x, &mut to);
         let above = (to[2] - to[1]).cross(&(to[3] - to[1])).dot(&(to[0] - to[1]));
         assert!(above * (x[2] - x[1]).cross(&(x[3] - x[1])).dot(&(x[0] - x[1])) > 0.0);
+    }
+
+    #[test]
+    fn a_node_at_the_end_of_its_leash_holds_back_no_step_that_leaves_it_where_it_is() {
+        let (x, _) = pair();
+        let bounds = Bounds::new(&x, 0.1, 1e-3);
+        let leash = Bounds::allowance(0.1);
+        let mut gone = x;
+        gone[0].x += 0.9 * leash;
+        let step = |node: usize, way: f64| {
+            let mut step = [Vec3::zeros(); 4];
+            step[node].x = way;
+            step
+        };
+        assert_eq!(bounds.share(&gone, &step(1, leash)), 1.0);
+        assert_relative_eq!(bounds.share(&gone, &step(0, leash)), 0.1, epsilon = 1e-12);
+        assert!(bounds.is_short_of_room(&gone, &step(0, leash)));
+        assert!(!bounds.is_short_of_room(&gone, &step(1, leash)));
+    }
+
+    #[test]
+    fn only_nodes_that_have_gone_some_way_are_stale() {
+        let (x, _) = pair();
+        let mut bounds = Bounds::new(&x, 0.1, 1e-3);
+        let leash = Bounds::allowance(0.1);
+        let mut gone = x;
+        gone[1].y += 0.21 * leash;
+        gone[2].y += 0.19 * leash;
+        gone[3].y = f64::NAN;
+        assert_eq!(bounds.stale(&gone, 1.0), [false, true, false, true]);
+        assert_eq!(bounds.stale(&gone, 0.1 * leash), [false, true, true, true]);
+        assert!(!bounds.is_due(&gone[..3]));
+        bounds.restart(2, x[2], 0.25 * leash);
+        assert!(bounds.is_due(&gone[..3]), "76 % of a shorter leash");
     }
 
     #[test]

@@ -548,6 +548,43 @@ mod tests {
     }
 
     #[test]
+    fn a_search_at_some_nodes_finds_all_their_pairs_and_no_others() {
+        let (x, t, f, p) = sheets(12, 0.01, 0.005);
+        let reach = 0.008;
+        let mut detector = detector(&x, &t, &f, &p);
+        let all = detector.detect(&x, reach);
+        let mut stale: Vec<bool> = (0..x.len()).map(|n| n % 17 == 3 || (40..60).contains(&n)).collect();
+        let asked = stale.clone();
+        detector.look(&x, reach, &mut stale);
+        assert_eq!(stale, asked, "nothing has turned");
+        let keys = |contacts: &[Contact]| {
+            let mut keys: Vec<([u32; 4], u8)> = contacts.iter().map(|c| (c.nodes, c.above)).collect();
+            keys.sort_unstable();
+            keys
+        };
+        let expected: Vec<Contact> =
+            all.iter().filter(|c| c.nodes.iter().any(|&n| stale[n as usize])).copied().collect();
+        assert!(expected.len() > 300 && expected.len() < all.len());
+        assert_eq!(keys(&detector.detect_at(&x, reach, &stale)), keys(&expected));
+    }
+
+    #[test]
+    fn a_sheet_that_folds_is_searched_though_no_node_of_it_was_to_be() {
+        let (mut x, t, f, p) = sheets(12, 0.01, 0.1);
+        let mut detector = detector(&x, &t, &f, &p);
+        assert!(detector.detect(&x, 0.007).is_empty());
+        // The first sheet is bent along its middle, until its halves lie on one another.
+        for v in x.iter_mut().take(169).filter(|v| v.x > 0.061) {
+            *v = Vec3::new(0.122 - v.x, 0.004, v.z);
+        }
+        let mut stale = vec![false; x.len()];
+        detector.look(&x, 0.007, &mut stale);
+        assert!(stale[..169].iter().any(|s| *s) && stale[169..].iter().all(|s| !s));
+        let found = detector.detect_at(&x, 0.007, &stale);
+        assert!(found.iter().any(|c| c.above == 1 && (c.gap(&x) - 0.004).abs() < 1e-9));
+    }
+
+    #[test]
     fn every_pair_within_reach_is_found_whatever_the_grouping() {
         let (mut x, t, f, p) = sheets(9, 0.01, 0.006);
         for (i, v) in x.iter_mut().enumerate() {

@@ -146,8 +146,7 @@ impl Near {
 
     fn choose(&mut self, x: &[Vec3], origin: &[Vec3]) {
         let (step, gap) = (self.step, self.gap);
-        let moved: Vec<f64> =
-            x.iter().zip(origin).zip(&self.may).map(|((x, o), may)| (x - o).norm() + may).collect();
+        let moved: Vec<f64> = x.iter().zip(origin).zip(&self.may).map(|((x, o), may)| (x - o).norm() + may).collect();
         let matters = |found: &mut Found, contact: &mut Contact| {
             let least = found.least(&moved);
             let matters = least < gap || least.is_nan();
@@ -196,38 +195,72 @@ mod tests {
     /// Metres.
     const GAP: f64 = 1e-3;
 
-    fn over_floor(height: f64) -> (Vec<Vec3>, Vec<Contact>) {
-        (vec![Vec3::y() * height], vec![Contact::on_body(0, Vec3::y(), Vec3::zeros())])
+    fn over_floor(height: f64) -> (Vec<Vec3>, Near) {
+        let x = vec![Vec3::y() * height];
+        let near = found(vec![Contact::on_body(0, Vec3::y(), Vec3::zeros())], &x);
+        (x, near)
+    }
+
+    /// What is near after `contacts` were found at `x`.
+    fn found(contacts: Vec<Contact>, x: &[Vec3]) -> Near {
+        let mut near = Near::new(x.len(), GAP);
+        near.add(&contacts.into_iter().map(|c| (c, None)).collect::<Vec<_>>(), x, x);
+        near.follow(x, x);
+        near
     }
 
     #[test]
     fn what_is_far_matters_once_a_node_may_go_there() {
-        let (x, mut all) = over_floor(0.01);
-        let mut near = Near::new(1, GAP);
-        near.begin(&mut all, &x);
+        let (x, mut near) = over_floor(0.01);
         assert!(near.contacts.is_empty());
-        assert!(near.covers(&mut all, &x, &x));
+        assert!(near.covers(&x, &x, &x));
         let to = [Vec3::y() * 0.0005];
-        assert!(!near.covers(&mut all, &x, &to), "it comes within a millimetre");
+        assert!(!near.covers(&x, &to, &x), "it comes within a millimetre");
         assert_eq!(near.contacts.len(), 1);
-        assert!(near.covers(&mut all, &x, &to));
+        assert!(near.covers(&x, &to, &x));
     }
 
     #[test]
     fn what_matters_follows_from_how_far_nodes_have_gone_in_all() {
-        let (mut x, mut all) = over_floor(0.01);
-        let mut near = Near::new(1, GAP);
-        near.begin(&mut all, &x);
+        let (mut x, mut near) = over_floor(0.01);
+        let origin = x.clone();
         let mut seen = false;
         while x[0].y > 1.1 * GAP {
             let last = x.clone();
             x[0].y -= 0.5e-3;
             near.foresee(&last, &x);
-            near.follow(&mut all, &x);
+            near.follow(&x, &origin);
             seen = !near.contacts.is_empty();
             assert!(seen || x[0].y > 1.9 * GAP);
         }
         assert!(seen);
+    }
+
+    #[test]
+    fn a_contact_found_on_the_way_is_bound_by_the_way_back_too() {
+        // Found 3 mm over the floor by a node that had come down by 2 mm from where its way is measured from: there its
+        // way is nothing, and it may be anywhere up to 2 mm nearer than where the contact was found.
+        let (x, origin) = ([Vec3::y() * 3e-3], [Vec3::y() * 5e-3]);
+        let mut near = Near::new(1, GAP);
+        near.add(&[(Contact::on_body(0, Vec3::y(), Vec3::zeros()), None)], &x, &origin);
+        let low = [Vec3::y() * 3.2e-3];
+        near.follow(&low, &origin);
+        assert_eq!(near.contacts.len(), 1, "no bound from 1.8 mm of way says that it has not come down");
+    }
+
+    #[test]
+    fn what_does_not_stay_is_handed_back_with_its_element() {
+        let x = [Vec3::y() * 0.5e-3, Vec3::y() * 2e-3];
+        let of = |node| Contact::on_body(node, Vec3::y(), Vec3::zeros());
+        let mut near = Near::new(2, GAP);
+        near.add(&[(of(0), Some(7)), (of(1), Some(3)), (of(0), None)], &x, &x);
+        near.follow(&x, &x);
+        assert_eq!(near.contacts.len(), 2);
+        let left = near.retain(&x, |contact, _| contact.nodes[0] == 1);
+        assert_eq!(left.iter().map(|l| l.0).collect::<Vec<_>>(), [7]);
+        assert_eq!(near.all.len(), 1);
+        near.follow(&x, &x);
+        assert!(near.contacts.is_empty());
     }
 
     #[test]
@@ -237,24 +270,21 @@ mod tests {
         let mut x: Vec<Vec3> = along.iter().map(|p| p + Vec3::new(0.0, 0.005, 0.0)).collect();
         // Not parallel to it, or there would be no closest points.
         x[1].x += 0.001;
-        let mut all = vec![Contact::on_feature([0, 1, 0, 0], 2, under, Vec3::y(), &x).expect("apart")];
-        let mut near = Near::new(2, GAP);
-        near.begin(&mut all, &x);
-        near.follow(&mut all, &x);
+        let origin = x.clone();
+        let mut near = found(vec![Contact::on_feature([0, 1, 0, 0], 2, under, Vec3::y(), &x).expect("apart")], &x);
+        near.follow(&x, &origin);
         assert!(near.contacts.is_empty());
         let last = x.clone();
         x.iter_mut().for_each(|p| *p += Vec3::new(0.004, -0.008, 0.0));
         near.foresee(&last, &x);
-        near.follow(&mut all, &x);
+        near.follow(&x, &origin);
         assert!(near.contacts[0].gap(&x) > 0.0, "{:?}", near.contacts[0]);
         assert_eq!(near.apart().len(), 1);
     }
 
     #[test]
     fn what_is_in_the_body_need_not_be_kept_apart() {
-        let (x, mut all) = over_floor(-0.002);
-        let mut near = Near::new(1, GAP);
-        near.begin(&mut all, &x);
+        let (_, near) = over_floor(-0.002);
         assert_eq!((near.contacts.len(), near.apart().len()), (1, 0));
     }
 }

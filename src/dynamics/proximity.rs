@@ -118,8 +118,10 @@ impl<'a> Proximity<'a> {
         let mut time = self.time;
         let all = self.is_all();
         let reach = if all { self.reach } else { self.searched.unwrap_or(self.reach) };
-        let mut stale = self.stale(x, &reach, all);
-        timed(&mut time.cloth, || self.detector.look(x, reach.cloth, &mut stale.node));
+        let mut node = self.bounds.stale(x, MOVED * reach.features);
+        node.iter_mut().for_each(|stale| *stale |= all);
+        timed(&mut time.cloth, || self.detector.look(x, reach.cloth, &mut node));
+        let stale = self.stale(x, &reach, node);
         let mut sources = timed(&mut time.body, || self.body_contacts(x, &reach, &stale.turned));
         timed(&mut time.features, || self.face_contacts(cloth, x, &reach, &stale, &mut sources));
         let found = timed(&mut time.cloth, || self.detector.detect_at(x, reach.cloth, &stale.node));
@@ -189,15 +191,12 @@ impl<'a> Proximity<'a> {
 
     /// Whether the next look searches all of the cloth.
     fn is_all(&self) -> bool {
-        let other = |searched: Reach| {
-            self.reach.cloth > searched.cloth || self.reach.cloth < NARROWER * searched.cloth
-        };
+        let other = |searched: Reach| self.reach.cloth > searched.cloth || self.reach.cloth < NARROWER * searched.cloth;
         self.searched.is_none_or(other)
     }
 
-    fn stale(&mut self, x: &[Vec3], reach: &Reach, all: bool) -> Stale {
-        let mut node = self.bounds.stale(x, MOVED * reach.features);
-        node.iter_mut().for_each(|stale| *stale |= all);
+    /// Those nodes, and at which others something may have turned.
+    fn stale(&mut self, x: &[Vec3], reach: &Reach, node: Vec<bool>) -> Stale {
         let far = TURNED * reach.features;
         let turned = node.iter().zip(x).zip(&mut self.turned).map(|((stale, x), at)| {
             let turned = *stale || (x - *at).norm_squared() > far * far;
@@ -214,8 +213,7 @@ impl<'a> Proximity<'a> {
     /// than its features were looked for at all that they are corners of.
     fn restart(&mut self, cloth: &Cloth, x: &[Vec3], reach: &Reach, stale: &[bool]) {
         let free = Bounds::allowance(reach.cloth);
-        let beside_body =
-            if reach.is_short() { free.min(Bounds::allowance_beside_body(reach.features)) } else { free };
+        let beside_body = if reach.is_short() { free.min(Bounds::allowance_beside_body(reach.features)) } else { free };
         let mut longest = vec![0.0f64; x.len()];
         for [a, b] in cloth.edges.iter().map(|e| e.map(|n| n as usize)) {
             let length = (x[a] - x[b]).norm();
@@ -295,7 +293,8 @@ impl<'a> Proximity<'a> {
     fn is_searched(&self, cloth: &Cloth, x: &[Vec3], stale: &Stale) -> Vec<bool> {
         let any = |nodes: &[u32], of: &[bool]| nodes.iter().any(|&n| of[n as usize]);
         let again = |(nodes, hidden): (&[u32], &bool)| any(nodes, &stale.node) || *hidden && any(nodes, &stale.turned);
-        let elements = cloth.triangles.iter().map(<[u32; 3]>::as_slice).chain(cloth.edges.iter().map(<[u32; 2]>::as_slice));
+        let elements =
+            cloth.triangles.iter().map(<[u32; 3]>::as_slice).chain(cloth.edges.iter().map(<[u32; 2]>::as_slice));
         let mut out: Vec<bool> = elements.zip(&self.hidden).map(again).collect();
         self.near.under(x).for_each(|k| out[k as usize] = true);
         out
@@ -331,8 +330,8 @@ impl<'a> Proximity<'a> {
 }
 
 /// Of what was `known` at the triangle or edge `element`, what was not `found` again and is still apart, nearer than
-/// `reach`. Which of two features hides the other may depend on the last micrometre: one that was left out as soon as it
-/// had pushed the cloth a little off, and found again without it, never let it rest.
+/// `reach`. Which of two features hides the other may depend on the last micrometre: one that was left out as soon as
+/// it had pushed the cloth a little off, and found again without it, never let it rest.
 fn kept(known: &[(u32, Contact)], element: u32, found: &[Contact], x: &[Vec3], reach: f64) -> Vec<Contact> {
     let again = |c: &Contact| found.iter().any(|f| f.under.number() == c.under.number());
     let apart = |c: &Contact| (0.0..reach).contains(&c.gap(x));

@@ -19,8 +19,9 @@ const LONGEST_REACH: f64 = 8.8e-3;
 /// Cloth is looked at at least this far around, beyond its thickness, metres.
 pub(crate) const NEAREST_LOOK: f64 = 2e-3;
 /// The measured springs pull the cloth true after the last tangle is gone: at most so many steps, until no node goes
-/// further than so many metres in one.
-const SETTLE: usize = 40;
+/// further than so many metres in one. Cloth that is cut off on its way may pass through itself where it is carried to
+/// finer particles.
+const SETTLE: usize = 100;
 const STILL: f64 = 0.2e-3;
 /// The most a step changes an edge, metres: half a cell at the usual spacing.
 pub(super) const TRUST: f64 = 5e-3;
