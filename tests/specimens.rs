@@ -159,9 +159,9 @@ fn the_drape_coefficient_is_the_mean_of_lays_that_differ() {
     let lays: Vec<f64> = series.draped.iter().map(|d| d.coefficient).collect();
     assert_eq!(lays.len(), LAYS.len());
     let hangs = |k: usize| &series.draped[k].cloth.vertices;
-    for k in 0..LAYS.len() {
+    for (k, lay) in LAYS.iter().enumerate() {
         assert!((0..k).all(|other| hangs(k) != hangs(other)), "two lays come to rest in the same place");
-        let alone = drape(&poplin, 0.01, &LAYS[k]).expect("at rest");
+        let alone = drape(&poplin, 0.01, lay).expect("at rest");
         assert_eq!(hangs(k), &alone.cloth.vertices, "beside others a lay hangs as it does alone");
     }
     let (least, most) = lays.iter().fold((f64::MAX, 0.0f64), |(low, high), &c| (low.min(c), high.max(c)));

@@ -63,8 +63,8 @@ impl NamedEdge {
         self.parts.iter().filter_map(clip).collect()
     }
 
-    /// A range of it as written, in metres from its start; `None` where it leaves the edge. Ends that miss the edge's own
-    /// by a rounding are those.
+    /// A range of it as written, in metres from its start; `None` where it leaves the edge. Ends that miss the edge's
+    /// own by a rounding are those.
     pub(super) fn range(&self, range: [Quantity; 2], unit: Unit) -> Option<[f64; 2]> {
         let [from, to] = range.map(|q| position(q, self.length, unit));
         let inside = from >= -SNAP && to <= self.length + SNAP;
