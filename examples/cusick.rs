@@ -1,12 +1,12 @@
-//! The drape test (Cusick 1968) of the fifteen fabrics of Liu, Wang & Luo 2015: coefficient and folds of a disc of 30
-//! cm in two grids, beside the band measured of such cloths, and what the published weights alone would give.
+//! The drape test (Cusick 1968) of the fifteen fabrics of Liu, Wang & Luo 2015: mean coefficient and folds of six lays
+//! of a disc of 30 cm in two grids, beside the band measured of such cloths, and what one lay would have by the
+//! published weights alone.
 //!
 //! `cargo run --release --example cusick [FOLDER]` prints the table, with the disc's own curve of coefficient over
-//! bending length below and two fabrics laid down eight times, and draws `FABRIC.png`, the shadows, and `curve.svg`,
-//! that curve through the bands. It takes minutes: the finer grid has 11,000 particles.
+//! bending length below (one lay for each length), and draws `FABRIC.png`, the shadow of the lay nearest to the mean,
+//! and `curve.svg`, that curve through the bands. It takes an hour: the finer grid has 11,000 particles.
 
 use std::error::Error;
-use std::f64::consts::TAU;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -17,13 +17,10 @@ use svg::node::element::{Circle, Line, Path, Text};
 use toile::fabric::{Fabric, library, load, sheet};
 use toile::io::files::write_all;
 use toile::picture::draw_shadow;
-use toile::specimen::{Draped, Sample, SpecimenError, drape};
+use toile::specimen::{Draped, LAYS, Sample, Series, SpecimenError, drape};
 
 /// Grid spacings, metres.
 const SPACINGS: [f64; 2] = [0.005, 0.0025];
-/// Fabrics that are laid down again and again, those whose number of folds changes most with the grid, and how often.
-const AGAIN: [&str; 2] = ["linen", "polyester"];
-const LAYS: u32 = 8;
 /// Bending lengths of the curve, metres: the first, the last, their step.
 const LENGTHS: [f64; 3] = [0.008, 0.034, 0.002];
 /// Size of the drawing of the curve, mm, and mm for a millimetre of bending length and a per cent.
@@ -32,8 +29,13 @@ const SCALE: [f64; 2] = [5.0, 1.2];
 const ORIGIN: [f64; 2] = [20.0, 130.0];
 const GRAVITY: f64 = toile::dynamics::GRAVITY;
 
-fn coefficient(fabric: Fabric, spacing: f64) -> Result<Draped, SpecimenError> {
-    drape(&Sample { fabric: Arc::new(fabric), drape: None, published: None }, spacing, 0.0)
+fn sample(fabric: Fabric) -> Sample {
+    Sample { fabric: Arc::new(fabric), drape: None, published: None }
+}
+
+/// Coefficient of one lay in the coarser grid.
+fn coefficient(fabric: Fabric) -> Result<f64, SpecimenError> {
+    Ok(drape(&sample(fabric), SPACINGS[0], &LAYS[0])?.coefficient)
 }
 
 /// A fabric's place in the table and in the drawing.
@@ -41,28 +43,29 @@ struct Row {
     name: &'static str,
     text: String,
     length: f64,
-    draped: Draped,
+    series: Series,
     band: Option<[f64; 2]>,
+}
+
+/// Mean and standard deviation, per cent, and folds in brackets.
+fn shown(series: &Series) -> String {
+    format!("{:5.1} ± {:.1} ({})", 100.0 * series.mean(), 100.0 * series.deviation(), series.folds())
 }
 
 fn row(name: &'static str) -> Result<Row, Box<dyn Error + Send + Sync>> {
     let (fabric, sheet) = (load(name)?, sheet(name)?);
     let length = fabric.bending_length_mean();
-    let coarse = coefficient(fabric.clone(), SPACINGS[0])?;
-    let fine = coefficient(fabric.clone(), SPACINGS[1])?;
+    let [coarse, fine] = SPACINGS.map(|spacing| Series::drape(&sample(fabric.clone()), spacing));
+    let (coarse, fine) = (coarse?, fine?);
     let by_weights = match &sheet.liu {
         Some(liu) => {
             let rigidity = liu.bending_length().powi(3) * fabric.areal_density * GRAVITY;
             let fabric = Fabric { bend_warp: rigidity, bend_weft: rigidity, ..fabric };
-            format!(
-                "{:6.1} mm {:5.1} %",
-                1e3 * liu.bending_length(),
-                100.0 * coefficient(fabric, SPACINGS[0])?.coefficient
-            )
+            format!("{:6.1} mm {:5.1} %", 1e3 * liu.bending_length(), 100.0 * coefficient(fabric)?)
         }
         None => String::new(),
     };
-    let percent = 100.0 * fine.coefficient;
+    let percent = 100.0 * fine.mean();
     let band = sheet.drape_band().map_or_else(String::new, |[low, high]| {
         let place = if percent < low {
             "below"
@@ -74,14 +77,14 @@ fn row(name: &'static str) -> Result<Row, Box<dyn Error + Send + Sync>> {
         format!("{low:.0}-{high:.0} {place}")
     });
     let text = format!(
-        "{name:20} {:6.1} {:8.1} {:9.1} {:6} {:14} {by_weights}",
+        "{name:20} {:6.1} {:30} {:30} {:+5.1} {:14} {by_weights}",
         1e3 * length,
-        100.0 * coarse.coefficient,
-        percent,
-        fine.folds,
+        shown(&coarse),
+        shown(&fine),
+        100.0 * (fine.mean() - coarse.mean()),
         band
     );
-    Ok(Row { name, text, length, draped: fine, band: sheet.drape_band() })
+    Ok(Row { name, text, length, series: fine, band: sheet.drape_band() })
 }
 
 /// Coefficients of a cloth of poplin's weight by its bending length: \[metres, share\].
@@ -93,18 +96,9 @@ fn curve() -> Result<Vec<[f64; 2]>, Box<dyn Error + Send + Sync>> {
         let length = first + step * k as f64;
         let rigidity = length.powi(3) * poplin.areal_density * GRAVITY;
         let fabric = Fabric { bend_warp: rigidity, bend_weft: rigidity, ..poplin.clone() };
-        Ok([length, coefficient(fabric, SPACINGS[0])?.coefficient])
+        Ok([length, coefficient(fabric)?])
     };
     (0..=count).into_par_iter().map(point).collect()
-}
-
-/// Coefficients, and folds in brackets, of a fabric laid down again and again in the coarser grid.
-fn again(name: &str) -> Result<String, Box<dyn Error + Send + Sync>> {
-    let sample = Sample { fabric: Arc::new(load(name)?), drape: None, published: None };
-    let lay = |k: &u32| drape(&sample, SPACINGS[0], TAU * f64::from(*k) / f64::from(LAYS));
-    let lays: Result<Vec<Draped>, SpecimenError> = (0..LAYS).collect::<Vec<_>>().par_iter().map(lay).collect();
-    let words: Vec<String> = lays?.iter().map(|d| format!("{:.1} ({})", 100.0 * d.coefficient, d.folds)).collect();
-    Ok(format!("{name:20} {}", words.join(", ")))
 }
 
 /// The curve, the bands as bars and what was found as dots.
@@ -149,7 +143,7 @@ fn drawing(curve: &[[f64; 2]], rows: &[Row]) -> String {
         sheet = sheet.add(name.set("transform", format!("rotate(-90 {} {y})", x + 0.8)));
     }
     for row in rows {
-        let (x, y) = at(row.length, row.draped.coefficient);
+        let (x, y) = at(row.length, row.series.mean());
         sheet = sheet.add(Circle::new().set("cx", x).set("cy", y).set("r", 0.9));
     }
     sheet
@@ -159,7 +153,10 @@ fn drawing(curve: &[[f64; 2]], rows: &[Row]) -> String {
 
 fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     let folder = std::env::args().nth(1).map(PathBuf::from);
-    println!("fabric               c, mm   in 5 mm in 2.5 mm  folds  band           by the published weights, in 5 mm");
+    println!(
+        "{:20} {:>6} {:30} {:30} {:5} {:14} by the published weights, in 5 mm",
+        "fabric", "c, mm", "in 5 mm: % (folds)", "in 2.5 mm", "apart", "band"
+    );
     let names: Vec<&str> = library().into_iter().take(15).collect();
     let mut rows = Vec::new();
     for (name, found) in names.iter().zip(names.par_iter().map(|name| row(name)).collect::<Vec<_>>()) {
@@ -176,15 +173,17 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     for [length, share] in &curve {
         println!("c = {:4.0} mm {:6.1} %", 1e3 * length, 100.0 * share);
     }
-    println!("\nlaid down again in 5 mm, an eighth of a turn on each time: % (folds)");
-    for name in AGAIN {
-        println!("{}", again(name)?);
-    }
     let Some(folder) = folder else { return Ok(()) };
     let mut files = vec![(folder.join("curve.svg"), drawing(&curve, &rows).into_bytes())];
-    for Row { name, draped, .. } in &rows {
-        let words = format!("{:.0} %, {} folds", 100.0 * draped.coefficient, draped.folds);
-        let picture = draw_shadow(&draped.shadow.dark, draped.shadow.width, name, &words)?;
+    for Row { name, series, .. } in &rows {
+        let Some(Draped { shadow, coefficient, folds, .. }) = series.typical() else { continue };
+        let words = format!(
+            "one lay: {:.0} %, {folds} folds; mean of {}: {:.0} %",
+            100.0 * coefficient,
+            LAYS.len(),
+            100.0 * series.mean()
+        );
+        let picture = draw_shadow(&shadow.dark, shadow.width, name, &words)?;
         files.push((folder.join(format!("{name}.png")), picture));
     }
     write_all(&files, &[])?;

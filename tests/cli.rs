@@ -981,6 +981,27 @@ fn what_cannot_be_meshed_is_blamed_on_its_line() {
     room.make("w.yaml", &[]).ends(2).says(&["w.yaml:7:3: error", "line 'b' and line 'a' cross"]);
 }
 
+/// The command line's unit before the garment file's; what is wrong is told in it.
+#[test]
+fn the_unit_of_a_body_is_what_its_user_says() {
+    let room = Room::new();
+    let open_in_inches = |b: &mut Mannequin| {
+        b.mesh.vertices.iter_mut().for_each(|p| *p /= 25.4);
+        b.mesh.triangles.truncate(b.mesh.triangles.len() - 1);
+    };
+    room.put("anna.obj", &body_obj(open_in_inches));
+    room.put("said.yaml", &skirt_with("body: woman_92\n", "body: anna.obj\nbody_units: in\n"));
+    let says = |garment: &str, more: &[&str], word: &str| {
+        room.make(garment, more).ends(2).says(&["anna.obj: the surface is open", word]);
+    };
+    says("skirt.yaml", &["--body", "anna.obj", "--body-units", "in"], ") in; close its holes");
+    says("skirt.yaml", &["--body", "anna.obj", "--body-units", "mm"], ") mm; close its holes");
+    says("said.yaml", &[], ") in; close its holes");
+    says("said.yaml", &["--body-units", "m"], ") m; close its holes");
+    room.make("skirt.yaml", &["--body-units", "cm"]).ends(2).says(&["woman_92", "only .obj files come without one"]);
+    room.make("said.yaml", &["--body-units", "ft"]).ends(2).says(&["mm", "cm", "in", "--body-units"]);
+}
+
 /// A hundred-and-fifty-metre body, a flat one, and a folder that is a file.
 #[test]
 fn sizes_and_places_that_make_no_sense() {

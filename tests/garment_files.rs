@@ -396,6 +396,33 @@ fn what_is_wrong_with_a_seam_is_named_with_its_place() {
     says(&fold, 21, "b.L.left", "b.L.left lies on the fold");
 }
 
+/// An edge that is sewn in part: what the message calls neither sewn nor free can be listed as it is called.
+#[test]
+fn a_part_of_an_edge_can_be_listed_free() {
+    let seam = |sewn: &str| squares("{sew: a.right, to: b.left}", &format!("{{sew: a.right, to: {sewn}, gather: 2}}"));
+    let free = |text: &str, listed: &str| text.replacen("free: [", &format!("free: [{listed}, "), 1);
+    let half = seam("b.left@0..50");
+    says(&half, 20, "side", "neither sewn nor free: b.left@50..100");
+    assert!(mistakes(&free(&half, "b.left@50..100")).is_empty());
+    assert!(mistakes(&free(&half, "b.left@50%..100%")).is_empty());
+    says(&free(&half, "b.left@60..100"), 20, "side", "neither sewn nor free: b.left@50..60");
+    says(&free(&half, "b.left@0..50"), 21, "b.left@0..50", "b.left@0..50 is listed free but sewn in 'side'");
+    let beyond = "'free' uses b.left@50..900 but the edge is 100.0 mm long";
+    says(&free(&half, "b.left@50..900"), 21, "b.left@50..900", beyond);
+    says(&free(&half, "b.lft@50..100"), 21, "b.lft@50..100", "edge 'b.lft' not found");
+    says(&free(&half, "b.left@50-100"), 21, "b.left@50-100", "names no edge");
+    // Ranges are those of the drawing, which the mirrored half of a piece on the fold is walked against.
+    let fold = seam("b.right.R@0..50").replacen("  b:\n", "  b:\n    cut: fold left\n", 1);
+    let fold = fold.replacen("b.right]", "b.right.L]", 1);
+    says(&fold, 21, "side", "neither sewn nor free: b.right.R@50..100");
+    assert!(mistakes(&free(&fold, "b.right.R@50..100")).is_empty());
+    // In the file's unit.
+    let cm =
+        half.replacen("garment: 1\n", "garment: 1\nunits: cm\n", 1).replace("100", "10").replacen("0..50", "0..5", 1);
+    says(&cm, 21, "side", "neither sewn nor free: b.left@5.00..10.00");
+    assert!(mistakes(&free(&cm, "b.left@5.00..10.00")).is_empty());
+}
+
 #[test]
 fn a_seam_before_the_one_it_hangs_by_is_warned_of() {
     let text = squares(

@@ -523,6 +523,60 @@ fn buttoned_fronts_start_one_over_the_other() {
     }
 }
 
+/// A piece starts outside the body, and all edges of its mesh together are within a tenth as long as they are cut.
+fn starts_as_it_is_cut(made: &Made, piece: usize, x: &[Vec3], body: &Collider) {
+    let piece = &made.mesh.pieces[piece];
+    for p in piece.particles.clone() {
+        assert!(body.nearest(x[p], 1.0).is_none_or(|n| n.distance > 0.0), "{:?} in the body", x[p]);
+    }
+    let (mut cut, mut starts) = (0.0, 0.0);
+    for t in &made.mesh.triangles[piece.triangles.clone()] {
+        for [a, b] in [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]].map(|edge| edge.map(|p| p as usize)) {
+            cut += (made.mesh.flat[a] - made.mesh.flat[b]).norm();
+            starts += (x[a] - x[b]).norm();
+        }
+    }
+    assert!((starts / cut - 1.0).abs() < 0.1, "{} starts {:.2} times as long as it is cut", piece.name, starts / cut);
+}
+
+/// A strap that only its ends hold, as an apron's round the neck, is no band that goes round by what is sewn of it.
+#[test]
+fn a_strap_sewn_at_its_ends_starts_once_round() {
+    let (body, collider) = woman();
+    let made = Made::new(
+        "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  bib:\n    place: torso front\n    \
+         grain: [[0, 50], [0, 250]]\n    outline: {start: -130 0, top: L 130 0, left: L 200 300, hem: L -200 300, \
+         right: L -130 0}\n  loop:\n    place: neck back\n    grain: [[20, 20], [600, 20]]\n    outline: {start: 0 0, \
+         upper: L 620 0, right: L 620 40, lower: L 0 40, left: L 0 0}\nseams:\n  \
+         right: {sew: loop.right, to: bib.top@0..40}\n  left: {sew: loop.left, to: bib.top@220..260}\n\
+         free: [bib.top, bib.left, bib.right, bib.hem, loop.upper, loop.lower]\n",
+        13.0,
+    );
+    let x = made.placed(&body);
+    assert_eq!(crossings(&TriMesh { vertices: x.clone(), triangles: made.mesh.triangles.clone() }).len(), 0);
+    starts_as_it_is_cut(&made, 1, &x, &collider);
+}
+
+/// Nor is a bib that stands on a waistband in front.
+#[test]
+fn a_bib_on_a_waistband_starts_as_wide_as_it_is() {
+    let (body, collider) = woman();
+    let made = Made::new(
+        "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  skirt:\n    place: torso front\n    \
+         grain: [[0, 50], [0, 250]]\n    outline: {start: -400 0, waist: L 400 0, left: L 400 400, hem: L -400 400, \
+         right: L -400 0}\n  bib:\n    place: torso front\n    grain: [[0, 50], [0, 250]]\n    \
+         outline: {start: -130 0, top: L 130 0, left: L 130 250, bottom: L -130 250, right: L -130 0}\nseams:\n  \
+         back: {sew: skirt.left, to: skirt.right}\n  bib: {sew: bib.bottom, to: skirt.waist@270..530}\n\
+         free: [skirt.waist, skirt.hem, bib.top, bib.left, bib.right]\n",
+        20.0,
+    );
+    let x = made.placed(&body);
+    assert_eq!(crossings(&TriMesh { vertices: x.clone(), triangles: made.mesh.triangles.clone() }).len(), 0);
+    let bib = made.mesh.pieces[1].particles.clone().map(|p| x[p]).collect::<Vec<_>>();
+    assert!(bib.iter().all(|p| p.z > 0.0), "it stands in front");
+    starts_as_it_is_cut(&made, 1, &x, &collider);
+}
+
 /// A skirt with two godets in its front, one by one seam that turns at its point, one by a seam on either side; half of
 /// either is `half` wide at the hem, in millimetres, and its sides are 273.1 long as those of the slits are.
 fn godets(half: f64) -> Made {

@@ -3,7 +3,7 @@
 use std::sync::{Arc, LazyLock};
 
 use toile::fabric::{library, load, sheet};
-use toile::specimen::{Figure, Known, Sample, TESTS, cantilever_error, drape};
+use toile::specimen::{Figure, Known, LAYS, Lay, Sample, Series, TESTS, cantilever_error, drape};
 
 static POPLIN: LazyLock<Sample> = LazyLock::new(|| Sample {
     fabric: Arc::new(load("cotton_poplin").expect("shipped")),
@@ -135,7 +135,8 @@ fn a_rolled_sheet_shows_no_direction_of_the_grid() {
 fn a_disc_laid_down_half_a_turn_on_drapes_the_same() {
     // Cloth and grid look the same from both sides; only where the first folds come is elsewhere.
     let linen = sample("linen");
-    let [a, b] = [0.0, std::f64::consts::PI].map(|turn| drape(&linen, 0.005, turn).expect("at rest"));
+    let [a, b] =
+        [0.0, std::f64::consts::PI].map(|turn| drape(&linen, 0.005, &Lay { turn, over: false }).expect("at rest"));
     assert_eq!(a.folds, b.folds);
     assert!((a.coefficient - b.coefficient).abs() < 2e-3, "{} {}", a.coefficient, b.coefficient);
 }
@@ -143,13 +144,33 @@ fn a_disc_laid_down_half_a_turn_on_drapes_the_same() {
 #[test]
 fn a_disc_drapes_in_folds_and_knows_its_band() {
     let found = figures("drape");
-    assert!(found.iter().any(|f| f.known == Known::Band([60.0, 83.0])));
-    for f in found {
-        match f.unit {
-            "%" => assert!((20.0..100.0).contains(&f.measured), "{} %", f.measured),
-            _ => assert!((3.0..=12.0).contains(&f.measured), "{} folds", f.measured),
-        }
+    let [coefficient, deviation, folds] = &found[..] else { panic!("{found:?}") };
+    assert_eq!(coefficient.known, Known::Band([60.0, 83.0]));
+    assert!((20.0..100.0).contains(&coefficient.measured), "{coefficient:?}");
+    assert!((0.0..3.0).contains(&deviation.measured), "{deviation:?}");
+    assert!((3.0..=12.0).contains(&folds.measured), "{folds:?}");
+}
+
+/// Each is a cloth laid down otherwise, and the mean is theirs.
+#[test]
+fn the_drape_coefficient_is_the_mean_of_lays_that_differ() {
+    let poplin = sample("cotton_poplin");
+    let series = Series::drape(&poplin, 0.01).expect("at rest");
+    let lays: Vec<f64> = series.draped.iter().map(|d| d.coefficient).collect();
+    assert_eq!(lays.len(), LAYS.len());
+    let hangs = |k: usize| &series.draped[k].cloth.vertices;
+    for (k, lay) in LAYS.iter().enumerate() {
+        assert!((0..k).all(|other| hangs(k) != hangs(other)), "two lays come to rest in the same place");
+        let alone = drape(&poplin, 0.01, lay).expect("at rest");
+        assert_eq!(hangs(k), &alone.cloth.vertices, "beside others a lay hangs as it does alone");
     }
+    let (least, most) = lays.iter().fold((f64::MAX, 0.0f64), |(low, high), &c| (low.min(c), high.max(c)));
+    assert!(least < series.mean() && series.mean() < most, "{lays:?}");
+    // The standard deviation lies between half the range over √(n − 1) and the whole.
+    let range = most - least;
+    assert!(range / (2.0 * (lays.len() as f64 - 1.0).sqrt()) < series.deviation() && series.deviation() < range);
+    let typical = series.typical().expect("a lay").coefficient;
+    assert!(lays.iter().all(|c| (c - series.mean()).abs() >= (typical - series.mean()).abs()), "{lays:?}");
 }
 
 /// By hand, as in the paper: soft silk gives more on the bias than canvas and folds lower;

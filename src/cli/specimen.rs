@@ -12,7 +12,7 @@ use crate::fabric::{load, sheet};
 use crate::io::files::{check_writable, write_all};
 use crate::picture::draw_shadow;
 use crate::report::aligned;
-use crate::specimen::{Figure, Known, Sample, Shadow, TESTS, Test};
+use crate::specimen::{Draped, Figure, Known, Sample, TESTS, Test};
 
 /// `toile fabric test …`; out of bounds when a figure with a known value is further off than it may be or a test
 /// gives none.
@@ -32,18 +32,18 @@ pub(super) fn test(name: &str, only: &[String], output: Option<&Path>, console: 
     }
     // No test waits for another, and one that fails takes none with it.
     let outcomes: Vec<_> = tests.par_iter().map(|t| t.run(&sample)).collect();
-    let (mut figures, mut shadow, mut failed) = (Vec::new(), None, Vec::new());
+    let (mut figures, mut draped, mut failed) = (Vec::new(), None, Vec::new());
     for (test, outcome) in tests.iter().zip(outcomes) {
         match outcome {
             Ok(outcome) => {
                 figures.extend(outcome.figures);
-                shadow = outcome.shadow.or(shadow);
+                draped = outcome.draped.or(draped);
             }
             Err(error) => failed.push((test.name, error.to_string())),
         }
     }
-    if let (Some(output), Some(shadow)) = (output, shadow) {
-        write_all(&[(output.to_owned(), picture(&sample, &figures, &shadow)?)], &[])?;
+    if let (Some(output), Some(draped)) = (output, draped) {
+        write_all(&[(output.to_owned(), picture(&sample, &draped)?)], &[])?;
     }
     let value = json!({
         "fabric": sample.fabric.name,
@@ -57,13 +57,9 @@ pub(super) fn test(name: &str, only: &[String], output: Option<&Path>, console: 
     Ok(if holds { Exit::Done } else { Exit::OutOfBounds })
 }
 
-fn picture(sample: &Sample, figures: &[Figure], shadow: &Shadow) -> Result<Vec<u8>, CliError> {
-    let last = |what: &str| figures.iter().rev().find(|f| f.test == "drape" && f.what.ends_with(what));
-    let words = match (last("coefficient"), last("folds")) {
-        (Some(c), Some(f)) => format!("drape coefficient {:.0} %, {} folds", c.measured, f.measured),
-        _ => String::new(),
-    };
-    Ok(draw_shadow(&shadow.dark, shadow.width, &sample.fabric.name, &words)?)
+fn picture(sample: &Sample, draped: &Draped) -> Result<Vec<u8>, CliError> {
+    let words = format!("one lay: drape coefficient {:.0} %, {} folds", 100.0 * draped.coefficient, draped.folds);
+    Ok(draw_shadow(&draped.shadow.dark, draped.shadow.width, &sample.fabric.name, &words)?)
 }
 
 fn figure_value(f: &Figure) -> Value {

@@ -1,11 +1,11 @@
 //! Every stretch of rim is sewn once, or said to be free.
 
-use super::cut::Pieces;
+use super::cut::{Instance, Pieces};
 use super::diagnostic::{Findings, Located};
-use super::draft::Draft;
-use super::file::{ClosureFile, Cut, GarmentFile};
+use super::draft::{Draft, NamedEdge, Stretch};
+use super::file::{ClosureFile, Cut, GarmentFile, Unit};
 use super::problem::Problem;
-use super::reference::piece_of;
+use super::reference::{parse_range, piece_of};
 use super::rim::{SLIVER, edge_ids, gaps};
 use super::seam::Seams;
 use super::spelling::glob;
@@ -21,8 +21,9 @@ struct Taken {
 
 /// Checks that no stretch is sewn twice, and none forgotten.
 pub(super) fn check(file: &GarmentFile, drafts: &[Draft], cut: &Pieces, seams: &Seams, findings: &mut Findings) {
-    let names = EdgeNames { drafts, cut };
-    let mut lists = Lists { free: names.free(file, findings), forgotten: Vec::new(), forgotten_parts: Vec::new() };
+    let names = EdgeNames { drafts, cut, unit: file.unit() };
+    let mut lists =
+        Lists { free: names.free(file, findings), names: &names, forgotten: Vec::new(), forgotten_parts: Vec::new() };
     for edge in edge_ids(&cut.pieces) {
         let taken = taken(edge, seams);
         sewn_twice(file, cut, seams, edge, &taken, findings);
@@ -79,55 +80,86 @@ fn sewn_twice(file: &GarmentFile, cut: &Pieces, seams: &Seams, edge: EdgeId, tak
     }
 }
 
-struct Lists {
-    /// Edges the file lists as free.
-    free: Vec<EdgeId>,
+struct Lists<'a> {
+    /// What the file lists as free.
+    free: Vec<Span>,
+    names: &'a EdgeNames<'a>,
     /// Edges neither sewn nor free.
     forgotten: Vec<EdgeId>,
     /// Ranges of edges of which the rest is sewn.
     forgotten_parts: Vec<String>,
 }
 
-impl Lists {
+impl Lists<'_> {
     fn look_at(&mut self, edge: EdgeId, taken: &[Taken], cut: &Pieces, seams: &Seams) {
-        if self.free.contains(&edge) {
-            return;
-        }
-        let opened = seams.open.iter().filter(|s| s.edge == edge).map(Span::sorted);
-        let length = cut.pieces[edge.piece].loops[edge.ring][edge.index].path.length();
-        let covered = taken.iter().map(|t| (t.from, t.to)).chain(opened).collect();
+        let said = seams.open.iter().chain(&self.free).filter(|s| s.edge == edge).map(Span::sorted);
+        let length = length(cut, edge);
+        let covered = taken.iter().map(|t| (t.from, t.to)).chain(said).collect();
         for (from, to) in gaps(covered, length) {
             if to - from > length - SLIVER {
                 self.forgotten.push(edge);
             } else {
-                let name = edge_name(&cut.pieces, edge);
-                self.forgotten_parts.push(format!("{name}@{:.0}..{:.0}", from * 1e3, to * 1e3));
+                self.forgotten_parts.extend(self.names.ranges(Span { edge, from, to }));
             }
         }
     }
+}
+
+fn length(cut: &Pieces, edge: EdgeId) -> f64 {
+    cut.pieces[edge.piece].loops[edge.ring][edge.index].path.length()
 }
 
 struct EdgeNames<'a> {
     drafts: &'a [Draft],
     cut: &'a Pieces,
+    unit: Unit,
 }
 
 impl EdgeNames<'_> {
-    /// The edges that `free` lists.
-    fn free(&self, file: &GarmentFile, findings: &mut Findings) -> Vec<EdgeId> {
+    /// The stretches of cut edges that `free` lists.
+    fn free(&self, file: &GarmentFile, findings: &mut Findings) -> Vec<Span> {
         let mut free = Vec::new();
         for pattern in &file.free {
-            let found = self.matching(&pattern.value);
-            if found.is_empty() {
-                findings.error(pattern.at, self.nothing(&pattern.value));
+            match self.listed(&pattern.value) {
+                Ok(spans) => free.extend(spans),
+                Err(problem) => findings.error(pattern.at, problem),
             }
-            free.extend(found);
         }
         free
     }
 
-    /// The cut edges whose name, with or without a side, matches.
-    fn matching(&self, pattern: &str) -> Vec<EdgeId> {
+    /// What `front.hem`, `*.hem` or `front.hem@0..50` lists, never nothing.
+    fn listed(&self, pattern: &str) -> Result<Vec<Span>, Problem> {
+        let (name, range) = match pattern.split_once('@') {
+            Some((name, range)) => {
+                (name.trim_end(), Some(parse_range(range, || Problem::BadReference(pattern.into()))?))
+            }
+            None => (pattern, None),
+        };
+        let mut spans = Vec::new();
+        for (instance, named) in self.matching(name) {
+            let Some(range) = range else {
+                let whole = |edge: EdgeId| Span { edge, from: 0.0, to: length(self.cut, edge) };
+                spans.extend(named.parts.iter().filter_map(|p| instance.edge(p.edge)).map(whole));
+                continue;
+            };
+            let [from, to] = named.range(range, self.unit).ok_or_else(|| Problem::RangeBeyond {
+                user: "'free'".to_owned(),
+                reference: pattern.to_owned(),
+                length: named.length * 1e3,
+            })?;
+            let stretches = named.stretches(from, to);
+            if stretches.is_empty() {
+                return Err(Problem::RangeEmpty(pattern.to_owned()));
+            }
+            let draft = &self.drafts[instance.draft];
+            spans.extend(stretches.into_iter().filter_map(|s| instance.span(draft, s)));
+        }
+        if spans.is_empty() { Err(self.nothing(name)) } else { Ok(spans) }
+    }
+
+    /// The edges as cut whose name, with or without a side, matches.
+    fn matching(&self, pattern: &str) -> Vec<(&Instance, &NamedEdge)> {
         let mut found = Vec::new();
         for instance in &self.cut.instances {
             let draft = &self.drafts[instance.draft];
@@ -140,11 +172,44 @@ impl EdgeNames<'_> {
                 let plain = format!("{}.{}", draft.name, named.name);
                 let sided = [format!("{}.{side}.{}", draft.name, named.name), format!("{plain}.{side}")];
                 if glob(pattern, &plain) || (!side.is_empty() && sided.iter().any(|name| glob(pattern, name))) {
-                    found.extend(named.parts.iter().filter_map(|p| instance.edge(p.edge)));
+                    found.push((instance, named));
                 }
             }
         }
         found
+    }
+
+    /// A stretch of a cut edge as `free` may list it, in the file's unit: `back.waist.R@50..100`, for each part that it
+    /// is drawn in.
+    fn ranges(&self, span: Span) -> Vec<String> {
+        let mut names = Vec::new();
+        for instance in self.cut.instances.iter().filter(|i| i.piece == span.edge.piece) {
+            let draft = &self.drafts[instance.draft];
+            let side = match (&draft.cut, instance.side) {
+                (Cut::Fold(_), Some(side)) => format!(".{}", side.letter()),
+                _ => String::new(),
+            };
+            for named in &draft.named {
+                for part in named.parts.iter().filter(|p| instance.edge(p.edge) == Some(span.edge)) {
+                    let ends = Stretch { edge: part.edge, from: span.from, to: span.to };
+                    let Some(drawn) = instance.span(draft, ends) else { continue };
+                    let (from, to) = drawn.sorted();
+                    let (from, to) = ((from + part.offset).max(part.from), (to + part.offset).min(part.to));
+                    if to - from > SLIVER {
+                        let [from, to] = [from, to].map(|at| self.written(at));
+                        let piece = &self.cut.pieces[instance.piece].name;
+                        names.push(format!("{piece}.{}{side}@{from}..{to}", named.name));
+                    }
+                }
+            }
+        }
+        names
+    }
+
+    /// A position, to a millimetre, in the file's unit.
+    fn written(&self, at: f64) -> String {
+        let digits = if self.unit == Unit::Millimetre { 0 } else { 2 };
+        format!("{:.digits$}", at / self.unit.factor())
     }
 
     fn nothing(&self, pattern: &str) -> Problem {
@@ -167,7 +232,7 @@ impl EdgeNames<'_> {
     }
 }
 
-/// Edges listed free by name, no glob, that a seam takes whole: the list says something else than the seams.
+/// Edges and ranges listed free by name, no glob, that seams take whole: the list says something else than the seams.
 pub(super) fn check_free_but_sewn(
     file: &GarmentFile,
     drafts: &[Draft],
@@ -175,16 +240,16 @@ pub(super) fn check_free_but_sewn(
     seams: &Seams,
     findings: &mut Findings,
 ) {
-    let names = EdgeNames { drafts, cut };
+    let names = EdgeNames { drafts, cut, unit: file.unit() };
     for pattern in file.free.iter().filter(|p| !p.value.contains('*')) {
-        let edges = names.matching(&pattern.value);
-        let whole = |edge: &EdgeId| {
-            let covered = taken(*edge, seams).iter().map(|t| (t.from, t.to)).collect();
-            gaps(covered, cut.pieces[edge.piece].loops[edge.ring][edge.index].path.length()).is_empty()
+        let Ok(spans) = names.listed(&pattern.value) else { continue };
+        let sewn = |span: &Span| {
+            let (from, to) = span.sorted();
+            let covered = taken(span.edge, seams).iter().map(|t| (t.from, t.to)).collect();
+            gaps(covered, length(cut, span.edge)).iter().all(|gap| gap.1.min(to) - gap.0.max(from) <= SLIVER)
         };
-        if !edges.is_empty()
-            && edges.iter().all(whole)
-            && let Some(first) = taken(edges[0], seams).first()
+        if spans.iter().all(sewn)
+            && let Some(first) = taken(spans[0].edge, seams).first()
         {
             let seam = seams.seams[first.seam].name.clone();
             findings.warn(pattern.at, Problem::FreeButSewn { edge: pattern.value.clone(), seam });

@@ -6,7 +6,7 @@ use std::collections::HashSet;
 use super::crossing::{contains, first_crossing};
 use super::dart;
 use super::diagnostic::{Findings, Located, Spot};
-use super::file::{AllowanceFile, Cut, OutlineFile, PieceFile, PlaceFile, Side, Unit};
+use super::file::{AllowanceFile, Cut, OutlineFile, PieceFile, PlaceFile, Quantity, Side, Unit};
 use super::line;
 use super::outline::{CLOSURE, ended_at, outline, whole_path};
 use super::pleat;
@@ -18,6 +18,9 @@ use crate::input::nearest;
 
 /// A hole that encloses less (square metres) is a line or a point drawn as one.
 const SMALLEST_HOLE: f64 = 1e-6;
+
+/// A range that misses the end of its edge by this much (metres) reaches it: rounding of the file's numbers.
+const SNAP: f64 = 5e-4;
 
 /// A stretch of a drawn edge: `(ring, index)`, walked from `from` to `to`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +61,14 @@ impl NamedEdge {
             (b > a).then_some(Stretch { edge: p.edge, from: a - p.offset, to: b - p.offset })
         };
         self.parts.iter().filter_map(clip).collect()
+    }
+
+    /// A range of it as written, in metres from its start; `None` where it leaves the edge. Ends that miss the edge's
+    /// own by a rounding are those.
+    pub(super) fn range(&self, range: [Quantity; 2], unit: Unit) -> Option<[f64; 2]> {
+        let [from, to] = range.map(|q| position(q, self.length, unit));
+        let inside = from >= -SNAP && to <= self.length + SNAP;
+        inside.then_some([if from < SNAP { 0.0 } else { from }, if to > self.length - SNAP { self.length } else { to }])
     }
 }
 
@@ -309,7 +320,7 @@ fn notches(drawn: &mut Draft, piece: &PieceFile, unit: Unit, findings: &mut Find
 }
 
 /// A distance along an edge of this length: percent counts of the whole edge.
-pub(super) fn position(q: super::file::Quantity, length: f64, unit: Unit) -> f64 {
+pub(super) fn position(q: Quantity, length: f64, unit: Unit) -> f64 {
     if q.is_percent() { q.value(unit) * length } else { q.value(unit) }
 }
 

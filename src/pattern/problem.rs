@@ -181,8 +181,8 @@ pub enum Problem {
     // Seams.
     #[error("range {0} runs backwards")]
     BackwardsRange(String),
-    #[error("seam '{seam}' uses {reference} but the edge is {length:.1} mm long")]
-    RangeBeyond { seam: String, reference: String, length: f64 },
+    #[error("{user} uses {reference} but the edge is {length:.1} mm long")]
+    RangeBeyond { user: String, reference: String, length: f64 },
     #[error("range of {0} is empty: the cloth there is taken up by a dart or pleat")]
     RangeEmpty(String),
     #[error("seam '{seam}': {reference} lies on the fold, where the cloth goes on; there is nothing to sew")]

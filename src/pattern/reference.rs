@@ -83,7 +83,11 @@ impl Reference {
     }
 }
 
-fn parse_range(range: &str, bad: impl Fn() -> Problem) -> Result<[Quantity; 2], Problem> {
+/// Reads what stands behind the `@` of a reference.
+///
+/// # Errors
+/// What `bad` says where there are no two ends, and [`Problem::BackwardsRange`].
+pub(super) fn parse_range(range: &str, bad: impl Fn() -> Problem) -> Result<[Quantity; 2], Problem> {
     let (from, to) = range.split_once("..").ok_or_else(&bad)?;
     let ends = [parse_quantity(from)?, parse_quantity(to)?];
     let comparable = ends[0].unit == ends[1].unit;

@@ -7,14 +7,11 @@
 use super::Span;
 use super::cut::{Instance, Pieces};
 use super::diagnostic::Findings;
-use super::draft::{Draft, position};
+use super::draft::Draft;
 use super::file::{Cut, SeamFile, Side, Unit};
 use super::inherit::unknown_piece;
 use super::problem::Problem;
 use super::reference::Reference;
-
-/// A range that misses the end of its edge by this much (metres) reaches it: rounding of the file's numbers.
-const SNAP: f64 = 5e-4;
 
 /// The spans of one reference, in the direction of the outline.
 #[derive(Clone, Debug)]
@@ -102,17 +99,11 @@ impl Source<'_> {
         let edge = drawn.find(&reference.edge).ok_or_else(|| drawn.unknown_edge(&reference.edge))?;
         let (mut from, mut to) = (0.0, edge.length);
         if let Some(range) = reference.range {
-            let beyond = || Problem::RangeBeyond {
-                seam: seam.name.value.clone(),
+            [from, to] = edge.range(range, self.unit).ok_or_else(|| Problem::RangeBeyond {
+                user: format!("seam '{}'", seam.name.value),
                 reference: reference.text.clone(),
                 length: edge.length * 1e3,
-            };
-            [from, to] = range.map(|q| position(q, edge.length, self.unit));
-            if from < -SNAP || to > edge.length + SNAP {
-                return Err(beyond());
-            }
-            from = if from < SNAP { 0.0 } else { from };
-            to = if to > edge.length - SNAP { edge.length } else { to };
+            })?;
             if from >= to {
                 return Err(Problem::BackwardsRange(reference.text.clone()));
             }

@@ -18,7 +18,7 @@ mod theory;
 use std::sync::Arc;
 
 pub use bending::cantilever_error;
-pub use cusick::{Draped, Shadow, drape};
+pub use cusick::{Draped, LAYS, Lay, Series, Shadow, drape};
 
 use crate::dynamics::StepError;
 use crate::fabric::Fabric;
@@ -130,13 +130,13 @@ pub struct Test {
 pub struct Outcome {
     /// Its figures.
     pub figures: Vec<Figure>,
-    /// The draped disc's shadow, of the drape test.
-    pub shadow: Option<Shadow>,
+    /// The draped disc nearest to the mean of its lays, of the drape test.
+    pub draped: Option<Draped>,
 }
 
 impl From<Vec<Figure>> for Outcome {
     fn from(figures: Vec<Figure>) -> Self {
-        Self { figures, shadow: None }
+        Self { figures, draped: None }
     }
 }
 

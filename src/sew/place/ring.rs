@@ -17,6 +17,9 @@ use crate::mesh::ClothMesh;
 const CLEARANCE: f64 = 0.02;
 /// A fold's under layer starts this much nearer the body, and an overlap's end this much further out, metres.
 pub(super) const LAYER: f64 = 0.004;
+/// A piece that is sewn along more than this share of what it goes round is a band; along less, as a strap at its ends
+/// or a bib, it starts as long as it is.
+const BAND: f64 = 0.5;
 /// An armhole ends so far under the shoulder, metres; as the shipped T-shirt's does.
 const ARMHOLE: f64 = 0.2;
 
@@ -94,9 +97,11 @@ impl Ring<'_> {
         self.row.laps.iter().map(off).fold(0.0, f64::max)
     }
 
-    /// Whether the row is one piece that is sewn to others, and its ends not to each other.
+    /// Whether the row is one piece that is sewn to others along most of its way round, and its ends not to each other.
     fn overlaps(&self) -> bool {
-        self.row.members.len() == 1 && self.sewn_length() > 0.0 && !self.closed_on_itself()
+        let middle = self.anchor + 0.5 * (self.row.v[0] + self.row.v[1]);
+        let round = self.stations.at(middle).perimeter(2.0 * LAYER);
+        self.row.members.len() == 1 && self.sewn_length() > BAND * round && !self.closed_on_itself()
     }
 
     /// Whether a row of one piece is a closed ring: its own two upright sides are sewn to each other.
