@@ -66,8 +66,10 @@ impl Bounds {
     /// Nodes at which contacts have to be looked for again in a look at `x`: those that have gone a fifth of what
     /// they may, or `most` metres.
     pub fn stale(&self, x: &[Vec3], most: f64) -> Vec<bool> {
+        // Also those whose position is no number.
+        let stays = |way: f64, leash: f64| way <= most.min(STAYS * leash);
         let gone = x.iter().zip(&self.origin).zip(&self.leash);
-        gone.map(|((x, o), leash)| !((x - o).norm() <= most.min(STAYS * leash))).collect()
+        gone.map(|((x, o), leash)| !stays((x - o).norm(), *leash)).collect()
     }
 
     /// Whether a node has gone two thirds of what it may between two looks.

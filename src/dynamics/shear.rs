@@ -120,7 +120,7 @@ impl Shear {
     /// The tangent at `x`, out of the line of its gradient by the `load` (N·m per radian) given instead of its own.
     pub(super) fn tangent(&self, x: &[Vec3], load: Option<f64>) -> ShearTangent {
         let legs = Legs::new(self.legs(x));
-        let load = load.unwrap_or_else(|| self.stiffness * (legs.angle - self.rest));
+        let load = load.unwrap_or(self.stiffness * (legs.angle - self.rest));
         let (sin, cos) = legs.angle.sin_cos();
         let cos = cos.max(OPEN);
         ShearTangent {
