@@ -199,11 +199,9 @@ fn a_strap_over_a_cylinder_holds_e_to_the_mu_theta() {
     }
 }
 
-/// The most that the energies of contact differ, relatively, in thirty looks at a sheet on a cylinder of `radius`
-/// metres of which some nodes go far enough each time for what was found at them to be searched again, and the others
-/// by `little` metres: between a search that remembers what was found at those and one that knows nothing.
-fn error_of_remembering(radius: f64, little: f64) -> f64 {
-    let width = 0.06;
+#[test]
+fn a_search_that_remembers_finds_what_a_new_one_finds() {
+    let (radius, width) = (0.05, 0.06);
     let job = sheet(1e3 * width, 1e3 * width, 6.0, 0.3);
     let body = cylinder(radius);
     let r = radius + 0.5 * job.fabrics[0].thickness + 0.5 * LAW.body_clearance;
@@ -212,17 +210,14 @@ fn error_of_remembering(radius: f64, little: f64) -> f64 {
         Vec3::new(r * a.sin(), r * a.cos(), p.x - 0.5 * width)
     };
     let mut known = world(&job, &body, job.mesh.flat.iter().map(lie).collect());
-    let mut error = 0.0f64;
     for round in 1..=30 {
+        // Some nodes go far enough for what was found at them to be searched again, most do not;
+        // none gets into the body.
         for (i, x) in known.x.iter_mut().enumerate() {
             let k = (i * 37 + round * 101) as f64;
-            let far = if (i + round) % 9 == 0 { 4e-4 } else { little };
-            if far == 0.0 {
-                continue;
-            }
             let out = Vec3::new(x.x, x.y, 0.0).normalize();
+            let far = if (i + round) % 9 == 0 { 4e-4 } else { 5e-5 };
             *x += (Vec3::z() * k.sin() + out.cross(&Vec3::z()) * k.cos()) * far;
-            // None gets into the body.
             let out = Vec3::new(x.x, x.y, 0.0).normalize();
             *x = out * (r + 1e-4 * (3.0 * k).sin()) + Vec3::z() * x.z;
         }
@@ -231,25 +226,9 @@ fn error_of_remembering(radius: f64, little: f64) -> f64 {
             known.detect().expect("contacts");
         }
         let new = world(&job, &body, known.x.clone());
-        error = error.max((known.energy() / new.energy() - 1.0).abs());
+        let (found, expected) = (known.energy(), new.energy());
+        assert!((found / expected - 1.0).abs() < 1e-9, "round {round}: {found} J against {expected} J");
     }
-    error
-}
-
-#[test]
-fn a_search_that_remembers_finds_what_a_new_one_finds() {
-    let error = error_of_remembering(0.05, 0.0);
-    assert!(error < 1e-9, "{error:e}");
-}
-
-#[test]
-fn what_has_hardly_moved_is_off_by_what_the_body_bends_away() {
-    // A node is searched again before it has gone 0.2 mm along the plane that was found at it; a body of radius R bends
-    // away by the square of that over 2 R, from a gap of at least half the clearance.
-    let (radius, gone) = (0.05, 2e-4);
-    let gap = 0.5 * LAW.body_clearance - 1e-4;
-    let error = error_of_remembering(radius, 5e-5);
-    assert!(error < gone * gone / (2.0 * radius) / gap, "{error:e}");
 }
 
 #[test]

@@ -36,8 +36,6 @@ impl Reach {
 const BODY: f64 = 0.02;
 /// Where a node has gone this share of the reach for features, they are looked for again however far it may go.
 const MOVED: f64 = 0.15;
-/// Where it has gone this share of it, so is the nearest point of the body, and what others hid.
-const TURNED: f64 = 0.05;
 /// All are searched again where less than this share of the reach would do.
 const NARROWER: f64 = 0.6;
 
@@ -57,7 +55,8 @@ const ROUNDING: f64 = 1e-9;
 /// Contacts between cloth and body and within the cloth.
 ///
 /// A look searches only at the nodes that have gone some way since they were last searched at: near its rest a garment
-/// moves in one fold, and lies still everywhere else.
+/// moves in one fold, and lies still everywhere else. The nearest point of the body, and features that others hide, are
+/// looked for at every look: with those of a fifth of a millimetre ago cloth came to cross the body.
 pub(super) struct Proximity<'a> {
     /// What was found, and which of it matters.
     near: Near,
@@ -71,20 +70,10 @@ pub(super) struct Proximity<'a> {
     searched: Option<Reach>,
     /// Distance to the body when last measured, and where.
     body_distance: Vec<(f64, Vec3)>,
-    /// Where every node was when it was last looked at more closely than others.
-    turned: Vec<Vec3>,
     /// Of which triangles and then edges of the cloth features near them were left out.
     hidden: Vec<bool>,
     /// What all of it has cost.
     pub(super) time: ContactTime,
-}
-
-/// At which nodes a look searches.
-struct Stale {
-    /// For everything,
-    node: Vec<bool>,
-    /// for the nearest point of the body and for what others hid.
-    turned: Vec<bool>,
 }
 
 impl<'a> Proximity<'a> {
@@ -105,7 +94,6 @@ impl<'a> Proximity<'a> {
             reach,
             searched: None,
             body_distance: vec![(f64::NEG_INFINITY, Vec3::zeros()); x.len()],
-            turned: x.to_vec(),
             hidden: vec![false; cloth.triangles.len() + cloth.edges.len()],
             time: ContactTime::default(),
         };
@@ -118,16 +106,15 @@ impl<'a> Proximity<'a> {
         let mut time = self.time;
         let all = self.is_all();
         let reach = if all { self.reach } else { self.searched.unwrap_or(self.reach) };
-        let mut node = self.bounds.stale(x, MOVED * reach.features);
-        node.iter_mut().for_each(|stale| *stale |= all);
-        timed(&mut time.cloth, || self.detector.look(x, reach.cloth, &mut node));
-        let stale = self.stale(x, &reach, node);
-        let mut sources = timed(&mut time.body, || self.body_contacts(x, &reach, &stale.turned));
+        let mut stale = self.bounds.stale(x, MOVED * reach.features);
+        stale.iter_mut().for_each(|stale| *stale |= all);
+        timed(&mut time.cloth, || self.detector.look(x, reach.cloth, &mut stale));
+        let mut sources = timed(&mut time.body, || self.body_contacts(x, &reach));
         timed(&mut time.features, || self.face_contacts(cloth, x, &reach, &stale, &mut sources));
-        let found = timed(&mut time.cloth, || self.detector.detect_at(x, reach.cloth, &stale.node));
+        let found = timed(&mut time.cloth, || self.detector.detect_at(x, reach.cloth, &stale));
         timed(&mut time.follow, || {
             sources.extend(found.into_iter().map(|c| (c, None)));
-            self.restart(cloth, x, &reach, &stale.node);
+            self.restart(cloth, x, &reach, &stale);
             self.near.add(&sources, x, self.bounds.origin());
             self.near.follow(x, self.bounds.origin());
         });
@@ -195,20 +182,6 @@ impl<'a> Proximity<'a> {
         self.searched.is_none_or(other)
     }
 
-    /// Those nodes, and at which others something may have turned.
-    fn stale(&mut self, x: &[Vec3], reach: &Reach, node: Vec<bool>) -> Stale {
-        let far = TURNED * reach.features;
-        let turned = node.iter().zip(x).zip(&mut self.turned).map(|((stale, x), at)| {
-            let turned = *stale || (x - *at).norm_squared() > far * far;
-            if turned {
-                *at = *x;
-            }
-            turned
-        });
-        let turned = turned.collect();
-        Stale { node, turned }
-    }
-
     /// From now on the ways of nodes that were searched at are measured from `x`. Those near the body may go no further
     /// than its features were looked for at all that they are corners of.
     fn restart(&mut self, cloth: &Cloth, x: &[Vec3], reach: &Reach, stale: &[bool]) {
@@ -232,7 +205,7 @@ impl<'a> Proximity<'a> {
         distance - (x[i] - at).norm()
     }
 
-    fn body_contacts(&mut self, x: &[Vec3], reach: &Reach, stale: &[bool]) -> Vec<Source> {
+    fn body_contacts(&mut self, x: &[Vec3], reach: &Reach) -> Vec<Source> {
         let body = self.body;
         // A node whose last measured distance minus its way since cannot have come within reach is not asked for again;
         // that distance plus its way is as far as the surface can be now.
@@ -243,7 +216,7 @@ impl<'a> Proximity<'a> {
             .enumerate()
             .map(|(i, &(distance, at))| {
                 let way = (x[i] - at).norm();
-                if !stale[i] || distance - way > reach.body {
+                if distance - way > reach.body {
                     return None;
                 }
                 let far = FAR * reach.body;
@@ -271,12 +244,12 @@ impl<'a> Proximity<'a> {
 
     /// Adds the contacts of the body's features with triangles and edges of the cloth that are searched, and lets go
     /// of what was found before at all that is.
-    fn face_contacts(&mut self, cloth: &Cloth, x: &[Vec3], reach: &Reach, stale: &Stale, sources: &mut Vec<Source>) {
+    fn face_contacts(&mut self, cloth: &Cloth, x: &[Vec3], reach: &Reach, stale: &[bool], sources: &mut Vec<Source>) {
         let is_searched = self.is_searched(cloth, x, stale);
         let known = self.near.retain(x, |contact, element| match element {
             Some(k) => !is_searched[k as usize],
-            None if contact.is_on_body() => !stale.turned[contact.nodes[0] as usize],
-            None => contact.nodes.iter().all(|&n| !stale.node[n as usize]),
+            None if contact.is_on_body() => false,
+            None => contact.nodes.iter().all(|&n| !stale[n as usize]),
         });
         for (k, found) in self.search(cloth, x, reach.features, &is_searched).into_iter().enumerate() {
             let Some((found, hidden)) = found else { continue };
@@ -288,14 +261,13 @@ impl<'a> Proximity<'a> {
     }
 
     /// Which triangles, and then edges, of the cloth are searched for features of the body: those at stale nodes; those
-    /// of which a feature was hidden, as soon as they have turned; and cloth that is under a feature, of which a new
-    /// search tells by the body whether it is: what is known only goes on as it was.
-    fn is_searched(&self, cloth: &Cloth, x: &[Vec3], stale: &Stale) -> Vec<bool> {
-        let any = |nodes: &[u32], of: &[bool]| nodes.iter().any(|&n| of[n as usize]);
-        let again = |(nodes, hidden): (&[u32], &bool)| any(nodes, &stale.node) || *hidden && any(nodes, &stale.turned);
-        let elements =
-            cloth.triangles.iter().map(<[u32; 3]>::as_slice).chain(cloth.edges.iter().map(<[u32; 2]>::as_slice));
-        let mut out: Vec<bool> = elements.zip(&self.hidden).map(again).collect();
+    /// of which a feature was hidden, for the least turn may bring it out; and cloth that is under a feature, of which
+    /// a new search tells by the body whether it is: what is known only goes on as it was.
+    fn is_searched(&self, cloth: &Cloth, x: &[Vec3], stale: &[bool]) -> Vec<bool> {
+        let triangles = cloth.triangles.iter().map(<[u32; 3]>::as_slice);
+        let elements = triangles.chain(cloth.edges.iter().map(<[u32; 2]>::as_slice));
+        let any = |nodes: &[u32]| nodes.iter().any(|&n| stale[n as usize]);
+        let mut out: Vec<bool> = elements.zip(&self.hidden).map(|(nodes, hidden)| *hidden || any(nodes)).collect();
         self.near.under(x).for_each(|k| out[k as usize] = true);
         out
     }
