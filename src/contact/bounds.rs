@@ -21,7 +21,7 @@ const KEPT: f64 = 0.2;
 const LEAST: f64 = 1e-8;
 /// Contacts are to be looked for anew when a node has gone this share of what it may.
 const DUE: f64 = 2.0 / 3.0;
-/// At a look the contacts of nodes that have gone less than this share of what they may stay as they are.
+/// At a look the contacts of nodes that have gone no more than this share of what they may after it stay as they are.
 const STAYS: f64 = 0.2;
 /// A node for which less than this share of what it may is left can do with a look before a long step.
 const ROOM: f64 = 0.6;
@@ -63,11 +63,21 @@ impl Bounds {
         (self.origin[node], self.leash[node]) = (at, leash);
     }
 
-    /// Nodes at which contacts have to be looked for again in a look at `x`: those that have gone a fifth of what
-    /// they may, or `most` metres.
+    /// From now on `node` goes no further than `leash` metres from where its leash begins.
+    pub fn shorten(&mut self, node: usize, leash: f64) {
+        self.leash[node] = self.leash[node].min(leash);
+    }
+
+    /// How far the node may go that may go furthest, metres.
+    pub fn longest(&self) -> f64 {
+        self.leash.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Nodes at which contacts have to be looked for again in a look at `x`: those that have gone a sixth of what they
+    /// may, which after a look at all of them is a fifth of what they may after it, or `most` metres.
     pub fn stale(&self, x: &[Vec3], most: f64) -> Vec<bool> {
         // Also those whose position is no number.
-        let stays = |way: f64, leash: f64| way <= most.min(STAYS * leash);
+        let stays = |way: f64, leash: f64| way <= most.min(STAYS / (1.0 + STAYS) * leash);
         let gone = x.iter().zip(&self.origin).zip(&self.leash);
         gone.map(|((x, o), leash)| !stays((x - o).norm(), *leash)).collect()
     }
@@ -98,6 +108,11 @@ impl Bounds {
     /// The same where one of the two is the body, which never moves.
     pub fn allowance_beside_body(reach: f64) -> f64 {
         USED * reach / (1.0 + STAYS)
+    }
+
+    /// Both after a look that searched at all nodes, until one that does not.
+    pub fn allowances_after_all(reach: f64, beside_body: f64) -> [f64; 2] {
+        [0.5 * USED * reach, USED * beside_body]
     }
 
     /// The share (≤ 1) of a step that keeps every node on its leash. Shortening the step as a whole keeps its shape;
@@ -407,14 +422,14 @@ mod tests {
         let mut bounds = Bounds::new(&x, 0.1, 1e-3);
         let leash = Bounds::allowance(0.1);
         let mut gone = x;
-        gone[1].y += 0.21 * leash;
-        gone[2].y += 0.19 * leash;
+        gone[1].y += 0.17 * leash;
+        gone[2].y += 0.16 * leash;
         gone[3].y = f64::NAN;
         assert_eq!(bounds.stale(&gone, 1.0), [false, true, false, true]);
         assert_eq!(bounds.stale(&gone, 0.1 * leash), [false, true, true, true]);
         assert!(!bounds.is_due(&gone[..3]));
-        bounds.restart(2, x[2], 0.25 * leash);
-        assert!(bounds.is_due(&gone[..3]), "76 % of a shorter leash");
+        bounds.shorten(2, 0.2 * leash);
+        assert!(bounds.is_due(&gone[..3]), "four fifths of a shorter leash");
     }
 
     #[test]

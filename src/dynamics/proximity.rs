@@ -114,7 +114,7 @@ impl<'a> Proximity<'a> {
         let found = timed(&mut time.cloth, || self.detector.detect_at(x, reach.cloth, &stale));
         timed(&mut time.follow, || {
             sources.extend(found.into_iter().map(|c| (c, None)));
-            self.restart(cloth, x, &reach, &stale);
+            self.restart(cloth, x, &reach, &stale, all);
             self.near.add(&sources, x, self.bounds.origin());
             self.near.follow(x, self.bounds.origin());
         });
@@ -151,6 +151,11 @@ impl<'a> Proximity<'a> {
         due
     }
 
+    /// Lets the next look search all of the cloth: nodes may go further after it.
+    pub(super) fn forget(&mut self) {
+        self.searched = None;
+    }
+
     /// Pairs of nodes (smaller first, sorted) that contacts of the cloth with itself couple, for gaps below `gap`.
     pub(super) fn touching(&self, x: &[Vec3], gap: f64) -> Vec<[u32; 2]> {
         let mut out = Vec::new();
@@ -173,7 +178,7 @@ impl<'a> Proximity<'a> {
     /// Changes which nodes may pass through one another, for the next detection.
     pub(super) fn set_passing(&mut self, passing: Vec<bool>) {
         self.detector.set_passing(passing);
-        self.searched = None;
+        self.forget();
     }
 
     /// Whether the next look searches all of the cloth.
@@ -183,19 +188,29 @@ impl<'a> Proximity<'a> {
     }
 
     /// From now on the ways of nodes that were searched at are measured from `x`. Those near the body may go no further
-    /// than its features were looked for at all that they are corners of.
-    fn restart(&mut self, cloth: &Cloth, x: &[Vec3], reach: &Reach, stale: &[bool]) {
-        let free = Bounds::allowance(reach.cloth);
-        let beside_body = if reach.is_short() { free.min(Bounds::allowance_beside_body(reach.features)) } else { free };
+    /// than its features were looked for at all that they are corners of. Cloth of which all was searched may go
+    /// further, as it does when it falls.
+    fn restart(&mut self, cloth: &Cloth, x: &[Vec3], reach: &Reach, stale: &[bool], all: bool) {
+        let [free, beside_body] = if all {
+            Bounds::allowances_after_all(reach.cloth, reach.features)
+        } else {
+            [Bounds::allowance(reach.cloth), Bounds::allowance_beside_body(reach.features)]
+        };
+        let beside_body = if reach.is_short() { free.min(beside_body) } else { free };
         let mut longest = vec![0.0f64; x.len()];
         for [a, b] in cloth.edges.iter().map(|e| e.map(|n| n as usize)) {
             let length = (x[a] - x[b]).norm();
             longest[a] = longest[a].max(length);
             longest[b] = longest[b].max(length);
         }
-        for i in (0..x.len()).filter(|&i| stale[i]) {
+        for (i, stale) in stale.iter().enumerate() {
             let is_far = self.distance(i, x) > longest[i] + CORNERS * free;
-            self.bounds.restart(i, x[i], if is_far { free } else { beside_body });
+            let leash = if is_far { free } else { beside_body };
+            if *stale {
+                self.bounds.restart(i, x[i], leash);
+            } else {
+                self.bounds.shorten(i, leash);
+            }
         }
     }
 

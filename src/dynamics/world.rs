@@ -304,6 +304,11 @@ impl<'a> World<'a> {
         }
         let last = std::mem::replace(&mut self.x, target);
         self.cloth.follow(&self.x, foresaw);
+        let longest = self.proximity.bounds.longest();
+        if self.wished.iter().any(|d| d.norm() > longest) {
+            // Cloth that falls freely.
+            self.proximity.forget();
+        }
         if drag || self.proximity.bounds.is_due(&self.x) {
             self.drag_friction();
         }

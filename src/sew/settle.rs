@@ -12,7 +12,7 @@ pub(crate) const CLEARANCE: f64 = 0.25e-3;
 /// Stiffness of a contact as it begins, N/m: a particle's weight presses 0.02 mm. Soft, so that a contact that comes or
 /// goes does not shake the rest; it hardens as the gap closes.
 const PENALTY: f64 = 60.0;
-/// Layers are looked for this near, in grid spacings and at most in metres: between two looks a node goes 0.45 of it,
+/// Layers are looked for this near, in grid spacings and at most in metres: between two looks a node goes half of it,
 /// and must not go further than edges and vertices of the body are looked for.
 const REACH: f64 = 0.8;
 const LONGEST_REACH: f64 = 8.8e-3;
