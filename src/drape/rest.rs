@@ -92,6 +92,11 @@ const TESTS: usize = 2;
 /// finds more than pays, less needs too many looks (one is due when a node has gone a third of that).
 const LOOK: f64 = 2.0;
 
+/// One that falls freely (fewer pairs were found than it has nodes) is looked at as far around as it falls in a
+/// stretch, up to this many cells: in large cells a look costs less than the steps it saves. Layers that lie on one
+/// another would find each other many times over.
+const CELLS: f64 = 0.4;
+
 /// Drapes a sewn garment.
 ///
 /// Rest is not low speed: after the last motion has died down, as many steps again at half the step size are made, and
@@ -111,11 +116,12 @@ pub fn drape(
     world.gravity = 1.0;
     world.grip(GRIP);
     let thick = world.cloth.thickest();
-    let look = [thick + NEAREST_LOOK, drape_reach(cut.mesh.spacing, thick)];
+    let spacing = cut.mesh.spacing;
+    let look = [thick + NEAREST_LOOK, drape_reach(spacing, thick)];
     let near = options.near;
-    let trusts = TRUST.map(|share| share * cut.mesh.spacing);
+    let trusts = TRUST.map(|share| share * spacing);
     let (last, trust) = (world.x.clone(), trusts[0]);
-    let mut fall = Fall { last, world, steps: 0, tested: 0, near, trust, trusts, look };
+    let mut fall = Fall { last, world, steps: 0, tested: 0, near, trust, trusts, look, spacing };
     let (drift, residual, converged) = match options.until {
         Until::Rest => fall.come_to_rest(options.max_steps, progress)?,
         Until::Near => {
@@ -145,6 +151,8 @@ struct Fall<'a> {
     trusts: [f64; 3],
     /// How far around the cloth is looked at, at least and at most, metres.
     look: [f64; 2],
+    /// Of the grid, metres.
+    spacing: f64,
 }
 
 impl Fall<'_> {
@@ -182,12 +190,21 @@ impl Fall<'_> {
             }
             let [mean, most_moved] = motion(&before, &self.world.x);
             moved = mean;
-            let [nearest, widest] = self.look;
-            self.world.look_within(Reach::new((LOOK * most_moved).clamp(nearest, widest)))?;
+            self.world.look_within(self.reach(mean, most_moved))?;
             self.near |= moved < NEAR_REST || self.steps >= LONGEST_FALL;
             progress((self.steps as f64 / most as f64).max(settled / moved).min(0.9));
         }
         Ok(())
+    }
+
+    /// How far to look around after a stretch in which the garment went `moved` metres RMS, and the node that went
+    /// furthest `most_moved`.
+    fn reach(&self, moved: f64, most_moved: f64) -> Reach {
+        let [nearest, widest] = self.look;
+        let near = (LOOK * most_moved).clamp(nearest, widest);
+        let falling = moved.min(CELLS * self.spacing);
+        let is_free = self.world.contacts_found() < self.world.x.len();
+        if is_free && falling > near { Reach::new(falling).with_features() } else { Reach::new(near) }
     }
 
     fn fall(&mut self) -> Result<(), StepError> {

@@ -26,6 +26,12 @@ impl Reach {
         Self { cloth, body: (0.5 * cloth).max(BODY), features: (0.5 * cloth).min(FEATURES) }
     }
 
+    /// The same with the body's features as near as a node goes between two looks, however far that is: for cloth that
+    /// falls in large cells, of which few are near the body.
+    pub fn with_features(self) -> Self {
+        Self { features: 0.5 * self.cloth, ..self }
+    }
+
     /// Whether nodes go no further between two looks than the body's features are looked for.
     fn is_short(&self) -> bool {
         Bounds::allowance(self.cloth) <= self.features
@@ -125,6 +131,11 @@ impl<'a> Proximity<'a> {
     /// The contacts that matter in the next step.
     pub(super) fn near(&self) -> &[Contact] {
         &self.near.contacts
+    }
+
+    /// How many were found, near or not.
+    pub(super) fn found(&self) -> usize {
+        self.near.all.len()
     }
 
     /// Takes in the contacts that matter when the nodes go from `x` to `to`.

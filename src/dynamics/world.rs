@@ -415,6 +415,11 @@ impl<'a> World<'a> {
         rms / (mean_mass * super::GRAVITY)
     }
 
+    /// Pairs that were found near each other at the last look.
+    pub fn contacts_found(&self) -> usize {
+        self.proximity.found()
+    }
+
     /// What contact has cost up to now.
     pub fn contact_time(&self) -> ContactTime {
         self.proximity.time
