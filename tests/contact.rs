@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use toile::contact::{Collider, Neighbourhood};
-use toile::dynamics::{ContactLaw, GRAVITY, Reach, World};
+use toile::dynamics::explicit::law_of;
+use toile::dynamics::{ContactLaw, Forces, GRAVITY, Reach, World};
 use toile::geometry::{TriMesh, Vec3};
 use toile::pipeline::{Job, Overrides, read};
 use toile::sew::Stitching;
@@ -181,21 +182,11 @@ fn capstan(mu: f64, turn: f64) -> f64 {
     pull(&world, &drawn).norm() / pull(&world, &held).norm()
 }
 
-/// Force of the springs on some nodes, N.
+/// Force of the cloth on some of its nodes, N.
 fn pull(world: &World, nodes: &[usize]) -> Vec3 {
-    let mut sum = Vec3::zeros();
-    for s in &world.cloth.springs {
-        let [a, b] = s.ends.map(|n| n as usize);
-        let d = world.x[b] - world.x[a];
-        let f = d.normalize() * (world.cloth.laws[s.law as usize].load(d.norm() / s.rest - 1.0) * s.width);
-        if nodes.contains(&a) {
-            sum += f;
-        }
-        if nodes.contains(&b) {
-            sum -= f;
-        }
-    }
-    sum
+    let nothing = Forces { gravity: 0.0, contacts: &[], law: LAW, pulls: &[], friction: None };
+    let forces = law_of(&world.cloth, nothing)(&world.x);
+    nodes.iter().map(|&n| forces[n]).sum()
 }
 
 #[test]

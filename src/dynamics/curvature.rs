@@ -92,6 +92,12 @@ fn hinge(mesh: &ClothMesh, fabrics: &[Arc<Fabric>], sides: [(usize, [u32; 3]); 2
     Some(Stencil { flows, weight: rigidity * length * length / area })
 }
 
+/// Whether a flat vector runs along the `warp` (0) or the weft (1).
+pub(super) fn thread_of(warp: Vec2, d: Vec2) -> Option<usize> {
+    let along = [d.dot(&warp).abs(), d.perp(&warp).abs()];
+    (0..2).find(|&k| along[1 - k] <= STRAIGHT * along[k])
+}
+
 /// One piece's particles and triangles.
 struct Sheet<'a> {
     mesh: &'a ClothMesh,
@@ -161,12 +167,6 @@ impl<'a> Sheet<'a> {
         [d.dot(&self.piece.warp), self.piece.warp.perp(&d)]
     }
 
-    /// Whether a flat vector runs along the warp (0) or the weft (1).
-    fn thread_of(&self, d: Vec2) -> Option<usize> {
-        let along = self.threads(d);
-        (0..2).find(|&k| along[1 - k].abs() <= STRAIGHT * along[k].abs())
-    }
-
     /// Two triangles beside their common edge, if they make a cell.
     fn add_cell(&mut self, [a, b]: [u32; 2], beside: [u32; 2]) {
         let apex = |t: u32| self.mesh.triangles[t as usize].into_iter().find(|&n| n != a && n != b);
@@ -174,7 +174,7 @@ impl<'a> Sheet<'a> {
         let (pa, pb, pc, pd) = (self.flat(a), self.flat(b), self.flat(c), self.flat(d));
         let (one, other) = (pc - pa, pd - pa);
         let square = (pa + pb - pc - pd).norm() <= STRAIGHT * (pb - pa).norm();
-        let threads = [self.thread_of(one), self.thread_of(other)];
+        let threads = [one, other].map(|d| thread_of(self.piece.warp, d));
         if square && (threads == [Some(0), Some(1)] || threads == [Some(1), Some(0)]) {
             let cell = Cell { corners: [a, b, c, d], size: one.perp(&other).abs(), area: 0.0 };
             beside.iter().for_each(|t| _ = self.cell_of.insert(*t, self.cells.len()));
@@ -284,7 +284,7 @@ impl<'a> Sheet<'a> {
         let mut beside = [None; 2];
         for n in self.nodes_of(fan).into_iter().filter(|&n| n != v) {
             let d = self.flat(n) - self.flat(v);
-            if self.thread_of(d) == Some(thread) {
+            if thread_of(self.piece.warp, d) == Some(thread) {
                 let way = self.threads(d)[thread];
                 beside[usize::from(way > 0.0)] = Some((n, way.abs()));
             }

@@ -187,6 +187,11 @@ pub(super) fn free_forces(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Vec
         out[s.ends[0] as usize] += f;
         out[s.ends[1] as usize] -= f;
     }
+    for shear in &cloth.shears {
+        for (n, f) in shear.nodes.iter().zip(shear.forces(x)) {
+            out[*n as usize] += f;
+        }
+    }
     for crease in &cloth.creases {
         for (n, f) in crease.nodes.iter().zip(crease.forces(x)) {
             out[*n as usize] += f;

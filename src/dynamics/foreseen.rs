@@ -1,43 +1,66 @@
-//! Loads of springs as the last Newton step foresaw them.
+//! Loads of springs and of shear as the last Newton step foresaw them.
 //!
 //! A step that carries the ends of a spring of length l apart by d across it draws it out by d²/2l, which its linear
 //! model does not know. Stiff cloth answers to that error of the second order with loads far above its weight: they
 //! make the trust in the step shrink, and as stiffness across the spring they falsify the next. Yet the next step takes
 //! them away again, for they are in the stiff, linear part of it. So, as in mixed formulations (Hellinger–Reissner),
 //! loads go their own way: the stiffness across a spring is that of the load which the step foresaw, and what the
-//! springs hold beyond it is not counted against the step (Magisano, Leonetti and Garcea 2017). Cloth comes to rest in
-//! half the conjugate gradient iterations.
+//! springs hold beyond it is not counted against the step (Magisano, Leonetti and Garcea 2017). The angle between two
+//! threads that turn out of their plane has an error of the same kind, and its load goes the same way. Cloth comes to
+//! rest in half the conjugate gradient iterations.
 
 use super::model::Cloth;
+use super::shear::ShearTangent;
 use super::springs::{SHORTEST, Spring, SpringTangent, StretchLaw};
 use crate::geometry::Vec3;
+
+/// Loads as a step foresaw them; none: as they are.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Loads {
+    /// Of every spring, N/m.
+    springs: Vec<f64>,
+    /// Of every [`Shear`](super::Shear), N·m per radian.
+    shears: Vec<f64>,
+}
 
 /// What a step foresees.
 #[derive(Default)]
 pub(super) struct Foreseen {
-    /// Load of every spring, N/m.
-    pub(super) loads: Vec<f64>,
-    /// Energy that the springs hold beyond what those loads say, J.
+    /// The loads.
+    pub(super) loads: Loads,
+    /// Energy that the cloth holds beyond what those loads say, J.
     pub(super) beyond: f64,
 }
 
 impl Cloth {
-    /// What the linear model of a step from `x` to `to` says of the springs.
+    /// What the linear model of a step from `x` to `to` says of springs and shear.
     pub(super) fn foresee(&self, x: &[Vec3], to: &[Vec3]) -> Foreseen {
         let mut beyond = 0.0;
-        let loads = self.springs.iter().map(|s| {
+        let springs = self.springs.iter().map(|s| {
             let [before, after] = [x, to].map(|x| x[s.ends[1] as usize] - x[s.ends[0] as usize]);
             let (load, more) = s.foresee(&self.laws[s.law as usize], before, after);
             beyond += more;
             load
         });
-        Foreseen { loads: loads.collect(), beyond }
+        let springs = springs.collect();
+        let shears = self.shears.iter().map(|s| {
+            let (load, more) = s.foresee(x, to);
+            beyond += more;
+            load
+        });
+        let shears = shears.collect();
+        Foreseen { loads: Loads { springs, shears }, beyond }
     }
 
     /// Stiffness of spring number `k` at `x`: across it by the load that the last step foresaw, if one did.
     pub(super) fn spring_tangent(&self, k: usize, x: &[Vec3]) -> SpringTangent {
         let spring = &self.springs[k];
-        spring.tangent(&self.laws[spring.law as usize], x, self.foreseen.get(k).copied())
+        spring.tangent(&self.laws[spring.law as usize], x, self.foreseen.springs.get(k).copied())
+    }
+
+    /// The same of shear number `k`.
+    pub(super) fn shear_tangent(&self, k: usize, x: &[Vec3]) -> ShearTangent {
+        self.shears[k].tangent(x, self.foreseen.shears.get(k).copied())
     }
 }
 

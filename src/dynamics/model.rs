@@ -1,4 +1,4 @@
-//! A meshed garment as nodes with mass, springs and bending.
+//! A meshed garment as nodes with mass, springs, shear and bending.
 
 use std::sync::Arc;
 
@@ -6,6 +6,8 @@ use super::bending::Bending;
 use super::crease::{Crease, creases};
 use super::curvature;
 use super::elastic::Elastics;
+use super::foreseen::Loads;
+use super::shear::{Shear, grid_triangles, shears};
 use super::springs::{Spring, StretchLaw};
 use crate::fabric::Fabric;
 use crate::geometry::{Topology, Vec2, Vec3, sorted_pair};
@@ -65,15 +67,17 @@ pub struct Cloth {
     pub flat: Vec<[Vec2; 3]>,
     /// Piece of every triangle.
     pub piece: Vec<u32>,
-    /// Springs along every mesh edge, and those of tacks.
+    /// Springs along every mesh edge but the diagonals of the grid, and those of tacks.
     pub springs: Vec<Spring>,
     /// Their laws.
     pub laws: Vec<StretchLaw>,
+    /// Shear of the grid's triangles.
+    pub shears: Vec<Shear>,
     /// Bending.
     pub bending: Bending,
     /// Pressed folds.
     pub(super) creases: Vec<Crease>,
-    /// Nodes that share a spring, both orders left out: (smaller, larger), sorted.
+    /// Nodes that share a mesh edge or a spring, both orders left out: (smaller, larger), sorted.
     pub edges: Vec<[u32; 2]>,
     /// Half the cloth's thickness at every node, metres.
     pub half_thickness: Vec<f64>,
@@ -83,13 +87,14 @@ pub struct Cloth {
     pub bending_bound: Vec<f64>,
     /// Nodes that stay where they are, in the jaws of a clamp; to be set before the first step.
     pub held: Vec<u32>,
-    /// Loads of the springs as the last step foresaw them, N/m; none: as they are.
-    pub(super) foreseen: Vec<f64>,
+    /// Loads of springs and shear as the last step foresaw them.
+    pub(super) foreseen: Loads,
 }
 
-/// Pairs of nodes with a spring between them, smaller first, sorted.
-fn joined(springs: &[Spring]) -> Vec<[u32; 2]> {
-    let mut edges: Vec<[u32; 2]> = springs.iter().map(|s| sorted_pair(s.ends)).collect();
+/// Pairs of nodes with a spring or the side of a triangle between them, smaller first, sorted.
+fn joined(springs: &[Spring], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
+    let sides = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).filter(|[a, b]| a != b);
+    let mut edges: Vec<[u32; 2]> = springs.iter().map(|s| s.ends).chain(sides).map(sorted_pair).collect();
     edges.sort_unstable();
     edges.dedup();
     edges
@@ -117,12 +122,13 @@ impl Cloth {
             friction: vec![0.0; nodes],
             springs: Vec::new(),
             laws: Vec::new(),
+            shears: Vec::new(),
             bending: Bending::default(),
             creases: creases(mesh, &node_of, fabrics),
             edges: Vec::new(),
             bending_bound: Vec::new(),
             held: Vec::new(),
-            foreseen: Vec::new(),
+            foreseen: Loads::default(),
             node_of,
             triangles,
             flat,
@@ -133,7 +139,7 @@ impl Cloth {
         if model == SpringModel::Measured {
             out.add_tacks(mesh, garment);
         }
-        out.edges = joined(&out.springs);
+        out.edges = joined(&out.springs, &out.triangles);
         let hem = if model == SpringModel::Raw { 0.0 } else { RIM_WIDTH };
         out.add_bending(mesh, garment, fabrics, hem);
         out
@@ -148,10 +154,9 @@ impl Cloth {
     fn weigh(&mut self, mesh: &ClothMesh, fabrics: &[Arc<Fabric>]) {
         for (t, nodes) in self.triangles.iter().enumerate() {
             let fabric = &fabrics[self.piece[t] as usize];
-            let [a, b, c] = self.flat[t];
-            let area = 0.5 * (b - a).perp(&(c - a)).abs();
+            let mass = fabric.areal_density * area(&self.flat[t]);
             for &n in nodes {
-                self.mass[n as usize] += fabric.areal_density * area / 3.0;
+                self.mass[n as usize] += mass / 3.0;
             }
         }
         for (p, piece) in mesh.pieces.iter().enumerate() {
@@ -163,27 +168,29 @@ impl Cloth {
         }
     }
 
+    /// Springs along the edges, each as wide as the cloth beside it, and shear where the grid is regular: there the
+    /// threads have springs and the diagonals have none. Soft cloth is led home by springs alone.
     fn add_springs(&mut self, mesh: &ClothMesh, garment: &Garment, fabrics: &[Arc<Fabric>], model: SpringModel) {
         let seam_rest = seam_rest_lengths(mesh, garment);
         let topology = Topology::new(&mesh.triangles);
         let laws_of = self.make_laws(fabrics, model);
         let mut elastics = Elastics::new(mesh);
+        let grid = match model {
+            SpringModel::Measured | SpringModel::Raw => grid_triangles(mesh),
+            SpringModel::Soft { .. } => vec![None; mesh.triangles.len()],
+        };
+        self.shears = shears(mesh, &grid, &self.node_of, fabrics);
         for edge in &topology.edges {
             let [a, b] = edge.ends;
             let along = mesh.flat[b as usize] - mesh.flat[a as usize];
             let beside = edge.triangles.iter().flatten().map(|&t| t as usize);
-            let area: f64 = beside
-                .clone()
-                .map(|t| {
-                    let [p, q, r] = self.flat[t];
-                    0.5 * (q - p).perp(&(r - p)).abs()
-                })
-                .sum();
+            let is_diagonal = |t: &usize| grid[*t].is_some_and(|[corner, ..]| !edge.ends.contains(&corner));
+            let held: f64 = beside.clone().filter(|t| !is_diagonal(t)).map(|t| area(&self.flat[t])).sum();
             let Some(p) = beside.clone().next().map(|t| self.piece[t] as usize) else { continue };
             let rest = along.norm();
             let mut push = |rest: f64, width: f64, law: u32| {
                 let ends = edge.ends.map(|e| self.node_of[e as usize]);
-                if ends[0] != ends[1] {
+                if ends[0] != ends[1] && width > 0.0 {
                     self.springs.push(Spring { ends, rest, width, law });
                 }
             };
@@ -192,7 +199,7 @@ impl Cloth {
             let angle = along.dot(&mesh.pieces[p].warp).abs().min(rest) / rest;
             let step = (angle.acos() / std::f64::consts::FRAC_PI_2 * ANGLE_STEPS as f64).round() as usize;
             let rest = seam.unwrap_or(rest);
-            let (law, width) = (laws_of[p] + step as u32, area / along.norm());
+            let (law, width) = (laws_of[p] + step as u32, held / along.norm());
             let elastic = elastics.on(edge.ends);
             let mut cloth = |law: u32| match elastic {
                 Some(_) => elastics.gathers(law, &mut self.laws),
@@ -239,7 +246,7 @@ impl Cloth {
             for step in 0..=ANGLE_STEPS {
                 let angle = std::f64::consts::FRAC_PI_2 * step as f64 / ANGLE_STEPS as f64;
                 self.laws.push(match model {
-                    SpringModel::Measured | SpringModel::Raw => StretchLaw::in_grid(fabric, step, ANGLE_STEPS),
+                    SpringModel::Measured | SpringModel::Raw => StretchLaw::of(fabric, angle),
                     SpringModel::Soft { stiffness, bias } => {
                         let diagonal = (2.0 * angle).sin().powi(2);
                         StretchLaw::linear(stiffness * (1.0 - (1.0 - bias) * diagonal))
@@ -265,14 +272,14 @@ impl Cloth {
         self.node_of.iter().map(|&n| nodes[n as usize]).collect()
     }
 
-    /// Takes note of where the cloth has gone, in a step that `foresaw` loads of its springs or in none that did: folds
-    /// turn on from the angle they have.
-    pub(super) fn follow(&mut self, x: &[Vec3], foresaw: Vec<f64>) {
+    /// Takes note of where the cloth has gone, in a step that `foresaw` its loads or in none that did: folds turn on
+    /// from the angle they have.
+    pub(super) fn follow(&mut self, x: &[Vec3], foresaw: Loads) {
         self.creases.iter_mut().for_each(|c| c.follow(x));
         self.foreseen = foresaw;
     }
 
-    /// Elastic energy (stretch, bending and creases), J.
+    /// Elastic energy (stretch, shear, bending and creases), J.
     pub fn elastic_energy(&self, x: &[Vec3]) -> f64 {
         let stretch: f64 = self
             .springs
@@ -282,9 +289,15 @@ impl Cloth {
                 self.laws[s.law as usize].energy(length / s.rest - 1.0) * s.width * s.rest
             })
             .sum();
+        let shear: f64 = self.shears.iter().map(|s| s.energy(x)).sum();
         let creases: f64 = self.creases.iter().map(|c| c.energy(x)).sum();
-        stretch + self.bending.energy(x) + creases
+        stretch + shear + self.bending.energy(x) + creases
     }
+}
+
+/// Area of a flat triangle, m².
+fn area([a, b, c]: &[Vec2; 3]) -> f64 {
+    0.5 * (b - a).perp(&(c - a)).abs()
 }
 
 /// Length that every rim edge takes once it is sewn, for edges of seams whose sides differ: (ends, metres), sorted.

@@ -13,6 +13,7 @@ use rayon::prelude::*;
 use super::force::{Forces, Press, free_forces};
 use super::friction::{Grip, Hold};
 use super::model::Cloth;
+use super::shear::ShearTangent;
 use super::springs::SpringTangent;
 use super::step::{Pushing, Reuse, StepError, Stepper, opening, presses};
 use crate::contact::Contact;
@@ -47,6 +48,7 @@ struct Tangent<'a> {
     forces: &'a Forces<'a>,
     presses: &'a [Press],
     springs: Vec<SpringTangent>,
+    shears: Vec<ShearTangent>,
     /// [`super::crease::Crease::root`] of every crease.
     creases: Vec<[Vec3; 4]>,
     /// Numbers of the contacts that push, and the stiffness of their friction, N/m.
@@ -142,10 +144,11 @@ impl Stepper {
 impl<'a> Tangent<'a> {
     fn new(cloth: &'a Cloth, x: &'a [Vec3], dt: f64, forces: &'a Forces<'a>, pushing: &Pushing<'a>) -> Self {
         let springs = (0..cloth.springs.len()).map(|k| cloth.spring_tangent(k, x)).collect();
+        let shears = (0..cloth.shears.len()).map(|k| cloth.shear_tangent(k, x)).collect();
         let creases = cloth.creases.iter().map(|c| c.root(x)).collect();
         let grips =
             pushing.numbers().map(|k| (k, pushing.grips[k].map_or_else(Mat3::zeros, |g| g.stiffness))).collect();
-        Self { cloth, dt, forces, presses: pushing.presses, springs, creases, grips }
+        Self { cloth, dt, forces, presses: pushing.presses, springs, shears, creases, grips }
     }
 
     /// (M/Δt² + true stiffness) p, with the contacts that push.
@@ -174,6 +177,13 @@ impl<'a> Tangent<'a> {
             let f = t * ((along - across) * t.dot(&e)) + e * *across;
             out[s.ends[0] as usize] -= f;
             out[s.ends[1] as usize] += f;
+        }
+        for (shear, tangent) in cloth.shears.iter().zip(&self.shears) {
+            let [corner, u, v] = shear.nodes.map(|n| n as usize);
+            let [f, g] = tangent.apply([p[u] - p[corner], p[v] - p[corner]]);
+            out[corner] -= f + g;
+            out[u] += f;
+            out[v] += g;
         }
         for (crease, root) in cloth.creases.iter().zip(&self.creases) {
             let turned: f64 = crease.nodes.iter().zip(root).map(|(&n, g)| g.dot(&p[n as usize])).sum();

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use super::force::{Forces, Press, free_forces, push};
 use super::friction::Grip;
 use super::model::Cloth;
+use super::shear::Shear;
 use super::springs::SpringTangent;
 use crate::contact::Contact;
 use crate::geometry::{Mat3, Vec3};
@@ -60,6 +61,8 @@ pub struct Stepper {
     pub(super) factor: Cholesky<f32>,
     diagonal: Vec<BlockSlot>,
     springs: Vec<BlockSlot>,
+    /// From the corner of each shear to both ends of its legs, and from one of these to the other.
+    shears: Vec<[BlockSlot; 3]>,
     edges: Vec<BlockSlot>,
     pulls: Vec<Option<BlockSlot>>,
     /// [`Cloth::held`].
@@ -133,6 +136,11 @@ impl Stepper {
         Ok(Self {
             diagonal: (0..n).map(|i| slot(i, i).ok_or_else(missing)).collect::<Result<_, _>>()?,
             springs: cloth.springs.iter().map(|s| find(s.ends)).collect::<Result<_, _>>()?,
+            shears: cloth
+                .shears
+                .iter()
+                .map(|&Shear { nodes: [c, u, v], .. }| Ok([find([c, u])?, find([c, v])?, find([u, v])?]))
+                .collect::<Result<_, StepError>>()?,
             edges: cloth.edges.iter().map(|e| find(*e)).collect::<Result<_, _>>()?,
             pulls: pulls.iter().map(|e| slot(e[0] as usize, e[1] as usize)).collect(),
             matrix: SymmetricMatrix::zeros(pattern.clone()),
@@ -278,6 +286,7 @@ impl Stepper {
         for ((s, slot), k) in cloth.springs.iter().zip(&self.springs).zip(&blocks) {
             couple(&mut self.matrix, &self.diagonal, s.ends, *slot, k);
         }
+        self.assemble_shears(cloth, x);
         for ((e, slot), w) in cloth.edges.iter().zip(&self.edges).zip(&cloth.bending_bound) {
             couple(&mut self.matrix, &self.diagonal, *e, *slot, &(Mat3::identity() * *w));
         }
@@ -301,6 +310,23 @@ impl Stepper {
         }
         for (i, m) in cloth.mass.iter().enumerate() {
             self.matrix.add_block(self.diagonal[i], &(Mat3::identity() * (m / (dt * dt))));
+        }
+    }
+
+    fn assemble_shears(&mut self, cloth: &Cloth, x: &[Vec3]) {
+        for (k, (shear, slots)) in cloth.shears.iter().zip(&self.shears).enumerate() {
+            let ([u, v], legs) = cloth.shear_tangent(k, x).bound();
+            let root = [-u - v, u, v];
+            for (node, r) in shear.nodes.iter().zip(&root) {
+                self.matrix.add_block(self.diagonal[*node as usize], &(r * r.transpose()));
+            }
+            for (slot, [i, j]) in slots.iter().zip([[0, 1], [0, 2], [1, 2]]) {
+                self.matrix.add_block(*slot, &(root[i] * root[j].transpose()));
+            }
+            for ((leg, slot), stiffness) in [1, 2].into_iter().zip(slots).zip(legs) {
+                let ends = [shear.nodes[0], shear.nodes[leg]];
+                couple(&mut self.matrix, &self.diagonal, ends, *slot, &(Mat3::identity() * stiffness));
+            }
         }
     }
 

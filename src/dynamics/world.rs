@@ -2,7 +2,7 @@
 
 use super::cost::ContactTime;
 use super::force::{ContactLaw, Forces, Pull, cloth_forces};
-use super::foreseen::Foreseen;
+use super::foreseen::{Foreseen, Loads};
 use super::friction::Friction;
 use super::model::Cloth;
 use super::proximity::{Proximity, Reach};
@@ -43,7 +43,8 @@ struct Demand {
     allowed: f64,
     /// How often the step is halved for it.
     halvings: usize,
-    /// Whether the springs' loads follow the step's linear model, and what they hold beyond it does not count.
+    /// Whether the loads of springs and shear follow the step's linear model, and what they hold beyond it does not
+    /// count.
     foresees: bool,
 }
 
@@ -55,8 +56,8 @@ struct Descent {
     halvings: usize,
     /// The share of it that was made, but for what the bounds changed.
     share: f64,
-    /// Loads of the springs as the step foresaw them, N/m, if it does.
-    foresaw: Vec<f64>,
+    /// Loads as the step foresaw them, if it does.
+    foresaw: Loads,
 }
 
 /// A way that was gone.
@@ -129,7 +130,7 @@ impl<'a> World<'a> {
         law: ContactLaw,
         reach: Reach,
     ) -> Result<Self, StepError> {
-        cloth.follow(&x, Vec::new());
+        cloth.follow(&x, Loads::default());
         Ok(Self {
             velocity: vec![Vec3::zeros(); x.len()],
             friction: None,
@@ -184,12 +185,12 @@ impl<'a> World<'a> {
         let d = self.stepper.solve(&self.cloth, &ahead, &still, FALL, &forces, ROUNDS)?;
         let target: Vec<Vec3> = ahead.iter().zip(&d).map(|(x, d)| x + d).collect();
         let target = self.clamped(&target);
-        self.move_to(target, FALL, true, Vec::new())
+        self.move_to(target, FALL, true, Loads::default())
     }
 
     /// A step with the true stiffness that changes no edge by more than `radius` metres, shortened until the energy
     /// is below the most it was in the last few; where it does not, a step with the majorant, shortened until it falls.
-    /// What springs hold beyond the loads that the step foresaw does not count: the next step takes it back.
+    /// What springs and shear hold beyond the loads that the step foresaw does not count: the next step takes it back.
     ///
     /// Friction is reckoned from where contacts were last looked for: steps until the next look are iterations towards
     /// the rest of one energy. A memory that followed each of them would be a ratchet, on which their errors drag the
@@ -215,13 +216,13 @@ impl<'a> World<'a> {
             return Ok(NewtonStep { moved, shortened, ratio });
         }
         self.gains.clear();
-        self.cloth.foreseen.clear();
+        self.cloth.foreseen = Loads::default();
         let still = vec![Vec3::zeros(); self.x.len()];
         let now = forces(self.gravity, &self.proximity, self.law, &[], self.friction.as_ref());
         let d = self.stepper.solve(&self.cloth, &self.x, &still, dt, &now, ROUNDS)?;
         let down = self.descend(&d, &Demand { expected: 0.0, allowed: 0.0, halvings: MORE_HALVINGS, foresees: false });
         // The bounds may ask for more room than there is: the shortest step then still makes that room.
-        Ok(NewtonStep { moved: self.move_to(down.target, dt, false, Vec::new())?, shortened: true, ratio: 0.0 })
+        Ok(NewtonStep { moved: self.move_to(down.target, dt, false, Loads::default())?, shortened: true, ratio: 0.0 })
     }
 
     /// Looks for contacts anew where the last step would have liked to go further than there is room left for.
@@ -292,9 +293,9 @@ impl<'a> World<'a> {
         covered
     }
 
-    /// Goes to `target` in `dt` seconds, in a step that `foresaw` loads of the springs or in none that did, with what
+    /// Goes to `target` in `dt` seconds, in a step that `foresaw` loads of the cloth or in none that did, with what
     /// friction remembers if it is to `drag` it along. Returns the largest motion, metres.
-    fn move_to(&mut self, target: Vec<Vec3>, dt: f64, drag: bool, foresaw: Vec<f64>) -> Result<f64, StepError> {
+    fn move_to(&mut self, target: Vec<Vec3>, dt: f64, drag: bool, foresaw: Loads) -> Result<f64, StepError> {
         let mut largest = 0.0f64;
         for ((x, t), v) in self.x.iter().zip(&target).zip(&mut self.velocity) {
             let d = t - x;
@@ -356,7 +357,7 @@ impl<'a> World<'a> {
         let share = self.proximity.bounds.share(&self.x, d);
         let target: Vec<Vec3> = self.x.iter().zip(d).map(|(x, d)| x + d * share).collect();
         let target = self.clamped(&target);
-        Ok(Way { share, moved: self.move_to(target, dt, true, Vec::new())? })
+        Ok(Way { share, moved: self.move_to(target, dt, true, Loads::default())? })
     }
 
     /// Looks for contacts anew. Between detections a node slides on the plane where it met the body; on a curved body

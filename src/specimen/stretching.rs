@@ -6,7 +6,7 @@ use crate::dynamics::GRAVITY;
 use crate::fabric::{Fabric, TensileCurve};
 use crate::geometry::Vec3;
 
-/// Grid spacing, metres: in knits the rims' springs, which have diagonals on one side only, tell in a coarser one.
+/// Grid spacing, metres: ten cells across every strip.
 const SPACING: f64 = 0.005;
 /// A specimen is at rest when ten steps move it by less than this, metres.
 const STILL: f64 = 1e-8;

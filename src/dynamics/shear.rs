@@ -1,0 +1,342 @@
+//! Shear of the weave: warp and weft turn towards each other, whatever they are drawn out by.
+//!
+//! E = ½ G A (φ − φ₀)² for every triangle of the grid whose legs u and v run along the threads, with
+//! φ = asin(u·v / |u||v|) the angle by which they are off a right one and φ₀ that of the flat piece. Together with the
+//! springs along its legs such a triangle is a membrane of threads, each of them strained by its own curve. A spring on
+//! its diagonal would resist the sum of both strains as much as shear (Cauchy's relation for points that attract one
+//! another): cloth whose shear stiffness is near that of its threads, as that of knits, contracts too much under it.
+
+use std::sync::Arc;
+
+use super::curvature::thread_of;
+use super::springs::SHORTEST;
+use crate::fabric::Fabric;
+use crate::geometry::{Vec2, Vec3};
+use crate::mesh::ClothMesh;
+
+/// Legs nearer to one line than this (sine of the angle between them, 3°) turn out of their plane as if they were no
+/// nearer: the stiffness against it has no bound.
+const OPEN: f64 = 0.05;
+
+/// The shear of one triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shear {
+    /// Its right corner, then the other ends of its legs.
+    pub nodes: [u32; 3],
+    /// φ₀, radians.
+    pub rest: f64,
+    /// Shear stiffness times area, N·m per radian.
+    pub stiffness: f64,
+}
+
+/// Both legs of a triangle at one position, in the order of [`Shear::nodes`].
+struct Legs {
+    /// Lengths, metres.
+    lengths: [f64; 2],
+    /// Unit directions from the corner.
+    along: [Vec3; 2],
+    /// Square to each leg and to `normal`, towards the other one.
+    toward: [Vec3; 2],
+    /// Unit normal of the triangle; zero where the legs lie on one line.
+    normal: Vec3,
+    /// φ, radians.
+    angle: f64,
+}
+
+impl Legs {
+    fn new([u, v]: [Vec3; 2]) -> Self {
+        let lengths = [u, v].map(|d| d.norm().max(SHORTEST));
+        let along = [u / lengths[0], v / lengths[1]];
+        let cross = along[0].cross(&along[1]);
+        let normal = cross.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
+        let toward = [normal.cross(&along[0]), along[1].cross(&normal)];
+        Self { lengths, along, toward, normal, angle: along[0].dot(&along[1]).atan2(cross.norm()) }
+    }
+
+    /// Gradient of φ for the other end of each leg, 1/m; the corner has what makes their sum zero.
+    fn turning(&self) -> [Vec3; 2] {
+        [0, 1].map(|k| self.toward[k] / self.lengths[k])
+    }
+}
+
+/// A triangle's stiffness against shear at one position, by the ways of its legs' other ends past its corner.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ShearTangent {
+    /// [`Shear::stiffness`].
+    stiffness: f64,
+    /// Gradient of φ for each leg, 1/m.
+    pub(super) turning: [Vec3; 2],
+    /// Directions of the legs over their lengths, 1/m.
+    along: [Vec3; 2],
+    /// The normal over the legs' lengths, 1/m.
+    out: [Vec3; 2],
+    /// Moment (N·m per radian) that turns the legs, times 1, tan φ and 1/cos φ.
+    load: [f64; 3],
+}
+
+impl ShearTangent {
+    /// What the ends of the legs resist when they go `ways` past the corner, N.
+    pub(super) fn apply(&self, ways: [Vec3; 2]) -> [Vec3; 2] {
+        let [load, tan, sec] = self.load;
+        let turned = self.stiffness * (self.turning[0].dot(&ways[0]) + self.turning[1].dot(&ways[1]));
+        let out = [0, 1].map(|k| self.out[k].dot(&ways[k]));
+        [0, 1].map(|k| {
+            let (along, turning) = (self.along[k], self.turning[k]);
+            let drawn_out = load * along.dot(&ways[k]);
+            turning * (turned - drawn_out) - along * (load * turning.dot(&ways[k]))
+                + self.out[k] * (sec * out[1 - k] - tan * out[k])
+        })
+    }
+
+    /// A bound from above: the root r of its stiff part (rᵢ rⱼᵀ for ends i and j of the legs), and for each leg a
+    /// stiffness (N/m) in all directions for what its load adds.
+    pub(super) fn bound(&self) -> ([Vec3; 2], [f64; 2]) {
+        let [_, tan, sec] = self.load.map(f64::abs);
+        let root = self.stiffness.sqrt();
+        // The part out of the plane has the eigenvalues −tan φ ± 1/cos φ, that in the plane ± 1.
+        (self.turning.map(|g| g * root), self.along.map(|a| (tan + sec) * a.norm_squared()))
+    }
+}
+
+impl Shear {
+    /// Both legs at `x` as they come, metres.
+    fn legs(&self, x: &[Vec3]) -> [Vec3; 2] {
+        let [corner, u, v] = self.nodes.map(|n| x[n as usize]);
+        [u - corner, v - corner]
+    }
+
+    /// Its energy at `x`, J.
+    pub(super) fn energy(&self, x: &[Vec3]) -> f64 {
+        0.5 * self.stiffness * (Legs::new(self.legs(x)).angle - self.rest).powi(2)
+    }
+
+    /// Forces on its nodes at `x`, N.
+    pub(super) fn forces(&self, x: &[Vec3]) -> [Vec3; 3] {
+        let legs = Legs::new(self.legs(x));
+        let [u, v] = legs.turning().map(|g| g * (self.stiffness * (self.rest - legs.angle)));
+        [-u - v, u, v]
+    }
+
+    /// The tangent at `x`, out of the line of its gradient by the `load` (N·m per radian) given instead of its own.
+    pub(super) fn tangent(&self, x: &[Vec3], load: Option<f64>) -> ShearTangent {
+        let legs = Legs::new(self.legs(x));
+        let load = load.unwrap_or(self.stiffness * (legs.angle - self.rest));
+        let (sin, cos) = legs.angle.sin_cos();
+        let cos = cos.max(OPEN);
+        ShearTangent {
+            stiffness: self.stiffness,
+            turning: legs.turning(),
+            along: [0, 1].map(|k| legs.along[k] / legs.lengths[k]),
+            out: legs.lengths.map(|length| legs.normal / length),
+            load: [load, load * sin / cos, load / cos],
+        }
+    }
+
+    /// The load (N·m per radian) that the linear model of a step from `x` to `to` foresees, and the energy (J) that is
+    /// there beyond what that load says.
+    pub(super) fn foresee(&self, x: &[Vec3], to: &[Vec3]) -> (f64, f64) {
+        let (from, after) = (self.legs(x), self.legs(to));
+        let before = Legs::new(from);
+        let turned: f64 = before.turning().iter().zip(after).zip(from).map(|((g, a), b)| g.dot(&(a - b))).sum();
+        let linear = before.angle + turned;
+        let exact = Legs::new(after).angle;
+        (self.stiffness * (linear - self.rest), 0.5 * self.stiffness * (exact - linear).powi(2))
+    }
+}
+
+/// The triangles of the grid: for every triangle of the mesh whose legs run along warp and weft, its particles in the
+/// order of [`Shear::nodes`].
+pub(super) fn grid_triangles(mesh: &ClothMesh) -> Vec<Option<[u32; 3]>> {
+    let mut out = vec![None; mesh.triangles.len()];
+    for piece in &mesh.pieces {
+        let along = |from: u32, to: u32| thread_of(piece.warp, mesh.flat[to as usize] - mesh.flat[from as usize]);
+        for t in piece.triangles.clone() {
+            let [a, b, c] = mesh.triangles[t];
+            let right = |[corner, u, v]: &[u32; 3]| {
+                matches!([along(*corner, *u), along(*corner, *v)], [Some(0), Some(1)] | [Some(1), Some(0)])
+            };
+            out[t] = [[a, b, c], [b, c, a], [c, a, b]].into_iter().find(right);
+        }
+    }
+    out
+}
+
+/// The shear of the grid's triangles; `node_of` maps particles to nodes, and a triangle that stitches have closed to a
+/// line has none.
+pub(super) fn shears(
+    mesh: &ClothMesh,
+    grid: &[Option<[u32; 3]>],
+    node_of: &[u32],
+    fabrics: &[Arc<Fabric>],
+) -> Vec<Shear> {
+    let mut out = Vec::new();
+    for (piece, fabric) in mesh.pieces.iter().zip(fabrics) {
+        for particles in grid[piece.triangles.clone()].iter().flatten() {
+            let nodes = particles.map(|p| node_of[p as usize]);
+            if nodes[0] == nodes[1] || nodes[1] == nodes[2] || nodes[2] == nodes[0] {
+                continue;
+            }
+            let [corner, u, v] = particles.map(|p| mesh.flat[p as usize]);
+            let (u, v): (Vec2, Vec2) = (u - corner, v - corner);
+            let double = u.perp(&v).abs();
+            out.push(Shear { nodes, rest: u.dot(&v).atan2(double), stiffness: 0.5 * double * fabric.shear });
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use nalgebra::SMatrix;
+
+    const SIDES: [f64; 2] = [0.012, 0.009];
+    const G: f64 = 30.0;
+
+    fn shear() -> Shear {
+        Shear { nodes: [0, 1, 2], rest: 0.0, stiffness: G * 0.5 * SIDES[0] * SIDES[1] }
+    }
+
+    /// Legs stretched by `drawn` and turned towards each other by `angle`, in a plane that lies askew.
+    fn sheared(drawn: [f64; 2], angle: f64) -> Vec<Vec3> {
+        let (one, other) = (Vec3::new(2.0, 1.0, -2.0) / 3.0, Vec3::new(1.0, 2.0, 2.0) / 3.0);
+        let corner = Vec3::new(0.3, 1.0, -0.2);
+        let [u, v] = [0, 1].map(|k| SIDES[k] * (1.0 + drawn[k]));
+        vec![corner, corner + one * u, corner + (one * angle.sin() + other * angle.cos()) * v]
+    }
+
+    /// Positions in which nothing is small or square.
+    fn positions() -> Vec<Vec<Vec3>> {
+        [-1.2, -0.4, 0.0, 0.3, 0.9].map(|angle| sheared([0.1, -0.2], angle)).to_vec()
+    }
+
+    /// The change of the forces when node j goes along k, for all of them.
+    fn matrix(apply: impl Fn([Vec3; 2]) -> [Vec3; 2]) -> SMatrix<f64, 9, 9> {
+        SMatrix::from_fn(|row, column| {
+            let mut way = [Vec3::zeros(); 3];
+            way[column / 3][column % 3] = 1.0;
+            let [u, v] = apply([way[1] - way[0], way[2] - way[0]]);
+            [-u - v, u, v][row / 3][row % 3]
+        })
+    }
+
+    #[test]
+    fn forces_are_the_slope_of_the_energy() {
+        for rest in [0.0, 0.004] {
+            let shear = Shear { rest, ..shear() };
+            for mut x in positions() {
+                let forces = shear.forces(&x);
+                let scale = forces.iter().map(Vec3::norm).fold(1e-3, f64::max);
+                for (node, force) in forces.iter().enumerate() {
+                    for k in 0..3 {
+                        let mut at = |d: f64| {
+                            x[node][k] += d;
+                            let energy = shear.energy(&x);
+                            x[node][k] -= d;
+                            energy
+                        };
+                        let slope = (at(1e-7) - at(-1e-7)) / 2e-7;
+                        assert_relative_eq!(force[k], -slope, epsilon = 1e-6 * scale);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_tangent_is_symmetric_and_the_slope_of_the_forces() {
+        let shear = shear();
+        for mut x in positions() {
+            let tangent = shear.tangent(&x, None);
+            let found = matrix(|ways| tangent.apply(ways));
+            let scale = found.abs().max();
+            assert!((found - found.transpose()).abs().max() < 1e-12 * scale);
+            for column in 0..9 {
+                let mut at = |d: f64| {
+                    x[column / 3][column % 3] += d;
+                    let forces = shear.forces(&x);
+                    x[column / 3][column % 3] -= d;
+                    forces
+                };
+                let (before, after) = (at(-1e-8), at(1e-8));
+                for row in 0..9 {
+                    let slope = (before[row / 3][row % 3] - after[row / 3][row % 3]) / 2e-8;
+                    assert_relative_eq!(found[(row, column)], slope, epsilon = 1e-6 * scale);
+                }
+            }
+        }
+    }
+
+    /// What steps are made with resists every motion, and at least as much as the cloth does.
+    #[test]
+    fn the_bound_is_positive_and_above_the_tangent() {
+        for load in [None, Some(-2e-3), Some(0.0), Some(5e-3)] {
+            for x in positions() {
+                let tangent = shear().tangent(&x, load);
+                let (root, legs) = tangent.bound();
+                let bound = matrix(|ways| {
+                    let turned = root[0].dot(&ways[0]) + root[1].dot(&ways[1]);
+                    [0, 1].map(|k| root[k] * turned + ways[k] * legs[k])
+                });
+                let scale = bound.abs().max();
+                assert!(bound.symmetric_eigenvalues().min() > -1e-12 * scale);
+                let above = bound - matrix(|ways| tangent.apply(ways));
+                assert!(above.symmetric_eigenvalues().min() > -1e-12 * scale);
+            }
+        }
+    }
+
+    #[test]
+    fn to_turn_and_to_draw_out_along_threads_costs_nothing() {
+        let area = 0.5 * SIDES[0] * SIDES[1];
+        for drawn in [[0.0, 0.0], [0.3, 0.0], [0.0, -0.1], [0.4, 0.2]] {
+            assert!(shear().energy(&sheared(drawn, 0.0)) < 1e-28 * G * area);
+        }
+        // Flat and turned are the same cloth.
+        let flat = [Vec3::zeros(), Vec3::x() * SIDES[0], Vec3::y() * SIDES[1]];
+        assert!(shear().energy(&flat) < 1e-28 * G * area);
+    }
+
+    #[test]
+    fn shear_costs_half_its_stiffness_times_the_angle_squared() {
+        for angle in [-1.1, -0.2, 0.01, 0.7, 1.4] {
+            let per_area = shear().energy(&sheared([0.0, 0.2], angle)) / (0.5 * SIDES[0] * SIDES[1]);
+            assert_relative_eq!(per_area, 0.5 * G * angle * angle, max_relative = 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_step_foresees_what_turns_the_legs_and_not_the_square_of_it() {
+        let (shear, x) = (shear(), sheared([0.0, 0.0], 0.1));
+        let tangent = shear.tangent(&x, None);
+        // Along the gradient the angle grows by what the gradient says, to first order.
+        let mut to = x.clone();
+        to[1] += tangent.turning[0] * 1e-9;
+        let (load, beyond) = shear.foresee(&x, &to);
+        let turned = tangent.turning[0].norm_squared() * 1e-9;
+        assert_relative_eq!(load, shear.stiffness * (0.1 + turned), max_relative = 1e-12);
+        assert!(beyond < 1e-3 * shear.stiffness * turned * turned);
+        // Out of the plane it does not change to first order.
+        let normal = (x[1] - x[0]).cross(&(x[2] - x[0])).normalize();
+        to[1] = x[1] + normal * 2e-3;
+        let (load, beyond) = shear.foresee(&x, &to);
+        assert_relative_eq!(load, shear.stiffness * 0.1, max_relative = 1e-12);
+        let change = Legs::new(shear.legs(&to)).angle - 0.1;
+        assert!(change.abs() > 1e-3);
+        assert_relative_eq!(beyond, 0.5 * shear.stiffness * change * change, max_relative = 1e-9);
+    }
+
+    /// Legs that have folded onto one another, and a leg without a length, give finite numbers.
+    #[test]
+    fn triangles_without_a_plane_have_finite_forces() {
+        let corner = Vec3::new(0.1, 0.2, 0.3);
+        for (u, v) in [(Vec3::x(), Vec3::x()), (Vec3::x(), -Vec3::x()), (Vec3::zeros(), Vec3::y())] {
+            let x = vec![corner, corner + u * 0.01, corner + v * 0.02];
+            let tangent = shear().tangent(&x, None);
+            let forces = shear().forces(&x).into_iter().chain(tangent.apply([Vec3::x(), Vec3::z()]));
+            assert!(forces.flat_map(|f| [f.x, f.y, f.z]).all(f64::is_finite));
+            assert!(tangent.bound().1.iter().all(|b| b.is_finite()) && shear().energy(&x).is_finite());
+        }
+    }
+}
