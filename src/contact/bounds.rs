@@ -97,10 +97,10 @@ impl Bounds {
         self.leash.iter().enumerate().any(|(i, leash)| short(i, *leash))
     }
 
-    /// How far a node may go between two looks that search within `reach`, metres. When two primitives were last
-    /// searched for one another, each of their nodes was where its leash begins or had gone no more than the share
-    /// `STAYS` of it: since then it has gone no more than 1 + `STAYS` leashes, and a pair that was not found cannot
-    /// meet.
+    /// How far a node may go between two looks that search within `reach`, the first not everywhere, metres. When two
+    /// primitives were last searched for one another, each of their nodes was where its leash begins or had gone no more
+    /// than the share `STAYS` of it: since then it has gone no more than 1 + `STAYS` leashes, and a pair that was not
+    /// found cannot meet.
     pub fn allowance(reach: f64) -> f64 {
         0.5 * Self::allowance_beside_body(reach)
     }
@@ -110,7 +110,7 @@ impl Bounds {
         USED * reach / (1.0 + STAYS)
     }
 
-    /// Both after a look that searched at all nodes, until one that does not.
+    /// Both after a look that searched at all nodes, until one that does not: no node had gone any way before it.
     pub fn allowances_after_all(reach: f64, beside_body: f64) -> [f64; 2] {
         [0.5 * USED * reach, USED * beside_body]
     }
@@ -165,8 +165,9 @@ impl Bounds {
         let mut share = 1.0f64;
         for ((a, b), (o, length)) in from.iter().zip(to).zip(self.origin.iter().zip(&self.leash)) {
             let (d, r) = (b - a, a - o);
-            let (q, p, c) = (d.norm_squared(), r.dot(&d), r.norm_squared() - length * length);
-            if q > 0.0 && c <= 0.0 && q + 2.0 * p + c > 0.0 {
+            // Rounding may leave a node that is at the end of its leash just beyond it.
+            let (q, p, c) = (d.norm_squared(), r.dot(&d), (r.norm_squared() - length * length).min(0.0));
+            if q > 0.0 && q + 2.0 * p + c > 0.0 {
                 share = share.min(((p * p - q * c).max(0.0).sqrt() - p) / q);
             }
         }

@@ -1,13 +1,13 @@
 //! Contact: cloth with the body and cloth with cloth (F6, F14). The only user of parry.
 //!
 //! Detection finds every pair of primitives closer than a *reach* and turns it into a [`Contact`]: a direction and the
-//! weights of the nodes that take part, both turned with the pair as it moves. No node goes further than
-//! [`Bounds::allowance`] from where contacts were last looked for at it, and over the body no further than its features
-//! were looked for, so a pair that was not found cannot meet; a pair that was found is kept apart by a plane between
-//! its two sides ([`Bounds`]). Cloth that starts without a crossing therefore ends without one. The exceptions: pairs
-//! left out on purpose (pairs within one smooth sheet, both sides of a seam that is being closed, features of the body
-//! that another beside them hides); and, while seams are closed in long steps, edges, vertices and the faces of hollows
-//! of the body further off than about three millimetres.
+//! weights of the nodes that take part, both turned with the pair as it moves. No node goes further than about half the
+//! reach ([`Bounds::allowance`], [`Bounds::allowances_after_all`]) from where contacts were last looked for at it, and
+//! over the body no further than its features were looked for, so a pair that was not found cannot meet; a pair that
+//! was found is kept apart by a plane between its two sides ([`Bounds`]). Cloth that starts without a crossing therefore
+//! ends without one. The exceptions: pairs left out on purpose (pairs within one smooth sheet, both sides of a seam that
+//! is being closed, features of the body that another beside them hides); and, while seams are closed in long steps,
+//! edges, vertices and the faces of hollows of the body further off than about three millimetres.
 
 mod body;
 mod bounds;

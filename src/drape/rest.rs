@@ -92,9 +92,9 @@ const TESTS: usize = 2;
 /// finds more than pays, less needs too many looks (one is due when a node has gone a third of that).
 const LOOK: f64 = 2.0;
 
-/// One that falls freely (fewer pairs were found than it has nodes) is looked at as far around as it falls in a
-/// stretch, up to this many cells: in large cells a look costs less than the steps it saves. Layers that lie on one
-/// another would find each other many times over.
+/// One that falls freely (fewer contacts are known than it has nodes) is looked at as far around as it falls in a
+/// stretch (RMS), up to this many cells: in large cells a look costs less than the steps it saves. Layers that lie on
+/// one another would find each other many times over.
 const CELLS: f64 = 0.4;
 
 /// Drapes a sewn garment.

@@ -127,8 +127,9 @@ impl Near {
     pub(super) fn covers(&mut self, x: &[Vec3], to: &[Vec3], origin: &[Vec3]) -> bool {
         let mut covered = true;
         for (may, (a, b)) in self.may.iter_mut().zip(x.iter().zip(to)) {
-            let way = (b - a).norm();
-            if way > *may || way.is_nan() {
+            // A way that is no number is as far as any.
+            let way = (b - a).norm().min(f64::INFINITY);
+            if way > *may {
                 (*may, covered) = (FORESIGHT * way + LITTLE, false);
             }
         }
@@ -286,5 +287,13 @@ mod tests {
     fn what_is_in_the_body_need_not_be_kept_apart() {
         let (_, near) = over_floor(-0.002);
         assert_eq!((near.contacts.len(), near.apart().len()), (1, 0));
+    }
+
+    #[test]
+    fn a_way_that_is_no_number_is_covered_when_everything_is() {
+        let (x, mut near) = over_floor(0.1);
+        let to = [Vec3::repeat(f64::NAN)];
+        assert!(!near.covers(&x, &to, &x) && near.contacts.len() == 1);
+        assert!(near.covers(&x, &to, &x));
     }
 }

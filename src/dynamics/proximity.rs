@@ -12,7 +12,8 @@ use crate::geometry::{Vec3, sorted_pair};
 /// How contact is looked for.
 #[derive(Clone, Copy, Debug)]
 pub struct Reach {
-    /// Cloth primitives nearer than this are pairs, metres. Nodes may go [`Bounds::allowance`] of it between two looks.
+    /// Cloth primitives nearer than this are pairs, metres. Between two looks nodes may go [`Bounds::allowance`] of it,
+    /// after one that searched all of the cloth [`Bounds::allowances_after_all`].
     pub cloth: f64,
     /// The body is looked for this near to a node, metres.
     pub body: f64,
@@ -30,6 +31,11 @@ impl Reach {
     /// falls in large cells, of which few are near the body.
     pub fn with_features(self) -> Self {
         Self { features: 0.5 * self.cloth, ..self }
+    }
+
+    /// Whether what was found within `last` will do: nothing is to be looked for further off, nor cloth much less far.
+    fn goes_on_from(&self, last: &Self) -> bool {
+        self.cloth <= last.cloth && self.features <= last.features && self.cloth >= NARROWER * last.cloth
     }
 
     /// Whether nodes go no further between two looks than the body's features are looked for.
@@ -133,7 +139,7 @@ impl<'a> Proximity<'a> {
         &self.near.contacts
     }
 
-    /// How many were found, near or not.
+    /// How many contacts with body and cloth are known, whether they matter or not.
     pub(super) fn found(&self) -> usize {
         self.near.all.len()
     }
@@ -194,8 +200,7 @@ impl<'a> Proximity<'a> {
 
     /// Whether the next look searches all of the cloth.
     fn is_all(&self) -> bool {
-        let other = |searched: Reach| self.reach.cloth > searched.cloth || self.reach.cloth < NARROWER * searched.cloth;
-        self.searched.is_none_or(other)
+        self.searched.is_none_or(|last| !self.reach.goes_on_from(&last))
     }
 
     /// From now on the ways of nodes that were searched at are measured from `x`. Those near the body may go no further
@@ -336,4 +341,17 @@ fn kept(known: &[(u32, Contact)], element: u32, found: &[Contact], x: &[Vec3], r
     let first = known.partition_point(|k| k.0 < element);
     let of_element = known[first..].iter().take_while(|k| k.0 == element).map(|k| k.1);
     of_element.filter(|c| apart(c) && !again(c)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_look_for_features_further_off_is_another_one() {
+        let wide = Reach::new(0.03);
+        assert!(Reach::new(0.028).goes_on_from(&wide));
+        assert!(!Reach::new(0.028).with_features().goes_on_from(&wide), "14 mm, and not 4");
+        assert!(!Reach::new(0.031).goes_on_from(&wide) && !Reach::new(0.015).goes_on_from(&wide));
+    }
 }

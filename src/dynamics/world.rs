@@ -306,7 +306,7 @@ impl<'a> World<'a> {
         self.cloth.follow(&self.x, foresaw);
         let longest = self.proximity.bounds.longest();
         if self.wished.iter().any(|d| d.norm() > longest) {
-            // Cloth that falls freely.
+            // Cloth that falls freely, as the last Newton step saw it.
             self.proximity.forget();
         }
         if drag || self.proximity.bounds.is_due(&self.x) {
@@ -416,7 +416,7 @@ impl<'a> World<'a> {
         rms / (mean_mass * super::GRAVITY)
     }
 
-    /// Pairs that were found near each other at the last look.
+    /// How many contacts with body and cloth are known, within the reach of the looks that found them.
     pub fn contacts_found(&self) -> usize {
         self.proximity.found()
     }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::spread::Spread;
-use crate::contact::Skin;
+use crate::contact::{Collider, Skin};
 use crate::dynamics::{StepError, World};
 use crate::geometry::{TriMesh, Vec3};
 use crate::sew::settle::{STEP, TRUST};
@@ -19,8 +19,11 @@ const FAR: f64 = 0.05;
 const ON: f64 = 1e-6;
 /// Cloth further from a limb than this, metres, does not ask for it.
 const LOOK: f64 = 0.5;
-/// Steps of the measured springs after every stage.
+/// Steps of the measured springs after every stage,
 pub(super) const STEPS: usize = 3;
+/// and at most so many more while the body still cuts an edge of the cloth, before the limb goes on: what is under the
+/// skin then may come out on its other side. After the last stage the cloth settles anyway.
+const MORE: usize = 20;
 
 /// Which share of a limb's way every node of a garment goes.
 pub(super) struct Carrier<'a> {
@@ -83,4 +86,23 @@ impl<'a> Carrier<'a> {
         }
         Ok(())
     }
+}
+
+/// Lets the measured springs pull, at most for [`MORE`] steps, until the cloth is out of the `body` of its stage.
+/// Returns how many steps it took.
+///
+/// # Errors
+/// As [`World::newton`].
+pub(super) fn come_out(world: &mut World, body: &Collider) -> Result<usize, StepError> {
+    let mut steps = 0;
+    while steps < MORE && is_cut(world, body) {
+        world.newton(STEP, TRUST)?;
+        steps += 1;
+    }
+    Ok(steps)
+}
+
+/// Whether the body is in the way along an edge of the cloth.
+fn is_cut(world: &World, body: &Collider) -> bool {
+    world.cloth.edges.par_iter().any(|[a, b]| body.is_in_the_way(world.x[*a as usize], world.x[*b as usize]))
 }

@@ -14,7 +14,7 @@ use crate::dynamics::Cut;
 use crate::geometry::{TriMesh, Vec3};
 use crate::mannequin::{Mannequin, PartKind};
 use crate::pattern::Garment;
-use back::Carrier;
+use back::{Carrier, come_out};
 use spread::{Spread, spreads};
 
 /// Share of the progress that sewing is; the rest is the way back.
@@ -81,14 +81,14 @@ impl Stance {
             let stage = stage.ok_or_else(no_solid)?.on_floor(body.floor());
             let mut world = sewn_world(cut, &stage, &sewn.stitching, sewn.nodes)?;
             carrier.carry(&mut world, share - last)?;
+            sewn.steps += back::STEPS + come_out(&mut world, &stage)?;
             (sewn.nodes, last) = (world.x, share);
             progress(SEWN + (1.0 - SEWN) * (k + 1) as f64 / (stops.len() + 1) as f64);
         }
         let mut world = sewn_world(cut, body, &sewn.stitching, sewn.nodes)?;
         carrier.carry(&mut world, -last)?;
         let (steps, tangles) = settle(&mut world, Calm::TO_FALL)?;
-        sewn.steps += steps + back::STEPS * (stops.len() + 1);
-        Ok(Sewn { nodes: world.x, tangles, ..sewn })
+        Ok(Sewn { nodes: world.x, tangles, steps: sewn.steps + back::STEPS + steps, ..sewn })
     }
 }
 
