@@ -98,9 +98,9 @@ impl Bounds {
     }
 
     /// How far a node may go between two looks that search within `reach`, the first not everywhere, metres. When two
-    /// primitives were last searched for one another, each of their nodes was where its leash begins or had gone no more
-    /// than the share `STAYS` of it: since then it has gone no more than 1 + `STAYS` leashes, and a pair that was not
-    /// found cannot meet.
+    /// primitives were last searched for one another, each of their nodes was where its leash begins or had gone no
+    /// more than the share `STAYS` of it: since then it has gone no more than 1 + `STAYS` leashes, and a pair that was
+    /// not found cannot meet.
     pub fn allowance(reach: f64) -> f64 {
         0.5 * Self::allowance_beside_body(reach)
     }

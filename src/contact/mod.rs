@@ -4,10 +4,10 @@
 //! weights of the nodes that take part, both turned with the pair as it moves. No node goes further than about half the
 //! reach ([`Bounds::allowance`], [`Bounds::allowances_after_all`]) from where contacts were last looked for at it, and
 //! over the body no further than its features were looked for, so a pair that was not found cannot meet; a pair that
-//! was found is kept apart by a plane between its two sides ([`Bounds`]). Cloth that starts without a crossing therefore
-//! ends without one. The exceptions: pairs left out on purpose (pairs within one smooth sheet, both sides of a seam that
-//! is being closed, features of the body that another beside them hides); and, while seams are closed in long steps,
-//! edges, vertices and the faces of hollows of the body further off than about three millimetres.
+//! was found is kept apart by a plane between its two sides ([`Bounds`]). Cloth that starts without a crossing
+//! therefore ends without one. The exceptions: pairs left out on purpose (pairs within one smooth sheet, both sides of
+//! a seam that is being closed, features of the body that another beside them hides); and, while seams are closed in
+//! long steps, edges, vertices and the faces of hollows of the body further off than about three millimetres.
 
 mod body;
 mod bounds;
