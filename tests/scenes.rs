@@ -82,11 +82,7 @@ fn two_round_pieces_are_sewn_all_round() {
 }
 
 /// Sews and drapes a scene on a body whose limbs almost touch: worn as its pieces say, every seam closed.
-fn is_worn(name: &str, spacing: f64, openings: usize) {
-    is_worn_by(name, &scene(name, spacing), openings);
-}
-
-fn is_worn_by(name: &str, job: &Job, openings: usize) {
+fn is_worn(name: &str, job: &Job, openings: usize) {
     assert!(job.stance.is_some(), "{name}: the body's limbs have room");
     let report = rests(name, job).1;
     assert!(report.seams.iter().all(|s| s.gap_max < 1.0), "{name}: {:?}", report.seams);
@@ -96,25 +92,25 @@ fn is_worn_by(name: &str, job: &Job, openings: usize) {
 
 #[test]
 fn trousers_are_sewn_over_legs_that_almost_touch() {
-    is_worn("close_legs.yaml", 25.0, 3);
+    is_worn("close_legs.yaml", &scene("close_legs.yaml", 25.0), 3);
 }
 
 #[test]
 fn a_shirt_is_sewn_under_arms_that_almost_touch_the_trunk() {
-    is_worn("close_arms.yaml", 25.0, 4);
+    is_worn("close_arms.yaml", &scene("close_arms.yaml", 25.0), 4);
 }
 
 /// A node in the cleft of the armpit was thrown from one side of it to the other for six hundred steps.
 #[test]
 fn cloth_wedged_in_an_armpit_rests() {
-    is_worn("close_arms.yaml", 16.0, 4);
+    is_worn("close_arms.yaml", &scene("close_arms.yaml", 16.0), 4);
 }
 
 /// Arms that went on while the cloth under them was still in the skin left it crossing the trunk.
 #[test]
 fn stiff_cloth_under_arms_that_go_back_crosses_nothing() {
     let name = "close_arms.yaml";
-    is_worn_by(name, &scene_in(name, 22.0, Some("cotton_poplin")), 4);
+    is_worn(name, &scene_in(name, 22.0, Some("cotton_poplin")), 4);
 }
 
 #[test]

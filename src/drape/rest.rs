@@ -119,9 +119,8 @@ pub fn drape(
     let spacing = cut.mesh.spacing;
     let look = [thick + NEAREST_LOOK, drape_reach(spacing, thick)];
     let near = options.near;
-    let trusts = TRUST.map(|share| share * spacing);
-    let (last, trust) = (world.x.clone(), trusts[0]);
-    let mut fall = Fall { last, world, steps: 0, tested: 0, near, trust, trusts, look, spacing };
+    let (last, trust) = (world.x.clone(), TRUST[0] * spacing);
+    let mut fall = Fall { last, world, steps: 0, tested: 0, near, trust, look, spacing };
     let (drift, residual, converged) = match options.until {
         Until::Rest => fall.come_to_rest(options.max_steps, progress)?,
         Until::Near => {
@@ -147,8 +146,6 @@ struct Fall<'a> {
     near: bool,
     /// How far a Newton step is trusted, metres.
     trust: f64,
-    /// [`TRUST`] in metres.
-    trusts: [f64; 3],
     /// How far around the cloth is looked at, at least and at most, metres.
     look: [f64; 2],
     /// Of the grid, metres.
@@ -216,7 +213,7 @@ impl Fall<'_> {
 
     /// A step with the true stiffness.
     fn step(&mut self, dt: f64) -> Result<(), StepError> {
-        let [_, least, most] = self.trusts;
+        let [_, least, most] = TRUST.map(|share| share * self.spacing);
         self.trust = self.world.newton(dt, self.trust)?.trust(self.trust).clamp(least, most);
         Ok(())
     }

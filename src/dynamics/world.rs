@@ -203,6 +203,11 @@ impl<'a> World<'a> {
         let now = forces(self.gravity, &self.proximity, self.law, &[], self.friction.as_ref());
         let step = self.stepper.newton(&self.cloth, &self.x, dt, &now, radius)?;
         self.wished.clone_from(&step.d);
+        let longest = self.proximity.bounds.longest();
+        if step.d.iter().any(|d| d.norm() > longest) {
+            // Cloth that falls freely.
+            self.proximity.forget();
+        }
         let allowed = self.allowed_rise();
         let demand = Demand { expected: step.gain, allowed, halvings: HALVINGS, foresees: true };
         let down = self.descend(&step.d, &demand);
@@ -304,11 +309,6 @@ impl<'a> World<'a> {
         }
         let last = std::mem::replace(&mut self.x, target);
         self.cloth.follow(&self.x, foresaw);
-        let longest = self.proximity.bounds.longest();
-        if self.wished.iter().any(|d| d.norm() > longest) {
-            // Cloth that falls freely, as the last Newton step saw it.
-            self.proximity.forget();
-        }
         if drag || self.proximity.bounds.is_due(&self.x) {
             self.drag_friction();
         }

@@ -20,7 +20,7 @@ const ON: f64 = 1e-6;
 /// Cloth further from a limb than this, metres, does not ask for it.
 const LOOK: f64 = 0.5;
 /// Steps of the measured springs after every stage,
-pub(super) const STEPS: usize = 3;
+const STEPS: usize = 3;
 /// and at most so many more while the body still cuts an edge of the cloth, before the limb goes on: what is under the
 /// skin then may come out on its other side. After the last stage the cloth settles anyway.
 const MORE: usize = 20;
@@ -73,18 +73,18 @@ impl<'a> Carrier<'a> {
     }
 
     /// Carries the nodes of `world` along as limbs go on by a share of their spread, as far as cloth lets cloth, and
-    /// lets the measured springs pull for [`STEPS`].
+    /// lets the measured springs pull. Returns for how many steps.
     ///
     /// # Errors
     /// As [`World::newton`].
-    pub(super) fn carry(&self, world: &mut World, share: f64) -> Result<(), StepError> {
+    pub(super) fn carry(&self, world: &mut World, share: f64) -> Result<usize, StepError> {
         let moved = |(p, weights): (&Vec3, &Vec<f64>)| Vec3::new(p.x + self.way(p, weights) * share, p.y, p.z);
         let target: Vec<Vec3> = world.x.iter().zip(&self.weights).map(moved).collect();
         world.carry(&target)?;
         for _ in 0..STEPS {
             world.newton(STEP, TRUST)?;
         }
-        Ok(())
+        Ok(STEPS)
     }
 }
 

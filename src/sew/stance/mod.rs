@@ -80,15 +80,14 @@ impl Stance {
             let stage = Collider::new(&moved(&self.own, &self.spreads, share));
             let stage = stage.ok_or_else(no_solid)?.on_floor(body.floor());
             let mut world = sewn_world(cut, &stage, &sewn.stitching, sewn.nodes)?;
-            carrier.carry(&mut world, share - last)?;
-            sewn.steps += back::STEPS + come_out(&mut world, &stage)?;
+            sewn.steps += carrier.carry(&mut world, share - last)? + come_out(&mut world, &stage)?;
             (sewn.nodes, last) = (world.x, share);
             progress(SEWN + (1.0 - SEWN) * (k + 1) as f64 / (stops.len() + 1) as f64);
         }
         let mut world = sewn_world(cut, body, &sewn.stitching, sewn.nodes)?;
-        carrier.carry(&mut world, -last)?;
+        sewn.steps += carrier.carry(&mut world, -last)?;
         let (steps, tangles) = settle(&mut world, Calm::TO_FALL)?;
-        Ok(Sewn { nodes: world.x, tangles, steps: sewn.steps + back::STEPS + steps, ..sewn })
+        Ok(Sewn { nodes: world.x, tangles, steps: sewn.steps + steps, ..sewn })
     }
 }
 
