@@ -65,10 +65,11 @@ const FLOORS: [(&str, &[&str]); 21] = [
 ];
 
 /// Crates and the paths below `src` that may name them.
-const CRATES: [(&str, &[&str]); 20] = [
+const CRATES: [(&str, &[&str]); 21] = [
     ("parry3d_f64", &["contact/"]),
     ("robust", &["geometry/"]),
     ("faer", &["linear/"]),
+    ("foldhash", &["dynamics/friction.rs"]),
     ("spade", &["mesh/"]),
     ("kurbo", &["geometry/"]),
     ("i_overlay", &["cutting/clean.rs"]),

@@ -528,42 +528,6 @@ fn surface(name: &str) -> Option<(PathBuf, TriMesh)> {
     Some((path, mesh))
 }
 
-/// The mesh with its flat position as texture coordinates, for the eyes of other programs.
-fn write_obj(name: &str, mesh: &TriMesh, flat: &[Vec2]) {
-    let mut text = String::new();
-    for p in &mesh.vertices {
-        writeln!(text, "v {:.9} {:.9} {:.9}", p.x, p.y, p.z).unwrap();
-    }
-    for p in flat {
-        writeln!(text, "vt {:.9} {:.9}", p.x, p.y).unwrap();
-    }
-    for t in &mesh.triangles {
-        let [a, b, c] = t.map(|v| v + 1);
-        writeln!(text, "f {a}/{a} {b}/{b} {c}/{c}").unwrap();
-    }
-    std::fs::write(Path::new(env!("CARGO_TARGET_TMPDIR")).join(name), text).unwrap();
-}
-
-/// The mesh as a one-piece pattern.
-fn write_svg(name: &str, mesh: &TriMesh, flat: &[Vec2]) {
-    let mut rim = rim_loops(&mesh.triangles).remove(0);
-    rim.push(rim[0]);
-    let edge = EdgeParticles { edge: EdgeId { piece: 0, ring: 0, index: 0 }, name: "rim".into(), particles: rim };
-    let piece = PieceMesh {
-        name: name.into(),
-        particles: 0..flat.len(),
-        triangles: 0..mesh.triangles.len(),
-        edges: vec![edge],
-        lines: Vec::new(),
-        smallest_angle: 0.0,
-        warp: Vec2::new(0.0, -1.0),
-    };
-    let (flat, triangles) = (flat.to_vec(), mesh.triangles.clone());
-    let cloth = ClothMesh { spacing: 0.003, flat, triangles, pieces: vec![piece], seams: Vec::new() };
-    let text = pattern_svg(&cloth, &cloth.flat, &[]).unwrap();
-    std::fs::write(Path::new(env!("CARGO_TARGET_TMPDIR")).join(name), text).unwrap();
-}
-
 /// The bodice without a dart, where others reach: ARAP area −0.45 %, distortion 6.68 %; here both modes at least that.
 #[test]
 fn a_bodice_is_as_good_as_the_best_known() {
@@ -575,59 +539,6 @@ fn a_bodice_is_as_good_as_the_best_known() {
     assert_sound(&mesh, &balanced);
     assert!(balanced.report.boundary_error < 1e-5 && balanced.report.area_distortion < 0.012, "{:?}", balanced.report);
     assert!(balanced.report.distortion < 0.11, "{:?}", balanced.report);
-}
-
-/// Two bulging panels of 2,600 particles each, strained by a few per cent as on a body.
-#[test]
-#[ignore = "a measurement, not a check"]
-fn timing_of_a_garment() {
-    let cloth = two_panels([50, 50], 50, 1.0);
-    let bulge = |p: &Vec2| Vec3::new(p.x, -p.y, 0.1 * (-((p.x - 0.25).powi(2) + (p.y - 0.25).powi(2)) / 0.04).exp());
-    let draped: Vec<Vec3> = cloth.flat.iter().map(bulge).collect();
-    for m in MODES {
-        let started = std::time::Instant::now();
-        let flat = flatten_garment(&cloth, &[seam(Give::Even)], &draped, &mode(m)).unwrap();
-        println!("{} particles, {m:?}: {:.3} s", cloth.flat.len(), started.elapsed().as_secs_f64());
-        for piece in flat.pieces {
-            let r = piece.report;
-            println!("  {} steps, area {:.4}, boundary {:.5}", r.iterations, r.area_error, r.boundary_error);
-        }
-    }
-}
-
-#[test]
-#[ignore = "a measurement, not a check"]
-fn timing_of_measured_surfaces() {
-    for name in ["bodice_10000", "sleeve_10000", "cap60_10000", "cone_10000", "fold_10000", "bodice_100000"] {
-        let Some((_, mesh)) = surface(&format!("{name}.obj")) else { return };
-        for m in MODES {
-            // The fastest of three: others use the machine too.
-            let mut seconds = f64::INFINITY;
-            let mut flat = None;
-            for _ in 0..3 {
-                let started = std::time::Instant::now();
-                flat = Some(flatten(&mesh, &mode(m)).unwrap());
-                seconds = seconds.min(started.elapsed().as_secs_f64());
-            }
-            let flat = flat.unwrap();
-            let r = &flat.report;
-            println!(
-                "{name} {m:?}: {seconds:.3} s, {} steps, converged {}, area {:+.3} % rms {:.2} %, rim {:+.4} %, \
-                 edge {:.3} %, l2 {:.3} %, flips {}, overlaps {}",
-                r.iterations,
-                r.converged,
-                100.0 * (r.area_after / r.area_before - 1.0),
-                100.0 * r.area_distortion,
-                100.0 * (r.boundary_after / r.boundary_before - 1.0),
-                100.0 * r.largest_edge_error,
-                100.0 * r.distortion,
-                r.flips,
-                r.overlaps
-            );
-            write_obj(&format!("{name}_{m:?}.obj"), &mesh, &flat.positions);
-            write_svg(&format!("{name}_{m:?}.svg"), &mesh, &flat.positions);
-        }
-    }
 }
 
 /// The full run of random disks with bumps, spikes and slivers: none flips, none panics.

@@ -3,7 +3,6 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 use std::sync::Arc;
-use std::time::Instant;
 
 use nalgebra::{DMatrix, DVector};
 use toile::geometry::{Mat3, Vec3};
@@ -209,47 +208,6 @@ fn nested_dissection_is_a_permutation_with_less_fill() {
     assert!(cut.factor_entries() < natural.factor_entries() / 2);
     order.sort_unstable();
     assert!(order.into_iter().eq(0..4900));
-}
-
-/// Prints the cost of a Newton step on a grid; run with `--ignored --nocapture`.
-#[test]
-#[ignore = "a measurement, not a check"]
-fn timing_of_a_70_by_70_grid() {
-    fn measure<T: Scalar>(name: &str, pattern: &Arc<SymmetricPattern>, edges: &[[u32; 2]], ordering: &Ordering) {
-        let started = Instant::now();
-        let mut factor = Cholesky::<T>::new(pattern.clone(), ordering).unwrap();
-        let analysed = started.elapsed();
-        let started = Instant::now();
-        let matrix = springs::<T>(pattern, edges);
-        let assembled = started.elapsed();
-        let mut best = [f64::INFINITY; 2];
-        for _ in 0..7 {
-            let started = Instant::now();
-            factor.factor(&matrix).unwrap();
-            best[0] = best[0].min(started.elapsed().as_secs_f64());
-            let mut x = right_hand_sides(pattern.size());
-            let started = Instant::now();
-            factor.solve_f64(&mut x);
-            best[1] = best[1].min(started.elapsed().as_secs_f64());
-        }
-        println!(
-            "{name}: analyse {:.1} ms, assemble {:.1} ms, factor {:.1} ms, solve {:.2} ms, {} entries",
-            1e3 * analysed.as_secs_f64(),
-            1e3 * assembled.as_secs_f64(),
-            1e3 * best[0],
-            1e3 * best[1],
-            factor.factor_entries()
-        );
-    }
-    let (points, edges) = grid(70);
-    let pattern = Arc::new(SymmetricPattern::blocks(4900, pairs(&edges)).unwrap());
-    let started = Instant::now();
-    let cut = Ordering::Given(nested_dissection(&points, &edges));
-    println!("nested dissection {:.2} ms", 1e3 * started.elapsed().as_secs_f64());
-    for (name, ordering) in [("minimum degree", Ordering::MinimumDegree), ("nested dissection", cut)] {
-        measure::<f64>(&format!("{name} f64"), &pattern, &edges, &ordering);
-        measure::<f32>(&format!("{name} f32"), &pattern, &edges, &ordering);
-    }
 }
 
 #[test]

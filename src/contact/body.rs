@@ -5,7 +5,7 @@ use parry3d_f64::query::{PointQueryWithLocation, Ray, RayCast};
 use parry3d_f64::shape::{TriMesh as ParryMesh, TriMeshFlags};
 
 use super::grid::Grid;
-use super::narrow::{apart, closest_on_segments, closest_on_triangle};
+use super::narrow::{closest_on_segments, closest_on_triangle};
 use super::{Contact, Under};
 use crate::geometry::{Topology, TriMesh, Vec3};
 
@@ -35,7 +35,7 @@ const MEETS: f64 = 0.25;
 
 /// A convex edge of the body.
 struct BodyEdge {
-    ends: [u32; 2],
+    ends: [Vec3; 2],
     /// The third corners of its two faces.
     beside: [u32; 2],
     /// Half-way between the directions of its two faces.
@@ -87,7 +87,7 @@ impl Collider {
         let edge_boxes: Vec<_> = edges
             .iter()
             .map(|e| {
-                let [a, b] = e.ends.map(|v| body.vertices[v as usize]);
+                let [a, b] = e.ends;
                 (a.inf(&b), a.sup(&b))
             })
             .collect();
@@ -200,9 +200,6 @@ impl Collider {
         let high = a.sup(&b).sup(&c).add_scalar(reach);
         self.vertex_grid.query(low, high, |v| {
             let at = self.vertices[v as usize];
-            if apart(low, high, at, at) {
-                return;
-            }
             let outward = self.normals[v as usize];
             if [a, b, c].iter().all(|x| outward.dot(&(x - at)) > reach) {
                 return;
@@ -225,11 +222,7 @@ impl Collider {
         let [a, b] = ends.map(|n| x[n as usize]);
         let (low, high) = (a.inf(&b).add_scalar(-reach), a.sup(&b).add_scalar(reach));
         self.edge_grid.query(low, high, |e| {
-            let BodyEdge { ends: [i, j], beside, outward } = self.edges[e as usize];
-            let (p, q) = (self.vertices[i as usize], self.vertices[j as usize]);
-            if apart(low, high, p.inf(&q), p.sup(&q)) {
-                return;
-            }
+            let BodyEdge { ends: [p, q], beside, outward } = self.edges[e as usize];
             let highest = outward.dot(&p).max(outward.dot(&q));
             if outward.dot(&a).min(outward.dot(&b)) - highest > reach {
                 return;
@@ -314,7 +307,8 @@ fn convex_edges(body: &TriMesh) -> Vec<BodyEdge> {
         let below = n.dot(&(body.vertices[right as usize] - body.vertices[edge.ends[0] as usize]));
         if n.dot(&m) < SHARP_EDGE && below < 0.0 {
             let outward = (n + m).try_normalize(0.0).unwrap_or_default();
-            out.push(BodyEdge { ends: edge.ends, beside: [left, right], outward });
+            let ends = edge.ends.map(|v| body.vertices[v as usize]);
+            out.push(BodyEdge { ends, beside: [left, right], outward });
         }
     }
     out

@@ -81,8 +81,8 @@ const TRUST: [f64; 3] = [0.125, 0.01, 0.2];
 pub const DRIFT: f64 = 0.3e-3;
 /// and its forces are out of balance by no more than so many particle weights (RMS).
 pub const RESIDUAL: f64 = 1.0;
-/// Steps so short that as many as are left move the garment by no more than this share of [`DRIFT`] need not be made,
-/// once so many in a row were: a single short one may be one that could not be made longer.
+/// Steps so short that as many as are left move the garment by no more than this share of what it may go need not be
+/// made, once so many in a row were: a single short one may be one that could not be made longer.
 const STILL: f64 = 1.0 / 3.0;
 const IN_A_ROW: usize = 3;
 /// Tests of rest take no more than this many times the steps that draping may: one test as long as the longest fall,
@@ -174,24 +174,36 @@ impl Fall<'_> {
 
     /// Steps until a stretch of them moves the garment less than `settled` metres RMS, or `most` are made in all.
     fn settle(&mut self, most: usize, settled: f64, progress: &mut dyn FnMut(f64)) -> Result<(), StepError> {
-        let mut moved = f64::INFINITY;
-        while moved > settled && self.steps < most {
+        let mut is_settled = false;
+        while !is_settled && self.steps < most {
             let before = self.world.x.clone();
-            for _ in 0..STRETCH {
-                if self.near {
-                    self.step(STEP)?;
-                } else {
-                    self.fall()?;
-                }
-                self.steps += 1;
-            }
-            let [mean, most_moved] = motion(&before, &self.world.x);
-            moved = mean;
-            self.world.look_within(self.reach(mean, most_moved))?;
+            let is_still = self.stretch(settled)?;
+            let [moved, most_moved] = motion(&before, &self.world.x);
+            is_settled = is_still || moved <= settled;
+            self.world.look_within(self.reach(moved, most_moved))?;
             self.near |= moved < NEAR_REST || self.steps >= LONGEST_FALL;
             progress((self.steps as f64 / most as f64).max(settled / moved).min(0.9));
         }
         Ok(())
+    }
+
+    /// A stretch of steps. Returns whether it ended early: where the garment is so still that a whole stretch of such
+    /// steps would hardly be a share of `settled` metres.
+    fn stretch(&mut self, settled: f64) -> Result<bool, StepError> {
+        let mut still = Still::default();
+        for _ in 0..STRETCH {
+            let from = self.world.x.clone();
+            if self.near {
+                self.step(STEP)?;
+            } else {
+                self.fall()?;
+            }
+            self.steps += 1;
+            if still.after(STRETCH as f64 * motion(&from, &self.world.x)[0], settled) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// How far to look around after a stretch in which the garment went `moved` metres RMS, and the node that went
@@ -223,20 +235,31 @@ impl Fall<'_> {
     /// went as far as the last, all the same way.
     fn drift(&mut self, most: usize) -> Result<[f64; 2], StepError> {
         let before = self.world.x.clone();
-        let (mut left_out, mut still) = ([0.0; 2], 0);
+        let (mut left_out, mut still) = ([0.0; 2], Still::default());
         for left in (0..self.steps).rev() {
             let from = self.world.x.clone();
             self.step(0.5 * STEP)?;
             self.tested += 1;
             let still_to_go = motion(&from, &self.world.x).map(|way| way * left as f64);
-            still = if still_to_go[0] <= STILL * DRIFT { still + 1 } else { 0 };
-            if still == IN_A_ROW || self.tested >= most {
+            if still.after(still_to_go[0], DRIFT) || self.tested >= most {
                 left_out = still_to_go;
                 break;
             }
         }
         let [mean, largest] = motion(&before, &self.world.x);
         Ok([mean + left_out[0], largest + left_out[1]])
+    }
+}
+
+/// Counts steps in a row after which there is hardly any way left to go.
+#[derive(Default)]
+struct Still(usize);
+
+impl Still {
+    /// Whether there were enough, the last one with `left` metres to go of which `bound` may be.
+    fn after(&mut self, left: f64, bound: f64) -> bool {
+        self.0 = if left <= STILL * bound { self.0 + 1 } else { 0 };
+        self.0 >= IN_A_ROW
     }
 }
 

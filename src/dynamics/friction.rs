@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use foldhash::fast::FixedState;
+
 use crate::contact::Contact;
 use crate::geometry::{Mat3, Vec3};
 
@@ -20,7 +22,7 @@ pub struct Friction {
     /// In the contacts' order.
     memory: Vec<Memory>,
     /// What the contacts that touch remember, to be found again at the next detection.
-    touching: HashMap<Key, Memory>,
+    touching: HashMap<Key, Memory, FixedState>,
     /// By how far the springs of a node's contacts with the body are drawn, in the mean of their loads, metres.
     on_body: Vec<Vec3>,
     /// Positions when all that was last brought up to date.
@@ -130,7 +132,7 @@ impl Friction {
     /// Nothing is drawn yet.
     pub(super) fn new(x: &[Vec3], contacts: &[Contact], stiffness: f64) -> Self {
         let on_body = vec![Vec3::zeros(); x.len()];
-        let mut out = Self { stiffness, memory: Vec::new(), touching: HashMap::new(), on_body, at: x.to_vec() };
+        let mut out = Self { stiffness, memory: Vec::new(), touching: HashMap::default(), on_body, at: x.to_vec() };
         out.detected(contacts);
         out
     }

@@ -81,14 +81,19 @@ impl Near {
         inside.filter_map(|(_, k)| self.found[*k as usize].element)
     }
 
-    /// Lets go of what does not `stay`. Returns what was found at triangles and edges of it, sorted by them and turned
-    /// to where its closest points are at `x`.
-    pub(super) fn retain(&mut self, x: &[Vec3], stay: impl Fn(&Contact, Option<u32>) -> bool) -> Vec<(u32, Contact)> {
+    /// Lets go of what does not `stay`. Returns what of it was found at `wanted` triangles and edges, sorted by these
+    /// and turned to where its closest points are at `x`.
+    pub(super) fn retain(
+        &mut self,
+        x: &[Vec3],
+        stay: impl Fn(&Contact, Option<u32>) -> bool,
+        wanted: impl Fn(u32) -> bool,
+    ) -> Vec<(u32, Contact)> {
         let mut left = Vec::new();
         let mut stays = Vec::with_capacity(self.all.len());
         for (contact, found) in self.all.iter().zip(&self.found) {
             stays.push(stay(contact, found.element));
-            if let Some(element) = found.element.filter(|_| !stays[stays.len() - 1]) {
+            if let Some(element) = found.element.filter(|&k| !stays[stays.len() - 1] && wanted(k)) {
                 let mut contact = *contact;
                 turn(&mut contact, found, found.turned == self.step, x);
                 left.push((element, contact));
@@ -257,7 +262,8 @@ mod tests {
         near.add(&[(of(0), Some(7)), (of(1), Some(3)), (of(0), None)], &x, &x);
         near.follow(&x, &x);
         assert_eq!(near.contacts.len(), 2);
-        let left = near.retain(&x, |contact, _| contact.nodes[0] == 1);
+        near.add(&[(of(0), Some(9))], &x, &x);
+        let left = near.retain(&x, |contact, _| contact.nodes[0] == 1, |element| element < 9);
         assert_eq!(left.iter().map(|l| l.0).collect::<Vec<_>>(), [7]);
         assert_eq!(near.all.len(), 1);
         near.follow(&x, &x);

@@ -37,8 +37,17 @@ const SOLVED: f64 = 1e-4;
 pub(super) struct Proposal {
     /// Where to go.
     pub(super) d: Vec<Vec3>,
+    /// What the cloth resists it with, without contact, N: its stiffness times `d`.
+    resisted: Vec<Vec3>,
     /// By how much the model says the energy will fall, J.
     pub(super) gain: f64,
+}
+
+impl Proposal {
+    /// To stay where it is.
+    fn none(nodes: usize) -> Self {
+        Self { d: vec![Vec3::zeros(); nodes], resisted: vec![Vec3::zeros(); nodes], gain: 0.0 }
+    }
 }
 
 /// What the true stiffness is made of at one position.
@@ -72,7 +81,7 @@ impl Stepper {
         let presses = presses(cloth, x, forces);
         let holds: Vec<Option<Hold>> =
             presses.iter().enumerate().map(|(k, p)| forces.hold(cloth, x, k, p.load)).collect();
-        let mut step = Proposal { d: vec![Vec3::zeros(); x.len()], gain: 0.0 };
+        let mut step = Proposal::none(x.len());
         let mut active: Vec<bool> = presses.iter().map(|p| p.load > 0.0).collect();
         let mut grips: Vec<Option<Grip>> = holds.iter().map(|hold| Some(hold.as_ref()?.grip())).collect();
         for round in 1..=ROUNDS {
@@ -81,31 +90,27 @@ impl Stepper {
                 self.prepare(cloth, x, dt, forces, &pushing, OLD)?;
             }
             let tangent = Tangent::new(cloth, x, dt, forces, &pushing);
-            let next = self.truncated(&tangent, &pushing.forces(&free, forces), step.d.clone(), radius)?;
+            let next = self.truncated(&tangent, &pushing.forces(&free, forces), &step, radius)?;
             let model = Model { tangent, free: &free, holds: &holds, pushing };
-            let (to, judged) = model.best_on_the_way(&step, next);
-            if judged.gain >= step.gain {
-                step = Proposal { d: to.clone(), gain: judged.gain };
-                if judged.misjudged <= MISJUDGED * judged.gain {
+            let (to, misjudged) = model.best_on_the_way(&step, next);
+            let after = |k: usize| Some(holds[k].as_ref()?.grip_after(way(&forces.contacts[k], &to.d)));
+            grips = (0..holds.len()).map(after).collect();
+            active = presses.iter().zip(forces.contacts).map(|(p, c)| p.after(opening(c, &to.d)) > 0.0).collect();
+            if to.gain >= step.gain {
+                step = to;
+                if misjudged <= MISJUDGED * step.gain {
                     break;
                 }
             }
-            let after = |k: usize| Some(holds[k].as_ref()?.grip_after(way(&forces.contacts[k], &to)));
-            grips = (0..holds.len()).map(after).collect();
-            active = presses.iter().zip(forces.contacts).map(|(p, c)| p.after(opening(c, &to)) > 0.0).collect();
         }
         Ok(step)
     }
 
-    /// Conjugate gradients on the tangent, from the step `d`.
-    fn truncated(
-        &self,
-        tangent: &Tangent,
-        rhs: &[Vec3],
-        mut d: Vec<Vec3>,
-        radius: f64,
-    ) -> Result<Vec<Vec3>, StepError> {
-        let mut r: Vec<Vec3> = rhs.iter().zip(tangent.apply(&d)).map(|(r, a)| r - a).collect();
+    /// Conjugate gradients on the tangent, on from the step `from`.
+    fn truncated(&self, tangent: &Tangent, rhs: &[Vec3], from: &Proposal, radius: f64) -> Result<Vec<Vec3>, StepError> {
+        let mut d = from.d.clone();
+        let resisted = tangent.with_contacts(from.resisted.clone(), &d);
+        let mut r: Vec<Vec3> = rhs.iter().zip(resisted).map(|(r, a)| r - a).collect();
         let mut z = self.apply_inverse(&r)?;
         let mut p = z.clone();
         let mut rz = dot(&r, &z);
@@ -153,7 +158,11 @@ impl<'a> Tangent<'a> {
 
     /// (M/Δt² + true stiffness) p, with the contacts that push.
     fn apply(&self, p: &[Vec3]) -> Vec<Vec3> {
-        let mut out = self.apply_free(p);
+        self.with_contacts(self.apply_free(p), p)
+    }
+
+    /// What the contacts that push resist `p` with, beside the cloth's own `out`.
+    fn with_contacts(&self, mut out: Vec<Vec3>, p: &[Vec3]) -> Vec<Vec3> {
         for (k, grip) in &self.grips {
             let (contact, press) = (&self.forces.contacts[*k], &self.presses[*k]);
             let way = way(contact, p);
@@ -200,11 +209,6 @@ impl<'a> Tangent<'a> {
         let square = |e: &[u32; 2]| (d[e[0] as usize] - d[e[1] as usize]).norm_squared();
         self.cloth.edges.iter().map(square).fold(0.0, f64::max).sqrt()
     }
-
-    /// Decrease of the energy's quadratic model along `d`, without contact.
-    fn gain(&self, free: &[Vec3], d: &[Vec3]) -> f64 {
-        dot(free, d) - 0.5 * dot(d, &self.apply_free(d))
-    }
 }
 
 /// How far a step carries a contact, metres.
@@ -232,23 +236,32 @@ struct Judged {
 }
 
 impl Model<'_> {
-    /// The step on the way from `from` to `to`, halved again and again, where the energy is lowest. What the step was
-    /// solved with may be wrong all along: then the shortest that was tried.
-    fn best_on_the_way(&self, from: &Proposal, to: Vec<Vec3>) -> (Vec<Vec3>, Judged) {
-        let (mut best, mut share) = ((self.judge(&to), to), 1.0);
+    /// The step on the way from `from` to `to`, halved again and again, where the energy is lowest, and how much is
+    /// misjudged there. What the step was solved with may be wrong all along: then the shortest that was tried.
+    fn best_on_the_way(&self, from: &Proposal, to: Vec<Vec3>) -> (Proposal, f64) {
+        let way: Vec<Vec3> = to.iter().zip(&from.d).map(|(b, a)| b - a).collect();
+        let resisted = self.tangent.apply_free(&way);
+        let at = |share: f64| {
+            let on = |from: &[Vec3], way: &[Vec3]| from.iter().zip(way).map(|(a, w)| a + w * share).collect();
+            let (d, resisted): (Vec<Vec3>, Vec<Vec3>) = (on(&from.d, &way), on(&from.resisted, &resisted));
+            let Judged { gain, misjudged } = self.judge(&d, &resisted);
+            (Proposal { d, resisted, gain }, misjudged)
+        };
+        let (mut best, mut share) = (at(1.0), 1.0);
         while share > SHORTEST_WAY {
-            let half: Vec<Vec3> = from.d.iter().zip(&best.1).map(|(a, b)| 0.5 * (a + b)).collect();
-            let judged = self.judge(&half);
-            if best.0.gain >= judged.gain && best.0.gain > from.gain {
+            share *= 0.5;
+            let half = at(share);
+            if best.0.gain >= half.0.gain && best.0.gain > from.gain {
                 break;
             }
-            (best, share) = ((judged, half), 0.5 * share);
+            best = half;
         }
-        (best.1, best.0)
+        best
     }
 
-    fn judge(&self, d: &[Vec3]) -> Judged {
-        let mut out = Judged { gain: self.tangent.gain(self.free, d), misjudged: 0.0 };
+    /// Judges the step `d`, which the cloth resists as much as told.
+    fn judge(&self, d: &[Vec3], resisted: &[Vec3]) -> Judged {
+        let mut out = Judged { gain: dot(self.free, d) - 0.5 * dot(d, resisted), misjudged: 0.0 };
         let Pushing { presses, active, grips } = self.pushing;
         for (k, (contact, press)) in self.tangent.forces.contacts.iter().zip(presses).enumerate() {
             let after = press.after(opening(contact, d));

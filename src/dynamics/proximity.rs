@@ -277,12 +277,15 @@ impl<'a> Proximity<'a> {
     /// of what was found before at all that is.
     fn face_contacts(&mut self, cloth: &Cloth, x: &[Vec3], reach: &Reach, stale: &[bool], sources: &mut Vec<Source>) {
         let is_searched = self.is_searched(cloth, x, stale);
-        let known = self.near.retain(x, |contact, element| match element {
+        let found = self.search(cloth, x, reach.features, &is_searched);
+        let hides = |k: usize| matches!(found[k], Some((_, true)));
+        let stay = |contact: &Contact, element: Option<u32>| match element {
             Some(k) => !is_searched[k as usize],
             None if contact.is_on_body() => false,
             None => contact.nodes.iter().all(|&n| !stale[n as usize]),
-        });
-        for (k, found) in self.search(cloth, x, reach.features, &is_searched).into_iter().enumerate() {
+        };
+        let known = self.near.retain(x, stay, |k| hides(k as usize));
+        for (k, found) in found.into_iter().enumerate() {
             let Some((found, hidden)) = found else { continue };
             let element = Some(k as u32);
             let kept = if hidden { kept(&known, k as u32, &found, x, reach.features) } else { Vec::new() };

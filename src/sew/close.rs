@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use super::error::SewError;
 use super::recover::lead_out;
-use super::settle::{Calm, join, settle, sewn_world};
+use super::settle::{Calm, joined, settle, sewn_world};
 use super::stitch::Stitching;
 use super::untangle::untangle;
 use crate::contact::{Collider, Neighbourhood};
@@ -147,7 +147,9 @@ pub fn sew(
         let tangles = world.tangles().len();
         return Ok(Sewn { stitching, nodes, gaps, steps, tangles, open: Some(world.x) });
     }
-    settled(cut, body, stitching, nodes, gaps, steps, Calm::TO_FALL)
+    let mut sewn = settled(sewn_world(cut, body, &stitching, nodes)?, stitching, gaps, Calm::TO_FALL)?;
+    sewn.steps += steps;
+    Ok(sewn)
 }
 
 /// The seams of one stage on their way shut.
@@ -238,21 +240,12 @@ fn neighbourhood<'a>(world: &World, nodes: impl Iterator<Item = &'a u32>) -> Vec
 pub fn stitch(cut: &Cut, body: &Collider, particles: &[Vec3]) -> Result<Option<Sewn>, SewError> {
     let stitching = Stitching::new(cut.mesh);
     let gaps = stitching.gaps(particles);
-    let nodes = join(cut, body, &stitching, particles)?;
-    nodes.map(|nodes| settled(cut, body, stitching, nodes, gaps, 0, Calm::TO_LIE)).transpose()
+    let world = joined(cut, body, &stitching, particles)?;
+    world.map(|world| settled(world, stitching, gaps, Calm::TO_LIE)).transpose()
 }
 
 /// Lets a garment with its seams closed settle.
-fn settled(
-    cut: &Cut,
-    body: &Collider,
-    stitching: Stitching,
-    nodes: Vec<Vec3>,
-    gaps: Vec<f64>,
-    steps: usize,
-    calm: Calm,
-) -> Result<Sewn, SewError> {
-    let mut world = sewn_world(cut, body, &stitching, nodes)?;
-    let (more, tangles) = settle(&mut world, calm)?;
-    Ok(Sewn { nodes: world.x, stitching, gaps, steps: steps + more, tangles, open: None })
+fn settled(mut world: World, stitching: Stitching, gaps: Vec<f64>, calm: Calm) -> Result<Sewn, SewError> {
+    let (steps, tangles) = settle(&mut world, calm)?;
+    Ok(Sewn { nodes: world.x, stitching, gaps, steps, tangles, open: None })
 }

@@ -97,9 +97,19 @@ pub fn join(
     stitching: &Stitching,
     particles: &[Vec3],
 ) -> Result<Option<Vec<Vec3>>, StepError> {
+    Ok(joined(cut, body, stitching, particles)?.map(|world| world.x))
+}
+
+/// [`join`], as a world that goes on from there.
+pub(super) fn joined<'a>(
+    cut: &Cut,
+    body: &'a Collider,
+    stitching: &Stitching,
+    particles: &[Vec3],
+) -> Result<Option<World<'a>>, StepError> {
     let mut world = sewn_world(cut, body, stitching, stitching.welded(particles))?;
     untangle(&mut world)?;
-    Ok(world.tangles().is_empty().then_some(world.x))
+    Ok(world.tangles().is_empty().then_some(world))
 }
 
 /// Lets the measured springs pull a newly stitched cloth true, out of its tangles first, until it is `calm`. Returns
