@@ -21,7 +21,7 @@ pub struct DrapeOptions {
 pub enum Until {
     /// Until it rests, tested by as many steps again.
     Rest,
-    /// Until it moves little: a start for finer cloth.
+    /// Until only long waves are left, which finer cloth has to go through anyway: a start for it.
     Near,
 }
 
@@ -72,8 +72,6 @@ const NEAR_REST: f64 = 1.5e-3;
 const LONGEST_FALL: usize = 80;
 /// A garment has settled when it moves less than this, metres RMS, in so many steps.
 const SETTLED: f64 = 0.12e-3;
-/// One that goes on in finer cloth, when it moves less than this.
-const HARDLY: f64 = 0.5e-3;
 /// How far a Newton step is trusted to change an edge: at first, at least and at most, in grid spacings. Springs that
 /// are turned further are drawn out by more than the next step takes back.
 const TRUST: [f64; 3] = [0.125, 0.01, 0.2];
@@ -124,7 +122,7 @@ pub fn drape(
     let (drift, residual, converged) = match options.until {
         Until::Rest => fall.come_to_rest(options.max_steps, progress)?,
         Until::Near => {
-            fall.settle(options.max_steps, HARDLY, progress)?;
+            fall.settle(options.max_steps, NEAR_REST, progress)?;
             ([f64::INFINITY; 2], fall.world.residual_in_weights(), false)
         }
     };
