@@ -430,6 +430,11 @@ fn readings_become_a_fabric() {
     let mean = shown["liu"]["means"][2].as_f64().expect("a number");
     assert!((mean - 30.5 / 40.0).abs() < 1e-6, "{mean}");
     room.run(&["fabric", "measure", "readings.csv", "-o", "readings.csv"]).ends(2).says(&["it is an input"]);
+    room.run(&["fabric", "measure", "readings.csv", "-o", "denim"]).ends(2).says(&["named denim.yaml"]);
+    room.put("flex.csv", "strain %, load gf/cm\n1, 50\n2.5, 500\n");
+    room.put("flex.yaml", "weight: 115 g/m2\nbend: 1 uN.m\ntensile: {warp: flex.csv}\n");
+    let over = ["fabric", "test", "flex.yaml", "--only", "drape", "-o", "flex.csv"];
+    room.run(&over).ends(2).says(&["it is an input"]);
     room.put("few.csv", "repeat, recovery, stretch, bend\ninitial, 1840, 610,\n1, 1500, 620, 30\n");
     room.run(&["fabric", "measure", "few.csv", "-o", "few.yaml"])
         .ends(2)

@@ -172,8 +172,73 @@ fn too_few_or_impossible_readings_are_refused() {
     room.refused("values: {weight: 100 g/m2}\n", "has no bend value");
     room.refused("means: {recovery: 98, stretch: 1.04, bend: 0.995}\n", "recovery: the mean 98 is no ratio");
     room.refused(&(yaml(&set) + "means: {recovery: 0.9, stretch: 1, bend: 0.9}\n"), "leave one out");
+    room.refused("means: {recovery: 0.98, stretch: 1.04, bend: 1.2}\n", "bend: the mean 1.2 is no ratio");
+    room.refused(&with(|s| s[2][4] *= 10.0), "is more than 3 times the median");
+    // Recovery weighs nothing then: a board.
+    room.refused("means: {recovery: 0.96, stretch: 1.05, bend: 0.995}\nvalues: {weight: 115 g/m2}\n", "give bend");
+    room.refused("values: {weight: 115 g/m2, bend: 1 uN.m, name: foo}\n", "values: name is none");
+    room.refused("values: {weight: 115 g/m2, bend: 1 uN.m, weight: 9 g/m2}\n", "duplicate entry");
+    room.refused(&format!("values: {}", "[".repeat(200_000)), "nested deeper");
     let csv = measure(&room.file("bad.csv", "a, b\n1, 2\n"), "mine").expect_err("no columns").to_string();
     assert!(csv.contains("row 1: the first line must name the columns"), "{csv}");
+}
+
+#[test]
+fn rows_that_are_no_readings_are_refused() {
+    let room = Room::new();
+    let head = "repeat, recovery, stretch, bend\ninitial, 1840, 609.6,\n1, 1674, 628, 30\n";
+    for (rows, why) in [
+        ("mean, 1700, 630, 31\n", "row 4: 'mean' is no repeat"),
+        ("initial, 1900, 609.6,\n", "row 4: repeat 'initial' stands there twice"),
+        ("1, 1674, 628, 30\n", "row 4: repeat '1' stands there twice"),
+        ("2, 1674, 628,1, 30,5\n", "row 4: 6 fields, where the first row names 4"),
+        ("2, 1674, nan, 30\n", "row 4: stretch: 'nan' is no number above 0"),
+    ] {
+        let said = measure(&room.file("bad.csv", format!("{head}{rows}")), "mine").expect_err(why).to_string();
+        assert!(said.contains(why), "{said}");
+    }
+    let german = "repeat;recovery;stretch;bend\ninitial;1840;609,6;\n1;1674;628,1;30,5\n";
+    let said = measure(&room.file("bad.csv", german), "mine").expect_err("commas").to_string();
+    assert!(said.contains("row 2: stretch: '609,6' is no number; write a decimal point"), "{said}");
+}
+
+#[test]
+fn values_replace_what_a_sheet_says_in_other_words() {
+    let room = Room::new();
+    // A byte order mark, as spreadsheets begin UTF-8 with.
+    room.file(
+        "fast.csv",
+        "\u{feff}parameter,warp,weft,unit\nC,20,18,mm\nE5,.5,.8\nE100,2,3.5\nEB5,3,,%\nW,150,,g/m2\n",
+    );
+    let file =
+        "sheet: fast.csv\nvalues: {tensile: {warp: {EMT: 9 %, LT: 0.9}}, shear: 2 gf/cm.deg, bend: 0.5 gf.cm2/cm}\n";
+    let found = measure(&room.file("a.yaml", file), "mine").expect("measured");
+    let keys: Vec<&str> = found.sheet.measurements.iter().map(|m| m.key.as_str()).collect();
+    assert_eq!(keys, ["weight", "tensile.weft.curve", "tensile.warp.EMT", "tensile.warp.LT", "shear", "bend"]);
+    assert_relative_eq!(found.fabric.bend_warp, 0.5 * 98.0665e-6, max_relative = 1e-9);
+}
+
+#[test]
+fn a_curve_among_the_values_is_written_down_and_never_over() {
+    let room = Room::new();
+    let curve = room.file("flex.csv", "strain %, load gf/cm\n1, 50\n2.5, 500\n");
+    let file = "values: {weight: 100 g/m2, bend: 0.1 gf.cm2/cm, tensile: {warp: flex.csv}}\n";
+    let found = measure(&room.file("a.yaml", file), "mine").expect("measured");
+    assert!(found.inputs.contains(&curve), "{:?}", found.inputs);
+    let written = found.sheet.measurements.iter().find(|m| m.key == "tensile.warp.curve").expect("the curve");
+    assert_eq!(written.value, "1:50 2.5:500");
+    // 275 gf/cm lie half-way between both rows.
+    assert_relative_eq!(found.fabric.warp.strain(275.0 * 0.980_665), 0.017_5, max_relative = 1e-6);
+}
+
+#[test]
+fn an_error_in_a_recorded_curve_names_its_line() {
+    let room = Room::new();
+    room.file("warp.csv", "# KES-FB1\n# warp\nstrain %, load gf/cm\n0,0\n.5,20\n1,15\n2,200\n");
+    room.refused(
+        "curves: {tensile: {warp: warp.csv}}\nvalues: {weight: 100 g/m2, bend: 1 uN.m}\n",
+        "row 6: load falls",
+    );
 }
 
 /// A picture of `side` pixels with a square of cloth of `cloth` pixels a side, as PNG.

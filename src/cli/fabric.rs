@@ -120,14 +120,17 @@ fn measures(liu: &LiuMeasures) -> String {
 
 fn from_readings(readings: &Path, output: &Path, console: &Console) -> Result<(), CliError> {
     check_writable(&[output.to_owned()], &[readings])?;
+    if !output.extension().is_some_and(|e| e == "yaml" || e == "yml") {
+        let name = output.display();
+        return Err(CliError::Argument(format!("-o {name}: a fabric's file is named {name}.yaml, or it is not found")));
+    }
     let stem = output.file_stem().map_or("fabric".into(), |s| s.to_string_lossy());
-    let Measured { sheet, tests, notes, inputs } = measure(readings, &stem)?;
+    let Measured { sheet, fabric, tests, notes, inputs } = measure(readings, &stem)?;
     let inputs: Vec<&Path> = inputs.iter().map(AsRef::as_ref).collect();
     write_all(&[(output.to_owned(), fabric_yaml(&sheet).into_bytes())], &inputs)?;
     for note in &notes {
         console.note(&format!("note: {note}"));
     }
-    let fabric = load(&output.display().to_string())?;
     let mut value = shown(&sheet, &fabric);
     value["file"] = json!(output.display().to_string());
     value["notes"] = json!([notes, fabric.notes()].concat());

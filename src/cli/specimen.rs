@@ -25,7 +25,10 @@ pub(super) fn test(name: &str, only: &[String], output: Option<&Path>, console: 
     };
     let tests: Vec<&Test> = TESTS.iter().filter(|t| only.is_empty() || only.iter().any(|o| o == t.name)).collect();
     if let Some(output) = output {
-        check_writable(&[output.to_owned()], &[Path::new(name)])?;
+        let home = Path::new(name).parent().unwrap_or(Path::new(""));
+        let curves: Vec<_> = sheet.curve_files().map(|file| home.join(file)).collect();
+        let inputs: Vec<&Path> = std::iter::once(Path::new(name)).chain(curves.iter().map(AsRef::as_ref)).collect();
+        check_writable(&[output.to_owned()], &inputs)?;
         if !tests.iter().any(|t| t.name == "drape") {
             return Err(CliError::Argument("-o draws the shadow of the drape test: add --only drape".to_owned()));
         }

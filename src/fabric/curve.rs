@@ -1,5 +1,7 @@
 //! Load–extension curves (F4) and how they come from Kawabata numbers or a file.
 
+use std::ops::RangeInclusive;
+
 use super::error::FabricError;
 use super::units::GF_PER_CM;
 
@@ -16,6 +18,10 @@ const KNOTS: [f64; 6] = [5.0, 20.0, 50.0, 100.0, 200.0, 500.0];
 const FULL_LOAD: f64 = 500.0;
 /// Share of it at which it counts as reached: a tester turns round a few gf/cm early or late.
 const REACHED: f64 = 0.98;
+/// Strain to which the stretchiest cloth may be drawn, and what a curve's rows can have between them, N/m: from a web
+/// that a breath draws out to a steel sheet of some millimetres. Beyond are slips of the pen and wrong units.
+const LONGEST: f64 = 10.0;
+const STIFFNESS: RangeInclusive<f64> = 1e-3..=1e9;
 
 impl TensileCurve {
     /// The curve F = 500 gf/cm · (ε/EMT)^(2/LT − 1) of an extension `emt` (a fraction) at 500 gf/cm and a linearity
@@ -93,39 +99,66 @@ impl TensileCurve {
     /// empty or begin with `#` are skipped. A first point (0, 0) is added where it is missing.
     ///
     /// # Errors
-    /// [`FabricError::Curve`] with the row where a number cannot be read or the curve does not rise.
+    /// [`FabricError::Curve`] with the row where a number cannot be read, the curve does not rise, or it is that of no
+    /// cloth.
     pub fn parse(text: &str, file: &str) -> Result<Self, FabricError> {
-        let fault = |row: usize, why: String| FabricError::Curve { file: file.to_owned(), row: row + 1, why };
+        let fault = |row: usize, why: String| FabricError::Curve { file: file.to_owned(), row, why };
         let mut scale = (0.01, GF_PER_CM);
-        let mut rows: Vec<(f64, f64)> = vec![(0.0, 0.0)];
+        let mut rows = Vec::new();
         let lines = text.lines().enumerate().filter(|(_, l)| !l.trim().is_empty() && !l.trim_start().starts_with('#'));
         for (count, (row, line)) in lines.enumerate() {
             let first = line.split([',', ';', '\t']).next().unwrap_or(line);
             if count == 0 && first.trim().parse::<f64>().is_err() {
-                scale = header(line).map_err(|why| fault(row, why))?;
+                scale = header(line).map_err(|why| fault(row + 1, why))?;
                 continue;
             }
-            let [strain, load] = numbers(line).map_err(|why| fault(row, why))?;
-            if (strain, load) == (0.0, 0.0) && rows.len() == 1 {
+            let [strain, load] = numbers(line).map_err(|why| fault(row + 1, why))?;
+            rows.push((row + 1, strain, load));
+        }
+        Self::rising(&rows, scale, file)
+    }
+
+    /// Of rows (line of the `file`, strain, load), as [`TensileCurve::parse`]; `scale` makes their numbers a fraction
+    /// and N/m.
+    pub(super) fn rising(rows: &[(usize, f64, f64)], scale: (f64, f64), file: &str) -> Result<Self, FabricError> {
+        let fault = |row: usize, why: String| FabricError::Curve { file: file.to_owned(), row, why };
+        let mut points = vec![(0.0, 0.0)];
+        for &(row, strain, load) in rows {
+            if (strain, load) == (0.0, 0.0) && points.len() == 1 {
                 continue;
             }
-            let (before, next) = (rows[rows.len() - 1], (strain * scale.0, load * scale.1));
+            let (before, next) = (points[points.len() - 1], (strain * scale.0, load * scale.1));
             if next.0 <= before.0 {
-                return Err(fault(
-                    row,
-                    format!("strain goes from {} to {strain}; it must rise", short(before.0 / scale.0)),
-                ));
+                let why = match short(before.0 / scale.0) {
+                    from if strain == 0.0 && points.len() == 1 => {
+                        format!("a load of {load} at {from}; take it off all")
+                    }
+                    from => format!("strain goes from {from} to {strain}; it must rise"),
+                };
+                return Err(fault(row, why));
             }
             if next.1 <= before.1 {
                 let from = short(before.1 / scale.1);
                 return Err(fault(row, format!("load falls from {from} to {load}; curves must rise")));
             }
-            rows.push(next);
+            let stiffness = (next.1 - before.1) / (next.0 - before.0);
+            if next.0 > LONGEST || !STIFFNESS.contains(&stiffness) {
+                let [low, high] = [STIFFNESS.start(), STIFFNESS.end()];
+                return Err(fault(
+                    row,
+                    format!(
+                        "a strain of {:e} and {stiffness:e} N/m from the row before; cloth has up to {LONGEST}, and from \
+                         {low:e} to {high:e} N/m: are the units % and gf/cm, or does a header say others?",
+                        next.0
+                    ),
+                ));
+            }
+            points.push(next);
         }
-        if rows.len() < 2 {
-            return Err(fault(0, "no rows of strain and load".to_owned()));
+        if points.len() < 2 {
+            return Err(fault(1, "no rows of strain and load".to_owned()));
         }
-        Ok(Self { points: rows })
+        Ok(Self { points })
     }
 }
 

@@ -263,6 +263,12 @@ impl<'a> Values<'a> {
             (None, None) => match (self.liu, weight) {
                 (Some(liu), Some(weight)) => {
                     let rigidity = liu.bending_length().powi(3) * weight * GRAVITY;
+                    if !(rigidity.is_finite() && rigidity > 0.0) {
+                        let why = "recovery and bend must both weigh something, or no bending follows; give bend";
+                        let (fabric, key, why) =
+                            (self.context.name.to_owned(), "liu.weights".to_owned(), why.to_owned());
+                        return Err(FabricError::Range { fabric, key, text: format!("{:?}", liu.weights), why });
+                    }
                     let within = rigidity.clamp(*BEND.range.start(), *BEND.range.end());
                     Ok([defaults.note("bend", within); 2])
                 }

@@ -8,6 +8,8 @@ use crate::input::shown;
 
 /// Characters of a message that are shown: it may quote the whole file.
 const MESSAGE: usize = 300;
+/// Most brackets that are open at one place of a file.
+const DEEPEST: i64 = 100;
 
 /// What a fabric file says.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,6 +57,8 @@ pub struct LiuMeasures {
     pub weights: [f64; 3],
 }
 
+/// No cloth's diagonal grows beyond this many times its length at 8 N; the other two measures are at most 1.
+pub(super) const LARGEST_MEAN: f64 = 3.0;
 /// The bending length of a fabric with ω_B = ω_R under gravity, metres: the one constant of
 /// [`LiuMeasures::bending_length`]. A trial of disc drapes put it at 20 to 22 mm, where silk, poplin, denim and canvas
 /// come in their known order.
@@ -69,6 +73,23 @@ impl LiuMeasures {
         EVEN_BENDING_LENGTH * (bend / recovery).cbrt()
     }
 
+    /// Refuses what no readings give.
+    fn check(&self) -> Result<(), String> {
+        let within = |name: &str, values: &[f64; 3], low: f64, high: f64| {
+            let wrong = values.iter().any(|v| !(low..=high).contains(v));
+            if wrong { Err(format!("liu.{name} is {values:?}; each lies between {low} and {high}")) } else { Ok(()) }
+        };
+        within("means", &self.means, 0.0, LARGEST_MEAN)?;
+        within("spread", &self.spread.unwrap_or_default(), 0.0, LARGEST_MEAN)?;
+        within("normalised", &self.normalised, 0.0, 1.0)?;
+        within("weights", &self.weights, 0.0, 100.0)?;
+        let sums = [("normalised", &self.normalised), ("weights", &self.weights)];
+        match sums.into_iter().find(|(_, values)| values.iter().all(|v| *v == 0.0)) {
+            Some((name, _)) => Err(format!("liu.{name}: all three are 0")),
+            None => Ok(()),
+        }
+    }
+
     /// Equation (8): ω = v'/Σv', percent. Agrees with the published weights within 0.02 except for samples 10 (0.15),
     /// 11 (0.58) and 12 (0.055).
     pub fn recomputed_weights(&self) -> [f64; 3] {
@@ -77,11 +98,16 @@ impl LiuMeasures {
 }
 
 impl FabricSheet {
+    /// Curve files that its values name, relative to its own folder.
+    pub fn curve_files(&self) -> impl Iterator<Item = &str> {
+        self.measurements.iter().filter(|m| names_curve(m)).map(|m| m.value.trim())
+    }
+
     /// The drape coefficients that were measured of such cloths, per cent, from `drape: 60-83 %`.
     pub fn drape_band(&self) -> Option<[f64; 2]> {
         let text = &self.measurements.iter().find(|m| m.key == "drape")?.value;
         let numbers: Option<Vec<f64>> =
-            text.trim_end_matches('%').split('-').map(|n| n.trim().parse::<f64>().ok()).collect();
+            text.trim_end_matches('%').split(['-', '–']).map(|n| n.trim().parse::<f64>().ok()).collect();
         match numbers?[..] {
             [one] => Some([one, one]),
             [low, high] => Some([low, high]),
@@ -95,7 +121,7 @@ impl FabricSheet {
     /// [`FabricError::Syntax`] when it is no YAML map of values.
     pub fn parse(text: &str, from: &str) -> Result<Self, FabricError> {
         let fault = |why: String| FabricError::Syntax { file: from.to_owned(), why: shown(&why, MESSAGE) };
-        let value: Value = serde_yaml::from_str(text).map_err(|e| fault(e.to_string()))?;
+        let value: Value = yaml(text).map_err(fault)?;
         let Value::Mapping(map) = value else {
             return Err(fault("a fabric is a map of values, such as weight: 115 g/m2".to_owned()));
         };
@@ -113,12 +139,34 @@ impl FabricSheet {
                 "name" => out.name = scalar(&value).unwrap_or_default(),
                 "description" => out.description = scalar(&value).unwrap_or_default(),
                 "note" => out.note = scalar(&value),
-                "liu" => out.liu = Some(serde_yaml::from_value(value).map_err(|e| fault(format!("liu: {e}")))?),
+                "liu" => {
+                    let liu: LiuMeasures = serde_yaml::from_value(value).map_err(|e| fault(format!("liu: {e}")))?;
+                    liu.check().map_err(fault)?;
+                    out.liu = Some(liu);
+                }
                 _ => flatten(&key, &value, &mut out.measurements).map_err(&fault)?,
             }
         }
         Ok(out)
     }
+}
+
+/// Whether a value is the name of a curve's file.
+pub(super) fn names_curve(m: &Measurement) -> bool {
+    m.key.starts_with("tensile") && m.value.trim().ends_with(".csv")
+}
+
+/// What a YAML text holds. The parser's time grows with the square of how deep values are nested: no fabric is nested
+/// deep, and one that is (or seems to be, by brackets in its texts) is refused before it is parsed.
+pub(super) fn yaml<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, String> {
+    let depth = text.chars().scan(0i64, |open, c| {
+        *open += i64::from(matches!(c, '[' | '{')) - i64::from(matches!(c, ']' | '}'));
+        Some(*open)
+    });
+    if depth.max().unwrap_or(0) > DEEPEST {
+        return Err(format!("values are nested deeper than {DEEPEST} brackets"));
+    }
+    serde_yaml::from_str(text).map_err(|e| shown(&e.to_string(), MESSAGE))
 }
 
 /// The measurements of a nested value: `bend: {warp: 1 uN.m}` is `bend.warp`; a map with a `value` is one measurement.

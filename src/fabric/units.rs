@@ -66,7 +66,7 @@ impl Quantity {
 
 /// One spelling of a unit: `gf·cm²/cm`, `gf*cm^2/cm` and `gf.cm2/cm` are the same,
 /// as are `gf/(cm deg)` and `gf/cm.deg`.
-fn plain(text: &str) -> String {
+pub(super) fn plain(text: &str) -> String {
     let mut out = String::new();
     let mut chars = text.trim().chars().peekable();
     while let Some(c) = chars.next() {
@@ -75,13 +75,13 @@ fn plain(text: &str) -> String {
             '²' => out.push('2'),
             'µ' | 'μ' => out.push('u'),
             '^' | '(' | ')' => {}
-            // A space between two units multiplies them; one after the number means nothing.
-            c if c.is_whitespace() => {
-                let between = out.ends_with(char::is_alphabetic) && chars.peek().is_some_and(|c| c.is_alphabetic());
-                if between {
-                    out.push('.');
-                }
-            }
+            // A space between two units multiplies them; one after the number means nothing. Between two numbers it
+            // stays, and makes them none.
+            c if c.is_whitespace() => match (out.chars().last(), chars.peek()) {
+                (Some(a), Some(b)) if a.is_alphabetic() && b.is_alphabetic() => out.push('.'),
+                (Some(a), Some(b)) if a.is_ascii_digit() && b.is_ascii_digit() => out.push(' '),
+                _ => {}
+            },
             c => out.push(c),
         }
     }

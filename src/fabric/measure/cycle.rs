@@ -1,7 +1,8 @@
 //! A recorded test of the KES instruments: a curve up, and perhaps down again, and what is read from it.
 
-use super::MeasureError;
+use super::{MeasureError, columns};
 use crate::fabric::TensileCurve;
+use crate::fabric::units::GF_PER_CM;
 
 /// Which test a curve is of, with the units of its two columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,31 +39,35 @@ pub(super) struct Loop {
 pub(super) struct Cycle {
     file: String,
     rows: Vec<(f64, f64)>,
+    /// Lines of the file that the rows stand in.
+    lines: Vec<usize>,
 }
 
 impl Cycle {
     /// Reads two columns; a first line with words is a header and must name the units of `kind`.
     pub(super) fn parse(text: &str, file: &str, kind: Kind) -> Result<Self, MeasureError> {
-        let fault = |row: usize, why: String| MeasureError::File { file: file.to_owned(), row: Some(row + 1), why };
+        let fault = |row: usize, why: String| MeasureError::File { file: file.to_owned(), row: Some(row), why };
         let [across, up] = kind.units();
-        let mut rows = Vec::new();
-        let lines = text.lines().enumerate().filter(|(_, l)| !l.trim().is_empty() && !l.trim_start().starts_with('#'));
-        for (count, (row, line)) in lines.enumerate() {
+        let (mut rows, mut lines) = (Vec::new(), Vec::new());
+        for (count, (row, line)) in columns::rows(text).enumerate() {
             let fields: Vec<&str> = line.split([',', ';', '\t']).map(str::trim).collect();
             let [x, y] = fields[..] else {
                 return Err(fault(row, format!("{} columns, where two are expected ({across}, {up})", fields.len())));
             };
             match (x.parse::<f64>(), y.parse::<f64>()) {
-                (Ok(x), Ok(y)) if x.is_finite() && y.is_finite() => rows.push((x, y)),
+                (Ok(x), Ok(y)) if x.is_finite() && y.is_finite() => {
+                    rows.push((x, y));
+                    lines.push(row);
+                }
                 _ if count == 0 && x.contains(across) && y.contains(up) => {}
                 _ if count == 0 => return Err(fault(row, format!("a header must name the units, {across} and {up}"))),
                 _ => return Err(fault(row, format!("'{}' is no pair of numbers", line.trim()))),
             }
         }
         if rows.len() < 3 {
-            return Err(fault(0, format!("{} rows are no curve", rows.len())));
+            return Err(fault(1, format!("{} rows are no curve", rows.len())));
         }
-        Ok(Self { file: file.to_owned(), rows })
+        Ok(Self { file: file.to_owned(), rows, lines })
     }
 
     fn fault(&self, why: String) -> MeasureError {
@@ -103,8 +108,10 @@ impl Cycle {
     /// comes down again.
     pub(super) fn tensile(&self) -> Result<(TensileCurve, Option<f64>), MeasureError> {
         let [up, down] = Self::branches(&self.rows);
-        let text: Vec<String> = up.iter().map(|(x, y)| format!("{x},{y}")).collect();
-        let curve = TensileCurve::parse(&text.join("\n"), &self.file)?;
+        let top = self.rows.iter().position(|r| Some(r) == up.last()).map_or(0, |top| top + 1);
+        let lines = &self.lines[top.saturating_sub(up.len())..];
+        let rows: Vec<_> = lines.iter().zip(&up).map(|(line, (x, y))| (*line, *x, *y)).collect();
+        let curve = TensileCurve::rising(&rows, (0.01, GF_PER_CM), &self.file)?;
         let work =
             |b: &[(f64, f64)]| b.windows(2).map(|w| 0.5 * (w[0].1 + w[1].1) * (w[1].0 - w[0].0).abs()).sum::<f64>();
         let resilience = (down.len() > 2).then(|| work(&down) / work(&up));

@@ -1,19 +1,22 @@
 //! A file of readings: YAML, a table of readings, or a laboratory's sheet.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
-use serde_yaml::Value;
+use serde_yaml::Mapping;
 
+use super::columns::{Columns, above_zero, rows};
 use super::geometric::{Readings, TESTS};
 use super::photo::Photo;
 use super::{MeasureError, laboratory::Sheet};
 use crate::fabric::library::read;
-use crate::input::shown;
+use crate::fabric::sheet::yaml;
 
-/// Characters of a message that are shown: it may quote the whole file.
-const MESSAGE: usize = 300;
+/// What is said of a table that is none.
+const NO_TABLE: &str =
+    "the first line must name the columns: repeat, recovery, stretch, bend; or parameter, warp, weft, unit";
+/// Names of files that hold a table end so; all others are YAML.
+const TABLES: [&str; 3] = ["csv", "tsv", "txt"];
 /// Grey value below which a pixel is cloth, where the file gives none.
 const THRESHOLD: u8 = 128;
 /// Area of the paper's specimen, 460 × 400 mm, cm²: what a photograph shows of it is compared with itself only.
@@ -32,7 +35,8 @@ pub(super) struct File {
     means: Option<Means>,
     pub(super) sheet: Option<PathBuf>,
     pub(super) curves: Curves,
-    pub(super) values: BTreeMap<String, Value>,
+    /// As a fabric file has them; a map that two values of one key are refused in.
+    pub(super) values: Mapping,
 }
 
 /// One of the three tests.
@@ -124,14 +128,14 @@ impl Source {
             inputs: vec![path.to_owned()],
             notes: Vec::new(),
         };
-        let is_csv = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv"));
-        if is_csv && Sheet::is_one(&text) {
+        let is_table = path.extension().is_some_and(|e| TABLES.iter().any(|t| e.eq_ignore_ascii_case(t)));
+        if is_table && Sheet::is_one(&text) {
             out.sheets.push(Sheet::parse(&text, &name)?);
-        } else if is_csv {
+        } else if is_table {
             out.geometric = Some(Geometric::Tests(table(&text, &name)?));
         } else {
             let fault = |why: String| MeasureError::File { file: name.clone(), row: None, why };
-            out.file = serde_yaml::from_str(&text).map_err(|e| fault(shown(&e.to_string(), MESSAGE)))?;
+            out.file = yaml(&text).map_err(fault)?;
             out.geometric = out.tests(&folder)?;
             if let Some(sheet) = out.file.sheet.clone() {
                 let path = folder.join(&sheet);
@@ -226,29 +230,41 @@ impl Source {
     }
 }
 
-/// A table `repeat, recovery, stretch, bend` with a row `initial` and a row per repeat.
+/// A table `repeat, recovery, stretch, bend` with a row `initial` and a row per numbered repeat.
 fn table(text: &str, file: &str) -> Result<[Readings; 3], MeasureError> {
-    let fault = |row: usize, why: String| MeasureError::File { file: file.to_owned(), row: Some(row + 1), why };
-    let mut lines = text.lines().enumerate().filter(|(_, l)| !l.trim().is_empty() && !l.trim_start().starts_with('#'));
-    let cut = |line: &str| -> Vec<String> { line.split([',', ';', '\t']).map(|f| f.trim().to_lowercase()).collect() };
-    let (at, header) = lines.next().map(|(at, l)| (at, cut(l))).unwrap_or_default();
-    let column = |name: &str| header.iter().position(|h| h.split_whitespace().next() == Some(name));
-    let columns = TESTS.map(column);
-    let [Some(_), Some(_), Some(_)] = columns else {
-        let why =
-            "the first line must name the columns: repeat, recovery, stretch, bend; or parameter, warp, weft, unit";
-        return Err(fault(at, why.to_owned()));
-    };
+    let fault = |row: usize, why: String| MeasureError::File { file: file.to_owned(), row: Some(row), why };
+    let mut lines = rows(text);
+    let (first, header) = lines.next().unwrap_or((1, ""));
+    let columns = Columns::new(header);
+    let mut places = [0; 3];
+    for (place, name) in places.iter_mut().zip(TESTS) {
+        let found = columns.find(name).map_err(|why| fault(first, why))?;
+        let found = found.filter(|_| columns.names()[0] == "repeat");
+        *place = found.ok_or_else(|| fault(first, NO_TABLE.to_owned()))?;
+    }
     let mut out = TESTS.map(|_| Readings { initial: None, repeats: Vec::new() });
+    let mut labels: Vec<String> = Vec::new();
     for (row, line) in lines {
-        let fields = cut(line);
-        for ((test, column), name) in out.iter_mut().zip(columns.into_iter().flatten()).zip(TESTS) {
-            let text = fields.get(column).map_or("", String::as_str);
+        let fields = columns.cut(line).map_err(|why| fault(row, why))?;
+        let label = fields[0].to_lowercase();
+        let is_initial = label == "initial";
+        if !is_initial && label.parse::<u32>().is_err() {
+            return Err(fault(
+                row,
+                format!("'{}' is no repeat; number these, and leave out what sums them up", fields[0]),
+            ));
+        }
+        if labels.contains(&label) {
+            return Err(fault(row, format!("repeat '{label}' stands there twice")));
+        }
+        labels.push(label);
+        for ((test, place), name) in out.iter_mut().zip(places).zip(TESTS) {
+            let text = fields.get(place).copied().unwrap_or_default();
             if text.is_empty() {
                 continue;
             }
-            let value = text.parse::<f64>().map_err(|_| fault(row, format!("{name}: '{text}' is no number")))?;
-            if fields[0] == "initial" {
+            let value = above_zero(text).map_err(|why| fault(row, format!("{name}: {why}")))?;
+            if is_initial {
                 test.initial = Some(value);
             } else {
                 test.repeats.push(value);

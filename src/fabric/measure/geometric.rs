@@ -5,7 +5,7 @@
 //! ratios are what the table holds and what is computed here, so that a new fabric stands in one
 //! column with the fifteen.
 
-use super::super::sheet::LiuMeasures;
+use super::super::sheet::{LARGEST_MEAN as LONGEST, LiuMeasures};
 use super::MeasureError;
 use super::spline::published;
 
@@ -15,8 +15,9 @@ pub const REPEATS: usize = 20;
 pub const TESTS: [&str; 3] = ["recovery", "stretch", "bend"];
 /// A crumpled specimen may seem this much larger than the flat one: a photograph is not counted better.
 const PHOTO_ERROR: f64 = 0.02;
-/// No cloth's diagonal grows beyond this many times its length at 8 N.
-const LONGEST: f64 = 3.0;
+/// The largest of the fold heights is not so many times their median: then it is a slip of the pen, and the measure of
+/// all follows from it.
+const HIGHEST: f64 = 3.0;
 
 /// The readings of one test.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,7 +86,19 @@ impl Readings {
             1 => wrong(1.0, LONGEST).map_or(Ok(()), |k| {
                 Err(format!("{}: a pulled diagonal is longer, and less than {LONGEST} times as long", at(k)))
             }),
-            _ => Ok(()),
+            _ => {
+                let mut sorted = self.repeats.clone();
+                sorted.sort_by(f64::total_cmp);
+                let median = sorted[sorted.len() / 2];
+                match self.repeats.iter().position(|r| *r > HIGHEST * median) {
+                    Some(k) => Err(format!(
+                        "reading {} ({}) is more than {HIGHEST} times the median, {median}; was it written right?",
+                        k + 1,
+                        self.repeats[k]
+                    )),
+                    None => Ok(()),
+                }
+            }
         }
     }
 }
@@ -111,14 +124,19 @@ pub(super) fn from_means(means: [f64; 3]) -> Result<(LiuMeasures, Vec<String>), 
     for (k, spline) in splines.iter().enumerate() {
         let [low, high] = spline.range();
         let (test, v) = (TESTS[k], means[k]);
-        if !(v.is_finite() && v > 0.0 && v < LONGEST) {
-            let why = format!("the mean {v} is no ratio such as {low} or {high}");
+        let [least, most] = [[0.0, 1.0 + PHOTO_ERROR], [1.0, LONGEST], [0.0, 1.0]][k];
+        if !(v > 0.0 && (least..=most).contains(&v)) {
+            let why = format!("the mean {v} is no ratio such as {low} or {high}; it lies between {least} and {most}");
             return Err(MeasureError::Test { test, why });
         }
         if v < low || v > high {
             notes.push(format!("{test}: {v} lies beyond the fifteen fabrics ({low} to {high}); v' is extrapolated"));
         }
-        normalised[k] = spline.at(v).clamp(0.0, 1.0);
+        let at = spline.at(v);
+        normalised[k] = at.clamp(0.0, 1.0);
+        if at != normalised[k] {
+            notes.push(format!("{test}: the spline gives v' = {at:.3} at {v}; it is cut to {}", normalised[k]));
+        }
     }
     if normalised.iter().sum::<f64>() <= 0.0 {
         return Err(MeasureError::Test { test: "means", why: "v' is 0 for all three; (8) has no weights".to_owned() });

@@ -1,7 +1,9 @@
 //! Sheets of the KES and FAST instruments: one row per parameter, as a laboratory hands them out.
 
 use super::super::sheet::Measurement;
+use super::super::units::{WEIGHT, plain};
 use super::MeasureError;
+use super::columns::{Columns, above_zero, rows};
 
 /// Loads of FAST-1, gf/cm.
 const FAST_LOADS: [(&str, f64); 3] = [("E5", 5.0), ("E20", 20.0), ("E100", 100.0)];
@@ -49,58 +51,57 @@ const PARAMETERS: [(&str, &str, &str); 14] = [
 const DERIVED: [(&str, &str); 6] =
     [("WT", "gf.cm/cm2"), ("C", "mm"), ("E5", "%"), ("E20", "%"), ("E100", "%"), ("EB5", "%")];
 /// Parameters of the instruments that toile has no use for.
-const UNUSED: [&str; 8] = ["MMD", "SMD", "LC", "WC", "RC", "TM", "RS", "HE"];
+const UNUSED: [&str; 10] = ["MMD", "SMD", "LC", "WC", "RC", "TM", "T100", "ST", "RS", "HE"];
+/// Parameters that are kept and not simulated: no one else looks at their unit.
+const KEPT: [&str; 4] = ["RT", "2HB", "2HG", "2HG5"];
+/// Columns of a sheet.
+const COLUMNS: [&str; 4] = ["parameter", "warp", "weft", "unit"];
+/// g/m² in one kg/m².
+const GRAMS: f64 = 1e3;
 
 impl Sheet {
-    /// Whether a text's first line is that of a sheet.
+    /// Whether a text's first row is that of a sheet.
     pub(super) fn is_one(text: &str) -> bool {
-        text.lines().next().is_some_and(|l| fields(l)[0].eq_ignore_ascii_case("parameter"))
+        rows(text).next().is_some_and(|(_, header)| Columns::new(header).names()[0] == COLUMNS[0])
     }
 
-    /// Reads `parameter, warp, weft, unit`; the last column may be missing, as may the weft of what has no direction.
+    /// Reads `parameter, warp, weft, unit`, in any order; the unit's column may be missing, as may the weft of what has
+    /// no direction.
     pub(super) fn parse(text: &str, file: &str) -> Result<Self, MeasureError> {
+        let fault = |line: usize, why: String| MeasureError::File { file: file.to_owned(), row: Some(line), why };
+        let mut lines = rows(text);
+        let (first, header) = lines.next().unwrap_or((1, ""));
+        let columns = Columns::new(header);
+        if let Some(other) = columns.names().iter().find(|n| !COLUMNS.contains(&n.as_str())) {
+            return Err(fault(first, format!("column '{other}' is none of {}", COLUMNS.join(", "))));
+        }
+        let mut places = [None; 4];
+        for (place, name) in places.iter_mut().zip(COLUMNS) {
+            *place = columns.find(name).map_err(|why| fault(first, why))?;
+        }
         let mut rows: Vec<Row> = Vec::new();
-        for (line, text) in text.lines().enumerate().skip(1) {
-            if text.trim().is_empty() || text.trim_start().starts_with('#') {
-                continue;
+        for (line, text) in lines {
+            let row = Row::parse(line, &columns.cut(text).map_err(|why| fault(line, why))?, places);
+            let row = row.map_err(|why| fault(line, why))?;
+            if rows.iter().any(|r| r.name == row.name) {
+                return Err(fault(line, format!("{} stands there twice", row.name)));
             }
-            let fault = |why: String| MeasureError::File { file: file.to_owned(), row: Some(line + 1), why };
-            let fields = fields(text);
-            let number = |k: usize| match fields.get(k).copied().unwrap_or_default() {
-                "" | "-" | "–" => Ok(None),
-                text => match text.parse::<f64>() {
-                    Ok(v) if v.is_finite() && v > 0.0 => Ok(Some(v)),
-                    _ => Err(fault(format!("{}: '{text}' is no number above 0", fields[0]))),
-                },
-            };
-            let values = [number(1)?, number(2)?];
-            let name = fields[0].to_owned();
-            let known = PARAMETERS.iter().map(|p| p.0).chain(DERIVED.iter().map(|d| d.0)).chain(UNUSED);
-            if !known.clone().any(|k| k == name) {
-                let known: Vec<&str> = known.collect();
-                return Err(fault(format!("unknown parameter '{name}'; known are {}", known.join(", "))));
-            }
-            if values == [None; 2] {
-                return Err(fault(format!("{name} has no value")));
-            }
-            if rows.iter().any(|r| r.name == name) {
-                return Err(fault(format!("{name} stands there twice")));
-            }
-            let unit = fields.get(3).copied().unwrap_or_default().to_owned();
-            let only = DERIVED.iter().find(|d| d.0 == name).map(|d| d.1);
-            if let Some(only) = only.filter(|only| !unit.is_empty() && unit != *only) {
-                return Err(fault(format!("{name} is read in {only}, not in {unit}")));
-            }
-            rows.push(Row { line: line + 1, name, values, unit });
+            rows.push(row);
         }
         Ok(Self { file: file.to_owned(), rows })
     }
 
     /// The fabric's values, and what of the sheet was left out.
     pub(super) fn values(&self, source: &str) -> Result<(Vec<Measurement>, Vec<String>), MeasureError> {
-        let mut out = Vec::new();
-        let mut put = |key: String, value: String| {
-            out.push(Measurement { key, value, source: Some(source.to_owned()), uncertainty: None });
+        let mut out: Vec<Measurement> = Vec::new();
+        let unused = self.rows.iter().filter(|r| UNUSED.contains(&r.name.as_str()));
+        let mut notes: Vec<String> = unused.map(|r| format!("{}: {} is not used", self.file, r.name)).collect();
+        let mut put = |name: &str, key: String, value: String| {
+            if out.iter().any(|m| m.key == key) {
+                notes.push(format!("{}: {name} is not used; the sheet has {key} already", self.file));
+            } else {
+                out.push(Measurement { key, value, source: Some(source.to_owned()), uncertainty: None });
+            }
         };
         for row in &self.rows {
             let Some((_, default, key)) = PARAMETERS.iter().find(|p| p.0 == row.name) else { continue };
@@ -109,48 +110,43 @@ impl Sheet {
                 return Err(self.fault(row, "W: give its unit, mg/cm2 (KES) or g/m2 (FAST)".to_owned()));
             }
             for (key, value) in row.keyed(key) {
-                put(key, format!("{} {unit}", short(value)).trim_end().to_owned());
+                put(&row.name, key, format!("{} {unit}", short(value)).trim_end().to_owned());
             }
         }
-        for (key, value) in self.derived()? {
-            put(key, value);
+        for (name, key, value) in self.derived()? {
+            put(name, key, value);
         }
-        let unused = self.rows.iter().filter(|r| UNUSED.contains(&r.name.as_str()));
-        let notes = unused.map(|r| format!("{}: {} is not used", self.file, r.name)).collect();
         Ok((out, notes))
     }
 
-    fn derived(&self) -> Result<Vec<(String, String)>, MeasureError> {
+    /// Parameters, keys and values of what follows from others.
+    fn derived(&self) -> Result<Vec<(&'static str, String, String)>, MeasureError> {
         let mut out = Vec::new();
         if let (Some(work), None) = (self.row("WT"), self.row("LT")) {
             let emt = self.row("EMT").or(self.row("EM"));
             let emt = emt.ok_or_else(|| self.fault(work, "WT without LT needs EMT".to_owned()))?;
             for ((direction, w), e) in DIRECTIONS.iter().zip(work.values).zip(emt.values) {
                 if let (Some(w), Some(e)) = (w, e) {
-                    out.push((format!("tensile.{direction}.LT"), short(w / (WORK * e))));
+                    out.push(("WT", format!("tensile.{direction}.LT"), short(w / (WORK * e))));
                 }
             }
         }
         if let Some(length) = self.row("C") {
-            let mass = self.row("W").and_then(|w| Some((w, w.values[0].or(w.values[1])?)));
-            let (w, mass) = mass.ok_or_else(|| self.fault(length, "C needs W, the mass per area".to_owned()))?;
-            let mass = if w.unit == "mg/cm2" { 10.0 * mass } else { mass };
-            out.extend(
-                length
-                    .keyed("bend.{}")
-                    .into_iter()
-                    .map(|(key, c)| (key, format!("{} uN.m", short(FAST_BENDING * mass * c.powi(3))))),
-            );
+            let w = self.row("W").ok_or_else(|| self.fault(length, "C needs W, the mass per area".to_owned()))?;
+            let mass = WEIGHT.parse(&format!("{} {}", w.mean(), w.unit)).map(|kg| GRAMS * kg);
+            let mass = mass.ok_or_else(|| self.fault(w, format!("W: give it as {}", WEIGHT.expected())))?;
+            let rigidity = |c: f64| format!("{} uN.m", short(FAST_BENDING * mass * c.powi(3)));
+            out.extend(length.keyed("bend.{}").into_iter().map(|(key, c)| ("C", key, rigidity(c))));
         }
         if let Some(bias) = self.row("EB5") {
             let value = bias.mean();
-            out.push(("shear.G".to_owned(), format!("{} N/m", short(FAST_SHEAR / value))));
+            out.push(("EB5", "shear.G".to_owned(), format!("{} N/m", short(FAST_SHEAR / value))));
         }
         for (k, direction) in DIRECTIONS.into_iter().enumerate() {
             let points = FAST_LOADS.iter().filter_map(|(name, load)| Some((self.row(name)?.values[k]?, *load)));
             let points: Vec<String> = points.map(|(strain, load)| format!("{}:{load}", short(strain))).collect();
             if !points.is_empty() {
-                out.push((format!("tensile.{direction}.curve"), points.join(" ")));
+                out.push(("E5 to E100", format!("tensile.{direction}.curve"), points.join(" ")));
             }
         }
         Ok(out)
@@ -169,6 +165,29 @@ impl Sheet {
 pub(super) const DIRECTIONS: [&str; 2] = ["warp", "weft"];
 
 impl Row {
+    /// Of the `fields` of a line; parameter, warp, weft and unit are at `places`.
+    fn parse(line: usize, fields: &[&str], places: [Option<usize>; 4]) -> Result<Self, String> {
+        let [name, warp, weft, unit] = places.map(|k| k.and_then(|k| fields.get(k)).copied().unwrap_or_default());
+        let number = |text: &str| match text {
+            "" | "-" | "–" => Ok(None),
+            text => above_zero(text).map(Some).map_err(|why| format!("{name}: {why}")),
+        };
+        let values = [number(warp)?, number(weft)?];
+        let known = PARAMETERS.iter().map(|p| p.0).chain(DERIVED.iter().map(|d| d.0)).chain(UNUSED);
+        if !known.clone().any(|k| k == name) {
+            return Err(format!("unknown parameter '{name}'; known are {}", known.collect::<Vec<_>>().join(", ")));
+        }
+        if values == [None; 2] {
+            return Err(format!("{name} has no value"));
+        }
+        let kept = PARAMETERS.iter().filter(|p| KEPT.contains(&p.0)).map(|p| (p.0, p.1));
+        let only = DERIVED.into_iter().chain(kept).find(|d| d.0 == name).map(|d| d.1);
+        if let Some(only) = only.filter(|only| !unit.is_empty() && plain(unit) != *only) {
+            return Err(format!("{name} is read in {only}, not in {unit}"));
+        }
+        Ok(Self { line, name: name.to_owned(), values, unit: unit.to_owned() })
+    }
+
     /// Keys and values: one per direction where the key has one, else the mean.
     fn keyed(&self, key: &str) -> Vec<(String, f64)> {
         if !key.contains("{}") {
@@ -182,10 +201,6 @@ impl Row {
         let given: Vec<f64> = self.values.iter().flatten().copied().collect();
         given.iter().sum::<f64>() / given.len() as f64
     }
-}
-
-fn fields(line: &str) -> Vec<&str> {
-    line.split([',', ';', '\t']).map(str::trim).collect()
 }
 
 /// A number with six significant digits and no idle zeros.
@@ -238,6 +253,26 @@ mod tests {
     }
 
     #[test]
+    fn the_mass_that_bending_follows_from_may_have_any_unit_of_mass() {
+        for mass in ["W,150,,g/m2", "W,0.15,,kg/m2", "W,15,,mg/cm²", "W,140,160,g/m2"] {
+            let text = format!("parameter,warp,weft,unit\nC,20,18,mm\n{mass}\n");
+            let (values, _) = Sheet::parse(&text, "fast.csv").expect("sheet").values("ours").expect("values");
+            assert_eq!(value(&values, "bend.warp"), "11.76 uN.m", "{mass}");
+        }
+    }
+
+    #[test]
+    fn columns_may_come_in_any_order_and_a_second_value_is_told() {
+        let text = "# FAST-2\nparameter; weft; warp; unit\nB; 0.067; 0.15;\nC; 20; 18; mm\nW; 150; ; g/m2\n";
+        let (values, notes) = Sheet::parse(text, "a.csv").expect("sheet").values("ours").expect("values");
+        assert_eq!(value(&values, "bend.warp"), "0.15 gf.cm2/cm");
+        assert_eq!(value(&values, "bend.weft"), "0.067 gf.cm2/cm");
+        assert_eq!(notes[0], "a.csv: C is not used; the sheet has bend.warp already");
+        let comma = Sheet::parse("parameter;warp;weft;unit\nT0;1,25;;mm\n", "a.csv").expect_err("a comma").to_string();
+        assert_eq!(comma, "a.csv, row 2: T0: '1,25' is no number; write a decimal point");
+    }
+
+    #[test]
     fn wrong_rows_are_named() {
         let said = |rows: &str| {
             let sheet = Sheet::parse(&format!("parameter,warp,weft,unit\n{rows}"), "kes.csv");
@@ -250,5 +285,7 @@ mod tests {
         assert!(said("C,20,18").contains("C needs W"));
         assert!(said("EB5,3,3,mm").contains("EB5 is read in %, not in mm"));
         assert!(said("B,1,1\nB,1,1").contains("row 3: B stands there twice"));
+        assert!(said("2HB,5,5,furlong").contains("2HB is read in gf.cm/cm, not in furlong"));
+        assert!(said("C,20,18\nW,150,,stone").contains("W: give it as a number in g/m2"));
     }
 }

@@ -8,6 +8,7 @@
 //!     └──▶ cycle      recorded curves, with their hysteresis
 //! ```
 
+mod columns;
 mod cycle;
 mod error;
 mod file;
@@ -24,9 +25,12 @@ pub use geometric::{Measure, REPEATS, Readings, TESTS};
 pub use photo::Photo;
 pub use spline::NaturalSpline;
 
+use serde_yaml::Mapping;
+
 use super::library::read;
 use super::resolve::{Context, from_sheet};
-use super::sheet::{FabricSheet, LiuMeasures, Measurement, flatten};
+use super::sheet::{FabricSheet, LiuMeasures, Measurement, flatten, names_curve};
+use super::{Fabric, TensileCurve};
 use crate::fabric::units::GF_PER_CM;
 use cycle::{Cycle, Kind};
 use file::{Geometric, Source};
@@ -47,6 +51,8 @@ const LOADS: [f64; 9] = [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 300.0, 400.0]
 pub struct Measured {
     /// Name, description, values and measures.
     pub sheet: FabricSheet,
+    /// The fabric they make.
+    pub fabric: Fabric,
     /// The three tests, if their readings were given.
     pub tests: Option<[Measure; 3]>,
     /// What the user should know.
@@ -74,23 +80,20 @@ pub fn measure(path: &Path, name: &str) -> Result<Measured, MeasureError> {
     for m in curves(&source.file.curves, folder, &said, &mut inputs)? {
         put(&mut values, m);
     }
-    for (key, value) in &source.file.values {
-        let mut list = Vec::new();
-        let fault = |why| MeasureError::File { file: path.display().to_string(), row: None, why };
-        flatten(key, value, &mut list).map_err(fault)?;
-        for m in list {
-            put(&mut values, Measurement { source: m.source.or_else(|| Some(said.clone())), ..m });
-        }
+    let fault = |why| MeasureError::File { file: path.display().to_string(), row: None, why };
+    for m in given(&source.file.values, folder, &mut inputs, fault)? {
+        put(&mut values, Measurement { source: m.source.or_else(|| Some(said.clone())), ..m });
     }
     let (mut tests, mut liu) = (None, None);
     match &source.geometric {
         Some(Geometric::Tests(readings)) => {
             let [r, s, b] = readings;
-            let made = [r.measure(0)?, s.measure(1)?, b.measure(2)?];
+            let of = |k: usize, r: &Readings| r.measure(k).map_err(|e| fault(e.to_string()));
+            let made = [of(0, r)?, of(1, s)?, of(2, b)?];
             (tests, liu) = (Some(made), Some(geometric::from_tests(made)));
         }
         Some(Geometric::Means(means)) => {
-            let (found, more) = geometric::from_means(*means)?;
+            let (found, more) = geometric::from_means(*means).map_err(|e| fault(e.to_string()))?;
             notes.extend(more);
             liu = Some(found);
         }
@@ -103,14 +106,74 @@ pub fn measure(path: &Path, name: &str) -> Result<Measured, MeasureError> {
     let description = source.file.description.clone().unwrap_or_default();
     let sheet = FabricSheet { name, description, measurements: values, liu, note: None };
     // What is written must be readable again; a fabric without weight or bending is told here.
-    from_sheet(&sheet, &Context { name: &sheet.name, folder: Path::new(""), garment: &[] })?;
-    Ok(Measured { sheet, tests, notes, inputs })
+    let written = FabricSheet::parse(&fabric_yaml(&sheet), &sheet.name)?;
+    let fabric = from_sheet(&written, &Context { name: &sheet.name, folder: Path::new(""), garment: &[] })?;
+    Ok(Measured { sheet, fabric, tests, notes, inputs })
 }
 
-/// Adds a value in place of an earlier one of the same key.
+/// The values that a file of readings gives as they are to be written. A curve that one names lies beside that file; it
+/// is written down point by point, for the fabric's file may lie elsewhere.
+fn given(
+    values: &Mapping,
+    folder: &Path,
+    inputs: &mut Vec<PathBuf>,
+    fault: impl Fn(String) -> MeasureError,
+) -> Result<Vec<Measurement>, MeasureError> {
+    let mut flat = Vec::new();
+    for (key, value) in values {
+        let key = key.as_str().ok_or_else(|| fault("values: every key must be a word".to_owned()))?;
+        if ["name", "description", "source", "note", "liu"].contains(&key) {
+            return Err(fault(format!("values: {key} is none; it stands beside values, or nowhere")));
+        }
+        flatten(key, value, &mut flat).map_err(&fault)?;
+    }
+    let mut out = Vec::new();
+    for m in flat {
+        let file = folder.join(m.value.trim());
+        let keys: Vec<String> = match m.key.as_str() {
+            "tensile" => DIRECTIONS.iter().map(|d| format!("tensile.{d}.curve")).collect(),
+            "tensile.warp" | "tensile.weft" => vec![format!("{}.curve", m.key)],
+            _ => Vec::new(),
+        };
+        if keys.is_empty() || !names_curve(&m) {
+            out.push(m);
+            continue;
+        }
+        let curve = TensileCurve::parse(&read(&file)?, m.value.trim())?;
+        inputs.push(file);
+        let point = |(strain, load): &(f64, f64)| format!("{}:{}", short(100.0 * strain), short(load / GF_PER_CM));
+        let value = curve.points[1..].iter().map(point).collect::<Vec<_>>().join(" ");
+        out.extend(keys.into_iter().map(|key| Measurement { key, value: value.clone(), ..m.clone() }));
+    }
+    Ok(out)
+}
+
+/// Adds a value in place of earlier ones of the same.
 fn put(values: &mut Vec<Measurement>, m: Measurement) {
-    values.retain(|v| v.key != m.key);
+    values.retain(|v| !replaces(&m.key, &v.key));
     values.push(m);
+}
+
+/// Whether a value of the key `new` leaves nothing to one of the key `old`, which says the same in other words.
+fn replaces(new: &str, old: &str) -> bool {
+    // Direction, if any, and what of the curve.
+    fn tensile(key: &str) -> Option<(&str, &str)> {
+        let rest = key.strip_prefix("tensile")?.trim_start_matches('.');
+        let direction = DIRECTIONS.into_iter().find(|d| rest.starts_with(d)).unwrap_or("");
+        Some((direction, rest[direction.len()..].trim_start_matches('.')))
+    }
+    let says_the_same = match (new, old) {
+        ("bend", "bend.warp" | "bend.weft") | ("shear", "shear.G") | ("shear.G", "shear") => true,
+        _ => match (tensile(new), tensile(old)) {
+            (Some((to, new)), Some((of, old))) if to.is_empty() || to == of => match new {
+                "EMT" | "LT" => matches!(old, "" | "curve") || old == new,
+                "" | "curve" => old != "RT",
+                _ => old == new,
+            },
+            _ => false,
+        },
+    };
+    new == old || says_the_same
 }
 
 /// Values read from recorded curves.
