@@ -147,8 +147,8 @@ impl TensileCurve {
                 return Err(fault(
                     row,
                     format!(
-                        "a strain of {:e} and {stiffness:e} N/m from the row before; cloth has up to {LONGEST}, and from \
-                         {low:e} to {high:e} N/m: are the units % and gf/cm, or does a header say others?",
+                        "a strain of {:e} and {stiffness:e} N/m from the row before; cloth has up to {LONGEST}, and \
+                         from {low:e} to {high:e} N/m: are the units % and gf/cm, or does a header say others?",
                         next.0
                     ),
                 ));
