@@ -178,6 +178,7 @@ fn too_few_or_impossible_readings_are_refused() {
     room.refused("means: {recovery: 0.96, stretch: 1.05, bend: 0.995}\nvalues: {weight: 115 g/m2}\n", "give bend");
     room.refused("values: {weight: 115 g/m2, bend: 1 uN.m, name: foo}\n", "values: name is none");
     room.refused("values: {weight: 115 g/m2, bend: 1 uN.m, weight: 9 g/m2}\n", "duplicate entry");
+    room.refused("name: ''\nvalues: {weight: 115 g/m2, bend: 1 uN.m}\n", "name: a word or two");
     room.refused(&format!("values: {}", "[".repeat(200_000)), "nested deeper");
     let csv = measure(&room.file("bad.csv", "a, b\n1, 2\n"), "mine").expect_err("no columns").to_string();
     assert!(csv.contains("row 1: the first line must name the columns"), "{csv}");

@@ -136,7 +136,10 @@ impl FabricSheet {
         for (key, value) in map {
             let key = key.as_str().ok_or_else(|| fault("every key must be a word".to_owned()))?.to_owned();
             match key.as_str() {
-                "name" => out.name = scalar(&value).unwrap_or_default(),
+                "name" => {
+                    let name = scalar(&value).filter(|name| !name.trim().is_empty());
+                    out.name = name.ok_or_else(|| fault("name: a word or two are expected".to_owned()))?;
+                }
                 "description" => out.description = scalar(&value).unwrap_or_default(),
                 "note" => out.note = scalar(&value),
                 "liu" => {

@@ -5,8 +5,11 @@
 //! file ──▶ geometric ──▶ v, spread, v' (2), ω (8);  spline (3) where only means are known
 //!     ├──▶ photo      areas of cloth in photographs
 //!     ├──▶ laboratory a sheet's parameters
-//!     └──▶ cycle      recorded curves, with their hysteresis
+//!     ├──▶ cycle      recorded curves, with their hysteresis
+//!     └──▶ values     what the file gives itself, and what it replaces
 //! ```
+//!
+//! `columns` cuts all tables.
 
 mod columns;
 mod cycle;
@@ -16,6 +19,7 @@ mod geometric;
 mod laboratory;
 mod photo;
 mod spline;
+mod values;
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -25,16 +29,15 @@ pub use geometric::{Measure, REPEATS, Readings, TESTS};
 pub use photo::Photo;
 pub use spline::NaturalSpline;
 
-use serde_yaml::Mapping;
-
+use super::Fabric;
 use super::library::read;
 use super::resolve::{Context, from_sheet};
-use super::sheet::{FabricSheet, LiuMeasures, Measurement, flatten, names_curve};
-use super::{Fabric, TensileCurve};
+use super::sheet::{FabricSheet, LiuMeasures, Measurement};
 use crate::fabric::units::GF_PER_CM;
 use cycle::{Cycle, Kind};
 use file::{Geometric, Source};
 use laboratory::{DIRECTIONS, short};
+use values::put;
 
 pub(crate) use geometric::weights;
 
@@ -81,7 +84,7 @@ pub fn measure(path: &Path, name: &str) -> Result<Measured, MeasureError> {
         put(&mut values, m);
     }
     let fault = |why| MeasureError::File { file: path.display().to_string(), row: None, why };
-    for m in given(&source.file.values, folder, &mut inputs, fault)? {
+    for m in values::given(&source.file.values, folder, &mut inputs, fault)? {
         put(&mut values, Measurement { source: m.source.or_else(|| Some(said.clone())), ..m });
     }
     let (mut tests, mut liu) = (None, None);
@@ -109,71 +112,6 @@ pub fn measure(path: &Path, name: &str) -> Result<Measured, MeasureError> {
     let written = FabricSheet::parse(&fabric_yaml(&sheet), &sheet.name)?;
     let fabric = from_sheet(&written, &Context { name: &sheet.name, folder: Path::new(""), garment: &[] })?;
     Ok(Measured { sheet, fabric, tests, notes, inputs })
-}
-
-/// The values that a file of readings gives as they are to be written. A curve that one names lies beside that file; it
-/// is written down point by point, for the fabric's file may lie elsewhere.
-fn given(
-    values: &Mapping,
-    folder: &Path,
-    inputs: &mut Vec<PathBuf>,
-    fault: impl Fn(String) -> MeasureError,
-) -> Result<Vec<Measurement>, MeasureError> {
-    let mut flat = Vec::new();
-    for (key, value) in values {
-        let key = key.as_str().ok_or_else(|| fault("values: every key must be a word".to_owned()))?;
-        if ["name", "description", "source", "note", "liu"].contains(&key) {
-            return Err(fault(format!("values: {key} is none; it stands beside values, or nowhere")));
-        }
-        flatten(key, value, &mut flat).map_err(&fault)?;
-    }
-    let mut out = Vec::new();
-    for m in flat {
-        let file = folder.join(m.value.trim());
-        let keys: Vec<String> = match m.key.as_str() {
-            "tensile" => DIRECTIONS.iter().map(|d| format!("tensile.{d}.curve")).collect(),
-            "tensile.warp" | "tensile.weft" => vec![format!("{}.curve", m.key)],
-            _ => Vec::new(),
-        };
-        if keys.is_empty() || !names_curve(&m) {
-            out.push(m);
-            continue;
-        }
-        let curve = TensileCurve::parse(&read(&file)?, m.value.trim())?;
-        inputs.push(file);
-        let point = |(strain, load): &(f64, f64)| format!("{}:{}", short(100.0 * strain), short(load / GF_PER_CM));
-        let value = curve.points[1..].iter().map(point).collect::<Vec<_>>().join(" ");
-        out.extend(keys.into_iter().map(|key| Measurement { key, value: value.clone(), ..m.clone() }));
-    }
-    Ok(out)
-}
-
-/// Adds a value in place of earlier ones of the same.
-fn put(values: &mut Vec<Measurement>, m: Measurement) {
-    values.retain(|v| !replaces(&m.key, &v.key));
-    values.push(m);
-}
-
-/// Whether a value of the key `new` leaves nothing to one of the key `old`, which says the same in other words.
-fn replaces(new: &str, old: &str) -> bool {
-    // Direction, if any, and what of the curve.
-    fn tensile(key: &str) -> Option<(&str, &str)> {
-        let rest = key.strip_prefix("tensile")?.trim_start_matches('.');
-        let direction = DIRECTIONS.into_iter().find(|d| rest.starts_with(d)).unwrap_or("");
-        Some((direction, rest[direction.len()..].trim_start_matches('.')))
-    }
-    let says_the_same = match (new, old) {
-        ("bend", "bend.warp" | "bend.weft") | ("shear", "shear.G") | ("shear.G", "shear") => true,
-        _ => match (tensile(new), tensile(old)) {
-            (Some((to, new)), Some((of, old))) if to.is_empty() || to == of => match new {
-                "EMT" | "LT" => matches!(old, "" | "curve") || old == new,
-                "" | "curve" => old != "RT",
-                _ => old == new,
-            },
-            _ => false,
-        },
-    };
-    new == old || says_the_same
 }
 
 /// Values read from recorded curves.
