@@ -257,5 +257,18 @@ mod tests {
         assert!(said("1").contains("columns"));
         assert!(said("").contains("no rows"));
         assert!(said("strain, load\n1, 2").contains("unknown unit"));
+        assert!(said("0, 2\n1, 3").contains("row 1: a load of 2 at 0; take it off all"));
+    }
+
+    #[test]
+    fn a_curve_of_no_cloth_is_refused() {
+        for text in [
+            "strain fraction, load N/m\n1e-300,1e300\n2e-300,1.7e308",
+            "strain %, load N/m\n1e-9,1",
+            "strain %, load gf/cm\n1e6,1e-9",
+        ] {
+            let said = TensileCurve::parse(text, "a.csv").expect_err(text).to_string();
+            assert!(said.contains("row 2: a strain of") && said.contains("are the units"), "{said}");
+        }
     }
 }

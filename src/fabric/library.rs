@@ -91,7 +91,10 @@ pub(super) fn read(path: &Path) -> Result<String, FabricError> {
     })?;
     let text = String::from_utf8(bytes).map_err(|_| fault("it is no UTF-8 text".to_owned()))?;
     // Spreadsheets begin UTF-8 with a byte order mark.
-    Ok(text.strip_prefix('\u{feff}').map_or(text.clone(), str::to_owned))
+    match text.strip_prefix('\u{feff}') {
+        Some(rest) => Ok(rest.to_owned()),
+        None => Ok(text),
+    }
 }
 
 /// The name most like `name`, if it contains it or differs in no more than a third of its letters.

@@ -205,3 +205,28 @@ fn scalar(value: &Value) -> Option<String> {
         _ => None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn measures_that_no_readings_give_are_refused() {
+        let said = |liu: &str| FabricSheet::parse(&format!("liu: {{{liu}}}"), "a.yaml").expect_err(liu).to_string();
+        let rest = "normalised: [0.5, 0.5, 0.5]";
+        assert!(said(&format!("means: [.nan, 1, 1], {rest}, weights: [30, 30, 40]")).contains("liu.means is [NaN"));
+        assert!(
+            said(&format!("means: [1, 1, 1], {rest}, weights: [0, 0, 0]")).contains("liu.weights: all three are 0")
+        );
+        assert!(said(&format!("means: [1, 1, 1], {rest}, weights: [-10, 60, 50]")).contains("liu.weights is [-10"));
+        assert!(said("means: [1, 1, 1], normalised: [2, 0, 0], weights: [30, 30, 40]").contains("liu.normalised"));
+    }
+
+    #[test]
+    fn a_band_may_be_written_with_either_dash() {
+        for text in ["60-83 %", "60–83 %"] {
+            let sheet = FabricSheet::parse(&format!("drape: {text}"), "a.yaml").expect("a sheet");
+            assert_eq!(sheet.drape_band(), Some([60.0, 83.0]));
+        }
+    }
+}

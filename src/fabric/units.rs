@@ -94,6 +94,12 @@ mod tests {
     use approx::assert_relative_eq;
 
     #[test]
+    fn two_numbers_are_none() {
+        assert_eq!(WEIGHT.parse("1 50 g/m2"), None);
+        assert_eq!(WEIGHT.parse("150  g / m²"), WEIGHT.parse("150g/m2"));
+    }
+
+    #[test]
     fn laboratory_units_become_si() {
         for (quantity, text, si) in [
             (&WEIGHT, "70 g/m2", 0.07),
