@@ -278,13 +278,13 @@ impl<'a> Proximity<'a> {
     fn face_contacts(&mut self, cloth: &Cloth, x: &[Vec3], reach: &Reach, stale: &[bool], sources: &mut Vec<Source>) {
         let is_searched = self.is_searched(cloth, x, stale);
         let found = self.search(cloth, x, reach.features, &is_searched);
-        let hides = |k: usize| matches!(found[k], Some((_, true)));
+        let hides = |k: u32| matches!(found[k as usize], Some((_, true)));
         let stay = |contact: &Contact, element: Option<u32>| match element {
             Some(k) => !is_searched[k as usize],
             None if contact.is_on_body() => false,
             None => contact.nodes.iter().all(|&n| !stale[n as usize]),
         };
-        let known = self.near.retain(x, stay, |k| hides(k as usize));
+        let known = self.near.retain(x, stay, hides);
         for (k, found) in found.into_iter().enumerate() {
             let Some((found, hidden)) = found else { continue };
             let element = Some(k as u32);

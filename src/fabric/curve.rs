@@ -2,6 +2,7 @@
 
 use std::ops::RangeInclusive;
 
+use super::columns;
 use super::error::FabricError;
 use super::units::GF_PER_CM;
 
@@ -105,15 +106,14 @@ impl TensileCurve {
         let fault = |row: usize, why: String| FabricError::Curve { file: file.to_owned(), row, why };
         let mut scale = (0.01, GF_PER_CM);
         let mut rows = Vec::new();
-        let lines = text.lines().enumerate().filter(|(_, l)| !l.trim().is_empty() && !l.trim_start().starts_with('#'));
-        for (count, (row, line)) in lines.enumerate() {
+        for (count, (row, line)) in columns::rows(text).enumerate() {
             let first = line.split([',', ';', '\t']).next().unwrap_or(line);
             if count == 0 && first.trim().parse::<f64>().is_err() {
-                scale = header(line).map_err(|why| fault(row + 1, why))?;
+                scale = header(line).map_err(|why| fault(row, why))?;
                 continue;
             }
-            let [strain, load] = numbers(line).map_err(|why| fault(row + 1, why))?;
-            rows.push((row + 1, strain, load));
+            let [strain, load] = numbers(line).map_err(|why| fault(row, why))?;
+            rows.push((row, strain, load));
         }
         Self::rising(&rows, scale, file)
     }

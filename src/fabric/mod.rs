@@ -1,5 +1,6 @@
 //! Fabrics as measured: the shipped library, fabric files, and what a garment file says inline.
 
+mod columns;
 mod curve;
 mod error;
 mod library;

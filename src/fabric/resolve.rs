@@ -9,6 +9,7 @@ use super::library::{library, load_in, read};
 use super::sheet::{FabricSheet, LiuMeasures, flatten};
 use super::units::{BEND, LENGTH, Quantity, SHEAR, STRAIN, WEIGHT};
 use super::{Fabric, FabricSpec, GRAVITY, TensileCurve};
+use crate::input::yaml;
 
 /// What stands in for a value that was not measured: middles of the shipped wovens.
 const THICKNESS: f64 = 0.3e-3;
@@ -132,7 +133,7 @@ impl<'a> Values<'a> {
         let mut flat = Vec::new();
         for (key, text) in &spec.values {
             let value = if text.trim_start().starts_with('{') {
-                serde_yaml::from_str(text).map_err(|e| fault(format!("{key}: {e}")))?
+                yaml(text).map_err(|why| fault(format!("{key}: {why}")))?
             } else {
                 serde_yaml::Value::String(text.clone())
             };

@@ -4,12 +4,10 @@ use serde_yaml::Value;
 
 use super::error::FabricError;
 use super::measure::weights;
-use crate::input::shown;
+use crate::input::{shown, yaml};
 
 /// Characters of a message that are shown: it may quote the whole file.
 const MESSAGE: usize = 300;
-/// Most brackets that are open at one place of a file.
-const DEEPEST: i64 = 100;
 
 /// What a fabric file says.
 #[derive(Clone, Debug, PartialEq)]
@@ -157,19 +155,6 @@ impl FabricSheet {
 /// Whether a value is the name of a curve's file.
 pub(super) fn names_curve(m: &Measurement) -> bool {
     m.key.starts_with("tensile") && m.value.trim().ends_with(".csv")
-}
-
-/// What a YAML text holds. The parser's time grows with the square of how deep values are nested: no fabric is nested
-/// deep, and one that is (or seems to be, by brackets in its texts) is refused before it is parsed.
-pub(super) fn yaml<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, String> {
-    let depth = text.chars().scan(0i64, |open, c| {
-        *open += i64::from(matches!(c, '[' | '{')) - i64::from(matches!(c, ']' | '}'));
-        Some(*open)
-    });
-    if depth.max().unwrap_or(0) > DEEPEST {
-        return Err(format!("values are nested deeper than {DEEPEST} brackets"));
-    }
-    serde_yaml::from_str(text).map_err(|e| shown(&e.to_string(), MESSAGE))
 }
 
 /// The measurements of a nested value: `bend: {warp: 1 uN.m}` is `bend.warp`; a map with a `value` is one measurement.

@@ -2,9 +2,11 @@
 
 mod nearest;
 mod unit;
+mod yaml;
 
 pub use nearest::nearest;
 pub use unit::LengthUnit;
+pub use yaml::yaml;
 
 use std::fs::File;
 use std::io::Read as _;

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use super::{HEIGHTS, MannequinError};
-use crate::input::shown;
+use crate::input::yaml;
 
 /// Everything needed to build a mannequin; see `mannequins/woman_92.yaml` for the meaning of each number.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -99,8 +99,6 @@ pub struct ArmRow {
 
 /// Rows of the torso that the build refers to by name.
 const NEEDED: [&str; 5] = ["crotch", "hip", "axilla", "shoulder", "neck base"];
-/// Characters of the reader's message that are shown: it may quote the whole file.
-const MESSAGE: usize = 300;
 /// Exponents outside this are no body: below it a section is a diamond, above it a box with edges.
 const EXPONENTS: std::ops::RangeInclusive<f64> = 1.2..=8.0;
 
@@ -110,8 +108,7 @@ impl MannequinSpec {
     /// # Errors
     /// [`MannequinError::Syntax`] with line and column, [`MannequinError::Value`] for numbers no body has.
     pub fn parse(text: &str, from: &str) -> Result<Self, MannequinError> {
-        let spec: Self = serde_yaml::from_str(text)
-            .map_err(|e| MannequinError::Syntax { file: from.to_owned(), why: shown(&e.to_string(), MESSAGE) })?;
+        let spec: Self = yaml(text).map_err(|why| MannequinError::Syntax { file: from.to_owned(), why })?;
         spec.check().map_err(|why| MannequinError::Value { file: from.to_owned(), why })?;
         Ok(spec)
     }

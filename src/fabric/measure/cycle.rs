@@ -1,7 +1,10 @@
 //! A recorded test of the KES instruments: a curve up, and perhaps down again, and what is read from it.
 
-use super::{MeasureError, columns};
+use std::ops::Range;
+
+use super::MeasureError;
 use crate::fabric::TensileCurve;
+use crate::fabric::columns;
 use crate::fabric::units::GF_PER_CM;
 
 /// Which test a curve is of, with the units of its two columns.
@@ -75,11 +78,11 @@ impl Cycle {
     }
 
     /// The branch that rises to the largest x, and the one that comes down from there to 0 (may be one point only).
-    fn branches(rows: &[(f64, f64)]) -> [Vec<(f64, f64)>; 2] {
+    fn branches(rows: &[(f64, f64)]) -> [Range<usize>; 2] {
         let top = (0..rows.len()).max_by(|a, b| rows[*a].0.total_cmp(&rows[*b].0).then(b.cmp(a))).unwrap_or(0);
-        let down = rows[top..].iter().take_while(|r| r.0 >= 0.0).copied().collect();
-        let up = rows[..=top].iter().rev().take_while(|r| r.0 >= 0.0).copied().collect::<Vec<_>>();
-        [up.into_iter().rev().collect(), down]
+        let down = rows[top..].iter().take_while(|r| r.0 >= 0.0).count();
+        let up = rows[..=top].iter().rev().take_while(|r| r.0 >= 0.0).count();
+        [top + 1 - up..top + 1, top..top + down]
     }
 
     /// Slope between the places `from` and `to`, and the loop's width at `at`: the mean of both halves of a cycle that
@@ -107,22 +110,22 @@ impl Cycle {
     /// The rising branch as a load–extension curve, and the resilience RT (work given back over work done) if the curve
     /// comes down again.
     pub(super) fn tensile(&self) -> Result<(TensileCurve, Option<f64>), MeasureError> {
-        let [up, down] = Self::branches(&self.rows);
-        let top = self.rows.iter().position(|r| Some(r) == up.last()).map_or(0, |top| top + 1);
-        let lines = &self.lines[top.saturating_sub(up.len())..];
-        let rows: Vec<_> = lines.iter().zip(&up).map(|(line, (x, y))| (*line, *x, *y)).collect();
+        let branches = Self::branches(&self.rows);
+        let lines = &self.lines[branches[0].clone()];
+        let [up, down] = branches.map(|branch| &self.rows[branch]);
+        let rows: Vec<_> = lines.iter().zip(up).map(|(line, (x, y))| (*line, *x, *y)).collect();
         let curve = TensileCurve::rising(&rows, (0.01, GF_PER_CM), &self.file)?;
         let work =
             |b: &[(f64, f64)]| b.windows(2).map(|w| 0.5 * (w[0].1 + w[1].1) * (w[1].0 - w[0].0).abs()).sum::<f64>();
-        let resilience = (down.len() > 2).then(|| work(&down) / work(&up));
+        let resilience = (down.len() > 2).then(|| work(down) / work(up));
         Ok((curve, resilience))
     }
 }
 
 fn half(rows: &[(f64, f64)], [from, to]: [f64; 2], at: [f64; 2]) -> Option<Loop> {
-    let [up, down] = Cycle::branches(rows);
-    let rising = |x: f64| value_at(&up, x);
-    let falling = |x: f64| value_at(&down, x);
+    let [up, down] = Cycle::branches(rows).map(|branch| &rows[branch]);
+    let rising = |x: f64| value_at(up, x);
+    let falling = |x: f64| value_at(down, x);
     let middle = |x: f64| Some(falling(x).map_or(rising(x)?, |f| 0.5 * (rising(x).unwrap_or(f) + f)));
     let whole = down.len() > 2 && falling(from).is_some() && falling(to).is_some();
     let line = |x: f64| if whole { middle(x) } else { rising(x) };

@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use serde_yaml::Mapping;
 
-use super::columns::{Columns, above_zero, rows};
 use super::geometric::{Readings, TESTS};
 use super::photo::Photo;
 use super::{MeasureError, laboratory::Sheet};
+use crate::fabric::columns::{Columns, above_zero, rows};
 use crate::fabric::library::read;
-use crate::fabric::sheet::yaml;
+use crate::input::yaml;
 
 /// What is said of a table that is none.
 const NO_TABLE: &str =

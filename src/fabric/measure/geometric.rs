@@ -5,7 +5,7 @@
 //! ratios are what the table holds and what is computed here, so that a new fabric stands in one
 //! column with the fifteen.
 
-use super::super::sheet::{LARGEST_MEAN as LONGEST, LiuMeasures};
+use super::super::sheet::{LARGEST_MEAN, LiuMeasures};
 use super::MeasureError;
 use super::spline::published;
 
@@ -15,6 +15,8 @@ pub const REPEATS: usize = 20;
 pub const TESTS: [&str; 3] = ["recovery", "stretch", "bend"];
 /// A crumpled specimen may seem this much larger than the flat one: a photograph is not counted better.
 const PHOTO_ERROR: f64 = 0.02;
+/// What a ratio of each test can be.
+const RATIOS: [[f64; 2]; 3] = [[0.0, 1.0 + PHOTO_ERROR], [1.0, LARGEST_MEAN], [0.0, 1.0]];
 /// The largest of the fold heights is not so many times their median: then it is a slip of the pen, and the measure of
 /// all follows from it.
 const HIGHEST: f64 = 3.0;
@@ -77,14 +79,15 @@ impl Readings {
     }
 
     fn plausible(&self, test: usize, initial: f64) -> Result<(), String> {
-        let wrong = |low: f64, high: f64| self.repeats.iter().position(|r| !(low..=high).contains(&(r / initial)));
+        let [least, most] = RATIOS[test];
+        let wrong = self.repeats.iter().position(|r| !(least..=most).contains(&(r / initial)));
         let at = |k: usize| format!("reading {} ({}) against {initial} before the test", k + 1, self.repeats[k]);
         match test {
-            0 => wrong(0.0, 1.0 + PHOTO_ERROR).map_or(Ok(()), |k| {
+            0 => wrong.map_or(Ok(()), |k| {
                 Err(format!("{}: crumpled cloth covers no more than flat cloth; are the units the same?", at(k)))
             }),
-            1 => wrong(1.0, LONGEST).map_or(Ok(()), |k| {
-                Err(format!("{}: a pulled diagonal is longer, and less than {LONGEST} times as long", at(k)))
+            1 => wrong.map_or(Ok(()), |k| {
+                Err(format!("{}: a pulled diagonal is longer, and less than {most} times as long", at(k)))
             }),
             _ => {
                 let mut sorted = self.repeats.clone();
@@ -124,7 +127,7 @@ pub(super) fn from_means(means: [f64; 3]) -> Result<(LiuMeasures, Vec<String>), 
     for (k, spline) in splines.iter().enumerate() {
         let [low, high] = spline.range();
         let (test, v) = (TESTS[k], means[k]);
-        let [least, most] = [[0.0, 1.0 + PHOTO_ERROR], [1.0, LONGEST], [0.0, 1.0]][k];
+        let [least, most] = RATIOS[k];
         if !(v > 0.0 && (least..=most).contains(&v)) {
             let why = format!("the mean {v} is no ratio such as {low} or {high}; it lies between {least} and {most}");
             return Err(MeasureError::Test { test, why });

@@ -1,9 +1,9 @@
 //! Sheets of the KES and FAST instruments: one row per parameter, as a laboratory hands them out.
 
+use super::super::columns::{Columns, above_zero, rows};
 use super::super::sheet::Measurement;
 use super::super::units::{WEIGHT, plain};
 use super::MeasureError;
-use super::columns::{Columns, above_zero, rows};
 
 /// Loads of FAST-1, gf/cm.
 const FAST_LOADS: [(&str, f64); 3] = [("E5", 5.0), ("E20", 20.0), ("E100", 100.0)];

@@ -8,10 +8,7 @@
 //!     ├──▶ cycle      recorded curves, with their hysteresis
 //!     └──▶ values     what the file gives itself, and what it replaces
 //! ```
-//!
-//! `columns` cuts all tables.
 
-mod columns;
 mod cycle;
 mod error;
 mod file;

@@ -2,7 +2,7 @@
 
 /// How the rows of a table are cut into fields.
 #[derive(Clone, Debug)]
-pub(super) struct Columns {
+pub(in crate::fabric) struct Columns {
     separator: char,
     names: Vec<String>,
 }
@@ -10,7 +10,7 @@ pub(super) struct Columns {
 impl Columns {
     /// Of a table with that first row: it is cut at semicolons if it has any, else at tabs, else at commas. So a comma
     /// in a number is never taken for the end of a field where fields end otherwise.
-    pub(super) fn new(header: &str) -> Self {
+    pub(in crate::fabric) fn new(header: &str) -> Self {
         let separator = [';', '\t'].into_iter().find(|s| header.contains(*s)).unwrap_or(',');
         // `recovery cm2` is the column `recovery`.
         let name = |field: &str| field.split_whitespace().next().unwrap_or_default().to_lowercase();
@@ -18,7 +18,7 @@ impl Columns {
     }
 
     /// Names of the columns, as far as they are words.
-    pub(super) fn names(&self) -> &[String] {
+    pub(in crate::fabric) fn names(&self) -> &[String] {
         &self.names
     }
 
@@ -26,7 +26,7 @@ impl Columns {
     ///
     /// # Errors
     /// Where two have that name.
-    pub(super) fn find(&self, name: &str) -> Result<Option<usize>, String> {
+    pub(in crate::fabric) fn find(&self, name: &str) -> Result<Option<usize>, String> {
         let mut places = (0..self.names.len()).filter(|k| self.names[*k] == name);
         let first = places.next();
         if places.next().is_some() { Err(format!("two columns are named {name}; leave one out")) } else { Ok(first) }
@@ -36,7 +36,7 @@ impl Columns {
     ///
     /// # Errors
     /// Where it has more than the table has columns.
-    pub(super) fn cut<'a>(&self, row: &'a str) -> Result<Vec<&'a str>, String> {
+    pub(in crate::fabric) fn cut<'a>(&self, row: &'a str) -> Result<Vec<&'a str>, String> {
         let fields: Vec<&str> = row.split(self.separator).map(str::trim).collect();
         let (found, named) = (fields.len(), self.names.len());
         if fields[named.min(found)..].iter().all(|f| f.is_empty()) {
@@ -47,7 +47,7 @@ impl Columns {
 }
 
 /// The number above 0 in a field.
-pub(super) fn above_zero(text: &str) -> Result<f64, String> {
+pub(in crate::fabric) fn above_zero(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
         _ if text.contains(',') => Err(format!("'{text}' is no number; write a decimal point")),
@@ -56,7 +56,7 @@ pub(super) fn above_zero(text: &str) -> Result<f64, String> {
 }
 
 /// The rows of a text that are neither empty nor comments, with their lines from 1.
-pub(super) fn rows(text: &str) -> impl Iterator<Item = (usize, &str)> {
+pub(in crate::fabric) fn rows(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let says = |l: &str| !l.trim().is_empty() && !l.trim_start().starts_with('#');
     text.lines().enumerate().filter(move |(_, l)| says(l)).map(|(k, l)| (k + 1, l))
 }
