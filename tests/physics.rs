@@ -5,7 +5,7 @@ use std::sync::Arc;
 use toile::contact::{Contact, Under};
 use toile::dynamics::explicit::{Explicit, ExplicitError, Rest, Start, StepControl, explicit_cloth, law_of};
 use toile::dynamics::{
-    Cloth, ContactLaw, Cut, Forces, GRAVITY, Pull, Spring, SpringModel, Stepper, StretchLaw, identity_nodes,
+    Cloth, ContactLaw, Cut, Forces, GRAVITY, Hardening, Pull, Spring, SpringModel, Stepper, StretchLaw, identity_nodes,
 };
 use toile::fabric;
 use toile::geometry::{Path, Vec2, Vec3};
@@ -13,7 +13,8 @@ use toile::mesh::{ClothMesh, build};
 use toile::pattern::{Closure, Edge, Garment, Piece};
 
 const MM: f64 = 1e-3;
-const LAW: ContactLaw = ContactLaw { stiffness: 50.0, body_clearance: 1e-3, cloth_gap: None };
+const LAW: ContactLaw =
+    ContactLaw { stiffness: 50.0, hardening: Hardening::Slow, body_clearance: 1e-3, cloth_gap: None };
 const NOTHING: Forces = Forces { gravity: 0.0, contacts: &[], law: LAW, pulls: &[], friction: None };
 
 /// A rectangular piece of poplin and its mesh, millimetres.

@@ -113,6 +113,7 @@ pub fn drape(
     let mut world = sewn_world(cut, body, stitching, nodes)?;
     world.gravity = 1.0;
     world.grip(GRIP);
+    world.harden();
     let thick = world.cloth.thickest();
     let spacing = cut.mesh.spacing;
     let look = [thick + NEAREST_LOOK, drape_reach(spacing, thick)];

@@ -3,99 +3,12 @@
 use rayon::prelude::*;
 
 use super::GRAVITY;
+use super::contact_law::ContactLaw;
 use super::friction::{Friction, Grip, Hold};
 use super::model::Cloth;
 use super::springs::SHORTEST;
 use crate::contact::Contact;
 use crate::geometry::Vec3;
-
-/// Penalty contact (F6). With `d` = distance kept − gap a contact pushes `stiffness` · d · (distance kept / gap): it
-/// begins softly and has no end, so that nothing that presses on it closes the gap, be it a shoulder seam on one corner
-/// of the body or a layer wedged between two that are sewn to one another.
-#[derive(Clone, Copy, Debug)]
-pub struct ContactLaw {
-    /// N/m per contact, as it begins.
-    pub stiffness: f64,
-    /// Distance kept from the body beyond half the cloth's thickness, metres.
-    pub body_clearance: f64,
-    /// Distance kept between two layers of cloth, metres; `None` = the two half thicknesses.
-    pub cloth_gap: Option<f64>,
-}
-
-/// The law ends at this share of the distance kept: the force has to stay finite, also where a node starts inside the
-/// body. The armhole of a tight garment presses on one corner of a scanned arm with a dozen newtons, which asks for
-/// gaps as small as that: here a contact carries more than a hundred.
-const THINNEST: f64 = 2e-4;
-/// From there the force grows so many times as fast as where the contact begins:
-/// what is inside is to be pushed out, not shot.
-const INSIDE: f64 = 2500.0;
-
-/// A contact at given positions: the load it carries, and how fast that falls as it opens.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Press {
-    /// Normal force, N. Of a contact that does not touch: what its tangent at the distance kept says (negative).
-    pub(super) load: f64,
-    /// N/m.
-    pub(super) slope: f64,
-}
-
-impl Press {
-    /// Load, N, when the gap has grown by `opening` metres: below 0 it does not touch.
-    pub(super) fn after(&self, opening: f64) -> f64 {
-        self.load - self.slope * opening
-    }
-}
-
-impl ContactLaw {
-    /// Distance at which a contact begins to push, metres.
-    fn kept(&self, cloth: &Cloth, contact: &Contact) -> f64 {
-        let first = cloth.half_thickness[contact.nodes[0] as usize];
-        if contact.is_on_body() {
-            return first + self.body_clearance;
-        }
-        self.cloth_gap
-            .unwrap_or_else(|| first + cloth.half_thickness[contact.nodes[contact.count as usize - 1] as usize])
-    }
-
-    /// The largest distance at which a contact of `cloth` begins to push, metres.
-    pub(super) fn widest(&self, cloth: &Cloth) -> f64 {
-        let thickest = cloth.thickest();
-        (0.5 * thickest + self.body_clearance).max(self.cloth_gap.unwrap_or(thickest))
-    }
-
-    /// Load and slope at `x`.
-    pub(super) fn press(&self, cloth: &Cloth, x: &[Vec3], contact: &Contact) -> Press {
-        let k = self.stiffness * contact.share;
-        if contact.share == 0.0 {
-            return Press { load: f64::NEG_INFINITY, slope: self.stiffness };
-        }
-        let (kept, gap) = (self.kept(cloth, contact), contact.gap(x));
-        if gap >= kept {
-            return Press { load: k * (kept - gap), slope: k };
-        }
-        let thin = gap.max(THINNEST * kept);
-        let slope = if gap < thin { k * INSIDE } else { k * (kept / thin).powi(2) };
-        Press { load: k * (kept - thin) * kept / thin + (thin - gap) * k * INSIDE, slope }
-    }
-
-    /// Normal force at `x`, N (0 when it does not touch).
-    pub(super) fn load(&self, cloth: &Cloth, x: &[Vec3], contact: &Contact) -> f64 {
-        self.press(cloth, x, contact).load.max(0.0)
-    }
-
-    /// Energy of a contact at `x`, J.
-    fn energy(&self, cloth: &Cloth, x: &[Vec3], contact: &Contact) -> f64 {
-        let (kept, gap) = (self.kept(cloth, contact), contact.gap(x));
-        let k = self.stiffness * contact.share;
-        if gap >= kept {
-            return 0.0;
-        }
-        let thin = gap.max(THINNEST * kept);
-        let down_to_thin = k * kept * (kept * (kept / thin).ln() - (kept - thin));
-        let below = thin - gap;
-        down_to_thin + below * (k * (kept - thin) * kept / thin + 0.5 * k * INSIDE * below)
-    }
-}
 
 /// A stitch being closed (F5): both nodes pull each other with stiffness × min(gap, cap).
 #[derive(Clone, Copy, Debug)]

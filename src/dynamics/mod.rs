@@ -3,6 +3,7 @@
 //! Particles that are sewn together are one *node*; everything here speaks of nodes.
 
 mod bending;
+mod contact_law;
 mod cost;
 mod crease;
 mod curvature;
@@ -21,8 +22,9 @@ mod step;
 mod world;
 
 pub use bending::Bending;
+pub use contact_law::{ContactLaw, Hardening};
 pub use cost::ContactTime;
-pub use force::{ContactLaw, Forces, Pull};
+pub use force::{Forces, Pull};
 pub use friction::{Friction, GRIP};
 pub use model::{Cloth, Cut, SpringModel, identity_nodes};
 pub use proximity::Reach;

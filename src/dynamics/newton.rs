@@ -10,7 +10,8 @@
 
 use rayon::prelude::*;
 
-use super::force::{Forces, Press, free_forces};
+use super::contact_law::Press;
+use super::force::{Forces, free_forces};
 use super::friction::{Grip, Hold};
 use super::model::Cloth;
 use super::shear::ShearTangent;

@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
+use super::contact_law::ContactLaw;
 use super::cost::{ContactTime, timed};
-use super::force::ContactLaw;
 use super::model::Cloth;
 use super::near::{Near, Source};
 use crate::contact::{Bounds, ClothDetector, Collider, Contact, Neighbourhood, Tangle};

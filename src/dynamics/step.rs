@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::force::{Forces, Press, free_forces, push};
+use super::contact_law::Press;
+use super::force::{Forces, free_forces, push};
 use super::friction::Grip;
 use super::model::Cloth;
 use super::shear::Shear;

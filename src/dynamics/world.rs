@@ -1,7 +1,8 @@
 //! Cloth, body and contact together, advanced step by step.
 
+use super::contact_law::{ContactLaw, Hardening};
 use super::cost::ContactTime;
-use super::force::{ContactLaw, Forces, Pull, cloth_forces};
+use super::force::{Forces, Pull, cloth_forces};
 use super::foreseen::{Foreseen, Loads};
 use super::friction::Friction;
 use super::model::Cloth;
@@ -374,6 +375,11 @@ impl<'a> World<'a> {
     /// Lets every contact grip, with at least the tangential `stiffness` given, N/m.
     pub fn grip(&mut self, stiffness: f64) {
         self.friction = Some(Friction::new(&self.x, self.proximity.near(), stiffness));
+    }
+
+    /// Lets contacts harden as those of garments at rest do ([`Hardening::Fast`]), from the next step on.
+    pub fn harden(&mut self) {
+        self.law.hardening = Hardening::Fast;
     }
 
     /// Gives the system the couplings of layers that have come near each other, and friction the new contacts.

@@ -9,7 +9,7 @@ use super::settle::{Calm, joined, settle, sewn_world};
 use super::stitch::Stitching;
 use super::untangle::untangle;
 use crate::contact::{Collider, Neighbourhood};
-use crate::dynamics::{Cloth, ContactLaw, Cut, Pull, Reach, SpringModel, World, identity_nodes};
+use crate::dynamics::{Cloth, ContactLaw, Cut, Hardening, Pull, Reach, SpringModel, World, identity_nodes};
 use crate::geometry::{Vec3, sorted_pair};
 use crate::mesh::ClothMesh;
 
@@ -125,7 +125,8 @@ pub fn sew(
     let cloth = Cloth::new(cut, identity_nodes(mesh), SOFT);
     let pairs: Vec<[u32; 2]> = stitching.pairs.iter().map(|p| p.0).collect();
     let h = mesh.spacing;
-    let law = ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, cloth_gap: Some((GAP * h).min(WIDEST_GAP)) };
+    let (hardening, cloth_gap) = (Hardening::Slow, Some((GAP * h).min(WIDEST_GAP)));
+    let law = ContactLaw { stiffness: PENALTY, hardening, body_clearance: CLEARANCE, cloth_gap };
     let reach = Reach::new(REACH * h);
     let hood = Neighbourhood { class: stitching.class.clone(), passing: Vec::new() };
     let mut world = World::new(cloth, start, &pairs, body, hood, law, reach)?;

@@ -3,7 +3,7 @@
 use super::stitch::Stitching;
 use super::untangle::untangle;
 use crate::contact::{Collider, Neighbourhood};
-use crate::dynamics::{Cloth, ContactLaw, Cut, Reach, SpringModel, StepError, World};
+use crate::dynamics::{Cloth, ContactLaw, Cut, Hardening, Reach, SpringModel, StepError, World};
 use crate::geometry::Vec3;
 
 /// Distance kept from the body beyond half the cloth's thickness, metres. A band without ease stands off by it, and
@@ -73,7 +73,8 @@ pub fn sewn_world<'a>(
 /// # Errors
 /// As [`World::new`].
 pub fn draping_world(cloth: Cloth, nodes: Vec<Vec3>, spacing: f64, body: &Collider) -> Result<World<'_>, StepError> {
-    let law = ContactLaw { stiffness: PENALTY, body_clearance: CLEARANCE, cloth_gap: None };
+    let hardening = Hardening::Slow;
+    let law = ContactLaw { stiffness: PENALTY, hardening, body_clearance: CLEARANCE, cloth_gap: None };
     let reach = Reach::new(drape_reach(spacing, cloth.thickest()));
     let n = nodes.len();
     let hood = Neighbourhood { class: (0..n as u32).collect(), passing: Vec::new() };

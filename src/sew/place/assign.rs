@@ -68,6 +68,12 @@ pub(in crate::sew) fn goes_between_legs(garment: &Garment) -> bool {
     garment.pieces.iter().any(leg) || names.into_iter().any(between)
 }
 
+/// Whether a piece is said to be one of a skirt, by its place or its name.
+pub(super) fn is_skirt(piece: &Piece) -> bool {
+    let says = |words: &[String]| words.iter().any(|word| word == "skirt");
+    says(&words_of(&piece.name)) || matches!(&piece.place, Some(Place::Around { words }) if says(words))
+}
+
 /// `sleeve_left.L` → sleeve, left, l.
 fn words_of(name: &str) -> Vec<String> {
     name.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).map(str::to_lowercase).collect()

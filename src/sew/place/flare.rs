@@ -11,6 +11,7 @@
 
 use std::f64::consts::TAU;
 
+use super::assign::is_skirt;
 use super::flute::{self, Flutes};
 use super::fold::Sheet;
 use super::rows::is_at;
@@ -26,6 +27,11 @@ const SIDE: f64 = 0.6;
 const ALIKE: f64 = 0.9;
 /// until they reach over this share only. (Shoulders reach over less of the shortest top.)
 const DIPPED: f64 = 0.5;
+/// A skirt has no shoulders: short in front and long behind, the sides of about half a circle reach over this share at
+/// least.
+const SKIRT: f64 = 0.25;
+/// It opens by this much at least, radians; 150°. (Slits for godets open by less.)
+const HALF_CIRCLE: f64 = 2.6;
 /// The waist keeps its distance from the apex: it rises or falls by no more than this share of its length. (The hem may
 /// dip as it likes.)
 const ROUND: f64 = 0.35;
@@ -81,7 +87,7 @@ pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &mut Sheet) {
             let bent = !is_at(&piece.place);
             let points = &mesh.flat[part.particles.clone()];
             let rim: Vec<&Path> = piece.loops.first().into_iter().flatten().map(|e| &e.path).collect();
-            (plain && bent).then(|| sector(&rim, points)).flatten()
+            (plain && bent).then(|| sector(&rim, points, is_skirt(piece))).flatten()
         })
         .collect();
     let openings = openings(mesh, &sectors);
@@ -175,12 +181,12 @@ fn openings(mesh: &ClothMesh, sectors: &[Option<Sector>]) -> Vec<f64> {
 
 /// The sector that a piece is, if it is one and opens wide: two straight sides on lines through one point, and the
 /// rest of the rim round that point.
-fn sector(rim: &[&Path], points: &[Vec2]) -> Option<Sector> {
+fn sector(rim: &[&Path], points: &[Vec2], skirt: bool) -> Option<Sector> {
     let sides: Vec<&Path> = rim.iter().copied().filter(|p| p.is_straight()).collect();
     let pairs = (0..sides.len()).flat_map(|i| (i + 1..sides.len()).map(move |j| (i, j)));
     let mut found: Vec<Sector> = pairs
         .filter_map(|(i, j)| {
-            let sector = between(sides[i], sides[j], points)?;
+            let sector = between(sides[i], sides[j], points, skirt)?;
             is_round(&sector, rim.iter().copied()).then_some(sector)
         })
         .collect();
@@ -190,7 +196,7 @@ fn sector(rim: &[&Path], points: &[Vec2]) -> Option<Sector> {
 }
 
 /// The sector between two sides that holds all points.
-fn between(one: &Path, other: &Path, points: &[Vec2]) -> Option<Sector> {
+fn between(one: &Path, other: &Path, points: &[Vec2], skirt: bool) -> Option<Sector> {
     let apex = apex(one, other)?;
     let outward = |p: &Path| {
         let d = p.point(0.5 * p.length()) - apex;
@@ -203,11 +209,16 @@ fn between(one: &Path, other: &Path, points: &[Vec2]) -> Option<Sector> {
         .fold([f64::INFINITY, 0.0], |r: [f64; 2], d| [r[0].min(d), r[1].max(d)]);
     let lengths = [one.length(), other.length()];
     let (least, most) = (lengths[0].min(lengths[1]), lengths[0].max(lengths[1]));
-    let long = least >= if least >= ALIKE * most { DIPPED } else { SIDE } * (radii[1] - radii[0]);
     let near = 0.5 * (ends[0] + ends[1]);
     [near, near + std::f64::consts::PI].into_iter().find_map(|middle| {
         let sector = Sector { apex, middle: wrapped(middle), half: wrapped(ends[0] - middle).abs(), radii };
         let holds = points.iter().all(|p| sector.polar(*p).1.abs() <= sector.half + BEYOND);
+        let share = match least >= ALIKE * most {
+            true if skirt && 2.0 * sector.half >= HALF_CIRCLE => SKIRT,
+            true => DIPPED,
+            false => SIDE,
+        };
+        let long = least >= share * (radii[1] - radii[0]);
         (long && holds && 2.0 * sector.half >= WIDE && sector.middle.cos() >= DOWN && radii[0] > 0.0).then_some(sector)
     })
 }
@@ -271,6 +282,10 @@ mod tests {
 
     /// The sector of an outline in millimetres, begun with `M`, an edge per command.
     fn found(edges: &[&str]) -> Option<Sector> {
+        sector_of(edges, false)
+    }
+
+    fn sector_of(edges: &[&str], skirt: bool) -> Option<Sector> {
         let mut paths: Vec<Path> = Vec::new();
         for edge in edges {
             let path = match paths.last() {
@@ -280,7 +295,7 @@ mod tests {
             paths.push(path.expect("a path"));
         }
         let points: Vec<Vec2> = paths.iter().flat_map(|p| p.sampled(1e-4)).collect();
-        sector(&paths.iter().collect::<Vec<&Path>>(), &points)
+        sector(&paths.iter().collect::<Vec<&Path>>(), &points, skirt)
     }
 
     #[test]
@@ -289,6 +304,15 @@ mod tests {
         let half = half.expect("a sector");
         assert!(half.apex.norm() < 1e-9 && (2.0 * half.half - std::f64::consts::PI).abs() < 1e-9, "{half:?}");
         assert!((half.radii[0] - 0.4).abs() < 1e-6 && (half.radii[1] - 0.48).abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_back_of_a_skirt_may_be_longer_than_its_sides_by_far() {
+        // Half of an asymmetric circle skirt: sides of 130 mm, 270 mm long in the middle.
+        let back = ["M 7 0 L 137 0", "A 300 300 0 1 1 -417 0", "L -287 0", "A 147 147 0 0 0 7 0"];
+        let skirt = sector_of(&back, true).expect("a sector");
+        assert!((skirt.apex - Vec2::new(-0.14, 0.0)).norm() < 1e-3 && skirt.radii[1] > 0.4, "{skirt:?}");
+        assert!(sector_of(&back, false).is_none(), "shoulders may be as long");
     }
 
     #[test]
