@@ -113,13 +113,13 @@ pub fn drape(
     let mut world = sewn_world(cut, body, stitching, nodes)?;
     world.gravity = 1.0;
     world.grip(GRIP);
-    world.harden();
     let thick = world.cloth.thickest();
     let spacing = cut.mesh.spacing;
     let look = [thick + NEAREST_LOOK, drape_reach(spacing, thick)];
     let near = options.near;
     let (last, trust) = (world.x.clone(), TRUST[0] * spacing);
-    let mut fall = Fall { last, world, steps: 0, tested: 0, near, trust, look, spacing };
+    let hardens = options.until == Until::Rest;
+    let mut fall = Fall { last, world, steps: 0, tested: 0, near, hardens, trust, look, spacing };
     let (drift, residual, converged) = match options.until {
         Until::Rest => fall.come_to_rest(options.max_steps, progress)?,
         Until::Near => {
@@ -143,6 +143,8 @@ struct Fall<'a> {
     tested: usize,
     /// Whether it is near its rest, and stays so.
     near: bool,
+    /// Whether its contacts are to harden there.
+    hardens: bool,
     /// How far a Newton step is trusted, metres.
     trust: f64,
     /// How far around the cloth is looked at, at least and at most, metres.
@@ -181,6 +183,11 @@ impl Fall<'_> {
             is_settled = is_still || moved <= settled;
             self.world.look_within(self.reach(moved, most_moved))?;
             self.near |= moved < NEAR_REST || self.steps >= LONGEST_FALL;
+            // Not before: what was pressed hard while it was sewn would be thrown off, or held by its friction, and
+            // what the body cuts has to come out.
+            if self.hardens && self.near && !self.world.is_cut() {
+                self.world.harden();
+            }
             progress((self.steps as f64 / most as f64).max(settled / moved).min(0.9));
         }
         Ok(())

@@ -7,7 +7,7 @@ use super::model::Cloth;
 use crate::contact::Contact;
 use crate::geometry::Vec3;
 
-/// How the load grows as the gap closes. With r = distance kept / gap, in stiffnesses × distance kept:
+/// How the load grows as the gap closes: with r = distance kept / gap, in stiffnesses × distance kept,
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hardening {
     /// r − 1. Layers that jam while seams close, and cloth that limbs press on as they go back, let themselves be
@@ -31,27 +31,27 @@ impl Hardening {
         }
     }
 
-    /// In stiffnesses × distance kept.
-    fn load(self, r: f64) -> f64 {
+    /// N of a contact of stiffness `k` (N/m) that keeps `kept` metres, at a gap of `thin` metres.
+    fn load(self, k: f64, kept: f64, thin: f64) -> f64 {
         match self {
-            Self::Slow => r - 1.0,
-            Self::Fast => (r - 1.0) * r * r,
+            Self::Slow => k * (kept - thin) * kept / thin,
+            Self::Fast => k * (kept - thin) * (kept / thin).powi(3),
         }
     }
 
     /// By how much the load falls as the gap grows, in stiffnesses.
     fn slope(self, r: f64) -> f64 {
         match self {
-            Self::Slow => r * r,
-            Self::Fast => r * r * r * (3.0 * r - 2.0),
+            Self::Slow => r.powi(2),
+            Self::Fast => r.powi(3) * (3.0 * r - 2.0),
         }
     }
 
-    /// In stiffnesses × distance kept squared.
-    fn energy(self, r: f64) -> f64 {
+    /// What has been spent from the distance kept down to `thin`, J.
+    fn energy(self, k: f64, kept: f64, thin: f64) -> f64 {
         match self {
-            Self::Slow => r.ln() - 1.0 + 1.0 / r,
-            Self::Fast => 0.5 * (r - 1.0).powi(2),
+            Self::Slow => k * kept * (kept * (kept / thin).ln() - (kept - thin)),
+            Self::Fast => 0.5 * k * (kept * (kept / thin - 1.0)).powi(2),
         }
     }
 }
@@ -117,9 +117,8 @@ impl ContactLaw {
             return Press { load: k * (kept - gap), slope: k };
         }
         let thin = gap.max(self.hardening.thinnest() * kept);
-        let r = kept / thin;
-        let slope = k * if gap < thin { INSIDE } else { self.hardening.slope(r) };
-        Press { load: k * (kept * self.hardening.load(r) + INSIDE * (thin - gap)), slope }
+        let slope = if gap < thin { k * INSIDE } else { k * self.hardening.slope(kept / thin) };
+        Press { load: self.hardening.load(k, kept, thin) + (thin - gap) * k * INSIDE, slope }
     }
 
     /// Normal force at `x`, N (0 when it does not touch).
@@ -135,8 +134,9 @@ impl ContactLaw {
             return 0.0;
         }
         let thin = gap.max(self.hardening.thinnest() * kept);
-        let (r, below) = (kept / thin, thin - gap);
-        k * (kept * kept * self.hardening.energy(r) + below * (kept * self.hardening.load(r) + 0.5 * INSIDE * below))
+        let below = thin - gap;
+        let pressed = self.hardening.load(k, kept, thin) + 0.5 * k * INSIDE * below;
+        self.hardening.energy(k, kept, thin) + below * pressed
     }
 }
 
@@ -147,17 +147,17 @@ mod tests {
     #[test]
     fn the_load_is_the_slope_of_the_energy_and_its_slope_is_that_of_the_load() {
         for law in [Hardening::Slow, Hardening::Fast] {
-            for k in 1..=60 {
-                // In distances kept, from where the law ends to where it begins.
-                let gap = law.thinnest().powf(f64::from(k) / 61.0);
+            let (k, kept) = (60.0, 0.4e-3);
+            for part in 1..=60 {
+                // From where the law ends to where it begins.
+                let gap = kept * law.thinnest().powf(f64::from(part) / 61.0);
                 let step = 1e-5 * gap;
-                let of = |gap: f64| 1.0 / gap;
-                let slope = |f: &dyn Fn(f64) -> f64| (f(of(gap - step)) - f(of(gap + step))) / (2.0 * step);
-                let (load, fall) = (law.load(of(gap)), law.slope(of(gap)));
-                assert!((slope(&|r| law.energy(r)) - load).abs() < 1e-6 * load.max(1.0), "{law:?} at {gap}");
-                assert!((slope(&|r| law.load(r)) - fall).abs() < 1e-6 * fall, "{law:?} at {gap}");
+                let slope = |f: &dyn Fn(f64) -> f64| (f(gap - step) - f(gap + step)) / (2.0 * step);
+                let (load, fall) = (law.load(k, kept, gap), k * law.slope(kept / gap));
+                assert!((slope(&|gap| law.energy(k, kept, gap)) - load).abs() < 1e-6 * load, "{law:?} at {gap}");
+                assert!((slope(&|gap| law.load(k, kept, gap)) - fall).abs() < 1e-6 * fall, "{law:?} at {gap}");
             }
-            assert_eq!([law.load(1.0), law.energy(1.0), law.slope(1.0)], [0.0, 0.0, 1.0], "{law:?} begins softly");
+            assert_eq!([law.load(k, kept, kept), law.energy(k, kept, kept), law.slope(1.0)], [0.0, 0.0, 1.0]);
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Cloth, body and contact together, advanced step by step.
 
+use rayon::prelude::*;
+
 use super::contact_law::{ContactLaw, Hardening};
 use super::cost::ContactTime;
 use super::force::{Forces, Pull, cloth_forces};
@@ -379,7 +381,18 @@ impl<'a> World<'a> {
 
     /// Lets contacts harden as those of garments at rest do ([`Hardening::Fast`]), from the next step on.
     pub fn harden(&mut self) {
-        self.law.hardening = Hardening::Fast;
+        if self.law.hardening != Hardening::Fast {
+            self.law.hardening = Hardening::Fast;
+            // Its energy is another one now.
+            self.gains.clear();
+        }
+    }
+
+    /// Whether the body is in the way along an edge of the cloth.
+    pub fn is_cut(&self) -> bool {
+        let body = self.proximity.body;
+        let cuts = |[a, b]: &[u32; 2]| body.is_in_the_way(self.x[*a as usize], self.x[*b as usize]);
+        self.cloth.edges.par_iter().any(cuts)
     }
 
     /// Gives the system the couplings of layers that have come near each other, and friction the new contacts.

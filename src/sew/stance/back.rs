@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::spread::Spread;
-use crate::contact::{Collider, Skin};
+use crate::contact::Skin;
 use crate::dynamics::{StepError, World};
 use crate::geometry::{TriMesh, Vec3};
 use crate::sew::settle::{STEP, TRUST};
@@ -88,21 +88,16 @@ impl<'a> Carrier<'a> {
     }
 }
 
-/// Lets the measured springs pull, at most for [`MORE`] steps, until the cloth is out of the `body` of its stage.
+/// Lets the measured springs pull, at most for [`MORE`] steps, until the cloth is out of the body of its stage.
 /// Returns how many steps it took.
 ///
 /// # Errors
 /// As [`World::newton`].
-pub(super) fn come_out(world: &mut World, body: &Collider) -> Result<usize, StepError> {
+pub(super) fn come_out(world: &mut World) -> Result<usize, StepError> {
     let mut steps = 0;
-    while steps < MORE && is_cut(world, body) {
+    while steps < MORE && world.is_cut() {
         world.newton(STEP, TRUST)?;
         steps += 1;
     }
     Ok(steps)
-}
-
-/// Whether the body is in the way along an edge of the cloth.
-fn is_cut(world: &World, body: &Collider) -> bool {
-    world.cloth.edges.par_iter().any(|[a, b]| body.is_in_the_way(world.x[*a as usize], world.x[*b as usize]))
 }

@@ -80,7 +80,7 @@ impl Stance {
             let stage = Collider::new(&moved(&self.own, &self.spreads, share));
             let stage = stage.ok_or_else(no_solid)?.on_floor(body.floor());
             let mut world = sewn_world(cut, &stage, &sewn.stitching, sewn.nodes)?;
-            sewn.steps += carrier.carry(&mut world, share - last)? + come_out(&mut world, &stage)?;
+            sewn.steps += carrier.carry(&mut world, share - last)? + come_out(&mut world)?;
             (sewn.nodes, last) = (world.x, share);
             progress(SEWN + (1.0 - SEWN) * (k + 1) as f64 / (stops.len() + 1) as f64);
         }
