@@ -143,7 +143,7 @@ struct Fall<'a> {
     tested: usize,
     /// Whether it is near its rest, and stays so.
     near: bool,
-    /// Whether its contacts are to harden there.
+    /// Whether its contacts are still to harden there.
     hardens: bool,
     /// How far a Newton step is trusted, metres.
     trust: f64,
@@ -187,6 +187,7 @@ impl Fall<'_> {
             // what the body cuts has to come out.
             if self.hardens && self.near && !self.world.is_cut() {
                 self.world.harden();
+                self.hardens = false;
             }
             progress((self.steps as f64 / most as f64).max(settled / moved).min(0.9));
         }

@@ -7,7 +7,7 @@ use super::model::Cloth;
 use crate::contact::Contact;
 use crate::geometry::Vec3;
 
-/// How the load grows as the gap closes: with r = distance kept / gap, in stiffnesses × distance kept,
+/// How the load grows as the gap closes: with r = distance kept / gap, in stiffnesses × distance kept:
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hardening {
     /// r − 1. Layers that jam while seams close, and cloth that limbs press on as they go back, let themselves be

@@ -74,6 +74,7 @@ pub(super) struct Proximity<'a> {
     near: Near,
     /// How far nodes may go.
     pub(super) bounds: Bounds,
+    /// What the cloth is on.
     pub(super) body: &'a Collider,
     detector: ClothDetector,
     /// How near contacts are looked for at the next look that searches all of the cloth.

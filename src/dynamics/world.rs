@@ -381,11 +381,9 @@ impl<'a> World<'a> {
 
     /// Lets contacts harden as those of garments at rest do ([`Hardening::Fast`]), from the next step on.
     pub fn harden(&mut self) {
-        if self.law.hardening != Hardening::Fast {
-            self.law.hardening = Hardening::Fast;
-            // Its energy is another one now.
-            self.gains.clear();
-        }
+        self.law.hardening = Hardening::Fast;
+        // Its energy is another one now.
+        self.gains.clear();
     }
 
     /// Whether the body is in the way along an edge of the cloth.

@@ -68,7 +68,8 @@ pub fn sewn_world<'a>(
     draping_world(cloth, nodes, cut.mesh.spacing, body)
 }
 
-/// Cloth of grid spacing `spacing` (metres) at `nodes`, with contact as draped garments have it.
+/// Cloth of grid spacing `spacing` (metres) at `nodes`, with contact as draped garments have it until they
+/// are near their rest ([`World::harden`]).
 ///
 /// # Errors
 /// As [`World::new`].

@@ -213,10 +213,12 @@ fn between(one: &Path, other: &Path, points: &[Vec2], skirt: bool) -> Option<Sec
     [near, near + std::f64::consts::PI].into_iter().find_map(|middle| {
         let sector = Sector { apex, middle: wrapped(middle), half: wrapped(ends[0] - middle).abs(), radii };
         let holds = points.iter().all(|p| sector.polar(*p).1.abs() <= sector.half + BEYOND);
-        let share = match least >= ALIKE * most {
-            true if skirt && 2.0 * sector.half >= HALF_CIRCLE => SKIRT,
-            true => DIPPED,
-            false => SIDE,
+        let share = if least < ALIKE * most {
+            SIDE
+        } else if skirt && 2.0 * sector.half >= HALF_CIRCLE {
+            SKIRT
+        } else {
+            DIPPED
         };
         let long = least >= share * (radii[1] - radii[0]);
         (long && holds && 2.0 * sector.half >= WIDE && sector.middle.cos() >= DOWN && radii[0] > 0.0).then_some(sector)
