@@ -153,3 +153,20 @@ fn tests_of_rest_take_no_more_than_twice_the_steps_allowed() {
         assert!(!draped.converged && draped.drift.iter().all(|d| d.is_finite()), "{:?}", draped.drift);
     }
 }
+
+/// Seams that pulled no harder while they were far apart left it open by 114 mm: a knit is drawn smaller than the body.
+#[test]
+fn a_band_much_smaller_than_the_waist_is_drawn_over_it() {
+    let name = "tight_band.yaml";
+    let report = rests(name, &scene(name, 16.0)).1;
+    assert!(report.seams.iter().all(|s| s.gap_max < 1.0), "{:?}", report.seams);
+    assert_eq!(report.worn.len(), 2, "{:?}", report.worn);
+    for (rim, worn) in report.worn.iter().enumerate() {
+        let by = worn.length / 540.0 - 1.0;
+        assert!(worn.body_part.is_some() && (0.3..0.5).contains(&by), "rim {rim}: {} mm", worn.length);
+    }
+    for piece in &report.pieces {
+        let stretched = piece.stretched.as_ref().expect("smaller than the body");
+        assert!(stretched.why == "body" && (0.3..0.5).contains(&stretched.by), "{}: {stretched:?}", piece.name);
+    }
+}

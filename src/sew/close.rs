@@ -96,10 +96,10 @@ const NEAR: f64 = 7.5e-3;
 /// The next phase also begins when the widest gap has not shrunk to this share of itself in so many steps.
 const STALL: usize = 6;
 const PROGRESS: f64 = 0.8;
-/// In the last phase, near pairs that have not closed by as much in so many steps are jammed: their rims lie folded
-/// over one another. They and their neighbours let each other pass, and every stitch may pull twice as hard each time,
-/// up to so many times; what is tangled once they are stitched is led out.
-const JAMMED: usize = 12;
+/// In the last phase, pairs that have not closed by as much in so many steps are stuck: the garment is tight there, or
+/// their rims lie folded over one another. Every stitch then pulls twice as hard, up to so many times; near pairs and
+/// their neighbours let each other pass besides, and what is tangled once they are stitched is led out.
+const STUCK: usize = 12;
 const HARDER: i32 = 4;
 /// Classes of three and more particles pull so much harder: closed last they jam.
 const JUNCTION: f64 = 8.0;
@@ -165,7 +165,7 @@ struct Closing<'a> {
 impl Closing<'_> {
     /// Closes them, and keeps closed what is. Returns the steps that took, at most `max_steps`.
     fn close(&self, world: &mut World, max_steps: usize, progress: &mut dyn FnMut(f64)) -> Result<usize, SewError> {
-        let (mut phase, mut jams, mut passing) = (0, 0, Vec::new());
+        let (mut phase, mut harder, mut passing) = (0, 0, Vec::new());
         let mut history: Vec<f64> = Vec::new();
         let mut first = None;
         for steps in 0..max_steps {
@@ -184,12 +184,14 @@ impl Closing<'_> {
                     phase += 1;
                     history.clear();
                 }
-            } else if widest < NEAR && stuck_for(JAMMED) {
-                jams = (jams + 1).min(HARDER);
-                self.let_pass(world, &gaps, &mut passing)?;
+            } else if stuck_for(STUCK) {
+                harder = (harder + 1).min(HARDER);
+                if widest < NEAR {
+                    self.let_pass(world, &gaps, &mut passing)?;
+                }
                 history.clear();
             }
-            world.advance(STEP, KEEP, &self.pulls(phase, jams))?;
+            world.advance(STEP, KEEP, &self.pulls(phase, harder))?;
             // Gaps shrink by decades: the share of the way in their logarithm.
             let way = (first / widest).ln() / (first / self.tolerance).ln().max(1e-9);
             progress(way.clamp(0.0, 1.0));
@@ -198,12 +200,11 @@ impl Closing<'_> {
     }
 
     /// What the pairs pull with: those of earlier stages as they did last, those of later ones with nothing.
-    fn pulls(&self, phase: usize, jams: i32) -> Vec<Pull> {
+    fn pulls(&self, phase: usize, harder: i32) -> Vec<Pull> {
         let pull = |(ends, order): (&[u32; 2], &Ordering)| {
             let (stiffness, force) = PHASES[if order.is_lt() { PHASES.len() - 1 } else { phase }];
-            let force = force * 2f64.powi(jams);
             let junction = self.stitching.size[self.stitching.class[ends[0] as usize] as usize] > 2;
-            let factor = if junction { JUNCTION } else { 1.0 };
+            let factor = if junction { JUNCTION } else { 1.0 } * 2f64.powi(harder);
             let stiffness_now = if order.is_gt() { 0.0 } else { stiffness * factor };
             Pull { ends: *ends, stiffness: stiffness_now, cap: force / stiffness }
         };
