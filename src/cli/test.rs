@@ -143,7 +143,8 @@ fn outcomes(file: &Path, overrides: &Overrides) -> Vec<Outcome> {
     };
     let mut runs = vec![(None, overrides.clone())];
     if overrides.fabric.is_none() {
-        let in_fabric = |f: &str| (Some(f.to_owned()), Overrides { fabric: Some(f.to_owned()), ..overrides.clone() });
+        let in_fabric =
+            |f: &str| (Some(f.to_owned()), Overrides { fabric: Some(beside(file, f)), ..overrides.clone() });
         runs.extend(fabrics_with_bounds(&loaded.garment).into_iter().map(in_fabric));
     }
     let run = |(fabric, overrides): &(Option<String>, Overrides)| {
@@ -153,12 +154,22 @@ fn outcomes(file: &Path, overrides: &Overrides) -> Vec<Outcome> {
     runs.iter().map(run).collect()
 }
 
-/// Fabrics that a garment has bounds for, each once.
+/// Fabrics that a garment has bounds for, each once; not those that its pieces are cut from anyway.
 fn fabrics_with_bounds(garment: &Garment) -> Vec<&str> {
-    let mut fabrics: Vec<&str> = garment.tests.iter().filter_map(|t| t.fabric.as_deref()).collect();
+    let used = |fabric: &str| garment.pieces.iter().any(|p| p.fabric == fabric);
+    let fabrics = garment.tests.iter().filter_map(|t| t.fabric.as_deref());
+    let mut fabrics: Vec<&str> = fabrics.filter(|f| !used(f)).collect();
     fabrics.sort_unstable();
     fabrics.dedup();
     fabrics
+}
+
+/// A fabric's file as seen from here, for a garment's file names it from its own folder; a name stays a name.
+fn beside(garment: &Path, fabric: &str) -> String {
+    match (Path::new(fabric).extension(), garment.parent()) {
+        (Some(_), Some(folder)) => folder.join(fabric).display().to_string(),
+        _ => fabric.to_owned(),
+    }
 }
 
 /// What was measured of a garment that was made.

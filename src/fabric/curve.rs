@@ -63,6 +63,11 @@ impl TensileCurve {
         a.0 + (load - a.1) * (b.0 - a.0) / (b.1 - a.1)
     }
 
+    /// The extension under a Kawabata tester's full load, 500 gf/cm: EMT, as a fraction.
+    pub fn emt(&self) -> f64 {
+        self.strain(FULL_LOAD * GF_PER_CM)
+    }
+
     /// Slope of the load at a strain, N/m; at a corner that of the segment beyond, zero in compression.
     pub fn slope(&self, strain: f64) -> f64 {
         if strain < 0.0 {

@@ -340,7 +340,8 @@ pub struct Closure {
 pub struct Test {
     /// What must hold.
     pub bound: Bound,
-    /// Only when the garment is made in this fabric; `None` = in any.
+    /// Only when the garment is made in this fabric; `None` = in any. As the file names it, one of the garment's own, a
+    /// shipped one or a file; of a [`Job`](crate::pipeline::Job) as reports name it.
     pub fabric: Option<String>,
 }
 

@@ -22,19 +22,32 @@ impl<'a> Fabrics<'a> {
     }
 
     /// Those of a garment; `instead` takes the place of the main one where that is defined, so that an interfacing
-    /// "based on the shell" follows.
+    /// "based on the shell" follows. The main one itself is left as it is.
     ///
     /// # Errors
     /// `instead` cannot be had.
     pub(super) fn of(garment: &Garment, folder: &'a Path, instead: Option<&str>) -> Result<Self, FabricError> {
         let mut fabrics = Self::named(&garment.fabrics, folder);
-        fabrics.replaced = instead.and_then(|_| main_fabric(garment));
-        if let (Some(name), Some(main)) = (instead, fabrics.replaced) {
+        let Some((name, main)) = instead.zip(main_fabric(garment)) else { return Ok(fabrics) };
+        if fabrics.specs[main].0 != name {
             fabrics.specs[main].1 = FabricSpec { base: Some(absolute(name)), values: Vec::new() };
             // First of all: what is based on it would be blamed for it.
             fabrics.resolve(main)?;
+            fabrics.replaced = Some(main);
         }
         Ok(fabrics)
+    }
+
+    /// What the fabric that the garment's file calls so is named in a report: one of its own, a shipped one or a file.
+    ///
+    /// # Errors
+    /// It cannot be had.
+    pub(super) fn name_of(&self, word: &str) -> Result<String, FabricError> {
+        if let Some(own) = self.specs.iter().position(|s| s.0 == word) {
+            return Ok(self.resolve(own)?.name);
+        }
+        let spec = FabricSpec { base: Some(word.to_owned()), values: Vec::new() };
+        Ok(resolve(&spec, &Context { name: word, folder: self.folder, garment: &self.specs })?.name)
     }
 
     /// All of them in the file's order, also one that no piece uses: its mistakes are the user's to know.

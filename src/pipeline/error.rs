@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::caught::Caught;
+use super::too_small::TooSmall;
 use crate::drape::DrapeError;
 use crate::fabric::FabricError;
 use crate::flatten::FlattenError;
@@ -95,6 +96,9 @@ pub enum PipelineError {
     /// A seam cannot close round what is between its edges.
     #[error(transparent)]
     Caught(Box<Caught>),
+    /// Its seams close, but only if the cloth tears.
+    #[error(transparent)]
+    TooSmall(Box<TooSmall>),
     /// Sewing failed.
     #[error(transparent)]
     Sew(SewError),
@@ -131,6 +135,7 @@ impl PipelineError {
             | Self::Cut { .. } => true,
             Self::Surface { source, .. } => !is_breakdown(source),
             Self::Caught(_)
+            | Self::TooSmall(_)
             | Self::Sew(_)
             | Self::Drape(_)
             | Self::Flatten(_)
@@ -146,6 +151,7 @@ impl PipelineError {
             || matches!(
                 self,
                 Self::Caught(_)
+                    | Self::TooSmall(_)
                     | Self::Sew(SewError::InsideBody { .. } | SewError::UnderFloor { .. } | SewError::Open { .. })
             )
     }

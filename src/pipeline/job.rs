@@ -75,10 +75,11 @@ impl Job {
     ///
     /// # Errors
     /// [`PipelineError`]: always the input's fault, but for a body that cannot be touched.
-    pub fn new(file: &Path, loaded: Loaded, overrides: &Overrides) -> Result<Self, PipelineError> {
+    pub fn new(file: &Path, mut loaded: Loaded, overrides: &Overrides) -> Result<Self, PipelineError> {
         let mut notes: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
         let (fabrics, told) = material::fabrics(file, &loaded, overrides.fabric.as_deref())?;
         notes.extend(told);
+        material::name_bounded_fabrics(file, &mut loaded)?;
         let (wanted, worn_by) = material::body(file, &loaded, overrides)?;
         notes.extend(worn_by.notes.iter().map(|note| format!("{wanted}: {note}")));
         let body = worn_by.mannequin;

@@ -1,5 +1,6 @@
 //! Fabrics and body of a garment, and the line of its file that is to blame when one cannot be had, or no mesh made.
 
+use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -52,10 +53,12 @@ fn on_body(mut loaded: Loaded, mesh: &ClothMesh, body: &Body) -> Result<Loaded, 
 /// What is wrong with the fabrics and the body that a file names; the body, if it can be had.
 fn look(file: &Path, said: &GarmentFile, findings: &mut Findings) -> Option<Body> {
     let folder = file.parent().unwrap_or(Path::new(""));
-    let all = Fabrics::named(&pattern::fabrics(said), folder).all();
-    for (entry, fabric) in said.fabrics.iter().zip(&all) {
+    let named = pattern::fabrics(said);
+    let fabrics = Fabrics::named(&named, folder);
+    for (entry, fabric) in said.fabrics.iter().zip(&fabrics.all()) {
         blame_fabric(said, entry, fabric, findings);
     }
+    bounded_fabrics(said, &fabrics, findings);
     // A file without a body is told so by whatever needs one.
     let name = said.body.as_ref()?;
     let wanted = body_name(file, Some(&name.value), None).ok()?;
@@ -84,6 +87,38 @@ fn blame_fabric(said: &GarmentFile, entry: &Entry, fabric: &Result<Fabric, Fabri
             }
         }
     }
+}
+
+/// What reports call the fabrics that the file's `tests` are for, by the words it has for them. One that cannot be had
+/// is blamed where it is said, unless it is one of the garment's own, which is blamed where it is defined.
+fn bounded_fabrics(said: &GarmentFile, fabrics: &Fabrics, findings: &mut Findings) -> HashMap<String, String> {
+    let mut names = HashMap::new();
+    for word in said.tests.iter().filter_map(|test| test.value.fabric.as_ref()) {
+        let own = said.fabrics.iter().any(|f| f.0.value == word.value);
+        match fabrics.name_of(&word.value) {
+            Ok(name) => drop(names.insert(word.value.clone(), name)),
+            Err(error) if !own => findings.error(word.at, Problem::Fabric(error.to_string())),
+            Err(_) => {}
+        }
+    }
+    names
+}
+
+/// Has every test of the garment name its fabric as reports do.
+///
+/// # Errors
+/// A fabric that cannot be had.
+pub(super) fn name_bounded_fabrics(file: &Path, loaded: &mut Loaded) -> Result<(), Refused> {
+    let folder = file.parent().unwrap_or(Path::new(""));
+    let mut findings = loaded.findings();
+    let fabrics = Fabrics::named(&loaded.garment.fabrics, folder);
+    let names = bounded_fabrics(&loaded.file, &fabrics, &mut findings);
+    for fabric in loaded.garment.tests.iter_mut().filter_map(|test| test.fabric.as_mut()) {
+        if let Some(name) = names.get(fabric) {
+            fabric.clone_from(name);
+        }
+    }
+    if findings.errors() > 0 { Err(Refused { diagnostics: findings.into_sorted() }) } else { Ok(()) }
 }
 
 /// Fabrics by piece, and what their user should know of them.

@@ -22,6 +22,7 @@ mod results;
 mod run;
 mod saved;
 mod surface;
+mod too_small;
 
 use crate::report::AtRest;
 pub use crate::sew::SewError;
@@ -39,6 +40,7 @@ pub use surface::{
     CutReport, CutWhy, Cuts, DARTS, DartStop, EdgeReport, FLAT_OBJ, FLAT_PNG, FlatSurface, Limit, OUTLINE_SVG,
     PartReport, SurfaceOptions, SurfaceReport, flatten_surface,
 };
+pub use too_small::TooSmall;
 
 /// What counts as rest of a draped garment.
 pub const AT_REST: AtRest = AtRest { drift: 1e3 * crate::drape::DRIFT, residual: crate::drape::RESIDUAL };

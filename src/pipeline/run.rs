@@ -85,7 +85,9 @@ impl<'a> Run<'a> {
         self.stitching = sewn.stitching;
         // The state is kept first: a garment that did not close is worth a look.
         let caught = |e: &SewError| job.caught(e, self.sewn.as_deref().unwrap_or_default()).map(Box::new);
-        closed.map_err(|e| caught(&e).map_or_else(|| failed(e), PipelineError::Caught))
+        closed.map_err(|e| caught(&e).map_or_else(|| failed(e), PipelineError::Caught))?;
+        let too_small = self.sewn.as_deref().and_then(|at| job.too_small(at));
+        too_small.map_or(Ok(()), |small| Err(PipelineError::TooSmall(Box::new(small))))
     }
 
     /// Lets the sewn garment fall to rest; sews it first if that has not been done.

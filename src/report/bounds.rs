@@ -56,7 +56,7 @@ pub fn verdicts_by_test(garment: &Garment, report: &Report) -> Vec<Vec<Verdict>>
 
 /// Whether the test is for the fabric the garment was made in.
 fn holds(test: &Test, report: &Report) -> bool {
-    let used = |name: &str| report.fabric.split(" + ").any(|f| f == name);
+    let used = |name: &str| report.fabric == name || report.fabric.split(" + ").any(|f| f == name);
     test.fabric.as_deref().is_none_or(used)
 }
 

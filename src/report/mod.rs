@@ -28,5 +28,5 @@ pub use schema::{
     ClosureReport, Contact, ContactSeconds, Crossing, Drift, PieceReport, Quartet, Report, SeamReport, Sizes, Spread,
     Stage, Stretched, Worn,
 };
-pub use strain::vertex_strain;
+pub use strain::{extensions, vertex_strain};
 pub use table::{aligned, contact_lines, table};

@@ -61,6 +61,12 @@ pub(super) fn piece_strain(mesh: &ClothMesh, piece: &PieceMesh, elastic: &HashSe
     out
 }
 
+/// Mean extension of every piece along warp and weft (shrinking is negative), without the edges along elastic.
+pub fn extensions(mesh: &ClothMesh, at: &[Vec3]) -> Vec<[f64; 2]> {
+    let elastic = mesh.on_elastic();
+    mesh.pieces.iter().map(|piece| piece_strain(mesh, piece, &elastic, at).extension).collect()
+}
+
 /// For every particle, the warp or weft strain of largest size among the edges at it (shrinking is negative); zero
 /// where a particle has no such edge. This is what `--color strain` shows.
 pub fn vertex_strain(mesh: &ClothMesh, at: &[Vec3]) -> Vec<f64> {

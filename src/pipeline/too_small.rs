@@ -1,0 +1,63 @@
+//! A garment that cannot be put on: its seams close only if its cloth tears.
+
+use std::path::PathBuf;
+
+use super::job::Job;
+use crate::fabric::Fabric;
+use crate::geometry::Vec3;
+use crate::report::extensions;
+
+/// Cloth gives so much more than the tester draws it out before it tears: woven cotton tears at 8 to 20 % in a strip
+/// test (ISO 13934-1), of which the first few are those under the tester's load.
+const BEFORE_IT_TEARS: f64 = 0.2;
+
+/// Names of the directions of [`extensions`].
+const THREADS: [&str; 2] = ["warp", "weft"];
+
+/// A piece that would have to stretch by more than its cloth can.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "{}: piece '{piece}' is too small for the body: its seams close only if it is drawn out by {by:.0} % along its \
+     {thread}, on average, and {fabric} gives no more than {gives:.0} %; make it larger there, or take a cloth that \
+     gives more",
+    file.display()
+)]
+pub struct TooSmall {
+    /// The garment file.
+    pub file: PathBuf,
+    /// The piece.
+    pub piece: String,
+    /// `warp` or `weft`.
+    pub thread: &'static str,
+    /// Its mean strain along that, percent.
+    pub by: f64,
+    /// The piece's fabric.
+    pub fabric: String,
+    /// Strain at which that is taken to tear, percent.
+    pub gives: f64,
+}
+
+impl Job {
+    /// The piece that is drawn out furthest beyond what its cloth gives, with the particles of the sewn garment at `at`.
+    pub(super) fn too_small(&self, at: &[Vec3]) -> Option<TooSmall> {
+        let pieces = self.mesh.pieces.iter().zip(&self.fabrics).zip(extensions(&self.mesh, at));
+        let threads = pieces.flat_map(|((piece, fabric), strains)| {
+            let threads = strains.into_iter().zip(gives(fabric)).zip(THREADS);
+            threads.map(move |((by, gives), thread)| (by - gives, piece, fabric, thread, by, gives))
+        });
+        let worst = threads.filter(|t| t.0 > 0.0).max_by(|a, b| a.0.total_cmp(&b.0));
+        worst.map(|(_, piece, fabric, thread, by, gives)| TooSmall {
+            file: self.file.clone(),
+            piece: piece.name.clone(),
+            thread,
+            by: 100.0 * by,
+            fabric: fabric.name.clone(),
+            gives: 100.0 * gives,
+        })
+    }
+}
+
+/// Mean strains along warp and weft at which a fabric is taken to tear.
+fn gives(fabric: &Fabric) -> [f64; 2] {
+    [&fabric.warp, &fabric.weft].map(|curve| curve.emt() + BEFORE_IT_TEARS)
+}
