@@ -1039,3 +1039,38 @@ fn a_corner_that_went_through_is_led_out() {
     let (steps, tangles) = settle(&mut world, Calm::TO_FALL).expect("settled");
     assert_eq!((tangles, count(&world.x, &world.cloth.triangles)), (0, 0), "after {steps} steps");
 }
+
+/// Without shoulder seams its body was hung from the waist, as a skirt is, and the neck band slipped over the shoulders.
+#[test]
+fn a_raglan_starts_at_its_shoulders_and_its_pair_of_sleeves_on_both_arms() {
+    let body = load("child_110").expect("shipped");
+    let made = Made::new(include_str!("data/raglan.yaml"), 18.0);
+    let x = made.placed(&body);
+    let collider = Collider::new(&body.mesh).expect("closed");
+    assert!(sew(&made.cut(), &collider, x.clone(), &SewOptions::default(), &mut |_| {}).expect("sewn").open.is_none());
+    let neck = body.part(PartKind::Neck).expect("a neck").sections[0].center.y;
+    for (piece, side) in made.mesh.pieces.iter().zip([0.0, 0.0, 1.0, -1.0]) {
+        let top = piece.particles.clone().map(|p| x[p].y).fold(f64::MIN, f64::max);
+        let middle = piece.particles.clone().map(|p| x[p].x).sum::<f64>() / piece.particles.len() as f64;
+        if side == 0.0 {
+            assert!((top - neck).abs() < 60.0 * MM, "{} begins at {top}, the neck at {neck}", piece.name);
+        } else {
+            assert!(side * middle > 150.0 * MM, "{} is at {middle}", piece.name);
+        }
+    }
+}
+
+/// Whatever its place, what nothing held began at the waist.
+#[test]
+fn a_band_for_the_bust_starts_there() {
+    let (body, _) = woman();
+    let text = "garment: 1\nbody: woman_92\nfabrics: {shell: jersey}\npieces:\n  front:\n    place: bust front\n    \
+         grain: [[0, 50], [0, 150]]\n    \
+         outline: {start: -220 0, top: L 220 0, left: L 220 200, hem: L -220 200, right: L -220 0}\n  \
+         back: {like: front, place: bust back}\nseams:\n  a: {sew: front.left, to: back.right}\n  \
+         b: {sew: front.right, to: back.left}\nfree: ['*.top', '*.hem']\n";
+    let x = Made::new(text, 20.0).placed(&body);
+    let top = x.iter().map(|p| p.y).fold(f64::MIN, f64::max);
+    // Between the bust and the armpits, y: 1179 and 1242 in the mannequin's file.
+    assert!((1.2..1.26).contains(&top), "begins at {top}");
+}

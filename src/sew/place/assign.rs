@@ -34,7 +34,8 @@ pub(super) fn assign(garment: &Garment, mesh: &ClothMesh) -> Result<Vec<Assigned
         let side = piece.side.or_else(|| side_of(&name_words));
         let assigned = match &piece.place {
             Some(Place::Around { words }) => {
-                let part = part_of(words, side_of(words).or(side))
+                // Each of a pair goes to its own side, whichever one was drawn and said.
+                let part = part_of(words, piece.side.or_else(|| side_of(words)).or(side))
                     .or_else(|| facing_of(words).map(|_| PartKind::Torso))
                     .ok_or_else(|| PlaceError::Words { piece: piece.name.clone(), words: words.join(" ") })?;
                 Assigned { part, facing: facing_of(words).or_else(|| facing_of(&name_words)) }
@@ -72,6 +73,15 @@ pub(in crate::sew) fn goes_between_legs(garment: &Garment) -> bool {
 pub(super) fn is_skirt(piece: &Piece) -> bool {
     let says = |words: &[String]| words.iter().any(|word| word == "skirt");
     says(&words_of(&piece.name)) || matches!(&piece.place, Some(Place::Around { words }) if says(words))
+}
+
+/// Words for what is worn on the bust, and not from the waist down.
+const AT_BUST: [&str; 3] = ["bust", "chest", "bodice"];
+
+/// Whether a piece's place is said to be at the bust.
+pub(super) fn is_at_bust(piece: &Piece) -> bool {
+    let says = |words: &[String]| words.iter().any(|word| AT_BUST.contains(&word.as_str()));
+    matches!(&piece.place, Some(Place::Around { words }) if says(words))
 }
 
 /// `sleeve_left.L` → sleeve, left, l.

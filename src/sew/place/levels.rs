@@ -318,6 +318,7 @@ mod tests {
             laps: Vec::new(),
             front: Some(Middle::On(0.05)),
             v: [0.0, 0.0],
+            hangs: false,
             layer: 0,
         };
         let spans = vec![Some([0.0, 0.1]), Some([0.1, 0.3]), Some([0.3, 0.45])];

@@ -6,7 +6,7 @@ use super::ellipse::Ellipse;
 use super::fold::Sheet;
 use super::lap::Lap;
 use super::levels::{LEVEL, Level, complete_shifts, nearest_level, smooth_shifts, smoothed, spread_out};
-use super::rows::{Link, Member, Row, has_shoulders};
+use super::rows::{Link, Member, Row};
 use super::shoulders::Lean;
 use super::stations::Stations;
 use crate::geometry::{Vec2, Vec3, sorted_pair};
@@ -134,7 +134,7 @@ impl Ring<'_> {
     /// is open at its sides goes round from where they would be.
     pub(super) fn first_closed(&self) -> usize {
         let open = || {
-            let arms = if has_shoulders(self.row, self.links, self.sheet) { ARMHOLE } else { 0.0 };
+            let arms = if self.row.hangs { ARMHOLE } else { 0.0 };
             ((arms / LEVEL) as usize).min(self.levels.len() - 1)
         };
         self.levels.iter().position(|l| l.closed).unwrap_or_else(open)

@@ -69,6 +69,8 @@ pub(super) struct Row {
     pub(super) front: Option<Middle>,
     /// Lowest and highest v.
     pub(super) v: [f64; 2],
+    /// Whether it hangs from the shoulders.
+    pub(super) hangs: bool,
 }
 
 impl Row {
@@ -139,6 +141,8 @@ pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned:
         row.inserts.iter().for_each(|insert| row_of[insert.own.piece] = index);
         rows.push(row);
     }
+    let hanging = hanging(&rows, &links, sheet, assigned);
+    rows.iter_mut().zip(hanging).for_each(|(row, hangs)| row.hangs = hangs);
     let order = stack(&mut rows, &links, &row_of, sheet);
     Rows { rows, links, laid, order }
 }
@@ -216,7 +220,7 @@ fn finish_row(mesh: &ClothMesh, sheet: &Sheet, assigned: &[Assigned], layer: i32
     let boxes: Vec<[Vec2; 2]> = members.iter().map(size).collect();
     let v = range_of(boxes.iter().flatten().map(|corner| corner.y));
     let front = front_middle(assigned, &members, &boxes);
-    Row { part, layer, members, inserts: Vec::new(), laps: Vec::new(), front, v }
+    Row { part, layer, members, inserts: Vec::new(), laps: Vec::new(), front, v, hangs: false }
 }
 
 /// u of the middle of a box.
@@ -293,13 +297,34 @@ fn is_flank(mesh: &ClothMesh, sheet: &Sheet, piece: usize, stitches: impl Iterat
     seam.y >= FLANK * whole.y && seam.x <= 0.5 * whole.x
 }
 
+/// Which rows hang from the shoulders: those with shoulder seams, or, where the garment has none, those of the trunk
+/// that raglan sleeves carry.
+fn hanging(rows: &[Row], links: &[Link], sheet: &Sheet, assigned: &[Assigned]) -> Vec<bool> {
+    let shoulders: Vec<bool> = rows.iter().map(|row| has_shoulders(row, links, sheet)).collect();
+    let of_trunk = |row: &Row| row.part == PartKind::Torso;
+    if rows.iter().zip(&shoulders).any(|(row, has)| *has && of_trunk(row)) {
+        return shoulders;
+    }
+    let raglan = |row: &Row| of_trunk(row) && is_carried_by_sleeves(row, links, sheet, assigned);
+    rows.iter().zip(shoulders).map(|(row, has)| has || raglan(row)).collect()
+}
+
 /// Whether level seams join pieces of the row in its upper half: shoulders.
-pub(super) fn has_shoulders(row: &Row, links: &[Link], sheet: &Sheet) -> bool {
-    let member = |p: usize| row.members.iter().find(|m| m.piece == p);
-    links.iter().filter(|l| !l.upright).any(|l| {
-        let [Some(m), Some(_)] = l.pieces.map(member) else { return false };
-        stitched(l, sheet, 0).y + m.shift.y < 0.5 * (row.v[0] + row.v[1])
-    })
+fn has_shoulders(row: &Row, links: &[Link], sheet: &Sheet) -> bool {
+    let inside = |piece: usize| row.members.iter().any(|m| m.piece == piece);
+    links.iter().any(|l| !l.upright && inside(l.pieces[1]) && is_high(row, l, sheet, 0))
+}
+
+/// Whether pieces round the arms are sewn to the row in its upper half.
+fn is_carried_by_sleeves(row: &Row, links: &[Link], sheet: &Sheet, assigned: &[Assigned]) -> bool {
+    let sleeve = |piece: usize| assigned[piece].part.is_arm();
+    links.iter().any(|l| (0..2).any(|k| sleeve(l.pieces[1 - k]) && is_high(row, l, sheet, k)))
+}
+
+/// Whether piece number `k` of a link is in the row, and sewn to the other in the row's upper half.
+fn is_high(row: &Row, link: &Link, sheet: &Sheet, k: usize) -> bool {
+    let member = row.members.iter().find(|m| m.piece == link.pieces[k]);
+    member.is_some_and(|m| stitched(link, sheet, k).y + m.shift.y < 0.5 * (row.v[0] + row.v[1]))
 }
 
 /// Puts rows of one part over each other and says in which order to place them: rows of the trunk first.
@@ -320,7 +345,7 @@ fn stack(rows: &mut [Row], links: &[Link], row_of: &[usize], sheet: &Sheet) -> V
     };
     roots.sort_by_key(|&r| {
         let height = (HEIGHTS * (rows[r].v[1] - rows[r].v[0])) as i64;
-        (rows[r].part, !has_shoulders(&rows[r], links, sheet), !joins_trunk(r), std::cmp::Reverse(height), r)
+        (rows[r].part, !rows[r].hangs, !joins_trunk(r), std::cmp::Reverse(height), r)
     });
     for root in roots {
         if done[root] {
@@ -446,6 +471,7 @@ mod tests {
             laps: vec![Lap::default()],
             front: None,
             v: [0.0, 1.0],
+            hangs: false,
         };
         row.lower(0.5);
         assert_eq!((row.v, row.members[0].shift.y, row.laps[0].v), ([0.5, 1.5], 0.5, [0.5, 0.5]));

@@ -55,9 +55,11 @@ impl Stations {
         self.list[end].0
     }
 
-    /// Coordinate of the first landmark that the part has.
+    /// Coordinate of the first landmark that the part has: of that name, or with it in its own.
     pub(super) fn landmark(&self, names: &[&str]) -> Option<f64> {
-        names.iter().find_map(|n| self.landmarks.iter().find(|l| l.0.contains(n)).map(|l| l.1))
+        let called = |n: &&str| self.landmarks.iter().find(|l| l.0 == **n);
+        let like = |n: &&str| self.landmarks.iter().find(|l| l.0.contains(*n));
+        names.iter().find_map(called).or_else(|| names.iter().find_map(like)).map(|l| l.1)
     }
 
     /// Coordinate of the place at this height, straight on beyond the ends.

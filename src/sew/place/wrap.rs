@@ -1,11 +1,12 @@
 //! Rows bent into rings round their body part.
 
 use super::PlaceError;
+use super::assign::is_at_bust;
 use super::fold::Sheet;
 use super::lay::beneath;
 use super::levels::{LEVEL, Level, SMOOTHING, levels};
 use super::ring::{LAYER, Ring};
-use super::rows::{ROOM, Row, Rows, has_shoulders};
+use super::rows::{ROOM, Row, Rows};
 use super::stations::Stations;
 use crate::contact::Collider;
 use crate::geometry::Vec3;
@@ -27,6 +28,8 @@ const LOWEST: f64 = 0.15;
 const TOP_ROOM: f64 = 0.003;
 /// which is read off so many levels down: the ends of its outline may be points.
 const TOP_LEVEL: usize = 2;
+/// A row at the bust begins so far above it, metres, under the arms; a narrow one has the bust in its middle.
+const ABOVE_BUST: f64 = 0.07;
 /// A row that stands alone round the neck or a limb begins so far from where that does, metres.
 const FROM_END: f64 = 0.015;
 
@@ -50,9 +53,10 @@ pub(super) fn wrap(
         let levels = levels(mesh, sheet, row, &rows.links);
         let anchored = beside.and_then(|other| rings.iter().find(|r| r.0 == other)).map(|r| r.1.anchor);
         let anchored = anchored.or_else(|| hung(&stations, row, &rings));
-        let anchor = anchored.unwrap_or_else(|| anchor(body, &stations, row, &levels));
+        let at_bust = row.members.iter().any(|m| is_at_bust(&garment.pieces[m.piece]));
+        let anchor = anchored.unwrap_or_else(|| anchor(body, &stations, row, &levels, at_bust));
         let mut ring = Ring { links: &rows.links, mesh, sheet, row, levels, stations, anchor, leans: Vec::new() };
-        if row.part == PartKind::Torso && has_shoulders(row, &rows.links, sheet) {
+        if row.part == PartKind::Torso && row.hangs {
             let pieces: Vec<usize> = row.members.iter().map(|m| m.piece).collect();
             ring.hang_from_shoulders(body, collider, anchored.is_none(), beneath(&rows.laid, &pieces));
         }
@@ -122,9 +126,14 @@ fn nested(rings: &[(usize, Ring)]) -> Vec<Vec<[f64; 2]>> {
 }
 
 /// Station (metres along the part) of v = 0 for a row that stands alone.
-fn anchor(body: &Mannequin, stations: &Stations, row: &Row, levels: &[Level]) -> f64 {
-    match row.part {
-        PartKind::Torso => {
+fn anchor(body: &Mannequin, stations: &Stations, row: &Row, levels: &[Level], at_bust: bool) -> f64 {
+    let bust = stations.landmark(&["bust", "chest"]).filter(|_| at_bust);
+    match (row.part, bust) {
+        (PartKind::Torso, Some(bust)) => {
+            let above = (0.5 * (row.v[1] - row.v[0])).min(ABOVE_BUST);
+            above_floor(body, bust - above - row.v[0], row)
+        }
+        (PartKind::Torso, None) => {
             // As low below the waist as the body lets the row's top slip.
             let girth = levels.get(TOP_LEVEL).or(levels.first()).map_or(0.0, |l| l.length);
             let waist = stations.landmark(&["natural waist", "waist", "omphalion"]).unwrap_or_else(|| stations.low());
@@ -134,7 +143,7 @@ fn anchor(body: &Mannequin, stations: &Stations, row: &Row, levels: &[Level]) ->
             }
             above_floor(body, at - row.v[0], row).max(waist - HIGHEST - row.v[0])
         }
-        PartKind::Neck => stations.low() - FROM_END - row.v[1],
+        (PartKind::Neck, _) => stations.low() - FROM_END - row.v[1],
         _ => stations.low() + FROM_END - row.v[0],
     }
 }
