@@ -46,7 +46,7 @@ pub(super) fn of_seams(mesh: &ClothMesh, garment: &Garment, node_of: &[u32], fab
         .seams
         .iter()
         .zip(&garment.seams)
-        .filter(|(_, seam)| garment.is_lapped(seam))
+        .filter(|(_, seam)| seam.is_lapped(&garment.pieces))
         .flat_map(|(stitches, _)| stitches.pairs.iter().flatten().map(|&p| node_of[p as usize]))
         .collect();
     let mut rims: Vec<([u32; 2], usize, [u32; 3])> = Vec::new();

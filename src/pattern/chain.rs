@@ -77,7 +77,7 @@ impl Table<'_> {
     }
 
     fn direction<'a>(&self, candidate: &Candidate<'a>) -> Option<Directed<'a>> {
-        let same = is_face_same(candidate);
+        let same = candidate.file.is_face_same();
         [candidate.with, !candidate.with].into_iter().find_map(|with| {
             let with_b = with == same;
             let whole =
@@ -184,9 +184,4 @@ impl Table<'_> {
             self.add(seam);
         }
     }
-}
-
-/// Whether the seam is written `face: same`.
-pub(super) fn is_face_same(candidate: &Candidate) -> bool {
-    candidate.file.face_same.as_ref().is_some_and(|f| f.value)
 }

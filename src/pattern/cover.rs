@@ -10,7 +10,7 @@ use super::rim::{SLIVER, edge_ids, gaps};
 use super::seam::Seams;
 use super::spelling::glob;
 use super::walk::{edge_name, names_of};
-use super::{EdgeId, SeamKind, Span};
+use super::{EdgeId, Span};
 
 /// A stretch of an edge and the seam that takes it.
 struct Taken {
@@ -49,11 +49,7 @@ fn taken(edge: EdgeId, seams: &Seams) -> Vec<Taken> {
 /// Two seams may share a stretch when layers are caught together: pleats, seams with `layers`, and seams to pieces of
 /// another layer.
 fn may_share(file: &GarmentFile, cut: &Pieces, seams: &Seams, i: usize) -> bool {
-    let seam = &seams.seams[i];
-    let layered = seams.written[i].is_some_and(|w| file.seams[w].layers.is_some());
-    let mut layers = seam.a.iter().chain(&seam.b).map(|s| cut.pieces[s.edge.piece].layer);
-    let first = layers.next();
-    matches!(seam.kind, SeamKind::Pleat(_)) || layered || layers.any(|l| Some(l) != first)
+    seams.written[i].is_some_and(|w| file.seams[w].layers.is_some()) || seams.seams[i].is_lapped(&cut.pieces)
 }
 
 fn sewn_twice(file: &GarmentFile, cut: &Pieces, seams: &Seams, edge: EdgeId, taken: &[Taken], findings: &mut Findings) {
@@ -163,15 +159,11 @@ impl EdgeNames<'_> {
         let mut found = Vec::new();
         for instance in &self.cut.instances {
             let draft = &self.drafts[instance.draft];
-            let side = match (instance.side, instance.copy) {
-                (Some(side), _) => side.letter().to_owned(),
-                (None, Some(copy)) => copy.to_string(),
-                (None, None) => String::new(),
-            };
+            let suffix = instance.suffix();
             for named in &draft.named {
                 let plain = format!("{}.{}", draft.name, named.name);
-                let sided = [format!("{}.{side}.{}", draft.name, named.name), format!("{plain}.{side}")];
-                if glob(pattern, &plain) || (!side.is_empty() && sided.iter().any(|name| glob(pattern, name))) {
+                let sided = [format!("{}{suffix}.{}", draft.name, named.name), format!("{plain}{suffix}")];
+                if glob(pattern, &plain) || sided.iter().any(|name| glob(pattern, name)) {
                     found.push((instance, named));
                 }
             }

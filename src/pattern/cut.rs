@@ -32,7 +32,21 @@ pub(super) struct Instance {
     edges: Vec<Vec<Option<EdgeId>>>,
 }
 
+/// What follows the name of a piece that is cut more than once: `.L`, `.2`, or nothing.
+pub(super) fn suffix(side: Option<Side>, copy: Option<usize>) -> String {
+    match (side, copy) {
+        (Some(side), _) => format!(".{}", side.letter()),
+        (None, Some(copy)) => format!(".{copy}"),
+        (None, None) => String::new(),
+    }
+}
+
 impl Instance {
+    /// What tells it from the others of its drawing: `.L`, `.2`, or nothing.
+    pub(super) fn suffix(&self) -> String {
+        suffix(self.side, self.copy)
+    }
+
     /// A point of the drawing in the cut piece.
     pub(super) fn point(&self, p: Vec2) -> Vec2 {
         self.linear * p + self.shift
@@ -65,11 +79,11 @@ pub(super) fn cut(drafts: &[Draft], default_fabric: &str) -> Pieces {
     for (i, draft) in drafts.iter().enumerate() {
         let fabric = draft.fabric.as_ref().map_or(default_fabric, |f| &f.value);
         match draft.cut {
-            Cut::One => out.add_plain(i, draft, fabric, None),
-            Cut::Count(n) => (1..=n).for_each(|copy| out.add_plain(i, draft, fabric, Some(copy))),
+            Cut::One => out.add_whole(i, draft, fabric, None, None),
+            Cut::Count(n) => (1..=n).for_each(|copy| out.add_whole(i, draft, fabric, None, Some(copy))),
             Cut::Pair => {
-                out.add_side(i, draft, fabric, draft.drawn, false);
-                out.add_side(i, draft, fabric, draft.drawn.other(), true);
+                let sides = [draft.drawn, draft.drawn.other()];
+                sides.into_iter().for_each(|side| out.add_whole(i, draft, fabric, Some(side), None));
             }
             Cut::Fold(_) => out.add_folded(i, draft, fabric),
         }
@@ -82,28 +96,9 @@ fn across_x() -> Matrix2<f64> {
 }
 
 impl Pieces {
-    fn add_plain(&mut self, index: usize, draft: &Draft, fabric: &str, copy: Option<usize>) {
-        let name = copy.map_or_else(|| draft.name.clone(), |c| format!("{}.{c}", draft.name));
-        self.add_whole(index, draft, fabric, name, None, copy, false);
-    }
-
-    fn add_side(&mut self, index: usize, draft: &Draft, fabric: &str, side: Side, mirrored: bool) {
-        let name = format!("{}.{}", draft.name, side.letter());
-        self.add_whole(index, draft, fabric, name, Some(side), None, mirrored);
-    }
-
-    #[expect(clippy::too_many_arguments, reason = "the seven things that tell one cut piece from another")]
-    fn add_whole(
-        &mut self,
-        index: usize,
-        draft: &Draft,
-        fabric: &str,
-        name: String,
-        side: Option<Side>,
-        copy: Option<usize>,
-        mirrored: bool,
-    ) {
+    fn add_whole(&mut self, index: usize, draft: &Draft, fabric: &str, side: Option<Side>, copy: Option<usize>) {
         let piece = self.pieces.len();
+        let mirrored = side.is_some_and(|side| side != draft.drawn);
         let linear = if mirrored { across_x() } else { Matrix2::identity() };
         let count = |ring: usize| draft.rings[ring].len();
         let place_of = |ring: usize, i: usize| if mirrored { count(ring) - 1 - i } else { i };
@@ -113,7 +108,7 @@ impl Pieces {
         let instance = Instance { draft: index, piece, side, copy, mirrored, linear, shift: Vec2::zeros(), edges };
         let loops = draft.rings.iter().map(|r| transformed(r, &instance)).collect();
         self.pieces.push(Piece {
-            name,
+            name: format!("{}{}", draft.name, instance.suffix()),
             drawn_as: draft.name.clone(),
             side,
             fabric: fabric.to_owned(),

@@ -3,7 +3,7 @@
 use super::cut::cut;
 use super::diagnostic::{Findings, Located, Spot};
 use super::draft::{Draft, draft};
-use super::file::{GarmentFile, PieceFile, Value};
+use super::file::{GarmentFile, PieceFile, SeamFile, Value};
 use super::inherit::complete_pieces;
 use super::problem::Problem;
 use super::seam::{Seams, check_orientable, seams};
@@ -60,8 +60,7 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
         tests: Vec::new(),
     };
     let seam_file = |w: &Option<usize>| w.map(|i| &readable.seams[i]);
-    let turns: Vec<bool> =
-        written.iter().map(|w| seam_file(w).and_then(|s| s.face_same.as_ref()).is_some_and(|f| f.value)).collect();
+    let turns: Vec<bool> = written.iter().map(|w| seam_file(w).is_some_and(SeamFile::is_face_same)).collect();
     let spots: Vec<Spot> = written.iter().map(|w| seam_file(w).map_or(file.version.at, |s| s.name.at)).collect();
     check_orientable(&garment, &turns, &spots, findings);
     if sound && findings.errors() == before {

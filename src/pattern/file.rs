@@ -385,6 +385,13 @@ pub struct SeamFile {
     pub note: Option<Located<String>>,
 }
 
+impl SeamFile {
+    /// Whether it is written `face: same`.
+    pub(super) fn is_face_same(&self) -> bool {
+        self.face_same.as_ref().is_some_and(|f| f.value)
+    }
+}
+
 /// An opening in a seam.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpenFile {

@@ -87,15 +87,6 @@ pub struct Garment {
     pub tests: Vec<Test>,
 }
 
-impl Garment {
-    /// Whether a seam of the garment joins layers that lie on each other: a pleat, or pieces of different layers.
-    pub fn is_lapped(&self, seam: &Seam) -> bool {
-        let mut layers = seam.a.iter().chain(&seam.b).map(|s| self.pieces[s.edge.piece].layer);
-        let first = layers.next();
-        matches!(seam.kind, SeamKind::Pleat(_)) || layers.any(|l| Some(l) != first)
-    }
-}
-
 /// One piece of cloth.
 #[derive(Clone, Debug)]
 pub struct Piece {
@@ -196,6 +187,13 @@ impl Seam {
     /// Length of the second chain.
     pub fn length_b(&self) -> f64 {
         self.b.iter().map(Span::length).sum()
+    }
+
+    /// Whether it joins layers that lie on each other: a pleat, or some of the garment's `pieces` of different layers.
+    pub fn is_lapped(&self, pieces: &[Piece]) -> bool {
+        let mut layers = self.a.iter().chain(&self.b).map(|s| pieces[s.edge.piece].layer);
+        let first = layers.next();
+        matches!(self.kind, SeamKind::Pleat(_)) || layers.any(|l| Some(l) != first)
     }
 }
 

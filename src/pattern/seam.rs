@@ -53,13 +53,8 @@ fn own_seams(drafts: &[Draft], cut: &Pieces) -> Vec<Seam> {
         let draft = &drafts[instance.draft];
         for own in &draft.own_seams {
             let (Some(a), Some(b)) = (instance.span(draft, own.a), instance.span(draft, own.b)) else { continue };
-            let suffix = match (instance.side, instance.copy) {
-                (Some(side), _) => format!(".{}", side.letter()),
-                (None, Some(copy)) => format!(".{copy}"),
-                (None, None) => String::new(),
-            };
             seams.push(Seam {
-                name: format!("{}.{}{suffix}", draft.name, own.name),
+                name: format!("{}.{}{}", draft.name, own.name, instance.suffix()),
                 marks: vec![(0.0, 0.0), (a.length(), b.length())],
                 a: vec![a],
                 b: vec![b],

@@ -5,7 +5,7 @@
 //! that ends on the fold means the whole edge across both halves; any other must name its side.
 
 use super::Span;
-use super::cut::{Instance, Pieces};
+use super::cut::{Instance, Pieces, suffix};
 use super::diagnostic::Findings;
 use super::draft::Draft;
 use super::file::{Cut, SeamFile, Side, Unit};
@@ -134,8 +134,8 @@ impl Source<'_> {
         for choice in choices {
             let suffix = match choice {
                 Choice::Fixed => String::new(),
-                Choice::Side(side) => format!(".{}", side.letter()),
-                Choice::Copy(copy) => format!(".{copy}"),
+                Choice::Side(side) => suffix(Some(side), None),
+                Choice::Copy(copy) => suffix(None, Some(copy)),
             };
             let (with, a) = self.runs(seam, a, choice)?;
             let (_, b) = self.runs(seam, b, choice)?;
