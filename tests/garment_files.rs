@@ -603,6 +603,33 @@ fn facings_share_an_edge_and_ratios_pass() {
     assert!(w.difference.abs() < 1e-12 && (w.length_b - 0.05).abs() < 1e-12);
 }
 
+/// Joints that lie apart by less than the tolerance are sewn together, and a chain goes on across them.
+#[test]
+fn a_seam_s_own_tolerance_holds_for_the_chains_of_others() {
+    let piece = |name: &str, width: u32, height: u32| {
+        let grain = "grain: [[0, 0], [0, 9]]";
+        let rim = format!("top: L {width} 0, right: L {width} {height}, bottom: L 0 {height}, left: L 0 0");
+        format!("  {name}: {{{grain}, outline: {{start: 0 0, {rim}}}}}\n")
+    };
+    let pieces = [("a", 100, 100), ("b", 100, 100), ("c", 104, 100), ("d", 96, 100), ("f", 20, 200)];
+    let pieces: String = pieces.into_iter().map(|(name, width, height)| piece(name, width, height)).collect();
+    let text = format!(
+        "\
+garment: 1
+pieces:
+{}seams:
+  upper: {{sew: a.right, to: b.left}}
+  lower: {{sew: c.right, to: d.left}}
+  waist: {{sew: [a.bottom, b.bottom], to: [c.top, d.top], tolerance: 5}}
+  trim: {{sew: [a.right, c.right], to: f.left, layers: [0, 1]}}
+free: [a.top, a.left, b.top, b.right, c.left, c.bottom, d.right, d.bottom, f.top, f.right, f.bottom]
+",
+        pieces.replace("  f: {", "  f: {layer: 1, ")
+    );
+    assert_eq!(garment(&text).seams.len(), 4);
+    says(&text.replace(", tolerance: 5", ""), 12, "c.right", "chain in 'trim' is not continuous");
+}
+
 /// A pair with curved edges, a hole and a dart, at random.
 fn odd_pair(x: f64, y: f64, bend: f64) -> Garment {
     let text = format!(

@@ -4,10 +4,11 @@
 
 use super::diagnostic::Findings;
 use super::draft::shown;
+use super::file::Unit;
 use super::problem::Problem;
 use super::rim::{Identities, Rims, joint_marks};
-use super::seam::marks_between;
-use super::select::{Candidate, Run, turned};
+use super::seam::{marks_between, tolerance};
+use super::select::{Candidate, Run, Source, turned};
 use super::walk::names_of;
 use super::{EdgeId, Give, Piece, Seam, SeamKind, Span};
 
@@ -21,18 +22,21 @@ pub(super) struct Directed<'a> {
 /// What the search knows.
 struct Table<'p> {
     pieces: &'p [Piece],
+    unit: Unit,
     rims: Rims,
     one: Identities,
 }
 
-/// Finds the direction of every seam that has one; `own` are the seams of darts and pleats.
+/// Finds the direction of every seam that has one; `source` is what they were chosen from, `own` are the seams of darts
+/// and pleats.
 pub(super) fn direct<'a>(
     candidates: Vec<Candidate<'a>>,
     own: &[Seam],
-    pieces: &[Piece],
+    source: &Source,
     findings: &mut Findings,
 ) -> Vec<Directed<'a>> {
-    let mut table = Table { pieces, rims: Rims::new(pieces), one: Identities::default() };
+    let pieces = &source.cut.pieces;
+    let mut table = Table { pieces, unit: source.unit, rims: Rims::new(pieces), one: Identities::default() };
     for seam in own {
         table.one.add_seam(&table.rims, &seam.a, &seam.b, &joint_marks(seam));
     }
@@ -91,7 +95,8 @@ impl Table<'_> {
     }
 
     fn add(&mut self, directed: &Directed) {
-        let marks = marks_between(&directed.a, &directed.b, super::seam::DEFAULT_TOLERANCE);
+        let tolerance = tolerance(directed.candidate.file, self.unit);
+        let marks = marks_between(&directed.a, &directed.b, tolerance);
         let seam = Seam {
             name: String::new(),
             a: directed.a.clone(),

@@ -12,7 +12,7 @@ use super::walk::difference;
 use super::{Garment, Give, Notch, Seam, SeamKind, Span};
 
 /// Lengths may differ by this much (metres) where nothing is said.
-pub(super) const DEFAULT_TOLERANCE: f64 = 2e-3;
+const DEFAULT_TOLERANCE: f64 = 2e-3;
 /// All seams close together unless the file stages them.
 pub(super) const DEFAULT_STAGE: i32 = 1;
 /// More ease than this share of the length puckers: it is gathering.
@@ -36,7 +36,7 @@ pub(super) fn seams(file: &super::GarmentFile, drafts: &[Draft], cut: &Pieces, f
     let own = own_seams(drafts, cut);
     let mut out = Seams::default();
     let finish = Finish { cut, rims: Rims::new(&cut.pieces), unit: file.unit() };
-    for directed in chain::direct(candidates, &own, &cut.pieces, findings) {
+    for directed in chain::direct(candidates, &own, &source, findings) {
         let written = file.seams.iter().position(|s| std::ptr::eq(s, directed.candidate.file));
         out.seams.push(finish.seam(&directed, &mut out.open, findings));
         out.written.push(written);
@@ -66,6 +66,11 @@ fn own_seams(drafts: &[Draft], cut: &Pieces) -> Vec<Seam> {
         }
     }
     seams
+}
+
+/// What the lengths of a seam may differ by, metres.
+pub(super) fn tolerance(file: &SeamFile, unit: Unit) -> f64 {
+    file.tolerance.as_ref().map_or(DEFAULT_TOLERANCE, |t| t.value.value(unit))
 }
 
 fn length(chain: &[Span]) -> f64 {
@@ -105,7 +110,7 @@ impl Finish<'_> {
         let file = directed.candidate.file;
         let (a, b) = (&directed.a, &directed.b);
         let give = self.give(file, a, b, findings);
-        let tolerance = file.tolerance.as_ref().map_or(DEFAULT_TOLERANCE, |t| t.value.value(self.unit));
+        let tolerance = tolerance(file, self.unit);
         check_lengths(&directed.candidate, (length(a), length(b)), give, tolerance, findings);
         let [start, end] = self.open_ends(directed, findings);
         let closure = file.closure.as_ref().or_else(|| file.open.iter().find_map(|o| o.closure.as_ref()));
