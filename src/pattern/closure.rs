@@ -7,7 +7,7 @@ use super::draft::{Draft, shown};
 use super::file::{ClosureFile, Cut, GarmentFile, Side, Unit};
 use super::inherit::unknown_piece;
 use super::problem::Problem;
-use super::reference::piece_of;
+use super::reference::{Words, piece_of};
 use super::region::Region;
 use crate::geometry::Vec2;
 
@@ -24,7 +24,7 @@ pub(super) fn drawn_points(file: &GarmentFile, drawn: &Draft) -> Vec<(String, Ve
     for closure in &file.closures {
         let across = if closure.meets_at.is_empty() { &closure.at } else { &closure.meets_at };
         for (carrier, at) in [(&closure.on, &closure.at), (&closure.meets, across)] {
-            if carrier.as_ref().is_none_or(|c| piece_of(&c.value).0 != drawn.name) {
+            if carrier.as_ref().is_none_or(|c| piece_of(&c.value) != drawn.name) {
                 continue;
             }
             for first in at {
@@ -111,24 +111,24 @@ impl Wardrobe<'_> {
 
     /// The cut piece (or half) named by `front.L`, `front.L.center` or, for a piece cut once, `band`.
     fn piece(&self, name: &Located<String>, default: Option<Side>, findings: &mut Findings) -> Option<&Instance> {
-        let (piece, side, copy) = piece_of(&name.value);
-        let Some(draft) = self.drafts.iter().position(|d| d.name == piece) else {
-            findings.error(name.at, unknown_piece(piece, self.drafts.iter().map(|d| d.name.as_str())));
-            return None;
-        };
-        self.check_edge(name, &self.drafts[draft], findings);
-        let of_it = || self.cut.instances.iter().filter(move |i| i.draft == draft);
-        let side = side.or(default).unwrap_or(self.drafts[draft].drawn);
-        of_it().find(|i| i.side == Some(side)).or_else(|| of_it().find(|i| copy.is_none() || i.copy == copy))
+        self.named(&name.value, default).map_err(|problem| findings.error(name.at, problem)).ok()
     }
 
-    /// The edge that a name may hold beside the piece and its side.
-    fn check_edge(&self, name: &Located<String>, draft: &Draft, findings: &mut Findings) {
-        let said = |word: &&str| Side::from_letter(word).is_none() && word.parse::<usize>().is_err();
-        let edge = name.value.split('.').skip(1).filter(said).collect::<Vec<_>>().join(".");
-        if !edge.is_empty() && draft.find(&edge).is_none() {
-            findings.error(name.at, draft.unknown_edge(&edge));
+    /// The same, or what is wrong with the name. Of sides the `default` is meant if none is said, of copies the first.
+    fn named(&self, name: &str, default: Option<Side>) -> Result<&Instance, Problem> {
+        let words = Words::parse(name)?;
+        let names = || self.drafts.iter().map(|d| d.name.as_str());
+        let draft = names().position(|n| n == words.piece).ok_or_else(|| unknown_piece(&words.piece, names()))?;
+        let drawn = &self.drafts[draft];
+        if let Some(edge) = words.edge.filter(|edge| drawn.find(edge).is_none()) {
+            return Err(drawn.unknown_edge(&edge));
         }
+        let default = default.unwrap_or(drawn.drawn);
+        let is_it = |i: &&Instance| {
+            let sided = if words.side.is_some() { i.side == words.side } else { i.side.is_none_or(|s| s == default) };
+            i.draft == draft && sided && (words.copy.is_none() || i.copy == words.copy)
+        };
+        self.cut.instances.iter().find(is_it).ok_or_else(|| self.cut.not_cut(name, draft, drawn))
     }
 
     /// Points given in the drawing, repeated along its grain; reported where the piece has no cloth.

@@ -212,7 +212,7 @@ impl EdgeNames<'_> {
         if let Some(edge) = self.drafts.iter().find_map(|draft| folded(&draft)) {
             return Problem::FreeOnFold { pattern: pattern.to_owned(), edge };
         }
-        let (piece, _, _) = piece_of(pattern);
+        let piece = piece_of(pattern);
         let draft = self.drafts.iter().find(|d| d.name == piece);
         match (draft, pattern.split_once('.')) {
             (Some(draft), Some((_, edge))) if !pattern.contains('*') => draft.unknown_edge(edge),
@@ -251,7 +251,7 @@ pub(super) fn check_free_but_sewn(
 
 /// Whether points of a closure hold the piece to another.
 fn is_tacked(file: &GarmentFile, piece: &str) -> bool {
-    let carries = |name: &Option<Located<String>>| name.as_ref().is_some_and(|n| piece_of(&n.value).0 == piece);
+    let carries = |name: &Option<Located<String>>| name.as_ref().is_some_and(|n| piece_of(&n.value) == piece);
     let ties = |c: &&ClosureFile| c.on.is_some() && c.meets.is_some() && !c.at.is_empty();
     file.closures.iter().filter(ties).any(|c| carries(&c.on) || carries(&c.meets))
 }

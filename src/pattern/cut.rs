@@ -10,6 +10,7 @@ use nalgebra::Matrix2;
 use super::draft::{Draft, Stretch};
 use super::file::{Cut, Side};
 use super::place_word::{PlaceWord, place_word};
+use super::problem::Problem;
 use super::{Edge, EdgeId, Line, Notch, Piece, Place, Span};
 use crate::geometry::{Path, Vec2};
 
@@ -96,6 +97,13 @@ fn across_x() -> Matrix2<f64> {
 }
 
 impl Pieces {
+    /// The error for a reference to one that is not among the pieces (or halves) cut from a drawing.
+    pub(super) fn not_cut(&self, reference: &str, index: usize, draft: &Draft) -> Problem {
+        let cut = self.instances.iter().filter(|i| i.draft == index);
+        let known: Vec<String> = cut.map(|i| format!("{}{}", draft.name, i.suffix())).collect();
+        Problem::NotCut { reference: reference.to_owned(), known: known.join(", ") }
+    }
+
     fn add_whole(&mut self, index: usize, draft: &Draft, fabric: &str, side: Option<Side>, copy: Option<usize>) {
         let piece = self.pieces.len();
         let mirrored = side.is_some_and(|side| side != draft.drawn);

@@ -72,7 +72,7 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
 fn without_undrawn(file: &GarmentFile, drafts: &[Draft]) -> GarmentFile {
     let undrawn =
         |name: &str| file.pieces.iter().any(|p| p.name.value == name) && !drafts.iter().any(|d| d.name == name);
-    let names_one = |refs: &[Located<String>]| refs.iter().any(|r| undrawn(super::reference::piece_of(&r.value).0));
+    let names_one = |refs: &[Located<String>]| refs.iter().any(|r| undrawn(super::reference::piece_of(&r.value)));
     let mut readable = file.clone();
     readable.seams.retain(|s| !names_one(&s.sew) && !names_one(&s.to));
     readable

@@ -67,6 +67,10 @@ pub enum Problem {
     UnknownFabric { name: String, nearest: Option<String>, known: String },
     #[error("'{0}' names no edge; write piece.edge, piece.L.edge or piece.edge@20%..80%")]
     BadReference(String),
+    #[error("'{0}' says more than one side; write L or R once, after the piece or after the edge")]
+    TwoSides(String),
+    #[error("'{reference}' is not cut; there is {known}")]
+    NotCut { reference: String, known: String },
     #[error("'{0}' matches no edge")]
     MatchesNothing(String),
     #[error("'like' goes round in a circle: {0}")]

@@ -41,23 +41,51 @@ pub fn parse_quantity(text: &str) -> Result<Quantity, Problem> {
     Ok(Quantity { number, unit })
 }
 
-/// The piece named first in `text`, and the side if one is said: `front.L` or `front.L.center`.
-pub(super) fn piece_of(text: &str) -> (&str, Option<Side>, Option<usize>) {
-    let mut words = text.split('.');
-    let piece = words.next().unwrap_or_default();
-    let (mut side, mut copy) = (None, None);
-    for word in words {
-        side = side.or_else(|| Side::from_letter(word));
-        copy = copy.or_else(|| word.parse().ok());
+/// The piece named first in `text`, whether the rest of it names anything or not.
+pub(super) fn piece_of(text: &str) -> &str {
+    text.split('.').next().unwrap_or_default()
+}
+
+/// The words of a reference: `front.L.side`, `tab.2.end`, or a piece alone, `band`, `front.L`.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Words {
+    pub(super) piece: String,
+    pub(super) edge: Option<String>,
+    pub(super) side: Option<Side>,
+    /// Number of the copy of a piece that is cut several times, from 1.
+    pub(super) copy: Option<usize>,
+}
+
+impl Words {
+    /// Reads the words of `text`. Whether they name anything is not looked at.
+    ///
+    /// # Errors
+    /// [`Problem::BadReference`] where a word is empty, and [`Problem::TwoSides`].
+    pub(super) fn parse(text: &str) -> Result<Self, Problem> {
+        let mut words: Vec<&str> = text.trim().split('.').collect();
+        if words.iter().any(|w| w.is_empty()) {
+            return Err(Problem::BadReference(text.to_owned()));
+        }
+        let piece = words.remove(0).to_owned();
+        // A number further on is a part of an edge: `side.2`.
+        let copy = words.first().and_then(|w| w.parse().ok());
+        if copy.is_some() {
+            words.remove(0);
+        }
+        let (sides, edge): (Vec<&str>, Vec<&str>) = words.into_iter().partition(|w| Side::from_letter(w).is_some());
+        if sides.len() > 1 {
+            return Err(Problem::TwoSides(text.to_owned()));
+        }
+        let side = sides.first().and_then(|w| Side::from_letter(w));
+        Ok(Self { piece, edge: (!edge.is_empty()).then(|| edge.join(".")), side, copy })
     }
-    (piece, side, copy)
 }
 
 impl Reference {
     /// Reads the text of a reference. Whether it names anything is not looked at.
     ///
     /// # Errors
-    /// [`Problem::BadReference`] and the errors of a range.
+    /// [`Problem::BadReference`], [`Problem::TwoSides`] and the errors of a range.
     pub(super) fn parse(written: &Located<String>) -> Result<Self, Problem> {
         let text = written.value.trim();
         let bad = || Problem::BadReference(text.to_owned());
@@ -65,21 +93,9 @@ impl Reference {
             Some((name, range)) => (name, Some(parse_range(range, bad)?)),
             None => (text, None),
         };
-        let mut words: Vec<&str> = name.split('.').collect();
-        if words.len() < 2 || words.iter().any(|w| w.is_empty()) {
-            return Err(bad());
-        }
-        let piece = words.remove(0).to_owned();
-        let copy = words[0].parse().ok();
-        if copy.is_some() {
-            words.remove(0);
-        }
-        let side = words.iter().find_map(|w| Side::from_letter(w));
-        words.retain(|w| Side::from_letter(w).is_none());
-        if words.is_empty() {
-            return Err(bad());
-        }
-        Ok(Self { text: text.to_owned(), at: written.at, piece, edge: words.join("."), side, copy, range })
+        let Words { piece, edge, side, copy } = Words::parse(name)?;
+        let edge = edge.ok_or_else(bad)?;
+        Ok(Self { text: text.to_owned(), at: written.at, piece, edge, side, copy, range })
     }
 }
 
@@ -112,6 +128,24 @@ mod tests {
         assert_eq!(r.range.expect("range")[1], Quantity { number: 80.0, unit: Some(Unit::Percent) });
         let r = parse("tab.2.end").expect("reference");
         assert_eq!((r.copy, r.edge.as_str()), (Some(2), "end"));
+    }
+
+    #[test]
+    fn a_piece_may_be_named_alone_and_numbers_after_an_edge_are_parts_of_it() {
+        let words = |text| Words::parse(text).expect("words");
+        let read = words("front.L");
+        assert_eq!((read.piece.as_str(), read.edge, read.side), ("front", None, Some(Side::Left)));
+        let read = words("band.top.2");
+        assert_eq!((read.copy, read.edge.as_deref()), (None, Some("top.2")));
+        assert_eq!(piece_of("front..side"), "front");
+    }
+
+    #[test]
+    fn a_reference_has_one_side() {
+        assert_eq!(parse("p.L.left").expect("reference").side, Some(Side::Left));
+        for text in ["p.L.left.R", "p.L.left.L", "p.R.L.left@0..50"] {
+            assert!(matches!(parse(text), Err(Problem::TwoSides(_))), "{text}");
+        }
     }
 
     #[test]

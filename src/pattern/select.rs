@@ -178,7 +178,7 @@ impl Source<'_> {
         };
         let is_it = |i: &&Instance| i.draft == found.draft && i.side == side && i.copy == copy;
         let instance = self.cut.instances.iter().find(is_it);
-        instance.map(|i| vec![i]).ok_or_else(|| Problem::BadReference(reference.text.clone()))
+        instance.map(|i| vec![i]).ok_or_else(|| self.cut.not_cut(&reference.text, found.draft, drawn))
     }
 
     /// Both halves of an edge that ends on the fold.
