@@ -108,6 +108,27 @@ fn bent(mesh: &ClothMesh, p: usize, radius: f64, apart: f64, bulge: f64) -> Vec3
     Vec3::new(radius * angle.sin(), -flat.y, radius * angle.cos() + out)
 }
 
+/// A closure on something that is not cut would go silently.
+#[test]
+fn a_closure_names_a_piece_that_is_cut() {
+    let refused = |carrier: &str, cut: &str| {
+        let more = PATCH.replace("patch:\n", &format!("patch:\n{cut}"));
+        let closure = format!("{{kind: hook, on: {carrier}, at: [20, 20], meets: half.L, meets_at: [20, 20]}}");
+        file(&closure, &more, "").expect_err(carrier).to_string()
+    };
+    let copies = "'patch.7' is not cut; there is patch.1, patch.2, patch.3";
+    assert!(refused("patch.7", "    cut: 3\n").contains(copies));
+    for (carrier, said) in [
+        ("patch.L", "'patch.L' is not cut; there is patch"),
+        ("half.2", "'half.2' is not cut; there is half.R, half.L"),
+        ("half.L.front.R", "'half.L.front.R' says more than one side"),
+        ("half..L", "'half..L' names no edge"),
+    ] {
+        let text = refused(carrier, "");
+        assert!(text.contains(said), "{carrier}: {text}");
+    }
+}
+
 #[test]
 fn a_buttoned_front_leaves_a_neck_and_a_hem() {
     assert_eq!(openings(&tube("", "")).len(), 1);
