@@ -129,6 +129,16 @@ fn a_closure_names_a_piece_that_is_cut() {
     }
 }
 
+/// The second of them would be forgotten.
+#[test]
+fn a_closure_has_one_carrier() {
+    for (one, other) in [("piece", "edge"), ("piece", "on"), ("edge", "on")] {
+        let closure = format!("{{kind: hook, {one}: half.L, {other}: half.R, at: [20, 20], meets: half.R}}");
+        let text = file(&closure, "", "").expect_err("two carriers").to_string();
+        assert!(text.contains(&format!("'{one}' and '{other}' exclude each other")), "{text}");
+    }
+}
+
 #[test]
 fn a_buttoned_front_leaves_a_neck_and_a_hem() {
     assert_eq!(openings(&tube("", "")).len(), 1);
@@ -177,7 +187,9 @@ fn a_closure_that_does_not_close_is_said_and_can_be_bounded() {
     // Of closures that are only listed nothing can be measured.
     let refused = |closures: &str, test: &str| file(closures, "", test).unwrap_err().to_string();
     assert!(refused(BUTTONS, "{closure: buton, below: 5}").contains("did you mean 'button'"));
-    assert!(refused("{kind: zip}", "{closure: all, below: 5}").contains("'piece', 'at' and 'meets'"));
+    assert!(
+        refused("{kind: zip}", "{closure: all, below: 5}").contains("'piece' (or 'edge' or 'on'), 'at' and 'meets'")
+    );
 }
 
 #[test]

@@ -263,7 +263,7 @@ impl Problem {
             Self::PlaceBoth { .. } => "leave one of the two out".to_owned(),
             Self::UnknownSeam { known, .. } => format!("the seams are: {known}"),
             Self::UnknownClosure { known, .. } if known.is_empty() => {
-                "a closure can be measured that says 'piece', 'at' and 'meets'".to_owned()
+                "a closure can be measured that says 'piece' (or 'edge' or 'on'), 'at' and 'meets'".to_owned()
             }
             Self::UnknownClosure { known, .. } => {
                 format!("the kinds of closures with points are: {known}; or write all")

@@ -122,7 +122,7 @@ fn note(closure: &Closure, assumed: bool) -> Option<String> {
     let text = if assumed {
         "'meets' is not given: measured to the other half, not tied"
     } else if closure.on.is_none() {
-        "'piece' is not given: nothing is tied"
+        "neither 'piece', 'edge' nor 'on' is given: nothing is tied"
     } else if closure.meets.is_none() {
         "'meets' is not given, and it is not clear what it meets: nothing is tied"
     } else if closure.tacks.is_empty() {

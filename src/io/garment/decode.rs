@@ -3,7 +3,7 @@
 use super::decode_piece::piece;
 use super::decode_seam::seam;
 use super::decode_test::test;
-use super::fields::{Fields, entries, integer, items, length, numbers, text, width, word, wrong};
+use super::fields::{Fields, entries, exclusive, integer, items, length, numbers, text, width, word, wrong};
 use crate::input::LengthUnit;
 use crate::pattern::{ClosureFile, Findings, GarmentFile, Located, Problem, Unit, Value};
 
@@ -74,10 +74,14 @@ fn fabrics(value: &Located<Value>, findings: &mut Findings) -> Vec<(Located<Stri
     fabrics
 }
 
+/// Keys that say what carries a closure, of which it has one.
+const CARRIERS: [&str; 3] = ["piece", "edge", "on"];
+
 fn closure(value: &Located<Value>, findings: &mut Findings) -> Option<ClosureFile> {
     let mut fields = Fields::new(value, "a closure", findings)?;
     let kind = fields.require("kind", findings, text);
-    let carriers = ["piece", "edge", "on"].map(|key| fields.get(key, findings, text));
+    let carriers = CARRIERS.map(|key| fields.get(key, findings, text));
+    exclusive(CARRIERS.into_iter().zip(carriers.iter().map(|c| c.as_ref().map(|c| c.at))), findings);
     let points = |v: Option<&Located<Value>>, findings: &mut Findings| v.map_or_else(Vec::new, |v| points(v, findings));
     let at = fields.take("at");
     let at = points(at, findings);

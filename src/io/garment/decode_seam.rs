@@ -1,8 +1,8 @@
 //! Seams of a garment file.
 
 use super::decode::name;
-use super::fields::{Fields, distance, integer, items, length, positive, text, width, word, wrong};
-use crate::pattern::{Findings, Located, OpenFile, Problem, SeamFile, Value};
+use super::fields::{Fields, distance, exclusive, integer, items, length, positive, text, width, word, wrong};
+use crate::pattern::{Findings, Located, OpenFile, SeamFile, Value};
 
 /// Reads one seam.
 pub(super) fn seam(key: &Located<String>, value: &Located<Value>, findings: &mut Findings) -> Option<SeamFile> {
@@ -75,8 +75,5 @@ fn one_give(seam: &SeamFile, findings: &mut Findings) {
         ("gather", seam.gather.as_ref().map(|g| g.at)),
         ("stretch", seam.stretch.as_ref().map(|s| s.at)),
     ];
-    let said: Vec<_> = said.into_iter().filter_map(|(word, at)| Some((word, at?))).collect();
-    if let [(one, _), (other, at), ..] = said[..] {
-        findings.error(at, Problem::Exclusive { one, other });
-    }
+    exclusive(said, findings);
 }

@@ -117,6 +117,14 @@ impl<'v> Fields<'v> {
     }
 }
 
+/// Reports keys that exclude each other, if more than one of them is written.
+pub(super) fn exclusive(keys: impl IntoIterator<Item = (&'static str, Option<Spot>)>, findings: &mut Findings) {
+    let said: Vec<_> = keys.into_iter().filter_map(|(key, at)| Some((key, at?))).collect();
+    if let [(one, _), (other, at), ..] = said[..] {
+        findings.error(at, Problem::Exclusive { one, other });
+    }
+}
+
 /// A scalar.
 pub(super) fn text(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<String>> {
     match &value.value {
