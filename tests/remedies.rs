@@ -82,6 +82,23 @@ fn openings_too_long_say_what_to_do_instead() {
     }
 }
 
+/// The first of them would be forgotten.
+#[test]
+fn two_openings_from_one_end_are_to_be_written_as_one() {
+    let opened = |open: &str| {
+        let to = format!("to: band.lower, open: [{open}]}}");
+        let text = skirt("fold center", "drawn: R").replace("to: band.lower}", &to);
+        read_text("skirt", "skirt.yaml", &text)
+    };
+    let twice = "seam 'waist' is opened twice from its start; write one opening there, as long as it is open in all";
+    for other in ["", ", closure: zip"] {
+        let both = format!("{{from: start, length: 20}}, {{from: start, length: 50{other}}}");
+        let Err(Refused { diagnostics }) = opened(&both) else { panic!("accepted: {both}") };
+        assert!(diagnostics.iter().any(|d| d.message == twice), "{diagnostics:#?}");
+    }
+    assert!(opened("{from: start, length: 20}, {from: end, length: 50}").is_ok());
+}
+
 #[test]
 fn a_body_without_the_part_says_which_it_has_and_how_positions_count() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

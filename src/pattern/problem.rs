@@ -226,6 +226,8 @@ pub enum Problem {
     Openings { found: usize, expected: usize, rims: String },
     #[error("seam '{seam}' has no end at '{from}'; its ends are at {known}")]
     OpenFrom { seam: String, from: String, known: String },
+    #[error("seam '{seam}' is opened twice from its {end}; write one opening there, as long as it is open in all")]
+    OpenTwice { seam: String, end: &'static str },
     #[error("seam '{seam}' is {length:.1} mm long but opens {open:.1} mm in all")]
     OpenTooLong { seam: String, length: f64, open: f64 },
     #[error("notch {notch} of {edge} has no partner on {other}")]

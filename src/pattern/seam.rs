@@ -15,6 +15,8 @@ use super::{Garment, Give, Notch, Seam, SeamKind, Span};
 const DEFAULT_TOLERANCE: f64 = 2e-3;
 /// All seams close together unless the file stages them.
 pub(super) const DEFAULT_STAGE: i32 = 1;
+/// What openings call the ends of a seam, beside the edges that meet there.
+const ENDS: [&str; 2] = ["start", "end"];
 /// More ease than this share of the length puckers: it is gathering.
 const LARGEST_EASE: f64 = 0.08;
 /// Written gather and stretch ratios are rounded: this share of the length passes beside the tolerance.
@@ -180,9 +182,14 @@ impl Finish<'_> {
     /// How much of the start and of the end of the first chain is worn open.
     fn open_ends(&self, directed: &Directed, findings: &mut Findings) -> [f64; 2] {
         let file = directed.candidate.file;
-        let mut ends = [0.0; 2];
+        let (mut ends, mut opened) = ([0.0; 2], [false; 2]);
         for open in &file.open {
             let Some(end) = self.end_at(directed, open, findings) else { continue };
+            if std::mem::replace(&mut opened[end], true) {
+                let (seam, end) = (file.name.value.clone(), ENDS[end]);
+                findings.error(open.from.at, Problem::OpenTwice { seam, end });
+                continue;
+            }
             let long = open.length.value.value(self.unit);
             let whole = length(&directed.a);
             let closed = open.closure.is_some() || file.closure.is_some();
@@ -200,7 +207,7 @@ impl Finish<'_> {
     /// 0 if the opening starts at the chain's start, 1 if at its end.
     fn end_at(&self, directed: &Directed, open: &OpenFile, findings: &mut Findings) -> Option<usize> {
         let mut known = Vec::new();
-        for (i, word) in ["start", "end"].into_iter().enumerate() {
+        for (i, word) in ENDS.into_iter().enumerate() {
             for chain in [&directed.a, &directed.b] {
                 let Some(span) = (if i == 0 { chain.first() } else { chain.last() }) else { continue };
                 let corner = self.rims.point(span.edge, if i == 0 { span.from } else { span.to });
