@@ -96,6 +96,13 @@ impl Excerpt {
     }
 }
 
+impl Diagnostic {
+    /// Where it stands among others of its file: in the order of lines, and last how many more there are.
+    pub(crate) fn order(&self) -> (bool, usize, usize) {
+        (matches!(self.problem, Problem::More { .. }), self.line, self.column)
+    }
+}
+
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let severity = match self.severity {
@@ -120,7 +127,8 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// Findings beyond this many are counted, not kept: a broken file of a million lines need not fill the screen.
+/// Warnings beyond this many are counted, not kept, and so are errors: a broken file of a million lines need not fill
+/// the screen.
 const KEPT: usize = 200;
 /// Characters of a line that are shown: all, or so many round the place.
 const EXCERPT_WIDTH: usize = 160;
@@ -132,7 +140,9 @@ const MESSAGE: usize = 1200;
 pub struct Findings {
     file: String,
     lines: Vec<String>,
+    /// Up to [`KEPT`] of either severity.
     found: Vec<Diagnostic>,
+    warnings: usize,
     errors: usize,
     /// Names of pieces, which may share statements.
     pieces: Vec<String>,
@@ -152,18 +162,20 @@ impl Findings {
     /// Adds an error.
     pub fn error(&mut self, at: Spot, problem: Problem) {
         self.errors += 1;
-        self.push(Severity::Error, at, problem);
+        if self.errors <= KEPT {
+            self.push(Severity::Error, at, problem);
+        }
     }
 
     /// Adds a warning.
     pub fn warn(&mut self, at: Spot, problem: Problem) {
-        self.push(Severity::Warning, at, problem);
+        self.warnings += 1;
+        if self.warnings <= KEPT {
+            self.push(Severity::Warning, at, problem);
+        }
     }
 
     fn push(&mut self, severity: Severity, at: Spot, problem: Problem) {
-        if self.found.len() >= KEPT {
-            return;
-        }
         let line = at.line.checked_sub(1).and_then(|i| self.lines.get(i)).filter(|_| at.column > 0);
         let excerpt = line.map(|line| Excerpt::new(line, at.column - 1, at.width));
         self.found.push(Diagnostic {
@@ -183,9 +195,22 @@ impl Findings {
         self.errors
     }
 
-    /// The findings in the order of the file, each once.
+    /// Says how many findings were counted and not kept.
+    fn count_others(&mut self) {
+        let whole = Spot::default();
+        if let Some(count) = self.warnings.checked_sub(KEPT).filter(|&n| n > 0) {
+            self.push(Severity::Warning, whole, Problem::More { count, what: "warning" });
+        }
+        if let Some(count) = self.errors.checked_sub(KEPT).filter(|&n| n > 0) {
+            self.push(Severity::Error, whole, Problem::More { count, what: "error" });
+        }
+    }
+
+    /// The findings in the order of the file, each once; of many warnings, or errors, the first two hundred, and at
+    /// the end how many more there are.
     pub fn into_sorted(mut self) -> Vec<Diagnostic> {
-        self.found.sort_by_key(|d| (d.line, d.column));
+        self.count_others();
+        self.found.sort_by_key(Diagnostic::order);
         // Both sides of a pair make the same mistake: it is said once.
         let mut unique: Vec<Diagnostic> = Vec::new();
         for diagnostic in self.found {
@@ -245,4 +270,40 @@ fn renamed(text: &str, from: &str, to: &str) -> String {
         rest = after;
     }
     out + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(line: usize) -> Spot {
+        Spot { line, column: 1, width: 1 }
+    }
+
+    #[test]
+    fn many_warnings_hide_no_error() {
+        let mut findings = Findings::new("test.yaml", "");
+        (0..300).for_each(|i| findings.warn(at(i + 1), Problem::NoGrain(i.to_string())));
+        findings.error(at(400), Problem::Empty);
+        let found = findings.into_sorted();
+        assert_eq!(found.len(), KEPT + 2);
+        assert_eq!((found[KEPT].severity, found[KEPT].line), (Severity::Error, 400));
+        assert!(found[KEPT + 1].to_string().starts_with("test.yaml: warning: … and 100 more warnings\n"));
+    }
+
+    #[test]
+    fn of_many_errors_it_is_said_how_many_there_are() {
+        let mut findings = Findings::new("test.yaml", "");
+        (0..KEPT).for_each(|i| findings.error(at(i + 1), Problem::NoGrain(i.to_string())));
+        let before = findings.errors();
+        findings.error(at(KEPT + 1), Problem::Empty);
+        assert_eq!((before, findings.errors()), (KEPT, KEPT + 1));
+        let found = findings.into_sorted();
+        assert_eq!(found.len(), KEPT + 1);
+        assert!(found[KEPT].to_string().starts_with("test.yaml: error: … and 1 more error\n  help: "));
+        // As many as are kept are all that there are.
+        let mut findings = Findings::new("test.yaml", "");
+        (0..KEPT).for_each(|i| findings.warn(at(i + 1), Problem::NoGrain(i.to_string())));
+        assert_eq!(findings.into_sorted().len(), KEPT);
+    }
 }

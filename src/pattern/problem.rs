@@ -32,6 +32,10 @@ pub enum Problem {
     #[error("duplicate key '{key}' at line {line} (first at line {first})")]
     DuplicateKey { key: String, line: usize, first: usize },
 
+    // The findings themselves.
+    #[error("… and {count} more {what}{}", if *count == 1 { "" } else { "s" })]
+    More { count: usize, what: &'static str },
+
     // Its values.
     #[error("{what} must be {expected}, not {found}")]
     WrongType { what: String, expected: &'static str, found: String },
@@ -312,6 +316,7 @@ impl Problem {
             Self::OpenTooLong { .. } => {
                 "leave more of it sewn, give it a 'closure', or list its edges under 'free' instead".to_owned()
             }
+            Self::More { .. } => "mend those above, then check again".to_owned(),
             Self::TooManyValues(_) => "write the pieces with 'like' instead".to_owned(),
             _ => return None,
         };

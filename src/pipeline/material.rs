@@ -13,7 +13,7 @@ use crate::io::body::{Body, BodyError, load_body};
 use crate::io::garment::{self, Loaded, Refused};
 use crate::mannequin::{self, MannequinError};
 use crate::mesh::{self, ClothMesh, MeshError};
-use crate::pattern::{self, Findings, GarmentFile, Located, Problem, Spot, Value};
+use crate::pattern::{self, Diagnostic, Findings, GarmentFile, Located, Problem, Spot, Value};
 
 /// Reads a garment file and finds everything that is wrong before cloth moves: in its text, pieces and seams, its
 /// fabrics and its body, and, if nothing is, in its mesh of this spacing (metres).
@@ -42,7 +42,7 @@ fn on_body(mut loaded: Loaded, mesh: &ClothMesh, body: &Body) -> Result<Loaded, 
     let refused = findings.errors() > 0;
     let mut diagnostics = loaded.warnings.clone();
     diagnostics.extend(findings.into_sorted());
-    diagnostics.sort_by_key(|d| (d.line, d.column));
+    diagnostics.sort_by_key(Diagnostic::order);
     if refused {
         return Err(Refused { diagnostics });
     }

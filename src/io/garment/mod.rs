@@ -86,7 +86,8 @@ impl Examined {
     }
 }
 
-/// A garment file that cannot be used: everything found in it, errors and warnings, in the order of the file.
+/// A garment file that cannot be used: everything found in it, errors and warnings, in the order of the file. Of very
+/// many it holds the first of either, and last how many more there are.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refused {
     /// At least one of them is an error.
