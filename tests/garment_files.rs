@@ -5,7 +5,9 @@
 use std::path::PathBuf;
 
 use toile::io::garment::{Loaded, Refused, read, read_file_only, read_text, write};
-use toile::pattern::{Bound, Diagnostic, Garment, LineKind, Problem, SeamKind, Severity, Side, openings, walk};
+use toile::pattern::{
+    Bound, Diagnostic, Findings, Garment, LineKind, Problem, SeamKind, Severity, Side, expand, openings, walk,
+};
 
 const GARMENTS: [&str; 5] = ["child_dress", "tshirt", "gore_skirt", "trousers", "sheath_dress"];
 
@@ -769,6 +771,12 @@ fn bounds_and_allowances_that_nothing_can_have_are_named_with_their_place() {
 fn lines_and_places_that_cloth_cannot_have_are_named_with_their_place() {
     let line = |what: &str| squares("  a:\n", &format!("  a:\n    lines: {{x: {{path: M 0 50 L 90 50, {what}}}}}\n"));
     says(&line("fold: 1e8"), 4, "1e8", "fold must be between -180 and 180 degrees, not 100000000");
+    // Nor can a file have it that a program made.
+    let mut made = read_file_only("test.yaml", &line("fold: 90")).unwrap();
+    made.pieces[0].lines[0].fold.as_mut().unwrap().value = 1e8;
+    let mut findings = Findings::new("test.yaml", "");
+    expand("test", &made, &mut findings);
+    assert_eq!(findings.errors(), 1);
     says(&line("ratio: 0.001"), 4, "0.001", "ratio must be between 0.05 and 1");
     says(&line("ratio: 1.2"), 4, "1.2", "ratio must be between 0.05 and 1");
     says(&line("kind: elastic"), 4, "x:", "line 'x' of 'a' is elastic and does not say to what share it draws in");

@@ -1,7 +1,7 @@
 //! Lines inside a piece: folds, elastic and marks.
 
 use super::along::{Along, along};
-use super::diagnostic::Findings;
+use super::diagnostic::{Findings, Located, Spot};
 use super::draft::{Draft, shown};
 use super::file::{LineFile, PieceFile, Unit};
 use super::outline::whole_path;
@@ -25,10 +25,12 @@ pub(super) fn lines(drawn: &mut Draft, whole: &Region, piece: &PieceFile, unit: 
             let (piece, line) = names();
             findings.error(file.name.at, Problem::LineKind { piece, line, contradiction });
         }
-        let kind = match (&file.fold, &file.ratio, &file.kind) {
-            (Some(angle), _, _) => LineKind::Fold(angle.value.to_radians()),
-            (None, Some(ratio), _) => LineKind::Elastic(ratio.value),
-            (None, None, kind) => LineKind::Mark(kind.as_ref().map_or_else(|| "mark".to_owned(), |k| k.value.clone())),
+        let kind = match kind(file) {
+            Ok(kind) => kind,
+            Err((at, problem)) => {
+                findings.error(at, problem);
+                continue;
+            }
         };
         match whole_path(&file.path.value, unit.factor()) {
             Ok(path) => {
@@ -42,6 +44,23 @@ pub(super) fn lines(drawn: &mut Draft, whole: &Region, piece: &PieceFile, unit: 
                 let (piece, edge) = names();
                 findings.error(file.path.at, Problem::BadPath { piece, edge, reason });
             }
+        }
+    }
+}
+
+/// What a line does; a fold angle or a share that there cannot be is a problem, with its place.
+fn kind(file: &LineFile) -> Result<LineKind, (Spot, Problem)> {
+    let out_of = |number: &Located<f64>, what: &str, expected| {
+        (number.at, Problem::OutOfRange { what: what.to_owned(), expected, found: number.value.to_string() })
+    };
+    match (&file.fold, &file.ratio) {
+        (Some(angle), _) => {
+            LineKind::fold(angle.value).ok_or_else(|| out_of(angle, "fold", "between -180 and 180 degrees"))
+        }
+        (None, Some(ratio)) => LineKind::elastic(ratio.value)
+            .ok_or_else(|| out_of(ratio, "ratio", "between 0.05 and 1, the length drawn in over that cut")),
+        (None, None) => {
+            Ok(LineKind::Mark(file.kind.as_ref().map_or_else(|| "mark".to_owned(), |kind| kind.value.clone())))
         }
     }
 }

@@ -254,9 +254,9 @@ pub enum LineKind {
 
 impl LineKind {
     /// Angles of folds, degrees: at 180 the cloth lies on itself, and no farther can it go.
-    pub(crate) const FOLDS: RangeInclusive<f64> = -180.0..=180.0;
+    const FOLDS: RangeInclusive<f64> = -180.0..=180.0;
     /// What elastic leaves of a line's length.
-    pub(crate) const ELASTICS: RangeInclusive<f64> = 0.05..=1.0;
+    const ELASTICS: RangeInclusive<f64> = 0.05..=1.0;
 
     /// A fold of so many degrees, if there is one.
     pub(crate) fn fold(degrees: f64) -> Option<Self> {

@@ -2,10 +2,10 @@
 
 use super::decode::name;
 use super::fields::{
-    Fields, entries, integer, items, length, number, numbers, quantity, share, text, width, within, word, wrong,
+    Fields, entries, integer, items, length, number, numbers, quantity, share, text, width, word, wrong,
 };
 use crate::pattern::{
-    AllowanceFile, AllowanceWidth, Corner, Cut, DartFile, DartShape, Findings, LineFile, LineKind, Located, NotchFile,
+    AllowanceFile, AllowanceWidth, Corner, Cut, DartFile, DartShape, Findings, LineFile, Located, NotchFile,
     OutlineFile, PieceFile, PlaceFile, PleatFile, PleatKind, Problem, Side, Value, parse_quantity,
 };
 
@@ -227,22 +227,11 @@ fn pleat_kind(word: &str) -> Option<PleatKind> {
     }
 }
 
-/// A fold's angle.
-fn angle(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<f64>> {
-    within(number(value, what, findings)?, what, LineKind::FOLDS, "between -180 and 180 degrees", findings)
-}
-
 /// What is left of a line's length when it is drawn in.
 fn drawn_in(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<f64>> {
     let share = share(value, what, findings)?;
     let ratio = if share.value.is_percent() { share.value.number / 100.0 } else { share.value.number };
-    within(
-        Located::new(ratio, share.at),
-        what,
-        LineKind::ELASTICS,
-        "between 0.05 and 1, the length drawn in over that cut",
-        findings,
-    )
+    Some(Located::new(ratio, share.at))
 }
 
 fn line(key: &Located<String>, value: &Located<Value>, findings: &mut Findings) -> Option<LineFile> {
@@ -251,7 +240,7 @@ fn line(key: &Located<String>, value: &Located<Value>, findings: &mut Findings) 
     let line = LineFile {
         name: key,
         path: fields.require("path", findings, text)?,
-        fold: fields.get("fold", findings, angle),
+        fold: fields.get("fold", findings, number),
         kind: fields.get("kind", findings, text),
         ratio: fields.get("ratio", findings, drawn_in),
     };

@@ -148,21 +148,6 @@ pub(super) fn number(value: &Located<Value>, what: &str, findings: &mut Findings
     parsed.map(|n| Located::new(n, value.at))
 }
 
-/// The number, if it lies in a range.
-pub(super) fn within(
-    n: Located<f64>,
-    what: &str,
-    range: std::ops::RangeInclusive<f64>,
-    expected: &'static str,
-    findings: &mut Findings,
-) -> Option<Located<f64>> {
-    if !range.contains(&n.value) {
-        out_of_range(n.at, what, expected, n.value, findings);
-        return None;
-    }
-    Some(n)
-}
-
 /// A number above zero.
 pub(super) fn positive(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<f64>> {
     let n = number(value, what, findings)?;
