@@ -1,5 +1,7 @@
 //! Points on the rims of pieces, which of them sewing brings together, and the openings that remain.
 
+use std::collections::HashMap;
+
 use super::fasten::{Bridge, Fastening, RimSpot, Step, fastenings, patches, worn_rims};
 use super::{EdgeId, Garment, Piece, Seam, Span};
 use crate::geometry::DisjointSets;
@@ -67,19 +69,22 @@ impl Rims {
 /// Which rim points sewing makes one, of those met so far.
 #[derive(Clone, Default)]
 pub(super) struct Identities {
-    points: Vec<RimPoint>,
+    /// The points of each rim that were met, by piece and ring, with their numbers in `sets`.
+    points: HashMap<(usize, usize), Vec<(RimPoint, u32)>>,
     sets: DisjointSets,
 }
 
 impl Identities {
     fn known(&self, rims: &Rims, p: RimPoint) -> Option<u32> {
-        self.points.iter().position(|&q| rims.same(p, q)).map(|i| i as u32)
+        let of_rim = self.points.get(&(p.piece, p.ring))?;
+        of_rim.iter().find(|(q, _)| rims.same(p, *q)).map(|&(_, node)| node)
     }
 
     fn node(&mut self, rims: &Rims, p: RimPoint) -> u32 {
         self.known(rims, p).unwrap_or_else(|| {
-            self.points.push(p);
-            self.sets.add()
+            let node = self.sets.add();
+            self.points.entry((p.piece, p.ring)).or_default().push((p, node));
+            node
         })
     }
 
