@@ -222,6 +222,12 @@ fn drawings_come_back_as_garment_files() {
         room.run(&["import", kind, "nowhere", "-o", "no.yaml"]).ends(2).says(&["nowhere"]);
         assert!(!room.dir.path().join("no.yaml").exists());
     }
+    let drawing = String::from_utf8(room.bytes("out/skirt/cutting.dxf")).expect("UTF-8");
+    let end = "0\nENDBLK\n";
+    assert!(drawing.contains(end));
+    room.put("curved.dxf", &drawing.replacen(end, &format!("0\nSPLINE\n8\n8\n{end}"), 1));
+    let run = room.run(&["import", "dxf", "curved.dxf", "-o", "curved.yaml"]);
+    run.ends(0).says(&["left out: 1 SPLINE", "polylines"]);
 }
 
 #[test]

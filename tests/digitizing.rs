@@ -232,7 +232,7 @@ fn pieces_drawn_left_and_right_are_a_pair() {
     assert_eq!(names, ["front", "back.L", "back.R"]);
     let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
     let svg = from_svg(&cutting_svg(&sheet));
-    let dxf = garment_file("sample", &read_dxf_text(&cutting_dxf("Sample", &papers), None).expect("pieces"));
+    let dxf = garment_file("sample", &read_dxf_text(&cutting_dxf("Sample", &papers), None).expect("pieces").pieces);
     for made in [svg, dxf] {
         let pieces = drawn(&made);
         let cuts: Vec<(&str, &Cut)> = pieces.iter().map(|p| (p.name.as_str(), &p.cut)).collect();
@@ -452,7 +452,7 @@ fn what_is_read_or_draws_nothing_is_not_left_out() {
 #[test]
 fn an_exported_dxf_is_read_back() {
     let (drawings, papers) = sample();
-    let made = garment_file("sample", &read_dxf_text(&cutting_dxf("Sample", &papers), None).expect("pieces"));
+    let made = garment_file("sample", &read_dxf_text(&cutting_dxf("Sample", &papers), None).expect("pieces").pieces);
     same_outlines(&made, &drawings);
     let pair = drawn(&made).into_iter().find(|p| p.name == "back").expect("the back");
     assert_eq!(pair.cut, Cut::Pair);
@@ -481,8 +481,8 @@ fn ring(on: u32, points: &[[f64; 2]]) -> String {
 /// The notches, from left to right, and the drill holes of a piece of 300 × 400 mm, which its block has besides.
 fn marks_of(entities: &[String]) -> [Vec<[f64; 2]>; 2] {
     let boundary = ring(1, &[[0.0, 0.0], [300.0, 0.0], [300.0, 400.0], [0.0, 400.0]]);
-    let text = format!("0\nBLOCK\n2\nFRONT\n{boundary}{}0\nENDBLK\n", entities.concat());
-    let pieces = read_dxf_text(&text, Some(1e-3)).expect("a piece");
+    let text = block(&[boundary, entities.concat()]);
+    let pieces = read_dxf_text(&text, Some(1e-3)).expect("a piece").pieces;
     [&pieces[0].notches, &pieces[0].points].map(|points| {
         let mut shown: Vec<_> = points.iter().map(|p| [p.x * 1e3, -p.y * 1e3].map(f64::round)).collect();
         shown.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -549,7 +549,7 @@ fn seams_are_suggested_by_length_and_notches() {
     assert!(papers.iter().all(|p| p.sew.iter().any(|s| s.of == SewKind::Outline)));
     // As other programs write it, without the names of edges.
     let dxf = cutting_dxf("Sample", &papers).replace("Edge: ", "Remark: ");
-    let made = garment_file("sample", &read_dxf_text(&dxf, None).expect("pieces"));
+    let made = garment_file("sample", &read_dxf_text(&dxf, None).expect("pieces").pieces);
     let upper = made.suggestions.iter().find(|s| (s.lengths[0] - 0.100).abs() < 1e-4).expect("the side to its notch");
     assert!(upper.notched && upper.sew.starts_with("front.") && upper.to.starts_with("back."), "{upper:?}");
     assert!(made.suggestions.iter().any(|s| (s.lengths[0] - 0.050f64.hypot(0.020)).abs() < 1e-4), "shoulders");
@@ -560,12 +560,78 @@ fn inches_are_told_by_the_style_and_millimetres_are_meant_otherwise() {
     let (_, papers) = sample();
     let metric = cutting_dxf("Sample", &papers);
     let area = |text: &str, unit: Option<f64>| {
-        let pieces = read_dxf_text(text, unit).expect("pieces");
+        let pieces = read_dxf_text(text, unit).expect("pieces").pieces;
         pieces[0].cut.as_ref().expect("a cut line").double_area().abs()
     };
     let inches = metric.replace("Units: METRIC", "Units: ENGLISH");
     assert!((area(&inches, None) / area(&metric, None) - 25.4 * 25.4).abs() < 1e-6);
     assert!((area(&inches, Some(1e-3)) / area(&metric, None) - 1.0).abs() < 1e-9, "what is said aloud counts");
+}
+
+/// A block of these entities as a DXF file in millimetres.
+fn block(entities: &[String]) -> String {
+    format!("0\nBLOCK\n2\nFRONT\n{}0\nENDBLK\n", entities.concat())
+}
+
+/// A square of 100 mm whose right side bulges out or in as a half circle, as polylines of both kinds and as lines and
+/// an arc.
+#[test]
+fn arcs_of_a_dxf_are_read_as_arcs() {
+    let corners = [[0.0, 0.0], [100.0, 0.0], [100.0, 100.0], [0.0, 100.0]];
+    let bulging =
+        |k: usize, bulge: f64| [(10, corners[k][0]), (20, corners[k][1]), (42, if k == 1 { bulge } else { 0.0 })];
+    let light = |bulge: f64| {
+        let pairs: Vec<_> = (0..4).flat_map(|k| bulging(k, bulge)).collect();
+        vec![entity("LWPOLYLINE", 1, &pairs) + "70\n1\n"]
+    };
+    let heavy = |bulge: f64| {
+        let mut all = vec![entity("POLYLINE", 1, &[]) + "70\n1\n"];
+        all.extend((0..4).map(|k| entity("VERTEX", 1, &bulging(k, bulge))));
+        all.push(entity("SEQEND", 1, &[]));
+        all
+    };
+    let lines = |[from, to]: [f64; 2]| {
+        let arc = entity("ARC", 1, &[(10, 100.0), (20, 50.0), (40, 50.0), (50, from), (51, to)]);
+        vec![line(1, &[corners[2], corners[3], corners[0], corners[1]]), arc]
+    };
+    let half_circle = 0.5 * PI * 0.05 * 0.05;
+    for (entities, more) in [
+        (light(1.0), half_circle),
+        (light(-1.0), -half_circle),
+        (heavy(1.0), half_circle),
+        (lines([270.0, 90.0]), half_circle),
+        (lines([90.0, 270.0]), -half_circle),
+    ] {
+        let drawing = read_dxf_text(&block(&entities), Some(1e-3)).expect("a piece");
+        let area = 0.5 * drawing.pieces[0].cut.as_ref().expect("a cut line").double_area().abs();
+        assert!((area - (0.01 + more)).abs() < 1e-9, "{area} of {entities:?}");
+        assert!(drawing.left_out.is_empty(), "{:?}", drawing.left_out);
+    }
+}
+
+#[test]
+fn entities_of_a_dxf_that_nobody_reads_are_said_to_be_left_out() {
+    let spline = entity("SPLINE", 8, &[(10, 10.0), (20, 10.0)]);
+    let boundary = ring(1, &[[0.0, 0.0], [300.0, 0.0], [300.0, 400.0], [0.0, 400.0]]);
+    let others = [entity("INSERT", 1, &[]), entity("ELLIPSE", 99, &[])];
+    let all = [boundary, spline.clone(), spline, others.concat()];
+    let left_out = read_dxf_text(&block(&all), Some(1e-3)).expect("a piece").left_out;
+    assert_eq!(left_out.len(), 2, "{left_out:?}");
+    assert!(left_out[0].contains("2 SPLINE") && left_out[0].contains("line 28; export"), "{left_out:?}");
+    assert!(left_out[1].contains("1 INSERT"), "{left_out:?}");
+    let refused = read_dxf_text(&block(&[entity("ELLIPSE", 1, &[])]), None).expect_err("no outline").to_string();
+    assert!(refused.contains("1 ELLIPSE on the layers of a pattern, in line 6"), "{refused}");
+}
+
+/// What follows it would be taken for its vertices, and be lost.
+#[test]
+fn a_polyline_of_a_dxf_without_its_end_is_refused() {
+    let vertex = |x: f64, y: f64| entity("VERTEX", 1, &[(10, x), (20, y)]);
+    let begun = [entity("POLYLINE", 1, &[]), vertex(0.0, 0.0), vertex(300.0, 0.0)].concat();
+    for rest in ["", "0\nPOINT\n8\n13\n10\n1\n20\n1\n"] {
+        let refused = read_dxf_text(&block(&[begun.clone(), rest.to_owned()]), None).expect_err("an error").to_string();
+        assert!(refused.starts_with("line 6: ") && refused.contains("SEQEND"), "{refused}");
+    }
 }
 
 #[test]

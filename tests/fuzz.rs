@@ -88,7 +88,7 @@ fn read_svg(text: &str) {
 
 fn read_dxf(text: &str) {
     match read_dxf_text(text, None) {
-        Ok(traced) => read_digitized(&garment_file("fuzz", &traced)),
+        Ok(drawing) => read_digitized(&garment_file("fuzz", &drawing.pieces)),
         Err(error) => assert!(!error.to_string().is_empty()),
     }
 }
@@ -251,6 +251,8 @@ fn drawings_in_dxf() {
         "\n10\nnan\n",
         "\n20\n1e308\n",
         "\n42\n1e9\n",
+        "\n42\n0.7\n",
+        "\n0\nARC\n",
         "\n70\n1\n",
         "99999999999999999999",
         "-1",

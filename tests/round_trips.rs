@@ -30,7 +30,7 @@ fn both_ways(text: &str) -> [Digitized; 2] {
     let papers = on_paper(text);
     let svg = cutting_svg(&Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true }));
     let from_svg = read_svg_text(&svg).unwrap_or_else(|e| panic!("{e}\n{svg}")).pieces;
-    let from_dxf = read_dxf_text(&cutting_dxf("garment", &papers), None).expect("pieces");
+    let from_dxf = read_dxf_text(&cutting_dxf("garment", &papers), None).expect("pieces").pieces;
     [from_svg, from_dxf].map(|pieces| garment_file("garment", &pieces))
 }
 
@@ -186,7 +186,7 @@ fn lines_of_which_a_dxf_tells_nothing_are_said_to_be_marks() {
         assert!(silent.contains(key));
         silent = silent.replace(key, "Remark: ");
     }
-    let made = garment_file("garment", &read_dxf_text(&silent, None).expect("pieces"));
+    let made = garment_file("garment", &read_dxf_text(&silent, None).expect("pieces").pieces);
     let said = |words: &str| made.notes.iter().filter(|n| n.contains(words)).count();
     // Two legs of a dart and three lines; of three pleats three lines each.
     assert_eq!((said("5 lines inside 'back' are taken as marks"), said("9 lines inside 'front'")), (1, 1));

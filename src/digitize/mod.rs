@@ -82,6 +82,20 @@ pub enum Role {
     PleatPlace,
 }
 
+/// What a drawing holds.
+#[derive(Clone, Debug, Default)]
+pub struct Drawing {
+    /// Its pieces.
+    pub pieces: Vec<Traced>,
+    /// What it shows besides that was not read: a sentence for each kind.
+    pub left_out: Vec<String>,
+}
+
+/// What was left out, as the end of a message that no piece was found.
+pub(crate) fn besides(left_out: &[String]) -> String {
+    left_out.iter().map(|sentence| format!("; {sentence}")).collect()
+}
+
 /// A piece as traced.
 #[derive(Clone, Debug, Default)]
 pub struct Traced {

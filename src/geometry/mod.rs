@@ -1,5 +1,6 @@
 //! The ground floor: vectors, curves, triangle meshes, disjoint sets, exact predicates.
 
+mod arc;
 mod bisect;
 mod curve;
 mod extent;
@@ -10,6 +11,7 @@ mod segment;
 mod sets;
 mod trimesh;
 
+pub(crate) use arc::bulged;
 pub(crate) use bisect::{bisect, try_bisect};
 pub use curve::{Path, PathError, Station, parse_transform};
 pub(crate) use extent::{box_of, range_of};

@@ -1,16 +1,18 @@
 //! DXF-AAMA (ASTM D6673) in: a piece per block, lines by the standard's layers (see [`layer`]).
 //!
-//! Text files of any release are read as pairs of a group code and a value; of what they hold, polylines, lines, points
-//! and texts of blocks count. Blocks without a boundary are skipped, for programs add some of their own.
+//! Text files of any release are read as pairs of a group code and a value; of what they hold, polylines (with their
+//! arcs), lines, arcs, points and texts of blocks count; what else is on a pattern's layers is said to be left out.
+//! Blocks without a boundary are skipped, for programs add some of their own.
 
 use std::path::Path as FilePath;
 
+use super::dxf_left_out::LeftOut;
 use super::dxf_notches;
 use super::dxf_text::{Entity, after, blocks, entities, letters, stated_unit};
 use super::dxf_told::{Told, told_of};
 use super::dxf_write::layer;
-use crate::digitize::{Inner, Traced, chained, holes};
-use crate::geometry::{Path, Vec2};
+use crate::digitize::{Drawing, Inner, Traced, besides, chained, holes};
+use crate::geometry::{Path, Vec2, bulged};
 use crate::input::{InputError, bytes, shown};
 use crate::pattern::{Cut, Side};
 
@@ -51,19 +53,30 @@ pub enum DxfError {
         /// The limit.
         most: usize,
     },
+    /// A line without its end: what follows it would be lost.
+    #[error("line {line}: the POLYLINE that begins here has no SEQEND after its VERTEXes; export the file again")]
+    Unended {
+        /// From 1.
+        line: usize,
+    },
     /// No block is a piece.
     #[error(
         "no block has a boundary on layer 1, so this is not a DXF-AAMA (ASTM D6673) pattern; \
-         layers found: {0}; export it as AAMA or ASTM, or as SVG"
+         layers found: {layers}; export it as AAMA or ASTM, or as SVG{besides}"
     )]
-    NoPieces(String),
+    NoPieces {
+        /// Those there are.
+        layers: String,
+        /// What was left out, which may be the reason.
+        besides: String,
+    },
 }
 
 /// Reads the pieces of a DXF file; `unit` is metres per drawing unit where the file does not say.
 ///
 /// # Errors
 /// [`DxfError`].
-pub fn read_dxf(path: &FilePath, unit: Option<f64>) -> Result<Vec<Traced>, DxfError> {
+pub fn read_dxf(path: &FilePath, unit: Option<f64>) -> Result<Drawing, DxfError> {
     read_dxf_text(&String::from_utf8_lossy(&bytes(path, MOST_BYTES)?), unit)
 }
 
@@ -71,20 +84,22 @@ pub fn read_dxf(path: &FilePath, unit: Option<f64>) -> Result<Vec<Traced>, DxfEr
 ///
 /// # Errors
 /// As [`read_dxf`].
-pub fn read_dxf_text(text: &str, unit: Option<f64>) -> Result<Vec<Traced>, DxfError> {
+pub fn read_dxf_text(text: &str, unit: Option<f64>) -> Result<Drawing, DxfError> {
     let entities = entities(text)?;
     let unit = unit.or_else(|| stated_unit(&entities)).unwrap_or(1e-3);
-    let mut pieces = Vec::new();
+    let (mut pieces, mut unread) = (Vec::new(), LeftOut::default());
     for block in blocks(&entities) {
-        pieces.extend(Block::new(block, unit)?.piece());
+        pieces.extend(Block::new(block, unit, &mut unread)?.piece());
     }
+    let left_out = unread.sentences();
     if pieces.is_empty() {
         let mut layers: Vec<&str> = entities.iter().filter_map(|e| e.value(8)).collect();
         layers.sort_unstable();
         layers.dedup();
-        return Err(DxfError::NoPieces(shown(&layers.join(", "), 4 * SHOWN)));
+        let layers = shown(&layers.join(", "), 4 * SHOWN);
+        return Err(DxfError::NoPieces { layers, besides: besides(&left_out) });
     }
-    Ok(pieces)
+    Ok(Drawing { pieces, left_out })
 }
 
 /// What a block holds, by layer.
@@ -102,7 +117,7 @@ struct Text {
 }
 
 impl<'a> Block<'a> {
-    fn new(entities: &[Entity<'a>], unit: f64) -> Result<Self, DxfError> {
+    fn new(entities: &[Entity<'a>], unit: f64, left_out: &mut LeftOut<'a>) -> Result<Self, DxfError> {
         let mut block = Self {
             name: entities.first().and_then(|e| e.value(2)).unwrap_or(""),
             lines: Vec::new(),
@@ -111,32 +126,7 @@ impl<'a> Block<'a> {
         };
         let mut rest = entities.iter().skip(1);
         while let Some(entity) = rest.next() {
-            let on = entity.layer();
-            match entity.kind {
-                "POLYLINE" => {
-                    let mut points = Vec::new();
-                    for vertex in rest.by_ref().take_while(|e| e.kind != "SEQEND") {
-                        points.extend(vertex.points(10, unit)?.first());
-                    }
-                    block.add_line(on, points, is_closed(entity));
-                }
-                "LWPOLYLINE" => block.add_line(on, entity.points(10, unit)?, is_closed(entity)),
-                "LINE" => {
-                    let ends = [entity.points(10, unit)?, entity.points(11, unit)?].concat();
-                    block.add_line(on, ends, false);
-                }
-                // Drill holes come as either.
-                "POINT" | "CIRCLE" => {
-                    let at = entity.points(10, unit)?;
-                    block.points.extend(on.zip(at.first().copied()));
-                }
-                "TEXT" | "MTEXT" => {
-                    // Where a text stands matters for our own alone.
-                    let at = entity.points(10, unit).ok().and_then(|at| at.first().copied());
-                    block.texts.extend(entity.value(1).map(|words| Text { words: letters(words), at }));
-                }
-                _ => {}
-            }
+            block.read(entity, &mut rest, unit, left_out)?;
             if block.lines.len() > MOST_LINES {
                 return Err(DxfError::TooMany { block: shown(block.name, SHOWN), most: MOST_LINES });
             }
@@ -144,13 +134,56 @@ impl<'a> Block<'a> {
         Ok(block)
     }
 
-    fn add_line(&mut self, on: Option<u32>, mut points: Vec<Vec2>, closed: bool) {
-        if closed {
-            points.extend(points.first().copied());
+    /// Takes up an entity, with those of `rest` that belong to it.
+    fn read<'e>(
+        &mut self,
+        entity: &Entity<'a>,
+        rest: &mut impl Iterator<Item = &'e Entity<'a>>,
+        unit: f64,
+        left_out: &mut LeftOut<'a>,
+    ) -> Result<(), DxfError>
+    where
+        'a: 'e,
+    {
+        let on = entity.layer();
+        match entity.kind {
+            "POLYLINE" => self.add_line(on, polyline(entity, rest, unit)?, is_closed(entity)),
+            "LWPOLYLINE" => self.add_line(on, entity.vertices(10, unit)?, is_closed(entity)),
+            "ARC" => self.add_line(on, entity.arc(unit)?, false),
+            "LINE" => {
+                let ends = [entity.points(10, unit)?, entity.points(11, unit)?].concat();
+                self.add_line(on, ends.into_iter().map(|p| (p, 0.0)).collect(), false);
+            }
+            // Drill holes come as either.
+            "POINT" | "CIRCLE" => {
+                let at = entity.points(10, unit)?;
+                self.points.extend(on.zip(at.first().copied()));
+            }
+            "TEXT" | "MTEXT" => {
+                // Where a text stands matters for our own alone.
+                let at = entity.points(10, unit).ok().and_then(|at| at.first().copied());
+                self.texts.extend(entity.value(1).map(|words| Text { words: letters(words), at }));
+            }
+            _ => left_out.add(entity),
         }
-        points.dedup_by(|b, a| (*b - *a).norm() < 1e-8);
-        if let Some(on) = on.filter(|_| points.len() > 1) {
-            self.lines.push((on, Path::polyline(&points)));
+        Ok(())
+    }
+
+    /// Adds a line by its vertices, each with the bulge of the arc to the next.
+    fn add_line(&mut self, on: Option<u32>, mut vertices: Vec<(Vec2, f64)>, closed: bool) {
+        if closed {
+            vertices.extend(vertices.first().copied());
+        }
+        // Of vertices in one place the first stays, with the arc that leads on from the last.
+        vertices.dedup_by(|b, a| {
+            let one = (b.0 - a.0).norm() < 1e-8;
+            if one {
+                a.1 = b.1;
+            }
+            one
+        });
+        if let Some(on) = on.filter(|_| vertices.len() > 1) {
+            self.lines.push((on, bulged(&vertices)));
         }
     }
 
@@ -233,6 +266,22 @@ impl<'a> Block<'a> {
     fn ends_on(&self, layer: u32) -> Option<[Vec2; 2]> {
         let longest = |a: &((), Path), b: &((), Path)| a.1.length().total_cmp(&b.1.length());
         self.on(layer).into_iter().max_by(longest).map(|l| [l.1.start(), l.1.end()])
+    }
+}
+
+/// The vertices that follow a POLYLINE, each with its bulge.
+fn polyline<'e, 'a: 'e>(
+    entity: &Entity<'a>,
+    rest: &mut impl Iterator<Item = &'e Entity<'a>>,
+    unit: f64,
+) -> Result<Vec<(Vec2, f64)>, DxfError> {
+    let mut vertices = Vec::new();
+    loop {
+        match rest.next() {
+            Some(vertex) if vertex.kind == "VERTEX" => vertices.extend(vertex.vertices(10, unit)?.first()),
+            Some(end) if end.kind == "SEQEND" => return Ok(vertices),
+            _ => return Err(DxfError::Unended { line: entity.line }),
+        }
     }
 }
 

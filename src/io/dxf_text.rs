@@ -1,10 +1,17 @@
 //! The text of a DXF file as entities: each a kind and its pairs of a group code and a value.
 
+use std::f64::consts::TAU;
+
 use super::dxf_read::{DxfError, SHOWN};
 use crate::geometry::Vec2;
 use crate::input::shown;
 
-/// Coordinates beyond this (metres) are a wrong unit or no pattern.
+/// Group code of the bulge of a vertex, and the entities in which it is one.
+const BULGE: i32 = 42;
+const BULGED: [&str; 2] = ["LWPOLYLINE", "VERTEX"];
+/// A degree in radians.
+const DEGREE: f64 = TAU / 360.0;
+/// Coordinates beyond this (metres) are a wrong unit or no pattern, and bulges beyond it (a circle but for a hair).
 const FARTHEST: f64 = 1e3;
 
 /// A value and the line it stands on.
@@ -15,10 +22,21 @@ pub(super) struct Pair<'a> {
     pub(super) line: usize,
 }
 
+impl Pair<'_> {
+    /// The value times `unit`, of which no more than [`FARTHEST`] is anything of a pattern.
+    fn number(&self, unit: f64) -> Result<f64, DxfError> {
+        let wrong = || DxfError::Number { line: self.line, found: shown(self.value, SHOWN) };
+        let x: f64 = self.value.parse().map_err(|_| wrong())?;
+        if (x * unit).abs() <= FARTHEST { Ok(x * unit) } else { Err(wrong()) }
+    }
+}
+
 /// An entity: its kind and its pairs.
 #[derive(Debug)]
 pub(super) struct Entity<'a> {
     pub(super) kind: &'a str,
+    /// The line its kind stands on.
+    pub(super) line: usize,
     pub(super) pairs: Vec<Pair<'a>>,
 }
 
@@ -33,22 +51,45 @@ impl<'a> Entity<'a> {
 
     /// The points at codes 10 and 20 (or 11 and 21), metres, y down.
     pub(super) fn points(&self, first: i32, unit: f64) -> Result<Vec<Vec2>, DxfError> {
-        let number = |p: &Pair| {
-            let wrong = || DxfError::Number { line: p.line, found: shown(p.value, SHOWN) };
-            let x: f64 = p.value.parse().map_err(|_| wrong())?;
-            if (x * unit).abs() <= FARTHEST { Ok(x * unit) } else { Err(wrong()) }
-        };
-        let mut points: Vec<Vec2> = Vec::new();
+        Ok(self.vertices(first, unit)?.into_iter().map(|v| v.0).collect())
+    }
+
+    /// The points at codes 10 and 20 (or 11 and 21), metres, y down, each with the bulge (code 42) of the arc to the
+    /// next, which is counterclockwise on the sheet where that is positive.
+    pub(super) fn vertices(&self, first: i32, unit: f64) -> Result<Vec<(Vec2, f64)>, DxfError> {
+        let mut vertices: Vec<(Vec2, f64)> = Vec::new();
         for pair in &self.pairs {
             if pair.code == first {
-                points.push(Vec2::new(number(pair)?, 0.0));
-            } else if pair.code == first + 10
-                && let Some(last) = points.last_mut()
-            {
-                last.y = -number(pair)?;
+                vertices.push((Vec2::new(pair.number(unit)?, 0.0), 0.0));
+            } else if let Some(last) = vertices.last_mut() {
+                match pair.code {
+                    code if code == first + 10 => last.0.y = -pair.number(unit)?,
+                    BULGE if BULGED.contains(&self.kind) => last.1 = pair.number(1.0)?,
+                    _ => {}
+                }
             }
         }
-        Ok(points)
+        Ok(vertices)
+    }
+
+    /// An ARC as two halves with their bulges, metres, y down; nothing where a number is missing. One that ends where
+    /// it begins is a whole circle.
+    pub(super) fn arc(&self, unit: f64) -> Result<Vec<(Vec2, f64)>, DxfError> {
+        let number =
+            |code: i32, unit: f64| self.pairs.iter().find(|p| p.code == code).map(|p| p.number(unit)).transpose();
+        let centre = self.points(10, unit)?.first().copied();
+        let angles = [number(50, DEGREE)?, number(51, DEGREE)?];
+        let (Some(centre), Some(radius), [Some(start), Some(end)]) = (centre, number(40, unit)?, angles) else {
+            return Ok(Vec::new());
+        };
+        let turn = (end - start).rem_euclid(TAU);
+        let turn = if turn == 0.0 { TAU } else { turn };
+        let at = |share: f64| {
+            let (sine, cosine) = (start + share * turn).sin_cos();
+            centre + radius * Vec2::new(cosine, -sine)
+        };
+        let bulge = (0.125 * turn).tan();
+        Ok(vec![(at(0.0), bulge), (at(0.5), bulge), (at(1.0), 0.0)])
     }
 }
 
@@ -64,7 +105,7 @@ pub(super) fn entities(text: &str) -> Result<Vec<Entity<'_>>, DxfError> {
         let Some((k, value)) = lines.next() else { break };
         let value = value.trim();
         if code == 0 {
-            entities.push(Entity { kind: value, pairs: Vec::new() });
+            entities.push(Entity { kind: value, line: k + 1, pairs: Vec::new() });
         } else if let Some(entity) = entities.last_mut() {
             entity.pairs.push(Pair { code, value, line: k + 1 });
         }

@@ -1,6 +1,7 @@
 //! The edge of the house: files in and out. No stage reads or writes a file itself.
 
 pub mod body;
+mod dxf_left_out;
 mod dxf_notches;
 pub mod dxf_read;
 mod dxf_text;

@@ -4,20 +4,20 @@ use super::{Imported, finish};
 use crate::cli::args::DrawingArgs;
 use crate::cli::console::Console;
 use crate::cli::exit::{CliError, Exit};
-use crate::digitize::{Suggestion, Traced, garment_file};
+use crate::digitize::{Drawing, Suggestion, garment_file};
 use crate::io::dxf_read::read_dxf;
 use crate::io::svg_read::read_svg;
 
 /// `toile import svg FILE.svg -o GARMENT.yaml`
 pub(super) fn svg(args: &DrawingArgs, console: &Console) -> Result<Exit, CliError> {
     let drawing = read_svg(&args.drawing).map_err(|e| refused(args, e.to_string()))?;
-    write(args, &drawing.pieces, &drawing.left_out, console)
+    write(args, &drawing, console)
 }
 
 /// `toile import dxf FILE.dxf -o GARMENT.yaml`
 pub(super) fn dxf(args: &DrawingArgs, unit: Option<f64>, console: &Console) -> Result<Exit, CliError> {
-    let pieces = read_dxf(&args.drawing, unit).map_err(|e| refused(args, e.to_string()))?;
-    write(args, &pieces, &[], console)
+    let drawing = read_dxf(&args.drawing, unit).map_err(|e| refused(args, e.to_string()))?;
+    write(args, &drawing, console)
 }
 
 fn refused(args: &DrawingArgs, reason: String) -> CliError {
@@ -25,11 +25,11 @@ fn refused(args: &DrawingArgs, reason: String) -> CliError {
 }
 
 /// Writes the pieces with all edges free, and says what is not among them and which may belong together.
-fn write(args: &DrawingArgs, pieces: &[Traced], left_out: &[String], console: &Console) -> Result<Exit, CliError> {
+fn write(args: &DrawingArgs, drawing: &Drawing, console: &Console) -> Result<Exit, CliError> {
     let name = args.drawing.file_stem().map_or_else(|| "garment".to_owned(), |s| s.to_string_lossy().into_owned());
-    let made = garment_file(&name, pieces);
+    let made = garment_file(&name, &drawing.pieces);
     let exit = finish(&Imported { source: &args.drawing, output: &args.output, file: &made.file }, console)?;
-    left_out.iter().chain(&made.notes).for_each(|note| console.note(note));
+    drawing.left_out.iter().chain(&made.notes).for_each(|note| console.note(note));
     if !made.suggestions.is_empty() {
         console.note("seams are to be written; by their lengths these edges may belong together:");
     }

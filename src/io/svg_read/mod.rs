@@ -15,7 +15,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 use self::left_out::{LeftOut, What};
 use self::shapes::commands;
 use self::viewport::{Frame, inner, sheet};
-use crate::digitize::{Remark, Role, Stroke, Traced, pieces};
+use crate::digitize::{Drawing, Remark, Role, Stroke, Traced, besides, pieces};
 use crate::geometry::{Path, Vec2, parse_transform};
 use crate::input::{InputError, bytes, shown};
 use crate::pattern::{LineKind, Side};
@@ -85,20 +85,11 @@ pub enum SvgError {
     },
 }
 
-/// What a drawing holds.
-#[derive(Clone, Debug, Default)]
-pub struct SvgDrawing {
-    /// Its pieces.
-    pub pieces: Vec<Traced>,
-    /// What it shows besides that was not read: a sentence for each kind.
-    pub left_out: Vec<String>,
-}
-
 /// Reads the pieces of an SVG file.
 ///
 /// # Errors
 /// [`SvgError`].
-pub fn read_svg(path: &FilePath) -> Result<SvgDrawing, SvgError> {
+pub fn read_svg(path: &FilePath) -> Result<Drawing, SvgError> {
     read_svg_text(&String::from_utf8_lossy(&bytes(path, MOST_BYTES)?))
 }
 
@@ -106,7 +97,7 @@ pub fn read_svg(path: &FilePath) -> Result<SvgDrawing, SvgError> {
 ///
 /// # Errors
 /// As [`read_svg`].
-pub fn read_svg_text(text: &str) -> Result<SvgDrawing, SvgError> {
+pub fn read_svg_text(text: &str) -> Result<Drawing, SvgError> {
     let options = ParsingOptions { nodes_limit: MOST_NODES, allow_dtd: true, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|e| SvgError::Xml(e.to_string()))?;
     let root = document.root_element();
@@ -126,13 +117,8 @@ pub fn read_svg_text(text: &str) -> Result<SvgDrawing, SvgError> {
     if pieces.is_empty() {
         Err(SvgError::NoPieces { besides: besides(&left_out) })
     } else {
-        Ok(SvgDrawing { pieces, left_out })
+        Ok(Drawing { pieces, left_out })
     }
-}
-
-/// What else is there, for a drawing in which no piece was found.
-fn besides(left_out: &[String]) -> String {
-    left_out.iter().map(|sentence| format!("; {sentence}")).collect()
 }
 
 /// What an element inherits.
