@@ -129,6 +129,42 @@ fn what_is_sewn_on_a_body_that_stands_elsewhere_is_written_where_its_file_has_it
     assert!(first.iter().zip(second).all(|(a, b)| (a - b).norm() < 2e-9));
 }
 
+/// A tetrahedron whose faces share no vertices; the copies of a corner are up to 0.2 µm apart, and where rounding to a
+/// grid of a micron parts them.
+#[test]
+fn vertices_nearer_than_a_micron_are_one_wherever_they_are() {
+    for base in [0.0, 1e-7, 5e-7, 1.0, 1.000_000_5, -1.000_000_5, 1.000_001] {
+        let corners = [Vec3::zeros(), Vec3::x(), Vec3::y(), Vec3::z()].map(|p| 0.1 * p + Vec3::repeat(base));
+        let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let off =
+            |face: usize, corner: usize| Vec3::repeat(if (face + corner).is_multiple_of(2) { 1e-7 } else { -1e-7 });
+        let copies = faces.iter().enumerate().flat_map(|(f, face)| face.map(|c: usize| corners[c] + off(f, c)));
+        let surface = ObjSurface {
+            vertices: copies.collect(),
+            triangles: (0..4).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect(),
+        };
+        let name = || "tetrahedron".to_owned();
+        let found = body(surface, name(), name(), Some(LengthUnit::Metre)).unwrap_or_else(|e| panic!("{base}: {e}"));
+        let mesh = found.mannequin.mesh;
+        assert_eq!((mesh.vertices.len(), mesh.triangles.len()), (4, 4), "{base}");
+    }
+}
+
+/// As programs write it that keep a normal per face: each triangle has vertices of its own.
+#[test]
+fn a_body_whose_faces_share_no_vertices_is_the_body_it_was() {
+    let shared = child();
+    let own = ObjSurface {
+        vertices: shared.triangles.iter().flatten().map(|&v| shared.vertices[v as usize]).collect(),
+        triangles: (0..shared.triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect(),
+    };
+    let [shared, own] = [shared, own].map(|surface| read(surface).expect("a body").mannequin.mesh);
+    assert_eq!((own.vertices.len(), own.triangles.len()), (shared.vertices.len(), shared.triangles.len()));
+    for t in 0..own.triangles.len() {
+        assert_eq!(own.corners(t), shared.corners(t), "triangle {t}");
+    }
+}
+
 #[test]
 fn a_surface_that_is_no_body_is_refused_with_the_place() {
     let fault = |surface: ObjSurface| match read(surface).expect_err("no body") {

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use super::obj_read::{ObjError, ObjSurface, read_obj};
-use crate::geometry::{Topology, TriMesh, Vec3, box_of, range_of};
+use crate::geometry::{DisjointSets, Topology, TriMesh, Vec3, box_of, range_of};
 use crate::input::LengthUnit;
 use crate::mannequin::{
     BodyCheck, BodyFault, Frame, HEIGHTS, Mannequin, MannequinError, Place, check_body, find_parts, load,
@@ -13,7 +13,8 @@ use crate::mannequin::{
 
 /// Nobody needs to know that a body stands so little off y = 0, metres.
 const OFF: f64 = 1e-4;
-/// Vertices nearer than this are one, metres: far below a mesh's edges, far above the rounding of a file.
+/// Vertices nearer than this along every axis are one, metres: far below a mesh's edges, far above the rounding of a
+/// file.
 const WELD: f64 = 1e-6;
 /// A body lower than this many file units is in metres, lower than the next in centimetres, else in millimetres.
 const METRES_BELOW: f64 = 3.0;
@@ -340,13 +341,13 @@ fn closed(vertices: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> TriMesh {
 
 /// Merges coinciding vertices and drops triangles that become edges and vertices that no triangle uses.
 fn weld(vertices: &[Vec3], triangles: &[[u32; 3]]) -> TriMesh {
-    let mut seen: HashMap<[i64; 3], u32> = HashMap::new();
+    let mut same = coinciding(vertices);
+    let mut seen: HashMap<u32, u32> = HashMap::new();
     let mut mesh = TriMesh::default();
     for tri in triangles {
         let tri = tri.map(|v| {
-            let p = vertices[v as usize];
-            *seen.entry([p.x, p.y, p.z].map(|c| (c / WELD).round() as i64)).or_insert_with(|| {
-                mesh.vertices.push(p);
+            *seen.entry(same.root(v)).or_insert_with(|| {
+                mesh.vertices.push(vertices[v as usize]);
                 mesh.vertices.len() as u32 - 1
             })
         });
@@ -355,6 +356,22 @@ fn weld(vertices: &[Vec3], triangles: &[[u32; 3]]) -> TriMesh {
         }
     }
     mesh
+}
+
+/// Which vertices are one: those that share a cell of one of eight grids. The cells are twice [`WELD`] wide and the
+/// grids shifted by half a cell along some of the axes, so that no two vertices nearer than that have a border between
+/// them in all of the grids; and however many there are in a cell, each is looked at eight times.
+fn coinciding(vertices: &[Vec3]) -> DisjointSets {
+    let mut sets = DisjointSets::new(vertices.len());
+    for grid in 0..8u8 {
+        let shift = [0, 1, 2].map(|axis| 0.5 * f64::from(grid >> axis & 1));
+        let mut first: HashMap<[i64; 3], u32> = HashMap::new();
+        for (v, p) in (0..).zip(vertices) {
+            let cell = [0, 1, 2].map(|axis| (p[axis] / (2.0 * WELD) + shift[axis]).floor() as i64);
+            sets.join(*first.entry(cell).or_insert(v), v);
+        }
+    }
+    sets
 }
 
 /// Whether the toes of a body, so high from `low` on (metres), point to −z. Feet may have none.
