@@ -11,6 +11,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use toile::flatten::{Mode, Options};
+use toile::input::LengthUnit;
 use toile::io::files::write_all;
 use toile::pipeline::{Cuts, DARTS, Limit, SurfaceOptions, flatten_surface};
 
@@ -46,7 +47,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let file = folder.join(format!("{}.obj", case.name));
         write_all(&[(file.clone(), obj(case.at).into_bytes())], &[])?;
         let options = SurfaceOptions {
-            unit: Some(1.0),
+            unit: Some(LengthUnit::Metre),
             texture_seams: true,
             weld: false,
             cuts: Cuts::default(),

@@ -11,6 +11,7 @@ use toile::flatten::{
     FlattenError, Flattened, Mode, Options, flatten, flatten_between, flatten_from, flatten_garment, rim_crossings,
 };
 use toile::geometry::{TriMesh, Vec2, Vec3, rim_loops};
+use toile::input::LengthUnit;
 use toile::io::pattern_svg::{PatternSvgError, pattern_svg};
 use toile::mesh::{ClothMesh, EdgeParticles, PieceMesh, Stitches};
 use toile::pattern::{EdgeId, Give, Notch, Seam, SeamKind};
@@ -436,6 +437,52 @@ fn a_weave_held_between_breaks_keeps_these_lengths_and_its_threads_better() {
     }
 }
 
+/// A surface as it is, in this unit.
+fn plain(unit: Option<LengthUnit>) -> SurfaceOptions {
+    SurfaceOptions {
+        unit,
+        texture_seams: false,
+        weld: false,
+        cuts: Cuts::default(),
+        darts: 0,
+        limit: Limit::Strain(0.1),
+        flatten: Options::default(),
+    }
+}
+
+/// Two flat strips, a unit wide, that share an edge of so many vertices, a unit apart; in a file of its own.
+fn two_strips(folder: &Path, vertices: usize) -> PathBuf {
+    let mut text = String::new();
+    for row in 0..vertices {
+        (0..3).for_each(|column| writeln!(text, "v {column} {row} 0").unwrap());
+    }
+    for (column, name) in ["left", "right"].iter().enumerate() {
+        writeln!(text, "g {name}").unwrap();
+        for row in 1..vertices {
+            let a = 3 * (row - 1) + column + 1;
+            writeln!(text, "f {} {} {}\nf {} {} {}", a, a + 1, a + 4, a, a + 4, a + 3).unwrap();
+        }
+    }
+    let file = folder.join("strips.obj");
+    std::fs::write(&file, text).unwrap();
+    file
+}
+
+#[test]
+fn a_surface_is_reported_in_the_unit_of_its_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = two_strips(folder.path(), 3);
+    for (unit, symbol, metres) in
+        LengthUnit::ALL.map(|u| (Some(u), u.symbol(), u.metres())).into_iter().chain([(None, "m", 1.0)])
+    {
+        let flat = flatten_surface(&file, &plain(unit)).unwrap();
+        assert_eq!(flat.report.units, symbol);
+        assert!((flat.report.pieces[0].area_flattened - 2e6 * metres * metres).abs() < 1.0, "{symbol}");
+        let assumed = flat.notes.iter().any(|note| note.starts_with("m assumed"));
+        assert_eq!(assumed, unit.is_none(), "{:?}", flat.notes);
+    }
+}
+
 #[test]
 fn woven_partners_keep_one_length() {
     let mesh = front(24);
@@ -451,15 +498,7 @@ fn woven_partners_keep_one_length() {
         }
     }
     std::fs::write(&file, text).unwrap();
-    let options = SurfaceOptions {
-        unit: Some(1.0),
-        texture_seams: false,
-        weld: false,
-        cuts: Cuts::default(),
-        darts: 0,
-        limit: Limit::Strain(0.1),
-        flatten: mode(Mode::Woven),
-    };
+    let options = SurfaceOptions { flatten: mode(Mode::Woven), ..plain(Some(LengthUnit::Metre)) };
     let report = flatten_surface(&file, &options).unwrap().report;
     let edges: Vec<_> = report.pieces.iter().flat_map(|p| p.edges.iter().map(move |e| (p, e))).collect();
     assert!(report.pieces.iter().any(|p| p.largest_rim_error > 1e-3), "single edges give");

@@ -92,7 +92,7 @@ fn cuts(args: &[String]) -> Result<Cuts, CliError> {
 
 fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Exit, CliError> {
     let options = SurfaceOptions {
-        unit: args.units.map(UnitArg::metres),
+        unit: args.units.map(UnitArg::unit),
         texture_seams: !args.no_texture_seams,
         weld: args.weld,
         cuts: cuts(&args.cut)?,

@@ -14,6 +14,7 @@ use super::error::PipelineError;
 use crate::fabric::Fabric;
 use crate::flatten::{Options, Report};
 use crate::geometry::box_of;
+use crate::input::LengthUnit;
 use crate::io::obj_read::{ObjFaces, read_obj_faces};
 use crate::report::Stage;
 pub use cuts::Cuts;
@@ -35,8 +36,8 @@ pub const DARTS: usize = 8;
 /// How to read and flatten a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceOptions {
-    /// Metres in a unit of the file; `None` guesses it from the size.
-    pub unit: Option<f64>,
+    /// The unit of the file; `None` guesses it from the size.
+    pub unit: Option<LengthUnit>,
     /// Whether to cut along the seams of the texture.
     pub texture_seams: bool,
     /// Whether vertices at the same place are one: the legs of a dart that is sewn up must not be, the triangles of a
@@ -113,10 +114,13 @@ pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurf
     let faces = read_obj_faces(file)?;
     let stem = file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
     let begin = Instant::now();
-    let (unit, units) = options.unit.map_or_else(|| guess(&faces), |unit| (unit, name_of(unit)));
+    let taken = options.unit.unwrap_or_else(|| guessed(&faces));
+    let (unit, units) = (taken.metres(), taken.symbol());
     let mut notes = Vec::new();
     if options.unit.is_none() {
-        notes.push(format!("{units} assumed, from the size of the surface; say --units mm, cm or m if that is wrong"));
+        notes.push(format!(
+            "{units} assumed, from the size of the surface; say --units mm, cm, m or in if that is wrong"
+        ));
     }
     let textured = options.texture_seams && faces.texture_of_face.iter().any(|t| !t.is_empty());
     let nodes = Nodes::new(&faces, textured, options.weld);
@@ -161,27 +165,16 @@ impl Source<'_> {
     }
 }
 
-/// Metres per unit of a file of this size, and the unit's name.
-fn guess(faces: &ObjFaces) -> (f64, &'static str) {
+/// The unit of a file whose surface is that large.
+fn guessed(faces: &ObjFaces) -> LengthUnit {
     let [low, high] = box_of(faces.faces.iter().flatten().map(|&v| faces.vertices[v as usize]));
     let size = (high - low).max();
-    let unit = if size < METRES_BELOW {
-        1.0
+    if size < METRES_BELOW {
+        LengthUnit::Metre
     } else if size < CENTIMETRES_BELOW {
-        1e-2
+        LengthUnit::Centimetre
     } else {
-        1e-3
-    };
-    (unit, name_of(unit))
-}
-
-fn name_of(unit: f64) -> &'static str {
-    if unit == 1.0 {
-        "m"
-    } else if unit == 1e-2 {
-        "cm"
-    } else {
-        "mm"
+        LengthUnit::Millimetre
     }
 }
 

@@ -19,7 +19,7 @@ pub struct SurfaceReport {
     pub toile: String,
     /// The file's stem.
     pub surface: String,
-    /// Unit of the file: `mm`, `cm` or `m`.
+    /// Unit of the file: `mm`, `cm`, `m` or `in`.
     pub units: &'static str,
     /// One per part.
     pub pieces: Vec<PartReport>,
