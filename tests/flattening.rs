@@ -469,6 +469,19 @@ fn two_strips(folder: &Path, vertices: usize) -> PathBuf {
 }
 
 #[test]
+fn an_edge_that_is_sewn_has_a_notch_wherever_it_has_a_vertex_between_its_ends() {
+    let folder = tempfile::tempdir().unwrap();
+    for (vertices, notches) in [(2, 0), (3, 2), (4, 2), (5, 2)] {
+        let flat = flatten_surface(&two_strips(folder.path(), vertices), &plain(Some(LengthUnit::Metre))).unwrap();
+        let sewn = flat.report.pieces.iter().flat_map(|p| &p.edges).filter(|e| e.sewn_to.is_some()).count();
+        let files = flat.results().unwrap();
+        let pattern = files.iter().find(|f| f.0 == "pattern.svg").unwrap();
+        let drawn = String::from_utf8_lossy(&pattern.1).matches("class=\"notch\"").count();
+        assert_eq!((sewn, drawn), (2, notches), "{vertices} vertices");
+    }
+}
+
+#[test]
 fn a_surface_is_reported_in_the_unit_of_its_file() {
     let folder = tempfile::tempdir().unwrap();
     let file = two_strips(folder.path(), 3);

@@ -91,15 +91,15 @@ impl FlatSurface {
         Ok(draw_flat(sheet, &strain, &self.report.surface)?)
     }
 
-    /// A notch in the middle of every edge that is sewn to another, at the same vertex on both sides.
+    /// A notch in the middle of every edge that is sewn to another, at the same vertex on both sides. An edge without a
+    /// vertex between its ends has none: it is matched by these.
     fn notches(&self) -> Vec<Notch> {
         let mut notches = Vec::new();
         for (piece, edges) in self.edges.iter().enumerate() {
             for (index, edge) in edges.iter().enumerate().filter(|(_, e)| e.partner.is_some()) {
                 let at = |v: u32| self.laid[piece].flat.positions[v as usize];
                 let lengths: Vec<f64> = edge.vertices.windows(2).map(|w| (at(w[1]) - at(w[0])).norm()).collect();
-                // An edge between three vertices or fewer is matched by its ends.
-                if lengths.len() > 3 {
+                if lengths.len() > 1 {
                     let middle = edge.middle([piece, index]);
                     let edge = EdgeId { piece, ring: edge.ring, index };
                     notches.push(Notch { edge, at: lengths[..middle].iter().sum(), double: false });
