@@ -122,11 +122,17 @@ fn what_is_sewn_on_a_body_that_stands_elsewhere_is_written_where_its_file_has_it
 
     let judged = judge(&sewn, named.as_deref(), LengthUnit::Millimetre).expect("two surfaces");
     assert_eq!((judged.notes.len(), judged.seen.contact.cloth_body_intersections), (0, 0), "{:?}", judged.notes);
-    let mut again = Run::new(&job);
-    again.resume_sewn(&sewn).expect("the same garment");
+    let again = Run::from_sewn(&job, &sewn).expect("the same garment");
     let [first, second] = [&run, &again].map(|run| run.last().expect("sewn"));
     // OBJ coordinates have six decimals of a millimetre.
     assert!(first.iter().zip(second).all(|(a, b)| (a - b).norm() < 2e-9));
+
+    // Nothing is told of what the earlier run did before; of the draped garment alone it is not known how it was sewn.
+    let stages = |run: &Run| run.report().stages.into_iter().map(|s| s.name).collect::<Vec<_>>();
+    assert_eq!((stages(&run), stages(&again)), (vec!["mesh".to_owned(), "sew".to_owned()], vec!["mesh".to_owned()]));
+    let draped = Run::from_draped(&job, &sewn).expect("the same garment");
+    let sewn_area = |run: &Run| run.report().total.sizes.area_sewn;
+    assert!(sewn_area(&again).is_some() && sewn_area(&draped).is_none());
 }
 
 /// A tetrahedron whose faces share no vertices; the copies of a corner are up to 0.2 µm apart, and where rounding to a

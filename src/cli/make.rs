@@ -52,19 +52,22 @@ impl<'a> Goal<'a> {
         names
     }
 
+    /// A run that has nothing yet, or what the earlier one has made.
+    fn begin(self, job: &Job) -> Result<Run<'_>, PipelineError> {
+        match self {
+            Goal::Draped { from: Some(file) } => Run::from_sewn(job, file),
+            Goal::Flat { from: Some(file), .. } => Run::from_draped(job, file),
+            Goal::Sewn | Goal::Draped { from: None } | Goal::Flat { from: None, .. } => Ok(Run::new(job)),
+        }
+    }
+
     fn reach(self, run: &mut Run, console: &Console) -> Result<(), PipelineError> {
         let bars = console.progress();
         let mut tell = |stage: &str, share: f64| bars.show(stage, share);
         match self {
             Goal::Sewn => run.sew(&mut tell),
-            Goal::Draped { from } => {
-                from.map_or(Ok(()), |file| run.resume_sewn(file))?;
-                run.drape(&mut tell)
-            }
-            Goal::Flat { from, options } => {
-                from.map_or(Ok(()), |file| run.resume_draped(file))?;
-                run.flatten(&options, &mut tell)
-            }
+            Goal::Draped { .. } => run.drape(&mut tell),
+            Goal::Flat { options, .. } => run.flatten(&options, &mut tell),
         }
     }
 }
@@ -108,7 +111,7 @@ pub(super) fn carry_out(plan: &Plan, console: &Console) -> Result<Exit, CliError
     let job = Job::new(plan.garment, loaded, &plan.overrides)?;
     inputs.extend(job.inputs.iter().cloned());
     job.notes.iter().for_each(|note| console.note(note));
-    let mut run = Run::new(&job);
+    let mut run = plan.goal.begin(&job)?;
     if let Err(error) = plan.goal.reach(&mut run, console) {
         if !error.is_input() {
             leave_state(&run, plan, &folder, &inputs, console);

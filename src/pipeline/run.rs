@@ -142,18 +142,6 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Takes up the positions of an earlier run, one per class of stitched particles, as sewn or as draped, in place of
-    /// what this one has made: draping goes on from there and nowhere else.
-    pub(super) fn resume(&mut self, nodes: &[Vec3], draped: bool) {
-        let positions = self.stitching.spread(nodes);
-        (self.coarse, self.draped, self.flattened, self.open) = (None, None, None, false);
-        if draped {
-            self.draped = Some(positions);
-        } else {
-            self.sewn = Some(positions);
-        }
-    }
-
     /// Which particles are one: those that are stitched together.
     pub(super) fn class(&self) -> Cow<'_, [u32]> {
         if self.open { identity_nodes(&self.job.mesh).into() } else { (&self.stitching.class).into() }

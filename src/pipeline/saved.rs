@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::error::PipelineError;
+use super::job::Job;
 use super::run::Run;
 use crate::geometry::Vec3;
 use crate::io::obj_read::read_obj;
@@ -11,28 +12,28 @@ use crate::verify::Welded;
 /// Metres in a millimetre.
 const MM: f64 = 1e-3;
 
-impl Run<'_> {
-    /// Takes the garment as sewn by an earlier run, from its `sewn.obj`.
+impl<'a> Run<'a> {
+    /// Takes the garment as sewn by an earlier run, from its `sewn.obj`: draping begins there.
     ///
     /// # Errors
     /// A file that cannot be read, or that is of another garment or spacing.
-    pub fn resume_sewn(&mut self, file: &Path) -> Result<(), PipelineError> {
-        let nodes = self.saved(file)?;
-        self.resume(&nodes, false);
-        Ok(())
+    pub fn from_sewn(job: &'a Job, file: &Path) -> Result<Self, PipelineError> {
+        let mut run = Self::new(job);
+        run.sewn = Some(run.saved(file)?);
+        Ok(run)
     }
 
-    /// Takes the garment as draped by an earlier run, from its `garment.obj`.
+    /// Takes the garment as draped by an earlier run, from its `garment.obj`: flattening begins there.
     ///
     /// # Errors
-    /// As [`Run::resume_sewn`].
-    pub fn resume_draped(&mut self, file: &Path) -> Result<(), PipelineError> {
-        let nodes = self.saved(file)?;
-        self.resume(&nodes, true);
-        Ok(())
+    /// As [`Run::from_sewn`].
+    pub fn from_draped(job: &'a Job, file: &Path) -> Result<Self, PipelineError> {
+        let mut run = Self::new(job);
+        run.draped = Some(run.saved(file)?);
+        Ok(run)
     }
 
-    /// Positions by class. Both [`Welded`] and the stitching number classes by their first particles.
+    /// Positions of every particle. Both [`Welded`] and the stitching number classes by their first particles.
     fn saved(&self, file: &Path) -> Result<Vec<Vec3>, PipelineError> {
         let surface = read_obj(file)?;
         let mesh = &self.job.mesh;
@@ -45,6 +46,7 @@ impl Run<'_> {
         if surface.triangles != welded.surface.triangles {
             return Err(other(format!("its triangles are not those of '{}'", self.job.garment.name)));
         }
-        Ok(surface.vertices.iter().map(|p| self.job.body.frame.from_file(p * MM)).collect())
+        let nodes: Vec<Vec3> = surface.vertices.iter().map(|p| self.job.body.frame.from_file(p * MM)).collect();
+        Ok(self.stitching.spread(&nodes))
     }
 }
