@@ -68,7 +68,12 @@ pub(super) enum Command {
     )]
     Export(ExportCommand),
     /// Read a pattern of another program and write it as a garment file
-    #[command(subcommand)]
+    #[command(
+        subcommand,
+        after_help = "Exit codes: 0 written, and 'toile check' accepts it as it is; 1 written, but 'toile check' \
+                      refuses it as it is, and what is still to be done in it is said; 2 the input is wrong, nothing \
+                      is written."
+    )]
     Import(ImportCommand),
     /// The library of fabrics, and fabric files from readings
     #[command(subcommand)]
