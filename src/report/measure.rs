@@ -148,6 +148,8 @@ fn pieces(run: &Measured, shapes: &Shapes, space: Option<&InSpace>) -> (Vec<Piec
             strain: space.map_or_else(Default::default, |space| piece_strain(mesh, piece, &elastic, space.at)),
         };
         let mut report = row(&part, shapes);
+        report.outline_distance =
+            shapes.flattened.as_deref().map(|at| outline_distance(&part.rim, &shapes.flat, at) * MM);
         report.stretched = given.and_then(|(at, tight)| stretched(mesh, &part.rim, part.strain.extension, tight, at));
         reports.push(report);
         total.triangles.extend(&part.triangles);
@@ -161,6 +163,7 @@ fn pieces(run: &Measured, shapes: &Shapes, space: Option<&InSpace>) -> (Vec<Piec
     (reports, whole)
 }
 
+/// What is known of one piece as of all; what only a piece has is left open.
 fn row(part: &Part, shapes: &Shapes) -> PieceReport {
     let uneven = part.rim.iter().filter(|e| e.uneven()).map(|e| e.triangle);
     let mut drawn_in: Vec<u32> = uneven.chain(part.gathered.iter().copied()).collect();
@@ -181,7 +184,7 @@ fn row(part: &Part, shapes: &Shapes) -> PieceReport {
         strain: part.strain.strain(),
         shear: part.strain.shear(),
         largest_edge_error: part.strain.largest,
-        outline_distance: shapes.flattened.as_deref().map(|at| outline_distance(&part.rim, &shapes.flat, at) * MM),
+        outline_distance: None,
         stretched: None,
     }
 }
