@@ -1,6 +1,6 @@
 //! What a line runs over: edges, cloth, or the open mouth of a dart or a hole.
 
-use super::lines::{REACHES, crossings};
+use super::lines::{Chords, REACHES};
 use crate::geometry::Path;
 use crate::pattern::{Along, Piece, Region, along};
 
@@ -21,29 +21,12 @@ pub(super) enum Course {
     Rim(Vec<Along>),
 }
 
-/// The parts of a line, in its order. What lies over no cloth is left out: a line runs through darts, which seams
-/// close, and over holes. A line that begins or ends off the cloth is left whole, to be complained of.
-pub(super) fn courses(line: &Path, piece: &Piece) -> Vec<Course> {
-    let cloth = Region::new(&piece.loops);
-    let mut out = Vec::new();
-    let mut reached = 0.0;
-    for stretch in along(line, &piece.loops) {
-        out.extend(across(line, [reached, stretch.line[0]], piece, &cloth));
-        reached = stretch.line[1].max(reached);
-        match out.last_mut() {
-            Some(Course::Rim(chain)) if chain.last().is_some_and(|last| goes_on(piece, last, &stretch)) => {
-                chain.push(stretch);
-            }
-            _ => out.push(Course::Rim(vec![stretch])),
-        }
-    }
-    out.extend(across(line, [reached, line.length()], piece, &cloth));
-    let begins = out.first().map_or(f64::INFINITY, |course| course.ends()[0]);
-    let ends = out.last().map_or(0.0, |course| course.ends()[1]);
-    if begins > NEAR || ends < line.length() - NEAR {
-        return vec![Course::Across { at: 0.0, path: line.clone() }];
-    }
-    out
+/// What the lines of a piece run over.
+pub(super) struct Ground<'a> {
+    piece: &'a Piece,
+    cloth: Region<'a>,
+    /// Of all its edges.
+    rim: Vec<Chords<'a>>,
 }
 
 impl Course {
@@ -56,26 +39,58 @@ impl Course {
     }
 }
 
+impl<'a> Ground<'a> {
+    pub(super) fn new(piece: &'a Piece) -> Self {
+        let rim = piece.loops.iter().flatten().map(|edge| Chords::new(&edge.path)).collect();
+        Self { piece, cloth: Region::new(&piece.loops), rim }
+    }
+
+    /// The parts of a line, in its order. What lies over no cloth is left out: a line runs through darts, which seams
+    /// close, and over holes. A line that begins or ends off the cloth is left whole, to be complained of.
+    pub(super) fn courses(&self, line: &Path) -> Vec<Course> {
+        let mut out = Vec::new();
+        let mut reached = 0.0;
+        for stretch in along(line, &self.piece.loops) {
+            out.extend(self.across(line, [reached, stretch.line[0]]));
+            reached = stretch.line[1].max(reached);
+            match out.last_mut() {
+                Some(Course::Rim(chain)) if chain.last().is_some_and(|last| goes_on(self.piece, last, &stretch)) => {
+                    chain.push(stretch);
+                }
+                _ => out.push(Course::Rim(vec![stretch])),
+            }
+        }
+        out.extend(self.across(line, [reached, line.length()]));
+        let begins = out.first().map_or(f64::INFINITY, |course| course.ends()[0]);
+        let ends = out.last().map_or(0.0, |course| course.ends()[1]);
+        if begins > NEAR || ends < line.length() - NEAR {
+            return vec![Course::Across { at: 0.0, path: line.clone() }];
+        }
+        out
+    }
+
+    /// The parts of a line between two of its arc lengths that lie on cloth: it is cut where it crosses the rim.
+    fn across(&self, line: &Path, [from, to]: [f64; 2]) -> Vec<Course> {
+        if to - from <= NEAR {
+            return Vec::new();
+        }
+        let whole = from <= 0.0 && to >= line.length();
+        let part = if whole { line.clone() } else { line.part(from, to) };
+        let length = part.length();
+        let chords = Chords::new(&part);
+        let met = self.rim.iter().flat_map(|edge| chords.crossings(edge)).map(|(s, _)| s);
+        let inner = met.filter(|s| (REACHES..=length - REACHES).contains(s));
+        let mut cuts: Vec<f64> = [0.0, length].into_iter().chain(inner).collect();
+        cuts.sort_by(f64::total_cmp);
+        cuts.dedup_by(|b, a| *b - *a < REACHES);
+        let kept = cuts.windows(2).filter(|w| self.cloth.holds(part.point((w[0] + w[1]) / 2.0)));
+        let path = |w: &[f64]| if cuts.len() == 2 { part.clone() } else { part.part(w[0], w[1]) };
+        kept.map(|w| Course::Across { at: from + w[0], path: path(w) }).collect()
+    }
+}
+
 /// Whether a stretch begins in the point where the last one ends.
 fn goes_on(piece: &Piece, last: &Along, next: &Along) -> bool {
     let point = |stretch: &Along, s: f64| piece.loops[stretch.edge.0][stretch.edge.1].path.point(s);
     (point(last, last.to) - point(next, next.from)).norm() <= REACHES
-}
-
-/// The parts of a line between two of its arc lengths that lie on cloth: it is cut where it crosses the rim.
-fn across(line: &Path, [from, to]: [f64; 2], piece: &Piece, cloth: &Region) -> Vec<Course> {
-    if to - from <= NEAR {
-        return Vec::new();
-    }
-    let whole = from <= 0.0 && to >= line.length();
-    let part = if whole { line.clone() } else { line.part(from, to) };
-    let length = part.length();
-    let met = piece.loops.iter().flatten().flat_map(|edge| crossings(&part, &edge.path)).map(|(s, _)| s);
-    let inner = met.filter(|s| (REACHES..=length - REACHES).contains(s));
-    let mut cuts: Vec<f64> = [0.0, length].into_iter().chain(inner).collect();
-    cuts.sort_by(f64::total_cmp);
-    cuts.dedup_by(|b, a| *b - *a < REACHES);
-    let kept = cuts.windows(2).filter(|w| cloth.holds(part.point((w[0] + w[1]) / 2.0)));
-    let path = |w: &[f64]| if cuts.len() == 2 { part.clone() } else { part.part(w[0], w[1]) };
-    kept.map(|w| Course::Across { at: from + w[0], path: path(w) }).collect()
 }

@@ -1,6 +1,6 @@
 //! Internal lines: which of them become chains of springs, where they meet the rim and each other.
 
-use super::course::{Course, courses};
+use super::course::{Course, Ground};
 use super::links::EdgeTable;
 use super::sampling::springs_for;
 use crate::geometry::{Path, Vec2};
@@ -64,8 +64,9 @@ impl LinePlan {
     pub(super) fn new(garment: &Garment, number: usize, edges: &EdgeTable, spacing: f64) -> Self {
         let piece = &garment.pieces[number];
         let mut plan = Self { lines: Vec::new(), rim: Vec::new(), knots: Vec::new() };
+        let ground = Ground::new(piece);
         for (n, line) in piece.lines.iter().enumerate().filter(|(_, l)| !matches!(l.kind, LineKind::Mark(_))) {
-            for course in courses(&line.path, piece) {
+            for course in ground.courses(&line.path) {
                 match course {
                     Course::Across { at, path } => plan.lines.push(PlannedLine {
                         number: n,
@@ -95,13 +96,15 @@ impl LinePlan {
 
     /// Finds where lines end on each other or cross.
     fn meet(&mut self) {
+        let paths: Vec<Path> = self.lines.iter().map(|l| l.path.clone()).collect();
+        let chords: Vec<Chords> = paths.iter().map(Chords::new).collect();
         for i in 0..self.lines.len() {
             for j in 0..self.lines.len() {
                 if i != j {
                     self.ends_on(i, j);
                 }
                 if i < j {
-                    for (s, t) in crossings(&self.lines[i].path, &self.lines[j].path) {
+                    for (s, t) in chords[i].crossings(&chords[j]) {
                         self.tie(i, s, j, t);
                     }
                 }
@@ -185,25 +188,34 @@ fn rim_at(piece: &Piece, number: usize, edges: &EdgeTable, p: Vec2) -> Option<(u
     best.map(|(_, edge, s)| (edge, s))
 }
 
-/// Arc lengths on both paths where they cross.
-pub(super) fn crossings(a: &Path, b: &Path) -> Vec<(f64, f64)> {
-    let (a_chords, b_chords) = (chords(a), chords(b));
-    let mut found = Vec::new();
-    for v in a_chords.windows(2) {
-        for w in b_chords.windows(2) {
-            if let Some((x, y)) = segments_cross([v[0].1, v[1].1], [w[0].1, w[1].1]) {
-                found.push(polish(a, b, v[0].0 + x * (v[1].0 - v[0].0), w[0].0 + y * (w[1].0 - w[0].0)));
-            }
-        }
-    }
-    found
+/// A path and its chords.
+pub(super) struct Chords<'a> {
+    path: &'a Path,
+    /// Arc lengths and points that cut it; a straight path is its own chord.
+    cuts: Vec<(f64, Vec2)>,
 }
 
-/// Arc lengths and points that cut a path into chords; a straight one is its own chord.
-fn chords(path: &Path) -> Vec<(f64, Vec2)> {
-    let length = path.length();
-    let n = if path.is_straight() { 1 } else { (length / CHORD).ceil().max(1.0) as usize };
-    (0..=n).map(|k| length * k as f64 / n as f64).map(|s| (s, path.point(s))).collect()
+impl<'a> Chords<'a> {
+    pub(super) fn new(path: &'a Path) -> Self {
+        let length = path.length();
+        let n = if path.is_straight() { 1 } else { (length / CHORD).ceil().max(1.0) as usize };
+        let cuts = (0..=n).map(|k| length * k as f64 / n as f64).map(|s| (s, path.point(s))).collect();
+        Self { path, cuts }
+    }
+
+    /// Arc lengths on this path and the other where they cross.
+    pub(super) fn crossings(&self, other: &Self) -> Vec<(f64, f64)> {
+        let mut found = Vec::new();
+        for v in self.cuts.windows(2) {
+            for w in other.cuts.windows(2) {
+                if let Some((x, y)) = segments_cross([v[0].1, v[1].1], [w[0].1, w[1].1]) {
+                    let (s, t) = (v[0].0 + x * (v[1].0 - v[0].0), w[0].0 + y * (w[1].0 - w[0].0));
+                    found.push(polish(self.path, other.path, s, t));
+                }
+            }
+        }
+        found
+    }
 }
 
 /// Shares along both segments where they cross.

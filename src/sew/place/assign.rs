@@ -2,7 +2,7 @@
 
 use super::PlaceError;
 use crate::mannequin::PartKind;
-use crate::mesh::ClothMesh;
+use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::{Garment, Piece, Place, PlaceWord, Side, place_word};
 
 /// Where a piece goes.
@@ -122,6 +122,7 @@ fn facing_of(words: &[String]) -> Option<Facing> {
 
 /// A piece for an arm or a leg whose side nothing says goes where the pieces it is sewn to are.
 fn sort_out_sides(garment: &Garment, mesh: &ClothMesh, out: &mut [Assigned]) {
+    let middles = middles(mesh);
     let mut seen = [false; 2];
     for (i, piece) in garment.pieces.iter().enumerate() {
         let limbs = match out[i].part {
@@ -136,7 +137,7 @@ fn sort_out_sides(garment: &Garment, mesh: &ClothMesh, out: &mut [Assigned]) {
             continue;
         }
         // The trunk is drawn as seen from outside: on a front the wearer's left is at larger x.
-        let lean = lean(mesh, out, i);
+        let lean = lean(mesh, &middles, out, i);
         let left = if lean == 0.0 { !seen[0] } else { lean > 0.0 };
         seen[usize::from(!left)] = true;
         out[i].part = limbs[usize::from(!left)];
@@ -173,13 +174,17 @@ fn join_legs(mesh: &ClothMesh, out: &mut [Assigned]) {
     out.iter_mut().zip(trunk).filter(|(_, t)| *t).for_each(|(a, _)| a.part = PartKind::Torso);
 }
 
-/// Positive when piece `i` is sewn to the wearer's left of trunk pieces.
-fn lean(mesh: &ClothMesh, assigned: &[Assigned], i: usize) -> f64 {
-    let middle = |q: usize| {
-        let range = mesh.pieces[q].particles.clone();
-        let count = range.len().max(1) as f64;
-        range.map(|p| mesh.flat[p].x).sum::<f64>() / count
+/// Mean x of every piece as drawn, metres.
+fn middles(mesh: &ClothMesh) -> Vec<f64> {
+    let middle = |piece: &PieceMesh| {
+        let count = piece.particles.len().max(1) as f64;
+        piece.particles.clone().map(|p| mesh.flat[p].x).sum::<f64>() / count
     };
+    mesh.pieces.iter().map(middle).collect()
+}
+
+/// Positive when piece `i` is sewn to the wearer's left of trunk pieces, whose middles are at `middles`.
+fn lean(mesh: &ClothMesh, middles: &[f64], assigned: &[Assigned], i: usize) -> f64 {
     let mut sum = 0.0;
     for [a, b] in mesh.seams.iter().flat_map(|s| &s.pairs) {
         for (p, q) in [(*a, *b), (*b, *a)] {
@@ -188,7 +193,7 @@ fn lean(mesh: &ClothMesh, assigned: &[Assigned], i: usize) -> f64 {
             }
             let of_trunk = |&other: &usize| other != i && assigned[other].part == PartKind::Torso;
             let Some(other) = mesh.piece_of(q).filter(of_trunk) else { continue };
-            let x = mesh.flat[q as usize].x - middle(other);
+            let x = mesh.flat[q as usize].x - middles[other];
             sum += if assigned[other].facing == Some(Facing::Back) { -x } else { x };
         }
     }
