@@ -9,7 +9,7 @@ use super::check_mesh::check_mesh;
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use crate::pattern::{Diagnostic, Garment, Give, SeamWalk, Severity, openings, walk};
-use crate::pipeline::{self, PipelineError, piece_area};
+use crate::pipeline::{self, PipelineError};
 use crate::report::aligned;
 
 /// `toile check`
@@ -114,7 +114,7 @@ impl Summary {
         let piece = |p: &crate::pattern::Piece| PieceRow {
             name: p.name.clone(),
             fabric: p.fabric.clone(),
-            area: piece_area(p) * MM * MM,
+            area: p.area() * MM * MM,
             edges: p.loops.iter().map(Vec::len).sum(),
         };
         Self {

@@ -59,9 +59,7 @@ fn measure(piece: &Piece) -> Result<(f64, f64), MeshError> {
     if piece.loops.is_empty() || piece.loops.iter().any(Vec::is_empty) {
         return Err(MeshError::NoOutline { piece: piece.name.clone() });
     }
-    let edges = || piece.loops.iter().flatten();
-    let area = 0.5 * edges().map(|e| e.path.double_area()).sum::<f64>();
-    let perimeter: f64 = edges().map(|e| e.path.length()).sum();
+    let (area, perimeter) = (piece.area(), piece.boundary_length());
     if !(area > 0.0 && perimeter.is_finite()) {
         return Err(MeshError::InsideOut { piece: piece.name.clone(), area });
     }

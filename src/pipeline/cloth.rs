@@ -78,18 +78,13 @@ impl<'a> Fabrics<'a> {
 
 /// The fabric that most of the cloth is cut from; of equals the one named first.
 fn main_fabric(garment: &Garment) -> Option<usize> {
-    let used = |name: &str| garment.pieces.iter().filter(|p| p.fabric == name).map(piece_area).sum::<f64>();
+    let used = |name: &str| garment.pieces.iter().filter(|p| p.fabric == name).map(Piece::area).sum::<f64>();
     let areas = garment.fabrics.iter().map(|f| used(&f.name));
     let larger = |best: Option<(usize, f64)>, (k, area): (usize, f64)| match best {
         Some((_, most)) if area <= most => best,
         _ => Some((k, area)),
     };
     areas.enumerate().fold(None, larger).map(|(k, _)| k)
-}
-
-/// Area of a piece without its holes, m².
-pub fn piece_area(piece: &Piece) -> f64 {
-    piece.loops.iter().flatten().map(|e| e.path.double_area()).sum::<f64>() / 2.0
 }
 
 /// A file the user names lies where the user is, not beside the garment; a name stays a name.

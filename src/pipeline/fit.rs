@@ -1,6 +1,5 @@
 //! Whether a garment suits its body before cloth moves: its size, and where its pieces start.
 
-use super::cloth::piece_area;
 use crate::contact::Collider;
 use crate::geometry::{Vec2, box_of, range_of};
 use crate::io::garment::Loaded;
@@ -25,7 +24,7 @@ pub(super) fn doubt_size(loaded: &Loaded, body: &Mannequin, findings: &mut Findi
     let [low, high] = range_of(body.mesh.vertices.iter().map(|v| v.y));
     let height = high - low;
     let longest = loaded.garment.pieces.iter().rev().map(|p| (p, diagonal(p))).max_by(|a, b| a.1.total_cmp(&b.1));
-    let largest = loaded.garment.pieces.iter().map(|p| piece_area(p).max(0.0).sqrt()).fold(0.0, f64::max);
+    let largest = loaded.garment.pieces.iter().map(|p| p.area().max(0.0).sqrt()).fold(0.0, f64::max);
     let Some((piece, length)) = longest else { return };
     let small = length < SMALL * height;
     if small || largest > LARGE * height {

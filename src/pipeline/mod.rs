@@ -27,7 +27,6 @@ mod too_small;
 use crate::report::AtRest;
 pub use crate::sew::SewError;
 pub use caught::Caught;
-pub use cloth::piece_area;
 pub use error::PipelineError;
 pub use job::{Job, Overrides, read};
 pub use judged::{Judged, judge};
