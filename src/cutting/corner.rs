@@ -6,7 +6,7 @@
 //! edge, and from there straight out, or mirrored in that sewing line, to the special edge's cut line.
 
 use super::offset::Run;
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, mirrored};
 use crate::pattern::Corner;
 
 /// A mitre may be this many times as long as the wider allowance; past it (corners of less than 39 degrees) its point
@@ -208,10 +208,6 @@ fn folded_cap(x: &Arm, y: &Arm, [near, far]: [Vec2; 2], tip: Vec2, reach: f64) -
 /// The points of a polyline after a place on it.
 fn rest(line: &[Vec2], at: f64) -> impl Iterator<Item = Vec2> + '_ {
     line.iter().enumerate().filter(move |&(k, _)| k as f64 > at).map(|(_, p)| *p)
-}
-
-fn mirrored(p: Vec2, on: Vec2, along: Vec2) -> Vec2 {
-    on + 2.0 * along * along.dot(&(p - on)) - (p - on)
 }
 
 /// Length of a polyline up to a place on it.

@@ -1,6 +1,6 @@
 //! Where on a piece there is room: for letters clear of all lines, and for an arrow along the grain.
 
-use crate::geometry::{Vec2, range_of};
+use crate::geometry::{Vec2, encloses, range_of, sides_of};
 
 /// Places looked at along each side of the piece's box.
 const PLACES: usize = 40;
@@ -37,16 +37,7 @@ impl Room {
 
     /// Whether `p` is on the cloth.
     pub fn holds(&self, p: Vec2) -> bool {
-        let mut inside = false;
-        for contour in &self.contours {
-            let next = contour.iter().cycle().skip(1);
-            for (a, b) in contour.iter().zip(next) {
-                if (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) {
-                    inside = !inside;
-                }
-            }
-        }
-        inside
+        encloses(self.contours.iter().flat_map(|contour| sides_of(contour)), p)
     }
 
     /// Where a block of text of this size (in heights of letters) has most room, and how high its letters may be.

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::chain::{chained, is_closed};
 use super::holes::holes_of;
 use super::{Inner, Remark, Role, Stroke, Traced};
-use crate::geometry::{Path, Vec2, distance_to_segment};
+use crate::geometry::{Path, Vec2, distance_to_segment, encloses, sides_of};
 use crate::pattern::Cut;
 
 /// A closed line round less than this (square metres, a square of 3 cm) is no piece.
@@ -68,8 +68,7 @@ impl Contour {
 
     /// How far a point is from its line.
     fn off(&self, p: Vec2) -> f64 {
-        let chords = self.points.iter().zip(self.points.iter().cycle().skip(1));
-        chords.map(|(&a, &b)| distance_to_segment(p, [a, b])).fold(f64::INFINITY, f64::min)
+        sides_of(&self.points).map(|side| distance_to_segment(p, side)).fold(f64::INFINITY, f64::min)
     }
 
     fn area(&self) -> f64 {
@@ -77,14 +76,7 @@ impl Contour {
     }
 
     fn holds(&self, p: Vec2) -> bool {
-        let mut inside = false;
-        let next = self.points.iter().cycle().skip(1);
-        for (a, b) in self.points.iter().zip(next) {
-            if (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) {
-                inside = !inside;
-            }
-        }
-        inside
+        encloses(sides_of(&self.points), p)
     }
 }
 

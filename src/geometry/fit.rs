@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 
 use nalgebra::{DMatrix, DVector, Matrix2};
 
-use super::Vec2;
+use super::{Vec2, shares_along};
 
 /// A cubic Bézier curve: its ends and, between them, its two handles.
 pub type Cubic = [Vec2; 4];
@@ -84,7 +84,7 @@ fn direction(points: &[Vec2], k: usize) -> Vec2 {
 /// is given the curve has it.
 fn fit(points: &[Vec2], start: Option<Vec2>, end: Option<Vec2>) -> Option<(Cubic, f64)> {
     let (first, last) = (points[0], points[points.len() - 1]);
-    let mut at = chord_lengths(points)?;
+    let mut at = shares_along(points.iter().copied())?;
     let mut best: Option<(Cubic, f64)> = None;
     let mut before: Option<Cubic> = None;
     for round in 0..ROUNDS.0 {
@@ -106,16 +106,6 @@ fn fit(points: &[Vec2], start: Option<Vec2>, end: Option<Vec2>) -> Option<(Cubic
 /// Length along the points.
 fn walked(points: &[Vec2]) -> f64 {
     points.windows(2).map(|step| (step[1] - step[0]).norm()).sum()
-}
-
-/// Lengths along the points, from 0 to 1; `None` where they have none.
-fn chord_lengths(points: &[Vec2]) -> Option<Vec<f64>> {
-    let mut walked = vec![0.0];
-    for step in points.windows(2) {
-        walked.push(walked[walked.len() - 1] + (step[1] - step[0]).norm());
-    }
-    let all = walked[walked.len() - 1];
-    (all > 0.0).then(|| walked.into_iter().map(|w| w / all).collect())
 }
 
 /// Bernstein's polynomials of the third degree.

@@ -1,4 +1,4 @@
-//! The ground floor: vectors, curves, triangle meshes, disjoint sets, exact predicates.
+//! The ground floor: vectors, curves, rows of points, triangle meshes, disjoint sets, exact predicates.
 
 mod arc;
 mod bisect;
@@ -6,6 +6,7 @@ mod curve;
 mod extent;
 mod fit;
 mod locator;
+mod polyline;
 mod predicate;
 mod segment;
 mod sets;
@@ -17,6 +18,7 @@ pub use curve::{Path, PathError, Station, parse_transform};
 pub(crate) use extent::{box_of, range_of};
 pub use fit::{Cubic, smooth_curves};
 pub(crate) use locator::Locator;
+pub(crate) use polyline::{encloses, mirrored, shares_along, sides_of};
 pub(crate) use predicate::pierces;
 pub(crate) use segment::distance_to_segment;
 pub(crate) use sets::DisjointSets;

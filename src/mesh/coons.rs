@@ -5,7 +5,7 @@ use super::lines::LinePlan;
 use super::links::{EdgeTable, Link, Stretch};
 use super::shape::{quality, quality_of_degrees};
 use super::{Fill, Method};
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, shares_along};
 use crate::pattern::{EdgeId, Piece};
 
 /// With [`Method::Auto`] a four-sided piece this many times as long as wide is a band.
@@ -41,7 +41,7 @@ pub(super) fn links(piece: &Piece, number: usize, edges: &EdgeTable) -> Vec<Link
 /// follow a row or column, or the result would be badly shaped.
 pub(super) fn fill(frame: &Frame, plan: &LinePlan, method: Method) -> Option<Fill> {
     let sheet = Sheet::new(frame)?;
-    let points = sheet.points(frame);
+    let points = sheet.points(frame)?;
     let lines = plan.lines.iter().map(|line| {
         let chain =
             sheet.chain_between(line.stops.first()?.rim.map(|_| line.path.start())?, line.path.end(), &points)?;
@@ -102,12 +102,12 @@ impl Sheet {
         (0..self.rows).map(|j| self.at(i, j)).collect()
     }
 
-    /// Coons' interpolation of the inner vertices between the rim's.
-    fn points(&self, frame: &Frame) -> Vec<Vec2> {
+    /// Coons' interpolation of the inner vertices between the rim's; `None` where a side has no length.
+    fn points(&self, frame: &Frame) -> Option<Vec<Vec2>> {
         let rim = |v: u32| frame.points[v as usize];
         let (last_i, last_j) = (self.columns - 1, self.rows - 1);
-        let across = shares(&self.row(0), &self.row(last_j), frame);
-        let along = shares(&self.column(0), &self.column(last_i), frame);
+        let across = shares(&self.row(0), &self.row(last_j), frame)?;
+        let along = shares(&self.column(0), &self.column(last_i), frame)?;
         let mut points = frame.points.clone();
         points.resize(self.total, Vec2::zeros());
         for j in 1..last_j {
@@ -120,7 +120,7 @@ impl Sheet {
                 points[self.at(i, j) as usize] = rows + columns - corners;
             }
         }
-        points
+        Some(points)
     }
 
     /// Two triangles a cell, diagonals alternating, but from the corner in the four corner cells.
@@ -159,16 +159,8 @@ impl Sheet {
     }
 }
 
-/// Mean share of the way along two opposite sides at each of their particles.
-fn shares(a: &[u32], b: &[u32], frame: &Frame) -> Vec<f64> {
-    let ways = [a, b].map(|side| {
-        let mut way = vec![0.0];
-        for w in side.windows(2) {
-            let step = (frame.points[w[1] as usize] - frame.points[w[0] as usize]).norm();
-            way.push(way[way.len() - 1] + step);
-        }
-        let total = way[way.len() - 1];
-        way.into_iter().map(|x| x / total).collect::<Vec<_>>()
-    });
-    ways[0].iter().zip(&ways[1]).map(|(x, y)| 0.5 * (x + y)).collect()
+/// Mean share of the way along two opposite sides at each of their particles; `None` where one has no length.
+fn shares(a: &[u32], b: &[u32], frame: &Frame) -> Option<Vec<f64>> {
+    let way = |side: &[u32]| shares_along(side.iter().map(|&v| frame.points[v as usize]));
+    Some(way(a)?.into_iter().zip(way(b)?).map(|(x, y)| 0.5 * (x + y)).collect())
 }

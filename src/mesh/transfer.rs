@@ -1,7 +1,7 @@
 //! From one mesh of a garment to another, coarser or finer.
 
 use super::ClothMesh;
-use crate::geometry::{Locator, Vec2, Vec3};
+use crate::geometry::{Locator, Vec2, Vec3, shares_along};
 
 /// Where the particles of one mesh lie in another of the same garment: each in the triangle of its piece that holds its
 /// flat position, or continued beyond the one that comes nearest (a coarser rim cuts off its curves). Those of an edge
@@ -42,14 +42,9 @@ impl Transfer {
     }
 }
 
-/// How far along a chain each of its particles is, 0 … 1.
+/// How far along a chain each of its particles is, 0 … 1; all at its start where it has no length.
 fn shares(flat: &[Vec2], chain: &[u32]) -> Vec<f64> {
-    let mut out = vec![0.0; chain.len()];
-    for (k, pair) in chain.windows(2).enumerate() {
-        out[k + 1] = out[k] + (flat[pair[1] as usize] - flat[pair[0] as usize]).norm();
-    }
-    let whole = out.last().copied().unwrap_or(0.0).max(f64::MIN_POSITIVE);
-    out.iter().map(|s| s / whole).collect()
+    shares_along(chain.iter().map(|&n| flat[n as usize])).unwrap_or_else(|| vec![0.0; chain.len()])
 }
 
 /// The place `share` of the way along a chain whose particles are at `shares` of it.

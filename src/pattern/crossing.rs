@@ -1,7 +1,7 @@
 //! Outlines that cross themselves or their holes.
 
 use super::Edge;
-use crate::geometry::Vec2;
+use crate::geometry::{Path, Vec2, encloses};
 
 /// Curves are looked at as chords that leave them by at most this (metres).
 pub(super) const CHORD_ERROR: f64 = 2e-5;
@@ -21,8 +21,8 @@ pub(super) fn first_crossing(rings: &[Vec<Edge>]) -> Option<(Vec2, [(usize, usiz
     for (ring, edges) in rings.iter().enumerate() {
         let before = chords.len();
         for (edge, e) in edges.iter().enumerate() {
-            for w in e.path.sampled(CHORD_ERROR).windows(2) {
-                chords.push(Chord { ends: [w[0], w[1]], ring, index: chords.len() - before, edge });
+            for ends in self::chords(&e.path) {
+                chords.push(Chord { ends, ring, index: chords.len() - before, edge });
             }
         }
         counts.push(chords.len() - before);
@@ -61,16 +61,12 @@ fn intersection(a: [Vec2; 2], b: [Vec2; 2]) -> Option<Vec2> {
     (inside(s) && inside(t)).then(|| a[0] + u * s)
 }
 
-/// Whether `point` lies inside the ring (even–odd rule).
+/// Whether `point` lies inside the ring.
 pub(super) fn contains(ring: &[Edge], point: Vec2) -> bool {
-    let mut inside = false;
-    for edge in ring {
-        for w in edge.path.sampled(CHORD_ERROR).windows(2) {
-            let (a, b) = (w[0], w[1]);
-            if (a.y > point.y) != (b.y > point.y) && point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x) {
-                inside = !inside;
-            }
-        }
-    }
-    inside
+    encloses(ring.iter().flat_map(|edge| chords(&edge.path)), point)
+}
+
+/// A path as chords, which leave it by at most [`CHORD_ERROR`].
+pub(super) fn chords(path: &Path) -> Vec<[Vec2; 2]> {
+    path.sampled(CHORD_ERROR).windows(2).map(|w| [w[0], w[1]]).collect()
 }

@@ -8,7 +8,7 @@ use super::outline::whole_path;
 use super::problem::Problem;
 use super::region::{Region, first_off};
 use super::{Line, LineKind};
-use crate::geometry::{Path, Vec2};
+use crate::geometry::{Path, Vec2, mirrored};
 use crate::input::nearest;
 
 /// A line that bends or gathers the cloth is at least this long (metres): a shorter one is a slip of the pen, and would
@@ -114,5 +114,5 @@ fn contradiction(line: &LineFile) -> Option<String> {
 /// The reflection across a straight edge.
 fn across(edge: &Path) -> impl Fn(Vec2) -> Vec2 + use<> {
     let (start, along) = (edge.start(), (edge.end() - edge.start()).normalize());
-    move |p| start + 2.0 * along * along.dot(&(p - start)) - (p - start)
+    move |p| mirrored(p, start, along)
 }

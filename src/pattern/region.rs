@@ -1,8 +1,8 @@
 //! Where the cloth of a piece is.
 
 use super::Edge;
-use super::crossing::CHORD_ERROR;
-use crate::geometry::{Path, Vec2};
+use super::crossing::chords;
+use crate::geometry::{Path, Vec2, encloses};
 
 /// What misses the cloth by no more than this (metres) is meant to be on its rim.
 pub(crate) const SLACK: f64 = 1e-3;
@@ -21,14 +21,13 @@ pub(crate) struct Region<'a> {
 impl<'a> Region<'a> {
     /// Of an outline and the holes that follow it.
     pub(crate) fn new(rings: &'a [Vec<Edge>]) -> Self {
-        let chords = |path: &Path| path.sampled(CHORD_ERROR).windows(2).map(|w| [w[0], w[1]]).collect::<Vec<_>>();
         let ring = |edges: &Vec<Edge>| edges.iter().flat_map(|e| chords(&e.path)).collect();
         Self { rings, chords: rings.iter().map(ring).collect() }
     }
 
     /// Whether there is cloth at `p`, or its rim.
     pub(crate) fn holds(&self, p: Vec2) -> bool {
-        let within = |(k, chords): (usize, &Vec<[Vec2; 2]>)| surrounds(chords, p) == (k == 0);
+        let within = |(k, chords): (usize, &Vec<[Vec2; 2]>)| encloses(chords.iter().copied(), p) == (k == 0);
         self.chords.iter().enumerate().all(within)
             || self.rings.iter().flatten().any(|edge| edge.path.nearest(p).1 <= SLACK)
     }
@@ -44,15 +43,4 @@ pub(super) fn first_off(path: &Path, holds: impl Fn(Vec2) -> bool) -> Option<Vec
 /// In how many steps what is so long (metres) is looked at.
 pub(super) fn looks(length: f64) -> usize {
     (length / STEP).clamp(2.0, MOST_LOOKS).ceil() as usize
-}
-
-/// Even–odd rule.
-fn surrounds(ring: &[[Vec2; 2]], p: Vec2) -> bool {
-    let mut inside = false;
-    for [a, b] in ring {
-        if (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) {
-            inside = !inside;
-        }
-    }
-    inside
 }
