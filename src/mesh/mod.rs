@@ -31,7 +31,7 @@ pub use build::{build, build_with};
 pub use check::{CheckError, check};
 pub use elastic::DrawnIn;
 pub use error::{MeshError, SeamFault};
-pub use springs::{Spring, SpringClass};
+pub use springs::SpringClass;
 pub use transfer::Transfer;
 
 use build::Fill;

@@ -1,10 +1,10 @@
 //! Springs by their direction in the cloth (F1).
 
-use super::{ClothMesh, PieceMesh};
-use crate::geometry::{Topology, Vec2};
+use crate::geometry::Vec2;
 
-/// A spring within this angle (radians; 10°) of a thread direction pulls on those threads; others shear the cloth.
-const ALONG_THREADS: f64 = 0.1745;
+/// A spring within this angle (radians; 10°, the slack the mesh needs near curved rims) of a thread direction pulls on
+/// those threads; others shear the cloth.
+const ALONG_THREADS: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
 /// Which threads a spring pulls on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -17,41 +17,18 @@ pub enum SpringClass {
     Bias,
 }
 
-/// A mesh edge as a spring.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Spring {
-    /// Its particles, the smaller number first.
-    pub ends: [u32; 2],
-    /// Its direction in the flat piece.
-    pub class: SpringClass,
-}
-
-impl ClothMesh {
-    /// Every mesh edge once, sorted by its ends, with the class of its direction in the flat piece: within 10° of
-    /// warp or weft, else bias.
-    pub fn edge_classes(&self) -> Vec<Spring> {
-        let piece_springs = |piece: &PieceMesh| {
-            let edges = Topology::new(&self.triangles[piece.triangles.clone()]).edges;
-            let warp = piece.warp;
-            edges.into_iter().map(move |edge| {
-                let [a, b] = edge.ends.map(|v| self.flat[v as usize]);
-                Spring { ends: edge.ends, class: class_of(b - a, warp) }
-            })
-        };
-        self.pieces.iter().flat_map(piece_springs).collect()
-    }
-}
-
-/// Class of a spring with this flat course.
-fn class_of(course: Vec2, warp: Vec2) -> SpringClass {
-    let (along, across) = (course.dot(&warp).abs(), course.perp(&warp).abs());
-    let slope = ALONG_THREADS.tan();
-    if across <= slope * along {
-        SpringClass::Warp
-    } else if along <= slope * across {
-        SpringClass::Weft
-    } else {
-        SpringClass::Bias
+impl SpringClass {
+    /// That of a spring with this flat course, in a piece with this warp.
+    pub fn of(course: Vec2, warp: Vec2) -> Self {
+        let (along, across) = (course.dot(&warp).abs(), course.perp(&warp).abs());
+        let slope = ALONG_THREADS.tan();
+        if across <= slope * along {
+            Self::Warp
+        } else if along <= slope * across {
+            Self::Weft
+        } else {
+            Self::Bias
+        }
     }
 }
 
@@ -72,7 +49,11 @@ mod tests {
             (45.0, 135.0, SpringClass::Weft),
             (45.0, 90.0, SpringClass::Bias),
         ] {
-            assert_eq!(class_of(0.01 * degrees(course), degrees(grain)), class, "grain {grain}, course {course}");
+            assert_eq!(
+                SpringClass::of(0.01 * degrees(course), degrees(grain)),
+                class,
+                "grain {grain}, course {course}"
+            );
         }
     }
 }

@@ -5,10 +5,7 @@ use std::collections::HashSet;
 use super::schema::Spread;
 use super::statistics::spread;
 use crate::geometry::{Topology, Vec2, Vec3};
-use crate::mesh::{ClothMesh, PieceMesh};
-
-/// An edge counts as warp or weft within this angle of it: 10°, the slack the mesh needs near curved rims.
-const THREAD_ANGLE: f64 = 10.0 * std::f64::consts::PI / 180.0;
+use crate::mesh::{ClothMesh, PieceMesh, SpringClass};
 
 /// How the edges and triangles of a piece changed.
 #[derive(Clone, Debug, Default)]
@@ -98,15 +95,11 @@ fn edge_strains(mesh: &ClothMesh, piece: &PieceMesh, at: &[Vec3]) -> Vec<([u32; 
 
 /// 0 for an edge along the warp, 1 along the weft, none for a bias one.
 fn thread(mesh: &ClothMesh, piece: &PieceMesh, ends: [u32; 2]) -> Option<usize> {
-    let along = mesh.flat[ends[1] as usize] - mesh.flat[ends[0] as usize];
-    let (up, across) = (along.dot(&piece.warp).abs(), along.perp(&piece.warp).abs());
-    let slope = THREAD_ANGLE.tan();
-    if across <= up * slope {
-        Some(0)
-    } else if up <= across * slope {
-        Some(1)
-    } else {
-        None
+    let course = mesh.flat[ends[1] as usize] - mesh.flat[ends[0] as usize];
+    match SpringClass::of(course, piece.warp) {
+        SpringClass::Warp => Some(0),
+        SpringClass::Weft => Some(1),
+        SpringClass::Bias => None,
     }
 }
 
