@@ -886,7 +886,12 @@ fn an_input_is_never_overwritten() {
     room.put("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     room.run(&["flatten", "flat.obj", "-o", "."]).ends(2).says(&["flat.obj", "is an input"]);
     assert!(room.bytes("garment.obj") == before);
-    assert_eq!(room.names("."), ["flat.obj", "garment.obj", "skirt.yaml"]);
+    // What the garment file names counts as much as what the user does; JSON is YAML, too.
+    room.put("report.json", "{\"weight\": \"120 g/m2\", \"bend\": \"5e-6 N m\"}");
+    room.put("coat.yaml", &skirt_with("cotton_poplin", "report.json"));
+    let onto = ["make", "coat.yaml", "-o", ".", "--spacing", COARSE];
+    room.run(&onto).ends(2).says(&["report.json", "is an input"]);
+    assert_eq!(room.names("."), ["coat.yaml", "flat.obj", "garment.obj", "report.json", "skirt.yaml"]);
 }
 
 #[test]

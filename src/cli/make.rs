@@ -9,7 +9,7 @@ use crate::flatten;
 use crate::io::files::{check_writable, write_all};
 use crate::pipeline::{
     AT_REST, Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, Job, Overrides, PATTERN_SVG, PLACED_OBJ, PipelineError,
-    REPORT_JSON, ResultFile, Run, SEWN_OBJ, read,
+    REPORT_JSON, ResultFile, Run, SEWN_OBJ, inputs, read,
 };
 use crate::report::{ClosureReport, Report, restless, table, verdicts};
 
@@ -101,15 +101,12 @@ fn plan<'a>(args: &'a GarmentArgs, goal: Goal<'a>) -> Plan<'a> {
 pub(super) fn carry_out(plan: &Plan, console: &Console) -> Result<Exit, CliError> {
     let loaded = read(plan.garment)?;
     let folder = folder(plan.output, &loaded.garment.name);
-    let named = [plan.overrides.body.as_deref(), plan.overrides.fabric.as_deref()];
-    let mut inputs: Vec<PathBuf> = named.into_iter().flatten().map(PathBuf::from).collect();
+    let mut inputs = inputs(plan.garment, &loaded.garment, &plan.overrides);
     inputs.extend(plan.goal.from().map(Path::to_owned));
-    inputs.push(plan.garment.to_owned());
     let targets: Vec<PathBuf> = plan.goal.files().iter().map(|name| folder.join(name)).collect();
     // Better now than after minutes of sewing.
     check_writable(&targets, &borrowed(&inputs))?;
     let job = Job::new(plan.garment, loaded, &plan.overrides)?;
-    inputs.extend(job.inputs.iter().cloned());
     job.notes.iter().for_each(|note| console.note(note));
     let mut run = plan.goal.begin(&job)?;
     if let Err(error) = plan.goal.reach(&mut run, console) {

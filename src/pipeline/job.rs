@@ -51,8 +51,6 @@ pub struct Job {
     pub mesh: ClothMesh,
     /// What was read in a way its author may not have meant: one text each.
     pub notes: Vec<String>,
-    /// Files the job was made from; none may be overwritten.
-    pub inputs: Vec<PathBuf>,
     /// How the meshing went.
     pub(super) meshing: Stage,
 }
@@ -96,17 +94,25 @@ impl Job {
         let collider = collider.on_floor(body.floor());
         let stance = Stance::of(&body, &loaded.garment);
         notes.extend(stance.as_ref().map(|stance| format!("{wanted}: {}", spread(stance))));
-        let named = [overrides.fabric.as_deref(), Some(wanted.as_str())];
-        let files = named.into_iter().flatten().map(PathBuf::from).filter(|p| p.is_file());
-        let inputs = std::iter::once(file.to_owned()).chain(files).collect();
         let garment = loaded.garment;
-        Ok(Self { file: file.to_owned(), garment, fabrics, body, collider, stance, mesh, notes, inputs, meshing })
+        Ok(Self { file: file.to_owned(), garment, fabrics, body, collider, stance, mesh, notes, meshing })
     }
 
     /// Names of the fabrics in use, joined with ` + `.
     pub fn fabric_names(&self) -> String {
         cloth::names(&self.fabrics)
     }
+}
+
+/// Files that a job is made from, of which none may be overwritten: the garment file, its fabrics' and the body's, and
+/// those that take their places. (A fabric's curves are left out: no result is a `.csv`.)
+pub fn inputs(file: &Path, garment: &Garment, overrides: &Overrides) -> Vec<PathBuf> {
+    let folder = file.parent().unwrap_or(Path::new(""));
+    let fabrics = garment.fabrics.iter().filter_map(|f| f.spec.base.as_deref()).map(|base| folder.join(base));
+    let body = material::body_name(file, garment.body.as_deref(), overrides.body.as_deref()).ok();
+    let named = overrides.fabric.iter().chain(&body).map(PathBuf::from);
+    let files = fabrics.chain(named).filter(|path| path.is_file());
+    std::iter::once(file.to_owned()).chain(files).collect()
 }
 
 /// What a user should know of a body that does not stand as it is sewn on.

@@ -236,7 +236,7 @@ fn cannot_be_had(error: &BodyError) -> bool {
 }
 
 /// The body to load: what the user asks for, else what the file says, its own path being relative to the file.
-fn body_name(file: &Path, said: Option<&str>, instead: Option<&str>) -> Result<String, PipelineError> {
+pub(super) fn body_name(file: &Path, said: Option<&str>, instead: Option<&str>) -> Result<String, PipelineError> {
     if let Some(name) = instead {
         return Ok(name.to_owned());
     }

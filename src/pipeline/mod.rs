@@ -28,7 +28,7 @@ use crate::report::AtRest;
 pub use crate::sew::SewError;
 pub use caught::Caught;
 pub use error::PipelineError;
-pub use job::{Job, Overrides, read};
+pub use job::{Job, Overrides, inputs, read};
 pub use judged::{Judged, judge};
 pub use material::check;
 pub use results::{
