@@ -1,4 +1,4 @@
-//! A static uniform grid over small primitives (the body's vertices and edges).
+//! A static uniform grid over small primitives (the body's vertices, edges and triangles).
 
 use crate::geometry::{Vec3, box_of};
 

@@ -31,6 +31,14 @@ pub enum StepError {
         /// The node.
         node: usize,
     },
+    /// The matrix has no place for two particles that act on each other: a mistake in this program.
+    #[error("the step's matrix has no place for particles {a} and {b}, which the cloth couples; please report this")]
+    Uncoupled {
+        /// The one.
+        a: usize,
+        /// The other.
+        b: usize,
+    },
 }
 
 /// Contacts whose gap a step misjudges by less than this, metres, are no reason to solve it again.
@@ -131,11 +139,10 @@ impl Stepper {
         graph.extend(cloth.creases.iter().map(|c| [c.nodes[2], c.nodes[3]]));
         let pattern = Arc::new(SymmetricPattern::blocks(n, graph.iter().map(|e| (e[0] as usize, e[1] as usize)))?);
         let order = Ordering::Given(nested_dissection(x, &graph));
-        let slot = |a: usize, b: usize| pattern.block_slot(a, b);
-        let missing = || StepError::Singular { node: 0 };
-        let find = |e: [u32; 2]| slot(e[0] as usize, e[1] as usize).ok_or_else(missing);
+        let slot = |[a, b]: [u32; 2]| pattern.block_slot(a as usize, b as usize);
+        let find = |[a, b]: [u32; 2]| slot([a, b]).ok_or(StepError::Uncoupled { a: a as usize, b: b as usize });
         Ok(Self {
-            diagonal: (0..n).map(|i| slot(i, i).ok_or_else(missing)).collect::<Result<_, _>>()?,
+            diagonal: (0..n as u32).map(|i| find([i, i])).collect::<Result<_, _>>()?,
             springs: cloth.springs.iter().map(|s| find(s.ends)).collect::<Result<_, _>>()?,
             shears: cloth
                 .shears
@@ -143,7 +150,7 @@ impl Stepper {
                 .map(|&Shear { nodes: [c, u, v], .. }| Ok([find([c, u])?, find([c, v])?, find([u, v])?]))
                 .collect::<Result<_, StepError>>()?,
             edges: cloth.edges.iter().map(|e| find(*e)).collect::<Result<_, _>>()?,
-            pulls: pulls.iter().map(|e| slot(e[0] as usize, e[1] as usize)).collect(),
+            pulls: pulls.iter().map(|e| slot(*e)).collect(),
             matrix: SymmetricMatrix::zeros(pattern.clone()),
             factor: Cholesky::new(pattern, &order)?,
             held: cloth.held.clone(),

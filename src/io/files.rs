@@ -65,9 +65,10 @@ pub enum WriteError {
 /// Writes every (path, contents) pair, making folders as needed, or writes no file.
 ///
 /// A file that exists keeps its permissions, and a link to it stays one. `inputs` are the files the program has read;
-/// none is overwritten, also not through a link. All contents are on disk under temporary names before the first
-/// rename. Only if a rename itself fails (a folder loses its permissions in that moment) may earlier files of the set
-/// be in place; each one is whole even then.
+/// none is overwritten, also not through a link. All contents are written under temporary names before the first
+/// rename (the system may still hold them in memory: after a power cut files may be missing or short). Only if a rename
+/// itself fails (a folder loses its permissions in that moment) may earlier files of the set be in place; each one is
+/// whole even then.
 ///
 /// # Errors
 /// [`WriteError`], naming the path.
