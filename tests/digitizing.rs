@@ -613,12 +613,13 @@ fn arcs_of_a_dxf_are_read_as_arcs() {
 fn entities_of_a_dxf_that_nobody_reads_are_said_to_be_left_out() {
     let spline = entity("SPLINE", 8, &[(10, 10.0), (20, 10.0)]);
     let boundary = ring(1, &[[0.0, 0.0], [300.0, 0.0], [300.0, 400.0], [0.0, 400.0]]);
-    let others = [entity("INSERT", 1, &[]), entity("ELLIPSE", 99, &[])];
+    let circle = |on: u32| entity("CIRCLE", on, &[(10, 90.0), (20, 90.0), (40, 9.0)]);
+    let others = [entity("INSERT", 1, &[]), entity("ELLIPSE", 99, &[]), circle(11), circle(13)];
     let all = [boundary, spline.clone(), spline, others.concat()];
     let left_out = read_dxf_text(&block(&all), Some(1e-3)).expect("a piece").left_out;
-    assert_eq!(left_out.len(), 2, "{left_out:?}");
+    assert_eq!(left_out.len(), 3, "{left_out:?}");
     assert!(left_out[0].contains("2 SPLINE") && left_out[0].contains("line 28; export"), "{left_out:?}");
-    assert!(left_out[1].contains("1 INSERT"), "{left_out:?}");
+    assert!(left_out[1].contains("1 INSERT") && left_out[2].contains("1 CIRCLE"), "{left_out:?}");
     let refused = read_dxf_text(&block(&[entity("ELLIPSE", 1, &[])]), None).expect_err("no outline").to_string();
     assert!(refused.contains("1 ELLIPSE on the layers of a pattern, in line 6"), "{refused}");
 }

@@ -13,7 +13,7 @@ const MOST_KINDS: usize = 20;
 const DRAWN: [u32; 7] =
     [layer::BOUNDARY, layer::MIRROR, layer::GRAIN, layer::INTERNAL, layer::CUTOUT, layer::DRILL, layer::SEW];
 /// Kinds that are curves, which polylines can stand for.
-const CURVES: [&str; 3] = ["SPLINE", "ELLIPSE", "HELIX"];
+const CURVES: [&str; 4] = ["SPLINE", "ELLIPSE", "CIRCLE", "HELIX"];
 
 /// Kinds, how many there are of each, and the line of the first; in the order of the file.
 #[derive(Debug, Default)]

@@ -154,7 +154,8 @@ impl<'a> Block<'a> {
                 let ends = [entity.points(10, unit)?, entity.points(11, unit)?].concat();
                 self.add_line(on, ends.into_iter().map(|p| (p, 0.0)).collect(), false);
             }
-            // Drill holes come as either.
+            // Drill holes come as either. A circle that is a line is not read.
+            "CIRCLE" if !on.is_some_and(is_mark) => left_out.add(entity),
             "POINT" | "CIRCLE" => {
                 let at = entity.points(10, unit)?;
                 self.points.extend(on.zip(at.first().copied()));
@@ -283,6 +284,11 @@ fn polyline<'e, 'a: 'e>(
             _ => return Err(DxfError::Unended { line: entity.line }),
         }
     }
+}
+
+/// Whether what is on a layer are places rather than lines.
+fn is_mark(on: u32) -> bool {
+    on == layer::DRILL || dxf_notches::LAYERS.contains(&on)
 }
 
 fn is_closed(entity: &Entity) -> bool {
