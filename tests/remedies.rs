@@ -117,7 +117,7 @@ fn a_body_without_the_part_says_which_it_has_and_how_positions_count() {
     assert!(said.ends_with("it has neck, left arm, right arm, left leg, right leg"), "{said}");
 }
 
-/// Front and back are so wide that they start round the arms as well as round the hips.
+/// Front and back start before and behind the arms.
 #[test]
 fn a_seam_with_an_arm_between_its_edges_says_so_and_what_hangs_on_the_hand() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/full_skirt.yaml");

@@ -3,10 +3,13 @@
 /// Points on the table that measures an ellipse's arc.
 const ARC: usize = 240;
 
+/// A half depth is found in so many halvings, to a hundredth of a millimetre.
+const HALVINGS: usize = 16;
+
 /// An ellipse measured by its arc from the front (b axis) towards the wearer's left (a axis).
 pub(super) struct Ellipse {
-    half_width: f64,
-    half_depth: f64,
+    pub(super) half_width: f64,
+    pub(super) half_depth: f64,
     /// Arc length up to each of [`ARC`] equal steps of the parameter.
     table: Vec<f64>,
     pub(super) perimeter: f64,
@@ -25,6 +28,17 @@ impl Ellipse {
         }
         let perimeter = table[ARC];
         Self { half_width, half_depth, table, perimeter }
+    }
+
+    /// The ellipse of this half width that is as long as `perimeter`, but no deeper than a flat loop of that length.
+    pub(super) fn deep(half_width: f64, perimeter: f64) -> Self {
+        let (mut low, mut high) = (0.0, 0.25 * perimeter);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            let short = Self::new(half_width, middle).perimeter < perimeter;
+            if short { low = middle } else { high = middle }
+        }
+        Self::new(half_width, high)
     }
 
     /// (sideways, forward) at a share of the perimeter, and the unit outward normal.
@@ -52,6 +66,13 @@ mod tests {
         let h = ((a - b) / (a + b)).powi(2);
         let length = std::f64::consts::PI * (a + b) * (1.0 + 3.0 * h / (10.0 + (4.0 - 3.0 * h).sqrt()));
         assert!((Ellipse::new(a, b).perimeter / length - 1.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn a_narrow_one_is_as_much_deeper() {
+        let wide = Ellipse::new(0.3, 0.2);
+        let deep = Ellipse::deep(0.15, wide.perimeter);
+        assert!((deep.perimeter - wide.perimeter).abs() < 1e-4 && deep.half_depth > 0.3);
     }
 
     #[test]

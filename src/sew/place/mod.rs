@@ -14,6 +14,7 @@
 //! nothing has to be: the springs undo the small distortions as soon as the sewing begins. What counts is that every
 //! seam starts on the right side of the body with its partner near, and that no piece starts in another or in the body.
 
+mod arms;
 mod assign;
 mod band;
 mod ellipse;

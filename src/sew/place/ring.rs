@@ -2,13 +2,14 @@
 
 use std::collections::BTreeSet;
 
+use super::arms::Arms;
 use super::ellipse::Ellipse;
 use super::fold::Sheet;
 use super::lap::Lap;
 use super::levels::{LEVEL, Level, complete_shifts, nearest_level, smooth_shifts, smoothed, spread_out};
 use super::rows::{Link, Member, Row};
 use super::shoulders::Lean;
-use super::stations::Stations;
+use super::stations::{Station, Stations};
 use crate::geometry::{Vec2, Vec3, sorted_pair};
 use crate::mannequin::PartKind;
 use crate::mesh::ClothMesh;
@@ -35,6 +36,8 @@ pub(super) struct Ring<'a> {
     pub(super) anchor: f64,
     /// How each member leans over the shoulders, if the row has any.
     pub(super) leans: Vec<Lean<'a>>,
+    /// The arms that its rings keep between, being deeper instead of wide; none if it need not.
+    pub(super) between: Option<&'a Arms>,
 }
 
 impl Ring<'_> {
@@ -171,7 +174,7 @@ impl Ring<'_> {
             // An ellipse is a little shorter than a curve so far outside another one.
             let short = (need / Ellipse::new(ab[0], ab[1]).perimeter).max(1.0);
             ab = ab.map(|half| half * short);
-            axes.push(ab);
+            axes.push(self.between.map_or(ab, |arms| between(arms, &station, ab)));
         }
         let a = smoothed(&axes.iter().map(|x| x[0]).collect::<Vec<_>>());
         let b = smoothed(&axes.iter().map(|x| x[1]).collect::<Vec<_>>());
@@ -210,4 +213,15 @@ impl Ring<'_> {
             _ => 0.0,
         }
     }
+}
+
+/// Half width and half depth of a ring as long as that of `axes` which is out of the arms, if the body leaves room.
+fn between(arms: &Arms, station: &Station, axes: [f64; 2]) -> [f64; 2] {
+    let room = arms.room(station.center.x, station.center.y) - CLEARANCE;
+    let narrow = room.max(station.half_width + 0.5 * CLEARANCE);
+    if axes[0] <= narrow {
+        return axes;
+    }
+    let deep = Ellipse::deep(narrow, Ellipse::new(axes[0], axes[1]).perimeter);
+    [deep.half_width, deep.half_depth]
 }

@@ -6,6 +6,7 @@
 //!        armholes end ────│─────│───        │   │
 //! ```
 
+use super::arms::Arms;
 use super::levels::LEVEL;
 use super::ring::{LAYER, Ring};
 use super::rows::{Member, extent};
@@ -149,6 +150,14 @@ impl<'a> Ring<'a> {
             self.anchor += STEP;
         }
         self.anchor = best.1;
+    }
+
+    /// Makes the rings deep instead of wide where the row starts in the arms.
+    pub(super) fn keep_between(&mut self, arms: &'a Arms, body: &Collider) {
+        let from = self.row.v[0] + self.first_closed() as f64 * LEVEL;
+        if self.inside(body, [from, self.row.v[1]]) > 0 {
+            self.between = Some(arms);
+        }
     }
 
     /// How many particles between two values of v are in the body or touch it.

@@ -1,6 +1,7 @@
 //! Rows bent into rings round their body part.
 
 use super::PlaceError;
+use super::arms::Arms;
 use super::assign::is_at_bust;
 use super::fold::Sheet;
 use super::lay::beneath;
@@ -42,6 +43,7 @@ pub(super) fn wrap(
     sheet: &Sheet,
     rows: &Rows,
 ) -> Result<Vec<Vec3>, PlaceError> {
+    let arms = Arms::of(body);
     let mut rings: Vec<(usize, Ring)> = Vec::with_capacity(rows.rows.len());
     for &(index, beside) in &rows.order {
         let row = &rows.rows[index];
@@ -55,10 +57,14 @@ pub(super) fn wrap(
         let anchored = anchored.or_else(|| hung(&stations, row, &rings));
         let at_bust = row.members.iter().any(|m| is_at_bust(&garment.pieces[m.piece]));
         let anchor = anchored.unwrap_or_else(|| anchor(body, &stations, row, &levels, at_bust));
-        let mut ring = Ring { links: &rows.links, mesh, sheet, row, levels, stations, anchor, leans: Vec::new() };
+        let links = &rows.links;
+        let mut ring = Ring { links, mesh, sheet, row, levels, stations, anchor, leans: Vec::new(), between: None };
         if row.part == PartKind::Torso && row.hangs {
             let pieces: Vec<usize> = row.members.iter().map(|m| m.piece).collect();
             ring.hang_from_shoulders(body, collider, anchored.is_none(), beneath(&rows.laid, &pieces));
+        }
+        if row.part == PartKind::Torso {
+            ring.keep_between(&arms, collider);
         }
         rings.push((index, ring));
     }
