@@ -448,8 +448,15 @@ fn a_spacing_that_does_not_suit_is_explained() {
     };
     assert_eq!(
         message(rectangle("binding", 600.0, 18.0), 0.02),
-        "mesh size 20 mm leaves 1 spring across 'binding' (18 mm wide); use <= 6 mm, or check the file's units"
+        "mesh size 20 mm leaves 1 spring across 'binding' (18 mm wide); use 12 mm or less (6 mm for three springs \
+         across), or check the file's units"
     );
+    for (width, largest, more) in [(18.0, 0.012_f64, 0.01201), (20.0, 0.01333, 0.01334)] {
+        let band = rectangle("neck_band", 320.0, width);
+        let said = format!("use {} mm or less", (1e5 * largest).round() / 100.0);
+        assert!(message(band.clone(), more).contains(&said), "{said}");
+        build(&garment(vec![band], vec![]), largest).expect("the spacing that is named");
+    }
     for spacing in [0.0, -0.01, f64::NAN, f64::INFINITY] {
         assert!(message(rectangle("panel", 100.0, 100.0), spacing).starts_with("mesh size must be a positive length"));
     }

@@ -264,7 +264,8 @@ const MISTAKES: [Mistake; 31] = [
             ("free: [", "free: [back.center, "),
         ],
         "front:",
-        "mesh size 20 mm leaves 1 spring across 'front' (18 mm wide); use <= 6 mm, or check the file's units",
+        "mesh size 20 mm leaves 1 spring across 'front' (18 mm wide); use 12 mm or less (6 mm for three springs \
+         across), or check the file's units",
     ),
     wrong(
         32,

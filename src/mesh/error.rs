@@ -10,9 +10,9 @@ pub enum MeshError {
     Spacing(f64),
     /// A piece would be less than two springs wide.
     #[error(
-        "mesh size {} mm leaves {springs} spring{} across '{piece}' ({} mm wide); use <= {} mm, or check the file's \
-         units",
-        mm(*.spacing), plural(*.springs), mm(*.width), mm(*.usable)
+        "mesh size {} mm leaves {springs} spring{} across '{piece}' ({} mm wide); use {} mm or less ({} mm for three \
+         springs across), or check the file's units",
+        mm(*.spacing), plural(*.springs), mm(*.width), mm(*.largest), mm(*.good)
     )]
     TooCoarse {
         /// The piece.
@@ -23,8 +23,10 @@ pub enum MeshError {
         spacing: f64,
         /// Springs that would fit across.
         springs: usize,
+        /// The largest spacing that is accepted, to a hundredth of a millimetre.
+        largest: f64,
         /// A spacing that puts three springs across.
-        usable: f64,
+        good: f64,
     },
     /// The mesh would not fit in memory or in anyone's patience.
     #[error(

@@ -9,6 +9,8 @@ const UNIT: f64 = 1e-6;
 const SPRINGS_ACROSS: f64 = 1.5;
 /// Springs across that an error recommends.
 const GOOD_SPRINGS_ACROSS: f64 = 3.0;
+/// Widths are as exact as this, metres: the spacing that an error names is accepted.
+const ROUNDING: f64 = 1e-9;
 /// Largest mesh that is built; two million particles take some gigabytes in the later stages.
 const MOST_PARTICLES: usize = 2_000_000;
 
@@ -22,13 +24,14 @@ pub(super) fn check(garment: &Garment, spacing: f64) -> Result<(), MeshError> {
         check_grain(piece)?;
         let (area, perimeter) = measure(piece)?;
         let width = width(area, perimeter);
-        if width < SPRINGS_ACROSS * spacing {
+        if width < SPRINGS_ACROSS * spacing - ROUNDING {
             return Err(MeshError::TooCoarse {
                 piece: piece.name.clone(),
                 width,
                 spacing,
                 springs: (width / spacing).round().max(1.0) as usize,
-                usable: width / GOOD_SPRINGS_ACROSS,
+                largest: round_down(width / SPRINGS_ACROSS),
+                good: round_down(width / GOOD_SPRINGS_ACROSS),
             });
         }
         cloth += area;
@@ -76,6 +79,11 @@ fn width(area: f64, perimeter: f64) -> f64 {
 /// The spacing at which cloth of this area and half rim makes so many particles.
 fn usable(cloth: f64, rim: f64, particles: f64) -> f64 {
     (rim + (rim * rim + 4.0 * cloth * particles).sqrt()) / (2.0 * particles)
+}
+
+/// The hundredth of a millimetre below, which messages show.
+fn round_down(metres: f64) -> f64 {
+    ((metres + 0.5 * ROUNDING) * 1e5).floor() / 1e5
 }
 
 /// The next tenth of a millimetre.
