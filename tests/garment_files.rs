@@ -388,9 +388,12 @@ fn what_is_wrong_with_a_seam_is_named_with_its_place() {
     let notched = notched.replacen("  b:\n", "  b:\n    notches: {left: [80]}\n", 1);
     says(&notched, 22, "side", "notch 2 of a.right has no partner on b.left");
     let pair = squares("  b:\n", "  b:\n    cut: pair\n");
-    says(&pair, 21, "b.left", "seam 'side': b.left is on both sides of the garment; write b.L.left or b.R.left");
+    let sides = "seam 'side': b.left is on both sides of the garment; write b.L.left or b.R.left, or cut 'a' as a pair";
+    says(&pair, 21, "b.left", sides);
     let copies = squares("  b:\n", "  b:\n    cut: 3\n");
     says(&copies, 21, "b.left", "b.left is cut 3 times; say which, b.1 to b.3");
+    let two = mistakes(&squares("  b:\n", "  b:\n    cut: 2\n"));
+    assert_eq!(two[0].hint.as_deref(), Some("a left and a right one are 'cut: pair'"));
     let unsewn = squares("seams:", "  c: {like: a, cut: pair}\nseams:").replacen("free: [", "free: [\"c.*\", ", 1);
     says(&unsewn, 19, "pair", "cut: pair piece 'c' has no L/R seams; use cut: 2");
     let fold = squares("  b:\n", "  b:\n    cut: fold left\n").replacen("sew: a.right", "sew: b.L.top", 1);

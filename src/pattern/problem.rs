@@ -303,6 +303,7 @@ impl Problem {
             Self::CounterClockwise(_) => "distances along its edges are measured the clockwise way".to_owned(),
             Self::NoGrain(_) => "give it as grain: [[x, y], [x, y]], tail to head".to_owned(),
             Self::DartLegs { .. } => "give 'length' instead of 'tip' and both legs are equal".to_owned(),
+            Self::WhichCopy { count: 2, .. } => "a left and a right one are 'cut: pair'".to_owned(),
             Self::BackwardsRange(_) => {
                 "the smaller number comes first, along the edge; which way a seam runs follows from its 'face'"
                     .to_owned()

@@ -137,11 +137,23 @@ impl Source<'_> {
                 Choice::Side(side) => suffix(Some(side), None),
                 Choice::Copy(copy) => suffix(None, Some(copy)),
             };
-            let (with, a) = self.runs(seam, a, choice)?;
-            let (_, b) = self.runs(seam, b, choice)?;
-            built.push(Candidate { file: seam, name: format!("{}{suffix}", seam.name.value), a, b, with });
+            let (with, runs_a) = self.runs(seam, a, choice).map_err(|e| self.or_a_pair(e, b))?;
+            let (_, runs_b) = self.runs(seam, b, choice).map_err(|e| self.or_a_pair(e, a))?;
+            let name = format!("{}{suffix}", seam.name.value);
+            built.push(Candidate { file: seam, name, a: runs_a, b: runs_b, with });
         }
         Ok(built)
+    }
+
+    /// An edge that is there on both sides may be right, and what it is sewn to a pair that is not said to be one.
+    fn or_a_pair(&self, (at, mut problem): Located, other: &[Found]) -> Located {
+        if let Problem::WhichSide { choice, .. } = &mut problem
+            && let [Found { draft, .. }] = other
+            && self.drafts[*draft].cut == Cut::One
+        {
+            choice.push_str(&format!(", or cut '{}' as a pair (cut: pair)", self.drafts[*draft].name));
+        }
+        (at, problem)
     }
 
     /// The runs of a chain, and whether its first edge runs as drawn.
