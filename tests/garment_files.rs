@@ -350,6 +350,18 @@ fn a_counter_clockwise_outline_is_turned_with_a_warning() {
 }
 
 #[test]
+fn a_file_drawn_upwards_is_asked_about_once() {
+    let upwards = SQUARES.replace("100 100", "100 -100").replace("L 0 100", "L 0 -100").replace("[0, 9]", "[0, -9]");
+    let warnings = read_text("test", "test.yaml", &upwards).unwrap().warnings;
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    assert_eq!((warnings[0].line, &warnings[0].problem), (6, &Problem::DrawnUpwards));
+    // One of two outlines may be a slip.
+    let one = upwards.replacen("100 -100", "100 100", 1).replacen("L 0 -100", "L 0 100", 1);
+    let warnings = read_text("test", "test.yaml", &one).unwrap().warnings;
+    assert!(matches!(warnings[..], [ref w] if w.problem == Problem::CounterClockwise("b".into())), "{warnings:?}");
+}
+
+#[test]
 fn what_is_wrong_with_a_seam_is_named_with_its_place() {
     let side = |how: &str| squares("{sew: a.right, to: b.left}", how);
     let swap =

@@ -97,6 +97,12 @@ impl Excerpt {
 }
 
 impl Diagnostic {
+    /// Where it stands in its file.
+    fn spot(&self) -> Spot {
+        let width = self.excerpt.as_ref().map_or(0, |e| e.width);
+        Spot { line: self.line, column: self.column, width }
+    }
+
     /// Where it stands among others of its file: in the order of lines, and last how many more there are.
     pub(crate) fn order(&self) -> (bool, usize, usize) {
         (matches!(self.problem, Problem::More { .. }), self.line, self.column)
@@ -188,6 +194,16 @@ impl Findings {
             problem,
             excerpt,
         });
+    }
+
+    /// Says once, where the first of them stands, what warnings of this kind mean together, if there are `count`.
+    pub(super) fn tell_together(&mut self, count: usize, is_kind: impl Fn(&Problem) -> bool, problem: Problem) {
+        let of_kind = |d: &Diagnostic| d.severity == Severity::Warning && is_kind(&d.problem);
+        let mut spots = self.found.iter().filter(|d| of_kind(d)).map(Diagnostic::spot);
+        let Some(first) = spots.next().filter(|_| spots.count() + 1 == count) else { return };
+        self.found.retain(|d| !of_kind(d));
+        self.warnings -= count;
+        self.warn(first, problem);
     }
 
     /// Number of errors so far.

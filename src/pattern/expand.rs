@@ -33,6 +33,9 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
     place_word::check(file, findings);
     let pieces = complete_pieces(file, findings);
     let drafts: Vec<Draft> = pieces.iter().filter_map(|p| draft(p, file.unit(), findings)).collect();
+    if pieces.len() > 1 {
+        findings.tell_together(pieces.len(), |p| matches!(p, Problem::CounterClockwise(_)), Problem::DrawnUpwards);
+    }
     let fabrics = fabrics(file);
     check_fabrics(&pieces, &fabrics, findings);
     let sound = drafts.len() == file.pieces.len();

@@ -112,6 +112,8 @@ pub enum Problem {
     NoArea(String),
     #[error("outline of '{0}' runs counter-clockwise; reversed it")]
     CounterClockwise(String),
+    #[error("all outlines run counter-clockwise; reversed them. Was this drawn with y up? Here y points down")]
+    DrawnUpwards,
     #[error("edge name '{edge}' used twice in '{piece}'")]
     EdgeTwice { piece: String, edge: String },
     #[error("hole '{hole}' lies outside piece '{piece}'")]
@@ -301,6 +303,11 @@ impl Problem {
             }
             Self::Empty => "a garment file starts with 'garment: 1'".to_owned(),
             Self::CounterClockwise(_) => "distances along its edges are measured the clockwise way".to_owned(),
+            Self::DrawnUpwards => {
+                "give every y the other sign if it was, or the garment hangs upside down; if it was not, distances \
+                 along edges are measured the clockwise way"
+                    .to_owned()
+            }
             Self::NoGrain(_) => "give it as grain: [[x, y], [x, y]], tail to head".to_owned(),
             Self::DartLegs { .. } => "give 'length' instead of 'tip' and both legs are equal".to_owned(),
             Self::WhichCopy { count: 2, .. } => "a left and a right one are 'cut: pair'".to_owned(),
