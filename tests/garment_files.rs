@@ -371,6 +371,11 @@ fn what_is_wrong_with_a_seam_is_named_with_its_place() {
     says(&side("{sew: a.right@0..95, to: b.left}"), 20, "side", ease);
     let large = "ease 12 mm is 14 % of 88 mm; more than 8 % gathers, say gather: 1.14";
     says(&side("{sew: a.right@0..88, to: b.left, ease: 12}"), 20, "12", large);
+    let shorter = mistakes(&side("{sew: a.right, to: b.left@0..78, ease: 12}"));
+    let gathered = |d: &Diagnostic| d.message.contains("say gather: 1.28") && !d.message.contains("swapped");
+    assert!(shorter[..2].iter().all(gathered), "{shorter:?}");
+    let even = "ease 12 mm is 12 % of 100 mm; more than 8 % gathers, say ease: 0.0 mm";
+    says(&side("{sew: a.right, to: b.left, ease: 12}"), 20, "12", even);
     let below = "gather: 0.6 would stretch the cloth by 67 %; did you swap sew and to?";
     says(&side("{sew: a.right, to: b.left, gather: 0.6}"), 20, "0.6", below);
     says(&side("{sew: a.right, to: b.left, stretch: 0.6}"), 20, "0.6", "stretch: 0.6 would gather the cloth");

@@ -148,11 +148,7 @@ impl Finish<'_> {
         if let Some(ease) = &file.ease {
             let extra = ease.value.value(self.unit);
             if extra.abs() > LARGEST_EASE * la {
-                let advice = if extra > 0.0 {
-                    format!("gather: {:.2} with 'sew' and 'to' swapped", lb / la)
-                } else {
-                    format!("gather: {:.2}", la / lb)
-                };
+                let advice = fitting(la, lb);
                 let (seam, percent) = (file.name.value.clone(), extra.abs() / la * 100.0);
                 findings.error(
                     ease.at,
@@ -310,17 +306,26 @@ fn check_lengths(candidate: &Candidate, lengths: (f64, f64), give: Give, toleran
     );
 }
 
+/// What a seam of these lengths may say of them: ease as far as there is any, else gathers of the longer side.
+fn fitting(la: f64, lb: f64) -> String {
+    if (lb - la).abs() <= LARGEST_EASE * la {
+        format!("ease: {:.1} mm", (lb - la) * 1e3)
+    } else if la > lb {
+        format!("gather: {:.2}", la / lb)
+    } else {
+        format!("gather: {:.2} with 'sew' and 'to' swapped", lb / la)
+    }
+}
+
 fn advice(la: f64, lb: f64, give: Give) -> String {
     match give {
-        Give::Ease(_) => format!("say ease: {:.1} mm or fix the outline", (lb - la) * 1e3),
+        Give::Ease(_) => format!("say {} or fix the outline", fitting(la, lb)),
         // What is sewn is the longer one.
         Give::Gather(_) if la < lb => format!("swap sew and to and say gather: {:.3}, or fix the outline", lb / la),
         Give::Stretch(_) if la < lb => format!("swap sew and to and say stretch: {:.3}, or fix the outline", lb / la),
         Give::Gather(_) => format!("say gather: {:.3} or fix the outline", la / lb),
         Give::Stretch(_) => format!("say stretch: {:.3} or fix the outline", la / lb),
-        Give::Even if (lb - la).abs() <= LARGEST_EASE * la => {
-            format!("add ease: {:.1} mm or fix the outline", (lb - la) * 1e3)
-        }
+        Give::Even if (lb - la).abs() <= LARGEST_EASE * la => format!("add {} or fix the outline", fitting(la, lb)),
         Give::Even if la > lb => format!("add gather: {:.2} or stretch: {:.2}", la / lb, la / lb),
         Give::Even => format!("swap sew and to and add gather: {:.2}", lb / la),
     }
