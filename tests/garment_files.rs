@@ -376,6 +376,8 @@ fn what_is_wrong_with_a_seam_is_named_with_its_place() {
     assert!(shorter[..2].iter().all(gathered), "{shorter:?}");
     let even = "ease 12 mm is 12 % of 100 mm; more than 8 % gathers, say ease: 0.0 mm";
     says(&side("{sew: a.right, to: b.left, ease: 12}"), 20, "12", even);
+    let ratio = "100.0 / 80.0 is 1.250, and gather: 1.2 asks for 100.0 to 83.3 mm, 3.3 mm apart; say gather: 1.250";
+    says(&side("{sew: a.right, to: b.left@0..80, gather: 1.2}"), 20, "side", ratio);
     let below = "gather: 0.6 would stretch the cloth by 67 %; did you swap sew and to?";
     says(&side("{sew: a.right, to: b.left, gather: 0.6}"), 20, "0.6", below);
     says(&side("{sew: a.right, to: b.left, stretch: 0.6}"), 20, "0.6", "stretch: 0.6 would gather the cloth");

@@ -298,12 +298,30 @@ fn check_lengths(candidate: &Candidate, lengths: (f64, f64), give: Give, toleran
         file.name.at,
         Problem::LengthsApart {
             seam: file.name.value.clone(),
-            sides: format!("{} {:.1} mm, {} {:.1} mm", text(&candidate.a), la * 1e3, text(&candidate.b), lb * 1e3),
+            sides: format!(
+                "{} {:.1} mm, {} {:.1} mm{}",
+                text(&candidate.a),
+                la * 1e3,
+                text(&candidate.b),
+                lb * 1e3,
+                as_ratio(la, lb, give)
+            ),
             apart: apart.abs() * 1e3,
             advice: advice(la, lb, give),
             tolerance: allowed * 1e3,
         },
     );
+}
+
+/// The ratio of the lengths beside the one that is said, and what that would make of the second.
+fn as_ratio(la: f64, lb: f64, give: Give) -> String {
+    let (word, ratio) = match give {
+        Give::Gather(ratio) => ("gather", ratio),
+        Give::Stretch(ratio) => ("stretch", ratio),
+        Give::Even | Give::Ease(_) => return String::new(),
+    };
+    let (one, other, asked) = (la * 1e3, lb * 1e3, la / ratio * 1e3);
+    format!("; {one:.1} / {other:.1} is {:.3}, and {word}: {ratio} asks for {one:.1} to {asked:.1} mm", la / lb)
 }
 
 /// What a seam of these lengths may say of them: ease as far as there is any, else gathers of the longer side.
