@@ -803,7 +803,7 @@ fn mistakes_in_arguments() {
     wrong(&["make", "nowhere.yaml"], &["nowhere.yaml"]);
     wrong(&["make", "skirt.yaml", "--spacing", "-3"], &["--spacing"]);
     wrong(&["make", "skirt.yaml", "--spacing", "nan"], &["--spacing"]);
-    wrong(&["make", "skirt.yaml", "--spacing", "400"], &["400 mm", "use <="]);
+    wrong(&["make", "skirt.yaml", "--spacing", "400"], &["400 mm", "mm or less"]);
     wrong(&["make", "skirt.yaml", "--spacing", "0.01"], &["use >="]);
     wrong(&["make", "skirt.yaml", "--fabric", "denin"], &["denin", "did you mean 'denim'"]);
     wrong(&["make", "skirt.yaml", "--fabric", "no.yaml"], &["no.yaml"]);

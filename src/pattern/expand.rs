@@ -7,7 +7,7 @@ use super::file::{GarmentFile, PieceFile, SeamFile, Value};
 use super::inherit::complete_pieces;
 use super::problem::Problem;
 use super::seam::{Seams, check_orientable, seams};
-use super::{FabricUse, Garment, bound, closure, cover, place_word};
+use super::{FabricUse, Garment, bound, closure, cover, layers, place_word};
 use crate::fabric::FabricSpec;
 use crate::input::nearest;
 use crate::input::shown;
@@ -66,6 +66,7 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
     let turns: Vec<bool> = written.iter().map(|w| seam_file(w).is_some_and(SeamFile::is_face_same)).collect();
     let spots: Vec<Spot> = written.iter().map(|w| seam_file(w).map_or(file.version.at, |s| s.name.at)).collect();
     check_orientable(&garment, &turns, &spots, findings);
+    layers::check(&garment, &turns, &spots, findings);
     if sound && findings.errors() == before {
         garment.tests = bound::bounds(file, &garment, findings);
     }

@@ -31,6 +31,7 @@ mod expand;
 mod fasten;
 mod file;
 mod inherit;
+mod layers;
 mod line;
 mod measure;
 mod outline;

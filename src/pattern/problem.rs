@@ -226,6 +226,8 @@ pub enum Problem {
     ChainBroken { seam: String, end: String, start: String, drawn: bool },
     #[error("seam '{seam}' is twisted: its ends meet {one} and {other}; use face: same if wanted")]
     Twisted { seam: String, one: String, other: String },
+    #[error("'{piece}' lies on '{on}' (face: same), but both are on layer {layer}: it starts outside '{on}'")]
+    OneLayer { piece: String, on: String, layer: i32 },
     #[error("sewing closes the surface into a non-orientable band at '{0}'")]
     NonOrientable(String),
     #[error("garment has {found} openings, expected {expected}: {rims}")]
@@ -303,6 +305,11 @@ impl Problem {
             }
             Self::Empty => "a garment file starts with 'garment: 1'".to_owned(),
             Self::CounterClockwise(_) => "distances along its edges are measured the clockwise way".to_owned(),
+            Self::OneLayer { piece, layer, .. } => format!(
+                "give '{piece}' layer: {} if it is worn inside, as a facing, or layer: {} if outside",
+                layer - 1,
+                layer + 1
+            ),
             Self::DrawnUpwards => {
                 "give every y the other sign if it was, or the garment hangs upside down; if it was not, distances \
                  along edges are measured the clockwise way"

@@ -1,0 +1,43 @@
+//! Pieces that lie on each other, and on which layer.
+
+use super::diagnostic::{Findings, Spot};
+use super::place_word::{PlaceWord, place_word};
+use super::problem::Problem;
+use super::{Garment, Piece, Place, Seam};
+
+/// A seam with `face: same` lays one piece on another. Both on one layer, what was meant as a facing starts outside.
+/// `laid` says which of the seams are of that kind, and `at` where they stand.
+pub(super) fn check(garment: &Garment, laid: &[bool], at: &[Spot], findings: &mut Findings) {
+    for ((seam, _), &spot) in garment.seams.iter().zip(laid).zip(at).filter(|((_, laid), _)| **laid) {
+        let Some([one, other]) = level(garment, seam) else { continue };
+        let (small, large) = if one.area() < other.area() { (one, other) } else { (other, one) };
+        let (piece, on) = (small.drawn_as.clone(), large.drawn_as.clone());
+        findings.warn(spot, Problem::OneLayer { piece, on, layer: small.layer });
+    }
+}
+
+/// Two pieces that the seam lays on each other, for the same part of the body and on one layer.
+fn level<'g>(garment: &'g Garment, seam: &Seam) -> Option<[&'g Piece; 2]> {
+    let pairs = seam.a.iter().flat_map(|a| seam.b.iter().map(move |b| [a, b].map(|s| &garment.pieces[s.edge.piece])));
+    pairs.into_iter().find(|[a, b]| a.drawn_as != b.drawn_as && a.layer == b.layer && lies_on(a, b))
+}
+
+/// Whether both go to the front, or both to the back, and neither round the neck: a collar is turned down over what it
+/// is sewn to, on whichever layer.
+fn lies_on(a: &Piece, b: &Piece) -> bool {
+    let [a, b] = [a, b].map(meanings);
+    let says = |words: &[PlaceWord], word| words.contains(&word);
+    let alike = |word| says(&a, word) == says(&b, word);
+    let faces = says(&a, PlaceWord::Front) != says(&a, PlaceWord::Back);
+    let round_neck = says(&a, PlaceWord::Neck) || says(&b, PlaceWord::Neck);
+    faces && alike(PlaceWord::Front) && alike(PlaceWord::Back) && !round_neck
+}
+
+/// What the words of its place say, or else those of its name.
+fn meanings(piece: &Piece) -> Vec<PlaceWord> {
+    match &piece.place {
+        Some(Place::Around { words }) => words.iter().filter_map(|w| place_word(w)).collect(),
+        Some(Place::At { .. }) => Vec::new(),
+        None => piece.drawn_as.to_lowercase().split(['_', '-']).filter_map(place_word).collect(),
+    }
+}
