@@ -522,6 +522,24 @@ fn files_that_are_none_are_refused_at_once() {
 }
 
 #[test]
+fn slips_in_yaml_say_what_it_wants() {
+    let star = squares("a.top", "*.top");
+    says(&star, 21, "*.top", "not YAML: while parsing node, found unknown anchor");
+    assert!(mistakes(&star)[0].hint.as_deref().is_some_and(|h| h.ends_with("in quotation marks: \"*.hem\"")));
+    // After a word, after a list, and after a key.
+    for (from, to, line) in [
+        ("      top: L 100 0\n      right", "      top: L 100 0\n\tright", 8),
+        ("    outline", "\toutline", 5),
+        ("      start: 0 0", "\tstart: 0 0", 6),
+    ] {
+        let text = squares(from, to);
+        says(&text, line, "\t", "tab");
+        let found = mistakes(&text);
+        assert!(found[0].hint.as_deref().is_some_and(|h| h.starts_with("YAML indents with spaces")), "{found:?}");
+    }
+}
+
+#[test]
 fn aliases_are_followed_but_not_into_a_bomb() {
     let shared =
         squares("  b:\n    grain: [[0, 0], [0, 9]]", "  b:\n    grain: *up").replacen("grain: [[", "grain: &up [[", 1);

@@ -303,6 +303,10 @@ impl Problem {
             Self::WrongType { what, .. } if what == "a garment file" => {
                 "it starts with 'garment: 1'; a surface (OBJ) goes to --body, or to 'toile flatten'".to_owned()
             }
+            Self::Syntax(why) if why.contains("unknown anchor") => {
+                "a word that begins with * stands in quotation marks: \"*.hem\"".to_owned()
+            }
+            Self::Syntax(why) if why.contains("tab") => "YAML indents with spaces; write spaces for the tab".to_owned(),
             Self::Empty => "a garment file starts with 'garment: 1'".to_owned(),
             Self::CounterClockwise(_) => "distances along its edges are measured the clockwise way".to_owned(),
             Self::OneLayer { piece, layer, .. } => format!(

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use saphyr_parser::{Event, Marker, Parser, Span};
+use saphyr_parser::{Event, Marker, Parser, ScanError, Span};
 
 use crate::pattern::{Findings, Located, Problem, Spot, Value};
 
@@ -51,7 +51,7 @@ pub(super) fn parse(text: &str, findings: &mut Findings) -> Option<Located<Value
     for event in Parser::new_from_str(text) {
         let outcome = match event {
             Ok((event, span)) => builder.event(event, span),
-            Err(e) => Err((spot(*e.marker(), 1), Problem::Syntax(e.info().to_owned()))),
+            Err(e) => Err((fault(text, &e), Problem::Syntax(e.info().to_owned()))),
         };
         if let Err((at, problem)) = outcome {
             builder.findings.error(at, problem);
@@ -64,6 +64,18 @@ pub(super) fn parse(text: &str, findings: &mut Findings) -> Option<Located<Value
         findings.error(Spot::default(), Problem::Empty);
     }
     root
+}
+
+/// Where the error is: a tab ends the value before it, which is where the parser says it stands.
+fn fault(text: &str, error: &ScanError) -> Spot {
+    let said = spot(*error.marker(), 1);
+    let tab = |(i, line): (usize, &str)| {
+        let before = line.chars().position(|c| c == '\t')?;
+        Some(Spot { line: i + 1, column: before + 1, width: 1 })
+    };
+    let told = error.info().contains("tab");
+    let mut rest = text.lines().enumerate().skip(said.line.saturating_sub(1));
+    told.then(|| rest.find_map(tab)).flatten().unwrap_or(said)
 }
 
 fn spot(marker: Marker, width: usize) -> Spot {
