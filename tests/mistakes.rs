@@ -492,6 +492,10 @@ fn a_garment_in_another_unit_than_thought_is_doubted() {
     let small = room.finds(&skirt("", 0.1, ""), Some(3.0));
     says_once(&small, "the largest piece, 'front', is 65 mm long");
     says_once(&small, "write 'units: cm'");
+    // And where it is too small to be meshed, which that explains.
+    let tiny = room.finds(&skirt("", 0.01, ""), None);
+    says_once(&tiny, "springs across)");
+    says_once(&tiny, "write 'units: cm'");
     let large = room.finds(&skirt("units: cm\n", 1.0, ""), Some(100.0));
     says_once(&large, "is the drawing in another unit than cm?");
     assert!(small.iter().chain(&large).all(|d| d.severity == Severity::Warning), "{small:#?} {large:#?}");

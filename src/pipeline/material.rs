@@ -23,10 +23,16 @@ use crate::pattern::{self, Diagnostic, Findings, GarmentFile, Located, Problem, 
 pub fn check(file: &Path, spacing: Option<f64>) -> Result<Loaded, Refused> {
     let mut examined = garment::examine(file);
     let body = examined.file.as_ref().and_then(|said| look(file, said, &mut examined.findings));
-    let loaded = examined.finish()?;
+    let mut loaded = examined.finish()?;
+    if let Some(body) = &body {
+        doubt_size(&mut loaded, body);
+    }
     let mesh = mesh::build(&loaded.garment, spacing.unwrap_or(SPACING)).map_err(|error| {
         let at = mesh_spot(&loaded.file, error.culprit()).unwrap_or_default();
-        loaded.refusal(at, Problem::Mesh(error.to_string()))
+        let mut refused = loaded.refusal(at, Problem::Mesh(error.to_string()));
+        refused.diagnostics.extend(loaded.warnings.iter().cloned());
+        refused.diagnostics.sort_by_key(Diagnostic::order);
+        refused
     })?;
     match body {
         Some(body) => on_body(loaded, &mesh, &body),
@@ -34,10 +40,16 @@ pub fn check(file: &Path, spacing: Option<f64>) -> Result<Loaded, Refused> {
     }
 }
 
+/// Before it is meshed: what is drawn in another unit may be too small for that, and then this says why.
+fn doubt_size(loaded: &mut Loaded, body: &Body) {
+    let mut findings = loaded.findings();
+    fit::doubt_size(loaded, &body.mannequin, &mut findings);
+    loaded.warnings.extend(findings.into_sorted());
+}
+
 /// What a garment that is right for itself has wrong on its body.
 fn on_body(mut loaded: Loaded, mesh: &ClothMesh, body: &Body) -> Result<Loaded, Refused> {
     let mut findings = loaded.findings();
-    fit::doubt_size(&loaded, &body.mannequin, &mut findings);
     fit::check_places(&loaded, mesh, &body.mannequin, &mut findings);
     let refused = findings.errors() > 0;
     let mut diagnostics = loaded.warnings.clone();
