@@ -823,6 +823,14 @@ fn bounds_and_allowances_that_nothing_can_have_are_named_with_their_place() {
     says(&squares("  a:\n", "  a:\n    allowance: -1 cm\n"), 4, "-1", "allowance must be zero or more");
     says(&squares("  a:\n", "  a:\n    allowance: {top: -1}\n"), 4, "-1", "allowance must be zero or more");
     says(&squares("  a:\n", "  a:\n    allowance: {tpo: 1}\n"), 4, "tpo", "edge 'a.tpo' not found");
+    let wide = |mm| format!("an allowance of {mm} mm is wider than 200 mm");
+    says(&squares("pieces:", "allowance: 201\npieces:"), 2, "201", &wide(201));
+    says(&squares("  a:\n", "  a:\n    allowance: 50 cm\n"), 4, "50 cm", &wide(500));
+    says(&squares("  a:\n", "  a:\n    allowance: {top: 800}\n"), 4, "800", &wide(800));
+    says(&squares("to: b.left", "to: b.left, allowance: 300"), 20, "300", &wide(300));
+    assert!(mistakes(&squares("pieces:", "units: cm\nallowance: 20\npieces:").replace("100", "10")).is_empty());
+    let first = "'folded 30' names the shape first; an allowance begins with its width: '30 folded'";
+    says(&squares("  a:\n", "  a:\n    allowance: {top: folded 30}\n"), 4, "folded", first);
     says(&squares("to: b.left", "to: b.left, allowance: 2 %"), 20, "2 %", "allowance must be a length");
 }
 

@@ -7,6 +7,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 
 use crate::flatten::Mode;
 use crate::input::LengthUnit;
+use crate::pattern::WIDEST_ALLOWANCE;
 use crate::pipeline::{Color, DARTS, Overrides};
 
 /// Sew flat patterns onto a mannequin, drape them in a measured fabric and lay them flat again.
@@ -295,15 +296,13 @@ pub(super) struct ExportArgs {
     pub(super) whole: bool,
 }
 
-/// Widest allowance, mm: more is a wrong unit.
-const WIDEST_ALLOWANCE: f64 = 200.0;
 /// Narrowest and widest paper, mm: the test square must fit, and no plotter takes more.
 const PAPER: (f64, f64) = (150.0, 5000.0);
 
 fn allowance(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(mm) if (0.0..=WIDEST_ALLOWANCE).contains(&mm) => Ok(mm),
-        _ => Err(format!("a number of millimetres from 0 to {WIDEST_ALLOWANCE} is expected, such as 10")),
+        Ok(mm) if (0.0..=1e3 * WIDEST_ALLOWANCE).contains(&mm) => Ok(mm),
+        _ => Err(format!("a number of millimetres from 0 to {} is expected, such as 10", 1e3 * WIDEST_ALLOWANCE)),
     }
 }
 

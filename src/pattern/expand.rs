@@ -7,7 +7,7 @@ use super::file::{GarmentFile, PieceFile, SeamFile, Value};
 use super::inherit::complete_pieces;
 use super::problem::Problem;
 use super::seam::{Seams, check_orientable, seams};
-use super::{FabricUse, Garment, bound, closure, cover, layers, place_word};
+use super::{FabricUse, Garment, allowance, bound, closure, cover, layers, place_word};
 use crate::fabric::FabricSpec;
 use crate::input::nearest;
 use crate::input::shown;
@@ -31,6 +31,7 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
     }
     findings.know_pieces(file.pieces.iter().map(|p| p.name.value.clone()));
     place_word::check(file, findings);
+    allowance::check(file, findings);
     let pieces = complete_pieces(file, findings);
     let drafts: Vec<Draft> = pieces.iter().filter_map(|p| draft(p, file.unit(), findings)).collect();
     if pieces.len() > 1 {

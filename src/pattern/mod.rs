@@ -16,6 +16,7 @@
 //! * Ranges (`cap@20%..80%`), notches and pleats are measured along the edge as drawn, from its start in the drawing,
 //!   also on the mirrored piece.
 
+mod allowance;
 mod along;
 mod bound;
 mod chain;
@@ -64,6 +65,9 @@ pub use rim::{Opening, openings};
 pub use walk::{SeamWalk, walk, written_edge, written_names};
 
 use std::ops::RangeInclusive;
+
+/// Widest seam allowance, metres: a wider one is in another unit than thought.
+pub const WIDEST_ALLOWANCE: f64 = 0.2;
 
 use crate::geometry::{Path, Vec2, Vec3};
 

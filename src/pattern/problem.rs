@@ -55,6 +55,10 @@ pub enum Problem {
     UnknownWord { what: &'static str, found: String, known: &'static str },
     #[error("{what} must be {expected}, not {found}")]
     OutOfRange { what: String, expected: &'static str, found: String },
+    #[error("an allowance of {width} mm is wider than {widest:.0} mm, the widest there is; is it in another unit?")]
+    AllowanceWide { width: f64, widest: f64 },
+    #[error("'{0}' names the shape first; an allowance begins with its width: '{1}'")]
+    ShapeFirst(String, String),
     #[error("the name '{0}' cannot be used: names have letters, digits, _ and -, and are not L, R, mirror or a number")]
     BadName(String),
 

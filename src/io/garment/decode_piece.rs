@@ -74,6 +74,13 @@ fn allowance_width(value: &Located<Value>, findings: &mut Findings) -> Option<Lo
         Value::Text(text) => text.trim_end(),
         _ => "",
     };
+    if let Some((first, width)) = written.trim_start().split_once(' ')
+        && Corner::from_word(first).is_some()
+    {
+        let turned = format!("{} {first}", width.trim_start());
+        findings.error(value.at, Problem::ShapeFirst(written.to_owned(), turned));
+        return None;
+    }
     let (number, last) = written.rsplit_once(' ').unwrap_or((written, ""));
     let corner = Corner::from_word(last);
     let number = if corner.is_some() { Located::new(Value::Text(number.to_owned()), value.at) } else { value.clone() };
