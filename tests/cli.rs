@@ -197,6 +197,10 @@ fn export_writes_what_cutters_take() {
     let json = run.json();
     assert_eq!(json["file"], "whole.svg");
     assert!(json["pieces"].as_array().expect("a list").iter().all(|p| p["cut"] == 1));
+    room.run(&["export", "svg", "skirt.yaml", "-o", "cm.svg", "--whole", "--allowance", "1.5cm"]).ends(0);
+    assert_eq!(room.bytes("cm.svg"), room.bytes("whole.svg"));
+    room.run(&["export", "pdf", "skirt.yaml", "-o", "a4.pdf", "--page", "A4"]).ends(0);
+    assert_eq!(room.bytes("a4.pdf"), room.bytes("out/skirt/cutting.pdf"));
     room.run(&["export", "svg", "skirt.yaml", "-o", "skirt.yaml"]).ends(2).says(&["skirt.yaml", "is an input"]);
     room.run(&["export", "pdf", "skirt.yaml", "--allowance", "-3"]).ends(2).says(&["from 0 to 200"]);
 }
@@ -803,6 +807,8 @@ fn mistakes_in_arguments() {
     wrong(&["make", "nowhere.yaml"], &["nowhere.yaml"]);
     wrong(&["make", "skirt.yaml", "--spacing", "-3"], &["--spacing"]);
     wrong(&["make", "skirt.yaml", "--spacing", "nan"], &["--spacing"]);
+    wrong(&["make", "skirt.yaml", "--spacing", "10 %"], &["--spacing"]);
+    wrong(&["make", "skirt.yaml", "--spacing", "40cm"], &["400 mm", "mm or less"]);
     wrong(&["make", "skirt.yaml", "--spacing", "400"], &["400 mm", "mm or less"]);
     wrong(&["make", "skirt.yaml", "--spacing", "0.01"], &["use >="]);
     wrong(&["make", "skirt.yaml", "--fabric", "denin"], &["denin", "did you mean 'denim'"]);

@@ -7,7 +7,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 
 use crate::flatten::Mode;
 use crate::input::LengthUnit;
-use crate::pattern::WIDEST_ALLOWANCE;
+use crate::pattern::{WIDEST_ALLOWANCE, parse_quantity};
 use crate::pipeline::{Color, DARTS, Overrides};
 
 /// Sew flat patterns onto a mannequin, drape them in a measured fabric and lay them flat again.
@@ -129,11 +129,15 @@ impl OverrideArgs {
     }
 }
 
+/// A length as garment files write it, where a bare number is millimetres.
+fn millimetres(text: &str) -> Option<f64> {
+    let length = parse_quantity(text).ok().filter(|q| !q.is_percent())?;
+    Some(length.unit.map_or(length.number, |unit| 1e3 * unit.factor() * length.number))
+}
+
 fn spacing(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(mm) if mm.is_finite() && mm > 0.0 => Ok(mm),
-        _ => Err("a positive number of millimetres is expected, such as 10".into()),
-    }
+    let positive = millimetres(text).filter(|mm| *mm > 0.0);
+    positive.ok_or_else(|| "a positive number of millimetres is expected, such as 10, or 1cm".into())
 }
 
 fn weight(text: &str) -> Result<f64, String> {
@@ -266,7 +270,7 @@ pub(super) enum ExportCommand {
         #[command(flatten)]
         common: ExportArgs,
         /// Paper
-        #[arg(long, value_enum, default_value_t)]
+        #[arg(long, value_enum, ignore_case = true, default_value_t)]
         page: PageArg,
         /// Width of the paper in millimetres, with --page one [default: about as wide as high]
         #[arg(long, value_name = "MM", value_parser = width)]
@@ -300,17 +304,15 @@ pub(super) struct ExportArgs {
 const PAPER: (f64, f64) = (150.0, 5000.0);
 
 fn allowance(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(mm) if (0.0..=1e3 * WIDEST_ALLOWANCE).contains(&mm) => Ok(mm),
-        _ => Err(format!("a number of millimetres from 0 to {} is expected, such as 10", 1e3 * WIDEST_ALLOWANCE)),
-    }
+    let widest = 1e3 * WIDEST_ALLOWANCE;
+    let some = millimetres(text).filter(|mm| (0.0..=widest).contains(mm));
+    some.ok_or_else(|| format!("a number of millimetres from 0 to {widest} is expected, such as 10, or 1cm"))
 }
 
 fn width(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(mm) if (PAPER.0..=PAPER.1).contains(&mm) => Ok(mm),
-        _ => Err(format!("a number of millimetres from {} to {} is expected, such as 914", PAPER.0, PAPER.1)),
-    }
+    let (narrowest, widest) = PAPER;
+    let some = millimetres(text).filter(|mm| (narrowest..=widest).contains(mm));
+    some.ok_or_else(|| format!("a number of millimetres from {narrowest} to {widest} is expected, such as 914"))
 }
 
 /// `--page`
