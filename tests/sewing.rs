@@ -1040,7 +1040,7 @@ fn a_corner_that_went_through_is_led_out() {
     assert_eq!((tangles, count(&world.x, &world.cloth.triangles)), (0, 0), "after {steps} steps");
 }
 
-/// Without shoulder seams its body was hung from the waist, as a skirt is, and the neck band slipped over the shoulders.
+/// Without shoulder seams its body was hung from the waist, as a skirt is, and the neck band slipped off the shoulders.
 #[test]
 fn a_raglan_starts_at_its_shoulders_and_its_pair_of_sleeves_on_both_arms() {
     let body = load("child_110").expect("shipped");

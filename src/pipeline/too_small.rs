@@ -38,7 +38,7 @@ pub struct TooSmall {
 }
 
 impl Job {
-    /// The piece that is drawn out furthest beyond what its cloth gives, with the particles of the sewn garment at `at`.
+    /// The piece that is drawn out furthest beyond what its cloth gives, with the particles of the sewn garment `at`.
     pub(super) fn too_small(&self, at: &[Vec3]) -> Option<TooSmall> {
         let pieces = self.mesh.pieces.iter().zip(&self.fabrics).zip(extensions(&self.mesh, at));
         let threads = pieces.flat_map(|((piece, fabric), strains)| {
