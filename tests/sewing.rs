@@ -1079,13 +1079,7 @@ fn a_band_for_the_bust_starts_there() {
 #[test]
 fn what_is_wider_than_the_room_between_the_arms_starts_deep_instead() {
     let (body, collider) = woman();
-    let text = "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  front:\n    place: torso front\n    \
-         grain: [[0, 300], [0, 500]]\n    outline: {start: -180 0, neck: C -90 160, 90 160, 180 0, \
-         armhole_left: C 200 120, 260 220, 350 220, left: L 480 720, hem: L -480 720, right: L -350 220, \
-         armhole_right: C -260 220, -200 120, -180 0}\n  back: {like: front, place: torso back}\n\
-         seams:\n  a: {sew: front.left, to: back.right}\n  b: {sew: front.right, to: back.left}\n\
-         free: ['*.neck', '*.hem', '*.armhole_left', '*.armhole_right']\n";
-    let made = Made::new(text, 20.0);
+    let made = Made::new(include_str!("data/boxy_shirt.yaml"), 20.0);
     let x = made.placed(&body);
     let near = x.iter().map(|p| collider.nearest(*p, 1.0).map_or(1.0, |n| n.distance)).fold(f64::MAX, f64::min);
     assert!(near > 0.0, "starts {near} m from the body");
