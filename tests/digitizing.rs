@@ -503,6 +503,22 @@ fn notches_and_drill_holes_of_a_dxf_may_be_drawn() {
     assert_eq!(holes, [[150.0, 250.0]]);
 }
 
+/// Where a patch is tacked down its holes are on its edges and at its corners: each is a mark there, on the cloth.
+#[test]
+fn a_drill_hole_on_the_rim_of_a_piece_is_a_mark_on_it() {
+    let wedge = ring(1, &[[0.0, 0.0], [300.0, 0.0], [0.0, 30.0]]);
+    let at = [[150.0, 0.0], [0.0, 15.0], [150.0, 15.0], [0.0, 0.0], [300.0, 0.0], [0.0, 30.0], [150.0, -0.3]];
+    let text = block(&[wedge, at.map(|p| line(13, &[p])).concat()]);
+    let made = garment_file("patch", &read_dxf_text(&text, Some(1e-3)).expect("a piece").pieces);
+    let marks = loaded(&made).garment.pieces[0].lines.clone();
+    let middles = marks.iter().map(|m| m.path.point(m.path.length() / 2.0)).collect::<Vec<Vec2>>();
+    for (found, [x, y]) in middles.iter().zip(at) {
+        let off = (found - middles[3] - Vec2::new(x, -y) * 1e-3).norm();
+        assert!(off < EXACT, "{found} is not ({x}, {y})");
+    }
+    assert_eq!(middles.len(), at.len());
+}
+
 /// A shape is one notch, of however many lines it is, where it meets the cut line, or as near to it as it comes.
 #[test]
 fn a_drawn_notch_of_a_dxf_is_no_double_one() {

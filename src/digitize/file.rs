@@ -9,7 +9,7 @@ use super::suggest::{Suggestion, suggest};
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{
     AllowanceFile, AllowanceWidth, Cut, DartFile, DartShape, GarmentFile, LineFile, LineKind, Located, NotchFile,
-    OutlineFile, PieceFile, PleatFile, Quantity, Spot,
+    OutlineFile, PieceFile, PleatFile, Quantity, SLACK, Spot,
 };
 
 /// Millimetres per metre.
@@ -24,8 +24,9 @@ const LOOKS: [f64; 3] = [0.4, 0.5, 0.6];
 const ALONG: f64 = 2e-3;
 /// What is so near to a notch or to the tip of a dart (metres) is that.
 const ON_NOTCH: f64 = 5e-4;
-/// Length of the line that stands for a drill hole, metres.
-const DRILL: f64 = 2e-3;
+/// Length of the line that stands for a drill hole, metres: one on the rim of the cloth, where a patch is tacked down,
+/// has its ends no farther off than lines may be.
+const DRILL: f64 = SLACK;
 /// Longest name.
 const LONGEST: usize = 40;
 
