@@ -194,17 +194,40 @@ fn a_piece_hides_the_lines_of_another_right_behind_it() {
     for z in [0.0, -5e-4] {
         add(&mut cloth, TriMesh { vertices: square(z).to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]] });
     }
-    let seen_in_front = |line: Option<[u32; 2]>| {
+    let seen_in_front = |line: Option<[u32; 2]>, piece_of_triangle: &[u32]| {
         let seams: Vec<Vec<Vec3>> = line.iter().map(|l| l.map(|v| cloth.vertices[v as usize]).to_vec()).collect();
-        let png =
-            draw(&Scene { piece_of_triangle: &[0, 0, 1, 1], seams: &seams, ..scene(&cloth, None) }).expect("a scene");
+        let png = draw(&Scene { piece_of_triangle, seams: &seams, ..scene(&cloth, None) }).expect("a scene");
         // The views stand side by side, front first. Its middle: at the corners a line's round ends stick out.
         let rows = decode(&png).chunks(WIDTH).map(|row| row[..WIDTH / 3].to_vec()).collect::<Vec<_>>();
         rows[2 * HEIGHT / 5..3 * HEIGHT / 5].to_vec()
     };
-    let without = seen_in_front(None);
-    assert_eq!(seen_in_front(Some([4, 6])), without, "the diagonal of the square behind");
-    assert_ne!(seen_in_front(Some([0, 2])), without, "the diagonal of the square in front");
+    // A piece that lies over itself, as a wrapped waistband does, hides its own lines.
+    for pieces in [[0, 0, 1, 1], [0; 4]] {
+        let without = seen_in_front(None, &pieces);
+        assert_eq!(seen_in_front(Some([4, 6]), &pieces), without, "the diagonal of the square behind");
+        assert_ne!(seen_in_front(Some([0, 2]), &pieces), without, "the diagonal of the square in front");
+    }
+}
+
+/// Nor does the rim of a smaller one, however much the cloth is turned away: lines are wider than layers are apart.
+#[test]
+fn cloth_at_a_slant_hides_the_rim_of_a_facing() {
+    for degrees in [30.0f64, 60.0, 75.0, 85.0] {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let square = |half: f64, behind: f64| {
+            let corners = [[-half, 0.8 - half], [half, 0.8 - half], [half, 0.8 + half], [-half, 0.8 + half]];
+            let at = |[x, y]: [f64; 2]| Vec3::new(x * cos - behind * sin, y, -x * sin - behind * cos);
+            TriMesh { vertices: corners.map(at).to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]] }
+        };
+        let mut cloth = square(0.8, 0.0);
+        add(&mut cloth, square(0.4, 5e-4));
+        let rims = rim_lines(&square(0.4, 5e-4));
+        let seen_in_front = |rims: &[Vec<Vec3>]| {
+            let png = draw(&Scene { piece_of_triangle: &[0, 0, 1, 1], rims, ..scene(&cloth, None) }).expect("a scene");
+            decode(&png).chunks(WIDTH).map(|row| row[..WIDTH / 3].to_vec()).collect::<Vec<_>>()
+        };
+        assert_eq!(seen_in_front(&rims), seen_in_front(&[]), "turned by {degrees} degrees");
+    }
 }
 
 fn scene<'a>(cloth: &'a TriMesh, strain: Option<&'a [f64]>) -> Scene<'a> {

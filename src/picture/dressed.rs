@@ -26,7 +26,7 @@ impl Dressed {
         let pieces = mesh.pieces.iter().enumerate();
         Self {
             piece_of_triangle: pieces.flat_map(|(k, p)| vec![k as u32; p.triangles.len()]).collect(),
-            seams: seam_lines(mesh, at),
+            seams: seam_lines(mesh, &welded),
             rims: rim_lines(&welded.surface),
             strain: strain.map(|values| welded.largest(values)),
             welded,
@@ -48,9 +48,10 @@ impl Dressed {
     }
 }
 
-/// The course of every seam, from positions per particle.
-fn seam_lines(mesh: &ClothMesh, at: &[Vec3]) -> Vec<Vec<Vec3>> {
-    let middle = |&[a, b]: &[u32; 2]| (at[a as usize] + at[b as usize]) / 2.0;
+/// The course of every seam, from vertex to vertex where it is stitched.
+fn seam_lines(mesh: &ClothMesh, welded: &Welded) -> Vec<Vec<Vec3>> {
+    let at = |particle: u32| welded.surface.vertices[welded.vertex_of[particle as usize] as usize];
+    let middle = |&[a, b]: &[u32; 2]| (at(a) + at(b)) / 2.0;
     mesh.seams.iter().map(|s| s.pairs.iter().map(middle).collect()).collect()
 }
 

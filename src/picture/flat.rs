@@ -3,7 +3,7 @@
 use super::canvas::Canvas;
 use super::color::{INK, PALE_INK, PAPER, RIM, strain};
 use super::paint::limit;
-use super::raster::{Band, Corner, NO_PIECE, SAMPLES};
+use super::raster::{Band, Corner, NO_CLOTH, SAMPLES};
 use super::view::legend;
 use super::{HEIGHT, PictureError, WIDTH, encode};
 use crate::geometry::Vec2;
@@ -54,7 +54,7 @@ pub fn draw_flat(cloth: &ClothMesh, values: &[f64], title: &str) -> Result<Vec<u
         let mut band = Band::new(WIDTH * SAMPLES, top * SAMPLES, rows * SAMPLES);
         let (first, last) = ((top * SAMPLES) as f32, ((top + rows) * SAMPLES) as f32);
         let meets = |s: &&[Corner; 3]| s.iter().any(|c| c.at[1] <= last) && s.iter().any(|c| c.at[1] >= first);
-        shapes.iter().filter(meets).for_each(|shape| band.triangle(shape, NO_PIECE));
+        shapes.iter().filter(meets).for_each(|shape| band.triangle(shape, NO_CLOTH));
         canvas.paste(0, top, WIDTH, &band.pixels());
     }
     for (k, piece) in cloth.pieces.iter().enumerate() {

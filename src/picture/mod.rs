@@ -13,6 +13,7 @@ mod flat;
 mod font;
 mod light;
 mod occlusion;
+mod on_cloth;
 mod paint;
 mod raster;
 mod shadow;

@@ -12,17 +12,17 @@ pub(super) struct Corner {
     pub(super) color: Rgb,
 }
 
-/// What a triangle or a sample belongs to: a piece of cloth, or this, anything else.
-pub(super) const NO_PIECE: u32 = u32::MAX;
+/// Which triangle of the cloth a triangle or a sample is; this, if it is anything else.
+pub(super) const NO_CLOTH: u32 = u32::MAX;
 
 /// A piece of a drawn line, in samples.
-pub(super) struct Stroke {
+pub(super) struct Stroke<'a> {
     pub(super) ends: [[f32; 3]; 2],
     pub(super) radius: f32,
     pub(super) color: Rgb,
-    /// The pieces it lies on; these do not hide it unless they are nearer by `lift`, metres, others do. `NO_PIECE`
-    /// fills up; a line on no piece is hidden by all alike.
-    pub(super) pieces: [u32; 4],
+    /// The triangles of the cloth it lies on, in order; these do not hide it unless they are nearer by `lift`, metres,
+    /// other cloth does. A line on none is hidden by all alike.
+    pub(super) around: &'a [u32],
     pub(super) lift: f32,
 }
 
@@ -32,7 +32,7 @@ pub(super) struct Band {
     first_row: usize,
     rows: usize,
     nearness: Vec<f32>,
-    piece: Vec<u32>,
+    cloth: Vec<u32>,
     color: Vec<[u8; 4]>,
 }
 
@@ -46,7 +46,7 @@ impl Band {
             first_row,
             rows,
             nearness: vec![f32::NEG_INFINITY; size],
-            piece: vec![NO_PIECE; size],
+            cloth: vec![NO_CLOTH; size],
             color: vec![[r, g, b, 0]; size],
         }
     }
@@ -60,24 +60,14 @@ impl Band {
         (x0 as isize <= x1 && y0 as isize <= y1).then_some([x0, x1 as usize, y0, y1 as usize])
     }
 
-    /// Fills a triangle of `piece` where it is nearer than what is there.
-    pub(super) fn triangle(&mut self, corners: &[Corner; 3], piece: u32) {
+    /// Fills a triangle, `cloth` of the cloth, where it is nearer than what is there.
+    pub(super) fn triangle(&mut self, corners: &[Corner; 3], cloth: u32) {
         let [a, b, c] = corners.map(|c| c.at);
         let lo = [a[0].min(b[0]).min(c[0]), a[1].min(b[1]).min(c[1])];
         let hi = [a[0].max(b[0]).max(c[0]), a[1].max(b[1]).max(c[1])];
         let Some([x0, x1, y0, y1]) = self.window(lo, hi) else { return };
-        let double_area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
-        if double_area == 0.0 {
-            return;
-        }
-        // Weights of b and c: linear in column and row, zero at a.
-        let slope = |p: [f32; 3], q: [f32; 3]| [(q[1] - p[1]) / double_area, (p[0] - q[0]) / double_area];
-        let (wb, wc) = (slope(a, c), slope(b, a));
-        let plane = |k: fn(&Corner) -> f32| {
-            let (at_a, along_b, along_c) = (k(&corners[0]), k(&corners[1]), k(&corners[2]));
-            let (db, dc) = (along_b - at_a, along_c - at_a);
-            [at_a, db * wb[0] + dc * wc[0], db * wb[1] + dc * wc[1]]
-        };
+        let Some([wb, wc]) = weights(corners) else { return };
+        let plane = |k: fn(&Corner) -> f32| plane([wb, wc], corners.map(|c| k(&c)));
         let depth = plane(|c| c.at[2]);
         let tint = [plane(|c| c.color[0]), plane(|c| c.color[1]), plane(|c| c.color[2])];
         for y in y0..=y1 {
@@ -92,7 +82,7 @@ impl Band {
                 let near = depth[0] + depth[1] * dx + depth[2] * dy;
                 if near > self.nearness[row + x] {
                     self.nearness[row + x] = near;
-                    self.piece[row + x] = piece;
+                    self.cloth[row + x] = cloth;
                     let [r, g, b] = tint.map(|t| byte(t[0] + t[1] * dx + t[2] * dy));
                     self.color[row + x] = [r, g, b, 0];
                 }
@@ -100,10 +90,9 @@ impl Band {
         }
     }
 
-    /// Draws a straight stroke with round ends where nothing hides it.
-    pub(super) fn stroke(&mut self, stroke: &Stroke) {
-        let &Stroke { ends: [a, b], radius, color, pieces, lift } = stroke;
-        let anywhere = pieces[0] == NO_PIECE;
+    /// Draws a straight stroke with round ends where nothing hides it; `cloth` are the triangles of the cloth.
+    pub(super) fn stroke(&mut self, stroke: &Stroke, cloth: &[([Corner; 3], u32)]) {
+        let &Stroke { ends: [a, b], radius, color, around, lift } = stroke;
         let lo = [a[0].min(b[0]) - radius, a[1].min(b[1]) - radius];
         let hi = [a[0].max(b[0]) + radius, a[1].max(b[1]) + radius];
         let Some([x0, x1, y0, y1]) = self.window(lo, hi) else { return };
@@ -117,10 +106,14 @@ impl Band {
                 let dx = x as f32 + 0.5 - a[0];
                 let t = ((dx * along[0] + dy * along[1]) / length2).clamp(0.0, 1.0);
                 let (ox, oy) = (dx - t * along[0], dy - t * along[1]);
-                let on = self.piece[row + x];
-                let over = if anywhere || on == NO_PIECE || pieces.contains(&on) { lift } else { 0.0 };
-                let near = a[2] + t * (b[2] - a[2]) + over;
-                if ox * ox + oy * oy <= radius * radius && near > self.nearness[row + x] {
+                if ox * ox + oy * oy > radius * radius {
+                    continue;
+                }
+                let (line, shown) = (a[2] + t * (b[2] - a[2]), self.cloth[row + x]);
+                let own = around.is_empty() || shown == NO_CLOTH || around.binary_search(&shown).is_ok();
+                let near = if own { line + lift } else { line };
+                let foot = [x as f32 + 0.5 - ox, y as f32 + 0.5 - oy];
+                if near > self.nearness[row + x] && (own || near > nearness_at(&cloth[shown as usize].0, foot)) {
                     self.nearness[row + x] = near;
                     self.color[row + x] = [r, g, blue, 0];
                 }
@@ -147,6 +140,29 @@ impl Band {
         }
         out
     }
+}
+
+/// How the shares of the second and the third corner grow along columns and rows, from the first on, where both are 0.
+fn weights(corners: &[Corner; 3]) -> Option<[[f32; 2]; 2]> {
+    let [a, b, c] = corners.map(|c| c.at);
+    let double_area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+    let slope = |p: [f32; 3], q: [f32; 3]| [(q[1] - p[1]) / double_area, (p[0] - q[0]) / double_area];
+    (double_area != 0.0).then(|| [slope(a, c), slope(b, a)])
+}
+
+/// A value that is given at the corners: at the first, and how it grows along columns and rows.
+fn plane([wb, wc]: [[f32; 2]; 2], [at_a, at_b, at_c]: [f32; 3]) -> [f32; 3] {
+    let (db, dc) = (at_b - at_a, at_c - at_a);
+    [at_a, db * wb[0] + dc * wc[0], db * wb[1] + dc * wc[1]]
+}
+
+/// How near the plane of a triangle is at `p`, which is beside the sample that shows it: on cloth seen at a slant the
+/// two differ by more than layers do. No nearer than the nearest corner, for the plane ends with the triangle.
+fn nearness_at(corners: &[Corner; 3], p: [f32; 2]) -> f32 {
+    let nearest = corners.iter().map(|c| c.at[2]).fold(f32::NEG_INFINITY, f32::max);
+    let at = corners[0].at;
+    let here = weights(corners).map(|w| plane(w, corners.map(|c| c.at[2])));
+    here.map_or(nearest, |[base, dx, dy]| nearest.min(base + dx * (p[0] - at[0]) + dy * (p[1] - at[1])))
 }
 
 /// A displayed value as a byte; the conversion saturates.

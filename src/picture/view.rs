@@ -1,6 +1,5 @@
 //! From the scene to the canvas.
 
-use std::collections::HashMap;
 use std::ops::Range;
 
 use rayon::prelude::*;
@@ -10,8 +9,9 @@ use super::canvas::Canvas;
 use super::color::{BODY, INK, PALE_INK, PAPER, RIM, Rgb, SEAM, strain};
 use super::light::Lights;
 use super::occlusion::Surroundings;
+use super::on_cloth::{Line, lines};
 use super::paint::Paint;
-use super::raster::{Band, Corner, NO_PIECE, SAMPLES, Stroke};
+use super::raster::{Band, Corner, NO_CLOTH, SAMPLES, Stroke};
 use super::{HEIGHT, Scene, WIDTH};
 use crate::geometry::{TriMesh, Vec3};
 
@@ -22,7 +22,7 @@ const BAND: usize = 64;
 const SEAM_RADIUS: f32 = 0.95;
 const RIM_RADIUS: f32 = 0.7;
 
-/// Lines are drawn as if this much nearer (metres) than the pieces they lie on, which would hide them; less than the
+/// Lines are drawn as if this much nearer (metres) than the cloth they lie on, which would hide them; less than the
 /// distance from one side of a body to the other by far.
 const LINE_LIFT: f32 = 0.004;
 
@@ -48,7 +48,7 @@ pub(super) fn render(scene: &Scene) -> Canvas {
     canvas
 }
 
-/// Normals, how much of its surroundings every vertex sees and the pieces it lies on; the same in all views.
+/// Normals, how much of its surroundings every vertex sees, and the lines; the same in all views.
 struct Lit {
     body_normals: Vec<Vec3>,
     body_seen: Vec<f32>,
@@ -57,7 +57,7 @@ struct Lit {
     cloth_seen: [Vec<f32>; 2],
     floor: TriMesh,
     floor_seen: Vec<f32>,
-    pieces_at: HashMap<[u64; 3], Vec<u32>>,
+    lines: Vec<Line>,
 }
 
 impl Lit {
@@ -74,7 +74,7 @@ impl Lit {
             body_normals,
             cloth_normals,
             floor,
-            pieces_at: pieces_at(scene),
+            lines: lines(scene, &[(scene.seams, SEAM_RADIUS, SEAM), (scene.rims, RIM_RADIUS, RIM)]),
         }
     }
 }
@@ -95,30 +95,30 @@ fn floor(scene: &Scene) -> TriMesh {
 }
 
 /// Everything one view shows, projected, and sorted into bands.
-struct Panel {
+struct Panel<'a> {
     width: usize,
-    /// With the piece of cloth each one is of.
+    /// With the triangle of the cloth each one is; those are the last.
     triangles: Vec<([Corner; 3], u32)>,
-    strokes: Vec<Stroke>,
+    first_cloth: usize,
+    strokes: Vec<Stroke<'a>>,
     triangle_bands: Vec<Vec<u32>>,
     stroke_bands: Vec<Vec<u32>>,
 }
 
-impl Panel {
-    fn new(scene: &Scene, lit: &Lit, paint: &Paint, camera: &Camera) -> Self {
+impl<'a> Panel<'a> {
+    fn new(scene: &Scene, lit: &'a Lit, paint: &Paint, camera: &Camera) -> Self {
         let around = floor_triangles(lit, camera).into_iter().chain(body_triangles(scene, lit, camera));
-        let mut triangles: Vec<_> = around.map(|corners| (corners, NO_PIECE)).collect();
-        let cloth = cloth_triangles(scene, lit, paint, camera).into_iter().enumerate();
-        triangles.extend(cloth.map(|(t, corners)| (corners, scene.piece_of(t))));
-        let mut strokes = strokes(scene.seams, SEAM_RADIUS, SEAM, lit, camera);
-        strokes.extend(self::strokes(scene.rims, RIM_RADIUS, RIM, lit, camera));
+        let mut triangles: Vec<_> = around.map(|corners| (corners, NO_CLOTH)).collect();
+        let first_cloth = triangles.len();
+        triangles.extend(cloth_triangles(scene, lit, paint, camera).into_iter().zip(0..));
+        let strokes: Vec<Stroke> = lit.lines.iter().map(|line| stroke(line, camera)).collect();
         let rows = |at: &[[f32; 3]], radius: f32| {
             let y = at.iter().map(|p| p[1]);
             (y.clone().fold(f32::INFINITY, f32::min) - radius, y.fold(f32::NEG_INFINITY, f32::max) + radius)
         };
         let triangle_bands = sorted(triangles.iter().map(|(t, _)| rows(&t.map(|c| c.at), 0.0)));
         let stroke_bands = sorted(strokes.iter().map(|s| rows(&s.ends, s.radius)));
-        Self { width: camera.width, triangles, strokes, triangle_bands, stroke_bands }
+        Self { width: camera.width, triangles, first_cloth, strokes, triangle_bands, stroke_bands }
     }
 
     /// Pixels of a band.
@@ -126,11 +126,11 @@ impl Panel {
         let rows = band_rows(index);
         let mut band = Band::new(self.width * SAMPLES, rows.start * SAMPLES, rows.len() * SAMPLES);
         for &t in &self.triangle_bands[index] {
-            let (corners, piece) = &self.triangles[t as usize];
-            band.triangle(corners, *piece);
+            let (corners, cloth) = &self.triangles[t as usize];
+            band.triangle(corners, *cloth);
         }
         for &s in &self.stroke_bands[index] {
-            band.stroke(&self.strokes[s as usize]);
+            band.stroke(&self.strokes[s as usize], &self.triangles[self.first_cloth..]);
         }
         band.pixels()
     }
@@ -211,35 +211,9 @@ fn times(a: Rgb, b: Rgb) -> Rgb {
     [a[0] * b[0], a[1] * b[1], a[2] * b[2]]
 }
 
-/// The pieces round every vertex of the cloth, by its position.
-fn pieces_at(scene: &Scene) -> HashMap<[u64; 3], Vec<u32>> {
-    let mut out: HashMap<[u64; 3], Vec<u32>> = HashMap::new();
-    for (t, corners) in scene.cloth.triangles.iter().enumerate() {
-        for &v in corners {
-            let pieces = out.entry(bits(&scene.cloth.vertices[v as usize])).or_default();
-            if !pieces.contains(&scene.piece_of(t)) {
-                pieces.push(scene.piece_of(t));
-            }
-        }
-    }
-    out
-}
-
-fn bits(p: &Vec3) -> [u64; 3] {
-    [p.x, p.y, p.z].map(f64::to_bits)
-}
-
-/// Lines on the cloth; what leads from one of its vertices to another lies on the pieces round both.
-fn strokes(lines: &[Vec<Vec3>], radius: f32, color: Rgb, lit: &Lit, camera: &Camera) -> Vec<Stroke> {
-    let at = |p: &Vec3| lit.pieces_at.get(&bits(p)).map_or(&[][..], Vec::as_slice);
-    let stroke = |w: &[Vec3]| {
-        let mut pieces = [NO_PIECE; 4];
-        let both = at(&w[0]).iter().filter(|piece| at(&w[1]).contains(piece));
-        pieces.iter_mut().zip(both).for_each(|(slot, piece)| *slot = *piece);
-        let ends = [in_samples(camera, &w[0]), in_samples(camera, &w[1])];
-        Stroke { ends, radius: radius * SAMPLES as f32, color, pieces, lift: LINE_LIFT }
-    };
-    lines.iter().flat_map(|l| l.windows(2)).map(stroke).collect()
+fn stroke<'a>(line: &'a Line, camera: &Camera) -> Stroke<'a> {
+    let ends = line.ends.map(|p| in_samples(camera, &p));
+    Stroke { ends, radius: line.radius * SAMPLES as f32, color: line.color, around: &line.around, lift: LINE_LIFT }
 }
 
 /// Title, names of the views, scale, legend.
