@@ -2,7 +2,7 @@
 //! shares nothing with its writer.
 
 use proptest::prelude::*;
-use toile::cutting::{Layout, MarkKind, Options, Paper, SewKind, Sheet, papers};
+use toile::cutting::{Layout, Lettering, MarkKind, Options, Paper, SewKind, Sheet, papers};
 use toile::geometry::Vec2;
 use toile::io::dxf_write::cutting_dxf;
 use toile::io::garment::read_text;
@@ -421,6 +421,69 @@ fn elastic_is_labelled_beside_its_line() {
     let line = paper.marks[0].path.start().y;
     assert!(low > line || high < line, "{low} {line} {high}");
     assert!((high - line).abs() < 0.015);
+}
+
+/// Left, right, head and foot of a text, with the letters that reach below its line, as wide as a sans-serif type is.
+fn text_box(text: &Lettering) -> [f64; 4] {
+    let half = text.text.chars().count() as f64 * 0.72 * text.height / 2.0;
+    let (p, up, down) = (text.at, text.height, 0.25 * text.height);
+    if text.upright {
+        [p.x - down, p.x + up, p.y - half, p.y + half]
+    } else {
+        [p.x - half, p.x + half, p.y - up, p.y + down]
+    }
+}
+
+/// Every label is clear of every line that is cut or sewn, and legible.
+fn assert_clear_labels(paper: &Paper) {
+    let sewn = paper.sew.iter().map(|line| line.path.sampled(1e-5));
+    let lines: Vec<Vec<Vec2>> = paper.cut.iter().cloned().chain(sewn).collect();
+    for text in paper.texts.iter().filter(|t| !t.text.starts_with("elastic")) {
+        let [left, right, head, foot] = text_box(text);
+        assert!(text.height >= 2.5e-3 - 1e-9, "'{}' on '{}' is {} m high", text.text, paper.name, text.height);
+        for [a, b] in lines.iter().flat_map(|line| line.windows(2).map(|w| [w[0], w[1]])) {
+            // Looked at more often than the box is high.
+            let looks = ((b - a).norm() / 5e-4).ceil();
+            let inside = |p: Vec2| left < p.x && p.x < right && head < p.y && p.y < foot;
+            let hit = (0..=looks as usize).map(|k| a + (b - a) * (k as f64 / looks.max(1.0))).find(|&p| inside(p));
+            assert_eq!(hit, None, "'{}' on '{}'", text.text, paper.name);
+        }
+    }
+}
+
+#[test]
+fn labels_cross_no_line_that_is_cut_or_sewn() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/patterns");
+    for entry in std::fs::read_dir(folder).expect("patterns") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_some_and(|e| e == "yaml") {
+            let drawings = drawn(&std::fs::read_to_string(&path).expect("text"));
+            papers(&drawings, &Options::default()).iter().for_each(assert_clear_labels);
+        }
+    }
+    for outline in [
+        "{start: 0 0, top: L 600 0, right: L 600 30, hem: L 0 30, left: L 0 0}",
+        "{start: 0 0, top: L 30 0, right: L 30 600, hem: L 0 600, left: L 0 0}",
+        "{start: 0 0, top: L 600 0, right: L 600 8, hem: L 0 8, left: L 0 0}",
+        "{start: 0 0, a: L 40 0, neck: C 40 90 160 90 160 0, b: L 200 0, rim: C 200 140 0 140 0 0}",
+    ] {
+        let paper = paper_of(&format!("    outline: {outline}\n"));
+        assert_clear_labels(&paper);
+        assert!(paper.texts.iter().any(|t| t.text.contains("cut 1")), "{:?}", paper.texts);
+    }
+}
+
+/// Where there is no room on a piece its label stands under it, and the sheet is so much larger.
+#[test]
+fn a_label_beside_its_piece_is_on_the_sheet() {
+    let paper = paper_of("    outline: {start: 0 0, top: L 40 0, right: L 40 8, hem: L 0 8, left: L 0 0}\n");
+    let sheet = Sheet::new(&[paper.clone(), paper], &Layout::default());
+    let boxes: Vec<Vec<[f64; 4]>> = sheet.papers.iter().map(|p| p.texts.iter().map(text_box).collect()).collect();
+    for [left, right, head, foot] in boxes.concat() {
+        assert!(left >= 0.0 && right <= sheet.size.x && head >= 0.0 && foot <= sheet.size.y);
+    }
+    let [low, high] = sheet.papers[0].bounds();
+    assert!(boxes[0].iter().all(|b| b[2] > high.y && b[0] >= low.x), "{boxes:?}");
 }
 
 /// A piece with a hole of this path, into which another is sewn or nothing.

@@ -1,8 +1,8 @@
 //! What is written on a piece, and where there is room for it.
 
-use super::room::{Room, foot};
-use super::{Lettering, Paper};
-use crate::geometry::{Path, Vec2};
+use super::room::{AIR, Room, foot};
+use super::{Lettering, Paper, SewKind};
+use crate::geometry::{Path, Vec2, encloses, sides_of};
 use crate::pattern::{Cut, LineKind};
 
 /// Largest and smallest height of letters, metres: easily read at arm's length, and the least that home printers draw
@@ -14,13 +14,18 @@ const CLEARLY: f64 = 1.3;
 const NAME: f64 = 1.4;
 /// Width of a letter of a sans-serif type over its height, on average, with some air.
 pub const LETTER_WIDTH: f64 = 0.62;
-/// Distance of lines over the height of letters.
+/// Distance of lines over the height of letters, and how far some letters reach below their line.
 const LINE: f64 = 1.45;
-/// Height of letters along a line, metres, and the share of its box that they take.
+const BELOW: f64 = 0.3;
+/// Lines that are never left out: the name, and how many are cut of what.
+const NEEDED: usize = 2;
+/// Height of letters along a line or beside a piece, metres, and the share of its box that they take.
 const BESIDE: f64 = 0.004;
 const AIR_BESIDE: f64 = 0.75;
 /// Where along a line words are tried: near its middle first.
 const BESIDE_AT: [f64; 7] = [0.5, 0.35, 0.65, 0.25, 0.75, 0.12, 0.88];
+/// Half the width of a drill mark, metres.
+const DRILL: f64 = 0.002;
 /// Longest line of a remark that is written, letters.
 const LONGEST_NOTE: usize = 60;
 
@@ -44,25 +49,62 @@ pub(super) fn count(cut: &Cut) -> String {
 /// The lines of text on a piece; `widths` are those of its edges.
 pub(super) fn lettering(paper: &Paper, widths: &[EdgeWidth], note: Option<&str>) -> Vec<Lettering> {
     let mut lines = vec![paper.name.clone(), format!("{}, {}", paper.count, paper.fabric)];
-    lines.push(allowances(widths));
+    lines.extend(allowances(widths));
     lines.extend(note.map(|n| crate::input::shown(n.trim(), LONGEST_NOTE)));
-    let longest = lines.iter().map(|l| l.chars().count()).max().unwrap_or(1) as f64;
-    let block = Vec2::new(longest * LETTER_WIDTH, lines.len() as f64 * LINE + (NAME - 1.0));
     let mut room = room(paper);
     let mut texts = elastic(paper, &room);
     texts.iter().for_each(|t| room.add_wall(&outline(t)));
-    let (middle, height, upright) = room.level_or_turned(block, LETTERS.0, CLEARLY);
-    texts.extend(write(&lines, middle, height.clamp(LETTERS.1, LETTERS.0), upright));
+    let sewn = sewn(paper);
+    let inside = wordings(&lines).iter().find_map(|lines| fitted(&room, &sewn, lines));
+    texts.extend(inside.unwrap_or_else(|| under(paper, &lines)));
     texts
 }
 
+/// The lines one under the other, or all in one, for narrow pieces; then without the last, as far as they are not
+/// needed.
+fn wordings(lines: &[String]) -> Vec<Vec<String>> {
+    let kept = (NEEDED..=lines.len()).rev().map(|n| &lines[..n]);
+    kept.flat_map(|lines| [lines.to_vec(), vec![lines.join(", ")]]).collect()
+}
+
+/// The sides of what is left of a piece when it is sewn, in any order.
+fn sewn(paper: &Paper) -> Vec<[Vec2; 2]> {
+    let around = paper.sew.iter().filter(|s| matches!(s.of, SewKind::Outline | SewKind::Hole | SewKind::Dart));
+    let lines = around.map(|s| s.path.sampled(1e-4)).chain(paper.fold.map(|fold| fold.to_vec()));
+    lines.flat_map(|line| line.windows(2).map(|w| [w[0], w[1]]).collect::<Vec<_>>()).collect()
+}
+
+/// The lines where there is most room for them, if they are legible there and not in an allowance, where nobody sees
+/// them once it is sewn.
+fn fitted(room: &Room, sewn: &[[Vec2; 2]], lines: &[String]) -> Option<Vec<Lettering>> {
+    let (middle, height, upright) = room.level_or_turned(block(lines), LETTERS.0, CLEARLY);
+    // What is in one line is written as high as a name.
+    let smallest = if lines.len() == 1 { NAME * height } else { height };
+    let fits = smallest >= LETTERS.1 && encloses(sewn.iter().copied(), middle);
+    fits.then(|| write(lines, middle, height.min(LETTERS.0), upright))
+}
+
+/// The lines under the piece, clear of it: there is no room within.
+fn under(paper: &Paper, lines: &[String]) -> Vec<Lettering> {
+    let [low, high] = paper.bounds();
+    let size = block(lines) * (BESIDE / AIR);
+    write(lines, Vec2::new(low.x, high.y) + size / 2.0, BESIDE, false)
+}
+
+/// Width and height of lines over the height of their letters.
+fn block(lines: &[String]) -> Vec2 {
+    let wide =
+        |(i, line): (usize, &String)| line.chars().count() as f64 * LETTER_WIDTH * if i == 0 { NAME } else { 1.0 };
+    let below = if lines.len() == 1 { NAME * BELOW } else { BELOW };
+    let high = NAME + (lines.len() as f64 - 1.0) * LINE + below;
+    Vec2::new(lines.iter().enumerate().map(wide).fold(1.0, f64::max), high)
+}
+
 /// The allowance of most of the outline, and edges that have another.
-fn allowances(widths: &[EdgeWidth]) -> String {
+fn allowances(widths: &[EdgeWidth]) -> Option<String> {
     let mm = |w: f64| (w * 1e5).round() / 100.0;
     let along = |w: f64| widths.iter().filter(|e| mm(e.width) == mm(w)).map(|e| e.length).sum::<f64>();
-    let Some(common) = widths.iter().max_by(|a, b| along(a.width).total_cmp(&along(b.width))) else {
-        return String::new();
-    };
+    let common = widths.iter().max_by(|a, b| along(a.width).total_cmp(&along(b.width)))?;
     let common = mm(common.width);
     // What a dart cuts in two, `hem` and `hem.2`, is one edge to a reader.
     let others: Vec<String> = widths
@@ -71,19 +113,18 @@ fn allowances(widths: &[EdgeWidth]) -> String {
         .map(|e| format!("{} {}", e.name, mm(e.width)))
         .collect();
     let but = if others.is_empty() { String::new() } else { format!("; {}", others.join(", ")) };
-    format!("allowance {common} mm{but}")
+    Some(format!("allowance {common} mm{but}"))
 }
 
 fn write(lines: &[String], middle: Vec2, height: f64, upright: bool) -> Vec<Lettering> {
-    let whole = height * (lines.len() as f64 * LINE + (NAME - 1.0));
-    let mut down = -whole / 2.0 + height * NAME;
+    let mut down = height * (NAME - block(lines).y / 2.0);
     let mut out = Vec::new();
     for (i, line) in lines.iter().enumerate() {
         // Turned, the heads of the letters are to the right: the first line is the rightmost.
         let at = if upright { Vec2::new(-down, 0.0) } else { Vec2::new(0.0, down) };
-        let height = if i == 0 { height * NAME } else { height };
-        out.push(Lettering { text: line.clone(), at: middle + at, height, upright });
-        down += LINE * height.min(whole);
+        let letters = if i == 0 { height * NAME } else { height };
+        out.push(Lettering { text: line.clone(), at: middle + at, height: letters, upright });
+        down += LINE * height;
     }
     out
 }
@@ -91,7 +132,8 @@ fn write(lines: &[String], middle: Vec2, height: f64, upright: bool) -> Vec<Lett
 /// The cloth of a paper, and the lines that text should keep clear of.
 fn room(paper: &Paper) -> Room {
     // A half piece is closed by its fold.
-    let mut room = Room { contours: paper.cut.clone(), walls: Vec::new() };
+    let walls = paper.cut.iter().flat_map(|contour| sides_of(contour)).collect();
+    let mut room = Room { contours: paper.cut.clone(), walls };
     for line in &paper.sew {
         room.add_wall(&line.path.sampled(1e-4));
     }
@@ -99,6 +141,10 @@ fn room(paper: &Paper) -> Room {
         room.add_wall(&mark.path.sampled(1e-4));
     }
     room.add_wall(&paper.grain);
+    for (_, at) in &paper.drills {
+        let half = Vec2::new(DRILL, 0.0);
+        room.add_wall(&[at - half, at + half]);
+    }
     if let Some(fold) = paper.fold {
         room.add_wall(&fold);
     }
@@ -135,14 +181,14 @@ fn beside(room: &Room, path: &Path, text: String) -> Lettering {
     Lettering { text, at: middle + foot(height, upright), height, upright }
 }
 
-/// The box round a text, as a line.
-fn outline(text: &Lettering) -> [Vec2; 5] {
-    let wide = text.text.chars().count() as f64 * LETTER_WIDTH * text.height / 2.0;
+/// The box round a text with its air, as a line.
+pub(super) fn outline(text: &Lettering) -> [Vec2; 5] {
+    let wide = text.text.chars().count() as f64 * LETTER_WIDTH * text.height / AIR / 2.0;
     let corner = |along: f64, up: f64| {
         let (along, up) = (along * wide, up * text.height);
         text.at + if text.upright { Vec2::new(up, along) } else { Vec2::new(along, -up) }
     };
-    [corner(-1.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(-1.0, 1.0), corner(-1.0, 0.0)]
+    [corner(-1.0, -BELOW), corner(1.0, -BELOW), corner(1.0, 1.0), corner(-1.0, 1.0), corner(-1.0, -BELOW)]
 }
 
 #[cfg(test)]

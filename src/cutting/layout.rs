@@ -38,7 +38,7 @@ pub struct Sheet {
 impl Sheet {
     /// Lays papers out, the highest first.
     pub fn new(papers: &[Paper], layout: &Layout) -> Self {
-        let mut sizes: Vec<Vec2> = papers.iter().map(|p| p.bounds()[1] - p.bounds()[0]).collect();
+        let mut sizes: Vec<Vec2> = papers.iter().map(|p| p.extent()[1] - p.extent()[0]).collect();
         if layout.square {
             sizes.push(Vec2::repeat(TEST_SQUARE));
         }
@@ -46,7 +46,7 @@ impl Sheet {
         let (corners, size) = shelves(&sizes, width, GAP);
         let margin = Vec2::repeat(layout.margin);
         let put =
-            |(paper, corner): (&Paper, &Vec2)| paper.mapped(Matrix2::identity(), corner + margin - paper.bounds()[0]);
+            |(paper, corner): (&Paper, &Vec2)| paper.mapped(Matrix2::identity(), corner + margin - paper.extent()[0]);
         Self {
             papers: papers.iter().zip(&corners).map(put).collect(),
             square: layout.square.then(|| corners[papers.len()] + margin),

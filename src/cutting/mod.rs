@@ -199,4 +199,10 @@ impl Paper {
         let Some(first) = points.next() else { return [Vec2::zeros(); 2] };
         points.fold([*first; 2], |[low, high], p| [low.inf(p), high.sup(p)])
     }
+
+    /// As [`Paper::bounds`], with what is written beside it.
+    pub fn extent(&self) -> [Vec2; 2] {
+        let written = self.texts.iter().flat_map(label::outline);
+        written.fold(self.bounds(), |[low, high], p| [low.inf(&p), high.sup(&p)])
+    }
 }

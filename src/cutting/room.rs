@@ -5,7 +5,7 @@ use crate::geometry::{Vec2, encloses, range_of, sides_of};
 /// Places looked at along each side of the piece's box.
 const PLACES: usize = 40;
 /// Share of the room between lines that a block of text takes.
-const AIR: f64 = 0.85;
+pub(super) const AIR: f64 = 0.85;
 /// Share of the cloth along a thread that an arrow takes at most.
 const ARROW: f64 = 0.8;
 /// This share of its length is not worth going farther for.

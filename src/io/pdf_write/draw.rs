@@ -130,7 +130,7 @@ impl Pen {
     /// What of a sheet lies in the box from `low` to `high`, or touches it.
     pub(super) fn sheet(&mut self, sheet: &Sheet, [low, high]: [Vec2; 2]) {
         for paper in &sheet.papers {
-            let [least, greatest] = paper.bounds();
+            let [least, greatest] = paper.extent();
             if (0..2).all(|k| least[k] <= high[k] && greatest[k] >= low[k]) {
                 self.paper(paper);
             }

@@ -69,7 +69,7 @@ struct Plan {
 impl Plan {
     /// The width, in pages, that takes the fewest pages; the narrower of two that take as many.
     fn new(papers: &[Paper], frame: Vec2) -> Result<Self, PdfError> {
-        let widest = papers.iter().map(|p| p.bounds()[1].x - p.bounds()[0].x).fold(0.0, f64::max);
+        let widest = papers.iter().map(|p| p.extent()[1].x - p.extent()[0].x).fold(0.0, f64::max);
         let least = fields(widest, frame.x);
         if least > MOST_PAGES {
             return Err(PdfError::TooMany { pages: least, most: MOST_PAGES });
