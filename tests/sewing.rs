@@ -929,7 +929,7 @@ fn the_widest_of_all_gaps_is_the_one_that_is_named() {
     let right = stitching.pairs.iter().position(|p| p.1 == 1).expect("a stitch of the second seam");
     gaps[right] = 5.0 * MM;
     let nodes = vec![Vec3::zeros(); stitching.classes];
-    let sewn = Sewn { stitching, nodes, gaps, steps: 7, tangles: 0, open: None };
+    let sewn = Sewn { stitching, nodes, gaps, steps: 7, tangles: 0, is_cut: false, open: None };
     let said = sewn.closed(&made.mesh, 1.0 * MM).map_err(|e| e.to_string());
     assert!(said.as_ref().is_err_and(|e| e.contains("'right'") && e.contains("5.0 mm after 7 steps")), "{said:?}");
     assert!(sewn.closed(&made.mesh, 5.0 * MM).is_ok());

@@ -147,9 +147,9 @@ impl Coarse {
     }
 }
 
-/// Whether all seams have closed and the cloth does not pass through itself.
+/// Whether all seams have closed, and the cloth passes neither through itself nor through the body.
 fn is_whole(mesh: &ClothMesh, sewn: &Sewn) -> bool {
-    sewn.tangles == 0 && sewn.closed(mesh, SewOptions::default().tolerance).is_ok()
+    sewn.tangles == 0 && !sewn.is_cut && sewn.closed(mesh, SewOptions::default().tolerance).is_ok()
 }
 
 #[cfg(test)]

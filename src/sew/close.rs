@@ -41,6 +41,8 @@ pub struct Sewn {
     pub steps: usize,
     /// Crossings of the cloth with itself that could not be led out.
     pub tangles: usize,
+    /// Whether the body cuts an edge of the cloth; not asked while a seam is open.
+    pub is_cut: bool,
     /// Where every particle lies, if a seam did not close: nothing has been stitched then.
     pub open: Option<Vec<Vec3>>,
 }
@@ -146,7 +148,7 @@ pub fn sew(
     let (gaps, nodes) = (stitching.gaps(&world.x), stitching.welded(&world.x));
     if gaps.iter().any(|gap| *gap > options.tolerance) {
         let tangles = world.tangles().len();
-        return Ok(Sewn { stitching, nodes, gaps, steps, tangles, open: Some(world.x) });
+        return Ok(Sewn { stitching, nodes, gaps, steps, tangles, is_cut: false, open: Some(world.x) });
     }
     let mut sewn = settled(sewn_world(cut, body, &stitching, nodes)?, stitching, gaps, Calm::TO_FALL)?;
     sewn.steps += steps;
@@ -249,5 +251,6 @@ pub fn stitch(cut: &Cut, body: &Collider, particles: &[Vec3]) -> Result<Option<S
 /// Lets a garment with its seams closed settle.
 fn settled(mut world: World, stitching: Stitching, gaps: Vec<f64>, calm: Calm) -> Result<Sewn, SewError> {
     let (steps, tangles) = settle(&mut world, calm)?;
-    Ok(Sewn { nodes: world.x, stitching, gaps, steps, tangles, open: None })
+    let is_cut = world.is_cut();
+    Ok(Sewn { nodes: world.x, stitching, gaps, steps, tangles, is_cut, open: None })
 }

@@ -1,7 +1,7 @@
 //! Where the pieces start (F10): bent round the body part each one is made for.
 //!
 //! ```text
-//! fold · pleat · flare · band ─▶ assign ─▶ rows ─▶ levels ─▶ wrap · ring · shoulders ─▶ lay
+//! fold · pleat · flare · band ─▶ assign ─▶ rows ─▶ levels ─▶ wrap · ring · shoulders · arms ─▶ lay
 //!  folded, laid, unrolled,       which      pieces side by     how they      rings round the part,   facings and
 //!  turned level                  part       side, rows one     pack at       seams nearly meeting;   linings on what
 //!                                           over another       every height  tops leaning over       they line

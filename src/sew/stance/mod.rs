@@ -87,7 +87,8 @@ impl Stance {
         let mut world = sewn_world(cut, body, &sewn.stitching, sewn.nodes)?;
         sewn.steps += carrier.carry(&mut world, -last)?;
         let (steps, tangles) = settle(&mut world, Calm::TO_FALL)?;
-        Ok(Sewn { nodes: world.x, tangles, steps: sewn.steps + steps, ..sewn })
+        let is_cut = world.is_cut();
+        Ok(Sewn { nodes: world.x, tangles, is_cut, steps: sewn.steps + steps, ..sewn })
     }
 }
 
