@@ -204,6 +204,8 @@ mod tests {
         let (coarse, _) = job.placed_at(DETOUR * 0.016).expect("placed");
         let closed = job.detour(&mesh, &mut |_| {}).expect("a detour");
         assert!(is_whole(&mesh, &closed.sewn));
+        // The hem of a pencil skirt went by way of a coarser level with the toes in it.
+        assert!(!is_whole(&mesh, &Sewn { is_cut: true, ..closed.sewn.clone() }));
         assert_eq!(closed.sewn.stitching.class.len(), mesh.flat.len());
         assert_eq!(counts(&closed.gaps), pairs(&coarse));
         assert!(closed.coarse.is_none());
