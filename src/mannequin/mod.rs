@@ -171,6 +171,9 @@ pub struct BodyPart {
     pub landmarks: Vec<(String, Vec3)>,
 }
 
+/// A hand or a foot reaches so far beyond its limb's last section, metres.
+pub(crate) const HAND_OR_FOOT: f64 = 0.2;
+
 /// One cross-section of a body part.
 #[derive(Clone, Copy, Debug)]
 pub struct Section {

@@ -1,7 +1,7 @@
 //! Pieces that lie on each other, and on which layer.
 
 use super::diagnostic::{Findings, Spot};
-use super::place_word::{PlaceWord, place_word};
+use super::place_word::{PlaceWord, place_word, words_of};
 use super::problem::Problem;
 use super::{Garment, Piece, Place, Seam};
 
@@ -38,6 +38,6 @@ fn meanings(piece: &Piece) -> Vec<PlaceWord> {
     match &piece.place {
         Some(Place::Around { words }) => words.iter().filter_map(|w| place_word(w)).collect(),
         Some(Place::At { .. }) => Vec::new(),
-        None => piece.drawn_as.to_lowercase().split(['_', '-']).filter_map(place_word).collect(),
+        None => words_of(&piece.drawn_as).iter().filter_map(|w| place_word(w)).collect(),
     }
 }

@@ -57,7 +57,7 @@ pub use file::{
     OpenFile, OutlineFile, PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, Side, TestEntry, TestFile,
     Unit, Value,
 };
-pub use place_word::{PlaceWord, place_word};
+pub use place_word::{PlaceWord, place_word, words_of};
 pub use problem::Problem;
 pub use reference::parse_quantity;
 pub(crate) use region::{Region, SLACK};

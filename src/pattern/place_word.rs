@@ -43,6 +43,11 @@ const WORDS: [(PlaceWord, &[&str]); 8] = [
 const KNOWN: &str = "torso, hip, waist, skirt, bodice, chest, bust; leg, knee or ankle; arm, sleeve, elbow, wrist or \
                      cuff; neck, collar or hood; with left or right, front or back";
 
+/// The words of a name in lower case: `sleeve_left.L` → sleeve, left, l.
+pub fn words_of(name: &str) -> Vec<String> {
+    name.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).map(str::to_lowercase).collect()
+}
+
 /// What a lower-case word says, also in the plural.
 pub fn place_word(word: &str) -> Option<PlaceWord> {
     let means = |word: &str| WORDS.iter().find(|(_, list)| list.contains(&word)).map(|(meaning, _)| *meaning);

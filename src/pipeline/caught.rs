@@ -5,13 +5,10 @@ use std::path::PathBuf;
 
 use super::job::Job;
 use crate::geometry::{Vec3, pierces};
-use crate::mannequin::{BodyPart, PartKind};
+use crate::mannequin::{BodyPart, HAND_OR_FOOT, PartKind};
 use crate::mesh::Stitches;
 use crate::report::opening_names;
 use crate::sew::SewError;
-
-/// A hand or a foot reaches so far beyond its limb's last section, metres.
-const BEYOND: f64 = 0.2;
 
 /// A seam that stayed open round an arm or a leg.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -90,7 +87,7 @@ impl Job {
 /// The axis of a limb, on to the tips of its fingers or toes.
 fn line(limb: &BodyPart) -> Vec<Vec3> {
     let mut line: Vec<Vec3> = limb.sections.iter().map(|s| s.center).collect();
-    line.extend(limb.sections.last().map(|s| s.center + s.axis * BEYOND));
+    line.extend(limb.sections.last().map(|s| s.center + s.axis * HAND_OR_FOOT));
     line
 }
 

@@ -1,12 +1,10 @@
 //! The room that the arms leave the trunk's ring.
 
 use crate::geometry::Vec3;
-use crate::mannequin::{Mannequin, Section};
+use crate::mannequin::{HAND_OR_FOOT, Mannequin, Section};
 
 /// Arms are looked at this often along their axes, metres.
 const STEP: f64 = 0.005;
-/// A hand reaches so far beyond its arm's last section, metres.
-const HAND: f64 = 0.2;
 
 /// Where the arms are: balls along their axes, hands included.
 pub(super) struct Arms {
@@ -26,7 +24,7 @@ impl Arms {
             }
             if let Some(wrist) = arm.sections.last() {
                 let radius = radius(wrist);
-                let along = (0..=(HAND / STEP) as usize).map(|k| wrist.center + wrist.axis * (STEP * k as f64));
+                let along = (0..=(HAND_OR_FOOT / STEP) as usize).map(|k| wrist.center + wrist.axis * (STEP * k as f64));
                 balls.extend(along.map(|center| (center, radius)));
             }
         }

@@ -3,7 +3,7 @@
 use super::PlaceError;
 use crate::mannequin::PartKind;
 use crate::mesh::{ClothMesh, PieceMesh};
-use crate::pattern::{Garment, Piece, Place, PlaceWord, Side, place_word};
+use crate::pattern::{Garment, Piece, Place, PlaceWord, Side, place_word, words_of};
 
 /// Where a piece goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,11 +82,6 @@ const AT_BUST: [&str; 3] = ["bust", "chest", "bodice"];
 pub(super) fn is_at_bust(piece: &Piece) -> bool {
     let says = |words: &[String]| words.iter().any(|word| AT_BUST.contains(&word.as_str()));
     matches!(&piece.place, Some(Place::Around { words }) if says(words))
-}
-
-/// `sleeve_left.L` → sleeve, left, l.
-fn words_of(name: &str) -> Vec<String> {
-    name.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).map(str::to_lowercase).collect()
 }
 
 fn says(words: &[String], meaning: PlaceWord) -> bool {
