@@ -152,11 +152,14 @@ impl<'a> Ring<'a> {
         self.anchor = best.1;
     }
 
-    /// Makes the rings deep instead of wide where the row starts in the arms.
+    /// Makes the rings deep instead of wide where less of the row then starts in the body, arms included.
     pub(super) fn keep_between(&mut self, arms: &'a Arms, body: &Collider) {
         let from = self.row.v[0] + self.first_closed() as f64 * LEVEL;
-        if self.inside(body, [from, self.row.v[1]]) > 0 {
+        let within = [from, self.row.v[1]];
+        let wide = self.inside(body, within);
+        if wide > 0 {
             self.between = Some(arms);
+            self.between = self.between.filter(|_| self.inside(body, within) < wide);
         }
     }
 
