@@ -23,6 +23,8 @@ pub(crate) const NEAREST_LOOK: f64 = 2e-3;
 /// finer particles.
 const SETTLE: usize = 100;
 const STILL: f64 = 0.2e-3;
+/// Cloth that the body still cuts comes out in a few steps more, or not in many.
+const COME_OUT: usize = 20;
 /// The most a step changes an edge, metres: half a cell at the usual spacing.
 pub(super) const TRUST: f64 = 5e-3;
 /// However badly the model fits, it is trusted so far, metres.
@@ -133,4 +135,18 @@ pub fn settle(world: &mut World, calm: Calm) -> Result<(usize, usize), StepError
         }
     }
     Ok((steps, world.tangles().len()))
+}
+
+/// Lets the measured springs pull while the body cuts an edge of the cloth, at most for [`COME_OUT`] steps. Returns how
+/// many it took.
+///
+/// # Errors
+/// As [`World::newton`].
+pub(super) fn come_out(world: &mut World) -> Result<usize, StepError> {
+    let mut steps = 0;
+    while steps < COME_OUT && world.is_cut() {
+        world.newton(STEP, TRUST)?;
+        steps += 1;
+    }
+    Ok(steps)
 }

@@ -19,11 +19,8 @@ const FAR: f64 = 0.05;
 const ON: f64 = 1e-6;
 /// Cloth further from a limb than this, metres, does not ask for it.
 const LOOK: f64 = 0.5;
-/// Steps of the measured springs after every stage,
+/// Steps of the measured springs after every stage.
 const STEPS: usize = 3;
-/// and at most so many more while the body still cuts an edge of the cloth, before the limb goes on: what is under the
-/// skin then may come out on its other side. After the last stage the cloth settles anyway.
-const MORE: usize = 20;
 
 /// Which share of a limb's way every node of a garment goes.
 pub(super) struct Carrier<'a> {
@@ -86,18 +83,4 @@ impl<'a> Carrier<'a> {
         }
         Ok(STEPS)
     }
-}
-
-/// Lets the measured springs pull, at most for [`MORE`] steps, until the cloth is out of the body of its stage.
-/// Returns how many steps it took.
-///
-/// # Errors
-/// As [`World::newton`].
-pub(super) fn come_out(world: &mut World) -> Result<usize, StepError> {
-    let mut steps = 0;
-    while steps < MORE && world.is_cut() {
-        world.newton(STEP, TRUST)?;
-        steps += 1;
-    }
-    Ok(steps)
 }

@@ -8,13 +8,13 @@ mod spread;
 use super::close::{SewOptions, Sewn, sew};
 use super::error::SewError;
 use super::place::goes_between_legs;
-use super::settle::{Calm, settle, sewn_world};
+use super::settle::{Calm, come_out, settle, sewn_world};
 use crate::contact::Collider;
 use crate::dynamics::Cut;
 use crate::geometry::{TriMesh, Vec3};
 use crate::mannequin::{Mannequin, PartKind};
 use crate::pattern::Garment;
-use back::{Carrier, come_out};
+use back::Carrier;
 use spread::{Spread, spreads};
 
 /// Share of the progress that sewing is; the rest is the way back.
@@ -80,6 +80,7 @@ impl Stance {
             let stage = Collider::new(&moved(&self.own, &self.spreads, share));
             let stage = stage.ok_or_else(no_solid)?.on_floor(body.floor());
             let mut world = sewn_world(cut, &stage, &sewn.stitching, sewn.nodes)?;
+            // What is under the skin when the limb goes on may come out on its other side.
             sewn.steps += carrier.carry(&mut world, share - last)? + come_out(&mut world)?;
             (sewn.nodes, last) = (world.x, share);
             progress(SEWN + (1.0 - SEWN) * (k + 1) as f64 / (stops.len() + 1) as f64);
