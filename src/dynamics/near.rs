@@ -99,8 +99,8 @@ impl Near {
                 left.push((element, contact));
             }
         }
-        retain_in_order(&mut self.all, &stays);
-        retain_in_order(&mut self.found, &stays);
+        retain_unordered(&mut self.all, &stays);
+        retain_unordered(&mut self.found, &stays);
         left.sort_by_key(|l| l.0);
         left
     }
@@ -169,15 +169,18 @@ impl Near {
             .with_min_len(ONE_THREAD)
             .map(|(found, contact)| matters(found, contact))
             .collect();
-        self.number = (0..chosen.len() as u32).filter(|&k| chosen[k as usize]).collect();
-        self.contacts = self.number.iter().map(|&k| self.all[k as usize]).collect();
+        self.number.clear();
+        self.number.extend((0..chosen.len() as u32).filter(|&k| chosen[k as usize]));
+        self.contacts.clear();
+        self.contacts.extend(self.number.iter().map(|&k| self.all[k as usize]));
     }
 }
 
-/// Keeps the `items` that stay.
-fn retain_in_order<T>(items: &mut Vec<T>, stays: &[bool]) {
-    let mut stays = stays.iter();
-    items.retain(|_| stays.next() == Some(&true));
+/// Keeps the `items` that stay, the last of them in the places of those that go: most stay, and few need be moved.
+fn retain_unordered<T>(items: &mut Vec<T>, stays: &[bool]) {
+    for k in (0..items.len()).rev().filter(|&k| !stays[k]) {
+        items.swap_remove(k);
+    }
 }
 
 /// Turns a contact to where its closest points are now. The share of one that mattered in the last step follows half

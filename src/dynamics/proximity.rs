@@ -48,6 +48,9 @@ impl Reach {
 const BODY: f64 = 0.02;
 /// Where a node has gone this share of the reach for features, they are looked for again however far it may go.
 const MOVED: f64 = 0.15;
+/// What a node that has gone further than this, metres, sees of the body is looked for at every look: a tenth of the
+/// least distance kept from it. With what was seen a fifth of a millimetre ago cloth came to cross the body.
+const SEEN: f64 = 0.02e-3;
 /// All are searched again where less than this share of the reach would do.
 const NARROWER: f64 = 0.6;
 
@@ -64,11 +67,20 @@ const MARGIN: f64 = 0.25;
 /// Room for rounding in distances, metres.
 const ROUNDING: f64 = 1e-9;
 
+/// At which nodes a look searches.
+#[derive(Clone, Copy)]
+struct Search<'a> {
+    /// Those that have gone some way.
+    stale: &'a [bool],
+    /// Those that have moved at all: for the body, and for its features that others hide. All that are stale have.
+    moved: &'a [bool],
+}
+
 /// Contacts between cloth and body and within the cloth.
 ///
 /// A look searches only at the nodes that have gone some way since they were last searched at: near its rest a garment
 /// moves in one fold, and lies still everywhere else. The nearest point of the body, and features that others hide, are
-/// looked for at every look: with those of a fifth of a millimetre ago cloth came to cross the body.
+/// looked for wherever it moves at all.
 pub(super) struct Proximity<'a> {
     /// What was found, and which of it matters.
     near: Near,
@@ -85,6 +97,8 @@ pub(super) struct Proximity<'a> {
     body_distance: Vec<(f64, Vec3)>,
     /// Of which triangles and then edges of the cloth features near them were left out.
     hidden: Vec<bool>,
+    /// Where every node last looked at the body.
+    seen: Vec<Vec3>,
     /// What all of it has cost.
     pub(super) time: ContactTime,
 }
@@ -108,6 +122,7 @@ impl<'a> Proximity<'a> {
             searched: None,
             body_distance: vec![(f64::NEG_INFINITY, Vec3::zeros()); x.len()],
             hidden: vec![false; cloth.triangles.len() + cloth.edges.len()],
+            seen: x.to_vec(),
             time: ContactTime::default(),
         };
         out.detect(cloth, x);
@@ -122,8 +137,11 @@ impl<'a> Proximity<'a> {
         let mut stale = self.bounds.stale(x, MOVED * reach.features);
         stale.iter_mut().for_each(|stale| *stale |= all);
         timed(&mut time.cloth, || self.detector.look(x, reach.cloth, &mut stale));
-        let mut sources = timed(&mut time.body, || self.body_contacts(x, &reach));
-        timed(&mut time.features, || self.face_contacts(cloth, x, &reach, &stale, &mut sources));
+        let moved = self.moved(x, &stale);
+        let mut sources = timed(&mut time.body, || self.body_contacts(x, &reach, &moved));
+        timed(&mut time.features, || {
+            self.face_contacts(cloth, x, &reach, Search { stale: &stale, moved: &moved }, &mut sources)
+        });
         let found = timed(&mut time.cloth, || self.detector.detect_at(x, reach.cloth, &stale));
         timed(&mut time.follow, || {
             sources.extend(found.into_iter().map(|c| (c, None)));
@@ -237,7 +255,20 @@ impl<'a> Proximity<'a> {
         distance - (x[i] - at).norm()
     }
 
-    fn body_contacts(&mut self, x: &[Vec3], reach: &Reach) -> Vec<Source> {
+    /// Which nodes look at the body again: those that have moved since they last did, and those that are searched at.
+    fn moved(&mut self, x: &[Vec3], stale: &[bool]) -> Vec<bool> {
+        let looks = |((x, seen), stale): ((&Vec3, &mut Vec3), &bool)| {
+            let looks = *stale || (x - *seen).norm_squared() > SEEN * SEEN;
+            if looks {
+                *seen = *x;
+            }
+            looks
+        };
+        x.iter().zip(&mut self.seen).zip(stale).map(looks).collect()
+    }
+
+    /// Contacts with the nearest points of the body, of nodes that have `moved`.
+    fn body_contacts(&mut self, x: &[Vec3], reach: &Reach, moved: &[bool]) -> Vec<Source> {
         let body = self.body;
         // A node whose last measured distance minus its way since cannot have come within reach is not asked for again;
         // that distance plus its way is as far as the surface can be now.
@@ -247,6 +278,9 @@ impl<'a> Proximity<'a> {
             .with_min_len(128)
             .enumerate()
             .map(|(i, &(distance, at))| {
+                if !moved[i] {
+                    return None;
+                }
                 let way = (x[i] - at).norm();
                 if distance - way > reach.body {
                     return None;
@@ -276,14 +310,14 @@ impl<'a> Proximity<'a> {
 
     /// Adds the contacts of the body's features with triangles and edges of the cloth that are searched, and lets go
     /// of what was found before at all that is.
-    fn face_contacts(&mut self, cloth: &Cloth, x: &[Vec3], reach: &Reach, stale: &[bool], sources: &mut Vec<Source>) {
-        let is_searched = self.is_searched(cloth, x, stale);
+    fn face_contacts(&mut self, cloth: &Cloth, x: &[Vec3], reach: &Reach, at: Search, sources: &mut Vec<Source>) {
+        let is_searched = self.is_searched(cloth, x, at);
         let found = self.search(cloth, x, reach.features, &is_searched);
         let hides = |k: u32| matches!(found[k as usize], Some((_, true)));
         let stay = |contact: &Contact, element: Option<u32>| match element {
             Some(k) => !is_searched[k as usize],
-            None if contact.is_on_body() => false,
-            None => contact.nodes.iter().all(|&n| !stale[n as usize]),
+            None if contact.is_on_body() => !at.moved[contact.nodes[0] as usize],
+            None => contact.nodes.iter().all(|&n| !at.stale[n as usize]),
         };
         let known = self.near.retain(x, stay, hides);
         for (k, found) in found.into_iter().enumerate() {
@@ -296,13 +330,16 @@ impl<'a> Proximity<'a> {
     }
 
     /// Which triangles, and then edges, of the cloth are searched for features of the body: those at stale nodes; those
-    /// of which a feature was hidden, for the least turn may bring it out; and cloth that is under a feature, of which
+    /// of which a feature was hidden, for the least turn may bring it out, at nodes that have moved; and cloth that is under a feature, of which
     /// a new search tells by the body whether it is: what is known only goes on as it was.
-    fn is_searched(&self, cloth: &Cloth, x: &[Vec3], stale: &[bool]) -> Vec<bool> {
+    fn is_searched(&self, cloth: &Cloth, x: &[Vec3], at: Search) -> Vec<bool> {
         let triangles = cloth.triangles.iter().map(<[u32; 3]>::as_slice);
         let elements = triangles.chain(cloth.edges.iter().map(<[u32; 2]>::as_slice));
-        let any = |nodes: &[u32]| nodes.iter().any(|&n| stale[n as usize]);
-        let mut out: Vec<bool> = elements.zip(&self.hidden).map(|(nodes, hidden)| *hidden || any(nodes)).collect();
+        let again = |(nodes, hidden): (&[u32], &bool)| {
+            let any = |which: &[bool]| nodes.iter().any(|&n| which[n as usize]);
+            any(if *hidden { at.moved } else { at.stale })
+        };
+        let mut out: Vec<bool> = elements.zip(&self.hidden).map(again).collect();
         self.near.under(x).for_each(|k| out[k as usize] = true);
         out
     }
