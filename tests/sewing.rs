@@ -12,7 +12,7 @@ use toile::mesh::{ClothMesh, Stitches, build};
 use toile::pattern::{Garment, Place};
 use toile::sew::place::{PlaceError, place};
 use toile::sew::{Calm, SewError, SewOptions, Sewn, Stitching, settle, sew, sewn_world};
-use toile::verify::crossings;
+use toile::verify::{crossings, crossings_between};
 
 /// Metres.
 const MM: f64 = 1e-3;
@@ -1038,6 +1038,32 @@ fn a_corner_that_went_through_is_led_out() {
     assert!(count(&world.x, &world.cloth.triangles) > 0, "nothing to lead out");
     let (steps, tangles) = settle(&mut world, Calm::TO_FALL).expect("settled");
     assert_eq!((tangles, count(&world.x, &world.cloth.triangles)), (0, 0), "after {steps} steps");
+}
+
+/// The rim of an ear between the particles of a hood stayed there: each of them was outside.
+#[test]
+fn what_a_thin_part_of_the_body_pokes_through_comes_off_it() {
+    let (made, stitching, nodes) = sheet();
+    let mesh = TriMesh { vertices: nodes.clone(), triangles: made.mesh.triangles.clone() };
+    let centre = mesh.vertices.iter().sum::<Vec3>() / mesh.vertices.len() as f64;
+    let spacing = made.mesh.spacing;
+    // Through the middle of an edge, and through a triangle beside it.
+    for aside in [0.0, 0.2 * spacing] {
+        let nearest = nodes.iter().min_by(|a, b| (*a - centre).norm().total_cmp(&(*b - centre).norm())).expect("nodes");
+        let tip = nearest + Vec3::new(0.5 * spacing, aside, 6.0 * MM);
+        let corner = |x: f64, y: f64| tip + Vec3::new(x, y, -40.0) * MM;
+        let vertices = vec![corner(-8.0, -8.0), corner(8.0, -8.0), corner(8.0, 8.0), corner(-8.0, 8.0), tip];
+        let triangles = vec![[0, 2, 1], [0, 3, 2], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
+        let spike = TriMesh { vertices, triangles };
+        let collider = Collider::new(&spike).expect("closed");
+        assert!(nodes.iter().all(|p| collider.nearest(*p, 1.0).is_none_or(|n| n.distance > 0.0)), "only cut");
+        let mut world = sewn_world(&made.cut(), &collider, &stitching, nodes.clone()).expect("a world");
+        assert!(world.is_cut());
+        let (_, tangles) = settle(&mut world, Calm::TO_FALL).expect("settled");
+        let cloth = TriMesh { vertices: world.x.clone(), triangles: world.cloth.triangles.clone() };
+        let between = crossings_between(&cloth, &spike);
+        assert_eq!((tangles, between.pairs.len(), world.is_cut()), (0, 0, false), "{aside} m");
+    }
 }
 
 /// Without shoulder seams its body was hung from the waist, as a skirt is, and the neck band slipped off the shoulders.

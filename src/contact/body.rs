@@ -1,7 +1,7 @@
 //! The body as something cloth can touch.
 
 use parry3d_f64::math::Vector;
-use parry3d_f64::query::{PointQueryWithLocation, Ray, RayCast};
+use parry3d_f64::query::PointQueryWithLocation;
 use parry3d_f64::shape::{TriMesh as ParryMesh, TriMeshFlags};
 
 use super::grid::Grid;
@@ -34,24 +34,24 @@ const RISES: f64 = 1e-9;
 const MEETS: f64 = 0.25;
 
 /// A convex edge of the body.
-struct BodyEdge {
-    ends: [Vec3; 2],
+pub(super) struct BodyEdge {
+    pub(super) ends: [Vec3; 2],
     /// The third corners of its two faces.
     beside: [u32; 2],
     /// Half-way between the directions of its two faces.
-    outward: Vec3,
+    pub(super) outward: Vec3,
 }
 
 /// A closed body prepared for contact; built once, never moved.
 pub struct Collider {
-    mesh: ParryMesh,
+    pub(super) mesh: ParryMesh,
     vertices: Vec<Vec3>,
     normals: Vec<Vec3>,
     /// Vertices that share a face with each vertex.
     neighbours: Vec<Vec<u32>>,
-    edges: Vec<BodyEdge>,
+    pub(super) edges: Vec<BodyEdge>,
     vertex_grid: Grid,
-    edge_grid: Grid,
+    pub(super) edge_grid: Grid,
     triangle_grid: Grid,
     /// Height of the floor, metres.
     floor: Option<f64>,
@@ -68,11 +68,11 @@ pub struct Nearest {
     pub distance: f64,
 }
 
-fn to_parry(v: Vec3) -> Vector {
+pub(super) fn to_parry(v: Vec3) -> Vector {
     v.into()
 }
 
-fn from_parry(v: Vector) -> Vec3 {
+pub(super) fn from_parry(v: Vector) -> Vec3 {
     v.into()
 }
 
@@ -150,11 +150,6 @@ impl Collider {
             self.mesh.triangle(triangle).normal().map_or_else(Vec3::y, from_parry)
         };
         Some(Nearest { point, normal, distance: sign * distance })
-    }
-
-    /// Whether the body's surface is between two points.
-    pub fn is_in_the_way(&self, from: Vec3, to: Vec3) -> bool {
-        self.mesh.intersects_local_ray(&Ray::new(to_parry(from), to_parry(to - from)), 1.0)
     }
 
     /// Contacts of `node`, outside the body, with the body's faces within `reach` that rise over the plane through the

@@ -12,6 +12,7 @@
 mod body;
 mod bounds;
 mod cloth;
+mod cut;
 mod grid;
 mod narrow;
 mod skin;

@@ -3,7 +3,7 @@
 use crate::contact::Collider;
 use crate::dynamics::{ContactTime, Cut, GRIP, Reach, StepError, World};
 use crate::geometry::Vec3;
-use crate::sew::{NEAREST_LOOK, Stitching, drape_reach, sewn_world};
+use crate::sew::{NEAREST_LOOK, Stitching, drape_reach, lead_off, sewn_world};
 
 /// How a garment is draped.
 #[derive(Clone, Copy, Debug)]
@@ -184,10 +184,14 @@ impl Fall<'_> {
             self.world.look_within(self.reach(moved, most_moved))?;
             self.near |= moved < NEAR_REST || self.steps >= LONGEST_FALL;
             // Not before: what was pressed hard while it was sewn would be thrown off, or held by its friction, and
-            // what the body cuts has to come out.
-            if self.hardens && self.near && !self.world.is_cut() {
-                self.world.harden();
-                self.hardens = false;
+            // what the body cuts has to come out, and is led off it.
+            if self.hardens && self.near {
+                if self.world.is_cut() {
+                    lead_off(&mut self.world)?;
+                } else {
+                    self.world.harden();
+                    self.hardens = false;
+                }
             }
             progress((self.steps as f64 / most as f64).max(settled / moved).min(0.9));
         }

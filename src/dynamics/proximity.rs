@@ -140,7 +140,7 @@ impl<'a> Proximity<'a> {
         let moved = self.moved(x, &stale);
         let mut sources = timed(&mut time.body, || self.body_contacts(x, &reach, &moved));
         timed(&mut time.features, || {
-            self.face_contacts(cloth, x, &reach, Search { stale: &stale, moved: &moved }, &mut sources)
+            self.face_contacts(cloth, x, &reach, Search { stale: &stale, moved: &moved }, &mut sources);
         });
         let found = timed(&mut time.cloth, || self.detector.detect_at(x, reach.cloth, &stale));
         timed(&mut time.follow, || {
@@ -330,8 +330,8 @@ impl<'a> Proximity<'a> {
     }
 
     /// Which triangles, and then edges, of the cloth are searched for features of the body: those at stale nodes; those
-    /// of which a feature was hidden, for the least turn may bring it out, at nodes that have moved; and cloth that is under a feature, of which
-    /// a new search tells by the body whether it is: what is known only goes on as it was.
+    /// of which a feature was hidden, at nodes that have moved, for the least turn may bring it out; and cloth that is
+    /// under a feature, of which a new search tells by the body whether it is: what is known only goes on as it was.
     fn is_searched(&self, cloth: &Cloth, x: &[Vec3], at: Search) -> Vec<bool> {
         let triangles = cloth.triangles.iter().map(<[u32; 3]>::as_slice);
         let elements = triangles.chain(cloth.edges.iter().map(<[u32; 2]>::as_slice));

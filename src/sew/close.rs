@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use super::error::SewError;
 use super::recover::lead_out;
-use super::settle::{Calm, come_out, joined, settle, sewn_world};
+use super::settle::{Calm, joined, settle, sewn_world};
 use super::stitch::Stitching;
 use super::untangle::untangle;
 use crate::contact::{Collider, Neighbourhood};
@@ -251,7 +251,6 @@ pub fn stitch(cut: &Cut, body: &Collider, particles: &[Vec3]) -> Result<Option<S
 /// Lets a garment with its seams closed settle.
 fn settled(mut world: World, stitching: Stitching, gaps: Vec<f64>, calm: Calm) -> Result<Sewn, SewError> {
     let (steps, tangles) = settle(&mut world, calm)?;
-    let steps = steps + come_out(&mut world)?;
     let is_cut = world.is_cut();
     Ok(Sewn { nodes: world.x, stitching, gaps, steps, tangles, is_cut, open: None })
 }

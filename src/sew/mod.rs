@@ -2,6 +2,7 @@
 
 mod close;
 mod error;
+mod lead_off;
 pub mod place;
 mod recover;
 mod settle;
@@ -11,6 +12,7 @@ mod untangle;
 
 pub use close::{SewOptions, Sewn, sew, stitch};
 pub use error::SewError;
+pub(crate) use lead_off::lead_off;
 pub(crate) use recover::left_inside;
 pub(crate) use settle::{CLEARANCE, NEAREST_LOOK};
 pub use settle::{Calm, drape_reach, draping_world, join, settle, sewn_world};

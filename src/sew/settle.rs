@@ -1,5 +1,6 @@
 //! The moment after stitching: crossings left beside the seams are led out, and the cloth gets its own springs.
 
+use super::lead_off::lead_off;
 use super::stitch::Stitching;
 use super::untangle::untangle;
 use crate::contact::{Collider, Neighbourhood};
@@ -25,6 +26,8 @@ const SETTLE: usize = 100;
 const STILL: f64 = 0.2e-3;
 /// Cloth that the body still cuts comes out in a few steps more, or not in many.
 const COME_OUT: usize = 20;
+/// What is led off the body then is drawn out, and pulled true in so many steps.
+const LED_OFF: usize = 3;
 /// The most a step changes an edge, metres: half a cell at the usual spacing.
 pub(super) const TRUST: f64 = 5e-3;
 /// However badly the model fits, it is trusted so far, metres.
@@ -116,8 +119,8 @@ pub(super) fn joined<'a>(
     Ok(world.tangles().is_empty().then_some(world))
 }
 
-/// Lets the measured springs pull a newly stitched cloth true, out of its tangles first, until it is `calm`. Returns
-/// the steps made and the tangles left.
+/// Lets the measured springs pull a newly stitched cloth true, out of its tangles first, until it is `calm` and out of
+/// the body. Returns the steps made and the tangles left.
 ///
 /// # Errors
 /// As [`World::advance`].
@@ -134,19 +137,28 @@ pub fn settle(world: &mut World, calm: Calm) -> Result<(usize, usize), StepError
             break;
         }
     }
+    steps += come_out(world)?;
     Ok((steps, world.tangles().len()))
 }
 
-/// Lets the measured springs pull while the body cuts an edge of the cloth, at most for [`COME_OUT`] steps. Returns how
-/// many it took.
+/// Lets the measured springs pull while the body cuts the cloth, at most for [`COME_OUT`] steps; what it still cuts is
+/// led off it then. Returns the steps made.
 ///
 /// # Errors
 /// As [`World::newton`].
 pub(super) fn come_out(world: &mut World) -> Result<usize, StepError> {
-    let mut steps = 0;
-    while steps < COME_OUT && world.is_cut() {
+    for steps in 0..COME_OUT {
+        if !world.is_cut() {
+            return Ok(steps);
+        }
         world.newton(STEP, TRUST)?;
-        steps += 1;
     }
-    Ok(steps)
+    if !world.is_cut() {
+        return Ok(COME_OUT);
+    }
+    lead_off(world)?;
+    for _ in 0..LED_OFF {
+        world.newton(STEP, TRUST)?;
+    }
+    Ok(COME_OUT + LED_OFF)
 }
