@@ -394,7 +394,7 @@ impl<'a> World<'a> {
         cloth.edges.par_iter().any(cuts) || cloth.triangles.par_iter().any(pokes)
     }
 
-    /// How many edges and triangles the body cuts, and for every node the mean direction out of it of those at it.
+    /// How many edges and triangles the body cuts, and for every node the mean way off it of those that have the node.
     pub fn ways_off(&self) -> (usize, Vec<Vec3>) {
         let (body, cloth) = (self.proximity.body, &self.cloth);
         let at = |n: u32| self.x[n as usize];
