@@ -44,13 +44,13 @@ impl Collider {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::geometry::TriMesh;
     use approx::assert_relative_eq;
 
-    /// A spike 40 mm high with its tip over the middle of a base of 20 mm, at z = 0.
-    fn spike() -> Collider {
+    /// A spike along z, 20 mm wide at z = 0 and with its tip at z = 40 mm.
+    pub(crate) fn spike() -> Collider {
         let base = [[-0.01, -0.01], [0.01, -0.01], [0.01, 0.01], [-0.01, 0.01]];
         let mut vertices: Vec<Vec3> = base.iter().map(|[x, y]| Vec3::new(*x, *y, 0.0)).collect();
         vertices.push(Vec3::new(0.0, 0.0, 0.04));

@@ -22,6 +22,8 @@ mod tangle;
 pub use body::{Collider, Nearest};
 pub use bounds::Bounds;
 pub use cloth::{ClothDetector, Neighbourhood};
+#[cfg(test)]
+pub(crate) use cut::tests::spike;
 use narrow::{closest_on_lines, on_plane};
 pub use narrow::{closest_on_segments, closest_on_triangle};
 pub use skin::Skin;

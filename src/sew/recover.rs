@@ -139,16 +139,8 @@ fn directions() -> Vec<Vec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::spike;
     use crate::geometry::TriMesh;
-
-    /// A spike along z, 20 mm wide at z = 0 and with its tip at z = 40 mm.
-    fn spike() -> Collider {
-        let base = [[-0.01, -0.01], [0.01, -0.01], [0.01, 0.01], [-0.01, 0.01]];
-        let mut vertices: Vec<Vec3> = base.iter().map(|[x, y]| Vec3::new(*x, *y, 0.0)).collect();
-        vertices.push(Vec3::new(0.0, 0.0, 0.04));
-        let triangles = vec![[0, 2, 1], [0, 3, 2], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
-        Collider::new(&TriMesh { vertices, triangles }).expect("collider")
-    }
 
     /// A triangle round the spike, at this height.
     fn collar(z: f64) -> [Vec3; 3] {

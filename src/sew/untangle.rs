@@ -6,8 +6,8 @@ use crate::geometry::{Edge, Topology, Vec3};
 
 /// Rounds of leading the cloth out of itself.
 const ROUNDS: usize = 200;
-/// How far a round moves the two that cross away from each other, metres: little at first, for most crossings are
-/// shallow and further would overshoot; as much more again every so many rounds, for what crosses deep.
+/// How far a round moves what crosses apart, metres: little at first, for most crossings are shallow and further would
+/// overshoot; as much more again every so many rounds, for what crosses deep.
 const PULL: f64 = 0.3e-3;
 const MORE: f64 = 20.0;
 
@@ -18,24 +18,39 @@ const MORE: f64 = 20.0;
 /// # Errors
 /// As [`World::detect`].
 pub(super) fn untangle(world: &mut World) -> Result<usize, StepError> {
-    let mut tangles = world.tangles();
-    if tangles.is_empty() {
+    if world.tangles().is_empty() {
         return Ok(0);
     }
     let edges = Topology::new(&world.cloth.triangles).edges;
-    let (mut rounds, mut best) = (0, (tangles.len(), world.x.clone()));
-    while !tangles.is_empty() && rounds < ROUNDS {
-        shorten(world, &edges, &tangles, PULL * (1.0 + rounds as f64 / MORE));
-        rounds += 1;
-        tangles = world.tangles();
-        if tangles.len() < best.0 {
-            best = (tangles.len(), world.x.clone());
-        }
-    }
-    // What could not be led out is left as it was least crossed.
-    world.x = best.1;
+    let look = |world: &mut World| {
+        let tangles = world.tangles();
+        (tangles.len(), tangles)
+    };
+    let rounds = lead(world, ROUNDS, look, |world, tangles, pull| shorten(world, &edges, &tangles, pull));
     world.detect()?;
     Ok(rounds)
+}
+
+/// Moves cloth by a little in every round, at most so many, until a `look` counts nothing that is wrong. What is still
+/// wrong then is left where that was the least. Returns the rounds that took.
+pub(super) fn lead<T>(
+    world: &mut World,
+    most: usize,
+    look: impl Fn(&mut World) -> (usize, T),
+    shift: impl Fn(&mut World, T, f64),
+) -> usize {
+    let (mut count, mut wrong) = look(world);
+    let (mut rounds, mut best) = (0, (count, world.x.clone()));
+    while count > 0 && rounds < most {
+        shift(world, wrong, PULL * (1.0 + rounds as f64 / MORE));
+        rounds += 1;
+        (count, wrong) = look(world);
+        if count < best.0 {
+            best = (count, world.x.clone());
+        }
+    }
+    world.x = best.1;
+    rounds
 }
 
 /// Moves the two of every crossing by up to `pull` metres.
