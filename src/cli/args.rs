@@ -35,7 +35,7 @@ pub(super) struct Global {
     /// Print the results as JSON on standard output
     #[arg(long, global = true)]
     pub(super) json: bool,
-    /// Number of threads (default: all processors); results do not depend on it
+    /// Number of threads, up to 256 (default: all processors); results do not depend on it
     #[arg(long, global = true, value_name = "N")]
     pub(super) threads: Option<NonZeroUsize>,
 }
@@ -121,7 +121,7 @@ impl OverrideArgs {
     /// In metres.
     pub(super) fn checked(&self) -> Overrides {
         Overrides {
-            spacing: self.spacing.map(|mm| 1e-3 * mm),
+            spacing: self.spacing,
             fabric: self.fabric.clone(),
             body: self.body.clone(),
             body_unit: self.body_units.map(UnitArg::unit),
@@ -135,9 +135,12 @@ fn millimetres(text: &str) -> Option<f64> {
     Some(length.unit.map_or(length.number, |unit| 1e3 * unit.factor() * length.number))
 }
 
+/// In metres.
 fn spacing(text: &str) -> Result<f64, String> {
     let positive = millimetres(text).filter(|mm| *mm > 0.0);
-    positive.ok_or_else(|| "a positive number of millimetres is expected, such as 10, or 1cm".into())
+    positive
+        .map(|mm| 1e-3 * mm)
+        .ok_or_else(|| "a positive number of millimetres is expected, such as 10, or 1cm".into())
 }
 
 fn weight(text: &str) -> Result<f64, String> {

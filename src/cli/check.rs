@@ -16,7 +16,7 @@ use crate::report::aligned;
 pub(super) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, CliError> {
     match (&args.mesh, &args.garment) {
         (Some(mesh), _) => check_mesh(mesh, args, console),
-        (None, Some(garment)) => check_garment(garment, args.spacing.map(|mm| mm / MM), console),
+        (None, Some(garment)) => check_garment(garment, args.spacing, console),
         // clap asks for one of them.
         (None, None) => Err(CliError::Argument("a garment file or --mesh is needed".into())),
     }

@@ -6,7 +6,7 @@ use std::io::{self, ErrorKind, IsTerminal, Write};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::exit::CliError;
-use crate::pipeline::json_text;
+use crate::pipeline::{PipelineError, json_text};
 
 /// Standard output and standard error, as `--quiet` and `--json` want them.
 pub(super) struct Console {
@@ -57,9 +57,8 @@ impl Console {
     /// Says why a command was not done.
     pub(super) fn error(&self, error: &CliError) {
         // The diagnostics of a garment file begin with their places, as those of compilers do.
-        let text = error.to_string();
-        let named = text.contains(": error: ");
-        say(&if named { text } else { format!("error: {text}") });
+        let named = matches!(error, CliError::Pipeline(PipelineError::Garment(_)));
+        say(&if named { error.to_string() } else { format!("error: {error}") });
         if let Some(help) = error.help() {
             say(&format!("  help: {help}"));
         }

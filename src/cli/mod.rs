@@ -45,12 +45,12 @@ pub fn main() -> ExitCode {
     ExitCode::from(exit)
 }
 
-/// Most threads that are started, whatever is asked for.
+/// Most threads that are started, whatever is asked for: every one takes a stack, and a slip of the pen must not take
+/// the memory.
 const MOST_THREADS: usize = 256;
 
 fn with_threads<T: Send>(threads: Option<NonZeroUsize>, work: impl FnOnce() -> T + Send) -> Result<T, CliError> {
     let Some(threads) = threads else { return Ok(work()) };
-    // No machine has more processors than this, and more threads only wait.
     let threads = threads.get().min(MOST_THREADS);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     Ok(pool.install(work))

@@ -137,6 +137,11 @@ impl Friction {
         out
     }
 
+    /// The nodes were put to `x` by other hands: nothing was dragged on the way.
+    pub(super) fn displaced(&mut self, x: &[Vec3]) {
+        self.at = x.to_vec();
+    }
+
     /// Takes over from the contacts of the last detection what is known of those found by a new one.
     pub(super) fn detected(&mut self, contacts: &[Contact]) {
         self.memory = contacts.iter().map(|c| self.touching.get(&key(c)).copied().unwrap_or_default()).collect();
@@ -233,6 +238,22 @@ mod tests {
         let back = [Vec3::x() * 0.0999];
         assert!(friction.hold(0, &floor, &back, 2.0, &[0.5]).is_some_and(|hold| !hold.grip().slides));
         assert!(friction.hold(0, &floor, &x, 2.0, &[0.0]).is_none(), "without friction nothing holds");
+    }
+
+    #[test]
+    fn what_other_hands_moved_was_not_dragged() {
+        let floor = Contact::on_body(0, Vec3::y(), Vec3::zeros());
+        let mut friction = Friction::new(&[Vec3::zeros()], &[floor], 100.0);
+        let force = |friction: &Friction, x: Vec3| {
+            friction.hold(0, &floor, &[x], 2.0, &[0.5]).map_or(f64::NAN, |hold| hold.grip().force.x)
+        };
+        let dragged = Vec3::x() * 1e-4;
+        friction.update(&[dragged], &[floor], &[0.5], |_| 2.0);
+        assert_relative_eq!(force(&friction, dragged), -0.2, epsilon = 1e-12);
+        let put = Vec3::x() * 0.1;
+        assert_relative_eq!(force(&friction, put), -1.0, epsilon = 1e-12);
+        friction.displaced(&[put]);
+        assert_relative_eq!(force(&friction, put), -0.2, epsilon = 1e-12);
     }
 
     #[test]

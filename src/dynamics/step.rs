@@ -252,6 +252,12 @@ impl Stepper {
         Ok(())
     }
 
+    /// Lets the next step make a factor of its own: what the matrix depends on beside positions and contacts, the loads
+    /// of springs and the law of contacts, has changed.
+    pub(super) fn forget(&mut self) {
+        self.made = None;
+    }
+
     /// Makes the nodes that are held so stiff that the others are solved as if they were walls.
     fn hold(&mut self, cloth: &Cloth, x: &[Vec3]) {
         if self.held.is_empty() {
@@ -401,4 +407,56 @@ fn couple(matrix: &mut SymmetricMatrix<f32>, diagonal: &[BlockSlot], ends: [u32;
     matrix.add_block(diagonal[ends[0] as usize], k);
     matrix.add_block(diagonal[ends[1] as usize], k);
     matrix.add_block(slot, &(-k));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::bending::Bending;
+    use crate::dynamics::contact_law::{ContactLaw, Hardening};
+    use crate::dynamics::foreseen::Loads;
+    use crate::dynamics::springs::{Spring, StretchLaw};
+
+    /// Two nodes of 1 g with a spring of 10 mm between them.
+    fn spring() -> Cloth {
+        Cloth {
+            node_of: vec![0, 1],
+            mass: vec![1e-3; 2],
+            triangles: Vec::new(),
+            flat: Vec::new(),
+            piece: Vec::new(),
+            springs: vec![Spring { ends: [0, 1], rest: 0.01, width: 0.01, law: 0 }],
+            laws: vec![StretchLaw::linear(500.0)],
+            shears: Vec::new(),
+            bending: Bending::new(2, &[]),
+            creases: Vec::new(),
+            edges: vec![[0, 1]],
+            half_thickness: vec![0.0; 2],
+            friction: vec![0.0; 2],
+            bending_bound: vec![0.0],
+            held: Vec::new(),
+            foreseen: Loads::default(),
+        }
+    }
+
+    #[test]
+    fn a_matrix_of_other_loads_is_used_again_until_it_is_forgotten() {
+        let (mut cloth, x) = (spring(), [Vec3::zeros(), Vec3::x() * 0.0105]);
+        let law = ContactLaw { stiffness: 1.0, hardening: Hardening::Slow, body_clearance: 1e-3, cloth_gap: None };
+        let forces = Forces { gravity: 0.0, contacts: &[], law, pulls: &[], friction: None };
+        // Across the spring, where its load is the stiffness.
+        let across = [Vec3::zeros(), Vec3::y() * 0.1];
+        let step = |stepper: &mut Stepper, cloth: &Cloth| {
+            stepper.solve(cloth, &x, &across, 0.1, &forces, 1).expect("a step")[1].y
+        };
+        let mut stepper = Stepper::new(&cloth, &[], &[], &x).expect("a stepper");
+        let drawn = step(&mut stepper, &cloth);
+        // As if a step had foreseen no load at all.
+        cloth.follow(&x, cloth.foresee(&[Vec3::zeros(), Vec3::x() * 0.01], &[Vec3::zeros(), Vec3::x() * 0.01]).loads);
+        let fresh = step(&mut Stepper::new(&cloth, &[], &[], &x).expect("a stepper"), &cloth);
+        assert!(fresh > 1.01 * drawn, "{fresh} against {drawn}: the test would see nothing");
+        assert_eq!(step(&mut stepper, &cloth), drawn);
+        stepper.forget();
+        assert_eq!(step(&mut stepper, &cloth), fresh);
+    }
 }

@@ -225,6 +225,7 @@ impl<'a> World<'a> {
         }
         self.gains.clear();
         self.cloth.foreseen = Loads::default();
+        self.stepper.forget();
         let still = vec![Vec3::zeros(); self.x.len()];
         let now = forces(self.gravity, &self.proximity, self.law, &[], self.friction.as_ref());
         let d = self.stepper.solve(&self.cloth, &self.x, &still, dt, &now, ROUNDS)?;
@@ -374,6 +375,20 @@ impl<'a> World<'a> {
         self.contacts_changed()
     }
 
+    /// Takes note that [`World::x`] was changed by other hands than its steps: the way there was no motion, turned no
+    /// fold by more than half a turn, and dragged nothing along.
+    ///
+    /// # Errors
+    /// As [`Stepper::new`].
+    pub fn displaced(&mut self) -> Result<(), StepError> {
+        self.velocity.fill(Vec3::zeros());
+        self.cloth.follow(&self.x, Loads::default());
+        if let Some(friction) = &mut self.friction {
+            friction.displaced(&self.x);
+        }
+        self.detect()
+    }
+
     /// Lets every contact grip, with at least the tangential `stiffness` given, N/m.
     pub fn grip(&mut self, stiffness: f64) {
         self.friction = Some(Friction::new(&self.x, self.proximity.near(), stiffness));
@@ -382,6 +397,7 @@ impl<'a> World<'a> {
     /// Lets contacts harden as those of garments at rest do ([`Hardening::Fast`]), from the next step on.
     pub fn harden(&mut self) {
         self.law.hardening = Hardening::Fast;
+        self.stepper.forget();
         // Its energy is another one now.
         self.gains.clear();
     }

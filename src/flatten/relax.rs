@@ -109,7 +109,8 @@ impl Descent {
             let slope = dot(&direction, &gradient);
             let settled = -slope <= (goal.tolerance * value.abs()).max(ENERGY_FLOOR);
             if settled && (holds == 0 || energy.slack(flat) <= goal.exact) {
-                return Ok(Outcome { energy: value, iterations, converged: true });
+                let converged = goal.holds == 0 || energy.slack(flat) <= goal.exact;
+                return Ok(Outcome { energy: value, iterations, converged });
             }
             // Forces are found from lengths, so every time they have changed the lengths must answer first.
             if settled && !std::mem::replace(&mut held, true) {

@@ -217,15 +217,14 @@ fn analyse(pattern: &SymmetricPattern, ordering: &Ordering) -> Result<SymbolicCh
 fn permutation(pattern: &SymmetricPattern, nodes: &[u32]) -> Result<(Vec<u32>, Vec<u32>), CholeskyError> {
     let width = pattern.width() as u32;
     let wrong = CholeskyError::Ordering(pattern.nodes());
-    if nodes.len() != pattern.nodes() {
+    if nodes.len() != pattern.nodes() || nodes.iter().any(|&v| v as usize >= pattern.nodes()) {
         return Err(wrong);
     }
-    let forward: Vec<u32> = nodes.iter().flat_map(|&v| (0..width).map(move |k| v.saturating_mul(width) + k)).collect();
+    let forward: Vec<u32> = nodes.iter().flat_map(|&v| (0..width).map(move |k| v * width + k)).collect();
     let mut inverse = vec![u32::MAX; forward.len()];
     for (k, &row) in forward.iter().enumerate() {
-        match inverse.get_mut(row as usize) {
-            Some(place) if *place == u32::MAX => *place = k as u32,
-            _ => return Err(wrong),
+        if std::mem::replace(&mut inverse[row as usize], k as u32) != u32::MAX {
+            return Err(wrong);
         }
     }
     Ok((forward, inverse))

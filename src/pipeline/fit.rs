@@ -6,8 +6,8 @@ use crate::io::garment::Loaded;
 use crate::mannequin::Mannequin;
 use crate::mesh::ClothMesh;
 use crate::pattern::{Findings, Piece, Place, Problem, Spot};
-use crate::sew::left_inside;
 use crate::sew::place::{PlaceError, place};
+use crate::sew::{Stance, left_inside, sewn_on};
 
 /// A garment whose longest piece is shorter than this share of the body's height is drawn in another unit: a wristband
 /// has a tenth, trousers ten times too small have less than a twelfth.
@@ -42,10 +42,12 @@ fn diagonal(piece: &Piece) -> f64 {
     (high - low).norm()
 }
 
-/// Finds pieces that have no place on the body, or are put into it.
+/// Finds pieces that have no place on the body as it is sewn on, or are put into it.
 pub(super) fn check_places(loaded: &Loaded, mesh: &ClothMesh, body: &Mannequin, findings: &mut Findings) {
     let Some(collider) = Collider::new(&body.mesh).map(|c| c.on_floor(body.floor())) else { return };
-    let start = match place(&loaded.garment, mesh, body, &collider) {
+    let stance = Stance::of(body, &loaded.garment);
+    let (body, collider) = sewn_on(stance.as_ref(), body, &collider);
+    let start = match place(&loaded.garment, mesh, body, collider) {
         Ok(start) => start,
         Err(error) => {
             let piece = loaded.garment.pieces.iter().find(|p| p.name == culprit(&error));
@@ -55,7 +57,7 @@ pub(super) fn check_places(loaded: &Loaded, mesh: &ClothMesh, body: &Mannequin, 
     };
     for (piece, cut) in loaded.garment.pieces.iter().zip(&mesh.pieces) {
         let Some(Place::At { .. }) = piece.place else { continue };
-        if let Some(deepest) = left_inside(&collider, &start[cut.particles.clone()]) {
+        if let Some(deepest) = left_inside(collider, &start[cut.particles.clone()]) {
             let problem = Problem::StartsInside { piece: piece.name.clone(), depth_mm: 1e3 * deepest };
             findings.error(spot_of(loaded, piece), problem);
         }

@@ -7,7 +7,7 @@ use crate::dynamics::Cut;
 use crate::geometry::Vec3;
 use crate::mesh::{self, ClothMesh, Transfer};
 use crate::sew::place::{PlaceError, place};
-use crate::sew::{SewError, SewOptions, Sewn, Stitching, join, sew, stitch};
+use crate::sew::{SewError, SewOptions, Sewn, Stitching, join, sew, sewn_on, stitch};
 
 /// How much coarser each level is than the next.
 const COARSER: f64 = 2.0;
@@ -101,8 +101,7 @@ impl Job {
 
     /// Where the pieces of `mesh` start.
     pub(super) fn placed(&self, mesh: &ClothMesh) -> Result<Vec<Vec3>, PlaceError> {
-        let own = (&self.body, &self.collider);
-        let (body, collider) = self.stance.as_ref().map_or(own, |stance| (&stance.body, &stance.collider));
+        let (body, collider) = sewn_on(self.stance.as_ref(), &self.body, &self.collider);
         place(&self.garment, mesh, body, collider)
     }
 

@@ -56,7 +56,9 @@ pub fn verdicts_by_test(garment: &Garment, report: &Report) -> Vec<Vec<Verdict>>
 
 /// Whether the test is for the fabric the garment was made in.
 fn holds(test: &Test, report: &Report) -> bool {
-    let used = |name: &str| report.fabric == name || report.fabric.split(" + ").any(|f| f == name);
+    // A fabric's name may hold the sign that joins several.
+    let all = format!(" + {} + ", report.fabric);
+    let used = |name: &str| all.contains(&format!(" + {name} + "));
     test.fabric.as_deref().is_none_or(used)
 }
 

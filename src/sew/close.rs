@@ -1,6 +1,5 @@
 //! Drawing the seams shut.
 
-use std::cmp::Ordering;
 use std::collections::HashMap;
 
 use super::error::SewError;
@@ -133,17 +132,11 @@ pub fn sew(
     let hood = Neighbourhood { class: stitching.class.clone(), passing: Vec::new() };
     let mut world = World::new(cloth, start, &pairs, body, hood, law, reach)?;
     untangle(&mut world)?;
-    let mut stages: Vec<i32> = mesh.seams.iter().map(|seam| seam.stage).collect();
-    stages.sort_unstable();
-    stages.dedup();
-    let mut steps = 0;
-    for (nth, &stage) in stages.iter().enumerate() {
-        let of = |seam: u32| mesh.seams[seam as usize].stage;
-        let order: Vec<Ordering> = stitching.pairs.iter().map(|(_, seam)| of(*seam).cmp(&stage)).collect();
-        let budget = options.max_steps - steps;
-        let mut tell = |way: f64| progress((nth as f64 + way) / stages.len() as f64);
-        steps += Closing { stitching: &stitching, order: &order, tolerance: options.tolerance }
-            .close(&mut world, budget, &mut tell)?;
+    let mut closing = Closing::new(mesh, &stitching, options.tolerance);
+    let (mut steps, stages) = (0, closing.harder.len());
+    for stage in 0..stages {
+        let mut tell = |way: f64| progress((stage as f64 + way) / stages as f64);
+        steps += closing.close(&mut world, stage, options.max_steps - steps, &mut tell)?;
     }
     let (gaps, nodes) = (stitching.gaps(&world.x), stitching.welded(&world.x));
     if gaps.iter().any(|gap| *gap > options.tolerance) {
@@ -155,27 +148,50 @@ pub fn sew(
     Ok(sewn)
 }
 
-/// The seams of one stage on their way shut.
+/// The seams on their way shut, stage by stage.
 struct Closing<'a> {
     stitching: &'a Stitching,
-    /// Whether a pair belongs to an earlier stage, this one, or a later one, which does not pull yet.
-    order: &'a [Ordering],
     /// Metres.
     tolerance: f64,
+    /// The stage of every pair, counted from 0.
+    stage: Vec<usize>,
+    /// How many times the pairs of every stage pull twice as hard as at first.
+    harder: Vec<i32>,
+    /// Which particles may pass through one another; none if empty.
+    passing: Vec<bool>,
 }
 
-impl Closing<'_> {
-    /// Closes them, and keeps closed what is. Returns the steps that took, at most `max_steps`.
-    fn close(&self, world: &mut World, max_steps: usize, progress: &mut dyn FnMut(f64)) -> Result<usize, SewError> {
-        let (mut phase, mut harder, mut passing) = (0, 0, Vec::new());
+impl<'a> Closing<'a> {
+    fn new(mesh: &ClothMesh, stitching: &'a Stitching, tolerance: f64) -> Self {
+        let mut stages: Vec<i32> = mesh.seams.iter().map(|seam| seam.stage).collect();
+        stages.sort_unstable();
+        stages.dedup();
+        let of = |seam: u32| stages.partition_point(|s| *s < mesh.seams[seam as usize].stage);
+        let stage = stitching.pairs.iter().map(|(_, seam)| of(*seam)).collect();
+        Self { stitching, tolerance, stage, harder: vec![0; stages.len()], passing: Vec::new() }
+    }
+
+    /// Closes the seams of a `stage` and keeps those of earlier ones closed. Returns the steps that took, at most
+    /// `max_steps`; what is open then is left where its widest gap was the least.
+    fn close(
+        &mut self,
+        world: &mut World,
+        stage: usize,
+        max_steps: usize,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<usize, SewError> {
+        let mut phase = 0;
         let mut history: Vec<f64> = Vec::new();
         let mut first = None;
+        let mut best: Option<(f64, Vec<Vec3>)> = None;
         for steps in 0..max_steps {
             let gaps = self.stitching.gaps(&world.x);
-            let pulling = gaps.iter().zip(self.order).filter(|(_, order)| order.is_le());
-            let widest = pulling.fold(0.0, |widest, (gap, _)| f64::max(widest, *gap));
+            let widest = self.widest(&gaps, stage);
             if widest <= self.tolerance {
                 return Ok(steps);
+            }
+            if best.as_ref().is_none_or(|best| widest < best.0) {
+                best = Some((widest, world.x.clone()));
             }
             let first = *first.get_or_insert(widest);
             history.push(widest);
@@ -187,40 +203,52 @@ impl Closing<'_> {
                     history.clear();
                 }
             } else if stuck_for(STUCK) {
-                harder = (harder + 1).min(HARDER);
+                self.harder[stage] = (self.harder[stage] + 1).min(HARDER);
                 if widest < NEAR {
-                    self.let_pass(world, &gaps, &mut passing)?;
+                    self.let_pass(world, &gaps, stage)?;
                 }
                 history.clear();
             }
-            world.advance(STEP, KEEP, &self.pulls(phase, harder))?;
+            world.advance(STEP, KEEP, &self.pulls(stage, phase))?;
             // Gaps shrink by decades: the share of the way in their logarithm.
             let way = (first / widest).ln() / (first / self.tolerance).ln().max(1e-9);
             progress(way.clamp(0.0, 1.0));
         }
+        if let Some((widest, x)) = best
+            && widest < self.widest(&self.stitching.gaps(&world.x), stage)
+        {
+            world.x = x;
+            world.displaced()?;
+        }
         Ok(max_steps)
     }
 
-    /// What the pairs pull with: those of earlier stages as they did last, those of later ones with nothing.
-    fn pulls(&self, phase: usize, harder: i32) -> Vec<Pull> {
-        let pull = |(ends, order): (&[u32; 2], &Ordering)| {
-            let (stiffness, force) = PHASES[if order.is_lt() { PHASES.len() - 1 } else { phase }];
+    /// The widest of the `gaps` of pairs that pull in a `stage`, metres.
+    fn widest(&self, gaps: &[f64], stage: usize) -> f64 {
+        gaps.iter().zip(&self.stage).filter(|(_, of)| **of <= stage).map(|(gap, _)| *gap).fold(0.0, f64::max)
+    }
+
+    /// What the pairs pull with while those of a `stage` are in a `phase`: those of earlier stages as they did last,
+    /// those of later ones with nothing.
+    fn pulls(&self, stage: usize, phase: usize) -> Vec<Pull> {
+        let pull = |(ends, &of): (&[u32; 2], &usize)| {
+            let (stiffness, force) = PHASES[if of < stage { PHASES.len() - 1 } else { phase }];
             let junction = self.stitching.size[self.stitching.class[ends[0] as usize] as usize] > 2;
-            let factor = if junction { JUNCTION } else { 1.0 } * 2f64.powi(harder);
-            let stiffness_now = if order.is_gt() { 0.0 } else { stiffness * factor };
+            let factor = if junction { JUNCTION } else { 1.0 } * 2f64.powi(self.harder[of]);
+            let stiffness_now = if of > stage { 0.0 } else { stiffness * factor };
             Pull { ends: *ends, stiffness: stiffness_now, cap: force / stiffness }
         };
-        self.stitching.pairs.iter().map(|p| &p.0).zip(self.order).map(pull).collect()
+        self.stitching.pairs.iter().map(|p| &p.0).zip(&self.stage).map(pull).collect()
     }
 
     /// Lets what lies beside pairs that are open pass through itself, and what was let pass before.
-    fn let_pass(&self, world: &mut World, gaps: &[f64], passing: &mut Vec<bool>) -> Result<(), SewError> {
-        let pairs = self.stitching.pairs.iter().zip(gaps).zip(self.order);
-        let open = pairs.filter(|((_, gap), order)| order.is_le() && **gap > self.tolerance);
+    fn let_pass(&mut self, world: &mut World, gaps: &[f64], stage: usize) -> Result<(), SewError> {
+        let pairs = self.stitching.pairs.iter().zip(gaps).zip(&self.stage);
+        let open = pairs.filter(|((_, gap), of)| **of <= stage && **gap > self.tolerance);
         let jammed = neighbourhood(world, open.flat_map(|(((ends, _), _), _)| ends));
-        passing.resize(jammed.len(), false);
-        passing.iter_mut().zip(jammed).for_each(|(passing, jammed)| *passing |= jammed);
-        Ok(world.set_passing(passing.clone())?)
+        self.passing.resize(jammed.len(), false);
+        self.passing.iter_mut().zip(jammed).for_each(|(passing, jammed)| *passing |= jammed);
+        Ok(world.set_passing(self.passing.clone())?)
     }
 }
 

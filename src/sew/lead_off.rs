@@ -12,7 +12,7 @@ const ROUNDS: usize = 100;
 /// meanwhile. What cannot be led off is left as it was least cut; cloth that would come to pass through itself stays.
 ///
 /// # Errors
-/// As [`World::detect`].
+/// As [`World::displaced`].
 pub(crate) fn lead_off(world: &mut World) -> Result<(), StepError> {
     let (from, tangled) = (world.x.clone(), world.tangles().len());
     let shift = |world: &mut World, ways: Vec<Vec3>, pull: f64| {
@@ -22,5 +22,5 @@ pub(crate) fn lead_off(world: &mut World) -> Result<(), StepError> {
     if world.tangles().len() > tangled {
         world.x = from;
     }
-    world.detect()
+    world.displaced()
 }

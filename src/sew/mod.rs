@@ -16,5 +16,5 @@ pub(crate) use lead_off::lead_off;
 pub(crate) use recover::left_inside;
 pub(crate) use settle::{CLEARANCE, NEAREST_LOOK};
 pub use settle::{Calm, drape_reach, draping_world, join, settle, sewn_world};
-pub use stance::Stance;
+pub use stance::{Stance, sewn_on};
 pub use stitch::Stitching;

@@ -10,13 +10,16 @@ const ROUNDS: usize = 200;
 /// overshoot; as much more again every so many rounds, for what crosses deep.
 const PULL: f64 = 0.3e-3;
 const MORE: f64 = 20.0;
+/// An edge that leaves a triangle's plane at less than this (sine) lies in it but for rounding: coordinates of metres
+/// are right to 1e-16, edges a millimetre long.
+const IN_PLANE: f64 = 1e-9;
 
 /// Leads the cloth out of itself where it crosses: edges and the triangles they pass through are moved so that the line
 /// along which they cross gets shorter, until nothing is left of it (Volino and Magnenat-Thalmann 2006). No spring
 /// pulls meanwhile: it would pull the cloth further through where it presses on itself. Returns the rounds that took.
 ///
 /// # Errors
-/// As [`World::detect`].
+/// As [`World::displaced`].
 pub(super) fn untangle(world: &mut World) -> Result<usize, StepError> {
     if world.tangles().is_empty() {
         return Ok(0);
@@ -27,7 +30,7 @@ pub(super) fn untangle(world: &mut World) -> Result<usize, StepError> {
         (tangles.len(), tangles)
     };
     let rounds = lead(world, ROUNDS, look, |world, tangles, pull| shorten(world, &edges, &tangles, pull));
-    world.detect()?;
+    world.displaced()?;
     Ok(rounds)
 }
 
@@ -70,13 +73,18 @@ fn shorten(world: &mut World, edges: &[Edge], tangles: &[Tangle], pull: f64) {
 }
 
 /// Where to move the edge against the triangle, at most 1: the slope of the length of the lines along which the faces
-/// beside the edge cross the triangle. `None` for what has no area.
+/// beside the edge cross the triangle. `None` for what has no area, and for an edge in the triangle's plane, which says
+/// of no way whether it shortens that line.
 fn way_out(world: &World, edges: &[Edge], tangle: &Tangle) -> Option<Vec3> {
     let at = |n: u32| world.x[n as usize];
     let [p, q] = tangle.edge.map(at);
     let [a, b, c] = tangle.triangle.map(at);
     let along = (q - p).try_normalize(0.0)?;
     let normal = (b - a).cross(&(c - a)).try_normalize(0.0)?;
+    let through = along.dot(&normal);
+    if through.abs() < IN_PLANE {
+        return None;
+    }
     let edge = &edges[edges.binary_search_by(|e| e.ends.cmp(&tangle.edge)).ok()?];
     let mut slope = Vec3::zeros();
     for &face in edge.triangles.iter().flatten() {
@@ -85,7 +93,7 @@ fn way_out(world: &World, edges: &[Edge], tangle: &Tangle) -> Option<Vec3> {
         // From where the edge passes through the triangle, into the face.
         let line = (q - p).cross(&into).cross(&normal).try_normalize(0.0)?;
         let line = line * (into - along * along.dot(&into)).dot(&line).signum();
-        slope += line - normal * (2.0 * along.dot(&line) / along.dot(&normal));
+        slope += line - normal * (2.0 * along.dot(&line) / through);
     }
     Some(slope / (slope.norm_squared() + 1.0).sqrt())
 }

@@ -118,7 +118,8 @@ fn facing_of(words: &[String]) -> Option<Facing> {
 /// A piece for an arm or a leg whose side nothing says goes where the pieces it is sewn to are.
 fn sort_out_sides(garment: &Garment, mesh: &ClothMesh, out: &mut [Assigned]) {
     let middles = middles(mesh);
-    let mut seen = [false; 2];
+    // Whether the left one has its piece already, of the arms and of the legs.
+    let mut has_left = [false; 2];
     for (i, piece) in garment.pieces.iter().enumerate() {
         let limbs = match out[i].part {
             PartKind::LeftArm | PartKind::RightArm => [PartKind::LeftArm, PartKind::RightArm],
@@ -133,8 +134,9 @@ fn sort_out_sides(garment: &Garment, mesh: &ClothMesh, out: &mut [Assigned]) {
         }
         // The trunk is drawn as seen from outside: on a front the wearer's left is at larger x.
         let lean = lean(mesh, &middles, out, i);
-        let left = if lean == 0.0 { !seen[0] } else { lean > 0.0 };
-        seen[usize::from(!left)] = true;
+        let has_left = &mut has_left[usize::from(out[i].part.is_leg())];
+        let left = if lean == 0.0 { !*has_left } else { lean > 0.0 };
+        *has_left |= left;
         out[i].part = limbs[usize::from(!left)];
     }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::{band, flare, pleat};
 use crate::geometry::Vec2;
-use crate::mesh::{ClothMesh, PieceMesh};
+use crate::mesh::{ClothMesh, LineParticles, PieceMesh};
 use crate::pattern::{Garment, LineKind};
 
 /// A fold of at least this angle (radians) is folded over before the start; a smaller one is left to the drape.
@@ -39,30 +39,10 @@ pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
         sewn[*p as usize] += 1;
     }
     for piece in &mesh.pieces {
-        for line in &piece.lines {
-            let LineKind::Fold(angle) = line.kind else { continue };
-            if angle.abs() < PRESSED || line.particles.len() < 2 {
-                continue;
-            }
-            let a = mesh.flat[line.particles[0] as usize];
-            let b = mesh.flat[line.particles[line.particles.len() - 1] as usize];
-            let along = (b - a).normalize();
-            let across = Vec2::new(-along.y, along.x);
-            let side = |p: usize| across.dot(&(mesh.flat[p] - a));
-            if opens(garment, mesh, piece, along, side) {
-                continue;
-            }
-            // The side with fewer stitches is turned over.
-            let balance: f64 = piece.particles.clone().map(|p| side(p).signum() * f64::from(sewn[p])).sum();
-            let keep = if balance >= 0.0 { 1.0 } else { -1.0 };
-            for p in piece.particles.clone() {
-                let s = side(p) * keep;
-                if s < -ON_FOLD {
-                    sheet.flat[p] += across * (-2.0 * s * keep);
-                    sheet.under[p] = angle.signum();
-                }
-            }
-        }
+        let mut flaps: Vec<Flap> = piece.lines.iter().filter_map(|l| flap(garment, mesh, piece, &sewn, l)).collect();
+        // Of two folds one beyond the other the outer is pressed first, and its flap turned over with the inner's.
+        flaps.sort_by_key(|flap| flap.particles.len());
+        flaps.iter().for_each(|flap| flap.turn_over(&mut sheet));
     }
     pleat::lay(garment, mesh, &mut sheet);
     sheet.drawn = sheet.flat.clone();
@@ -70,6 +50,46 @@ pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
     flare::lay(garment, mesh, &mut sheet);
     band::lay(garment, mesh, &mut sheet);
     sheet
+}
+
+/// What is turned over at a pressed fold.
+struct Flap {
+    particles: Vec<usize>,
+    /// A point of the fold, and the unit direction across it.
+    at: Vec2,
+    across: Vec2,
+    /// To the wrong side (1) or the right side (-1).
+    way: f64,
+}
+
+/// The flap of a `line` that is pressed: the side of it with fewer stitches. None of another line, nor of a crease that
+/// is worn open.
+fn flap(garment: &Garment, mesh: &ClothMesh, piece: &PieceMesh, sewn: &[u32], line: &LineParticles) -> Option<Flap> {
+    let LineKind::Fold(angle) = line.kind else { return None };
+    let [at, end] = [line.particles.first()?, line.particles.last()?].map(|p| mesh.flat[*p as usize]);
+    let along = (end - at).try_normalize(0.0).filter(|_| angle.abs() >= PRESSED)?;
+    let across = Vec2::new(-along.y, along.x);
+    let side = |p: usize| across.dot(&(mesh.flat[p] - at));
+    if opens(garment, mesh, piece, along, side) {
+        return None;
+    }
+    let balance: f64 = piece.particles.clone().map(|p| side(p).signum() * f64::from(sewn[p])).sum();
+    let keep = if balance >= 0.0 { 1.0 } else { -1.0 };
+    let particles = piece.particles.clone().filter(|&p| side(p) * keep < -ON_FOLD).collect();
+    Some(Flap { particles, at, across, way: angle.signum() })
+}
+
+impl Flap {
+    /// Mirrors it in its fold as it lies by now, what was uppermost of its layers undermost.
+    fn turn_over(&self, sheet: &mut Sheet) {
+        let layers = self.particles.iter().map(|&p| self.way * sheet.under[p]);
+        let highest = layers.fold(0.0, f64::max);
+        for &p in &self.particles {
+            let off = self.across.dot(&(sheet.flat[p] - self.at));
+            sheet.flat[p] -= self.across * (2.0 * off);
+            sheet.under[p] = self.way * (1.0 + highest) - sheet.under[p];
+        }
+    }
 }
 
 /// Whether seams along a fold lead from its two sides to different places, as from the crease of a trouser leg: the
@@ -96,4 +116,41 @@ fn opens(garment: &Garment, mesh: &ClothMesh, piece: &PieceMesh, along: Vec2, si
     let [under, over] = &partners;
     let layers = |these: &[usize]| these.iter().map(|&p| layer(p)).collect::<BTreeSet<i32>>();
     !under.is_empty() && !over.is_empty() && layers(under) == layers(over) && !under.iter().any(|p| over.contains(p))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    /// Layers towards the wrong side of a strip 60 mm long and folded at 20 and at 40 mm, at 10, 30 and 50 mm, and where
+    /// these lie, mm.
+    fn layers(inner: f64, outer: f64) -> [(f64, f64); 3] {
+        let nowhere = Vec::new;
+        let flat: Vec<Vec2> = [0.01, 0.03, 0.05].map(|x| Vec2::new(x, 0.0)).to_vec();
+        let mut sheet = Sheet { drawn: nowhere(), flat, straight: nowhere(), under: vec![0.0; 3], out: Vec::new() };
+        let flap = |particles: &[usize], x: f64, way: f64| Flap {
+            particles: particles.to_vec(),
+            at: Vec2::new(x, 0.0),
+            across: Vec2::x(),
+            way,
+        };
+        flap(&[2], 0.04, outer).turn_over(&mut sheet);
+        flap(&[1, 2], 0.02, inner).turn_over(&mut sheet);
+        [0, 1, 2].map(|p| (1e3 * sheet.flat[p].x, sheet.under[p]))
+    }
+
+    #[test]
+    fn a_fold_beyond_another_is_turned_over_with_it() {
+        // Turned twice the same way, as a hem is, the end lies between; to and fro, as a fan, on top.
+        for way in [1.0, -1.0] {
+            for (other, end, middle) in [(way, 1.0, 2.0), (-way, 2.0, 1.0)] {
+                let [kept, turned, last] = layers(way, other);
+                assert_relative_eq!(kept.0, 10.0, epsilon = 1e-9);
+                assert_relative_eq!(turned.0, 10.0, epsilon = 1e-9);
+                assert_relative_eq!(last.0, 10.0, epsilon = 1e-9);
+                assert_eq!((kept.1, turned.1, last.1), (0.0, way * middle, way * end));
+            }
+        }
+    }
 }

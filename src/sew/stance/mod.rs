@@ -31,6 +31,16 @@ pub struct Stance {
     spreads: Vec<Spread>,
 }
 
+/// The body that pieces are placed round and sewn on, and what cloth can touch of it: in its stance, if it has one for
+/// that, or as it is.
+pub fn sewn_on<'a>(
+    stance: Option<&'a Stance>,
+    body: &'a Mannequin,
+    collider: &'a Collider,
+) -> (&'a Mannequin, &'a Collider) {
+    stance.map_or((body, collider), |stance| (&stance.body, &stance.collider))
+}
+
 impl Stance {
     /// `body` with its limbs apart, the legs only for a garment that goes between them: a narrow skirt may fit legs as
     /// they stand and no others. `None` where limbs are far enough apart as it stands, and for what is nobody.
