@@ -168,6 +168,9 @@ fn a_closed_front_is_no_opening_of_the_report() {
     let open = worn(&garment, 0.03, 0.0);
     assert_eq!(open.worn.len(), 1);
     assert!(!open.closures[0].closed && table(&open).contains("OPEN"), "{}", table(&open));
+    // A garment that is tested for nothing of the kind is out of bounds all the same.
+    let fails = |report: &Report| verdicts(&garment, report).into_iter().any(|v| !v.ok && v.bound == "closure all");
+    assert!(fails(&open) && !fails(&closed));
 }
 
 #[test]

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use toile::contact::{Contact, Under};
 use toile::dynamics::explicit::{Explicit, ExplicitError, Rest, Start, StepControl, explicit_cloth, law_of};
 use toile::dynamics::{
-    Cloth, ContactLaw, Cut, Forces, GRAVITY, Hardening, Pull, Spring, SpringModel, Stepper, StretchLaw, identity_nodes,
+    Cloth, ContactLaw, Cut, Forces, GRAVITY, Hardening, Pull, Spring, SpringModel, Stepper, Stretch, StretchLaw,
+    identity_nodes,
 };
 use toile::fabric;
 use toile::geometry::{Path, Vec2, Vec3};
@@ -68,6 +69,7 @@ fn slack() -> (Cloth, Vec<Vec3>) {
 fn added(cloth: &Cloth, forces: Forces, x: &[Vec3]) -> Vec<Vec3> {
     let mut bare = cloth.clone();
     bare.springs.clear();
+    bare.threads.clear();
     bare.shears.clear();
     let (all, bending) = (law_of(cloth, forces)(x), law_of(&bare, NOTHING)(x));
     all.iter().zip(&bending).map(|(a, b)| a - b).collect()
@@ -115,7 +117,7 @@ fn a_hooke_spring_pulls_in_proportion() {
     // 1 N/mm: stiffness · width / rest length.
     let rest = (x[1] - x[0]).norm();
     cloth.laws = vec![StretchLaw::linear(1000.0 * rest / 0.01)];
-    cloth.springs = vec![Spring { ends: [0, 1], rest, width: 0.01, law: 0 }];
+    cloth.springs = vec![Spring { ends: [0, 1], stretch: Stretch { rest, width: 0.01, law: 0 } }];
     let (along, at_rest) = ((x[1] - x[0]).normalize(), x[1]);
     for stretch in [-2e-3, 0.0, 1e-3, 5e-3] {
         x[1] = at_rest + along * stretch;
@@ -139,7 +141,7 @@ fn a_closure_ties_what_it_joins_with_a_short_thread() {
     // Far shorter than the grid's own.
     let short = |model| -> Vec<Spring> {
         let springs = Cloth::new(&cut, identity_nodes(&mesh), model).springs;
-        springs.into_iter().filter(|s| s.rest <= 2.0 * MM).collect()
+        springs.into_iter().filter(|s| s.stretch.rest <= 2.0 * MM).collect()
     };
     // While the seams close nothing is fastened.
     assert!(short(SpringModel::Soft { stiffness: 50.0, bias: 0.3 }).is_empty());

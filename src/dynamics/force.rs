@@ -6,7 +6,6 @@ use super::GRAVITY;
 use super::contact_law::ContactLaw;
 use super::friction::{Friction, Grip, Hold};
 use super::model::Cloth;
-use super::springs::SHORTEST;
 use crate::contact::Contact;
 use crate::geometry::Vec3;
 
@@ -94,11 +93,15 @@ pub(super) fn free_forces(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Vec
         .map(|i| -cloth.bending.gradient(x, i) - Vec3::y() * (cloth.mass[i] * GRAVITY * forces.gravity))
         .collect();
     for s in &cloth.springs {
-        let d = x[s.ends[1] as usize] - x[s.ends[0] as usize];
-        let length = d.norm().max(SHORTEST);
-        let f = d * (cloth.laws[s.law as usize].load(length / s.rest - 1.0) * s.width / length);
+        let f = s.stretch.pull(&cloth.laws[s.stretch.law as usize], s.span(x));
         out[s.ends[0] as usize] += f;
         out[s.ends[1] as usize] -= f;
+    }
+    for t in &cloth.threads {
+        let f = t.stretch.pull(&cloth.laws[t.stretch.law as usize], t.span(x));
+        for (n, share) in t.nodes.iter().zip(t.shares()) {
+            out[*n as usize] -= f * share;
+        }
     }
     for shear in &cloth.shears {
         for (n, f) in shear.nodes.iter().zip(shear.forces(x)) {

@@ -11,7 +11,8 @@
 
 use super::model::Cloth;
 use super::shear::ShearTangent;
-use super::springs::{SHORTEST, Spring, SpringTangent, StretchLaw};
+use super::springs::{SHORTEST, Spring, Stretch, StretchLaw, StretchTangent};
+use super::thread::Thread;
 use crate::geometry::Vec3;
 
 /// Loads as a step foresaw them; none: as they are.
@@ -19,6 +20,8 @@ use crate::geometry::Vec3;
 pub(super) struct Loads {
     /// Of every spring, N/m.
     springs: Vec<f64>,
+    /// Of every [`Thread`](super::Thread), N/m.
+    threads: Vec<f64>,
     /// Of every [`Shear`](super::Shear), N·m per radian.
     shears: Vec<f64>,
 }
@@ -36,26 +39,34 @@ impl Cloth {
     /// What the linear model of a step from `x` to `to` says of springs and shear.
     pub(super) fn foresee(&self, x: &[Vec3], to: &[Vec3]) -> Foreseen {
         let mut beyond = 0.0;
-        let springs = self.springs.iter().map(|s| {
-            let [before, after] = [x, to].map(|x| x[s.ends[1] as usize] - x[s.ends[0] as usize]);
-            let (load, more) = s.foresee(&self.laws[s.law as usize], before, after);
+        let mut stretch = |stretch: &Stretch, [before, after]: [Vec3; 2]| {
+            let (load, more) = stretch.foresee(&self.laws[stretch.law as usize], before, after);
             beyond += more;
             load
-        });
-        let springs = springs.collect();
+        };
+        let springs = self.springs.iter().map(|s| stretch(&s.stretch, [x, to].map(|x| s.span(x)))).collect();
+        let threads = self.threads.iter().map(|t| stretch(&t.stretch, [x, to].map(|x| t.span(x)))).collect();
         let shears = self.shears.iter().map(|s| {
             let (load, more) = s.foresee(x, to);
             beyond += more;
             load
         });
         let shears = shears.collect();
-        Foreseen { loads: Loads { springs, shears }, beyond }
+        Foreseen { loads: Loads { springs, threads, shears }, beyond }
     }
 
     /// Stiffness of spring number `k` at `x`: across it by the load that the last step foresaw, if one did.
-    pub(super) fn spring_tangent(&self, k: usize, x: &[Vec3]) -> SpringTangent {
-        let spring = &self.springs[k];
-        spring.tangent(&self.laws[spring.law as usize], x, self.foreseen.springs.get(k).copied())
+    pub(super) fn spring_tangent(&self, k: usize, x: &[Vec3]) -> StretchTangent {
+        let Spring { stretch, .. } = self.springs[k];
+        let load = self.foreseen.springs.get(k).copied();
+        stretch.tangent(&self.laws[stretch.law as usize], self.springs[k].span(x), load)
+    }
+
+    /// The same of thread number `k`.
+    pub(super) fn thread_tangent(&self, k: usize, x: &[Vec3]) -> StretchTangent {
+        let Thread { stretch, .. } = self.threads[k];
+        let load = self.foreseen.threads.get(k).copied();
+        stretch.tangent(&self.laws[stretch.law as usize], self.threads[k].span(x), load)
     }
 
     /// The same of shear number `k`.
@@ -64,7 +75,7 @@ impl Cloth {
     }
 }
 
-impl Spring {
+impl Stretch {
     /// The load (N/m) that the linear model of a step foresees, whose ends are apart by `before` and then by `after`,
     /// and the energy (J) that it holds there beyond what that load says.
     fn foresee(&self, law: &StretchLaw, before: Vec3, after: Vec3) -> (f64, f64) {
@@ -84,7 +95,7 @@ mod tests {
 
     #[test]
     fn a_step_foresees_what_draws_a_spring_out_and_not_what_turns_it() {
-        let spring = Spring { ends: [0, 1], rest: 0.01, width: 0.02, law: 0 };
+        let spring = Stretch { rest: 0.01, width: 0.02, law: 0 };
         let law = StretchLaw::linear(500.0);
         let before = Vec3::x() * 0.0101;
         let (load, beyond) = spring.foresee(&law, before, Vec3::x() * 0.0103);
@@ -95,7 +106,7 @@ mod tests {
         assert_relative_eq!(load, 5.0, epsilon = 1e-9);
         let strain = (10.1f64.hypot(1.0) - 10.1) / 10.0;
         assert_relative_eq!(beyond, 0.5 * 500.0 * strain * strain * 0.02 * 0.01, max_relative = 1e-9);
-        let tangent = spring.tangent(&law, &[Vec3::zeros(), before], Some(3.0));
+        let tangent = spring.tangent(&law, before, Some(3.0));
         assert_relative_eq!(tangent.across, 3.0 * 0.02 / 0.0101, max_relative = 1e-12);
     }
 }

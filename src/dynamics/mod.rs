@@ -19,6 +19,7 @@ mod proximity;
 mod shear;
 mod springs;
 mod step;
+mod thread;
 mod world;
 
 pub use bending::Bending;
@@ -26,11 +27,13 @@ pub use contact_law::{ContactLaw, Hardening};
 pub use cost::ContactTime;
 pub use force::{Forces, Pull};
 pub use friction::{Friction, GRIP};
+pub(crate) use model::tacked;
 pub use model::{Cloth, Cut, SpringModel, identity_nodes};
 pub use proximity::Reach;
 pub use shear::Shear;
-pub use springs::{Spring, StretchLaw};
+pub use springs::{Spring, Stretch, StretchLaw};
 pub use step::{StepError, Stepper};
+pub use thread::Thread;
 pub use world::{NewtonStep, World};
 
 /// Nodes or springs that one thread goes through in a fraction of a millisecond: to wake another for fewer costs more

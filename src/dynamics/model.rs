@@ -8,7 +8,8 @@ use super::curvature;
 use super::elastic::Elastics;
 use super::foreseen::Loads;
 use super::shear::{Shear, grid_triangles, shears};
-use super::springs::{Spring, StretchLaw};
+use super::springs::{Spring, Stretch, StretchLaw};
+use super::thread::{Thread, threads, weaves};
 use crate::fabric::Fabric;
 use crate::geometry::{Topology, Vec2, Vec3, sorted_pair};
 use crate::mesh::ClothMesh;
@@ -38,8 +39,10 @@ const ANGLE_STEPS: usize = 18;
 const RIM_WIDTH: f64 = 0.01;
 /// A button or hook leaves this much thread between what it joins, metres: room for the layers of an underlap.
 const TACK_LENGTH: f64 = 1e-3;
-/// Stiffness of that thread, N/m: a waistband's pull of 1 N opens it by 2 mm.
-const TACK_STIFFNESS: f64 = 500.0;
+/// Stiffness of that thread, N/m, when it is drawn out: the 10 N of a tight waistband open it by 5 mm. With 500 apron
+/// strings stood 50 mm apart; with 5,000 the particles nearest to both ends, up to half a cell beside the points that are
+/// to meet, drew a waistband askew until it did not rest.
+const TACK_STIFFNESS: f64 = 2000.0;
 /// A seam whose sides differ by more than this share is gathered or stretched on: its length is one side's own.
 const GATHERED: f64 = 1.05;
 
@@ -67,11 +70,14 @@ pub struct Cloth {
     pub flat: Vec<[Vec2; 3]>,
     /// Piece of every triangle.
     pub piece: Vec<u32>,
-    /// Springs along every mesh edge but the diagonals of the grid, and those of tacks.
+    /// Springs along the threads of the grid and along rims, along the edges of cloth that is drawn in by elastic or
+    /// gathered, and those of tacks.
     pub springs: Vec<Spring>,
+    /// Threads of the triangles between the grid and the outline.
+    pub threads: Vec<Thread>,
     /// Their laws.
     pub laws: Vec<StretchLaw>,
-    /// Shear of the grid's triangles.
+    /// Shear of the grid's triangles and of those that have threads.
     pub shears: Vec<Shear>,
     /// Bending.
     pub bending: Bending,
@@ -100,6 +106,12 @@ fn joined(springs: &[Spring], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
     edges
 }
 
+/// The particles nearest to both ends of every tack of the closures.
+pub(crate) fn tacked<'a>(mesh: &'a ClothMesh, garment: &'a Garment) -> impl Iterator<Item = [u32; 2]> + 'a {
+    let nearest = |&(piece, at): &(usize, Vec2)| mesh.nearest(piece, at).map(|particle| particle as u32);
+    garment.closures.iter().flat_map(|c| &c.tacks).filter_map(move |[a, b]| Some([nearest(a)?, nearest(b)?]))
+}
+
 /// Every particle its own node: the garment before it is sewn.
 pub fn identity_nodes(mesh: &ClothMesh) -> Vec<u32> {
     (0..mesh.flat.len() as u32).collect()
@@ -121,6 +133,7 @@ impl Cloth {
             half_thickness: vec![0.0; nodes],
             friction: vec![0.0; nodes],
             springs: Vec::new(),
+            threads: Vec::new(),
             laws: Vec::new(),
             shears: Vec::new(),
             bending: Bending::default(),
@@ -168,37 +181,44 @@ impl Cloth {
         }
     }
 
-    /// Springs along the edges, each as wide as the cloth beside it, and shear where the grid is regular: there the
-    /// threads have springs and the diagonals have none. Soft cloth is led home by springs alone.
+    /// Springs along the edges, each as wide as the cloth beside it that has no threads of its own, and shear: on the
+    /// grid the threads have springs and the diagonals have none. Soft cloth is led home by springs alone.
     fn add_springs(&mut self, mesh: &ClothMesh, garment: &Garment, fabrics: &[Arc<Fabric>], model: SpringModel) {
-        let seam_rest = seam_rest_lengths(mesh, garment);
+        let seam_rest = SeamRest::new(mesh, garment);
         let topology = Topology::new(&mesh.triangles);
         let laws_of = self.make_laws(fabrics, model);
         let mut elastics = Elastics::new(mesh);
-        let grid = match model {
-            SpringModel::Measured | SpringModel::Raw => grid_triangles(mesh),
-            SpringModel::Soft { .. } => vec![None; mesh.triangles.len()],
+        let (grid, weaves) = match model {
+            SpringModel::Measured | SpringModel::Raw => {
+                let grid = grid_triangles(mesh);
+                let drawn = |ends| elastics.on(ends).is_some();
+                let weaves = weaves(mesh, &grid, &self.node_of, &seam_rest, drawn);
+                (grid, weaves)
+            }
+            SpringModel::Soft { .. } => (vec![None; mesh.triangles.len()], vec![None; mesh.triangles.len()]),
         };
-        self.shears = shears(mesh, &grid, &self.node_of, fabrics);
+        let of_threads = |piece: usize| [laws_of[piece], laws_of[piece] + ANGLE_STEPS as u32];
+        (self.threads, self.shears) = threads(mesh, &weaves, &self.node_of, fabrics, of_threads);
+        self.shears.extend(shears(mesh, &grid, &self.node_of, fabrics));
         for edge in &topology.edges {
             let [a, b] = edge.ends;
             let along = mesh.flat[b as usize] - mesh.flat[a as usize];
             let beside = edge.triangles.iter().flatten().map(|&t| t as usize);
             let is_diagonal = |t: &usize| grid[*t].is_some_and(|[corner, ..]| !edge.ends.contains(&corner));
-            let held: f64 = beside.clone().filter(|t| !is_diagonal(t)).map(|t| area(&self.flat[t])).sum();
+            let springy = beside.clone().filter(|t| weaves[*t].is_none() && !is_diagonal(t));
+            let held: f64 = springy.map(|t| area(&self.flat[t])).sum();
             let Some(p) = beside.clone().next().map(|t| self.piece[t] as usize) else { continue };
             let rest = along.norm();
             let mut push = |rest: f64, width: f64, law: u32| {
                 let ends = edge.ends.map(|e| self.node_of[e as usize]);
                 if ends[0] != ends[1] && width > 0.0 {
-                    self.springs.push(Spring { ends, rest, width, law });
+                    self.springs.push(Spring { ends, stretch: Stretch { rest, width, law } });
                 }
             };
             let rim = edge.triangles[1].is_none();
-            let seam = seam_rest.binary_search_by(|e| e.0.cmp(&edge.ends)).ok().map(|i| seam_rest[i].1);
             let angle = along.dot(&mesh.pieces[p].warp).abs().min(rest) / rest;
             let step = (angle.acos() / std::f64::consts::FRAC_PI_2 * ANGLE_STEPS as f64).round() as usize;
-            let rest = seam.unwrap_or(rest);
+            let rest = seam_rest.of(mesh, edge.ends);
             let (law, width) = (laws_of[p] + step as u32, held / along.norm());
             let elastic = elastics.on(edge.ends);
             let mut cloth = |law: u32| match elastic {
@@ -218,18 +238,14 @@ impl Cloth {
 
     /// A short strong spring for every tack of the closures, between the particles nearest to its ends.
     fn add_tacks(&mut self, mesh: &ClothMesh, garment: &Garment) {
-        let nearest = |&(piece, at): &(usize, Vec2)| mesh.nearest(piece, at).map(|p| self.node_of[p]);
         let law = self.laws.len() as u32;
-        let tacks: Vec<Spring> = garment
-            .closures
-            .iter()
-            .flat_map(|c| &c.tacks)
-            .filter_map(|[a, b]| Some([nearest(a)?, nearest(b)?]))
+        let tacks: Vec<Spring> = tacked(mesh, garment)
+            .map(|ends| ends.map(|particle| self.node_of[particle as usize]))
             .filter(|ends| ends[0] != ends[1])
-            .map(|ends| Spring { ends, rest: TACK_LENGTH, width: TACK_LENGTH, law })
+            .map(|ends| Spring { ends, stretch: Stretch { rest: TACK_LENGTH, width: TACK_LENGTH, law } })
             .collect();
         if !tacks.is_empty() {
-            self.laws.push(StretchLaw::linear(TACK_STIFFNESS));
+            self.laws.push(StretchLaw::linear(TACK_STIFFNESS).slack());
             self.springs.extend(tacks);
         }
     }
@@ -281,14 +297,9 @@ impl Cloth {
 
     /// Elastic energy (stretch, shear, bending and creases), J.
     pub fn elastic_energy(&self, x: &[Vec3]) -> f64 {
-        let stretch: f64 = self
-            .springs
-            .iter()
-            .map(|s| {
-                let length = (x[s.ends[1] as usize] - x[s.ends[0] as usize]).norm();
-                self.laws[s.law as usize].energy(length / s.rest - 1.0) * s.width * s.rest
-            })
-            .sum();
+        let springs = self.springs.iter().map(|s| (s.stretch, s.span(x)));
+        let threads = self.threads.iter().map(|t| (t.stretch, t.span(x)));
+        let stretch: f64 = springs.chain(threads).map(|(s, d)| s.energy(&self.laws[s.law as usize], d)).sum();
         let shear: f64 = self.shears.iter().map(|s| s.energy(x)).sum();
         let creases: f64 = self.creases.iter().map(|c| c.energy(x)).sum();
         stretch + shear + self.bending.energy(x) + creases
@@ -300,28 +311,42 @@ fn area([a, b, c]: &[Vec2; 3]) -> f64 {
     0.5 * (b - a).perp(&(c - a)).abs()
 }
 
-/// Length that every rim edge takes once it is sewn, for edges of seams whose sides differ: (ends, metres), sorted.
-fn seam_rest_lengths(mesh: &ClothMesh, garment: &Garment) -> Vec<([u32; 2], f64)> {
-    let mut out = Vec::new();
-    for (stitches, seam) in mesh.seams.iter().zip(&garment.seams) {
-        for w in stitches.pairs.windows(2) {
-            let side = |k: usize| (mesh.flat[w[0][k] as usize] - mesh.flat[w[1][k] as usize]).norm();
-            let (a, b) = (side(0), side(1));
-            if a <= 0.0 || b <= 0.0 {
-                continue;
-            }
-            let rest = match seam.give {
-                Give::Stretch(_) => a.max(b),
-                Give::Gather(_) | Give::Ease(_) => a.min(b),
-                Give::Even if a.max(b) > GATHERED * a.min(b) => a.min(b),
-                Give::Even => 0.5 * (a + b),
-            };
-            for (&p, &q) in w[0].iter().zip(&w[1]) {
-                out.push((sorted_pair([p, q]), rest));
+/// Lengths that rim edges take once they are sewn, for edges of seams whose sides differ.
+pub(super) struct SeamRest {
+    /// (ends, metres), sorted.
+    lengths: Vec<([u32; 2], f64)>,
+}
+
+impl SeamRest {
+    fn new(mesh: &ClothMesh, garment: &Garment) -> Self {
+        let mut lengths = Vec::new();
+        for (stitches, seam) in mesh.seams.iter().zip(&garment.seams) {
+            for w in stitches.pairs.windows(2) {
+                let side = |k: usize| (mesh.flat[w[0][k] as usize] - mesh.flat[w[1][k] as usize]).norm();
+                let (a, b) = (side(0), side(1));
+                if a <= 0.0 || b <= 0.0 {
+                    continue;
+                }
+                let rest = match seam.give {
+                    Give::Stretch(_) => a.max(b),
+                    Give::Gather(_) | Give::Ease(_) => a.min(b),
+                    Give::Even if a.max(b) > GATHERED * a.min(b) => a.min(b),
+                    Give::Even => 0.5 * (a + b),
+                };
+                for (&p, &q) in w[0].iter().zip(&w[1]) {
+                    lengths.push((sorted_pair([p, q]), rest));
+                }
             }
         }
+        lengths.sort_by_key(|e| e.0);
+        lengths.dedup_by_key(|e| e.0);
+        Self { lengths }
     }
-    out.sort_by_key(|e| e.0);
-    out.dedup_by_key(|e| e.0);
-    out
+
+    /// Rest length of an edge of the mesh, metres: what its seam gives it, or that of the flat piece.
+    pub(super) fn of(&self, mesh: &ClothMesh, ends: [u32; 2]) -> f64 {
+        let found = self.lengths.binary_search_by(|e| e.0.cmp(&sorted_pair(ends)));
+        let flat = || (mesh.flat[ends[1] as usize] - mesh.flat[ends[0] as usize]).norm();
+        found.map_or_else(|_| flat(), |k| self.lengths[k].1)
+    }
 }

@@ -15,7 +15,7 @@ use super::force::{Forces, free_forces};
 use super::friction::{Grip, Hold};
 use super::model::Cloth;
 use super::shear::ShearTangent;
-use super::springs::SpringTangent;
+use super::springs::StretchTangent;
 use super::step::{Pushing, Reuse, StepError, Stepper, opening, presses};
 use crate::contact::Contact;
 use crate::geometry::{Mat3, Vec3};
@@ -57,7 +57,8 @@ struct Tangent<'a> {
     dt: f64,
     forces: &'a Forces<'a>,
     presses: &'a [Press],
-    springs: Vec<SpringTangent>,
+    springs: Vec<StretchTangent>,
+    threads: Vec<StretchTangent>,
     shears: Vec<ShearTangent>,
     /// [`super::crease::Crease::root`] of every crease.
     creases: Vec<[Vec3; 4]>,
@@ -150,11 +151,12 @@ impl Stepper {
 impl<'a> Tangent<'a> {
     fn new(cloth: &'a Cloth, x: &'a [Vec3], dt: f64, forces: &'a Forces<'a>, pushing: &Pushing<'a>) -> Self {
         let springs = (0..cloth.springs.len()).map(|k| cloth.spring_tangent(k, x)).collect();
+        let threads = (0..cloth.threads.len()).map(|k| cloth.thread_tangent(k, x)).collect();
         let shears = (0..cloth.shears.len()).map(|k| cloth.shear_tangent(k, x)).collect();
         let creases = cloth.creases.iter().map(|c| c.root(x)).collect();
         let grips =
             pushing.numbers().map(|k| (k, pushing.grips[k].map_or_else(Mat3::zeros, |g| g.stiffness))).collect();
-        Self { cloth, dt, forces, presses: pushing.presses, springs, shears, creases, grips }
+        Self { cloth, dt, forces, presses: pushing.presses, springs, threads, shears, creases, grips }
     }
 
     /// (M/Δt² + true stiffness) p, with the contacts that push.
@@ -182,18 +184,21 @@ impl<'a> Tangent<'a> {
             .with_min_len(super::ONE_THREAD)
             .map(|i| cloth.bending.gradient(p, i) + p[i] * (cloth.mass[i] * inertia))
             .collect();
-        for (s, SpringTangent { direction: t, along, across }) in cloth.springs.iter().zip(&self.springs) {
-            let e = p[s.ends[1] as usize] - p[s.ends[0] as usize];
-            let f = t * ((along - across) * t.dot(&e)) + e * *across;
+        for (s, tangent) in cloth.springs.iter().zip(&self.springs) {
+            let f = tangent.apply(s.span(p));
             out[s.ends[0] as usize] -= f;
             out[s.ends[1] as usize] += f;
         }
+        for (t, tangent) in cloth.threads.iter().zip(&self.threads) {
+            let f = tangent.apply(t.span(p));
+            for (n, share) in t.nodes.iter().zip(t.shares()) {
+                out[*n as usize] += f * share;
+            }
+        }
         for (shear, tangent) in cloth.shears.iter().zip(&self.shears) {
-            let [corner, u, v] = shear.nodes.map(|n| n as usize);
-            let [f, g] = tangent.apply([p[u] - p[corner], p[v] - p[corner]]);
-            out[corner] -= f + g;
-            out[u] += f;
-            out[v] += g;
+            for (n, f) in shear.nodes.iter().zip(shear.at_nodes(tangent.apply(shear.legs(p)))) {
+                out[*n as usize] += f;
+            }
         }
         for (crease, root) in cloth.creases.iter().zip(&self.creases) {
             let turned: f64 = crease.nodes.iter().zip(root).map(|(&n, g)| g.dot(&p[n as usize])).sum();

@@ -2,7 +2,8 @@
 //!
 //! E = ½ G A (φ − φ₀)² for every triangle of the grid whose legs u and v run along the threads, with
 //! φ = asin(u·v / |u||v|) the angle by which they are off a right one and φ₀ that of the flat piece. Together with the
-//! springs along its legs such a triangle is a membrane of threads, each of them strained by its own curve. A spring on
+//! springs along its legs such a triangle is a membrane of threads, each of them strained by its own curve; `thread` has
+//! those of other triangles, whose legs are no sides. A spring on
 //! its diagonal would resist the sum of both strains as much as shear (Cauchy's relation for points that attract one
 //! another): cloth whose shear stiffness is near that of its threads, as that of knits, contracts too much under it.
 
@@ -10,6 +11,7 @@ use std::sync::Arc;
 
 use super::curvature::thread_of;
 use super::springs::SHORTEST;
+use super::thread::{shares, span};
 use crate::fabric::Fabric;
 use crate::geometry::{Vec2, Vec3};
 use crate::mesh::ClothMesh;
@@ -17,12 +19,17 @@ use crate::mesh::ClothMesh;
 /// Legs nearer to one line than this (sine of the angle between them, 3°) turn out of their plane as if they were no
 /// nearer: the stiffness against it has no bound.
 const OPEN: f64 = 0.05;
+/// Legs that are sides of their triangle.
+const SIDES: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
 
 /// The shear of one triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shear {
-    /// Its right corner, then the other ends of its legs.
+    /// Its corners.
     pub nodes: [u32; 3],
+    /// Two legs along the threads: from the first corner so many times the way to the second, and so many times that to
+    /// the third. Those of the grid end there.
+    pub legs: [[f64; 2]; 2],
     /// φ₀, radians.
     pub rest: f64,
     /// Shear stiffness times area, N·m per radian.
@@ -99,10 +106,15 @@ impl ShearTangent {
 }
 
 impl Shear {
-    /// Both legs at `x` as they come, metres.
-    fn legs(&self, x: &[Vec3]) -> [Vec3; 2] {
-        let [corner, u, v] = self.nodes.map(|n| x[n as usize]);
-        [u - corner, v - corner]
+    /// Both legs of ways or positions of the nodes.
+    pub(super) fn legs(&self, x: &[Vec3]) -> [Vec3; 2] {
+        self.legs.map(|weights| span(self.nodes, weights, x))
+    }
+
+    /// What the other ends of the legs are moved by, handed on to the nodes.
+    pub(super) fn at_nodes(&self, [u, v]: [Vec3; 2]) -> [Vec3; 3] {
+        let [one, other] = self.legs.map(shares);
+        [0, 1, 2].map(|n| u * one[n] + v * other[n])
     }
 
     /// Its energy at `x`, J.
@@ -113,8 +125,7 @@ impl Shear {
     /// Forces on its nodes at `x`, N.
     pub(super) fn forces(&self, x: &[Vec3]) -> [Vec3; 3] {
         let legs = Legs::new(self.legs(x));
-        let [u, v] = legs.turning().map(|g| g * (self.stiffness * (self.rest - legs.angle)));
-        [-u - v, u, v]
+        self.at_nodes(legs.turning().map(|g| g * (self.stiffness * (self.rest - legs.angle))))
     }
 
     /// The tangent at `x`, out of the line of its gradient by the `load` (N·m per radian) given instead of its own.
@@ -179,7 +190,8 @@ pub(super) fn shears(
             let [corner, u, v] = particles.map(|p| mesh.flat[p as usize]);
             let (u, v): (Vec2, Vec2) = (u - corner, v - corner);
             let double = u.perp(&v).abs();
-            out.push(Shear { nodes, rest: u.dot(&v).atan2(double), stiffness: 0.5 * double * fabric.shear });
+            let (rest, stiffness) = (u.dot(&v).atan2(double), 0.5 * double * fabric.shear);
+            out.push(Shear { nodes, legs: SIDES, rest, stiffness });
         }
     }
     out
@@ -191,18 +203,18 @@ mod tests {
     use approx::assert_relative_eq;
     use nalgebra::SMatrix;
 
-    const SIDES: [f64; 2] = [0.012, 0.009];
+    const LENGTHS: [f64; 2] = [0.012, 0.009];
     const G: f64 = 30.0;
 
     fn shear() -> Shear {
-        Shear { nodes: [0, 1, 2], rest: 0.0, stiffness: G * 0.5 * SIDES[0] * SIDES[1] }
+        Shear { nodes: [0, 1, 2], legs: SIDES, rest: 0.0, stiffness: G * 0.5 * LENGTHS[0] * LENGTHS[1] }
     }
 
     /// Legs stretched by `drawn` and turned towards each other by `angle`, in a plane that lies askew.
     fn sheared(drawn: [f64; 2], angle: f64) -> Vec<Vec3> {
         let (one, other) = (Vec3::new(2.0, 1.0, -2.0) / 3.0, Vec3::new(1.0, 2.0, 2.0) / 3.0);
         let corner = Vec3::new(0.3, 1.0, -0.2);
-        let [u, v] = [0, 1].map(|k| SIDES[k] * (1.0 + drawn[k]));
+        let [u, v] = [0, 1].map(|k| LENGTHS[k] * (1.0 + drawn[k]));
         vec![corner, corner + one * u, corner + (one * angle.sin() + other * angle.cos()) * v]
     }
 
@@ -289,19 +301,19 @@ mod tests {
 
     #[test]
     fn to_turn_and_to_draw_out_along_threads_costs_nothing() {
-        let area = 0.5 * SIDES[0] * SIDES[1];
+        let area = 0.5 * LENGTHS[0] * LENGTHS[1];
         for drawn in [[0.0, 0.0], [0.3, 0.0], [0.0, -0.1], [0.4, 0.2]] {
             assert!(shear().energy(&sheared(drawn, 0.0)) < 1e-28 * G * area);
         }
         // Flat and turned are the same cloth.
-        let flat = [Vec3::zeros(), Vec3::x() * SIDES[0], Vec3::y() * SIDES[1]];
+        let flat = [Vec3::zeros(), Vec3::x() * LENGTHS[0], Vec3::y() * LENGTHS[1]];
         assert!(shear().energy(&flat) < 1e-28 * G * area);
     }
 
     #[test]
     fn shear_costs_half_its_stiffness_times_the_angle_squared() {
         for angle in [-1.1, -0.2, 0.01, 0.7, 1.4] {
-            let per_area = shear().energy(&sheared([0.0, 0.2], angle)) / (0.5 * SIDES[0] * SIDES[1]);
+            let per_area = shear().energy(&sheared([0.0, 0.2], angle)) / (0.5 * LENGTHS[0] * LENGTHS[1]);
             assert_relative_eq!(per_area, 0.5 * G * angle * angle, max_relative = 1e-12);
         }
     }

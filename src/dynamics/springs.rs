@@ -1,7 +1,7 @@
 //! Springs with the fabric's measured, piecewise-linear load–extension curve (F3, F4).
 
 use crate::fabric::Fabric;
-use crate::geometry::Vec3;
+use crate::geometry::{Mat3, Vec3};
 
 /// Loads that differ by less than this share are the same.
 const SAME: f64 = 1e-9;
@@ -74,11 +74,9 @@ impl StretchLaw {
     }
 }
 
-/// A spring between two nodes.
+/// Cloth drawn out in one direction.
 #[derive(Clone, Copy, Debug)]
-pub struct Spring {
-    /// Its nodes.
-    pub ends: [u32; 2],
+pub struct Stretch {
     /// Rest length, metres.
     pub rest: f64,
     /// Width of cloth it stands for, metres.
@@ -87,10 +85,19 @@ pub struct Spring {
     pub law: u32,
 }
 
-/// A spring's stiffness at one position: `along` its direction t and `across` it,
+/// A spring between two nodes.
+#[derive(Clone, Copy, Debug)]
+pub struct Spring {
+    /// Its nodes.
+    pub ends: [u32; 2],
+    /// How it resists.
+    pub stretch: Stretch,
+}
+
+/// Stiffness of cloth drawn out in one direction, at one position: `along` that direction t and `across` it,
 /// k = along · t tᵀ + across · (1 − t tᵀ).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct SpringTangent {
+pub(super) struct StretchTangent {
     /// Unit direction from the first to the second end.
     pub(super) direction: Vec3,
     /// N/m.
@@ -100,12 +107,43 @@ pub(super) struct SpringTangent {
 }
 
 impl Spring {
-    /// The tangent at positions `x`, across the spring by the `load` (N/m) given instead of its own.
-    pub(super) fn tangent(&self, law: &StretchLaw, x: &[Vec3], load: Option<f64>) -> SpringTangent {
-        let d = x[self.ends[1] as usize] - x[self.ends[0] as usize];
+    /// From its first end to its second, of ways or positions of the nodes.
+    pub(super) fn span(&self, x: &[Vec3]) -> Vec3 {
+        x[self.ends[1] as usize] - x[self.ends[0] as usize]
+    }
+}
+
+impl StretchTangent {
+    /// What resists when the ends part by `way`, N.
+    pub(super) fn apply(&self, way: Vec3) -> Vec3 {
+        let Self { direction, along, across } = self;
+        direction * ((along - across) * direction.dot(&way)) + way * *across
+    }
+
+    /// A bound from above. Compressed cloth would buckle within one step: the absolute value lets it, but gently.
+    pub(super) fn bound(&self) -> Mat3 {
+        let across = self.across.abs();
+        Mat3::identity() * across + self.direction * self.direction.transpose() * (self.along - across).max(0.0)
+    }
+}
+
+impl Stretch {
+    /// Its energy when its ends are apart by `d`, J.
+    pub(super) fn energy(&self, law: &StretchLaw, d: Vec3) -> f64 {
+        law.energy(d.norm() / self.rest - 1.0) * self.width * self.rest
+    }
+
+    /// What draws its first end towards the second, which is off by `d`, N.
+    pub(super) fn pull(&self, law: &StretchLaw, d: Vec3) -> Vec3 {
+        let length = d.norm().max(SHORTEST);
+        d * (law.load(length / self.rest - 1.0) * self.width / length)
+    }
+
+    /// The tangent where its ends are apart by `d`, across it by the `load` (N/m) given instead of its own.
+    pub(super) fn tangent(&self, law: &StretchLaw, d: Vec3, load: Option<f64>) -> StretchTangent {
         let length = d.norm().max(SHORTEST);
         let strain = length / self.rest - 1.0;
-        SpringTangent {
+        StretchTangent {
             direction: d / length,
             along: law.slope(strain) * self.width / self.rest,
             across: load.unwrap_or_else(|| law.load(strain)) * self.width / length,

@@ -8,8 +8,7 @@ use super::contact_law::Press;
 use super::force::{Forces, free_forces, push};
 use super::friction::Grip;
 use super::model::Cloth;
-use super::shear::Shear;
-use super::springs::SpringTangent;
+use super::thread::shares;
 use crate::contact::Contact;
 use crate::geometry::{Mat3, Vec3};
 use crate::linear::{
@@ -70,7 +69,9 @@ pub struct Stepper {
     pub(super) factor: Cholesky<f32>,
     diagonal: Vec<BlockSlot>,
     springs: Vec<BlockSlot>,
-    /// From the corner of each shear to both ends of its legs, and from one of these to the other.
+    /// Between the nodes of each thread, 0 and 1, 0 and 2, 1 and 2,
+    threads: Vec<[BlockSlot; 3]>,
+    /// and of each shear.
     shears: Vec<[BlockSlot; 3]>,
     edges: Vec<BlockSlot>,
     pulls: Vec<Option<BlockSlot>>,
@@ -141,14 +142,12 @@ impl Stepper {
         let order = Ordering::Given(nested_dissection(x, &graph));
         let slot = |[a, b]: [u32; 2]| pattern.block_slot(a as usize, b as usize);
         let find = |[a, b]: [u32; 2]| slot([a, b]).ok_or(StepError::Uncoupled { a: a as usize, b: b as usize });
+        let sides = |[a, b, c]: [u32; 3]| Ok([find([a, b])?, find([a, c])?, find([b, c])?]);
         Ok(Self {
             diagonal: (0..n as u32).map(|i| find([i, i])).collect::<Result<_, _>>()?,
             springs: cloth.springs.iter().map(|s| find(s.ends)).collect::<Result<_, _>>()?,
-            shears: cloth
-                .shears
-                .iter()
-                .map(|&Shear { nodes: [c, u, v], .. }| Ok([find([c, u])?, find([c, v])?, find([u, v])?]))
-                .collect::<Result<_, StepError>>()?,
+            threads: cloth.threads.iter().map(|t| sides(t.nodes)).collect::<Result<_, StepError>>()?,
+            shears: cloth.shears.iter().map(|s| sides(s.nodes)).collect::<Result<_, StepError>>()?,
             edges: cloth.edges.iter().map(|e| find(*e)).collect::<Result<_, _>>()?,
             pulls: pulls.iter().map(|e| slot(*e)).collect(),
             matrix: SymmetricMatrix::zeros(pattern.clone()),
@@ -290,16 +289,12 @@ impl Stepper {
         let blocks: Vec<Mat3> = (0..cloth.springs.len())
             .into_par_iter()
             .with_min_len(super::ONE_THREAD)
-            .map(|k| {
-                let SpringTangent { direction, along, across } = cloth.spring_tangent(k, x);
-                // A compressed spring would buckle within one step: the absolute value lets it, but gently.
-                let across = across.abs();
-                Mat3::identity() * across + direction * direction.transpose() * (along - across).max(0.0)
-            })
+            .map(|k| cloth.spring_tangent(k, x).bound())
             .collect();
         for ((s, slot), k) in cloth.springs.iter().zip(&self.springs).zip(&blocks) {
             couple(&mut self.matrix, &self.diagonal, s.ends, *slot, k);
         }
+        self.assemble_threads(cloth, x);
         self.assemble_shears(cloth, x);
         for ((e, slot), w) in cloth.edges.iter().zip(&self.edges).zip(&cloth.bending_bound) {
             couple(&mut self.matrix, &self.diagonal, *e, *slot, &(Mat3::identity() * *w));
@@ -327,20 +322,24 @@ impl Stepper {
         }
     }
 
+    fn assemble_threads(&mut self, cloth: &Cloth, x: &[Vec3]) {
+        let threads = self.threads.iter().enumerate().map(|(k, slots)| {
+            let (thread, k) = (&cloth.threads[k], cloth.thread_tangent(k, x).bound());
+            (thread.nodes, slots, thread.shares(), k)
+        });
+        for (nodes, slots, shares, k) in threads {
+            couple_three(&mut self.matrix, &self.diagonal, nodes, slots, |i, j| k * (shares[i] * shares[j]));
+        }
+    }
+
     fn assemble_shears(&mut self, cloth: &Cloth, x: &[Vec3]) {
         for (k, (shear, slots)) in cloth.shears.iter().zip(&self.shears).enumerate() {
-            let ([u, v], legs) = cloth.shear_tangent(k, x).bound();
-            let root = [-u - v, u, v];
-            for (node, r) in shear.nodes.iter().zip(&root) {
-                self.matrix.add_block(self.diagonal[*node as usize], &(r * r.transpose()));
-            }
-            for (slot, [i, j]) in slots.iter().zip([[0, 1], [0, 2], [1, 2]]) {
-                self.matrix.add_block(*slot, &(root[i] * root[j].transpose()));
-            }
-            for ((leg, slot), stiffness) in [1, 2].into_iter().zip(slots).zip(legs) {
-                let ends = [shear.nodes[0], shear.nodes[leg]];
-                couple(&mut self.matrix, &self.diagonal, ends, *slot, &(Mat3::identity() * stiffness));
-            }
+            let (root, drawn) = cloth.shear_tangent(k, x).bound();
+            let (root, [one, other]) = (shear.at_nodes(root), shear.legs.map(shares));
+            couple_three(&mut self.matrix, &self.diagonal, shear.nodes, slots, |i, j| {
+                let drawn = drawn[0] * one[i] * one[j] + drawn[1] * other[i] * other[j];
+                root[i] * root[j].transpose() + Mat3::identity() * drawn
+            });
         }
     }
 
@@ -376,7 +375,8 @@ fn sorted(mut nodes: Vec<[u32; 4]>) -> Vec<[u32; 4]> {
 
 /// The largest stiffness of a spring at `x`, N/m; not a number where one of them is none.
 fn stiffest(cloth: &Cloth, x: &[Vec3]) -> f64 {
-    let along = (0..cloth.springs.len()).map(|k| cloth.spring_tangent(k, x).along);
+    let of_springs = (0..cloth.springs.len()).map(|k| cloth.spring_tangent(k, x).along);
+    let along = of_springs.chain((0..cloth.threads.len()).map(|k| cloth.thread_tangent(k, x).along));
     along.fold(0.0, |most: f64, k| if most.is_nan() || k <= most { most } else { k })
 }
 
@@ -403,6 +403,22 @@ pub(super) fn opening(contact: &Contact, d: &[Vec3]) -> f64 {
     contact.parts().map(|(i, w)| w * contact.normal.dot(&d[i])).sum()
 }
 
+/// Adds the blocks of three nodes, `block(i, j)` of the i-th and the j-th; `slots` are those of 0 and 1, 0 and 2, 1 and 2.
+fn couple_three(
+    matrix: &mut SymmetricMatrix<f32>,
+    diagonal: &[BlockSlot],
+    nodes: [u32; 3],
+    slots: &[BlockSlot; 3],
+    block: impl Fn(usize, usize) -> Mat3,
+) {
+    for (i, node) in nodes.into_iter().enumerate() {
+        matrix.add_block(diagonal[node as usize], &block(i, i));
+    }
+    for (slot, [i, j]) in slots.iter().zip([[0, 1], [0, 2], [1, 2]]) {
+        matrix.add_block(*slot, &block(i, j));
+    }
+}
+
 fn couple(matrix: &mut SymmetricMatrix<f32>, diagonal: &[BlockSlot], ends: [u32; 2], slot: BlockSlot, k: &Mat3) {
     matrix.add_block(diagonal[ends[0] as usize], k);
     matrix.add_block(diagonal[ends[1] as usize], k);
@@ -415,7 +431,7 @@ mod tests {
     use crate::dynamics::bending::Bending;
     use crate::dynamics::contact_law::{ContactLaw, Hardening};
     use crate::dynamics::foreseen::Loads;
-    use crate::dynamics::springs::{Spring, StretchLaw};
+    use crate::dynamics::springs::{Spring, Stretch, StretchLaw};
 
     /// Two nodes of 1 g with a spring of 10 mm between them.
     fn spring() -> Cloth {
@@ -425,8 +441,9 @@ mod tests {
             triangles: Vec::new(),
             flat: Vec::new(),
             piece: Vec::new(),
-            springs: vec![Spring { ends: [0, 1], rest: 0.01, width: 0.01, law: 0 }],
+            springs: vec![Spring { ends: [0, 1], stretch: Stretch { rest: 0.01, width: 0.01, law: 0 } }],
             laws: vec![StretchLaw::linear(500.0)],
+            threads: Vec::new(),
             shears: Vec::new(),
             bending: Bending::new(2, &[]),
             creases: Vec::new(),

@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use super::schema::{Crossing, PieceReport, Quartet, Report};
+use super::closures::APART;
+use super::schema::{ClosureReport, Crossing, PieceReport, Quartet, Report};
 use crate::pattern::{Bound, Garment, Test, walk};
 
 /// Bounds of a garment that states none: closed seams, no crossing. Metres.
@@ -39,12 +40,17 @@ impl std::fmt::Display for Verdict {
 }
 
 /// Compares a report with the garment's `tests`, or with closed seams and no crossings if none holds for its fabric.
-/// Bounds on stages that did not run, and for other fabrics, are left out. Pieces that had to stretch are reported as
+/// Closures that tie what they join have to be closed, unless a test says how far. Bounds on stages that did not run, and for other fabrics, are left out. Pieces that had to stretch are reported as
 /// such and not bounded.
 pub fn verdicts(garment: &Garment, report: &Report) -> Vec<Verdict> {
     let bounds: Vec<&Bound> = garment.tests.iter().filter(|t| holds(t, report)).map(|test| &test.bound).collect();
     let bounds = if bounds.is_empty() { DEFAULTS.iter().collect() } else { bounds };
-    bounds.into_iter().flat_map(|bound| verdict(garment, report, bound)).collect()
+    let mut out: Vec<Verdict> = bounds.iter().flat_map(|bound| verdict(garment, report, bound)).collect();
+    if !bounds.iter().any(|bound| matches!(bound, Bound::Closure(..))) {
+        // Of what is not tied a note is told.
+        out.extend(closures(report.closures.iter().filter(|c| c.note.is_none()), None, APART));
+    }
+    out
 }
 
 /// The verdicts of every one of the garment's `tests`, in their order; none of a test for another fabric or a stage
@@ -74,7 +80,10 @@ fn verdict(garment: &Garment, report: &Report, bound: &Bound) -> Vec<Verdict> {
             let values = seams.map(|s| (s.name.clone(), s.gap_max)).collect();
             vec![worst(format!("gap {}", all(seam)), values, limit * MM, "mm")]
         }
-        Bound::Closure(kind, limit) => closures(report, kind.as_deref(), *limit),
+        Bound::Closure(kind, limit) => {
+            let of_kind = report.closures.iter().filter(|c| kind.as_ref().is_none_or(|kind| c.kind == *kind));
+            closures(of_kind, kind.as_deref(), *limit).into_iter().collect()
+        }
         Bound::Flatten { piece, area, boundary } => {
             let pieces = Pieces::new(garment, report, "flatten", piece.as_deref(), |q| q.round_trip);
             pieces.verdicts(*area, boundary.map(Length::Absolute))
@@ -94,11 +103,10 @@ fn all(name: &Option<String>) -> &str {
 
 /// How far the points of closures of a kind are apart; nothing before the garment is sewn. A closure without points has
 /// no figure.
-fn closures(report: &Report, kind: Option<&str>, limit: f64) -> Vec<Verdict> {
-    let of_kind = report.closures.iter().filter(|c| kind.is_none_or(|kind| c.kind == kind));
+fn closures<'a>(of_kind: impl Iterator<Item = &'a ClosureReport>, kind: Option<&str>, limit: f64) -> Option<Verdict> {
     let values: Vec<(String, f64)> = of_kind.filter_map(|c| Some((c.title(), c.gap_max?))).collect();
     let bound = format!("closure {}", kind.unwrap_or("all"));
-    if values.is_empty() { Vec::new() } else { vec![worst(bound, values, limit * MM, "mm")] }
+    (!values.is_empty()).then(|| worst(bound, values, limit * MM, "mm"))
 }
 
 /// `side` means `side`, `side.L` and `side.R`.

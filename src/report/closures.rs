@@ -10,7 +10,7 @@ use crate::pattern::{Closure, Fastening, Garment, fastenings};
 const MM: f64 = 1e3;
 
 /// Points further apart than this (metres) did not come together: about the length of a buttonhole.
-const APART: f64 = 0.02;
+pub(super) const APART: f64 = 0.02;
 
 /// Between two points the sides are compared at so many places: ends and seven between, a centimetre apart for buttons
 /// a hand's breadth apart.

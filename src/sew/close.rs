@@ -8,7 +8,7 @@ use super::settle::{Calm, joined, settle, sewn_world};
 use super::stitch::Stitching;
 use super::untangle::untangle;
 use crate::contact::{Collider, Neighbourhood};
-use crate::dynamics::{Cloth, ContactLaw, Cut, Hardening, Pull, Reach, SpringModel, World, identity_nodes};
+use crate::dynamics::{Cloth, ContactLaw, Cut, Hardening, Pull, Reach, SpringModel, World, identity_nodes, tacked};
 use crate::geometry::{Vec3, sorted_pair};
 use crate::mesh::ClothMesh;
 
@@ -124,7 +124,8 @@ pub fn sew(
     let stitching = Stitching::new(mesh);
     lead_out(cut, body, &mut start)?;
     let cloth = Cloth::new(cut, identity_nodes(mesh), SOFT);
-    let pairs: Vec<[u32; 2]> = stitching.pairs.iter().map(|p| p.0).collect();
+    let tacks: Vec<[u32; 2]> = tacked(mesh, cut.garment).filter(|[a, b]| a != b).collect();
+    let pairs: Vec<[u32; 2]> = stitching.pairs.iter().map(|p| p.0).chain(tacks.iter().copied()).collect();
     let h = mesh.spacing;
     let (hardening, cloth_gap) = (Hardening::Slow, Some((GAP * h).min(WIDEST_GAP)));
     let law = ContactLaw { stiffness: PENALTY, hardening, body_clearance: CLEARANCE, cloth_gap };
@@ -132,7 +133,7 @@ pub fn sew(
     let hood = Neighbourhood { class: stitching.class.clone(), passing: Vec::new() };
     let mut world = World::new(cloth, start, &pairs, body, hood, law, reach)?;
     untangle(&mut world)?;
-    let mut closing = Closing::new(mesh, &stitching, options.tolerance);
+    let mut closing = Closing::new(mesh, &stitching, tacks, options.tolerance);
     let (mut steps, stages) = (0, closing.harder.len());
     for stage in 0..stages {
         let mut tell = |way: f64| progress((stage as f64 + way) / stages as f64);
@@ -151,6 +152,8 @@ pub fn sew(
 /// The seams on their way shut, stage by stage.
 struct Closing<'a> {
     stitching: &'a Stitching,
+    /// What closures tie: drawn together with the seams as a wearer does them up, and not waited for.
+    tacks: Vec<[u32; 2]>,
     /// Metres.
     tolerance: f64,
     /// The stage of every pair, counted from 0.
@@ -162,13 +165,13 @@ struct Closing<'a> {
 }
 
 impl<'a> Closing<'a> {
-    fn new(mesh: &ClothMesh, stitching: &'a Stitching, tolerance: f64) -> Self {
+    fn new(mesh: &ClothMesh, stitching: &'a Stitching, tacks: Vec<[u32; 2]>, tolerance: f64) -> Self {
         let mut stages: Vec<i32> = mesh.seams.iter().map(|seam| seam.stage).collect();
         stages.sort_unstable();
         stages.dedup();
         let of = |seam: u32| stages.partition_point(|s| *s < mesh.seams[seam as usize].stage);
         let stage = stitching.pairs.iter().map(|(_, seam)| of(*seam)).collect();
-        Self { stitching, tolerance, stage, harder: vec![0; stages.len()], passing: Vec::new() }
+        Self { stitching, tacks, tolerance, stage, harder: vec![0; stages.len()], passing: Vec::new() }
     }
 
     /// Closes the seams of a `stage` and keeps those of earlier ones closed. Returns the steps that took, at most
@@ -229,7 +232,7 @@ impl<'a> Closing<'a> {
     }
 
     /// What the pairs pull with while those of a `stage` are in a `phase`: those of earlier stages as they did last,
-    /// those of later ones with nothing.
+    /// those of later ones with nothing. Tacks pull as seams do in the phase.
     fn pulls(&self, stage: usize, phase: usize) -> Vec<Pull> {
         let pull = |(ends, &of): (&[u32; 2], &usize)| {
             let (stiffness, force) = PHASES[if of < stage { PHASES.len() - 1 } else { phase }];
@@ -238,7 +241,9 @@ impl<'a> Closing<'a> {
             let stiffness_now = if of > stage { 0.0 } else { stiffness * factor };
             Pull { ends: *ends, stiffness: stiffness_now, cap: force / stiffness }
         };
-        self.stitching.pairs.iter().map(|p| &p.0).zip(&self.stage).map(pull).collect()
+        let (stiffness, force) = PHASES[phase];
+        let tacks = self.tacks.iter().map(|&ends| Pull { ends, stiffness, cap: force / stiffness });
+        self.stitching.pairs.iter().map(|p| &p.0).zip(&self.stage).map(pull).chain(tacks).collect()
     }
 
     /// Lets what lies beside pairs that are open pass through itself, and what was let pass before.
