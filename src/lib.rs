@@ -29,7 +29,8 @@
 //! | F12, F13 | flattening: a start, and springs in the plane |
 //! | F14, F15 | test of a moving particle against a triangle, (15); Table 1 |
 //!
-//! **L**: Q. Liu, R. Wang and X. Luo, *Realistic cloth simulation based on geometrical measurement and deformation* (2015).
+//! **L**: Q. Liu, R. Wang and X. Luo, *Realistic cloth simulation based on geometrical measurement and deformation*
+//! (2015).
 //!
 //! | | |
 //! |---|---|

@@ -10,6 +10,7 @@ use toile::dynamics::{
 };
 use toile::fabric;
 use toile::geometry::{Path, Vec2, Vec3};
+use toile::io::garment::read_text;
 use toile::mesh::{ClothMesh, build};
 use toile::pattern::{Closure, Edge, Garment, Piece};
 
@@ -127,6 +128,31 @@ fn a_hooke_spring_pulls_in_proportion() {
         // The force is the energy's slope only with ½ c d²; the paper's (2) lacks the ½ that its (3) needs.
         let energy = cloth.elastic_energy(&x) - unsprung.elastic_energy(&x);
         assert!((energy - 500.0 * stretch * stretch).abs() < 1e-12);
+    }
+}
+
+/// The patch test: even strain is even load, also in triangles that no thread runs along a side of. Springs on all sides
+/// of these gave as the bias does, and what a tight skirt gave gathered in them.
+#[test]
+fn cloth_that_is_strained_evenly_is_in_balance_up_to_its_rim() {
+    let text = "garment: 1\npieces: {panel: {grain: [[50, 50], [50, 150]], outline: {start: 0 0, top: L 150 0, \
+                side: 'C 165 60, 190 140, 200 200', hem: L 0 200, left: L 0 0}}}\nfree: ['*.*']\n";
+    let garment = read_text("panel", "panel.yaml", text).expect("a garment").garment;
+    let mesh = build(&garment, 12.0 * MM).expect("a mesh");
+    let fabrics = [Arc::new(fabric::load("denim").expect("shipped"))];
+    let cut = Cut { garment: &garment, mesh: &mesh, fabrics: &fabrics };
+    let cloth = Cloth::new(&cut, identity_nodes(&mesh), SpringModel::Measured);
+    assert!(cloth.threads.len() > 20, "{} threads off the grid", cloth.threads.len());
+    for [across, along, sheared] in [[1.02, 1.0, 0.0], [1.0, 1.01, 0.0], [1.0, 1.0, 0.03]] {
+        let strained = |p: &Vec2| Vec3::new(across * p.x + sheared * p.y, -along * p.y, 0.0);
+        let forces = added(&cloth, NOTHING, &mesh.flat.iter().map(strained).collect::<Vec<_>>());
+        let mut on_rim = vec![false; mesh.flat.len()];
+        mesh.pieces[0].edges.iter().flat_map(|e| &e.particles).for_each(|p| on_rim[*p as usize] = true);
+        let largest = |rim: bool| {
+            let of = forces.iter().zip(&on_rim).filter(|(_, on)| **on == rim);
+            of.map(|(f, _)| f.norm()).fold(0.0, f64::max)
+        };
+        assert!(largest(false) < 1e-9 * largest(true), "{} N off balance of {}", largest(false), largest(true));
     }
 }
 

@@ -40,8 +40,8 @@ const RIM_WIDTH: f64 = 0.01;
 /// A button or hook leaves this much thread between what it joins, metres: room for the layers of an underlap.
 const TACK_LENGTH: f64 = 1e-3;
 /// Stiffness of that thread, N/m, when it is drawn out: the 10 N of a tight waistband open it by 5 mm. With 500 apron
-/// strings stood 50 mm apart; with 5,000 the particles nearest to both ends, up to half a cell beside the points that are
-/// to meet, drew a waistband askew until it did not rest.
+/// strings stood 50 mm apart; with 5,000 the particles nearest to both ends, up to half a cell beside the points that
+/// are to meet, drew a waistband askew until it did not rest.
 const TACK_STIFFNESS: f64 = 2000.0;
 /// A seam whose sides differ by more than this share is gathered or stretched on: its length is one side's own.
 const GATHERED: f64 = 1.05;

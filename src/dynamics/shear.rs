@@ -2,10 +2,10 @@
 //!
 //! E = ½ G A (φ − φ₀)² for every triangle of the grid whose legs u and v run along the threads, with
 //! φ = asin(u·v / |u||v|) the angle by which they are off a right one and φ₀ that of the flat piece. Together with the
-//! springs along its legs such a triangle is a membrane of threads, each of them strained by its own curve; `thread` has
-//! those of other triangles, whose legs are no sides. A spring on
-//! its diagonal would resist the sum of both strains as much as shear (Cauchy's relation for points that attract one
-//! another): cloth whose shear stiffness is near that of its threads, as that of knits, contracts too much under it.
+//! springs along its legs such a triangle is a membrane of threads, each of them strained by its own curve; `thread`
+//! has those of other triangles, whose legs are no sides. A spring on its diagonal would resist the sum of both strains
+//! as much as shear (Cauchy's relation for points that attract one another): cloth whose shear stiffness is near that
+//! of its threads, as that of knits, contracts too much under it.
 
 use std::sync::Arc;
 

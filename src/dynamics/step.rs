@@ -403,7 +403,8 @@ pub(super) fn opening(contact: &Contact, d: &[Vec3]) -> f64 {
     contact.parts().map(|(i, w)| w * contact.normal.dot(&d[i])).sum()
 }
 
-/// Adds the blocks of three nodes, `block(i, j)` of the i-th and the j-th; `slots` are those of 0 and 1, 0 and 2, 1 and 2.
+/// Adds the blocks of three nodes, `block(i, j)` of the i-th and the j-th; `slots` are those of 0 and 1, 0 and 2, 1 and
+/// 2.
 fn couple_three(
     matrix: &mut SymmetricMatrix<f32>,
     diagonal: &[BlockSlot],

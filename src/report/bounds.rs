@@ -40,8 +40,8 @@ impl std::fmt::Display for Verdict {
 }
 
 /// Compares a report with the garment's `tests`, or with closed seams and no crossings if none holds for its fabric.
-/// Closures that tie what they join have to be closed, unless a test says how far. Bounds on stages that did not run, and for other fabrics, are left out. Pieces that had to stretch are reported as
-/// such and not bounded.
+/// Closures that tie what they join have to be closed, unless a test says how far. Bounds on stages that did not run,
+/// and for other fabrics, are left out. Pieces that had to stretch are reported as such and not bounded.
 pub fn verdicts(garment: &Garment, report: &Report) -> Vec<Verdict> {
     let bounds: Vec<&Bound> = garment.tests.iter().filter(|t| holds(t, report)).map(|test| &test.bound).collect();
     let bounds = if bounds.is_empty() { DEFAULTS.iter().collect() } else { bounds };

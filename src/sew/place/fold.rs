@@ -123,8 +123,8 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// Layers towards the wrong side of a strip 60 mm long and folded at 20 and at 40 mm, at 10, 30 and 50 mm, and where
-    /// these lie, mm.
+    /// Where a strip lies that is folded at 20 and at 40 mm, mm, and its layers towards the wrong side: at 10, 30 and
+    /// 50 mm.
     fn layers(inner: f64, outer: f64) -> [(f64, f64); 3] {
         let nowhere = Vec::new;
         let flat: Vec<Vec2> = [0.01, 0.03, 0.05].map(|x| Vec2::new(x, 0.0)).to_vec();
