@@ -340,6 +340,47 @@ fn labels_of_paths_on_a_layer_are_names_of_pieces() {
     assert_eq!(cuts, [("front".to_owned(), Cut::Pair), ("yoke".to_owned(), Cut::One)]);
 }
 
+/// Of nothing but lines on a layer, as they are drawn one by one.
+fn layer_of_lines(lines: &[(&str, &str)]) -> String {
+    let paths: String =
+        lines.iter().map(|(name, d)| format!("<path id='path1' inkscape:label='{name}' d='{d}'/>")).collect();
+    format!(
+        "<svg xmlns='http://www.w3.org/2000/svg' xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' \
+         width='900mm' height='900mm' viewBox='0 0 900 900'><g inkscape:groupmode='layer' inkscape:label='back'>\
+         <rect x='500' width='100' height='200'/></g><g inkscape:groupmode='layer' inkscape:label='front'>{paths}</g></svg>"
+    )
+}
+
+#[test]
+fn open_lines_of_a_layer_that_meet_end_to_end_are_an_outline_of_named_edges() {
+    // Two of them run against the others; a line from a corner is none of the edges, nor are lines within.
+    let four = [
+        ("waist", "M 100 100 H 200"),
+        ("tuck", "M 200 100 L 180 160"),
+        ("hem", "M 200 400 H 50"),
+        ("side", "M 200 400 V 100"),
+        ("center", "M 50 400 L 100 100"),
+    ];
+    let within = [("slit", "M 120 150 H 140"), ("slit", "M 140 150 L 130 160"), ("slit", "M 130 160 L 120 150")];
+    let pieces = drawn(&from_svg(&layer_of_lines(&[&four[..], &within[..]].concat())));
+    let front = pieces.iter().find(|p| p.name == "front").expect("the front");
+    let edges: Vec<(String, f64)> = lengths(front).into_iter().map(|(name, mm)| (name, mm.round())).collect();
+    let wanted = [("waist", 100.0), ("side", 300.0), ("hem", 150.0), ("center", 304.0)];
+    assert_eq!(edges, wanted.map(|(name, mm)| (name.to_owned(), mm)));
+    assert!(pieces.len() == 2 && front.lines.len() == 4 && front.rings.len() == 1, "{:?}", front.lines);
+}
+
+#[test]
+fn open_lines_that_make_no_outline_are_said() {
+    let lines = [("waist", "M 100 100 H 200"), ("side", "M 200 100.5 L 200 400"), ("hem", "M 200 400 L 100 100")];
+    let drawing = read_svg_text(&layer_of_lines(&lines)).expect("the back");
+    let [said] = &drawing.left_out[..] else { panic!("{:?}", drawing.left_out) };
+    for words in ["3 open lines of 'front'", "'waist', 'side', 'hem'", "0.50 mm apart", "meet end to end"] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    assert_eq!(drawing.pieces.len(), 1);
+}
+
 #[test]
 fn what_is_written_on_a_piece_says_how_it_is_cut() {
     let cut = |words: &str| {

@@ -10,6 +10,7 @@ mod darts;
 mod edges;
 mod file;
 mod holes;
+mod joined;
 mod pairs;
 mod smooth;
 mod suggest;
@@ -33,8 +34,10 @@ pub struct Stroke {
     pub role: Role,
     /// Its name, if it has one.
     pub name: Option<String>,
-    /// The name of the group it is in, if that has one.
+    /// The name of the group it is in, if that has one and is a piece.
     pub group: Option<String>,
+    /// The name of the group or layer it is in, be that a piece or what holds several.
+    pub layer: Option<String>,
     /// What it does if it is a line inside a piece, where the file says so.
     pub kind: Option<LineKind>,
 }
