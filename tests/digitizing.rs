@@ -183,7 +183,7 @@ fn path_shift(before: &Drawing, again: &Drawing) -> Vec2 {
 fn an_exported_svg_is_read_back() {
     let (drawings, papers) = sample();
     let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
-    let made = from_svg(&cutting_svg(&sheet));
+    let made = from_svg(&cutting_svg("Sample", &sheet));
     same_outlines(&made, &drawings);
     let again = drawn(&made);
     assert!(again.iter().all(|p| p.rings[0].iter().any(|e| e.name == "hem")), "edges keep their names");
@@ -231,7 +231,7 @@ fn pieces_drawn_left_and_right_are_a_pair() {
     let names: Vec<&str> = papers.iter().map(|p| p.name.as_str()).collect();
     assert_eq!(names, ["front", "back.L", "back.R"]);
     let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
-    let svg = from_svg(&cutting_svg(&sheet));
+    let svg = from_svg(&cutting_svg("Sample", &sheet));
     let dxf = garment_file("sample", &read_dxf_text(&cutting_dxf("Sample", &papers), None).expect("pieces").pieces);
     for made in [svg, dxf] {
         let pieces = drawn(&made);
@@ -316,7 +316,7 @@ fn legs_of_a_dart_have_no_allowance() {
     let loaded = read_text("sample", "sample.yaml", &text).expect("a garment");
     let papers = papers(&drawings(&loaded.file, &loaded.garment), &Options { whole: true, ..Options::default() });
     let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
-    let made = from_svg(&cutting_svg(&sheet));
+    let made = from_svg(&cutting_svg("Sample", &sheet));
     let back = drawn(&made).into_iter().find(|p| p.name == "back").expect("the back");
     let width = |edge: &str| back.rings[0].iter().find(|e| e.name == edge).expect("an edge").allowance.width;
     assert_eq!(width("shoulder"), Some(0.010));
@@ -422,7 +422,7 @@ fn what_a_drawing_shows_besides_is_said() {
         assert!(said.contains(words), "{words}: {said}");
     }
     let (_, papers) = sample();
-    let own = cutting_svg(&Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true }));
+    let own = cutting_svg("Sample", &Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true }));
     assert_eq!(read_svg_text(&own).expect("pieces").left_out, Vec::<String>::new());
     let nothing = text.replace("<rect", "<use");
     assert!(read_svg_text(&nothing).expect_err("no piece").to_string().contains("clones"));

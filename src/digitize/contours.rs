@@ -110,7 +110,7 @@ pub fn pieces(strokes: &[Stroke], remarks: &[Remark]) -> Drawing {
     let is_on_one = |line: &Stroke| outer.iter().any(|&o| contours[o].owns(line));
     let open = rest.iter().filter(|line| line.role == Role::Unknown).chain(&alone);
     let open: Vec<Stroke> = open.filter(|line| !is_on_one(line)).cloned().collect();
-    Drawing { pieces, left_out: unclosed(&open) }
+    Drawing { title: None, pieces, left_out: unclosed(&open) }
 }
 
 /// `cut 2 (left and right)`, `Cut 1 pair`, `cut 4`: how a piece is cut, as makers write it on.
@@ -249,10 +249,11 @@ fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> Traced {
     traced.points.extend(marks.iter().map(|m| m.points.iter().sum::<Vec2>() / m.points.len() as f64));
     let mut folds = Vec::new();
     for stroke in rest {
-        let middle = stroke.path.point(stroke.path.length() / 2.0);
+        let middle = middle(stroke);
         let ends = [stroke.path.start(), stroke.path.end()];
         let near = |p: Vec2| outlines.iter().any(|o| o.nearest(p).1 <= NEAR);
-        let own = outer.holds(middle) || (stroke.role == Role::Fold || stroke.role == Role::Notch) && near(middle);
+        let on_rim = matches!(stroke.role, Role::Fold | Role::Notch | Role::Drill);
+        let own = outer.holds(middle) || on_rim && near(middle);
         if !own {
             continue;
         }
@@ -262,6 +263,7 @@ fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> Traced {
             Role::PleatFold => folds.push(stroke.path.start()),
             Role::PleatPlace => traced.pleats.extend(folds.pop().map(|fold| [fold, stroke.path.start()])),
             Role::Fold => traced.mirror = traced.mirror.or(Some(ends)),
+            Role::Drill => traced.points.push(middle),
             Role::Notch => traced.notches.push(nearest_end(ends, &outlines)),
             Role::Unknown if short && ends.iter().any(|&p| near(p)) => {
                 traced.notches.push(nearest_end(ends, &outlines));
@@ -274,6 +276,12 @@ fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> Traced {
         }
     }
     traced
+}
+
+/// Where a stroke is: half way along it, or in the middle of the ring round a drill hole.
+fn middle(stroke: &Stroke) -> Vec2 {
+    let half = stroke.path.point(stroke.path.length() / 2.0);
+    if stroke.role == Role::Drill { (stroke.path.start() + half) / 2.0 } else { half }
 }
 
 fn nearest_end(ends: [Vec2; 2], outlines: &[&Path]) -> Vec2 {

@@ -1,15 +1,16 @@
 //! The garment file of traced pieces.
 
-use super::Traced;
 use super::darts::{Wedge, closed};
 use super::edges::{Edge, edges, nearest_edge};
 use super::holes::Hole;
+use super::materials::{declared, name_of};
 use super::pairs::paired;
-use super::suggest::{Suggestion, suggest};
+use super::suggest::{Outline, Suggestion, suggest};
+use super::{Material, Traced};
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{
     AllowanceFile, AllowanceWidth, Cut, DartFile, DartShape, GarmentFile, LineFile, LineKind, Located, NotchFile,
-    OutlineFile, PieceFile, PleatFile, Quantity, SLACK, Spot,
+    OutlineFile, PieceFile, PleatFile, Quantity, SLACK, Spot, Value,
 };
 
 /// Millimetres per metre.
@@ -46,11 +47,16 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
     let mut notes = Vec::new();
     let mut names: Vec<String> = Vec::new();
     let (mut pieces, mut outlines) = (Vec::new(), Vec::new());
-    for piece in &paired(traced) {
+    let traced = paired(traced);
+    let fabrics = declared(&traced, &mut notes);
+    for piece in &traced {
         let name = fresh(&piece.name, &names);
         names.push(name.clone());
-        let (file, edges) = piece_file(&name, &piece.at_origin(), &mut notes);
-        outlines.push((name, edges, matches!(&file.cut, Some(c) if c.value == Cut::Pair)));
+        let (mut file, edges) = piece_file(&name, &piece.at_origin(), &mut notes);
+        // The only fabric is that of every piece.
+        file.fabric = piece.material.as_ref().filter(|_| fabrics.len() > 1).map(|m| at_no_place(name_of(m)));
+        let fold = fold_of(&file).map(str::to_owned);
+        outlines.push(Outline { piece: name, edges, fold });
         pieces.push(file);
     }
     let file = GarmentFile {
@@ -61,7 +67,7 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
         body: None,
         body_units: None,
         allowance: None,
-        fabrics: Vec::new(),
+        fabrics: fabrics.into_iter().map(|d| (at_no_place(d.name), at_no_place(Value::Text(d.cloth)))).collect(),
         pieces,
         seams: Vec::new(),
         closures: Vec::new(),
@@ -139,9 +145,22 @@ fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile
         pleats,
         holes: holes.iter().map(|(name, hole)| (at_no_place(name.clone()), at_no_place(ring(&hole.sew)))).collect(),
         lines: lines(piece, &wedges),
-        note: piece.fabric.as_ref().map(|f| at_no_place(format!("material: {}", plain(f)))),
+        note: piece.material.as_ref().and_then(note).map(at_no_place),
     };
     (file, edges)
+}
+
+/// The edge on the fold of the cloth, which nothing is sewn to.
+fn fold_of(piece: &PieceFile) -> Option<&str> {
+    match &piece.cut.as_ref()?.value {
+        Cut::Fold(edge) => Some(edge),
+        _ => None,
+    }
+}
+
+/// The drawing's own words for a material whose name in the file is another.
+fn note(material: &Material) -> Option<String> {
+    (name_of(material) != material.name).then(|| format!("material: {}", plain(&material.name)))
 }
 
 /// Of lines inside of which the drawing does not say what they do.

@@ -11,6 +11,7 @@ mod edges;
 mod file;
 mod holes;
 mod joined;
+mod materials;
 mod pairs;
 mod smooth;
 mod suggest;
@@ -40,6 +41,15 @@ pub struct Stroke {
     pub layer: Option<String>,
     /// What it does if it is a line inside a piece, where the file says so.
     pub kind: Option<LineKind>,
+}
+
+/// What a piece is cut from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Material {
+    /// As the drawing calls it.
+    pub name: String,
+    /// The library's fabric that it is, if the drawing says so.
+    pub cloth: Option<String>,
 }
 
 /// A line inside a piece.
@@ -83,11 +93,15 @@ pub enum Role {
     PleatFold,
     /// Where the fold that was drawn before it is brought to.
     PleatPlace,
+    /// A ring round a point that is marked through all layers.
+    Drill,
 }
 
 /// What a drawing holds.
 #[derive(Clone, Debug, Default)]
 pub struct Drawing {
+    /// What it is called, if it says so.
+    pub title: Option<String>,
     /// Its pieces.
     pub pieces: Vec<Traced>,
     /// What it shows besides that was not read: a sentence for each kind.
@@ -128,8 +142,8 @@ pub struct Traced {
     pub said_by: Option<usize>,
     /// Which of a pair, or which half, is drawn, if said.
     pub drawn: Option<Side>,
-    /// Its material.
-    pub fabric: Option<String>,
+    /// What it is cut from.
+    pub material: Option<Material>,
 }
 
 impl Traced {

@@ -12,7 +12,7 @@ use super::walk::difference;
 use super::{Garment, Give, Notch, Seam, SeamKind, Span};
 
 /// Lengths may differ by this much (metres) where nothing is said.
-const DEFAULT_TOLERANCE: f64 = 2e-3;
+pub(crate) const DEFAULT_TOLERANCE: f64 = 2e-3;
 /// All seams close together unless the file stages them.
 pub(super) const DEFAULT_STAGE: i32 = 1;
 /// What openings call the ends of a seam, beside the edges that meet there.

@@ -15,7 +15,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 use self::left_out::{LeftOut, What};
 use self::shapes::commands;
 use self::viewport::{Frame, inner, sheet};
-use crate::digitize::{Drawing, Remark, Role, Stroke, Traced, besides, pieces};
+use crate::digitize::{Drawing, Material, Remark, Role, Stroke, Traced, besides, pieces};
 use crate::geometry::{Path, Vec2, parse_transform};
 use crate::input::{InputError, bytes, shown};
 use crate::pattern::{LineKind, Side};
@@ -43,8 +43,8 @@ const LINES: [&str; 4] = ["path", "polygon", "polyline", "line"];
 const NOT_DRAWN: [&str; 9] =
     ["defs", "symbol", "marker", "clipPath", "mask", "pattern", "metadata", "style", "namedview"];
 /// Classes of what is no line of the pattern.
-const SKIPPED: [&str; 11] =
-    ["drawn", "help", "note", "mark", "text", "hidden", "scale", "pleat", "drill", "scalebox", "miniscale"];
+const SKIPPED: [&str; 10] =
+    ["drawn", "help", "note", "mark", "text", "hidden", "scale", "pleat", "scalebox", "miniscale"];
 
 /// Why an SVG file could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -105,19 +105,21 @@ pub fn read_svg_text(text: &str) -> Result<Drawing, SvgError> {
         return Err(SvgError::NotSvg(shown(root.tag_name().name(), SHOWN)));
     }
     let left_out = LeftOut::default();
-    let (strokes, remarks, texts, right) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let mut reader = Reader { document: &document, strokes, remarks, texts, right, left_out };
+    let (strokes, remarks, texts) = (Vec::new(), Vec::new(), Vec::new());
+    let (right, materials) = (Vec::new(), Vec::new());
+    let mut reader = Reader { document: &document, strokes, remarks, texts, right, materials, left_out };
     reader.walk(root)?;
-    let Drawing { mut pieces, left_out: unclosed } = pieces(&reader.strokes, &reader.remarks);
-    for piece in pieces.iter_mut().filter(|p| reader.right.contains(&p.name)) {
-        piece.drawn = Some(Side::Right);
+    let Drawing { mut pieces, left_out: unclosed, .. } = pieces(&reader.strokes, &reader.remarks);
+    for piece in &mut pieces {
+        piece.drawn = reader.right.contains(&piece.name).then_some(Side::Right);
+        piece.material = reader.materials.iter().find(|(name, _)| *name == piece.name).map(|(_, m)| m.clone());
     }
     reader.leave_out_unread(&pieces);
     let left_out: Vec<String> = unclosed.into_iter().chain(reader.left_out.sentences()).collect();
     if pieces.is_empty() {
         Err(SvgError::NoPieces { besides: besides(&left_out) })
     } else {
-        Ok(Drawing { pieces, left_out })
+        Ok(Drawing { title: title(root), pieces, left_out })
     }
 }
 
@@ -141,6 +143,8 @@ struct Reader<'a, 'i> {
     texts: Vec<(usize, u32)>,
     /// Groups whose pieces are the wearer's right ones, as toile itself writes it.
     right: Vec<String>,
+    /// What groups are cut from, as toile itself writes it.
+    materials: Vec<(String, Material)>,
     left_out: LeftOut,
 }
 
@@ -171,6 +175,7 @@ impl Reader<'_, '_> {
                 if node.attribute("data-drawn") == Some(Side::Right.letter()) {
                     self.right.extend(within.group.clone());
                 }
+                self.materials.extend(within.group.clone().zip(material(node)));
                 let chosen = (name == "switch").then(|| alternative(node));
                 let elements = || {
                     let all = node.children().filter(Node::is_element);
@@ -244,6 +249,18 @@ impl Reader<'_, '_> {
     fn value(&self, node: Node, what: &'static str, text: &str) -> SvgError {
         SvgError::Value { line: self.line(node), what, text: shown(text, SHOWN) }
     }
+}
+
+/// What the drawing is called.
+fn title(root: Node) -> Option<String> {
+    let own = root.children().find(|c| c.tag_name().name() == "title")?;
+    own.text().map(|words| shown(words.trim(), REMARK)).filter(|words| !words.is_empty())
+}
+
+/// What a group says that its piece is cut from.
+fn material(node: Node) -> Option<Material> {
+    let name = shown(node.attribute("data-material")?, SHOWN);
+    Some(Material { name, cloth: node.attribute("data-fabric").map(str::to_owned) })
 }
 
 /// A text's words and its beginning, which may stand at its first line.
@@ -368,6 +385,9 @@ fn role(node: Node, classes: &str) -> Option<Role> {
     }
     if has("notch") || refers("notch") || called("notch") {
         return Some(Role::Notch);
+    }
+    if has("drill") {
+        return Some(Role::Drill);
     }
     // Of symbols only notches tell something about the outline; others are logos and buttons.
     if has("fold") || SKIPPED.iter().any(|w| has(w)) || ["text", "use"].contains(&node.tag_name().name()) {
