@@ -654,6 +654,13 @@ fn what_is_no_disk_is_cut_where_asked_or_where_it_must_be() {
 }
 
 #[test]
+    // Cut apart across, and each half open by itself. That the halves meet where they were cut is no news.
+    let ring = |row: usize| format!("{},{},{},{}", 24 * row + 1, 24 * row + 9, 24 * row + 17, 24 * row + 1);
+    let run = room.run(&["flatten", "tube.obj", "--cut", "auto", "--cut", &ring(3), "-o", "halves", "--json"]);
+    let why: Vec<Value> =
+        run.ends(0).json()["cuts_made"].as_array().expect("rows").iter().map(|c| c["why"].clone()).collect();
+    assert_eq!(why, ["asked", "auto", "auto"]);
+    assert!(!run.err.contains("--weld"), "{}", run.err);
 fn faces_that_run_against_the_others_are_turned_and_one_sided_surfaces_are_named() {
     let room = Room::new();
     // Two faces the other way round.
@@ -666,6 +673,23 @@ fn faces_that_run_against_the_others_are_turned_and_one_sided_surfaces_are_named
         faces += usize::from(line.starts_with('f'));
         text += &if line.starts_with('f') && [7, 40].contains(&faces) { turned(line) } else { line.to_owned() };
         text + "\n"
+/// Of a file whose faces share no vertices every triangle is a part: what to do about it must not be buried.
+#[test]
+fn of_many_parts_the_first_are_shown() {
+    let room = Room::new();
+    let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+    let faces = |k: usize| {
+        format!("f {} {} {}\nf {} {} {}\n", 6 * k + 1, 6 * k + 2, 6 * k + 3, 6 * k + 4, 6 * k + 5, 6 * k + 6)
+    };
+    let text: String = (0..30).map(|k| corners.replace(" 0\n", &format!(" {k}\n")) + &faces(k)).collect();
+    room.put("soup.obj", &text);
+    let run = room.run(&["flatten", "soup.obj", "-o", "flat", "--units", "cm"]);
+    run.ends(0).says(&["--weld"]);
+    assert!(run.out.contains("and 20 more, which report.json has") && run.out.lines().count() < 50, "{}", run.out);
+    let all = room.run(&["flatten", "soup.obj", "-o", "flat", "--units", "cm", "--json"]).json();
+    assert_eq!(all["pieces"].as_array().map(Vec::len), Some(60));
+}
+
     });
     room.put("tube.obj", &spoilt);
     let said = ["2 of its 144 faces", "face 7"];
@@ -736,6 +760,9 @@ fn a_dart_is_proposed_where_cloth_would_be_strained_and_cut_when_asked() {
 fn the_next_dart_goes_into_the_part_that_is_strained_most() {
     let room = Room::new();
     room.put("two.obj", &domes(&[("shallow", 25.0), ("steep", 90.0)]));
+    let poplin = run(&["--fabric", "cotton_poplin"]);
+    poplin.says(&["warning: 'dome' cannot be laid flat in cotton_poplin without a cut or dart", "full load"]);
+    assert_eq!((&poplin.json()["pieces"][0]["layable"], &whole["pieces"][0]["layable"]), (&false.into(), &true.into()));
     let run = |dart: &str, limit: &str| {
         let args = ["flatten", "two.obj", "-o", "flat", "--json", "--units", "mm", "--dart", dart, "--limit", limit];
         room.run(&args)

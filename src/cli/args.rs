@@ -212,7 +212,7 @@ pub(super) struct FlattenArgs {
     #[arg(long, value_enum)]
     pub(super) units: Option<UnitArg>,
     /// Cut along the shortest way through these vertices, numbered from 1 as in the file, or wherever it is needed; may
-    /// be given several times (OBJ only)
+    /// be given several times, auto then cutting what the others leave (OBJ only)
     #[arg(long, value_name = "auto|V,V,…")]
     pub(super) cut: Vec<String>,
     /// Cut darts where the strain passes the limit, N at most for all pieces together, the next always where it is
