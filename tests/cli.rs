@@ -217,6 +217,11 @@ fn drawings_come_back_as_garment_files() {
         // Seams are only suggested, so that everything is still free: a check of the file as it is passes.
         assert_eq!((&json["seams"], &json["ok"]), (&Value::from(0), &Value::from(true)), "{json}");
         room.run(&["check", &made, "-q"]).ends(0);
+        // What was written by hand since would be lost.
+        room.put(&made, "mine");
+        room.run(&["import", kind, &drawing, "-o", &made]).ends(2).says(&[&made, "--force", "-o"]);
+        assert_eq!(room.bytes(&made), b"mine");
+        room.run(&["import", kind, &drawing, "-o", &made, "--force", "-q"]).ends(0);
         let text = String::from_utf8(room.bytes(&made)).expect("UTF-8");
         for piece in ["  front:", "  back:"] {
             assert!(text.contains(piece), "{text}");

@@ -347,7 +347,8 @@ fn layer_of_lines(lines: &[(&str, &str)]) -> String {
     format!(
         "<svg xmlns='http://www.w3.org/2000/svg' xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' \
          width='900mm' height='900mm' viewBox='0 0 900 900'><g inkscape:groupmode='layer' inkscape:label='back'>\
-         <rect x='500' width='100' height='200'/></g><g inkscape:groupmode='layer' inkscape:label='front'>{paths}</g></svg>"
+         <rect x='500' width='100' height='200'/></g><g inkscape:groupmode='layer' inkscape:label='front'>{paths}</g>\
+         </svg>"
     )
 }
 
@@ -398,6 +399,33 @@ fn what_is_written_on_a_piece_says_how_it_is_cut() {
     for once in ["cut 1", "cut here", "undercut", "cut 1 on the fold", "cut 99999999999999999999"] {
         assert_eq!(cut(once), Cut::One, "{once}");
     }
+}
+
+/// That a piece is cut on the fold may be written on it alone.
+#[test]
+fn what_is_written_on_a_piece_says_that_it_lies_on_the_fold() {
+    let made = |words: &str, more: &str| {
+        from_svg(&format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' width='900mm' height='900mm' viewBox='0 0 900 900'>\
+             <path id='front' d='M 100 0 H 200 L 250 300 H 100 Z'/><text x='150' y='90'>{words}</text>{more}</svg>"
+        ))
+    };
+    let grain = "<path class='grain' d='M 150 50 V 250'/>";
+    for words in ["cut 1 on fold", "Front – CUT 1 ON THE FOLD", "cut 2 on fold"] {
+        let drawing = made(words, grain);
+        assert_eq!(drawn(&drawing)[0].cut, Cut::Fold("d".to_owned()), "{words}");
+        let [said] = &drawing.notes[..] else { panic!("{:?}", drawing.notes) };
+        assert!(said.contains("edge 'd' is taken for that"), "{said}");
+        assert_eq!(said.contains("cut 2 times"), words.contains('2'), "{said}");
+        assert!(drawing.suggestions.iter().all(|s| s.sew != "front.d" && s.to != "front.d"));
+    }
+    // Four straight edges, and nothing that tells one from the other.
+    let unknown = made("cut 1 on fold", "");
+    assert_eq!(drawn(&unknown)[0].cut, Cut::One);
+    assert!(unknown.notes[0].contains("say at which edge, 'cut: fold EDGE'"), "{:?}", unknown.notes);
+    // A line that is drawn says it better.
+    let drawn_line = made("cut 1 on fold", "<path class='fold' d='M 100 0 L 100 300'/>");
+    assert!(drawn_line.notes.is_empty() && drawn(&drawn_line)[0].fold.is_some(), "{:?}", drawn_line.notes);
 }
 
 #[test]

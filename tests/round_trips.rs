@@ -205,7 +205,8 @@ pieces:
   front: {cut: fold center, grain: [[20, 50], [20, 200]], outline: {start: 0 0, waist: L 150 0, side: L 150 300,
     hem: L 0 300, center: L 0 0}}
   strip: {fabric: band, grain: [[50, 5], [50, 50]], outline: {start: 0 0, a: L 150 0, b: L 150 60, c: L 0 60, d: L 0 0}}
-  facing: {fabric: lining, grain: [[50, 5], [50, 50]], outline: {start: 0 0, a: L 99 0, b: L 99 60, c: L 0 60, d: L 0 0}}
+  facing: {fabric: lining, grain: [[50, 5], [50, 50]], outline: {start: 0 0, a: L 99 0, b: L 99 60, c: L 0 60,
+    d: L 0 0}}
 closures: [{kind: button, piece: strip, at: [[15, 30], [0, 0]], meets: front, meets_at: [[60, 90], [60, 60]]}]
 free: ['*.*']
 ";

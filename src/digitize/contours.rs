@@ -103,8 +103,13 @@ pub fn pieces(strokes: &[Stroke], remarks: &[Remark]) -> Drawing {
     let piece = |&o: &usize| {
         let inner: Vec<&Contour> = (0..contours.len()).filter(|&i| within(i, o)).map(|i| &contours[i]).collect();
         let mut own = remarks.iter().enumerate().filter(|(_, r)| contours[o].holds(r.at));
-        let (said_by, cut_how) = own.find_map(|(i, r)| Some((i, cut_how(&r.text)?))).unzip();
-        Traced { cut_how, said_by, ..piece(&contours[o], &inner, &rest) }
+        let (said_by, said) = own.find_map(|(i, r)| Some((i, said(&r.text)?))).unzip();
+        let (cut_how, on_fold) = match said {
+            Some(Said::Cut(how)) => (Some(how), None),
+            Some(Said::OnFold(count)) => (None, Some(count)),
+            None => (None, None),
+        };
+        Traced { cut_how, on_fold, said_by, ..piece(&contours[o], &inner, &rest) }
     };
     let pieces = outer.iter().map(piece).collect();
     let is_on_one = |line: &Stroke| outer.iter().any(|&o| contours[o].owns(line));
@@ -113,15 +118,25 @@ pub fn pieces(strokes: &[Stroke], remarks: &[Remark]) -> Drawing {
     Drawing { title: None, pieces, left_out: unclosed(&open) }
 }
 
-/// `cut 2 (left and right)`, `Cut 1 pair`, `cut 4`: how a piece is cut, as makers write it on.
-fn cut_how(text: &str) -> Option<Cut> {
+/// What is written on a piece of how it is cut.
+enum Said {
+    /// So.
+    Cut(Cut),
+    /// So often on the fold of the cloth; where that is, is not in the words.
+    OnFold(usize),
+}
+
+/// `cut 2 (left and right)`, `Cut 1 pair`, `cut 4`, `CUT 1 ON FOLD`: how a piece is cut, as makers write it on.
+fn said(text: &str) -> Option<Said> {
     let text = text.to_lowercase();
     let (_, after) = text.split_once("cut")?;
     let count: usize = after.split(|c: char| !c.is_alphanumeric()).find(|w| !w.is_empty())?.parse().ok()?;
-    let mirrored = ["left and right", "l and r", "mirror", "pair"].iter().any(|words| after.contains(words));
+    let says = |words: &[&str]| words.iter().any(|words| after.contains(words));
+    let mirrored = says(&["left and right", "l and r", "mirror", "pair"]);
     match count {
-        1 | 2 if mirrored => Some(Cut::Pair),
-        2..=100 => Some(Cut::Count(count)),
+        1..=100 if says(&["on fold", "on the fold"]) => Some(Said::OnFold(count)),
+        1 | 2 if mirrored => Some(Said::Cut(Cut::Pair)),
+        2..=100 => Some(Said::Cut(Cut::Count(count))),
         _ => None,
     }
 }

@@ -17,6 +17,8 @@ use crate::pattern::{
 const MM: f64 = 1e3;
 /// A fold's ends are so near to those of an edge (metres).
 const ON_FOLD: f64 = 1e-3;
+/// Edges and grain of which the directions differ by no more (radians, a degree) run along each other.
+const ASKEW: f64 = 0.0175;
 /// Widest allowance that is measured (metres): farther apart, two lines have nothing to do with each other.
 const WIDEST: f64 = 0.1;
 /// Where along an edge its allowance is measured.
@@ -125,7 +127,8 @@ fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile
     notes.extend(untold(name, piece));
     // What lies on the fold of the cloth lies along the warp.
     let grain = piece.grain.or(piece.mirror);
-    let fold = piece.mirror.and_then(|mirror| fold_edge(&edges, mirror));
+    let drawn_fold = piece.mirror.and_then(|mirror| fold_edge(&edges, mirror));
+    let fold = drawn_fold.or_else(|| written_fold(name, piece.on_fold?, &edges, grain, notes));
     let cut = fold.map(Cut::Fold).or(piece.cut_how.clone());
     let whole = piece.cut.as_ref().filter(|_| !piece.sew.is_empty());
     let holes = named_holes(&piece.holes, &edges);
@@ -309,6 +312,36 @@ fn fold_edge(edges: &[Edge], [from, to]: [Vec2; 2]) -> Option<String> {
     let lies = |e: &&Edge| e.path.is_straight() && on(e.path.start()) && on(e.path.end());
     let longest = |a: &&Edge, b: &&Edge| a.path.length().total_cmp(&b.path.length());
     edges.iter().filter(lies).max_by(longest).map(|e| e.name.clone())
+}
+
+/// The edge that may lie on the fold where that is written on a piece and not drawn: one of that name, or the only
+/// straight one that runs along the grain.
+fn written_fold(
+    name: &str,
+    count: usize,
+    edges: &[Edge],
+    grain: Option<[Vec2; 2]>,
+    notes: &mut Vec<String>,
+) -> Option<String> {
+    let warp = grain.and_then(|[tail, head]| (head - tail).try_normalize(0.0));
+    let is_along = |e: &&Edge| {
+        let along = (e.path.end() - e.path.start()).try_normalize(0.0);
+        e.path.is_straight() && warp.zip(along).is_none_or(|(warp, along)| warp.perp(&along).abs() <= ASKEW)
+    };
+    let called = edges.iter().find(|e| e.path.is_straight() && e.name.to_lowercase().contains("fold"));
+    let mut straight = edges.iter().filter(is_along);
+    let only = straight.next().filter(|_| straight.next().is_none());
+    let fold = called.or(only).map(|e| e.name.clone());
+    let more = if count > 1 {
+        format!("; it is cut {count} times: write a piece 'like' it for each other")
+    } else {
+        String::new()
+    };
+    notes.push(match &fold {
+        Some(edge) => format!("'{name}' is to be cut on the fold: its edge '{edge}' is taken for that{more}"),
+        None => format!("'{name}' is to be cut on the fold: say at which edge, 'cut: fold EDGE'{more}"),
+    });
+    fold
 }
 
 /// The longest stretch of an edge beside the mouths of its darts.

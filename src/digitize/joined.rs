@@ -82,8 +82,8 @@ fn sentence(layer: Option<&str>, lines: &[&Stroke]) -> String {
         format!(": their nearest ends that do not meet are {:.2} mm apart", 1e3 * metres)
     });
     format!(
-        "left out: {what}{of}{} on no piece, which close to no outline{gap}; make them meet end to end in one group, or \
-         one closed path, to have a piece",
+        "left out: {what}{of}{} on no piece, which close to no outline{gap}; make them meet end to end in one group, \
+         or one closed path, to have a piece",
         listed(lines)
     )
 }

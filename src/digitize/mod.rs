@@ -138,7 +138,9 @@ pub struct Traced {
     pub mirror: Option<[Vec2; 2]>,
     /// How it is cut, if said.
     pub cut_how: Option<Cut>,
-    /// Which of the drawing's remarks says so.
+    /// How often it is cut on the fold, if that is written on it; the line is [`Self::mirror`], if it is drawn.
+    pub on_fold: Option<usize>,
+    /// Which of the drawing's remarks says how it is cut.
     pub said_by: Option<usize>,
     /// Which of a pair, or which half, is drawn, if said.
     pub drawn: Option<Side>,

@@ -74,7 +74,8 @@ pub enum DxfError {
     },
 }
 
-/// Reads the pieces of a DXF file; `unit` is metres per drawing unit where the file does not say.
+/// Reads the pieces of a DXF file; `unit` is metres per drawing unit in place of what the file says; without it that
+/// counts, else millimetres.
 ///
 /// # Errors
 /// [`DxfError`].
@@ -257,6 +258,7 @@ impl<'a> Block<'a> {
             mirror,
             cut: Some(cut),
             cut_how: self.text("quantity:").and_then(quantity),
+            on_fold: None,
             said_by: None,
             drawn: self.text("drawn:").and_then(Side::from_letter).filter(|side| *side == Side::Right),
             material: self.material(),
