@@ -449,6 +449,14 @@ fn check_walks_the_seams() {
     let summary = room.run(&["check", "skirt.yaml", "--json"]).json();
     assert_eq!(summary["seams"][0]["name"], "left");
     assert_eq!(summary["openings"].as_array().map(Vec::len), Some(2));
+    // Of edges that are sewn in part the stretch is said.
+    room.put("part.yaml", &skirt_with("to: back.left}", "to: back.left@0%..100%}"));
+    let run = room.run(&["check", "part.yaml"]);
+    assert!(run.ends(0).out.lines().any(|line| line.ends_with("front.right – back.left")), "{}", run.out);
+    let half = skirt_with("{sew: front.right, to: back.left}", "{sew: front.right@10..90, to: back.left@10..90}");
+    room.put("half.yaml", &half.replace("free: [", "free: [front.right, back.left, "));
+    let run = room.run(&["check", "half.yaml"]);
+    assert!(run.ends(0).out.contains("front.right@10..90 – back.left@10..90"), "{}", run.out);
     room.put("wrong.yaml", &skirt_with("back.left}", "back.lefd}"));
     let refusal = room.run(&["check", "wrong.yaml", "--json"]);
     assert_eq!(refusal.ends(2).json()["diagnostics"][0]["severity"], "error");
@@ -646,6 +654,13 @@ fn what_is_no_disk_is_cut_where_asked_or_where_it_must_be() {
     room.run(&["flatten", "tube.obj", "--cut", "auto", "-o", "flat"]).ends(0).says(&["cut 'tube' from", "100.0 mm"]);
     assert_eq!(laid(&["tube.obj", "--cut", "5,149"])["cuts"][0][6], 149);
     laid(&["seam.obj"]);
+    // Cut apart across, and each half open by itself. That the halves meet where they were cut is no news.
+    let ring = |row: usize| format!("{},{},{},{}", 24 * row + 1, 24 * row + 9, 24 * row + 17, 24 * row + 1);
+    let run = room.run(&["flatten", "tube.obj", "--cut", "auto", "--cut", &ring(3), "-o", "halves", "--json"]);
+    let why: Vec<Value> =
+        run.ends(0).json()["cuts_made"].as_array().expect("rows").iter().map(|c| c["why"].clone()).collect();
+    assert_eq!(why, ["asked", "auto", "auto"]);
+    assert!(!run.err.contains("--weld"), "{}", run.err);
     // Every corner of the file has a place of its own on the flat piece, in the file's order.
     let flat = String::from_utf8(room.bytes("flat/flat.obj")).expect("text");
     assert_eq!(flat.lines().filter(|l| l.starts_with("vt ")).count(), 25 * 7);
@@ -658,26 +673,6 @@ fn what_is_no_disk_is_cut_where_asked_or_where_it_must_be() {
     assert!(room.names("no").is_empty());
 }
 
-#[test]
-    // Cut apart across, and each half open by itself. That the halves meet where they were cut is no news.
-    let ring = |row: usize| format!("{},{},{},{}", 24 * row + 1, 24 * row + 9, 24 * row + 17, 24 * row + 1);
-    let run = room.run(&["flatten", "tube.obj", "--cut", "auto", "--cut", &ring(3), "-o", "halves", "--json"]);
-    let why: Vec<Value> =
-        run.ends(0).json()["cuts_made"].as_array().expect("rows").iter().map(|c| c["why"].clone()).collect();
-    assert_eq!(why, ["asked", "auto", "auto"]);
-    assert!(!run.err.contains("--weld"), "{}", run.err);
-fn faces_that_run_against_the_others_are_turned_and_one_sided_surfaces_are_named() {
-    let room = Room::new();
-    // Two faces the other way round.
-    let turned = |line: &str| {
-        let words: Vec<&str> = line.split(' ').collect();
-        [words[0], words[4], words[3], words[2], words[1]].join(" ")
-    };
-    let mut faces = 0;
-    let spoilt = tube(true).lines().fold(String::new(), |mut text, line| {
-        faces += usize::from(line.starts_with('f'));
-        text += &if line.starts_with('f') && [7, 40].contains(&faces) { turned(line) } else { line.to_owned() };
-        text + "\n"
 /// Of a file whose faces share no vertices every triangle is a part: what to do about it must not be buried.
 #[test]
 fn of_many_parts_the_first_are_shown() {
@@ -695,6 +690,19 @@ fn of_many_parts_the_first_are_shown() {
     assert_eq!(all["pieces"].as_array().map(Vec::len), Some(60));
 }
 
+#[test]
+fn faces_that_run_against_the_others_are_turned_and_one_sided_surfaces_are_named() {
+    let room = Room::new();
+    // Two faces the other way round.
+    let turned = |line: &str| {
+        let words: Vec<&str> = line.split(' ').collect();
+        [words[0], words[4], words[3], words[2], words[1]].join(" ")
+    };
+    let mut faces = 0;
+    let spoilt = tube(true).lines().fold(String::new(), |mut text, line| {
+        faces += usize::from(line.starts_with('f'));
+        text += &if line.starts_with('f') && [7, 40].contains(&faces) { turned(line) } else { line.to_owned() };
+        text + "\n"
     });
     room.put("tube.obj", &spoilt);
     let said = ["2 of its 144 faces", "face 7"];
@@ -752,6 +760,9 @@ fn a_dart_is_proposed_where_cloth_would_be_strained_and_cut_when_asked() {
     // What a fabric gives is less than ten per cent for poplin and more for a rib.
     run(&["--fabric", "cotton_poplin"]).ends(0).says(&["cotton_poplin gives", "--dart auto"]);
     assert_eq!(run(&["--fabric", "rib", "--mode", "woven"]).ends(0).json()["pieces"][0]["dart"], Value::Null);
+    let poplin = run(&["--fabric", "cotton_poplin"]);
+    poplin.says(&["warning: 'dome' cannot be laid flat in cotton_poplin without a cut or dart", "full load"]);
+    assert_eq!((&poplin.json()["pieces"][0]["layable"], &whole["pieces"][0]["layable"]), (&false.into(), &true.into()));
     run(&["--fabric", "rib", "--limit", "5"]).ends(2).says(&["--limit", "--fabric"]);
     run(&["--spacing", "5"]).ends(2).says(&["--spacing", "garment file"]);
     let darted = run(&["--dart", "auto"]).ends(0).json();
@@ -765,9 +776,6 @@ fn a_dart_is_proposed_where_cloth_would_be_strained_and_cut_when_asked() {
 fn the_next_dart_goes_into_the_part_that_is_strained_most() {
     let room = Room::new();
     room.put("two.obj", &domes(&[("shallow", 25.0), ("steep", 90.0)]));
-    let poplin = run(&["--fabric", "cotton_poplin"]);
-    poplin.says(&["warning: 'dome' cannot be laid flat in cotton_poplin without a cut or dart", "full load"]);
-    assert_eq!((&poplin.json()["pieces"][0]["layable"], &whole["pieces"][0]["layable"]), (&false.into(), &true.into()));
     let run = |dart: &str, limit: &str| {
         let args = ["flatten", "two.obj", "-o", "flat", "--json", "--units", "mm", "--dart", dart, "--limit", limit];
         room.run(&args)

@@ -126,6 +126,8 @@ pub struct Edge {
     pub name: String,
     /// Its course.
     pub path: Path,
+    /// Whether it runs against the drawing's, as on what is mirrored: a file measures along that.
+    pub against: bool,
 }
 
 /// An edge of a piece: `piece.loops[ring][index]`.

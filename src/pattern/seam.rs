@@ -321,7 +321,7 @@ fn as_ratio(la: f64, lb: f64, give: Give) -> String {
         Give::Even | Give::Ease(_) => return String::new(),
     };
     let (one, other, asked) = (la * 1e3, lb * 1e3, la / ratio * 1e3);
-    format!("; {one:.1} / {other:.1} is {:.3}, and {word}: {ratio} asks for {one:.1} to {asked:.1} mm", la / lb)
+    format!("; {one:.1} / {other:.1} is {:.3}, and {word}: {ratio} asks for {one:.1} mm on {asked:.1} mm", la / lb)
 }
 
 /// What a seam of these lengths may say of them: ease as far as there is any, else gathers of the longer side.
