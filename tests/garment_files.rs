@@ -928,9 +928,9 @@ fn long_lines_and_values_are_shortened() {
 /// On the half that is not drawn a stretch is counted from the mirror image of where the drawn edge starts.
 #[test]
 fn stretches_of_both_halves_are_counted_from_the_drawn_start() {
-    let text = "garment: 1\npieces:\n  a:\n    cut: fold center\n    grain: [[9, 9], [9, 90]]\n    outline: {start: 0 \
-                0, top: L 100 0, side: L 100 200, hem: L 0 200, center: L 0 0}\n  b:\n    grain: [[9, 9], [9, 90]]\n    \
-                outline: {start: 0 0, p: L 60 0, q: L 60 30, r: L 0 30, s: L 0 0}\nseams:\n  left: {sew: \
+    let text = "garment: 1\npieces:\n  a:\n    cut: fold center\n    grain: [[9, 9], [9, 90]]\n    outline: {start: \
+                0 0, top: L 100 0, side: L 100 200, hem: L 0 200, center: L 0 0}\n  b:\n    grain: [[9, 9], [9, \
+                90]]\n    outline: {start: 0 0, p: L 60 0, q: L 60 30, r: L 0 30, s: L 0 0}\nseams:\n  left: {sew: \
                 a.L.side@10..40, to: b.q}\n  right: {sew: a.side.R@10..40, to: b.s}\nfree: ['*.*']\n";
     let garment = read_text("a", "a.yaml", text).unwrap_or_else(|e| panic!("{e}")).garment;
     let named: Vec<String> = walk(&garment).into_iter().map(|seam| seam.a).collect();
