@@ -23,7 +23,7 @@ const FLOORS: [(&str, &[&str]); 21] = [
     ("report", &["geometry", "pattern", "mannequin", "mesh", "verify"]),
     ("picture", &["geometry", "mesh", "verify"]),
     ("cutting", &["geometry", "input", "pattern"]),
-    ("digitize", &["geometry", "pattern"]),
+    ("digitize", &["geometry", "fabric", "pattern"]),
     ("io", &["geometry", "input", "pattern", "mannequin", "mesh", "verify", "cutting", "digitize"]),
     (
         "pipeline",

@@ -217,6 +217,11 @@ fn drawings_come_back_as_garment_files() {
         // Seams are only suggested, so that everything is still free: a check of the file as it is passes.
         assert_eq!((&json["seams"], &json["ok"]), (&Value::from(0), &Value::from(true)), "{json}");
         room.run(&["check", &made, "-q"]).ends(0);
+        // What was written by hand since would be lost.
+        room.put(&made, "mine");
+        room.run(&["import", kind, &drawing, "-o", &made]).ends(2).says(&[&made, "--force", "-o"]);
+        assert_eq!(room.bytes(&made), b"mine");
+        room.run(&["import", kind, &drawing, "-o", &made, "--force", "-q"]).ends(0);
         let text = String::from_utf8(room.bytes(&made)).expect("UTF-8");
         for piece in ["  front:", "  back:"] {
             assert!(text.contains(piece), "{text}");
@@ -444,6 +449,14 @@ fn check_walks_the_seams() {
     let summary = room.run(&["check", "skirt.yaml", "--json"]).json();
     assert_eq!(summary["seams"][0]["name"], "left");
     assert_eq!(summary["openings"].as_array().map(Vec::len), Some(2));
+    // Of edges that are sewn in part the stretch is said.
+    room.put("part.yaml", &skirt_with("to: back.left}", "to: back.left@0%..100%}"));
+    let run = room.run(&["check", "part.yaml"]);
+    assert!(run.ends(0).out.lines().any(|line| line.ends_with("front.right – back.left")), "{}", run.out);
+    let half = skirt_with("{sew: front.right, to: back.left}", "{sew: front.right@10..90, to: back.left@10..90}");
+    room.put("half.yaml", &half.replace("free: [", "free: [front.right, back.left, "));
+    let run = room.run(&["check", "half.yaml"]);
+    assert!(run.ends(0).out.contains("front.right@10..90 – back.left@10..90"), "{}", run.out);
     room.put("wrong.yaml", &skirt_with("back.left}", "back.lefd}"));
     let refusal = room.run(&["check", "wrong.yaml", "--json"]);
     assert_eq!(refusal.ends(2).json()["diagnostics"][0]["severity"], "error");
@@ -641,6 +654,13 @@ fn what_is_no_disk_is_cut_where_asked_or_where_it_must_be() {
     room.run(&["flatten", "tube.obj", "--cut", "auto", "-o", "flat"]).ends(0).says(&["cut 'tube' from", "100.0 mm"]);
     assert_eq!(laid(&["tube.obj", "--cut", "5,149"])["cuts"][0][6], 149);
     laid(&["seam.obj"]);
+    // Cut apart across, and each half open by itself. That the halves meet where they were cut is no news.
+    let ring = |row: usize| format!("{},{},{},{}", 24 * row + 1, 24 * row + 9, 24 * row + 17, 24 * row + 1);
+    let run = room.run(&["flatten", "tube.obj", "--cut", "auto", "--cut", &ring(3), "-o", "halves", "--json"]);
+    let why: Vec<Value> =
+        run.ends(0).json()["cuts_made"].as_array().expect("rows").iter().map(|c| c["why"].clone()).collect();
+    assert_eq!(why, ["asked", "auto", "auto"]);
+    assert!(!run.err.contains("--weld"), "{}", run.err);
     // Every corner of the file has a place of its own on the flat piece, in the file's order.
     let flat = String::from_utf8(room.bytes("flat/flat.obj")).expect("text");
     assert_eq!(flat.lines().filter(|l| l.starts_with("vt ")).count(), 25 * 7);
@@ -651,6 +671,23 @@ fn what_is_no_disk_is_cut_where_asked_or_where_it_must_be() {
         .says(&["vertex 5 follows itself", "another"]);
     room.run(&["flatten", "tube.obj", "--cut", "1;2", "-o", "no"]).ends(2).says(&["--cut 1;2"]);
     assert!(room.names("no").is_empty());
+}
+
+/// Of a file whose faces share no vertices every triangle is a part: what to do about it must not be buried.
+#[test]
+fn of_many_parts_the_first_are_shown() {
+    let room = Room::new();
+    let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+    let faces = |k: usize| {
+        format!("f {} {} {}\nf {} {} {}\n", 6 * k + 1, 6 * k + 2, 6 * k + 3, 6 * k + 4, 6 * k + 5, 6 * k + 6)
+    };
+    let text: String = (0..30).map(|k| corners.replace(" 0\n", &format!(" {k}\n")) + &faces(k)).collect();
+    room.put("soup.obj", &text);
+    let run = room.run(&["flatten", "soup.obj", "-o", "flat", "--units", "cm"]);
+    run.ends(0).says(&["--weld"]);
+    assert!(run.out.contains("and 20 more, which report.json has") && run.out.lines().count() < 50, "{}", run.out);
+    let all = room.run(&["flatten", "soup.obj", "-o", "flat", "--units", "cm", "--json"]).json();
+    assert_eq!(all["pieces"].as_array().map(Vec::len), Some(60));
 }
 
 #[test]
@@ -723,6 +760,9 @@ fn a_dart_is_proposed_where_cloth_would_be_strained_and_cut_when_asked() {
     // What a fabric gives is less than ten per cent for poplin and more for a rib.
     run(&["--fabric", "cotton_poplin"]).ends(0).says(&["cotton_poplin gives", "--dart auto"]);
     assert_eq!(run(&["--fabric", "rib", "--mode", "woven"]).ends(0).json()["pieces"][0]["dart"], Value::Null);
+    let poplin = run(&["--fabric", "cotton_poplin"]);
+    poplin.says(&["warning: 'dome' cannot be laid flat in cotton_poplin without a cut or dart", "full load"]);
+    assert_eq!((&poplin.json()["pieces"][0]["layable"], &whole["pieces"][0]["layable"]), (&false.into(), &true.into()));
     run(&["--fabric", "rib", "--limit", "5"]).ends(2).says(&["--limit", "--fabric"]);
     run(&["--spacing", "5"]).ends(2).says(&["--spacing", "garment file"]);
     let darted = run(&["--dart", "auto"]).ends(0).json();

@@ -307,7 +307,7 @@ fn attribute<'a>(element: &'a str, name: &str) -> Option<&'a str> {
 fn svg_read_back_is_full_size_and_has_the_same_cut_lines() {
     let papers = sample();
     let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
-    let svg = cutting_svg(&sheet);
+    let svg = cutting_svg("Sample", &sheet);
     let head = svg.split('>').next().expect("a head");
     let size: Vec<f64> = ["width", "height"]
         .iter()

@@ -183,7 +183,7 @@ fn path_shift(before: &Drawing, again: &Drawing) -> Vec2 {
 fn an_exported_svg_is_read_back() {
     let (drawings, papers) = sample();
     let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
-    let made = from_svg(&cutting_svg(&sheet));
+    let made = from_svg(&cutting_svg("Sample", &sheet));
     same_outlines(&made, &drawings);
     let again = drawn(&made);
     assert!(again.iter().all(|p| p.rings[0].iter().any(|e| e.name == "hem")), "edges keep their names");
@@ -231,7 +231,7 @@ fn pieces_drawn_left_and_right_are_a_pair() {
     let names: Vec<&str> = papers.iter().map(|p| p.name.as_str()).collect();
     assert_eq!(names, ["front", "back.L", "back.R"]);
     let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
-    let svg = from_svg(&cutting_svg(&sheet));
+    let svg = from_svg(&cutting_svg("Sample", &sheet));
     let dxf = garment_file("sample", &read_dxf_text(&cutting_dxf("Sample", &papers), None).expect("pieces").pieces);
     for made in [svg, dxf] {
         let pieces = drawn(&made);
@@ -316,7 +316,7 @@ fn legs_of_a_dart_have_no_allowance() {
     let loaded = read_text("sample", "sample.yaml", &text).expect("a garment");
     let papers = papers(&drawings(&loaded.file, &loaded.garment), &Options { whole: true, ..Options::default() });
     let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
-    let made = from_svg(&cutting_svg(&sheet));
+    let made = from_svg(&cutting_svg("Sample", &sheet));
     let back = drawn(&made).into_iter().find(|p| p.name == "back").expect("the back");
     let width = |edge: &str| back.rings[0].iter().find(|e| e.name == edge).expect("an edge").allowance.width;
     assert_eq!(width("shoulder"), Some(0.010));
@@ -340,6 +340,48 @@ fn labels_of_paths_on_a_layer_are_names_of_pieces() {
     assert_eq!(cuts, [("front".to_owned(), Cut::Pair), ("yoke".to_owned(), Cut::One)]);
 }
 
+/// Of nothing but lines on a layer, as they are drawn one by one.
+fn layer_of_lines(lines: &[(&str, &str)]) -> String {
+    let paths: String =
+        lines.iter().map(|(name, d)| format!("<path id='path1' inkscape:label='{name}' d='{d}'/>")).collect();
+    format!(
+        "<svg xmlns='http://www.w3.org/2000/svg' xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' \
+         width='900mm' height='900mm' viewBox='0 0 900 900'><g inkscape:groupmode='layer' inkscape:label='back'>\
+         <rect x='500' width='100' height='200'/></g><g inkscape:groupmode='layer' inkscape:label='front'>{paths}</g>\
+         </svg>"
+    )
+}
+
+#[test]
+fn open_lines_of_a_layer_that_meet_end_to_end_are_an_outline_of_named_edges() {
+    // Two of them run against the others; a line from a corner is none of the edges, nor are lines within.
+    let four = [
+        ("waist", "M 100 100 H 200"),
+        ("tuck", "M 200 100 L 180 160"),
+        ("hem", "M 200 400 H 50"),
+        ("side", "M 200 400 V 100"),
+        ("center", "M 50 400 L 100 100"),
+    ];
+    let within = [("slit", "M 120 150 H 140"), ("slit", "M 140 150 L 130 160"), ("slit", "M 130 160 L 120 150")];
+    let pieces = drawn(&from_svg(&layer_of_lines(&[&four[..], &within[..]].concat())));
+    let front = pieces.iter().find(|p| p.name == "front").expect("the front");
+    let edges: Vec<(String, f64)> = lengths(front).into_iter().map(|(name, mm)| (name, mm.round())).collect();
+    let wanted = [("waist", 100.0), ("side", 300.0), ("hem", 150.0), ("center", 304.0)];
+    assert_eq!(edges, wanted.map(|(name, mm)| (name.to_owned(), mm)));
+    assert!(pieces.len() == 2 && front.lines.len() == 4 && front.rings.len() == 1, "{:?}", front.lines);
+}
+
+#[test]
+fn open_lines_that_make_no_outline_are_said() {
+    let lines = [("waist", "M 100 100 H 200"), ("side", "M 200 100.5 L 200 400"), ("hem", "M 200 400 L 100 100")];
+    let drawing = read_svg_text(&layer_of_lines(&lines)).expect("the back");
+    let [said] = &drawing.left_out[..] else { panic!("{:?}", drawing.left_out) };
+    for words in ["3 open lines of 'front'", "'waist', 'side', 'hem'", "0.50 mm apart", "meet end to end"] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    assert_eq!(drawing.pieces.len(), 1);
+}
+
 #[test]
 fn what_is_written_on_a_piece_says_how_it_is_cut() {
     let cut = |words: &str| {
@@ -357,6 +399,33 @@ fn what_is_written_on_a_piece_says_how_it_is_cut() {
     for once in ["cut 1", "cut here", "undercut", "cut 1 on the fold", "cut 99999999999999999999"] {
         assert_eq!(cut(once), Cut::One, "{once}");
     }
+}
+
+/// That a piece is cut on the fold may be written on it alone.
+#[test]
+fn what_is_written_on_a_piece_says_that_it_lies_on_the_fold() {
+    let made = |words: &str, more: &str| {
+        from_svg(&format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' width='900mm' height='900mm' viewBox='0 0 900 900'>\
+             <path id='front' d='M 100 0 H 200 L 250 300 H 100 Z'/><text x='150' y='90'>{words}</text>{more}</svg>"
+        ))
+    };
+    let grain = "<path class='grain' d='M 150 50 V 250'/>";
+    for words in ["cut 1 on fold", "Front – CUT 1 ON THE FOLD", "cut 2 on fold"] {
+        let drawing = made(words, grain);
+        assert_eq!(drawn(&drawing)[0].cut, Cut::Fold("d".to_owned()), "{words}");
+        let [said] = &drawing.notes[..] else { panic!("{:?}", drawing.notes) };
+        assert!(said.contains("edge 'd' is taken for that"), "{said}");
+        assert_eq!(said.contains("cut 2 times"), words.contains('2'), "{said}");
+        assert!(drawing.suggestions.iter().all(|s| s.sew != "front.d" && s.to != "front.d"));
+    }
+    // Four straight edges, and nothing that tells one from the other.
+    let unknown = made("cut 1 on fold", "");
+    assert_eq!(drawn(&unknown)[0].cut, Cut::One);
+    assert!(unknown.notes[0].contains("say at which edge, 'cut: fold EDGE'"), "{:?}", unknown.notes);
+    // A line that is drawn says it better.
+    let drawn_line = made("cut 1 on fold", "<path class='fold' d='M 100 0 L 100 300'/>");
+    assert!(drawn_line.notes.is_empty() && drawn(&drawn_line)[0].fold.is_some(), "{:?}", drawn_line.notes);
 }
 
 #[test]
@@ -381,7 +450,7 @@ fn what_a_drawing_shows_besides_is_said() {
         assert!(said.contains(words), "{words}: {said}");
     }
     let (_, papers) = sample();
-    let own = cutting_svg(&Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true }));
+    let own = cutting_svg("Sample", &Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true }));
     assert_eq!(read_svg_text(&own).expect("pieces").left_out, Vec::<String>::new());
     let nothing = text.replace("<rect", "<use");
     assert!(read_svg_text(&nothing).expect_err("no piece").to_string().contains("clones"));

@@ -395,7 +395,7 @@ fn what_is_wrong_with_a_seam_is_named_with_its_place() {
     assert!(shorter[..2].iter().all(gathered), "{shorter:?}");
     let even = "ease 12 mm is 12 % of 100 mm; more than 8 % gathers, say ease: 0.0 mm";
     says(&side("{sew: a.right, to: b.left, ease: 12}"), 20, "12", even);
-    let ratio = "100.0 / 80.0 is 1.250, and gather: 1.2 asks for 100.0 to 83.3 mm, 3.3 mm apart; say gather: 1.250";
+    let ratio = "100.0 / 80.0 is 1.250, and gather: 1.2 asks for 100.0 mm on 83.3 mm, 3.3 mm apart; say gather: 1.250";
     says(&side("{sew: a.right, to: b.left@0..80, gather: 1.2}"), 20, "side", ratio);
     let below = "gather: 0.6 would stretch the cloth by 67 %; did you swap sew and to?";
     says(&side("{sew: a.right, to: b.left, gather: 0.6}"), 20, "0.6", below);
@@ -923,4 +923,23 @@ fn long_lines_and_values_are_shortened() {
     assert_eq!(lines[1].chars().skip(column).take(5).collect::<String>(), "a.tpo", "{refused}");
     let escape = squares("a.right", "\"a.\\e[2J\"");
     assert!(!read_text("test", "t.yaml", &escape).unwrap_err().to_string().contains('\u{1b}'));
+}
+
+/// On the half that is not drawn a stretch is counted from the mirror image of where the drawn edge starts.
+#[test]
+fn stretches_of_both_halves_are_counted_from_the_drawn_start() {
+    let text = "garment: 1\npieces:\n  a:\n    cut: fold center\n    grain: [[9, 9], [9, 90]]\n    outline: {start: \
+                0 0, top: L 100 0, side: L 100 200, hem: L 0 200, center: L 0 0}\n  b:\n    grain: [[9, 9], [9, \
+                90]]\n    outline: {start: 0 0, p: L 60 0, q: L 60 30, r: L 0 30, s: L 0 0}\nseams:\n  left: {sew: \
+                a.L.side@10..40, to: b.q}\n  right: {sew: a.side.R@10..40, to: b.s}\nfree: ['*.*']\n";
+    let garment = read_text("a", "a.yaml", text).unwrap_or_else(|e| panic!("{e}")).garment;
+    let named: Vec<String> = walk(&garment).into_iter().map(|seam| seam.a).collect();
+    assert_eq!(named, ["a.side.L@10..40", "a.side.R@10..40"]);
+    let end = |seam: usize| {
+        let span = garment.seams[seam].a[0];
+        let path = &garment.pieces[span.edge.piece].loops[span.edge.ring][span.edge.index].path;
+        [span.from, span.to].map(|at| (path.point(at).y * 1e3).round()).into_iter().fold(f64::INFINITY, f64::min)
+    };
+    // Both ten below the top, where the drawn edge starts.
+    assert_eq!([end(0), end(1)], [10.0, 10.0]);
 }

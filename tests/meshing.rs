@@ -19,7 +19,7 @@ fn mm(x: f64, y: f64) -> Vec2 {
 fn polygon(corners: &[(f64, f64)]) -> Vec<Edge> {
     let n = corners.len();
     let at = |k: usize| mm(corners[k % n].0, corners[k % n].1);
-    (0..n).map(|k| Edge { name: format!("e{k}"), path: Path::line(at(k), at(k + 1)) }).collect()
+    (0..n).map(|k| Edge { name: format!("e{k}"), path: Path::line(at(k), at(k + 1)), against: false }).collect()
 }
 
 /// A circle in two half edges, clockwise on screen, or the other way as a hole.
@@ -29,8 +29,8 @@ fn circle(x: f64, y: f64, r: f64, hole: bool) -> Vec<Edge> {
         Path::parse(Vec2::new(from, y), &format!("A {r} {r} 0 0 {sweep} {to} {y}"), MM).expect("arc")
     };
     vec![
-        Edge { name: "upper".into(), path: half(x - r, x + r) },
-        Edge { name: "lower".into(), path: half(x + r, x - r) },
+        Edge { name: "upper".into(), path: half(x - r, x + r), against: false },
+        Edge { name: "lower".into(), path: half(x + r, x - r), against: false },
     ]
 }
 
@@ -418,6 +418,7 @@ fn four_curved_sides_can_be_meshed_by_coons_interpolation() {
     let side = |name: &str, x: f64, y: f64, text: &str| Edge {
         name: name.into(),
         path: Path::parse(Vec2::new(x, y), text, MM).expect("path"),
+        against: false,
     };
     let sides = vec![
         side("top", 0.0, 0.0, "C 60 30, 120 30, 200 0"),
@@ -559,7 +560,7 @@ fn smooth_outline(radii: &[f64], edges: usize) -> Vec<Edge> {
     let cuts: Vec<usize> = (0..=edges).map(|e| e * n / edges).collect();
     let edge = |(e, w): (usize, &[usize])| {
         let text: String = (w[0]..w[1]).map(segment).collect();
-        Edge { name: format!("e{e}"), path: Path::parse(at(w[0]), &text, MM).expect("path") }
+        Edge { name: format!("e{e}"), path: Path::parse(at(w[0]), &text, MM).expect("path"), against: false }
     };
     cuts.windows(2).enumerate().map(edge).collect()
 }

@@ -23,7 +23,8 @@ const NOTHING: Forces = Forces { gravity: 0.0, contacts: &[], law: LAW, pulls: &
 fn rectangle(width: f64, height: f64, spacing: f64) -> (Garment, ClothMesh) {
     let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)];
     let at = |k: usize| Vec2::new(corners[k % 4].0, corners[k % 4].1) * MM;
-    let outline = (0..4).map(|k| Edge { name: format!("e{k}"), path: Path::line(at(k), at(k + 1)) }).collect();
+    let outline =
+        (0..4).map(|k| Edge { name: format!("e{k}"), path: Path::line(at(k), at(k + 1)), against: false }).collect();
     let piece = Piece {
         name: "panel".into(),
         drawn_as: "panel".into(),

@@ -25,10 +25,14 @@ fn on_paper(text: &str) -> Vec<Paper> {
     papers(&drawn(text), &Options::default())
 }
 
+fn sheet(papers: &[Paper]) -> Sheet {
+    Sheet::new(papers, &Layout { width: None, margin: 0.010, square: true })
+}
+
 /// The text exported and imported again, by way of SVG and of DXF.
 fn both_ways(text: &str) -> [Digitized; 2] {
     let papers = on_paper(text);
-    let svg = cutting_svg(&Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true }));
+    let svg = cutting_svg("Sample", &sheet(&papers));
     let from_svg = read_svg_text(&svg).unwrap_or_else(|e| panic!("{e}\n{svg}")).pieces;
     let from_dxf = read_dxf_text(&cutting_dxf("garment", &papers), None).expect("pieces").pieces;
     [from_svg, from_dxf].map(|pieces| garment_file("garment", &pieces))
@@ -191,6 +195,64 @@ fn lines_of_which_a_dxf_tells_nothing_are_said_to_be_marks() {
     // Two legs of a dart and three lines; of three pleats three lines each.
     assert_eq!((said("5 lines inside 'back' are taken as marks"), said("9 lines inside 'front'")), (1, 1));
     assert_eq!(made.notes.len(), 2, "{:?}", made.notes);
+}
+
+const BUTTONED: &str = "
+garment: 1
+name: Plain & simple
+fabrics: {shell: jersey, band: rib, lining: {base: rib, weight: 90 g/m2}}
+pieces:
+  front: {cut: fold center, grain: [[20, 50], [20, 200]], outline: {start: 0 0, waist: L 150 0, side: L 150 300,
+    hem: L 0 300, center: L 0 0}}
+  strip: {fabric: band, grain: [[50, 5], [50, 50]], outline: {start: 0 0, a: L 150 0, b: L 150 60, c: L 0 60, d: L 0 0}}
+  facing: {fabric: lining, grain: [[50, 5], [50, 50]], outline: {start: 0 0, a: L 99 0, b: L 99 60, c: L 0 60,
+    d: L 0 0}}
+closures: [{kind: button, piece: strip, at: [[15, 30], [0, 0]], meets: front, meets_at: [[60, 90], [60, 60]]}]
+free: ['*.*']
+";
+
+#[test]
+fn fabrics_titles_and_drill_marks_come_back() {
+    let svg = cutting_svg("Plain & simple", &sheet(&on_paper(BUTTONED)));
+    let dxf = cutting_dxf("Plain & simple", &on_paper(BUTTONED));
+    let drawings = [read_svg_text(&svg).expect("pieces"), read_dxf_text(&dxf, None).expect("pieces")];
+    assert_eq!(drawings.map(|d| d.title), [Some("Plain & simple".to_owned()), Some("Plain & simple".to_owned())]);
+    for made in both_ways(BUTTONED) {
+        let loaded = read(&write(&made.file).expect("YAML"));
+        // Values of its own are not in a drawing.
+        let fabrics: Vec<_> = loaded.garment.fabrics.iter().map(|f| (f.name.as_str(), f.cloth())).collect();
+        let wanted = [("shell", Some("jersey")), ("band", Some("rib")), ("lining", Some("cotton_poplin"))];
+        assert!(fabrics.len() == 3 && wanted.iter().all(|w| fabrics.contains(w)), "{fabrics:?}");
+        assert!(made.notes.len() == 1 && made.notes[0].contains("which fabric 'lining' is"), "{:?}", made.notes);
+        for drawing in again(&made) {
+            let (fabric, drills) = match drawing.name.as_str() {
+                "front" => ("shell", 2),
+                "strip" => ("band", 2),
+                _ => ("lining", 0),
+            };
+            assert_eq!((drawing.fabric.as_str(), drawing.lines.len()), (fabric, drills), "{}", drawing.name);
+        }
+        // The edge on the fold is as long as the side.
+        let is_fold = |name: &str| name == "front.fold";
+        assert!(!made.suggestions.iter().any(|s| is_fold(&s.sew) || is_fold(&s.to)), "{:?}", made.suggestions);
+    }
+}
+
+/// What `check` takes as equal is offered as a seam, and what it refuses is not.
+#[test]
+fn edges_within_the_tolerance_of_a_seam_are_suggested() {
+    for (more, offered) in [(1.9, true), (2.1, false)] {
+        let text = format!(
+            "garment: 1\npieces:\n  a: {{grain: [[9, 9], [9, 90]], outline: {{start: 0 0, p: L 60 0, q: L 60 200, \
+             r: L 0 130, s: L 0 0}}}}\n  b: {{grain: [[9, 9], [9, 90]], outline: {{start: 0 0, t: L 75 0, u: L 75 100, \
+             v: L 0 {0}, w: L 0 0}}}}\nfree: ['*.*']\n",
+            200.0 + more
+        );
+        for made in both_ways(&text) {
+            let found = made.suggestions.iter().any(|s| (s.sew.as_str(), s.to.as_str()) == ("a.q", "b.w"));
+            assert_eq!(found, offered, "{:?}", made.suggestions);
+        }
+    }
 }
 
 #[test]

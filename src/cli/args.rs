@@ -212,7 +212,7 @@ pub(super) struct FlattenArgs {
     #[arg(long, value_enum)]
     pub(super) units: Option<UnitArg>,
     /// Cut along the shortest way through these vertices, numbered from 1 as in the file, or wherever it is needed; may
-    /// be given several times (OBJ only)
+    /// be given several times, auto then cutting what the others leave (OBJ only)
     #[arg(long, value_name = "auto|V,V,…")]
     pub(super) cut: Vec<String>,
     /// Cut darts where the strain passes the limit, N at most for all pieces together, the next always where it is
@@ -336,12 +336,14 @@ pub(super) enum ImportCommand {
     /// GarmentCode's pattern specification (JSON)
     Garmentcode(GarmentcodeArgs),
     /// A drawing, as Inkscape, FreeSewing and Seamly2D write them: pieces with named edges; seams are suggested
+    #[command(after_help = "What a drawing may say, and how (names, edges, grain, notches, darts, the fold, 'cut 2', \
+                            units): docs/importing.md.")]
     Svg(DrawingArgs),
     /// DXF-AAMA (ASTM D6673), as pattern programs and cutters exchange it; seams are suggested
     Dxf {
         #[command(flatten)]
         common: DrawingArgs,
-        /// Unit of the drawing where the file does not say [default: mm]
+        /// Unit of the drawing in place of what the file says [default: what it says, else mm]
         #[arg(long, value_enum)]
         units: Option<UnitArg>,
     },
@@ -353,9 +355,19 @@ pub(super) struct DrawingArgs {
     /// The drawing
     #[arg(value_name = "DRAWING")]
     pub(super) drawing: PathBuf,
+    #[command(flatten)]
+    pub(super) target: TargetArgs,
+}
+
+/// Where an import is written.
+#[derive(Debug, clap::Args)]
+pub(super) struct TargetArgs {
     /// The garment file to write
     #[arg(short, long, value_name = "GARMENT.yaml")]
     pub(super) output: PathBuf,
+    /// Write over a garment file that is there already
+    #[arg(long)]
+    pub(super) force: bool,
 }
 
 /// Arguments of `import garmentcode`.
@@ -364,9 +376,8 @@ pub(super) struct GarmentcodeArgs {
     /// The specification
     #[arg(value_name = "SPEC.json")]
     pub(super) spec: PathBuf,
-    /// The garment file to write
-    #[arg(short, long, value_name = "GARMENT.yaml")]
-    pub(super) output: PathBuf,
+    #[command(flatten)]
+    pub(super) target: TargetArgs,
     /// The body it is made for, named in the garment file
     #[arg(long, value_name = "NAME|FILE.obj")]
     pub(super) body: Option<String>,

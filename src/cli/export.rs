@@ -26,7 +26,7 @@ pub(super) fn export(command: &ExportCommand, console: &Console) -> Result<Exit,
         ExportCommand::Svg { common, width } => {
             let job = Job::new(common, console)?;
             let sheet = Sheet::new(&job.papers, &one_sheet(*width));
-            job.write(cutting_svg(&sheet).into_bytes(), "svg", console)
+            job.write(cutting_svg(&job.title, &sheet).into_bytes(), "svg", console)
         }
         ExportCommand::Pdf { common, page, width } => {
             let job = Job::new(common, console)?;

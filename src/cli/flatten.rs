@@ -15,6 +15,9 @@ use crate::pipeline::{
 };
 use crate::report::{aligned, restless};
 
+/// Pieces that are shown one by one: with more, nobody would find what is said beside them.
+const LISTED: usize = 40;
+
 /// `toile flatten`
 pub(super) fn flatten(args: &FlattenArgs, console: &Console) -> Result<Exit, CliError> {
     foreign(args)?;
@@ -114,11 +117,8 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
     for stage in restless(&report.stages, AT_REST) {
         console.note(&stage.to_string());
     }
-    for piece in &report.pieces {
-        if let Some(text) = strained(piece, &options) {
-            console.note(&text);
-        }
-    }
+    let strained = report.pieces.iter().filter_map(|piece| strained(piece, &options));
+    strained.take(LISTED).for_each(|text| console.note(&text));
     let mut exit = Exit::Done;
     for piece in report.pieces.iter().filter(|p| p.overlaps > 0) {
         console.complain(&format!("out of bounds: '{}' lies on itself when flat; cut it in two", piece.name));
@@ -129,16 +129,32 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
 
 /// What is beyond the limit, why, and what would help.
 fn strained(piece: &PartReport, options: &SurfaceOptions) -> Option<String> {
-    if piece.dart.is_none() && piece.darts_stopped.is_none() {
+    if piece.layable && piece.dart.is_none() && piece.darts_stopped.is_none() {
         return None;
     }
-    let mut text =
-        format!("'{}' is strained by {}: {}", piece.name, strain(piece, &options.limit), remedy(piece, options));
+    let (name, strain) = (&piece.name, strain(piece, &options.limit));
+    let what = if piece.layable {
+        format!("'{name}' is strained by {strain}")
+    } else {
+        let another = if piece.darts > 0 { "another" } else { "a" };
+        let cloth = cloth(&options.limit);
+        format!(
+            "warning: '{name}' cannot be laid flat in {cloth} without {another} cut or dart: it is strained by {strain}"
+        )
+    };
+    let mut text = format!("{what}: {}", remedy(piece, options));
     if piece.area_error_bound > 0.0 {
         let bound = 100.0 * piece.area_error_bound;
         text += &format!("; no flat piece with this length of rim has more than {:.1} % of its area", 100.0 - bound);
     }
     Some(text)
+}
+
+fn cloth(limit: &Limit) -> &str {
+    match limit {
+        Limit::Strain(_) => "any woven cloth",
+        Limit::Fabric { name, .. } => name,
+    }
 }
 
 /// How much it is strained, beside the limit.
@@ -148,13 +164,20 @@ fn strain(piece: &PartReport, limit: &Limit) -> String {
         Limit::Strain(most) => {
             format!("up to {} in all but a hundredth of it (limit {})", percent(piece.strain.p99), percent(*most))
         }
-        Limit::Fabric { name, warp, weft } => format!(
-            "up to {} along the warp and {} along the weft ({name} gives {} and {})",
-            percent(piece.threads.warp_p99),
-            percent(piece.threads.weft_p99),
-            percent(*warp),
-            percent(*weft)
-        ),
+        Limit::Fabric { name, warp, weft, most } => {
+            let full = if piece.layable {
+                String::new()
+            } else {
+                format!(", at full load {} and {}", percent(most[0]), percent(most[1]))
+            };
+            format!(
+                "up to {} along the warp and {} along the weft ({name} gives {} and {}{full})",
+                percent(piece.threads.warp_p99),
+                percent(piece.threads.weft_p99),
+                percent(*warp),
+                percent(*weft)
+            )
+        }
     }
 }
 
@@ -165,13 +188,13 @@ fn remedy(piece: &PartReport, options: &SurfaceOptions) -> String {
         format!("a dart from vertex {rim} on the rim to vertex {tip} ({length:.0} mm) would ")
     });
     let stopped = match piece.darts_stopped {
-        None => return place.unwrap_or_default() + "relieve it most; --dart auto cuts it",
+        None if place.is_some() => return place.unwrap_or_default() + "relieve it most; --dart auto cuts it",
         Some(DartStop::NoneLeft) => format!(
             "relieve it most, but --dart allows {} for all pieces together; allow more, or cut it in two with --cut",
             options.darts
         ),
         Some(DartStop::Overlap) => "relieve it most, but make it lie on itself; cut it in two with --cut".to_owned(),
-        Some(DartStop::NoPlace) => "no place for a dart can be told; cut it in two with --cut".to_owned(),
+        None | Some(DartStop::NoPlace) => "no place for a dart can be told; cut it in two with --cut".to_owned(),
     };
     let cut = match piece.darts {
         0 => String::new(),
@@ -184,7 +207,7 @@ fn remedy(piece: &PartReport, options: &SurfaceOptions) -> String {
 fn figures(report: &SurfaceReport) -> String {
     let head = ["piece", "cm²", "area %", "rim %", "strain 99 %", "corner °", "overlaps"];
     let mut rows = vec![head.map(String::from).to_vec()];
-    rows.extend(report.pieces.iter().map(|p| {
+    rows.extend(report.pieces.iter().take(LISTED).map(|p| {
         let percent = |e: Option<f64>| format!("{:.3}", 100.0 * e.unwrap_or(0.0));
         vec![
             p.name.clone(),
@@ -196,5 +219,8 @@ fn figures(report: &SurfaceReport) -> String {
             p.overlaps.to_string(),
         ]
     }));
-    aligned(&rows)
+    match report.pieces.len().saturating_sub(LISTED) {
+        0 => aligned(&rows),
+        more => format!("{}\n  and {more} more, which {REPORT_JSON} has\n", aligned(&rows)),
+    }
 }

@@ -58,6 +58,8 @@ pub struct Paper {
     pub drawn: Option<Side>,
     /// Name of its fabric.
     pub fabric: String,
+    /// The library's fabric that this is, if it is one.
+    pub cloth: Option<String>,
     /// Cut lines: the outline, then bays and holes. Closed; but with a [`Paper::fold`] the outline is open and runs
     /// from the end of the fold to its start.
     pub cut: Vec<Vec<Vec2>>,

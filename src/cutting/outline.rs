@@ -148,6 +148,7 @@ fn paper(rule: &Rule) -> Paper {
         mirrored,
         drawn: matches!(drawing.cut, Cut::Pair | Cut::Fold(_)).then_some(drawing.drawn),
         fabric: drawing.fabric.clone(),
+        cloth: drawing.cloth.clone(),
         cut,
         fold,
         sew: sew_lines(drawing, &mouths),

@@ -3,7 +3,7 @@
 use crate::geometry::{Path, Vec2};
 
 /// Ends nearer than this (metres) meet: a tenth of a millimetre is beyond what any program rounds.
-const MEET: f64 = 1e-4;
+pub(super) const MEET: f64 = 1e-4;
 
 /// The strokes in an order and direction in which each begins where the one before it ends, as far as they do: a list
 /// per run. A run whose ends meet is closed.

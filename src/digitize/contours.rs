@@ -4,7 +4,8 @@ use std::collections::HashMap;
 
 use super::chain::{chained, is_closed};
 use super::holes::holes_of;
-use super::{Inner, Remark, Role, Stroke, Traced};
+use super::joined::{Joined, joined, unclosed};
+use super::{Drawing, Inner, Remark, Role, Stroke, Traced};
 use crate::geometry::{Path, Vec2, distance_to_segment, encloses, sides_of};
 use crate::pattern::Cut;
 
@@ -46,6 +47,12 @@ impl Contour {
         Some(Self { points, bounds, whole, edges, role, name })
     }
 
+    /// The outline that edges make, if they close and go round something.
+    pub(super) fn of_edges(edges: Vec<(Option<String>, Path)>, name: Option<String>) -> Option<Self> {
+        let closed = is_closed(&edges);
+        Self::new(edges, Role::Unknown, name).filter(|contour| closed && contour.area() > 0.0)
+    }
+
     /// Whether most of it lies in another: outlines may share a side, on which no point tells. Where there is no
     /// allowance, the sewing line lies in the cut line that is drawn over it.
     pub(super) fn lies_in(&self, other: &Self) -> bool {
@@ -71,6 +78,12 @@ impl Contour {
         sides_of(&self.points).map(|side| distance_to_segment(p, side)).fold(f64::INFINITY, f64::min)
     }
 
+    /// Whether the middle of a line lies in it or on it.
+    fn owns(&self, line: &Stroke) -> bool {
+        let middle = line.path.point(line.path.length() / 2.0);
+        self.holds(middle) || self.whole.nearest(middle).1 <= NEAR
+    }
+
     fn area(&self) -> f64 {
         self.whole.double_area().abs() / 2.0
     }
@@ -80,85 +93,144 @@ impl Contour {
     }
 }
 
-/// The pieces that strokes make, in the order of the drawing; what is written on one may say how it is cut.
-pub fn pieces(strokes: &[Stroke], remarks: &[Remark]) -> Vec<Traced> {
-    let (contours, rest) = contours(strokes);
+/// The pieces that strokes make, in the order of the drawing; what is written on one may say how it is cut. Open lines
+/// that belong to none are left out.
+pub fn pieces(strokes: &[Stroke], remarks: &[Remark]) -> Drawing {
+    let Sorted { contours, rest, alone } = Sorted::new(strokes);
     let mut outer: Vec<usize> = (0..contours.len()).filter(|&i| contours[i].area() >= SMALLEST_PIECE).collect();
     let within = |i: usize, k: usize| i != k && contours[i].lies_in(&contours[k]);
     outer.retain(|&i| !(0..contours.len()).any(|k| within(i, k)));
-    outer
-        .iter()
-        .map(|&o| {
-            let inner: Vec<&Contour> = (0..contours.len()).filter(|&i| within(i, o)).map(|i| &contours[i]).collect();
-            let mut own = remarks.iter().enumerate().filter(|(_, r)| contours[o].holds(r.at));
-            let (said_by, cut_how) = own.find_map(|(i, r)| Some((i, cut_how(&r.text)?))).unzip();
-            Traced { cut_how, said_by, ..piece(&contours[o], &inner, &rest) }
-        })
-        .collect()
+    let piece = |&o: &usize| {
+        let inner: Vec<&Contour> = (0..contours.len()).filter(|&i| within(i, o)).map(|i| &contours[i]).collect();
+        let mut own = remarks.iter().enumerate().filter(|(_, r)| contours[o].holds(r.at));
+        let (said_by, said) = own.find_map(|(i, r)| Some((i, said(&r.text)?))).unzip();
+        let (cut_how, on_fold) = match said {
+            Some(Said::Cut(how)) => (Some(how), None),
+            Some(Said::OnFold(count)) => (None, Some(count)),
+            None => (None, None),
+        };
+        Traced { cut_how, on_fold, said_by, ..piece(&contours[o], &inner, &rest) }
+    };
+    let pieces = outer.iter().map(piece).collect();
+    let is_on_one = |line: &Stroke| outer.iter().any(|&o| contours[o].owns(line));
+    let open = rest.iter().filter(|line| line.role == Role::Unknown).chain(&alone);
+    let open: Vec<Stroke> = open.filter(|line| !is_on_one(line)).cloned().collect();
+    Drawing { title: None, pieces, left_out: unclosed(&open) }
 }
 
-/// `cut 2 (left and right)`, `Cut 1 pair`, `cut 4`: how a piece is cut, as makers write it on.
-fn cut_how(text: &str) -> Option<Cut> {
+/// What is written on a piece of how it is cut.
+enum Said {
+    /// So.
+    Cut(Cut),
+    /// So often on the fold of the cloth; where that is, is not in the words.
+    OnFold(usize),
+}
+
+/// `cut 2 (left and right)`, `Cut 1 pair`, `cut 4`, `CUT 1 ON FOLD`: how a piece is cut, as makers write it on.
+fn said(text: &str) -> Option<Said> {
     let text = text.to_lowercase();
     let (_, after) = text.split_once("cut")?;
     let count: usize = after.split(|c: char| !c.is_alphanumeric()).find(|w| !w.is_empty())?.parse().ok()?;
-    let mirrored = ["left and right", "l and r", "mirror", "pair"].iter().any(|words| after.contains(words));
+    let says = |words: &[&str]| words.iter().any(|words| after.contains(words));
+    let mirrored = says(&["left and right", "l and r", "mirror", "pair"]);
     match count {
-        1 | 2 if mirrored => Some(Cut::Pair),
-        2..=100 => Some(Cut::Count(count)),
+        1..=100 if says(&["on fold", "on the fold"]) => Some(Said::OnFold(count)),
+        1 | 2 if mirrored => Some(Said::Cut(Cut::Pair)),
+        2..=100 => Some(Said::Cut(Cut::Count(count))),
         _ => None,
     }
 }
 
 /// Strokes of one group and kind that are not closed by themselves.
-struct Open {
+struct Open<'a> {
     group: Option<String>,
     role: Role,
-    edges: Vec<(Option<String>, Path)>,
+    edges: Vec<(&'a Stroke, Path)>,
 }
 
-/// Closed lines, alone or of edges that meet, and the strokes that are none.
-fn contours(strokes: &[Stroke]) -> (Vec<Contour>, Vec<Stroke>) {
-    let (mut contours, mut rest) = (Vec::new(), Vec::new());
-    let mut open: Vec<Open> = Vec::new();
-    let mut by_group: HashMap<(Option<String>, bool), usize> = HashMap::new();
-    for stroke in strokes {
-        let closed = is_closed(&[((), stroke.path.clone())]) && stroke.path.double_area().abs() > 0.0;
-        let name = stroke.group.clone().or_else(|| stroke.name.clone());
-        match stroke.role {
-            Role::Unknown | Role::Cut | Role::Sew if closed => {
-                contours.extend(Contour::new(vec![(None, stroke.path.clone())], stroke.role, name));
-            }
-            Role::Edge | Role::Fold if closed => {
-                contours.extend(Contour::new(vec![(stroke.name.clone(), stroke.path.clone())], Role::Unknown, name));
-            }
-            Role::Edge | Role::Cut => {
-                let key = (stroke.group.clone(), stroke.role == Role::Cut);
-                let at = *by_group.entry(key).or_insert_with(|| {
-                    open.push(Open { group: stroke.group.clone(), role: stroke.role, edges: Vec::new() });
-                    open.len() - 1
-                });
-                open[at].edges.push((stroke.name.clone(), stroke.path.clone()));
-            }
-            _ => rest.push(stroke.clone()),
-        }
-    }
-    for Open { group, role, edges } in open {
-        let role = if role == Role::Edge { Role::Sew } else { role };
-        for mut run in chained(&edges) {
-            if !is_closed(&run) {
-                // A half piece is open at its fold.
-                let (Some(first), Some(last)) = (run.first(), run.last()) else { continue };
-                let fold = Path::line(last.1.end(), first.1.start());
-                if run.len() < 2 && role == Role::Sew || fold.length() <= 0.0 {
-                    continue;
+/// The strokes of a drawing by what they make.
+#[derive(Default)]
+struct Sorted {
+    /// Closed lines, alone or of edges that meet.
+    contours: Vec<Contour>,
+    /// Strokes that are none.
+    rest: Vec<Stroke>,
+    /// Edges that meet no other.
+    alone: Vec<Stroke>,
+}
+
+impl Sorted {
+    fn new(strokes: &[Stroke]) -> Self {
+        let mut sorted = Self::default();
+        let mut unsaid = Vec::new();
+        let mut open: Vec<Open> = Vec::new();
+        let mut by_group: HashMap<(Option<String>, bool), usize> = HashMap::new();
+        for stroke in strokes {
+            let closed = is_closed(&[((), stroke.path.clone())]) && stroke.path.double_area().abs() > 0.0;
+            match stroke.role {
+                Role::Unknown | Role::Cut | Role::Sew | Role::Edge | Role::Fold if closed => sorted.close(stroke),
+                Role::Edge | Role::Cut => {
+                    let key = (stroke.group.clone(), stroke.role == Role::Cut);
+                    let at = *by_group.entry(key).or_insert_with(|| {
+                        open.push(Open { group: stroke.group.clone(), role: stroke.role, edges: Vec::new() });
+                        open.len() - 1
+                    });
+                    open[at].edges.push((stroke, stroke.path.clone()));
                 }
-                run.push((Some("fold".to_owned()), fold));
+                Role::Unknown if stroke.kind.is_none() => unsaid.push(stroke.clone()),
+                _ => sorted.rest.push(stroke.clone()),
             }
-            contours.extend(Contour::new(run, role, group.clone()));
+        }
+        open.into_iter().for_each(|edges| sorted.join_edges(edges));
+        sorted.join(&unsaid);
+        sorted
+    }
+
+    /// Adds a line that is closed by itself.
+    fn close(&mut self, stroke: &Stroke) {
+        let is_edge = matches!(stroke.role, Role::Edge | Role::Fold);
+        let (edge, role) = if is_edge { (stroke.name.clone(), Role::Unknown) } else { (None, stroke.role) };
+        let name = stroke.group.clone().or_else(|| stroke.name.clone());
+        self.contours.extend(Contour::new(vec![(edge, stroke.path.clone())], role, name));
+    }
+
+    /// Adds what edges make where they meet; a run that stays open is closed by its fold.
+    fn join_edges(&mut self, Open { group, role, edges }: Open) {
+        let role = if role == Role::Edge { Role::Sew } else { role };
+        for run in chained(&edges) {
+            let (Some(first), Some(last)) = (run.first(), run.last()) else { continue };
+            let fold = (!is_closed(&run)).then(|| Path::line(last.1.end(), first.1.start()));
+            if run.len() < 2 && role == Role::Sew && fold.is_some() {
+                self.alone.push(first.0.clone());
+                continue;
+            }
+            let mut edges: Vec<_> = run.into_iter().map(|(stroke, path)| (stroke.name.clone(), path)).collect();
+            edges.extend(fold.map(|fold| (Some("fold".to_owned()), fold)));
+            self.contours.extend(Contour::new(edges, role, group.clone()));
         }
     }
-    (contours, rest)
+
+    /// Adds the outlines that open lines make of which nothing is said. What they enclose on a piece that is too small
+    /// to be its sewing line are lines on it.
+    fn join(&mut self, unsaid: &[Stroke]) {
+        let (outlines, rest) = joined(unsaid);
+        self.rest.extend(rest);
+        let is_small = |one: &Contour, other: &Contour| {
+            one.area() < SEWN_SHARE * other.area() && one.lies_in(other) && !std::ptr::eq(one, other)
+        };
+        let is_mark = |own: &Joined| {
+            let others = self.contours.iter().chain(outlines.iter().map(|o| &o.contour));
+            others.into_iter().any(|other| is_small(&own.contour, other))
+        };
+        let marks: Vec<bool> = outlines.iter().map(is_mark).collect();
+        for (Joined { contour, lines }, is_mark) in outlines.into_iter().zip(marks) {
+            if is_mark {
+                self.rest.extend(lines);
+            } else {
+                self.contours.push(contour);
+            }
+        }
+    }
 }
 
 fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> Traced {
@@ -192,10 +264,11 @@ fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> Traced {
     traced.points.extend(marks.iter().map(|m| m.points.iter().sum::<Vec2>() / m.points.len() as f64));
     let mut folds = Vec::new();
     for stroke in rest {
-        let middle = stroke.path.point(stroke.path.length() / 2.0);
+        let middle = middle(stroke);
         let ends = [stroke.path.start(), stroke.path.end()];
         let near = |p: Vec2| outlines.iter().any(|o| o.nearest(p).1 <= NEAR);
-        let own = outer.holds(middle) || (stroke.role == Role::Fold || stroke.role == Role::Notch) && near(middle);
+        let on_rim = matches!(stroke.role, Role::Fold | Role::Notch | Role::Drill);
+        let own = outer.holds(middle) || on_rim && near(middle);
         if !own {
             continue;
         }
@@ -205,6 +278,7 @@ fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> Traced {
             Role::PleatFold => folds.push(stroke.path.start()),
             Role::PleatPlace => traced.pleats.extend(folds.pop().map(|fold| [fold, stroke.path.start()])),
             Role::Fold => traced.mirror = traced.mirror.or(Some(ends)),
+            Role::Drill => traced.points.push(middle),
             Role::Notch => traced.notches.push(nearest_end(ends, &outlines)),
             Role::Unknown if short && ends.iter().any(|&p| near(p)) => {
                 traced.notches.push(nearest_end(ends, &outlines));
@@ -217,6 +291,12 @@ fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> Traced {
         }
     }
     traced
+}
+
+/// Where a stroke is: half way along it, or in the middle of the ring round a drill hole.
+fn middle(stroke: &Stroke) -> Vec2 {
+    let half = stroke.path.point(stroke.path.length() / 2.0);
+    if stroke.role == Role::Drill { (stroke.path.start() + half) / 2.0 } else { half }
 }
 
 fn nearest_end(ends: [Vec2; 2], outlines: &[&Path]) -> Vec2 {

@@ -1,21 +1,24 @@
 //! The garment file of traced pieces.
 
-use super::Traced;
 use super::darts::{Wedge, closed};
 use super::edges::{Edge, edges, nearest_edge};
 use super::holes::Hole;
+use super::materials::{declared, name_of};
 use super::pairs::paired;
-use super::suggest::{Suggestion, suggest};
+use super::suggest::{Outline, Suggestion, suggest};
+use super::{Material, Traced};
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{
     AllowanceFile, AllowanceWidth, Cut, DartFile, DartShape, GarmentFile, LineFile, LineKind, Located, NotchFile,
-    OutlineFile, PieceFile, PleatFile, Quantity, SLACK, Spot,
+    OutlineFile, PieceFile, PleatFile, Quantity, SLACK, Spot, Value,
 };
 
 /// Millimetres per metre.
 const MM: f64 = 1e3;
 /// A fold's ends are so near to those of an edge (metres).
 const ON_FOLD: f64 = 1e-3;
+/// Edges and grain of which the directions differ by no more (radians, a degree) run along each other.
+const ASKEW: f64 = 0.0175;
 /// Widest allowance that is measured (metres): farther apart, two lines have nothing to do with each other.
 const WIDEST: f64 = 0.1;
 /// Where along an edge its allowance is measured.
@@ -46,11 +49,16 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
     let mut notes = Vec::new();
     let mut names: Vec<String> = Vec::new();
     let (mut pieces, mut outlines) = (Vec::new(), Vec::new());
-    for piece in &paired(traced) {
+    let traced = paired(traced);
+    let fabrics = declared(&traced, &mut notes);
+    for piece in &traced {
         let name = fresh(&piece.name, &names);
         names.push(name.clone());
-        let (file, edges) = piece_file(&name, &piece.at_origin(), &mut notes);
-        outlines.push((name, edges, matches!(&file.cut, Some(c) if c.value == Cut::Pair)));
+        let (mut file, edges) = piece_file(&name, &piece.at_origin(), &mut notes);
+        // The only fabric is that of every piece.
+        file.fabric = piece.material.as_ref().filter(|_| fabrics.len() > 1).map(|m| at_no_place(name_of(m)));
+        let fold = fold_of(&file).map(str::to_owned);
+        outlines.push(Outline { piece: name, edges, fold });
         pieces.push(file);
     }
     let file = GarmentFile {
@@ -61,7 +69,7 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
         body: None,
         body_units: None,
         allowance: None,
-        fabrics: Vec::new(),
+        fabrics: fabrics.into_iter().map(|d| (at_no_place(d.name), at_no_place(Value::Text(d.cloth)))).collect(),
         pieces,
         seams: Vec::new(),
         closures: Vec::new(),
@@ -119,7 +127,8 @@ fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile
     notes.extend(untold(name, piece));
     // What lies on the fold of the cloth lies along the warp.
     let grain = piece.grain.or(piece.mirror);
-    let fold = piece.mirror.and_then(|mirror| fold_edge(&edges, mirror));
+    let drawn_fold = piece.mirror.and_then(|mirror| fold_edge(&edges, mirror));
+    let fold = drawn_fold.or_else(|| written_fold(name, piece.on_fold?, &edges, grain, notes));
     let cut = fold.map(Cut::Fold).or(piece.cut_how.clone());
     let whole = piece.cut.as_ref().filter(|_| !piece.sew.is_empty());
     let holes = named_holes(&piece.holes, &edges);
@@ -139,9 +148,22 @@ fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile
         pleats,
         holes: holes.iter().map(|(name, hole)| (at_no_place(name.clone()), at_no_place(ring(&hole.sew)))).collect(),
         lines: lines(piece, &wedges),
-        note: piece.fabric.as_ref().map(|f| at_no_place(format!("material: {}", plain(f)))),
+        note: piece.material.as_ref().and_then(note).map(at_no_place),
     };
     (file, edges)
+}
+
+/// The edge on the fold of the cloth, which nothing is sewn to.
+fn fold_of(piece: &PieceFile) -> Option<&str> {
+    match &piece.cut.as_ref()?.value {
+        Cut::Fold(edge) => Some(edge),
+        _ => None,
+    }
+}
+
+/// The drawing's own words for a material whose name in the file is another.
+fn note(material: &Material) -> Option<String> {
+    (name_of(material) != material.name).then(|| format!("material: {}", plain(&material.name)))
 }
 
 /// Of lines inside of which the drawing does not say what they do.
@@ -290,6 +312,36 @@ fn fold_edge(edges: &[Edge], [from, to]: [Vec2; 2]) -> Option<String> {
     let lies = |e: &&Edge| e.path.is_straight() && on(e.path.start()) && on(e.path.end());
     let longest = |a: &&Edge, b: &&Edge| a.path.length().total_cmp(&b.path.length());
     edges.iter().filter(lies).max_by(longest).map(|e| e.name.clone())
+}
+
+/// The edge that may lie on the fold where that is written on a piece and not drawn: one of that name, or the only
+/// straight one that runs along the grain.
+fn written_fold(
+    name: &str,
+    count: usize,
+    edges: &[Edge],
+    grain: Option<[Vec2; 2]>,
+    notes: &mut Vec<String>,
+) -> Option<String> {
+    let warp = grain.and_then(|[tail, head]| (head - tail).try_normalize(0.0));
+    let is_along = |e: &&Edge| {
+        let along = (e.path.end() - e.path.start()).try_normalize(0.0);
+        e.path.is_straight() && warp.zip(along).is_none_or(|(warp, along)| warp.perp(&along).abs() <= ASKEW)
+    };
+    let called = edges.iter().find(|e| e.path.is_straight() && e.name.to_lowercase().contains("fold"));
+    let mut straight = edges.iter().filter(is_along);
+    let only = straight.next().filter(|_| straight.next().is_none());
+    let fold = called.or(only).map(|e| e.name.clone());
+    let more = if count > 1 {
+        format!("; it is cut {count} times: write a piece 'like' it for each other")
+    } else {
+        String::new()
+    };
+    notes.push(match &fold {
+        Some(edge) => format!("'{name}' is to be cut on the fold: its edge '{edge}' is taken for that{more}"),
+        None => format!("'{name}' is to be cut on the fold: say at which edge, 'cut: fold EDGE'{more}"),
+    });
+    fold
 }
 
 /// The longest stretch of an edge beside the mouths of its darts.

@@ -10,6 +10,8 @@ mod darts;
 mod edges;
 mod file;
 mod holes;
+mod joined;
+mod materials;
 mod pairs;
 mod smooth;
 mod suggest;
@@ -33,10 +35,21 @@ pub struct Stroke {
     pub role: Role,
     /// Its name, if it has one.
     pub name: Option<String>,
-    /// The name of the group it is in, if that has one.
+    /// The name of the group it is in, if that has one and is a piece.
     pub group: Option<String>,
+    /// The name of the group or layer it is in, be that a piece or what holds several.
+    pub layer: Option<String>,
     /// What it does if it is a line inside a piece, where the file says so.
     pub kind: Option<LineKind>,
+}
+
+/// What a piece is cut from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Material {
+    /// As the drawing calls it.
+    pub name: String,
+    /// The library's fabric that it is, if the drawing says so.
+    pub cloth: Option<String>,
 }
 
 /// A line inside a piece.
@@ -80,11 +93,15 @@ pub enum Role {
     PleatFold,
     /// Where the fold that was drawn before it is brought to.
     PleatPlace,
+    /// A ring round a point that is marked through all layers.
+    Drill,
 }
 
 /// What a drawing holds.
 #[derive(Clone, Debug, Default)]
 pub struct Drawing {
+    /// What it is called, if it says so.
+    pub title: Option<String>,
     /// Its pieces.
     pub pieces: Vec<Traced>,
     /// What it shows besides that was not read: a sentence for each kind.
@@ -121,12 +138,14 @@ pub struct Traced {
     pub mirror: Option<[Vec2; 2]>,
     /// How it is cut, if said.
     pub cut_how: Option<Cut>,
-    /// Which of the drawing's remarks says so.
+    /// How often it is cut on the fold, if that is written on it; the line is [`Self::mirror`], if it is drawn.
+    pub on_fold: Option<usize>,
+    /// Which of the drawing's remarks says how it is cut.
     pub said_by: Option<usize>,
     /// Which of a pair, or which half, is drawn, if said.
     pub drawn: Option<Side>,
-    /// Its material.
-    pub fabric: Option<String>,
+    /// What it is cut from.
+    pub material: Option<Material>,
 }
 
 impl Traced {

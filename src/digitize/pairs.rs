@@ -35,7 +35,7 @@ pub(super) fn paired(pieces: &[Traced]) -> Vec<Traced> {
 }
 
 fn are_twins(one: &Traced, other: &Traced) -> bool {
-    if [one, other].iter().any(|p| p.cut_how.is_some() || p.mirror.is_some()) {
+    if [one, other].iter().any(|p| p.cut_how.is_some() || p.on_fold.is_some() || p.mirror.is_some()) {
         return false;
     }
     let ((side, stem), (across, other_stem)) = (sided(&one.name), sided(&other.name));

@@ -1,9 +1,11 @@
 //! Which edges may be sewn together.
 
 use super::edges::Edge;
+use crate::pattern::DEFAULT_TOLERANCE;
 
-/// Edges of a seam differ by no more than this (metres), or by this share of their length.
-const ALIKE: (f64, f64) = (1.5e-3, 0.004);
+/// Edges of a seam differ by no more than a garment file takes without a word (metres), or by this share of their
+/// length.
+const ALIKE: (f64, f64) = (DEFAULT_TOLERANCE, 0.004);
 /// Shorter edges (metres) fit too many.
 const SHORTEST: f64 = 0.02;
 
@@ -29,12 +31,21 @@ struct End<'a> {
     edge: &'a Edge,
 }
 
+/// A piece's edges.
+pub(super) struct Outline {
+    pub(super) piece: String,
+    pub(super) edges: Vec<Edge>,
+    /// The edge that lies on the fold of the cloth: no seam is there.
+    pub(super) fold: Option<String>,
+}
+
 /// Edges of which each fits the other best: pieces first, then edges of one piece (darts, sleeves).
-pub(super) fn suggest(outlines: &[(String, Vec<Edge>, bool)]) -> Vec<Suggestion> {
+pub(super) fn suggest(outlines: &[Outline]) -> Vec<Suggestion> {
     let mut ends = Vec::new();
-    for (piece, (name, edges, _)) in outlines.iter().enumerate() {
-        let long = edges.iter().filter(|e| e.path.length() >= SHORTEST);
-        ends.extend(long.map(|edge| End { piece, name: format!("{name}.{}", edge.name), edge }));
+    for (piece, own) in outlines.iter().enumerate() {
+        let sewn = own.edges.iter().filter(|e| own.fold.as_ref() != Some(&e.name));
+        let long = sewn.filter(|e| e.path.length() >= SHORTEST);
+        ends.extend(long.map(|edge| End { piece, name: format!("{}.{}", own.piece, edge.name), edge }));
     }
     if ends.len() > MOST_EDGES {
         return Vec::new();

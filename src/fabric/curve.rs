@@ -17,6 +17,8 @@ pub struct TensileCurve {
 const KNOTS: [f64; 6] = [5.0, 20.0, 50.0, 100.0, 200.0, 500.0];
 /// The load at which EMT is read, gf/cm.
 const FULL_LOAD: f64 = 500.0;
+/// Load of the FAST extension test at which cloth can still be worked, gf/cm.
+const WORKED_LOAD: f64 = 100.0;
 /// Share of it at which it counts as reached: a tester turns round a few gf/cm early or late.
 const REACHED: f64 = 0.98;
 /// Strain to which the stretchiest cloth may be drawn, and what a curve's rows can have between them, N/m: from a web
@@ -61,6 +63,11 @@ impl TensileCurve {
         let i = self.points[1..last].partition_point(|p| p.1 <= load);
         let (a, b) = (self.points[i], self.points[i + 1]);
         a.0 + (load - a.1) * (b.0 - a.0) / (b.1 - a.1)
+    }
+
+    /// The extension at which cloth can still be worked, by FAST: under 100 gf/cm (E100), as a fraction.
+    pub fn workable(&self) -> f64 {
+        self.strain(WORKED_LOAD * GF_PER_CM)
     }
 
     /// The extension under a Kawabata tester's full load, 500 gf/cm: EMT, as a fraction.

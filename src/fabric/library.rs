@@ -5,7 +5,7 @@ use std::path::Path;
 use super::error::FabricError;
 use super::resolve::{Context, from_sheet};
 use super::{Fabric, FabricSheet};
-use crate::input::{InputError, bytes};
+use crate::input::{InputError, bytes, nearest, shown};
 
 /// Name and text of every shipped fabric: the fifteen of Liu, Wang & Luo 2015 in their order, then two knits.
 const SHIPPED: [(&str, &str); 17] = [
@@ -27,6 +27,9 @@ const SHIPPED: [(&str, &str); 17] = [
     ("jersey", include_str!("../../fabrics/jersey.yaml")),
     ("rib", include_str!("../../fabrics/rib.yaml")),
 ];
+
+/// Characters of an unknown name that an error shows.
+const NAME: usize = 120;
 
 /// Names of the shipped fabrics.
 pub fn library() -> Vec<&'static str> {
@@ -69,8 +72,10 @@ fn sheet_in(name: &str, folder: &Path, others: &[&str]) -> Result<FabricSheet, F
     let path = folder.join(name);
     if path.extension().is_none() {
         let known: Vec<&str> = others.iter().copied().chain(library()).collect();
-        let nearest = nearest(name, &known).map(str::to_owned);
-        return Err(FabricError::Unknown { name: name.to_owned(), nearest, known: known.join(", ") });
+        let longer = known.iter().copied().find(|k| !name.is_empty() && k.contains(name));
+        // Part of a name, as `poplin`, is far from it by its letters.
+        let nearest = longer.or_else(|| nearest(name, known.iter().copied())).map(str::to_owned);
+        return Err(FabricError::Unknown { name: shown(name, NAME), nearest, known: known.join(", ") });
     }
     let file = path.display().to_string();
     let text = read(&path)?;
@@ -95,29 +100,4 @@ pub(super) fn read(path: &Path) -> Result<String, FabricError> {
         Some(rest) => Ok(rest.to_owned()),
         None => Ok(text),
     }
-}
-
-/// The name most like `name`, if it contains it or differs in no more than a third of its letters.
-fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
-    if let Some(longer) = known.iter().find(|k| !name.is_empty() && k.contains(name)) {
-        return Some(longer);
-    }
-    let (best, letters) = known.iter().map(|k| (*k, edits(name, k))).min_by_key(|k| k.1)?;
-    (3 * letters <= best.len()).then_some(best)
-}
-
-/// How many letters to insert, drop or change to make `a` into `b` (Levenshtein).
-fn edits(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, ca) in a.chars().enumerate() {
-        let mut corner = row[0];
-        row[0] = i + 1;
-        for (j, cb) in b.iter().enumerate() {
-            let cost = (corner + usize::from(ca != *cb)).min(row[j] + 1).min(row[j + 1] + 1);
-            corner = row[j + 1];
-            row[j + 1] = cost;
-        }
-    }
-    row[b.len()]
 }

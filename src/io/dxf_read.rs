@@ -11,7 +11,7 @@ use super::dxf_notches;
 use super::dxf_text::{Entity, after, blocks, entities, letters, stated_unit};
 use super::dxf_told::{Told, told_of};
 use super::dxf_write::layer;
-use crate::digitize::{Drawing, Inner, Traced, besides, chained, holes};
+use crate::digitize::{Drawing, Inner, Material, Traced, besides, chained, holes};
 use crate::geometry::{Path, Vec2, bulged};
 use crate::input::{InputError, bytes, shown};
 use crate::pattern::{Cut, Side};
@@ -20,6 +20,8 @@ use crate::pattern::{Cut, Side};
 const MOST_BYTES: u64 = 30 << 20;
 /// More lines in a block than this cannot be looked at one against the other.
 const MOST_LINES: usize = 5_000;
+/// Letters of a style's name that are read.
+const TITLE: usize = 200;
 /// Letters of a text that messages show.
 pub(super) const SHOWN: usize = 40;
 
@@ -72,7 +74,8 @@ pub enum DxfError {
     },
 }
 
-/// Reads the pieces of a DXF file; `unit` is metres per drawing unit where the file does not say.
+/// Reads the pieces of a DXF file; `unit` is metres per drawing unit in place of what the file says; without it that
+/// counts, else millimetres.
 ///
 /// # Errors
 /// [`DxfError`].
@@ -99,7 +102,14 @@ pub fn read_dxf_text(text: &str, unit: Option<f64>) -> Result<Drawing, DxfError>
         let layers = shown(&layers.join(", "), 4 * SHOWN);
         return Err(DxfError::NoPieces { layers, besides: besides(&left_out) });
     }
-    Ok(Drawing { pieces, left_out })
+    Ok(Drawing { title: title(&entities), pieces, left_out })
+}
+
+/// The style's name.
+fn title(entities: &[Entity]) -> Option<String> {
+    let mut texts = entities.iter().filter(|e| e.kind == "TEXT").filter_map(|e| e.value(1));
+    let name = texts.find_map(|words| after(words, "style name:").filter(|name| !name.is_empty()))?;
+    Some(shown(&letters(name), TITLE))
 }
 
 /// What a block holds, by layer.
@@ -201,6 +211,11 @@ impl<'a> Block<'a> {
         self.texts.iter().find_map(|t| after(&t.words, key)).filter(|t| !t.is_empty())
     }
 
+    fn material(&self) -> Option<Material> {
+        let cloth = self.text("fabric:").map(str::to_owned);
+        self.text("material:").map(|name| Material { name: name.to_owned(), cloth })
+    }
+
     /// The lines that may be told of, each with what is told of it.
     fn told(&self) -> Vec<(u32, &Path, Option<Told>)> {
         let texts: Vec<(Told, Vec2)> = self.texts.iter().filter_map(|t| Some((Told::read(&t.words)?, t.at?))).collect();
@@ -243,9 +258,10 @@ impl<'a> Block<'a> {
             mirror,
             cut: Some(cut),
             cut_how: self.text("quantity:").and_then(quantity),
+            on_fold: None,
             said_by: None,
             drawn: self.text("drawn:").and_then(Side::from_letter).filter(|side| *side == Side::Right),
-            fabric: self.text("material:").map(str::to_owned),
+            material: self.material(),
         })
     }
 

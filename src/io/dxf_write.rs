@@ -188,8 +188,9 @@ impl Dxf {
             format!("Material: {}", paper.fabric),
             format!("Annotation: {}", paper.count),
         ];
+        let cloth = paper.cloth.as_ref().map(|cloth| format!("Fabric: {cloth}"));
         let drawn = paper.drawn.map(|side| format!("Drawn: {}", side.letter()));
-        for (i, text) in texts.iter().chain(&drawn).enumerate() {
+        for (i, text) in texts.iter().chain(&cloth).chain(&drawn).enumerate() {
             let down = Vec2::new(0.0, i as f64 * 1.5 * LETTERS / MM);
             self.words(text, paper.grain[0] + down, LETTERS, layer::BOUNDARY);
         }

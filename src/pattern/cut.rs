@@ -171,7 +171,8 @@ fn reflection(a: Vec2, b: Vec2) -> (Matrix2<f64>, Vec2) {
 
 /// The edges of a ring in a cut piece, clockwise again if mirrored.
 fn transformed(ring: &[Edge], to: &Instance) -> Vec<Edge> {
-    let moved = ring.iter().map(|e| Edge { name: e.name.clone(), path: e.path.mapped(to.linear, to.shift) });
+    let moved =
+        ring.iter().map(|e| Edge { path: e.path.mapped(to.linear, to.shift), against: to.mirrored, ..e.clone() });
     if to.mirrored { super::outline::reversed(&moved.collect::<Vec<_>>()) } else { moved.collect() }
 }
 
@@ -199,7 +200,7 @@ fn folded_edges(draft: &Draft, piece: usize, fold: usize, mirrored: bool) -> Vec
 fn folded_loops(draft: &Draft, halves: &[Instance; 2], fold: usize) -> Vec<Vec<Edge>> {
     let sided = |half: &Instance, ring: Vec<Edge>| -> Vec<Edge> {
         let suffix = half.side.map_or("", Side::letter);
-        ring.into_iter().map(|e| Edge { name: format!("{}.{suffix}", e.name), path: e.path }).collect()
+        ring.into_iter().map(|e| Edge { name: format!("{}.{suffix}", e.name), ..e }).collect()
     };
     let mut open = draft.rings[0].clone();
     open.rotate_left(fold);

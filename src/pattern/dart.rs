@@ -165,7 +165,8 @@ pub(super) fn cut_fish_eyes(drawn: &mut Draft, piece: &PieceFile, unit: Unit, fi
             continue;
         }
         let name = dart_name(dart, i);
-        let edge = |part: &str, from, to| Edge { name: format!("{name}.{part}"), path: Path::line(from, to) };
+        let edge =
+            |part: &str, from, to| Edge { name: format!("{name}.{part}"), path: Path::line(from, to), against: false };
         let ring = drawn.rings.len();
         drawn.add_ring(vec![
             edge("upper_a", top, middle - half),

@@ -220,7 +220,7 @@ impl Draft {
     pub(super) fn add_outline_edge(&mut self, name: String, path: Path) -> (usize, usize) {
         let at = (0, self.rings[0].len());
         self.named.push(NamedEdge::whole(name.clone(), at, path.length()));
-        self.rings[0].push(Edge { name, path });
+        self.rings[0].push(Edge { name, path, against: false });
         at
     }
 }
@@ -251,7 +251,7 @@ fn holes(drawn: &mut Draft, piece: &PieceFile, unit: Unit, findings: &mut Findin
         }
         let path = ended_at(&path, path.start());
         let path = if path.double_area() > 0.0 { path.reversed() } else { path };
-        let ring = vec![Edge { name: edge, path }];
+        let ring = vec![Edge { name: edge, path, against: false }];
         let within =
             |other: &&Vec<Edge>| contains(other, ring[0].path.start()) || contains(&ring, other[0].path.start());
         if let Some(other) = drawn.rings[1..].iter().find(within) {

@@ -8,7 +8,7 @@ use super::draft::{Draft, Stretch, draft};
 use super::file::{AllowanceFile, AllowanceWidth, Corner, Cut, GarmentFile, PieceFile, Side};
 use super::inherit::complete_pieces;
 use super::seam::{Seams, seams};
-use super::{EdgeId, Garment, Line, PleatLayer, SeamKind};
+use super::{EdgeId, FabricUse, Garment, Line, PleatLayer, SeamKind};
 use crate::geometry::{Path, Vec2};
 
 /// A piece as drawn. Lengths are metres, y down, the right side of the cloth facing the reader.
@@ -24,6 +24,8 @@ pub struct Drawing {
     pub drawn: Side,
     /// Name of its fabric in the garment.
     pub fabric: String,
+    /// The library's fabric that this is, if it is one.
+    pub cloth: Option<String>,
     /// 0 = shell, positive further out, negative nearer the body.
     pub layer: i32,
     /// Warp direction, unit length.
@@ -124,20 +126,23 @@ pub fn drawings(file: &GarmentFile, garment: &Garment) -> Vec<Drawing> {
     let default_fabric = garment.fabrics.first().map_or("", |f| &f.name);
     let cut = cut(&drafts, default_fabric);
     let seams = seams(file, &drafts, &cut, &mut said);
-    let book = Book { file, drafts: &drafts, cut: &cut, seams: &seams };
-    pieces.iter().enumerate().map(|(i, piece)| book.drawing(piece, i, default_fabric)).collect()
+    let book = Book { file, fabrics: &garment.fabrics, drafts: &drafts, cut: &cut, seams: &seams };
+    pieces.iter().enumerate().map(|(i, piece)| book.drawing(piece, i)).collect()
 }
 
 struct Book<'a> {
     file: &'a GarmentFile,
+    fabrics: &'a [FabricUse],
     drafts: &'a [Draft],
     cut: &'a Pieces,
     seams: &'a Seams,
 }
 
 impl Book<'_> {
-    fn drawing(&self, piece: &PieceFile, index: usize, default_fabric: &str) -> Drawing {
+    fn drawing(&self, piece: &PieceFile, index: usize) -> Drawing {
         let drawn = &self.drafts[index];
+        let is_named = |f: &&FabricUse| drawn.fabric.as_ref().is_none_or(|own| own.value == f.name);
+        let fabric = self.fabrics.iter().find(is_named);
         let unit = self.file.unit();
         let edge = |at: (usize, usize)| {
             let edge = &drawn.rings[at.0][at.1];
@@ -152,7 +157,8 @@ impl Book<'_> {
             cut: drawn.cut.clone(),
             fold: drawn.fold,
             drawn: drawn.drawn,
-            fabric: drawn.fabric.as_ref().map_or(default_fabric, |f| &f.value).to_owned(),
+            fabric: fabric.map_or_else(String::new, |f| f.name.clone()),
+            cloth: fabric.and_then(FabricUse::cloth).map(str::to_owned),
             layer: drawn.layer,
             warp: drawn.warp,
             grain: piece.grain.as_ref().map(|g| g.value.map(|p| Vec2::from(p) * unit.factor())),

@@ -14,10 +14,10 @@ use crate::input::shown;
 
 /// The fabric of pieces that name none, in a file that names none.
 const DEFAULT_FABRIC: &str = "shell";
+/// What it is made of.
+pub const DEFAULT_CLOTH: &str = "cotton_poplin";
 /// Characters of a title that are shown.
 const TITLE: usize = 200;
-/// What it is made of.
-const DEFAULT_CLOTH: &str = "cotton_poplin";
 
 /// Cuts the pieces, opens darts, lays pleats, writes mirrored seams out and checks everything that can be checked
 /// without sewing. `name` is the garment's short name.

@@ -50,7 +50,7 @@ mod walk;
 pub use along::{Along, along};
 pub use diagnostic::{Diagnostic, Findings, Located, Severity, Spot};
 pub use drawing::{Allowance, Dart, Drawing, DrawnEdge, DrawnFold, DrawnNotch, drawings};
-pub use expand::{expand, fabrics};
+pub use expand::{DEFAULT_CLOTH, expand, fabrics};
 pub use fasten::{Bridge, Fastening, RimSpot, Step, fastenings, patches, worn_rims};
 pub use file::{
     AllowanceFile, AllowanceWidth, ClosureFile, Corner, Cut, DartFile, DartShape, GarmentFile, LineFile, NotchFile,
@@ -62,6 +62,7 @@ pub use problem::Problem;
 pub use reference::parse_quantity;
 pub(crate) use region::{Region, SLACK};
 pub use rim::{Opening, openings};
+pub(crate) use seam::DEFAULT_TOLERANCE;
 pub use walk::{SeamWalk, walk, written_edge, written_names};
 
 use std::ops::RangeInclusive;
@@ -125,6 +126,8 @@ pub struct Edge {
     pub name: String,
     /// Its course.
     pub path: Path,
+    /// Whether it runs against the drawing's, as on what is mirrored: a file measures along that.
+    pub against: bool,
 }
 
 /// An edge of a piece: `piece.loops[ring][index]`.
@@ -319,6 +322,14 @@ pub struct FabricUse {
     pub name: String,
     /// What it is.
     pub spec: crate::fabric::FabricSpec,
+}
+
+impl FabricUse {
+    /// The library's fabric that it is, unless it has values of its own or comes from a file.
+    pub fn cloth(&self) -> Option<&str> {
+        let base = self.spec.base.as_deref().filter(|_| self.spec.values.is_empty())?;
+        crate::fabric::library().into_iter().find(|shipped| *shipped == base)
+    }
 }
 
 /// A closure: simulated as tacks where `a` meets `b` when both are given, else kept only.

@@ -32,7 +32,7 @@ pub(super) fn outline(piece: &str, file: &OutlineFile, unit: Unit, findings: &mu
         match edge_path(at, &commands.value, scale) {
             Ok(path) => {
                 at = path.end() / scale;
-                edges.push(Edge { name: name.value.clone(), path });
+                edges.push(Edge { name: name.value.clone(), path, against: false });
             }
             Err(reason) => {
                 let (piece, edge) = (piece.to_owned(), name.value.clone());
@@ -152,5 +152,5 @@ fn orient(piece: &str, mut edges: Vec<Edge>, at: Spot, findings: &mut Findings) 
 
 /// The ring walked the other way.
 pub(super) fn reversed(ring: &[Edge]) -> Vec<Edge> {
-    ring.iter().rev().map(|e| Edge { name: e.name.clone(), path: e.path.reversed() }).collect()
+    ring.iter().rev().map(|e| Edge { path: e.path.reversed(), ..e.clone() }).collect()
 }

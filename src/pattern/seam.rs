@@ -12,7 +12,7 @@ use super::walk::difference;
 use super::{Garment, Give, Notch, Seam, SeamKind, Span};
 
 /// Lengths may differ by this much (metres) where nothing is said.
-const DEFAULT_TOLERANCE: f64 = 2e-3;
+pub(crate) const DEFAULT_TOLERANCE: f64 = 2e-3;
 /// All seams close together unless the file stages them.
 pub(super) const DEFAULT_STAGE: i32 = 1;
 /// What openings call the ends of a seam, beside the edges that meet there.
@@ -321,7 +321,7 @@ fn as_ratio(la: f64, lb: f64, give: Give) -> String {
         Give::Even | Give::Ease(_) => return String::new(),
     };
     let (one, other, asked) = (la * 1e3, lb * 1e3, la / ratio * 1e3);
-    format!("; {one:.1} / {other:.1} is {:.3}, and {word}: {ratio} asks for {one:.1} to {asked:.1} mm", la / lb)
+    format!("; {one:.1} / {other:.1} is {:.3}, and {word}: {ratio} asks for {one:.1} mm on {asked:.1} mm", la / lb)
 }
 
 /// What a seam of these lengths may say of them: ease as far as there is any, else gathers of the longer side.

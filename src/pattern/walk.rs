@@ -2,6 +2,9 @@
 
 use super::{EdgeId, Garment, Give, Opening, Piece, SeamKind, Span};
 
+/// What is missing of an edge that is taken whole (metres) is rounding.
+const WHOLE: f64 = 1e-6;
+
 /// The lengths of one seam, metres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeamWalk {
@@ -73,8 +76,21 @@ fn notches(garment: &Garment, chain: &[Span]) -> Vec<f64> {
     met
 }
 
+/// The edges of a chain as the file has them, of what is taken in part with its stretch in millimetres:
+/// `bib.top@30..230`.
 fn chain_name(garment: &Garment, chain: &[Span]) -> String {
-    names_of(&garment.pieces, chain.iter().map(|s| s.edge)).join(" + ")
+    let edge = |span: &Span| &garment.pieces[span.edge.piece].loops[span.edge.ring][span.edge.index];
+    let is_whole = |span: &Span| span.length() > edge(span).path.length() - WHOLE;
+    let name = |spans: &[Span]| match spans {
+        [part] if !is_whole(part) => {
+            let (piece, edge) = (&garment.pieces[part.edge.piece].name, edge(part));
+            let as_drawn = |at: f64| if edge.against { edge.path.length() - at } else { at };
+            let [from, to] = [part.from, part.to].map(|at| (as_drawn(at) * 1e4).round() / 10.0);
+            format!("{piece}.{}@{}..{}", edge.name, from.min(to), from.max(to))
+        }
+        whole => names_of(&garment.pieces, whole.iter().map(|s| s.edge)).join(" + "),
+    };
+    chain.chunk_by(|a, b| is_whole(a) && is_whole(b)).map(name).collect::<Vec<_>>().join(" + ")
 }
 
 /// `waist`, as the file has it, for `waist.2.R`: the second part of an edge that a dart cuts in two, on the right half

@@ -72,7 +72,7 @@ impl Sheet {
     }
 
     fn cut(fabric: &Arc<Fabric>, sides: Vec<Path>, warp: Vec2, spacing: f64) -> Result<Self, SpecimenError> {
-        let edge = |(k, path): (usize, Path)| Edge { name: format!("side{k}"), path };
+        let edge = |(k, path): (usize, Path)| Edge { name: format!("side{k}"), path, against: false };
         let piece = Piece {
             name: "specimen".into(),
             drawn_as: "specimen".into(),

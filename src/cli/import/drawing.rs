@@ -26,9 +26,9 @@ fn refused(args: &DrawingArgs, reason: String) -> CliError {
 
 /// Writes the pieces with all edges free, and says what is not among them and which may belong together.
 fn write(args: &DrawingArgs, drawing: &Drawing, console: &Console) -> Result<Exit, CliError> {
-    let name = args.drawing.file_stem().map_or_else(|| "garment".to_owned(), |s| s.to_string_lossy().into_owned());
-    let made = garment_file(&name, &drawing.pieces);
-    let exit = finish(&Imported { source: &args.drawing, output: &args.output, file: &made.file }, console)?;
+    let stem = || args.drawing.file_stem().map_or_else(|| "garment".to_owned(), |s| s.to_string_lossy().into_owned());
+    let made = garment_file(&drawing.title.clone().unwrap_or_else(stem), &drawing.pieces);
+    let exit = finish(&Imported { source: &args.drawing, target: &args.target, file: &made.file }, console)?;
     drawing.left_out.iter().chain(&made.notes).for_each(|note| console.note(note));
     if !made.suggestions.is_empty() {
         console.note("seams are to be written; by their lengths these edges may belong together:");

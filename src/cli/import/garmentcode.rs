@@ -12,7 +12,7 @@ pub(super) fn import(args: &GarmentcodeArgs, console: &Console) -> Result<Exit, 
     let text = text(&args.spec).map_err(refused)?;
     let stem = args.spec.file_stem().map_or_else(|| "garment".to_owned(), |s| s.to_string_lossy().into_owned());
     let name = stem.strip_suffix("_specification").unwrap_or(&stem);
-    let file = read(name, &text, super::body(args.body.as_deref(), &args.output).as_deref());
+    let file = read(name, &text, super::body(args.body.as_deref(), &args.target.output).as_deref());
     let file = file.map_err(|e| refused(e.to_string()))?;
-    finish(&Imported { source: &args.spec, output: &args.output, file: &file }, console)
+    finish(&Imported { source: &args.spec, target: &args.target, file: &file }, console)
 }

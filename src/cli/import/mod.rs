@@ -7,7 +7,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::args::{ImportCommand, UnitArg};
+use super::args::{ImportCommand, TargetArgs, UnitArg};
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use crate::input::bytes;
@@ -48,7 +48,7 @@ fn body(named: Option<&str>, output: &Path) -> Option<String> {
 /// A pattern that was read.
 struct Imported<'a> {
     source: &'a Path,
-    output: &'a Path,
+    target: &'a TargetArgs,
     file: &'a GarmentFile,
 }
 
@@ -65,10 +65,16 @@ struct Summary {
 /// Writes the garment file and says what a check finds in it.
 fn finish(imported: &Imported, console: &Console) -> Result<Exit, CliError> {
     let text = write(imported.file).map_err(|e| CliError::Argument(e.to_string()))?;
-    let shown = imported.output.display().to_string();
-    let name = imported.output.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
-    let target = imported.output.to_owned();
+    let target = imported.target.output.clone();
+    let shown = target.display().to_string();
+    let name = target.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
     check_writable(std::slice::from_ref(&target), &[imported.source])?;
+    if target.exists() && !imported.target.force {
+        return Err(CliError::Argument(format!(
+            "{shown} is there already, and what was written in it would be lost; choose another name with -o, or \
+             --force to write over it"
+        )));
+    }
     write_all(&[(target, text.clone().into_bytes())], &[imported.source])?;
     let read = read_text(&name, &shown, &text);
     match &read {

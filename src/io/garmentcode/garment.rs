@@ -9,12 +9,9 @@ use super::seams::{Joined, Place, Table};
 use super::spec::{PanelEdge, Specification};
 use crate::geometry::Path;
 use crate::pattern::{
-    Cut, GarmentFile, Located, OutlineFile, PieceFile, PlaceFile, Quantity, SeamFile, Side, Spot, TestEntry, TestFile,
-    Unit, Value,
+    Cut, DEFAULT_CLOTH, GarmentFile, Located, OutlineFile, PieceFile, PlaceFile, Quantity, SeamFile, Side, Spot,
+    TestEntry, TestFile, Unit, Value,
 };
-
-/// The cloth of a garment that says nothing of its cloth.
-const FABRIC: &str = "cotton_poplin";
 
 /// The garment file of a specification.
 pub(super) fn garment(name: &str, spec: &Specification, body: Option<&str>) -> Result<GarmentFile, ImportError> {
@@ -39,7 +36,7 @@ pub(super) fn garment(name: &str, spec: &Specification, body: Option<&str>) -> R
         body: body.map(|b| here(b.to_owned())),
         body_units: None,
         allowance: None,
-        fabrics: vec![(here("shell".to_owned()), here(Value::Text(FABRIC.to_owned())))],
+        fabrics: vec![(here("shell".to_owned()), here(Value::Text(DEFAULT_CLOTH.to_owned())))],
         pieces: pieces.iter().enumerate().map(|(i, p)| writer.piece(p, &names[i])).collect(),
         free: writer.free(&seams),
         seams: writer.seams(&seams),

@@ -308,6 +308,7 @@ mod tests {
             mirrored: false,
             drawn: None,
             fabric: "shell".into(),
+            cloth: None,
             cut: vec![corners.iter().map(|&[x, y]| Vec2::new(x, y)).collect()],
             fold: None,
             sew: Vec::new(),

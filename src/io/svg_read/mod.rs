@@ -15,7 +15,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 use self::left_out::{LeftOut, What};
 use self::shapes::commands;
 use self::viewport::{Frame, inner, sheet};
-use crate::digitize::{Drawing, Remark, Role, Stroke, Traced, besides, pieces};
+use crate::digitize::{Drawing, Material, Remark, Role, Stroke, Traced, besides, pieces};
 use crate::geometry::{Path, Vec2, parse_transform};
 use crate::input::{InputError, bytes, shown};
 use crate::pattern::{LineKind, Side};
@@ -43,8 +43,8 @@ const LINES: [&str; 4] = ["path", "polygon", "polyline", "line"];
 const NOT_DRAWN: [&str; 9] =
     ["defs", "symbol", "marker", "clipPath", "mask", "pattern", "metadata", "style", "namedview"];
 /// Classes of what is no line of the pattern.
-const SKIPPED: [&str; 11] =
-    ["drawn", "help", "note", "mark", "text", "hidden", "scale", "pleat", "drill", "scalebox", "miniscale"];
+const SKIPPED: [&str; 10] =
+    ["drawn", "help", "note", "mark", "text", "hidden", "scale", "pleat", "scalebox", "miniscale"];
 
 /// Why an SVG file could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -77,7 +77,7 @@ pub enum SvgError {
     /// No outline.
     #[error(
         "no closed line of the size of a piece was found; outlines must be closed paths, or paths that meet end to end \
-         with the class 'edge' in one group per piece{besides}"
+         in one group or layer per piece{besides}"
     )]
     NoPieces {
         /// What was left out, which may be the reason.
@@ -105,19 +105,21 @@ pub fn read_svg_text(text: &str) -> Result<Drawing, SvgError> {
         return Err(SvgError::NotSvg(shown(root.tag_name().name(), SHOWN)));
     }
     let left_out = LeftOut::default();
-    let (strokes, remarks, texts, right) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let mut reader = Reader { document: &document, strokes, remarks, texts, right, left_out };
+    let (strokes, remarks, texts) = (Vec::new(), Vec::new(), Vec::new());
+    let (right, materials) = (Vec::new(), Vec::new());
+    let mut reader = Reader { document: &document, strokes, remarks, texts, right, materials, left_out };
     reader.walk(root)?;
-    let mut pieces = pieces(&reader.strokes, &reader.remarks);
-    for piece in pieces.iter_mut().filter(|p| reader.right.contains(&p.name)) {
-        piece.drawn = Some(Side::Right);
+    let Drawing { mut pieces, left_out: unclosed, .. } = pieces(&reader.strokes, &reader.remarks);
+    for piece in &mut pieces {
+        piece.drawn = reader.right.contains(&piece.name).then_some(Side::Right);
+        piece.material = reader.materials.iter().find(|(name, _)| *name == piece.name).map(|(_, m)| m.clone());
     }
     reader.leave_out_unread(&pieces);
-    let left_out = reader.left_out.sentences();
+    let left_out: Vec<String> = unclosed.into_iter().chain(reader.left_out.sentences()).collect();
     if pieces.is_empty() {
         Err(SvgError::NoPieces { besides: besides(&left_out) })
     } else {
-        Ok(Drawing { pieces, left_out })
+        Ok(Drawing { title: title(root), pieces, left_out })
     }
 }
 
@@ -128,6 +130,8 @@ struct Scope {
     /// Size of the drawing it stands in, its user units.
     viewport: Vec2,
     group: Option<String>,
+    /// As [`group`](Self::group), or the layer that holds several pieces.
+    layer: Option<String>,
     classes: String,
 }
 
@@ -139,13 +143,15 @@ struct Reader<'a, 'i> {
     texts: Vec<(usize, u32)>,
     /// Groups whose pieces are the wearer's right ones, as toile itself writes it.
     right: Vec<String>,
+    /// What groups are cut from, as toile itself writes it.
+    materials: Vec<(String, Material)>,
     left_out: LeftOut,
 }
 
 impl Reader<'_, '_> {
     fn walk(&mut self, root: Node) -> Result<(), SvgError> {
         let (frame, viewport) = sheet(root);
-        let scope = Scope { frame, viewport, group: None, classes: String::new() };
+        let scope = Scope { frame, viewport, group: None, layer: None, classes: String::new() };
         // Elements with what they inherit, the next one last: files may nest deeper than a stack of calls.
         let mut open = vec![(root, scope)];
         while let Some((node, scope)) = open.pop() {
@@ -163,10 +169,13 @@ impl Reader<'_, '_> {
                 within.classes = if name == "g" { own.to_owned() } else { format!("{own} {}", scope.classes) };
             }
             if CONTAINERS.contains(&name) {
-                within.group = group_name(node).or(scope.group);
+                let own = group_name(node);
+                within.layer = own.as_ref().map(|own| own.name.clone()).or(scope.layer);
+                within.group = own.filter(|own| own.is_piece).map(|own| own.name).or(scope.group);
                 if node.attribute("data-drawn") == Some(Side::Right.letter()) {
                     self.right.extend(within.group.clone());
                 }
+                self.materials.extend(within.group.clone().zip(material(node)));
                 let chosen = (name == "switch").then(|| alternative(node));
                 let elements = || {
                     let all = node.children().filter(Node::is_element);
@@ -212,9 +221,9 @@ impl Reader<'_, '_> {
             }
             // A transform may have made a point of it.
             if path.length() > 1e-8 {
-                let group = scope.group.clone();
-                let kind = line_kind(node);
-                self.strokes.push(Stroke { path, role, name: own_name(node, group.as_deref()), group, kind });
+                let (group, layer) = (scope.group.clone(), scope.layer.clone());
+                let (name, kind) = (own_name(node, group.as_deref()), line_kind(node));
+                self.strokes.push(Stroke { path, role, name, group, layer, kind });
             }
         }
         if self.strokes.len() > MOST_STROKES { Err(SvgError::TooMany { most: MOST_STROKES }) } else { Ok(()) }
@@ -240,6 +249,18 @@ impl Reader<'_, '_> {
     fn value(&self, node: Node, what: &'static str, text: &str) -> SvgError {
         SvgError::Value { line: self.line(node), what, text: shown(text, SHOWN) }
     }
+}
+
+/// What the drawing is called.
+fn title(root: Node) -> Option<String> {
+    let own = root.children().find(|c| c.tag_name().name() == "title")?;
+    own.text().map(|words| shown(words.trim(), REMARK)).filter(|words| !words.is_empty())
+}
+
+/// What a group says that its piece is cut from.
+fn material(node: Node) -> Option<Material> {
+    let name = shown(node.attribute("data-material")?, SHOWN);
+    Some(Material { name, cloth: node.attribute("data-fabric").map(str::to_owned) })
 }
 
 /// A text's words and its beginning, which may stand at its first line.
@@ -290,8 +311,15 @@ fn is_hidden(node: Node) -> bool {
         || style.contains("visibility:hidden")
 }
 
+/// What a group is called.
+struct GroupName {
+    name: String,
+    /// Whether it is a piece; else it holds pieces.
+    is_piece: bool,
+}
+
 /// A group's label, or its id where that was not made up by a program.
-fn group_name(node: Node) -> Option<String> {
+fn group_name(node: Node) -> Option<GroupName> {
     if node.attribute("class").is_some_and(|c| c.split_whitespace().any(|w| SKIPPED.contains(&w))) {
         return None;
     }
@@ -299,16 +327,15 @@ fn group_name(node: Node) -> Option<String> {
     let id = node.attribute("id").filter(|id| !is_made_up(id));
     let name = label.or(id)?;
     // FreeSewing: fs-stack-DESIGN.PART.
-    let part = name.strip_prefix("fs-stack-").or(name.strip_prefix("fs-part-")).unwrap_or(name);
-    if name == part {
-        // Layers hold pieces; they are none.
-        let layer = node.attributes().any(|a| a.name() == "groupmode" && a.value() == "layer");
-        let is_label = |c: Node| c.attributes().any(|a| a.name() == "label");
-        let container = name.starts_with("fs-")
-            || layer && node.children().any(|c| c.tag_name().name() == "g" || c.is_element() && is_label(c));
-        return (!container).then(|| name.to_owned());
+    if let Some(part) = name.strip_prefix("fs-stack-").or(name.strip_prefix("fs-part-")) {
+        return Some(GroupName { name: part.rsplit('.').next().unwrap_or(part).to_owned(), is_piece: true });
     }
-    Some(part.rsplit('.').next().unwrap_or(part).to_owned())
+    // Layers hold pieces; they are none.
+    let layer = node.attributes().any(|a| a.name() == "groupmode" && a.value() == "layer");
+    let is_label = |c: Node| c.attributes().any(|a| a.name() == "label");
+    let holds = name.starts_with("fs-")
+        || layer && node.children().any(|c| c.tag_name().name() == "g" || c.is_element() && is_label(c));
+    Some(GroupName { name: name.to_owned(), is_piece: !holds })
 }
 
 /// `g123`, `path45-6`, `layer1`, `svg8`: names that programs give.
@@ -358,6 +385,9 @@ fn role(node: Node, classes: &str) -> Option<Role> {
     }
     if has("notch") || refers("notch") || called("notch") {
         return Some(Role::Notch);
+    }
+    if has("drill") {
+        return Some(Role::Drill);
     }
     // Of symbols only notches tell something about the outline; others are logos and buttons.
     if has("fold") || SKIPPED.iter().any(|w| has(w)) || ["text", "use"].contains(&node.tag_name().name()) {

@@ -1,11 +1,12 @@
 //! Patterns for cutting as SVG.
 //!
 //! A group per piece with its name as id; classes `cut` (solid), `sew` (dashed; ids `piece.edge`), `fold`, `notch`,
-//! `grain`, `line`, `drill` and `text`; the test square in a group of class `scale`.
+//! `grain`, `line`, `drill` and `text`; the test square in a group of class `scale`. What a piece is cut from stands in
+//! `data-material` and, where it is a fabric of the library, `data-fabric` of its group.
 
-use svg::node::element::{Circle, Group, Path};
+use svg::node::element::{Circle, Group, Path, Title};
 
-use super::{MM, centered, document, identifier, number, polyline, square, stroke, with_kind};
+use super::{MM, centered, document, identifier, number, polyline, printable, square, stroke, with_kind};
 use crate::cutting::{Lettering, MarkKind, Paper, SewKind, Sheet};
 use crate::geometry::Vec2;
 
@@ -19,9 +20,9 @@ const BARB: f64 = 6.0;
 /// Height of the test square's letters, mm.
 const LETTERS: f64 = 6.0;
 
-/// The sheet as SVG text.
-pub fn cutting_svg(sheet: &Sheet) -> String {
-    let mut document = document(sheet.size * MM);
+/// The sheet as SVG text; `title` is the garment's name.
+pub fn cutting_svg(title: &str, sheet: &Sheet) -> String {
+    let mut document = document(sheet.size * MM).add(Title::new(printable(title)));
     for paper in &sheet.papers {
         document = document.add(draw(paper));
     }
@@ -34,6 +35,10 @@ pub fn cutting_svg(sheet: &Sheet) -> String {
 fn draw(paper: &Paper) -> Group {
     let name = identifier(&paper.name);
     let mut group = Group::new().set("id", name.as_str()).set("class", "piece").set("fill", "none");
+    group = group.set("data-material", printable(&paper.fabric));
+    if let Some(cloth) = &paper.cloth {
+        group = group.set("data-fabric", cloth.as_str());
+    }
     if let Some(side) = paper.drawn {
         group = group.set("data-drawn", side.letter());
     }

@@ -4,7 +4,8 @@ use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 use super::super::error::PipelineError;
-use super::parts::{Nodes, Part};
+use super::darts::Source;
+use super::parts::Part;
 use super::report::{CutReport, CutWhy, DartReport};
 use crate::flatten::{self, FlattenError, Flattened, disk_cuts, shortest_path};
 use crate::geometry::sorted_pair;
@@ -18,7 +19,7 @@ const MM: f64 = 1e3;
 pub struct Cuts {
     /// Along the shortest ways through these vertices, numbered from 1 as in the file.
     pub paths: Vec<Vec<u32>>,
-    /// Whether to cut what is no disk into one.
+    /// Whether to cut what these leave that is no disk into one.
     pub auto: bool,
 }
 
@@ -33,18 +34,12 @@ pub(super) struct Marks {
 }
 
 impl Marks {
-    /// The cuts asked for, `parts` being the surface without them; `unit` is metres per unit of the file.
-    pub(super) fn new(
-        file: &Path,
-        faces: &ObjFaces,
-        nodes: &Nodes,
-        parts: &[Part],
-        cuts: &Cuts,
-        unit: f64,
-    ) -> Result<Self, PipelineError> {
+    /// The cuts asked for by their vertices, `parts` being the surface without them.
+    pub(super) fn asked(source: &Source<'_>, parts: &[Part]) -> Result<Self, PipelineError> {
+        let Source { file, faces, nodes, unit, options, .. } = *source;
         let mut out = Self::default();
         let mut of_file = HashSet::new();
-        for path in &cuts.paths {
+        for path in &options.cuts.paths {
             let (way, part) = way(faces, parts, path).map_err(|why| {
                 let cut = path.iter().map(u32::to_string).collect::<Vec<_>>().join(",");
                 PipelineError::Cut { file: file.to_owned(), cut, why }
@@ -55,14 +50,16 @@ impl Marks {
             out.record(part, CutWhy::Asked, way.iter().map(|v| v + 1).collect(), length);
         }
         out.edges = nodes.edges_on(&of_file);
-        if cuts.auto {
-            for part in parts {
-                for chain in chains(&disk_cuts(&part.surface, &part.diagonals)) {
-                    out.cut(part, &chain, CutWhy::Auto);
-                }
+        Ok(out)
+    }
+
+    /// Cuts what is no disk into one, `parts` being the surface with the cuts so far.
+    pub(super) fn cut_open(&mut self, parts: &[Part]) {
+        for part in parts {
+            for chain in chains(&disk_cuts(&part.surface, &part.diagonals)) {
+                self.cut(part, &chain, CutWhy::Auto);
             }
         }
-        Ok(out)
     }
 
     /// Cuts a part along a chain of its vertices.

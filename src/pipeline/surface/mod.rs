@@ -11,7 +11,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use super::error::PipelineError;
-use crate::fabric::Fabric;
+use crate::fabric::{Fabric, TensileCurve};
 use crate::flatten::{Options, Report};
 use crate::geometry::box_of;
 use crate::input::LengthUnit;
@@ -30,6 +30,9 @@ pub use write::{FLAT_OBJ, FLAT_PNG, OUTLINE_SVG};
 /// pieces of garments are between 4 cm and 4 m large.
 const METRES_BELOW: f64 = 4.0;
 const CENTIMETRES_BELOW: f64 = 250.0;
+/// No weave is strained by more, whatever its fibre: sheared by 30°, where its threads lock, it is by 0.29 along a
+/// diagonal, and the stretchiest threads of the library's weaves give less than another 0.2.
+const BEYOND_WEAVES: f64 = 0.5;
 /// Darts that `auto` cuts into all parts of a surface together: what is not below the limit then needs a seam.
 pub const DARTS: usize = 8;
 
@@ -67,16 +70,17 @@ pub enum Limit {
         warp: f64,
         /// |stretch − 1| of the weft.
         weft: f64,
+        /// What warp and weft give under the full load of a tensile tester, 500 gf/cm.
+        most: [f64; 2],
     },
 }
 
 impl Limit {
     /// That of a fabric.
     pub fn of(fabric: &Fabric) -> Self {
-        /// 100 gf/cm in N/m.
-        const WORKED: f64 = 98.0665;
-        let [warp, weft] = [&fabric.warp, &fabric.weft].map(|curve| curve.strain(WORKED));
-        Self::Fabric { name: fabric.name.clone(), warp, weft }
+        let [warp, weft] = [&fabric.warp, &fabric.weft].map(TensileCurve::workable);
+        let most = [&fabric.warp, &fabric.weft].map(TensileCurve::emt);
+        Self::Fabric { name: fabric.name.clone(), warp, weft, most }
     }
 
     /// How much a piece is strained, 1 at the limit.
@@ -84,6 +88,15 @@ impl Limit {
         match self {
             Self::Strain(most) => piece.strain_p99 / most,
             Self::Fabric { warp, weft, .. } => (piece.threads.warp_p99 / warp).max(piece.threads.weft_p99 / weft),
+        }
+    }
+
+    /// Whether no hand lays a piece so without a cut or a dart: its cloth gives less under the full load of a tester
+    /// or, where it is not known, than any weave does.
+    fn is_out_of_reach(&self, piece: &Report) -> bool {
+        match self {
+            Self::Strain(_) => piece.strain_p99 > BEYOND_WEAVES,
+            Self::Fabric { most: [warp, weft], .. } => piece.threads.warp_p99 > *warp || piece.threads.weft_p99 > *weft,
         }
     }
 
@@ -125,12 +138,15 @@ pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurf
     let textured = options.texture_seams && faces.texture_of_face.iter().any(|t| !t.is_empty());
     let nodes = Nodes::new(&faces, textured, options.weld);
     let source = Source { file, faces: &faces, nodes: &nodes, unit, stem: &stem, options };
-    let mut marks = Marks::default();
-    if options.cuts != Cuts::default() {
-        marks = Marks::new(file, &faces, &nodes, &source.parts(&marks), &options.cuts, unit)?;
+    let as_read = source.parts(&Marks::default());
+    notes.extend(source.split_notes(textured, as_read.len()));
+    let mut marks = Marks::asked(&source, &as_read)?;
+    drop(as_read);
+    if options.cuts.auto {
+        let parts = source.parts(&marks);
+        marks.cut_open(&parts);
     }
     let laid = with_darts(&source, &mut marks)?;
-    notes.extend(source.split_notes(textured, laid.len()));
     notes.extend(laid.iter().filter_map(|l| l.part.turned_note()));
     notes.extend(marks.made.iter().map(ToString::to_string));
     let edges = named_edges(&laid.iter().map(|l| &l.part).collect::<Vec<_>>());
@@ -138,7 +154,7 @@ pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurf
         toile: env!("CARGO_PKG_VERSION").into(),
         surface: stem.clone(),
         units,
-        pieces: report::pieces(&laid, &edges),
+        pieces: report::pieces(&laid, &edges, &options.limit),
         cuts: marks.chains,
         cuts_made: marks.made,
         stages: vec![stage(laid.iter().map(|l| l.flat.report), begin)],
@@ -147,7 +163,7 @@ pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurf
 }
 
 impl Source<'_> {
-    /// Why the surface is in so many parts, where its author may have meant fewer.
+    /// Why the surface is in `count` parts before it is cut, where its author may have meant fewer.
     fn split_notes(&self, textured: bool, count: usize) -> Vec<String> {
         let weld = self.options.weld;
         let otherwise = |texture, weld| {

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
+use super::Limit;
 use super::cuts;
 use super::darts::{DartStop, Laid};
 use super::edges::NamedEdge;
@@ -80,6 +81,9 @@ pub struct PartReport {
     pub overlaps: usize,
     /// The rims, between corners and where the other side of a cut changes.
     pub edges: Vec<EdgeReport>,
+    /// Whether cloth can be worked to lie so: `false` where the fabric gives less even under 500 gf/cm, or without a
+    /// fabric where half is passed, which no weave gives. Such a piece needs a cut or a dart.
+    pub layable: bool,
     /// A dart that would relieve the piece, where its strain passes the limit.
     pub dart: Option<DartReport>,
     /// How many darts were cut into it.
@@ -114,10 +118,10 @@ pub struct EdgeReport {
 }
 
 /// All parts as they are reported, with their edges.
-pub(super) fn pieces(laid: &[Laid], edges: &[Vec<NamedEdge>]) -> Vec<PartReport> {
+pub(super) fn pieces(laid: &[Laid], edges: &[Vec<NamedEdge>], limit: &Limit) -> Vec<PartReport> {
     let piece = |(k, own): (usize, &Laid)| PartReport {
         edges: edges[k].iter().map(|e| edge(laid, edges, k, e)).collect(),
-        ..PartReport::new(own)
+        ..PartReport::new(own, limit)
     };
     laid.iter().enumerate().map(piece).collect()
 }
@@ -201,7 +205,7 @@ pub struct DartReport {
 }
 
 impl PartReport {
-    fn new(laid: &Laid) -> Self {
+    fn new(laid: &Laid, limit: &Limit) -> Self {
         let (part, r) = (&laid.part, &laid.flat.report);
         let error = |e: f64| Quartet { flatten: Some(e), ..Quartet::default() };
         let isoperimetric = r.boundary_before.powi(2) / (4.0 * PI * r.area_before);
@@ -236,6 +240,7 @@ impl PartReport {
             flips: r.flips,
             overlaps: r.overlaps,
             edges: Vec::new(),
+            layable: !limit.is_out_of_reach(r),
             dart: cuts::proposal(part, &laid.dart),
             darts: laid.darts,
             darts_stopped: laid.stop,
