@@ -2,11 +2,14 @@
 
 #![allow(clippy::unwrap_used, reason = "tests may")]
 
+use std::path::Path;
+
 use toile::geometry::Vec3;
 use toile::io::garment::{Refused, read_text};
 use toile::mannequin::Mannequin;
 use toile::mesh::{ClothMesh, build};
 use toile::pattern::{Garment, openings};
+use toile::pipeline::{self, Job, Overrides, Run};
 use toile::report::{Measured, Report, measure, table, verdicts};
 
 /// A tube of a pair of halves, 100 mm wide each, open in front; `closures` and what else is drawn.
@@ -335,4 +338,18 @@ fn a_closure_without_a_partner_says_so() {
     assert!(patch.closures[0].note.as_ref().unwrap().contains("not clear"), "{:?}", patch.closures[0]);
     let zip = worn(&tube("{kind: zip, edge: half.L.front, meets: half.R.front}", ""), -0.02, 0.0);
     assert!(zip.closures[0].note.as_ref().unwrap().contains("no points"), "{:?}", zip.closures[0]);
+}
+
+/// The ends of a band that laps start where the ring puts them, here 200 mm from where their buttons hold them. A skirt
+/// that was open when it began to fall slid to the hips, and no button brought it up again.
+#[test]
+fn a_wrap_skirt_is_buttoned_before_it_falls() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/wrap_skirt.yaml");
+    let overrides = Overrides { spacing: Some(0.024), ..Overrides::default() };
+    let job = Job::new(&file, pipeline::read(&file).unwrap(), &overrides).unwrap();
+    let mut run = Run::new(&job);
+    run.sew(&mut |_, _| {}).unwrap();
+    let report = run.report();
+    assert!(report.closures[0].gap_max.unwrap() < 8.0, "{:?}", report.closures);
+    assert!(report.seams.iter().all(|s| s.gap_max < 1.0));
 }

@@ -153,7 +153,8 @@ fn cloth_that_is_strained_evenly_is_in_balance_up_to_its_rim() {
             let of = forces.iter().zip(&on_rim).filter(|(_, on)| **on == rim);
             of.map(|(f, _)| f.norm()).fold(0.0, f64::max)
         };
-        assert!(largest(false) < 1e-9 * largest(true), "{} N off balance of {}", largest(false), largest(true));
+        // Lines of the grid may leave the thread by 0.3° (sine 5e-3), and their springs pull along them.
+        assert!(largest(false) < 2e-3 * largest(true), "{} N off balance of {}", largest(false), largest(true));
     }
 }
 

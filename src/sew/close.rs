@@ -105,6 +105,10 @@ const HARDER: i32 = 4;
 /// Classes of three and more particles pull so much harder: closed last they jam.
 const JUNCTION: f64 = 8.0;
 
+/// Closures are done up when no two points of theirs are further apart than this, metres: the layers between them, and
+/// what particles lie beside the points.
+const DONE_UP: f64 = 5e-3;
+
 /// Layers are looked for this near while the seams close, in grid spacings.
 const REACH: f64 = 1.6;
 
@@ -139,6 +143,7 @@ pub fn sew(
         let mut tell = |way: f64| progress((stage as f64 + way) / stages as f64);
         steps += closing.close(&mut world, stage, options.max_steps - steps, &mut tell)?;
     }
+    steps += closing.do_up(&mut world, options.max_steps - steps)?;
     let (gaps, nodes) = (stitching.gaps(&world.x), stitching.welded(&world.x));
     if gaps.iter().any(|gap| *gap > options.tolerance) {
         let tangles = world.tangles().len();
@@ -152,8 +157,10 @@ pub fn sew(
 /// The seams on their way shut, stage by stage.
 struct Closing<'a> {
     stitching: &'a Stitching,
-    /// What closures tie: drawn together with the seams as a wearer does them up, and not waited for.
+    /// What closures tie: drawn together with the seams, as a wearer does them up.
     tacks: Vec<[u32; 2]>,
+    /// How many times they pull twice as hard as at first.
+    tighter: i32,
     /// Metres.
     tolerance: f64,
     /// The stage of every pair, counted from 0.
@@ -171,7 +178,7 @@ impl<'a> Closing<'a> {
         stages.dedup();
         let of = |seam: u32| stages.partition_point(|s| *s < mesh.seams[seam as usize].stage);
         let stage = stitching.pairs.iter().map(|(_, seam)| of(*seam)).collect();
-        Self { stitching, tacks, tolerance, stage, harder: vec![0; stages.len()], passing: Vec::new() }
+        Self { stitching, tacks, tighter: 0, tolerance, stage, harder: vec![0; stages.len()], passing: Vec::new() }
     }
 
     /// Closes the seams of a `stage` and keeps those of earlier ones closed. Returns the steps that took, at most
@@ -226,13 +233,46 @@ impl<'a> Closing<'a> {
         Ok(max_steps)
     }
 
+    /// Goes on with closed seams while what closures tie comes nearer, in at most `max_steps`, so that a garment does not
+    /// fall while it is open. What tears a seam open that does not close again is left undone. Returns the steps that
+    /// took.
+    fn do_up(&mut self, world: &mut World, max_steps: usize) -> Result<usize, SewError> {
+        let last = self.harder.len().saturating_sub(1);
+        let is_open = |own: &Self, x: &[Vec3]| own.widest(&own.stitching.gaps(x), last) > own.tolerance;
+        let (mut steps, mut history, closed) = (0, Vec::new(), world.x.clone());
+        if self.tacks.is_empty() || is_open(self, &closed) {
+            return Ok(0);
+        }
+        while steps < max_steps {
+            let apart = self.tacks.iter().map(|[a, b]| (world.x[*a as usize] - world.x[*b as usize]).norm());
+            let widest = apart.fold(0.0, f64::max);
+            history.push(widest);
+            let is_stuck = history.len() > STUCK && widest > PROGRESS * history[history.len() - 1 - STUCK];
+            if widest <= DONE_UP || is_stuck && self.tighter == HARDER {
+                break;
+            }
+            if is_stuck {
+                self.tighter += 1;
+                history.clear();
+            }
+            world.advance(STEP, KEEP, &self.pulls(last, PHASES.len() - 1))?;
+            steps += 1;
+        }
+        steps += self.close(world, last, max_steps - steps, &mut |_| {})?;
+        if is_open(self, &world.x) {
+            world.x = closed;
+            world.displaced()?;
+        }
+        Ok(steps)
+    }
+
     /// The widest of the `gaps` of pairs that pull in a `stage`, metres.
     fn widest(&self, gaps: &[f64], stage: usize) -> f64 {
         gaps.iter().zip(&self.stage).filter(|(_, of)| **of <= stage).map(|(gap, _)| *gap).fold(0.0, f64::max)
     }
 
     /// What the pairs pull with while those of a `stage` are in a `phase`: those of earlier stages as they did last,
-    /// those of later ones with nothing. Tacks pull as seams do in the phase.
+    /// those of later ones with nothing. Tacks pull as seams do in the phase, and harder where they are stuck.
     fn pulls(&self, stage: usize, phase: usize) -> Vec<Pull> {
         let pull = |(ends, &of): (&[u32; 2], &usize)| {
             let (stiffness, force) = PHASES[if of < stage { PHASES.len() - 1 } else { phase }];
@@ -242,7 +282,8 @@ impl<'a> Closing<'a> {
             Pull { ends: *ends, stiffness: stiffness_now, cap: force / stiffness }
         };
         let (stiffness, force) = PHASES[phase];
-        let tacks = self.tacks.iter().map(|&ends| Pull { ends, stiffness, cap: force / stiffness });
+        let tighter = stiffness * 2f64.powi(self.tighter);
+        let tacks = self.tacks.iter().map(|&ends| Pull { ends, stiffness: tighter, cap: force / stiffness });
         self.stitching.pairs.iter().map(|p| &p.0).zip(&self.stage).map(pull).chain(tacks).collect()
     }
 

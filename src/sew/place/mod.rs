@@ -72,7 +72,8 @@ pub enum PlaceError {
     /// The seams of a piece ask for it to be nowhere.
     #[error(
         "piece '{piece}' finds no place: its seams contradict each other; check which edges they name (a front's right \
-         side is sewn to a back's left), or give it a place: {{at: [x, y, z]}}"
+         side is sewn to a back's left) and which half is drawn (`drawn: L` or `R`), or give it a place: \
+         {{at: [x, y, z]}}"
     )]
     Nowhere {
         /// The piece.
