@@ -28,7 +28,7 @@ const ENERGY_FLOOR: f64 = 1e-16;
 /// The rim is as long as it should be when its edges are off by less than this share in the mean, for then no part of
 /// it is off by more than this share of the whole: of a rim of two metres by a micrometre where only the rim counts, by
 /// less than a hundredth of a millimetre otherwise, which nobody can cut.
-const RIM_EXACT: [f64; 2] = [5e-7, 4e-6];
+pub(super) const RIM_EXACT: [f64; 2] = [5e-7, 4e-6];
 /// How often the forces that hold the rim are found anew. Each time the errors left are fifty to a hundred times
 /// smaller, where the lengths can be had at all.
 const HOLDS: usize = 12;
