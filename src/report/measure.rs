@@ -6,7 +6,7 @@ use super::errors::{Way, area, area_error, boundary_error};
 use super::openings::{Opening, flaps, opening_names, openings};
 use super::rim::{RimEdge, beside_elastic, outline_distance, rims};
 use super::schema::{PieceReport, Quartet, Report, SeamReport, Sizes, Stage, Worn};
-use super::statistics::largest;
+use super::statistics::{largest, mean};
 use super::strain::{PieceStrain, piece_strain};
 use super::stretched::stretched;
 use super::tight::Tight;
@@ -226,7 +226,7 @@ fn seam(run: &Measured, index: usize, stitches: &Stitches) -> SeamReport {
         name: stitches.name.clone(),
         length_a: drawn.map_or_else(|| meshed(0), |s| s.length_a()) * MM,
         length_b: drawn.map_or_else(|| meshed(1), |s| s.length_b()) * MM,
-        gap_mean: gaps.iter().sum::<f64>() / gaps.len().max(1) as f64 * MM,
+        gap_mean: mean(&gaps) * MM,
         gap_max: largest(&gaps) * MM,
     }
 }
