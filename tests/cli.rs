@@ -343,6 +343,7 @@ fn json_has_the_keys_of_the_contract_and_is_the_report() {
     let piece = &report["pieces"][0];
     has(piece, &["name", "particles", "triangles", "area_flat", "area_sewn", "area_draped", "area_flattened"]);
     has(piece, &["boundary_flat", "boundary_sewn", "boundary_draped", "boundary_flattened", "stretched"]);
+    assert_eq!((&piece["overlaps"], &report["total"]["overlaps"]), (&Value::from(0), &Value::from(0)));
     [&piece["area_error"], &piece["boundary_error"]].iter().for_each(|e| has(e, &four));
     has(&piece["strain"], &["mean", "p95", "p99", "max"]);
     has(&report["seams"][0], &["name", "length_a", "length_b", "gap_mean", "gap_max"]);
