@@ -317,6 +317,27 @@ fn seams_get_equal_lengths_or_their_drawn_ratio() {
 }
 
 #[test]
+fn a_strip_gathered_to_a_sixth_comes_back_straight() {
+    // Three cells wide and 600 mm long; along its gathered edge it is drawn in, and folded everywhere else.
+    let cloth = two_panels([3, 2], 60, 1.0 / 6.0);
+    let draped: Vec<Vec3> = (0..cloth.flat.len())
+        .map(|v| {
+            let p = cloth.flat[v];
+            if cloth.pieces[1].particles.contains(&v) {
+                return Vec3::new(p.x, p.y, 0.0);
+            }
+            let gathered = p.x > 0.0299;
+            let fold = if gathered || (p.y / 0.01).round() as i64 % 2 == 0 { 0.0 } else { 1.0 };
+            Vec3::new(p.x, p.y / 6.0, fold * 0.01 * (1.0f64 - 1.0 / 36.0).sqrt())
+        })
+        .collect();
+    let flat = flatten_garment(&cloth, &[seam(Give::Gather(6.0))], &draped, &Options::default()).unwrap();
+    assert!(flat.pieces.iter().all(|p| p.report.overlaps == 0 && p.report.converged), "{:?}", flat.pieces[0].report);
+    let off = flat.positions.iter().zip(&cloth.flat).map(|(p, q)| (p - q).norm()).fold(0.0, f64::max);
+    assert!(off < 5e-3, "{:.1} mm off", 1e3 * off);
+}
+
+#[test]
 fn the_pattern_is_drawn_at_full_size() {
     let mut cloth = two_panels([12, 9], 20, 1.0);
     cloth.pieces[0].name = "left <\"front\">".into();
