@@ -671,6 +671,15 @@ fn what_is_no_disk_is_cut_where_asked_or_where_it_must_be() {
         .ends(2)
         .says(&["vertex 5 follows itself", "another"]);
     room.run(&["flatten", "tube.obj", "--cut", "1;2", "-o", "no"]).ends(2).says(&["--cut 1;2"]);
+    // Round the rim, and from one vertex inside to the next: neither opens anything.
+    room.run(&["flatten", "tube.obj", "--cut", "1,3", "-o", "no"]).ends(2).says(&["--cut 1,3", "runs along the rim"]);
+    room.run(&["flatten", "tube.obj", "--cut", "30,31", "-o", "no"]).ends(2).says(&[
+        "--cut 30,31",
+        "single edge",
+        "further on",
+    ]);
+    // Where a single edge goes on from another cut it opens.
+    assert_eq!(laid(&["tube.obj", "--cut", "5,149", "--cut", "77,78"])["pieces"][0]["particles"], 25 * 7 + 1);
     assert!(room.names("no").is_empty());
 }
 
