@@ -471,6 +471,44 @@ fn plain(unit: Option<LengthUnit>) -> SurfaceOptions {
     }
 }
 
+/// Lengths of the edges of a flat surface, millimetres, whose rim goes through these places and whose faces are these.
+fn edges_of(corners: &[[f64; 2]], faces: &[&[usize]]) -> Vec<f64> {
+    let mut text = String::new();
+    corners.iter().for_each(|[x, y]| writeln!(text, "v {x} {y} 0").unwrap());
+    for face in faces {
+        writeln!(text, "f {}", face.iter().map(|v| format!(" {}", v + 1)).collect::<String>()).unwrap();
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("piece.obj");
+    std::fs::write(&file, text).unwrap();
+    let report = flatten_surface(&file, &plain(Some(LengthUnit::Millimetre))).unwrap().report;
+    report.pieces[0].edges.iter().map(|e| e.length_draped.round()).collect()
+}
+
+#[test]
+fn a_side_of_the_mesh_between_two_corners_is_an_edge() {
+    let l = [[0.0, 0.0], [200.0, 0.0], [200.0, 100.0], [100.0, 100.0], [100.0, 200.0], [0.0, 200.0]];
+    let mut sides = edges_of(&l, &[&[0, 1, 2, 3, 4, 5]]);
+    sides.sort_by(f64::total_cmp);
+    assert_eq!(sides, [100.0, 100.0, 100.0, 100.0, 200.0, 200.0]);
+    assert_eq!(edges_of(&l[..3], &[&[0, 1, 2]]).len(), 3);
+    // Its ends are nearer to each other than a rounded corner is long.
+    let strip: Vec<[f64; 2]> =
+        (0..=200).flat_map(|k| [[10.0 * f64::from(k), 0.0], [10.0 * f64::from(k), 5.0]]).collect();
+    let cells: Vec<[usize; 4]> = (0..200).map(|k| [2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1]).collect();
+    let cells: Vec<&[usize]> = cells.iter().map(|c| &c[..]).collect();
+    let mut sides = edges_of(&strip, &cells);
+    sides.sort_by(f64::total_cmp);
+    assert_eq!(sides, [5.0, 5.0, 2000.0, 2000.0]);
+}
+
+#[test]
+fn a_round_rim_in_coarse_sides_has_no_corners() {
+    let at = |k: usize| (PI * k as f64 / 8.0).sin_cos();
+    let circle: Vec<[f64; 2]> = (0..16).map(|k| [100.0 * at(k).0, 100.0 * at(k).1]).collect();
+    assert_eq!(edges_of(&circle, &[&(0..16).collect::<Vec<usize>>()]).len(), 1);
+}
+
 /// Two flat strips, a unit wide, that share an edge of so many vertices, a unit apart; in a file of its own.
 fn two_strips(folder: &Path, vertices: usize) -> PathBuf {
     let mut text = String::new();
