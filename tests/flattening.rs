@@ -206,6 +206,45 @@ fn what_is_no_disk_is_named() {
     assert!(error.to_string().contains("cut it first"));
 }
 
+/// A cone of this half angle, radians, down from its tip: 20 rings of 36 vertices.
+fn cone(half: f64) -> TriMesh {
+    let (rings, round) = (20u32, 36u32);
+    let mut mesh = TriMesh { vertices: vec![Vec3::zeros()], triangles: Vec::new() };
+    for (ring, k) in (1..=rings).flat_map(|ring| (0..round).map(move |k| (ring, k))) {
+        let (down, turn) = (0.1 * f64::from(ring) / f64::from(rings), 2.0 * PI * f64::from(k) / f64::from(round));
+        let out = down * half.sin();
+        mesh.vertices.push(Vec3::new(out * turn.cos(), out * turn.sin(), -down * half.cos()));
+    }
+    let at = |ring: u32, k: u32| 1 + (ring - 1) * round + k % round;
+    mesh.triangles.extend((0..round).map(|k| [0, at(1, k), at(1, k + 1)]));
+    for (ring, k) in (1..rings).flat_map(|ring| (0..round).map(move |k| (ring, k))) {
+        let [a, b, c, d] = [at(ring, k), at(ring + 1, k), at(ring + 1, k + 1), at(ring, k + 1)];
+        mesh.triangles.extend([[a, b, c], [a, c, d]]);
+    }
+    mesh
+}
+
+#[test]
+fn pointed_cones_are_laid_flat_in_every_mode() {
+    for degrees in [5.0, 8.0, 12.0] {
+        let mesh = cone(f64::to_radians(degrees));
+        for m in MODES {
+            let flat = flatten(&mesh, &mode(m)).unwrap();
+            assert_eq!((flips(&mesh, &flat.positions), flat.report.overlaps), (0, 0), "{degrees} {m:?}");
+        }
+    }
+}
+
+#[test]
+fn a_rim_that_cannot_be_kept_is_said_not_to_be() {
+    let of = |degrees| flatten(&cap(24, f64::to_radians(degrees), 0.1), &Options::default()).unwrap().report;
+    assert_eq!((of(90.0).rim_missed, of(90.0).converged), (None, true));
+    let closed_up = of(172.0);
+    assert!(closed_up.rim_missed.is_some_and(|missed| missed > 1e-3) && !closed_up.converged, "{closed_up:?}");
+    let free = flatten(&cap(24, 3.0, 0.1), &mode(Mode::Isometric)).unwrap().report;
+    assert_eq!(free.rim_missed, None, "nothing was to be held");
+}
+
 #[test]
 fn repeats_are_bit_identical() {
     let mesh = cap(24, 1.2, 0.1);

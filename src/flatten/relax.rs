@@ -108,9 +108,9 @@ impl Descent {
             let direction = memory.direction(&gradient, &self.inverse, energy.free);
             let slope = dot(&direction, &gradient);
             let settled = -slope <= (goal.tolerance * value.abs()).max(ENERGY_FLOOR);
-            if settled && (holds == 0 || energy.slack(flat) <= goal.exact) {
-                let converged = goal.holds == 0 || energy.slack(flat) <= goal.exact;
-                return Ok(Outcome { energy: value, iterations, converged });
+            let exact = || goal.holds == 0 || energy.slack(flat) <= goal.exact;
+            if settled && (holds == 0 || exact()) {
+                return Ok(Outcome { energy: value, iterations, converged: exact() });
             }
             // Forces are found from lengths, so every time they have changed the lengths must answer first.
             if settled && !std::mem::replace(&mut held, true) {
@@ -126,7 +126,7 @@ impl Descent {
             let Some((step, lower)) = search(energy, flat, &direction, slope, value) else {
                 if fresh {
                     // The factor is that of this very place: rounding hides what is left to win.
-                    return Ok(Outcome { energy: value, iterations, converged: settled });
+                    return Ok(Outcome { energy: value, iterations, converged: settled && exact() });
                 }
                 stale = true;
                 continue;
