@@ -104,6 +104,29 @@ fn a_body_that_stands_elsewhere_is_the_same_and_leads_back_to_its_file() {
 }
 
 #[test]
+fn a_body_is_found_whichever_way_it_faces() {
+    let plain = read(with_toes()).expect("a body").mannequin;
+    for degrees in (0..360).step_by(30) {
+        let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
+        let mut surface = with_toes();
+        surface.vertices.iter_mut().for_each(|p| *p = Vec3::new(p.x * cos + p.z * sin, p.y, p.z * cos - p.x * sin));
+        let Body { mannequin: found, notes } = read(surface.clone()).expect("a body");
+        assert_eq!(found.parts.len(), 6, "{degrees}: {notes:?}");
+        assert_eq!(notes.iter().any(|n| n.contains("it faces (")), degrees % 180 != 0, "{degrees}: {notes:?}");
+        // The toes on one foot turn its axis by a little.
+        let [z, x] = found.frame.front;
+        assert!(z * cos + x * sin > 0.999, "{degrees}: {:?}", found.frame);
+        for name in ["waist", "hip"] {
+            let off = (mark(&found, PartKind::Torso, name) - mark(&plain, PartKind::Torso, name)).norm();
+            assert!(off < 0.005, "{degrees} {name} is {:.1} mm off", 1e3 * off);
+        }
+        for (k, p) in found.mesh.vertices.iter().enumerate() {
+            assert!((1e3 * found.frame.to_file(*p) - surface.vertices[k]).norm() < 1e-6, "{degrees}: {p:?}");
+        }
+    }
+}
+
+#[test]
 fn what_is_sewn_on_a_body_that_stands_elsewhere_is_written_where_its_file_has_it() {
     let folder = tempfile::tempdir().expect("a folder");
     let body = folder.path().join("elsewhere.obj");

@@ -343,6 +343,7 @@ fn json_has_the_keys_of_the_contract_and_is_the_report() {
     let piece = &report["pieces"][0];
     has(piece, &["name", "particles", "triangles", "area_flat", "area_sewn", "area_draped", "area_flattened"]);
     has(piece, &["boundary_flat", "boundary_sewn", "boundary_draped", "boundary_flattened", "stretched"]);
+    assert_eq!((&piece["overlaps"], &report["total"]["overlaps"]), (&Value::from(0), &Value::from(0)));
     [&piece["area_error"], &piece["boundary_error"]].iter().for_each(|e| has(e, &four));
     has(&piece["strain"], &["mean", "p95", "p99", "max"]);
     has(&report["seams"][0], &["name", "length_a", "length_b", "gap_mean", "gap_max"]);
@@ -670,6 +671,15 @@ fn what_is_no_disk_is_cut_where_asked_or_where_it_must_be() {
         .ends(2)
         .says(&["vertex 5 follows itself", "another"]);
     room.run(&["flatten", "tube.obj", "--cut", "1;2", "-o", "no"]).ends(2).says(&["--cut 1;2"]);
+    // Round the rim, and from one vertex inside to the next: neither opens anything.
+    room.run(&["flatten", "tube.obj", "--cut", "1,3", "-o", "no"]).ends(2).says(&["--cut 1,3", "runs along the rim"]);
+    room.run(&["flatten", "tube.obj", "--cut", "30,31", "-o", "no"]).ends(2).says(&[
+        "--cut 30,31",
+        "single edge",
+        "further on",
+    ]);
+    // Where a single edge goes on from another cut it opens.
+    assert_eq!(laid(&["tube.obj", "--cut", "5,149", "--cut", "77,78"])["pieces"][0]["particles"], 25 * 7 + 1);
     assert!(room.names("no").is_empty());
 }
 

@@ -94,6 +94,7 @@ fn measured(garment: &Garment, mesh: &ClothMesh, weld: &[u32], at: &[Vec3]) -> R
         sewn: Some(at),
         draped: None,
         flattened: None,
+        overlaps: None,
         stages: &[],
     })
 }

@@ -206,6 +206,45 @@ fn what_is_no_disk_is_named() {
     assert!(error.to_string().contains("cut it first"));
 }
 
+/// A cone of this half angle, radians, down from its tip: 20 rings of 36 vertices.
+fn cone(half: f64) -> TriMesh {
+    let (rings, round) = (20u32, 36u32);
+    let mut mesh = TriMesh { vertices: vec![Vec3::zeros()], triangles: Vec::new() };
+    for (ring, k) in (1..=rings).flat_map(|ring| (0..round).map(move |k| (ring, k))) {
+        let (down, turn) = (0.1 * f64::from(ring) / f64::from(rings), 2.0 * PI * f64::from(k) / f64::from(round));
+        let out = down * half.sin();
+        mesh.vertices.push(Vec3::new(out * turn.cos(), out * turn.sin(), -down * half.cos()));
+    }
+    let at = |ring: u32, k: u32| 1 + (ring - 1) * round + k % round;
+    mesh.triangles.extend((0..round).map(|k| [0, at(1, k), at(1, k + 1)]));
+    for (ring, k) in (1..rings).flat_map(|ring| (0..round).map(move |k| (ring, k))) {
+        let [a, b, c, d] = [at(ring, k), at(ring + 1, k), at(ring + 1, k + 1), at(ring, k + 1)];
+        mesh.triangles.extend([[a, b, c], [a, c, d]]);
+    }
+    mesh
+}
+
+#[test]
+fn pointed_cones_are_laid_flat_in_every_mode() {
+    for degrees in [5.0, 8.0, 12.0] {
+        let mesh = cone(f64::to_radians(degrees));
+        for m in MODES {
+            let flat = flatten(&mesh, &mode(m)).unwrap();
+            assert_eq!((flips(&mesh, &flat.positions), flat.report.overlaps), (0, 0), "{degrees} {m:?}");
+        }
+    }
+}
+
+#[test]
+fn a_rim_that_cannot_be_kept_is_said_not_to_be() {
+    let of = |degrees| flatten(&cap(24, f64::to_radians(degrees), 0.1), &Options::default()).unwrap().report;
+    assert_eq!((of(90.0).rim_missed, of(90.0).converged), (None, true));
+    let closed_up = of(172.0);
+    assert!(closed_up.rim_missed.is_some_and(|missed| missed > 1e-3) && !closed_up.converged, "{closed_up:?}");
+    let free = flatten(&cap(24, 3.0, 0.1), &mode(Mode::Isometric)).unwrap().report;
+    assert_eq!(free.rim_missed, None, "nothing was to be held");
+}
+
 #[test]
 fn repeats_are_bit_identical() {
     let mesh = cap(24, 1.2, 0.1);
@@ -314,6 +353,27 @@ fn seams_get_equal_lengths_or_their_drawn_ratio() {
         assert!((b / a / ratio - 1.0).abs() < 2e-5, "{give:?}: {a} {b}");
         assert!(flat.pieces.iter().all(|p| p.report.flips == 0 && p.report.converged));
     }
+}
+
+#[test]
+fn a_strip_gathered_to_a_sixth_comes_back_straight() {
+    // Three cells wide and 600 mm long; along its gathered edge it is drawn in, and folded everywhere else.
+    let cloth = two_panels([3, 2], 60, 1.0 / 6.0);
+    let draped: Vec<Vec3> = (0..cloth.flat.len())
+        .map(|v| {
+            let p = cloth.flat[v];
+            if cloth.pieces[1].particles.contains(&v) {
+                return Vec3::new(p.x, p.y, 0.0);
+            }
+            let gathered = p.x > 0.0299;
+            let fold = if gathered || (p.y / 0.01).round() as i64 % 2 == 0 { 0.0 } else { 1.0 };
+            Vec3::new(p.x, p.y / 6.0, fold * 0.01 * (1.0f64 - 1.0 / 36.0).sqrt())
+        })
+        .collect();
+    let flat = flatten_garment(&cloth, &[seam(Give::Gather(6.0))], &draped, &Options::default()).unwrap();
+    assert!(flat.pieces.iter().all(|p| p.report.overlaps == 0 && p.report.converged), "{:?}", flat.pieces[0].report);
+    let off = flat.positions.iter().zip(&cloth.flat).map(|(p, q)| (p - q).norm()).fold(0.0, f64::max);
+    assert!(off < 5e-3, "{:.1} mm off", 1e3 * off);
 }
 
 #[test]
@@ -448,6 +508,44 @@ fn plain(unit: Option<LengthUnit>) -> SurfaceOptions {
         limit: Limit::Strain(0.1),
         flatten: Options::default(),
     }
+}
+
+/// Lengths of the edges of a flat surface, millimetres, whose rim goes through these places and whose faces are these.
+fn edges_of(corners: &[[f64; 2]], faces: &[&[usize]]) -> Vec<f64> {
+    let mut text = String::new();
+    corners.iter().for_each(|[x, y]| writeln!(text, "v {x} {y} 0").unwrap());
+    for face in faces {
+        writeln!(text, "f {}", face.iter().map(|v| format!(" {}", v + 1)).collect::<String>()).unwrap();
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("piece.obj");
+    std::fs::write(&file, text).unwrap();
+    let report = flatten_surface(&file, &plain(Some(LengthUnit::Millimetre))).unwrap().report;
+    report.pieces[0].edges.iter().map(|e| e.length_draped.round()).collect()
+}
+
+#[test]
+fn a_side_of_the_mesh_between_two_corners_is_an_edge() {
+    let l = [[0.0, 0.0], [200.0, 0.0], [200.0, 100.0], [100.0, 100.0], [100.0, 200.0], [0.0, 200.0]];
+    let mut sides = edges_of(&l, &[&[0, 1, 2, 3, 4, 5]]);
+    sides.sort_by(f64::total_cmp);
+    assert_eq!(sides, [100.0, 100.0, 100.0, 100.0, 200.0, 200.0]);
+    assert_eq!(edges_of(&l[..3], &[&[0, 1, 2]]).len(), 3);
+    // Its ends are nearer to each other than a rounded corner is long.
+    let strip: Vec<[f64; 2]> =
+        (0..=200).flat_map(|k| [[10.0 * f64::from(k), 0.0], [10.0 * f64::from(k), 5.0]]).collect();
+    let cells: Vec<[usize; 4]> = (0..200).map(|k| [2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1]).collect();
+    let cells: Vec<&[usize]> = cells.iter().map(|c| &c[..]).collect();
+    let mut sides = edges_of(&strip, &cells);
+    sides.sort_by(f64::total_cmp);
+    assert_eq!(sides, [5.0, 5.0, 2000.0, 2000.0]);
+}
+
+#[test]
+fn a_round_rim_in_coarse_sides_has_no_corners() {
+    let at = |k: usize| (PI * k as f64 / 8.0).sin_cos();
+    let circle: Vec<[f64; 2]> = (0..16).map(|k| [100.0 * at(k).0, 100.0 * at(k).1]).collect();
+    assert_eq!(edges_of(&circle, &[&(0..16).collect::<Vec<usize>>()]).len(), 1);
 }
 
 /// Two flat strips, a unit wide, that share an edge of so many vertices, a unit apart; in a file of its own.

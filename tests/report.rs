@@ -207,6 +207,21 @@ fn seam_gaps_and_lengths() {
     assert_eq!(r.pieces[0].area_error, Quartet { sew: r.pieces[0].area_error.sew, ..Quartet::default() });
 }
 
+#[test]
+fn a_piece_that_lies_on_itself_is_out_of_bounds() {
+    let f = fixture(0.1);
+    let at = laid_out(&f, 1.0);
+    let judged = |overlaps: &[usize]| {
+        let r = measure(&Measured { overlaps: Some(overlaps), ..run(&f, &at) });
+        assert_eq!(r.total.overlaps, Some(overlaps.iter().sum()));
+        let on_itself = verdicts(&f.garment, &r).into_iter().filter(|v| v.bound.contains("on itself"));
+        on_itself.map(|v| (v.ok, v.to_string())).collect::<Vec<_>>()
+    };
+    assert_eq!(judged(&[0, 0]), []);
+    let said = "'back.L' lies on itself when flat; cut it in two; crossings of its rim: 3 (limit 0) at back.L";
+    assert_eq!(judged(&[0, 3]), [(false, said.to_owned())]);
+}
+
 fn run<'a>(f: &'a Fixture, sewn: &'a [Vec3]) -> Measured<'a> {
     Measured {
         garment: &f.garment,
@@ -218,6 +233,7 @@ fn run<'a>(f: &'a Fixture, sewn: &'a [Vec3]) -> Measured<'a> {
         sewn: Some(sewn),
         draped: None,
         flattened: None,
+        overlaps: None,
         stages: &[],
     }
 }

@@ -87,6 +87,9 @@ impl CliError {
             Self::Pipeline(PipelineError::Sew(SewError::InsideBody { .. } | SewError::UnderFloor { .. })) => {
                 Some("garment.png shows where every piece was placed")
             }
+            Self::Pipeline(e @ PipelineError::Surface { .. }) if !e.has_remedy() => {
+                Some("cut it open with --cut A,B,…, from its rim to where it is most pointed or bulges most")
+            }
             Self::Pipeline(e) if !e.has_remedy() => {
                 Some("try another --spacing, and `toile check` and `toile sew` to see where it begins")
             }

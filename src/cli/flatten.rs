@@ -117,6 +117,7 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
     for stage in restless(&report.stages, AT_REST) {
         console.note(&stage.to_string());
     }
+    report.pieces.iter().filter_map(rim_missed).take(LISTED).for_each(|text| console.note(&text));
     let strained = report.pieces.iter().filter_map(|piece| strained(piece, &options));
     strained.take(LISTED).for_each(|text| console.note(&text));
     let mut exit = Exit::Done;
@@ -125,6 +126,15 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
         exit = Exit::OutOfBounds;
     }
     Ok(exit)
+}
+
+/// That a piece has not the rim it should have, and what gives it that.
+fn rim_missed(piece: &PartReport) -> Option<String> {
+    /// A hundredth of a millimetre of a metre: nobody can cut what is less.
+    const CUT: f64 = 1e-5;
+    let missed = 100.0 * piece.rim_missed.filter(|missed| *missed > CUT)?;
+    let said = format!("the rim of '{}' could not be kept: it is off by {missed:.3} % in the mean", piece.name);
+    Some(said + "; with a dart (--dart auto) or a cut (--cut) the cloth inside has room")
 }
 
 /// What is beyond the limit, why, and what would help.

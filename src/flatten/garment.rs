@@ -11,7 +11,7 @@ use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::{Give, Seam};
 
 /// A rim edge whose flat length should differ from its draped one by more than this share lies in cloth that a seam
-/// draws in or out; the triangles around it do not show the cloth's own shape.
+/// draws in or out; the triangles around it do not show the cloth's own shape, as those along elastic do not.
 const DRAWN: f64 = 0.05;
 /// Weight of such triangles in the energy: enough to keep them in order, too little to pull at the others.
 const SOFT: f64 = 0.05;
@@ -96,8 +96,9 @@ fn flatten_piece(
     };
     let mut sheet = Sheet::as_it_is(&surface, topology, rims);
     sheet.warp = piece.warp;
-    draw_out(&mut sheet, first, targets);
-    let_out(&mut sheet, cloth, piece, gathered);
+    let mut forced = draw_out(&mut sheet, first, targets);
+    forced.extend(gathered.iter().filter_map(|&v| v.checked_sub(first)));
+    let_out(&mut sheet, drawn, &forced);
     let mut flattened = relax_sheet(&sheet, start, options)?;
     align::onto(&mut flattened.positions, drawn);
     Ok((flattened.positions, flattened.report))
@@ -147,9 +148,10 @@ fn wanted_lengths(give: Give, drawn: [f64; 2], sewn: f64) -> [f64; 2] {
     drawn.map(|d| if meant > 0.0 { d * sewn / meant } else { sewn })
 }
 
-/// Gives the sheet's rim its wanted lengths, and the triangles on it shapes to match.
-fn draw_out(sheet: &mut Sheet<'_>, first: u32, targets: &Targets) {
-    let mut drawn = vec![false; sheet.surface.vertices.len()];
+/// Gives the sheet's rim its wanted lengths, and the triangles on it shapes to match; gives the vertices that a seam
+/// draws in or out by much.
+fn draw_out(sheet: &mut Sheet<'_>, first: u32, targets: &Targets) -> HashSet<u32> {
+    let mut drawn = HashSet::new();
     for (edge, target) in sheet.topology.rim_edges().zip(&mut sheet.rim_targets) {
         let [a, b] = edge.ends;
         let Some(&wanted) = targets.get(&[a + first, b + first]) else { continue };
@@ -160,27 +162,21 @@ fn draw_out(sheet: &mut Sheet<'_>, first: u32, targets: &Targets) {
             sheet.elements[t] = stretched(sheet.surface, t, [a, b], ratio);
         }
         if (ratio - 1.0).abs() > DRAWN {
-            drawn[a as usize] = true;
-            drawn[b as usize] = true;
+            drawn.extend([a, b]);
         }
     }
-    for element in &mut sheet.elements {
-        if element.corners.iter().any(|&v| drawn[v as usize]) {
-            element.area *= SOFT;
-        }
-    }
+    drawn
 }
 
-/// Gives triangles that elastic gathers, those with a corner on it, their drawn shape: as draped they show the elastic,
-/// not the cloth.
-fn let_out(sheet: &mut Sheet<'_>, cloth: &ClothMesh, piece: &PieceMesh, gathered: &HashSet<u32>) {
-    let first = piece.particles.start as u32;
+/// Gives triangles that a seam or elastic forces, those with a corner on it, their drawn shape: as draped they show
+/// what draws them in, not the cloth. A strip gathered to a sixth would be flattened into a coil.
+fn let_out(sheet: &mut Sheet<'_>, drawn: &[Vec2], forced: &HashSet<u32>) {
     for element in &mut sheet.elements {
         let corners = element.corners;
-        if !corners.iter().any(|v| gathered.contains(&(v + first))) {
+        if !corners.iter().any(|v| forced.contains(v)) {
             continue;
         }
-        let drawn = corners.map(|v| cloth.flat[(v + first) as usize]);
+        let drawn = corners.map(|v| drawn[v as usize]);
         *element = Element::from_plane(corners, drawn);
         element.area *= SOFT;
         let before = start::angles(corners.map(|v| sheet.surface.vertices[v as usize]));

@@ -41,6 +41,11 @@ pub struct Report {
     pub largest_edge_error: f64,
     /// Largest |length after − target| / target of a single rim edge.
     pub largest_rim_error: f64,
+    /// By which share, in the mean, the lengths are off that the mode was to hold on the rim ([`Mode::keeps_rim`]) and
+    /// could not; `None` where it holds them, or none.
+    ///
+    /// [`Mode::keeps_rim`]: super::Mode::keeps_rim
+    pub rim_missed: Option<f64>,
     /// Root mean square (by area) of the triangles' stretches minus one, both directions together.
     pub distortion: f64,
     /// Root mean square (by area) of the triangles' relative change of area.
@@ -131,6 +136,7 @@ pub(super) fn report(sheet: &Sheet<'_>, flat: &[Vec2], outcome: &Outcome) -> Rep
         boundary_error: error(boundary_after, boundary_before),
         largest_edge_error: edges.fold(0.0, f64::max),
         largest_rim_error: rim.fold(0.0, f64::max),
+        rim_missed: None,
         distortion: (areas.stretch / area_before).sqrt(),
         area_distortion: (areas.change / area_before).sqrt(),
         strain_p99: exceeded_by(LARGEST_SHARE, &mut areas.strains),

@@ -316,11 +316,13 @@ fn relax_sheet(sheet: &Sheet<'_>, start: Vec<Vec2>, options: &Options) -> Result
     let mut outcome =
         descent.down(&mut energy, &mut positions, &chained.map_or(goal, |_| FIRST_OF_TWO), zone.as_mut())?;
     if let Some(breaks) = chained {
-        let mut energy = energy.with_chains(&sheet.rims, breaks);
+        energy = energy.with_chains(&sheet.rims, breaks);
         let before = outcome.iterations;
         outcome = Descent::new(&energy, &positions)?.down(&mut energy, &mut positions, &goal, None)?;
         outcome.iterations += before;
     }
-    let report = measure::report(sheet, &positions, &outcome);
+    let slack = energy.slack(&positions);
+    let rim_missed = (held && slack > goal.exact).then_some(slack);
+    let report = Report { rim_missed, ..measure::report(sheet, &positions, &outcome) };
     Ok(Flattened { positions, log_scale: Vec::new(), report })
 }

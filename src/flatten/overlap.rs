@@ -2,24 +2,44 @@
 
 use std::collections::HashMap;
 
-use crate::geometry::Vec2;
+use super::relax::RIM_EXACT;
+use crate::geometry::{Vec2, distance_to_segment};
 
-/// Number of pairs of rim edges that cross, within a rim and between rims. Edges that share a vertex or only touch do
-/// not count. A flat piece without flipped triangles overlaps itself exactly where its rims cross.
+/// Cloth lies on itself where it does so by more than this share of its rim. Rims are relaxed until their lengths are
+/// that exact, and places in the plane are no better known: the two sides of a slit coincide in a flat piece, and by
+/// rounding alone they cross in every other vertex.
+const DEEP: f64 = RIM_EXACT[1];
+
+/// Number of pairs of rim edges, within a rim and between rims, that cross or touch where the piece lies on itself.
+/// Edges that share a vertex do not count. A flat piece without flipped triangles lies on itself exactly where its rims
+/// go round a place more than once, and such a place begins where rims meet. Rims run with their triangles.
 pub fn rim_crossings(flat: &[Vec2], rims: &[Vec<u32>]) -> usize {
     let edges: Vec<[u32; 2]> =
         rims.iter().flat_map(|rim| (0..rim.len()).map(|k| [rim[k], rim[(k + 1) % rim.len()]])).collect();
-    let ends = |e: [u32; 2]| e.map(|v| flat[v as usize]);
-    let longest = edges.iter().map(|&e| ends(e)).map(|[a, b]| (b - a).norm()).fold(0.0, f64::max);
-    // With cells of the longest edge's size an edge meets at most four of them.
+    let sides: Vec<[Vec2; 2]> = edges.iter().map(|e| e.map(|v| flat[v as usize])).collect();
+    let length = |[a, b]: &[Vec2; 2]| (b - a).norm();
+    let depth = DEEP * sides.iter().map(length).sum::<f64>();
+    let longest = sides.iter().map(length).fold(0.0, f64::max);
+    let on_itself = |&(i, j): &(u32, u32)| {
+        let [e, f] = [i, j].map(|k| edges[k as usize]);
+        let [s, t] = [i, j].map(|k| sides[k as usize]);
+        let meet = (!f.contains(&e[0]) && !f.contains(&e[1])).then(|| meeting(s, t, depth)).flatten();
+        let inside = meet.and_then(|at| within_both(s, t, at, depth, longest));
+        inside.is_some_and(|places| places.iter().all(|p| times_round(&sides, *p) > 1))
+    };
+    near(&sides, longest, depth).iter().filter(|pair| on_itself(pair)).count()
+}
+
+/// Pairs of sides that may be within `depth` of each other.
+fn near(sides: &[[Vec2; 2]], longest: f64, depth: f64) -> Vec<(u32, u32)> {
+    // With cells of the longest side's size a side meets at most four of them, but for what `depth` adds.
     let size = if longest > 0.0 && longest.is_finite() { longest } else { 1.0 };
     let cell = |x: f64| (x / size).floor() as i64;
     let mut cells: HashMap<[i64; 2], Vec<u32>> = HashMap::new();
     let mut near = Vec::new();
-    for (k, &e) in edges.iter().enumerate() {
-        let [a, b] = ends(e);
-        for x in cell(a.x.min(b.x))..=cell(a.x.max(b.x)) {
-            for y in cell(a.y.min(b.y))..=cell(a.y.max(b.y)) {
+    for (k, [a, b]) in sides.iter().enumerate() {
+        for x in cell(a.x.min(b.x) - depth)..=cell(a.x.max(b.x) + depth) {
+            for y in cell(a.y.min(b.y) - depth)..=cell(a.y.max(b.y) + depth) {
                 let there = cells.entry([x, y]).or_default();
                 near.extend(there.iter().map(|&other| (other, k as u32)));
                 there.push(k as u32);
@@ -28,28 +48,104 @@ pub fn rim_crossings(flat: &[Vec2], rims: &[Vec<u32>]) -> usize {
     }
     near.sort_unstable();
     near.dedup();
-    near.into_iter().filter(|&(i, j)| cross(flat, edges[i as usize], edges[j as usize])).count()
+    near
 }
 
-/// Whether two edges without a common vertex cross in a point inside both.
-fn cross(flat: &[Vec2], e: [u32; 2], f: [u32; 2]) -> bool {
-    if f.contains(&e[0]) || f.contains(&e[1]) {
-        return false;
-    }
-    let [a, b, c, d] = [e[0], e[1], f[0], f[1]].map(|v| flat[v as usize]);
+/// Where two sides cross, or else an end of one within `depth` of the other.
+fn meeting([a, b]: [Vec2; 2], [c, d]: [Vec2; 2], depth: f64) -> Option<Vec2> {
     let side = |p: Vec2, q: Vec2, r: Vec2| (q - p).perp(&(r - p));
-    side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
+    let (at_a, at_b) = (side(c, d, a), side(c, d, b));
+    if side(a, b, c) * side(a, b, d) < 0.0 && at_a * at_b < 0.0 {
+        return Some(a + (b - a) * (at_a / (at_a - at_b)));
+    }
+    let ends = [(a, [c, d]), (b, [c, d]), (c, [a, b]), (d, [a, b])];
+    ends.into_iter().find(|&(end, other)| distance_to_segment(end, other) <= depth).map(|(end, _)| end)
+}
+
+/// Two places beside each other that, from where two sides meet, lie within both, half of `depth` or more. One alone
+/// may lie on other rims that end there, as where the ends of a ring meet. `None` where the sides run so much against
+/// each other that this would be more than the `longest` side away: what lies there is for other sides to say.
+fn within_both(s: [Vec2; 2], t: [Vec2; 2], meet: Vec2, depth: f64, longest: f64) -> Option<[Vec2; 2]> {
+    let inward = |[a, b]: [Vec2; 2]| Vec2::new(a.y - b.y, b.x - a.x).normalize();
+    let both = inward(s) + inward(t);
+    let way = both * (2.0 * depth / both.norm_squared());
+    let beside = Vec2::new(-way.y, way.x) * (0.5 * depth / way.norm());
+    (way.norm() <= longest).then(|| [meet + way - beside, meet + way + beside])
+}
+
+/// How often rims go round a place, holes taken off: how many layers of a piece without flipped triangles lie there.
+fn times_round(sides: &[[Vec2; 2]], p: Vec2) -> i32 {
+    // By a ray from `p` to the right; an end at its height counts as above it.
+    let crossed = |[a, b]: &[Vec2; 2]| match (a.y > p.y, b.y > p.y) {
+        (false, true) => i32::from((b - a).perp(&(p - a)) > 0.0),
+        (true, false) => -i32::from((b - a).perp(&(p - a)) < 0.0),
+        _ => 0,
+    };
+    sides.iter().map(crossed).sum()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
+
+    /// A strip one wide round a circle of radius two, a vertex every 10° on both its sides.
+    fn strip(degrees: u32, turned: f64) -> (Vec<Vec2>, Vec<Vec<u32>>) {
+        let at = |k: u32, radius: f64| {
+            let (sine, cosine) = (f64::from(10 * k) / 360.0 * TAU + turned).sin_cos();
+            radius * Vec2::new(cosine, sine)
+        };
+        let count = degrees / 10;
+        let flat: Vec<Vec2> = (0..=count).map(|k| at(k, 2.0)).chain((0..=count).rev().map(|k| at(k, 1.0))).collect();
+        let rim = (0..flat.len() as u32).collect();
+        (flat, vec![rim])
+    }
+
+    /// A square with a square hole, open along a slit between them.
+    fn slit_square(turned: f64) -> (Vec<Vec2>, Vec<Vec<u32>>) {
+        let (sine, cosine) = turned.sin_cos();
+        let turn = |x: f64, y: f64| Vec2::new(0.1 + cosine * x - sine * y, 0.7 + sine * x + cosine * y);
+        let slit = |k: u32| f64::from(k) / 7.0;
+        let mut flat: Vec<Vec2> = [(0.0, 0.0), (3.0, 0.0), (3.0, 3.0), (0.0, 3.0)].map(|(x, y)| turn(x, y)).into();
+        flat.extend((0..=7).map(|k| turn(slit(k), slit(k))).skip(1));
+        flat.extend([(1.0, 2.0), (2.0, 2.0), (2.0, 1.0)].map(|(x, y)| turn(x, y)));
+        // The other side of the slit, with roundings of its own, now to this side of it and now to that.
+        let rounding = |k: u32| if k.is_multiple_of(2) { 1e-15 } else { -1e-15 };
+        flat.extend((0..=7).rev().map(|k| turn(slit(k) * (1.0 + rounding(k)), slit(k) * (1.0 - rounding(k)))));
+        // Past the slit's first side the rim begins with its outer corner.
+        let rim = [(1..4).collect::<Vec<u32>>(), vec![0], (4..flat.len() as u32).collect()].concat();
+        (flat, vec![rim])
+    }
 
     #[test]
-    fn a_bow_crosses_itself_once_and_a_square_never() {
-        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| Vec2::new(x, y));
-        assert_eq!(rim_crossings(&corners, &[vec![0, 1, 2, 3]]), 0);
-        assert_eq!(rim_crossings(&corners, &[vec![0, 2, 1, 3]]), 1);
-        assert_eq!(rim_crossings(&corners, &[]), 0);
+    fn a_strip_lies_on_itself_once_it_is_longer_than_a_ring() {
+        for turned in [0.0, 0.1, 0.7, 1.3, 2.9] {
+            let overlaps = |degrees| {
+                let (flat, rims) = strip(degrees, turned);
+                rim_crossings(&flat, &rims)
+            };
+            assert_eq!((overlaps(180), overlaps(350)), (0, 0), "{turned}");
+            // It closes, and no more.
+            assert_eq!(overlaps(360), 0, "{turned}");
+            // Its second layer has its vertices where the first has them.
+            assert!(overlaps(370) > 0 && overlaps(450) > 0, "{turned}");
+        }
+        assert_eq!(rim_crossings(&[], &[]), 0);
+    }
+
+    #[test]
+    fn two_arms_that_cross_do_so_four_times() {
+        // A strip that goes to the right, up, and down through its beginning.
+        let corners = [(0, 0), (6, 0), (6, 5), (2, 5), (2, -2), (3, -2), (3, 4), (5, 4), (5, 1), (0, 1)];
+        let flat = corners.map(|(x, y)| Vec2::new(f64::from(x), f64::from(y)));
+        assert_eq!(rim_crossings(&flat, &[(0..10).collect()]), 4);
+    }
+
+    #[test]
+    fn the_sides_of_a_slit_do_not_lie_on_each_other() {
+        for k in 0..24 {
+            let (flat, rims) = slit_square(f64::from(k) * 0.27);
+            assert_eq!(rim_crossings(&flat, &rims), 0, "{k}");
+        }
     }
 }

@@ -28,7 +28,7 @@ const ENERGY_FLOOR: f64 = 1e-16;
 /// The rim is as long as it should be when its edges are off by less than this share in the mean, for then no part of
 /// it is off by more than this share of the whole: of a rim of two metres by a micrometre where only the rim counts, by
 /// less than a hundredth of a millimetre otherwise, which nobody can cut.
-const RIM_EXACT: [f64; 2] = [5e-7, 4e-6];
+pub(super) const RIM_EXACT: [f64; 2] = [5e-7, 4e-6];
 /// How often the forces that hold the rim are found anew. Each time the errors left are fifty to a hundred times
 /// smaller, where the lengths can be had at all.
 const HOLDS: usize = 12;
@@ -108,9 +108,9 @@ impl Descent {
             let direction = memory.direction(&gradient, &self.inverse, energy.free);
             let slope = dot(&direction, &gradient);
             let settled = -slope <= (goal.tolerance * value.abs()).max(ENERGY_FLOOR);
-            if settled && (holds == 0 || energy.slack(flat) <= goal.exact) {
-                let converged = goal.holds == 0 || energy.slack(flat) <= goal.exact;
-                return Ok(Outcome { energy: value, iterations, converged });
+            let exact = || goal.holds == 0 || energy.slack(flat) <= goal.exact;
+            if settled && (holds == 0 || exact()) {
+                return Ok(Outcome { energy: value, iterations, converged: exact() });
             }
             // Forces are found from lengths, so every time they have changed the lengths must answer first.
             if settled && !std::mem::replace(&mut held, true) {
@@ -126,7 +126,7 @@ impl Descent {
             let Some((step, lower)) = search(energy, flat, &direction, slope, value) else {
                 if fresh {
                     // The factor is that of this very place: rounding hides what is left to win.
-                    return Ok(Outcome { energy: value, iterations, converged: settled });
+                    return Ok(Outcome { energy: value, iterations, converged: settled && exact() });
                 }
                 stale = true;
                 continue;

@@ -125,7 +125,13 @@ impl Pen {
     /// An arc, or the line that stands for one without radii.
     fn arc_to(&mut self, arc: kurbo::SvgArc) {
         match kurbo::Arc::from_svg_arc(&arc) {
-            Some(curved) => curved.to_cubic_beziers(ARC_ACCURACY, |a, b, c| self.bez.curve_to(a, b, c)),
+            Some(curved) => {
+                curved.to_cubic_beziers(ARC_ACCURACY, |a, b, c| self.bez.curve_to(a, b, c));
+                // Its computed end is a rounding of the radius beside the one it was given, where the next edge begins.
+                if let Some(kurbo::PathEl::CurveTo(_, _, end)) = self.bez.elements_mut().last_mut() {
+                    *end = arc.to;
+                }
+            }
             None => self.bez.line_to(arc.to),
         }
         self.at = arc.to;
@@ -363,9 +369,11 @@ impl Path {
         best
     }
 
-    /// The part from arc length `from` to `to` (`from < to`, both clamped).
+    /// The part from arc length `from` to `to` (`from < to`, both clamped). What is nearer to a joint of its segments
+    /// than lengths are exact begins or ends in it: what would lie between is no segment, and has no direction.
     pub fn part(&self, from: f64, to: f64) -> Self {
-        let (from, to) = (from.clamp(0.0, self.length()), to.clamp(0.0, self.length()));
+        let joint = |s: f64| self.at.iter().copied().find(|at| (at - s).abs() <= LENGTH_ACCURACY).unwrap_or(s);
+        let (from, to) = (joint(from.clamp(0.0, self.length())), joint(to.clamp(0.0, self.length())));
         let (first, t0) = self.locate(from);
         let (last, t1) = self.locate(to);
         let mut segments = Vec::new();
@@ -487,6 +495,29 @@ mod tests {
         assert_relative_eq!(q.length(), 0.13, epsilon = 1e-8);
         assert_relative_eq!(q.start(), p.point(0.02), epsilon = 1e-9);
         assert_relative_eq!(p.reversed().point(0.03), p.point(l - 0.03), epsilon = 1e-8);
+    }
+
+    #[test]
+    fn a_part_that_ends_beside_a_joint_ends_in_it() {
+        let p = Path::parse(Vec2::zeros(), "A 70 70 0 0 1 140 0 A 70 70 0 0 1 0 0", 1e-3).expect("path");
+        let count = p.beziers().count();
+        for aside in [0.0, 4e-10, -4e-10] {
+            let middle = p.length() / 2.0 + aside;
+            let (one, other) = (p.part(0.0, middle), p.part(middle, p.length()));
+            assert_eq!((one.beziers().count(), other.beziers().count()), (count / 2, count / 2), "{aside}");
+            assert_eq!(one.end(), other.start());
+        }
+    }
+
+    #[test]
+    fn an_arc_ends_where_it_was_told_to() {
+        for radius in [12.5, 33.3, 70.0] {
+            let across = 2.0 * radius;
+            let arcs = format!("A {radius} {radius} 0 0 1 {across} 70 A {radius} {radius} 0 0 1 0 70");
+            let p = Path::parse(Vec2::new(0.0, 70.0), &arcs, 1.0).expect("path");
+            let ends: Vec<Vec2> = p.beziers().map(|(_, _, end)| end).collect();
+            assert!(ends.contains(&Vec2::new(across, 70.0)) && p.end() == p.start(), "{ends:?}");
+        }
     }
 
     #[test]

@@ -19,9 +19,6 @@ const WELD: f64 = 1e-6;
 /// A body lower than this many file units is in metres, lower than the next in centimetres, else in millimetres.
 const METRES_BELOW: f64 = 3.0;
 const CENTIMETRES_BELOW: f64 = 300.0;
-/// Heights of foot and ankle, as parts of the body's, that tell where the toes point.
-const FOOT: f64 = 0.02;
-const ANKLE: [f64; 2] = [0.05, 0.08];
 /// Bodies with more crossing pairs than this share of their triangles are refused. Averaged bodies have a few tenths of
 /// a percent, between the thighs; a limb pushed through the trunk has several percent.
 const CROSSING: f64 = 0.01;
@@ -118,9 +115,9 @@ pub fn load_body(name_or_path: &str, unit: Option<LengthUnit>) -> Result<Body, B
 
 /// Reads a closed OBJ in `unit` (or, without one, in millimetres, centimetres or metres as its height says, which the
 /// notes tell), y up or z up. Vertices that coincide are merged where the surface is not closed otherwise. A body that
-/// stands elsewhere than on y = 0, or faces −z, is moved and turned; its [`Frame`] leads back. A surface in which no
-/// torso, neck, arms and legs can be found is an object without parts, as a ball or a table: it stays where the file
-/// has it.
+/// stands elsewhere than on y = 0, or faces elsewhere than +z, is moved and turned; its [`Frame`] leads back. A surface
+/// in which no torso, neck, arms and legs can be found is an object without parts, as a ball or a table: it stays where
+/// the file has it.
 ///
 /// # Errors
 /// [`BodyError`] when the file cannot be read, or the surface is open, not manifold, inside out or runs through itself
@@ -181,7 +178,7 @@ fn person(surface: &ObjSurface, name: &str, file: &str, unit: Option<LengthUnit>
     let shape = |why: &str| BodyError::Shape { file: file.to_owned(), why: why.to_owned() };
     let mut vertices = surface.vertices.clone();
     let turned = stand_up(&mut vertices, &mut notes);
-    let (low, height) = extent(&vertices).ok_or_else(|| shape("the body has no height"))?;
+    let height = height(&vertices).ok_or_else(|| shape("the body has no height"))?;
     let taken = unit.unwrap_or_else(|| guessed(height));
     let scale = taken.metres();
     if !HEIGHTS.contains(&(scale * height)) {
@@ -192,12 +189,19 @@ fn person(surface: &ObjSurface, name: &str, file: &str, unit: Option<LengthUnit>
     }
     // Places of faults are those of the file.
     let origin = Origin { file, unit: taken, turned };
-    let mut mesh = checked(vertices, surface.triangles.clone(), &origin, &mut notes)?;
-    let frame = Frame { low: low * scale, backward: faces_back(&mesh, low * scale, height * scale) };
+    let mesh = checked(vertices, surface.triangles.clone(), &origin, &mut notes)?;
+    let across = stood(&mesh, name, Frame::across_arms(&mesh));
+    // Arms held out to the front are what it is widest along.
+    let mannequin = across.or_else(|_| stood(&mesh, name, Frame::along_z(&mesh))).map_err(|why| shape(&why))?;
+    notes.extend(stands(&mannequin.frame));
+    Ok(Body { mannequin, notes })
+}
+
+/// A surface as it stands in `frame`, with its parts.
+fn stood(mesh: &TriMesh, name: &str, frame: Frame) -> Result<Mannequin, String> {
+    let mut mesh = mesh.clone();
     mesh.vertices.iter_mut().for_each(|p| *p = frame.from_file(*p));
-    notes.extend(stands(&frame));
-    let parts = find_parts(&mesh).map_err(|why| shape(&why))?;
-    Ok(Body { mannequin: Mannequin { name: name.to_owned(), mesh, parts, frame }, notes })
+    Ok(Mannequin { name: name.to_owned(), parts: find_parts(&mesh)?, mesh, frame })
 }
 
 /// What is said of a unit that the file's size suggests.
@@ -215,8 +219,12 @@ fn stands(frame: &Frame) -> Vec<String> {
         let low = 1e3 * frame.low;
         notes.push(format!("its feet are at y = {low:.1} mm: a garment file counts heights from there"));
     }
-    if frame.backward {
-        notes.push("the toes point to -z: that is its front".to_owned());
+    match frame.front {
+        [1.0, _] => {}
+        [-1.0, _] => notes.push("the toes point to -z: that is its front".to_owned()),
+        [z, x] => notes.push(format!(
+            "it faces ({x:.2}, 0, {z:.2}), square to its arms: it is turned to +z, and what is made on it turned back"
+        )),
     }
     notes
 }
@@ -312,11 +320,10 @@ fn lies(vertices: &[Vec3]) -> bool {
     size.max() > 2.0 * size.y
 }
 
-/// Lowest point and height, if there is any.
-fn extent(vertices: &[Vec3]) -> Option<(f64, f64)> {
-    let low = vertices.iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
-    let high = vertices.iter().map(|p| p.y).fold(f64::NEG_INFINITY, f64::max);
-    (high > low).then_some((low, high - low))
+/// The height, if there is any.
+fn height(vertices: &[Vec3]) -> Option<f64> {
+    let [low, high] = range_of(vertices.iter().map(|p| p.y));
+    (high > low).then_some(high - low)
 }
 
 /// The unit of a file whose body is that high.
@@ -372,17 +379,6 @@ fn coinciding(vertices: &[Vec3]) -> DisjointSets {
         }
     }
     sets
-}
-
-/// Whether the toes of a body, so high from `low` on (metres), point to −z. Feet may have none.
-fn faces_back(mesh: &TriMesh, low: f64, height: f64) -> bool {
-    let middle = |from: f64, to: f64| {
-        let z = mesh.vertices.iter().filter(|p| (from * height..to * height).contains(&(p.y - low))).map(|p| p.z);
-        let [low, high] = range_of(z);
-        0.5 * (low + high)
-    };
-    let toes = middle(0.0, FOOT) - middle(ANKLE[0], ANKLE[1]);
-    toes < -FOOT * height
 }
 
 /// A mannequin as OBJ text: millimetres, y up, feet at y = 0.

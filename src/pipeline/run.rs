@@ -34,6 +34,8 @@ pub struct Run<'a> {
     pub(super) open: bool,
     pub(super) draped: Option<Vec<Vec3>>,
     pub(super) flattened: Option<Vec<Vec2>>,
+    /// [`Measured::overlaps`].
+    overlaps: Option<Vec<usize>>,
     stages: Vec<Stage>,
     /// What the garment was sewn from, for draping to begin with.
     coarse: Option<Box<Coarse>>,
@@ -53,6 +55,7 @@ impl<'a> Run<'a> {
             open: false,
             draped: None,
             flattened: None,
+            overlaps: None,
             stages,
             coarse: None,
         }
@@ -138,6 +141,7 @@ impl<'a> Run<'a> {
         let flat = flatten_garment(&self.job.mesh, &self.job.garment.seams, draped, options)?;
         progress("flatten", 1.0);
         self.stages.push(surface::stage(flat.pieces.iter().map(|p| p.report), begin));
+        self.overlaps = Some(flat.pieces.iter().map(|p| p.report.overlaps).collect());
         self.flattened = Some(flat.positions);
         Ok(())
     }
@@ -164,6 +168,7 @@ impl<'a> Run<'a> {
             sewn: self.sewn.as_deref(),
             draped: self.draped.as_deref(),
             flattened: self.flattened.as_deref(),
+            overlaps: self.overlaps.as_deref(),
             stages: &self.stages,
         })
     }

@@ -41,7 +41,8 @@ impl std::fmt::Display for Verdict {
 
 /// Compares a report with the garment's `tests`, or with closed seams and no crossings if none holds for its fabric.
 /// Closures that tie what they join have to be closed, unless a test says how far. Bounds on stages that did not run,
-/// and for other fabrics, are left out. Pieces that had to stretch are reported as such and not bounded.
+/// and for other fabrics, are left out. Pieces that had to stretch are reported as such and not bounded. A piece that
+/// lies on itself when flat is out of any bounds.
 pub fn verdicts(garment: &Garment, report: &Report) -> Vec<Verdict> {
     let bounds: Vec<&Bound> = garment.tests.iter().filter(|t| holds(t, report)).map(|test| &test.bound).collect();
     let bounds = if bounds.is_empty() { DEFAULTS.iter().collect() } else { bounds };
@@ -50,7 +51,16 @@ pub fn verdicts(garment: &Garment, report: &Report) -> Vec<Verdict> {
         // Of what is not tied a note is told.
         out.extend(closures(report.closures.iter().filter(|c| c.note.is_none()), None, APART));
     }
+    out.extend(report.pieces.iter().filter_map(on_itself));
     out
+}
+
+/// That nobody can cut a piece out; nothing for a piece that can be.
+fn on_itself(piece: &PieceReport) -> Option<Verdict> {
+    let overlaps = piece.overlaps.filter(|n| *n > 0)?;
+    let bound = format!("'{}' lies on itself when flat; cut it in two; crossings of its rim", piece.name);
+    let at = Some(piece.name.clone());
+    Some(Verdict { bound, measured: overlaps as f64, limit: 0.0, unit: "", at, ok: false })
 }
 
 /// The verdicts of every one of the garment's `tests`, in their order; none of a test for another fabric or a stage

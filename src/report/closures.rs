@@ -1,7 +1,7 @@
 //! How far closures hold: the gaps at their points, and how they gape between them.
 
 use super::schema::ClosureReport;
-use super::statistics::largest;
+use super::statistics::{largest, mean};
 use crate::geometry::{Locator, Vec2, Vec3};
 use crate::mesh::ClothMesh;
 use crate::pattern::{Closure, Fastening, Garment, fastenings};
@@ -54,7 +54,6 @@ impl Cloth<'_> {
         let gaps: Vec<f64> = pairs.iter().filter_map(|pair| self.gap(pair)).collect();
         let met = pairs.first().and_then(|pair| self.mesh.pieces.get(pair[1].0)).map(|p| p.name.clone());
         let measured = !gaps.is_empty();
-        let mean = gaps.iter().sum::<f64>() / gaps.len().max(1) as f64;
         let neighbours = fastened.windows(2).filter(|w| w[0].row == w[1].row);
         let between = neighbours.flat_map(|w| self.between([w[0], w[1]].map(|f| &closure.tacks[f.tack[1]])));
         ClosureReport {
@@ -62,7 +61,7 @@ impl Cloth<'_> {
             on: closure.on.clone(),
             meets: closure.meets.clone().or(met),
             points: pairs.len(),
-            gap_mean: measured.then_some(mean * MM),
+            gap_mean: measured.then(|| mean(&gaps) * MM),
             gap_max: measured.then(|| largest(&gaps) * MM),
             gape: between.reduce(f64::max).map(|x| x * MM),
             closed: measured && !assumed && gaps.iter().all(|&g| g <= APART),

@@ -6,7 +6,7 @@ use super::errors::{Way, area, area_error, boundary_error};
 use super::openings::{Opening, flaps, opening_names, openings};
 use super::rim::{RimEdge, beside_elastic, outline_distance, rims};
 use super::schema::{PieceReport, Quartet, Report, SeamReport, Sizes, Stage, Worn};
-use super::statistics::largest;
+use super::statistics::{largest, mean};
 use super::strain::{PieceStrain, piece_strain};
 use super::stretched::stretched;
 use super::tight::Tight;
@@ -43,6 +43,8 @@ pub struct Measured<'a> {
     pub draped: Option<&'a [Vec3]>,
     /// After flattening, in the plane.
     pub flattened: Option<&'a [Vec2]>,
+    /// Where the rim of each piece of the mesh crosses itself in the plane, how often.
+    pub overlaps: Option<&'a [usize]>,
     /// What the stages said of themselves.
     pub stages: &'a [Stage],
 }
@@ -137,7 +139,7 @@ fn pieces(run: &Measured, shapes: &Shapes, space: Option<&InSpace>) -> (Vec<Piec
     let rims = rims(mesh, run.weld);
     let tight = space.map(|space| Tight::new(&space.welded, &space.openings, &rims, run.body));
     let given = space.map(|space| space.at).zip(tight.as_ref());
-    for (piece, rim) in mesh.pieces.iter().zip(rims) {
+    for (index, (piece, rim)) in mesh.pieces.iter().zip(rims).enumerate() {
         let part = Part {
             name: &piece.name,
             particles: piece.particles.len(),
@@ -150,6 +152,7 @@ fn pieces(run: &Measured, shapes: &Shapes, space: Option<&InSpace>) -> (Vec<Piec
         let mut report = row(&part, shapes);
         report.outline_distance =
             shapes.flattened.as_deref().map(|at| outline_distance(&part.rim, &shapes.flat, at) * MM);
+        report.overlaps = run.overlaps.and_then(|overlaps| overlaps.get(index).copied());
         report.stretched = given.and_then(|(at, tight)| stretched(mesh, &part.rim, part.strain.extension, tight, at));
         reports.push(report);
         total.triangles.extend(&part.triangles);
@@ -160,6 +163,7 @@ fn pieces(run: &Measured, shapes: &Shapes, space: Option<&InSpace>) -> (Vec<Piec
     let mut whole = row(&total, shapes);
     // Outlines of different pieces have nothing to do with each other.
     whole.outline_distance = reports.iter().filter_map(|r| r.outline_distance).reduce(f64::max);
+    whole.overlaps = run.overlaps.map(|overlaps| overlaps.iter().sum());
     (reports, whole)
 }
 
@@ -185,6 +189,7 @@ fn row(part: &Part, shapes: &Shapes) -> PieceReport {
         shear: part.strain.shear(),
         largest_edge_error: part.strain.largest,
         outline_distance: None,
+        overlaps: None,
         stretched: None,
     }
 }
@@ -226,7 +231,7 @@ fn seam(run: &Measured, index: usize, stitches: &Stitches) -> SeamReport {
         name: stitches.name.clone(),
         length_a: drawn.map_or_else(|| meshed(0), |s| s.length_a()) * MM,
         length_b: drawn.map_or_else(|| meshed(1), |s| s.length_b()) * MM,
-        gap_mean: gaps.iter().sum::<f64>() / gaps.len().max(1) as f64 * MM,
+        gap_mean: mean(&gaps) * MM,
         gap_max: largest(&gaps) * MM,
     }
 }

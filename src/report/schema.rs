@@ -67,6 +67,9 @@ pub struct PieceReport {
     /// Largest distance between the drawn outline and the flattened one laid onto it, mm.
     #[serde(default)]
     pub outline_distance: Option<f64>,
+    /// Crossings of the flattened rim: 0 unless the flat piece lies on itself.
+    #[serde(default)]
+    pub overlaps: Option<usize>,
     /// Set where the piece had to stretch.
     pub stretched: Option<Stretched>,
 }

@@ -11,11 +11,16 @@ pub(super) fn spread(mut values: Vec<f64>) -> Spread {
     values.iter_mut().filter(|v| v.is_nan()).for_each(|v| *v = f64::NAN.copysign(1.0));
     values.sort_unstable_by(f64::total_cmp);
     Spread {
-        mean: values.iter().sum::<f64>() / values.len() as f64,
+        mean: mean(&values),
         p95: quantile(&values, 0.95),
         p99: quantile(&values, 0.99),
         max: values[values.len() - 1],
     }
+}
+
+/// The mean; zero where there are no values, whose sum would be −0.
+pub(super) fn mean(values: &[f64]) -> f64 {
+    if values.is_empty() { 0.0 } else { values.iter().sum::<f64>() / values.len() as f64 }
 }
 
 /// The largest value, none below zero; no number if one of them is none.
@@ -43,6 +48,7 @@ mod tests {
         approx::assert_relative_eq!(s.p99, 99.01);
         assert_eq!(s.max, 100.0);
         assert_eq!(spread(vec![]), Spread::default());
+        assert!(mean(&[]).is_sign_positive(), "tables and files would show -0");
     }
 
     #[test]

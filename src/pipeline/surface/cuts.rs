@@ -8,7 +8,7 @@ use super::darts::Source;
 use super::parts::Part;
 use super::report::{CutReport, CutWhy, DartReport};
 use crate::flatten::{self, FlattenError, Flattened, disk_cuts, shortest_path};
-use crate::geometry::sorted_pair;
+use crate::geometry::{Topology, sorted_pair};
 use crate::io::obj_read::ObjFaces;
 
 /// Millimetres in a metre.
@@ -39,18 +39,24 @@ impl Marks {
         let Source { file, faces, nodes, unit, options, .. } = *source;
         let mut out = Self::default();
         let mut of_file = HashSet::new();
-        for path in &options.cuts.paths {
-            let (way, part) = way(faces, parts, path).map_err(|why| {
-                let cut = path.iter().map(u32::to_string).collect::<Vec<_>>().join(",");
-                PipelineError::Cut { file: file.to_owned(), cut, why }
-            })?;
+        let refused = |path: &[u32], why: String| {
+            let cut = path.iter().map(u32::to_string).collect::<Vec<_>>().join(",");
+            PipelineError::Cut { file: file.to_owned(), cut, why }
+        };
+        let paths = &options.cuts.paths;
+        for path in paths {
+            let (way, part) = way(faces, parts, path).map_err(|why| refused(path, why))?;
             of_file.extend(way.windows(2).map(|w| sorted_pair([w[0], w[1]])));
             let step = |w: &[u32]| (faces.vertices[w[1] as usize] - faces.vertices[w[0] as usize]).norm();
             let length = way.windows(2).map(step).sum::<f64>() * unit * MM;
             out.record(part, CutWhy::Asked, way.iter().map(|v| v + 1).collect(), length);
         }
         out.edges = nodes.edges_on(&of_file);
-        Ok(out)
+        let rims = rim_edges(parts);
+        match paths.iter().enumerate().find_map(|(k, path)| Some((path, out.opens_nothing(k, &rims)?))) {
+            Some((path, why)) => Err(refused(path, why.to_owned())),
+            None => Ok(out),
+        }
     }
 
     /// Cuts what is no disk into one, `parts` being the surface with the cuts so far.
@@ -60,6 +66,21 @@ impl Marks {
                 self.cut(part, &chain, CutWhy::Auto);
             }
         }
+    }
+
+    /// Why the cut `k` leaves the surface as it is, if it does.
+    fn opens_nothing(&self, k: usize, rims: &HashSet<[u32; 2]>) -> Option<&'static str> {
+        let chain = &self.chains[k];
+        if chain.windows(2).all(|w| rims.contains(&sorted_pair([w[0], w[1]]))) {
+            return Some("it runs along the rim, where the surface is open already");
+        }
+        let [a, b] = chain[..] else { return None };
+        let other = |v: u32| self.chains.iter().enumerate().any(|(i, chain)| i != k && chain.contains(&v));
+        let open = |v: u32| other(v) || rims.iter().any(|edge| edge.contains(&v));
+        (!open(a) && !open(b)).then_some(
+            "it is a single edge inside the surface, whose ends stay joined, so that nothing opens; name a vertex \
+             further on",
+        )
     }
 
     /// Cuts a part along a chain of its vertices.
@@ -108,6 +129,15 @@ fn way(faces: &ObjFaces, parts: &[Part], stops: &[u32]) -> Result<(Vec<u32>, Str
         way.extend(path.iter().skip(1).map(|&v| part.vertices[v as usize]));
     }
     Ok((way, begun.unwrap_or_default()))
+}
+
+/// The rims of all parts as edges of the file's vertices, from 1, smaller first.
+fn rim_edges(parts: &[Part]) -> HashSet<[u32; 2]> {
+    let of_part = |part: &Part| {
+        let topology = Topology::new(&part.surface.triangles);
+        topology.rim_edges().map(|e| sorted_pair(e.ends.map(|v| part.number(v)))).collect::<Vec<_>>()
+    };
+    parts.iter().flat_map(of_part).collect()
 }
 
 /// Edges as chains that end where one or more than two of them meet.

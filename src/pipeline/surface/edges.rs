@@ -14,6 +14,9 @@ use crate::geometry::{rim_loops, sorted_pair};
 const CORNER: f64 = PI / 6.0;
 /// Share of a rim's length over which a turn counts as one corner: a circle turns by 4° there.
 const REACH: f64 = 0.006;
+/// Within reach of each other, two vertices that turn the same way by more than this each, radians, are two corners
+/// nevertheless, as at the end of a narrow strip: 60°. No corner that a mesh rounds off turns so much twice.
+const SHARP: f64 = PI / 3.0;
 
 /// A named edge of a part.
 #[derive(Clone, Debug, PartialEq)]
@@ -149,36 +152,51 @@ fn breaks(part: &Part, index: usize, rim: &[u32], others: &Others) -> Vec<bool> 
     breaks
 }
 
-/// Where a rim turns sharply: of the vertices within reach of each other the one that turns most.
+/// Where a rim turns sharply: of the vertices that make one corner together the one that turns most.
 fn corners(part: &Part, rim: &[u32]) -> Vec<bool> {
     let turns = turns(part, rim);
-    let at = |v: u32| part.surface.vertices[v as usize];
-    let lengths: Vec<f64> = sides(rim).map(|[a, b]| (at(b) - at(a)).norm()).collect();
-    let reach = REACH * lengths.iter().sum::<f64>();
-    // Vertices within reach before and after each, at least one.
-    let near = |k: usize| {
-        let n = rim.len();
-        let walk = |step: usize, side: usize| {
-            let mut walked = 0.0;
-            let mut at = k;
-            let mut count = 0;
-            while count == 0 || (walked < reach && count < n / 4) {
-                walked += lengths[(at + side) % n];
-                at = (at + step) % n;
-                count += 1;
-            }
-            count
-        };
-        let (before, after) = (walk(n - 1, n - 1), walk(1, 0));
-        (0..=before + after).map(move |i| (k + n - before + i) % n)
-    };
+    let near = Near::new(part, rim);
     (0..rim.len())
         .map(|k| {
-            let turn: f64 = near(k).map(|i| turns[i]).sum();
-            let leads = |i: usize| turns[k].abs() > turns[i].abs() || (turns[k].abs() == turns[i].abs() && k <= i);
-            turn.abs().max(turns[k].abs()) > CORNER && near(k).all(leads)
+            let own = turns[k].abs();
+            let turn: f64 = near.of(k).map(|i| turns[i]).sum();
+            let leads = |i: usize| {
+                let other = turns[i].abs();
+                let two = own.min(other) > SHARP && turns[k] * turns[i] > 0.0;
+                two || own > other || (own == other && k <= i)
+            };
+            turn.abs().max(own) > CORNER && near.of(k).all(leads)
         })
         .collect()
+}
+
+/// What lies within reach of each vertex of a rim.
+struct Near {
+    /// Of the rim's sides.
+    lengths: Vec<f64>,
+    reach: f64,
+}
+
+impl Near {
+    fn new(part: &Part, rim: &[u32]) -> Self {
+        let at = |v: u32| part.surface.vertices[v as usize];
+        let lengths: Vec<f64> = sides(rim).map(|[a, b]| (at(b) - at(a)).norm()).collect();
+        Self { reach: REACH * lengths.iter().sum::<f64>(), lengths }
+    }
+
+    /// The vertex `k`, and those within reach before and after it.
+    fn of(&self, k: usize) -> impl Iterator<Item = usize> + '_ {
+        let n = self.lengths.len();
+        let way = move |forward: bool| {
+            let mut left = self.reach;
+            let step = move |i: usize| if forward { (k + i) % n } else { (k + n - i) % n };
+            (1..n / 2).map(step).take_while(move |&i| {
+                left -= self.lengths[if forward { (i + n - 1) % n } else { i }];
+                left >= 0.0
+            })
+        };
+        way(false).chain([k]).chain(way(true))
+    }
 }
 
 /// By how much the rim turns at each of its vertices on the surface:

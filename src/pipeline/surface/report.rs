@@ -57,6 +57,9 @@ pub struct PartReport {
     pub largest_edge_error: f64,
     /// Largest |length / length in space − 1| of an edge of the rim.
     pub largest_rim_error: f64,
+    /// By which share, in the mean, rim edges (in the mode `woven` the lengths between corners and notches) are off
+    /// that the mode was to keep and could not; `null` where it keeps them, or none.
+    pub rim_missed: Option<f64>,
     /// Root mean square of the triangles' stretches minus one.
     pub distortion: f64,
     /// Root mean square of the triangles' relative change of area.
@@ -221,6 +224,7 @@ impl PartReport {
             boundary_error: error(r.boundary_error),
             largest_edge_error: r.largest_edge_error,
             largest_rim_error: r.largest_rim_error,
+            rim_missed: r.rim_missed,
             distortion: r.distortion,
             area_distortion: r.area_distortion,
             strain: StrainReport { p99: r.strain_p99, max: r.strain_max },
