@@ -132,8 +132,8 @@ fn a_hooke_spring_pulls_in_proportion() {
     }
 }
 
-/// The patch test: even strain is even load, also in triangles that no thread runs along a side of. Springs on all sides
-/// of these gave as the bias does, and what a tight skirt gave gathered in them.
+/// The patch test: even strain is even load, also in triangles that no thread runs along a side of. Springs on all
+/// sides of these gave as the bias does, and what a tight skirt gave gathered in them.
 #[test]
 fn cloth_that_is_strained_evenly_is_in_balance_up_to_its_rim() {
     let text = "garment: 1\npieces: {panel: {grain: [[50, 50], [50, 150]], outline: {start: 0 0, top: L 150 0, \

@@ -233,9 +233,9 @@ impl<'a> Closing<'a> {
         Ok(max_steps)
     }
 
-    /// Goes on with closed seams while what closures tie comes nearer, in at most `max_steps`, so that a garment does not
-    /// fall while it is open. What tears a seam open that does not close again is left undone. Returns the steps that
-    /// took.
+    /// Goes on with closed seams while what closures tie comes nearer, in at most `max_steps`, so that a garment does
+    /// not fall while it is open. What tears a seam open that does not close again is left undone. Returns the steps
+    /// that took.
     fn do_up(&mut self, world: &mut World, max_steps: usize) -> Result<usize, SewError> {
         let last = self.harder.len().saturating_sub(1);
         let is_open = |own: &Self, x: &[Vec3]| own.widest(&own.stitching.gaps(x), last) > own.tolerance;
