@@ -265,3 +265,35 @@ fn letters_beyond_ascii_come_back_from_a_dxf() {
         assert!(drawings[0].rings[0].iter().any(|e| e.name == "größe"), "{:?}", drawings[0].rings[0]);
     }
 }
+
+/// What a piece and its edges are called says nothing of what their lines are; nor does a wide allowance.
+#[test]
+fn a_notched_collar_and_a_disc_with_a_wide_allowance_come_back() {
+    let text = "
+garment: 1
+allowance: 30
+pieces:
+  notched_collar:
+    grain: [[0, 0], [0, 100]]
+    outline: {start: 0 0, grain_end: L 300 0, notch: L 330 250, h: L -30 250, t: L 0 0}
+  disc:
+    grain: [[40, 20], [40, 60]]
+    outline: {start: 0 40, rim: A 40 40 0 0 1 80 40 A 40 40 0 0 1 0 40}
+free: ['*.*']
+";
+    let edges = |drawings: &[Drawing]| -> Vec<(String, String, i64, Option<i64>)> {
+        let tenths = |x: f64| (x * 1e4).round() as i64;
+        let of = |d: &Drawing| {
+            let edge = |e: &DrawnEdge| {
+                (d.name.clone(), e.name.clone(), tenths(e.path.length()), e.allowance.width.map(tenths))
+            };
+            d.rings.iter().flatten().map(edge).collect::<Vec<_>>()
+        };
+        let mut all: Vec<_> = drawings.iter().flat_map(of).collect();
+        all.sort();
+        all
+    };
+    for made in both_ways(text) {
+        assert_eq!(edges(&again(&made)), edges(&drawn(text)));
+    }
+}

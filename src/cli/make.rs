@@ -9,7 +9,7 @@ use crate::flatten;
 use crate::io::files::{check_writable, write_all};
 use crate::pipeline::{
     AT_REST, Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, Job, Overrides, PATTERN_SVG, PLACED_OBJ, PipelineError,
-    REPORT_JSON, ResultFile, Run, SEWN_OBJ, inputs, read,
+    REPORT_JSON, ResultFile, Run, SEWN_OBJ, inputs, read, tight,
 };
 use crate::report::{ClosureReport, Report, restless, table, verdicts};
 
@@ -161,6 +161,7 @@ fn judge(job: &Job, report: &Report, console: &Console) -> Exit {
         console.note(&stage.to_string());
     }
     report.closures.iter().filter_map(ClosureReport::unclosed).for_each(|text| console.note(&text));
+    tight(job, report).iter().for_each(|text| console.note(text));
     let mut exit = Exit::Done;
     for verdict in verdicts(&job.garment, report).iter().filter(|v| !v.ok) {
         console.complain(&format!("out of bounds: {verdict}"));

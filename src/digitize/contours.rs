@@ -189,7 +189,7 @@ impl Sorted {
     /// Adds a line that is closed by itself.
     fn close(&mut self, stroke: &Stroke) {
         let is_edge = matches!(stroke.role, Role::Edge | Role::Fold);
-        let (edge, role) = if is_edge { (stroke.name.clone(), Role::Unknown) } else { (None, stroke.role) };
+        let (edge, role) = if is_edge { (stroke.name.clone(), Role::Edge) } else { (None, stroke.role) };
         let name = stroke.group.clone().or_else(|| stroke.name.clone());
         self.contours.extend(Contour::new(vec![(edge, stroke.path.clone())], role, name));
     }
@@ -234,10 +234,14 @@ impl Sorted {
 }
 
 fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> Traced {
-    let sewn = inner
-        .iter()
-        .filter(|c| c.role != Role::Cut && (c.role == Role::Sew || c.area() >= SEWN_SHARE * outer.area()))
-        .max_by(|a, b| a.area().total_cmp(&b.area()));
+    // Within a cut line an edge is sewn, however wide the allowance; within another line it may be that of a hole.
+    let is_sewn = |c: &Contour| match c.role {
+        Role::Sew => true,
+        Role::Edge if outer.role == Role::Cut => true,
+        Role::Cut => false,
+        _ => c.area() >= SEWN_SHARE * outer.area(),
+    };
+    let sewn = inner.iter().filter(|c| is_sewn(c)).max_by(|a, b| a.area().total_cmp(&b.area()));
     let mut traced = Traced { name: name_of(outer, inner), ..Traced::default() };
     let outlines: Vec<&Path> = match sewn {
         Some(sewn) => {
@@ -254,11 +258,11 @@ fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> Traced {
             vec![&outer.whole]
         }
     };
-    let is_sewn = |c: &Contour| sewn.is_some_and(|s| std::ptr::eq(*s, c));
+    let is_outline = |c: &Contour| sewn.is_some_and(|s| std::ptr::eq(*s, c));
     let surface = sewn.map_or(outer, |s| s);
     // A lozenge within is a dart, a ring of a few millimetres a mark; what is left was cut out.
     let is_hole = |c: &&&Contour| c.area() >= SMALLEST_PIECE / 100.0 && c.lies_in(surface);
-    let others = inner.iter().copied().filter(|c| !is_sewn(c));
+    let others = inner.iter().copied().filter(|c| !is_outline(c));
     let (cut_out, marks): (Vec<&Contour>, Vec<&Contour>) = others.partition(|c| is_hole(&c));
     traced.holes = holes_of(&cut_out);
     traced.points.extend(marks.iter().map(|m| m.points.iter().sum::<Vec2>() / m.points.len() as f64));

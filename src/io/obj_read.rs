@@ -10,7 +10,7 @@ use std::path::Path;
 
 use obj::raw::object::Polygon;
 
-use crate::geometry::Vec3;
+use crate::geometry::{Vec3, triangles_of};
 use crate::input::{InputError, bytes, shown};
 
 /// Larger files are refused before they are read: at a hundred bytes a triangle this is five million of them.
@@ -95,7 +95,7 @@ pub fn parse_obj(text: &str, file: &str) -> Result<ObjSurface, ObjError> {
     for polygon in &raw.polygons {
         let Polygon::P(corners) = polygon else { continue };
         let corners: Vec<u32> = corners.iter().map(|&c| c as u32).collect();
-        triangles.extend((1..corners.len() - 1).map(|k| [corners[0], corners[k], corners[k + 1]]));
+        triangles.extend(triangles_of(&faces.vertices, &corners));
     }
     if triangles.is_empty() {
         return Err(ObjError::Empty { file: file.to_owned() });

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::error::PipelineError;
-use crate::geometry::{TriMesh, Vec3, box_of};
+use crate::geometry::{TriMesh, Vec3, box_of, triangles_of};
 use crate::input::LengthUnit;
 use crate::io::body::{BodyError, read_solid};
 use crate::io::obj_read::read_obj_faces;
@@ -35,10 +35,9 @@ pub fn judge(mesh: &Path, body: Option<&str>, unit: LengthUnit) -> Result<Judged
     let mut cloth = TriMesh { vertices: faces.vertices.iter().map(|p| p * metres).collect(), triangles: Vec::new() };
     let mut group_of = Vec::new();
     for (face, &group) in faces.faces.iter().zip(&faces.group_of_face) {
-        for k in 1..face.len() - 1 {
-            cloth.triangles.push([face[0], face[k], face[k + 1]]);
-            group_of.push(group);
-        }
+        let triangles = triangles_of(&faces.vertices, face);
+        group_of.extend(triangles.iter().map(|_| group));
+        cloth.triangles.extend(triangles);
     }
     let body = body.map(|name| solid(name, unit)).transpose()?;
     let notes = body.as_ref().and_then(|body| misplaced(&cloth, body)).into_iter().collect();

@@ -22,6 +22,7 @@ mod results;
 mod run;
 mod saved;
 mod surface;
+mod tight;
 mod too_small;
 
 use crate::report::AtRest;
@@ -39,6 +40,7 @@ pub use surface::{
     CutReport, CutWhy, Cuts, DARTS, DartStop, EdgeReport, FLAT_OBJ, FLAT_PNG, FlatSurface, Limit, OUTLINE_SVG,
     PartReport, SurfaceOptions, SurfaceReport, flatten_surface,
 };
+pub use tight::tight;
 pub use too_small::TooSmall;
 
 /// What counts as rest of a draped garment.

@@ -228,19 +228,9 @@ impl<F: Fn(&[Vec3]) -> Vec<Vec3>> Explicit<F> {
         &self.x
     }
 
-    /// Mean velocities over the last step, m/s.
-    pub fn velocities(&self) -> &[Vec3] {
-        &self.velocity
-    }
-
     /// Time since the start, seconds.
     pub fn time(&self) -> f64 {
         self.time
-    }
-
-    /// Length of the next step, seconds.
-    pub fn next_step(&self) -> f64 {
-        self.ahead
     }
 
     /// Steps that were undone and halved.

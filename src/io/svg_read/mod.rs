@@ -368,7 +368,12 @@ fn role(node: Node, classes: &str) -> Option<Role> {
         let marker = ["marker-start", "marker-end", "style", "href"];
         node.attributes().any(|a| marker.contains(&a.name()) && a.value().contains(name))
     };
+    // A name tells what a line is only where its class does not: an edge of a collar may be called a notch.
+    let is_said = ["cut", "sa", "edge", "sew", "fabric", "seam"].into_iter().any(has);
     let called = |word: &str| {
+        if is_said {
+            return false;
+        }
         let named = node.attributes().filter(|a| a.name() == "id" || a.name() == "label");
         named.map(|a| a.value().to_lowercase()).any(|v| v.contains(word))
     };

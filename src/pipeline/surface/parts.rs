@@ -7,7 +7,7 @@
 use std::collections::{HashMap, HashSet};
 
 use crate::flatten::{FlattenError, Solid, orient};
-use crate::geometry::{DisjointSets, TriMesh, Vec3, sorted_pair};
+use crate::geometry::{DisjointSets, TriMesh, Vec3, diagonals_of, sorted_pair, triangles_of};
 use crate::io::obj_read::ObjFaces;
 
 /// A connected part of the surface.
@@ -173,16 +173,6 @@ impl Fans {
     }
 }
 
-/// The edges that [`fan`] adds to a polygon.
-fn diagonals(corners: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
-    (2..corners.len() - 1).map(|k| sorted_pair([corners[0], corners[k]]))
-}
-
-/// A polygon as triangles round its first corner.
-fn fan(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> + '_ {
-    (1..corners.len() - 1).map(|k| [corners[0], corners[k], corners[k + 1]])
-}
-
 impl Part {
     /// `local` has room for every fan; a part uses its own places only.
     fn new(source: &Source<'_>, name: String, own: Vec<u32>, local: &mut [u32]) -> Self {
@@ -200,12 +190,13 @@ impl Part {
         all.iter().enumerate().for_each(|(k, &(_, fan, _))| local[fan as usize] = k as u32);
         let number = |f: u32| (0..faces.faces[f as usize].len()).map(move |k| fan_of(f, k));
         let corners: Vec<Vec<u32>> = own.iter().map(|&f| number(f).map(|fan| local[fan as usize]).collect()).collect();
-        let mut triangles: Vec<[u32; 3]> = corners.iter().flat_map(|c| fan(c)).map(|[a, b, c]| [a, c, b]).collect();
-        let turned = orient(&mut triangles);
         let vertices: Vec<u32> = all.iter().map(|a| a.0).collect();
-        let positions = vertices.iter().map(|&v| faces.vertices[v as usize] * unit).collect();
+        let positions: Vec<Vec3> = vertices.iter().map(|&v| faces.vertices[v as usize] * unit).collect();
+        let of_polygons = corners.iter().flat_map(|polygon| triangles_of(&positions, polygon));
+        let mut triangles: Vec<[u32; 3]> = of_polygons.map(|[a, b, c]| [a, c, b]).collect();
+        let turned = orient(&mut triangles);
         let nodes = all.iter().map(|a| a.2).collect();
-        let diagonals = corners.iter().flat_map(|c| diagonals(c)).collect();
+        let diagonals = corners.iter().flat_map(|polygon| diagonals_of(&positions, polygon)).collect();
         let surface = TriMesh { vertices: positions, triangles };
         Self { name, vertices, nodes, faces: own, corners, diagonals, surface, turned }
     }

@@ -1,0 +1,122 @@
+//! Polygons in space as triangles.
+
+use super::{Vec2, Vec3, sorted_pair};
+
+/// A polygon of a surface, its corners among the `vertices`, as triangles that turn as it does: round its first corner
+/// where it bulges outward everywhere, otherwise one ear after the other (Meisters 1975), seen along its mean normal.
+/// What is too crumpled to have an ear is finished round a corner. A polygon of n corners gives n − 2 triangles.
+pub(crate) fn triangles_of(vertices: &[Vec3], corners: &[u32]) -> Vec<[u32; 3]> {
+    let mut left: Vec<u32> = corners.to_vec();
+    let mut out = Vec::with_capacity(left.len().saturating_sub(2));
+    let flat = flattened(vertices, corners);
+    let at: Vec<Vec2> = flat.unwrap_or_else(|| vec![Vec2::zeros(); corners.len()]);
+    let mut places: Vec<usize> = (0..left.len()).collect();
+    while left.len() > 3 {
+        let n = left.len();
+        let ear = (1..n).chain([0]).find(|&k| is_ear(&at, &places, k));
+        // The corner after the first, as round the first.
+        let k = ear.unwrap_or(1);
+        out.push([left[(k + n - 1) % n], left[k], left[(k + 1) % n]]);
+        left.remove(k);
+        places.remove(k);
+    }
+    if let [a, b, c] = left[..] {
+        out.push([a, b, c]);
+    }
+    out
+}
+
+/// The sides of [`triangles_of`] that are none of the polygon's.
+pub(crate) fn diagonals_of(vertices: &[Vec3], corners: &[u32]) -> Vec<[u32; 2]> {
+    let own: Vec<[u32; 2]> =
+        (0..corners.len()).map(|k| sorted_pair([corners[k], corners[(k + 1) % corners.len()]])).collect();
+    let sides = triangles_of(vertices, corners).into_iter().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let mut all: Vec<[u32; 2]> = sides.map(sorted_pair).filter(|side| !own.contains(side)).collect();
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
+/// The corners as seen along the polygon's mean normal (Newell's), which then turns them to the left; `None` of one
+/// without an area.
+fn flattened(vertices: &[Vec3], corners: &[u32]) -> Option<Vec<Vec2>> {
+    let origin = vertices[*corners.first()? as usize];
+    let at = |k: usize| vertices[corners[k % corners.len()] as usize] - origin;
+    let normal = (0..corners.len()).map(|k| at(k).cross(&at(k + 1))).sum::<Vec3>().try_normalize(0.0)?;
+    // Square to it and to the axis that it is furthest from.
+    let mut axis = Vec3::zeros();
+    axis[normal.iamin()] = 1.0;
+    let u = normal.cross(&axis).normalize();
+    let v = normal.cross(&u);
+    Some((0..corners.len()).map(|k| Vec2::new(at(k).dot(&u), at(k).dot(&v))).collect())
+}
+
+/// Whether the `k`-th of the corners that are left turns outward, and no other of them is in its triangle.
+fn is_ear(at: &[Vec2], left: &[usize], k: usize) -> bool {
+    let n = left.len();
+    let ends @ [before, own, after] = [(k + n - 1) % n, k, (k + 1) % n];
+    let [a, b, c] = [before, own, after].map(|i| at[left[i]]);
+    let turns = |p: Vec2, q: Vec2, r: Vec2| (q - p).perp(&(r - q));
+    let is_in = |p: Vec2| turns(a, b, p) >= 0.0 && turns(b, c, p) >= 0.0 && turns(c, a, p) >= 0.0;
+    // A corner at the very place of one of the ear's own is no obstacle.
+    let others = (0..n).filter(|i| !ends.contains(i)).map(|i| at[left[i]]);
+    turns(a, b, c) > 0.0 && !others.filter(|p| ![a, b, c].contains(p)).any(is_in)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    /// In a plane that lies askew.
+    fn askew(corners: &[[f64; 2]]) -> Vec<Vec3> {
+        let (u, v) = (Vec3::new(2.0, 1.0, -2.0) / 3.0, Vec3::new(1.0, 2.0, 2.0) / 3.0);
+        corners.iter().map(|[x, y]| Vec3::new(5.0, -3.0, 1.0) + u * *x + v * *y).collect()
+    }
+
+    /// Of all triangles, and by how much they turn against the first.
+    fn area(vertices: &[Vec3], triangles: &[[u32; 3]]) -> (f64, f64) {
+        let double = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|v| vertices[v as usize]);
+            (b - a).cross(&(c - a))
+        };
+        let sum: Vec3 = triangles.iter().map(double).sum();
+        (0.5 * triangles.iter().map(|t| double(t).norm()).sum::<f64>(), 0.5 * sum.norm())
+    }
+
+    #[test]
+    fn what_bulges_everywhere_is_a_fan() {
+        let square = askew(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+        assert_eq!(triangles_of(&square, &[0, 1, 2, 3]), [[0, 1, 2], [0, 2, 3]]);
+        assert_eq!(diagonals_of(&square, &[0, 1, 2, 3]), [[0, 2]]);
+        assert_eq!(triangles_of(&square, &[0, 1, 2]), [[0, 1, 2]]);
+    }
+
+    #[test]
+    fn a_polygon_with_a_bay_keeps_its_area_whichever_corner_comes_first() {
+        // A C of area 10 - 3.
+        let c = [[0.0, 0.0], [5.0, 0.0], [5.0, 0.5], [2.0, 0.5], [2.0, 1.5], [5.0, 1.5], [5.0, 2.0], [0.0, 2.0]];
+        for turned in [false, true] {
+            let mut corners = c;
+            if turned {
+                corners.reverse();
+            }
+            let vertices = askew(&corners);
+            for first in 0..8 {
+                let polygon: Vec<u32> = (0..8).map(|k| (k + first) % 8).collect();
+                let triangles = triangles_of(&vertices, &polygon);
+                let (all, turned_alike) = area(&vertices, &triangles);
+                assert_eq!((triangles.len(), diagonals_of(&vertices, &polygon).len()), (6, 5));
+                assert_relative_eq!(all, 7.0, max_relative = 1e-12);
+                assert_relative_eq!(turned_alike, 7.0, max_relative = 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn what_has_no_area_is_cut_up_all_the_same() {
+        let line = askew(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]]);
+        assert_eq!(triangles_of(&line, &[0, 1, 2, 3]).len(), 2);
+        assert!(triangles_of(&line, &[0, 1]).is_empty());
+    }
+}
