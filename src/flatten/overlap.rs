@@ -14,11 +14,17 @@ const DEEP: f64 = RIM_EXACT[1];
 /// Edges that share a vertex do not count. A flat piece without flipped triangles lies on itself exactly where its rims
 /// go round a place more than once, and such a place begins where rims meet. Rims run with their triangles.
 pub fn rim_crossings(flat: &[Vec2], rims: &[Vec<u32>]) -> usize {
+    let sides = rims.iter().flat_map(|rim| (0..rim.len()).map(|k| [rim[k], rim[(k + 1) % rim.len()]]));
+    let length: f64 = sides.map(|[a, b]| (flat[b as usize] - flat[a as usize]).norm()).sum();
+    crossings_deeper(flat, rims, DEEP * length)
+}
+
+/// [`rim_crossings`] of a piece that may lie on itself by `depth`, metres.
+pub(super) fn crossings_deeper(flat: &[Vec2], rims: &[Vec<u32>], depth: f64) -> usize {
     let edges: Vec<[u32; 2]> =
         rims.iter().flat_map(|rim| (0..rim.len()).map(|k| [rim[k], rim[(k + 1) % rim.len()]])).collect();
     let sides: Vec<[Vec2; 2]> = edges.iter().map(|e| e.map(|v| flat[v as usize])).collect();
     let length = |[a, b]: &[Vec2; 2]| (b - a).norm();
-    let depth = DEEP * sides.iter().map(length).sum::<f64>();
     let longest = sides.iter().map(length).fold(0.0, f64::max);
     let on_itself = |&(i, j): &(u32, u32)| {
         let [e, f] = [i, j].map(|k| edges[k as usize]);
@@ -131,6 +137,27 @@ mod tests {
             assert!(overlaps(370) > 0 && overlaps(450) > 0, "{turned}");
         }
         assert_eq!(rim_crossings(&[], &[]), 0);
+    }
+
+    #[test]
+    fn legs_of_a_dart_that_cross_by_less_than_a_cut_are_none_where_that_is_told() {
+        let corners = [
+            (0., 0.),
+            (48., 0.),
+            (50.01, 95.),
+            (50., 100.),
+            (49.99, 95.),
+            (52., 0.),
+            (100., 0.),
+            (100., 120.),
+            (0., 120.),
+        ];
+        let flat = corners.map(|(x, y)| Vec2::new(x, y) * 1e-3);
+        let rims = [(0..9).collect::<Vec<u32>>()];
+        assert!(rim_crossings(&flat, &rims) > 0);
+        assert_eq!(crossings_deeper(&flat, &rims, 1e-4), 0);
+        let (strip, rims) = strip(370, 0.3);
+        assert!(crossings_deeper(&strip, &rims, 1e-4) > 0);
     }
 
     #[test]
