@@ -5,15 +5,11 @@ use std::collections::{HashMap, HashSet};
 use rayon::prelude::*;
 
 use super::element::Element;
-use super::overlap::crossings_deeper;
+use super::overlap::Legs;
 use super::{FlattenError, Options, Report, Sheet, align, check_start, measure, relax_sheet, start, topology};
 use crate::geometry::{TriMesh, Vec2, Vec3, sorted_pair};
 use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::{Give, Seam};
-
-/// Pieces of a garment are cut no finer than this, metres: the legs of a narrow dart, flattened, may come nearer to one
-/// another beside its tip than they were drawn, and cross by hundredths of a millimetre.
-const CUT: f64 = 1e-4;
 
 /// A rim edge whose flat length should differ from its draped one by more than this share lies in cloth that a seam
 /// draws in or out; the triangles around it do not show the cloth's own shape, as those along elastic do not.
@@ -101,13 +97,13 @@ fn flatten_piece(
     };
     let mut sheet = Sheet::as_it_is(&surface, topology, rims);
     sheet.warp = piece.warp;
+    sheet.legs = legs_of_darts(cloth, piece);
     let mut forced = draw_out(&mut sheet, first, targets);
     forced.extend(gathered.iter().filter_map(|&v| v.checked_sub(first)));
     let_out(&mut sheet, drawn, &forced);
     let mut flattened = relax_sheet(&sheet, start, options)?;
     align::onto(&mut flattened.positions, drawn);
-    let overlaps = crossings_deeper(&flattened.positions, &sheet.rims, CUT);
-    Ok((flattened.positions, Report { overlaps, ..flattened.report }))
+    Ok((flattened.positions, flattened.report))
 }
 
 /// Wanted flat lengths of sewn rim edges by their ends (global particles, smaller first).
@@ -152,6 +148,20 @@ fn wanted_lengths(give: Give, drawn: [f64; 2], sewn: f64) -> [f64; 2] {
     // Any sewn length between the two drawn ones is as it should be; beyond, the cloth itself is strained.
     let meant = sewn.clamp(drawn[0].min(drawn[1]), drawn[0].max(drawn[1]));
     drawn.map(|d| if meant > 0.0 { d * sewn / meant } else { sewn })
+}
+
+/// The legs of the darts of a piece, which its seams sew on each other from or to a tip.
+fn legs_of_darts(cloth: &ClothMesh, piece: &PieceMesh) -> Legs {
+    let first = piece.particles.start as u32;
+    let is_own = |p: &u32| piece.particles.contains(&(*p as usize));
+    let is_dart = |pairs: &[[u32; 2]]| pairs.iter().any(|[a, b]| a == b) && pairs.iter().flatten().all(is_own);
+    let darts = cloth.seams.iter().enumerate().filter(|(_, seam)| is_dart(&seam.pairs));
+    let edges = darts.flat_map(|(dart, seam)| {
+        let steps = seam.pairs.windows(2);
+        let both = steps.flat_map(|step| [0, 1].map(|leg| sorted_pair([step[0][leg] - first, step[1][leg] - first])));
+        both.map(move |edge| (edge, dart))
+    });
+    edges.collect()
 }
 
 /// Gives the sheet's rim its wanted lengths, and the triangles on it shapes to match; gives the vertices that a seam

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::Sheet;
 use super::distortion::stretches;
 use super::element::Element;
-use super::overlap::rim_crossings;
+use super::overlap::crossings_beside;
 use super::relax::Outcome;
 use super::start::angle_sums;
 use super::woven;
@@ -146,7 +146,7 @@ pub(super) fn report(sheet: &Sheet<'_>, flat: &[Vec2], outcome: &Outcome) -> Rep
         corner_change_forced: angles.curvature.abs() / sheet.rims.iter().map(Vec::len).sum::<usize>() as f64,
         curvature: angles.curvature,
         flips: areas.flips,
-        overlaps: rim_crossings(flat, &sheet.rims),
+        overlaps: crossings_beside(flat, &sheet.rims, &sheet.legs),
     }
 }
 

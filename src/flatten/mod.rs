@@ -40,6 +40,7 @@ pub use error::FlattenError;
 pub use garment::{FlatGarment, FlatPiece, flatten_garment};
 pub use measure::{Report, Threads, triangle_strain};
 pub use orient::{one_sided, orient};
+use overlap::Legs;
 pub use overlap::rim_crossings;
 
 use std::collections::{HashMap, HashSet};
@@ -212,6 +213,8 @@ struct Sheet<'a> {
     /// Where on the rim the chains end of which the woven mode holds the whole lengths; `None` where it holds every
     /// edge.
     breaks: Option<HashSet<u32>>,
+    /// Of the darts that are sewn in it.
+    legs: Legs,
 }
 
 impl<'a> Sheet<'a> {
@@ -220,7 +223,8 @@ impl<'a> Sheet<'a> {
         let elements =
             surface.triangles.iter().enumerate().map(|(t, &c)| Element::new(c, surface.corners(t))).collect();
         let rim_targets = topology.rim_edges().map(|e| measure::length(surface, e.ends)).collect();
-        Self { surface, topology, rims, elements, rim_targets, wider: Vec::new(), warp: -Vec2::y(), breaks: None }
+        let (wider, warp, breaks, legs) = (Vec::new(), -Vec2::y(), None, Legs::new());
+        Self { surface, topology, rims, elements, rim_targets, wider, warp, breaks, legs }
     }
 
     /// Whether a mode can hold the rim's lengths.

@@ -8,9 +8,6 @@ use crate::pattern::{Bound, Garment, Test, walk};
 
 /// Bounds of a garment that states none: closed seams, no crossing. Metres.
 const DEFAULTS: [Bound; 2] = [Bound::Gap(None, 1e-3), Bound::Crossings(0)];
-/// Legs of narrow darts, flattened, may cross by hundredths of a millimetre beside their tips: so many crossings of a
-/// rim are reported, and no fault.
-const BESIDE_TIPS: usize = 4;
 /// Millimetres in a metre, percent in a whole.
 const MM: f64 = 1e3;
 const PERCENT: f64 = 1e2;
@@ -60,10 +57,10 @@ pub fn verdicts(garment: &Garment, report: &Report) -> Vec<Verdict> {
 
 /// That nobody can cut a piece out; nothing for a piece that can be.
 fn on_itself(piece: &PieceReport) -> Option<Verdict> {
-    let overlaps = piece.overlaps.filter(|n| *n > BESIDE_TIPS)?;
+    let overlaps = piece.overlaps.filter(|n| *n > 0)?;
     let bound = format!("'{}' lies on itself when flat; cut it in two; crossings of its rim", piece.name);
     let at = Some(piece.name.clone());
-    Some(Verdict { bound, measured: overlaps as f64, limit: BESIDE_TIPS as f64, unit: "", at, ok: false })
+    Some(Verdict { bound, measured: overlaps as f64, limit: 0.0, unit: "", at, ok: false })
 }
 
 /// The verdicts of every one of the garment's `tests`, in their order; none of a test for another fabric or a stage
