@@ -11,8 +11,7 @@
 
 use super::model::Cloth;
 use super::shear::ShearTangent;
-use super::springs::{SHORTEST, Spring, Stretch, StretchLaw, StretchTangent};
-use super::thread::Thread;
+use super::springs::{SHORTEST, Stretch, StretchLaw, StretchTangent};
 use crate::geometry::Vec3;
 
 /// Loads as a step foresaw them; none: as they are.
@@ -57,16 +56,18 @@ impl Cloth {
 
     /// Stiffness of spring number `k` at `x`: across it by the load that the last step foresaw, if one did.
     pub(super) fn spring_tangent(&self, k: usize, x: &[Vec3]) -> StretchTangent {
-        let Spring { stretch, .. } = self.springs[k];
-        let load = self.foreseen.springs.get(k).copied();
-        stretch.tangent(&self.laws[stretch.law as usize], self.springs[k].span(x), load)
+        let spring = &self.springs[k];
+        self.tangent_of(&spring.stretch, spring.span(x), self.foreseen.springs.get(k))
     }
 
     /// The same of thread number `k`.
     pub(super) fn thread_tangent(&self, k: usize, x: &[Vec3]) -> StretchTangent {
-        let Thread { stretch, .. } = self.threads[k];
-        let load = self.foreseen.threads.get(k).copied();
-        stretch.tangent(&self.laws[stretch.law as usize], self.threads[k].span(x), load)
+        let thread = &self.threads[k];
+        self.tangent_of(&thread.stretch, thread.span(x), self.foreseen.threads.get(k))
+    }
+
+    fn tangent_of(&self, stretch: &Stretch, span: Vec3, foreseen: Option<&f64>) -> StretchTangent {
+        stretch.tangent(&self.laws[stretch.law as usize], span, foreseen.copied())
     }
 
     /// The same of shear number `k`.

@@ -323,12 +323,11 @@ impl Stepper {
     }
 
     fn assemble_threads(&mut self, cloth: &Cloth, x: &[Vec3]) {
-        let threads = self.threads.iter().enumerate().map(|(k, slots)| {
-            let (thread, k) = (&cloth.threads[k], cloth.thread_tangent(k, x).bound());
-            (thread.nodes, slots, thread.shares(), k)
-        });
-        for (nodes, slots, shares, k) in threads {
-            couple_three(&mut self.matrix, &self.diagonal, nodes, slots, |i, j| k * (shares[i] * shares[j]));
+        for (k, (thread, slots)) in cloth.threads.iter().zip(&self.threads).enumerate() {
+            let (stiffness, shares) = (cloth.thread_tangent(k, x).bound(), thread.shares());
+            couple_three(&mut self.matrix, &self.diagonal, thread.nodes, slots, |i, j| {
+                stiffness * (shares[i] * shares[j])
+            });
         }
     }
 

@@ -56,6 +56,11 @@ pub struct Fabric {
 }
 
 impl Fabric {
+    /// EMT along warp and weft, as fractions: what they give under a tensile tester's full load, 500 gf/cm.
+    pub fn emt(&self) -> [f64; 2] {
+        [&self.warp, &self.weft].map(TensileCurve::emt)
+    }
+
     /// Bending length along the warp, metres: c = (B / ρg)^⅓, the scale of the cloth's folds.
     pub fn bending_length_warp(&self) -> f64 {
         self.bending_length_of(self.bend_warp)

@@ -1,40 +1,49 @@
 //! Polygons in space as triangles.
 
+use std::collections::HashSet;
+
 use super::{Vec2, Vec3, sorted_pair};
 
 /// A polygon of a surface, its corners among the `vertices`, as triangles that turn as it does: round its first corner
 /// where it bulges outward everywhere, otherwise one ear after the other (Meisters 1975), seen along its mean normal.
 /// What is too crumpled to have an ear is finished round a corner. A polygon of n corners gives n − 2 triangles.
 pub(crate) fn triangles_of(vertices: &[Vec3], corners: &[u32]) -> Vec<[u32; 3]> {
-    let mut left: Vec<u32> = corners.to_vec();
-    let mut out = Vec::with_capacity(left.len().saturating_sub(2));
-    let flat = flattened(vertices, corners);
-    let at: Vec<Vec2> = flat.unwrap_or_else(|| vec![Vec2::zeros(); corners.len()]);
-    let mut places: Vec<usize> = (0..left.len()).collect();
-    while left.len() > 3 {
+    let at = if corners.len() > 3 { flattened(vertices, corners) } else { None };
+    let Some(at) = at.filter(|at| has_bay(at)) else {
+        return (2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]]).collect();
+    };
+    let mut left: Vec<usize> = (0..corners.len()).collect();
+    let mut out = Vec::with_capacity(corners.len() - 2);
+    while left.len() > 2 {
         let n = left.len();
-        let ear = (1..n).chain([0]).find(|&k| is_ear(&at, &places, k));
         // The corner after the first, as round the first.
-        let k = ear.unwrap_or(1);
-        out.push([left[(k + n - 1) % n], left[k], left[(k + 1) % n]]);
+        let k = (1..n).chain([0]).find(|&k| is_ear(&at, &left, k)).unwrap_or(1);
+        out.push([(k + n - 1) % n, k, (k + 1) % n].map(|i| corners[left[i]]));
         left.remove(k);
-        places.remove(k);
-    }
-    if let [a, b, c] = left[..] {
-        out.push([a, b, c]);
     }
     out
 }
 
-/// The sides of [`triangles_of`] that are none of the polygon's.
-pub(crate) fn diagonals_of(vertices: &[Vec3], corners: &[u32]) -> Vec<[u32; 2]> {
-    let own: Vec<[u32; 2]> =
-        (0..corners.len()).map(|k| sorted_pair([corners[k], corners[(k + 1) % corners.len()]])).collect();
-    let sides = triangles_of(vertices, corners).into_iter().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
+/// The sides of the `triangles` of a polygon that are none of its own.
+pub(crate) fn diagonals_of(corners: &[u32], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
+    let next = corners.iter().cycle().skip(1);
+    let own: HashSet<[u32; 2]> = corners.iter().zip(next).map(|(a, b)| sorted_pair([*a, *b])).collect();
+    let sides = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
     let mut all: Vec<[u32; 2]> = sides.map(sorted_pair).filter(|side| !own.contains(side)).collect();
     all.sort_unstable();
     all.dedup();
     all
+}
+
+/// Whether one of the corners turns inward.
+fn has_bay(at: &[Vec2]) -> bool {
+    let n = at.len();
+    (0..n).any(|k| turns(at[(k + n - 1) % n], at[k], at[(k + 1) % n]) < 0.0)
+}
+
+/// Twice the area of a triangle, negative of one that turns to the right.
+fn turns(p: Vec2, q: Vec2, r: Vec2) -> f64 {
+    (q - p).perp(&(r - q))
 }
 
 /// The corners as seen along the polygon's mean normal (Newell's), which then turns them to the left; `None` of one
@@ -56,7 +65,6 @@ fn is_ear(at: &[Vec2], left: &[usize], k: usize) -> bool {
     let n = left.len();
     let ends @ [before, own, after] = [(k + n - 1) % n, k, (k + 1) % n];
     let [a, b, c] = [before, own, after].map(|i| at[left[i]]);
-    let turns = |p: Vec2, q: Vec2, r: Vec2| (q - p).perp(&(r - q));
     let is_in = |p: Vec2| turns(a, b, p) >= 0.0 && turns(b, c, p) >= 0.0 && turns(c, a, p) >= 0.0;
     // A corner at the very place of one of the ear's own is no obstacle.
     let others = (0..n).filter(|i| !ends.contains(i)).map(|i| at[left[i]]);
@@ -88,7 +96,7 @@ mod tests {
     fn what_bulges_everywhere_is_a_fan() {
         let square = askew(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
         assert_eq!(triangles_of(&square, &[0, 1, 2, 3]), [[0, 1, 2], [0, 2, 3]]);
-        assert_eq!(diagonals_of(&square, &[0, 1, 2, 3]), [[0, 2]]);
+        assert_eq!(diagonals_of(&[0, 1, 2, 3], &[[0, 1, 2], [0, 2, 3]]), [[0, 2]]);
         assert_eq!(triangles_of(&square, &[0, 1, 2]), [[0, 1, 2]]);
     }
 
@@ -106,7 +114,7 @@ mod tests {
                 let polygon: Vec<u32> = (0..8).map(|k| (k + first) % 8).collect();
                 let triangles = triangles_of(&vertices, &polygon);
                 let (all, turned_alike) = area(&vertices, &triangles);
-                assert_eq!((triangles.len(), diagonals_of(&vertices, &polygon).len()), (6, 5));
+                assert_eq!((triangles.len(), diagonals_of(&polygon, &triangles).len()), (6, 5));
                 assert_relative_eq!(all, 7.0, max_relative = 1e-12);
                 assert_relative_eq!(turned_alike, 7.0, max_relative = 1e-12);
             }

@@ -1,7 +1,7 @@
 //! Garments that can be put on and are too tight: their cloth is drawn out further than it gives.
 
 use super::job::Job;
-use crate::fabric::{Fabric, TensileCurve};
+use crate::fabric::Fabric;
 use crate::report::{PieceReport, Report};
 
 /// In words, every piece that is too tight.
@@ -12,7 +12,7 @@ pub fn tight(job: &Job, report: &Report) -> Vec<String> {
 /// That a hundredth of a piece's threads and more are drawn out further than `fabric` is under a tester's full load,
 /// 500 gf/cm. Cloth is not worn so, though it may not tear.
 fn too_tight(piece: &PieceReport, fabric: &Fabric) -> Option<String> {
-    let gives = [&fabric.warp, &fabric.weft].map(TensileCurve::emt);
+    let gives = fabric.emt();
     let [warp, weft] = gives.map(|strain| 100.0 * strain);
     (piece.strain.p99 > gives[0].max(gives[1])).then(|| {
         format!(

@@ -59,5 +59,5 @@ impl Job {
 
 /// Mean strains along warp and weft at which a fabric is taken to tear.
 fn gives(fabric: &Fabric) -> [f64; 2] {
-    [&fabric.warp, &fabric.weft].map(|curve| curve.emt() + BEFORE_IT_TEARS)
+    fabric.emt().map(|strain| strain + BEFORE_IT_TEARS)
 }

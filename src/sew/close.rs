@@ -205,14 +205,12 @@ impl<'a> Closing<'a> {
             }
             let first = *first.get_or_insert(widest);
             history.push(widest);
-            let stuck_for =
-                |steps: usize| history.len() > steps && widest > PROGRESS * history[history.len() - 1 - steps];
             if phase + 1 < PHASES.len() {
-                if stuck_for(STALL) || (phase == 0 && widest < NEAR) {
+                if is_stuck(&history, STALL) || (phase == 0 && widest < NEAR) {
                     phase += 1;
                     history.clear();
                 }
-            } else if stuck_for(STUCK) {
+            } else if is_stuck(&history, STUCK) {
                 self.harder[stage] = (self.harder[stage] + 1).min(HARDER);
                 if widest < NEAR {
                     self.let_pass(world, &gaps, stage)?;
@@ -247,7 +245,7 @@ impl<'a> Closing<'a> {
             let apart = self.tacks.iter().map(|[a, b]| (world.x[*a as usize] - world.x[*b as usize]).norm());
             let widest = apart.fold(0.0, f64::max);
             history.push(widest);
-            let is_stuck = history.len() > STUCK && widest > PROGRESS * history[history.len() - 1 - STUCK];
+            let is_stuck = is_stuck(&history, STUCK);
             if widest <= DONE_UP || is_stuck && self.tighter == HARDER {
                 break;
             }
@@ -296,6 +294,12 @@ impl<'a> Closing<'a> {
         self.passing.iter_mut().zip(jammed).for_each(|(passing, jammed)| *passing |= jammed);
         Ok(world.set_passing(self.passing.clone())?)
     }
+}
+
+/// Whether the last of the widest gaps has hardly shrunk in so many steps.
+fn is_stuck(history: &[f64], steps: usize) -> bool {
+    let last = history.len().saturating_sub(1);
+    last >= steps && history[last] > PROGRESS * history[last - steps]
 }
 
 /// These nodes and one ring round them.

@@ -79,7 +79,7 @@ impl Limit {
     /// That of a fabric.
     pub fn of(fabric: &Fabric) -> Self {
         let [warp, weft] = [&fabric.warp, &fabric.weft].map(TensileCurve::workable);
-        let most = [&fabric.warp, &fabric.weft].map(TensileCurve::emt);
+        let most = fabric.emt();
         Self::Fabric { name: fabric.name.clone(), warp, weft, most }
     }
 

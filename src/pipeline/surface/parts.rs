@@ -192,11 +192,12 @@ impl Part {
         let corners: Vec<Vec<u32>> = own.iter().map(|&f| number(f).map(|fan| local[fan as usize]).collect()).collect();
         let vertices: Vec<u32> = all.iter().map(|a| a.0).collect();
         let positions: Vec<Vec3> = vertices.iter().map(|&v| faces.vertices[v as usize] * unit).collect();
-        let of_polygons = corners.iter().flat_map(|polygon| triangles_of(&positions, polygon));
-        let mut triangles: Vec<[u32; 3]> = of_polygons.map(|[a, b, c]| [a, c, b]).collect();
+        let of_polygon: Vec<Vec<[u32; 3]>> = corners.iter().map(|polygon| triangles_of(&positions, polygon)).collect();
+        let mut triangles: Vec<[u32; 3]> = of_polygon.iter().flatten().map(|&[a, b, c]| [a, c, b]).collect();
         let turned = orient(&mut triangles);
         let nodes = all.iter().map(|a| a.2).collect();
-        let diagonals = corners.iter().flat_map(|polygon| diagonals_of(&positions, polygon)).collect();
+        let both = corners.iter().zip(&of_polygon);
+        let diagonals = both.flat_map(|(polygon, triangles)| diagonals_of(polygon, triangles)).collect();
         let surface = TriMesh { vertices: positions, triangles };
         Self { name, vertices, nodes, faces: own, corners, diagonals, surface, turned }
     }
