@@ -10,7 +10,7 @@ use criterion::{BatchSize, Criterion};
 use toile::contact::{ClothDetector, Neighbourhood};
 use toile::dynamics::{GRIP, StepError, World};
 use toile::geometry::{Mat3, Vec3};
-use toile::linear::{Cholesky, Ordering, SymmetricMatrix, SymmetricPattern, nested_dissection};
+use toile::linear::{Cholesky, SymmetricMatrix, SymmetricPattern};
 use toile::pipeline::Job;
 use toile::sew::place::place;
 use toile::sew::{SewOptions, Sewn, sew, sewn_world};
@@ -62,12 +62,10 @@ fn factor(criterion: &mut Criterion, world: &World) -> Result<(), Box<dyn Error>
         add(b, b, 1.0);
         add(a, b, -1.0);
     }
-    let order = Ordering::Given(nested_dissection(&world.x, edges));
-    let mut factor = Cholesky::<f64>::new(pattern.clone(), &order)?;
+    let mut factor = Cholesky::<f64>::new(pattern.clone())?;
     factor.factor(&matrix)?;
     let mut group = criterion.benchmark_group("linear");
-    group.bench_function("order", |b| b.iter(|| nested_dissection(black_box(&world.x), edges)));
-    group.bench_function("analyse", |b| b.iter(|| Cholesky::<f64>::new(pattern.clone(), black_box(&order)).is_ok()));
+    group.bench_function("analyse", |b| b.iter(|| Cholesky::<f64>::new(black_box(&pattern).clone()).is_ok()));
     group.bench_function("factor", |b| b.iter(|| factor.factor(black_box(&matrix)).is_ok()));
     let load = vec![1.0; 3 * n];
     group.bench_function("solve", |b| {

@@ -11,9 +11,7 @@ use super::model::Cloth;
 use super::thread::shares;
 use crate::contact::Contact;
 use crate::geometry::{Mat3, Vec3};
-use crate::linear::{
-    BlockSlot, Cholesky, CholeskyError, Ordering, PatternError, SymmetricMatrix, SymmetricPattern, nested_dissection,
-};
+use crate::linear::{BlockSlot, Cholesky, CholeskyError, PatternError, SymmetricMatrix, SymmetricPattern};
 
 /// Why a step cannot be made.
 #[derive(Clone, Debug, thiserror::Error)]
@@ -128,18 +126,17 @@ struct Made {
 
 impl Stepper {
     /// Prepares the system of `cloth` with stitches between `pulls` and contacts that couple the nodes in `touching`
-    /// (pairs, smaller first); `x` guides the elimination order. A contact with other couplings is not solved wrongly:
+    /// (pairs, smaller first). A contact with other couplings is not solved wrongly:
     /// it holds its nodes back as if they were alone.
     ///
     /// # Errors
     /// A cloth too large for 32-bit indices.
-    pub fn new(cloth: &Cloth, pulls: &[[u32; 2]], touching: &[[u32; 2]], x: &[Vec3]) -> Result<Self, StepError> {
+    pub fn new(cloth: &Cloth, pulls: &[[u32; 2]], touching: &[[u32; 2]]) -> Result<Self, StepError> {
         let n = cloth.mass.len();
         let mut graph: Vec<[u32; 2]> = cloth.edges.iter().chain(pulls).chain(touching).copied().collect();
         // The wings of a crease are the only nodes of it without a spring between them.
         graph.extend(cloth.creases.iter().map(|c| [c.nodes[2], c.nodes[3]]));
         let pattern = Arc::new(SymmetricPattern::blocks(n, graph.iter().map(|e| (e[0] as usize, e[1] as usize)))?);
-        let order = Ordering::Given(nested_dissection(x, &graph));
         let slot = |[a, b]: [u32; 2]| pattern.block_slot(a as usize, b as usize);
         let find = |[a, b]: [u32; 2]| slot([a, b]).ok_or(StepError::Uncoupled { a: a as usize, b: b as usize });
         let sides = |[a, b, c]: [u32; 3]| Ok([find([a, b])?, find([a, c])?, find([b, c])?]);
@@ -151,7 +148,7 @@ impl Stepper {
             edges: cloth.edges.iter().map(|e| find(*e)).collect::<Result<_, _>>()?,
             pulls: pulls.iter().map(|e| slot(*e)).collect(),
             matrix: SymmetricMatrix::zeros(pattern.clone()),
-            factor: Cholesky::new(pattern, &order)?,
+            factor: Cholesky::new(pattern)?,
             held: cloth.held.clone(),
             made: None,
         })
@@ -466,11 +463,11 @@ mod tests {
         let step = |stepper: &mut Stepper, cloth: &Cloth| {
             stepper.solve(cloth, &x, &across, 0.1, &forces, 1).expect("a step")[1].y
         };
-        let mut stepper = Stepper::new(&cloth, &[], &[], &x).expect("a stepper");
+        let mut stepper = Stepper::new(&cloth, &[], &[]).expect("a stepper");
         let drawn = step(&mut stepper, &cloth);
         // As if a step had foreseen no load at all.
         cloth.follow(&x, cloth.foresee(&[Vec3::zeros(), Vec3::x() * 0.01], &[Vec3::zeros(), Vec3::x() * 0.01]).loads);
-        let fresh = step(&mut Stepper::new(&cloth, &[], &[], &x).expect("a stepper"), &cloth);
+        let fresh = step(&mut Stepper::new(&cloth, &[], &[]).expect("a stepper"), &cloth);
         assert!(fresh > 1.01 * drawn, "{fresh} against {drawn}: the test would see nothing");
         assert_eq!(step(&mut stepper, &cloth), drawn);
         stepper.forget();

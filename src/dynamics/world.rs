@@ -142,7 +142,7 @@ impl<'a> World<'a> {
             gravity: 0.0,
             law,
             proximity: Proximity::new(&cloth, &x, body, hood, reach, &law),
-            stepper: Stepper::new(&cloth, pulls, &[], &x)?,
+            stepper: Stepper::new(&cloth, pulls, &[])?,
             touching: pulls.is_empty().then(Vec::new),
             cloth,
             x,
@@ -442,7 +442,7 @@ impl<'a> World<'a> {
         let touching = self.proximity.touching(&self.x, TOUCHING);
         if touching.iter().any(|t| known.binary_search(t).is_err()) {
             *known = self.proximity.touching(&self.x, COUPLED);
-            self.stepper = Stepper::new(&self.cloth, &[], known, &self.x)?;
+            self.stepper = Stepper::new(&self.cloth, &[], known)?;
         }
         Ok(())
     }

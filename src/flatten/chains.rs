@@ -63,7 +63,6 @@ mod tests {
     use super::super::law::Law;
     use super::*;
     use crate::geometry::Vec2;
-    use crate::linear::Ordering;
 
     /// A square of two triangles whose sides are all too short, held in two chains, and its crooked place.
     fn square() -> (Energy, Vec<Vec2>) {
@@ -109,7 +108,7 @@ mod tests {
     #[test]
     fn the_inverse_knows_the_chains() {
         let (energy, flat) = square();
-        let mut inverse = Inverse::new(&energy, &Ordering::MinimumDegree).expect("a pattern");
+        let mut inverse = Inverse::new(&energy).expect("a pattern");
         inverse.renew(&energy, &flat).expect("a factor");
         // What the sparse matrix and the chains make of a vector must be taken back to it.
         let vector: Vec<f64> = (0..8).map(|k| f64::from(k * k % 5) - 1.0).collect();

@@ -34,7 +34,7 @@ pub(super) fn approach(energy: &Energy, flat: &mut [Vec2]) {
     let (elements, springs) = (grid.elements(energy, flat), grid.springs(energy, flat));
     let mut coarse = Energy::new(grid.nodes.len(), elements, springs, energy.law);
     let mut moved = grid.nodes.clone();
-    let descent = Descent::new(&coarse, &moved);
+    let descent = Descent::new(&coarse);
     if descent.and_then(|mut d| d.down(&mut coarse, &mut moved, &GOAL, None)).is_err() {
         return;
     }

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::FlattenError;
-use crate::geometry::{Topology, TriMesh, Vec3};
-use crate::linear::{Cholesky, Ordering, SymmetricMatrix, SymmetricPattern, nested_dissection};
+use crate::geometry::{Topology, TriMesh};
+use crate::linear::{Cholesky, SymmetricMatrix, SymmetricPattern};
 
 /// Weights of the graph whose mean-value property defines "harmonic".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,9 +42,7 @@ impl Laplacian {
             .collect();
         let edges: Vec<([u32; 2], f64)> =
             topology.edges.iter().map(|e| (e.ends, edge_weight(surface, e.ends, &e.triangles, weights))).collect();
-        let points: Vec<Vec3> =
-            surface.vertices.iter().zip(&inner).filter(|(_, i)| i.is_some()).map(|(p, _)| *p).collect();
-        let factor = factor(&edges, &inner, &points)?;
+        let factor = factor(&edges, &inner, inner_count)?;
         Ok(Self { edges, inner, inner_count, factor })
     }
 
@@ -92,10 +90,10 @@ fn edge_weight(surface: &TriMesh, ends: [u32; 2], triangles: &[Option<u32>; 2], 
 }
 
 /// Factors the part inside the rim; `points` are the inner vertices.
-fn factor(edges: &[([u32; 2], f64)], inner: &[Option<u32>], points: &[Vec3]) -> Result<Cholesky<f64>, FlattenError> {
+fn factor(edges: &[([u32; 2], f64)], inner: &[Option<u32>], inner_count: usize) -> Result<Cholesky<f64>, FlattenError> {
     let breakdown = |_| FlattenError::Breakdown;
     let coupled = |ends: [u32; 2]| Some((inner[ends[0] as usize]? as usize, inner[ends[1] as usize]? as usize));
-    let pattern = SymmetricPattern::scalar(points.len(), edges.iter().filter_map(|&(ends, _)| coupled(ends)));
+    let pattern = SymmetricPattern::scalar(inner_count, edges.iter().filter_map(|&(ends, _)| coupled(ends)));
     let pattern = Arc::new(pattern.map_err(|_| FlattenError::Breakdown)?);
     let mut matrix = SymmetricMatrix::<f64>::zeros(pattern.clone());
     for &(ends, weight) in edges {
@@ -108,10 +106,7 @@ fn factor(edges: &[([u32; 2], f64)], inner: &[Option<u32>], points: &[Vec3]) -> 
             matrix.add(slot, -weight);
         }
     }
-    let graph: Vec<[u32; 2]> =
-        edges.iter().filter_map(|&(ends, _)| coupled(ends)).map(|(i, j)| [i as u32, j as u32]).collect();
-    let order = Ordering::Given(nested_dissection(points, &graph));
-    let mut factor = Cholesky::new(pattern, &order).map_err(|_| FlattenError::Breakdown)?;
+    let mut factor = Cholesky::new(pattern).map_err(|_| FlattenError::Breakdown)?;
     factor.factor(&matrix).map_err(breakdown)?;
     Ok(factor)
 }

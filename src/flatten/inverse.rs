@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector, Dyn};
 use super::FlattenError;
 use super::energy::{Curvature, Energy, Real};
 use crate::geometry::Vec2;
-use crate::linear::{Cholesky, Ordering};
+use crate::linear::Cholesky;
 
 /// Ties that are tried one after another where a factor fails, in those it has at first.
 const TIES: [f64; 4] = [1e2, 1e4, 1e6, 1e8];
@@ -26,9 +26,9 @@ pub(super) struct Inverse {
 
 impl Inverse {
     /// Prepared for the couplings of an energy, but that of no position yet.
-    pub(super) fn new(energy: &Energy, order: &Ordering) -> Result<Self, FlattenError> {
+    pub(super) fn new(energy: &Energy) -> Result<Self, FlattenError> {
         let curvature = Curvature::new(energy)?;
-        let factor = Cholesky::new(curvature.pattern().clone(), order).map_err(|_| FlattenError::Breakdown)?;
+        let factor = Cholesky::new(curvature.pattern().clone()).map_err(|_| FlattenError::Breakdown)?;
         Ok(Self { curvature, factor, answers: DMatrix::zeros(0, 0), chains: None })
     }
 

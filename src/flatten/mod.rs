@@ -316,13 +316,13 @@ fn relax_sheet(sheet: &Sheet<'_>, start: Vec<Vec2>, options: &Options) -> Result
     }
     let goal = Goal::of(options, held);
     let chained = sheet.breaks.as_ref().filter(|_| held && options.mode == Mode::Woven);
-    let mut descent = Descent::new(&energy, &positions)?;
+    let mut descent = Descent::new(&energy)?;
     let mut outcome =
         descent.down(&mut energy, &mut positions, &chained.map_or(goal, |_| FIRST_OF_TWO), zone.as_mut())?;
     if let Some(breaks) = chained {
         energy = energy.with_chains(&sheet.rims, breaks);
         let before = outcome.iterations;
-        outcome = Descent::new(&energy, &positions)?.down(&mut energy, &mut positions, &goal, None)?;
+        outcome = Descent::new(&energy)?.down(&mut energy, &mut positions, &goal, None)?;
         outcome.iterations += before;
     }
     let slack = energy.slack(&positions);

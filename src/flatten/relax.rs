@@ -9,8 +9,7 @@ use super::energy::Energy;
 use super::inverse::Inverse;
 use super::zone::Zone;
 use super::{FlattenError, Mode, Options};
-use crate::geometry::{Vec2, Vec3};
-use crate::linear::{Ordering, nested_dissection};
+use crate::geometry::Vec2;
 
 /// Steps that one factorisation serves: a factor costs about as much as six steps, and later ones are worth less.
 const STEPS_PER_FACTOR: usize = 10;
@@ -71,9 +70,8 @@ pub(super) struct Descent {
 }
 
 impl Descent {
-    pub(super) fn new(energy: &Energy, flat: &[Vec2]) -> Result<Self, FlattenError> {
-        let order = Ordering::Given(nested_dissection(&lifted(&flat[..energy.free]), &energy.couplings()));
-        Ok(Self { inverse: Inverse::new(energy, &order)? })
+    pub(super) fn new(energy: &Energy) -> Result<Self, FlattenError> {
+        Ok(Self { inverse: Inverse::new(energy)? })
     }
 
     /// Moves `flat`, which must have no flipped triangle, to a minimum of `energy`. Converged when the goal is met; the
@@ -140,10 +138,6 @@ impl Descent {
         }
         Ok(Outcome { energy: value, iterations: goal.max_iterations, converged: false })
     }
-}
-
-fn lifted(flat: &[Vec2]) -> Vec<Vec3> {
-    flat.iter().map(|p| Vec3::new(p.x, p.y, 0.0)).collect()
 }
 
 /// Goes along `direction` as far as the energy falls and nothing flips, if only so far as not at all.

@@ -51,7 +51,7 @@ impl Zone {
         };
         let energy = energy.part(vertices.len(), free, elements, springs);
         let flat: Vec<Vec2> = vertices.iter().map(|&v| flat[v as usize]).collect();
-        let descent = Descent::new(&energy, &flat).ok()?;
+        let descent = Descent::new(&energy).ok()?;
         Some(Self { vertices, energy, descent, flat })
     }
 

@@ -5,11 +5,12 @@ use std::sync::Arc;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{LltError, LltRegularization};
 use faer::perm::PermRef;
+use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 
 use super::{SymmetricMatrix, SymmetricPattern};
@@ -56,24 +57,9 @@ impl Scalar for f32 {
     }
 }
 
-/// The order in which rows are eliminated; it decides how many entries L has.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub enum Ordering {
-    /// Approximate minimum degree: good for any matrix.
-    #[default]
-    MinimumDegree,
-    /// Nodes in the order of their elimination, such as [`super::nested_dissection`] gives: analysed faster. Measured
-    /// on a 70×70 grid of 3×3 blocks, factor and solve cost the same within a tenth. The rows of a block pattern's
-    /// vertex stay together.
-    Given(Vec<u32>),
-}
-
 /// Why no factor can be made for a pattern.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CholeskyError {
-    /// The given order does not hold every node once.
-    #[error("the elimination order is no permutation of the matrix' {0} nodes")]
-    Ordering(usize),
     /// The factor does not fit into memory or into 32-bit indices.
     #[error("the factor of a matrix of {0} rows is too large")]
     TooLarge(usize),
@@ -112,10 +98,10 @@ impl<T: Scalar> Cholesky<T> {
     /// Analyses a pattern. The factor is that of no matrix until [`Cholesky::factor`] succeeds.
     ///
     /// # Errors
-    /// An order that is no permutation; a factor too large.
-    pub fn new(pattern: Arc<SymmetricPattern>, ordering: &Ordering) -> Result<Self, CholeskyError> {
+    /// A factor too large.
+    pub fn new(pattern: Arc<SymmetricPattern>) -> Result<Self, CholeskyError> {
         let too_large = CholeskyError::TooLarge(pattern.size());
-        let symbolic = analyse(&pattern, ordering)?;
+        let symbolic = analyse(&pattern)?;
         let needed = symbolic.factorize_numeric_llt_scratch::<T>(SERIAL, Default::default());
         let scratch = MemBuffer::try_new(needed).map_err(|_| too_large)?;
         let values = vec![T::from_f64(0.0); symbolic.len_val()];
@@ -198,34 +184,28 @@ fn lower_triangle(pattern: &SymmetricPattern) -> SymbolicSparseColMatRef<'_, u32
     SymbolicSparseColMatRef::new_checked(pattern.size(), pattern.size(), pattern.starts(), None, pattern.rows())
 }
 
-fn analyse(pattern: &SymmetricPattern, ordering: &Ordering) -> Result<SymbolicCholesky<u32>, CholeskyError> {
-    let size = pattern.size();
-    let lower = lower_triangle(pattern);
-    let params = CholeskySymbolicParams::default();
-    let result = match ordering {
-        Ordering::MinimumDegree => factorize_symbolic_cholesky(lower, Side::Lower, SymmetricOrdering::Amd, params),
-        Ordering::Given(nodes) => {
-            let (forward, inverse) = permutation(pattern, nodes)?;
-            let order = SymmetricOrdering::Custom(PermRef::new_checked(&forward, &inverse, size));
-            factorize_symbolic_cholesky(lower, Side::Lower, order, params)
-        }
-    };
-    result.map_err(|_| CholeskyError::TooLarge(size))
+fn analyse(pattern: &SymmetricPattern) -> Result<SymbolicCholesky<u32>, CholeskyError> {
+    let ordered = minimum_degree(pattern).and_then(|[order, inverse]| {
+        let order = PermRef::new_checked(&order, &inverse, pattern.size());
+        let (order, params) = (SymmetricOrdering::Custom(order), CholeskySymbolicParams::default());
+        factorize_symbolic_cholesky(lower_triangle(pattern), Side::Lower, order, params)
+    });
+    ordered.map_err(|_| CholeskyError::TooLarge(pattern.size()))
 }
 
-/// A node order written out for every row, with its inverse.
-fn permutation(pattern: &SymmetricPattern, nodes: &[u32]) -> Result<(Vec<u32>, Vec<u32>), CholeskyError> {
+/// An order of elimination that fills L little, and its inverse: approximate minimum degree (Amestoy, Davis and Duff
+/// 1996). Rows of one node have the same neighbours and stay together, so nodes are ordered, with a ninth of the
+/// entries. In a garment's folds, whose layers are coupled where they touch, L has 0.4 to 0.6 of the entries it has
+/// after cuts by planes (geometric nested dissection; measured: trousers of 5,249 nodes 1.05 against 1.79 million, a
+/// gored skirt of 12,408 4.0 against 10.4); in a flat grid of up to 90,000 nodes as many.
+fn minimum_degree(pattern: &SymmetricPattern) -> Result<[Vec<u32>; 2], FaerError> {
+    let (starts, rows) = pattern.graph();
+    let nodes = pattern.nodes();
+    let graph = SymbolicSparseColMatRef::new_checked(nodes, nodes, starts, None, rows);
+    let needed = amd::order_maybe_unsorted_scratch::<u32>(nodes, rows.len());
+    let mut memory = MemBuffer::try_new(needed).map_err(|_| FaerError::OutOfMemory)?;
+    let [mut order, mut inverse] = [vec![0; nodes], vec![0; nodes]];
+    amd::order_maybe_unsorted(&mut order, &mut inverse, graph, Default::default(), MemStack::new(&mut memory))?;
     let width = pattern.width() as u32;
-    let wrong = CholeskyError::Ordering(pattern.nodes());
-    if nodes.len() != pattern.nodes() || nodes.iter().any(|&v| v as usize >= pattern.nodes()) {
-        return Err(wrong);
-    }
-    let forward: Vec<u32> = nodes.iter().flat_map(|&v| (0..width).map(move |k| v * width + k)).collect();
-    let mut inverse = vec![u32::MAX; forward.len()];
-    for (k, &row) in forward.iter().enumerate() {
-        if std::mem::replace(&mut inverse[row as usize], k as u32) != u32::MAX {
-            return Err(wrong);
-        }
-    }
-    Ok((forward, inverse))
+    Ok([order, inverse].map(|nodes| nodes.iter().flat_map(|v| (0..width).map(move |k| v * width + k)).collect()))
 }

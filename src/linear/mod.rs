@@ -10,11 +10,9 @@
 //! the same bits every time.
 
 mod cholesky;
-mod dissection;
 mod matrix;
 mod pattern;
 
-pub use cholesky::{Cholesky, CholeskyError, NotPositiveDefinite, Ordering, Scalar};
-pub use dissection::nested_dissection;
+pub use cholesky::{Cholesky, CholeskyError, NotPositiveDefinite, Scalar};
 pub use matrix::SymmetricMatrix;
 pub use pattern::{BlockSlot, PatternError, Slot, SymmetricPattern};

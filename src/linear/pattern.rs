@@ -168,6 +168,11 @@ impl SymmetricPattern {
         self.node_rows[from..to].binary_search(&u32::try_from(row).ok()?).ok().map(|k| k as u32)
     }
 
+    /// Column starts and rows of the lower triangle of nodes.
+    pub(super) fn graph(&self) -> (&[u32], &[u32]) {
+        (&self.node_starts, &self.node_rows)
+    }
+
     /// Column starts of the scalar matrix, with the total at the end.
     pub(super) fn starts(&self) -> &[u32] {
         &self.starts

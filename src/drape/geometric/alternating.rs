@@ -17,7 +17,7 @@ use super::handles::Handles;
 use super::stencils::Stencils;
 use super::{GeometricCloth, GeometricError, Weights};
 use crate::geometry::Vec3;
-use crate::linear::{Cholesky, Ordering, SymmetricMatrix, SymmetricPattern};
+use crate::linear::{Cholesky, SymmetricMatrix, SymmetricPattern};
 
 /// The alternation, prepared for one cloth and one set of held vertices.
 #[derive(Debug)]
@@ -35,7 +35,7 @@ impl<'a> Alternating<'a> {
     pub fn new(cloth: &'a GeometricCloth, held: &[u32]) -> Result<Self, GeometricError> {
         let handles = Handles::new(cloth.vertices(), held)?;
         let matrix = assemble(&cloth.stencils, &cloth.weights, &handles)?;
-        let mut factor = Cholesky::new(matrix.pattern().clone(), &Ordering::MinimumDegree)?;
+        let mut factor = Cholesky::new(matrix.pattern().clone())?;
         factored(&mut factor, &matrix, 1)?;
         Ok(Self { cloth, handles, factor })
     }

@@ -16,7 +16,7 @@ use super::handles::Handles;
 use super::stencils::{Length, Stencils};
 use super::{GeometricCloth, GeometricError, Weights};
 use crate::geometry::{Mat3, Vec3};
-use crate::linear::{BlockSlot, Cholesky, Ordering, SymmetricMatrix, SymmetricPattern};
+use crate::linear::{BlockSlot, Cholesky, SymmetricMatrix, SymmetricPattern};
 
 /// A step is halved no more often: what is left is rounding.
 const HALVINGS: usize = 40;
@@ -54,7 +54,7 @@ impl<'a> LeastSquares<'a> {
         let pattern = pattern(&cloth.stencils)?;
         let constant = constant(&cloth.stencils, &cloth.weights, &handles, &pattern);
         let edges = cloth.stencils.edges.iter().map(|e| Place::new(e, &handles, &pattern)).collect();
-        let factor = Cholesky::new(pattern, &Ordering::MinimumDegree)?;
+        let factor = Cholesky::new(pattern)?;
         Ok(Self { cloth, handles, constant, edges, factor })
     }
 
