@@ -242,8 +242,8 @@ impl Fall<'_> {
     }
 
     /// As many steps again as were made, at half the step size: how far the garment goes, metres, root mean square and
-    /// largest. Where it hardly moves any more, or tests have made `most` steps, those that are left count as if each
-    /// went as far as the last, all the same way.
+    /// largest. Where it hardly moves any more, has gone too far already, or tests have made `most` steps, those that
+    /// are left count as if each went as far as the last, all the same way.
     fn drift(&mut self, most: usize) -> Result<[f64; 2], StepError> {
         let before = self.world.x.clone();
         let (mut left_out, mut still) = ([0.0; 2], Still::default());
@@ -252,7 +252,8 @@ impl Fall<'_> {
             self.step(0.5 * STEP)?;
             self.tested += 1;
             let still_to_go = motion(&from, &self.world.x).map(|way| way * left as f64);
-            if still.after(still_to_go[0], DRIFT) || self.tested >= most {
+            let is_decided = still.after(still_to_go[0], DRIFT) || motion(&before, &self.world.x)[0] > DRIFT;
+            if is_decided || self.tested >= most {
                 left_out = still_to_go;
                 break;
             }

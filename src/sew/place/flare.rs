@@ -38,6 +38,9 @@ const ROUND: f64 = 0.35;
 /// It is looked at in so many directions, at points of the rim so far apart, metres.
 const DIRECTIONS: usize = 90;
 const SAMPLED: f64 = 1e-3;
+/// There is cloth in this share of these directions at least. (The legs of a dart point at an apex metres away, and nearly all
+/// round it is the outside of the angle between them: there all of the piece is, in one direction.)
+const FILLED: f64 = 0.9;
 /// Sides that differ by less from one line, radians, are one: of half a ring, whose apex is in their middle.
 const IN_LINE: f64 = 0.01;
 /// Particles this far beyond a side, radians, still lie on it.
@@ -262,7 +265,7 @@ fn is_round<'a>(sector: &Sector, rim: impl Iterator<Item = &'a Path>) -> bool {
         rise += up;
         length += up.hypot(0.5 * (step[0] + step[1]) * turn);
     }
-    length > 0.0 && rise <= ROUND * length
+    waist.len() as f64 >= FILLED * DIRECTIONS as f64 && rise <= ROUND * length
 }
 
 /// Points along a line of straight pieces, none further apart than [`SAMPLED`].
@@ -315,6 +318,14 @@ mod tests {
         let skirt = sector_of(&back, true).expect("a sector");
         assert!((skirt.apex - Vec2::new(-0.14, 0.0)).norm() < 1e-3 && skirt.radii[1] > 0.4, "{skirt:?}");
         assert!(sector_of(&back, false).is_none(), "shoulders may be as long");
+    }
+
+    #[test]
+    fn the_legs_of_a_dart_are_no_sides() {
+        let legs = ["L 59 157", "L 61 0", "L 223 0", "L 225 157", "L 227 0", "L 362 0"];
+        let sides = ["Q 384 100 384 196", "Q 384 267 292 444", "L -8 444", "Q -100 267 -100 196", "Q -100 97 -78 0"];
+        let front = [&["M -78 0 L 57 0"], &legs[..], &sides].concat();
+        assert!(sector_of(&front, true).is_none(), "{:?}", sector_of(&front, true));
     }
 
     #[test]
