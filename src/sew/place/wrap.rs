@@ -15,8 +15,8 @@ use crate::mannequin::{Mannequin, PartKind};
 use crate::mesh::ClothMesh;
 use crate::pattern::Garment;
 
-/// A row that would begin under the floor is lifted until it is so far off it, metres,
-const OFF_FLOOR: f64 = 0.005;
+/// A row that would begin lower is lifted until it is so far off the floor, metres: clear of the toes;
+const TOES: f64 = 0.03;
 /// but no further than so much above the waist; the rest of a train has to be pushed up.
 const HIGHEST: f64 = 0.05;
 /// A layer's ring is so much wider than the one it is worn over, metres: room for the folds of that.
@@ -77,7 +77,19 @@ pub(super) fn wrap(
             placed[m.piece] = true;
         }
     }
+    clear_toes(mesh, body, &rings, &mut x);
     Ok(x)
+}
+
+/// Lifts what hangs round the trunk until it is clear of the toes, or by their height: a rim that is drawn inward beside
+/// them goes under them, and stays there.
+fn clear_toes(mesh: &ClothMesh, body: &Mannequin, rings: &[(usize, Ring)], x: &mut [Vec3]) {
+    let Some(floor) = body.floor() else { return };
+    let hanging = rings.iter().map(|r| r.1.row).filter(|row| row.part == PartKind::Torso);
+    let particles = || hanging.clone().flat_map(Row::pieces).flat_map(|piece| mesh.pieces[piece].particles.clone());
+    let lowest = particles().map(|p| x[p].y).fold(f64::INFINITY, f64::min);
+    let lift = (floor + TOES - lowest).clamp(0.0, TOES);
+    particles().for_each(|p| x[p].y += lift);
 }
 
 /// Station of v = 0 for a row round a leg that hangs from rows round the trunk: just under what it is sewn to.
@@ -157,5 +169,5 @@ fn anchor(body: &Mannequin, stations: &Stations, row: &Row, levels: &[Level], at
 /// `anchor`, or as much nearer the head as keeps the row off the floor: cloth that is pushed up from under it crumples,
 /// and crumpled rims do not find each other.
 fn above_floor(body: &Mannequin, anchor: f64, row: &Row) -> f64 {
-    body.floor().map_or(anchor, |floor| anchor.min(-(floor + OFF_FLOOR) - row.v[1]))
+    body.floor().map_or(anchor, |floor| anchor.min(-(floor + TOES) - row.v[1]))
 }
