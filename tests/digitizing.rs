@@ -11,6 +11,7 @@ use toile::io::garment::{Loaded, read_text, write};
 use toile::io::pattern_svg::pattern_svg;
 use toile::io::svg_read::read_svg_text;
 use toile::io::svg_write::cutting_svg;
+use toile::mesh::build;
 use toile::pattern::{Cut, Drawing, drawings};
 
 const INKSCAPE: &str = include_str!("data/inkscape.svg");
@@ -199,7 +200,7 @@ fn a_flattened_pattern_is_read_back() {
                 crease: {path: M 10 250 L 90 250, fold: -90}\n  back:";
     let text = SAMPLE.replacen("notches: {side: [100]}\n  back:", more, 1);
     let garment = read_text("sample", "sample.yaml", &text).expect("a garment").garment;
-    let mesh = toile::mesh::build(&garment, 0.02).expect("a mesh");
+    let mesh = build(&garment, 0.02).expect("a mesh");
     let flat: Vec<Vec2> = mesh.flat.iter().map(|p| p * 1.001).collect();
     let notches: Vec<_> = garment.pieces.iter().flat_map(|p| p.notches.clone()).collect();
     let made = from_svg(&pattern_svg(&mesh, &flat, &notches).expect("a drawing"));
@@ -369,6 +370,22 @@ fn open_lines_of_a_layer_that_meet_end_to_end_are_an_outline_of_named_edges() {
     let wanted = [("waist", 100.0), ("side", 300.0), ("hem", 150.0), ("center", 304.0)];
     assert_eq!(edges, wanted.map(|(name, mm)| (name.to_owned(), mm)));
     assert!(pieces.len() == 2 && front.lines.len() == 4 && front.rings.len() == 1, "{:?}", front.lines);
+}
+
+#[test]
+fn an_edge_without_length_to_speak_of_is_none() {
+    let lines = [
+        ("waist", "M 100 100 H 200"),
+        ("slip", "M 200 100 V 100.015"),
+        ("side", "M 200 100.015 V 400"),
+        ("hem", "M 200 400 L 100 100"),
+    ];
+    let made = from_svg(&layer_of_lines(&lines));
+    let pieces = drawn(&made);
+    let front = pieces.iter().find(|p| p.name == "front").expect("the front");
+    let names: Vec<String> = lengths(front).into_iter().map(|(name, _)| name).collect();
+    assert_eq!(names, ["waist", "side", "hem"]);
+    build(&loaded(&made).garment, 0.020).expect("every edge is long enough");
 }
 
 #[test]
