@@ -47,7 +47,7 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
     let before = findings.errors();
     let seams = seams(&readable, &drafts, &cut, findings);
     if sound && findings.errors() == before {
-        cover::check(&readable, &drafts, &cut, &seams, findings);
+        cover::check(&readable, &pieces, &drafts, &cut, &seams, findings);
         cover::check_free_but_sewn(&readable, &drafts, &cut, &seams, findings);
         cover::check_joined(&readable, &drafts, &cut, &seams, findings);
     }
