@@ -439,6 +439,34 @@ fn what_is_wrong_with_a_seam_is_named_with_its_place() {
     says(&fold, 21, "b.L.left", "b.L.left lies on the fold");
 }
 
+#[test]
+fn notches_that_miss_each_other_are_warned_of() {
+    let notched = |a: &str, b: &str| {
+        let on = |piece: &str, list: &str| (format!("  {piece}:\n"), format!("  {piece}:\n    notches: {list}\n"));
+        let (on_a, on_b) = (on("a", a), on("b", b));
+        squares(&on_a.0, &on_a.1).replacen(&on_b.0, &on_b.1, 1)
+    };
+    // One edge runs down, the other up.
+    let apart = "seam 'side': the notches at 90 mm on a.right and 10 mm on b.left, both from where the seam begins, \
+                 are 80 mm apart";
+    says(&notched("{right: [90]}", "{left: [90]}"), 22, "side", apart);
+    says(&notched("{right: [90 double, 20]}", "{left: [90 double, 10, 80]}"), 22, "side", apart);
+    // Those that meet, to a stroke of the pen; of another kind; and one that no other is there for.
+    for (a, b) in
+        [("{right: [90]}", "{left: [12]}"), ("{right: [90]}", "{left: [90 double]}"), ("{right: [90]}", "{top: [9]}")]
+    {
+        assert_eq!(mistakes(&notched(a, b)), [], "{a} {b}");
+    }
+    // What is gathered may all be before the notch, or behind it; what is matched by notches meets in their order.
+    let gathered = |at: u32, how: &str| {
+        let seam = format!("a.right, to: b.left@0..80, gather: 1.25{how}");
+        let text = notched("{right: [50]}", &format!("{{left: [{at}]}}")).replacen("a.right, to: b.left", &seam, 1);
+        mistakes(&text.replacen("free: [", "free: [b.left@80..100, ", 1)).len()
+    };
+    assert_eq!([15, 32, 48, 65].map(|at| gathered(at, "")), [1, 0, 0, 1]);
+    assert_eq!(gathered(65, ", match: notches"), 0);
+}
+
 /// An edge that is sewn in part: what the message calls neither sewn nor free can be listed as it is called.
 #[test]
 fn a_part_of_an_edge_can_be_listed_free() {

@@ -35,6 +35,7 @@ mod inherit;
 mod layers;
 mod line;
 mod measure;
+mod notch;
 mod outline;
 mod place_word;
 mod pleat;

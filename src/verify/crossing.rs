@@ -18,8 +18,8 @@ pub struct Between {
 /// Pairs of triangles of one mesh that cross, the smaller index first, sorted.
 ///
 /// Two triangles cross when a side of one passes strictly through the inside of the other. Touching, lying in one
-/// plane and meeting side on side is no crossing. Two that share a vertex cross where the side of one that lies opposite
-/// passes through the other; two that share a side never do. The test is exact.
+/// plane and meeting side on side is no crossing. Two that share a vertex cross where the side of one that lies
+/// opposite passes through the other; two that share a side never do. The test is exact.
 pub fn crossings(mesh: &TriMesh) -> Vec<[u32; 2]> {
     let tree = Tree::new(mesh);
     let found = (0..mesh.triangles.len() as u32).into_par_iter().flat_map_iter(|t| {
