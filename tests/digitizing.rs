@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use toile::cutting::{Layout, Options, Paper, SewKind, Sheet, papers};
-use toile::digitize::{Digitized, garment_file};
+use toile::digitize::{Digitized, Traced, garment_file};
 use toile::geometry::{Path, Vec2};
 use toile::io::dxf_read::read_dxf_text;
 use toile::io::dxf_write::cutting_dxf;
@@ -11,6 +11,7 @@ use toile::io::garment::{Loaded, read_text, write};
 use toile::io::pattern_svg::pattern_svg;
 use toile::io::svg_read::read_svg_text;
 use toile::io::svg_write::cutting_svg;
+use toile::mesh::build;
 use toile::pattern::{Cut, Drawing, drawings};
 
 const INKSCAPE: &str = include_str!("data/inkscape.svg");
@@ -199,7 +200,7 @@ fn a_flattened_pattern_is_read_back() {
                 crease: {path: M 10 250 L 90 250, fold: -90}\n  back:";
     let text = SAMPLE.replacen("notches: {side: [100]}\n  back:", more, 1);
     let garment = read_text("sample", "sample.yaml", &text).expect("a garment").garment;
-    let mesh = toile::mesh::build(&garment, 0.02).expect("a mesh");
+    let mesh = build(&garment, 0.02).expect("a mesh");
     let flat: Vec<Vec2> = mesh.flat.iter().map(|p| p * 1.001).collect();
     let notches: Vec<_> = garment.pieces.iter().flat_map(|p| p.notches.clone()).collect();
     let made = from_svg(&pattern_svg(&mesh, &flat, &notches).expect("a drawing"));
@@ -340,6 +341,22 @@ fn labels_of_paths_on_a_layer_are_names_of_pieces() {
     assert_eq!(cuts, [("front".to_owned(), Cut::Pair), ("yoke".to_owned(), Cut::One)]);
 }
 
+#[test]
+fn css_hides_and_moves_what_it_means() {
+    let text = "<svg xmlns='http://www.w3.org/2000/svg' width='1200Q' height='30cm' viewBox='0 0 300 300'>\
+        <style>/* .b { */ .a, rect.twice { fill: none; display: none } .a { fill: red } #shown { display: inline }\
+        .twice{transform:scale(2)}</style>\
+        <rect class='a' width='90' height='90'/><rect id='shown' class='a' x='100' width='40' height='50'/>\
+        <g style='transform: translate(10px, 20px) rotate(90deg)'><rect class='b' width='60' height='70'/></g>\
+        <path class='twice' d='M 50 100 h 40 v 40 h -40 Z'/></svg>";
+    let drawing = read_svg_text(text).expect("pieces");
+    let area = |p: &Traced| p.sew.iter().map(|e| e.1.double_area()).sum::<f64>().abs() * 0.5e6;
+    let areas: Vec<f64> = drawing.pieces.iter().map(|p| area(p).round()).collect();
+    assert_eq!(areas, [2000.0, 4200.0, 6400.0]);
+    let corner = drawing.pieces[1].sew[0].1.point(0.060);
+    assert!((corner - Vec2::new(0.010, 0.080)).norm() < EXACT, "turned about the origin, then moved: {corner}");
+}
+
 /// Of nothing but lines on a layer, as they are drawn one by one.
 fn layer_of_lines(lines: &[(&str, &str)]) -> String {
     let paths: String =
@@ -369,6 +386,22 @@ fn open_lines_of_a_layer_that_meet_end_to_end_are_an_outline_of_named_edges() {
     let wanted = [("waist", 100.0), ("side", 300.0), ("hem", 150.0), ("center", 304.0)];
     assert_eq!(edges, wanted.map(|(name, mm)| (name.to_owned(), mm)));
     assert!(pieces.len() == 2 && front.lines.len() == 4 && front.rings.len() == 1, "{:?}", front.lines);
+}
+
+#[test]
+fn an_edge_without_length_to_speak_of_is_none() {
+    let lines = [
+        ("waist", "M 100 100 H 200"),
+        ("slip", "M 200 100 V 100.015"),
+        ("side", "M 200 100.015 V 400"),
+        ("hem", "M 200 400 L 100 100"),
+    ];
+    let made = from_svg(&layer_of_lines(&lines));
+    let pieces = drawn(&made);
+    let front = pieces.iter().find(|p| p.name == "front").expect("the front");
+    let names: Vec<String> = lengths(front).into_iter().map(|(name, _)| name).collect();
+    assert_eq!(names, ["waist", "side", "hem"]);
+    build(&loaded(&made).garment, 0.020).expect("every edge is long enough");
 }
 
 #[test]
@@ -651,6 +684,20 @@ fn inches_are_told_by_the_style_and_millimetres_are_meant_otherwise() {
     let inches = metric.replace("Units: METRIC", "Units: ENGLISH");
     assert!((area(&inches, None) / area(&metric, None) - 25.4 * 25.4).abs() < 1e-6);
     assert!((area(&inches, Some(1e-3)) / area(&metric, None) - 1.0).abs() < 1e-9, "what is said aloud counts");
+    let notes = |text: &str, unit: Option<f64>| read_dxf_text(text, unit).expect("pieces").notes;
+    assert!(notes(&metric, None).is_empty());
+    let unsaid = metric.replace("Units: METRIC", "Units:");
+    let header = |variable: &str| format!("0\nSECTION\n2\nHEADER\n9\n{variable}\n0\nENDSEC\n{unsaid}");
+    let english = header("$MEASUREMENT\n70\n0");
+    for (text, ratio, said) in [(&unsaid, 1.0, "millimetres;"), (&english, 25.4 * 25.4, "inches, by its $MEASUREMENT;")]
+    {
+        assert!((area(text, None) / area(&metric, None) - ratio).abs() < 1e-6);
+        let [note] = &notes(text, None)[..] else { panic!("one note") };
+        assert!(note.contains(said) && note.contains("--units"), "{note}");
+        assert!(notes(text, Some(1e-3)).is_empty());
+    }
+    let both = header("$INSUNITS\n70\n5\n9\n$MEASUREMENT\n70\n0");
+    assert!((area(&both, None) / area(&metric, None) - 100.0).abs() < 1e-6 && notes(&both, None).is_empty());
 }
 
 /// A block of these entities as a DXF file in millimetres.

@@ -414,8 +414,8 @@ fn what_is_wrong_with_a_seam_is_named_with_its_place() {
     says(&side("{sew: a.right, to: b.left, ease: 1, gather: 2}"), 20, "2", two);
     let twice = side("{sew: a.right, to: b.left}\n  pocket: {sew: a.right@0..50, to: b.right@0..50}");
     says(&twice, 21, "pocket", "a.right is sewn twice on 0..50 mm: in 'side' and in 'pocket'");
-    says(&squares("a.bottom, ", ""), 20, "side", "edges neither sewn nor free: a.bottom");
-    says(&side("{sew: a.right, to: b.left@0..50, gather: 2}"), 20, "side", "neither sewn nor free: b.left@50..100");
+    says(&squares("a.bottom, ", ""), 9, "bottom", "edges neither sewn nor free: a.bottom");
+    says(&side("{sew: a.right, to: b.left@0..50, gather: 2}"), 18, "left", "neither sewn nor free: b.left@50..100");
     let band = side("{sew: a.right, to: b.left}\n  ring: {sew: a.left, to: b.right, face: same}");
     says(&band, 21, "ring", "sewing closes the surface into a non-orientable band at 'ring'");
     let notched = side("{sew: a.right, to: b.left, match: notches}").replacen(
@@ -439,16 +439,44 @@ fn what_is_wrong_with_a_seam_is_named_with_its_place() {
     says(&fold, 21, "b.L.left", "b.L.left lies on the fold");
 }
 
+#[test]
+fn notches_that_miss_each_other_are_warned_of() {
+    let notched = |a: &str, b: &str| {
+        let on = |piece: &str, list: &str| (format!("  {piece}:\n"), format!("  {piece}:\n    notches: {list}\n"));
+        let (on_a, on_b) = (on("a", a), on("b", b));
+        squares(&on_a.0, &on_a.1).replacen(&on_b.0, &on_b.1, 1)
+    };
+    // One edge runs down, the other up.
+    let apart = "seam 'side': the notches at 90 mm on a.right and 10 mm on b.left, both from where the seam begins, \
+                 are 80 mm apart";
+    says(&notched("{right: [90]}", "{left: [90]}"), 22, "side", apart);
+    says(&notched("{right: [90 double, 20]}", "{left: [90 double, 10, 80]}"), 22, "side", apart);
+    // Those that meet, to a stroke of the pen; of another kind; and one that no other is there for.
+    for (a, b) in
+        [("{right: [90]}", "{left: [12]}"), ("{right: [90]}", "{left: [90 double]}"), ("{right: [90]}", "{top: [9]}")]
+    {
+        assert_eq!(mistakes(&notched(a, b)), [], "{a} {b}");
+    }
+    // What is gathered may all be before the notch, or behind it; what is matched by notches meets in their order.
+    let gathered = |at: u32, how: &str| {
+        let seam = format!("a.right, to: b.left@0..80, gather: 1.25{how}");
+        let text = notched("{right: [50]}", &format!("{{left: [{at}]}}")).replacen("a.right, to: b.left", &seam, 1);
+        mistakes(&text.replacen("free: [", "free: [b.left@80..100, ", 1)).len()
+    };
+    assert_eq!([15, 32, 48, 65].map(|at| gathered(at, "")), [1, 0, 0, 1]);
+    assert_eq!(gathered(65, ", match: notches"), 0);
+}
+
 /// An edge that is sewn in part: what the message calls neither sewn nor free can be listed as it is called.
 #[test]
 fn a_part_of_an_edge_can_be_listed_free() {
     let seam = |sewn: &str| squares("{sew: a.right, to: b.left}", &format!("{{sew: a.right, to: {sewn}, gather: 2}}"));
     let free = |text: &str, listed: &str| text.replacen("free: [", &format!("free: [{listed}, "), 1);
     let half = seam("b.left@0..50");
-    says(&half, 20, "side", "neither sewn nor free: b.left@50..100");
+    says(&half, 18, "left", "neither sewn nor free: b.left@50..100");
     assert!(mistakes(&free(&half, "b.left@50..100")).is_empty());
     assert!(mistakes(&free(&half, "b.left@50%..100%")).is_empty());
-    says(&free(&half, "b.left@60..100"), 20, "side", "neither sewn nor free: b.left@50..60");
+    says(&free(&half, "b.left@60..100"), 18, "left", "neither sewn nor free: b.left@50..60");
     says(&free(&half, "b.left@0..50"), 21, "b.left@0..50", "b.left@0..50 is listed free but sewn in 'side'");
     let beyond = "'free' uses b.left@50..900 but the edge is 100.0 mm long";
     says(&free(&half, "b.left@50..900"), 21, "b.left@50..900", beyond);
@@ -457,12 +485,12 @@ fn a_part_of_an_edge_can_be_listed_free() {
     // Ranges are those of the drawing, which the mirrored half of a piece on the fold is walked against.
     let fold = seam("b.right.R@0..50").replacen("  b:\n", "  b:\n    cut: fold left\n", 1);
     let fold = fold.replacen("b.right]", "b.right.L]", 1);
-    says(&fold, 21, "side", "neither sewn nor free: b.right.R@50..100");
+    says(&fold, 17, "right", "neither sewn nor free: b.right.R@50..100");
     assert!(mistakes(&free(&fold, "b.right.R@50..100")).is_empty());
     // In the file's unit.
     let cm =
         half.replacen("garment: 1\n", "garment: 1\nunits: cm\n", 1).replace("100", "10").replacen("0..50", "0..5", 1);
-    says(&cm, 21, "side", "neither sewn nor free: b.left@5.00..10.00");
+    says(&cm, 19, "left", "neither sewn nor free: b.left@5.00..10.00");
     assert!(mistakes(&free(&cm, "b.left@5.00..10.00")).is_empty());
 }
 

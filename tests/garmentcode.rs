@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use toile::geometry::{TriMesh, Vec2};
 use toile::io::garment::{read_text, write};
 use toile::io::garmentcode::{ImportError, read};
+use toile::mesh::build;
 use toile::pattern::{Garment, Give, PieceFile, PlaceFile, SeamKind};
 use toile::pipeline::{Job, Overrides};
 use toile::sew::place::place;
@@ -232,6 +233,52 @@ fn a_longer_edge_is_eased_or_gathered_and_says_so() {
     check_lengths(&spec, &garment);
     let side = garment.seams.iter().find(|s| s.name == "side.L").expect("a side seam");
     assert!(matches!(side.give, Give::Ease(extra) if extra > 0.010 && extra < 0.016), "{:?}", side.give);
+}
+
+/// A front and a back sewn at their sides, the lowest `slit` (centimetres) of the left side open on both: edge 1.
+fn slit_skirt(slit: [f64; 2]) -> Value {
+    let panel = |depth: f64, z: f64| {
+        let corners = [[0.0, 0.0], [40.0, 0.0], [40.0, depth], [40.0, 50.0], [0.0, 50.0]];
+        let edges: Vec<Value> = (0..5).map(|k| json!({"endpoints": [k, (k + 1) % 5]})).collect();
+        json!({"translation": [-20, 50, z], "rotation": [0, 0, 0], "vertices": corners, "edges": edges})
+    };
+    let stitch = |k: usize| json!([{"panel": "skirt_front", "edge": k}, {"panel": "skirt_back", "edge": k}]);
+    json!({
+        "pattern": {
+            "panels": {"skirt_front": panel(slit[0], 20.0), "skirt_back": panel(slit[1], -20.0)},
+            "stitches": [stitch(2), stitch(4)],
+        },
+    })
+}
+
+#[test]
+fn edges_too_short_to_be_meshed_are_left_out() {
+    let shape = |spec: &Value| {
+        let (garment, _) = import(spec);
+        build(&garment, 0.020).expect("every edge is long enough");
+        let edges = garment.pieces.iter().map(|p| p.loops[0].len()).collect();
+        (edges, garment.seams.iter().map(|s| 1e3 * s.length_a()).collect())
+    };
+    let [free, real] = [[0.001; 2], [1.0; 2]].map(slit_skirt);
+    let mut sewn = free.clone();
+    let ends = json!([{"panel": "skirt_front", "edge": 1}, {"panel": "skirt_back", "edge": 1}]);
+    sewn["pattern"]["stitches"].as_array_mut().expect("stitches").push(ends);
+    for spec in [&free, &sewn] {
+        let (edges, seams): (Vec<usize>, Vec<f64>) = shape(spec);
+        assert_eq!(edges, [4, 4]);
+        assert!(seams.len() == 2 && seams.iter().all(|mm| (mm - 500.0).abs() < 1e-3), "{seams:?}");
+    }
+    assert_eq!(shape(&real).0, [5, 5]);
+}
+
+#[test]
+fn a_short_edge_that_is_sewn_to_a_long_one_stays_for_its_author_to_see() {
+    let mut spec = slit_skirt([0.0015, 1.0]);
+    let ends = json!([{"panel": "skirt_front", "edge": 1}, {"panel": "skirt_back", "edge": 1}]);
+    spec["pattern"]["stitches"].as_array_mut().expect("stitches").push(ends);
+    let (garment, _) = import(&spec);
+    let refused = build(&garment, 0.020).map(|_| ()).expect_err("a short edge").to_string();
+    assert!(refused.contains("is only 0.01 mm long"), "{refused}");
 }
 
 #[test]

@@ -160,7 +160,7 @@ const MISTAKES: [Mistake; 31] = [
         "pocket",
         "front.side is sewn twice on 0..50 mm: in 'side' and in 'pocket'",
     ),
-    wrong(12, &[("front.hem, ", "")], "side: {", "edges neither sewn nor free: front.hem"),
+    wrong(12, &[(", back.hem", "")], "hem: L", "edges neither sewn nor free: back.hem"),
     wrong(
         13,
         &[("back.center}", "back.center@0..900}")],

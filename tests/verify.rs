@@ -112,6 +112,11 @@ fn two_triangles_that_cross_and_two_that_touch() {
     assert!(crossings(&mesh).is_empty(), "overlapping in one plane");
     mesh.triangles[1] = [0, 4, 5];
     assert!(crossings(&mesh).is_empty(), "sharing a corner");
+    mesh.vertices[4] = Vec3::new(0.2, 0.2, -1.0);
+    mesh.vertices[5] = Vec3::new(0.3, 0.2, 1.0);
+    assert_eq!(crossings(&mesh), [[0, 1]], "from a shared corner through the face");
+    mesh.triangles[1] = [0, 1, 5];
+    assert!(crossings(&mesh).is_empty(), "sharing a side");
 }
 
 #[test]

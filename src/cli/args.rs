@@ -343,7 +343,7 @@ pub(super) enum ImportCommand {
     Dxf {
         #[command(flatten)]
         common: DrawingArgs,
-        /// Unit of the drawing in place of what the file says [default: what it says, else mm]
+        /// Unit of the drawing in place of what the file says [default: what it says, else in or mm by $MEASUREMENT]
         #[arg(long, value_enum)]
         units: Option<UnitArg>,
     },

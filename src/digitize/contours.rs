@@ -115,7 +115,7 @@ pub fn pieces(strokes: &[Stroke], remarks: &[Remark]) -> Drawing {
     let is_on_one = |line: &Stroke| outer.iter().any(|&o| contours[o].owns(line));
     let open = rest.iter().filter(|line| line.role == Role::Unknown).chain(&alone);
     let open: Vec<Stroke> = open.filter(|line| !is_on_one(line)).cloned().collect();
-    Drawing { title: None, pieces, left_out: unclosed(&open) }
+    Drawing { pieces, left_out: unclosed(&open), ..Drawing::default() }
 }
 
 /// What is written on a piece of how it is cut.

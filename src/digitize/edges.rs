@@ -2,6 +2,7 @@
 
 use super::smooth::smoothed;
 use crate::geometry::{Path, Vec2};
+use crate::pattern::SHORTEST_EDGE;
 
 /// A turn of more than this (radians, 20 degrees) between two segments is a corner.
 const CORNER: f64 = 0.35;
@@ -11,6 +12,9 @@ const MOST_CORNERS: usize = 400;
 const MOST_NOTCHES: usize = 400;
 /// Splits nearer to each other than this (metres) are one.
 const LEAST_EDGE: f64 = 3e-3;
+/// Drawn edges no longer than this (metres) are a slip of the pen: twice what has no mesh, for the numbers of the file
+/// are rounded.
+const SHORTEST: f64 = 2.0 * SHORTEST_EDGE;
 /// A notch is on an outline it is no farther from than this (metres): the widest usual allowance.
 const REACH: f64 = 0.045;
 /// Two notches at most so far apart (metres) are a double one.
@@ -45,11 +49,12 @@ type Unnamed = (Option<String>, Path, Vec<(f64, bool)>);
 /// left corner. Edges that have names stay as they are: a garment drawn by toile keeps its edges.
 pub(super) fn edges(outline: &[(Option<String>, Path)], notches: &[Vec2]) -> Vec<Edge> {
     let clockwise = outline.iter().map(|e| e.1.double_area()).sum::<f64>() > 0.0;
-    let turned: Vec<(Option<String>, Path)> = if clockwise {
+    let mut turned: Vec<(Option<String>, Path)> = if clockwise {
         outline.to_vec()
     } else {
         outline.iter().rev().map(|(name, path)| (name.clone(), path.reversed())).collect()
     };
+    turned.retain(|(_, path)| path.length() > SHORTEST);
     let notches = singled(notches);
     let mut edges: Vec<Unnamed> = Vec::new();
     if let [(None, whole)] = turned.as_slice() {

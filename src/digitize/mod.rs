@@ -106,6 +106,8 @@ pub struct Drawing {
     pub pieces: Vec<Traced>,
     /// What it shows besides that was not read: a sentence for each kind.
     pub left_out: Vec<String>,
+    /// What was taken for something that it does not say.
+    pub notes: Vec<String>,
 }
 
 /// What was left out, as the end of a message that no piece was found.

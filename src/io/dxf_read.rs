@@ -8,7 +8,7 @@ use std::path::Path as FilePath;
 
 use super::dxf_left_out::LeftOut;
 use super::dxf_notches;
-use super::dxf_text::{Entity, after, blocks, entities, letters, stated_unit};
+use super::dxf_text::{Entity, after, assumed_unit, blocks, entities, letters, stated_unit};
 use super::dxf_told::{Told, told_of};
 use super::dxf_write::layer;
 use crate::digitize::{Drawing, Inner, Material, Traced, besides, chained, holes};
@@ -89,7 +89,8 @@ pub fn read_dxf(path: &FilePath, unit: Option<f64>) -> Result<Drawing, DxfError>
 /// As [`read_dxf`].
 pub fn read_dxf_text(text: &str, unit: Option<f64>) -> Result<Drawing, DxfError> {
     let entities = entities(text)?;
-    let unit = unit.or_else(|| stated_unit(&entities)).unwrap_or(1e-3);
+    let stated = unit.or_else(|| stated_unit(&entities));
+    let (unit, notes) = stated.map_or_else(|| assumed_unit(&entities), |unit| (unit, Vec::new()));
     let (mut pieces, mut unread) = (Vec::new(), LeftOut::default());
     for block in blocks(&entities) {
         pieces.extend(Block::new(block, unit, &mut unread)?.piece());
@@ -102,7 +103,7 @@ pub fn read_dxf_text(text: &str, unit: Option<f64>) -> Result<Drawing, DxfError>
         let layers = shown(&layers.join(", "), 4 * SHOWN);
         return Err(DxfError::NoPieces { layers, besides: besides(&left_out) });
     }
-    Ok(Drawing { title: title(&entities), pieces, left_out })
+    Ok(Drawing { title: title(&entities), pieces, left_out, notes })
 }
 
 /// The style's name.

@@ -138,16 +138,29 @@ pub(super) fn stated_unit(entities: &[Entity]) -> Option<f64> {
             _ => {}
         }
     }
-    // $INSUNITS stands among the pairs of the HEADER section.
-    let header = entities.iter().flat_map(|e| e.pairs.windows(2));
-    let code = header.filter(|w| w[0].value == "$INSUNITS").map(|w| w[1].value).next()?;
-    match code.trim() {
+    match header(entities, "$INSUNITS")? {
         "1" => Some(0.0254),
         "4" => Some(1e-3),
         "5" => Some(1e-2),
         "6" => Some(1.0),
         _ => None,
     }
+}
+
+/// A variable of the header, which stands among the pairs of the HEADER section.
+fn header<'a>(entities: &[Entity<'a>], variable: &str) -> Option<&'a str> {
+    let mut pairs = entities.iter().flat_map(|e| e.pairs.windows(2));
+    pairs.find(|w| w[0].value == variable).map(|w| w[1].value.trim())
+}
+
+/// The unit that a drawing may be meant in which does not say it, and what is to be said of that. `$MEASUREMENT` tells
+/// the system its author works in, and no more.
+pub(super) fn assumed_unit(entities: &[Entity]) -> (f64, Vec<String>) {
+    let (unit, name, why) = match header(entities, "$MEASUREMENT") {
+        Some("0") => (0.0254, "inches", ", by its $MEASUREMENT"),
+        _ => (1e-3, "millimetres", ""),
+    };
+    (unit, vec![format!("the drawing does not say its unit: taken as {name}{why}; --units says another")])
 }
 
 /// What follows a key at the start of a text, in any case: `Piece Name: FRONT`.

@@ -3,10 +3,10 @@
 use super::breaks::Breaks;
 use super::error::MeshError;
 use super::lines::LinePlan;
-use super::links::{EdgeTable, SAME_PLACE};
+use super::links::EdgeTable;
 use super::sampling::Sampling;
 use crate::geometry::Vec2;
-use crate::pattern::{EdgeId, Piece, written_edge};
+use crate::pattern::{EdgeId, Piece, SHORTEST_EDGE, written_edge};
 
 /// Neighbouring edges must meet within this distance (metres): the pattern stage closes outlines exactly, so anything
 /// more is a mistake in a garment built by hand.
@@ -129,7 +129,7 @@ fn check_edge(piece: &Piece, ring: usize, index: usize) -> Result<(), MeshError>
     let edge = &edges[index];
     let length = edge.path.length();
     // Written so that a NaN fails too.
-    let long_enough = length > 2.0 * SAME_PLACE;
+    let long_enough = length > SHORTEST_EDGE;
     if !long_enough {
         return Err(MeshError::ShortEdge { piece: piece.name.clone(), edge: written_edge(&edge.name), length });
     }

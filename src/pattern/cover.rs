@@ -1,15 +1,15 @@
 //! Every stretch of rim is sewn once, or said to be free.
 
 use super::cut::{Instance, Pieces};
-use super::diagnostic::{Findings, Located};
-use super::draft::{Draft, NamedEdge, Stretch};
-use super::file::{ClosureFile, Cut, GarmentFile, Unit};
+use super::diagnostic::{Findings, Located, Spot};
+use super::draft::{Draft, NamedEdge, Stretch, spot_of};
+use super::file::{ClosureFile, Cut, GarmentFile, PieceFile, Unit};
 use super::problem::Problem;
 use super::reference::{parse_range, piece_of};
 use super::rim::{SLIVER, edge_ids, gaps};
 use super::seam::Seams;
 use super::spelling::glob;
-use super::walk::{edge_name, names_of};
+use super::walk::{edge_name, names_of, written_edge};
 use super::{EdgeId, Span};
 
 /// A stretch of an edge and the seam that takes it.
@@ -19,22 +19,36 @@ struct Taken {
     seam: usize,
 }
 
-/// Checks that no stretch is sewn twice, and none forgotten.
-pub(super) fn check(file: &GarmentFile, drafts: &[Draft], cut: &Pieces, seams: &Seams, findings: &mut Findings) {
+/// Checks that no stretch is sewn twice, and none forgotten. `pieces` are those of the file with every `like` followed.
+pub(super) fn check(
+    file: &GarmentFile,
+    pieces: &[PieceFile],
+    drafts: &[Draft],
+    cut: &Pieces,
+    seams: &Seams,
+    findings: &mut Findings,
+) {
     let names = EdgeNames { drafts, cut, unit: file.unit() };
-    let mut lists =
-        Lists { free: names.free(file, findings), names: &names, forgotten: Vec::new(), forgotten_parts: Vec::new() };
+    let free = names.free(file, findings);
+    let mut lists = Lists { free, names: &names, forgotten: Vec::new(), forgotten_parts: Vec::new() };
     for edge in edge_ids(&cut.pieces) {
         let taken = taken(edge, seams);
         sewn_twice(file, cut, seams, edge, &taken, findings);
         lists.look_at(edge, &taken, cut, seams);
     }
-    let mut forgotten = names_of(&cut.pieces, lists.forgotten);
-    forgotten.extend(lists.forgotten_parts);
-    if !forgotten.is_empty() {
-        let at = file.seams.first().map_or(file.version.at, |s| s.name.at);
+    let (parts, names_of_parts): (Vec<EdgeId>, Vec<String>) = lists.forgotten_parts.into_iter().unzip();
+    if let Some(&first) = lists.forgotten.iter().chain(&parts).min() {
+        let forgotten = [names_of(&cut.pieces, lists.forgotten), names_of_parts].concat();
+        let at = drawn_at(first, cut, pieces).unwrap_or(file.version.at);
         findings.error(at, Problem::NeitherSewnNorFree(forgotten.join(", ")));
     }
+}
+
+/// Where the file draws a cut edge.
+fn drawn_at(edge: EdgeId, cut: &Pieces, pieces: &[PieceFile]) -> Option<Spot> {
+    let piece = &cut.pieces[edge.piece];
+    let name = written_edge(&piece.loops[edge.ring][edge.index].name);
+    pieces.iter().find(|p| p.name.value == piece.drawn_as).map(|p| spot_of(&name, p))
 }
 
 fn taken(edge: EdgeId, seams: &Seams) -> Vec<Taken> {
@@ -83,7 +97,7 @@ struct Lists<'a> {
     /// Edges neither sewn nor free.
     forgotten: Vec<EdgeId>,
     /// Ranges of edges of which the rest is sewn.
-    forgotten_parts: Vec<String>,
+    forgotten_parts: Vec<(EdgeId, String)>,
 }
 
 impl Lists<'_> {
@@ -95,7 +109,8 @@ impl Lists<'_> {
             if to - from > length - SLIVER {
                 self.forgotten.push(edge);
             } else {
-                self.forgotten_parts.extend(self.names.ranges(Span { edge, from, to }));
+                let ranges = self.names.ranges(Span { edge, from, to });
+                self.forgotten_parts.extend(ranges.into_iter().map(|range| (edge, range)));
             }
         }
     }

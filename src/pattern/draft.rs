@@ -6,7 +6,7 @@ use std::collections::HashSet;
 use super::crossing::{contains, first_crossing};
 use super::dart;
 use super::diagnostic::{Findings, Located, Spot};
-use super::file::{AllowanceFile, Cut, OutlineFile, PieceFile, PlaceFile, Quantity, Side, Unit};
+use super::file::{AllowanceFile, Cut, PieceFile, PlaceFile, Quantity, Side, Unit};
 use super::line;
 use super::outline::{CLOSURE, ended_at, outline, whole_path};
 use super::pleat;
@@ -171,7 +171,7 @@ pub(super) fn draft(piece: &PieceFile, unit: Unit, findings: &mut Findings) -> O
     allowances(&drawn, piece, findings);
     notches(&mut drawn, piece, unit, findings);
     check_names(&drawn, findings);
-    check_crossings(&drawn, outline_file, piece, findings);
+    check_crossings(&drawn, piece, findings);
     (findings.errors() == before).then_some(drawn)
 }
 
@@ -325,8 +325,8 @@ pub(super) fn position(q: Quantity, length: f64, unit: Unit) -> f64 {
 }
 
 /// Where the statement stands that makes the edge `name`: in the outline, as a hole or as a dart.
-fn spot_of(name: &str, file: &OutlineFile, piece: &PieceFile) -> Spot {
-    let edge = file.edges.iter().find(|e| e.0.value == name).map(|e| e.0.at);
+pub(super) fn spot_of(name: &str, piece: &PieceFile) -> Spot {
+    let edge = piece.outline.iter().flat_map(|o| &o.edges).find(|e| e.0.value == name).map(|e| e.0.at);
     let hole = || piece.holes.iter().find(|h| h.0.value == name).map(|h| h.0.at);
     let stem = name.split('.').next().unwrap_or(name);
     let dart = || {
@@ -334,10 +334,10 @@ fn spot_of(name: &str, file: &OutlineFile, piece: &PieceFile) -> Spot {
         let found = piece.darts.iter().find(named).or_else(|| piece.darts.first().filter(|_| stem.starts_with("dart")));
         found.map(|d| d.name.as_ref().map_or(d.intake.at, |n| n.at))
     };
-    edge.or_else(hole).or_else(dart).unwrap_or(file.start.at)
+    edge.or_else(hole).or_else(dart).unwrap_or(piece.name.at)
 }
 
-fn check_crossings(drawn: &Draft, file: &OutlineFile, piece: &PieceFile, findings: &mut Findings) {
+fn check_crossings(drawn: &Draft, piece: &PieceFile, findings: &mut Findings) {
     let Some((point, edges)) = first_crossing(&drawn.rings) else { return };
     let name = |(ring, index): (usize, usize)| drawn.rings[ring][index].name.clone();
     let (mut one, mut other) = (name(edges[0]), name(edges[1]));
@@ -345,7 +345,7 @@ fn check_crossings(drawn: &Draft, file: &OutlineFile, piece: &PieceFile, finding
     if edges[1] < edges[0] {
         std::mem::swap(&mut one, &mut other);
     }
-    let at = spot_of(&other, file, piece);
+    let at = spot_of(&other, piece);
     let edges = if one == other { format!("two stretches of {one}") } else { format!("{one} and {other}") };
     findings.error(at, Problem::Crosses { piece: drawn.name.clone(), near: shown(point), edges });
 }

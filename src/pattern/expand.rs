@@ -7,7 +7,7 @@ use super::file::{GarmentFile, PieceFile, SeamFile, Value};
 use super::inherit::complete_pieces;
 use super::problem::Problem;
 use super::seam::{Seams, check_orientable, seams};
-use super::{FabricUse, Garment, allowance, bound, closure, cover, layers, place_word};
+use super::{FabricUse, Garment, allowance, bound, closure, cover, layers, notch, place_word};
 use crate::fabric::FabricSpec;
 use crate::input::nearest;
 use crate::input::shown;
@@ -47,7 +47,7 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
     let before = findings.errors();
     let seams = seams(&readable, &drafts, &cut, findings);
     if sound && findings.errors() == before {
-        cover::check(&readable, &drafts, &cut, &seams, findings);
+        cover::check(&readable, &pieces, &drafts, &cut, &seams, findings);
         cover::check_free_but_sewn(&readable, &drafts, &cut, &seams, findings);
         cover::check_joined(&readable, &drafts, &cut, &seams, findings);
     }
@@ -68,6 +68,7 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
     let spots: Vec<Spot> = written.iter().map(|w| seam_file(w).map_or(file.version.at, |s| s.name.at)).collect();
     check_orientable(&garment, &turns, &spots, findings);
     layers::check(&garment, &turns, &spots, findings);
+    notch::check(&garment, &written, &readable.seams, findings);
     if sound && findings.errors() == before {
         garment.tests = bound::bounds(file, &garment, findings);
     }

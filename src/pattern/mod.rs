@@ -35,6 +35,7 @@ mod inherit;
 mod layers;
 mod line;
 mod measure;
+mod notch;
 mod outline;
 mod place_word;
 mod pleat;
@@ -69,6 +70,8 @@ use std::ops::RangeInclusive;
 
 /// Widest seam allowance, metres: a wider one is in another unit than thought.
 pub const WIDEST_ALLOWANCE: f64 = 0.2;
+/// Edges that are no longer than this (metres) have no length to speak of, and no mesh.
+pub const SHORTEST_EDGE: f64 = 2e-5;
 
 use crate::geometry::{Path, Vec2, Vec3};
 

@@ -244,6 +244,10 @@ pub enum Problem {
     OpenTooLong { seam: String, length: f64, open: f64 },
     #[error("notch {notch} of {edge} has no partner on {other}")]
     NotchAlone { notch: usize, edge: String, other: String },
+    #[error(
+        "seam '{seam}': the notches at {one} and {other}, both from where the seam begins, are {apart:.0} mm apart"
+    )]
+    NotchesApart { seam: String, one: String, other: String, apart: f64 },
     #[error("seam order: '{seam}' is sewn before '{later}' that makes it a ring; order kept, stage them to change")]
     SeamOrder { seam: String, later: String },
 }
@@ -338,6 +342,11 @@ impl Problem {
             Self::ChainBroken { .. } => "name the edges in the order they are sewn, end to end".to_owned(),
             Self::OpenTooLong { .. } => {
                 "leave more of it sewn, give it a 'closure', or list its edges under 'free' instead".to_owned()
+            }
+            Self::NotchesApart { .. } => {
+                "a notch is measured from the start of its edge as it is drawn, and the two sides of a seam often run \
+                 opposite ways; one that marks something else can be a line of the 'kind' place"
+                    .to_owned()
             }
             Self::More { .. } => "mend those above, then check again".to_owned(),
             Self::TooManyValues(_) => "write the pieces with 'like' instead".to_owned(),

@@ -5,11 +5,12 @@ use super::cut::Pieces;
 use super::diagnostic::{Findings, Spot};
 use super::draft::Draft;
 use super::file::{OpenFile, SeamFile, Unit};
+use super::notch::met;
 use super::problem::Problem;
 use super::rim::{Rims, joints};
 use super::select::{Candidate, Source};
 use super::walk::difference;
-use super::{Garment, Give, Notch, Seam, SeamKind, Span};
+use super::{Garment, Give, Seam, SeamKind, Span};
 
 /// Lengths may differ by this much (metres) where nothing is said.
 pub(crate) const DEFAULT_TOLERANCE: f64 = 2e-3;
@@ -226,7 +227,7 @@ impl Finish<'_> {
     }
 
     fn notch_marks(&self, directed: &Directed, a: &[Span], b: &[Span], findings: &mut Findings) -> Vec<(f64, f64)> {
-        let [on_a, on_b] = [a, b].map(|chain| self.notches_along(chain));
+        let [on_a, on_b] = [a, b].map(|chain| met(&self.cut.pieces, chain));
         let candidate = &directed.candidate;
         let (few, many) = (on_a.len().min(on_b.len()), on_a.len().max(on_b.len()));
         if few < many {
@@ -239,25 +240,11 @@ impl Finish<'_> {
             findings.error(candidate.file.name.at, Problem::NotchAlone { notch: few + 1, edge, other });
         }
         let mut marks = vec![(0.0, 0.0)];
-        on_a.into_iter().zip(on_b).for_each(|mark| add_mark(&mut marks, mark));
+        on_a.iter().zip(&on_b).for_each(|(a, b)| add_mark(&mut marks, (a.along, b.along)));
         let ends = (length(a), length(b));
         marks.retain(|m| m.0 < ends.0 - 1e-6 && m.1 < ends.1 - 1e-6);
         marks.push(ends);
         marks
-    }
-
-    /// Lengths along the chain at which its edges are notched.
-    fn notches_along(&self, chain: &[Span]) -> Vec<f64> {
-        let mut at = Vec::new();
-        let mut done = 0.0;
-        for span in chain {
-            let notches: &[Notch] = &self.cut.pieces[span.edge.piece].notches;
-            let inside = |n: &&Notch| n.edge == span.edge && (n.at - span.from) * (n.at - span.to) <= 1e-12;
-            at.extend(notches.iter().filter(inside).map(|n| done + (n.at - span.from).abs()));
-            done += span.length();
-        }
-        at.sort_by(f64::total_cmp);
-        at
     }
 }
 

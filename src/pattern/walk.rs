@@ -1,5 +1,6 @@
 //! Walking the seams: both lengths of each, and what they differ by beyond what was said.
 
+use super::notch::met;
 use super::{EdgeId, Garment, Give, Opening, Piece, SeamKind, Span};
 
 /// What is missing of an edge that is taken whole (metres) is rounding.
@@ -32,6 +33,7 @@ pub struct SeamWalk {
 
 /// Walks every seam of a garment.
 pub fn walk(garment: &Garment) -> Vec<SeamWalk> {
+    let notches = |chain: &[Span]| met(&garment.pieces, chain).iter().map(|m| m.along).collect();
     garment
         .seams
         .iter()
@@ -46,8 +48,8 @@ pub fn walk(garment: &Garment) -> Vec<SeamWalk> {
                 difference: difference(length_a, length_b, seam.give),
                 give: seam.give,
                 kind: seam.kind,
-                notches_a: notches(garment, &seam.a),
-                notches_b: notches(garment, &seam.b),
+                notches_a: notches(&seam.a),
+                notches_b: notches(&seam.b),
             }
         })
         .collect()
@@ -60,20 +62,6 @@ pub(super) fn difference(length_a: f64, length_b: f64, give: Give) -> f64 {
         Give::Ease(extra) => length_b - length_a - extra,
         Give::Gather(ratio) | Give::Stretch(ratio) => length_b - length_a / ratio,
     }
-}
-
-/// Where a walk along the chain meets notches, in order.
-fn notches(garment: &Garment, chain: &[Span]) -> Vec<f64> {
-    let mut walked = 0.0;
-    let mut met = Vec::new();
-    for span in chain {
-        let (low, high) = span.sorted();
-        let on = garment.pieces[span.edge.piece].notches.iter().filter(|n| n.edge == span.edge);
-        met.extend(on.filter(|n| (low..=high).contains(&n.at)).map(|n| walked + (n.at - span.from).abs()));
-        walked += span.length();
-    }
-    met.sort_by(f64::total_cmp);
-    met
 }
 
 /// The edges of a chain as the file has them, of what is taken in part with its stretch in millimetres:

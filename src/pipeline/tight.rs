@@ -4,26 +4,44 @@ use super::job::Job;
 use crate::fabric::Fabric;
 use crate::report::{PieceReport, Report};
 
-/// In words, every piece that is too tight.
-pub fn tight(job: &Job, report: &Report) -> Vec<String> {
-    report.pieces.iter().zip(&job.fabrics).filter_map(|(piece, fabric)| too_tight(piece, fabric)).collect()
+/// In words, which pieces are too tight, cloth by cloth, and what helps; nothing where none is.
+pub fn tight(job: &Job, report: &Report) -> Option<String> {
+    told(report.pieces.iter().zip(job.fabrics.iter().map(AsRef::as_ref)))
 }
 
-/// That a hundredth of a piece's threads and more are drawn out further than `fabric` is under a tester's full load,
-/// 500 gf/cm. Cloth is not worn so, though it may not tear.
-fn too_tight(piece: &PieceReport, fabric: &Fabric) -> Option<String> {
-    let gives = fabric.emt();
-    let [warp, weft] = gives.map(|strain| 100.0 * strain);
-    (piece.strain.p99 > gives[0].max(gives[1])).then(|| {
+fn told<'a>(pieces: impl Iterator<Item = (&'a PieceReport, &'a Fabric)>) -> Option<String> {
+    let mut cloths: Vec<(&Fabric, Vec<String>)> = Vec::new();
+    for (piece, fabric) in pieces.filter(|(piece, fabric)| is_tight(piece, fabric)) {
+        let drawn_out = format!("'{}' (by {:.1} %)", piece.name, 100.0 * piece.strain.p99);
+        match cloths.iter_mut().find(|(cloth, _)| cloth.name == fabric.name) {
+            Some((_, pieces)) => pieces.push(drawn_out),
+            None => cloths.push((fabric, vec![drawn_out])),
+        }
+    }
+    let cloths: Vec<String> = cloths.iter().map(|(cloth, pieces)| of_cloth(cloth, pieces)).collect();
+    (!cloths.is_empty()).then(|| {
         format!(
-            "'{}' is tight: it is drawn out by {:.1} % where it is drawn out most (99 % of it less), and {} gives \
-             {warp:.1} % along its warp and {weft:.1} % along its weft under 500 gf/cm; --color strain shows where; \
-             make it wider there, or take a cloth that gives more",
-            piece.name,
-            100.0 * piece.strain.p99,
-            fabric.name
+            "the garment is tight: {}; that is where a piece is drawn out most (99 % of it less), and --color strain \
+             shows where; make it wider there, or take a cloth that gives more",
+            cloths.join("; ")
         )
     })
+}
+
+fn of_cloth(cloth: &Fabric, pieces: &[String]) -> String {
+    let [warp, weft] = cloth.emt().map(|strain| 100.0 * strain);
+    format!(
+        "{} gives {warp:.1} % along its warp and {weft:.1} % along its weft under 500 gf/cm, and drawn out further: {}",
+        cloth.name,
+        pieces.join(", ")
+    )
+}
+
+/// Whether a hundredth of a piece's threads and more are drawn out further than `fabric` is under a tester's full load,
+/// 500 gf/cm. Cloth is not worn so, though it may not tear.
+fn is_tight(piece: &PieceReport, fabric: &Fabric) -> bool {
+    let [warp, weft] = fabric.emt();
+    piece.strain.p99 > warp.max(weft)
 }
 
 #[cfg(test)]
@@ -31,13 +49,23 @@ mod tests {
     use super::*;
     use crate::report::Spread;
 
-    #[test]
-    fn a_piece_is_tight_in_one_cloth_and_not_in_another() {
+    fn piece(name: &str) -> PieceReport {
         let strain = Spread { p99: 0.094, ..Spread::default() };
-        let piece = PieceReport { name: "front".into(), strain, ..PieceReport::default() };
-        let said = |name: &str| too_tight(&piece, &crate::fabric::load(name).expect("shipped"));
-        let denim = said("denim").expect("denim gives less");
-        assert!(denim.contains("'front' is tight") && denim.contains("9.4 %"), "{denim}");
-        assert_eq!(said("rib"), None);
+        PieceReport { name: name.into(), strain, ..PieceReport::default() }
+    }
+
+    #[test]
+    fn what_helps_is_said_once_for_all_pieces_that_are_tight() {
+        let [denim, poplin, rib] =
+            ["denim", "cotton_poplin", "rib"].map(|name| crate::fabric::load(name).expect("shipped"));
+        let [front, back, band, yoke] = ["front", "back", "band", "yoke"].map(piece);
+        let said = told([(&front, &denim), (&band, &rib), (&yoke, &poplin), (&back, &denim)].into_iter());
+        let said = said.expect("denim and poplin give less");
+        assert!(
+            said.contains("'front' (by 9.4 %), 'back' (by 9.4 %); ") && said.contains("'yoke' (by 9.4 %)"),
+            "{said}"
+        );
+        assert!(!said.contains("'band'") && said.matches("make it wider there").count() == 1, "{said}");
+        assert_eq!(told([(&band, &rib)].into_iter()), None);
     }
 }

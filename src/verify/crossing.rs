@@ -15,19 +15,16 @@ pub struct Between {
     pub cloth_triangles: Vec<u32>,
 }
 
-/// Pairs of triangles of one mesh that cross, the smaller index first, sorted; pairs that share a vertex are left out.
+/// Pairs of triangles of one mesh that cross, the smaller index first, sorted.
 ///
 /// Two triangles cross when a side of one passes strictly through the inside of the other. Touching, lying in one
-/// plane and meeting side on side is no crossing. The test is exact.
+/// plane and meeting side on side is no crossing. Two that share a vertex cross where the side of one that lies
+/// opposite passes through the other; two that share a side never do. The test is exact.
 pub fn crossings(mesh: &TriMesh) -> Vec<[u32; 2]> {
     let tree = Tree::new(mesh);
     let found = (0..mesh.triangles.len() as u32).into_par_iter().flat_map_iter(|t| {
-        let (own, corners) = (mesh.triangles[t as usize], mesh.corners(t as usize));
-        crossed(&corners, mesh, &tree, |other| {
-            other > t && mesh.triangles[other as usize].iter().all(|v| !own.contains(v))
-        })
-        .into_iter()
-        .map(move |other| [t, other])
+        let hit = crossed(&mesh.corners(t as usize), mesh, &tree, |other| other > t);
+        hit.into_iter().map(move |other| [t, other])
     });
     found.collect()
 }

@@ -29,7 +29,7 @@ fn write(args: &DrawingArgs, drawing: &Drawing, console: &Console) -> Result<Exi
     let stem = || args.drawing.file_stem().map_or_else(|| "garment".to_owned(), |s| s.to_string_lossy().into_owned());
     let made = garment_file(&drawing.title.clone().unwrap_or_else(stem), &drawing.pieces);
     let exit = finish(&Imported { source: &args.drawing, target: &args.target, file: &made.file }, console)?;
-    drawing.left_out.iter().chain(&made.notes).for_each(|note| console.note(note));
+    drawing.left_out.iter().chain(&drawing.notes).chain(&made.notes).for_each(|note| console.note(note));
     if !made.suggestions.is_empty() {
         console.note("seams are to be written; by their lengths these edges may belong together:");
     }

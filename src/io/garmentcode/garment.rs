@@ -6,6 +6,7 @@ use super::error::ImportError;
 use super::pieces::{Part, Piece, part, pieces};
 use super::role::{Facing, Role, unique};
 use super::seams::{Joined, Place, Table};
+use super::short::KEPT;
 use super::spec::{PanelEdge, Specification};
 use crate::geometry::Path;
 use crate::pattern::{
@@ -81,8 +82,6 @@ fn edge_names(table: &Table, parts: &[Part], piece: &Piece) -> Vec<String> {
     Subject { drawing: &own.drawing, role: own.role, facing: own.facing, pair, partners: &partners }.names()
 }
 
-/// Edges keep their lengths to this many millimetres.
-const KEPT: f64 = 0.005;
 /// Decimals tried.
 const DECIMALS: std::ops::RangeInclusive<usize> = 3..=8;
 

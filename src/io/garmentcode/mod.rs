@@ -6,9 +6,9 @@
 //!                  clockwise  places             long ones in one
 //! ```
 //!
-//! Every edge of a panel is an edge of its piece with the same length; every stitch is in one seam. What the format
-//! does not know (grain, fabric, allowance) is filled in: the grain runs down the drawing,
-//! the cloth is a cotton poplin.
+//! Every edge of a panel is an edge of its piece with the same length; every stitch is in one seam. Only edges too
+//! short to be meshed are left out, and stitches between two of them. What the format does not know (grain, fabric,
+//! allowance) is filled in: the grain runs down the drawing, the cloth is a cotton poplin.
 
 mod drawing;
 mod edges;
@@ -17,6 +17,7 @@ mod garment;
 mod pieces;
 mod role;
 mod seams;
+mod short;
 mod spec;
 
 pub use error::ImportError;

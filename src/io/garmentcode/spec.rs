@@ -10,6 +10,7 @@ use serde::Deserialize;
 use serde_json::{Map, Value};
 
 use super::error::ImportError;
+use super::short::leave_out_short;
 use crate::geometry::{Vec2, Vec3};
 
 /// What a specification says.
@@ -146,14 +147,15 @@ impl Specification {
             Some(other) => return Err(ImportError::Coordinates(other.to_owned())),
         };
         let reader = Reader { scale: 1000.0 / per_metre, absolute };
-        let panels = ordered(pattern.panels, &pattern.panel_order)
+        let mut panels = ordered(pattern.panels, &pattern.panel_order)
             .into_iter()
             .map(|(name, value)| reader.panel(name, value))
             .collect::<Result<Vec<Panel>, ImportError>>()?;
         if panels.is_empty() {
             return Err(ImportError::NoPattern);
         }
-        let stitches = stitches(&pattern.stitches, &panels)?;
+        let mut stitches = stitches(&pattern.stitches, &panels)?;
+        leave_out_short(&mut panels, &mut stitches);
         Ok(Self { panels, stitches })
     }
 }

@@ -6,6 +6,7 @@
 
 mod left_out;
 mod shapes;
+mod style;
 mod viewport;
 
 use std::path::Path as FilePath;
@@ -14,6 +15,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 
 use self::left_out::{LeftOut, What};
 use self::shapes::commands;
+use self::style::Styles;
 use self::viewport::{Frame, inner, sheet};
 use crate::digitize::{Drawing, Material, Remark, Role, Stroke, Traced, besides, pieces};
 use crate::geometry::{Path, Vec2, parse_transform};
@@ -119,7 +121,7 @@ pub fn read_svg_text(text: &str) -> Result<Drawing, SvgError> {
     if pieces.is_empty() {
         Err(SvgError::NoPieces { besides: besides(&left_out) })
     } else {
-        Ok(Drawing { title: title(root), pieces, left_out })
+        Ok(Drawing { title: title(root), pieces, left_out, notes: Vec::new() })
     }
 }
 
@@ -150,14 +152,16 @@ struct Reader<'a, 'i> {
 
 impl Reader<'_, '_> {
     fn walk(&mut self, root: Node) -> Result<(), SvgError> {
+        let styles = Styles::of(self.document);
         let (frame, viewport) = sheet(root);
         let scope = Scope { frame, viewport, group: None, layer: None, classes: String::new() };
         // Elements with what they inherit, the next one last: files may nest deeper than a stack of calls.
         let mut open = vec![(root, scope)];
         while let Some((node, scope)) = open.pop() {
             let mut within = scope.clone();
-            if let Some(text) = node.attribute("transform").filter(|_| node != root) {
-                let own = parse_transform(text).ok_or_else(|| self.value(node, "a transform", text))?;
+            let transform = styles.property(node, "transform").filter(|text| node != root && *text != "none");
+            if let Some(text) = transform {
+                let own = parse_transform(&unitless(text)).ok_or_else(|| self.value(node, "a transform", text))?;
                 within.frame = scope.frame.after(own);
             }
             let name = node.tag_name().name();
@@ -181,8 +185,8 @@ impl Reader<'_, '_> {
                     let all = node.children().filter(Node::is_element);
                     all.filter(|c| chosen.is_none_or(|chosen| chosen == Some(*c)))
                 };
-                elements().filter(|c| is_hidden(*c) && draws(*c)).for_each(|c| self.leave_out(c, What::Hidden));
-                let children = elements().filter(|c| !is_hidden(*c) && !NOT_DRAWN.contains(&c.tag_name().name()));
+                elements().filter(|c| styles.hides(*c) && draws(*c)).for_each(|c| self.leave_out(c, What::Hidden));
+                let children = elements().filter(|c| !styles.hides(*c) && !NOT_DRAWN.contains(&c.tag_name().name()));
                 open.extend(children.map(|c| (c, within.clone())).collect::<Vec<_>>().into_iter().rev());
             } else {
                 self.element(node, name, &within)?;
@@ -303,12 +307,9 @@ fn draws(node: Node) -> bool {
     false
 }
 
-fn is_hidden(node: Node) -> bool {
-    let style = node.attribute("style").unwrap_or("").replace(' ', "");
-    node.attribute("display") == Some("none")
-        || node.attribute("visibility") == Some("hidden")
-        || style.contains("display:none")
-        || style.contains("visibility:hidden")
+/// An SVG transform as CSS writes it: with units, of which SVG means these.
+fn unitless(transform: &str) -> String {
+    transform.replace("px", "").replace("deg", "")
 }
 
 /// What a group is called.

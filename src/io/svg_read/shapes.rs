@@ -10,9 +10,10 @@ pub(super) fn length(text: &str) -> Option<f64> {
     let text = text.trim();
     let split = text.find(|c: char| c.is_alphabetic() && !"eE".contains(c) || c == '%').unwrap_or(text.len());
     let number: f64 = text[..split].trim().parse().ok()?;
-    let unit = match text[split..].trim() {
+    let unit = match text[split..].trim().to_ascii_lowercase().as_str() {
         "" | "px" => PIXEL,
         "mm" => 1e-3,
+        "q" => 2.5e-4,
         "cm" => 1e-2,
         "m" => 1.0,
         "in" => 0.0254,

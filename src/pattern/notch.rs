@@ -1,0 +1,76 @@
+//! Notches along seams: where a walk meets them, and whether those of the two sides meet.
+
+use super::diagnostic::{Findings, Spot};
+use super::file::SeamFile;
+use super::problem::Problem;
+use super::walk::edge_name;
+use super::{Garment, Notch, Piece, Seam, Span};
+
+/// Notches that miss each other by more than this (metres), ease allowed for, were not meant so: nobody draws or sews
+/// that badly.
+const FAR: f64 = 0.010;
+/// A notch so near to the end of a span (metres) is on it.
+const ON_END: f64 = 1e-9;
+
+/// A notch met on a walk along a chain.
+#[derive(Clone, Copy)]
+pub(super) struct Met<'a> {
+    pub(super) notch: &'a Notch,
+    /// Metres from where the walk began.
+    pub(super) along: f64,
+}
+
+/// The notches that a walk along the chain meets, in order.
+pub(super) fn met<'a>(pieces: &'a [Piece], chain: &[Span]) -> Vec<Met<'a>> {
+    let mut walked = 0.0;
+    let mut met = Vec::new();
+    for span in chain {
+        let (low, high) = span.sorted();
+        let inside = |n: &&Notch| n.edge == span.edge && (low - ON_END..=high + ON_END).contains(&n.at);
+        let on = pieces[span.edge.piece].notches.iter().filter(inside);
+        met.extend(on.map(|notch| Met { notch, along: walked + (notch.at - span.from).abs() }));
+        walked += span.length();
+    }
+    met.sort_by(|a, b| a.along.total_cmp(&b.along));
+    met
+}
+
+/// Warns of notches that have none near on the other side of their seam, single ones of single, double of double. What
+/// has no notch of its kind on the other side marks something else. `written` says which of `files` a seam comes from;
+/// one that is there on both sides of the garment is looked at once.
+pub(super) fn check(garment: &Garment, written: &[Option<usize>], files: &[SeamFile], findings: &mut Findings) {
+    for (k, seam) in garment.seams.iter().enumerate() {
+        let file = written[k].filter(|w| !written[..k].contains(&Some(*w))).map(|w| &files[w]);
+        let Some(file) = file.filter(|f| !f.match_notches.as_ref().is_some_and(|m| m.value)) else { continue };
+        for double in [false, true] {
+            check_kind(garment, seam, double, file.name.at, findings);
+        }
+    }
+}
+
+fn check_kind(garment: &Garment, seam: &Seam, double: bool, at: Spot, findings: &mut Findings) {
+    let side = |chain: &[Span]| {
+        let met = met(&garment.pieces, chain).into_iter().filter(|m| m.notch.double == double);
+        (met.collect::<Vec<Met>>(), chain.iter().map(Span::length).sum::<f64>())
+    };
+    let (mut few, mut many) = (side(&seam.a), side(&seam.b));
+    if many.0.len() < few.0.len() {
+        std::mem::swap(&mut few, &mut many);
+    }
+    let longer = many.1 - few.1;
+    for one in few.0 {
+        let apart = |other: &Met| missing(other.along - one.along, longer);
+        let Some(other) = many.0.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))) else { return };
+        if apart(other) > FAR {
+            let place = |m: &Met| format!("{:.0} mm on {}", 1e3 * m.along, edge_name(&garment.pieces, m.notch.edge));
+            let (seam, apart) = (seam.name.clone(), 1e3 * apart(other));
+            findings.warn(at, Problem::NotchesApart { seam, one: place(&one), other: place(other), apart });
+        }
+    }
+}
+
+/// By how much two notches miss each other of which the second is `off` further along a side that is `longer`: of what
+/// is eased, gathered or stretched before them there may be all, a part or nothing.
+fn missing(off: f64, longer: f64) -> f64 {
+    (longer.min(0.0) - off).max(off - longer.max(0.0)).max(0.0)
+}
