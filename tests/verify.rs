@@ -253,6 +253,18 @@ fn a_hood_is_worn_round_the_face() {
 }
 
 #[test]
+fn a_hood_that_slipped_over_the_face_is_worn_round_the_chin() {
+    let body = mannequin();
+    let neck = body.parts.iter().find(|p| p.kind == PartKind::Neck).expect("a neck");
+    let chin = neck.sections.last().expect("sections").center.y;
+    let over = |height: f64| -> Vec<Vec3> {
+        ring([0.0, 0.0, 0.0], 0.04).into_iter().map(|p| Vec3::new(p.x, chin + height + p.z, 0.12 + p.y)).collect()
+    };
+    let found: Vec<_> = worn(&[over(0.01), over(-0.06)], &body).into_iter().map(|t| t.map(|t| t.name())).collect();
+    assert_eq!(found, [Some("neck"), None], "under the chin it is a slit in a front");
+}
+
+#[test]
 fn a_tube_nobody_wears_has_two_empty_rims() {
     let cloth = tube(Vec3::new(0.0, 1.0, 0.6), 0.2, 0.5, 40, 10);
     let at = |l: Vec<u32>| l.into_iter().map(|v| cloth.vertices[v as usize]).collect();

@@ -15,8 +15,9 @@ const FAR_AWAY: f64 = 2000.0;
 /// aside: carried on straight, hanging arms would pass through the hem of a wide skirt.
 const BEYOND_END: f64 = 0.2;
 
-/// Height of the face above the top of the neck (metres), where a hood is open.
-const FACE: f64 = 0.1;
+/// Heights above the top of the neck (metres) at which a hood may be open: at the chin only, where it has slipped over
+/// the face.
+const FACE: [f64; 3] = [0.1, 0.05, 0.0];
 
 /// What passes through an opening.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,8 +50,9 @@ struct Skeleton {
     torso: Vec<Vec3>,
     /// From the trunk to far away.
     ends: Vec<(PartKind, Vec<Vec3>)>,
-    /// The neck's line leaving the head through the face instead of the crown.
-    face: Option<Vec<Vec3>>,
+    /// The neck's line leaving the head through the face instead of the crown, at each height of [`FACE`]; none without
+    /// a neck.
+    faces: Vec<Vec<Vec3>>,
 }
 
 impl Skeleton {
@@ -71,14 +73,16 @@ impl Skeleton {
             carry_on(&mut path, kind);
             ends.push((kind, path));
         }
-        let face = line(PartKind::Neck).map(|neck| {
+        let neck = line(PartKind::Neck);
+        let through_face = |height: f64| {
             let mut path = vec![top];
-            path.extend(neck);
-            path.push(path[path.len() - 1] + Vec3::y() * FACE);
+            path.extend(neck.as_ref()?);
+            path.push(path[path.len() - 1] + Vec3::y() * height);
             path.push(path[path.len() - 1] + Vec3::z() * FAR_AWAY);
-            path
-        });
-        Some(Self { torso, ends, face })
+            Some(path)
+        };
+        let faces = FACE.into_iter().filter_map(through_face).collect();
+        Some(Self { torso, ends, faces })
     }
 
     fn through(&self, rim: &[Vec3]) -> Option<Through> {
@@ -92,12 +96,15 @@ impl Skeleton {
         }
     }
 
-    /// The rim of a hood is not round the line through the crown, but round the one through the face.
+    /// The rim of a hood is not round the line through the crown, but round one through the face.
     fn through_face(&self, rim: &[Vec3], shares: &[(PartKind, f64)]) -> Option<Through> {
-        let share = linking(rim, self.face.as_ref()?);
-        let changed: Vec<(PartKind, f64)> =
-            shares.iter().map(|&(kind, s)| (kind, if kind == PartKind::Neck { share } else { s })).collect();
-        (parted(&changed) == [PartKind::Neck]).then_some(Through::Part(PartKind::Neck))
+        let is_round = |line: &Vec<Vec3>| {
+            let share = linking(rim, line);
+            let changed: Vec<(PartKind, f64)> =
+                shares.iter().map(|&(kind, s)| (kind, if kind == PartKind::Neck { share } else { s })).collect();
+            parted(&changed) == [PartKind::Neck]
+        };
+        self.faces.iter().any(is_round).then_some(Through::Part(PartKind::Neck))
     }
 
     /// A waist and a hem part the ends alike; what lies in the rim's plane is what takes the larger share of the turn.
