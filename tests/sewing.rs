@@ -419,18 +419,42 @@ fn a_band_drawn_upright_starts_level() {
     }
 }
 
-/// Front and back meet at the shoulders only.
+/// Front and back meet at the shoulders only, and are so many millimetres long.
+fn tabard(length: f64) -> Made {
+    Made::new(
+        &format!(
+            "garment: 1\nbody: woman_92\nfabrics: {{shell: cotton_poplin}}\npieces:\n  front:\n    \
+             place: torso front\n    grain: [[0, 250], [0, 550]]\n    \
+             outline: {{start: -110 0, neck: 'C -80 110, 80 110, 110 0', left: L 200 25, edge_left: L 215 {length}, \
+             hem: L -215 {length}, edge_right: L -200 25, right: L -110 0}}\n  \
+             back: {{like: front, place: torso back}}\nseams:\n  left: {{sew: front.left, to: back.right}}\n  \
+             right: {{sew: front.right, to: back.left}}\nfree: ['*.neck', '*.hem', '*.edge_left', '*.edge_right']\n",
+        ),
+        20.0,
+    )
+}
+
+#[test]
+fn what_hangs_to_the_floor_starts_clear_of_the_toes() {
+    let (body, _) = woman();
+    let floor = body.floor().expect("somebody stands");
+    let lowest = |length: f64| {
+        let x = tabard(length).placed(&body);
+        x.iter().map(|p| p.y - floor).fold(f64::INFINITY, f64::min)
+    };
+    // As long as hangs freely, from there so many millimetres further.
+    let free = lowest(1200.0) / MM;
+    assert!((30.0..300.0).contains(&free), "{free} mm off the floor");
+    for (longer, off) in [(free - 40.0, 40.0), (free - 10.0, 30.0), (free + 20.0, 10.0)] {
+        let low = lowest(1200.0 + longer) / MM;
+        assert!((low - off).abs() < 3.0, "{longer} mm longer it starts {low} mm off the floor, not {off}");
+    }
+}
+
 #[test]
 fn a_tabard_starts_over_the_shoulders_open_at_its_sides() {
     let (body, collider) = woman();
-    let made = Made::new(
-        "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  front:\n    place: torso front\n    \
-         grain: [[0, 250], [0, 550]]\n    outline: {start: -110 0, neck: 'C -80 110, 80 110, 110 0', left: L 200 25, \
-         edge_left: L 215 600, hem: L -215 600, edge_right: L -200 25, right: L -110 0}\n  \
-         back: {like: front, place: torso back}\nseams:\n  left: {sew: front.left, to: back.right}\n  \
-         right: {sew: front.right, to: back.left}\nfree: ['*.neck', '*.hem', '*.edge_left', '*.edge_right']\n",
-        20.0,
-    );
+    let made = tabard(600.0);
     let x = made.placed(&body);
     assert!(x.iter().all(|p| collider.nearest(*p, 1.0).is_none_or(|n| n.distance > 0.0)));
     assert_eq!(crossings(&TriMesh { vertices: x.clone(), triangles: made.mesh.triangles.clone() }).len(), 0);

@@ -38,8 +38,8 @@ const ROUND: f64 = 0.35;
 /// It is looked at in so many directions, at points of the rim so far apart, metres.
 const DIRECTIONS: usize = 90;
 const SAMPLED: f64 = 1e-3;
-/// There is cloth in this share of these directions at least. (The legs of a dart point at an apex metres away, and nearly all
-/// round it is the outside of the angle between them: there all of the piece is, in one direction.)
+/// There is cloth in this share of these directions at least. (The legs of a dart point at an apex metres away. Nearly
+/// all round it is the outside of the angle between them: there all of the piece is, in one direction.)
 const FILLED: f64 = 0.9;
 /// Sides that differ by less from one line, radians, are one: of half a ring, whose apex is in their middle.
 const IN_LINE: f64 = 0.01;

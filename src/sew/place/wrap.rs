@@ -81,8 +81,8 @@ pub(super) fn wrap(
     Ok(x)
 }
 
-/// Lifts what hangs round the trunk until it is clear of the toes, or by their height: a rim that is drawn inward beside
-/// them goes under them, and stays there.
+/// Lifts what hangs round the trunk until it is clear of the toes, or by their height: a rim that is drawn inward
+/// beside them goes under them, and stays there.
 fn clear_toes(mesh: &ClothMesh, body: &Mannequin, rings: &[(usize, Ring)], x: &mut [Vec3]) {
     let Some(floor) = body.floor() else { return };
     let hanging = rings.iter().map(|r| r.1.row).filter(|row| row.part == PartKind::Torso);
