@@ -74,11 +74,6 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// All pieces, those in slits of others last.
-    pub(super) fn pieces(&self) -> impl Iterator<Item = usize> {
-        self.members.iter().chain(self.inserts.iter().map(|insert| &insert.own)).map(|m| m.piece)
-    }
-
     /// Moves all of it down.
     fn lower(&mut self, dv: f64) {
         self.v = self.v.map(|v| v + dv);

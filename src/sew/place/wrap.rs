@@ -63,10 +63,11 @@ pub(super) fn wrap(
             let pieces: Vec<usize> = row.members.iter().map(|m| m.piece).collect();
             ring.hang_from_shoulders(body, collider, anchored.is_none(), beneath(&rows.laid, &pieces));
         }
-        if row.part == PartKind::Torso {
-            ring.keep_between(&arms, collider);
-        }
         rings.push((index, ring));
+    }
+    clear_toes(body, &mut rings);
+    for (_, ring) in rings.iter_mut().filter(|r| r.1.row.part == PartKind::Torso) {
+        ring.keep_between(&arms, collider);
     }
     let axes = nested(&rings);
     let mut x = vec![Vec3::zeros(); mesh.flat.len()];
@@ -77,19 +78,18 @@ pub(super) fn wrap(
             placed[m.piece] = true;
         }
     }
-    clear_toes(mesh, body, &rings, &mut x);
     Ok(x)
 }
 
-/// Lifts what hangs round the trunk until it is clear of the toes, or by their height: a rim that is drawn inward
-/// beside them goes under them, and stays there.
-fn clear_toes(mesh: &ClothMesh, body: &Mannequin, rings: &[(usize, Ring)], x: &mut [Vec3]) {
+/// Lifts what goes round the trunk, and what hangs from that round the legs, until it is clear of the toes, or by their
+/// height: a rim that is drawn inward beside them goes under them, and stays there.
+fn clear_toes(body: &Mannequin, rings: &mut [(usize, Ring)]) {
     let Some(floor) = body.floor() else { return };
-    let hanging = rings.iter().map(|r| r.1.row).filter(|row| row.part == PartKind::Torso);
-    let particles = || hanging.clone().flat_map(Row::pieces).flat_map(|piece| mesh.pieces[piece].particles.clone());
-    let lowest = particles().map(|p| x[p].y).fold(f64::INFINITY, f64::min);
-    let lift = (floor + TOES - lowest).clamp(0.0, TOES);
-    particles().for_each(|p| x[p].y += lift);
+    let lowest = rings.iter().map(|r| &r.1).filter(|ring| ring.row.part == PartKind::Torso);
+    let lowest = lowest.map(|ring| ring.anchor + ring.row.v[1]).fold(f64::NEG_INFINITY, f64::max);
+    let lift = (lowest + floor + TOES).clamp(0.0, TOES);
+    let hanging = rings.iter_mut().filter(|r| r.1.row.part == PartKind::Torso || r.1.row.part.is_leg());
+    hanging.for_each(|r| r.1.anchor -= lift);
 }
 
 /// Station of v = 0 for a row round a leg that hangs from rows round the trunk: just under what it is sewn to.
