@@ -342,8 +342,8 @@ fn a_closure_without_a_partner_says_so() {
 }
 
 /// The ends of a band that laps start where the ring puts them, here 200 mm from where their buttons hold them. A skirt
-/// that was open when it began to fall slid to the hips, and no button brought it up again. (In cells of 14 mm: in larger
-/// ones the particles that are tied lie up to half a cell from their buttons.)
+/// that was open when it began to fall slid to the hips, and no button brought it up again. (In cells of 14 mm: in
+/// larger ones the particles that are tied lie up to half a cell from their buttons.)
 #[test]
 fn a_wrap_skirt_is_buttoned_before_it_falls() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/wrap_skirt.yaml");
