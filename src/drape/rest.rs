@@ -84,7 +84,7 @@ pub const RESIDUAL: f64 = 1.0;
 const STILL: f64 = 1.0 / 3.0;
 const IN_A_ROW: usize = 3;
 /// Tests of rest take no more than this many times the steps that draping may: one test as long as the longest fall,
-/// and as much for those before it. A garment that creeps fails one after the other, each as long as its whole way.
+/// and as much for those before it. A garment that creeps fails one after the other, the later the slower it creeps.
 const TESTS: usize = 2;
 /// A garment whose nodes went so far in one stretch is looked at this many times as far around in the next: further
 /// finds more than pays, less needs too many looks (one is due when a node has gone a third of that).

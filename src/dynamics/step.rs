@@ -126,8 +126,8 @@ struct Made {
 
 impl Stepper {
     /// Prepares the system of `cloth` with stitches between `pulls` and contacts that couple the nodes in `touching`
-    /// (pairs, smaller first). A contact with other couplings is not solved wrongly:
-    /// it holds its nodes back as if they were alone.
+    /// (pairs, smaller first). A contact with other couplings is not solved wrongly: it holds its nodes back as if they
+    /// were alone.
     ///
     /// # Errors
     /// A cloth too large for 32-bit indices.

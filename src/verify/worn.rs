@@ -74,14 +74,14 @@ impl Skeleton {
             ends.push((kind, path));
         }
         let neck = line(PartKind::Neck);
-        let through_face = |height: f64| {
+        let leaving_at = |height: f64| {
             let mut path = vec![top];
             path.extend(neck.as_ref()?);
             path.push(path[path.len() - 1] + Vec3::y() * height);
             path.push(path[path.len() - 1] + Vec3::z() * FAR_AWAY);
             Some(path)
         };
-        let faces = FACE.into_iter().filter_map(through_face).collect();
+        let faces = FACE.into_iter().filter_map(leaving_at).collect();
         Some(Self { torso, ends, faces })
     }
 
