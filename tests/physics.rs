@@ -86,7 +86,7 @@ fn noise(count: usize) -> Vec<f64> {
     (0..count).map(|_| next()).collect()
 }
 
-fn body_contact(node: u32, normal: Vec3, offset: f64) -> Contact {
+fn body_contact(node: u32, normal: Vec3, offset: f64) -> Contact<'static> {
     let weights = [1.0, 0.0, 0.0, 0.0];
     Contact { nodes: [node, 0, 0, 0], weights, count: 1, normal, offset, under: Under::Plane, above: 1, share: 1.0 }
 }

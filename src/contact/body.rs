@@ -6,7 +6,7 @@ use parry3d_f64::shape::{TriMesh as ParryMesh, TriMeshFlags};
 
 use super::grid::Grid;
 use super::narrow::{closest_on_segments, closest_on_triangle};
-use super::{Contact, Under};
+use super::{Contact, Feature, Under};
 use crate::geometry::{Topology, TriMesh, Vec3};
 
 /// Body edges whose faces meet flatter than this (cosine, 0.001°) are flat but for rounding. Every other convex edge
@@ -35,7 +35,7 @@ const MEETS: f64 = 0.25;
 
 /// A convex edge of the body.
 pub(super) struct BodyEdge {
-    pub(super) ends: [Vec3; 2],
+    pub(super) ends: Feature<2>,
     /// The third corners of its two faces.
     beside: [u32; 2],
     /// Half-way between the directions of its two faces.
@@ -45,14 +45,15 @@ pub(super) struct BodyEdge {
 /// A closed body prepared for contact; built once, never moved.
 pub struct Collider {
     pub(super) mesh: ParryMesh,
-    vertices: Vec<Vec3>,
+    vertices: Vec<Feature<1>>,
     normals: Vec<Vec3>,
     /// Vertices that share a face with each vertex.
     neighbours: Vec<Vec<u32>>,
     pub(super) edges: Vec<BodyEdge>,
+    faces: Vec<Feature<3>>,
     vertex_grid: Grid,
     pub(super) edge_grid: Grid,
-    triangle_grid: Grid,
+    face_grid: Grid,
     /// Height of the floor, metres.
     floor: Option<f64>,
 }
@@ -87,13 +88,16 @@ impl Collider {
         let edge_boxes: Vec<_> = edges
             .iter()
             .map(|e| {
-                let [a, b] = e.ends;
+                let [a, b] = e.ends.corners;
                 (a.inf(&b), a.sup(&b))
             })
             .collect();
-        let triangle_boxes: Vec<_> = (0..body.triangles.len())
-            .map(|t| {
-                let [a, b, c] = body.corners(t);
+        let faces: Vec<_> =
+            (0..body.triangles.len()).map(|t| Feature { number: t as u32, corners: body.corners(t) }).collect();
+        let face_boxes: Vec<_> = faces
+            .iter()
+            .map(|f| {
+                let [a, b, c] = f.corners;
                 (a.inf(&b).inf(&c), a.sup(&b).sup(&c))
             })
             .collect();
@@ -104,11 +108,12 @@ impl Collider {
             mesh,
             vertex_grid: Grid::new(&point_boxes, cell),
             edge_grid: Grid::new(&edge_boxes, cell),
-            triangle_grid: Grid::new(&triangle_boxes, cell),
-            vertices: body.vertices.clone(),
+            face_grid: Grid::new(&face_boxes, cell),
+            vertices: body.vertices.iter().zip(0..).map(|(&v, number)| Feature { number, corners: [v] }).collect(),
             normals: body.vertex_normals(),
             neighbours: neighbours(body),
             edges,
+            faces,
             floor: None,
         })
     }
@@ -155,24 +160,32 @@ impl Collider {
     /// Contacts of `node`, outside the body, with the body's faces within `reach` that rise over the plane through the
     /// point `nearest` to it: in a hollow, that plane alone would let the node run into the next face. The nearest of
     /// those that stand steep on what is nearer pushes, the others only bar the way.
-    pub fn faces_of_hollow(&self, x: &[Vec3], node: u32, nearest: &Nearest, reach: f64, out: &mut Vec<Contact>) {
+    pub fn faces_of_hollow<'b>(
+        &'b self,
+        x: &[Vec3],
+        node: u32,
+        nearest: &Nearest,
+        reach: f64,
+        out: &mut Vec<Contact<'b>>,
+    ) {
         let p = x[node as usize];
         let mut faces = Vec::new();
-        self.triangle_grid.query(p.add_scalar(-reach), p.add_scalar(reach), |t| {
-            let corners @ [a, b, c] = self.mesh.triangle(t).vertices().map(from_parry);
+        self.face_grid.query(p.add_scalar(-reach), p.add_scalar(reach), |t| {
+            let face @ Feature { corners: [a, b, c], .. } = &self.faces[t as usize];
             let rises = |q: Vec3| nearest.normal.dot(&(q - nearest.point)) > RISES;
-            if !(rises(a) || rises(b) || rises(c)) {
+            if ![a, b, c].into_iter().any(|q| rises(*q)) {
                 return;
             }
-            let [k, l, m] = closest_on_triangle(p, a, b, c);
+            let [k, l, m] = closest_on_triangle(p, *a, *b, *c);
             let away = p - (a * k + b * l + c * m);
             if away.norm() <= reach {
-                faces.push((away.norm(), t, corners, away));
+                faces.push((away.norm(), face, away));
             }
         });
-        faces.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        faces.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.number.cmp(&b.1.number)));
         let mut pushing = vec![nearest.normal];
-        for (_, number, corners @ [a, b, c], away) in faces {
+        for (_, face, away) in faces {
+            let [a, b, c] = face.corners;
             let normal = (b - a).cross(&(c - a)).normalize();
             let beside = |n: &Vec3| share_in_hollow(n.dot(&normal));
             // Also one that faces the other way bars it: the node may come round its edge.
@@ -181,29 +194,35 @@ impl Collider {
             if push > 0.0 {
                 pushing.push(normal);
             }
-            let under = Under::Face { number, corners, push };
+            let under = Under::Face { face, push };
             out.extend(Contact::on_feature([node, 0, 0, 0], 1, under, away, x));
         }
     }
 
     /// Adds the contacts of body vertices with the cloth triangle of nodes `tri`, within `reach`. Returns whether it
     /// left any out that what lies beside them hides: a slight turn may bring them out.
-    pub fn vertices_near_triangle(&self, x: &[Vec3], tri: [u32; 3], reach: f64, out: &mut Vec<Contact>) -> bool {
+    pub fn vertices_near_triangle<'b>(
+        &'b self,
+        x: &[Vec3],
+        tri: [u32; 3],
+        reach: f64,
+        out: &mut Vec<Contact<'b>>,
+    ) -> bool {
         let mut hidden = false;
         let [a, b, c] = tri.map(|n| x[n as usize]);
         let low = a.inf(&b).inf(&c).add_scalar(-reach);
         let high = a.sup(&b).sup(&c).add_scalar(reach);
         self.vertex_grid.query(low, high, |v| {
-            let at = self.vertices[v as usize];
+            let vertex @ Feature { corners: [at], .. } = &self.vertices[v as usize];
             let outward = self.normals[v as usize];
             if [a, b, c].iter().all(|x| outward.dot(&(x - at)) > reach) {
                 return;
             }
-            let [k, l, m] = closest_on_triangle(at, a, b, c);
+            let [k, l, m] = closest_on_triangle(*at, a, b, c);
             if (a * k + b * l + c * m - at).norm_squared() > reach * reach {
                 return;
             }
-            let under = Under::Vertex { number: v, at };
+            let under = Under::Vertex(vertex);
             let nodes = [tri[0], tri[1], tri[2], 0];
             hidden |= self.meet(nodes, 3, under, outward, &self.neighbours[v as usize], x, reach, out);
         });
@@ -212,22 +231,22 @@ impl Collider {
 
     /// Adds the contacts of the body's convex edges with the cloth edge `ends`, within `reach`. Returns whether it left
     /// any out that what lies beside them hides.
-    pub fn edges_near_edge(&self, x: &[Vec3], ends: [u32; 2], reach: f64, out: &mut Vec<Contact>) -> bool {
+    pub fn edges_near_edge<'b>(&'b self, x: &[Vec3], ends: [u32; 2], reach: f64, out: &mut Vec<Contact<'b>>) -> bool {
         let mut hidden = false;
         let [a, b] = ends.map(|n| x[n as usize]);
         let (low, high) = (a.inf(&b).add_scalar(-reach), a.sup(&b).add_scalar(reach));
         self.edge_grid.query(low, high, |e| {
-            let BodyEdge { ends: [p, q], beside, outward } = self.edges[e as usize];
-            let highest = outward.dot(&p).max(outward.dot(&q));
+            let BodyEdge { ends: edge @ Feature { corners: [p, q], .. }, beside, outward } = &self.edges[e as usize];
+            let highest = outward.dot(p).max(outward.dot(q));
             if outward.dot(&a).min(outward.dot(&b)) - highest > reach {
                 return;
             }
-            let (s, t) = closest_on_segments(a, b, p, q);
+            let (s, t) = closest_on_segments(a, b, *p, *q);
             if (a + (b - a) * s - p - (q - p) * t).norm_squared() > reach * reach {
                 return;
             }
-            let under = Under::Edge { number: e, ends: [p, q] };
-            hidden |= self.meet([ends[0], ends[1], 0, 0], 2, under, outward, &beside, x, reach, out);
+            let under = Under::Edge(edge);
+            hidden |= self.meet([ends[0], ends[1], 0, 0], 2, under, *outward, beside, x, reach, out);
         });
         hidden
     }
@@ -235,16 +254,16 @@ impl Collider {
     /// Adds the contact of cloth with a feature of the body that is within `reach`, unless what is `beside` the feature
     /// is met first. Returns whether it was left out.
     #[expect(clippy::too_many_arguments, reason = "two primitives and where they may meet")]
-    fn meet(
+    fn meet<'b>(
         &self,
         nodes: [u32; 4],
         count: u8,
-        under: Under,
+        under: Under<'b>,
         outward: Vec3,
         beside: &[u32],
         x: &[Vec3],
         reach: f64,
-        out: &mut Vec<Contact>,
+        out: &mut Vec<Contact<'b>>,
     ) -> bool {
         let Some(mut contact) = Contact::on_feature(nodes, count, under, outward, x) else { return false };
         let mut gap = contact.gap(x);
@@ -272,7 +291,7 @@ impl Collider {
     /// that cloth coming from there meets, and not a face beside it.
     fn is_highest(&self, p: Vec3, normal: Vec3, around: &[u32]) -> bool {
         around.iter().all(|&v| {
-            let d = self.vertices[v as usize] - p;
+            let d = self.vertices[v as usize].corners[0] - p;
             normal.dot(&d) <= LEVEL * d.norm()
         })
     }
@@ -302,7 +321,8 @@ fn convex_edges(body: &TriMesh) -> Vec<BodyEdge> {
         let below = n.dot(&(body.vertices[right as usize] - body.vertices[edge.ends[0] as usize]));
         if n.dot(&m) < SHARP_EDGE && below < 0.0 {
             let outward = (n + m).try_normalize(0.0).unwrap_or_default();
-            let ends = edge.ends.map(|v| body.vertices[v as usize]);
+            let corners = edge.ends.map(|v| body.vertices[v as usize]);
+            let ends = Feature { number: out.len() as u32, corners };
             out.push(BodyEdge { ends, beside: [left, right], outward });
         }
     }
@@ -530,8 +550,9 @@ mod tests {
     fn a_face_of_a_hollow_bars_the_way_through_it_and_not_past_it() {
         let corners = [Vec3::new(0.0, 0.0, -1.0), Vec3::new(0.0, 0.0, 1.0), Vec3::new(-1.0, 0.0, 0.0)];
         let mut x = [Vec3::new(-0.02, 0.01, 0.0)];
-        let mut face = Contact::on_feature([0; 4], 1, Under::Face { number: 0, corners, push: 0.0 }, Vec3::y(), &x)
-            .expect("apart");
+        let face = Feature { number: 0, corners };
+        let under = Under::Face { face: &face, push: 0.0 };
+        let mut face = Contact::on_feature([0; 4], 1, under, Vec3::y(), &x).expect("apart");
         let bounds = Bounds::new(&x, 1.0, 1e-3);
         let mut through = [Vec3::new(-0.2, -0.01, 0.0)];
         bounds.clamp(&[&face], &x, &mut through);
@@ -562,7 +583,8 @@ mod tests {
         assert_relative_eq!(nearest.normal, Vec3::z(), epsilon = 1e-9);
         let mut found = Vec::new();
         body.faces_of_hollow(&x, 0, &nearest, 0.4, &mut found);
-        let beyond = |c: &Contact| matches!(c.under, Under::Face { corners, .. } if corners.iter().any(|p| p.x > 0.05));
+        let beyond =
+            |c: &Contact| matches!(c.under, Under::Face { face, .. } if face.corners.iter().any(|p| p.x > 0.05));
         assert!(found.iter().any(beyond), "{found:?}");
         assert!(found.iter().all(|c| c.gap(&x) > 0.0));
         // The side that the node sees pushes, the one beyond only bars the way.

@@ -35,7 +35,7 @@ const SLACK: f64 = 1.0 - 1e-3;
 const HELD: f64 = 0.5;
 
 /// A contact, and the separation that it must keep in a step, metres.
-type Kept<'a> = (&'a Contact, f64);
+type Kept<'a> = (&'a Contact<'a>, f64);
 
 /// How far nodes may go from where contacts were last looked for at them, and how near pairs may come.
 #[derive(Clone, Debug)]
@@ -233,7 +233,7 @@ fn lift(contact: &Contact, x: &mut [Vec3], need: f64) -> bool {
 
 /// The pair as it is to be judged at the end of a step: with its direction there if it is separated all the way while
 /// that turns, otherwise with the one it has.
-fn rolled(contact: &Contact, from: &[Vec3], to: &[Vec3]) -> Contact {
+fn rolled<'b>(contact: &Contact<'b>, from: &[Vec3], to: &[Vec3]) -> Contact<'b> {
     let mut turned = *contact;
     turned.refresh(to);
     let (n, m) = (contact.normal, turned.normal);
@@ -290,7 +290,7 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    fn pair() -> ([Vec3; 4], Contact) {
+    fn pair() -> ([Vec3; 4], Contact<'static>) {
         let x = [
             Vec3::new(0.0, 0.01, 0.0),
             Vec3::new(-1.0, 0.0, -1.0),

@@ -54,6 +54,8 @@ pub struct ClothDetector {
     bvh: Bvh,
     workspace: BvhWorkspace,
     hood: Neighbourhood,
+    /// How every patch lay at the last look.
+    shapes: Vec<Shape>,
     /// Pairs of patches near each other at the last look, but for smooth sheets, sorted.
     open: Vec<(u32, u32)>,
 }
@@ -80,6 +82,7 @@ impl ClothDetector {
             bvh: Bvh::new(),
             workspace: BvhWorkspace::default(),
             hood,
+            shapes: Vec::new(),
             open: Vec::new(),
         }
     }
@@ -91,7 +94,7 @@ impl ClothDetector {
 
     /// Every vertex–triangle and edge–edge pair closer than `reach` at positions `x`, in an order that depends on
     /// nothing but the input.
-    pub fn detect(&mut self, x: &[Vec3], reach: f64) -> Vec<Contact> {
+    pub fn detect(&mut self, x: &[Vec3], reach: f64) -> Vec<Contact<'static>> {
         let mut all = vec![true; x.len()];
         self.look(x, reach, &mut all);
         self.detect_at(x, reach, &all)
@@ -101,8 +104,8 @@ impl ClothDetector {
     /// those of sheets that were smooth at the last look, and so not searched, and are no longer.
     pub fn look(&mut self, x: &[Vec3], reach: f64, stale: &mut [bool]) {
         let normals = self.normals(x);
-        let (mut pairs, cones) = self.patch_pairs(x, &normals, reach);
-        pairs.retain(|&(a, b)| !self.smooth(a as usize, b as usize, &cones));
+        let (mut pairs, shapes) = self.patch_pairs(x, &normals, reach);
+        pairs.retain(|&(a, b)| !self.smooth(a as usize, b as usize, &shapes));
         for pair @ &(a, b) in &pairs {
             let folded = self.patches[a as usize].beside.binary_search(&b).is_ok();
             if folded && self.open.binary_search(pair).is_err() {
@@ -110,17 +113,15 @@ impl ClothDetector {
                 both.flat_map(|&t| self.triangles[t as usize]).for_each(|n| stale[n as usize] = true);
             }
         }
-        self.open = pairs;
+        (self.open, self.shapes) = (pairs, shapes);
     }
 
     /// The pairs of [`ClothDetector::detect`] that have a node which is `stale`,
     /// after [`ClothDetector::look`] with the same.
-    pub fn detect_at(&self, x: &[Vec3], reach: f64, stale: &[bool]) -> Vec<Contact> {
-        let of_triangle = |t: &[u32; 3]| t.iter().any(|&n| stale[n as usize]);
-        let triangles: Vec<bool> = self.triangles.iter().map(of_triangle).collect();
-        let patches: Vec<bool> =
-            self.patches.iter().map(|p| p.triangles.iter().any(|&t| triangles[t as usize])).collect();
-        let find = Search { detector: self, x, reach, stale, triangles };
+    pub fn detect_at(&self, x: &[Vec3], reach: f64, stale: &[bool]) -> Vec<Contact<'static>> {
+        let is_stale = |t: &u32| self.triangles[*t as usize].iter().any(|&n| stale[n as usize]);
+        let patches: Vec<bool> = self.patches.iter().map(|p| p.triangles.iter().any(is_stale)).collect();
+        let find = Search { detector: self, x, reach, stale };
         let mut pairs = self.open.clone();
         pairs.retain(|&(a, b)| patches[a as usize] || patches[b as usize]);
         pairs.par_iter().flat_map_iter(|&(a, b)| find.pair(a as usize, b as usize)).collect()
@@ -135,11 +136,13 @@ impl ClothDetector {
     }
 
     /// Pairs of patches whose boxes come within `reach`, every patch with itself, sorted.
-    fn patch_pairs(&mut self, x: &[Vec3], normals: &[Vec3], reach: f64) -> (Vec<(u32, u32)>, Vec<Cone>) {
-        let boxes: Vec<(Aabb, Cone)> =
-            self.patches.par_iter().with_min_len(64).map(|p| self.measure(p, x, normals, reach)).collect();
-        for (i, (aabb, _)) in boxes.iter().enumerate() {
-            self.bvh.insert_or_update_partially(*aabb, i as u32, 0.0);
+    fn patch_pairs(&mut self, x: &[Vec3], normals: &[Vec3], reach: f64) -> (Vec<(u32, u32)>, Vec<Shape>) {
+        let shapes: Vec<Shape> =
+            self.patches.par_iter().with_min_len(64).map(|p| self.measure(p, x, normals)).collect();
+        let half = 0.5 * reach;
+        for (i, Shape { low, high, .. }) in shapes.iter().enumerate() {
+            let aabb = Aabb::new(low.add_scalar(-half).into(), high.add_scalar(half).into());
+            self.bvh.insert_or_update_partially(aabb, i as u32, 0.0);
         }
         self.bvh.refit(&mut self.workspace);
         let mut pairs: Vec<(u32, u32)> = (0..self.patches.len() as u32).map(|i| (i, i)).collect();
@@ -147,7 +150,7 @@ impl ClothDetector {
             pairs.push((a.min(b), a.max(b)));
         });
         pairs.sort_unstable();
-        (pairs, boxes.into_iter().map(|b| b.1).collect())
+        (pairs, shapes)
     }
 
     /// Edges and triangles whose patches' boxes overlap and that share no node.
@@ -181,7 +184,7 @@ impl ClothDetector {
         pairs.par_iter().with_min_len(64).flat_map_iter(both).collect()
     }
 
-    fn measure(&self, patch: &Patch, x: &[Vec3], normals: &[Vec3], reach: f64) -> (Aabb, Cone) {
+    fn measure(&self, patch: &Patch, x: &[Vec3], normals: &[Vec3]) -> Shape {
         let mut low = Vec3::repeat(f64::INFINITY);
         let mut high = -low;
         let mut axis = Vec3::zeros();
@@ -199,23 +202,21 @@ impl ClothDetector {
         }
         let axis = axis.try_normalize(1e-9).unwrap_or_default();
         let cosine = patch.triangles.iter().map(|&t| axis.dot(&normals[t as usize])).fold(1.0, f64::min);
-        let half = 0.5 * reach;
-        let aabb = Aabb::new(low.add_scalar(-half).into(), high.add_scalar(half).into());
-        (aabb, Cone { axis, spread: cosine.clamp(-1.0, 1.0).acos(), shrunk })
+        Shape { low, high, axis, spread: cosine.clamp(-1.0, 1.0).acos(), shrunk }
     }
 
     /// Whether two patches are one smooth sheet (they meet, normals alike, nothing pushed together).
-    fn smooth(&self, a: usize, b: usize, cones: &[Cone]) -> bool {
+    fn smooth(&self, a: usize, b: usize, shapes: &[Shape]) -> bool {
         let (p, q) = (&self.patches[a], &self.patches[b]);
         if p.piece != q.piece {
             return false;
         }
-        let (ca, cb) = (&cones[a], &cones[b]);
-        if ca.shrunk || cb.shrunk || p.slit || q.slit {
+        let (sa, sb) = (&shapes[a], &shapes[b]);
+        if sa.shrunk || sb.shrunk || p.slit || q.slit {
             return false;
         }
-        let between = ca.axis.dot(&cb.axis).clamp(-1.0, 1.0).acos();
-        if between + ca.spread + cb.spread > SMOOTH_CONE {
+        let between = sa.axis.dot(&sb.axis).clamp(-1.0, 1.0).acos();
+        if between + sa.spread + sb.spread > SMOOTH_CONE {
             return false;
         }
         // Both sides of a dart are near each other in the flat piece, and may slide one over the other.
@@ -232,66 +233,98 @@ impl ClothDetector {
     }
 }
 
-struct Cone {
+/// How a patch lies.
+struct Shape {
+    /// Its box.
+    low: Vec3,
+    high: Vec3,
+    /// The cone of its normals.
     axis: Vec3,
     spread: f64,
     /// Whether an edge is much shorter than drawn.
     shrunk: bool,
 }
 
+/// A vertex, an edge or a triangle of the cloth.
+struct Primitive<const N: usize> {
+    nodes: [u32; N],
+    low: Vec3,
+    high: Vec3,
+    /// Whether it has a node at which is searched.
+    stale: bool,
+}
+
+/// What a patch has near another.
+struct Part {
+    vertices: Vec<Primitive<1>>,
+    edges: Vec<Primitive<2>>,
+    triangles: Vec<Primitive<3>>,
+}
+
 struct Search<'a> {
     detector: &'a ClothDetector,
     x: &'a [Vec3],
     reach: f64,
-    /// Nodes at which is searched, and triangles that have one.
+    /// Nodes at which is searched.
     stale: &'a [bool],
-    triangles: Vec<bool>,
 }
 
 impl Search<'_> {
-    fn pair(&self, a: usize, b: usize) -> Vec<Contact> {
-        let (p, q) = (&self.detector.patches[a], &self.detector.patches[b]);
+    fn pair(&self, a: usize, b: usize) -> Vec<Contact<'static>> {
         let mut out = Vec::new();
-        self.points(p, q, &mut out);
-        if a != b {
-            self.points(q, p, &mut out);
+        let p = self.part(a, b);
+        if a == b {
+            self.meet(&p.vertices, |_| &p.triangles, &mut out);
+            self.meet(&p.edges, |i| &p.edges[i + 1..], &mut out);
+        } else {
+            let q = self.part(b, a);
+            self.meet(&p.vertices, |_| &q.triangles, &mut out);
+            self.meet(&q.vertices, |_| &p.triangles, &mut out);
+            self.meet(&p.edges, |_| &q.edges, &mut out);
         }
-        self.edges(p, q, a == b, &mut out);
         out
     }
 
-    fn points(&self, p: &Patch, q: &Patch, out: &mut Vec<Contact>) {
-        for &v in &p.nodes {
-            let (point, stale) = (self.x[v as usize], self.stale[v as usize]);
-            for &t in q.triangles.iter().filter(|t| stale || self.triangles[**t as usize]) {
-                let tri = self.detector.triangles[t as usize];
-                let [a, b, c] = tri.map(|n| self.x[n as usize]);
-                let low = a.inf(&b).inf(&c).add_scalar(-self.reach);
-                let high = a.sup(&b).sup(&c).add_scalar(self.reach);
-                if apart(low, high, point, point) || self.detector.joined(&[v], &tri) {
-                    continue;
-                }
-                let Some(contact) = Contact::within_cloth([v, tri[0], tri[1], tri[2]], 1, self.x) else { continue };
-                if contact.gap(self.x) < self.reach {
-                    out.push(contact);
-                }
-            }
+    /// What of patch number `patch` comes within reach of the box of patch number `other`: most of what is near each
+    /// other is so at its rim only.
+    fn part(&self, patch: usize, other: usize) -> Part {
+        let patch = &self.detector.patches[patch];
+        let Shape { low, high, .. } = &self.detector.shapes[other];
+        let (low, high) = (low.add_scalar(-self.reach), high.add_scalar(self.reach));
+        Part {
+            vertices: patch.nodes.iter().filter_map(|&v| self.within(low, high, [v])).collect(),
+            edges: patch.edges.iter().filter_map(|&e| self.within(low, high, e)).collect(),
+            triangles: (patch.triangles.iter())
+                .filter_map(|&t| self.within(low, high, self.detector.triangles[t as usize]))
+                .collect(),
         }
     }
 
-    fn edges(&self, p: &Patch, q: &Patch, same: bool, out: &mut Vec<Contact>) {
-        let is_stale = |e: &[u32; 2]| e.iter().any(|&n| self.stale[n as usize]);
-        for (i, e) in p.edges.iter().enumerate() {
-            let stale = is_stale(e);
-            let [a, b] = e.map(|n| self.x[n as usize]);
-            let (low, high) = (a.inf(&b).add_scalar(-self.reach), a.sup(&b).add_scalar(self.reach));
-            let from = if same { i + 1 } else { 0 };
-            for f in q.edges[from..].iter().filter(|f| stale || is_stale(f)) {
-                let [c, d] = f.map(|n| self.x[n as usize]);
-                if apart(low, high, c.inf(&d), c.sup(&d)) || self.detector.joined(e, f) {
+    /// The primitive of `nodes`, if its box has something in common with the one given.
+    fn within<const N: usize>(&self, low: Vec3, high: Vec3, nodes: [u32; N]) -> Option<Primitive<N>> {
+        let [l, h] = box_of(nodes.map(|n| self.x[n as usize]));
+        let stale = nodes.iter().any(|&n| self.stale[n as usize]);
+        (!apart(low, high, l, h)).then_some(Primitive { nodes, low: l, high: h, stale })
+    }
+
+    /// Adds the contacts of every primitive, the i-th of `above`, with those that are `below` it.
+    fn meet<'p, const N: usize, const M: usize>(
+        &self,
+        above: &[Primitive<N>],
+        below: impl Fn(usize) -> &'p [Primitive<M>],
+        out: &mut Vec<Contact<'static>>,
+    ) {
+        for (i, p) in above.iter().enumerate() {
+            let (low, high) = (p.low.add_scalar(-self.reach), p.high.add_scalar(self.reach));
+            for q in below(i) {
+                let searched = p.stale || q.stale;
+                if !searched || apart(low, high, q.low, q.high) || self.detector.joined(&p.nodes, &q.nodes) {
                     continue;
                 }
-                let Some(contact) = Contact::within_cloth([e[0], e[1], f[0], f[1]], 2, self.x) else { continue };
+                let mut nodes = [0; 4];
+                nodes[..N].copy_from_slice(&p.nodes);
+                nodes[N..].copy_from_slice(&q.nodes);
+                let Some(contact) = Contact::within_cloth(nodes, N as u8, self.x) else { continue };
                 if contact.gap(self.x) < self.reach {
                     out.push(contact);
                 }

@@ -35,7 +35,8 @@ impl Collider {
         let mut outward = Vec3::zeros();
         self.edge_grid.query(a.inf(&b).inf(&c), a.sup(&b).sup(&c), |e| {
             let edge = &self.edges[e as usize];
-            if pierces(edge.ends[0], edge.ends[1], corners) {
+            let [p, q] = edge.ends.corners;
+            if pierces(p, q, corners) {
                 outward += edge.outward;
             }
         });

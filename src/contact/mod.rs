@@ -41,45 +41,44 @@ const SIDEWAYS: f64 = 0.25;
 /// Edges that enclose less than this angle (sine) have less and less a point where they meet: their ends push.
 const PARALLEL: f64 = 0.02;
 
+/// A vertex, an edge or a face of the body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Feature<const N: usize> {
+    /// Its number among those of its kind.
+    pub number: u32,
+    /// Its corners.
+    pub corners: [Vec3; N],
+}
+
 /// What the nodes of a contact are above of.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Under {
+pub enum Under<'b> {
     /// Cloth: the nodes after the first [`Contact::above`].
     Cloth,
     /// The plane through the point of the body's surface that was nearest to a node.
     Plane,
     /// A face of a hollow of the body, beside the one nearest to a node.
     Face {
-        /// Its number.
-        number: u32,
-        /// Its corners.
-        corners: [Vec3; 3],
+        /// The face.
+        face: &'b Feature<3>,
         /// The share with which it pushes, 0 … 1: in a sharp hollow beside the nearest, in a shallow one not at all
         /// until it is the nearest.
         push: f64,
     },
     /// A vertex of the body, under a triangle.
-    Vertex {
-        /// Its number.
-        number: u32,
-        /// Where it is.
-        at: Vec3,
-    },
+    Vertex(&'b Feature<1>),
     /// A convex edge of the body, under an edge.
-    Edge {
-        /// Its number.
-        number: u32,
-        /// Its ends.
-        ends: [Vec3; 2],
-    },
+    Edge(&'b Feature<2>),
 }
 
-impl Under {
+impl Under<'_> {
     /// The number of the body's face, vertex or edge.
     pub(crate) fn number(&self) -> Option<u32> {
         match self {
             Self::Cloth | Self::Plane => None,
-            Self::Face { number, .. } | Self::Vertex { number, .. } | Self::Edge { number, .. } => Some(*number),
+            Self::Face { face, .. } => Some(face.number),
+            Self::Vertex(vertex) => Some(vertex.number),
+            Self::Edge(edge) => Some(edge.number),
         }
     }
 
@@ -87,16 +86,19 @@ impl Under {
     fn points(&self) -> &[Vec3] {
         match self {
             Self::Cloth | Self::Plane => &[],
-            Self::Face { corners, .. } => corners,
-            Self::Vertex { at, .. } => std::slice::from_ref(at),
-            Self::Edge { ends, .. } => ends,
+            Self::Face { face, .. } => &face.corners,
+            Self::Vertex(vertex) => &vertex.corners,
+            Self::Edge(edge) => &edge.corners,
         }
     }
 }
 
 /// A pair of primitives near each other, as one number: gap = normal · Σ wᵢ xᵢ − offset, metres.
+///
+/// There are a hundred thousand of them in a garment, and they are moved about at every look: the corners of the body
+/// stay where they are.
 #[derive(Clone, Copy, Debug)]
-pub struct Contact {
+pub struct Contact<'b> {
     /// Nodes that take part; the first [`Contact::count`] are meant.
     pub nodes: [u32; 4],
     /// Their weights: +1 in sum on the side the normal points to, −1 on the other (or 0 if that side is the body).
@@ -108,7 +110,7 @@ pub struct Contact {
     /// Position of the body's surface along the normal; 0 between cloth and cloth.
     pub offset: f64,
     /// What is on the other side.
-    pub under: Under,
+    pub under: Under<'b>,
     /// How many of the nodes, counted from the first, are on the side the normal points to.
     pub above: u8,
     /// Share of the law's force with which it pushes, 0 … 1. It falls to nothing as the closest point passes the end of
@@ -116,7 +118,7 @@ pub struct Contact {
     pub share: f64,
 }
 
-impl Contact {
+impl<'b> Contact<'b> {
     /// A node and the body's surface, of unit direction `normal` at `point`.
     pub(crate) fn on_body(node: u32, normal: Vec3, point: Vec3) -> Self {
         Self {
@@ -133,7 +135,7 @@ impl Contact {
 
     /// The first `count` of `nodes` above a vertex, an edge or a hollow's face of the body, from which `outward` leads
     /// away; turned to where their closest points are. `None` where they meet in a point.
-    pub(crate) fn on_feature(nodes: [u32; 4], count: u8, under: Under, outward: Vec3, x: &[Vec3]) -> Option<Self> {
+    pub(crate) fn on_feature(nodes: [u32; 4], count: u8, under: Under<'b>, outward: Vec3, x: &[Vec3]) -> Option<Self> {
         let (weights, normal) = ([0.0; 4], outward);
         let mut out = Self { nodes, weights, count, normal, offset: 0.0, under, above: count, share: 1.0 };
         out.refresh(x).then_some(out)
@@ -180,18 +182,18 @@ impl Contact {
                 let away = a + (b - a) * s - c - (d - c) * t;
                 ([1.0 - s, s, t - 1.0, -t], away, share_of_edges(a, b, c, d, away.norm()))
             }
-            Under::Face { corners: [p, q, r], push, .. } => {
+            Under::Face { face: &Feature { corners: [p, q, r], .. }, push } => {
                 let [k, l, m] = closest_on_triangle(at(0), p, q, r);
                 let away = at(0) - (p * k + q * l + r * m);
                 let cosine = (q - p).cross(&(r - p)).normalize().dot(&away) / away.norm();
                 ([1.0, 0.0, 0.0, 0.0], away, push * upright(cosine))
             }
-            Under::Vertex { at: p, .. } => {
+            Under::Vertex(&Feature { corners: [p], .. }) => {
                 let [k, l, m] = closest_on_triangle(p, at(0), at(1), at(2));
                 let away = at(0) * k + at(1) * l + at(2) * m - p;
                 ([k, l, m, 0.0], away, share_of_triangle(p, at(0), at(1), at(2), away.norm()))
             }
-            Under::Edge { ends: [p, q], .. } => {
+            Under::Edge(&Feature { corners: [p, q], .. }) => {
                 let (a, b) = (at(0), at(1));
                 let (s, t) = closest_on_segments(a, b, p, q);
                 let away = a + (b - a) * s - p - (q - p) * t;
@@ -288,8 +290,8 @@ mod tests {
             let x: Vec<Vec3> = (0..3).map(|i| point(100 * trial + 3 * i)).collect();
             let [p, q] = [20, 30].map(|k| point(100 * trial + k));
             let up = Vec3::y();
-            let edge =
-                Contact::on_feature([0, 1, 0, 0], 2, Under::Edge { number: 0, ends: [p, q] }, up, &x).expect("apart");
+            let feature = Feature { number: 0, corners: [p, q] };
+            let edge = Contact::on_feature([0, 1, 0, 0], 2, Under::Edge(&feature), up, &x).expect("apart");
             // No pair of points of the two is nearer, and one is as near.
             let sampled = (0..=100 * 100)
                 .map(|k| (f64::from(k / 100) / 100.0, f64::from(k % 101) / 100.0))
@@ -297,8 +299,8 @@ mod tests {
                 .fold(f64::INFINITY, f64::min);
             let gap = edge.gap(&x).abs();
             assert!(gap <= sampled + 1e-12 && gap > sampled - 0.03, "{trial}: a gap of {gap}, {sampled} apart");
-            let corner =
-                Contact::on_feature([0, 1, 2, 0], 3, Under::Vertex { number: 0, at: p }, up, &x).expect("apart");
+            let feature = Feature { number: 0, corners: [p] };
+            let corner = Contact::on_feature([0, 1, 2, 0], 3, Under::Vertex(&feature), up, &x).expect("apart");
             let [k, l, m] = closest_on_triangle(p, x[0], x[1], x[2]);
             let expected = (x[0] * k + x[1] * l + x[2] * m - p).norm();
             assert!((corner.gap(&x).abs() - expected).abs() < 1e-12, "{trial}");

@@ -34,7 +34,7 @@ pub struct Forces<'a> {
     /// Share of gravity, 0 … 1.
     pub gravity: f64,
     /// Contacts found at the last detection.
-    pub contacts: &'a [Contact],
+    pub contacts: &'a [Contact<'a>],
     /// Their law.
     pub law: ContactLaw,
     /// Stitches that are open.

@@ -49,12 +49,12 @@ impl Found {
 }
 
 /// A contact, and the triangle or edge of the cloth whose contact with a feature of the body it is.
-pub(super) type Source = (Contact, Option<u32>);
+pub(super) type Source<'a> = (Contact<'a>, Option<u32>);
 
 /// The contacts of a step, and how far each node may go in it for no other to matter.
-pub(super) struct Near {
+pub(super) struct Near<'a> {
     /// All that was found, turned to where the closest points were when it last mattered.
-    pub(super) all: Vec<Contact>,
+    pub(super) all: Vec<Contact<'a>>,
     found: Vec<Found>,
     /// Contacts matter below this gap, metres.
     gap: f64,
@@ -63,12 +63,12 @@ pub(super) struct Near {
     /// How far each node may go, metres.
     may: Vec<f64>,
     /// The contacts that matter, turned to where their closest points are.
-    pub(super) contacts: Vec<Contact>,
+    pub(super) contacts: Vec<Contact<'a>>,
     /// Their numbers among those that were found.
     number: Vec<u32>,
 }
 
-impl Near {
+impl<'a> Near<'a> {
     /// For `nodes` nodes, whose contacts matter below `gap` metres.
     pub(super) fn new(nodes: usize, gap: f64) -> Self {
         let (all, found, contacts, number) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -88,7 +88,7 @@ impl Near {
         x: &[Vec3],
         stay: impl Fn(&Contact, Option<u32>) -> bool,
         wanted: impl Fn(u32) -> bool,
-    ) -> Vec<(u32, Contact)> {
+    ) -> Vec<(u32, Contact<'a>)> {
         let mut left = Vec::new();
         let mut stays = Vec::with_capacity(self.all.len());
         for (contact, found) in self.all.iter().zip(&self.found) {
@@ -106,7 +106,7 @@ impl Near {
     }
 
     /// Takes in what was found at `x`; every node's way is measured from its `origin`.
-    pub(super) fn add(&mut self, sources: &[Source], x: &[Vec3], origin: &[Vec3]) {
+    pub(super) fn add(&mut self, sources: &[Source<'a>], x: &[Vec3], origin: &[Vec3]) {
         let gone: Vec<f64> = x.iter().zip(origin).map(|(x, o)| (x - o).norm()).collect();
         // In the step that now begins.
         let turned = self.step + 1;
@@ -145,7 +145,7 @@ impl Near {
     }
 
     /// Those that have to be kept apart.
-    pub(super) fn apart(&self) -> Vec<&Contact> {
+    pub(super) fn apart(&self) -> Vec<&Contact<'a>> {
         let outside = |k: &u32| self.found[*k as usize].outside;
         self.contacts.iter().zip(&self.number).filter(|(_, k)| outside(k)).map(|(c, _)| c).collect()
     }
@@ -199,19 +199,19 @@ fn turn(contact: &mut Contact, found: &Found, mattered: bool, x: &[Vec3]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::Under;
+    use crate::contact::{Feature, Under};
 
     /// Metres.
     const GAP: f64 = 1e-3;
 
-    fn over_floor(height: f64) -> (Vec<Vec3>, Near) {
+    fn over_floor(height: f64) -> (Vec<Vec3>, Near<'static>) {
         let x = vec![Vec3::y() * height];
         let near = found(vec![Contact::on_body(0, Vec3::y(), Vec3::zeros())], &x);
         (x, near)
     }
 
     /// What is near after `contacts` were found at `x`.
-    fn found(contacts: Vec<Contact>, x: &[Vec3]) -> Near {
+    fn found<'a>(contacts: Vec<Contact<'a>>, x: &[Vec3]) -> Near<'a> {
         let mut near = Near::new(x.len(), GAP);
         near.add(&contacts.into_iter().map(|c| (c, None)).collect::<Vec<_>>(), x, x);
         near.follow(x, x);
@@ -275,13 +275,14 @@ mod tests {
 
     #[test]
     fn cloth_that_went_round_an_edge_is_on_its_outside_still() {
-        let under = Under::Edge { number: 0, ends: [Vec3::z() * -0.1, Vec3::z() * 0.1] };
         let along = [Vec3::z() * -0.1, Vec3::z() * 0.1];
+        let edge = Feature { number: 0, corners: along };
         let mut x: Vec<Vec3> = along.iter().map(|p| p + Vec3::new(0.0, 0.005, 0.0)).collect();
         // Not parallel to it, or there would be no closest points.
         x[1].x += 0.001;
         let origin = x.clone();
-        let mut near = found(vec![Contact::on_feature([0, 1, 0, 0], 2, under, Vec3::y(), &x).expect("apart")], &x);
+        let mut near =
+            found(vec![Contact::on_feature([0, 1, 0, 0], 2, Under::Edge(&edge), Vec3::y(), &x).expect("apart")], &x);
         near.follow(&x, &origin);
         assert!(near.contacts.is_empty());
         let last = x.clone();

@@ -67,6 +67,9 @@ const MARGIN: f64 = 0.25;
 /// Room for rounding in distances, metres.
 const ROUNDING: f64 = 1e-9;
 
+/// The body's features near a triangle or an edge of the cloth, and whether others near it are hidden.
+type FoundAt<'a> = (Vec<Contact<'a>>, bool);
+
 /// At which nodes a look searches.
 #[derive(Clone, Copy)]
 struct Search<'a> {
@@ -83,7 +86,7 @@ struct Search<'a> {
 /// looked for wherever it moves at all.
 pub(super) struct Proximity<'a> {
     /// What was found, and which of it matters.
-    near: Near,
+    near: Near<'a>,
     /// How far nodes may go.
     pub(super) bounds: Bounds,
     /// What the cloth is on.
@@ -154,7 +157,7 @@ impl<'a> Proximity<'a> {
     }
 
     /// The contacts that matter in the next step.
-    pub(super) fn near(&self) -> &[Contact] {
+    pub(super) fn near(&self) -> &[Contact<'a>] {
         &self.near.contacts
     }
 
@@ -268,11 +271,11 @@ impl<'a> Proximity<'a> {
     }
 
     /// Contacts with the nearest points of the body, of nodes that have `moved`.
-    fn body_contacts(&mut self, x: &[Vec3], reach: &Reach, moved: &[bool]) -> Vec<Source> {
+    fn body_contacts(&mut self, x: &[Vec3], reach: &Reach, moved: &[bool]) -> Vec<Source<'a>> {
         let body = self.body;
         // A node whose last measured distance minus its way since cannot have come within reach is not asked for again;
         // that distance plus its way is as far as the surface can be now.
-        let found: Vec<Option<(f64, Vec<Contact>)>> = self
+        let found: Vec<Option<(f64, Vec<Contact<'a>>)>> = self
             .body_distance
             .par_iter()
             .with_min_len(128)
@@ -310,7 +313,7 @@ impl<'a> Proximity<'a> {
 
     /// Adds the contacts of the body's features with triangles and edges of the cloth that are searched, and lets go
     /// of what was found before at all that is.
-    fn face_contacts(&mut self, cloth: &Cloth, x: &[Vec3], reach: &Reach, at: Search, sources: &mut Vec<Source>) {
+    fn face_contacts(&mut self, cloth: &Cloth, x: &[Vec3], reach: &Reach, at: Search, sources: &mut Vec<Source<'a>>) {
         let is_searched = self.is_searched(cloth, x, at);
         let found = self.search(cloth, x, reach.features, &is_searched);
         let hides = |k: u32| matches!(found[k as usize], Some((_, true)));
@@ -346,7 +349,7 @@ impl<'a> Proximity<'a> {
 
     /// Contacts of the body's edges and vertices within `reach` of each triangle and edge that is searched, and whether
     /// some near them were left out.
-    fn search(&self, cloth: &Cloth, x: &[Vec3], reach: f64, is_searched: &[bool]) -> Vec<Option<(Vec<Contact>, bool)>> {
+    fn search(&self, cloth: &Cloth, x: &[Vec3], reach: f64, is_searched: &[bool]) -> Vec<Option<FoundAt<'a>>> {
         // No point of an edge or triangle is further from the nearest of its nodes than this share of its longest side.
         let near = |nodes: &[u32]| {
             let side = |a: u32, b: u32| (x[a as usize] - x[b as usize]).norm();
@@ -376,7 +379,7 @@ impl<'a> Proximity<'a> {
 /// Of what was `known` at the triangle or edge `element`, what was not `found` again and is still apart, nearer than
 /// `reach`. Which of two features hides the other may depend on the last micrometre: one that was left out as soon as
 /// it had pushed the cloth a little off, and found again without it, never let it rest.
-fn kept(known: &[(u32, Contact)], element: u32, found: &[Contact], x: &[Vec3], reach: f64) -> Vec<Contact> {
+fn kept<'a>(known: &[(u32, Contact<'a>)], element: u32, found: &[Contact], x: &[Vec3], reach: f64) -> Vec<Contact<'a>> {
     let again = |c: &Contact| found.iter().any(|f| f.under.number() == c.under.number());
     let apart = |c: &Contact| (0.0..reach).contains(&c.gap(x));
     let first = known.partition_point(|k| k.0 < element);
