@@ -194,6 +194,8 @@ fn errors_say_what_was_expected() {
     assert!(said(None, &[LEAST[0], LEAST[1], ("wieght", "3")]).contains("no value 'wieght'; it may have weight"));
     assert!(said(None, &[LEAST[0], LEAST[1], ("tensile.warp.LT", "0.7")]).contains("has no tensile.warp.EMT"));
     assert!(said(None, &[LEAST[0], LEAST[1], ("tensile", "{warp: [")]).contains("tensile"));
+    let both = said(None, &[LEAST[0], LEAST[1], ("tensile", "{warp: {EMT: 5 %, curve: '1:10'}}")]);
+    assert!(both.contains("tensile.warp.EMT '5 %' is said in other words too; tensile.warp.curve says"), "{both}");
 }
 
 #[test]

@@ -13,7 +13,7 @@ fn readings(initial: f64, mean: f64, normalised: f64, range: f64) -> Vec<f64> {
     let (low, high) = (mean - normalised * range, mean + (1.0 - normalised) * range);
     // Eighteen more readings, in pairs about the value that makes the mean right.
     let middle = (20.0 * mean - low - high) / 18.0;
-    let off = |k: usize| 0.02 * range * (k as f64 / 9.0) * if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+    let off = |k: usize| 0.19 * range * (k as f64 / 9.0) * if k.is_multiple_of(2) { 1.0 } else { -1.0 };
     let mut out = vec![low, high];
     out.extend((0..9).flat_map(|k| [middle + off(k), middle - off(k)]));
     out.iter().map(|v| v * initial).collect()
@@ -174,6 +174,14 @@ fn too_few_or_impossible_readings_are_refused() {
     room.refused(&(yaml(&set) + "means: {recovery: 0.9, stretch: 1, bend: 0.9}\n"), "leave one out");
     room.refused("means: {recovery: 0.98, stretch: 1.04, bend: 1.2}\n", "bend: the mean 1.2 is no ratio");
     room.refused(&with(|s| s[2][4] *= 10.0), "is more than 3 times the median");
+    room.refused(&yaml(&set).replace("load: 600", "load: .nan"), "stretch: a load of NaN gf");
+    room.refused("- 1\n", "expected a map of recovery, stretch, bend");
+    room.refused(
+        "values: {weight: 115 g/m2, bend.warp: 1 uN.m, bend: {warp: 2 uN.m}}\n",
+        "bend.warp stands there twice",
+    );
+    let both = "values: {weight: 115 g/m2, bend: 1 uN.m, tensile.warp: {EMT: 5 %, curve: '1:10'}}\n";
+    room.refused(both, "values: tensile.warp.EMT and tensile.warp.curve say the same; leave one out");
     // Recovery weighs nothing then: a board.
     room.refused("means: {recovery: 0.96, stretch: 1.05, bend: 0.995}\nvalues: {weight: 115 g/m2}\n", "give bend");
     room.refused("values: {weight: 115 g/m2, bend: 1 uN.m, name: foo}\n", "values: name is none");
@@ -198,6 +206,23 @@ fn rows_that_are_no_readings_are_refused() {
         let said = measure(&room.file("bad.csv", format!("{head}{rows}")), "mine").expect_err(why).to_string();
         assert!(said.contains(why), "{said}");
     }
+    // Row 5 has no recovery: the fourth reading of it is in row 7.
+    let mut rows: Vec<String> = (1..=21).map(|k| format!("{k},{},{},{}", 1700 + k, 630 + k, 30 + k % 3)).collect();
+    rows[2] = "3,,633,31".to_owned();
+    let table = |fifth: &str| {
+        let rows = [&rows[..4], &[fifth.to_owned()], &rows[5..]].concat().join("\n");
+        measure(
+            &room.file("rows.csv", format!("repeat,recovery,stretch,bend\ninitial,1840,609.6,50\n{rows}\n")),
+            "mine",
+        )
+    };
+    let said = table("5,1900,635,31").expect_err("more than flat").to_string();
+    assert!(said.contains("recovery: reading 4 in row 7 (1900) against 1840"), "{said}");
+    let notes = table("5,170.5,635,31").expect("a table").notes;
+    assert!(notes[0].contains("bend: initial, 50, is not used"), "{notes:?}");
+    assert!(notes[1].contains("recovery: reading 4 in row 7 (170.5) lies far from the others"), "{notes:?}");
+    assert_eq!(notes.len(), 2);
+    assert!(table("04,1705,635,31").expect_err("twice").to_string().contains("repeat '4' stands there twice"));
     let german = "repeat;recovery;stretch;bend\ninitial;1840;609,6;\n1;1674;628,1;30,5\n";
     let said = measure(&room.file("bad.csv", german), "mine").expect_err("commas").to_string();
     assert!(said.contains("row 2: stretch: '609,6' is no number; write a decimal point"), "{said}");
@@ -280,6 +305,16 @@ fn photographs_are_counted() {
     assert_relative_eq!(made.sheet.liu.expect("measures").means[0], sides / 1600.0, epsilon = 1e-12);
     assert_eq!(made.inputs.len(), 22);
     room.refused(&text(", threshold: 40"), "no pixel is cloth at threshold 40");
+    assert!(
+        made.notes[0].contains("covers 64.0 % of the flat one's photograph, 36.0 to 46.2 % of"),
+        "{:?}",
+        made.notes
+    );
+    assert!(!made.notes.iter().any(|n| n.contains("threshold")), "{:?}", made.notes);
+    let near = room.measure(&text(", threshold: 100")).expect("photos").notes;
+    assert!(near[1].contains("the threshold 100 does not part cloth and table in 11 of 21"), "{near:?}");
+    room.refused(&text(", cloth: light"), "is the cloth the light part");
+    room.refused(&text("").replace("c4.png", "c3.png"), "c3.png: it stands there twice");
     room.file("c3.png", photo(60, 30, png::ColorType::Grayscale, &[90], &[200]));
     room.refused(&text(""), "c3.png: 60 × 60 pixels, the first 50 × 50; the camera must not move");
     room.file("c3.png", b"no picture");
@@ -318,8 +353,47 @@ fn jpeg_photographs_are_read() {
         assert_eq!(photo.share(128, false), share);
         assert_eq!(photo.share(128, true), 1.0 - share);
     }
+    let cut = jpeg(true);
+    let said = Photo::read(&room.file("p.jpg", &cut[..cut.len() - 2])).expect_err("no end").to_string();
+    assert!(said.contains("it is cut short"), "{said}");
     assert!(matches!(Photo::read(&room.file("p.jpg", [0xff, 0xd8, 1])), Err(MeasureError::Photo { .. })));
     assert!(matches!(Photo::read(Path::new("none.png")), Err(MeasureError::Photo { .. })));
+}
+
+#[test]
+fn a_value_of_a_sheet_is_blamed_on_its_row() {
+    let room = Room::new();
+    let said = |rows: &str| {
+        let sheet = room.file("kes.csv", format!("parameter,warp,weft,unit\nB,.067,.05\n{rows}\n"));
+        measure(&sheet, "mine").expect_err(rows).to_string()
+    };
+    assert!(
+        said("W,18,,mg/cm2\nEMT,5,5\nLT,60,65,%")
+            .contains("kes.csv, row 5: fabric 'mine': cannot read tensile.warp.LT")
+    );
+    assert!(
+        said("EMT,5,5")
+            .ends_with("kes.csv: fabric 'mine' has no weight value; give weight in g/m2, kg/m2, mg/cm2 or oz/yd2")
+    );
+    room.file("kes.csv", "parameter,warp,weft\nB,.067,.05\nMIU,.2\n");
+    // What the file of readings says itself is not the sheet's.
+    room.refused("sheet: kes.csv\nvalues: {weight: 115 g/m2, friction: 40 %}\n", "readings.yaml: fabric 'mine'");
+}
+
+#[test]
+fn a_fabric_that_hardly_any_cloth_is_like_is_doubted() {
+    let room = Room::new();
+    let notes = |values: &str| room.measure(&format!("values: {{{values}}}\n")).expect("a fabric").fabric.notes();
+    let cloth = "weight: 115 g/m2, bend: 0.1 gf.cm2/cm";
+    assert!(notes(cloth).is_empty());
+    assert!(notes("weight: 115 g/m2, bend: 0.05 uN.m")[0].contains("a bending length of 3.5 mm"));
+    assert!(
+        notes(&format!("{cloth}, tensile: {{EMT: 0.05 %, LT: 0.7}}"))[1].contains("along the weft it gives 0.050 %")
+    );
+    assert!(notes(&format!("{cloth}, thickness: 0.01 mm"))[0].contains("11500 kg/m3"));
+    for name in library() {
+        assert!(load(name).expect(name).notes().is_empty(), "{name}");
+    }
 }
 
 #[test]

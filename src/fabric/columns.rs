@@ -12,9 +12,10 @@ impl Columns {
     /// in a number is never taken for the end of a field where fields end otherwise.
     pub(in crate::fabric) fn new(header: &str) -> Self {
         let separator = [';', '\t'].into_iter().find(|s| header.contains(*s)).unwrap_or(',');
-        // `recovery cm2` is the column `recovery`.
-        let name = |field: &str| field.split_whitespace().next().unwrap_or_default().to_lowercase();
-        Self { separator, names: header.split(separator).map(name).collect() }
+        // `recovery cm2` and `recovery(cm2)` are the column `recovery`.
+        let ends = |c: char| c.is_whitespace() || matches!(c, '(' | '[' | ',' | '/');
+        let name = |field: &str| field.split(ends).next().unwrap_or_default().to_lowercase();
+        Self { separator, names: fields(header, separator).into_iter().map(name).collect() }
     }
 
     /// Names of the columns, as far as they are words.
@@ -37,13 +38,27 @@ impl Columns {
     /// # Errors
     /// Where it has more than the table has columns.
     pub(in crate::fabric) fn cut<'a>(&self, row: &'a str) -> Result<Vec<&'a str>, String> {
-        let fields: Vec<&str> = row.split(self.separator).map(str::trim).collect();
+        let fields = fields(row, self.separator);
         let (found, named) = (fields.len(), self.names.len());
         if fields[named.min(found)..].iter().all(|f| f.is_empty()) {
             return Ok(fields);
         }
         Err(format!("{found} fields, where the first row names {named}; write decimal points, not commas"))
     }
+}
+
+/// The fields of a row, without the quotation marks that a spreadsheet may set.
+fn fields(row: &str, separator: char) -> Vec<&str> {
+    let mut quoted = false;
+    let is_end = |c: char| {
+        quoted ^= c == '"';
+        c == separator && !quoted
+    };
+    row.split(is_end).map(|field| bare(field.trim())).collect()
+}
+
+fn bare(field: &str) -> &str {
+    field.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).map_or(field, str::trim)
 }
 
 /// The number above 0 in a field.
@@ -55,9 +70,10 @@ pub(in crate::fabric) fn above_zero(text: &str) -> Result<f64, String> {
     }
 }
 
-/// The rows of a text that are neither empty nor comments, with their lines from 1.
+/// The rows of a text that are neither empty, be it between separators, nor comments, with their lines from 1.
 pub(in crate::fabric) fn rows(text: &str) -> impl Iterator<Item = (usize, &str)> {
-    let says = |l: &str| !l.trim().is_empty() && !l.trim_start().starts_with('#');
+    let is_blank = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | '"');
+    let says = move |l: &str| !l.chars().all(is_blank) && !l.trim_start().starts_with('#');
     text.lines().enumerate().filter(move |(_, l)| says(l)).map(|(k, l)| (k + 1, l))
 }
 
@@ -75,6 +91,15 @@ mod tests {
         assert!(plain.cut("1,1674,628,1,30,5").expect_err("six").contains("6 fields, where the first row names 4"));
         assert_eq!(plain.cut("1,1674,,").expect("fields").len(), 4);
         assert_eq!(plain.cut("1,2,3,4,,").expect("idle separators").len(), 6);
+    }
+
+    #[test]
+    fn a_table_may_be_as_spreadsheets_write_it() {
+        let table = Columns::new("\"repeat\",\"recovery(cm2)\",\"stretch [mm]\",bend");
+        assert_eq!(table.names(), ["repeat", "recovery", "stretch", "bend"]);
+        assert_eq!(table.cut("\"1\", \"1,674\" ,628.1,").expect("fields"), ["1", "1,674", "628.1", ""]);
+        let lines: Vec<usize> = rows("a,b\n,,\n\n;;\n1,2\n\"\",\"\"\n").map(|r| r.0).collect();
+        assert_eq!(lines, [1, 5]);
     }
 
     #[test]

@@ -64,6 +64,18 @@ pub enum FabricError {
         /// What it must be.
         why: String,
     },
+    /// A value beside another that says the same.
+    #[error("fabric '{fabric}': {key} '{text}' is said in other words too; {why}")]
+    Twice {
+        /// The fabric.
+        fabric: String,
+        /// Which value.
+        key: String,
+        /// As written.
+        text: String,
+        /// What else says it.
+        why: String,
+    },
     /// A value that nothing can stand in for.
     #[error("fabric '{fabric}' has no {key} value; give {key} in {expected}")]
     Missing {
@@ -107,6 +119,7 @@ impl FabricError {
             Self::Key { fabric, key, .. }
             | Self::Unit { fabric, key, .. }
             | Self::Range { fabric, key, .. }
+            | Self::Twice { fabric, key, .. }
             | Self::Missing { fabric, key, .. } => (Some(fabric), Some(key)),
             Self::Cycle { fabric } => (Some(fabric), Some("base")),
             Self::Unknown { .. } | Self::Read { .. } | Self::Syntax { .. } | Self::Curve { .. } => (None, None),

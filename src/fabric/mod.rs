@@ -1,5 +1,7 @@
 //! Fabrics as measured: the shipped library, fabric files, and what a garment file says inline.
 
+use std::ops::RangeInclusive;
+
 mod columns;
 mod curve;
 mod error;
@@ -17,6 +19,11 @@ pub use sheet::{FabricSheet, LiuMeasures, Measurement};
 
 /// Standard gravity, m/s².
 const GRAVITY: f64 = 9.80665;
+
+/// Beyond these a fabric is doubted: bending lengths, mm; extensions at 500 gf/cm, per cent; densities, kg/m³.
+const BENDING_LENGTHS: RangeInclusive<f64> = 4.0..=100.0;
+const EXTENSIONS: RangeInclusive<f64> = 0.1..=300.0;
+const DENSITIES: RangeInclusive<f64> = 30.0..=3000.0;
 
 /// How a garment file names a fabric: a library name or file, with inline measurements or multipliers on top.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -88,7 +95,28 @@ impl Fabric {
                 self.name
             )
         };
-        ends.into_iter().map(note).collect()
+        ends.into_iter().map(note).chain(self.doubts()).collect()
+    }
+
+    /// Values that hardly any cloth has: most often a unit is not the one that was meant.
+    fn doubts(&self) -> Vec<String> {
+        let mut out = Vec::new();
+        let is_measured = |key: &str| !self.defaults.iter().any(|d| d == key);
+        let length = 1e3 * self.bending_length_mean();
+        if !BENDING_LENGTHS.contains(&length) {
+            out.push(format!("a bending length of {length:.1} mm, of cloth mostly 8 to 60; look at weight and bend"));
+        }
+        for (name, emt) in ["warp", "weft"].into_iter().zip(self.emt().map(|e| 100.0 * e)) {
+            if is_measured("tensile") && is_measured(&format!("tensile.{name}")) && !EXTENSIONS.contains(&emt) {
+                let kind = "of cloth mostly 1 to 100; is the strain in %, and the load in gf/cm?";
+                out.push(format!("along the {name} it gives {emt:.3} % under 500 gf/cm, {kind}"));
+            }
+        }
+        let density = self.areal_density / self.thickness;
+        if is_measured("thickness") && is_measured("weight") && !DENSITIES.contains(&density) {
+            out.push(format!("{density:.0} kg/m3, of cloth mostly 100 to 1500; look at weight and thickness"));
+        }
+        out.into_iter().map(|doubt| format!("fabric '{}': {doubt}", self.name)).collect()
     }
 
     fn bending_length_of(&self, rigidity: f64) -> f64 {

@@ -306,6 +306,11 @@ impl<'a> Values<'a> {
         let linearity = self.number(&[lt, "tensile.LT"], 0.1..=1.5)?;
         let points = format!("{whole}.curve");
         if let Some(text) = self.map.get(&points) {
+            if let Some((key, said)) = self.first(&[emt, lt]) {
+                let (fabric, key, text) = (self.context.name.to_owned(), key.to_owned(), said.to_owned());
+                let why = format!("{points} says how the cloth stretches; leave one of both out");
+                return Err(FabricError::Twice { fabric, key, text, why });
+            }
             defaults.clear(whole);
             let rows = text.replace(':', ",").split_whitespace().collect::<Vec<_>>().join("\n");
             return TensileCurve::parse(&rows, &format!("{}, {points}", self.context.name)).map(Some);

@@ -104,12 +104,24 @@ impl FabricSheet {
     /// The drape coefficients that were measured of such cloths, per cent, from `drape: 60-83 %`.
     pub fn drape_band(&self) -> Option<[f64; 2]> {
         let text = &self.measurements.iter().find(|m| m.key == "drape")?.value;
-        let numbers: Option<Vec<f64>> =
-            text.trim_end_matches('%').split(['-', '–']).map(|n| n.trim().parse::<f64>().ok()).collect();
+        let number = |n: &str| n.trim().trim_end_matches('%').trim().parse::<f64>().ok();
+        let numbers: Option<Vec<f64>> = text.split(['-', '–']).map(number).collect();
         match numbers?[..] {
             [one] => Some([one, one]),
             [low, high] => Some([low, high]),
             _ => None,
+        }
+        .filter(|[low, high]| 1.0 <= *low && low <= high && *high <= 100.0)
+    }
+
+    /// Refuses what is said twice, as `bend.warp: …` beside `bend: {warp: …}`, and a drape coefficient that is none.
+    fn check(&self) -> Result<(), String> {
+        once(&self.measurements)?;
+        match self.measurements.iter().find(|m| m.key == "drape") {
+            Some(m) if self.drape_band().is_none() => {
+                Err(format!("drape is '{}'; a coefficient in per cent is expected, such as 60-83 %", m.value))
+            }
+            _ => Ok(()),
         }
     }
 
@@ -148,6 +160,7 @@ impl FabricSheet {
                 _ => flatten(&key, &value, &mut out.measurements).map_err(&fault)?,
             }
         }
+        out.check().map_err(fault)?;
         Ok(out)
     }
 }
@@ -155,6 +168,15 @@ impl FabricSheet {
 /// Whether a value is the name of a curve's file.
 pub(super) fn names_curve(m: &Measurement) -> bool {
     m.key.starts_with("tensile") && m.value.trim().ends_with(".csv")
+}
+
+/// Refuses two values of one key.
+pub(super) fn once(measurements: &[Measurement]) -> Result<(), String> {
+    let twice = |(k, m): &(usize, &Measurement)| measurements[..*k].iter().any(|before| before.key == m.key);
+    match measurements.iter().enumerate().find(twice) {
+        Some((_, m)) => Err(format!("{} stands there twice; leave one out", m.key)),
+        None => Ok(()),
+    }
 }
 
 /// The measurements of a nested value: `bend: {warp: 1 uN.m}` is `bend.warp`; a map with a `value` is one measurement.
@@ -208,8 +230,18 @@ mod tests {
     }
 
     #[test]
+    fn what_is_said_twice_is_refused() {
+        let said = |text: &str| FabricSheet::parse(text, "a.yaml").expect_err(text).to_string();
+        let twice = said("bend.warp: 1 uN.m\nbend: {warp: 2 uN.m}");
+        assert_eq!(twice, "a.yaml: bend.warp stands there twice; leave one out");
+        for none in ["lots", "0.45", "80-60 %", "30-140 %"] {
+            assert!(said(&format!("drape: {none}")).contains("a coefficient in per cent"), "{none}");
+        }
+    }
+
+    #[test]
     fn a_band_may_be_written_with_either_dash() {
-        for text in ["60-83 %", "60–83 %"] {
+        for text in ["60-83 %", "60–83 %", "60 % - 83 %"] {
             let sheet = FabricSheet::parse(&format!("drape: {text}"), "a.yaml").expect("a sheet");
             assert_eq!(sheet.drape_band(), Some([60.0, 83.0]));
         }

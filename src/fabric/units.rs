@@ -82,10 +82,11 @@ pub(super) fn plain(text: &str) -> String {
                 (Some(a), Some(b)) if a.is_ascii_digit() && b.is_ascii_digit() => out.push(' '),
                 _ => {}
             },
+            '°' => out.push_str("deg"),
             c => out.push(c),
         }
     }
-    out
+    out.replace("degrees", "deg").replace("degree", "deg")
 }
 
 #[cfg(test)]
@@ -111,6 +112,8 @@ mod tests {
             (&BEND, "2e-6 N.m", 2e-6),
             (&SHEAR, "0.4 gf/cm.deg", 22.475),
             (&SHEAR, "0.4 gf/(cm deg)", 22.475),
+            (&SHEAR, "0.4 gf/cm·degree", 22.475),
+            (&SHEAR, "0.4 gf/(cm·°)", 22.475),
             (&SHEAR, "30 N/m", 30.0),
             (&LENGTH, "0.25 mm", 0.25e-3),
             (&LENGTH, "250um", 0.25e-3),

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::MeasureError;
 use crate::fabric::TensileCurve;
-use crate::fabric::columns;
+use crate::fabric::columns::{self, Columns};
 use crate::fabric::units::GF_PER_CM;
 
 /// Which test a curve is of, with the units of its two columns.
@@ -27,6 +27,9 @@ impl Kind {
         }
     }
 }
+
+/// Share of the rise by which noise may bring a curve down above where it went up.
+const NOISE: f64 = 0.1;
 
 /// Slope and hystereses of a cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,10 +55,15 @@ impl Cycle {
         let fault = |row: usize, why: String| MeasureError::File { file: file.to_owned(), row: Some(row), why };
         let [across, up] = kind.units();
         let (mut rows, mut lines) = (Vec::new(), Vec::new());
+        let columns = Columns::new(columns::rows(text).next().map_or("", |r| r.1));
         for (count, (row, line)) in columns::rows(text).enumerate() {
-            let fields: Vec<&str> = line.split([',', ';', '\t']).map(str::trim).collect();
+            let mut fields = columns.cut(line).map_err(|why| fault(row, why))?;
+            while fields.len() > 2 && fields.last().is_some_and(|f| f.is_empty()) {
+                fields.pop();
+            }
             let [x, y] = fields[..] else {
-                return Err(fault(row, format!("{} columns, where two are expected ({across}, {up})", fields.len())));
+                let why = "columns, where two are expected";
+                return Err(fault(row, format!("{} {why} ({across}, {up}); write decimal points", fields.len())));
             };
             match (x.parse::<f64>(), y.parse::<f64>()) {
                 (Ok(x), Ok(y)) if x.is_finite() && y.is_finite() => {
@@ -100,10 +108,16 @@ impl Cycle {
             (a, b) => a.or(b),
         };
         let slope = 0.5 * (first.slope + second.slope);
-        if slope > 0.0 {
-            Ok(Loop { slope, widths })
-        } else {
-            Err(self.fault(format!("it falls: a slope of {slope:.4}")))
+        if slope <= 0.0 {
+            return Err(self.fault(format!("it does not rise: a slope of {slope:.4}")));
+        }
+        let over = widths.iter().flatten().zip(at).find(|(width, x)| **width < -NOISE * slope * x);
+        match over {
+            Some((width, _)) => Err(self.fault(format!(
+                "it comes down above where it went up, by {:.4}; are the rows in the order of the test?",
+                -width
+            ))),
+            None => Ok(Loop { slope, widths: widths.map(|widths| widths.map(|w| w.max(0.0))) }),
         }
     }
 
@@ -118,7 +132,13 @@ impl Cycle {
         let work =
             |b: &[(f64, f64)]| b.windows(2).map(|w| 0.5 * (w[0].1 + w[1].1) * (w[1].0 - w[0].0).abs()).sum::<f64>();
         let resilience = (down.len() > 2).then(|| work(down) / work(up));
-        Ok((curve, resilience))
+        match resilience {
+            Some(share) if share > 1.0 => Err(self.fault(format!(
+                "it gives back {:.0} % of the work, more than was done; are the rows in the order of the test?",
+                100.0 * share
+            ))),
+            _ => Ok((curve, resilience)),
+        }
     }
 }
 
@@ -191,11 +211,23 @@ mod tests {
     }
 
     #[test]
+    fn a_loop_that_runs_the_wrong_way_is_refused() {
+        let bent = Cycle::parse("0,0\n1,1\n2,2\n1,1.5\n0,1", "b.csv", Kind::Bending).expect("curve");
+        let said = bent.read([0.5, 1.5], [1.0; 2]).expect_err("over itself").to_string();
+        assert!(said.contains("comes down above where it went up, by 0.5"), "{said}");
+        let pulled = Cycle::parse("0,0\n1,10\n2,50\n1,45\n0,1", "t.csv", Kind::Tensile).expect("curve");
+        let said = pulled.tensile().expect_err("more work").to_string();
+        assert!(said.contains("gives back 201 % of the work"), "{said}");
+    }
+
+    #[test]
     fn wrong_rows_are_named() {
         let said = |text: &str| Cycle::parse(text, "b.csv", Kind::Bending).expect_err(text).to_string();
         assert_eq!(said("0,0\n1,x\n2,3"), "b.csv, row 2: '1,x' is no pair of numbers");
         assert!(said("curvature, moment\n0,0").contains("must name the units, 1/cm and gf.cm/cm"));
         assert!(said("0,0,0").contains("3 columns"));
+        assert!(said("0;0\n0,5;1\n1;2").contains("row 2: '0,5;1' is no pair of numbers"));
+        assert!(Cycle::parse("0,0,\n1,1,\n2,2,", "b.csv", Kind::Bending).is_ok());
         assert!(said("0,0\n1,1").contains("2 rows are no curve"));
         let short = Cycle::parse("0,0\n.5,1\n1,2", "b.csv", Kind::Bending).expect("curve").read([0.5, 1.5], [1.0; 2]);
         assert!(short.expect_err("short").to_string().contains("must rise past 1.5"));

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use serde_yaml::Mapping;
 
-use super::geometric::{Readings, TESTS};
-use super::photo::Photo;
+use super::geometric::{PHOTO_ERROR, Readings, TESTS};
+use super::photo::{CLEAR, Photo};
 use super::{MeasureError, laboratory::Sheet};
 use crate::fabric::columns::{Columns, above_zero, rows};
 use crate::fabric::library::read;
@@ -19,6 +19,8 @@ const NO_TABLE: &str =
 const TABLES: [&str; 3] = ["csv", "tsv", "txt"];
 /// Grey value below which a pixel is cloth, where the file gives none.
 const THRESHOLD: u8 = 128;
+/// Share of the area by which a threshold in the right place may change it.
+const DOUBT: f64 = 0.02;
 /// Area of the paper's specimen, 460 × 400 mm, cm²: what a photograph shows of it is compared with itself only.
 const IMAGED: f64 = 1840.0;
 
@@ -132,11 +134,16 @@ impl Source {
         if is_table && Sheet::is_one(&text) {
             out.sheets.push(Sheet::parse(&text, &name)?);
         } else if is_table {
-            out.geometric = Some(Geometric::Tests(table(&text, &name)?));
+            let tests = table(&text, &name)?;
+            out.notes.extend(tests[2].initial.map(unused_height));
+            out.geometric = Some(Geometric::Tests(tests));
         } else {
             let fault = |why: String| MeasureError::File { file: name.clone(), row: None, why };
-            out.file = yaml(&text).map_err(fault)?;
-            out.geometric = out.tests(&folder)?;
+            out.file = yaml(&text).map_err(|why| fault(plainly(&why)))?;
+            out.geometric = out.tests(&folder).map_err(|error| match error {
+                MeasureError::Test { .. } => fault(error.to_string()),
+                other => other,
+            })?;
             if let Some(sheet) = out.file.sheet.clone() {
                 let path = folder.join(&sheet);
                 let text = read(&path)?;
@@ -179,13 +186,19 @@ impl Source {
             if k != 1 {
                 return fault("only stretch has a load");
             }
+            if !(load.is_finite() && load > 0.0) {
+                return fault(&format!("a load of {load} gf; a number above 0 is expected"));
+            }
             if !(400.0..=800.0).contains(&load) {
                 self.notes
                     .push(format!("stretch: pulled by {load} gf; the fifteen fabrics were pulled by 400 to 800 gf"));
             }
         }
+        if let Some(height) = test.initial.filter(|_| k == 2) {
+            self.notes.push(unused_height(height));
+        }
         let Some(photos) = test.photos else {
-            return Ok(Readings { initial: test.initial, repeats: test.readings });
+            return Ok(Readings { initial: test.initial, repeats: test.readings, rows: Vec::new() });
         };
         if k != 0 {
             return fault("only recovery is photographed");
@@ -201,11 +214,14 @@ impl Source {
         let threshold = photos.threshold.unwrap_or(THRESHOLD);
         let imaged = photos.imaged.unwrap_or(IMAGED);
         let mut size: Option<(usize, usize)> = None;
-        let mut areas = Vec::new();
+        let (mut shares, mut doubts) = (Vec::new(), Vec::new());
         for file in std::iter::once(&photos.flat).chain(&photos.crumpled) {
             let path = folder.join(file);
-            let photo = Photo::read(&path)?;
             let fault = |why: String| MeasureError::Photo { file: file.display().to_string(), why };
+            if self.inputs.contains(&path) {
+                return Err(fault("it stands there twice; every repeat has a photograph of its own".to_owned()));
+            }
+            let photo = Photo::read(&path)?;
             let own = (photo.width, photo.height);
             let first = *size.get_or_insert(own);
             if own != first {
@@ -222,12 +238,59 @@ impl Source {
                     format!("{found} is cloth at threshold {threshold}; set threshold, and cloth: dark or light");
                 return Err(fault(what));
             }
-            areas.push(imaged * share);
+            let flat = *shares.first().unwrap_or(&share);
+            if share > flat * (1.0 + PHOTO_ERROR) {
+                return Err(fault(format!(
+                    "cloth covers {:.1} % of it and {:.1} % of the flat one's; crumpled cloth covers no more: is the \
+                     cloth the light part, or the threshold another?",
+                    100.0 * share,
+                    100.0 * flat
+                )));
+            }
+            shares.push(share);
+            doubts.push((photo.doubt(threshold), file.display().to_string()));
             self.inputs.push(path);
         }
+        self.notes.extend(seen(&shares, &doubts, threshold));
+        let mut areas: Vec<f64> = shares.iter().map(|share| imaged * share).collect();
         let repeats = areas.split_off(1);
-        Ok(Readings { initial: areas.first().copied(), repeats })
+        Ok(Readings { initial: areas.first().copied(), repeats, rows: Vec::new() })
     }
+}
+
+/// What is found in photographs: how much of them the cloth covers, and whether the threshold parts it from the table.
+fn seen(shares: &[f64], doubts: &[(f64, String)], threshold: u8) -> Vec<String> {
+    let [flat, crumpled @ ..] = shares else { return Vec::new() };
+    let least = crumpled.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = crumpled.iter().copied().fold(0.0, f64::max);
+    let [flat, least, most] = [*flat, least, most].map(|share| 100.0 * share);
+    let mut out = vec![format!(
+        "recovery: cloth covers {flat:.1} % of the flat one's photograph, {least:.1} to {most:.1} % of the others"
+    )];
+    let worst = doubts.iter().max_by(|a, b| a.0.total_cmp(&b.0));
+    if let Some((doubt, file)) = worst.filter(|worst| worst.0 > DOUBT) {
+        let count = doubts.iter().filter(|d| d.0 > DOUBT).count();
+        out.push(format!(
+            "recovery: the threshold {threshold} does not part cloth and table in {count} of {} photographs: {CLEAR} \
+             more or less change the area by {:.0} % in {file}; light them evenly, or set threshold",
+            doubts.len(),
+            100.0 * doubt
+        ));
+    }
+    out
+}
+
+/// A message of the YAML reader in the words of its user.
+fn plainly(why: &str) -> String {
+    let sections = "expected a map of recovery, stretch, bend, means, sheet, curves or values";
+    why.replace("expected struct File", sections)
+        .replace("expected f64", "expected a number without unit")
+        .replace("expected u8", "expected a whole number from 0 to 255")
+}
+
+/// What is said of a fold height that none follows from.
+fn unused_height(height: f64) -> String {
+    format!("bend: initial, {height}, is not used; folds are measured by the highest of them")
 }
 
 /// A table `repeat, recovery, stretch, bend` with a row `initial` and a row per numbered repeat.
@@ -242,18 +305,20 @@ fn table(text: &str, file: &str) -> Result<[Readings; 3], MeasureError> {
         let found = found.filter(|_| columns.names()[0] == "repeat");
         *place = found.ok_or_else(|| fault(first, NO_TABLE.to_owned()))?;
     }
-    let mut out = TESTS.map(|_| Readings { initial: None, repeats: Vec::new() });
+    let mut out = TESTS.map(|_| Readings { initial: None, repeats: Vec::new(), rows: Vec::new() });
     let mut labels: Vec<String> = Vec::new();
     for (row, line) in lines {
         let fields = columns.cut(line).map_err(|why| fault(row, why))?;
-        let label = fields[0].to_lowercase();
-        let is_initial = label == "initial";
-        if !is_initial && label.parse::<u32>().is_err() {
-            return Err(fault(
-                row,
-                format!("'{}' is no repeat; number these, and leave out what sums them up", fields[0]),
-            ));
-        }
+        let is_initial = fields[0].eq_ignore_ascii_case("initial");
+        let label = match fields[0].parse::<u32>() {
+            // `01` is the first one, too.
+            Ok(number) => number.to_string(),
+            Err(_) if is_initial => "initial".to_owned(),
+            Err(_) => {
+                let why = format!("'{}' is no repeat; number these, and leave out what sums them up", fields[0]);
+                return Err(fault(row, why));
+            }
+        };
         if labels.contains(&label) {
             return Err(fault(row, format!("repeat '{label}' stands there twice")));
         }
@@ -268,6 +333,7 @@ fn table(text: &str, file: &str) -> Result<[Readings; 3], MeasureError> {
                 test.initial = Some(value);
             } else {
                 test.repeats.push(value);
+                test.rows.push(row);
             }
         }
     }

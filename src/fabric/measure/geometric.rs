@@ -14,7 +14,7 @@ pub const REPEATS: usize = 20;
 /// Names of the tests, in the order of every triple.
 pub const TESTS: [&str; 3] = ["recovery", "stretch", "bend"];
 /// A crumpled specimen may seem this much larger than the flat one: a photograph is not counted better.
-const PHOTO_ERROR: f64 = 0.02;
+pub(super) const PHOTO_ERROR: f64 = 0.02;
 /// What a ratio of each test can be.
 const RATIOS: [[f64; 2]; 3] = [[0.0, 1.0 + PHOTO_ERROR], [1.0, LARGEST_MEAN], [0.0, 1.0]];
 /// The largest of the fold heights is not so many times their median: then it is a slip of the pen, and the measure of
@@ -28,7 +28,14 @@ pub struct Readings {
     pub initial: Option<f64>,
     /// The repeats, in the same unit.
     pub repeats: Vec<f64>,
+    /// Lines of the file that the repeats stand in, if each has one of its own.
+    pub rows: Vec<usize>,
 }
+
+/// A reading so many times as far from the median as half of the others is doubted, if that is also a share of the
+/// median that counts.
+const FAR: f64 = 10.0;
+const COUNTS: f64 = 0.05;
 
 /// What a test says.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,7 +65,7 @@ impl Readings {
             )));
         }
         if let Some(k) = self.repeats.iter().position(|r| !(r.is_finite() && *r > 0.0)) {
-            return Err(fault(format!("reading {} is {}; a number above 0 is expected", k + 1, self.repeats[k])));
+            return Err(fault(format!("{} is {}; a number above 0 is expected", self.place(k), self.repeats[k])));
         }
         let highest = self.repeats.iter().copied().fold(0.0, f64::max);
         let initial = if test == 2 { highest } else { self.initial.unwrap_or(f64::NAN) };
@@ -78,10 +85,33 @@ impl Readings {
         Ok(Measure { mean, spread, range, normalised })
     }
 
+    /// How messages call a reading.
+    fn place(&self, k: usize) -> String {
+        let row = self.rows.get(k).map(|row| format!(" in row {row}"));
+        format!("reading {}{}", k + 1, row.unwrap_or_default())
+    }
+
+    /// Readings that lie far from all others: v' follows from the two extremes (2), and with one digit left out a
+    /// reading is one.
+    pub(super) fn doubts(&self, test: usize) -> Vec<String> {
+        let middle = median(&self.repeats);
+        let off: Vec<f64> = self.repeats.iter().map(|r| (r - middle).abs()).collect();
+        let limit = (FAR * median(&off)).max(COUNTS * middle);
+        let far = (0..off.len()).filter(|k| off[*k] > limit);
+        far.map(|k| {
+            let (name, place, reading) = (TESTS[test], self.place(k), self.repeats[k]);
+            format!(
+                "{name}: {place} ({reading}) lies far from the others, whose median is {middle}; was it written right? \
+                 v' follows from the smallest and the largest"
+            )
+        })
+        .collect()
+    }
+
     fn plausible(&self, test: usize, initial: f64) -> Result<(), String> {
         let [least, most] = RATIOS[test];
         let wrong = self.repeats.iter().position(|r| !(least..=most).contains(&(r / initial)));
-        let at = |k: usize| format!("reading {} ({}) against {initial} before the test", k + 1, self.repeats[k]);
+        let at = |k: usize| format!("{} ({}) against {initial} before the test", self.place(k), self.repeats[k]);
         match test {
             0 => wrong.map_or(Ok(()), |k| {
                 Err(format!("{}: crumpled cloth covers no more than flat cloth; are the units the same?", at(k)))
@@ -90,13 +120,11 @@ impl Readings {
                 Err(format!("{}: a pulled diagonal is longer, and less than {most} times as long", at(k)))
             }),
             _ => {
-                let mut sorted = self.repeats.clone();
-                sorted.sort_by(f64::total_cmp);
-                let median = sorted[sorted.len() / 2];
+                let median = median(&self.repeats);
                 match self.repeats.iter().position(|r| *r > HIGHEST * median) {
                     Some(k) => Err(format!(
-                        "reading {} ({}) is more than {HIGHEST} times the median, {median}; was it written right?",
-                        k + 1,
+                        "{} ({}) is more than {HIGHEST} times the median, {median}; was it written right?",
+                        self.place(k),
                         self.repeats[k]
                     )),
                     None => Ok(()),
@@ -104,6 +132,13 @@ impl Readings {
             }
         }
     }
+}
+
+/// The middle one of some numbers.
+fn median(numbers: &[f64]) -> f64 {
+    let mut sorted = numbers.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 /// Measures, spread and weights of a fabric whose three tests were made.

@@ -13,6 +13,10 @@ const FAST_SHEAR: f64 = 123.0;
 const FAST_BENDING: f64 = 9.8e-6;
 /// WT (gf·cm/cm²) = this · LT · EMT (%): half of 500 gf/cm, and percent.
 const WORK: f64 = 2.5;
+/// Share by which WT may differ from what LT and EMT give: all three are rounded.
+const ROUNDED: f64 = 0.1;
+/// Resilience of what gives back all the work, per cent.
+const ALL: f64 = 100.0;
 
 /// A sheet: parameters with their values along warp and weft.
 #[derive(Clone, Debug)]
@@ -28,6 +32,8 @@ struct Row {
     /// Warp and weft; a parameter without direction has the same twice.
     values: [Option<f64>; 2],
     unit: String,
+    /// Whether a value of 0 was left out.
+    has_zero: bool,
 }
 
 /// Parameters, their unit where the sheet gives none, and the fabric's key; `{}` is the direction.
@@ -47,11 +53,17 @@ const PARAMETERS: [(&str, &str, &str); 14] = [
     ("T2", "mm", "thickness"),
     ("W", "", "weight"),
 ];
-/// Parameters that other values follow from, with their only unit.
-const DERIVED: [(&str, &str); 6] =
-    [("WT", "gf.cm/cm2"), ("C", "mm"), ("E5", "%"), ("E20", "%"), ("E100", "%"), ("EB5", "%")];
+/// Parameters that other values follow from, with their only unit and the key of what follows.
+const DERIVED: [(&str, &str, &str); 6] = [
+    ("WT", "gf.cm/cm2", "tensile.{}.LT"),
+    ("C", "mm", "bend.{}"),
+    ("E5", "%", "tensile.{}.curve"),
+    ("E20", "%", "tensile.{}.curve"),
+    ("E100", "%", "tensile.{}.curve"),
+    ("EB5", "%", "shear.G"),
+];
 /// Parameters of the instruments that toile has no use for.
-const UNUSED: [&str; 10] = ["MMD", "SMD", "LC", "WC", "RC", "TM", "T100", "ST", "RS", "HE"];
+const UNUSED: [&str; 14] = ["MMD", "SMD", "LC", "WC", "RC", "TM", "T100", "T2R", "T100R", "ST", "STR", "RS", "HE", "F"];
 /// Parameters that are kept and not simulated: no one else looks at their unit.
 const KEPT: [&str; 4] = ["RT", "2HB", "2HG", "2HG5"];
 /// Columns of a sheet.
@@ -73,7 +85,8 @@ impl Sheet {
         let (first, header) = lines.next().unwrap_or((1, ""));
         let columns = Columns::new(header);
         if let Some(other) = columns.names().iter().find(|n| !COLUMNS.contains(&n.as_str())) {
-            return Err(fault(first, format!("column '{other}' is none of {}", COLUMNS.join(", "))));
+            let why = format!("column '{other}' is none of {}; leave it out or rename it", COLUMNS.join(", "));
+            return Err(fault(first, why));
         }
         let mut places = [None; 4];
         for (place, name) in places.iter_mut().zip(COLUMNS) {
@@ -116,7 +129,70 @@ impl Sheet {
         for (name, key, value) in self.derived()? {
             put(name, key, value);
         }
+        notes.extend(self.doubts());
         Ok((out, notes))
+    }
+
+    /// What of the sheet does not agree with the rest of it, or is not used beside it.
+    fn doubts(&self) -> Vec<String> {
+        let mut out = Vec::new();
+        let of = |name: &str, k: usize| self.row(name)?.values[k];
+        for (k, direction) in DIRECTIONS.into_iter().enumerate() {
+            let emt = of("EMT", k).or(of("EM", k));
+            if let (Some(work), Some(lt), Some(emt)) = (of("WT", k), of("LT", k), emt) {
+                let follows = WORK * lt * emt;
+                if (work - follows).abs() > ROUNDED * follows {
+                    out.push(format!(
+                        "{}: WT along the {direction} is {}, and by LT and EMT {}; WT is not used",
+                        self.file,
+                        short(work),
+                        short(follows)
+                    ));
+                }
+            }
+            let loads: Vec<&str> = FAST_LOADS.iter().map(|l| l.0).filter(|name| of(name, k).is_some()).collect();
+            if let (Some(_), Some(last)) = (emt, loads.last()) {
+                out.push(format!("{}: EMT along the {direction} is not used; {last} says how it stretches", self.file));
+            }
+        }
+        let nothing = |r: &&Row| is_fast_load(&r.name) && r.values.contains(&None) && r.has_zero;
+        out.extend(
+            self.rows
+                .iter()
+                .filter(nothing)
+                .map(|r| format!("{}: {} of 0 is not used; it is less than can be read", self.file, r.name)),
+        );
+        out
+    }
+
+    /// The line of the parameter that the value of a key is read from or follows from.
+    pub(super) fn line_of(&self, key: &str) -> Option<usize> {
+        let is_of = |name: &str| {
+            let mut said = PARAMETERS.iter().chain(&DERIVED).filter(|p| p.0 == name);
+            said.any(|p| p.2 == key || DIRECTIONS.iter().any(|d| p.2.replace("{}", d) == key))
+        };
+        self.rows.iter().find(|r| is_of(&r.name)).map(|r| r.line)
+    }
+
+    /// Its file, as errors call it.
+    pub(super) fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// Refuses a cloth that more load draws out less.
+    fn rising(&self, k: usize) -> Result<(), MeasureError> {
+        let rows: Vec<(&Row, f64)> =
+            FAST_LOADS.iter().filter_map(|l| self.row(l.0)).filter_map(|r| Some((r, r.values[k]?))).collect();
+        match rows.windows(2).find(|w| w[1].1 <= w[0].1) {
+            Some([(before, less), (row, more)]) => Err(self.fault(
+                row,
+                format!(
+                    "{} is {more}, {} {less} along the {}; more load draws cloth out further",
+                    row.name, before.name, DIRECTIONS[k]
+                ),
+            )),
+            _ => Ok(()),
+        }
     }
 
     /// Parameters, keys and values of what follows from others.
@@ -143,6 +219,7 @@ impl Sheet {
             out.push(("EB5", "shear.G".to_owned(), format!("{} N/m", short(FAST_SHEAR / value))));
         }
         for (k, direction) in DIRECTIONS.into_iter().enumerate() {
+            self.rising(k)?;
             let points = FAST_LOADS.iter().filter_map(|(name, load)| Some((self.row(name)?.values[k]?, *load)));
             let points: Vec<String> = points.map(|(strain, load)| format!("{}:{load}", short(strain))).collect();
             if !points.is_empty() {
@@ -161,6 +238,10 @@ impl Sheet {
     }
 }
 
+fn is_fast_load(name: &str) -> bool {
+    FAST_LOADS.iter().any(|l| l.0 == name)
+}
+
 /// Names of both directions in keys.
 pub(super) const DIRECTIONS: [&str; 2] = ["warp", "weft"];
 
@@ -168,8 +249,14 @@ impl Row {
     /// Of the `fields` of a line; parameter, warp, weft and unit are at `places`.
     fn parse(line: usize, fields: &[&str], places: [Option<usize>; 4]) -> Result<Self, String> {
         let [name, warp, weft, unit] = places.map(|k| k.and_then(|k| fields.get(k)).copied().unwrap_or_default());
+        let unit = if matches!(unit, "-" | "–") { "" } else { unit };
+        // At 5 gf/cm most cloths give less than the instrument shows.
+        let is_zero = |text: &str| is_fast_load(name) && text.parse() == Ok(0.0);
+        let has_zero = is_zero(warp) || is_zero(weft);
         let number = |text: &str| match text {
             "" | "-" | "–" => Ok(None),
+            // Those without use may be what they like: cloth that grows in water has a shrinkage below 0.
+            text if is_zero(text) || UNUSED.contains(&name) => Ok(None),
             text => above_zero(text).map(Some).map_err(|why| format!("{name}: {why}")),
         };
         let values = [number(warp)?, number(weft)?];
@@ -177,15 +264,18 @@ impl Row {
         if !known.clone().any(|k| k == name) {
             return Err(format!("unknown parameter '{name}'; known are {}", known.collect::<Vec<_>>().join(", ")));
         }
-        if values == [None; 2] {
+        if values == [None; 2] && !has_zero && !UNUSED.contains(&name) {
             return Err(format!("{name} has no value"));
         }
-        let kept = PARAMETERS.iter().filter(|p| KEPT.contains(&p.0)).map(|p| (p.0, p.1));
-        let only = DERIVED.into_iter().chain(kept).find(|d| d.0 == name).map(|d| d.1);
+        let kept = PARAMETERS.iter().filter(|p| KEPT.contains(&p.0));
+        let only = DERIVED.iter().chain(kept).find(|d| d.0 == name).map(|d| d.1);
         if let Some(only) = only.filter(|only| !unit.is_empty() && plain(unit) != *only) {
             return Err(format!("{name} is read in {only}, not in {unit}"));
         }
-        Ok(Self { line, name: name.to_owned(), values, unit: unit.to_owned() })
+        if let Some(more) = values.into_iter().flatten().find(|v| name == "RT" && *v > ALL) {
+            return Err(format!("RT is {more} %; no more work comes back than was done"));
+        }
+        Ok(Self { line, name: name.to_owned(), values, unit: unit.to_owned(), has_zero })
     }
 
     /// Keys and values: one per direction where the key has one, else the mean.
@@ -273,6 +363,28 @@ mod tests {
     }
 
     #[test]
+    fn a_whole_fast_sheet_is_read() {
+        let text = "parameter,warp,weft,unit\nRS,-0.5,1,%\nF,0.4,0.6,mm2\nSTR,.1,,mm\nE5,0.0,.8,%\nE20,1.1,1.7\n\
+                    E100,2,3.5\nEMT,9,9\nC,20,18\nW,150,,g/m2\nMIU,.2,.2,-\n";
+        let (values, notes) = Sheet::parse(text, "fast.csv").expect("sheet").values("ours").expect("values");
+        assert_eq!(value(&values, "tensile.warp.curve"), "1.1:20 2:100");
+        assert_eq!(value(&values, "friction"), "0.2");
+        for told in ["RS is not used", "F is not used", "E5 of 0 is not used", "EMT along the warp is not used; E100"] {
+            assert!(notes.iter().any(|n| n.contains(told)), "{told} in {notes:?}");
+        }
+    }
+
+    #[test]
+    fn work_that_does_not_agree_with_linearity_is_told() {
+        let notes = |work: &str| {
+            let text = format!("parameter,warp,weft\nEMT,4.7,10\nLT,.6,.6\nWT,{work},15\n");
+            Sheet::parse(&text, "kes.csv").expect("sheet").values("ours").expect("values").1
+        };
+        assert!(notes("7.05").is_empty());
+        assert_eq!(notes("40"), ["kes.csv: WT along the warp is 40, and by LT and EMT 7.05; WT is not used"]);
+    }
+
+    #[test]
     fn wrong_rows_are_named() {
         let said = |rows: &str| {
             let sheet = Sheet::parse(&format!("parameter,warp,weft,unit\n{rows}"), "kes.csv");
@@ -285,6 +397,8 @@ mod tests {
         assert!(said("C,20,18").contains("C needs W"));
         assert!(said("EB5,3,3,mm").contains("EB5 is read in %, not in mm"));
         assert!(said("B,1,1\nB,1,1").contains("row 3: B stands there twice"));
+        assert!(said("E5,3,1\nE20,2,2").contains("row 3: E20 is 2, E5 3 along the warp"));
+        assert!(said("RT,120,60").contains("row 2: RT is 120 %"));
         assert!(said("2HB,5,5,furlong").contains("2HB is read in gf.cm/cm, not in furlong"));
         assert!(said("C,20,18\nW,150,,stone").contains("W: give it as a number in g/m2"));
     }

@@ -26,10 +26,10 @@ pub use geometric::{Measure, REPEATS, Readings, TESTS};
 pub use photo::Photo;
 pub use spline::NaturalSpline;
 
-use super::Fabric;
 use super::library::read;
 use super::resolve::{Context, from_sheet};
 use super::sheet::{FabricSheet, LiuMeasures, Measurement};
+use super::{Fabric, FabricError};
 use crate::fabric::units::GF_PER_CM;
 use cycle::{Cycle, Kind};
 use file::{Geometric, Source};
@@ -81,7 +81,9 @@ pub fn measure(path: &Path, name: &str) -> Result<Measured, MeasureError> {
         put(&mut values, m);
     }
     let fault = |why| MeasureError::File { file: path.display().to_string(), row: None, why };
-    for m in values::given(&source.file.values, folder, &mut inputs, fault)? {
+    let given = values::given(&source.file.values, folder, &mut inputs, fault)?;
+    let own: Vec<String> = given.iter().map(|m| m.key.clone()).collect();
+    for m in given {
         put(&mut values, Measurement { source: m.source.or_else(|| Some(said.clone())), ..m });
     }
     let (mut tests, mut liu) = (None, None);
@@ -89,6 +91,7 @@ pub fn measure(path: &Path, name: &str) -> Result<Measured, MeasureError> {
         Some(Geometric::Tests(readings)) => {
             let [r, s, b] = readings;
             let of = |k: usize, r: &Readings| r.measure(k).map_err(|e| fault(e.to_string()));
+            notes.extend(readings.iter().enumerate().flat_map(|(k, r)| r.doubts(k)));
             let made = [of(0, r)?, of(1, s)?, of(2, b)?];
             (tests, liu) = (Some(made), Some(geometric::from_tests(made)));
         }
@@ -102,12 +105,25 @@ pub fn measure(path: &Path, name: &str) -> Result<Measured, MeasureError> {
     if values.is_empty() && liu.is_none() {
         return Err(MeasureError::Empty { file: path.display().to_string() });
     }
+    if liu.is_some() {
+        // Measures have no source of their own.
+        values.push(Measurement { key: "source".to_owned(), value: said, source: None, uncertainty: None });
+    }
     let name = source.file.name.clone().unwrap_or_else(|| name.to_owned());
     let description = source.file.description.clone().unwrap_or_default();
     let sheet = FabricSheet { name, description, measurements: values, liu, note: None };
     // What is written must be readable again; a fabric without weight or bending is told here.
-    let written = FabricSheet::parse(&fabric_yaml(&sheet), &sheet.name)?;
-    let fabric = from_sheet(&written, &Context { name: &sheet.name, folder: Path::new(""), garment: &[] })?;
+    let blame = |error: FabricError| {
+        let key = error.culprit().1.filter(|key| !own.iter().any(|o| o == key));
+        let row = key.and_then(|key| source.sheets.iter().find_map(|s| Some((s.file(), s.line_of(key)?))));
+        match row {
+            Some((file, row)) => MeasureError::File { file: file.to_owned(), row: Some(row), why: error.to_string() },
+            None => fault(error.to_string()),
+        }
+    };
+    let written = FabricSheet::parse(&fabric_yaml(&sheet), &sheet.name).map_err(blame)?;
+    let context = Context { name: &sheet.name, folder: Path::new(""), garment: &[] };
+    let fabric = from_sheet(&written, &context).map_err(blame)?;
     Ok(Measured { sheet, fabric, tests, notes, inputs })
 }
 

@@ -15,6 +15,8 @@ use crate::input::bytes;
 const LARGEST_FILE: u64 = 64 << 20;
 /// Longest side of a photograph, pixels: those of the largest cameras have half of it.
 const LONGEST_SIDE: usize = 1 << 15;
+/// Grey values by which cloth and table should at least be away from the threshold.
+pub(super) const CLEAR: u8 = 16;
 /// Most pixels.
 const MOST_PIXELS: usize = 1 << 28;
 
@@ -51,6 +53,14 @@ impl Photo {
         let count = if light { self.grey.len() - dark } else { dark };
         count as f64 / self.grey.len() as f64
     }
+
+    /// How much more cloth is found where the threshold is moved by `CLEAR` from one side to the other, over what
+    /// is found. Cloth that is lit as evenly as the table differs by a few pixels of its rim.
+    pub(super) fn doubt(&self, threshold: u8) -> f64 {
+        let [low, high] = [threshold.saturating_sub(CLEAR), threshold.saturating_add(CLEAR)];
+        let between = self.share(high, false) - self.share(low, false);
+        between / self.share(threshold, false).min(self.share(threshold, true))
+    }
 }
 
 fn sized(width: usize, height: usize) -> Result<(), String> {
@@ -78,7 +88,27 @@ fn png(bytes: &[u8]) -> Result<Photo, String> {
     Ok(Photo { width, height, grey: grey.collect() })
 }
 
+/// Whether a JPEG goes on to the marker of its end: a decoder paints grey what is missing.
+fn is_whole(bytes: &[u8]) -> bool {
+    let is_marker = |pair: &[u8]| pair[0] == 0xff && !matches!(pair[1], 0 | 0xff | 0xd0..=0xd7);
+    let mut at = 2;
+    while let Some(step) = bytes.get(at..).and_then(|rest| rest.windows(2).position(is_marker)) {
+        at += step + 2;
+        match (bytes[at - 1], bytes.get(at..at + 2)) {
+            (0xd9, _) => return true,
+            (0x01 | 0xd8, _) => {}
+            // Pictures within a segment, as a preview, have ends of their own.
+            (_, Some(length)) => at += usize::from(u16::from_be_bytes([length[0], length[1]])),
+            (_, None) => return false,
+        }
+    }
+    false
+}
+
 fn jpeg(bytes: &[u8]) -> Result<Photo, String> {
+    if !is_whole(bytes) {
+        return Err("it is cut short; copy it again".to_owned());
+    }
     let options = DecoderOptions::default().set_max_width(LONGEST_SIDE).set_max_height(LONGEST_SIDE);
     let mut decoder =
         JpegDecoder::new_with_options(ZCursor::new(bytes), options.jpeg_set_out_colorspace(ColorSpace::RGB));
@@ -98,4 +128,30 @@ fn luma(r: u8, g: u8, b: u8) -> u8 {
 fn over_white(grey: u8, alpha: u8) -> u8 {
     let (grey, alpha) = (u32::from(grey), u32::from(alpha));
     ((grey * alpha + 255 * (255 - alpha) + 127) / 255) as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_picture_that_ends_too_soon_is_told_from_a_whole_one() {
+        // Start, a segment that holds a picture of its own, a scan with a stuffed byte and a restart, the end.
+        let whole = [
+            0xff, 0xd8, 0xff, 0xe1, 0, 6, 0xff, 0xd8, 0xff, 0xd9, 0xff, 0xda, 0, 3, 1, 9, 0xff, 0, 9, 0xff, 0xd0, 9,
+            0xff, 0xd9, 7, 7,
+        ];
+        assert!(is_whole(&whole));
+        (0..whole.len() - 2).for_each(|end| assert!(!is_whole(&whole[..end]), "{end}"));
+        assert!(jpeg(&whole[..12]).expect_err("cut").contains("cut short"));
+    }
+
+    #[test]
+    fn a_threshold_amid_the_greys_is_in_doubt() {
+        let photo = |grey: Vec<u8>| Photo { width: grey.len(), height: 1, grey };
+        assert_eq!(photo(vec![60, 60, 60, 220, 220]).doubt(128), 0.0);
+        assert_relative_eq!(photo(vec![60, 120, 135, 220, 220, 220]).doubt(128), 1.0, epsilon = 1e-12);
+        assert_relative_eq!(photo(vec![200, 250, 255]).doubt(253), 1.0, epsilon = 1e-12);
+    }
 }

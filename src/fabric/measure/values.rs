@@ -8,8 +8,11 @@ use super::MeasureError;
 use super::laboratory::{DIRECTIONS, short};
 use crate::fabric::TensileCurve;
 use crate::fabric::library::read;
-use crate::fabric::sheet::{Measurement, flatten, names_curve};
+use crate::fabric::sheet::{Measurement, flatten, names_curve, once};
 use crate::fabric::units::GF_PER_CM;
+
+/// How keys of curves end.
+const CURVE: &str = ".curve";
 
 /// The values that a file of readings gives as they are to be written. A curve that one names lies beside that file; it
 /// is written down point by point, for the fabric's file may lie elsewhere.
@@ -26,6 +29,14 @@ pub(super) fn given(
             return Err(fault(format!("values: {key} is none; it stands beside values, or nowhere")));
         }
         flatten(key, value, &mut flat).map_err(&fault)?;
+    }
+    once(&flat).map_err(|why| fault(format!("values: {why}")))?;
+    for whole in flat.iter().filter(|m| m.key.ends_with(CURVE)) {
+        let way = whole.key.trim_end_matches(CURVE);
+        let same = |m: &&Measurement| m.key.strip_prefix(way).is_some_and(|what| [".EMT", ".LT"].contains(&what));
+        if let Some(part) = flat.iter().find(same) {
+            return Err(fault(format!("values: {} and {} say the same; leave one out", part.key, whole.key)));
+        }
     }
     let mut out = Vec::new();
     for m in flat {
