@@ -4,7 +4,8 @@
 //!
 //! `cargo run --release --example cusick [FOLDER]` prints the table, with the disc's own curve of coefficient over
 //! bending length below (one lay for each length), and draws `FABRIC.png`, the shadow of the lay nearest to the mean,
-//! and `curve.svg`, that curve through the bands. It takes an hour: the finer grid has 11,000 particles.
+//! and `curve.svg`, that curve through the bands. It takes some 40 minutes of one processor: the finer grid has
+//! 11,000 particles.
 
 use std::error::Error;
 use std::path::PathBuf;

@@ -84,6 +84,24 @@ fn lius_published_weights_are_those_of_equation_8() {
     assert!(sheet("jersey").expect("jersey").liu.is_none());
 }
 
+/// Where the published weights and what was measured say different things, the file says both.
+#[test]
+fn fabrics_whose_weights_and_physics_disagree_say_so() {
+    for name in library().into_iter().take(15) {
+        let (sheet, fabric) = (sheet(name).expect(name), load(name).expect(name));
+        let lengths = [sheet.liu.expect(name).bending_length(), fabric.bending_length_mean()].map(|c| 1e3 * c);
+        let rigidities = (lengths[0] / lengths[1]).powi(3);
+        if (0.5..2.0).contains(&rigidities) {
+            continue;
+        }
+        let note = sheet.note.unwrap_or_default();
+        for c in lengths {
+            let said = [format!(" {c:.0} mm"), format!(" {c:.1} mm")];
+            assert!(said.iter().any(|s| note.contains(s.as_str())), "{name}, {c:.2} mm: {note}");
+        }
+    }
+}
+
 #[test]
 fn a_jersey_gives_and_a_poplin_does_not() {
     let per_metre_of_hanging = |f: &Fabric| {

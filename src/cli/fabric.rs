@@ -81,7 +81,15 @@ fn text(sheet: &FabricSheet, fabric: &Fabric) -> String {
             .iter()
             .map(|m| vec![m.key.clone(), m.value.clone(), or_nothing(&m.uncertainty), or_nothing(&m.source)]),
     );
-    let mut out = format!("{}: {}\n\n{}", sheet.name, sheet.description, aligned(&rows));
+    let mut out = sheet.name.clone();
+    if !sheet.description.is_empty() {
+        out.push_str(&format!(": {}", sheet.description));
+    }
+    out.push('\n');
+    // A head alone where only the three tests were made.
+    if rows.len() > 1 {
+        out.push_str(&format!("\n{}", aligned(&rows)));
+    }
     out.push_str(&format!("\n  bending length {:.1} mm\n", 1e3 * fabric.bending_length_mean()));
     if !fabric.defaults.is_empty() {
         out.push_str(&format!("  not measured but assumed: {}\n", fabric.defaults.join(", ")));

@@ -17,8 +17,8 @@ const PEDESTAL: f64 = 0.09;
 const HEIGHT: f64 = 0.2;
 /// Corners of the pedestal's rim: its chords leave the circle by 0.03 mm.
 const ROUND: u32 = 128;
-/// Grid spacing, metres. In half of it the coefficient of one lay is within 4 points, in as many folds within one, and
-/// means of polyester, linen and silk are within 2.3 (`docs/bench.md`); but that is a disc of 11,000 particles.
+/// Grid spacing, metres. In half of it the means of all fabrics are within 2.4 points (`docs/bench.md`); but that is a
+/// disc of 11,000 particles.
 const SPACING: f64 = 0.005;
 /// Size of the shadow's pixels, metres.
 const PIXEL: f64 = 0.5e-3;
