@@ -92,7 +92,7 @@ fn body_contact(node: u32, normal: Vec3, offset: f64) -> Contact<'static> {
 }
 
 /// Six contacts that press on a node from all sides: a spring to `at` that both integrators know.
-fn pin(cloth: &Cloth, node: u32, at: Vec3) -> Vec<Contact> {
+fn pin(cloth: &Cloth, node: u32, at: Vec3) -> Vec<Contact<'static>> {
     let kept = cloth.half_thickness[node as usize] + LAW.body_clearance;
     let pressed = 2e-4;
     let axes = [Vec3::x(), Vec3::y(), Vec3::z()];

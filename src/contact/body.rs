@@ -5,7 +5,7 @@ use parry3d_f64::query::PointQueryWithLocation;
 use parry3d_f64::shape::{TriMesh as ParryMesh, TriMeshFlags};
 
 use super::grid::Grid;
-use super::narrow::{closest_on_segments, closest_on_triangle};
+use super::narrow::closest_on_triangle;
 use super::{Contact, Feature, Under};
 use crate::geometry::{Topology, TriMesh, Vec3};
 
@@ -195,7 +195,7 @@ impl Collider {
                 pushing.push(normal);
             }
             let under = Under::Face { face, push };
-            out.extend(Contact::on_feature([node, 0, 0, 0], 1, under, away, x));
+            out.extend(Contact::on_feature([node, 0, 0, 0], 1, under, away, x, f64::INFINITY));
         }
     }
 
@@ -218,10 +218,6 @@ impl Collider {
             if [a, b, c].iter().all(|x| outward.dot(&(x - at)) > reach) {
                 return;
             }
-            let [k, l, m] = closest_on_triangle(*at, a, b, c);
-            if (a * k + b * l + c * m - at).norm_squared() > reach * reach {
-                return;
-            }
             let under = Under::Vertex(vertex);
             let nodes = [tri[0], tri[1], tri[2], 0];
             hidden |= self.meet(nodes, 3, under, outward, &self.neighbours[v as usize], x, reach, out);
@@ -239,10 +235,6 @@ impl Collider {
             let BodyEdge { ends: edge @ Feature { corners: [p, q], .. }, beside, outward } = &self.edges[e as usize];
             let highest = outward.dot(p).max(outward.dot(q));
             if outward.dot(&a).min(outward.dot(&b)) - highest > reach {
-                return;
-            }
-            let (s, t) = closest_on_segments(a, b, *p, *q);
-            if (a + (b - a) * s - p - (q - p) * t).norm_squared() > reach * reach {
                 return;
             }
             let under = Under::Edge(edge);
@@ -265,7 +257,7 @@ impl Collider {
         reach: f64,
         out: &mut Vec<Contact<'b>>,
     ) -> bool {
-        let Some(mut contact) = Contact::on_feature(nodes, count, under, outward, x) else { return false };
+        let Some(mut contact) = Contact::on_feature(nodes, count, under, outward, x, reach) else { return false };
         let mut gap = contact.gap(x);
         // In a cleft cloth may be under a feature and outside all the same.
         if gap < 0.0 && !self.holds(contact.closest(x), reach) {
@@ -552,7 +544,7 @@ mod tests {
         let mut x = [Vec3::new(-0.02, 0.01, 0.0)];
         let face = Feature { number: 0, corners };
         let under = Under::Face { face: &face, push: 0.0 };
-        let mut face = Contact::on_feature([0; 4], 1, under, Vec3::y(), &x).expect("apart");
+        let mut face = Contact::on_feature([0; 4], 1, under, Vec3::y(), &x, 1.0).expect("apart");
         let bounds = Bounds::new(&x, 1.0, 1e-3);
         let mut through = [Vec3::new(-0.2, -0.01, 0.0)];
         bounds.clamp(&[&face], &x, &mut through);

@@ -119,12 +119,21 @@ impl ClothDetector {
     /// The pairs of [`ClothDetector::detect`] that have a node which is `stale`,
     /// after [`ClothDetector::look`] with the same.
     pub fn detect_at(&self, x: &[Vec3], reach: f64, stale: &[bool]) -> Vec<Contact<'static>> {
-        let is_stale = |t: &u32| self.triangles[*t as usize].iter().any(|&n| stale[n as usize]);
-        let patches: Vec<bool> = self.patches.iter().map(|p| p.triangles.iter().any(is_stale)).collect();
-        let find = Search { detector: self, x, reach, stale };
+        let parts: Vec<Part> = self.patches.par_iter().with_min_len(64).map(|p| self.part(p, x, stale)).collect();
+        let find = Search { detector: self, x, reach, parts };
         let mut pairs = self.open.clone();
-        pairs.retain(|&(a, b)| patches[a as usize] || patches[b as usize]);
+        pairs.retain(|&(a, b)| [a, b].iter().any(|p| find.parts[*p as usize].triangles.iter().any(|t| t.stale)));
         pairs.par_iter().flat_map_iter(|&(a, b)| find.pair(a as usize, b as usize)).collect()
+    }
+
+    /// The primitives of a patch at positions `x`, and at which of them is searched: those with a node that is `stale`.
+    fn part(&self, patch: &Patch, x: &[Vec3], stale: &[bool]) -> Part {
+        Part {
+            vertices: patch.nodes.iter().map(|&n| Primitive::new([n], x, stale)).collect(),
+            edges: patch.edges.iter().map(|&e| Primitive::new(e, x, stale)).collect(),
+            triangles: (patch.triangles.iter().map(|&t| Primitive::new(self.triangles[t as usize], x, stale)))
+                .collect(),
+        }
     }
 
     fn normals(&self, x: &[Vec3]) -> Vec<Vec3> {
@@ -254,7 +263,14 @@ struct Primitive<const N: usize> {
     stale: bool,
 }
 
-/// What a patch has near another.
+impl<const N: usize> Primitive<N> {
+    fn new(nodes: [u32; N], x: &[Vec3], stale: &[bool]) -> Self {
+        let [low, high] = box_of(nodes.map(|n| x[n as usize]));
+        Self { nodes, low, high, stale: nodes.iter().any(|&n| stale[n as usize]) }
+    }
+}
+
+/// The primitives of a patch.
 struct Part {
     vertices: Vec<Primitive<1>>,
     edges: Vec<Primitive<2>>,
@@ -265,57 +281,39 @@ struct Search<'a> {
     detector: &'a ClothDetector,
     x: &'a [Vec3],
     reach: f64,
-    /// Nodes at which is searched.
-    stale: &'a [bool],
+    /// By patches.
+    parts: Vec<Part>,
 }
 
 impl Search<'_> {
     fn pair(&self, a: usize, b: usize) -> Vec<Contact<'static>> {
+        let (p, q) = (&self.parts[a], &self.parts[b]);
         let mut out = Vec::new();
-        let p = self.part(a, b);
+        self.meet(&p.vertices, b, |_| &q.triangles, &mut out);
         if a == b {
-            self.meet(&p.vertices, |_| &p.triangles, &mut out);
-            self.meet(&p.edges, |i| &p.edges[i + 1..], &mut out);
+            self.meet(&p.edges, b, |i| &p.edges[i + 1..], &mut out);
         } else {
-            let q = self.part(b, a);
-            self.meet(&p.vertices, |_| &q.triangles, &mut out);
-            self.meet(&q.vertices, |_| &p.triangles, &mut out);
-            self.meet(&p.edges, |_| &q.edges, &mut out);
+            self.meet(&q.vertices, a, |_| &p.triangles, &mut out);
+            self.meet(&p.edges, b, |_| &q.edges, &mut out);
         }
         out
     }
 
-    /// What of patch number `patch` comes within reach of the box of patch number `other`: most of what is near each
-    /// other is so at its rim only.
-    fn part(&self, patch: usize, other: usize) -> Part {
-        let patch = &self.detector.patches[patch];
-        let Shape { low, high, .. } = &self.detector.shapes[other];
-        let (low, high) = (low.add_scalar(-self.reach), high.add_scalar(self.reach));
-        Part {
-            vertices: patch.nodes.iter().filter_map(|&v| self.within(low, high, [v])).collect(),
-            edges: patch.edges.iter().filter_map(|&e| self.within(low, high, e)).collect(),
-            triangles: (patch.triangles.iter())
-                .filter_map(|&t| self.within(low, high, self.detector.triangles[t as usize]))
-                .collect(),
-        }
-    }
-
-    /// The primitive of `nodes`, if its box has something in common with the one given.
-    fn within<const N: usize>(&self, low: Vec3, high: Vec3, nodes: [u32; N]) -> Option<Primitive<N>> {
-        let [l, h] = box_of(nodes.map(|n| self.x[n as usize]));
-        let stale = nodes.iter().any(|&n| self.stale[n as usize]);
-        (!apart(low, high, l, h)).then_some(Primitive { nodes, low: l, high: h, stale })
-    }
-
-    /// Adds the contacts of every primitive, the i-th of `above`, with those that are `below` it.
+    /// Adds the contacts of every primitive, the i-th of `above`, with those `below` it in patch number `other`.
     fn meet<'p, const N: usize, const M: usize>(
         &self,
         above: &[Primitive<N>],
+        other: usize,
         below: impl Fn(usize) -> &'p [Primitive<M>],
         out: &mut Vec<Contact<'static>>,
     ) {
+        let patch = &self.detector.shapes[other];
         for (i, p) in above.iter().enumerate() {
             let (low, high) = (p.low.add_scalar(-self.reach), p.high.add_scalar(self.reach));
+            // Most of what two patches have near each other is at the rim of both.
+            if apart(low, high, patch.low, patch.high) {
+                continue;
+            }
             for q in below(i) {
                 let searched = p.stale || q.stale;
                 if !searched || apart(low, high, q.low, q.high) || self.detector.joined(&p.nodes, &q.nodes) {
@@ -324,10 +322,7 @@ impl Search<'_> {
                 let mut nodes = [0; 4];
                 nodes[..N].copy_from_slice(&p.nodes);
                 nodes[N..].copy_from_slice(&q.nodes);
-                let Some(contact) = Contact::within_cloth(nodes, N as u8, self.x) else { continue };
-                if contact.gap(self.x) < self.reach {
-                    out.push(contact);
-                }
+                out.extend(Contact::within_cloth(nodes, N as u8, self.x, self.reach));
             }
         }
     }

@@ -134,20 +134,27 @@ impl<'b> Contact<'b> {
     }
 
     /// The first `count` of `nodes` above a vertex, an edge or a hollow's face of the body, from which `outward` leads
-    /// away; turned to where their closest points are. `None` where they meet in a point.
-    pub(crate) fn on_feature(nodes: [u32; 4], count: u8, under: Under<'b>, outward: Vec3, x: &[Vec3]) -> Option<Self> {
+    /// away; turned to where their closest points are. `None` where they meet in a point, or not within `reach`.
+    pub(crate) fn on_feature(
+        nodes: [u32; 4],
+        count: u8,
+        under: Under<'b>,
+        outward: Vec3,
+        x: &[Vec3],
+        reach: f64,
+    ) -> Option<Self> {
         let (weights, normal) = ([0.0; 4], outward);
         let mut out = Self { nodes, weights, count, normal, offset: 0.0, under, above: count, share: 1.0 };
-        out.refresh(x).then_some(out)
+        out.refresh_within(x, reach).then_some(out)
     }
 
     /// Two primitives of the cloth at positions `x`: a vertex and a triangle if one node is `above`, two edges if two
-    /// are. `None` where they meet in a point.
-    pub(crate) fn within_cloth(nodes: [u32; 4], above: u8, x: &[Vec3]) -> Option<Self> {
+    /// are. `None` where they meet in a point, or not within `reach`.
+    pub(crate) fn within_cloth(nodes: [u32; 4], above: u8, x: &[Vec3], reach: f64) -> Option<Self> {
         let (weights, normal) = ([0.0; 4], Vec3::zeros());
         let under = Under::Cloth;
         let mut out = Self { nodes, weights, count: 4, normal, offset: 0.0, under, above, share: 1.0 };
-        out.refresh(x).then_some(out)
+        out.refresh_within(x, reach).then_some(out)
     }
 
     /// Whether the other side is the body.
@@ -168,50 +175,70 @@ impl<'b> Contact<'b> {
     /// closest point is beyond an end of an edge, or the rim of a triangle over a vertex of the body, pushes no more:
     /// that is the business of others. Returns `false`, and changes nothing, where the two meet in a point.
     pub fn refresh(&mut self, x: &[Vec3]) -> bool {
-        let at = |k: usize| x[self.nodes[k] as usize];
-        let (weights, away, share) = match self.under {
-            Under::Plane => return true,
-            Under::Cloth if self.above == 1 => {
-                let w = closest_on_triangle(at(0), at(1), at(2), at(3));
-                let away = at(0) - (at(1) * w[0] + at(2) * w[1] + at(3) * w[2]);
-                ([1.0, -w[0], -w[1], -w[2]], away, 1.0)
-            }
-            Under::Cloth => {
-                let (a, b, c, d) = (at(0), at(1), at(2), at(3));
-                let (s, t) = closest_on_segments(a, b, c, d);
-                let away = a + (b - a) * s - c - (d - c) * t;
-                ([1.0 - s, s, t - 1.0, -t], away, share_of_edges(a, b, c, d, away.norm()))
-            }
-            Under::Face { face: &Feature { corners: [p, q, r], .. }, push } => {
-                let [k, l, m] = closest_on_triangle(at(0), p, q, r);
-                let away = at(0) - (p * k + q * l + r * m);
-                let cosine = (q - p).cross(&(r - p)).normalize().dot(&away) / away.norm();
-                ([1.0, 0.0, 0.0, 0.0], away, push * upright(cosine))
-            }
-            Under::Vertex(&Feature { corners: [p], .. }) => {
-                let [k, l, m] = closest_on_triangle(p, at(0), at(1), at(2));
-                let away = at(0) * k + at(1) * l + at(2) * m - p;
-                ([k, l, m, 0.0], away, share_of_triangle(p, at(0), at(1), at(2), away.norm()))
-            }
-            Under::Edge(&Feature { corners: [p, q], .. }) => {
-                let (a, b) = (at(0), at(1));
-                let (s, t) = closest_on_segments(a, b, p, q);
-                let away = a + (b - a) * s - p - (q - p) * t;
-                ([1.0 - s, s, 0.0, 0.0], away, share_of_edges(a, b, p, q, away.norm()))
-            }
-        };
+        self.refresh_within(x, f64::INFINITY)
+    }
+
+    /// The same of a pair that is nearer than `reach`; one that is not stays as it is as well.
+    fn refresh_within(&mut self, x: &[Vec3], reach: f64) -> bool {
+        let Some((weights, away)) = self.closest_points(x) else { return true };
         let distance = away.norm();
-        if distance == 0.0 {
+        if distance == 0.0 || distance >= reach {
             return false;
         }
         // The body has an inside, from which cloth must come back the way it went.
         let inside = self.is_on_body() && away.dot(&self.normal) < 0.0;
-        (self.weights, self.share) = (weights, share);
+        (self.weights, self.share) = (weights, self.share_at(x, away));
         self.normal = away / if inside { -distance } else { distance };
         if self.is_on_body() {
             self.offset = self.normal.dot(&(self.closest(x) - away));
         }
         true
+    }
+
+    /// Weights of the closest points of a pair of primitives, and the way from the lower to the upper; `None` over a
+    /// plane.
+    fn closest_points(&self, x: &[Vec3]) -> Option<([f64; 4], Vec3)> {
+        let at = |k: usize| x[self.nodes[k] as usize];
+        Some(match self.under {
+            Under::Plane => return None,
+            Under::Cloth if self.above == 1 => {
+                let w = closest_on_triangle(at(0), at(1), at(2), at(3));
+                ([1.0, -w[0], -w[1], -w[2]], at(0) - (at(1) * w[0] + at(2) * w[1] + at(3) * w[2]))
+            }
+            Under::Cloth => {
+                let (a, b, c, d) = (at(0), at(1), at(2), at(3));
+                let (s, t) = closest_on_segments(a, b, c, d);
+                ([1.0 - s, s, t - 1.0, -t], a + (b - a) * s - c - (d - c) * t)
+            }
+            Under::Face { face: &Feature { corners: [p, q, r], .. }, .. } => {
+                let [k, l, m] = closest_on_triangle(at(0), p, q, r);
+                ([1.0, 0.0, 0.0, 0.0], at(0) - (p * k + q * l + r * m))
+            }
+            Under::Vertex(&Feature { corners: [p], .. }) => {
+                let [k, l, m] = closest_on_triangle(p, at(0), at(1), at(2));
+                ([k, l, m, 0.0], at(0) * k + at(1) * l + at(2) * m - p)
+            }
+            Under::Edge(&Feature { corners: [p, q], .. }) => {
+                let (a, b) = (at(0), at(1));
+                let (s, t) = closest_on_segments(a, b, p, q);
+                ([1.0 - s, s, 0.0, 0.0], a + (b - a) * s - p - (q - p) * t)
+            }
+        })
+    }
+
+    /// The share of a pair of primitives that are `away` from each other.
+    fn share_at(&self, x: &[Vec3], away: Vec3) -> f64 {
+        let at = |k: usize| x[self.nodes[k] as usize];
+        match self.under {
+            Under::Plane => 1.0,
+            Under::Cloth if self.above == 1 => 1.0,
+            Under::Cloth => share_of_edges(at(0), at(1), at(2), at(3), away.norm()),
+            Under::Face { face: &Feature { corners: [p, q, r], .. }, push } => {
+                push * upright((q - p).cross(&(r - p)).normalize().dot(&away) / away.norm())
+            }
+            Under::Vertex(vertex) => share_of_triangle(vertex.corners[0], at(0), at(1), at(2), away.norm()),
+            Under::Edge(&Feature { corners: [p, q], .. }) => share_of_edges(at(0), at(1), p, q, away.norm()),
+        }
     }
 
     /// Takes the cloth for being on the other side of what is under it.
@@ -291,7 +318,7 @@ mod tests {
             let [p, q] = [20, 30].map(|k| point(100 * trial + k));
             let up = Vec3::y();
             let feature = Feature { number: 0, corners: [p, q] };
-            let edge = Contact::on_feature([0, 1, 0, 0], 2, Under::Edge(&feature), up, &x).expect("apart");
+            let edge = Contact::on_feature([0, 1, 0, 0], 2, Under::Edge(&feature), up, &x, 9.0).expect("apart");
             // No pair of points of the two is nearer, and one is as near.
             let sampled = (0..=100 * 100)
                 .map(|k| (f64::from(k / 100) / 100.0, f64::from(k % 101) / 100.0))
@@ -300,7 +327,7 @@ mod tests {
             let gap = edge.gap(&x).abs();
             assert!(gap <= sampled + 1e-12 && gap > sampled - 0.03, "{trial}: a gap of {gap}, {sampled} apart");
             let feature = Feature { number: 0, corners: [p] };
-            let corner = Contact::on_feature([0, 1, 2, 0], 3, Under::Vertex(&feature), up, &x).expect("apart");
+            let corner = Contact::on_feature([0, 1, 2, 0], 3, Under::Vertex(&feature), up, &x, 9.0).expect("apart");
             let [k, l, m] = closest_on_triangle(p, x[0], x[1], x[2]);
             let expected = (x[0] * k + x[1] * l + x[2] * m - p).norm();
             assert!((corner.gap(&x).abs() - expected).abs() < 1e-12, "{trial}");

@@ -281,8 +281,10 @@ mod tests {
         // Not parallel to it, or there would be no closest points.
         x[1].x += 0.001;
         let origin = x.clone();
-        let mut near =
-            found(vec![Contact::on_feature([0, 1, 0, 0], 2, Under::Edge(&edge), Vec3::y(), &x).expect("apart")], &x);
+        let mut near = found(
+            vec![Contact::on_feature([0, 1, 0, 0], 2, Under::Edge(&edge), Vec3::y(), &x, 0.01).expect("apart")],
+            &x,
+        );
         near.follow(&x, &origin);
         assert!(near.contacts.is_empty());
         let last = x.clone();
