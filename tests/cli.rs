@@ -493,7 +493,7 @@ fn readings_become_a_fabric() {
     let run = room.run(&["fabric", "measure", "readings.csv", "-o", "mine.yaml"]);
     assert!(run.ends(0).out.contains("bending length by"), "{}", run.out);
     // No colon before nothing, no head over nothing.
-    assert!(run.out.starts_with("mine\n") && !run.out.contains("source"), "{}", run.out);
+    assert!(run.out.starts_with("mine\n\n  source: measured, readings.csv\n"), "{}", run.out);
     let shown = room.run(&["fabric", "show", "mine.yaml", "--json"]).json();
     assert_eq!(shown["liu"]["spread"].as_array().map(Vec::len), Some(3));
     let mean = shown["liu"]["means"][2].as_f64().expect("a number");

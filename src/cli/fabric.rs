@@ -75,11 +75,9 @@ fn shown(sheet: &FabricSheet, fabric: &Fabric) -> Value {
 fn text(sheet: &FabricSheet, fabric: &Fabric) -> String {
     let mut rows = vec![["value", "", "±", "source"].map(String::from).to_vec()];
     let or_nothing = |text: &Option<String>| text.clone().unwrap_or_default();
+    let (said, values): (Vec<_>, Vec<_>) = sheet.measurements.iter().partition(|m| m.key == "source");
     rows.extend(
-        sheet
-            .measurements
-            .iter()
-            .map(|m| vec![m.key.clone(), m.value.clone(), or_nothing(&m.uncertainty), or_nothing(&m.source)]),
+        values.iter().map(|m| vec![m.key.clone(), m.value.clone(), or_nothing(&m.uncertainty), or_nothing(&m.source)]),
     );
     let mut out = sheet.name.clone();
     if !sheet.description.is_empty() {
@@ -89,6 +87,10 @@ fn text(sheet: &FabricSheet, fabric: &Fabric) -> String {
     // A head alone where only the three tests were made.
     if rows.len() > 1 {
         out.push_str(&format!("\n{}", aligned(&rows)));
+    }
+    // Of what has no source of its own.
+    for all in said {
+        out.push_str(&format!("\n  source: {}", all.value));
     }
     out.push_str(&format!("\n  bending length {:.1} mm\n", 1e3 * fabric.bending_length_mean()));
     if !fabric.defaults.is_empty() {

@@ -27,7 +27,7 @@ pub enum Until {
 
 impl Default for DrapeOptions {
     fn default() -> Self {
-        Self { max_steps: 600, until: Until::Rest, near: false }
+        Self { max_steps: 800, until: Until::Rest, near: false }
     }
 }
 
