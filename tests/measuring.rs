@@ -80,6 +80,13 @@ fn yaml([r, s, b]: &[Vec<f64>; 3]) -> String {
     )
 }
 
+/// The same as a table.
+fn table([r, s, b]: &[Vec<f64>; 3]) -> String {
+    let row = |k: usize| format!("{}, {:.17}, {:.17}, {:.17}\n", k + 1, r[k], s[k], b[k]);
+    let rows: String = (0..20).map(row).collect();
+    format!("repeat, recovery cm2, stretch mm, bend mm\ninitial, 1840, 609.6,\n{rows}")
+}
+
 #[test]
 fn a_synthetic_set_of_readings_gives_back_what_it_was_made_from() {
     let room = Room::new();
@@ -98,12 +105,7 @@ fn a_synthetic_set_of_readings_gives_back_what_it_was_made_from() {
     assert!(made.notes.is_empty());
 
     // The same as a table.
-    let [r, s, b] = synthetic();
-    let mut table = "repeat, recovery cm2, stretch mm, bend mm\ninitial, 1840, 609.6,\n".to_owned();
-    for k in 0..20 {
-        table += &format!("{}, {:.17}, {:.17}, {:.17}\n", k + 1, r[k], s[k], b[k]);
-    }
-    let other = measure(&room.file("readings.csv", table), "mine").expect("table");
+    let other = measure(&room.file("readings.csv", table(&synthetic())), "mine").expect("table");
     assert_eq!(other.sheet.liu, made.sheet.liu);
     assert_eq!(other.sheet.name, "mine");
 }
@@ -242,6 +244,22 @@ fn values_replace_what_a_sheet_says_in_other_words() {
     let keys: Vec<&str> = found.sheet.measurements.iter().map(|m| m.key.as_str()).collect();
     assert_eq!(keys, ["weight", "tensile.weft.curve", "tensile.warp.EMT", "tensile.warp.LT", "shear", "bend"]);
     assert_relative_eq!(found.fabric.bend_warp, 0.5 * 98.0665e-6, max_relative = 1e-9);
+}
+
+#[test]
+fn a_table_of_the_three_tests_stands_beside_other_values() {
+    let room = Room::new();
+    let whole = room.measure(&yaml(&synthetic())).expect("typed in");
+    room.file("readings.csv", table(&synthetic()));
+    let beside = "values: {weight: 115 g/m2, bend: 0.05 gf.cm2/cm}\n";
+    let joined = room.measure(&format!("table: readings.csv\n{beside}")).expect("joined");
+    assert_eq!(joined.sheet.liu, whole.sheet.liu);
+    assert_relative_eq!(joined.fabric.areal_density, 0.115, epsilon = 1e-12);
+    assert_eq!(joined.inputs.len(), 2);
+    room.refused("table: readings.csv\nmeans: {recovery: 0.9, stretch: 1.05, bend: 0.9}\n", "leave one out");
+    room.refused("table: none.csv\n", "none.csv");
+    room.file("typo.csv", "repeat,recovery,stretch,bend\n1,1702,x,30\n");
+    room.refused("table: typo.csv\n", "typo.csv, row 2");
 }
 
 #[test]

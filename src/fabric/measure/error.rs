@@ -18,7 +18,7 @@ pub enum MeasureError {
     /// Readings of a test that cannot be right.
     #[error("{test}: {why}")]
     Test {
-        /// `recovery`, `stretch`, `bend` or `means`.
+        /// `recovery`, `stretch`, `bend`, `means` or `table`.
         test: &'static str,
         /// What is wrong.
         why: String,

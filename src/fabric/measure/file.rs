@@ -35,6 +35,8 @@ pub(super) struct File {
     stretch: Option<Test>,
     bend: Option<Test>,
     means: Option<Means>,
+    /// Of the readings of all three.
+    table: Option<PathBuf>,
     pub(super) sheet: Option<PathBuf>,
     pub(super) curves: Curves,
     /// As a fabric file has them; a map that two values of one key are refused in.
@@ -134,9 +136,7 @@ impl Source {
         if is_table && Sheet::is_one(&text) {
             out.sheets.push(Sheet::parse(&text, &name)?);
         } else if is_table {
-            let tests = table(&text, &name)?;
-            out.notes.extend(tests[2].initial.map(unused_height));
-            out.geometric = Some(Geometric::Tests(tests));
+            out.geometric = Some(out.tests_of(&text, &name)?);
         } else {
             let fault = |why: String| MeasureError::File { file: name.clone(), row: None, why };
             out.file = yaml(&text).map_err(|why| fault(plainly(&why)))?;
@@ -163,6 +163,15 @@ impl Source {
         let tests = [self.file.recovery.take(), self.file.stretch.take(), self.file.bend.take()];
         let given: Vec<&str> = tests.iter().zip(TESTS).filter(|(t, _)| t.is_some()).map(|(_, n)| n).collect();
         let fault = |test, why: &str| Err(MeasureError::Test { test, why: why.to_owned() });
+        if let Some(table) = self.file.table.take() {
+            if !given.is_empty() || self.file.means.is_some() {
+                return fault("table", "readings or means are given too; leave one out");
+            }
+            let path = folder.join(&table);
+            let text = read(&path)?;
+            self.inputs.push(path);
+            return self.tests_of(&text, &table.display().to_string()).map(Some);
+        }
         match (given.len(), self.file.means) {
             (0, None) => return Ok(None),
             (0, Some(m)) => return Ok(Some(Geometric::Means([m.recovery, m.stretch, m.bend]))),
@@ -178,6 +187,13 @@ impl Source {
             out.push(self.readings(k, test, folder)?);
         }
         Ok(<[Readings; 3]>::try_from(out).ok().map(Geometric::Tests))
+    }
+
+    /// The readings in the `text` of a table.
+    fn tests_of(&mut self, text: &str, name: &str) -> Result<Geometric, MeasureError> {
+        let tests = table(text, name)?;
+        self.notes.extend(tests[2].initial.map(unused_height));
+        Ok(Geometric::Tests(tests))
     }
 
     fn readings(&mut self, k: usize, test: Test, folder: &Path) -> Result<Readings, MeasureError> {
