@@ -298,7 +298,7 @@ fn seen(shares: &[f64], doubts: &[(f64, String)], threshold: u8) -> Vec<String> 
 
 /// A message of the YAML reader in the words of its user.
 fn plainly(why: &str) -> String {
-    let sections = "expected a map of recovery, stretch, bend, means, sheet, curves or values";
+    let sections = "expected a map of recovery, stretch, bend, means, table, sheet, curves or values";
     why.replace("expected struct File", sections)
         .replace("expected f64", "expected a number without unit")
         .replace("expected u8", "expected a whole number from 0 to 255")
