@@ -84,7 +84,7 @@ fn text(sheet: &FabricSheet, fabric: &Fabric) -> String {
         out.push_str(&format!(": {}", sheet.description));
     }
     out.push('\n');
-    // A head alone where only the three tests were made.
+    // Where only the three tests were made there is nothing to head.
     if rows.len() > 1 {
         out.push_str(&format!("\n{}", aligned(&rows)));
     }

@@ -119,21 +119,22 @@ impl ClothDetector {
     /// The pairs of [`ClothDetector::detect`] that have a node which is `stale`,
     /// after [`ClothDetector::look`] with the same.
     pub fn detect_at(&self, x: &[Vec3], reach: f64, stale: &[bool]) -> Vec<Contact<'static>> {
-        let parts: Vec<Part> = self.patches.par_iter().with_min_len(64).map(|p| self.part(p, x, stale)).collect();
-        let find = Search { detector: self, x, reach, parts };
+        let find = Search { detector: self, x, reach, parts: self.parts(x, stale) };
         let mut pairs = self.open.clone();
         pairs.retain(|&(a, b)| [a, b].iter().any(|p| find.parts[*p as usize].triangles.iter().any(|t| t.stale)));
         pairs.par_iter().flat_map_iter(|&(a, b)| find.pair(a as usize, b as usize)).collect()
     }
 
-    /// The primitives of a patch at positions `x`, and at which of them is searched: those with a node that is `stale`.
-    fn part(&self, patch: &Patch, x: &[Vec3], stale: &[bool]) -> Part {
-        Part {
+    /// The primitives of every patch at positions `x`, and at which of them is searched: those with a node that is
+    /// `stale`.
+    fn parts(&self, x: &[Vec3], stale: &[bool]) -> Vec<Part> {
+        let part = |patch: &Patch| Part {
             vertices: patch.nodes.iter().map(|&n| Primitive::new([n], x, stale)).collect(),
             edges: patch.edges.iter().map(|&e| Primitive::new(e, x, stale)).collect(),
             triangles: (patch.triangles.iter().map(|&t| Primitive::new(self.triangles[t as usize], x, stale)))
                 .collect(),
-        }
+        };
+        self.patches.par_iter().with_min_len(64).map(part).collect()
     }
 
     fn normals(&self, x: &[Vec3]) -> Vec<Vec3> {
@@ -166,24 +167,21 @@ impl ClothDetector {
     pub(super) fn touching(&mut self, x: &[Vec3]) -> Vec<([u32; 2], [u32; 3])> {
         let normals = self.normals(x);
         let (pairs, _) = self.patch_pairs(x, &normals, 0.0);
-        let near = |p: &Patch, q: &Patch| {
+        let parts = self.parts(x, &vec![true; x.len()]);
+        let near = |p: &Part, q: &Part| {
             let mut out = Vec::new();
-            for &e in &p.edges {
-                let [a, b] = e.map(|n| x[n as usize]);
-                let (low, high) = (a.inf(&b), a.sup(&b));
-                for &t in &q.triangles {
-                    let tri = self.triangles[t as usize];
-                    let [c, d, f] = tri.map(|n| x[n as usize]);
-                    let (l, h) = (c.inf(&d).inf(&f), c.sup(&d).sup(&f));
-                    if !apart(low, high, l, h) && !tri.contains(&e[0]) && !tri.contains(&e[1]) {
-                        out.push((e, tri));
+            for e in &p.edges {
+                for t in &q.triangles {
+                    let shared = e.nodes.iter().any(|n| t.nodes.contains(n));
+                    if !shared && !apart(e.low, e.high, t.low, t.high) {
+                        out.push((e.nodes, t.nodes));
                     }
                 }
             }
             out
         };
         let both = |&(a, b): &(u32, u32)| {
-            let (p, q) = (&self.patches[a as usize], &self.patches[b as usize]);
+            let (p, q) = (&parts[a as usize], &parts[b as usize]);
             let mut out = near(p, q);
             if a != b {
                 out.extend(near(q, p));
