@@ -257,6 +257,7 @@ fn a_table_of_the_three_tests_stands_beside_other_values() {
     assert_relative_eq!(joined.fabric.areal_density, 0.115, epsilon = 1e-12);
     assert_eq!(joined.inputs.len(), 2);
     room.refused("table: readings.csv\nmeans: {recovery: 0.9, stretch: 1.05, bend: 0.9}\n", "leave one out");
+    room.refused("recovery: 1702 cm2\n", "expected a map of initial, unit, readings, photos or load");
     room.refused("table: none.csv\n", "none.csv");
     room.file("typo.csv", "repeat,recovery,stretch,bend\n1,1702,x,30\n");
     room.refused("table: typo.csv\n", "typo.csv, row 2");

@@ -26,7 +26,11 @@ const IMAGED: f64 = 1840.0;
 
 /// What a file of readings holds.
 #[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(
+    deny_unknown_fields,
+    default,
+    expecting = "a map of recovery, stretch, bend, means, table, sheet, curves or values"
+)]
 pub(super) struct File {
     pub(super) name: Option<String>,
     pub(super) description: Option<String>,
@@ -45,7 +49,7 @@ pub(super) struct File {
 
 /// One of the three tests.
 #[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a map of initial, unit, readings, photos or load")]
 struct Test {
     initial: Option<f64>,
     /// For the reader; ratios have none.
@@ -58,7 +62,7 @@ struct Test {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a map of flat, crumpled, threshold, cloth or imaged")]
 struct Photos {
     flat: PathBuf,
     crumpled: Vec<PathBuf>,
@@ -80,7 +84,7 @@ enum Cloth {
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a map of recovery, stretch and bend")]
 struct Means {
     recovery: f64,
     stretch: f64,
@@ -89,7 +93,7 @@ struct Means {
 
 /// Files of recorded curves.
 #[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a map of tensile, shear or bend")]
 pub(super) struct Curves {
     pub(super) tensile: Directions,
     pub(super) shear: Directions,
@@ -98,7 +102,7 @@ pub(super) struct Curves {
 
 /// One file per direction.
 #[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[serde(deny_unknown_fields, default, expecting = "a map of warp or weft")]
 pub(super) struct Directions {
     pub(super) warp: Option<PathBuf>,
     pub(super) weft: Option<PathBuf>,
@@ -298,9 +302,7 @@ fn seen(shares: &[f64], doubts: &[(f64, String)], threshold: u8) -> Vec<String> 
 
 /// A message of the YAML reader in the words of its user.
 fn plainly(why: &str) -> String {
-    let sections = "expected a map of recovery, stretch, bend, means, table, sheet, curves or values";
-    why.replace("expected struct File", sections)
-        .replace("expected f64", "expected a number without unit")
+    why.replace("expected f64", "expected a number without unit")
         .replace("expected u8", "expected a whole number from 0 to 255")
 }
 
