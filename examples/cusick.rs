@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use svg::Document;
 use svg::node::element::path::Data;
 use svg::node::element::{Circle, Line, Path, Text};
-use toile::fabric::{Fabric, library, load, sheet};
+use toile::fabric::{Fabric, GRAVITY, library, load, sheet};
 use toile::io::files::write_all;
 use toile::picture::draw_shadow;
 use toile::specimen::{Draped, LAYS, Sample, Series, SpecimenError, drape};
@@ -28,7 +28,6 @@ const LENGTHS: [f64; 3] = [0.008, 0.034, 0.002];
 const SHEET: [f64; 2] = [200.0, 140.0];
 const SCALE: [f64; 2] = [5.0, 1.2];
 const ORIGIN: [f64; 2] = [20.0, 130.0];
-const GRAVITY: f64 = toile::dynamics::GRAVITY;
 
 fn sample(fabric: Fabric) -> Sample {
     Sample { fabric: Arc::new(fabric), drape: None, published: None }

@@ -48,6 +48,7 @@ const FLOORS: [(&str, &[&str]); 21] = [
     (
         "cli",
         &[
+            "geometry",
             "input",
             "fabric",
             "pattern",

@@ -6,7 +6,8 @@ use std::path::Path;
 
 use toile::contact::{Collider, Neighbourhood};
 use toile::dynamics::explicit::law_of;
-use toile::dynamics::{ContactLaw, Forces, GRAVITY, Hardening, Reach, World};
+use toile::dynamics::{ContactLaw, Forces, Hardening, Reach, World};
+use toile::fabric::GRAVITY;
 use toile::geometry::{TriMesh, Vec3};
 use toile::pipeline::{Job, Overrides, read};
 use toile::sew::Stitching;

@@ -5,10 +5,9 @@ use std::sync::Arc;
 use toile::contact::{Contact, Under};
 use toile::dynamics::explicit::{Explicit, ExplicitError, Rest, Start, StepControl, explicit_cloth, law_of};
 use toile::dynamics::{
-    Cloth, ContactLaw, Cut, Forces, GRAVITY, Hardening, Pull, Spring, SpringModel, Stepper, Stretch, StretchLaw,
-    identity_nodes,
+    Cloth, ContactLaw, Cut, Forces, Hardening, Pull, Spring, SpringModel, Stepper, Stretch, StretchLaw, identity_nodes,
 };
-use toile::fabric;
+use toile::fabric::{self, GRAVITY};
 use toile::geometry::{Path, Vec2, Vec3};
 use toile::io::garment::read_text;
 use toile::mesh::{ClothMesh, build};

@@ -1,5 +1,6 @@
 //! `check`: is this garment file right, and what does it make?
 
+use crate::geometry::MM;
 use std::path::Path;
 
 use serde::Serialize;
@@ -105,9 +106,6 @@ struct OpeningRow {
     edges: Vec<String>,
     length: f64,
 }
-
-/// Millimetres in a metre.
-const MM: f64 = 1e3;
 
 impl Summary {
     fn new(garment: &Garment, warnings: &[Diagnostic]) -> Self {

@@ -1,5 +1,6 @@
 //! `export`: patterns for cutting.
 
+use crate::geometry::MM;
 use std::path::PathBuf;
 
 use super::args::{ExportArgs, ExportCommand, PageArg};
@@ -17,8 +18,6 @@ use crate::report::aligned;
 
 /// Empty rim of a sheet that is one page, metres.
 const MARGIN: f64 = 0.010;
-/// Metres in a millimetre.
-const MM: f64 = 1e-3;
 
 /// `toile export …`
 pub(super) fn export(command: &ExportCommand, console: &Console) -> Result<Exit, CliError> {
@@ -52,7 +51,7 @@ pub(super) fn export(command: &ExportCommand, console: &Console) -> Result<Exit,
 }
 
 fn one_sheet(width: Option<f64>) -> Layout {
-    Layout { width: width.map(|w| w * MM), margin: MARGIN, square: true }
+    Layout { width: width.map(|w| w / MM), margin: MARGIN, square: true }
 }
 
 /// A garment's papers on their way into a file.
@@ -69,12 +68,12 @@ impl<'a> Job<'a> {
         loaded.warnings.iter().for_each(|warning| console.note(&warning.to_string()));
         let drawn = drawings(&loaded.file, &loaded.garment);
         if args.allowance.is_none() && drawn.iter().any(lacks_allowance) {
-            let usual = DEFAULT_ALLOWANCE / MM;
+            let usual = DEFAULT_ALLOWANCE * MM;
             console.note(&format!(
                 "the file does not give every edge an allowance; these get {usual} mm (--allowance MM for another)"
             ));
         }
-        let allowance = args.allowance.map_or(DEFAULT_ALLOWANCE, |mm| mm * MM);
+        let allowance = args.allowance.map_or(DEFAULT_ALLOWANCE, |mm| mm / MM);
         let papers = papers(&drawn, &Options { allowance, whole: args.whole });
         papers.iter().flat_map(narrowed).for_each(|note| console.note(&note));
         Ok(Self { args, name: loaded.garment.name, title: loaded.garment.title, papers })
@@ -106,7 +105,7 @@ fn is_told(paper: &Paper) -> bool {
 
 /// Of holes that are too small for their allowances.
 fn narrowed(paper: &Paper) -> Vec<String> {
-    let mm = |width: f64| (width / MM * 100.0).round() / 100.0;
+    let mm = |width: f64| (width * MM * 100.0).round() / 100.0;
     let note = |n: &Narrowed| {
         format!(
             "hole '{}' of '{}' has no room for an allowance of {} mm: {} mm are drawn; say a narrower one, or slash \
@@ -147,8 +146,8 @@ impl Row {
             mirrored: paper.mirrored,
             on_fold: paper.fold.is_some(),
             fabric: paper.fabric.clone(),
-            width: (high.x - low.x) / MM,
-            height: (high.y - low.y) / MM,
+            width: (high.x - low.x) * MM,
+            height: (high.y - low.y) * MM,
         }
     }
 }

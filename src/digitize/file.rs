@@ -7,14 +7,12 @@ use super::materials::{declared, name_of};
 use super::pairs::paired;
 use super::suggest::{Outline, Suggestion, suggest};
 use super::{Material, Traced};
-use crate::geometry::{Path, Vec2};
+use crate::geometry::{MM, Path, Vec2};
 use crate::pattern::{
     AllowanceFile, AllowanceWidth, Cut, DartFile, DartShape, GarmentFile, LineFile, LineKind, Located, NotchFile,
     OutlineFile, PieceFile, PleatFile, Quantity, SLACK, Spot, Value,
 };
 
-/// Millimetres per metre.
-const MM: f64 = 1e3;
 /// A fold's ends are so near to those of an edge (metres).
 const ON_FOLD: f64 = 1e-3;
 /// Edges and grain of which the directions differ by no more (radians, a degree) run along each other.

@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::GRAVITY;
 use super::contact_law::ContactLaw;
 use super::friction::{Friction, Grip, Hold};
 use super::model::Cloth;
 use crate::contact::Contact;
+use crate::fabric::GRAVITY;
 use crate::geometry::Vec3;
 
 /// A stitch being closed (F5): both nodes pull each other with stiffness × min(gap, cap).

@@ -39,5 +39,3 @@ pub use world::{NewtonStep, World};
 /// Nodes or springs that one thread goes through in a fraction of a millisecond: to wake another for fewer costs more
 /// than it wins (a tenth of all CPU time was measured in waking).
 const ONE_THREAD: usize = 8192;
-/// Gravity, m/s² (standard acceleration, ISO 80000-3).
-pub const GRAVITY: f64 = 9.80665;

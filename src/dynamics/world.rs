@@ -11,6 +11,7 @@ use super::model::Cloth;
 use super::proximity::{Proximity, Reach};
 use super::step::{StepError, Stepper};
 use crate::contact::{Collider, Neighbourhood, Tangle};
+use crate::fabric::GRAVITY;
 use crate::geometry::Vec3;
 
 /// Layers nearer than this, metres, are coupled in the matrix: pressed together they move together. It is made anew
@@ -468,7 +469,7 @@ impl<'a> World<'a> {
         self.cloth.held.iter().for_each(|&n| r[n as usize] = Vec3::zeros());
         let mean_mass = self.cloth.mass.iter().sum::<f64>() / self.cloth.mass.len().max(1) as f64;
         let rms = (r.iter().map(Vec3::norm_squared).sum::<f64>() / r.len().max(1) as f64).sqrt();
-        rms / (mean_mass * super::GRAVITY)
+        rms / (mean_mass * GRAVITY)
     }
 
     /// How many contacts with body and cloth are known, within the reach of the looks that found them.

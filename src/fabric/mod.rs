@@ -17,8 +17,8 @@ pub use library::{library, load, sheet};
 pub use resolve::{Context, resolve};
 pub use sheet::{FabricSheet, LiuMeasures, Measurement};
 
-/// Standard gravity, m/s².
-const GRAVITY: f64 = 9.80665;
+/// Gravity, m/s² (standard acceleration, ISO 80000-3).
+pub const GRAVITY: f64 = 9.80665;
 
 /// Beyond these a fabric is doubted: bending lengths, mm; extensions at 500 gf/cm, per cent; densities, kg/m³.
 const BENDING_LENGTHS: RangeInclusive<f64> = 4.0..=100.0;

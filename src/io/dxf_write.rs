@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 
 use super::dxf_told::{Told, place};
 use crate::cutting::{MarkKind, NotchMark, Paper, SewKind};
-use crate::geometry::{Path, Vec2};
+use crate::geometry::{MM, Path, Vec2};
 use crate::pattern::LineKind;
 
 /// The standard's layers.
@@ -39,8 +39,6 @@ pub mod layer {
     pub const TEXT: u32 = 15;
 }
 
-/// Millimetres per metre.
-const MM: f64 = 1000.0;
 /// Chords leave curves by at most this much (metres).
 const CHORD_ERROR: f64 = 2e-6;
 /// Turning by more than this (radians, 10 degrees) at a vertex makes it a turn point.

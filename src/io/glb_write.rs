@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::geometry::{Vec2, Vec3};
+use crate::geometry::{MM, Vec2, Vec3};
 use crate::mesh::ClothMesh;
 use crate::pattern::Garment;
 use crate::verify::Welded;
@@ -17,8 +17,6 @@ const VERSION: u32 = 2;
 const JSON_CHUNK: &[u8; 4] = b"JSON";
 const BIN_CHUNK: &[u8; 4] = b"BIN\0";
 
-/// Millimetres in a metre.
-const MM: f64 = 1e3;
 /// Cloth scatters nearly all light it does not swallow.
 const ROUGHNESS: f64 = 0.9;
 /// Colours of the fabrics in turn (linear red, green, blue): told apart by eye,

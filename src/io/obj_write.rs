@@ -2,12 +2,9 @@
 
 use std::fmt::Write;
 
-use crate::geometry::Vec3;
+use crate::geometry::{MM, Vec3};
 use crate::mesh::ClothMesh;
 use crate::verify::Welded;
-
-/// Millimetres in a metre.
-const MM: f64 = 1e3;
 
 /// The garment as OBJ text: millimetres, y up, one group per piece, six decimals (a nanometre).
 ///

@@ -8,12 +8,10 @@ use svg::{Document, Node};
 
 use super::svg_write::{centered, curved, document, identifier, polyline, square, with_kind};
 use crate::cutting::{LETTER_WIDTH, Room, TEST_SQUARE, foot, shelves};
-use crate::geometry::{Vec2, smooth_curves};
+use crate::geometry::{MM, Vec2, smooth_curves};
 use crate::mesh::{ClothMesh, EdgeParticles, PieceMesh};
 use crate::pattern::Notch;
 
-/// Millimetres per metre.
-const MM: f64 = 1000.0;
 /// Empty rim of the sheet, mm: what home printers leave white.
 const MARGIN: f64 = 10.0;
 /// Space between pieces, mm: room for two seam allowances.

@@ -10,15 +10,12 @@ use super::surface;
 use crate::drape::{DrapeOptions, drape};
 use crate::dynamics::{ContactTime, identity_nodes};
 use crate::flatten::{self, flatten_garment};
-use crate::geometry::{Vec2, Vec3};
+use crate::geometry::{MM, Vec2, Vec3};
 use crate::report::{ContactSeconds, Drift, Measured, Report, Stage, measure};
 use crate::sew::{SewError, SewOptions, Stitching};
 
 /// Told the name of the stage under way and the share of it that is done.
 pub type Progress<'a> = &'a mut dyn FnMut(&str, f64);
-
-/// Millimetres in a metre.
-const MM: f64 = 1e3;
 
 /// A job on its way, with what every stage has made so far.
 pub struct Run<'a> {

@@ -5,12 +5,9 @@ use std::path::Path;
 use super::error::PipelineError;
 use super::job::Job;
 use super::run::Run;
-use crate::geometry::Vec3;
+use crate::geometry::{MM, Vec3};
 use crate::io::obj_read::read_obj;
 use crate::verify::Welded;
-
-/// Metres in a millimetre.
-const MM: f64 = 1e-3;
 
 impl<'a> Run<'a> {
     /// Takes the garment as sewn by an earlier run, from its `sewn.obj`: draping begins there.
@@ -46,7 +43,7 @@ impl<'a> Run<'a> {
         if surface.triangles != welded.surface.triangles {
             return Err(other(format!("its triangles are not those of '{}'", self.job.garment.name)));
         }
-        let nodes: Vec<Vec3> = surface.vertices.iter().map(|p| self.job.body.frame.from_file(p * MM)).collect();
+        let nodes: Vec<Vec3> = surface.vertices.iter().map(|p| self.job.body.frame.from_file(p / MM)).collect();
         Ok(self.stitching.spread(&nodes))
     }
 }

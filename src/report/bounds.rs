@@ -1,5 +1,6 @@
 //! A garment's own bounds against its report.
 
+use crate::geometry::MM;
 use serde::Serialize;
 
 use super::closures::APART;
@@ -8,8 +9,6 @@ use crate::pattern::{Bound, Garment, Test, walk};
 
 /// Bounds of a garment that states none: closed seams, no crossing. Metres.
 const DEFAULTS: [Bound; 2] = [Bound::Gap(None, 1e-3), Bound::Crossings(0)];
-/// Millimetres in a metre, percent in a whole.
-const MM: f64 = 1e3;
 const PERCENT: f64 = 1e2;
 
 /// One bound and what was measured.

@@ -2,12 +2,9 @@
 
 use super::schema::ClosureReport;
 use super::statistics::{largest, mean};
-use crate::geometry::{Locator, Vec2, Vec3};
+use crate::geometry::{Locator, MM, Vec2, Vec3};
 use crate::mesh::ClothMesh;
 use crate::pattern::{Closure, Fastening, Garment, fastenings};
-
-/// Millimetres in a metre.
-const MM: f64 = 1e3;
 
 /// Points further apart than this (metres) did not come together: about the length of a buttonhole.
 pub(super) const APART: f64 = 0.02;

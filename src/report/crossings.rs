@@ -1,11 +1,8 @@
 //! What the independent checks see of a surface in space: where it is inside a body, through it, or through itself.
 
 use super::schema::{Contact, Crossing};
-use crate::geometry::{TriMesh, Vec3};
+use crate::geometry::{MM, TriMesh, Vec3};
 use crate::verify::{crossings, crossings_between, inside};
-
-/// Millimetres in a metre.
-const MM: f64 = 1e3;
 
 /// The figures, and every crossing with its place.
 #[derive(Clone, Debug, Default)]

@@ -10,14 +10,12 @@ use super::statistics::{largest, mean};
 use super::strain::{PieceStrain, piece_strain};
 use super::stretched::stretched;
 use super::tight::Tight;
-use crate::geometry::{Vec2, Vec3};
+use crate::geometry::{MM, Vec2, Vec3};
 use crate::mannequin::Mannequin;
 use crate::mesh::{ClothMesh, Stitches};
 use crate::pattern::{Garment, written_names};
 use crate::verify::{Welded, worn};
 
-/// Millimetres in a metre.
-const MM: f64 = 1e3;
 /// Square millimetres in a square metre.
 const MM2: f64 = 1e6;
 

@@ -9,7 +9,8 @@ use std::f64::consts::PI;
 use super::rig::{ALONG_WARP, Sheet, block, held_with, lift, nothing, settle};
 use super::{Figure, Known, Outcome, Sample, SpecimenError, theory};
 use crate::contact::Collider;
-use crate::dynamics::{GRAVITY, GRIP, World};
+use crate::dynamics::{GRIP, World};
+use crate::fabric::GRAVITY;
 use crate::geometry::{Vec2, Vec3, try_bisect};
 
 /// Width (weft) and length (warp) of the specimen, metres.

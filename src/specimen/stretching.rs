@@ -2,8 +2,7 @@
 
 use super::rig::{ALONG_WARP, Sheet, WAYS, drawn_out, held_with, nothing, settle};
 use super::{Figure, Known, Outcome, Sample, SpecimenError, theory};
-use crate::dynamics::GRAVITY;
-use crate::fabric::{Fabric, TensileCurve};
+use crate::fabric::{Fabric, GRAVITY, TensileCurve};
 use crate::geometry::Vec3;
 
 /// Grid spacing, metres: ten cells across every strip.

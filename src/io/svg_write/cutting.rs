@@ -6,9 +6,9 @@
 
 use svg::node::element::{Circle, Group, Path, Title};
 
-use super::{MM, centered, document, identifier, number, polyline, printable, square, stroke, with_kind};
+use super::{centered, document, identifier, number, polyline, printable, square, stroke, with_kind};
 use crate::cutting::{Lettering, MarkKind, Paper, SewKind, Sheet};
-use crate::geometry::Vec2;
+use crate::geometry::{MM, Vec2};
 
 /// Widths of lines, mm: what is cut, and everything else.
 const CUT: f64 = 0.5;

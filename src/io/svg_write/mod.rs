@@ -11,11 +11,8 @@ use svg::node::element::{Group, Path, Rectangle, Text};
 pub use cutting::cutting_svg;
 
 use crate::cutting::TEST_SQUARE;
-use crate::geometry::{Cubic, Vec2};
+use crate::geometry::{Cubic, MM, Vec2};
 use crate::pattern::LineKind;
-
-/// Millimetres per metre.
-const MM: f64 = 1000.0;
 
 /// An empty sheet, mm.
 pub(super) fn document(size: Vec2) -> Document {

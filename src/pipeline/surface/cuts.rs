@@ -8,11 +8,8 @@ use super::darts::Source;
 use super::parts::Part;
 use super::report::{CutReport, CutWhy, DartReport};
 use crate::flatten::{self, FlattenError, Flattened, disk_cuts, shortest_path};
-use crate::geometry::{Topology, sorted_pair};
+use crate::geometry::{MM, Topology, sorted_pair};
 use crate::io::obj_read::ObjFaces;
-
-/// Millimetres in a metre.
-const MM: f64 = 1e3;
 
 /// Where to cut besides groups and texture seams.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

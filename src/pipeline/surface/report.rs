@@ -1,5 +1,6 @@
 //! The figures of a flattened surface: keys and units of its `report.json`.
 
+use crate::geometry::MM;
 use std::f64::consts::PI;
 
 use serde::Serialize;
@@ -9,9 +10,6 @@ use super::cuts;
 use super::darts::{DartStop, Laid};
 use super::edges::NamedEdge;
 use crate::report::{Quartet, Stage};
-
-/// Millimetres in a metre.
-const MM: f64 = 1e3;
 
 /// What flattening did to a surface; written as `report.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]

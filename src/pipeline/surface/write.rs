@@ -8,7 +8,7 @@ use super::FlatSurface;
 use super::darts::Laid;
 use super::edges::NamedEdge;
 use crate::flatten::triangle_strain;
-use crate::geometry::Vec2;
+use crate::geometry::{MM, Vec2};
 use crate::io::pattern_svg::{outline_svg, pattern_svg};
 use crate::mesh::{ClothMesh, EdgeParticles, PieceMesh};
 use crate::pattern::{EdgeId, Notch};
@@ -21,9 +21,6 @@ pub const FLAT_PNG: &str = "flat.png";
 
 /// The outlines as smooth curves.
 pub const OUTLINE_SVG: &str = "outline.svg";
-
-/// Millimetres in a metre.
-const MM: f64 = 1e3;
 
 impl FlatSurface {
     /// `flat.obj`, `flat.png`, `pattern.svg`, `outline.svg` and `report.json`.
