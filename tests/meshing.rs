@@ -443,16 +443,36 @@ fn corners_have_no_triangle_with_three_rim_particles() {
 }
 
 #[test]
+fn pieces_as_narrow_as_a_spring_is_long_mesh_well_and_can_bend() {
+    for width in [16.0, 18.0, 20.0, 22.0] {
+        let band = rectangle("band", 303.0, width);
+        // Not one that is meshed in columns.
+        let split = [(0.0, 0.0), (130.0, 0.0), (303.0, 0.0), (303.0, width), (90.0, width), (0.0, width)];
+        let inner = 150.0 - width;
+        let bent = [(0.0, 0.0), (150.0, 0.0), (150.0, 150.0), (inner, 150.0), (inner, width), (0.0, width)];
+        for piece in [band, piece("split", vec![polygon(&split)]), piece("bent", vec![polygon(&bent)])] {
+            let name = piece.name.clone();
+            let (mesh, smallest) = meshed(&garment(vec![piece], vec![]), 16.0);
+            assert!(smallest > 25.0, "{name} {width} mm wide: {smallest}");
+            let mut on_rim: Vec<u32> = mesh.pieces[0].edges.iter().flat_map(|e| e.particles.clone()).collect();
+            on_rim.sort_unstable();
+            on_rim.dedup();
+            assert!(mesh.flat.len() > on_rim.len(), "{name} {width} mm wide has no inner particle to bend round");
+        }
+    }
+}
+
+#[test]
 fn a_spacing_that_does_not_suit_is_explained() {
     let message = |p: Piece, spacing: f64| {
         build(&garment(vec![p], vec![]), spacing).map(|_| ()).expect_err("spacing").to_string()
     };
     assert_eq!(
         message(rectangle("binding", 600.0, 18.0), 0.02),
-        "mesh size 20 mm leaves 1 spring across 'binding' (18 mm wide); use 12 mm or less (6 mm for three springs \
+        "mesh size 20 mm leaves 1 spring across 'binding' (18 mm wide); use 18 mm or less (6 mm for three springs \
          across), or check the file's units"
     );
-    for (width, largest, more) in [(18.0, 0.012_f64, 0.01201), (20.0, 0.01333, 0.01334)] {
+    for (width, largest, more) in [(18.0, 0.018_f64, 0.01801), (40.0 / 3.0, 0.01333, 0.01334)] {
         let band = rectangle("neck_band", 320.0, width);
         let said = format!("use {} mm or less", (1e5 * largest).round() / 100.0);
         assert!(message(band.clone(), more).contains(&said), "{said}");

@@ -264,7 +264,7 @@ const MISTAKES: [Mistake; 31] = [
             ("free: [", "free: [back.center, "),
         ],
         "front:",
-        "mesh size 20 mm leaves 1 spring across 'front' (18 mm wide); use 12 mm or less (6 mm for three springs \
+        "mesh size 20 mm leaves 1 spring across 'front' (18 mm wide); use 18 mm or less (6 mm for three springs \
          across), or check the file's units",
     ),
     wrong(

@@ -19,11 +19,20 @@ const ON_LINE: f64 = 1e-5;
 
 /// Whether a piece is to be meshed in structured columns, if its sides can be sampled alike.
 pub(super) fn wanted(piece: &Piece, method: Method) -> bool {
-    let [ring] = piece.loops.as_slice() else { return false };
-    let [a, b, c, d] = [0, 1, 2, 3].map(|k| ring.get(k).map_or(0.0, |e| e.path.length()));
-    let (along, across) = (a + c, b + d);
-    let band = along.max(across) >= BAND * along.min(across);
-    ring.len() == 4 && (method == Method::Coons || (method == Method::Auto && band))
+    match method {
+        Method::Auto => ends_of_band(piece).is_some(),
+        Method::Grid => false,
+        Method::Coons => piece.loops.len() == 1 && piece.loops[0].len() == 4,
+    }
+}
+
+/// The two short edges of a band.
+pub(super) fn ends_of_band(piece: &Piece) -> Option<[usize; 2]> {
+    let [ring] = piece.loops.as_slice() else { return None };
+    let [a, b, c, d] = ring.as_slice() else { return None };
+    let [along, across] = [[a, c], [b, d]].map(|pair| pair.map(|e| e.path.length()).iter().sum::<f64>());
+    let is_band = along.max(across) >= BAND * along.min(across);
+    is_band.then_some(if along < across { [0, 2] } else { [1, 3] })
 }
 
 /// Links that sample the opposite sides of a four-sided piece alike.

@@ -8,7 +8,7 @@ pub enum MeshError {
     /// The spacing is zero, negative, infinite or not a number.
     #[error("mesh size must be a positive length, not {} mm", mm(*.0))]
     Spacing(f64),
-    /// A piece would be less than two springs wide.
+    /// A piece is narrower than a spring is long.
     #[error(
         "mesh size {} mm leaves {springs} spring{} across '{piece}' ({} mm wide); use {} mm or less ({} mm for three \
          springs across), or check the file's units",

@@ -5,7 +5,7 @@ use super::error::MeshError;
 use super::lines::{LinePlan, RimLine};
 use super::links::{EdgeTable, Link};
 use super::sampling::Sampling;
-use super::{MeshOptions, coons};
+use super::{MeshOptions, Method, coons};
 use crate::pattern::{EdgeId, Garment};
 
 /// Edges that turn by more than this (radians; 15°) between two segments get a particle at the kink: cutting the
@@ -13,6 +13,9 @@ use crate::pattern::{EdgeId, Garment};
 const KINK: f64 = 0.26;
 /// Turns are measured this far (metres) on either side of a joint.
 const BESIDE: f64 = 1e-7;
+/// A band is at least so many springs wide: it must bend along its middle, or what it is sewn to cannot turn beside it.
+const ACROSS_BAND: usize = 2;
+
 /// What is known of the whole garment before its pieces are filled.
 pub(super) struct Layout<'g> {
     /// The garment.
@@ -43,11 +46,12 @@ impl<'g> Layout<'g> {
         for (n, piece) in garment.pieces.iter().enumerate().filter(|(_, p)| coons::wanted(p, options.method)) {
             links.extend(coons::links(piece, n, &edges));
         }
+        let least = springs_of_edges(garment, &edges, options.method);
         let mut seeds: Vec<_> = plans.iter().flat_map(LinePlan::rim_seeds).collect();
         seeds.extend(kinks(garment, &edges));
         let sample = |links: &[Link]| {
             let breaks = Breaks::close(&edges, links, &seeds, garment)?;
-            let sampling = Sampling::new(&edges, links, &breaks, options.spacing)?;
+            let sampling = Sampling::new(&edges, links, &breaks, &least, options.spacing)?;
             Ok((breaks, sampling))
         };
         // Straight columns are a wish: if the seams do not allow them, the band becomes a grid.
@@ -88,6 +92,17 @@ impl<'g> Layout<'g> {
         let runs = self.breaks.runs(link, side);
         runs.iter().flat_map(|r| self.sampling.particles_of_run(r).into_iter().map(|k| (r.edge, k))).collect()
     }
+}
+
+/// How many springs every edge must have: across a band [`ACROSS_BAND`].
+fn springs_of_edges(garment: &Garment, edges: &EdgeTable, method: Method) -> Vec<usize> {
+    let mut least = vec![1; edges.ids.len()];
+    for (piece, p) in garment.pieces.iter().enumerate().filter(|(_, p)| coons::wanted(p, method)) {
+        let ends = coons::ends_of_band(p).into_iter().flatten();
+        let ends = ends.filter_map(|index| edges.number(EdgeId { piece, ring: 0, index }));
+        ends.for_each(|edge| least[edge] = ACROSS_BAND);
+    }
+    least
 }
 
 /// Places where an edge turns sharply.

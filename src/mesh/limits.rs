@@ -5,8 +5,9 @@ use crate::pattern::{Garment, Piece};
 
 /// The grain is a unit vector to this much.
 const UNIT: f64 = 1e-6;
-/// Springs that must fit across a piece: with fewer than one and a half there is no inner particle to bend round.
-const SPRINGS_ACROSS: f64 = 1.5;
+/// A piece narrower than its springs are long is refused. Its triangles would be good ones (27° and more at 0.6 of a
+/// spring), but so small that the piece, and what is sewn to it, is not what was asked for.
+const SPRINGS_ACROSS: f64 = 1.0;
 /// Springs across that an error recommends.
 const GOOD_SPRINGS_ACROSS: f64 = 3.0;
 /// Widths are as exact as this, metres: the spacing that an error names is accepted.

@@ -18,8 +18,15 @@ pub(super) struct Sampling {
 }
 
 impl Sampling {
-    /// Chooses counts per group of linked intervals and spreads particles evenly between breakpoints.
-    pub(super) fn new(edges: &EdgeTable, links: &[Link], breaks: &Breaks, spacing: f64) -> Result<Self, MeshError> {
+    /// Chooses counts per group of linked intervals, so that edge e has `least[e]` springs, and spreads particles
+    /// evenly between breakpoints.
+    pub(super) fn new(
+        edges: &EdgeTable,
+        links: &[Link],
+        breaks: &Breaks,
+        least: &[usize],
+        spacing: f64,
+    ) -> Result<Self, MeshError> {
         let mut groups = Groups::new(edges.ids.len(), breaks);
         for link in links {
             let runs = [breaks.runs(link, 0), breaks.runs(link, 1)];
@@ -31,7 +38,7 @@ impl Sampling {
                 groups.join(a, b);
             }
         }
-        let counts = groups.counts(breaks, spacing);
+        let counts = groups.counts(breaks, least, spacing);
         let at = counts.iter().enumerate().map(|(e, n)| spread(breaks.of(e), n)).collect();
         Ok(Self { counts, at })
     }
@@ -95,21 +102,23 @@ impl Groups {
         self.sets.join(a, b);
     }
 
-    fn counts(&mut self, breaks: &Breaks, spacing: f64) -> Vec<Vec<usize>> {
+    fn counts(&mut self, breaks: &Breaks, least: &[usize], spacing: f64) -> Vec<Vec<usize>> {
         let edges = self.first.len() - 1;
-        // Shortest and longest interval of every group, kept at its root.
-        let mut extremes = vec![(f64::INFINITY, 0.0_f64); self.sets.len()];
-        for e in 0..edges {
+        // Shortest and longest interval of every group, and the springs that one of them needs, kept at its root.
+        let mut groups = vec![(f64::INFINITY, 0.0_f64, 1); self.sets.len()];
+        for (e, least) in least.iter().enumerate() {
+            let intervals = breaks.of(e).len() - 1;
             for (k, w) in breaks.of(e).windows(2).enumerate() {
-                let (short, long) = &mut extremes[self.root(e, k)];
+                let (short, long, needed) = &mut groups[self.root(e, k)];
                 *short = short.min(w[1] - w[0]);
                 *long = long.max(w[1] - w[0]);
+                *needed = least.div_ceil(intervals).max(*needed);
             }
         }
-        let count = |(short, long): (f64, f64)| {
+        let count = |(short, long, needed): (f64, f64, usize)| {
             let least = (long / (LONGEST_SPRING * spacing)).ceil() as usize;
-            springs_for(0.5 * (short + long), spacing).max(least)
+            springs_for(0.5 * (short + long), spacing).max(least).max(needed)
         };
-        (0..edges).map(|e| (0..breaks.of(e).len() - 1).map(|k| count(extremes[self.root(e, k)])).collect()).collect()
+        (0..edges).map(|e| (0..breaks.of(e).len() - 1).map(|k| count(groups[self.root(e, k)])).collect()).collect()
     }
 }
