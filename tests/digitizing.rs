@@ -12,7 +12,7 @@ use toile::io::pattern_svg::pattern_svg;
 use toile::io::svg_read::read_svg_text;
 use toile::io::svg_write::cutting_svg;
 use toile::mesh::build;
-use toile::pattern::{Cut, Drawing, drawings};
+use toile::pattern::{Cut, DartFile, DartShape, Drawing, drawings};
 
 const INKSCAPE: &str = include_str!("data/inkscape.svg");
 const FREESEWING: &str = include_str!("data/freesewing.svg");
@@ -102,6 +102,70 @@ fn a_freesewing_drawing_gives_seam_fold_grain_and_notches() {
         assert!(lengths(front).iter().any(|l| (l.1 - wanted).abs() < 0.01), "{what} {wanted}: {:?}", lengths(front));
     }
     assert!(front.grain.is_some() && front.notches.len() == 1);
+}
+
+/// Of a piece without allowance at neck and armhole FreeSewing (Aaron) draws the rest of the cut line only.
+#[test]
+fn a_cut_line_in_parts_goes_on_along_the_sewing_line() {
+    let sewn = "M 0,50 L 0,300 L 160,300 L 160,130 C 130,100 130,60 140,20 L 80,0 C 60,30 40,50 0,50 z";
+    let parts =
+        ["M 140,20 L 143.16,10.51 L 83.16,-9.49 L 80,0", "M 0,300 L 0,320 L 160,320 L 170,300 L 170,130 L 160,130"];
+    let [shoulder, rest] = parts.map(|d| format!("<path class='fabric sa' d='{d}'/>"));
+    let svg = format!(
+        "<svg xmlns='http://www.w3.org/2000/svg' width='400mm' height='400mm' viewBox='0 -50 400 400'>\
+         <g id='fs-stack-aaron.front'><path class='fabric' d='{sewn}'/>{shoulder}{rest}</g></svg>"
+    );
+    let pieces = drawn(&from_svg(&svg));
+    let [front] = pieces.as_slice() else { panic!("{} pieces", pieces.len()) };
+    let width = |long: f64| {
+        let edge = front.rings[0].iter().find(|e| (e.path.length() * 1e3 - long).abs() < 0.01);
+        edge.and_then(|e| e.allowance.width).expect("an allowance") * 1e3
+    };
+    let neck = cubic([[0.0, 50.0], [40.0, 50.0], [60.0, 30.0], [80.0, 0.0]]);
+    for (long, wide) in [(neck, 0.0), (60f64.hypot(20.0), 10.0), (170.0, 10.0), (160.0, 20.0), (250.0, 0.0)] {
+        assert!((width(long) - wide).abs() < 0.06, "{long}: {} mm", width(long));
+    }
+}
+
+/// Both lines of a double notch reach from the sewing line to the cut line: which end is nearer is due to rounding.
+#[test]
+fn double_notches_on_slanted_edges_are_read_as_such() {
+    let text = SAMPLE.replace("{side: [100]}", "{side: [40 double, 100 double, 160, 220 double]}");
+    let loaded = read_text("sample", "sample.yaml", &text).expect("a garment");
+    let papers = papers(&drawings(&loaded.file, &loaded.garment), &Options::default());
+    let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
+    for piece in drawn(&from_svg(&cutting_svg("Sample", &sheet))) {
+        let doubles: Vec<bool> = piece.notches.iter().map(|n| n.double).collect();
+        assert_eq!(doubles, [true, true, false, true], "{}", piece.name);
+    }
+}
+
+/// A fish-eye comes back as the dart it was, not as a hole that stays open, nor as lines and marks.
+#[test]
+fn fish_eye_darts_come_back() {
+    let eyes = "    darts:\n      - {name: waist, at: [55, 150], intake: 12, up: 60, down: 40}\n      \
+                - {name: hip, at: [30, 240], intake: 8, up: 30, down: 30}\n  back:\n";
+    let text = SAMPLE.replacen("  back:\n", eyes, 1);
+    let loaded = read_text("sample", "sample.yaml", &text).expect("a garment");
+    for whole in [false, true] {
+        let papers = papers(&drawings(&loaded.file, &loaded.garment), &Options { whole, ..Options::default() });
+        let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
+        let svg = from_svg(&cutting_svg("Sample", &sheet));
+        let dxf = garment_file("sample", &read_dxf_text(&cutting_dxf("Sample", &papers), None).expect("pieces").pieces);
+        for made in [svg, dxf] {
+            let front = made.file.pieces.iter().find(|p| p.name.value == "front").expect("the front");
+            let says = |dart: &DartFile| match &dart.shape {
+                DartShape::FishEye { up, down, .. } => [&dart.intake, up, down].map(|q| q.value.number.round()),
+                DartShape::Edge { .. } => panic!("{dart:?}"),
+            };
+            let darts: Vec<[f64; 3]> = front.darts.iter().map(says).collect();
+            assert_eq!(darts.len(), if whole { 4 } else { 2 }, "{darts:?}");
+            assert!(darts.contains(&[12.0, 60.0, 40.0]) && darts.contains(&[8.0, 30.0, 30.0]), "{darts:?}");
+            assert!(front.holes.is_empty() && front.lines.is_empty(), "{front:?}");
+            let DartShape::FishEye { at, .. } = &front.darts[0].shape else { unreachable!() };
+            assert!(whole || (at.value[0] - 55.0).hypot(at.value[1] - 170.0) < 0.01, "{at:?}");
+        }
+    }
 }
 
 /// Two pieces that are sewn at the side, one of them on the fold, with everything that is drawn.

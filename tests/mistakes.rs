@@ -444,6 +444,44 @@ fn a_fold_on_an_edge_is_told_from_one_on_the_fold_of_a_piece() {
     assert!(on_fold.iter().all(|d| d.severity != Severity::Error), "{on_fold:?}");
 }
 
+/// A seam of a piece that cannot be drawn is still read, and so are tests: one run tells it all.
+#[test]
+fn a_wrong_piece_hides_nothing_of_its_seams_and_of_the_tests() {
+    let wrong = SQUARES
+        .replacen("center: L 0 0", "center: L 0 4", 1)
+        .replace(
+            SIDE,
+            "{sew: front.side, to: bakc.center}\n  hem: {sew: front.hem@80..20, to: back.shouldr, gather: 0.5}\n  \
+             neck: {sew: front.shoulder, to: mirror}",
+        )
+        .replace(
+            "free: [",
+            "tests: [{gap: sied, below: 1}, {gap: side.L, below: 1}, {drape: fornt, area: 1 %}, {drape: front.L, area: \
+             1 %}, {openings: 9}]\nfree: [",
+        );
+    let found = Room::new().finds(&wrong, None);
+    let errors: Vec<&Diagnostic> = found.iter().filter(|d| d.severity == Severity::Error).collect();
+    for words in [
+        "does not close",
+        "piece 'bakc' not found; did you mean 'back'?",
+        "80..20 runs backwards",
+        "edge 'back.shouldr' not found",
+        "gather: 0.5 would stretch",
+        "'sied'",
+        "piece 'fornt' not found; did you mean 'front'?",
+    ] {
+        says_once(&found, words);
+    }
+    assert_eq!(errors.len(), 7, "{errors:#?}");
+}
+
+/// The catalogue of features is no garment: a seam of two folded pieces is wrong on both sides, which is one mistake.
+#[test]
+fn what_is_wrong_on_both_sides_is_said_once() {
+    let found = Room::new().finds(include_str!("data/catalogue.yaml"), None);
+    says_once(&found, "seam 'yoke_skirt': yoke.lower 196.5 mm, skirt.top 206.0 mm");
+}
+
 /// Half a metre wide, in millimetres.
 const CUBE: &str = "\
 v 0 0 0\nv 500 0 0\nv 500 500 0\nv 0 500 0\nv 0 0 500\nv 500 0 500\nv 500 500 500\nv 0 500 500

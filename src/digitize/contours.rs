@@ -3,8 +3,10 @@
 use std::collections::HashMap;
 
 use super::chain::{chained, is_closed};
+use super::fish_eyes::sides;
 use super::holes::holes_of;
 use super::joined::{Joined, joined, unclosed};
+use super::partial::completed;
 use super::{Drawing, Inner, Remark, Role, Stroke, Traced};
 use crate::geometry::{Path, Vec2, distance_to_segment, encloses, sides_of};
 use crate::pattern::Cut;
@@ -194,10 +196,18 @@ impl Sorted {
         self.contours.extend(Contour::new(vec![(edge, stroke.path.clone())], role, name));
     }
 
-    /// Adds what edges make where they meet; a run that stays open is closed by its fold.
+    /// Adds what edges make where they meet; a run that stays open is closed by its fold, or by the sewing line on
+    /// which it begins and ends.
     fn join_edges(&mut self, Open { group, role, edges }: Open) {
         let role = if role == Role::Edge { Role::Sew } else { role };
-        for run in chained(&edges) {
+        let mut runs = chained(&edges);
+        if role == Role::Cut
+            && let Some(cut) = self.partly_cut(group.as_deref(), &runs)
+        {
+            self.contours.extend(Contour::new(vec![(None, cut)], role, group.clone()));
+            runs.retain(|run| is_closed(run));
+        }
+        for run in runs {
             let (Some(first), Some(last)) = (run.first(), run.last()) else { continue };
             let fold = (!is_closed(&run)).then(|| Path::line(last.1.end(), first.1.start()));
             if run.len() < 2 && role == Role::Sew && fold.is_some() {
@@ -208,6 +218,14 @@ impl Sorted {
             edges.extend(fold.map(|fold| (Some("fold".to_owned()), fold)));
             self.contours.extend(Contour::new(edges, role, group.clone()));
         }
+    }
+
+    /// The cut line of the piece of a group of which only the runs that are open are drawn.
+    fn partly_cut<T>(&self, group: Option<&str>, runs: &[Vec<(T, Path)>]) -> Option<Path> {
+        let whole = |run: &Vec<(T, Path)>| run.iter().map(|(_, path)| path.clone()).reduce(|a, b| a.joined(&b));
+        let open: Vec<Path> = runs.iter().filter(|run| !is_closed(run)).filter_map(whole).collect();
+        let own = |c: &&Contour| c.role == Role::Sew && group.is_some() && c.name.as_deref() == group;
+        self.contours.iter().filter(own).find_map(|sewn| completed(&sewn.whole, &open))
     }
 
     /// Adds the outlines that open lines make of which nothing is said. What they enclose on a piece that is too small
@@ -262,7 +280,10 @@ fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> Traced {
     let surface = sewn.map_or(outer, |s| s);
     // A lozenge within is a dart, a ring of a few millimetres a mark; what is left was cut out.
     let is_hole = |c: &&&Contour| c.area() >= SMALLEST_PIECE / 100.0 && c.lies_in(surface);
-    let others = inner.iter().copied().filter(|c| !is_outline(c));
+    let (fish_eyes, others): (Vec<&Contour>, Vec<&Contour>) =
+        inner.iter().copied().filter(|c| !is_outline(c)).partition(|c| sides(c).is_some());
+    traced.lines.extend(fish_eyes.into_iter().filter_map(sides).flatten());
+    let others = others.into_iter();
     let (cut_out, marks): (Vec<&Contour>, Vec<&Contour>) = others.partition(|c| is_hole(&c));
     traced.holes = holes_of(&cut_out);
     traced.points.extend(marks.iter().map(|m| m.points.iter().sum::<Vec2>() / m.points.len() as f64));
@@ -303,7 +324,14 @@ fn middle(stroke: &Stroke) -> Vec2 {
     if stroke.role == Role::Drill { (stroke.path.start() + half) / 2.0 } else { half }
 }
 
+/// Where a notch is: its end on the sewing line, which comes first, if one is there. The other may be on the cut line,
+/// and two of a double one must stand side by side.
 fn nearest_end(ends: [Vec2; 2], outlines: &[&Path]) -> Vec2 {
+    let sewn = |p: &Vec2| outlines.first().map_or(f64::INFINITY, |o| o.nearest(*p).1);
+    let on_sewn = ends.into_iter().filter(|p| sewn(p) <= NEAR).min_by(|a, b| sewn(a).total_cmp(&sewn(b)));
+    if let Some(end) = on_sewn {
+        return end;
+    }
     let off = |p: Vec2| outlines.iter().map(|o| o.nearest(p).1).fold(f64::INFINITY, f64::min);
     if off(ends[0]) <= off(ends[1]) { ends[0] } else { ends[1] }
 }

@@ -2,6 +2,7 @@
 
 use super::darts::{Wedge, closed};
 use super::edges::{Edge, edges, nearest_edge};
+use super::fish_eyes::{FishEye, taken};
 use super::holes::Hole;
 use super::materials::{declared, name_of};
 use super::pairs::paired;
@@ -111,6 +112,8 @@ fn fresh(name: &str, taken: &[String]) -> String {
 }
 
 fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile, Vec<Edge>) {
+    let (fish_eyes, piece) = taken(piece, ON_NOTCH);
+    let piece = &piece;
     let outline = match (&piece.cut, piece.sew.is_empty()) {
         (Some(cut), true) => {
             notes.push(format!("'{name}' has only a cut line: it is taken as the sewing line, with no allowance"));
@@ -120,7 +123,8 @@ fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile
     };
     let (outline, wedges) = closed(&outline);
     let mut edges = edges(&outline, &piece.notches);
-    let darts: Vec<DartFile> = wedges.iter().filter_map(|wedge| dart(wedge, &mut edges)).collect();
+    let mut darts: Vec<DartFile> = wedges.iter().filter_map(|wedge| dart(wedge, &mut edges)).collect();
+    darts.extend(fish_eyes.iter().map(fish_eye));
     let pleats: Vec<PleatFile> = piece.pleats.iter().filter_map(|ends| pleat(*ends, &mut edges)).collect();
     notes.extend(untold(name, piece));
     // What lies on the fold of the cloth lies along the warp.
@@ -238,6 +242,12 @@ fn dart(wedge: &Wedge, edges: &mut [Edge]) -> Option<DartFile> {
     let tip = Some(at_no_place(file_point(wedge.tip)));
     let shape = DartShape::Edge { edge: at_no_place(name), at: millimetres(at), length: None, tip };
     Some(DartFile { name: Some(at_no_place(word(&wedge.name))), intake: millimetres(intake), shape })
+}
+
+fn fish_eye(dart: &FishEye) -> DartFile {
+    let (up, down) = (millimetres(dart.up), millimetres(dart.down));
+    let shape = DartShape::FishEye { at: at_no_place(file_point(dart.at)), up, down };
+    DartFile { name: Some(at_no_place(word(&dart.name))), intake: millimetres(dart.intake), shape }
 }
 
 /// A knife pleat that is folded at the first point and brought to the second, without the notches there. (Box and

@@ -9,10 +9,12 @@ mod contours;
 mod darts;
 mod edges;
 mod file;
+mod fish_eyes;
 mod holes;
 mod joined;
 mod materials;
 mod pairs;
+mod partial;
 mod smooth;
 mod suggest;
 

@@ -227,10 +227,12 @@ impl Findings {
     pub fn into_sorted(mut self) -> Vec<Diagnostic> {
         self.count_others();
         self.found.sort_by_key(Diagnostic::order);
-        // Both sides of a pair make the same mistake: it is said once.
+        // Both sides of a pair make the same mistake: it is said once. Only the words are compared: lengths of what is
+        // mirrored differ in their last digits.
         let mut unique: Vec<Diagnostic> = Vec::new();
+        let words = |d: &Diagnostic| (d.severity, d.spot(), d.message.clone());
         for diagnostic in self.found {
-            if !unique.contains(&diagnostic) {
+            if !unique.iter().any(|known| words(known) == words(&diagnostic)) {
                 unique.push(diagnostic);
             }
         }

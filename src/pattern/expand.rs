@@ -42,14 +42,12 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
     let sound = drafts.len() == file.pieces.len();
     let default_fabric = fabrics.first().map_or(DEFAULT_FABRIC, |f| &f.name);
     let cut = cut(&drafts, default_fabric);
-    // A seam of a piece that could not be drawn would be reported as naming a piece that is not there.
-    let readable = without_undrawn(file, &drafts);
     let before = findings.errors();
-    let seams = seams(&readable, &drafts, &cut, findings);
+    let seams = seams(file, &drafts, &cut, findings);
     if sound && findings.errors() == before {
-        cover::check(&readable, &pieces, &drafts, &cut, &seams, findings);
-        cover::check_free_but_sewn(&readable, &drafts, &cut, &seams, findings);
-        cover::check_joined(&readable, &drafts, &cut, &seams, findings);
+        cover::check(file, &pieces, &drafts, &cut, &seams, findings);
+        cover::check_free_but_sewn(file, &drafts, &cut, &seams, findings);
+        cover::check_joined(file, &drafts, &cut, &seams, findings);
     }
     let closures = if sound { closure::closures(file, &drafts, &cut, findings) } else { Vec::new() };
     let Seams { seams, written, .. } = seams;
@@ -63,25 +61,15 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
         closures,
         tests: Vec::new(),
     };
-    let seam_file = |w: &Option<usize>| w.map(|i| &readable.seams[i]);
+    let seam_file = |w: &Option<usize>| w.map(|i| &file.seams[i]);
     let turns: Vec<bool> = written.iter().map(|w| seam_file(w).is_some_and(SeamFile::is_face_same)).collect();
     let spots: Vec<Spot> = written.iter().map(|w| seam_file(w).map_or(file.version.at, |s| s.name.at)).collect();
     check_orientable(&garment, &turns, &spots, findings);
     layers::check(&garment, &turns, &spots, findings);
-    notch::check(&garment, &written, &readable.seams, findings);
-    if sound && findings.errors() == before {
-        garment.tests = bound::bounds(file, &garment, findings);
-    }
+    notch::check(&garment, &written, &file.seams, findings);
+    let sewable = sound && findings.errors() == before;
+    garment.tests = bound::bounds(file, &garment, sewable, findings);
     Some(garment)
-}
-
-fn without_undrawn(file: &GarmentFile, drafts: &[Draft]) -> GarmentFile {
-    let undrawn =
-        |name: &str| file.pieces.iter().any(|p| p.name.value == name) && !drafts.iter().any(|d| d.name == name);
-    let names_one = |refs: &[Located<String>]| refs.iter().any(|r| undrawn(super::reference::piece_of(&r.value)));
-    let mut readable = file.clone();
-    readable.seams.retain(|s| !names_one(&s.sew) && !names_one(&s.to));
-    readable
 }
 
 /// The fabrics a file names, in its order; the usual one if it names none.

@@ -34,8 +34,17 @@ pub(super) struct Seams {
 
 /// Reads all seams.
 pub(super) fn seams(file: &super::GarmentFile, drafts: &[Draft], cut: &Pieces, findings: &mut Findings) -> Seams {
-    let source = Source { drafts, cut, unit: file.unit() };
-    let candidates: Vec<Candidate> = file.seams.iter().flat_map(|s| source.candidates(s, findings)).collect();
+    let pieces = file.pieces.iter().map(|p| p.name.value.as_str()).collect();
+    let source = Source { drafts, cut, unit: file.unit(), pieces };
+    let mut candidates: Vec<Candidate> = Vec::new();
+    for seam in &file.seams {
+        check_ratios(seam, findings);
+        if source.names_undrawn(seam) {
+            source.check_references(seam, findings);
+        } else {
+            candidates.extend(source.candidates(seam, findings));
+        }
+    }
     let own = own_seams(drafts, cut);
     let mut out = Seams::default();
     let finish = Finish { cut, rims: Rims::new(&cut.pieces), unit: file.unit() };
@@ -158,21 +167,10 @@ impl Finish<'_> {
             }
             return Give::Ease(extra);
         }
-        if let Some(ratio) = &file.gather {
-            if ratio.value < 1.0 {
-                let percent = (1.0 / ratio.value - 1.0) * 100.0;
-                findings.error(ratio.at, Problem::GatherBelowOne { ratio: ratio.value, percent });
-            }
-            return Give::Gather(ratio.value);
-        }
-        match &file.stretch {
-            Some(ratio) => {
-                if ratio.value < 1.0 {
-                    findings.error(ratio.at, Problem::StretchBelowOne { ratio: ratio.value });
-                }
-                Give::Stretch(ratio.value)
-            }
-            None => Give::Even,
+        match (&file.gather, &file.stretch) {
+            (Some(ratio), _) => Give::Gather(ratio.value),
+            (None, Some(ratio)) => Give::Stretch(ratio.value),
+            (None, None) => Give::Even,
         }
     }
 
@@ -298,6 +296,17 @@ fn check_lengths(candidate: &Candidate, lengths: (f64, f64), give: Give, toleran
             tolerance: allowed * 1e3,
         },
     );
+}
+
+/// What is gathered or stretched on says how much longer it is, whatever is wrong with the lengths.
+fn check_ratios(file: &SeamFile, findings: &mut Findings) {
+    if let Some(ratio) = file.gather.as_ref().filter(|ratio| ratio.value < 1.0) {
+        let percent = (1.0 / ratio.value - 1.0) * 100.0;
+        findings.error(ratio.at, Problem::GatherBelowOne { ratio: ratio.value, percent });
+    }
+    if let Some(ratio) = file.stretch.as_ref().filter(|ratio| ratio.value < 1.0) {
+        findings.error(ratio.at, Problem::StretchBelowOne { ratio: ratio.value });
+    }
 }
 
 /// The ratio of the lengths beside the one that is said, and what that would make of the second.

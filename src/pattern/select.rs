@@ -61,12 +61,36 @@ pub(super) struct Source<'a> {
     pub(super) drafts: &'a [Draft],
     pub(super) cut: &'a Pieces,
     pub(super) unit: Unit,
+    /// The names of all pieces of the file, also of those that could not be drawn.
+    pub(super) pieces: Vec<&'a str>,
 }
 
 impl Source<'_> {
+    /// Whether the file has a piece of this name which could not be drawn.
+    fn is_undrawn(&self, piece: &str) -> bool {
+        self.pieces.contains(&piece) && !self.drafts.iter().any(|d| d.name == piece)
+    }
+
+    /// Whether a seam names a piece that could not be drawn.
+    pub(super) fn names_undrawn(&self, seam: &SeamFile) -> bool {
+        seam.sew.iter().chain(&seam.to).any(|r| self.is_undrawn(super::reference::piece_of(&r.value)))
+    }
+
+    /// What is wrong with the references of a seam that names a piece that could not be drawn: of that piece nothing
+    /// is known but its name.
+    pub(super) fn check_references(&self, seam: &SeamFile, findings: &mut Findings) {
+        let sides = [&seam.sew, &seam.to].into_iter().filter(|side| !is_mirror(side));
+        for written in sides.flatten() {
+            let known = |r: Reference| if self.is_undrawn(&r.piece) { Ok(()) } else { self.find(seam, r).map(|_| ()) };
+            if let Err(problem) = Reference::parse(written).and_then(known) {
+                findings.error(written.at, problem);
+            }
+        }
+    }
+
     /// The seams a seam of the file stands for: none (on the fold, or wrong), one, or one per side or copy.
     pub(super) fn candidates<'f>(&self, seam: &'f SeamFile, findings: &mut Findings) -> Vec<Candidate<'f>> {
-        let mirror = matches!(seam.to.as_slice(), [to] if to.value == "mirror");
+        let mirror = is_mirror(&seam.to);
         let before = findings.errors();
         let a = self.find_all(seam, &seam.sew, findings);
         let b = if mirror { Vec::new() } else { self.find_all(seam, &seam.to, findings) };
@@ -92,9 +116,8 @@ impl Source<'_> {
     }
 
     fn find(&self, seam: &SeamFile, reference: Reference) -> Result<Found, Problem> {
-        let names = || self.drafts.iter().map(|d| d.name.as_str());
-        let draft =
-            names().position(|n| n == reference.piece).ok_or_else(|| unknown_piece(&reference.piece, names()))?;
+        let draft = self.drafts.iter().position(|d| d.name == reference.piece);
+        let draft = draft.ok_or_else(|| unknown_piece(&reference.piece, self.pieces.iter().copied()))?;
         let drawn = &self.drafts[draft];
         let edge = drawn.find(&reference.edge).ok_or_else(|| drawn.unknown_edge(&reference.edge))?;
         let (mut from, mut to) = (0.0, edge.length);
@@ -249,6 +272,10 @@ impl Source<'_> {
         let (_, b) = self.runs(seam, &other, Choice::Side(side.other()))?;
         Ok(vec![Candidate { file: seam, name: seam.name.value.clone(), a, b, with }])
     }
+}
+
+fn is_mirror(chain: &[super::Located<String>]) -> bool {
+    matches!(chain, [to] if to.value == "mirror")
 }
 
 type Located = (super::Spot, Problem);
