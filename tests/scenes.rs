@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use toile::drape::{DrapeOptions, Until, drape};
+use toile::dynamics::GRIP;
 use toile::pipeline::{Job, Overrides, Run, read};
 use toile::report::{Contact, Report};
-use toile::sew::{SewOptions, place, sew};
+use toile::sew::{SewOptions, place, sew, sewn_world};
 
 /// The scene at `spacing` mm.
 fn scene(name: &str, spacing: f64) -> Job {
@@ -133,6 +134,35 @@ fn a_cuff_stays_turned_up() {
     };
     let up = height(0.64) - height(0.57);
     assert!((up - 0.07).abs() < 0.01, "the hem lies {up} m above the fold");
+}
+
+/// Draped askew on a tip, held by its friction (which it takes up in sliding a little), and left alone for ten seconds.
+#[test]
+fn a_sheet_at_rest_lies_still() {
+    let job = scene("sheet_on_cone.yaml", 40.0);
+    let placed = place::place(&job.garment, &job.mesh, &job.body, &job.collider).expect("placed");
+    let sewn = sew(&job.cut(), &job.collider, placed, &SewOptions::default(), &mut |_| {}).expect("nothing to sew");
+    let (stitching, options) = (&sewn.stitching, DrapeOptions::default());
+    let draped = drape(&job.cut(), &job.collider, stitching, sewn.nodes, &options, &mut |_| {}).expect("finite");
+    let mut world = sewn_world(&job.cut(), &job.collider, stitching, draped.nodes).expect("a world");
+    world.gravity = 1.0;
+    world.grip(GRIP);
+    world.harden();
+    let dt = 0.01;
+    for _ in 0..400 {
+        world.advance(dt, 0.95, &[]).expect("a step");
+    }
+    let (before, energy) = (world.x.clone(), world.energy());
+    let mut fastest = 0.0f64;
+    for _ in 0..1000 {
+        // Nothing but the steps themselves takes from its velocity.
+        world.advance(dt, 1.0, &[]).expect("a step");
+        fastest = world.velocity.iter().map(|v| v.norm()).fold(fastest, f64::max);
+    }
+    let drift = world.x.iter().zip(&before).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    let gained = world.energy() / energy - 1.0;
+    assert!(fastest < 1e-3 && drift < 1e-3, "up to {fastest} m/s, {drift} m far");
+    assert!((-1e-4..1e-9).contains(&gained), "its energy changes by {gained:e} of itself");
 }
 
 #[test]

@@ -120,6 +120,21 @@ fn two_triangles_that_cross_and_two_that_touch() {
 }
 
 #[test]
+fn a_triangle_without_area_passes_through_another() {
+    let face = [Vec3::zeros(), Vec3::x(), Vec3::y()];
+    let (below, above) = (Vec3::new(0.2, 0.2, -0.5), Vec3::new(0.2, 0.2, 0.5));
+    for [k, third] in [[0.2, 0.1], [0.2, 0.5], [0.2, -0.5], [0.8, 0.1]] {
+        // All three in one line, or two of them in one place.
+        let needle = [below, above, Vec3::new(0.2, 0.2, third)].map(|p| Vec3::new(k, p.y, p.z));
+        for (a, b) in [(face, needle), (needle, face)] {
+            let mesh = TriMesh { vertices: [a, b].concat(), triangles: vec![[0, 1, 2], [3, 4, 5]] };
+            let expected = if k < 0.5 { 1 } else { 0 };
+            assert_eq!(crossings(&mesh).len(), expected, "{k} {third}");
+        }
+    }
+}
+
+#[test]
 fn random_soups_agree_with_brute_force() {
     let mut noise = Noise(7);
     for size in [0.25, 0.5, 1.0] {

@@ -57,11 +57,12 @@ fn crossed(corners: &[Vec3; 3], mesh: &TriMesh, tree: &Tree, wanted: impl Fn(u32
 /// Whether a side of one triangle passes strictly through the inside of the other.
 fn cross(a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
     let sides_of_b = b.map(|p| orient(&a[0], &a[1], &a[2], &p));
-    if !both_sides(sides_of_b) {
+    // Everything lies in the plane of an `a` without area, whose sides may pass through `b` all the same.
+    if !both_sides(sides_of_b) && sides_of_b != [0; 3] {
         return false;
     }
     let sides_of_a = a.map(|p| orient(&b[0], &b[1], &b[2], &p));
-    both_sides(sides_of_a) && (pierces(b, sides_of_b, a) || pierces(a, sides_of_a, b))
+    pierces(b, sides_of_b, a) || pierces(a, sides_of_a, b)
 }
 
 fn both_sides(sides: [i8; 3]) -> bool {
