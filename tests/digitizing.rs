@@ -127,6 +127,31 @@ fn a_cut_line_in_parts_goes_on_along_the_sewing_line() {
     }
 }
 
+/// A drawing as FreeSewing makes it, of what stands in its parts.
+fn freesewing(parts: &[(&str, &str)]) -> String {
+    let group = |(name, inside): &(&str, &str)| format!("<g id='fs-stack-some.{name}'>{inside}</g>");
+    format!(
+        "<svg xmlns='http://www.w3.org/2000/svg' xmlns:xlink='http://www.w3.org/1999/xlink' width='900mm' \
+         height='900mm' viewBox='-100 -100 900 900'>{}</svg>",
+        parts.iter().map(group).collect::<String>()
+    )
+}
+
+/// FreeSewing (Breanna) draws the mouth of a dart where the seam allowance is, beyond the legs.
+#[test]
+fn lines_in_the_allowance_are_none_of_the_piece() {
+    let back = "<path class='fabric' id='fs-1' d='M 0,0 V 300 H 90 L 100,200 L 110,300 H 200 V 0 z'/>\
+                <path class='fabric dotted' id='fs-2' d='M 90,300 L 100,300.7 L 110,300'/>\
+                <path class='sa' id='fs-3' d='M -10,-10 V 310 H 90 L 100,310.7 L 110,310 H 210 V -10 z'/>\
+                <path class='fabric dotted' id='fs-4' d='M 20,100 H 60'/>";
+    let read = read_svg_text(&freesewing(&[("back", back)])).expect("a piece");
+    assert_eq!(read.left_out, ["left out: 1 line in the allowance of 'back', beyond its sewing line"]);
+    let pieces = drawn(&garment_file("drawing", &read.pieces));
+    let lines: Vec<(&str, f64)> = pieces[0].lines.iter().map(|l| (l.name.as_str(), l.path.length())).collect();
+    let [(name, length)] = lines[..] else { panic!("{lines:?}") };
+    assert!((length - 0.040).abs() < EXACT && !name.starts_with("fs"), "{lines:?}");
+}
+
 /// Both lines of a double notch reach from the sewing line to the cut line: which end is nearer is due to rounding.
 #[test]
 fn double_notches_on_slanted_edges_are_read_as_such() {

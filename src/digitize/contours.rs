@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::chain::{chained, is_closed};
 use super::fish_eyes::sides;
 use super::holes::holes_of;
-use super::joined::{Joined, joined, unclosed};
+use super::joined::{Joined, beyond_seam, joined, unclosed};
 use super::partial::completed;
 use super::{Drawing, Inner, Remark, Role, Stroke, Traced};
 use crate::geometry::{Path, Vec2, distance_to_segment, encloses, sides_of};
@@ -82,8 +82,13 @@ impl Contour {
 
     /// Whether the middle of a line lies in it or on it.
     fn owns(&self, line: &Stroke) -> bool {
-        let middle = line.path.point(line.path.length() / 2.0);
+        let middle = half_way(line);
         self.holds(middle) || self.whole.nearest(middle).1 <= NEAR
+    }
+
+    /// Whether a point lies in it or, but for what programs round, on it.
+    fn covers(&self, p: Vec2) -> bool {
+        self.holds(p) || self.off(p) <= COARSE
     }
 
     fn area(&self) -> f64 {
@@ -96,12 +101,13 @@ impl Contour {
 }
 
 /// The pieces that strokes make, in the order of the drawing; what is written on one may say how it is cut. Open lines
-/// that belong to none are left out.
+/// that belong to none are left out, and so are lines in a piece's allowance.
 pub fn pieces(strokes: &[Stroke], remarks: &[Remark]) -> Drawing {
     let Sorted { contours, rest, alone } = Sorted::new(strokes);
     let mut outer: Vec<usize> = (0..contours.len()).filter(|&i| contours[i].area() >= SMALLEST_PIECE).collect();
     let within = |i: usize, k: usize| i != k && contours[i].lies_in(&contours[k]);
     outer.retain(|&i| !(0..contours.len()).any(|k| within(i, k)));
+    let mut left_out = Vec::new();
     let piece = |&o: &usize| {
         let inner: Vec<&Contour> = (0..contours.len()).filter(|&i| within(i, o)).map(|i| &contours[i]).collect();
         let mut own = remarks.iter().enumerate().filter(|(_, r)| contours[o].holds(r.at));
@@ -111,13 +117,16 @@ pub fn pieces(strokes: &[Stroke], remarks: &[Remark]) -> Drawing {
             Some(Said::OnFold(count)) => (None, Some(count)),
             None => (None, None),
         };
-        Traced { cut_how, on_fold, said_by, ..piece(&contours[o], &inner, &rest) }
+        let (traced, beyond) = piece(&contours[o], &inner, &rest);
+        left_out.extend(beyond_seam(&traced.name, &beyond));
+        Traced { cut_how, on_fold, said_by, ..traced }
     };
     let pieces = outer.iter().map(piece).collect();
     let is_on_one = |line: &Stroke| outer.iter().any(|&o| contours[o].owns(line));
     let open = rest.iter().filter(|line| line.role == Role::Unknown).chain(&alone);
     let open: Vec<Stroke> = open.filter(|line| !is_on_one(line)).cloned().collect();
-    Drawing { pieces, left_out: unclosed(&open), ..Drawing::default() }
+    left_out.extend(unclosed(&open));
+    Drawing { pieces, left_out, ..Drawing::default() }
 }
 
 /// What is written on a piece of how it is cut.
@@ -251,7 +260,8 @@ impl Sorted {
     }
 }
 
-fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> Traced {
+/// The piece within a contour, and the lines in its allowance: those are none of the sewn piece.
+fn piece<'a>(outer: &Contour, inner: &[&Contour], rest: &'a [Stroke]) -> (Traced, Vec<&'a Stroke>) {
     // Within a cut line an edge is sewn, however wide the allowance; within another line it may be that of a hole.
     let is_sewn = |c: &Contour| match c.role {
         Role::Sew => true,
@@ -287,7 +297,7 @@ fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> Traced {
     let (cut_out, marks): (Vec<&Contour>, Vec<&Contour>) = others.partition(|c| is_hole(&c));
     traced.holes = holes_of(&cut_out);
     traced.points.extend(marks.iter().map(|m| m.points.iter().sum::<Vec2>() / m.points.len() as f64));
-    let mut folds = Vec::new();
+    let (mut folds, mut beyond) = (Vec::new(), Vec::new());
     for stroke in rest {
         let middle = middle(stroke);
         let ends = [stroke.path.start(), stroke.path.end()];
@@ -308,6 +318,8 @@ fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> Traced {
             Role::Unknown if short && ends.iter().any(|&p| near(p)) => {
                 traced.notches.push(nearest_end(ends, &outlines));
             }
+            // FreeSewing draws the mouths of darts so.
+            _ if !surface.covers(middle) => beyond.push(stroke),
             _ => traced.lines.push(Inner {
                 name: stroke.name.clone(),
                 path: stroke.path.clone(),
@@ -315,12 +327,17 @@ fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> Traced {
             }),
         }
     }
-    traced
+    (traced, beyond)
+}
+
+/// The point half way along a stroke.
+fn half_way(stroke: &Stroke) -> Vec2 {
+    stroke.path.point(stroke.path.length() / 2.0)
 }
 
 /// Where a stroke is: half way along it, or in the middle of the ring round a drill hole.
 fn middle(stroke: &Stroke) -> Vec2 {
-    let half = stroke.path.point(stroke.path.length() / 2.0);
+    let half = half_way(stroke);
     if stroke.role == Role::Drill { (stroke.path.start() + half) / 2.0 } else { half }
 }
 

@@ -88,6 +88,16 @@ fn sentence(layer: Option<&str>, lines: &[&Stroke]) -> String {
     )
 }
 
+/// What to say of lines between the sewing line and the cut line of a piece, if there are any.
+pub(super) fn beyond_seam(piece: &str, lines: &[&Stroke]) -> Option<String> {
+    let what = match lines.len() {
+        0 => return None,
+        1 => "1 line".to_owned(),
+        count => format!("{count} lines"),
+    };
+    Some(format!("left out: {what}{} in the allowance of '{piece}', beyond its sewing line", listed(lines)))
+}
+
 /// ` ('waist', 'side')`, as far as they have names.
 fn listed(lines: &[&Stroke]) -> String {
     let names: Vec<String> = lines.iter().filter_map(|l| Some(format!("'{}'", l.name.as_ref()?))).collect();

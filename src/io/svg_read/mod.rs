@@ -339,10 +339,14 @@ fn group_name(node: Node) -> Option<GroupName> {
     Some(GroupName { name: name.to_owned(), is_piece: !holds })
 }
 
-/// `g123`, `path45-6`, `layer1`, `svg8`: names that programs give.
+/// Names that programs give, without their numbers: `g123`, `path45-6`, `layer1`, FreeSewing's `fs-7`.
+const MADE_UP: [&str; 13] =
+    ["g", "path", "rect", "layer", "svg", "polygon", "polyline", "circle", "use", "group", "Group", "fs", ""];
+
+/// Whether a program gave this name.
 fn is_made_up(id: &str) -> bool {
     let stem = id.trim_end_matches(|c: char| c.is_ascii_digit() || c == '-' || c == '_');
-    ["g", "path", "rect", "layer", "svg", "polygon", "polyline", "circle", "use", "group", "Group", ""].contains(&stem)
+    MADE_UP.contains(&stem)
 }
 
 /// The element's own name; of `piece.edge` in the group `piece` it is the edge.
