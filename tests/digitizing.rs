@@ -152,6 +152,22 @@ fn lines_in_the_allowance_are_none_of_the_piece() {
     assert!((length - 0.040).abs() < EXACT && !name.starts_with("fs"), "{lines:?}");
 }
 
+/// On a sleeve cap FreeSewing's `bnotch` tells the back from the front, as a double notch does.
+#[test]
+fn a_back_notch_of_freesewing_is_a_double_one() {
+    let sleeve = "<path class='fabric' d='M 0,0 C 50,-90 150,-90 200,0 L 200,300 L 0,300 z'/>\
+                  <use x='38.6' y='-45.8' xlink:href='#bnotch'/><use x='200' y='100' xlink:href='#notch'/>\
+                  <use x='0' y='200' xlink:href='#bnotch'/><use x='50' y='300' xlink:href='#bnotch'/>";
+    let pieces = drawn(&from_svg(&freesewing(&[("sleeve", sleeve)])));
+    // Clockwise from the right side.
+    let doubles: Vec<bool> = pieces[0].notches.iter().map(|n| n.double).collect();
+    assert_eq!(doubles, [false, true, true, true], "{:?}", pieces[0].notches);
+    for long in [100.0, 150.0] {
+        let edges = lengths(&pieces[0]);
+        assert!(edges.iter().any(|l| (l.1 - long).abs() < EXACT * 1e3), "{long}: {edges:?}");
+    }
+}
+
 /// Both lines of a double notch reach from the sewing line to the cut line: which end is nearer is due to rounding.
 #[test]
 fn double_notches_on_slanted_edges_are_read_as_such() {

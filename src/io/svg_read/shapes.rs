@@ -5,6 +5,10 @@ use roxmltree::Node;
 /// Metres per CSS pixel.
 pub(super) const PIXEL: f64 = 0.0254 / 96.0;
 
+/// The lines of a double notch are so far from its middle, in user units: less than what a notch may be off the edge,
+/// however the edge runs.
+const BESIDE: f64 = 1.0;
+
 /// A length in metres; percentages and units of type have none.
 pub(super) fn length(text: &str) -> Option<f64> {
     let text = text.trim();
@@ -49,10 +53,20 @@ pub(super) fn commands(node: Node, name: &str) -> Option<String> {
             let arc = |by: f64| format!("a {rx} {ry} 0 0 1 {by} 0");
             (rx > 0.0 && ry > 0.0).then(|| format!("M {x} {y} {} {} Z", arc(2.0 * rx), arc(-2.0 * rx)))
         }
-        // A notch is a symbol put in a place.
-        "use" => Some(format!("M {x} {y} L {x} {}", zero("y") + 0.001, x = zero("x"), y = zero("y"))),
+        "use" => Some(notch([zero("x"), zero("y")], is_back_notch(node))),
         _ => None,
     }
+}
+
+/// A notch as a symbol put in a place; a double one as two that have it in their middle.
+fn notch([x, y]: [f64; 2], double: bool) -> String {
+    let at = |x: f64| format!("M {x} {y} L {x} {} ", y + 0.001);
+    if double { at(x - BESIDE) + &at(x + BESIDE) } else { at(x) }
+}
+
+/// Whether it is the symbol with which FreeSewing marks the back, where a notch is double by custom.
+fn is_back_notch(node: Node) -> bool {
+    node.attributes().any(|a| a.name() == "href" && a.value() == "#bnotch")
 }
 
 /// Radii as SVG means them: one that is missing (`auto`, or negative) is as the other; `None` where both are.
