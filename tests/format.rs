@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use regex::Regex;
 use serde_json::Value;
 use toile::io::garment::{Refused, SCHEMA, read_file_only, read_text};
 use toile::pattern::Problem;
@@ -155,6 +156,32 @@ fn the_schema_has_every_key_and_no_other() {
         let name = part.split('"').next().expect("a name");
         assert!(schema["$defs"][name].is_object(), "{name}");
     }
+}
+
+/// What stands in a text is told as right and wrong by the schema as by the reader.
+#[test]
+fn the_schema_knows_lengths_paths_and_ways_to_cut() {
+    let schema: Value = serde_json::from_str(SCHEMA).expect("JSON");
+    let kinds = &schema["$defs"];
+    let cut = &kinds["piece"]["properties"]["cut"];
+    let point = &kinds["point"]["oneOf"][1];
+    let path = "L 100 20 c 1e1,-.5 2-3 4 5 Z";
+    for (kind, right, wrong) in [
+        (cut, &["one", "pair", "fold center", "3", "100"][..], &["twice", "fold", "fold a b", "0", "101"][..]),
+        (&kinds["path"], &[path, "M 0 0 H 3"], &["X 1 2", "neck", "L 1 2 mm"]),
+        (&kinds["length"], &["12", "1.2 cm", "-.5in", "1e1 mm"], &["much", "12 furlongs", "5 %", "mm", "1 2"]),
+        (&kinds["along"], &["12", "1.2 cm", "50 %"], &["half", "12 double"]),
+        (&kinds["notch"], &["60 double", "50 %", "12 mm"], &["double", "60 triple"]),
+        (&kinds["width"], &["30 folded", "1 cm mitred", "12"], &["folded 30", "30 round", "5 %"]),
+        (&kinds["share"], &["0.5 %", "0.005"], &["5 mm", "most"]),
+        (point, &["0 20", "1.5, -2"], &["0", "12 mm", "1 2 3"]),
+    ] {
+        let pattern = kind["pattern"].as_str().unwrap_or_else(|| panic!("a pattern: {kind}"));
+        let pattern = Regex::new(pattern).expect(pattern);
+        right.iter().for_each(|text| assert!(pattern.is_match(text), "{text}: {pattern}"));
+        wrong.iter().for_each(|text| assert!(!pattern.is_match(text), "{text}: {pattern}"));
+    }
+    assert_eq!(kinds["seam"]["properties"]["gather"]["minimum"], 1);
 }
 
 #[test]
