@@ -168,6 +168,20 @@ fn a_back_notch_of_freesewing_is_a_double_one() {
     }
 }
 
+/// An outline that open lines make stands where it is drawn, not behind those that are closed.
+#[test]
+fn pieces_come_in_the_order_of_the_drawing() {
+    let [open, closed] = [["M 0,0 V 100 H 100", "M 100,100 V 0 H 0"], ["M 200,0 V 100 H 300 V 0 z", ""]];
+    let inside = |paths: [&str; 2]| {
+        let drawn = paths.into_iter().filter(|d| !d.is_empty());
+        drawn.map(|d| format!("<path class='fabric sa' d='{d}'/>")).collect::<String>()
+    };
+    let [open, closed] = [open, closed].map(inside);
+    let read = read_svg_text(&freesewing(&[("front", &open), ("back", &closed)])).expect("pieces");
+    let names: Vec<&str> = read.pieces.iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(names, ["front", "back"]);
+}
+
 /// Both lines of a double notch reach from the sewing line to the cut line: which end is nearer is due to rounding.
 #[test]
 fn double_notches_on_slanted_edges_are_read_as_such() {

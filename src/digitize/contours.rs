@@ -91,6 +91,12 @@ impl Contour {
         self.holds(p) || self.off(p) <= COARSE
     }
 
+    /// Which of the drawing's strokes, given by their middles, is the first that runs along it.
+    fn first_drawn(&self, middles: &[Vec2]) -> Option<usize> {
+        let is_beside = |p: &Vec2| (0..2).all(|k| p[k] >= self.bounds[0][k] - NEAR && p[k] <= self.bounds[1][k] + NEAR);
+        middles.iter().position(|p| is_beside(p) && self.off(*p) <= NEAR)
+    }
+
     fn area(&self) -> f64 {
         self.whole.double_area().abs() / 2.0
     }
@@ -107,6 +113,9 @@ pub fn pieces(strokes: &[Stroke], remarks: &[Remark]) -> Drawing {
     let mut outer: Vec<usize> = (0..contours.len()).filter(|&i| contours[i].area() >= SMALLEST_PIECE).collect();
     let within = |i: usize, k: usize| i != k && contours[i].lies_in(&contours[k]);
     outer.retain(|&i| !(0..contours.len()).any(|k| within(i, k)));
+    // Outlines of open lines were put together last, wherever they are drawn.
+    let middles: Vec<Vec2> = strokes.iter().map(half_way).collect();
+    outer.sort_by_cached_key(|&o| contours[o].first_drawn(&middles).unwrap_or(strokes.len()));
     let mut left_out = Vec::new();
     let piece = |&o: &usize| {
         let inner: Vec<&Contour> = (0..contours.len()).filter(|&i| within(i, o)).map(|i| &contours[i]).collect();
