@@ -232,6 +232,7 @@ fn position<'a>(words: impl Iterator<Item = &'a str>) -> Result<Vec3, String> {
                 }
                 count += 1;
             }
+            Ok(v) if v.is_finite() => return Err(format!("coordinate '{}' is too large", shown(word, WORD))),
             Ok(_) => return Err(format!("coordinate '{}' is not finite", shown(word, WORD))),
             Err(_) => return Err(format!("'{}' is no number; a vertex is v x y z", shown(word, WORD))),
         }
@@ -297,7 +298,7 @@ mod tests {
         assert_eq!(said(&format!("{square}f 1 2 0")), "a.obj:4: face uses vertex 0, but the file has 1 to 3");
         assert_eq!(said(&format!("{square}\nf 1 2")), "a.obj:5: a face of 2 corners; three or more are needed");
         assert_eq!(said("v 0 0 nan"), "a.obj:1: coordinate 'nan' is not finite");
-        assert_eq!(said("v 0 1e300 0"), "a.obj:1: coordinate '1e300' is not finite");
+        assert_eq!(said("v 0 1e300 0"), "a.obj:1: coordinate '1e300' is too large");
         assert_eq!(said("\nv 0 0"), "a.obj:2: 2 coordinates; a vertex is v x y z");
         assert_eq!(said("v 0 zero 0"), "a.obj:1: 'zero' is no number; a vertex is v x y z");
         assert!(said(square).contains("no faces"));
