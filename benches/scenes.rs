@@ -12,7 +12,7 @@ use toile::pipeline::Run;
 use toile::report::{Contact, Stage};
 
 /// Files below `tests/scenes` and their spacings, mm.
-const SCENES: [(&str, f64); 12] = [
+const SCENES: [(&str, f64); 13] = [
     ("sheet_on_sphere.yaml", 20.0),
     ("sheet_on_sphere.yaml", 10.0),
     ("sheet_on_bar.yaml", 10.0),
@@ -23,6 +23,7 @@ const SCENES: [(&str, f64); 12] = [
     ("cushion.yaml", 10.0),
     ("belt.yaml", 5.0),
     ("turned_cuff.yaml", 8.0),
+    ("two_layers.yaml", 10.0),
     ("close_legs.yaml", 10.0),
     ("close_arms.yaml", 10.0),
 ];

@@ -136,6 +136,26 @@ fn a_cuff_stays_turned_up() {
     assert!((up - 0.07).abs() < 0.01, "the hem lies {up} m above the fold");
 }
 
+#[test]
+fn a_skirt_is_worn_over_a_skirt() {
+    let name = "two_layers.yaml";
+    let job = scene(name, 30.0);
+    let mut sewn = Run::new(&job);
+    sewn.sew(&mut |_, _| {}).expect(name);
+    let report = sewn.report();
+    assert_eq!(report.contact, Contact::default(), "as sewn: {:?}", report.crossings);
+    let (run, report) = rests(name, &job);
+    assert!(report.worn.len() == 4 && report.worn.iter().all(|w| w.body_part.is_some()), "{:?}", report.worn);
+    // The outer one is outside all round: further from the axis of the body, height by height.
+    let x = run.last().expect("draped");
+    let girth = |piece: usize| {
+        let on = job.mesh.pieces[piece].particles.clone().filter(|p| (job.mesh.flat[*p].y - 0.12).abs() < 0.05);
+        let from_axis: Vec<f64> = on.map(|p| x[p].x.hypot(x[p].z)).collect();
+        from_axis.iter().sum::<f64>() / from_axis.len() as f64
+    };
+    assert!(girth(0) + girth(1) > girth(2) + girth(3), "{:?}", [0, 1, 2, 3].map(girth));
+}
+
 /// Draped askew on a tip, held by its friction (which it takes up in sliding a little), and left alone for ten seconds.
 #[test]
 fn a_sheet_at_rest_lies_still() {

@@ -134,6 +134,171 @@ fn a_triangle_without_area_passes_through_another() {
     }
 }
 
+/// A grid of `n` × `n` cells from `at` along `u` and `v`.
+fn sheet(at: [f64; 3], u: [f64; 3], v: [f64; 3], n: u32) -> TriMesh {
+    let mut mesh = TriMesh::default();
+    for j in 0..=n {
+        let row = Vec3::from(at) + Vec3::from(v) * f64::from(j);
+        mesh.vertices.extend((0..=n).map(|i| row + Vec3::from(u) * f64::from(i)));
+    }
+    for j in 0..n {
+        for a in (0..n).map(|i| j * (n + 1) + i) {
+            mesh.triangles.extend([[a, a + 1, a + n + 2], [a, a + n + 2, a + n + 1]]);
+        }
+    }
+    mesh
+}
+
+fn joined(parts: &[TriMesh]) -> TriMesh {
+    let mut all = TriMesh::default();
+    for part in parts {
+        let shift = all.vertices.len() as u32;
+        all.vertices.extend(&part.vertices);
+        all.triangles.extend(part.triangles.iter().map(|t| t.map(|v| v + shift)));
+    }
+    all
+}
+
+/// Cells of 50 × 50 in the plane y = 0, x and z from −100 to 100.
+fn floor() -> TriMesh {
+    sheet([-100.0, 0.0, -100.0], [50.0, 0.0, 0.0], [0.0, 0.0, 50.0], 4)
+}
+
+/// A cube with corners at ±`half`, two cells of its faces along every side.
+fn cube(half: f64) -> TriMesh {
+    let face = |normal: usize, up: f64| {
+        let mut axes = [[0.0; 3]; 3];
+        (0..3).for_each(|k| axes[k][k] = half);
+        let (u, v) = (axes[(normal + 1) % 3], axes[(normal + 2) % 3]);
+        let mut at = [-half; 3];
+        at[normal] = up * half;
+        if up > 0.0 { sheet(at, u, v, 2) } else { sheet(at, v, u, 2) }
+    };
+    let faces: Vec<TriMesh> = (0..3).flat_map(|normal| [face(normal, 1.0), face(normal, -1.0)]).collect();
+    let all = joined(&faces);
+    let mut cube = TriMesh::default();
+    let mut at = |p: Vec3| {
+        let found = cube.vertices.iter().position(|q| *q == p);
+        found.unwrap_or_else(|| {
+            cube.vertices.push(p);
+            cube.vertices.len() - 1
+        }) as u32
+    };
+    cube.triangles = all.triangles.iter().map(|t| t.map(|v| at(all.vertices[v as usize]))).collect();
+    cube
+}
+
+/// Crossings of two surfaces, seen three ways: as cloth and body, the other way round, and in one mesh.
+fn seen(a: &TriMesh, b: &TriMesh) -> [usize; 3] {
+    assert!(crossings(a).is_empty() && crossings(b).is_empty());
+    let between = [(a, b), (b, a)].map(|(a, b)| crossings_between(a, b).pairs.len());
+    [between[0], between[1], crossings(&joined(&[a.clone(), b.clone()])).len()]
+}
+
+/// The mesh turned about a diagonal: the coordinates change places.
+fn turned(mesh: &TriMesh) -> TriMesh {
+    TriMesh { vertices: mesh.vertices.iter().map(|p| Vec3::new(p.y, p.z, p.x)).collect(), ..mesh.clone() }
+}
+
+#[test]
+fn what_goes_through_along_mesh_lines_crosses() {
+    let upright = |x: f64, y: f64| sheet([x, y, 0.0], [50.0, 0.0, 0.0], [0.0, 50.0, 0.0], 4);
+    let slanted = sheet([-97.0, -100.0, -100.0], [50.0, 0.0, 0.0], [0.0, 50.0, 50.0], 4);
+    let diagonal = sheet([-100.0, -93.0, -100.0], [50.0, 0.0, 50.0], [0.0, 50.0, 0.0], 4);
+    let through = [
+        ("along a line of the floor", upright(-97.0, -93.0)),
+        ("along lines of both", upright(-97.0, -100.0)),
+        ("along lines of both, with common vertices", upright(-100.0, -100.0)),
+        ("along lines of both, aslant", slanted),
+        ("along the diagonals of the floor's cells", diagonal),
+        ("a cube with its vertices at half height on the floor", cube(40.0)),
+        ("and at its grid's points", cube(50.0)),
+    ];
+    for (name, other) in through {
+        let [one, two, three] = seen(&floor(), &other);
+        assert!(one >= 8 && one == two && one == three, "{name}: {one} {two} {three}");
+        assert_eq!(seen(&turned(&floor()), &turned(&other)), [one; 3], "{name}");
+    }
+    // Through four vertices of the cube, along two of its sides and diagonals of its faces.
+    let askew = sheet([-100.0, -100.0, -100.0], [50.0, 50.0, 0.0], [0.0, 0.0, 50.0], 4);
+    assert!(seen(&askew, &cube(40.0))[0] >= 8);
+}
+
+/// The pairs along one side of a mesh are all that have it: two triangles of the floor for each part of the line.
+#[test]
+fn a_hole_cut_by_a_needle_between_two_triangles_is_two_pairs() {
+    let needle = TriMesh {
+        vertices: [[10.0, 20.0, 0.0], [20.0, -20.0, 0.0], [30.0, 20.0, 0.0]].map(Vec3::from).to_vec(),
+        triangles: vec![[0, 1, 2]],
+    };
+    assert_eq!(seen(&floor(), &needle), [2; 3]);
+}
+
+#[test]
+fn what_only_touches_along_mesh_lines_does_not_cross() {
+    let standing = |x: f64, z: f64| sheet([x, 0.0, z], [50.0, 0.0, 0.0], [0.0, 50.0, 0.0], 4);
+    let tent = |up: f64| {
+        let mut tent = sheet([-97.0, 0.0, -100.0], [50.0, 0.0, 0.0], [0.0, 0.0, 50.0], 4);
+        tent.vertices.iter_mut().for_each(|p| p.y = up * p.z.abs());
+        tent
+    };
+    let mut box_below = cube(50.0);
+    box_below.vertices.iter_mut().for_each(|p| p.y -= 50.0);
+    let mut laid_over = floor();
+    laid_over.vertices.iter_mut().filter(|p| p.x > 50.0).for_each(|p| (p.x, p.y) = (50.0, 50.0 - p.x));
+    let touching = [
+        ("standing on a line", standing(-97.0, 0.0)),
+        ("standing on a line, with common vertices", standing(-100.0, 0.0)),
+        ("standing beside the lines", standing(-97.0, 13.0)),
+        ("a valley on it", tent(1.0)),
+        ("a ridge under it", tent(-1.0)),
+        ("lying on it", sheet([-97.0, 0.0, -93.0], [50.0, 0.0, 0.0], [0.0, 0.0, 50.0], 4)),
+        ("the very same", floor()),
+        ("a box whose top it lies on", box_below.clone()),
+    ];
+    for (name, other) in touching {
+        assert_eq!(seen(&floor(), &other), [0; 3], "{name}");
+        assert_eq!(seen(&turned(&floor()), &turned(&other)), [0; 3], "{name}");
+    }
+    assert_eq!(seen(&laid_over, &box_below), [0; 3], "over a box's edge and down its side");
+    assert_eq!(seen(&cube(50.0), &cube(50.0)), [0; 3], "a cube and itself");
+    assert_eq!(seen(&tent(1.0), &tent(0.5)), [0; 3], "a flat valley in a steep one, on one line");
+}
+
+/// Two folded sheets on one line: whether each has parts on both sides of the other.
+#[test]
+fn folded_sheets_that_meet_on_their_folds() {
+    let fold = |one: f64, other: f64| {
+        let at = |degrees: f64| {
+            let (sine, cosine) = degrees.to_radians().sin_cos();
+            Vec3::new(50.0 * cosine, 50.0 * sine, 0.5)
+        };
+        let vertices = vec![Vec3::zeros(), Vec3::z(), at(one), at(other)];
+        TriMesh { vertices, triangles: vec![[0, 1, 2], [0, 3, 1]] }
+    };
+    let cases = [
+        (fold(10.0, 70.0), fold(20.0, 50.0), 0),
+        (fold(10.0, 70.0), fold(40.0, 110.0), 4),
+        (fold(10.0, 250.0), fold(20.0, 240.0), 0),
+        (fold(10.0, 250.0), fold(240.0, 300.0), 4),
+        (fold(10.0, 250.0), fold(260.0, 300.0), 0),
+    ];
+    for (a, b, expected) in cases {
+        assert_eq!(seen(&a, &b), [expected; 3]);
+    }
+}
+
+/// What is sewn to one line of another surface is part of it there.
+#[test]
+fn a_flag_sewn_to_a_line_is_no_crossing() {
+    let mut flagged = floor();
+    let [a, b] = [12, 13];
+    let [up, down] = [50.0, -50.0].map(|y| Vec3::new(25.0, y, 0.0));
+    flagged.vertices.extend([up, down]);
+    flagged.triangles.extend([[a, b, 25], [b, a, 26]]);
+    assert!(crossings(&flagged).is_empty());
+}
+
 #[test]
 fn random_soups_agree_with_brute_force() {
     let mut noise = Noise(7);
