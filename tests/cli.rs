@@ -305,6 +305,20 @@ fn a_seam_that_stays_open_ends_with_3_and_is_shown_open() {
     assert!(front.is_disjoint(&back));
 }
 
+/// Pieces that were placed across one another, or in one place, are named, and where.
+#[test]
+fn pieces_stuck_in_one_another_are_named_with_their_place() {
+    let room = Room::new();
+    let one = include_str!("data/across.yaml");
+    let across = "back: {like: front, place: {at: [0, 1000, 320], turn: [20, 0, 0]}}";
+    room.put("one.yaml", one);
+    room.put("across.yaml", &one.replace("back: {like: front, place: {at: [30, 1000, 300]}}", across));
+    let run = room.run(&["make", "one.yaml", "-o", "one", "--spacing", "25"]);
+    run.ends(3).says(&["'front' and 'back' started in one place near (", ", 300) mm", "still open by"]);
+    let run = room.run(&["make", "across.yaml", "-o", "across", "--spacing", "25"]);
+    run.ends(3).says(&["'back' and 'front' pass through one another near (", "place them neither across"]);
+}
+
 /// A piece that no contact can lead out.
 #[test]
 fn a_piece_in_the_body_ends_with_3_and_leaves_the_pieces_as_placed() {

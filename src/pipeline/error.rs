@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::across::Across;
 use super::caught::Caught;
 use super::too_small::TooSmall;
 use crate::drape::DrapeError;
@@ -96,6 +97,9 @@ pub enum PipelineError {
     /// A seam cannot close round what is between its edges.
     #[error(transparent)]
     Caught(Box<Caught>),
+    /// A seam cannot close, for pieces are stuck in one another.
+    #[error(transparent)]
+    Across(Box<Across>),
     /// Its seams close, but only if the cloth tears.
     #[error(transparent)]
     TooSmall(Box<TooSmall>),
@@ -135,6 +139,7 @@ impl PipelineError {
             | Self::Cut { .. } => true,
             Self::Surface { source, .. } => !is_breakdown(source),
             Self::Caught(_)
+            | Self::Across(_)
             | Self::TooSmall(_)
             | Self::Sew(_)
             | Self::Drape(_)
@@ -151,6 +156,7 @@ impl PipelineError {
             || matches!(
                 self,
                 Self::Caught(_)
+                    | Self::Across(_)
                     | Self::TooSmall(_)
                     | Self::Sew(SewError::InsideBody { .. } | SewError::UnderFloor { .. } | SewError::Open { .. })
             )

@@ -10,6 +10,7 @@
 //! takes it through the stages one by one and keeps what each has made, so that a stage that fails leaves the state
 //! before it to look at. Nothing here writes a file: [`Run::results`] gives names and bytes.
 
+mod across;
 mod caught;
 mod cloth;
 mod error;
@@ -27,6 +28,7 @@ mod too_small;
 
 use crate::report::AtRest;
 pub use crate::sew::SewError;
+pub use across::Across;
 pub use caught::Caught;
 pub use error::PipelineError;
 pub use job::{Job, Overrides, inputs, read};

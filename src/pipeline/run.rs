@@ -84,10 +84,16 @@ impl<'a> Run<'a> {
         self.sewn = Some(sewn.open.unwrap_or_else(|| sewn.stitching.spread(&sewn.nodes)));
         self.stitching = sewn.stitching;
         // The state is kept first: a garment that did not close is worth a look.
-        let caught = |e: &SewError| job.caught(e, self.sewn.as_deref().unwrap_or_default()).map(Box::new);
-        closed.map_err(|e| caught(&e).map_or_else(|| failed(e), PipelineError::Caught))?;
+        closed.map_err(|e| self.obstacle(&e).unwrap_or_else(|| failed(e)))?;
         let too_small = self.sewn.as_deref().and_then(|at| job.too_small(at));
         too_small.map_or(Ok(()), |small| Err(PipelineError::TooSmall(Box::new(small))))
+    }
+
+    /// What keeps a seam open, where that can be told.
+    fn obstacle(&self, error: &SewError) -> Option<PipelineError> {
+        let caught = self.job.caught(error, self.sewn.as_deref().unwrap_or_default());
+        let caught = caught.map(|caught| PipelineError::Caught(Box::new(caught)));
+        caught.or_else(|| self.across(error).map(|across| PipelineError::Across(Box::new(across))))
     }
 
     /// Lets the sewn garment fall to rest; sews it first if that has not been done.

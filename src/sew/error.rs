@@ -43,7 +43,7 @@ pub enum SewError {
          its two edges begin at the same end, that a half that is drawn for the right says `drawn: R`, that a facing \
          or overlay has a layer of its own and `face: same`, that the garment is large enough for the body there, and \
          the place of '{piece_a}' and '{piece_b}'{}",
-        nearly(*gap_mm, *limit_mm)
+        if self.is_nearly_closed() { "; it is all but closed: another --spacing may do" } else { "" }
     )]
     Open {
         /// The seam.
@@ -61,7 +61,9 @@ pub enum SewError {
     },
 }
 
-/// What else to try where a seam is all but closed.
-fn nearly(gap: f64, limit: f64) -> &'static str {
-    if gap < NEARLY * limit { "; it is all but closed: another --spacing may do" } else { "" }
+impl SewError {
+    /// Whether a seam is open by so little that it has jammed.
+    pub fn is_nearly_closed(&self) -> bool {
+        matches!(self, Self::Open { gap_mm, limit_mm, .. } if *gap_mm < NEARLY * limit_mm)
+    }
 }
