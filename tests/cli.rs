@@ -312,7 +312,7 @@ fn pieces_stuck_in_one_another_are_named_with_their_place() {
     let one = include_str!("data/across.yaml");
     let across = "back: {like: front, place: {at: [0, 1000, 320], turn: [20, 0, 0]}}";
     room.put("one.yaml", one);
-    room.put("across.yaml", &one.replace("back: {like: front, place: {at: [0, 1000, 300]}}", across));
+    room.put("across.yaml", &one.replace("back: {like: front, place: {at: [30, 1000, 300]}}", across));
     let run = room.run(&["make", "one.yaml", "-o", "one", "--spacing", "25"]);
     run.ends(3).says(&["'front' and 'back' started in one place near (", ", 300) mm", "still open by"]);
     let run = room.run(&["make", "across.yaml", "-o", "across", "--spacing", "25"]);

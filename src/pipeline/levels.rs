@@ -11,8 +11,8 @@ use crate::sew::{SewError, SewOptions, Sewn, Stitching, join, sew, sewn_on, stit
 
 /// How much coarser each level is than the next.
 const COARSER: f64 = 2.0;
-/// No level is coarser than this, metres: a wrist has seven cells round it then, and a waistband of 40 mm two across.
-/// Skirts and trousers begun at 28 to 32 mm came to rest no sooner.
+/// No level is coarser than this, metres: a wrist has seven cells round it then, and a waistband of 40 mm two
+/// across. Skirts and trousers begun at 28 to 32 mm came to rest no sooner.
 const COARSEST: f64 = 0.025;
 /// A level has to be so much coarser to pay.
 const LEAST: f64 = 1.5;
