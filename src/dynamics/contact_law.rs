@@ -36,7 +36,8 @@ impl Hardening {
     fn core(self, half_thickness: f64) -> f64 {
         match self {
             Self::Slow => 0.0,
-            Self::Fast => (half_thickness - SOFT).max(0.0),
+            Self::Fast if half_thickness < THICK => 0.0,
+            Self::Fast => half_thickness - SOFT,
         }
     }
 
@@ -65,9 +66,11 @@ impl Hardening {
     }
 }
 
-/// How far a side of cloth yields to what presses it on the body, metres: all of it, if it is thin. Thicker cloth has a
-/// core, or a band of jersey that is drawn tight comes nearer to the body than half its thickness. A core of all of the
-/// half thickness did not come to rest where an arm presses a sleeve on the trunk.
+/// Thick cloth, each side of it at least the first, metres, yields to what presses it on the body by no more than the
+/// second: without such a core a band of jersey that is drawn tight came nearer to the body than half its thickness. A
+/// core of all of the half thickness did not come to rest where an arm presses a sleeve on the trunk; thinner cloth keeps
+/// its half thickness without one, and trousers of linen (0.35 mm) took a fifth more steps with one.
+const THICK: f64 = 0.25e-3;
 const SOFT: f64 = 0.125e-3;
 
 /// From where the law ends the force grows so many times as fast as where the contact begins: what is inside is to be
@@ -185,6 +188,6 @@ mod tests {
     #[test]
     fn thick_cloth_has_a_core_at_rest_that_nothing_presses() {
         assert!((Hardening::Fast.core(0.3e-3) - 0.175e-3).abs() < 1e-12);
-        assert_eq!([Hardening::Fast.core(0.1e-3), Hardening::Slow.core(0.3e-3)], [0.0, 0.0]);
+        assert_eq!([Hardening::Fast.core(0.2e-3), Hardening::Slow.core(0.3e-3)], [0.0, 0.0]);
     }
 }
