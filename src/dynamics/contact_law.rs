@@ -68,8 +68,8 @@ impl Hardening {
 
 /// Thick cloth, each side of it at least the first, metres, yields to what presses it on the body by no more than the
 /// second: without such a core a band of jersey that is drawn tight came nearer to the body than half its thickness. A
-/// core of all of the half thickness did not come to rest where an arm presses a sleeve on the trunk; thinner cloth keeps
-/// its half thickness without one, and trousers of linen (0.35 mm) took a fifth more steps with one.
+/// core of all of the half thickness did not come to rest where an arm presses a sleeve on the trunk. Thinner cloth
+/// keeps its half thickness without one, and trousers of linen (0.35 mm) took a fifth more steps with one.
 const THICK: f64 = 0.25e-3;
 const SOFT: f64 = 0.125e-3;
 
