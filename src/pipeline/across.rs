@@ -1,12 +1,11 @@
 //! A seam that cannot close because two pieces are stuck in one another.
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use super::run::Run;
-use crate::contact::closest_on_triangle;
+use crate::contact::Skin;
 use crate::geometry::{MM, Vec3};
-use crate::mesh::ClothMesh;
+use crate::mesh::{ClothMesh, PieceMesh};
 use crate::report::Crossing;
 use crate::sew::SewError;
 
@@ -65,30 +64,14 @@ fn two_pieces(Crossing { piece, through, near, .. }: Crossing) -> Option<([Strin
 
 /// Two pieces that lie in one another with the particles at `at`, and a particle that does.
 fn in_one_place(mesh: &ClothMesh, at: &[Vec3]) -> Option<([usize; 2], Vec3)> {
-    let piece: Vec<usize> = (0..at.len() as u32).map(|p| mesh.piece_of(p).unwrap_or_default()).collect();
-    let mut lying: BTreeMap<[usize; 2], Vec<usize>> = BTreeMap::new();
-    for p in 0..at.len() {
-        for other in others_under(mesh, at, &piece, p) {
-            lying.entry([piece[p], other]).or_default().push(p);
-        }
-    }
-    let share = |[a, _]: &[usize; 2], on: &[usize]| on.len() as f64 / mesh.pieces[*a].particles.len() as f64;
-    let found = lying.into_iter().find(|(pair, on)| share(pair, on) >= SHARE);
-    found.map(|(pair, on)| (pair, at[on[0]]))
-}
-
-/// The other pieces that particle `p` lies on, each once.
-fn others_under(mesh: &ClothMesh, at: &[Vec3], piece: &[usize], p: usize) -> Vec<usize> {
-    // No edge of a mesh is longer than two spacings.
-    let is_far = |a: Vec3| (a - at[p]).norm_squared() > (2.0 * mesh.spacing).powi(2);
-    let is_under = |[a, b, c]: [Vec3; 3]| {
-        let share = || closest_on_triangle(at[p], a, b, c);
-        !is_far(a) && (share().iter().zip([a, b, c]).map(|(w, q)| q * *w).sum::<Vec3>() - at[p]).norm() < ON
+    let skin = |piece: &PieceMesh| Skin::new(at, mesh.triangles[piece.triangles.clone()].to_vec());
+    let skins: Vec<Option<Skin>> = mesh.pieces.iter().map(skin).collect();
+    let lying = |a: usize, b: usize| {
+        let (piece, skin) = (&mesh.pieces[a], skins[b].as_ref().filter(|_| a != b)?);
+        let on: Vec<usize> = piece.particles.clone().filter(|&p| skin.distance(at[p], ON).is_some()).collect();
+        let first = at[*on.first()?];
+        (on.len() as f64 >= SHARE * piece.particles.len() as f64).then_some(([a, b], first))
     };
-    let others = mesh.triangles.iter().filter(|t| piece[t[0] as usize] != piece[p]);
-    let mut under: Vec<usize> =
-        others.filter(|t| is_under(t.map(|v| at[v as usize]))).map(|t| piece[t[0] as usize]).collect();
-    under.sort_unstable();
-    under.dedup();
-    under
+    let pieces = 0..mesh.pieces.len();
+    pieces.clone().find_map(|a| pieces.clone().find_map(|b| lying(a, b)))
 }
