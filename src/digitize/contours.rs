@@ -299,11 +299,14 @@ fn piece<'a>(outer: &Contour, inner: &[&Contour], rest: &'a [Stroke]) -> (Traced
     let surface = sewn.map_or(outer, |s| s);
     // A lozenge within is a dart, a ring of a few millimetres a mark; what is left was cut out.
     let is_hole = |c: &&&Contour| c.area() >= SMALLEST_PIECE / 100.0 && c.lies_in(surface);
-    let (fish_eyes, others): (Vec<&Contour>, Vec<&Contour>) =
-        inner.iter().copied().filter(|c| !is_outline(c)).partition(|c| sides(c).is_some());
-    traced.lines.extend(fish_eyes.into_iter().filter_map(sides).flatten());
-    let others = others.into_iter();
-    let (cut_out, marks): (Vec<&Contour>, Vec<&Contour>) = others.partition(|c| is_hole(&c));
+    let mut others = Vec::new();
+    for contour in inner.iter().copied().filter(|c| !is_outline(c)) {
+        match sides(contour) {
+            Some(lines) => traced.lines.extend(lines),
+            None => others.push(contour),
+        }
+    }
+    let (cut_out, marks): (Vec<&Contour>, Vec<&Contour>) = others.into_iter().partition(|c| is_hole(&c));
     traced.holes = holes_of(&cut_out);
     traced.points.extend(marks.iter().map(|m| m.points.iter().sum::<Vec2>() / m.points.len() as f64));
     let (mut folds, mut beyond) = (Vec::new(), Vec::new());
@@ -353,13 +356,10 @@ fn middle(stroke: &Stroke) -> Vec2 {
 /// Where a notch is: its end on the sewing line, which comes first, if one is there. The other may be on the cut line,
 /// and two of a double one must stand side by side.
 fn nearest_end(ends: [Vec2; 2], outlines: &[&Path]) -> Vec2 {
-    let sewn = |p: &Vec2| outlines.first().map_or(f64::INFINITY, |o| o.nearest(*p).1);
-    let on_sewn = ends.into_iter().filter(|p| sewn(p) <= NEAR).min_by(|a, b| sewn(a).total_cmp(&sewn(b)));
-    if let Some(end) = on_sewn {
-        return end;
-    }
-    let off = |p: Vec2| outlines.iter().map(|o| o.nearest(p).1).fold(f64::INFINITY, f64::min);
-    if off(ends[0]) <= off(ends[1]) { ends[0] } else { ends[1] }
+    let off = |p: Vec2, lines: &[&Path]| lines.iter().map(|line| line.nearest(p).1).fold(f64::INFINITY, f64::min);
+    let sewing = outlines.get(..1).unwrap_or_default();
+    let lines = if ends.iter().any(|&p| off(p, sewing) <= NEAR) { sewing } else { outlines };
+    if off(ends[0], lines) <= off(ends[1], lines) { ends[0] } else { ends[1] }
 }
 
 /// An arrow may have barbs: its two points farthest from each other, in the order drawn.

@@ -4,10 +4,8 @@ use super::chain::MEET;
 use super::contours::Contour;
 use super::{Inner, Traced};
 use crate::geometry::{Path, Vec2};
-use crate::pattern::LineKind;
+use crate::pattern::{FISH_EYE_EDGES, LineKind};
 
-/// What the edges of a fish-eye are called behind its name, from its upper tip round.
-const EDGES: [&str; 4] = ["upper_a", "lower_a", "lower_b", "upper_b"];
 /// As far as this (metres) numbers may be rounded that put it upright.
 const ROUNDED: f64 = 2e-5;
 
@@ -59,7 +57,7 @@ fn shared_end(one: &Path, other: &Path) -> Option<Vec2> {
 fn edge(name: &str) -> Option<(String, usize)> {
     let mut words = name.split('.');
     let (dart, edge, side) = (words.next()?, words.next()?, words.next());
-    let number = EDGES.iter().position(|known| *known == edge)?;
+    let number = FISH_EYE_EDGES.iter().position(|known| *known == edge)?;
     let name = side.map_or_else(|| dart.to_owned(), |side| format!("{dart}_{side}"));
     words.next().is_none().then_some((name, number))
 }
@@ -70,7 +68,7 @@ pub(super) fn sides(contour: &Contour) -> Option<Vec<Inner>> {
         let name = name.clone().filter(|name| edge(name).is_some())?;
         Some(Inner { name: Some(name), path: path.clone(), kind: Some(LineKind::Mark("dart".to_owned())) })
     };
-    (contour.edges.len() == EDGES.len()).then(|| contour.edges.iter().map(side).collect()).flatten()
+    (contour.edges.len() == FISH_EYE_EDGES.len()).then(|| contour.edges.iter().map(side).collect()).flatten()
 }
 
 /// The fish-eyes of a piece, and the piece without their lines and the marks at their corners.

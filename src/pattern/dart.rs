@@ -152,7 +152,10 @@ fn dart_seam(drawn: &Draft, name: String, a: (usize, usize), b: (usize, usize)) 
     }
 }
 
-/// Cuts the fish-eye darts as holes with the edges `NAME.upper_a`, `lower_a`, `lower_b`, `upper_b`.
+/// What the edges of a fish-eye are called behind its name, from its upper tip round.
+pub(crate) const FISH_EYE_EDGES: [&str; 4] = ["upper_a", "lower_a", "lower_b", "upper_b"];
+
+/// Cuts the fish-eye darts as holes with the edges `NAME.upper_a` and so on.
 pub(super) fn cut_fish_eyes(drawn: &mut Draft, piece: &PieceFile, unit: Unit, findings: &mut Findings) {
     for (i, dart) in piece.darts.iter().enumerate() {
         let DartShape::FishEye { at, up, down } = &dart.shape else { continue };
@@ -165,15 +168,14 @@ pub(super) fn cut_fish_eyes(drawn: &mut Draft, piece: &PieceFile, unit: Unit, fi
             continue;
         }
         let name = dart_name(dart, i);
-        let edge =
-            |part: &str, from, to| Edge { name: format!("{name}.{part}"), path: Path::line(from, to), against: false };
+        let corners = [top, middle - half, bottom, middle + half];
+        let edge = |k: usize| Edge {
+            name: format!("{name}.{}", FISH_EYE_EDGES[k]),
+            path: Path::line(corners[k], corners[(k + 1) % 4]),
+            against: false,
+        };
         let ring = drawn.rings.len();
-        drawn.add_ring(vec![
-            edge("upper_a", top, middle - half),
-            edge("lower_a", middle - half, bottom),
-            edge("lower_b", bottom, middle + half),
-            edge("upper_b", middle + half, top),
-        ]);
+        drawn.add_ring([0, 1, 2, 3].map(edge).to_vec());
         let upper = dart_seam(drawn, format!("{name}.upper"), (ring, 0), (ring, 3));
         let lower = dart_seam(drawn, format!("{name}.lower"), (ring, 1), (ring, 2));
         drawn.own_seams.extend([upper, lower]);

@@ -49,6 +49,7 @@ mod spelling;
 mod walk;
 
 pub use along::{Along, along};
+pub(crate) use dart::FISH_EYE_EDGES;
 pub use diagnostic::{Diagnostic, Findings, Located, Severity, Spot};
 pub use drawing::{Allowance, Dart, Drawing, DrawnEdge, DrawnFold, DrawnNotch, drawings};
 pub use expand::{DEFAULT_CLOTH, expand, fabrics};
