@@ -10,9 +10,9 @@ pub enum MeshError {
     Spacing(f64),
     /// A piece is narrower than a spring is long.
     #[error(
-        "mesh size {} mm leaves {springs} spring{} across '{piece}' ({} mm wide); use {} mm or less ({} mm for three \
+        "mesh size {} mm leaves 1 spring across '{piece}' ({} mm wide); use {} mm or less ({} mm for three \
          springs across), or check the file's units",
-        mm(*.spacing), plural(*.springs), mm(*.width), mm(*.largest), mm(*.good)
+        mm(*.spacing), mm(*.width), mm(*.largest), mm(*.good)
     )]
     TooCoarse {
         /// The piece.
@@ -21,8 +21,6 @@ pub enum MeshError {
         width: f64,
         /// The spacing asked for.
         spacing: f64,
-        /// Springs that would fit across.
-        springs: usize,
         /// The largest spacing that is accepted, to a hundredth of a millimetre.
         largest: f64,
         /// A spacing that puts three springs across.
@@ -240,8 +238,4 @@ fn parted(first: &str, second: &str) -> &'static str {
         [false, false] => "mend the outline",
         _ => "draw the line on the edge, to a millimetre, or further from it,",
     }
-}
-
-fn plural(n: usize) -> &'static str {
-    if n == 1 { "" } else { "s" }
 }

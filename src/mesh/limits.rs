@@ -5,9 +5,6 @@ use crate::pattern::{Garment, Piece};
 
 /// The grain is a unit vector to this much.
 const UNIT: f64 = 1e-6;
-/// A piece narrower than its springs are long is refused. Its triangles would be good ones (27° and more at 0.6 of a
-/// spring), but so small that the piece, and what is sewn to it, is not what was asked for.
-const SPRINGS_ACROSS: f64 = 1.0;
 /// Springs across that an error recommends.
 const GOOD_SPRINGS_ACROSS: f64 = 3.0;
 /// Widths are as exact as this, metres: the spacing that an error names is accepted.
@@ -25,13 +22,14 @@ pub(super) fn check(garment: &Garment, spacing: f64) -> Result<(), MeshError> {
         check_grain(piece)?;
         let (area, perimeter) = measure(piece)?;
         let width = width(area, perimeter);
-        if width < SPRINGS_ACROSS * spacing - ROUNDING {
+        // Its triangles would be good ones (27° and more at 0.6 of a spring), but so small that the piece, and what is
+        // sewn to it, is not what was asked for.
+        if width < spacing - ROUNDING {
             return Err(MeshError::TooCoarse {
                 piece: piece.name.clone(),
                 width,
                 spacing,
-                springs: (width / spacing).round().max(1.0) as usize,
-                largest: round_down(width / SPRINGS_ACROSS),
+                largest: round_down(width),
                 good: round_down(width / GOOD_SPRINGS_ACROSS),
             });
         }
