@@ -230,9 +230,10 @@ impl Findings {
         // Both sides of a pair make the same mistake: it is said once. Only the words are compared: lengths of what is
         // mirrored differ in their last digits.
         let mut unique: Vec<Diagnostic> = Vec::new();
-        let words = |d: &Diagnostic| (d.severity, d.spot(), d.message.clone());
+        let is_same =
+            |a: &Diagnostic, b: &Diagnostic| (a.severity, a.spot()) == (b.severity, b.spot()) && a.message == b.message;
         for diagnostic in self.found {
-            if !unique.iter().any(|known| words(known) == words(&diagnostic)) {
+            if !unique.iter().any(|known| is_same(known, &diagnostic)) {
                 unique.push(diagnostic);
             }
         }
