@@ -1,6 +1,5 @@
 //! `check`: is this garment file right, and what does it make?
 
-use crate::geometry::MM;
 use std::path::Path;
 
 use serde::Serialize;
@@ -9,6 +8,7 @@ use super::args::CheckArgs;
 use super::check_mesh::check_mesh;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use crate::geometry::MM;
 use crate::pattern::{Diagnostic, Garment, Give, SeamWalk, Severity, openings, walk};
 use crate::pipeline::{self, PipelineError};
 use crate::report::aligned;

@@ -1,6 +1,5 @@
 //! `export`: patterns for cutting.
 
-use crate::geometry::MM;
 use std::path::PathBuf;
 
 use super::args::{ExportArgs, ExportCommand, PageArg};
@@ -8,6 +7,7 @@ use super::console::Console;
 use super::exit::{CliError, Exit};
 use super::make::folder;
 use crate::cutting::{DEFAULT_ALLOWANCE, Layout, MarkKind, Narrowed, Options, Paper, SewKind, Sheet, papers};
+use crate::geometry::MM;
 use crate::io::dxf_write::cutting_dxf;
 use crate::io::files::write_all;
 use crate::io::pdf_write::{Page, one_page, tiled};

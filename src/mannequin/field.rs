@@ -1,7 +1,7 @@
 //! The body as one smooth function of space: negative inside, about a distance near the surface.
 
 use super::loft::{Profile, ellipse, perimeter};
-use super::spec::{MM, MannequinSpec, TorsoRow};
+use super::spec::{MannequinSpec, TorsoRow, UNIT};
 use crate::geometry::{Vec3, bisect};
 
 /// Reach of the blend of arm and trunk in the armpit, as a part of the arm's half width: small, or it would web the arm
@@ -61,12 +61,13 @@ pub(super) struct Arm {
 impl Arm {
     fn new(spec: &MannequinSpec) -> Self {
         let arm = &spec.arm;
-        let joint = Vec3::from(arm.joint) * MM;
+        let joint = Vec3::from(arm.joint) * UNIT;
         let (side, front) = (arm.abduction.to_radians(), arm.forward.to_radians());
         let axis = Vec3::new(side.sin(), -side.cos() * front.cos(), side.cos() * front.sin()).normalize();
         let across = (Vec3::x() - axis * axis.x).normalize();
-        let acromion = (Vec3::from(arm.shoulder) * MM - joint).dot(&axis);
-        let rows: Vec<_> = arm.rows.iter().map(|r| (r.at * MM + acromion, ellipse(r.girth * MM, arm.ratio))).collect();
+        let acromion = (Vec3::from(arm.shoulder) * UNIT - joint).dot(&axis);
+        let rows: Vec<_> =
+            arm.rows.iter().map(|r| (r.at * UNIT + acromion, ellipse(r.girth * UNIT, arm.ratio))).collect();
         Self { joint, axis, across, profile: Profile::new(&rows), acromion, depth_axis: across.cross(&axis) }
     }
 
@@ -104,10 +105,10 @@ impl Body {
             .iter()
             .map(|r| {
                 let [a, b] = half_axes(r);
-                (r.y * MM, [a, r.z * MM - b, r.z * MM + b, r.n])
+                (r.y * UNIT, [a, r.z * UNIT - b, r.z * UNIT + b, r.n])
             })
             .collect();
-        let height = |name: &str| spec.torso_row(name).map_or(torso[0].0, |r| r.y * MM);
+        let height = |name: &str| spec.torso_row(name).map_or(torso[0].0, |r| r.y * UNIT);
         let leg = leg_rows(spec);
         Self {
             leg: Profile::new(&leg),
@@ -178,7 +179,7 @@ impl Body {
 /// Half width and half depth of a row, metres, scaled together to the measured girth.
 fn half_axes(row: &TorsoRow) -> [f64; 2] {
     let scale = row.girth / perimeter(row.width / 2.0, row.depth / 2.0, row.n);
-    [scale * row.width / 2.0 * MM, scale * row.depth / 2.0 * MM]
+    [scale * row.width / 2.0 * UNIT, scale * row.depth / 2.0 * UNIT]
 }
 
 /// The leg's rows from the floor up. The topmost follows from the torso's crotch row: a tape round both legs reads
@@ -190,15 +191,15 @@ fn leg_rows(spec: &MannequinSpec) -> Vec<(f64, [f64; 4])> {
         .iter()
         .rev()
         .map(|r| {
-            let [a, b] = ellipse(r.girth * MM, r.ratio);
-            (r.y * MM, [a, b, r.x * MM, r.z * MM])
+            let [a, b] = ellipse(r.girth * UNIT, r.ratio);
+            (r.y * UNIT, [a, b, r.x * UNIT, r.z * UNIT])
         })
         .collect();
     let crotch = &spec.torso[0];
     let x = spec.leg.crotch_x;
-    let a = half_axes(crotch)[0] - x * MM;
-    let b = ellipse_depth((crotch.girth - 4.0 * x) * MM, a);
-    rows.push((crotch.y * MM, [a, b, x * MM, crotch.z * MM]));
+    let a = half_axes(crotch)[0] - x * UNIT;
+    let b = ellipse_depth((crotch.girth - 4.0 * x) * UNIT, a);
+    rows.push((crotch.y * UNIT, [a, b, x * UNIT, crotch.z * UNIT]));
     rows
 }
 

@@ -2,7 +2,7 @@
 
 use super::field::Body;
 use super::loft::perimeter;
-use super::spec::{MM, MannequinSpec};
+use super::spec::{MannequinSpec, UNIT};
 use super::{BodyPart, PartKind, Section};
 use crate::geometry::Vec3;
 
@@ -11,11 +11,11 @@ const SPACING: f64 = 0.025;
 
 /// Torso, neck, arms and legs.
 pub(super) fn parts(spec: &MannequinSpec, body: &Body) -> Vec<BodyPart> {
-    let neck = spec.torso_row("neck base").map_or(body.neck_end(), |r| r.y * MM);
+    let neck = spec.torso_row("neck base").map_or(body.neck_end(), |r| r.y * UNIT);
     let trunk = |from: f64, to: f64| stations(from, to).map(|y| torso_section(body, y)).collect();
     let marks = |low: f64, high: f64| {
-        let rows = spec.torso.iter().filter(move |r| (low..=high).contains(&(r.y * MM)));
-        rows.map(|r| (r.name.clone(), torso_section(body, r.y * MM).center)).collect()
+        let rows = spec.torso.iter().filter(move |r| (low..=high).contains(&(r.y * UNIT)));
+        rows.map(|r| (r.name.clone(), torso_section(body, r.y * UNIT).center)).collect()
     };
     let torso = BodyPart { kind: PartKind::Torso, sections: trunk(body.crotch, neck), landmarks: marks(0.0, neck) };
     let neck = BodyPart {
@@ -51,8 +51,8 @@ fn left_arm(spec: &MannequinSpec, body: &Body) -> BodyPart {
             girth: perimeter(a, b, 2.0),
         }
     };
-    let mut landmarks = vec![("shoulder".to_owned(), Vec3::from(spec.arm.shoulder) * MM)];
-    landmarks.extend(spec.arm.rows.iter().map(|r| (r.name.clone(), section(r.at * MM + arm.acromion).center)));
+    let mut landmarks = vec![("shoulder".to_owned(), Vec3::from(spec.arm.shoulder) * UNIT)];
+    landmarks.extend(spec.arm.rows.iter().map(|r| (r.name.clone(), section(r.at * UNIT + arm.acromion).center)));
     let sections = stations(0.0, arm.profile.end()).map(section).collect();
     BodyPart { kind: PartKind::LeftArm, sections, landmarks }
 }
@@ -68,7 +68,7 @@ fn left_leg(spec: &MannequinSpec, body: &Body) -> BodyPart {
         Section { center: center(y), axis, half_width: a, half_depth: b, girth: perimeter(a, b, 2.0) }
     };
     let mut landmarks = vec![("crotch".to_owned(), center(body.crotch))];
-    landmarks.extend(spec.leg.rows.iter().map(|r| (r.name.clone(), center(r.y * MM))));
+    landmarks.extend(spec.leg.rows.iter().map(|r| (r.name.clone(), center(r.y * UNIT))));
     let sections = stations(body.crotch, body.leg.start()).map(section).collect();
     BodyPart { kind: PartKind::LeftLeg, sections, landmarks }
 }

@@ -7,7 +7,7 @@ use crate::input::yaml;
 
 /// The unit of these numbers in metres. They are multiplied by it: divided by a thousand they would be others in their
 /// last digit, and every garment would start a hair elsewhere and fold in another way.
-pub(super) const MM: f64 = 1e-3;
+pub(super) const UNIT: f64 = 1e-3;
 
 /// Everything needed to build a mannequin; see `mannequins/woman_92.yaml` for the meaning of each number.
 #[derive(Clone, Debug, PartialEq, Deserialize)]

@@ -1,10 +1,10 @@
 //! A garment's own bounds against its report.
 
-use crate::geometry::MM;
 use serde::Serialize;
 
 use super::closures::APART;
 use super::schema::{ClosureReport, Crossing, PieceReport, Quartet, Report};
+use crate::geometry::MM;
 use crate::pattern::{Bound, Garment, Test, walk};
 
 /// Bounds of a garment that states none: closed seams, no crossing. Metres.

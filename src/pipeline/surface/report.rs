@@ -1,6 +1,5 @@
 //! The figures of a flattened surface: keys and units of its `report.json`.
 
-use crate::geometry::MM;
 use std::f64::consts::PI;
 
 use serde::Serialize;
@@ -9,6 +8,7 @@ use super::Limit;
 use super::cuts;
 use super::darts::{DartStop, Laid};
 use super::edges::NamedEdge;
+use crate::geometry::MM;
 use crate::report::{Quartet, Stage};
 
 /// What flattening did to a surface; written as `report.json`.
