@@ -1,5 +1,5 @@
 //! Contact and friction against known answers: what a search that remembers finds, sliding down a plane, the strap over
-//! a cylinder, a sheet over a corner, and a tube wrung out.
+//! a cylinder, a sheet over a corner, a tube wrung out, and part of a sheet in motion.
 
 use std::f64::consts::PI;
 use std::path::Path;
@@ -346,4 +346,83 @@ fn a_tube_twisted_twice_round_does_not_pass_through_itself() {
     }
     let neck = world.x.iter().map(|p| p.x.hypot(p.z)).fold(f64::INFINITY, f64::min);
     assert!(neck < 3e-3, "it is wrung to a string, not {neck} m wide");
+}
+
+/// A sheet on a cylinder that it slides down a little on, held by friction on one side, after so many steps.
+fn sliding<'a>(job: &Job, body: &'a Collider, steps: usize) -> World<'a> {
+    let height = 0.5 * job.fabrics[0].thickness + LAW.body_clearance;
+    let lay = |p: &toile::geometry::Vec2| {
+        let (angle, radius) = ((p.x - 0.05) / 0.1, 0.1 + height + 1e-4 * (40.0 * p.y).sin().abs());
+        Vec3::new(radius * angle.sin(), radius * angle.cos(), p.y - 0.08)
+    };
+    let mut world = world(job, body, job.mesh.flat.iter().map(lay).collect());
+    world.gravity = 1.0;
+    world.grip(GRIP);
+    for _ in 0..steps {
+        world.newton(1.0, 2e-3).expect("a step");
+    }
+    world.detect().expect("a look");
+    world
+}
+
+/// The largest difference of two lists of vectors, of those for which `counts` says so.
+fn difference(a: &[Vec3], b: &[Vec3], counts: impl Fn(usize) -> bool) -> f64 {
+    (0..a.len()).filter(|&i| counts(i)).map(|i| (a[i] - b[i]).norm()).fold(0.0, f64::max)
+}
+
+#[test]
+fn what_moves_alone_feels_what_it_feels_with_the_rest_and_the_rest_stays() {
+    let (job, body) = (sheet(160.0, 160.0, 10.0, 0.3), cylinder(0.1));
+    let mut world = sliding(&job, &body, 6);
+    let free: Vec<bool> = job.mesh.flat.iter().map(|p| p.x > 0.09 && p.y < 0.11).collect();
+    let (before, forces, energy) = (world.x.clone(), world.unbalanced(), world.energy());
+    let largest = forces.iter().map(|f| f.norm()).fold(0.0, f64::max);
+    assert!(largest > 1e-6, "a sheet in balance would say nothing");
+    let resting = world.hold_all_but(&free).expect("a part");
+    assert!(difference(&world.unbalanced(), &forces, |i| free[i]) < 1e-9 * largest);
+    let part_energy = world.energy();
+    for _ in 0..4 {
+        world.newton(1.0, 2e-3).expect("a step");
+    }
+    assert_eq!(difference(&world.x, &before, |i| !free[i]), 0.0);
+    assert!(difference(&world.x, &before, |i| free[i]) > 1e-5, "nothing moves");
+    let fallen = part_energy - world.energy();
+    world.release(resting).expect("the whole");
+    assert!(fallen > 0.0, "{fallen}");
+    // Friction counts from where each look found its contacts: what it stored has become where they are.
+    assert!((energy - world.energy() - fallen).abs() < 0.2 * fallen, "{} and not {fallen}", energy - world.energy());
+}
+
+#[test]
+fn what_is_held_and_let_go_is_as_it_was() {
+    let (job, body) = (sheet(160.0, 160.0, 10.0, 0.3), cylinder(0.1));
+    let mut world = sliding(&job, &body, 6);
+    let (forces, found) = (world.unbalanced(), world.contacts_found());
+    let largest = forces.iter().map(|f| f.norm()).fold(0.0, f64::max);
+    let half: Vec<bool> = job.mesh.flat.iter().map(|p| p.x > 0.07).collect();
+    let quarter: Vec<bool> = job.mesh.flat.iter().map(|p| p.x > 0.07 && p.y > 0.05).collect();
+    let outer = world.hold_all_but(&half).expect("a part");
+    let inner = world.hold_all_but(&quarter).expect("a part of it");
+    world.release(inner).expect("the part");
+    assert!(difference(&world.unbalanced(), &forces, |i| half[i]) < 1e-9 * largest);
+    world.release(outer).expect("the whole");
+    assert_eq!(world.contacts_found(), found);
+    assert!(difference(&world.unbalanced(), &forces, |_| true) < 1e-9 * largest);
+}
+
+#[test]
+fn steps_of_a_part_that_is_all_are_those_of_the_whole() {
+    let (job, body) = (sheet(160.0, 160.0, 10.0, 0.3), cylinder(0.1));
+    let run = |part: bool| {
+        let mut world = sliding(&job, &body, 6);
+        let all = vec![true; world.x.len()];
+        let resting = part.then(|| world.hold_all_but(&all).expect("a part"));
+        for _ in 0..3 {
+            world.newton(1.0, 2e-3).expect("a step");
+        }
+        resting.into_iter().for_each(|resting| world.release(resting).expect("the whole"));
+        world.x
+    };
+    let (whole, part) = (run(false), run(true));
+    assert!(difference(&whole, &part, |_| true) < 1e-6, "{:e}", difference(&whole, &part, |_| true));
 }

@@ -44,13 +44,20 @@ pub struct Bounds {
     /// How far each node may go from there, metres.
     leash: Vec<f64>,
     margin: f64,
+    /// Nodes that stay where they are.
+    held: Vec<u32>,
 }
 
 impl Bounds {
     /// Bounds for nodes at `x`, whose contacts were looked for within `reach`; every pair keeps `margin` metres, or the
     /// share `KEPT` of its gap if that is less.
     pub fn new(x: &[Vec3], reach: f64, margin: f64) -> Self {
-        Self { origin: x.to_vec(), leash: vec![Self::allowance(reach); x.len()], margin }
+        Self { origin: x.to_vec(), leash: vec![Self::allowance(reach); x.len()], margin, held: Vec::new() }
+    }
+
+    /// From now on the nodes that are `held`, and no others, give way to nothing.
+    pub fn hold(&mut self, held: Vec<u32>) {
+        self.held = held;
     }
 
     /// Where contacts were last looked for at every node.
@@ -129,7 +136,8 @@ impl Bounds {
     }
 
     /// Moves the targets in `to` so that none of `contacts` meets on the way from `from`, where they were last turned.
-    /// Nodes of pairs that the sweeps cannot mend stay where they are; what breaks a leash shortens the whole step.
+    /// Nodes of pairs that the sweeps cannot mend stay where they are, and those that are held; what breaks a leash
+    /// shortens the whole step.
     pub fn clamp(&self, contacts: &[&Contact], from: &[Vec3], to: &mut [Vec3]) {
         let (planes, pairs): (Vec<&Contact>, _) = contacts.iter().partition(|c| c.under == Under::Plane);
         let planes: Vec<Kept> = planes.into_iter().map(|c| (c, self.need(c.gap(from)))).collect();
@@ -142,6 +150,7 @@ impl Bounds {
             for &(contact, need) in &pairs {
                 clean &= !keep_apart(contact, from, to, need);
             }
+            self.held.iter().for_each(|&n| to[n as usize] = from[n as usize]);
             if clean {
                 break;
             }
@@ -318,6 +327,19 @@ mod tests {
         to[0] += Vec3::new(0.02, -0.02, 0.0);
         bounds.clamp(&[&contact], &x, &mut to);
         assert!(separation(&contact, &to) >= 1e-3 - 1e-8);
+        assert_relative_eq!(to[0].x, 0.02, epsilon = 1e-12);
+    }
+
+    #[test]
+    fn what_is_held_gives_way_to_nothing() {
+        let (x, contact) = pair();
+        let mut bounds = Bounds::new(&x, 0.1, 1e-3);
+        bounds.hold(vec![1, 2, 3]);
+        let mut to = x;
+        to[0] += Vec3::new(0.02, -0.02, 0.0);
+        bounds.clamp(&[&contact], &x, &mut to);
+        assert_eq!(to[1..], x[1..]);
+        assert!(separation(&contact, &to) > HELD * 1e-3);
         assert_relative_eq!(to[0].x, 0.02, epsilon = 1e-12);
     }
 

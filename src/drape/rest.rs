@@ -64,7 +64,7 @@ pub struct Draped {
 /// how far it still has to go.
 const STEP: f64 = 1.0;
 /// Steps between two looks at how far the garment still moves.
-const STRETCH: usize = 10;
+const STRETCH: usize = 5;
 /// A garment that falls no further than this, metres RMS, in so many steps is near its rest: what is left are long
 /// waves, which need the true stiffness. With that from the first, a cuff that was sewn folded under stays so.
 const NEAR_REST: f64 = 1.5e-3;
@@ -83,6 +83,20 @@ pub const RESIDUAL: f64 = 1.0;
 /// made, once so many in a row were: a single short one may be one that could not be made longer.
 const STILL: f64 = 1.0 / 3.0;
 const IN_A_ROW: usize = 3;
+/// Where a stretch moved less than this share of the nodes, these go on alone.
+const PART: f64 = 0.5;
+/// A node has moved that went further than this, metres, and than this share of the way of the one that went furthest:
+/// what creeps as a whole while a fold in it runs is left for later.
+const MOVES: f64 = 0.1e-3;
+const SHARE: f64 = 0.05;
+/// With them go those that so many edges lead to from them, until all of them move the garment by less than this share
+/// of what one does that has settled, for at most so many stretches.
+const RINGS: usize = 3;
+const CALMER: f64 = 0.5;
+const STRETCHES: usize = 20;
+/// While there are steps left a test that says nothing after so many, twice as many the next time, is given up: steps
+/// of all the nodes take away what is left more slowly than those of the nodes that move.
+const SHORT_TEST: usize = 12;
 /// Tests of rest take no more than this many times the steps that draping may: one test as long as the longest fall,
 /// and as much for those before it. A garment that creeps fails one after the other, the later the slower it creeps.
 const TESTS: usize = 2;
@@ -157,6 +171,7 @@ impl Fall<'_> {
     /// Steps until the garment rests, or `most` are made, or [`TESTS`] times as many for tests. Returns its drift, its
     /// residual force, and whether it rests.
     fn come_to_rest(&mut self, most: usize, progress: &mut dyn FnMut(f64)) -> Result<([f64; 2], f64, bool), StepError> {
+        let mut patience = SHORT_TEST;
         loop {
             self.settle(most, SETTLED, progress)?;
             let out_of_steps = self.steps >= most;
@@ -164,7 +179,9 @@ impl Fall<'_> {
             if self.world.residual_in_weights() > RESIDUAL && !out_of_steps {
                 continue;
             }
-            let drift = self.drift(TESTS * most)?;
+            let longest = if out_of_steps { TESTS * most } else { (self.tested + patience).min(TESTS * most) };
+            patience *= 2;
+            let drift = self.drift(longest)?;
             let residual = self.world.residual_in_weights();
             let rests = drift[0] <= DRIFT && residual <= RESIDUAL;
             if rests || out_of_steps || self.tested >= TESTS * most {
@@ -193,6 +210,9 @@ impl Fall<'_> {
                     self.hardens = false;
                 }
             }
+            if self.near && !self.hardens && !is_settled {
+                self.settle_moving(before, settled, most)?;
+            }
             progress((self.steps as f64 / most as f64).max(settled / moved).min(0.9));
         }
         Ok(())
@@ -215,6 +235,42 @@ impl Fall<'_> {
             }
         }
         Ok(false)
+    }
+
+    /// Steps of the nodes alone that moved since the garment was at `before`, while the others are held where they are:
+    /// of fewer and fewer, until what they move is settled. Does nothing where it is not in part of the garment that it
+    /// moves.
+    fn settle_moving(&mut self, mut before: Vec<Vec3>, settled: f64, most: usize) -> Result<(), StepError> {
+        let mut resting = Vec::new();
+        for _ in 0..STRETCHES {
+            if let Some(moving) = self.moving(&before) {
+                resting.push(self.world.hold_all_but(&moving)?);
+            } else if resting.is_empty() {
+                break;
+            }
+            before.clone_from(&self.world.x);
+            let is_still = self.stretch(CALMER * settled)?;
+            if is_still || motion(&before, &self.world.x)[0] <= CALMER * settled || self.steps >= most {
+                break;
+            }
+        }
+        resting.into_iter().rev().try_for_each(|resting| self.world.release(resting))
+    }
+
+    /// The nodes that have moved since `before`, and those near them; none where they are most of those that could.
+    fn moving(&self, before: &[Vec3]) -> Option<Vec<bool>> {
+        let cloth = &self.world.cloth;
+        let moves = MOVES.max(SHARE * motion(before, &self.world.x)[1]);
+        let mut moving: Vec<bool> = before.iter().zip(&self.world.x).map(|(a, b)| (a - b).norm() > moves).collect();
+        for _ in 0..RINGS {
+            let last = moving.clone();
+            for [a, b] in cloth.edges.iter().map(|e| e.map(|n| n as usize)).filter(|e| last[e[0]] != last[e[1]]) {
+                (moving[a], moving[b]) = (true, true);
+            }
+        }
+        cloth.held.iter().for_each(|&n| moving[n as usize] = false);
+        let (count, free) = (moving.iter().filter(|m| **m).count(), moving.len() - cloth.held.len());
+        (count > 0 && (count as f64) < PART * free as f64).then_some(moving)
     }
 
     /// How far to look around after a stretch in which the garment went `moved` metres RMS, and the node that went

@@ -71,6 +71,19 @@ impl Bending {
         out
     }
 
+    /// The matrix without what it says of two nodes that are both held: it bends the others as they do.
+    pub(super) fn around(&self, is_held: &[bool]) -> Self {
+        let mut out = Self { starts: vec![0], bound: self.bound.clone(), ..Self::default() };
+        for (i, held) in is_held.iter().enumerate() {
+            for (j, value) in self.row(i).filter(|(j, _)| !held || !is_held[*j]) {
+                out.columns.push(j as u32);
+                out.values.push(value);
+            }
+            out.starts.push(out.columns.len() as u32);
+        }
+        out
+    }
+
     /// The entries of row `i`: (column, value).
     pub fn row(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let range = self.starts[i] as usize..self.starts[i + 1] as usize;

@@ -10,6 +10,7 @@
 //! rest in half the conjugate gradient iterations.
 
 use super::model::Cloth;
+use super::part::those;
 use super::shear::ShearTangent;
 use super::springs::{SHORTEST, Stretch, StretchLaw, StretchTangent};
 use crate::geometry::Vec3;
@@ -23,6 +24,17 @@ pub(super) struct Loads {
     threads: Vec<f64>,
     /// Of every [`Shear`](super::Shear), N·m per radian.
     shears: Vec<f64>,
+}
+
+impl Loads {
+    /// Those of the springs, threads and shears that are wanted.
+    pub(super) fn of(&self, springs: &[bool], threads: &[bool], shears: &[bool]) -> Self {
+        Self {
+            springs: those(&self.springs, springs),
+            threads: those(&self.threads, threads),
+            shears: those(&self.shears, shears),
+        }
+    }
 }
 
 /// What a step foresees.

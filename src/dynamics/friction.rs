@@ -128,6 +128,13 @@ impl Hold {
     }
 }
 
+/// What friction remembers of contacts that are set aside, and of the nodes.
+#[derive(Debug)]
+pub(super) struct Remembered {
+    touching: Vec<(Key, Memory)>,
+    on_body: Vec<Vec3>,
+}
+
 impl Friction {
     /// Nothing is drawn yet.
     pub(super) fn new(x: &[Vec3], contacts: &[Contact], stiffness: f64) -> Self {
@@ -145,6 +152,19 @@ impl Friction {
     /// Takes over from the contacts of the last detection what is known of those found by a new one.
     pub(super) fn detected(&mut self, contacts: &[Contact]) {
         self.memory = contacts.iter().map(|c| self.touching.get(&key(c)).copied().unwrap_or_default()).collect();
+    }
+
+    /// What it remembers of `contacts`.
+    pub(super) fn remembered(&self, contacts: &[Contact]) -> Remembered {
+        let touching = contacts.iter().filter_map(|c| Some((key(c), *self.touching.get(&key(c))?))).collect();
+        Remembered { touching, on_body: self.on_body.clone() }
+    }
+
+    /// Takes in what was `remembered` of contacts and of nodes that were held since.
+    pub(super) fn remember(&mut self, remembered: Remembered, was_held: &[bool]) {
+        self.touching.extend(remembered.touching);
+        let nodes = self.on_body.iter_mut().zip(remembered.on_body).zip(was_held);
+        nodes.filter(|(_, held)| **held).for_each(|((drawn, was), _)| *drawn = was);
     }
 
     /// By how far the spring of contact `k` is drawn at `x`.

@@ -158,6 +158,13 @@ impl Cloth {
         out
     }
 
+    /// Whether a node stays where it is.
+    pub(super) fn is_held(&self) -> Vec<bool> {
+        let mut out = vec![false; self.mass.len()];
+        self.held.iter().for_each(|&n| out[n as usize] = true);
+        out
+    }
+
     /// Thickness of its thickest cloth, metres.
     pub(crate) fn thickest(&self) -> f64 {
         2.0 * self.half_thickness.iter().copied().fold(0.0, f64::max)

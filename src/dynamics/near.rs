@@ -51,6 +51,21 @@ impl Found {
 /// A contact, and the triangle or edge of the cloth whose contact with a feature of the body it is.
 pub(super) type Source<'a> = (Contact<'a>, Option<u32>);
 
+/// Contacts that are set aside while their nodes are held.
+pub(super) struct Aside<'a> {
+    all: Vec<Contact<'a>>,
+    found: Vec<Found>,
+    /// The step after which they were.
+    step: u32,
+}
+
+impl<'a> Aside<'a> {
+    /// The contacts.
+    pub(super) fn contacts(&self) -> &[Contact<'a>] {
+        &self.all
+    }
+}
+
 /// The contacts of a step, and how far each node may go in it for no other to matter.
 pub(super) struct Near<'a> {
     /// All that was found, turned to where the closest points were when it last mattered.
@@ -103,6 +118,24 @@ impl<'a> Near<'a> {
         retain_unordered(&mut self.found, &stays);
         left.sort_by_key(|l| l.0);
         left
+    }
+
+    /// Sets those aside whose nodes are all held.
+    pub(super) fn set_aside(&mut self, x: &[Vec3], origin: &[Vec3], is_held: &[bool]) -> Aside<'a> {
+        let rests: Vec<bool> = self.all.iter().map(|c| c.parts().all(|(i, _)| is_held[i])).collect();
+        let (all, found) = (extract(&mut self.all, &rests), extract(&mut self.found, &rests));
+        self.choose(x, origin);
+        Aside { all, found, step: self.step }
+    }
+
+    /// Takes those back that were set aside: what mattered then has gone on to.
+    pub(super) fn take_back(&mut self, x: &[Vec3], origin: &[Vec3], aside: Aside<'a>) {
+        let Aside { all, found, step } = aside;
+        self.all.extend(all);
+        let now = self.step;
+        self.found
+            .extend(found.into_iter().map(|f| Found { turned: if f.turned == step { now } else { f.turned }, ..f }));
+        self.choose(x, origin);
     }
 
     /// Takes in what was found at `x`; every node's way is measured from its `origin`.
@@ -174,6 +207,12 @@ impl<'a> Near<'a> {
         self.contacts.clear();
         self.contacts.extend(self.number.iter().map(|&k| self.all[k as usize]));
     }
+}
+
+/// Takes the `items` that go out of their order.
+fn extract<T>(items: &mut Vec<T>, goes: &[bool]) -> Vec<T> {
+    let mut at = goes.iter();
+    items.extract_if(.., |_| at.next().is_some_and(|goes| *goes)).collect()
 }
 
 /// Keeps the `items` that stay, the last of them in the places of those that go: most stay, and few need be moved.

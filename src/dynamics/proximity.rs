@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::contact_law::ContactLaw;
 use super::cost::{ContactTime, timed};
 use super::model::Cloth;
-use super::near::{Near, Source};
+use super::near::{Aside, Near, Source};
 use crate::contact::{Bounds, ClothDetector, Collider, Contact, Neighbourhood, Tangle};
 use crate::geometry::{Vec3, sorted_pair};
 
@@ -102,6 +102,10 @@ pub(super) struct Proximity<'a> {
     hidden: Vec<bool>,
     /// Where every node last looked at the body.
     seen: Vec<Vec3>,
+    /// Which nodes are held: nothing is searched at them,
+    is_held: Vec<bool>,
+    /// but at those that should have been, once they are no longer.
+    owed: Vec<bool>,
     /// What all of it has cost.
     pub(super) time: ContactTime,
 }
@@ -126,6 +130,8 @@ impl<'a> Proximity<'a> {
             body_distance: vec![(f64::NEG_INFINITY, Vec3::zeros()); x.len()],
             hidden: vec![false; cloth.triangles.len() + cloth.edges.len()],
             seen: x.to_vec(),
+            is_held: vec![false; x.len()],
+            owed: vec![false; x.len()],
             time: ContactTime::default(),
         };
         out.detect(cloth, x);
@@ -138,8 +144,11 @@ impl<'a> Proximity<'a> {
         let all = self.is_all();
         let reach = if all { self.reach } else { self.searched.unwrap_or(self.reach) };
         let mut stale = self.bounds.stale(x, MOVED * reach.features);
-        stale.iter_mut().for_each(|stale| *stale |= all);
+        stale.iter_mut().zip(&self.owed).for_each(|(stale, owed)| *stale |= all || *owed);
         timed(&mut time.cloth, || self.detector.look(x, reach.cloth, &mut stale));
+        for ((stale, owed), held) in stale.iter_mut().zip(&mut self.owed).zip(&self.is_held) {
+            (*stale, *owed) = (*stale && !held, *stale && *held);
+        }
         let moved = self.moved(x, &stale);
         let mut sources = timed(&mut time.body, || self.body_contacts(x, &reach, &moved));
         timed(&mut time.features, || {
@@ -188,6 +197,24 @@ impl<'a> Proximity<'a> {
             timed(&mut self.time.follow, || self.near.follow(x, self.bounds.origin()));
         }
         due
+    }
+
+    /// Searches no longer at nodes that are held, nor follows what is near between them.
+    pub(super) fn hold(&mut self, x: &[Vec3], is_held: Vec<bool>) -> Aside<'a> {
+        let aside = self.near.set_aside(x, self.bounds.origin(), &is_held);
+        self.set_held(is_held);
+        aside
+    }
+
+    /// Searches again at nodes that are held no longer, and follows what was set aside.
+    pub(super) fn release(&mut self, x: &[Vec3], aside: Aside<'a>, is_held: Vec<bool>) {
+        self.near.take_back(x, self.bounds.origin(), aside);
+        self.set_held(is_held);
+    }
+
+    fn set_held(&mut self, is_held: Vec<bool>) {
+        self.bounds.hold((0..is_held.len() as u32).filter(|&n| is_held[n as usize]).collect());
+        self.is_held = is_held;
     }
 
     /// Lets the next look search all of the cloth: nodes may go further after it.
@@ -260,14 +287,14 @@ impl<'a> Proximity<'a> {
 
     /// Which nodes look at the body again: those that have moved since they last did, and those that are searched at.
     fn moved(&mut self, x: &[Vec3], stale: &[bool]) -> Vec<bool> {
-        let looks = |((x, seen), stale): ((&Vec3, &mut Vec3), &bool)| {
-            let looks = *stale || (x - *seen).norm_squared() > SEEN * SEEN;
+        let looks = |(((x, seen), stale), held): (((&Vec3, &mut Vec3), &bool), &bool)| {
+            let looks = *stale || !held && (x - *seen).norm_squared() > SEEN * SEEN;
             if looks {
                 *seen = *x;
             }
             looks
         };
-        x.iter().zip(&mut self.seen).zip(stale).map(looks).collect()
+        x.iter().zip(&mut self.seen).zip(stale).zip(&self.is_held).map(looks).collect()
     }
 
     /// Contacts with the nearest points of the body, of nodes that have `moved`.

@@ -54,9 +54,6 @@ pub(super) struct Reuse {
 /// springs by a tenth of a degree.
 const SAME: Reuse = Reuse { moved: 2e-5, contacts: 0 };
 
-/// Stiffness of what holds a node, in those of the stiffest spring.
-const WALL: f64 = 1e6;
-
 /// Shares of the diagonal that are added to it one after another where a matrix is singular to rounding: from a few
 /// units in the last place of single precision.
 const RIDGES: [f64; 4] = [3e-7, 3e-6, 3e-5, 3e-4];
@@ -66,15 +63,16 @@ pub struct Stepper {
     matrix: SymmetricMatrix<f32>,
     pub(super) factor: Cholesky<f32>,
     diagonal: Vec<BlockSlot>,
-    springs: Vec<BlockSlot>,
+    /// None where an end is held: the other one feels a wall.
+    springs: Vec<Option<BlockSlot>>,
     /// Between the nodes of each thread, 0 and 1, 0 and 2, 1 and 2,
-    threads: Vec<[BlockSlot; 3]>,
+    threads: Vec<[Option<BlockSlot>; 3]>,
     /// and of each shear.
-    shears: Vec<[BlockSlot; 3]>,
-    edges: Vec<BlockSlot>,
+    shears: Vec<[Option<BlockSlot>; 3]>,
+    edges: Vec<Option<BlockSlot>>,
     pulls: Vec<Option<BlockSlot>>,
-    /// [`Cloth::held`].
-    held: Vec<u32>,
+    /// Whether a node is one of [`Cloth::held`].
+    is_held: Vec<bool>,
     made: Option<Made>,
 }
 
@@ -133,15 +131,20 @@ impl Stepper {
     /// A cloth too large for 32-bit indices.
     pub fn new(cloth: &Cloth, pulls: &[[u32; 2]], touching: &[[u32; 2]]) -> Result<Self, StepError> {
         let n = cloth.mass.len();
-        let mut graph: Vec<[u32; 2]> = cloth.edges.iter().chain(pulls).chain(touching).copied().collect();
+        let is_held = cloth.is_held();
+        let is_free = |[a, b]: &[u32; 2]| !is_held[*a as usize] && !is_held[*b as usize];
         // The wings of a crease are the only nodes of it without a spring between them.
-        graph.extend(cloth.creases.iter().map(|c| [c.nodes[2], c.nodes[3]]));
-        let pattern = Arc::new(SymmetricPattern::blocks(n, graph.iter().map(|e| (e[0] as usize, e[1] as usize)))?);
+        let wings = cloth.creases.iter().map(|c| [c.nodes[2], c.nodes[3]]);
+        let graph = cloth.edges.iter().chain(pulls).chain(touching).copied().chain(wings).filter(is_free);
+        let pattern = Arc::new(SymmetricPattern::blocks(n, graph.map(|[a, b]| (a as usize, b as usize)))?);
         let slot = |[a, b]: [u32; 2]| pattern.block_slot(a as usize, b as usize);
-        let find = |[a, b]: [u32; 2]| slot([a, b]).ok_or(StepError::Uncoupled { a: a as usize, b: b as usize });
+        let find = |pair @ [a, b]: [u32; 2]| match slot(pair) {
+            None if is_free(&pair) => Err(StepError::Uncoupled { a: a as usize, b: b as usize }),
+            slot => Ok(slot),
+        };
         let sides = |[a, b, c]: [u32; 3]| Ok([find([a, b])?, find([a, c])?, find([b, c])?]);
         Ok(Self {
-            diagonal: (0..n as u32).map(|i| find([i, i])).collect::<Result<_, _>>()?,
+            diagonal: (0..n as u32).filter_map(|i| slot([i, i])).collect(),
             springs: cloth.springs.iter().map(|s| find(s.ends)).collect::<Result<_, _>>()?,
             threads: cloth.threads.iter().map(|t| sides(t.nodes)).collect::<Result<_, StepError>>()?,
             shears: cloth.shears.iter().map(|s| sides(s.nodes)).collect::<Result<_, StepError>>()?,
@@ -149,7 +152,7 @@ impl Stepper {
             pulls: pulls.iter().map(|e| slot(*e)).collect(),
             matrix: SymmetricMatrix::zeros(pattern.clone()),
             factor: Cholesky::new(pattern)?,
-            held: cloth.held.clone(),
+            is_held,
             made: None,
         })
     }
@@ -200,7 +203,9 @@ impl Stepper {
     /// H⁻¹ r, of the nodes that are not held.
     pub(super) fn apply_inverse(&self, r: &[Vec3]) -> Result<Vec<Vec3>, StepError> {
         let mut flat: Vec<f32> = r.iter().flat_map(|v| [v.x as f32, v.y as f32, v.z as f32]).collect();
-        let hold = |flat: &mut [f32]| self.held.iter().for_each(|&n| flat[3 * n as usize..][..3].fill(0.0));
+        let hold = |flat: &mut [f32]| {
+            flat.chunks_exact_mut(3).zip(&self.is_held).filter(|(_, held)| **held).for_each(|(f, _)| f.fill(0.0));
+        };
         hold(&mut flat);
         self.factor.solve(&mut flat);
         hold(&mut flat);
@@ -242,7 +247,6 @@ impl Stepper {
             }
             self.add_contact(&forces.contacts[k], &stiffness);
         }
-        self.hold(cloth, x);
         self.factor()?;
         self.made = Some(Made { x: x.to_vec(), dt, pushing, sliding: contacts.sliding(forces.contacts) });
         Ok(())
@@ -252,17 +256,6 @@ impl Stepper {
     /// of springs and the law of contacts, has changed.
     pub(super) fn forget(&mut self) {
         self.made = None;
-    }
-
-    /// Makes the nodes that are held so stiff that the others are solved as if they were walls.
-    fn hold(&mut self, cloth: &Cloth, x: &[Vec3]) {
-        if self.held.is_empty() {
-            return;
-        }
-        let wall = Mat3::identity() * (WALL * stiffest(cloth, x));
-        for &n in &self.held {
-            self.matrix.add_block(self.diagonal[n as usize], &wall);
-        }
     }
 
     /// Factors the matrix. Two kinds are singular to single precision: cloth that nothing holds, in a long step (its
@@ -309,10 +302,8 @@ impl Stepper {
             }
         }
         for (pull, slot) in forces.pulls.iter().zip(&self.pulls) {
-            if let Some(slot) = slot {
-                let k = Mat3::identity() * pull.stiffness_at(x);
-                couple(&mut self.matrix, &self.diagonal, pull.ends, *slot, &k);
-            }
+            let k = Mat3::identity() * pull.stiffness_at(x);
+            couple(&mut self.matrix, &self.diagonal, pull.ends, *slot, &k);
         }
         for (i, m) in cloth.mass.iter().enumerate() {
             self.matrix.add_block(self.diagonal[i], &(Mat3::identity() * (m / (dt * dt))));
@@ -339,9 +330,10 @@ impl Stepper {
         }
     }
 
-    /// Adds w wᵀ ⊗ K where the pattern has all its blocks; otherwise its bound (Σ|w|) diag(|w|) ⊗ K.
+    /// Adds w wᵀ ⊗ K of the nodes that are not held where the pattern has all its blocks; otherwise its bound
+    /// (Σ|w|) diag(|w|) ⊗ K.
     fn add_contact(&mut self, contact: &Contact, stiffness: &Mat3) {
-        let parts = || contact.parts().filter(|p| p.1 != 0.0);
+        let parts = || contact.parts().filter(|&(i, w)| w != 0.0 && !self.is_held[i]);
         let mut blocks: [Option<(BlockSlot, f64)>; 6] = [None; 6];
         let mut count = 0;
         let mut complete = true;
@@ -367,13 +359,6 @@ impl Stepper {
 fn sorted(mut nodes: Vec<[u32; 4]>) -> Vec<[u32; 4]> {
     nodes.sort_unstable();
     nodes
-}
-
-/// The largest stiffness of a spring at `x`, N/m; not a number where one of them is none.
-fn stiffest(cloth: &Cloth, x: &[Vec3]) -> f64 {
-    let of_springs = (0..cloth.springs.len()).map(|k| cloth.spring_tangent(k, x).along);
-    let along = of_springs.chain((0..cloth.threads.len()).map(|k| cloth.thread_tangent(k, x).along));
-    along.fold(0.0, |most: f64, k| if most.is_nan() || k <= most { most } else { k })
 }
 
 /// Entries of two sorted lists that the other does not have.
@@ -405,21 +390,32 @@ fn couple_three(
     matrix: &mut SymmetricMatrix<f32>,
     diagonal: &[BlockSlot],
     nodes: [u32; 3],
-    slots: &[BlockSlot; 3],
+    slots: &[Option<BlockSlot>; 3],
     block: impl Fn(usize, usize) -> Mat3,
 ) {
     for (i, node) in nodes.into_iter().enumerate() {
         matrix.add_block(diagonal[node as usize], &block(i, i));
     }
     for (slot, [i, j]) in slots.iter().zip([[0, 1], [0, 2], [1, 2]]) {
-        matrix.add_block(*slot, &block(i, j));
+        if let Some(slot) = slot {
+            matrix.add_block(*slot, &block(i, j));
+        }
     }
 }
 
-fn couple(matrix: &mut SymmetricMatrix<f32>, diagonal: &[BlockSlot], ends: [u32; 2], slot: BlockSlot, k: &Mat3) {
+/// Adds the stiffness `k` between two nodes, which have a slot unless one is held.
+fn couple(
+    matrix: &mut SymmetricMatrix<f32>,
+    diagonal: &[BlockSlot],
+    ends: [u32; 2],
+    slot: Option<BlockSlot>,
+    k: &Mat3,
+) {
     matrix.add_block(diagonal[ends[0] as usize], k);
     matrix.add_block(diagonal[ends[1] as usize], k);
-    matrix.add_block(slot, &(-k));
+    if let Some(slot) = slot {
+        matrix.add_block(slot, &(-k));
+    }
 }
 
 #[cfg(test)]

@@ -81,19 +81,19 @@ pub struct World<'a> {
     /// Node velocities (what inertia keeps).
     pub velocity: Vec<Vec3>,
     /// Friction of the contacts; none while sewing.
-    friction: Option<Friction>,
+    pub(super) friction: Option<Friction>,
     /// By how much the energy fell in every Newton step since contacts were last looked for, J.
-    gains: Vec<f64>,
+    pub(super) gains: Vec<f64>,
     /// Where the last Newton step would have liked to take every node.
     wished: Vec<Vec3>,
     /// Share of gravity.
     pub gravity: f64,
     law: ContactLaw,
-    proximity: Proximity<'a>,
-    stepper: Stepper,
+    pub(super) proximity: Proximity<'a>,
+    pub(super) stepper: Stepper,
     /// Couplings between layers that `stepper` has; `None` while seams are being closed, when layers slide past each
     /// other too fast for it to pay.
-    touching: Option<Vec<[u32; 2]>>,
+    pub(super) touching: Option<Vec<[u32; 2]>>,
 }
 
 /// What a Newton step did.

@@ -214,7 +214,7 @@ pub struct Stage {
     pub name: String,
     /// Wall-clock time, s.
     pub seconds: f64,
-    /// Steps taken.
+    /// Steps taken; of a drape also those of part of the garment.
     pub iterations: usize,
     /// Whether it came to rest.
     pub converged: bool,
