@@ -263,10 +263,7 @@ impl Fall<'_> {
         let moves = MOVES.max(SHARE * motion(before, &self.world.x)[1]);
         let mut moving: Vec<bool> = before.iter().zip(&self.world.x).map(|(a, b)| (a - b).norm() > moves).collect();
         for _ in 0..RINGS {
-            let last = moving.clone();
-            for [a, b] in cloth.edges.iter().map(|e| e.map(|n| n as usize)).filter(|e| last[e[0]] != last[e[1]]) {
-                (moving[a], moving[b]) = (true, true);
-            }
+            moving = cloth.with_neighbours(&moving);
         }
         cloth.held.iter().for_each(|&n| moving[n as usize] = false);
         let (count, free) = (moving.iter().filter(|m| **m).count(), moving.len() - cloth.held.len());

@@ -158,6 +158,16 @@ impl Cloth {
         out
     }
 
+    /// These `nodes` and those that an edge leads to from them.
+    pub fn with_neighbours(&self, nodes: &[bool]) -> Vec<bool> {
+        let mut out = nodes.to_vec();
+        for [a, b] in self.edges.iter().map(|e| e.map(|n| n as usize)) {
+            out[a] |= nodes[b];
+            out[b] |= nodes[a];
+        }
+        out
+    }
+
     /// Whether a node stays where it is.
     pub(super) fn is_held(&self) -> Vec<bool> {
         let mut out = vec![false; self.mass.len()];

@@ -31,7 +31,7 @@ impl<'a> World<'a> {
         self.detect()?;
         let cloth = self.cloth.around(free);
         let cloth = std::mem::replace(&mut self.cloth, cloth);
-        let contacts = self.proximity.hold(&self.x, self.cloth.is_held());
+        let contacts = self.proximity.hold(&self.cloth, &self.x);
         let friction = self.friction.as_mut().map(|friction| {
             let remembered = friction.remembered(contacts.contacts());
             friction.detected(self.proximity.near());
@@ -55,7 +55,7 @@ impl<'a> World<'a> {
         cloth.take_turns_of(&self.cloth, &was_held);
         (self.cloth, self.stepper, self.touching) = (cloth, stepper, touching);
         self.stepper.forget();
-        self.proximity.release(&self.x, contacts, self.cloth.is_held());
+        self.proximity.release(&self.cloth, &self.x, contacts);
         if let (Some(friction), Some(remembered)) = (&mut self.friction, friction) {
             friction.remember(remembered, &was_held);
             friction.detected(self.proximity.near());

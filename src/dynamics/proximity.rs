@@ -199,22 +199,21 @@ impl<'a> Proximity<'a> {
         due
     }
 
-    /// Searches no longer at nodes that are held, nor follows what is near between them.
-    pub(super) fn hold(&mut self, x: &[Vec3], is_held: Vec<bool>) -> Aside<'a> {
-        let aside = self.near.set_aside(x, self.bounds.origin(), &is_held);
-        self.set_held(is_held);
-        aside
+    /// Searches no longer at the nodes of `cloth` that are held, nor follows what is near between them.
+    pub(super) fn hold(&mut self, cloth: &Cloth, x: &[Vec3]) -> Aside<'a> {
+        self.set_held(cloth);
+        self.near.set_aside(x, self.bounds.origin(), &self.is_held)
     }
 
-    /// Searches again at nodes that are held no longer, and follows what was set aside.
-    pub(super) fn release(&mut self, x: &[Vec3], aside: Aside<'a>, is_held: Vec<bool>) {
+    /// Searches again at the nodes of `cloth` that are held no longer, and follows what was set aside.
+    pub(super) fn release(&mut self, cloth: &Cloth, x: &[Vec3], aside: Aside<'a>) {
+        self.set_held(cloth);
         self.near.take_back(x, self.bounds.origin(), aside);
-        self.set_held(is_held);
     }
 
-    fn set_held(&mut self, is_held: Vec<bool>) {
-        self.bounds.hold((0..is_held.len() as u32).filter(|&n| is_held[n as usize]).collect());
-        self.is_held = is_held;
+    fn set_held(&mut self, cloth: &Cloth) {
+        self.bounds.hold(cloth.held.clone());
+        self.is_held = cloth.is_held();
     }
 
     /// Lets the next look search all of the cloth: nodes may go further after it.

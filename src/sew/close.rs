@@ -306,12 +306,7 @@ fn is_stuck(history: &[f64], steps: usize) -> bool {
 fn neighbourhood<'a>(world: &World, nodes: impl Iterator<Item = &'a u32>) -> Vec<bool> {
     let mut core = vec![false; world.x.len()];
     nodes.for_each(|n| core[*n as usize] = true);
-    let mut out = core.clone();
-    for [a, b] in world.cloth.edges.iter().map(|e| e.map(|n| n as usize)) {
-        out[a] |= core[b];
-        out[b] |= core[a];
-    }
-    out
+    world.cloth.with_neighbours(&core)
 }
 
 /// Stitches particles that already lie as those of a sewn garment do, as a coarser one's have come to lie. `None` where
