@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use toile::cutting::{Layout, Lettering, MarkKind, Options, Paper, SewKind, Sheet, papers};
-use toile::geometry::Vec2;
+use toile::geometry::{Path, Vec2};
 use toile::io::dxf_write::cutting_dxf;
 use toile::io::garment::read_text;
 use toile::io::pdf_write::{Page, one_page, tiled};
@@ -232,6 +232,21 @@ free: ['front.*', 'patch.*', back.neck, back.side, back.hem]
 
 fn sample() -> Vec<Paper> {
     papers(&drawn(SAMPLE), &Options::default())
+}
+
+/// Over the mouth of a dart the cut line is raised, so that it lies flush where the dart is pressed.
+#[test]
+fn every_notch_reaches_the_cut_line() {
+    let papers = sample();
+    assert!(papers.iter().map(|p| p.notches.len()).sum::<usize>() > 7, "also those at the mouths of darts");
+    for paper in &papers {
+        let closed = |c: &Vec<Vec2>| Path::polyline(&c.iter().chain(&c[..1]).copied().collect::<Vec<_>>());
+        let lines: Vec<Path> = paper.cut.iter().map(closed).collect();
+        for notch in &paper.notches {
+            let off = lines.iter().map(|line| line.nearest(notch.at).1).fold(f64::INFINITY, f64::min);
+            assert!(off <= 1e-8, "{}: {} is {off} m off", paper.name, notch.at);
+        }
+    }
 }
 
 /// Longest distance of a point of one polyline from the other, both ways, as the points say.

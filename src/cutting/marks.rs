@@ -20,15 +20,18 @@ const PLEAT: f64 = 0.040;
 /// Barbs of arrows, metres.
 pub(super) const BARB: f64 = 0.004;
 
-pub(super) fn notches(drawing: &Drawing, width: impl Fn(usize, usize) -> f64) -> Vec<NotchMark> {
+/// Notches from the sewing lines of a drawing out to the `cut` lines, `width` metres off where nothing else is drawn:
+/// over the mouth of a dart the cut line is raised.
+pub(super) fn notches(drawing: &Drawing, cut: &[Vec<Vec2>], width: impl Fn(usize, usize) -> f64) -> Vec<NotchMark> {
+    let room = Room { contours: cut.to_vec(), walls: Vec::new() };
     let mut marks = Vec::new();
     let mut add = |edge: (usize, usize), at: f64, double: bool| {
         let path = &drawing.edge(edge).path;
         let (sewn, t) = (path.point(at), path.tangent(at));
         let out = Vec2::new(t.y, -t.x);
-        let width = width(edge.0, edge.1);
-        let inside = sewn - out * (NOTCH - width).max(0.0);
-        marks.push(NotchMark { at: sewn + out * width, sewn, inside, double });
+        let to_cut = room.way_off(sewn, out).unwrap_or_else(|| width(edge.0, edge.1));
+        let inside = sewn - out * (NOTCH - to_cut).max(0.0);
+        marks.push(NotchMark { at: sewn + out * to_cut, sewn, inside, double });
     };
     for notch in &drawing.notches {
         if notch.double {

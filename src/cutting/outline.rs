@@ -141,6 +141,7 @@ fn paper(rule: &Rule) -> Paper {
     };
     let mouths = sewn_mouths(&borders, &between);
     let grain = marks::grain(drawing, &cut);
+    let notches = marks::notches(drawing, &cut, |ring, index| rule.width(ring, index));
     Paper {
         name: drawing.name.clone(),
         count: label::count(&drawing.cut),
@@ -152,7 +153,7 @@ fn paper(rule: &Rule) -> Paper {
         cut,
         fold,
         sew: sew_lines(drawing, &mouths),
-        notches: marks::notches(drawing, |ring, index| rule.width(ring, index)),
+        notches,
         grain,
         marks: marks::marks(drawing, fold),
         drills: marks::drills(drawing),

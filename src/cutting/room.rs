@@ -10,6 +10,8 @@ pub(super) const AIR: f64 = 0.85;
 const ARROW: f64 = 0.8;
 /// This share of its length is not worth going farther for.
 const ALIKE: f64 = 0.01;
+/// What is this near to the rim of the cloth, metres, is on it.
+const ON_RIM: f64 = 1e-6;
 /// Places of an arrow at which it must be on the cloth.
 const LOOKS: usize = 16;
 
@@ -102,6 +104,11 @@ impl Room {
             }
         }
         best.2
+    }
+
+    /// How far it is from `p`, on the cloth or on its rim, to where it ends along `along`; `None` where it does not.
+    pub fn way_off(&self, p: Vec2, along: Vec2) -> Option<f64> {
+        self.stretches(p, along).into_iter().flatten().find(|way| *way >= -ON_RIM).map(|way| way.max(0.0))
     }
 
     /// Where the line through `p` along `along` runs over cloth: from and to, measured from `p`.
