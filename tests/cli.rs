@@ -620,6 +620,17 @@ fn any_surface_can_be_laid_flat() {
     let joined = room.run(&["flatten", "soup.obj", "--units", "cm", "--weld", "-o", "soup", "--json"]).ends(0).json();
     assert_eq!(joined["pieces"].as_array().map(Vec::len), Some(1));
     assert_eq!(joined["pieces"][0]["particles"], 45);
+    // Any of the vertices that are joined may name where to cut, in the second and in the third face alike.
+    let cut = |ends: &str, out: &str| {
+        room.run(&["flatten", "soup.obj", "--units", "cm", "--weld", "--cut", ends, "-o", out, "--json"])
+    };
+    let joined_at = (0..4).flat_map(|a| (4..8).map(move |b| (a, b))).filter(|(a, b)| {
+        let place = |k: usize| soup.lines().filter(|l| l.starts_with("v ")).nth(k).expect("a vertex").to_owned();
+        place(*a) == place(*b)
+    });
+    for (a, b) in joined_at {
+        cut(&format!("{},{}", a + 1, b + 1), "no").ends(2).says(&["are welded to one", "nothing to cut"]);
+    }
     // What is no disk is refused with what it is.
     room.put("closed.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
     room.run(&["flatten", "closed.obj", "-o", "no"]).ends(2).says(&["closed.obj", "cut it first"]);

@@ -726,6 +726,37 @@ fn notches_and_drill_holes_of_a_dxf_may_be_drawn() {
     assert_eq!(holes, [[150.0, 250.0]]);
 }
 
+/// A curve fitted to a polyline stands in the file beside what controls it, and what was mirrored in its plane is
+/// written as seen from below.
+#[test]
+fn fitted_and_mirrored_polylines_of_a_dxf_are_read_as_they_are_drawn() {
+    let vertex = |x: f64, y: f64, flags: f64| entity("VERTEX", 1, &[(10, x), (20, y), (70, flags)]);
+    let fitted = entity("POLYLINE", 1, &[(66, 1.0), (70, 5.0)])
+        + &vertex(0.0, 0.0, 8.0)
+        + &vertex(500.0, 900.0, 16.0)
+        + &vertex(300.0, 0.0, 8.0)
+        + &vertex(300.0, 400.0, 8.0)
+        + &vertex(0.0, 400.0, 8.0)
+        + "0\nSEQEND\n";
+    let area = |boundary: String, more: &str| {
+        let pieces = read_dxf_text(&block(&[boundary, more.to_owned()]), Some(1e-3)).expect("a piece").pieces;
+        let outline = pieces[0].cut.as_ref().expect("an outline");
+        ((outline.double_area().abs() * 0.5e6).round(), pieces[0].points.clone())
+    };
+    assert_eq!(area(fitted, "").0, 120_000.0);
+    // A half circle on the left of a square, and a hole in it, all mirrored to the right.
+    let bulged = |code: i32, value: f64| {
+        let pairs =
+            [(70, 1.0), (230, -1.0), (10, 0.0), (20, 0.0), (10, -200.0), (20, 0.0), (code, value), (10, -200.0)];
+        entity("LWPOLYLINE", 1, &[&pairs[..], &[(20, 200.0), (10, 0.0), (20, 200.0)]].concat())
+    };
+    let hole = entity("CIRCLE", 13, &[(10, -150.0), (20, 50.0), (40, 3.0), (230, -1.0)]);
+    let (outside, points) = area(bulged(42, -1.0), &hole);
+    let half = 0.5 * std::f64::consts::PI * 1e4;
+    assert_eq!(outside, (4e4 + half).round());
+    assert!((points[0] - Vec2::new(0.15, -0.05)).norm() < 1e-9, "{}", points[0]);
+}
+
 /// Where a patch is tacked down its holes are on its edges and at its corners: each is a mark there, on the cloth.
 #[test]
 fn a_drill_hole_on_the_rim_of_a_piece_is_a_mark_on_it() {

@@ -149,6 +149,27 @@ fn what_is_not_measured_is_listed() {
 }
 
 #[test]
+fn what_is_written_over_an_assumed_value_is_no_longer_listed() {
+    let garment = [("base".to_owned(), spec(None, &LEAST))];
+    let over = |values: &[(&str, &str)]| {
+        let on_base = spec(Some("base"), values);
+        resolve(&on_base, &Context { name: "top", ..context(&garment, Path::new("")) }).expect("fabric").defaults
+    };
+    assert_eq!(over(&[("friction", "0.3")]), ["tensile", "thickness", "shear"]);
+    assert_eq!(over(&[("tensile", "{EMT: 4 %, LT: 0.6}")]), ["thickness", "shear", "friction"]);
+    let one = ["thickness", "shear", "friction", "tensile.weft"];
+    assert_eq!(over(&[("tensile.warp", "{EMT: 4 %, LT: 0.6}")]), one);
+}
+
+#[test]
+fn fabrics_based_on_one_another_for_ever_are_refused() {
+    let next = |k: usize| (format!("f{k}"), spec(Some(&format!("f{}", k + 1)), &[]));
+    let chain: Vec<_> = (0..2000).map(next).collect();
+    let error = resolve(&chain[0].1, &Context { name: "f0", ..context(&chain, Path::new("")) }).expect_err("deep");
+    assert!(matches!(error, FabricError::Deep { .. }) && error.to_string().contains("100 fabrics"), "{error}");
+}
+
+#[test]
 fn plain_numbers_multiply_the_base() {
     let poplin = load("cotton_poplin").expect("poplin");
     let stiff = read(Some("cotton_poplin"), &[("bend", "2.5"), ("tensile", "2"), ("friction", "0.2")]).expect("stiff");

@@ -275,6 +275,8 @@ fn what_a_value_says_is_named_with_its_place() {
         "sied",
         "seam 'sied' not found; did you mean 'side'?",
     );
+    says(&squares("free: [", "free: [a.top@50%..10, "), 21, "a.top@50", "range a.top@50%..10 runs backwards");
+    says(&squares("  b:\n", "  b:\n    layer: 2147483647\n"), 12, "2147", "between -100 and 100");
     says(&squares("free: [", "tests: [{openings: 2}]\nfree: ["), 21, "{openings", "garment has 1 openings, expected 2");
     says(&squares("free: [", "tests: [{sem: x}]\nfree: ["), 21, "{sem", "unknown test 'sem'");
 }

@@ -221,6 +221,29 @@ fn other_units_and_absolute_control_points_are_the_same_garment() {
     }
 }
 
+/// Turns are degrees whatever lengths are: every back is turned by 180 of them.
+#[test]
+fn a_panel_that_is_turned_is_read_in_any_unit() {
+    let mut metres = specification();
+    metres["properties"]["units_in_meter"] = json!(1);
+    for panel in metres["pattern"]["panels"].as_object_mut().expect("panels").values_mut() {
+        for list in ["vertices", "translation"] {
+            scale(&mut panel[list], 0.01);
+        }
+    }
+    for back in ["left_btorso", "right_btorso"] {
+        metres["pattern"]["panels"][back]["rotation"] = json!([0, 180, 0]);
+    }
+    assert_eq!(import(&metres).0.pieces.len(), 4);
+}
+
+fn scale(value: &mut Value, by: f64) {
+    match value {
+        Value::Array(values) => values.iter_mut().for_each(|v| scale(v, by)),
+        number => *number = json!(number.as_f64().expect("a number") * by),
+    }
+}
+
 #[test]
 fn a_longer_edge_is_eased_or_gathered_and_says_so() {
     let mut spec = specification();

@@ -261,6 +261,7 @@ fn wrong_numbers_are_refused() {
         ("n: 2.12", "n: 0.5", "n = 0.5"),
         ("name: hip", "name: hips", "'hip'"),
         ("forward: 4", "forwards: 4", "forwards"),
+        ("name: child_110", "name: \"child\\nv 0 0 0\"", "more than one line"),
     ] {
         let error = MannequinSpec::parse(&text.replacen(from, to, 1), "mine.yaml").expect_err(to);
         let said = error.to_string();

@@ -15,7 +15,7 @@ use super::update::updated;
 use crate::flatten::Options;
 use crate::io::files::{check_writable, write_all};
 use crate::io::garment::Loaded;
-use crate::pattern::Garment;
+use crate::pattern::{FabricUse, Garment, Piece};
 use crate::pipeline::{AT_REST, Job, Overrides, PipelineError, Run, read};
 use crate::report::{Report, Restless, Verdict, aligned, restless, verdicts, verdicts_by_test};
 
@@ -159,7 +159,11 @@ fn outcomes(file: &Path, overrides: &Overrides) -> Vec<Outcome> {
 
 /// Fabrics that a garment has bounds for, each once; not those that its pieces are cut from anyway.
 fn fabrics_with_bounds(garment: &Garment) -> Vec<&str> {
-    let used = |fabric: &str| garment.pieces.iter().any(|p| p.fabric == fabric);
+    let is = |own: &FabricUse, fabric: &str| own.spec.values.is_empty() && own.spec.base.as_deref() == Some(fabric);
+    let of = |name: &str| garment.fabrics.iter().find(|own| own.name == name);
+    let is_cut_from =
+        |piece: &Piece, fabric: &str| piece.fabric == fabric || of(&piece.fabric).is_some_and(|own| is(own, fabric));
+    let used = |fabric: &str| garment.pieces.iter().any(|piece| is_cut_from(piece, fabric));
     let fabrics = garment.tests.iter().filter_map(|t| t.fabric.as_deref());
     let mut fabrics: Vec<&str> = fabrics.filter(|f| !used(f)).collect();
     fabrics.sort_unstable();
@@ -298,6 +302,20 @@ mod tests {
         // Nobody wears a report without openings.
         made.bounds.retain(|v| v.bound != "openings not worn");
         Outcome::new(Path::new("skirt.yaml"), None, Instant::now(), Ok(made))
+    }
+
+    #[test]
+    fn bounds_in_the_fabric_that_a_garment_is_cut_from_are_no_reason_to_make_it_again() {
+        let text = include_str!("../../tests/data/skirt.yaml");
+        let text = format!("{text}  - {{drape: all, fabric: denim, area: 1 %}}\n");
+        let made_in = |fabrics: &str| {
+            let text = text.replace("fabrics: {shell: cotton_poplin}", fabrics);
+            let loaded = crate::io::garment::read_text("skirt", "skirt.yaml", &text).expect("a garment");
+            fabrics_with_bounds(&loaded.garment).len()
+        };
+        assert_eq!(made_in("fabrics: {shell: cotton_poplin}"), 1);
+        assert_eq!(made_in("fabrics: {shell: denim}"), 0);
+        assert_eq!(made_in("fabrics: {shell: {base: denim, weight: 70 g/m2}}"), 1);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use super::columns;
+use super::columns::{self, Columns};
 use super::error::FabricError;
 use super::units::GF_PER_CM;
 
@@ -117,15 +117,20 @@ impl TensileCurve {
     pub fn parse(text: &str, file: &str) -> Result<Self, FabricError> {
         let fault = |row: usize, why: String| FabricError::Curve { file: file.to_owned(), row, why };
         let mut scale = (0.01, GF_PER_CM);
+        let mut lines = columns::rows(text).peekable();
+        let Some(&(row, first)) = lines.peek() else { return Self::rising(&[], scale, file) };
+        let columns = Columns::new(first);
+        let fields = |row: usize, line| pair(&columns, line).map_err(|why| fault(row, why));
+        let [strain, load] = fields(row, first)?;
+        if strain.contains(|c: char| c.is_alphabetic() || c == '%') && strain.parse::<f64>().is_err() {
+            scale = units(strain, load).map_err(|why| fault(row, why))?;
+            lines.next();
+        }
         let mut rows = Vec::new();
-        for (count, (row, line)) in columns::rows(text).enumerate() {
-            let first = line.split([',', ';', '\t']).next().unwrap_or(line);
-            if count == 0 && first.trim().parse::<f64>().is_err() {
-                scale = header(line).map_err(|why| fault(row, why))?;
-                continue;
-            }
-            let [strain, load] = numbers(line).map_err(|why| fault(row, why))?;
-            rows.push((row, strain, load));
+        for (row, line) in lines {
+            let number = |text| number(text).map_err(|why| fault(row, why));
+            let [strain, load] = fields(row, line)?;
+            rows.push((row, number(strain)?, number(load)?));
         }
         Self::rising(&rows, scale, file)
     }
@@ -179,9 +184,18 @@ fn short(x: f64) -> f64 {
     (x * 1e6).round() / 1e6
 }
 
-/// Units of both columns as factors to a fraction and N/m.
-fn header(line: &str) -> Result<(f64, f64), String> {
-    let (strain, load) = line.split_once([',', ';', '\t']).ok_or("two columns, strain and load, are expected")?;
+/// The two fields of a row.
+fn pair<'a>(columns: &Columns, line: &'a str) -> Result<[&'a str; 2], String> {
+    let fields = columns.cut(line)?;
+    let said = fields.iter().rposition(|field| !field.is_empty()).map_or(0, |last| last + 1);
+    match fields[..said] {
+        [strain, load] => Ok([strain, load]),
+        _ => Err(format!("{said} columns, where strain and load are expected")),
+    }
+}
+
+/// What a header says of both columns, as factors to a fraction and N/m.
+fn units(strain: &str, load: &str) -> Result<(f64, f64), String> {
     let strain = match strain {
         s if s.contains('%') => 0.01,
         s if s.contains("fraction") => 1.0,
@@ -195,16 +209,12 @@ fn header(line: &str) -> Result<(f64, f64), String> {
     Ok((strain, load))
 }
 
-fn numbers(line: &str) -> Result<[f64; 2], String> {
-    let fields: Vec<&str> = line.split([',', ';', '\t']).map(str::trim).collect();
-    let [strain, load] = fields[..] else {
-        return Err(format!("{} columns, where strain and load are expected", fields.len()));
-    };
-    let number = |text: &str| match text.parse::<f64>() {
+fn number(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
         Ok(v) if v.is_finite() => Ok(v),
+        _ if text.contains(',') => Err(format!("'{text}' is no number; write a decimal point")),
         _ => Err(format!("'{text}' is no finite number")),
-    };
-    Ok([number(strain)?, number(load)?])
+    }
 }
 
 #[cfg(test)]
@@ -255,6 +265,9 @@ mod tests {
         assert_eq!(curve.points, [(0.0, 0.0), (0.01, 20.0), (0.02, 60.0)]);
         let plain = TensileCurve::parse("1,100\n2,200", "a.csv").expect("curve");
         assert_relative_eq!(plain.points[2].1, 196.133, max_relative = 1e-9);
+        // As spreadsheets write it.
+        let sheet = "\"strain %\";\"load N/m\";\n1;20;\n2;60;\n;;\n";
+        assert_eq!(TensileCurve::parse(sheet, "a.csv").expect("curve"), curve);
     }
 
     #[test]
@@ -267,6 +280,7 @@ mod tests {
         assert!(said("1, 100\n1, 120").contains("strain"));
         assert!(said("1, nan").contains("row 1: 'nan' is no finite number"));
         assert!(said("1").contains("columns"));
+        assert!(said("0,5;100\n1;200").contains("'0,5' is no number; write a decimal point"));
         assert!(said("").contains("no rows"));
         assert!(said("strain, load\n1, 2").contains("unknown unit"));
         assert!(said("0, 2\n1, 3").contains("row 1: a load of 2 at 0; take it off all"));

@@ -102,6 +102,14 @@ pub enum FabricError {
         /// The fabric.
         fabric: String,
     },
+    /// A fabric at the end of too many that are based on one another.
+    #[error("fabric '{fabric}' is the base of {most} fabrics in a row; name one of the library sooner")]
+    Deep {
+        /// The fabric.
+        fabric: String,
+        /// So many are allowed.
+        most: usize,
+    },
 }
 
 impl FabricError {
@@ -121,7 +129,7 @@ impl FabricError {
             | Self::Range { fabric, key, .. }
             | Self::Twice { fabric, key, .. }
             | Self::Missing { fabric, key, .. } => (Some(fabric), Some(key)),
-            Self::Cycle { fabric } => (Some(fabric), Some("base")),
+            Self::Cycle { fabric } | Self::Deep { fabric, .. } => (Some(fabric), Some("base")),
             Self::Unknown { .. } | Self::Read { .. } | Self::Syntax { .. } | Self::Curve { .. } => (None, None),
         }
     }

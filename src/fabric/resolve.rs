@@ -23,6 +23,9 @@ const EMT: f64 = 0.03;
 const AREAL_DENSITY: f64 = 0.15;
 const LT: f64 = 0.7;
 
+/// Fabrics of a garment that may be based on one another in a row: more is a file that no one wrote.
+const LONGEST_CHAIN: usize = 100;
+
 /// Keys a fabric may have.
 const KEYS: [&str; 27] = [
     "weight",
@@ -71,7 +74,7 @@ pub struct Context<'a> {
 /// measures and no bending has the bending length that follows from its weights ([`LiuMeasures::bending_length`]).
 ///
 /// # Errors
-/// [`FabricError`] for a base that does not exist or leads back to itself, an unknown key, a bad unit, a number out of
+/// [`FabricError`] for a base that does not exist, leads back to itself or too far, an unknown key, a bad unit, a number out of
 /// range, a missing weight or bending value, a curve that does not rise.
 pub fn resolve(spec: &FabricSpec, context: &Context) -> Result<Fabric, FabricError> {
     resolve_chain(spec, context, &mut vec![context.name.to_owned()])
@@ -101,6 +104,9 @@ fn base_fabric(name: &str, context: &Context, seen: &mut Vec<String>) -> Result<
     };
     if seen.contains(name) {
         return Err(FabricError::Cycle { fabric: name.clone() });
+    }
+    if seen.len() >= LONGEST_CHAIN {
+        return Err(FabricError::Deep { fabric: name.clone(), most: LONGEST_CHAIN });
     }
     seen.push(name.clone());
     resolve_chain(spec, &Context { name, ..*context }, seen)
@@ -218,6 +224,9 @@ impl<'a> Values<'a> {
             (None, Some(_)) => Some(defaults.note("weight", AREAL_DENSITY)),
             (weight, _) => weight,
         };
+        if self.has("weight") {
+            defaults.clear("weight");
+        }
         let [bend_warp, bend_weft] = self.bending(base, weight, &mut defaults)?;
         let [warp, weft] = self.tensile(base, &mut defaults)?;
         Ok(Fabric {
@@ -255,6 +264,7 @@ impl<'a> Values<'a> {
         weight: Option<f64>,
         defaults: &mut Defaults,
     ) -> Result<[f64; 2], FabricError> {
+        defaults.written("bend", self.has("bend"), ["warp", "weft"].map(|way| self.has(&format!("bend.{way}"))));
         let warp = self.quantity(&["bend.warp", "bend"], &BEND, base.map(|b| b.bend_warp))?;
         let weft = self.quantity(&["bend.weft", "bend"], &BEND, base.map(|b| b.bend_weft))?;
         match (warp, weft) {
@@ -280,6 +290,9 @@ impl<'a> Values<'a> {
 
     /// Both curves. One stands for the other where only one is written.
     fn tensile(&self, base: Option<&Fabric>, defaults: &mut Defaults) -> Result<[TensileCurve; 2], FabricError> {
+        let both = ["tensile", "tensile.EMT", "tensile.LT"].iter().any(|key| self.has(key));
+        let of = |way: &str| self.map.keys().any(|key| key.starts_with(&format!("tensile.{way}")));
+        defaults.written("tensile", both, ["warp", "weft"].map(of));
         let warp =
             self.curve(["tensile.warp", "tensile.warp.EMT", "tensile.warp.LT"], base.map(|b| &b.warp), defaults)?;
         let weft =
@@ -361,6 +374,23 @@ impl Defaults {
     /// Forgets that `key` or anything under it was assumed.
     fn clear(&mut self, key: &str) {
         self.0.retain(|k| k != key && !k.starts_with(&format!("{key}.")));
+    }
+
+    /// Forgets that `key` was assumed where it is written, for `both` directions or along the warp or the weft: then
+    /// the other still is.
+    fn written(&mut self, key: &str, both: bool, directions: [bool; 2]) {
+        let was_assumed = self.0.iter().any(|k| k == key);
+        if both || was_assumed && directions.contains(&true) {
+            self.clear(key);
+        }
+        for (way, is_written) in ["warp", "weft"].into_iter().zip(directions) {
+            let key = format!("{key}.{way}");
+            if is_written {
+                self.clear(&key);
+            } else if was_assumed && !both && directions.contains(&true) {
+                self.note(&key, ());
+            }
+        }
     }
 
     /// `value` or, noted, `fallback`; a value that is written is no longer assumed.

@@ -125,14 +125,16 @@ impl Pen {
     /// An arc, or the line that stands for one without radii.
     fn arc_to(&mut self, arc: kurbo::SvgArc) {
         match kurbo::Arc::from_svg_arc(&arc) {
-            Some(curved) => {
-                curved.to_cubic_beziers(ARC_ACCURACY, |a, b, c| self.bez.curve_to(a, b, c));
+            // Of radii beside which its chord is a rounding it is that chord.
+            Some(curved) if curved.sweep_angle.abs() > 0.0 => {
+                let accuracy = ARC_ACCURACY.max(RELATIVE_ACCURACY * curved.radii.x.max(curved.radii.y));
+                curved.to_cubic_beziers(accuracy, |a, b, c| self.bez.curve_to(a, b, c));
                 // Its computed end is a rounding of the radius beside the one it was given, where the next edge begins.
                 if let Some(kurbo::PathEl::CurveTo(_, _, end)) = self.bez.elements_mut().last_mut() {
                     *end = arc.to;
                 }
             }
-            None => self.bez.line_to(arc.to),
+            _ => self.bez.line_to(arc.to),
         }
         self.at = arc.to;
     }
@@ -146,7 +148,7 @@ fn vector(p: Point) -> Vec2 {
     Vec2::new(p.x, p.y)
 }
 
-/// Lengths of paths of kilometres are exact to this share only: nothing exact can be said of them,
+/// Arcs and lengths of paths of kilometres are exact to this share only: nothing exact can be said of them,
 /// and trying to takes for ever.
 const RELATIVE_ACCURACY: f64 = 1e-12;
 /// Beyond this size (metres) squares may overflow and no length converges: that of the control points must do, to tell
@@ -479,6 +481,16 @@ mod tests {
         let p = Path::parse(Vec2::new(100.0, 0.0), "A 100 100 0 0 1 0 100", 1e-3).expect("path");
         assert_relative_eq!(p.length(), std::f64::consts::PI * 0.05, epsilon = 1e-5);
         assert_relative_eq!(p.point(p.length() / 2.0).norm(), 0.1, epsilon = 1e-5);
+    }
+
+    #[test]
+    fn an_arc_of_a_radius_that_nothing_has_costs_no_more_than_any() {
+        let p = Path::parse(Vec2::zeros(), "A 1e60 1e60 0 0 1 2e60 0", 1.0).expect("path");
+        assert!(p.joints().len() < 200, "{}", p.joints().len());
+        // Beside its radius this chord is nothing: a line, and the curve before it ends where it did.
+        let p = Path::parse(Vec2::zeros(), "C 0 1, 1 2, 2 2 A 1e40 1e40 0 0 1 5 6", 1.0).expect("path");
+        assert_eq!((p.joints().len(), p.end()), (3, Vec2::new(5.0, 6.0)));
+        assert_relative_eq!(p.part(p.length() - 5.0, p.length()).start(), Vec2::new(2.0, 2.0), epsilon = 1e-6);
     }
 
     #[test]

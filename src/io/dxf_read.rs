@@ -158,18 +158,19 @@ impl<'a> Block<'a> {
     {
         let on = entity.layer();
         match entity.kind {
-            "POLYLINE" => self.add_line(on, polyline(entity, rest, unit)?, is_closed(entity)),
-            "LWPOLYLINE" => self.add_line(on, entity.vertices(10, unit)?, is_closed(entity)),
-            "ARC" => self.add_line(on, entity.arc(unit)?, false),
+            "POLYLINE" => self.add_line(on, entity.as_seen(polyline(entity, rest, unit)?), is_closed(entity)),
+            "LWPOLYLINE" => self.add_line(on, entity.as_seen(entity.vertices(10, unit)?), is_closed(entity)),
+            "ARC" => self.add_line(on, entity.as_seen(entity.arc(unit)?), false),
             "LINE" => {
                 let ends = [entity.points(10, unit)?, entity.points(11, unit)?].concat();
                 self.add_line(on, ends.into_iter().map(|p| (p, 0.0)).collect(), false);
             }
             // Drill holes come as either. A circle that is a line is not read.
             "CIRCLE" if !on.is_some_and(is_mark) => left_out.add(entity),
-            "POINT" | "CIRCLE" => {
-                let at = entity.points(10, unit)?;
-                self.points.extend(on.zip(at.first().copied()));
+            "POINT" => self.points.extend(on.zip(entity.points(10, unit)?.first().copied())),
+            "CIRCLE" => {
+                let at = entity.as_seen(entity.vertices(10, unit)?);
+                self.points.extend(on.zip(at.first().map(|v| v.0)));
             }
             "TEXT" | "MTEXT" => {
                 // Where a text stands matters for our own alone.
@@ -287,6 +288,10 @@ impl<'a> Block<'a> {
     }
 }
 
+/// Flags of a polyline that ends where it begins, and of a vertex that only controls a spline.
+const CLOSED: u32 = 1;
+const SPLINE_CONTROL: u32 = 16;
+
 /// The vertices that follow a POLYLINE, each with its bulge.
 fn polyline<'e, 'a: 'e>(
     entity: &Entity<'a>,
@@ -296,6 +301,8 @@ fn polyline<'e, 'a: 'e>(
     let mut vertices = Vec::new();
     loop {
         match rest.next() {
+            // A curve fitted to others leaves these, which it does not run through, beside its own.
+            Some(vertex) if vertex.kind == "VERTEX" && vertex.flags() & SPLINE_CONTROL != 0 => {}
             Some(vertex) if vertex.kind == "VERTEX" => vertices.extend(vertex.vertices(10, unit)?.first()),
             Some(end) if end.kind == "SEQEND" => return Ok(vertices),
             _ => return Err(DxfError::Unended { line: entity.line }),
@@ -309,7 +316,7 @@ fn is_mark(on: u32) -> bool {
 }
 
 fn is_closed(entity: &Entity) -> bool {
-    entity.value(70).and_then(|v| v.parse::<u32>().ok()).is_some_and(|flags| flags & 1 == 1)
+    entity.flags() & CLOSED != 0
 }
 
 /// An edge that may have a name.

@@ -9,6 +9,8 @@ use crate::input::shown;
 /// Group code of the bulge of a vertex, and the entities in which it is one.
 const BULGE: i32 = 42;
 const BULGED: [&str; 2] = ["LWPOLYLINE", "VERTEX"];
+/// Group code of the height of the direction from which an entity is seen.
+const UPWARDS: i32 = 230;
 /// A degree in radians.
 const DEGREE: f64 = TAU / 360.0;
 /// Coordinates beyond this (metres) are a wrong unit or no pattern, and bulges beyond it (a circle but for a hair).
@@ -47,6 +49,20 @@ impl<'a> Entity<'a> {
 
     pub(super) fn layer(&self) -> Option<u32> {
         self.value(8)?.parse().ok()
+    }
+
+    /// What its kind means by code 70.
+    pub(super) fn flags(&self) -> u32 {
+        self.value(70).and_then(|v| v.parse().ok()).unwrap_or(0)
+    }
+
+    /// `vertices` with their bulges as they are seen from above: of an entity that was mirrored in its plane they are
+    /// written as seen from below. (Lines and points are written as they lie.)
+    pub(super) fn as_seen(&self, vertices: Vec<(Vec2, f64)>) -> Vec<(Vec2, f64)> {
+        if self.value(UPWARDS).and_then(|v| v.parse::<f64>().ok()).is_none_or(|z| z >= 0.0) {
+            return vertices;
+        }
+        vertices.into_iter().map(|(p, bulge)| (Vec2::new(-p.x, p.y), -bulge)).collect()
     }
 
     /// The points at codes 10 and 20 (or 11 and 21), metres, y down.

@@ -124,6 +124,9 @@ impl MannequinSpec {
     }
 
     fn check(&self) -> Result<(), String> {
+        if self.name.chars().any(char::is_control) {
+            return Err(format!("the name {:?} is more than one line of text", self.name));
+        }
         for name in NEEDED {
             self.torso_row(name).ok_or_else(|| format!("the torso needs a row named '{name}'"))?;
         }

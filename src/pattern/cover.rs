@@ -154,11 +154,7 @@ impl EdgeNames<'_> {
                 spans.extend(named.parts.iter().filter_map(|p| instance.edge(p.edge)).map(whole));
                 continue;
             };
-            let [from, to] = named.range(range, self.unit).ok_or_else(|| Problem::RangeBeyond {
-                user: "'free'".to_owned(),
-                reference: pattern.to_owned(),
-                length: named.length * 1e3,
-            })?;
+            let [from, to] = named.range(range, self.unit, pattern, || "'free'".to_owned())?;
             let stretches = named.stretches(from, to);
             if stretches.is_empty() {
                 return Err(Problem::RangeEmpty(pattern.to_owned()));

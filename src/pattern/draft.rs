@@ -63,12 +63,26 @@ impl NamedEdge {
         self.parts.iter().filter_map(clip).collect()
     }
 
-    /// A range of it as written, in metres from its start; `None` where it leaves the edge. Ends that miss the edge's
+    /// A range of it as written in a `reference` that `user` makes, in metres from its start. Ends that miss the edge's
     /// own by a rounding are those.
-    pub(super) fn range(&self, range: [Quantity; 2], unit: Unit) -> Option<[f64; 2]> {
+    ///
+    /// # Errors
+    /// Where it leaves the edge or runs backwards.
+    pub(super) fn range(
+        &self,
+        range: [Quantity; 2],
+        unit: Unit,
+        reference: &str,
+        user: impl FnOnce() -> String,
+    ) -> Result<[f64; 2], Problem> {
         let [from, to] = range.map(|q| position(q, self.length, unit));
-        let inside = from >= -SNAP && to <= self.length + SNAP;
-        inside.then_some([if from < SNAP { 0.0 } else { from }, if to > self.length - SNAP { self.length } else { to }])
+        if from < -SNAP || to > self.length + SNAP {
+            let (user, reference, length) = (user(), reference.to_owned(), self.length * 1e3);
+            return Err(Problem::RangeBeyond { user, reference, length });
+        }
+        let from = if from < SNAP { 0.0 } else { from };
+        let to = if to > self.length - SNAP { self.length } else { to };
+        if from < to { Ok([from, to]) } else { Err(Problem::BackwardsRange(reference.to_owned())) }
     }
 }
 

@@ -122,14 +122,8 @@ impl Source<'_> {
         let edge = drawn.find(&reference.edge).ok_or_else(|| drawn.unknown_edge(&reference.edge))?;
         let (mut from, mut to) = (0.0, edge.length);
         if let Some(range) = reference.range {
-            [from, to] = edge.range(range, self.unit).ok_or_else(|| Problem::RangeBeyond {
-                user: format!("seam '{}'", seam.name.value),
-                reference: reference.text.clone(),
-                length: edge.length * 1e3,
-            })?;
-            if from >= to {
-                return Err(Problem::BackwardsRange(reference.text.clone()));
-            }
+            let user = || format!("seam '{}'", seam.name.value);
+            [from, to] = edge.range(range, self.unit, &reference.text, user)?;
         }
         if edge.stretches(from, to).is_empty() {
             return Err(Problem::RangeEmpty(reference.text));

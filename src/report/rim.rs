@@ -47,7 +47,7 @@ pub(super) fn outline_distance(rim: &[RimEdge], before: &[Vec3], after: &[Vec3])
     let furthest = |from: &[Vec3], to: &[Vec3]| {
         let distance = |p: Vec3, e: &RimEdge| distance_to_segment(p, e.ends.map(|v| to[v as usize]));
         let nearest = |p: Vec3| rim.iter().map(|e| distance(p, e)).fold(f64::INFINITY, f64::min);
-        rim.iter().map(|e| nearest(from[e.ends[0] as usize])).fold(0.0, f64::max)
+        rim.iter().flat_map(|e| e.ends).map(|v| nearest(from[v as usize])).fold(0.0, f64::max)
     };
     furthest(before, after).max(furthest(after, before))
 }
@@ -85,4 +85,23 @@ fn rim_of(mesh: &ClothMesh, triangles: Range<usize>, drawn_in: &HashMap<[u32; 2]
 pub(super) fn beside_elastic(mesh: &ClothMesh, piece: &PieceMesh, elastic: &HashSet<u32>) -> Vec<u32> {
     let is_beside = |t: &usize| mesh.triangles[*t].iter().any(|c| elastic.contains(c));
     piece.triangles.clone().filter(is_beside).map(|t| t as u32).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn any_corner_of_a_rim_that_moves_is_seen() {
+        // A unit square whose edges name the smaller corner first.
+        let edges = [[0, 1], [1, 2], [2, 3], [0, 3]];
+        let rim = edges.map(|ends| RimEdge { ends, triangle: 0, flat: 1.0, drawn: [1.0; 2] });
+        let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| Vec3::new(x, y, 0.0));
+        for corner in 0..4 {
+            let mut moved = square;
+            let out = (square[corner] - Vec3::new(0.5, 0.5, 0.0)) * 0.2;
+            moved[corner] += out;
+            assert!((outline_distance(&rim, &square, &moved) - out.norm()).abs() < 1e-12, "corner {corner}");
+        }
+    }
 }

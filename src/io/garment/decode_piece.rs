@@ -12,6 +12,19 @@ use crate::pattern::{
 /// A piece may be cut so often at most: more is a slip of the pen, and every copy costs.
 const MOST_COPIES: usize = 100;
 
+/// Layers lie this far inside or outside the first at most: more is a slip of the pen.
+const MOST_LAYERS: i32 = 100;
+
+fn layer(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<i32>> {
+    let layer = integer::<i32>(value, what, findings)?;
+    if !(-MOST_LAYERS..=MOST_LAYERS).contains(&layer.value) {
+        let (what, found) = (what.to_owned(), layer.value.to_string());
+        findings.error(value.at, Problem::OutOfRange { what, expected: "between -100 and 100", found });
+        return None;
+    }
+    Some(layer)
+}
+
 /// Reads one piece.
 pub(super) fn piece(key: &Located<String>, value: &Located<Value>, findings: &mut Findings) -> Option<PieceFile> {
     let key = name(key, findings)?;
@@ -21,7 +34,7 @@ pub(super) fn piece(key: &Located<String>, value: &Located<Value>, findings: &mu
         fabric: fields.get("fabric", findings, text),
         cut: fields.get("cut", findings, cut),
         drawn: fields.get("drawn", findings, |v, _, f| word(v, "drawn", "L or R", f, Side::from_letter)),
-        layer: fields.get("layer", findings, integer),
+        layer: fields.get("layer", findings, layer),
         allowance: fields.take("allowance").and_then(|v| allowance(v, findings)),
         grain: fields.get("grain", findings, grain),
         place: fields.get("place", findings, place),

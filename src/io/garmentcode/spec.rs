@@ -178,8 +178,7 @@ impl Reader {
         let wrong = |reason: String| ImportError::Panel { panel: name.clone(), reason };
         let text: PanelText = serde_json::from_value(value).map_err(|e| wrong(e.to_string()))?;
         let sensible = |x: &f64| (x * self.scale).abs() <= LARGEST;
-        if !text.vertices.iter().flatten().chain(&text.translation).all(sensible) || !text.rotation.iter().all(sensible)
-        {
+        if !text.vertices.iter().flatten().chain(&text.translation).all(sensible) {
             return Err(wrong(format!("holds a number beyond {} m", LARGEST / 1000.0)));
         }
         if text.edges.len() < 2 {

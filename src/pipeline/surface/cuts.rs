@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::super::error::PipelineError;
 use super::darts::Source;
-use super::parts::Part;
+use super::parts::{Nodes, Part};
 use super::report::{CutReport, CutWhy, DartReport};
 use crate::flatten::{self, FlattenError, Flattened, disk_cuts, shortest_path};
 use crate::geometry::{MM, Topology, sorted_pair};
@@ -42,7 +42,7 @@ impl Marks {
         };
         let paths = &options.cuts.paths;
         for path in paths {
-            let (way, part) = way(faces, parts, path).map_err(|why| refused(path, why))?;
+            let (way, part) = way(faces, nodes, parts, path).map_err(|why| refused(path, why))?;
             of_file.extend(way.windows(2).map(|w| sorted_pair([w[0], w[1]])));
             let step = |w: &[u32]| (faces.vertices[w[1] as usize] - faces.vertices[w[0] as usize]).norm();
             let length = way.windows(2).map(step).sum::<f64>() * unit * MM;
@@ -100,7 +100,7 @@ impl Marks {
 }
 
 /// The shortest way through vertices numbered from 1, as the file's vertices from 0, and the part in which it begins.
-fn way(faces: &ObjFaces, parts: &[Part], stops: &[u32]) -> Result<(Vec<u32>, String), String> {
+fn way(faces: &ObjFaces, nodes: &Nodes, parts: &[Part], stops: &[u32]) -> Result<(Vec<u32>, String), String> {
     if stops.len() < 2 {
         return Err("a cut goes through two vertices or more".into());
     }
@@ -108,14 +108,20 @@ fn way(faces: &ObjFaces, parts: &[Part], stops: &[u32]) -> Result<(Vec<u32>, Str
     if let Some(wrong) = stops.iter().find(|v| **v == 0 || **v as usize > count) {
         return Err(format!("there is no vertex {wrong}; the file has 1 to {count}"));
     }
-    if let Some(twice) = stops.windows(2).find(|leg| leg[0] == leg[1]) {
+    let place = |v: u32| nodes.stand_in(v - 1);
+    if let Some(leg) = stops.windows(2).find(|leg| place(leg[0]) == place(leg[1])) {
+        let (a, b) = (leg[0], leg[1]);
         let said = "from a vertex to itself there is nothing to cut";
-        return Err(format!("vertex {0} follows itself, and {said}; leave one {0} out or name another", twice[0]));
+        return Err(if a == b {
+            format!("vertex {a} follows itself, and {said}; leave one {a} out or name another")
+        } else {
+            format!("vertices {a} and {b} are welded to one, and {said}; leave one out or name another")
+        });
     }
-    let mut way = vec![stops[0] - 1];
+    let mut way = vec![place(stops[0])];
     let mut begun = None;
     for leg in stops.windows(2) {
-        let local = |part: &Part, v: u32| part.vertices.iter().position(|&w| w + 1 == v).map(|k| k as u32);
+        let local = |part: &Part, v: u32| part.vertices.iter().position(|&w| w == place(v)).map(|k| k as u32);
         let shared = parts.iter().find_map(|part| Some((part, local(part, leg[0])?, local(part, leg[1])?)));
         let Some((part, from, to)) = shared else {
             return Err(format!("vertices {} and {} do not lie in one part of the surface", leg[0], leg[1]));

@@ -35,6 +35,8 @@ pub(super) struct Nodes {
     of_face: Vec<Vec<u32>>,
     /// The file's vertex of every node.
     vertex: Vec<u32>,
+    /// Of every vertex of the file the one that stands for it.
+    same: Vec<u32>,
 }
 
 /// No node.
@@ -48,7 +50,7 @@ impl Nodes {
     /// place are one.
     pub(super) fn new(faces: &ObjFaces, texture: bool, weld: bool) -> Self {
         let same = if weld { welded(&faces.vertices) } else { (0..faces.vertices.len() as u32).collect() };
-        let mut out = Self { of_face: Vec::with_capacity(faces.faces.len()), vertex: Vec::new() };
+        let (mut of_face, mut vertex) = (Vec::with_capacity(faces.faces.len()), Vec::new());
         // The nodes of a vertex, which are few: the last made, and from each to the one before.
         let mut last = vec![NONE; faces.vertices.len()];
         let mut made: Vec<(NodeKey, u32)> = Vec::new();
@@ -66,14 +68,19 @@ impl Nodes {
                 if node == NONE {
                     node = made.len() as u32;
                     made.push((key, std::mem::replace(&mut last[v as usize], node)));
-                    out.vertex.push(v);
+                    vertex.push(v);
                 }
                 node
             });
             let nodes = nodes.collect();
-            out.of_face.push(nodes);
+            of_face.push(nodes);
         }
-        out
+        Self { of_face, vertex, same }
+    }
+
+    /// The vertex of the file that stands for `vertex`: the first of those that are welded to it.
+    pub(super) fn stand_in(&self, vertex: u32) -> u32 {
+        self.same[vertex as usize]
     }
 
     /// Edges of nodes, smaller first, that lie on one of the file's edges.
