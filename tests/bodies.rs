@@ -143,7 +143,8 @@ fn what_is_sewn_on_a_body_that_stands_elsewhere_is_written_where_its_file_has_it
     let sewn = folder.path().join(SEWN_OBJ);
     fs::write(&sewn, &files.iter().find(|f| f.0 == SEWN_OBJ).expect("a sewn garment").1).expect("the garment");
 
-    let judged = judge(&sewn, named.as_deref(), LengthUnit::Millimetre).expect("two surfaces");
+    let judged = judge(&sewn, LengthUnit::Millimetre, named.as_deref().map(|name| (name, LengthUnit::Millimetre)))
+        .expect("two surfaces");
     assert_eq!((judged.notes.len(), judged.seen.contact.cloth_body_intersections), (0, 0), "{:?}", judged.notes);
     let again = Run::from_sewn(&job, &sewn).expect("the same garment");
     let [first, second] = [&run, &again].map(|run| run.last().expect("sewn"));

@@ -631,6 +631,16 @@ fn any_surface_can_be_laid_flat() {
     for (a, b) in joined_at {
         cut(&format!("{},{}", a + 1, b + 1), "no").ends(2).says(&["are welded to one", "nothing to cut"]);
     }
+    // The unit of a body may be another than the mesh's.
+    room.put("tent.obj", "v -0.5 1 0\nv 0.5 1 0\nv 0 1 0.5\nv 0 2 0.5\nf 1 2 3\nf 2 1 4\nf 3 2 4\nf 1 3 4\n");
+    room.put("sheet.obj", "v 0 1500 -900\nv 900 1500 900\nv -900 1500 900\nf 1 2 3\n");
+    let on_tent = ["check", "--mesh", "sheet.obj", "--body", "tent.obj"];
+    let run = room.run(&[&on_tent[..], &["--body-units", "m"]].concat());
+    assert!(
+        run.ends(1).out.contains("cloth through body ") && !run.out.contains("cloth through body 0"),
+        "{}",
+        run.out
+    );
     // What is no disk is refused with what it is.
     room.put("closed.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
     room.run(&["flatten", "closed.obj", "-o", "no"]).ends(2).says(&["closed.obj", "cut it first"]);
@@ -974,6 +984,10 @@ fn an_input_is_never_overwritten() {
     room.put("coat.yaml", &skirt_with("cotton_poplin", "report.json"));
     let onto = ["make", "coat.yaml", "-o", ".", "--spacing", COARSE];
     room.run(&onto).ends(2).says(&["report.json", "is an input"]);
+    for onto in ["export svg coat.yaml -o report.json", "test coat.yaml --junit report.json"] {
+        let words: Vec<&str> = onto.split(' ').collect();
+        room.run(&words).ends(2).says(&["report.json", "is an input"]);
+    }
     assert_eq!(room.names("."), ["coat.yaml", "flat.obj", "garment.obj", "report.json", "skirt.yaml"]);
 }
 

@@ -752,7 +752,7 @@ fn fitted_and_mirrored_polylines_of_a_dxf_are_read_as_they_are_drawn() {
     };
     let hole = entity("CIRCLE", 13, &[(10, -150.0), (20, 50.0), (40, 3.0), (230, -1.0)]);
     let (outside, points) = area(bulged(42, -1.0), &hole);
-    let half = 0.5 * std::f64::consts::PI * 1e4;
+    let half = 0.5 * PI * 1e4;
     assert_eq!(outside, (4e4 + half).round());
     assert!((points[0] - Vec2::new(0.15, -0.05)).norm() < 1e-9, "{}", points[0]);
 }

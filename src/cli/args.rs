@@ -35,7 +35,7 @@ pub(super) struct Global {
     /// Print the results as JSON on standard output
     #[arg(long, global = true)]
     pub(super) json: bool,
-    /// Number of threads, up to 256 (default: all processors); results do not depend on it
+    /// Number of threads (default: all processors), of which 256 at most are started; results do not depend on it
     #[arg(long, global = true, value_name = "N")]
     pub(super) threads: Option<NonZeroUsize>,
 }
@@ -188,12 +188,15 @@ pub(super) struct CheckArgs {
     /// Look for crossings in this surface instead, whoever made it
     #[arg(long, value_name = "FILE.obj", conflicts_with = "garment")]
     pub(super) mesh: Option<PathBuf>,
-    /// What the surface should lie on: a mannequin, or a closed OBJ in the same unit and place
+    /// What the surface should lie on: a mannequin, or a closed OBJ in the same place
     #[arg(long, value_name = "NAME|FILE.obj", requires = "mesh")]
     pub(super) body: Option<String>,
     /// Unit of the OBJ files
     #[arg(long, value_enum, default_value = "mm", requires = "mesh")]
     pub(super) units: UnitArg,
+    /// Unit of the body's OBJ file, where it is another
+    #[arg(long, value_enum, value_name = "UNIT", requires = "body")]
+    pub(super) body_units: Option<UnitArg>,
 }
 
 /// Arguments of `flatten`.

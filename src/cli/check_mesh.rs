@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::args::CheckArgs;
+use super::args::{CheckArgs, UnitArg};
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use crate::pipeline::judge;
@@ -20,7 +20,9 @@ struct Found {
 
 /// `toile check --mesh`
 pub(super) fn check_mesh(mesh: &std::path::Path, args: &CheckArgs, console: &Console) -> Result<Exit, CliError> {
-    let judged = judge(mesh, args.body.as_deref(), args.units.unit())?;
+    let unit = args.units.unit();
+    let body_unit = args.body_units.map_or(unit, UnitArg::unit);
+    let judged = judge(mesh, unit, args.body.as_deref().map(|name| (name, body_unit)))?;
     judged.notes.iter().for_each(|note| console.note(note));
     let contact = judged.seen.contact;
     let ok = contact == Contact::default();

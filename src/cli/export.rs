@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::args::{ExportArgs, ExportCommand, PageArg};
 use super::console::Console;
 use super::exit::{CliError, Exit};
-use super::make::folder;
+use super::make::{borrowed, folder};
 use crate::cutting::{DEFAULT_ALLOWANCE, Layout, MarkKind, Narrowed, Options, Paper, SewKind, Sheet, papers};
 use crate::geometry::MM;
 use crate::io::dxf_write::cutting_dxf;
@@ -13,7 +13,7 @@ use crate::io::files::write_all;
 use crate::io::pdf_write::{Page, one_page, tiled};
 use crate::io::svg_write::cutting_svg;
 use crate::pattern::{Drawing, drawings};
-use crate::pipeline::read;
+use crate::pipeline::{Overrides, inputs, read};
 use crate::report::aligned;
 
 /// Empty rim of a sheet that is one page, metres.
@@ -60,6 +60,8 @@ struct Job<'a> {
     name: String,
     title: String,
     papers: Vec<Paper>,
+    /// Files that may not be overwritten.
+    inputs: Vec<PathBuf>,
 }
 
 impl<'a> Job<'a> {
@@ -76,13 +78,14 @@ impl<'a> Job<'a> {
         let allowance = args.allowance.map_or(DEFAULT_ALLOWANCE, |mm| mm / MM);
         let papers = papers(&drawn, &Options { allowance, whole: args.whole });
         papers.iter().flat_map(narrowed).for_each(|note| console.note(&note));
-        Ok(Self { args, name: loaded.garment.name, title: loaded.garment.title, papers })
+        let inputs = inputs(&args.garment, &loaded.garment, &Overrides::default());
+        Ok(Self { args, name: loaded.garment.name, title: loaded.garment.title, papers, inputs })
     }
 
     fn write(&self, bytes: Vec<u8>, kind: &str, console: &Console) -> Result<Exit, CliError> {
         let usual = || folder(None, &self.name).join(format!("cutting.{kind}"));
         let target: PathBuf = self.args.output.clone().unwrap_or_else(usual);
-        write_all(&[(target.clone(), bytes)], &[&self.args.garment])?;
+        write_all(&[(target.clone(), bytes)], &borrowed(&self.inputs))?;
         let rows: Vec<Row> = self.papers.iter().map(Row::new).collect();
         let written = Written { file: target.display().to_string(), pieces: rows };
         console.results(&written, || written.text())?;

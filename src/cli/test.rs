@@ -11,12 +11,13 @@ use super::args::TestArgs;
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use super::junit;
+use super::make::borrowed;
 use super::update::updated;
 use crate::flatten::Options;
 use crate::io::files::{check_writable, write_all};
 use crate::io::garment::Loaded;
 use crate::pattern::{FabricUse, Garment, Piece};
-use crate::pipeline::{AT_REST, Job, Overrides, PipelineError, Run, read};
+use crate::pipeline::{AT_REST, Job, Overrides, PipelineError, Run, inputs, read};
 use crate::report::{Report, Restless, Verdict, aligned, restless, verdicts, verdicts_by_test};
 
 /// How a garment did.
@@ -48,18 +49,18 @@ pub(super) struct Outcome {
 /// `toile test`
 pub(super) fn test(args: &TestArgs, console: &Console) -> Result<Exit, CliError> {
     let files = garment_files(&args.paths)?;
-    let inputs: Vec<&Path> = files.iter().map(PathBuf::as_path).collect();
-    if let Some(junit) = &args.junit {
-        check_writable(std::slice::from_ref(junit), &inputs)?;
-    }
     let overrides = args.overrides.checked();
+    let inputs: Vec<PathBuf> = files.iter().flat_map(|file| read_by(file, &overrides)).collect();
+    if let Some(junit) = &args.junit {
+        check_writable(std::slice::from_ref(junit), &borrowed(&inputs))?;
+    }
     let begin = Instant::now();
     let outcomes: Vec<Outcome> = files.par_iter().flat_map_iter(|file| outcomes(file, &overrides)).collect();
     // Garments are made side by side: the sum of their times is not what passed.
     let passed = begin.elapsed();
     let updated = if args.update { update(&outcomes)? } else { Vec::new() };
     if let Some(file) = &args.junit {
-        write_all(&[(file.clone(), junit::xml(&outcomes).into_bytes())], &inputs)?;
+        write_all(&[(file.clone(), junit::xml(&outcomes).into_bytes())], &borrowed(&inputs))?;
     }
     console.results(&outcomes, || summary(&outcomes, passed))?;
     updated.iter().for_each(|file| console.note(&format!("{}: bounds updated", file.display())));
@@ -135,6 +136,11 @@ fn garment_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
 
 fn is_yaml(path: &Path) -> bool {
     path.is_file() && path.extension().is_some_and(|e| e == "yaml" || e == "yml")
+}
+
+/// Files that a garment is made from, among them its own, whatever is wrong with it.
+fn read_by(file: &Path, overrides: &Overrides) -> Vec<PathBuf> {
+    read(file).map_or_else(|_| vec![file.to_owned()], |loaded| inputs(file, &loaded.garment, overrides))
 }
 
 /// Makes one garment as its file says, and once more in every fabric that it has bounds for.

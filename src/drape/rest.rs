@@ -195,7 +195,7 @@ impl Fall<'_> {
         let mut is_settled = false;
         while !is_settled && self.steps < most {
             let before = self.world.x.clone();
-            let is_still = self.stretch(settled)?;
+            let is_still = self.stretch(settled, most)?;
             let [moved, most_moved] = motion(&before, &self.world.x);
             is_settled = is_still || moved <= settled;
             self.world.look_within(self.reach(moved, most_moved))?;
@@ -219,10 +219,10 @@ impl Fall<'_> {
     }
 
     /// A stretch of steps. Returns whether it ended early: where the garment is so still that a whole stretch of such
-    /// steps would hardly be a share of `settled` metres.
-    fn stretch(&mut self, settled: f64) -> Result<bool, StepError> {
+    /// steps would hardly be a share of `settled` metres. No more than `most` are made in all.
+    fn stretch(&mut self, settled: f64, most: usize) -> Result<bool, StepError> {
         let mut still = Still::default();
-        for _ in 0..STRETCH {
+        for _ in self.steps..most.min(self.steps + STRETCH) {
             let from = self.world.x.clone();
             if self.near {
                 self.step(STEP)?;
@@ -249,7 +249,7 @@ impl Fall<'_> {
                 break;
             }
             before.clone_from(&self.world.x);
-            let is_still = self.stretch(CALMER * settled)?;
+            let is_still = self.stretch(CALMER * settled, most)?;
             if is_still || motion(&before, &self.world.x)[0] <= CALMER * settled || self.steps >= most {
                 break;
             }

@@ -74,8 +74,8 @@ pub struct Context<'a> {
 /// measures and no bending has the bending length that follows from its weights ([`LiuMeasures::bending_length`]).
 ///
 /// # Errors
-/// [`FabricError`] for a base that does not exist, leads back to itself or too far, an unknown key, a bad unit, a number out of
-/// range, a missing weight or bending value, a curve that does not rise.
+/// [`FabricError`] for a base that does not exist, leads back to itself or too far, an unknown key, a bad unit, a
+/// number out of range, a missing weight or bending value, a curve that does not rise.
 pub fn resolve(spec: &FabricSpec, context: &Context) -> Result<Fabric, FabricError> {
     resolve_chain(spec, context, &mut vec![context.name.to_owned()])
 }

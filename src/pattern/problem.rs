@@ -286,7 +286,9 @@ impl Problem {
             Self::UnknownClosure { known, .. } => {
                 format!("the kinds of closures with points are: {known}; or write all")
             }
-            Self::UnknownFabric { known, .. } => format!("the fabrics are: {known}"),
+            Self::UnknownFabric { known, .. } => {
+                format!("the fabrics are: {known}; any other, a shipped one too, is named under 'fabrics' first")
+            }
             Self::UnknownEdge { nearest: Some(n), .. } => format!("did you mean '{n}'?"),
             Self::NeitherSewnNorFree(_) => "sew them in a seam or list them under 'free'".to_owned(),
             Self::FreeOnFold { .. } => "leave it out of 'free', or fold another edge".to_owned(),

@@ -24,12 +24,12 @@ pub struct Judged {
     pub notes: Vec<String>,
 }
 
-/// Looks for crossings in the OBJ file `mesh` in `unit`, with itself and with `body`: a mannequin's name
-/// or a closed OBJ in the same unit and place.
+/// Looks for crossings in the OBJ file `mesh` in `unit`, with itself and with `body`: a mannequin's name, or a closed
+/// OBJ in the same place and the unit beside it.
 ///
 /// # Errors
 /// [`PipelineError::Obj`] and [`PipelineError::Body`]: files that cannot be read, or a body that is not closed.
-pub fn judge(mesh: &Path, body: Option<&str>, unit: LengthUnit) -> Result<Judged, PipelineError> {
+pub fn judge(mesh: &Path, unit: LengthUnit, body: Option<(&str, LengthUnit)>) -> Result<Judged, PipelineError> {
     let faces = read_obj_faces(mesh)?;
     let metres = unit.metres();
     let mut cloth = TriMesh { vertices: faces.vertices.iter().map(|p| p * metres).collect(), triangles: Vec::new() };
@@ -39,7 +39,7 @@ pub fn judge(mesh: &Path, body: Option<&str>, unit: LengthUnit) -> Result<Judged
         group_of.extend(triangles.iter().map(|_| group));
         cloth.triangles.extend(triangles);
     }
-    let body = body.map(|name| solid(name, unit)).transpose()?;
+    let body = body.map(|(name, unit)| solid(name, unit)).transpose()?;
     let notes = body.as_ref().and_then(|body| misplaced(&cloth, body)).into_iter().collect();
     let name = |t: u32| match faces.groups[group_of[t as usize] as usize].as_str() {
         "" => "mesh",
@@ -69,7 +69,7 @@ fn misplaced(cloth: &TriMesh, body: &TriMesh) -> Option<String> {
     (apart || larger).then(|| {
         format!(
             "the mesh ({cloth_mm:.0} mm across) and the body ({body_mm:.0} mm across) do not lie in the same place; \
-             are both in the unit that --units says, and is the body where the mesh is worn?"
+             are they in the units that --units and --body-units say, and is the body where the mesh is worn?"
         )
     })
 }

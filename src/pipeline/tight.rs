@@ -12,7 +12,7 @@ pub fn tight(job: &Job, report: &Report) -> Option<String> {
 fn told<'a>(pieces: impl Iterator<Item = (&'a PieceReport, &'a Fabric)>) -> Option<String> {
     let mut cloths: Vec<(&Fabric, Vec<String>)> = Vec::new();
     for (piece, fabric) in pieces.filter(|(piece, fabric)| is_tight(piece, fabric)) {
-        let drawn_out = format!("'{}' (by {:.1} %)", piece.name, 100.0 * piece.strain.p99);
+        let drawn_out = format!("'{}' (by {:.1} %)", piece.name, 100.0 * piece.drawn_out);
         match cloths.iter_mut().find(|(cloth, _)| cloth.name == fabric.name) {
             Some((_, pieces)) => pieces.push(drawn_out),
             None => cloths.push((fabric, vec![drawn_out])),
@@ -41,7 +41,7 @@ fn of_cloth(cloth: &Fabric, pieces: &[String]) -> String {
 /// 500 gf/cm. Cloth is not worn so, though it may not tear.
 fn is_tight(piece: &PieceReport, fabric: &Fabric) -> bool {
     let [warp, weft] = fabric.emt();
-    piece.strain.p99 > warp.max(weft)
+    piece.drawn_out > warp.max(weft)
 }
 
 #[cfg(test)]
@@ -50,8 +50,7 @@ mod tests {
     use crate::report::Spread;
 
     fn piece(name: &str) -> PieceReport {
-        let strain = Spread { p99: 0.094, ..Spread::default() };
-        PieceReport { name: name.into(), strain, ..PieceReport::default() }
+        PieceReport { name: name.into(), drawn_out: 0.094, ..PieceReport::default() }
     }
 
     #[test]
@@ -67,5 +66,9 @@ mod tests {
         );
         assert!(!said.contains("'band'") && said.matches("make it wider there").count() == 1, "{said}");
         assert_eq!(told([(&band, &rib)].into_iter()), None);
+        // Pushed together as far, as gathered cloth is.
+        let strain = Spread { p99: 0.094, ..Spread::default() };
+        let gathered = PieceReport { drawn_out: 0.0, strain, ..front.clone() };
+        assert_eq!(told([(&gathered, &denim)].into_iter()), None);
     }
 }

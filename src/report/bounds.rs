@@ -3,9 +3,10 @@
 use serde::Serialize;
 
 use super::closures::APART;
-use super::schema::{ClosureReport, Crossing, PieceReport, Quartet, Report};
+use super::schema::{ClosureReport, Crossing, PieceReport, Quartet, Report, Worn};
 use crate::geometry::MM;
 use crate::pattern::{Bound, Garment, Test, walk};
+use crate::verify::Through;
 
 /// Bounds of a garment that states none: closed seams, no crossing. Metres.
 const DEFAULTS: [Bound; 2] = [Bound::Gap(None, 1e-3), Bound::Crossings(0)];
@@ -214,23 +215,44 @@ fn crossings(report: &Report, most: usize) -> Verdict {
     }
 }
 
-/// Openings that no body part passes through. A garment without any opening is worn by nobody.
+/// Openings that no body part passes through. A garment without any opening is worn by nobody, nor is one whose every
+/// opening is round both legs below the crotch: it has slid down.
 fn worn(report: &Report) -> Verdict {
-    let empty: Vec<&str> = report.worn.iter().filter(|w| w.body_part.is_none()).map(|w| w.opening.as_str()).collect();
+    let has_slid = slid(report);
+    let is_empty = |w: &&Worn| has_slid || w.body_part.is_none();
+    let empty: Vec<&str> = report.worn.iter().filter(is_empty).map(|w| w.opening.as_str()).collect();
     let ok = empty.is_empty() && !report.worn.is_empty();
     Verdict {
         bound: "openings not worn".into(),
         measured: empty.len() as f64,
         limit: 0.0,
         unit: "",
-        at: (!empty.is_empty()).then(|| empty.join(", ")),
+        at: (!empty.is_empty()).then(|| empty.join(", ") + if has_slid { ", all round the legs" } else { "" }),
         ok,
     }
+}
+
+/// Whether the garment has slid off the trunk: all of its openings are round both legs, below the crotch.
+pub fn slid(report: &Report) -> bool {
+    let legs = Through::Legs.name();
+    !report.worn.is_empty() && report.worn.iter().all(|w| w.body_part.as_deref() == Some(legs))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_garment_round_the_legs_alone_is_not_worn() {
+        let on = |parts: &[Option<&str>]| {
+            let worn = parts.iter().map(|part| Worn { body_part: part.map(Into::into), ..Worn::default() }).collect();
+            super::worn(&Report { worn, ..Report::default() })
+        };
+        assert!(on(&[Some("torso"), Some("legs")]).ok && on(&[Some("left leg"), Some("legs")]).ok);
+        let slid = on(&[Some("legs"), Some("legs")]);
+        assert!(!slid.ok && slid.measured == 2.0 && slid.at.is_some_and(|at| at.ends_with("all round the legs")));
+        assert!(!on(&[None, Some("torso")]).ok && !on(&[]).ok);
+    }
 
     #[test]
     fn what_is_no_number_breaks_a_bound() {

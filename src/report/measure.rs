@@ -184,6 +184,7 @@ fn row(part: &Part, shapes: &Shapes) -> PieceReport {
         area_error_raw: quartet(area.map(|e| e.map(|e| e.raw))),
         boundary_error_raw: quartet(boundary.map(|e| e.map(|e| e.raw))),
         strain: part.strain.strain(),
+        drawn_out: part.strain.drawn_out(),
         shear: part.strain.shear(),
         largest_edge_error: part.strain.largest,
         outline_distance: None,

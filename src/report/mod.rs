@@ -19,7 +19,7 @@ mod stretched;
 mod table;
 mod tight;
 
-pub use bounds::{Verdict, verdicts, verdicts_by_test};
+pub use bounds::{Verdict, slid, verdicts, verdicts_by_test};
 pub use crossings::{Seen, look};
 pub use measure::{Measured, measure};
 pub use openings::opening_names;

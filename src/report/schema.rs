@@ -60,6 +60,9 @@ pub struct PieceReport {
     pub boundary_error_raw: Quartet,
     /// |length / flat length − 1| of the mesh edges within 10° of warp or weft, fractions.
     pub strain: Spread,
+    /// What 99 % of these edges are drawn out by at most, a fraction; cloth that is gathered is pushed together.
+    #[serde(default)]
+    pub drawn_out: f64,
     /// Change of the angle between warp and weft over all triangles, degrees.
     pub shear: Spread,
     /// Largest |length / flat length − 1| of any mesh edge, bias ones too.

@@ -10,7 +10,7 @@ use crate::mesh::{ClothMesh, PieceMesh, SpringClass};
 /// How the edges and triangles of a piece changed.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PieceStrain {
-    /// |strain| of warp and weft edges.
+    /// Strain of warp and weft edges (shrinking is negative).
     pub(super) threads: Vec<f64>,
     /// |change of the angle between warp and weft| per triangle, degrees.
     pub(super) shear: Vec<f64>,
@@ -29,7 +29,12 @@ impl PieceStrain {
     }
 
     pub(super) fn strain(&self) -> Spread {
-        spread(self.threads.clone())
+        spread(self.threads.iter().map(|strain| strain.abs()).collect())
+    }
+
+    /// What 99 % of warp and weft edges are drawn out by at most.
+    pub(super) fn drawn_out(&self) -> f64 {
+        spread(self.threads.iter().map(|strain| strain.max(0.0)).collect()).p99
     }
 
     pub(super) fn shear(&self) -> Spread {
@@ -48,7 +53,7 @@ pub(super) fn piece_strain(mesh: &ClothMesh, piece: &PieceMesh, elastic: &HashSe
         }
         out.largest = out.largest.max(strain.abs());
         if let Some(thread) = thread(mesh, piece, ends) {
-            out.threads.push(strain.abs());
+            out.threads.push(strain);
             sums[thread] = (sums[thread].0 + strain, sums[thread].1 + 1.0);
         }
     }

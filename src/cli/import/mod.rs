@@ -12,9 +12,10 @@ use super::console::Console;
 use super::exit::{CliError, Exit};
 use crate::input::bytes;
 use crate::io::files::{check_writable, write_all};
-use crate::io::garment::{read_text, write};
+use crate::io::garment::write;
 use crate::mannequin;
 use crate::pattern::GarmentFile;
+use crate::pipeline::check;
 
 /// `toile import …`
 pub(super) fn import(command: &ImportCommand, console: &Console) -> Result<Exit, CliError> {
@@ -67,7 +68,6 @@ fn finish(imported: &Imported, console: &Console) -> Result<Exit, CliError> {
     let text = write(imported.file).map_err(|e| CliError::Argument(e.to_string()))?;
     let target = imported.target.output.clone();
     let shown = target.display().to_string();
-    let name = target.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
     check_writable(std::slice::from_ref(&target), &[imported.source])?;
     if target.exists() && !imported.target.force {
         return Err(CliError::Argument(format!(
@@ -75,14 +75,16 @@ fn finish(imported: &Imported, console: &Console) -> Result<Exit, CliError> {
              --force to write over it"
         )));
     }
-    write_all(&[(target, text.clone().into_bytes())], &[imported.source])?;
-    let read = read_text(&name, &shown, &text);
-    match &read {
+    write_all(&[(target.clone(), text.into_bytes())], &[imported.source])?;
+    let checked = check(&target, None);
+    match &checked {
         Ok(loaded) => loaded.warnings.iter().for_each(|w| console.note(&w.to_string())),
         Err(refused) => console.complain(&refused.to_string()),
     }
     let (pieces, seams) = (imported.file.pieces.len(), imported.file.seams.len());
-    let summary = Summary { file: shown, pieces, seams, ok: read.is_ok() };
-    console.results(&summary, || format!("{pieces} pieces and {seams} seams, written to {}\n", summary.file))?;
+    let summary = Summary { file: shown, pieces, seams, ok: checked.is_ok() };
+    let counted = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+    let made = format!("{} and {}", counted(pieces, "piece"), counted(seams, "seam"));
+    console.results(&summary, || format!("{made}, written to {}\n", summary.file))?;
     Ok(if summary.ok { Exit::Done } else { Exit::OutOfBounds })
 }

@@ -93,12 +93,28 @@ fn number(x: f64) -> String {
     format!("{x:.4}")
 }
 
-/// A name as an attribute's value: XML forbids control characters, quotes would end the value and an id has no spaces.
+/// A name as an attribute's value: XML forbids some characters, quotes would end the value and an id has no spaces.
 pub(super) fn identifier(name: &str) -> String {
-    name.chars().map(|c| if c.is_control() || c.is_whitespace() || c == '"' { '_' } else { c }).collect()
+    name.chars().map(|c| if is_forbidden(c) || c.is_whitespace() || c == '"' { '_' } else { c }).collect()
 }
 
-/// Text without the control characters XML forbids.
+/// Whether XML forbids it: control characters, and two that are no characters.
+fn is_forbidden(c: char) -> bool {
+    c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}')
+}
+
+/// Text without the characters that XML forbids.
 fn printable(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+    text.chars().map(|c| if is_forbidden(c) { ' ' } else { c }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_xml_forbids_is_not_written() {
+        assert_eq!(printable("a\u{7}b\u{fffe}c\u{ffff}é👗"), "a b c é👗");
+        assert_eq!(identifier("a \"b\u{fffe}"), "a__b_");
+    }
 }
