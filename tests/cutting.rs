@@ -289,9 +289,10 @@ fn dxf_read_back_has_the_same_lines_on_the_standards_layers() {
         assert_eq!(on("LINE", "6").len(), usize::from(paper.fold.is_some()));
         assert_eq!(on("LINE", "7").len(), 1);
         assert_eq!(on("POINT", "13").len(), paper.drills.len());
-        // Edges, the legs of darts among them, and inner lines have a text each that tells what they are.
+        // Edges, the legs of darts among them, inner lines and notches have a text each that tells what they are.
         let told = paper.sew.iter().filter(|l| l.of != SewKind::Mouth).count()
-            + paper.marks.iter().filter(|m| m.kind != MarkKind::Fold).count();
+            + paper.marks.iter().filter(|m| m.kind != MarkKind::Fold).count()
+            + paper.notches.len();
         assert_eq!(on("TEXT", "15").len(), paper.texts.len() + told);
         let vertices = on("VERTEX", "1").len() + on("VERTEX", "14").len();
         let told = on("POINT", "2").len() + on("POINT", "3").len();

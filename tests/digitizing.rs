@@ -12,7 +12,7 @@ use toile::io::pattern_svg::pattern_svg;
 use toile::io::svg_read::read_svg_text;
 use toile::io::svg_write::cutting_svg;
 use toile::mesh::build;
-use toile::pattern::{Cut, DartFile, DartShape, Drawing, drawings};
+use toile::pattern::{Cut, DartFile, DartShape, Drawing, Located, NotchFile, PieceFile, drawings};
 
 const INKSCAPE: &str = include_str!("data/inkscape.svg");
 const FREESEWING: &str = include_str!("data/freesewing.svg");
@@ -684,6 +684,103 @@ fn an_exported_dxf_is_read_back() {
     assert!(segments < 40, "{segments}");
 }
 
+/// A piece with a bay, or else an acute corner, narrow darts and pleats and a curve, `wide` allowances and notches.
+fn notched(waist: &str, wide: f64, more: &str) -> String {
+    format!(
+        "garment: 1\nallowance: {wide}\npieces:\n  p:\n    grain: [[100, 150], [100, 250]]\n    \
+         outline: {{start: 0 0, waist: {waist}, side: C 160 100 240 200 200 300, hem: L 0 300, center: L 0 0}}\n    \
+         {more}\nfree: ['*.*']\n"
+    )
+}
+
+/// The first piece of a garment as it is read back from its SVG and its DXF.
+fn read_back(text: &str) -> [PieceFile; 2] {
+    let loaded = read_text("sample", "sample.yaml", text).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    let papers = papers(&drawings(&loaded.file, &loaded.garment), &Options::default());
+    let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
+    let svg = from_svg(&cutting_svg("Sample", &sheet));
+    let dxf = garment_file("sample", &read_dxf_text(&cutting_dxf("Sample", &papers), None).expect("pieces").pieces);
+    [svg, dxf].map(|made| {
+        // What is made of it is a garment again.
+        drawn(&made);
+        made.file.pieces[0].clone()
+    })
+}
+
+/// Edge, place (mm) and whether it is double of each notch of a file.
+fn notches_of(piece: &PieceFile) -> Vec<(String, f64, bool)> {
+    let edge = |(name, list): &(Located<String>, Vec<Located<NotchFile>>)| {
+        let name = name.value.clone();
+        list.iter().map(|n| (name.clone(), n.value.at.number, n.value.double)).collect::<Vec<_>>()
+    };
+    let mut notches: Vec<_> = piece.notches.iter().flat_map(edge).collect();
+    notches.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    notches
+}
+
+/// Notches side by side, at corners, in a bay and on a curve are those they were, however wide the allowance.
+#[test]
+fn notches_of_an_export_come_back_where_they_were() {
+    let (straight, bay) = ("L 200 0", "L 100 60 L 200 0");
+    for (waist, wide, notches) in [
+        (straight, 10.0, "{waist: [60 double, 72 double]}"),
+        (straight, 10.0, "{waist: [60, 70], center: [0, 299]}"),
+        (straight, 30.0, "{waist: [2], center: [297]}"),
+        (straight, 40.0, "{side: [40 double, 154.12, 165, 300]}"),
+        (straight, 60.0, "{side: [100], hem: [50 double]}"),
+        (bay, 15.0, "{waist: [100, 114.5, 117 double, 130]}"),
+        // One mark of each of these stands at the end of its edge; without allowance it lies beyond the next edge.
+        (bay, 0.0, "{waist: [1 double, 230 double], side: [0.92 double], hem: [0, 3 double]}"),
+        (bay, 5.0, "{waist: [4.5 double], hem: [198.5 double], center: [300]}"),
+    ] {
+        let text = notched(waist, wide, &format!("notches: {notches}"));
+        let wanted = notches_of(&read_text("sample", "sample.yaml", &text).expect("a garment").file.pieces[0]);
+        for piece in read_back(&text) {
+            let found = notches_of(&piece);
+            let is_same = |(a, b): (&(String, f64, bool), &(String, f64, bool))| {
+                a.0 == b.0 && (a.1 - b.1).abs() < EXACT * 1e3 && a.2 == b.2
+            };
+            assert!(found.len() == wanted.len() && found.iter().zip(&wanted).all(is_same), "{wanted:?}: {found:?}");
+        }
+    }
+}
+
+/// The mouth of a dart or a pleat is no double notch, and no notch at all beside those that are.
+#[test]
+fn narrow_darts_and_pleats_of_an_export_come_back() {
+    for intake in [3.0, 10.0, 14.0] {
+        let beside = 100.0 + intake / 2.0 + 3.0;
+        let dart = format!("darts: [{{edge: waist, at: 100, intake: {intake}, length: 90}}]");
+        for piece in read_back(&notched("L 200 0", 10.0, &format!("{dart}\n    notches: {{waist: [{beside}]}}"))) {
+            assert_eq!(piece.darts.len(), 1, "{intake}");
+            assert!((piece.darts[0].intake.value.number - intake).abs() < EXACT * 1e3, "{:?}", piece.darts[0]);
+            let notches = notches_of(&piece);
+            assert!(notches.len() == 1 && (notches[0].1 - beside).abs() < EXACT * 1e3 && !notches[0].2, "{notches:?}");
+        }
+    }
+    for piece in read_back(&notched("L 200 0", 10.0, "pleats: [{edge: waist, at: [60], depth: 5}]")) {
+        assert_eq!((piece.pleats.len(), piece.notches.len()), (1, 0));
+        assert!((piece.pleats[0].depth.value.number - 5.0).abs() < EXACT * 1e3, "{:?}", piece.pleats[0]);
+    }
+}
+
+/// A double notch beside the fold has a mark on it: in a piece that is drawn whole it is two, as far from the fold.
+#[test]
+fn double_notches_beside_the_fold_of_a_whole_piece_stay_where_they_are() {
+    let text = notched("L 200 0", 10.0, "cut: fold center\n    notches: {waist: [3 double]}");
+    let loaded = read_text("sample", "sample.yaml", &text).expect("a garment");
+    let papers = papers(&drawings(&loaded.file, &loaded.garment), &Options { whole: true, ..Options::default() });
+    let sheet = Sheet::new(&papers, &Layout { width: None, margin: 0.010, square: true });
+    let svg = from_svg(&cutting_svg("Sample", &sheet));
+    let dxf = garment_file("sample", &read_dxf_text(&cutting_dxf("Sample", &papers), None).expect("pieces").pieces);
+    for made in [svg, dxf] {
+        let mut found = notches_of(&made.file.pieces[0]);
+        found.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let off = |k: usize, wanted: f64| (found[k].1 - wanted).abs() < EXACT * 1e3 && found[k].2;
+        assert!(found.len() == 2 && off(0, 3.0) && off(1, 197.0), "{found:?}");
+    }
+}
+
 /// An entity of a DXF on a layer.
 fn entity(kind: &str, on: u32, pairs: &[(i32, f64)]) -> String {
     let pairs: String = pairs.iter().map(|(code, value)| format!("{code}\n{value}\n")).collect();
@@ -706,7 +803,8 @@ fn marks_of(entities: &[String]) -> [Vec<[f64; 2]>; 2] {
     let boundary = ring(1, &[[0.0, 0.0], [300.0, 0.0], [300.0, 400.0], [0.0, 400.0]]);
     let text = block(&[boundary, entities.concat()]);
     let pieces = read_dxf_text(&text, Some(1e-3)).expect("a piece").pieces;
-    [&pieces[0].notches, &pieces[0].points].map(|points| {
+    let notches: Vec<Vec2> = pieces[0].notches.iter().map(|notch| notch.at).collect();
+    [&notches, &pieces[0].points].map(|points| {
         let mut shown: Vec<_> = points.iter().map(|p| [p.x * 1e3, -p.y * 1e3].map(f64::round)).collect();
         shown.sort_by(|a, b| a[0].total_cmp(&b[0]));
         shown

@@ -1,14 +1,12 @@
 //! Notches, grain, folds, pleats and drill marks.
 
 use super::room::Room;
-use super::{Mark, MarkKind, NotchMark};
+use super::{DOUBLE_MARKS, Mark, MarkKind, NotchKind, NotchMark};
 use crate::geometry::{Path, Vec2};
-use crate::pattern::{Cut, Drawing};
+use crate::pattern::{Cut, Drawing, DrawnEdge};
 
 /// Least length of a notch's mark, metres: shorter ones are overlooked when cutting.
 const NOTCH: f64 = 0.006;
-/// Distance of a double notch's two marks, metres.
-const DOUBLE: f64 = 0.006;
 /// A grain line shorter than this (metres) cannot be laid along a thread; one is worked out instead.
 const SHORTEST_GRAIN: f64 = 0.020;
 /// Share of the piece's height that a worked-out grain line takes.
@@ -25,33 +23,36 @@ pub(super) const BARB: f64 = 0.004;
 pub(super) fn notches(drawing: &Drawing, cut: &[Vec<Vec2>], width: impl Fn(usize, usize) -> f64) -> Vec<NotchMark> {
     let room = Room { contours: cut.to_vec(), walls: Vec::new() };
     let mut marks = Vec::new();
-    let mut add = |edge: (usize, usize), at: f64, double: bool| {
-        let path = &drawing.edge(edge).path;
+    let mut add = |edge: (usize, usize), at: f64, kind: NotchKind| {
+        let DrawnEdge { name, path, .. } = drawing.edge(edge);
         let (sewn, t) = (path.point(at), path.tangent(at));
         let out = Vec2::new(t.y, -t.x);
         let to_cut = room.way_off(sewn, out).unwrap_or_else(|| width(edge.0, edge.1));
         let inside = sewn - out * (NOTCH - to_cut).max(0.0);
-        marks.push(NotchMark { at: sewn + out * to_cut, sewn, inside, double });
+        marks.push(NotchMark { at: sewn + out * to_cut, sewn, inside, kind, edge: name.clone() });
     };
     for notch in &drawing.notches {
         if notch.double {
-            add(notch.edge, notch.at - DOUBLE / 2.0, true);
-            add(notch.edge, notch.at + DOUBLE / 2.0, true);
+            let length = drawing.edge(notch.edge).path.length();
+            for at in [notch.at - DOUBLE_MARKS / 2.0, notch.at + DOUBLE_MARKS / 2.0] {
+                let fits = (0.0..=length).contains(&at);
+                add(notch.edge, at, if fits { NotchKind::Double } else { NotchKind::DoubleAtEnd });
+            }
         } else {
-            add(notch.edge, notch.at, false);
+            add(notch.edge, notch.at, NotchKind::Single);
         }
     }
     for fold in &drawing.folds {
-        add(fold.edge, fold.from, false);
-        add(fold.edge, fold.to, false);
+        add(fold.edge, fold.from, NotchKind::Pleat);
+        add(fold.edge, fold.to, NotchKind::Pleat);
     }
     for dart in &drawing.darts {
         // The mouth of a dart is snipped where its legs leave the edge.
         let [one, other] = dart.legs;
         let count = drawing.rings[0].len();
         let (before, after) = ((one + count - 1) % count, (other + 1) % count);
-        add((0, before), drawing.rings[0][before].path.length(), false);
-        add((0, after), 0.0, false);
+        add((0, before), drawing.rings[0][before].path.length(), NotchKind::Dart);
+        add((0, after), 0.0, NotchKind::Dart);
     }
     marks
 }

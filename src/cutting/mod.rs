@@ -10,6 +10,7 @@ mod corner;
 mod label;
 mod layout;
 mod marks;
+mod notch;
 mod offset;
 mod outline;
 mod room;
@@ -17,6 +18,7 @@ mod whole;
 
 pub use label::LETTER_WIDTH;
 pub use layout::{Layout, Sheet, TEST_SQUARE, shelves};
+pub use notch::{DOUBLE_MARKS, NotchKind};
 pub use outline::papers;
 pub use room::{Room, foot};
 
@@ -118,8 +120,8 @@ pub enum SewKind {
     Mouth,
 }
 
-/// A notch.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A notch's mark.
+#[derive(Clone, Debug, PartialEq)]
 pub struct NotchMark {
     /// On the cut line.
     pub at: Vec2,
@@ -127,8 +129,10 @@ pub struct NotchMark {
     pub sewn: Vec2,
     /// The end of its mark: on the sewing line, or where that is near, a little inside.
     pub inside: Vec2,
-    /// One of two that mark the back.
-    pub double: bool,
+    /// What it belongs to.
+    pub kind: NotchKind,
+    /// Name of the edge it stands on.
+    pub edge: String,
 }
 
 /// A line that is drawn and neither cut nor sewn.
@@ -185,7 +189,7 @@ impl Paper {
             notches: self
                 .notches
                 .iter()
-                .map(|n| NotchMark { at: to(n.at), sewn: to(n.sewn), inside: to(n.inside), ..*n })
+                .map(|n| NotchMark { at: to(n.at), sewn: to(n.sewn), inside: to(n.inside), ..n.clone() })
                 .collect(),
             grain: self.grain.map(to),
             marks: self.marks.iter().map(|m| Mark { path: path(&m.path), ..m.clone() }).collect(),

@@ -46,8 +46,12 @@ fn unfolded(paper: &Paper, drawing: &Drawing) -> Paper {
         lines.iter().map(|s| SewLine { name: format!("{}.{side}", s.name), ..s.clone() }).collect()
     };
     whole.sew = [sided(&paper.sew, sides[0]), sided(&other.sew, sides[1])].concat();
-    let new_notch = |n: &&NotchMark| !paper.notches.iter().any(|own| (own.at - n.at).norm() < 1e-6);
-    whole.notches.extend(other.notches.iter().filter(new_notch).copied());
+    // A notch on the fold is its own mirror image; a double one is not, even if one of its marks is.
+    let is_one = |n: &&NotchMark| paper.notches.iter().any(|own| (own.at - n.at).norm() < 1e-6);
+    let new_notch = |n: &&NotchMark| n.kind.is_double() || !is_one(n);
+    let on_side = |n: &NotchMark, side: &str| NotchMark { edge: format!("{}.{side}", n.edge), ..n.clone() };
+    whole.notches = paper.notches.iter().map(|n| on_side(n, sides[0])).collect();
+    whole.notches.extend(other.notches.iter().filter(new_notch).map(|n| on_side(n, sides[1])));
     whole.marks.retain(|m| m.kind != MarkKind::Fold);
     let lines = other.marks.iter().filter(|m| m.kind != MarkKind::Fold);
     // A line along the fold is its own mirror image.

@@ -7,7 +7,7 @@ use super::fish_eyes::sides;
 use super::holes::holes_of;
 use super::joined::{Joined, beyond_seam, joined, unclosed};
 use super::partial::completed;
-use super::{Drawing, Inner, Remark, Role, Stroke, Traced};
+use super::{Drawing, Inner, Notch, Remark, Role, Stroke, ToldNotch, Traced};
 use crate::geometry::{Path, Vec2, distance_to_segment, encloses, sides_of};
 use crate::pattern::Cut;
 
@@ -315,7 +315,9 @@ fn piece<'a>(outer: &Contour, inner: &[&Contour], rest: &'a [Stroke]) -> (Traced
         let ends = [stroke.path.start(), stroke.path.end()];
         let near = |p: Vec2| outlines.iter().any(|o| o.nearest(p).1 <= NEAR);
         let on_rim = matches!(stroke.role, Role::Fold | Role::Notch | Role::Drill);
-        let own = outer.holds(middle) || on_rim && near(middle);
+        // At a sharp corner the mark of a notch that is told may lie beyond both edges but for one point.
+        let told = || stroke.notch.is_some() && points_of(&stroke.path).into_iter().any(near);
+        let own = outer.holds(middle) || on_rim && near(middle) || told();
         if !own {
             continue;
         }
@@ -326,9 +328,9 @@ fn piece<'a>(outer: &Contour, inner: &[&Contour], rest: &'a [Stroke]) -> (Traced
             Role::PleatPlace => traced.pleats.extend(folds.pop().map(|fold| [fold, stroke.path.start()])),
             Role::Fold => traced.mirror = traced.mirror.or(Some(ends)),
             Role::Drill => traced.points.push(middle),
-            Role::Notch => traced.notches.push(nearest_end(ends, &outlines)),
+            Role::Notch => traced.notches.push(notch(stroke, &surface.edges, &outlines)),
             Role::Unknown if short && ends.iter().any(|&p| near(p)) => {
-                traced.notches.push(nearest_end(ends, &outlines));
+                traced.notches.push(notch(stroke, &surface.edges, &outlines));
             }
             // FreeSewing draws the mouths of darts so.
             _ if !surface.covers(middle) => beyond.push(stroke),
@@ -351,6 +353,30 @@ fn half_way(stroke: &Stroke) -> Vec2 {
 fn middle(stroke: &Stroke) -> Vec2 {
     let half = half_way(stroke);
     if stroke.role == Role::Drill { (stroke.path.start() + half) / 2.0 } else { half }
+}
+
+/// A notch and what is told of it; then one of its points is on the sewing line of its edge.
+fn notch(stroke: &Stroke, edges: &[(Option<String>, Path)], outlines: &[&Path]) -> Notch {
+    let Stroke { path, notch, .. } = stroke;
+    let at = match notch {
+        Some(told) => sewn_point(path, told, edges),
+        None => nearest_end([path.start(), path.end()], outlines),
+    };
+    Notch { at, told: notch.clone() }
+}
+
+/// Of the points of a notch's mark the one on its edge, or on any where that is not drawn.
+fn sewn_point(mark: &Path, told: &ToldNotch, edges: &[(Option<String>, Path)]) -> Vec2 {
+    let is_own = |edge: &&(Option<String>, Path)| edge.0.as_ref() == Some(&told.edge);
+    let own: Vec<_> = edges.iter().filter(is_own).collect();
+    let lines = if own.is_empty() { edges.iter().collect() } else { own };
+    let off = |p: &Vec2| lines.iter().map(|(_, line)| line.nearest(*p).1).fold(f64::INFINITY, f64::min);
+    points_of(mark).into_iter().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or_else(|| mark.start())
+}
+
+/// The points that a line is drawn through.
+fn points_of(path: &Path) -> Vec<Vec2> {
+    path.joints().iter().map(|&s| path.point(s)).collect()
 }
 
 /// Where a notch is: its end on the sewing line, which comes first, if one is there. The other may be on the cut line,

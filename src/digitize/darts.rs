@@ -80,7 +80,7 @@ fn is_one_edge(one: &Option<String>, other: &Option<String>) -> bool {
 }
 
 /// The name of an edge without the number of its part.
-fn whole_name(name: &str) -> String {
+pub(super) fn whole_name(name: &str) -> String {
     let is_number = |word: &&str| word.parse::<usize>().is_ok();
     name.split('.').filter(|word| !is_number(word)).collect::<Vec<_>>().join(".")
 }

@@ -1,5 +1,7 @@
 //! An outline as named edges.
 
+use super::Notch;
+use super::notches::{EdgeNotch, Notches};
 use super::smooth::smoothed;
 use crate::geometry::{Path, Vec2};
 use crate::pattern::SHORTEST_EDGE;
@@ -8,31 +10,25 @@ use crate::pattern::SHORTEST_EDGE;
 const CORNER: f64 = 0.35;
 /// A path that turns at more places than this is no drawn line.
 const MOST_CORNERS: usize = 400;
-/// Notches past this many are no notches.
-const MOST_NOTCHES: usize = 400;
 /// Splits nearer to each other than this (metres) are one.
 const LEAST_EDGE: f64 = 3e-3;
 /// Drawn edges no longer than this (metres) are a slip of the pen: twice what has no mesh, for the numbers of the file
 /// are rounded.
 const SHORTEST: f64 = 2.0 * SHORTEST_EDGE;
-/// A notch is on an outline it is no farther from than this (metres): the widest usual allowance.
-const REACH: f64 = 0.045;
-/// Two notches at most so far apart (metres) are a double one.
-pub(crate) const DOUBLE: f64 = 0.011;
 
 /// An edge of the file to come.
 #[derive(Clone, Debug)]
 pub(super) struct Edge {
     pub(super) name: String,
     pub(super) path: Path,
-    /// Notches on it, metres from its start, and whether they are double.
-    pub(super) notches: Vec<(f64, bool)>,
+    /// Notches on it, from its start.
+    pub(super) notches: Vec<EdgeNotch>,
 }
 
 impl Edge {
     /// Whether it has a notch, and whether its last one is double.
     pub(super) fn notch(&self) -> Option<bool> {
-        self.notches.last().map(|n| n.1)
+        self.notches.last().map(|n| n.double)
     }
 }
 
@@ -43,11 +39,11 @@ pub(super) fn nearest_edge(edges: &[Edge], points: [Vec2; 2]) -> Option<usize> {
 }
 
 /// An edge that may not have a name yet.
-type Unnamed = (Option<String>, Path, Vec<(f64, bool)>);
+type Unnamed = (Option<String>, Path, Vec<EdgeNotch>);
 
 /// Splits an outline at its corners and notches and names what has no name: `a`, `b`, `c` … clockwise from the upper
 /// left corner. Edges that have names stay as they are: a garment drawn by toile keeps its edges.
-pub(super) fn edges(outline: &[(Option<String>, Path)], notches: &[Vec2]) -> Vec<Edge> {
+pub(super) fn edges(outline: &[(Option<String>, Path)], notches: &[Notch]) -> Vec<Edge> {
     let clockwise = outline.iter().map(|e| e.1.double_area()).sum::<f64>() > 0.0;
     let mut turned: Vec<(Option<String>, Path)> = if clockwise {
         outline.to_vec()
@@ -55,20 +51,19 @@ pub(super) fn edges(outline: &[(Option<String>, Path)], notches: &[Vec2]) -> Vec
         outline.iter().rev().map(|(name, path)| (name.clone(), path.reversed())).collect()
     };
     turned.retain(|(_, path)| path.length() > SHORTEST);
-    let notches = singled(notches);
+    let notches = Notches::new(&turned, notches);
     let mut edges: Vec<Unnamed> = Vec::new();
     if let [(None, whole)] = turned.as_slice() {
-        edges.extend(split_ring(whole, &notches, &turned));
+        edges.extend(split_ring(whole, &notches));
     } else {
         let several = turned.len() > 1;
-        for (name, path) in &turned {
+        for (k, (name, path)) in turned.iter().enumerate() {
             let corners = corners(path);
             if name.is_some() && (several || corners.is_empty()) {
-                let on_it = notches_on(path, &notches, &turned).collect();
-                edges.push((name.clone(), path.clone(), on_it));
+                edges.push((name.clone(), path.clone(), notches.on(k, path)));
                 continue;
             }
-            let parts = split(path, &corners, &notches, &turned);
+            let parts = split(path, &corners, &notches.on(k, path));
             let alone = parts.len() == 1;
             for (k, (part, notch)) in parts.into_iter().enumerate() {
                 let name = name.as_ref().map(|n| if alone { n.clone() } else { format!("{n}_{}", k + 1) });
@@ -85,17 +80,17 @@ pub(super) fn edges(outline: &[(Option<String>, Path)], notches: &[Vec2]) -> Vec
 }
 
 /// A closed path without names: begun at one of its corners.
-fn split_ring(whole: &Path, notches: &[(Vec2, bool)], outline: &[(Option<String>, Path)]) -> Vec<Unnamed> {
+fn split_ring(whole: &Path, notches: &Notches) -> Vec<Unnamed> {
     let mut at = corners(whole);
     let closing = turn(whole.tangent(whole.length()), whole.tangent(0.0)) > CORNER;
     if closing || at.is_empty() {
-        return split(whole, &at, notches, outline).into_iter().map(|(p, n)| (None, p, n)).collect();
+        return split(whole, &at, &notches.on(0, whole)).into_iter().map(|(p, n)| (None, p, n)).collect();
     }
     let begin = at.remove(0);
     let length = whole.length();
     let turned = whole.part(begin, length).joined(&whole.part(0.0, begin));
     let at: Vec<f64> = at.iter().map(|s| s - begin).collect();
-    split(&turned, &at, notches, outline).into_iter().map(|(p, n)| (None, p, n)).collect()
+    split(&turned, &at, &notches.on(0, &turned)).into_iter().map(|(p, n)| (None, p, n)).collect()
 }
 
 /// Arc lengths at which a path turns.
@@ -119,32 +114,14 @@ fn turn(before: Vec2, after: Vec2) -> f64 {
     before.perp(&after).atan2(before.dot(&after)).abs()
 }
 
-/// Where along a path the notches are that are nearest to it.
-fn notches_on<'a>(
-    path: &'a Path,
-    notches: &'a [(Vec2, bool)],
-    outline: &'a [(Option<String>, Path)],
-) -> impl Iterator<Item = (f64, bool)> + 'a {
-    notches.iter().filter_map(|&(p, double)| {
-        let (at, off) = path.nearest(p);
-        let elsewhere = outline.iter().map(|e| e.1.nearest(p).1).fold(f64::INFINITY, f64::min);
-        (off <= REACH && off <= elsewhere + 1e-9).then_some((at, double))
-    })
-}
-
 /// Parts of a path between corners and the notches that are nearest to it.
-fn split(
-    path: &Path,
-    corners: &[f64],
-    notches: &[(Vec2, bool)],
-    outline: &[(Option<String>, Path)],
-) -> Vec<(Path, Vec<(f64, bool)>)> {
+fn split(path: &Path, corners: &[f64], notches: &[EdgeNotch]) -> Vec<(Path, Vec<EdgeNotch>)> {
     let length = path.length();
-    let mut cuts: Vec<(f64, Option<bool>)> = corners.iter().map(|&s| (s, None)).collect();
-    cuts.extend(notches_on(path, notches, outline).map(|(at, double)| (at, Some(double))));
+    let mut cuts: Vec<(f64, Option<EdgeNotch>)> = corners.iter().map(|&s| (s, None)).collect();
+    cuts.extend(notches.iter().map(|notch| (notch.at, Some(*notch))));
     cuts.push((length, None));
     cuts.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut parts: Vec<(Path, Option<bool>)> = Vec::new();
+    let mut parts: Vec<(Path, Option<EdgeNotch>)> = Vec::new();
     let mut from = 0.0;
     for (k, &(at, notch)) in cuts.iter().enumerate() {
         let last = k + 1 == cuts.len();
@@ -165,27 +142,11 @@ fn split(
         from = at;
     }
     // The notches at which a line is split stand at the ends of its parts.
-    let at_end = |(part, notch): (Path, Option<bool>)| {
-        let notch = notch.map(|double| (part.length(), double));
+    let at_end = |(part, notch): (Path, Option<EdgeNotch>)| {
+        let notch = notch.map(|notch| EdgeNotch { at: part.length(), ..notch });
         (part, notch.into_iter().collect())
     };
     parts.into_iter().map(at_end).collect()
-}
-
-/// Notches without their doubles.
-fn singled(notches: &[Vec2]) -> Vec<(Vec2, bool)> {
-    let mut out: Vec<(Vec2, bool)> = Vec::new();
-    for &p in notches.iter().take(MOST_NOTCHES) {
-        match out.iter_mut().find(|(q, _)| (*q - p).norm() <= DOUBLE) {
-            Some((q, double)) if (*q - p).norm() > 1e-4 => {
-                *q = (*q + p) / 2.0;
-                *double = true;
-            }
-            Some(_) => {}
-            None => out.push((p, false)),
-        }
-    }
-    out
 }
 
 fn named(edges: Vec<Unnamed>) -> Vec<Edge> {
@@ -203,8 +164,8 @@ fn named(edges: Vec<Unnamed>) -> Vec<Edge> {
         taken.push(name.clone());
         let smooth = smoothed(&path);
         let longer = smooth.length() / path.length();
-        notches.iter_mut().for_each(|n| n.0 *= longer);
-        notches.sort_by(|a, b| a.0.total_cmp(&b.0));
+        notches.iter_mut().for_each(|n| n.at *= longer);
+        notches.sort_by(|a, b| a.at.total_cmp(&b.at));
         out.push(Edge { name, path: smooth, notches });
     }
     out

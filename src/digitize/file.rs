@@ -5,6 +5,7 @@ use super::edges::{Edge, edges, nearest_edge};
 use super::fish_eyes::{FishEye, taken};
 use super::holes::Hole;
 use super::materials::{declared, name_of};
+use super::notches::EdgeNotch;
 use super::pairs::paired;
 use super::suggest::{Outline, Suggestion, suggest};
 use super::{Material, Traced};
@@ -201,7 +202,7 @@ fn notches(edges: &[Edge]) -> Vec<(Located<String>, Vec<Located<NotchFile>>)> {
     for edge in edges.iter().filter(|e| !e.notches.is_empty()) {
         // Never past the end: the file's numbers are rounded.
         let most = ((edge.path.length() * MM - 1e-5) * 1e4).floor() / 1e4;
-        let notch = |&(at, double): &(f64, bool)| {
+        let notch = |&EdgeNotch { at, double, .. }: &EdgeNotch| {
             let at = Quantity { number: ((at * MM * 1e4).round() / 1e4).min(most), unit: None };
             at_no_place(NotchFile { at, double })
         };
@@ -268,10 +269,11 @@ fn pleat(ends: [Vec2; 2], edges: &mut [Edge]) -> Option<PleatFile> {
     Some(PleatFile { edge: at_no_place(name), at, depth, kind: None, toward, sewn: None })
 }
 
-/// Takes the notches at these places off an edge.
+/// Takes the notches at these places off an edge, if they are not told to be others.
 fn unnotch(edges: &mut [Edge], name: &str, places: [f64; 2]) {
     for edge in edges.iter_mut().filter(|e| e.name == name) {
-        edge.notches.retain(|(at, _)| places.iter().all(|place| (at - place).abs() > ON_NOTCH));
+        let is_there = |notch: &EdgeNotch| places.iter().any(|place| (notch.at - place).abs() <= ON_NOTCH);
+        edge.notches.retain(|notch| !(notch.may_be_mouth && is_there(notch)));
     }
 }
 

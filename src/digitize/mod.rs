@@ -13,6 +13,7 @@ mod fish_eyes;
 mod holes;
 mod joined;
 mod materials;
+mod notches;
 mod pairs;
 mod partial;
 mod smooth;
@@ -20,11 +21,12 @@ mod suggest;
 
 pub use chain::chained;
 pub use contours::pieces;
-pub(crate) use edges::DOUBLE;
 pub use file::{Digitized, garment_file};
 pub use holes::{Hole, holes};
+pub(crate) use notches::DOUBLE;
 pub use suggest::Suggestion;
 
+use crate::cutting::NotchKind;
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{Cut, LineKind, Side};
 
@@ -43,6 +45,26 @@ pub struct Stroke {
     pub layer: Option<String>,
     /// What it does if it is a line inside a piece, where the file says so.
     pub kind: Option<LineKind>,
+    /// What is told of it if it is a notch, as toile itself writes it.
+    pub notch: Option<ToldNotch>,
+}
+
+/// A notch, or one of the marks of a double one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Notch {
+    /// Near the outline: on the cut line or the sewing line.
+    pub at: Vec2,
+    /// What is told of it; it is on the sewing line then.
+    pub told: Option<ToldNotch>,
+}
+
+/// What toile's own drawings tell of a notch, so that none are taken for a double one that lie side by side.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ToldNotch {
+    /// What it belongs to.
+    pub kind: NotchKind,
+    /// Name of the edge that it is on, which tells at a corner.
+    pub edge: String,
 }
 
 /// What a piece is cut from.
@@ -134,8 +156,8 @@ pub struct Traced {
     pub points: Vec<Vec2>,
     /// Tail and head of the grain line.
     pub grain: Option<[Vec2; 2]>,
-    /// Places of notches, near the outline.
-    pub notches: Vec<Vec2>,
+    /// Notches.
+    pub notches: Vec<Notch>,
     /// Pleats, each by the points of an edge where it is folded and where the fold is brought to.
     pub pleats: Vec<[Vec2; 2]>,
     /// The line in which a half is mirrored.
@@ -171,7 +193,7 @@ impl Traced {
             lines: self.lines.iter().map(|l| Inner { path: path(&l.path), ..l.clone() }).collect(),
             points: self.points.iter().map(|p| p + shift).collect(),
             grain: self.grain.map(|g| g.map(|p| p + shift)),
-            notches: self.notches.iter().map(|p| p + shift).collect(),
+            notches: self.notches.iter().map(|n| Notch { at: n.at + shift, told: n.told.clone() }).collect(),
             pleats: self.pleats.iter().map(|ends| ends.map(|p| p + shift)).collect(),
             mirror: self.mirror.map(|m| m.map(|p| p + shift)),
             ..self.clone()

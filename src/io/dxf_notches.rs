@@ -12,16 +12,15 @@ const FLANKS: f64 = 5e-4;
 /// as the bar of a T is: no notch is shallower, and no allowance grows by so much from a notch to its double.
 const DEEPER: f64 = 1e-3;
 
-/// The notches of one layer, by its `points` and `shapes`; each shape is the lines of it that meet end to end.
-pub(super) fn notches(mut points: Vec<Vec2>, shapes: &[Path], cut: &Path) -> Vec<Vec2> {
+/// The notches of one layer that are drawn as `shapes` and not said by `points`; each shape is the lines of it that meet
+/// end to end.
+pub(super) fn drawn(points: &[Vec2], shapes: &[Path], cut: &Path) -> Vec<Vec2> {
     let drawn: Vec<(Vec2, f64)> = shapes.iter().map(|shape| notch_at(shape, cut)).collect();
     let is_beside = |a: Vec2, b: Vec2| (a - b).norm() <= DOUBLE;
     let is_part = |&(at, off): &(Vec2, f64)| drawn.iter().any(|d| d.1 + DEEPER < off && is_beside(d.0, at));
     // A point says where the notch is that is drawn beside it.
     let is_said = |at: Vec2| points.iter().any(|&p| is_beside(p, at));
-    let whole: Vec<Vec2> = drawn.iter().filter(|d| !is_part(d) && !is_said(d.0)).map(|d| d.0).collect();
-    points.extend(whole);
-    points
+    drawn.iter().filter(|d| !is_part(d) && !is_said(d.0)).map(|d| d.0).collect()
 }
 
 /// Where a shape stands on the cut line, and how far from it that is: in the middle of its nearest corners. Those are

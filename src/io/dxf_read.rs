@@ -9,9 +9,9 @@ use std::path::Path as FilePath;
 use super::dxf_left_out::LeftOut;
 use super::dxf_notches;
 use super::dxf_text::{Entity, after, assumed_unit, blocks, entities, letters, stated_unit};
-use super::dxf_told::{Told, told_of};
+use super::dxf_told::{Told, is_on_slit, read_notch, told_of};
 use super::dxf_write::layer;
-use crate::digitize::{Drawing, Inner, Material, Traced, besides, chained, holes};
+use crate::digitize::{Drawing, Inner, Material, Notch, ToldNotch, Traced, besides, chained, holes};
 use crate::geometry::{Path, Vec2, bulged};
 use crate::input::{InputError, bytes, shown};
 use crate::pattern::{Cut, Side};
@@ -20,6 +20,8 @@ use crate::pattern::{Cut, Side};
 const MOST_BYTES: u64 = 30 << 20;
 /// More lines in a block than this cannot be looked at one against the other.
 const MOST_LINES: usize = 5_000;
+/// Texts that tell of notches that are read of a block, for each is looked for on every notch.
+const MOST_TOLD: usize = 5_000;
 /// Letters of a style's name that are read.
 const TITLE: usize = 200;
 /// Letters of a text that messages show.
@@ -117,8 +119,17 @@ fn title(entities: &[Entity]) -> Option<String> {
 struct Block<'a> {
     name: &'a str,
     lines: Vec<(u32, Path)>,
-    points: Vec<(u32, Vec2)>,
+    points: Vec<Point>,
     texts: Vec<Text>,
+}
+
+/// A place on a layer.
+#[derive(Clone, Copy)]
+struct Point {
+    on: u32,
+    at: Vec2,
+    /// Direction and depth of the slit that begins there, if it is a notch's.
+    into: Vec2,
 }
 
 /// Words and where they stand.
@@ -167,10 +178,15 @@ impl<'a> Block<'a> {
             }
             // Drill holes come as either. A circle that is a line is not read.
             "CIRCLE" if !on.is_some_and(is_mark) => left_out.add(entity),
-            "POINT" => self.points.extend(on.zip(entity.points(10, unit)?.first().copied())),
+            "POINT" => {
+                let into = entity.slit(unit);
+                let at = entity.points(10, unit)?.first().copied();
+                self.points.extend(on.zip(at).map(|(on, at)| Point { on, at, into }));
+            }
             "CIRCLE" => {
                 let at = entity.as_seen(entity.vertices(10, unit)?);
-                self.points.extend(on.zip(at.first().map(|v| v.0)));
+                let point = |(on, at): (u32, &(Vec2, f64))| Point { on, at: at.0, into: Vec2::zeros() };
+                self.points.extend(on.zip(at.first()).map(point));
             }
             "TEXT" | "MTEXT" => {
                 // Where a text stands matters for our own alone.
@@ -242,18 +258,13 @@ impl<'a> Block<'a> {
         let is_ring = |(_, line): &Named| (line.start() - line.end()).norm() < 1e-8 && line.double_area() != 0.0;
         let cut_out = self.runs(layer::CUTOUT).into_iter().filter_map(whole_line).filter(|h| h.double_area() != 0.0);
         let holes = holes(cut_out.collect(), sewn.filter_map(whole).filter(is_ring).collect());
-        let at = |layer: u32| self.points.iter().filter(|p| p.0 == layer).map(|p| p.1).collect::<Vec<Vec2>>();
-        let notches = |layer: u32| {
-            let shapes: Vec<Path> = self.runs(layer).into_iter().filter_map(whole_line).collect();
-            dxf_notches::notches(at(layer), &shapes, &cut)
-        };
-        let notches = dxf_notches::LAYERS.into_iter().flat_map(notches).collect();
+        let notches = self.notches(&cut);
         Some(Traced {
             name: self.text("piece name:").unwrap_or(self.name).to_owned(),
             sew,
             holes,
             lines: told.iter().filter_map(inner).collect(),
-            points: at(layer::DRILL),
+            points: self.points_on(layer::DRILL).map(|p| p.at).collect(),
             grain: self.ends_on(layer::GRAIN),
             notches,
             pleats: pleats(&told),
@@ -281,10 +292,41 @@ impl<'a> Block<'a> {
         longest_first(chained(&edges))
     }
 
+    fn points_on(&self, layer: u32) -> impl Iterator<Item = &Point> {
+        self.points.iter().filter(move |p| p.on == layer)
+    }
+
+    /// The notches of all layers, as points and as lines.
+    fn notches(&self, cut: &Path) -> Vec<Notch> {
+        let texts = self.texts.iter().filter_map(|t| Some((read_notch(&t.words)?, t.at?)));
+        let mut texts: Vec<(ToldNotch, Vec2)> = texts.take(MOST_TOLD).collect();
+        let mut notches = Vec::new();
+        for layer in dxf_notches::LAYERS {
+            let points: Vec<Vec2> = self.points_on(layer).map(|p| p.at).collect();
+            notches.extend(self.points_on(layer).map(|point| notch(point, &mut texts)));
+            let shapes: Vec<Path> = self.runs(layer).into_iter().filter_map(whole).map(|(_, path)| path).collect();
+            let drawn = dxf_notches::drawn(&points, &shapes, cut);
+            notches.extend(drawn.into_iter().map(|at| Notch { at, told: None }));
+        }
+        notches
+    }
+
     /// The ends of the longest line of a layer.
     fn ends_on(&self, layer: u32) -> Option<[Vec2; 2]> {
         let longest = |a: &((), Path), b: &((), Path)| a.1.length().total_cmp(&b.1.length());
         self.on(layer).into_iter().max_by(longest).map(|l| [l.1.start(), l.1.end()])
+    }
+}
+
+/// The notch of a point: where it meets the sewing line, if one of these texts tells that. Each tells of one notch, and
+/// they stand in the order of these.
+fn notch(point: &Point, texts: &mut Vec<(ToldNotch, Vec2)>) -> Notch {
+    match texts.iter().position(|(_, at)| is_on_slit(*at, point.at, point.into)) {
+        Some(k) => {
+            let (told, at) = texts.remove(k);
+            Notch { at, told: Some(told) }
+        }
+        None => Notch { at: point.at, told: None },
     }
 }
 

@@ -88,6 +88,15 @@ impl<'a> Entity<'a> {
         Ok(vertices)
     }
 
+    /// The slit of a notch that begins at a point: its direction (code 50, degrees) and depth (code 30) as metres, y
+    /// down; nought where one of them is missing or no number.
+    pub(super) fn slit(&self, unit: f64) -> Vec2 {
+        let number = |code: i32, unit: f64| self.pairs.iter().find(|p| p.code == code)?.number(unit).ok();
+        let (Some(depth), Some(angle)) = (number(30, unit), number(50, DEGREE)) else { return Vec2::zeros() };
+        let (sine, cosine) = angle.sin_cos();
+        depth * Vec2::new(cosine, -sine)
+    }
+
     /// An ARC as two halves with their bulges, metres, y down; nothing where a number is missing. One that ends where
     /// it begins is a whole circle.
     pub(super) fn arc(&self, unit: f64) -> Result<Vec<(Vec2, f64)>, DxfError> {

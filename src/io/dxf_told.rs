@@ -1,6 +1,9 @@
 //! What DXF-AAMA has no layer for, told by texts on the lines themselves: names of edges, what inner lines do, how
-//! pleats lie. Other readers show them as any annotation; people find on the screen what a line is.
+//! pleats lie, what notches belong to. Other readers show them as any annotation; people find on the screen what a line
+//! is.
 
+use crate::cutting::{NotchKind, NotchMark};
+use crate::digitize::ToldNotch;
 use crate::geometry::{Path, Vec2};
 use crate::pattern::LineKind;
 
@@ -69,4 +72,23 @@ pub(super) fn place(line: &Path) -> Vec2 {
 pub(super) fn told_of<'t>(line: &Path, texts: &'t [(Told, Vec2)]) -> Option<&'t Told> {
     let place = place(line);
     texts.iter().find(|(_, at)| (at - place).norm() <= NEAR).map(|(told, _)| told)
+}
+
+/// What is told of a notch, where it meets the sewing line; the edge's name last, for it may hold anything.
+pub(super) fn notch_text(notch: &NotchMark) -> String {
+    format!("Notch: {}, {}", notch.kind.word(), notch.edge)
+}
+
+/// What a text tells of a notch, if it is one of these.
+pub(super) fn read_notch(text: &str) -> Option<ToldNotch> {
+    let (kind, edge) = text.strip_prefix("Notch: ")?.split_once(", ")?;
+    Some(ToldNotch { kind: NotchKind::from_word(kind)?, edge: edge.trim().to_owned() })
+}
+
+/// Whether a place is on a slit that begins at `at` and goes so far `into` the piece.
+pub(super) fn is_on_slit(place: Vec2, at: Vec2, into: Vec2) -> bool {
+    let depth = into.norm();
+    let along = into.try_normalize(0.0).unwrap_or_else(Vec2::zeros);
+    let way = along.dot(&(place - at)).clamp(0.0, depth);
+    (at + along * way - place).norm() <= NEAR
 }

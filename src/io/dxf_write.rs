@@ -4,11 +4,11 @@
 //! tables nor layout blocks, which the trade's readers do not expect. Coordinates are millimetres, y up; units are said
 //! in the style's text, for DXF R12 has no place for them. Curves are polylines; a point on layer 2 or 3 says of each
 //! of their vertices whether the line turns or runs smoothly there. What the standard has no layer for (names of edges,
-//! folds, elastic, darts, pleats) is told by small texts on the lines.
+//! folds, elastic, darts, pleats, kinds of notches) is told by small texts on the lines.
 
 use std::fmt::Write as _;
 
-use super::dxf_told::{Told, place};
+use super::dxf_told::{Told, notch_text, place};
 use crate::cutting::{MarkKind, NotchMark, Paper, SewKind};
 use crate::geometry::{MM, Path, Vec2};
 use crate::pattern::LineKind;
@@ -235,12 +235,14 @@ impl Dxf {
         }
     }
 
-    /// A slit notch: a point on the cut line with its depth and its direction, degrees.
+    /// A slit notch: a point on the cut line with its depth and its direction, degrees; and a text where it meets the
+    /// sewing line, of which the other does not tell the place.
     fn notch(&mut self, notch: &NotchMark) {
         let into = notch.inside - notch.at;
         self.marker(notch.at, layer::NOTCH);
         self.pair(30, number(into.norm() * MM));
         self.pair(50, number((-into.y).atan2(into.x).to_degrees()));
+        self.words(&notch_text(notch), notch.sewn, SMALL_LETTERS, layer::TEXT);
     }
 
     fn line(&mut self, [from, to]: [Vec2; 2], on: u32) {

@@ -17,7 +17,8 @@ use self::left_out::{LeftOut, What};
 use self::shapes::commands;
 use self::style::Styles;
 use self::viewport::{Frame, inner, sheet};
-use crate::digitize::{Drawing, Material, Remark, Role, Stroke, Traced, besides, pieces};
+use crate::cutting::NotchKind;
+use crate::digitize::{Drawing, Material, Remark, Role, Stroke, ToldNotch, Traced, besides, pieces};
 use crate::geometry::{Path, Vec2, parse_transform};
 use crate::input::{InputError, bytes, shown};
 use crate::pattern::{LineKind, Side};
@@ -226,8 +227,8 @@ impl Reader<'_, '_> {
             // A transform may have made a point of it.
             if path.length() > 1e-8 {
                 let (group, layer) = (scope.group.clone(), scope.layer.clone());
-                let (name, kind) = (own_name(node, group.as_deref()), line_kind(node));
-                self.strokes.push(Stroke { path, role, name, group, layer, kind });
+                let (name, kind, notch) = (own_name(node, group.as_deref()), line_kind(node), told_notch(node));
+                self.strokes.push(Stroke { path, role, name, group, layer, kind, notch });
             }
         }
         if self.strokes.len() > MOST_STROKES { Err(SvgError::TooMany { most: MOST_STROKES }) } else { Ok(()) }
@@ -364,6 +365,12 @@ fn line_kind(node: Node) -> Option<LineKind> {
     let elastic = || number("data-elastic").and_then(LineKind::elastic);
     let mark = || node.attribute("data-kind").map(|kind| LineKind::Mark(shown(kind, SHOWN)));
     fold.or_else(elastic).or_else(mark)
+}
+
+/// What is told of a notch, as toile itself writes it.
+fn told_notch(node: Node) -> Option<ToldNotch> {
+    let kind = NotchKind::from_word(node.attribute("data-notch")?)?;
+    Some(ToldNotch { kind, edge: node.attribute("data-edge").unwrap_or_default().to_owned() })
 }
 
 /// What a line is by its classes, its markers and its name; `None` for what is no line of the pattern.

@@ -2,12 +2,14 @@
 //!
 //! A group per piece with its name as id; classes `cut` (solid), `sew` (dashed; ids `piece.edge`), `fold`, `notch`,
 //! `grain`, `line`, `drill` and `text`; the test square in a group of class `scale`. What a piece is cut from stands in
-//! `data-material` and, where it is a fabric of the library, `data-fabric` of its group.
+//! `data-material` and, where it is a fabric of the library, `data-fabric` of its group. A notch runs from the cut
+//! line to the sewing line or, by way of a point there, beyond; `data-notch` says what it belongs to, `data-edge` where
+//! it is.
 
 use svg::node::element::{Circle, Group, Path, Title};
 
 use super::{centered, document, identifier, number, polyline, printable, square, stroke, with_kind};
-use crate::cutting::{Lettering, MarkKind, Paper, SewKind, Sheet};
+use crate::cutting::{Lettering, MarkKind, NotchMark, Paper, SewKind, Sheet};
 use crate::geometry::{MM, Vec2};
 
 /// Widths of lines, mm: what is cut, and everything else.
@@ -59,7 +61,7 @@ fn draw(paper: &Paper) -> Group {
         });
     }
     for notch in &paper.notches {
-        group = group.add(polyline(&[notch.at * MM, notch.inside * MM], "notch", FINE));
+        group = group.add(slit(notch));
     }
     for mark in &paper.marks {
         let class = match mark.kind {
@@ -97,6 +99,15 @@ fn contour_path(contour: &[Vec2], open: bool) -> Path {
     let steps: Vec<String> = points.iter().map(|p| format!("{} {}", number(p.x), number(p.y))).collect();
     let end = if open { "" } else { " Z" };
     stroke(format!("M{}{end}", steps.join(" L")), "cut", CUT)
+}
+
+/// A notch's mark, with a point on the sewing line.
+fn slit(notch: &NotchMark) -> Path {
+    let mut points = vec![notch.at, notch.sewn, notch.inside];
+    points.dedup();
+    let points: Vec<Vec2> = points.into_iter().map(|p| p * MM).collect();
+    let line = polyline(&points, "notch", FINE);
+    line.set("data-notch", notch.kind.word()).set("data-edge", identifier(&notch.edge))
 }
 
 /// The grain's double arrow.

@@ -1,0 +1,50 @@
+//! What a mark on the rim of a piece is.
+
+/// Distance of a double notch's two marks along their edge, metres.
+pub const DOUBLE_MARKS: f64 = 0.006;
+
+/// What a notch's mark belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NotchKind {
+    /// A notch by itself.
+    Single,
+    /// One of two that mark the back, half of [`DOUBLE_MARKS`] from the place that they mark.
+    Double,
+    /// The same where the edge ends nearer than that: it stands at the end.
+    DoubleAtEnd,
+    /// The mouth of a dart.
+    Dart,
+    /// A fold of a pleat or the place to which it is brought.
+    Pleat,
+}
+
+impl NotchKind {
+    /// All there are.
+    const ALL: [Self; 5] = [Self::Single, Self::Double, Self::DoubleAtEnd, Self::Dart, Self::Pleat];
+
+    /// As drawings tell it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Single => "single",
+            Self::Double => "double",
+            Self::DoubleAtEnd => "double-at-end",
+            Self::Dart => "dart",
+            Self::Pleat => "pleat",
+        }
+    }
+
+    /// The one that a drawing tells.
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.word() == word)
+    }
+
+    /// Whether the garment's file tells of it as a notch.
+    pub fn is_notch(self) -> bool {
+        !matches!(self, Self::Dart | Self::Pleat)
+    }
+
+    /// Whether it is one of the two marks of a double notch.
+    pub fn is_double(self) -> bool {
+        matches!(self, Self::Double | Self::DoubleAtEnd)
+    }
+}
