@@ -2,7 +2,7 @@
 //! shares nothing with its writer.
 
 use proptest::prelude::*;
-use toile::cutting::{Layout, Lettering, MarkKind, Options, Paper, SewKind, Sheet, papers};
+use toile::cutting::{Layout, Lettering, MarkKind, Options, Paper, Room, SewKind, Sheet, papers};
 use toile::geometry::{Path, Vec2};
 use toile::io::dxf_write::cutting_dxf;
 use toile::io::garment::read_text;
@@ -146,9 +146,144 @@ fn a_piece_on_the_fold_ends_on_it_and_opens_to_a_whole() {
     assert!(crosses_itself(&whole.cut[0]).is_none());
 }
 
+/// Places of an edge that are looked at.
+const PLACES: usize = 200;
+
+/// Where an edge has less than its allowance beside it, though no join of a corner may reach there: a mitre takes at
+/// most the wider width of the edge's cut line, and other ends stay within a mitre's limit.
+fn short_of_allowance(drawing: &Drawing, paper: &Paper) -> Option<(String, Vec2)> {
+    let room = Room { contours: paper.cut.clone(), walls: Vec::new() };
+    let edges = &drawing.rings[0];
+    let width = |i: usize| edges[i % edges.len()].allowance.width.expect("given");
+    let kind = |i: usize| edges[i % edges.len()].allowance.corner;
+    let taken = |i: usize| width(i).max(width(i + 1)) * if kind(i) == kind(i + 1) { 1.0 } else { 3.0 };
+    edges.iter().enumerate().find_map(|(i, edge)| {
+        let beside = |k: usize, d: f64| {
+            let s = edge.path.length() * k as f64 / PLACES as f64;
+            let t = edge.path.tangent(s);
+            edge.path.point(s) + d * Vec2::new(t.y, -t.x)
+        };
+        let line: Vec<Vec2> = (0..=PLACES).map(|k| beside(k, width(i))).collect();
+        let length = |part: &[Vec2]| part.windows(2).map(|w| (w[1] - w[0]).norm()).sum::<f64>();
+        let free = |&k: &usize| {
+            length(&line[..=k]) > taken(i + edges.len() - 1) + EXACT && length(&line[k..]) > taken(i) + EXACT
+        };
+        let short = |&k: &usize| width(i) > EXACT && !room.holds(beside(k, width(i) - EXACT));
+        (1..PLACES).filter(free).find(short).map(|k| (edge.name.clone(), line[k]))
+    })
+}
+
+#[test]
+fn a_narrow_allowance_takes_nothing_from_a_wide_one_beside_it() {
+    // A corner that bends in a little, at 40 beside 8: the narrow cut line prolonged would cut across all of the cap.
+    let inwards = "    allowance: {cap: 40 folded, waist: 8 mitred, rest: 8 mitred}
+    outline: {start: -191.5868 -100.5895, cap: 'C -143 -115.8, -90.4477 -170.11, -32 -157.7', waist: L 158.8229 -153.9,
+      rest: L 217 242 L -191.5868 242 L -191.5868 -100.5895}\n";
+    // Corners that bend out by 25 degrees, at 40 beside nothing: too flat for a mitre and no sharp point either.
+    let outwards = "    allowance: {side: 0 mitred, hem: 40 mitred, other: 0 mitred, top: 10 mitred}
+    outline: {start: 200 0, side: L 180 100, hem: Q 0 180 -180 100, other: L -200 0, top: L 200 0}\n";
+    let flat = "    allowance: {left: 0 KIND, hem: 40 mitred, right: 8 KIND, top: 10 mitred}
+    outline: {start: 300 0, right: L 100 100, hem: L -100 100, left: L -300 0, top: L 300 0}\n";
+    let kinds = ["mitred", "squared", "folded"].map(|kind| flat.replace("KIND", kind));
+    for lines in [inwards, outwards].into_iter().chain(kinds.iter().map(String::as_str)) {
+        let drawing = drawn(&one_piece(lines)).remove(0);
+        let paper = papers(std::slice::from_ref(&drawing), &Options::default()).remove(0);
+        assert_eq!(short_of_allowance(&drawing, &paper), None, "{lines}");
+        assert!(crosses_itself(&paper.cut[0]).is_none(), "{lines}");
+    }
+}
+
+#[test]
+fn a_step_of_the_allowance_is_square_to_the_wide_edge() {
+    // The hem turns by 27 degrees into either side.
+    let paper = paper_of(
+        "    allowance: {right: 0 folded, hem: 40 mitred, left: 0 squared, top: 10 mitred}
+    outline: {start: 300 0, right: L 100 100, hem: L -100 100, left: L -300 0, top: L 300 0}\n",
+    );
+    for p in [mm(100.0, 100.0), mm(100.0, 140.0), mm(-100.0, 140.0), mm(-100.0, 100.0)] {
+        assert!(has_point(&paper.cut[0], p), "{p}: {:?}", paper.cut[0]);
+    }
+}
+
+/// Farthest that a point of one closed line is from another, both ways.
+fn lines_apart(one: &[Vec2], other: &[Vec2]) -> f64 {
+    let way = |a: &[Vec2], b: &[Vec2]| {
+        let line = Path::polyline(&b.iter().chain(&b[..1]).copied().collect::<Vec<_>>());
+        a.iter().map(|p| line.nearest(*p).1).fold(0.0, f64::max)
+    };
+    way(one, other).max(way(other, one))
+}
+
+/// The cut lines of a half on the fold when it is opened, and those of the same piece drawn whole. Edges of the half,
+/// from the fold and back to it: control point and end, millimetres; allowance.
+fn on_fold_and_whole(start: f64, edges: &[([Vec2; 2], String)]) -> Option<[Paper; 2]> {
+    let (mut half, mut other, mut allowances) = (String::new(), String::new(), [String::new(), String::new()]);
+    let mut from = Vec2::new(0.0, start);
+    for (i, ([control, to], allowance)) in edges.iter().enumerate() {
+        half.push_str(&format!("      e{i}: Q {} {}, {} {}\n", control.x, control.y, to.x, to.y));
+        let back = format!("      f{i}: Q {} {}, {} {}\n", -control.x, control.y, -from.x, from.y);
+        other.insert_str(0, &back);
+        allowances[0].push_str(&format!("      e{i}: {allowance}\n"));
+        allowances[1].push_str(&format!("      f{i}: {allowance}\n"));
+        from = *to;
+    }
+    let piece = |cut: &str, outline: &str, allowances: &str| {
+        one_piece(&format!("{cut}    allowance:\n{allowances}    outline:\n      start: 0 {start}\n{outline}"))
+    };
+    let folded = piece("    cut: fold center\n", &format!("{half}      center: L 0 {start}\n"), &allowances[0]);
+    let whole = piece("", &format!("{half}{other}"), &allowances.concat());
+    // Some bend across the fold or each other: they are no pieces.
+    let read = |text: &str| read_text("garment", "garment.yaml", text).ok();
+    let options = Options { whole: true, ..Options::default() };
+    let cut = |text: &str| Some(papers(&read(text).map(|l| drawings(&l.file, &l.garment))?, &options).remove(0));
+    Some([cut(&folded)?, cut(&whole)?])
+}
+
+#[test]
+fn a_point_on_the_fold_is_cut_as_if_the_piece_were_drawn_whole() {
+    // A flat V, the neck line of a shirt, one whose two allowances close it half-way, and a point instead of a V.
+    for (depth, shape) in [(40.0, "a flat V"), (150.0, "a V"), (-60.0, "a point")] {
+        for kind in ["mitred", "squared", "folded"] {
+            let line = |a: Vec2, b: Vec2| [(a + b) / 2.0, b];
+            let corners = [(0.0, depth), (80.0, 0.0), (200.0, 40.0), (200.0, 400.0), (0.0, 420.0)];
+            let at = corners.map(|(x, y)| Vec2::new(x, y));
+            let edge = |k: usize| (line(at[k], at[k + 1]), format!("10 {kind}"));
+            let edges: Vec<_> = (0..4).map(edge).collect();
+            let [folded, whole] = on_fold_and_whole(depth, &edges).expect("a piece");
+            assert_eq!(folded.cut.len(), whole.cut.len());
+            assert!(lines_apart(&folded.cut[0], &whole.cut[0]) < EXACT, "{shape}, {kind}: {:?}", folded.cut[0]);
+        }
+    }
+    // The V's point is where both cut lines meet.
+    let neck = mm(80.0, -150.0).normalize();
+    let folded = paper_of(
+        "    cut: fold center\n    outline: {start: 0 150, neck: L 80 0, shoulder: L 200 40, side: L 200 400, \
+         hem: L 0 400, center: L 0 150}\n",
+    );
+    let meet = Vec2::new(0.0, 0.150 - 0.010 / neck.x);
+    assert!((folded.fold.expect("a fold")[1] - meet).norm() < EXACT, "{:?}", folded.fold);
+    assert!(folded.cut[0].iter().all(|p| p.x > -EXACT), "{:?}", folded.cut[0]);
+}
+
+#[test]
+fn a_bay_across_the_fold_opens_to_one_contour() {
+    // A keyhole below a slit that the allowances close.
+    let text = |outline: &str| one_piece(&format!("    allowance: 8 mitred\n    outline: {outline}\n"));
+    let half = "{start: 0 120, a: L 40 80, b: L 4 40, c: L 4 0, d: L 200 0, e: L 200 300, f: L 0 300";
+    let folded = text(&format!("{half}, center: L 0 120}}")).replace("    allow", "    cut: fold center\n    allow");
+    let whole = text(&format!("{half}, g: L -200 300, h: L -200 0, i: L -4 0, j: L -4 40, k: L -40 80, l: L 0 120}}"));
+    let options = Options { whole: true, ..Options::default() };
+    let [folded, whole] = [folded, whole].map(|text| papers(&drawn(&text), &options).remove(0));
+    assert_eq!((folded.cut.len(), whole.cut.len()), (2, 2), "{:?}", folded.cut);
+    for (one, other) in folded.cut.iter().zip(&whole.cut) {
+        assert!(lines_apart(one, other) < EXACT, "{one:?}\n{other:?}");
+        assert!((area(one).abs() - area(other).abs()).abs() < 1e-8);
+    }
+}
+
 /// Random pieces: corners round a middle, straight or bent edges, allowances and ends of every kind.
 fn any_piece() -> impl Strategy<Value = String> {
-    let edge = (60.0..220.0f64, -0.25..0.25f64, any::<bool>(), 0usize..4, 0usize..3);
+    let edge = (60.0..220.0f64, -0.25..0.25f64, any::<bool>(), 0usize..5, 0usize..3);
     proptest::collection::vec(edge, 3..8).prop_map(|edges| {
         let n = edges.len();
         let corner = |i: usize| {
@@ -166,7 +301,7 @@ fn any_piece() -> impl Strategy<Value = String> {
                 format!("Q {} {}, {} {}", control.x, control.y, b.x, b.y)
             };
             outline.push_str(&format!("      e{i}: {path}\n"));
-            let (width, kind) = ([5, 10, 15, 30][*width], ["mitred", "squared", "folded"][*kind]);
+            let (width, kind) = ([0, 5, 10, 15, 40][*width], ["mitred", "squared", "folded"][*kind]);
             allowance.push_str(&format!("      e{i}: {width} {kind}\n"));
         }
         let start = corner(0);
@@ -188,7 +323,12 @@ proptest! {
         for contour in &paper.cut {
             prop_assert!(crosses_itself(contour).is_none(), "crosses near {:?}\n{text}", crosses_itself(contour));
         }
-        prop_assert!(area(&paper.cut[0]) > edges.iter().map(|e| e.path.double_area()).sum::<f64>() / 2.0);
+        let short = short_of_allowance(&drawing, &paper);
+        prop_assert!(short.is_none(), "{short:?}\n{text}");
+        let sewn = edges.iter().map(|e| e.path.double_area()).sum::<f64>() / 2.0;
+        // Without any allowance, chords leave the sewing line.
+        let chords = EXACT * edges.iter().map(|e| e.path.length()).sum::<f64>();
+        prop_assert!(area(&paper.cut[0]) > sewn - chords);
         for p in paper.cut.iter().flatten() {
             // Three times the wider allowance is how far a mitre may go.
             let at_corner = (0..edges.len()).any(|i| {
@@ -202,6 +342,47 @@ proptest! {
             let clear = nearest.0 >= nearest.1 - EXACT;
             prop_assert!(at_corner || exact && clear, "{p}: distances and widths {off:?}\n{text}");
         }
+    }
+}
+
+/// Random halves: corners from the fold round to it again. Not folded beside squared: of two such ends as wide as each
+/// other the second along the outline is heeded, so that these pieces are not symmetric when they are drawn whole.
+fn any_half() -> impl Strategy<Value = Vec<([Vec2; 2], String)>> {
+    let edge = (60.0..220.0f64, -0.2..0.2f64, 0usize..4, any::<bool>());
+    (proptest::collection::vec(edge, 2..6), any::<bool>()).prop_map(|(edges, folded)| {
+        let special = if folded { "folded" } else { "squared" };
+        let n = edges.len();
+        let corner = |i: usize| match i {
+            0 => Vec2::new(0.0, HALF_START),
+            i if i == n => Vec2::new(0.0, edges[n - 1].0),
+            i => {
+                let angle = std::f64::consts::PI * i as f64 / n as f64;
+                Vec2::new(angle.sin(), -angle.cos()) * edges[i - 1].0
+            }
+        };
+        let drawn = |(i, (_, bend, width, mitred)): (usize, &(f64, f64, usize, bool))| {
+            let (a, b) = (corner(i), corner(i + 1));
+            let control = (a + b) / 2.0 + Vec2::new(a.y - b.y, b.x - a.x) * *bend;
+            let allowance = format!("{} {}", [0, 5, 12, 30][*width], if *mitred { "mitred" } else { special });
+            ([control, b], allowance)
+        };
+        edges.iter().enumerate().map(drawn).collect()
+    })
+}
+
+/// Where random halves begin on the fold, millimetres: most of the corners beside it are higher, some are lower.
+const HALF_START: f64 = -80.0;
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_half_on_the_fold_is_cut_as_if_the_piece_were_drawn_whole(edges in any_half()) {
+        let Some([folded, whole]) = on_fold_and_whole(HALF_START, &edges) else { return Ok(()) };
+        prop_assert_eq!(folded.cut.len(), whole.cut.len());
+        prop_assert!(crosses_itself(&folded.cut[0]).is_none(), "near {:?}", crosses_itself(&folded.cut[0]));
+        let apart = lines_apart(&folded.cut[0], &whole.cut[0]);
+        prop_assert!(apart < EXACT, "{apart}: {:?}\n{:?}", folded.cut[0], whole.cut[0]);
     }
 }
 

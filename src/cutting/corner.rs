@@ -5,6 +5,8 @@
 //! *squared* at its ends, she looks from the neighbour: its cut line goes on as far as the sewing line of the special
 //! edge, and from there straight out, or mirrored in that sewing line, to the special edge's cut line.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::offset::Run;
 use crate::geometry::{Vec2, mirrored};
 use crate::pattern::Corner;
@@ -100,30 +102,54 @@ fn mitred(a: &Run, b: &Run) -> Join {
     if (end - start).norm() < SAME {
         return plain(a, b, Vec::new());
     }
-    let wide = a.width.max(b.width);
     let turn = turn(a, b);
-    if turn.abs() > STRAIGHT {
-        let arms = [Arm::before(a), Arm::after(b)];
-        let [x, y] = arms.each_ref().map(|arm| arm.extended(MITRE_LIMIT * wide));
-        if let Some((on_a, on_b)) = first_crossing(&x, &y) {
-            // A step of the width along a nearly straight course is not spread over more than the width.
-            let cut_away = |line: &[Vec2], at: At| length(&line[1..], at.0 - 1.0);
-            let short = (on_a.1 - corner_of(a)).norm() <= MITRE_LIMIT * wide;
-            if turn < 0.0 || short && cut_away(&x, on_a).max(cut_away(&y, on_b)) <= wide {
-                return joined(a, on_a, Vec::new(), on_b);
-            }
-        }
-    }
     if turn < 0.0 {
-        // Too short to meet: by way of the corner, whence the loop falls away.
-        return plain(a, b, vec![corner_of(a)]);
+        // By way of the corner: there an allowance ends straight that the other does not take up.
+        return bent_in(a, b, turn).unwrap_or_else(|| plain(a, b, vec![corner_of(a)]));
     }
-    if turn < LEAST_TURN {
+    if let Some(join) = pointed(a, b, turn) {
+        return join;
+    }
+    if turn < FRAC_PI_2 {
+        // No long point, but a step: from one width to a much smaller one.
         return plain(a, b, Vec::new());
     }
+    let wide = a.width.max(b.width);
     // The point of a long mitre is cut off.
     let past = |width: f64| ((MITRE_LIMIT * wide).powi(2) - width.powi(2)).sqrt();
     plain(a, b, vec![end + a.ends[1] * past(a.width), start - b.ends[0] * past(b.width)])
+}
+
+/// Where the cut lines cross at a corner that bends out, if that is near enough.
+fn pointed(a: &Run, b: &Run, turn: f64) -> Option<Join> {
+    if turn < STRAIGHT {
+        return None;
+    }
+    let wide = a.width.max(b.width);
+    let [x, y] = [Arm::before(a), Arm::after(b)].map(|arm| arm.extended(MITRE_LIMIT * wide));
+    let (on_a, on_b) = meeting(&x, &y, corner_of(a), Sense::Closing)?;
+    // A step of the width along a nearly straight course is not spread over more than the width.
+    let short = (on_a.1 - corner_of(a)).norm() <= MITRE_LIMIT * wide;
+    let spread = cut_away(&x, on_a).max(cut_away(&y, on_b));
+    (short && spread <= wide).then(|| joined(a, on_a, Vec::new(), on_b))
+}
+
+/// Where the cut lines cross at a corner that bends in: there two allowances lie over one another, and what each line
+/// gives up is within the other. A line that stands clear of the other's at the corner goes on until it meets that; the
+/// other one begins within its allowance and is not prolonged: that would cut off what the wider edge is to have.
+fn bent_in(a: &Run, b: &Run, turn: f64) -> Option<Join> {
+    if turn > -STRAIGHT {
+        return None;
+    }
+    let reach = MITRE_LIMIT * a.width.max(b.width);
+    let clear = |one: &Run, other: &Run| one.width * turn.cos() > other.width;
+    let [first_clear, second_clear] = [clear(a, b), clear(b, a)];
+    let x = Arm::before(a).extended(if first_clear { reach } else { 0.0 });
+    let y = Arm::after(b).extended(if second_clear { reach } else { 0.0 });
+    let (on_a, on_b) = meeting(&x, &y, corner_of(a), Sense::Parting)?;
+    let prolonged = first_clear || second_clear;
+    let near = !prolonged || (on_a.1 - corner_of(a)).norm() <= reach;
+    near.then(|| joined(a, on_a, Vec::new(), on_b))
 }
 
 /// The special edge, the second or (`of_first`) the first, ends squared or folded. `None` where it cannot.
@@ -137,6 +163,10 @@ fn ended(a: &Run, b: &Run, kind: Corner, of_first: bool) -> Option<Join> {
     let reach = MITRE_LIMIT * x.width.max(y.width);
     let own = x.extended(reach);
     let (on_x, _) = first_crossing(&own, &[corner + y.along * SAME, corner - y.along * reach])?;
+    // The end of a narrow allowance is no reason to take much from a wide one: the flatter the corner, the more.
+    if cut_away(&own, on_x) > MITRE_LIMIT * y.width {
+        return None;
+    }
     let ray = match kind {
         Corner::Squared => vec![on_x.1, on_x.1 + y.out * (2.0 * y.width)],
         Corner::Folded => {
@@ -208,6 +238,47 @@ fn folded_cap(x: &Arm, y: &Arm, [near, far]: [Vec2; 2], tip: Vec2, reach: f64) -
 /// The points of a polyline after a place on it.
 fn rest(line: &[Vec2], at: f64) -> impl Iterator<Item = Vec2> + '_ {
     line.iter().enumerate().filter(move |&(k, _)| k as f64 > at).map(|(_, p)| *p)
+}
+
+/// How two lines that are walked away from a corner cross.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Sense {
+    /// As the prolongations of two lines before a corner that bends out, which end there.
+    Closing,
+    /// As two lines that begin within each other's allowance and leave it.
+    Parting,
+}
+
+/// The crossing of two lines that is nearest to their corner: lines that bend may cross again farther off. Where it is
+/// not of the corner's sense the lines have bent back, and it is no join.
+fn meeting(x: &[Vec2], y: &[Vec2], corner: Vec2, sense: Sense) -> Option<(At, At)> {
+    let off = |c: &(At, At)| (c.0.1 - corner).norm();
+    let nearest = crossings(x, y).min_by(|one, other| off(one).total_cmp(&off(other)))?;
+    let turn = direction(x, nearest.0.0).perp(&direction(y, nearest.1.0));
+    let found = if turn > 0.0 { Sense::Parting } else { Sense::Closing };
+    (found == sense).then_some(nearest)
+}
+
+/// All places at which two polylines cross.
+fn crossings<'a>(p: &'a [Vec2], q: &'a [Vec2]) -> impl Iterator<Item = (At, At)> + 'a {
+    p.windows(2).enumerate().flat_map(move |(i, u)| {
+        q.windows(2).enumerate().filter_map(move |(k, v)| {
+            let (s, t) = crossing([u[0], u[1]], [v[0], v[1]])?;
+            let point = u[0] + (u[1] - u[0]) * s;
+            Some(((i as f64 + s, point), (k as f64 + t, point)))
+        })
+    })
+}
+
+/// Where a polyline goes at a place on it.
+fn direction(line: &[Vec2], at: f64) -> Vec2 {
+    let k = (at as usize).min(line.len() - 2);
+    line[k + 1] - line[k]
+}
+
+/// How much a line that is extended at its start loses by beginning at a place.
+fn cut_away(extended: &[Vec2], at: At) -> f64 {
+    length(&extended[1..], at.0 - 1.0)
 }
 
 /// Length of a polyline up to a place on it.

@@ -2,7 +2,7 @@
 
 use super::clean::{grown, shrunk};
 use super::corner::{Join, cap, join};
-use crate::geometry::{Path, Station, Vec2};
+use crate::geometry::{Path, Station, Vec2, mirrored};
 use crate::pattern::Corner;
 
 /// Chords of cut lines leave the true line by at most this much (metres): a fifth of the hundredth of a millimetre that
@@ -57,6 +57,13 @@ impl Run {
         }
     }
 
+    /// Its image in the line through `on` along `along`, walked the other way: the cloth stays on the right.
+    fn image(&self, [on, along]: [Vec2; 2]) -> Self {
+        let points = |line: &[Vec2]| line.iter().rev().map(|&p| mirrored(p, on, along)).collect();
+        let [first, last] = self.ends.map(|t| -mirrored(t, Vec2::zeros(), along));
+        Self { base: points(&self.base), moved: points(&self.moved), ends: [last, first], width: self.width }
+    }
+
     /// The stretch as it is sewn: without allowance.
     fn sewn(&self) -> Self {
         Self { moved: self.base.clone(), width: 0.0, ..self.clone() }
@@ -81,6 +88,17 @@ enum Joint {
     },
 }
 
+impl Joint {
+    /// Its image in a line, with the two edges changed about.
+    fn image(self, [on, along]: [Vec2; 2]) -> Self {
+        match self {
+            Self::Smooth => Self::Smooth,
+            Self::Corner([one, other]) => Self::Corner([other, one]),
+            Self::Dart { tip, onto_first } => Self::Dart { tip: mirrored(tip, on, along), onto_first: !onto_first },
+        }
+    }
+}
+
 impl Ring {
     fn new(borders: &[Border], between: &[Between]) -> Self {
         let mut ring = Self { runs: Vec::new(), joins: Vec::new() };
@@ -97,6 +115,21 @@ impl Ring {
                 };
             }
         }
+        ring
+    }
+
+    /// The ring of the whole piece whose half has these edges: all but the fold, from its end round to its start.
+    fn unfolded(borders: &[Border], between: &[Between], axis: [Vec2; 2]) -> Self {
+        let mut ring = Self::new(borders, between);
+        // An edge meets its own image at the fold: two equal wishes.
+        let at_fold = Joint::Corner([Corner::Mitred; 2]);
+        ring.joins.pop();
+        let back: Vec<Joint> = ring.joins.iter().rev().map(|joint| joint.image(axis)).collect();
+        ring.joins.push(at_fold);
+        ring.joins.extend(back);
+        ring.joins.push(at_fold);
+        let images: Vec<Run> = ring.runs.iter().rev().map(|run| run.image(axis)).collect();
+        ring.runs.extend(images);
         ring
     }
 
@@ -134,6 +167,18 @@ impl Ring {
 /// one contour where an allowance closes round a bay of the piece: the outer one first.
 pub(super) fn around(borders: &[Border], between: &[Between]) -> Vec<Vec<Vec2>> {
     let ring = Ring::new(borders, between);
+    grown(&ring.contour(), &ring.sewn().contour())
+}
+
+/// The cut line of the whole piece of which an outline is the half that is drawn; `fold` is the edge on the fold. At
+/// the fold's ends the allowances of the two halves meet, which nothing on one half alone tells.
+pub(super) fn around_unfolded(borders: &[Border], between: &[Between], fold: usize) -> Vec<Vec<Vec2>> {
+    let path = borders[fold].path;
+    let axis = [path.start(), (path.end() - path.start()).normalize()];
+    let open = |count: usize| (1..count).map(move |k| (fold + k) % count);
+    let edges: Vec<Border> = open(borders.len()).map(|i| borders[i].clone()).collect();
+    let joints: Vec<Between> = open(between.len()).map(|i| between[i]).collect();
+    let ring = Ring::unfolded(&edges, &joints, axis);
     grown(&ring.contour(), &ring.sewn().contour())
 }
 

@@ -5,14 +5,12 @@ use nalgebra::Matrix2;
 use super::clean::double_area;
 use super::label;
 use super::marks;
-use super::offset::{Between, Border, around, sewn_mouths, within};
+use super::offset::{Between, Border, around, around_unfolded, sewn_mouths, within};
 use super::whole;
 use super::{Lettering, Narrowed, Options, Paper, SewKind, SewLine};
 use crate::geometry::{Path, Vec2, range_of};
 use crate::pattern::{Corner, Cut, Dart, Drawing, DrawnEdge};
 
-/// A point within this (metres) of the fold's line is on it.
-const ON_FOLD: f64 = 1e-6;
 /// Less than this (square metres, a square of 3 mm) nobody cuts out of a hole.
 const LEAST_CUT: f64 = 1e-5;
 /// An allowance that does not fit into its hole is halved so often at most; then the hole is cut on its sewing line.
@@ -87,15 +85,14 @@ impl<'a> Rule<'a> {
     }
 
     /// Free edges are hems: turned up, their ends must lie on the piece.
-    fn corner(&self, edge: &DrawnEdge, on_fold: bool) -> Corner {
-        let usual = if edge.sewn || on_fold { Corner::Mitred } else { Corner::Folded };
+    fn corner(edge: &DrawnEdge) -> Corner {
+        let usual = if edge.sewn { Corner::Mitred } else { Corner::Folded };
         edge.allowance.corner.unwrap_or(usual)
     }
 
     fn border(&self, ring: usize, index: usize) -> Border<'_> {
         let edge = &self.drawing.rings[ring][index];
-        let on_fold = ring == 0 && self.drawing.fold == Some(index);
-        Border { path: &edge.path, width: self.width(ring, index), corner: self.corner(edge, on_fold) }
+        Border { path: &edge.path, width: self.width(ring, index), corner: Self::corner(edge) }
     }
 
     fn borders(&self, ring: usize) -> Vec<Border<'_>> {
@@ -129,8 +126,7 @@ fn upright(paper: &Paper) -> Paper {
 fn paper(rule: &Rule) -> Paper {
     let drawing = rule.drawing;
     let (borders, between) = outline_borders(rule);
-    let mut cut = around(&borders, &between);
-    let fold = drawing.fold.map(|f| open_at_fold(&mut cut, &drawing.rings[0][f].path));
+    let (mut cut, fold) = outline_cut(drawing, &borders, &between);
     for ring in rule.holes() {
         cut.extend(within(&rule.borders(ring)));
     }
@@ -160,6 +156,22 @@ fn paper(rule: &Rule) -> Paper {
         texts: Vec::new(),
         narrowed: rule.narrowed(),
     }
+}
+
+/// The outline's cut lines; of a piece on the fold their half, and the stretch of the fold that the cloth lies on.
+fn outline_cut(drawing: &Drawing, borders: &[Border], between: &[Between]) -> (Vec<Vec<Vec2>>, Option<[Vec2; 2]>) {
+    let Some(fold) = drawing.fold.map(|f| &drawing.rings[0][f].path) else {
+        return (around(borders, between), None);
+    };
+    let Some(place) = borders.iter().position(|b| std::ptr::eq(b.path, fold)) else {
+        return (around(borders, between), None);
+    };
+    let ends = [fold.start(), fold.end()];
+    let whole = around_unfolded(borders, between, place);
+    let cut: Vec<Vec<Vec2>> = whole.iter().filter_map(|contour| whole::halved(contour, ends)).collect();
+    // The outline runs from the end of the fold to its start.
+    let on_fold = cut.first().and_then(|outline| Some([*outline.last()?, *outline.first()?]));
+    (cut, Some(on_fold.unwrap_or(ends)))
 }
 
 /// The outline without the legs of its darts.
@@ -201,24 +213,6 @@ fn centre(drawing: &Drawing) -> f64 {
             (low + high) / 2.0
         }
     }
-}
-
-/// Cuts the outline open along the fold and gives the stretch that lies on it, walked with the outline.
-fn open_at_fold(cut: &mut [Vec<Vec2>], fold: &Path) -> [Vec2; 2] {
-    let (start, end) = (fold.start(), fold.end());
-    let along = (end - start).normalize();
-    let on = |p: &Vec2| along.perp(&(p - start)).abs() < ON_FOLD;
-    let Some(outline) = cut.first_mut() else { return [start, end] };
-    let reach = |p: &Vec2| along.dot(&(p - start));
-    let ends = || outline.iter().enumerate().filter(|(_, p)| on(p));
-    let first = ends().min_by(|a, b| reach(a.1).total_cmp(&reach(b.1)));
-    let last = ends().max_by(|a, b| reach(a.1).total_cmp(&reach(b.1)));
-    let (Some((first, &from)), Some((last, &to))) = (first, last) else { return [start, end] };
-    // The outline runs from `from` along the fold to `to` and then round the piece.
-    let count = outline.len();
-    let round = (first + count - last) % count;
-    *outline = (0..=round).map(|k| outline[(last + k) % count]).collect();
-    [from, to]
 }
 
 fn sew_lines(drawing: &Drawing, mouths: &[Vec<Vec2>]) -> Vec<SewLine> {
