@@ -1,9 +1,9 @@
 //! Notches, grain, folds, pleats and drill marks.
 
 use super::room::Room;
-use super::{DOUBLE_MARKS, Mark, MarkKind, NotchKind, NotchMark};
+use super::{Mark, MarkKind, NotchMark};
 use crate::geometry::{Path, Vec2};
-use crate::pattern::{Cut, Drawing, DrawnEdge};
+use crate::pattern::{Cut, DOUBLE_MARKS, Drawing, DrawnEdge, NotchKind};
 
 /// Least length of a notch's mark, metres: shorter ones are overlooked when cutting.
 const NOTCH: f64 = 0.006;

@@ -10,7 +10,6 @@ mod corner;
 mod label;
 mod layout;
 mod marks;
-mod notch;
 mod offset;
 mod outline;
 mod room;
@@ -18,14 +17,13 @@ mod whole;
 
 pub use label::LETTER_WIDTH;
 pub use layout::{Layout, Sheet, TEST_SQUARE, shelves};
-pub use notch::{DOUBLE_MARKS, NotchKind};
 pub use outline::papers;
 pub use room::{Room, foot};
 
 use nalgebra::Matrix2;
 
 use crate::geometry::{Path, Vec2};
-use crate::pattern::{LineKind, Side};
+use crate::pattern::{LineKind, NotchKind, Side};
 
 /// What the file does not say.
 #[derive(Clone, Copy, Debug, PartialEq)]

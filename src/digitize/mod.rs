@@ -26,9 +26,8 @@ pub use holes::{Hole, holes};
 pub(crate) use notches::DOUBLE;
 pub use suggest::Suggestion;
 
-use crate::cutting::NotchKind;
 use crate::geometry::{Path, Vec2};
-use crate::pattern::{Cut, LineKind, Side};
+use crate::pattern::{Cut, LineKind, NotchKind, Side};
 
 /// A line of a foreign file.
 #[derive(Clone, Debug)]

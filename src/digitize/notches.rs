@@ -2,8 +2,9 @@
 
 use super::darts::whole_name;
 use super::{Notch, ToldNotch};
-use crate::cutting::{DOUBLE_MARKS, NotchKind};
+
 use crate::geometry::{Path, Vec2};
+use crate::pattern::{DOUBLE_MARKS, NotchKind};
 
 /// Notches past this many are no notches, where the drawing does not tell them.
 const MOST_NOTCHES: usize = 400;

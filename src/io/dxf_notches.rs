@@ -12,8 +12,8 @@ const FLANKS: f64 = 5e-4;
 /// as the bar of a T is: no notch is shallower, and no allowance grows by so much from a notch to its double.
 const DEEPER: f64 = 1e-3;
 
-/// The notches of one layer that are drawn as `shapes` and not said by `points`; each shape is the lines of it that meet
-/// end to end.
+/// The notches of one layer that are drawn as `shapes` and not said by `points`; each shape is the lines of it that
+/// meet end to end.
 pub(super) fn drawn(points: &[Vec2], shapes: &[Path], cut: &Path) -> Vec<Vec2> {
     let drawn: Vec<(Vec2, f64)> = shapes.iter().map(|shape| notch_at(shape, cut)).collect();
     let is_beside = |a: Vec2, b: Vec2| (a - b).norm() <= DOUBLE;

@@ -2,10 +2,10 @@
 //! pleats lie, what notches belong to. Other readers show them as any annotation; people find on the screen what a line
 //! is.
 
-use crate::cutting::{NotchKind, NotchMark};
+use crate::cutting::NotchMark;
 use crate::digitize::ToldNotch;
 use crate::geometry::{Path, Vec2};
-use crate::pattern::LineKind;
+use crate::pattern::{LineKind, NotchKind};
 
 /// A text stands at this share of its line: beyond it no two lines meet as they do at their ends and cross in their
 /// middles.

@@ -36,6 +36,7 @@ mod layers;
 mod line;
 mod measure;
 mod notch;
+mod notch_kind;
 mod outline;
 mod place_word;
 mod pleat;
@@ -59,6 +60,7 @@ pub use file::{
     OpenFile, OutlineFile, PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, Side, TestEntry, TestFile,
     Unit, Value,
 };
+pub use notch_kind::{DOUBLE_MARKS, NotchKind};
 pub use place_word::{PlaceWord, place_word, words_of};
 pub use problem::Problem;
 pub use reference::parse_quantity;

@@ -17,11 +17,10 @@ use self::left_out::{LeftOut, What};
 use self::shapes::commands;
 use self::style::Styles;
 use self::viewport::{Frame, inner, sheet};
-use crate::cutting::NotchKind;
 use crate::digitize::{Drawing, Material, Remark, Role, Stroke, ToldNotch, Traced, besides, pieces};
 use crate::geometry::{Path, Vec2, parse_transform};
 use crate::input::{InputError, bytes, shown};
-use crate::pattern::{LineKind, Side};
+use crate::pattern::{LineKind, NotchKind, Side};
 
 /// Larger files are not patterns.
 const MOST_BYTES: u64 = 30 << 20;
