@@ -2,7 +2,6 @@
 
 use super::darts::whole_name;
 use super::{Notch, ToldNotch};
-
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{DOUBLE_MARKS, NotchKind};
 
