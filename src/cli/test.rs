@@ -50,8 +50,9 @@ pub(super) struct Outcome {
 pub(super) fn test(args: &TestArgs, console: &Console) -> Result<Exit, CliError> {
     let files = garment_files(&args.paths)?;
     let overrides = args.overrides.checked();
-    let inputs: Vec<PathBuf> = files.iter().flat_map(|file| read_by(file, &overrides)).collect();
+    let mut inputs = Vec::new();
     if let Some(junit) = &args.junit {
+        inputs.extend(files.iter().flat_map(|file| read_by(file, &overrides)));
         check_writable(std::slice::from_ref(junit), &borrowed(&inputs))?;
     }
     let begin = Instant::now();
@@ -166,10 +167,11 @@ fn outcomes(file: &Path, overrides: &Overrides) -> Vec<Outcome> {
 /// Fabrics that a garment has bounds for, each once; not those that its pieces are cut from anyway.
 fn fabrics_with_bounds(garment: &Garment) -> Vec<&str> {
     let is = |own: &FabricUse, fabric: &str| own.spec.values.is_empty() && own.spec.base.as_deref() == Some(fabric);
-    let of = |name: &str| garment.fabrics.iter().find(|own| own.name == name);
-    let is_cut_from =
-        |piece: &Piece, fabric: &str| piece.fabric == fabric || of(&piece.fabric).is_some_and(|own| is(own, fabric));
-    let used = |fabric: &str| garment.pieces.iter().any(|piece| is_cut_from(piece, fabric));
+    let names = |own: &FabricUse, piece: &Piece| own.name == piece.fabric;
+    let used = |fabric: &str| {
+        let is_named = |piece: &Piece| garment.fabrics.iter().any(|own| names(own, piece) && is(own, fabric));
+        garment.pieces.iter().any(|piece| piece.fabric == fabric || is_named(piece))
+    };
     let fabrics = garment.tests.iter().filter_map(|t| t.fabric.as_deref());
     let mut fabrics: Vec<&str> = fabrics.filter(|f| !used(f)).collect();
     fabrics.sort_unstable();

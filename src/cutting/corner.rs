@@ -288,21 +288,7 @@ fn length(line: &[Vec2], at: f64) -> f64 {
 
 /// Where `p` first meets `q`, as places on both.
 fn first_crossing(p: &[Vec2], q: &[Vec2]) -> Option<(At, At)> {
-    for (i, u) in p.windows(2).enumerate() {
-        let mut first: Option<(f64, f64)> = None;
-        for (k, v) in q.windows(2).enumerate() {
-            if let Some((s, t)) = crossing([u[0], u[1]], [v[0], v[1]])
-                && first.is_none_or(|f| s < f.0)
-            {
-                first = Some((s, k as f64 + t));
-            }
-        }
-        if let Some((s, t)) = first {
-            let point = u[0] + (u[1] - u[0]) * s;
-            return Some(((i as f64 + s, point), (t, point)));
-        }
-    }
-    None
+    crossings(p, q).min_by(|(one, _), (other, _)| one.0.total_cmp(&other.0))
 }
 
 /// Shares of two segments at which they cross, touching included.

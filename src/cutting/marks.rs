@@ -18,10 +18,9 @@ const PLEAT: f64 = 0.040;
 /// Barbs of arrows, metres.
 pub(super) const BARB: f64 = 0.004;
 
-/// Notches from the sewing lines of a drawing out to the `cut` lines, `width` metres off where nothing else is drawn:
-/// over the mouth of a dart the cut line is raised.
-pub(super) fn notches(drawing: &Drawing, cut: &[Vec<Vec2>], width: impl Fn(usize, usize) -> f64) -> Vec<NotchMark> {
-    let room = Room { contours: cut.to_vec(), walls: Vec::new() };
+/// Notches from the sewing lines of a drawing out to where its cloth, of which `room` is, ends, `width` metres off
+/// where nothing else is drawn: over the mouth of a dart the cut line is raised.
+pub(super) fn notches(drawing: &Drawing, room: &Room, width: impl Fn(usize, usize) -> f64) -> Vec<NotchMark> {
     let mut marks = Vec::new();
     let mut add = |edge: (usize, usize), at: f64, kind: NotchKind| {
         let DrawnEdge { name, path, .. } = drawing.edge(edge);
@@ -57,10 +56,10 @@ pub(super) fn notches(drawing: &Drawing, cut: &[Vec<Vec2>], width: impl Fn(usize
     marks
 }
 
-/// The file's grain arrow, or one through the middle of the piece; on the cloth within the `cut` lines, wherever the
-/// file has drawn it.
-pub(super) fn grain(drawing: &Drawing, cut: &[Vec<Vec2>]) -> [Vec2; 2] {
-    Room { contours: cut.to_vec(), walls: Vec::new() }.arrow(grain_as_drawn(drawing))
+/// The file's grain arrow, or one through the middle of the piece; on the cloth, of which `room` is, wherever the file
+/// has drawn it.
+pub(super) fn grain(drawing: &Drawing, room: &Room) -> [Vec2; 2] {
+    room.arrow(grain_as_drawn(drawing))
 }
 
 fn grain_as_drawn(drawing: &Drawing) -> [Vec2; 2] {

@@ -6,6 +6,7 @@ use super::clean::double_area;
 use super::label;
 use super::marks;
 use super::offset::{Between, Border, around, around_unfolded, sewn_mouths, within};
+use super::room::Room;
 use super::whole;
 use super::{Lettering, Narrowed, Options, Paper, SewKind, SewLine};
 use crate::geometry::{Path, Vec2, range_of};
@@ -136,8 +137,9 @@ fn paper(rule: &Rule) -> Paper {
         Cut::Count(n) => (n, false),
     };
     let mouths = sewn_mouths(&borders, &between);
-    let grain = marks::grain(drawing, &cut);
-    let notches = marks::notches(drawing, &cut, |ring, index| rule.width(ring, index));
+    let room = Room { contours: cut.clone(), walls: Vec::new() };
+    let grain = marks::grain(drawing, &room);
+    let notches = marks::notches(drawing, &room, |ring, index| rule.width(ring, index));
     Paper {
         name: drawing.name.clone(),
         count: label::count(&drawing.cut),
@@ -160,13 +162,10 @@ fn paper(rule: &Rule) -> Paper {
 
 /// The outline's cut lines; of a piece on the fold their half, and the stretch of the fold that the cloth lies on.
 fn outline_cut(drawing: &Drawing, borders: &[Border], between: &[Between]) -> (Vec<Vec<Vec2>>, Option<[Vec2; 2]>) {
-    let Some(fold) = drawing.fold.map(|f| &drawing.rings[0][f].path) else {
-        return (around(borders, between), None);
-    };
-    let Some(place) = borders.iter().position(|b| std::ptr::eq(b.path, fold)) else {
-        return (around(borders, between), None);
-    };
-    let ends = [fold.start(), fold.end()];
+    let Some(fold) = drawing.fold else { return (around(borders, between), None) };
+    let place = (0..fold).filter(|&i| !drawing.is_leg(i)).count();
+    let path = borders[place].path;
+    let ends = [path.start(), path.end()];
     let whole = around_unfolded(borders, between, place);
     let cut: Vec<Vec<Vec2>> = whole.iter().filter_map(|contour| whole::halved(contour, ends)).collect();
     // The outline runs from the end of the fold to its start.

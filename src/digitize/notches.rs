@@ -53,9 +53,13 @@ impl Place {
 
     /// Whether a mark of a double notch may be the second of this one.
     fn lacks(&self, mark: &Self) -> bool {
-        let edge = |place: &Self| place.told.as_ref().map(|told| told.edge.clone());
         let is_near = (self.marks[0].at - mark.marks[0].at).norm() <= DOUBLE;
-        self.double && mark.double && self.marks.len() == 1 && is_near && edge(self) == edge(mark)
+        self.double && mark.double && self.marks.len() == 1 && is_near && self.edge() == mark.edge()
+    }
+
+    /// Name of the edge that it is told to be on.
+    fn edge(&self) -> Option<&str> {
+        self.told.as_ref().map(|told| told.edge.as_str())
     }
 
     /// How far it is from a line.

@@ -63,10 +63,19 @@ fn bare(field: &str) -> &str {
 
 /// The number above 0 in a field.
 pub(in crate::fabric) fn above_zero(text: &str) -> Result<f64, String> {
+    number(text, |value| value > 0.0, "number above 0")
+}
+
+/// The finite number in a field.
+pub(in crate::fabric) fn finite(text: &str) -> Result<f64, String> {
+    number(text, |_| true, "finite number")
+}
+
+fn number(text: &str, is_fit: impl Fn(f64) -> bool, expected: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
+        Ok(value) if value.is_finite() && is_fit(value) => Ok(value),
         _ if text.contains(',') => Err(format!("'{text}' is no number; write a decimal point")),
-        _ => Err(format!("'{text}' is no number above 0")),
+        _ => Err(format!("'{text}' is no {expected}")),
     }
 }
 

@@ -128,7 +128,7 @@ impl TensileCurve {
         }
         let mut rows = Vec::new();
         for (row, line) in lines {
-            let number = |text| number(text).map_err(|why| fault(row, why));
+            let number = |text| columns::finite(text).map_err(|why| fault(row, why));
             let [strain, load] = fields(row, line)?;
             rows.push((row, number(strain)?, number(load)?));
         }
@@ -207,14 +207,6 @@ fn units(strain: &str, load: &str) -> Result<(f64, f64), String> {
         l => return Err(format!("unknown unit in '{}'; use load gf/cm or load N/m", l.trim())),
     };
     Ok((strain, load))
-}
-
-fn number(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(v) if v.is_finite() => Ok(v),
-        _ if text.contains(',') => Err(format!("'{text}' is no number; write a decimal point")),
-        _ => Err(format!("'{text}' is no finite number")),
-    }
 }
 
 #[cfg(test)]

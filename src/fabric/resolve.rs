@@ -324,20 +324,15 @@ impl<'a> Values<'a> {
                 let why = format!("{points} says how the cloth stretches; leave one of both out");
                 return Err(FabricError::Twice { fabric, key, text, why });
             }
-            defaults.clear(whole);
             let rows = text.replace(':', ",").split_whitespace().collect::<Vec<_>>().join("\n");
             return TensileCurve::parse(&rows, &format!("{}, {points}", self.context.name)).map(Some);
         }
         match (extension, self.first(&[whole, "tensile"]), linearity) {
             (Some(extension), _, linearity) => {
-                defaults.clear(whole);
                 let linearity = linearity.unwrap_or_else(|| defaults.note(lt, LT));
                 Ok(Some(TensileCurve::kawabata(extension, linearity)))
             }
-            (None, Some((key, text)), _) => {
-                defaults.clear(whole);
-                self.curve_or_factor(key, text, base).map(Some)
-            }
+            (None, Some((key, text)), _) => self.curve_or_factor(key, text, base).map(Some),
             (None, None, Some(_)) => Err(self.missing(emt, &STRAIN)),
             (None, None, None) => Ok(base.cloned()),
         }
@@ -379,18 +374,15 @@ impl Defaults {
     /// Forgets that `key` was assumed where it is written, for `both` directions or along the warp or the weft: then
     /// the other still is.
     fn written(&mut self, key: &str, both: bool, directions: [bool; 2]) {
-        let was_assumed = self.0.iter().any(|k| k == key);
-        if both || was_assumed && directions.contains(&true) {
+        if both {
+            return self.clear(key);
+        }
+        let keys = ["warp", "weft"].map(|way| format!("{key}.{way}"));
+        if directions.contains(&true) && self.0.iter().any(|k| k == key) {
             self.clear(key);
+            keys.iter().for_each(|key| self.note(key, ()));
         }
-        for (way, is_written) in ["warp", "weft"].into_iter().zip(directions) {
-            let key = format!("{key}.{way}");
-            if is_written {
-                self.clear(&key);
-            } else if was_assumed && !both && directions.contains(&true) {
-                self.note(&key, ());
-            }
-        }
+        keys.iter().zip(directions).filter(|(_, written)| *written).for_each(|(key, _)| self.clear(key));
     }
 
     /// `value` or, noted, `fallback`; a value that is written is no longer assumed.

@@ -44,10 +44,13 @@ impl RimEdge {
 /// How far two positions of a rim are apart: the largest distance of an end of an edge in one from the nearest edge in
 /// the other, and the other way round (Hausdorff distance, for curves of short edges).
 pub(super) fn outline_distance(rim: &[RimEdge], before: &[Vec3], after: &[Vec3]) -> f64 {
+    let mut corners: Vec<u32> = rim.iter().flat_map(|e| e.ends).collect();
+    corners.sort_unstable();
+    corners.dedup();
     let furthest = |from: &[Vec3], to: &[Vec3]| {
         let distance = |p: Vec3, e: &RimEdge| distance_to_segment(p, e.ends.map(|v| to[v as usize]));
         let nearest = |p: Vec3| rim.iter().map(|e| distance(p, e)).fold(f64::INFINITY, f64::min);
-        rim.iter().flat_map(|e| e.ends).map(|v| nearest(from[v as usize])).fold(0.0, f64::max)
+        corners.iter().map(|&v| nearest(from[v as usize])).fold(0.0, f64::max)
     };
     furthest(before, after).max(furthest(after, before))
 }

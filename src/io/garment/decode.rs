@@ -3,7 +3,9 @@
 use super::decode_piece::piece;
 use super::decode_seam::seam;
 use super::decode_test::test;
-use super::fields::{Fields, entries, exclusive, integer, items, length, numbers, text, width, word, wrong};
+use super::fields::{
+    Fields, entries, exclusive, integer, integer_within, items, length, numbers, text, width, word, wrong,
+};
 use crate::input::LengthUnit;
 use crate::pattern::{ClosureFile, Findings, GarmentFile, Located, Problem, Unit, Value};
 
@@ -103,13 +105,7 @@ fn closure(value: &Located<Value>, findings: &mut Findings) -> Option<ClosureFil
 const MOST_BUTTONS: usize = 1000;
 
 fn count(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<usize>> {
-    let count = integer::<usize>(value, what, findings)?;
-    if !(1..=MOST_BUTTONS).contains(&count.value) {
-        let (what, found) = (what.to_owned(), count.value.to_string());
-        findings.error(value.at, Problem::OutOfRange { what, expected: "between 1 and 1000", found });
-        return None;
-    }
-    Some(count)
+    integer_within(value, what, 1..=MOST_BUTTONS, "between 1 and 1000", findings)
 }
 
 /// One point or a list of points.

@@ -2,7 +2,7 @@
 
 use super::decode::name;
 use super::fields::{
-    Fields, entries, integer, items, length, number, numbers, quantity, share, text, width, word, wrong,
+    Fields, entries, integer_within, items, length, number, numbers, quantity, share, text, width, word, wrong,
 };
 use crate::pattern::{
     AllowanceFile, AllowanceWidth, Corner, Cut, DartFile, DartShape, Findings, LineFile, Located, NotchFile,
@@ -16,13 +16,7 @@ const MOST_COPIES: usize = 100;
 const MOST_LAYERS: i32 = 100;
 
 fn layer(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<i32>> {
-    let layer = integer::<i32>(value, what, findings)?;
-    if !(-MOST_LAYERS..=MOST_LAYERS).contains(&layer.value) {
-        let (what, found) = (what.to_owned(), layer.value.to_string());
-        findings.error(value.at, Problem::OutOfRange { what, expected: "between -100 and 100", found });
-        return None;
-    }
-    Some(layer)
+    integer_within(value, what, -MOST_LAYERS..=MOST_LAYERS, "between -100 and 100", findings)
 }
 
 /// Reads one piece.

@@ -1,5 +1,7 @@
 //! Taking a mapping apart key by key, so that what nobody asked for is reported.
 
+use std::ops::RangeInclusive;
+
 use crate::input::{nearest, shown};
 use crate::pattern::{Findings, Located, Problem, Quantity, Spot, Value, parse_quantity};
 
@@ -176,6 +178,23 @@ pub(super) fn integer<T: std::str::FromStr>(
         wrong(value, what, "a whole number", findings);
     }
     parsed.map(|n| Located::new(n, value.at))
+}
+
+/// A whole number of the `range`, which is as `expected` in words.
+pub(super) fn integer_within<T: std::str::FromStr + PartialOrd + std::fmt::Display>(
+    value: &Located<Value>,
+    what: &str,
+    range: RangeInclusive<T>,
+    expected: &'static str,
+    findings: &mut Findings,
+) -> Option<Located<T>> {
+    let number = integer::<T>(value, what, findings)?;
+    if range.contains(&number.value) {
+        return Some(number);
+    }
+    let (what, found) = (what.to_owned(), number.value.to_string());
+    findings.error(value.at, Problem::OutOfRange { what, expected, found });
+    None
 }
 
 /// A number with or without a unit.
