@@ -109,6 +109,14 @@ fn cloth_wedged_in_an_armpit_rests() {
     is_worn("close_arms.yaml", &scene("close_arms.yaml", 16.0), 4);
 }
 
+/// The inner corner of its waistband lies in the fork of two edges that begin at the zip; there it pressed with a
+/// hundred newtons on planes that each step had turned away from, for 800 of them, friction or none.
+#[test]
+fn a_corner_wedged_between_two_edges_rests() {
+    let name = "../../patterns/gore_skirt.yaml";
+    rests(name, &scene(name, 22.0));
+}
+
 /// Arms that went on while the cloth under them was still in the skin left it crossing the trunk.
 #[test]
 fn stiff_cloth_under_arms_that_go_back_crosses_nothing() {

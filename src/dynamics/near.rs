@@ -177,6 +177,16 @@ impl<'a> Near<'a> {
         covered
     }
 
+    /// The contacts that matter as they are after a step to `to`.
+    pub(super) fn after(&self, to: &[Vec3]) -> Vec<Contact<'a>> {
+        let turned = |contact: &Contact<'a>| {
+            let mut contact = *contact;
+            turn_on(&mut contact, to);
+            contact
+        };
+        self.contacts.par_iter().with_min_len(ONE_THREAD).map(turned).collect()
+    }
+
     /// Those that have to be kept apart.
     pub(super) fn apart(&self) -> Vec<&Contact<'a>> {
         let outside = |k: &u32| self.found[*k as usize].outside;
@@ -222,17 +232,24 @@ fn retain_unordered<T>(items: &mut Vec<T>, stays: &[bool]) {
     }
 }
 
-/// Turns a contact to where its closest points are now. The share of one that mattered in the last step follows half
-/// the way: a large load that changed with it at once would throw its nodes to and fro for ever. One that did not has
-/// stayed on its side.
+/// Turns a contact to where its closest points are now. One that did not matter in the last step has stayed on its side.
 fn turn(contact: &mut Contact, found: &Found, mattered: bool, x: &[Vec3]) {
-    let share = contact.share;
-    contact.refresh(x);
     if mattered {
-        contact.share = 0.5 * (contact.share + share);
-    } else if found.outside && contact.gap(x) < 0.0 {
+        turn_on(contact, x);
+        return;
+    }
+    contact.refresh(x);
+    if found.outside && contact.gap(x) < 0.0 {
         contact.turn_over();
     }
+}
+
+/// Turns a contact that mattered in the last step. Its share follows half the way: a large load that changed with it at
+/// once would throw its nodes to and fro for ever.
+fn turn_on(contact: &mut Contact, x: &[Vec3]) {
+    let share = contact.share;
+    contact.refresh(x);
+    contact.share = 0.5 * (contact.share + share);
 }
 
 #[cfg(test)]
@@ -332,6 +349,24 @@ mod tests {
         near.follow(&x, &origin);
         assert!(near.contacts[0].gap(&x) > 0.0, "{:?}", near.contacts[0]);
         assert_eq!(near.apart().len(), 1);
+    }
+
+    #[test]
+    fn what_a_step_leads_to_is_what_follows_it() {
+        // An edge of the cloth over one of the body, askew to it.
+        let edge = Feature { number: 0, corners: [Vec3::z() * -0.1, Vec3::z() * 0.1] };
+        let mut x = vec![Vec3::new(-1e-3, 0.5e-3, 0.0), Vec3::new(1.1e-3, 0.4e-3, 2e-3)];
+        let origin = x.clone();
+        let contact = Contact::on_feature([0, 1, 0, 0], 2, Under::Edge(&edge), Vec3::y(), &x, 0.01).expect("apart");
+        let mut near = found(vec![contact], &x);
+        let to = vec![x[0] + Vec3::new(0.2e-3, 0.3e-3, 0.1e-3), x[1] + Vec3::new(0.1e-3, -0.2e-3, 0.0)];
+        let (fixed, after) = (near.contacts[0], near.after(&to)[0]);
+        near.foresee(&x, &to);
+        x.clone_from(&to);
+        near.follow(&x, &origin);
+        let [after, now] = [after, near.contacts[0]].map(|c| (c.weights, c.normal, c.share, c.gap(&to)));
+        assert_eq!(after, now);
+        assert!((after.3 - fixed.gap(&to)).abs() > 1e-6, "its plane has turned");
     }
 
     #[test]

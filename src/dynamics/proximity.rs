@@ -170,6 +170,11 @@ impl<'a> Proximity<'a> {
         &self.near.contacts
     }
 
+    /// The same as they are after a step to `to`.
+    pub(super) fn near_after(&self, to: &[Vec3]) -> Vec<Contact<'a>> {
+        self.near.after(to)
+    }
+
     /// How many contacts with body and cloth are known, whether they matter or not.
     pub(super) fn found(&self) -> usize {
         self.near.all.len()

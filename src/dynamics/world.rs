@@ -10,7 +10,7 @@ use super::friction::Friction;
 use super::model::Cloth;
 use super::proximity::{Proximity, Reach};
 use super::step::{StepError, Stepper};
-use crate::contact::{Collider, Neighbourhood, Tangle};
+use crate::contact::{Collider, Contact, Neighbourhood, Tangle};
 use crate::fabric::GRAVITY;
 use crate::geometry::Vec3;
 
@@ -28,9 +28,8 @@ const ROUNDS: usize = 2;
 /// A Newton step is halved until the energy falls by this share of what the model says, at most so often.
 const ENOUGH: f64 = 0.05;
 const HALVINGS: usize = 5;
-/// It may raise the energy, but not above the most it was in so many steps before (but for what contacts change as they
-/// turn between two steps): along the narrow valley in which stiff cloth turns, the way that always leads down goes in
-/// much shorter steps (Grippo, Lampariello and Lucidi 1986).
+/// It may raise the energy, but not above the most it was in so many steps before: along the narrow valley in which
+/// stiff cloth turns, the way that always leads down goes in much shorter steps (Grippo, Lampariello and Lucidi 1986).
 const MEMORY: usize = 2;
 /// Halvings of a step with the majorant: springs that stiffen have no majorant, but a step short enough goes down.
 const MORE_HALVINGS: usize = 12;
@@ -261,19 +260,21 @@ impl<'a> World<'a> {
         }
     }
 
-    /// The same with the contacts that are known to matter.
+    /// The same with the contacts that are known to matter. They turn with the step: the corner of a waistband that is
+    /// wedged between two edges slid on by millimetres on planes that were not there any more, and came to press with a
+    /// hundred newtons, step after step.
     fn shortened(&self, d: &[Vec3], mut share: f64, demand: &Demand) -> Descent {
         let forces = self.forces(&[]);
         let loads: Vec<f64> = forces.contacts.iter().map(|c| forces.load(&self.cloth, &self.x, c)).collect();
-        let energy = |x: &[Vec3]| forces.energy(&self.cloth, x, &loads);
-        let from = energy(&self.x);
+        let energy = |contacts: &[Contact], x: &[Vec3]| Forces { contacts, ..forces }.energy(&self.cloth, x, &loads);
+        let from = energy(forces.contacts, &self.x);
         let mut halvings = 0;
         loop {
             let mut target: Vec<Vec3> = self.x.iter().zip(d).map(|(x, d)| x + d * share).collect();
             self.proximity.clamp(&self.x, &mut target);
             let Foreseen { loads: foresaw, beyond } =
                 if demand.foresees { self.cloth.foresee(&self.x, &target) } else { Foreseen::default() };
-            let gain = from - energy(&target) + beyond;
+            let gain = from - energy(&self.proximity.near_after(&target), &target) + beyond;
             let enough = ENOUGH * share * demand.expected.max(0.0) - demand.allowed;
             if gain > enough || gain.abs() < ROUNDING || halvings >= demand.halvings {
                 return Descent { target, gain, halvings, share, foresaw };
