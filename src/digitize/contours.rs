@@ -8,7 +8,7 @@ use super::holes::holes_of;
 use super::joined::{Joined, beyond_seam, joined, unclosed};
 use super::partial::completed;
 use super::{Drawing, Inner, Notch, Remark, Role, Stroke, ToldNotch, Traced};
-use crate::geometry::{Path, Vec2, distance_to_segment, encloses, sides_of};
+use crate::geometry::{Path, Vec2, box_of, distance_to_segment, encloses, sides_of};
 use crate::pattern::Cut;
 
 /// A closed line round less than this (square metres, a square of 3 cm) is no piece.
@@ -45,7 +45,7 @@ impl Contour {
         let first = paths.next()?;
         let whole = paths.fold(first, |whole, next| whole.joined(&next));
         let points = whole.sampled(COARSE);
-        let bounds = points.iter().fold([whole.start(); 2], |[low, high], p| [low.inf(p), high.sup(p)]);
+        let bounds = box_of(points.iter().copied());
         Some(Self { points, bounds, whole, edges, role, name })
     }
 
