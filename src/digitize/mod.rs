@@ -18,6 +18,7 @@ mod pairs;
 mod partial;
 mod smooth;
 mod suggest;
+mod trimmed;
 
 pub use chain::chained;
 pub use contours::pieces;

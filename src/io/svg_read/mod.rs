@@ -430,8 +430,8 @@ fn role(node: Node, classes: &str) -> Option<Role> {
     })
 }
 
-/// Whether a path has two points only: the fold itself, not its arrow.
+/// Whether it is one straight line: the fold itself, not its arrow.
 fn is_line(node: Node) -> bool {
-    let commands = node.attribute("d").unwrap_or("");
-    commands.chars().filter(|c| c.is_ascii_alphabetic()).count() == 2
+    let lines = commands(node, node.tag_name().name()).and_then(|text| Path::parse_many(&text).ok());
+    matches!(lines.as_deref(), Some([line]) if line.is_straight())
 }
