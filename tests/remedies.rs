@@ -188,12 +188,12 @@ fn a_sleeve_drawn_for_the_other_arm_is_said_to_be_set_in_upside_down() {
 /// Two lists of edges that cannot be laid on each other as they are written can be, one of them turned round.
 #[test]
 fn a_twisted_seam_says_which_list_to_turn_round() {
-    let square =
-        "grain: [[9, 9], [9, 90]], outline: {start: 0 0, top: L 100 0, right: L 100 100, bottom: L 0 100, left: L 0 0}";
+    let square = "grain: [[9, 9], [9, 90]], outline: {start: 0 0, top: L 100 0, right: L 100 100, bottom: L 0 100, \
+                  left: L 0 0}";
     let sewn = |to: &str, face: &str| {
         format!(
-            "garment: 1\npieces:\n  a: {{{square}}}\n  b: {{{square}}}\nseams:\n  side: {{sew: [a.right, a.bottom], to: \
-             [{to}]{face}}}\nfree: [a.top, a.left, b.top, b.left, b.right, b.bottom]\n"
+            "garment: 1\npieces:\n  a: {{{square}}}\n  b: {{{square}}}\nseams:\n  side: {{sew: [a.right, a.bottom], \
+             to: [{to}]{face}}}\nfree: [a.top, a.left, b.top, b.left, b.right, b.bottom]\n"
         )
     };
     for (to, face) in [("b.left, b.top", ""), ("b.top, b.left", ", face: same")] {

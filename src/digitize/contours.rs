@@ -10,7 +10,7 @@ use super::partial::completed;
 use super::trimmed::trimmed;
 use super::{Drawing, Inner, Notch, Remark, Role, Stroke, ToldNotch, Traced};
 use crate::geometry::{Path, Vec2, box_of, distance_to_segment, encloses, sides_of};
-use crate::pattern::{Cut, SLACK};
+use crate::pattern::Cut;
 
 /// A closed line round less than this (square metres, a square of 3 cm) is no piece.
 const SMALLEST_PIECE: f64 = 9e-4;
@@ -337,7 +337,7 @@ fn piece<'a>(outer: &Contour, inner: &[&Contour], rest: &'a [Stroke]) -> (Traced
             _ if !surface.covers(middle) => beyond.push(stroke),
             _ => traced.lines.push(Inner {
                 name: stroke.name.clone(),
-                path: trimmed(&stroke.path, |p| surface.holds(p) || surface.off(p) <= SLACK),
+                path: trimmed(&stroke.path, |p| surface.covers(p)),
                 kind: stroke.kind.clone(),
             }),
         }

@@ -339,8 +339,8 @@ impl Problem {
                     None => format!("mirror the outline of '{sleeve}'"),
                 };
                 format!(
-                    "it is drawn for the other arm: seen from outside, the front of a left sleeve is at the left of its \
-                     drawing and that of a right one at the right; {remedy}"
+                    "it is drawn for the other arm: seen from outside, the front of a left sleeve is at the left of \
+                     its drawing and that of a right one at the right; {remedy}"
                 )
             }
             Self::OnePlace { other, layer, .. } => format!(
