@@ -341,6 +341,33 @@ fn pieces_stuck_in_one_another_are_named_with_their_place() {
     run.ends(3).says(&["'back' and 'front' pass through one another near (", "place them neither across"]);
 }
 
+/// Two skirts on one layer: nothing leads one out of the other.
+#[test]
+fn check_names_pieces_that_start_in_one_place() {
+    let room = Room::new();
+    let twice = "  front_2: {like: front}\n  back_2: {like: back}\nseams:\n  left_2: {sew: front_2.right, to: \
+                 back_2.left}\n  right_2: {sew: front_2.left, to: back_2.right}\n";
+    let skirt = skirt_with("seams:\n", twice).replace("openings: 2", "openings: 4");
+    room.put("twice.yaml", &skirt);
+    let run = room.run(&["check", "twice.yaml", "--spacing", "25"]);
+    run.ends(0).says(&[
+        "'front' and 'front_2' start in one place",
+        "'back' and 'back_2'",
+        "give 'front_2' another place",
+    ]);
+    room.put(
+        "over.yaml",
+        &skirt.replace("{like: front}", "{like: front, layer: 1}").replace("{like: back}", "{like: back, layer: 1}"),
+    );
+    let run = room.run(&["check", "over.yaml", "--spacing", "25"]);
+    run.ends(0);
+    assert!(!run.err.contains("one place"), "{}", run.err);
+    room.put("lined.yaml", include_str!("data/lined_top.yaml"));
+    let run = room.run(&["check", "lined.yaml", "--spacing", "25"]);
+    run.ends(0);
+    assert!(!run.err.contains("one place"), "{}", run.err);
+}
+
 /// A piece that no contact can lead out.
 #[test]
 fn a_piece_in_the_body_ends_with_3_and_leaves_the_pieces_as_placed() {

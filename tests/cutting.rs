@@ -671,6 +671,34 @@ fn labels_cross_no_line_that_is_cut_or_sewn() {
 }
 
 /// Where there is no room on a piece its label stands under it, and the sheet is so much larger.
+/// On a narrow band the barbs of the grain's arrow take most of the room.
+#[test]
+fn labels_are_clear_of_the_grain_s_arrow_and_its_barbs() {
+    let mut crossed = Vec::new();
+    for (width, grain) in [(20.0, 60.0), (25.0, 60.0), (30.0, 60.0), (40.0, 60.0), (60.0, 60.0), (25.0, 110.0)] {
+        let outline = format!("    outline: {{start: 0 0, a: L {width} 0, b: L {width} 120, c: L 0 120, d: L 0 0}}\n");
+        let arrow = format!("[[2, {}], [2, {}]]", 60.0 + grain / 2.0, 60.0 - grain / 2.0);
+        let text = one_piece(&outline).replace("[[0, 50], [0, 0]]", &arrow);
+        let paper = papers(&drawn(&text), &Options::default()).remove(0);
+        // Barbs 6 mm long and as wide, at both ends.
+        let [tail, head] = paper.grain;
+        let [left, right, up] = [mm(-3.0, 0.0), mm(3.0, 0.0), mm(0.0, -6.0)];
+        let arrow = [tail + up + left, tail, tail + up + right, tail, head, head - up + left, head, head - up + right];
+        for text in &paper.texts {
+            // As wide as a sans-serif type is on average.
+            let half = text.text.chars().count() as f64 * 0.6 * text.height / 2.0;
+            let [left, right, head, foot] = match (text.upright, text.at, text.height) {
+                (true, p, h) => [p.x, p.x + h, p.y - half, p.y + half],
+                (false, p, h) => [p.x - half, p.x + half, p.y - h, p.y],
+            };
+            let inside = |p: Vec2| left < p.x && p.x < right && head < p.y && p.y < foot;
+            let places = |w: &[Vec2]| (0..=200).map(|k| w[0] + (w[1] - w[0]) * (f64::from(k) / 200.0)).any(inside);
+            crossed.extend(arrow.windows(2).any(places).then(|| format!("'{}', {width} mm", text.text)));
+        }
+    }
+    assert_eq!(crossed, Vec::<String>::new());
+}
+
 #[test]
 fn a_label_beside_its_piece_is_on_the_sheet() {
     let paper = paper_of("    outline: {start: 0 0, top: L 40 0, right: L 40 8, hem: L 0 8, left: L 0 0}\n");

@@ -385,6 +385,7 @@ fn the_pattern_is_drawn_at_full_size() {
     assert_eq!(text.matches("class=\"piece\"").count(), 2);
     assert_eq!(text.matches("class=\"edge\"").count(), 4);
     assert_eq!(text.matches("class=\"notch\"").count(), 2);
+    assert_eq!((text.matches("data-notch=\"double\"").count(), text.matches("data-edge=").count()), (2, 2));
     assert!(text.contains("id=\"right.left\"") && text.contains("&lt;_front_&gt;"));
     assert!(text.contains("mm\"") && !text.contains("transform"));
     // Every path of an edge is as long as the edge.

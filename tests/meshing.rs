@@ -463,6 +463,17 @@ fn pieces_as_narrow_as_a_spring_is_long_mesh_well_and_can_bend() {
 }
 
 #[test]
+fn a_narrow_piece_askew_to_the_grain_takes_no_more_than_its_cloth() {
+    // The lattice of the box around it would have five thousand million points.
+    let askew = |along: f64, across: f64| (0.5_f64.sqrt() * (along - across), 0.5_f64.sqrt() * (along + across));
+    let corners = [(0.0, 0.0), (4e3, 0.0), (1e4, 0.0), (1e4, 0.3), (3e3, 0.3), (0.0, 0.3)];
+    let strip = piece("strip", vec![polygon(&corners.map(|(along, across)| askew(along, across)))]);
+    let cloth = garment(vec![strip], vec![]);
+    let mesh = build_with(&cloth, &MeshOptions { spacing: 1e-4, method: Method::Grid }).expect("mesh");
+    assert!((300_000..700_000).contains(&mesh.flat.len()), "{}", mesh.flat.len());
+}
+
+#[test]
 fn a_spacing_that_does_not_suit_is_explained() {
     let message = |p: Piece, spacing: f64| {
         build(&garment(vec![p], vec![]), spacing).map(|_| ()).expect_err("spacing").to_string()

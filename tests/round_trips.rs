@@ -266,6 +266,36 @@ fn letters_beyond_ascii_come_back_from_a_dxf() {
     }
 }
 
+/// DXF has codes of four digits: what is beyond those, as emoji are, takes two.
+#[test]
+fn titles_beyond_four_digits_come_back_from_a_dxf() {
+    let text = window(false, "");
+    for title in ["Robe 👗 d'été", "服装 №1", "a \\U+ b \\U+D83D c", "👗👗 \\U+00"] {
+        let dxf = cutting_dxf(title, &on_paper(&text));
+        assert!(dxf.is_ascii());
+        assert_eq!(read_dxf_text(&dxf, None).expect("pieces").title.as_deref(), Some(title));
+    }
+    assert!(cutting_dxf("👗", &on_paper(&text)).contains("Style Name: \\U+D83D\\U+DC57\n"));
+}
+
+/// How allowances end is drawn in the cut line, where it cannot be read off for certain.
+#[test]
+fn ends_of_allowances_come_back() {
+    let rims = ["allowance: {a: 40 folded, b: 15 squared, c: 15 mitred, d: 12}", "allowance: 15 squared"];
+    for rims in rims {
+        let text = window(false, rims);
+        let before = &drawn(&text)[0];
+        for made in both_ways(&text) {
+            let after = again(&made);
+            let body = after.iter().find(|d| d.name == "body").expect("the body");
+            for edge in &before.rings[0] {
+                let own = body.rings[0].iter().find(|e| e.name == edge.name).expect("the edge");
+                assert_eq!(own.allowance, edge.allowance, "{rims}: {}", edge.name);
+            }
+        }
+    }
+}
+
 /// What a piece and its edges are called says nothing of what their lines are; nor does a wide allowance.
 #[test]
 fn a_notched_collar_and_a_disc_with_a_wide_allowance_come_back() {

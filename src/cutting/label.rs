@@ -1,5 +1,6 @@
 //! What is written on a piece, and where there is room for it.
 
+use super::marks::grain_arrow;
 use super::room::{AIR, Room, foot};
 use super::{Lettering, Paper, SewKind};
 use crate::geometry::{Path, Vec2, encloses, sides_of};
@@ -140,7 +141,7 @@ fn room(paper: &Paper) -> Room {
     for mark in &paper.marks {
         room.add_wall(&mark.path.sampled(1e-4));
     }
-    room.add_wall(&paper.grain);
+    room.add_wall(&grain_arrow(paper.grain));
     for (_, at) in &paper.drills {
         let half = Vec2::new(DRILL, 0.0);
         room.add_wall(&[at - half, at + half]);

@@ -3,7 +3,7 @@
 use super::room::Room;
 use super::{Mark, MarkKind, NotchMark};
 use crate::geometry::{Path, Vec2};
-use crate::pattern::{Cut, DOUBLE_MARKS, Drawing, DrawnEdge, NotchKind};
+use crate::pattern::{Cut, Drawing, DrawnEdge, NotchKind};
 
 /// Least length of a notch's mark, metres: shorter ones are overlooked when cutting.
 const NOTCH: f64 = 0.006;
@@ -15,8 +15,9 @@ const GRAIN_SHARE: f64 = 0.5;
 const BENT: (f64, f64) = (0.020, 0.040);
 /// Length of a pleat's lines from the edge, metres.
 const PLEAT: f64 = 0.040;
-/// Barbs of arrows, metres.
-pub(super) const BARB: f64 = 0.004;
+/// Barbs of arrows, and of the grain's, metres.
+const BARB: f64 = 0.004;
+const GRAIN_BARB: f64 = 0.006;
 
 /// Notches from the sewing lines of a drawing out to where its cloth, of which `room` is, ends, `width` metres off
 /// where nothing else is drawn: over the mouth of a dart the cut line is raised.
@@ -31,15 +32,8 @@ pub(super) fn notches(drawing: &Drawing, room: &Room, width: impl Fn(usize, usiz
         marks.push(NotchMark { at: sewn + out * to_cut, sewn, inside, kind, edge: name.clone() });
     };
     for notch in &drawing.notches {
-        if notch.double {
-            let length = drawing.edge(notch.edge).path.length();
-            for at in [notch.at - DOUBLE_MARKS / 2.0, notch.at + DOUBLE_MARKS / 2.0] {
-                let fits = (0.0..=length).contains(&at);
-                add(notch.edge, at, if fits { NotchKind::Double } else { NotchKind::DoubleAtEnd });
-            }
-        } else {
-            add(notch.edge, notch.at, NotchKind::Single);
-        }
+        let length = drawing.edge(notch.edge).path.length();
+        NotchKind::marks(notch.at, notch.double, length).for_each(|(at, kind)| add(notch.edge, at, kind));
     }
     for fold in &drawing.folds {
         add(fold.edge, fold.from, NotchKind::Pleat);
@@ -60,6 +54,14 @@ pub(super) fn notches(drawing: &Drawing, room: &Room, width: impl Fn(usize, usiz
 /// has drawn it.
 pub(super) fn grain(drawing: &Drawing, room: &Room) -> [Vec2; 2] {
     room.arrow(grain_as_drawn(drawing))
+}
+
+/// The double arrow of a grain line, drawn without lifting the pen.
+pub fn grain_arrow([tail, head]: [Vec2; 2]) -> [Vec2; 8] {
+    let along = (head - tail).try_normalize(0.0).unwrap_or_else(Vec2::y);
+    let across = Vec2::new(-along.y, along.x);
+    let barb = |at: Vec2, back: f64, side: f64| at + (along * back + across * (side / 2.0)) * GRAIN_BARB;
+    [barb(tail, 1.0, 1.0), tail, barb(tail, 1.0, -1.0), tail, head, barb(head, -1.0, 1.0), head, barb(head, -1.0, -1.0)]
 }
 
 fn grain_as_drawn(drawing: &Drawing) -> [Vec2; 2] {
@@ -112,7 +114,7 @@ fn pleat(drawing: &Drawing, edge: (usize, usize), from: f64, to: f64) -> Vec<Mar
 }
 
 /// An arrow with its two barbs, drawn without lifting the pen.
-pub(super) fn arrow(tail: Vec2, head: Vec2) -> Path {
+fn arrow(tail: Vec2, head: Vec2) -> Path {
     let along = (head - tail).try_normalize(0.0).unwrap_or_else(Vec2::y);
     let across = Vec2::new(-along.y, along.x);
     let barb = |side: f64| head - along * BARB + across * (side * BARB / 2.0);

@@ -13,17 +13,19 @@ mod marks;
 mod offset;
 mod outline;
 mod room;
+mod walls;
 mod whole;
 
 pub use label::LETTER_WIDTH;
 pub use layout::{Layout, Sheet, TEST_SQUARE, shelves};
+pub use marks::grain_arrow;
 pub use outline::papers;
 pub use room::{Room, foot};
 
 use nalgebra::Matrix2;
 
-use crate::geometry::{Path, Vec2};
-use crate::pattern::{LineKind, NotchKind, Side};
+use crate::geometry::{Path, Vec2, box_of, box_or_origin};
+use crate::pattern::{Corner, LineKind, NotchKind, Side};
 
 /// What the file does not say.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,6 +103,8 @@ pub struct SewLine {
     pub path: Path,
     /// What it belongs to.
     pub of: SewKind,
+    /// How its allowance ends at corners, if the file says so.
+    pub corner: Option<Corner>,
 }
 
 /// What a sewing line belongs to.
@@ -199,14 +203,12 @@ impl Paper {
 
     /// Least and greatest coordinates of its cut lines.
     pub fn bounds(&self) -> [Vec2; 2] {
-        let mut points = self.cut.iter().flatten().chain(self.fold.iter().flatten());
-        let Some(first) = points.next() else { return [Vec2::zeros(); 2] };
-        points.fold([*first; 2], |[low, high], p| [low.inf(p), high.sup(p)])
+        box_or_origin(self.cut.iter().flatten().chain(self.fold.iter().flatten()).copied())
     }
 
     /// As [`Paper::bounds`], with what is written beside it.
     pub fn extent(&self) -> [Vec2; 2] {
         let written = self.texts.iter().flat_map(label::outline);
-        written.fold(self.bounds(), |[low, high], p| [low.inf(&p), high.sup(&p)])
+        box_of(written.chain(self.bounds()))
     }
 }

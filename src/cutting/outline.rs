@@ -225,12 +225,17 @@ fn sew_lines(drawing: &Drawing, mouths: &[Vec<Vec2>]) -> Vec<SewLine> {
                 _ => SewKind::Hole,
             };
             if !(r == 0 && drawing.fold == Some(i)) {
-                lines.push(SewLine { name: edge.name.clone(), path: edge.path.clone(), of });
+                let corner = edge.allowance.corner.filter(|_| matches!(of, SewKind::Outline | SewKind::Hole));
+                lines.push(SewLine { name: edge.name.clone(), path: edge.path.clone(), of, corner });
             }
         }
     }
-    let mouth =
-        |points: &Vec<Vec2>| SewLine { name: "mouth".to_owned(), path: Path::polyline(points), of: SewKind::Mouth };
+    let mouth = |points: &Vec<Vec2>| SewLine {
+        name: "mouth".to_owned(),
+        path: Path::polyline(points),
+        of: SewKind::Mouth,
+        corner: None,
+    };
     lines.extend(mouths.iter().map(mouth));
     lines
 }

@@ -1,6 +1,7 @@
 //! Where on a piece there is room: for letters clear of all lines, and for an arrow along the grain.
 
-use crate::geometry::{Vec2, encloses, range_of, sides_of};
+use super::walls::Walls;
+use crate::geometry::{Vec2, box_or_origin, encloses, range_of, sides_of};
 
 /// Places looked at along each side of the piece's box.
 const PLACES: usize = 40;
@@ -32,9 +33,7 @@ impl Room {
 
     /// Least and greatest coordinates of the cloth.
     fn bounds(&self) -> [Vec2; 2] {
-        let mut points = self.contours.iter().flatten();
-        let Some(first) = points.next() else { return [Vec2::zeros(); 2] };
-        points.fold([*first; 2], |[low, high], p| [low.inf(p), high.sup(p)])
+        box_or_origin(self.contours.iter().flatten().copied())
     }
 
     /// Whether `p` is on the cloth.
@@ -46,15 +45,25 @@ impl Room {
     pub fn roomiest(&self, block: Vec2) -> (Vec2, f64) {
         // In these units the block is a square of side 1 per letter height.
         let scaled = |p: Vec2| p.component_div(&block);
-        let walls: Vec<[Vec2; 2]> = self.walls.iter().map(|w| w.map(scaled)).collect();
         let [low, high] = self.bounds();
+        let walls: Vec<[Vec2; 2]> = self.walls.iter().map(|w| w.map(scaled)).collect();
+        let walls = Walls::new(&walls, [low, high].map(scaled));
+        let place =
+            |[i, k]: [usize; 2]| low + (high - low).component_mul(&(Vec2::new(i as f64, k as f64) / PLACES as f64));
+        let sides: Vec<[Vec2; 2]> = self.contours.iter().flat_map(|contour| sides_of(contour)).collect();
+        // Of the sides of the cloth those tell that a level line through the place crosses.
+        let crossed = |k: usize| {
+            let y = place([0, k]).y;
+            sides.iter().copied().filter(|[a, b]| (a.y > y) != (b.y > y)).collect::<Vec<[Vec2; 2]>>()
+        };
+        let crossed: Vec<Vec<[Vec2; 2]>> = (0..PLACES).map(crossed).collect();
         let mut best = ((low + high) / 2.0, 0.0);
         for i in 1..PLACES {
-            for k in 1..PLACES {
-                let share = Vec2::new(i as f64, k as f64) / PLACES as f64;
-                let p = low + (high - low).component_mul(&share);
-                if self.holds(p) {
-                    let clear = walls.iter().map(|w| distance(scaled(p), *w)).fold(f64::INFINITY, f64::min);
+            for (k, crossed) in crossed.iter().enumerate().skip(1) {
+                let p = place([i, k]);
+                if encloses(crossed.iter().copied(), p) {
+                    let enough = best.1 / (2.0 * AIR);
+                    let clear = walls.clear(scaled(p), enough, |wall| distance(scaled(p), wall));
                     let room = 2.0 * AIR * clear;
                     if room > best.1 {
                         best = (p, room);

@@ -7,8 +7,9 @@ use super::fish_eyes::sides;
 use super::holes::holes_of;
 use super::joined::{Joined, beyond_seam, joined, unclosed};
 use super::partial::completed;
+use super::trimmed::trimmed;
 use super::{Drawing, Inner, Notch, Remark, Role, Stroke, ToldNotch, Traced};
-use crate::geometry::{Path, Vec2, distance_to_segment, encloses, sides_of};
+use crate::geometry::{Path, Vec2, box_of, distance_to_segment, encloses, sides_of};
 use crate::pattern::Cut;
 
 /// A closed line round less than this (square metres, a square of 3 cm) is no piece.
@@ -45,7 +46,7 @@ impl Contour {
         let first = paths.next()?;
         let whole = paths.fold(first, |whole, next| whole.joined(&next));
         let points = whole.sampled(COARSE);
-        let bounds = points.iter().fold([whole.start(); 2], |[low, high], p| [low.inf(p), high.sup(p)]);
+        let bounds = box_of(points.iter().copied());
         Some(Self { points, bounds, whole, edges, role, name })
     }
 
@@ -336,7 +337,7 @@ fn piece<'a>(outer: &Contour, inner: &[&Contour], rest: &'a [Stroke]) -> (Traced
             _ if !surface.covers(middle) => beyond.push(stroke),
             _ => traced.lines.push(Inner {
                 name: stroke.name.clone(),
-                path: stroke.path.clone(),
+                path: trimmed(&stroke.path, |p| surface.covers(p)),
                 kind: stroke.kind.clone(),
             }),
         }

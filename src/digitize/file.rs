@@ -11,8 +11,8 @@ use super::suggest::{Outline, Suggestion, suggest};
 use super::{Material, Traced};
 use crate::geometry::{MM, Path, Vec2};
 use crate::pattern::{
-    AllowanceFile, AllowanceWidth, Cut, DartFile, DartShape, GarmentFile, LineFile, LineKind, Located, NotchFile,
-    OutlineFile, PieceFile, PleatFile, Quantity, SLACK, Spot, Value,
+    AllowanceFile, AllowanceWidth, Corner, Cut, DartFile, DartShape, GarmentFile, LineFile, LineKind, Located,
+    NotchFile, OutlineFile, PieceFile, PleatFile, Quantity, SLACK, Spot, Value,
 };
 
 /// A fold's ends are so near to those of an edge (metres).
@@ -139,7 +139,7 @@ fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile
         name: at_no_place(name.to_owned()),
         like: None,
         fabric: None,
-        allowance: whole.and_then(|line| allowance(&edges, &wedges, &holes, line, &cut)),
+        allowance: whole.and_then(|line| allowance(&edges, &wedges, &holes, line, &cut, &piece.corners)),
         drawn: piece.drawn.filter(|_| matches!(cut, Some(Cut::Pair | Cut::Fold(_)))).map(at_no_place),
         cut: cut.map(at_no_place),
         layer: None,
@@ -372,6 +372,7 @@ fn allowance(
     holes: &[(String, &Hole)],
     cut: &Path,
     how: &Option<Cut>,
+    corners: &[(String, Corner)],
 ) -> Option<AllowanceFile> {
     let on_fold = |e: &Edge| matches!(how, Some(Cut::Fold(name)) if *name == e.name);
     let tenths = |metres: f64| (metres * 1e4).round() / 10.0;
@@ -383,7 +384,8 @@ fn allowance(
         let along = looks[LOOKS.len() - 1] - looks[0] <= ALONG;
         along.then(|| tenths(looks[LOOKS.len() / 2]))
     };
-    let said = |number: f64| at_no_place(AllowanceWidth { width: Quantity { number, unit: None }, corner: None });
+    let said = |number: f64, corner| at_no_place(AllowanceWidth { width: Quantity { number, unit: None }, corner });
+    let corner = |edge: &str| corners.iter().find(|(name, _)| word(name) == edge).map(|(_, corner)| *corner);
     type Width<'a> = (&'a str, f64);
     let outline = edges.iter().filter(|e| !on_fold(e)).filter_map(|e| Some((e.name.as_str(), width(e)?)));
     let outline: Vec<Width> = outline.collect();
@@ -394,9 +396,9 @@ fn allowance(
     }
     let first = outline.first()?.1;
     // A hole has an allowance only where that is said of it.
-    if cut_out.is_empty() && outline.iter().all(|(_, w)| *w == first) {
-        return Some(AllowanceFile::All(said(first)));
+    if cut_out.is_empty() && outline.iter().all(|(name, w)| *w == first && corner(name).is_none()) {
+        return Some(AllowanceFile::All(said(first, None)));
     }
-    let edge = |(name, w): &Width| (at_no_place((*name).to_owned()), said(*w));
+    let edge = |(name, w): &Width| (at_no_place((*name).to_owned()), said(*w, corner(name)));
     Some(AllowanceFile::Edges(outline.iter().chain(&cut_out).map(edge).collect()))
 }

@@ -18,6 +18,7 @@ mod pairs;
 mod partial;
 mod smooth;
 mod suggest;
+mod trimmed;
 
 pub use chain::chained;
 pub use contours::pieces;
@@ -27,7 +28,7 @@ pub(crate) use notches::DOUBLE;
 pub use suggest::Suggestion;
 
 use crate::geometry::{Path, Vec2};
-use crate::pattern::{Cut, LineKind, NotchKind, Side};
+use crate::pattern::{Corner, Cut, LineKind, NotchKind, Side};
 
 /// A line of a foreign file.
 #[derive(Clone, Debug)]
@@ -171,6 +172,8 @@ pub struct Traced {
     pub drawn: Option<Side>,
     /// What it is cut from.
     pub material: Option<Material>,
+    /// How the allowances of edges end at corners, by their names, where that is told.
+    pub corners: Vec<(String, Corner)>,
 }
 
 impl Traced {

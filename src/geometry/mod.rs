@@ -16,7 +16,7 @@ mod trimesh;
 pub(crate) use arc::bulged;
 pub(crate) use bisect::{bisect, try_bisect};
 pub use curve::{Path, PathError, Station, parse_transform};
-pub(crate) use extent::{box_of, range_of};
+pub(crate) use extent::{box_of, box_or_origin, range_of};
 pub use fit::{Cubic, smooth_curves};
 pub(crate) use locator::Locator;
 pub(crate) use polygon::{diagonals_of, triangles_of};

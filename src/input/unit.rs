@@ -52,6 +52,18 @@ impl LengthUnit {
         Self::ALL.into_iter().find(|unit| unit.symbol() == symbol)
     }
 
+    /// The unit of a file in which something is of this `size`, if that is told in metres and in centimetres as less
+    /// than these two numbers.
+    pub fn guessed(size: f64, [metres_below, centimetres_below]: [f64; 2]) -> Self {
+        if size < metres_below {
+            Self::Metre
+        } else if size < centimetres_below {
+            Self::Centimetre
+        } else {
+            Self::Millimetre
+        }
+    }
+
     /// Digits after the point that tell a millimetre.
     pub fn decimals(self) -> usize {
         match self {

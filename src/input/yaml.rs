@@ -22,6 +22,11 @@ pub fn yaml<T: DeserializeOwned>(text: &str) -> Result<T, String> {
     serde_yaml::from_str(text).map_err(|e| shown(&e.to_string(), MESSAGE))
 }
 
+/// A YAML string in double quotes, with JSON's escapes, which are YAML's too.
+pub fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
 /// At least as many brackets as are open at one place of a text.
 fn depth(text: &str) -> usize {
     let mut readings = Readings { values: Some(0), ..Readings::default() };

@@ -17,8 +17,7 @@ const OFF: f64 = 1e-4;
 /// file.
 const WELD: f64 = 1e-6;
 /// A body lower than this many file units is in metres, lower than the next in centimetres, else in millimetres.
-const METRES_BELOW: f64 = 3.0;
-const CENTIMETRES_BELOW: f64 = 300.0;
+const UNITS_BELOW: [f64; 2] = [3.0, 300.0];
 /// Bodies with more crossing pairs than this share of their triangles are refused. Averaged bodies have a few tenths of
 /// a percent, between the thighs; a limb pushed through the trunk has several percent.
 const CROSSING: f64 = 0.01;
@@ -179,7 +178,7 @@ fn person(surface: &ObjSurface, name: &str, file: &str, unit: Option<LengthUnit>
     let mut vertices = surface.vertices.clone();
     let turned = stand_up(&mut vertices, &mut notes);
     let height = height(&vertices).ok_or_else(|| shape("the body has no height"))?;
-    let taken = unit.unwrap_or_else(|| guessed(height));
+    let taken = unit.unwrap_or_else(|| LengthUnit::guessed(height, UNITS_BELOW));
     let scale = taken.metres();
     if !HEIGHTS.contains(&(scale * height)) {
         return Err(BodyError::Size { file: file.to_owned(), units: height, unit: taken, metres: scale * height });
@@ -241,7 +240,7 @@ fn object(
     let mut notes = vec![format!("an object without body parts ({why}): its coordinates are taken as they are")];
     let [low, high] = bounds(&surface.vertices);
     let longest = (high - low).max();
-    let taken = unit.unwrap_or_else(|| guessed(longest));
+    let taken = unit.unwrap_or_else(|| LengthUnit::guessed(longest, UNITS_BELOW));
     if unit.is_none() {
         notes.push(assumed(taken, &format!("the object is {longest:.2} units long")));
     }
@@ -324,17 +323,6 @@ fn lies(vertices: &[Vec3]) -> bool {
 fn height(vertices: &[Vec3]) -> Option<f64> {
     let [low, high] = range_of(vertices.iter().map(|p| p.y));
     (high > low).then_some(high - low)
-}
-
-/// The unit of a file whose body is that high.
-fn guessed(height: f64) -> LengthUnit {
-    if height < METRES_BELOW {
-        LengthUnit::Metre
-    } else if height < CENTIMETRES_BELOW {
-        LengthUnit::Centimetre
-    } else {
-        LengthUnit::Millimetre
-    }
 }
 
 /// The surface as it is if that is closed, otherwise with coinciding vertices merged: seams of texture and normals then

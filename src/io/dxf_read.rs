@@ -14,7 +14,7 @@ use super::dxf_write::layer;
 use crate::digitize::{Drawing, Inner, Material, Notch, ToldNotch, Traced, besides, chained, holes};
 use crate::geometry::{Path, Vec2, bulged};
 use crate::input::{InputError, bytes, shown};
-use crate::pattern::{Cut, Side};
+use crate::pattern::{Corner, Cut, Side};
 
 /// Larger files are not patterns.
 const MOST_BYTES: u64 = 30 << 20;
@@ -275,6 +275,7 @@ impl<'a> Block<'a> {
             said_by: None,
             drawn: self.text("drawn:").and_then(Side::from_letter).filter(|side| *side == Side::Right),
             material: self.material(),
+            corners: told.iter().filter_map(corner).collect(),
         })
     }
 
@@ -282,7 +283,7 @@ impl<'a> Block<'a> {
     /// alone: what else is on the layer are seams over the mouths of darts.
     fn sewn(&self, told: &[(u32, &Path, Option<Told>)]) -> Vec<Vec<Named>> {
         let edge = |(_, path, told): &(u32, &Path, Option<Told>)| match told {
-            Some(Told::Edge(name)) => Some((Some(name.clone()), (*path).clone())),
+            Some(Told::Edge(name, _)) => Some((Some(name.clone()), (*path).clone())),
             _ => None,
         };
         let mut edges: Vec<Named> = told.iter().filter_map(edge).collect();
@@ -384,6 +385,14 @@ fn closed_by<T>(mut run: Vec<(T, Path)>, side: T) -> Vec<(T, Path)> {
         run.push((side, Path::line(end, start)));
     }
     run
+}
+
+/// How the allowance of an edge ends, where that is told.
+fn corner((.., told): &(u32, &Path, Option<Told>)) -> Option<(String, Corner)> {
+    match told {
+        Some(Told::Edge(name, Some(corner))) => Some((name.clone(), *corner)),
+        _ => None,
+    }
 }
 
 /// A line inside that is neither an edge nor a pleat's.

@@ -194,19 +194,27 @@ pub(super) fn after<'a>(text: &'a str, key: &str) -> Option<&'a str> {
     head.eq_ignore_ascii_case(key).then(|| text[key.len()..].trim())
 }
 
-/// DXF R12 writes letters beyond ASCII as their codes: `\U+00FC` is ü.
+/// DXF R12 writes letters beyond ASCII as their codes of UTF-16: `\U+00FC` is ü, and `\U+D83D\U+DC57` a dress. What is
+/// no code of a letter stays as it is.
 pub(super) fn letters(text: &str) -> String {
-    let mut parts = text.split("\\U+");
-    let mut out = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        let code = part.get(..4).and_then(|hex| u32::from_str_radix(hex, 16).ok()).and_then(char::from_u32);
-        match code {
-            Some(c) => out.extend(std::iter::once(c).chain(part[4..].chars())),
-            None => {
-                out.push_str("\\U+");
-                out.push_str(part);
+    let code = |part: &str| part.get(..4).and_then(|hex| u16::from_str_radix(hex, 16).ok());
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once("\\U+") {
+        out.push_str(before);
+        let second = || after.get(4..)?.strip_prefix("\\U+");
+        let codes = code(after).into_iter().chain(second().and_then(code));
+        rest = match char::decode_utf16(codes).next() {
+            Some(Ok(c)) => {
+                out.push(c);
+                &after[if c.len_utf16() == 2 { 11 } else { 4 }..]
             }
-        }
+            _ => {
+                out.push_str("\\U+");
+                after
+            }
+        };
     }
+    out.push_str(rest);
     out
 }

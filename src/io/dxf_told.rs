@@ -5,7 +5,7 @@
 use crate::cutting::NotchMark;
 use crate::digitize::ToldNotch;
 use crate::geometry::{Path, Vec2};
-use crate::pattern::{LineKind, NotchKind};
+use crate::pattern::{Corner, LineKind, NotchKind};
 
 /// A text stands at this share of its line: beyond it no two lines meet as they do at their ends and cross in their
 /// middles.
@@ -16,8 +16,8 @@ const NEAR: f64 = 1e-5;
 /// What is told of a line.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Told {
-    /// It is this edge of the piece.
-    Edge(String),
+    /// It is this edge of the piece, whose allowance ends so at corners.
+    Edge(String, Option<Corner>),
     /// It is a line inside, and does this.
     Line(String, LineKind),
     /// A pleat is folded along it.
@@ -32,7 +32,8 @@ impl Told {
     /// As it is written.
     pub(super) fn text(&self) -> String {
         match self {
-            Self::Edge(name) => format!("Edge: {name}"),
+            Self::Edge(name, None) => format!("Edge: {name}"),
+            Self::Edge(name, Some(corner)) => format!("Edge: {name}, {}", corner.word()),
             Self::Line(name, LineKind::Fold(angle)) => format!("Line: {name}, fold {:.4}", angle.to_degrees()),
             Self::Line(name, LineKind::Elastic(ratio)) => format!("Line: {name}, elastic {ratio:.4}"),
             Self::Line(name, LineKind::Mark(kind)) => format!("Line: {name}, {kind}"),
@@ -46,7 +47,7 @@ impl Told {
     pub(super) fn read(text: &str) -> Option<Self> {
         let (key, value) = text.split_once(": ")?;
         match (key, value.trim()) {
-            ("Edge", name) => Some(Self::Edge(name.to_owned())),
+            ("Edge", value) => Some(edge(value)),
             ("Line", value) => value.split_once(", ").map(|(name, kind)| Self::Line(name.to_owned(), line_kind(kind))),
             ("Pleat", "fold") => Some(Self::PleatFold),
             ("Pleat", "place") => Some(Self::PleatPlace),
@@ -54,6 +55,12 @@ impl Told {
             _ => None,
         }
     }
+}
+
+/// Names of edges have no commas.
+fn edge(text: &str) -> Told {
+    let ends = text.split_once(", ").and_then(|(name, word)| Some((name, Corner::from_word(word)?)));
+    ends.map_or_else(|| Told::Edge(text.to_owned(), None), |(name, corner)| Told::Edge(name.to_owned(), Some(corner)))
 }
 
 fn line_kind(text: &str) -> LineKind {

@@ -133,8 +133,8 @@ impl Dxf {
         self.cut_lines(paper);
         for line in &paper.sew {
             let (on, told) = match line.of {
-                SewKind::Outline | SewKind::Hole => (layer::SEW, Some(Told::Edge(line.name.clone()))),
-                SewKind::Dart => (layer::INTERNAL, Some(Told::Edge(line.name.clone()))),
+                SewKind::Outline | SewKind::Hole => (layer::SEW, Some(Told::Edge(line.name.clone(), line.corner))),
+                SewKind::Dart => (layer::INTERNAL, Some(Told::Edge(line.name.clone(), None))),
                 SewKind::FishEye => (layer::INTERNAL, Some(Told::Line(line.name.clone(), fish_eye()))),
                 SewKind::Mouth => (layer::SEW, None),
             };
@@ -282,15 +282,17 @@ fn number(x: f64) -> String {
     if text == "-0.0000" { "0.0000".to_owned() } else { text }
 }
 
-/// DXF R12 knows ASCII; other letters are written as their code, and control characters are left out.
+/// DXF R12 knows ASCII; other letters are written as their codes, of four digits each: those beyond that, as emoji, as
+/// the two that UTF-16 has for them. Control characters are left out.
 fn plain(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars().filter(|c| !c.is_control()) {
-        match c {
-            ' '..='~' => out.push(c),
-            other => {
-                let _ = write!(out, "\\U+{:04X}", other as u32);
-            }
+        if matches!(c, ' '..='~') {
+            out.push(c);
+            continue;
+        }
+        for code in c.encode_utf16(&mut [0; 2]) {
+            let _ = write!(out, "\\U+{code:04X}");
         }
     }
     out

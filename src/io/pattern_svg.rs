@@ -6,11 +6,11 @@
 use svg::node::element::{Group, Path, Text};
 use svg::{Document, Node};
 
-use super::svg_write::{centered, curved, document, identifier, polyline, square, with_kind};
+use super::svg_write::{centered, curved, document, identifier, polyline, square, told_notch, with_kind};
 use crate::cutting::{LETTER_WIDTH, Room, TEST_SQUARE, foot, shelves};
-use crate::geometry::{MM, Vec2, smooth_curves};
+use crate::geometry::{MM, Vec2, box_or_origin, smooth_curves};
 use crate::mesh::{ClothMesh, EdgeParticles, PieceMesh};
-use crate::pattern::Notch;
+use crate::pattern::{Notch, NotchKind};
 
 /// Empty rim of the sheet, mm: what home printers leave white.
 const MARGIN: f64 = 10.0;
@@ -23,8 +23,8 @@ const BARB: f64 = 6.0;
 /// Height of letters, and the least that home printers draw clearly, mm.
 const LETTERS: f64 = 8.0;
 const LEAST_LETTERS: f64 = 2.5;
-/// Depth of a notch and distance of a double one's two marks, mm.
-const NOTCH: (f64, f64) = (6.0, 5.0);
+/// Depth of a notch, mm.
+const NOTCH: f64 = 6.0;
 
 /// How far a particle may be from the smooth outline, mm: less than a pencil line is wide.
 const SMOOTH: f64 = 0.1;
@@ -107,11 +107,11 @@ fn begin<'a>(cloth: &'a ClothMesh, flat: &[Vec2]) -> Result<Begun<'a>, PatternSv
 }
 
 /// An arrow with its barbs.
-fn arrow([tail, head]: [Vec2; 2]) -> Path {
+fn arrow([tail, head]: [Vec2; 2]) -> [Vec2; 5] {
     let along = (head - tail).try_normalize(0.0).unwrap_or_else(Vec2::y);
     let across = Vec2::new(-along.y, along.x);
     let barb = |side: f64| head - (along * 2.0 + across * side) * (BARB / 2.0);
-    polyline(&[tail, head, barb(1.0), head, barb(-1.0)], "grain", 0.3)
+    [tail, head, barb(1.0), head, barb(-1.0)]
 }
 
 /// A piece in millimetres on the sheet.
@@ -141,8 +141,7 @@ impl<'a> Sheet<'a> {
     }
 
     fn bounds(&self) -> [Vec2; 2] {
-        let Some(first) = self.points.first() else { return [Vec2::zeros(); 2] };
-        self.points.iter().fold([*first; 2], |[low, high], p| [low.inf(p), high.sup(p)])
+        box_or_origin(self.points.iter().copied())
     }
 
     fn size(&self) -> Vec2 {
@@ -179,11 +178,12 @@ impl<'a> Sheet<'a> {
             group = group.add(with_kind(path, &line.kind).set("id", id).set("stroke-dasharray", "4 2"));
         }
         let own = |n: &Notch| self.piece.edges.iter().find(|e| e.edge == n.edge).map(|edge| self.notch(edge, drawn, n));
-        let marks: Vec<[Vec2; 2]> = notches.iter().filter_map(own).flatten().collect();
-        for mark in &marks {
-            group = group.add(polyline(mark, "notch", 0.3));
+        let mut lines = Vec::new();
+        for (line, kind, edge) in notches.iter().filter_map(own).flatten() {
+            group = group.add(told_notch(polyline(&line, "notch", 0.3), kind, edge));
+            lines.push(line);
         }
-        let [grain, label] = self.grain_and_label(&marks);
+        let [grain, label] = self.grain_and_label(&lines);
         group.add(grain).add(label)
     }
 
@@ -233,9 +233,10 @@ impl<'a> Sheet<'a> {
     /// The grain's arrow on the cloth, and the piece's name clear of every line.
     fn grain_and_label(&self, marks: &[[Vec2; 2]]) -> [Box<dyn Node>; 2] {
         let mut room = self.room();
-        let grain = room.arrow(self.grain());
-        marks.iter().chain([&grain]).for_each(|line| room.add_wall(line));
-        [Box::new(arrow(grain)), Box::new(self.label(&room))]
+        let grain = arrow(room.arrow(self.grain()));
+        room.add_wall(&grain);
+        marks.iter().for_each(|line| room.add_wall(line));
+        [Box::new(polyline(&grain, "grain", 0.3)), Box::new(self.label(&room))]
     }
 
     /// Middle of the particles: on any piece that is not much bent.
@@ -256,12 +257,20 @@ impl<'a> Sheet<'a> {
         centered(&self.piece.name, middle + foot(height, upright), height, upright)
     }
 
-    /// One or two marks from the edge into the piece.
-    fn notch(&self, edge: &EdgeParticles, drawn: &[Vec2], notch: &Notch) -> Vec<[Vec2; 2]> {
-        let offsets: &[f64] = if notch.double { &[-0.5, 0.5] } else { &[0.0] };
-        let place = |&offset: &f64| self.along(edge, drawn, notch.at * MM + offset * NOTCH.1);
-        let marks = offsets.iter().filter_map(place);
-        marks.map(|(at, inward)| [at, at + inward * NOTCH.0]).collect()
+    /// The marks of a notch from the edge into the piece, each with what it is and the edge's name.
+    fn notch<'e>(
+        &self,
+        edge: &'e EdgeParticles,
+        drawn: &[Vec2],
+        notch: &Notch,
+    ) -> Vec<([Vec2; 2], NotchKind, &'e str)> {
+        let at = |v: u32| drawn.get(v as usize).copied().unwrap_or_default();
+        let length = edge.particles.windows(2).map(|step| (at(step[1]) - at(step[0])).norm()).sum();
+        let mark = |(place, kind): (f64, NotchKind)| {
+            let (on_rim, inward) = self.along(edge, drawn, place * MM)?;
+            Some(([on_rim, on_rim + inward * NOTCH], kind, edge.name.as_str()))
+        };
+        NotchKind::marks(notch.at, notch.double, length).filter_map(mark).collect()
     }
 
     /// Where the drawn distance `wanted` (mm) along an edge has come to lie, and the direction into the piece.

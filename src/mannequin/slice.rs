@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::geometry::{DisjointSets, TriMesh, Vec3};
+use crate::geometry::{DisjointSets, TriMesh, Vec3, box_of};
 
 /// One closed curve of a cut.
 #[derive(Clone, Debug)]
@@ -16,10 +16,7 @@ pub(super) struct Loop {
 
 impl Loop {
     fn new(points: Vec<Vec3>) -> Self {
-        let (mut low, mut high) = (points[0], points[0]);
-        for p in &points {
-            (low, high) = (low.inf(p), high.sup(p));
-        }
+        let [low, high] = box_of(points.iter().copied());
         Self { points, low, high }
     }
 

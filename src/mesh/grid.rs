@@ -1,7 +1,10 @@
 //! The regular core of a piece: lattice points well inside it, and the square cells between them.
 
+use std::ops::RangeInclusive;
+
 use super::frame::Frame;
 use super::lattice::Lattice;
+use super::spans::Spans;
 use crate::geometry::{Vec2, box_of, distance_to_segment, sorted_pair};
 
 /// Lattice points nearer than this many spacings to the frame are dropped. Any point of a cell's side is within half
@@ -11,6 +14,8 @@ const CLEARANCE: f64 = 0.58;
 const COINCIDES: f64 = 0.02;
 /// ... unless a frame spring this short (in spacings) starts from it: it could enter the cell beside the particle.
 const SHORT: f64 = 0.6;
+/// Lattice points so many cells beside a frame spring are looked at: the corners of every cell it runs through.
+const REACH: f64 = 1.0;
 /// No vertex.
 const NONE: u32 = u32::MAX;
 
@@ -30,7 +35,6 @@ impl Core {
     /// Lays the core into a frame.
     pub(super) fn lay(frame: &Frame, lattice: &Lattice, spacing: f64) -> Self {
         let mut raster = Raster::new(frame, lattice);
-        raster.keep_inside(frame);
         raster.clear_near(frame, lattice, spacing);
         let mut points = frame.points.clone();
         raster.number(lattice, &mut points);
@@ -40,12 +44,16 @@ impl Core {
     }
 }
 
-/// A box of lattice points with what is known of each.
+/// Lattice points in or beside a piece with what is known of each.
 struct Raster {
+    /// Column and row of the corner that the others are counted from.
     low: [i64; 2],
+    /// Columns and rows.
     size: [usize; 2],
-    /// Frame particles in cells from the box's corner.
+    /// Frame particles in cells from the corner.
     frame: Vec<Vec2>,
+    /// The points there are.
+    points: Spans,
     /// Vertex at each lattice point.
     vertex: Vec<u32>,
     /// Whether a frame spring runs through the cell whose low corner is the lattice point.
@@ -59,40 +67,30 @@ impl Raster {
         let low = [min.x.floor() as i64 - 1, min.y.floor() as i64 - 1];
         let size = [(max.x.ceil() as i64 + 2 - low[0]) as usize, (max.y.ceil() as i64 + 2 - low[1]) as usize];
         let corner = Vec2::new(low[0] as f64, low[1] as f64);
-        let n = size[0] * size[1];
-        Self {
-            low,
-            size,
-            frame: cells.iter().map(|c| c - corner).collect(),
-            vertex: vec![NONE; n],
-            crossed: vec![false; n],
+        let cells: Vec<Vec2> = cells.into_iter().map(|c| c - corner).collect();
+        let inside = inside(&cells, &frame.rim_springs, size[1]);
+        let beside = frame.springs().flat_map(|[a, b]| {
+            let [columns, rows] = around(cells[a as usize], cells[b as usize], REACH, size);
+            rows.map(move |j| (j, columns.clone()))
+        });
+        let points = Spans::new(size[1], inside.iter().cloned().chain(beside).collect());
+        let (vertex, crossed) = (vec![NONE; points.len()], vec![false; points.len()]);
+        let mut raster = Self { low, size, frame: cells, points, vertex, crossed };
+        // A placeholder until they are numbered.
+        for (j, columns) in inside {
+            columns.for_each(|i| raster.set(i, j, 0));
         }
+        raster
     }
 
-    fn index(&self, i: usize, j: usize) -> usize {
-        j * self.size[0] + i
+    /// Vertex at a lattice point.
+    fn vertex(&self, i: usize, j: usize) -> u32 {
+        self.points.number(i, j).map_or(NONE, |at| self.vertex[at])
     }
 
-    /// Marks (with a placeholder number) the lattice points inside the rim: row by row, between every second crossing.
-    fn keep_inside(&mut self, frame: &Frame) {
-        let mut crossings: Vec<Vec<f64>> = vec![Vec::new(); self.size[1]];
-        for &[a, b] in &frame.rim_springs {
-            let (p, q) = (self.frame[a as usize], self.frame[b as usize]);
-            let (p, q) = if p.y <= q.y { (p, q) } else { (q, p) };
-            // Rows in (p.y, q.y]: a row through a particle counts exactly one of its two springs on each side.
-            let rows = p.y.floor() as usize + 1..q.y.floor() as usize + 1;
-            for (j, xs) in rows.clone().zip(&mut crossings[rows]) {
-                xs.push(p.x + (q.x - p.x) * (j as f64 - p.y) / (q.y - p.y));
-            }
-        }
-        for (j, xs) in crossings.iter_mut().enumerate() {
-            xs.sort_by(f64::total_cmp);
-            for pair in xs.chunks_exact(2) {
-                for i in pair[0].ceil() as usize..=pair[1].floor() as usize {
-                    let at = self.index(i, j);
-                    self.vertex[at] = 0;
-                }
-            }
+    fn set(&mut self, i: usize, j: usize, vertex: u32) {
+        if let Some(at) = self.points.number(i, j) {
+            self.vertex[at] = vertex;
         }
     }
 
@@ -106,8 +104,7 @@ impl Raster {
                 let at = Vec2::new(i as f64, j as f64);
                 let (d, e) = ((q - p).component_mul(&scale), (at - p).component_mul(&scale));
                 if distance_to_segment(e, [Vec2::zeros(), d]) < clearance {
-                    let at = self.index(i, j);
-                    self.vertex[at] = NONE;
+                    self.set(i, j, NONE);
                 }
             }
         }
@@ -115,21 +112,15 @@ impl Raster {
 
     /// Lattice points of the box around a segment, widened by `margin` cells.
     fn around(&self, p: Vec2, q: Vec2, margin: f64) -> impl Iterator<Item = (usize, usize)> + use<> {
-        let range = |a: f64, b: f64, size: usize| {
-            let low = (a.min(b) - margin).ceil().max(0.0) as usize;
-            let high = (a.max(b) + margin).floor().min(size as f64 - 1.0) as usize;
-            low..=high
-        };
-        let (columns, rows) = (range(p.x, q.x, self.size[0]), range(p.y, q.y, self.size[1]));
+        let [columns, rows] = around(p, q, margin, self.size);
         rows.flat_map(move |j| columns.clone().map(move |i| (i, j)))
     }
 
     /// Numbers the kept lattice points, row by row, and appends their positions.
     fn number(&mut self, lattice: &Lattice, points: &mut Vec<Vec2>) {
-        for (k, vertex) in self.vertex.iter_mut().enumerate().filter(|(_, v)| **v != NONE) {
-            let (i, j) = ((k % self.size[0]) as i64, (k / self.size[0]) as i64);
+        for (vertex, (i, j)) in self.vertex.iter_mut().zip(self.points.places()).filter(|(v, _)| **v != NONE) {
             *vertex = points.len() as u32;
-            points.push(lattice.point(self.low[0] + i, self.low[1] + j));
+            points.push(lattice.point(self.low[0] + i as i64, self.low[1] + j as i64));
         }
     }
 
@@ -142,13 +133,14 @@ impl Raster {
                 shortest[v as usize] = shortest[v as usize].min(length);
             }
         }
-        for (v, c) in self.frame.iter().enumerate() {
+        for (v, &short) in shortest.iter().enumerate() {
+            let c = self.frame[v];
             let near = Vec2::new(c.x.round(), c.y.round());
-            if (c - near).amax() < COINCIDES && shortest[v] > SHORT * spacing {
-                let at = self.index(near.x as usize, near.y as usize);
+            if (c - near).amax() < COINCIDES && short > SHORT * spacing {
+                let (i, j) = (near.x as usize, near.y as usize);
                 // Both lips of a slit may lie there: then neither takes it.
-                let taken = (self.vertex[at] as usize) < self.frame.len();
-                self.vertex[at] = if taken { NONE } else { v as u32 };
+                let taken = (self.vertex(i, j) as usize) < self.frame.len();
+                self.set(i, j, if taken { NONE } else { v as u32 });
             }
         }
     }
@@ -157,11 +149,12 @@ impl Raster {
     fn block_crossed(&mut self, frame: &Frame) {
         for [a, b] in frame.springs() {
             let (p, q) = (self.frame[a as usize], self.frame[b as usize]);
-            for (i, j) in self.around(p, q, 1.0) {
+            for (i, j) in self.around(p, q, REACH) {
                 // Shrunk a little more than frame particles may be off their lattice points.
                 let low = Vec2::new(i as f64, j as f64).add_scalar(1.5 * COINCIDES);
-                if segment_enters(p, q, low, 1.0 - 3.0 * COINCIDES) {
-                    let at = self.index(i, j);
+                if segment_enters(p, q, low, 1.0 - 3.0 * COINCIDES)
+                    && let Some(at) = self.points.number(i, j)
+                {
                     self.crossed[at] = true;
                 }
             }
@@ -174,23 +167,20 @@ impl Raster {
         let mut springs: Vec<[u32; 2]> = frame.springs().map(sorted_pair).collect();
         springs.sort_unstable();
         let mut core = Core { in_cell: vec![false; points.len()], points, triangles: Vec::new(), sides: Vec::new() };
-        for j in 0..self.size[1] - 1 {
-            for i in 0..self.size[0] - 1 {
-                let corners =
-                    [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| self.vertex[self.index(i, j)]);
-                if self.crossed[self.index(i, j)] || corners.contains(&NONE) || corners.iter().all(|&v| v < fixed) {
-                    continue;
-                }
-                let sides = [0, 1, 2, 3].map(|k| [corners[k], corners[(k + 1) % 4]]);
-                // A side between two frame particles must itself be a spring of the frame.
-                let bad =
-                    |&[a, b]: &[u32; 2]| a < fixed && b < fixed && springs.binary_search(&sorted_pair([a, b])).is_err();
-                if sides.iter().any(bad) {
-                    continue;
-                }
-                let even = (self.low[0] + i as i64 + self.low[1] + j as i64).rem_euclid(2) == 0;
-                core.push(corners, sides, even);
+        for ((i, j), crossed) in self.points.places().zip(&self.crossed) {
+            let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| self.vertex(i, j));
+            if *crossed || corners.contains(&NONE) || corners.iter().all(|&v| v < fixed) {
+                continue;
             }
+            let sides = [0, 1, 2, 3].map(|k| [corners[k], corners[(k + 1) % 4]]);
+            // A side between two frame particles must itself be a spring of the frame.
+            let bad =
+                |&[a, b]: &[u32; 2]| a < fixed && b < fixed && springs.binary_search(&sorted_pair([a, b])).is_err();
+            if sides.iter().any(bad) {
+                continue;
+            }
+            let even = (self.low[0] + i as i64 + self.low[1] + j as i64).rem_euclid(2) == 0;
+            core.push(corners, sides, even);
         }
         core.sides.sort_unstable();
         core
@@ -205,6 +195,36 @@ impl Core {
         self.sides.extend(sides);
         self.triangles.extend(if even { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] });
     }
+}
+
+/// The stretches of `height` rows inside the rim: between every second crossing.
+fn inside(cells: &[Vec2], rim: &[[u32; 2]], height: usize) -> Vec<(usize, RangeInclusive<usize>)> {
+    let mut crossings: Vec<Vec<f64>> = vec![Vec::new(); height];
+    for &[a, b] in rim {
+        let (p, q) = (cells[a as usize], cells[b as usize]);
+        let (p, q) = if p.y <= q.y { (p, q) } else { (q, p) };
+        // Rows in (p.y, q.y]: a row through a particle counts exactly one of its two springs on each side.
+        let rows = p.y.floor() as usize + 1..q.y.floor() as usize + 1;
+        for (j, xs) in rows.clone().zip(&mut crossings[rows]) {
+            xs.push(p.x + (q.x - p.x) * (j as f64 - p.y) / (q.y - p.y));
+        }
+    }
+    let mut stretches = Vec::new();
+    for (j, xs) in crossings.iter_mut().enumerate() {
+        xs.sort_by(f64::total_cmp);
+        stretches.extend(xs.chunks_exact(2).map(|pair| (j, pair[0].ceil() as usize..=pair[1].floor() as usize)));
+    }
+    stretches
+}
+
+/// Columns and rows of the box around a segment, widened by `margin` cells.
+fn around(p: Vec2, q: Vec2, margin: f64, size: [usize; 2]) -> [RangeInclusive<usize>; 2] {
+    let range = |a: f64, b: f64, size: usize| {
+        let low = (a.min(b) - margin).ceil().max(0.0) as usize;
+        let high = (a.max(b) + margin).floor().min(size as f64 - 1.0) as usize;
+        low..=high
+    };
+    [range(p.x, q.x, size[0]), range(p.y, q.y, size[1])]
 }
 
 /// Whether a segment enters the square with this low corner and size (slabs).

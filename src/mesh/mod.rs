@@ -21,6 +21,7 @@ mod links;
 mod patch;
 mod sampling;
 mod shape;
+mod spans;
 mod springs;
 mod strip;
 mod transfer;

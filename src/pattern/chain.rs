@@ -127,8 +127,10 @@ impl Table<'_> {
             let run = if last { chain.last() } else { chain.first() };
             run.and_then(|r| r.spans.first()).map_or_else(String::new, |s| names_of(self.pieces, [s.edge]).concat())
         };
-        let (one, other) = (end(&candidate.a, false), end(&candidate.b, true));
-        findings.error(candidate.file.name.at, Problem::Twisted { seam, one, other });
+        let ends = format!("{} and {}", end(&candidate.a, false), end(&candidate.b, true));
+        let to = candidate.b.iter().rev().map(|run| run.text.as_str());
+        let (turned, same) = (to.collect::<Vec<_>>().join(", "), candidate.file.is_face_same());
+        findings.error(candidate.file.name.at, Problem::Twisted { seam, ends, turned, same });
     }
 
     fn broken(&self, seam: String, chain: &[Run], i: usize, with: bool) -> Problem {

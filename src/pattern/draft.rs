@@ -3,7 +3,7 @@
 
 use std::collections::HashSet;
 
-use super::crossing::{contains, first_crossing};
+use super::crossing::{chords, contains, first_crossing};
 use super::dart;
 use super::diagnostic::{Findings, Located, Spot};
 use super::file::{AllowanceFile, Cut, PieceFile, PlaceFile, Quantity, Side, Unit};
@@ -13,7 +13,7 @@ use super::pleat;
 use super::problem::Problem;
 use super::region::Region;
 use super::{Edge, Line, Place, SeamKind};
-use crate::geometry::{Path, Vec2, Vec3};
+use crate::geometry::{Path, Vec2, Vec3, box_of};
 use crate::input::nearest;
 
 /// A hole that encloses less (square metres) is a line or a point drawn as one.
@@ -240,6 +240,9 @@ impl Draft {
 }
 
 fn holes(drawn: &mut Draft, piece: &PieceFile, unit: Unit, findings: &mut Findings) {
+    // The boxes of those before: of hundreds few are near any.
+    let around = |ring: &Vec<Edge>| box_of(ring.iter().flat_map(|edge| chords(&edge.path)).flatten());
+    let mut boxes: Vec<[Vec2; 2]> = drawn.rings[1..].iter().map(around).collect();
     for (name, text) in &piece.holes {
         let (piece, edge) = (drawn.name.clone(), name.value.clone());
         let path = match whole_path(&text.value, unit.factor()) {
@@ -266,14 +269,19 @@ fn holes(drawn: &mut Draft, piece: &PieceFile, unit: Unit, findings: &mut Findin
         let path = ended_at(&path, path.start());
         let path = if path.double_area() > 0.0 { path.reversed() } else { path };
         let ring = vec![Edge { name: edge, path, against: false }];
-        let within =
-            |other: &&Vec<Edge>| contains(other, ring[0].path.start()) || contains(&ring, other[0].path.start());
-        if let Some(other) = drawn.rings[1..].iter().find(within) {
+        let own = around(&ring);
+        let is_in = |[low, high]: [Vec2; 2], p: Vec2| low.inf(&p) == low && high.sup(&p) == high;
+        let within = |(other, around): &(&Vec<Edge>, &[Vec2; 2])| {
+            let [start, begin] = [ring[0].path.start(), other[0].path.start()];
+            is_in(**around, start) && contains(other, start) || is_in(own, begin) && contains(&ring, begin)
+        };
+        if let Some((other, _)) = drawn.rings[1..].iter().zip(&boxes).find(within) {
             let (hole, other) = (ring[0].name.clone(), other[0].name.clone());
             findings.error(text.at, Problem::HoleInHole { piece, hole, other });
             continue;
         }
         drawn.add_ring(ring);
+        boxes.push(own);
     }
 }
 

@@ -46,6 +46,7 @@ mod region;
 mod rim;
 mod seam;
 mod select;
+mod sleeve;
 mod spelling;
 mod walk;
 
@@ -63,6 +64,7 @@ pub use file::{
 pub use notch_kind::{DOUBLE_MARKS, NotchKind};
 pub use place_word::{PlaceWord, place_word, words_of};
 pub use problem::Problem;
+pub(crate) use reference::LARGEST;
 pub use reference::parse_quantity;
 pub(crate) use region::{Region, SLACK};
 pub use rim::{Opening, openings};

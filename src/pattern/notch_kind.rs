@@ -22,6 +22,20 @@ impl NotchKind {
     /// All there are.
     const ALL: [Self; 5] = [Self::Single, Self::Double, Self::DoubleAtEnd, Self::Dart, Self::Pleat];
 
+    /// The marks of a notch at a place of an edge of this length: where each stands, and what it is.
+    pub fn marks(at: f64, double: bool, length: f64) -> impl Iterator<Item = (f64, Self)> {
+        let places = if double { vec![at - DOUBLE_MARKS / 2.0, at + DOUBLE_MARKS / 2.0] } else { vec![at] };
+        places.into_iter().map(move |place| {
+            let fits = (0.0..=length).contains(&place);
+            let kind = match (double, fits) {
+                (false, _) => Self::Single,
+                (true, true) => Self::Double,
+                (true, false) => Self::DoubleAtEnd,
+            };
+            (place, kind)
+        })
+    }
+
     /// As drawings tell it.
     pub fn word(self) -> &'static str {
         match self {

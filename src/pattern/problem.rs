@@ -1,5 +1,7 @@
 //! Everything that can be wrong with a garment file. Lengths in messages are millimetres.
 
+use super::file::Side;
+
 /// One kind of mistake, with what is needed to say it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "every field is a word or a number of the message above it")]
@@ -228,10 +230,17 @@ pub enum Problem {
     FreeButSewn { edge: String, seam: String },
     #[error("chain in '{seam}' is not continuous: {end}, {start}")]
     ChainBroken { seam: String, end: String, start: String, drawn: bool },
-    #[error("seam '{seam}' is twisted: its ends meet {one} and {other}; use face: same if wanted")]
-    Twisted { seam: String, one: String, other: String },
+    #[error("seam '{seam}' is twisted: its ends meet {ends}")]
+    Twisted { seam: String, ends: String, turned: String, same: bool },
     #[error("'{piece}' lies on '{on}' (face: same), but both are on layer {layer}: it starts outside '{on}'")]
     OneLayer { piece: String, on: String, layer: i32 },
+    #[error(
+        "seam '{seam}' sets '{sleeve}' in upside down: the top of its cap comes to the lowest part of the armhole of \
+         '{on}'"
+    )]
+    UpsideDown { seam: String, sleeve: String, on: String, other: Option<Side> },
+    #[error("'{one}' and '{other}' start in one place, and nothing leads them apart")]
+    OnePlace { one: String, other: String, layer: i32 },
     #[error("sewing closes the surface into a non-orientable band at '{0}'")]
     NonOrientable(String),
     #[error("garment has {found} openings, expected {expected}: {rims}")]
@@ -324,6 +333,20 @@ impl Problem {
                 layer - 1,
                 layer + 1
             ),
+            Self::UpsideDown { sleeve, other, .. } => {
+                let remedy = match other {
+                    Some(side) => format!("say drawn: {} of '{sleeve}', or mirror its outline", side.letter()),
+                    None => format!("mirror the outline of '{sleeve}'"),
+                };
+                format!(
+                    "it is drawn for the other arm: seen from outside, the front of a left sleeve is at the left of \
+                     its drawing and that of a right one at the right; {remedy}"
+                )
+            }
+            Self::OnePlace { other, layer, .. } => format!(
+                "give '{other}' another place, or layer: {} if it is worn over the other, or leave one of them out",
+                layer + 1
+            ),
             Self::DrawnUpwards => {
                 "give every y the other sign if it was, or the garment hangs upside down; if it was not, distances \
                  along edges are measured the clockwise way"
@@ -342,6 +365,14 @@ impl Problem {
                     .to_owned()
             }
             Self::ChainBroken { .. } => "name the edges in the order they are sewn, end to end".to_owned(),
+            Self::Twisted { turned, same: false, .. } => format!(
+                "with the right sides out its two lists run opposite ways round their pieces, and these run the same \
+                 way; turn one round, to: [{turned}], or say face: same if one piece is laid on the other"
+            ),
+            Self::Twisted { turned, same: true, .. } => format!(
+                "with face: same its two lists run the same way round their pieces, and these run opposite ways; turn \
+                 one round, to: [{turned}], or leave face: same out if the right sides are out"
+            ),
             Self::OpenTooLong { .. } => {
                 "leave more of it sewn, give it a 'closure', or list its edges under 'free' instead".to_owned()
             }

@@ -18,8 +18,8 @@ pub(super) struct Reference {
     pub(super) range: Option<[Quantity; 2]>,
 }
 
-/// Larger numbers mean nothing in any unit, and would fill a message with digits.
-const LARGEST: f64 = 1e9;
+/// Larger numbers of a garment file mean nothing in any unit, and would fill a message with digits.
+pub(crate) const LARGEST: f64 = 1e9;
 
 /// Reads a quantity: a number and perhaps a unit.
 ///

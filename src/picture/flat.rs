@@ -6,7 +6,7 @@ use super::paint::limit;
 use super::raster::{Band, Corner, NO_CLOTH, SAMPLES};
 use super::view::legend;
 use super::{HEIGHT, PictureError, WIDTH, encode};
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, box_or_origin};
 use crate::mesh::{ClothMesh, PieceMesh};
 
 /// Pixels above the pieces, for words and the legend, and round them.
@@ -105,7 +105,5 @@ fn places(cloth: &ClothMesh) -> (Vec<Place>, f64) {
 }
 
 fn bounds(cloth: &ClothMesh, piece: &PieceMesh) -> [Vec2; 2] {
-    let points = &cloth.flat[piece.particles.clone()];
-    let first = points.first().copied().unwrap_or_default();
-    points.iter().fold([first; 2], |[low, high], p| [low.inf(p), high.sup(p)])
+    box_or_origin(cloth.flat[piece.particles.clone()].iter().copied())
 }

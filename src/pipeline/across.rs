@@ -1,5 +1,6 @@
 //! A seam that cannot close because two pieces are stuck in one another.
 
+use std::collections::HashSet;
 use std::path::PathBuf;
 
 use super::run::Run;
@@ -48,7 +49,7 @@ impl Run<'_> {
         let crossing = self.report().crossings.into_iter().find_map(two_pieces);
         let crossing = crossing.map(|(pieces, near)| (pieces, "pass through one another", near));
         let (pieces, how, near) = crossing.or_else(|| {
-            let ([a, b], at) = in_one_place(&self.job.mesh, self.placed.as_deref()?)?;
+            let ([a, b], at) = in_one_place(&self.job.mesh, self.placed.as_deref()?).next()?;
             let pieces = [a, b].map(|piece| self.job.mesh.pieces[piece].name.clone());
             Some((pieces, "started in one place", (self.job.body.frame.to_file(at) * MM).into()))
         })?;
@@ -62,16 +63,21 @@ fn two_pieces(Crossing { piece, through, near, .. }: Crossing) -> Option<([Strin
     Some(([piece, other], near))
 }
 
-/// Two pieces that lie in one another with the particles at `at`, and a particle that does.
-fn in_one_place(mesh: &ClothMesh, at: &[Vec3]) -> Option<([usize; 2], Vec3)> {
+/// Pieces that lie in one another with the particles at `at`, two and two, and a particle that does.
+pub(super) fn in_one_place<'a>(mesh: &'a ClothMesh, at: &'a [Vec3]) -> impl Iterator<Item = ([usize; 2], Vec3)> + 'a {
     let skin = |piece: &PieceMesh| Skin::new(at, mesh.triangles[piece.triangles.clone()].to_vec());
     let skins: Vec<Option<Skin>> = mesh.pieces.iter().map(skin).collect();
-    let lying = |a: usize, b: usize| {
-        let (piece, skin) = (&mesh.pieces[a], skins[b].as_ref().filter(|_| a != b)?);
-        let on: Vec<usize> = piece.particles.clone().filter(|&p| skin.distance(at[p], ON).is_some()).collect();
+    // Where two pieces are sewn together they meet.
+    let stitches = mesh.seams.iter().flat_map(|s| &s.pairs).flat_map(|&[p, q]| [[p, q], [q, p]]);
+    let sewn: HashSet<(usize, usize)> = stitches.filter_map(|[p, q]| Some((p as usize, mesh.piece_of(q)?))).collect();
+    let lying = move |a: usize, b: usize| {
+        let (piece, skin) = (&mesh.pieces[a], skins[b].as_ref()?);
+        let lies_on = |&p: &usize| !sewn.contains(&(p, b)) && skin.distance(at[p], ON).is_some();
+        let on: Vec<usize> = piece.particles.clone().filter(lies_on).collect();
         let first = at[*on.first()?];
         (on.len() as f64 >= SHARE * piece.particles.len() as f64).then_some(([a, b], first))
     };
-    let pieces = 0..mesh.pieces.len();
-    pieces.clone().find_map(|a| pieces.clone().find_map(|b| lying(a, b)))
+    let count = mesh.pieces.len();
+    let pairs = (0..count).flat_map(move |a| (a + 1..count).map(move |b| [a, b]));
+    pairs.filter_map(move |[a, b]| lying(a, b).or_else(|| lying(b, a)))
 }

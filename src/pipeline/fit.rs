@@ -1,7 +1,8 @@
 //! Whether a garment suits its body before cloth moves: its size, and where its pieces start.
 
+use super::across::in_one_place;
 use crate::contact::Collider;
-use crate::geometry::{Vec2, box_of, range_of};
+use crate::geometry::{Vec2, Vec3, box_of, range_of};
 use crate::io::garment::Loaded;
 use crate::mannequin::Mannequin;
 use crate::mesh::ClothMesh;
@@ -55,11 +56,26 @@ pub(super) fn check_places(loaded: &Loaded, mesh: &ClothMesh, body: &Mannequin, 
             return findings.error(spot, Problem::Place(error.to_string()));
         }
     };
+    doubt_places(loaded, mesh, &start, findings);
     for (piece, cut) in loaded.garment.pieces.iter().zip(&mesh.pieces) {
         let Some(Place::At { .. }) = piece.place else { continue };
         if let Some(deepest) = left_inside(collider, &start[cut.particles.clone()]) {
             let problem = Problem::StartsInside { piece: piece.name.clone(), depth_mm: 1e3 * deepest };
             findings.error(spot_of(loaded, piece), problem);
+        }
+    }
+}
+
+/// Warns of pieces that start in one place: nothing leads them apart.
+fn doubt_places(loaded: &Loaded, mesh: &ClothMesh, start: &[Vec3], findings: &mut Findings) {
+    let mut told: Vec<[&str; 2]> = Vec::new();
+    for (pair, _) in in_one_place(mesh, start) {
+        let [one, other] = pair.map(|number| &loaded.garment.pieces[number]);
+        let names = [one.drawn_as.as_str(), other.drawn_as.as_str()];
+        if !told.contains(&names) {
+            told.push(names);
+            let problem = Problem::OnePlace { one: one.name.clone(), other: other.name.clone(), layer: other.layer };
+            findings.warn(spot_of(loaded, other), problem);
         }
     }
 }

@@ -31,6 +31,7 @@ use super::resolve::{Context, from_sheet};
 use super::sheet::{FabricSheet, LiuMeasures, Measurement};
 use super::{Fabric, FabricError};
 use crate::fabric::units::GF_PER_CM;
+use crate::input::quoted;
 use cycle::{Cycle, Kind};
 use file::{Geometric, Source};
 use laboratory::{DIRECTIONS, short};
@@ -215,9 +216,4 @@ fn liu_yaml(liu: &LiuMeasures) -> String {
     }
     let _ = write!(out, "  normalised: [{}]\n  weights: [{}]\n", list(liu.normalised, 6), list(liu.weights, 4));
     out
-}
-
-/// A YAML string between double quotes, escaped as JSON does.
-fn quoted(text: &str) -> String {
-    serde_json::Value::from(text).to_string()
 }

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use crate::input::{nearest, shown};
-use crate::pattern::{Findings, Located, Problem, Quantity, Spot, Value, parse_quantity};
+use crate::pattern::{Findings, LARGEST, Located, Problem, Quantity, Spot, Value, parse_quantity};
 
 /// The entries of a mapping that have not been asked for yet.
 pub(super) struct Fields<'v> {
@@ -215,9 +215,6 @@ pub(super) fn quantity(value: &Located<Value>, what: &str, findings: &mut Findin
         }
     }
 }
-
-/// Numbers beyond this mean nothing in any unit, and would fill a message with digits.
-const LARGEST: f64 = 1e9;
 
 /// A finite number of no more than [`LARGEST`].
 fn sensible(text: &str) -> Option<f64> {

@@ -3,6 +3,7 @@
 use serde_yaml::Value as Yaml;
 
 use super::encode::EncodeError;
+use crate::input::quoted;
 
 /// Longest line that a list or mapping is put on.
 const WIDTH: usize = 110;
@@ -78,9 +79,4 @@ fn scalar(value: &Yaml) -> Result<String, EncodeError> {
     }
     let text = serde_yaml::to_string(value).map_err(|e| EncodeError::new(&e))?;
     Ok(text.trim_end_matches('\n').to_owned())
-}
-
-/// In double quotes, with JSON's escapes, which are YAML's too.
-fn quoted(text: &str) -> String {
-    serde_json::Value::from(text).to_string()
 }

@@ -3,7 +3,7 @@
 use pdf_writer::{Content, Name, Str};
 
 use super::POINTS;
-use crate::cutting::{MarkKind, Paper, SewKind, Sheet, TEST_SQUARE};
+use crate::cutting::{MarkKind, Paper, SewKind, Sheet, TEST_SQUARE, grain_arrow};
 use crate::geometry::{Path, Vec2};
 
 /// Widths of lines, points: what is cut, and everything else.
@@ -14,8 +14,6 @@ const SEWN: [f32; 2] = [8.0, 5.0];
 const FOLD: [f32; 4] = [24.0, 6.0, 4.0, 6.0];
 /// Half the arms of a drill mark's cross, metres.
 const DRILL: f64 = 0.002;
-/// Barbs of arrows, metres.
-const BARB: f64 = 0.006;
 /// How far chords may be from the curves they stand for where only the page counts, metres.
 const CHORDS: f64 = 1e-4;
 /// Widths of Helvetica's letters from the blank to `~`, thousandths of the size, as its metrics give them; other
@@ -175,16 +173,10 @@ impl Pen {
             self.line(&[at - Vec2::x() * DRILL, at + Vec2::x() * DRILL], true);
             self.line(&[at - Vec2::y() * DRILL, at + Vec2::y() * DRILL], true);
         }
-        self.arrow(paper.grain);
+        self.line(&grain_arrow(paper.grain), true);
         for t in &paper.texts {
             self.text(&t.text, t.at, t.height, true, t.upright);
         }
-    }
-
-    /// The grain: barbs at both ends.
-    fn arrow(&mut self, grain: [Vec2; 2]) {
-        self.line(&grain, true);
-        barbs(grain).iter().for_each(|barb| self.line(barb, true));
     }
 }
 
@@ -206,8 +198,7 @@ pub(super) fn lines(paper: &Paper) -> Vec<[Vec2; 2]> {
     for (_, at) in &paper.drills {
         [Vec2::x(), Vec2::y()].iter().for_each(|arm| add(&[at - arm * DRILL, at + arm * DRILL]));
     }
-    add(&paper.grain);
-    barbs(paper.grain).iter().for_each(|barb| add(barb));
+    add(&grain_arrow(paper.grain));
     for t in &paper.texts {
         let along = if t.upright { Vec2::y() } else { Vec2::x() };
         let up = Vec2::new(along.y, -along.x) * t.height;
@@ -215,16 +206,6 @@ pub(super) fn lines(paper: &Paper) -> Vec<[Vec2; 2]> {
         add(&[t.at - half, t.at + half, t.at + half + up, t.at - half + up, t.at - half]);
     }
     lines
-}
-
-/// At both ends of the grain's arrow.
-fn barbs([tail, head]: [Vec2; 2]) -> [[Vec2; 3]; 2] {
-    let along = (head - tail).try_normalize(0.0).unwrap_or_else(Vec2::y);
-    let across = Vec2::new(-along.y, along.x);
-    [(tail, 1.0), (head, -1.0)].map(|(end, back)| {
-        let barb = |side: f64| end + (along * back + across * (side / 2.0)) * BARB;
-        [barb(1.0), end, barb(-1.0)]
-    })
 }
 
 /// Width of letters set in size 1.

@@ -20,7 +20,7 @@ use self::viewport::{Frame, inner, sheet};
 use crate::digitize::{Drawing, Material, Remark, Role, Stroke, ToldNotch, Traced, besides, pieces};
 use crate::geometry::{Path, Vec2, parse_transform};
 use crate::input::{InputError, bytes, shown};
-use crate::pattern::{LineKind, NotchKind, Side};
+use crate::pattern::{Corner, LineKind, NotchKind, Side};
 
 /// Larger files are not patterns.
 const MOST_BYTES: u64 = 30 << 20;
@@ -108,12 +108,13 @@ pub fn read_svg_text(text: &str) -> Result<Drawing, SvgError> {
     }
     let left_out = LeftOut::default();
     let (strokes, remarks, texts) = (Vec::new(), Vec::new(), Vec::new());
-    let (right, materials) = (Vec::new(), Vec::new());
-    let mut reader = Reader { document: &document, strokes, remarks, texts, right, materials, left_out };
+    let (right, materials, corners) = (Vec::new(), Vec::new(), Vec::new());
+    let mut reader = Reader { document: &document, strokes, remarks, texts, right, materials, corners, left_out };
     reader.walk(root)?;
     let Drawing { mut pieces, left_out: unclosed, .. } = pieces(&reader.strokes, &reader.remarks);
     for piece in &mut pieces {
         piece.drawn = reader.right.contains(&piece.name).then_some(Side::Right);
+        piece.corners = reader.corners.iter().filter(|(name, _)| *name == piece.name).map(|(_, c)| c.clone()).collect();
         piece.material = reader.materials.iter().find(|(name, _)| *name == piece.name).map(|(_, m)| m.clone());
     }
     reader.leave_out_unread(&pieces);
@@ -147,6 +148,8 @@ struct Reader<'a, 'i> {
     right: Vec<String>,
     /// What groups are cut from, as toile itself writes it.
     materials: Vec<(String, Material)>,
+    /// How the allowances of groups' edges end at corners, as toile itself writes it.
+    corners: Vec<(String, (String, Corner))>,
     left_out: LeftOut,
 }
 
@@ -208,6 +211,7 @@ impl Reader<'_, '_> {
             }
         }
         self.remarks.extend(remark);
+        self.corners.extend(scope.group.clone().zip(told_corner(node, scope.group.as_deref())));
         let Some(role) = role else { return Ok(()) };
         let Some(commands) = commands(node, name) else {
             // An empty path draws nothing; a shape that has no numbers may have been meant to.
@@ -366,6 +370,12 @@ fn line_kind(node: Node) -> Option<LineKind> {
     fold.or_else(elastic).or_else(mark)
 }
 
+/// An edge's name and how its allowance ends at corners, as toile itself writes it.
+fn told_corner(node: Node, group: Option<&str>) -> Option<(String, Corner)> {
+    let corner = Corner::from_word(node.attribute("data-corner")?)?;
+    Some((own_name(node, group)?, corner))
+}
+
 /// What is told of a notch, as toile itself writes it.
 fn told_notch(node: Node) -> Option<ToldNotch> {
     let kind = NotchKind::from_word(node.attribute("data-notch")?)?;
@@ -420,8 +430,8 @@ fn role(node: Node, classes: &str) -> Option<Role> {
     })
 }
 
-/// Whether a path has two points only: the fold itself, not its arrow.
+/// Whether it is one straight line: the fold itself, not its arrow.
 fn is_line(node: Node) -> bool {
-    let commands = node.attribute("d").unwrap_or("");
-    commands.chars().filter(|c| c.is_ascii_alphabetic()).count() == 2
+    let lines = commands(node, node.tag_name().name()).and_then(|text| Path::parse_many(&text).ok());
+    matches!(lines.as_deref(), Some([line]) if line.is_straight())
 }

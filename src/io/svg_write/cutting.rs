@@ -4,12 +4,12 @@
 //! `grain`, `line`, `drill` and `text`; the test square in a group of class `scale`. What a piece is cut from stands in
 //! `data-material` and, where it is a fabric of the library, `data-fabric` of its group. A notch runs from the cut
 //! line to the sewing line or, by way of a point there, beyond; `data-notch` says what it belongs to, `data-edge` where
-//! it is.
+//! it is; `data-corner` how the allowance of an edge ends, where the file says so.
 
 use svg::node::element::{Circle, Group, Path, Title};
 
-use super::{centered, document, identifier, number, polyline, printable, square, stroke, with_kind};
-use crate::cutting::{Lettering, MarkKind, NotchMark, Paper, SewKind, Sheet};
+use super::{centered, document, identifier, number, polyline, printable, square, stroke, told_notch, with_kind};
+use crate::cutting::{Lettering, MarkKind, NotchMark, Paper, SewKind, Sheet, grain_arrow};
 use crate::geometry::{MM, Vec2};
 
 /// Widths of lines, mm: what is cut, and everything else.
@@ -17,8 +17,6 @@ const CUT: f64 = 0.5;
 const FINE: f64 = 0.25;
 /// Radius of a drill mark, mm.
 const DRILL: f64 = 1.5;
-/// Barbs of arrows, mm.
-const BARB: f64 = 6.0;
 /// Height of the test square's letters, mm.
 const LETTERS: f64 = 6.0;
 
@@ -53,7 +51,10 @@ fn draw(paper: &Paper) -> Group {
         group = group.add(line.set("id", format!("{name}.fold")).set("stroke-dasharray", "12 3 2 3"));
     }
     for line in &paper.sew {
-        let path = stroke(line.path.to_svg(MM, true), "sew", FINE).set("stroke-dasharray", "4 2");
+        let mut path = stroke(line.path.to_svg(MM, true), "sew", FINE).set("stroke-dasharray", "4 2");
+        if let Some(corner) = line.corner {
+            path = path.set("data-corner", corner.word());
+        }
         // A dart's mouth is no edge of the piece, and there may be several.
         group = group.add(match line.of {
             SewKind::Mouth => path,
@@ -90,7 +91,7 @@ fn draw(paper: &Paper) -> Group {
             .set("stroke-width", FINE);
         group = group.add(circle);
     }
-    group = group.add(grain(paper.grain.map(|p| p * MM)));
+    group = group.add(polyline(&grain_arrow(paper.grain).map(|p| p * MM), "grain", FINE));
     paper.texts.iter().fold(group, |group, t| group.add(letters(t)))
 }
 
@@ -106,26 +107,7 @@ fn slit(notch: &NotchMark) -> Path {
     let mut points = vec![notch.at, notch.sewn, notch.inside];
     points.dedup();
     let points: Vec<Vec2> = points.into_iter().map(|p| p * MM).collect();
-    let line = polyline(&points, "notch", FINE);
-    line.set("data-notch", notch.kind.word()).set("data-edge", identifier(&notch.edge))
-}
-
-/// The grain's double arrow.
-fn grain([tail, head]: [Vec2; 2]) -> Path {
-    let along = (head - tail).try_normalize(0.0).unwrap_or_else(Vec2::y);
-    let across = Vec2::new(-along.y, along.x);
-    let barb = |at: Vec2, back: f64, side: f64| at + (along * back + across * (side / 2.0)) * BARB;
-    let points = [
-        barb(tail, 1.0, 1.0),
-        tail,
-        barb(tail, 1.0, -1.0),
-        tail,
-        head,
-        barb(head, -1.0, 1.0),
-        head,
-        barb(head, -1.0, -1.0),
-    ];
-    polyline(&points, "grain", FINE)
+    told_notch(polyline(&points, "notch", FINE), notch.kind, &notch.edge)
 }
 
 fn letters(line: &Lettering) -> svg::node::element::Text {

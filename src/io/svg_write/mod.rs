@@ -12,7 +12,7 @@ pub use cutting::cutting_svg;
 
 use crate::cutting::TEST_SQUARE;
 use crate::geometry::{Cubic, MM, Vec2};
-use crate::pattern::LineKind;
+use crate::pattern::{LineKind, NotchKind};
 
 /// An empty sheet, mm.
 pub(super) fn document(size: Vec2) -> Document {
@@ -61,6 +61,11 @@ pub(super) fn with_kind(path: Path, kind: &LineKind) -> Path {
         LineKind::Elastic(ratio) => path.set("data-elastic", number(*ratio)),
         LineKind::Mark(kind) => path.set("data-kind", identifier(kind)),
     }
+}
+
+/// What a notch's mark belongs to, and the edge it is on, for programs.
+pub(super) fn told_notch(mark: Path, kind: NotchKind, edge: &str) -> Path {
+    mark.set("data-notch", kind.word()).set("data-edge", identifier(edge))
 }
 
 /// A line through points, mm.

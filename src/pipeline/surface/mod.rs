@@ -28,8 +28,7 @@ pub use write::{FLAT_OBJ, FLAT_PNG, OUTLINE_SVG};
 
 /// A surface smaller than this many file units is in metres, smaller than the next in centimetres, else in millimetres:
 /// pieces of garments are between 4 cm and 4 m large.
-const METRES_BELOW: f64 = 4.0;
-const CENTIMETRES_BELOW: f64 = 250.0;
+const UNITS_BELOW: [f64; 2] = [4.0, 250.0];
 /// No weave is strained by more, whatever its fibre: sheared by 30°, where its threads lock, it is by 0.29 along a
 /// diagonal, and the stretchiest threads of the library's weaves give less than another 0.2.
 const BEYOND_WEAVES: f64 = 0.5;
@@ -184,14 +183,7 @@ impl Source<'_> {
 /// The unit of a file whose surface is that large.
 fn guessed(faces: &ObjFaces) -> LengthUnit {
     let [low, high] = box_of(faces.faces.iter().flatten().map(|&v| faces.vertices[v as usize]));
-    let size = (high - low).max();
-    if size < METRES_BELOW {
-        LengthUnit::Metre
-    } else if size < CENTIMETRES_BELOW {
-        LengthUnit::Centimetre
-    } else {
-        LengthUnit::Millimetre
-    }
+    LengthUnit::guessed((high - low).max(), UNITS_BELOW)
 }
 
 /// The stage that laid pieces with these figures flat.
