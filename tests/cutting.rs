@@ -670,7 +670,6 @@ fn labels_cross_no_line_that_is_cut_or_sewn() {
     }
 }
 
-/// Where there is no room on a piece its label stands under it, and the sheet is so much larger.
 /// On a narrow band the barbs of the grain's arrow take most of the room.
 #[test]
 fn labels_are_clear_of_the_grain_s_arrow_and_its_barbs() {
@@ -699,6 +698,7 @@ fn labels_are_clear_of_the_grain_s_arrow_and_its_barbs() {
     assert_eq!(crossed, Vec::<String>::new());
 }
 
+/// Where there is no room on a piece its label stands under it, and the sheet is so much larger.
 #[test]
 fn a_label_beside_its_piece_is_on_the_sheet() {
     let paper = paper_of("    outline: {start: 0 0, top: L 40 0, right: L 40 8, hem: L 0 8, left: L 0 0}\n");

@@ -132,59 +132,6 @@ fn a_seam_with_an_arm_between_its_edges_says_so_and_what_hangs_on_the_hand() {
     }
 }
 
-/// What a garment file that can be used is warned of.
-fn warnings(text: &str) -> Vec<Diagnostic> {
-    read_text("garment", "garment.yaml", text).unwrap_or_else(|e| panic!("{e}")).warnings
-}
-
-/// A bodice with a set-in sleeve, whose right one is drawn; `sleeve` is what it says of that.
-fn bodice(sleeve: &str, armhole: &str) -> String {
-    format!(
-        "garment: 1
-pieces:
-  front:
-    cut: pair
-    place: torso front
-    grain: [[50, 100], [50, 400]]
-    outline: {{start: 50 0, shoulder: L 180 30, armhole: C 165 100 170 220 220 230, side: L 220 500, hem: L 0 500,
-      center: L 0 60, neck: L 50 0}}
-  back: {{like: front, drawn: R, place: torso back}}
-  sleeve:
-    cut: pair
-    {sleeve}
-    place: arm
-    grain: [[0, 0], [0, 200]]
-    outline: {{start: -180 0, cap_back: C -100 -20 -60 -130 0 -130, cap_front: C 60 -130 100 -20 180 0,
-      under_front: L 140 400, wrist: L -140 400, under_back: L -180 0}}
-seams:
-  center: {{sew: front.center, to: mirror}}
-  center_back: {{sew: back.center, to: mirror}}
-  shoulder: {{sew: front.shoulder, to: back.shoulder}}
-  side: {{sew: front.side, to: back.side}}
-  under: {{sew: sleeve.under_front, to: sleeve.under_back}}
-{armhole}
-free: ['*.neck', '*.hem', '*.wrist']
-"
-    )
-}
-
-#[test]
-fn a_sleeve_drawn_for_the_other_arm_is_said_to_be_set_in_upside_down() {
-    let whole =
-        "  armhole: {sew: [front.armhole, back.armhole], to: [sleeve.cap_front, sleeve.cap_back], tolerance: 20}";
-    let parts = "  front_armhole: {sew: front.armhole, to: sleeve.cap_front, tolerance: 20}
-  back_armhole: {sew: back.armhole, to: sleeve.cap_back, tolerance: 20}";
-    let is_said = |d: &&Diagnostic| matches!(d.problem, Problem::UpsideDown { .. });
-    for armhole in [whole, parts] {
-        let right = warnings(&bodice("drawn: R", armhole));
-        assert_eq!(right.iter().find(is_said), None);
-        let wrong = warnings(&bodice("", armhole));
-        let said = wrong.iter().find(is_said).unwrap_or_else(|| panic!("nothing is said of {armhole}: {wrong:?}"));
-        assert!(said.message.contains("'sleeve' in upside down") && said.message.contains("'front'"), "{said}");
-        assert!(said.hint.as_deref().is_some_and(|h| h.contains("say drawn: R of 'sleeve'")), "{said}");
-    }
-}
-
 /// Two lists of edges that cannot be laid on each other as they are written can be, one of them turned round.
 #[test]
 fn a_twisted_seam_says_which_list_to_turn_round() {
@@ -216,4 +163,11 @@ fn a_twisted_seam_says_which_list_to_turn_round() {
             "{still:?}"
         );
     }
+    let halves = "garment: 1\npieces:\n  a: {cut: pair, grain: [[9, 9], [9, 90]], outline: {start: 0 0, top: L 100 0, \
+                  right: L 100 100, bottom: L 0 100, left: L 0 0}}\nseams:\n  side: {sew: [a.right, a.bottom], to: \
+                  mirror, face: same}\nfree: ['*.top', '*.left']\n";
+    let found = mistakes(halves);
+    let twisted = found.iter().find(|d| matches!(d.problem, Problem::Twisted { .. })).expect("a twisted seam");
+    let hint = twisted.hint.as_deref().expect("a hint");
+    assert!(hint.starts_with("leave face: same out") && !hint.contains("to: ["), "{hint}");
 }

@@ -270,7 +270,7 @@ fn letters_beyond_ascii_come_back_from_a_dxf() {
 #[test]
 fn titles_beyond_four_digits_come_back_from_a_dxf() {
     let text = window(false, "");
-    for title in ["Robe 👗 d'été", "服装 №1", "a \\U+ b \\U+D83D c", "👗👗 \\U+00"] {
+    for title in ["Robe 👗 d'été", "服装 №1", "a \\U+ b \\U+D83D c", "👗👗 \\U+00", "x \\U+zzzzé y"] {
         let dxf = cutting_dxf(title, &on_paper(&text));
         assert!(dxf.is_ascii());
         assert_eq!(read_dxf_text(&dxf, None).expect("pieces").title.as_deref(), Some(title));

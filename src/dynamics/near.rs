@@ -232,7 +232,8 @@ fn retain_unordered<T>(items: &mut Vec<T>, stays: &[bool]) {
     }
 }
 
-/// Turns a contact to where its closest points are now. One that did not matter in the last step has stayed on its side.
+/// Turns a contact to where its closest points are now. One that did not matter in the last step has stayed on its
+/// side.
 fn turn(contact: &mut Contact, found: &Found, mattered: bool, x: &[Vec3]) {
     if mattered {
         turn_on(contact, x);

@@ -202,8 +202,8 @@ pub(super) fn letters(text: &str) -> String {
     let mut rest = text;
     while let Some((before, after)) = rest.split_once("\\U+") {
         out.push_str(before);
-        let second = || after.get(4..)?.strip_prefix("\\U+");
-        let codes = code(after).into_iter().chain(second().and_then(code));
+        let second = || code(after.get(4..)?.strip_prefix("\\U+")?);
+        let codes = code(after).into_iter().flat_map(|first| std::iter::once(first).chain(second()));
         rest = match char::decode_utf16(codes).next() {
             Some(Ok(c)) => {
                 out.push(c);

@@ -8,7 +8,7 @@ use super::file::Unit;
 use super::problem::Problem;
 use super::rim::{Identities, Rims, joint_marks};
 use super::seam::{marks_between, tolerance};
-use super::select::{Candidate, Run, Source, turned};
+use super::select::{Candidate, Run, Source, is_mirror, turned};
 use super::walk::names_of;
 use super::{EdgeId, Give, Piece, Seam, SeamKind, Span};
 
@@ -129,7 +129,8 @@ impl Table<'_> {
         };
         let ends = format!("{} and {}", end(&candidate.a, false), end(&candidate.b, true));
         let to = candidate.b.iter().rev().map(|run| run.text.as_str());
-        let (turned, same) = (to.collect::<Vec<_>>().join(", "), candidate.file.is_face_same());
+        let turned = (!is_mirror(&candidate.file.to)).then(|| to.collect::<Vec<_>>().join(", "));
+        let same = candidate.file.is_face_same();
         findings.error(candidate.file.name.at, Problem::Twisted { seam, ends, turned, same });
     }
 

@@ -7,7 +7,7 @@ use super::file::{GarmentFile, PieceFile, SeamFile, Value};
 use super::inherit::complete_pieces;
 use super::problem::Problem;
 use super::seam::{Seams, check_orientable, seams};
-use super::{FabricUse, Garment, allowance, bound, closure, cover, layers, notch, place_word, sleeve};
+use super::{FabricUse, Garment, allowance, bound, closure, cover, layers, notch, place_word};
 use crate::fabric::FabricSpec;
 use crate::input::nearest;
 use crate::input::shown;
@@ -66,7 +66,6 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
     let spots: Vec<Spot> = written.iter().map(|w| seam_file(w).map_or(file.version.at, |s| s.name.at)).collect();
     check_orientable(&garment, &turns, &spots, findings);
     layers::check(&garment, &turns, &spots, findings);
-    sleeve::check(&garment, &drafts, &spots, findings);
     notch::check(&garment, &written, &file.seams, findings);
     let sewable = sound && findings.errors() == before;
     garment.tests = bound::bounds(file, &garment, sewable, findings);

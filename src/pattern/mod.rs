@@ -46,7 +46,6 @@ mod region;
 mod rim;
 mod seam;
 mod select;
-mod sleeve;
 mod spelling;
 mod walk;
 

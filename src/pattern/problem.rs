@@ -1,7 +1,5 @@
 //! Everything that can be wrong with a garment file. Lengths in messages are millimetres.
 
-use super::file::Side;
-
 /// One kind of mistake, with what is needed to say it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "every field is a word or a number of the message above it")]
@@ -231,16 +229,11 @@ pub enum Problem {
     #[error("chain in '{seam}' is not continuous: {end}, {start}")]
     ChainBroken { seam: String, end: String, start: String, drawn: bool },
     #[error("seam '{seam}' is twisted: its ends meet {ends}")]
-    Twisted { seam: String, ends: String, turned: String, same: bool },
+    Twisted { seam: String, ends: String, turned: Option<String>, same: bool },
     #[error("'{piece}' lies on '{on}' (face: same), but both are on layer {layer}: it starts outside '{on}'")]
     OneLayer { piece: String, on: String, layer: i32 },
-    #[error(
-        "seam '{seam}' sets '{sleeve}' in upside down: the top of its cap comes to the lowest part of the armhole of \
-         '{on}'"
-    )]
-    UpsideDown { seam: String, sleeve: String, on: String, other: Option<Side> },
     #[error("'{one}' and '{other}' start in one place, and nothing leads them apart")]
-    OnePlace { one: String, other: String, layer: i32 },
+    OnePlace { one: String, other: String, copies: bool },
     #[error("sewing closes the surface into a non-orientable band at '{0}'")]
     NonOrientable(String),
     #[error("garment has {found} openings, expected {expected}: {rims}")]
@@ -333,19 +326,12 @@ impl Problem {
                 layer - 1,
                 layer + 1
             ),
-            Self::UpsideDown { sleeve, other, .. } => {
-                let remedy = match other {
-                    Some(side) => format!("say drawn: {} of '{sleeve}', or mirror its outline", side.letter()),
-                    None => format!("mirror the outline of '{sleeve}'"),
-                };
-                format!(
-                    "it is drawn for the other arm: seen from outside, the front of a left sleeve is at the left of \
-                     its drawing and that of a right one at the right; {remedy}"
-                )
+            Self::OnePlace { copies: true, other, .. } => {
+                format!("draw '{other}' as a piece of its own (like: ...) with another place or layer, or cut one only")
             }
-            Self::OnePlace { other, layer, .. } => format!(
-                "give '{other}' another place, or layer: {} if it is worn over the other, or leave one of them out",
-                layer + 1
+            Self::OnePlace { other, .. } => format!(
+                "give '{other}' another place, or another layer (1 if it is worn over the other, -1 if under it), or \
+                 leave one of them out"
             ),
             Self::DrawnUpwards => {
                 "give every y the other sign if it was, or the garment hangs upside down; if it was not, distances \
@@ -365,11 +351,14 @@ impl Problem {
                     .to_owned()
             }
             Self::ChainBroken { .. } => "name the edges in the order they are sewn, end to end".to_owned(),
-            Self::Twisted { turned, same: false, .. } => format!(
+            Self::Twisted { turned: None, .. } => {
+                "leave face: same out: halves are sewn to each other with the right sides out".to_owned()
+            }
+            Self::Twisted { turned: Some(turned), same: false, .. } => format!(
                 "with the right sides out its two lists run opposite ways round their pieces, and these run the same \
                  way; turn one round, to: [{turned}], or say face: same if one piece is laid on the other"
             ),
-            Self::Twisted { turned, same: true, .. } => format!(
+            Self::Twisted { turned: Some(turned), same: true, .. } => format!(
                 "with face: same its two lists run the same way round their pieces, and these run opposite ways; turn \
                  one round, to: [{turned}], or leave face: same out if the right sides are out"
             ),

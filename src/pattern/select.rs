@@ -268,7 +268,8 @@ impl Source<'_> {
     }
 }
 
-fn is_mirror(chain: &[super::Located<String>]) -> bool {
+/// Whether a seam's second chain is the other half of the first.
+pub(super) fn is_mirror(chain: &[super::Located<String>]) -> bool {
     matches!(chain, [to] if to.value == "mirror")
 }
 

@@ -65,7 +65,11 @@ fn two_pieces(Crossing { piece, through, near, .. }: Crossing) -> Option<([Strin
 
 /// Pieces that lie in one another with the particles at `at`, two and two, and a particle that does.
 pub(super) fn in_one_place<'a>(mesh: &'a ClothMesh, at: &'a [Vec3]) -> impl Iterator<Item = ([usize; 2], Vec3)> + 'a {
-    let skin = |piece: &PieceMesh| Skin::new(at, mesh.triangles[piece.triangles.clone()].to_vec());
+    let skin = |piece: &PieceMesh| {
+        let triangles = mesh.triangles[piece.triangles.clone()].iter();
+        let own = triangles.map(|t| t.map(|p| p - piece.particles.start as u32));
+        Skin::new(&at[piece.particles.clone()], own.collect())
+    };
     let skins: Vec<Option<Skin>> = mesh.pieces.iter().map(skin).collect();
     // Where two pieces are sewn together they meet.
     let stitches = mesh.seams.iter().flat_map(|s| &s.pairs).flat_map(|&[p, q]| [[p, q], [q, p]]);

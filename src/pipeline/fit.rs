@@ -74,7 +74,8 @@ fn doubt_places(loaded: &Loaded, mesh: &ClothMesh, start: &[Vec3], findings: &mu
         let names = [one.drawn_as.as_str(), other.drawn_as.as_str()];
         if !told.contains(&names) {
             told.push(names);
-            let problem = Problem::OnePlace { one: one.name.clone(), other: other.name.clone(), layer: other.layer };
+            let copies = names[0] == names[1];
+            let problem = Problem::OnePlace { one: one.name.clone(), other: other.name.clone(), copies };
             findings.warn(spot_of(loaded, other), problem);
         }
     }
