@@ -1,5 +1,7 @@
 //! Cloth, body and contact together, advanced step by step.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 
 use super::contact_law::{ContactLaw, Hardening};
@@ -260,9 +262,7 @@ impl<'a> World<'a> {
         }
     }
 
-    /// The same with the contacts that are known to matter. They turn with the step: the corner of a waistband that is
-    /// wedged between two edges slid on by millimetres on planes that were not there any more, and came to press with a
-    /// hundred newtons, step after step.
+    /// The same with the contacts that are known to matter.
     fn shortened(&self, d: &[Vec3], mut share: f64, demand: &Demand) -> Descent {
         let forces = self.forces(&[]);
         let loads: Vec<f64> = forces.contacts.iter().map(|c| forces.load(&self.cloth, &self.x, c)).collect();
@@ -274,13 +274,24 @@ impl<'a> World<'a> {
             self.proximity.clamp(&self.x, &mut target);
             let Foreseen { loads: foresaw, beyond } =
                 if demand.foresees { self.cloth.foresee(&self.x, &target) } else { Foreseen::default() };
-            let gain = from - energy(&self.proximity.near_after(&target), &target) + beyond;
+            let gain = from - energy(&self.contacts_after(&target), &target) + beyond;
             let enough = ENOUGH * share * demand.expected.max(0.0) - demand.allowed;
             if gain > enough || gain.abs() < ROUNDING || halvings >= demand.halvings {
                 return Descent { target, gain, halvings, share, foresaw };
             }
             share *= 0.5;
             halvings += 1;
+        }
+    }
+
+    /// The contacts that a step to `target` is judged by. Those that harden fast turn with it: the corner of a
+    /// waistband that is wedged between two edges slid on by millimetres on planes that were not there any more, and
+    /// came to press with a hundred newtons, step after step. Soft ones stay as they are: newly stitched cloth settles
+    /// sooner so.
+    fn contacts_after(&self, target: &[Vec3]) -> Cow<'_, [Contact<'a>]> {
+        match self.law.hardening {
+            Hardening::Fast => self.proximity.near_after(target).into(),
+            Hardening::Slow => self.proximity.near().into(),
         }
     }
 
