@@ -58,10 +58,21 @@ pub(super) fn grain(drawing: &Drawing, room: &Room) -> [Vec2; 2] {
 
 /// The double arrow of a grain line, drawn without lifting the pen.
 pub fn grain_arrow([tail, head]: [Vec2; 2]) -> [Vec2; 8] {
+    let ([a, b], [c, d]) = (barbs([head, tail], GRAIN_BARB), barbs([tail, head], GRAIN_BARB));
+    [b, tail, a, tail, head, c, head, d]
+}
+
+/// An arrow with its two barbs, `size` long and as wide, drawn without lifting the pen.
+pub fn arrow([tail, head]: [Vec2; 2], size: f64) -> [Vec2; 5] {
+    let [a, b] = barbs([tail, head], size);
+    [tail, head, a, head, b]
+}
+
+/// The tips of the barbs at the head of an arrow.
+fn barbs([tail, head]: [Vec2; 2], size: f64) -> [Vec2; 2] {
     let along = (head - tail).try_normalize(0.0).unwrap_or_else(Vec2::y);
     let across = Vec2::new(-along.y, along.x);
-    let barb = |at: Vec2, back: f64, side: f64| at + (along * back + across * (side / 2.0)) * GRAIN_BARB;
-    [barb(tail, 1.0, 1.0), tail, barb(tail, 1.0, -1.0), tail, head, barb(head, -1.0, 1.0), head, barb(head, -1.0, -1.0)]
+    [0.5, -0.5].map(|side| head + (across * side - along) * size)
 }
 
 fn grain_as_drawn(drawing: &Drawing) -> [Vec2; 2] {
@@ -104,21 +115,13 @@ fn pleat(drawing: &Drawing, edge: (usize, usize), from: f64, to: f64) -> Vec<Mar
     };
     let [one, other] = [from, to].map(|at| [path.point(at), path.point(at) + inward(at) * PLEAT]);
     let middle = |ends: [Vec2; 2]| (ends[0] + ends[1]) / 2.0;
-    let arrow = arrow(middle(one), middle(other));
+    let arrow = Path::polyline(&arrow([middle(one), middle(other)], BARB));
     let mark = |kind, path: Path| Mark { kind, name: drawing.edge(edge).name.clone(), path, line: None };
     vec![
         mark(MarkKind::PleatFold, Path::line(one[0], one[1])),
         mark(MarkKind::PleatPlace, Path::line(other[0], other[1])),
         mark(MarkKind::PleatArrow, arrow),
     ]
-}
-
-/// An arrow with its two barbs, drawn without lifting the pen.
-fn arrow(tail: Vec2, head: Vec2) -> Path {
-    let along = (head - tail).try_normalize(0.0).unwrap_or_else(Vec2::y);
-    let across = Vec2::new(-along.y, along.x);
-    let barb = |side: f64| head - along * BARB + across * (side * BARB / 2.0);
-    Path::polyline(&[tail, head, barb(1.0), head, barb(-1.0)])
 }
 
 /// Along the fold, both ends bent to it and barbed. The cloth lies to the right of `from → to`.
@@ -128,19 +131,8 @@ fn bent_arrow([from, to]: [Vec2; 2]) -> Path {
     let inward = Vec2::new(-along.y, along.x) * BENT.0;
     let clear = along * (length / 5.0).min(BENT.1);
     let (one, other) = (from + clear, to - clear);
-    let barb = |at: Vec2, side: f64| at + inward.normalize() * BARB + along * (side * BARB / 2.0);
-    Path::polyline(&[
-        barb(one, 1.0),
-        one,
-        barb(one, -1.0),
-        one,
-        one + inward,
-        other + inward,
-        other,
-        barb(other, 1.0),
-        other,
-        barb(other, -1.0),
-    ])
+    let [[a, b], [c, d]] = [one, other].map(|at| barbs([at + inward, at], BARB));
+    Path::polyline(&[a, one, b, one, one + inward, other + inward, other, c, other, d])
 }
 
 /// Tips of darts, ends and middle of fish-eyes, buttons.

@@ -18,7 +18,7 @@ mod whole;
 
 pub use label::LETTER_WIDTH;
 pub use layout::{Layout, Sheet, TEST_SQUARE, shelves};
-pub use marks::grain_arrow;
+pub use marks::{arrow, grain_arrow};
 pub use outline::papers;
 pub use room::{Room, foot};
 

@@ -7,7 +7,7 @@ use svg::node::element::{Group, Path, Text};
 use svg::{Document, Node};
 
 use super::svg_write::{centered, curved, document, identifier, polyline, square, told_notch, with_kind};
-use crate::cutting::{LETTER_WIDTH, Room, TEST_SQUARE, foot, shelves};
+use crate::cutting::{LETTER_WIDTH, Room, TEST_SQUARE, arrow, foot, shelves};
 use crate::geometry::{MM, Vec2, box_or_origin, smooth_curves};
 use crate::mesh::{ClothMesh, EdgeParticles, PieceMesh};
 use crate::pattern::{Notch, NotchKind};
@@ -104,14 +104,6 @@ fn begin<'a>(cloth: &'a ClothMesh, flat: &[Vec2]) -> Result<Begun<'a>, PatternSv
     }
     let square = square(corners[sheets.len()] + margin, LETTERS);
     Ok(Begun { sheets, square, document: document(size + 2.0 * margin) })
-}
-
-/// An arrow with its barbs.
-fn arrow([tail, head]: [Vec2; 2]) -> [Vec2; 5] {
-    let along = (head - tail).try_normalize(0.0).unwrap_or_else(Vec2::y);
-    let across = Vec2::new(-along.y, along.x);
-    let barb = |side: f64| head - (along * 2.0 + across * side) * (BARB / 2.0);
-    [tail, head, barb(1.0), head, barb(-1.0)]
 }
 
 /// A piece in millimetres on the sheet.
@@ -233,7 +225,7 @@ impl<'a> Sheet<'a> {
     /// The grain's arrow on the cloth, and the piece's name clear of every line.
     fn grain_and_label(&self, marks: &[[Vec2; 2]]) -> [Box<dyn Node>; 2] {
         let mut room = self.room();
-        let grain = arrow(room.arrow(self.grain()));
+        let grain = arrow(room.arrow(self.grain()), BARB);
         room.add_wall(&grain);
         marks.iter().for_each(|line| room.add_wall(line));
         [Box::new(polyline(&grain, "grain", 0.3)), Box::new(self.label(&room))]

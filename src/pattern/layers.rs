@@ -1,9 +1,9 @@
 //! Pieces that lie on each other, and on which layer.
 
 use super::diagnostic::{Findings, Spot};
-use super::place_word::{PlaceWord, meanings};
+use super::place_word::{PlaceWord, place_word, words_of};
 use super::problem::Problem;
-use super::{Garment, Piece, Seam};
+use super::{Garment, Piece, Place, Seam};
 
 /// A seam with `face: same` lays one piece on another. Both on one layer, what was meant as a facing starts outside.
 /// `laid` says which of the seams are of that kind, and `at` where they stand.
@@ -31,4 +31,13 @@ fn lies_on(a: &Piece, b: &Piece) -> bool {
     let faces = says(&a, PlaceWord::Front) != says(&a, PlaceWord::Back);
     let round_neck = says(&a, PlaceWord::Neck) || says(&b, PlaceWord::Neck);
     faces && alike(PlaceWord::Front) && alike(PlaceWord::Back) && !round_neck
+}
+
+/// What the words of its place say, or else those of its name.
+fn meanings(piece: &Piece) -> Vec<PlaceWord> {
+    match &piece.place {
+        Some(Place::Around { words }) => words.iter().filter_map(|w| place_word(w)).collect(),
+        Some(Place::At { .. }) => Vec::new(),
+        None => words_of(&piece.drawn_as).iter().filter_map(|w| place_word(w)).collect(),
+    }
 }

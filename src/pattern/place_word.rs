@@ -3,7 +3,6 @@
 use super::diagnostic::Findings;
 use super::file::{GarmentFile, PieceFile, PlaceFile, Unit};
 use super::problem::Problem;
-use super::{Piece, Place};
 use crate::input::nearest;
 
 /// What a word says about where a piece goes.
@@ -53,15 +52,6 @@ pub fn words_of(name: &str) -> Vec<String> {
 pub fn place_word(word: &str) -> Option<PlaceWord> {
     let means = |word: &str| WORDS.iter().find(|(_, list)| list.contains(&word)).map(|(meaning, _)| *meaning);
     means(word).or_else(|| word.strip_suffix('s').and_then(means))
-}
-
-/// What the words of its place say, or else those of its name.
-pub(super) fn meanings(piece: &Piece) -> Vec<PlaceWord> {
-    match &piece.place {
-        Some(Place::Around { words }) => words.iter().filter_map(|w| place_word(w)).collect(),
-        Some(Place::At { .. }) => Vec::new(),
-        None => words_of(&piece.drawn_as).iter().filter_map(|w| place_word(w)).collect(),
-    }
 }
 
 /// A piece that starts farther from the feet than this, metres, is in another unit than thought.

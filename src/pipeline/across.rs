@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::run::Run;
 use crate::contact::Skin;
-use crate::geometry::{MM, Vec3};
+use crate::geometry::{MM, Vec3, box_of};
 use crate::mesh::{ClothMesh, PieceMesh};
 use crate::report::Crossing;
 use crate::sew::SewError;
@@ -71,6 +71,7 @@ pub(super) fn in_one_place<'a>(mesh: &'a ClothMesh, at: &'a [Vec3]) -> impl Iter
         Skin::new(&at[piece.particles.clone()], own.collect())
     };
     let skins: Vec<Option<Skin>> = mesh.pieces.iter().map(skin).collect();
+    let boxes: Vec<[Vec3; 2]> = mesh.pieces.iter().map(|p| box_of(at[p.particles.clone()].iter().copied())).collect();
     // Where two pieces are sewn together they meet.
     let stitches = mesh.seams.iter().flat_map(|s| &s.pairs).flat_map(|&[p, q]| [[p, q], [q, p]]);
     let sewn: HashSet<(usize, usize)> = stitches.filter_map(|[p, q]| Some((p as usize, mesh.piece_of(q)?))).collect();
@@ -83,5 +84,10 @@ pub(super) fn in_one_place<'a>(mesh: &'a ClothMesh, at: &'a [Vec3]) -> impl Iter
     };
     let count = mesh.pieces.len();
     let pairs = (0..count).flat_map(move |a| (a + 1..count).map(move |b| [a, b]));
-    pairs.filter_map(move |[a, b]| lying(a, b).or_else(|| lying(b, a)))
+    // Most pieces are nowhere near each other.
+    let near = move |&[a, b]: &[usize; 2]| {
+        let ([low, high], [other_low, other_high]) = (boxes[a], boxes[b]);
+        (0..3).all(|k| low[k] <= other_high[k] + ON && other_low[k] <= high[k] + ON)
+    };
+    pairs.filter(near).filter_map(move |[a, b]| lying(a, b).or_else(|| lying(b, a)))
 }
