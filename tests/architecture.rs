@@ -77,7 +77,7 @@ const CRATES: [(&str, &[&str]); 21] = [
     ("roxmltree", &["io/svg_read/"]),
     ("pdf_writer", &["io/pdf_write/"]),
     ("svgtypes", &["geometry/"]),
-    ("svg", &["io/pattern_svg.rs", "io/svg_write/"]),
+    ("svg", &["io/svg_write/"]),
     ("obj", &["io/obj_read.rs"]),
     // Written in `picture`; what users hand in is read where it is measured.
     ("png", &["picture/", "fabric/measure/photo.rs"]),

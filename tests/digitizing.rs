@@ -8,9 +8,8 @@ use toile::geometry::{Path, Vec2};
 use toile::io::dxf_read::read_dxf_text;
 use toile::io::dxf_write::cutting_dxf;
 use toile::io::garment::{Loaded, read_text, write};
-use toile::io::pattern_svg::pattern_svg;
 use toile::io::svg_read::read_svg_text;
-use toile::io::svg_write::cutting_svg;
+use toile::io::svg_write::{cutting_svg, pattern_svg};
 use toile::mesh::build;
 use toile::pattern::{Cut, DartFile, DartShape, Drawing, Located, NotchFile, PieceFile, drawings};
 

@@ -12,7 +12,7 @@ use toile::flatten::{
 };
 use toile::geometry::{TriMesh, Vec2, Vec3, rim_loops};
 use toile::input::LengthUnit;
-use toile::io::pattern_svg::{PatternSvgError, pattern_svg};
+use toile::io::svg_write::{PatternSvgError, pattern_svg};
 use toile::mesh::{ClothMesh, EdgeParticles, PieceMesh, Stitches};
 use toile::pattern::{EdgeId, Give, Notch, Seam, SeamKind};
 use toile::pipeline::{Cuts, Limit, SurfaceOptions, flatten_surface};

@@ -13,7 +13,6 @@ pub mod garmentcode;
 pub mod glb_write;
 pub mod obj_read;
 pub mod obj_write;
-pub mod pattern_svg;
 pub mod pdf_write;
 pub mod svg_read;
 pub mod svg_write;

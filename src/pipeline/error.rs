@@ -11,7 +11,7 @@ use crate::flatten::FlattenError;
 use crate::io::body::BodyError;
 use crate::io::garment::Refused;
 use crate::io::obj_read::ObjError;
-use crate::io::pattern_svg::PatternSvgError;
+use crate::io::svg_write::PatternSvgError;
 use crate::mannequin::Mannequin;
 use crate::mesh::MeshError;
 use crate::picture::PictureError;

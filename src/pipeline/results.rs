@@ -6,7 +6,7 @@ use crate::dynamics::identity_nodes;
 use crate::geometry::Vec3;
 use crate::io::glb_write::garment_glb;
 use crate::io::obj_write::garment_obj;
-use crate::io::pattern_svg::pattern_svg;
+use crate::io::svg_write::pattern_svg;
 use crate::pattern::Notch;
 use crate::picture::{Dressed, draw};
 use crate::report::{Report, vertex_strain};

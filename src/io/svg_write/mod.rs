@@ -1,21 +1,23 @@
-//! SVG out: patterns for cutting.
+//! SVG out: patterns for cutting, and the flat pieces that `make` and `flatten` leave.
 //!
 //! One user unit is one millimetre and width, height and viewBox say so. Coordinates are absolute (no transforms but
 //! for turned text) and every element carries its own styling, so that any program sees the same drawing.
 
 mod cutting;
+mod flat;
 
 use svg::Document;
 use svg::node::element::{Group, Path, Rectangle, Text};
 
 pub use cutting::cutting_svg;
+pub use flat::{PatternSvgError, outline_svg, pattern_svg};
 
 use crate::cutting::TEST_SQUARE;
 use crate::geometry::{Cubic, MM, Vec2};
 use crate::pattern::{LineKind, NotchKind};
 
 /// An empty sheet, mm.
-pub(super) fn document(size: Vec2) -> Document {
+fn document(size: Vec2) -> Document {
     Document::new()
         .set("width", format!("{}mm", number(size.x)))
         .set("height", format!("{}mm", number(size.y)))
@@ -23,7 +25,7 @@ pub(super) fn document(size: Vec2) -> Document {
 }
 
 /// The test square with its upper left corner at `corner`, mm.
-pub(super) fn square(corner: Vec2, letters: f64) -> Group {
+fn square(corner: Vec2, letters: f64) -> Group {
     let side = TEST_SQUARE * MM;
     let square = Rectangle::new()
         .set("x", number(corner.x))
@@ -37,7 +39,7 @@ pub(super) fn square(corner: Vec2, letters: f64) -> Group {
     Group::new().set("class", "scale").add(square).add(label)
 }
 
-pub(super) fn text(content: &str, at: Vec2, height: f64) -> Text {
+fn text(content: &str, at: Vec2, height: f64) -> Text {
     Text::new(printable(content))
         .set("class", "text")
         .set("x", number(at.x))
@@ -49,13 +51,13 @@ pub(super) fn text(content: &str, at: Vec2, height: f64) -> Text {
 }
 
 /// Words centred on the middle of their foot, mm, turned to be read from the right if `upright`.
-pub(super) fn centered(content: &str, at: Vec2, height: f64, upright: bool) -> Text {
+fn centered(content: &str, at: Vec2, height: f64, upright: bool) -> Text {
     let text = text(content, at, height).set("text-anchor", "middle");
     if upright { text.set("transform", format!("rotate(90 {} {})", number(at.x), number(at.y))) } else { text }
 }
 
 /// What a line does, for programs: `data-fold` in degrees, `data-elastic` as a share of its length.
-pub(super) fn with_kind(path: Path, kind: &LineKind) -> Path {
+fn with_kind(path: Path, kind: &LineKind) -> Path {
     match kind {
         LineKind::Fold(angle) => path.set("data-fold", number(angle.to_degrees())),
         LineKind::Elastic(ratio) => path.set("data-elastic", number(*ratio)),
@@ -64,18 +66,18 @@ pub(super) fn with_kind(path: Path, kind: &LineKind) -> Path {
 }
 
 /// What a notch's mark belongs to, and the edge it is on, for programs.
-pub(super) fn told_notch(mark: Path, kind: NotchKind, edge: &str) -> Path {
+fn told_notch(mark: Path, kind: NotchKind, edge: &str) -> Path {
     mark.set("data-notch", kind.word()).set("data-edge", identifier(edge))
 }
 
 /// A line through points, mm.
-pub(super) fn polyline(points: &[Vec2], class: &str, width: f64) -> Path {
+fn polyline(points: &[Vec2], class: &str, width: f64) -> Path {
     let steps: Vec<String> = points.iter().map(|p| format!("{} {}", number(p.x), number(p.y))).collect();
     stroke(if steps.is_empty() { String::new() } else { format!("M{}", steps.join(" L")) }, class, width)
 }
 
 /// Curves end to end, mm.
-pub(super) fn curved(curves: &[Cubic], class: &str, width: f64) -> Path {
+fn curved(curves: &[Cubic], class: &str, width: f64) -> Path {
     let at = |p: &Vec2| format!("{} {}", number(p.x), number(p.y));
     let start = curves.first().map_or_else(String::new, |c| format!("M{}", at(&c[0])));
     let steps = curves.iter().map(|[_, a, b, to]| format!(" C{} {} {}", at(a), at(b), at(to)));
@@ -99,7 +101,7 @@ fn number(x: f64) -> String {
 }
 
 /// A name as an attribute's value: XML forbids some characters, quotes would end the value and an id has no spaces.
-pub(super) fn identifier(name: &str) -> String {
+fn identifier(name: &str) -> String {
     name.chars().map(|c| if is_forbidden(c) || c.is_whitespace() || c == '"' { '_' } else { c }).collect()
 }
 

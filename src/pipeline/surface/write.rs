@@ -9,7 +9,7 @@ use super::darts::Laid;
 use super::edges::NamedEdge;
 use crate::flatten::triangle_strain;
 use crate::geometry::{MM, Vec2};
-use crate::io::pattern_svg::{outline_svg, pattern_svg};
+use crate::io::svg_write::{outline_svg, pattern_svg};
 use crate::mesh::{ClothMesh, EdgeParticles, PieceMesh};
 use crate::pattern::{EdgeId, Notch};
 use crate::picture::draw_flat;

@@ -1,12 +1,9 @@
 //! `pattern.svg`: the flat pieces at full size, to print, plot or cut.
-//!
-//! One user unit is one millimetre and width, height and viewBox say so. Coordinates are absolute (no transforms but
-//! for turned text) and every element carries its own styling, so that any program sees the same drawing.
 
 use svg::node::element::{Group, Path, Text};
 use svg::{Document, Node};
 
-use super::svg_write::{centered, curved, document, identifier, polyline, square, told_notch, with_kind};
+use super::{centered, curved, document, identifier, polyline, square, told_notch, with_kind};
 use crate::cutting::{LETTER_WIDTH, Room, TEST_SQUARE, arrow, foot, shelves};
 use crate::geometry::{MM, Vec2, box_or_origin, smooth_curves};
 use crate::mesh::{ClothMesh, EdgeParticles, PieceMesh};
