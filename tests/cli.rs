@@ -362,6 +362,19 @@ fn check_names_pieces_that_start_in_one_place() {
     let run = room.run(&["check", "over.yaml", "--spacing", "25"]);
     run.ends(0);
     assert!(!run.err.contains("one place"), "{}", run.err);
+    // Halves that widen lie over one another at the hem to begin with, and are led apart.
+    let half = "{place: skirt, cut: 2, grain: [[0, 300], [0, 700]], outline: {start: -204.5 204.5, \
+                waist: A 289.2 289.2 0 0 0 204.5 204.5, right: L 600 600, hem: A 848.5 848.5 0 0 1 -600 600, \
+                left: L -204.5 204.5}}";
+    let circle = format!(
+        "garment: 1\nbody: woman_92\nfabrics: {{shell: gabardine}}\npieces:\n  skirt: {half}\nseams:\n  r: {{sew: \
+         skirt.1.right, to: skirt.2.left, open: {{from: hem, length: 300}}}}\n  l: {{sew: skirt.2.right, to: \
+         skirt.1.left}}\nfree: [skirt.waist, skirt.hem]\n"
+    );
+    room.put("circle.yaml", &circle);
+    let run = room.run(&["check", "circle.yaml", "--spacing", "25"]);
+    run.ends(0);
+    assert!(!run.err.contains("one place"), "{}", run.err);
     room.put("lined.yaml", include_str!("data/lined_top.yaml"));
     let run = room.run(&["check", "lined.yaml", "--spacing", "25"]);
     run.ends(0);
@@ -784,6 +797,27 @@ fn of_many_parts_the_first_are_shown() {
     assert!(run.out.contains("and 20 more, which report.json has") && run.out.lines().count() < 50, "{}", run.out);
     let all = room.run(&["flatten", "soup.obj", "-o", "flat", "--units", "cm", "--json"]).json();
     assert_eq!(all["pieces"].as_array().map(Vec::len), Some(60));
+}
+
+/// Triangles that have no vertices in common do not say which of four that meet on a line are one surface.
+#[test]
+fn a_soup_of_triangles_is_told_what_is_not_seen() {
+    let room = Room::new();
+    let squares = [[[0, 0, 0], [9, 0, 0], [9, 9, 0], [0, 9, 0]], [[9, 0, 0], [18, 0, 0], [18, 9, 0], [9, 9, 0]]];
+    let upright = [[[9, 0, -9], [9, 9, -9], [9, 9, 0], [9, 0, 0]], [[9, 0, 0], [9, 9, 0], [9, 9, 9], [9, 0, 9]]];
+    let soup = |squares: &[[[i32; 3]; 4]]| {
+        let corner = |[x, y, z]: [i32; 3]| format!("v {x} {y} {z}\n");
+        let vertices: String = squares.iter().flatten().map(|p| corner(*p)).collect();
+        let faces = (0..squares.len()).map(|k| format!("f {} {} {} {}\n", 4 * k + 1, 4 * k + 2, 4 * k + 3, 4 * k + 4));
+        vertices + &faces.collect::<String>()
+    };
+    room.put("flat.obj", &soup(&squares));
+    let run = room.run(&["check", "--mesh", "flat.obj", "--units", "mm"]);
+    run.ends(0);
+    assert!(!run.err.contains("common vertices"), "{}", run.err);
+    room.put("through.obj", &soup(&[squares, upright].concat()));
+    let run = room.run(&["check", "--mesh", "through.obj", "--units", "mm"]);
+    run.says(&["in 1 places edges of triangles lie on two or more others without common vertices", "merge"]);
 }
 
 #[test]

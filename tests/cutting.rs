@@ -512,6 +512,9 @@ fn svg_read_back_is_full_size_and_has_the_same_cut_lines() {
         .collect();
     let view: Vec<f64> = attribute(head, "viewBox").expect("one").split(' ').map(|v| v.parse().expect("one")).collect();
     assert_eq!(view, [0.0, 0.0, size[0], size[1]], "one unit is a millimetre");
+    let square = svg.split('<').find(|e| e.starts_with("rect ")).expect("a test square");
+    let side = |name: &str| attribute(square, name).expect("one").parse::<f64>().expect("a number");
+    assert_eq!([side("width"), side("height")], [100.0; 2]);
     let cut: Vec<Vec<Vec2>> = svg
         .split('<')
         .filter(|e| attribute(e, "class") == Some("cut"))

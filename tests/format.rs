@@ -1,9 +1,11 @@
 //! The reference of the garment file and its JSON Schema say what the reader knows: every key, and nothing else.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
 use regex::Regex;
 use serde_json::Value;
+use toile::fabric::{Context, FabricError, FabricSpec, resolve};
 use toile::io::garment::{Refused, SCHEMA, read_file_only, read_text};
 use toile::pattern::Problem;
 
@@ -156,6 +158,31 @@ fn the_schema_has_every_key_and_no_other() {
         let name = part.split('"').next().expect("a name");
         assert!(schema["$defs"][name].is_object(), "{name}");
     }
+}
+
+/// Keys of a kind of the schema, those of mappings in it after a point.
+fn nested(kind: &Value, before: &str, keys: &mut BTreeSet<String>) {
+    let forms = kind["oneOf"].as_array().into_iter().flatten().chain([kind]);
+    for properties in forms.filter_map(|form| form["properties"].as_object()) {
+        for (key, kind) in properties {
+            let key = format!("{before}{key}");
+            nested(kind, &format!("{key}."), keys);
+            keys.insert(key);
+        }
+    }
+}
+
+#[test]
+fn the_schema_has_every_key_of_a_fabric() {
+    let schema: Value = serde_json::from_str(SCHEMA).expect("JSON");
+    assert_eq!(schema["properties"]["fabrics"]["additionalProperties"]["$ref"], "#/$defs/fabric");
+    let mut keys = BTreeSet::new();
+    nested(&schema["$defs"]["fabric"], "", &mut keys);
+    assert!(keys.remove("base"));
+    let spec = FabricSpec { base: None, values: vec![(STRANGER.to_owned(), "1".to_owned())] };
+    let context = Context { name: "cloth", folder: Path::new(""), garment: &[] };
+    let Err(FabricError::Key { known, .. }) = resolve(&spec, &context) else { panic!("a key that no fabric has") };
+    assert_eq!(keys, known.split(", ").map(str::to_owned).collect());
 }
 
 /// What stands in a text is told as right and wrong by the schema as by the reader.

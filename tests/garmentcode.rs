@@ -137,6 +137,15 @@ fn lengths(spec: &Value, panel: &str) -> Vec<f64> {
     panel["edges"].as_array().expect("edges").iter().map(|e| length(&sampled(panel, e, unit))).collect()
 }
 
+/// Area inside a panel, square millimetres.
+fn area(spec: &Value, panel: &str) -> f64 {
+    let unit = 1000.0 / spec["properties"]["units_in_meter"].as_f64().unwrap_or(100.0);
+    let panel = &spec["pattern"]["panels"][panel];
+    let edges = panel["edges"].as_array().expect("edges");
+    let points: Vec<Vec2> = edges.iter().flat_map(|e| sampled(panel, e, unit)).collect();
+    0.5 * (0..points.len()).map(|k| points[k].perp(&points[(k + 1) % points.len()])).sum::<f64>().abs()
+}
+
 fn import(spec: &Value) -> (Garment, Vec<PieceFile>) {
     let file = read("trial", &spec.to_string(), None).expect("a specification");
     let text = write(&file).expect("YAML");
@@ -155,17 +164,22 @@ fn same_round(one: &[f64], other: &[f64], within: f64) -> bool {
         })
 }
 
-/// Every panel is a piece with its lengths to 0.01 mm, and every stitch is in a seam that has its length.
+/// Every panel is a piece with its lengths to 0.01 mm and its area to a ten-thousandth (points are written
+/// to the micrometre), and every stitch is in a seam that has its length.
 fn check_lengths(spec: &Value, garment: &Garment) {
     let panels = spec["pattern"]["panels"].as_object().expect("panels");
     assert_eq!(garment.pieces.len(), panels.len());
     let mut free: Vec<Vec<f64>> =
         garment.pieces.iter().map(|p| p.loops[0].iter().map(|e| 1e3 * e.path.length()).collect()).collect();
+    let mut areas: Vec<f64> = garment.pieces.iter().map(|p| 1e6 * p.area()).collect();
     let mut sewn = [0.0; 2];
     for name in panels.keys() {
-        let expected = lengths(spec, name);
-        let found = free.iter().position(|f| same_round(&expected, f, 0.01));
-        free.swap_remove(found.unwrap_or_else(|| panic!("no piece has the edges of {name}: {expected:?}")));
+        let (expected, inside) = (lengths(spec, name), area(spec, name));
+        let is_it = |(f, a): (&Vec<f64>, &f64)| same_round(&expected, f, 0.01) && (a - inside).abs() < 1e-4 * inside;
+        let found = free.iter().zip(&areas).position(is_it);
+        let found = found.unwrap_or_else(|| panic!("no piece has the edges of {name}: {expected:?}, and {inside} mm²"));
+        free.swap_remove(found);
+        areas.swap_remove(found);
     }
     for stitch in spec["pattern"]["stitches"].as_array().expect("stitches") {
         for end in &stitch.as_array().expect("ends")[..2] {

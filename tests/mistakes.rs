@@ -5,7 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
-use toile::pattern::{Diagnostic, Severity};
+use toile::io::garment::read_text;
+use toile::pattern::{Diagnostic, Severity, Span};
 use toile::pipeline::check;
 
 /// Two squares sewn at one side, with the tensile curve of a machine that stopped early and one that slipped.
@@ -369,6 +370,80 @@ tests:
         assert!(here.iter().all(|d| d.contains(source) && d.contains('^')), "{here:?}");
     }
     assert!(errors.iter().filter(|d| d.hint.is_some()).count() >= 5, "{found:#?}");
+}
+
+/// What is sewn twice, forgotten, or listed free without being there is found beside all else; what a seam that cannot
+/// be read may have meant, and what is of a piece that cannot be drawn, is not called forgotten.
+#[test]
+fn edges_are_accounted_for_whatever_else_is_wrong() {
+    let square = "{grain: [[0, 0], [0, 9]], outline: {start: 0 0, top: L 100 0, right: L 100 100, bottom: L 0 100, \
+                  left: L 0 0}}";
+    let text = format!(
+        "garment: 1\nbody: woman_92\nfabrics: {{shell: denim}}\npieces:\n  a: {square}\n  b: {square}\n  c: {square}\n\
+         \x20 d: {}\nseams:\n  apart: {{sew: a.right@0..90, to: b.left}}\n  typo: {{sew: b.rihgt, to: c.left}}\n  \
+         gone: {{sew: d.left, to: c.right}}\n  again: {{sew: a.right@50..100, to: a.left@50..100}}\n\
+         free: [a.top, a.bottom, b.top, c.top, c.bottm, d.top, \"d*.bottom\"]\n",
+        square.replace("L 100 100", "M 100 100")
+    );
+    let found = Room::new().finds(&text, None);
+    let says: Vec<&str> = found.iter().map(|d| d.message.as_str()).collect();
+    let count = |words: &str| says.iter().filter(|m| m.contains(words)).count();
+    assert_eq!((count("is sewn twice on 50..90 mm"), count("bottm"), count("rihgt")), (1, 1, 1), "{says:#?}");
+    // Of `b` all may have been meant by the name that fits none.
+    assert_eq!(count("neither sewn nor free: c.bottom, a.left@0..50"), 1, "{says:#?}");
+    assert_eq!(count("d.top") + count("d*.bottom") + count("unknown piece"), 0, "{says:#?}");
+}
+
+/// A T-shirt's armhole seen from one side: front and back meet at shoulder and side seam, a sleeve has its under seam.
+fn armhole(sleeve: &str, cap: &str) -> String {
+    format!(
+        "garment: 1\nbody: woman_92\nfabrics: {{shell: denim}}\npieces:\n  \
+         front: {{cut: pair, grain: [[50, 100], [50, 300]], outline: {{start: 0 0, shoulder: L 100 20, \
+         armhole: L 150 220, side: L 150 500, hem: L 0 500, center: L 0 0}}}}\n  \
+         back: {{like: front, drawn: R}}\n  \
+         sleeve: {{cut: pair, {sleeve}grain: [[0, 0], [0, 200]], outline: {{start: -150 150, {cap}, \
+         under_front: L 120 400, hem: L -120 400, under_back: L -150 150}}}}\n\
+         seams:\n  center: {{sew: front.center, to: mirror}}\n  back: {{sew: back.center, to: mirror}}\n  \
+         shoulder: {{sew: front.shoulder, to: back.shoulder}}\n  side: {{sew: front.side, to: back.side}}\n  \
+         under: {{sew: sleeve.under_front, to: sleeve.under_back}}\n  armhole: {{sew: [front.armhole, back.armhole], \
+         to: TO, tolerance: 20}}\nfree: ['*.hem']\n"
+    )
+}
+
+/// A sleeve's own seam belongs to the foot of the armhole: it comes there where its cap is one edge, in whichever order
+/// the armhole is written, and it is said where it cannot.
+#[test]
+fn sleeves_are_not_set_in_upside_down() {
+    let room = Room::new();
+    let halves = "cap_back: L 0 10, cap_front: L 150 150";
+    let upside = |text: &str| room.finds(text, None).iter().filter(|d| d.message.contains("upside down")).count();
+    let two = |sleeve: &str| armhole(sleeve, halves).replace("TO", "[sleeve.cap_front, sleeve.cap_back]");
+    assert_eq!([upside(&two("drawn: R, ")), upside(&two(""))], [0, 1]);
+    for (sleeve, to) in [("drawn: R, ", "sleeve.cap"), ("", "sleeve.cap")] {
+        let one = armhole(sleeve, "cap: L 0 10 L 150 150").replace("TO", to);
+        let other = one.replace("[front.armhole, back.armhole]", "[back.armhole, front.armhole]");
+        for text in [one, other] {
+            let garment = read_text("top", "top.yaml", &text).unwrap_or_else(|e| panic!("{e}")).garment;
+            let seam = garment.seams.iter().find(|s| s.name == "armhole.L").expect("an armhole");
+            let (span, path) = (seam.a[0], |s: &Span| &garment.pieces[s.edge.piece].loops[0][s.edge.index].path);
+            let [start, end] = [span.from, span.to].map(|at| path(&span).point(at).y);
+            assert!(start > end + 0.1, "it begins at the side seam, {start} m down, and not at the shoulder");
+            assert_eq!(upside(&text), 0);
+        }
+    }
+}
+
+/// An opening begins at an edge that the seam meets; its own edge is at both of its ends.
+#[test]
+fn an_opening_from_the_seam_s_own_edge_is_refused() {
+    let text = armhole("drawn: R, ", "cap: L 0 10 L 150 150").replace("TO", "sleeve.cap");
+    let open = |from: &str| {
+        let to = format!("sew: back.center, to: mirror, open: {{from: {from}, length: 50}}");
+        Room::new().finds(&text.replace("sew: back.center, to: mirror", &to), None)
+    };
+    assert_eq!(open("hem"), []);
+    let found = open("center");
+    assert!(found.iter().any(|d| d.message.contains("no end at 'center'; its ends are at")), "{found:?}");
 }
 
 /// The curve is told of where it is named, and nowhere else.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use approx::assert_relative_eq;
 use toile::contact::{Collider, closest_on_triangle};
+use toile::drape::{DrapeError, DrapeOptions, drape};
 use toile::dynamics::Cut;
 use toile::fabric::{self, Fabric};
 use toile::geometry::Vec3;
@@ -100,6 +101,43 @@ fn pleats_hang_with_their_top_layer_outside() {
     let waist = skirt.report.worn.iter().find(|w| w.edges.iter().any(|e| e.contains("waist"))).expect("a waist");
     // Six folds of 15 mm (one knife, one box; front and back) take up 30 mm each.
     assert_relative_eq!(waist.length, 2.0 * 520.0 - 2.0 * 4.0 * 30.0, max_relative = 0.01);
+}
+
+/// Folds that meet edge to edge behind a box pleat, with particles on them, neither start in one place nor blow up.
+#[test]
+fn folds_that_meet_behind_a_box_pleat_hang_still() {
+    let skirt = draped("box_pleat.yaml", 20.0);
+    let drape = skirt.report.stages.iter().find(|s| s.name == "drape").expect("a drape");
+    assert!(drape.converged && drape.residual.is_some_and(|r| r < 1.0), "{:?}", drape.residual);
+    for piece in &skirt.report.pieces {
+        assert!(piece.area_error.drape.is_some_and(|e| e < 5e-3) && piece.strain.p99 < 0.02, "{:?}", piece.strain);
+    }
+}
+
+/// Where layers of a pleat are in one place no contact knows which way to push: a drape from there ends with an error
+/// that names the piece, and with no shape.
+#[test]
+fn a_drape_that_drives_cloth_apart_is_an_error() {
+    let file = Path::new("tests/data/box_pleat.yaml");
+    let overrides = Overrides { spacing: Some(0.02), ..Overrides::default() };
+    let job = Job::new(file, read(file).expect("a garment"), &overrides).map_err(|e| e.to_string()).expect("a job");
+    let mut run = Run::new(&job);
+    run.sew(&mut |_, _| {}).map_err(|e| e.to_string()).expect("sewn");
+    let mut x = run.last().expect("sewn").to_vec();
+    let back = job.mesh.pieces.iter().find(|p| p.name == "back").expect("a back").particles.clone();
+    for p in back.clone() {
+        for q in back.clone().skip_while(|&q| q <= p) {
+            if (x[p] - x[q]).norm() < 2e-3 && (job.mesh.flat[p] - job.mesh.flat[q]).norm() > 0.03 {
+                x[q] = x[p];
+            }
+        }
+    }
+    let stitching = Stitching::new(&job.mesh);
+    let options = DrapeOptions { max_steps: 40, ..DrapeOptions::default() };
+    let drape = |x: &[Vec3]| drape(&job.cut(), &job.collider, &stitching, stitching.welded(x), &options, &mut |_| {});
+    let why = drape(&x).map(|_| ()).expect_err("no shape");
+    assert!(matches!(&why, DrapeError::Diverged { piece, from, to, .. } if piece == "back" && to > from), "{why}");
+    assert!(drape(run.last().expect("sewn")).is_ok());
 }
 
 /// How much further from the body's axis the particles of `outer` are than those of `inner` beside them, metres on

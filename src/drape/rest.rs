@@ -2,6 +2,7 @@
 
 use crate::contact::Collider;
 use crate::dynamics::{ContactTime, Cut, GRIP, Reach, StepError, World};
+use crate::fabric::GRAVITY;
 use crate::geometry::Vec3;
 use crate::sew::{NEAREST_LOOK, Stitching, drape_reach, lead_off, sewn_world};
 
@@ -37,6 +38,21 @@ pub enum DrapeError {
     /// A step could not be made.
     #[error("draping stopped: {0}")]
     Step(#[from] StepError),
+    /// Its forces drive the garment apart: what it has come to is no shape of cloth.
+    #[error(
+        "draping diverged: the energy of the garment rose from {from:.2} J to {to:.2} J, and {force:.0} N are out of \
+         balance at one particle of '{piece}'"
+    )]
+    Diverged {
+        /// The piece with the largest unbalanced force.
+        piece: String,
+        /// Energy at the start, J.
+        from: f64,
+        /// Energy at the end, J.
+        to: f64,
+        /// Largest unbalanced force, N.
+        force: f64,
+    },
 }
 
 /// A garment at rest.
@@ -109,13 +125,18 @@ const LOOK: f64 = 2.0;
 /// one another would find each other many times over.
 const CELLS: f64 = 0.4;
 
+/// A drape goes down: one that ends by more above its start than it would gain by being lifted so far, metres, has been
+/// driven apart. (Contacts that harden, and friction, raise it by thousandths of that.)
+const LIFTED: f64 = 1.0;
+
 /// Drapes a sewn garment.
 ///
 /// Rest is not low speed: after the last motion has died down, as many steps again at half the step size are made, and
 /// what they move is reported as drift.
 ///
 /// # Errors
-/// [`DrapeError::Step`] when a position is not finite.
+/// [`DrapeError::Step`] when a position is not finite, [`DrapeError::Diverged`] when the energy has risen instead of
+/// falling.
 pub fn drape(
     cut: &Cut,
     body: &Collider,
@@ -133,6 +154,7 @@ pub fn drape(
     let near = options.near;
     let (last, trust) = (world.x.clone(), TRUST[0] * spacing);
     let hardens = options.until == Until::Rest;
+    let begun = world.energy();
     let mut fall = Fall { last, world, steps: 0, tested: 0, near, hardens, trust, look, spacing };
     let (drift, residual, converged) = match options.until {
         Until::Rest => fall.come_to_rest(options.max_steps, progress)?,
@@ -144,7 +166,20 @@ pub fn drape(
     progress(1.0);
     let Fall { world, steps, tested, .. } = fall;
     let (energy, contact) = (world.energy(), world.contact_time());
+    let mass: f64 = world.cloth.mass.iter().sum();
+    if !converged && energy > begun + mass * GRAVITY * LIFTED {
+        return Err(diverged(cut, &world, [begun, energy]));
+    }
     Ok(Draped { energy, nodes: world.x, steps, tested, converged, drift, residual, contact })
+}
+
+/// What to say of a garment whose energy went up, J at first and at last.
+fn diverged(cut: &Cut, world: &World, [from, to]: [f64; 2]) -> DrapeError {
+    let forces = world.unbalanced();
+    let size = |particle: usize| forces[world.cloth.node_of[particle] as usize].norm();
+    let largest = (0..world.cloth.node_of.len()).max_by(|&a, &b| size(a).total_cmp(&size(b))).unwrap_or_default();
+    let piece = cut.mesh.piece_of(largest as u32).map(|piece| cut.garment.pieces[piece].name.clone());
+    DrapeError::Diverged { piece: piece.unwrap_or_default(), from, to, force: size(largest) }
 }
 
 /// A garment on its way down.

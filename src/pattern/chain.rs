@@ -1,6 +1,7 @@
 //! The direction of seams. By default the two chains of a seam run opposite ways round their outlines, which keeps the
 //! right side of the sewn garment on one side; `face: same` turns one round. Which of the two ways a chain is walked
-//! follows from continuity: each edge must end where the next begins, on one rim or through other seams.
+//! follows from continuity: each edge must end where the next begins, on one rim or through other seams. Two edges
+//! round an opening meet at both ends; a sleeve's own seam then comes to the lower one.
 
 use super::diagnostic::Findings;
 use super::draft::shown;
@@ -9,6 +10,7 @@ use super::problem::Problem;
 use super::rim::{Identities, Rims, joint_marks};
 use super::seam::{marks_between, tolerance};
 use super::select::{Candidate, Run, Source, is_mirror, turned};
+use super::tube::{Ends, ends, is_tube};
 use super::walk::names_of;
 use super::{EdgeId, Give, Piece, Seam, SeamKind, Span};
 
@@ -58,6 +60,7 @@ pub(super) fn direct<'a>(
         }
     }
     let directed: Vec<Directed> = slots.into_iter().flatten().collect();
+    directed.iter().for_each(|seam| table.doubt_tube(seam, findings));
     table.one = before;
     table.check_order(&directed, findings);
     directed
@@ -81,8 +84,17 @@ impl Table<'_> {
     }
 
     fn direction<'a>(&self, candidate: &Candidate<'a>) -> Option<Directed<'a>> {
+        let readings = self.readings(candidate);
+        let upright = readings.iter().position(|seam| self.tube_ends(seam) == Some(Ends::Below));
+        // Only where the other one turns the tube over: what lies level may be walked either way.
+        let turned = readings.iter().any(|seam| self.tube_ends(seam) == Some(Ends::Above));
+        readings.into_iter().nth(upright.filter(|_| turned).unwrap_or(0))
+    }
+
+    /// The ways a seam may be walked, the one its edges are drawn in first.
+    fn readings<'a>(&self, candidate: &Candidate<'a>) -> Vec<Directed<'a>> {
         let same = candidate.file.is_face_same();
-        [candidate.with, !candidate.with].into_iter().find_map(|with| {
+        let reading = |with: bool| {
             let with_b = with == same;
             let whole =
                 self.first_break(&candidate.a, with).is_none() && self.first_break(&candidate.b, with_b).is_none();
@@ -91,7 +103,33 @@ impl Table<'_> {
                 a: walked(&candidate.a, with).concat(),
                 b: walked(&candidate.b, with_b).concat(),
             })
-        })
+        };
+        [candidate.with, !candidate.with].into_iter().filter_map(reading).collect()
+    }
+
+    /// Where the own seam of a tube comes to lie on the opening that it is sewn into; none where no tube is.
+    fn tube_ends(&self, seam: &Directed) -> Option<Ends> {
+        let [a, b] = [&seam.a, &seam.b];
+        match [a, b].map(|chain| is_tube(chain, &self.rims, &self.one)) {
+            [true, false] => Some(ends(self.pieces, b)),
+            [false, true] => Some(ends(self.pieces, a)),
+            _ => None,
+        }
+    }
+
+    /// Warns of a tube whose own seam comes to the top of its opening, though that has a foot.
+    fn doubt_tube(&self, seam: &Directed, findings: &mut Findings) {
+        let readings = self.readings(&seam.candidate);
+        let is = |of: Ends| readings.iter().find(|seam| self.tube_ends(seam) == Some(of));
+        let (Some(over), None, [_, _]) = (is(Ends::Above), is(Ends::Below), &readings[..]) else { return };
+        let a_is_tube = is_tube(&over.a, &self.rims, &self.one);
+        let opening = |seam: &Directed| ends(self.pieces, if a_is_tube { &seam.b } else { &seam.a });
+        if readings.iter().any(|seam| opening(seam) == Ends::Below) {
+            let tube = if a_is_tube { &over.a } else { &over.b };
+            let tube = self.pieces[tube[0].edge.piece].drawn_as.clone();
+            let seam = seam.candidate.file.name.value.clone();
+            findings.warn(over.candidate.file.name.at, Problem::UpsideDown { seam, tube });
+        }
     }
 
     fn add(&mut self, directed: &Directed) {

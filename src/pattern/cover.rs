@@ -1,5 +1,7 @@
 //! Every stretch of rim is sewn once, or said to be free.
 
+use std::collections::HashSet;
+
 use super::cut::{Instance, Pieces};
 use super::diagnostic::{Findings, Located, Spot};
 use super::draft::{Draft, NamedEdge, Stretch, spot_of};
@@ -19,7 +21,8 @@ struct Taken {
     seam: usize,
 }
 
-/// Checks that no stretch is sewn twice, and none forgotten. `pieces` are those of the file with every `like` followed.
+/// Checks that no stretch is sewn twice, and none forgotten, but for those of pieces and seams that could not be read,
+/// of which that has been said. `pieces` are those of the file with every `like` followed.
 pub(super) fn check(
     file: &GarmentFile,
     pieces: &[PieceFile],
@@ -30,11 +33,14 @@ pub(super) fn check(
 ) {
     let names = EdgeNames { drafts, cut, unit: file.unit() };
     let free = names.free(file, findings);
+    let unread = names.of_unread(file, seams);
     let mut lists = Lists { free, names: &names, forgotten: Vec::new(), forgotten_parts: Vec::new() };
     for edge in edge_ids(&cut.pieces) {
         let taken = taken(edge, seams);
         sewn_twice(file, cut, seams, edge, &taken, findings);
-        lists.look_at(edge, &taken, cut, seams);
+        if !unread.contains(&edge) {
+            lists.look_at(edge, &taken, cut, seams);
+        }
     }
     let (parts, names_of_parts): (Vec<EdgeId>, Vec<String>) = lists.forgotten_parts.into_iter().unzip();
     if let Some(&first) = lists.forgotten.iter().chain(&parts).min() {
@@ -133,10 +139,39 @@ impl EdgeNames<'_> {
         for pattern in &file.free {
             match self.listed(&pattern.value) {
                 Ok(spans) => free.extend(spans),
+                // It may be of a piece that could not be drawn.
+                Err(_) if self.names_undrawn(file, &pattern.value) => {}
                 Err(problem) => findings.error(pattern.at, problem),
             }
         }
         free
+    }
+
+    /// Whether a name, or one that a glob may stand for, is of a piece that could not be drawn.
+    fn names_undrawn(&self, file: &GarmentFile, pattern: &str) -> bool {
+        let is_drawn = |piece: &str| self.drafts.iter().any(|d| d.name == piece);
+        let mut undrawn = file.pieces.iter().map(|p| p.name.value.as_str()).filter(|piece| !is_drawn(piece));
+        undrawn.any(|piece| glob(piece_of(pattern), piece))
+    }
+
+    /// The edges that seams name which could not be read: those that are meant, or, where a name fits none, all of the
+    /// piece.
+    fn of_unread(&self, file: &GarmentFile, seams: &Seams) -> HashSet<EdgeId> {
+        let is_read = |i: &usize| seams.written.contains(&Some(*i));
+        let unread = (0..file.seams.len()).filter(|i| !is_read(i)).map(|i| &file.seams[i]);
+        let mut edges = HashSet::new();
+        for named in unread.flat_map(|seam| seam.sew.iter().chain(&seam.to)) {
+            let name = named.value.split('@').next().unwrap_or_default().trim_end();
+            let mut found = self.matching(name);
+            if found.is_empty() {
+                found = self.matching(&format!("{}.*", piece_of(name)));
+            }
+            let of = |(instance, named): (&Instance, &NamedEdge)| -> Vec<EdgeId> {
+                named.parts.iter().filter_map(|p| instance.edge(p.edge)).collect()
+            };
+            edges.extend(found.into_iter().flat_map(of));
+        }
+        edges
     }
 
     /// What `front.hem`, `*.hem` or `front.hem@0..50` lists, never nothing.

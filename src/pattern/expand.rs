@@ -44,8 +44,9 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
     let cut = cut(&drafts, default_fabric);
     let before = findings.errors();
     let seams = seams(file, &drafts, &cut, findings);
-    if sound && findings.errors() == before {
-        cover::check(file, &pieces, &drafts, &cut, &seams, findings);
+    let whole = sound && findings.errors() == before;
+    cover::check(file, &pieces, &drafts, &cut, &seams, findings);
+    if whole {
         cover::check_free_but_sewn(file, &drafts, &cut, &seams, findings);
         cover::check_joined(file, &drafts, &cut, &seams, findings);
     }

@@ -47,6 +47,7 @@ mod rim;
 mod seam;
 mod select;
 mod spelling;
+mod tube;
 mod walk;
 
 pub use along::{Along, along};

@@ -232,6 +232,8 @@ pub enum Problem {
     Twisted { seam: String, ends: String, turned: Option<String>, same: bool },
     #[error("'{piece}' lies on '{on}' (face: same), but both are on layer {layer}: it starts outside '{on}'")]
     OneLayer { piece: String, on: String, layer: i32 },
+    #[error("seam '{seam}' sets '{tube}' in upside down: its own seam comes to the top of the opening")]
+    UpsideDown { seam: String, tube: String },
     #[error("'{one}' and '{other}' start in one place, and nothing leads them apart")]
     OnePlace { one: String, other: String, copies: bool },
     #[error("sewing closes the surface into a non-orientable band at '{0}'")]
@@ -325,6 +327,10 @@ impl Problem {
                 "give '{piece}' layer: {} if it is worn inside, as a facing, or layer: {} if outside",
                 layer - 1,
                 layer + 1
+            ),
+            Self::UpsideDown { tube, .. } => format!(
+                "'{tube}' is drawn for the other arm: write 'drawn: R' into it (or take that out again), or swap its \
+                 front and its back"
             ),
             Self::OnePlace { copies: true, other, .. } => {
                 format!("draw '{other}' as a piece of its own (like: ...) with another place or layer, or cut one only")

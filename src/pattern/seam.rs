@@ -20,6 +20,8 @@ pub(super) const DEFAULT_STAGE: i32 = 1;
 const ENDS: [&str; 2] = ["start", "end"];
 /// More ease than this share of the length puckers: it is gathering.
 const LARGEST_EASE: f64 = 0.08;
+/// Less, metres, is none.
+const NO_EASE: f64 = 0.05e-3;
 /// Written gather and stretch ratios are rounded: this share of the length passes beside the tolerance.
 const RATIO_ROUNDING: f64 = 0.01;
 
@@ -207,6 +209,10 @@ impl Finish<'_> {
                 let Some(span) = (if i == 0 { chain.first() } else { chain.last() }) else { continue };
                 let corner = self.rims.point(span.edge, if i == 0 { span.from } else { span.to });
                 for edge in self.rims.edges_at(&self.cut.pieces, corner) {
+                    // A seam's only edge is at both of its ends.
+                    if matches!(&chain[..], [only] if only.edge == edge) {
+                        continue;
+                    }
                     let piece = &self.cut.pieces[edge.piece];
                     let name = base_name(&piece.loops[edge.ring][edge.index].name);
                     let full = format!("{}.{name}", piece.drawn_as);
@@ -322,7 +328,9 @@ fn as_ratio(la: f64, lb: f64, give: Give) -> String {
 
 /// What a seam of these lengths may say of them: ease as far as there is any, else gathers of the longer side.
 fn fitting(la: f64, lb: f64) -> String {
-    if (lb - la).abs() <= LARGEST_EASE * la {
+    if (lb - la).abs() < NO_EASE {
+        "no ease".to_owned()
+    } else if (lb - la).abs() <= LARGEST_EASE * la {
         format!("ease: {:.1} mm", (lb - la) * 1e3)
     } else if la > lb {
         format!("gather: {:.2}", la / lb)

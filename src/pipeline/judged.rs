@@ -1,9 +1,10 @@
 //! Anybody's surface before the independent eye.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use super::error::PipelineError;
-use crate::geometry::{TriMesh, Vec3, box_of, triangles_of};
+use crate::geometry::{Topology, TriMesh, Vec3, box_of, sorted_pair, triangles_of};
 use crate::input::LengthUnit;
 use crate::io::body::{BodyError, read_solid};
 use crate::io::obj_read::read_obj_faces;
@@ -40,7 +41,7 @@ pub fn judge(mesh: &Path, unit: LengthUnit, body: Option<(&str, LengthUnit)>) ->
         cloth.triangles.extend(triangles);
     }
     let body = body.map(|(name, unit)| solid(name, unit)).transpose()?;
-    let notes = body.as_ref().and_then(|body| misplaced(&cloth, body)).into_iter().collect();
+    let notes = body.as_ref().and_then(|body| misplaced(&cloth, body)).into_iter().chain(loose(&cloth)).collect();
     let name = |t: u32| match faces.groups[group_of[t as usize] as usize].as_str() {
         "" => "mesh",
         name => name,
@@ -70,6 +71,26 @@ fn misplaced(cloth: &TriMesh, body: &TriMesh) -> Option<String> {
         format!(
             "the mesh ({cloth_mm:.0} mm across) and the body ({body_mm:.0} mm across) do not lie in the same place; \
              are they in the units that --units and --body-units say, and is the body where the mesh is worn?"
+        )
+    })
+}
+
+/// What to say of rims of which more than two lie on one another: which two of them are one surface, and whether that
+/// passes through the other there, only common vertices could tell.
+fn loose(cloth: &TriMesh) -> Option<String> {
+    // Both zeros are one number.
+    let place = |p: &Vec3| [p.x, p.y, p.z].map(|x| (x + 0.0).to_bits());
+    let mut first: HashMap<[u64; 3], u32> = HashMap::new();
+    let one: Vec<u32> = (0..).zip(&cloth.vertices).map(|(v, p)| *first.entry(place(p)).or_insert(v)).collect();
+    let mut rims: HashMap<[u32; 2], usize> = HashMap::new();
+    for edge in Topology::new(&cloth.triangles).rim_edges() {
+        *rims.entry(sorted_pair(edge.ends.map(|v| one[v as usize]))).or_default() += 1;
+    }
+    let count = rims.values().filter(|&&rims| rims > 2).count();
+    (count > 0).then(|| {
+        format!(
+            "in {count} places edges of triangles lie on two or more others without common vertices: a surface that \
+             passes through another exactly along them is not seen; merge vertices that lie in one place"
         )
     })
 }

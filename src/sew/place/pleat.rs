@@ -15,6 +15,9 @@ use crate::pattern::{EdgeId, Garment, PleatLayer, Seam, SeamKind};
 
 /// Layers under the top one at a pleat.
 const UNDER: f64 = 2.0;
+/// Cloth that reaches a fold starts short of it, metres: where two folds meet edge to edge (behind a box pleat, before
+/// an inverted one) their particles would start in one place, with no way to tell from which side either came.
+const SHORT: f64 = 0.2e-3;
 /// The outermost panels of a piece sink to the pleat over this many depths of it.
 const SINK: f64 = 3.0;
 
@@ -32,6 +35,11 @@ struct Fold {
 impl Fold {
     fn end(&self) -> f64 {
         self.at + 2.0 * self.depth
+    }
+
+    /// How short of its folds cloth starts, metres.
+    fn short(&self) -> f64 {
+        SHORT.min(0.25 * self.depth)
     }
 
     /// From the seam that holds its middle layer on its bottom layer.
@@ -108,13 +116,22 @@ impl Pleated {
                 let (place, under) = self.in_fold(before, at);
                 (place - taken, under)
             }
-            _ => (at - taken, self.panel(before, at)),
+            _ => (self.short_of_folds(before, at) - taken, self.panel(before, at)),
         }
+    }
+
+    /// A place of the panel before fold `k`, along the unfolded edge: off those of its ends that are folded.
+    fn short_of_folds(&self, k: usize, at: f64) -> f64 {
+        let left = k.checked_sub(1).map(|k| self.folds[k]).filter(|f| !f.to_end);
+        let right = self.folds.get(k).filter(|f| f.to_end);
+        let at = left.map_or(at, |f| at.max(f.end() + f.short()));
+        right.map_or(at, |f| at.min(f.at - f.short()))
     }
 
     /// Inside fold `k`: its place as if no fold came before, and the layers over it.
     fn in_fold(&self, k: usize, at: f64) -> (f64, f64) {
-        let Fold { at: from, depth: d, to_end } = self.folds[k];
+        let fold = &self.folds[k];
+        let Fold { at: from, depth: d, to_end } = *fold;
         let s = at - from;
         // The top layer of a fold to the end is the panel before it, of one to the start the panel after it.
         let panel = |place: f64| {
@@ -126,6 +143,8 @@ impl Pleated {
             (false, true) => (s, UNDER),
             (false, false) => (2.0 * d - s, 1.0),
         };
+        let [low, high] = if to_end { [-d, 0.0] } else { [0.0, d] };
+        let place = place.clamp(low + fold.short(), high - fold.short());
         (from + place, panel(place) + layer)
     }
 
@@ -164,12 +183,12 @@ mod tests {
         // Folded at 100 mm, bottom layer away from under it at 140 mm.
         let one = pleated(&[(0.1, true)]);
         for (at, to) in [(0.03, 0.03), (0.1, 0.1), (0.11, 0.09), (0.12, 0.08), (0.13, 0.09), (0.14, 0.1), (0.3, 0.26)] {
-            assert_relative_eq!(one.laid(at).0, to, epsilon = 1e-12);
+            assert_relative_eq!(one.laid(at).0, to, epsilon = 1.01 * SHORT);
         }
         // The other way: folded at 140 mm over what went before.
         let other = pleated(&[(0.1, false)]);
         for (at, to) in [(0.03, 0.03), (0.11, 0.11), (0.12, 0.12), (0.13, 0.11), (0.14, 0.1), (0.15, 0.11)] {
-            assert_relative_eq!(other.laid(at).0, to, epsilon = 1e-12);
+            assert_relative_eq!(other.laid(at).0, to, epsilon = 1.01 * SHORT);
         }
     }
 
@@ -185,11 +204,11 @@ mod tests {
         ];
         for folds in patterns {
             let pleated = pleated(folds);
-            // Between whole steps, so that no sample lies on a fold.
-            let laid: Vec<(f64, f64)> = (0..400).map(|k| pleated.laid(1e-3 * (f64::from(k) + 0.5))).collect();
+            // Many a sample lies on a fold.
+            let laid: Vec<(f64, f64)> = (0..=400).map(|k| pleated.laid(1e-3 * f64::from(k))).collect();
             for (i, a) in laid.iter().enumerate() {
                 for b in &laid[..i] {
-                    let apart = (a.0 - b.0).abs() > 5e-4 || (a.1 - b.1).abs() > 0.5;
+                    let apart = (a.0 - b.0).abs() > 1.9 * SHORT || (a.1 - b.1).abs() > 0.5;
                     assert!(apart, "{folds:?}: {a:?} and {b:?}");
                 }
             }

@@ -1,0 +1,52 @@
+//! Sleeves and other tubes of one piece, sewn into an opening between others: their own seam belongs at its foot.
+
+use super::rim::{Identities, Rims};
+use super::{Piece, Span};
+use crate::geometry::Vec2;
+
+/// The ends of a chain lie above or below its middle where that is by more than this share of its length: an armhole's
+/// by two fifths, a waist's or a hem's by next to nothing.
+const CLEARLY: f64 = 0.15;
+
+/// Whether a chain is the rim of a tube: all of one piece, whose ends a seam of it brings together.
+pub(super) fn is_tube(chain: &[Span], rims: &Rims, sewn: &Identities) -> bool {
+    let (Some(first), Some(last)) = (chain.first(), chain.last()) else { return false };
+    let (start, end) = (rims.point(first.edge, first.from), rims.point(last.edge, last.to));
+    let of_one_piece = chain.iter().all(|span| span.edge.piece == first.edge.piece);
+    of_one_piece && !rims.same(start, end) && sewn.one(rims, start, end)
+}
+
+/// Where the ends of a chain lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Ends {
+    /// Above its middle, as drawn.
+    Above,
+    /// Beside it.
+    Level,
+    /// Below it.
+    Below,
+}
+
+/// Where the ends of a chain lie, its pieces one after the other as they are sewn.
+pub(super) fn ends(pieces: &[Piece], chain: &[Span]) -> Ends {
+    let length: f64 = chain.iter().map(Span::length).sum();
+    let (mut walked, mut height, mut middle) = (0.0, 0.0, 0.0);
+    for span in chain {
+        let at = |share: f64| -> Vec2 {
+            let path = &pieces[span.edge.piece].loops[span.edge.ring][span.edge.index].path;
+            path.point(span.from + (span.to - span.from) * share)
+        };
+        let share = (0.5 * length - walked) / span.length();
+        if (0.0..1.0).contains(&share) {
+            middle = height + at(share).y - at(0.0).y;
+        }
+        height += at(1.0).y - at(0.0).y;
+        walked += span.length();
+    }
+    // y points down.
+    match (0.5 * height - middle) / length {
+        low if low > CLEARLY => Ends::Below,
+        low if low < -CLEARLY => Ends::Above,
+        _ => Ends::Level,
+    }
+}
