@@ -3,4 +3,4 @@
 pub mod geometric;
 mod rest;
 
-pub use rest::{DRIFT, DrapeError, DrapeOptions, Draped, RESIDUAL, Until, drape};
+pub use rest::{DRIFT, DrapeError, DrapeOptions, Draped, RESIDUAL, Until, check_fall, drape};

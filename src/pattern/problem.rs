@@ -329,8 +329,8 @@ impl Problem {
                 layer + 1
             ),
             Self::UpsideDown { tube, .. } => format!(
-                "'{tube}' is drawn for the other arm: write 'drawn: R' into it (or take that out again), or swap its \
-                 front and its back"
+                "unless that seam is to run there, '{tube}' is drawn for the other arm: write 'drawn: R' into it (or \
+                 take that out again), or swap its front and its back"
             ),
             Self::OnePlace { copies: true, other, .. } => {
                 format!("draw '{other}' as a piece of its own (like: ...) with another place or layer, or cut one only")

@@ -7,7 +7,7 @@ use super::error::PipelineError;
 use super::job::Job;
 use super::levels::{COARSE_SHARE, Closed, Coarse};
 use super::surface;
-use crate::drape::{DrapeOptions, drape};
+use crate::drape::{DrapeOptions, check_fall, drape};
 use crate::dynamics::{ContactTime, identity_nodes};
 use crate::flatten::{self, flatten_garment};
 use crate::geometry::{MM, Vec2, Vec3};
@@ -106,15 +106,16 @@ impl<'a> Run<'a> {
         }
         let job = self.job;
         let begin = Instant::now();
-        let nodes = gathered(&self.stitching, self.sewn.as_deref().unwrap_or_default());
+        let sewn = gathered(&self.stitching, self.sewn.as_deref().unwrap_or_default());
         let mut tell = |share| progress("drape", share);
         let start = self.coarse.as_deref().and_then(|coarse| job.start_from_coarse(&job.mesh, coarse, &mut tell));
         let options = DrapeOptions { near: start.is_some(), ..DrapeOptions::default() };
         let begun = if start.is_some() { COARSE_SHARE } else { 0.0 };
         let mut tell = |share| progress("drape", begun + (1.0 - begun) * share);
-        let nodes = start.unwrap_or(nodes);
+        let nodes = start.unwrap_or_else(|| sewn.clone());
         let finest = Instant::now();
         let draped = drape(&job.cut(), &job.collider, &self.stitching, nodes, &options, &mut tell)?;
+        check_fall(&job.cut(), &job.collider, &self.stitching, sewn, &draped)?;
         let contact_seconds = Some(contact_seconds(&draped.contact, finest.elapsed()));
         self.stages.push(Stage {
             name: "drape".into(),
