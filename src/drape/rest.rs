@@ -46,9 +46,9 @@ pub enum DrapeError {
     Diverged {
         /// The piece with the largest unbalanced force.
         piece: String,
-        /// Energy at the start, J.
+        /// Energy of the sewn garment, J.
         from: f64,
-        /// Energy at the end, J.
+        /// Energy it came to, by the same law of contact, J.
         to: f64,
         /// Largest unbalanced force, N.
         force: f64,
@@ -125,8 +125,8 @@ const LOOK: f64 = 2.0;
 /// one another would find each other many times over.
 const CELLS: f64 = 0.4;
 
-/// A drape goes down: one that ends by more above its start than it would gain by being lifted so far, metres, has been
-/// driven apart. (Contacts that harden, and friction, raise it by thousandths of that.)
+/// A drape goes down: a garment that ends by more above how it was sewn than it would gain by being lifted so far,
+/// metres, has been driven apart.
 const LIFTED: f64 = 1.0;
 
 /// Drapes a sewn garment.

@@ -157,10 +157,9 @@ impl EdgeNames<'_> {
     /// The edges that seams name which could not be read: those that are meant, or, where a name fits none, all of the
     /// piece.
     fn of_unread(&self, file: &GarmentFile, seams: &Seams) -> HashSet<EdgeId> {
-        let is_read = |i: &usize| seams.written.contains(&Some(*i));
-        let unread = (0..file.seams.len()).filter(|i| !is_read(i)).map(|i| &file.seams[i]);
+        let unread = file.seams.iter().enumerate().filter(|(i, _)| !seams.written.contains(&Some(*i)));
         let mut edges = HashSet::new();
-        for named in unread.flat_map(|seam| seam.sew.iter().chain(&seam.to)) {
+        for named in unread.flat_map(|(_, seam)| seam.sew.iter().chain(&seam.to)) {
             let name = named.value.split('@').next().unwrap_or_default().trim_end();
             let mut found = self.matching(name);
             if found.is_empty() {
