@@ -459,14 +459,17 @@ fn notches_that_miss_each_other_are_warned_of() {
     {
         assert_eq!(mistakes(&notched(a, b)), [], "{a} {b}");
     }
-    // What is gathered may all be before the notch, or behind it; what is matched by notches meets in their order.
+    // What is gathered may all be before the notch, or behind it. Notches that are to meet are held to the same.
     let gathered = |at: u32, how: &str| {
         let seam = format!("a.right, to: b.left@0..80, gather: 1.25{how}");
         let text = notched("{right: [50]}", &format!("{{left: [{at}]}}")).replacen("a.right, to: b.left", &seam, 1);
-        mistakes(&text.replacen("free: [", "free: [b.left@80..100, ", 1)).len()
+        let mistakes = mistakes(&text.replacen("free: [", "free: [b.left@80..100, ", 1));
+        mistakes.iter().map(|d| d.severity).collect::<Vec<_>>()
     };
-    assert_eq!([15, 32, 48, 65].map(|at| gathered(at, "")), [1, 0, 0, 1]);
-    assert_eq!(gathered(65, ", match: notches"), 0);
+    for (how, severity) in [("", Severity::Warning), (", match: notches", Severity::Error)] {
+        let found = [15, 32, 48, 65].map(|at| gathered(at, how));
+        assert_eq!(found, [vec![severity], vec![], vec![], vec![severity]], "{how}");
+    }
 }
 
 /// An edge that is sewn in part: what the message calls neither sewn nor free can be listed as it is called.

@@ -837,20 +837,41 @@ fn a_piece_sewn_to_nothing_starts_round_its_part_all_the_same() {
     assert!(start.iter().all(|p| (0.0..0.2).contains(&far(p))), "{start:?}");
 }
 
-#[test]
-fn seams_that_contradict_each_other_leave_a_piece_no_place() {
+/// A front and a back of the hip, the back a copy of the front, sewn by these seams.
+fn copied(words: [&str; 2], seams: &str) -> Result<Vec<Vec3>, PlaceError> {
+    let [front, back] = words;
     let made = Made::new(
-        "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  front:\n    place: hip front\n    \
-         grain: [[0, 50], [0, 250]]\n    \
-         outline: {start: -200 0, waist: L 200 0, right: L 290 300, hem: L -290 300, left: L -200 0}\n  \
-         back: {like: front, place: hip back}\n\
-         seams:\n  left: {sew: front.right, to: back.right}\n  right: {sew: front.left, to: back.left}\n\
-         free: ['*.waist', '*.hem']\n",
+        &format!(
+            "garment: 1\nbody: woman_92\nfabrics: {{shell: cotton_poplin}}\npieces:\n  one:\n    place: {front}\n    \
+             grain: [[0, 50], [0, 250]]\n    \
+             outline: {{start: -200 0, waist: L 200 0, right: L 290 300, hem: L -290 300, left: L -200 0}}\n  \
+             other: {{like: one, place: {back}}}\nseams:\n{seams}free: ['*.waist', '*.hem']\n"
+        ),
         20.0,
     );
     let (body, collider) = woman();
-    let refused = place(&made.garment, &made.mesh, &body, &collider);
+    place(&made.garment, &made.mesh, &body, &collider)
+}
+
+#[test]
+fn seams_that_contradict_each_other_leave_a_piece_no_place() {
+    let alike = "  left: {sew: one.right, to: other.right}\n  right: {sew: one.left, to: other.left}\n";
+    let refused = copied(["hip", "hip"], alike);
     assert!(matches!(&refused, Err(PlaceError::Nowhere { .. })), "{refused:?}");
+}
+
+/// A back drawn as a front: its wearer's left is where the front's is on the drawing.
+#[test]
+fn pieces_that_meet_right_to_right_are_refused_by_their_seam() {
+    let alike = "  side: {sew: one.right, to: other.right}\n  other: {sew: one.left, to: other.left}\n";
+    let crossed = "  side: {sew: one.right, to: other.left}\n  other: {sew: one.left, to: other.right}\n";
+    assert!(copied(["hip front", "hip back"], crossed).is_ok());
+    for seams in [alike, "  side: {sew: one.right, to: other.right}\nfree: ['*.left', '*.waist', '*.hem']\n#"] {
+        let Err(PlaceError::Sides { seam, piece, to, side }) = copied(["hip front", "hip back"], seams) else {
+            panic!("sewn right to right: {seams}");
+        };
+        assert_eq!([&seam, &piece, &to, side], ["side", "one", "other", "right"]);
+    }
 }
 
 #[test]

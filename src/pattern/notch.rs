@@ -35,16 +35,28 @@ pub(super) fn met<'a>(pieces: &'a [Piece], chain: &[Span]) -> Vec<Met<'a>> {
     met
 }
 
-/// Warns of notches that have none near on the other side of their seam, single ones of single, double of double. What
-/// has no notch of its kind on the other side marks something else. `written` says which of `files` a seam comes from;
-/// one that is there on both sides of the garment is looked at once.
+/// Finds notches that come to lie far from those that they meet. `match: notches` would stretch and crumple the cloth
+/// between them: an error. Otherwise single ones meet single ones, double ones double, and it is a warning; what has no
+/// notch of its kind on the other side marks something else. `written` says which of `files` a seam comes from; one that
+/// is there on both sides of the garment is looked at once.
 pub(super) fn check(garment: &Garment, written: &[Option<usize>], files: &[SeamFile], findings: &mut Findings) {
     for (k, seam) in garment.seams.iter().enumerate() {
-        let file = written[k].filter(|w| !written[..k].contains(&Some(*w))).map(|w| &files[w]);
-        let Some(file) = file.filter(|f| !f.match_notches.as_ref().is_some_and(|m| m.value)) else { continue };
-        for double in [false, true] {
-            check_kind(garment, seam, double, file.name.at, findings);
+        let Some(file) = written[k].filter(|w| !written[..k].contains(&Some(*w))).map(|w| &files[w]) else { continue };
+        if file.match_notches.as_ref().is_some_and(|m| m.value) {
+            check_matched(garment, seam, file.name.at, findings);
+        } else {
+            [false, true].into_iter().for_each(|double| check_kind(garment, seam, double, file.name.at, findings));
         }
+    }
+}
+
+/// Where notches are sewn to one another in their order, the first that cannot be.
+fn check_matched(garment: &Garment, seam: &Seam, at: Spot, findings: &mut Findings) {
+    let [on_a, on_b] = [&seam.a, &seam.b].map(|chain| met(&garment.pieces, chain));
+    let longer = seam.length_b() - seam.length_a();
+    let mut pairs = on_a.iter().zip(&on_b);
+    if let Some(problem) = pairs.find_map(|(one, other)| far_apart(garment, seam, [one, other], longer)) {
+        findings.error(at, problem);
     }
 }
 
@@ -58,15 +70,25 @@ fn check_kind(garment: &Garment, seam: &Seam, double: bool, at: Spot, findings: 
         std::mem::swap(&mut few, &mut many);
     }
     let longer = many.1 - few.1;
-    for one in few.0 {
+    for one in &few.0 {
         let apart = |other: &Met| missing(other.along - one.along, longer);
         let Some(other) = many.0.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))) else { return };
-        if apart(other) > FAR {
-            let place = |m: &Met| format!("{:.0} mm on {}", 1e3 * m.along, edge_name(&garment.pieces, m.notch.edge));
-            let (seam, apart) = (seam.name.clone(), 1e3 * apart(other));
-            findings.warn(at, Problem::NotchesApart { seam, one: place(&one), other: place(other), apart });
+        if let Some(problem) = far_apart(garment, seam, [one, other], longer) {
+            findings.warn(at, problem);
         }
     }
+}
+
+/// What is wrong with two notches that are to meet, of which the second lies on the side that is `longer`.
+fn far_apart(garment: &Garment, seam: &Seam, [one, other]: [&Met; 2], longer: f64) -> Option<Problem> {
+    let apart = missing(other.along - one.along, longer);
+    let place = |m: &Met| format!("{:.0} mm on {}", 1e3 * m.along, edge_name(&garment.pieces, m.notch.edge));
+    (apart > FAR).then(|| Problem::NotchesApart {
+        seam: seam.name.clone(),
+        one: place(one),
+        other: place(other),
+        apart: 1e3 * apart,
+    })
 }
 
 /// By how much two notches miss each other of which the second is `off` further along a side that is `longer`: of what

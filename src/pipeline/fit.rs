@@ -51,9 +51,7 @@ pub(super) fn check_places(loaded: &Loaded, mesh: &ClothMesh, body: &Mannequin, 
     let start = match place(&loaded.garment, mesh, body, collider) {
         Ok(start) => start,
         Err(error) => {
-            let piece = loaded.garment.pieces.iter().find(|p| p.name == culprit(&error));
-            let spot = piece.map_or_else(Spot::default, |p| spot_of(loaded, p));
-            return findings.error(spot, Problem::Place(error.to_string()));
+            return findings.error(culprit(loaded, &error), Problem::Place(error.to_string()));
         }
     };
     doubt_places(loaded, mesh, &start, findings);
@@ -81,10 +79,18 @@ fn doubt_places(loaded: &Loaded, mesh: &ClothMesh, start: &[Vec3], findings: &mu
     }
 }
 
-fn culprit(error: &PlaceError) -> &str {
-    match error {
+/// Where the file says what leads to the error.
+fn culprit(loaded: &Loaded, error: &PlaceError) -> Spot {
+    let name = match error {
+        PlaceError::Sides { seam, .. } => {
+            // `side` for `side.L`: names in files have no points.
+            let written = loaded.file.seams.iter().find(|s| Some(s.name.value.as_str()) == seam.split('.').next());
+            return written.map_or_else(Spot::default, |s| s.name.at);
+        }
         PlaceError::Words { piece, .. } | PlaceError::NoPart { piece, .. } | PlaceError::Nowhere { piece } => piece,
-    }
+    };
+    let piece = loaded.garment.pieces.iter().find(|p| p.name == *name);
+    piece.map_or_else(Spot::default, |p| spot_of(loaded, p))
 }
 
 /// Where a piece's place is said, or else its name.

@@ -184,7 +184,7 @@ pub(super) fn through(links: Vec<Link>, mesh: &ClothMesh, laid: &[Option<Laid>])
             pieces[k] = run[0].0;
             let share = run.len() as f64 / ends.len() as f64;
             let pairs = run.iter().map(|(_, pair)| *pair).collect();
-            out.push(Link { pieces, pairs, length: link.length * share, upright: link.upright, through: true });
+            out.push(Link { pieces, pairs, length: link.length * share, through: true, ..link });
         }
     }
     out

@@ -29,6 +29,7 @@ mod pleat;
 mod ring;
 mod rows;
 mod shoulders;
+mod sides;
 mod stations;
 mod wrap;
 
@@ -69,6 +70,23 @@ pub enum PlaceError {
         /// The mannequin.
         mannequin: String,
     },
+    /// A seam joins two pieces by the same side of both.
+    #[error(
+        "seam '{seam}' joins the {side} side of '{piece}' to the {side} side of '{to}', each seen from outside: pieces \
+         side by side meet right to left. If one of them shows the wearer's right half, as a back drawn to the right \
+         of its centre does, write 'drawn: R' into it (or take that out where it is wrong); if the seam says L and R, \
+         each is sewn to its own"
+    )]
+    Sides {
+        /// The seam.
+        seam: String,
+        /// The piece it sews.
+        piece: String,
+        /// What it is sewn to.
+        to: String,
+        /// `left` or `right`.
+        side: &'static str,
+    },
     /// The seams of a piece ask for it to be nowhere.
     #[error(
         "piece '{piece}' finds no place: its seams contradict each other; check which edges they name (a front's right \
@@ -84,8 +102,8 @@ pub enum PlaceError {
 /// Start positions of all particles, on `body`; `collider` is its surface.
 ///
 /// # Errors
-/// [`PlaceError`] when a piece's place names a part that is none or that the body has not, or when its seams leave it
-/// no place.
+/// [`PlaceError`] when a piece's place names a part that is none or that the body has not, when a seam joins pieces by
+/// the same side of both, or when its seams leave a piece no place.
 pub fn place(
     garment: &Garment,
     mesh: &ClothMesh,
@@ -95,6 +113,7 @@ pub fn place(
     let sheet = fold::folded(garment, mesh);
     let assigned = assign::assign(garment, mesh)?;
     let rows = rows::rows(garment, mesh, &sheet, &assigned);
+    sides::check(garment, mesh, &sheet, &assigned, &rows)?;
     let mut x = wrap::wrap(garment, mesh, body, collider, &sheet, &rows)?;
     for (piece, part) in garment.pieces.iter().zip(&mesh.pieces) {
         if let Some(Place::At { at, turn }) = &piece.place {

@@ -23,6 +23,8 @@ const HEIGHTS: f64 = 1e6;
 /// The stitches between two pieces.
 #[derive(Clone, Debug)]
 pub(super) struct Link {
+    /// Number of the seam.
+    pub(super) seam: usize,
     pub(super) pieces: [usize; 2],
     /// Particles, in the order of `pieces`.
     pub(super) pairs: Vec<[u32; 2]>,
@@ -257,8 +259,8 @@ fn front_middle(assigned: &[Assigned], members: &[Member], boxes: &[[Vec2; 2]]) 
 fn links(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Link> {
     let joined = |pair: &[u32; 2]| pair.map(|p| mesh.piece_of(p));
     let mut out = Vec::new();
-    for seam in &mesh.seams {
-        for run in seam.pairs.chunk_by(|a, b| joined(a) == joined(b)) {
+    for (seam, stitches) in mesh.seams.iter().enumerate() {
+        for run in stitches.pairs.chunk_by(|a, b| joined(a) == joined(b)) {
             let [Some(one), Some(other)] = joined(&run[0]) else { continue };
             if one == other {
                 continue;
@@ -274,6 +276,7 @@ fn links(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Link> {
             }
             let flanks = (0..2).all(|k| is_flank(mesh, sheet, pieces[k], run.iter().map(|pair| pair[k])));
             out.push(Link {
+                seam,
                 pieces,
                 pairs: run.to_vec(),
                 upright: extent.y > extent.x || flanks,
