@@ -326,6 +326,16 @@ fn what_is_wrong_with_darts_and_pleats_is_named_with_its_place() {
     let twice =
         "{name: d, edge: top, at: 20, intake: 5, length: 9}, {name: d, edge: top, at: 70, intake: 5, length: 9}";
     says(&with(&format!("darts: [{twice}]")), 3, "a", "edge name 'd.a' used twice in 'a'");
+    // One to the end of the edge spans 20 to 50, to its start 30 to 60; a box of 10 six depths.
+    for (pleats, at, over) in [
+        ("at: [30, 50], depth: 10", "50", "pleat at 50 mm on 'a.top' reaches 10.0 mm over that at 30 mm"),
+        ("at: [5], depth: 10", "5", "pleat at 5 mm on 'a.top' reaches 5.0 mm over the start of the edge"),
+        ("at: [85], depth: 10", "85", "reaches 5.0 mm over the end of the edge, which is 100.0 mm long"),
+        ("at: [45], depth: 10, kind: box", "45", "pleat at 45 mm on 'a.top' reaches 5.0 mm over the end of the edge"),
+        ("at: [30, 55], depth: 10, toward: left", "55", "reaches 5.0 mm over that at 30 mm"),
+    ] {
+        says(&with(&format!("pleats: [{{edge: top, {pleats}}}]")), 4, at, over);
+    }
     let toward = with("pleats: [{edge: top, at: [50], depth: 10, toward: bottom}]");
     says(&toward, 4, "top", "'toward: bottom' is not next to 'top', whose neighbours are left and right");
     says(

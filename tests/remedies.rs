@@ -63,6 +63,24 @@ fn a_broken_chain_names_drawn_where_a_half_may_be_the_other_one() {
     assert_eq!(broken.hint.as_deref(), Some("name the edges in the order they are sewn, end to end"));
 }
 
+/// Folded at its hem instead of its center, a piece has no halves that meet there.
+#[test]
+fn a_broken_chain_of_two_halves_names_the_fold() {
+    let folded = |edge: &str| {
+        format!(
+            "garment: 1\nfabrics: {{shell: cotton_poplin}}\npieces:\n  front:\n    cut: fold {edge}\n    grain: [[9, 9], [9, 90]]\n    \
+             outline: {{start: 0 0, waist: L 100 0, side: L 100 100, hem: L 0 100, center: L 0 0}}\n  band:\n    \
+             grain: [[9, 9], [9, 19]]\n    \
+             outline: {{start: 0 0, upper: L 200 0, right: L 200 20, lower: L 0 20, left: L 0 0}}\nseams:\n  \
+             waist: {{sew: [front.R.waist, front.L.waist], to: band.lower}}\nfree: ['front.*', 'band.*']\n"
+        )
+    };
+    assert!(read_text("skirt", "skirt.yaml", &folded("center")).is_ok());
+    let found = mistakes(&folded("hem"));
+    let broken = found.iter().find(|d| matches!(d.problem, Problem::ChainBroken { .. })).expect("a broken chain");
+    assert!(broken.hint.as_deref().is_some_and(|h| h.contains("'cut: fold' names")), "{broken}");
+}
+
 /// Openings of both ends add up, against all edges of the chain together.
 #[test]
 fn openings_too_long_say_what_to_do_instead() {

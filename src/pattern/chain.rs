@@ -6,7 +6,7 @@
 use super::diagnostic::Findings;
 use super::draft::shown;
 use super::file::Unit;
-use super::problem::Problem;
+use super::problem::{ChainDoubt, Problem};
 use super::rim::{Identities, Rims, joint_marks};
 use super::seam::{marks_between, tolerance};
 use super::select::{Candidate, Run, Source, is_mirror, turned};
@@ -184,26 +184,27 @@ impl Table<'_> {
             seam,
             end: format!("{} ends at {}", chain[i].text, point(runs[i].last(), true)),
             start: format!("{} starts at {}", chain[i + 1].text, point(runs[i + 1].first(), false)),
-            drawn: self.meets_elsewhere(&runs[i], &runs[i + 1]),
+            doubt: runs[i]
+                .last()
+                .zip(runs[i + 1].first())
+                .map_or(ChainDoubt::Order, |(a, b)| self.doubt(a.edge, b.edge)),
         }
     }
 
-    /// Whether the first run ends where the second one's piece is sewn on, but at another corner of it, and one of them
-    /// is a half: taken for the half of the other side, its seams join it upside down.
-    fn meets_elsewhere(&self, run: &[Span], next: &[Span]) -> bool {
-        let (Some(end), Some(start)) = (run.last(), next.first()) else { return false };
-        let is_half = |edge: EdgeId| {
+    /// What the author of two edges that do not follow each other may have had in mind.
+    fn doubt(&self, end: EdgeId, start: EdgeId) -> ChainDoubt {
+        let side = |edge: EdgeId| {
             let piece = &self.pieces[edge.piece];
-            let name = &piece.loops[edge.ring][edge.index].name;
-            piece.side.is_some() || name.ends_with(".L") || name.ends_with(".R")
+            let of_edge = piece.loops[edge.ring][edge.index].name.rsplit_once('.').map(|(_, side)| side);
+            (piece.side.is_some(), of_edge.filter(|side| matches!(*side, "L" | "R")))
         };
-        if end.edge.piece == start.edge.piece || !(is_half(end.edge) || is_half(start.edge)) {
-            return false;
+        let [(one_is_half, one), (other_is_half, other)] = [side(end), side(start)];
+        if end.piece != start.piece {
+            let half = one_is_half || other_is_half || one.is_some() || other.is_some();
+            // Taken for the half of the other side, its seams join it upside down.
+            return if half { ChainDoubt::Drawn } else { ChainDoubt::Order };
         }
-        let p = self.rims.point(end.edge, end.to);
-        let mut corners = 0..self.pieces[start.edge.piece].loops[start.edge.ring].len();
-        let corner = |index| self.rims.point(EdgeId { index, ..start.edge }, 0.0);
-        corners.any(|index| self.one.one(&self.rims, p, corner(index)))
+        if one.is_some() && other.is_some() && one != other { ChainDoubt::Fold } else { ChainDoubt::Order }
     }
 
     /// Warns of chains that hang together only through seams that are sewn later.

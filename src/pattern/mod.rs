@@ -63,7 +63,7 @@ pub use file::{
 };
 pub use notch_kind::{DOUBLE_MARKS, NotchKind};
 pub use place_word::{PlaceWord, place_word, words_of};
-pub use problem::Problem;
+pub use problem::{ChainDoubt, Problem};
 pub(crate) use reference::LARGEST;
 pub use reference::parse_quantity;
 pub(crate) use region::{Region, SLACK};

@@ -15,6 +15,8 @@ use super::{PleatLayer, SeamKind};
 #[derive(Clone, Copy)]
 struct Fold {
     at: f64,
+    /// Where the file says that its pleat begins.
+    pleat: f64,
     depth: f64,
     to_end: bool,
     spot: Spot,
@@ -80,17 +82,28 @@ fn lay_edge(drawn: &mut Draft, edge: &str, pleats: &[&PleatFile], unit: Unit, fi
         findings.error(pleats[0].edge.at, problem);
         return;
     }
-    let mut end = 0.0;
-    for fold in &folds {
-        let [from, to] = fold.occupied();
-        // Top layers may meet (pleats edge to edge) but not overlap what another pleat takes up.
-        if from < end - 1e-6 || to > length + 1e-6 {
-            findings.error(fold.spot, Problem::PleatsOverlap { edge: full_name, at: fold.at * 1e3 });
-            return;
-        }
-        end = fold.at + 2.0 * fold.depth;
+    if let Some((fold, by, over)) = overlap(&folds, length) {
+        let (at, by) = (fold.pleat * 1e3, by * 1e3);
+        findings.error(fold.spot, Problem::PleatsOverlap { edge: full_name, at, by, over });
+        return;
     }
     apply(drawn, edge, whole, length, &folds);
+}
+
+/// The first fold that reaches over something, how far, and over what. Tops may meet, pleats edge to edge.
+fn overlap(folds: &[Fold], length: f64) -> Option<(&Fold, f64, String)> {
+    let (mut end, mut before) = (0.0, "the start of the edge".to_owned());
+    for fold in folds {
+        let [from, to] = fold.occupied();
+        if from < end - 1e-6 {
+            return Some((fold, end - from, before));
+        }
+        if to > length + 1e-6 {
+            return Some((fold, to - length, format!("the end of the edge, which is {:.1} mm long", length * 1e3)));
+        }
+        (end, before) = (to, format!("that at {:.0} mm", fold.pleat * 1e3));
+    }
+    None
 }
 
 /// Whether `toward` lies at the end of the edge.
@@ -113,11 +126,13 @@ fn points_to_end(drawn: &Draft, (_, index): (usize, usize), pleat: &PleatFile) -
 fn folds_of(pleat: &PleatFile, to_end: bool, length: f64, unit: Unit) -> Vec<Fold> {
     let depth = pleat.depth.value.value(unit);
     let kind = pleat.kind.as_ref().map_or(PleatKind::Knife, |k| k.value);
-    let one = |at, to_end, spot| Fold { at, depth, to_end, spot };
-    let folds = |at: f64, spot| match kind {
-        PleatKind::Knife => vec![one(at, to_end, spot)],
-        PleatKind::Box => vec![one(at, false, spot), one(at + 4.0 * depth, true, spot)],
-        PleatKind::Inverted => vec![one(at, true, spot), one(at + 2.0 * depth, false, spot)],
+    let folds = |pleat: f64, spot| {
+        let one = |after: f64, to_end| Fold { at: pleat + after, pleat, depth, to_end, spot };
+        match kind {
+            PleatKind::Knife => vec![one(0.0, to_end)],
+            PleatKind::Box => vec![one(0.0, false), one(4.0 * depth, true)],
+            PleatKind::Inverted => vec![one(0.0, true), one(2.0 * depth, false)],
+        }
     };
     pleat.at.iter().flat_map(|at| folds(position(at.value, length, unit), at.at)).collect()
 }

@@ -171,6 +171,8 @@ pub enum Problem {
     StartsInside { piece: String, depth_mm: f64 },
 
     // Darts and pleats.
+    #[error("a dart on an edge needs 'length' or 'tip'")]
+    DartWithoutLength,
     #[error(
         "dart at {edge}@{at:.0}: its mouth reaches from {from:.1} to {to:.1} mm but the edge is {length:.1} mm long"
     )]
@@ -183,8 +185,8 @@ pub enum Problem {
     DartsOverlap(String),
     #[error("pleats on '{edge}' take {take:.0} mm but the edge has {length:.0} mm")]
     PleatsTooLong { edge: String, take: f64, length: f64 },
-    #[error("pleat at {at:.0} mm on '{edge}' overlaps its neighbour or the end of the edge")]
-    PleatsOverlap { edge: String, at: f64 },
+    #[error("pleat at {at:.0} mm on '{edge}' reaches {by:.1} mm over {over}")]
+    PleatsOverlap { edge: String, at: f64, by: f64, over: String },
     #[error("edge '{0}' has both darts and pleats; split it in two")]
     DartsAndPleats(String),
     #[error("'toward: {toward}' is not next to '{edge}', whose neighbours are {known}")]
@@ -227,7 +229,7 @@ pub enum Problem {
     #[error("{edge} is listed free but sewn in '{seam}'")]
     FreeButSewn { edge: String, seam: String },
     #[error("chain in '{seam}' is not continuous: {end}, {start}")]
-    ChainBroken { seam: String, end: String, start: String, drawn: bool },
+    ChainBroken { seam: String, end: String, start: String, doubt: ChainDoubt },
     #[error("seam '{seam}' is twisted: its ends meet {ends}")]
     Twisted { seam: String, ends: String, turned: Option<String>, same: bool },
     #[error("'{piece}' lies on '{on}' (face: same), but both are on layer {layer}: it starts outside '{on}'")]
@@ -254,6 +256,17 @@ pub enum Problem {
     NotchesApart { seam: String, one: String, other: String, apart: f64 },
     #[error("seam order: '{seam}' is sewn before '{later}' that makes it a ring; order kept, stage them to change")]
     SeamOrder { seam: String, later: String },
+}
+
+/// What may be wrong with edges that do not follow each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ChainDoubt {
+    /// Their order.
+    Order,
+    /// Or which half a piece is drawn as.
+    Drawn,
+    /// Or which edge a piece is folded at.
+    Fold,
 }
 
 /// A number with as many digits as tell that it is more than a limit.
@@ -351,12 +364,18 @@ impl Problem {
                 "the smaller number comes first, along the edge; which way a seam runs follows from its 'face'"
                     .to_owned()
             }
-            Self::ChainBroken { drawn: true, .. } => {
-                "name the edges in the order they are sewn, end to end; if they are, a half drawn for the wearer's \
-                 right needs 'drawn: R'"
-                    .to_owned()
+            Self::ChainBroken { doubt, .. } => {
+                let order = "name the edges in the order they are sewn, end to end";
+                match doubt {
+                    ChainDoubt::Order => order.to_owned(),
+                    ChainDoubt::Drawn => {
+                        format!("{order}; if they are, a half drawn for the wearer's right needs 'drawn: R'")
+                    }
+                    ChainDoubt::Fold => {
+                        format!("{order}; the halves of a piece meet at the edge that its 'cut: fold' names")
+                    }
+                }
             }
-            Self::ChainBroken { .. } => "name the edges in the order they are sewn, end to end".to_owned(),
             Self::Twisted { turned: None, .. } => {
                 "leave face: same out: halves are sewn to each other with the right sides out".to_owned()
             }
@@ -368,6 +387,11 @@ impl Problem {
                 "with face: same its two lists run the same way round their pieces, and these run opposite ways; turn \
                  one round, to: [{turned}], or leave face: same out if the right sides are out"
             ),
+            Self::NonOrientable(_) => {
+                "walked round through its seams, the right side of the cloth comes out inside: one of them says 'face: \
+                 same' and should not, or should; without it the right sides are out"
+                    .to_owned()
+            }
             Self::OpenTooLong { .. } => {
                 "leave more of it sewn, give it a 'closure', or list its edges under 'free' instead".to_owned()
             }

@@ -193,7 +193,7 @@ fn dart(value: &Located<Value>, findings: &mut Findings) -> Option<DartFile> {
                     findings.error(tip.at, Problem::Exclusive { one: "length", other: "tip" });
                 }
                 (None, None) => {
-                    findings.error(fields.at(), Problem::MissingKey { what: "a dart".to_owned(), key: "length" });
+                    findings.error(fields.at(), Problem::DartWithoutLength);
                 }
                 _ => {}
             }
