@@ -337,3 +337,19 @@ fn a_fold_comes_to_rest_at_the_angle_it_was_pressed_to() {
         assert!(proud * angle > 0.0, "{proud}");
     }
 }
+
+/// A stand that is sewn at both rims started on a ring for both lengths together, and the collar turned down inside it.
+#[test]
+fn a_collar_turns_down_outside_its_stand() {
+    let shirt = draped("collar.yaml", 15.0);
+    let stand = shirt.particles("stand", |_, _| true);
+    let [edge, crease] = [0.0, 50.0].map(|at| shirt.particles("collar", |_, y| (y - at).abs() < 1.0));
+    let middle = |these: &[usize]| these.iter().map(|&p| shirt.x[p]).sum::<Vec3>() / these.len() as f64;
+    let axis = middle(&stand);
+    let out =
+        |these: &[usize]| these.iter().map(|&p| (shirt.x[p] - axis).xz().norm()).sum::<f64>() / these.len() as f64;
+    let fall = middle(&crease).y - middle(&edge).y;
+    assert!(fall > 0.02, "its edge hangs {} mm below its crease", 1e3 * fall);
+    let outside = out(&edge) - out(&stand);
+    assert!(outside > 0.0, "its edge is {} mm out of the stand", 1e3 * outside);
+}

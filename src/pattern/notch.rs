@@ -37,7 +37,7 @@ pub(super) fn met<'a>(pieces: &'a [Piece], chain: &[Span]) -> Vec<Met<'a>> {
 
 /// Finds notches that come to lie far from those that they meet. `match: notches` would stretch and crumple the cloth
 /// between them: an error. Otherwise single ones meet single ones, double ones double, and it is a warning; what has no
-/// notch of its kind on the other side marks something else. `written` says which of `files` a seam comes from; one that
+/// notch of its kind on the other side marks something else. `written` says which of `files` a seam comes from; what
 /// is there on both sides of the garment is looked at once.
 pub(super) fn check(garment: &Garment, written: &[Option<usize>], files: &[SeamFile], findings: &mut Findings) {
     for (k, seam) in garment.seams.iter().enumerate() {

@@ -1,7 +1,5 @@
 //! A row as a ring on its body part.
 
-use std::collections::BTreeSet;
-
 use super::arms::Arms;
 use super::ellipse::Ellipse;
 use super::fold::Sheet;
@@ -10,7 +8,7 @@ use super::levels::{LEVEL, Level, complete_shifts, nearest_level, smooth_shifts,
 use super::rows::{Link, Member, Row};
 use super::shoulders::Lean;
 use super::stations::{Station, Stations};
-use crate::geometry::{Vec2, Vec3, sorted_pair};
+use crate::geometry::{Vec2, Vec3, range_of};
 use crate::mannequin::PartKind;
 use crate::mesh::ClothMesh;
 
@@ -117,20 +115,18 @@ impl Ring<'_> {
         })
     }
 
-    /// How much of the row's rim is sewn to other rows, metres; what is sewn to several layers counts once.
+    /// How much of the row's way round is sewn to other rows, metres: what is sewn at its top and at its foot, or to
+    /// several layers, counts once.
     fn sewn_length(&self) -> f64 {
-        let own = |p: usize| self.row.members.iter().any(|m| m.piece == p);
-        let mut counted = BTreeSet::new();
-        let mut length = 0.0;
+        let own = |p: usize| self.row.members.iter().find(|m| m.piece == p);
+        let mut stretches: Vec<[f64; 2]> = Vec::new();
         for link in self.links.iter().filter(|l| !l.through) {
-            let Some(k) = (0..2).find(|&k| own(link.pieces[k]) && !own(link.pieces[1 - k])) else { continue };
-            for [a, b] in link.pairs.windows(2).map(|pair| [pair[0][k], pair[1][k]]) {
-                if counted.insert(sorted_pair([a, b])) {
-                    length += (self.sheet.flat[a as usize] - self.sheet.flat[b as usize]).norm();
-                }
-            }
+            let member = |k: usize| own(link.pieces[k]).filter(|_| own(link.pieces[1 - k]).is_none());
+            let Some((k, member)) = (0..2).find_map(|k| Some((k, member(k)?))) else { continue };
+            let at = |pair: &[u32; 2]| self.sheet.flat[pair[k] as usize].x + member.shift.x;
+            stretches.extend(link.pairs.windows(2).map(|pairs| range_of([at(&pairs[0]), at(&pairs[1])])));
         }
-        length
+        covered(stretches)
     }
 
     /// The first level at which the row goes all the way round: under the armholes. What hangs from the shoulders and
@@ -215,6 +211,17 @@ impl Ring<'_> {
     }
 }
 
+/// How long the stretches are together, where they lie over one another counted once.
+fn covered(mut stretches: Vec<[f64; 2]>) -> f64 {
+    stretches.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let (mut sum, mut end) = (0.0, f64::NEG_INFINITY);
+    for [from, to] in stretches {
+        sum += (to - from.max(end)).max(0.0);
+        end = end.max(to);
+    }
+    sum
+}
+
 /// Half width and half depth of a ring as long as that of `axes` which is out of the arms, if the body leaves room.
 fn between(arms: &Arms, station: &Station, axes: [f64; 2]) -> [f64; 2] {
     let room = arms.room(station.center.x, station.center.y) - CLEARANCE;
@@ -224,4 +231,20 @@ fn between(arms: &Arms, station: &Station, axes: [f64; 2]) -> [f64; 2] {
     }
     let deep = Ellipse::deep(narrow, Ellipse::new(axes[0], axes[1]).perimeter);
     [deep.half_width, deep.half_depth]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::covered;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn what_is_sewn_at_both_rims_counts_once() {
+        let foot = [[0.0, 0.1], [0.1, 0.3], [0.3, 0.47]];
+        assert_relative_eq!(covered(foot.to_vec()), 0.47, epsilon = 1e-15);
+        // The top between 0.01 and 0.46, and a strap beyond the foot.
+        let top = [[0.01, 0.2], [0.2, 0.46], [0.5, 0.52]];
+        assert_relative_eq!(covered([top, foot].concat()), 0.49, epsilon = 1e-15);
+        assert_relative_eq!(covered(Vec::new()), 0.0);
+    }
 }
