@@ -58,7 +58,8 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
         // The only fabric is that of every piece.
         file.fabric = piece.material.as_ref().filter(|_| fabrics.len() > 1).map(|m| at_no_place(name_of(m)));
         let fold = fold_of(&file).map(str::to_owned);
-        outlines.push(Outline { piece: name, edges, fold });
+        let pair = file.cut.as_ref().is_some_and(|cut| cut.value == Cut::Pair);
+        outlines.push(Outline { piece: name, edges, fold, pair });
         pieces.push(file);
     }
     let file = GarmentFile {

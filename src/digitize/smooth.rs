@@ -14,8 +14,19 @@ const BETWEEN: f64 = 6e-6;
 /// Vertices that one curve must stand for on average: otherwise the points say more than curves would.
 const WORTH: usize = 8;
 
-/// A polyline as the smooth curves it was sampled from, as far as it looks like one; any other path as it is. What is
-/// straight is one line.
+/// A curve ends at a vertex where the line turns by more (radians, two degrees), and by so many times more than at the
+/// vertices beside it;
+const CORNER: f64 = 0.035;
+const SHARPER: f64 = 3.0;
+/// or where one chord is so many times as long as the other: a straight part begins.
+const LONGER: f64 = 8.0;
+/// A chord at an inflection is so many times as long as the mean of its stretch,
+const INFLECTION: f64 = 3.0;
+/// and there are no more of these in one.
+const SPLITS: usize = 4;
+
+/// A polyline as the smooth curves and the straight lines it was sampled from, as far as it looks like them; any other
+/// path as it is.
 pub(super) fn smoothed(path: &Path) -> Path {
     let Some(points) = vertices(path) else { return path.clone() };
     if points.len() > 2 && path.is_straight() {
@@ -24,9 +35,48 @@ pub(super) fn smoothed(path: &Path) -> Path {
     if !(FEWEST..=MOST).contains(&points.len()) {
         return path.clone();
     }
-    let fitted = OFF.iter().map(|off| smooth_curves(&points, *off)).take_while(|c| c.len() * WORTH <= points.len());
+    let mut breaks = vec![0];
+    breaks.extend((1..points.len() - 1).filter(|&k| is_break(&points, k)));
+    breaks.push(points.len() - 1);
+    let stretches = breaks.windows(2).map(|ends| curved(&points[ends[0]..=ends[1]], SPLITS));
+    stretches.reduce(|before, next| before.joined(&next)).unwrap_or_else(|| path.clone())
+}
+
+/// Points of a polyline between two of its corners as few curves, or else as they are. Where an inflection leaves a long
+/// chord among short ones, too little says which way a curve goes there: the chord stays, and what is on either side of
+/// it is looked at alone, `splits` times at most.
+fn curved(points: &[Vec2], splits: usize) -> Path {
+    let path = Path::polyline(points);
+    if points.len() < FEWEST {
+        return path;
+    }
+    let fitted = OFF.iter().map(|off| smooth_curves(points, *off)).take_while(|c| c.len() * WORTH <= points.len());
     let near = |curve: &Path| curve.sampled(BETWEEN / 10.0).iter().all(|p| path.nearest(*p).1 <= BETWEEN);
-    fitted.map(|curves| Path::cubics(&curves)).find(near).unwrap_or_else(|| path.clone())
+    if let Some(curve) = fitted.map(|curves| Path::cubics(&curves)).find(near) {
+        return curve;
+    }
+    let chord = |k: &usize| (points[k + 1] - points[*k]).norm();
+    let longest = (0..points.len() - 1).max_by(|a, b| chord(a).total_cmp(&chord(b)));
+    match longest.filter(|k| splits > 0 && chord(k) * (points.len() - 1) as f64 > INFLECTION * path.length()) {
+        None => path,
+        Some(k) => {
+            let sides =
+                [&points[..=k], &points[k + 1..]].map(|side| (side.len() > 1).then(|| curved(side, splits - 1)));
+            let [before, after] = sides;
+            let parts = [before, Some(Path::line(points[k], points[k + 1])), after];
+            parts.into_iter().flatten().reduce(|before, next| before.joined(&next)).unwrap_or(path)
+        }
+    }
+}
+
+/// Whether the line that a polyline was sampled from has a corner at vertex `k`, or a straight part that ends there.
+fn is_break(points: &[Vec2], k: usize) -> bool {
+    let turn = |k: usize| match points.get(k.wrapping_sub(1)..=k + 1) {
+        Some([before, at, after]) => (at - before).angle(&(after - at)),
+        _ => 0.0,
+    };
+    let [one, other] = [points[k] - points[k - 1], points[k + 1] - points[k]].map(|chord| chord.norm());
+    one.max(other) > LONGER * one.min(other) || turn(k) > CORNER.max(SHARPER * turn(k - 1).max(turn(k + 1)))
 }
 
 /// The vertices of a path of straight lines only.
@@ -50,6 +100,22 @@ mod tests {
         assert!((again.length() - curve.length()).abs() < 1e-5);
         let zigzag: Vec<Vec2> = (0..40).map(|k| Vec2::new(0.01 * f64::from(k), 0.01 * f64::from(k % 2))).collect();
         assert_eq!(smoothed(&Path::polyline(&zigzag)).joints().len(), 40);
+        // An S sampled as it bends, with a chord of 24 mm where it does not.
+        let bends = Path::parse_absolute("M 10 600 C 5 520 0 460 0 400 C 0 340 0 300 5 240 C 10 180 45 100 50 0", 1e-3);
+        let wave = bends.expect("a path").sampled(2e-6);
+        let again = smoothed(&Path::polyline(&wave));
+        assert!(again.joints().len() * 4 < wave.len(), "{} of {}", again.joints().len(), wave.len());
+        // A straight side goes on from the curve, with a corner of four degrees; so do two curves.
+        let end = curve.end();
+        let side = Path::polyline(&[end, end + Vec2::new(0.2, 0.04)]);
+        let turned = curve.sampled(2e-6).into_iter().rev().map(|p| end + (end - p).yx());
+        for next in [side, Path::polyline(&turned.collect::<Vec<Vec2>>())] {
+            let both = Path::polyline(&points).joined(&next);
+            let again = smoothed(&both);
+            assert!(again.joints().len() <= 16, "{}", again.joints().len());
+            let off = both.joints().iter().map(|at| again.nearest(both.point(*at)).1).fold(0.0, f64::max);
+            assert!(off <= BETWEEN, "{off}");
+        }
         let straight: Vec<Vec2> = (0..40).map(|k| Vec2::new(0.01 * f64::from(k), 0.02 * f64::from(k))).collect();
         assert_eq!(smoothed(&Path::polyline(&straight)).joints().len(), 2);
     }

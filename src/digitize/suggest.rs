@@ -12,12 +12,17 @@ const SHORTEST: f64 = 0.02;
 /// Among more edges than this every length fits by chance.
 const MOST_EDGES: usize = 2000;
 
+/// Edges called so stay open, whatever is as long,
+const HEM: &str = "hem";
+/// and the halves of a pair may be sewn to each other at edges called so.
+const CENTER: [&str; 2] = ["center", "centre"];
+
 /// Two edges that may be sewn together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Suggestion {
     /// `front.a`.
     pub sew: String,
-    /// `back.c`.
+    /// `back.c`, or `mirror`.
     pub to: String,
     /// Their lengths, metres.
     pub lengths: [f64; 2],
@@ -37,13 +42,21 @@ pub(super) struct Outline {
     pub(super) edges: Vec<Edge>,
     /// The edge that lies on the fold of the cloth: no seam is there.
     pub(super) fold: Option<String>,
+    /// Whether it is cut as drawn and mirrored.
+    pub(super) pair: bool,
 }
 
-/// Edges of which each fits the other best: pieces first, then edges of one piece (darts, sleeves).
+/// Whether a name says one of these words: `center`, `center_back`, `cb-center`.
+fn says(name: &str, words: &[&str]) -> bool {
+    name.split(['_', '-']).any(|word| words.contains(&word.to_lowercase().as_str()))
+}
+
+/// Edges of which each fits the other best: pieces first, then edges of one piece (darts, sleeves); then the centers of
+/// pairs, to their mirror images.
 pub(super) fn suggest(outlines: &[Outline]) -> Vec<Suggestion> {
     let mut ends = Vec::new();
     for (piece, own) in outlines.iter().enumerate() {
-        let sewn = own.edges.iter().filter(|e| own.fold.as_ref() != Some(&e.name));
+        let sewn = own.edges.iter().filter(|e| own.fold.as_ref() != Some(&e.name) && !says(&e.name, &[HEM]));
         let long = sewn.filter(|e| e.path.length() >= SHORTEST);
         ends.extend(long.map(|edge| End { piece, name: format!("{}.{}", own.piece, edge.name), edge }));
     }
@@ -57,6 +70,12 @@ pub(super) fn suggest(outlines: &[Outline]) -> Vec<Suggestion> {
             let lengths = [ends[i].edge.path.length(), ends[k].edge.path.length()];
             let notched = ends[i].edge.notch().is_some() && ends[k].edge.notch().is_some();
             found.push(Suggestion { sew: ends[i].name.clone(), to: ends[k].name.clone(), lengths, notched });
+        }
+    }
+    for (end, _) in ends.iter().zip(&best).filter(|(_, partner)| partner.is_none()) {
+        if outlines[end.piece].pair && says(&end.edge.name, &CENTER) {
+            let (lengths, notched) = ([end.edge.path.length(); 2], end.edge.notch().is_some());
+            found.push(Suggestion { sew: end.name.clone(), to: "mirror".to_owned(), lengths, notched });
         }
     }
     found

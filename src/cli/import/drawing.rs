@@ -30,8 +30,10 @@ fn write(args: &DrawingArgs, drawing: &Drawing, console: &Console) -> Result<Exi
     let made = garment_file(&drawing.title.clone().unwrap_or_else(stem), &drawing.pieces);
     let exit = finish(&Imported { source: &args.drawing, target: &args.target, file: &made.file }, console)?;
     drawing.left_out.iter().chain(&drawing.notes).chain(&made.notes).for_each(|note| console.note(note));
+    console
+        .note("seams are to be written; until then all edges are free, afterwards 'free' lists those that stay open");
     if !made.suggestions.is_empty() {
-        console.note("seams are to be written; by their lengths these edges may belong together:");
+        console.note("by their lengths these edges may belong together:");
     }
     made.suggestions.iter().for_each(|s| console.note(&suggestion(s)));
     Ok(exit)
