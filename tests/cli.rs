@@ -817,7 +817,7 @@ fn a_soup_of_triangles_is_told_what_is_not_seen() {
     assert!(!run.err.contains("common vertices"), "{}", run.err);
     room.put("through.obj", &soup(&[squares, upright].concat()));
     let run = room.run(&["check", "--mesh", "through.obj", "--units", "mm"]);
-    run.says(&["in 1 places edges of triangles lie on two or more others without common vertices", "merge"]);
+    run.says(&["edges of triangles that lie on two or more others without common vertices: 1", "merge"]);
 }
 
 #[test]

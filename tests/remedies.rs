@@ -68,7 +68,8 @@ fn a_broken_chain_names_drawn_where_a_half_may_be_the_other_one() {
 fn a_broken_chain_of_two_halves_names_the_fold() {
     let folded = |edge: &str| {
         format!(
-            "garment: 1\nfabrics: {{shell: cotton_poplin}}\npieces:\n  front:\n    cut: fold {edge}\n    grain: [[9, 9], [9, 90]]\n    \
+            "garment: 1\nfabrics: {{shell: cotton_poplin}}\npieces:\n  front:\n    cut: fold {edge}\n    \
+             grain: [[9, 9], [9, 90]]\n    \
              outline: {{start: 0 0, waist: L 100 0, side: L 100 100, hem: L 0 100, center: L 0 0}}\n  band:\n    \
              grain: [[9, 9], [9, 19]]\n    \
              outline: {{start: 0 0, upper: L 200 0, right: L 200 20, lower: L 0 20, left: L 0 0}}\nseams:\n  \

@@ -331,9 +331,10 @@ free: ['*.*']
 /// Hems as long as each other are no seam; the halves of a pair meet at its center, which no other edge is as long as.
 #[test]
 fn hems_are_not_suggested_and_centers_to_their_mirror_images() {
-    let text = "garment: 1\npieces:\n  front: {cut: pair, grain: [[9, 9], [9, 90]], outline: {start: 0 0, waist: L 70 0, \
-                side: L 90 200, hem: L 0 210, center: L 0 0}}\n  back: {cut: pair, grain: [[9, 9], [9, 90]], outline: \
-                {start: 0 0, waist: L 65 10, side: L 90 209.5, hem: L 0 220, center_back: L 0 0}}\nfree: ['*.*']\n";
+    let text = "garment: 1\npieces:\n  front: {cut: pair, grain: [[9, 9], [9, 90]], outline: {start: 0 0, \
+                waist: L 70 0, side: L 90 200, hem: L 0 210, center: L 0 0}}\n  back: {cut: pair, \
+                grain: [[9, 9], [9, 90]], outline: {start: 0 0, waist: L 65 10, side: L 90 209.5, hem: L 0 220, \
+                center_back: L 0 0}}\nfree: ['*.*']\n";
     for made in both_ways(text) {
         let found: Vec<(&str, &str)> = made.suggestions.iter().map(|s| (s.sew.as_str(), s.to.as_str())).collect();
         let seams = [("front.side", "back.side"), ("front.center", "mirror"), ("back.center_back", "mirror")];

@@ -42,9 +42,9 @@ pub(super) fn smoothed(path: &Path) -> Path {
     stretches.reduce(|before, next| before.joined(&next)).unwrap_or_else(|| path.clone())
 }
 
-/// Points of a polyline between two of its corners as few curves, or else as they are. Where an inflection leaves a long
-/// chord among short ones, too little says which way a curve goes there: the chord stays, and what is on either side of
-/// it is looked at alone, `splits` times at most.
+/// Points of a polyline between two of its corners as few curves, or else as they are. Where an inflection leaves a
+/// long chord among short ones, too little says which way a curve goes there: the chord stays, and what is on either
+/// side of it is looked at alone, `splits` times at most.
 fn curved(points: &[Vec2], splits: usize) -> Path {
     let path = Path::polyline(points);
     if points.len() < FEWEST {

@@ -112,7 +112,9 @@ pub enum Problem {
     NotClosed { piece: String, last: String, start: String, gap: f64 },
     #[error("outline of '{piece}' crosses itself near {near}, between {edges}")]
     Crosses { piece: String, near: String, edges: String },
-    #[error("outline of '{0}' encloses no area")]
+    #[error(
+        "outline of '{0}' encloses no area: it runs back along itself, or crosses itself, and its loops cancel out"
+    )]
     NoArea(String),
     #[error("outline of '{0}' runs counter-clockwise; reversed it")]
     CounterClockwise(String),

@@ -89,8 +89,8 @@ fn loose(cloth: &TriMesh) -> Option<String> {
     let count = rims.values().filter(|&&rims| rims > 2).count();
     (count > 0).then(|| {
         format!(
-            "in {count} places edges of triangles lie on two or more others without common vertices: a surface that \
-             passes through another exactly along them is not seen; merge vertices that lie in one place"
+            "edges of triangles that lie on two or more others without common vertices: {count}; a surface that passes \
+             through another exactly along them is not seen; merge vertices that lie in one place"
         )
     })
 }
