@@ -51,7 +51,7 @@ pub enum PipelineError {
         /// The garment file.
         file: PathBuf,
         /// Which piece, and why.
-        source: PlaceError,
+        source: Box<PlaceError>,
         /// What a position means and what the body has, where that is the question.
         advice: String,
     },
@@ -167,7 +167,11 @@ impl PipelineError {
         match error {
             SewError::Place(source) => {
                 let absent = matches!(source, PlaceError::NoPart { .. });
-                Self::Place { file: file.to_owned(), source, advice: if absent { parts(body) } else { String::new() } }
+                Self::Place {
+                    file: file.to_owned(),
+                    source: Box::new(source),
+                    advice: if absent { parts(body) } else { String::new() },
+                }
             }
             other => Self::Sew(other),
         }
