@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use toile::geometry::{TriMesh, Vec3, rim_loops};
 use toile::mannequin::{BodyPart, Frame, Mannequin, PartKind, Section};
-use toile::verify::{crossings, crossings_between, inside, worn};
+use toile::verify::{Through, crossings, crossings_between, inside, past_end, worn};
 
 /// Numbers in 0..1, the same every time (a linear congruential generator).
 struct Noise(u64);
@@ -423,6 +423,24 @@ fn what_passes_through_a_ring() {
     let backwards: Vec<Vec<Vec3>> = rims.iter().map(|r| r.iter().rev().copied().collect()).collect();
     let found: Vec<_> = worn(&backwards, &mannequin()).into_iter().map(|t| t.map(|t| t.name())).collect();
     assert_eq!(found, expected);
+}
+
+#[test]
+fn a_sleeve_ends_before_the_wrist_or_past_it() {
+    let body = mannequin();
+    let (shoulder, wrist) = (Vec3::new(0.2, 1.38, 0.0), Vec3::new(0.35, 0.85, 0.0));
+    let along = (wrist - shoulder).normalize();
+    for past in [-0.3, -0.01, 0.042] {
+        // Slipped sideways, as a wide sleeve hangs.
+        let middle = wrist + along * past + Vec3::z() * 0.02;
+        let rim = ring(middle.into(), 0.08);
+        let through = worn(std::slice::from_ref(&rim), &body)[0].expect("an arm");
+        let found = past_end(&rim, through, &body).expect("past an arm's end");
+        assert!((found - past).abs() < 1e-3, "{found} for {past}");
+    }
+    let neck = ring([0.0, 1.45, 0.0], 0.1);
+    assert_eq!(past_end(&neck, Through::Part(PartKind::Neck), &body), None);
+    assert_eq!(past_end(&neck, Through::Legs, &body), None);
 }
 
 #[test]

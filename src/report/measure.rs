@@ -14,7 +14,7 @@ use crate::geometry::{MM, Vec2, Vec3};
 use crate::mannequin::Mannequin;
 use crate::mesh::{ClothMesh, Stitches};
 use crate::pattern::{Garment, written_names};
-use crate::verify::{Welded, worn};
+use crate::verify::{Welded, past_end, worn};
 
 /// Square millimetres in a square metre.
 const MM2: f64 = 1e6;
@@ -273,6 +273,7 @@ impl<'a> InSpace<'a> {
             body_part: part.map(|p| p.name().into()),
             edges: written_names(opening.edges.iter().map(|(piece, edge)| (piece.as_str(), edge.as_str()))),
             length: length(ring) * MM,
+            past_end: part.and_then(|p| past_end(ring, p, run.body)).map(|past| past * MM),
         });
         rows.collect()
     }

@@ -208,6 +208,8 @@ pub struct Worn {
     pub edges: Vec<String>,
     /// Its length, mm.
     pub length: f64,
+    /// Round an arm or a leg: how far past the limb's last section (the wrist, the ankle) it is, mm; negative before it.
+    pub past_end: Option<f64>,
 }
 
 /// How a stage went.

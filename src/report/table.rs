@@ -87,11 +87,14 @@ fn worn(worn: &[Worn]) -> String {
     if worn.is_empty() {
         return String::new();
     }
-    let mut rows = vec![["opening", "mm", "round"].map(String::from).to_vec()];
+    let mut rows = vec![["opening", "mm", "round", "mm past its end"].map(String::from).to_vec()];
+    let limbs = worn.iter().any(|w| w.past_end.is_some());
     rows.extend(worn.iter().map(|w| {
         let part = w.body_part.clone().unwrap_or_else(|| "NOTHING".into());
-        vec![w.opening.clone(), number(Some(w.length), 0), part]
+        vec![w.opening.clone(), number(Some(w.length), 0), part, number(w.past_end, 0)]
     }));
+    // A skirt has none of them.
+    rows.iter_mut().for_each(|row| row.truncate(if limbs { 4 } else { 3 }));
     aligned(&rows)
 }
 

@@ -20,4 +20,4 @@ mod worn;
 pub use crossing::{Between, crossings, crossings_between};
 pub use inside::{Inside, inside};
 pub use welded::Welded;
-pub use worn::{Through, worn};
+pub use worn::{Through, past_end, worn};

@@ -45,6 +45,32 @@ pub fn worn(rims: &[Vec<Vec3>], body: &Mannequin) -> Vec<Option<Through>> {
     rims.iter().map(|rim| skeleton.through(rim)).collect()
 }
 
+/// How far the middle of a rim round an arm or a leg is past the last section of that limb, metres along it: a sleeve's
+/// or a leg's length beside the body's. Negative before it. None of other parts.
+pub fn past_end(rim: &[Vec3], through: Through, body: &Mannequin) -> Option<f64> {
+    let Through::Part(kind) = through else { return None };
+    let limb = body.parts.iter().find(|p| p.kind == kind && (kind.is_arm() || kind.is_leg()))?;
+    let middle = rim.iter().sum::<Vec3>() / rim.len() as f64;
+    let line: Vec<Vec3> = limb.sections.iter().rev().map(|s| s.center).collect();
+    let end = limb.sections.last()?;
+    let beyond = (middle - end.center).dot(&end.axis);
+    if beyond > 0.0 {
+        return Some(beyond);
+    }
+    let mut walked = 0.0;
+    let mut nearest = (f64::INFINITY, 0.0);
+    for ends in line.windows(2) {
+        let step = ends[1] - ends[0];
+        let share = ((middle - ends[0]).dot(&step) / step.norm_squared()).clamp(0.0, 1.0);
+        let off = (middle - ends[0] - step * share).norm();
+        if off < nearest.0 {
+            nearest = (off, walked + share * step.norm());
+        }
+        walked += step.norm();
+    }
+    Some(-nearest.1)
+}
+
 /// The body as lines that all begin at the upper end of the trunk.
 struct Skeleton {
     torso: Vec<Vec3>,
