@@ -1,7 +1,7 @@
 //! Which edges may be sewn together.
 
 use super::edges::Edge;
-use crate::pattern::DEFAULT_TOLERANCE;
+use crate::pattern::{DEFAULT_TOLERANCE, words_of};
 
 /// Edges of a seam differ by no more than a garment file takes without a word (metres), or by this share of their
 /// length.
@@ -48,7 +48,7 @@ pub(super) struct Outline {
 
 /// Whether a name says one of these words: `center`, `center_back`, `cb-center`.
 fn says(name: &str, words: &[&str]) -> bool {
-    name.split(['_', '-']).any(|word| words.contains(&word.to_lowercase().as_str()))
+    words_of(name).iter().any(|word| words.contains(&word.as_str()))
 }
 
 /// Edges of which each fits the other best: pieces first, then edges of one piece (darts, sleeves); then the centers of

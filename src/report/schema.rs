@@ -208,7 +208,7 @@ pub struct Worn {
     pub edges: Vec<String>,
     /// Its length, mm.
     pub length: f64,
-    /// Round an arm or a leg: how far past the limb's last section (the wrist, the ankle) it is, mm; negative before it.
+    /// Round an arm or a leg: how far past the limb's last section (wrist, ankle) it is, mm; negative before it.
     pub past_end: Option<f64>,
 }
 
