@@ -874,6 +874,32 @@ fn pieces_that_meet_right_to_right_are_refused_by_their_seam() {
     }
 }
 
+/// A panel set into a cut-out of the front meets it right to right of their boxes, but the cloth is on either side.
+#[test]
+fn a_panel_in_a_cut_out_is_not_refused() {
+    let set_in = |right: &str, left: &str| {
+        let made = Made::new(
+            &format!(
+                "garment: 1\nbody: woman_92\nfabrics: {{shell: cotton_poplin}}\npieces:\n  front:\n    \
+                 place: hip front\n    grain: [[0, 250], [0, 290]]\n    outline: {{start: -200 0, waist: L 200 0, \
+                 right: L 290 300, hem_r: L 170 300, in_r: L 170 60, top: L -170 60, in_l: L -170 300, \
+                 hem_l: L -290 300, left: L -200 0}}\n  front_panel:\n    place: hip front\n    \
+                 grain: [[0, 80], [0, 290]]\n    outline: {{start: -170 60, top: L 170 60, right: L 170 300, \
+                 hem: L -170 300, left: L -170 60}}\n  back:\n    place: hip back\n    grain: [[0, 50], [0, 250]]\n    \
+                 outline: {{start: -200 0, waist: L 200 0, right: L 290 300, hem: L -290 300, left: L -200 0}}\n\
+                 seams:\n  r: {{sew: front.in_r, to: front_panel.{right}}}\n  \
+                 l: {{sew: front.in_l, to: front_panel.{left}}}\n  side_l: {{sew: front.right, to: back.left}}\n  \
+                 side_r: {{sew: front.left, to: back.right}}\nfree: ['*.*']\n"
+            ),
+            20.0,
+        );
+        let (body, collider) = woman();
+        place(&made.garment, &made.mesh, &body, &collider)
+    };
+    assert!(!matches!(set_in("right", "left"), Err(PlaceError::Sides { .. })));
+    assert!(matches!(set_in("left", "right"), Err(PlaceError::Sides { .. })));
+}
+
 #[test]
 fn a_place_must_name_a_part_that_the_body_has() {
     let (mut body, collider) = woman();

@@ -29,8 +29,9 @@ const SPLITS: usize = 4;
 /// path as it is.
 pub(super) fn smoothed(path: &Path) -> Path {
     let Some(points) = vertices(path) else { return path.clone() };
-    if points.len() > 2 && path.is_straight() {
-        return Path::line(path.start(), path.end());
+    let chord = Path::line(path.start(), path.end());
+    if points.len() > 2 && points.iter().all(|p| chord.nearest(*p).1 <= OFF[0]) {
+        return chord;
     }
     if !(FEWEST..=MOST).contains(&points.len()) {
         return path.clone();
@@ -116,6 +117,9 @@ mod tests {
             let off = both.joints().iter().map(|at| again.nearest(both.point(*at)).1).fold(0.0, f64::max);
             assert!(off <= BETWEEN, "{off}");
         }
+        // A corner of a tenth of a millimetre on a side of 300 mm, which is not longer for it.
+        let bent = [Vec2::zeros(), Vec2::new(0.15, 1e-4), Vec2::new(0.3, 0.0)];
+        assert_eq!(smoothed(&Path::polyline(&bent)).joints().len(), 3);
         let straight: Vec<Vec2> = (0..40).map(|k| Vec2::new(0.01 * f64::from(k), 0.02 * f64::from(k))).collect();
         assert_eq!(smoothed(&Path::polyline(&straight)).joints().len(), 2);
     }

@@ -75,7 +75,7 @@ pub enum PlaceError {
         "seam '{seam}' joins the {side} side of '{piece}' to the {side} side of '{to}', each seen from outside: pieces \
          side by side meet right to left. If one of them shows the wearer's right half, as a back drawn to the right \
          of its centre does, write 'drawn: R' into it (or take that out where it is wrong); if the seam says L and R, \
-         each is sewn to its own"
+         each is sewn to its own; or one of them is drawn upside down"
     )]
     Sides {
         /// The seam.

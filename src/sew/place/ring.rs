@@ -98,6 +98,12 @@ impl Ring<'_> {
         self.row.laps.iter().map(off).fold(0.0, f64::max)
     }
 
+    /// Whether part of it is folded over its right side, and comes to lie outside what it is sewn to.
+    pub(super) fn turns_down(&self) -> bool {
+        let mut particles = self.row.members.iter().flat_map(|m| self.mesh.pieces[m.piece].particles.clone());
+        particles.any(|p| self.sheet.under[p] < 0.0)
+    }
+
     /// Whether the row is one piece that is sewn to others along most of its way round, and its ends not to each other.
     fn overlaps(&self) -> bool {
         let middle = self.anchor + 0.5 * (self.row.v[0] + self.row.v[1]);

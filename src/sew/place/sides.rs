@@ -2,17 +2,19 @@
 //! body meet the right side of one to the left side of the next: right to right, one of them is the half of the other
 //! side of the garment.
 
+use std::collections::BTreeMap;
+
 use super::PlaceError;
 use super::assign::Assigned;
 use super::fold::Sheet;
-use super::rows::{Link, Rows, extent, is_at, stitched};
-use crate::geometry::Vec2;
+use super::rows::{Link, Rows, is_at};
+use crate::geometry::{Vec2, sorted_pair};
 use crate::mesh::ClothMesh;
 use crate::pattern::Garment;
 
-/// A seam lies at one side of a piece where it is further from its middle than this share of half its width. (The sides
-/// of a diamond are half way out.)
-const AT_SIDE: f64 = 0.6;
+/// A seam is at one side of a piece where the cloth along it looks that way by more than this, of a unit in the mean: an
+/// upright one that goes round a corner, as of a cut-out, looks both ways, and a diamond's sides half upward.
+const SIDEWAYS: f64 = 0.6;
 
 /// Refuses upright seams that join the same sides of two pieces round one part, each said to be at its front or its
 /// back. What says neither (a gusset), lies in a slit or on another piece may be sewn any way round.
@@ -29,9 +31,10 @@ pub(super) fn check(
     };
     let ring = |p: usize| (assigned[p].part, garment.pieces[p].layer);
     let beside = |link: &Link| link.pieces.iter().all(|&p| alone(p)) && ring(link.pieces[0]) == ring(link.pieces[1]);
-    let flank = |link: &Link| link.upright && !link.through && beside(link);
-    for link in rows.links.iter().filter(|link| flank(link)) {
-        let sides = [0, 1].map(|k| side(stitched(link, sheet, k), extent(mesh, sheet, link.pieces[k])));
+    let flanks: Vec<&Link> = rows.links.iter().filter(|l| l.upright && !l.through && beside(l)).collect();
+    let within = behind(mesh, &flanks);
+    for link in flanks {
+        let sides = [0, 1].map(|k| side(outward(link, k, &sheet.flat, &within)));
         let [Some(one), Some(other)] = sides else { continue };
         if one == other {
             let [piece, to] = link.pieces.map(|p| garment.pieces[p].name.clone());
@@ -42,25 +45,32 @@ pub(super) fn check(
     Ok(())
 }
 
-/// The side of a box that a place in it is at, seen from outside.
-fn side(at: Vec2, [low, high]: [Vec2; 2]) -> Option<&'static str> {
-    let off = (2.0 * at.x - low.x - high.x) / (high.x - low.x);
-    (off.abs() > AT_SIDE).then_some(if off > 0.0 { "right" } else { "left" })
+/// The particle that lies behind each mesh edge on the rim of the pieces of these links, seen from outside the piece.
+fn behind(mesh: &ClothMesh, links: &[&Link]) -> BTreeMap<[u32; 2], u32> {
+    let mut pieces: Vec<usize> = links.iter().flat_map(|l| l.pieces).collect();
+    pieces.sort_unstable();
+    pieces.dedup();
+    let triangles = pieces.into_iter().flat_map(|p| &mesh.triangles[mesh.pieces[p].triangles.clone()]);
+    let edges = triangles.flat_map(|&[a, b, c]| [([a, b], c), ([b, c], a), ([c, a], b)]);
+    edges.map(|(edge, third)| (sorted_pair(edge), third)).collect()
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_seam_is_at_a_side_only_near_it() {
-        let piece = [Vec2::new(0.1, 0.0), Vec2::new(0.5, 0.6)];
-        let at = |x: f64| side(Vec2::new(x, 0.3), piece);
-        assert_eq!(
-            [0.1, 0.17, 0.2, 0.3, 0.41, 0.43, 0.5].map(at),
-            [Some("left"), Some("left"), None, None, None, Some("right"), Some("right")]
-        );
-        // A piece without width has no sides.
-        assert_eq!(side(Vec2::zeros(), [Vec2::zeros(), Vec2::y()]), None);
+/// Mean direction, along the stitches, out of piece number `k` of a link.
+fn outward(link: &Link, k: usize, flat: &[Vec2], behind: &BTreeMap<[u32; 2], u32>) -> Vec2 {
+    let (mut sum, mut length) = (Vec2::zeros(), 0.0);
+    for pairs in link.pairs.windows(2) {
+        let edge = [pairs[0][k], pairs[1][k]];
+        let Some(&third) = behind.get(&sorted_pair(edge)) else { continue };
+        let [from, to, third] = [edge[0], edge[1], third].map(|p| flat[p as usize]);
+        let along = to - from;
+        let across = Vec2::new(along.y, -along.x);
+        sum += if across.dot(&(third - from)) < 0.0 { across } else { -across };
+        length += along.norm();
     }
+    if length > 0.0 { sum / length } else { sum }
+}
+
+/// The side that cloth which looks outward like this is at, seen from outside.
+fn side(outward: Vec2) -> Option<&'static str> {
+    (outward.x.abs() > SIDEWAYS).then_some(if outward.x > 0.0 { "right" } else { "left" })
 }

@@ -117,16 +117,18 @@ fn hung(stations: &Stations, row: &Row, rings: &[(usize, Ring)]) -> Option<f64> 
     (sum[1] > 0.0).then(|| sum[0] / sum[1] + ROOM)
 }
 
-/// Half axes of every ring at each of its levels, those of outer layers clear of the inner ones.
+/// Half axes of every ring at each of its levels, those of outer layers clear of the inner ones, and of collars that are
+/// turned down clear of what they fall over.
 fn nested(rings: &[(usize, Ring)]) -> Vec<Vec<[f64; 2]>> {
     let mut axes: Vec<Vec<[f64; 2]>> = rings.iter().map(|r| r.1.axes()).collect();
     let mut inside_out: Vec<usize> = (0..rings.len()).collect();
-    inside_out.sort_by_key(|&k| rings[k].1.row.layer);
+    let lies = |ring: &Ring| (ring.row.layer, ring.turns_down());
+    inside_out.sort_by_key(|&k| lies(&rings[k].1));
     for (nth, &k) in inside_out.iter().enumerate() {
         let ring = &rings[k].1;
         for &other in &inside_out[..nth] {
             let inner = &rings[other].1;
-            if inner.row.part != ring.row.part || inner.row.layer == ring.row.layer {
+            if inner.row.part != ring.row.part || lies(inner) == lies(ring) {
                 continue;
             }
             for level in 0..axes[k].len() {
