@@ -872,6 +872,19 @@ fn pieces_that_meet_right_to_right_are_refused_by_their_seam() {
         };
         assert_eq!([&seam, &piece, &to, side], ["side", "one", "other", "right"]);
     }
+    // A back so narrow that it could be a godet of the front, its sides slanting.
+    let made = Made::new(
+        "garment: 1\nbody: woman_92\nfabrics: {shell: cotton_poplin}\npieces:\n  front:\n    cut: fold center\n    \
+         place: hip front\n    grain: [[60, 50], [60, 250]]\n    \
+         outline: {start: 0 0, waist: L 330 0, seam: L 400 300, hem: L 0 300, center: L 0 0}\n  back:\n    \
+         cut: fold center\n    place: hip back\n    grain: [[20, 50], [20, 250]]\n    \
+         outline: {start: 0 0, waist: L 55 0, seam: L 125 300, hem: L 0 300, center: L 0 0}\nseams:\n  \
+         side: {sew: front.seam, to: back.seam}\nfree: ['*.waist', '*.hem']\n",
+        20.0,
+    );
+    let (body, collider) = woman();
+    let refused = place(&made.garment, &made.mesh, &body, &collider);
+    assert!(matches!(&refused, Err(PlaceError::Sides { .. })), "{refused:?}");
 }
 
 /// A panel set into a cut-out of the front meets it right to right of their boxes, but the cloth is on either side.

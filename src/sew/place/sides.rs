@@ -7,14 +7,14 @@ use std::collections::BTreeMap;
 use super::PlaceError;
 use super::assign::Assigned;
 use super::fold::Sheet;
-use super::rows::{Link, Rows, is_at};
+use super::rows::{Link, Row, Rows, is_at};
 use crate::geometry::{Vec2, sorted_pair};
 use crate::mesh::ClothMesh;
 use crate::pattern::Garment;
 
-/// A seam is at one side of a piece where the cloth along it looks that way by more than this, of a unit in the mean: an
-/// upright one that goes round a corner, as of a cut-out, looks both ways, and a diamond's sides half upward.
-const SIDEWAYS: f64 = 0.6;
+/// A seam is at one side of a piece where the direction out of its cloth is to that side by more than this, in the mean
+/// of unit vectors: side seams of a peplum may slant by 70°; one that goes round a cut-out looks to both sides.
+const SIDEWAYS: f64 = 0.34;
 
 /// Refuses upright seams that join the same sides of two pieces round one part, each said to be at its front or its
 /// back. What says neither (a gusset), lies in a slit or on another piece may be sewn any way round.
@@ -25,16 +25,23 @@ pub(super) fn check(
     assigned: &[Assigned],
     rows: &Rows,
 ) -> Result<(), PlaceError> {
-    let alone = |p: usize| {
-        let in_slit = rows.rows.iter().flat_map(|row| &row.inserts).any(|insert| insert.own.piece == p);
-        assigned[p].facing.is_some() && !in_slit && rows.laid[p].is_none() && !is_at(&garment.pieces[p].place)
+    let facing = |p: usize| assigned[p].facing;
+    // What is said to be on the other side of the body than its host is no godet.
+    let in_slit = |p: usize| {
+        let lies = |row: &Row| {
+            let mut own = row.inserts.iter().filter(|insert| insert.own.piece == p);
+            own.any(|insert| facing(row.members[insert.host].piece) == facing(p))
+        };
+        rows.rows.iter().any(lies)
     };
+    let alone =
+        |p: usize| facing(p).is_some() && !in_slit(p) && rows.laid[p].is_none() && !is_at(&garment.pieces[p].place);
     let ring = |p: usize| (assigned[p].part, garment.pieces[p].layer);
     let beside = |link: &Link| link.pieces.iter().all(|&p| alone(p)) && ring(link.pieces[0]) == ring(link.pieces[1]);
     let flanks: Vec<&Link> = rows.links.iter().filter(|l| l.upright && !l.through && beside(l)).collect();
     let within = behind(mesh, &flanks);
     for link in flanks {
-        let sides = [0, 1].map(|k| side(outward(link, k, &sheet.flat, &within)));
+        let sides = [0, 1].map(|k| side(outward(link, k, &sheet.straight, &within)));
         let [Some(one), Some(other)] = sides else { continue };
         if one == other {
             let [piece, to] = link.pieces.map(|p| garment.pieces[p].name.clone());

@@ -117,8 +117,8 @@ fn hung(stations: &Stations, row: &Row, rings: &[(usize, Ring)]) -> Option<f64> 
     (sum[1] > 0.0).then(|| sum[0] / sum[1] + ROOM)
 }
 
-/// Half axes of every ring at each of its levels, those of outer layers clear of the inner ones, and of collars that are
-/// turned down clear of what they fall over.
+/// Half axes of every ring at each of its levels, those of outer layers clear of the inner ones, and those of collars
+/// that are turned down clear of what they fall over.
 fn nested(rings: &[(usize, Ring)]) -> Vec<Vec<[f64; 2]>> {
     let mut axes: Vec<Vec<[f64; 2]>> = rings.iter().map(|r| r.1.axes()).collect();
     let mut inside_out: Vec<usize> = (0..rings.len()).collect();
