@@ -513,8 +513,8 @@ fn a_fold_on_an_edge_is_told_from_one_on_the_fold_of_a_piece() {
     assert!(on_center.iter().any(|d| d.message.contains("edge 'center'")), "{on_center:?}");
     let folded = upright
         .replacen("  front:", "  front:\n    cut: fold center", 1)
-        .replacen("{sew: front.side, to: back.center}", "{sew: front.side.R, to: back.center}", 1)
-        .replacen("front.center,", "front.side.L,", 1);
+        .replacen("{sew: front.side, to: back.center}", "{sew: front.side.L, to: back.center}", 1)
+        .replacen("front.center,", "front.side.R,", 1);
     let on_fold = found(&folded);
     assert!(on_fold.iter().all(|d| d.severity != Severity::Error), "{on_fold:?}");
 }
