@@ -482,6 +482,30 @@ fn notches_that_miss_each_other_are_warned_of() {
     }
 }
 
+/// The notch at the crown of a cap meets the joint of the two edges it is sewn to; a double one no single one.
+#[test]
+fn a_notch_may_meet_a_joint_and_only_its_kind() {
+    let sewn = |a: &str, b: &str| {
+        let seam = "{sew: [a.right, a.bottom], to: b.left, gather: 2, match: notches}";
+        let two = squares("{sew: a.right, to: b.left}", seam).replacen("a.top, a.bottom, ", "a.top, ", 1);
+        let notched = |text: String, piece: &str, list: &str| {
+            text.replacen(&format!("  {piece}:\n"), &format!("  {piece}:\n    notches: {list}\n"), 1)
+        };
+        let text = notched(notched(two, "a", a), "b", b);
+        mistakes(&text).into_iter().map(|d| (d.severity, d.message)).collect::<Vec<_>>()
+    };
+    // b.left is walked upward: half way up it meets the corner of a.
+    assert_eq!(sewn("{}", "{left: [50]}"), []);
+    assert_eq!(sewn("{right: [50], bottom: [50]}", "{left: [75, 50, 25]}"), []);
+    let alone = sewn("{right: [50]}", "{left: [80, 50, 25, 10]}");
+    assert!(alone.iter().any(|(s, m)| *s == Severity::Error && m.contains("has no partner")), "{alone:?}");
+    let unlike = sewn("{right: [50 double]}", "{left: [75, 50]}");
+    assert!(
+        matches!(&unlike[..], [(Severity::Warning, m)] if m.contains("one is single and one double")),
+        "{unlike:?}"
+    );
+}
+
 /// An edge that is sewn in part: what the message calls neither sewn nor free can be listed as it is called.
 #[test]
 fn a_part_of_an_edge_can_be_listed_free() {

@@ -3,8 +3,9 @@
 use super::diagnostic::{Findings, Spot};
 use super::file::SeamFile;
 use super::problem::Problem;
+use super::rim::joints;
 use super::walk::edge_name;
-use super::{Garment, Notch, Piece, Seam, Span};
+use super::{EdgeId, Garment, Notch, Piece, Seam, Span};
 
 /// Notches that miss each other by more than this (metres), ease allowed for, were not meant so: nobody draws or sews
 /// that badly.
@@ -12,27 +13,45 @@ const FAR: f64 = 0.010;
 /// A notch so near to the end of a span (metres) is on it.
 const ON_END: f64 = 1e-9;
 
-/// A notch met on a walk along a chain.
+/// A notch met on a walk along a chain, or a joint of its edges that stands for one.
 #[derive(Clone, Copy)]
-pub(super) struct Met<'a> {
-    pub(super) notch: &'a Notch,
+pub(super) struct Met {
+    edge: EdgeId,
+    /// None at a joint.
+    double: Option<bool>,
     /// Metres from where the walk began.
     pub(super) along: f64,
 }
 
 /// The notches that a walk along the chain meets, in order.
-pub(super) fn met<'a>(pieces: &'a [Piece], chain: &[Span]) -> Vec<Met<'a>> {
+pub(super) fn met(pieces: &[Piece], chain: &[Span]) -> Vec<Met> {
     let mut walked = 0.0;
     let mut met = Vec::new();
     for span in chain {
         let (low, high) = span.sorted();
         let inside = |n: &&Notch| n.edge == span.edge && (low - ON_END..=high + ON_END).contains(&n.at);
         let on = pieces[span.edge.piece].notches.iter().filter(inside);
-        met.extend(on.map(|notch| Met { notch, along: walked + (notch.at - span.from).abs() }));
+        let along = |notch: &Notch| walked + (notch.at - span.from).abs();
+        met.extend(on.map(|n| Met { edge: n.edge, double: Some(n.double), along: along(n) }));
         walked += span.length();
     }
     met.sort_by(|a, b| a.along.total_cmp(&b.along));
     met
+}
+
+/// The notches of both sides of a seam that is sewn notch to notch. Where one side has fewer, by as many as its edges
+/// have joints, these are met, too: the notch at the crown of a sleeve meets the shoulder seam.
+pub(super) fn matched(pieces: &[Piece], a: &[Span], b: &[Span]) -> [Vec<Met>; 2] {
+    let mut both = [a, b].map(|chain| met(pieces, chain));
+    let [on_a, on_b] = [both[0].len(), both[1].len()];
+    let (few, chain) = if on_a < on_b { (0, a) } else { (1, b) };
+    let joints = joints(chain);
+    if joints.len() == on_a.abs_diff(on_b) {
+        let at = |(along, span): (f64, &Span)| Met { edge: span.edge, double: None, along };
+        both[few].extend(joints.into_iter().zip(chain).map(at));
+        both[few].sort_by(|a, b| a.along.total_cmp(&b.along));
+    }
+    both
 }
 
 /// Finds notches that come to lie far from those that they meet. `match: notches` would stretch and crumple the cloth
@@ -50,19 +69,25 @@ pub(super) fn check(garment: &Garment, written: &[Option<usize>], files: &[SeamF
     }
 }
 
-/// Where notches are sewn to one another in their order, the first that cannot be.
+/// Where notches are sewn to one another in their order, the first that cannot be; and a double one that meets a single
+/// one, as where a sleeve's front is taken for its back.
 fn check_matched(garment: &Garment, seam: &Seam, at: Spot, findings: &mut Findings) {
-    let [on_a, on_b] = [&seam.a, &seam.b].map(|chain| met(&garment.pieces, chain));
+    let [on_a, on_b] = matched(&garment.pieces, &seam.a, &seam.b);
     let longer = seam.length_b() - seam.length_a();
     let mut pairs = on_a.iter().zip(&on_b);
     if let Some(problem) = pairs.find_map(|(one, other)| far_apart(garment, seam, [one, other], longer)) {
         findings.error(at, problem);
     }
+    let unlike = |(a, b): &(&Met, &Met)| a.double.zip(b.double).is_some_and(|(a, b)| a != b);
+    if let Some((one, other)) = on_a.iter().zip(&on_b).find(unlike) {
+        let [one, other] = [one, other].map(|m| place(garment, m));
+        findings.warn(at, Problem::NotchesUnlike { seam: seam.name.clone(), one, other });
+    }
 }
 
 fn check_kind(garment: &Garment, seam: &Seam, double: bool, at: Spot, findings: &mut Findings) {
     let side = |chain: &[Span]| {
-        let met = met(&garment.pieces, chain).into_iter().filter(|m| m.notch.double == double);
+        let met = met(&garment.pieces, chain).into_iter().filter(|m| m.double == Some(double));
         (met.collect::<Vec<Met>>(), chain.iter().map(Span::length).sum::<f64>())
     };
     let (mut few, mut many) = (side(&seam.a), side(&seam.b));
@@ -82,13 +107,16 @@ fn check_kind(garment: &Garment, seam: &Seam, double: bool, at: Spot, findings: 
 /// What is wrong with two notches that are to meet, of which the second lies on the side that is `longer`.
 fn far_apart(garment: &Garment, seam: &Seam, [one, other]: [&Met; 2], longer: f64) -> Option<Problem> {
     let apart = missing(other.along - one.along, longer);
-    let place = |m: &Met| format!("{:.0} mm on {}", 1e3 * m.along, edge_name(&garment.pieces, m.notch.edge));
     (apart > FAR).then(|| Problem::NotchesApart {
         seam: seam.name.clone(),
-        one: place(one),
-        other: place(other),
+        one: place(garment, one),
+        other: place(garment, other),
         apart: 1e3 * apart,
     })
+}
+
+fn place(garment: &Garment, met: &Met) -> String {
+    format!("{:.0} mm on {}", 1e3 * met.along, edge_name(&garment.pieces, met.edge))
 }
 
 /// By how much two notches miss each other of which the second is `off` further along a side that is `longer`: of what

@@ -256,6 +256,11 @@ pub enum Problem {
         "seam '{seam}': the notches at {one} and {other}, both from where the seam begins, are {apart:.0} mm apart"
     )]
     NotchesApart { seam: String, one: String, other: String, apart: f64 },
+    #[error(
+        "seam '{seam}': of the notches at {one} and {other}, both from where the seam begins, one is single and one \
+         double"
+    )]
+    NotchesUnlike { seam: String, one: String, other: String },
     #[error("seam order: '{seam}' is sewn before '{later}' that makes it a ring; order kept, stage them to change")]
     SeamOrder { seam: String, later: String },
 }

@@ -5,7 +5,7 @@ use super::cut::Pieces;
 use super::diagnostic::{Findings, Spot};
 use super::draft::Draft;
 use super::file::{OpenFile, SeamFile, Unit};
-use super::notch::met;
+use super::notch::matched;
 use super::problem::Problem;
 use super::rim::{Rims, joints};
 use super::select::{Candidate, Source};
@@ -231,7 +231,7 @@ impl Finish<'_> {
     }
 
     fn notch_marks(&self, directed: &Directed, a: &[Span], b: &[Span], findings: &mut Findings) -> Vec<(f64, f64)> {
-        let [on_a, on_b] = [a, b].map(|chain| met(&self.cut.pieces, chain));
+        let [on_a, on_b] = matched(&self.cut.pieces, a, b);
         let candidate = &directed.candidate;
         let (few, many) = (on_a.len().min(on_b.len()), on_a.len().max(on_b.len()));
         if few < many {
