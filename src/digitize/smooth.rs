@@ -61,9 +61,8 @@ fn curved(points: &[Vec2], splits: usize) -> Path {
     match longest.filter(|k| splits > 0 && chord(k) * (points.len() - 1) as f64 > INFLECTION * path.length()) {
         None => path,
         Some(k) => {
-            let sides =
-                [&points[..=k], &points[k + 1..]].map(|side| (side.len() > 1).then(|| curved(side, splits - 1)));
-            let [before, after] = sides;
+            let side = |points: &[Vec2]| (points.len() > 1).then(|| curved(points, splits - 1));
+            let [before, after] = [side(&points[..=k]), side(&points[k + 1..])];
             let parts = [before, Some(Path::line(points[k], points[k + 1])), after];
             parts.into_iter().flatten().reduce(|before, next| before.joined(&next)).unwrap_or(path)
         }

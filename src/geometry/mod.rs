@@ -22,7 +22,7 @@ pub(crate) use locator::Locator;
 pub(crate) use polygon::{diagonals_of, triangles_of};
 pub(crate) use polyline::{encloses, mirrored, shares_along, sides_of};
 pub(crate) use predicate::pierces;
-pub(crate) use segment::distance_to_segment;
+pub(crate) use segment::{distance_to_segment, nearest_on_segment};
 pub(crate) use sets::DisjointSets;
 pub(crate) use trimesh::sorted_pair;
 pub use trimesh::{Edge, Topology, TriMesh, rim_loops};

@@ -3,11 +3,16 @@
 use nalgebra::SVector;
 
 /// Distance of a point from a segment.
-pub(crate) fn distance_to_segment<const D: usize>(p: SVector<f64, D>, [a, b]: [SVector<f64, D>; 2]) -> f64 {
+pub(crate) fn distance_to_segment<const D: usize>(p: SVector<f64, D>, ends: [SVector<f64, D>; 2]) -> f64 {
+    nearest_on_segment(p, ends).1
+}
+
+/// The share of the way along a segment at which it is nearest to a point, and its distance from that.
+pub(crate) fn nearest_on_segment<const D: usize>(p: SVector<f64, D>, [a, b]: [SVector<f64, D>; 2]) -> (f64, f64) {
     let along = b - a;
     let square = along.norm_squared();
-    let share = if square > 0.0 { (p - a).dot(&along) / square } else { 0.0 };
-    (p - a - along * share.clamp(0.0, 1.0)).norm()
+    let share = if square > 0.0 { ((p - a).dot(&along) / square).clamp(0.0, 1.0) } else { 0.0 };
+    (share, (p - a - along * share).norm())
 }
 
 #[cfg(test)]

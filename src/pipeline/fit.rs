@@ -6,7 +6,7 @@ use crate::geometry::{Vec2, Vec3, box_of, range_of};
 use crate::io::garment::Loaded;
 use crate::mannequin::Mannequin;
 use crate::mesh::ClothMesh;
-use crate::pattern::{Findings, Piece, Place, Problem, Spot};
+use crate::pattern::{Findings, Piece, Place, Problem, Spot, written_edge};
 use crate::sew::place::{PlaceError, place};
 use crate::sew::{Stance, left_inside, sewn_on};
 
@@ -83,8 +83,7 @@ fn doubt_places(loaded: &Loaded, mesh: &ClothMesh, start: &[Vec3], findings: &mu
 fn culprit(loaded: &Loaded, error: &PlaceError) -> Spot {
     let name = match error {
         PlaceError::Sides { seam, .. } => {
-            // `side` for `side.L`: names in files have no points.
-            let written = loaded.file.seams.iter().find(|s| Some(s.name.value.as_str()) == seam.split('.').next());
+            let written = loaded.file.seams.iter().find(|s| s.name.value == written_edge(seam));
             return written.map_or_else(Spot::default, |s| s.name.at);
         }
         PlaceError::Words { piece, .. } | PlaceError::NoPart { piece, .. } | PlaceError::Nowhere { piece } => piece,

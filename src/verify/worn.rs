@@ -5,7 +5,7 @@
 //! with the line from one end to another. How the rim lies, folds or ripples does not matter.
 
 use super::linking::linking;
-use crate::geometry::Vec3;
+use crate::geometry::{Vec3, nearest_on_segment};
 use crate::mannequin::{BodyPart, Mannequin, PartKind};
 
 /// Where the lines of the body end, metres. A rim of a metre's size is seen from there as less than a millionth turn.
@@ -60,13 +60,11 @@ pub fn past_end(rim: &[Vec3], through: Through, body: &Mannequin) -> Option<f64>
     let mut walked = 0.0;
     let mut nearest = (f64::INFINITY, 0.0);
     for ends in line.windows(2) {
-        let step = ends[1] - ends[0];
-        let share = ((middle - ends[0]).dot(&step) / step.norm_squared()).clamp(0.0, 1.0);
-        let off = (middle - ends[0] - step * share).norm();
+        let (long, (share, off)) = ((ends[1] - ends[0]).norm(), nearest_on_segment(middle, [ends[0], ends[1]]));
         if off < nearest.0 {
-            nearest = (off, walked + share * step.norm());
+            nearest = (off, walked + share * long);
         }
-        walked += step.norm();
+        walked += long;
     }
     Some(-nearest.1)
 }

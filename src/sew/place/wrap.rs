@@ -122,13 +122,13 @@ fn hung(stations: &Stations, row: &Row, rings: &[(usize, Ring)]) -> Option<f64> 
 fn nested(rings: &[(usize, Ring)]) -> Vec<Vec<[f64; 2]>> {
     let mut axes: Vec<Vec<[f64; 2]>> = rings.iter().map(|r| r.1.axes()).collect();
     let mut inside_out: Vec<usize> = (0..rings.len()).collect();
-    let lies = |ring: &Ring| (ring.row.layer, ring.turns_down());
-    inside_out.sort_by_key(|&k| lies(&rings[k].1));
+    let lies: Vec<(i32, bool)> = rings.iter().map(|r| (r.1.row.layer, r.1.turns_down())).collect();
+    inside_out.sort_by_key(|&k| lies[k]);
     for (nth, &k) in inside_out.iter().enumerate() {
         let ring = &rings[k].1;
         for &other in &inside_out[..nth] {
             let inner = &rings[other].1;
-            if inner.row.part != ring.row.part || lies(inner) == lies(ring) {
+            if inner.row.part != ring.row.part || lies[other] == lies[k] {
                 continue;
             }
             for level in 0..axes[k].len() {
