@@ -59,9 +59,9 @@ fn row(name: &'static str) -> Result<Row, Box<dyn Error + Send + Sync>> {
     let (coarse, fine) = (coarse?, fine?);
     let by_weights = match &sheet.liu {
         Some(liu) => {
-            let rigidity = liu.bending_length().powi(3) * fabric.areal_density * GRAVITY;
+            let rigidity = liu.fallback_bending_length().powi(3) * fabric.areal_density * GRAVITY;
             let fabric = Fabric { bend_warp: rigidity, bend_weft: rigidity, ..fabric };
-            format!("{:6.1} mm {:5.1} %", 1e3 * liu.bending_length(), 100.0 * coefficient(fabric)?)
+            format!("{:6.1} mm {:5.1} %", 1e3 * liu.fallback_bending_length(), 100.0 * coefficient(fabric)?)
         }
         None => String::new(),
     };

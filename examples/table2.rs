@@ -6,7 +6,7 @@ mod common;
 
 use std::error::Error;
 
-use common::fifteen;
+use common::sheets;
 use toile::report::aligned;
 
 /// Points by which a rounded table may differ from itself.
@@ -15,7 +15,7 @@ const ROUNDED: f64 = 0.02;
 fn main() -> Result<(), Box<dyn Error>> {
     let head = ["#", "fabric", "v'(r)", "v'(s)", "v'(b)", "ω_R", "ω_S", "ω_B", "(8) R", "S", "B", "off", ""];
     let mut rows = vec![head.map(String::from).to_vec()];
-    for sheet in fifteen()? {
+    for sheet in sheets()? {
         let Some(liu) = &sheet.liu else { continue };
         let again = liu.recomputed_weights();
         let off = again.iter().zip(liu.weights).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);

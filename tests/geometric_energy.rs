@@ -3,24 +3,22 @@
 #[path = "../examples/common/mod.rs"]
 mod common;
 
-use common::pairs::{arch, difference, middle, pairs};
-use common::{Experiment, HEIGHT, WIDTH, ball, diagonal, fifteen, pull, sheet, skirt, solve, weights, wrinkles};
+use common::fig5::diagonal;
+use common::{Diagonals, HEIGHT, WIDTH, fig7, fig9, weights};
 use toile::drape::geometric::{
-    Aim, Alternating, GeometricCloth, GeometricError, LeastSquares, PUBLISHED_CELL, SolveOptions, Weighting, Weights,
+    Alternating, Control, GeometricCloth, GeometricError, LeastSquares, PUBLISHED_CELL, Recovery, SolveOptions,
+    Weighting, Weights,
 };
 use toile::geometry::{TriMesh, Vec3};
-
-/// Each term of the energy by itself.
-const ALONE: [Weights; 3] = [
-    Weights { recovery: 1.0, stretch: 0.0, bend: 0.0 },
-    Weights { recovery: 0.0, stretch: 1.0, bend: 0.0 },
-    Weights { recovery: 0.0, stretch: 0.0, bend: 1.0 },
-];
 
 const EXACT: SolveOptions = SolveOptions { max_iterations: 20_000, tolerance: 1e-10 };
 
 fn poplin() -> Weights {
     weights("cotton_poplin").expect("shipped")
+}
+
+fn sheet(width: f64, height: f64, columns: u32, rows: u32) -> TriMesh {
+    common::sheet(width, height, columns, rows, Diagonals::OneWay)
 }
 
 /// Numbers in −1 … 1, the same every time.
@@ -49,42 +47,88 @@ fn the_published_cell_is_that_of_the_specimen() {
 
 #[test]
 fn gradients_are_those_of_the_energy() {
-    let mesh = sheet(0.08, 0.07, 9, 8);
+    let flat = sheet(0.08, 0.07, 9, 8);
+    let rolled = rolled(&flat, 0.05);
+    let controls = vec![
+        Control::vertex(20, Vec3::new(0.01, 0.02, 0.05)),
+        Control::in_triangle(flat.triangles[31], [0.2, 0.3, 0.5], Vec3::new(0.05, 0.01, -0.03)),
+    ];
+    let recoveries = [
+        Recovery::Controls(controls),
+        Recovery::AllVertices(flat.vertices.clone()),
+        Recovery::Falling(Vec3::new(0.0, -2e-3, 1e-3)),
+    ];
     for weights in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.5, 0.3, 0.2]] {
         let [recovery, stretch, bend] = weights;
+        let weights = Weights { recovery, stretch, bend };
         for weighting in [Weighting::Plain, Weighting::PerArea] {
-            let cloth = GeometricCloth::new(&mesh, Weights { recovery, stretch, bend }, weighting).expect("cloth");
-            for aim in [Aim::Targets(mesh.vertices.clone()), Aim::Falling(Vec3::new(0.0, -2e-3, 1e-3))] {
-                let x = shaken(&mesh.vertices, 3e-3);
-                let gradient = cloth.gradient(&x, &aim);
-                let scale = gradient.iter().map(Vec3::norm).fold(0.0, f64::max);
-                let h = 1e-6;
-                for k in 0..3 * x.len() {
-                    let at = |d: f64| {
-                        let mut moved = x.clone();
-                        moved[k / 3][k % 3] += d;
-                        cloth.energy(&moved, &aim).total
-                    };
-                    let slope = (at(h) - at(-h)) / (2.0 * h);
-                    let error = (slope - gradient[k / 3][k % 3]).abs() / scale;
-                    assert!(error < 1e-6, "{weights:?} {weighting:?}: {error:.1e}");
-                }
+            let cloths =
+                [GeometricCloth::new(&flat, weights, weighting), GeometricCloth::curved(&rolled, weights, weighting)];
+            for (cloth, recovery) in cloths.iter().flat_map(|c| recoveries.iter().map(move |r| (c, r))) {
+                let cloth = cloth.as_ref().expect("cloth");
+                let error = gradient_error(cloth, recovery, &shaken(&flat.vertices, 3e-3));
+                assert!(error < 1e-6, "{weights:?} {weighting:?} {recovery:?}: {error:.1e}");
             }
         }
+    }
+}
+
+/// The largest difference between the gradient and differences of the energy, as a share of the largest gradient.
+fn gradient_error(cloth: &GeometricCloth, recovery: &Recovery, x: &[Vec3]) -> f64 {
+    let gradient = cloth.gradient(x, recovery);
+    let scale = gradient.iter().map(Vec3::norm).fold(0.0, f64::max);
+    let h = 1e-6;
+    let slope = |k: usize| {
+        let at = |d: f64| {
+            let mut moved = x.to_vec();
+            moved[k / 3][k % 3] += d;
+            cloth.energy(&moved, recovery).total
+        };
+        (at(h) - at(-h)) / (2.0 * h)
+    };
+    (0..3 * x.len()).map(|k| (slope(k) - gradient[k / 3][k % 3]).abs() / scale).fold(0.0, f64::max)
+}
+
+/// A sheet rolled about an axis along y.
+fn rolled(flat: &TriMesh, radius: f64) -> TriMesh {
+    let roll = |v: &Vec3| Vec3::new(radius * (v.x / radius).sin(), v.y, radius * (1.0 - (v.x / radius).cos()));
+    TriMesh { vertices: flat.vertices.iter().map(roll).collect(), triangles: flat.triangles.clone() }
+}
+
+#[test]
+fn recovery_counts_the_controls_only() {
+    let mesh = sheet(WIDTH, HEIGHT, 12, 10);
+    let alone = Weights { recovery: 1.0, stretch: 0.0, bend: 0.0 };
+    let cloth = GeometricCloth::new(&mesh, alone, Weighting::PerArea).expect("cloth");
+    let corners = mesh.triangles[60];
+    let [a, b, c] = corners.map(|v| mesh.vertices[v as usize]);
+    // One control stands where it is drawn to, the other 3 mm off, inside a triangle.
+    let point = a * 0.5 + b * 0.3 + c * 0.2;
+    let controls = vec![
+        Control::vertex(40, mesh.vertices[40]),
+        Control::in_triangle(corners, [0.5, 0.3, 0.2], point + Vec3::z() * 3e-3),
+    ];
+    let recovery = Recovery::Controls(controls);
+    // The specimen has the area of 2,000 published cells, however many vertices it is made of.
+    assert!((cloth.energy(&mesh.vertices, &recovery).recovery / (2000.0 * 9e-6) - 1.0).abs() < 1e-9);
+    let gradient = cloth.gradient(&mesh.vertices, &recovery);
+    for (v, g) in (0u32..).zip(&gradient) {
+        let share = corners.iter().position(|&n| n == v).map_or(0.0, |k| [0.5, 0.3, 0.2][k]);
+        assert!((g - Vec3::z() * (-2.0 * 2000.0 * 3e-3 * share)).norm() < 1e-9, "vertex {v}: {g:?}");
     }
 }
 
 #[test]
 fn each_term_measures_what_it_should() {
     let mesh = sheet(WIDTH, HEIGHT, 12, 10);
-    let aim = Aim::Targets(mesh.vertices.clone());
+    let recovery = Recovery::AllVertices(mesh.vertices.clone());
     let cloth = GeometricCloth::new(&mesh, poplin(), Weighting::Plain).expect("cloth");
     // Moved by 3 mm: one squared distance per vertex. Turned: no stretch, no bend.
     let moved: Vec<Vec3> = mesh.vertices.iter().map(|v| v + Vec3::new(0.0, 3e-3, 0.0)).collect();
-    assert!((cloth.energy(&moved, &aim).recovery - 120.0 * 9e-6).abs() < 1e-15);
+    assert!((cloth.energy(&moved, &recovery).recovery - 120.0 * 9e-6).abs() < 1e-15);
     let turn = nalgebra::Rotation3::from_euler_angles(0.4, 1.1, -2.0);
     let turned: Vec<Vec3> = mesh.vertices.iter().map(|v| turn * v + Vec3::new(5.0, -3.0, 2.0)).collect();
-    let energy = cloth.energy(&turned, &aim);
+    let energy = cloth.energy(&turned, &recovery);
     assert!(energy.bend < 1e-26 && energy.stretch < 1e-26, "{energy:?}");
     // All edges 1 % longer.
     let larger: Vec<Vec3> = mesh.vertices.iter().map(|v| v * 1.01).collect();
@@ -92,20 +136,29 @@ fn each_term_measures_what_it_should() {
         let (dx, dy) = (WIDTH / 11.0, HEIGHT / 9.0);
         110.0 * dx * dx + 108.0 * dy * dy + 99.0 * (dx * dx + dy * dy)
     };
-    assert!((cloth.energy(&larger, &aim).stretch / (1e-4 * squares) - 1.0).abs() < 1e-9);
+    assert!((cloth.energy(&larger, &recovery).stretch / (1e-4 * squares) - 1.0).abs() < 1e-9);
     assert_eq!(cloth.edges(), 110 + 108 + 99);
 }
 
 #[test]
-fn a_folded_mesh_counts_as_laid_flat() {
-    // The same sheet handed in as a roof: its rest shape is the flat sheet.
+fn a_cloth_is_flat_at_rest_or_curved_as_its_initial_mesh() {
     let flat = sheet(0.2, 0.1, 9, 5);
+    let nothing = Recovery::Controls(vec![]);
+    // The same sheet handed in as a roof: its rest shape is the flat sheet.
     let roof = |v: &Vec3| if v.x > 0.1 { Vec3::new(0.1, v.y, v.x - 0.1) } else { *v };
     let mesh = TriMesh { vertices: flat.vertices.iter().map(roof).collect(), triangles: flat.triangles.clone() };
     let cloth = GeometricCloth::new(&mesh, poplin(), Weighting::PerArea).expect("cloth");
-    let aim = Aim::Falling(Vec3::zeros());
-    assert!(cloth.energy(&flat.vertices, &aim).total < 1e-25);
-    assert!(cloth.energy(&mesh.vertices, &aim).bend > 1e-5);
+    assert!(cloth.energy(&flat.vertices, &nothing).total < 1e-25);
+    assert!(cloth.energy(&mesh.vertices, &nothing).bend > 1e-5);
+    // A cone that is curved at rest: no energy and no force there, however it is turned; but as a flat cloth.
+    let cone = fig9::skirt().mesh;
+    let turn = nalgebra::Rotation3::from_euler_angles(0.4, 1.1, -2.0);
+    let turned: Vec<Vec3> = cone.vertices.iter().map(|v| turn * v + Vec3::new(0.3, -0.2, 0.1)).collect();
+    let [curved, flat] = [GeometricCloth::curved, GeometricCloth::new]
+        .map(|made| made(&cone, poplin(), Weighting::PerArea).expect("cloth"));
+    let force = |cloth: &GeometricCloth| cloth.gradient(&turned, &nothing).iter().map(Vec3::norm).fold(0.0, f64::max);
+    assert!(curved.energy(&turned, &nothing).total < 1e-20, "{:?}", curved.energy(&turned, &nothing));
+    assert!(force(&curved) < 1e-9 * force(&flat), "{} of {}", force(&curved), force(&flat));
 }
 
 #[test]
@@ -113,7 +166,7 @@ fn both_weightings_agree_on_the_specimen() {
     // 2,000 square cells of the specimen's area, stretched, rolled up and moved.
     let (columns, rows) = (47, 43);
     let mesh = sheet(46.0 * PUBLISHED_CELL, 42.0 * PUBLISHED_CELL, columns, rows);
-    let aim = Aim::Targets(mesh.vertices.clone());
+    let recovery = Recovery::AllVertices(mesh.vertices.clone());
     let radius = 0.3;
     let x: Vec<Vec3> = mesh
         .vertices
@@ -121,7 +174,7 @@ fn both_weightings_agree_on_the_specimen() {
         .map(|v| Vec3::new(radius * (v.x / radius).sin(), 1.02 * v.y + 0.01, radius * (1.0 - (v.x / radius).cos())))
         .collect();
     let [plain, per_area] = [Weighting::Plain, Weighting::PerArea]
-        .map(|w| GeometricCloth::new(&mesh, poplin(), w).expect("cloth").energy(&x, &aim));
+        .map(|w| GeometricCloth::new(&mesh, poplin(), w).expect("cloth").energy(&x, &recovery));
     println!("plain {plain:?}\nper area {per_area:?}");
     // Rims have whole vertices and edges but half cells, and there the sheet has moved furthest.
     for (a, b) in [(plain.recovery, per_area.recovery), (plain.stretch, per_area.stretch), (plain.bend, per_area.bend)]
@@ -140,7 +193,7 @@ fn plain_sums_depend_on_the_mesh_and_weighted_ones_do_not() {
         let mesh = sheet(WIDTH, HEIGHT, side, side);
         let x: Vec<Vec3> = mesh.vertices.iter().map(shape).collect();
         let cloth = GeometricCloth::new(&mesh, poplin(), weighting).expect("cloth");
-        cloth.energy(&x, &Aim::Targets(mesh.vertices.clone()))
+        cloth.energy(&x, &Recovery::AllVertices(mesh.vertices.clone()))
     };
     let (coarse, fine) = (energies(Weighting::Plain, 51), energies(Weighting::Plain, 101));
     let ratios = [fine.recovery / coarse.recovery, fine.stretch / coarse.stretch, fine.bend / coarse.bend];
@@ -154,14 +207,29 @@ fn plain_sums_depend_on_the_mesh_and_weighted_ones_do_not() {
 }
 
 #[test]
+fn one_bump_has_one_energy_in_every_mesh() {
+    // L10: stretch within 1 %, bend within 3 %.
+    let bump = |v: &Vec3| {
+        let wave = |t: f64| (std::f64::consts::PI * t).sin();
+        Vec3::new(1.01 * v.x, v.y, 0.04 * wave(v.x / WIDTH) * wave(v.y / HEIGHT))
+    };
+    let [coarse, fine] = [21, 41].map(|side| {
+        let mesh = common::sheet(WIDTH, HEIGHT, side, side, Diagonals::Alternating);
+        let x: Vec<Vec3> = mesh.vertices.iter().map(bump).collect();
+        let cloth = GeometricCloth::new(&mesh, poplin(), Weighting::PerArea).expect("cloth");
+        cloth.energy(&x, &Recovery::Controls(vec![]))
+    });
+    let ratios = [coarse.stretch / fine.stretch, coarse.bend / fine.bend];
+    println!("441 against 1,681 vertices: {ratios:?}");
+    assert!((ratios[0] - 1.0).abs() < 0.01 && (ratios[1] - 1.0).abs() < 0.03, "{ratios:?}");
+}
+
+#[test]
 fn the_minimum_converges_under_refinement() {
     // Two opposite rims held, one of them lifted and brought nearer: the sheet bends into an S.
     let minimum = |columns: u32, rows: u32| {
         let mesh = sheet(WIDTH, HEIGHT, columns, rows);
-        // Recovery so weak that what the rims do reaches through the sheet; with the published weights it fades out
-        // within a cell or two, which no mesh resolves.
-        let weights = Weights { recovery: 1e-3, stretch: 0.3, bend: 0.7 };
-        let cloth = GeometricCloth::new(&mesh, weights, Weighting::PerArea).expect("cloth");
+        let cloth = GeometricCloth::new(&mesh, poplin(), Weighting::PerArea).expect("cloth");
         let mut x = mesh.vertices.clone();
         let mut held = Vec::new();
         for k in (0..columns * rows).filter(|k| k % columns == 0 || k % columns == columns - 1) {
@@ -170,10 +238,9 @@ fn the_minimum_converges_under_refinement() {
                 x[k as usize] += Vec3::new(-0.02, 0.0, 0.08);
             }
         }
-        let aim = Aim::Targets(mesh.vertices.clone());
-        let report = LeastSquares::new(&cloth, &held)
+        let report = LeastSquares::new(&cloth, &held, Recovery::Controls(vec![]))
             .expect("system")
-            .solve(&mut x, &aim, SolveOptions::default())
+            .solve(&mut x, SolveOptions::default())
             .expect("solved");
         assert!(report.converged);
         report.energy.total
@@ -186,70 +253,76 @@ fn the_minimum_converges_under_refinement() {
 }
 
 #[test]
-fn stretch_and_bend_do_not_see_the_mesh_and_recovery_less_and_less() {
-    // Fig. 6. What is left out is the step that recovery makes of a lifted rim, narrower than these cells.
-    let [triangulations, sizes] = pairs().expect("meshed");
-    for name in ["cotton_poplin", "canvas"] {
-        let weights = Weights { recovery: 0.0, ..weights(name).expect("shipped") };
-        let [a, b, c] =
-            [(&triangulations, middle as fn(&TriMesh) -> Experiment), (&triangulations, arch), (&sizes, arch)]
-                .map(|(pair, handles)| difference(pair, handles, weights).expect("solved"));
-        println!("{name}: {a:.4} {b:.4} {c:.4} of the diagonal");
-        assert!(a < 0.01 && b < 0.01 && c < 0.02, "{name}: {a} {b} {c}");
+fn both_solvers_reach_the_same_minimum() {
+    let fig4 = || diagonal("Fig. 4", 31, 31);
+    let mut runs: Vec<_> =
+        ["cotton_poplin", "denim", "canvas", "ramie", "linen"].map(|name| (fig4(), name, false)).into();
+    runs.extend([(fig7::pull(), "wool_suiting", false), (fig9::skirt(), "wool_suiting", false)]);
+    runs.extend(["cotton_poplin", "linen"].map(|name| (fig4(), name, true)));
+    let options = SolveOptions { tolerance: 1e-8, ..EXACT };
+    for (experiment, fabric, all_vertices) in runs {
+        let cloth = experiment.cloth(weights(fabric).expect("shipped")).expect("cloth");
+        let recovery = || if all_vertices { every_vertex(&experiment) } else { experiment.recovery() };
+        let (held, start) = (&experiment.held, &experiment.start);
+        let (mut a, mut b) = (start.clone(), start.clone());
+        let one_factor =
+            Alternating::new(&cloth, held, recovery()).expect("system").solve(&mut a, options).expect("solved");
+        let squares =
+            LeastSquares::new(&cloth, held, recovery()).expect("system").solve(&mut b, options).expect("solved");
+        let energy = (one_factor.energy.total / squares.energy.total - 1.0).abs();
+        let (n, m, apart, name) = (one_factor.iterations, squares.iterations, largest(&a, &b), experiment.name);
+        println!("{name} {fabric} {all_vertices}: {n} and {m} iterations, apart {energy:.1e}, {apart:.1e} m");
+        assert!(one_factor.converged && squares.converged);
+        assert!(energy < 1e-6 && apart < 1e-4);
+        for report in [one_factor, squares] {
+            assert!(report.history.windows(2).all(|w| w[1] <= w[0]), "the energy rose");
+        }
+        assert!(held.iter().all(|&v| a[v as usize] == start[v as usize] && b[v as usize] == start[v as usize]));
     }
-    let sides = [(8, 6), (15, 11), (29, 21), (57, 41)].map(|(columns, rows)| sheet(WIDTH, HEIGHT, columns, rows));
-    let wool = weights("wool_suiting").expect("shipped");
-    let steps: Vec<f64> =
-        sides.windows(2).map(|w| difference(&[w[0].clone(), w[1].clone()], arch, wool).expect("solved")).collect();
-    println!("wool under refinement: {steps:?}");
-    assert!(steps[1] < 0.7 * steps[0] && steps[2] < 0.5 * steps[1] && steps[2] < 0.01, "{steps:?}");
+}
+
+/// E_P over every vertex of an experiment: the controls' targets, and the initial mesh for the others.
+fn every_vertex(experiment: &common::Experiment) -> Recovery {
+    let mut targets = experiment.mesh.vertices.clone();
+    for control in &experiment.controls {
+        control.vertices().for_each(|v| targets[v as usize] = control.target());
+    }
+    Recovery::AllVertices(targets)
 }
 
 #[test]
-fn both_solvers_reach_the_same_minimum() {
-    let shipped = |name| weights(name).expect("shipped");
-    let fig4 = || diagonal("Fig. 4", 31, 31);
-    let mut runs = vec![];
-    runs.extend(ALONE.map(|w| (fig4(), w)));
-    runs.extend(["cotton_poplin", "denim", "canvas", "ramie"].map(|name| (fig4(), shipped(name))));
-    // Linen has next to no recovery: the softest, and the slowest.
-    runs.extend([fig4(), ball(51), pull(51), wrinkles(51), skirt()].map(|e| (e, shipped("linen"))));
-    let options = SolveOptions { tolerance: 1e-8, ..EXACT };
-    for (Experiment { name, mesh, held, start }, weights) in runs {
-        let aim = Aim::Targets(mesh.vertices.clone());
-        for weighting in [Weighting::Plain, Weighting::PerArea] {
-            let cloth = GeometricCloth::new(&mesh, weights, weighting).expect("cloth");
-            let (mut a, mut b) = (start.clone(), start.clone());
-            let one_factor =
-                Alternating::new(&cloth, &held).expect("system").solve(&mut a, &aim, options).expect("solved");
-            let squares =
-                LeastSquares::new(&cloth, &held).expect("system").solve(&mut b, &aim, options).expect("solved");
-            let energy = (one_factor.energy.total / squares.energy.total - 1.0).abs();
-            let (n, m, apart) = (one_factor.iterations, squares.iterations, largest(&a, &b));
-            println!("{name} {weights:?} {weighting:?}: {n} and {m} iterations, apart {energy:.1e}, {apart:.1e} m");
-            assert!(one_factor.converged && squares.converged);
-            assert!(energy < 1e-6 && apart < 1e-4);
-            for report in [one_factor, squares] {
-                assert!(report.history.windows(2).all(|w| w[1] <= w[0]), "the energy rose");
-            }
-            assert!(held.iter().all(|&v| a[v as usize] == start[v as usize] && b[v as usize] == start[v as usize]));
+fn recovery_of_every_vertex_makes_spikes() {
+    // The reading that does not reproduce the figures, as its documentation says: the lifted places are held.
+    let mut sheet = diagonal("Fig. 5", 50, 40);
+    for control in &sheet.controls {
+        for v in control.vertices() {
+            sheet.held.push(v);
+            sheet.start[v as usize] = control.target();
         }
     }
+    let cloth = sheet.cloth(weights("silk_charmeuse").expect("shipped")).expect("cloth");
+    let mut x = sheet.start.clone();
+    let recovery = Recovery::AllVertices(sheet.mesh.vertices.clone());
+    let mut solver = LeastSquares::new(&cloth, &sheet.held, recovery).expect("system");
+    assert!(solver.solve(&mut x, SolveOptions::default()).expect("solved").converged);
+    let longest = common::measure::strain(&sheet.mesh, &x).longest;
+    println!("longest edge + {:.0} %", 100.0 * longest);
+    assert!(longest > 3.0);
 }
 
 #[test]
-fn the_papers_experiments_settle_within_its_fifteen_iterations() {
-    let all = fifteen().expect("shipped");
-    let mixed = all.iter().map(|f| Weights::from_percent(f.liu.as_ref().expect("measured").weights));
-    let mut runs: Vec<(Experiment, Weights)> = mixed
-        .flat_map(|w| [diagonal("Fig. 5", 50, 40), ball(51), pull(51), wrinkles(51), skirt()].map(|e| (e, w)))
-        .collect();
-    assert_eq!(runs.len(), 75);
-    runs.extend(ALONE.map(|w| (diagonal("Fig. 4", 31, 31), w)));
-    runs.push((diagonal("Fig. 4", 31, 31), poplin()));
-    for (e, w) in runs {
-        let (_, report, settled) = solve(&e, w, Weighting::Plain).expect("solved");
-        assert!(report.converged && settled <= 15, "{} {w:?}: {settled} of {}", e.name, report.iterations);
+fn the_papers_own_loop_ends_near_the_minimum() {
+    // L11: fifteen plain steps while dragging, Fig. 5.
+    let sheet = diagonal("Fig. 5", 50, 40);
+    for name in ["denim", "wool_suiting", "silk_charmeuse", "canvas", "ramie", "cotton_poplin"] {
+        let cloth = sheet.cloth(weights(name).expect("shipped")).expect("cloth");
+        let (mut dragged, mut least) = (sheet.mesh.vertices.clone(), sheet.mesh.vertices.clone());
+        let mut solver = LeastSquares::new(&cloth, &sheet.held, sheet.recovery()).expect("system");
+        solver.drag(&mut dragged, 15).expect("dragged");
+        let least = solver.solve(&mut least, SolveOptions::default()).expect("solved").energy.total;
+        let over = cloth.energy(&dragged, &sheet.recovery()).total / least - 1.0;
+        println!("{name}: {:.2} % over the minimum", 100.0 * over);
+        assert!(over < 0.01, "{name}: {over}");
     }
 }
 
@@ -259,20 +332,22 @@ fn gravity_ends_in_balance() {
     let weights = Weights { recovery: 1.0, stretch: 40.0, bend: 1.0 };
     let cloth = GeometricCloth::new(&mesh, weights, Weighting::PerArea).expect("cloth");
     let held: Vec<u32> = (12 * 9..13 * 9).collect();
-    let aim = Aim::Falling(GeometricCloth::drop_for_bending_length(0.022));
+    let falling = Recovery::Falling(GeometricCloth::drop_for_bending_length(0.022));
     let start = shaken(&mesh.vertices, 1e-4);
     let (mut a, mut b) = (start.clone(), start);
     for v in &held {
         a[*v as usize] = mesh.vertices[*v as usize];
         b[*v as usize] = mesh.vertices[*v as usize];
     }
-    let report = Alternating::new(&cloth, &held).expect("system").solve(&mut a, &aim, EXACT).expect("solved");
-    let squares = LeastSquares::new(&cloth, &held).expect("system").solve(&mut b, &aim, EXACT).expect("solved");
+    let report =
+        Alternating::new(&cloth, &held, falling.clone()).expect("system").solve(&mut a, EXACT).expect("solved");
+    let squares =
+        LeastSquares::new(&cloth, &held, falling.clone()).expect("system").solve(&mut b, EXACT).expect("solved");
     println!("{} and {} iterations, {:.1e} m apart", report.iterations, squares.iterations, largest(&a, &b));
     assert!(report.converged && squares.converged);
     assert!(largest(&a, &b) < 1e-5);
     // At rest only held vertices feel an unbalanced force, and together they carry the weight 2 ω_R s drop · area.
-    let gradient = cloth.gradient(&a, &aim);
+    let gradient = cloth.gradient(&a, &falling);
     let weight =
         -2.0 * weights.recovery * 0.2 * 0.3 / PUBLISHED_CELL.powi(2) * GeometricCloth::drop_for_bending_length(0.022).y;
     let free = (0..12 * 9).map(|v: usize| gradient[v].norm()).fold(0.0, f64::max);
@@ -301,17 +376,28 @@ fn what_cannot_be_solved_is_an_error() {
     assert_eq!(made(|m| m.triangles.push([0, 4, 2])), Some(GeometricError::NonManifold([0, 4])));
 
     let cloth = GeometricCloth::new(&mesh, poplin(), Weighting::Plain).expect("cloth");
-    assert_eq!(Alternating::new(&cloth, &[9]).err(), Some(GeometricError::Handle { vertex: 9, vertices: 9 }));
-    let solver = Alternating::new(&cloth, &[0]).expect("system");
-    let aim = Aim::Targets(mesh.vertices.clone());
-    let mut short = vec![Vec3::zeros(); 3];
-    let expected = GeometricError::Count { what: "positions", found: 3, expected: 9 };
-    assert_eq!(solver.solve(&mut short, &aim, SolveOptions::default()).err(), Some(expected));
-    let mut undefined = mesh.vertices.clone();
-    undefined[4].z = f64::NAN;
-    let solved = solver.solve(&mut undefined, &aim, SolveOptions::default());
-    assert_eq!(solved.err(), Some(GeometricError::NotFinite(4)));
-    undefined[4].z = 1e200;
-    let solved = solver.solve(&mut undefined, &aim, SolveOptions::default());
-    assert_eq!(solved.err(), Some(GeometricError::Overflow));
+    let none = || Recovery::Controls(vec![]);
+    let no_vertex = Some(GeometricError::Handle { vertex: 9, vertices: 9 });
+    assert_eq!(Alternating::new(&cloth, &[9], none()).err(), no_vertex);
+    let refused = |recovery| LeastSquares::new(&cloth, &[0], recovery).err();
+    let drawn = |control| refused(Recovery::Controls(vec![Control::vertex(1, Vec3::zeros()), control]));
+    assert_eq!(drawn(Control::vertex(9, Vec3::zeros())), no_vertex);
+    let wrong = Some(GeometricError::Control(1));
+    assert_eq!(drawn(Control::vertex(2, Vec3::new(0.0, f64::NAN, 0.0))), wrong);
+    assert_eq!(drawn(Control::in_triangle([0, 1, 4], [f64::INFINITY, 0.0, 1.0], Vec3::zeros())), wrong);
+    assert_eq!(drawn(Control::in_triangle([0, 1, 1], [0.4, 0.3, 0.3], Vec3::zeros())), wrong);
+    assert_eq!(refused(Recovery::Falling(Vec3::new(0.0, f64::NAN, 0.0))), Some(GeometricError::Drop));
+    let short = |what| Some(GeometricError::Count { what, found: 3, expected: 9 });
+    assert_eq!(refused(Recovery::AllVertices(vec![Vec3::zeros(); 3])), short("targets"));
+
+    let solver = Alternating::new(&cloth, &[0], none()).expect("system");
+    let solved = |mut x: Vec<Vec3>| solver.solve(&mut x, SolveOptions::default()).err();
+    assert_eq!(solved(vec![Vec3::zeros(); 3]), short("positions"));
+    let with_height = |z| {
+        let mut x = mesh.vertices.clone();
+        x[4].z = z;
+        x
+    };
+    assert_eq!(solved(with_height(f64::NAN)), Some(GeometricError::NotFinite(4)));
+    assert_eq!(solved(with_height(1e200)), Some(GeometricError::Overflow));
 }

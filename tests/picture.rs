@@ -6,7 +6,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use toile::geometry::{TriMesh, Vec3};
-use toile::picture::{HEIGHT, PictureError, Scene, WIDTH, draw, rim_lines};
+use toile::picture::{HEIGHT, PictureError, Scene, Specimen, WIDTH, draw, draw_sheet, rim_lines};
 
 /// A tube of rings, each given by centre, half width and half depth; closed at both ends on demand.
 fn tube(rings: &[(Vec3, f64, f64)], around: u32, closed: bool) -> TriMesh {
@@ -243,4 +243,39 @@ fn what_cannot_be_drawn_is_said() {
     assert!(matches!(draw(&scene(&cloth, Some(&[0.1]))), Err(PictureError::StrainLength { values: 1, .. })));
     cloth.vertices[5].x = f64::NAN;
     assert!(matches!(draw(&scene(&cloth, None)), Err(PictureError::NothingToDraw)));
+}
+
+/// Every specimen of a sheet has a panel of its own, and the same specimen looks the same in each.
+#[test]
+fn a_sheet_shows_every_specimen() {
+    let nobody = TriMesh::default();
+    let (low, high) = (pillow(0.01), pillow(0.1));
+    let specimen = |cloth| Specimen { name: "cloth", cloth, lines: &[], body: &nobody };
+    let png = draw_sheet("sheet", "two flat ones, one raised", &[&low, &low, &high].map(specimen)).expect("drawn");
+    keep("sheet.png", &png);
+    let mut reader = png::Decoder::new(std::io::Cursor::new(&png)).read_info().expect("a PNG");
+    let mut rgb = vec![0; reader.output_buffer_size().expect("of a size")];
+    let info = reader.next_frame(&mut rgb).expect("with one frame");
+    let (width, height) = (info.width as usize, info.height as usize);
+    assert_eq!(width, WIDTH);
+    // Below the title and above the names.
+    let panel = |k: usize| -> Vec<&[u8]> {
+        (height / 5..4 * height / 5)
+            .map(|y| &rgb[3 * (y * width + k * width / 3)..3 * (y * width + (k + 1) * width / 3)])
+            .collect()
+    };
+    assert_eq!(panel(0), panel(1));
+    assert_ne!(panel(0), panel(2));
+    let paper = &rgb[..3];
+    let drawn = panel(0).iter().flat_map(|row| row.chunks_exact(3)).filter(|p| *p != paper).count();
+    assert!(drawn > width * height / 30, "only {drawn} pixels drawn");
+    assert!(matches!(draw_sheet("", "", &[]), Err(PictureError::NothingToDraw)));
+    assert!(matches!(draw_sheet("", "", &[specimen(&nobody)]), Err(PictureError::NothingToDraw)));
+}
+
+/// A lying square of 0.4 m whose middle is this high.
+fn pillow(height: f64) -> TriMesh {
+    let corners = [[-0.2, -0.2], [0.2, -0.2], [0.2, 0.2], [-0.2, 0.2]].map(|[x, z]| Vec3::new(x, 0.0, z));
+    let vertices = [corners.as_slice(), &[Vec3::y() * height]].concat();
+    TriMesh { vertices, triangles: vec![[0, 4, 1], [1, 4, 2], [2, 4, 3], [3, 4, 0]] }
 }

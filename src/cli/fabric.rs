@@ -58,7 +58,7 @@ fn shown(sheet: &FabricSheet, fabric: &Fabric) -> Value {
     let liu = sheet.liu.as_ref().map(|l| {
         json!({"sample": l.sample, "means": l.means, "spread": l.spread, "normalised": l.normalised,
                "weights": l.weights, "recomputed_weights": l.recomputed_weights(),
-               "bending_length_mm": 1e3 * l.bending_length()})
+               "fallback_bending_length_mm": 1e3 * l.fallback_bending_length()})
     });
     json!({
         "name": sheet.name,
@@ -124,8 +124,10 @@ fn measures(liu: &LiuMeasures) -> String {
             format!("{:.4}", recomputed[k]),
         ]);
     }
-    let length = 1e3 * liu.bending_length();
-    format!("{of} Liu, Wang & Luo 2015:\n{}  bending length by ω_B/ω_R alone {length:.1} mm\n", aligned(&rows))
+    let length = 1e3 * liu.fallback_bending_length();
+    let fallback =
+        format!("bending length by ω_B/ω_R alone {length:.1} mm: a last resort, for fabrics without physical values");
+    format!("{of} Liu, Wang & Luo 2015:\n{}  {fallback}\n", aligned(&rows))
 }
 
 fn from_readings(readings: &Path, output: &Path, console: &Console) -> Result<(), CliError> {

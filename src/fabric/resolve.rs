@@ -71,7 +71,8 @@ pub struct Context<'a> {
 /// The fabric a garment file describes: its base, if any, with the inline values on top. A plain number multiplies the
 /// base's value (friction has no unit, so there it is the value itself). What neither gives is assumed and listed in
 /// [`Fabric::defaults`]; weight and bending have no default, except that a fabric file with the three published
-/// measures and no bending has the bending length that follows from its weights ([`LiuMeasures::bending_length`]).
+/// measures and no bending has, as a last resort, a bending length from its weights
+/// ([`LiuMeasures::fallback_bending_length`]).
 ///
 /// # Errors
 /// [`FabricError`] for a base that does not exist, leads back to itself or too far, an unknown key, a bad unit, a
@@ -256,8 +257,8 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// Both rigidities. One stands for the other where only one is written; where none is, they follow from the weights
-    /// of the published energy, if there are any, and from the mass per area.
+    /// Both rigidities. One stands for the other where only one is written. Where none is, the last resort are the
+    /// weights of the published energy, if there are any, with the mass per area.
     fn bending(
         &self,
         base: Option<&Fabric>,
@@ -273,7 +274,7 @@ impl<'a> Values<'a> {
             (None, Some(weft)) => Ok([defaults.note("bend.warp", weft), weft]),
             (None, None) => match (self.liu, weight) {
                 (Some(liu), Some(weight)) => {
-                    let rigidity = liu.bending_length().powi(3) * weight * GRAVITY;
+                    let rigidity = liu.fallback_bending_length().powi(3) * weight * GRAVITY;
                     if !(rigidity.is_finite() && rigidity > 0.0) {
                         let why = "recovery and bend must both weigh something, or no bending follows; give bend";
                         let (fabric, key, why) =

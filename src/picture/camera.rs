@@ -36,31 +36,36 @@ pub(super) struct Camera {
     pub(super) right: Vec3,
     pub(super) up: Vec3,
     pub(super) toward: Vec3,
-    /// First column of its panel, and the panel's width, pixels.
+    /// First column and row of its panel on the canvas, pixels.
     pub(super) left: usize,
+    pub(super) top: usize,
+    /// Size of the panel, pixels.
     pub(super) width: usize,
+    pub(super) height: usize,
     /// What is in the middle of the panel, metres along `right` and `up`.
     center: [f64; 2],
     /// Pixels per metre, the same in all views.
     pub(super) scale: f64,
+    /// Where the key light stands: rightwards, upwards, towards the viewer (not unit length).
+    pub(super) key_from: [f64; 3],
 }
 
 impl Camera {
-    /// Height of every panel, pixels.
-    pub(super) const PANEL: usize = HEIGHT - HEAD - FOOT;
-
-    fn looking_from(name: &'static str, yaw: f64) -> Self {
+    /// A camera without a panel. It is turned by `yaw` about the vertical and looks down by `dip`, radians.
+    fn looking_from(name: &'static str, yaw: f64, dip: f64) -> Self {
         let (sin, cos) = yaw.sin_cos();
-        let (dip_sin, dip_cos) = LOOK_DOWN.sin_cos();
+        let (dip_sin, dip_cos) = dip.sin_cos();
         let right = Vec3::new(cos, 0.0, -sin);
         let toward = Vec3::new(sin * dip_cos, dip_sin, cos * dip_cos);
-        Self { name, right, up: toward.cross(&right), toward, left: 0, width: 0, center: [0.0; 2], scale: 1.0 }
+        let up = toward.cross(&right);
+        let (center, scale, key_from) = ([0.0; 2], 1.0, KEY_FROM);
+        Self { name, right, up, toward, left: 0, top: 0, width: 0, height: 0, center, scale, key_from }
     }
 
     /// Column and row in the panel (pixels), and nearness to the viewer (metres).
     pub(super) fn project(&self, p: &Vec3) -> [f32; 3] {
         let x = (self.right.dot(p) - self.center[0]) * self.scale + 0.5 * self.width as f64;
-        let y = (self.center[1] - self.up.dot(p)) * self.scale + 0.5 * Self::PANEL as f64;
+        let y = (self.center[1] - self.up.dot(p)) * self.scale + 0.5 * self.height as f64;
         [x as f32, y as f32, self.toward.dot(p) as f32]
     }
 
@@ -73,11 +78,35 @@ impl Camera {
     }
 }
 
+/// Height of a panel of the dressed mannequin, pixels.
+const PANEL: usize = HEIGHT - HEAD - FOOT;
+
+/// The key light of a dressed mannequin.
+const KEY_FROM: [f64; 3] = [-0.55, 0.62, 0.70];
+/// The key light of a sheet of specimens: low from the left. Light along the view shows no folds in cloth that lies.
+const KEY_FROM_ASIDE: [f64; 3] = [-0.95, 0.30, 0.20];
+
+/// The viewer of a sheet of specimens stands to the right and looks down, radians: folds and heights are both seen.
+const ASIDE: f64 = 0.45;
+const FROM_ABOVE: f64 = 0.62;
+
+/// One camera from above at an angle for each list of points, all at one scale, each as large as a panel of this
+/// `width` and `height` (pixels) allows the largest.
+pub(super) fn cameras_above(shapes: &[&[Vec3]], [width, height]: [usize; 2]) -> Vec<Camera> {
+    let camera = Camera { width, height, key_from: KEY_FROM_ASIDE, ..Camera::looking_from("", ASIDE, FROM_ABOVE) };
+    let extents: Vec<[[f64; 2]; 2]> = shapes.iter().map(|points| camera.extent(points)).collect();
+    let largest = |axis: usize| extents.iter().map(|[lo, hi]| hi[axis] - lo[axis]).fold(SMALLEST, f64::max);
+    let room = |pixels: usize, axis: usize| pixels as f64 / ((1.0 + 2.0 * AIR) * largest(axis));
+    let scale = room(width, 0).min(room(height, 1));
+    let center = |[lo, hi]: [[f64; 2]; 2]| [0, 1].map(|axis| (lo[axis] + hi[axis]) / 2.0);
+    extents.into_iter().map(|extent| Camera { scale, center: center(extent), ..camera }).collect()
+}
+
 /// Front, side and back, at one scale and as large as the paper allows.
 pub(super) fn cameras(body: &TriMesh, cloth: &TriMesh) -> Vec<Camera> {
     let quarter = std::f64::consts::FRAC_PI_2;
     let names = [("FRONT", 0.0), ("SIDE", quarter), ("BACK", 2.0 * quarter)];
-    let mut cameras = names.map(|(name, yaw)| Camera::looking_from(name, yaw)).to_vec();
+    let mut cameras = names.map(|(name, yaw)| Camera::looking_from(name, yaw, LOOK_DOWN)).to_vec();
     let framed = framed(body, cloth);
     let extents: Vec<[[f64; 2]; 2]> = cameras.iter().map(|c| c.extent(&framed)).collect();
     let size = |k: usize, axis: usize| extents[k][1][axis] - extents[k][0][axis];
@@ -86,13 +115,14 @@ pub(super) fn cameras(body: &TriMesh, cloth: &TriMesh) -> Vec<Camera> {
     let largest = (0..3).map(|k| size(k, 0)).fold(height, f64::max);
     let width = |k: usize| size(k, 0).max(NARROWEST * largest) + air;
     let widths: f64 = (0..3).map(width).sum();
-    let scale = (WIDTH as f64 / widths).min(Camera::PANEL as f64 / (height + air));
+    let scale = (WIDTH as f64 / widths).min(PANEL as f64 / (height + air));
     let spare = (WIDTH as f64 - widths * scale) / 3.0;
     let mut left = 0.0;
     for (k, camera) in cameras.iter_mut().enumerate() {
         let right = left + width(k) * scale + spare;
         camera.scale = scale;
         camera.center = [0, 1].map(|axis| (extents[k][0][axis] + extents[k][1][axis]) / 2.0);
+        (camera.top, camera.height) = (HEAD, PANEL);
         camera.left = left.round() as usize + GUTTER / 2;
         camera.width = (right.round() as usize).min(WIDTH) - GUTTER / 2 - camera.left;
         left = right;

@@ -4,8 +4,7 @@ use super::camera::Camera;
 use super::color::{Rgb, displayed};
 use crate::geometry::Vec3;
 
-/// Where lights come from, relative to the viewer: rightwards, upwards, towards the viewer (not unit length).
-const KEY_FROM: [f64; 3] = [-0.55, 0.62, 0.70];
+/// Where the fill light comes from, relative to the viewer: rightwards, upwards, towards the viewer (not unit length).
 const FILL_FROM: [f64; 3] = [0.85, 0.10, 0.45];
 
 /// Linear strengths. A surface that faces the key light and sees the whole sky comes out just below white.
@@ -30,7 +29,7 @@ pub(super) struct Lights {
 impl Lights {
     pub(super) fn new(camera: &Camera) -> Self {
         let from = |[r, u, t]: [f64; 3]| (camera.right * r + camera.up * u + camera.toward * t).normalize();
-        Self { key: from(KEY_FROM), fill: from(FILL_FROM) }
+        Self { key: from(camera.key_from), fill: from(FILL_FROM) }
     }
 
     /// Displayed light on a surface with this normal that sees `seen` of its surroundings.

@@ -17,11 +17,13 @@ mod on_cloth;
 mod paint;
 mod raster;
 mod shadow;
+mod sheet;
 mod view;
 
 pub use dressed::{Dressed, rim_lines};
 pub use flat::draw_flat;
 pub use shadow::draw_shadow;
+pub use sheet::{Specimen, draw_sheet};
 
 use crate::geometry::{TriMesh, Vec3};
 
@@ -83,8 +85,7 @@ pub enum PictureError {
 /// # Errors
 /// When there is nothing to draw, or values are missing ([`PictureError`]).
 pub fn draw(scene: &Scene) -> Result<Vec<u8>, PictureError> {
-    let finite = |mesh: &TriMesh| mesh.vertices.iter().all(|p| p.iter().all(|x| x.is_finite()));
-    if scene.cloth.triangles.is_empty() || !finite(scene.cloth) || !finite(scene.body) {
+    if !can_be_framed(scene.cloth, scene.body) {
         return Err(PictureError::NothingToDraw);
     }
     let vertices = scene.cloth.vertices.len();
@@ -92,6 +93,12 @@ pub fn draw(scene: &Scene) -> Result<Vec<u8>, PictureError> {
         return Err(PictureError::StrainLength { values: values.len(), vertices });
     }
     Ok(encode(&view::render(scene))?)
+}
+
+/// Whether there is cloth, and all of it and of the body has finite positions.
+fn can_be_framed(cloth: &TriMesh, body: &TriMesh) -> bool {
+    let finite = |mesh: &TriMesh| mesh.vertices.iter().all(|p| p.iter().all(|x| x.is_finite()));
+    !cloth.triangles.is_empty() && finite(cloth) && finite(body)
 }
 
 /// PNG bytes of a canvas. Fast compression: the file is a third larger and done in a tenth of the time.

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::camera::{Camera, FOOT, HEAD, cameras};
+use super::camera::{Camera, FOOT, cameras};
 use super::canvas::Canvas;
 use super::color::{BODY, INK, PALE_INK, PAPER, RIM, Rgb, SEAM, strain};
 use super::light::Lights;
@@ -30,6 +30,8 @@ const LINE_LIFT: f32 = 0.004;
 const FLOOR_CELLS: u32 = 48;
 /// The floor reaches this far beyond what stands on it, metres.
 const FLOOR_MARGIN: f64 = 0.35;
+/// The floor is this far below the lowest point, metres: flat cloth on the very floor would be drawn half through it.
+const FLOOR_GAP: f64 = 1e-3;
 
 /// Draws the whole picture.
 pub(super) fn render(scene: &Scene) -> Canvas {
@@ -37,19 +39,24 @@ pub(super) fn render(scene: &Scene) -> Canvas {
     let lit = Lit::new(scene);
     let cameras = cameras(scene.body, scene.cloth);
     let panels: Vec<Panel> = cameras.par_iter().map(|c| Panel::new(scene, &lit, &paint, c)).collect();
-    let bands: Vec<(usize, usize)> =
-        (0..panels.len()).flat_map(|p| (0..panels[p].triangle_bands.len()).map(move |b| (p, b))).collect();
-    let pixels: Vec<Vec<u8>> = bands.par_iter().map(|&(p, b)| panels[p].band(b)).collect();
     let mut canvas = Canvas::new(WIDTH, HEIGHT, PAPER);
-    for (&(p, b), pixels) in bands.iter().zip(&pixels) {
-        canvas.paste(cameras[p].left, HEAD + b * BAND, cameras[p].width, pixels);
-    }
+    paste(&mut canvas, &panels);
     words(&mut canvas, scene, &cameras, &paint);
     canvas
 }
 
+/// Draws panels onto the canvas.
+pub(super) fn paste(canvas: &mut Canvas, panels: &[Panel]) {
+    let bands: Vec<(&Panel, usize)> =
+        panels.iter().flat_map(|p| (0..p.triangle_bands.len()).map(move |b| (p, b))).collect();
+    let pixels: Vec<Vec<u8>> = bands.par_iter().map(|(panel, b)| panel.band(*b)).collect();
+    for ((panel, b), pixels) in bands.iter().zip(&pixels) {
+        canvas.paste(panel.left, panel.top + b * BAND, panel.width, pixels);
+    }
+}
+
 /// Normals, how much of its surroundings every vertex sees, and the lines; the same in all views.
-struct Lit {
+pub(super) struct Lit {
     body_normals: Vec<Vec3>,
     body_seen: Vec<f32>,
     cloth_normals: Vec<Vec3>,
@@ -61,7 +68,7 @@ struct Lit {
 }
 
 impl Lit {
-    fn new(scene: &Scene) -> Self {
+    pub(super) fn new(scene: &Scene) -> Self {
         let around = Surroundings::new(&[scene.body, scene.cloth]);
         let (body_normals, cloth_normals) = (scene.body.vertex_normals(), scene.cloth.vertex_normals());
         let turned: Vec<Vec3> = cloth_normals.iter().map(|n| -n).collect();
@@ -87,7 +94,7 @@ fn floor(scene: &Scene) -> TriMesh {
     let n = FLOOR_CELLS + 1;
     let at = |k: u32| reach * (2.0 * f64::from(k) / f64::from(FLOOR_CELLS) - 1.0);
     let mut floor = TriMesh::default();
-    floor.vertices.extend((0..n * n).map(|k| Vec3::new(at(k % n), low, at(k / n))));
+    floor.vertices.extend((0..n * n).map(|k| Vec3::new(at(k % n), low - FLOOR_GAP, at(k / n))));
     for k in (0..n * FLOOR_CELLS).filter(|k| k % n < FLOOR_CELLS) {
         floor.triangles.extend([[k, k + n, k + 1], [k + 1, k + n, k + n + 1]]);
     }
@@ -95,8 +102,12 @@ fn floor(scene: &Scene) -> TriMesh {
 }
 
 /// Everything one view shows, projected, and sorted into bands.
-struct Panel<'a> {
+pub(super) struct Panel<'a> {
+    /// First column and row on the canvas, and size, pixels.
+    left: usize,
+    top: usize,
     width: usize,
+    height: usize,
     /// With the triangle of the cloth each one is; those are the last.
     triangles: Vec<([Corner; 3], u32)>,
     first_cloth: usize,
@@ -106,7 +117,7 @@ struct Panel<'a> {
 }
 
 impl<'a> Panel<'a> {
-    fn new(scene: &Scene, lit: &'a Lit, paint: &Paint, camera: &Camera) -> Self {
+    pub(super) fn new(scene: &Scene, lit: &'a Lit, paint: &Paint, camera: &Camera) -> Self {
         let around = floor_triangles(lit, camera).into_iter().chain(body_triangles(scene, lit, camera));
         let mut triangles: Vec<_> = around.map(|corners| (corners, NO_CLOTH)).collect();
         let first_cloth = triangles.len();
@@ -116,14 +127,15 @@ impl<'a> Panel<'a> {
             let y = at.iter().map(|p| p[1]);
             (y.clone().fold(f32::INFINITY, f32::min) - radius, y.fold(f32::NEG_INFINITY, f32::max) + radius)
         };
-        let triangle_bands = sorted(triangles.iter().map(|(t, _)| rows(&t.map(|c| c.at), 0.0)));
-        let stroke_bands = sorted(strokes.iter().map(|s| rows(&s.ends, s.radius)));
-        Self { width: camera.width, triangles, first_cloth, strokes, triangle_bands, stroke_bands }
+        let &Camera { left, top, width, height, .. } = camera;
+        let triangle_bands = sorted(height, triangles.iter().map(|(t, _)| rows(&t.map(|c| c.at), 0.0)));
+        let stroke_bands = sorted(height, strokes.iter().map(|s| rows(&s.ends, s.radius)));
+        Self { left, top, width, height, triangles, first_cloth, strokes, triangle_bands, stroke_bands }
     }
 
     /// Pixels of a band.
     fn band(&self, index: usize) -> Vec<u8> {
-        let rows = band_rows(index);
+        let rows = band_rows(self.height, index);
         let mut band = Band::new(self.width * SAMPLES, rows.start * SAMPLES, rows.len() * SAMPLES);
         for &t in &self.triangle_bands[index] {
             let (corners, cloth) = &self.triangles[t as usize];
@@ -136,21 +148,22 @@ impl<'a> Panel<'a> {
     }
 }
 
-/// Pixel rows of a band of a panel.
-fn band_rows(index: usize) -> Range<usize> {
-    index * BAND..((index + 1) * BAND).min(Camera::PANEL)
+/// Pixel rows of a band of a panel of this height.
+fn band_rows(height: usize, index: usize) -> Range<usize> {
+    index * BAND..((index + 1) * BAND).min(height)
 }
 
-/// For every band the indices of the things whose rows (lowest and highest, in samples) reach into it.
-fn sorted(rows: impl Iterator<Item = (f32, f32)>) -> Vec<Vec<u32>> {
-    let mut bands = vec![Vec::new(); Camera::PANEL.div_ceil(BAND)];
-    let height = (BAND * SAMPLES) as f32;
+/// For every band of a panel of this height (pixels) the indices of the things that reach into it; `rows` are the
+/// lowest and the highest row of each, in samples.
+fn sorted(height: usize, rows: impl Iterator<Item = (f32, f32)>) -> Vec<Vec<u32>> {
+    let mut bands = vec![Vec::new(); height.div_ceil(BAND)];
+    let band_height = (BAND * SAMPLES) as f32;
     for (k, (top, bottom)) in rows.enumerate() {
         if bottom < 0.0 {
             continue;
         }
-        let first = (top / height).max(0.0) as usize;
-        let last = ((bottom / height) as usize).min(bands.len() - 1);
+        let first = (top / band_height).max(0.0) as usize;
+        let last = ((bottom / band_height) as usize).min(bands.len() - 1);
         for band in bands.iter_mut().take(last + 1).skip(first) {
             band.push(k as u32);
         }
@@ -237,7 +250,7 @@ fn words(canvas: &mut Canvas, scene: &Scene, cameras: &[Camera], paint: &Paint) 
 }
 
 /// A bar of a round length, at the right below.
-fn scale_bar(canvas: &mut Canvas, pixels_per_metre: f64, foot: f32) {
+pub(super) fn scale_bar(canvas: &mut Canvas, pixels_per_metre: f64, foot: f32) {
     let millimetres = if pixels_per_metre > 1500.0 { 50.0 } else { 100.0 };
     let length = (millimetres / 1000.0 * pixels_per_metre) as f32;
     let right = WIDTH as f32 - 56.0;

@@ -2,8 +2,8 @@
 //!
 //! With directions d_e fixed, Σ w ‖(v_b − v_a) − L_M d_e‖² takes the place of E_L. It is never below E_L and equal to
 //! it where the d_e are the edges' own directions, so its minimum lies no higher: the alternation goes downhill.
-//! Everything is quadratic with one constant scalar matrix K = ω_R P + ω_S (graph Laplacian) + ω_B AᵀA for x, y and z;
-//! as both functions have the same gradient at v, the minimum is v − K⁻¹ ½∇E(v).
+//! Everything is quadratic with one constant scalar matrix for x, y and z, K = ω_R (recovery) + ω_S (graph Laplacian)
+//! + ω_B AᵀA. As both functions have the same gradient at v, the minimum is v − K⁻¹ ½∇E(v).
 //!
 //! Taken alone, that step creeps where K is much stiffer than the cloth. So it is taken from a point extrapolated from
 //! the last two (Nesterov 1983, with the restart of O'Donoghue & Candès 2015): where that would raise the energy, the
@@ -12,18 +12,16 @@
 use std::sync::Arc;
 
 use super::descent::{Clock, Report, Run, SolveOptions, factored, hold, largest_motion, timed};
-use super::energy::Aim;
-use super::handles::Handles;
-use super::stencils::Stencils;
-use super::{GeometricCloth, GeometricError, Weights};
+use super::problem::Problem;
+use super::recovery::Recovery;
+use super::{GeometricCloth, GeometricError};
 use crate::geometry::Vec3;
 use crate::linear::{Cholesky, SymmetricMatrix, SymmetricPattern};
 
-/// The alternation, prepared for one cloth and one set of held vertices.
+/// The alternation, prepared for one cloth, its recovery term and one set of held vertices.
 #[derive(Debug)]
 pub struct Alternating<'a> {
-    cloth: &'a GeometricCloth,
-    handles: Handles,
+    problem: Problem<'a>,
     factor: Cholesky<f64>,
 }
 
@@ -31,34 +29,35 @@ impl<'a> Alternating<'a> {
     /// Builds and factors K with the vertices `held` eliminated.
     ///
     /// # Errors
-    /// [`GeometricError::Handle`] for a vertex that does not exist, or a cloth too large for its system.
-    pub fn new(cloth: &'a GeometricCloth, held: &[u32]) -> Result<Self, GeometricError> {
-        let handles = Handles::new(cloth.vertices(), held)?;
-        let matrix = assemble(&cloth.stencils, &cloth.weights, &handles)?;
+    /// [`GeometricError`] for a vertex that does not exist, a target that is not finite, or a cloth too large for its
+    /// system.
+    pub fn new(cloth: &'a GeometricCloth, held: &[u32], recovery: Recovery) -> Result<Self, GeometricError> {
+        let problem = Problem::new(cloth, held, recovery)?;
+        let matrix = assemble(&problem)?;
         let mut factor = Cholesky::new(matrix.pattern().clone())?;
         factored(&mut factor, &matrix, 1)?;
-        Ok(Self { cloth, handles, factor })
+        Ok(Self { problem, factor })
     }
 
     /// Goes downhill from `x`, in which the held vertices are where they are to stay.
     ///
     /// # Errors
     /// [`GeometricError`] for numbers of vertices that do not agree or positions that are not finite.
-    pub fn solve(&self, x: &mut Vec<Vec3>, aim: &Aim, options: SolveOptions) -> Result<Report, GeometricError> {
-        let mut run = Run::new(self.cloth, &self.handles, aim, options, x)?;
+    pub fn solve(&self, x: &mut Vec<Vec3>, options: SolveOptions) -> Result<Report, GeometricError> {
+        let mut run = Run::new(&self.problem, options, x)?;
         let mut clock = Clock::default();
         let mut before = x.clone();
         let mut momentum = Momentum::default();
         while run.goes_on() {
             let share = momentum.next();
             let mut from: Vec<Vec3> = x.iter().zip(&before).map(|(x, b)| x + (x - b) * share).collect();
-            let mut to = self.step(&from, &run, &mut clock);
-            let mut total = run.energy(&to);
+            let mut to = self.step(&from, &mut clock);
+            let mut total = self.problem.energy(&to);
             if total > run.last_energy() {
                 momentum = Momentum::default();
                 from.clone_from(x);
-                to = self.step(&from, &run, &mut clock);
-                total = run.energy(&to);
+                to = self.step(&from, &mut clock);
+                total = self.problem.energy(&to);
             }
             if total > run.last_energy() {
                 run.exhausted();
@@ -71,8 +70,9 @@ impl<'a> Alternating<'a> {
     }
 
     /// Positions of least energy for the edge directions at `x`.
-    fn step(&self, x: &[Vec3], run: &Run, clock: &mut Clock) -> Vec<Vec3> {
-        let gradient = timed(&mut clock.linearise, || run.half_gradient(x));
+    fn step(&self, x: &[Vec3], clock: &mut Clock) -> Vec<Vec3> {
+        let problem = &self.problem;
+        let gradient = timed(&mut clock.linearise, || problem.half_gradient(x, &problem.recovery));
         let step = timed(&mut clock.solve, || {
             let mut columns: Vec<f64> = (0..3).flat_map(|k| gradient.iter().map(move |g| g[k])).collect();
             self.factor.solve(&mut columns);
@@ -101,21 +101,15 @@ impl Momentum {
 }
 
 /// K, with the rows of held vertices as those of the identity.
-fn assemble(stencils: &Stencils, weights: &Weights, handles: &Handles) -> Result<SymmetricMatrix<f64>, GeometricError> {
+fn assemble(problem: &Problem) -> Result<SymmetricMatrix<f64>, GeometricError> {
+    let (GeometricCloth { stencils, weights }, handles) = (problem.cloth, &problem.handles);
     let n = stencils.points.len();
-    let mut entries: Vec<(u32, u32, f64)> =
-        stencils.points.iter().enumerate().map(|(i, p)| (i as u32, i as u32, weights.recovery * p)).collect();
+    let mut entries = problem.recovery.entries(stencils, weights.recovery);
     for e in &stencils.edges {
         let ([a, b], w) = (e.ends, weights.stretch * e.weight);
         entries.extend([(a, a, w), (b, b, w), (a, b, -w)]);
     }
-    for h in &stencils.hinges {
-        for i in 0..4 {
-            let row = (i..4)
-                .map(|j| (h.nodes[i], h.nodes[j], weights.bend * h.weight * h.coefficients[i] * h.coefficients[j]));
-            entries.extend(row);
-        }
-    }
+    entries.extend(stencils.bend_entries(weights.bend));
     let diagonal: f64 = entries.iter().filter(|e| e.0 == e.1).map(|e| e.2).sum();
     entries.retain(|e| !handles.holds(e.0) && !handles.holds(e.1));
     let held = hold(diagonal, n);

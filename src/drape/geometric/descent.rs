@@ -2,14 +2,14 @@
 
 use std::time::{Duration, Instant};
 
-use super::energy::{self, Aim, Energies};
-use super::handles::Handles;
-use super::{GeometricCloth, GeometricError};
+use super::GeometricError;
+use super::energy::Energies;
+use super::problem::Problem;
 use crate::geometry::Vec3;
 use crate::linear::{Cholesky, NotPositiveDefinite, SymmetricMatrix};
 
-/// Added to the diagonal of every system, as a share of its mean: a vertex that no term holds (in a flat sheet without
-/// recovery nothing resists a motion across it) then keeps its place instead of making the matrix singular. It shortens
+/// Added to the diagonal of every system, as a share of its mean: a vertex that no term holds (nothing resists a motion
+/// across a flat sheet that does not bend) then keeps its place instead of making the matrix singular. It shortens
 /// steps by no more than this share of the stiffest direction and is no part of the minimum.
 const HOLD: f64 = 1e-10;
 
@@ -50,9 +50,7 @@ pub struct Report {
 
 /// One run of a solver.
 pub(super) struct Run<'a> {
-    cloth: &'a GeometricCloth,
-    handles: &'a Handles,
-    aim: &'a Aim,
+    problem: &'a Problem<'a>,
     options: SolveOptions,
     history: Vec<f64>,
     motion: f64,
@@ -67,35 +65,14 @@ pub(super) struct Clock {
 }
 
 impl<'a> Run<'a> {
-    pub(super) fn new(
-        cloth: &'a GeometricCloth,
-        handles: &'a Handles,
-        aim: &'a Aim,
-        options: SolveOptions,
-        x: &[Vec3],
-    ) -> Result<Self, GeometricError> {
-        check(cloth.vertices(), x, aim)?;
-        let start = cloth.energy(x, aim).total;
-        if !start.is_finite() {
-            return Err(GeometricError::Overflow);
-        }
-        Ok(Self { cloth, handles, aim, options, history: vec![start], motion: f64::INFINITY, converged: false })
+    pub(super) fn new(problem: &'a Problem, options: SolveOptions, x: &[Vec3]) -> Result<Self, GeometricError> {
+        problem.check_start(x)?;
+        Ok(Self { problem, options, history: vec![problem.energy(x)], motion: f64::INFINITY, converged: false })
     }
 
     /// The energy at the last position that was taken.
     pub(super) fn last_energy(&self) -> f64 {
         self.history.last().copied().unwrap_or(f64::INFINITY)
-    }
-
-    pub(super) fn energy(&self, x: &[Vec3]) -> f64 {
-        self.cloth.energy(x, self.aim).total
-    }
-
-    pub(super) fn half_gradient(&self, x: &[Vec3]) -> Vec<Vec3> {
-        let mut out = vec![Vec3::zeros(); x.len()];
-        energy::half_gradient(&self.cloth.stencils, &self.cloth.weights, x, self.aim, &mut out);
-        self.handles.clear(&mut out);
-        out
     }
 
     /// Writes down an iteration that ended at energy `total` after a largest motion of `motion`; `left` is how far the
@@ -119,7 +96,7 @@ impl<'a> Run<'a> {
         Report {
             iterations: self.history.len() - 1,
             converged: self.converged,
-            energy: self.cloth.energy(x, self.aim),
+            energy: self.problem.cloth.energy(x, &self.problem.recovery),
             motion: if self.motion.is_finite() { self.motion } else { 0.0 },
             history: self.history,
             linearise_seconds: clock.linearise.as_secs_f64(),
@@ -153,28 +130,4 @@ pub(super) fn factored(
     width: usize,
 ) -> Result<(), GeometricError> {
     factor.factor(matrix).map_err(|NotPositiveDefinite { dof }| GeometricError::Singular(dof / width))
-}
-
-fn check(vertices: usize, x: &[Vec3], aim: &Aim) -> Result<(), GeometricError> {
-    let count = |what, found| {
-        if found == vertices { Ok(()) } else { Err(GeometricError::Count { what, found, expected: vertices }) }
-    };
-    let finite = |v: &Vec3| v.iter().all(|c| c.is_finite());
-    let defined =
-        |list: &[Vec3]| list.iter().position(|v| !finite(v)).map_or(Ok(()), |v| Err(GeometricError::NotFinite(v)));
-    count("positions", x.len())?;
-    defined(x)?;
-    match aim {
-        Aim::Targets(targets) => {
-            count("targets", targets.len())?;
-            defined(targets)
-        }
-        Aim::Falling(drop) => {
-            if finite(drop) {
-                Ok(())
-            } else {
-                Err(GeometricError::NotFinite(0))
-            }
-        }
-    }
 }

@@ -33,15 +33,21 @@ pub enum GeometricError {
         /// How many there must be.
         expected: usize,
     },
-    /// A held vertex that does not exist.
-    #[error("vertex {vertex} cannot be held: there are only {vertices}")]
+    /// A held vertex, or a control's, that does not exist.
+    #[error("vertex {vertex} cannot be held or drawn: there are only {vertices}")]
     Handle {
         /// The vertex.
         vertex: u32,
         /// Number of vertices.
         vertices: usize,
     },
-    /// A position, target or force that is not finite.
+    /// A control that names a vertex twice, or whose target or shares are not finite.
+    #[error("control {0} names a vertex twice, or its target or shares are not finite")]
+    Control(usize),
+    /// A drop of [`super::Recovery::Falling`] that is not finite.
+    #[error("the drop per iteration is not finite")]
+    Drop,
+    /// A position or target that is not finite.
     #[error("vertex {0} has a position or a target that is not finite")]
     NotFinite(usize),
     /// Positions so far apart that their squares have no number.

@@ -11,10 +11,12 @@
 use std::sync::Arc;
 
 use super::descent::{Clock, Report, Run, SolveOptions, factored, hold, largest_motion, timed};
-use super::energy::{Aim, direction};
+use super::energy::direction;
 use super::handles::Handles;
-use super::stencils::{Length, Stencils};
-use super::{GeometricCloth, GeometricError, Weights};
+use super::problem::Problem;
+use super::recovery::Recovery;
+use super::stencils::Length;
+use super::{GeometricCloth, GeometricError};
 use crate::geometry::{Mat3, Vec3};
 use crate::linear::{BlockSlot, Cholesky, SymmetricMatrix, SymmetricPattern};
 
@@ -24,16 +26,31 @@ const HALVINGS: usize = 40;
 /// end.
 const DOUBLINGS: usize = 4;
 
-/// Gauss–Newton, prepared for one cloth and one set of held vertices.
+/// Gauss–Newton, prepared for one cloth, its recovery term and one set of held vertices.
 #[derive(Debug)]
 pub struct LeastSquares<'a> {
-    cloth: &'a GeometricCloth,
-    handles: Handles,
-    /// Recovery, bend and held rows: what does not change.
+    problem: Problem<'a>,
+    system: System,
+}
+
+/// The normal matrix and its factor.
+#[derive(Debug)]
+struct System {
+    /// Recovery, bend and held rows: the part that does not change.
     constant: SymmetricMatrix<f64>,
     /// Places of every edge whose ends are not both held.
     edges: Vec<Place>,
+    matrix: SymmetricMatrix<f64>,
     factor: Cholesky<f64>,
+}
+
+/// Which part of an edge's second derivative a step uses.
+#[derive(Clone, Copy, PartialEq)]
+enum Linearised {
+    /// ω_S d dᵀ alone, as the paper has it.
+    Along,
+    /// With what a stretched edge resists across its direction.
+    WithTension,
 }
 
 /// Where an edge's block goes; a held end has no place.
@@ -49,28 +66,24 @@ impl<'a> LeastSquares<'a> {
     ///
     /// # Errors
     /// As [`super::Alternating::new`].
-    pub fn new(cloth: &'a GeometricCloth, held: &[u32]) -> Result<Self, GeometricError> {
-        let handles = Handles::new(cloth.vertices(), held)?;
-        let pattern = pattern(&cloth.stencils)?;
-        let constant = constant(&cloth.stencils, &cloth.weights, &handles, &pattern);
-        let edges = cloth.stencils.edges.iter().map(|e| Place::new(e, &handles, &pattern)).collect();
-        let factor = Cholesky::new(pattern)?;
-        Ok(Self { cloth, handles, constant, edges, factor })
+    pub fn new(cloth: &'a GeometricCloth, held: &[u32], recovery: Recovery) -> Result<Self, GeometricError> {
+        let problem = Problem::new(cloth, held, recovery)?;
+        let system = System::new(&problem)?;
+        Ok(Self { problem, system })
     }
 
     /// Goes downhill from `x`, in which the held vertices are where they are to stay.
     ///
     /// # Errors
     /// As [`super::Alternating::solve`]; [`GeometricError::Singular`] when a matrix has no factor.
-    pub fn solve(&mut self, x: &mut Vec<Vec3>, aim: &Aim, options: SolveOptions) -> Result<Report, GeometricError> {
-        let handles = self.handles.clone();
-        let mut run = Run::new(self.cloth, &handles, aim, options, x)?;
-        let mut matrix = self.constant.clone();
+    pub fn solve(&mut self, x: &mut Vec<Vec3>, options: SolveOptions) -> Result<Report, GeometricError> {
+        let problem = &self.problem;
+        let mut run = Run::new(problem, options, x)?;
         let mut clock = Clock::default();
         while run.goes_on() {
-            let step = self.step(x, &run, &mut matrix, &mut clock)?;
+            let step = self.system.step(problem, x, &problem.recovery, Linearised::WithTension, &mut clock)?;
             let longest = step.iter().map(Vec3::norm_squared).fold(0.0, f64::max).sqrt();
-            let Some((to, total)) = downhill(x, &step, &run) else {
+            let Some((to, total)) = downhill(x, &step, problem, run.last_energy()) else {
                 run.exhausted();
                 break;
             };
@@ -80,40 +93,71 @@ impl<'a> LeastSquares<'a> {
         Ok(run.report(x, &clock))
     }
 
+    /// The paper's own loop: the targets of the controls move in `increments` equal parts from where their points are
+    /// in `x` to where they are to be, and each part is followed by one full Gauss–Newton step. It uses no tension and
+    /// no search along the step, and ends when the drag ends, wherever the energy then is.
+    ///
+    /// # Errors
+    /// As [`LeastSquares::solve`].
+    pub fn drag(&mut self, x: &mut [Vec3], increments: usize) -> Result<(), GeometricError> {
+        self.problem.check_start(x)?;
+        let start = x.to_vec();
+        for k in 1..=increments {
+            let recovery = self.problem.recovery.part_way(&start, k as f64 / increments as f64);
+            let step = self.system.step(&self.problem, x, &recovery, Linearised::Along, &mut Clock::default())?;
+            x.iter_mut().zip(&step).for_each(|(x, d)| *x += d);
+        }
+        Ok(())
+    }
+}
+
+impl System {
+    fn new(problem: &Problem) -> Result<Self, GeometricError> {
+        let pattern = pattern(problem)?;
+        let constant = constant(problem, &pattern);
+        let edges = problem.cloth.stencils.edges.iter();
+        let edges = edges.map(|e| Place::new(e, &problem.handles, &pattern)).collect();
+        Ok(Self { matrix: constant.clone(), constant, edges, factor: Cholesky::new(pattern)? })
+    }
+
     /// The full Gauss–Newton step at `x`.
     fn step(
         &mut self,
+        problem: &Problem,
         x: &[Vec3],
-        run: &Run,
-        matrix: &mut SymmetricMatrix<f64>,
+        recovery: &Recovery,
+        linearised: Linearised,
         clock: &mut Clock,
     ) -> Result<Vec<Vec3>, GeometricError> {
         let mut rows = timed(&mut clock.linearise, || {
-            self.linearise(x, matrix);
-            run.half_gradient(x).iter().flat_map(|g| [-g.x, -g.y, -g.z]).collect::<Vec<f64>>()
+            self.linearise(x, problem.cloth.weights.stretch, linearised);
+            let gradient = problem.half_gradient(x, recovery);
+            gradient.iter().flat_map(|g| [-g.x, -g.y, -g.z]).collect::<Vec<f64>>()
         });
         timed(&mut clock.solve, || {
-            factored(&mut self.factor, matrix, 3)?;
+            factored(&mut self.factor, &self.matrix, 3)?;
             self.factor.solve(&mut rows);
             Ok::<(), GeometricError>(())
         })?;
         Ok(rows.chunks_exact(3).map(Vec3::from_column_slice).collect())
     }
 
-    fn linearise(&self, x: &[Vec3], matrix: &mut SymmetricMatrix<f64>) {
-        matrix.clone_from(&self.constant);
+    fn linearise(&mut self, x: &[Vec3], stretch: f64, linearised: Linearised) {
+        self.matrix.clone_from(&self.constant);
         for place in &self.edges {
             let [a, b] = place.edge.ends.map(|v| x[v as usize]);
             let (direction, length) = direction(b - a);
-            let along = direction * direction.transpose();
-            let tension = (1.0 - place.edge.rest / length).max(0.0);
-            let block =
-                (along + (Mat3::identity() - along) * tension) * (self.cloth.weights.stretch * place.edge.weight);
+            let mut block = direction * direction.transpose();
+            if linearised == Linearised::WithTension {
+                let tension = (1.0 - place.edge.rest / length).max(0.0);
+                block += (Mat3::identity() - block) * tension;
+            }
+            block *= stretch * place.edge.weight;
             for slot in place.diagonal.into_iter().flatten() {
-                matrix.add_block(slot, &block);
+                self.matrix.add_block(slot, &block);
             }
             if let Some(slot) = place.between {
-                matrix.add_block(slot, &(-block));
+                self.matrix.add_block(slot, &(-block));
             }
         }
     }
@@ -132,14 +176,14 @@ impl Place {
     }
 }
 
-/// The step, doubled or halved for as long as that lowers the energy; none if all of them raise it.
-fn downhill(x: &[Vec3], step: &[Vec3], run: &Run) -> Option<(Vec<Vec3>, f64)> {
+/// The step, doubled or halved for as long as that lowers the energy; none if all of them raise it over `last`.
+fn downhill(x: &[Vec3], step: &[Vec3], problem: &Problem, last: f64) -> Option<(Vec<Vec3>, f64)> {
     let at = |share: f64| {
         let to: Vec<Vec3> = x.iter().zip(step).map(|(x, d)| x + d * share).collect();
-        let total = run.energy(&to);
+        let total = problem.energy(&to);
         (to, total)
     };
-    let falls = |(_, total): &(Vec<Vec3>, f64)| *total <= run.last_energy();
+    let falls = |(_, total): &(Vec<Vec3>, f64)| *total <= last;
     let mut best = at(1.0);
     let mut share = 1.0;
     while falls(&best) && share < f64::from(1 << DOUBLINGS) {
@@ -160,44 +204,35 @@ fn downhill(x: &[Vec3], step: &[Vec3], run: &Run) -> Option<(Vec<Vec3>, f64)> {
     falls(&best).then_some(best)
 }
 
-fn pattern(stencils: &Stencils) -> Result<Arc<SymmetricPattern>, GeometricError> {
+fn pattern(problem: &Problem) -> Result<Arc<SymmetricPattern>, GeometricError> {
+    let stencils = &problem.cloth.stencils;
     let pair = |a: u32, b: u32| (a as usize, b as usize);
     let edges = stencils.edges.iter().map(|e| pair(e.ends[0], e.ends[1]));
     // The other five pairs of a hinge are edges.
     let hinges = stencils.hinges.iter().map(|h| pair(h.nodes[2], h.nodes[3]));
-    Ok(Arc::new(SymmetricPattern::blocks(stencils.points.len(), edges.chain(hinges))?))
+    let controls = problem.recovery.entries(stencils, 1.0).into_iter().map(|(a, b, _)| pair(a, b));
+    Ok(Arc::new(SymmetricPattern::blocks(stencils.points.len(), edges.chain(hinges).chain(controls))?))
 }
 
-fn constant(
-    stencils: &Stencils,
-    weights: &Weights,
-    handles: &Handles,
-    pattern: &Arc<SymmetricPattern>,
-) -> SymmetricMatrix<f64> {
+fn constant(problem: &Problem, pattern: &Arc<SymmetricPattern>) -> SymmetricMatrix<f64> {
+    let GeometricCloth { stencils, weights } = problem.cloth;
+    let mut entries = problem.recovery.entries(stencils, weights.recovery);
+    entries.extend(stencils.bend_entries(weights.bend));
+    let of_edges = stencils.edges.iter().map(|e| 2.0 * weights.stretch * e.weight).sum::<f64>();
+    let diagonal = of_edges + entries.iter().filter(|e| e.0 == e.1).map(|e| e.2).sum::<f64>();
     let mut matrix = SymmetricMatrix::zeros(pattern.clone());
     let mut add = |i: u32, j: u32, value: f64| {
         if let Some(slot) = pattern.block_slot(i as usize, j as usize) {
             matrix.add_block(slot, &(Mat3::identity() * value));
         }
     };
-    let free = |v: u32| !handles.holds(v);
-    let mut diagonal = 0.0;
-    for h in &stencils.hinges {
-        for i in 0..4 {
-            let own = weights.bend * h.weight * h.coefficients[i];
-            diagonal += own * h.coefficients[i];
-            for j in i..4 {
-                if free(h.nodes[i]) && free(h.nodes[j]) {
-                    add(h.nodes[i], h.nodes[j], own * h.coefficients[j]);
-                }
-            }
-        }
+    let held = |v: u32| problem.handles.holds(v);
+    for (i, j, value) in entries.into_iter().filter(|e| !held(e.0) && !held(e.1)) {
+        add(i, j, value);
     }
-    diagonal += stencils.edges.iter().map(|e| 2.0 * weights.stretch * e.weight).sum::<f64>();
-    diagonal += stencils.points.iter().map(|p| weights.recovery * p).sum::<f64>();
-    let held = hold(diagonal, stencils.points.len());
-    for (v, p) in (0u32..).zip(&stencils.points) {
-        add(v, v, if free(v) { weights.recovery * p + held } else { 1.0 });
+    let hold = hold(diagonal, stencils.points.len());
+    for v in 0..stencils.points.len() as u32 {
+        add(v, v, if held(v) { 1.0 } else { hold });
     }
     matrix
 }

@@ -3,10 +3,13 @@
 //! Liu, Wang & Luo 2015 find the shape of a cloth as the minimum of (7) E = ω_R E_P + ω_S E_L + ω_B E_A:
 //!
 //! ```text
-//! (4) E_P = Σ ‖vᵢ − tᵢ‖²             recovery: every vertex near its target
+//! (4) E_P = Σ ‖pᵢ − tᵢ‖²             recovery: every control point near its target
 //! (5) E_L = Σ (L_T(e) − L_M(e))²      stretch: every edge near its length in the initial mesh
 //! (6) E_A = Σ ‖A_T(e) − A_M(e)‖²      bend: every hinge near its shape in the initial mesh
 //! ```
+//!
+//! The paper prints (4) as a sum over all vertices. Read so, it does not give the paper's figures. [`Recovery`] has
+//! both readings, and `docs/papers.md` says why the control points alone are meant.
 //!
 //! ```text
 //! GeometricCloth ──▶ Alternating   one scalar factor for all iterations
@@ -15,25 +18,29 @@
 //!
 //! Both solvers go downhill only, hold the same vertices in place and stop at the same minimum.
 //!
-//! The cloth is flat when at rest, whatever the shape of the mesh that is handed in: every hinge of the initial mesh
-//! counts as laid flat, so A_M = 0 and E_A is quadratic with a constant matrix (`hinge`).
+//! [`GeometricCloth::new`] makes a cloth that is flat at rest, whatever the shape of its initial mesh: A_M = 0, and E_A
+//! is quadratic with a constant matrix (`hinge`). [`GeometricCloth::curved`] takes A_M from the initial mesh (`bend`).
 
 mod alternating;
+mod bend;
 mod descent;
 mod energy;
 mod error;
 mod handles;
 mod hinge;
 mod least_squares;
+mod problem;
+mod recovery;
 mod stencils;
 
 use crate::geometry::{TriMesh, Vec2, Vec3};
 
 pub use alternating::Alternating;
 pub use descent::{Report, SolveOptions};
-pub use energy::{Aim, Energies};
+pub use energy::Energies;
 pub use error::GeometricError;
 pub use least_squares::LeastSquares;
+pub use recovery::{Control, Recovery};
 
 use stencils::Stencils;
 
@@ -69,11 +76,12 @@ impl Weights {
 /// How much every vertex, edge and hinge counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Weighting {
-    /// All the same, as (4)–(6) are printed. Halving the spacing then multiplies E_P by 4, leaves E_L and divides E_A
-    /// by 4: the shape depends on the mesh.
+    /// All the same, as (4)–(6) are printed. Halving the spacing then leaves E_L and divides E_A by 4 (E_P over all
+    /// vertices is multiplied by 4): the shape depends on the mesh.
     Plain,
-    /// E_P by area, E_L by (area at the edge)/L², E_A as the discrete shell's 3 L²/A times the squared angle, each
-    /// scaled once ([`PUBLISHED_CELL`]): integrals over the cloth, which converge under refinement.
+    /// E_L by (area at the edge)/L², E_A as the discrete shell's 3 L²/A times the squared angle, E_P over all vertices
+    /// by area, each scaled once ([`PUBLISHED_CELL`]): integrals over the cloth, which converge under refinement.
+    /// Control points weigh the same in every mesh ([`Recovery::Controls`]).
     PerArea,
 }
 
@@ -85,35 +93,33 @@ pub struct GeometricCloth {
 }
 
 impl GeometricCloth {
-    /// The cloth whose initial mesh M is `rest`: its edge lengths count, its hinges are taken as flat.
+    /// The cloth whose initial mesh M is `rest` and which is flat at rest: the edge lengths of M count, its folds do
+    /// not.
     ///
     /// # Errors
     /// [`GeometricError`] for triangles or weights that are not usable.
     pub fn new(rest: &TriMesh, weights: Weights, weighting: Weighting) -> Result<Self, GeometricError> {
+        if !weights.is_valid() {
+            return Err(GeometricError::Weights(weights));
+        }
         let vertices = rest.vertices.len();
         if let Some(triangle) = rest.triangles.iter().position(|t| t.iter().any(|&v| v as usize >= vertices)) {
             return Err(GeometricError::Index { triangle, vertices });
         }
         let corners: Vec<[Vec2; 3]> = (0..rest.triangles.len()).map(|t| laid_flat(rest.corners(t))).collect();
-        Self::from_flat(vertices, &rest.triangles, &corners, weights, weighting)
+        Ok(Self { weights, stencils: Stencils::new(vertices, &rest.triangles, &corners, weighting)? })
     }
 
-    /// The cloth of a sewn garment: `corners` are the flat positions (metres) of the triangles' corners, each triangle
-    /// for itself, so that pieces may meet in a seam. An edge between two pieces has the mean of its two lengths.
+    /// The cloth whose initial mesh M is `rest` and which is curved at rest as M is: its E_L and E_A are zero there.
     ///
     /// # Errors
     /// As [`GeometricCloth::new`].
-    pub fn from_flat(
-        vertices: usize,
-        triangles: &[[u32; 3]],
-        corners: &[[Vec2; 3]],
-        weights: Weights,
-        weighting: Weighting,
-    ) -> Result<Self, GeometricError> {
-        if !weights.is_valid() {
-            return Err(GeometricError::Weights(weights));
+    pub fn curved(rest: &TriMesh, weights: Weights, weighting: Weighting) -> Result<Self, GeometricError> {
+        let mut cloth = Self::new(rest, weights, weighting)?;
+        for hinge in &mut cloth.stencils.hinges {
+            *hinge = hinge.folded_as(&rest.vertices);
         }
-        Ok(Self { weights, stencils: Stencils::new(vertices, triangles, corners, weighting)? })
+        Ok(cloth)
     }
 
     /// Number of vertices.
@@ -129,24 +135,27 @@ impl GeometricCloth {
     /// The terms of the energy at `x` and their weighted sum.
     ///
     /// # Panics
-    /// If `x` or the targets of `aim` are not one per vertex.
-    pub fn energy(&self, x: &[Vec3], aim: &Aim) -> Energies {
-        energy::energies(&self.stencils, &self.weights, x, aim)
+    /// If `x`, or targets for all vertices, are not one per vertex, or a control names a vertex that does not exist.
+    pub fn energy(&self, x: &[Vec3], recovery: &Recovery) -> Energies {
+        energy::energies(&self.stencils, &self.weights, x, recovery)
     }
 
     /// The gradient of [`Energies::total`] at `x`.
     ///
     /// # Panics
-    /// If `x` or the targets of `aim` are not one per vertex.
-    pub fn gradient(&self, x: &[Vec3], aim: &Aim) -> Vec<Vec3> {
-        let mut out = vec![Vec3::zeros(); x.len()];
-        energy::half_gradient(&self.stencils, &self.weights, x, aim, &mut out);
+    /// As [`GeometricCloth::energy`].
+    pub fn gradient(&self, x: &[Vec3], recovery: &Recovery) -> Vec<Vec3> {
+        let mut out = self.half_gradient(x, recovery);
         out.iter_mut().for_each(|g| *g *= 2.0);
         out
     }
 
+    fn half_gradient(&self, x: &[Vec3], recovery: &Recovery) -> Vec<Vec3> {
+        energy::half_gradient(&self.stencils, &self.weights, x, recovery)
+    }
+
     /// What gravity adds to a target per iteration, metres, so that a cloth with equal ω_B and ω_R has the bending
-    /// length `c0` (metres) with [`Weighting::PerArea`]; others have c₀·(ω_B/ω_R)^⅓. See [`Aim::Falling`].
+    /// length `c0` (metres) with [`Weighting::PerArea`]; others have c₀·(ω_B/ω_R)^⅓. See [`Recovery::Falling`].
     ///
     /// With g = this drop and h = [`PUBLISHED_CELL`], a cylinder of curvature κ costs ω_B κ² h²/4 per area and the
     /// weight per area is 2 ω_R g/h²; c³ is rigidity over weight, h⁴/(4 g)·ω_B/ω_R.

@@ -1,5 +1,6 @@
 //! What the sums (4)–(6) run over, with the weight of every member.
 
+use super::bend::Bend;
 use super::hinge::{Apex, Hinge};
 use super::{GeometricError, PUBLISHED_CELL, Weighting};
 use crate::geometry::{Edge, Topology, Vec2};
@@ -25,22 +26,26 @@ pub(super) struct Length {
     pub(super) weight: f64,
 }
 
-/// One member of E_A.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Bend {
-    /// i, j, k, l.
-    pub(super) nodes: [u32; 4],
-    pub(super) coefficients: [f64; 4],
-    pub(super) weight: f64,
-}
-
 /// All members.
 #[derive(Clone, Debug)]
 pub(super) struct Stencils {
-    /// Weight of every vertex in E_P.
+    /// Weight of every vertex in E_P, where E_P counts every vertex.
     pub(super) points: Vec<f64>,
+    /// N, the area of the initial mesh in published cells: the weight of every control point in E_P.
+    pub(super) cells: f64,
     pub(super) edges: Vec<Length>,
     pub(super) hinges: Vec<Bend>,
+}
+
+impl Stencils {
+    /// The entries of half the second derivative of ω E_A, the same for x, y and z: row, column, value. Of two entries
+    /// that mirror each other, one is named.
+    pub(super) fn bend_entries(&self, weight: f64) -> impl Iterator<Item = (u32, u32, f64)> + '_ {
+        self.hinges.iter().flat_map(move |h| {
+            let value = move |i: usize, j: usize| weight * h.weight * h.coefficients[i] * h.coefficients[j];
+            (0..4).flat_map(move |i| (i..4).map(move |j| (h.nodes[i], h.nodes[j], value(i, j))))
+        })
+    }
 }
 
 /// The initial mesh while it is read.
@@ -65,6 +70,7 @@ impl Stencils {
         }
         Ok(Self {
             points: rest.points(vertices),
+            cells: (0..triangles.len()).map(|t| rest.area(t)).sum::<f64>() / (PUBLISHED_CELL * PUBLISHED_CELL),
             edges: topology.edges.iter().map(|e| rest.length(e)).collect(),
             hinges: topology.edges.iter().filter_map(|e| rest.bend(e)).collect(),
         })
@@ -73,10 +79,6 @@ impl Stencils {
 
 impl Rest<'_> {
     fn check(&self, vertices: usize) -> Result<(), GeometricError> {
-        let (found, expected) = (self.corners.len(), self.triangles.len());
-        if found != expected {
-            return Err(GeometricError::Count { what: "flat triangles", found, expected });
-        }
         for (t, nodes) in self.triangles.iter().enumerate() {
             if nodes.iter().any(|&v| v as usize >= vertices) {
                 return Err(GeometricError::Index { triangle: t, vertices });
@@ -139,7 +141,12 @@ impl Rest<'_> {
                 BEND_SCALE * PUBLISHED_CELL * PUBLISHED_CELL * shell * hinge.angle_per_length
             }
         };
-        Some(Bend { nodes: [edge.ends[0], edge.ends[1], k.0, l.0], coefficients: hinge.coefficients, weight })
+        Some(Bend {
+            nodes: [edge.ends[0], edge.ends[1], k.0, l.0],
+            coefficients: hinge.coefficients,
+            weight,
+            rest: 0.0,
+        })
     }
 
     /// Flat positions of two vertices of triangle `t`.
