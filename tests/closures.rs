@@ -91,6 +91,7 @@ fn measured(garment: &Garment, mesh: &ClothMesh, weld: &[u32], at: &[Vec3]) -> R
         body: &body,
         fabric: "muslin",
         gaps: None,
+        placed: None,
         sewn: Some(at),
         draped: None,
         flattened: None,
@@ -326,6 +327,33 @@ fn sides_that_bulge_between_the_buttons_gape() {
     // 6 mm to either side.
     assert!(row.closed && (row.gape.unwrap() - 12.0).abs() < 1.5, "{row:?}");
     assert!(worn(&garment, -0.02, 0.0).closures[0].gape.unwrap() < 3.0);
+}
+
+/// The half that carries the buttons lies on the wrong side of the other, 3 mm away; between two heights (metres below
+/// the top) on its right side. The tube has its wrong side out.
+#[test]
+fn a_lap_keeps_its_order_from_button_to_button() {
+    let garment = tube(BUTTONS, "");
+    let mesh = build(&garment, 0.01).unwrap();
+    let lapped = |turned: std::ops::Range<f64>| {
+        let at = |p: usize| {
+            let at = bent(&mesh, p, 0.18 / std::f64::consts::TAU, -0.02, 0.0);
+            let under = mesh.pieces[0].particles.contains(&p) == (mesh.pieces[0].name == "half.L");
+            let out = if under != turned.contains(&mesh.flat[p].y) { 0.0015 } else { -0.0015 };
+            at + Vec3::new(at.x, 0.0, at.z).normalize() * out
+        };
+        let at: Vec<Vec3> = (0..mesh.flat.len()).map(at).collect();
+        measured(&garment, &mesh, &welded(&mesh), &at)
+    };
+    let fails =
+        |report: &Report| verdicts(&garment, report).into_iter().any(|v| !v.ok && v.bound.starts_with("lap of"));
+    let kept = lapped(9.0..9.0);
+    assert!(kept.closures[0].turned.is_none() && !fails(&kept), "{:?}", kept.closures);
+    let report = lapped(0.072..0.118);
+    let turned = report.closures[0].turned.as_ref().expect("a part in the wrong order");
+    assert!((turned.length - 40.0).abs() < 15.0, "{turned:?}");
+    assert_eq!(turned.at, "between points 2 and 3, 'half.L' lies over 'half.R'");
+    assert!(fails(&report));
 }
 
 #[test]

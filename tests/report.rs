@@ -230,6 +230,7 @@ fn run<'a>(f: &'a Fixture, sewn: &'a [Vec3]) -> Measured<'a> {
         body: &f.body,
         fabric: "muslin",
         gaps: None,
+        placed: None,
         sewn: Some(sewn),
         draped: None,
         flattened: None,

@@ -11,7 +11,7 @@ use crate::pipeline::{
     AT_REST, Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, Job, Overrides, PATTERN_SVG, PLACED_OBJ, PipelineError,
     REPORT_JSON, ResultFile, Run, SEWN_OBJ, inputs, read, tight,
 };
-use crate::report::{ClosureReport, Report, restless, slid, table, verdicts};
+use crate::report::{ClosureReport, Report, restless, table, verdicts};
 
 /// How far a garment is taken, and from where.
 pub(super) struct Plan<'a> {
@@ -163,12 +163,6 @@ fn judge(job: &Job, report: &Report, console: &Console) -> Exit {
     }
     report.closures.iter().filter_map(ClosureReport::unclosed).for_each(|text| console.note(&text));
     tight(job, report).iter().for_each(|text| console.note(text));
-    if slid(report) {
-        console.note(
-            "the garment has slid down round the legs: nothing holds it on the trunk; make its waist smaller, draw it \
-             in with elastic, or give it straps",
-        );
-    }
     let mut exit = Exit::Done;
     for verdict in verdicts(&job.garment, report).iter().filter(|v| !v.ok) {
         console.complain(&format!("out of bounds: {verdict}"));

@@ -233,11 +233,12 @@ impl Part {
         // the fastened edges, of which there are two at each bridge.
         let beside = sum(false);
         let along = (sum(true) - 2.0 * BEYOND * at.len() as f64).max(0.0);
-        let turn = if beside > 0.0 { beside + along } else { 0.0 };
+        let length = steps.iter().map(|&s| step(s).length).sum();
+        // A band that is buttoned to itself is fastened all round: its long rim is no slit.
+        let turn = if beside > 0.0 || length > SLIT { beside + along } else { 0.0 };
         let reach = at.iter().map(|b| b.reach).fold(0.0, f64::max);
         let between = at.len() == 2 && at[0].row == at[1].row && !std::ptr::eq(at[0], at[1]);
         let closed = !at.is_empty() && (between || turn <= TURN * reach + TURN_SLACK);
-        let length = steps.iter().map(|&s| step(s).length).sum();
         Self { length, closed, slit: closed && length <= SLIT && sum(true) >= beside, steps }
     }
 }
@@ -305,6 +306,13 @@ mod tests {
         assert_eq!(lengths(&rims, &hooks), [90]);
         // The same point twice is one.
         assert_eq!(lengths(&rims, &[hooks[0], hooks[0]]), [90]);
+    }
+
+    #[test]
+    fn a_band_that_is_buttoned_to_itself_leaves_its_long_rim_open() {
+        // A neck band's point is nearer to its long edge than to its end.
+        let rims = [rim(&[('t', 40), ('r', 2), ('b', 100), ('l', 2)])];
+        assert_eq!(lengths(&rims, &[button([[0, 1], [0, 39]], ['t', 't'], 0)]), [106, 38]);
     }
 
     #[test]

@@ -62,7 +62,7 @@ pub use file::{
     Unit, Value,
 };
 pub use notch_kind::{DOUBLE_MARKS, NotchKind};
-pub use place_word::{PlaceWord, place_word, words_of};
+pub use place_word::{PlaceWord, TrunkLevel, place_word, trunk_level, words_of};
 pub use problem::{ChainDoubt, Problem};
 pub(crate) use reference::LARGEST;
 pub use reference::parse_quantity;

@@ -39,6 +39,29 @@ const WORDS: [(PlaceWord, &[&str]); 8] = [
     (PlaceWord::Back, &["back", "b", "btorso"]),
 ];
 
+/// How high on the trunk a word says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TrunkLevel {
+    /// Round the waist.
+    Waist,
+    /// From the waist or the hips down.
+    Hip,
+    /// Up to the chest or the shoulders.
+    Chest,
+}
+
+/// Words of [`PlaceWord::Trunk`] that say how high.
+const LEVELS: [(TrunkLevel, &[&str]); 3] = [
+    (TrunkLevel::Waist, &["waist"]),
+    (TrunkLevel::Hip, &["hip", "hips", "skirt"]),
+    (TrunkLevel::Chest, &["torso", "bodice", "chest", "bust"]),
+];
+
+/// How high on the trunk a lower-case word says, if it does.
+pub fn trunk_level(word: &str) -> Option<TrunkLevel> {
+    LEVELS.iter().find(|(_, list)| list.contains(&word)).map(|(level, _)| *level)
+}
+
 /// What is said to those who look for a word.
 const KNOWN: &str = "torso, hip, waist, skirt, bodice, chest, bust; leg, knee or ankle; arm, sleeve, elbow, wrist or \
                      cuff; neck, collar or hood; with left or right, front or back";

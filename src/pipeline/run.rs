@@ -69,8 +69,9 @@ impl<'a> Run<'a> {
         let start = job.placed(&job.mesh).map_err(|e| failed(e.into()))?;
         self.placed = Some(start.clone());
         let mut tell = |share| progress("sew", share);
-        let Closed { sewn, gaps, coarse } = job.sew_from_coarse(&job.mesh, start, &mut tell).map_err(failed)?;
+        let Closed { sewn, gaps, coarse, start } = job.sew_from_coarse(&job.mesh, start, &mut tell).map_err(failed)?;
         self.coarse = coarse;
+        self.placed = start.or(self.placed.take());
         let closed = sewn.closed(&job.mesh, SewOptions::default().tolerance);
         self.stages.push(Stage {
             name: "sew".into(),
@@ -169,6 +170,7 @@ impl<'a> Run<'a> {
             body: &self.job.body,
             fabric: &self.job.fabric_names(),
             gaps: self.gaps.as_deref(),
+            placed: self.placed.as_deref(),
             sewn: self.sewn.as_deref(),
             draped: self.draped.as_deref(),
             flattened: self.flattened.as_deref(),

@@ -3,10 +3,9 @@
 use serde::Serialize;
 
 use super::closures::APART;
-use super::schema::{ClosureReport, Crossing, PieceReport, Quartet, Report, Worn};
+use super::schema::{ClosureReport, Crossing, FaultKind, PieceReport, Quartet, Report, Worn};
 use crate::geometry::MM;
 use crate::pattern::{Bound, Garment, Test, walk};
-use crate::verify::Through;
 
 /// Bounds of a garment that states none: closed seams, no crossing. Metres.
 const DEFAULTS: [Bound; 2] = [Bound::Gap(None, 1e-3), Bound::Crossings(0)];
@@ -40,7 +39,8 @@ impl std::fmt::Display for Verdict {
 }
 
 /// Compares a report with the garment's `tests`, or with closed seams and no crossings if none holds for its fabric.
-/// Closures that tie what they join have to be closed, unless a test says how far. Bounds on stages that did not run,
+/// Closures that tie what they join have to be closed, unless a test says how far, and laps keep their order. A garment
+/// that is not worn where it belongs is out of any bounds. Bounds on stages that did not run,
 /// and for other fabrics, are left out. Pieces that had to stretch are reported as such and not bounded. A piece that
 /// lies on itself when flat is out of any bounds.
 pub fn verdicts(garment: &Garment, report: &Report) -> Vec<Verdict> {
@@ -51,8 +51,19 @@ pub fn verdicts(garment: &Garment, report: &Report) -> Vec<Verdict> {
         // Of what is not tied a note is told.
         out.extend(closures(report.closures.iter().filter(|c| c.note.is_none()), None, APART));
     }
+    if is_misworn(report) && !bounds.contains(&&Bound::Worn) {
+        out.push(worn(report));
+    }
+    out.extend(report.closures.iter().filter_map(turned));
     out.extend(report.pieces.iter().filter_map(on_itself));
     out
+}
+
+/// That the layer of a lap that belongs inside lies outside; nothing for a lap in order.
+fn turned(closure: &ClosureReport) -> Option<Verdict> {
+    let turned = closure.turned.as_ref()?;
+    let bound = format!("lap of the {} in the wrong order", closure.title());
+    Some(Verdict { bound, measured: turned.length, limit: 0.0, unit: "mm", at: Some(turned.at.clone()), ok: false })
 }
 
 /// That nobody can cut a piece out; nothing for a piece that can be.
@@ -215,43 +226,62 @@ fn crossings(report: &Report, most: usize) -> Verdict {
     }
 }
 
-/// Openings that no body part passes through. A garment without any opening is worn by nobody, nor is one whose every
-/// opening is round both legs below the crotch: it has slid down.
+/// Openings at which the garment is not worn where it belongs. A garment without any opening is worn by nobody.
 fn worn(report: &Report) -> Verdict {
-    let has_slid = slid(report);
-    let is_empty = |w: &&Worn| has_slid || w.body_part.is_none();
-    let empty: Vec<&str> = report.worn.iter().filter(is_empty).map(|w| w.opening.as_str()).collect();
-    let ok = empty.is_empty() && !report.worn.is_empty();
+    let faults: Vec<String> = report.worn.iter().filter_map(fault).collect();
     Verdict {
         bound: "openings not worn".into(),
-        measured: empty.len() as f64,
+        measured: faults.len() as f64,
         limit: 0.0,
         unit: "",
-        at: (!empty.is_empty()).then(|| empty.join(", ") + if has_slid { ", all round the legs" } else { "" }),
-        ok,
+        ok: faults.is_empty() && !report.worn.is_empty(),
+        at: (!faults.is_empty()).then(|| faults.join("; ")),
     }
 }
 
-/// Whether the garment has slid off the trunk: all of its openings are round both legs, below the crotch.
-pub fn slid(report: &Report) -> bool {
-    let legs = Through::Legs.name();
-    !report.worn.is_empty() && report.worn.iter().all(|w| w.body_part.as_deref() == Some(legs))
+/// What is wrong with an opening, in words.
+fn fault(worn: &Worn) -> Option<String> {
+    worn.fault.as_ref().map(|fault| format!("'{}' {}", worn.opening, fault.text))
+}
+
+/// Whether it can be told of a garment that it is not worn where it belongs.
+fn is_misworn(report: &Report) -> bool {
+    report.worn.iter().any(|w| w.fault.as_ref().is_some_and(|fault| fault.kind != FaultKind::Unknown))
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::schema::Fault;
     use super::*;
 
     #[test]
-    fn a_garment_round_the_legs_alone_is_not_worn() {
-        let on = |parts: &[Option<&str>]| {
-            let worn = parts.iter().map(|part| Worn { body_part: part.map(Into::into), ..Worn::default() }).collect();
-            super::worn(&Report { worn, ..Report::default() })
+    fn a_garment_that_says_nothing_is_held_to_be_worn_where_that_can_be_told() {
+        let garment = |tests: Vec<Test>| Garment {
+            name: "bare".into(),
+            title: "Bare".into(),
+            body: None,
+            pieces: vec![],
+            seams: vec![],
+            fabrics: vec![],
+            closures: vec![],
+            tests,
         };
-        assert!(on(&[Some("torso"), Some("legs")]).ok && on(&[Some("left leg"), Some("legs")]).ok);
-        let slid = on(&[Some("legs"), Some("legs")]);
-        assert!(!slid.ok && slid.measured == 2.0 && slid.at.is_some_and(|at| at.ends_with("all round the legs")));
-        assert!(!on(&[None, Some("torso")]).ok && !on(&[]).ok);
+        let judged = |kind: FaultKind, bounds: &[Bound]| {
+            let fault = Fault { kind, text: "nothing passes through it".into() };
+            let worn = vec![Worn { opening: "hem".into(), fault: Some(fault), ..Worn::default() }];
+            let tests = bounds.iter().map(|bound| Test { bound: bound.clone(), fabric: None }).collect();
+            let verdicts = verdicts(&garment(tests), &Report { worn, ..Report::default() });
+            let told: Vec<String> = verdicts.iter().filter(|v| !v.ok).map(ToString::to_string).collect();
+            told
+        };
+        let told = ["openings not worn: 1 (limit 0) at 'hem' nothing passes through it"];
+        assert_eq!(judged(FaultKind::Empty, &[]), told);
+        // Once, whether it is asked for or not.
+        assert_eq!(judged(FaultKind::Empty, &[Bound::Crossings(0)]), told);
+        assert_eq!(judged(FaultKind::Empty, &[Bound::Worn]), told);
+        assert_eq!(judged(FaultKind::Unknown, &[]), [""; 0]);
+        assert_eq!(judged(FaultKind::Unknown, &[Bound::Worn]), told);
+        assert!(!worn(&Report::default()).ok, "no opening");
     }
 
     #[test]

@@ -63,6 +63,7 @@ impl Cloth<'_> {
             gape: between.reduce(f64::max).map(|x| x * MM),
             closed: measured && !assumed && gaps.iter().all(|&g| g <= APART),
             note: note(closure, assumed),
+            turned: None,
         }
     }
 

@@ -3,18 +3,20 @@
 use super::closures::Closures;
 use super::crossings::{Seen, look};
 use super::errors::{Way, area, area_error, boundary_error};
-use super::openings::{Opening, flaps, opening_names, openings};
+use super::laps::turned_laps;
+use super::openings::{Opening, openings};
 use super::rim::{RimEdge, beside_elastic, outline_distance, rims};
-use super::schema::{PieceReport, Quartet, Report, SeamReport, Sizes, Stage, Worn};
+use super::schema::{PieceReport, Quartet, Report, SeamReport, Sizes, Stage};
 use super::statistics::{largest, mean};
 use super::strain::{PieceStrain, piece_strain};
 use super::stretched::stretched;
 use super::tight::Tight;
+use super::worn::worn_rows;
 use crate::geometry::{MM, Vec2, Vec3};
 use crate::mannequin::Mannequin;
 use crate::mesh::{ClothMesh, Stitches};
-use crate::pattern::{Garment, written_names};
-use crate::verify::{Welded, past_end, worn};
+use crate::pattern::Garment;
+use crate::verify::Welded;
 
 /// Square millimetres in a square metre.
 const MM2: f64 = 1e6;
@@ -35,6 +37,8 @@ pub struct Measured<'a> {
     /// For every seam of the mesh the gap of each of its pairs, metres, when the seams had been closed but partners
     /// not yet put in one place. `None` takes the distances in `sewn`.
     pub gaps: Option<&'a [Vec<f64>]>,
+    /// Before sewing, as the pieces were put on.
+    pub placed: Option<&'a [Vec3]>,
     /// After sewing.
     pub sewn: Option<&'a [Vec3]>,
     /// After draping.
@@ -55,9 +59,15 @@ pub struct Measured<'a> {
 pub fn measure(run: &Measured) -> Report {
     let shapes = Shapes::new(run);
     let last = run.draped.or(run.sewn);
-    let closures = last.map_or_else(Closures::default, |at| Closures::new(run.garment, run.mesh, at));
+    let mut closures = last.map_or_else(Closures::default, |at| Closures::new(run.garment, run.mesh, at));
     let space = last.map(|at| InSpace::new(run, at, &closures));
-    let (seen, worn) = space.as_ref().map_or_else(Default::default, |space| (space.seen(run), space.worn(run)));
+    if let Some(space) = &space {
+        let mut turned = turned_laps(run.garment, run.mesh, &space.welded, &closures.closed);
+        closures.rows.iter_mut().enumerate().for_each(|(k, row)| row.turned = turned.remove(&k));
+    }
+    let (seen, worn) = space
+        .as_ref()
+        .map_or_else(Default::default, |space| (space.seen(run), worn_rows(run, &space.welded, &space.openings)));
     let (pieces, total) = pieces(run, &shapes, space.as_ref());
     Report {
         toile: env!("CARGO_PKG_VERSION").into(),
@@ -256,25 +266,5 @@ impl<'a> InSpace<'a> {
             run.mesh.piece_of(first).map_or("", |i| run.mesh.pieces[i].name.as_str())
         };
         look(&self.welded.surface, Some(&run.body.mesh), piece, |p| run.body.frame.to_file(p))
-    }
-
-    fn worn(&self, run: &Measured) -> Vec<Worn> {
-        let rims: Vec<Vec<Vec3>> = self.openings.iter().map(|o| o.positions(&self.welded)).collect();
-        let through = worn(&rims, run.body);
-        let rings: Vec<&[u32]> = self.openings.iter().map(|o| o.ring.as_slice()).collect();
-        let flaps = flaps(&rings, &through.iter().map(Option::is_some).collect::<Vec<bool>>());
-        let rows = self.openings.iter().zip(&rims).zip(through).zip(flaps);
-        let open: Vec<_> = rows.filter(|(_, flap)| !flap).map(|(row, _)| row).collect();
-        let names = opening_names(&open.iter().map(|((o, _), _)| o.edges.clone()).collect::<Vec<_>>());
-        let length =
-            |ring: &[Vec3]| (0..ring.len()).map(|k| (ring[(k + 1) % ring.len()] - ring[k]).norm()).sum::<f64>();
-        let rows = open.into_iter().zip(names).map(|(((opening, ring), part), name)| Worn {
-            opening: name,
-            body_part: part.map(|p| p.name().into()),
-            edges: written_names(opening.edges.iter().map(|(piece, edge)| (piece.as_str(), edge.as_str()))),
-            length: length(ring) * MM,
-            past_end: part.and_then(|p| past_end(ring, p, run.body)).map(|past| past * MM),
-        });
-        rows.collect()
     }
 }

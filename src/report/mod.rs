@@ -8,25 +8,29 @@ mod bounds;
 mod closures;
 mod crossings;
 mod errors;
+mod laps;
 mod measure;
+mod misworn;
 mod openings;
 mod rest;
 mod rim;
+mod ring;
 mod schema;
 mod statistics;
 mod strain;
 mod stretched;
 mod table;
 mod tight;
+mod worn;
 
-pub use bounds::{Verdict, slid, verdicts, verdicts_by_test};
+pub use bounds::{Verdict, verdicts, verdicts_by_test};
 pub use crossings::{Seen, look};
 pub use measure::{Measured, measure};
 pub use openings::opening_names;
 pub use rest::{AtRest, Restless, restless};
 pub use schema::{
-    ClosureReport, Contact, ContactSeconds, Crossing, Drift, PieceReport, Quartet, Report, SeamReport, Sizes, Spread,
-    Stage, Stretched, Worn,
+    ClosureReport, Contact, ContactSeconds, Crossing, Drift, Fault, FaultKind, PieceReport, Quartet, Report,
+    SeamReport, Sizes, Spread, Stage, Stretched, Turned, Worn, WornBefore,
 };
 pub use strain::{extensions, vertex_strain};
 pub use table::{aligned, contact_lines, table};

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::geometry::{Vec3, rim_loops, sorted_pair};
 use crate::mesh::ClothMesh;
-use crate::pattern::{Bridge, EdgeId, Fastening, Garment, RimSpot, Step, patches, worn_rims, written_edge};
+use crate::pattern::{Bridge, EdgeId, Fastening, Garment, Piece, RimSpot, Step, patches, worn_rims, written_edge};
 use crate::verify::Welded;
 
 /// The edge that a stretch of rim belongs to; none for a chord that joins no two particles of one edge.
@@ -17,6 +17,10 @@ pub(super) struct Opening {
     pub(super) ring: Vec<u32>,
     /// (piece, edge) names round it, in order, each once.
     pub(super) edges: Vec<(String, String)>,
+    /// Flat areas of the pieces round it, m², rising.
+    pub(super) areas: Vec<f64>,
+    /// Whether both of every pair of pieces are round it, of one pair at least.
+    pub(super) is_symmetric: bool,
 }
 
 impl Opening {
@@ -52,33 +56,58 @@ pub(super) fn openings(garment: &Garment, mesh: &ClothMesh, welded: &Welded, clo
         }
         let patch = !edges.is_empty() && edges.iter().all(|e| patches.contains(&e.piece));
         let ring = steps.iter().map(|&[r, k]| loops[r][k]).collect();
-        (!patch).then(|| Opening { ring, edges: edges.iter().map(|&e| names(mesh, e)).collect() })
+        let areas = areas(mesh, edges.iter().map(|e| e.piece).collect());
+        let is_symmetric = is_symmetric(garment, &edges);
+        (!patch).then(|| Opening { ring, edges: edges.iter().map(|&e| names(mesh, e)).collect(), areas, is_symmetric })
     };
     worn_rims(&rims, &bridges).into_iter().filter_map(opening).collect()
 }
 
 /// A fastening between the vertices of the rims that are nearest to its ends, if they are on rims.
 fn bridge(mesh: &ClothMesh, welded: &Welded, loops: &[Vec<u32>], f: &Fastening) -> Option<Bridge<Owner>> {
-    let corner = |spot: &RimSpot| {
-        let edges = &mesh.pieces.get(spot.edge.piece)?.edges;
-        let edge = edges.iter().find(|e| e.edge == spot.edge)?;
-        let mut best: Option<(f64, [usize; 2])> = None;
-        let mut along = 0.0;
-        for (i, &p) in edge.particles.iter().enumerate() {
-            if i > 0 {
-                along += (mesh.flat[p as usize] - mesh.flat[edge.particles[i - 1] as usize]).norm();
-            }
-            let far = (along - spot.at).abs();
-            if best.is_none_or(|b| far < b.0) {
-                let v = welded.vertex_of[p as usize];
-                let found = loops.iter().enumerate().find_map(|(r, l)| Some([r, l.iter().position(|&w| w == v)?]));
-                best = found.map(|found| (far, found)).or(best);
-            }
-        }
-        best.map(|b| b.1)
-    };
-    let [a, b] = f.ends.each_ref().map(corner);
+    let [a, b] = f.ends.each_ref().map(|spot| corner(mesh, welded, loops, spot));
     Some(Bridge { corners: [a?, b?], along: f.ends.map(|e| Some(e.edge)), reach: f.reach, row: f.row })
+}
+
+/// The rim, and the vertex of it, that is nearest to a spot of an edge.
+pub(super) fn corner(mesh: &ClothMesh, welded: &Welded, loops: &[Vec<u32>], spot: &RimSpot) -> Option<[usize; 2]> {
+    let edges = &mesh.pieces.get(spot.edge.piece)?.edges;
+    let edge = edges.iter().find(|e| e.edge == spot.edge)?;
+    let mut best: Option<(f64, [usize; 2])> = None;
+    let mut along = 0.0;
+    for (i, &p) in edge.particles.iter().enumerate() {
+        if i > 0 {
+            along += (mesh.flat[p as usize] - mesh.flat[edge.particles[i - 1] as usize]).norm();
+        }
+        let far = (along - spot.at).abs();
+        if best.is_none_or(|b| far < b.0) {
+            let v = welded.vertex_of[p as usize];
+            let found = loops.iter().enumerate().find_map(|(r, l)| Some([r, l.iter().position(|&w| w == v)?]));
+            best = found.map(|found| (far, found)).or(best);
+        }
+    }
+    best.map(|b| b.1)
+}
+
+/// Flat areas of the pieces of these numbers, each once, rising.
+fn areas(mesh: &ClothMesh, mut pieces: Vec<usize>) -> Vec<f64> {
+    pieces.sort_unstable();
+    pieces.dedup();
+    let area = |t: usize| {
+        let [a, b, c] = mesh.triangles[t].map(|p| mesh.flat[p as usize]);
+        0.5 * (b - a).perp(&(c - a)).abs()
+    };
+    let of = |piece: usize| mesh.pieces[piece].triangles.clone().map(area).sum();
+    let mut areas: Vec<f64> = pieces.into_iter().map(of).collect();
+    areas.sort_by(f64::total_cmp);
+    areas
+}
+
+/// Whether of every pair of pieces with one of these edges both have one, and there is such a pair.
+fn is_symmetric(garment: &Garment, edges: &[EdgeId]) -> bool {
+    let pieces = || edges.iter().filter_map(|edge| garment.pieces.get(edge.piece)).filter(|piece| piece.side.is_some());
+    let has_twin = |own: &Piece| pieces().any(|piece| piece.drawn_as == own.drawn_as && piece.side != own.side);
+    pieces().next().is_some() && pieces().all(has_twin)
 }
 
 fn names(mesh: &ClothMesh, id: EdgeId) -> (String, String) {

@@ -169,6 +169,18 @@ pub struct ClosureReport {
     pub closed: bool,
     /// What is to be known about these figures.
     pub note: Option<String>,
+    /// Where the layer of its lap that belongs inside lies outside; `null` where the order is kept.
+    #[serde(default)]
+    pub turned: Option<Turned>,
+}
+
+/// A lap of which a part is in the wrong order.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Turned {
+    /// How much of its edge, mm.
+    pub length: f64,
+    /// Where: between which points of the closure, and which piece lies outside.
+    pub at: String,
 }
 
 /// What the independent checks found on the final garment.
@@ -210,6 +222,56 @@ pub struct Worn {
     pub length: f64,
     /// Round an arm or a leg: how far past the limb's last section (wrist, ankle) it is, mm; negative before it.
     pub past_end: Option<f64>,
+    /// Mean height of its rim, mm.
+    #[serde(default)]
+    pub height: f64,
+    /// The same opening when the garment had been put on, before its seams were closed; `null` where that is not known.
+    #[serde(default)]
+    pub placed: Option<WornBefore>,
+    /// The same opening when the garment had been sewn, before it was draped; `null` where that is not known.
+    #[serde(default)]
+    pub sewn: Option<WornBefore>,
+    /// Why the garment is not worn where it belongs here; `null` where it is.
+    #[serde(default)]
+    pub fault: Option<Fault>,
+}
+
+/// An opening in an earlier state of the garment.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct WornBefore {
+    /// As in [`Worn::body_part`].
+    pub body_part: Option<String>,
+    /// As in [`Worn::past_end`].
+    pub past_end: Option<f64>,
+    /// As in [`Worn::height`].
+    pub height: f64,
+}
+
+/// Why a garment is not worn where it belongs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Fault {
+    /// What kind of fault it is.
+    pub kind: FaultKind,
+    /// The same in words, with its figures.
+    pub text: String,
+}
+
+/// Kinds of [`Fault`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum FaultKind {
+    /// The body has no torso, so nothing can be told.
+    Unknown,
+    /// Nothing passes through the opening.
+    Empty,
+    /// Another part of the body passes through it than when it was put on or sewn.
+    Lost,
+    /// One arm or leg passes through an opening that is the same on the left and the right.
+    Askew,
+    /// It has slid down.
+    Slid,
+    /// A piece lies higher or lower than the words of its place say.
+    Level,
 }
 
 /// How a stage went.

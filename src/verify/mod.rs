@@ -6,12 +6,14 @@
 //! - [`crossings`]: pairs of cloth triangles that cross;
 //! - [`crossings_between`]: cloth triangles that cross the body;
 //! - [`inside`]: points inside a closed body, and how deep;
+//! - [`Layers`]: the layers of cloth on a line through it;
 //! - [`worn`]: which body part passes through which rim of the garment;
 //! - [`Welded`]: the garment as one surface, seam partners made one vertex.
 
 mod bvh;
 mod crossing;
 mod inside;
+mod layers;
 mod linking;
 mod orient;
 mod welded;
@@ -19,5 +21,6 @@ mod worn;
 
 pub use crossing::{Between, crossings, crossings_between};
 pub use inside::{Inside, inside};
+pub use layers::{Layer, Layers};
 pub use welded::Welded;
-pub use worn::{Through, past_end, worn};
+pub use worn::{Passage, Through, is_dealt, past_end, worn};

@@ -38,11 +38,38 @@ impl Through {
     }
 }
 
-/// For every rim (a closed polygon, in order), what passes through it; `None` where nothing does or the body has no
-/// torso to tell by.
-pub fn worn(rims: &[Vec<Vec3>], body: &Mannequin) -> Vec<Option<Through>> {
-    let Some(skeleton) = Skeleton::new(&body.parts) else { return vec![None; rims.len()] };
-    rims.iter().map(|rim| skeleton.through(rim)).collect()
+/// What passes through a rim, and which far ends of the body (head, hands, feet) it parts from the others.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Passage {
+    /// What passes through; `None` where nothing does or the body has no torso to tell by.
+    pub through: Option<Through>,
+    /// The parts that lead to the ends of the smaller group; of two equally large ones that without the neck.
+    pub ends: Vec<PartKind>,
+}
+
+/// What passes through every rim (a closed polygon, in order).
+pub fn worn(rims: &[Vec<Vec3>], body: &Mannequin) -> Vec<Passage> {
+    let Some(skeleton) = Skeleton::new(&body.parts) else { return vec![Passage::default(); rims.len()] };
+    rims.iter().map(|rim| skeleton.passage(rim)).collect()
+}
+
+/// More rims of one surface than this are not dealt the body's ends: there would be 2ⁿ ways.
+const MOST_RIMS: usize = 16;
+
+/// Whether `rims` can be all the rims of one surface that lies round the body: each end of the body is beyond exactly
+/// one of them. Rims of pieces that are not sewn yet may part the ends in other ways, and then tell nothing.
+pub fn is_dealt(rims: &[&Passage], body: &Mannequin) -> bool {
+    let bit = |kind: PartKind| 1u8 << kind as u8;
+    let ends = |parts: &mut dyn Iterator<Item = PartKind>| parts.fold(0, |all, kind| all | bit(kind));
+    let all = ends(&mut body.parts.iter().map(|p| p.kind).filter(|kind| *kind != PartKind::Torso));
+    let groups: Vec<u8> = rims.iter().map(|rim| ends(&mut rim.ends.iter().copied())).collect();
+    groups.len() <= MOST_RIMS && can_fill(all, 0, &groups)
+}
+
+/// Whether one group of ends or its complement per rim, none of them in another, make up `all` with the `taken` ones.
+fn can_fill(all: u8, taken: u8, groups: &[u8]) -> bool {
+    let Some((first, rest)) = groups.split_first() else { return taken == all };
+    [*first, all ^ first].into_iter().any(|group| group & taken == 0 && can_fill(all, taken | group, rest))
 }
 
 /// How far the middle of a rim round an arm or a leg is past the last section of that limb, metres along it: a sleeve's
@@ -109,15 +136,18 @@ impl Skeleton {
         Some(Self { torso, ends, faces })
     }
 
-    fn through(&self, rim: &[Vec3]) -> Option<Through> {
+    fn passage(&self, rim: &[Vec3]) -> Passage {
         let shares: Vec<(PartKind, f64)> = self.ends.iter().map(|(kind, line)| (*kind, linking(rim, line))).collect();
-        let parted = parted(&shares);
-        match parted.as_slice() {
+        let ends = parted(&shares);
+        let through = match ends.as_slice() {
             [] => self.through_face(rim, &shares),
             [one] => Some(Through::Part(*one)),
             [PartKind::LeftLeg, PartKind::RightLeg] => Some(self.torso_or_legs(rim, &shares)),
             _ => Some(Through::Part(PartKind::Torso)),
-        }
+        };
+        // A face is an end of the head.
+        let ends = if ends.is_empty() && through.is_some() { vec![PartKind::Neck] } else { ends };
+        Passage { through, ends }
     }
 
     /// The rim of a hood is not round the line through the crown, but round one through the face.

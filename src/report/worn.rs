@@ -1,0 +1,74 @@
+//! The rows of openings: what passes through each, where it was before, and what is wrong with it.
+
+use super::measure::Measured;
+use super::misworn::Wear;
+use super::openings::{Opening, flaps, opening_names};
+use super::schema::{Worn, WornBefore};
+use crate::geometry::{MM, Vec3};
+use crate::mannequin::Mannequin;
+use crate::pattern::written_names;
+use crate::verify::{Passage, Through, Welded, past_end, worn};
+
+/// What passes through the openings of the garment `welded`, its latest state. The edges of flaps are left out.
+pub(super) fn worn_rows(run: &Measured, welded: &Welded, openings: &[Opening]) -> Vec<Worn> {
+    let all: Vec<&Opening> = openings.iter().collect();
+    let seen = Seen::new(&all, welded, run.body);
+    let rings: Vec<&[u32]> = openings.iter().map(|o| o.ring.as_slice()).collect();
+    let flaps = flaps(&rings, &seen.iter().map(|seen| seen.passage.through.is_some()).collect::<Vec<bool>>());
+    let open: Vec<&Opening> = all.into_iter().zip(&flaps).filter(|(_, flap)| !**flap).map(|(o, _)| o).collect();
+    let now: Vec<Seen> = seen.into_iter().zip(&flaps).filter(|(_, flap)| !**flap).map(|(seen, _)| seen).collect();
+    let at = |positions: &[Vec3]| Seen::new(&open, &Welded::new(run.mesh, run.weld, positions), run.body);
+    let (placed, sewn) = (run.placed.map(at), run.draped.and(run.sewn).map(at));
+    let names = opening_names(&open.iter().map(|o| o.edges.clone()).collect::<Vec<_>>());
+    let faults = Wear::new(run, welded, open.clone(), &names, [placed.as_deref(), sewn.as_deref()], &now).faults();
+    let before = |state: &Option<Vec<Seen>>, k: usize| state.as_ref().map(|seen| seen[k].before());
+    let row = |(k, fault): (usize, Option<_>)| Worn {
+        opening: names[k].clone(),
+        body_part: now[k].part(),
+        edges: written_names(open[k].edges.iter().map(|(piece, edge)| (piece.as_str(), edge.as_str()))),
+        length: now[k].length * MM,
+        past_end: now[k].past_end.map(|past| past * MM),
+        height: now[k].height * MM,
+        placed: before(&placed, k),
+        sewn: before(&sewn, k),
+        fault,
+    };
+    faults.into_iter().enumerate().map(row).collect()
+}
+
+/// An opening in one state of the garment, metres.
+#[derive(Clone, Debug)]
+pub(super) struct Seen {
+    pub(super) passage: Passage,
+    /// How far past the end of the arm or leg that it is round.
+    pub(super) past_end: Option<f64>,
+    length: f64,
+    /// Mean height of its rim.
+    pub(super) height: f64,
+}
+
+impl Seen {
+    fn new(openings: &[&Opening], welded: &Welded, body: &Mannequin) -> Vec<Self> {
+        let rims: Vec<Vec<Vec3>> = openings.iter().map(|o| o.positions(welded)).collect();
+        let seen = |(rim, passage): (&Vec<Vec3>, Passage)| Self {
+            past_end: passage.through.and_then(|part| past_end(rim, part, body)),
+            passage,
+            length: (0..rim.len()).map(|k| (rim[(k + 1) % rim.len()] - rim[k]).norm()).sum(),
+            height: rim.iter().map(|p| p.y).sum::<f64>() / rim.len() as f64,
+        };
+        rims.iter().zip(worn(&rims, body)).map(seen).collect()
+    }
+
+    /// How far up it is on what it is round: along an arm or a leg, or else its height.
+    pub(super) fn along(&self) -> f64 {
+        self.past_end.map_or(self.height, |past| -past)
+    }
+
+    fn part(&self) -> Option<String> {
+        self.passage.through.map(|part: Through| part.name().into())
+    }
+
+    fn before(&self) -> WornBefore {
+        WornBefore { body_part: self.part(), past_end: self.past_end.map(|past| past * MM), height: self.height * MM }
+    }
+}
