@@ -6,7 +6,9 @@ use crate::drape::{DrapeOptions, Until, drape};
 use crate::dynamics::Cut;
 use crate::geometry::Vec3;
 use crate::mesh::{self, ClothMesh, Transfer};
+use crate::pattern::Place;
 use crate::sew::place::{PlaceError, place};
+use crate::sew::start::start as topological_start;
 use crate::sew::{SewError, SewOptions, Sewn, Stitching, join, sew, sewn_on, stitch};
 
 /// How much coarser each level is than the next.
@@ -19,6 +21,9 @@ const LEAST: f64 = 1.5;
 /// A garment that stays open, or crossed, at the coarsest level is sewn so much coarser and carried over: other
 /// particles lie otherwise beside a seam that has jammed, and fewer of them fold less.
 const DETOUR: f64 = 1.35;
+/// Steps after which a start has failed while there is another: at 25 mm the garments of `patterns` close within half
+/// as many from the start that the words of `place` give.
+const FIRST_TRY: usize = 80;
 /// Share of a stage's progress that its coarser levels are.
 pub(super) const COARSE_SHARE: f64 = 0.3;
 
@@ -29,6 +34,8 @@ pub(super) struct Closed {
     pub(super) gaps: Vec<Vec<f64>>,
     /// The coarser one it was made from.
     pub(super) coarse: Option<Box<Coarse>>,
+    /// Where its particles started, if its topology gave that.
+    pub(super) start: Option<Vec<Vec3>>,
 }
 
 /// A coarser mesh of a garment with its seams closed.
@@ -51,24 +58,52 @@ impl Job {
         if let Some(coarse) = self.coarser(mesh, &mut |share| progress(COARSE_SHARE * share)) {
             // What does not come out whole begins anew, as it would without a coarser level.
             if let Some((sewn, gaps)) = self.carried(&coarse, mesh) {
-                return Ok(Closed { sewn, gaps, coarse: Some(coarse) });
+                let start = coarse.closed.start.as_ref().map(|x| Transfer::new(&coarse.mesh, mesh).apply(x));
+                return Ok(Closed { sewn, gaps, coarse: Some(coarse), start });
             }
         }
-        let closed = self.sew_here(mesh, start, progress)?;
+        let quick = SewOptions { max_steps: FIRST_TRY, ..SewOptions::default() };
+        let closed = self.sew_here(mesh, start.clone(), quick, progress)?;
+        if is_whole(mesh, &closed.sewn) {
+            return Ok(closed);
+        }
+        if let Some(closed) = self.sew_from_topology(mesh, progress) {
+            return Ok(closed);
+        }
+        let closed = self.sew_here(mesh, start, SewOptions::default(), progress)?;
         if is_whole(mesh, &closed.sewn) {
             return Ok(closed);
         }
         Ok(self.detour(mesh, progress).unwrap_or(closed))
     }
 
+    /// `mesh` sewn from a start that its topology gives; none where there is none, where the file says at which position
+    /// a piece starts, or where it does not come out whole.
+    fn sew_from_topology(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Option<Closed> {
+        if self.garment.pieces.iter().any(|piece| matches!(piece.place, Some(Place::At { .. }))) {
+            return None;
+        }
+        let (body, collider) = sewn_on(self.stance.as_ref(), &self.body, &self.collider);
+        let start = topological_start(&self.garment, mesh, body, collider)?;
+        let options = SewOptions { max_steps: FIRST_TRY, joined: true, ..SewOptions::default() };
+        let closed = self.sew_here(mesh, start.clone(), options, progress).ok()?;
+        is_whole(mesh, &closed.sewn).then_some(Closed { start: Some(start), ..closed })
+    }
+
     /// Draws the seams of `mesh` itself shut.
-    fn sew_here(&self, mesh: &ClothMesh, start: Vec<Vec3>, progress: &mut dyn FnMut(f64)) -> Result<Closed, SewError> {
-        let (cut, options) = (self.cut_of(mesh), SewOptions::default());
+    fn sew_here(
+        &self,
+        mesh: &ClothMesh,
+        start: Vec<Vec3>,
+        options: SewOptions,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Closed, SewError> {
+        let cut = self.cut_of(mesh);
         let sewn = match &self.stance {
             Some(stance) => stance.sew(&cut, &self.collider, start, &options, progress)?,
             None => sew(&cut, &self.collider, start, &options, progress)?,
         };
-        Ok(Closed { gaps: sewn.gaps_of_seams(mesh), sewn, coarse: None })
+        Ok(Closed { gaps: sewn.gaps_of_seams(mesh), sewn, coarse: None, start: None })
     }
 
     /// The next coarser level, sewn; none where the garment cannot be meshed or sewn so coarse.
@@ -86,10 +121,10 @@ impl Job {
     /// no better a start for draping, and forgotten.
     fn detour(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Option<Closed> {
         let (coarse, start) = self.placed_at(DETOUR * mesh.spacing)?;
-        let closed = self.sew_here(&coarse, start, progress).ok()?;
+        let closed = self.sew_here(&coarse, start, SewOptions::default(), progress).ok()?;
         let coarse = is_whole(&coarse, &closed.sewn).then_some(Coarse { mesh: coarse, closed })?;
         let (sewn, gaps) = self.carried(&coarse, mesh)?;
-        Some(Closed { sewn, gaps, coarse: None })
+        Some(Closed { sewn, gaps, coarse: None, start: None })
     }
 
     /// The garment meshed at `spacing`, and where its pieces start.

@@ -19,11 +19,13 @@ pub struct SewOptions {
     pub tolerance: f64,
     /// Steps after which sewing gives up.
     pub max_steps: usize,
+    /// Whether pieces start joined at their seams: then none is moved out of the body by itself.
+    pub joined: bool,
 }
 
 impl Default for SewOptions {
     fn default() -> Self {
-        Self { tolerance: 1e-3, max_steps: 400 }
+        Self { tolerance: 1e-3, max_steps: 400, joined: false }
     }
 }
 
@@ -126,7 +128,9 @@ pub fn sew(
 ) -> Result<Sewn, SewError> {
     let mesh = cut.mesh;
     let stitching = Stitching::new(mesh);
-    lead_out(cut, body, &mut start)?;
+    if !options.joined {
+        lead_out(cut, body, &mut start)?;
+    }
     let cloth = Cloth::new(cut, identity_nodes(mesh), SOFT);
     let tacks: Vec<[u32; 2]> = tacked(mesh, cut.garment).filter(|[a, b]| a != b).collect();
     let pairs: Vec<[u32; 2]> = stitching.pairs.iter().map(|p| p.0).chain(tacks.iter().copied()).collect();

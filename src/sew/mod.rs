@@ -7,6 +7,7 @@ pub mod place;
 mod recover;
 mod settle;
 mod stance;
+pub mod start;
 mod stitch;
 mod untangle;
 

@@ -13,16 +13,18 @@ const PRESSED: f64 = 2.0;
 const ON_FOLD: f64 = 1e-9;
 
 /// The pieces laid out flat, pressed folds folded over.
-pub(super) struct Sheet {
+pub(in crate::sew) struct Sheet {
     /// Flat position of every particle as drawn, but for what is folded over, y down.
-    pub(super) drawn: Vec<Vec2>,
+    pub(in crate::sew) drawn: Vec<Vec2>,
     /// The same with sectors of circles unrolled, and upright bands laid level.
     pub(super) flat: Vec<Vec2>,
     /// That without what a sector widens towards its hem: its sides run straight down.
     pub(super) straight: Vec<Vec2>,
     /// Layers towards the wrong side: 0, 1 where the cloth is folded under, -1 where it is turned up;
     /// up to 4 in a pleat.
-    pub(super) under: Vec<f64>,
+    pub(in crate::sew) under: Vec<f64>,
+    /// Whether it lies on other cloth of its piece: turned over at a fold, or laid in a pleat.
+    pub(in crate::sew) hidden: Vec<bool>,
     /// Off the ring that a piece is bent into, outward, metres: the waves of a circle skirt.
     pub(super) out: Vec<f64>,
 }
@@ -31,9 +33,23 @@ pub(super) struct Sheet {
 /// rim under the other, or over it where right sides meet. Lays its pleats, unrolls what is a sector of a circle, and
 /// lays level what is an upright band.
 pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
+    let mut sheet = pressed(garment, mesh);
+    flare::lay(garment, mesh, &mut sheet);
+    band::lay(garment, mesh, &mut sheet);
+    sheet
+}
+
+/// The same with sectors and bands as they are drawn.
+pub(in crate::sew) fn pressed(garment: &Garment, mesh: &ClothMesh) -> Sheet {
     let nowhere = || vec![0.0; mesh.flat.len()];
-    let mut sheet =
-        Sheet { drawn: Vec::new(), flat: mesh.flat.clone(), straight: Vec::new(), under: nowhere(), out: nowhere() };
+    let mut sheet = Sheet {
+        drawn: Vec::new(),
+        flat: mesh.flat.clone(),
+        straight: Vec::new(),
+        under: nowhere(),
+        hidden: vec![false; mesh.flat.len()],
+        out: nowhere(),
+    };
     let mut sewn = vec![0u32; mesh.flat.len()];
     for p in mesh.seams.iter().flat_map(|s| s.pairs.iter().flatten()) {
         sewn[*p as usize] += 1;
@@ -47,8 +63,6 @@ pub(super) fn folded(garment: &Garment, mesh: &ClothMesh) -> Sheet {
     pleat::lay(garment, mesh, &mut sheet);
     sheet.drawn = sheet.flat.clone();
     sheet.straight = sheet.flat.clone();
-    flare::lay(garment, mesh, &mut sheet);
-    band::lay(garment, mesh, &mut sheet);
     sheet
 }
 
@@ -88,6 +102,7 @@ impl Flap {
             let off = self.across.dot(&(sheet.flat[p] - self.at));
             sheet.flat[p] -= self.across * (2.0 * off);
             sheet.under[p] = self.way * (1.0 + highest) - sheet.under[p];
+            sheet.hidden[p] = true;
         }
     }
 }
@@ -128,7 +143,8 @@ mod tests {
     fn layers(inner: f64, outer: f64) -> [(f64, f64); 3] {
         let nowhere = Vec::new;
         let flat: Vec<Vec2> = [0.01, 0.03, 0.05].map(|x| Vec2::new(x, 0.0)).to_vec();
-        let mut sheet = Sheet { drawn: nowhere(), flat, straight: nowhere(), under: vec![0.0; 3], out: Vec::new() };
+        let (under, hidden) = (vec![0.0; 3], vec![false; 3]);
+        let mut sheet = Sheet { drawn: nowhere(), flat, straight: nowhere(), under, hidden, out: Vec::new() };
         let flap = |particles: &[usize], x: f64, way: f64| Flap {
             particles: particles.to_vec(),
             at: Vec2::new(x, 0.0),

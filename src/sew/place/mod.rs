@@ -20,7 +20,7 @@ mod band;
 mod ellipse;
 mod flare;
 mod flute;
-mod fold;
+pub(super) mod fold;
 mod insert;
 mod lap;
 mod lay;

@@ -72,6 +72,7 @@ pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &mut Sheet) {
                 let (to, under) = pleated.laid(at);
                 sheet.flat[p] += pleated.along * (to - at);
                 sheet.under[p] += under;
+                sheet.hidden[p] |= pleated.folds.iter().any(|f| f.at < at && at < f.end());
             }
             laid.push(pleated);
         }

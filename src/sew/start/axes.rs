@@ -1,0 +1,219 @@
+//! The body as its axes: limbs and trunk as bent elliptic cylinders whose thickness can be scaled down to nothing.
+//!
+//! A garment is inflated round these first; the cylinders then grow to the body's own size. A point in two of them
+//! (at a shoulder, in the crotch) is led out of one and then of the other.
+
+use crate::geometry::Vec3;
+use crate::mannequin::{BodyPart, Mannequin, PartKind, Section};
+
+/// Sections of an axis are at least this far apart, metres: enough for the bend of a spine or an elbow, and few enough
+/// to search for every particle in every step.
+const SPACING: f64 = 0.06;
+/// Half axes are at least this, metres, at every scale: no edge of a start mesh (25 mm) spans so thick an axis, and no
+/// step carries a node through it. With 4 mm the fronts of trousers ended behind the legs.
+const THINNEST: f64 = 0.02;
+
+/// A cross-section.
+#[derive(Clone, Copy, Debug)]
+struct Disk {
+    center: Vec3,
+    /// Unit vectors along the axis, sideways and to the front.
+    frame: [Vec3; 3],
+    /// Half extents sideways and front to back, metres.
+    half: [f64; 2],
+    /// Metres.
+    girth: f64,
+}
+
+/// One part of the body as a bent elliptic cylinder.
+#[derive(Clone, Debug)]
+pub(super) struct Axis {
+    /// The part.
+    pub(super) kind: PartKind,
+    disks: Vec<Disk>,
+    /// Distance along the axis from its first disk, metres.
+    along: Vec<f64>,
+    low: Vec3,
+    high: Vec3,
+}
+
+/// A place on an axis.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Station {
+    /// On the axis.
+    pub(super) center: Vec3,
+    /// Unit direction, away from the trunk.
+    pub(super) axis: Vec3,
+}
+
+impl Axis {
+    /// Of a part, if it has two sections at least.
+    fn of(part: &BodyPart) -> Option<Self> {
+        let mut kept: Vec<&Section> = Vec::new();
+        for section in &part.sections {
+            if kept.last().is_none_or(|last| (section.center - last.center).norm() >= SPACING) {
+                kept.push(section);
+            }
+        }
+        // The last one is where the part ends.
+        let last = part.sections.last()?;
+        if kept.len() > 1 && kept.last().is_some_and(|k| (last.center - k.center).norm() < 0.5 * SPACING) {
+            kept.pop();
+        }
+        if kept.last().is_some_and(|k| k.center != last.center) {
+            kept.push(last);
+        }
+        let disks: Vec<Disk> = kept.into_iter().map(disk).collect();
+        let mut along = vec![0.0];
+        for pair in disks.windows(2) {
+            along.push(along.last().copied().unwrap_or(0.0) + (pair[1].center - pair[0].center).norm());
+        }
+        let reach = disks.iter().map(|d| d.half[0].max(d.half[1])).fold(0.0, f64::max);
+        let low = disks.iter().fold(Vec3::repeat(f64::INFINITY), |low, d| low.inf(&d.center)).add_scalar(-reach);
+        let high = disks.iter().fold(Vec3::repeat(f64::NEG_INFINITY), |high, d| high.sup(&d.center)).add_scalar(reach);
+        (disks.len() > 1).then_some(Self { kind: part.kind, disks, along, low, high })
+    }
+
+    /// Its length, metres.
+    pub(super) fn length(&self) -> f64 {
+        self.along.last().copied().unwrap_or(0.0)
+    }
+
+    /// The place `s` metres along it, straight on beyond either end.
+    pub(super) fn station(&self, s: f64) -> Station {
+        let k = self.along.partition_point(|a| *a <= s).clamp(1, self.disks.len() - 1);
+        let [from, to] = [&self.disks[k - 1], &self.disks[k]];
+        let length = self.along[k] - self.along[k - 1];
+        let axis = (to.center - from.center).try_normalize(0.0).unwrap_or(from.frame[0]);
+        let share = if length > 0.0 { (s - self.along[k - 1]) / length } else { 0.0 };
+        Station { center: from.center + (to.center - from.center) * share, axis }
+    }
+
+    /// Its girth `s` metres along it, metres.
+    pub(super) fn girth(&self, s: f64) -> f64 {
+        let k = self.along.partition_point(|a| *a <= s).clamp(1, self.disks.len() - 1);
+        let length = self.along[k] - self.along[k - 1];
+        let share = if length > 0.0 { ((s - self.along[k - 1]) / length).clamp(0.0, 1.0) } else { 0.0 };
+        self.disks[k - 1].girth + (self.disks[k].girth - self.disks[k - 1].girth) * share
+    }
+
+    /// Half its extent front to back `s` metres along it, metres.
+    pub(super) fn half_depth(&self, s: f64) -> f64 {
+        let k = self.along.partition_point(|a| *a <= s).clamp(1, self.disks.len() - 1);
+        self.disks[k].half[1]
+    }
+
+    /// How far along it the point nearest to `p` is, metres.
+    pub(super) fn nearest(&self, p: Vec3) -> f64 {
+        let (k, share) = self.nearest_segment(p);
+        self.along[k] + (self.along[k + 1] - self.along[k]) * share
+    }
+
+    /// The segment nearest to `p`, and the share of it where it is.
+    fn nearest_segment(&self, p: Vec3) -> (usize, f64) {
+        let mut best = (f64::INFINITY, 0, 0.0);
+        for (k, pair) in self.disks.windows(2).enumerate() {
+            let way = pair[1].center - pair[0].center;
+            let length = way.norm_squared();
+            let share = if length > 0.0 { ((p - pair[0].center).dot(&way) / length).clamp(0.0, 1.0) } else { 0.0 };
+            let far = (p - pair[0].center - way * share).norm_squared();
+            if far < best.0 {
+                best = (far, k, share);
+            }
+        }
+        (best.1, best.2)
+    }
+
+    /// Where a point that lies within the axis at `scale` of its thickness, plus `gap` metres, is led out to.
+    fn led_out(&self, p: Vec3, scale: f64, gap: f64) -> Option<Vec3> {
+        let is_far = (0..3).any(|c| p[c] < self.low[c] - gap || p[c] > self.high[c] + gap);
+        if is_far {
+            return None;
+        }
+        let (k, share) = self.nearest_segment(p);
+        let [from, to] = [&self.disks[k], &self.disks[k + 1]];
+        let mix = |a: f64, b: f64| a + (b - a) * share;
+        let center = from.center + (to.center - from.center) * share;
+        let off = p - center;
+        let half = [0, 1].map(|c| (scale * mix(from.half[c], to.half[c])).max(THINNEST) + gap);
+        let [along, side, front] = from.frame;
+        // Beyond an end the axis is rounded off.
+        let parts = [off.dot(&along) / half[0].min(half[1]), off.dot(&side) / half[0], off.dot(&front) / half[1]];
+        let depth = parts.iter().map(|c| c * c).sum::<f64>().sqrt();
+        (depth < 1.0 && depth > 1e-6).then(|| center + off / depth)
+    }
+}
+
+/// The cross-section of a part, with its directions.
+fn disk(section: &Section) -> Disk {
+    let along = section.axis.try_normalize(0.0).unwrap_or_else(Vec3::y);
+    let ahead = if along.z.abs() < 0.9 { Vec3::z() } else { Vec3::y() };
+    let front = (ahead - along * ahead.dot(&along)).normalize();
+    Disk {
+        center: section.center,
+        frame: [along, front.cross(&along), front],
+        half: [section.half_width, section.half_depth],
+        girth: section.girth,
+    }
+}
+
+/// All axes of a body.
+#[derive(Clone, Debug)]
+pub(super) struct Axes {
+    axes: Vec<Axis>,
+}
+
+impl Axes {
+    /// Of a body's parts.
+    pub(super) fn of(body: &Mannequin) -> Self {
+        Self { axes: body.parts.iter().filter_map(Axis::of).collect() }
+    }
+
+    /// The axis of a part, if the body has it.
+    pub(super) fn part(&self, kind: PartKind) -> Option<&Axis> {
+        self.axes.iter().find(|axis| axis.kind == kind)
+    }
+
+    /// Where a point is led to that lies within the axes at `scale` of their thickness, plus `gap` metres; the point
+    /// itself outside.
+    pub(super) fn outside(&self, p: Vec3, scale: f64, gap: f64) -> Vec3 {
+        self.axes.iter().fold(p, |p, axis| axis.led_out(p, scale, gap).unwrap_or(p))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cylinder() -> Axis {
+        let section = |y: f64| Section {
+            center: Vec3::new(0.0, y, 0.0),
+            axis: Vec3::y(),
+            half_width: 0.2,
+            half_depth: 0.1,
+            girth: 1.0,
+        };
+        let sections = (0..=20).map(|k| section(0.05 * f64::from(k))).collect();
+        Axis::of(&BodyPart { kind: PartKind::Torso, sections, landmarks: Vec::new() }).expect("an axis")
+    }
+
+    #[test]
+    fn an_axis_goes_from_end_to_end_and_straight_on() {
+        let axis = cylinder();
+        assert!((axis.length() - 1.0).abs() < 1e-12);
+        for s in [-0.2, 0.0, 0.31, 1.0, 1.3] {
+            assert!((axis.station(s).center - Vec3::new(0.0, s, 0.0)).norm() < 1e-12, "{s}");
+            assert!((axis.nearest(Vec3::new(0.3, s, 0.1)) - s.clamp(0.0, 1.0)).abs() < 1e-12, "{s}");
+        }
+    }
+
+    #[test]
+    fn points_within_are_led_to_the_scaled_ellipse() {
+        let axis = cylinder();
+        let p = axis.led_out(Vec3::new(0.05, 0.5, 0.0), 0.5, 0.0).expect("inside");
+        assert!((p - Vec3::new(0.1, 0.5, 0.0)).norm() < 1e-12, "{p:?}");
+        let p = axis.led_out(Vec3::new(0.0, 0.5, -0.05), 1.0, 0.01).expect("inside");
+        assert!((p - Vec3::new(0.0, 0.5, -0.11)).norm() < 1e-12, "{p:?}");
+        assert!(axis.led_out(Vec3::new(0.15, 0.5, 0.0), 0.5, 0.0).is_none());
+    }
+}

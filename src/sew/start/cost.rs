@@ -1,0 +1,91 @@
+//! What a dealing costs: girths and distances unlike those of garments that are worn so, rare kinds of garments, and
+//! broken mirror symmetry.
+
+use super::ends::Ends;
+use super::girths::Range;
+use super::marks::{Mirror, Stretch};
+use super::openings::Opening;
+
+/// An opening too narrow for what would go through it.
+const TOO_NARROW: f64 = 6.0;
+/// Half a squared deviation counts in these units of the logarithm: below and above the usual girths.
+const BELOW: f64 = 0.15;
+const ABOVE: f64 = 0.6;
+/// The same for distances between openings, and what is added to both, metres.
+const APART: f64 = 0.25;
+const APART_SLACK: f64 = 0.02;
+/// An opening that nothing passes through, and the unit of its girth's logarithm.
+const EMPTY: f64 = 2.5;
+const EMPTY_WIDE: f64 = 0.3;
+/// Left and right unlike: of two openings that mirror each other, of one that is its own mirror image, and of two that
+/// may be either.
+const UNLIKE: f64 = 6.0;
+const UNLIKE_TWINS: f64 = 3.0;
+
+/// What it costs that an opening of this girth is dealt these ends.
+pub(super) fn girth_cost(girth: f64, ends: Ends, range: Range) -> f64 {
+    let Range { least, usual: [low, high] } = range;
+    let half_square = |x: f64| 0.5 * x * x;
+    if ends.is_empty() {
+        return EMPTY + half_square(((girth / high).ln() / EMPTY_WIDE).max(0.0));
+    }
+    if girth < least {
+        TOO_NARROW + half_square((least / girth.max(1e-3)).ln() / BELOW)
+    } else if girth < low {
+        half_square((low / girth).ln() / BELOW)
+    } else {
+        half_square(((girth / high).ln() / ABOVE).max(0.0))
+    }
+}
+
+/// What a distance outside its range costs.
+pub(super) fn beyond(distance: f64, [low, high]: [f64; 2]) -> f64 {
+    let off =
+        |more: f64, less: f64| 0.5 * (((more + APART_SLACK) / (less + APART_SLACK)).ln() / APART).max(0.0).powi(2);
+    if distance.is_finite() { off(low, distance) + off(distance, high) } else { 0.0 }
+}
+
+/// How unusual a garment with openings for these sets is.
+pub(super) fn prior(ends: &[Ends]) -> f64 {
+    let mut sets: Vec<Ends> = ends.iter().copied().filter(|e| !e.is_empty()).collect();
+    sets.sort_unstable();
+    let is = |list: &[Ends]| {
+        let mut list = list.to_vec();
+        list.sort_unstable();
+        list == sets
+    };
+    let (head, left, right) = (Ends::HEAD, Ends::LEFT_ARM, Ends::RIGHT_ARM);
+    let usual = is(&[head, left, right, Ends::LEGS])
+        || is(&[Ends::TOP, Ends::LEFT_LEG, Ends::RIGHT_LEG])
+        || is(&[Ends::TOP, Ends::LEGS])
+        || is(&[head, left, right, Ends::LEFT_LEG, Ends::RIGHT_LEG]);
+    if usual {
+        0.0
+    } else if is(&[left, right, head.with(Ends::LEGS)]) || is(&[head, Ends::ARMS.with(Ends::LEGS)]) {
+        0.5
+    } else if is(&[Ends::ARMS, head, Ends::LEGS]) || is(&[Ends::ALL]) {
+        1.5
+    } else if [[left, right.with(head)], [right, left.with(head)]].iter().any(|[a, b]| is(&[*a, *b, Ends::LEGS])) {
+        2.0
+    } else {
+        4.0
+    }
+}
+
+/// What it costs to break the mirror symmetry of openings.
+pub(super) fn unlike(mirror: &Mirror, openings: &[Opening], stretches: &[Vec<Stretch>], spacing: f64) -> Vec<Vec<f64>> {
+    let n = openings.len();
+    let maps = |i: usize, j: usize| mirror.maps(&stretches[i], &stretches[j], spacing);
+    let mut out = vec![vec![0.0; n]; n];
+    for i in 0..n {
+        let partners: Vec<usize> =
+            (0..n).filter(|&j| j != i && openings[i].part == openings[j].part && maps(i, j) && maps(j, i)).collect();
+        let own = maps(i, i);
+        match partners[..] {
+            [] if own => out[i][i] = UNLIKE,
+            [j] if !own => out[i][j] = UNLIKE,
+            _ => partners.iter().for_each(|&j| out[i][j] = UNLIKE_TWINS),
+        }
+    }
+    out
+}

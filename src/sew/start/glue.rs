@@ -1,0 +1,198 @@
+//! The pieces of a garment welded along their seams: one surface per connected part.
+
+use std::collections::BTreeMap;
+
+use super::laps::{Lap, laps};
+use super::layers;
+use super::openings::rims;
+use crate::geometry::{DisjointSets, Locator, sorted_pair};
+use crate::mesh::ClothMesh;
+use crate::pattern::{Garment, PleatLayer, SeamKind};
+use crate::sew::place::fold::{Sheet, pressed};
+
+/// No node: of what is left out of the surface.
+const NONE: u32 = u32::MAX;
+
+/// The pieces of the base sheet welded along their seams.
+#[derive(Clone, Debug)]
+pub struct Glued {
+    /// The node of every particle; `None` for those of pieces left out, and of what is turned over at a pressed fold.
+    pub node_of: Vec<Option<u32>>,
+    /// Corners as nodes; they run as the pieces' triangles do.
+    pub triangles: Vec<[u32; 3]>,
+    /// The mesh triangle of each.
+    pub source: Vec<u32>,
+    /// Number of nodes.
+    pub count: usize,
+    /// Connected part of every node, numbered by its first node.
+    pub part_of: Vec<u32>,
+    /// Indices of the pieces left out, rising: what lies on other cloth, and patches that closures alone hold.
+    pub left_out: Vec<usize>,
+    /// Where closures hold one piece over another: their rims are welded here, and lie over one another when worn.
+    pub laps: Vec<Lap>,
+    /// For every particle that lies on other cloth of its own piece (turned over at a pressed fold, or laid in a
+    /// pleat) where it lies once the piece is flat.
+    pub follows: Vec<Option<Follow>>,
+}
+
+/// A place on the cloth of the same piece.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Follow {
+    /// Particles of the triangle that it lies on, or of the nearest.
+    pub corners: [u32; 3],
+    /// Their shares; beyond the rim the triangle's plane goes straight on.
+    pub weights: [f64; 3],
+    /// Layers out of the right side of the cloth; negative towards the wrong side.
+    pub layers: f64,
+}
+
+/// Welds the pieces of a garment. `zips` are pairs of particles welded besides.
+pub fn glue(garment: &Garment, mesh: &ClothMesh, zips: &[[u32; 2]]) -> Glued {
+    let sheet = pressed(garment, mesh);
+    let mut is_out = turned_over(garment, mesh, &sheet);
+    let sewn: Vec<[u32; 2]> = stitches(garment, mesh).chain(zips.iter().copied()).collect();
+    let left_out = layers::left_out(garment, mesh, &is_out, &mut welded(mesh, &is_out, &sewn));
+    left_out.iter().for_each(|&piece| is_out[mesh.pieces[piece].particles.clone()].fill(true));
+    let (laps, pairs) = flat_laps(garment, mesh, &is_out, sewn, zips);
+    let mut out = numbered(mesh, &is_out, &mut welded(mesh, &is_out, &pairs));
+    out.follows = follows(mesh, &sheet);
+    (out.laps, out.left_out) = (laps, left_out);
+    out
+}
+
+/// Particles by what welds them; `is_out` are not welded.
+fn welded(mesh: &ClothMesh, is_out: &[bool], pairs: &[[u32; 2]]) -> DisjointSets {
+    let mut sets = DisjointSets::new(mesh.flat.len());
+    for &[a, b] in pairs.iter().filter(|pair| pair.iter().all(|&p| !is_out[p as usize])) {
+        sets.join(a, b);
+    }
+    sets
+}
+
+/// The laps that leave the surface a sphere with holes, and all pairs that are welded with them. Straps that cross give
+/// it a handle: no dealing of ends fits that, and they are done up later. So are those at rims that are zipped.
+fn flat_laps(
+    garment: &Garment,
+    mesh: &ClothMesh,
+    is_out: &[bool],
+    mut pairs: Vec<[u32; 2]>,
+    zips: &[[u32; 2]],
+) -> (Vec<Lap>, Vec<[u32; 2]>) {
+    let mut kept: Vec<Lap> = Vec::new();
+    let mut rest = laps(garment, mesh);
+    let is_zipped = |p: &u32| zips.iter().flatten().any(|z| z == p);
+    rest.retain(|lap| !lap.pairs.iter().flatten().any(is_zipped));
+    let drawn = |lap: &Lap| [lap.over, lap.under].map(|p| &garment.pieces[p].drawn_as);
+    let handles = |pairs: &[[u32; 2]]| handles(&numbered(mesh, is_out, &mut welded(mesh, is_out, pairs)));
+    let mut least = if rest.is_empty() { 0 } else { handles(&pairs) };
+    while let Some(first) = rest.first() {
+        let first = drawn(first);
+        // Those of a pair are kept or left together.
+        let (group, others): (Vec<Lap>, Vec<Lap>) = rest.iter().cloned().partition(|lap| drawn(lap) == first);
+        rest = others;
+        let more: Vec<[u32; 2]> = pairs.iter().copied().chain(group.iter().flat_map(|lap| lap.pairs.clone())).collect();
+        let now = handles(&more);
+        if now <= least {
+            (pairs, least) = (more, now);
+            kept.extend(group);
+        }
+    }
+    (kept, pairs)
+}
+
+/// Twice the number of handles of all parts of a surface.
+fn handles(glued: &Glued) -> i64 {
+    let mut sides: BTreeMap<[u32; 2], i64> = BTreeMap::new();
+    for t in &glued.triangles {
+        (0..3).for_each(|k| *sides.entry(sorted_pair([t[k], t[(k + 1) % 3]])).or_default() += 1);
+    }
+    let parts = glued.part_of.iter().max().map_or(0, |&last| i64::from(last) + 1);
+    let euler = glued.count as i64 - sides.len() as i64 + glued.triangles.len() as i64;
+    2 * parts - euler - rims(glued).len() as i64
+}
+
+/// The pairs that seams join, but for the upper layer of a pleat: its other two are sewn to one another there, and are
+/// a fin of the surface.
+pub(super) fn stitches<'a>(garment: &'a Garment, mesh: &'a ClothMesh) -> impl Iterator<Item = [u32; 2]> + 'a {
+    let is_kept = |kind: SeamKind| kind != SeamKind::Pleat(PleatLayer::Top);
+    let seams = garment.seams.iter().zip(&mesh.seams).filter(move |(seam, _)| is_kept(seam.kind));
+    seams.flat_map(|(_, stitches)| stitches.pairs.iter().copied())
+}
+
+/// The particles that are turned over at a pressed fold, and not part of a pleat.
+fn turned_over(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet) -> Vec<bool> {
+    let mut turned = sheet.hidden.clone();
+    for seam in garment.seams.iter().filter(|seam| matches!(seam.kind, SeamKind::Pleat(_))) {
+        for span in &seam.a {
+            turned[mesh.pieces[span.edge.piece].particles.clone()].fill(false);
+        }
+    }
+    turned
+}
+
+/// Numbers the nodes and the connected parts.
+fn numbered(mesh: &ClothMesh, is_out: &[bool], sets: &mut DisjointSets) -> Glued {
+    let particle = |t: usize| mesh.triangles[t].map(|p| p as usize);
+    let kept = |t: &usize| particle(*t).iter().all(|&p| !is_out[p]);
+    let mut number = vec![NONE; mesh.flat.len()];
+    let mut count = 0;
+    let (mut triangles, mut source) = (Vec::new(), Vec::new());
+    for t in (0..mesh.triangles.len()).filter(kept) {
+        let corners = mesh.triangles[t].map(|p| {
+            let root = sets.root(p) as usize;
+            if number[root] == NONE {
+                number[root] = count;
+                count += 1;
+            }
+            number[root]
+        });
+        if corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0] {
+            triangles.push(corners);
+            source.push(t as u32);
+        }
+    }
+    let node = |p: u32| Some(number[sets.root(p) as usize]).filter(|&n| n != NONE && !is_out[p as usize]);
+    let node_of = (0..mesh.flat.len() as u32).map(node).collect();
+    let part_of = parts(&triangles, count as usize);
+    let (laps, follows, left_out) = (Vec::new(), Vec::new(), Vec::new());
+    Glued { node_of, triangles, source, count: count as usize, part_of, left_out, laps, follows }
+}
+
+/// The connected part of every node.
+fn parts(triangles: &[[u32; 3]], count: usize) -> Vec<u32> {
+    let mut sets = DisjointSets::new(count);
+    for &[a, b, c] in triangles {
+        sets.join(a, b);
+        sets.join(a, c);
+    }
+    let mut number = vec![NONE; count];
+    let mut parts = 0;
+    let of = |node: u32| {
+        let root = sets.root(node) as usize;
+        if number[root] == NONE {
+            number[root] = parts;
+            parts += 1;
+        }
+        number[root]
+    };
+    (0..count as u32).map(of).collect()
+}
+
+/// Where particles lie that other cloth of their piece lies under.
+fn follows(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Option<Follow>> {
+    let mut out = vec![None; mesh.flat.len()];
+    for piece in &mesh.pieces {
+        let hidden = |p: &u32| sheet.hidden[*p as usize];
+        let open: Vec<[u32; 3]> =
+            mesh.triangles[piece.triangles.clone()].iter().filter(|t| !t.iter().any(hidden)).copied().collect();
+        if open.is_empty() || !piece.particles.clone().any(|p| sheet.hidden[p]) {
+            continue;
+        }
+        let ground = Locator::new(&sheet.drawn, &open, mesh.spacing);
+        for p in piece.particles.clone().filter(|&p| sheet.hidden[p]) {
+            let (corners, weights) = ground.place(sheet.drawn[p]);
+            out[p] = Some(Follow { corners, weights, layers: -sheet.under[p] });
+        }
+    }
+    out
+}

@@ -1,0 +1,194 @@
+//! What an opening has that tells where it goes: the pieces on its rim, their words, sides and mirror images.
+
+use std::collections::BTreeMap;
+
+use super::glue::Glued;
+use super::openings::Opening;
+use crate::geometry::{Vec2, box_of};
+use crate::mesh::ClothMesh;
+use crate::pattern::{Garment, Place, PlaceWord, Side, place_word};
+
+/// Two outlines are mirror images when every point of one is this near to a point of the other, in grid spacings.
+const SAME_SHAPE: f64 = 1.0;
+/// Two lengths or places are one when they differ by no more than this share of the larger, and this many spacings.
+const SAME_LENGTH: f64 = 0.03;
+const SAME_PLACE: f64 = 1.5;
+
+/// What the drawing of a band says counts less by this share.
+const BAND_SAYS: f64 = 0.3;
+/// A piece narrower than this, metres, is a band.
+const BAND: f64 = 0.12;
+/// The rim of a slit has fewer sides than this on another piece: the edge that its end is sewn to.
+const CORNER_OF_A_SLIT: usize = 4;
+/// Particles that follow each other on the rim of a slit are this near to each other in the drawing, in grid spacings.
+const SLIT_STEP: f64 = 2.5;
+
+/// A stretch of an opening's rim on one piece.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch {
+    pub(super) piece: usize,
+    /// Number of particles.
+    pub(super) count: usize,
+    /// Their middle, from the middle of the piece's box, metres, y down.
+    middle: Vec2,
+    /// That height as a share: −1 at the top of the drawing, 1 at its bottom.
+    height: f64,
+    /// Whether the piece is a band, which may be drawn any way up.
+    is_band: bool,
+}
+
+/// The pieces of a garment and which of them mirror each other.
+pub(super) struct Mirror {
+    /// For every piece those that are its mirror image, perhaps itself.
+    mates: Vec<Vec<usize>>,
+}
+
+impl Mirror {
+    /// By shape; halves of a pair have one another.
+    pub(super) fn new(garment: &Garment, mesh: &ClothMesh) -> Self {
+        let rims: Vec<Vec<Vec2>> = (0..mesh.pieces.len()).map(|piece| rim(mesh, piece)).collect();
+        let mates = (0..rims.len()).map(|piece| {
+            let own = &garment.pieces[piece];
+            let is_twin = |other: usize| {
+                let other = &garment.pieces[other];
+                other.drawn_as == own.drawn_as && other.side.is_some() && other.side != own.side
+            };
+            if own.side.is_some()
+                && let Some(twin) = (0..rims.len()).find(|&other| is_twin(other))
+            {
+                return vec![twin];
+            }
+            let alike = |&other: &usize| is_mirrored(&rims[piece], &rims[other], SAME_SHAPE * mesh.spacing);
+            (0..rims.len()).filter(alike).collect()
+        });
+        Self { mates: mates.collect() }
+    }
+
+    /// Whether the mirror image of one opening is like another.
+    pub(super) fn maps(&self, one: &[Stretch], other: &[Stretch], spacing: f64) -> bool {
+        let near = |a: &Stretch, b: &Stretch| {
+            let most = a.count.max(b.count) as f64;
+            let shift = Vec2::new(a.middle.x + b.middle.x, a.middle.y - b.middle.y);
+            self.mates[a.piece].contains(&b.piece)
+                && a.count.abs_diff(b.count) as f64 <= (SAME_LENGTH * most).max(2.0)
+                && shift.norm() <= SAME_PLACE * spacing
+        };
+        one.len() == other.len() && one.iter().all(|a| other.iter().any(|b| near(a, b)))
+    }
+}
+
+/// Points of a piece's outline from the middle of its box.
+fn rim(mesh: &ClothMesh, piece: usize) -> Vec<Vec2> {
+    let edges = &mesh.pieces[piece].edges;
+    let points: Vec<Vec2> = edges.iter().flat_map(|e| &e.particles).map(|&p| mesh.flat[p as usize]).collect();
+    let middle = middle_of(&points);
+    points.into_iter().map(|p| p - middle).collect()
+}
+
+fn middle_of(points: &[Vec2]) -> Vec2 {
+    let [low, high] = box_of(points.iter().copied());
+    0.5 * (low + high)
+}
+
+/// Whether points lie on others once left and right are exchanged.
+fn is_mirrored(one: &[Vec2], other: &[Vec2], tolerance: f64) -> bool {
+    let near = |p: &Vec2| {
+        let image = Vec2::new(-p.x, p.y);
+        other.iter().any(|q| (q - image).norm() <= tolerance)
+    };
+    let boxes = [one, other].map(|points| box_of(points.iter().copied())).map(|[low, high]| high - low);
+    (boxes[0] - boxes[1]).norm() <= 2.0 * tolerance && one.iter().all(near)
+}
+
+/// The pieces on an opening's rim, longest first.
+pub(super) fn stretches(mesh: &ClothMesh, glued: &Glued, openings: &[Opening]) -> Vec<Vec<Stretch>> {
+    let mut on_rim: Vec<Vec<usize>> = vec![Vec::new(); glued.count];
+    for (i, opening) in openings.iter().enumerate() {
+        opening.rim.iter().for_each(|&n| on_rim[n as usize].push(i));
+    }
+    let mut found: Vec<BTreeMap<usize, Vec<Vec2>>> = vec![BTreeMap::new(); openings.len()];
+    for (piece, part) in mesh.pieces.iter().enumerate() {
+        // Where a band is folded its rim is no edge of the piece.
+        for p in part.particles.clone() {
+            let Some(node) = glued.node_of[p] else { continue };
+            for &i in &on_rim[node as usize] {
+                found[i].entry(piece).or_default().push(mesh.flat[p]);
+            }
+        }
+    }
+    let list = |pieces: BTreeMap<usize, Vec<Vec2>>| {
+        // One particle is where another piece's rim ends.
+        let long = pieces.into_iter().filter(|(_, points)| points.len() > 1);
+        let mut list: Vec<Stretch> = long.map(|(piece, points)| stretch(mesh, piece, &points)).collect();
+        list.sort_by_key(|s| (std::cmp::Reverse(s.count), s.piece));
+        list
+    };
+    found.into_iter().map(list).collect()
+}
+
+fn stretch(mesh: &ClothMesh, piece: usize, points: &[Vec2]) -> Stretch {
+    let [low, high] = box_of(mesh.pieces[piece].particles.clone().map(|p| mesh.flat[p]));
+    let middle = points.iter().sum::<Vec2>() / points.len() as f64 - 0.5 * (low + high);
+    let height = middle.y / (0.5 * (high.y - low.y)).max(1e-9);
+    let is_band = (high - low).min() < BAND;
+    Stretch { piece, count: points.len(), middle, height, is_band }
+}
+
+/// Whether an opening is a hole or a slit within one piece: its rim closes there as it is drawn.
+pub(super) fn is_cut_out(mesh: &ClothMesh, opening: &Opening) -> bool {
+    let Some(piece) = opening.sides.first().and_then(|side| mesh.piece_of(side[0])) else { return false };
+    let own = &mesh.pieces[piece].particles;
+    let (on, off): (Vec<[u32; 2]>, Vec<[u32; 2]>) =
+        opening.sides.iter().copied().partition(|side| own.contains(&(side[0] as usize)));
+    let near = |a: u32, b: u32| (mesh.flat[a as usize] - mesh.flat[b as usize]).norm() <= SLIT_STEP * mesh.spacing;
+    off.len() < CORNER_OF_A_SLIT && (0..on.len()).all(|k| near(on[k][1], on[(k + 1) % on.len()][0]))
+}
+
+/// Mean of a value that depends on the height in the drawing (−1 at its top, 1 at its bottom) over an opening's rim.
+pub(super) fn by_height(stretches: &[Stretch], value: impl Fn(f64) -> f64) -> f64 {
+    shared(stretches, |s| if s.is_band { BAND_SAYS } else { 1.0 } * value(s.height))
+}
+
+/// Mean of a value over an opening's rim.
+fn shared(stretches: &[Stretch], value: impl Fn(&Stretch) -> f64) -> f64 {
+    let count: usize = stretches.iter().map(|s| s.count).sum();
+    stretches.iter().map(|s| value(s) * s.count as f64).sum::<f64>() / count.max(1) as f64
+}
+
+/// What the words of a piece's place say; nothing if it has none.
+pub(super) fn words(garment: &Garment, piece: usize) -> impl Iterator<Item = (PlaceWord, &str)> {
+    let words: &[String] = match &garment.pieces[piece].place {
+        Some(Place::Around { words }) => words,
+        _ => &[],
+    };
+    words.iter().filter_map(|word| Some((place_word(word)?, word.as_str())))
+}
+
+/// Words for what is worn from the waist down.
+pub(super) fn is_low(word: &str) -> bool {
+    ["hip", "hips", "waist", "skirt"].contains(&word)
+}
+
+/// Whether a piece's place says this.
+pub(super) fn says(garment: &Garment, piece: usize, meaning: PlaceWord) -> bool {
+    words(garment, piece).any(|(said, _)| said == meaning)
+}
+
+/// Which side a piece is on: 1 left, −1 right, 0 unknown.
+pub(super) fn side_of(garment: &Garment, piece: usize) -> f64 {
+    match garment.pieces[piece].side {
+        Some(Side::Left) => 1.0,
+        Some(Side::Right) => -1.0,
+        None => f64::from(says(garment, piece, PlaceWord::Left)) - f64::from(says(garment, piece, PlaceWord::Right)),
+    }
+}
+
+/// How much of an opening is on the left rather than on the right: from 1 to −1.
+pub(super) fn sidedness(garment: &Garment, stretches: &[Stretch]) -> f64 {
+    shared(stretches, |s| side_of(garment, s.piece))
+}
+
+/// The share of an opening on pieces that fail a test.
+pub(super) fn share(stretches: &[Stretch], fails: impl Fn(usize) -> bool) -> f64 {
+    shared(stretches, |s| f64::from(fails(s.piece)))
+}

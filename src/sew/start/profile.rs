@@ -1,0 +1,61 @@
+//! How wide a garment is at distances from an opening, and at which height of the trunk it fits so.
+
+use super::axes::Axis;
+use super::glue::Glued;
+use super::openings::crossing;
+use crate::mesh::ClothMesh;
+
+/// The girth of the cloth is measured at distances so far apart, metres, so many times.
+const STEP: f64 = 0.02;
+const STEPS: usize = 16;
+/// Heights are tried so far apart, metres.
+const TRIAL: f64 = 0.01;
+/// Cloth narrower than the body costs so many times as much as cloth that is wider.
+const TIGHT: f64 = 30.0;
+/// An opening that is wider than the body holds nothing: that costs so many times as much as wide cloth below it.
+const HELD: f64 = 8.0;
+
+/// The girth of the cloth along curves parallel to an opening, metres, from the opening on in steps.
+#[derive(Clone, Debug)]
+pub(super) struct Profile {
+    girths: Vec<f64>,
+}
+
+impl Profile {
+    /// Of an opening of this length from which every node is `far` on the cloth.
+    pub(super) fn new(glued: &Glued, mesh: &ClothMesh, length: f64, far: &[f64]) -> Self {
+        let mut girths = vec![0.0; STEPS];
+        girths[0] = length;
+        for (nodes, source) in glued.triangles.iter().zip(&glued.source) {
+            let flat = mesh.triangles[*source as usize].map(|p| mesh.flat[p as usize]);
+            let far = nodes.map(|n| far[n as usize]);
+            let [low, high] =
+                [far.iter().copied().fold(f64::INFINITY, f64::min), far.iter().copied().fold(0.0, f64::max)];
+            let first = ((low / STEP).ceil().max(1.0)) as usize;
+            for (k, girth) in girths.iter_mut().enumerate().skip(first).take_while(|(k, _)| *k as f64 * STEP < high) {
+                *girth += crossing(flat, far, k as f64 * STEP);
+            }
+        }
+        Self { girths }
+    }
+}
+
+/// How far along the trunk, from the crotch upward and at most to the arms at `highest`, an opening lies whose garment
+/// hangs from it, metres.
+pub(super) fn best_height(profile: &Profile, torso: &Axis, highest: f64) -> f64 {
+    let trials = (0..=(highest / TRIAL) as usize).map(|k| k as f64 * TRIAL);
+    let cost = |s: f64| {
+        let below = profile.girths.iter().enumerate().map(|(k, girth)| ((s - k as f64 * STEP).max(0.0), k, *girth));
+        let part = |(at, k, girth): (f64, usize, f64)| {
+            let excess = (girth / torso.girth(at)).ln();
+            match excess {
+                e if e < 0.0 => TIGHT * e * e,
+                e if k == 0 => HELD * e * e,
+                e => e * e,
+            }
+        };
+        let costs: Vec<f64> = below.filter(|(_, _, girth)| *girth > 0.0).map(part).collect();
+        costs.iter().sum::<f64>() / costs.len().max(1) as f64
+    };
+    trials.min_by(|a, b| cost(*a).total_cmp(&cost(*b))).unwrap_or(0.0)
+}

@@ -1,0 +1,209 @@
+//! Which ends of the body pass through which opening of a garment: told from its own shape, for all kinds of garments,
+//! whatever they are called.
+
+use std::path::{Path, PathBuf};
+
+use toile::io::garment::{read_text, write};
+use toile::io::garmentcode;
+use toile::pattern::Garment;
+use toile::pipeline::{Job, Overrides, read};
+use toile::sew::start::{Dealing, deal, edges, glue, openings};
+
+/// What passes through an opening, and a piece or an edge on its rim.
+type Worn = (&'static str, &'static str);
+
+const SHIRT: [&str; 4] = ["head", "left arm", "right arm", "left leg + right leg"];
+const TROUSERS: [&str; 3] = ["head + left arm + right arm", "left leg", "right leg"];
+const SKIRT: [&str; 2] = ["head + left arm + right arm", "left leg + right leg"];
+const OPEN: [&str; 3] = ["left arm", "right arm", "head + left leg + right leg"];
+
+fn garment(file: &Path, body: Option<&Path>, spacing: f64) -> Job {
+    let overrides =
+        Overrides { spacing: Some(spacing), body: body.map(|b| b.display().to_string()), ..Overrides::default() };
+    let loaded = if file.extension().is_some_and(|e| e == "json") {
+        let text = std::fs::read_to_string(file).expect("a file");
+        let read = garmentcode::read("imported", &text, None).expect("a specification");
+        read_text("imported", "imported.yaml", &write(&read).expect("writable")).expect("a garment")
+    } else {
+        read(file).expect("a garment")
+    };
+    Job::new(file, loaded, &overrides).unwrap_or_else(|error| panic!("{}: {error}", file.display()))
+}
+
+fn own(file: &str) -> Job {
+    garment(&Path::new(env!("CARGO_MANIFEST_DIR")).join(file), None, 0.02)
+}
+
+/// What passes through every opening of a garment that something passes through, with the edges there.
+fn worn(job: &Job, garment: &Garment) -> (Dealing, Vec<(String, Vec<String>)>) {
+    let glued = glue(garment, &job.mesh, &[]);
+    let found = openings(&glued, &job.mesh);
+    let dealing = deal(garment, &job.mesh, &glued, &found, &job.body);
+    let dealing = dealing.unwrap_or_else(|error| panic!("{}: {error}", job.file.display()));
+    let rows = found.iter().zip(&dealing.ends).filter(|(_, ends)| !ends.is_empty());
+    let rows = rows.map(|(o, ends)| (ends.to_string(), edges(garment, &job.mesh, &glued, o))).collect();
+    (dealing, rows)
+}
+
+/// Checks the openings of a garment and, for some of them, a piece or an edge on their rims.
+fn check(job: &Job, openings: &[&str], at: &[Worn]) {
+    let (_, rows) = worn(job, &job.garment);
+    let mut found: Vec<&str> = rows.iter().map(|r| r.0.as_str()).collect();
+    let mut wanted = openings.to_vec();
+    found.sort_unstable();
+    wanted.sort_unstable();
+    assert_eq!(found, wanted, "{}: {rows:?}", job.file.display());
+    for (ends, edge) in at {
+        let is_there = rows.iter().any(|(e, edges)| e == ends && edges.iter().any(|name| name.starts_with(edge)));
+        assert!(is_there, "{}: {ends} at {edge}: {rows:?}", job.file.display());
+    }
+}
+
+#[test]
+fn garments_of_this_project_are_worn_as_anyone_would() {
+    let cases: [(&str, &[&str], &[Worn]); 15] = [
+        ("patterns/tshirt.yaml", &SHIRT, &[("left arm", "sleeve.L"), ("left leg + right leg", "front.hem")]),
+        ("patterns/child_dress.yaml", &SHIRT, &[("right arm", "sleeve.R"), ("head", "front.L.neck")]),
+        ("patterns/sheath_dress.yaml", &SHIRT, &[("left arm", "front.armhole.L"), ("head", "front.neck")]),
+        ("patterns/trousers.yaml", &TROUSERS, &[("left leg", "front.L.hem"), ("right leg", "front.R.hem")]),
+        ("patterns/gore_skirt.yaml", &SKIRT, &[("left leg + right leg", "front.L.hem")]),
+        ("tests/data/boxy_shirt.yaml", &SHIRT, &[("left arm", "front.armhole_left"), ("head", "front.neck")]),
+        ("tests/data/collar.yaml", &SHIRT, &[("head", "stand"), ("right arm", "front.R.armhole")]),
+        ("tests/data/faced_top.yaml", &SHIRT, &[("head", "front.neck")]),
+        ("tests/data/lined_top.yaml", &SHIRT, &[("left arm", "front.armhole.L")]),
+        ("tests/data/raglan.yaml", &SHIRT, &[("left arm", "sleeve.L.wrist")]),
+        ("tests/data/skirt.yaml", &SKIRT, &[("left leg + right leg", "front.hem")]),
+        ("tests/data/pleated.yaml", &SKIRT, &[("left leg + right leg", "front.hem")]),
+        ("tests/data/box_pleat.yaml", &SKIRT, &[("left leg + right leg", "front.hem")]),
+        ("tests/data/overlay.yaml", &SKIRT, &[("left leg + right leg", "front.hem")]),
+        ("tests/data/elastic_waist.yaml", &SKIRT, &[("left leg + right leg", "front.hem")]),
+    ];
+    for (file, openings, at) in cases {
+        check(&own(file), openings, at);
+    }
+}
+
+#[test]
+fn what_lies_on_other_cloth_is_no_part_of_the_surface() {
+    for (file, wanted) in [
+        ("tests/data/lined.yaml", vec!["front_lining", "back_lining"]),
+        ("tests/data/faced_top.yaml", vec!["front_facing", "back_facing"]),
+        ("tests/data/overlay.yaml", vec!["overlay"]),
+        ("tests/data/collar.yaml", vec![]),
+    ] {
+        let job = own(file);
+        let out = glue(&job.garment, &job.mesh, &[]).left_out;
+        let mut names: Vec<&str> = out.iter().map(|&piece| job.garment.pieces[piece].name.as_str()).collect();
+        let mut wanted = wanted;
+        names.sort_unstable();
+        wanted.sort_unstable();
+        assert_eq!(names, wanted, "{file}");
+    }
+}
+
+/// Gives pieces, edges and seams names that mean nothing.
+fn scrambled(garment: &Garment) -> Garment {
+    let mut out = garment.clone();
+    let mut drawn: Vec<String> = out.pieces.iter().map(|piece| piece.drawn_as.clone()).collect();
+    drawn.sort_unstable();
+    drawn.dedup();
+    for (i, piece) in out.pieces.iter_mut().enumerate() {
+        let number = drawn.iter().position(|name| *name == piece.drawn_as).expect("a drawn piece");
+        // The other way round, so that an order by name is another one.
+        piece.drawn_as = format!("p{}", drawn.len() - number);
+        piece.name = format!("q{}", 1000 - i);
+        for edge in piece.loops.iter_mut().flatten() {
+            edge.name = "e".into();
+        }
+    }
+    out.seams.iter_mut().enumerate().for_each(|(i, seam)| seam.name = format!("s{i}"));
+    out
+}
+
+#[test]
+fn names_decide_nothing() {
+    for file in
+        ["patterns/trousers.yaml", "patterns/tshirt.yaml", "tests/data/collar.yaml", "tests/data/lined_top.yaml"]
+    {
+        let job = own(file);
+        let (named, _) = worn(&job, &job.garment);
+        let (renamed, _) = worn(&job, &scrambled(&job.garment));
+        assert_eq!((named.ends, named.front, named.zips), (renamed.ends, renamed.front, renamed.zips), "{file}");
+    }
+}
+
+#[test]
+fn a_word_that_was_given_changes_nothing_that_is_clear_without_it() {
+    for file in
+        ["patterns/trousers.yaml", "patterns/child_dress.yaml", "tests/data/collar.yaml", "tests/data/raglan.yaml"]
+    {
+        let job = own(file);
+        let mut bare = job.garment.clone();
+        bare.pieces.iter_mut().for_each(|piece| piece.place = None);
+        assert_eq!(worn(&job, &job.garment).0.ends, worn(&job, &bare).0.ends, "{file}");
+    }
+}
+
+/// Data beside the project, if they are there.
+fn beside(folder: &str) -> Option<PathBuf> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared").join(folder);
+    if path.is_dir() {
+        return Some(path);
+    }
+    println!("skipped: {} is not there", path.display());
+    None
+}
+
+#[test]
+fn ordinary_garments_drafted_by_hand_are_worn_as_anyone_would() {
+    let Some(folder) = beside("cases/sew") else { return };
+    let halter = ["head", "left arm + right arm", "left leg + right leg"];
+    let cases: [(&str, &[&str], &[Worn]); 18] = [
+        ("mans_shirt", &SHIRT, &[("left arm", "cuff.L"), ("head", "collar")]),
+        ("fs_simon", &SHIRT, &[("left arm", "cuff.L"), ("head", "collar"), ("left leg + right leg", "back.d")]),
+        ("fs_simon_placewords", &SHIRT, &[("left arm", "sleeve.L"), ("head", "yoke")]),
+        ("batwing", &SHIRT, &[("left arm", "front.cuff.L")]),
+        ("blouse", &SHIRT, &[("right arm", "band.R"), ("head", "collar")]),
+        ("cardigan", &SHIRT, &[("right arm", "sleeve.R"), ("head", "neckband")]),
+        ("fs_aaron_armbinding", &SHIRT, &[("left arm", "armBinding.L"), ("head", "neckBinding")]),
+        ("fs_diana", &SHIRT, &[("left arm", "sleeve.L"), ("head", "front.a")]),
+        ("fs_hugo_hood", &SHIRT, &[("left arm", "cuff.L"), ("head", "hoodSide")]),
+        ("slip_bias", &SHIRT, &[("left arm", "strap.L"), ("left leg + right leg", "front.hem")]),
+        ("fs_bruce", &TROUSERS, &[("left leg", "inset.L"), ("right leg", "inset.R")]),
+        ("fs_lily", &TROUSERS, &[("left leg", "front.L"), ("head + left arm + right arm", "waistband")]),
+        ("leggings", &TROUSERS, &[("left leg", "leg.L"), ("right leg", "leg.R")]),
+        ("dungarees", &TROUSERS, &[("left leg", "front.L.hem"), ("right leg", "front.R.hem")]),
+        ("bolero", &OPEN, &[("left arm", "sleeve.L")]),
+        ("kimono", &OPEN, &[("right arm", "sleeve.R")]),
+        ("poncho_shoulder_seam", &["head", "left arm + right arm + left leg + right leg"], &[("head", "front.neck")]),
+        ("bralette", &halter, &[("left leg + right leg", "band.hem")]),
+    ];
+    for (name, openings, at) in cases {
+        let fine = ["slip_bias", "bralette"].contains(&name);
+        let job = garment(&folder.join(format!("{name}.yaml")), None, if fine { 0.01 } else { 0.02 });
+        check(&job, openings, at);
+    }
+}
+
+#[test]
+fn garments_of_garmentcode_are_worn_as_anyone_would() {
+    let Some(folder) = beside("garmentcode") else { return };
+    let body = folder.join("mean_all.obj");
+    let jumpsuit = ["head", "left arm", "right arm", "left leg", "right leg"];
+    let cases: [(&str, &[&str]); 10] = [
+        ("dress_pencil", &SHIRT),
+        ("fitted_shirt_sleeve_collar", &SHIRT),
+        ("hoodie", &SHIRT),
+        ("jumpsuit", &jumpsuit),
+        ("pants_long", &TROUSERS),
+        ("shorts", &TROUSERS),
+        ("skirt_circle", &SKIRT),
+        ("skirt_pencil", &SKIRT),
+        ("tank", &SHIRT),
+        ("tshirt", &SHIRT),
+    ];
+    for (name, openings) in cases {
+        let file = folder.join(name).join(format!("{name}_specification.json"));
+        check(&garment(&file, Some(&body), 0.02), openings, &[]);
+    }
+}

@@ -1,0 +1,61 @@
+//! Garments that start from their topology: glued, their openings round the ends of the body, inflated.
+
+use std::path::Path;
+
+use toile::geometry::Vec3;
+use toile::pipeline::{Job, Overrides, Run, read};
+use toile::sew::Stitching;
+use toile::sew::start::start;
+
+/// The start's own spacing, metres: nothing is lost on the way to the mesh asked for.
+const SPACING: f64 = 0.025;
+
+fn job(garment: &str) -> Job {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(garment);
+    let overrides = Overrides { spacing: Some(SPACING), ..Overrides::default() };
+    Job::new(&file, read(&file).expect(garment), &overrides).expect(garment)
+}
+
+/// Mean relative error of the edges of a job's mesh.
+fn strain(job: &Job, x: &[Vec3]) -> f64 {
+    let sides = job.mesh.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let errors: Vec<f64> = sides
+        .map(|[a, b]| [a as usize, b as usize])
+        .map(|[a, b]| ((x[b] - x[a]).norm() / (job.mesh.flat[b] - job.mesh.flat[a]).norm() - 1.0).abs())
+        .collect();
+    errors.iter().sum::<f64>() / errors.len() as f64
+}
+
+#[test]
+fn a_start_is_closed_outside_the_body_and_hardly_strained() {
+    for (garment, strained) in [("patterns/child_dress.yaml", 0.05), ("patterns/sheath_dress.yaml", 0.05)] {
+        let job = job(garment);
+        let x = start(&job.garment, &job.mesh, &job.body, &job.collider).expect(garment);
+        let widest = Stitching::new(&job.mesh).gaps(&x).into_iter().fold(0.0, f64::max);
+        assert!(widest < 1e-9, "{garment}: a seam starts open by {widest} m");
+        let inside = x.iter().filter(|p| job.collider.nearest(**p, 0.2).is_some_and(|n| n.distance < 0.0)).count();
+        assert_eq!(inside, 0, "{garment}: particles that start in the body");
+        let mean = strain(&job, &x);
+        assert!(mean < strained, "{garment}: strained by {mean}");
+    }
+}
+
+#[test]
+fn a_start_is_the_same_bytes_again() {
+    let job = job("patterns/child_dress.yaml");
+    let start = || start(&job.garment, &job.mesh, &job.body, &job.collider).expect("a start");
+    assert_eq!(start(), start());
+}
+
+#[test]
+fn long_sleeves_cut_in_one_with_the_body_are_put_on_without_a_word_of_place() {
+    let job = job("tests/data/dolman.yaml");
+    let mut run = Run::new(&job);
+    run.sew(&mut |_, _| {}).expect("sewn");
+    let report = run.report();
+    let mut worn: Vec<&str> = report.worn.iter().filter_map(|w| w.body_part.as_deref()).collect();
+    worn.sort_unstable();
+    assert_eq!(worn, ["left arm", "neck", "right arm", "torso"], "{:?}", report.worn);
+    assert_eq!(report.contact.cloth_cloth_intersections, 0);
+    assert_eq!(report.contact.cloth_body_intersections, 0);
+}
