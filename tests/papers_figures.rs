@@ -4,7 +4,7 @@
 mod common;
 
 use common::figure::Figure;
-use common::{fig4, fig5, fig6, fig7, fig9, weights};
+use common::{fig4, fig5, fig6, fig7, fig9};
 
 /// Fails with the bars that are missed.
 fn holds(figure: &Figure) {
@@ -32,9 +32,6 @@ fn fig6_hardly_depends_on_the_mesh() {
 #[test]
 fn fig7_lays_cloth_over_a_ball() {
     holds(&fig7::balls().expect("solved"));
-    let apart = fig7::shaken_apart(weights("wool_suiting").expect("shipped"), 1e-3).expect("solved");
-    println!("from a shaken start: {:.4} mm apart", 1e3 * apart);
-    assert!(apart < 1e-4);
 }
 
 #[test]

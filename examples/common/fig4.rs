@@ -6,7 +6,7 @@ use toile::drape::geometric::Weights;
 
 use super::figure::{Bar, Figure, Picture, row};
 use super::measure::{fold_rms, strain};
-use super::{fig5, grid_lines, weights};
+use super::{MEMBRANE, fifteen, fig5, grid_lines, weights};
 
 pub(crate) fn figure() -> Result<Figure, Box<dyn Error>> {
     let sheet = fig5::diagonal("Fig. 4", 31, 31);
@@ -27,10 +27,11 @@ pub(crate) fn figure() -> Result<Figure, Box<dyn Error>> {
         let numbers = [(solved.settled as f64, 0), (longest[shapes.len()], 1), (folds[shapes.len()], 2)];
         let energies = [energy.recovery, energy.stretch, energy.bend].map(|e| format!("{e:.2e}"));
         out.table.push([row(name, &numbers), energies.to_vec()].concat());
-        if shapes.len() == 2 {
-            out.bars.push(Bar::at_most(7.0, "c: iterations", solved.settled as f64));
-        }
         shapes.push((name.to_owned(), sheet.shape(&solved)));
+    }
+    for (name, weights) in fifteen()?.into_iter().filter(|(name, _)| name != MEMBRANE) {
+        let iterations = sheet.solve(weights)?.settled as f64;
+        out.bars.push(Bar::at_most(7.0, format!("{name}, all terms: iterations"), iterations));
     }
     out.bars.extend([
         Bar::at_least(300.0, "a: longest edge, %", longest[0]),

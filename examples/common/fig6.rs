@@ -33,7 +33,7 @@ pub(crate) fn pairs() -> Result<[Pair; 3], Box<dyn Error>> {
     Ok([
         Pair { name: "329–323", meshes: [irregular()?, regular(19, 17)], bars: [2.1, 0.8] },
         Pair { name: "48–441", meshes: [regular(8, 6), regular(21, 21)], bars: [2.1, 0.8] },
-        Pair { name: "441–1681", meshes: [regular(21, 21), regular(41, 41)], bars: [0.25, 0.25] },
+        Pair { name: "441–1681", meshes: [regular(21, 21), regular(41, 41)], bars: [0.25, 0.12] },
     ])
 }
 
@@ -60,8 +60,9 @@ pub(crate) fn figure() -> Result<Figure, Box<dyn Error>> {
         for pair in &pairs {
             let [largest, rms] = difference(pair, weights)?.map(|d| 100.0 * d);
             numbers.extend([(largest, 2), (rms, 2)]);
-            // The membrane is printed only: its wrinkles are as wide as a cell.
+            // The membrane's wrinkles are as wide as a cell. 4.5 % is missed; this holds what is reached.
             if name == MEMBRANE {
+                out.bars.push(Bar::at_most(6.0, format!("{name}, {}: largest, % of the diagonal", pair.name), largest));
                 continue;
             }
             let what = format!("{name}, {}: ", pair.name);

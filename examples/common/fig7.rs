@@ -1,21 +1,21 @@
 //! Fig. 7: 2,601 vertices over a ball, drawn along the diagonal, and in wrinkles.
 
 use std::error::Error;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
 use toile::drape::geometric::{Control, Weights};
 use toile::geometry::{TriMesh, Vec3};
 
 use super::figure::{Bar, Figure, Picture, row};
 use super::measure::{Ring, apart, strain};
-use super::{Diagonals, Experiment, HEIGHT, MEMBRANE, Solved, WIDTH, fifteen, grid_lines, sheet};
+use super::{Diagonals, Experiment, HEIGHT, MEMBRANE, Solved, WIDTH, fifteen, grid_lines, sheet, weights};
 
 /// Vertices along each side.
 const SIDE: u32 = 51;
 const MIDDLE: [f64; 2] = [0.5 * WIDTH, 0.5 * HEIGHT];
 /// Radius of the ball, metres. It lies on a table, and the cloth touches it up to this angle from its top, radians.
 const BALL: f64 = 0.08;
-const COVERED: f64 = 75.0 / 90.0 * FRAC_PI_2;
+const COVERED: f64 = 75.0 / 180.0 * PI;
 /// The folds round the ball are measured this far from the middle of the cloth, metres.
 const RING: f64 = 0.16;
 /// How far two opposite corners are drawn apart, and how far up, metres.
@@ -24,6 +24,8 @@ const RAISED: f64 = 0.06;
 /// How much nearer the sides are brought, and the height of the arch from which wrinkles start, metres.
 const NEARER: f64 = 0.04;
 const ARCH: f64 = 0.012;
+/// How far the start is shaken to see that the shape does not depend on it, metres.
+const SHAKEN: f64 = 1e-3;
 
 /// The cloth laid on a ball that lies on a table: the part that touches it are controls, and the corners are fixed on
 /// the table, as far out as the cloth between reaches. The ball's top is in the plane z = 0.
@@ -98,6 +100,8 @@ pub(crate) fn balls() -> Result<Figure, Box<dyn Error>> {
         let off = ring.folds(&find(name)?.x).abs_diff(4);
         out.bars.push(Bar::at_most(0.0, format!("{name}: folds more or fewer than four"), off as f64));
     }
+    let shaken = 1e3 * shaken_apart(weights("wool_suiting")?, SHAKEN)?;
+    out.bars.push(Bar::at_most(0.1, "wool from a start shaken by 1 mm, largest distance, mm", shaken));
     out.pictures.push(Picture {
         file: "fig7_ball",
         title: "Fig. 7, ball",
@@ -184,7 +188,7 @@ fn depth(shape: &Solved) -> f64 {
 
 /// The largest distance between the shapes of one fabric on the ball from two starts: as it is, and shaken by up to
 /// `by` metres.
-pub(crate) fn shaken_apart(weights: Weights, by: f64) -> Result<f64, Box<dyn Error>> {
+fn shaken_apart(weights: Weights, by: f64) -> Result<f64, Box<dyn Error>> {
     let (ball, mut shaken) = (ball(), ball());
     let number = |k: usize| (43_758.5 * (78.233 * k as f64).sin()).fract();
     for (k, v) in shaken.start.iter_mut().enumerate().filter(|(k, _)| !ball.held.contains(&(*k as u32))) {

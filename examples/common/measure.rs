@@ -40,7 +40,8 @@ pub(crate) fn fold_rms(mesh: &TriMesh, x: &[Vec3]) -> f64 {
     (angles.iter().map(|a| a * a).sum::<f64>() / angles.len() as f64).sqrt()
 }
 
-/// Height of the lowest neighbour of a lifted vertex over its own height: 1 for a smooth hill, 0 for a spike.
+/// Mean height of the neighbours of lifted vertices over the lifted vertices' own: near 1 for a smooth hill, near 0
+/// for a spike.
 pub(crate) fn neighbours(mesh: &TriMesh, x: &[Vec3], lifted: &[u32]) -> f64 {
     let beside = |v: u32| {
         let touching = mesh.triangles.iter().filter(move |t| t.contains(&v));

@@ -147,7 +147,7 @@ impl Experiment {
 }
 
 /// Iterations until the energy changes by less than [`SETTLED`] of itself. Where it tends to zero, as that of a
-/// membrane that can fold without stretching, its value after the first iteration is the measure instead.
+/// membrane that can fold without stretching, [`SETTLED`] of its value after the first iteration takes its place.
 pub(crate) fn settled(report: &Report) -> usize {
     let first = report.history.get(1).copied().unwrap_or_default();
     let quiet = |w: &[f64]| w[0] - w[1] < SETTLED * w[1].max(SETTLED * first);

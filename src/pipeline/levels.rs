@@ -77,8 +77,8 @@ impl Job {
         Ok(self.detour(mesh, progress).unwrap_or(closed))
     }
 
-    /// `mesh` sewn from a start that its topology gives; none where there is none, where the file says at which position
-    /// a piece starts, or where it does not come out whole.
+    /// `mesh` sewn from a start that its topology gives; none where there is none, where the file says at which
+    /// position a piece starts, or where it does not come out whole.
     fn sew_from_topology(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Option<Closed> {
         if self.garment.pieces.iter().any(|piece| matches!(piece.place, Some(Place::At { .. }))) {
             return None;

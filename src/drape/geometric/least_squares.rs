@@ -1,7 +1,8 @@
 //! The published solver (steps 1–3 of section 3.3): linearise every length, solve (AᵀA) X = Aᵀb, repeat.
 //!
 //! That is Gauss–Newton: an edge of direction d adds ω_S d dᵀ to the normal matrix, the other two terms are linear as
-//! they stand. The pattern is analysed once and factored anew in every iteration.
+//! they stand. (Of a cloth curved at rest A_M is kept where it is in the matrix; its turning is in the gradient only.)
+//! The pattern is analysed once and factored anew in every iteration.
 //!
 //! Two things are ours, and neither moves the minimum. An edge longer than at rest also adds what its tension resists
 //! across d, ω_S (1 − L_M/L_T)(1 − d dᵀ): Gauss–Newton leaves that out, and where nothing else holds a sheet across its

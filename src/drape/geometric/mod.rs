@@ -3,7 +3,7 @@
 //! Liu, Wang & Luo 2015 find the shape of a cloth as the minimum of (7) E = ω_R E_P + ω_S E_L + ω_B E_A:
 //!
 //! ```text
-//! (4) E_P = Σ ‖pᵢ − tᵢ‖²             recovery: every control point near its target
+//! (4) E_P = N Σ ‖pᵢ − tᵢ‖²           recovery: every control point near its target
 //! (5) E_L = Σ (L_T(e) − L_M(e))²      stretch: every edge near its length in the initial mesh
 //! (6) E_A = Σ ‖A_T(e) − A_M(e)‖²      bend: every hinge near its shape in the initial mesh
 //! ```
@@ -16,7 +16,8 @@
 //!  stencils, weights └▶ LeastSquares  the published Gauss–Newton, refactored each time
 //! ```
 //!
-//! Both solvers go downhill only, hold the same vertices in place and stop at the same minimum.
+//! `solve` of either goes downhill only ([`LeastSquares::drag`] does not). Both hold the same vertices in place and
+//! stop at the same minimum.
 //!
 //! [`GeometricCloth::new`] makes a cloth that is flat at rest, whatever the shape of its initial mesh: A_M = 0, and E_A
 //! is quadratic with a constant matrix (`hinge`). [`GeometricCloth::curved`] takes A_M from the initial mesh (`bend`).
@@ -45,7 +46,7 @@ pub use recovery::{Control, Recovery};
 use stencils::Stencils;
 
 /// Side of a particle's cell on the paper's own specimen, metres: 46×40 cm, 2,000 particles (L2, L12). There the plain
-/// sums and [`Weighting::PerArea`] are the same.
+/// sums of E_L and E_A and those of [`Weighting::PerArea`] are the same, but for the rim.
 pub const PUBLISHED_CELL: f64 = 0.009_591_663_046_625_438;
 
 /// The weights ω of (7), any common factor.
@@ -77,7 +78,7 @@ impl Weights {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Weighting {
     /// All the same, as (4)–(6) are printed. Halving the spacing then leaves E_L and divides E_A by 4 (E_P over all
-    /// vertices is multiplied by 4): the shape depends on the mesh.
+    /// vertices is multiplied by 4): the shape depends on the mesh. Control points have the weight N here too.
     Plain,
     /// E_L by (area at the edge)/L², E_A as the discrete shell's 3 L²/A times the squared angle, E_P over all vertices
     /// by area, each scaled once ([`PUBLISHED_CELL`]): integrals over the cloth, which converge under refinement.
