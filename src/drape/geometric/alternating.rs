@@ -2,8 +2,8 @@
 //!
 //! With directions d_e fixed, Σ w ‖(v_b − v_a) − L_M d_e‖² takes the place of E_L. It is never below E_L and equal to
 //! it where the d_e are the edges' own directions, so its minimum lies no higher: the alternation goes downhill.
-//! Everything is quadratic with one constant scalar matrix for x, y and z, K = ω_R (recovery) + ω_S (graph Laplacian)
-//! + ω_B AᵀA. As both functions have the same gradient at v, the minimum is v − K⁻¹ ½∇E(v). Of a cloth curved at rest K
+//! Everything is quadratic with one constant scalar matrix for x, y and z, K = ω_R (recovery) + ω_S (graph Laplacian) +
+//! ω_B AᵀA. As both functions have the same gradient at v, the minimum is v − K⁻¹ ½∇E(v). Of a cloth curved at rest K
 //! leaves out that A_M turns with the cloth; the gradient has it, and the energy is checked after every step.
 //!
 //! Taken alone, that step creeps where K is much stiffer than the cloth. So it is taken from a point extrapolated from
