@@ -26,7 +26,7 @@ mod lap;
 mod lay;
 mod levels;
 mod pleat;
-mod ring;
+pub(super) mod ring;
 mod rows;
 mod shoulders;
 mod sides;

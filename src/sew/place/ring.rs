@@ -15,7 +15,7 @@ use crate::mesh::ClothMesh;
 /// How far the ring stays from the body, metres, before the cloth's own width makes it wider.
 const CLEARANCE: f64 = 0.02;
 /// A fold's under layer starts this much nearer the body, and an overlap's end this much further out, metres.
-pub(super) const LAYER: f64 = 0.004;
+pub(in crate::sew) const LAYER: f64 = 0.004;
 /// A piece that is sewn along more than this share of what it goes round is a band; along less, as a strap at its ends
 /// or a bib, it starts as long as it is.
 const BAND: f64 = 0.5;

@@ -79,28 +79,31 @@ impl Axis {
         self.along.last().copied().unwrap_or(0.0)
     }
 
+    /// The disks before and after the place `s` metres along it, and the share of the way from the one to the other; less
+    /// than 0 or more than 1 beyond an end.
+    fn between(&self, s: f64) -> (&Disk, &Disk, f64) {
+        let k = self.along.partition_point(|a| *a <= s).clamp(1, self.disks.len() - 1);
+        let length = self.along[k] - self.along[k - 1];
+        let share = if length > 0.0 { (s - self.along[k - 1]) / length } else { 0.0 };
+        (&self.disks[k - 1], &self.disks[k], share)
+    }
+
     /// The place `s` metres along it, straight on beyond either end.
     pub(super) fn station(&self, s: f64) -> Station {
-        let k = self.along.partition_point(|a| *a <= s).clamp(1, self.disks.len() - 1);
-        let [from, to] = [&self.disks[k - 1], &self.disks[k]];
-        let length = self.along[k] - self.along[k - 1];
+        let (from, to, share) = self.between(s);
         let axis = (to.center - from.center).try_normalize(0.0).unwrap_or(from.frame[0]);
-        let share = if length > 0.0 { (s - self.along[k - 1]) / length } else { 0.0 };
         Station { center: from.center + (to.center - from.center) * share, axis }
     }
 
     /// Its girth `s` metres along it, metres.
     pub(super) fn girth(&self, s: f64) -> f64 {
-        let k = self.along.partition_point(|a| *a <= s).clamp(1, self.disks.len() - 1);
-        let length = self.along[k] - self.along[k - 1];
-        let share = if length > 0.0 { ((s - self.along[k - 1]) / length).clamp(0.0, 1.0) } else { 0.0 };
-        self.disks[k - 1].girth + (self.disks[k].girth - self.disks[k - 1].girth) * share
+        let (from, to, share) = self.between(s);
+        from.girth + (to.girth - from.girth) * share.clamp(0.0, 1.0)
     }
 
-    /// Half its extent front to back `s` metres along it, metres.
-    pub(super) fn half_depth(&self, s: f64) -> f64 {
-        let k = self.along.partition_point(|a| *a <= s).clamp(1, self.disks.len() - 1);
-        self.disks[k].half[1]
+    /// Half its extent front to back at the first section after the place `s` metres along it, metres.
+    pub(super) fn half_depth_after(&self, s: f64) -> f64 {
+        self.between(s).1.half[1]
     }
 
     /// How far along it the point nearest to `p` is, metres.

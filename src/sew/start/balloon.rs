@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use super::axes::Axes;
 use crate::contact::Collider;
-use crate::geometry::Vec3;
+use crate::geometry::{Vec3, sorted_pair};
 
 /// Sweeps over all constraints per step. With half as many sleeves of a shirt stay 3 % too short.
 const SWEEPS: usize = 30;
@@ -113,7 +113,7 @@ impl<'a> Motion<'a> {
         let mean = balloon.stretch.iter().map(|l| l.rest).sum::<f64>() / balloon.stretch.len().max(1) as f64;
         let mut area = vec![0.0; x.len()];
         let rest: HashMap<[u32; 2], f64> = balloon.stretch.iter().map(|l| (l.ends, l.rest)).collect();
-        let side = |a: u32, b: u32| rest.get(&[a.min(b), a.max(b)]).copied().unwrap_or(mean);
+        let side = |a: u32, b: u32| rest.get(&sorted_pair([a, b])).copied().unwrap_or(mean);
         for &[a, b, c] in &balloon.triangles {
             let [l, m, n] = [side(a, b), side(b, c), side(c, a)];
             let s = 0.5 * (l + m + n);

@@ -4,9 +4,8 @@ use super::glue::Glued;
 use crate::geometry::{TriMesh, Vec2, Vec3};
 use crate::mesh::ClothMesh;
 use crate::pattern::Garment;
+use crate::sew::place::ring::LAYER;
 
-/// Layers start so far from each other, metres.
-const LAYER: f64 = 4e-3;
 /// What laps over comes down to what it laps over within this length beyond the lap, metres.
 const RAMP: f64 = 0.03;
 /// A seam's direction is read over so many stitches on either side.

@@ -6,7 +6,7 @@ use super::glue::Glued;
 use super::openings::Opening;
 use crate::geometry::{Vec2, box_of};
 use crate::mesh::ClothMesh;
-use crate::pattern::{Garment, Place, PlaceWord, Side, place_word};
+use crate::pattern::{Garment, Place, PlaceWord, Side, TrunkLevel, place_word, trunk_level};
 
 /// Two outlines are mirror images when every point of one is this near to a point of the other, in grid spacings.
 const SAME_SHAPE: f64 = 1.0;
@@ -166,7 +166,7 @@ pub(super) fn words(garment: &Garment, piece: usize) -> impl Iterator<Item = (Pl
 
 /// Words for what is worn from the waist down.
 pub(super) fn is_low(word: &str) -> bool {
-    ["hip", "hips", "waist", "skirt"].contains(&word)
+    matches!(trunk_level(word), Some(TrunkLevel::Waist | TrunkLevel::Hip))
 }
 
 /// Whether a piece's place says this.

@@ -102,7 +102,7 @@ impl Dealt {
             let own: Vec<usize> = (0..self.openings.len()).filter(|&k| self.openings[k].part == part).collect();
             let far: Vec<Vec<f64>> = own.iter().map(|&k| cloth.from(&self.openings[k].rim)).collect();
             let profile =
-                |(&k, far): (&usize, &Vec<f64>)| Profile::new(&self.glued, mesh, self.openings[k].length, far);
+                |(&k, far): (&usize, &Vec<f64>)| Profile::new(&self.glued, &cloth, self.openings[k].length, far);
             Worn {
                 flat: &mesh.flat,
                 openings: own.iter().map(|&k| &self.openings[k]).collect(),

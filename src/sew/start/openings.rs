@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::cloth::{Around, Distances};
 use super::glue::Glued;
+use crate::geometry::{Vec2, sorted_pair};
 use crate::mesh::ClothMesh;
 
 /// The least curve that is parallel to a rim is looked for within this distance, metres.
@@ -67,7 +68,7 @@ pub(super) fn rims(glued: &Glued) -> Vec<Vec<u32>> {
     for t in triangles {
         for k in 0..3 {
             let (a, b) = (t[k], t[(k + 1) % 3]);
-            *count.entry([a.min(b), a.max(b)]).or_default() += if a < b { 1 } else { -1 };
+            *count.entry(sorted_pair([a, b])).or_default() += if a < b { 1 } else { -1 };
         }
     }
     for ([a, b], more) in count.into_iter().filter(|(_, more)| *more != 0) {
@@ -116,21 +117,27 @@ fn fan(around: &Around, triangles: &[[u32; 3]], from: u32, at: u32, ways: &[u32]
 
 /// Length of the shortest curve at a distance of up to `limit` metres, if there is one.
 fn least_parallel(glued: &Glued, cloth: &Distances, far: &[f64], limit: f64) -> Option<f64> {
-    let levels = (1..).map(|k| STEP * f64::from(k)).take_while(|level| *level < limit);
-    let mut lengths = vec![0.0; levels.clone().count()];
-    for (t, corners) in glued.triangles.iter().enumerate() {
-        let height = corners.map(|n| far[n as usize]);
-        if height.iter().all(|h| h.is_finite()) {
-            for (level, length) in levels.clone().zip(&mut lengths) {
-                *length += crossing(cloth.corners(t), height, level);
-            }
-        }
-    }
+    let count = (1..).take_while(|&k| STEP * f64::from(k) < limit).count();
+    let lengths = parallels(glued, cloth, far, STEP, count);
     lengths.into_iter().filter(|length| *length > 0.0).min_by(f64::total_cmp)
 }
 
+/// Lengths of the curves on which the field `far` is one `step`, two, … up to `count` steps, metres.
+pub(super) fn parallels(glued: &Glued, cloth: &Distances, far: &[f64], step: f64, count: usize) -> Vec<f64> {
+    let mut lengths = vec![0.0; count];
+    for (t, corners) in glued.triangles.iter().enumerate() {
+        let height = corners.map(|n| far[n as usize]);
+        if height.iter().all(|h| h.is_finite()) {
+            for (k, length) in lengths.iter_mut().enumerate() {
+                *length += crossing(cloth.corners(t), height, step * (k + 1) as f64);
+            }
+        }
+    }
+    lengths
+}
+
 /// Length of the line across a triangle on which a linear field has this value.
-pub(super) fn crossing(corners: [crate::geometry::Vec2; 3], height: [f64; 3], level: f64) -> f64 {
+fn crossing(corners: [Vec2; 3], height: [f64; 3], level: f64) -> f64 {
     let mut ends = Vec::with_capacity(2);
     for k in 0..3 {
         let j = (k + 1) % 3;

@@ -1,9 +1,9 @@
 //! How wide a garment is at distances from an opening, and at which height of the trunk it fits so.
 
 use super::axes::Axis;
+use super::cloth::Distances;
 use super::glue::Glued;
-use super::openings::crossing;
-use crate::mesh::ClothMesh;
+use super::openings::parallels;
 
 /// The girth of the cloth is measured at distances so far apart, metres, so many times.
 const STEP: f64 = 0.02;
@@ -23,20 +23,9 @@ pub(super) struct Profile {
 
 impl Profile {
     /// Of an opening of this length from which every node is `far` on the cloth.
-    pub(super) fn new(glued: &Glued, mesh: &ClothMesh, length: f64, far: &[f64]) -> Self {
-        let mut girths = vec![0.0; STEPS];
-        girths[0] = length;
-        for (nodes, source) in glued.triangles.iter().zip(&glued.source) {
-            let flat = mesh.triangles[*source as usize].map(|p| mesh.flat[p as usize]);
-            let far = nodes.map(|n| far[n as usize]);
-            let [low, high] =
-                [far.iter().copied().fold(f64::INFINITY, f64::min), far.iter().copied().fold(0.0, f64::max)];
-            let first = ((low / STEP).ceil().max(1.0)) as usize;
-            for (k, girth) in girths.iter_mut().enumerate().skip(first).take_while(|(k, _)| *k as f64 * STEP < high) {
-                *girth += crossing(flat, far, k as f64 * STEP);
-            }
-        }
-        Self { girths }
+    pub(super) fn new(glued: &Glued, cloth: &Distances, length: f64, far: &[f64]) -> Self {
+        let beyond = parallels(glued, cloth, far, STEP, STEPS - 1);
+        Self { girths: std::iter::once(length).chain(beyond).collect() }
     }
 }
 

@@ -117,7 +117,7 @@ impl Worn<'_> {
         let later = |n: &usize| left[*n].max(right[*n]);
         let fork = (0..left.len()).filter(|n| later(n).is_finite()).min_by(|a, b| later(a).total_cmp(&later(b)))?;
         let crotch = torso.station(0.0).center.y;
-        let rise = self.far[k][fork] - TO_FRONT * torso.half_depth(0.0);
+        let rise = self.far[k][fork] - TO_FRONT * torso.half_depth_after(0.0);
         let highest = axes.part(PartKind::LeftArm).map_or(torso.length(), |arm| arm.station(0.0).center.y - crotch);
         Some(crotch + rise.clamp(0.0, highest))
     }

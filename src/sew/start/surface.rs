@@ -2,7 +2,7 @@
 
 use super::balloon::Length;
 use super::glue::Glued;
-use crate::geometry::{Edge, Topology, Vec2};
+use crate::geometry::{Edge, Topology, Vec2, sorted_pair};
 use crate::mesh::ClothMesh;
 
 /// The edges of the glued surface, as long as in the flat pieces: along a seam the mean of both sides.
@@ -12,7 +12,7 @@ pub(super) fn edges(glued: &Glued, mesh: &ClothMesh) -> Vec<Length> {
         let flat = mesh.triangles[*source as usize].map(|p| mesh.flat[p as usize]);
         for k in 0..3 {
             let [a, b] = [nodes[k], nodes[(k + 1) % 3]];
-            all.push(([a.min(b), a.max(b)], (flat[(k + 1) % 3] - flat[k]).norm()));
+            all.push((sorted_pair([a, b]), (flat[(k + 1) % 3] - flat[k]).norm()));
         }
     }
     all.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
