@@ -36,8 +36,8 @@ const PAIRS: [Pair; 3] = [
     Pair { name: "441–1681", of: [3, 4], bars: [0.25, 0.12] },
 ];
 
-/// An irregular Delaunay mesh of 329 vertices, and regular ones of 323 (19 × 17; no square grid of the specimen has 329),
-/// 48 (8 × 6), 441 (21 × 21) and 1,681.
+/// An irregular Delaunay mesh of 329 vertices, and regular ones of 323 (19 × 17; no square grid of the specimen has
+/// 329), 48 (8 × 6), 441 (21 × 21) and 1,681.
 fn meshes() -> Result<[TriMesh; 5], Box<dyn Error>> {
     let regular = |columns, rows| sheet(WIDTH, HEIGHT, columns, rows, Diagonals::Alternating);
     Ok([irregular()?, regular(19, 17), regular(8, 6), regular(21, 21), regular(41, 41)])

@@ -79,8 +79,8 @@ impl Axis {
         self.along.last().copied().unwrap_or(0.0)
     }
 
-    /// The disks before and after the place `s` metres along it, and the share of the way from the one to the other; less
-    /// than 0 or more than 1 beyond an end.
+    /// The disks before and after the place `s` metres along it, and the share of the way from the one to the other;
+    /// less than 0 or more than 1 beyond an end.
     fn between(&self, s: f64) -> (&Disk, &Disk, f64) {
         let k = self.along.partition_point(|a| *a <= s).clamp(1, self.disks.len() - 1);
         let length = self.along[k] - self.along[k - 1];
