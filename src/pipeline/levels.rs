@@ -24,6 +24,9 @@ const DETOUR: f64 = 1.35;
 /// Steps after which a start has failed, its seams still open, while there is another: at 25 mm the garments of
 /// `patterns` close within half as many from the start that the words of `place` give.
 const FIRST_TRY: usize = 80;
+/// Steps after which the start from the topology has failed: a shirt with a fold at its armhole takes twice as many as
+/// one without.
+const SECOND_TRY: usize = 2 * FIRST_TRY;
 /// Share of a stage's progress that its coarser levels are.
 pub(super) const COARSE_SHARE: f64 = 0.3;
 
@@ -96,7 +99,7 @@ impl Job {
     fn sew_from_topology(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Option<Closed> {
         let (body, collider) = sewn_on(self.stance.as_ref(), &self.body, &self.collider);
         let start = topological_start(&self.garment, mesh, body, collider)?;
-        let options = SewOptions { max_open: FIRST_TRY, joined: true, ..SewOptions::default() };
+        let options = SewOptions { max_open: SECOND_TRY, joined: true, ..SewOptions::default() };
         let closed = self.sew_here(mesh, start.clone(), options, progress).ok()?;
         is_whole(mesh, &closed.sewn).then_some(Closed { start: Some(start), ..closed })
     }

@@ -226,7 +226,7 @@ fn stitches(links: &[Link], own: usize, other: usize) -> Vec<[u32; 2]> {
 }
 
 /// The turn and shift that bring points nearest to their partners (least squares).
-fn fit(pairs: &[[Vec2; 2]]) -> Option<Isometry2<f64>> {
+pub(in crate::sew) fn fit(pairs: &[[Vec2; 2]]) -> Option<Isometry2<f64>> {
     if pairs.len() < 2 {
         return None;
     }

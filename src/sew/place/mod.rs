@@ -23,7 +23,7 @@ mod flute;
 pub(super) mod fold;
 mod insert;
 mod lap;
-mod lay;
+pub(super) mod lay;
 mod levels;
 mod pleat;
 pub(super) mod ring;

@@ -7,6 +7,7 @@
 use std::collections::HashMap;
 
 use super::axes::Axes;
+use super::crossed::crossings;
 use crate::contact::Collider;
 use crate::geometry::{Vec3, sorted_pair};
 
@@ -20,7 +21,7 @@ const PUSH: f64 = 10e-3;
 const LONGEST: f64 = 10e-3;
 /// Share of a node's motion that lives on to the next step.
 const KEEP: f64 = 0.9;
-/// The middle of every opening is drawn back by this share of its way from where it belongs.
+/// The middle of all that is held is drawn back by this share of its way from where it belongs.
 const HOLD: f64 = 0.3;
 /// Distance kept from the body, metres.
 const GAP: f64 = 5e-3;
@@ -30,8 +31,10 @@ const SMALLEST: f64 = 0.02;
 const INFLATE: usize = 60;
 const GROW: usize = 80;
 const SETTLE: usize = 30;
-/// Nodes of different layers keep this distance, in the mean length of the edges, while they are inflated.
-const APART: f64 = 0.6;
+/// Nodes of different layers keep this distance, in the mean length of the edges, while they are inflated; where the
+/// surface passes through itself then, the next. A node that is so far from those of a triangle keeps off it by half of
+/// that. (With 0.6 the legs of trousers went through one another at the crotch.)
+const APART: [f64; 2] = [0.8, 1.0];
 /// Nodes within so many edges of one another are no layers.
 const NEIGHBOURS: usize = 3;
 /// The body's surface is looked for within this, metres.
@@ -46,13 +49,15 @@ pub(super) struct Length {
     pub(super) rest: f64,
 }
 
-/// What holds an opening: its nodes, and where their middle belongs.
+/// What is held while the body grows, an opening or a section of a tube: its nodes, and where their middle belongs.
 #[derive(Clone, Debug)]
 pub(super) struct Held {
-    /// The rim.
+    /// The nodes.
     pub(super) rim: Vec<u32>,
     /// Metres.
     pub(super) middle: Vec3,
+    /// A unit direction in which it may move freely.
+    pub(super) along: Option<Vec3>,
 }
 
 /// A surface that can be inflated.
@@ -64,7 +69,7 @@ pub(super) struct Balloon {
     pub(super) stretch: Vec<Length>,
     /// Corners opposite to one another across an edge.
     pub(super) bending: Vec<Length>,
-    /// Its openings.
+    /// What is held of it.
     pub(super) held: Vec<Held>,
 }
 
@@ -82,9 +87,26 @@ struct Motion<'a> {
 }
 
 impl Balloon {
-    /// Inflates the surface that starts at `x` round the `axes`, lets these grow, and puts it on the body.
-    pub(super) fn inflate(&self, x: Vec<Vec3>, axes: &Axes, body: &Collider) -> Vec<Vec3> {
-        let mut motion = Motion::new(self, x);
+    /// Inflates the surface that starts at `x` round the `axes`, lets these grow, and puts it on the body: in the way
+    /// in which it passes through itself least.
+    pub(super) fn inflate(&self, x: &[Vec3], axes: &Axes, body: &Collider) -> Vec<Vec3> {
+        let mut best: Option<(usize, Vec<Vec3>)> = None;
+        for apart in APART {
+            let x = self.inflated(x.to_vec(), apart, axes, body);
+            let crossings = crossings(&x, &self.triangles);
+            if best.as_ref().is_none_or(|(least, _)| crossings < *least) {
+                best = Some((crossings, x));
+            }
+            if crossings == 0 {
+                break;
+            }
+        }
+        best.map(|(_, x)| x).unwrap_or_default()
+    }
+
+    /// The same with layers so far apart.
+    fn inflated(&self, x: Vec<Vec3>, apart: f64, axes: &Axes, body: &Collider) -> Vec<Vec3> {
+        let mut motion = Motion::new(self, x, apart);
         for _ in 0..INFLATE {
             motion.step(1.0, |p| axes.outside(p, SMALLEST, GAP));
         }
@@ -109,7 +131,7 @@ fn out_of(body: &Collider, p: Vec3) -> Vec3 {
 }
 
 impl<'a> Motion<'a> {
-    fn new(balloon: &'a Balloon, x: Vec<Vec3>) -> Self {
+    fn new(balloon: &'a Balloon, x: Vec<Vec3>, apart: f64) -> Self {
         let mean = balloon.stretch.iter().map(|l| l.rest).sum::<f64>() / balloon.stretch.len().max(1) as f64;
         let mut area = vec![0.0; x.len()];
         let rest: HashMap<[u32; 2], f64> = balloon.stretch.iter().map(|l| (l.ends, l.rest)).collect();
@@ -121,7 +143,7 @@ impl<'a> Motion<'a> {
             [a, b, c].into_iter().for_each(|v| area[v as usize] += 2.0 * heron);
         }
         let near = neighbours(x.len(), &balloon.stretch);
-        Self { balloon, velocity: vec![Vec3::zeros(); x.len()], x, area, near, apart: APART * mean }
+        Self { balloon, velocity: vec![Vec3::zeros(); x.len()], x, area, near, apart: apart * mean }
     }
 
     /// One step under a share of the pressure, with the openings held, clear of a body that leads points `outside` it.
@@ -143,7 +165,9 @@ impl<'a> Motion<'a> {
         }
         for held in &self.balloon.held {
             let middle = held.rim.iter().map(|n| p[*n as usize]).sum::<Vec3>() / held.rim.len() as f64;
-            let back = (held.middle - middle) * HOLD;
+            let way = held.middle - middle;
+            let way = held.along.map_or(way, |along| way - along * way.dot(&along));
+            let back = way * HOLD;
             held.rim.iter().for_each(|n| p[*n as usize] += back);
         }
         for ((x, v), p) in self.x.iter_mut().zip(&mut self.velocity).zip(p) {

@@ -5,13 +5,16 @@ use std::collections::BTreeMap;
 use super::laps::{Lap, laps};
 use super::layers;
 use super::openings::rims;
-use crate::geometry::{DisjointSets, Locator, sorted_pair};
+use crate::geometry::{DisjointSets, Locator, Vec2, sorted_pair};
 use crate::mesh::ClothMesh;
 use crate::pattern::{Garment, PleatLayer, SeamKind};
 use crate::sew::place::fold::{Sheet, pressed};
 
 /// No node: of what is left out of the surface.
 const NONE: u32 = u32::MAX;
+
+/// Shares less than this far below zero are zero but for rounding.
+const ROUNDING: f64 = 1e-6;
 
 /// The pieces of the base sheet welded along their seams.
 #[derive(Clone, Debug)]
@@ -33,6 +36,19 @@ pub struct Glued {
     /// For every particle that lies on other cloth of its own piece (turned over at a pressed fold, or laid in a
     /// pleat) where it lies once the piece is flat.
     pub follows: Vec<Option<Follow>>,
+    /// Particles that are turned over beyond a seam of their piece.
+    pub beyond: Vec<Beyond>,
+}
+
+/// Where a particle lies that is turned over beyond a seam of its piece, on the other side of that seam.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Beyond {
+    /// The particle.
+    pub particle: u32,
+    /// Where it lies on the flat piece, turned over, metres.
+    pub at: Vec2,
+    /// Layers out of the right side of the cloth there.
+    pub layers: f64,
 }
 
 /// A place on the cloth of the same piece.
@@ -53,9 +69,10 @@ pub fn glue(garment: &Garment, mesh: &ClothMesh, zips: &[[u32; 2]]) -> Glued {
     let sewn: Vec<[u32; 2]> = stitches(garment, mesh).chain(zips.iter().copied()).collect();
     let left_out = layers::left_out(garment, mesh, &is_out, &mut welded(mesh, &is_out, &sewn));
     left_out.iter().for_each(|&piece| is_out[mesh.pieces[piece].particles.clone()].fill(true));
-    let (laps, pairs) = flat_laps(garment, mesh, &is_out, sewn, zips);
+    let (laps, pairs) = flat_laps(garment, mesh, &sheet, &is_out, sewn, zips);
+    cover(&mut is_out, &laps);
     let mut out = numbered(mesh, &is_out, &mut welded(mesh, &is_out, &pairs));
-    out.follows = follows(mesh, &sheet);
+    (out.follows, out.beyond) = follows(mesh, &sheet);
     (out.laps, out.left_out) = (laps, left_out);
     out
 }
@@ -74,30 +91,40 @@ fn welded(mesh: &ClothMesh, is_out: &[bool], pairs: &[[u32; 2]]) -> DisjointSets
 fn flat_laps(
     garment: &Garment,
     mesh: &ClothMesh,
+    sheet: &Sheet,
     is_out: &[bool],
     mut pairs: Vec<[u32; 2]>,
     zips: &[[u32; 2]],
 ) -> (Vec<Lap>, Vec<[u32; 2]>) {
     let mut kept: Vec<Lap> = Vec::new();
-    let mut rest = laps(garment, mesh);
+    let mut rest = laps(garment, mesh, sheet);
     let is_zipped = |p: &u32| zips.iter().flatten().any(|z| z == p);
     rest.retain(|lap| !lap.pairs.iter().flatten().any(is_zipped));
     let drawn = |lap: &Lap| [lap.over, lap.under].map(|p| &garment.pieces[p].drawn_as);
-    let handles = |pairs: &[[u32; 2]]| handles(&numbered(mesh, is_out, &mut welded(mesh, is_out, pairs)));
-    let mut least = if rest.is_empty() { 0 } else { handles(&pairs) };
+    let handles = |pairs: &[[u32; 2]], laps: &[Lap]| {
+        let mut is_out = is_out.to_vec();
+        cover(&mut is_out, laps);
+        handles(&numbered(mesh, &is_out, &mut welded(mesh, &is_out, pairs)))
+    };
+    let mut least = if rest.is_empty() { 0 } else { handles(&pairs, &[]) };
     while let Some(first) = rest.first() {
         let first = drawn(first);
         // Those of a pair are kept or left together.
         let (group, others): (Vec<Lap>, Vec<Lap>) = rest.iter().cloned().partition(|lap| drawn(lap) == first);
         rest = others;
         let more: Vec<[u32; 2]> = pairs.iter().copied().chain(group.iter().flat_map(|lap| lap.pairs.clone())).collect();
-        let now = handles(&more);
+        let with: Vec<Lap> = kept.iter().chain(&group).cloned().collect();
+        let now = handles(&more, &with);
         if now <= least {
-            (pairs, least) = (more, now);
-            kept.extend(group);
+            (pairs, least, kept) = (more, now, with);
         }
     }
     (kept, pairs)
+}
+
+/// Takes what laps cover off the surface.
+fn cover(is_out: &mut [bool], laps: &[Lap]) {
+    laps.iter().flat_map(|lap| &lap.covered).for_each(|(p, _)| is_out[*p as usize] = true);
 }
 
 /// Twice the number of handles of all parts of a surface.
@@ -154,8 +181,8 @@ fn numbered(mesh: &ClothMesh, is_out: &[bool], sets: &mut DisjointSets) -> Glued
     let node = |p: u32| Some(number[sets.root(p) as usize]).filter(|&n| n != NONE && !is_out[p as usize]);
     let node_of = (0..mesh.flat.len() as u32).map(node).collect();
     let part_of = parts(&triangles, count as usize);
-    let (laps, follows, left_out) = (Vec::new(), Vec::new(), Vec::new());
-    Glued { node_of, triangles, source, count: count as usize, part_of, left_out, laps, follows }
+    let (laps, follows, left_out, beyond) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    Glued { node_of, triangles, source, count: count as usize, part_of, left_out, laps, follows, beyond }
 }
 
 /// The connected part of every node.
@@ -178,9 +205,12 @@ fn parts(triangles: &[[u32; 3]], count: usize) -> Vec<u32> {
     (0..count as u32).map(of).collect()
 }
 
-/// Where particles lie that other cloth of their piece lies under.
-fn follows(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Option<Follow>> {
+/// Where particles lie that other cloth of their piece lies under, and those that reach beyond a seam of it.
+fn follows(mesh: &ClothMesh, sheet: &Sheet) -> (Vec<Option<Follow>>, Vec<Beyond>) {
     let mut out = vec![None; mesh.flat.len()];
+    let mut beyond = Vec::new();
+    let mut is_sewn = vec![false; mesh.flat.len()];
+    mesh.seams.iter().flat_map(|seam| seam.pairs.iter().flatten()).for_each(|p| is_sewn[*p as usize] = true);
     for piece in &mesh.pieces {
         let hidden = |p: &u32| sheet.hidden[*p as usize];
         let open: Vec<[u32; 3]> =
@@ -191,8 +221,14 @@ fn follows(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Option<Follow>> {
         let ground = Locator::new(&sheet.drawn, &open, mesh.spacing);
         for p in piece.particles.clone().filter(|&p| sheet.hidden[p]) {
             let (corners, weights) = ground.place(sheet.drawn[p]);
-            out[p] = Some(Follow { corners, weights, layers: -sheet.under[p] });
+            let layers = -sheet.under[p];
+            let is_outside = weights.iter().any(|w| *w < -ROUNDING);
+            if is_outside && layers > 0.0 && corners.iter().any(|n| is_sewn[*n as usize]) {
+                beyond.push(Beyond { particle: p as u32, at: sheet.drawn[p], layers });
+            } else {
+                out[p] = Some(Follow { corners, weights, layers });
+            }
         }
     }
-    out
+    (out, beyond)
 }

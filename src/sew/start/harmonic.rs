@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use super::axes::Axis;
 use super::balloon::Length;
+use super::winding::Jumps;
 use crate::geometry::Vec3;
 use crate::linear::{Cholesky, Slot, SymmetricMatrix, SymmetricPattern};
 
@@ -27,14 +28,29 @@ const HANDOVER: f64 = 0.1;
 pub(super) struct Ring {
     /// The nodes of the rim.
     pub(super) rim: Vec<u32>,
-    /// Their places, metres.
-    pub(super) places: Vec<Vec3>,
+    /// How far round the ring each is, radians: rising, by less than a full turn in all.
+    pub(super) angles: Vec<f64>,
+    /// Unit vectors from the middle to the angle 0 and to a quarter of a turn.
+    pub(super) frame: [Vec3; 2],
     /// The middle of the ring.
     pub(super) center: Vec3,
     /// Metres.
     pub(super) radius: f64,
     /// Of a ring round an arm or a leg: how far along the limb's axis it is, metres.
     pub(super) along: Option<f64>,
+}
+
+impl Ring {
+    /// The direction from the middle at this angle, radians.
+    fn way(&self, angle: f64) -> Vec3 {
+        self.frame[0] * angle.cos() + self.frame[1] * angle.sin()
+    }
+
+    /// The nodes of the rim and their places, metres.
+    fn places(&self) -> impl Iterator<Item = (usize, Vec3)> {
+        let place = |angle: &f64| self.center + self.way(*angle) * self.radius;
+        self.rim.iter().map(|n| *n as usize).zip(self.angles.iter().map(place))
+    }
 }
 
 /// A limb that an opening is round.
@@ -47,6 +63,8 @@ pub(super) struct Limb<'a> {
     pub(super) distance: &'a [f64],
     /// The same from the ring round the other limb of the pair, if there is one.
     pub(super) other: Option<&'a [f64]>,
+    /// The angle of every node round the limb, radians, as on its ring.
+    pub(super) angles: Vec<f64>,
 }
 
 /// Laplace's equation on a glued surface, with the nodes of its rings given.
@@ -92,9 +110,18 @@ impl<'a> Film<'a> {
 
     /// The field that takes these values at the nodes that are given.
     fn spread(&self, given: &[f64]) -> Vec<f64> {
+        self.spread_with(given, &Jumps::new())
+    }
+
+    /// The same for a field that jumps across some edges.
+    fn spread_with(&self, given: &[f64], jumps: &Jumps) -> Vec<f64> {
         let mut right = vec![0.0; self.row.iter().flatten().count()];
         for length in self.edges {
             let [a, b] = length.ends.map(|n| n as usize);
+            if let Some(jump) = jumps.get(&length.ends) {
+                self.row[a].iter().for_each(|row| right[*row as usize] -= weight(length) * jump);
+                self.row[b].iter().for_each(|row| right[*row as usize] += weight(length) * jump);
+            }
             match [self.row[a], self.row[b]] {
                 [Some(row), None] => right[row as usize] += weight(length) * given[b],
                 [None, Some(row)] => right[row as usize] += weight(length) * given[a],
@@ -118,10 +145,10 @@ impl<'a> Film<'a> {
         let mut centers = places.clone();
         let mut radii = vec![0.0; count];
         for ring in rings {
-            for (n, place) in ring.rim.iter().zip(&ring.places) {
-                places[*n as usize] = *place;
-                centers[*n as usize] = ring.center;
-                radii[*n as usize] = ring.radius;
+            for (n, place) in ring.places() {
+                places[n] = place;
+                centers[n] = ring.center;
+                radii[n] = ring.radius;
             }
         }
         let radii = self.spread(&radii);
@@ -129,8 +156,8 @@ impl<'a> Film<'a> {
         for limb in limbs {
             self.wind(&mut x, &rings[limb.ring], limb, &radii);
         }
-        for (n, place) in rings.iter().flat_map(|ring| ring.rim.iter().zip(&ring.places)) {
-            x[*n as usize] = *place;
+        for (n, place) in rings.iter().flat_map(Ring::places) {
+            x[n] = place;
         }
         x
     }
@@ -138,11 +165,6 @@ impl<'a> Film<'a> {
     /// Winds what belongs to a limb round its axis, as far from the ring along it as on the cloth.
     fn wind(&self, x: &mut [Vec3], ring: &Ring, limb: &Limb, radii: &[f64]) {
         let Some(along) = ring.along else { return };
-        let mut offsets = vec![Vec3::zeros(); x.len()];
-        for (n, place) in ring.rim.iter().zip(&ring.places) {
-            offsets[*n as usize] = place - ring.center;
-        }
-        let offsets = self.spread_points(&offsets);
         for (n, x) in x.iter_mut().enumerate() {
             let s = along - limb.distance[n];
             let is_own = limb.other.is_none_or(|other| limb.distance[n] < other[n]);
@@ -150,12 +172,21 @@ impl<'a> Film<'a> {
                 continue;
             }
             let station = limb.axis.station(s);
-            let off = offsets[n] - station.axis * offsets[n].dot(&station.axis);
+            let way = ring.way(limb.angles[n]);
+            let off = way - station.axis * way.dot(&station.axis);
             let Some(way) = off.try_normalize(1e-12) else { continue };
             let on_limb = station.center + way * (0.5 * (ring.radius + radii[n]));
             *x += (on_limb - *x) * smooth(s / HANDOVER);
         }
     }
+}
+
+/// The angle of every node round the axis of a ring: given on its rim, free everywhere else. `None` where the system
+/// cannot be factored.
+pub(super) fn angles(count: usize, edges: &[Length], ring: &Ring, jumps: &Jumps) -> Option<Vec<f64>> {
+    let mut given = vec![0.0; count];
+    ring.rim.iter().zip(&ring.angles).for_each(|(n, angle)| given[*n as usize] = *angle);
+    Some(Film::new(count, edges, std::slice::from_ref(ring))?.spread_with(&given, jumps))
 }
 
 /// Every point of the film at its radius from the middle of its section, in the direction that the film gives.
@@ -201,10 +232,10 @@ mod tests {
 
     fn ring(first: u32, around: u32, y: f64) -> Ring {
         let angle = |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(around);
-        let place = |k: u32| Vec3::new(0.1 * angle(k).cos(), y, 0.1 * angle(k).sin());
         Ring {
             rim: (first..first + around).collect(),
-            places: (0..around).map(place).collect(),
+            angles: (0..around).map(angle).collect(),
+            frame: [Vec3::x(), Vec3::z()],
             center: Vec3::new(0.0, y, 0.0),
             radius: 0.1,
             along: None,

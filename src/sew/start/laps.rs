@@ -1,10 +1,16 @@
 //! Where closures hold one rim over another.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
+use nalgebra::{Isometry2, Point2};
+
+use super::cover::{Cover, Flap, outward, partners, share_over};
+use super::glue::Follow;
 use crate::geometry::Vec2;
 use crate::mesh::ClothMesh;
 use crate::pattern::{EdgeId, Fastening, Garment, fastenings};
+use crate::sew::place::fold::Sheet;
+use crate::sew::place::lay::fit;
 
 /// A rim goes on closed beyond its last button for this much, metres, or for the distance between two buttons if that
 /// is more: where the rest of the edge is no longer, all of it is closed.
@@ -15,56 +21,232 @@ const BAND: f64 = 0.15;
 /// A single point fastens the end of a strap rather than its side where the end is no further than this many times.
 const AS_NEAR: f64 = 2.0;
 
-/// Two rims that a row of closures holds one over the other.
+/// Along a seam the map between the two sides of a lap is taken over this length from its end, metres.
+const ALONG: f64 = 0.15;
+
+/// And only where its stitches on the one side lie within this share of the spacing over those on the other.
+const NEAR: f64 = 0.4;
+
+/// A rim lies over other cloth where at least this share of it does.
+const OVER: f64 = 0.6;
+
+/// Where one rim lies over other cloth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lap {
     /// The piece that lies over: the one that the closure's other half is on, as a buttonhole over its button.
     pub over: usize,
     /// The piece under it.
     pub under: usize,
-    /// How far the one reaches over the other, metres.
-    pub reach: f64,
-    /// Particles of the two rims that are welded for the start, that of what lies over first.
+    /// Particles that are welded for the start: those of the rim, each with the one that it lies on.
     pub pairs: Vec<[u32; 2]>,
+    /// Particles of the lower piece that lie under the rim's cloth, and where on it.
+    pub covered: Vec<(u32, Follow)>,
+    /// Of how many plies the upper piece is where it is thickest: of more than one where it is folded over.
+    pub plies: f64,
 }
 
-/// The laps of a garment.
-pub fn laps(garment: &Garment, mesh: &ClothMesh) -> Vec<Lap> {
+/// The laps of a garment: where closures hold a rim, and where that goes on across a seam.
+pub(super) fn laps(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet) -> Vec<Lap> {
     let mut all = fastenings(garment);
     all.sort_by_key(|f| f.row);
-    let rows = all.chunk_by(|a, b| a.row == b.row);
-    rows.filter_map(|row| lap(garment, mesh, row)).collect()
+    let mut rows: Vec<Row> = Vec::new();
+    rows.extend(all.chunk_by(|a, b| a.row == b.row).filter_map(|row| Row::new(garment, mesh, row)));
+    let partners = partners(mesh);
+    let mut next = 0;
+    while next < rows.len() {
+        for end in 0..2 {
+            let more = rows[next].beyond(mesh, &partners, end);
+            rows.extend(more.filter(|more| !rows.iter().any(|row| row.is_between(more.pieces()))));
+        }
+        next += 1;
+    }
+    rows.iter().filter_map(|row| row.lap(mesh, sheet)).collect()
 }
 
-/// The lap of a row of fastenings; none where its two rims are one point.
-fn lap(garment: &Garment, mesh: &ClothMesh, row: &[Fastening]) -> Option<Lap> {
-    let mut edges = row.first()?.ends.map(|end| end.edge);
-    let mut spots = [0, 1].map(|side| row.iter().map(|f| f.ends[side].at).collect::<Vec<f64>>());
-    if let [one] = row {
-        let tack = garment.closures[one.tack[0]].tacks[one.tack[1]];
-        for side in 0..2 {
-            if let Some((edge, at)) = end_of_strap(garment, mesh, tack[side]) {
-                (edges[side], spots[side]) = (edge, vec![at]);
+/// Two rims of which one lies over the other; what lies under comes first.
+struct Row {
+    edges: [EdgeId; 2],
+    /// Particles of the rims where they are closed, side by side.
+    rims: [Vec<u32>; 2],
+    /// Whether they are closed to the end of the edge, at the first and the last particle.
+    to_end: [bool; 2],
+    /// From the flat piece that lies over to the one under it.
+    to_under: Option<Isometry2<f64>>,
+    /// How far the one reaches over the other, metres.
+    reach: f64,
+    /// Whether closures hold these rims themselves.
+    is_held: bool,
+}
+
+impl Row {
+    /// Of a row of fastenings; none where its two rims are one point.
+    fn new(garment: &Garment, mesh: &ClothMesh, row: &[Fastening]) -> Option<Self> {
+        let mut edges = row.first()?.ends.map(|end| end.edge);
+        let mut spots = [0, 1].map(|side| row.iter().map(|f| f.ends[side].at).collect::<Vec<f64>>());
+        let tacks: Vec<[(usize, Vec2); 2]> = row.iter().map(|f| garment.closures[f.tack[0]].tacks[f.tack[1]]).collect();
+        if let [tack] = tacks[..] {
+            for side in 0..2 {
+                if let Some((edge, at)) = end_of_strap(garment, mesh, tack[side]) {
+                    (edges[side], spots[side]) = (edge, vec![at]);
+                }
             }
         }
-    }
-    let rims = [0, 1].map(|side| rim(garment, mesh, edges[side]));
-    let lengths = [0, 1].map(|side| rims[side].last().map_or(0.0, |r| r.0));
-    let runs_with = runs_with(&spots);
-    let chosen = [0, 1].map(|side| {
-        let [from, to] = closed(&spots[side], lengths[side]);
-        let mut stretch: Vec<u32> = rims[side].iter().filter(|r| r.0 >= from && r.0 <= to).map(|r| r.1).collect();
-        if side == 1 && !runs_with {
-            stretch.reverse();
+        let rims = [0, 1].map(|side| rim(garment, mesh, edges[side]));
+        let lengths = [0, 1].map(|side| rims[side].last().map_or(0.0, |r| r.0));
+        let closed = [0, 1].map(|side| closed(&spots[side], lengths[side]));
+        let mut rims = [0, 1].map(|side| -> Vec<u32> {
+            let [from, to] = closed[side];
+            rims[side].iter().filter(|r| r.0 >= from && r.0 <= to).map(|r| r.1).collect()
+        });
+        // The edge of the lower piece is walked as the upper one's.
+        if !runs_with(&spots) {
+            rims[0].reverse();
         }
-        stretch
-    });
-    let pairs = matched(&chosen[0], &chosen[1]);
-    let reach = row.iter().map(|f| f.reach).sum::<f64>() / row.len() as f64;
-    // What a closure is on lies under what it meets, as a button under its hole.
-    let (over, under) = (edges[1].piece, edges[0].piece);
-    let pairs: Vec<[u32; 2]> = pairs.into_iter().filter(|[a, b]| a != b).map(|[a, b]| [b, a]).collect();
-    (!pairs.is_empty()).then_some(Lap { over, under, reach, pairs })
+        let to_end = [closed[1][0] <= 0.0, closed[1][1] >= lengths[1]];
+        let mut ends: Vec<[Vec2; 2]> = tacks.iter().map(|tack| [tack[1].1, tack[0].1]).collect();
+        if let [one] = ends[..] {
+            // One point says where, the rims which way round.
+            let out = [0, 1].map(|side| outward(mesh, edges[side].piece, &rims[side], tacks[0][side].1));
+            ends.push([one[0] + out[1]? * mesh.spacing, one[1] - out[0]? * mesh.spacing]);
+        }
+        let reach = row.iter().map(|f| f.reach).sum::<f64>() / row.len() as f64;
+        let mut row = Self { edges, rims, to_end, to_under: fit(&ends), reach, is_held: true };
+        row.look_for_rims(mesh);
+        Some(row)
+    }
+
+    /// Of points all over a wide lap the nearest edges may be others than those that lie over and under: looks for them
+    /// among all free edges of the two pieces.
+    fn look_for_rims(&mut self, mesh: &ClothMesh) {
+        let Some(to_under) = self.to_under else { return };
+        let [under, over] = self.pieces();
+        let maps = [to_under.inverse(), to_under];
+        let others = [over, under];
+        let share = |side: usize, rim: &[u32]| share_over(mesh, self.edges[side].piece, rim, others[side], &maps[side]);
+        if (0..2).all(|side| share(side, &self.rims[side]) >= OVER) {
+            return;
+        }
+        let partners = partners(mesh);
+        let best = |side: usize| {
+            let free = mesh.pieces[self.edges[side].piece].edges.iter().filter(|e| is_free(&partners, &e.particles));
+            let found = free.map(|e| (share(side, &e.particles), e)).filter(|(share, _)| *share >= OVER);
+            found.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, e)| (e.edge, e.particles.clone()))
+        };
+        let (Some((lower, mut low)), Some((upper, up))) = (best(0), best(1)) else { return };
+        let onto = |p: u32| (to_under * Point2::from(mesh.flat[p as usize])).coords;
+        let far = |a: usize, b: usize| (onto(up[a]) - mesh.flat[low[b] as usize]).norm();
+        if far(0, 0) + far(up.len() - 1, low.len() - 1) > far(0, low.len() - 1) + far(up.len() - 1, 0) {
+            low.reverse();
+        }
+        let middle = mesh.flat[low[low.len() / 2] as usize];
+        self.reach = up.iter().map(|p| (onto(*p) - middle).norm()).fold(f64::INFINITY, f64::min);
+        (self.edges, self.rims, self.to_end) = ([lower, upper], [low, up], [true; 2]);
+    }
+
+    fn pieces(&self) -> [usize; 2] {
+        self.edges.map(|edge| edge.piece)
+    }
+
+    fn is_between(&self, pieces: [usize; 2]) -> bool {
+        let [a, b] = self.pieces();
+        pieces == [a, b] || pieces == [b, a]
+    }
+
+    /// The two rims beyond the seams at one end of this row's.
+    fn beyond(&self, mesh: &ClothMesh, partners: &HashMap<u32, Vec<u32>>, end: usize) -> Option<Self> {
+        if !self.to_end[end] {
+            return None;
+        }
+        let to_under = self.to_under?;
+        let corner = |side: usize| {
+            let rim = &self.rims[side];
+            if end == 0 { rim.first().copied() } else { rim.last().copied() }
+        };
+        let next = |side: usize| {
+            let others = partners.get(&corner(side)?)?;
+            others.iter().find_map(|p| free_edge_from(mesh, partners, *p))
+        };
+        let [(under, first), (over, upper)] = [next(0)?, next(1)?];
+        // What the seams join on both sides lies over one another as this row's pieces do.
+        let sewn_to = |p: u32, piece: usize| {
+            let of_piece = |q: &&u32| mesh.pieces[piece].particles.contains(&(**q as usize));
+            partners.get(&p).and_then(|all| all.iter().find(of_piece)).copied()
+        };
+        let [lower_row, upper_row] = self.pieces();
+        let sewn = mesh.pieces[lower_row].particles.clone().filter_map(|p| Some((p, sewn_to(p as u32, under.piece)?)));
+        let sewn: Vec<(usize, u32)> = sewn.collect();
+        let at = mesh.flat[corner(1)? as usize];
+        let near = mesh.pieces[upper_row].particles.clone().filter(|p| (mesh.flat[*p] - at).norm() < ALONG);
+        let mut ends: Vec<[Vec2; 2]> = near
+            .filter_map(|p| {
+                let above = sewn_to(p as u32, over.piece)?;
+                let below = (to_under * Point2::from(mesh.flat[p])).coords;
+                let far = |q: &&(usize, u32)| (mesh.flat[q.0] - below).norm();
+                let nearest = sewn.iter().min_by(|a, b| far(a).total_cmp(&far(b)))?;
+                (far(&nearest) <= NEAR * mesh.spacing).then(|| [above, nearest.1].map(|q| mesh.flat[q as usize]))
+            })
+            .collect();
+        if let [one] = ends[..] {
+            let out = [(over, &upper), (under, &first)].map(|(edge, rim)| out_of(mesh, edge.piece, rim));
+            ends.push([one[0] + out[0]? * mesh.spacing, one[1] - out[1]? * mesh.spacing]);
+        }
+        let to_under = fit(&ends)?;
+        let rims = [first, upper];
+        Some(Self {
+            edges: [under, over],
+            rims,
+            to_end: [true; 2],
+            to_under: Some(to_under),
+            reach: self.reach,
+            is_held: false,
+        })
+    }
+
+    /// The lap: the upper rim over the cloth under it, or against the other rim where it does not reach over that.
+    fn lap(&self, mesh: &ClothMesh, sheet: &Sheet) -> Option<Lap> {
+        let [under, over] = self.pieces();
+        let flap = |to_under| Flap {
+            pieces: [over, under],
+            rims: [&self.rims[1], &self.rims[0]],
+            to_end: self.to_end,
+            to_under,
+            reach: self.reach,
+        };
+        let plies = 1.0 + mesh.pieces[over].particles.clone().map(|p| sheet.under[p]).fold(0.0, f64::max);
+        let cover = self.to_under.and_then(|to_under| flap(to_under).cover(mesh, sheet));
+        let (pairs, covered) = match cover {
+            Some(Cover { pairs, covered }) => (pairs, covered),
+            None if self.is_held => (matched(&self.rims[1], &self.rims[0]), Vec::new()),
+            None => return None,
+        };
+        let pairs: Vec<[u32; 2]> = pairs.into_iter().filter(|[a, b]| a != b).collect();
+        (!pairs.is_empty()).then_some(Lap { over, under, pairs, covered, plies })
+    }
+}
+
+/// The direction out of a piece across one of its edges: across the line between its ends, unit.
+fn out_of(mesh: &ClothMesh, piece: usize, edge: &[u32]) -> Option<Vec2> {
+    let middle = *edge.get(edge.len() / 2)?;
+    let chord = [*edge.first()?, middle, *edge.last()?];
+    outward(mesh, piece, &chord, mesh.flat[middle as usize])
+}
+
+/// Whether no seam joins what lies between the ends of an edge.
+fn is_free(partners: &HashMap<u32, Vec<u32>>, edge: &[u32]) -> bool {
+    let inner = edge.get(1..edge.len().saturating_sub(1)).unwrap_or_default();
+    !inner.is_empty() && inner.iter().all(|p| !partners.contains_key(p))
+}
+
+/// The free edge that begins or ends at a particle, and its particles from there.
+fn free_edge_from(mesh: &ClothMesh, partners: &HashMap<u32, Vec<u32>>, corner: u32) -> Option<(EdgeId, Vec<u32>)> {
+    let edges = &mesh.pieces[mesh.piece_of(corner)?].edges;
+    edges.iter().filter(|e| is_free(partners, &e.particles)).find_map(|e| {
+        let mut particles = e.particles.clone();
+        if particles.last() == Some(&corner) {
+            particles.reverse();
+        }
+        (particles.first() == Some(&corner)).then_some((e.edge, particles))
+    })
 }
 
 /// The end of the strap or band that a single point fastens, and how far along it that is: it may be nearer to a side

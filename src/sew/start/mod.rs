@@ -14,6 +14,8 @@ mod axes;
 mod balloon;
 mod cloth;
 mod cost;
+mod cover;
+mod crossed;
 mod deal;
 mod deal_error;
 mod ends;
@@ -27,8 +29,10 @@ mod marks;
 mod openings;
 mod profile;
 mod rings;
+mod sections;
 mod sides;
 mod surface;
+mod winding;
 mod zip;
 
 pub use cloth::Distances;
@@ -36,7 +40,7 @@ pub use deal::{CLEAR, Dealing, deal, guess};
 pub use deal_error::{DealError, Doubt, edges};
 pub use ends::{End, Ends};
 pub use glue::{Follow, Glued, glue};
-pub use laps::{Lap, laps};
+pub use laps::Lap;
 pub use openings::{Opening, openings};
 
 use crate::contact::Collider;
@@ -45,10 +49,11 @@ use crate::mannequin::Mannequin;
 use crate::mesh::{self, ClothMesh, Transfer};
 use crate::pattern::Garment;
 use axes::Axes;
-use balloon::{Balloon, Held};
-use harmonic::{Film, Limb, Ring};
+use balloon::{Balloon, Held, Length};
+use harmonic::{Film, Limb, Ring, angles};
 use profile::Profile;
 use rings::{Worn, limb_of};
+use sections::sections;
 
 /// Garments start on a mesh of this spacing, metres, whatever is asked for: it costs a second or two, and a finer one
 /// starts no better.
@@ -63,12 +68,16 @@ pub fn start(garment: &Garment, to: &ClothMesh, body: &Mannequin, collider: &Col
     let axes = Axes::of(body);
     let edges = surface::edges(&dealt.glued, &mesh);
     let worn = dealt.worn(&mesh);
-    let (rings, limbs) = rings_and_limbs(&worn, &axes)?;
+    let (rings, limbs) = rings_and_limbs(&worn, &dealt.glued, &edges, &axes)?;
     let nodes = Film::new(dealt.glued.count, &edges, &rings)?.start(&rings, &limbs);
-    let held = rings.iter().map(|ring| Held { rim: ring.rim.clone(), middle: ring.center }).collect();
+    let of_ring = |ring: &Ring| Held { rim: ring.rim.clone(), middle: ring.center, along: None };
+    // Sleeves keep to their arms without; where they are cut in one with the body no section is theirs alone.
+    let legs = limbs.iter().filter(|limb| !limb.axis.kind.is_arm());
+    let sections = legs.flat_map(|limb| sections(&rings[limb.ring], limb));
+    let held = rings.iter().map(of_ring).chain(sections).collect();
     let bending = surface::bending(&dealt.glued, &mesh);
     let balloon = Balloon { triangles: dealt.glued.triangles.clone(), stretch: edges, bending, held };
-    let nodes = balloon.inflate(nodes, &axes, collider);
+    let nodes = balloon.inflate(&nodes, &axes, collider);
     let x = hand_over::particles(garment, &mesh, &dealt.glued, &nodes);
     Some(Transfer::new(&mesh, to).apply(&x))
 }
@@ -117,15 +126,22 @@ impl Dealt {
 }
 
 /// The rings of all parts, and the limbs that some of them are round. `None` if a part has none.
-fn rings_and_limbs<'a>(worn: &'a [Worn], axes: &'a Axes) -> Option<(Vec<Ring>, Vec<Limb<'a>>)> {
+fn rings_and_limbs<'a>(
+    worn: &'a [Worn],
+    glued: &Glued,
+    edges: &[Length],
+    axes: &'a Axes,
+) -> Option<(Vec<Ring>, Vec<Limb<'a>>)> {
     let (mut rings, mut limbs) = (Vec::new(), Vec::new());
     for part in worn {
         let before = rings.len();
         for (k, ring) in part.rings(axes).into_iter().enumerate() {
             let Some(ring) = ring else { continue };
-            if let Some(axis) = limb_of(part.ends[k]).and_then(|kind| axes.part(kind)) {
+            let limb = limb_of(part.ends[k]).and_then(|kind| axes.part(kind));
+            let angles = || angles(glued.count, edges, &ring, &part.jumps(k, &glued.triangles)?);
+            if let Some((axis, angles)) = limb.and_then(|axis| Some((axis, angles()?))) {
                 let other = part.find(part.ends[k].mirrored()).map(|o| part.far[o].as_slice());
-                limbs.push(Limb { ring: rings.len(), axis, distance: &part.far[k], other });
+                limbs.push(Limb { ring: rings.len(), axis, distance: &part.far[k], other, angles });
             }
             rings.push(ring);
         }

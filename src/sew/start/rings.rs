@@ -7,6 +7,7 @@ use super::ends::Ends;
 use super::harmonic::Ring;
 use super::openings::Opening;
 use super::profile::{Profile, best_height};
+use super::winding::{Jumps, jumps};
 use crate::geometry::{Vec2, Vec3};
 use crate::mannequin::PartKind;
 
@@ -74,6 +75,13 @@ impl Worn<'_> {
     /// The opening that exactly these ends pass through.
     pub(super) fn find(&self, ends: Ends) -> Option<usize> {
         self.ends.iter().position(|other| *other == ends)
+    }
+
+    /// Where an angle round opening `k` jumps: up to an opening that something else passes through.
+    pub(super) fn jumps(&self, k: usize, triangles: &[[u32; 3]]) -> Option<Jumps> {
+        let is_other = |j: &usize| *j != k && !self.ends[*j].is_empty();
+        let others = (0..self.openings.len()).filter(is_other).flat_map(|j| self.openings[j].rim.iter().copied());
+        jumps(triangles, &self.openings[k].rim, &others.collect::<Vec<_>>())
     }
 
     /// Where opening `k` lies, below the `top` and its seat.
@@ -172,11 +180,8 @@ impl Worn<'_> {
             });
             turn.towards.dot(&side).atan2(turn.towards.dot(&front)) - sums.0.atan2(sums.1)
         });
-        let place = |phase: &f64| {
-            let angle = phase + turn;
-            center + (front * angle.cos() + side * angle.sin()) * radius
-        };
-        Ring { rim: opening.rim.clone(), places: phases.iter().map(place).collect(), center, radius, along }
+        let angles = phases.iter().map(|phase| phase + turn).collect();
+        Ring { rim: opening.rim.clone(), angles, frame: [front, side], center, radius, along }
     }
 
     /// How far round an opening each node of its rim is, radians, as on the rim.
