@@ -25,7 +25,7 @@ const COARSE: f64 = 1e-4;
 /// without it.
 pub(crate) fn follows(inner: &Path, outer: &Path) -> bool {
     let share = (inner.double_area() / outer.double_area()).abs();
-    if !(share > 0.0 && share <= 1.0) || !lies_near(inner, outer) {
+    if !(share > 0.0 && share <= 1.0 && lies_near(inner, outer)) {
         return false;
     }
     let widths = distances(outer, inner);

@@ -90,9 +90,7 @@ impl Surroundings<'_> {
     /// What the contour of this number is of the sheet, if it is none of the pattern.
     pub(super) fn of_sheet(&self, k: usize) -> Option<Sheet> {
         let contour = &self.contours[k];
-        let Some([low, high]) = rectangle(contour).filter(|_| matches!(contour.role, Role::Unknown)) else {
-            return None;
-        };
+        let [low, high] = rectangle(contour).filter(|_| contour.role == Role::Unknown)?;
         let content = self.content(contour);
         let share = content.iter().map(|c| c.area()).sum::<f64>() / contour.area();
         let is_page = self.sheet.is_some_and(|sheet| is_page([low, high], sheet));
