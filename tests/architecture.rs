@@ -66,7 +66,7 @@ const FLOORS: [(&str, &[&str]); 21] = [
 ];
 
 /// Crates and the paths below `src` that may name them.
-const CRATES: [(&str, &[&str]); 21] = [
+const CRATES: [(&str, &[&str]); 22] = [
     ("parry3d_f64", &["contact/"]),
     ("robust", &["geometry/"]),
     ("faer", &["linear/"]),
@@ -76,6 +76,7 @@ const CRATES: [(&str, &[&str]); 21] = [
     ("i_overlay", &["cutting/clean.rs"]),
     ("roxmltree", &["io/svg_read/"]),
     ("pdf_writer", &["io/pdf_write/"]),
+    ("encoding_rs", &["io/encoding.rs"]),
     ("svgtypes", &["geometry/"]),
     ("svg", &["io/svg_write/"]),
     ("obj", &["io/obj_read.rs"]),

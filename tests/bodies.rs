@@ -143,8 +143,9 @@ fn what_is_sewn_on_a_body_that_stands_elsewhere_is_written_where_its_file_has_it
     let sewn = folder.path().join(SEWN_OBJ);
     fs::write(&sewn, &files.iter().find(|f| f.0 == SEWN_OBJ).expect("a sewn garment").1).expect("the garment");
 
-    let judged = judge(&sewn, LengthUnit::Millimetre, named.as_deref().map(|name| (name, LengthUnit::Millimetre)))
-        .expect("two surfaces");
+    let judged =
+        judge(&sewn, Some(LengthUnit::Millimetre), named.as_deref().map(|name| (name, Some(LengthUnit::Millimetre))))
+            .expect("two surfaces");
     assert_eq!((judged.notes.len(), judged.seen.contact.cloth_body_intersections), (0, 0), "{:?}", judged.notes);
     let again = Run::from_sewn(&job, &sewn).expect("the same garment");
     let [first, second] = [&run, &again].map(|run| run.last().expect("sewn"));
@@ -371,4 +372,20 @@ fn a_foreign_body_is_read() {
     assert!(mark(&found.mannequin, PartKind::RightArm, "wrist").x < -0.4);
     let neck = mark(&found.mannequin, PartKind::Neck, "neck base");
     assert!((1.35..1.50).contains(&neck.y), "neck base at {}", neck.y);
+}
+
+/// Thighs that nearly touch have their gap where it is, not exactly in the middle of the body.
+#[test]
+fn thighs_that_nearly_touch_beside_the_middle_are_legs() {
+    let crotch = |m: &Mannequin| mark(m, PartKind::Torso, "crotch").y;
+    let straight = read(child()).expect("a body").mannequin;
+    let top = crotch(&straight) * 1e3;
+    // The legs moved aside until the middle is a millimetre within one of them.
+    let thigh = child().vertices.into_iter().filter(|p| (0.8 * top..0.97 * top).contains(&p.y));
+    let half_gap = thigh.map(|p| p.x.abs()).fold(f64::INFINITY, f64::min);
+    let mut surface = child();
+    surface.vertices.iter_mut().filter(|p| p.y < top).for_each(|p| p.x += half_gap + 1.0);
+    let moved = read(surface).expect("a body").mannequin;
+    assert_eq!(moved.parts.len(), 6);
+    assert!((crotch(&moved) - crotch(&straight)).abs() < 0.03, "{} {}", crotch(&moved), crotch(&straight));
 }

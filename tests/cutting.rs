@@ -91,6 +91,40 @@ fn ends_are_mitred_squared_or_folded_as_the_file_says() {
     assert!(has_point(&folded.cut[0], mm(meets, 100.0)), "{:?}", folded.cut);
 }
 
+/// A hem that is turned up lies on the piece, also where it is deeper than the edge beside it is long, and where that
+/// edge is free and slanted.
+#[test]
+fn a_folded_hem_lies_on_the_piece_when_it_is_turned_up() {
+    let bell = "    allowance: {hem: 40 folded, top: 10, side: 10, flare: 10, flare2: 10, side2: 10}\n    \
+                outline: {start: 0 0, \
+                top: L 240 0, side: L 240 90, flare: L 270 110, hem: L -30 110, flare2: L 0 90, side2: L 0 0}\n";
+    let cuff = "    allowance: {hem: 30 folded, top: 10, front: 10, back: 10}\n    outline: {start: 0 0, \
+                top: L 240 0, front: L 270 90, hem: L -30 90, back: L 0 0}\n";
+    for (lines, hem, deep) in [(bell, 110.0, 40.0), (cuff, 90.0, 30.0)] {
+        let paper = paper_of(lines);
+        let contour = &paper.cut[0];
+        let lowest = contour.iter().map(|p| p.y).fold(f64::NEG_INFINITY, f64::max);
+        assert!((lowest - (hem + deep) * 1e-3).abs() < EXACT, "{lowest}");
+        let room = Room { contours: vec![contour.clone()], walls: Vec::new() };
+        for p in contour.iter().filter(|p| p.y > hem * 1e-3 + EXACT) {
+            let up = Vec2::new(p.x, 2.0 * hem * 1e-3 - p.y);
+            let off = contour_off(contour, up);
+            assert!(room.holds(up) || off < 2e-4, "{p} turned up is {} mm beside the piece", off * 1e3);
+        }
+    }
+}
+
+/// How far a point is from a closed contour.
+fn contour_off(contour: &[Vec2], p: Vec2) -> f64 {
+    let next = contour.iter().cycle().skip(1);
+    let off = |(a, b): (&Vec2, &Vec2)| {
+        let along = b - a;
+        let share = ((p - a).dot(&along) / along.norm_squared().max(1e-18)).clamp(0.0, 1.0);
+        (a + along * share - p).norm()
+    };
+    contour.iter().zip(next).map(off).fold(f64::INFINITY, f64::min)
+}
+
 #[test]
 fn a_sharp_point_is_cut_off_and_a_bay_is_not_overlapped() {
     let paper = paper_of("    allowance: 10\n    outline: {start: 0 0, upper: L 300 30, lower: L 0 60, left: L 0 0}\n");

@@ -22,7 +22,7 @@ fn garment(file: &Path, body: Option<&Path>, spacing: f64) -> Job {
         Overrides { spacing: Some(spacing), body: body.map(|b| b.display().to_string()), ..Overrides::default() };
     let loaded = if file.extension().is_some_and(|e| e == "json") {
         let text = std::fs::read_to_string(file).expect("a file");
-        let read = garmentcode::read("imported", &text, None).expect("a specification");
+        let read = garmentcode::read("imported", &text, garmentcode::Wearer::default()).expect("a specification");
         read_text("imported", "imported.yaml", &write(&read).expect("writable")).expect("a garment")
     } else {
         read(file).expect("a garment")

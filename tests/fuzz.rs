@@ -64,7 +64,7 @@ fn read_garment(text: &str) {
 }
 
 fn read_specification(text: &str) {
-    match garmentcode::read("fuzz", text, None) {
+    match garmentcode::read("fuzz", text, garmentcode::Wearer::default()) {
         Ok(file) => read_garment(&garment::write(&file).expect("YAML")),
         Err(error) => assert!(!error.to_string().is_empty()),
     }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 use toile::geometry::{TriMesh, Vec2};
 use toile::io::garment::{read_text, write};
-use toile::io::garmentcode::{ImportError, read};
+use toile::io::garmentcode::{ImportError, Wearer, read};
 use toile::mesh::build;
 use toile::pattern::{Garment, Give, PieceFile, PlaceFile, SeamKind};
 use toile::pipeline::{Job, Overrides};
@@ -147,7 +147,7 @@ fn area(spec: &Value, panel: &str) -> f64 {
 }
 
 fn import(spec: &Value) -> (Garment, Vec<PieceFile>) {
-    let file = read("trial", &spec.to_string(), None).expect("a specification");
+    let file = read("trial", &spec.to_string(), Wearer::default()).expect("a specification");
     let text = write(&file).expect("YAML");
     let loaded = read_text("trial", "trial.yaml", &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
     assert_eq!(loaded.file, file, "reads as it was written");
@@ -323,7 +323,7 @@ fn what_is_wrong_is_named() {
     let broken = |change: &dyn Fn(&mut Value)| {
         let mut spec = specification();
         change(&mut spec);
-        read("trial", &spec.to_string(), None).expect_err("an error").to_string()
+        read("trial", &spec.to_string(), Wearer::default()).expect_err("an error").to_string()
     };
     let edge = |spec: &mut Value, k: usize, key: &str, value: Value| {
         spec["pattern"]["panels"]["left_ftorso"]["edges"][k][key] = value;
@@ -372,8 +372,8 @@ fn what_is_wrong_is_named() {
     for (expected, found) in cases {
         assert_eq!(found, expected);
     }
-    assert!(matches!(read("trial", "{", None), Err(ImportError::Json(_))));
-    assert!(matches!(read("trial", "{\"garment\": 1}", None), Err(ImportError::NoPattern)));
+    assert!(matches!(read("trial", "{", Wearer::default()), Err(ImportError::Json(_))));
+    assert!(matches!(read("trial", "{\"garment\": 1}", Wearer::default()), Err(ImportError::NoPattern)));
 }
 
 #[test]
@@ -392,7 +392,7 @@ fn garments_of_the_program_itself_start_uncrossed_outside_their_body() {
     let Some(specifications) = specifications() else { return };
     let body = folder().join("mean_all.obj").to_string_lossy().into_owned();
     for (name, text) in specifications {
-        let file = read(&name, &text, Some(&body)).expect("a specification");
+        let file = read(&name, &text, Wearer { body: Some(&body), floor: 0.0 }).expect("a specification");
         let loaded = read_text(&name, "trial.yaml", &write(&file).expect("YAML")).expect("a garment");
         let overrides = Overrides { spacing: Some(0.020), ..Overrides::default() };
         let job = Job::new(Path::new("trial.yaml"), loaded, &overrides).map_err(|e| e.to_string()).expect("a job");
@@ -427,4 +427,197 @@ fn specifications() -> Option<Vec<(String, String)>> {
         (name, std::fs::read_to_string(file).expect("a file"))
     };
     Some(entries.filter_map(Result::ok).filter(|e| e.path().is_dir()).map(text).collect())
+}
+
+/// A rectangular panel, centimetres: its lower left corner is the origin of its own frame.
+fn rectangle(width: f64, height: f64, translation: [f64; 3], rotation: Value) -> Value {
+    let line = |a: usize, b: usize| json!({"endpoints": [a, b]});
+    json!({
+        "translation": translation, "rotation": rotation,
+        "vertices": [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]],
+        "edges": [line(0, 1), line(1, 2), line(2, 3), line(3, 0)],
+    })
+}
+
+fn specified(panels: Value, stitches: Value) -> Value {
+    json!({
+        "pattern": {"panels": panels, "stitches": stitches},
+        "properties": {"curvature_coords": "relative", "units_in_meter": 100},
+    })
+}
+
+fn stitch(a: (&str, usize), b: (&str, usize)) -> Value {
+    json!([{"panel": a.0, "edge": a.1}, {"panel": b.0, "edge": b.1}])
+}
+
+fn words(piece: &PieceFile) -> String {
+    match piece.place.as_ref().map(|p| &p.value) {
+        Some(PlaceFile::Words(words)) => words.clone(),
+        other => format!("{other:?}"),
+    }
+}
+
+/// Width and height of the box round a piece, millimetres.
+fn extent(garment: &Garment, piece: usize) -> [f64; 2] {
+    let points: Vec<Vec2> = garment.pieces[piece].loops[0].iter().flat_map(|e| e.path.sampled(1e-5)).collect();
+    let size = |k: usize| {
+        let of: Vec<f64> = points.iter().map(|p| p[k] * 1e3).collect();
+        of.iter().copied().fold(f64::NEG_INFINITY, f64::max) - of.iter().copied().fold(f64::INFINITY, f64::min)
+    };
+    [size(0).round(), size(1).round()]
+}
+
+fn edge_names(piece: &PieceFile) -> Vec<String> {
+    piece.outline.iter().flat_map(|o| &o.edges).map(|e| e.0.value.clone()).collect()
+}
+
+/// Relatives of the format write turns as quaternions x, y, z, w, in which half a turn about y is (0, 1, 0, 0).
+#[test]
+fn rotations_may_be_quaternions() {
+    let spec = |back: Value| {
+        let panels = json!({
+            "front": rectangle(40.0, 50.0, [-20.0, 100.0, 20.0], json!([0, 0, 0, 1])),
+            "back": rectangle(40.0, 50.0, [20.0, 100.0, -20.0], back),
+        });
+        specified(panels, json!([stitch(("front", 1), ("back", 3)), stitch(("front", 3), ("back", 1))]))
+    };
+    let (garment, pieces) = import(&spec(json!([0, 2, 0, 0])));
+    let (same, _) = import(&spec(json!([0, 180, 0])));
+    assert_eq!(pieces.iter().map(words).collect::<Vec<_>>(), ["torso front", "torso back"]);
+    for piece in 0..2 {
+        assert_eq!(extent(&garment, piece), [400.0, 500.0]);
+        assert_eq!(extent(&same, piece), [400.0, 500.0]);
+    }
+    for wrong in [json!([0, 0, 0, 0]), json!([1, 2])] {
+        let refused = read("trial", &spec(wrong).to_string(), Wearer::default()).expect_err("no turn").to_string();
+        assert!(refused.starts_with("panel 'back' has a rotation of"), "{refused}");
+    }
+}
+
+/// A panel is where it is: one behind the body is a back whichever way its outline runs.
+#[test]
+fn panels_are_placed_by_where_they_are() {
+    let spec = |turn: bool| {
+        let mut front = rectangle(40.0, 50.0, [-20.0, 100.0, 20.0], json!([0, 0, 0]));
+        let mut back = rectangle(40.0, 50.0, [-20.0, 100.0, -20.0], json!([0, 0, 0]));
+        // Seen from the front a back runs clockwise where its right side looks back.
+        back["edges"] = json!(reversed(back["edges"].as_array().expect("edges")));
+        if turn {
+            for panel in [&mut front, &mut back] {
+                panel["edges"] = json!(reversed(panel["edges"].as_array().expect("edges")));
+            }
+        }
+        // Edge k of a reversed loop of four is 3 − k: the sides are 1 and 3 of one way, 2 and 0 of the other.
+        let side = |reversed: bool, left: bool| match (reversed, left) {
+            (false, true) => 1,
+            (false, false) => 3,
+            (true, true) => 2,
+            (true, false) => 0,
+        };
+        let stitches = [true, false].map(|left| stitch(("front", side(turn, left)), ("back", side(!turn, left))));
+        specified(json!({"front": front, "back": back}), json!(stitches))
+    };
+    for turn in [false, true] {
+        let (garment, pieces) = import(&spec(turn));
+        assert_eq!(pieces.iter().map(words).collect::<Vec<_>>(), ["torso front", "torso back"], "{turn}");
+        assert_eq!(pieces.iter().map(|p| p.name.value.as_str()).collect::<Vec<_>>(), ["front", "back"]);
+        let lengths: Vec<f64> = garment.seams.iter().map(|s| (s.length_a() * 1e3).round()).collect();
+        assert_eq!(lengths, [500.0, 500.0]);
+    }
+}
+
+/// Where a body's origin is at its pelvis its specifications count heights from there too.
+#[test]
+fn heights_count_from_the_floor() {
+    let spec = specified(json!({"collar": rectangle(36.0, 4.0, [-18.0, 43.0, 9.0], json!([0, 0, 0]))}), json!([]));
+    let height = |floor: f64| {
+        let file = read("trial", &spec.to_string(), Wearer { body: None, floor }).expect("a specification");
+        match file.pieces[0].place.as_ref().map(|p| &p.value) {
+            Some(PlaceFile::At { at, .. }) => at[1],
+            other => panic!("{other:?}"),
+        }
+    };
+    assert!((height(-1.0123) - height(0.0) - 1012.3).abs() < 0.051);
+}
+
+/// Of arms held out to the side both halves of a sleeve lie along the arm, however their frames are turned.
+#[test]
+fn sleeves_of_arms_held_out_run_along_them() {
+    let line = |a: usize, b: usize| json!({"endpoints": [a, b]});
+    let edges = json!([line(0, 1), line(1, 2), line(2, 3), line(3, 0)]);
+    let half = |vertices: Value, z: f64, turn: f64| {
+        let rotation = [0.0, 0.0, turn];
+        json!({"translation": [20, 138, z], "rotation": rotation, "vertices": vertices, "edges": edges, "label": "arm"})
+    };
+    let front = half(json!([[0, -18], [50, -12], [50, 12], [0, 18]]), 9.0, 0.0);
+    let back = half(json!([[18, 0], [12, -50], [-12, -50], [-18, 0]]), -9.0, 90.0);
+    let seams = [stitch(("l_sleeve_f", 0), ("l_sleeve_b", 2)), stitch(("l_sleeve_f", 2), ("l_sleeve_b", 0))];
+    let (garment, pieces) = import(&specified(json!({"l_sleeve_f": front, "l_sleeve_b": back}), json!(seams)));
+    for (k, piece) in pieces.iter().enumerate() {
+        assert_eq!(extent(&garment, k), [360.0, 500.0], "{}", piece.name.value);
+        let outline = piece.outline.as_ref().expect("an outline");
+        let hem = outline.edges.iter().position(|e| e.0.value == "hem").expect("a hem");
+        let path = &garment.pieces[k].loops[0][hem].path;
+        assert!((path.length() - 0.240).abs() < 1e-6 && (path.start().y - path.end().y).abs() < 1e-6);
+        let [tail, head] = piece.grain.as_ref().expect("a grain").value;
+        assert!(tail[0] == head[0] && tail[1] != head[1]);
+    }
+}
+
+/// Panels are trousers if the seam in the middle goes on between the legs; names need not say so.
+#[test]
+fn trousers_are_told_by_how_they_are_sewn() {
+    let leg = |side: f64, z: f64| {
+        let mut vertices: Vec<[f64; 2]> =
+            vec![[0.0, 0.0], [0.0, -24.0], [-5.0, -28.0], [0.0, -95.0], [22.0, -95.0], [26.0, -28.0], [23.0, 0.0]];
+        vertices.iter_mut().for_each(|v| v[0] *= side);
+        let mut edges: Vec<Value> = (0..7).map(|k| json!({"endpoints": [k, (k + 1) % 7]})).collect();
+        let clockwise = (side > 0.0) != (z > 0.0);
+        if clockwise {
+            edges = reversed(&edges);
+        }
+        json!({"translation": [side, 98.0, z], "rotation": [0, 0, 0], "vertices": vertices, "edges": edges})
+    };
+    let panels = json!({"Lf": leg(1.0, 13.0), "Rf": leg(-1.0, 13.0), "Lb": leg(1.0, -13.0), "Rb": leg(-1.0, -13.0)});
+    // Edges of the drawing: 0 and 1 in the middle, 2 between the legs, 4 and 5 outside.
+    let of = |panel: &str, k: usize| if ["Rf", "Lb"].contains(&panel) { 6 - k } else { k };
+    let sewn = |a: &'static str, b: &'static str, k: usize| stitch((a, of(a, k)), (b, of(b, k)));
+    let mut stitches: Vec<Value> = [2, 4, 5].iter().flat_map(|&k| [sewn("Lf", "Lb", k), sewn("Rf", "Rb", k)]).collect();
+    stitches.extend([0, 1].iter().flat_map(|&k| [sewn("Lf", "Rf", k), sewn("Lb", "Rb", k)]));
+    let (_, pieces) = import(&specified(panels, json!(stitches)));
+    assert!(pieces.len() == 2 && pieces.iter().all(|p| p.cut.is_some()), "two pairs");
+    for piece in &pieces {
+        let names = edge_names(piece);
+        assert!(words(piece).starts_with("hip"), "{}", words(piece));
+        for wanted in ["waist", "hem", "inseam", "outseam", "center"] {
+            assert!(names.iter().any(|n| n.starts_with(wanted)), "{names:?}");
+        }
+        assert!(!names.iter().any(|n| n.starts_with("neck") || n.starts_with("side")), "{names:?}");
+    }
+}
+
+/// Control points in a list: one is a quadratic's, two are a cubic's.
+#[test]
+fn control_points_may_stand_in_a_list() {
+    let curved = |curvature: Value| import(&curved_front(&curvature)).0;
+    let area = |garment: &Garment| -> f64 {
+        garment.pieces[0].loops[0].iter().map(|e| e.path.double_area()).sum::<f64>().abs() / 2.0
+    };
+    // A quadratic's area beyond its chord is two thirds of its triangle's.
+    let rectangle = 0.4 * 0.5;
+    let quadratic = 0.4 * 0.1 * 0.5 * 2.0 / 3.0;
+    assert!((area(&curved(json!([[0.5, -0.25]]))) - rectangle - quadratic).abs() < 1e-6);
+    let third = 1.0 / 3.0;
+    let cubic = curved(json!([[third, -0.25], [2.0 * third, -0.25]]));
+    let told = curved(json!({"type": "cubic", "params": [[third, -0.25], [2.0 * third, -0.25]]}));
+    assert!((area(&cubic) - area(&told)).abs() < 1e-12);
+    let three = curved_front(&json!([[0.1, 0.1], [0.2, 0.1], [0.3, 0.1]]));
+    let refused = read("trial", &three.to_string(), Wearer::default()).expect_err("three points").to_string();
+    assert!(refused.contains("has 3 control points"), "{refused}");
+}
+
+fn curved_front(curvature: &Value) -> Value {
+    let mut panel = rectangle(40.0, 50.0, [0.0, 100.0, 20.0], json!([0, 0, 0]));
+    panel["edges"][0]["curvature"] = curvature.clone();
+    specified(json!({"front": panel}), json!([]))
 }

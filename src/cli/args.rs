@@ -191,9 +191,9 @@ pub(super) struct CheckArgs {
     /// What the surface should lie on: a mannequin, or a closed OBJ in the same place
     #[arg(long, value_name = "NAME|FILE.obj", requires = "mesh")]
     pub(super) body: Option<String>,
-    /// Unit of the OBJ files
-    #[arg(long, value_enum, default_value = "mm", requires = "mesh")]
-    pub(super) units: UnitArg,
+    /// Unit of the OBJ files [default: guessed from their sizes, and said]
+    #[arg(long, value_enum, requires = "mesh")]
+    pub(super) units: Option<UnitArg>,
     /// Unit of the body's OBJ file, where it is another
     #[arg(long, value_enum, value_name = "UNIT", requires = "body")]
     pub(super) body_units: Option<UnitArg>,
@@ -341,7 +341,14 @@ pub(super) enum ImportCommand {
     /// A drawing, as Inkscape, FreeSewing and Seamly2D write them: pieces with named edges; seams are suggested
     #[command(after_help = "What a drawing may say, and how (names, edges, grain, notches, darts, the fold, 'cut 2', \
                             units): docs/importing.md.")]
-    Svg(DrawingArgs),
+    Svg {
+        #[command(flatten)]
+        common: DrawingArgs,
+        /// Length of the drawing's unit in place of what it says [default: what it says, else 96 to the inch, or 72 or
+        /// 90 where the program that wrote it is known to mean that]
+        #[arg(long, value_enum)]
+        units: Option<SvgUnitArg>,
+    },
     /// DXF-AAMA (ASTM D6673), as pattern programs and cutters exchange it; seams are suggested
     Dxf {
         #[command(flatten)]
@@ -360,6 +367,10 @@ pub(super) struct DrawingArgs {
     pub(super) drawing: PathBuf,
     #[command(flatten)]
     pub(super) target: TargetArgs,
+    /// The size to read of a drawing in several, or 'all': a file each, named after it [default: a graded file's sample
+    /// size]
+    #[arg(long, value_name = "SIZE|all")]
+    pub(super) size: Option<String>,
 }
 
 /// Where an import is written.
@@ -500,6 +511,35 @@ pub(super) enum UnitArg {
     M,
     /// Inches
     In,
+}
+
+/// Units of an SVG drawing.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum SvgUnitArg {
+    /// Millimetres
+    Mm,
+    /// Centimetres
+    Cm,
+    /// Inches
+    In,
+    /// Points, 72 to the inch
+    Pt,
+    /// Pixels, 96 to the inch
+    Px,
+}
+
+impl SvgUnitArg {
+    /// Metres in the unit.
+    pub(super) fn metres(self) -> f64 {
+        let inch = LengthUnit::Inch.metres();
+        match self {
+            Self::Mm => LengthUnit::Millimetre.metres(),
+            Self::Cm => LengthUnit::Centimetre.metres(),
+            Self::In => inch,
+            Self::Pt => inch / 72.0,
+            Self::Px => inch / 96.0,
+        }
+    }
 }
 
 impl UnitArg {

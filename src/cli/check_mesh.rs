@@ -20,8 +20,7 @@ struct Found {
 
 /// `toile check --mesh`
 pub(super) fn check_mesh(mesh: &std::path::Path, args: &CheckArgs, console: &Console) -> Result<Exit, CliError> {
-    let unit = args.units.unit();
-    let body_unit = args.body_units.map_or(unit, UnitArg::unit);
+    let [unit, body_unit] = [args.units, args.body_units].map(|unit| unit.map(UnitArg::unit));
     let judged = judge(mesh, unit, args.body.as_deref().map(|name| (name, body_unit)))?;
     judged.notes.iter().for_each(|note| console.note(note));
     let contact = judged.seen.contact;

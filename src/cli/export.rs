@@ -10,7 +10,7 @@ use crate::cutting::{DEFAULT_ALLOWANCE, Layout, MarkKind, Narrowed, Options, Pap
 use crate::geometry::MM;
 use crate::io::dxf_write::cutting_dxf;
 use crate::io::files::write_all;
-use crate::io::pdf_write::{Page, one_page, tiled};
+use crate::io::pdf_write::{Page, one_page, tiled, unprintable};
 use crate::io::svg_write::cutting_svg;
 use crate::pattern::{Drawing, drawings};
 use crate::pipeline::{Overrides, inputs, read};
@@ -18,6 +18,8 @@ use crate::report::aligned;
 
 /// Empty rim of a sheet that is one page, metres.
 const MARGIN: f64 = 0.010;
+/// Most letters that a message lists.
+const MOST_LETTERS: usize = 60;
 
 /// `toile export …`
 pub(super) fn export(command: &ExportCommand, console: &Console) -> Result<Exit, CliError> {
@@ -29,6 +31,7 @@ pub(super) fn export(command: &ExportCommand, console: &Console) -> Result<Exit,
         }
         ExportCommand::Pdf { common, page, width } => {
             let job = Job::new(common, console)?;
+            job.note_letters(console);
             let pdf = match page {
                 PageArg::A4 => tiled(&job.title, &job.papers, Page::A4),
                 PageArg::Letter => tiled(&job.title, &job.papers, Page::LETTER),
@@ -80,6 +83,18 @@ impl<'a> Job<'a> {
         papers.iter().flat_map(narrowed).for_each(|note| console.note(&note));
         let inputs = inputs(&args.garment, &loaded.garment, &Overrides::default());
         Ok(Self { args, name: loaded.garment.name, title: loaded.garment.title, papers, inputs })
+    }
+
+    /// Says which letters a PDF cannot print.
+    fn note_letters(&self, console: &Console) {
+        let letters = unprintable(&self.title, &self.papers);
+        if !letters.is_empty() {
+            let some: String = letters.iter().take(MOST_LETTERS).collect();
+            let more = if letters.len() > MOST_LETTERS { " …" } else { "" };
+            console.note(&format!(
+                "the font of the PDF has no glyphs for {some}{more}: they are printed as '?'; an SVG has them"
+            ));
+        }
     }
 
     fn write(&self, bytes: Vec<u8>, kind: &str, console: &Console) -> Result<Exit, CliError> {

@@ -35,16 +35,40 @@ pub(super) struct Join {
     pub(super) enter: At,
 }
 
-/// Joins two runs as their edges wish. Of two wishes that differ the mitre gives way, then the narrower allowance; two
-/// equal ones make a mitre.
-pub(super) fn join(a: &Run, b: &Run, wishes: [Corner; 2]) -> Join {
-    let special = match wishes {
-        [one, other] if one == other => None,
+/// How an edge's allowance is to end at a corner.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Wish {
+    pub(super) corner: Corner,
+    /// Whether the file says so, rather than that being usual.
+    pub(super) said: bool,
+}
+
+impl Wish {
+    /// What is usual between edges that are sewn.
+    pub(super) const MITRED: Self = Self { corner: Corner::Mitred, said: false };
+}
+
+/// Joins two runs as their edges wish. Of two wishes that differ the mitre gives way, then the narrower allowance; of
+/// two equal ones the one that is said counts, and else they make a mitre. `lines` are the cut lines away from the
+/// corner, beyond the runs where these are short.
+pub(super) fn join(a: &Run, b: &Run, wishes: [Wish; 2], lines: [&[Vec2]; 2]) -> Join {
+    let special = match wishes.map(|wish| wish.corner) {
+        [Corner::Mitred, Corner::Mitred] => None,
+        [one, other] if one == other => match wishes.map(|wish| wish.said) {
+            [true, false] => Some((one, true)),
+            [false, true] => Some((other, false)),
+            _ => None,
+        },
         [Corner::Mitred, other] => Some((other, false)),
         [one, Corner::Mitred] => Some((one, true)),
         [one, other] => Some(if a.width > b.width { (one, true) } else { (other, false) }),
     };
-    special.and_then(|(kind, of_first)| ended(a, b, kind, of_first)).unwrap_or_else(|| mitred(a, b))
+    special.and_then(|(kind, of_first)| ended(a, b, kind, of_first, lines)).unwrap_or_else(|| mitred(a, b))
+}
+
+/// Two smooth runs of one edge, or of edges that are no further looked at.
+pub(super) fn join_plainly(a: &Run, b: &Run) -> Join {
+    mitred(a, b)
 }
 
 /// A run as seen from its corner.
@@ -153,16 +177,24 @@ fn bent_in(a: &Run, b: &Run, turn: f64) -> Option<Join> {
 }
 
 /// The special edge, the second or (`of_first`) the first, ends squared or folded. `None` where it cannot.
-fn ended(a: &Run, b: &Run, kind: Corner, of_first: bool) -> Option<Join> {
+fn ended(a: &Run, b: &Run, kind: Corner, of_first: bool, lines: [&[Vec2]; 2]) -> Option<Join> {
     if turn(a, b) < LEAST_TURN {
         return None;
     }
-    let (before, after) = (Arm::before(a), Arm::after(b));
+    let (mut before, mut after) = (Arm::before(a), Arm::after(b));
+    // Turned up, a deep hem lies beside more of the neighbours than the next edge.
+    let other = if of_first { &mut after } else { &mut before };
+    other.line = lines[usize::from(of_first)].to_vec();
     let (x, y) = if of_first { (&after, &before) } else { (&before, &after) };
     let corner = corner_of(a);
     let reach = MITRE_LIMIT * x.width.max(y.width);
     let own = x.extended(reach);
     let (on_x, _) = first_crossing(&own, &[corner + y.along * SAME, corner - y.along * reach])?;
+    // The contour leaves the neighbour on its own run.
+    let run = if of_first { b } else { a };
+    if on_x.0 > run.moved.len() as f64 {
+        return None;
+    }
     // The end of a narrow allowance is no reason to take much from a wide one: the flatter the corner, the more.
     if cut_away(&own, on_x) > MITRE_LIMIT * y.width {
         return None;

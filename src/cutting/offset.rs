@@ -1,9 +1,8 @@
 //! The cut line of a ring of edges: each edge's sewing line moved out by its own allowance, joined at the corners.
 
 use super::clean::{grown, shrunk};
-use super::corner::{Join, cap, join};
+use super::corner::{Join, Wish, cap, join, join_plainly};
 use crate::geometry::{Path, Station, Vec2, mirrored};
-use crate::pattern::Corner;
 
 /// Chords of cut lines leave the true line by at most this much (metres): a fifth of the hundredth of a millimetre that
 /// paper patterns are exact to, so that rounding fits in beside it.
@@ -15,7 +14,8 @@ pub(super) struct Border<'a> {
     pub(super) path: &'a Path,
     /// Metres.
     pub(super) width: f64,
-    pub(super) corner: Corner,
+    /// How it ends at corners.
+    pub(super) wish: Wish,
 }
 
 /// What stands between an edge and the next.
@@ -81,7 +81,7 @@ enum Joint {
     /// Within an edge.
     Smooth,
     /// Between two edges, as the first and the second wish it.
-    Corner([Corner; 2]),
+    Corner([Wish; 2]),
     Dart {
         tip: Vec2,
         onto_first: bool,
@@ -110,7 +110,7 @@ impl Ring {
             }
             if let Some(last) = ring.joins.last_mut() {
                 *last = match between[i] {
-                    Between::Corner => Joint::Corner([border.corner, next.corner]),
+                    Between::Corner => Joint::Corner([border.wish, next.wish]),
                     Between::Dart { tip, onto_first } => Joint::Dart { tip, onto_first },
                 };
             }
@@ -122,7 +122,7 @@ impl Ring {
     fn unfolded(borders: &[Border], between: &[Between], axis: [Vec2; 2]) -> Self {
         let mut ring = Self::new(borders, between);
         // An edge meets its own image at the fold: two equal wishes.
-        let at_fold = Joint::Corner([Corner::Mitred; 2]);
+        let at_fold = Joint::Corner([Wish::MITRED; 2]);
         ring.joins.pop();
         let back: Vec<Joint> = ring.joins.iter().rev().map(|joint| joint.image(axis)).collect();
         ring.joins.push(at_fold);
@@ -137,6 +137,40 @@ impl Ring {
         Self { runs: self.runs.iter().map(Run::sewn).collect(), joins: self.joins.clone() }
     }
 
+    /// The cut line before the corner that ends run `i`, walked away from it, over the run and the one before that.
+    fn line_before(&self, i: usize) -> Vec<Vec2> {
+        let count = self.runs.len();
+        let (own, before) = (&self.runs[i], (i + count - 1) % count);
+        if matches!(self.joins[before], Joint::Dart { .. }) || count < 3 {
+            return own.moved.iter().rev().copied().collect();
+        }
+        let further = &self.runs[before];
+        let Join { leave, between, enter } = join_plainly(further, own);
+        if enter.0 >= (own.moved.len() - 1) as f64 {
+            return own.moved.iter().rev().copied().collect();
+        }
+        let last = own.moved.iter().enumerate().rev().filter(|(k, _)| *k as f64 > enter.0).map(|(_, p)| *p);
+        let first = further.moved.iter().enumerate().rev().filter(|(k, _)| (*k as f64) < leave.0).map(|(_, p)| *p);
+        last.chain([enter.1]).chain(between.into_iter().rev()).chain([leave.1]).chain(first).collect()
+    }
+
+    /// The cut line after that corner, likewise.
+    fn line_after(&self, i: usize) -> Vec<Vec2> {
+        let count = self.runs.len();
+        let next = (i + 1) % count;
+        let (own, further) = (&self.runs[next], &self.runs[(i + 2) % count]);
+        if matches!(self.joins[next], Joint::Dart { .. }) || count < 3 {
+            return own.moved.clone();
+        }
+        let Join { leave, between, enter } = join_plainly(own, further);
+        if leave.0 <= 0.0 {
+            return own.moved.clone();
+        }
+        let first = own.moved.iter().enumerate().filter(|(k, _)| (*k as f64) < leave.0).map(|(_, p)| *p);
+        let last = further.moved.iter().enumerate().filter(|(k, _)| *k as f64 > enter.0).map(|(_, p)| *p);
+        first.chain([leave.1]).chain(between).chain([enter.1]).chain(last).collect()
+    }
+
     /// Its moved runs as one closed contour, which may still cross itself.
     fn contour(&self) -> Vec<Vec2> {
         let count = self.runs.len();
@@ -144,8 +178,8 @@ impl Ring {
             .map(|i| {
                 let (a, b) = (&self.runs[i], &self.runs[(i + 1) % count]);
                 match self.joins[i] {
-                    Joint::Smooth => join(a, b, [Corner::Mitred; 2]),
-                    Joint::Corner(wishes) => join(a, b, wishes),
+                    Joint::Smooth => join_plainly(a, b),
+                    Joint::Corner(wishes) => join(a, b, wishes, [&self.line_before(i), &self.line_after(i)]),
                     Joint::Dart { tip, onto_first } => cap(a, b, tip, onto_first),
                 }
             })

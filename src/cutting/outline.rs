@@ -3,6 +3,7 @@
 use nalgebra::Matrix2;
 
 use super::clean::double_area;
+use super::corner::Wish;
 use super::label;
 use super::marks;
 use super::offset::{Between, Border, around, around_unfolded, sewn_mouths, within};
@@ -93,7 +94,8 @@ impl<'a> Rule<'a> {
 
     fn border(&self, ring: usize, index: usize) -> Border<'_> {
         let edge = &self.drawing.rings[ring][index];
-        Border { path: &edge.path, width: self.width(ring, index), corner: Self::corner(edge) }
+        let wish = Wish { corner: Self::corner(edge), said: edge.allowance.corner.is_some() };
+        Border { path: &edge.path, width: self.width(ring, index), wish }
     }
 
     fn borders(&self, ring: usize) -> Vec<Border<'_>> {

@@ -1,283 +1,231 @@
 //! Which strokes of a drawing make which piece, from what they are called and from what lies in what.
 
-use std::collections::HashMap;
-
-use super::chain::{chained, is_closed};
+use super::contour::{COARSE, Contour, NEAR, half_way};
 use super::fish_eyes::sides;
+use super::follow::follows;
+use super::frames::{Sheet, Surroundings};
 use super::holes::holes_of;
-use super::joined::{Joined, beyond_seam, joined, unclosed};
-use super::partial::completed;
-use super::trimmed::trimmed;
+use super::joined::{beyond_seam, nearly_closed, unclosed};
+use super::said::{Said, said};
+use super::sizes::{are_sizes, sizes};
+use super::sorted::Sorted;
+use super::trimmed::{parts_within, trimmed};
 use super::{Drawing, Inner, Notch, Remark, Role, Stroke, ToldNotch, Traced};
-use crate::geometry::{Path, Vec2, box_of, distance_to_segment, encloses, sides_of};
-use crate::pattern::Cut;
+use crate::geometry::{Path, Vec2};
 
 /// A closed line round less than this (square metres, a square of 3 cm) is no piece.
 const SMALLEST_PIECE: f64 = 9e-4;
-/// A contour within another is its sewing line if it takes at least this share of its area.
+/// A ring round less than this (square metres, a circle of 3.4 mm) is a point.
+const POINT: f64 = SMALLEST_PIECE / 100.0;
+/// A contour within another of which an edge is drawn is its sewing line if it takes at least this share of its area.
 const SEWN_SHARE: f64 = 0.5;
-/// An inner line no longer than this (metres) that ends at an outline is a notch.
+/// An inner line no longer than this (metres) that ends at an outline is a notch,
 const NOTCH: f64 = 0.016;
-/// As near to an outline as this (metres) a notch must end.
-const NEAR: f64 = 1.5e-3;
-/// Places of a contour that are looked at.
-const LOOKS: usize = 15;
+/// if it leaves the outline at an angle whose cosine is no more than this (45 degrees).
+const ALONG: f64 = 0.71;
 /// A grain line of more points than this is no arrow.
 const MOST_ARROW_POINTS: usize = 100;
-/// Chords that stand for curves where only inside and outside is asked.
-const COARSE: f64 = 1e-4;
-/// Two contours are one line where their areas differ by less than a strip so wide (metres) along it.
-const STRIP: f64 = 1e-5;
+/// Square centimetres in a square metre.
+const CM2: f64 = 1e4;
 
-/// A closed line and the corners it goes through.
-pub(super) struct Contour {
-    pub(super) edges: Vec<(Option<String>, Path)>,
-    pub(super) whole: Path,
-    points: Vec<Vec2>,
-    /// Least and greatest coordinates.
-    bounds: [Vec2; 2],
-    pub(super) role: Role,
-    name: Option<String>,
+/// The pieces that strokes make, in the order of the drawing; what is written on one may say how it is cut. Lines that
+/// belong to none are left out, and so are lines in a piece's allowance, and what belongs to the `sheet`, whose size is
+/// given where it is known. Sizes that are drawn over one another are pieces each.
+pub fn pieces(strokes: &[Stroke], remarks: &[Remark], sheet: Option<Vec2>) -> Drawing {
+    let sizes = sizes(strokes);
+    if sizes.is_empty() {
+        return one_size(strokes, remarks, sheet);
+    }
+    let mut all = Drawing { sizes: sizes.clone(), ..Drawing::default() };
+    for (k, size) in sizes.iter().enumerate() {
+        // What is of no size stands with the first.
+        let own = |s: &&Stroke| s.size.as_ref().map_or(k == 0, |own| own == size);
+        let own: Vec<Stroke> = strokes.iter().filter(own).cloned().collect();
+        let mut drawing = one_size(&own, remarks, sheet);
+        for piece in drawing.pieces.iter_mut().filter(|p| !p.name.contains(size.as_str())) {
+            piece.name = format!("{}_{size}", piece.name);
+        }
+        all.add(drawing);
+    }
+    all
 }
 
-impl Contour {
-    pub(super) fn new(edges: Vec<(Option<String>, Path)>, role: Role, name: Option<String>) -> Option<Self> {
-        let mut paths = edges.iter().map(|e| e.1.clone());
-        let first = paths.next()?;
-        let whole = paths.fold(first, |whole, next| whole.joined(&next));
-        let points = whole.sampled(COARSE);
-        let bounds = box_of(points.iter().copied());
-        Some(Self { points, bounds, whole, edges, role, name })
-    }
-
-    /// The outline that edges make, if they close and go round something.
-    pub(super) fn of_edges(edges: Vec<(Option<String>, Path)>, name: Option<String>) -> Option<Self> {
-        let closed = is_closed(&edges);
-        Self::new(edges, Role::Unknown, name).filter(|contour| closed && contour.area() > 0.0)
-    }
-
-    /// Whether most of it lies in another: outlines may share a side, on which no point tells. Where there is no
-    /// allowance, the sewing line lies in the cut line that is drawn over it.
-    pub(super) fn lies_in(&self, other: &Self) -> bool {
-        let middle = (self.bounds[0] + self.bounds[1]) / 2.0;
-        let beyond = (0..2).any(|k| middle[k] < other.bounds[0][k] || middle[k] > other.bounds[1][k]);
-        let wider = other.area() - self.area();
-        let alike = wider.abs() <= STRIP * other.whole.length();
-        let over = self.role != Role::Cut && other.role == Role::Cut;
-        if beyond || wider <= 0.0 && !alike || alike && !over {
-            return false;
-        }
-        let place = |k: usize| self.whole.point(self.whole.length() * (k as f64 + 0.5) / LOOKS as f64);
-        let telling: Vec<Vec2> = (0..LOOKS).map(place).filter(|&p| other.off(p) > COARSE).collect();
-        if alike {
-            telling.is_empty()
-        } else {
-            2 * telling.iter().filter(|&&p| other.holds(p)).count() >= telling.len()
-        }
-    }
-
-    /// How far a point is from its line.
-    fn off(&self, p: Vec2) -> f64 {
-        sides_of(&self.points).map(|side| distance_to_segment(p, side)).fold(f64::INFINITY, f64::min)
-    }
-
-    /// Whether the middle of a line lies in it or on it.
-    fn owns(&self, line: &Stroke) -> bool {
-        let middle = half_way(line);
-        self.holds(middle) || self.whole.nearest(middle).1 <= NEAR
-    }
-
-    /// Whether a point lies in it or, but for what programs round, on it.
-    fn covers(&self, p: Vec2) -> bool {
-        self.holds(p) || self.off(p) <= COARSE
-    }
-
-    /// Which of the drawing's strokes, given by their middles, is the first that runs along it.
-    fn first_drawn(&self, middles: &[Vec2]) -> Option<usize> {
-        let is_beside = |p: &Vec2| (0..2).all(|k| p[k] >= self.bounds[0][k] - NEAR && p[k] <= self.bounds[1][k] + NEAR);
-        middles.iter().position(|p| is_beside(p) && self.off(*p) <= NEAR)
-    }
-
-    fn area(&self) -> f64 {
-        self.whole.double_area().abs() / 2.0
-    }
-
-    fn holds(&self, p: Vec2) -> bool {
-        encloses(sides_of(&self.points), p)
-    }
-}
-
-/// The pieces that strokes make, in the order of the drawing; what is written on one may say how it is cut. Open lines
-/// that belong to none are left out, and so are lines in a piece's allowance.
-pub fn pieces(strokes: &[Stroke], remarks: &[Remark]) -> Drawing {
-    let Sorted { contours, rest, alone } = Sorted::new(strokes);
-    let mut outer: Vec<usize> = (0..contours.len()).filter(|&i| contours[i].area() >= SMALLEST_PIECE).collect();
-    let within = |i: usize, k: usize| i != k && contours[i].lies_in(&contours[k]);
-    outer.retain(|&i| !(0..contours.len()).any(|k| within(i, k)));
-    // Outlines of open lines were put together last, wherever they are drawn.
-    let middles: Vec<Vec2> = strokes.iter().map(half_way).collect();
-    outer.sort_by_cached_key(|&o| contours[o].first_drawn(&middles).unwrap_or(strokes.len()));
-    let mut left_out = Vec::new();
-    let piece = |&o: &usize| {
-        let inner: Vec<&Contour> = (0..contours.len()).filter(|&i| within(i, o)).map(|i| &contours[i]).collect();
-        let mut own = remarks.iter().enumerate().filter(|(_, r)| contours[o].holds(r.at));
-        let (said_by, said) = own.find_map(|(i, r)| Some((i, said(&r.text)?))).unzip();
-        let (cut_how, on_fold) = match said {
-            Some(Said::Cut(how)) => (Some(how), None),
-            Some(Said::OnFold(count)) => (None, Some(count)),
-            None => (None, None),
+impl Drawing {
+    /// Adds what another holds.
+    fn add(&mut self, other: Self) {
+        self.pieces.extend(other.pieces);
+        let new = |own: &[String], added: Vec<String>| -> Vec<String> {
+            added.into_iter().filter(|sentence| !own.contains(sentence)).collect()
         };
-        let (traced, beyond) = piece(&contours[o], &inner, &rest);
-        left_out.extend(beyond_seam(&traced.name, &beyond));
-        Traced { cut_how, on_fold, said_by, ..traced }
-    };
-    let pieces = outer.iter().map(piece).collect();
-    let is_on_one = |line: &Stroke| outer.iter().any(|&o| contours[o].owns(line));
-    let open = rest.iter().filter(|line| line.role == Role::Unknown).chain(&alone);
+        let (left_out, notes) = (new(&self.left_out, other.left_out), new(&self.notes, other.notes));
+        self.left_out.extend(left_out);
+        self.notes.extend(notes);
+        self.faults.extend(other.faults);
+        self.lost += other.lost;
+    }
+}
+
+/// The pieces of one size.
+fn one_size(strokes: &[Stroke], remarks: &[Remark], sheet: Option<Vec2>) -> Drawing {
+    let Sorted { contours, rest, alone, notes } = Sorted::new(strokes);
+    let mut drawing = Drawing { notes, ..Drawing::default() };
+    let contours = Patterns::new(contours, remarks, sheet, &mut drawing.left_out);
+    let outer = contours.outer(strokes);
+    for &o in &outer {
+        let contour = &contours.all[o];
+        let inner = contours.inner(o);
+        let mut own = remarks.iter().enumerate().filter(|(_, r)| contour.holds(r.at));
+        let (said_by, said) = own.find_map(|(i, r)| Some((i, said(&r.text)?))).unzip();
+        let (cut_how, copies, on_fold) = match said {
+            Some(Said::Cut(how, copies)) => (Some(how), copies, None),
+            Some(Said::OnFold(count)) => (None, 1, Some(count)),
+            None => (None, 1, None),
+        };
+        let (traced, beyond) = piece(contour, &inner, &rest);
+        drawing.left_out.extend(beyond_seam(&traced.name, &beyond));
+        drawing.pieces.push(Traced { cut_how, copies, on_fold, said_by, ..traced });
+    }
+    drawing.left_out.extend(contours.too_small(&outer, &mut drawing.lost));
+    let is_on_one = |line: &Stroke| outer.iter().any(|&o| contours.all[o].owns(line));
+    let open = rest.iter().filter(|line| matches!(line.role, Role::Unknown | Role::Sew)).chain(&alone);
     let open: Vec<Stroke> = open.filter(|line| !is_on_one(line)).cloned().collect();
-    left_out.extend(unclosed(&open));
-    Drawing { pieces, left_out, ..Drawing::default() }
+    let (open, rest) = nearly_closed(&open, SMALLEST_PIECE);
+    drawing.lost += open.iter().map(|o| o.area).sum::<f64>();
+    drawing.faults.extend(open.iter().map(|o| o.sentence()));
+    drawing.left_out.extend(unclosed(&rest));
+    drawing
 }
 
-/// What is written on a piece of how it is cut.
-enum Said {
-    /// So.
-    Cut(Cut),
-    /// So often on the fold of the cloth; where that is, is not in the words.
-    OnFold(usize),
+/// The closed lines of a drawing that are of its pieces.
+struct Patterns {
+    all: Vec<Contour>,
+    /// Whether three in one another are sizes, so that each is a piece.
+    sized: Vec<bool>,
 }
 
-/// `cut 2 (left and right)`, `Cut 1 pair`, `cut 4`, `CUT 1 ON FOLD`: how a piece is cut, as makers write it on.
-fn said(text: &str) -> Option<Said> {
-    let text = text.to_lowercase();
-    let (_, after) = text.split_once("cut")?;
-    let count: usize = after.split(|c: char| !c.is_alphanumeric()).find(|w| !w.is_empty())?.parse().ok()?;
-    let says = |words: &[&str]| words.iter().any(|words| after.contains(words));
-    let mirrored = says(&["left and right", "l and r", "mirror", "pair"]);
-    match count {
-        1..=100 if says(&["on fold", "on the fold"]) => Some(Said::OnFold(count)),
-        1 | 2 if mirrored => Some(Said::Cut(Cut::Pair)),
-        2..=100 => Some(Said::Cut(Cut::Count(count))),
-        _ => None,
-    }
-}
-
-/// Strokes of one group and kind that are not closed by themselves.
-struct Open<'a> {
-    group: Option<String>,
-    role: Role,
-    edges: Vec<(&'a Stroke, Path)>,
-}
-
-/// The strokes of a drawing by what they make.
-#[derive(Default)]
-struct Sorted {
-    /// Closed lines, alone or of edges that meet.
-    contours: Vec<Contour>,
-    /// Strokes that are none.
-    rest: Vec<Stroke>,
-    /// Edges that meet no other.
-    alone: Vec<Stroke>,
-}
-
-impl Sorted {
-    fn new(strokes: &[Stroke]) -> Self {
-        let mut sorted = Self::default();
-        let mut unsaid = Vec::new();
-        let mut open: Vec<Open> = Vec::new();
-        let mut by_group: HashMap<(Option<String>, bool), usize> = HashMap::new();
-        for stroke in strokes {
-            let closed = is_closed(&[((), stroke.path.clone())]) && stroke.path.double_area().abs() > 0.0;
-            match stroke.role {
-                Role::Unknown | Role::Cut | Role::Sew | Role::Edge | Role::Fold if closed => sorted.close(stroke),
-                Role::Edge | Role::Cut => {
-                    let key = (stroke.group.clone(), stroke.role == Role::Cut);
-                    let at = *by_group.entry(key).or_insert_with(|| {
-                        open.push(Open { group: stroke.group.clone(), role: stroke.role, edges: Vec::new() });
-                        open.len() - 1
-                    });
-                    open[at].edges.push((stroke, stroke.path.clone()));
-                }
-                Role::Unknown if stroke.kind.is_none() => unsaid.push(stroke.clone()),
-                _ => sorted.rest.push(stroke.clone()),
-            }
+impl Patterns {
+    /// Without what is drawn twice, belongs to the sheet, or is lettering; that is said.
+    fn new(contours: Vec<Contour>, remarks: &[Remark], sheet: Option<Vec2>, left_out: &mut Vec<String>) -> Self {
+        let contours = without_doubles(contours, left_out);
+        let surroundings = Surroundings { contours: &contours, remarks, sheet, smallest: SMALLEST_PIECE };
+        let of_sheet: Vec<Option<Sheet>> = (0..contours.len()).map(|k| surroundings.of_sheet(k)).collect();
+        for (contour, what) in contours.iter().zip(&of_sheet) {
+            left_out.extend(what.map(|what| {
+                let name = contour.name.as_ref().map_or_else(String::new, |name| format!(" ('{name}')"));
+                format!("left out: {}{name}, {:.2} cm²", what.words(), CM2 * contour.area())
+            }));
         }
-        open.into_iter().for_each(|edges| sorted.join_edges(edges));
-        sorted.join(&unsaid);
-        sorted
-    }
-
-    /// Adds a line that is closed by itself.
-    fn close(&mut self, stroke: &Stroke) {
-        let is_edge = matches!(stroke.role, Role::Edge | Role::Fold);
-        let (edge, role) = if is_edge { (stroke.name.clone(), Role::Edge) } else { (None, stroke.role) };
-        let name = stroke.group.clone().or_else(|| stroke.name.clone());
-        self.contours.extend(Contour::new(vec![(edge, stroke.path.clone())], role, name));
-    }
-
-    /// Adds what edges make where they meet; a run that stays open is closed by its fold, or by the sewing line on
-    /// which it begins and ends.
-    fn join_edges(&mut self, Open { group, role, edges }: Open) {
-        let role = if role == Role::Edge { Role::Sew } else { role };
-        let mut runs = chained(&edges);
-        if role == Role::Cut
-            && let Some(cut) = self.partly_cut(group.as_deref(), &runs)
-        {
-            self.contours.extend(Contour::new(vec![(None, cut)], role, group.clone()));
-            runs.retain(|run| is_closed(run));
+        let mut of_sheet = of_sheet.into_iter();
+        let all: Vec<Contour> = contours.into_iter().filter(|_| of_sheet.next() == Some(None)).collect();
+        let letter = |c: &Contour| c.filled && c.area() < SMALLEST_PIECE;
+        let (letters, all): (Vec<Contour>, Vec<Contour>) = all.into_iter().partition(letter);
+        if !letters.is_empty() {
+            let area: f64 = letters.iter().map(Contour::area).sum();
+            let count = letters.len();
+            let shapes = if count == 1 { "1 small filled shape" } else { "small filled shapes" };
+            let many = if count == 1 { String::new() } else { format!("{count} ") };
+            left_out.push(format!(
+                "left out: {many}{shapes}, {:.2} cm²: letters, arrowheads or the like, no lines of a pattern",
+                CM2 * area
+            ));
         }
-        for run in runs {
-            let (Some(first), Some(last)) = (run.first(), run.last()) else { continue };
-            let fold = (!is_closed(&run)).then(|| Path::line(last.1.end(), first.1.start()));
-            if run.len() < 2 && role == Role::Sew && fold.is_some() {
-                self.alone.push(first.0.clone());
+        let sized = nested_sizes(&all);
+        Self { all, sized }
+    }
+
+    fn within(&self, i: usize, k: usize) -> bool {
+        let (one, other) = (&self.all[i], &self.all[k]);
+        i != k && !(self.sized[i] && self.sized[k]) && (one.lies_in(other) || one.is_drawn_on(other))
+    }
+
+    /// Those that lie in no other, in the order of the drawing.
+    fn outer(&self, strokes: &[Stroke]) -> Vec<usize> {
+        let count = self.all.len();
+        let mut outer: Vec<usize> = (0..count).filter(|&i| self.all[i].area() >= SMALLEST_PIECE).collect();
+        outer.retain(|&i| !(0..count).any(|k| self.within(i, k)));
+        // Outlines of open lines were put together last, wherever they are drawn.
+        let middles: Vec<Vec2> = strokes.iter().map(half_way).collect();
+        outer.sort_by_cached_key(|&o| self.all[o].first_drawn(&middles).unwrap_or(strokes.len()));
+        outer
+    }
+
+    fn inner(&self, o: usize) -> Vec<&Contour> {
+        (0..self.all.len()).filter(|&i| self.within(i, o)).map(|i| &self.all[i]).collect()
+    }
+
+    /// What to say of those that lie in no other and are too small to be pieces.
+    fn too_small(&self, outer: &[usize], lost: &mut f64) -> Option<String> {
+        let count = self.all.len();
+        let alone = |i: &usize| !outer.contains(i) && !(0..count).any(|k| self.within(*i, k));
+        let small: Vec<&Contour> = (0..count).filter(alone).map(|i| &self.all[i]).collect();
+        let area: f64 = small.iter().map(|c| c.area()).sum();
+        *lost += area;
+        let what = match small.len() {
+            0 => return None,
+            1 => "1 closed line that is".to_owned(),
+            count => format!("{count} closed lines that are"),
+        };
+        let names: Vec<String> = small.iter().filter_map(|c| Some(format!("'{}'", c.name.as_ref()?))).take(4).collect();
+        let names = if names.is_empty() { String::new() } else { format!(" ({})", names.join(", ")) };
+        Some(format!("left out: {what} too small for a piece{names}, {:.2} cm²", CM2 * area))
+    }
+}
+
+/// The contours, of those that are drawn again only one: the one that a pen draws.
+fn without_doubles(contours: Vec<Contour>, left_out: &mut Vec<String>) -> Vec<Contour> {
+    let mut again = vec![false; contours.len()];
+    for i in 0..contours.len() {
+        for k in i + 1..contours.len() {
+            let [one, other] = [&contours[i], &contours[k]];
+            let alike = one.role == other.role || [one.role, other.role].contains(&Role::Unknown);
+            if again[i] || again[k] || !alike || !one.is_again(other) {
                 continue;
             }
-            let mut edges: Vec<_> = run.into_iter().map(|(stroke, path)| (stroke.name.clone(), path)).collect();
-            edges.extend(fold.map(|fold| (Some("fold".to_owned()), fold)));
-            self.contours.extend(Contour::new(edges, role, group.clone()));
+            let worse = |c: &Contour| (c.filled, c.role == Role::Unknown, c.name.is_none());
+            again[if worse(one) > worse(other) { i } else { k }] = true;
         }
     }
-
-    /// The cut line of the piece of a group of which only the runs that are open are drawn.
-    fn partly_cut<T>(&self, group: Option<&str>, runs: &[Vec<(T, Path)>]) -> Option<Path> {
-        let whole = |run: &Vec<(T, Path)>| run.iter().map(|(_, path)| path.clone()).reduce(|a, b| a.joined(&b));
-        let open: Vec<Path> = runs.iter().filter(|run| !is_closed(run)).filter_map(whole).collect();
-        let own = |c: &&Contour| c.role == Role::Sew && group.is_some() && c.name.as_deref() == group;
-        self.contours.iter().filter(own).find_map(|sewn| completed(&sewn.whole, &open))
+    let doubles: Vec<&Contour> = contours.iter().zip(&again).filter(|(_, again)| **again).map(|(c, _)| c).collect();
+    if !doubles.is_empty() {
+        let area: f64 = doubles.iter().map(|c| c.area()).sum();
+        let lines =
+            if doubles.len() == 1 { "1 closed line".to_owned() } else { format!("{} closed lines", doubles.len()) };
+        left_out.push(format!("left out: {lines} drawn twice, {:.2} cm²", CM2 * area));
     }
+    let mut again = again.into_iter();
+    contours.into_iter().filter(|_| again.next() == Some(false)).collect()
+}
 
-    /// Adds the outlines that open lines make of which nothing is said. What they enclose on a piece that is too small
-    /// to be its sewing line are lines on it.
-    fn join(&mut self, unsaid: &[Stroke]) {
-        let (outlines, rest) = joined(unsaid);
-        self.rest.extend(rest);
-        let is_small = |one: &Contour, other: &Contour| {
-            one.area() < SEWN_SHARE * other.area() && one.lies_in(other) && !std::ptr::eq(one, other)
-        };
-        let is_mark = |own: &Joined| {
-            let others = self.contours.iter().chain(outlines.iter().map(|o| &o.contour));
-            others.into_iter().any(|other| is_small(&own.contour, other))
-        };
-        let marks: Vec<bool> = outlines.iter().map(is_mark).collect();
-        for (Joined { contour, lines }, is_mark) in outlines.into_iter().zip(marks) {
-            if is_mark {
-                self.rest.extend(lines);
-            } else {
-                self.contours.push(contour);
-            }
+/// Which contours are sizes of one outline, each in the next.
+fn nested_sizes(contours: &[Contour]) -> Vec<bool> {
+    let mut sized = vec![false; contours.len()];
+    let large = |i: &usize| contours[*i].area() >= SMALLEST_PIECE && contours[*i].role == Role::Unknown;
+    let all: Vec<usize> = (0..contours.len()).filter(large).collect();
+    let holders = |i: usize| {
+        let mut own: Vec<usize> =
+            all.iter().copied().filter(|&k| k != i && contours[i].lies_in(&contours[k])).collect();
+        own.sort_by(|a, b| contours[*a].area().total_cmp(&contours[*b].area()));
+        own
+    };
+    for &i in &all {
+        if let [middle, outer, ..] = holders(i)[..]
+            && are_sizes(&contours[i], &contours[middle], &contours[outer])
+        {
+            [i, middle, outer].iter().for_each(|&k| sized[k] = true);
         }
     }
+    sized
 }
 
 /// The piece within a contour, and the lines in its allowance: those are none of the sewn piece.
-fn piece<'a>(outer: &Contour, inner: &[&Contour], rest: &'a [Stroke]) -> (Traced, Vec<&'a Stroke>) {
-    // Within a cut line an edge is sewn, however wide the allowance; within another line it may be that of a hole.
+fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> (Traced, Vec<Option<String>>) {
+    // Within a cut line an edge is sewn, however wide the allowance; any other line is only if it follows the outline
+    // all round.
     let is_sewn = |c: &Contour| match c.role {
-        Role::Sew => true,
-        Role::Edge if outer.role == Role::Cut => true,
         Role::Cut => false,
-        _ => c.area() >= SEWN_SHARE * outer.area(),
+        _ if c.of_edges && outer.role == Role::Cut => true,
+        _ if c.of_edges => c.area() >= SEWN_SHARE * outer.area(),
+        _ => follows(&c.whole, &outer.whole),
     };
     let sewn = inner.iter().filter(|c| is_sewn(c)).max_by(|a, b| a.area().total_cmp(&b.area()));
     let mut traced = Traced { name: name_of(outer, inner), ..Traced::default() };
@@ -298,19 +246,28 @@ fn piece<'a>(outer: &Contour, inner: &[&Contour], rest: &'a [Stroke]) -> (Traced
     };
     let is_outline = |c: &Contour| sewn.is_some_and(|s| std::ptr::eq(*s, c));
     let surface = sewn.map_or(outer, |s| s);
-    // A lozenge within is a dart, a ring of a few millimetres a mark; what is left was cut out.
-    let is_hole = |c: &&&Contour| c.area() >= SMALLEST_PIECE / 100.0 && c.lies_in(surface);
-    let mut others = Vec::new();
+    // A hole is what the drawing cuts out, or draws as the edge of one; a ring of a few millimetres is a point.
+    let is_hole = |c: &Contour| c.role == Role::Cut || c.of_edges || c.own.as_deref().is_some_and(says_hole);
+    let (mut holes, mut beyond) = (Vec::new(), Vec::new());
     for contour in inner.iter().copied().filter(|c| !is_outline(c)) {
-        match sides(contour) {
-            Some(lines) => traced.lines.extend(lines),
-            None => others.push(contour),
+        if let Some(lines) = sides(contour) {
+            traced.lines.extend(lines);
+        } else if contour.area() < POINT {
+            let points = &contour.points;
+            traced.points.push(points.iter().sum::<Vec2>() / points.len() as f64);
+        } else if is_hole(contour) && contour.lies_in(surface) {
+            holes.push(contour);
+        } else {
+            let parts = parts_within(&contour.whole, |p| if surface.holds(p) { 0.0 } else { surface.off(p) });
+            if parts.is_empty() {
+                beyond.push(contour.name.clone());
+            }
+            let name = contour.own.clone();
+            traced.lines.extend(parts.into_iter().map(|path| Inner { name: name.clone(), path, kind: None }));
         }
     }
-    let (cut_out, marks): (Vec<&Contour>, Vec<&Contour>) = others.into_iter().partition(|c| is_hole(&c));
-    traced.holes = holes_of(&cut_out);
-    traced.points.extend(marks.iter().map(|m| m.points.iter().sum::<Vec2>() / m.points.len() as f64));
-    let (mut folds, mut beyond) = (Vec::new(), Vec::new());
+    traced.holes = holes_of(&holes);
+    let (mut folds, mut arrow) = (Vec::new(), None);
     for stroke in rest {
         let middle = middle(stroke);
         let ends = [stroke.path.start(), stroke.path.end()];
@@ -318,23 +275,27 @@ fn piece<'a>(outer: &Contour, inner: &[&Contour], rest: &'a [Stroke]) -> (Traced
         let on_rim = matches!(stroke.role, Role::Fold | Role::Notch | Role::Drill);
         // At a sharp corner the mark of a notch that is told may lie beyond both edges but for one point.
         let told = || stroke.notch.is_some() && points_of(&stroke.path).into_iter().any(near);
-        let own = outer.holds(middle) || on_rim && near(middle) || told();
+        // A neck opening may interrupt a fold in its middle.
+        let fold = || stroke.role == Role::Fold && ends.iter().all(|&p| near(p));
+        let own = outer.holds(middle) || on_rim && near(middle) || told() || fold();
         if !own {
             continue;
         }
         let short = stroke.path.length() <= NOTCH && stroke.path.is_straight();
         match stroke.role {
+            Role::Arrow => arrow = arrow.or(Some(ends)),
             Role::Grain => traced.grain = traced.grain.or(Some(grain_ends(&stroke.path))),
             Role::PleatFold => folds.push(stroke.path.start()),
             Role::PleatPlace => traced.pleats.extend(folds.pop().map(|fold| [fold, stroke.path.start()])),
-            Role::Fold => traced.mirror = traced.mirror.or(Some(ends)),
+            Role::Fold if traced.mirror.is_some() => traced.more_folds.push(ends),
+            Role::Fold => traced.mirror = Some(ends),
             Role::Drill => traced.points.push(middle),
             Role::Notch => traced.notches.push(notch(stroke, &surface.edges, &outlines)),
-            Role::Unknown if short && ends.iter().any(|&p| near(p)) => {
+            Role::Unknown if short && ends.iter().any(|&p| near(p)) && crosses(&stroke.path, &outlines) => {
                 traced.notches.push(notch(stroke, &surface.edges, &outlines));
             }
             // FreeSewing draws the mouths of darts so.
-            _ if !surface.covers(middle) => beyond.push(stroke),
+            _ if !surface.covers(middle) => beyond.push(stroke.name.clone()),
             _ => traced.lines.push(Inner {
                 name: stroke.name.clone(),
                 path: trimmed(&stroke.path, |p| surface.covers(p)),
@@ -342,12 +303,22 @@ fn piece<'a>(outer: &Contour, inner: &[&Contour], rest: &'a [Stroke]) -> (Traced
             }),
         }
     }
+    traced.grain = traced.grain.or(arrow);
     (traced, beyond)
 }
 
-/// The point half way along a stroke.
-fn half_way(stroke: &Stroke) -> Vec2 {
-    stroke.path.point(stroke.path.length() / 2.0)
+/// Whether a short line leaves the nearest outline rather than running along it, as letters and dashes may.
+fn crosses(line: &Path, outlines: &[&Path]) -> bool {
+    let along = (line.end() - line.start()).try_normalize(0.0).unwrap_or_else(Vec2::zeros);
+    let at = nearest_end([line.start(), line.end()], outlines);
+    let nearest = outlines.iter().map(|o| (o, o.nearest(at))).min_by(|a, b| a.1.1.total_cmp(&b.1.1));
+    nearest.is_none_or(|(outline, (s, _))| outline.tangent(s).dot(&along).abs() <= ALONG)
+}
+
+/// Whether a drawing calls a line so that it is cut out.
+fn says_hole(name: &str) -> bool {
+    let name = name.to_lowercase();
+    ["hole", "cutout", "cut_out", "cut-out"].iter().any(|word| name.contains(word))
 }
 
 /// Where a stroke is: half way along it, or in the middle of the ring round a drill hole.

@@ -3,6 +3,7 @@
 use super::darts::{Wedge, closed};
 use super::edges::{Edge, edges, nearest_edge};
 use super::fish_eyes::{FishEye, taken};
+use super::folds::{fold_edge, merged, opened};
 use super::holes::Hole;
 use super::materials::{declared, name_of};
 use super::notches::EdgeNotch;
@@ -15,8 +16,6 @@ use crate::pattern::{
     NotchFile, OutlineFile, PieceFile, PleatFile, Quantity, SLACK, Spot, Value,
 };
 
-/// A fold's ends are so near to those of an edge (metres).
-const ON_FOLD: f64 = 1e-3;
 /// Edges and grain of which the directions differ by no more (radians, a degree) run along each other.
 const ASKEW: f64 = 0.0175;
 /// Widest allowance that is measured (metres): farther apart, two lines have nothing to do with each other.
@@ -54,13 +53,22 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
     for piece in &traced {
         let name = fresh(&piece.name, &names);
         names.push(name.clone());
+        let whole = opened(piece);
+        if whole.is_some() {
+            notes.push(format!(
+                "the fold of '{name}' is interrupted: the piece is opened, with the opening as a hole, and cut once"
+            ));
+        }
+        let piece = whole.as_ref().unwrap_or(piece);
         let (mut file, edges) = piece_file(&name, &piece.at_origin(), &mut notes);
         // The only fabric is that of every piece.
         file.fabric = piece.material.as_ref().filter(|_| fabrics.len() > 1).map(|m| at_no_place(name_of(m)));
         let fold = fold_of(&file).map(str::to_owned);
         let pair = file.cut.as_ref().is_some_and(|cut| cut.value == Cut::Pair);
+        let copies = copies(&file, piece.copies, &mut names, &mut notes);
         outlines.push(Outline { piece: name, edges, fold, pair });
         pieces.push(file);
+        pieces.extend(copies);
     }
     let file = GarmentFile {
         version: at_no_place(1),
@@ -78,6 +86,22 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
         tests: Vec::new(),
     };
     Digitized { file, suggestions: suggest(&outlines), notes }
+}
+
+/// The further pieces of one that is cut several times over, each like it.
+fn copies(piece: &PieceFile, count: usize, names: &mut Vec<String>, notes: &mut Vec<String>) -> Vec<PieceFile> {
+    let mut copies = Vec::new();
+    for _ in 1..count {
+        let name = fresh(&piece.name.value, names);
+        names.push(name.clone());
+        copies.push(PieceFile::like(at_no_place(name), at_no_place(piece.name.value.clone())));
+    }
+    if let Some(last) = copies.last() {
+        let (name, last) = (&piece.name.value, &last.name.value);
+        let cut = if copies.len() == 1 { format!("'{last}' is") } else { format!("pieces up to '{last}' are") };
+        notes.push(format!("'{name}' is cut {count} times as a pair, {count} left and {count} right: {cut} like it"));
+    }
+    copies
 }
 
 fn at_no_place<T>(value: T) -> Located<T> {
@@ -114,7 +138,7 @@ fn fresh(name: &str, taken: &[String]) -> String {
 }
 
 fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile, Vec<Edge>) {
-    let (fish_eyes, piece) = taken(piece, ON_NOTCH);
+    let (fish_eyes, piece) = taken(piece, ON_NOTCH, notes);
     let piece = &piece;
     let outline = match (&piece.cut, piece.sew.is_empty()) {
         (Some(cut), true) => {
@@ -124,7 +148,7 @@ fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile
         _ => piece.sew.clone(),
     };
     let (outline, wedges) = closed(&outline);
-    let mut edges = edges(&outline, &piece.notches);
+    let mut edges = merged(edges(&outline, &piece.notches), piece.mirror);
     let mut darts: Vec<DartFile> = wedges.iter().filter_map(|wedge| dart(wedge, &mut edges)).collect();
     darts.extend(fish_eyes.iter().map(fish_eye));
     let pleats: Vec<PleatFile> = piece.pleats.iter().filter_map(|ends| pleat(*ends, &mut edges)).collect();
@@ -133,6 +157,14 @@ fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile
     let grain = piece.grain.or(piece.mirror);
     let drawn_fold = piece.mirror.and_then(|mirror| fold_edge(&edges, mirror));
     let fold = drawn_fold.or_else(|| written_fold(name, piece.on_fold?, &edges, grain, notes));
+    for other in piece.more_folds.iter().filter_map(|ends| fold_edge(&edges, *ends)) {
+        if let Some(fold) = fold.as_ref().filter(|fold| **fold != other) {
+            notes.push(format!(
+                "'{name}' lies on two folds: its edge '{fold}' is mirrored, its edge '{other}' is not; draw it opened \
+                 at one of them"
+            ));
+        }
+    }
     let cut = fold.map(Cut::Fold).or(piece.cut_how.clone());
     let whole = piece.cut.as_ref().filter(|_| !piece.sew.is_empty());
     let holes = named_holes(&piece.holes, &edges);
@@ -316,15 +348,6 @@ fn lines(piece: &Traced, wedges: &[Wedge]) -> Vec<LineFile> {
     lines
 }
 
-/// The edge that lies on the mirror line.
-fn fold_edge(edges: &[Edge], [from, to]: [Vec2; 2]) -> Option<String> {
-    let along = (to - from).try_normalize(0.0)?;
-    let on = |p: Vec2| along.perp(&(p - from)).abs() <= ON_FOLD;
-    let lies = |e: &&Edge| e.path.is_straight() && on(e.path.start()) && on(e.path.end());
-    let longest = |a: &&Edge, b: &&Edge| a.path.length().total_cmp(&b.path.length());
-    edges.iter().filter(lies).max_by(longest).map(|e| e.name.clone())
-}
-
 /// The edge that may lie on the fold where that is written on a piece and not drawn: one of that name, or the only
 /// straight one that runs along the grain.
 fn written_fold(
@@ -366,6 +389,22 @@ fn clear_of_mouths(edge: &Edge, edges: &[Edge], wedges: &[Wedge]) -> [f64; 2] {
     begins.zip(ends).map(|(from, to)| [from, to]).max_by(longer).unwrap_or_default()
 }
 
+/// Along curves and beside short edges programs draw cut lines no more exactly than to this share of their width;
+const INEXACT: f64 = 0.15;
+/// short is an edge of less than so many of them.
+const SHORT: f64 = 5.0;
+
+/// The width that was meant where one was measured (millimetres) beside a bent or a short edge: that of the straight,
+/// long edges whose is nearly the same, of several the nearest.
+fn meant(edge: &Edge, width: f64, all: &[(&Edge, f64)]) -> f64 {
+    let is_sure = |e: &Edge, w: f64| e.path.is_straight() && e.path.length() * MM >= SHORT * w;
+    if is_sure(edge, width) {
+        return width;
+    }
+    let sure = all.iter().filter(|(e, w)| is_sure(e, *w) && (w - width).abs() <= INEXACT * w).map(|(_, w)| *w);
+    sure.min_by(|a, b| (a - width).abs().total_cmp(&(b - width).abs())).unwrap_or(width)
+}
+
 /// The distance of the cut line from every edge and hole, in tenths of a millimetre.
 fn allowance(
     edges: &[Edge],
@@ -388,8 +427,9 @@ fn allowance(
     let said = |number: f64, corner| at_no_place(AllowanceWidth { width: Quantity { number, unit: None }, corner });
     let corner = |edge: &str| corners.iter().find(|(name, _)| word(name) == edge).map(|(_, corner)| *corner);
     type Width<'a> = (&'a str, f64);
-    let outline = edges.iter().filter(|e| !on_fold(e)).filter_map(|e| Some((e.name.as_str(), width(e)?)));
-    let outline: Vec<Width> = outline.collect();
+    let measured: Vec<(&Edge, f64)> =
+        edges.iter().filter(|e| !on_fold(e)).filter_map(|e| Some((e, width(e)?))).collect();
+    let outline: Vec<Width> = measured.iter().map(|(e, w)| (e.name.as_str(), meant(e, *w, &measured))).collect();
     let cut_out = holes.iter().map(|(name, hole)| (name.as_str(), tenths(hole.allowance())));
     let cut_out: Vec<Width> = cut_out.filter(|(_, w)| *w > 0.0).collect();
     if outline.iter().any(|(_, w)| w / MM > WIDEST) {

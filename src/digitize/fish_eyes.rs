@@ -1,7 +1,8 @@
 //! Fish-eye darts that toile itself has drawn: four lines that are named as a garment names the edges of such a hole.
 
 use super::chain::MEET;
-use super::contours::Contour;
+use super::contour::Contour;
+use super::lozenge::Lozenge;
 use super::{Inner, Traced};
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{FISH_EYE_EDGES, LineKind};
@@ -71,8 +72,11 @@ pub(super) fn sides(contour: &Contour) -> Option<Vec<Inner>> {
     (contour.edges.len() == FISH_EYE_EDGES.len()).then(|| contour.edges.iter().map(side).collect()).flatten()
 }
 
-/// The fish-eyes of a piece, and the piece without their lines and the marks at their corners.
-pub(super) fn taken(piece: &Traced, near: f64) -> (Vec<FishEye>, Traced) {
+/// The fish-eyes of a piece, and the piece without their lines and the marks at their corners: those that toile has
+/// named, and closed lines that are drawn as such. What cannot be kept of these is noted.
+pub(super) fn taken(piece: &Traced, near: f64, notes: &mut Vec<String>) -> (Vec<FishEye>, Traced) {
+    let (drawn, lines) = lozenges(piece, notes);
+    let piece = &Traced { lines, ..piece.clone() };
     let known: Vec<Option<(String, usize)>> = piece.lines.iter().map(|l| edge(l.name.as_deref()?)).collect();
     let mut names: Vec<&String> = Vec::new();
     for (name, _) in known.iter().flatten() {
@@ -87,10 +91,39 @@ pub(super) fn taken(piece: &Traced, near: f64) -> (Vec<FishEye>, Traced) {
         };
         FishEye::new((*name).clone(), [line(0)?, line(1)?, line(2)?, line(3)?])
     };
-    let found: Vec<FishEye> = names.iter().filter_map(whole).collect();
+    let mut found: Vec<FishEye> = names.iter().filter_map(whole).collect();
     let is_taken = |of: &Option<(String, usize)>| of.as_ref().is_some_and(|(n, _)| found.iter().any(|f| f.name == *n));
     let lines = piece.lines.iter().zip(&known).filter(|(_, of)| !is_taken(of)).map(|(line, _)| line.clone()).collect();
+    found.extend(drawn);
     let corners: Vec<Vec2> = found.iter().flat_map(FishEye::corners).collect();
     let points = piece.points.iter().filter(|p| corners.iter().all(|c| (*p - c).norm() > near)).copied().collect();
     (found, Traced { lines, points, ..piece.clone() })
+}
+
+/// The closed lines of which nothing is said that are fish-eye darts, and the other lines.
+fn lozenges(piece: &Traced, notes: &mut Vec<String>) -> (Vec<FishEye>, Vec<Inner>) {
+    let (mut found, mut rest): (Vec<FishEye>, Vec<Inner>) = (Vec::new(), Vec::new());
+    for line in &piece.lines {
+        let Some(lozenge) = Lozenge::of(&line.path).filter(|_| line.kind.is_none()) else {
+            rest.push(line.clone());
+            continue;
+        };
+        let Some(dart) = lozenge.dart else {
+            notes.push(format!(
+                "a line in '{}' is drawn as a fish-eye dart that is askew: it is kept as a mark, for a garment file \
+                 has upright ones alone",
+                piece.name
+            ));
+            rest.push(line.clone());
+            continue;
+        };
+        let number = found.len() + 1;
+        let made_up = if number == 1 { "fisheye".to_owned() } else { format!("fisheye{number}") };
+        let name = line.name.clone().filter(|name| found.iter().all(|f| f.name != *name)).unwrap_or(made_up);
+        if lozenge.is_bent {
+            notes.push(format!("the legs of the fish-eye dart '{name}' in '{}' are bent: made straight", piece.name));
+        }
+        found.push(FishEye { name, ..dart });
+    }
+    (found, rest)
 }

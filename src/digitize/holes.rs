@@ -1,7 +1,7 @@
 //! What is cut out of a piece: drawn as a cut line, as a sewing line, or as both, one in the other.
 
 use super::Role;
-use super::contours::Contour;
+use super::contour::Contour;
 use crate::geometry::Path;
 
 /// Where along a hole its allowance is measured: past its corners the cut line is farther, nowhere nearer.

@@ -1,10 +1,12 @@
 //! Outlines drawn as several open lines of which nothing says that they are edges.
 
 use super::Stroke;
-use super::chain::{MEET, chained, is_closed};
-use super::contours::Contour;
-use crate::geometry::{Path, Vec2};
+use super::chain::{bridged, chained, gaping, is_closed, nearly_meet};
+use super::contour::Contour;
+use crate::geometry::{MM, Path, Vec2};
 
+/// The middle of a gap that was closed is as near to the line over it as this (metres).
+const GAP_AT: f64 = 1e-6;
 /// Most names of lines that a message lists.
 const LISTED: usize = 4;
 
@@ -12,6 +14,51 @@ const LISTED: usize = 4;
 pub(super) struct Joined {
     pub(super) contour: Contour,
     pub(super) lines: Vec<Stroke>,
+    /// The widest gap of ends that were joined, metres; nought where all meet.
+    pub(super) gap: f64,
+}
+
+/// An outline of which two ends are too far from each other to be joined.
+pub(super) struct Unclosed {
+    name: Option<String>,
+    /// Middle and width of the gap, metres.
+    gap: (Vec2, f64),
+    /// What it would go round if it were closed straight across, square metres.
+    pub(super) area: f64,
+}
+
+/// The outlines that these lines nearly make: of each group the runs that would go round so much (square metres) if
+/// they were closed; and the lines that are in none.
+pub(super) fn nearly_closed(lines: &[Stroke], smallest: f64) -> (Vec<Unclosed>, Vec<Stroke>) {
+    let (mut open, mut rest) = (Vec::new(), Vec::new());
+    for (layer, own) in grouped(lines) {
+        let numbered: Vec<(usize, Path)> = own.iter().enumerate().map(|(k, line)| (k, line.path.clone())).collect();
+        let mut used = vec![false; own.len()];
+        for outline in gaping(chained(&numbered)).into_iter().filter(|outline| outline.area() >= smallest) {
+            outline.run.iter().for_each(|(k, _)| used[*k] = true);
+            let named = |(k, _): &(usize, Path)| own[*k].group.clone().or_else(|| own[*k].name.clone());
+            let name = layer.clone().or_else(|| outline.run.iter().find_map(named));
+            open.push(Unclosed { name, gap: outline.widest, area: outline.area() });
+        }
+        rest.extend(own.iter().zip(&used).filter(|(_, used)| !**used).map(|(line, _)| (*line).clone()));
+    }
+    (open, rest)
+}
+
+impl Unclosed {
+    /// What is to be said of it.
+    pub(super) fn sentence(&self) -> String {
+        let of = self.name.as_ref().map_or_else(String::new, |name| format!(" of '{name}'"));
+        let (at, gap) = self.gap;
+        format!(
+            "the outline{of} is not closed: two of its ends near ({:.1}, {:.1}) mm are {:.2} mm apart; it is left out, \
+             {:.2} cm² if it were closed there; make its ends meet",
+            MM * at.x,
+            MM * at.y,
+            MM * gap,
+            1e4 * self.area
+        )
+    }
 }
 
 /// The outlines that lines of one group make where they meet end to end, and the lines that belong to none.
@@ -21,12 +68,15 @@ pub(super) fn joined(strokes: &[Stroke]) -> (Vec<Joined>, Vec<Stroke>) {
         let (bound, loose) = by_loose_ends(lines);
         rest.extend(loose.into_iter().cloned());
         let bound: Vec<(&Stroke, Path)> = bound.into_iter().map(|line| (line, line.path.clone())).collect();
-        for run in chained(&bound) {
+        let joined = bridged(chained(&bound));
+        for run in joined.runs {
+            let is_own = |at: Vec2| run.iter().any(|(_, path)| path.nearest(at).1 <= GAP_AT);
+            let gap = joined.gaps.iter().filter(|(at, _)| is_own(*at)).map(|(_, gap)| *gap).fold(0.0, f64::max);
             let lines: Vec<Stroke> = run.iter().map(|(line, _)| (*line).clone()).collect();
             let edges = run.into_iter().map(|(line, path)| (line.name.clone(), path)).collect();
             let contour = Contour::of_edges(edges, group.clone());
-            match contour.filter(|_| lines.len() > 1) {
-                Some(contour) => outlines.push(Joined { contour, lines }),
+            match contour.filter(|_| lines.len() > 1 || gap > 0.0) {
+                Some(contour) => outlines.push(Joined { contour, lines, gap }),
                 None => rest.extend(lines),
             }
         }
@@ -51,7 +101,7 @@ fn grouped(strokes: &[Stroke]) -> Vec<(Option<String>, Vec<&Stroke>)> {
 fn by_loose_ends(mut lines: Vec<&Stroke>) -> (Vec<&Stroke>, Vec<&Stroke>) {
     let mut places: Vec<Vec2> = Vec::new();
     let mut place_of = |p: Vec2| {
-        places.iter().position(|q| (p - q).norm() <= MEET).unwrap_or_else(|| {
+        places.iter().position(|q| nearly_meet(p, *q)).unwrap_or_else(|| {
             places.push(p);
             places.len() - 1
         })
@@ -75,6 +125,7 @@ pub(super) fn unclosed(lines: &[Stroke]) -> Vec<String> {
 }
 
 fn sentence(layer: Option<&str>, lines: &[&Stroke]) -> String {
+    let names: Vec<Option<String>> = lines.iter().map(|line| line.name.clone()).collect();
     let count = lines.len();
     let what = if count == 1 { "1 open line".to_owned() } else { format!("{count} open lines") };
     let of = layer.map_or_else(String::new, |layer| format!(" of '{layer}'"));
@@ -84,12 +135,12 @@ fn sentence(layer: Option<&str>, lines: &[&Stroke]) -> String {
     format!(
         "left out: {what}{of}{} on no piece, which close to no outline{gap}; make them meet end to end in one group, \
          or one closed path, to have a piece",
-        listed(lines)
+        listed(&names)
     )
 }
 
 /// What to say of lines between the sewing line and the cut line of a piece, if there are any.
-pub(super) fn beyond_seam(piece: &str, lines: &[&Stroke]) -> Option<String> {
+pub(super) fn beyond_seam(piece: &str, lines: &[Option<String>]) -> Option<String> {
     let what = match lines.len() {
         0 => return None,
         1 => "1 line".to_owned(),
@@ -99,8 +150,8 @@ pub(super) fn beyond_seam(piece: &str, lines: &[&Stroke]) -> Option<String> {
 }
 
 /// ` ('waist', 'side')`, as far as they have names.
-fn listed(lines: &[&Stroke]) -> String {
-    let names: Vec<String> = lines.iter().filter_map(|l| Some(format!("'{}'", l.name.as_ref()?))).collect();
+fn listed(lines: &[Option<String>]) -> String {
+    let names: Vec<String> = lines.iter().filter_map(|name| Some(format!("'{}'", name.as_ref()?))).collect();
     match names.len() {
         0 => String::new(),
         few if few <= LISTED => format!(" ({})", names.join(", ")),

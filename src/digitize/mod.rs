@@ -5,27 +5,40 @@
 //! edges at corners and notches, allowances measured, and [`Suggestion`]s of what may be sewn to what.
 
 mod chain;
+mod contour;
 mod contours;
 mod darts;
 mod edges;
 mod file;
 mod fish_eyes;
+mod folds;
+mod follow;
+mod frames;
 mod holes;
 mod joined;
+mod lozenge;
 mod materials;
 mod notches;
 mod pairs;
 mod partial;
+mod said;
+mod sizes;
 mod smooth;
+mod sorted;
+mod spikes;
 mod suggest;
 mod trimmed;
 
-pub use chain::chained;
+pub(crate) use chain::nearly_meet;
+pub use chain::{Bridged, Gaping, bridged, chained, gaping};
 pub use contours::pieces;
 pub use file::{Digitized, garment_file};
+pub(crate) use follow::follows;
 pub use holes::{Hole, holes};
 pub(crate) use notches::DOUBLE;
+pub(crate) use sizes::{size_of, sizes};
 pub use suggest::Suggestion;
+pub(crate) use trimmed::parts_within;
 
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{Corner, Cut, LineKind, NotchKind, Side};
@@ -47,6 +60,10 @@ pub struct Stroke {
     pub kind: Option<LineKind>,
     /// What is told of it if it is a notch, as toile itself writes it.
     pub notch: Option<ToldNotch>,
+    /// The size of the pattern that it is of, where a layer says that.
+    pub size: Option<String>,
+    /// Whether it bounds what is filled, and no pen runs along it.
+    pub filled: bool,
 }
 
 /// A notch, or one of the marks of a double one.
@@ -109,6 +126,8 @@ pub enum Role {
     Edge,
     /// A grain line.
     Grain,
+    /// An arrow of which nothing is said: the grain where no other line is.
+    Arrow,
     /// The line on the fold.
     Fold,
     /// A notch: a short line, or a point as a line without length to speak of.
@@ -132,6 +151,30 @@ pub struct Drawing {
     pub left_out: Vec<String>,
     /// What was taken for something that it does not say.
     pub notes: Vec<String>,
+    /// What is wrong with it, so that pieces are missing: a sentence for each.
+    pub faults: Vec<String>,
+    /// What the closed lines go round that were left out though they may be pieces, square metres.
+    pub lost: f64,
+    /// The sizes that it holds, in its order; none where it is drawn in one.
+    pub sizes: Vec<String>,
+}
+
+/// Of what a drawing shows no more than this share may be lost.
+const MOST_LOST: f64 = 0.1;
+
+impl Drawing {
+    /// What is wrong with it: outlines that are not closed, and pieces that are missing.
+    pub fn complaints(&self) -> Vec<String> {
+        let area =
+            |p: &Traced| p.cut.clone().or_else(|| p.outline()).map_or(0.0, |path| 0.5 * path.double_area().abs());
+        let whole = self.lost + self.pieces.iter().map(area).sum::<f64>();
+        let mut complaints = self.faults.clone();
+        if self.lost > MOST_LOST * whole {
+            let share = 100.0 * self.lost / whole;
+            complaints.push(format!("{share:.0} % of what the drawing's closed lines go round was left out"));
+        }
+        complaints
+    }
 }
 
 /// What was left out, as the end of a message that no piece was found.
@@ -162,8 +205,12 @@ pub struct Traced {
     pub pleats: Vec<[Vec2; 2]>,
     /// The line in which a half is mirrored.
     pub mirror: Option<[Vec2; 2]>,
+    /// Other lines on the fold: a quarter of a circle has two.
+    pub more_folds: Vec<[Vec2; 2]>,
     /// How it is cut, if said.
     pub cut_how: Option<Cut>,
+    /// How many times over that is done: a pair cut from folded cloth twice is two of either hand.
+    pub copies: usize,
     /// How often it is cut on the fold, if that is written on it; the line is [`Self::mirror`], if it is drawn.
     pub on_fold: Option<usize>,
     /// Which of the drawing's remarks says how it is cut.
@@ -198,6 +245,7 @@ impl Traced {
             notches: self.notches.iter().map(|n| Notch { at: n.at + shift, told: n.told.clone() }).collect(),
             pleats: self.pleats.iter().map(|ends| ends.map(|p| p + shift)).collect(),
             mirror: self.mirror.map(|m| m.map(|p| p + shift)),
+            more_folds: self.more_folds.iter().map(|m| m.map(|p| p + shift)).collect(),
             ..self.clone()
         }
     }

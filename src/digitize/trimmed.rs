@@ -27,6 +27,43 @@ pub(super) fn trimmed(line: &Path, holds: impl Fn(Vec2) -> bool) -> Path {
     }
 }
 
+/// Parts shorter than this (metres) are the line's touching the cloth.
+const LEAST_PART: f64 = 1e-3;
+/// As far off the cloth as this (metres) lines are on its rim.
+const ON_RIM: f64 = 5e-4;
+/// Where it leaves the cloth a line is cut off to this (metres).
+const EXACT: f64 = 1e-7;
+
+/// The parts of a line that are on the cloth, of which `off` tells how far a point is from it, nought on it; the line
+/// itself where all of it is.
+pub(crate) fn parts_within(line: &Path, off: impl Fn(Vec2) -> f64) -> Vec<Path> {
+    let length = line.length();
+    let looks = (length / STEP).clamp(4.0, MOST_LOOKS).ceil() as usize;
+    let place = |k: usize| length * k as f64 / looks as f64;
+    let away: Vec<f64> = (0..=looks).map(|k| off(line.point(place(k)))).collect();
+    let on = |k: usize| away[k] <= ON_RIM;
+    if (0..=looks).all(on) {
+        return vec![line.clone()];
+    }
+    let edge = |k: usize| {
+        // What runs along the rim leaves it where it is no longer near it.
+        let rim = if away[k].min(away[k + 1]) <= EXACT { EXACT } else { ON_RIM };
+        let sign = if on(k) { -1.0 } else { 1.0 };
+        bisect([place(k), place(k + 1)], HALVINGS, |at| if off(line.point(at)) <= rim { sign } else { -sign })
+    };
+    let mut parts = Vec::new();
+    let mut from = on(0).then_some(0.0);
+    for k in 0..looks {
+        match (on(k), on(k + 1)) {
+            (false, true) => from = Some(edge(k)),
+            (true, false) => parts.extend(from.take().map(|from| [from, edge(k)])),
+            _ => {}
+        }
+    }
+    parts.extend(from.map(|from| [from, length]));
+    parts.into_iter().filter(|[from, to]| to - from >= LEAST_PART).map(|[from, to]| line.part(from, to)).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -39,5 +76,18 @@ mod tests {
         assert!((part.start().x - 0.123).abs() < 1e-6 && (part.end().x - 0.8).abs() < 1e-6, "{part:?}");
         let part = trimmed(&line, |p| p.x <= 0.9 && !(0.2..0.3).contains(&p.x));
         assert!(part.start().x == 0.0 && (part.end().x - 0.9).abs() < 1e-6, "{part:?}");
+    }
+    #[test]
+    fn of_a_line_that_leaves_the_cloth_the_parts_on_it_stay() {
+        let line = Path::line(Vec2::new(0.0, 0.0), Vec2::new(1.0, 0.0));
+        let parts = parts_within(&line, |p| (0.1 - p.x).max(p.x - 0.2).min(0.7 - p.x).max(0.0));
+        let ends: Vec<[f64; 2]> = parts.iter().map(|p| [p.start().x, p.end().x]).collect();
+        let wanted = [[0.1, 0.2], [0.7, 1.0]];
+        assert!(ends.len() == 2, "{ends:?}");
+        for (found, wanted) in ends.iter().flatten().zip(wanted.iter().flatten()) {
+            assert!((found - wanted).abs() < 1e-6, "{ends:?}");
+        }
+        assert_eq!(parts_within(&line, |_| 0.0), vec![line.clone()]);
+        assert!(parts_within(&line, |_| 1.0).is_empty());
     }
 }

@@ -127,6 +127,24 @@ pub fn read_body(path: &Path, unit: Option<LengthUnit>) -> Result<Body, BodyErro
     body(read_obj(path)?, name, file, unit)
 }
 
+/// Height of the floor that a body stands on in its own file, metres: the lowest of an `.obj`, y up or z up; nought of
+/// a mannequin, and of what is no body that stands.
+///
+/// # Errors
+/// [`BodyError`] when the file cannot be read.
+pub fn floor_of(name_or_path: &str, unit: Option<LengthUnit>) -> Result<f64, BodyError> {
+    let path = Path::new(name_or_path);
+    if path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("obj")) {
+        return Ok(0.0);
+    }
+    let mut vertices = read_obj(path)?.vertices;
+    stand_up(&mut vertices, &mut Vec::new());
+    let [low, high] = bounds(&vertices);
+    let metres = unit.unwrap_or_else(|| LengthUnit::guessed(high.y - low.y, UNITS_BELOW)).metres();
+    let stands = HEIGHTS.contains(&(metres * (high.y - low.y)));
+    Ok(if stands { metres * low.y } else { 0.0 })
+}
+
 /// Reads a closed OBJ in `unit` as it stands.
 ///
 /// # Errors

@@ -1,7 +1,7 @@
 //! Notches that a DXF file draws: as slits, with both flanks, as a T, a castle or a U, alone or beside their points.
 
 use super::dxf_write::layer;
-use crate::digitize::DOUBLE;
+use crate::digitize::{DOUBLE, Notch};
 use crate::geometry::{Path, Vec2, box_of};
 
 /// Layers of notches: the slit, T, castle, check and U.
@@ -33,4 +33,30 @@ fn notch_at(shape: &Path, cut: &Path) -> (Vec2, f64) {
     let [low, high] = box_of(corners.iter().filter(|c| c.1 <= least + FLANKS).map(|c| c.0));
     let middle = (low + high) / 2.0;
     (middle, off(middle))
+}
+
+/// A notch that is marked on the cut line and on the sewing line is on either to this (metres),
+const ON_LINE: f64 = 4e-4;
+/// and the one mark stands before the other to this (metres).
+const BEFORE: f64 = 2e-3;
+
+/// The notches, those once that are marked on the cut line and on the sewing line: on the latter.
+pub(super) fn once(notches: Vec<Notch>, cut: &Path, sewn: Option<&Path>) -> Vec<Notch> {
+    let Some(sewn) = sewn else { return notches };
+    let is_on = |p: Vec2, line: &Path| line.nearest(p).1 <= ON_LINE;
+    let before = |p: Vec2, q: Vec2| {
+        let on_cut = cut.point(cut.nearest(q).0);
+        let on_sewn = sewn.point(sewn.nearest(p).0);
+        (on_cut - p).norm().min((on_sewn - q).norm()) <= BEFORE
+    };
+    let inner: Vec<Vec2> = notches
+        .iter()
+        .filter(|n| n.told.is_none())
+        .map(|n| n.at)
+        .filter(|p| is_on(*p, sewn) && !is_on(*p, cut))
+        .collect();
+    let is_again = |n: &Notch| {
+        n.told.is_none() && is_on(n.at, cut) && !is_on(n.at, sewn) && inner.iter().any(|q| before(n.at, *q))
+    };
+    notches.into_iter().filter(|n| !is_again(n)).collect()
 }

@@ -59,10 +59,15 @@ impl<'a> Entity<'a> {
     /// `vertices` with their bulges as they are seen from above: of an entity that was mirrored in its plane they are
     /// written as seen from below. (Lines and points are written as they lie.)
     pub(super) fn as_seen(&self, vertices: Vec<(Vec2, f64)>) -> Vec<(Vec2, f64)> {
-        if self.value(UPWARDS).and_then(|v| v.parse::<f64>().ok()).is_none_or(|z| z >= 0.0) {
+        if !self.is_seen_from_below() {
             return vertices;
         }
         vertices.into_iter().map(|(p, bulge)| (Vec2::new(-p.x, p.y), -bulge)).collect()
+    }
+
+    /// Whether it was mirrored in its plane.
+    pub(super) fn is_seen_from_below(&self) -> bool {
+        self.value(UPWARDS).and_then(|v| v.parse::<f64>().ok()).is_some_and(|z| z < 0.0)
     }
 
     /// The points at codes 10 and 20 (or 11 and 21), metres, y down.
@@ -97,11 +102,29 @@ impl<'a> Entity<'a> {
         depth * Vec2::new(cosine, -sine)
     }
 
+    /// A CIRCLE as two halves with their bulges, metres, y down; nothing where a number is missing.
+    pub(super) fn circle(&self, unit: f64) -> Result<Option<Vec<(Vec2, f64)>>, DxfError> {
+        let Some((centre, radius)) = self.points(10, unit)?.first().copied().zip(self.number(40, unit)?) else {
+            return Ok(None);
+        };
+        let right = Vec2::new(radius, 0.0);
+        Ok((radius > 0.0).then(|| vec![(centre - right, 1.0), (centre + right, 1.0)]))
+    }
+
+    /// The number of this code times `unit`, if there is one.
+    pub(super) fn number(&self, code: i32, unit: f64) -> Result<Option<f64>, DxfError> {
+        self.pairs.iter().find(|p| p.code == code).map(|p| p.number(unit)).transpose()
+    }
+
+    /// All numbers of this code.
+    pub(super) fn numbers(&self, code: i32) -> Result<Vec<f64>, DxfError> {
+        self.pairs.iter().filter(|p| p.code == code).map(|p| p.number(1.0)).collect()
+    }
+
     /// An ARC as two halves with their bulges, metres, y down; nothing where a number is missing. One that ends where
     /// it begins is a whole circle.
     pub(super) fn arc(&self, unit: f64) -> Result<Vec<(Vec2, f64)>, DxfError> {
-        let number =
-            |code: i32, unit: f64| self.pairs.iter().find(|p| p.code == code).map(|p| p.number(unit)).transpose();
+        let number = |code: i32, unit: f64| self.number(code, unit);
         let centre = self.points(10, unit)?.first().copied();
         let angles = [number(50, DEGREE)?, number(51, DEGREE)?];
         let (Some(centre), Some(radius), [Some(start), Some(end)]) = (centre, number(40, unit)?, angles) else {
@@ -192,6 +215,42 @@ pub(super) fn assumed_unit(entities: &[Entity]) -> (f64, Vec<String>) {
 pub(super) fn after<'a>(text: &'a str, key: &str) -> Option<&'a str> {
     let head = text.get(..key.len())?;
     head.eq_ignore_ascii_case(key).then(|| text[key.len()..].trim())
+}
+
+/// The lines of a text; a MTEXT's without what says how they look.
+pub(super) fn lines_of(entity: &Entity) -> Vec<String> {
+    if entity.kind != "MTEXT" {
+        return entity.value(1).map(str::to_owned).into_iter().collect();
+    }
+    // A long text comes in parts, the last of which has another code.
+    let parts = entity.pairs.iter().filter(|p| p.code == 3 || p.code == 1).map(|p| p.value);
+    plain(&parts.collect::<String>()).split('\n').map(|line| line.trim().to_owned()).filter(|l| !l.is_empty()).collect()
+}
+
+/// A MTEXT's words: `\P` begins a line, `\f…;`, `\H…;` and the like say how letters look, braces hold them together.
+fn plain(text: &str) -> String {
+    let mut out = String::new();
+    let mut rest = text.chars().peekable();
+    while let Some(c) = rest.next() {
+        match c {
+            '{' | '}' => {}
+            '\\' => match rest.next() {
+                Some('P' | 'X') => out.push('\n'),
+                Some('~') => out.push(' '),
+                Some(c @ ('\\' | '{' | '}')) => out.push(c),
+                // A code of a letter, which is read later.
+                Some('U') if rest.peek() == Some(&'+') => out.push_str("\\U"),
+                Some('L' | 'l' | 'O' | 'o' | 'K' | 'k') => {}
+                Some('A' | 'C' | 'c' | 'F' | 'f' | 'H' | 'p' | 'Q' | 'S' | 'T' | 'W') => {
+                    rest.by_ref().find(|c| *c == ';');
+                }
+                Some(c) => out.push(c),
+                None => {}
+            },
+            c => out.push(c),
+        }
+    }
+    out
 }
 
 /// DXF R12 writes letters beyond ASCII as their codes of UTF-16: `\U+00FC` is ü, and `\U+D83D\U+DC57` a dress. What is

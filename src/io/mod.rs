@@ -1,12 +1,18 @@
 //! The edge of the house: files in and out. No stage reads or writes a file itself.
 
 pub mod body;
+mod dxf_block;
+mod dxf_curves;
+mod dxf_flat;
 mod dxf_left_out;
 mod dxf_notches;
 pub mod dxf_read;
+mod dxf_sizes;
+mod dxf_slits;
 mod dxf_text;
 mod dxf_told;
 pub mod dxf_write;
+mod encoding;
 pub mod files;
 pub mod garment;
 pub mod garmentcode;

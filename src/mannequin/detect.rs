@@ -64,7 +64,7 @@ pub fn find_parts(mesh: &TriMesh) -> Result<Vec<BodyPart>, String> {
     let middle = middle(&levels, top).ok_or("no trunk found at mid height")?;
     let trunk: Vec<Cut> = levels
         .iter()
-        .filter_map(|(_, loops)| loops.iter().filter(|l| l.low.x < middle && l.high.x > middle).max_by(by_width))
+        .filter_map(|(_, loops)| loops.iter().filter(|l| holds(l, middle)).max_by(by_width))
         .map(Cut::new)
         .collect();
     let crotch = crotch(&levels, middle, top).ok_or("no two legs found: the body must stand upright, y up")?;
@@ -92,11 +92,20 @@ fn middle(levels: &[(f64, Vec<Loop>)], top: f64) -> Option<f64> {
     loops.iter().max_by(|a, b| depth(a).total_cmp(&depth(b))).map(|l| l.center().x)
 }
 
+/// A loop holds the middle of the body that reaches to either side of it by at least this share of its width: thighs
+/// that nearly touch may have their gap a little beside it.
+const HELD: f64 = 0.1;
+
+/// Whether the middle of the body runs through a loop, rather than along its rim.
+fn holds(l: &Loop, middle: f64) -> bool {
+    (middle - l.low.x).min(l.high.x - middle) > HELD * (l.high.x - l.low.x)
+}
+
 /// The highest level at which no loop holds the middle and there is one on each side.
 fn crotch(levels: &[(f64, Vec<Loop>)], middle: f64, top: f64) -> Option<f64> {
     let parted = |loops: &[Loop]| {
-        let (left, right) = (loops.iter().any(|l| l.low.x >= middle), loops.iter().any(|l| l.high.x <= middle));
-        left && right && !loops.iter().any(|l| l.low.x < middle && l.high.x > middle)
+        let beside = |sign: f64| loops.iter().any(|l| sign * (l.center().x - middle) > 0.0);
+        beside(1.0) && beside(-1.0) && !loops.iter().any(|l| holds(l, middle))
     };
     levels.iter().rev().find(|(y, loops)| *y < HIGHEST_CROTCH * top && parted(loops)).map(|l| l.0)
 }

@@ -194,6 +194,30 @@ pub struct PieceFile {
     pub note: Option<Located<String>>,
 }
 
+impl PieceFile {
+    /// A piece that is as another in everything.
+    pub fn like(name: Located<String>, other: Located<String>) -> Self {
+        Self {
+            name,
+            like: Some(other),
+            fabric: None,
+            cut: None,
+            drawn: None,
+            layer: None,
+            allowance: None,
+            grain: None,
+            place: None,
+            outline: None,
+            notches: Vec::new(),
+            darts: Vec::new(),
+            pleats: Vec::new(),
+            holes: Vec::new(),
+            lines: Vec::new(),
+            note: None,
+        }
+    }
+}
+
 /// Seam allowance of a piece.
 #[derive(Clone, Debug, PartialEq)]
 pub enum AllowanceFile {

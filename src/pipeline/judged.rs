@@ -25,13 +25,39 @@ pub struct Judged {
     pub notes: Vec<String>,
 }
 
-/// Looks for crossings in the OBJ file `mesh` in `unit`, with itself and with `body`: a mannequin's name, or a closed
-/// OBJ in the same place and the unit beside it.
+/// Looks for crossings in the OBJ file `mesh`, with itself and with `body`: a mannequin's name, or a closed OBJ in the
+/// same place. Units that are not given are guessed from the sizes of the files, a mesh's from its body's, and that is
+/// noted.
 ///
 /// # Errors
 /// [`PipelineError::Obj`] and [`PipelineError::Body`]: files that cannot be read, or a body that is not closed.
-pub fn judge(mesh: &Path, unit: LengthUnit, body: Option<(&str, LengthUnit)>) -> Result<Judged, PipelineError> {
+pub fn judge(
+    mesh: &Path,
+    unit: Option<LengthUnit>,
+    body: Option<(&str, Option<LengthUnit>)>,
+) -> Result<Judged, PipelineError> {
     let faces = read_obj_faces(mesh)?;
+    let mut notes = Vec::new();
+    let is_obj = |name: &str| Path::new(name).extension().is_some_and(|e| e.eq_ignore_ascii_case("obj"));
+    let file = body.filter(|(name, _)| is_obj(name));
+    let of_body = match file {
+        Some((_, Some(said))) => Some(said),
+        Some((name, None)) if unit.is_none() => {
+            let longest = longest(&read_obj_faces(Path::new(name))?.vertices);
+            let taken = LengthUnit::guessed(longest, UNITS_BELOW);
+            notes.push(assumed(taken, "the body", longest, "--units or --body-units"));
+            Some(taken)
+        }
+        _ => unit,
+    };
+    // Who wrote the body without its unit wrote the mesh beside it in the same.
+    let beside = of_body.filter(|_| file.is_some_and(|(_, said)| said.is_none()));
+    let unit = unit.or(beside).unwrap_or_else(|| {
+        let longest = longest(&faces.vertices);
+        let taken = LengthUnit::guessed(longest, UNITS_BELOW);
+        notes.push(assumed(taken, "the mesh", longest, "--units"));
+        taken
+    });
     let metres = unit.metres();
     let mut cloth = TriMesh { vertices: faces.vertices.iter().map(|p| p * metres).collect(), triangles: Vec::new() };
     let mut group_of = Vec::new();
@@ -40,13 +66,30 @@ pub fn judge(mesh: &Path, unit: LengthUnit, body: Option<(&str, LengthUnit)>) ->
         group_of.extend(triangles.iter().map(|_| group));
         cloth.triangles.extend(triangles);
     }
-    let body = body.map(|(name, unit)| solid(name, unit)).transpose()?;
-    let notes = body.as_ref().and_then(|body| misplaced(&cloth, body)).into_iter().chain(loose(&cloth)).collect();
+    let body = body.map(|(name, _)| solid(name, of_body.unwrap_or(unit))).transpose()?;
+    notes.extend(body.as_ref().and_then(|body| misplaced(&cloth, body)));
+    notes.extend(loose(&cloth));
     let name = |t: u32| match faces.groups[group_of[t as usize] as usize].as_str() {
         "" => "mesh",
         name => name,
     };
     Ok(Judged { triangles: cloth.triangles.len(), seen: look(&cloth, body.as_ref(), name, |p| p), notes })
+}
+
+/// A mesh or a body is in metres if it is less than the first number of units long, else in centimetres if less than
+/// the second: nobody is 4 m tall, and what is worn is longer than 250 mm.
+const UNITS_BELOW: [f64; 2] = [4.0, 250.0];
+
+/// How long the box round points is.
+fn longest(points: &[Vec3]) -> f64 {
+    let [low, high] = box_of(points.iter().copied());
+    (high - low).max()
+}
+
+/// What is said of a unit that a file's size suggests.
+fn assumed(unit: LengthUnit, what: &str, longest: f64, option: &str) -> String {
+    let name = unit.name();
+    format!("{name} assumed, since {what} is {longest:.2} units long; if that is wrong, say {option} mm, cm, m or in")
 }
 
 /// A mannequin's surface by name, or a closed OBJ as it stands.

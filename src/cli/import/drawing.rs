@@ -1,23 +1,64 @@
 //! `import svg` and `import dxf`
 
+use std::path::{Path, PathBuf};
+
 use super::{Imported, finish};
-use crate::cli::args::DrawingArgs;
+use crate::cli::args::{DrawingArgs, TargetArgs};
 use crate::cli::console::Console;
 use crate::cli::exit::{CliError, Exit};
 use crate::digitize::{Drawing, Suggestion, garment_file};
-use crate::io::dxf_read::read_dxf;
-use crate::io::svg_read::read_svg;
+use crate::io::dxf_read::{DxfOptions, read_dxf};
+use crate::io::svg_read::{SvgOptions, read_svg};
+
+/// What `--size` says where every size is wanted.
+const ALL: &str = "all";
 
 /// `toile import svg FILE.svg -o GARMENT.yaml`
-pub(super) fn svg(args: &DrawingArgs, console: &Console) -> Result<Exit, CliError> {
-    let drawing = read_svg(&args.drawing).map_err(|e| refused(args, e.to_string()))?;
-    write(args, &drawing, console)
+pub(super) fn svg(args: &DrawingArgs, unit: Option<f64>, console: &Console) -> Result<Exit, CliError> {
+    let read = |size: Option<String>| {
+        read_svg(&args.drawing, &SvgOptions { unit, size }).map_err(|e| refused(args, e.to_string()))
+    };
+    import(args, read, console)
 }
 
 /// `toile import dxf FILE.dxf -o GARMENT.yaml`
 pub(super) fn dxf(args: &DrawingArgs, unit: Option<f64>, console: &Console) -> Result<Exit, CliError> {
-    let drawing = read_dxf(&args.drawing, unit).map_err(|e| refused(args, e.to_string()))?;
-    write(args, &drawing, console)
+    let read = |size: Option<String>| {
+        read_dxf(&args.drawing, &DxfOptions { unit, size }).map_err(|e| refused(args, e.to_string()))
+    };
+    import(args, read, console)
+}
+
+/// Imports the size that is wanted, or each of them into a file of its own.
+fn import(
+    args: &DrawingArgs,
+    read: impl Fn(Option<String>) -> Result<Drawing, CliError>,
+    console: &Console,
+) -> Result<Exit, CliError> {
+    if args.size.as_deref() != Some(ALL) {
+        return write(args, &args.target, &read(args.size.clone())?, console);
+    }
+    let sizes = read(None)?.sizes;
+    if sizes.is_empty() {
+        return Err(refused(args, "it is drawn in one size; leave --size out".to_owned()));
+    }
+    let mut exit = Exit::Done;
+    for size in sizes {
+        let target = TargetArgs { output: sized(&args.target.output, &size), force: args.target.force };
+        if write(args, &target, &read(Some(size))?, console)? != Exit::Done {
+            exit = Exit::OutOfBounds;
+        }
+    }
+    Ok(exit)
+}
+
+/// `shirt.yaml` of size M as `shirt_M.yaml`.
+fn sized(output: &Path, size: &str) -> PathBuf {
+    let kept = |c: char| if c.is_alphanumeric() || c == '-' { c } else { '_' };
+    let size: String = size.chars().map(kept).collect();
+    let stem = output.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let ending = output.extension().map_or_else(String::new, |e| format!(".{}", e.to_string_lossy()));
+    output.with_file_name(format!("{stem}_{size}{ending}"))
 }
 
 fn refused(args: &DrawingArgs, reason: String) -> CliError {
@@ -25,10 +66,13 @@ fn refused(args: &DrawingArgs, reason: String) -> CliError {
 }
 
 /// Writes the pieces with all edges free, and says what is not among them and which may belong together.
-fn write(args: &DrawingArgs, drawing: &Drawing, console: &Console) -> Result<Exit, CliError> {
+fn write(args: &DrawingArgs, target: &TargetArgs, drawing: &Drawing, console: &Console) -> Result<Exit, CliError> {
     let stem = || args.drawing.file_stem().map_or_else(|| "garment".to_owned(), |s| s.to_string_lossy().into_owned());
     let made = garment_file(&drawing.title.clone().unwrap_or_else(stem), &drawing.pieces);
-    let exit = finish(&Imported { source: &args.drawing, target: &args.target, file: &made.file }, console)?;
+    let exit = finish(
+        &Imported { source: &args.drawing, target, file: &made.file, complaints: drawing.complaints() },
+        console,
+    )?;
     drawing.left_out.iter().chain(&drawing.notes).chain(&made.notes).for_each(|note| console.note(note));
     console
         .note("seams are to be written; until then all edges are free, afterwards 'free' lists those that stay open");

@@ -4,7 +4,8 @@ use super::{Imported, finish, text};
 use crate::cli::args::GarmentcodeArgs;
 use crate::cli::console::Console;
 use crate::cli::exit::{CliError, Exit};
-use crate::io::garmentcode::read;
+use crate::io::body::floor_of;
+use crate::io::garmentcode::{Wearer, read};
 
 /// `toile import garmentcode SPEC.json -o GARMENT.yaml`
 pub(super) fn import(args: &GarmentcodeArgs, console: &Console) -> Result<Exit, CliError> {
@@ -12,7 +13,10 @@ pub(super) fn import(args: &GarmentcodeArgs, console: &Console) -> Result<Exit, 
     let text = text(&args.spec).map_err(refused)?;
     let stem = args.spec.file_stem().map_or_else(|| "garment".to_owned(), |s| s.to_string_lossy().into_owned());
     let name = stem.strip_suffix("_specification").unwrap_or(&stem);
-    let file = read(name, &text, super::body(args.body.as_deref(), &args.target.output).as_deref());
+    let body = super::body(args.body.as_deref(), &args.target.output);
+    let floor = args.body.as_deref().map_or(Ok(0.0), |body| floor_of(body, None));
+    let floor = floor.map_err(|e| CliError::Argument(e.to_string()))?;
+    let file = read(name, &text, Wearer { body: body.as_deref(), floor });
     let file = file.map_err(|e| refused(e.to_string()))?;
-    finish(&Imported { source: &args.spec, target: &args.target, file: &file }, console)
+    finish(&Imported { source: &args.spec, target: &args.target, file: &file, complaints: Vec::new() }, console)
 }

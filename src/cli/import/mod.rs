@@ -3,11 +3,11 @@
 mod drawing;
 mod garmentcode;
 
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
 
 use serde::Serialize;
 
-use super::args::{ImportCommand, TargetArgs, UnitArg};
+use super::args::{ImportCommand, SvgUnitArg, TargetArgs, UnitArg};
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use crate::input::bytes;
@@ -21,7 +21,7 @@ use crate::pipeline::check;
 pub(super) fn import(command: &ImportCommand, console: &Console) -> Result<Exit, CliError> {
     match command {
         ImportCommand::Garmentcode(args) => garmentcode::import(args, console),
-        ImportCommand::Svg(args) => drawing::svg(args, console),
+        ImportCommand::Svg { common, units } => drawing::svg(common, units.map(SvgUnitArg::metres), console),
         ImportCommand::Dxf { common, units } => drawing::dxf(common, units.map(UnitArg::metres), console),
     }
 }
@@ -35,15 +35,38 @@ fn text(path: &Path) -> Result<String, String> {
     String::from_utf8(bytes).map_err(|e| format!("it is not UTF-8 text (byte {})", e.utf8_error().valid_up_to()))
 }
 
-/// How a garment file written to `output` names a body that the user named from here.
+/// How a garment file written to `output` names a body that the user named from here: relative to the file, as far as
+/// there is a way from the one to the other.
 fn body(named: Option<&str>, output: &Path) -> Option<String> {
     let named = named?;
-    let beside = output.parent().is_none_or(|folder| folder.as_os_str().is_empty());
-    if beside || mannequin::library().contains(&named) {
+    if mannequin::library().contains(&named) {
         return Some(named.to_owned());
     }
-    // A garment file's paths are relative to it.
-    Some(std::path::absolute(named).map_or_else(|_| named.to_owned(), |path| path.display().to_string()))
+    let folder = output.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let way = relative(Path::new(named), folder).unwrap_or_else(|| named.into());
+    Some(way.display().to_string())
+}
+
+/// The way to a file from a folder, both as named from here; `None` where there is none, as between drives.
+fn relative(file: &Path, folder: &Path) -> Option<PathBuf> {
+    let [file, folder] = [whole(file)?, whole(folder)?];
+    let (own, from): (Vec<Component>, Vec<Component>) = (file.components().collect(), folder.components().collect());
+    let shared = own.iter().zip(&from).take_while(|(a, b)| a == b).count();
+    let has_way = shared > 0 && !from[shared..].iter().any(|part| matches!(part, Component::Prefix(_)));
+    has_way.then(|| from[shared..].iter().map(|_| Component::ParentDir).chain(own[shared..].iter().copied()).collect())
+}
+
+/// A path from the root on, without steps back.
+fn whole(path: &Path) -> Option<PathBuf> {
+    let mut whole = PathBuf::new();
+    for part in std::path::absolute(path).ok()?.components() {
+        if part == Component::ParentDir {
+            whole.pop();
+        } else {
+            whole.push(part);
+        }
+    }
+    Some(whole)
 }
 
 /// A pattern that was read.
@@ -51,6 +74,8 @@ struct Imported<'a> {
     source: &'a Path,
     target: &'a TargetArgs,
     file: &'a GarmentFile,
+    /// What is wrong with what it was read from.
+    complaints: Vec<String>,
 }
 
 /// What was made of it.
@@ -59,7 +84,7 @@ struct Summary {
     file: String,
     pieces: usize,
     seams: usize,
-    /// Whether `toile check` accepts it as it is.
+    /// Whether `toile check` accepts it as it is, and nothing is missing in it.
     ok: bool,
 }
 
@@ -81,8 +106,10 @@ fn finish(imported: &Imported, console: &Console) -> Result<Exit, CliError> {
         Ok(loaded) => loaded.warnings.iter().for_each(|w| console.note(&w.to_string())),
         Err(refused) => console.complain(&refused.to_string()),
     }
+    imported.complaints.iter().for_each(|complaint| console.complain(complaint));
+    let ok = checked.is_ok() && imported.complaints.is_empty();
     let (pieces, seams) = (imported.file.pieces.len(), imported.file.seams.len());
-    let summary = Summary { file: shown, pieces, seams, ok: checked.is_ok() };
+    let summary = Summary { file: shown, pieces, seams, ok };
     let counted = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
     let made = format!("{} and {}", counted(pieces, "piece"), counted(seams, "seam"));
     console.results(&summary, || format!("{made}, written to {}\n", summary.file))?;

@@ -26,16 +26,17 @@ impl Drawing {
     /// Draws a panel; one round an arm with the arm's axis running down, all others upright as they hang.
     ///
     /// `None` when the outline encloses no area or cannot be measured.
-    pub(super) fn new(panel: &Panel, round_arm: bool) -> Option<Self> {
-        let rotation = rotation(panel.rotation);
+    /// `along` are the lines (space, millimetres) that run along its arm, as far as they are known.
+    pub(super) fn new(panel: &Panel, round_arm: bool, along: &[Vec3]) -> Option<Self> {
+        let rotation = panel.rotation;
         let double_area = Path::parse_absolute(&whole(&panel.edges), 1.0).ok()?.double_area();
         if double_area == 0.0 || !double_area.is_finite() {
             return None;
         }
         // Counter-clockwise where y is up: the right side faces the reader.
         let sign = double_area.signum();
-        let middle = space(panel, &rotation, middle(&panel.edges));
-        let down = down(&rotation, round_arm, middle.x);
+        let middle = panel.space(middle(&panel.edges));
+        let down = down(&rotation, round_arm.then_some((middle.x, along)));
         let right = sign * Vec2::new(-down.y, down.x);
         let turned = |p: Vec2| Vec2::new(right.dot(&p), down.dot(&p));
         let mirrors = right.perp(&down) < 0.0;
@@ -164,23 +165,21 @@ fn whole(edges: &[PanelEdge]) -> String {
     format!("M {} {} {} Z", start.x, start.y, commands.join(" "))
 }
 
-fn rotation(degrees: Vec3) -> nalgebra::Rotation3<f64> {
-    let [x, y, z] = [degrees.x, degrees.y, degrees.z].map(f64::to_radians);
-    nalgebra::Rotation3::from_euler_angles(x, y, z)
-}
+/// Two axes of a panel point down an arm alike whose cosines differ by less: the arm is held out to the side.
+const ALIKE: f64 = 0.15;
 
-fn space(panel: &Panel, rotation: &nalgebra::Rotation3<f64>, p: Vec2) -> Vec3 {
-    panel.translation + rotation * Vec3::new(p.x, p.y, 0.0)
-}
-
-/// The axis of the panel's frame that hangs down, or leads along the arm.
-fn down(rotation: &nalgebra::Rotation3<f64>, round_arm: bool, x: f64) -> Vec2 {
-    let target = if round_arm { Vec3::new(x.signum(), -1.0, 0.0).normalize() } else { -Vec3::y() };
-    let best = [-Vec2::y(), Vec2::x(), -Vec2::x(), Vec2::y()]
-        .map(|d| ((rotation * Vec3::new(d.x, d.y, 0.0)).dot(&target), d))
-        .into_iter()
-        .reduce(|a, b| if b.0 > a.0 + 1e-6 { b } else { a });
-    best.filter(|b| b.0 > LEVEL).map_or(-Vec2::y(), |b| b.1)
+/// The axis of the panel's frame that hangs down, or, of one round an arm on this side (x) along which these lines run,
+/// leads along it.
+fn down(rotation: &nalgebra::Rotation3<f64>, arm: Option<(f64, &[Vec3])>) -> Vec2 {
+    let target = arm.map_or(-Vec3::y(), |(x, _)| Vec3::new(x.signum(), -1.0, 0.0).normalize());
+    let flat = |d: Vec2| rotation * Vec3::new(d.x, d.y, 0.0);
+    let axes = [-Vec2::y(), Vec2::x(), -Vec2::x(), Vec2::y()].map(|d| (flat(d).dot(&target), d));
+    let best = axes.into_iter().reduce(|a, b| if b.0 > a.0 + 1e-6 { b } else { a });
+    let Some(best) = best.filter(|b| b.0 > LEVEL) else { return -Vec2::y() };
+    // Of two that are as good the one that the seams along the arm take.
+    let seams = |d: Vec2| arm.map_or(0.0, |(_, lines)| lines.iter().map(|l| l.dot(&flat(d)).abs()).sum::<f64>());
+    let rival = axes.into_iter().filter(|a| best.0 - a.0 < ALIKE && seams(a.1) > seams(best.1) + 1e-6);
+    rival.reduce(|a, b| if seams(b.1) > seams(a.1) { b } else { a }).unwrap_or(best).1
 }
 
 /// The edge in another frame, walked the other way.

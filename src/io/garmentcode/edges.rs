@@ -93,6 +93,7 @@ impl Subject<'_> {
             (Role::Hood, true, _) => "face",
             (Role::Collar, ..) => "outer",
             (Role::Bodice, _, true) => "neck",
+            (Role::Trousers, false, true) => "waist",
             (_, true, _) => "opening",
             (_, false, true) => "top",
             (_, false, false) => "hem",

@@ -3,6 +3,7 @@
 use super::drawing::Drawing;
 use super::role::{Facing, Role, piece_name, side, unique};
 use super::spec::Specification;
+use crate::geometry::Vec3;
 use crate::pattern::Side;
 
 /// A panel with what follows from it alone.
@@ -95,8 +96,17 @@ fn layer(spec: &Specification, parts: &[Part], panel: usize) -> i32 {
 
 /// The part a panel is.
 pub(super) fn part(spec: &Specification, panel: usize) -> Option<Part> {
-    let role = Role::of(&spec.panels[panel]);
-    let drawing = Drawing::new(&spec.panels[panel], role.round_arm())?;
+    let role = Role::of(spec, panel);
+    let along = if role.round_arm() { seams_along(spec, panel, role) } else { Vec::new() };
+    let drawing = Drawing::new(&spec.panels[panel], role.round_arm(), &along)?;
     let (facing, side) = (Facing::of(&drawing), side(&drawing, role));
     Some(Part { drawing, role, facing, side })
+}
+
+/// The edges of a panel, as lines in space, that are sewn to others of its role: round an arm those run along it.
+fn seams_along(spec: &Specification, panel: usize, role: Role) -> Vec<Vec3> {
+    let own = &spec.panels[panel];
+    let ends = spec.stitches.iter().flat_map(|s| [(s.ends[0], s.ends[1]), (s.ends[1], s.ends[0])]);
+    let along = ends.filter(|(here, there)| here.0 == panel && Role::of(spec, there.0) == role);
+    along.map(|(here, _)| &own.edges[here.1]).map(|e| own.space(e.end) - own.space(e.start)).collect()
 }

@@ -1,7 +1,7 @@
 //! What a panel is, from what its maker called it and how it hangs.
 
 use super::drawing::Drawing;
-use super::spec::Panel;
+use super::spec::{Panel, Specification};
 use crate::geometry::range_of;
 use crate::pattern::Side;
 
@@ -38,13 +38,15 @@ const WORDS: [(&str, Role); 14] = [
 ];
 
 impl Role {
-    pub(super) fn of(panel: &Panel) -> Self {
-        let name = panel.name.to_lowercase();
+    pub(super) fn of(spec: &Specification, panel: usize) -> Self {
+        let own = &spec.panels[panel];
+        let name = own.name.to_lowercase();
         let named = WORDS.iter().find(|(word, _)| name.contains(word)).map(|(_, role)| *role);
-        match (named, panel.label.as_deref()) {
+        match (named, own.label.as_deref()) {
             (Some(Self::Cuff), Some("leg")) => Self::TrouserCuff,
             (Some(role), _) => role,
             (None, Some("arm")) => Self::Sleeve,
+            (None, _) if goes_between_legs(spec, panel) => Self::Trousers,
             (None, Some("leg")) => Self::Skirt,
             (None, _) => Self::Bodice,
         }
@@ -73,6 +75,27 @@ impl Role {
             Self::Collar | Self::Hood => None,
         }
     }
+}
+
+/// Whether a panel is sewn as trousers are: the seam to the other side's panel that faces the same way goes straight on
+/// into one to its own side's other panel, at the crotch. (Under the centre seam of a bodice is its hem.)
+fn goes_between_legs(spec: &Specification, panel: usize) -> bool {
+    let middle = |k: usize| spec.panels[k].middle();
+    let own = middle(panel);
+    let partner = |edge: usize| {
+        let ends = spec.stitches.iter().flat_map(|s| [s.ends, [s.ends[1], s.ends[0]]]);
+        ends.filter(|[here, _]| *here == (panel, edge)).map(|[_, there]| there.0).find(|k| *k != panel)
+    };
+    let side = |x: f64| if x.abs() > MIDDLE { x.signum() } else { 0.0 };
+    let is_across = |k: usize| side(middle(k).x) * side(own.x) < 0.0 && middle(k).z * own.z > 0.0;
+    let is_beside = |k: usize| side(middle(k).x) * side(own.x) > 0.0 && middle(k).z * own.z < 0.0;
+    let edges = &spec.panels[panel].edges;
+    let count = edges.len();
+    let height = |k: usize| 0.5 * (spec.panels[panel].space(edges[k].start) + spec.panels[panel].space(edges[k].end)).y;
+    let steps = (0..count).flat_map(|k| [(k, (k + 1) % count), (k, (k + count - 1) % count)]);
+    steps.into_iter().any(|(k, next)| {
+        partner(k).is_some_and(is_across) && partner(next).is_some_and(is_beside) && height(next) < height(k)
+    })
 }
 
 /// Front or back of the wearer.
@@ -106,7 +129,7 @@ const MIDDLE: f64 = 10.0;
 
 /// Which side of the body a panel is on: all of it, or, for what goes round one limb however wide, its middle.
 pub(super) fn side(drawing: &Drawing, role: Role) -> Option<Side> {
-    if role.round_arm() || role == Role::TrouserCuff {
+    if role.round_arm() || matches!(role, Role::Trousers | Role::TrouserCuff) {
         let x = drawing.space(drawing.middle()).x;
         return (x.abs() > MIDDLE).then_some(if x > 0.0 { Side::Left } else { Side::Right });
     }
@@ -124,8 +147,8 @@ pub(super) fn piece_name(panel: &Panel) -> String {
     for word in lower.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()) {
         match word {
             "left" | "right" | "l" | "r" | "sl" => {}
-            "front" | "f" | "ftorso" => facing = Some("front"),
-            "back" | "b" | "btorso" => facing = Some("back"),
+            "front" | "f" | "ftorso" | "lfront" | "rfront" => facing = Some("front"),
+            "back" | "b" | "btorso" | "lback" | "rback" => facing = Some("back"),
             "wb" => words.push("waistband"),
             "pant" | "pants" => words.push("trousers"),
             other => words.push(other),

@@ -2,14 +2,17 @@
 //!
 //! Panels are drawn with y up; a panel's right side is the one from which its edges run counter-clockwise. Control
 //! points are relative to their edge: `start + x·e + y·e⊥` with `e = end − start` and `e⊥ = (−e.y, e.x)`. A `circle` is
-//! an SVG arc in the panel's own y-up frame. Space is `R·(x, y, 0) + translation` with `R = Rz·Ry·Rx`.
+//! an SVG arc in the panel's own y-up frame. Space is `R·(x, y, 0) + translation` with `R = Rz·Ry·Rx`, or with `R`
+//! given as a quaternion.
 
 use std::collections::HashMap;
 
+use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
 use super::error::ImportError;
+use super::outward::turn_outward;
 use super::short::leave_out_short;
 use crate::geometry::{Vec2, Vec3};
 
@@ -27,8 +30,8 @@ pub(super) struct Panel {
     pub(super) name: String,
     /// Millimetres.
     pub(super) translation: Vec3,
-    /// Degrees about the fixed axes x, y, z, in this order.
-    pub(super) rotation: Vec3,
+    /// How the panel's plane is turned.
+    pub(super) rotation: Rotation3<f64>,
     /// A closed loop, each edge beginning where the one before it ends.
     pub(super) edges: Vec<PanelEdge>,
     /// `body`, `arm` or `leg`.
@@ -96,7 +99,7 @@ struct PanelText {
     #[serde(default)]
     translation: [f64; 3],
     #[serde(default)]
-    rotation: [f64; 3],
+    rotation: Vec<f64>,
     vertices: Vec<[f64; 2]>,
     edges: Vec<EdgeText>,
     label: Option<String>,
@@ -114,6 +117,8 @@ struct EdgeText {
 enum CurvatureText {
     /// As older files write a quadratic.
     Point([f64; 2]),
+    /// As relatives of the format write quadratics and cubics.
+    Points(Vec<[f64; 2]>),
     Kind {
         #[serde(rename = "type")]
         kind: String,
@@ -129,6 +134,8 @@ struct EndText {
 
 /// Files in centimetres say nothing or 100.
 const UNITS_IN_METRE: f64 = 100.0;
+/// A quaternion shorter than this says nothing.
+const LEAST_TURN: f64 = 1e-6;
 /// Numbers beyond this, millimetres, are no garment.
 const LARGEST: f64 = 1e5;
 
@@ -156,6 +163,7 @@ impl Specification {
         }
         let mut stitches = stitches(&pattern.stitches, &panels)?;
         leave_out_short(&mut panels, &mut stitches);
+        turn_outward(&mut panels, &mut stitches);
         Ok(Self { panels, stitches })
     }
 }
@@ -202,7 +210,8 @@ impl Reader {
         }
         let translation = self.scale * Vec3::from(text.translation);
         let label = text.label.filter(|l| !l.is_empty());
-        Ok(Panel { name, translation, rotation: Vec3::from(text.rotation), edges, label })
+        let rotation = rotation(&text.rotation).map_err(wrong)?;
+        Ok(Panel { name, translation, rotation, edges, label })
     }
 
     fn curve(&self, text: &CurvatureText, start: Vec2, end: Vec2) -> Result<Curve, String> {
@@ -217,6 +226,14 @@ impl Reader {
         };
         let (kind, params) = match text {
             CurvatureText::Point(p) => return Ok(Curve::Quadratic(point(*p)?)),
+            CurvatureText::Points(points) => {
+                return match points[..] {
+                    [] => Ok(Curve::Line),
+                    [one] => Ok(Curve::Quadratic(point(one)?)),
+                    [one, two] => Ok(Curve::Cubic(point(one)?, point(two)?)),
+                    _ => Err(format!("has {} control points; one or two are known", points.len())),
+                };
+            }
             CurvatureText::Kind { kind, params } => (kind.as_str(), params),
         };
         let read = |expected: &str| format!("its curvature '{kind}' needs {expected}");
@@ -244,6 +261,24 @@ impl Reader {
             }
             other => Err(format!("has the unknown curvature '{other}'; known are quadratic, cubic and circle")),
         }
+    }
+}
+
+/// Three angles in degrees about the fixed axes x, y, z, in this order, or a quaternion x, y, z, w.
+fn rotation(numbers: &[f64]) -> Result<Rotation3<f64>, String> {
+    match *numbers {
+        [] => Ok(Rotation3::identity()),
+        [x, y, z] if numbers.iter().all(|a| a.is_finite()) => {
+            let [x, y, z] = [x, y, z].map(f64::to_radians);
+            Ok(Rotation3::from_euler_angles(x, y, z))
+        }
+        [x, y, z, w] => {
+            let turn = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), LEAST_TURN);
+            turn.filter(|t| t.coords.iter().all(|c| c.is_finite()))
+                .map(|turn| turn.to_rotation_matrix())
+                .ok_or_else(|| "has a rotation of four numbers that are no quaternion".to_owned())
+        }
+        _ => Err(format!("has a rotation of {} numbers; three angles or a quaternion are known", numbers.len())),
     }
 }
 

@@ -214,6 +214,11 @@ fn width(letters: &[u8]) -> f64 {
     letters.iter().map(|l| f64::from(one(l))).sum::<f64>() / 1000.0
 }
 
+/// The letters of a text that are printed as `?`.
+pub(super) fn unprintable(text: &str) -> impl Iterator<Item = char> + '_ {
+    text.chars().filter(|c| *c != '?' && windows_letters(c.encode_utf8(&mut [0; 4])) == [b'?'])
+}
+
 /// Text in code page 1252; letters it does not have become `?`.
 fn windows_letters(text: &str) -> Vec<u8> {
     let letter = |c: char| match c {

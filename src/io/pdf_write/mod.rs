@@ -10,6 +10,8 @@ use pdf_writer::{Content, Finish as _, Name, Pdf, Rect, Ref, TextStr};
 
 pub use pages::{one_page, tiled};
 
+use crate::cutting::Paper;
+
 /// Points per metre.
 const POINTS: f64 = 72.0 / 0.0254;
 /// Longest side of a page, points: readers refuse more (14400 units, ISO 32000-1 annex C).
@@ -55,6 +57,16 @@ pub enum PdfError {
         /// The limit.
         most: usize,
     },
+}
+
+/// The letters of what is written on papers that the PDF's font has not, each once; they are printed as `?`.
+pub fn unprintable(title: &str, papers: &[Paper]) -> Vec<char> {
+    let texts =
+        papers.iter().flat_map(|paper| paper.texts.iter().map(|t| t.text.as_str()).chain([paper.name.as_str()]));
+    let mut letters: Vec<char> = texts.chain([title]).flat_map(draw::unprintable).collect();
+    letters.sort_unstable();
+    letters.dedup();
+    letters
 }
 
 /// Pages of one size as a PDF file. The same pages give the same bytes.

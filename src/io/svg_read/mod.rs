@@ -4,28 +4,32 @@
 //! follows from its class (`cut`, `sew`, `edge`, `grain`, `notch`, `fold`; FreeSewing's `fabric`, `sa` and markers)
 //! where it has one, and else from what lies in what.
 
+mod arrow;
 mod left_out;
+mod program;
 mod shapes;
 mod style;
 mod viewport;
+mod xml;
 
 use std::path::Path as FilePath;
 
-use roxmltree::{Document, Node, ParsingOptions};
+use roxmltree::{Document, Node};
 
+use self::arrow::shaft;
 use self::left_out::{LeftOut, What};
+use self::program::unit_of;
 use self::shapes::commands;
 use self::style::Styles;
-use self::viewport::{Frame, inner, sheet};
-use crate::digitize::{Drawing, Material, Remark, Role, Stroke, ToldNotch, Traced, besides, pieces};
+use self::viewport::{Frame, Sheet, inner, sheet};
+use self::xml::parsed;
+use crate::digitize::{Drawing, Material, Remark, Role, Stroke, ToldNotch, Traced, besides, pieces, size_of, sizes};
 use crate::geometry::{Path, Vec2, parse_transform};
 use crate::input::{InputError, bytes, shown};
 use crate::pattern::{Corner, LineKind, NotchKind, Side};
 
 /// Larger files are not patterns.
 const MOST_BYTES: u64 = 30 << 20;
-/// More elements than this are a picture, not a pattern.
-const MOST_NODES: u32 = 500_000;
 /// Coordinates beyond this (metres) are a wrong unit or no pattern.
 const FARTHEST: f64 = 1e3;
 /// More lines than this cannot be looked at one against the other.
@@ -45,8 +49,8 @@ const LINES: [&str; 4] = ["path", "polygon", "polyline", "line"];
 const NOT_DRAWN: [&str; 9] =
     ["defs", "symbol", "marker", "clipPath", "mask", "pattern", "metadata", "style", "namedview"];
 /// Classes of what is no line of the pattern.
-const SKIPPED: [&str; 10] =
-    ["drawn", "help", "note", "mark", "text", "hidden", "scale", "pleat", "scalebox", "miniscale"];
+const SKIPPED: [&str; 11] =
+    ["drawn", "grid", "help", "note", "mark", "text", "hidden", "scale", "pleat", "scalebox", "miniscale"];
 
 /// Why an SVG file could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -76,6 +80,14 @@ pub enum SvgError {
         /// The limit.
         most: usize,
     },
+    /// A size that it has not.
+    #[error("it has no size '{wanted}'; its sizes are {known}")]
+    NoSize {
+        /// What was asked for.
+        wanted: String,
+        /// Those there are.
+        known: String,
+    },
     /// No outline.
     #[error(
         "no closed line of the size of a piece was found; outlines must be closed paths, or paths that meet end to end \
@@ -87,12 +99,21 @@ pub enum SvgError {
     },
 }
 
+/// What is said of a drawing besides what it says itself.
+#[derive(Clone, Debug, Default)]
+pub struct SvgOptions {
+    /// Metres per user unit, in place of what the drawing says.
+    pub unit: Option<f64>,
+    /// The size to be read of one that is drawn in several.
+    pub size: Option<String>,
+}
+
 /// Reads the pieces of an SVG file.
 ///
 /// # Errors
 /// [`SvgError`].
-pub fn read_svg(path: &FilePath) -> Result<Drawing, SvgError> {
-    read_svg_text(&String::from_utf8_lossy(&bytes(path, MOST_BYTES)?))
+pub fn read_svg(path: &FilePath, options: &SvgOptions) -> Result<Drawing, SvgError> {
+    read_svg_text_as(&String::from_utf8_lossy(&bytes(path, MOST_BYTES)?), options)
 }
 
 /// Reads the pieces of an SVG text.
@@ -100,30 +121,46 @@ pub fn read_svg(path: &FilePath) -> Result<Drawing, SvgError> {
 /// # Errors
 /// As [`read_svg`].
 pub fn read_svg_text(text: &str) -> Result<Drawing, SvgError> {
-    let options = ParsingOptions { nodes_limit: MOST_NODES, allow_dtd: true, ..ParsingOptions::default() };
-    let document = Document::parse_with_options(text, options).map_err(|e| SvgError::Xml(e.to_string()))?;
+    read_svg_text_as(text, &SvgOptions::default())
+}
+
+/// Reads the pieces of an SVG text as is said besides.
+///
+/// # Errors
+/// As [`read_svg`].
+pub fn read_svg_text_as(text: &str, options: &SvgOptions) -> Result<Drawing, SvgError> {
+    let mut forgiven = None;
+    let (document, mut notes) = parsed(text, &mut forgiven)?;
     let root = document.root_element();
     if root.tag_name().name() != "svg" {
         return Err(SvgError::NotSvg(shown(root.tag_name().name(), SHOWN)));
     }
+    let unit = unit_of(&document);
+    let sheet = sheet(root, unit.metres, options.unit);
+    notes.extend(unit.note(sheet.is_measured || options.unit.is_some()));
     let left_out = LeftOut::default();
     let (strokes, remarks, texts) = (Vec::new(), Vec::new(), Vec::new());
     let (right, materials, corners) = (Vec::new(), Vec::new(), Vec::new());
     let mut reader = Reader { document: &document, strokes, remarks, texts, right, materials, corners, left_out };
-    reader.walk(root)?;
-    let Drawing { mut pieces, left_out: unclosed, .. } = pieces(&reader.strokes, &reader.remarks);
-    for piece in &mut pieces {
+    reader.walk(root, &sheet)?;
+    reader.take_size(options.size.as_deref())?;
+    let mut drawing = pieces(&reader.strokes, &reader.remarks, sheet.metres);
+    for piece in &mut drawing.pieces {
         piece.drawn = reader.right.contains(&piece.name).then_some(Side::Right);
         piece.corners = reader.corners.iter().filter(|(name, _)| *name == piece.name).map(|(_, c)| c.clone()).collect();
         piece.material = reader.materials.iter().find(|(name, _)| *name == piece.name).map(|(_, m)| m.clone());
     }
-    reader.leave_out_unread(&pieces);
-    let left_out: Vec<String> = unclosed.into_iter().chain(reader.left_out.sentences()).collect();
-    if pieces.is_empty() {
-        Err(SvgError::NoPieces { besides: besides(&left_out) })
-    } else {
-        Ok(Drawing { title: title(root), pieces, left_out, notes: Vec::new() })
+    reader.leave_out_unread(&drawing.pieces);
+    drawing.left_out.extend(reader.left_out.sentences());
+    if drawing.pieces.is_empty() {
+        return Err(SvgError::NoPieces { besides: besides(&[drawing.faults, drawing.left_out].concat()) });
     }
+    notes.append(&mut drawing.notes);
+    if !drawing.sizes.is_empty() {
+        let sizes = drawing.sizes.join(", ");
+        notes.push(format!("the sizes {sizes} are drawn over one another: all are read; --size takes one"));
+    }
+    Ok(Drawing { title: title(root), notes, ..drawing })
 }
 
 /// What an element inherits.
@@ -135,6 +172,8 @@ struct Scope {
     group: Option<String>,
     /// As [`group`](Self::group), or the layer that holds several pieces.
     layer: Option<String>,
+    /// The size of the pattern that a layer round it says.
+    size: Option<String>,
     classes: String,
 }
 
@@ -154,10 +193,22 @@ struct Reader<'a, 'i> {
 }
 
 impl Reader<'_, '_> {
-    fn walk(&mut self, root: Node) -> Result<(), SvgError> {
+    /// Leaves the strokes of one size, where there are several.
+    fn take_size(&mut self, wanted: Option<&str>) -> Result<(), SvgError> {
+        let Some(wanted) = wanted else { return Ok(()) };
+        let known = sizes(&self.strokes);
+        let Some(size) = known.iter().find(|size| size.eq_ignore_ascii_case(wanted)) else {
+            let known = if known.is_empty() { "not told".to_owned() } else { known.join(", ") };
+            return Err(SvgError::NoSize { wanted: shown(wanted, SHOWN), known });
+        };
+        self.strokes.retain(|stroke| stroke.size.as_ref().is_none_or(|own| own == size));
+        Ok(())
+    }
+
+    fn walk(&mut self, root: Node, sheet: &Sheet) -> Result<(), SvgError> {
         let styles = Styles::of(self.document);
-        let (frame, viewport) = sheet(root);
-        let scope = Scope { frame, viewport, group: None, layer: None, classes: String::new() };
+        let (frame, viewport) = (sheet.frame, sheet.size);
+        let scope = Scope { frame, viewport, group: None, layer: None, size: None, classes: String::new() };
         // Elements with what they inherit, the next one last: files may nest deeper than a stack of calls.
         let mut open = vec![(root, scope)];
         while let Some((node, scope)) = open.pop() {
@@ -177,6 +228,7 @@ impl Reader<'_, '_> {
             }
             if CONTAINERS.contains(&name) {
                 let own = group_name(node);
+                within.size = own.as_ref().and_then(|own| size_of(&own.name)).or(scope.size);
                 within.layer = own.as_ref().map(|own| own.name.clone()).or(scope.layer);
                 within.group = own.filter(|own| own.is_piece).map(|own| own.name).or(scope.group);
                 if node.attribute("data-drawn") == Some(Side::Right.letter()) {
@@ -192,13 +244,13 @@ impl Reader<'_, '_> {
                 let children = elements().filter(|c| !styles.hides(*c) && !NOT_DRAWN.contains(&c.tag_name().name()));
                 open.extend(children.map(|c| (c, within.clone())).collect::<Vec<_>>().into_iter().rev());
             } else {
-                self.element(node, name, &within)?;
+                self.element(node, name, &within, styles.only_fills(node))?;
             }
         }
         Ok(())
     }
 
-    fn element(&mut self, node: Node, name: &str, scope: &Scope) -> Result<(), SvgError> {
+    fn element(&mut self, node: Node, name: &str, scope: &Scope, filled: bool) -> Result<(), SvgError> {
         let read = name == "text" && self.remarks.len() < MOST_STROKES;
         let remark = if read { remark(node, scope.frame) } else { None };
         let role = role(node, &scope.classes);
@@ -213,7 +265,7 @@ impl Reader<'_, '_> {
         self.remarks.extend(remark);
         self.corners.extend(scope.group.clone().zip(told_corner(node, scope.group.as_deref())));
         let Some(role) = role else { return Ok(()) };
-        let Some(commands) = commands(node, name) else {
+        let Some(commands) = commands(node, name, scope.viewport) else {
             // An empty path draws nothing; a shape that has no numbers may have been meant to.
             if SHAPES.contains(&name) {
                 self.leave_out(node, What::Unsized);
@@ -221,8 +273,11 @@ impl Reader<'_, '_> {
             return Ok(());
         };
         let paths = Path::parse_many(&commands).map_err(|_| self.value(node, "a path", &commands))?;
-        for path in paths {
-            let path = path.mapped(scope.frame.linear, scope.frame.shift);
+        let paths: Vec<Path> =
+            paths.into_iter().map(|path| path.mapped(scope.frame.linear, scope.frame.shift)).collect();
+        let arrow = if role == Role::Unknown { shaft(&paths) } else { None };
+        let role = if arrow.is_some() { Role::Arrow } else { role };
+        for path in arrow.map_or(paths, |shaft| vec![shaft]) {
             let reaches = [path.start().amax(), path.end().amax(), path.length()];
             if reaches.iter().any(|r| r.is_nan() || *r > FARTHEST) {
                 return Err(self.value(node, "a path of this size", &commands));
@@ -231,7 +286,8 @@ impl Reader<'_, '_> {
             if path.length() > 1e-8 {
                 let (group, layer) = (scope.group.clone(), scope.layer.clone());
                 let (name, kind, notch) = (own_name(node, group.as_deref()), line_kind(node), told_notch(node));
-                self.strokes.push(Stroke { path, role, name, group, layer, kind, notch });
+                let size = scope.size.clone().or_else(|| name.as_deref().and_then(size_of));
+                self.strokes.push(Stroke { path, role, name, group, layer, kind, notch, size, filled });
             }
         }
         if self.strokes.len() > MOST_STROKES { Err(SvgError::TooMany { most: MOST_STROKES }) } else { Ok(()) }
@@ -432,6 +488,6 @@ fn role(node: Node, classes: &str) -> Option<Role> {
 
 /// Whether it is one straight line: the fold itself, not its arrow.
 fn is_line(node: Node) -> bool {
-    let lines = commands(node, node.tag_name().name()).and_then(|text| Path::parse_many(&text).ok());
+    let lines = commands(node, node.tag_name().name(), Vec2::zeros()).and_then(|text| Path::parse_many(&text).ok());
     matches!(lines.as_deref(), Some([line]) if line.is_straight())
 }

@@ -2,8 +2,13 @@
 
 use roxmltree::Node;
 
+use crate::geometry::Vec2;
+
 /// Metres per CSS pixel.
 pub(super) const PIXEL: f64 = 0.0254 / 96.0;
+
+/// Numbers of which a share is one of the height.
+const UPRIGHT: [&str; 6] = ["y", "height", "cy", "ry", "y1", "y2"];
 
 /// The lines of a double notch are so far from its middle, in user units: less than what a notch may be off the edge,
 /// however the edge runs.
@@ -11,11 +16,16 @@ const BESIDE: f64 = 1.0;
 
 /// A length in metres; percentages and units of type have none.
 pub(super) fn length(text: &str) -> Option<f64> {
+    length_in(text, PIXEL)
+}
+
+/// As [`length`], a number without a unit and a pixel being this long.
+pub(super) fn length_in(text: &str, pixel: f64) -> Option<f64> {
     let text = text.trim();
     let split = text.find(|c: char| c.is_alphabetic() && !"eE".contains(c) || c == '%').unwrap_or(text.len());
     let number: f64 = text[..split].trim().parse().ok()?;
     let unit = match text[split..].trim().to_ascii_lowercase().as_str() {
-        "" | "px" => PIXEL,
+        "" | "px" => pixel,
         "mm" => 1e-3,
         "q" => 2.5e-4,
         "cm" => 1e-2,
@@ -28,10 +38,18 @@ pub(super) fn length(text: &str) -> Option<f64> {
     Some(number * unit)
 }
 
-/// The element as path commands; `None` where it is no line or its numbers are none.
-pub(super) fn commands(node: Node, name: &str) -> Option<String> {
+/// The element as path commands, in a drawing of this size in user units; `None` where it is no line or its numbers are
+/// none.
+pub(super) fn commands(node: Node, name: &str, viewport: Vec2) -> Option<String> {
     // In user units: of a length with a unit of its own there are 96 to the inch.
-    let number = |key: &str| length(node.attribute(key)?).map(|x| x / PIXEL).filter(|x| x.is_finite());
+    let number = |key: &str| {
+        let text = node.attribute(key)?;
+        let units = match text.trim().strip_suffix('%') {
+            Some(share) => share.trim().parse::<f64>().ok()? / 100.0 * viewport[usize::from(UPRIGHT.contains(&key))],
+            None => length(text)? / PIXEL,
+        };
+        units.is_finite().then_some(units)
+    };
     let zero = |key: &str| number(key).unwrap_or(0.0);
     match name {
         "path" => node.attribute("d").map(str::trim).filter(|d| !d.is_empty()).map(str::to_owned),

@@ -31,6 +31,17 @@ impl Styles {
         own.or_else(ruled).or_else(|| node.attribute(key))
     }
 
+    /// The value of a property that passes on to what an element holds.
+    fn inherited<'a>(&'a self, node: Node<'a, '_>, key: &str) -> Option<&'a str> {
+        node.ancestors().find_map(|n| self.property(n, key))
+    }
+
+    /// Whether an element is filled, and no pen runs along it.
+    pub(super) fn only_fills(&self, node: Node) -> bool {
+        let paints = |key: &str| self.inherited(node, key).filter(|value| !["none", "transparent"].contains(value));
+        paints("fill").is_some() && paints("stroke").is_none()
+    }
+
     pub(super) fn hides(&self, node: Node) -> bool {
         self.property(node, "display") == Some("none") || self.property(node, "visibility") == Some("hidden")
     }

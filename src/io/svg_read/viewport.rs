@@ -3,7 +3,7 @@
 use nalgebra::Matrix2;
 use roxmltree::Node;
 
-use super::shapes::{PIXEL, length};
+use super::shapes::{PIXEL, length, length_in};
 use crate::geometry::Vec2;
 
 /// How a drawing is fitted into its box.
@@ -23,22 +23,43 @@ impl Frame {
     }
 }
 
+/// Where a drawing lies.
+pub(super) struct Sheet {
+    pub(super) frame: Frame,
+    /// Its size in its own user units; nought where it does not say that.
+    pub(super) size: Vec2,
+    /// Its size in metres, if it says that or a viewBox does.
+    pub(super) metres: Option<Vec2>,
+    /// Whether it says in millimetres or the like how large its units are.
+    pub(super) is_measured: bool,
+}
+
 /// The drawing's frame, by width and height over viewBox as preserveAspectRatio says, by the one side's scale where
-/// only one is given; and its size in user units.
-pub(super) fn sheet(root: Node) -> (Frame, Vec2) {
+/// only one is given; `pixel` is the length of a unit that has no name, and `unit` that of every user unit, if given.
+pub(super) fn sheet(root: Node, pixel: f64, unit: Option<f64>) -> Sheet {
     let view = view_box(root);
-    let side = |key: &str| root.attribute(key).and_then(length).filter(|metres| *metres > 0.0);
+    let text = |key: &str| root.attribute(key);
+    let side = |key: &str| text(key).and_then(|t| length_in(t, pixel)).filter(|metres| *metres > 0.0);
+    let is_named = |key: &str| {
+        let named = |t: &str| t.trim().ends_with(|c: char| c.is_alphabetic()) && !t.trim().ends_with("px");
+        side(key).is_some() && text(key).is_some_and(named)
+    };
     let sides = [side("width"), side("height")];
     let [origin, size] = view.unwrap_or_else(|| {
-        let units = sides.map(|side| side.map_or(0.0, |metres| metres / PIXEL));
+        let units = sides.map(|side| side.map_or(0.0, |metres| metres / pixel));
         [Vec2::zeros(), Vec2::from(units)]
     });
     let scales = [0, 1].map(|k| view.and(sides[k]).map(|metres| metres / size[k]));
-    let scale = match scales {
-        [Some(x), Some(y)] => fitted(root.attribute(ASPECT).unwrap_or(""), Vec2::new(x, y)).0,
-        _ => Vec2::repeat(scales.into_iter().flatten().next().unwrap_or(PIXEL)),
+    let scale = match (unit, scales) {
+        (Some(unit), _) => Vec2::repeat(unit),
+        (None, [Some(x), Some(y)]) => fitted(root.attribute(ASPECT).unwrap_or(""), Vec2::new(x, y)).0,
+        _ => Vec2::repeat(scales.into_iter().flatten().next().unwrap_or(pixel)),
     };
-    (Frame { linear: Matrix2::from_diagonal(&scale), shift: -origin.component_mul(&scale) }, size)
+    let frame = Frame { linear: Matrix2::from_diagonal(&scale), shift: -origin.component_mul(&scale) };
+    // Without a viewBox the lines are in units that have no name, however large the sheet is.
+    let is_measured = view.is_some() && (is_named("width") || is_named("height"));
+    let metres = Some(size.component_mul(&scale)).filter(|metres| metres.min() > 0.0);
+    Sheet { frame, size, metres, is_measured }
 }
 
 /// The place of a drawing within one of the size `outer`, as a transform: its viewBox is fitted into the box that x, y,
