@@ -7,7 +7,7 @@ use regex::Regex;
 use serde_json::Value;
 use toile::fabric::{Context, FabricError, FabricSpec, resolve};
 use toile::io::garment::{Refused, SCHEMA, read_file_only, read_text};
-use toile::pattern::Problem;
+use toile::pattern::{PlaceWord, Problem, place_words};
 
 const REFERENCE: &str = include_str!("../docs/format.md");
 const TUTORIAL: &str = include_str!("../docs/first-garment.md");
@@ -158,6 +158,16 @@ fn the_schema_has_every_key_and_no_other() {
         let name = part.split('"').next().expect("a name");
         assert!(schema["$defs"][name].is_object(), "{name}");
     }
+}
+
+#[test]
+fn the_words_of_a_place_are_those_of_the_table() {
+    let listed = format!("\n{}.\n", place_words(|word| format!("`{word}`")));
+    assert!(REFERENCE.contains(&listed), "docs/format.md must have the line{listed}");
+    let schema: Value = serde_json::from_str(SCHEMA).expect("JSON");
+    let examples = &schema["$defs"]["piece"]["properties"]["place"]["oneOf"][0]["examples"];
+    let names: Vec<&str> = PlaceWord::all().map(PlaceWord::name).collect();
+    assert_eq!(*examples, Value::from(names));
 }
 
 /// Keys of a kind of the schema, those of mappings in it after a point.

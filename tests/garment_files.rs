@@ -6,7 +6,8 @@ use std::path::PathBuf;
 
 use toile::io::garment::{Loaded, Refused, read, read_file_only, read_text, write};
 use toile::pattern::{
-    Bound, Diagnostic, Findings, Garment, LineKind, Problem, SeamKind, Severity, Side, expand, openings, walk,
+    Bound, Diagnostic, Findings, Garment, LineKind, PlaceWord, Problem, SeamKind, Severity, Side, expand, openings,
+    walk,
 };
 
 const GARMENTS: [&str; 5] = ["child_dress", "tshirt", "gore_skirt", "trousers", "sheath_dress"];
@@ -229,7 +230,7 @@ fn limbs_of_a_pair_get_their_side() {
     let garment = load("child_dress").garment;
     let sleeve = garment.pieces.iter().find(|p| p.name == "sleeve.R").unwrap();
     assert_eq!(sleeve.side, Some(Side::Right));
-    let words = vec!["right".to_owned(), "arm".to_owned()];
+    let words = vec![PlaceWord::Right, PlaceWord::Arm];
     assert_eq!(sleeve.place, Some(toile::pattern::Place::Around { words }));
 }
 

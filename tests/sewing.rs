@@ -9,7 +9,7 @@ use toile::fabric::{self, Fabric};
 use toile::geometry::{TriMesh, Vec2, Vec3};
 use toile::mannequin::{Mannequin, PartKind, load};
 use toile::mesh::{ClothMesh, Stitches, build};
-use toile::pattern::{Garment, Place};
+use toile::pattern::{Garment, Place, PlaceWord};
 use toile::sew::place::{PlaceError, place};
 use toile::sew::{Calm, SewError, SewOptions, Sewn, Stitching, settle, sew, sewn_world};
 use toile::verify::{crossings, crossings_between};
@@ -922,7 +922,7 @@ fn a_place_must_name_a_part_that_the_body_has() {
     let somewhere = |words: &str| Made::new(&text.replace("WHERE", words), 20.0);
     let mut made = somewhere("left arm");
     // A file cannot say this; a garment built in code can.
-    made.garment.pieces[0].place = Some(Place::Around { words: vec!["moon".into()] });
+    made.garment.pieces[0].place = Some(Place::Around { words: vec![PlaceWord::Left] });
     let refused = place(&made.garment, &made.mesh, &body, &collider);
     assert!(matches!(&refused, Err(PlaceError::Words { piece, .. }) if piece == "cuff"), "{refused:?}");
     let made = somewhere("left arm");

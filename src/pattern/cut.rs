@@ -9,7 +9,7 @@ use nalgebra::Matrix2;
 
 use super::draft::{Draft, Stretch};
 use super::file::{Cut, Side};
-use super::place_word::{PlaceWord, place_word};
+use super::place_word::{PlaceMeaning, PlaceWord};
 use super::problem::Problem;
 use super::{Edge, EdgeId, Line, Notch, Piece, Place, Span};
 use crate::geometry::{Path, Vec2};
@@ -254,12 +254,11 @@ fn place(place: Option<&Place>, side: Option<Side>, mirrored: bool) -> Option<Pl
     Some(match place? {
         Place::Around { words } => {
             let mut words = words.clone();
-            let says =
-                |meanings: [PlaceWord; 2]| words.iter().any(|w| place_word(w).is_some_and(|m| meanings.contains(&m)));
+            let says = |meanings: [PlaceMeaning; 2]| words.iter().any(|w| meanings.contains(&w.meaning()));
             // A pair shares its words; on a limb they mean the piece's own side.
-            let limb = says([PlaceWord::Arm, PlaceWord::Leg]) && !says([PlaceWord::Left, PlaceWord::Right]);
+            let limb = says([PlaceMeaning::Arm, PlaceMeaning::Leg]) && !says([PlaceMeaning::Left, PlaceMeaning::Right]);
             if let Some(side) = side.filter(|_| limb) {
-                words.insert(0, if side == Side::Left { "left" } else { "right" }.to_owned());
+                words.insert(0, if side == Side::Left { PlaceWord::Left } else { PlaceWord::Right });
             }
             Place::Around { words }
         }

@@ -9,6 +9,7 @@ use super::diagnostic::{Findings, Located, Spot};
 use super::file::{AllowanceFile, Cut, PieceFile, PlaceFile, Quantity, Side, Unit};
 use super::line;
 use super::outline::{CLOSURE, ended_at, outline, whole_path};
+use super::place_word::PlaceWord;
 use super::pleat;
 use super::problem::Problem;
 use super::region::Region;
@@ -212,7 +213,8 @@ fn warp(piece: &PieceFile, findings: &mut Findings) -> Vec2 {
 fn place(place: &PlaceFile, unit: Unit) -> Place {
     match place {
         PlaceFile::Words(words) => {
-            Place::Around { words: words.to_lowercase().split_whitespace().map(str::to_owned).collect() }
+            // What is no word has been told of.
+            Place::Around { words: words.to_lowercase().split_whitespace().filter_map(PlaceWord::parse).collect() }
         }
         PlaceFile::At { at, turn } => {
             Place::At { at: Vec3::from(*at) * unit.factor(), turn: turn.map_or(Vec3::zeros(), Vec3::from) }

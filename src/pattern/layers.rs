@@ -1,7 +1,7 @@
 //! Pieces that lie on each other, and on which layer.
 
 use super::diagnostic::{Findings, Spot};
-use super::place_word::{PlaceWord, place_word, words_of};
+use super::place_word::{PlaceMeaning, PlaceWord};
 use super::problem::Problem;
 use super::{Garment, Piece, Place, Seam};
 
@@ -26,18 +26,19 @@ fn level<'g>(garment: &'g Garment, seam: &Seam) -> Option<[&'g Piece; 2]> {
 /// is sewn to, on whichever layer.
 fn lies_on(a: &Piece, b: &Piece) -> bool {
     let [a, b] = [a, b].map(meanings);
-    let says = |words: &[PlaceWord], word| words.contains(&word);
-    let alike = |word| says(&a, word) == says(&b, word);
-    let faces = says(&a, PlaceWord::Front) != says(&a, PlaceWord::Back);
-    let round_neck = says(&a, PlaceWord::Neck) || says(&b, PlaceWord::Neck);
-    faces && alike(PlaceWord::Front) && alike(PlaceWord::Back) && !round_neck
+    let says = |said: &[PlaceMeaning], meaning| said.contains(&meaning);
+    let alike = |meaning| says(&a, meaning) == says(&b, meaning);
+    let faces = says(&a, PlaceMeaning::Front) != says(&a, PlaceMeaning::Back);
+    let round_neck = says(&a, PlaceMeaning::Neck) || says(&b, PlaceMeaning::Neck);
+    faces && alike(PlaceMeaning::Front) && alike(PlaceMeaning::Back) && !round_neck
 }
 
 /// What the words of its place say, or else those of its name.
-fn meanings(piece: &Piece) -> Vec<PlaceWord> {
-    match &piece.place {
-        Some(Place::Around { words }) => words.iter().filter_map(|w| place_word(w)).collect(),
+fn meanings(piece: &Piece) -> Vec<PlaceMeaning> {
+    let words = match &piece.place {
+        Some(Place::Around { words }) => words.clone(),
         Some(Place::At { .. }) => Vec::new(),
-        None => words_of(&piece.drawn_as).iter().filter_map(|w| place_word(w)).collect(),
-    }
+        None => PlaceWord::in_name(&piece.drawn_as),
+    };
+    words.into_iter().map(PlaceWord::meaning).collect()
 }

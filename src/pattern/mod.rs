@@ -62,7 +62,7 @@ pub use file::{
     Unit, Value,
 };
 pub use notch_kind::{DOUBLE_MARKS, NotchKind};
-pub use place_word::{PlaceWord, TrunkLevel, place_word, trunk_level, words_of};
+pub use place_word::{PlaceMeaning, PlaceWord, TrunkLevel, place_words, words_of};
 pub use problem::{ChainDoubt, Problem};
 pub(crate) use reference::LARGEST;
 pub use reference::parse_quantity;
@@ -310,8 +310,8 @@ pub struct Notch {
 pub enum Place {
     /// Bent round a body part: `torso front`, `left arm`, `right leg back`, `waist`, `neck`.
     Around {
-        /// The words of the file, lower case.
-        words: Vec<String>,
+        /// The words of the file.
+        words: Vec<PlaceWord>,
     },
     /// A rigid position: the flat piece's origin goes to `at` (metres) after turning by `turn` (degrees about x, y, z,
     /// in this order about the fixed axes).

@@ -1,21 +1,74 @@
-//! The words of `place:`, and those of piece names that say the same.
+//! The words of `place:`, in one table, and those of piece names that say the same.
 
 use super::diagnostic::Findings;
 use super::file::{GarmentFile, PieceFile, PlaceFile, Unit};
 use super::problem::Problem;
 use crate::input::nearest;
 
-/// What a word says about where a piece goes.
+/// A word of `place:`. Other spellings of it are read as the same word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlaceWord {
+    /// Round the trunk, up to the shoulders.
+    Torso,
+    /// Round the hips and what is below.
+    Hip,
+    /// Round the waist.
+    Waist,
+    /// From the waist or the hips down, both legs inside.
+    Skirt,
+    /// Round the trunk above the waist.
+    Bodice,
+    /// Round the chest.
+    Chest,
+    /// Round the bust.
+    Bust,
+    /// Round the trunk, at any height.
+    Trunk,
+    /// Round a leg.
+    Leg,
+    /// Round a thigh.
+    Thigh,
+    /// Round a knee.
+    Knee,
+    /// Round an ankle.
+    Ankle,
     /// Round an arm.
     Arm,
+    /// Round an arm, as a sleeve.
+    Sleeve,
+    /// Round an elbow.
+    Elbow,
+    /// Round a wrist.
+    Wrist,
+    /// Round a wrist, as a cuff.
+    Cuff,
     /// Round the neck.
     Neck,
+    /// Round the neck, as a collar.
+    Collar,
+    /// Round the neck and over the head.
+    Hood,
+    /// On the wearer's left.
+    Left,
+    /// On the wearer's right.
+    Right,
+    /// In front.
+    Front,
+    /// Behind.
+    Back,
+}
+
+/// What a word says about where a piece goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlaceMeaning {
     /// Round the trunk or the legs below it.
     Trunk,
     /// Round one leg; for what is sewn to the other leg too (trousers), round the trunk.
     Leg,
+    /// Round an arm.
+    Arm,
+    /// Round the neck.
+    Neck,
     /// The wearer's left.
     Left,
     /// The wearer's right.
@@ -25,19 +78,6 @@ pub enum PlaceWord {
     /// Spine side.
     Back,
 }
-
-/// Every word that means something. Those of one or two letters, and those run together, are how other programs name
-/// their pieces.
-const WORDS: [(PlaceWord, &[&str]); 8] = [
-    (PlaceWord::Trunk, &["torso", "hip", "hips", "waist", "skirt", "bodice", "chest", "bust", "body", "trunk"]),
-    (PlaceWord::Leg, &["leg", "thigh", "knee", "ankle"]),
-    (PlaceWord::Arm, &["arm", "sleeve", "wrist", "cuff", "biceps", "elbow", "armband", "forearm"]),
-    (PlaceWord::Neck, &["neck", "collar", "neckband", "hood", "stand", "necktie", "choker"]),
-    (PlaceWord::Left, &["left", "l"]),
-    (PlaceWord::Right, &["right", "r"]),
-    (PlaceWord::Front, &["front", "f", "ftorso"]),
-    (PlaceWord::Back, &["back", "b", "btorso"]),
-];
 
 /// How high on the trunk a word says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,31 +90,95 @@ pub enum TrunkLevel {
     Chest,
 }
 
-/// Words of [`PlaceWord::Trunk`] that say how high.
-const LEVELS: [(TrunkLevel, &[&str]); 3] = [
-    (TrunkLevel::Waist, &["waist"]),
-    (TrunkLevel::Hip, &["hip", "hips", "skirt"]),
-    (TrunkLevel::Chest, &["torso", "bodice", "chest", "bust"]),
-];
+/// A word with its name in files and messages, what it means, how high on the trunk it says, and its other spellings.
+type Row = (PlaceWord, &'static str, PlaceMeaning, Option<TrunkLevel>, &'static [&'static str]);
 
-/// How high on the trunk a lower-case word says, if it does.
-pub fn trunk_level(word: &str) -> Option<TrunkLevel> {
-    LEVELS.iter().find(|(_, list)| list.contains(&word)).map(|(level, _)| *level)
+/// Every word. Spellings of one or two letters, and those run together, are how other programs name their pieces.
+const WORDS: [Row; 24] = {
+    use PlaceMeaning as Means;
+    use PlaceWord as Word;
+    use TrunkLevel as Level;
+    [
+        (Word::Torso, "torso", Means::Trunk, Some(Level::Chest), &[]),
+        (Word::Hip, "hip", Means::Trunk, Some(Level::Hip), &[]),
+        (Word::Waist, "waist", Means::Trunk, Some(Level::Waist), &[]),
+        (Word::Skirt, "skirt", Means::Trunk, Some(Level::Hip), &[]),
+        (Word::Bodice, "bodice", Means::Trunk, Some(Level::Chest), &[]),
+        (Word::Chest, "chest", Means::Trunk, Some(Level::Chest), &[]),
+        (Word::Bust, "bust", Means::Trunk, Some(Level::Chest), &[]),
+        (Word::Trunk, "trunk", Means::Trunk, None, &["body"]),
+        (Word::Leg, "leg", Means::Leg, None, &[]),
+        (Word::Thigh, "thigh", Means::Leg, None, &[]),
+        (Word::Knee, "knee", Means::Leg, None, &[]),
+        (Word::Ankle, "ankle", Means::Leg, None, &[]),
+        (Word::Arm, "arm", Means::Arm, None, &["biceps", "armband", "forearm"]),
+        (Word::Sleeve, "sleeve", Means::Arm, None, &[]),
+        (Word::Elbow, "elbow", Means::Arm, None, &[]),
+        (Word::Wrist, "wrist", Means::Arm, None, &[]),
+        (Word::Cuff, "cuff", Means::Arm, None, &[]),
+        (Word::Neck, "neck", Means::Neck, None, &["neckband", "necktie", "choker"]),
+        (Word::Collar, "collar", Means::Neck, None, &["stand"]),
+        (Word::Hood, "hood", Means::Neck, None, &[]),
+        (Word::Left, "left", Means::Left, None, &["l"]),
+        (Word::Right, "right", Means::Right, None, &["r"]),
+        (Word::Front, "front", Means::Front, None, &["f", "ftorso"]),
+        (Word::Back, "back", Means::Back, None, &["b", "btorso"]),
+    ]
+};
+
+impl PlaceWord {
+    /// The word that is spelled so, in lower case, also in the plural.
+    pub fn parse(text: &str) -> Option<Self> {
+        let is = |text: &str| WORDS.iter().find(|row| row.1 == text || row.4.contains(&text)).map(|row| row.0);
+        is(text).or_else(|| text.strip_suffix('s').and_then(is))
+    }
+
+    /// The words among those of a name, in its order: `sleeve_left.L` → sleeve, left, left.
+    pub fn in_name(name: &str) -> Vec<Self> {
+        words_of(name).iter().filter_map(|word| Self::parse(word)).collect()
+    }
+
+    /// All words, in the order in which they are told.
+    pub fn all() -> impl Iterator<Item = Self> {
+        WORDS.iter().map(|row| row.0)
+    }
+
+    /// As files and messages have it.
+    pub fn name(self) -> &'static str {
+        self.row().1
+    }
+
+    /// What it says.
+    pub fn meaning(self) -> PlaceMeaning {
+        self.row().2
+    }
+
+    /// How high on the trunk it says, if it does.
+    pub fn level(self) -> Option<TrunkLevel> {
+        self.row().3
+    }
+
+    fn row(self) -> &'static Row {
+        // The table has the words in the order of the type; a test says so.
+        &WORDS[self as usize]
+    }
 }
 
-/// What is said to those who look for a word.
-const KNOWN: &str = "torso, hip, waist, skirt, bodice, chest, bust; leg, knee or ankle; arm, sleeve, elbow, wrist or \
-                     cuff; neck, collar or hood; with left or right, front or back";
+/// All words for people, `torso, hip, …; leg, …; with left or right, front or back`, each written as `show` has it.
+pub fn place_words(show: impl Fn(&str) -> String) -> String {
+    let of = |meaning: PlaceMeaning| {
+        let words = PlaceWord::all().filter(move |word| word.meaning() == meaning);
+        words.map(|word| show(word.name())).collect::<Vec<String>>().join(", ")
+    };
+    let parts = [PlaceMeaning::Trunk, PlaceMeaning::Leg, PlaceMeaning::Arm, PlaceMeaning::Neck].map(of);
+    let [left, right, front, back] =
+        [PlaceMeaning::Left, PlaceMeaning::Right, PlaceMeaning::Front, PlaceMeaning::Back].map(of);
+    format!("{}; with {left} or {right}, {front} or {back}", parts.join("; "))
+}
 
 /// The words of a name in lower case: `sleeve_left.L` → sleeve, left, l.
 pub fn words_of(name: &str) -> Vec<String> {
     name.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).map(str::to_lowercase).collect()
-}
-
-/// What a lower-case word says, also in the plural.
-pub fn place_word(word: &str) -> Option<PlaceWord> {
-    let means = |word: &str| WORDS.iter().find(|(_, list)| list.contains(&word)).map(|(meaning, _)| *meaning);
-    means(word).or_else(|| word.strip_suffix('s').and_then(means))
 }
 
 /// A piece that starts farther from the feet than this, metres, is in another unit than thought.
@@ -102,25 +206,26 @@ fn problem(piece: &PieceFile, unit: Unit) -> Option<Problem> {
 
 fn wrong_words(piece: &PieceFile, words: &str) -> Option<Problem> {
     let name = piece.name.value.clone();
+    let known = || place_words(str::to_owned);
     let mut said = Vec::new();
     for word in words.to_lowercase().split_whitespace() {
-        match place_word(word) {
-            Some(meaning) => said.push(meaning),
+        match PlaceWord::parse(word) {
+            Some(word) => said.push(word.meaning()),
             None => {
-                let all = WORDS.iter().flat_map(|(_, list)| list.iter().copied()).filter(|w| w.len() > 1);
+                let all = WORDS.iter().flat_map(|row| row.4.iter().copied().chain([row.1])).filter(|w| w.len() > 1);
                 let nearest = nearest(word, all).map(str::to_owned);
-                return Some(Problem::PlaceWord { piece: name, word: word.to_owned(), nearest, known: KNOWN });
+                return Some(Problem::PlaceWord { piece: name, word: word.to_owned(), nearest, known: known() });
             }
         }
     }
     let place = words.to_owned();
-    let says = |word: PlaceWord| said.contains(&word);
-    let both = [(PlaceWord::Left, PlaceWord::Right), (PlaceWord::Front, PlaceWord::Back)];
+    let says = |meaning: PlaceMeaning| said.contains(&meaning);
+    let both = [(PlaceMeaning::Left, PlaceMeaning::Right), (PlaceMeaning::Front, PlaceMeaning::Back)];
     if both.iter().any(|&(one, other)| says(one) && says(other)) {
         return Some(Problem::PlaceBoth { piece: name, place });
     }
-    let placed = said.iter().any(|word| !matches!(word, PlaceWord::Left | PlaceWord::Right));
-    (!placed).then_some(Problem::PlaceNowhere { piece: name, place, known: KNOWN })
+    let placed = said.iter().any(|meaning| !matches!(meaning, PlaceMeaning::Left | PlaceMeaning::Right));
+    (!placed).then(|| Problem::PlaceNowhere { piece: name, place, known: known() })
 }
 
 #[cfg(test)]
@@ -128,11 +233,23 @@ mod tests {
     use super::*;
 
     #[test]
-    fn words_mean_parts_sides_and_facings_also_in_the_plural() {
-        assert_eq!(place_word("hips"), Some(PlaceWord::Trunk));
-        assert_eq!(place_word("sleeves"), Some(PlaceWord::Arm));
-        assert_eq!(place_word("collar"), Some(PlaceWord::Neck));
-        assert_eq!(place_word("hop"), None);
-        assert_eq!(place_word("s"), None);
+    fn words_are_read_in_every_spelling_and_in_the_plural() {
+        assert_eq!(PlaceWord::parse("hips"), Some(PlaceWord::Hip));
+        assert_eq!(PlaceWord::parse("sleeves"), Some(PlaceWord::Sleeve));
+        assert_eq!(PlaceWord::parse("body"), Some(PlaceWord::Trunk));
+        assert_eq!(PlaceWord::parse("forearm"), Some(PlaceWord::Arm));
+        assert_eq!(PlaceWord::parse("hop"), None);
+        assert_eq!(PlaceWord::parse("s"), None);
+        assert_eq!(PlaceWord::in_name("upper_Sleeve.L"), [PlaceWord::Sleeve, PlaceWord::Left]);
+    }
+
+    #[test]
+    fn the_table_has_every_word_once_under_its_own_name() {
+        for (k, row) in WORDS.iter().enumerate() {
+            assert_eq!(row.0 as usize, k, "{}", row.1);
+            for spelling in row.4.iter().chain([&row.1]) {
+                assert_eq!(PlaceWord::parse(spelling), Some(row.0), "{spelling}");
+            }
+        }
     }
 }

@@ -88,11 +88,11 @@ pub enum Problem {
 
     // Places.
     #[error("place of '{piece}': '{word}' means nothing{}", did_you_mean(.nearest))]
-    PlaceWord { piece: String, word: String, nearest: Option<String>, known: &'static str },
+    PlaceWord { piece: String, word: String, nearest: Option<String>, known: String },
     #[error("place of '{piece}': '{place}' says two sides; a piece has one")]
     PlaceBoth { piece: String, place: String },
     #[error("place of '{piece}': '{place}' names no body part")]
-    PlaceNowhere { piece: String, place: String, known: &'static str },
+    PlaceNowhere { piece: String, place: String, known: String },
 
     // The mesh, in its own words.
     #[error("{0}")]

@@ -10,7 +10,7 @@ use super::schema::{Fault, FaultKind};
 use super::worn::Seen;
 use crate::geometry::{DisjointSets, MM, range_of};
 use crate::mannequin::PartKind;
-use crate::pattern::{Place, TrunkLevel, trunk_level};
+use crate::pattern::{Place, TrunkLevel};
 use crate::verify::{Passage, Through, Welded, is_dealt};
 
 /// Two openings are a pair if their lengths, and the areas of their pieces, differ by no more than this share: what is
@@ -229,7 +229,7 @@ impl<'a> Wear<'a> {
         let (Some(waist), bust) = (mark("waist"), mark("bust")) else { return out };
         for (piece, mesh) in self.run.garment.pieces.iter().zip(&self.run.mesh.pieces) {
             let Some(Place::Around { words }) = &piece.place else { continue };
-            let Some(level) = words.iter().find_map(|word| trunk_level(word)) else { continue };
+            let Some(level) = words.iter().find_map(|word| word.level()) else { continue };
             let part = self.part_of[mesh.particles.start];
             let Some(k) = (0..out.len()).find(|&k| self.part[k] == part && self.holds(k)) else { continue };
             let heights = mesh.particles.clone().map(|p| self.welded.vertex_of[p] as usize);

@@ -10,8 +10,8 @@ use super::short::KEPT;
 use super::spec::{PanelEdge, Specification};
 use crate::geometry::Path;
 use crate::pattern::{
-    Cut, DEFAULT_CLOTH, GarmentFile, Located, OutlineFile, PieceFile, PlaceFile, Quantity, SeamFile, Side, Spot,
-    TestEntry, TestFile, Unit, Value,
+    Cut, DEFAULT_CLOTH, GarmentFile, Located, OutlineFile, PieceFile, PlaceFile, PlaceWord, Quantity, SeamFile, Side,
+    Spot, TestEntry, TestFile, Unit, Value,
 };
 
 /// The garment file of a specification.
@@ -143,10 +143,11 @@ impl Writer<'_> {
         let beside = part.role.round_trunk() && part.drawing.normal.y.abs() < UPRIGHT;
         let words = part.role.body_part().filter(|_| part.facing.is_some() || beside).map(|body| {
             let side = part.side.filter(|_| part.role.round_arm() && piece.twin.is_none()).map(|s| match s {
-                Side::Left => "left",
-                Side::Right => "right",
+                Side::Left => PlaceWord::Left,
+                Side::Right => PlaceWord::Right,
             });
-            [side, Some(body), part.facing.map(Facing::word)].into_iter().flatten().collect::<Vec<&str>>().join(" ")
+            let words = [side, Some(body), part.facing.map(Facing::word)].into_iter().flatten();
+            words.map(PlaceWord::name).collect::<Vec<&str>>().join(" ")
         });
         words.map_or_else(
             || {

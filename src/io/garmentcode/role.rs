@@ -3,7 +3,7 @@
 use super::drawing::Drawing;
 use super::spec::{Panel, Specification};
 use crate::geometry::range_of;
-use crate::pattern::Side;
+use crate::pattern::{PlaceWord, Side};
 
 /// The part of a garment a panel is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,15 +63,15 @@ impl Role {
     }
 
     /// The word of `place:` for the part of the body it goes round; `None` for one that stands free.
-    pub(super) fn body_part(self) -> Option<&'static str> {
+    pub(super) fn body_part(self) -> Option<PlaceWord> {
         match self {
-            Self::Bodice => Some("torso"),
-            Self::Sleeve => Some("arm"),
-            Self::Cuff => Some("wrist"),
-            Self::Waistband => Some("waist"),
-            Self::Skirt => Some("skirt"),
-            Self::Trousers => Some("hip"),
-            Self::TrouserCuff => Some("leg"),
+            Self::Bodice => Some(PlaceWord::Torso),
+            Self::Sleeve => Some(PlaceWord::Arm),
+            Self::Cuff => Some(PlaceWord::Wrist),
+            Self::Waistband => Some(PlaceWord::Waist),
+            Self::Skirt => Some(PlaceWord::Skirt),
+            Self::Trousers => Some(PlaceWord::Hip),
+            Self::TrouserCuff => Some(PlaceWord::Leg),
             Self::Collar | Self::Hood => None,
         }
     }
@@ -116,10 +116,10 @@ impl Facing {
         (drawing.normal.z < -Self::CLEAR).then_some(Self::Back)
     }
 
-    pub(super) fn word(self) -> &'static str {
+    pub(super) fn word(self) -> PlaceWord {
         match self {
-            Self::Front => "front",
-            Self::Back => "back",
+            Self::Front => PlaceWord::Front,
+            Self::Back => PlaceWord::Back,
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::PlaceError;
 use crate::mannequin::PartKind;
 use crate::mesh::{ClothMesh, PieceMesh};
-use crate::pattern::{Garment, Piece, Place, PlaceWord, Side, place_word, words_of};
+use crate::pattern::{Garment, Piece, Place, PlaceMeaning, PlaceWord, Side, words_of};
 
 /// Where a piece goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,14 +30,14 @@ pub(super) enum Facing {
 pub(super) fn assign(garment: &Garment, mesh: &ClothMesh) -> Result<Vec<Assigned>, PlaceError> {
     let mut out = Vec::with_capacity(garment.pieces.len());
     for piece in &garment.pieces {
-        let name_words = words_of(&piece.name);
+        let name_words = PlaceWord::in_name(&piece.name);
         let side = piece.side.or_else(|| side_of(&name_words));
         let assigned = match &piece.place {
             Some(Place::Around { words }) => {
                 // Each of a pair goes to its own side, whichever one was drawn and said.
                 let part = part_of(words, piece.side.or_else(|| side_of(words)).or(side))
                     .or_else(|| facing_of(words).map(|_| PartKind::Torso))
-                    .ok_or_else(|| PlaceError::Words { piece: piece.name.clone(), words: words.join(" ") })?;
+                    .ok_or_else(|| PlaceError::Words { piece: piece.name.clone(), words: written(words) })?;
                 Assigned { part, facing: facing_of(words).or_else(|| facing_of(&name_words)) }
             }
             _ => {
@@ -61,8 +61,8 @@ const BETWEEN_LEGS: [&str; 12] = [
 /// are called.
 pub(in crate::sew) fn goes_between_legs(garment: &Garment) -> bool {
     let leg = |piece: &Piece| match &piece.place {
-        Some(Place::Around { words }) => says(words, PlaceWord::Leg),
-        _ => says(&words_of(&piece.name), PlaceWord::Leg),
+        Some(Place::Around { words }) => says(words, PlaceMeaning::Leg),
+        _ => says(&PlaceWord::in_name(&piece.name), PlaceMeaning::Leg),
     };
     let names = garment.pieces.iter().map(|p| &p.name).chain(garment.seams.iter().map(|s| &s.name));
     let between = |name: &String| words_of(name).iter().any(|word| BETWEEN_LEGS.contains(&word.as_str()));
@@ -71,48 +71,53 @@ pub(in crate::sew) fn goes_between_legs(garment: &Garment) -> bool {
 
 /// Whether a piece is said to be one of a skirt, by its place or its name.
 pub(super) fn is_skirt(piece: &Piece) -> bool {
-    let says = |words: &[String]| words.iter().any(|word| word == "skirt");
-    says(&words_of(&piece.name)) || matches!(&piece.place, Some(Place::Around { words }) if says(words))
+    let says = |words: &[PlaceWord]| words.contains(&PlaceWord::Skirt);
+    says(&PlaceWord::in_name(&piece.name)) || matches!(&piece.place, Some(Place::Around { words }) if says(words))
 }
 
 /// Words for what is worn on the bust, and not from the waist down.
-const AT_BUST: [&str; 3] = ["bust", "chest", "bodice"];
+const AT_BUST: [PlaceWord; 3] = [PlaceWord::Bust, PlaceWord::Chest, PlaceWord::Bodice];
 
 /// Whether a piece's place is said to be at the bust.
 pub(super) fn is_at_bust(piece: &Piece) -> bool {
-    let says = |words: &[String]| words.iter().any(|word| AT_BUST.contains(&word.as_str()));
+    let says = |words: &[PlaceWord]| words.iter().any(|word| AT_BUST.contains(word));
     matches!(&piece.place, Some(Place::Around { words }) if says(words))
 }
 
-fn says(words: &[String], meaning: PlaceWord) -> bool {
-    words.iter().any(|w| place_word(w) == Some(meaning))
+fn says(words: &[PlaceWord], meaning: PlaceMeaning) -> bool {
+    words.iter().any(|word| word.meaning() == meaning)
 }
 
-fn part_of(words: &[String], side: Option<Side>) -> Option<PartKind> {
-    if says(words, PlaceWord::Arm) {
+/// The words as a file has them.
+fn written(words: &[PlaceWord]) -> String {
+    words.iter().map(|word| word.name()).collect::<Vec<&str>>().join(" ")
+}
+
+fn part_of(words: &[PlaceWord], side: Option<Side>) -> Option<PartKind> {
+    if says(words, PlaceMeaning::Arm) {
         return Some(if side == Some(Side::Right) { PartKind::RightArm } else { PartKind::LeftArm });
     }
-    if says(words, PlaceWord::Neck) {
+    if says(words, PlaceMeaning::Neck) {
         return Some(PartKind::Neck);
     }
-    if says(words, PlaceWord::Leg) {
+    if says(words, PlaceMeaning::Leg) {
         return Some(if side == Some(Side::Right) { PartKind::RightLeg } else { PartKind::LeftLeg });
     }
-    says(words, PlaceWord::Trunk).then_some(PartKind::Torso)
+    says(words, PlaceMeaning::Trunk).then_some(PartKind::Torso)
 }
 
-fn side_of(words: &[String]) -> Option<Side> {
-    if says(words, PlaceWord::Left) {
+fn side_of(words: &[PlaceWord]) -> Option<Side> {
+    if says(words, PlaceMeaning::Left) {
         return Some(Side::Left);
     }
-    says(words, PlaceWord::Right).then_some(Side::Right)
+    says(words, PlaceMeaning::Right).then_some(Side::Right)
 }
 
-fn facing_of(words: &[String]) -> Option<Facing> {
-    if says(words, PlaceWord::Front) {
+fn facing_of(words: &[PlaceWord]) -> Option<Facing> {
+    if says(words, PlaceMeaning::Front) {
         return Some(Facing::Front);
     }
-    says(words, PlaceWord::Back).then_some(Facing::Back)
+    says(words, PlaceMeaning::Back).then_some(Facing::Back)
 }
 
 /// A piece for an arm or a leg whose side nothing says goes where the pieces it is sewn to are.
@@ -127,7 +132,7 @@ fn sort_out_sides(garment: &Garment, mesh: &ClothMesh, out: &mut [Assigned]) {
             _ => continue,
         };
         let said = piece.side.is_some()
-            || side_of(&words_of(&piece.name)).is_some()
+            || side_of(&PlaceWord::in_name(&piece.name)).is_some()
             || matches!(&piece.place, Some(Place::Around { words }) if side_of(words).is_some());
         if said {
             continue;

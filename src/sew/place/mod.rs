@@ -37,7 +37,7 @@ use crate::contact::Collider;
 use crate::geometry::Vec3;
 use crate::mannequin::Mannequin;
 use crate::mesh::{ClothMesh, PieceMesh};
-use crate::pattern::{Garment, Place};
+use crate::pattern::{Garment, Place, place_words};
 pub(super) use assign::goes_between_legs;
 
 /// A piece that starts smaller than this share of its size has no place; one wound round the body many times is larger.
@@ -47,10 +47,7 @@ const SMALLEST: f64 = 0.02;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PlaceError {
     /// A word of `place:` names no body part.
-    #[error(
-        "piece '{piece}': place '{words}' names no body part; use torso, hip, waist, skirt, neck, arm or leg, with \
-         left or right, front or back"
-    )]
+    #[error("piece '{piece}': place '{words}' names no body part; use {}", place_words(str::to_owned))]
     Words {
         /// The piece.
         piece: String,

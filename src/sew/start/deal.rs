@@ -15,7 +15,7 @@ use super::sides;
 use super::zip;
 use crate::mannequin::Mannequin;
 use crate::mesh::ClothMesh;
-use crate::pattern::{Garment, PlaceWord};
+use crate::pattern::{Garment, PlaceMeaning, PlaceWord};
 
 /// A dealing is clear when every other one costs this much more. Of 58 garments that these costs were not chosen on
 /// every wrong one had a smaller margin, and no right one was refused by much less.
@@ -210,11 +210,11 @@ impl<'a> Table<'a> {
         let trunk = ends.touches(Ends::LEGS) || ends.has(Ends::TOP);
         let fails = |piece: usize| {
             let mut said = marks::words(self.garment, piece);
-            said.any(|(meaning, word)| match meaning {
-                PlaceWord::Arm => !ends.touches(Ends::ARMS),
-                PlaceWord::Leg => !trunk,
-                PlaceWord::Neck => !ends.has(Ends::HEAD),
-                PlaceWord::Trunk => marks::is_low(word) && !trunk,
+            said.any(|word| match word.meaning() {
+                PlaceMeaning::Arm => !ends.touches(Ends::ARMS),
+                PlaceMeaning::Leg => !trunk,
+                PlaceMeaning::Neck => !ends.has(Ends::HEAD),
+                PlaceMeaning::Trunk => marks::is_low(word) && !trunk,
                 _ => false,
             })
         };
@@ -289,15 +289,10 @@ impl<'a> Table<'a> {
     /// What no opening answers to of the words of the pieces at these openings.
     fn unheard(&self, own: &[usize], ends: &[Ends]) -> f64 {
         let pieces = || own.iter().flat_map(|&i| &self.stretches[i]).map(|s| s.piece);
-        let said = |test: &dyn Fn(PlaceWord, &str) -> bool| {
-            pieces().any(|p| marks::words(self.garment, p).any(|(meaning, word)| test(meaning, word)))
-        };
-        let arms = said(&|meaning, _| meaning == PlaceWord::Arm);
-        let high = said(&|meaning, word| {
-            matches!(meaning, PlaceWord::Arm | PlaceWord::Neck) || meaning == PlaceWord::Trunk && !marks::is_low(word)
-        });
-        let low =
-            said(&|meaning, word| meaning == PlaceWord::Leg || meaning == PlaceWord::Trunk && marks::is_low(word));
+        let said = |test: fn(PlaceWord) -> bool| pieces().any(|p| marks::words(self.garment, p).any(test));
+        let arms = said(|word| word.meaning() == PlaceMeaning::Arm);
+        let high = said(marks::is_high);
+        let low = said(|word| word.meaning() == PlaceMeaning::Leg || marks::is_low(word));
         let is_arm = |e: &Ends| !e.is_empty() && Ends::ARMS.has(*e);
         let mut cost = 0.0;
         cost += if arms && !ends.iter().any(is_arm) { UNHEARD } else { 0.0 };

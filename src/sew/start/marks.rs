@@ -6,7 +6,7 @@ use super::glue::Glued;
 use super::openings::Opening;
 use crate::geometry::{Vec2, box_of};
 use crate::mesh::ClothMesh;
-use crate::pattern::{Garment, Place, PlaceWord, Side, TrunkLevel, place_word, trunk_level};
+use crate::pattern::{Garment, Place, PlaceMeaning, PlaceWord, Side, TrunkLevel};
 
 /// Two outlines are mirror images when every point of one is this near to a point of the other, in grid spacings.
 const SAME_SHAPE: f64 = 1.0;
@@ -155,23 +155,32 @@ fn shared(stretches: &[Stretch], value: impl Fn(&Stretch) -> f64) -> f64 {
     stretches.iter().map(|s| value(s) * s.count as f64).sum::<f64>() / count.max(1) as f64
 }
 
-/// What the words of a piece's place say; nothing if it has none.
-pub(super) fn words(garment: &Garment, piece: usize) -> impl Iterator<Item = (PlaceWord, &str)> {
-    let words: &[String] = match &garment.pieces[piece].place {
+/// The words of a piece's place; none if it has none.
+pub(super) fn words(garment: &Garment, piece: usize) -> impl Iterator<Item = PlaceWord> {
+    let words: &[PlaceWord] = match &garment.pieces[piece].place {
         Some(Place::Around { words }) => words,
         _ => &[],
     };
-    words.iter().filter_map(|word| Some((place_word(word)?, word.as_str())))
+    words.iter().copied()
 }
 
-/// Words for what is worn from the waist down.
-pub(super) fn is_low(word: &str) -> bool {
-    matches!(trunk_level(word), Some(TrunkLevel::Waist | TrunkLevel::Hip))
+/// Whether a word is for what is worn from the waist down.
+pub(super) fn is_low(word: PlaceWord) -> bool {
+    matches!(word.level(), Some(TrunkLevel::Waist | TrunkLevel::Hip))
+}
+
+/// Whether a word is for what goes round the neck or hangs from the shoulders.
+pub(super) fn is_high(word: PlaceWord) -> bool {
+    match word.meaning() {
+        PlaceMeaning::Neck | PlaceMeaning::Arm => true,
+        PlaceMeaning::Trunk => !is_low(word),
+        _ => false,
+    }
 }
 
 /// Whether a piece's place says this.
-pub(super) fn says(garment: &Garment, piece: usize, meaning: PlaceWord) -> bool {
-    words(garment, piece).any(|(said, _)| said == meaning)
+pub(super) fn says(garment: &Garment, piece: usize, meaning: PlaceMeaning) -> bool {
+    words(garment, piece).any(|word| word.meaning() == meaning)
 }
 
 /// Which side a piece is on: 1 left, −1 right, 0 unknown.
@@ -179,7 +188,10 @@ pub(super) fn side_of(garment: &Garment, piece: usize) -> f64 {
     match garment.pieces[piece].side {
         Some(Side::Left) => 1.0,
         Some(Side::Right) => -1.0,
-        None => f64::from(says(garment, piece, PlaceWord::Left)) - f64::from(says(garment, piece, PlaceWord::Right)),
+        None => {
+            let says = |meaning| f64::from(says(garment, piece, meaning));
+            says(PlaceMeaning::Left) - says(PlaceMeaning::Right)
+        }
     }
 }
 

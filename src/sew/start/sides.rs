@@ -6,7 +6,7 @@
 use super::deal::Wearing;
 use super::ends::Ends;
 use super::marks;
-use crate::pattern::PlaceWord;
+use crate::pattern::PlaceMeaning;
 
 /// Left and right are told by pairs and by `place`, and else by depth: a neck is lower at the front, a waist is nearer
 /// to the legs there. Said words outweigh what is drawn.
@@ -63,8 +63,8 @@ fn facing(wearing: &Wearing, node: Option<u32>) -> f64 {
         let at_node = |p: usize| wearing.glued.node_of[p] == Some(node);
         piece.edges.iter().flat_map(|e| &e.particles).any(|&p| at_node(p as usize))
     });
-    let says = |piece: usize, word: PlaceWord| f64::from(marks::says(wearing.garment, piece, word));
-    let sum: f64 = pieces.map(|(i, _)| says(i, PlaceWord::Front) - says(i, PlaceWord::Back)).sum();
+    let says = |piece: usize, meaning| f64::from(marks::says(wearing.garment, piece, meaning));
+    let sum: f64 = pieces.map(|(i, _)| says(i, PlaceMeaning::Front) - says(i, PlaceMeaning::Back)).sum();
     sum.clamp(-1.0, 1.0)
 }
 
@@ -86,8 +86,8 @@ fn drawn_field(wearing: &Wearing) -> Option<Vec<f64>> {
     let mut field = vec![0.0; wearing.glued.count];
     for (i, piece) in mesh.pieces.iter().enumerate() {
         let side = marks::side_of(garment, i);
-        let faces =
-            f64::from(marks::says(garment, i, PlaceWord::Front)) - f64::from(marks::says(garment, i, PlaceWord::Back));
+        let faces = f64::from(marks::says(garment, i, PlaceMeaning::Front))
+            - f64::from(marks::says(garment, i, PlaceMeaning::Back));
         let range = piece.particles.clone();
         let x = range.clone().map(|p| mesh.flat[p].x);
         let middle = 0.5 * (x.clone().fold(f64::INFINITY, f64::min) + x.fold(f64::NEG_INFINITY, f64::max));

@@ -6,7 +6,6 @@ use super::marks;
 use super::sides::{left_field, middles};
 use crate::geometry::{Vec2, range_of};
 use crate::mesh::PieceMesh;
-use crate::pattern::PlaceWord;
 
 /// A neck or waist that is left of an open front is about this many times as wide as what goes through it.
 const WIDE: f64 = 1.2;
@@ -62,9 +61,7 @@ fn drawn_height(wearing: &Wearing, node: u32) -> f64 {
 
 /// Whether a piece is said to go round the neck, or to hang from the shoulders.
 fn is_high(wearing: &Wearing, piece: usize) -> bool {
-    marks::words(wearing.garment, piece).any(|(said, word)| {
-        matches!(said, PlaceWord::Neck | PlaceWord::Arm) || said == PlaceWord::Trunk && !marks::is_low(word)
-    })
+    marks::words(wearing.garment, piece).any(marks::is_high)
 }
 
 /// What of a rim from the middle of the top to that of the bottom is front: from the corner at the top to the one at
