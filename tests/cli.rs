@@ -205,15 +205,15 @@ fn export_writes_what_cutters_take() {
     room.run(&["export", "pdf", "skirt.yaml", "--allowance", "-3"]).ends(2).says(&["from 0 to 200"]);
 }
 
-/// A piece that is narrower than the particles are apart is read, and cannot be made: `import` says so like `check`.
+/// A drawing in the wrong unit, 30 m wide, is read, and has too many particles: `import` says so like `check`.
 #[test]
 fn import_says_what_a_check_of_its_file_says() {
     let room = Room::new();
-    let svg = "<svg xmlns='http://www.w3.org/2000/svg' width='200mm' height='200mm' viewBox='0 0 200 200'>\
-               <path id='wedge' d='M 10 10 L 190 10 L 190 28 Z'/></svg>";
+    let svg = "<svg xmlns='http://www.w3.org/2000/svg' width='30000mm' height='30000mm' viewBox='0 0 30000 30000'>\
+               <path id='wedge' d='M 10 10 L 29990 10 L 29990 29990 Z'/></svg>";
     room.put("wedge.svg", svg);
     let run = room.run(&["import", "svg", "wedge.svg", "-o", "wedge.yaml"]);
-    run.ends(1).says(&["'wedge'", "mm"]);
+    run.ends(1).says(&["particles", "mesh size 10 mm is too small"]);
     assert!(run.out.contains("1 piece and 0 seams"), "{}", run.out);
     room.run(&["check", "wedge.yaml", "-q"]).ends(2);
 }

@@ -286,6 +286,7 @@ fn two_panels(columns: [usize; 2], rows: usize, ratio: f64) -> ClothMesh {
             lines: Vec::new(),
             smallest_angle: PI / 4.0,
             warp: Vec2::new(0.0, -1.0),
+            narrow: None,
         });
     }
     let pairs = sides[0][1].iter().zip(&sides[1][0]).map(|(&a, &b)| [a, b]).collect();

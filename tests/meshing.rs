@@ -474,21 +474,43 @@ fn a_narrow_piece_askew_to_the_grain_takes_no_more_than_its_cloth() {
 }
 
 #[test]
+fn a_piece_narrower_than_the_spacing_has_one_row_of_cells() {
+    for (width, along) in [(18.0, 20.0), (7.0, 20.0), (3.0, 9.0)] {
+        let mesh = build(&garment(vec![rectangle("binding", 600.0, width)], vec![]), 0.02).expect("mesh");
+        let narrow = mesh.pieces[0].narrow.expect("a narrow piece");
+        assert!((narrow.width * 1e3 - width).abs() < 1e-6 && (narrow.along * 1e3 - along).abs() < 1e-6, "{narrow:?}");
+        let columns = (600.0 / along).round() as usize;
+        assert_eq!((mesh.flat.len(), mesh.triangles.len()), (2 * (columns + 1), 2 * columns), "{width}");
+    }
+    let wide = build(&garment(vec![rectangle("band", 600.0, 20.0)], vec![]), 0.02).expect("mesh");
+    assert_eq!(wide.pieces[0].narrow, None);
+}
+
+#[test]
+fn what_is_sewn_to_a_narrow_piece_is_finer_along_that_seam_alone() {
+    let (panel, tape) = (rectangle("panel", 300.0, 300.0), rectangle("tape", 300.0, 3.0));
+    let alone = build(&garment(vec![panel.clone()], vec![]), 0.02).expect("mesh");
+    let joined = seam("join", vec![span(0, 0, 0, 0.0, 300.0)], vec![span(1, 0, 0, 0.0, 300.0)]);
+    let mesh = build(&garment(vec![panel, tape], vec![joined]), 0.02).expect("mesh");
+    assert_eq!(mesh.seams[0].pairs.len(), 34, "300 mm in springs of 9 mm");
+    let more = mesh.pieces[0].particles.len() as f64 / alone.flat.len() as f64;
+    assert!(more < 1.2, "{more}");
+    assert!(mesh.pieces[0].smallest_angle.to_degrees() > 20.0, "{}", mesh.pieces[0].smallest_angle.to_degrees());
+}
+
+#[test]
 fn a_spacing_that_does_not_suit_is_explained() {
     let message = |p: Piece, spacing: f64| {
         build(&garment(vec![p], vec![]), spacing).map(|_| ()).expect_err("spacing").to_string()
     };
     assert_eq!(
-        message(rectangle("binding", 600.0, 18.0), 0.02),
-        "mesh size 20 mm leaves 1 spring across 'binding' (18 mm wide); use 18 mm or less (6 mm for three springs \
-         across), or check the file's units"
+        message(rectangle("patch", 60.0, 18.0), 0.02),
+        "mesh size 20 mm is too large: even 'patch' is only 18 mm wide and 60 mm long; use 18 mm or less (6 mm for \
+         three springs across), or check the file's units"
     );
-    for (width, largest, more) in [(18.0, 0.018_f64, 0.01801), (40.0 / 3.0, 0.01333, 0.01334)] {
-        let band = rectangle("neck_band", 320.0, width);
-        let said = format!("use {} mm or less", (1e5 * largest).round() / 100.0);
-        assert!(message(band.clone(), more).contains(&said), "{said}");
-        build(&garment(vec![band], vec![]), largest).expect("the spacing that is named");
-    }
+    build(&garment(vec![rectangle("patch", 60.0, 18.0)], vec![]), 0.018).expect("the spacing that is named");
+    let beside = garment(vec![rectangle("patch", 60.0, 18.0), rectangle("panel", 100.0, 20.0)], vec![]);
+    assert!(build(&beside, 0.02).expect("mesh").pieces[0].narrow.is_some());
     for spacing in [0.0, -0.01, f64::NAN, f64::INFINITY] {
         assert!(message(rectangle("panel", 100.0, 100.0), spacing).starts_with("mesh size must be a positive length"));
     }

@@ -257,7 +257,7 @@ const MISTAKES: [Mistake; 31] = [
         "[[5, 5]",
         "grain of 'front' has zero length",
     ),
-    wrong(
+    doubtful(
         29,
         &[
             ("side: L 100 100\n      hem: L 0 100", "side: L 100 18\n      hem: L 0 18"),
@@ -265,8 +265,8 @@ const MISTAKES: [Mistake; 31] = [
             ("free: [", "free: [back.center, "),
         ],
         "front:",
-        "mesh size 20 mm leaves 1 spring across 'front' (18 mm wide); use 18 mm or less (6 mm for three springs \
-         across), or check the file's units",
+        "'front' is 18 mm wide, narrower than the mesh size of 20 mm: it is meshed finer, with one row of cells \
+         across and springs of 20 mm along",
     ),
     wrong(
         32,

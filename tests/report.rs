@@ -46,6 +46,7 @@ fn add_piece(mesh: &mut ClothMesh, name: &str, width: f64, height: f64, cells: u
         lines: vec![],
         smallest_angle: 45f64.to_radians(),
         warp: Vec2::new(0.0, -1.0),
+        narrow: None,
     });
 }
 

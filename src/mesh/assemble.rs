@@ -43,6 +43,7 @@ impl Layout<'_> {
             lines: lines.collect(),
             smallest_angle: shape::smallest_angle(&fill.points, &fill.triangles),
             warp: piece.warp,
+            narrow: self.fineness[n].narrow,
         }
     }
 

@@ -39,14 +39,14 @@ impl Layout<'_> {
             first: first.unwrap_or_else(|| "the rim".to_owned()),
             second: second.unwrap_or_else(|| "itself".to_owned()),
             at,
-            spacing: self.options.spacing,
+            spacing: self.fineness[n].spacing,
         }
     }
 
     /// The edge or line nearest to `at` that is none of `own`, if it is within reach of a spring or two.
     fn nearest_other(&self, n: usize, frame: &Frame, at: Vec2, own: &[String]) -> Option<String> {
         let distance = |v: u32| (frame.points[v as usize] - at).norm();
-        let near = (0..frame.points.len() as u32).filter(|&v| distance(v) < 2.0 * self.options.spacing);
+        let near = (0..frame.points.len() as u32).filter(|&v| distance(v) < 2.0 * self.fineness[n].spacing);
         let mut near: Vec<u32> = near.collect();
         near.sort_by(|&v, &w| distance(v).total_cmp(&distance(w)));
         near.into_iter().flat_map(|v| self.carriers(n, frame, v)).find(|name| !own.contains(name))

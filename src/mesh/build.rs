@@ -11,7 +11,7 @@ use super::lattice::Lattice;
 use super::layout::Layout;
 use super::links::Link;
 use super::patch::Patch;
-use super::{ClothMesh, MeshOptions, Method, coons, limits, strip};
+use super::{ClothMesh, MeshOptions, Method, coons, strip};
 use crate::geometry::Vec2;
 use crate::pattern::Garment;
 
@@ -44,6 +44,9 @@ pub fn build(garment: &Garment, spacing: f64) -> Result<ClothMesh, MeshError> {
 /// along rims that are not in line with it. The same garment and options give the same bytes,
 /// for any number of threads.
 ///
+/// A piece narrower than the spacing gets one row of cells across, and springs along it that are at most three times as
+/// long as it is wide ([`PieceMesh::narrow`](super::PieceMesh::narrow)).
+///
 /// The smallest angle is normally above 25°. Exceptions are corners of the outline sharper than that, strips and
 /// gaps narrower than a spacing, and neighbouring springs of very different length where marks lie close together:
 /// [`PieceMesh::smallest_angle`](super::PieceMesh::smallest_angle) says what was reached.
@@ -52,7 +55,6 @@ pub fn build(garment: &Garment, spacing: f64) -> Result<ClothMesh, MeshError> {
 /// [`MeshError`] when the spacing is no positive length or does not suit the pieces, or when an outline, a line or a
 /// seam contradicts itself.
 pub fn build_with(garment: &Garment, options: &MeshOptions) -> Result<ClothMesh, MeshError> {
-    limits::check(garment, options.spacing)?;
     let layout = Layout::new(garment, *options)?;
     let numbers: Vec<usize> = (0..garment.pieces.len()).collect();
     let fills: Vec<_> = numbers.par_iter().map(|&n| layout.fill(n)).collect();
@@ -67,7 +69,8 @@ impl Layout<'_> {
         let piece = &self.garment.pieces[n];
         let mut frame = Frame::of_rim(piece, n, &self.edges, &self.breaks, &self.sampling)?;
         if coons::wanted(piece, self.options.method)
-            && let Some(fill) = coons::fill(&frame, &self.plans[n], self.options.method)
+            && let Some(fill) =
+                coons::fill(&frame, &self.plans[n], self.options.method, self.fineness[n].narrow.is_some())
         {
             return Ok((frame, fill));
         }
@@ -80,7 +83,7 @@ impl Layout<'_> {
 
     /// Lays a lattice into a frame, triangulates what is left and repairs it.
     fn fill_with_grid(&self, n: usize, frame: &Frame) -> Result<Fill, MeshError> {
-        let spacing = self.options.spacing;
+        let spacing = self.fineness[n].spacing;
         let lattice = Lattice::fit(frame, self.garment.pieces[n].warp, spacing);
         let core = Core::lay(frame, &lattice, spacing);
         let strip = strip::triangulate(frame, &core).map_err(|e| self.blame(n, frame, &core, e))?;

@@ -12,7 +12,8 @@ use crate::pattern::{EdgeId, Piece};
 const BAND: f64 = 5.0;
 /// A structured mesh with an angle below this (degrees) is refused; the grid does better.
 const LEAST_ANGLE: f64 = 25.0;
-/// ... and below this even when it was asked for.
+/// ... and below this even when it was asked for, or the piece is narrower than the spacing: a grid would have no inner
+/// particle there either.
 const LEAST_ANGLE_ASKED: f64 = 10.0;
 /// A row stands in for a line when it stays this near to it (metres): the width of a thread would be ten times more.
 const ON_LINE: f64 = 1e-5;
@@ -48,7 +49,7 @@ pub(super) fn links(piece: &Piece, number: usize, edges: &EdgeTable) -> Vec<Link
 
 /// Meshes a four-sided frame in rows and columns, or `None` when opposite sides differ in number, a line does not
 /// follow a row or column, or the result would be badly shaped.
-pub(super) fn fill(frame: &Frame, plan: &LinePlan, method: Method) -> Option<Fill> {
+pub(super) fn fill(frame: &Frame, plan: &LinePlan, method: Method, is_narrow: bool) -> Option<Fill> {
     let sheet = Sheet::new(frame)?;
     let points = sheet.points(frame)?;
     let lines = plan.lines.iter().map(|line| {
@@ -61,7 +62,7 @@ pub(super) fn fill(frame: &Frame, plan: &LinePlan, method: Method) -> Option<Fil
     let triangles = sheet.triangles();
     let corners = |t: &[u32; 3]| t.map(|v| points[v as usize]);
     let worst = triangles.iter().map(corners).map(|[a, b, c]| quality(a, b, c)).fold(1.0, f64::min);
-    let least = if method == Method::Coons { LEAST_ANGLE_ASKED } else { LEAST_ANGLE };
+    let least = if method == Method::Coons || is_narrow { LEAST_ANGLE_ASKED } else { LEAST_ANGLE };
     (worst >= quality_of_degrees(least)).then_some(Fill { points, triangles, lines })
 }
 

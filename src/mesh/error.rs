@@ -8,17 +8,19 @@ pub enum MeshError {
     /// The spacing is zero, negative, infinite or not a number.
     #[error("mesh size must be a positive length, not {} mm", mm(*.0))]
     Spacing(f64),
-    /// A piece is narrower than a spring is long.
+    /// Every piece is too small for springs of this length.
     #[error(
-        "mesh size {} mm leaves 1 spring across '{piece}' ({} mm wide); use {} mm or less ({} mm for three \
-         springs across), or check the file's units",
-        mm(*.spacing), mm(*.width), mm(*.largest), mm(*.good)
+        "mesh size {} mm is too large: even '{piece}' is only {} mm wide and {} mm long; use {} mm or less ({} mm for \
+         three springs across), or check the file's units",
+        mm(*.spacing), mm(*.width), mm(*.length), mm(*.largest), mm(*.good)
     )]
     TooCoarse {
-        /// The piece.
+        /// The widest piece.
         piece: String,
         /// Its width.
         width: f64,
+        /// Its length.
+        length: f64,
         /// The spacing asked for.
         spacing: f64,
         /// The largest spacing that is accepted, to a hundredth of a millimetre.

@@ -2,9 +2,10 @@
 
 use super::breaks::Breaks;
 use super::error::MeshError;
+use super::limits::{self, Fineness};
 use super::lines::{LinePlan, RimLine};
 use super::links::{EdgeTable, Link};
-use super::sampling::Sampling;
+use super::sampling::{Sampling, Wish};
 use super::{MeshOptions, Method, coons};
 use crate::pattern::{EdgeId, Garment};
 
@@ -14,6 +15,7 @@ const KINK: f64 = 0.26;
 /// Turns are measured this far (metres) on either side of a joint.
 const BESIDE: f64 = 1e-7;
 /// A band is at least so many springs wide: it must bend along its middle, or what it is sewn to cannot turn beside it.
+/// A narrow one has one row of cells: a second one would halve cells that are flat already.
 const ACROSS_BAND: usize = 2;
 
 /// What is known of the whole garment before its pieces are filled.
@@ -32,26 +34,29 @@ pub(super) struct Layout<'g> {
     pub(super) sampling: Sampling,
     /// What was asked for.
     pub(super) options: MeshOptions,
+    /// How finely every piece is meshed.
+    pub(super) fineness: Vec<Fineness>,
 }
 
 impl<'g> Layout<'g> {
     /// Samples all rims together.
     pub(super) fn new(garment: &'g Garment, options: MeshOptions) -> Result<Self, MeshError> {
+        let fineness = limits::fineness(garment, options.spacing)?;
         let edges = EdgeTable::new(garment);
         let plans: Vec<_> =
-            (0..garment.pieces.len()).map(|n| LinePlan::new(garment, n, &edges, options.spacing)).collect();
+            fineness.iter().enumerate().map(|(n, own)| LinePlan::new(garment, n, &edges, own.spacing)).collect();
         let mut links: Vec<Link> =
             garment.seams.iter().map(|s| Link::of_seam(s, garment, &edges)).collect::<Result<_, _>>()?;
         let seams = links.len();
         for (n, piece) in garment.pieces.iter().enumerate().filter(|(_, p)| coons::wanted(p, options.method)) {
             links.extend(coons::links(piece, n, &edges));
         }
-        let least = springs_of_edges(garment, &edges, options.method);
+        let wishes = wishes_of_edges(garment, &edges, options.method, &fineness);
         let mut seeds: Vec<_> = plans.iter().flat_map(LinePlan::rim_seeds).collect();
         seeds.extend(kinks(garment, &edges));
         let sample = |links: &[Link]| {
             let breaks = Breaks::close(&edges, links, &seeds, garment)?;
-            let sampling = Sampling::new(&edges, links, &breaks, &least, options.spacing)?;
+            let sampling = Sampling::new(&edges, links, &breaks, &wishes)?;
             Ok((breaks, sampling))
         };
         // Straight columns are a wish: if the seams do not allow them, the band becomes a grid.
@@ -63,7 +68,7 @@ impl<'g> Layout<'g> {
             sample(&links)
         });
         let (breaks, sampling) = sampled?;
-        Ok(Self { garment, edges, plans, links, breaks, sampling, options })
+        Ok(Self { garment, edges, plans, links, breaks, sampling, options, fineness })
     }
 
     /// Number of the first edge of piece `n`.
@@ -94,15 +99,18 @@ impl<'g> Layout<'g> {
     }
 }
 
-/// How many springs every edge must have: across a band [`ACROSS_BAND`].
-fn springs_of_edges(garment: &Garment, edges: &EdgeTable, method: Method) -> Vec<usize> {
-    let mut least = vec![1; edges.ids.len()];
-    for (piece, p) in garment.pieces.iter().enumerate().filter(|(_, p)| coons::wanted(p, method)) {
+/// How every edge is to be sampled: as its piece is, with [`ACROSS_BAND`] springs across a band.
+fn wishes_of_edges(garment: &Garment, edges: &EdgeTable, method: Method, fineness: &[Fineness]) -> Vec<Wish> {
+    let of_piece = |id: &EdgeId| Wish { least: 1, spacing: fineness[id.piece].spacing };
+    let mut wishes: Vec<Wish> = edges.ids.iter().map(of_piece).collect();
+    let bands =
+        garment.pieces.iter().enumerate().filter(|(n, p)| fineness[*n].narrow.is_none() && coons::wanted(p, method));
+    for (piece, p) in bands {
         let ends = coons::ends_of_band(p).into_iter().flatten();
         let ends = ends.filter_map(|index| edges.number(EdgeId { piece, ring: 0, index }));
-        ends.for_each(|edge| least[edge] = ACROSS_BAND);
+        ends.for_each(|edge| wishes[edge].least = ACROSS_BAND);
     }
-    least
+    wishes
 }
 
 /// Places where an edge turns sharply.

@@ -1,51 +1,93 @@
-//! Refuses spacings that do not suit a garment, before anything is allocated.
+//! The spacing of every piece: finer than asked for where a piece is narrow. Refuses spacings that are larger than
+//! everything, or would make too many particles, before anything is allocated.
 
+use super::Narrow;
 use super::error::MeshError;
 use crate::pattern::{Garment, Piece};
 
 /// The grain is a unit vector to this much.
 const UNIT: f64 = 1e-6;
+/// Springs along a narrow piece are at most this many times as long as the piece is wide: one row of cells across has
+/// angles of 18° and more then. The row costs fewer particles than square cells of the piece's width, which its seams
+/// would carry on to what it is sewn to.
+const LONGEST_CELL: f64 = 3.0;
+/// A piece of one row of cells that is shorter than this many springs is a plate: it cannot go round anything.
+const LEAST_ALONG: f64 = 4.0;
 /// Springs across that an error recommends.
 const GOOD_SPRINGS_ACROSS: f64 = 3.0;
-/// Widths are as exact as this, metres: the spacing that an error names is accepted.
+/// Widths are as exact as this, metres: a piece exactly one spacing wide is not narrow.
 const ROUNDING: f64 = 1e-9;
 /// Largest mesh that is built; two million particles take some gigabytes in the later stages.
 const MOST_PARTICLES: usize = 2_000_000;
 
-/// Checks the spacing against every piece.
-pub(super) fn check(garment: &Garment, spacing: f64) -> Result<(), MeshError> {
+/// How finely a piece is meshed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Fineness {
+    /// Longest springs along its rim and inside it, metres.
+    pub(super) spacing: f64,
+    /// Set where the piece is narrower than the spacing asked for.
+    pub(super) narrow: Option<Narrow>,
+}
+
+impl Fineness {
+    fn of(width: f64, spacing: f64) -> Self {
+        if width < spacing - ROUNDING {
+            let along = spacing.min(LONGEST_CELL * width);
+            Self { spacing: along, narrow: Some(Narrow { width, along }) }
+        } else {
+            Self { spacing, narrow: None }
+        }
+    }
+}
+
+/// How finely every piece is meshed when `spacing` (metres) is asked for.
+pub(super) fn fineness(garment: &Garment, spacing: f64) -> Result<Vec<Fineness>, MeshError> {
     if !(spacing.is_finite() && spacing > 0.0) {
         return Err(MeshError::Spacing(spacing));
     }
-    let (mut cloth, mut rim) = (0.0, 0.0);
+    let mut sizes = Vec::with_capacity(garment.pieces.len());
     for piece in &garment.pieces {
         check_grain(piece)?;
-        let (area, perimeter) = measure(piece)?;
-        let width = width(area, perimeter);
-        // Its triangles would be good ones (27° and more at 0.6 of a spring), but so small that the piece, and what is
-        // sewn to it, is not what was asked for.
-        if width < spacing - ROUNDING {
-            return Err(MeshError::TooCoarse {
-                piece: piece.name.clone(),
-                width,
-                spacing,
-                largest: round_down(width),
-                good: round_down(width / GOOD_SPRINGS_ACROSS),
-            });
-        }
-        cloth += area;
-        rim += 0.5 * perimeter;
+        sizes.push(Size::of(piece)?);
     }
-    let expected = cloth / (spacing * spacing) + rim / spacing;
-    if expected > MOST_PARTICLES as f64 {
-        return Err(MeshError::TooMany {
-            particles: expected as usize,
-            limit: MOST_PARTICLES,
+    let all: Vec<Fineness> = sizes.iter().map(|size| Fineness::of(size.width, spacing)).collect();
+    check_coarse(garment, &sizes, &all, spacing)?;
+    check_fine(&sizes, &all, spacing)?;
+    Ok(all)
+}
+
+/// Some piece must be worth its cells.
+fn check_coarse(garment: &Garment, sizes: &[Size], all: &[Fineness], spacing: f64) -> Result<(), MeshError> {
+    let is_plate = |(size, own): (&Size, &Fineness)| own.narrow.is_some() && size.length < LEAST_ALONG * own.spacing;
+    let widest = sizes.iter().zip(&garment.pieces).max_by(|a, b| a.0.width.total_cmp(&b.0.width));
+    match widest.filter(|_| sizes.iter().zip(all).all(is_plate)) {
+        None => Ok(()),
+        Some((size, piece)) => Err(MeshError::TooCoarse {
+            piece: piece.name.clone(),
+            width: size.width,
+            length: size.length,
             spacing,
-            usable: round_up(usable(cloth, rim, MOST_PARTICLES as f64)),
-        });
+            largest: round_down(size.width),
+            good: round_down(size.width / GOOD_SPRINGS_ACROSS),
+        }),
     }
-    Ok(())
+}
+
+/// There must not be too many particles.
+fn check_fine(sizes: &[Size], all: &[Fineness], spacing: f64) -> Result<(), MeshError> {
+    let particles = |(size, own): (&Size, &Fineness)| size.area / own.spacing.powi(2) + size.rim / own.spacing;
+    let expected: f64 = sizes.iter().zip(all).map(particles).sum();
+    if expected <= MOST_PARTICLES as f64 {
+        return Ok(());
+    }
+    let cloth: f64 = sizes.iter().map(|size| size.area).sum();
+    let rim: f64 = sizes.iter().map(|size| size.rim).sum();
+    Err(MeshError::TooMany {
+        particles: expected as usize,
+        limit: MOST_PARTICLES,
+        spacing,
+        usable: round_up(usable(cloth, rim, MOST_PARTICLES as f64)),
+    })
 }
 
 /// The lattice runs along the grain, so there must be one.
@@ -56,23 +98,28 @@ fn check_grain(piece: &Piece) -> Result<(), MeshError> {
     if is_unit { Ok(()) } else { Err(MeshError::Grain { piece: piece.name.clone(), length }) }
 }
 
-/// Area and total rim length of a piece.
-fn measure(piece: &Piece) -> Result<(f64, f64), MeshError> {
-    if piece.loops.is_empty() || piece.loops.iter().any(Vec::is_empty) {
-        return Err(MeshError::NoOutline { piece: piece.name.clone() });
-    }
-    let (area, perimeter) = (piece.area(), piece.boundary_length());
-    if !(area > 0.0 && perimeter.is_finite()) {
-        return Err(MeshError::InsideOut { piece: piece.name.clone(), area });
-    }
-    Ok((area, perimeter))
+/// How large a piece is, metres.
+struct Size {
+    area: f64,
+    /// Half of the length of its rim, that of holes with it.
+    rim: f64,
+    /// Sides of the rectangle with this area and rim; a bent strip or a ring has the width of the strip.
+    width: f64,
+    length: f64,
 }
 
-/// Width of the rectangle with this area and perimeter; a bent strip or a ring has the width of the strip.
-fn width(area: f64, perimeter: f64) -> f64 {
-    let half = 0.5 * perimeter;
-    let root = (half * half - 4.0 * area).max(0.0).sqrt();
-    0.5 * (half - root)
+impl Size {
+    fn of(piece: &Piece) -> Result<Self, MeshError> {
+        if piece.loops.is_empty() || piece.loops.iter().any(Vec::is_empty) {
+            return Err(MeshError::NoOutline { piece: piece.name.clone() });
+        }
+        let (area, rim) = (piece.area(), 0.5 * piece.boundary_length());
+        if !(area > 0.0 && rim.is_finite()) {
+            return Err(MeshError::InsideOut { piece: piece.name.clone(), area });
+        }
+        let root = (rim * rim - 4.0 * area).max(0.0).sqrt();
+        Ok(Self { area, rim, width: 0.5 * (rim - root), length: 0.5 * (rim + root) })
+    }
 }
 
 /// The spacing at which cloth of this area and half rim makes so many particles.

@@ -94,6 +94,17 @@ pub struct PieceMesh {
     pub smallest_angle: f64,
     /// Warp direction in the flat piece (unit).
     pub warp: Vec2,
+    /// How a piece that is narrower than the spacing was meshed.
+    pub narrow: Option<Narrow>,
+}
+
+/// How a piece that is narrower than the spacing asked for was meshed: one row of cells across.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Narrow {
+    /// Width of the rectangle with the piece's area and perimeter, metres.
+    pub width: f64,
+    /// Length of its springs along, metres.
+    pub along: f64,
 }
 
 impl ClothMesh {

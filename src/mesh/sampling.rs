@@ -9,6 +9,15 @@ use crate::geometry::DisjointSets;
 /// length; past this the longer side decides.
 const LONGEST_SPRING: f64 = 1.3;
 
+/// How an edge is to be sampled.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wish {
+    /// Springs it has at least.
+    pub(super) least: usize,
+    /// Length of its springs, metres.
+    pub(super) spacing: f64,
+}
+
 /// Sampled edges: the same number of particles on both sides of every link.
 pub(super) struct Sampling {
     /// Springs of every interval of every edge.
@@ -18,15 +27,9 @@ pub(super) struct Sampling {
 }
 
 impl Sampling {
-    /// Chooses counts per group of linked intervals, so that edge e has `least[e]` springs, and spreads particles
-    /// evenly between breakpoints.
-    pub(super) fn new(
-        edges: &EdgeTable,
-        links: &[Link],
-        breaks: &Breaks,
-        least: &[usize],
-        spacing: f64,
-    ) -> Result<Self, MeshError> {
+    /// Chooses counts per group of linked intervals by what is wished of each edge, and spreads particles evenly
+    /// between breakpoints. The finest wish of a group decides.
+    pub(super) fn new(edges: &EdgeTable, links: &[Link], breaks: &Breaks, wishes: &[Wish]) -> Result<Self, MeshError> {
         let mut groups = Groups::new(edges.ids.len(), breaks);
         for link in links {
             let runs = [breaks.runs(link, 0), breaks.runs(link, 1)];
@@ -38,7 +41,7 @@ impl Sampling {
                 groups.join(a, b);
             }
         }
-        let counts = groups.counts(breaks, least, spacing);
+        let counts = groups.counts(breaks, wishes);
         let at = counts.iter().enumerate().map(|(e, n)| spread(breaks.of(e), n)).collect();
         Ok(Self { counts, at })
     }
@@ -102,23 +105,46 @@ impl Groups {
         self.sets.join(a, b);
     }
 
-    fn counts(&mut self, breaks: &Breaks, least: &[usize], spacing: f64) -> Vec<Vec<usize>> {
+    fn counts(&mut self, breaks: &Breaks, wishes: &[Wish]) -> Vec<Vec<usize>> {
         let edges = self.first.len() - 1;
-        // Shortest and longest interval of every group, and the springs that one of them needs, kept at its root.
-        let mut groups = vec![(f64::INFINITY, 0.0_f64, 1); self.sets.len()];
-        for (e, least) in least.iter().enumerate() {
+        let mut groups = vec![Group::default(); self.sets.len()];
+        for (e, wish) in wishes.iter().enumerate() {
             let intervals = breaks.of(e).len() - 1;
             for (k, w) in breaks.of(e).windows(2).enumerate() {
-                let (short, long, needed) = &mut groups[self.root(e, k)];
-                *short = short.min(w[1] - w[0]);
-                *long = long.max(w[1] - w[0]);
-                *needed = least.div_ceil(intervals).max(*needed);
+                let group = &mut groups[self.root(e, k)];
+                group.short = group.short.min(w[1] - w[0]);
+                group.long = group.long.max(w[1] - w[0]);
+                group.least = wish.least.div_ceil(intervals).max(group.least);
+                group.spacing = group.spacing.min(wish.spacing);
             }
         }
-        let count = |(short, long, needed): (f64, f64, usize)| {
-            let least = (long / (LONGEST_SPRING * spacing)).ceil() as usize;
-            springs_for(0.5 * (short + long), spacing).max(least).max(needed)
-        };
-        (0..edges).map(|e| (0..breaks.of(e).len() - 1).map(|k| count(groups[self.root(e, k)])).collect()).collect()
+        let mut count = |e: usize, k: usize| groups[self.root(e, k)].springs();
+        (0..edges).map(|e| (0..breaks.of(e).len() - 1).map(|k| count(e, k)).collect()).collect()
+    }
+}
+
+/// Intervals that get the same number of springs.
+#[derive(Clone, Copy)]
+struct Group {
+    /// Length of the shortest interval.
+    short: f64,
+    /// Length of the longest.
+    long: f64,
+    /// Springs that one of them needs.
+    least: usize,
+    /// Finest spacing among them, metres.
+    spacing: f64,
+}
+
+impl Default for Group {
+    fn default() -> Self {
+        Self { short: f64::INFINITY, long: 0.0, least: 1, spacing: f64::INFINITY }
+    }
+}
+
+impl Group {
+    fn springs(&self) -> usize {
+        let least = (self.long / (LONGEST_SPRING * self.spacing)).ceil() as usize;
+        springs_for(0.5 * (self.short + self.long), self.spacing).max(least).max(self.least)
     }
 }

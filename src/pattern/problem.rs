@@ -97,6 +97,12 @@ pub enum Problem {
     // The mesh, in its own words.
     #[error("{0}")]
     Mesh(String),
+    #[error(
+        "'{piece}' is {} mm wide, narrower than the mesh size of {} mm: it is meshed finer, with one row of cells \
+         across and springs of {} mm along",
+        hundredths(*.width), hundredths(*.spacing), hundredths(*.along)
+    )]
+    Narrow { piece: String, width: f64, spacing: f64, along: f64 },
     // What the garment is made of, and for whom, in the words of those who know.
     #[error("{0}")]
     Fabric(String),
@@ -290,6 +296,18 @@ fn rounded(mm: f64) -> f64 {
     (mm * 1e3).round() / 1e3
 }
 
+/// The tenth at or below it; what is a tenth but for rounding stays one.
+fn tenth_below(x: f64) -> f64 {
+    let tenths = 10.0 * x;
+    let nearest = tenths.round();
+    (if (tenths - nearest).abs() < 1e-6 { nearest } else { tenths.floor() }) / 10.0
+}
+
+/// To two decimals.
+fn hundredths(x: f64) -> f64 {
+    (100.0 * x).round() / 100.0
+}
+
 fn did_you_mean(nearest: &Option<String>) -> String {
     nearest.as_ref().map_or_else(String::new, |n| format!("; did you mean '{n}'?"))
 }
@@ -302,6 +320,7 @@ impl Problem {
             Self::UnknownKey { known, .. } => format!("known keys: {known}"),
             Self::UnknownPiece { known, .. } => format!("the pieces are: {known}"),
             Self::PlaceWord { known, .. } | Self::PlaceNowhere { known, .. } => format!("use {known}"),
+            Self::Narrow { width, .. } => format!("--spacing {} puts three springs across it", tenth_below(width / 3.0)),
             Self::PlaceBoth { .. } => "leave one of the two out".to_owned(),
             Self::UnknownSeam { known, .. } => format!("the seams are: {known}"),
             Self::UnknownClosure { known, .. } if known.is_empty() => {

@@ -36,6 +36,18 @@ pub(super) fn doubt_size(loaded: &Loaded, body: &Mannequin, findings: &mut Findi
     }
 }
 
+/// Tells of the drawn pieces that are narrower than the spacing of the mesh, and were meshed finer.
+pub(super) fn tell_narrow(loaded: &Loaded, mesh: &ClothMesh, findings: &mut Findings) {
+    let mut told: Vec<&str> = Vec::new();
+    for (piece, meshed) in loaded.garment.pieces.iter().zip(&mesh.pieces) {
+        let Some(narrow) = meshed.narrow.filter(|_| !told.contains(&piece.drawn_as.as_str())) else { continue };
+        told.push(&piece.drawn_as);
+        let [width, spacing, along] = [narrow.width, mesh.spacing, narrow.along].map(|x| 1e3 * x);
+        let problem = Problem::Narrow { piece: piece.drawn_as.clone(), width, spacing, along };
+        findings.warn(name_of(loaded, piece), problem);
+    }
+}
+
 /// From corner to corner of the box round a piece, metres.
 fn diagonal(piece: &Piece) -> f64 {
     let points: Vec<Vec2> = piece.loops.first().into_iter().flatten().flat_map(|e| e.path.sampled(1e-4)).collect();
@@ -90,6 +102,12 @@ fn culprit(loaded: &Loaded, error: &PlaceError) -> Spot {
     };
     let piece = loaded.garment.pieces.iter().find(|p| p.name == *name);
     piece.map_or_else(Spot::default, |p| spot_of(loaded, p))
+}
+
+/// Where a piece is named.
+fn name_of(loaded: &Loaded, piece: &Piece) -> Spot {
+    let written = loaded.file.pieces.iter().find(|p| p.name.value == piece.drawn_as);
+    written.map_or_else(Spot::default, |p| p.name.at)
 }
 
 /// Where a piece's place is said, or else its name.

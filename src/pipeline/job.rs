@@ -83,10 +83,11 @@ impl Job {
         let body = worn_by.mannequin;
         let mut findings = loaded.findings();
         fit::doubt_size(&loaded, &body, &mut findings);
-        notes.extend(findings.into_sorted().iter().map(ToString::to_string));
         let begin = Instant::now();
         let mesh = mesh::build(&loaded.garment, overrides.spacing.unwrap_or(SPACING))
             .map_err(|source| material::mesh_error(file, &loaded, source))?;
+        fit::tell_narrow(&loaded, &mesh, &mut findings);
+        notes.extend(findings.into_sorted().iter().map(ToString::to_string));
         let meshing =
             Stage { name: "mesh".into(), seconds: begin.elapsed().as_secs_f64(), converged: true, ..Stage::default() };
         let collider =

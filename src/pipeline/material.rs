@@ -12,7 +12,7 @@ use crate::fabric::{Fabric, FabricError};
 use crate::io::body::{Body, BodyError, load_body};
 use crate::io::garment::{self, Loaded, Refused};
 use crate::mannequin::{self, MannequinError};
-use crate::mesh::{self, ClothMesh, MeshError};
+use crate::mesh::{self, MeshError};
 use crate::pattern::{self, Diagnostic, Findings, GarmentFile, Located, Problem, Spot, Value};
 
 /// Reads a garment file and finds everything that is wrong before cloth moves: in its text, pieces and seams, its
@@ -34,10 +34,12 @@ pub fn check(file: &Path, spacing: Option<f64>) -> Result<Loaded, Refused> {
         refused.diagnostics.sort_by_key(Diagnostic::order);
         refused
     })?;
-    match body {
-        Some(body) => on_body(loaded, &mesh, &body),
-        None => Ok(loaded),
+    let mut findings = loaded.findings();
+    fit::tell_narrow(&loaded, &mesh, &mut findings);
+    if let Some(body) = &body {
+        fit::check_places(&loaded, &mesh, &body.mannequin, &mut findings);
     }
+    with_findings(loaded, findings)
 }
 
 /// Before it is meshed: what is drawn in another unit may be too small for that, and then this says why.
@@ -47,10 +49,8 @@ fn doubt_size(loaded: &mut Loaded, body: &Body) {
     loaded.warnings.extend(findings.into_sorted());
 }
 
-/// What a garment that is right for itself has wrong on its body.
-fn on_body(mut loaded: Loaded, mesh: &ClothMesh, body: &Body) -> Result<Loaded, Refused> {
-    let mut findings = loaded.findings();
-    fit::check_places(&loaded, mesh, &body.mannequin, &mut findings);
+/// The garment with what was found beside what it has been warned of already; refused if any of it is an error.
+fn with_findings(mut loaded: Loaded, findings: Findings) -> Result<Loaded, Refused> {
     let refused = findings.errors() > 0;
     let mut diagnostics = loaded.warnings.clone();
     diagnostics.extend(findings.into_sorted());

@@ -6,7 +6,7 @@ use super::errors::{Way, area, area_error, boundary_error};
 use super::laps::turned_laps;
 use super::openings::{Opening, openings};
 use super::rim::{RimEdge, beside_elastic, outline_distance, rims};
-use super::schema::{PieceReport, Quartet, Report, SeamReport, Sizes, Stage};
+use super::schema::{Narrow, PieceReport, Quartet, Report, SeamReport, Sizes, Stage};
 use super::statistics::{largest, mean};
 use super::strain::{PieceStrain, piece_strain};
 use super::stretched::stretched;
@@ -158,6 +158,7 @@ fn pieces(run: &Measured, shapes: &Shapes, space: Option<&InSpace>) -> (Vec<Piec
             strain: space.map_or_else(Default::default, |space| piece_strain(mesh, piece, &elastic, space.at)),
         };
         let mut report = row(&part, shapes);
+        report.narrow = piece.narrow.map(|n| Narrow { width: n.width * MM, along: n.along * MM });
         report.outline_distance =
             shapes.flattened.as_deref().map(|at| outline_distance(&part.rim, &shapes.flat, at) * MM);
         report.overlaps = run.overlaps.and_then(|overlaps| overlaps.get(index).copied());
@@ -188,6 +189,7 @@ fn row(part: &Part, shapes: &Shapes) -> PieceReport {
         particles: part.particles,
         triangles: part.triangles.len(),
         smallest_angle: part.smallest_angle.to_degrees(),
+        narrow: None,
         sizes: sizes(part, shapes),
         area_error: quartet(area.map(|e| e.map(|e| e.error))),
         boundary_error: quartet(boundary.map(|e| e.map(|e| e.error))),

@@ -114,6 +114,7 @@ mod tests {
             lines: vec![],
             smallest_angle: 0.0,
             warp: Vec2::y(),
+            narrow: None,
         }];
         let weld: Vec<u32> =
             (0..mesh.flat.len() as u32).map(|p| if tube && p >= at(n, 0) { p - at(n, 0) } else { p }).collect();

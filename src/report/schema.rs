@@ -46,6 +46,9 @@ pub struct PieceReport {
     pub triangles: usize,
     /// Smallest angle of a triangle of the flat mesh, degrees.
     pub smallest_angle: f64,
+    /// Set where the piece is narrower than the spacing, and was meshed finer.
+    #[serde(default)]
+    pub narrow: Option<Narrow>,
     /// Areas (`area_flat`, …, mm²) and lengths of the rim (`boundary_flat`, …, mm).
     #[serde(flatten)]
     pub sizes: Sizes,
@@ -75,6 +78,15 @@ pub struct PieceReport {
     pub overlaps: Option<usize>,
     /// Set where the piece had to stretch.
     pub stretched: Option<Stretched>,
+}
+
+/// How a piece narrower than the spacing was meshed: one row of cells across.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Narrow {
+    /// Its width, mm.
+    pub width: f64,
+    /// Length of its springs along, mm.
+    pub along: f64,
 }
 
 /// Sizes of a piece after every stage.

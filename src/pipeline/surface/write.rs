@@ -121,6 +121,7 @@ impl FlatSurface {
                 lines: Vec::new(),
                 smallest_angle: 0.0,
                 warp: -Vec2::y(),
+                narrow: None,
             });
         }
         cloth
