@@ -1255,3 +1255,20 @@ fn sizes_and_places_that_make_no_sense() {
     run.ends(2).says(&["1.0e-308 mm is too small", "particles (limit 2000000)", "use >= 0."]);
     assert!(room.run(&["make", "skirt.yaml", "--spacing=1e308"]).ends(2).err.len() < 300);
 }
+
+#[test]
+fn garments_worn_over_one_another_need_one_body() {
+    let room = Room::new();
+    room.put("over.yaml", &SKIRT.replace("woman_92", "man_100"));
+    let json = room.run(&["check", "skirt.yaml", "over.yaml", "--json", "-q"]).ends(0).json();
+    assert_eq!(json["garment"], Value::from("skirt+over"));
+    let pieces: Vec<&str> =
+        json["pieces"].as_array().expect("pieces").iter().filter_map(|p| p["name"].as_str()).collect();
+    assert!(
+        pieces.iter().any(|p| p.starts_with("skirt/")) && pieces.iter().any(|p| p.starts_with("over/")),
+        "{pieces:?}"
+    );
+    room.run(&["make", "skirt.yaml", "over.yaml", "-o", "both"]).ends(2).says(&["over.yaml", "man_100", "--body"]);
+    let given = ["make", "skirt.yaml", "over.yaml", "-o", "both", "--fabric", "denim", "--body", "woman_92"];
+    room.run(&given).ends(2).says(&["--fabric"]);
+}

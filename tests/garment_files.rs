@@ -2,12 +2,13 @@
 
 #![allow(clippy::unwrap_used, reason = "tests may")]
 
+use std::collections::{BTreeSet, HashSet};
 use std::path::PathBuf;
 
 use toile::io::garment::{Loaded, Refused, read, read_file_only, read_text, write};
 use toile::pattern::{
-    Bound, Diagnostic, Findings, Garment, LineKind, PlaceWord, Problem, SeamKind, Severity, Side, expand, openings,
-    walk,
+    Bound, Diagnostic, Findings, Garment, LineKind, PlaceWord, Problem, SeamKind, Severity, Side, belongs_to, expand,
+    openings, outfit, walk,
 };
 
 const GARMENTS: [&str; 5] = ["child_dress", "tshirt", "gore_skirt", "trousers", "sheath_dress"];
@@ -1010,4 +1011,38 @@ fn stretches_of_both_halves_are_counted_from_the_drawn_start() {
     };
     // Both ten below the top, where the drawn edge starts.
     assert_eq!([end(0), end(1)], [10.0, 10.0]);
+}
+
+#[test]
+fn garments_of_an_outfit_keep_their_names_layers_and_tests_apart() {
+    let single = load("tshirt").garment;
+    let skirt = load("gore_skirt").garment;
+    let both = outfit(vec![single.clone(), skirt.clone(), single.clone()]);
+    assert_eq!(both.worn, ["tshirt", "gore_skirt", "tshirt.2"]);
+    let names: HashSet<&str> = both.pieces.iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(names.len(), 2 * single.pieces.len() + skirt.pieces.len());
+    assert!(names.contains("tshirt.2/front") && both.seams.iter().any(|s| s.name.starts_with("gore_skirt/")));
+    for garments in both.worn.windows(2) {
+        let levels = |label: &str| {
+            let own = both.pieces.iter().filter(|p| belongs_to(&p.name, label)).map(|p| p.level());
+            own.collect::<BTreeSet<i32>>()
+        };
+        let [inner, outer] = [&garments[0], &garments[1]].map(|label| levels(label));
+        assert!(inner.last() < outer.first(), "{inner:?} {outer:?}");
+    }
+    // Every seam joins pieces of its own garment, and is as long as it was.
+    for seam in &both.seams {
+        let label = both.worn.iter().find(|label| belongs_to(&seam.name, label)).unwrap();
+        assert!(
+            seam.a.iter().chain(&seam.b).all(|s| belongs_to(&both.pieces[s.edge.piece].name, label)),
+            "{}",
+            seam.name
+        );
+    }
+    let lengths = |garment: &Garment| walk(garment).iter().map(|s| s.length_a).collect::<Vec<f64>>();
+    assert_eq!(lengths(&both), [lengths(&single), lengths(&skirt), lengths(&single)].concat());
+    assert!(both.tests.iter().all(|test| test.of.is_some()));
+    assert_eq!(both.tests.len(), 2 * single.tests.len() + skirt.tests.len());
+    let alone = outfit(vec![single.clone()]);
+    assert!(alone.worn.is_empty() && alone.pieces[0].name == single.pieces[0].name);
 }

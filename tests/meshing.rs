@@ -41,6 +41,7 @@ fn piece(name: &str, loops: Vec<Vec<Edge>>) -> Piece {
         side: None,
         fabric: "shell".into(),
         layer: 0,
+        beneath: 0,
         warp: Vec2::new(0.0, 1.0),
         loops,
         lines: Vec::new(),
@@ -62,6 +63,7 @@ fn garment(pieces: Vec<Piece>, seams: Vec<Seam>) -> Garment {
         seams,
         fabrics: Vec::new(),
         closures: Vec::new(),
+        worn: Vec::new(),
         tests: Vec::new(),
     }
 }

@@ -30,6 +30,7 @@ fn rectangle(width: f64, height: f64, spacing: f64) -> (Garment, ClothMesh) {
         side: None,
         fabric: "shell".into(),
         layer: 0,
+        beneath: 0,
         warp: Vec2::new(0.0, 1.0),
         loops: vec![outline],
         lines: Vec::new(),
@@ -44,6 +45,7 @@ fn rectangle(width: f64, height: f64, spacing: f64) -> (Garment, ClothMesh) {
         seams: Vec::new(),
         fabrics: Vec::new(),
         closures: Vec::new(),
+        worn: Vec::new(),
         tests: Vec::new(),
     };
     let mesh = build(&garment, spacing * MM).expect("mesh");

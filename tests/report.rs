@@ -76,6 +76,7 @@ fn fixture(second_height: f64) -> Fixture {
         seams: vec![],
         fabrics: vec![],
         closures: vec![],
+        worn: vec![],
         tests: vec![],
     };
     let body = Mannequin { name: "nobody".into(), mesh: Default::default(), parts: vec![], frame: Default::default() };
@@ -349,7 +350,7 @@ fn a_seam_as_drawn_is_longer_than_its_chords() {
 fn judged(tests: Vec<Bound>, spoil: impl Fn(&mut Report)) -> Vec<Verdict> {
     let mut f = fixture(0.1);
     let at = laid_out(&f, 1.0);
-    f.garment.tests = tests.into_iter().map(|bound| Test { bound, fabric: None }).collect();
+    f.garment.tests = tests.into_iter().map(|bound| Test { bound, fabric: None, of: None }).collect();
     let mut r = report(&f, &at, &at, &f.mesh.flat);
     spoil(&mut r);
     verdicts(&f.garment, &r)
@@ -359,7 +360,8 @@ fn judged(tests: Vec<Bound>, spoil: impl Fn(&mut Report)) -> Vec<Verdict> {
 fn a_bound_for_one_fabric_holds_in_that_fabric_only() {
     let mut f = fixture(0.1);
     let at = laid_out(&f, 1.0);
-    let strict = |fabric: Option<&str>| Test { bound: Bound::Crossings(0), fabric: fabric.map(str::to_owned) };
+    let strict =
+        |fabric: Option<&str>| Test { bound: Bound::Crossings(0), fabric: fabric.map(str::to_owned), of: None };
     f.garment.tests = vec![strict(None), strict(Some("denim")), strict(Some("silk"))];
     let mut r = report(&f, &at, &at, &f.mesh.flat);
     r.contact.cloth_cloth_intersections = 1;

@@ -87,9 +87,9 @@ pub(super) enum Command {
 /// A garment, and what is wanted other than its file says.
 #[derive(Debug, clap::Args)]
 pub(super) struct GarmentArgs {
-    /// The garment file
-    #[arg(value_name = "GARMENT.yaml")]
-    pub(super) garment: PathBuf,
+    /// The garment file; several are worn over one another, the innermost first
+    #[arg(value_name = "GARMENT.yaml", required = true)]
+    pub(super) garments: Vec<PathBuf>,
     /// Folder for the results [default: out/NAME]
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,
@@ -179,14 +179,14 @@ pub(super) struct DrapeArgs {
 /// Arguments of `check`.
 #[derive(Debug, clap::Args)]
 pub(super) struct CheckArgs {
-    /// The garment file
+    /// The garment file; several are worn over one another, the innermost first
     #[arg(value_name = "GARMENT.yaml", required_unless_present = "mesh")]
-    pub(super) garment: Option<PathBuf>,
+    pub(super) garments: Vec<PathBuf>,
     /// Distance of neighbouring particles in millimetres that the garment will be made with [default: 10]
     #[arg(long, value_name = "MM", value_parser = spacing, allow_negative_numbers = true, conflicts_with = "mesh")]
     pub(super) spacing: Option<f64>,
     /// Look for crossings in this surface instead, whoever made it
-    #[arg(long, value_name = "FILE.obj", conflicts_with = "garment")]
+    #[arg(long, value_name = "FILE.obj", conflicts_with = "garments")]
     pub(super) mesh: Option<PathBuf>,
     /// What the surface should lie on: a mannequin, or a closed OBJ in the same place
     #[arg(long, value_name = "NAME|FILE.obj", requires = "mesh")]

@@ -1,6 +1,6 @@
 //! `check`: is this garment file right, and what does it make?
 
-use std::path::Path;
+use std::path::PathBuf;
 
 use serde::Serialize;
 
@@ -9,32 +9,36 @@ use super::check_mesh::check_mesh;
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use crate::geometry::MM;
-use crate::pattern::{Diagnostic, Garment, Give, SeamWalk, Severity, openings, walk};
+use crate::pattern::{Diagnostic, Garment, Give, SeamWalk, Severity, openings, outfit, walk};
 use crate::pipeline::{self, PipelineError};
 use crate::report::aligned;
 
 /// `toile check`
 pub(super) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, CliError> {
-    match (&args.mesh, &args.garment) {
-        (Some(mesh), _) => check_mesh(mesh, args, console),
-        (None, Some(garment)) => check_garment(garment, args.spacing, console),
-        // clap asks for one of them.
-        (None, None) => Err(CliError::Argument("a garment file or --mesh is needed".into())),
+    match &args.mesh {
+        Some(mesh) => check_mesh(mesh, args, console),
+        None => check_garments(&args.garments, args.spacing, console),
     }
 }
 
-fn check_garment(file: &Path, spacing: Option<f64>, console: &Console) -> Result<Exit, CliError> {
-    let loaded = match pipeline::check(file, spacing) {
-        Err(refused) if console.json() => {
-            let rows = refused.diagnostics.iter().map(DiagnosticRow::new).collect();
-            let refusal = Findings { file: file.display().to_string(), ok: false, diagnostics: rows };
-            console.results(&refusal, String::new)?;
-            return Ok(Exit::Input);
-        }
-        other => other.map_err(PipelineError::from)?,
-    };
-    loaded.warnings.iter().for_each(|warning| console.note(&warning.to_string()));
-    let summary = Summary::new(&loaded.garment, &loaded.warnings);
+/// Each for itself, and then as what they are together.
+fn check_garments(files: &[PathBuf], spacing: Option<f64>, console: &Console) -> Result<Exit, CliError> {
+    let (mut garments, mut warnings) = (Vec::new(), Vec::new());
+    for file in files {
+        let loaded = match pipeline::check(file, spacing) {
+            Err(refused) if console.json() => {
+                let rows = refused.diagnostics.iter().map(DiagnosticRow::new).collect();
+                let refusal = Findings { file: file.display().to_string(), ok: false, diagnostics: rows };
+                console.results(&refusal, String::new)?;
+                return Ok(Exit::Input);
+            }
+            other => other.map_err(PipelineError::from)?,
+        };
+        loaded.warnings.iter().for_each(|warning| console.note(&warning.to_string()));
+        garments.push(loaded.garment);
+        warnings.extend(loaded.warnings);
+    }
+    let summary = Summary::new(&outfit(garments), &warnings);
     console.results(&summary, || summary.text())?;
     Ok(Exit::Done)
 }

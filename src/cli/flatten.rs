@@ -24,7 +24,7 @@ pub(super) fn flatten(args: &FlattenArgs, console: &Console) -> Result<Exit, Cli
     let options = Options { mode: args.mode.into(), corners: args.corners, ..Options::default() };
     if is_garment(&args.input) {
         let plan = Plan {
-            garment: &args.input,
+            garments: std::slice::from_ref(&args.input),
             output: args.output.as_deref(),
             overrides: args.overrides.checked(),
             color: Color::default(),

@@ -15,7 +15,8 @@ use crate::report::{ClosureReport, Report, restless, table, verdicts};
 
 /// How far a garment is taken, and from where.
 pub(super) struct Plan<'a> {
-    pub(super) garment: &'a Path,
+    /// Garment files, the innermost first.
+    pub(super) garments: &'a [PathBuf],
     pub(super) output: Option<&'a Path>,
     pub(super) overrides: Overrides,
     pub(super) color: Color,
@@ -89,7 +90,7 @@ pub(super) fn drape(args: &DrapeArgs, console: &Console) -> Result<Exit, CliErro
 
 fn plan<'a>(args: &'a GarmentArgs, goal: Goal<'a>) -> Plan<'a> {
     Plan {
-        garment: &args.garment,
+        garments: &args.garments,
         output: args.output.as_deref(),
         overrides: args.overrides.checked(),
         color: args.color.into(),
@@ -99,14 +100,19 @@ fn plan<'a>(args: &'a GarmentArgs, goal: Goal<'a>) -> Plan<'a> {
 
 /// Takes a garment to its goal, writes the files and says how it went.
 pub(super) fn carry_out(plan: &Plan, console: &Console) -> Result<Exit, CliError> {
-    let loaded = read(plan.garment)?;
-    let folder = folder(plan.output, &loaded.garment.name);
-    let mut inputs = inputs(plan.garment, &loaded.garment, &plan.overrides);
+    let mut worn = Vec::new();
+    for file in plan.garments {
+        worn.push((file.clone(), read(file)?));
+    }
+    let names: Vec<&str> = worn.iter().map(|(_, loaded)| loaded.garment.name.as_str()).collect();
+    let folder = folder(plan.output, &names.join("+"));
+    let mut inputs: Vec<PathBuf> =
+        worn.iter().flat_map(|(file, loaded)| inputs(file, &loaded.garment, &plan.overrides)).collect();
     inputs.extend(plan.goal.from().map(Path::to_owned));
     let targets: Vec<PathBuf> = plan.goal.files().iter().map(|name| folder.join(name)).collect();
     // Better now than after minutes of sewing.
     check_writable(&targets, &borrowed(&inputs))?;
-    let job = Job::new(plan.garment, loaded, &plan.overrides)?;
+    let job = Job::dressed(worn, &plan.overrides)?;
     job.notes.iter().for_each(|note| console.note(note));
     let mut run = plan.goal.begin(&job)?;
     if let Err(error) = plan.goal.reach(&mut run, console) {

@@ -16,7 +16,7 @@ pub(super) fn bounds(file: &GarmentFile, garment: &Garment, sound: bool, finding
     let reader = Reader { file, garment, sound };
     let test = |entry: &Located<TestEntry>| {
         let fabric = entry.value.fabric.as_ref().map(|f| reader.fabric(f, findings));
-        Some(Test { bound: reader.bound(entry, findings)?, fabric })
+        Some(Test { bound: reader.bound(entry, findings)?, fabric, of: None })
     };
     file.tests.iter().filter_map(test).collect()
 }

@@ -60,6 +60,7 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
         seams,
         fabrics,
         closures,
+        worn: Vec::new(),
         tests: Vec::new(),
     };
     let seam_file = |w: &Option<usize>| w.map(|i| &file.seams[i]);

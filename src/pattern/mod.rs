@@ -37,6 +37,7 @@ mod line;
 mod measure;
 mod notch;
 mod notch_kind;
+mod outfit;
 mod outline;
 mod place_word;
 mod pleat;
@@ -62,6 +63,7 @@ pub use file::{
     Unit, Value,
 };
 pub use notch_kind::{DOUBLE_MARKS, NotchKind};
+pub use outfit::{belongs_to, outfit};
 pub use place_word::{PlaceMeaning, PlaceWord, TrunkLevel, place_words, words_of};
 pub use problem::{ChainDoubt, Problem};
 pub(crate) use reference::LARGEST;
@@ -97,6 +99,8 @@ pub struct Garment {
     pub fabrics: Vec<FabricUse>,
     /// Buttons, hooks and the like.
     pub closures: Vec<Closure>,
+    /// Of an outfit what its garments are called, from the skin outwards; of a garment nothing.
+    pub worn: Vec<String>,
     /// The garment's own regression bounds.
     pub tests: Vec<Test>,
 }
@@ -112,8 +116,10 @@ pub struct Piece {
     pub side: Option<Side>,
     /// Name in [`Garment::fabrics`].
     pub fabric: String,
-    /// 0 = shell, positive further out, negative nearer the body.
+    /// 0 = its garment's shell, positive further out, negative nearer the body.
     pub layer: i32,
+    /// How much further out its garment's shell is for the garments that are worn under it.
+    pub beneath: i32,
     /// Warp direction in the flat piece, unit length, tail to head.
     pub warp: Vec2,
     /// `loops[0]` is the outline, clockwise on screen (y down; [`Path::double_area`] sums to a positive number); the
@@ -125,6 +131,13 @@ pub struct Piece {
     pub notches: Vec<Notch>,
     /// Where the piece starts; `None` = worked out.
     pub place: Option<Place>,
+}
+
+impl Piece {
+    /// Its layer among those of all garments that are worn over one another.
+    pub fn level(&self) -> i32 {
+        self.layer.saturating_add(self.beneath)
+    }
 }
 
 /// A named stretch of a piece's rim.
@@ -365,6 +378,8 @@ pub struct Test {
     /// Only when the garment is made in this fabric; `None` = in any. As the file names it, one of the garment's own, a
     /// shipped one or a file; of a [`Job`](crate::pipeline::Job) as reports name it.
     pub fabric: Option<String>,
+    /// The garment of an outfit whose pieces, seams and openings it is about, as their names begin; `None` = all.
+    pub of: Option<String>,
 }
 
 /// A regression bound of the garment's own `tests`.

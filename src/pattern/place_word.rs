@@ -2,6 +2,7 @@
 
 use super::diagnostic::Findings;
 use super::file::{GarmentFile, PieceFile, PlaceFile, Unit};
+use super::outfit::own_name;
 use super::problem::Problem;
 use crate::input::nearest;
 
@@ -176,9 +177,9 @@ pub fn place_words(show: impl Fn(&str) -> String) -> String {
     format!("{}; with {left} or {right}, {front} or {back}", parts.join("; "))
 }
 
-/// The words of a name in lower case: `sleeve_left.L` → sleeve, left, l.
+/// The words of a name in lower case: `sleeve_left.L` → sleeve, left, l. Of a piece of an outfit its own name counts.
 pub fn words_of(name: &str) -> Vec<String> {
-    name.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).map(str::to_lowercase).collect()
+    own_name(name).split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).map(str::to_lowercase).collect()
 }
 
 /// A piece that starts farther from the feet than this, metres, is in another unit than thought.

@@ -320,7 +320,9 @@ impl Problem {
             Self::UnknownKey { known, .. } => format!("known keys: {known}"),
             Self::UnknownPiece { known, .. } => format!("the pieces are: {known}"),
             Self::PlaceWord { known, .. } | Self::PlaceNowhere { known, .. } => format!("use {known}"),
-            Self::Narrow { width, .. } => format!("--spacing {} puts three springs across it", tenth_below(width / 3.0)),
+            Self::Narrow { width, .. } => {
+                format!("--spacing {} puts three springs across it", tenth_below(width / 3.0))
+            }
             Self::PlaceBoth { .. } => "leave one of the two out".to_owned(),
             Self::UnknownSeam { known, .. } => format!("the seams are: {known}"),
             Self::UnknownClosure { known, .. } if known.is_empty() => {

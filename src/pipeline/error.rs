@@ -34,6 +34,24 @@ pub enum PipelineError {
         .0.display()
     )]
     NoBody(PathBuf),
+    /// Two garments of an outfit are made for two bodies.
+    #[error(
+        "{}: made for '{body}', but {} for '{other_body}'; say with --body NAME or --body FILE.obj who wears both",
+        file.display(), other.display()
+    )]
+    Bodies {
+        /// A garment file.
+        file: PathBuf,
+        /// Its body.
+        body: String,
+        /// The innermost garment's file.
+        other: PathBuf,
+        /// That one's body.
+        other_body: String,
+    },
+    /// A fabric in place of a garment's own is asked for, and there are several garments.
+    #[error("--fabric does not say of which garment; name the fabric in the garment files")]
+    WhoseFabric,
     /// The body cannot be used.
     #[error(transparent)]
     Body(#[from] BodyError),
@@ -130,6 +148,8 @@ impl PipelineError {
             Self::Garment(_)
             | Self::Fabric(_)
             | Self::NoBody(_)
+            | Self::Bodies { .. }
+            | Self::WhoseFabric
             | Self::Body(_)
             | Self::Mesh { .. }
             | Self::Place { .. }

@@ -36,10 +36,11 @@ pub(super) fn doubt_size(loaded: &Loaded, body: &Mannequin, findings: &mut Findi
     }
 }
 
-/// Tells of the drawn pieces that are narrower than the spacing of the mesh, and were meshed finer.
-pub(super) fn tell_narrow(loaded: &Loaded, mesh: &ClothMesh, findings: &mut Findings) {
+/// Tells of the drawn pieces that are narrower than the spacing of the mesh, in which the garment's pieces stand from
+/// number `first`, and were meshed finer.
+pub(super) fn tell_narrow(loaded: &Loaded, mesh: &ClothMesh, first: usize, findings: &mut Findings) {
     let mut told: Vec<&str> = Vec::new();
-    for (piece, meshed) in loaded.garment.pieces.iter().zip(&mesh.pieces) {
+    for (piece, meshed) in loaded.garment.pieces.iter().zip(&mesh.pieces[first..]) {
         let Some(narrow) = meshed.narrow.filter(|_| !told.contains(&piece.drawn_as.as_str())) else { continue };
         told.push(&piece.drawn_as);
         let [width, spacing, along] = [narrow.width, mesh.spacing, narrow.along].map(|x| 1e3 * x);

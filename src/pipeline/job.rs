@@ -13,7 +13,7 @@ use crate::input::LengthUnit;
 use crate::io::garment::{self, Loaded};
 use crate::mannequin::{Mannequin, PartKind};
 use crate::mesh::{self, ClothMesh};
-use crate::pattern::Garment;
+use crate::pattern::{Garment, outfit};
 use crate::report::Stage;
 use crate::sew::{SewError, Stance};
 
@@ -35,7 +35,7 @@ pub struct Overrides {
 
 /// A garment, its fabrics, the body it is made for and its mesh.
 pub struct Job {
-    /// The garment file.
+    /// The garment file; of an outfit the innermost one's.
     pub file: PathBuf,
     /// The pieces and seams.
     pub garment: Garment,
@@ -73,30 +73,51 @@ impl Job {
     ///
     /// # Errors
     /// [`PipelineError`]: always the input's fault, but for a body that cannot be touched.
-    pub fn new(file: &Path, mut loaded: Loaded, overrides: &Overrides) -> Result<Self, PipelineError> {
-        let mut notes: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
-        let (fabrics, told) = material::fabrics(file, &loaded, overrides.fabric.as_deref())?;
-        notes.extend(told);
-        material::name_bounded_fabrics(file, &mut loaded)?;
-        let (wanted, worn_by) = material::body(file, &loaded, overrides)?;
+    pub fn new(file: &Path, loaded: Loaded, overrides: &Overrides) -> Result<Self, PipelineError> {
+        Self::dressed(vec![(file.to_owned(), loaded)], overrides)
+    }
+
+    /// Gets the fabrics and the body of garments worn over one another, each with its file, from the skin outwards, and
+    /// meshes them as one.
+    ///
+    /// # Errors
+    /// [`PipelineError`]: as of [`Self::new`], and bodies that differ, or a fabric in place of nobody knows whose.
+    pub fn dressed(mut worn: Vec<(PathBuf, Loaded)>, overrides: &Overrides) -> Result<Self, PipelineError> {
+        if worn.len() > 1 && overrides.fabric.is_some() {
+            return Err(PipelineError::WhoseFabric);
+        }
+        let mut notes: Vec<String> = worn.iter().flat_map(|(_, l)| &l.warnings).map(ToString::to_string).collect();
+        let mut fabrics = Vec::new();
+        for (file, loaded) in &mut worn {
+            let (own, told) = material::fabrics(file, loaded, overrides.fabric.as_deref())?;
+            fabrics.extend(own);
+            notes.extend(told);
+            material::name_bounded_fabrics(file, loaded)?;
+        }
+        let (wanted, worn_by) = material::body_of_all(&worn, overrides)?;
         notes.extend(worn_by.notes.iter().map(|note| format!("{wanted}: {note}")));
         let body = worn_by.mannequin;
-        let mut findings = loaded.findings();
-        fit::doubt_size(&loaded, &body, &mut findings);
         let begin = Instant::now();
-        let mesh = mesh::build(&loaded.garment, overrides.spacing.unwrap_or(SPACING))
-            .map_err(|source| material::mesh_error(file, &loaded, source))?;
-        fit::tell_narrow(&loaded, &mesh, &mut findings);
-        notes.extend(findings.into_sorted().iter().map(ToString::to_string));
+        let garment = outfit(worn.iter().map(|(_, loaded)| loaded.garment.clone()).collect());
+        let meshed = mesh::build(&garment, overrides.spacing.unwrap_or(SPACING));
+        let mesh = meshed.map_err(|source| material::mesh_error(&worn, source))?;
         let meshing =
             Stage { name: "mesh".into(), seconds: begin.elapsed().as_secs_f64(), converged: true, ..Stage::default() };
+        let mut first = 0;
+        for (_, loaded) in &worn {
+            let mut findings = loaded.findings();
+            fit::doubt_size(loaded, &body, &mut findings);
+            fit::tell_narrow(loaded, &mesh, first, &mut findings);
+            notes.extend(findings.into_sorted().iter().map(ToString::to_string));
+            first += loaded.garment.pieces.len();
+        }
         let collider =
             Collider::new(&body.mesh).ok_or_else(|| PipelineError::Sew(SewError::Body(body.name.clone())))?;
         let collider = collider.on_floor(body.floor());
-        let stance = Stance::of(&body, &loaded.garment);
+        let stance = Stance::of(&body, &garment);
         notes.extend(stance.as_ref().map(|stance| format!("{wanted}: {}", spread(stance))));
-        let garment = loaded.garment;
-        Ok(Self { file: file.to_owned(), garment, fabrics, body, collider, stance, mesh, notes, meshing })
+        let file = worn.swap_remove(0).0;
+        Ok(Self { file, garment, fabrics, body, collider, stance, mesh, notes, meshing })
     }
 
     /// Names of the fabrics in use, joined with ` + `.

@@ -1,7 +1,7 @@
 //! Fabrics and body of a garment, and the line of its file that is to blame when one cannot be had, or no mesh made.
 
 use std::collections::HashMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::cloth::Fabrics;
@@ -35,7 +35,7 @@ pub fn check(file: &Path, spacing: Option<f64>) -> Result<Loaded, Refused> {
         refused
     })?;
     let mut findings = loaded.findings();
-    fit::tell_narrow(&loaded, &mesh, &mut findings);
+    fit::tell_narrow(&loaded, &mesh, 0, &mut findings);
     if let Some(body) = &body {
         fit::check_places(&loaded, &mesh, &body.mannequin, &mut findings);
     }
@@ -237,6 +237,20 @@ pub(super) fn body(file: &Path, loaded: &Loaded, wanted: &Overrides) -> Result<(
     Ok((name, body))
 }
 
+/// The body of garments worn together, by the name it is asked for.
+pub(super) fn body_of_all(worn: &[(PathBuf, Loaded)], wanted: &Overrides) -> Result<(String, Body), PipelineError> {
+    let (inner, loaded) = &worn[0];
+    let own = |file: &Path, loaded: &Loaded| body_name(file, loaded.garment.body.as_deref(), wanted.body.as_deref());
+    let other_body = own(inner, loaded)?;
+    for (file, loaded) in &worn[1..] {
+        let body = own(file, loaded)?;
+        if body != other_body {
+            return Err(PipelineError::Bodies { file: file.clone(), body, other: inner.clone(), other_body });
+        }
+    }
+    body(inner, loaded, wanted)
+}
+
 /// Whether there is no such body, rather than something wrong in its own file.
 fn cannot_be_had(error: &BodyError) -> bool {
     use crate::io::obj_read::ObjError;
@@ -260,9 +274,10 @@ pub(super) fn body_name(file: &Path, said: Option<&str>, instead: Option<&str>) 
     Ok(folder.join(name).display().to_string())
 }
 
-/// A garment that cannot be meshed: the statement that is to blame, or the spacing.
-pub(super) fn mesh_error(file: &Path, loaded: &Loaded, source: MeshError) -> PipelineError {
-    match mesh_spot(&loaded.file, source.culprit()) {
+/// Garments that cannot be meshed: the statement that is to blame, or the spacing. In an outfit names tell the garment.
+pub(super) fn mesh_error(worn: &[(PathBuf, Loaded)], source: MeshError) -> PipelineError {
+    let (file, loaded) = &worn[0];
+    match mesh_spot(&loaded.file, source.culprit()).filter(|_| worn.len() == 1) {
         Some(at) => PipelineError::Garment(loaded.refusal(at, Problem::Mesh(source.to_string()))),
         None => PipelineError::Mesh { file: file.to_owned(), source: Box::new(source) },
     }

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::closures::APART;
 use super::schema::{ClosureReport, Crossing, FaultKind, PieceReport, Quartet, Report, Worn};
 use crate::geometry::MM;
-use crate::pattern::{Bound, Garment, Test, walk};
+use crate::pattern::{Bound, Garment, Test, belongs_to, walk};
 
 /// Bounds of a garment that states none: closed seams, no crossing. Metres.
 const DEFAULTS: [Bound; 2] = [Bound::Gap(None, 1e-3), Bound::Crossings(0)];
@@ -38,15 +38,30 @@ impl std::fmt::Display for Verdict {
     }
 }
 
-/// Compares a report with the garment's `tests`, or with closed seams and no crossings if none holds for its fabric.
-/// Closures that tie what they join have to be closed, unless a test says how far, and laps keep their order. A garment
-/// that is not worn where it belongs is out of any bounds. Bounds on stages that did not run,
-/// and for other fabrics, are left out. Pieces that had to stretch are reported as such and not bounded. A piece that
-/// lies on itself when flat is out of any bounds.
+/// Compares a report with the garment's `tests`, or with closed seams and no crossings if none holds for its fabric; of
+/// an outfit with those of each of its garments. Closures that tie what they join have to be closed, unless a test says
+/// how far, and laps keep their order. A garment that is not worn where it belongs is out of any bounds. Bounds on
+/// stages that did not run, and for other fabrics, are left out. Pieces that had to stretch are reported as such and
+/// not bounded. A piece that lies on itself when flat is out of any bounds.
 pub fn verdicts(garment: &Garment, report: &Report) -> Vec<Verdict> {
-    let bounds: Vec<&Bound> = garment.tests.iter().filter(|t| holds(t, report)).map(|test| &test.bound).collect();
+    let mut out = Vec::new();
+    if garment.worn.is_empty() {
+        out.extend(verdicts_of(garment, report, None));
+    }
+    for label in &garment.worn {
+        let own = verdicts_of(garment, &of_garment(report, label), Some(label));
+        out.extend(own.into_iter().map(|verdict| named(label, verdict)));
+    }
+    out.extend(report.pieces.iter().filter_map(on_itself));
+    out
+}
+
+/// What is to be said of the garment of an outfit that is called `of`, or of the only one.
+fn verdicts_of(garment: &Garment, report: &Report, of: Option<&str>) -> Vec<Verdict> {
+    let own = garment.tests.iter().filter(|test| test.of.as_deref() == of && holds(test, report));
+    let bounds: Vec<&Bound> = own.map(|test| &test.bound).collect();
     let bounds = if bounds.is_empty() { DEFAULTS.iter().collect() } else { bounds };
-    let mut out: Vec<Verdict> = bounds.iter().flat_map(|bound| verdict(garment, report, bound)).collect();
+    let mut out: Vec<Verdict> = bounds.iter().flat_map(|bound| verdict(garment, report, of, bound)).collect();
     if !bounds.iter().any(|bound| matches!(bound, Bound::Closure(..))) {
         // Of what is not tied a note is told.
         out.extend(closures(report.closures.iter().filter(|c| c.note.is_none()), None, APART));
@@ -55,7 +70,6 @@ pub fn verdicts(garment: &Garment, report: &Report) -> Vec<Verdict> {
         out.push(worn(report));
     }
     out.extend(report.closures.iter().filter_map(turned));
-    out.extend(report.pieces.iter().filter_map(on_itself));
     out
 }
 
@@ -65,6 +79,11 @@ fn turned(closure: &ClosureReport) -> Option<Verdict> {
     let turned = closure.turned.as_ref().filter(|_| closure.on != closure.meets)?;
     let bound = format!("lap of the {} in the wrong order", closure.title());
     Some(Verdict { bound, measured: turned.length, limit: 0.0, unit: "mm", at: Some(turned.at.clone()), ok: false })
+}
+
+/// With the name of its garment before it.
+fn named(label: &str, verdict: Verdict) -> Verdict {
+    Verdict { bound: format!("{label}: {}", verdict.bound), ..verdict }
 }
 
 /// That nobody can cut a piece out; nothing for a piece that can be.
@@ -78,8 +97,26 @@ fn on_itself(piece: &PieceReport) -> Option<Verdict> {
 /// The verdicts of every one of the garment's `tests`, in their order; none of a test for another fabric or a stage
 /// that did not run.
 pub fn verdicts_by_test(garment: &Garment, report: &Report) -> Vec<Vec<Verdict>> {
-    let of = |test: &Test| if holds(test, report) { verdict(garment, report, &test.bound) } else { Vec::new() };
+    let of = |test: &Test| match &test.of {
+        _ if !holds(test, report) => Vec::new(),
+        None => verdict(garment, report, None, &test.bound),
+        Some(label) => {
+            let own = verdict(garment, &of_garment(report, label), Some(label), &test.bound);
+            own.into_iter().map(|verdict| named(label, verdict)).collect()
+        }
+    };
     garment.tests.iter().map(of).collect()
+}
+
+/// The rows of a report that are about one garment of an outfit. Contact is the whole outfit's.
+fn of_garment(report: &Report, label: &str) -> Report {
+    let own = |name: &str| belongs_to(name, label);
+    let mut rows = report.clone();
+    rows.pieces.retain(|piece| own(&piece.name));
+    rows.seams.retain(|seam| own(&seam.name));
+    rows.closures.retain(|closure| closure.on.as_deref().is_some_and(own));
+    rows.worn.retain(|worn| worn.edges.iter().any(|edge| own(edge)));
+    rows
 }
 
 /// Whether the test is for the fabric the garment was made in.
@@ -90,10 +127,12 @@ fn holds(test: &Test, report: &Report) -> bool {
     test.fabric.as_deref().is_none_or(used)
 }
 
-fn verdict(garment: &Garment, report: &Report, bound: &Bound) -> Vec<Verdict> {
+/// Of the garment of an outfit that is called `of`, or of the whole.
+fn verdict(garment: &Garment, report: &Report, of: Option<&str>, bound: &Bound) -> Vec<Verdict> {
     match bound {
         Bound::SeamLength(seam, limit) => {
-            let walked = walk(garment).into_iter().filter(|s| seam_matches(seam.as_deref(), &s.name));
+            let own = |name: &str| of.is_none_or(|label| belongs_to(name, label));
+            let walked = walk(garment).into_iter().filter(|s| own(&s.name) && seam_matches(seam.as_deref(), &s.name));
             let values = walked.map(|s| (s.name, s.difference.abs() * MM)).collect();
             vec![worst(format!("seam {}", all(seam)), values, limit * MM, "mm")]
         }
@@ -265,12 +304,13 @@ mod tests {
             seams: vec![],
             fabrics: vec![],
             closures: vec![],
+            worn: Vec::new(),
             tests,
         };
         let judged = |kind: FaultKind, bounds: &[Bound]| {
             let fault = Fault { kind, text: "nothing passes through it".into() };
             let worn = vec![Worn { opening: "hem".into(), fault: Some(fault), ..Worn::default() }];
-            let tests = bounds.iter().map(|bound| Test { bound: bound.clone(), fabric: None }).collect();
+            let tests = bounds.iter().map(|bound| Test { bound: bound.clone(), fabric: None, of: None }).collect();
             let verdicts = verdicts(&garment(tests), &Report { worn, ..Report::default() });
             let told: Vec<String> = verdicts.iter().filter(|v| !v.ok).map(ToString::to_string).collect();
             told

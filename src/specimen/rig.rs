@@ -79,6 +79,7 @@ impl Sheet {
             side: None,
             fabric: fabric.name.clone(),
             layer: 0,
+            beneath: 0,
             warp,
             loops: vec![sides.into_iter().enumerate().map(edge).collect()],
             lines: Vec::new(),
@@ -93,6 +94,7 @@ impl Sheet {
             seams: Vec::new(),
             fabrics: Vec::new(),
             closures: Vec::new(),
+            worn: Vec::new(),
             tests: Vec::new(),
         };
         let mesh = build(&garment, spacing)?;

@@ -109,7 +109,8 @@ pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &mut Sheet) {
 /// in, and nothing is sewn into it between waist and hem, which would start off them.
 fn is_free(garment: &Garment, mesh: &ClothMesh, i: usize, sector: &Sector) -> bool {
     let size = |piece: usize| mesh.pieces[piece].triangles.len() as f64;
-    let covered = |other: usize| garment.pieces[other].layer > garment.pieces[i].layer && size(other) > COVER * size(i);
+    let covered =
+        |other: usize| garment.pieces[other].level() > garment.pieces[i].level() && size(other) > COVER * size(i);
     let [inner, outer] = sector.radii;
     let within = |p: u32| {
         let (r, angle) = sector.polar(mesh.flat[p as usize]);

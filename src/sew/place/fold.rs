@@ -112,7 +112,7 @@ impl Flap {
 /// that run on into a hem turned up do not run along its fold.)
 fn opens(garment: &Garment, mesh: &ClothMesh, piece: &PieceMesh, along: Vec2, side: impl Fn(usize) -> f64) -> bool {
     let own = |p: usize| piece.particles.contains(&p);
-    let layer = |p: usize| mesh.piece_of(p as u32).map_or(0, |other| garment.pieces[other].layer);
+    let layer = |p: usize| mesh.piece_of(p as u32).map_or(0, |other| garment.pieces[other].level());
     let mut partners: [Vec<usize>; 2] = [Vec::new(), Vec::new()];
     for steps in mesh.seams.iter().flat_map(|seam| seam.pairs.windows(2)) {
         for k in 0..2 {

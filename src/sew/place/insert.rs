@@ -132,7 +132,7 @@ pub(super) fn slit(
     let own: Vec<&Link> = links.iter().filter(|l| !l.through && l.pieces.contains(&piece)).collect();
     let side = |l: &Link| usize::from(l.pieces[1] == piece);
     let host = own.first().map(|l| l.pieces[1 - side(l)])?;
-    let together = |p: usize| (assigned[p].part, garment.pieces[p].layer);
+    let together = |p: usize| (assigned[p].part, garment.pieces[p].level());
     let upright = own.iter().all(|l| l.upright && l.pieces.contains(&host));
     if !upright || together(host) != together(piece) || !goes_round(&own, sheet, side) {
         return None;

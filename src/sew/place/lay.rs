@@ -78,7 +78,7 @@ struct Table<'a> {
 impl Table<'_> {
     /// These pieces in groups that are sewn together within their layer, round one body part.
     fn groups(&self, mut rest: Vec<usize>) -> Vec<Vec<usize>> {
-        let place = |piece: usize| (self.garment.pieces[piece].layer, self.assigned[piece].part);
+        let place = |piece: usize| (self.garment.pieces[piece].level(), self.assigned[piece].part);
         let joined = |a: usize, b: usize| {
             place(a) == place(b) && self.links.iter().any(|l| l.pieces == [a, b] || l.pieces == [b, a])
         };
@@ -109,8 +109,8 @@ impl Table<'_> {
 
     /// On what a piece of its own layer lies on, if its sides match that one's and its cloth goes on from there.
     fn beside_laid(&self, own: usize, laid: &[Option<Laid>]) -> Option<Laid> {
-        let layer = self.garment.pieces[own].layer;
-        let of_layer = |other: &usize| *other != own && self.garment.pieces[*other].layer == layer;
+        let layer = self.garment.pieces[own].level();
+        let of_layer = |other: &usize| *other != own && self.garment.pieces[*other].level() == layer;
         let beside = |other: usize| {
             let hosts = &laid[other].as_ref()?.hosts;
             let to_other = self.matched(own, other, Way::On)?;

@@ -120,10 +120,10 @@ pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned:
         let index = rows.len();
         row_of[seed] = index;
         let mut members = vec![Member { piece: seed, shift: Vec2::zeros() }];
-        let layer = garment.pieces[seed].layer;
+        let layer = garment.pieces[seed].level();
         // Layers lie one over another, not side by side.
         let apart: Vec<bool> = (0..mesh.pieces.len())
-            .map(|p| elsewhere[p] || slits[p].is_some() || garment.pieces[p].layer != layer)
+            .map(|p| elsewhere[p] || slits[p].is_some() || garment.pieces[p].level() != layer)
             .collect();
         loop {
             let joins = |from: usize, to: usize| {

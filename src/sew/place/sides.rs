@@ -36,7 +36,7 @@ pub(super) fn check(
     };
     let alone =
         |p: usize| facing(p).is_some() && !in_slit(p) && rows.laid[p].is_none() && !is_at(&garment.pieces[p].place);
-    let ring = |p: usize| (assigned[p].part, garment.pieces[p].layer);
+    let ring = |p: usize| (assigned[p].part, garment.pieces[p].level());
     let beside = |link: &Link| link.pieces.iter().all(|&p| alone(p)) && ring(link.pieces[0]) == ring(link.pieces[1]);
     let flanks: Vec<&Link> = rows.links.iter().filter(|l| l.upright && !l.through && beside(l)).collect();
     let within = behind(mesh, &flanks);
