@@ -215,7 +215,7 @@ fn wrong_words(piece: &PieceFile, words: &str) -> Option<Problem> {
             None => {
                 let all = WORDS.iter().flat_map(|row| row.4.iter().copied().chain([row.1])).filter(|w| w.len() > 1);
                 let nearest = nearest(word, all).map(str::to_owned);
-                return Some(Problem::PlaceWord { piece: name, word: word.to_owned(), nearest, known: known() });
+                return Some(Problem::PlaceWord { piece: name, word: word.to_owned(), nearest, known: known().into() });
             }
         }
     }
@@ -226,7 +226,7 @@ fn wrong_words(piece: &PieceFile, words: &str) -> Option<Problem> {
         return Some(Problem::PlaceBoth { piece: name, place });
     }
     let placed = said.iter().any(|meaning| !matches!(meaning, PlaceMeaning::Left | PlaceMeaning::Right));
-    (!placed).then(|| Problem::PlaceNowhere { piece: name, place, known: known() })
+    (!placed).then(|| Problem::PlaceNowhere { piece: name, place, known: known().into() })
 }
 
 #[cfg(test)]

@@ -88,11 +88,11 @@ pub enum Problem {
 
     // Places.
     #[error("place of '{piece}': '{word}' means nothing{}", did_you_mean(.nearest))]
-    PlaceWord { piece: String, word: String, nearest: Option<String>, known: String },
+    PlaceWord { piece: String, word: String, nearest: Option<String>, known: Box<str> },
     #[error("place of '{piece}': '{place}' says two sides; a piece has one")]
     PlaceBoth { piece: String, place: String },
     #[error("place of '{piece}': '{place}' names no body part")]
-    PlaceNowhere { piece: String, place: String, known: String },
+    PlaceNowhere { piece: String, place: String, known: Box<str> },
 
     // The mesh, in its own words.
     #[error("{0}")]
