@@ -1,4 +1,4 @@
-//! DXF-AAMA (ASTM D6673) in: a piece per block, lines by the standard's layers (see [`layer`]).
+//! DXF-AAMA (ASTM D6673) in: a piece per block, lines by the standard's layers.
 //!
 //! Text files of any release are read as pairs of a group code and a value; of what they hold, polylines (with their
 //! arcs), lines, arcs, ellipses, splines, points, texts and blocks within blocks count; what else is on a pattern's
