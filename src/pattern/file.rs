@@ -197,9 +197,14 @@ pub struct PieceFile {
 impl PieceFile {
     /// A piece that is as another in everything.
     pub fn like(name: Located<String>, other: Located<String>) -> Self {
+        Self { like: Some(other), ..Self::named(name) }
+    }
+
+    /// A piece of which nothing but its name is said.
+    pub fn named(name: Located<String>) -> Self {
         Self {
             name,
-            like: Some(other),
+            like: None,
             fabric: None,
             cut: None,
             drawn: None,

@@ -6,7 +6,7 @@ use crate::geometry::{Vec2, Vec3, box_of, range_of};
 use crate::io::garment::Loaded;
 use crate::mannequin::Mannequin;
 use crate::mesh::ClothMesh;
-use crate::pattern::{Findings, Piece, Place, Problem, Spot, written_edge};
+use crate::pattern::{Findings, Piece, PieceFile, Place, Problem, Spot, written_edge};
 use crate::sew::place::{PlaceError, place};
 use crate::sew::{Stance, left_inside, sewn_on};
 
@@ -105,14 +105,17 @@ fn culprit(loaded: &Loaded, error: &PlaceError) -> Spot {
     piece.map_or_else(Spot::default, |p| spot_of(loaded, p))
 }
 
+/// The piece of the file that a piece is drawn as.
+fn written<'a>(loaded: &'a Loaded, piece: &Piece) -> Option<&'a PieceFile> {
+    loaded.file.pieces.iter().find(|p| p.name.value == piece.drawn_as)
+}
+
 /// Where a piece is named.
 fn name_of(loaded: &Loaded, piece: &Piece) -> Spot {
-    let written = loaded.file.pieces.iter().find(|p| p.name.value == piece.drawn_as);
-    written.map_or_else(Spot::default, |p| p.name.at)
+    written(loaded, piece).map_or_else(Spot::default, |p| p.name.at)
 }
 
 /// Where a piece's place is said, or else its name.
 fn spot_of(loaded: &Loaded, piece: &Piece) -> Spot {
-    let written = loaded.file.pieces.iter().find(|p| p.name.value == piece.drawn_as);
-    written.map_or_else(Spot::default, |p| p.place.as_ref().map_or(p.name.at, |place| place.at))
+    written(loaded, piece).map_or_else(Spot::default, |p| p.place.as_ref().map_or(p.name.at, |place| place.at))
 }

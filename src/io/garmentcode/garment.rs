@@ -117,22 +117,13 @@ impl Writer<'_> {
         let middle = part.drawing.middle();
         let round = |x: f64| x.round();
         PieceFile {
-            name: here(piece.name.clone()),
-            like: None,
-            fabric: None,
             cut: piece.twin.map(|_| here(Cut::Pair)),
             drawn: drawn.map(here),
             layer: Some(piece.layer).filter(|&l| l != 0).map(here),
-            allowance: None,
             grain: Some(here([[round(middle.x), round(middle.y - GRAIN)], [round(middle.x), round(middle.y + GRAIN)]])),
             place: Some(here(self.place(piece))),
             outline: Some(outline(&part.drawing.edges, names)),
-            notches: Vec::new(),
-            darts: Vec::new(),
-            pleats: Vec::new(),
-            holes: Vec::new(),
-            lines: Vec::new(),
-            note: None,
+            ..PieceFile::named(here(piece.name.clone()))
         }
     }
 
