@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use nalgebra::{Isometry2, Point2};
 
 use super::glue::Follow;
-use crate::geometry::{Locator, Vec2};
+use crate::geometry::{Locator, Vec2, distance_to_segment};
 use crate::mesh::ClothMesh;
 use crate::sew::place::fold::Sheet;
 
@@ -64,7 +64,7 @@ impl Flap<'_> {
 
     /// Where a particle of the upper piece lies on the flat lower one.
     fn onto(&self, mesh: &ClothMesh, p: u32) -> Vec2 {
-        (self.to_under * Point2::from(mesh.flat[p as usize])).coords
+        onto(&self.to_under, mesh.flat[p as usize])
     }
 
     /// The particles of the lower piece that its rim leads to without a way across the line that the upper rim lies on.
@@ -109,9 +109,9 @@ impl Flap<'_> {
             return None;
         }
         let ground = Locator::new(&mesh.flat, &open, mesh.spacing);
+        let to_over = self.to_under.inverse();
         let follow = |p: &u32| {
-            let at = self.to_under.inverse() * Point2::from(mesh.flat[*p as usize]);
-            let (corners, weights) = ground.place(at.coords);
+            let (corners, weights) = ground.place(onto(&to_over, mesh.flat[*p as usize]));
             (*p, Follow { corners, weights, layers: 0.0 })
         };
         Some(covered.iter().map(follow).collect())
@@ -120,12 +120,7 @@ impl Flap<'_> {
 
 /// Distance of a point from a line, metres.
 fn far(line: &[Vec2], p: Vec2) -> f64 {
-    let to = |pair: &[Vec2]| {
-        let way = pair[1] - pair[0];
-        let share = ((p - pair[0]).dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-        (p - pair[0] - way * share).norm()
-    };
-    line.windows(2).map(to).fold(f64::INFINITY, f64::min)
+    line.windows(2).map(|pair| distance_to_segment(p, [pair[0], pair[1]])).fold(f64::INFINITY, f64::min)
 }
 
 /// How far a point lies to the left of a line, metres, negative to its right; 0 for a point that lies more than
@@ -133,6 +128,11 @@ fn far(line: &[Vec2], p: Vec2) -> f64 {
 fn under(line: &[Vec2], on: [bool; 2], p: Vec2, beside: f64) -> f64 {
     let mut best = (f64::INFINITY, 0.0);
     let last = line.len().saturating_sub(2);
+    let beyond = |is_end: bool, goes_on: bool| match (is_end, goes_on) {
+        (false, _) => 0.0,
+        (true, true) => f64::INFINITY,
+        (true, false) => beside,
+    };
     for (k, pair) in line.windows(2).enumerate() {
         let way = pair[1] - pair[0];
         let length = way.norm();
@@ -140,20 +140,7 @@ fn under(line: &[Vec2], on: [bool; 2], p: Vec2, beside: f64) -> f64 {
             continue;
         }
         let along = (p - pair[0]).dot(&way) / length;
-        let low = if k > 0 {
-            0.0
-        } else if on[0] {
-            f64::NEG_INFINITY
-        } else {
-            -beside
-        };
-        let high = if k < last {
-            length
-        } else if on[1] {
-            f64::INFINITY
-        } else {
-            length + beside
-        };
+        let [low, high] = [-beyond(k == 0, on[0]), length + beyond(k == last, on[1])];
         let far = (p - pair[0] - way * (along.clamp(low, high) / length)).norm();
         if far < best.0 {
             let is_beside = (low..=high).contains(&along) || k > 0 && along < 0.0 || k < last && along > length;
@@ -166,7 +153,7 @@ fn under(line: &[Vec2], on: [bool; 2], p: Vec2, beside: f64) -> f64 {
 /// Which share of a rim, of the piece `own`, lies over the cloth of another piece, which goes on beyond it.
 pub(super) fn share_over(mesh: &ClothMesh, own: usize, rim: &[u32], other: usize, to_other: &Isometry2<f64>) -> f64 {
     let is_on = |at: Vec2| {
-        let at = (to_other * Point2::from(at)).coords;
+        let at = onto(to_other, at);
         mesh.nearest(other, at).is_some_and(|p| (mesh.flat[p] - at).norm() <= ON * mesh.spacing)
     };
     let is_over = |p: &&u32| {
@@ -178,15 +165,24 @@ pub(super) fn share_over(mesh: &ClothMesh, own: usize, rim: &[u32], other: usize
 }
 
 /// The direction out of a piece at the particle of its rim that is nearest to a point: across the rim, unit.
-pub(super) fn outward(mesh: &ClothMesh, piece: usize, rim: &[u32], at: Vec2) -> Option<Vec2> {
+fn outward(mesh: &ClothMesh, piece: usize, rim: &[u32], at: Vec2) -> Option<Vec2> {
     let flat = |k: usize| mesh.flat[rim[k] as usize];
     let near = (0..rim.len()).min_by(|a, b| (flat(*a) - at).norm().total_cmp(&(flat(*b) - at).norm()))?;
     let along = flat((near + 1).min(rim.len() - 1)) - flat(near.saturating_sub(1));
-    let across = Vec2::new(-along.y, along.x).try_normalize(0.0)?;
-    let triangles = &mesh.triangles[mesh.pieces[piece].triangles.clone()];
-    let beside = triangles.iter().filter(|t| t.contains(&rim[near])).flatten();
-    let inward: Vec2 = beside.map(|p| mesh.flat[*p as usize] - flat(near)).sum();
-    Some(across * -across.dot(&inward).signum())
+    Some(-into(mesh, piece, rim[near], along.try_normalize(0.0)?))
+}
+
+/// The direction across a line of unit direction `along` into a piece's flat cloth, at one of its particles: unit.
+pub(super) fn into(mesh: &ClothMesh, piece: usize, p: u32, along: Vec2) -> Vec2 {
+    let beside = mesh.triangles[mesh.pieces[piece].triangles.clone()].iter().filter(|t| t.contains(&p));
+    let inward: Vec2 = beside.flatten().map(|n| mesh.flat[*n as usize] - mesh.flat[p as usize]).sum();
+    let across = Vec2::new(-along.y, along.x);
+    across * across.dot(&inward).signum()
+}
+
+/// Where a flat point lies on another piece.
+pub(super) fn onto(to_other: &Isometry2<f64>, at: Vec2) -> Vec2 {
+    (to_other * Point2::from(at)).coords
 }
 
 /// The particles that seams join to each.

@@ -1,5 +1,6 @@
 //! From the nodes of the inflated surface to a start of all particles: what lies on other cloth is laid on it.
 
+use super::cover::into;
 use super::glue::{Beyond, Follow, Glued};
 use crate::geometry::{Locator, TriMesh, Vec2, Vec3};
 use crate::mesh::{ClothMesh, PieceMesh};
@@ -163,14 +164,6 @@ impl<'a> Hosts<'a> {
         }
         out
     }
-}
-
-/// The direction across a seam into a piece's flat cloth at one of its particles.
-fn into(mesh: &ClothMesh, piece: usize, p: u32, along: Vec2) -> Vec2 {
-    let beside = mesh.triangles[mesh.pieces[piece].triangles.clone()].iter().filter(|t| t.contains(&p));
-    let inward: Vec2 = beside.flatten().map(|n| mesh.flat[*n as usize] - mesh.flat[p as usize]).sum();
-    let across = Vec2::new(-along.y, along.x);
-    across * across.dot(&inward).signum()
 }
 
 /// The stitch nearest to a flat point.

@@ -1,10 +1,10 @@
 //! Where closures hold one rim over another.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
-use nalgebra::{Isometry2, Point2};
+use nalgebra::Isometry2;
 
-use super::cover::{Cover, Flap, outward, partners, share_over};
+use super::cover::{Cover, Flap, onto, partners, share_over};
 use super::glue::Follow;
 use crate::geometry::Vec2;
 use crate::mesh::ClothMesh;
@@ -21,7 +21,7 @@ const BAND: f64 = 0.15;
 /// A single point fastens the end of a strap rather than its side where the end is no further than this many times.
 const AS_NEAR: f64 = 2.0;
 
-/// Along a seam the map between the two sides of a lap is taken over this length from its end, metres.
+/// The map between the two sides of a lap is read from the cloth within this distance of its end, metres.
 const ALONG: f64 = 0.15;
 
 /// And only where its stitches on the one side lie within this share of the spacing over those on the other.
@@ -49,9 +49,9 @@ pub struct Lap {
 pub(super) fn laps(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet) -> Vec<Lap> {
     let mut all = fastenings(garment);
     all.sort_by_key(|f| f.row);
-    let mut rows: Vec<Row> = Vec::new();
-    rows.extend(all.chunk_by(|a, b| a.row == b.row).filter_map(|row| Row::new(garment, mesh, row)));
     let partners = partners(mesh);
+    let held = all.chunk_by(|a, b| a.row == b.row).filter_map(|row| Row::new(garment, mesh, &partners, row));
+    let mut rows: Vec<Row> = held.collect();
     let mut next = 0;
     while next < rows.len() {
         for end in 0..2 {
@@ -62,6 +62,9 @@ pub(super) fn laps(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet) -> Vec<La
     }
     rows.iter().filter_map(|row| row.lap(mesh, sheet)).collect()
 }
+
+/// For particles in seams those that they are sewn to.
+type Partners = HashMap<u32, Vec<u32>>;
 
 /// Two rims of which one lies over the other; what lies under comes first.
 struct Row {
@@ -80,13 +83,13 @@ struct Row {
 
 impl Row {
     /// Of a row of fastenings; none where its two rims are one point.
-    fn new(garment: &Garment, mesh: &ClothMesh, row: &[Fastening]) -> Option<Self> {
+    fn new(garment: &Garment, mesh: &ClothMesh, partners: &Partners, row: &[Fastening]) -> Option<Self> {
         let mut edges = row.first()?.ends.map(|end| end.edge);
         let mut spots = [0, 1].map(|side| row.iter().map(|f| f.ends[side].at).collect::<Vec<f64>>());
         let tacks: Vec<[(usize, Vec2); 2]> = row.iter().map(|f| garment.closures[f.tack[0]].tacks[f.tack[1]]).collect();
         if let [tack] = tacks[..] {
             for side in 0..2 {
-                if let Some((edge, at)) = end_of_strap(garment, mesh, tack[side]) {
+                if let Some((edge, at)) = end_of_strap(garment, mesh, partners, tack[side]) {
                     (edges[side], spots[side]) = (edge, vec![at]);
                 }
             }
@@ -106,18 +109,18 @@ impl Row {
         let mut ends: Vec<[Vec2; 2]> = tacks.iter().map(|tack| [tack[1].1, tack[0].1]).collect();
         if let [one] = ends[..] {
             // One point says where, the rims which way round.
-            let out = [0, 1].map(|side| outward(mesh, edges[side].piece, &rims[side], tacks[0][side].1));
-            ends.push([one[0] + out[1]? * mesh.spacing, one[1] - out[0]? * mesh.spacing]);
+            let out = [1, 0].map(|side| out_of(mesh, edges[side].piece, &rims[side]));
+            ends.push([one[0] + out[0]? * mesh.spacing, one[1] - out[1]? * mesh.spacing]);
         }
         let reach = row.iter().map(|f| f.reach).sum::<f64>() / row.len() as f64;
         let mut row = Self { edges, rims, to_end, to_under: fit(&ends), reach, is_held: true };
-        row.look_for_rims(mesh);
+        row.look_for_rims(mesh, partners);
         Some(row)
     }
 
     /// Of points all over a wide lap the nearest edges may be others than those that lie over and under: looks for them
     /// among all free edges of the two pieces.
-    fn look_for_rims(&mut self, mesh: &ClothMesh) {
+    fn look_for_rims(&mut self, mesh: &ClothMesh, partners: &Partners) {
         let Some(to_under) = self.to_under else { return };
         let [under, over] = self.pieces();
         let maps = [to_under.inverse(), to_under];
@@ -126,20 +129,19 @@ impl Row {
         if (0..2).all(|side| share(side, &self.rims[side]) >= OVER) {
             return;
         }
-        let partners = partners(mesh);
         let best = |side: usize| {
-            let free = mesh.pieces[self.edges[side].piece].edges.iter().filter(|e| is_free(&partners, &e.particles));
+            let free = mesh.pieces[self.edges[side].piece].edges.iter().filter(|e| is_free(partners, &e.particles));
             let found = free.map(|e| (share(side, &e.particles), e)).filter(|(share, _)| *share >= OVER);
             found.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, e)| (e.edge, e.particles.clone()))
         };
         let (Some((lower, mut low)), Some((upper, up))) = (best(0), best(1)) else { return };
-        let onto = |p: u32| (to_under * Point2::from(mesh.flat[p as usize])).coords;
-        let far = |a: usize, b: usize| (onto(up[a]) - mesh.flat[low[b] as usize]).norm();
+        let above = |p: u32| onto(&to_under, mesh.flat[p as usize]);
+        let far = |a: usize, b: usize| (above(up[a]) - mesh.flat[low[b] as usize]).norm();
         if far(0, 0) + far(up.len() - 1, low.len() - 1) > far(0, low.len() - 1) + far(up.len() - 1, 0) {
             low.reverse();
         }
         let middle = mesh.flat[low[low.len() / 2] as usize];
-        self.reach = up.iter().map(|p| (onto(*p) - middle).norm()).fold(f64::INFINITY, f64::min);
+        self.reach = up.iter().map(|p| (above(*p) - middle).norm()).fold(f64::INFINITY, f64::min);
         (self.edges, self.rims, self.to_end) = ([lower, upper], [low, up], [true; 2]);
     }
 
@@ -153,7 +155,7 @@ impl Row {
     }
 
     /// The two rims beyond the seams at one end of this row's.
-    fn beyond(&self, mesh: &ClothMesh, partners: &HashMap<u32, Vec<u32>>, end: usize) -> Option<Self> {
+    fn beyond(&self, mesh: &ClothMesh, partners: &Partners, end: usize) -> Option<Self> {
         if !self.to_end[end] {
             return None;
         }
@@ -180,7 +182,7 @@ impl Row {
         let mut ends: Vec<[Vec2; 2]> = near
             .filter_map(|p| {
                 let above = sewn_to(p as u32, over.piece)?;
-                let below = (to_under * Point2::from(mesh.flat[p])).coords;
+                let below = onto(&to_under, mesh.flat[p]);
                 let far = |q: &&(usize, u32)| (mesh.flat[q.0] - below).norm();
                 let nearest = sewn.iter().min_by(|a, b| far(a).total_cmp(&far(b)))?;
                 (far(&nearest) <= NEAR * mesh.spacing).then(|| [above, nearest.1].map(|q| mesh.flat[q as usize]))
@@ -224,21 +226,22 @@ impl Row {
     }
 }
 
-/// The direction out of a piece across one of its edges: across the line between its ends, unit.
+/// The direction out of a piece across one of its edges, unit: from the middle of the cloth near the middle of the edge
+/// to that. Slanted and rounded ends of a band point along the band so.
 fn out_of(mesh: &ClothMesh, piece: usize, edge: &[u32]) -> Option<Vec2> {
-    let middle = *edge.get(edge.len() / 2)?;
-    let chord = [*edge.first()?, middle, *edge.last()?];
-    outward(mesh, piece, &chord, mesh.flat[middle as usize])
+    let middle = mesh.flat[*edge.get(edge.len() / 2)? as usize];
+    let ways = mesh.pieces[piece].particles.clone().map(|p| middle - mesh.flat[p]);
+    ways.filter(|way| way.norm() < ALONG).sum::<Vec2>().try_normalize(0.0)
 }
 
 /// Whether no seam joins what lies between the ends of an edge.
-fn is_free(partners: &HashMap<u32, Vec<u32>>, edge: &[u32]) -> bool {
+fn is_free(partners: &Partners, edge: &[u32]) -> bool {
     let inner = edge.get(1..edge.len().saturating_sub(1)).unwrap_or_default();
     !inner.is_empty() && inner.iter().all(|p| !partners.contains_key(p))
 }
 
 /// The free edge that begins or ends at a particle, and its particles from there.
-fn free_edge_from(mesh: &ClothMesh, partners: &HashMap<u32, Vec<u32>>, corner: u32) -> Option<(EdgeId, Vec<u32>)> {
+fn free_edge_from(mesh: &ClothMesh, partners: &Partners, corner: u32) -> Option<(EdgeId, Vec<u32>)> {
     let edges = &mesh.pieces[mesh.piece_of(corner)?].edges;
     edges.iter().filter(|e| is_free(partners, &e.particles)).find_map(|e| {
         let mut particles = e.particles.clone();
@@ -251,9 +254,13 @@ fn free_edge_from(mesh: &ClothMesh, partners: &HashMap<u32, Vec<u32>>, corner: u
 
 /// The end of the strap or band that a single point fastens, and how far along it that is: it may be nearer to a side
 /// of the strap.
-fn end_of_strap(garment: &Garment, mesh: &ClothMesh, (piece, at): (usize, Vec2)) -> Option<(EdgeId, f64)> {
-    let sewn: HashSet<u32> = mesh.seams.iter().flat_map(|s| s.pairs.iter().flatten()).copied().collect();
-    let free = mesh.pieces[piece].edges.iter().filter(|e| e.particles.iter().any(|p| !sewn.contains(p)));
+fn end_of_strap(
+    garment: &Garment,
+    mesh: &ClothMesh,
+    partners: &Partners,
+    (piece, at): (usize, Vec2),
+) -> Option<(EdgeId, f64)> {
+    let free = mesh.pieces[piece].edges.iter().filter(|e| e.particles.iter().any(|p| !partners.contains_key(p)));
     let found: Vec<(f64, f64, EdgeId, f64)> = free
         .map(|e| {
             let path = &garment.pieces[piece].loops[e.edge.ring][e.edge.index].path;
