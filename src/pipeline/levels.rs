@@ -21,12 +21,9 @@ const LEAST: f64 = 1.5;
 /// A garment that stays open, or crossed, at the coarsest level is sewn so much coarser and carried over: other
 /// particles lie otherwise beside a seam that has jammed, and fewer of them fold less.
 const DETOUR: f64 = 1.35;
-/// Steps after which a start has failed, its seams still open, while there is another: at 25 mm the garments of
-/// `patterns` close within half as many from the start that the words of `place` give.
-const FIRST_TRY: usize = 80;
-/// Steps after which the start from the topology has failed: a shirt with a fold at its armhole takes twice as many as
-/// one without.
-const SECOND_TRY: usize = 2 * FIRST_TRY;
+/// Steps after which the start from the topology has failed, its seams still open: at 25 mm the garments of `patterns`
+/// close within half as many, a shirt with a fold at its armhole within so many.
+const FIRST_TRY: usize = 160;
 /// Share of a stage's progress that its coarser levels are.
 pub(super) const COARSE_SHARE: f64 = 0.3;
 
@@ -65,21 +62,13 @@ impl Job {
                 return Ok(Closed { sewn, gaps, coarse: Some(coarse), start });
             }
         }
-        let mut closed = self.sew_here(mesh, start.clone(), self.first_try(), progress)?;
-        if is_whole(mesh, &closed.sewn) {
+        let has_positions = self.has_positions();
+        if !has_positions && let Some(closed) = self.sew_from_topology(mesh, progress) {
             return Ok(closed);
         }
-        if !self.has_positions() {
-            if let Some(closed) = self.sew_from_topology(mesh, progress) {
-                return Ok(closed);
-            }
-            // What has closed in time would come out the same again.
-            if closed.sewn.open.is_some() {
-                closed = self.sew_here(mesh, start, SewOptions::default(), progress)?;
-                if is_whole(mesh, &closed.sewn) {
-                    return Ok(closed);
-                }
-            }
+        let closed = self.sew_here(mesh, start, SewOptions::default(), progress)?;
+        if is_whole(mesh, &closed.sewn) {
+            return Ok(closed);
         }
         Ok(self.detour(mesh, progress).unwrap_or(closed))
     }
@@ -89,17 +78,11 @@ impl Job {
         self.garment.pieces.iter().any(|piece| matches!(piece.place, Some(Place::At { .. })))
     }
 
-    /// How a garment is sewn from the start that its file gives: not for long where there is another.
-    fn first_try(&self) -> SewOptions {
-        let usual = SewOptions::default();
-        if self.has_positions() { usual } else { SewOptions { max_open: FIRST_TRY, ..usual } }
-    }
-
     /// `mesh` sewn from a start that its topology gives; none where there is none, or it does not come out whole.
     fn sew_from_topology(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Option<Closed> {
         let (body, collider) = sewn_on(self.stance.as_ref(), &self.body, &self.collider);
         let start = topological_start(&self.garment, mesh, body, collider)?;
-        let options = SewOptions { max_open: SECOND_TRY, joined: true, ..SewOptions::default() };
+        let options = SewOptions { max_open: FIRST_TRY, joined: true, ..SewOptions::default() };
         let closed = self.sew_here(mesh, start.clone(), options, progress).ok()?;
         is_whole(mesh, &closed.sewn).then_some(Closed { start: Some(start), ..closed })
     }

@@ -6,7 +6,7 @@ use nalgebra::{Isometry2, Point2, UnitComplex};
 use super::assign::Assigned;
 use super::fold::Sheet;
 use super::ring::LAYER;
-use super::rows::{Link, is_at};
+use super::rows::{Link, is_at, links};
 use crate::geometry::{Locator, TriMesh, Vec2, Vec3};
 use crate::mesh::ClothMesh;
 use crate::pattern::Garment;
@@ -34,7 +34,7 @@ struct Host {
 
 /// How a piece lies on others.
 #[derive(Clone, Debug)]
-pub(super) struct Laid {
+pub(in crate::sew) struct Laid {
     hosts: Vec<Host>,
     /// For every particle, in their order, which of the hosts it lies on, and where there.
     spots: Vec<(usize, Spot)>,
@@ -48,7 +48,7 @@ pub(super) fn laid(
     assigned: &[Assigned],
     links: &[Link],
 ) -> Vec<Option<Laid>> {
-    let table = Table { garment, mesh, sheet, assigned, links, inward: inward(mesh, sheet) };
+    let table = Table { garment, mesh, sheet, links, inward: inward(mesh, sheet) };
     let movable = |own: &usize| !is_at(&garment.pieces[*own].place) && garment.pieces[*own].layer != 0;
     let pieces: Vec<usize> = (0..mesh.pieces.len()).filter(movable).collect();
     let mut out: Vec<Option<Laid>> = vec![None; mesh.pieces.len()];
@@ -56,7 +56,8 @@ pub(super) fn laid(
         out[own] = table.on_what_it_is_sewn_to(own);
     }
     // A lining goes on from its facing, over the cloth that lies under both: all of it round one body part, or none.
-    for group in table.groups(pieces.into_iter().filter(|&own| out[own].is_none()).collect()) {
+    let rest = pieces.into_iter().filter(|&own| out[own].is_none()).collect();
+    for group in table.groups(rest, |piece| assigned[piece].part) {
         let found: Option<Vec<Laid>> = group.iter().map(|&own| table.beside_laid(own, &out)).collect();
         for (own, laid) in group.into_iter().zip(found.into_iter().flatten()) {
             out[own] = Some(laid);
@@ -65,20 +66,43 @@ pub(super) fn laid(
     out
 }
 
+/// For every piece how it lies on others, if it is one of `pieces`: on those that are not, and on one another.
+pub(in crate::sew) fn laid_on_rest(
+    garment: &Garment,
+    mesh: &ClothMesh,
+    sheet: &Sheet,
+    pieces: &[usize],
+) -> Vec<Option<Laid>> {
+    let links = links(mesh, sheet);
+    let table = Table { garment, mesh, sheet, links: &links, inward: inward(mesh, sheet) };
+    let mut out: Vec<Option<Laid>> = vec![None; mesh.pieces.len()];
+    let mut rest = pieces.to_vec();
+    loop {
+        let before = rest.len();
+        rest.retain(|&own| {
+            let lies = |other: &usize| !pieces.contains(other) || out[*other].is_some();
+            out[own] = table.on(own, lies).or_else(|| table.beside_laid(own, &out));
+            out[own].is_none()
+        });
+        if rest.len() == before {
+            return out;
+        }
+    }
+}
+
 /// Flat pieces on a table.
 struct Table<'a> {
     garment: &'a Garment,
     mesh: &'a ClothMesh,
     sheet: &'a Sheet,
-    assigned: &'a [Assigned],
     links: &'a [Link],
     inward: Vec<Vec2>,
 }
 
 impl Table<'_> {
     /// These pieces in groups that are sewn together within their layer, round one body part.
-    fn groups(&self, mut rest: Vec<usize>) -> Vec<Vec<usize>> {
-        let place = |piece: usize| (self.garment.pieces[piece].level(), self.assigned[piece].part);
+    fn groups<P: PartialEq>(&self, mut rest: Vec<usize>, part: impl Fn(usize) -> P) -> Vec<Vec<usize>> {
+        let place = |piece: usize| (self.garment.pieces[piece].level(), part(piece));
         let joined = |a: usize, b: usize| {
             place(a) == place(b) && self.links.iter().any(|l| l.pieces == [a, b] || l.pieces == [b, a])
         };
@@ -98,13 +122,19 @@ impl Table<'_> {
 
     /// On pieces nearer to the shell that its sides match and whose cloth goes the same way from there.
     fn on_what_it_is_sewn_to(&self, own: usize) -> Option<Laid> {
-        let layer = self.garment.pieces[own].layer;
-        let inner = |&other: &usize| self.garment.pieces[other].layer.unsigned_abs() < layer.unsigned_abs();
+        let layer = self.garment.pieces[own].layer.unsigned_abs();
+        self.on(own, |other| self.garment.pieces[*other].layer.unsigned_abs() < layer)
+    }
+
+    /// On pieces of which it may lie on, that its sides match and whose cloth goes the same way from there.
+    fn on(&self, own: usize, may: impl Fn(&usize) -> bool) -> Option<Laid> {
+        let layer = |piece: usize| self.garment.pieces[piece].layer;
         let lies_on = |piece: usize| {
             let to_host = self.matched(own, piece, Way::Same)?;
-            Some(Host { piece, layers: layer.saturating_sub(self.garment.pieces[piece].layer), to_host })
+            let layers = layer(own).saturating_sub(layer(piece));
+            Some(Host { piece, layers: if layers == 0 { 1 } else { layers }, to_host })
         };
-        self.spread(own, (0..self.mesh.pieces.len()).filter(inner).filter_map(lies_on).collect())
+        self.spread(own, (0..self.mesh.pieces.len()).filter(may).filter_map(lies_on).collect())
     }
 
     /// On what a piece of its own layer lies on, if its sides match that one's and its cloth goes on from there.
@@ -254,7 +284,7 @@ fn inward(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Vec2> {
 }
 
 /// Puts the pieces that lie on others on them, those first whose hosts have their place in `x` from the first.
-pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, laid: &[Option<Laid>], x: &mut [Vec3]) {
+pub(in crate::sew) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, laid: &[Option<Laid>], x: &mut [Vec3]) {
     let mut order: Vec<(usize, &Laid)> =
         laid.iter().enumerate().filter_map(|(own, laid)| Some((own, laid.as_ref()?))).collect();
     order.sort_by_key(|&(own, _)| (garment.pieces[own].layer.unsigned_abs(), own));

@@ -256,7 +256,7 @@ fn front_middle(assigned: &[Assigned], members: &[Member], boxes: &[[Vec2; 2]]) 
 }
 
 /// Seams cut into links between pairs of pieces.
-fn links(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Link> {
+pub(super) fn links(mesh: &ClothMesh, sheet: &Sheet) -> Vec<Link> {
     let joined = |pair: &[u32; 2]| pair.map(|p| mesh.piece_of(p));
     let mut out = Vec::new();
     for (seam, stitches) in mesh.seams.iter().enumerate() {

@@ -3,7 +3,7 @@
 //! A garment is inflated round these first; the cylinders then grow to the body's own size. A point in two of them
 //! (at a shoulder, in the crotch) is led out of one and then of the other.
 
-use crate::geometry::Vec3;
+use crate::geometry::{Vec3, pierces};
 use crate::mannequin::{BodyPart, Mannequin, PartKind, Section};
 
 /// Sections of an axis are at least this far apart, metres: enough for the bend of a spine or an elbow, and few enough
@@ -33,6 +33,8 @@ pub(super) struct Axis {
     disks: Vec<Disk>,
     /// Distance along the axis from its first disk, metres.
     along: Vec<f64>,
+    /// Places that have a name in lower case.
+    landmarks: Vec<(String, Vec3)>,
     low: Vec3,
     high: Vec3,
 }
@@ -71,7 +73,8 @@ impl Axis {
         let reach = disks.iter().map(|d| d.half[0].max(d.half[1])).fold(0.0, f64::max);
         let low = disks.iter().fold(Vec3::repeat(f64::INFINITY), |low, d| low.inf(&d.center)).add_scalar(-reach);
         let high = disks.iter().fold(Vec3::repeat(f64::NEG_INFINITY), |high, d| high.sup(&d.center)).add_scalar(reach);
-        (disks.len() > 1).then_some(Self { kind: part.kind, disks, along, low, high })
+        let landmarks = part.landmarks.iter().map(|(name, at)| (name.to_lowercase(), *at)).collect();
+        (disks.len() > 1).then_some(Self { kind: part.kind, disks, along, landmarks, low, high })
     }
 
     /// Its length, metres.
@@ -106,6 +109,13 @@ impl Axis {
         self.between(s).1.half[1]
     }
 
+    /// How far along it the place of a name is, metres: of that name, else with it in its own.
+    pub(super) fn landmark(&self, name: &str) -> Option<f64> {
+        let called = self.landmarks.iter().find(|l| l.0 == name);
+        let found = called.or_else(|| self.landmarks.iter().find(|l| l.0.contains(name)));
+        found.map(|l| self.nearest(l.1))
+    }
+
     /// How far along it the point nearest to `p` is, metres.
     pub(super) fn nearest(&self, p: Vec3) -> f64 {
         let (k, share) = self.nearest_segment(p);
@@ -125,6 +135,23 @@ impl Axis {
             }
         }
         (best.1, best.2)
+    }
+
+    /// The point of it that is nearest to a point, and how far that is off in the axis's mean thickness there.
+    fn middle(&self, p: Vec3) -> (Vec3, f64) {
+        let (k, share) = self.nearest_segment(p);
+        let [from, to] = [&self.disks[k], &self.disks[k + 1]];
+        let center = from.center + (to.center - from.center) * share;
+        let mean = |disk: &Disk| 0.5 * (disk.half[0] + disk.half[1]);
+        (center, (p - center).norm() / (mean(from) + (mean(to) - mean(from)) * share).max(THINNEST))
+    }
+
+    /// Whether it lies between two points, nearer to the first than they are apart.
+    fn lies_between(&self, from: Vec3, to: Vec3) -> bool {
+        let (k, share) = self.nearest_segment(from);
+        let center = self.disks[k].center + (self.disks[k + 1].center - self.disks[k].center) * share;
+        let off = from - center;
+        off.norm_squared() < (to - from).norm_squared() && off.dot(&(to - center)) < 0.0
     }
 
     /// Where a point that lies within the axis at `scale` of its thickness, plus `gap` metres, is led out to.
@@ -169,12 +196,37 @@ pub(super) struct Axes {
 impl Axes {
     /// Of a body's parts.
     pub(super) fn of(body: &Mannequin) -> Self {
-        Self { axes: body.parts.iter().filter_map(Axis::of).collect() }
+        Self::of_parts(&body.parts)
+    }
+
+    /// The same of these parts alone.
+    pub(super) fn of_parts(parts: &[BodyPart]) -> Self {
+        Self { axes: parts.iter().filter_map(Axis::of).collect() }
+    }
+
+    /// The point of the axis that a point is nearest to for that axis's thickness.
+    pub(super) fn middle(&self, p: Vec3) -> Option<Vec3> {
+        let near = self.axes.iter().map(|axis| axis.middle(p));
+        near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|near| near.0)
+    }
+
+    /// How often they pass through triangles: not at all where every part of the body leaves by its opening.
+    pub(super) fn passes(&self, x: &[Vec3], triangles: &[[u32; 3]]) -> usize {
+        let segments =
+            self.axes.iter().flat_map(|axis| axis.disks.windows(2).map(|pair| [pair[0].center, pair[1].center]));
+        let count =
+            |[from, to]: [Vec3; 2]| triangles.iter().filter(|t| pierces(from, to, t.map(|n| x[n as usize]))).count();
+        segments.map(count).sum()
     }
 
     /// The axis of a part, if the body has it.
     pub(super) fn part(&self, kind: PartKind) -> Option<&Axis> {
         self.axes.iter().find(|axis| axis.kind == kind)
+    }
+
+    /// Whether one of them lies between two points, nearer to the first than they are apart.
+    pub(super) fn lies_between(&self, from: Vec3, to: Vec3) -> bool {
+        (to - from).norm() > THINNEST && self.axes.iter().any(|axis| axis.lies_between(from, to))
     }
 
     /// Where a point is led to that lies within the axes at `scale` of their thickness, plus `gap` metres; the point

@@ -5,6 +5,7 @@
 //! Nodes further apart on the cloth than in space keep a distance from one another.
 
 use std::collections::HashMap;
+use std::f64::consts::PI;
 
 use super::axes::Axes;
 use super::crossed::crossings;
@@ -31,14 +32,38 @@ const SMALLEST: f64 = 0.02;
 const INFLATE: usize = 60;
 const GROW: usize = 80;
 const SETTLE: usize = 30;
-/// Nodes of different layers keep this distance, in the mean length of the edges, while they are inflated; where the
-/// surface passes through itself then, the next. A node that is so far from those of a triangle keeps off it by half of
-/// that. (With 0.6 the legs of trousers went through one another at the crotch.)
-const APART: [f64; 2] = [0.8, 1.0];
+/// For so many steps nodes may pass an axis: what the film has on the wrong side of one goes where its cloth is.
+const FREE: usize = 20;
+/// So few crossings of one edge are led out while the garment is sewn.
+const FEW: usize = 2;
+/// The ways in which a surface is inflated, one after another until it does not pass through itself.
+///
+/// With layers 0.6 apart the legs of trousers went through one another at the crotch. A dolman whose nodes may not pass an
+/// axis from the first step on is caught on its arms; a shirt whose nodes may do so for longer loses its arms.
+const WAYS: [Way; 4] = [
+    Way { apart: 0.8, free: FREE },
+    Way { apart: 1.0, free: FREE },
+    Way { apart: 0.8, free: 0 },
+    Way { apart: 1.0, free: 0 },
+];
 /// Nodes within so many edges of one another are no layers.
 const NEIGHBOURS: usize = 3;
 /// The body's surface is looked for within this, metres.
 const LOOK: f64 = 0.2;
+
+/// An axis of the body that passes through the cloth counts as so many crossings: it is not led out, it is beside its
+/// sleeve.
+const PASSED: usize = 1000;
+
+/// A way to inflate a surface.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    /// Nodes of different layers keep this distance, in the mean length of the edges. A node that is so far from those
+    /// of a triangle keeps off it by half of that.
+    apart: f64,
+    /// For so many steps nodes may pass an axis.
+    free: usize,
+}
 
 /// A pair of nodes and the distance they are to have, metres.
 #[derive(Clone, Copy, Debug)]
@@ -58,6 +83,22 @@ pub(super) struct Held {
     pub(super) middle: Vec3,
     /// A unit direction in which it may move freely.
     pub(super) along: Option<Vec3>,
+    /// Whether it is held only while its nodes, which go round that direction in order, do not go round the place.
+    pub(super) once_lost: bool,
+}
+
+impl Held {
+    /// Whether its nodes go round the place where their middle belongs.
+    fn goes_round(&self, p: &[Vec3]) -> bool {
+        let Some(along) = self.along else { return false };
+        let way = |n: u32| {
+            let way = p[n as usize] - self.middle;
+            way - along * way.dot(&along)
+        };
+        let turn = |a: Vec3, b: Vec3| along.dot(&a.cross(&b)).atan2(a.dot(&b));
+        let sides = (0..self.rim.len()).map(|k| turn(way(self.rim[k]), way(self.rim[(k + 1) % self.rim.len()])));
+        sides.sum::<f64>().abs() > PI
+    }
 }
 
 /// A surface that can be inflated.
@@ -71,6 +112,8 @@ pub(super) struct Balloon {
     pub(super) bending: Vec<Length>,
     /// What is held of it.
     pub(super) held: Vec<Held>,
+    /// The level of every node among garments that are worn over one another. Each is inflated by itself.
+    pub(super) level: Vec<i32>,
 }
 
 /// A balloon on its way.
@@ -91,32 +134,45 @@ impl Balloon {
     /// in which it passes through itself least.
     pub(super) fn inflate(&self, x: &[Vec3], axes: &Axes, body: &Collider) -> Vec<Vec3> {
         let mut best: Option<(usize, Vec<Vec3>)> = None;
-        for apart in APART {
-            let x = self.inflated(x.to_vec(), apart, axes, body);
-            let crossings = crossings(&x, &self.triangles);
+        for way in WAYS {
+            let x = self.inflated(x.to_vec(), way, axes, body);
+            let passed = axes.passes(&x, &self.triangles);
+            let crossings = PASSED * passed + self.crossings(&x);
             if best.as_ref().is_none_or(|(least, _)| crossings < *least) {
                 best = Some((crossings, x));
             }
-            if crossings == 0 {
+            if crossings <= FEW {
                 break;
             }
         }
         best.map(|(_, x)| x).unwrap_or_default()
     }
 
-    /// The same with layers so far apart.
-    fn inflated(&self, x: Vec<Vec3>, apart: f64, axes: &Axes, body: &Collider) -> Vec<Vec3> {
-        let mut motion = Motion::new(self, x, apart);
-        for _ in 0..INFLATE {
-            motion.step(1.0, |p| axes.outside(p, SMALLEST, GAP));
+    /// How often each level passes through itself.
+    fn crossings(&self, x: &[Vec3]) -> usize {
+        let mut levels = self.level.clone();
+        levels.sort_unstable();
+        levels.dedup();
+        let of_level = |level: i32| -> Vec<[u32; 3]> {
+            self.triangles.iter().filter(|t| self.level[t[0] as usize] == level).copied().collect()
+        };
+        levels.into_iter().map(|level| crossings(x, &of_level(level))).sum()
+    }
+
+    /// The same in one way.
+    fn inflated(&self, x: Vec<Vec3>, way: Way, axes: &Axes, body: &Collider) -> Vec<Vec3> {
+        let mut motion = Motion::new(self, x, way.apart);
+        for k in 0..INFLATE {
+            let held = |from, to| if k < way.free { to } else { this_side(axes, from, to) };
+            motion.step(1.0, |from, to| axes.outside(held(from, to), SMALLEST, GAP));
         }
         for k in 0..GROW {
             let share = (k + 1) as f64 / GROW as f64;
             let scale = SMALLEST + (1.0 - SMALLEST) * share;
-            motion.step(1.0 - share, |p| axes.outside(p, scale, GAP));
+            motion.step(1.0 - share, |from, to| axes.outside(this_side(axes, from, to), scale, GAP));
         }
         for _ in 0..SETTLE {
-            motion.step(0.0, |p| out_of(body, p));
+            motion.step(0.0, |_, p| out_of(body, p));
         }
         motion.x
     }
@@ -146,8 +202,9 @@ impl<'a> Motion<'a> {
         Self { balloon, velocity: vec![Vec3::zeros(); x.len()], x, area, near, apart: apart * mean }
     }
 
-    /// One step under a share of the pressure, with the openings held, clear of a body that leads points `outside` it.
-    fn step(&mut self, pressure: f64, outside: impl Fn(Vec3) -> Vec3) {
+    /// One step under a share of the pressure, with the openings held, clear of a body that leads points `outside` it:
+    /// those that come from the first and are drawn to the second.
+    fn step(&mut self, pressure: f64, outside: impl Fn(Vec3, Vec3) -> Vec3) {
         let push = self.pushed();
         let moved = self.x.iter().zip(&self.velocity).zip(&push);
         let mut p: Vec<Vec3> = moved.map(|((x, v), n)| x + v + n * (PUSH * pressure)).collect();
@@ -164,6 +221,9 @@ impl<'a> Motion<'a> {
             }
         }
         for held in &self.balloon.held {
+            if held.once_lost && held.goes_round(&p) {
+                continue;
+            }
             let middle = held.rim.iter().map(|n| p[*n as usize]).sum::<Vec3>() / held.rim.len() as f64;
             let way = held.middle - middle;
             let way = held.along.map_or(way, |along| way - along * way.dot(&along));
@@ -171,8 +231,7 @@ impl<'a> Motion<'a> {
             held.rim.iter().for_each(|n| p[*n as usize] += back);
         }
         for ((x, v), p) in self.x.iter_mut().zip(&mut self.velocity).zip(p) {
-            let way = outside(p) - *x;
-            let way = way * (LONGEST / way.norm().max(LONGEST));
+            let way = short(outside(*x, p) - *x);
             *v = way * KEEP;
             *x += way;
         }
@@ -203,7 +262,8 @@ impl<'a> Motion<'a> {
             let around =
                 (-1..=1).flat_map(|a| (-1..=1).flat_map(move |b| (-1..=1).map(move |c| [i + a, j + b, k + c])));
             for m in around.filter_map(|key| cells.get(&key)).flatten() {
-                let is_layer = *m > n as u32 && (p[*m as usize] - v).norm() < reach;
+                let is_level = self.balloon.level[n] == self.balloon.level[*m as usize];
+                let is_layer = *m > n as u32 && is_level && (p[*m as usize] - v).norm() < reach;
                 if is_layer && self.near[n].binary_search(m).is_err() {
                     out.push([n as u32, *m]);
                 }
@@ -211,6 +271,17 @@ impl<'a> Motion<'a> {
         }
         out
     }
+}
+
+/// Where a node that is drawn from one point to another goes: not to the other side of an axis, where it would be led
+/// out.
+fn this_side(axes: &Axes, from: Vec3, to: Vec3) -> Vec3 {
+    if axes.lies_between(from, to) { from + short(to - from) } else { to }
+}
+
+/// A way no longer than [`LONGEST`].
+fn short(way: Vec3) -> Vec3 {
+    way * (LONGEST / way.norm().max(LONGEST))
 }
 
 /// Moves both nodes so that their distance comes nearer to what it is to be; by all of the error for a `weight` of 2.

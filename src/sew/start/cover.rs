@@ -1,6 +1,7 @@
 //! What lies under a lap: the cloth that another piece's rim reaches over, and where on that it lies.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use nalgebra::{Isometry2, Point2};
 
@@ -152,16 +153,42 @@ fn under(line: &[Vec2], on: [bool; 2], p: Vec2, beside: f64) -> f64 {
 
 /// Which share of a rim, of the piece `own`, lies over the cloth of another piece, which goes on beyond it.
 pub(super) fn share_over(mesh: &ClothMesh, own: usize, rim: &[u32], other: usize, to_other: &Isometry2<f64>) -> f64 {
+    let over = lies_over(mesh, own, rim, other, to_other);
+    let inner = over.get(1..over.len().saturating_sub(1)).unwrap_or_default();
+    inner.iter().filter(|over| **over).count() as f64 / inner.len().max(1) as f64
+}
+
+/// The longest run of a rim's particles that lie over the cloth of another piece.
+pub(super) fn longest_over(
+    mesh: &ClothMesh,
+    own: usize,
+    rim: &[u32],
+    other: usize,
+    to_other: &Isometry2<f64>,
+) -> Range<usize> {
+    let over = lies_over(mesh, own, rim, other, to_other);
+    let (mut longest, mut from) = (0..0, 0);
+    for (k, is_over) in over.iter().enumerate() {
+        if !is_over {
+            from = k + 1;
+        } else if k + 1 - from > longest.len() {
+            longest = from..k + 1;
+        }
+    }
+    longest
+}
+
+/// Which particles of a rim, of the piece `own`, lie over the cloth of another piece, which goes on beyond them.
+fn lies_over(mesh: &ClothMesh, own: usize, rim: &[u32], other: usize, to_other: &Isometry2<f64>) -> Vec<bool> {
     let is_on = |at: Vec2| {
         let at = onto(to_other, at);
         mesh.nearest(other, at).is_some_and(|p| (mesh.flat[p] - at).norm() <= ON * mesh.spacing)
     };
-    let is_over = |p: &&u32| {
-        let at = mesh.flat[**p as usize];
+    let is_over = |p: &u32| {
+        let at = mesh.flat[*p as usize];
         outward(mesh, own, rim, at).is_some_and(|out| is_on(at) && is_on(at + out * mesh.spacing))
     };
-    let inner = rim.get(1..rim.len().saturating_sub(1)).unwrap_or_default();
-    inner.iter().filter(is_over).count() as f64 / inner.len().max(1) as f64
+    rim.iter().map(is_over).collect()
 }
 
 /// The direction out of a piece at the particle of its rim that is nearest to a point: across the rim, unit.

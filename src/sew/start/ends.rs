@@ -74,6 +74,11 @@ impl Ends {
         usize::from(self.0)
     }
 
+    /// Those that are not in it.
+    pub(super) fn others(self) -> Self {
+        Self(Self::ALL.0 & !self.0)
+    }
+
     /// Those of both.
     pub fn with(self, other: Self) -> Self {
         Self(self.0 | other.0)

@@ -6,7 +6,7 @@ use super::laps::{Lap, laps};
 use super::layers;
 use super::openings::rims;
 use crate::geometry::{DisjointSets, Locator, Vec2, sorted_pair};
-use crate::mesh::ClothMesh;
+use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::{Garment, PleatLayer, SeamKind};
 use crate::sew::place::fold::{Sheet, pressed};
 
@@ -15,6 +15,12 @@ const NONE: u32 = u32::MAX;
 
 /// Shares less than this far below zero are zero but for rounding.
 const ROUNDING: f64 = 1e-6;
+
+/// A fold that is nearer to its seam than this share of the spacing leaves a strip that folds over by itself.
+const STRIP: f64 = 0.5;
+
+/// Where a collar rolls it is so many layers off its stand, as what falls over that.
+const ROLL: f64 = 1.0;
 
 /// The pieces of the base sheet welded along their seams.
 #[derive(Clone, Debug)]
@@ -66,6 +72,8 @@ pub struct Follow {
 pub fn glue(garment: &Garment, mesh: &ClothMesh, zips: &[[u32; 2]]) -> Glued {
     let sheet = pressed(garment, mesh);
     let mut is_out = turned_over(garment, mesh, &sheet);
+    let strips = strips(mesh, &sheet);
+    strips.iter().for_each(|p| is_out[*p as usize] = true);
     let sewn: Vec<[u32; 2]> = stitches(garment, mesh).chain(zips.iter().copied()).collect();
     let left_out = layers::left_out(garment, mesh, &is_out, &mut welded(mesh, &is_out, &sewn));
     left_out.iter().for_each(|&piece| is_out[mesh.pieces[piece].particles.clone()].fill(true));
@@ -73,6 +81,8 @@ pub fn glue(garment: &Garment, mesh: &ClothMesh, zips: &[[u32; 2]]) -> Glued {
     cover(&mut is_out, &laps);
     let mut out = numbered(mesh, &is_out, &mut welded(mesh, &is_out, &pairs));
     (out.follows, out.beyond) = follows(mesh, &sheet);
+    let roll = |p: u32| Beyond { particle: p, at: sheet.drawn[p as usize], layers: ROLL };
+    out.beyond.extend(strips.into_iter().map(roll));
     (out.laps, out.left_out) = (laps, left_out);
     out
 }
@@ -155,6 +165,21 @@ fn turned_over(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet) -> Vec<bool> 
         }
     }
     turned
+}
+
+/// Particles between a seam and a pressed fold beside it, as of a collar that rolls just above its stand: too narrow a
+/// strip to stand up by itself.
+fn strips(mesh: &ClothMesh, sheet: &Sheet) -> Vec<u32> {
+    let mut is_sewn = vec![false; mesh.flat.len()];
+    mesh.seams.iter().flat_map(|seam| seam.pairs.iter().flatten()).for_each(|p| is_sewn[*p as usize] = true);
+    let of_piece = |piece: &PieceMesh| -> Vec<u32> {
+        let (sewn, free): (Vec<usize>, Vec<usize>) =
+            piece.particles.clone().filter(|p| !sheet.hidden[*p]).partition(|p| is_sewn[*p]);
+        let is_near = |p: &usize| sewn.iter().any(|q| (mesh.flat[*p] - mesh.flat[*q]).norm() < STRIP * mesh.spacing);
+        let is_folded = piece.particles.clone().any(|p| sheet.hidden[p]);
+        if is_folded && free.iter().all(is_near) { free.into_iter().map(|p| p as u32).collect() } else { Vec::new() }
+    };
+    mesh.pieces.iter().flat_map(of_piece).collect()
 }
 
 /// Numbers the nodes and the connected parts.

@@ -6,10 +6,22 @@ use crate::geometry::{Locator, TriMesh, Vec2, Vec3};
 use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::Garment;
 use crate::sew::Stitching;
+use crate::sew::place::fold::pressed;
+use crate::sew::place::lay;
 use crate::sew::place::ring::LAYER;
+
+/// Laps and collars start so far out of what they lie on, metres: chords of 25 mm lie 2 mm within the circle of a wrist,
+/// of either layer. Pleats and hems lie flatter.
+pub(super) const PLY: f64 = 8e-3;
 
 /// A seam's direction is read over so many stitches on either side.
 const ALONG: usize = 2;
+
+/// Shares less than this far below zero are zero but for rounding.
+const ROUNDING: f64 = 1e-6;
+
+/// What reaches over further seams than this lies on none.
+const SEAMS: usize = 3;
 
 /// Where every particle starts when the nodes of the glued surface are at `nodes`.
 pub(super) fn particles(garment: &Garment, mesh: &ClothMesh, glued: &Glued, nodes: &[Vec3]) -> Vec<Vec3> {
@@ -22,7 +34,9 @@ pub(super) fn particles(garment: &Garment, mesh: &ClothMesh, glued: &Glued, node
     lift(mesh, glued, &outward, &mut x);
     follow(hidden, &mut outward, &mut x);
     hang(garment, mesh, glued, &mut x);
-    let mut left: Vec<usize> = glued.left_out.clone();
+    lay_flat(garment, mesh, glued, &mut x);
+    let has_no_place = |piece: &&usize| mesh.pieces[**piece].particles.clone().any(|p| x[p].is_none());
+    let mut left: Vec<usize> = glued.left_out.iter().filter(has_no_place).copied().collect();
     left.sort_by_key(|piece| (garment.pieces[*piece].layer.unsigned_abs(), *piece));
     // A piece may be sewn to others that are left out only: these come first.
     while let Some(k) = left.iter().position(|piece| lay(garment, mesh, *piece, &mut x)) {
@@ -30,6 +44,17 @@ pub(super) fn particles(garment: &Garment, mesh: &ClothMesh, glued: &Glued, node
     }
     let middle = nodes.iter().sum::<Vec3>() / nodes.len().max(1) as f64;
     x.into_iter().map(|p| p.unwrap_or(middle)).collect()
+}
+
+/// Lays what is left out on the cloth that its flat sides match.
+fn lay_flat(garment: &Garment, mesh: &ClothMesh, glued: &Glued, x: &mut [Option<Vec3>]) {
+    let sheet = pressed(garment, mesh);
+    let laid = lay::laid_on_rest(garment, mesh, &sheet, &glued.left_out);
+    let mut placed: Vec<Vec3> = x.iter().map(|p| p.unwrap_or_default()).collect();
+    lay::lay(garment, mesh, &sheet, &laid, &mut placed);
+    for (piece, _) in laid.iter().enumerate().filter(|(_, laid)| laid.is_some()) {
+        mesh.pieces[piece].particles.clone().for_each(|p| x[p] = Some(placed[p]));
+    }
 }
 
 /// The direction out of the right side of the cloth at every particle of the surface.
@@ -70,6 +95,7 @@ fn at_all(x: &[Option<Vec3>], corners: [u32; 3]) -> Option<[Vec3; 3]> {
 struct Stitch {
     flat: Vec2,
     flat_along: Vec2,
+    flat_across: Vec2,
     host: usize,
     host_flat: Vec2,
     host_along: Vec2,
@@ -81,12 +107,40 @@ struct Stitch {
     layers: f64,
 }
 
+/// A stitch seen from one of its pieces.
+struct Joint {
+    pieces: [usize; 2],
+    at: u32,
+    to: u32,
+    /// Unit directions along the seam, flat.
+    along: [Vec2; 2],
+}
+
+/// All stitches, from either side.
+fn joints(mesh: &ClothMesh) -> Vec<Joint> {
+    let mut out = Vec::new();
+    for seam in &mesh.seams {
+        for (i, pair) in seam.pairs.iter().enumerate() {
+            let run = [i.saturating_sub(ALONG), (i + ALONG).min(seam.pairs.len() - 1)].map(|k| seam.pairs[k]);
+            let way = |k: usize| (mesh.flat[run[1][k] as usize] - mesh.flat[run[0][k] as usize]).try_normalize(0.0);
+            let pieces = pair.map(|p| mesh.piece_of(p));
+            if let ([Some(one), Some(other)], Some(a), Some(b)) = (pieces, way(0), way(1)) {
+                out.push(Joint { pieces: [one, other], at: pair[0], to: pair[1], along: [a, b] });
+                out.push(Joint { pieces: [other, one], at: pair[1], to: pair[0], along: [b, a] });
+            }
+        }
+    }
+    out
+}
+
 /// What pieces are laid on: the cloth that has a place already.
 struct Hosts<'a> {
     garment: &'a Garment,
     mesh: &'a ClothMesh,
     /// The triangles of every piece of which all corners have a place.
     grounds: Vec<Option<Locator<'a>>>,
+    classes: Classes,
+    joints: Vec<Joint>,
 }
 
 /// For every piece its triangles of which all corners have a place.
@@ -99,7 +153,13 @@ fn open(mesh: &ClothMesh, x: &[Option<Vec3>]) -> Vec<Vec<[u32; 3]>> {
 impl<'a> Hosts<'a> {
     fn new(garment: &'a Garment, mesh: &'a ClothMesh, open: &'a [Vec<[u32; 3]>]) -> Self {
         let ground = |open: &'a Vec<[u32; 3]>| (!open.is_empty()).then(|| Locator::new(&mesh.flat, open, mesh.spacing));
-        Self { garment, mesh, grounds: open.iter().map(ground).collect() }
+        Self {
+            garment,
+            mesh,
+            grounds: open.iter().map(ground).collect(),
+            classes: Classes::new(mesh),
+            joints: joints(mesh),
+        }
     }
 
     /// The place of what is so far along a seam from a stitch and across it into the host's cloth, metres, so many
@@ -107,62 +167,145 @@ impl<'a> Hosts<'a> {
     fn place(&self, near: &Stitch, [along, across]: [f64; 2], layers: f64, x: &[Option<Vec3>]) -> Vec3 {
         let straight_on = || near.place + near.along * along + near.across * across;
         let at = near.host_flat + near.host_along * along + near.host_across * across;
-        let spot = self.grounds[near.host].as_ref().map(|ground| ground.place(at));
+        let (host, at) = self.across_seams(near.host, at, x);
+        let spot = self.grounds[host].as_ref().map(|ground| ground.place(at));
         let on_host = spot.and_then(|(corners, weights)| {
             let [a, b, c] = at_all(x, corners)?;
             let normal = (c - a).cross(&(b - a)).try_normalize(0.0)?;
             Some((a * weights[0] + b * weights[1] + c * weights[2], normal))
         });
         let (at, outward) = on_host.unwrap_or_else(|| (straight_on(), near.outward));
-        at + outward * (layers * LAYER)
+        at + outward * (layers * PLY)
     }
 
-    /// The stitches of a piece with cloth that has a place.
-    fn stitches(&self, piece: usize, x: &[Option<Vec3>]) -> Vec<Stitch> {
-        let (garment, mesh) = (self.garment, self.mesh);
-        let own = |p: u32| mesh.pieces[piece].particles.contains(&(p as usize));
+    /// Where a flat place beyond the sewn rim of a piece lies on the cloth that goes on from there.
+    fn across_seams(&self, mut host: usize, mut at: Vec2, x: &[Option<Vec3>]) -> (usize, Vec2) {
+        let mesh = self.mesh;
+        for _ in 0..SEAMS {
+            let is_inside = |ground: &Locator| ground.place(at).1.iter().all(|weight| *weight >= -ROUNDING);
+            if self.grounds[host].as_ref().is_none_or(is_inside) {
+                break;
+            }
+            let far = |joint: &&Joint| (mesh.flat[joint.at as usize] - at).norm();
+            let own = self.joints.iter().filter(|joint| joint.pieces[0] == host && x[joint.to as usize].is_some());
+            let Some(joint) = own.min_by(|a, b| far(a).total_cmp(&far(b))) else { break };
+            let off = at - mesh.flat[joint.at as usize];
+            let [along, out] = [off.dot(&joint.along[0]), -off.dot(&into(mesh, host, joint.at, joint.along[0]))];
+            if out <= 0.0 || along.abs() > mesh.spacing {
+                break;
+            }
+            let inward = into(mesh, joint.pieces[1], joint.to, joint.along[1]);
+            (host, at) = (joint.pieces[1], mesh.flat[joint.to as usize] + joint.along[1] * along + inward * out);
+        }
+        (host, at)
+    }
+
+    /// The stitches of a piece with cloth that has a place: with what it is sewn to, or with the cloth on its own side
+    /// of the seam.
+    fn stitches(&self, piece: usize, on: On, x: &[Option<Vec3>]) -> Vec<Stitch> {
+        let own = |p: u32| self.mesh.pieces[piece].particles.contains(&(p as usize));
         let mut out = Vec::new();
-        for seam in &mesh.seams {
+        for seam in &self.mesh.seams {
             let side = |k: usize| seam.pairs.iter().all(|pair| own(pair[k]) && !own(pair[1 - k]));
             let Some(k) = (0..2).find(|&k| side(k)) else { continue };
-            for i in 0..seam.pairs.len() {
-                let (low, high) = (i.saturating_sub(ALONG), (i + ALONG).min(seam.pairs.len() - 1));
-                let [p, q] = [seam.pairs[i][k], seam.pairs[i][1 - k]];
-                let of_host = [seam.pairs[low], seam.pairs[high]].map(|pair| x[pair[1 - k] as usize]);
-                let ([Some(from), Some(to)], Some(place), Some(host)) = (of_host, x[q as usize], mesh.piece_of(q))
-                else {
-                    continue;
-                };
-                let flat = |side: usize| {
-                    let [a, b] = [low, high].map(|i| mesh.flat[seam.pairs[i][side] as usize]);
-                    (b - a).try_normalize(0.0)
-                };
-                let (Some(along), Some(flat_along), Some(host_along)) =
-                    ((to - from).try_normalize(0.0), flat(k), flat(1 - k))
-                else {
-                    continue;
-                };
-                let Some((across, outward)) = beside(mesh, host, q, along, x) else { continue };
-                let layers = garment.pieces[piece].layer.saturating_sub(garment.pieces[host].layer);
-                let layers = if layers == 0 { 1.0 } else { f64::from(layers) };
-                let [flat, host_flat] = [p, q].map(|p| mesh.flat[p as usize]);
-                let host_across = into(mesh, host, q, host_along);
-                out.push(Stitch {
-                    flat,
-                    flat_along,
-                    host,
-                    host_flat,
-                    host_along,
-                    host_across,
-                    place,
-                    along,
-                    across,
-                    outward,
-                    layers,
-                });
-            }
+            let pairs: Vec<[u32; 2]> = seam.pairs.iter().map(|pair| [pair[k], pair[1 - k]]).collect();
+            out.extend((0..pairs.len()).filter_map(|i| self.stitch(piece, &pairs, i, on, x)));
         }
         out
+    }
+
+    /// Stitch `i` of a seam, of which the first of every pair is the piece's own.
+    fn stitch(&self, piece: usize, pairs: &[[u32; 2]], i: usize, on: On, x: &[Option<Vec3>]) -> Option<Stitch> {
+        let (garment, mesh) = (self.garment, self.mesh);
+        let run = [i.saturating_sub(ALONG), (i + ALONG).min(pairs.len() - 1)];
+        let [p, q] = pairs[i];
+        let way = |[a, b]: [u32; 2]| (mesh.flat[b as usize] - mesh.flat[a as usize]).try_normalize(0.0);
+        let flat_along = way(run.map(|i| pairs[i][0]))?;
+        let flat_across = into(mesh, piece, p, flat_along);
+        let own_side = flat_along.perp(&flat_across);
+        let sewn_to = (mesh.piece_of(q)?, [run[0], i, run[1]].map(|i| pairs[i][1]));
+        let beyond = self.beyond(piece, own_side, pairs, [run[0], i, run[1]], x).filter(|_| on == On::OwnSide);
+        let (host, [low, q, high]) = beyond.unwrap_or(sewn_to);
+        let host_along = way([low, high])?;
+        let host_across = into(mesh, host, q, host_along);
+        // Without cloth on its own side it goes straight on from what it is sewn to.
+        let over = if on == On::OwnSide && host_along.perp(&host_across) * own_side < 0.0 { -1.0 } else { 1.0 };
+        let along = (x[high as usize]? - x[low as usize]?).try_normalize(0.0)?;
+        let (across, outward) = beside(mesh, host, q, along, x)?;
+        let layers = garment.pieces[piece].layer.saturating_sub(garment.pieces[host].layer);
+        Some(Stitch {
+            flat: mesh.flat[p as usize],
+            flat_along,
+            flat_across,
+            host,
+            host_flat: mesh.flat[q as usize],
+            host_along,
+            host_across: host_across * over,
+            place: x[q as usize]?,
+            along,
+            across: across * over,
+            outward,
+            layers: if layers == 0 { 1.0 } else { f64::from(layers) },
+        })
+    }
+
+    /// The cloth of another piece that has a place and goes from a seam to the same side as the piece's own, and its
+    /// particles in these three stitches.
+    fn beyond(
+        &self,
+        piece: usize,
+        own_side: f64,
+        pairs: &[[u32; 2]],
+        at: [usize; 3],
+        x: &[Option<Vec3>],
+    ) -> Option<(usize, [u32; 3])> {
+        let sewn = |i: usize| self.classes.of(pairs[i][1]).iter().filter(|p| x[**p as usize].is_some());
+        sewn(at[1]).find_map(|&q| {
+            let host = self.mesh.piece_of(q).filter(|host| *host != piece)?;
+            let particles = &self.mesh.pieces[host].particles;
+            let near = |i: usize| {
+                let of_host = sewn(i).filter(|p| particles.contains(&(**p as usize)));
+                of_host.copied().min_by(|a, b| self.apart(*a, q).total_cmp(&self.apart(*b, q)))
+            };
+            let (low, high) = (near(at[0])?, near(at[2])?);
+            let along = (self.mesh.flat[high as usize] - self.mesh.flat[low as usize]).try_normalize(0.0)?;
+            let side = along.perp(&into(self.mesh, host, q, along));
+            (side * own_side > 0.0).then_some((host, [low, q, high]))
+        })
+    }
+
+    /// How far two particles of a piece are apart in the drawing, metres.
+    fn apart(&self, a: u32, b: u32) -> f64 {
+        (self.mesh.flat[a as usize] - self.mesh.flat[b as usize]).norm()
+    }
+}
+
+/// What a piece is laid on along a seam.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum On {
+    /// What it is sewn to.
+    SewnTo,
+    /// The cloth on its own side of the seam; without any it goes straight on.
+    OwnSide,
+}
+
+/// The particles that are sewn together.
+struct Classes {
+    class: Vec<u32>,
+    members: Vec<Vec<u32>>,
+}
+
+impl Classes {
+    fn new(mesh: &ClothMesh) -> Self {
+        let Stitching { class, classes, .. } = Stitching::new(mesh);
+        let mut members = vec![Vec::new(); classes];
+        class.iter().enumerate().for_each(|(p, c)| members[*c as usize].push(p as u32));
+        Self { class, members }
+    }
+
+    /// Those that a particle is sewn to, itself among them.
+    fn of(&self, p: u32) -> &[u32] {
+        &self.members[self.class[p as usize] as usize]
     }
 }
 
@@ -176,20 +319,16 @@ fn nearest(stitches: &[Stitch], at: Vec2) -> Option<&Stitch> {
 fn lay(garment: &Garment, mesh: &ClothMesh, piece: usize, x: &mut [Option<Vec3>]) -> bool {
     let open = open(mesh, x);
     let hosts = Hosts::new(garment, mesh, &open);
-    let stitches = hosts.stitches(piece, x);
+    let stitches = hosts.stitches(piece, On::OwnSide, x);
     if stitches.is_empty() {
         return false;
     }
     let own = &mesh.pieces[piece];
-    let middle = own.particles.clone().map(|p| mesh.flat[p]).sum::<Vec2>() / own.particles.len() as f64;
     for p in own.particles.clone() {
         let flat = mesh.flat[p];
         let Some(near) = nearest(&stitches, flat) else { continue };
-        // Across the seam towards the piece's own cloth.
-        let across = Vec2::new(-near.flat_along.y, near.flat_along.x);
-        let across = across * across.dot(&(middle - near.flat)).signum();
         let off = flat - near.flat;
-        x[p] = Some(hosts.place(near, [off.dot(&near.flat_along), off.dot(&across)], near.layers, x));
+        x[p] = Some(hosts.place(near, [off.dot(&near.flat_along), off.dot(&near.flat_across)], near.layers, x));
     }
     true
 }
@@ -205,12 +344,11 @@ fn hang(garment: &Garment, mesh: &ClothMesh, glued: &Glued, x: &mut [Option<Vec3
         }
         let open = open(mesh, x);
         let hosts = Hosts::new(garment, mesh, &open);
-        let stitches = hosts.stitches(i, x);
+        let stitches = hosts.stitches(i, On::SewnTo, x);
         for beyond in own {
             let Some(near) = nearest(&stitches, beyond.at) else { continue };
             let off = beyond.at - near.flat;
-            let along = off.dot(&near.flat_along);
-            let across = (off - near.flat_along * along).norm();
+            let [along, across] = [off.dot(&near.flat_along), -off.dot(&near.flat_across)];
             x[beyond.particle as usize] = Some(hosts.place(near, [along, across], beyond.layers, x));
         }
     }
@@ -246,7 +384,7 @@ fn lift(mesh: &ClothMesh, glued: &Glued, outward: &[Vec3], x: &mut [Option<Vec3>
     for (p, x) in x.iter_mut().enumerate() {
         let plies = plies[class(p as u32)];
         if let Some(x) = x.as_mut().filter(|_| plies > 0.0) {
-            *x += outward[p] * (LAYER * plies);
+            *x += outward[p] * (PLY * plies);
         }
     }
 }

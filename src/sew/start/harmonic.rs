@@ -38,6 +38,8 @@ pub(super) struct Ring {
     pub(super) radius: f64,
     /// Of a ring round an arm or a leg: how far along the limb's axis it is, metres.
     pub(super) along: Option<f64>,
+    /// How far the ring lies before its plane at the angle 0 and opposite, and behind it in between, metres.
+    pub(super) saddle: f64,
 }
 
 impl Ring {
@@ -48,7 +50,10 @@ impl Ring {
 
     /// The nodes of the rim and their places, metres.
     fn places(&self) -> impl Iterator<Item = (usize, Vec3)> {
-        let place = |angle: &f64| self.center + self.way(*angle) * self.radius;
+        let axis = self.frame[0].cross(&self.frame[1]);
+        let place = move |angle: &f64| {
+            self.center + self.way(*angle) * self.radius + axis * (self.saddle * (2.0 * angle).cos())
+        };
         self.rim.iter().map(|n| *n as usize).zip(self.angles.iter().map(place))
     }
 }
@@ -239,6 +244,7 @@ mod tests {
             center: Vec3::new(0.0, y, 0.0),
             radius: 0.1,
             along: None,
+            saddle: 0.0,
         }
     }
 

@@ -1,14 +1,15 @@
 //! Where closures hold one rim over another.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use nalgebra::Isometry2;
 
-use super::cover::{Cover, Flap, onto, partners, share_over};
+use super::cover::{Cover, Flap, longest_over, onto, partners, share_over};
 use super::glue::Follow;
 use crate::geometry::Vec2;
-use crate::mesh::ClothMesh;
-use crate::pattern::{EdgeId, Fastening, Garment, fastenings};
+use crate::mesh::{ClothMesh, EdgeParticles};
+use crate::pattern::{EdgeId, Fastening, Garment, RimSpot, fastenings};
 use crate::sew::place::fold::Sheet;
 use crate::sew::place::lay::fit;
 
@@ -21,11 +22,21 @@ const BAND: f64 = 0.15;
 /// A single point fastens the end of a strap rather than its side where the end is no further than this many times.
 const AS_NEAR: f64 = 2.0;
 
+/// A strip so many times as long as wide is a band.
+const LONG: f64 = 5.0;
+
+/// A run of fewer particles of a rim lies over nothing.
+const SHORTEST: usize = 4;
+
 /// The map between the two sides of a lap is read from the cloth within this distance of its end, metres.
 const ALONG: f64 = 0.15;
 
 /// And only where its stitches on the one side lie within this share of the spacing over those on the other.
 const NEAR: f64 = 0.4;
+
+/// Closures hold one lap where one turn and shift brings all their points together within this, metres: two
+/// points that do not say quite the same.
+const ONE_LAP: f64 = 10e-3;
 
 /// A rim lies over other cloth where at least this share of it does.
 const OVER: f64 = 0.6;
@@ -50,8 +61,8 @@ pub(super) fn laps(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet) -> Vec<La
     let mut all = fastenings(garment);
     all.sort_by_key(|f| f.row);
     let partners = partners(mesh);
-    let held = all.chunk_by(|a, b| a.row == b.row).filter_map(|row| Row::new(garment, mesh, &partners, row));
-    let mut rows: Vec<Row> = held.collect();
+    let held = of_one_lap(garment, &all);
+    let mut rows: Vec<Row> = held.iter().filter_map(|row| Row::new(garment, mesh, &partners, row)).collect();
     let mut next = 0;
     while next < rows.len() {
         for end in 0..2 {
@@ -61,6 +72,57 @@ pub(super) fn laps(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet) -> Vec<La
         next += 1;
     }
     rows.iter().filter_map(|row| row.lap(mesh, sheet)).collect()
+}
+
+/// Where a closure joins two pieces; what lies under comes first.
+#[derive(Clone)]
+struct Joint {
+    /// The edges nearest to the two points, and how far along them they are, metres.
+    ends: [RimSpot; 2],
+    /// The two points, each with its piece.
+    points: [(usize, Vec2); 2],
+    /// How far the two edges overlap there, metres.
+    reach: f64,
+}
+
+impl Joint {
+    fn new(garment: &Garment, fastening: &Fastening) -> Self {
+        let points = garment.closures[fastening.tack[0]].tacks[fastening.tack[1]];
+        Self { ends: fastening.ends, points, reach: fastening.reach }
+    }
+
+    fn pieces(&self) -> [usize; 2] {
+        self.points.map(|end| end.0)
+    }
+
+    fn swapped(mut self) -> Self {
+        self.ends.reverse();
+        self.points.reverse();
+        self
+    }
+}
+
+/// What closures join, by the lap that it holds: rows of one closure, and those of others between the same two pieces
+/// that the same turn and shift brings together. The first closure says which piece lies over.
+fn of_one_lap(garment: &Garment, all: &[Fastening]) -> Vec<Vec<Joint>> {
+    let mut laps: Vec<Vec<Joint>> = Vec::new();
+    for row in all.chunk_by(|a, b| a.row == b.row) {
+        let mut row: Vec<Joint> = row.iter().map(|f| Joint::new(garment, f)).collect();
+        let [own, met] = row[0].pieces();
+        if own != met && laps.iter().any(|lap| lap[0].pieces() == [met, own]) {
+            row = row.into_iter().map(Joint::swapped).collect();
+        }
+        let goes_on = |lap: &&mut Vec<Joint>| {
+            let points: Vec<[Vec2; 2]> = lap.iter().chain(&row).map(|joint| joint.points.map(|end| end.1)).collect();
+            let meet = |map: &Isometry2<f64>| points.iter().all(|[a, b]| (onto(map, *a) - b).norm() <= ONE_LAP);
+            lap[0].pieces() == row[0].pieces() && fit(&points).is_some_and(|map| meet(&map))
+        };
+        match laps.iter_mut().find(goes_on) {
+            Some(lap) => lap.append(&mut row),
+            None => laps.push(row),
+        }
+    }
+    laps
 }
 
 /// For particles in seams those that they are sewn to.
@@ -83,10 +145,10 @@ struct Row {
 
 impl Row {
     /// Of a row of fastenings; none where its two rims are one point.
-    fn new(garment: &Garment, mesh: &ClothMesh, partners: &Partners, row: &[Fastening]) -> Option<Self> {
+    fn new(garment: &Garment, mesh: &ClothMesh, partners: &Partners, row: &[Joint]) -> Option<Self> {
         let mut edges = row.first()?.ends.map(|end| end.edge);
         let mut spots = [0, 1].map(|side| row.iter().map(|f| f.ends[side].at).collect::<Vec<f64>>());
-        let tacks: Vec<[(usize, Vec2); 2]> = row.iter().map(|f| garment.closures[f.tack[0]].tacks[f.tack[1]]).collect();
+        let tacks: Vec<[(usize, Vec2); 2]> = row.iter().map(|f| f.points).collect();
         if let [tack] = tacks[..] {
             for side in 0..2 {
                 if let Some((edge, at)) = end_of_strap(garment, mesh, partners, tack[side]) {
@@ -129,12 +191,24 @@ impl Row {
         if (0..2).all(|side| share(side, &self.rims[side]) >= OVER) {
             return;
         }
-        let best = |side: usize| {
-            let free = mesh.pieces[self.edges[side].piece].edges.iter().filter(|e| is_free(partners, &e.particles));
-            let found = free.map(|e| (share(side, &e.particles), e)).filter(|(share, _)| *share >= OVER);
-            found.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, e)| (e.edge, e.particles.clone()))
+        let free =
+            |side: usize| mesh.pieces[self.edges[side].piece].edges.iter().filter(|e| is_free(partners, &e.particles));
+        let whole = |side: usize| {
+            let found = free(side).map(|e| (share(side, &e.particles), e)).filter(|(share, _)| *share >= OVER);
+            found.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, e)| (e.edge, e.particles.clone(), [true; 2]))
         };
-        let (Some((lower, mut low)), Some((upper, up))) = (best(0), best(1)) else { return };
+        // Two rims may cross, as those of a wrapped front do.
+        let part = |side: usize| {
+            let own = self.edges[side].piece;
+            let run = |e: &EdgeParticles| {
+                let run = longest_over(mesh, own, &e.particles, others[side], &maps[side]);
+                (run.len() >= SHORTEST)
+                    .then(|| (e.edge, e.particles[run.clone()].to_vec(), ends_of(&run, e.particles.len())))
+            };
+            free(side).filter_map(run).max_by_key(|run| run.1.len())
+        };
+        let best = |side: usize| whole(side).or_else(|| part(side));
+        let (Some((lower, mut low, _)), Some((upper, up, to_end))) = (best(0), best(1)) else { return };
         let above = |p: u32| onto(&to_under, mesh.flat[p as usize]);
         let far = |a: usize, b: usize| (above(up[a]) - mesh.flat[low[b] as usize]).norm();
         if far(0, 0) + far(up.len() - 1, low.len() - 1) > far(0, low.len() - 1) + far(up.len() - 1, 0) {
@@ -142,7 +216,7 @@ impl Row {
         }
         let middle = mesh.flat[low[low.len() / 2] as usize];
         self.reach = up.iter().map(|p| (above(*p) - middle).norm()).fold(f64::INFINITY, f64::min);
-        (self.edges, self.rims, self.to_end) = ([lower, upper], [low, up], [true; 2]);
+        (self.edges, self.rims, self.to_end) = ([lower, upper], [low, up], to_end);
     }
 
     fn pieces(&self) -> [usize; 2] {
@@ -270,7 +344,16 @@ fn end_of_strap(
         .collect();
     let nearest = found.iter().map(|f| f.0).fold(f64::INFINITY, f64::min);
     let ends = found.iter().filter(|f| f.0 <= AS_NEAR * nearest && f.1 <= BAND);
-    ends.min_by(|a, b| a.1.total_cmp(&b.1)).map(|f| (f.2, f.3))
+    let at_end = ends.min_by(|a, b| a.1.total_cmp(&b.1));
+    // Both ends of what is knotted hang from the knot.
+    let longest = found.iter().map(|f| f.1).fold(0.0, f64::max);
+    let of_band = found.iter().filter(|f| f.1 <= BAND && f.1 * LONG <= longest);
+    at_end.or_else(|| of_band.min_by(|a, b| a.0.total_cmp(&b.0))).map(|f| (f.2, f.3))
+}
+
+/// Whether a run of an edge's particles ends at the edge's own ends.
+fn ends_of(run: &Range<usize>, count: usize) -> [bool; 2] {
+    [run.start == 0, run.end == count]
 }
 
 /// Particles of an edge with their distance from its start, metres.

@@ -27,6 +27,7 @@ mod laps;
 mod layers;
 mod marks;
 mod openings;
+mod outside;
 mod profile;
 mod rings;
 mod sections;
@@ -46,8 +47,8 @@ pub use openings::{Opening, openings};
 use crate::contact::Collider;
 use crate::geometry::Vec3;
 use crate::mannequin::Mannequin;
-use crate::mesh::{self, ClothMesh, Transfer};
-use crate::pattern::Garment;
+use crate::mesh::{self, ClothMesh, PieceMesh, Transfer};
+use crate::pattern::{Garment, PlaceWord};
 use axes::Axes;
 use balloon::{Balloon, Held, Length};
 use harmonic::{Film, Limb, Ring, angles};
@@ -67,17 +68,17 @@ pub fn start(garment: &Garment, to: &ClothMesh, body: &Mannequin, collider: &Col
     let dealt = Dealt::new(garment, &mesh, body)?;
     let axes = Axes::of(body);
     let edges = surface::edges(&dealt.glued, &mesh);
-    let worn = dealt.worn(&mesh);
+    let worn = dealt.worn(garment, &mesh);
     let (rings, limbs) = rings_and_limbs(&worn, &dealt.glued, &edges, &axes)?;
     let nodes = Film::new(dealt.glued.count, &edges, &rings)?.start(&rings, &limbs);
-    let of_ring = |ring: &Ring| Held { rim: ring.rim.clone(), middle: ring.center, along: None };
-    // Sleeves keep to their arms without; where they are cut in one with the body no section is theirs alone.
-    let legs = limbs.iter().filter(|limb| !limb.axis.kind.is_arm());
-    let sections = legs.flat_map(|limb| sections(&rings[limb.ring], limb));
+    let of_ring = |ring: &Ring| Held { rim: ring.rim.clone(), middle: ring.center, along: None, once_lost: false };
+    let sections = limbs.iter().flat_map(|limb| sections(&rings[limb.ring], limb));
     let held = rings.iter().map(of_ring).chain(sections).collect();
     let bending = surface::bending(&dealt.glued, &mesh);
-    let balloon = Balloon { triangles: dealt.glued.triangles.clone(), stretch: edges, bending, held };
-    let nodes = balloon.inflate(&nodes, &axes, collider);
+    let level = dealt.levels(garment, &mesh);
+    let balloon = Balloon { triangles: dealt.glued.triangles.clone(), stretch: edges, bending, held, level };
+    let mut nodes = balloon.inflate(&nodes, &axes, collider);
+    outside::put_outside(&mut nodes, &balloon.triangles, &balloon.level, &axes);
     let x = hand_over::particles(garment, &mesh, &dealt.glued, &nodes);
     Some(Transfer::new(&mesh, to).apply(&x))
 }
@@ -104,7 +105,7 @@ impl Dealt {
     }
 
     /// The openings of every connected part.
-    fn worn<'a>(&'a self, mesh: &'a ClothMesh) -> Vec<Worn<'a>> {
+    fn worn<'a>(&'a self, garment: &Garment, mesh: &'a ClothMesh) -> Vec<Worn<'a>> {
         let cloth = Distances::new(&self.glued, mesh);
         let parts = self.glued.part_of.iter().max().map_or(0, |last| last + 1);
         let of_part = |part: u32| {
@@ -114,6 +115,8 @@ impl Dealt {
                 |(&k, far): (&usize, &Vec<f64>)| Profile::new(&self.glued, &cloth, self.openings[k].length, far);
             Worn {
                 flat: &mesh.flat,
+                words: self.words(garment, mesh, part),
+                above: own.iter().map(|&k| self.above(mesh, &cloth, k)).collect(),
                 openings: own.iter().map(|&k| &self.openings[k]).collect(),
                 ends: own.iter().map(|&k| self.dealing.ends[k]).collect(),
                 front: own.iter().map(|&k| self.dealing.front[k]).collect(),
@@ -122,6 +125,54 @@ impl Dealt {
             }
         };
         (0..parts).map(of_part).collect()
+    }
+
+    /// The level of every node: the lowest of the pieces that its connected part is of.
+    fn levels(&self, garment: &Garment, mesh: &ClothMesh) -> Vec<i32> {
+        let parts = self.glued.part_of.iter().max().map_or(0, |last| *last as usize + 1);
+        let mut level = vec![i32::MAX; parts];
+        for (piece, own) in garment.pieces.iter().zip(&mesh.pieces) {
+            for n in own.particles.clone().filter_map(|p| self.glued.node_of[p]) {
+                let of_part = &mut level[self.glued.part_of[n as usize] as usize];
+                *of_part = (*of_part).min(piece.level());
+            }
+        }
+        self.glued.part_of.iter().map(|part| level[*part as usize]).collect()
+    }
+
+    /// For the opening of the head alone, the distance of every node of its rim from the seam below the pieces on it that
+    /// no other opening touches: a hood or a collar. `None` where there are none.
+    fn above(&self, mesh: &ClothMesh, cloth: &Distances, k: usize) -> Option<Vec<f64>> {
+        if self.dealing.ends[k] != Ends::HEAD {
+            return None;
+        }
+        let mut openings_of: Vec<Vec<usize>> = vec![Vec::new(); self.glued.count];
+        for (j, opening) in self.openings.iter().enumerate().filter(|(j, _)| !self.dealing.ends[*j].is_empty()) {
+            opening.rim.iter().for_each(|n| openings_of[*n as usize].push(j));
+        }
+        let nodes =
+            |piece: &PieceMesh| piece.particles.clone().filter_map(|p| self.glued.node_of[p]).collect::<Vec<u32>>();
+        let touches =
+            |nodes: &[u32], own: bool| nodes.iter().flat_map(|n| &openings_of[*n as usize]).any(|j| (*j == k) == own);
+        let (mut is_above, mut is_rest) = (vec![false; self.glued.count], vec![false; self.glued.count]);
+        for nodes in mesh.pieces.iter().map(nodes) {
+            let side = if touches(&nodes, true) && !touches(&nodes, false) { &mut is_above } else { &mut is_rest };
+            nodes.iter().for_each(|n| side[*n as usize] = true);
+        }
+        let seam: Vec<u32> =
+            (0..self.glued.count as u32).filter(|n| is_above[*n as usize] && is_rest[*n as usize]).collect();
+        if seam.is_empty() {
+            return None;
+        }
+        let far = cloth.from(&seam);
+        Some(self.openings[k].rim.iter().map(|n| far[*n as usize]).collect())
+    }
+
+    /// The words of `place` of the pieces of a connected part.
+    fn words(&self, garment: &Garment, mesh: &ClothMesh, part: u32) -> Vec<&'static str> {
+        let is_of = |p: usize| self.glued.node_of[p].is_some_and(|n| self.glued.part_of[n as usize] == part);
+        let pieces = mesh.pieces.iter().enumerate().filter(|(_, piece)| piece.particles.clone().any(is_of));
+        pieces.flat_map(|(piece, _)| marks::words(garment, piece)).map(PlaceWord::name).collect()
     }
 }
 

@@ -4,6 +4,7 @@ use super::axes::Axis;
 use super::cloth::Distances;
 use super::glue::Glued;
 use super::openings::parallels;
+use crate::mannequin::PartKind;
 
 /// The girth of the cloth is measured at distances so far apart, metres, so many times.
 const STEP: f64 = 0.02;
@@ -29,14 +30,15 @@ impl Profile {
     }
 }
 
-/// How far along the trunk, from the crotch upward and at most to the arms at `highest`, an opening lies whose garment
-/// hangs from it, metres.
-pub(super) fn best_height(profile: &Profile, torso: &Axis, highest: f64) -> f64 {
-    let trials = (0..=(highest / TRIAL) as usize).map(|k| k as f64 * TRIAL);
+/// How far along the trunk or a limb, between two places, an opening lies whose garment hangs from it, metres. The
+/// trunk is measured from the crotch upward, a limb from the trunk on.
+pub(super) fn best_height(profile: &Profile, axis: &Axis, [from, to]: [f64; 2]) -> f64 {
+    let trials = (0..=((to - from) / TRIAL).max(0.0) as usize).map(|k| from + k as f64 * TRIAL);
+    let down = if axis.kind == PartKind::Torso { -STEP } else { STEP };
     let cost = |s: f64| {
-        let below = profile.girths.iter().enumerate().map(|(k, girth)| ((s - k as f64 * STEP).max(0.0), k, *girth));
+        let below = profile.girths.iter().enumerate().map(|(k, girth)| ((s + k as f64 * down).max(0.0), k, *girth));
         let part = |(at, k, girth): (f64, usize, f64)| {
-            let excess = (girth / torso.girth(at)).ln();
+            let excess = (girth / axis.girth(at)).ln();
             match excess {
                 e if e < 0.0 => TIGHT * e * e,
                 e if k == 0 => HELD * e * e,
@@ -46,5 +48,5 @@ pub(super) fn best_height(profile: &Profile, torso: &Axis, highest: f64) -> f64 
         let costs: Vec<f64> = below.filter(|(_, _, girth)| *girth > 0.0).map(part).collect();
         costs.iter().sum::<f64>() / costs.len().max(1) as f64
     };
-    trials.min_by(|a, b| cost(*a).total_cmp(&cost(*b))).unwrap_or(0.0)
+    trials.min_by(|a, b| cost(*a).total_cmp(&cost(*b))).unwrap_or(from)
 }

@@ -23,6 +23,18 @@ const TO_FRONT: f64 = 1.0;
 /// Cloth that widens from one ring to the next hangs down by at least this share of its length.
 const STEEPEST: f64 = 0.3;
 
+/// A leg's ring reaches so much of the way to the middle between the legs.
+const BESIDE: f64 = 0.9;
+/// Cloth over a seam round the neck whose rim is so much nearer to it at one place than at another, metres, is a hood.
+const HOOD: f64 = 0.15;
+/// A hood's opening looks forward, and up by this share of that.
+const UP: f64 = 0.3;
+/// Share of a rim that lies nearer than its shoulders.
+const NEARLY_ALL: f64 = 0.9;
+/// The opening that both arms pass through, of a halter, lies in front of the shoulders and behind the neck and the
+/// back by this, metres.
+const SADDLE: f64 = 0.1;
+
 /// The openings of one connected garment, and what is known of them.
 pub(super) struct Worn<'a> {
     /// Flat positions of all particles, metres.
@@ -35,6 +47,11 @@ pub(super) struct Worn<'a> {
     pub(super) far: Vec<Vec<f64>>,
     /// For each opening the node of its rim at the middle of the front, where that is known.
     pub(super) front: Vec<Option<u32>>,
+    /// For the opening of a hood or a collar how far every node of its rim is from the seam that joins that to the rest,
+    /// metres.
+    pub(super) above: Vec<Option<Vec<f64>>>,
+    /// The words that say where its pieces go.
+    pub(super) words: Vec<&'static str>,
     /// For each opening the girth of the cloth at distances from it.
     pub(super) profiles: Vec<Profile>,
 }
@@ -68,7 +85,8 @@ impl Worn<'_> {
 
     /// The opening that the garment hangs from: the one that the head passes through, and not the legs.
     fn top(&self) -> Option<usize> {
-        let is_top = |ends: &Ends| ends.has(Ends::HEAD) && !ends.touches(Ends::LEGS);
+        let is_top =
+            |ends: &Ends| ends.has(Ends::HEAD) && !ends.touches(Ends::LEGS) && limb_of(ends.others()).is_none();
         self.ends.iter().position(is_top)
     }
 
@@ -88,12 +106,25 @@ impl Worn<'_> {
     fn seat(&self, k: usize, axes: &Axes, torso: &Axis, top: Option<(usize, Seat)>) -> Seat {
         let ends = self.ends[k];
         if let Some(axis) = limb_of(ends).and_then(|kind| axes.part(kind)) {
-            let s = self.along_limb(k, axis, torso, top).clamp(FIRST, axis.length() + BEYOND);
+            let s = match self.find(ends.others()) {
+                Some(inner) => self.on_limb(inner, axis) + self.median(k, inner),
+                None => self.along_limb(k, axis, torso, top),
+            };
+            let s = s.clamp(FIRST, axis.length() + BEYOND);
             return Seat { station: axis.station(s), along: Some(s) };
+        }
+        if let Some(axis) = limb_of(ends.others()).and_then(|kind| axes.part(kind)) {
+            let Station { center, axis } = axis.station(self.on_limb(k, axis));
+            return Seat { station: Station { center, axis: -axis }, along: None };
         }
         let neck = torso.station(torso.length());
         if ends.touches(Ends::LEGS) {
             return Seat { station: self.below(k, torso, top), along: None };
+        }
+        if ends == Ends::ARMS {
+            let joints = [PartKind::LeftArm, PartKind::RightArm].map(|arm| axes.part(arm).map(|arm| arm.station(0.0)));
+            let middle = joints.iter().flatten().map(|joint| joint.center).sum::<Vec3>() / 2.0;
+            return Seat { station: Station { center: middle, axis: -Vec3::z() }, along: None };
         }
         if ends.has(Ends::TOP) {
             if let Some(y) = self.above_crotch(k, axes, torso) {
@@ -101,11 +132,14 @@ impl Worn<'_> {
                 return Seat { station: Station { axis: Vec3::y(), ..torso.station(s) }, along: None };
             }
             let arms = axes.part(PartKind::LeftArm).map(|arm| torso.nearest(arm.station(0.0).center));
-            let s = best_height(&self.profiles[k], torso, arms.unwrap_or_else(|| torso.length()));
+            let s = best_height(&self.profiles[k], torso, [0.0, arms.unwrap_or_else(|| torso.length())]);
             return Seat { station: Station { axis: Vec3::y(), ..torso.station(s) }, along: None };
         }
-        // Round the neck, a shoulder with it, or both arms without the head.
-        let mut center = neck.center + Vec3::y() * ABOVE_NECK;
+        if let Some(station) = self.over_neck(k, neck) {
+            return Seat { station, along: None };
+        }
+        // Round the neck, and a shoulder with it.
+        let mut center = neck.center + Vec3::y() * (ABOVE_NECK - self.below_shoulders(k, axes, neck.center));
         let mut axis = Vec3::y();
         for arm in [Ends::LEFT_ARM, Ends::RIGHT_ARM].into_iter().filter(|arm| ends.has(*arm)) {
             if let Some(arm) = limb_of(arm).and_then(|kind| axes.part(kind)) {
@@ -115,6 +149,24 @@ impl Worn<'_> {
             }
         }
         Seat { station: Station { center, axis: axis.normalize() }, along: None }
+    }
+
+    /// The opening of a hood or a collar, over the seam that joins that to the rest: as high above the neck's base as on
+    /// the cloth. A hood's looks forward.
+    fn over_neck(&self, k: usize, neck: Station) -> Option<Station> {
+        let above = self.above[k].as_ref()?;
+        let mean = above.iter().sum::<f64>() / above.len() as f64;
+        let axis = if self.is_hood(k) { Vec3::new(0.0, UP, 1.0).normalize() } else { Vec3::y() };
+        Some(Station { center: neck.center + Vec3::y() * mean.max(ABOVE_NECK), axis })
+    }
+
+    /// Whether an opening is a hood's.
+    fn is_hood(&self, k: usize) -> bool {
+        let span = |above: &Vec<f64>| {
+            let highest = above.iter().copied().fold(0.0, f64::max);
+            highest - above.iter().copied().fold(f64::INFINITY, f64::min)
+        };
+        self.above[k].as_ref().is_some_and(|above| span(above) > HOOD)
     }
 
     /// The height of a waist's opening whose cloth has a crotch: as far above the body's as on the cloth, but for the
@@ -130,6 +182,16 @@ impl Worn<'_> {
         Some(crotch + rise.clamp(0.0, highest))
     }
 
+    /// How far along a limb the opening of a tube round it lies that is nearer to the trunk, metres: where the tube
+    /// fits, over the place that a word names.
+    fn on_limb(&self, k: usize, axis: &Axis) -> f64 {
+        let length = self.find(self.ends[k].others()).map_or(0.0, |outer| self.median(outer, k));
+        let lowest = (axis.length() - length).max(FIRST);
+        let named = self.words.iter().find_map(|word| axis.landmark(word));
+        let range = named.map_or([FIRST, lowest], |at| [at - length, at].map(|s| s.clamp(FIRST, lowest)));
+        best_height(&self.profiles[k], axis, range)
+    }
+
     /// How far along a limb an opening lies, metres.
     fn along_limb(&self, k: usize, axis: &Axis, torso: &Axis, top: Option<(usize, Seat)>) -> f64 {
         let Some((top, seat)) = top else { return 0.5 * axis.length() };
@@ -142,6 +204,32 @@ impl Worn<'_> {
             return nearest - ((from - neck).norm() - radius.min(0.5 * (from - neck).norm())).max(0.0);
         }
         self.median(k, top) - (seat.station.center.y - from.y)
+    }
+
+    /// How far an opening lies on the cloth from the rim of another one, metres: from its middle, and from its
+    /// shoulders, which are furthest.
+    fn from_rim(&self, k: usize, other: usize) -> [f64; 2] {
+        let mut far: Vec<f64> = self.openings[other].rim.iter().map(|n| self.far[k][*n as usize]).collect();
+        far.sort_unstable_by(f64::total_cmp);
+        let mean = far.iter().sum::<f64>() / far.len().max(1) as f64;
+        [mean, far.get((far.len() as f64 * NEARLY_ALL) as usize).copied().unwrap_or(mean)]
+    }
+
+    /// How far the middle of a neck's opening lies below its shoulders, metres: as much nearer it is to the hem, and no
+    /// further than it lies out on the shoulders, as that of a dress on straps.
+    fn below_shoulders(&self, k: usize, axes: &Axes, neck: Vec3) -> f64 {
+        let arm = [(Ends::LEFT_ARM, PartKind::LeftArm), (Ends::RIGHT_ARM, PartKind::RightArm)];
+        let out = arm.into_iter().filter_map(|(ends, kind)| {
+            let far = &self.far[self.find(ends)?];
+            let strap = self.openings[k].rim.iter().map(|n| far[*n as usize]).fold(f64::INFINITY, f64::min);
+            Some((axes.part(kind)?.station(0.0).center - neck).norm() - strap)
+        });
+        let out = out.fold(f64::INFINITY, f64::min);
+        let hem = self.ends.iter().position(|ends| ends.touches(Ends::LEGS)).filter(|_| out.is_finite());
+        hem.map_or(0.0, |hem| {
+            let [mean, shoulders] = self.from_rim(hem, k);
+            (shoulders - mean).min(out).max(0.0)
+        })
     }
 
     /// The median distance of an opening's rim from another one on the cloth, metres.
@@ -167,7 +255,10 @@ impl Worn<'_> {
     /// The ring of opening `k` in its seat, its nodes as far apart as on the rim.
     fn ring(&self, k: usize, Seat { station: Station { center, axis }, along }: Seat) -> Ring {
         let opening = self.openings[k];
-        let radius = opening.length / TAU;
+        // The rings of two wide legs stay beside one another.
+        let most =
+            if self.ends[k].touches(Ends::LEGS) && along.is_some() { BESIDE * center.x.abs() } else { f64::INFINITY };
+        let radius = (opening.length / TAU).min(most);
         let ahead = if axis.z.abs() < 0.9 { Vec3::z() } else { Vec3::y() };
         let front = (ahead - axis * ahead.dot(&axis)).normalize();
         let side = axis.cross(&front);
@@ -181,7 +272,8 @@ impl Worn<'_> {
             turn.towards.dot(&side).atan2(turn.towards.dot(&front)) - sums.0.atan2(sums.1)
         });
         let angles = phases.iter().map(|phase| phase + turn).collect();
-        Ring { rim: opening.rim.clone(), angles, frame: [front, side], center, radius, along }
+        let saddle = if self.ends[k] == Ends::ARMS { SADDLE } else { 0.0 };
+        Ring { rim: opening.rim.clone(), angles, frame: [front, side], center, radius, along, saddle }
     }
 
     /// How far round an opening each node of its rim is, radians, as on the rim.
@@ -208,6 +300,11 @@ impl Worn<'_> {
                 let inward = if ends == Ends::LEFT_LEG { -Vec3::x() } else { Vec3::x() };
                 Some(Turn { towards: inward, values: self.of_rim(k, |n| -other[n]) })
             }
+            None if ends == Ends::ARMS => {
+                let neck = &self.far[self.find(Ends::HEAD)?];
+                Some(Turn { towards: Vec3::y(), values: self.of_rim(k, |n| -neck[n]) })
+            }
+            None if self.is_hood(k) => Some(Turn { towards: Vec3::y(), values: self.above[k].clone()? }),
             None => self.turn_of_trunk(k),
         }
     }
