@@ -6,7 +6,6 @@ use crate::drape::{DrapeOptions, Until, drape};
 use crate::dynamics::Cut;
 use crate::geometry::Vec3;
 use crate::mesh::{self, ClothMesh, Transfer};
-use crate::pattern::Place;
 use crate::sew::place::{PlaceError, place};
 use crate::sew::start::start as topological_start;
 use crate::sew::{SewError, SewOptions, Sewn, Stitching, join, sew, sewn_on, stitch};
@@ -69,7 +68,8 @@ impl Job {
         if is_whole(mesh, &closed.sewn) {
             return Ok(closed);
         }
-        if !self.has_positions() {
+        // There is no other start than a position that is given.
+        if !self.garment.has_positions() {
             if let Some(closed) = self.sew_from_topology(mesh, progress) {
                 return Ok(closed);
             }
@@ -84,15 +84,10 @@ impl Job {
         Ok(self.detour(mesh, progress).unwrap_or(closed))
     }
 
-    /// Whether the file says at which position a piece starts: there is no other start then.
-    fn has_positions(&self) -> bool {
-        self.garment.pieces.iter().any(|piece| matches!(piece.place, Some(Place::At { .. })))
-    }
-
     /// How a garment is sewn from the start that its file gives: not for long where there is another.
     fn first_try(&self) -> SewOptions {
         let usual = SewOptions::default();
-        if self.has_positions() { usual } else { SewOptions { max_open: FIRST_TRY, ..usual } }
+        if self.garment.has_positions() { usual } else { SewOptions { max_open: FIRST_TRY, ..usual } }
     }
 
     /// `mesh` sewn from a start that its topology gives; none where there is none, or it does not come out whole.

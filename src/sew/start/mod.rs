@@ -31,8 +31,10 @@ mod profile;
 mod rings;
 mod sections;
 mod sides;
+mod sketch;
 mod surface;
 mod winding;
+mod words;
 mod zip;
 
 pub use cloth::Distances;
@@ -42,6 +44,8 @@ pub use ends::{End, Ends};
 pub use glue::{Follow, Glued, glue};
 pub use laps::Lap;
 pub use openings::{Opening, openings};
+pub use sketch::{Sketch, SketchedOpening, sketch};
+pub use words::Settling;
 
 use crate::contact::Collider;
 use crate::geometry::Vec3;
@@ -57,29 +61,40 @@ use sections::sections;
 
 /// Garments start on a mesh of this spacing, metres, whatever is asked for: it costs a second or two, and a finer one
 /// starts no better.
-const SPACING: f64 = 0.025;
+pub const SPACING: f64 = 0.025;
 
 /// Where every particle of `to` starts on a body: glued along its seams, round the parts that its openings are for.
 /// `collider` is the body's surface. `None` where it is not clear which part passes through which opening, or a part of
 /// the garment has no opening that anything passes through.
 pub fn start(garment: &Garment, to: &ClothMesh, body: &Mannequin, collider: &Collider) -> Option<Vec<Vec3>> {
     let mesh = mesh::build(garment, SPACING).ok()?;
-    let dealt = Dealt::new(garment, &mesh, body)?;
+    let stages = Dealt::stages(garment, &mesh, body);
+    if stages.iter().any(|stage| stage.doubt.is_some()) {
+        return None;
+    }
+    let dealt = stages.last()?;
     let axes = Axes::of(body);
-    let edges = surface::edges(&dealt.glued, &mesh);
-    let worn = dealt.worn(&mesh);
-    let (rings, limbs) = rings_and_limbs(&worn, &dealt.glued, &edges, &axes)?;
-    let nodes = Film::new(dealt.glued.count, &edges, &rings)?.start(&rings, &limbs);
-    let of_ring = |ring: &Ring| Held { rim: ring.rim.clone(), middle: ring.center, along: None };
-    // Sleeves keep to their arms without; where they are cut in one with the body no section is theirs alone.
-    let legs = limbs.iter().filter(|limb| !limb.axis.kind.is_arm());
-    let sections = legs.flat_map(|limb| sections(&rings[limb.ring], limb));
-    let held = rings.iter().map(of_ring).chain(sections).collect();
-    let bending = surface::bending(&dealt.glued, &mesh);
-    let balloon = Balloon { triangles: dealt.glued.triangles.clone(), stretch: edges, bending, held };
-    let nodes = balloon.inflate(&nodes, &axes, collider);
+    let nodes = dealt.on_film(&mesh, &axes, |film| {
+        let of_ring = |ring: &Ring| Held { rim: ring.rim.clone(), middle: ring.center, along: None };
+        // Sleeves keep to their arms without; where they are cut in one with the body no section is theirs alone.
+        let legs = film.limbs.iter().filter(|limb| !limb.axis.kind.is_arm());
+        let sections = legs.flat_map(|limb| sections(&film.rings[limb.ring], limb));
+        let held = film.rings.iter().map(of_ring).chain(sections).collect();
+        let bending = surface::bending(&dealt.glued, &mesh);
+        let stretch = film.edges.to_vec();
+        let balloon = Balloon { triangles: dealt.glued.triangles.clone(), stretch, bending, held };
+        balloon.inflate(&film.nodes, &axes, collider)
+    })?;
     let x = hand_over::particles(garment, &mesh, &dealt.glued, &nodes);
     Some(Transfer::new(&mesh, to).apply(&x))
+}
+
+/// A glued garment on the film between its openings.
+struct OnFilm<'a> {
+    edges: &'a [Length],
+    rings: &'a [Ring],
+    limbs: &'a [Limb<'a>],
+    nodes: Vec<Vec3>,
 }
 
 /// A glued garment with the ends of the body dealt out to its openings.
@@ -87,20 +102,35 @@ struct Dealt {
     glued: Glued,
     openings: Vec<Opening>,
     dealing: Dealing,
+    /// The other dealing that fits about as well, if there is one.
+    doubt: Option<DealError>,
 }
 
 impl Dealt {
-    /// Glues a garment, closes its open fronts, and deals. `None` where the dealing is not clear.
-    fn new(garment: &Garment, mesh: &ClothMesh, body: &Mannequin) -> Option<Self> {
-        let first = Self::with(garment, mesh, body, &[])?;
-        if first.dealing.zips.is_empty() { Some(first) } else { Self::with(garment, mesh, body, &first.dealing.zips) }
+    /// Glues a garment and deals; where it has open fronts once more with these closed. The last is as it is put on.
+    fn stages(garment: &Garment, mesh: &ClothMesh, body: &Mannequin) -> Vec<Self> {
+        let first = Self::with(garment, mesh, body, &[]);
+        let zips = first.dealing.zips.clone();
+        let closed = (!zips.is_empty()).then(|| Self::with(garment, mesh, body, &zips));
+        std::iter::once(first).chain(closed).collect()
     }
 
-    fn with(garment: &Garment, mesh: &ClothMesh, body: &Mannequin, zips: &[[u32; 2]]) -> Option<Self> {
+    fn with(garment: &Garment, mesh: &ClothMesh, body: &Mannequin, zips: &[[u32; 2]]) -> Self {
         let glued = glue(garment, mesh, zips);
         let openings = openings(&glued, mesh);
-        let dealing = deal(garment, mesh, &glued, &openings, body).ok()?;
-        Some(Self { glued, openings, dealing })
+        let dealing = guess(garment, mesh, &glued, &openings, body);
+        let doubt = dealing.doubt(garment, mesh, &glued, &openings);
+        Self { glued, openings, dealing, doubt }
+    }
+
+    /// What `then` makes of the garment on its film. `None` where a part of it has no opening that anything passes
+    /// through.
+    fn on_film<T>(&self, mesh: &ClothMesh, axes: &Axes, then: impl FnOnce(OnFilm) -> T) -> Option<T> {
+        let edges = surface::edges(&self.glued, mesh);
+        let worn = self.worn(mesh);
+        let (rings, limbs) = rings_and_limbs(&worn, &self.glued, &edges, axes)?;
+        let nodes = Film::new(self.glued.count, &edges, &rings)?.start(&rings, &limbs);
+        Some(then(OnFilm { edges: &edges, rings: &rings, limbs: &limbs, nodes }))
     }
 
     /// The openings of every connected part.
