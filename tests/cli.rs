@@ -518,6 +518,23 @@ fn strain_can_be_shown() {
 }
 
 #[test]
+fn check_draws_the_start_into_a_png_and_no_other_file() {
+    let room = Room::new();
+    let run = room.run(&["check", "skirt.yaml", "--picture", "start.png", "--json"]);
+    let start = run.ends(0).json()["start"].clone();
+    assert!(room.bytes("start.png").starts_with(b"\x89PNG"));
+    assert_eq!((&start["picture"], &start["clear"]), (&"start.png".into(), &true.into()), "{start}");
+    let mut through: Vec<&str> =
+        start["openings"].as_array().expect("a list").iter().filter_map(|o| o["through"].as_str()).collect();
+    through.sort_unstable();
+    assert_eq!(through, ["head + left arm + right arm", "left leg + right leg"]);
+    assert!(start["margin"].as_f64().is_some_and(|margin| margin > 0.7), "{start}");
+    room.run(&["check", "skirt.yaml", "--picture", "start.jpg"]).ends(2).says(&["start.jpg", "PNG"]);
+    assert!(!room.dir.path().join("start.jpg").exists());
+    room.run(&["check", "skirt.yaml", "--picture", "skirt.yaml/start.png"]).ends(2).says(&["skirt.yaml"]);
+}
+
+#[test]
 fn check_walks_the_seams() {
     let room = Room::new();
     let run = room.run(&["check", "skirt.yaml"]);

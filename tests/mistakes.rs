@@ -59,7 +59,7 @@ impl Room {
     /// Everything `check` finds in the text, at a spacing in mm.
     fn finds(&self, text: &str, spacing: Option<f64>) -> Vec<Diagnostic> {
         match check(&self.put("wrong.yaml", text), spacing.map(|mm| 1e-3 * mm)) {
-            Ok(loaded) => loaded.warnings,
+            Ok(checked) => checked.loaded.warnings,
             Err(refused) => refused.diagnostics,
         }
     }

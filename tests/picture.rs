@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use toile::geometry::{TriMesh, Vec3};
 use toile::picture::{HEIGHT, PictureError, Scene, Specimen, WIDTH, draw, draw_sheet, rim_lines};
+use toile::pipeline::{StartPicture, check, start_picture};
 
 /// A tube of rings, each given by centre, half width and half depth; closed at both ends on demand.
 fn tube(rings: &[(Vec3, f64, f64)], around: u32, closed: bool) -> TriMesh {
@@ -271,6 +272,81 @@ fn a_sheet_shows_every_specimen() {
     assert!(drawn > width * height / 30, "only {drawn} pixels drawn");
     assert!(matches!(draw_sheet("", "", &[]), Err(PictureError::NothingToDraw)));
     assert!(matches!(draw_sheet("", "", &[specimen(&nobody)]), Err(PictureError::NothingToDraw)));
+}
+
+/// A PNG's width and pixels.
+fn read(png: &[u8]) -> (usize, Vec<[u8; 3]>) {
+    let mut reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().expect("a PNG");
+    let mut rgb = vec![0; reader.output_buffer_size().expect("of a size")];
+    let info = reader.next_frame(&mut rgb).expect("with one frame");
+    (info.width as usize, rgb.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect())
+}
+
+/// The start of a shipped garment, drawn.
+fn start_of(garment: &str) -> StartPicture {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(garment);
+    let checked = check(&file, Some(0.025)).expect("a garment");
+    start_picture(&[checked]).expect("drawn")
+}
+
+#[test]
+fn a_start_is_drawn_with_the_rim_of_every_opening_in_a_colour_of_its_own() {
+    let start = start_of("patterns/tshirt.yaml");
+    keep("start.png", &start.png);
+    let mut through: Vec<&str> = start.shown.openings.iter().map(|o| o.through.as_str()).collect();
+    through.sort_unstable();
+    assert_eq!(through, ["head", "left arm", "left leg + right leg", "right arm"]);
+    assert!(start.shown.clear && start.shown.placed.is_none(), "{:?}", start.shown);
+    let (width, pixels) = read(&start.png);
+    for (k, rim) in start.rims.iter().enumerate() {
+        // A rim is drawn seven pixels wide; in its middle runs the fine line of every rim of the cloth.
+        let near =
+            |[x, y]: [usize; 2]| [-2, 2].map(|d: isize| [x.saturating_add_signed(d), y.saturating_add_signed(d)]);
+        let is_shown = |at: &[usize; 2]| near(*at).iter().any(|[x, y]| pixels[y * width + x] == rim.color);
+        let shown = rim.pixels.iter().filter(|at| is_shown(at)).count();
+        assert!(6 * shown > rim.pixels.len(), "opening {k}: {shown} of {} points are seen", rim.pixels.len());
+        assert!(start.rims.iter().filter(|other| other.color == rim.color).count() == 1, "opening {k}");
+    }
+    assert_eq!(start_of("patterns/tshirt.yaml").png, start.png, "the same bytes again");
+}
+
+/// A tube as wide as a skirt and as a poncho; `place` is what its front says.
+fn start_of_tube(place: &str) -> StartPicture {
+    let text = format!(
+        "garment: 1\nname: Tube\nbody: woman_92\nfabrics: {{shell: cotton_poplin}}\npieces:\n  one:\n    \
+         place: {place}\n    \
+         grain: [[0, 50], [0, 250]]\n    \
+         outline: {{start: -350 0, top: L 350 0, right: L 350 400, hem: L -350 400, left: L -350 0}}\n  \
+         other: {{like: one, place: back torso}}\nseams:\n  left: {{sew: one.right, to: other.left}}\n  \
+         right: {{sew: one.left, to: other.right}}\nfree: ['*.top', '*.hem']\n"
+    );
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("tube.yaml");
+    std::fs::write(&file, text).expect("written");
+    start_picture(&[check(&file, Some(0.025)).unwrap_or_else(|refused| panic!("{refused}"))]).expect("drawn")
+}
+
+#[test]
+fn a_dealing_in_doubt_is_drawn_and_both_dealings_are_told_with_the_words_that_settle_it() {
+    let start = start_of_tube("front torso");
+    keep("doubt.png", &start.png);
+    assert!(!start.shown.clear, "{:?}", start.shown);
+    let ways: Vec<[&str; 2]> = start.shown.doubts.iter().map(|d| [d.first.as_str(), d.second.as_str()]).collect();
+    let all = "left arm + right arm + left leg + right leg";
+    assert_eq!(ways, [["head + left arm + right arm", "head"], ["left leg + right leg", all]]);
+    let said = &start.shown.words[0];
+    assert_eq!((said.piece.as_str(), said.word.as_str(), said.dealing), ("one", "hip", "first"));
+    assert!(start.shown.text().contains("the first is settled by 'place: hip' for one"), "{}", start.shown.text());
+    let settled = start_of_tube("hip").shown;
+    assert!(settled.clear && settled.words.is_empty(), "{settled:?}");
+    assert_eq!(settled.openings, start.shown.openings);
+}
+
+#[test]
+fn where_positions_say_how_pieces_start_these_are_drawn() {
+    let start = start_of("tests/data/full_skirt.yaml");
+    assert!(start.shown.placed.as_deref().is_some_and(|why| why.contains("position")), "{:?}", start.shown);
+    assert!(read(&start.png).1.len() > WIDTH * HEIGHT);
 }
 
 /// A lying square of 0.4 m whose middle is this high.

@@ -241,6 +241,40 @@ fn run<'a>(f: &'a Fixture, sewn: &'a [Vec3]) -> Measured<'a> {
     }
 }
 
+/// The fixture hanging down, folded back and down again over 30 mm, its three layers so far apart, metres.
+fn pleated_over(f: &Fixture, apart: f64) -> Vec<Vec3> {
+    let hang = |p: &Vec3| {
+        let down = -p.y;
+        let [y, layer] = match down {
+            d if d < 0.045 => [-d, 0.0],
+            d if d < 0.075 => [-0.04 + (d - 0.04), 1.0],
+            d => [-0.01 - (d - 0.07), 2.0],
+        };
+        Vec3::new(p.x, y, layer * apart)
+    };
+    laid_out(f, 1.0).iter().map(hang).collect()
+}
+
+#[test]
+fn cloth_pressed_on_itself_is_named_with_its_area_and_folds_that_stand_off_are_not() {
+    let f = fixture(0.1);
+    let folded = |apart: f64| {
+        let at = pleated_over(&f, apart);
+        report(&f, &laid_out(&f, 1.0), &at, &f.mesh.flat).bunched
+    };
+    let found = folded(0.004);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].pieces, ["front.L", "back.L"]);
+    // Three layers of 30 mm by 200 mm, less the triangles at the folds.
+    assert!((9_000.0..=18_000.0).contains(&found[0].area), "{found:?}");
+    assert!((-50.0..=0.0).contains(&found[0].height), "{found:?}");
+    assert!(found[0].to_string().contains("of front.L, back.L"), "{}", found[0]);
+    assert_eq!(folded(0.02), []);
+    assert_eq!(folded(0.004).first(), found.first(), "the same again");
+    // Nothing is said of a garment that has only been sewn.
+    assert_eq!(measure(&run(&f, &pleated_over(&f, 0.004))).bunched, []);
+}
+
 #[test]
 fn the_keys_other_programs_rely_on() {
     let f = fixture(0.08);
@@ -251,6 +285,7 @@ fn the_keys_other_programs_rely_on() {
     };
     let head = ["toile", "garment", "mannequin", "fabric", "spacing", "pieces", "seams", "contact", "worn", "stages"];
     has(&json, &head);
+    has(&json, &["bunched"]);
     let piece = &json["pieces"][1];
     has(piece, &["name", "particles", "triangles", "area_flat", "area_sewn", "area_draped", "area_flattened"]);
     has(piece, &["boundary_flat", "boundary_sewn", "boundary_draped", "boundary_flattened", "stretched"]);

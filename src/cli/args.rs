@@ -185,6 +185,9 @@ pub(super) struct CheckArgs {
     /// Distance of neighbouring particles in millimetres that the garment will be made with [default: 10]
     #[arg(long, value_name = "MM", value_parser = spacing, allow_negative_numbers = true, conflicts_with = "mesh")]
     pub(super) spacing: Option<f64>,
+    /// Draw how the garment starts: glued, round the body's axes, each opening's rim in a colour of its own
+    #[arg(long, value_name = "FILE.png", conflicts_with = "mesh")]
+    pub(super) picture: Option<PathBuf>,
     /// Look for crossings in this surface instead, whoever made it
     #[arg(long, value_name = "FILE.obj", conflicts_with = "garments")]
     pub(super) mesh: Option<PathBuf>,

@@ -1,6 +1,6 @@
 //! `check`: is this garment file right, and what does it make?
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use serde::Serialize;
 
@@ -8,24 +8,30 @@ use super::args::CheckArgs;
 use super::check_mesh::check_mesh;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::make::borrowed;
 use crate::geometry::MM;
+use crate::io::files::{check_writable, write_all};
 use crate::pattern::{Diagnostic, Garment, Give, SeamWalk, Severity, openings, outfit, walk};
-use crate::pipeline::{self, PipelineError};
+use crate::pipeline::{self, PipelineError, StartPicture, StartShown, start_picture};
 use crate::report::aligned;
 
 /// `toile check`
 pub(super) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, CliError> {
     match &args.mesh {
         Some(mesh) => check_mesh(mesh, args, console),
-        None => check_garments(&args.garments, args.spacing, console),
+        None => check_garments(args, console),
     }
 }
 
 /// Each for itself, and then as what they are together.
-fn check_garments(files: &[PathBuf], spacing: Option<f64>, console: &Console) -> Result<Exit, CliError> {
-    let (mut garments, mut warnings) = (Vec::new(), Vec::new());
-    for file in files {
-        let loaded = match pipeline::check(file, spacing) {
+fn check_garments(args: &CheckArgs, console: &Console) -> Result<Exit, CliError> {
+    let inputs = borrowed(&args.garments);
+    if let Some(picture) = &args.picture {
+        check_picture(picture, &inputs)?;
+    }
+    let mut worn = Vec::new();
+    for file in &args.garments {
+        let checked = match pipeline::check(file, args.spacing) {
             Err(refused) if console.json() => {
                 let rows = refused.diagnostics.iter().map(DiagnosticRow::new).collect();
                 let refusal = Findings { file: file.display().to_string(), ok: false, diagnostics: rows };
@@ -34,13 +40,35 @@ fn check_garments(files: &[PathBuf], spacing: Option<f64>, console: &Console) ->
             }
             other => other.map_err(PipelineError::from)?,
         };
-        loaded.warnings.iter().for_each(|warning| console.note(&warning.to_string()));
-        garments.push(loaded.garment);
-        warnings.extend(loaded.warnings);
+        checked.loaded.warnings.iter().for_each(|warning| console.note(&warning.to_string()));
+        worn.push(checked);
     }
-    let summary = Summary::new(&outfit(garments), &warnings);
+    let garment = outfit(worn.iter().map(|w| w.loaded.garment.clone()).collect());
+    let warnings: Vec<Diagnostic> = worn.iter().flat_map(|w| w.loaded.warnings.clone()).collect();
+    let mut summary = Summary::new(&garment, &warnings);
+    if let Some(picture) = &args.picture {
+        let StartPicture { png, shown, .. } = start_picture(&worn)?;
+        write_all(&[(picture.clone(), png)], &inputs)?;
+        summary.start = Some(StartRow { picture: picture.display().to_string(), shown });
+    }
     console.results(&summary, || summary.text())?;
     Ok(Exit::Done)
+}
+
+/// Whether the picture can be written, which is better known first.
+fn check_picture(picture: &Path, inputs: &[&Path]) -> Result<(), CliError> {
+    if !picture.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")) {
+        return Err(CliError::NotPng(picture.display().to_string()));
+    }
+    Ok(check_writable(&[picture.to_owned()], inputs)?)
+}
+
+/// The picture of the start, and what it shows.
+#[derive(Serialize)]
+struct StartRow {
+    picture: String,
+    #[serde(flatten)]
+    shown: StartShown,
 }
 
 /// What is wrong with a garment file.
@@ -79,6 +107,9 @@ struct Summary {
     pieces: Vec<PieceRow>,
     seams: Vec<SeamRow>,
     openings: Vec<OpeningRow>,
+    /// With `--picture`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    start: Option<StartRow>,
     diagnostics: Vec<DiagnosticRow>,
 }
 
@@ -126,12 +157,16 @@ impl Summary {
             pieces: garment.pieces.iter().map(piece).collect(),
             seams: walk(garment).into_iter().map(seam).collect(),
             openings: openings(garment).iter().map(|o| opening(garment, o)).collect(),
+            start: None,
             diagnostics: warnings.iter().map(DiagnosticRow::new).collect(),
         }
     }
 
     fn text(&self) -> String {
-        format!("{}\n\n{}\n{}\n{}", self.title, self.piece_table(), self.seam_table(), self.opening_table())
+        let tables = [self.piece_table(), self.seam_table(), self.opening_table()].join("\n");
+        let start = self.start.as_ref();
+        let start = start.map_or_else(String::new, |s| format!("\nthe start, in {}\n{}", s.picture, s.shown.text()));
+        format!("{}\n\n{tables}{start}", self.title)
     }
 
     fn piece_table(&self) -> String {

@@ -64,6 +64,9 @@ pub(super) enum CliError {
         /// What is wrong with it.
         reason: String,
     },
+    /// A picture that is to be written under another name than a PNG file's.
+    #[error("--picture {0}: the picture is a PNG file, which a name such as {0}.png says")]
+    NotPng(String),
     /// An argument that makes no sense.
     #[error("{0}")]
     Argument(String),

@@ -168,6 +168,7 @@ fn judge(job: &Job, report: &Report, console: &Console) -> Exit {
         console.note(&stage.to_string());
     }
     report.closures.iter().filter_map(ClosureReport::unclosed).for_each(|text| console.note(&text));
+    report.bunched.iter().for_each(|bunched| console.note(&bunched.to_string()));
     tight(job, report).iter().for_each(|text| console.note(text));
     let mut exit = Exit::Done;
     for verdict in verdicts(&job.garment, report).iter().filter(|v| !v.ok) {

@@ -105,6 +105,13 @@ pub struct Garment {
     pub tests: Vec<Test>,
 }
 
+impl Garment {
+    /// Whether the file says at which position a piece starts.
+    pub fn has_positions(&self) -> bool {
+        self.pieces.iter().any(|piece| matches!(piece.place, Some(Place::At { .. })))
+    }
+}
+
 /// One piece of cloth.
 #[derive(Clone, Debug)]
 pub struct Piece {

@@ -22,15 +22,19 @@ pub(super) const SEAM: Rgb = [0.25, 0.23, 0.27];
 /// Rims of the cloth.
 pub(super) const RIM: Rgb = [0.36, 0.33, 0.36];
 
+/// The axes of the body.
+pub(super) const AXIS: Rgb = [0.12, 0.11, 0.13];
+
 /// A linear light value as displayed.
 pub(super) fn displayed(linear: f32) -> f32 {
     linear.max(0.0).powf(1.0 / GAMMA)
 }
 
+/// Turning by the golden angle (degrees) never comes near an earlier hue soon.
+const GOLDEN_ANGLE: f32 = 137.507_77;
+
 /// The right side of a piece: gentle, and as far as can be from the pieces just before it.
 pub(super) fn piece(index: u32) -> Rgb {
-    /// Turning by the golden angle never comes near an earlier hue soon.
-    const GOLDEN_ANGLE: f32 = 137.507_77;
     /// The first piece is a soft blue.
     const FIRST_HUE: f32 = 245.0;
     // A step of lightness tells neighbours apart in grey as well.
@@ -42,6 +46,13 @@ pub(super) fn piece(index: u32) -> Rgb {
 pub(super) fn wrong_side(right: Rgb) -> Rgb {
     let grey = (right[0] + right[1] + right[2]) / 3.0;
     right.map(|x| 0.72 * (0.6 * x + 0.4 * grey))
+}
+
+/// The rim of an opening: strong, and as far as can be from those just before it.
+pub(super) fn opening(index: usize) -> Rgb {
+    /// The first rim is red.
+    const FIRST_HUE: f32 = 27.0;
+    oklch(0.58, 0.19, FIRST_HUE + GOLDEN_ANGLE * index as f32)
 }
 
 /// The strain scale: blue for −1 (shorter), paper grey for 0, red for 1 (longer). Lightness falls evenly to both ends.

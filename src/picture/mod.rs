@@ -18,12 +18,14 @@ mod paint;
 mod raster;
 mod shadow;
 mod sheet;
+mod start;
 mod view;
 
 pub use dressed::{Dressed, rim_lines};
 pub use flat::draw_flat;
 pub use shadow::draw_shadow;
 pub use sheet::{Specimen, draw_sheet};
+pub use start::{StartMarks, draw_start, opening_color, pixels_of};
 
 use crate::geometry::{TriMesh, Vec3};
 

@@ -12,18 +12,20 @@ pub(super) struct Line {
     /// Half its width, pixels.
     pub(super) radius: f32,
     pub(super) color: Rgb,
+    /// Drawn as if this much nearer, metres.
+    pub(super) lift: f32,
     /// The triangles that it lies on and those that touch them, in order. It need not be more of its pieces: a piece
     /// that lies over itself hides its own lines.
     pub(super) around: Vec<u32>,
 }
 
-/// All lines, each kind with half its width and its colour.
-pub(super) fn lines(scene: &Scene, kinds: &[(&[Vec<Vec3>], f32, Rgb)]) -> Vec<Line> {
+/// All lines, each kind with half its width and its colour, drawn as if nearer by `lift`, metres.
+pub(super) fn lines(scene: &Scene, kinds: &[(&[Vec<Vec3>], f32, Rgb)], lift: f32) -> Vec<Line> {
     let cloth = Neighbours::new(scene);
     let mut out = Vec::new();
     for &(courses, radius, color) in kinds {
         for ends in courses.iter().flat_map(|course| course.windows(2)).map(|w| [w[0], w[1]]) {
-            out.push(Line { ends, radius, color, around: cloth.around(scene, &ends) });
+            out.push(Line { ends, radius, color, lift, around: cloth.around(scene, &ends) });
         }
     }
     out

@@ -24,7 +24,7 @@ const RIM_RADIUS: f32 = 0.7;
 
 /// Lines are drawn as if this much nearer (metres) than the cloth they lie on, which would hide them; less than the
 /// distance from one side of a body to the other by far.
-const LINE_LIFT: f32 = 0.004;
+pub(super) const LINE_LIFT: f32 = 0.004;
 
 /// Cells along each side of the floor.
 const FLOOR_CELLS: u32 = 48;
@@ -64,15 +64,19 @@ pub(super) struct Lit {
     cloth_seen: [Vec<f32>; 2],
     floor: TriMesh,
     floor_seen: Vec<f32>,
-    lines: Vec<Line>,
+    pub(super) lines: Vec<Line>,
 }
 
 impl Lit {
     pub(super) fn new(scene: &Scene) -> Self {
+        Self::over(scene, floor(scene))
+    }
+
+    /// Over a floor, which may be empty.
+    pub(super) fn over(scene: &Scene, floor: TriMesh) -> Self {
         let around = Surroundings::new(&[scene.body, scene.cloth]);
         let (body_normals, cloth_normals) = (scene.body.vertex_normals(), scene.cloth.vertex_normals());
         let turned: Vec<Vec3> = cloth_normals.iter().map(|n| -n).collect();
-        let floor = floor(scene);
         let up = vec![Vec3::y(); floor.vertices.len()];
         Self {
             body_seen: around.seen(&scene.body.vertices, &body_normals),
@@ -81,7 +85,7 @@ impl Lit {
             body_normals,
             cloth_normals,
             floor,
-            lines: lines(scene, &[(scene.seams, SEAM_RADIUS, SEAM), (scene.rims, RIM_RADIUS, RIM)]),
+            lines: lines(scene, &[(scene.seams, SEAM_RADIUS, SEAM), (scene.rims, RIM_RADIUS, RIM)], LINE_LIFT),
         }
     }
 }
@@ -226,11 +230,11 @@ fn times(a: Rgb, b: Rgb) -> Rgb {
 
 fn stroke<'a>(line: &'a Line, camera: &Camera) -> Stroke<'a> {
     let ends = line.ends.map(|p| in_samples(camera, &p));
-    Stroke { ends, radius: line.radius * SAMPLES as f32, color: line.color, around: &line.around, lift: LINE_LIFT }
+    Stroke { ends, radius: line.radius * SAMPLES as f32, color: line.color, around: &line.around, lift: line.lift }
 }
 
 /// Title, names of the views, scale, legend.
-fn words(canvas: &mut Canvas, scene: &Scene, cameras: &[Camera], paint: &Paint) {
+pub(super) fn words(canvas: &mut Canvas, scene: &Scene, cameras: &[Camera], paint: &Paint) {
     const LEFT: f32 = 56.0;
     let end = canvas.text(scene.title, [LEFT, 72.0], 5.0, INK);
     let room = WIDTH as f32 - LEFT - (end + 34.0);

@@ -56,11 +56,17 @@ fn diagonal(piece: &Piece) -> f64 {
     (high - low).norm()
 }
 
-/// Finds pieces that have no place on the body as it is sewn on, or are put into it.
-pub(super) fn check_places(loaded: &Loaded, mesh: &ClothMesh, body: &Mannequin, findings: &mut Findings) {
+/// Finds pieces that have no place on the body as it is sewn on, in its `stance` if it has one for that, or are put
+/// into it.
+pub(super) fn check_places(
+    loaded: &Loaded,
+    mesh: &ClothMesh,
+    body: &Mannequin,
+    stance: Option<&Stance>,
+    findings: &mut Findings,
+) {
     let Some(collider) = Collider::new(&body.mesh).map(|c| c.on_floor(body.floor())) else { return };
-    let stance = Stance::of(body, &loaded.garment);
-    let (body, collider) = sewn_on(stance.as_ref(), body, &collider);
+    let (body, collider) = sewn_on(stance, body, &collider);
     let start = match place(&loaded.garment, mesh, body, collider) {
         Ok(start) => start,
         Err(error) => {

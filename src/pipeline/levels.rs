@@ -6,7 +6,6 @@ use crate::drape::{DrapeOptions, Until, drape};
 use crate::dynamics::Cut;
 use crate::geometry::Vec3;
 use crate::mesh::{self, ClothMesh, Transfer};
-use crate::pattern::Place;
 use crate::sew::place::{PlaceError, place};
 use crate::sew::start::start as topological_start;
 use crate::sew::{SewError, SewOptions, Sewn, Stitching, join, sew, sewn_on, stitch};
@@ -62,8 +61,10 @@ impl Job {
                 return Ok(Closed { sewn, gaps, coarse: Some(coarse), start });
             }
         }
-        let has_positions = self.has_positions();
-        if !has_positions && let Some(closed) = self.sew_from_topology(mesh, progress) {
+        // There is no other start than a position that is given.
+        if !self.garment.has_positions()
+            && let Some(closed) = self.sew_from_topology(mesh, progress)
+        {
             return Ok(closed);
         }
         let closed = self.sew_here(mesh, start, SewOptions::default(), progress)?;
@@ -71,11 +72,6 @@ impl Job {
             return Ok(closed);
         }
         Ok(self.detour(mesh, progress).unwrap_or(closed))
-    }
-
-    /// Whether the file says at which position a piece starts: there is no other start then.
-    fn has_positions(&self) -> bool {
-        self.garment.pieces.iter().any(|piece| matches!(piece.place, Some(Place::At { .. })))
     }
 
     /// `mesh` sewn from a start that its topology gives; none where there is none, or it does not come out whole.

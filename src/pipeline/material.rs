@@ -11,16 +11,29 @@ use super::job::{Overrides, SPACING};
 use crate::fabric::{Fabric, FabricError};
 use crate::io::body::{Body, BodyError, load_body};
 use crate::io::garment::{self, Loaded, Refused};
-use crate::mannequin::{self, MannequinError};
+use crate::mannequin::{self, Mannequin, MannequinError};
 use crate::mesh::{self, MeshError};
 use crate::pattern::{self, Diagnostic, Findings, GarmentFile, Located, Problem, Spot, Value};
+use crate::sew::Stance;
+
+/// A garment file without mistakes.
+pub struct Checked {
+    /// The file.
+    pub file: PathBuf,
+    /// The garment, and what it is warned of.
+    pub loaded: Loaded,
+    /// The body that the file names.
+    pub body: Option<Mannequin>,
+    /// That body as the garment is sewn on, where its limbs nearly touch.
+    pub stance: Option<Stance>,
+}
 
 /// Reads a garment file and finds everything that is wrong before cloth moves: in its text, pieces and seams, its
 /// fabrics and its body, and, if nothing is, in its mesh of this spacing (metres).
 ///
 /// # Errors
 /// Every mistake of the file.
-pub fn check(file: &Path, spacing: Option<f64>) -> Result<Loaded, Refused> {
+pub fn check(file: &Path, spacing: Option<f64>) -> Result<Checked, Refused> {
     let mut examined = garment::examine(file);
     let body = examined.file.as_ref().and_then(|said| look(file, said, &mut examined.findings));
     let mut loaded = examined.finish()?;
@@ -36,10 +49,12 @@ pub fn check(file: &Path, spacing: Option<f64>) -> Result<Loaded, Refused> {
     })?;
     let mut findings = loaded.findings();
     fit::tell_narrow(&loaded, &mesh, 0, &mut findings);
+    let body = body.map(|body| body.mannequin);
+    let stance = body.as_ref().and_then(|body| Stance::of(body, &loaded.garment));
     if let Some(body) = &body {
-        fit::check_places(&loaded, &mesh, &body.mannequin, &mut findings);
+        fit::check_places(&loaded, &mesh, body, stance.as_ref(), &mut findings);
     }
-    with_findings(loaded, findings)
+    Ok(Checked { file: file.to_owned(), loaded: with_findings(loaded, findings)?, body, stance })
 }
 
 /// Before it is meshed: what is drawn in another unit may be too small for that, and then this says why.

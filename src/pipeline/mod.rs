@@ -22,6 +22,7 @@ mod material;
 mod results;
 mod run;
 mod saved;
+mod start_picture;
 mod surface;
 mod tight;
 mod too_small;
@@ -33,11 +34,12 @@ pub use caught::Caught;
 pub use error::PipelineError;
 pub use job::{Job, Overrides, inputs, read};
 pub use judged::{Judged, judge};
-pub use material::check;
+pub use material::{Checked, check};
 pub use results::{
     Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, PATTERN_SVG, PLACED_OBJ, REPORT_JSON, ResultFile, SEWN_OBJ, json_text,
 };
 pub use run::{Progress, Run};
+pub use start_picture::{DoubtShown, OpeningShown, RimShown, StartPicture, StartShown, WordShown, start_picture};
 pub use surface::{
     CutReport, CutWhy, Cuts, DARTS, DartStop, EdgeReport, FLAT_OBJ, FLAT_PNG, FlatSurface, Limit, OUTLINE_SVG,
     PartReport, SurfaceOptions, SurfaceReport, flatten_surface,

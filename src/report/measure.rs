@@ -1,5 +1,6 @@
 //! From positions to a report.
 
+use super::bunched::bunched;
 use super::closures::Closures;
 use super::crossings::{Seen, look};
 use super::errors::{Way, area, area_error, boundary_error};
@@ -68,6 +69,8 @@ pub fn measure(run: &Measured) -> Report {
     let (seen, worn) = space
         .as_ref()
         .map_or_else(Default::default, |space| (space.seen(run), worn_rows(run, &space.welded, &space.openings)));
+    let draped = space.as_ref().filter(|_| run.draped.is_some());
+    let bunched = draped.map_or_else(Vec::new, |space| bunched(run.garment, run.mesh, &space.welded, run.body));
     let (pieces, total) = pieces(run, &shapes, space.as_ref());
     Report {
         toile: env!("CARGO_PKG_VERSION").into(),
@@ -83,6 +86,7 @@ pub fn measure(run: &Measured) -> Report {
         contact: seen.contact,
         crossings: seen.crossings,
         worn,
+        bunched,
         stages: run.stages.to_vec(),
     }
 }

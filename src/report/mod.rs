@@ -5,6 +5,7 @@
 //! [`Report`] holds what the file holds: millimetres, square millimetres, fractions and seconds.
 
 mod bounds;
+mod bunched;
 mod closures;
 mod crossings;
 mod errors;
@@ -29,7 +30,7 @@ pub use measure::{Measured, measure};
 pub use openings::opening_names;
 pub use rest::{AtRest, Restless, restless};
 pub use schema::{
-    ClosureReport, Contact, ContactSeconds, Crossing, Drift, Fault, FaultKind, PieceReport, Quartet, Report,
+    Bunched, ClosureReport, Contact, ContactSeconds, Crossing, Drift, Fault, FaultKind, PieceReport, Quartet, Report,
     SeamReport, Sizes, Spread, Stage, Stretched, Turned, Worn, WornBefore,
 };
 pub use strain::{extensions, vertex_strain};

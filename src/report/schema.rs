@@ -31,8 +31,37 @@ pub struct Report {
     pub crossings: Vec<Crossing>,
     /// One per opening.
     pub worn: Vec<Worn>,
+    /// Where draped cloth lies folded on itself, three deep, though the pattern says nothing of a fold; the largest
+    /// first.
+    #[serde(default)]
+    pub bunched: Vec<Bunched>,
     /// One per stage that ran.
     pub stages: Vec<Stage>,
+}
+
+/// Cloth that lies folded on itself.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Bunched {
+    /// Mean height, mm.
+    pub height: f64,
+    /// The part of the body there, as in [`Worn::body_part`].
+    pub body_part: Option<String>,
+    /// `front`, `back`, `left` or `right` of that part's axis.
+    pub side: Option<String>,
+    /// Flat area of the cloth that lies so, all layers counted, mm².
+    pub area: f64,
+    /// The pieces that it is of.
+    pub pieces: Vec<String>,
+}
+
+impl std::fmt::Display for Bunched {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { height, body_part, side, area, pieces } = self;
+        let (cm2, pieces) = (area / 100.0, pieces.join(", "));
+        write!(f, "bunched: {cm2:.0} cm² of {pieces} lie folded on themselves at a height of {height:.0} mm")?;
+        let part = body_part.as_ref().zip(side.as_ref());
+        part.map_or(Ok(()), |(part, side)| write!(f, ", at the {side} of the {part}"))
+    }
 }
 
 /// What happened to one piece.

@@ -103,7 +103,7 @@ fn finish(imported: &Imported, console: &Console) -> Result<Exit, CliError> {
     write_all(&[(target.clone(), text.into_bytes())], &[imported.source])?;
     let checked = check(&target, None);
     match &checked {
-        Ok(loaded) => loaded.warnings.iter().for_each(|w| console.note(&w.to_string())),
+        Ok(checked) => checked.loaded.warnings.iter().for_each(|w| console.note(&w.to_string())),
         Err(refused) => console.complain(&refused.to_string()),
     }
     imported.complaints.iter().for_each(|complaint| console.complain(complaint));

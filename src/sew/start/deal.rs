@@ -63,11 +63,20 @@ pub fn deal(
     body: &Mannequin,
 ) -> Result<Dealing, DealError> {
     let dealing = guess(garment, mesh, glued, openings, body);
-    match &dealing.runner_up {
-        Some(next) if dealing.margin < CLEAR => {
-            Err(DealError::new(garment, mesh, glued, openings, &dealing.ends, next, dealing.margin))
-        }
-        _ => Ok(dealing),
+    dealing.doubt(garment, mesh, glued, openings).map_or(Ok(dealing), Err)
+}
+
+impl Dealing {
+    /// What is said of the next dealing where it costs about the same; none where this one is clear.
+    pub(super) fn doubt(
+        &self,
+        garment: &Garment,
+        mesh: &ClothMesh,
+        glued: &Glued,
+        openings: &[Opening],
+    ) -> Option<DealError> {
+        let next = self.runner_up.as_ref().filter(|_| self.margin < CLEAR)?;
+        Some(DealError::new(garment, mesh, glued, openings, &self.ends, next, self.margin))
     }
 }
 

@@ -32,8 +32,10 @@ mod profile;
 mod rings;
 mod sections;
 mod sides;
+mod sketch;
 mod surface;
 mod winding;
+mod words;
 mod zip;
 
 pub use cloth::Distances;
@@ -43,6 +45,8 @@ pub use ends::{End, Ends};
 pub use glue::{Follow, Glued, glue};
 pub use laps::Lap;
 pub use openings::{Opening, openings};
+pub use sketch::{Sketch, SketchedOpening, sketch};
+pub use words::Settling;
 
 use crate::contact::Collider;
 use crate::geometry::Vec3;
@@ -58,29 +62,40 @@ use sections::sections;
 
 /// Garments start on a mesh of this spacing, metres, whatever is asked for: it costs a second or two, and a finer one
 /// starts no better.
-const SPACING: f64 = 0.025;
+pub const SPACING: f64 = 0.025;
 
 /// Where every particle of `to` starts on a body: glued along its seams, round the parts that its openings are for.
 /// `collider` is the body's surface. `None` where it is not clear which part passes through which opening, or a part of
 /// the garment has no opening that anything passes through.
 pub fn start(garment: &Garment, to: &ClothMesh, body: &Mannequin, collider: &Collider) -> Option<Vec<Vec3>> {
     let mesh = mesh::build(garment, SPACING).ok()?;
-    let dealt = Dealt::new(garment, &mesh, body)?;
+    let stages = Dealt::stages(garment, &mesh, body);
+    if stages.iter().any(|stage| stage.doubt.is_some()) {
+        return None;
+    }
+    let dealt = stages.last()?;
     let axes = Axes::of(body);
-    let edges = surface::edges(&dealt.glued, &mesh);
-    let worn = dealt.worn(garment, &mesh);
-    let (rings, limbs) = rings_and_limbs(&worn, &dealt.glued, &edges, &axes)?;
-    let nodes = Film::new(dealt.glued.count, &edges, &rings)?.start(&rings, &limbs);
-    let of_ring = |ring: &Ring| Held { rim: ring.rim.clone(), middle: ring.center, along: None, once_lost: false };
-    let sections = limbs.iter().flat_map(|limb| sections(&rings[limb.ring], limb));
-    let held = rings.iter().map(of_ring).chain(sections).collect();
-    let bending = surface::bending(&dealt.glued, &mesh);
     let level = dealt.levels(garment, &mesh);
-    let balloon = Balloon { triangles: dealt.glued.triangles.clone(), stretch: edges, bending, held, level };
-    let mut nodes = balloon.inflate(&nodes, &axes, collider);
-    outside::put_outside(&mut nodes, &balloon.triangles, &balloon.level, &axes);
+    let mut nodes = dealt.on_film(garment, &mesh, &axes, |film| {
+        let of_ring = |ring: &Ring| Held { rim: ring.rim.clone(), middle: ring.center, along: None, once_lost: false };
+        let sections = film.limbs.iter().flat_map(|limb| sections(&film.rings[limb.ring], limb));
+        let held = film.rings.iter().map(of_ring).chain(sections).collect();
+        let bending = surface::bending(&dealt.glued, &mesh);
+        let (stretch, level) = (film.edges.to_vec(), level.clone());
+        let balloon = Balloon { triangles: dealt.glued.triangles.clone(), stretch, bending, held, level };
+        balloon.inflate(&film.nodes, &axes, collider)
+    })?;
+    outside::put_outside(&mut nodes, &dealt.glued.triangles, &level, &axes);
     let x = hand_over::particles(garment, &mesh, &dealt.glued, &nodes);
     Some(Transfer::new(&mesh, to).apply(&x))
+}
+
+/// A glued garment on the film between its openings.
+struct OnFilm<'a> {
+    edges: &'a [Length],
+    rings: &'a [Ring],
+    limbs: &'a [Limb<'a>],
+    nodes: Vec<Vec3>,
 }
 
 /// A glued garment with the ends of the body dealt out to its openings.
@@ -88,20 +103,41 @@ struct Dealt {
     glued: Glued,
     openings: Vec<Opening>,
     dealing: Dealing,
+    /// The other dealing that fits about as well, if there is one.
+    doubt: Option<DealError>,
 }
 
 impl Dealt {
-    /// Glues a garment, closes its open fronts, and deals. `None` where the dealing is not clear.
-    fn new(garment: &Garment, mesh: &ClothMesh, body: &Mannequin) -> Option<Self> {
-        let first = Self::with(garment, mesh, body, &[])?;
-        if first.dealing.zips.is_empty() { Some(first) } else { Self::with(garment, mesh, body, &first.dealing.zips) }
+    /// Glues a garment and deals; where it has open fronts once more with these closed. The last is as it is put on.
+    fn stages(garment: &Garment, mesh: &ClothMesh, body: &Mannequin) -> Vec<Self> {
+        let first = Self::with(garment, mesh, body, &[]);
+        let zips = first.dealing.zips.clone();
+        let closed = (!zips.is_empty()).then(|| Self::with(garment, mesh, body, &zips));
+        std::iter::once(first).chain(closed).collect()
     }
 
-    fn with(garment: &Garment, mesh: &ClothMesh, body: &Mannequin, zips: &[[u32; 2]]) -> Option<Self> {
+    fn with(garment: &Garment, mesh: &ClothMesh, body: &Mannequin, zips: &[[u32; 2]]) -> Self {
         let glued = glue(garment, mesh, zips);
         let openings = openings(&glued, mesh);
-        let dealing = deal(garment, mesh, &glued, &openings, body).ok()?;
-        Some(Self { glued, openings, dealing })
+        let dealing = guess(garment, mesh, &glued, &openings, body);
+        let doubt = dealing.doubt(garment, mesh, &glued, &openings);
+        Self { glued, openings, dealing, doubt }
+    }
+
+    /// What `then` makes of the garment on its film. `None` where a part of it has no opening that anything passes
+    /// through.
+    fn on_film<T>(
+        &self,
+        garment: &Garment,
+        mesh: &ClothMesh,
+        axes: &Axes,
+        then: impl FnOnce(OnFilm) -> T,
+    ) -> Option<T> {
+        let edges = surface::edges(&self.glued, mesh);
+        let worn = self.worn(garment, mesh);
+        let (rings, limbs) = rings_and_limbs(&worn, &self.glued, &edges, axes)?;
+        let nodes = Film::new(self.glued.count, &edges, &rings)?.start(&rings, &limbs);
+        Some(then(OnFilm { edges: &edges, rings: &rings, limbs: &limbs, nodes }))
     }
 
     /// The openings of every connected part.

@@ -208,7 +208,7 @@ impl Worn<'_> {
 
     /// How far an opening lies on the cloth from the rim of another one, metres: from its middle, and from its
     /// shoulders, which are furthest.
-    fn from_rim(&self, k: usize, other: usize) -> [f64; 2] {
+    fn rim_from(&self, k: usize, other: usize) -> [f64; 2] {
         let mut far: Vec<f64> = self.openings[other].rim.iter().map(|n| self.far[k][*n as usize]).collect();
         far.sort_unstable_by(f64::total_cmp);
         let mean = far.iter().sum::<f64>() / far.len().max(1) as f64;
@@ -227,7 +227,7 @@ impl Worn<'_> {
         let out = out.fold(f64::INFINITY, f64::min);
         let hem = self.ends.iter().position(|ends| ends.touches(Ends::LEGS)).filter(|_| out.is_finite());
         hem.map_or(0.0, |hem| {
-            let [mean, shoulders] = self.from_rim(hem, k);
+            let [mean, shoulders] = self.rim_from(hem, k);
             (shoulders - mean).min(out).max(0.0)
         })
     }

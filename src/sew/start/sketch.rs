@@ -1,0 +1,66 @@
+//! A start as it is drawn: round the body's axes, before it is inflated, also where the dealing is in doubt.
+
+use super::axes::Axes;
+use super::deal_error::{DealError, edges};
+use super::ends::Ends;
+use super::words::{Settling, settling};
+use super::{Dealt, Opening, hand_over};
+use crate::geometry::Vec3;
+use crate::mannequin::Mannequin;
+use crate::mesh::ClothMesh;
+use crate::pattern::Garment;
+
+/// The start of a garment before it is inflated.
+#[derive(Clone, Debug)]
+pub struct Sketch {
+    /// Where every particle is, metres: on the film between the openings, which are rings round the body's axes. None
+    /// where a part of the garment has no opening that anything passes through.
+    pub at: Option<Vec<Vec3>>,
+    /// The openings of the glued garment, its open fronts closed.
+    pub openings: Vec<SketchedOpening>,
+    /// By how much the next dealing costs more. Infinite where there is none.
+    pub margin: f64,
+    /// The dealing that fits about as well, if there is one.
+    pub doubt: Option<DealError>,
+    /// The words of `place` that would settle it.
+    pub words: Vec<Settling>,
+}
+
+/// An opening in a sketch.
+#[derive(Clone, Debug)]
+pub struct SketchedOpening {
+    /// The edges that it runs along, as `piece.edge`, those with most of it first.
+    pub edges: Vec<String>,
+    /// The particles of every side of its rim.
+    pub sides: Vec<[u32; 2]>,
+    /// Length of its rim, metres.
+    pub length: f64,
+    /// The ends of the body that pass through it.
+    pub ends: Ends,
+}
+
+/// The start of a garment, meshed as `mesh`, before it is inflated.
+pub fn sketch(garment: &Garment, mesh: &ClothMesh, body: &Mannequin) -> Sketch {
+    let stages = Dealt::stages(garment, mesh, body);
+    let in_doubt = stages.iter().find(|stage| stage.doubt.is_some());
+    let words = in_doubt.map_or_else(Vec::new, |stage| settling(garment, mesh, stage, body));
+    let margin = stages.iter().map(|stage| stage.dealing.margin).fold(f64::INFINITY, f64::min);
+    let doubt = in_doubt.and_then(|stage| stage.doubt.clone());
+    let mut out = Sketch { at: None, openings: Vec::new(), margin, doubt, words };
+    if let Some(dealt) = stages.last() {
+        let nodes = dealt.on_film(garment, mesh, &Axes::of(body), |film| film.nodes);
+        out.at = nodes.map(|nodes| hand_over::particles(garment, mesh, &dealt.glued, &nodes));
+        out.openings = openings(garment, mesh, dealt);
+    }
+    out
+}
+
+fn openings(garment: &Garment, mesh: &ClothMesh, dealt: &Dealt) -> Vec<SketchedOpening> {
+    let one = |(opening, ends): (&Opening, &Ends)| SketchedOpening {
+        edges: edges(garment, mesh, &dealt.glued, opening),
+        sides: opening.sides.clone(),
+        length: opening.length,
+        ends: *ends,
+    };
+    dealt.openings.iter().zip(&dealt.dealing.ends).map(one).collect()
+}
