@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use toile::geometry::Vec3;
+use toile::io::garment::read_text;
 use toile::pipeline::{Job, Overrides, Run, read};
 use toile::sew::Stitching;
 use toile::sew::start::start;
@@ -58,4 +59,46 @@ fn long_sleeves_cut_in_one_with_the_body_are_put_on_without_a_word_of_place() {
     assert_eq!(worn, ["left arm", "neck", "right arm", "torso"], "{:?}", report.worn);
     assert_eq!(report.contact.cloth_cloth_intersections, 0);
     assert_eq!(report.contact.cloth_body_intersections, 0);
+}
+
+#[test]
+fn a_tube_round_one_leg_is_put_round_it_where_its_word_says() {
+    let job = job("tests/data/leg_warmers.yaml");
+    let mut run = Run::new(&job);
+    run.sew(&mut |_, _| {}).expect("sewn");
+    let report = run.report();
+    let mut worn: Vec<&str> = report.worn.iter().filter_map(|w| w.body_part.as_deref()).collect();
+    worn.sort_unstable();
+    assert_eq!(worn, ["left leg", "left leg", "right leg", "right leg"], "{:?}", report.worn);
+    assert_eq!(report.contact.cloth_cloth_intersections, 0);
+    assert_eq!(report.contact.cloth_body_intersections, 0);
+    // The knee of woman_92 is 447 mm above the floor.
+    let x = start(&job.garment, &job.mesh, &job.body, &job.collider).expect("a start");
+    for piece in &job.mesh.pieces {
+        let heights = || piece.particles.clone().map(|p| x[p].y);
+        let (low, high) = (heights().fold(f64::INFINITY, f64::min), heights().fold(0.0, f64::max));
+        assert!(low > 0.05 && high > 0.42 && low < 0.447, "{}: from {low} to {high} m", piece.name);
+    }
+}
+
+/// Two buttons of one lap may stand in one closure or in two.
+#[test]
+fn closures_that_hold_one_lap_together_count_as_one() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/wrap_skirt.yaml");
+    let together = std::fs::read_to_string(&file).expect("a file");
+    let (before, closure) = together.split_once("closures:").expect("closures");
+    let (_, after) = closure.split_once("\nfree:").expect("free");
+    let apart = format!(
+        "{before}closures:
+  - {{kind: button, piece: band, at: [[1.5, 2.5]], meets: band, meets_at: [[76.5, 2.5]]}}
+  - {{kind: button, piece: band, at: [[25.7, 2.5]], meets: band, meets_at: [[100.7, 2.5]]}}
+free:{after}"
+    );
+    let starts = [together.as_str(), apart.as_str()].map(|text| {
+        let garment = read_text("skirt", "skirt.yaml", text).expect("a garment");
+        let overrides = Overrides { spacing: Some(SPACING), ..Overrides::default() };
+        let job = Job::new(&file, garment, &overrides).expect("a job");
+        start(&job.garment, &job.mesh, &job.body, &job.collider).expect("a start")
+    });
+    assert_eq!(starts[0], starts[1]);
 }

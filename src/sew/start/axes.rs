@@ -271,4 +271,22 @@ mod tests {
         assert!((p - Vec3::new(0.0, 0.5, -0.11)).norm() < 1e-12, "{p:?}");
         assert!(axis.led_out(Vec3::new(0.15, 0.5, 0.0), 0.5, 0.0).is_none());
     }
+
+    #[test]
+    fn a_node_that_would_pass_an_axis_is_seen_and_one_that_goes_round_it_is_not() {
+        let axes = Axes { axes: vec![cylinder()] };
+        let at = |x: f64, z: f64| Vec3::new(x, 0.5, z);
+        assert!(axes.lies_between(at(0.03, 0.0), at(-0.04, 0.0)));
+        assert!(!axes.lies_between(at(0.03, 0.0), at(0.01, 0.03)), "on the same side");
+        assert!(!axes.lies_between(at(0.3, 0.0), at(0.2, 0.0)), "nowhere near");
+    }
+
+    #[test]
+    fn an_axis_passes_through_cloth_across_it_and_not_through_cloth_round_it() {
+        let axes = Axes { axes: vec![cylinder()] };
+        let across = [[-1.0, 0.52, -1.0], [1.0, 0.52, -1.0], [0.0, 0.52, 2.0]].map(Vec3::from);
+        assert_eq!(axes.passes(&across, &[[0, 1, 2]]), 1);
+        let beside = across.map(|p| p + Vec3::new(1.5, 0.0, 0.0));
+        assert_eq!(axes.passes(&beside, &[[0, 1, 2]]), 0);
+    }
 }

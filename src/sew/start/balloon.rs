@@ -38,8 +38,8 @@ const FREE: usize = 20;
 const FEW: usize = 2;
 /// The ways in which a surface is inflated, one after another until it does not pass through itself.
 ///
-/// With layers 0.6 apart the legs of trousers went through one another at the crotch. A dolman whose nodes may not pass an
-/// axis from the first step on is caught on its arms; a shirt whose nodes may do so for longer loses its arms.
+/// With layers 0.6 apart the legs of trousers went through one another at the crotch. A dolman whose nodes may not pass
+/// an axis from the first step on is caught on its arms; a shirt whose nodes may do so for longer loses its arms.
 const WAYS: [Way; 4] = [
     Way { apart: 0.8, free: FREE },
     Way { apart: 1.0, free: FREE },
@@ -330,4 +330,21 @@ fn neighbours(count: usize, edges: &[Length]) -> Vec<Vec<u32>> {
         all
     };
     (0..count).map(within).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_section_goes_round_the_place_that_it_is_round() {
+        let ring = |x: f64| -> Vec<Vec3> {
+            let angle = |k: u32| f64::from(k) * PI / 4.0;
+            (0..8).map(|k| Vec3::new(x + 0.1 * angle(k).cos(), 0.01 * f64::from(k % 2), 0.1 * angle(k).sin())).collect()
+        };
+        let held = Held { rim: (0..8).collect(), middle: Vec3::zeros(), along: Some(Vec3::y()), once_lost: true };
+        assert!(held.goes_round(&ring(0.0)));
+        assert!(held.goes_round(&ring(0.09)));
+        assert!(!held.goes_round(&ring(0.11)));
+    }
 }

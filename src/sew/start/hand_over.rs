@@ -10,8 +10,8 @@ use crate::sew::place::fold::pressed;
 use crate::sew::place::lay;
 use crate::sew::place::ring::LAYER;
 
-/// Laps and collars start so far out of what they lie on, metres: chords of 25 mm lie 2 mm within the circle of a wrist,
-/// of either layer. Pleats and hems lie flatter.
+/// Laps and collars start so far out of what they lie on, metres: chords of 25 mm lie 2 mm within the circle of a
+/// wrist, of either layer. Pleats and hems lie flatter.
 pub(super) const PLY: f64 = 8e-3;
 
 /// A seam's direction is read over so many stitches on either side.

@@ -38,6 +38,8 @@ mod winding;
 mod words;
 mod zip;
 
+use std::collections::BTreeSet;
+
 pub use cloth::Distances;
 pub use deal::{CLEAR, Dealing, deal, guess};
 pub use deal_error::{DealError, Doubt, edges};
@@ -153,6 +155,7 @@ impl Dealt {
                 flat: &mesh.flat,
                 words: self.words(garment, mesh, part),
                 above: own.iter().map(|&k| self.above(mesh, &cloth, k)).collect(),
+                rim_words: own.iter().map(|&k| self.rim_words(garment, mesh, k)).collect(),
                 openings: own.iter().map(|&k| &self.openings[k]).collect(),
                 ends: own.iter().map(|&k| self.dealing.ends[k]).collect(),
                 front: own.iter().map(|&k| self.dealing.front[k]).collect(),
@@ -176,8 +179,8 @@ impl Dealt {
         self.glued.part_of.iter().map(|part| level[*part as usize]).collect()
     }
 
-    /// For the opening of the head alone, the distance of every node of its rim from the seam below the pieces on it that
-    /// no other opening touches: a hood or a collar. `None` where there are none.
+    /// For the opening of the head alone, the distance of every node of its rim from the seam below the pieces on it
+    /// that no other opening touches: a hood or a collar. `None` where there are none.
     fn above(&self, mesh: &ClothMesh, cloth: &Distances, k: usize) -> Option<Vec<f64>> {
         if self.dealing.ends[k] != Ends::HEAD {
             return None;
@@ -202,6 +205,13 @@ impl Dealt {
         }
         let far = cloth.from(&seam);
         Some(self.openings[k].rim.iter().map(|n| far[*n as usize]).collect())
+    }
+
+    /// The words of `place` of the pieces on the rim of an opening.
+    fn rim_words(&self, garment: &Garment, mesh: &ClothMesh, k: usize) -> Vec<&'static str> {
+        let pieces = self.openings[k].sides.iter().filter_map(|side| mesh.piece_of(side[0]));
+        let distinct: BTreeSet<usize> = pieces.collect();
+        distinct.into_iter().flat_map(|piece| marks::words(garment, piece)).map(PlaceWord::name).collect()
     }
 
     /// The words of `place` of the pieces of a connected part.

@@ -10,6 +10,7 @@ use super::profile::{Profile, best_height};
 use super::winding::{Jumps, jumps};
 use crate::geometry::{Vec2, Vec3};
 use crate::mannequin::PartKind;
+use crate::pattern::PlaceWord;
 
 /// A neck's ring lies so far above the base of the neck, metres.
 const ABOVE_NECK: f64 = 0.02;
@@ -18,6 +19,8 @@ const LOWEST: f64 = 0.06;
 /// A limb's ring lies at least so far along its axis, metres, and at most so far beyond its end.
 const FIRST: f64 = 0.02;
 const BEYOND: f64 = 0.08;
+/// What is placed by the waist lies no further from it than this, metres.
+const AT_WAIST: f64 = 0.05;
 /// From between the legs a garment goes as far as this share of the trunk's half depth to the front before it rises.
 const TO_FRONT: f64 = 1.0;
 /// Cloth that widens from one ring to the next hangs down by at least this share of its length.
@@ -47,11 +50,13 @@ pub(super) struct Worn<'a> {
     pub(super) far: Vec<Vec<f64>>,
     /// For each opening the node of its rim at the middle of the front, where that is known.
     pub(super) front: Vec<Option<u32>>,
-    /// For the opening of a hood or a collar how far every node of its rim is from the seam that joins that to the rest,
-    /// metres.
+    /// For the opening of a hood or a collar how far every node of its rim is from the seam that joins it to the
+    /// rest, metres.
     pub(super) above: Vec<Option<Vec<f64>>>,
     /// The words that say where its pieces go.
     pub(super) words: Vec<&'static str>,
+    /// For each opening the words of the pieces on its rim.
+    pub(super) rim_words: Vec<Vec<&'static str>>,
     /// For each opening the girth of the cloth at distances from it.
     pub(super) profiles: Vec<Profile>,
 }
@@ -132,7 +137,11 @@ impl Worn<'_> {
                 return Seat { station: Station { axis: Vec3::y(), ..torso.station(s) }, along: None };
             }
             let arms = axes.part(PartKind::LeftArm).map(|arm| torso.nearest(arm.station(0.0).center));
-            let s = best_height(&self.profiles[k], torso, [0.0, arms.unwrap_or_else(|| torso.length())]);
+            let highest = arms.unwrap_or_else(|| torso.length());
+            let is_at_waist = self.rim_words[k].contains(&PlaceWord::Waist.name());
+            let waist = torso.landmark(PlaceWord::Waist.name()).filter(|_| is_at_waist);
+            let range = waist.map_or([0.0, highest], |at| [at - AT_WAIST, at + AT_WAIST]);
+            let s = best_height(&self.profiles[k], torso, range.map(|s| s.clamp(0.0, highest)));
             return Seat { station: Station { axis: Vec3::y(), ..torso.station(s) }, along: None };
         }
         if let Some(station) = self.over_neck(k, neck) {
@@ -151,8 +160,8 @@ impl Worn<'_> {
         Seat { station: Station { center, axis: axis.normalize() }, along: None }
     }
 
-    /// The opening of a hood or a collar, over the seam that joins that to the rest: as high above the neck's base as on
-    /// the cloth. A hood's looks forward.
+    /// The opening of a hood or a collar, over the seam that joins it to the rest: as high above the neck's base as
+    /// on the cloth. A hood's looks forward.
     fn over_neck(&self, k: usize, neck: Station) -> Option<Station> {
         let above = self.above[k].as_ref()?;
         let mean = above.iter().sum::<f64>() / above.len() as f64;
