@@ -127,7 +127,7 @@ fn a_drape_that_drives_cloth_apart_is_an_error() {
     let back = job.mesh.pieces.iter().find(|p| p.name == "back").expect("a back").particles.clone();
     for p in back.clone() {
         for q in back.clone().skip_while(|&q| q <= p) {
-            if (x[p] - x[q]).norm() < 2e-3 && (job.mesh.flat[p] - job.mesh.flat[q]).norm() > 0.03 {
+            if (x[p] - x[q]).norm() < 12e-3 && (job.mesh.flat[p] - job.mesh.flat[q]).norm() > 0.03 {
                 x[q] = x[p];
             }
         }
