@@ -27,6 +27,18 @@ fn strain(job: &Job, x: &[Vec3]) -> f64 {
     errors.iter().sum::<f64>() / errors.len() as f64
 }
 
+/// Sews a garment: its openings are round these parts of the body, and nothing crosses anything.
+fn is_sewn_round(job: &Job, parts: &[&str]) {
+    let mut run = Run::new(job);
+    run.sew(&mut |_, _| {}).expect("sewn");
+    let report = run.report();
+    let mut worn: Vec<&str> = report.worn.iter().filter_map(|w| w.body_part.as_deref()).collect();
+    worn.sort_unstable();
+    assert_eq!(worn, parts, "{:?}", report.worn);
+    assert_eq!(report.contact.cloth_cloth_intersections, 0);
+    assert_eq!(report.contact.cloth_body_intersections, 0);
+}
+
 #[test]
 fn a_start_is_closed_outside_the_body_and_hardly_strained() {
     for (garment, strained) in [("patterns/child_dress.yaml", 0.05), ("patterns/sheath_dress.yaml", 0.05)] {
@@ -51,27 +63,13 @@ fn a_start_is_the_same_bytes_again() {
 #[test]
 fn long_sleeves_cut_in_one_with_the_body_are_put_on_without_a_word_of_place() {
     let job = job("tests/data/dolman.yaml");
-    let mut run = Run::new(&job);
-    run.sew(&mut |_, _| {}).expect("sewn");
-    let report = run.report();
-    let mut worn: Vec<&str> = report.worn.iter().filter_map(|w| w.body_part.as_deref()).collect();
-    worn.sort_unstable();
-    assert_eq!(worn, ["left arm", "neck", "right arm", "torso"], "{:?}", report.worn);
-    assert_eq!(report.contact.cloth_cloth_intersections, 0);
-    assert_eq!(report.contact.cloth_body_intersections, 0);
+    is_sewn_round(&job, &["left arm", "neck", "right arm", "torso"]);
 }
 
 #[test]
 fn a_tube_round_one_leg_is_put_round_it_where_its_word_says() {
     let job = job("tests/data/leg_warmers.yaml");
-    let mut run = Run::new(&job);
-    run.sew(&mut |_, _| {}).expect("sewn");
-    let report = run.report();
-    let mut worn: Vec<&str> = report.worn.iter().filter_map(|w| w.body_part.as_deref()).collect();
-    worn.sort_unstable();
-    assert_eq!(worn, ["left leg", "left leg", "right leg", "right leg"], "{:?}", report.worn);
-    assert_eq!(report.contact.cloth_cloth_intersections, 0);
-    assert_eq!(report.contact.cloth_body_intersections, 0);
+    is_sewn_round(&job, &["left leg", "left leg", "right leg", "right leg"]);
     // The knee of woman_92 is 447 mm above the floor.
     let x = start(&job.garment, &job.mesh, &job.body, &job.collider).expect("a start");
     for piece in &job.mesh.pieces {

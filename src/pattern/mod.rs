@@ -108,7 +108,7 @@ pub struct Garment {
 impl Garment {
     /// Whether the file says at which position a piece starts.
     pub fn has_positions(&self) -> bool {
-        self.pieces.iter().any(|piece| matches!(piece.place, Some(Place::At { .. })))
+        self.pieces.iter().any(Piece::has_position)
     }
 }
 
@@ -141,6 +141,11 @@ pub struct Piece {
 }
 
 impl Piece {
+    /// Whether the file says at which position it starts.
+    pub fn has_position(&self) -> bool {
+        matches!(self.place, Some(Place::At { .. }))
+    }
+
     /// Its layer among those of all garments that are worn over one another.
     pub fn level(&self) -> i32 {
         self.layer.saturating_add(self.beneath)

@@ -10,7 +10,7 @@
 //! ```
 
 use super::fold::Sheet;
-use super::rows::{extent, is_at};
+use super::rows::extent;
 use crate::geometry::Vec2;
 use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::Garment;
@@ -20,7 +20,7 @@ const TALL: f64 = 2.0;
 
 /// Turns every upright band of the unrolled sheet by a quarter. One that is sewn to another band follows it.
 pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &mut Sheet) {
-    let mut waiting: Vec<usize> = (0..mesh.pieces.len()).filter(|&i| !is_at(&garment.pieces[i].place)).collect();
+    let mut waiting: Vec<usize> = (0..mesh.pieces.len()).filter(|&i| !garment.pieces[i].has_position()).collect();
     while let Some(at) = waiting.iter().position(|&i| is_upright_band(mesh, sheet, i)) {
         turn(mesh, sheet, waiting.remove(at));
     }

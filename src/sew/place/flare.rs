@@ -14,7 +14,6 @@ use std::f64::consts::TAU;
 use super::assign::is_skirt;
 use super::flute::{self, Flutes};
 use super::fold::Sheet;
-use super::rows::is_at;
 use crate::geometry::{Path, Vec2};
 use crate::mesh::ClothMesh;
 use crate::pattern::Garment;
@@ -87,7 +86,7 @@ pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &mut Sheet) {
         .zip(&mesh.pieces)
         .map(|(piece, part)| {
             let plain = part.particles.clone().all(|p| sheet.under[p] == 0.0 && sheet.flat[p] == mesh.flat[p]);
-            let bent = !is_at(&piece.place);
+            let bent = !piece.has_position();
             let points = &mesh.flat[part.particles.clone()];
             let rim: Vec<&Path> = piece.loops.first().into_iter().flatten().map(|e| &e.path).collect();
             (plain && bent).then(|| sector(&rim, points, is_skirt(piece))).flatten()

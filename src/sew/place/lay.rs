@@ -6,7 +6,7 @@ use nalgebra::{Isometry2, Point2, UnitComplex};
 use super::assign::Assigned;
 use super::fold::Sheet;
 use super::ring::LAYER;
-use super::rows::{Link, is_at, links};
+use super::rows::{Link, links};
 use crate::geometry::{Locator, TriMesh, Vec2, Vec3};
 use crate::mesh::ClothMesh;
 use crate::pattern::Garment;
@@ -49,7 +49,7 @@ pub(super) fn laid(
     links: &[Link],
 ) -> Vec<Option<Laid>> {
     let table = Table { garment, mesh, sheet, links, inward: inward(mesh, sheet) };
-    let movable = |own: &usize| !is_at(&garment.pieces[*own].place) && garment.pieces[*own].layer != 0;
+    let movable = |own: &usize| !garment.pieces[*own].has_position() && garment.pieces[*own].layer != 0;
     let pieces: Vec<usize> = (0..mesh.pieces.len()).filter(movable).collect();
     let mut out: Vec<Option<Laid>> = vec![None; mesh.pieces.len()];
     for &own in &pieces {
@@ -90,6 +90,12 @@ pub(in crate::sew) fn laid_on_rest(
     }
 }
 
+/// How many layers a piece lies over another one, negative under it; of one layer the piece that is laid is over it.
+pub(in crate::sew) fn layers_over(garment: &Garment, own: usize, host: usize) -> i32 {
+    let layers = garment.pieces[own].layer.saturating_sub(garment.pieces[host].layer);
+    if layers == 0 { 1 } else { layers }
+}
+
 /// Flat pieces on a table.
 struct Table<'a> {
     garment: &'a Garment,
@@ -128,11 +134,9 @@ impl Table<'_> {
 
     /// On pieces of which it may lie on, that its sides match and whose cloth goes the same way from there.
     fn on(&self, own: usize, may: impl Fn(&usize) -> bool) -> Option<Laid> {
-        let layer = |piece: usize| self.garment.pieces[piece].layer;
         let lies_on = |piece: usize| {
             let to_host = self.matched(own, piece, Way::Same)?;
-            let layers = layer(own).saturating_sub(layer(piece));
-            Some(Host { piece, layers: if layers == 0 { 1 } else { layers }, to_host })
+            Some(Host { piece, layers: layers_over(self.garment, own, piece), to_host })
         };
         self.spread(own, (0..self.mesh.pieces.len()).filter(may).filter_map(lies_on).collect())
     }

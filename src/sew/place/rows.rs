@@ -8,7 +8,7 @@ use super::lay::{self, Laid};
 use crate::geometry::{Vec2, box_of, range_of};
 use crate::mannequin::PartKind;
 use crate::mesh::ClothMesh;
-use crate::pattern::{Garment, Place};
+use crate::pattern::Garment;
 
 /// Room left between two rows, and between two pieces of a row, metres.
 pub(super) const ROOM: f64 = 0.004;
@@ -102,7 +102,7 @@ pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned:
     let laid = lay::laid(garment, mesh, sheet, assigned, &links);
     let links = lay::through(links, mesh, &laid);
     let elsewhere: Vec<bool> =
-        garment.pieces.iter().zip(&laid).map(|(p, laid)| is_at(&p.place) || laid.is_some()).collect();
+        garment.pieces.iter().zip(&laid).map(|(p, laid)| p.has_position() || laid.is_some()).collect();
     let area = |p: usize| mesh.pieces[p].triangles.len();
     let slits: Vec<Option<(usize, Vec2)>> = (0..mesh.pieces.len())
         .map(|p| slit(&links, sheet, assigned, garment, p).filter(|s| !elsewhere[p] && !elsewhere[s.0]))
@@ -147,11 +147,6 @@ pub(super) fn rows(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet, assigned:
     rows.iter_mut().zip(hanging).for_each(|(row, hangs)| row.hangs = hangs);
     let order = stack(&mut rows, &links, &row_of, sheet);
     Rows { rows, links, laid, order }
-}
-
-/// Whether a piece has a rigid place of its own.
-pub(super) fn is_at(place: &Option<Place>) -> bool {
-    matches!(place, Some(Place::At { .. }))
 }
 
 /// A piece that comes into a row: from which member, itself, and its shift against that one.

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use super::PlaceError;
 use super::assign::Assigned;
 use super::fold::Sheet;
-use super::rows::{Link, Row, Rows, is_at};
+use super::rows::{Link, Row, Rows};
 use crate::geometry::{Vec2, sorted_pair};
 use crate::mesh::ClothMesh;
 use crate::pattern::Garment;
@@ -35,7 +35,7 @@ pub(super) fn check(
         rows.rows.iter().any(lies)
     };
     let alone =
-        |p: usize| facing(p).is_some() && !in_slit(p) && rows.laid[p].is_none() && !is_at(&garment.pieces[p].place);
+        |p: usize| facing(p).is_some() && !in_slit(p) && rows.laid[p].is_none() && !garment.pieces[p].has_position();
     let ring = |p: usize| (assigned[p].part, garment.pieces[p].level());
     let beside = |link: &Link| link.pieces.iter().all(|&p| alone(p)) && ring(link.pieces[0]) == ring(link.pieces[1]);
     let flanks: Vec<&Link> = rows.links.iter().filter(|l| l.upright && !l.through && beside(l)).collect();

@@ -137,19 +137,23 @@ impl Axis {
         (best.1, best.2)
     }
 
-    /// The point of it that is nearest to a point, and how far that is off in the axis's mean thickness there.
-    fn middle(&self, p: Vec3) -> (Vec3, f64) {
+    /// The disks before and after its point that is nearest to `p`, the share of the way between them, and that point.
+    fn nearest_center(&self, p: Vec3) -> ([&Disk; 2], f64, Vec3) {
         let (k, share) = self.nearest_segment(p);
         let [from, to] = [&self.disks[k], &self.disks[k + 1]];
-        let center = from.center + (to.center - from.center) * share;
+        ([from, to], share, from.center + (to.center - from.center) * share)
+    }
+
+    /// The point of it that is nearest to a point, and how far that is off in the axis's mean thickness there.
+    fn middle(&self, p: Vec3) -> (Vec3, f64) {
+        let ([from, to], share, center) = self.nearest_center(p);
         let mean = |disk: &Disk| 0.5 * (disk.half[0] + disk.half[1]);
         (center, (p - center).norm() / (mean(from) + (mean(to) - mean(from)) * share).max(THINNEST))
     }
 
     /// Whether it lies between two points, nearer to the first than they are apart.
     fn lies_between(&self, from: Vec3, to: Vec3) -> bool {
-        let (k, share) = self.nearest_segment(from);
-        let center = self.disks[k].center + (self.disks[k + 1].center - self.disks[k].center) * share;
+        let (_, _, center) = self.nearest_center(from);
         let off = from - center;
         off.norm_squared() < (to - from).norm_squared() && off.dot(&(to - center)) < 0.0
     }
@@ -160,10 +164,8 @@ impl Axis {
         if is_far {
             return None;
         }
-        let (k, share) = self.nearest_segment(p);
-        let [from, to] = [&self.disks[k], &self.disks[k + 1]];
+        let ([from, to], share, center) = self.nearest_center(p);
         let mix = |a: f64, b: f64| a + (b - a) * share;
-        let center = from.center + (to.center - from.center) * share;
         let off = p - center;
         let half = [0, 1].map(|c| (scale * mix(from.half[c], to.half[c])).max(THINNEST) + gap);
         let [along, side, front] = from.frame;

@@ -14,7 +14,7 @@ use crate::sew::place::fold::{Sheet, pressed};
 const NONE: u32 = u32::MAX;
 
 /// Shares less than this far below zero are zero but for rounding.
-const ROUNDING: f64 = 1e-6;
+pub(super) const ROUNDING: f64 = 1e-6;
 
 /// A fold that is nearer to its seam than this share of the spacing leaves a strip that folds over by itself.
 const STRIP: f64 = 0.5;
@@ -167,11 +167,17 @@ fn turned_over(garment: &Garment, mesh: &ClothMesh, sheet: &Sheet) -> Vec<bool> 
     turned
 }
 
+/// Which particles are in a seam.
+fn sewn(mesh: &ClothMesh) -> Vec<bool> {
+    let mut out = vec![false; mesh.flat.len()];
+    mesh.seams.iter().flat_map(|seam| seam.pairs.iter().flatten()).for_each(|p| out[*p as usize] = true);
+    out
+}
+
 /// Particles between a seam and a pressed fold beside it, as of a collar that rolls just above its stand: too narrow a
 /// strip to stand up by itself.
 fn strips(mesh: &ClothMesh, sheet: &Sheet) -> Vec<u32> {
-    let mut is_sewn = vec![false; mesh.flat.len()];
-    mesh.seams.iter().flat_map(|seam| seam.pairs.iter().flatten()).for_each(|p| is_sewn[*p as usize] = true);
+    let is_sewn = sewn(mesh);
     let of_piece = |piece: &PieceMesh| -> Vec<u32> {
         let (sewn, free): (Vec<usize>, Vec<usize>) =
             piece.particles.clone().filter(|p| !sheet.hidden[*p]).partition(|p| is_sewn[*p]);
@@ -234,8 +240,7 @@ fn parts(triangles: &[[u32; 3]], count: usize) -> Vec<u32> {
 fn follows(mesh: &ClothMesh, sheet: &Sheet) -> (Vec<Option<Follow>>, Vec<Beyond>) {
     let mut out = vec![None; mesh.flat.len()];
     let mut beyond = Vec::new();
-    let mut is_sewn = vec![false; mesh.flat.len()];
-    mesh.seams.iter().flat_map(|seam| seam.pairs.iter().flatten()).for_each(|p| is_sewn[*p as usize] = true);
+    let is_sewn = sewn(mesh);
     for piece in &mesh.pieces {
         let hidden = |p: &u32| sheet.hidden[*p as usize];
         let open: Vec<[u32; 3]> =

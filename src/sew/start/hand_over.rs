@@ -1,7 +1,7 @@
 //! From the nodes of the inflated surface to a start of all particles: what lies on other cloth is laid on it.
 
 use super::cover::into;
-use super::glue::{Beyond, Follow, Glued};
+use super::glue::{Beyond, Follow, Glued, ROUNDING};
 use crate::geometry::{Locator, TriMesh, Vec2, Vec3};
 use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::Garment;
@@ -17,9 +17,6 @@ pub(super) const PLY: f64 = 8e-3;
 /// A seam's direction is read over so many stitches on either side.
 const ALONG: usize = 2;
 
-/// Shares less than this far below zero are zero but for rounding.
-const ROUNDING: f64 = 1e-6;
-
 /// What reaches over further seams than this lies on none.
 const SEAMS: usize = 3;
 
@@ -33,13 +30,14 @@ pub(super) fn particles(garment: &Garment, mesh: &ClothMesh, glued: &Glued, node
     follow(covered, &mut outward, &mut x);
     lift(mesh, glued, &outward, &mut x);
     follow(hidden, &mut outward, &mut x);
-    hang(garment, mesh, glued, &mut x);
+    let seams = Seams::new(mesh);
+    hang(garment, mesh, &seams, glued, &mut x);
     lay_flat(garment, mesh, glued, &mut x);
     let has_no_place = |piece: &&usize| mesh.pieces[**piece].particles.clone().any(|p| x[p].is_none());
     let mut left: Vec<usize> = glued.left_out.iter().filter(has_no_place).copied().collect();
     left.sort_by_key(|piece| (garment.pieces[*piece].layer.unsigned_abs(), *piece));
     // A piece may be sewn to others that are left out only: these come first.
-    while let Some(k) = left.iter().position(|piece| lay(garment, mesh, *piece, &mut x)) {
+    while let Some(k) = left.iter().position(|piece| lay(garment, mesh, &seams, *piece, &mut x)) {
         left.remove(k);
     }
     let middle = nodes.iter().sum::<Vec3>() / nodes.len().max(1) as f64;
@@ -116,12 +114,17 @@ struct Joint {
     along: [Vec2; 2],
 }
 
+/// The stitches before and after stitch `i` of so many that its seam's direction is read from.
+fn beside_stitch(i: usize, count: usize) -> [usize; 2] {
+    [i.saturating_sub(ALONG), (i + ALONG).min(count - 1)]
+}
+
 /// All stitches, from either side.
 fn joints(mesh: &ClothMesh) -> Vec<Joint> {
     let mut out = Vec::new();
     for seam in &mesh.seams {
         for (i, pair) in seam.pairs.iter().enumerate() {
-            let run = [i.saturating_sub(ALONG), (i + ALONG).min(seam.pairs.len() - 1)].map(|k| seam.pairs[k]);
+            let run = beside_stitch(i, seam.pairs.len()).map(|k| seam.pairs[k]);
             let way = |k: usize| (mesh.flat[run[1][k] as usize] - mesh.flat[run[0][k] as usize]).try_normalize(0.0);
             let pieces = pair.map(|p| mesh.piece_of(p));
             if let ([Some(one), Some(other)], Some(a), Some(b)) = (pieces, way(0), way(1)) {
@@ -139,8 +142,19 @@ struct Hosts<'a> {
     mesh: &'a ClothMesh,
     /// The triangles of every piece of which all corners have a place.
     grounds: Vec<Option<Locator<'a>>>,
+    seams: &'a Seams,
+}
+
+/// What seams join, which does not depend on what has a place.
+struct Seams {
     classes: Classes,
     joints: Vec<Joint>,
+}
+
+impl Seams {
+    fn new(mesh: &ClothMesh) -> Self {
+        Self { classes: Classes::new(mesh), joints: joints(mesh) }
+    }
 }
 
 /// For every piece its triangles of which all corners have a place.
@@ -151,15 +165,9 @@ fn open(mesh: &ClothMesh, x: &[Option<Vec3>]) -> Vec<Vec<[u32; 3]>> {
 }
 
 impl<'a> Hosts<'a> {
-    fn new(garment: &'a Garment, mesh: &'a ClothMesh, open: &'a [Vec<[u32; 3]>]) -> Self {
+    fn new(garment: &'a Garment, mesh: &'a ClothMesh, seams: &'a Seams, open: &'a [Vec<[u32; 3]>]) -> Self {
         let ground = |open: &'a Vec<[u32; 3]>| (!open.is_empty()).then(|| Locator::new(&mesh.flat, open, mesh.spacing));
-        Self {
-            garment,
-            mesh,
-            grounds: open.iter().map(ground).collect(),
-            classes: Classes::new(mesh),
-            joints: joints(mesh),
-        }
+        Self { garment, mesh, grounds: open.iter().map(ground).collect(), seams }
     }
 
     /// The place of what is so far along a seam from a stitch and across it into the host's cloth, metres, so many
@@ -187,7 +195,8 @@ impl<'a> Hosts<'a> {
                 break;
             }
             let far = |joint: &&Joint| (mesh.flat[joint.at as usize] - at).norm();
-            let own = self.joints.iter().filter(|joint| joint.pieces[0] == host && x[joint.to as usize].is_some());
+            let own =
+                self.seams.joints.iter().filter(|joint| joint.pieces[0] == host && x[joint.to as usize].is_some());
             let Some(joint) = own.min_by(|a, b| far(a).total_cmp(&far(b))) else { break };
             let off = at - mesh.flat[joint.at as usize];
             let [along, out] = [off.dot(&joint.along[0]), -off.dot(&into(mesh, host, joint.at, joint.along[0]))];
@@ -217,7 +226,7 @@ impl<'a> Hosts<'a> {
     /// Stitch `i` of a seam, of which the first of every pair is the piece's own.
     fn stitch(&self, piece: usize, pairs: &[[u32; 2]], i: usize, on: On, x: &[Option<Vec3>]) -> Option<Stitch> {
         let (garment, mesh) = (self.garment, self.mesh);
-        let run = [i.saturating_sub(ALONG), (i + ALONG).min(pairs.len() - 1)];
+        let run = beside_stitch(i, pairs.len());
         let [p, q] = pairs[i];
         let way = |[a, b]: [u32; 2]| (mesh.flat[b as usize] - mesh.flat[a as usize]).try_normalize(0.0);
         let flat_along = way(run.map(|i| pairs[i][0]))?;
@@ -232,7 +241,6 @@ impl<'a> Hosts<'a> {
         let over = if on == On::OwnSide && host_along.perp(&host_across) * own_side < 0.0 { -1.0 } else { 1.0 };
         let along = (x[high as usize]? - x[low as usize]?).try_normalize(0.0)?;
         let (across, outward) = beside(mesh, host, q, along, x)?;
-        let layers = garment.pieces[piece].layer.saturating_sub(garment.pieces[host].layer);
         Some(Stitch {
             flat: mesh.flat[p as usize],
             flat_along,
@@ -245,7 +253,7 @@ impl<'a> Hosts<'a> {
             along,
             across: across * over,
             outward,
-            layers: if layers == 0 { 1.0 } else { f64::from(layers) },
+            layers: f64::from(lay::layers_over(garment, piece, host)),
         })
     }
 
@@ -259,7 +267,7 @@ impl<'a> Hosts<'a> {
         at: [usize; 3],
         x: &[Option<Vec3>],
     ) -> Option<(usize, [u32; 3])> {
-        let sewn = |i: usize| self.classes.of(pairs[i][1]).iter().filter(|p| x[**p as usize].is_some());
+        let sewn = |i: usize| self.seams.classes.of(pairs[i][1]).iter().filter(|p| x[**p as usize].is_some());
         sewn(at[1]).find_map(|&q| {
             let host = self.mesh.piece_of(q).filter(|host| *host != piece)?;
             let particles = &self.mesh.pieces[host].particles;
@@ -316,9 +324,9 @@ fn nearest(stitches: &[Stitch], at: Vec2) -> Option<&Stitch> {
 }
 
 /// Lays a piece from its seams over the cloth that it is sewn to. Returns whether it is sewn to any that has a place.
-fn lay(garment: &Garment, mesh: &ClothMesh, piece: usize, x: &mut [Option<Vec3>]) -> bool {
+fn lay(garment: &Garment, mesh: &ClothMesh, seams: &Seams, piece: usize, x: &mut [Option<Vec3>]) -> bool {
     let open = open(mesh, x);
-    let hosts = Hosts::new(garment, mesh, &open);
+    let hosts = Hosts::new(garment, mesh, seams, &open);
     let stitches = hosts.stitches(piece, On::OwnSide, x);
     if stitches.is_empty() {
         return false;
@@ -335,7 +343,7 @@ fn lay(garment: &Garment, mesh: &ClothMesh, piece: usize, x: &mut [Option<Vec3>]
 
 /// Puts what is turned over beyond the seam of its piece on the cloth beyond that seam, as a collar falls over its
 /// stand.
-fn hang(garment: &Garment, mesh: &ClothMesh, glued: &Glued, x: &mut [Option<Vec3>]) {
+fn hang(garment: &Garment, mesh: &ClothMesh, seams: &Seams, glued: &Glued, x: &mut [Option<Vec3>]) {
     for (i, piece) in mesh.pieces.iter().enumerate() {
         let is_own = |beyond: &&Beyond| piece.particles.contains(&(beyond.particle as usize));
         let own: Vec<&Beyond> = glued.beyond.iter().filter(is_own).collect();
@@ -343,7 +351,7 @@ fn hang(garment: &Garment, mesh: &ClothMesh, glued: &Glued, x: &mut [Option<Vec3
             continue;
         }
         let open = open(mesh, x);
-        let hosts = Hosts::new(garment, mesh, &open);
+        let hosts = Hosts::new(garment, mesh, seams, &open);
         let stitches = hosts.stitches(i, On::SewnTo, x);
         for beyond in own {
             let Some(near) = nearest(&stitches, beyond.at) else { continue };
