@@ -3,7 +3,7 @@
 //! A garment is inflated round these first; the cylinders then grow to the body's own size. A point in two of them
 //! (at a shoulder, in the crotch) is led out of one and then of the other.
 
-use crate::geometry::{Vec3, pierces};
+use crate::geometry::Vec3;
 use crate::mannequin::{BodyPart, Mannequin, PartKind, Section};
 
 /// Sections of an axis are at least this far apart, metres: enough for the bend of a spine or an elbow, and few enough
@@ -151,13 +151,6 @@ impl Axis {
         (center, (p - center).norm() / (mean(from) + (mean(to) - mean(from)) * share).max(THINNEST))
     }
 
-    /// Whether it lies between two points, nearer to the first than they are apart.
-    fn lies_between(&self, from: Vec3, to: Vec3) -> bool {
-        let (_, _, center) = self.nearest_center(from);
-        let off = from - center;
-        off.norm_squared() < (to - from).norm_squared() && off.dot(&(to - center)) < 0.0
-    }
-
     /// Where a point that lies within the axis at `scale` of its thickness, plus `gap` metres, is led out to.
     fn led_out(&self, p: Vec3, scale: f64, gap: f64) -> Option<Vec3> {
         let is_far = (0..3).any(|c| p[c] < self.low[c] - gap || p[c] > self.high[c] + gap);
@@ -212,23 +205,9 @@ impl Axes {
         near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|near| near.0)
     }
 
-    /// How often they pass through triangles: not at all where every part of the body leaves by its opening.
-    pub(super) fn passes(&self, x: &[Vec3], triangles: &[[u32; 3]]) -> usize {
-        let segments =
-            self.axes.iter().flat_map(|axis| axis.disks.windows(2).map(|pair| [pair[0].center, pair[1].center]));
-        let count =
-            |[from, to]: [Vec3; 2]| triangles.iter().filter(|t| pierces(from, to, t.map(|n| x[n as usize]))).count();
-        segments.map(count).sum()
-    }
-
     /// The axis of a part, if the body has it.
     pub(super) fn part(&self, kind: PartKind) -> Option<&Axis> {
         self.axes.iter().find(|axis| axis.kind == kind)
-    }
-
-    /// Whether one of them lies between two points, nearer to the first than they are apart.
-    pub(super) fn lies_between(&self, from: Vec3, to: Vec3) -> bool {
-        (to - from).norm() > THINNEST && self.axes.iter().any(|axis| axis.lies_between(from, to))
     }
 
     /// Where a point is led to that lies within the axes at `scale` of their thickness, plus `gap` metres; the point
@@ -272,23 +251,5 @@ mod tests {
         let p = axis.led_out(Vec3::new(0.0, 0.5, -0.05), 1.0, 0.01).expect("inside");
         assert!((p - Vec3::new(0.0, 0.5, -0.11)).norm() < 1e-12, "{p:?}");
         assert!(axis.led_out(Vec3::new(0.15, 0.5, 0.0), 0.5, 0.0).is_none());
-    }
-
-    #[test]
-    fn a_node_that_would_pass_an_axis_is_seen_and_one_that_goes_round_it_is_not() {
-        let axes = Axes { axes: vec![cylinder()] };
-        let at = |x: f64, z: f64| Vec3::new(x, 0.5, z);
-        assert!(axes.lies_between(at(0.03, 0.0), at(-0.04, 0.0)));
-        assert!(!axes.lies_between(at(0.03, 0.0), at(0.01, 0.03)), "on the same side");
-        assert!(!axes.lies_between(at(0.3, 0.0), at(0.2, 0.0)), "nowhere near");
-    }
-
-    #[test]
-    fn an_axis_passes_through_cloth_across_it_and_not_through_cloth_round_it() {
-        let axes = Axes { axes: vec![cylinder()] };
-        let across = [[-1.0, 0.52, -1.0], [1.0, 0.52, -1.0], [0.0, 0.52, 2.0]].map(Vec3::from);
-        assert_eq!(axes.passes(&across, &[[0, 1, 2]]), 1);
-        let beside = across.map(|p| p + Vec3::new(1.5, 0.0, 0.0));
-        assert_eq!(axes.passes(&beside, &[[0, 1, 2]]), 0);
     }
 }

@@ -44,15 +44,19 @@ pub(super) struct Ring {
 
 impl Ring {
     /// The direction from the middle at this angle, radians.
-    fn way(&self, angle: f64) -> Vec3 {
+    pub(super) fn way(&self, angle: f64) -> Vec3 {
         self.frame[0] * angle.cos() + self.frame[1] * angle.sin()
+    }
+
+    /// Unit direction of the way out of the ring.
+    pub(super) fn out(&self) -> Vec3 {
+        self.frame[0].cross(&self.frame[1])
     }
 
     /// The nodes of the rim and their places, metres.
     fn places(&self) -> impl Iterator<Item = (usize, Vec3)> {
-        let axis = self.frame[0].cross(&self.frame[1]);
         let place = move |angle: &f64| {
-            self.center + self.way(*angle) * self.radius + axis * (self.saddle * (2.0 * angle).cos())
+            self.center + self.way(*angle) * self.radius + self.out() * (self.saddle * (2.0 * angle).cos())
         };
         self.rim.iter().map(|n| *n as usize).zip(self.angles.iter().map(place))
     }
@@ -114,7 +118,7 @@ impl<'a> Film<'a> {
     }
 
     /// The field that takes these values at the nodes that are given.
-    fn spread(&self, given: &[f64]) -> Vec<f64> {
+    pub(super) fn spread(&self, given: &[f64]) -> Vec<f64> {
         self.spread_with(given, &Jumps::new())
     }
 
@@ -137,8 +141,21 @@ impl<'a> Film<'a> {
         self.row.iter().zip(given).map(|(row, given)| row.map_or(*given, |row| right[row as usize])).collect()
     }
 
+    /// The inverse of the equation's matrix times vectors at the free nodes; zero at those that are given.
+    pub(super) fn inverse(&self, of: &[Vec3]) -> Vec<Vec3> {
+        let mut out = vec![Vec3::zeros(); of.len()];
+        let count = self.row.iter().flatten().count();
+        for c in 0..3 {
+            let mut right = vec![0.0; count];
+            self.row.iter().zip(of).for_each(|(row, v)| row.iter().for_each(|r| right[*r as usize] = v[c]));
+            self.factor.solve_f64(&mut right);
+            self.row.iter().zip(&mut out).for_each(|(row, v)| row.iter().for_each(|r| v[c] = right[*r as usize]));
+        }
+        out
+    }
+
     /// The same for points in space.
-    fn spread_points(&self, given: &[Vec3]) -> Vec<Vec3> {
+    pub(super) fn spread_points(&self, given: &[Vec3]) -> Vec<Vec3> {
         let [x, y, z] = [0, 1, 2].map(|c| self.spread(&given.iter().map(|p| p[c]).collect::<Vec<_>>()));
         (0..given.len()).map(|n| Vec3::new(x[n], y[n], z[n])).collect()
     }

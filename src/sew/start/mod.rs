@@ -1,10 +1,10 @@
 //! Where a garment starts: from its own topology.
 //!
 //! ```text
-//! mesh ─▶ glue ─────────▶ openings ─────────▶ deal ──────────────▶ rings ─▶ harmonic ─▶ balloon
-//!          one surface     its rims, with      which part of the    round    a soap      inflated round
-//!          per part        length and girth    body passes through  the      film        axes that grow
-//!                                              each                 axes     between     to the body
+//! mesh ─▶ glue ─────────▶ openings ─────────▶ deal ──────────────▶ rings ─▶ star ─────────▶ balloon
+//!          one surface     its rims, with      which part of the    round    passes nowhere   inflated round
+//!          per part        length and girth    body passes through  the      through itself,  axes that grow
+//!                                              each                 axes     the axes within  to the body
 //! ```
 //!
 //! A sewn garment is a surface with openings, and a part of the body passes through each opening: that is all that a
@@ -12,10 +12,10 @@
 
 mod axes;
 mod balloon;
+mod circles;
 mod cloth;
 mod cost;
 mod cover;
-mod crossed;
 mod deal;
 mod deal_error;
 mod ends;
@@ -29,11 +29,16 @@ mod marks;
 mod openings;
 mod outside;
 mod profile;
+mod reach;
+mod ribbon;
 mod rings;
 mod sections;
 mod sides;
 mod sketch;
+mod star;
 mod surface;
+mod unfold;
+mod way_out;
 mod winding;
 mod words;
 mod zip;
@@ -57,10 +62,12 @@ use crate::mesh::{self, ClothMesh, PieceMesh, Transfer};
 use crate::pattern::{Garment, PlaceWord};
 use axes::Axes;
 use balloon::{Balloon, Held, Length};
+use circles::Mouth;
 use harmonic::{Film, Limb, Ring, angles};
 use profile::Profile;
 use rings::{Worn, limb_of};
 use sections::sections;
+use star::Part;
 
 /// Garments start on a mesh of this spacing, metres, whatever is asked for: it costs a second or two, and a finer one
 /// starts no better.
@@ -78,15 +85,7 @@ pub fn start(garment: &Garment, to: &ClothMesh, body: &Mannequin, collider: &Col
     let dealt = stages.last()?;
     let axes = Axes::of(body);
     let level = dealt.levels(garment, &mesh);
-    let mut nodes = dealt.on_film(garment, &mesh, &axes, |film| {
-        let of_ring = |ring: &Ring| Held { rim: ring.rim.clone(), middle: ring.center, along: None, once_lost: false };
-        let sections = film.limbs.iter().flat_map(|limb| sections(&film.rings[limb.ring], limb));
-        let held = film.rings.iter().map(of_ring).chain(sections).collect();
-        let bending = surface::bending(&dealt.glued, &mesh);
-        let (stretch, level) = (film.edges.to_vec(), level.clone());
-        let balloon = Balloon { triangles: dealt.glued.triangles.clone(), stretch, bending, held, level };
-        balloon.inflate(&film.nodes, &axes, collider)
-    })?;
+    let mut nodes = dealt.on_film(garment, &mesh, &axes, |film| dealt.inflated(&mesh, film, &axes, collider))?;
     outside::put_outside(&mut nodes, &dealt.glued.triangles, &level, &axes);
     let x = hand_over::particles(garment, &mesh, &dealt.glued, &nodes);
     Some(Transfer::new(&mesh, to).apply(&x))
@@ -94,8 +93,11 @@ pub fn start(garment: &Garment, to: &ClothMesh, body: &Mannequin, collider: &Col
 
 /// A glued garment on the film between its openings.
 struct OnFilm<'a> {
+    worn: &'a [Worn<'a>],
     edges: &'a [Length],
     rings: &'a [Ring],
+    /// The connected part that each ring is of, and the ends of the body that leave by it.
+    leave: &'a [(u32, Ends)],
     limbs: &'a [Limb<'a>],
     nodes: Vec<Vec3>,
 }
@@ -137,9 +139,53 @@ impl Dealt {
     ) -> Option<T> {
         let edges = surface::edges(&self.glued, mesh);
         let worn = self.worn(garment, mesh);
-        let (rings, limbs) = rings_and_limbs(&worn, &self.glued, &edges, axes)?;
+        let (rings, leave, limbs) = rings_and_limbs(&worn, &self.glued, &edges, axes)?;
         let nodes = Film::new(self.glued.count, &edges, &rings)?.start(&rings, &limbs);
-        Some(then(OnFilm { edges: &edges, rings: &rings, limbs: &limbs, nodes }))
+        Some(then(OnFilm { worn: &worn, edges: &edges, rings: &rings, leave: &leave, limbs: &limbs, nodes }))
+    }
+
+    /// Every connected part inflated: from a star, or from its film where it is none.
+    fn inflated(&self, mesh: &ClothMesh, film: OnFilm, axes: &Axes, body: &Collider) -> Vec<Vec3> {
+        let bending = surface::bending(&self.glued, mesh);
+        let piece = |source: &u32| mesh.piece_of(mesh.triangles[*source as usize][0]).unwrap_or(0) as u32;
+        let of_ring = |ring: &Ring| Held { rim: ring.rim.clone(), middle: ring.center, along: None };
+        let sections = film.limbs.iter().flat_map(|limb| sections(&film.rings[limb.ring], limb));
+        let held: Vec<Held> = film.rings.iter().map(of_ring).chain(sections).collect();
+        let rims = openings::rims(&self.glued);
+        let mut nodes = film.nodes.clone();
+        for number in 0..film.worn.len() as u32 {
+            let is_own = |n: u32| self.glued.part_of[n as usize] == number;
+            let part = self.part(mesh, &film, &rims, number);
+            let star = part.star(axes);
+            let own = self.glued.triangles.iter().zip(&self.glued.source).filter(|(t, _)| is_own(t[0]));
+            let balloon = Balloon {
+                part: &part,
+                piece: own.map(|(_, source)| piece(source)).collect(),
+                bending: bending.iter().filter(|l| is_own(l.ends[0])).copied().collect(),
+                held: held.iter().filter(|held| held.rim.first().is_some_and(|n| is_own(*n))).cloned().collect(),
+                ways: star.as_ref().map_or(&[], |star| &star.ways),
+            };
+            let x = balloon.inflate(star.as_ref().map_or(&film.nodes, |star| &star.nodes), axes, body);
+            (0..x.len()).filter(|n| is_own(*n as u32)).for_each(|n| nodes[n] = x[n]);
+        }
+        nodes
+    }
+
+    /// A connected part; `rims` are all of the garment.
+    fn part<'a>(&self, mesh: &ClothMesh, film: &'a OnFilm, rims: &'a [Vec<u32>], number: u32) -> Part<'a> {
+        let is_own = |n: u32| self.glued.part_of[n as usize] == number;
+        let rings = film.rings.iter().zip(film.leave).filter(|(_, (part, _))| *part == number);
+        let mouths: Vec<Mouth> = rings.map(|(ring, (_, ends))| Mouth { ring, ends: *ends }).collect();
+        let is_hole = |rim: &&Vec<u32>| is_own(rim[0]) && mouths.iter().all(|mouth| mouth.ring.rim != **rim);
+        let holes = rims.iter().filter(is_hole).map(Vec::as_slice).collect();
+        let worn = &film.worn[number as usize];
+        let left = || worn.ends.iter().zip(&worn.far).filter(|(ends, _)| !ends.is_empty());
+        let far = (0..self.glued.count).map(|n| left().map(|(_, far)| far[n]).fold(f64::INFINITY, f64::min));
+        let own = self.glued.triangles.iter().zip(&self.glued.source).filter(|(t, _)| is_own(t[0]));
+        let flat = |source: &u32| mesh.triangles[*source as usize].map(|p| mesh.flat[p as usize]);
+        let (triangles, flat) = own.map(|(t, source)| (*t, flat(source))).unzip();
+        let edges = film.edges.iter().filter(|l| is_own(l.ends[0])).copied().collect();
+        Part { holes, triangles, flat, edges, far: far.collect(), mouths }
     }
 
     /// The openings of every connected part.
@@ -222,15 +268,16 @@ impl Dealt {
     }
 }
 
-/// The rings of all parts, and the limbs that some of them are round. `None` if a part has none.
+/// The rings of all parts with the part that each is of and the ends that leave by it, and the limbs that some of them
+/// are round. `None` if a part has none.
 fn rings_and_limbs<'a>(
     worn: &'a [Worn],
     glued: &Glued,
     edges: &[Length],
     axes: &'a Axes,
-) -> Option<(Vec<Ring>, Vec<Limb<'a>>)> {
-    let (mut rings, mut limbs) = (Vec::new(), Vec::new());
-    for part in worn {
+) -> Option<(Vec<Ring>, Vec<(u32, Ends)>, Vec<Limb<'a>>)> {
+    let (mut rings, mut leave, mut limbs) = (Vec::new(), Vec::new(), Vec::new());
+    for (number, part) in worn.iter().enumerate() {
         let before = rings.len();
         for (k, ring) in part.rings(axes).into_iter().enumerate() {
             let Some(ring) = ring else { continue };
@@ -241,10 +288,11 @@ fn rings_and_limbs<'a>(
                 limbs.push(Limb { ring: rings.len(), axis, distance: &part.far[k], other, angles });
             }
             rings.push(ring);
+            leave.push((number as u32, part.ends[k]));
         }
         if rings.len() == before {
             return None;
         }
     }
-    Some((rings, limbs))
+    Some((rings, leave, limbs))
 }

@@ -1,4 +1,4 @@
-//! Sections of a garment's sleeves and legs, which are held round the axes while the garment is inflated.
+//! Sections of a garment's legs, which are held round the axes while the garment is inflated.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -10,18 +10,13 @@ const STEP: f64 = 0.05;
 /// Cloth that leaves a larger gap than this round the axis, radians, is no tube there: it goes on to the trunk.
 const OPEN: f64 = FRAC_PI_2;
 
-/// Sections of a sleeve end so far from the shoulder, metres: above lies what is cut in one with the trunk.
-const FROM_SHOULDER: f64 = 0.08;
-
-/// The sections of the tube round a limb, from its ring up to where it opens towards the trunk. Those of a leg are held
-/// all the time; those of an arm, which may be wide and hang below it, where they have lost the arm.
+/// The sections of the tube round a leg, from its ring up to where it opens towards the trunk: pressure would press
+/// their inner sides against the axes. None of an arm, which may be wide and hang below it.
 pub(super) fn sections(ring: &Ring, limb: &Limb) -> Vec<Held> {
-    let Some(along) = ring.along else { return Vec::new() };
+    let Some(along) = ring.along.filter(|_| !limb.axis.kind.is_arm()) else { return Vec::new() };
     let is_own = |n: usize| limb.other.is_none_or(|other| limb.distance[n] < other[n]);
     let own: Vec<usize> = (0..limb.distance.len()).filter(|n| limb.distance[*n].is_finite() && is_own(*n)).collect();
-    let is_arm = limb.axis.kind.is_arm();
-    let count = if is_arm { (along - FROM_SHOULDER).max(0.0) / STEP } else { (along + STEP) / STEP } as usize;
-    let mut of: Vec<Vec<u32>> = vec![Vec::new(); count];
+    let mut of: Vec<Vec<u32>> = vec![Vec::new(); ((along + STEP) / STEP) as usize];
     for n in own {
         if let Some(section) = of.get_mut((limb.distance[n] / STEP) as usize) {
             section.push(n as u32);
@@ -31,11 +26,9 @@ pub(super) fn sections(ring: &Ring, limb: &Limb) -> Vec<Held> {
     of.into_iter()
         .enumerate()
         .take_while(|(_, nodes)| is_round(nodes))
-        .map(|(k, mut rim)| {
+        .map(|(k, rim)| {
             let station = limb.axis.station(along - (k as f64 + 0.5) * STEP);
-            let angle = |n: &u32| limb.angles[*n as usize].rem_euclid(TAU);
-            rim.sort_unstable_by(|a, b| angle(a).total_cmp(&angle(b)));
-            Held { rim, middle: station.center, along: Some(station.axis), once_lost: is_arm }
+            Held { rim, middle: station.center, along: Some(station.axis) }
         })
         .collect()
 }
