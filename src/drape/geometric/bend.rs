@@ -9,11 +9,11 @@ use crate::geometry::Vec3;
 /// A hinge of the cloth: edge ij between the triangles with apexes k and l.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bend {
-    /// i, j, k, l.
+    /// Nodes i, j, k, l.
     pub(super) nodes: [u32; 4],
     pub(super) coefficients: [f64; 4],
     pub(super) weight: f64,
-    /// Length of A_M along the normal, metres; 0 for a hinge that is flat at rest.
+    /// Length of A_M along the normal, metres. 0 for a hinge that is flat at rest.
     pub(super) rest: f64,
 }
 
