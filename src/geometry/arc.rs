@@ -19,7 +19,7 @@ pub(crate) fn bulged(points: &[(Vec2, f64)]) -> Path {
     Path::cubics(&curves)
 }
 
-/// An arc as curves; halved until each turns by little, which needs no centre and is exact however flat the arc is.
+/// An arc as curves. Halved until each turns by little, which needs no centre and is exact however flat the arc is.
 fn curve(from: Vec2, to: Vec2, bulge: f64, curves: &mut Vec<Cubic>) {
     let chord = to - from;
     let aside = Vec2::new(-chord.y, chord.x);
