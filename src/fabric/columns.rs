@@ -1,6 +1,6 @@
 //! Tables as spreadsheets and instruments write them.
 
-/// How the rows of a table are cut into fields.
+/// Separation of the rows of a table into fields.
 #[derive(Clone, Debug)]
 pub(in crate::fabric) struct Columns {
     separator: char,

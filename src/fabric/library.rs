@@ -52,7 +52,7 @@ pub fn load(name_or_path: &str) -> Result<Fabric, FabricError> {
     load_in(name_or_path, Path::new(""), &[])
 }
 
-/// As [`load`], paths being relative to `folder`; `others` are further names for the list in the error.
+/// As [`load`], paths being relative to `folder`. `others` are further names for the list in the error.
 pub(super) fn load_in(name: &str, folder: &Path, others: &[&str]) -> Result<Fabric, FabricError> {
     let sheet = sheet_in(name, folder, others)?;
     // Curves that a fabric file names lie beside that file.
@@ -88,7 +88,7 @@ fn sheet_in(name: &str, folder: &Path, others: &[&str]) -> Result<FabricSheet, F
     FabricSheet::parse(&text, &file)
 }
 
-/// A fabric's file is a page of text; a curve of ten thousand points has a few hundred kilobytes.
+/// A fabric's file is a page of text. A curve of ten thousand points has a few hundred kilobytes.
 const LARGEST: u64 = 4 << 20;
 
 /// The text of a fabric's or a curve's file, told to be too large before it is read.
