@@ -1,4 +1,4 @@
-//! Where a line runs along the edges of its piece.
+//! The parts of a line that run along the edges of its piece.
 
 use super::Edge;
 use super::region::{SLACK, looks};
@@ -15,7 +15,7 @@ pub struct Along {
     pub edge: (usize, usize),
     /// Arc length on the edge where the line comes to it, metres.
     pub from: f64,
-    /// And where the line leaves it; less than `from` where the line runs against the edge.
+    /// Arc length on the edge where the line leaves it, metres. It is less than `from` if the line runs against the edge.
     pub to: f64,
     /// Arc lengths on the line of both, metres.
     pub line: [f64; 2],

@@ -14,7 +14,7 @@ struct Chord {
     edge: usize,
 }
 
-/// Where two edges of a piece cross: the point and (ring, index) of both.
+/// First crossing of two edges of a piece: the point, and (ring, index) of both.
 pub(super) fn first_crossing(rings: &[Vec<Edge>]) -> Option<(Vec2, [(usize, usize); 2])> {
     let mut chords = Vec::new();
     let mut counts = Vec::new();

@@ -11,7 +11,7 @@ use crate::input::nearest;
 pub enum PlaceWord {
     /// Round the trunk, up to the shoulders.
     Torso,
-    /// Round the hips and what is below.
+    /// Round the hips and below.
     Hip,
     /// Round the waist.
     Waist,
@@ -59,12 +59,12 @@ pub enum PlaceWord {
     Back,
 }
 
-/// What a word says about where a piece goes.
+/// Meaning of a word of `place`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlaceMeaning {
     /// Round the trunk or the legs below it.
     Trunk,
-    /// Round one leg; for what is sewn to the other leg too (trousers), round the trunk.
+    /// Round one leg. If it is sewn to a piece for the other leg (trousers), round the trunk.
     Leg,
     /// Round an arm.
     Arm,
@@ -80,7 +80,7 @@ pub enum PlaceMeaning {
     Back,
 }
 
-/// How high on the trunk a word says.
+/// Height on the trunk that a word names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TrunkLevel {
     /// Round the waist.
@@ -91,7 +91,7 @@ pub enum TrunkLevel {
     Chest,
 }
 
-/// A word with its name in files and messages, what it means, how high on the trunk it says, and its other spellings.
+/// A word with its name in files and messages, its meaning, its height on the trunk, and its other spellings.
 type Row = (PlaceWord, &'static str, PlaceMeaning, Option<TrunkLevel>, &'static [&'static str]);
 
 /// Every word. Spellings of one or two letters, and those run together, are how other programs name their pieces.
@@ -149,18 +149,18 @@ impl PlaceWord {
         self.row().1
     }
 
-    /// What it says.
+    /// Its meaning.
     pub fn meaning(self) -> PlaceMeaning {
         self.row().2
     }
 
-    /// How high on the trunk it says, if it does.
+    /// Its height on the trunk, if it names one.
     pub fn level(self) -> Option<TrunkLevel> {
         self.row().3
     }
 
     fn row(self) -> &'static Row {
-        // The table has the words in the order of the type; a test says so.
+        // The table has the words in the order of the type. A test says so.
         &WORDS[self as usize]
     }
 }

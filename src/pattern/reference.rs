@@ -99,10 +99,10 @@ impl Reference {
     }
 }
 
-/// Reads what stands behind the `@` of a reference.
+/// Reads the part of a reference behind its `@`.
 ///
 /// # Errors
-/// What `bad` says where there are no two ends, and [`Problem::BackwardsRange`].
+/// The problem of `bad` without two ends, and [`Problem::BackwardsRange`].
 pub(super) fn parse_range(range: &str, bad: impl Fn() -> Problem) -> Result<[Quantity; 2], Problem> {
     let (from, to) = range.split_once("..").ok_or_else(&bad)?;
     let ends = [parse_quantity(from)?, parse_quantity(to)?];

@@ -1,10 +1,10 @@
-//! Where the cloth of a piece is.
+//! The region of a piece's cloth.
 
 use super::Edge;
 use super::crossing::chords;
 use crate::geometry::{Path, Vec2, encloses};
 
-/// What misses the cloth by no more than this (metres) is meant to be on its rim.
+/// Distance from the cloth within which a point counts as lying on its rim, metres.
 pub(crate) const SLACK: f64 = 1e-3;
 /// Lines and edges are looked at so often, metres.
 const STEP: f64 = 5e-3;
@@ -33,14 +33,14 @@ impl<'a> Region<'a> {
     }
 }
 
-/// The first place, of those looked at, where `path` is nowhere near what `holds` says is cloth.
+/// The first examined point of `path` that is nowhere near cloth according to `holds`.
 pub(super) fn first_off(path: &Path, holds: impl Fn(Vec2) -> bool) -> Option<Vec2> {
     let length = path.length();
     let looks = looks(length);
     (0..=looks).map(|i| path.point(length * i as f64 / looks as f64)).find(|&p| !holds(p))
 }
 
-/// In how many steps what is so long (metres) is looked at.
+/// Number of examined points of a line of this length (metres).
 pub(super) fn looks(length: f64) -> usize {
     (length / STEP).clamp(2.0, MOST_LOOKS).ceil() as usize
 }

@@ -16,7 +16,7 @@ pub(super) fn is_tube(chain: &[Span], rims: &Rims, sewn: &Identities) -> bool {
     of_one_piece && !rims.same(start, end) && sewn.one(rims, start, end)
 }
 
-/// Where the ends of a chain lie.
+/// Positions of the ends of a chain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ends {
     /// Above its middle, as drawn.
@@ -27,7 +27,7 @@ pub(super) enum Ends {
     Below,
 }
 
-/// Where the ends of a chain lie, its pieces one after the other as they are sewn.
+/// Positions of the ends of a chain, with its pieces one after the other as they are sewn.
 pub(super) fn ends(pieces: &[Piece], chain: &[Span]) -> Ends {
     let length: f64 = chain.iter().map(Span::length).sum();
     let (mut walked, mut height, mut middle) = (0.0, 0.0, 0.0);
