@@ -11,7 +11,7 @@ use super::edges::NamedEdge;
 use crate::geometry::MM;
 use crate::report::{Quartet, Stage};
 
-/// What flattening did to a surface; written as `report.json`.
+/// Report of a flattened surface, written as `report.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SurfaceReport {
     /// Version of this program.
@@ -22,18 +22,19 @@ pub struct SurfaceReport {
     pub units: &'static str,
     /// One per part.
     pub pieces: Vec<PartReport>,
-    /// Where the surface was cut besides its groups and texture seams: chains of the file's vertices, from 1.
+    /// Cuts besides groups and texture seams: chains of the file's vertices, from 1.
     pub cuts: Vec<Vec<u32>>,
-    /// A row for each of these: what it is, and how long.
+    /// A row for each of these cuts, with its kind and length.
     pub cuts_made: Vec<CutReport>,
     /// The one stage.
     pub stages: Vec<Stage>,
 }
 
-/// What flattening did to one part. Keys and units are those of a garment's report; the surface in space is `draped`.
+/// Report of one flattened part. Keys and units are those of a garment's report. The surface in space is called
+/// `draped`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PartReport {
-    /// The group's name; numbered where a group has several parts.
+    /// The group's name. Numbered where a group has several parts.
     pub name: String,
     /// Vertices.
     pub particles: usize,
@@ -56,15 +57,15 @@ pub struct PartReport {
     /// Largest |length / length in space − 1| of an edge of the rim.
     pub largest_rim_error: f64,
     /// By which share, in the mean, rim edges (in the mode `woven` the lengths between corners and notches) are off
-    /// that the mode was to keep and could not; `null` where it keeps them, or none.
+    /// that the mode was to keep and could not. `null` where it keeps them, or none.
     pub rim_missed: Option<f64>,
     /// Root mean square of the triangles' stretches minus one.
     pub distortion: f64,
     /// Root mean square of the triangles' relative change of area.
     pub area_distortion: f64,
-    /// |stretch − 1| in the worst direction: what all but a hundredth of the area stays below, and the largest.
+    /// |stretch − 1| in the worst direction: the 99th percentile by area, and the maximum.
     pub strain: StrainReport,
-    /// What happened to warp and weft.
+    /// Extension of warp and weft.
     pub threads: ThreadReport,
     /// L²/4πS of the rim and the area in space. Below 1 no flat piece has both that rim and that area.
     pub isoperimetric: f64,
@@ -87,7 +88,7 @@ pub struct PartReport {
     pub layable: bool,
     /// A dart that would relieve the piece, where its strain passes the limit.
     pub dart: Option<DartReport>,
-    /// How many darts were cut into it.
+    /// Number of darts cut into it.
     pub darts: usize,
     /// Why there are no more where they were asked for and the strain still passes the limit: `none_left` (of those
     /// allowed), `overlap` (the piece would lie on itself) or `no_place` (none can be told that would help).
@@ -164,7 +165,7 @@ pub struct ThreadReport {
 pub struct CutReport {
     /// The part that was cut, named as it was before.
     pub piece: String,
-    /// What for.
+    /// Its purpose.
     pub why: CutWhy,
     /// The file's vertex at its start, from 1.
     pub from: u32,
