@@ -110,11 +110,12 @@ const MOVES: f64 = 0.1e-3;
 const SHARE: f64 = 0.05;
 /// Edge rings round the moving nodes that are freed with them.
 const RINGS: usize = 3;
-/// A partial solve stops when a stretch moves the garment by less than this share of [`SETTLED`].
+/// A partial solve stops when a stretch moves the garment by less than this share of the motion at which it has
+/// settled.
 const CALMER: f64 = 0.5;
 /// Largest number of stretches of partial solves in a row.
 const STRETCHES: usize = 20;
-/// Steps after which an undecided test of rest is given up. Twice as many in each further test. Steps of all nodes
+/// Steps after which an undecided test of rest is given up, and twice as many in each further test. Steps of all nodes
 /// remove the remaining motion more slowly than partial solves do.
 const SHORT_TEST: usize = 12;
 /// Bound on the steps of all tests of rest, in multiples of the allowed draping steps: one full test, and as much for

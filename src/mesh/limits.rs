@@ -16,7 +16,7 @@ const LEAST_ALONG: f64 = 4.0;
 const GOOD_SPRINGS_ACROSS: f64 = 3.0;
 /// Accuracy of widths, metres: a piece exactly one spacing wide is not narrow.
 const ROUNDING: f64 = 1e-9;
-/// Largest mesh that is built. Two million particles take some gigabytes in the later stages.
+/// Largest number of particles that is meshed. Two million take some gigabytes in the later stages.
 const MOST_PARTICLES: usize = 2_000_000;
 
 /// Fineness of the mesh of a piece.

@@ -4,7 +4,7 @@ use crate::geometry::Vec2;
 
 /// Smallest angle below which a triangle is poor, degrees. It is then worth adding or removing a particle.
 pub(super) const POOR: f64 = 28.0;
-/// Least factor by which a change must gain.
+/// Least factor by which a change must improve the score.
 pub(super) const GAIN: f64 = 1.03;
 
 /// Squared sine of a triangle's smallest angle, negative when it is turned over: zero at a sliver, 3/4 at best.

@@ -3,7 +3,7 @@
 use super::Edge;
 use crate::geometry::{Path, Vec2, encloses};
 
-/// Curves are looked at as chords that leave them by at most this (metres).
+/// Largest distance of a curve from the chords that replace it in the search, metres.
 pub(super) const CHORD_ERROR: f64 = 2e-5;
 
 struct Chord {

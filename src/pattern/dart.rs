@@ -10,7 +10,7 @@ use super::problem::Problem;
 use super::{Edge, SeamKind};
 use crate::geometry::{Path, Vec2};
 
-/// Legs may differ by this much (metres).
+/// Largest difference of a dart's legs, metres.
 const LEG_TOLERANCE: f64 = 5e-4;
 
 /// A wedge on a drawn edge.

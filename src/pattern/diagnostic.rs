@@ -133,12 +133,12 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// Warnings beyond this many are counted, not kept, and so are errors: a broken file of a million lines need not fill
-/// the screen.
+/// Number of warnings, and of errors, that are kept. Further ones are only counted, so that a broken file of a million
+/// lines does not fill the screen.
 const KEPT: usize = 200;
-/// Characters of a line that are shown: all, or so many round the place.
+/// Number of characters of a line that are shown: the whole line, or this many round the place.
 const EXCERPT_WIDTH: usize = 160;
-/// Characters of a message, and of a hint: enough for a list of all edges of a garment.
+/// Largest number of characters of a message, and of a hint: enough for a list of all edges of a garment.
 const MESSAGE: usize = 1200;
 
 /// Collects the findings of one file.

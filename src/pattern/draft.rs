@@ -17,10 +17,10 @@ use super::{Edge, Line, Place, SeamKind};
 use crate::geometry::{Path, Vec2, Vec3, box_of};
 use crate::input::nearest;
 
-/// A hole that encloses less (square metres) is a line or a point drawn as one.
+/// Least area of a hole, m². A smaller one is a line or a point.
 const SMALLEST_HOLE: f64 = 1e-6;
 
-/// A range that misses the end of its edge by this much (metres) reaches it: rounding of the file's numbers.
+/// Distance from the end of an edge within which a range reaches it, metres: rounding of the file's numbers.
 const SNAP: f64 = 5e-4;
 
 /// A stretch of a drawn edge: `(ring, index)`, walked from `from` to `to`.

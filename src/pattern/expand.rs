@@ -12,11 +12,11 @@ use crate::fabric::FabricSpec;
 use crate::input::nearest;
 use crate::input::shown;
 
-/// The fabric of pieces that name none, in a file that names none.
+/// Name of the fabric of pieces that name none, in a file that names none.
 const DEFAULT_FABRIC: &str = "shell";
 /// Library name of the default fabric.
 pub const DEFAULT_CLOTH: &str = "cotton_poplin";
-/// Characters of a title that are shown.
+/// Number of characters of a title that are shown.
 const TITLE: usize = 200;
 
 /// Cuts the pieces, opens darts, lays pleats, writes mirrored seams out and checks everything that can be checked

@@ -12,10 +12,11 @@ const REACH: f64 = 0.15;
 /// overlap for the end of the underlap, and another where corners are rounded or the points lie slanting.
 const TURN: f64 = 2.0;
 
-/// And this much (metres) where they only meet.
+/// Addition to [`TURN`] overlaps, metres, for edges that only meet.
 const TURN_SLACK: f64 = 5e-3;
 
-/// So much (metres) of a fastened edge beyond its last fastening is never an opening's: half the width of a band.
+/// Length of a fastened edge beyond its last fastening that never belongs to an opening, metres: half the width of a
+/// band.
 const BEYOND: f64 = 0.05;
 
 /// Length of a rim between fastened edges alone up to which it is a slit, metres. Buttons are at most 100 mm apart, and

@@ -11,8 +11,8 @@ use super::{Line, LineKind};
 use crate::geometry::{Path, Vec2, mirrored};
 use crate::input::nearest;
 
-/// A line that bends or gathers the cloth is at least this long (metres): a shorter one is a slip of the pen, and would
-/// make springs without length.
+/// Least length of a line that bends or gathers the cloth, metres. A shorter one is a slip of the pen, and would make
+/// springs without length.
 const SHORTEST_LINE: f64 = 1e-3;
 
 /// Lines may run through darts, which are closed when the line is looked at, and end anywhere on the cloth.

@@ -75,9 +75,9 @@ pub use walk::{SeamWalk, walk, written_edge, written_names};
 
 use std::ops::RangeInclusive;
 
-/// Widest seam allowance, metres: a wider one is in another unit than thought.
+/// Widest seam allowance, metres. A wider one is in another unit.
 pub const WIDEST_ALLOWANCE: f64 = 0.2;
-/// Edges that are no longer than this (metres) have no length to speak of, and no mesh.
+/// Length up to which an edge counts as having none, metres. It cannot be meshed.
 pub const SHORTEST_EDGE: f64 = 2e-5;
 
 use crate::geometry::{Path, Vec2, Vec3};

@@ -7,10 +7,9 @@ use super::rim::joints;
 use super::walk::edge_name;
 use super::{EdgeId, Garment, Notch, Piece, Seam, Span};
 
-/// Notches that miss each other by more than this (metres), ease allowed for, were not meant so: nobody draws or sews
-/// that badly.
+/// Distance by which notches may miss each other, after ease, metres. Nobody draws or sews less exactly on purpose.
 const FAR: f64 = 0.010;
-/// A notch so near to the end of a span (metres) is on it.
+/// Distance within which a notch lies on the end of a span, metres.
 const ON_END: f64 = 1e-9;
 
 /// A notch met on a walk along a chain, or a joint of its edges that stands for one.

@@ -2,7 +2,7 @@
 
 use super::{Bound, Closure, EdgeId, Garment, Seam, Span, Test};
 
-/// Between the name of a garment of an outfit and that of its piece, seam or fabric.
+/// Separator between the name of an outfit's garment and that of its piece, seam or fabric.
 const OF: char = '/';
 
 /// Makes one garment of several, given from the skin outwards. A single one stays as it is.

@@ -94,7 +94,7 @@ pub enum TrunkLevel {
 /// A word with its name in files and messages, its meaning, its height on the trunk, and its other spellings.
 type Row = (PlaceWord, &'static str, PlaceMeaning, Option<TrunkLevel>, &'static [&'static str]);
 
-/// Every word. Spellings of one or two letters, and those run together, are how other programs name their pieces.
+/// Every word. Spellings of one or two letters, and compounds, are the names that other programs give their pieces.
 const WORDS: [Row; 24] = {
     use PlaceMeaning as Means;
     use PlaceWord as Word;
@@ -182,7 +182,7 @@ pub fn words_of(name: &str) -> Vec<String> {
     own_name(name).split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).map(str::to_lowercase).collect()
 }
 
-/// A piece that starts farther from the feet than this, metres, is in another unit than thought.
+/// Largest distance of a piece's start from the feet, metres. A larger one is in another unit.
 const FARTHEST: f64 = 10.0;
 
 /// Checks the words and positions of every `place:` of the file.

@@ -18,7 +18,7 @@ pub(super) struct Reference {
     pub(super) range: Option<[Quantity; 2]>,
 }
 
-/// Larger numbers of a garment file mean nothing in any unit, and would fill a message with digits.
+/// Largest number in a garment file. Larger ones mean nothing in any unit, and would fill a message with digits.
 pub(crate) const LARGEST: f64 = 1e9;
 
 /// Reads a quantity: a number and perhaps a unit.

@@ -6,9 +6,9 @@ use crate::geometry::{Path, Vec2, encloses};
 
 /// Distance from the cloth within which a point counts as lying on its rim, metres.
 pub(crate) const SLACK: f64 = 1e-3;
-/// Lines and edges are looked at so often, metres.
+/// Distance between examined points of lines and edges, metres.
 const STEP: f64 = 5e-3;
-/// And no oftener than so many times, however long it is.
+/// Most points at which a line is examined, however long it is.
 const MOST_LOOKS: f64 = 400.0;
 
 /// The cloth within an outline, less the holes in it.

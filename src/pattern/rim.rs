@@ -6,7 +6,7 @@ use super::fasten::{Bridge, Fastening, RimSpot, Step, fastenings, patches, worn_
 use super::{EdgeId, Garment, Piece, Seam, Span};
 use crate::geometry::DisjointSets;
 
-/// Points of one rim closer than this (metres) are one: the largest difference a seam may have by default is 2 mm.
+/// Distance within which points of one rim are one point, metres. Sides of a seam may differ by 2 mm by default.
 const SAME: f64 = 1e-3;
 
 /// A point of a rim: ring of a piece, metres from the ring's start.
@@ -140,7 +140,7 @@ pub struct Opening {
     pub length: f64,
 }
 
-/// Free stretches shorter than this (metres) are rounding, not openings.
+/// Length of a free stretch below which it is rounding and no opening, metres.
 pub(super) const SLIVER: f64 = 1e-3;
 
 /// The openings of the sewn garment, from seams and closures alone: every stretch of rim that no seam takes, joined

@@ -12,17 +12,17 @@ use super::select::{Candidate, Source};
 use super::walk::difference;
 use super::{Garment, Give, Seam, SeamKind, Span};
 
-/// Lengths may differ by this much (metres) where nothing is said.
+/// Largest difference of a seam's lengths without ease, gather or stretch, metres.
 pub(crate) const DEFAULT_TOLERANCE: f64 = 2e-3;
-/// All seams close together unless the file stages them.
+/// Stage of seams for which the file gives none: all close together.
 pub(super) const DEFAULT_STAGE: i32 = 1;
 /// Names of a seam's ends in openings, beside the edges that meet there.
 const ENDS: [&str; 2] = ["start", "end"];
-/// More ease than this share of the length puckers: it is gathering.
+/// Largest ease, as a share of the length. More puckers, and counts as gathering.
 const LARGEST_EASE: f64 = 0.08;
-/// Less, metres, is none.
+/// Ease below which there is none, metres.
 const NO_EASE: f64 = 0.05e-3;
-/// Written gather and stretch ratios are rounded: this share of the length passes beside the tolerance.
+/// Share of the length by which written gather and stretch ratios may be rounded, beside the tolerance.
 const RATIO_ROUNDING: f64 = 0.01;
 
 /// The seams of a garment, and which stretches an opening leaves unsewn.

@@ -4,8 +4,8 @@ use super::rim::{Identities, Rims};
 use super::{Piece, Span};
 use crate::geometry::Vec2;
 
-/// The ends of a chain lie above or below its middle where that is by more than this share of its length: an armhole's
-/// by two fifths, a waist's or a hem's by next to nothing.
+/// Height of a chain's ends above or below its middle, as a share of its length, from which they lie clearly there. An
+/// armhole's ends lie there by two fifths, those of a waist or a hem by next to nothing.
 const CLEARLY: f64 = 0.15;
 
 /// Whether a chain is the rim of a tube: all of one piece, whose ends a seam of it brings together.

@@ -5,7 +5,7 @@ use super::recovery::Recovery;
 use super::stencils::Stencils;
 use crate::geometry::Vec3;
 
-/// Edges shorter than this have no direction, metres. Far below any real edge and far above rounding.
+/// Length below which an edge has no direction, metres: far below any real edge and far above rounding.
 const SHORTEST: f64 = 1e-12;
 
 /// The terms of (7).

@@ -13,7 +13,7 @@ const STRETCH_SCALE: f64 = 3.6;
 const BEND_SCALE: f64 = 1.0 / 12.0;
 /// Share of the area of each adjacent triangle that belongs to an edge.
 const EDGE_SHARE: f64 = 1.0 / 3.0;
-/// Triangles whose double area is below this share of their longest side squared are degenerate: their heights are
+/// Double area of a triangle, as a share of its longest side squared, below which it is degenerate: its heights are
 /// rounding.
 const FLATTEST: f64 = 1e-9;
 

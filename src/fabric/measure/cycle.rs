@@ -28,7 +28,7 @@ impl Kind {
     }
 }
 
-/// Share of the rise by which noise may bring a curve down above where it went up.
+/// Share of the rise by which noise may bring a returning curve above the rising one.
 const NOISE: f64 = 0.1;
 
 /// Slope and hystereses of a cycle.

@@ -15,11 +15,11 @@ use crate::input::yaml;
 /// Message for a text that is no table.
 const NO_TABLE: &str =
     "the first line must name the columns: repeat, recovery, stretch, bend; or parameter, warp, weft, unit";
-/// Names of files that hold a table end so. All others are YAML.
+/// Endings of the names of files that hold a table. All other files are YAML.
 const TABLES: [&str; 3] = ["csv", "tsv", "txt"];
 /// Grey value below which a pixel is cloth, where the file gives none.
 const THRESHOLD: u8 = 128;
-/// Share of the area by which a threshold in the right place may change it.
+/// Largest relative change of the area when a well placed threshold is moved.
 const DOUBT: f64 = 0.02;
 /// Area of the paper's specimen, 460 × 400 mm, cm². It cancels in the measure, because photographs are compared with
 /// each other only.

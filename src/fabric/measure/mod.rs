@@ -45,7 +45,7 @@ const SHEAR_PLACES: [f64; 2] = [0.5, 5.0];
 const BEND_PLACES: [f64; 2] = [0.5, 1.5];
 /// Curvature at which 2HB is read, 1/cm (KES-FB2).
 const BEND_MIDDLE: f64 = 1.0;
-/// Loads at which a recorded tensile curve is written down, gf/cm.
+/// Loads at which a recorded tensile curve is stored, gf/cm.
 const LOADS: [f64; 9] = [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 300.0, 400.0];
 
 /// A fabric as measured.

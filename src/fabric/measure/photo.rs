@@ -13,11 +13,11 @@ use crate::input::bytes;
 
 /// Largest file of a photograph, bytes.
 const LARGEST_FILE: u64 = 64 << 20;
-/// Longest side of a photograph, pixels: those of the largest cameras have half of it.
+/// Longest side of a photograph, pixels. The largest cameras have half of it.
 const LONGEST_SIDE: usize = 1 << 15;
-/// Grey values by which cloth and table should at least be away from the threshold.
+/// Least distance of cloth and table from the threshold, in grey values.
 pub(super) const CLEAR: u8 = 16;
-/// Most pixels.
+/// Largest number of pixels of a photograph.
 const MOST_PIXELS: usize = 1 << 28;
 
 /// A photograph as grey values, 0 black … 255 white.
