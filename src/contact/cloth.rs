@@ -211,7 +211,7 @@ impl ClothDetector {
         Shape { low, high, axis, spread: cosine.clamp(-1.0, 1.0).acos(), shrunk }
     }
 
-    /// Whether two patches are one smooth sheet (they meet, normals alike, nothing pushed together).
+    /// Whether two patches are one smooth sheet: they touch, their normals are alike, and neither is compressed.
     fn smooth(&self, a: usize, b: usize, shapes: &[Shape]) -> bool {
         let (p, q) = (&self.patches[a], &self.patches[b]);
         if p.piece != q.piece {

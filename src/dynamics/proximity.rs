@@ -245,7 +245,7 @@ impl<'a> Proximity<'a> {
         self.detector.tangles(x)
     }
 
-    /// Changes which nodes may pass through one another, for the next detection.
+    /// Sets which nodes may pass through one another, from the next search on.
     pub(super) fn set_passing(&mut self, passing: Vec<bool>) {
         self.detector.set_passing(passing);
         self.forget();

@@ -36,7 +36,7 @@ impl StretchLaw {
         Self { knots }
     }
 
-    /// The same law without resistance to compression.
+    /// This law without resistance to compression.
     pub(super) fn slack(&self) -> Self {
         let extension = self.knots.iter().filter(|k| k.0 >= 0.0).copied();
         Self { knots: std::iter::once((-1.0, 0.0)).chain(extension).collect() }

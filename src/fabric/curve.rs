@@ -103,7 +103,7 @@ impl TensileCurve {
         sum
     }
 
-    /// The same curve with every load multiplied by `factor`.
+    /// This curve with every load multiplied by `factor`.
     pub fn scaled(&self, factor: f64) -> Self {
         Self { points: self.points.iter().map(|p| (p.0, factor * p.1)).collect() }
     }

@@ -313,7 +313,7 @@ impl<'a> Values<'a> {
         })
     }
 
-    /// One direction's curve: `[file or factor, EMT, LT]` are its keys. The same without direction serve both.
+    /// Curve of one direction. Its keys are `[file or factor, EMT, LT]`. These keys without direction serve both.
     fn curve(
         &self,
         [whole, emt, lt]: [&str; 3],

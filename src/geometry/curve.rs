@@ -392,7 +392,7 @@ impl Path {
         Self::from_segments(segments)
     }
 
-    /// The same path walked from its end.
+    /// This path, walked from its end.
     pub fn reversed(&self) -> Self {
         Self::from_segments(self.segments.iter().rev().map(PathSeg::reverse).collect())
     }

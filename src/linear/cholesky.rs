@@ -31,7 +31,7 @@ mod private {
 pub trait Scalar: private::Field + Copy + Send + Sync + std::ops::AddAssign + std::fmt::Debug {
     /// The nearest value.
     fn from_f64(value: f64) -> Self;
-    /// The same value.
+    /// The value as `f64`.
     fn to_f64(self) -> f64;
 }
 

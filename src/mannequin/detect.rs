@@ -110,7 +110,7 @@ fn crotch(levels: &[(f64, Vec<Loop>)], middle: f64, top: f64) -> Option<f64> {
     levels.iter().rev().find(|(y, loops)| *y < HIGHEST_CROTCH * top && parted(loops)).map(|l| l.0)
 }
 
-/// Index of the first cut of the neck: downward from the narrowest cut of the upper half, but for the very top.
+/// Index of the first cut of the neck, searched downward from the narrowest cut of the upper half without its very top.
 fn neck_base(trunk: &[Cut]) -> Option<usize> {
     let (half, end) = (trunk.len() / 2, trunk.len().checked_sub(2)?);
     let narrowest = (half..end).min_by(|&a, &b| trunk[a].girth.total_cmp(&trunk[b].girth))?;

@@ -184,7 +184,7 @@ fn check_rims(piece: &PieceMesh, drawn: &Piece, triangles: &[[u32; 3]]) -> Resul
     }
 }
 
-/// The same cycle, begun at its smallest number.
+/// The cycle, rotated to begin at its smallest number.
 fn from_smallest(mut cycle: Vec<u32>) -> Vec<u32> {
     let start = (0..cycle.len()).min_by_key(|&k| cycle[k]).unwrap_or(0);
     cycle.rotate_left(start);

@@ -24,7 +24,7 @@ pub(super) enum Course {
 pub(super) struct Ground<'a> {
     piece: &'a Piece,
     cloth: Region<'a>,
-    /// Of all its edges.
+    /// Chords of all its edges.
     rim: Vec<Chords<'a>>,
 }
 

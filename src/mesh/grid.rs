@@ -126,7 +126,7 @@ impl Raster {
         }
     }
 
-    /// Lets frame particles that lie on a lattice point take its place.
+    /// Replaces lattice points by frame particles that lie on them.
     fn seat_frame(&mut self, frame: &Frame, spacing: f64) {
         let mut shortest = vec![f64::INFINITY; frame.points.len()];
         for [a, b] in frame.springs() {

@@ -121,7 +121,7 @@ impl Size {
     }
 }
 
-/// The spacing at which cloth of this area and half rim makes so many particles.
+/// The spacing at which cloth of this area and half rim makes this number of particles.
 fn usable(cloth: f64, rim: f64, particles: f64) -> f64 {
     (rim + (rim * rim + 4.0 * cloth * particles).sqrt()) / (2.0 * particles)
 }

@@ -35,7 +35,7 @@ pub(super) struct Patch {
 /// State to restore if a change turns out for the worse.
 struct Trial {
     undo: Vec<Undo>,
-    /// Triangles looked at before their first change.
+    /// Triangles that have been saved before their first change.
     touched: Vec<u32>,
     /// Score before the change.
     before: Score,

@@ -1,5 +1,5 @@
-//! The lattice points that matter to a piece: stretches of its rows. Of a narrow piece askew to the grain that is a
-//! vanishing share of the box around it.
+//! Lattice points that matter to a piece, as stretches of its rows. For a narrow piece askew to the grain they are a
+//! vanishing share of its bounding box.
 
 use std::ops::RangeInclusive;
 

@@ -21,8 +21,8 @@ struct Taken {
     seam: usize,
 }
 
-/// Checks that no stretch is sewn twice, and none forgotten, but for those of pieces and seams that could not be read,
-/// of which that has been said. `pieces` are those of the file with every `like` followed.
+/// Checks that no stretch is sewn twice or forgotten. Stretches of pieces and seams that could not be read are left
+/// out, because these have been reported. `pieces` are those of the file with every `like` followed.
 pub(super) fn check(
     file: &GarmentFile,
     pieces: &[PieceFile],

@@ -1,4 +1,4 @@
-//! From drawn pieces to pieces as cut.
+//! Makes pieces as cut from drawn pieces.
 //!
 //! A pair is `front.L` and `front.R`. The one that is not drawn is the drawing mirrored at x = 0. A piece on the fold
 //! is one piece: the fold edge vanishes, every other edge is there twice, `side.L` and `side.R`. A mirrored outline is

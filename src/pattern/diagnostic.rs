@@ -61,7 +61,7 @@ pub struct Diagnostic {
     pub column: usize,
     /// The problem.
     pub problem: Problem,
-    /// The same in words.
+    /// The problem in words.
     pub message: String,
     /// Advice.
     pub hint: Option<String>,
@@ -212,7 +212,7 @@ impl Findings {
         self.errors
     }
 
-    /// Says how many findings were counted and not kept.
+    /// Adds the number of findings that were counted and not kept.
     fn count_others(&mut self) {
         let whole = Spot::default();
         if let Some(count) = self.warnings.checked_sub(KEPT).filter(|&n| n > 0) {
@@ -223,8 +223,8 @@ impl Findings {
         }
     }
 
-    /// The findings in the order of the file, each once. Of many warnings, or errors, the first two hundred, and at
-    /// the end how many more there are.
+    /// The findings in the order of the file, each once. Warnings and errors beyond the first two hundred of either are
+    /// only counted at the end.
     pub fn into_sorted(mut self) -> Vec<Diagnostic> {
         self.count_others();
         self.found.sort_by_key(Diagnostic::order);

@@ -77,8 +77,8 @@ pub fn fastenings(garment: &Garment) -> Vec<Fastening> {
     found
 }
 
-/// For one side of a row, every point's spot on the rim and how far it is. A row follows one edge: beside a neckline
-/// its first point may be nearer to that.
+/// Place and distance on the rim of every point of one side of a row. A row follows one edge, although beside a
+/// neckline its first point may be nearer to another.
 fn spots(garment: &Garment, free: &[Span], row: &[[(usize, Vec2); 2]], side: usize) -> Vec<Option<(RimSpot, f64)>> {
     let near = |span: &Span, (piece, p): (usize, Vec2)| {
         (span.edge.piece == piece).then(|| {

@@ -113,7 +113,7 @@ pub enum Cut {
     One,
     /// As drawn and mirrored.
     Pair,
-    /// On the fold: the drawn half and its mirror image across this edge are one piece.
+    /// On the fold: the drawn half and its mirror image across this edge make one piece.
     Fold(String),
     /// So many times as drawn.
     Count(usize),

@@ -15,7 +15,7 @@ use crate::input::nearest;
 /// springs without length.
 const SHORTEST_LINE: f64 = 1e-3;
 
-/// Lines may run through darts, which are closed when the line is looked at, and end anywhere on the cloth.
+/// Lines may run through darts, which are closed when lines are checked, and end anywhere on the cloth.
 pub(super) fn lines(drawn: &mut Draft, whole: &Region, piece: &PieceFile, unit: Unit, findings: &mut Findings) {
     let across = drawn.fold.map(|fold| across(&drawn.rings[0][fold].path));
     let on_cloth = |p: Vec2| whole.holds(p) || across.as_ref().is_some_and(|across| whole.holds(across(p)));

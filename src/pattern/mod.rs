@@ -300,7 +300,7 @@ impl LineKind {
     /// Allowed ratios of elastic to the line's length.
     const ELASTICS: RangeInclusive<f64> = 0.05..=1.0;
 
-    /// A fold of so many degrees, if there is one.
+    /// A fold of this angle, if it is an allowed one.
     pub(crate) fn fold(degrees: f64) -> Option<Self> {
         Self::FOLDS.contains(&degrees).then(|| Self::Fold(degrees.to_radians()))
     }
@@ -377,7 +377,7 @@ pub struct Closure {
     pub meets: Option<String>,
     /// Points that are worn together: (piece, flat position) twice.
     pub tacks: Vec<[(usize, Vec2); 2]>,
-    /// So many of the points that follow each other are one row.
+    /// Number of points in a row of points that follow each other.
     pub row: usize,
     /// For a closure without `meets` on one of a pair: its points and the same points of the other half. They are not
     /// tied.
@@ -389,8 +389,9 @@ pub struct Closure {
 pub struct Test {
     /// The bound.
     pub bound: Bound,
-    /// Only when the garment is made in this fabric. `None` = in any. As the file names it, one of the garment's own, a
-    /// shipped one or a file. Of a [`Job`](crate::pipeline::Job) as reports name it.
+    /// The test holds only if the garment is made in this fabric. `None` means in any. The name is the file's: one of
+    /// the garment's own fabrics, a shipped one or a file. In a [`Job`](crate::pipeline::Job) it is the name in
+    /// reports.
     pub fabric: Option<String>,
     /// The garment of an outfit whose pieces, seams and openings it is about, as their names begin. `None` = all.
     pub of: Option<String>,

@@ -10,7 +10,7 @@ pub enum NotchKind {
     Single,
     /// One of two that mark the back, half of [`DOUBLE_MARKS`] from the place that they mark.
     Double,
-    /// The same where the edge ends nearer than that: it stands at the end.
+    /// One of two that mark the back, where the edge ends within half of [`DOUBLE_MARKS`]. It stands at the end.
     DoubleAtEnd,
     /// The mouth of a dart.
     Dart,

@@ -7,9 +7,9 @@ const OF: char = '/';
 
 /// Makes one garment of several, given from the skin outwards. A single one stays as it is.
 ///
-/// Pieces, seams and fabrics are named `garment/piece`. Of two garments of one name the second is `shirt.2`. Every
-/// layer of a garment lies outside all layers of those before it. Tests stay about their own garment. The body is the
-/// first one's.
+/// Pieces, seams and fabrics are named `garment/piece`. If two garments have one name, the second becomes `shirt.2`.
+/// Every layer of a garment lies outside all layers of those before it. Tests apply to their own garment. The body is
+/// that of the first garment.
 pub fn outfit(mut garments: Vec<Garment>) -> Garment {
     if garments.len() == 1 {
         return garments.remove(0);
@@ -98,7 +98,7 @@ impl Garment {
     }
 }
 
-/// The same edge where `first` pieces stand before its own.
+/// The edge with its piece's index increased by `first`.
 fn later(edge: EdgeId, first: usize) -> EdgeId {
     EdgeId { piece: edge.piece + first, ..edge }
 }

@@ -139,7 +139,7 @@ impl PlaceWord {
         words_of(name).iter().filter_map(|word| Self::parse(word)).collect()
     }
 
-    /// All words, in the order in which they are told.
+    /// All words, in the order of messages.
     pub fn all() -> impl Iterator<Item = Self> {
         WORDS.iter().map(|row| row.0)
     }
@@ -177,7 +177,8 @@ pub fn place_words(show: impl Fn(&str) -> String) -> String {
     format!("{}; with {left} or {right}, {front} or {back}", parts.join("; "))
 }
 
-/// The words of a name in lower case: `sleeve_left.L` → sleeve, left, l. Of a piece of an outfit its own name counts.
+/// The words of a name in lower case: `sleeve_left.L` → sleeve, left, l. For a piece of an outfit, the words of its own
+/// name.
 pub fn words_of(name: &str) -> Vec<String> {
     own_name(name).split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).map(str::to_lowercase).collect()
 }

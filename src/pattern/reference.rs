@@ -57,7 +57,7 @@ pub(super) struct Words {
 }
 
 impl Words {
-    /// Reads the words of `text`. Whether they name anything is not looked at.
+    /// Reads the words of `text`, without checking that they name anything.
     ///
     /// # Errors
     /// [`Problem::BadReference`] where a word is empty, and [`Problem::TwoSides`].
@@ -82,7 +82,7 @@ impl Words {
 }
 
 impl Reference {
-    /// Reads the text of a reference. Whether it names anything is not looked at.
+    /// Reads the text of a reference, without checking that it names anything.
     ///
     /// # Errors
     /// [`Problem::BadReference`], [`Problem::TwoSides`] and the errors of a range.

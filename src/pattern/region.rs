@@ -19,7 +19,7 @@ pub(crate) struct Region<'a> {
 }
 
 impl<'a> Region<'a> {
-    /// Of an outline and the holes that follow it.
+    /// The region of an outline and the holes that follow it.
     pub(crate) fn new(rings: &'a [Vec<Edge>]) -> Self {
         let ring = |edges: &Vec<Edge>| edges.iter().flat_map(|e| chords(&e.path)).collect();
         Self { rings, chords: rings.iter().map(ring).collect() }

@@ -98,7 +98,7 @@ impl Identities {
         self.sets.join(p, q);
     }
 
-    /// Whether the two points are one, drawn so or sewn so.
+    /// Whether the two points are one, as drawn or as sewn.
     pub(super) fn one(&self, rims: &Rims, p: RimPoint, q: RimPoint) -> bool {
         let both = self.known(rims, p).zip(self.known(rims, q));
         rims.same(p, q) || both.is_some_and(|(p, q)| self.sets.same(p, q))

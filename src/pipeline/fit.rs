@@ -83,7 +83,7 @@ pub(super) fn check_places(
     }
 }
 
-/// Warns of pieces that start in one place: nothing leads them apart.
+/// Warns of pieces that start in the same place with nothing that leads them apart.
 fn doubt_places(loaded: &Loaded, mesh: &ClothMesh, start: &[Vec3], findings: &mut Findings) {
     let mut told: Vec<[&str; 2]> = Vec::new();
     for (pair, _) in in_one_place(mesh, start) {

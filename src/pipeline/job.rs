@@ -35,7 +35,7 @@ pub struct Overrides {
 
 /// A garment, its fabrics, the body it is made for and its mesh.
 pub struct Job {
-    /// The garment file. Of an outfit the innermost one's.
+    /// The garment file, or for an outfit that of the innermost garment.
     pub file: PathBuf,
     /// The pieces and seams.
     pub garment: Garment,
@@ -72,7 +72,7 @@ impl Job {
     /// Gets the fabrics and the body of a garment read from `file`, and meshes it.
     ///
     /// # Errors
-    /// [`PipelineError`]: always the input's fault, but for a body that cannot be touched.
+    /// [`PipelineError`]: a fault of the input, or a body that cannot be prepared for contact.
     pub fn new(file: &Path, loaded: Loaded, overrides: &Overrides) -> Result<Self, PipelineError> {
         Self::dressed(vec![(file.to_owned(), loaded)], overrides)
     }

@@ -17,7 +17,7 @@ const LARGER: f64 = 5.0;
 /// The findings.
 #[derive(Clone, Debug)]
 pub struct Judged {
-    /// Triangles looked at.
+    /// Number of triangles.
     pub triangles: usize,
     /// The figures and the crossings. Parts are the file's groups.
     pub seen: Seen,

@@ -97,7 +97,7 @@ impl<'a> Run<'a> {
         caught.or_else(|| self.across(error).map(|across| PipelineError::Across(Box::new(across))))
     }
 
-    /// Lets the sewn garment fall to rest. Sews it first if that has not been done.
+    /// Drapes the garment, and sews it first if that has not been done.
     ///
     /// # Errors
     /// A garment that cannot be sewn or draped.

@@ -50,7 +50,7 @@ pub enum GeometricError {
     /// A position or target that is not finite.
     #[error("vertex {0} has a position or a target that is not finite")]
     NotFinite(usize),
-    /// Positions so far apart that their squares have no number.
+    /// Positions are so far apart that their squares are not finite.
     #[error("the energy at the start is not finite: positions are too far apart")]
     Overflow,
     /// The system's pattern cannot be built.

@@ -40,7 +40,7 @@ pub(super) struct File {
     stretch: Option<Test>,
     bend: Option<Test>,
     means: Option<Means>,
-    /// Of the readings of all three.
+    /// File of a table with the readings of all three tests.
     table: Option<PathBuf>,
     pub(super) sheet: Option<PathBuf>,
     pub(super) curves: Curves,

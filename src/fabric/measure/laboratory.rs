@@ -246,7 +246,7 @@ fn is_fast_load(name: &str) -> bool {
 pub(super) const DIRECTIONS: [&str; 2] = ["warp", "weft"];
 
 impl Row {
-    /// Of the `fields` of a line. Parameter, warp, weft and unit are at `places`.
+    /// Reads the `fields` of a line. Parameter, warp, weft and unit are at `places`.
     fn parse(line: usize, fields: &[&str], places: [Option<usize>; 4]) -> Result<Self, String> {
         let [name, warp, weft, unit] = places.map(|k| k.and_then(|k| fields.get(k)).copied().unwrap_or_default());
         let unit = if matches!(unit, "-" | "–") { "" } else { unit };

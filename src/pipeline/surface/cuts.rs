@@ -24,7 +24,7 @@ pub struct Cuts {
 #[derive(Clone, Default)]
 pub(super) struct Marks {
     pub(super) edges: HashSet<[u32; 2]>,
-    /// The same as chains of the file's vertices, from 1.
+    /// The cuts as chains of the file's vertices, from 1.
     pub(super) chains: Vec<Vec<u32>>,
     /// A row for each of these.
     pub(super) made: Vec<CutReport>,

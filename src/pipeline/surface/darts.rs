@@ -105,7 +105,7 @@ impl Source<'_> {
         Ok(())
     }
 
-    /// Of the parts beyond the limit that may get a dart the one that is strained most, the first of several.
+    /// The most strained of the parts beyond the limit that may get a dart. Of equal ones the first.
     fn neediest(&self, laid: &[Laid]) -> Option<usize> {
         let strain = |k: usize| self.options.limit.share(&laid[k].flat.report);
         let open = (0..laid.len()).filter(|&k| laid[k].dart.len() > 1 && laid[k].stop.is_none());

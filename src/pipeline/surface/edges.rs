@@ -152,7 +152,7 @@ fn breaks(part: &Part, index: usize, rim: &[u32], others: &Others) -> Vec<bool> 
     breaks
 }
 
-/// Sharp turns of a rim. Of the vertices that make one corner together, the one that turns most.
+/// Corners of a rim: sharp turns, each at the vertex that turns most.
 fn corners(part: &Part, rim: &[u32]) -> Vec<bool> {
     let turns = turns(part, rim);
     let near = Near::new(part, rim);
@@ -172,7 +172,7 @@ fn corners(part: &Part, rim: &[u32]) -> Vec<bool> {
 
 /// The neighbourhood of each vertex of a rim.
 struct Near {
-    /// Of the rim's sides.
+    /// Lengths of the rim's sides.
     lengths: Vec<f64>,
     reach: f64,
 }

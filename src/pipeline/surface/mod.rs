@@ -42,8 +42,8 @@ pub struct SurfaceOptions {
     pub unit: Option<LengthUnit>,
     /// Whether to cut along the seams of the texture.
     pub texture_seams: bool,
-    /// Whether vertices at the same place are one: the legs of a dart that is sewn up must not be, the triangles of a
-    /// file whose faces share no vertices must.
+    /// Whether to join vertices at the same place. The legs of a sewn dart must stay apart. A file whose faces share no
+    /// vertices needs the join.
     pub weld: bool,
     /// Additional cuts.
     pub cuts: Cuts,

@@ -46,8 +46,8 @@ const NONE: u32 = u32::MAX;
 type NodeKey = (u32, Option<[u64; 2]>);
 
 impl Nodes {
-    /// With `texture`, a vertex that has several texture positions is several nodes. With `weld`, vertices at the same
-    /// place are one.
+    /// Nodes of the faces. With `texture`, a vertex with several texture positions becomes several nodes. With `weld`,
+    /// vertices at the same place become one.
     pub(super) fn new(faces: &ObjFaces, texture: bool, weld: bool) -> Self {
         let same = if weld { welded(&faces.vertices) } else { (0..faces.vertices.len() as u32).collect() };
         let (mut of_face, mut vertex) = (Vec::with_capacity(faces.faces.len()), Vec::new());
@@ -138,7 +138,7 @@ struct Source<'a> {
     unit: f64,
 }
 
-/// Corners that are one vertex, and faces that are one part.
+/// Sets of corners that are one vertex, and of faces that are one part.
 struct Fans {
     /// First corner of every face.
     starts: Vec<usize>,

@@ -48,9 +48,9 @@ pub struct PartReport {
     pub boundary_draped: f64,
     /// Length of the flat rim, mm.
     pub boundary_flattened: f64,
-    /// Flat against space.
+    /// Relative error of the flat area against the area in space.
     pub area_error: Quartet,
-    /// The same for the rim.
+    /// Relative error of the flat rim's length against its length in space.
     pub boundary_error: Quartet,
     /// Largest |length / length in space − 1| of an edge.
     pub largest_edge_error: f64,
@@ -71,7 +71,7 @@ pub struct PartReport {
     pub isoperimetric: f64,
     /// The least area error of any flat piece with the same length of rim: 1 − L²/4πS, or 0.
     pub area_error_bound: f64,
-    /// Total Gauss curvature, degrees: by so much less, all together, are the flat rim's angles.
+    /// Total Gaussian curvature, degrees. The angles of the flat rim sum up to this much less than in space.
     pub curvature: f64,
     /// Largest change of the rim's angle in one vertex, degrees.
     pub corner_change: f64,
@@ -148,11 +148,11 @@ fn edge(laid: &[Laid], all: &[Vec<NamedEdge>], k: usize, edge: &NamedEdge) -> Ed
 pub struct ThreadReport {
     /// Root mean square of the warp's stretch minus one.
     pub warp: f64,
-    /// The same of the weft.
+    /// Root mean square of the weft's stretch minus one.
     pub weft: f64,
-    /// |stretch − 1| of the warp that all but a hundredth of the area stays below.
+    /// |stretch − 1| of the warp, 99th percentile by area.
     pub warp_p99: f64,
-    /// The same of the weft.
+    /// |stretch − 1| of the weft, 99th percentile by area.
     pub weft_p99: f64,
     /// Root mean square of the change of the angle between them, degrees.
     pub shear: f64,
