@@ -78,6 +78,7 @@ pub struct Context<'a> {
 /// Values that neither gives are assumed and listed in [`Fabric::defaults`]. Weight and bending have no default. As a
 /// last resort, a fabric file with the three published measures and no bending has a bending length from its weights
 /// ([`LiuMeasures::fallback_bending_length`]).
+///
 /// # Errors
 /// [`FabricError`] for a base that does not exist, leads back to itself or too far, an unknown key, a bad unit, a
 /// number out of range, a missing weight or bending value, a curve that does not rise.

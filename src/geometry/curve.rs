@@ -308,9 +308,9 @@ impl Path {
         (self.end() - self.start()).normalize()
     }
 
-    /// Stations along every segment, its ends included, so close that the chords between them leave the path by at
-    /// most `tolerance`, and likewise those between the points `reach` to the left or right of them the curves that run
-    /// beside the path. Metres.
+    /// Stations along every segment, its ends included, metres. The chords between them leave the path by at most
+    /// `tolerance`. So do the chords between the points `reach` to the left or right of them, from the curves that run
+    /// beside the path.
     pub fn stations(&self, reach: f64, tolerance: f64) -> Vec<Vec<Station>> {
         (0..self.segments.len()).map(|i| self.segment_stations(i, reach, tolerance)).collect()
     }

@@ -1,9 +1,10 @@
 //! Few smooth curves through many points.
 //!
-//! Cubic Bézier curves by least squares at chord-length parameters that are improved by Newton's method (Schneider
-//! 1990, "An algorithm for automatically fitting digitized curves", Graphics Gems), then by distances from the tangents
-//! at those parameters, which converges to what was sampled instead of creeping there (Blake & Isard 1998, Active
-//! Contours): each curve as long as the tolerance lets it be, and with the direction of the one before where they meet.
+//! Cubic Bézier curves by least squares at chord-length parameters. The parameters are improved by Newton's method
+//! (Schneider 1990, "An algorithm for automatically fitting digitized curves", Graphics Gems), then by distances from
+//! the tangents at those parameters, which converges to the sampled curve instead of creeping there (Blake & Isard
+//! 1998, Active Contours). Each curve is as long as the tolerance allows, and starts in the direction in which the one
+//! before ends.
 
 use std::cmp::Ordering;
 

@@ -110,9 +110,9 @@ fn sides(triangles: &[[u32; 3]]) -> Vec<Side> {
 /// Rim loops of an oriented mesh: closed vertex chains that run with their triangles. Where rims touch in one vertex
 /// they are walked as one loop if the walk meets that vertex again before closing.
 ///
-/// Where more than two triangles share an edge (the three layers of a pleat, a lining sewn to the shell's rim), layers
-/// that run opposite ways cancel, and what is left is the rim: a pleated waist is one loop. A rim of several layers is
-/// one loop, not several.
+/// More than two triangles may share an edge: the three layers of a pleat, or a lining sewn to the shell's rim. Layers
+/// that run opposite ways then cancel, and the rest is the rim. So a pleated waist is one loop, and a rim of several
+/// layers is one loop, not several.
 pub fn rim_loops(triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
     // Where more triangles run along an edge than against it: the first of them, the edge, and how many more.
     let mut surplus = Vec::new();

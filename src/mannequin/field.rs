@@ -32,8 +32,8 @@ struct Cut {
 }
 
 impl Cut {
-    /// About the distance of the point (u, v) across and `beyond` the tube's end from its skin: the section's own norm
-    /// r (1 on the skin) turned into a length that is right along the rays from the centre and smooth at the centre.
+    /// Approximate distance from the skin of the point (u, v) across and `beyond` the tube's end. It is the section's
+    /// own norm r (1 on the skin) scaled to a length that is exact along rays from the centre and smooth at the centre.
     fn distance(&self, u: f64, v: f64, beyond: f64) -> f64 {
         let (p, q) = ((u / self.a).abs(), (v / self.b).abs());
         let flat = if self.n == 2.0 { p * p + q * q } else { (p.powf(self.n) + q.powf(self.n)).powf(2.0 / self.n) };

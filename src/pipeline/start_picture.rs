@@ -92,8 +92,9 @@ pub struct WordShown {
 /// Names of the two best dealings.
 const DEALINGS: [&str; 2] = ["first", "second"];
 
-/// Draws how a garment, or an outfit from the skin outwards, starts on the body that its first file names: glued, round
-/// the body's axes, before it is inflated; or as its pieces are placed, where its topology gives no start.
+/// Draws the start of a garment, or of an outfit from the skin outwards, on the body that its first file names: joined
+/// at its seams, round the body's axes, before it is inflated. If its topology gives no start, the pieces are drawn as
+/// placed by rules.
 ///
 /// # Errors
 /// Files without a body, a garment that cannot be meshed, or one that has neither start.

@@ -56,8 +56,8 @@ pub struct PartReport {
     pub largest_edge_error: f64,
     /// Largest |length / length in space − 1| of an edge of the rim.
     pub largest_rim_error: f64,
-    /// By which share, in the mean, rim edges (in the mode `woven` the lengths between corners and notches) are off
-    /// that the mode was to keep and could not. `null` where it keeps them, or none.
+    /// Mean relative error of the rim lengths that the mode should keep and could not: rim edges, or in the mode
+    /// `woven` the lengths between corners and notches. `null` if it keeps them, or keeps none.
     pub rim_missed: Option<f64>,
     /// Root mean square of the triangles' stretches minus one.
     pub distortion: f64,
@@ -90,8 +90,9 @@ pub struct PartReport {
     pub dart: Option<DartReport>,
     /// Number of darts cut into it.
     pub darts: usize,
-    /// Why there are no more where they were asked for and the strain still passes the limit: `none_left` (of those
-    /// allowed), `overlap` (the piece would lie on itself) or `no_place` (none can be told that would help).
+    /// Reason why there are no more darts although some were asked for and the strain still passes the limit:
+    /// `none_left` (of those allowed), `overlap` (the piece would lie on itself) or `no_place` (no helpful place can be
+    /// found).
     pub darts_stopped: Option<DartStop>,
 }
 
