@@ -1,5 +1,5 @@
-//! **toile** sews flat pattern pieces onto a mannequin, drapes them in a measured fabric and lays them flat again,
-//! and says at every step what it did to the cloth.
+//! **toile** sews flat pattern pieces onto a mannequin, drapes them in a measured fabric and lays them flat again. Each
+//! stage reports how it changed the cloth.
 //!
 //! ```text
 //! pattern file ─▶ pattern ─▶ mesh ─▶ sew ─▶ drape ─▶ flatten ─▶ files out
@@ -9,9 +9,13 @@
 //!                    ▲          mannequin ┘  └ fabric
 //! ```
 //!
-//! Every stage is a plain function from its input to its output and a report of what happened; nothing is global,
-//! and the result is the same bytes for any number of threads. Lengths are metres, masses kilograms and forces
-//! newtons; files speak millimetres.
+//! Every stage is a plain function from its input to its output and a report. Nothing is global, and the result is the
+//! same bytes for any number of threads. Lengths are metres, masses kilograms and forces newtons. Files use
+//! millimetres.
+//!
+//! # Use as a library
+//! [`guide`] has a page per stage, each with an example that runs. [`pipeline::Job`] and [`pipeline::Run`] take a
+//! garment file through all stages. `examples/embed.rs` builds a garment in code and calls the stages one by one.
 //!
 //! # The papers
 //! Two papers are implemented here, and their parts are named by letter and number throughout.
@@ -49,6 +53,22 @@ pub mod dynamics;
 pub mod fabric;
 pub mod flatten;
 pub mod geometry;
+pub mod guide {
+    //! One page per stage: its input, its output, and an example that runs.
+
+    #[doc = include_str!("../docs/stages/pattern.md")]
+    pub mod pattern {}
+    #[doc = include_str!("../docs/stages/mesh.md")]
+    pub mod mesh {}
+    #[doc = include_str!("../docs/stages/sew.md")]
+    pub mod sew {}
+    #[doc = include_str!("../docs/stages/drape.md")]
+    pub mod drape {}
+    #[doc = include_str!("../docs/stages/flatten.md")]
+    pub mod flatten {}
+    #[doc = include_str!("../docs/stages/measure.md")]
+    pub mod measure {}
+}
 pub mod input;
 pub mod io;
 pub mod linear;

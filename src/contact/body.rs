@@ -1,4 +1,4 @@
-//! The body as something cloth can touch.
+//! The body prepared for contact: its faces, convex edges and vertices.
 
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::PointQueryWithLocation;
@@ -9,28 +9,29 @@ use super::narrow::closest_on_triangle;
 use super::{Contact, Feature, Under};
 use crate::geometry::{Topology, TriMesh, Vec3};
 
-/// Body edges whose faces meet flatter than this (cosine, 0.001°) are flat but for rounding. Every other convex edge
-/// can be met: a tight band of long cloth edges cuts a face it bends over by next to nothing, and is pushed out of it
-/// by one node and then the other without ever coming to rest.
+/// Cosine of the angle between the faces of a body edge (0.001°) above which the edge counts as flat within rounding.
+/// Every other convex edge makes contacts. Without these, a tight band of long cloth edges cuts a slightly bent face,
+/// and is pushed out by one node and then the other without coming to rest.
 const SHARP_EDGE: f64 = 1.0 - 1.5e-10;
-/// A body edge or vertex is met from a direction in which nothing of the body beside it reaches higher; up to this
-/// slope (sine) higher is still met, so that a contact does not come and go where a face begins.
+/// Sine of the slope by which a neighbour may rise over a body edge or vertex that still makes a contact. A contact
+/// requires that no neighbour reaches higher along its direction. The margin keeps contacts from coming and going where
+/// a face begins.
 const LEVEL: f64 = 0.1;
 
-/// Cloth that a feature of the body sees within this of its outward direction (cosine, 78°) is outside, whatever lies
-/// beside the feature: in a cleft a cheek rises beyond the triangle that is met, and higher than its plane.
+/// Cosine of the angle (78°) to the outward direction of a body feature within which cloth counts as outside, whatever
+/// lies beside the feature. In a cleft, the opposite side rises higher than the plane of the feature.
 const FACING: f64 = 0.2;
 
-/// Faces of a hollow turned from one another by less than the first angle (cosine, 37°) push one at a time, the
-/// nearest; by more than the second (66°) together. Where a sharp hollow's pushed in turn, what is wedged in an armpit
-/// was thrown from one to the other for ever.
+/// Cosine of the angle (37°) between two faces of a hollow below which only the nearest face pushes.
 const SHALLOW: f64 = 0.8;
+/// Cosine of the angle (66°) between two faces of a hollow above which both push. When the faces of a sharp hollow
+/// pushed one at a time, cloth wedged in an armpit was thrown from one to the other for ever.
 const SHARP: f64 = 0.4;
 
-/// A face that rises no higher over a node's plane than this, metres, is no other than the plane's.
+/// Height over a node's contact plane up to which another face counts as the same plane, metres.
 const RISES: f64 = 1e-9;
-/// Cloth that is inside the body under a feature meets it where it pushes with at least this share: next to an end,
-/// where two neighbours share the force, both do.
+/// Least share of a contact that cloth inside the body makes with a feature over it. Next to an end two neighbours
+/// share the force, and both count.
 const MEETS: f64 = 0.25;
 
 /// A convex edge of the body.
@@ -38,11 +39,11 @@ pub(super) struct BodyEdge {
     pub(super) ends: Feature<2>,
     /// The third corners of its two faces.
     beside: [u32; 2],
-    /// Half-way between the directions of its two faces.
+    /// Unit bisector of the normals of its two faces.
     pub(super) outward: Vec3,
 }
 
-/// A closed body prepared for contact; built once, never moved.
+/// A closed body prepared for contact. Built once, never moved.
 pub struct Collider {
     pub(super) mesh: ParryMesh,
     vertices: Vec<Feature<1>>,
@@ -78,7 +79,7 @@ pub(super) fn from_parry(v: Vector) -> Vec3 {
 }
 
 impl Collider {
-    /// Prepares a closed, oriented mesh (`crate::io` has checked that it is one); `None` if parry refuses it.
+    /// Prepares a closed, oriented mesh (`crate::io` has checked that it is one). `None` if parry refuses it.
     pub fn new(body: &TriMesh) -> Option<Self> {
         let flags = TriMeshFlags::ORIENTED | TriMeshFlags::MERGE_DUPLICATE_VERTICES;
         let vertices: Vec<_> = body.vertices.iter().map(|&v| to_parry(v)).collect();
@@ -118,7 +119,7 @@ impl Collider {
         })
     }
 
-    /// The same with a floor at height `floor`, metres, on which cloth comes to lie.
+    /// Adds a floor at height `floor`, metres, on which cloth comes to lie.
     #[must_use]
     pub fn on_floor(mut self, floor: Option<f64>) -> Self {
         self.floor = floor;
@@ -148,7 +149,7 @@ impl Collider {
         let away = p - point;
         let distance = away.norm();
         let sign = if projection.is_inside { -1.0 } else { 1.0 };
-        // Within a nanometre of the surface the difference is rounding: take the triangle's own normal.
+        // Within a nanometre of the surface the direction is rounding: use the triangle's own normal.
         let normal = if distance > 1e-9 {
             away * (sign / distance)
         } else {
@@ -157,9 +158,9 @@ impl Collider {
         Some(Nearest { point, normal, distance: sign * distance })
     }
 
-    /// Contacts of `node`, outside the body, with the body's faces within `reach` that rise over the plane through the
-    /// point `nearest` to it: in a hollow, that plane alone would let the node run into the next face. The nearest of
-    /// those that stand steep on what is nearer pushes, the others only bar the way.
+    /// Contacts of a `node` outside the body with faces of a hollow: faces within `reach` that rise over the plane
+    /// through the point `nearest` to the node. That plane alone would let the node run into the next face. Of the
+    /// faces that stand steeply on nearer ones the nearest pushes, and the others only keep the node off.
     pub fn faces_of_hollow<'b>(
         &'b self,
         x: &[Vec3],
@@ -188,7 +189,7 @@ impl Collider {
             let [a, b, c] = face.corners;
             let normal = (b - a).cross(&(c - a)).normalize();
             let beside = |n: &Vec3| share_in_hollow(n.dot(&normal));
-            // Also one that faces the other way bars it: the node may come round its edge.
+            // A face that faces away keeps the node off as well: the node may come round its edge.
             let facing = normal.dot(&away) > 0.0;
             let push = if facing { pushing.iter().map(beside).fold(1.0, f64::min) } else { 0.0 };
             if push > 0.0 {
@@ -199,8 +200,8 @@ impl Collider {
         }
     }
 
-    /// Adds the contacts of body vertices with the cloth triangle of nodes `tri`, within `reach`. Returns whether it
-    /// left any out that what lies beside them hides: a slight turn may bring them out.
+    /// Adds the contacts of body vertices with the cloth triangle of nodes `tri`, within `reach`. Returns whether any
+    /// were left out because neighbours hide them. A slight turn may bring these out.
     pub fn vertices_near_triangle<'b>(
         &'b self,
         x: &[Vec3],
@@ -225,8 +226,8 @@ impl Collider {
         hidden
     }
 
-    /// Adds the contacts of the body's convex edges with the cloth edge `ends`, within `reach`. Returns whether it left
-    /// any out that what lies beside them hides.
+    /// Adds the contacts of the body's convex edges with the cloth edge `ends`, within `reach`. Returns whether any
+    /// were left out because neighbours hide them.
     pub fn edges_near_edge<'b>(&'b self, x: &[Vec3], ends: [u32; 2], reach: f64, out: &mut Vec<Contact<'b>>) -> bool {
         let mut hidden = false;
         let [a, b] = ends.map(|n| x[n as usize]);
@@ -243,8 +244,8 @@ impl Collider {
         hidden
     }
 
-    /// Adds the contact of cloth with a feature of the body that is within `reach`, unless what is `beside` the feature
-    /// is met first. Returns whether it was left out.
+    /// Adds the contact of cloth with a feature of the body within `reach`, unless a neighbour `beside` the feature is
+    /// met first. Returns whether it was left out.
     #[expect(clippy::too_many_arguments, reason = "two primitives and where they may meet")]
     fn meet<'b>(
         &self,
@@ -279,8 +280,8 @@ impl Collider {
         self.nearest_skin(p, reach).is_some_and(|nearest| nearest.distance < 0.0)
     }
 
-    /// Whether the body's vertices `around` lie no higher than `p` along `normal`: only then is it the feature of `p`
-    /// that cloth coming from there meets, and not a face beside it.
+    /// Whether the body's vertices `around` lie no higher than `p` along `normal`. Only then does cloth from that
+    /// direction meet the feature at `p` rather than a face beside it.
     fn is_highest(&self, p: Vec3, normal: Vec3, around: &[u32]) -> bool {
         around.iter().all(|&v| {
             let d = self.vertices[v as usize].corners[0] - p;
@@ -321,7 +322,7 @@ fn convex_edges(body: &TriMesh) -> Vec<BodyEdge> {
     out
 }
 
-/// The share with which a face of a hollow pushes beside the nearest one, by the cosine of the angle between the two.
+/// Share of the force of a face of a hollow beside the nearest one, by the cosine of the angle between the two.
 fn share_in_hollow(cosine: f64) -> f64 {
     let sharp = ((SHALLOW - cosine) / (SHALLOW - SHARP)).clamp(0.0, 1.0);
     sharp * sharp * (3.0 - 2.0 * sharp)
@@ -486,7 +487,8 @@ mod tests {
         TriMesh { vertices, triangles: sides.chain(caps).collect() }
     }
 
-    /// What the sides of a groove, `steep` radians from level, do to a node at (x, 0, z) that they keep 10 mm off.
+    /// Force direction on a node at (x, 0, z) from the sides of a groove, `steep` radians from level, that keep it 10
+    /// mm off.
     fn pushed_in_groove(steep: f64, x: f64, z: f64) -> Vec3 {
         // A block 2 wide and 1 high with a groove along y in its upper face.
         let rise = 0.5 * steep.tan();

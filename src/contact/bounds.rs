@@ -1,101 +1,102 @@
-//! What keeps a step from carrying cloth through anything: a direction per pair and a leash per node.
+//! Bounds that keep a step from carrying cloth through anything: a direction per pair, and a travel budget (leash) per
+//! node.
 //!
-//! Two convex primitives that are separated along a fixed direction before and after a step, all of whose nodes move
-//! in straight lines, are separated along it all the way: each difference of two nodes along the direction is linear
-//! in time. So it is enough to keep every found pair separated at the *end* of the step, wherever the pair has moved
-//! to; cloth that moves together is not held back, as it would be by planes fixed in space.
+//! Take two convex primitives whose nodes move in straight lines. If they are separated along one direction before and
+//! after a step, they are separated along it all the way, because each difference of two nodes along the direction is
+//! linear in time. So it is enough to keep every found pair separated at the *end* of the step. Cloth that moves
+//! together is not held back, as it would be by planes fixed in space.
 //!
-//! Layers that roll on each other are separated at the end too, but along another direction m. Along (1 − t) n + t m
-//! the difference e(t) of two nodes is the quadratic with the Bézier coefficients n·e₀, ½ (n·e₁ + m·e₀) and m·e₁: where
-//! none of the three is negative, for no two nodes, the pair is separated all the way as well.
+//! Layers that roll on each other are separated at the end along another direction m. Along (1 − t) n + t m the
+//! difference e(t) of two nodes is a quadratic with the Bézier coefficients n·e₀, ½ (n·e₁ + m·e₀) and m·e₁. If none of
+//! these is negative for any two nodes, the pair is separated all the way.
 
 use super::{Contact, Under};
 use crate::geometry::Vec3;
 
-/// How often the pairs are gone through, pushing those that would meet apart again.
+/// Sweeps over the pairs, each of which pushes apart those that would meet.
 const SWEEPS: usize = 12;
-/// Share of its gap that a pair must keep in a step, up to [`Bounds::new`]'s margin.
+/// Share of its gap that a pair must keep in a step, up to the margin of [`Bounds::new`].
 const KEPT: f64 = 0.2;
-/// A gap smaller than this, metres, shrinks no further: gaps that halved without end would end in rounding. Whatever
-/// force a contact is to carry it must carry at a larger gap, or the cloth is held by the bounds, out of balance.
+/// Least gap that still may shrink, metres. Gaps that shrank without end would end in rounding. A contact must carry
+/// its force at a larger gap than this, or the bounds hold the cloth out of balance.
 const LEAST: f64 = 1e-8;
-/// Contacts are to be looked for anew when a node has gone this share of what it may.
+/// Share of its leash after which a node makes a new search due.
 const DUE: f64 = 2.0 / 3.0;
-/// At a look the contacts of nodes that have gone no more than this share of what they may after it stay as they are.
+/// Share of its next leash up to which a node keeps its contacts in a search.
 const STAYS: f64 = 0.2;
-/// A node for which less than this share of what it may is left can do with a look before a long step.
+/// Share of its leash below which the remaining room of a node is short before a long step.
 const ROOM: f64 = 0.6;
-/// Share of a reach that nodes use: room for rounding.
+/// Share of a reach that leashes use. The rest is room for rounding.
 const USED: f64 = 0.99;
-/// Metres.
+/// Tolerance for rounding, metres.
 const ROUNDING: f64 = 1e-9;
-/// A pair that has all but rounding of what it needs is not pushed.
+/// Share of its needed separation at which a pair is no longer pushed, to allow for rounding.
 const SLACK: f64 = 1.0 - 1e-3;
-/// A pair that keeps this share of what it needs is left alone: sweeps converge slowly.
+/// Share of its needed separation at which a pair is left alone after the sweeps, which converge slowly.
 const HELD: f64 = 0.5;
 
 /// A contact, and the separation that it must keep in a step, metres.
 type Kept<'a> = (&'a Contact<'a>, f64);
 
-/// How far nodes may go from where contacts were last looked for at them, and how near pairs may come.
+/// Travel budgets of nodes since their last search, and least separations of pairs.
 #[derive(Clone, Debug)]
 pub struct Bounds {
     origin: Vec<Vec3>,
-    /// How far each node may go from there, metres.
+    /// Leash of each node: its largest distance from its origin, metres.
     leash: Vec<f64>,
     margin: f64,
-    /// Nodes that stay where they are.
+    /// Held nodes.
     held: Vec<u32>,
 }
 
 impl Bounds {
-    /// Bounds for nodes at `x`, whose contacts were looked for within `reach`; every pair keeps `margin` metres, or the
+    /// Bounds for nodes at `x`, whose contacts were searched within `reach`. Every pair keeps `margin` metres, or the
     /// share `KEPT` of its gap if that is less.
     pub fn new(x: &[Vec3], reach: f64, margin: f64) -> Self {
         Self { origin: x.to_vec(), leash: vec![Self::allowance(reach); x.len()], margin, held: Vec::new() }
     }
 
-    /// From now on the nodes that are `held`, and no others, give way to nothing.
+    /// Sets the nodes that are held and give way to nothing.
     pub fn hold(&mut self, held: Vec<u32>) {
         self.held = held;
     }
 
-    /// Where contacts were last looked for at every node.
+    /// Origin of every node: its position when it was last searched.
     pub fn origin(&self) -> &[Vec3] {
         &self.origin
     }
 
-    /// Contacts were looked for at `node` where it is `at`; from there it may go `leash` metres.
+    /// Starts a new leash of `leash` metres for a `node` that was searched at `at`.
     pub fn restart(&mut self, node: usize, at: Vec3, leash: f64) {
         (self.origin[node], self.leash[node]) = (at, leash);
     }
 
-    /// From now on `node` goes no further than `leash` metres from where its leash begins.
+    /// Shortens the leash of `node` to at most `leash` metres from the same origin.
     pub fn shorten(&mut self, node: usize, leash: f64) {
         self.leash[node] = self.leash[node].min(leash);
     }
 
-    /// How far the node may go that may go furthest, metres.
+    /// The longest leash, metres.
     pub fn longest(&self) -> f64 {
         self.leash.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Nodes at which contacts have to be looked for again in a look at `x`: those that have gone a sixth of what they
-    /// may, which after a look at all of them is a fifth of what they may after it, or `most` metres.
+    /// Nodes that a search at `x` must cover: those that have gone a sixth of their leash, or `most` metres. A sixth of
+    /// a leash after a search of all nodes is a fifth of the later leash.
     pub fn stale(&self, x: &[Vec3], most: f64) -> Vec<bool> {
-        // Also those whose position is no number.
+        // Positions that are not numbers count as stale.
         let stays = |way: f64, leash: f64| way <= most.min(STAYS / (1.0 + STAYS) * leash);
         let gone = x.iter().zip(&self.origin).zip(&self.leash);
         gone.map(|((x, o), leash)| !stays((x - o).norm(), *leash)).collect()
     }
 
-    /// Whether a node has gone two thirds of what it may between two looks.
+    /// Whether a node has gone two thirds of its leash, so that a search is due.
     pub fn is_due(&self, x: &[Vec3]) -> bool {
         let mut gone = x.iter().zip(&self.origin).zip(&self.leash);
         gone.any(|((x, o), leash)| (x - o).norm_squared() > (DUE * leash).powi(2))
     }
 
-    /// Whether a node that is to make the `step` has little room left for it.
+    /// Whether a node has little room left for the `step`.
     pub fn is_short_of_room(&self, x: &[Vec3], step: &[Vec3]) -> bool {
         let short = |i: usize, leash: f64| {
             let left = leash - (x[i] - self.origin[i]).norm();
@@ -104,26 +105,27 @@ impl Bounds {
         self.leash.iter().enumerate().any(|(i, leash)| short(i, *leash))
     }
 
-    /// How far a node may go between two looks that search within `reach`, the first not everywhere, metres. When two
-    /// primitives were last searched for one another, each of their nodes was where its leash begins or had gone no
-    /// more than the share `STAYS` of it: since then it has gone no more than 1 + `STAYS` leashes, and a pair that was
-    /// not found cannot meet.
+    /// Leash between two searches within `reach`, if the first did not cover all nodes, metres.
+    ///
+    /// When two primitives were last searched for one another, each of their nodes was at its origin, or within the
+    /// share `STAYS` of its leash. Since then it has gone at most 1 + `STAYS` leashes, so that a pair that was not
+    /// found cannot meet.
     pub fn allowance(reach: f64) -> f64 {
         0.5 * Self::allowance_beside_body(reach)
     }
 
-    /// The same where one of the two is the body, which never moves.
+    /// Leash beside the body, metres: as [`Bounds::allowance`], where one of the two primitives never moves.
     pub fn allowance_beside_body(reach: f64) -> f64 {
         USED * reach / (1.0 + STAYS)
     }
 
-    /// Both after a look that searched at all nodes, until one that does not: no node had gone any way before it.
+    /// Both leashes after a search of all nodes, metres. Each node was then at its origin.
     pub fn allowances_after_all(reach: f64, beside_body: f64) -> [f64; 2] {
         [0.5 * USED * reach, USED * beside_body]
     }
 
-    /// The share (≤ 1) of a step that keeps every node on its leash. Shortening the step as a whole keeps its shape;
-    /// cutting it node by node crumples the cloth.
+    /// The share (≤ 1) of a step that keeps every node on its leash. Shortening the step as a whole keeps its shape.
+    /// Shortening it node by node would crumple the cloth.
     pub fn share(&self, x: &[Vec3], step: &[Vec3]) -> f64 {
         let mut share = 1.0f64;
         for ((d, leash), (x, o)) in step.iter().zip(&self.leash).zip(x.iter().zip(&self.origin)) {
@@ -135,9 +137,9 @@ impl Bounds {
         share
     }
 
-    /// Moves the targets in `to` so that none of `contacts` meets on the way from `from`, where they were last turned.
-    /// Nodes of pairs that the sweeps cannot mend stay where they are, and those that are held; what breaks a leash
-    /// shortens the whole step.
+    /// Moves the targets in `to` so that none of `contacts` meets on the way from `from`, where they were last updated.
+    /// Held nodes, and nodes of pairs that the sweeps cannot separate, stay where they are. A broken leash shortens the
+    /// whole step.
     pub fn clamp(&self, contacts: &[&Contact], from: &[Vec3], to: &mut [Vec3]) {
         let (planes, pairs): (Vec<&Contact>, _) = contacts.iter().partition(|c| c.under == Under::Plane);
         let planes: Vec<Kept> = planes.into_iter().map(|c| (c, self.need(c.gap(from)))).collect();
@@ -174,7 +176,7 @@ impl Bounds {
         let mut share = 1.0f64;
         for ((a, b), (o, length)) in from.iter().zip(to).zip(self.origin.iter().zip(&self.leash)) {
             let (d, r) = (b - a, a - o);
-            // Rounding may leave a node that is at the end of its leash just beyond it.
+            // Rounding may leave a node just beyond the end of its leash.
             let (q, p, c) = (d.norm_squared(), r.dot(&d), (r.norm_squared() - length * length).min(0.0));
             if q > 0.0 && q + 2.0 * p + c > 0.0 {
                 share = share.min(((p * p - q * c).max(0.0).sqrt() - p) / q);
@@ -184,7 +186,7 @@ impl Bounds {
     }
 }
 
-/// Leaves nodes that would still meet another or the body where they are, and those that would then run into them.
+/// Keeps nodes that would still meet another node or the body where they are, and then those that would run into them.
 fn hold(planes: &[Kept], pairs: &[Kept], from: &[Vec3], to: &mut [Vec3]) {
     loop {
         let mut clean = true;
@@ -227,7 +229,7 @@ fn separation(contact: &Contact, x: &[Vec3]) -> f64 {
     low - high
 }
 
-/// Lifts what is nearer to the body than `need`; whether it was.
+/// Lifts a contact to `need` metres from the body. Returns whether it was nearer.
 fn lift(contact: &Contact, x: &mut [Vec3], need: f64) -> bool {
     let depth = need - contact.gap(x);
     if depth <= ROUNDING {
@@ -240,8 +242,8 @@ fn lift(contact: &Contact, x: &mut [Vec3], need: f64) -> bool {
     true
 }
 
-/// The pair as it is to be judged at the end of a step: with its direction there if it is separated all the way while
-/// that turns, otherwise with the one it has.
+/// The pair with the direction by which the end of a step is judged: the direction at the end if the pair is separated
+/// all the way while it turns, otherwise the present one.
 fn rolled<'b>(contact: &Contact<'b>, from: &[Vec3], to: &[Vec3]) -> Contact<'b> {
     let mut turned = *contact;
     turned.refresh(to);
@@ -257,12 +259,12 @@ fn rolled<'b>(contact: &Contact<'b>, from: &[Vec3], to: &[Vec3]) -> Contact<'b> 
     if above.iter().all(|&p| from_all(p as usize)) { turned } else { *contact }
 }
 
-/// Keeps a pair apart by `need` at the end of a step; whether it had to be pushed.
+/// Keeps a pair apart by `need` metres at the end of a step. Returns whether it had to be pushed.
 fn keep_apart(contact: &Contact, from: &[Vec3], to: &mut [Vec3], need: f64) -> bool {
     separation(contact, to) < need * SLACK && push_apart(&rolled(contact, from, to), to, need)
 }
 
-/// Leaves the nodes of a contact where they were; whether they were going to move.
+/// Puts the nodes of a contact back to where they were. Returns whether they had moved.
 fn put_back(contact: &Contact, from: &[Vec3], to: &mut [Vec3]) -> bool {
     let mut moved = false;
     for (node, _) in contact.parts() {
@@ -272,13 +274,13 @@ fn put_back(contact: &Contact, from: &[Vec3], to: &mut [Vec3]) -> bool {
     moved
 }
 
-/// Pushes both sides off the plane half-way between them; whether that was needed.
+/// Pushes both sides off the plane half-way between them. Returns whether that was needed.
 fn push_apart(contact: &Contact, x: &mut [Vec3], need: f64) -> bool {
     let (low, high) = sides(contact, x);
     if low - high >= need * SLACK {
         return false;
     }
-    // Only what is cloth can give way.
+    // Only cloth can give way.
     let (floor, ceiling) = match contact.under {
         Under::Cloth => (0.5 * (low + high + need), 0.5 * (low + high - need)),
         _ => (high + need, high),

@@ -10,27 +10,27 @@ use super::Contact;
 use super::narrow::apart;
 use crate::geometry::{Topology, Vec2, Vec3, box_of, sorted_pair};
 
-/// Triangles per leaf: small enough for tight boxes, large enough that the tree costs little.
+/// Triangles per leaf of the tree: few enough for tight boxes, enough that the tree costs little.
 const PATCH: usize = 10;
-/// Patches whose normals all lie within this angle (radians) of one another are one smooth sheet there: nothing in it
-/// comes to meet before the next detection.
+/// Largest angle between the normals of patches that count as one smooth sheet, radians. Nothing within such a sheet
+/// meets before the next search.
 const SMOOTH_CONE: f64 = 1.2;
-/// Not so patches with an edge shorter than this share of what it is drawn: pushed together along its own plane cloth
-/// passes through itself without turning a normal.
+/// Length of an edge, as a share of its drawn length, below which its patch is never part of a smooth sheet. Cloth that
+/// is compressed in its own plane can pass through itself without turning a normal.
 const SHRUNK: f64 = 0.8;
 
-/// Which pairs are neighbours by construction and therefore no contact.
+/// Pairs that are neighbours by construction and therefore no contacts.
 #[derive(Clone, Debug, Default)]
 pub struct Neighbourhood {
     /// Node → class of nodes that are, or will be, sewn together. Primitives that share a class are incident.
     pub class: Vec<u32>,
-    /// Node → whether it may pass through others that may; pairs of primitives with such nodes on both
-    /// sides are left out.
+    /// Node → whether it may pass through other such nodes. Pairs of primitives with such nodes on both sides are left
+    /// out.
     pub passing: Vec<bool>,
 }
 
-/// A particle of the rim with at least so much of its piece around it (radians, 315°) is the end of a slit or a narrow
-/// dart, whose sides may slide one over the other without turning a normal.
+/// Angle of cloth round a rim particle, radians (315°), from which it is the end of a slit or a narrow dart. The sides
+/// of a slit may slide over each other without turning a normal.
 const SLIT: f64 = 5.5;
 
 struct Patch {
@@ -44,8 +44,8 @@ struct Patch {
     slit: bool,
 }
 
-/// Finds near pairs in one garment; the grouping into patches is made once in the flat pieces, the tree over them is
-/// refitted for every detection.
+/// Finds near pairs in one garment. Triangles are grouped into patches once, in the flat pieces. The tree over the
+/// patches is refitted for every search.
 pub struct ClothDetector {
     triangles: Vec<[u32; 3]>,
     /// Flat corners of every triangle.
@@ -54,9 +54,9 @@ pub struct ClothDetector {
     bvh: Bvh,
     workspace: BvhWorkspace,
     hood: Neighbourhood,
-    /// How every patch lay at the last look.
+    /// Shape of every patch at the last search.
     shapes: Vec<Shape>,
-    /// Pairs of patches near each other at the last look, but for smooth sheets, sorted.
+    /// Pairs of patches near each other at the last search, without smooth sheets, sorted.
     open: Vec<(u32, u32)>,
 }
 
@@ -100,8 +100,8 @@ impl ClothDetector {
         self.detect_at(x, reach, &all)
     }
 
-    /// Groups the cloth at positions `x` for a search within `reach` at the nodes that are `stale`. They become more:
-    /// those of sheets that were smooth at the last look, and so not searched, and are no longer.
+    /// Prepares a search at positions `x` within `reach` for the `stale` nodes. Nodes of sheets that were smooth at the
+    /// last search, and no longer are, become stale as well.
     pub fn look(&mut self, x: &[Vec3], reach: f64, stale: &mut [bool]) {
         let normals = self.normals(x);
         let (mut pairs, shapes) = self.patch_pairs(x, &normals, reach);
@@ -116,8 +116,8 @@ impl ClothDetector {
         (self.open, self.shapes) = (pairs, shapes);
     }
 
-    /// The pairs of [`ClothDetector::detect`] that have a node which is `stale`,
-    /// after [`ClothDetector::look`] with the same.
+    /// The pairs of [`ClothDetector::detect`] that have a `stale` node. Call [`ClothDetector::look`] first with the
+    /// same arguments.
     pub fn detect_at(&self, x: &[Vec3], reach: f64, stale: &[bool]) -> Vec<Contact<'static>> {
         let find = Search { detector: self, x, reach, parts: self.parts(x, stale) };
         let mut pairs = self.open.clone();
@@ -125,8 +125,7 @@ impl ClothDetector {
         pairs.par_iter().flat_map_iter(|&(a, b)| find.pair(a as usize, b as usize)).collect()
     }
 
-    /// The primitives of every patch at positions `x`, and at which of them is searched: those with a node that is
-    /// `stale`.
+    /// The primitives of every patch at positions `x`. Those with a `stale` node are searched.
     fn parts(&self, x: &[Vec3], stale: &[bool]) -> Vec<Part> {
         let part = |patch: &Patch| Part {
             vertices: patch.nodes.iter().map(|&n| Primitive::new([n], x, stale)).collect(),
@@ -212,7 +211,7 @@ impl ClothDetector {
         Shape { low, high, axis, spread: cosine.clamp(-1.0, 1.0).acos(), shrunk }
     }
 
-    /// Whether two patches are one smooth sheet (they meet, normals alike, nothing pushed together).
+    /// Whether two patches are one smooth sheet: they touch, their normals are alike, and neither is compressed.
     fn smooth(&self, a: usize, b: usize, shapes: &[Shape]) -> bool {
         let (p, q) = (&self.patches[a], &self.patches[b]);
         if p.piece != q.piece {
@@ -226,7 +225,7 @@ impl ClothDetector {
         if between + sa.spread + sb.spread > SMOOTH_CONE {
             return false;
         }
-        // Both sides of a dart are near each other in the flat piece, and may slide one over the other.
+        // Both sides of a dart are near each other in the flat piece, and may slide over each other.
         p.beside.binary_search(&(b as u32)).is_ok()
     }
 
@@ -240,12 +239,12 @@ impl ClothDetector {
     }
 }
 
-/// How a patch lies.
+/// Shape of a patch at one position.
 struct Shape {
-    /// Its box.
+    /// Low corner of its box.
     low: Vec3,
     high: Vec3,
-    /// The cone of its normals.
+    /// Axis of the cone of its normals.
     axis: Vec3,
     spread: f64,
     /// Whether an edge is much shorter than drawn.
@@ -257,7 +256,7 @@ struct Primitive<const N: usize> {
     nodes: [u32; N],
     low: Vec3,
     high: Vec3,
-    /// Whether it has a node at which is searched.
+    /// Whether it has a stale node.
     stale: bool,
 }
 
@@ -308,7 +307,7 @@ impl Search<'_> {
         let patch = &self.detector.shapes[other];
         for (i, p) in above.iter().enumerate() {
             let (low, high) = (p.low.add_scalar(-self.reach), p.high.add_scalar(self.reach));
-            // Most of what two patches have near each other is at the rim of both.
+            // Primitives of two patches that are near each other mostly lie at the rims of both.
             if apart(low, high, patch.low, patch.high) {
                 continue;
             }
@@ -369,8 +368,8 @@ fn own_primitives(leaves: Vec<Vec<u32>>, triangles: &[[u32; 3]], piece: &[u32]) 
     patches
 }
 
-/// The particles of every triangle, numbered: nodes at one place of one flat piece. What meets in a seam only has one
-/// node there, and two particles.
+/// The particles of every triangle, numbered. A particle is a node at one place of one flat piece. Two rims that meet
+/// in a seam have one node there, and two particles.
 fn particles(triangles: &[[u32; 3]], flat: &[[Vec2; 3]], piece: &[u32]) -> Vec<[u32; 3]> {
     let mut number: HashMap<(u32, u32, [u64; 2]), u32> = HashMap::new();
     let particle = |t: usize, k: usize| {
@@ -384,7 +383,7 @@ fn particles(triangles: &[[u32; 3]], flat: &[[Vec2; 3]], piece: &[u32]) -> Vec<[
     (0..triangles.len()).map(|t| [numbered(t, 0), numbered(t, 1), numbered(t, 2)]).collect()
 }
 
-/// The parts of a group of triangles that hang together: both sides of a slit are near each other and apart.
+/// Connected parts of a group of triangles: both sides of a slit are near each other, but not connected.
 fn connected(group: &[u32], corners: &[[u32; 3]]) -> Vec<Vec<u32>> {
     let shared = |s: u32, t: u32| {
         let of = |t: u32| corners[t as usize];
@@ -406,8 +405,8 @@ fn connected(group: &[u32], corners: &[[u32; 3]]) -> Vec<Vec<u32>> {
     out
 }
 
-/// Finds the patches that share particles. What meets in a seam only (the ends of a band, the sides of a sleeve) may
-/// well slide one over the other.
+/// Finds the patches that share particles. Patches that meet in a seam only (the ends of a band, the sides of a sleeve)
+/// may slide over each other.
 fn find_beside(patches: &mut [Patch], corners: &[[u32; 3]]) {
     let mut at: HashMap<u32, Vec<u32>> = HashMap::new();
     for (number, patch) in patches.iter().enumerate() {

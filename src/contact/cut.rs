@@ -1,4 +1,4 @@
-//! Where the body passes through cloth, whose particles are outside it all the same, and the way off it.
+//! Places where the body passes through cloth although all particles are outside it, and the direction off the body.
 
 use parry3d_f64::query::{Ray, RayCast};
 
@@ -12,24 +12,23 @@ impl Collider {
         self.mesh.intersects_local_ray(&Ray::new(to_parry(from), to_parry(to - from)), 1.0)
     }
 
-    /// The unit direction off the body for something straight between two points that passes through it: between the
-    /// outward directions where it enters and where it leaves, and square to itself. Through a wedge that leads over
-    /// its end. `None` where nothing is in the way, or what is has two faces opposite to each other.
+    /// Unit direction off the body for a segment that passes through it. It bisects the outward normals where the
+    /// segment enters and leaves, and is square to the segment. For a wedge it leads over the edge. `None` if nothing
+    /// is in the way, or if the two faces are opposite to each other.
     pub fn way_off(&self, from: Vec3, to: Vec3) -> Option<Vec3> {
         let outward = self.facing(from, to)? + self.facing(to, from)?;
         let along = (to - from).try_normalize(0.0)?;
         (outward - along * along.dot(&outward)).try_normalize(0.0)
     }
 
-    /// The unit direction, towards `from`, of the face that is met first on the way `to` another point.
+    /// Unit normal, on the side of `from`, of the first face on the way `to` another point.
     fn facing(&self, from: Vec3, to: Vec3) -> Option<Vec3> {
         let ray = Ray::new(to_parry(from), to_parry(to - from));
         let normal = from_parry(self.mesh.cast_local_ray_and_get_normal(&ray, 1.0, false)?.normal);
         Some(if normal.dot(&(to - from)) > 0.0 { -normal } else { normal })
     }
 
-    /// The unit outward direction of what pokes through a triangle: of the body's convex edges that pass through it.
-    /// `None` where none does.
+    /// Unit outward direction of the body's convex edges that pass through a triangle. `None` if none does.
     pub fn poking(&self, corners: [Vec3; 3]) -> Option<Vec3> {
         let [a, b, c] = corners;
         let mut outward = Vec3::zeros();

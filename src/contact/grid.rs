@@ -2,13 +2,13 @@
 
 use crate::geometry::{Vec3, box_of};
 
-/// Primitives sorted into cubic cells; built once, queried by box.
+/// Primitives sorted into cubic cells. Built once, queried by box.
 #[derive(Clone, Debug)]
 pub(super) struct Grid {
     origin: Vec3,
     cell: f64,
     size: [usize; 3],
-    /// `starts[c]..starts[c + 1]` in `items` are the primitives whose box touches cell `c`; cells in a row along x
+    /// `starts[c]..starts[c + 1]` in `items` are the primitives whose box touches cell `c`. Cells in a row along x
     /// follow one another.
     starts: Vec<u32>,
     items: Vec<Item>,
@@ -18,12 +18,12 @@ pub(super) struct Grid {
 #[derive(Clone, Copy, Debug, Default)]
 struct Item {
     number: u32,
-    /// Of which axes the cell is the first of its box: bit k of axis k.
+    /// Axes along which the cell is the first of the primitive's box: bit k for axis k.
     first: u8,
     extent: Extent,
 }
 
-/// A box, wider than the one meant by no more than rounding. Most of what shares a cell is told apart by it.
+/// A box in single precision, widened by rounding. It separates most primitives that share a cell.
 #[derive(Clone, Copy, Debug, Default)]
 struct Extent {
     low: [f32; 3],
@@ -44,7 +44,7 @@ impl Extent {
 /// The cells that a box touches: the first and the last, by axes.
 type Cells = ([usize; 3], [usize; 3]);
 
-/// More cells than this are never made: the cells grow instead.
+/// Largest number of cells. Beyond it the cells grow.
 const MAX_CELLS: f64 = 4e6;
 
 impl Grid {

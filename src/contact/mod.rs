@@ -1,13 +1,19 @@
 //! Contact: cloth with the body and cloth with cloth (F6, F14). The only user of parry.
 //!
-//! Detection finds every pair of primitives closer than a *reach* and turns it into a [`Contact`]: a direction and the
-//! weights of the nodes that take part, both turned with the pair as it moves. No node goes further than about half the
-//! reach ([`Bounds::allowance`], [`Bounds::allowances_after_all`]) from where contacts were last looked for at it, and
-//! over the body no further than its features were looked for, so a pair that was not found cannot meet; a pair that
-//! was found is kept apart by a plane between its two sides ([`Bounds`]). Cloth that starts without a crossing
-//! therefore ends without one. The exceptions: pairs left out on purpose (pairs within one smooth sheet, both sides of
-//! a seam that is being closed, features of the body that another beside them hides); and, while seams are closed in
-//! long steps, edges, vertices and the faces of hollows of the body further off than about three millimetres.
+//! The broad phase finds every pair of primitives closer than a *reach* and makes a [`Contact`] of it: a direction and
+//! the weights of its nodes, both updated as the pair moves.
+//!
+//! **Guarantee.** Cloth that starts without a crossing ends without one.
+//! - A pair that was not found cannot meet. No node goes further than about half the reach ([`Bounds::allowance`],
+//!   [`Bounds::allowances_after_all`]) from where it was last searched, and near the body no further than the search
+//!   radius for its features.
+//! - A pair that was found is kept apart along a direction between its two sides ([`Bounds`]).
+//!
+//! **Exceptions.**
+//! - Pairs that are left out on purpose: those within one smooth sheet, both sides of a seam that jams in the last
+//!   phase, and features of the body that a neighbour hides.
+//! - While seams are closed in long steps: edges, vertices and faces of hollows of the body further off than about
+//!   three millimetres.
 
 mod body;
 mod bounds;
@@ -32,13 +38,15 @@ pub use tangle::Tangle;
 
 use crate::geometry::Vec3;
 
-/// Over this share of an edge or a triangle, on either side of its end, a contact hands over to its neighbour. Without
-/// that an edge that lies across a vertex of the body would be pushed by one, two or three contacts in turn, and never
+/// Share of an edge or triangle, on either side of its end, over which a contact fades into its neighbour. Without the
+/// fade an edge that lies across a vertex of the body would be pushed by one, two or three contacts in turn, and never
 /// rest.
 const BLEND: f64 = 0.1;
-/// What lies beyond an end is pushed the less, the more sideways it is: not at all beyond this angle (cosine, 75°).
+/// Cosine of the angle (75°) between contact direction and upright direction at which a contact beyond an end has faded
+/// to nothing.
 const SIDEWAYS: f64 = 0.25;
-/// Edges that enclose less than this angle (sine) have less and less a point where they meet: their ends push.
+/// Sine of the angle between two edges below which their contact fades. Nearly parallel edges have no definite closest
+/// points, and contacts of their ends take over.
 const PARALLEL: f64 = 0.02;
 
 /// A vertex, an edge or a face of the body.
@@ -50,7 +58,7 @@ pub struct Feature<const N: usize> {
     pub corners: [Vec3; N],
 }
 
-/// What the nodes of a contact are above of.
+/// The lower side of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Under<'b> {
     /// Cloth: the nodes after the first [`Contact::above`].
@@ -61,8 +69,8 @@ pub enum Under<'b> {
     Face {
         /// The face.
         face: &'b Feature<3>,
-        /// The share with which it pushes, 0 … 1: in a sharp hollow beside the nearest, in a shallow one not at all
-        /// until it is the nearest.
+        /// Share of its force, 0 … 1. In a sharp hollow it pushes beside the nearest face, in a shallow one not until
+        /// it is the nearest.
         push: f64,
     },
     /// A vertex of the body, under a triangle.
@@ -93,28 +101,28 @@ impl Under<'_> {
     }
 }
 
-/// A pair of primitives near each other, as one number: gap = normal · Σ wᵢ xᵢ − offset, metres.
+/// A pair of primitives near each other, reduced to its gap = normal · Σ wᵢ xᵢ − offset, metres.
 ///
-/// There are a hundred thousand of them in a garment, and they are moved about at every look: the corners of the body
-/// stay where they are.
+/// A garment has a hundred thousand of them, and each search moves them in memory. So they refer to the corners of the
+/// body instead of holding them.
 #[derive(Clone, Copy, Debug)]
 pub struct Contact<'b> {
-    /// Nodes that take part; the first [`Contact::count`] are meant.
+    /// Nodes that take part. Only the first [`Contact::count`] are used.
     pub nodes: [u32; 4],
     /// Their weights: +1 in sum on the side the normal points to, −1 on the other (or 0 if that side is the body).
     pub weights: [f64; 4],
-    /// How many of the four are used.
+    /// Number of nodes in use, 1 to 4.
     pub count: u8,
     /// Unit direction that opens the gap.
     pub normal: Vec3,
-    /// Position of the body's surface along the normal; 0 between cloth and cloth.
+    /// Position of the body's surface along the normal. 0 between cloth and cloth.
     pub offset: f64,
-    /// What is on the other side.
+    /// The other side.
     pub under: Under<'b>,
-    /// How many of the nodes, counted from the first, are on the side the normal points to.
+    /// Number of nodes, counted from the first, on the side that the normal points to.
     pub above: u8,
-    /// Share of the law's force with which it pushes, 0 … 1. It falls to nothing as the closest point passes the end of
-    /// an edge, where a neighbour takes over; then the pair is only kept apart.
+    /// Share of the contact force, 0 … 1. It falls to 0 as the closest point passes the end of an edge, where a
+    /// neighbour takes over. At 0 the pair is only kept apart.
     pub share: f64,
 }
 
@@ -133,8 +141,8 @@ impl<'b> Contact<'b> {
         }
     }
 
-    /// The first `count` of `nodes` above a vertex, an edge or a hollow's face of the body, from which `outward` leads
-    /// away; turned to where their closest points are. `None` where they meet in a point, or not within `reach`.
+    /// The first `count` of `nodes` above a vertex, an edge or a hollow's face of the body, whose outward direction is
+    /// `outward`. `None` if they touch, or are not within `reach`.
     pub(crate) fn on_feature(
         nodes: [u32; 4],
         count: u8,
@@ -149,7 +157,7 @@ impl<'b> Contact<'b> {
     }
 
     /// Two primitives of the cloth at positions `x`: a vertex and a triangle if one node is `above`, two edges if two
-    /// are. `None` where they meet in a point, or not within `reach`.
+    /// are. `None` if they touch, or are not within `reach`.
     pub(crate) fn within_cloth(nodes: [u32; 4], above: u8, x: &[Vec3], reach: f64) -> Option<Self> {
         let (weights, normal) = ([0.0; 4], Vec3::zeros());
         let under = Under::Cloth;
@@ -171,21 +179,23 @@ impl<'b> Contact<'b> {
         sum
     }
 
-    /// Turns a pair of primitives to where its closest points are now; the plane under a node stays. A pair whose
-    /// closest point is beyond an end of an edge, or the rim of a triangle over a vertex of the body, pushes no more:
-    /// that is the business of others. Returns `false`, and changes nothing, where the two meet in a point.
+    /// Updates direction and weights to the present closest points. A plane under a node stays.
+    ///
+    /// A pair whose closest point is beyond the end of an edge, or beyond the rim of a triangle over a vertex of the
+    /// body, no longer pushes, because a neighbouring pair does. Returns `false`, and changes nothing, if the two
+    /// touch.
     pub fn refresh(&mut self, x: &[Vec3]) -> bool {
         self.refresh_within(x, f64::INFINITY)
     }
 
-    /// The same of a pair that is nearer than `reach`; one that is not stays as it is as well.
+    /// As [`Contact::refresh`], but also returns `false` and changes nothing if the pair is not within `reach`.
     fn refresh_within(&mut self, x: &[Vec3], reach: f64) -> bool {
         let Some((weights, away)) = self.closest_points(x) else { return true };
         let distance = away.norm();
         if distance == 0.0 || distance >= reach {
             return false;
         }
-        // The body has an inside, from which cloth must come back the way it went.
+        // Cloth inside the body must come back the way it went in.
         let inside = self.is_on_body() && away.dot(&self.normal) < 0.0;
         (self.weights, self.share) = (weights, self.share_at(x, away));
         self.normal = away / if inside { -distance } else { distance };
@@ -195,8 +205,8 @@ impl<'b> Contact<'b> {
         true
     }
 
-    /// Weights of the closest points of a pair of primitives, and the way from the lower to the upper; `None` over a
-    /// plane.
+    /// Weights of the closest points of a pair of primitives, and the vector from the lower to the upper one. `None`
+    /// over a plane.
     fn closest_points(&self, x: &[Vec3]) -> Option<([f64; 4], Vec3)> {
         let at = |k: usize| x[self.nodes[k] as usize];
         Some(match self.under {
@@ -226,7 +236,7 @@ impl<'b> Contact<'b> {
         })
     }
 
-    /// The share of a pair of primitives that are `away` from each other.
+    /// The share of a pair whose closest points are `away` from each other.
     fn share_at(&self, x: &[Vec3], away: Vec3) -> f64 {
         let at = |k: usize| x[self.nodes[k] as usize];
         match self.under {
@@ -241,7 +251,7 @@ impl<'b> Contact<'b> {
         }
     }
 
-    /// Takes the cloth for being on the other side of what is under it.
+    /// Reverses the direction: the cloth then counts as being on the other side.
     pub(crate) fn turn_over(&mut self) {
         (self.normal, self.offset) = (-self.normal, -self.offset);
     }
@@ -257,8 +267,8 @@ impl<'b> Contact<'b> {
     }
 }
 
-/// How much of a contact's force is left whose closest point lies at `s` between two ends at 0 and 1, or beyond one, of
-/// what is `long` metres long and `apart` from the other.
+/// Remaining share of a contact whose closest point lies at parameter `s` of an edge of `long` metres (ends at 0 and
+/// 1), at a distance of `apart` metres.
 fn left(s: f64, long: f64, apart: f64) -> f64 {
     let inner = s.min(1.0 - s);
     let faded = ((inner + BLEND) / (2.0 * BLEND)).clamp(0.0, 1.0);
@@ -266,26 +276,26 @@ fn left(s: f64, long: f64, apart: f64) -> f64 {
     faded * faded * (3.0 - 2.0 * faded) * upright((1.0 - sine * sine).sqrt())
 }
 
-/// How much of it is left where the direction to the closest point has that cosine with the upright one.
+/// Remaining share of a contact whose direction has this `cosine` with the upright direction.
 fn upright(cosine: f64) -> f64 {
     ((cosine - SIDEWAYS) / (1.0 - SIDEWAYS)).max(0.0)
 }
 
-/// The same of two edges.
+/// Share of the contact of two edges.
 fn share_of_edges(a: Vec3, b: Vec3, c: Vec3, d: Vec3, apart: f64) -> f64 {
     let (first, second) = (b - a, d - c);
     let (long, wide) = (first.norm(), second.norm());
     let sine = first.cross(&second).norm() / (long * wide);
-    // Also where an edge has no length.
+    // Parallel edges, or an edge without length.
     if sine.is_nan() || sine == 0.0 {
         return 0.0;
     }
     let (s, t) = closest_on_lines(a, b, c, d);
-    // Lines that are parallel but for rounding need not have a number for their closest points.
+    // Lines that are parallel within rounding may have closest points that are not finite.
     (left(s, long, apart) * left(t, wide, apart) * (sine / PARALLEL).min(1.0)).max(0.0)
 }
 
-/// The same of a triangle and the point `p`.
+/// Share of the contact of a triangle and the point `p`.
 fn share_of_triangle(p: Vec3, a: Vec3, b: Vec3, c: Vec3, apart: f64) -> f64 {
     let double_area = (b - a).cross(&(c - a)).norm();
     let sides = [(c - b).norm(), (a - c).norm(), (b - a).norm()];

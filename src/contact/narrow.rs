@@ -60,7 +60,7 @@ pub fn closest_on_segments(p0: Vec3, p1: Vec3, q0: Vec3, q1: Vec3) -> (f64, f64)
     }
     let b = d1.dot(&d2);
     let determinant = a * e - b * b;
-    // Parallel segments: any point of the overlap will do; start from p0.
+    // Parallel segments: any point of the overlap will do. Start from p0.
     let s = if determinant > 1e-12 * a * e { ((b * f - c * e) / determinant).clamp(0.0, 1.0) } else { 0.0 };
     let t = (b * s + f) / e;
     if t < 0.0 {
@@ -80,8 +80,8 @@ pub(super) fn closest_on_lines(p0: Vec3, p1: Vec3, q0: Vec3, q1: Vec3) -> (f64, 
     ((b * f - c * e) / determinant, (a * f - b * c) / determinant)
 }
 
-/// Barycentric coordinates of the foot of `p` in the plane of triangle `abc`, beyond its rim too; none are numbers
-/// where it has no area.
+/// Barycentric coordinates of the foot of `p` in the plane of triangle `abc`, also beyond its rim. They are
+/// not numbers if the triangle has no area.
 pub(super) fn on_plane(p: Vec3, a: Vec3, b: Vec3, c: Vec3) -> [f64; 3] {
     let (ab, ac, ap) = (b - a, c - a, p - a);
     let (bb, bc, cc, pb, pc) = (ab.norm_squared(), ab.dot(&ac), ac.norm_squared(), ap.dot(&ab), ap.dot(&ac));

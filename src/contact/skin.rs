@@ -6,17 +6,17 @@ use parry3d_f64::shape::TriMesh as ParryMesh;
 
 use crate::geometry::Vec3;
 
-/// Triangles of which it is asked how far away they are.
+/// Triangles prepared for distance queries.
 pub struct Skin(ParryMesh);
 
 impl Skin {
-    /// The `triangles` over `vertices`; `None` where there are none, or parry refuses them.
+    /// The `triangles` over `vertices`. `None` where there are none, or parry refuses them.
     pub fn new(vertices: &[Vec3], triangles: Vec<[u32; 3]>) -> Option<Self> {
         let vertices = vertices.iter().map(|&v| Vector::from(v)).collect();
         ParryMesh::new(vertices, triangles).ok().map(Self)
     }
 
-    /// How far `p` is from it on either side, metres, if that is no more than `reach`.
+    /// Unsigned distance of `p` from the triangles, metres, if it is no more than `reach`.
     pub fn distance(&self, p: Vec3, reach: f64) -> Option<f64> {
         let p = Vector::from(p);
         let (projection, _) = self.0.project_local_point_and_get_location_with_max_dist(p, false, reach)?;

@@ -13,7 +13,7 @@ pub struct Tangle {
 }
 
 impl ClothDetector {
-    /// Every edge–triangle crossing at positions `x`; primitives that share a node are left out.
+    /// Every edge–triangle crossing at positions `x`. Primitives that share a node are left out.
     pub fn tangles(&mut self, x: &[Vec3]) -> Vec<Tangle> {
         let mut out = Vec::new();
         for (edge, triangle) in self.touching(x) {

@@ -1,4 +1,4 @@
-//! Contours that do not cross themselves; the only user of i_overlay.
+//! Contours that do not cross themselves. The only user of i_overlay.
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -6,18 +6,18 @@ use i_overlay::float::single::SingleFloatOverlay;
 
 use crate::geometry::Vec2;
 
-/// Neighbouring points nearer than this (metres) are one: a tenth of what the chords may be off.
+/// Distance within which neighbouring points are one, metres: a tenth of the error of the chords.
 const SAME: f64 = 2e-7;
 
 type Contour = Vec<[f64; 2]>;
 
-/// What lies within `raw` (clockwise on screen, perhaps with loops where it turned in on itself) or within `sewn`: the
-/// outer contour, then those of the bays it closes round.
+/// The area inside `raw` (clockwise on screen, perhaps with loops where it turned in on itself) or inside `sewn`: the
+/// outer contour, then those of the bays that it closes round.
 pub(super) fn grown(raw: &[Vec2], sewn: &[Vec2]) -> Vec<Vec<Vec2>> {
     overlay(plain(raw), plain(sewn))
 }
 
-/// What is left within a hole's `raw` contour (counter-clockwise on screen).
+/// The area that is left inside a hole's `raw` contour (counter-clockwise on screen).
 pub(super) fn shrunk(raw: &[Vec2]) -> Vec<Vec<Vec2>> {
     let turned: Vec<Vec2> = raw.iter().rev().copied().collect();
     overlay(plain(&turned), Vec::new())

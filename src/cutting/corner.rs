@@ -1,9 +1,9 @@
-//! How two allowances meet.
+//! The junction of two allowances at a corner.
 //!
-//! A corner is looked at as two polylines: `x`, the cut line that comes to it, and `y`, the one that leaves it; both
-//! are as far from their sewing lines as these are wide. Where a maker speaks of an allowance that is *folded* or
-//! *squared* at its ends, she looks from the neighbour: its cut line goes on as far as the sewing line of the special
-//! edge, and from there straight out, or mirrored in that sewing line, to the special edge's cut line.
+//! A corner consists of two polylines: `x`, the cut line that comes to it, and `y`, the one that leaves it. Each is at
+//! the width of its allowance from its sewing line. The end of a *folded* or *squared* allowance is defined from the
+//! neighbour's side: the neighbour's cut line extends to the sewing line of that edge, and from there straight out, or
+//! mirrored in that sewing line, to its cut line.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -11,7 +11,7 @@ use super::offset::Run;
 use crate::geometry::{Vec2, mirrored};
 use crate::pattern::Corner;
 
-/// A mitre may be this many times as long as the wider allowance; past it (corners of less than 39 degrees) its point
+/// A mitre may be this many times as long as the wider allowance. Past it (corners of less than 39 degrees) its point
 /// is cut off.
 pub(super) const MITRE_LIMIT: f64 = 3.0;
 /// Edges that turn less than this (radians) go on as one.
@@ -22,20 +22,20 @@ const LEAST_TURN: f64 = 0.35;
 /// Nearer than this (metres) is the same.
 const SAME: f64 = 1e-9;
 
-/// A place on a polyline: how many points from its start, with a fraction; before and past its ends, too.
+/// A place on a polyline: how many points from its start, with a fraction. Before and past its ends, too.
 pub(super) type At = (f64, Vec2);
 
-/// How a contour goes from one run to the next.
+/// Transition of a contour from one run to the next.
 #[derive(Clone, Debug)]
 pub(super) struct Join {
-    /// Where it leaves the first run.
+    /// Place where it leaves the first run.
     pub(super) leave: At,
     pub(super) between: Vec<Vec2>,
-    /// Where it enters the second.
+    /// Place where it enters the second.
     pub(super) enter: At,
 }
 
-/// How an edge's allowance is to end at a corner.
+/// Wanted ending of an edge's allowance at a corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Wish {
     pub(super) corner: Corner,
@@ -44,11 +44,11 @@ pub(super) struct Wish {
 }
 
 impl Wish {
-    /// What is usual between edges that are sewn.
+    /// The default between sewn edges.
     pub(super) const MITRED: Self = Self { corner: Corner::Mitred, said: false };
 }
 
-/// Joins two runs as their edges wish. Of two wishes that differ the mitre gives way, then the narrower allowance; of
+/// Joins two runs as their edges wish. Of two wishes that differ the mitre gives way, then the narrower allowance. Of
 /// two equal ones the one that is said counts, and else they make a mitre. `lines` are the cut lines away from the
 /// corner, beyond the runs where these are short.
 pub(super) fn join(a: &Run, b: &Run, wishes: [Wish; 2], lines: [&[Vec2]; 2]) -> Join {
@@ -144,7 +144,7 @@ fn mitred(a: &Run, b: &Run) -> Join {
     plain(a, b, vec![end + a.ends[1] * past(a.width), start - b.ends[0] * past(b.width)])
 }
 
-/// Where the cut lines cross at a corner that bends out, if that is near enough.
+/// Crossing of the cut lines at a corner that bends out, if it is near enough.
 fn pointed(a: &Run, b: &Run, turn: f64) -> Option<Join> {
     if turn < STRAIGHT {
         return None;
@@ -158,9 +158,10 @@ fn pointed(a: &Run, b: &Run, turn: f64) -> Option<Join> {
     (short && spread <= wide).then(|| joined(a, on_a, Vec::new(), on_b))
 }
 
-/// Where the cut lines cross at a corner that bends in: there two allowances lie over one another, and what each line
-/// gives up is within the other. A line that stands clear of the other's at the corner goes on until it meets that; the
-/// other one begins within its allowance and is not prolonged: that would cut off what the wider edge is to have.
+/// Crossing of the cut lines at a corner that bends in. There two allowances overlap, and the part that each line gives
+/// up is inside the other. A line that stands clear of the other's allowance at the corner continues until it meets
+/// that. The other one begins inside the allowance and is not prolonged, because that would cut into the wider
+/// allowance.
 fn bent_in(a: &Run, b: &Run, turn: f64) -> Option<Join> {
     if turn > -STRAIGHT {
         return None;
@@ -272,7 +273,7 @@ fn rest(line: &[Vec2], at: f64) -> impl Iterator<Item = Vec2> + '_ {
     line.iter().enumerate().filter(move |&(k, _)| k as f64 > at).map(|(_, p)| *p)
 }
 
-/// How two lines that are walked away from a corner cross.
+/// Sense in which two lines, walked away from a corner, cross.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Sense {
     /// As the prolongations of two lines before a corner that bends out, which end there.
@@ -281,8 +282,8 @@ enum Sense {
     Parting,
 }
 
-/// The crossing of two lines that is nearest to their corner: lines that bend may cross again farther off. Where it is
-/// not of the corner's sense the lines have bent back, and it is no join.
+/// The crossing of two lines that is nearest to their corner: lines that bend may cross again farther off. A crossing
+/// of the wrong sense means that the lines have bent back, and is no join.
 fn meeting(x: &[Vec2], y: &[Vec2], corner: Vec2, sense: Sense) -> Option<(At, At)> {
     let off = |c: &(At, At)| (c.0.1 - corner).norm();
     let nearest = crossings(x, y).min_by(|one, other| off(one).total_cmp(&off(other)))?;
@@ -302,13 +303,13 @@ fn crossings<'a>(p: &'a [Vec2], q: &'a [Vec2]) -> impl Iterator<Item = (At, At)>
     })
 }
 
-/// Where a polyline goes at a place on it.
+/// Direction of a polyline at a place on it.
 fn direction(line: &[Vec2], at: f64) -> Vec2 {
     let k = (at as usize).min(line.len() - 2);
     line[k + 1] - line[k]
 }
 
-/// How much a line that is extended at its start loses by beginning at a place.
+/// Length that a line, extended at its start, loses by beginning at a place.
 fn cut_away(extended: &[Vec2], at: At) -> f64 {
     length(&extended[1..], at.0 - 1.0)
 }
@@ -318,7 +319,7 @@ fn length(line: &[Vec2], at: f64) -> f64 {
     line.windows(2).enumerate().map(|(k, w)| (w[1] - w[0]).norm() * (at - k as f64).clamp(0.0, 1.0)).sum()
 }
 
-/// Where `p` first meets `q`, as places on both.
+/// First place where `p` meets `q`, as places on both.
 fn first_crossing(p: &[Vec2], q: &[Vec2]) -> Option<(At, At)> {
     crossings(p, q).min_by(|(one, _), (other, _)| one.0.total_cmp(&other.0))
 }

@@ -1,4 +1,4 @@
-//! What is written on a piece, and where there is room for it.
+//! Lettering of a piece, and the places with room for it.
 
 use super::marks::grain_arrow;
 use super::room::{AIR, Room, foot};
@@ -15,15 +15,17 @@ const CLEARLY: f64 = 1.3;
 const NAME: f64 = 1.4;
 /// Width of a letter of a sans-serif type over its height, on average, with some air.
 pub const LETTER_WIDTH: f64 = 0.62;
-/// Distance of lines over the height of letters, and how far some letters reach below their line.
+/// Distance of lines over the height of letters.
 const LINE: f64 = 1.45;
+/// Depth of letters below their line over the height of letters.
 const BELOW: f64 = 0.3;
-/// Lines that are never left out: the name, and how many are cut of what.
+/// Number of lines that are never left out: the name, and the number and material of the cut.
 const NEEDED: usize = 2;
-/// Height of letters along a line or beside a piece, metres, and the share of its box that they take.
+/// Height of letters along a line or beside a piece, metres.
 const BESIDE: f64 = 0.004;
+/// Share of their box that these letters take.
 const AIR_BESIDE: f64 = 0.75;
-/// Where along a line words are tried: near its middle first.
+/// Places along a line where words are tried, as shares of its length: near its middle first.
 const BESIDE_AT: [f64; 7] = [0.5, 0.35, 0.65, 0.25, 0.75, 0.12, 0.88];
 /// Half the width of a drill mark, metres.
 const DRILL: f64 = 0.002;
@@ -37,7 +39,7 @@ pub(super) struct EdgeWidth<'a> {
     pub(super) length: f64,
 }
 
-/// How many are cut.
+/// Number of cut pieces, in words.
 pub(super) fn count(cut: &Cut) -> String {
     match cut {
         Cut::One => "cut 1".to_owned(),
@@ -47,7 +49,7 @@ pub(super) fn count(cut: &Cut) -> String {
     }
 }
 
-/// The lines of text on a piece; `widths` are those of its edges.
+/// The lines of text on a piece. `widths` are those of its edges.
 pub(super) fn lettering(paper: &Paper, widths: &[EdgeWidth], note: Option<&str>) -> Vec<Lettering> {
     let mut lines = vec![paper.name.clone(), format!("{}, {}", paper.count, paper.fabric)];
     lines.extend(allowances(widths));
@@ -61,14 +63,14 @@ pub(super) fn lettering(paper: &Paper, widths: &[EdgeWidth], note: Option<&str>)
     texts
 }
 
-/// The lines one under the other, or all in one, for narrow pieces; then without the last, as far as they are not
+/// The lines one under the other, or all in one, for narrow pieces. Then without the last, as far as they are not
 /// needed.
 fn wordings(lines: &[String]) -> Vec<Vec<String>> {
     let kept = (NEEDED..=lines.len()).rev().map(|n| &lines[..n]);
     kept.flat_map(|lines| [lines.to_vec(), vec![lines.join(", ")]]).collect()
 }
 
-/// The sides of what is left of a piece when it is sewn, in any order.
+/// The sides of the outline of a piece when it is sewn, in any order.
 fn sewn(paper: &Paper) -> Vec<[Vec2; 2]> {
     let around = paper.sew.iter().filter(|s| matches!(s.of, SewKind::Outline | SewKind::Hole | SewKind::Dart));
     let lines = around.map(|s| s.path.sampled(1e-4)).chain(paper.fold.map(|fold| fold.to_vec()));
@@ -152,7 +154,7 @@ fn room(paper: &Paper) -> Room {
     room
 }
 
-/// What is written along elastic: to which share of its length it is drawn in.
+/// Lettering along elastic: its share of the line's length.
 fn elastic(paper: &Paper, room: &Room) -> Vec<Lettering> {
     let mut texts = Vec::new();
     for mark in &paper.marks {

@@ -13,10 +13,10 @@ const GAP: f64 = 0.010;
 /// as wide.
 const SLACK: f64 = 1.2;
 
-/// How papers are laid out.
+/// Layout of papers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Layout {
-    /// Width of the sheet, metres; wider only where a single piece is. `None`: about as wide as high.
+    /// Width of the sheet, metres. Wider only where a single piece is. `None`: about as wide as high.
     pub width: Option<f64>,
     /// Empty rim, metres.
     pub margin: f64,

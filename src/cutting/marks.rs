@@ -7,7 +7,7 @@ use crate::pattern::{Cut, Drawing, DrawnEdge, NotchKind};
 
 /// Least length of a notch's mark, metres: shorter ones are overlooked when cutting.
 const NOTCH: f64 = 0.006;
-/// A grain line shorter than this (metres) cannot be laid along a thread; one is worked out instead.
+/// A grain line shorter than this (metres) cannot be laid along a thread. One is worked out instead.
 const SHORTEST_GRAIN: f64 = 0.020;
 /// Share of the piece's height that a worked-out grain line takes.
 const GRAIN_SHARE: f64 = 0.5;
@@ -15,8 +15,9 @@ const GRAIN_SHARE: f64 = 0.5;
 const BENT: (f64, f64) = (0.020, 0.040);
 /// Length of a pleat's lines from the edge, metres.
 const PLEAT: f64 = 0.040;
-/// Barbs of arrows, and of the grain's, metres.
+/// Length of the barbs of arrows, metres.
 const BARB: f64 = 0.004;
+/// Length of the barbs of the grain's arrow, metres.
 const GRAIN_BARB: f64 = 0.006;
 
 /// Notches from the sewing lines of a drawing out to where its cloth, of which `room` is, ends, `width` metres off
@@ -50,7 +51,7 @@ pub(super) fn notches(drawing: &Drawing, room: &Room, width: impl Fn(usize, usiz
     marks
 }
 
-/// The file's grain arrow, or one through the middle of the piece; on the cloth, of which `room` is, wherever the file
+/// The file's grain arrow, or one through the middle of the piece. On the cloth, of which `room` is, wherever the file
 /// has drawn it.
 pub(super) fn grain(drawing: &Drawing, room: &Room) -> [Vec2; 2] {
     room.arrow(grain_as_drawn(drawing))

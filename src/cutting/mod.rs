@@ -1,9 +1,9 @@
-//! Patterns for cutting: what a maker prints, lays on the cloth and cuts round.
+//! Patterns for cutting: the sheets that a maker prints, lays on the cloth and cuts round.
 //!
-//! A [`Sheet`] is a set of [`Paper`] pieces laid out side by side; every paper has a cut line (the sewing line moved
+//! A [`Sheet`] is a set of [`Paper`] pieces laid out side by side. Every paper has a cut line (the sewing line moved
 //! out by the allowance of each edge), the sewing lines, notches, grain and fold arrows, inner lines, drill marks and
-//! its lettering. Writers of formats draw what is here and add nothing. Lengths are metres, y down, the right side of
-//! the cloth up.
+//! its lettering. Writers of formats draw this and add nothing. Lengths are metres, y down, the right side of the cloth
+//! up.
 
 mod clean;
 mod corner;
@@ -27,7 +27,7 @@ use nalgebra::Matrix2;
 use crate::geometry::{Path, Vec2, box_of, box_or_origin};
 use crate::pattern::{Corner, LineKind, NotchKind, Side};
 
-/// What the file does not say.
+/// Choices that the file does not make.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// Allowance of edges for which the file gives none, metres.
@@ -50,13 +50,13 @@ impl Default for Options {
 pub struct Paper {
     /// `front`, or `front.L` where pieces are drawn as they are cut.
     pub name: String,
-    /// How many are cut, in words: `cut 2 (left and right)`.
+    /// Number of cut pieces, in words: `cut 2 (left and right)`.
     pub count: String,
-    /// How many of it the garment takes.
+    /// Number of them in the garment.
     pub quantity: usize,
     /// Whether half of these are mirrored.
     pub mirrored: bool,
-    /// Which of a pair, or which half, is drawn; `None` where nothing is mirrored.
+    /// The drawn one of a pair, or the drawn half. `None` if nothing is mirrored.
     pub drawn: Option<Side>,
     /// Name of its fabric.
     pub fabric: String,
@@ -77,13 +77,13 @@ pub struct Paper {
     pub marks: Vec<Mark>,
     /// Points to be marked through all layers: ends of darts, buttons.
     pub drills: Vec<(String, Vec2)>,
-    /// What is written on it.
+    /// Its lettering.
     pub texts: Vec<Lettering>,
     /// Allowances of holes for which these are too small.
     pub narrowed: Vec<Narrowed>,
 }
 
-/// An allowance that does not fit into its hole, and what is drawn in its place.
+/// An allowance that does not fit into its hole, and the one drawn in its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Narrowed {
     /// The hole's edge.
@@ -101,16 +101,16 @@ pub struct SewLine {
     pub name: String,
     /// Its course.
     pub path: Path,
-    /// What it belongs to.
+    /// Its kind.
     pub of: SewKind,
-    /// How its allowance ends at corners, if the file says so.
+    /// Ending of its allowance at corners, if the file gives one.
     pub corner: Option<Corner>,
 }
 
-/// What a sewing line belongs to.
+/// Kinds of sewing lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SewKind {
-    /// The outline; part of it, together with the fold and the darts' legs.
+    /// The outline. Part of it, together with the fold and the darts' legs.
     Outline,
     /// A hole that is cut out.
     Hole,
@@ -118,7 +118,7 @@ pub enum SewKind {
     Dart,
     /// A side of a fish-eye dart.
     FishEye,
-    /// Where a seam runs over the mouth of a dart that is sewn and pressed.
+    /// Line of a seam over the mouth of a dart that is sewn and pressed.
     Mouth,
 }
 
@@ -131,7 +131,7 @@ pub struct NotchMark {
     pub sewn: Vec2,
     /// The end of its mark: on the sewing line, or where that is near, a little inside.
     pub inside: Vec2,
-    /// What it belongs to.
+    /// Its kind.
     pub kind: NotchKind,
     /// Name of the edge it stands on.
     pub edge: String,
@@ -140,17 +140,17 @@ pub struct NotchMark {
 /// A line that is drawn and neither cut nor sewn.
 #[derive(Clone, Debug)]
 pub struct Mark {
-    /// What it is.
+    /// Its kind.
     pub kind: MarkKind,
     /// Its name, if it has one.
     pub name: String,
     /// Its course.
     pub path: Path,
-    /// What a line of the file does.
+    /// Purpose of a line of the file.
     pub line: Option<LineKind>,
 }
 
-/// What a mark is.
+/// Kinds of marks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MarkKind {
     /// The bent arrow at a fold.
@@ -179,7 +179,7 @@ pub struct Lettering {
 }
 
 impl Paper {
-    /// Every point moved by `p ↦ linear · p + shift`; `linear` keeps lengths.
+    /// Every point moved by `p ↦ linear · p + shift`. `linear` keeps lengths.
     #[must_use]
     fn mapped(&self, linear: Matrix2<f64>, shift: Vec2) -> Self {
         let to = |p: Vec2| linear * p + shift;
@@ -206,7 +206,7 @@ impl Paper {
         box_or_origin(self.cut.iter().flatten().chain(self.fold.iter().flatten()).copied())
     }
 
-    /// As [`Paper::bounds`], with what is written beside it.
+    /// Bounds as of [`Paper::bounds`], with the lettering beside it.
     pub fn extent(&self) -> [Vec2; 2] {
         let written = self.texts.iter().flat_map(label::outline);
         box_of(written.chain(self.bounds()))

@@ -14,18 +14,18 @@ pub(super) struct Border<'a> {
     pub(super) path: &'a Path,
     /// Metres.
     pub(super) width: f64,
-    /// How it ends at corners.
+    /// Its ending at corners.
     pub(super) wish: Wish,
 }
 
-/// What stands between an edge and the next.
+/// Transition between an edge and the next.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Between {
     /// A corner of the piece.
     Corner,
     /// A dart, whose mouth lies between the two edges.
     Dart {
-        /// Where its legs meet.
+        /// Point where its legs meet.
         tip: Vec2,
         /// Pressed onto the edge before it, or else the one after it.
         onto_first: bool,
@@ -70,7 +70,7 @@ impl Run {
     }
 }
 
-/// A ring as smooth runs and what joins each to the next.
+/// A ring as smooth runs with their joins.
 struct Ring {
     runs: Vec<Run>,
     joins: Vec<Joint>,
@@ -204,7 +204,7 @@ pub(super) fn around(borders: &[Border], between: &[Between]) -> Vec<Vec<Vec2>> 
     grown(&ring.contour(), &ring.sewn().contour())
 }
 
-/// The cut line of the whole piece of which an outline is the half that is drawn; `fold` is the edge on the fold. At
+/// The cut line of the whole piece of which an outline is the half that is drawn. `fold` is the edge on the fold. At
 /// the fold's ends the allowances of the two halves meet, which nothing on one half alone tells.
 pub(super) fn around_unfolded(borders: &[Border], between: &[Between], fold: usize) -> Vec<Vec<Vec2>> {
     let path = borders[fold].path;
@@ -216,7 +216,7 @@ pub(super) fn around_unfolded(borders: &[Border], between: &[Between], fold: usi
     grown(&ring.contour(), &ring.sewn().contour())
 }
 
-/// The sewing line of an outline with its darts closed and pressed: what a seam along the edge is sewn on.
+/// The sewing line of an outline with its darts closed and pressed, along which a seam is sewn.
 pub(super) fn sewn_mouths(borders: &[Border], between: &[Between]) -> Vec<Vec<Vec2>> {
     let ring = Ring::new(borders, between).sewn();
     let count = ring.runs.len();
@@ -233,7 +233,7 @@ pub(super) fn sewn_mouths(borders: &[Border], between: &[Between]) -> Vec<Vec<Ve
     mouths
 }
 
-/// The cut lines of a hole (counter-clockwise on screen), smaller by its allowance; none if nothing is left to cut out.
+/// The cut lines of a hole (counter-clockwise on screen), smaller by its allowance. None if nothing is left to cut out.
 pub(super) fn within(borders: &[Border]) -> Vec<Vec<Vec2>> {
     shrunk(&Ring::new(borders, &vec![Between::Corner; borders.len()]).contour())
 }

@@ -15,7 +15,7 @@ use crate::pattern::{Corner, Cut, Dart, Drawing, DrawnEdge};
 
 /// Less than this (square metres, a square of 3 mm) nobody cuts out of a hole.
 const LEAST_CUT: f64 = 1e-5;
-/// An allowance that does not fit into its hole is halved so often at most; then the hole is cut on its sewing line.
+/// An allowance that does not fit into its hole is halved so often at most. Then the hole is cut on its sewing line.
 const HALVINGS: i32 = 6;
 
 /// The papers of a garment, their warp upright: one per drawing, or one per piece as cut with [`Options::whole`].
@@ -60,7 +60,7 @@ impl<'a> Rule<'a> {
         (1..self.drawing.rings.len()).filter(|r| !self.drawing.fish_eyes.contains(r)).collect()
     }
 
-    /// How much of its allowance fits into a hole.
+    /// Share of its allowance that fits into a hole.
     fn share(&self, ring: usize) -> f64 {
         let fits = |share: &f64| {
             let mut borders = self.borders(ring);
@@ -162,7 +162,7 @@ fn paper(rule: &Rule) -> Paper {
     }
 }
 
-/// The outline's cut lines; of a piece on the fold their half, and the stretch of the fold that the cloth lies on.
+/// The outline's cut lines. Of a piece on the fold their half, and the stretch of the fold that the cloth lies on.
 fn outline_cut(drawing: &Drawing, borders: &[Border], between: &[Between]) -> (Vec<Vec<Vec2>>, Option<[Vec2; 2]>) {
     let Some(fold) = drawing.fold else { return (around(borders, between), None) };
     let place = (0..fold).filter(|&i| !drawing.is_leg(i)).count();
@@ -204,7 +204,7 @@ fn pressed(drawing: &Drawing, dart: Dart) -> Between {
     Between::Dart { tip, onto_first }
 }
 
-/// Where the middle of the body is: the fold, the line a pair is mirrored in, or the middle of the piece.
+/// The x coordinate of the body's middle: the fold, the line in which a pair is mirrored, or the middle of the piece.
 fn centre(drawing: &Drawing) -> f64 {
     match (drawing.fold, &drawing.cut) {
         (Some(fold), _) => drawing.rings[0][fold].path.start().x,

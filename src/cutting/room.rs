@@ -1,4 +1,4 @@
-//! Where on a piece there is room: for letters clear of all lines, and for an arrow along the grain.
+//! Room on a piece: for letters clear of all lines, and for an arrow along the grain.
 
 use super::walls::Walls;
 use crate::geometry::{Vec2, box_or_origin, encloses, range_of, sides_of};
@@ -11,7 +11,7 @@ pub(super) const AIR: f64 = 0.85;
 const ARROW: f64 = 0.8;
 /// This share of its length is not worth going farther for.
 const ALIKE: f64 = 0.01;
-/// What is this near to the rim of the cloth, metres, is on it.
+/// Distance within which a point is on the rim of the cloth, metres.
 const ON_RIM: f64 = 1e-6;
 /// Places of an arrow at which it must be on the cloth.
 const LOOKS: usize = 16;
@@ -21,7 +21,7 @@ const LOOKS: usize = 16;
 pub struct Room {
     /// Closed lines round the cloth and its holes.
     pub contours: Vec<Vec<Vec2>>,
-    /// What letters keep clear of.
+    /// Lines that letters must keep clear of.
     pub walls: Vec<[Vec2; 2]>,
 }
 
@@ -41,7 +41,8 @@ impl Room {
         encloses(self.contours.iter().flat_map(|contour| sides_of(contour)), p)
     }
 
-    /// Where a block of text of this size (in heights of letters) has most room, and how high its letters may be.
+    /// Place with most room for a block of text of this size (in heights of letters), and the largest height of its
+    /// letters.
     pub fn roomiest(&self, block: Vec2) -> (Vec2, f64) {
         // In these units the block is a square of side 1 per letter height.
         let scaled = |p: Vec2| p.component_div(&block);
@@ -115,12 +116,12 @@ impl Room {
         best.2
     }
 
-    /// How far it is from `p`, on the cloth or on its rim, to where it ends along `along`; `None` where it does not.
+    /// Distance from `p`, on the cloth or on its rim, to the end of the cloth along `along`. `None` if there is none.
     pub fn way_off(&self, p: Vec2, along: Vec2) -> Option<f64> {
         self.stretches(p, along).into_iter().flatten().find(|way| *way >= -ON_RIM).map(|way| way.max(0.0))
     }
 
-    /// Where the line through `p` along `along` runs over cloth: from and to, measured from `p`.
+    /// Stretches of the line through `p` along `along` that run over cloth: from and to, measured from `p`.
     fn stretches(&self, p: Vec2, along: Vec2) -> Vec<[f64; 2]> {
         let mut at = Vec::new();
         for contour in &self.contours {
@@ -138,7 +139,7 @@ impl Room {
     }
 }
 
-/// From the middle of a line of letters to the middle of its foot; turned, that is to the left.
+/// From the middle of a line of letters to the middle of its foot. Turned, that is to the left.
 pub fn foot(height: f64, upright: bool) -> Vec2 {
     if upright { Vec2::new(-height / 2.0, 0.0) } else { Vec2::new(0.0, height / 2.0) }
 }
@@ -164,7 +165,7 @@ mod tests {
         let from_origin = |a: [f64; 2], b: [f64; 2]| distance(Vec2::zeros(), [a, b].map(|p| Vec2::new(p[0], p[1])));
         assert_eq!(from_origin([-5.0, 2.0], [5.0, 2.0]), 2.0);
         assert_eq!(from_origin([3.0, -9.0], [3.0, 9.0]), 3.0);
-        // A diagonal meets the square's corner first; a short one its own end.
+        // A diagonal meets the square's corner first. A short one its own end.
         assert_eq!(from_origin([4.0, 0.0], [0.0, 4.0]), 2.0);
         assert_eq!(from_origin([4.0, 1.0], [3.5, 1.5]), 3.5);
         assert_eq!(from_origin([-1.0, -1.0], [1.0, 1.0]), 0.0);

@@ -12,7 +12,7 @@ pub(super) struct Walls {
     side: f64,
     /// Columns and rows.
     size: [usize; 2],
-    /// What runs through each cell, row by row.
+    /// Walls in each cell, row by row.
     cells: Vec<Vec<[Vec2; 2]>>,
 }
 
@@ -34,7 +34,7 @@ impl Walls {
         let [from, to] = if a.x <= b.x { [a, b] } else { [b, a] };
         let slope = if to.x > from.x { (to.y - from.y) / (to.x - from.x) } else { 0.0 };
         for column in self.index(from.x - EXACT, 0)..=self.index(to.x + EXACT, 0) {
-            // Where it is in this column; upright, all of it is.
+            // Where it is in this column. Upright, all of it is.
             let level = |x: f64| from.y + (x.clamp(from.x, to.x) - from.x) * slope;
             let ends = if to.x > from.x { [level(column as f64), level(column as f64 + 1.0)] } else { [from.y, to.y] };
             let (low, high) = (ends[0].min(ends[1]) - EXACT, ends[0].max(ends[1]) + EXACT);
@@ -49,8 +49,8 @@ impl Walls {
         (x.max(0.0) as usize).min(self.size[axis] - 1)
     }
 
-    /// The least that `distance` is from `p` to a wall, where that is no less than the greater of the distances along x
-    /// and y. What is no more than `enough` need not be the least.
+    /// The least `distance` from `p` to a wall, where `distance` is at least the greater of the distances along x and
+    /// y. A result of at most `enough` need not be the least.
     pub(super) fn clear(&self, p: Vec2, enough: f64, distance: impl Fn([Vec2; 2]) -> f64) -> f64 {
         let own = (p - self.low) / self.side;
         let at = [self.index(own.x, 0), self.index(own.y, 1)];

@@ -9,8 +9,8 @@ use crate::pattern::{Cut, Drawing};
 /// A point within this (metres) of the fold's line is on it.
 const ON_FOLD: f64 = 1e-6;
 
-/// The half of a whole piece's contour that lies to the right of its fold. What the fold cuts through is open along it;
-/// `None` where nothing lies there.
+/// The half of a whole piece's contour to the right of its fold. Contours that the fold cuts are open along it. `None`
+/// if nothing lies there.
 pub(super) fn halved(contour: &[Vec2], [start, end]: [Vec2; 2]) -> Option<Vec<Vec2>> {
     let along = (end - start).normalize();
     let points = with_crossings(contour, |p| along.perp(&(p - start)));
@@ -84,7 +84,7 @@ fn unfolded(paper: &Paper, drawing: &Drawing) -> Paper {
         lines.iter().map(|s| SewLine { name: format!("{}.{side}", s.name), ..s.clone() }).collect()
     };
     whole.sew = [sided(&paper.sew, sides[0]), sided(&other.sew, sides[1])].concat();
-    // A notch on the fold is its own mirror image; a double one is not, even if one of its marks is.
+    // A notch on the fold is its own mirror image. A double one is not, even if one of its marks is.
     let is_one = |n: &&NotchMark| paper.notches.iter().any(|own| (own.at - n.at).norm() < 1e-6);
     let new_notch = |n: &&NotchMark| n.kind.is_double() || !is_one(n);
     let on_side = |n: &NotchMark, side: &str| NotchMark { edge: format!("{}.{side}", n.edge), ..n.clone() };

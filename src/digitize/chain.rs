@@ -2,12 +2,12 @@
 
 use crate::geometry::{Path, Vec2};
 
-/// Ends nearer than this (metres) meet: a tenth of a millimetre is beyond what any program rounds.
+/// Distance within which ends meet, metres: a tenth of a millimetre is more than the rounding of any program.
 pub(super) const MEET: f64 = 1e-4;
 
 /// Ends of one outline no farther apart than this (metres) were meant to meet: half a millimetre, a pencil's line.
 const BRIDGE: f64 = 5e-4 + 1e-9;
-/// Over wider gaps than this (metres) nobody looks for what an outline was meant to be.
+/// Widest gap over which an outline is suspected, metres.
 const GAPING: f64 = 0.03;
 /// A run is closed onto itself over no more than this share of its length.
 const ITSELF: f64 = 0.25;
@@ -36,21 +36,21 @@ pub fn bridged<T: Clone>(runs: Vec<Vec<(T, Path)>>) -> Bridged<T> {
 
 /// An outline that would close if wider gaps were closed as well.
 pub struct Gaping<T> {
-    /// Its lines, with what closes them.
+    /// Its lines, each with the path that closes it.
     pub run: Vec<(T, Path)>,
     /// Middle and width of its widest gap, metres.
     pub widest: (Vec2, f64),
 }
 
 impl<T> Gaping<T> {
-    /// What it would go round, square metres.
+    /// Area inside if it were closed straight across, m².
     pub fn area(&self) -> f64 {
         0.5 * self.run.iter().map(|(_, path)| path.double_area()).sum::<f64>().abs()
     }
 }
 
-/// The outlines that runs make if gaps are closed over which nobody could say that the ends meet: what is wrong with a
-/// drawing, not what it shows.
+/// Outlines that runs would make if gaps were closed that are too wide to count as meeting ends. They are faults of a
+/// drawing, not content.
 pub fn gaping<T: Clone>(runs: Vec<Vec<(T, Path)>>) -> Vec<Gaping<T>> {
     let Bridged { runs, gaps } = bridged_over(runs, GAPING);
     let closed = runs.into_iter().filter(|run| is_closed(run));
@@ -93,7 +93,7 @@ fn bridged_over<T: Clone>(runs: Vec<Vec<(T, Path)>>, reach: f64) -> Bridged<T> {
 /// A run by its number, and whether it is its end rather than its start.
 type End = (usize, bool);
 
-/// The two ends of runs that are nearest to each other, if within reach; the earlier run first.
+/// The two ends of runs that are nearest to each other, if within reach. The earlier run first.
 fn nearest_ends<T>(runs: &[Vec<(T, Path)>], reach: f64) -> Option<(f64, [End; 2])> {
     let mut best: Option<(f64, [End; 2])> = None;
     for i in 0..runs.len() {

@@ -26,7 +26,7 @@ pub(super) struct Contour {
     pub(super) own: Option<String>,
     /// Whether it is filled and no pen runs along it.
     pub(super) filled: bool,
-    /// Whether it was drawn as edges one by one, or as one that is told: what toile itself cuts out is.
+    /// Whether it was drawn edge by edge, or marked as an outline, as toile's own cut-outs are.
     pub(super) of_edges: bool,
 }
 
@@ -47,8 +47,8 @@ impl Contour {
         Self::new(edges, Role::Unknown, name).filter(|contour| closed && contour.area() > 0.0)
     }
 
-    /// Whether most of it lies in another: outlines may share a side, on which no point tells. Where there is no
-    /// allowance, the sewing line lies in the cut line that is drawn over it.
+    /// Whether most of it lies in `other`. Outlines may share a side, on which no point decides. Without allowance, the
+    /// sewing line lies in the cut line that is drawn over it.
     pub(super) fn lies_in(&self, other: &Self) -> bool {
         let middle = (self.bounds[0] + self.bounds[1]) / 2.0;
         let beyond = (0..2).any(|k| middle[k] < other.bounds[0][k] || middle[k] > other.bounds[1][k]);
@@ -89,7 +89,7 @@ impl Contour {
         (0..LOOKS).map(|k| self.whole.point(self.whole.length() * (k as f64 + 0.5) / LOOKS as f64))
     }
 
-    /// How far a point is from its line.
+    /// Distance of a point from its line.
     pub(super) fn off(&self, p: Vec2) -> f64 {
         sides_of(&self.points).map(|side| distance_to_segment(p, side)).fold(f64::INFINITY, f64::min)
     }
@@ -100,12 +100,12 @@ impl Contour {
         self.holds(middle) || self.whole.nearest(middle).1 <= NEAR
     }
 
-    /// Whether a point lies in it or, but for what programs round, on it.
+    /// Whether a point lies in it, or on it within rounding.
     pub(super) fn covers(&self, p: Vec2) -> bool {
         self.holds(p) || self.off(p) <= COARSE
     }
 
-    /// Which of the drawing's strokes, given by their middles, is the first that runs along it.
+    /// The first of the drawing's strokes, given by their middles, that runs along it.
     pub(super) fn first_drawn(&self, middles: &[Vec2]) -> Option<usize> {
         let is_beside = |p: &Vec2| (0..2).all(|k| p[k] >= self.bounds[0][k] - NEAR && p[k] <= self.bounds[1][k] + NEAR);
         middles.iter().position(|p| is_beside(p) && self.off(*p) <= NEAR)

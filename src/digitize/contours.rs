@@ -1,4 +1,4 @@
-//! Which strokes of a drawing make which piece, from what they are called and from what lies in what.
+//! Assigns the strokes of a drawing to pieces, by their names and by nesting.
 
 use super::contour::{COARSE, Contour, NEAR, half_way};
 use super::fish_eyes::sides;
@@ -19,18 +19,18 @@ const SMALLEST_PIECE: f64 = 9e-4;
 const POINT: f64 = SMALLEST_PIECE / 100.0;
 /// A contour within another of which an edge is drawn is its sewing line if it takes at least this share of its area.
 const SEWN_SHARE: f64 = 0.5;
-/// An inner line no longer than this (metres) that ends at an outline is a notch,
+/// Longest inner line that ends at an outline and is a notch, metres.
 const NOTCH: f64 = 0.016;
-/// if it leaves the outline at an angle whose cosine is no more than this (45 degrees).
+/// Largest cosine of the angle between a notch and the outline (45°).
 const ALONG: f64 = 0.71;
 /// A grain line of more points than this is no arrow.
 const MOST_ARROW_POINTS: usize = 100;
 /// Square centimetres in a square metre.
 const CM2: f64 = 1e4;
 
-/// The pieces that strokes make, in the order of the drawing; what is written on one may say how it is cut. Lines that
-/// belong to none are left out, and so are lines in a piece's allowance, and what belongs to the `sheet`, whose size is
-/// given where it is known. Sizes that are drawn over one another are pieces each.
+/// The pieces that strokes make, in the order of the drawing. Text on a piece may say how it is cut. Lines that belong
+/// to no piece are left out, and so are lines in a piece's allowance, and parts of the `sheet`, whose size is given if
+/// it is known. Sizes that are drawn over one another become a piece each.
 pub fn pieces(strokes: &[Stroke], remarks: &[Remark], sheet: Option<Vec2>) -> Drawing {
     let sizes = sizes(strokes);
     if sizes.is_empty() {
@@ -51,7 +51,7 @@ pub fn pieces(strokes: &[Stroke], remarks: &[Remark], sheet: Option<Vec2>) -> Dr
 }
 
 impl Drawing {
-    /// Adds what another holds.
+    /// Adds the content of `other`.
     fn add(&mut self, other: Self) {
         self.pieces.extend(other.pieces);
         let new = |own: &[String], added: Vec<String>| -> Vec<String> {
@@ -104,7 +104,7 @@ struct Patterns {
 }
 
 impl Patterns {
-    /// Without what is drawn twice, belongs to the sheet, or is lettering; that is said.
+    /// Contours without duplicates, parts of the sheet and lettering, which are listed in `left_out`.
     fn new(contours: Vec<Contour>, remarks: &[Remark], sheet: Option<Vec2>, left_out: &mut Vec<String>) -> Self {
         let contours = without_doubles(contours, left_out);
         let surroundings = Surroundings { contours: &contours, remarks, sheet, smallest: SMALLEST_PIECE };
@@ -153,7 +153,7 @@ impl Patterns {
         (0..self.all.len()).filter(|&i| self.within(i, o)).map(|i| &self.all[i]).collect()
     }
 
-    /// What to say of those that lie in no other and are too small to be pieces.
+    /// Note on contours that lie in no other and are too small to be pieces.
     fn too_small(&self, outer: &[usize], lost: &mut f64) -> Option<String> {
         let count = self.all.len();
         let alone = |i: &usize| !outer.contains(i) && !(0..count).any(|k| self.within(*i, k));
@@ -196,7 +196,7 @@ fn without_doubles(contours: Vec<Contour>, left_out: &mut Vec<String>) -> Vec<Co
     contours.into_iter().filter(|_| again.next() == Some(false)).collect()
 }
 
-/// Which contours are sizes of one outline, each in the next.
+/// Marks contours that are sizes of one outline, each in the next.
 fn nested_sizes(contours: &[Contour]) -> Vec<bool> {
     let mut sized = vec![false; contours.len()];
     let large = |i: &usize| contours[*i].area() >= SMALLEST_PIECE && contours[*i].role == Role::Unknown;
@@ -219,7 +219,7 @@ fn nested_sizes(contours: &[Contour]) -> Vec<bool> {
 
 /// The piece within a contour, and the lines in its allowance: those are none of the sewn piece.
 fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> (Traced, Vec<Option<String>>) {
-    // Within a cut line an edge is sewn, however wide the allowance; any other line is only if it follows the outline
+    // Within a cut line an edge is sewn, however wide the allowance. Any other line is only if it follows the outline
     // all round.
     let is_sewn = |c: &Contour| match c.role {
         Role::Cut => false,
@@ -246,7 +246,7 @@ fn piece(outer: &Contour, inner: &[&Contour], rest: &[Stroke]) -> (Traced, Vec<O
     };
     let is_outline = |c: &Contour| sewn.is_some_and(|s| std::ptr::eq(*s, c));
     let surface = sewn.map_or(outer, |s| s);
-    // A hole is what the drawing cuts out, or draws as the edge of one; a ring of a few millimetres is a point.
+    // A hole is what the drawing cuts out, or draws as the edge of one. A ring of a few millimetres is a point.
     let is_hole = |c: &Contour| c.role == Role::Cut || c.of_edges || c.own.as_deref().is_some_and(says_hole);
     let (mut holes, mut beyond) = (Vec::new(), Vec::new());
     for contour in inner.iter().copied().filter(|c| !is_outline(c)) {
@@ -321,13 +321,13 @@ fn says_hole(name: &str) -> bool {
     ["hole", "cutout", "cut_out", "cut-out"].iter().any(|word| name.contains(word))
 }
 
-/// Where a stroke is: half way along it, or in the middle of the ring round a drill hole.
+/// Place of a stroke: its middle, or the centre of the ring round a drill hole.
 fn middle(stroke: &Stroke) -> Vec2 {
     let half = half_way(stroke);
     if stroke.role == Role::Drill { (stroke.path.start() + half) / 2.0 } else { half }
 }
 
-/// A notch and what is told of it; then one of its points is on the sewing line of its edge.
+/// A notch with its meaning if the file tells it. Then one of its points is on the sewing line of its edge.
 fn notch(stroke: &Stroke, edges: &[(Option<String>, Path)], outlines: &[&Path]) -> Notch {
     let Stroke { path, notch, .. } = stroke;
     let at = match notch {
@@ -351,8 +351,8 @@ fn points_of(path: &Path) -> Vec<Vec2> {
     path.joints().iter().map(|&s| path.point(s)).collect()
 }
 
-/// Where a notch is: its end on the sewing line, which comes first, if one is there. The other may be on the cut line,
-/// and two of a double one must stand side by side.
+/// Place of a notch: its end on the sewing line, which comes first, if there is one. The other end may be on the cut
+/// line, and the two notches of a double one must stand side by side.
 fn nearest_end(ends: [Vec2; 2], outlines: &[&Path]) -> Vec2 {
     let off = |p: Vec2, lines: &[&Path]| lines.iter().map(|line| line.nearest(p).1).fold(f64::INFINITY, f64::min);
     let sewing = outlines.get(..1).unwrap_or_default();

@@ -14,7 +14,7 @@ type Named = (Option<String>, Path);
 #[derive(Clone, Debug)]
 pub(super) struct Wedge {
     pub(super) name: String,
-    /// Where its mouth begins and ends.
+    /// Start and end of its mouth.
     mouth: [Vec2; 2],
     pub(super) tip: Vec2,
 }

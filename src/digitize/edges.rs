@@ -12,8 +12,8 @@ const CORNER: f64 = 0.35;
 const MOST_CORNERS: usize = 400;
 /// Splits nearer to each other than this (metres) are one.
 const LEAST_EDGE: f64 = 3e-3;
-/// Drawn edges no longer than this (metres) are a slip of the pen: twice what has no mesh, for the numbers of the file
-/// are rounded.
+/// Length up to which a drawn edge is a slip of the pen, metres: twice the length that cannot be meshed, because the
+/// numbers of the file are rounded.
 const SHORTEST: f64 = 2.0 * SHORTEST_EDGE;
 
 /// An edge of the file to come.
@@ -41,8 +41,8 @@ pub(super) fn nearest_edge(edges: &[Edge], points: [Vec2; 2]) -> Option<usize> {
 /// An edge that may not have a name yet.
 type Unnamed = (Option<String>, Path, Vec<EdgeNotch>);
 
-/// Splits an outline at its corners and notches and names what has no name: `a`, `b`, `c` … clockwise from the upper
-/// left corner. Edges that have names stay as they are: a garment drawn by toile keeps its edges.
+/// Splits an outline at its corners and notches, and names unnamed edges: `a`, `b`, `c` … clockwise from the upper left
+/// corner. Edges with names stay as they are, so that a garment drawn by toile keeps its edges.
 pub(super) fn edges(outline: &[(Option<String>, Path)], notches: &[Notch]) -> Vec<Edge> {
     let clockwise = outline.iter().map(|e| e.1.double_area()).sum::<f64>() > 0.0;
     let mut turned: Vec<(Option<String>, Path)> = if clockwise {

@@ -20,11 +20,12 @@ use crate::pattern::{
 const ASKEW: f64 = 0.0175;
 /// Widest allowance that is measured (metres): farther apart, two lines have nothing to do with each other.
 const WIDEST: f64 = 0.1;
-/// Where along an edge its allowance is measured.
+/// Places along an edge where its allowance is measured, as shares of its length.
 const LOOKS: [f64; 3] = [0.4, 0.5, 0.6];
-/// Where these differ by more (metres), the cut line does not run along the edge: it passes the mouth of a dart.
+/// Largest difference of these measurements, metres. With a larger one the cut line does not run along the edge: it
+/// passes the mouth of a dart.
 const ALONG: f64 = 2e-3;
-/// What is so near to a notch or to the tip of a dart (metres) is that.
+/// Distance within which a point is a notch or the tip of a dart, metres.
 const ON_NOTCH: f64 = 5e-4;
 /// Length of the line that stands for a drill hole, metres: one on the rim of the cloth, where a patch is tacked down,
 /// has its ends no farther off than lines may be.
@@ -32,18 +33,18 @@ const DRILL: f64 = SLACK;
 /// Longest name.
 const LONGEST: usize = 40;
 
-/// A garment file, and what there is to say about it.
+/// A garment file, with notes on it.
 #[derive(Clone, Debug)]
 pub struct Digitized {
     /// All edges free, no seams.
     pub file: GarmentFile,
     /// Edges that may belong together.
     pub suggestions: Vec<Suggestion>,
-    /// What was taken for something that the drawing does not say.
+    /// Notes on assumptions about things that the drawing does not tell.
     pub notes: Vec<String>,
 }
 
-/// Makes a garment file of traced pieces; `title` is its name.
+/// Makes a garment file of traced pieces. `title` is its name.
 pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
     let mut notes = Vec::new();
     let mut names: Vec<String> = Vec::new();
@@ -108,7 +109,7 @@ fn at_no_place<T>(value: T) -> Located<T> {
     Located::new(value, Spot::default())
 }
 
-/// Letters, digits, `_` and `-`: what a name in a garment file may be made of.
+/// A name made of the characters that a garment file allows: letters, digits, `_` and `-`.
 pub(super) fn word(name: &str) -> String {
     let kept = |c: char| if c.is_alphanumeric() || c == '-' { c } else { '_' };
     let word: String = name.trim().chars().map(kept).take(LONGEST).collect();
@@ -202,7 +203,7 @@ fn note(material: &Material) -> Option<String> {
     (name_of(material) != material.name).then(|| format!("material: {}", plain(&material.name)))
 }
 
-/// Of lines inside of which the drawing does not say what they do.
+/// Note on lines inside a piece whose purpose the drawing does not tell.
 fn untold(name: &str, piece: &Traced) -> Option<String> {
     let count = piece.lines.iter().filter(|line| line.kind.is_none()).count();
     let (lines, are) = if count == 1 { ("line", "is") } else { ("lines", "are") };
@@ -389,9 +390,9 @@ fn clear_of_mouths(edge: &Edge, edges: &[Edge], wedges: &[Wedge]) -> [f64; 2] {
     begins.zip(ends).map(|(from, to)| [from, to]).max_by(longer).unwrap_or_default()
 }
 
-/// Along curves and beside short edges programs draw cut lines no more exactly than to this share of their width;
+/// Relative accuracy of the width of cut lines that programs draw along curves and beside short edges.
 const INEXACT: f64 = 0.15;
-/// short is an edge of less than so many of them.
+/// Length of an edge, in widths of its allowance, below which it is short.
 const SHORT: f64 = 5.0;
 
 /// The width that was meant where one was measured (millimetres) beside a bent or a short edge: that of the straight,

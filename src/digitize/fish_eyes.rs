@@ -72,8 +72,8 @@ pub(super) fn sides(contour: &Contour) -> Option<Vec<Inner>> {
     (contour.edges.len() == FISH_EYE_EDGES.len()).then(|| contour.edges.iter().map(side).collect()).flatten()
 }
 
-/// The fish-eyes of a piece, and the piece without their lines and the marks at their corners: those that toile has
-/// named, and closed lines that are drawn as such. What cannot be kept of these is noted.
+/// The fish-eyes of a piece, and the piece without their lines and the marks at their corners. Fish-eyes are those
+/// named by toile, and closed lines of that shape. Details that cannot be kept are noted.
 pub(super) fn taken(piece: &Traced, near: f64, notes: &mut Vec<String>) -> (Vec<FishEye>, Traced) {
     let (drawn, lines) = lozenges(piece, notes);
     let piece = &Traced { lines, ..piece.clone() };

@@ -5,10 +5,11 @@ use crate::geometry::{Path, box_of, distance_to_segment, encloses, sides_of};
 
 /// Places of either line that are looked at.
 const LOOKS: usize = 96;
-/// No allowance, the widest hem included, is wider (metres); of ten places of a cut line one may be at a corner.
+/// Widest allowance, metres: the widest hem.
 const WIDEST: f64 = 0.065;
+/// Number of examined places of a cut line, of [`LOOKS`], that are not at corners: nine of ten.
 const BUT_CORNERS: usize = LOOKS * 9 / 10;
-/// Most of an outline has an allowance no wider than this (metres): an inch, and a little for the drawing.
+/// Widest allowance along most of an outline, metres: an inch, and a little for the drawing.
 const USUAL: f64 = 0.026;
 /// At a sharp corner the cut line is so many allowances from the sewing line, and this (metres) besides.
 const AT_CORNERS: (f64, f64) = (4.0, 2e-3);
@@ -45,7 +46,7 @@ fn lies_near(inner: &Path, outer: &Path) -> bool {
     (0..2).all(|k| [low[k] - least[k], most[k] - high[k]].iter().all(|d| (-BEYOND..=far).contains(d)))
 }
 
-/// How far places of a line are from another, sorted.
+/// Distances of points of a line from another, sorted.
 fn distances(line: &Path, from: &Path) -> Vec<f64> {
     let points = from.sampled(COARSE);
     let place = |k: usize| line.point(line.length() * (k as f64 + 0.5) / LOOKS as f64);
@@ -65,7 +66,7 @@ fn is_within(inner: &Path, outer: &Path) -> bool {
         .all(|p| encloses(sides_of(&points), p) || sides_of(&points).any(|side| distance_to_segment(p, side) <= BEYOND))
 }
 
-/// How unevenly one follows the other, corners left out, metres.
+/// Unevenness with which one line follows the other, without corners, metres.
 pub(super) fn unevenness(inner: &Path, outer: &Path) -> f64 {
     let widths = distances(outer, inner);
     widths[BUT_CORNERS] - widths[LOOKS - 1 - BUT_CORNERS]
@@ -87,7 +88,7 @@ mod tests {
         assert!(!follows(&dart, &panel) && follows(&seam, &panel) && !follows(&panel, &seam));
         let pocket = ring("M 60 140 L 190 140 L 190 300 L 60 300 Z");
         assert!(!follows(&pocket, &panel));
-        // Over a dart the cut line passes its mouth; a fish-eye in a strap is as far from its sides everywhere.
+        // Over a dart the cut line passes its mouth. A fish-eye in a strap is as far from its sides everywhere.
         let darted = ring("M 10 10 H 190 V 290 H 110 L 100 190 L 90 290 H 10 Z");
         assert!(follows(&darted, &ring("M 0 0 H 200 V 300 H 0 Z")));
         assert!(!follows(&ring("M 30 20 L 40 100 L 30 180 L 20 100 Z"), &ring("M 0 0 H 60 V 200 H 0 Z")));

@@ -12,7 +12,7 @@ const ASKEW: f64 = 2e-4;
 const PAGE: (f64, f64) = (1e-3, 5e-3);
 /// A frame's margins on the sheet differ by no more (metres).
 const EVEN_MARGINS: f64 = 2e-3;
-/// What lies in a page takes at least this share of it; less is a mark in a piece that fills its sheet.
+/// Least share of a page that its contents take. Less is a mark in a piece that fills its sheet.
 const CONTENT: f64 = 0.1;
 /// Nobody draws a pocket on a piece that takes this share of it.
 const LARGE: f64 = 0.25;
@@ -56,7 +56,7 @@ const SHEET_WORDS: [&str; 22] = [
 /// Words of test squares.
 const TEST_WORDS: [&str; 8] = ["test", "square", "control", "kontroll", "quadrat", "carré", "cuadro", "prueba"];
 
-/// What a closed line is that belongs to the sheet.
+/// Kinds of closed lines that belong to the sheet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Sheet {
     Page,
@@ -76,7 +76,7 @@ impl Sheet {
     }
 }
 
-/// What is known of a drawing's sheet.
+/// Data of a drawing's sheet.
 pub(super) struct Surroundings<'a> {
     pub(super) contours: &'a [Contour],
     pub(super) remarks: &'a [Remark],
@@ -87,7 +87,7 @@ pub(super) struct Surroundings<'a> {
 }
 
 impl Surroundings<'_> {
-    /// What the contour of this number is of the sheet, if it is none of the pattern.
+    /// Kind of the contour of this number if it belongs to the sheet and not to the pattern.
     pub(super) fn of_sheet(&self, k: usize) -> Option<Sheet> {
         let contour = &self.contours[k];
         let [low, high] = rectangle(contour).filter(|_| contour.role == Role::Unknown)?;

@@ -1,25 +1,26 @@
-//! What is cut out of a piece: drawn as a cut line, as a sewing line, or as both, one in the other.
+//! Holes of a piece: drawn as a cut line, as a sewing line, or as both, one in the other.
 
 use super::Role;
 use super::contour::Contour;
 use crate::geometry::Path;
 
-/// Where along a hole its allowance is measured: past its corners the cut line is farther, nowhere nearer.
+/// Number of points along a hole where its allowance is measured. The cut line is farther past corners, and nowhere
+/// nearer.
 const LOOKS: usize = 24;
 
-/// What is cut out of a piece.
+/// A hole of a piece.
 #[derive(Clone, Debug)]
 pub struct Hole {
     /// Its name, if it has one.
     pub name: Option<String>,
-    /// Where it is sewn or turned in; the cut line where that is all there is.
+    /// Sewing or turning line. It is the cut line if there is no other.
     pub sew: Path,
-    /// Where it is cut, if that is drawn besides.
+    /// Cut line, if it is drawn besides.
     pub cut: Option<Path>,
 }
 
 impl Hole {
-    /// How far the cut line is within the sewing line, metres.
+    /// Distance of the cut line inside the sewing line, metres.
     pub(super) fn allowance(&self) -> f64 {
         let Some(cut) = &self.cut else { return 0.0 };
         let place = |k: usize| self.sew.point(self.sew.length() * k as f64 / LOOKS as f64);
@@ -32,7 +33,7 @@ impl Hole {
     }
 }
 
-/// What is cut out along `cut`; each line belongs to that of `sewn` it lies in, if there is one.
+/// Holes along `cut`. Each line belongs to the line of `sewn` in which it lies, if there is one.
 pub fn holes(cut: Vec<Path>, sewn: Vec<(Option<String>, Path)>) -> Vec<Hole> {
     let contour = |role: Role| move |(name, path)| Contour::new(vec![(name, path)], role, None);
     let cut: Vec<Contour> = cut.into_iter().map(|path| (None, path)).filter_map(contour(Role::Cut)).collect();

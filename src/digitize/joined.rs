@@ -14,7 +14,7 @@ const LISTED: usize = 4;
 pub(super) struct Joined {
     pub(super) contour: Contour,
     pub(super) lines: Vec<Stroke>,
-    /// The widest gap of ends that were joined, metres; nought where all meet.
+    /// The widest gap of ends that were joined, metres. Nought where all meet.
     pub(super) gap: f64,
 }
 
@@ -23,7 +23,7 @@ pub(super) struct Unclosed {
     name: Option<String>,
     /// Middle and width of the gap, metres.
     gap: (Vec2, f64),
-    /// What it would go round if it were closed straight across, square metres.
+    /// Area inside if it were closed straight across, m².
     pub(super) area: f64,
 }
 
@@ -46,7 +46,7 @@ pub(super) fn nearly_closed(lines: &[Stroke], smallest: f64) -> (Vec<Unclosed>, 
 }
 
 impl Unclosed {
-    /// What is to be said of it.
+    /// Note on it.
     pub(super) fn sentence(&self) -> String {
         let of = self.name.as_ref().map_or_else(String::new, |name| format!(" of '{name}'"));
         let (at, gap) = self.gap;
@@ -119,7 +119,7 @@ fn by_loose_ends(mut lines: Vec<&Stroke>) -> (Vec<&Stroke>, Vec<&Stroke>) {
     (lines, loose)
 }
 
-/// What to say of lines that make no outline and lie on no piece: a sentence for each group.
+/// Notes on lines that make no outline and lie on no piece: a sentence for each group.
 pub(super) fn unclosed(lines: &[Stroke]) -> Vec<String> {
     grouped(lines).iter().map(|(layer, lines)| sentence(layer.as_deref(), lines)).collect()
 }
@@ -139,7 +139,7 @@ fn sentence(layer: Option<&str>, lines: &[&Stroke]) -> String {
     )
 }
 
-/// What to say of lines between the sewing line and the cut line of a piece, if there are any.
+/// Note on lines between the sewing line and the cut line of a piece, if there are any.
 pub(super) fn beyond_seam(piece: &str, lines: &[Option<String>]) -> Option<String> {
     let what = match lines.len() {
         0 => return None,

@@ -3,22 +3,23 @@
 use super::fish_eyes::FishEye;
 use crate::geometry::{Path, Vec2, box_of, distance_to_segment, sides_of};
 
-/// A fish-eye is at least so long (metres),
+/// Least length of a fish-eye, metres.
 const LEAST_LENGTH: f64 = 0.03;
-/// takes in at least this and at most that (metres),
+/// Least and largest intake of a fish-eye, metres.
 const INTAKE: (f64, f64) = (2e-3, 0.08);
-/// and no more than this share of its length.
+/// Largest intake of a fish-eye, as a share of its length.
 const WIDEST: f64 = 0.5;
 /// At this share of its length from either tip it is no wider than that share of its intake: it is pointed.
 const POINTED: (f64, f64) = (0.05, 0.36);
 /// Its halves are each other's mirror images to this (metres), or to this share of the intake.
 const ALIKE: (f64, f64) = (3e-4, 0.02);
-/// It is upright where its tips are no farther aside (metres).
+/// Largest sideways distance of the tips of an upright fish-eye, metres.
 const UPRIGHT: f64 = 3e-4;
-/// Its legs are straight to this (metres): farther off, that is said.
+/// Largest distance of legs from straight lines, metres. A larger one is reported.
 const STRAIGHT: f64 = 1e-3;
-/// Chords that stand for curves, and most of their points.
+/// Largest distance of curves from the chords that replace them, metres.
 const COARSE: f64 = 2e-5;
+/// Largest number of points of such chords.
 const MOST_POINTS: usize = 400;
 
 /// A closed line that is a fish-eye dart.

@@ -12,8 +12,8 @@ pub(super) struct Declared {
     pub(super) cloth: String,
 }
 
-/// Every material of the pieces once, in the order of the drawing. Of those of which nobody says what they are it is
-/// noted: the garment could not be made without one.
+/// Every material of the pieces once, in the order of the drawing. Materials that are not described are noted, because
+/// the garment could not be made without one.
 pub(super) fn declared(pieces: &[Traced], notes: &mut Vec<String>) -> Vec<Declared> {
     let mut declared: Vec<Declared> = Vec::new();
     for material in pieces.iter().filter_map(|p| p.material.as_ref()) {

@@ -1,8 +1,8 @@
-//! From lines on somebody else's pattern to a garment file.
+//! Makes a garment file from the lines of another program's pattern.
 //!
 //! A reader of a format gives [`Traced`] pieces: sewing and cut lines, grain, notches and inner lines, in metres, y
-//! down. [`garment_file`] makes of them a `GarmentFile` in which only the seams are missing: outlines split into named
-//! edges at corners and notches, allowances measured, and [`Suggestion`]s of what may be sewn to what.
+//! down. [`garment_file`] makes a `GarmentFile` of them that lacks only the seams: outlines are split into named edges
+//! at corners and notches, allowances are measured, and [`Suggestion`]s list edges that may be sewn together.
 
 mod chain;
 mod contour;
@@ -48,21 +48,21 @@ use crate::pattern::{Corner, Cut, LineKind, NotchKind, Side};
 pub struct Stroke {
     /// Its course.
     pub path: Path,
-    /// What it is, as far as the format says.
+    /// Its role, as far as the format tells.
     pub role: Role,
     /// Its name, if it has one.
     pub name: Option<String>,
     /// The name of the group it is in, if that has one and is a piece.
     pub group: Option<String>,
-    /// The name of the group or layer it is in, be that a piece or what holds several.
+    /// Name of its group or layer, be that a piece or a group of several.
     pub layer: Option<String>,
-    /// What it does if it is a line inside a piece, where the file says so.
+    /// Purpose of a line inside a piece, if the file tells it.
     pub kind: Option<LineKind>,
-    /// What is told of it if it is a notch, as toile itself writes it.
+    /// Meaning of a notch, as toile itself writes it.
     pub notch: Option<ToldNotch>,
     /// The size of the pattern that it is of, where a layer says that.
     pub size: Option<String>,
-    /// Whether it bounds what is filled, and no pen runs along it.
+    /// Whether it bounds a filled area without being drawn.
     pub filled: bool,
 }
 
@@ -71,20 +71,20 @@ pub struct Stroke {
 pub struct Notch {
     /// Near the outline: on the cut line or the sewing line.
     pub at: Vec2,
-    /// What is told of it; it is on the sewing line then.
+    /// Its meaning, if the file tells it. It is then on the sewing line.
     pub told: Option<ToldNotch>,
 }
 
-/// What toile's own drawings tell of a notch, so that none are taken for a double one that lie side by side.
+/// Meaning of a notch in toile's own drawings, so that neighbouring notches are not taken for a double one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ToldNotch {
-    /// What it belongs to.
+    /// Its kind.
     pub kind: NotchKind,
     /// Name of the edge that it is on, which tells at a corner.
     pub edge: String,
 }
 
-/// What a piece is cut from.
+/// Material of a piece.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Material {
     /// As the drawing calls it.
@@ -100,20 +100,20 @@ pub struct Inner {
     pub name: Option<String>,
     /// Its course.
     pub path: Path,
-    /// What it does, where the file says so.
+    /// Purpose, if the file tells it.
     pub kind: Option<LineKind>,
 }
 
 /// Words of a foreign file.
 #[derive(Clone, Debug)]
 pub struct Remark {
-    /// Where they stand.
+    /// Their place.
     pub at: Vec2,
-    /// What they say.
+    /// Their text.
     pub text: String,
 }
 
-/// What a line is.
+/// Role of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// Not said.
@@ -132,38 +132,38 @@ pub enum Role {
     Fold,
     /// A notch: a short line, or a point as a line without length to speak of.
     Notch,
-    /// Where a pleat is folded: a line that begins at the edge.
+    /// Fold of a pleat: a line that begins at the edge.
     PleatFold,
-    /// Where the fold that was drawn before it is brought to.
+    /// Place to which the fold drawn before it is brought.
     PleatPlace,
     /// A ring round a point that is marked through all layers.
     Drill,
 }
 
-/// What a drawing holds.
+/// Contents of a drawing.
 #[derive(Clone, Debug, Default)]
 pub struct Drawing {
-    /// What it is called, if it says so.
+    /// Its title, if it has one.
     pub title: Option<String>,
     /// Its pieces.
     pub pieces: Vec<Traced>,
-    /// What it shows besides that was not read: a sentence for each kind.
+    /// Further content that was not read: a sentence for each kind.
     pub left_out: Vec<String>,
-    /// What was taken for something that it does not say.
+    /// Notes on assumptions about things that it does not tell.
     pub notes: Vec<String>,
-    /// What is wrong with it, so that pieces are missing: a sentence for each.
+    /// Faults because of which pieces are missing: a sentence for each.
     pub faults: Vec<String>,
-    /// What the closed lines go round that were left out though they may be pieces, square metres.
+    /// Area inside closed lines that were left out though they may be pieces, m².
     pub lost: f64,
-    /// The sizes that it holds, in its order; none where it is drawn in one.
+    /// The sizes that it holds, in its order. None where it is drawn in one.
     pub sizes: Vec<String>,
 }
 
-/// Of what a drawing shows no more than this share may be lost.
+/// Largest share of a drawing's area that may be lost.
 const MOST_LOST: f64 = 0.1;
 
 impl Drawing {
-    /// What is wrong with it: outlines that are not closed, and pieces that are missing.
+    /// Its faults: outlines that are not closed, and pieces that are missing.
     pub fn complaints(&self) -> Vec<String> {
         let area =
             |p: &Traced| p.cut.clone().or_else(|| p.outline()).map_or(0.0, |path| 0.5 * path.double_area().abs());
@@ -177,7 +177,7 @@ impl Drawing {
     }
 }
 
-/// What was left out, as the end of a message that no piece was found.
+/// List of omissions, as the end of a message that no piece was found.
 pub(crate) fn besides(left_out: &[String]) -> String {
     left_out.iter().map(|sentence| format!("; {sentence}")).collect()
 }
@@ -187,11 +187,11 @@ pub(crate) fn besides(left_out: &[String]) -> String {
 pub struct Traced {
     /// As the format names it.
     pub name: String,
-    /// The sewing line, walked round once; edges that have names keep them.
+    /// The sewing line, walked round once. Edges that have names keep them.
     pub sew: Vec<(Option<String>, Path)>,
     /// The cut line.
     pub cut: Option<Path>,
-    /// What is cut out.
+    /// Its holes.
     pub holes: Vec<Hole>,
     /// Lines inside.
     pub lines: Vec<Inner>,
@@ -207,19 +207,19 @@ pub struct Traced {
     pub mirror: Option<[Vec2; 2]>,
     /// Other lines on the fold: a quarter of a circle has two.
     pub more_folds: Vec<[Vec2; 2]>,
-    /// How it is cut, if said.
+    /// How it is cut, if the drawing tells.
     pub cut_how: Option<Cut>,
-    /// How many times over that is done: a pair cut from folded cloth twice is two of either hand.
+    /// Number of repetitions of that: a pair cut twice from folded cloth gives two of either hand.
     pub copies: usize,
-    /// How often it is cut on the fold, if that is written on it; the line is [`Self::mirror`], if it is drawn.
+    /// Number of times it is cut on the fold, if that is written on it. The line is [`Self::mirror`], if it is drawn.
     pub on_fold: Option<usize>,
-    /// Which of the drawing's remarks says how it is cut.
+    /// Number of the remark that says how it is cut.
     pub said_by: Option<usize>,
-    /// Which of a pair, or which half, is drawn, if said.
+    /// The drawn one of a pair, or the drawn half, if the drawing tells.
     pub drawn: Option<Side>,
-    /// What it is cut from.
+    /// Its material.
     pub material: Option<Material>,
-    /// How the allowances of edges end at corners, by their names, where that is told.
+    /// Endings of edges' allowances at corners, by the edges' names, if the file tells them.
     pub corners: Vec<(String, Corner)>,
 }
 

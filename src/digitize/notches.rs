@@ -13,7 +13,7 @@ const REACH: f64 = 0.045;
 pub(crate) const DOUBLE: f64 = 0.011;
 /// Of notches in one place, to this (metres), all but the first are drawn once more.
 const AGAIN: f64 = 1e-4;
-/// A notch at a corner is on both edges, to this (metres): what programs round.
+/// Distance within which a notch at a corner is on both edges, metres: rounding of programs.
 const ON_BOTH: f64 = 1e-6;
 /// As near to each other as this (metres) lie the edges that a point is nearest to if it does not say on which it is.
 const SAME: f64 = 1e-9;
@@ -62,13 +62,13 @@ impl Place {
         self.told.as_ref().map(|told| told.edge.as_str())
     }
 
-    /// How far it is from a line.
+    /// Distance from a line.
     fn off(&self, path: &Path) -> f64 {
         self.marks.iter().map(|mark| path.nearest(mark.at).1).fold(0.0, f64::max)
     }
 
-    /// Where it is along a line: half way between its marks, or as far from the one as that would be where the other
-    /// stands at the edge's end.
+    /// Position along a line: half way between its marks. If one mark stands at the edge's end, the position follows
+    /// from the other mark.
     fn along(&self, path: &Path) -> f64 {
         let along = |mark: &Mark| path.nearest(mark.at).0;
         let half = |from: f64, to: f64| from + DOUBLE_MARKS / 2.0 * (to - from).signum();
@@ -86,7 +86,7 @@ pub(super) struct Notches(Vec<Found>);
 /// A notch and the edges that it is nearest to.
 struct Found {
     place: Place,
-    /// How far it is from these.
+    /// Distance from these.
     off: f64,
     /// The one of them that it is on, if that is told.
     edge: Option<usize>,

@@ -6,8 +6,7 @@ use super::Traced;
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{Cut, Side};
 
-/// Two outlines are alike that are no farther from each other than this, metres: what programs round,
-/// and no hand draws.
+/// Largest distance of two outlines that are alike, metres: rounding of programs, and less than any hand draws.
 const ALIKE: f64 = 5e-5;
 /// Places of an outline that are looked at.
 const LOOKS: usize = 60;
@@ -15,7 +14,7 @@ const LOOKS: usize = 60;
 const MOST: usize = 300;
 
 /// The pieces, each pair of mirror images as one that is cut as a pair. Names that differ by `left` and `right` or `L`
-/// and `R` alone say so; without such words the outline must have a left and a right, or it may be two of the same.
+/// and `R` alone say so. Without such words the outline must have a left and a right, or it may be two of the same.
 pub(super) fn paired(pieces: &[Traced]) -> Vec<Traced> {
     let mut left: Vec<Option<&Traced>> = pieces.iter().map(Some).collect();
     let mut out = Vec::new();

@@ -3,7 +3,7 @@
 
 use crate::geometry::Path;
 
-/// As near to the sewing line as this (metres) such a line must begin and end: what programs round.
+/// Distance from the sewing line within which such a line must begin and end, metres: rounding of programs.
 const ON_LINE: f64 = 5e-4;
 /// Gaps and stretches no longer than this (metres) are none.
 const NOTHING: f64 = 1e-7;

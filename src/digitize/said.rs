@@ -1,4 +1,4 @@
-//! What is written on a piece of how it is cut.
+//! Text on a piece that tells how it is cut.
 
 use crate::pattern::Cut;
 
@@ -11,12 +11,12 @@ const MIRRORED: [&str; 5] = ["left and right", "l and r", "mirror", "pair", "l/r
 /// Words that say that a piece lies on the fold.
 const ON_FOLD: [&str; 3] = ["on fold", "on the fold", "on a fold"];
 
-/// What is written on a piece of how it is cut.
+/// Meaning of the text on a piece about its cutting.
 #[derive(Debug, PartialEq)]
 pub(super) enum Said {
     /// So, and so many times over.
     Cut(Cut, usize),
-    /// So often on the fold of the cloth; where that is, is not in the words.
+    /// So often on the fold of the cloth. Where that is, is not in the words.
     OnFold(usize),
 }
 
@@ -35,7 +35,7 @@ pub(super) fn said(text: &str) -> Option<Said> {
         next.or_else(|| k.checked_sub(1).and_then(|k| number(words[k])))
     });
     let says = |known: &[&str]| known.iter().any(|known| text.contains(known));
-    // `2 pairs` are two of either hand; `cut 2, a pair` is one.
+    // `2 pairs` are two of either hand. `cut 2, a pair` is one.
     if let Some(count) = pairs().filter(|count| (1..=MOST).contains(count)) {
         return Some(Said::Cut(Cut::Pair, count));
     }

@@ -5,7 +5,7 @@ use super::chain::is_closed;
 use super::contour::Contour;
 use super::follow::{follows, unevenness};
 
-/// Words that say that what follows them is a size.
+/// Words that announce a size.
 const WORDS: [&str; 9] = ["size", "sizes", "gr", "größe", "grösse", "taille", "talla", "taglia", "maat"];
 /// Sizes told by letters.
 const LETTERS: [&str; 12] = ["xxs", "xs", "s", "m", "l", "xl", "xxl", "xxxl", "2xl", "3xl", "4xl", "5xl"];
@@ -33,7 +33,7 @@ pub(crate) fn size_of(name: &str) -> Option<String> {
     after.or_else(alone).map(|w| (*w).to_owned()).or_else(glued)
 }
 
-/// The sizes that strokes are drawn in, in the order of the drawing; none where no outline of one follows that of
+/// The sizes that strokes are drawn in, in the order of the drawing. None where no outline of one follows that of
 /// another round it.
 pub(crate) fn sizes(strokes: &[Stroke]) -> Vec<String> {
     let mut sizes: Vec<String> = Vec::new();

@@ -6,26 +6,27 @@ use crate::geometry::{Path, Vec2, smooth_curves};
 const FEWEST: usize = 12;
 /// A line of more is a scan, and fitting curves to it takes too long.
 const MOST: usize = 3_000;
-/// How far a vertex may be from its curve, metres; the less of these that keeps the curve near its chords, too.
+/// Largest distances of a vertex from its curve that are tried, metres. The smallest one that also keeps the curve near
+/// its chords counts.
 const OFF: [f64; 3] = [4e-6, 2e-6, 1e-6];
-/// How far a curve may be from the chords it stands for, metres: with what those had left of the original, still within
-/// a hundredth of a millimetre.
+/// Largest distance of a curve from its chords, metres. With the error of the chords themselves it stays within a
+/// hundredth of a millimetre of the original.
 const BETWEEN: f64 = 6e-6;
-/// Vertices that one curve must stand for on average: otherwise the points say more than curves would.
+/// Least number of vertices per curve on average. With fewer the points stay.
 const WORTH: usize = 8;
 
-/// A curve ends at a vertex where the line turns by more (radians, two degrees), and by so many times more than at the
-/// vertices beside it;
+/// Turn of the line at a vertex above which a curve ends there, radians (2°).
 const CORNER: f64 = 0.035;
+/// Turn of the line at such a vertex, in turns at its neighbours.
 const SHARPER: f64 = 3.0;
-/// or where one chord is so many times as long as the other: a straight part begins.
+/// Ratio of the lengths of neighbouring chords above which a straight part begins.
 const LONGER: f64 = 8.0;
-/// A chord at an inflection is so many times as long as the mean of its stretch,
+/// Length of a chord at an inflection, in mean chords of its stretch.
 const INFLECTION: f64 = 3.0;
-/// and there are no more of these in one.
+/// Largest number of such chords in one stretch.
 const SPLITS: usize = 4;
 
-/// A polyline as the smooth curves and the straight lines it was sampled from, as far as it looks like them; any other
+/// A polyline as the smooth curves and the straight lines it was sampled from, as far as it looks like them. Any other
 /// path as it is.
 pub(super) fn smoothed(path: &Path) -> Path {
     let Some(points) = vertices(path) else { return path.clone() };
@@ -43,9 +44,9 @@ pub(super) fn smoothed(path: &Path) -> Path {
     stretches.reduce(|before, next| before.joined(&next)).unwrap_or_else(|| path.clone())
 }
 
-/// Points of a polyline between two of its corners as few curves, or else as they are. Where an inflection leaves a
-/// long chord among short ones, too little says which way a curve goes there: the chord stays, and what is on either
-/// side of it is looked at alone, `splits` times at most.
+/// Points of a polyline between two of its corners, as few curves or unchanged. Where an inflection leaves a long chord
+/// among short ones, its direction is uncertain. This chord stays, and both sides of it are fitted by themselves,
+/// `splits` times at most.
 fn curved(points: &[Vec2], splits: usize) -> Path {
     let path = Path::polyline(points);
     if points.len() < FEWEST {
@@ -105,7 +106,7 @@ mod tests {
         let wave = bends.expect("a path").sampled(2e-6);
         let again = smoothed(&Path::polyline(&wave));
         assert!(again.joints().len() * 4 < wave.len(), "{} of {}", again.joints().len(), wave.len());
-        // A straight side goes on from the curve, with a corner of four degrees; so do two curves.
+        // A straight side goes on from the curve, with a corner of four degrees. So do two curves.
         let end = curve.end();
         let side = Path::polyline(&[end, end + Vec2::new(0.2, 0.04)]);
         let turned = curve.sampled(2e-6).into_iter().rev().map(|p| end + (end - p).yx());

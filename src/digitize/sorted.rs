@@ -1,4 +1,4 @@
-//! The strokes of a drawing by what they make: closed lines, and lines that are none.
+//! The strokes of a drawing, sorted into closed and open lines.
 
 use std::collections::HashMap;
 
@@ -12,7 +12,7 @@ use crate::geometry::{MM, Path, Vec2};
 
 /// Length of the line that stands for a point (metres).
 const POINT: f64 = 1e-6;
-/// What open lines enclose within an outline is drawn on the piece if it takes less than this share of its area.
+/// Share of a piece's area below which an area enclosed by open lines is drawn on the piece.
 const MARK_SHARE: f64 = 0.5;
 
 /// Strokes of one group and kind that are not closed by themselves.
@@ -22,7 +22,7 @@ struct Open<'a> {
     edges: Vec<(&'a Stroke, Path)>,
 }
 
-/// The strokes of a drawing by what they make.
+/// The strokes of a drawing, sorted into closed and open lines.
 #[derive(Default)]
 pub(super) struct Sorted {
     /// Closed lines, alone or of edges that meet.
@@ -31,7 +31,7 @@ pub(super) struct Sorted {
     pub(super) rest: Vec<Stroke>,
     /// Edges that meet no other.
     pub(super) alone: Vec<Stroke>,
-    /// What was joined that did not quite meet: a sentence for each outline.
+    /// Notes on ends that were joined over a gap: a sentence for each outline.
     pub(super) notes: Vec<String>,
 }
 
@@ -88,7 +88,7 @@ impl Sorted {
         self.contours.extend(contour.map(|c| Contour { own: stroke.name.clone(), filled: stroke.filled, ..c }));
     }
 
-    /// Adds what edges make where they meet; a run that stays open is closed by its fold, or by the sewing line on
+    /// Adds the outlines of edges that meet. A run that stays open is closed by its fold, or by the sewing line on
     /// which it begins and ends.
     fn join_edges(&mut self, Open { group, role, edges }: Open) {
         let role = if role == Role::Edge { Role::Sew } else { role };
@@ -124,8 +124,8 @@ impl Sorted {
         self.contours.iter().filter(own).find_map(|sewn| completed(&sewn.whole, &open))
     }
 
-    /// Adds the outlines that open lines make of which it is not said that they are edges. What they enclose on a piece
-    /// that is too small to be its sewing line are lines on it.
+    /// Adds outlines of open lines that are not marked as edges. An enclosed area on a piece that is too small to be
+    /// its sewing line is drawn on it.
     fn join(&mut self, open: &[Stroke], role: Role) {
         let (outlines, rest) = joined(open);
         self.rest.extend(rest);
@@ -183,7 +183,7 @@ fn closed_at<T>(run: Vec<(T, Path)>, fold: &Path) -> Option<(Vec<(T, Path)>, Pat
     (on_fold && goes_round && apart && area != 0.0).then(|| (run, Path::line(ends[0], ends[1])))
 }
 
-/// What to say of ends that were joined, if there were any.
+/// Note on ends that were joined, if there were any.
 fn joined_note(name: Option<&str>, gaps: impl Iterator<Item = f64>) -> Option<String> {
     let widest = gaps.fold(0.0, f64::max);
     let of = name.map_or_else(String::new, |name| format!(" of '{name}'"));

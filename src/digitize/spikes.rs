@@ -12,9 +12,9 @@ const SHORTEST: f64 = 5e-4;
 /// A closed outline without its spikes.
 pub(super) struct Smooth {
     pub(super) path: Path,
-    /// Where slits were.
+    /// Places of slits.
     pub(super) slits: Vec<Vec2>,
-    /// How many longer spikes there were.
+    /// Number of longer spikes.
     pub(super) spikes: usize,
 }
 
@@ -33,7 +33,7 @@ pub(super) fn without_spikes(outline: &Path) -> Smooth {
     smooth
 }
 
-/// Where the first spike begins and ends, as lengths along the path.
+/// Start and end of the first spike, as lengths along the path.
 fn spike(path: &Path) -> Option<(f64, f64)> {
     let joints = path.joints();
     let straight: Vec<Option<[Vec2; 2]>> =

@@ -1,4 +1,4 @@
-//! Which edges may be sewn together.
+//! Suggests edges that may be sewn together.
 
 use super::edges::Edge;
 use crate::pattern::{DEFAULT_TOLERANCE, words_of};
@@ -12,9 +12,9 @@ const SHORTEST: f64 = 0.02;
 /// Among more edges than this every length fits by chance.
 const MOST_EDGES: usize = 2000;
 
-/// Edges called so stay open, whatever is as long,
+/// Name of edges that stay open, even if another one has the same length.
 const HEM: &str = "hem";
-/// and the halves of a pair may be sewn to each other at edges called so.
+/// Names of edges at which the halves of a pair may be sewn to each other.
 const CENTER: [&str; 2] = ["center", "centre"];
 
 /// Two edges that may be sewn together.
@@ -51,7 +51,7 @@ fn says(name: &str, words: &[&str]) -> bool {
     words_of(name).iter().any(|word| words.contains(&word.as_str()))
 }
 
-/// Edges of which each fits the other best: pieces first, then edges of one piece (darts, sleeves); then the centers of
+/// Edges of which each fits the other best: pieces first, then edges of one piece (darts, sleeves). Then the centers of
 /// pairs, to their mirror images.
 pub(super) fn suggest(outlines: &[Outline]) -> Vec<Suggestion> {
     let mut ends = Vec::new();
@@ -86,7 +86,7 @@ fn best(ends: &[End], i: usize) -> Option<usize> {
     let length = |k: usize| ends[k].edge.path.length();
     let apart = |k: usize| (length(k) - length(i)).abs();
     let alike = |k: &usize| *k != i && apart(*k) <= ALIKE.0.max(ALIKE.1 * length(i).max(length(*k)));
-    // Notched alike, in another piece, then by length; the earlier of two that are equal.
+    // Notched alike, in another piece, then by length. The earlier of two that are equal.
     let worse = |k: usize| {
         let notches = ends[k].edge.notch() != ends[i].edge.notch();
         (notches, ends[k].piece == ends[i].piece)

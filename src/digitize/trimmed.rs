@@ -2,10 +2,11 @@
 
 use crate::geometry::{Path, Vec2, bisect};
 
-/// A line is looked at this often, metres, and no oftener than so many times.
+/// Distance between examined points of a line, metres.
 const STEP: f64 = 5e-3;
+/// Most points at which a line is examined.
 const MOST_LOOKS: f64 = 400.0;
-/// The place where it leaves the cloth is found in so many halvings, far below a micrometre.
+/// Halvings that find the place where a line leaves the cloth, to far below a micrometre.
 const HALVINGS: usize = 24;
 
 /// A line, whose middle is on the cloth, which `holds` tells, without the ends that are not. Over darts and holes it
@@ -31,10 +32,10 @@ pub(super) fn trimmed(line: &Path, holds: impl Fn(Vec2) -> bool) -> Path {
 const LEAST_PART: f64 = 1e-3;
 /// As far off the cloth as this (metres) lines are on its rim.
 const ON_RIM: f64 = 5e-4;
-/// Where it leaves the cloth a line is cut off to this (metres).
+/// Accuracy with which a line is cut off where it leaves the cloth, metres.
 const EXACT: f64 = 1e-7;
 
-/// The parts of a line that are on the cloth, of which `off` tells how far a point is from it, nought on it; the line
+/// The parts of a line that are on the cloth, of which `off` tells how far a point is from it, nought on it. The line
 /// itself where all of it is.
 pub(crate) fn parts_within(line: &Path, off: impl Fn(Vec2) -> f64) -> Vec<Path> {
     let length = line.length();

@@ -1,4 +1,4 @@
-//! Draping: the sewn garment falls to rest in its fabric (L7–L11).
+//! Draping: the sewn garment falls to rest in its fabric (L7–L11). An example is in [`crate::guide::drape`].
 
 pub mod geometric;
 mod rest;

@@ -1,4 +1,4 @@
-//! From sewn to at rest.
+//! Drapes a sewn garment until it is at rest.
 
 use crate::contact::Collider;
 use crate::dynamics::{ContactTime, Cut, GRIP, Reach, StepError, World};
@@ -6,23 +6,23 @@ use crate::fabric::GRAVITY;
 use crate::geometry::Vec3;
 use crate::sew::{NEAREST_LOOK, Stitching, drape_reach, lead_off, sewn_world};
 
-/// How a garment is draped.
+/// Options of draping.
 #[derive(Clone, Copy, Debug)]
 pub struct DrapeOptions {
     /// Steps after which draping ends, at rest or not.
     pub max_steps: usize,
-    /// How far it is taken.
+    /// When draping ends.
     pub until: Until,
-    /// Whether it begins near its rest already, as coarser cloth has come to hang.
+    /// Whether the start is near rest already, because it was carried over from a draped coarser mesh.
     pub near: bool,
 }
 
-/// How far a garment is draped.
+/// End of draping.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Until {
     /// Until it rests, tested by as many steps again.
     Rest,
-    /// Until only long waves are left, which finer cloth has to go through anyway: a start for it.
+    /// Until only long waves are left. This is enough as a start for a finer mesh, which settles long waves anyway.
     Near,
 }
 
@@ -38,7 +38,7 @@ pub enum DrapeError {
     /// A step could not be made.
     #[error("draping stopped: {0}")]
     Step(#[from] StepError),
-    /// Its forces drive the garment apart: what it has come to is no shape of cloth.
+    /// The energy rose instead of falling: the forces drive the garment apart.
     #[error(
         "draping diverged: the energy of the garment rose from {from:.2} J to {to:.2} J, and {force:.0} N are out of \
          balance at one particle of '{piece}'"
@@ -48,7 +48,7 @@ pub enum DrapeError {
         piece: String,
         /// Energy of the sewn garment, J.
         from: f64,
-        /// Energy it came to, by the same law of contact, J.
+        /// Final energy by the same contact law, J.
         to: f64,
         /// Largest unbalanced force, N.
         force: f64,
@@ -62,77 +62,82 @@ pub struct Draped {
     pub nodes: Vec<Vec3>,
     /// Steps made.
     pub steps: usize,
-    /// Steps that tests of its rest made besides, no more than twice those that were allowed.
+    /// Further steps made by tests of rest, at most twice the allowed steps.
     pub tested: usize,
     /// Whether it is at rest: unbalanced force within a particle's weight, drift within bounds.
     pub converged: bool,
     /// Elastic, contact and gravity energy, J.
     pub energy: f64,
-    /// Root mean square and largest motion, metres, over as many steps again at half the step size.
+    /// Root mean square and largest motion over as many steps again at half the step size, metres.
     pub drift: [f64; 2],
     /// Root mean square of the unbalanced force over a particle's weight.
     pub residual: f64,
-    /// What contact cost of the time it took.
+    /// Wall-clock time spent on contact.
     pub contact: ContactTime,
 }
 
-/// Step length near rest, s. A garment hangs like a pendulum of a second or two; in shorter steps inertia would hide
-/// how far it still has to go.
+/// Time step near rest, s. A garment swings like a pendulum with a period of a second or two. In shorter steps inertia
+/// would hide how far it still has to go.
 const STEP: f64 = 1.0;
-/// Steps between two looks at how far the garment still moves.
+/// Steps in one stretch. After each stretch the motion is measured, and contact reach and active set are chosen anew.
 const STRETCH: usize = 5;
-/// A garment that falls no further than this, metres RMS, in so many steps is near its rest: what is left are long
-/// waves, which need the true stiffness. With that from the first, a cuff that was sewn folded under stays so.
+/// Motion per stretch, RMS, below which a garment is near rest, metres. Only long waves are left then, which need
+/// Newton steps with the true stiffness. With Newton steps from the start, a cuff that was sewn folded under stays so.
 const NEAR_REST: f64 = 1.5e-3;
-/// Steps after which it is taken to be near.
+/// Steps after which a garment counts as near rest, however far it still moves.
 const LONGEST_FALL: usize = 80;
-/// A garment has settled when it moves less than this, metres RMS, in so many steps.
+/// Motion per stretch, RMS, below which a garment has settled, metres.
 const SETTLED: f64 = 0.12e-3;
-/// How far a Newton step is trusted to change an edge: at first, at least and at most, in grid spacings. Springs that
-/// are turned further are drawn out by more than the next step takes back.
+/// Trust region of a Newton step: the largest change of an edge at first, at least and at most, in grid spacings.
+/// Springs that rotate further are lengthened by more than the next step takes back.
 const TRUST: [f64; 3] = [0.125, 0.01, 0.2];
-/// At rest a garment drifts by no more than this over as many steps again, metres (RMS),
+/// Largest drift at rest: RMS motion over as many steps again at half the step size, metres.
 pub const DRIFT: f64 = 0.3e-3;
-/// and its forces are out of balance by no more than so many particle weights (RMS).
+/// Largest unbalanced force at rest, RMS, in particle weights.
 pub const RESIDUAL: f64 = 1.0;
-/// Steps so short that as many as are left move the garment by no more than this share of what it may go need not be
-/// made, once so many in a row were: a single short one may be one that could not be made longer.
+/// A step is short if, repeated for all steps that are left, it would move the garment by less than this share of the
+/// allowed motion.
 const STILL: f64 = 1.0 / 3.0;
+/// Short steps in a row that end a stretch or a test of rest early. A single short step may be one that the line search
+/// cut.
 const IN_A_ROW: usize = 3;
-/// Where a stretch moved less than this share of the nodes, these go on alone.
+/// Partial solves: if a stretch moved less than this share of the free nodes, only these are stepped further.
 const PART: f64 = 0.5;
-/// A node has moved that went further than this, metres, and than this share of the way of the one that went furthest:
-/// what creeps as a whole while a fold in it runs is left for later.
+/// Motion in a stretch above which a node has moved, metres.
 const MOVES: f64 = 0.1e-3;
+/// Share of the largest motion above which a node has moved. It leaves slow creep of the whole for later while a fold
+/// runs through it.
 const SHARE: f64 = 0.05;
-/// With them go those that so many edges lead to from them, until all of them move the garment by less than this share
-/// of what one does that has settled, for at most so many stretches.
+/// Edge rings round the moving nodes that are freed with them.
 const RINGS: usize = 3;
+/// A partial solve stops when a stretch moves the garment by less than this share of the motion at which it has
+/// settled.
 const CALMER: f64 = 0.5;
+/// Largest number of stretches of partial solves in a row.
 const STRETCHES: usize = 20;
-/// While there are steps left a test that says nothing after so many, twice as many the next time, is given up: steps
-/// of all the nodes take away what is left more slowly than those of the nodes that move.
+/// Steps after which an undecided test of rest is given up, and twice as many in each further test. Steps of all nodes
+/// remove the remaining motion more slowly than partial solves do.
 const SHORT_TEST: usize = 12;
-/// Tests of rest take no more than this many times the steps that draping may: one test as long as the longest fall,
-/// and as much for those before it. A garment that creeps fails one after the other, the later the slower it creeps.
+/// Bound on the steps of all tests of rest, in multiples of the allowed draping steps: one full test, and as much for
+/// the tests before it. A creeping garment fails test after test, each longer than the last.
 const TESTS: usize = 2;
-/// A garment whose nodes went so far in one stretch is looked at this many times as far around in the next: further
-/// finds more than pays, less needs too many looks (one is due when a node has gone a third of that).
+/// Contact reach over the largest motion of a node in the previous stretch. A larger reach finds more contacts than
+/// pay, a smaller one needs too many searches (one is due when a node has gone a third of the reach).
 const LOOK: f64 = 2.0;
 
-/// One that falls freely (fewer contacts are known than it has nodes) is looked at as far around as it falls in a
-/// stretch (RMS), up to this many cells: in large cells a look costs less than the steps it saves. Layers that lie on
-/// one another would find each other many times over.
+/// Largest contact reach of freely falling cloth, in grid spacings. Cloth falls freely while fewer contacts are known
+/// than it has nodes. Its reach is then the RMS motion of a stretch, because on coarse meshes a search costs less than
+/// the steps that it saves. Stacked layers would find each other many times over.
 const CELLS: f64 = 0.4;
 
-/// A drape goes down: a garment that ends by more above how it was sewn than it would gain by being lifted so far,
-/// metres, has been driven apart.
+/// Rise of energy that counts as divergence, as a height through which the garment's weight would be lifted, metres. A
+/// drape normally ends below the energy of the sewn garment.
 const LIFTED: f64 = 1.0;
 
 /// Drapes a sewn garment.
 ///
-/// Rest is not low speed: after the last motion has died down, as many steps again at half the step size are made, and
-/// what they move is reported as drift.
+/// Rest is tested, not taken from a low speed: after the garment has settled, as many steps again at half the step size
+/// are made. Their motion is reported as drift.
 ///
 /// # Errors
 /// [`DrapeError::Step`] when a position is not finite.
@@ -167,11 +172,11 @@ pub fn drape(
     Ok(Draped { energy, nodes: world.x, steps, tested, converged, drift, residual, contact })
 }
 
-/// Whether a garment that was sewn at `sewn` (positions as in [`Draped::nodes`]) and did not come to rest has at least
-/// fallen.
+/// Checks that a drape that did not come to rest has at least lowered the energy of the garment `sewn` (positions as in
+/// [`Draped::nodes`]).
 ///
 /// # Errors
-/// [`DrapeError::Diverged`] when its energy has risen instead, [`DrapeError::Step`] as [`drape`].
+/// [`DrapeError::Diverged`] if its energy has risen, [`DrapeError::Step`] as [`drape`].
 pub fn check_fall(
     cut: &Cut,
     body: &Collider,
@@ -186,7 +191,7 @@ pub fn check_fall(
     world.gravity = 1.0;
     let from = world.energy();
     world.x.clone_from(&draped.nodes);
-    // By the same law of contact: where limbs leave cloth less room than it is thick, what hardens stores joules.
+    // By the same contact law: hardened contacts store joules where limbs leave less room than the cloth is thick.
     world.displaced()?;
     let to = world.energy();
     let mass: f64 = world.cloth.mass.iter().sum();
@@ -200,35 +205,35 @@ pub fn check_fall(
     Err(DrapeError::Diverged { piece: piece.unwrap_or_default(), from, to, force: size(largest) })
 }
 
-/// A garment on its way down.
+/// A drape under way.
 struct Fall<'a> {
     world: World<'a>,
     /// Positions before the last step.
     last: Vec<Vec3>,
     steps: usize,
-    /// Steps of tests.
+    /// Steps of tests of rest.
     tested: usize,
-    /// Whether it is near its rest, and stays so.
+    /// Whether the garment is near rest. Once true it stays true.
     near: bool,
-    /// Whether its contacts are still to harden there.
+    /// Whether contacts have yet to harden near rest.
     hardens: bool,
-    /// How far a Newton step is trusted, metres.
+    /// Trust region of the next Newton step, metres.
     trust: f64,
-    /// How far around the cloth is looked at, at least and at most, metres.
+    /// Least and largest contact reach, metres.
     look: [f64; 2],
-    /// Of the grid, metres.
+    /// Grid spacing, metres.
     spacing: f64,
 }
 
 impl Fall<'_> {
-    /// Steps until the garment rests, or `most` are made, or [`TESTS`] times as many for tests. Returns its drift, its
-    /// residual force, and whether it rests.
+    /// Steps until the garment rests, until `most` steps are made, or until tests have made [`TESTS`] times as many.
+    /// Returns the drift, the residual force, and whether the garment rests.
     fn come_to_rest(&mut self, most: usize, progress: &mut dyn FnMut(f64)) -> Result<([f64; 2], f64, bool), StepError> {
         let mut patience = SHORT_TEST;
         loop {
             self.settle(most, SETTLED, progress)?;
             let out_of_steps = self.steps >= most;
-            // A garment that is out of balance, or drifts, falls on, while there are steps left.
+            // A garment out of balance falls on while there are steps left.
             if self.world.residual_in_weights() > RESIDUAL && !out_of_steps {
                 continue;
             }
@@ -243,7 +248,7 @@ impl Fall<'_> {
         }
     }
 
-    /// Steps until a stretch of them moves the garment less than `settled` metres RMS, or `most` are made in all.
+    /// Steps until a stretch moves the garment by less than `settled` metres RMS, or `most` steps are made in all.
     fn settle(&mut self, most: usize, settled: f64, progress: &mut dyn FnMut(f64)) -> Result<(), StepError> {
         let mut is_settled = false;
         while !is_settled && self.steps < most {
@@ -253,8 +258,8 @@ impl Fall<'_> {
             is_settled = is_still || moved <= settled;
             self.world.look_within(self.reach(moved, most_moved))?;
             self.near |= moved < NEAR_REST || self.steps >= LONGEST_FALL;
-            // Not before: what was pressed hard while it was sewn would be thrown off, or held by its friction, and
-            // what the body cuts has to come out, and is led off it.
+            // Contacts harden near rest only. Earlier, cloth pressed hard by sewing would be thrown off or held by its
+            // friction. Cloth that the body cuts is first led off it.
             if self.hardens && self.near {
                 if self.world.is_cut() {
                     lead_off(&mut self.world)?;
@@ -271,8 +276,8 @@ impl Fall<'_> {
         Ok(())
     }
 
-    /// A stretch of steps. Returns whether it ended early: where the garment is so still that a whole stretch of such
-    /// steps would hardly be a share of `settled` metres. No more than `most` are made in all.
+    /// Makes a stretch of steps, at most `most` steps in all. Returns whether it ended early because whole stretches of
+    /// such steps would move the garment by far less than `settled` metres.
     fn stretch(&mut self, settled: f64, most: usize) -> Result<bool, StepError> {
         let mut still = Still::default();
         for _ in self.steps..most.min(self.steps + STRETCH) {
@@ -290,9 +295,8 @@ impl Fall<'_> {
         Ok(false)
     }
 
-    /// Steps of the nodes alone that moved since the garment was at `before`, while the others are held where they are:
-    /// of fewer and fewer, until what they move is settled. Does nothing where it is not in part of the garment that it
-    /// moves.
+    /// Partial solves: steps of the nodes alone that moved since `before`, while the others are held. The active set
+    /// shrinks until its motion has settled. Does nothing if most of the garment moves.
     fn settle_moving(&mut self, mut before: Vec<Vec3>, settled: f64, most: usize) -> Result<(), StepError> {
         let mut resting = Vec::new();
         for _ in 0..STRETCHES {
@@ -310,7 +314,8 @@ impl Fall<'_> {
         resting.into_iter().rev().try_for_each(|resting| self.world.release(resting))
     }
 
-    /// The nodes that have moved since `before`, and those near them; none where they are most of those that could.
+    /// The active set: nodes that have moved since `before` and [`RINGS`] rings round them. `None` if it is empty or
+    /// has more than the share [`PART`] of the free nodes.
     fn moving(&self, before: &[Vec3]) -> Option<Vec<bool>> {
         let cloth = &self.world.cloth;
         let moves = MOVES.max(SHARE * motion(before, &self.world.x)[1]);
@@ -323,8 +328,7 @@ impl Fall<'_> {
         (count > 0 && (count as f64) < PART * free as f64).then_some(moving)
     }
 
-    /// How far to look around after a stretch in which the garment went `moved` metres RMS, and the node that went
-    /// furthest `most_moved`.
+    /// Contact reach after a stretch with motions of `moved` (RMS) and `most_moved` (largest), metres.
     fn reach(&self, moved: f64, most_moved: f64) -> Reach {
         let [nearest, widest] = self.look;
         let near = (LOOK * most_moved).clamp(nearest, widest);
@@ -340,16 +344,17 @@ impl Fall<'_> {
         Ok(())
     }
 
-    /// A step with the true stiffness.
+    /// A Newton step.
     fn step(&mut self, dt: f64) -> Result<(), StepError> {
         let [_, least, most] = TRUST.map(|share| share * self.spacing);
         self.trust = self.world.newton(dt, self.trust)?.trust(self.trust).clamp(least, most);
         Ok(())
     }
 
-    /// As many steps again as were made, at half the step size: how far the garment goes, metres, root mean square and
-    /// largest. Where it hardly moves any more, has gone too far already, or tests have made `most` steps, those that
-    /// are left count as if each went as far as the last, all the same way.
+    /// Measures the drift: RMS and largest motion over as many steps again as were made, at half the step size, metres.
+    ///
+    /// The test ends early if the garment hardly moves any more, has gone too far already, or tests have made `most`
+    /// steps. The remaining steps then count as if each went as far as the last one, in the same direction.
     fn drift(&mut self, most: usize) -> Result<[f64; 2], StepError> {
         let before = self.world.x.clone();
         let (mut left_out, mut still) = ([0.0; 2], Still::default());
@@ -369,12 +374,13 @@ impl Fall<'_> {
     }
 }
 
-/// Counts steps in a row after which there is hardly any way left to go.
+/// Counts short steps in a row.
 #[derive(Default)]
 struct Still(usize);
 
 impl Still {
-    /// Whether there were enough, the last one with `left` metres to go of which `bound` may be.
+    /// Counts a step that leaves `left` metres to go, of `bound` metres allowed. Returns whether there were enough
+    /// short steps in a row.
     fn after(&mut self, left: f64, bound: f64) -> bool {
         self.0 = if left <= STILL * bound { self.0 + 1 } else { 0 };
         self.0 >= IN_A_ROW

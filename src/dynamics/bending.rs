@@ -1,14 +1,14 @@
 //! Bending as one constant quadratic form (L9 for a cloth that is flat at rest).
 //!
-//! E = ½ Σ w |Σ c (x_b − x_a)|²: every stencil is a curvature, written as a sum of differences along edges of the mesh
-//! (`curvature` has them). The matrix is scalar and constant, the same for x, y and z.
+//! E = ½ Σ w |Σ c (x_b − x_a)|². Every stencil is a curvature, written as a sum of differences along edges of the mesh
+//! (see `curvature`). The matrix is scalar and constant, and the same for x, y and z.
 
 use crate::geometry::Vec3;
 
-/// A curvature and how much its square counts.
+/// A curvature and the weight of its square.
 #[derive(Clone, Debug)]
 pub(super) struct Stencil {
-    /// (a, b, c): c times the difference from node a to node b, which share an edge; 1/m² in sum.
+    /// (a, b, c): c times the difference from node a to node b, which share an edge. The sum is in 1/m².
     pub(super) flows: Vec<(u32, u32, f64)>,
     /// N·m³: rigidity times area.
     pub(super) weight: f64,
@@ -30,7 +30,7 @@ impl Bending {
         let mut entries: Vec<(u32, u32, f64)> = Vec::new();
         let mut bound: Vec<([u32; 2], f64)> = Vec::new();
         for Stencil { flows, weight } in stencils {
-            // Differences along one edge add up; an edge sewn to nothing but itself has none.
+            // Differences along one edge add up. An edge whose ends are sewn together has none.
             let edges = flows.iter().filter(|f| f.0 != f.1);
             let mut edges: Vec<_> = edges.map(|&(a, b, c)| if a < b { ([a, b], c) } else { ([b, a], -c) }).collect();
             edges.sort_by_key(|e| e.0);
@@ -51,8 +51,8 @@ impl Bending {
         out
     }
 
-    /// A weight for the edge between nodes a < b such that the edge weights together bound Q from above:
-    /// Σ w |x_a − x_b|² ≥ xᵀ Q x (8 B / h² on a square grid, where it is sharp).
+    /// Weight of the edge between nodes a < b in an edge-wise bound of Q: Σ w |x_a − x_b|² ≥ xᵀ Q x. On a square grid
+    /// it is 8 B / h², where the bound is sharp.
     pub fn bound(&self, ends: [u32; 2]) -> f64 {
         self.bound.binary_search_by(|e| e.0.cmp(&ends)).map_or(0.0, |i| self.bound[i].1)
     }
@@ -71,7 +71,7 @@ impl Bending {
         out
     }
 
-    /// The matrix without what it says of two nodes that are both held: it bends the others as they do.
+    /// The matrix without entries between two held nodes. The gradient at free nodes stays the same.
     pub(super) fn around(&self, is_held: &[bool]) -> Self {
         let mut out = Self { starts: vec![0], bound: self.bound.clone(), ..Self::default() };
         for (i, held) in is_held.iter().enumerate() {

@@ -1,30 +1,32 @@
-//! What a contact pushes with (F6), and the energy that comes from.
+//! Normal force of a contact (F6) and its energy.
 //!
-//! A contact begins softly and has no end: nothing that presses on it closes the gap, be it a shoulder seam on one
-//! corner of the body or a layer wedged between two that are sewn to one another.
+//! The force begins softly and grows without bound as the gap closes. So nothing closes a gap, be it a shoulder seam
+//! that presses on one corner of the body or a layer wedged between two that are sewn to one another.
 
 use super::model::Cloth;
 use crate::contact::Contact;
 use crate::geometry::Vec3;
 
-/// How the load grows as the gap closes: with r = distance kept / gap, both beyond the core of thick cloth, in
-/// stiffnesses × distance kept:
+/// Growth of the load as the gap closes, in units of stiffness × distance kept. r is distance kept over gap, both
+/// measured from the core of thick cloth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hardening {
-    /// r − 1. Layers that jam while seams close, and cloth that limbs press on as they go back, let themselves be
-    /// pressed to almost nothing, and yield.
+    /// Load r − 1. For sewing and falling: layers that jam while seams close, and cloth under limbs that go back, yield
+    /// and can be pressed to almost no gap.
     Slow,
-    /// (r − 1) r². For rest: a contact on a corner of the body pushes another way once its node has gone aside by as
-    /// much as the gap. With [`Hardening::Slow`] that was a micrometre under the armhole of a tight dress, which swung
-    /// from one side of the corner to the other for hundreds of steps, each so short that nothing else came down.
+    /// (r − 1) r². For rest. The normal of a contact on a corner of the body turns once its node has moved sideways by
+    /// the gap. With [`Hardening::Slow`] the gap under the armhole of a tight dress was a micrometre, and the dress
+    /// swung from one side of the corner to the other for hundreds of very short steps.
     Fast,
 }
 
 impl Hardening {
-    /// Where the law ends, in distances kept: the force has to stay finite, also where a node starts inside the body.
+    /// Gap at which the law ends, as a share of the distance kept. The force must stay finite where a node starts
+    /// inside the body.
+    ///
     /// The armhole of a tight garment presses on one corner of a scanned arm with a dozen newtons, cuffs that are
-    /// stretched by an eighth with hundreds. Here a contact of garments (60 N/m, a quarter of a millimetre) carries
-    /// 75 N and 1,800 N; cuffs that went beyond, where the law ended at 0.05, did not come to rest.
+    /// stretched by an eighth with hundreds. At these ends a contact of garments (60 N/m, 0.25 mm) carries 75 N (slow)
+    /// and 1,800 N (fast). With an end at 0.05, cuffs that went beyond it did not come to rest.
     fn thinnest(self) -> f64 {
         match self {
             Self::Slow => 2e-4,
@@ -32,7 +34,7 @@ impl Hardening {
         }
     }
 
-    /// What of a side of cloth of this half thickness keeps its thickness on the body, metres.
+    /// Core of cloth of this half thickness on the body, metres: the part that cannot be compressed.
     fn core(self, half_thickness: f64) -> f64 {
         match self {
             Self::Slow => 0.0,
@@ -41,7 +43,7 @@ impl Hardening {
         }
     }
 
-    /// N of a contact of stiffness `k` (N/m) that keeps `kept` metres, at a gap of `thin` metres.
+    /// Load of a contact of stiffness `k` (N/m) and distance kept `kept` (metres) at a gap of `thin` metres, N.
     fn load(self, k: f64, kept: f64, thin: f64) -> f64 {
         match self {
             Self::Slow => k * (kept - thin) * kept / thin,
@@ -49,7 +51,7 @@ impl Hardening {
         }
     }
 
-    /// By how much the load falls as the gap grows, in stiffnesses.
+    /// Decrease of the load per growth of the gap, in multiples of the stiffness.
     fn slope(self, r: f64) -> f64 {
         match self {
             Self::Slow => r.powi(2),
@@ -57,7 +59,7 @@ impl Hardening {
         }
     }
 
-    /// What has been spent from the distance kept down to `thin`, J.
+    /// Work done from the distance kept down to a gap of `thin` metres, J.
     fn energy(self, k: f64, kept: f64, thin: f64) -> f64 {
         match self {
             Self::Slow => k * kept * (kept * (kept / thin).ln() - (kept - thin)),
@@ -66,41 +68,42 @@ impl Hardening {
     }
 }
 
-/// Thick cloth, each side of it at least the first, metres, yields to what presses it on the body by no more than the
-/// second: without such a core a band of jersey that is drawn tight came nearer to the body than half its thickness. A
-/// core of all of the half thickness did not come to rest where an arm presses a sleeve on the trunk. Thinner cloth
-/// keeps its half thickness without one, and trousers of linen (0.35 mm) took a fifth more steps with one.
+/// Least half thickness of cloth that has a core, metres. Without a core a tight band of jersey came nearer to the body
+/// than half its thickness. Thinner cloth keeps its half thickness without a core, and trousers of linen (0.35 mm) took
+/// a fifth more steps with one.
 const THICK: f64 = 0.25e-3;
+/// Compressible part of the half thickness of thick cloth, metres. The rest is its core. A core of the whole half
+/// thickness did not come to rest where an arm presses a sleeve on the trunk.
 const SOFT: f64 = 0.125e-3;
 
-/// From where the law ends the force grows so many times as fast as where the contact begins: what is inside is to be
-/// pushed out, not shot.
+/// Slope of the force beyond the end of the law, in multiples of the initial stiffness. It is finite, so that a node
+/// inside the body is pushed out gently.
 const INSIDE: f64 = 2500.0;
 
 /// Penalty contact (F6).
 #[derive(Clone, Copy, Debug)]
 pub struct ContactLaw {
-    /// N/m per contact, as it begins.
+    /// Initial stiffness of a contact, N/m.
     pub stiffness: f64,
-    /// How the load grows from there.
+    /// Growth of the load from there.
     pub hardening: Hardening,
     /// Distance kept from the body beyond half the cloth's thickness, metres.
     pub body_clearance: f64,
-    /// Distance kept between two layers of cloth, metres; `None` = the two half thicknesses.
+    /// Distance kept between two layers of cloth, metres. `None` = the two half thicknesses.
     pub cloth_gap: Option<f64>,
 }
 
-/// A contact at given positions: the load it carries, and how fast that falls as it opens.
+/// Load of a contact at given positions, and its slope.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Press {
-    /// Normal force, N. Of a contact that does not touch: what its tangent at the distance kept says (negative).
+    /// Normal force, N. For a contact that does not touch it is negative: the tangent at the distance kept, extended.
     pub(super) load: f64,
     /// N/m.
     pub(super) slope: f64,
 }
 
 impl Press {
-    /// Load, N, when the gap has grown by `opening` metres: below 0 it does not touch.
+    /// Linearised load after the gap has grown by `opening` metres, N. Below 0 the contact does not touch.
     pub(super) fn after(&self, opening: f64) -> f64 {
         self.load - self.slope * opening
     }
@@ -117,7 +120,7 @@ impl ContactLaw {
             .unwrap_or_else(|| first + cloth.half_thickness[contact.nodes[contact.count as usize - 1] as usize])
     }
 
-    /// The distance kept, and the gap at `x`, metres, both from where the load has no end.
+    /// Distance kept and gap at `x`, metres, both measured from the core, where the load is unbounded.
     fn room(&self, cloth: &Cloth, x: &[Vec3], contact: &Contact) -> (f64, f64) {
         let kept = self.kept(cloth, contact);
         let core = if contact.is_on_body() { self.hardening.core(kept - self.body_clearance) } else { 0.0 };

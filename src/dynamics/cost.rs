@@ -1,22 +1,22 @@
-//! What contact costs, part by part.
+//! Wall-clock time of contact, part by part.
 
 use std::time::{Duration, Instant};
 
-/// Wall-clock time spent on finding contacts and following them. Their forces are not in it, which are worked out
-/// with all others, nor the bounds that every step is held to.
+/// Wall-clock time spent on finding and following contacts. It excludes their forces, which are evaluated with all
+/// others, and the bounds of every step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ContactTime {
-    /// Looking for the body near particles.
+    /// Search for the body near particles.
     pub body: Duration,
-    /// Looking for its vertices and edges near triangles and edges of the cloth.
+    /// Search for vertices and edges of the body near triangles and edges of the cloth.
     pub features: Duration,
-    /// Looking for cloth near cloth.
+    /// Search for cloth near cloth.
     pub cloth: Duration,
-    /// Between two looks: telling which of them matter, turned to where their closest points have gone.
+    /// Between two searches: selecting the contacts that matter, and updating their closest points.
     pub follow: Duration,
 }
 
-/// What `work` gives; `total` grows by the time it takes.
+/// Runs `work`, adds its time to `total` and returns its result.
 pub(super) fn timed<T>(total: &mut Duration, work: impl FnOnce() -> T) -> T {
     let begin = Instant::now();
     let out = work();

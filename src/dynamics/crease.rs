@@ -1,7 +1,7 @@
-//! Pressed folds: the cloth hinges along a fold line and is drawn to the angle it was pressed to.
+//! Pressed folds: hinges along a fold line with a rest angle.
 //!
-//! E = ½ Σ k (θ − θ₀)² over the edges of the line, θ the angle between the triangles on either side (0 = flat, positive
-//! when the wrong sides turn towards each other), k = rigidity across the line × edge length / [`WIDTH`].
+//! E = ½ Σ k (θ − θ₀)² over the edges of the line. θ is the dihedral angle between the triangles on either side: 0 is
+//! flat, and positive turns the wrong sides towards each other. k = rigidity across the line × edge length / [`WIDTH`].
 
 use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -11,10 +11,10 @@ use crate::fabric::Fabric;
 use crate::geometry::{Vec2, Vec3};
 use crate::mesh::{ClothMesh, LineParticles};
 
-/// A pressed fold turns like a strip of the cloth this wide, metres: what an iron's edge sets, and independent of the
-/// spacing. Not measured; recovery angles of creased cloth (ISO 2313) are given without a moment.
+/// Width of the strip of cloth as which a pressed fold bends, metres: the width that an iron's edge sets. It does not
+/// depend on the spacing. Estimated: recovery angles of creased cloth (ISO 2313) are given without a moment.
 const WIDTH: f64 = 5e-3;
-/// Triangles lower than this above their fold, metres, have no direction to turn in.
+/// Least height of a triangle over its fold, metres. A lower triangle has no direction of rotation.
 const LOWEST: f64 = 1e-7;
 
 /// One edge of a fold line with the triangles on both sides.
@@ -25,22 +25,22 @@ pub(super) struct Crease {
     pub(super) nodes: [u32; 4],
     /// θ₀, radians.
     rest: f64,
-    /// k, N·m per radian.
+    /// Stiffness k, N·m per radian.
     stiffness: f64,
-    /// θ where the cloth was last, radians; the angle is the one within half a turn of it.
+    /// θ at the last position, radians. The present angle is the reading within half a turn of it.
     last: f64,
 }
 
 impl Crease {
-    /// A fold that nobody has followed yet may lie a quarter turn the wrong way, or too far, before it is taken for the
-    /// other of the two.
+    /// A new crease. Without a history the angle is the reading between a quarter turn the wrong way and a quarter turn
+    /// too far.
     fn new(nodes: [u32; 4], rest: f64, stiffness: f64) -> Self {
         let last = if rest.abs() > FRAC_PI_2 { FRAC_PI_2.copysign(rest) } else { 0.0 };
         Self { nodes, rest, stiffness, last }
     }
 
-    /// Remembers the angle at `x`: a fold pressed shut that turns on past half a turn is not one that lies the wrong
-    /// way. Without it the energy would jump wherever the angle begins anew.
+    /// Stores the angle at `x`. It tells a fold that is pressed past half a turn from one that lies the wrong way.
+    /// Without it the energy would jump at half a turn.
     pub(super) fn follow(&mut self, x: &[Vec3]) {
         self.last = self.angle(x);
     }
@@ -50,7 +50,7 @@ impl Crease {
         0.5 * self.stiffness * (self.angle(x) - self.rest).powi(2)
     }
 
-    /// Moment (N·m) that turns it towards its angle.
+    /// Moment towards the rest angle, N·m.
     fn moment(&self, x: &[Vec3]) -> f64 {
         self.stiffness * (self.rest - self.angle(x))
     }
@@ -61,7 +61,7 @@ impl Crease {
         self.turning(x).map(|g| g * moment)
     }
 
-    /// Gauss–Newton stiffness at `x`: the vectors g with K = Σ gᵢ gⱼᵀ.
+    /// Gauss–Newton stiffness at `x`, as the vectors g with K = Σ gᵢ gⱼᵀ.
     pub(super) fn root(&self, x: &[Vec3]) -> [Vec3; 4] {
         let root = self.stiffness.sqrt();
         self.turning(x).map(|g| g * root)
@@ -86,7 +86,7 @@ impl Crease {
         let e = b - a;
         let length = e.norm().max(LOWEST);
         let (m, n) = (e.cross(&(c - a)), (d - a).cross(&e));
-        // The wings swing about the edge by 1/height.
+        // A wing rotates about the edge by 1/height.
         let swing = |normal: Vec3| {
             let height = normal.norm() / length;
             if height > LOWEST { normal * (1.0 / (normal.norm() * height)) } else { Vec3::zeros() }
@@ -98,7 +98,7 @@ impl Crease {
     }
 }
 
-/// The creases of every pressed fold line. `node_of` maps particles to nodes; a triangle that stitches have closed to a
+/// The creases of every pressed fold line. `node_of` maps particles to nodes. A triangle that stitches have closed to a
 /// line has no angle and is left out.
 pub(super) fn creases(mesh: &ClothMesh, node_of: &[u32], fabrics: &[Arc<Fabric>]) -> Vec<Crease> {
     let mut out = Vec::new();
@@ -125,14 +125,15 @@ pub(super) fn creases(mesh: &ClothMesh, node_of: &[u32], fabrics: &[Arc<Fabric>]
     out
 }
 
-/// For two neighbouring particles: them, and the far corners of the triangles on both sides as in [`Crease::nodes`].
+/// A function from two neighbouring particles to these and the far corners of the triangles on both sides, in the order
+/// of [`Crease::nodes`].
 fn across_edges(triangles: &[[u32; 3]]) -> impl Fn(u32, u32) -> Option<[u32; 4]> {
     let far: HashMap<[u32; 2], u32> =
         triangles.iter().flat_map(|&[a, b, c]| [([a, b], c), ([b, c], a), ([c, a], b)]).collect();
     move |a, b| Some([a, b, *far.get(&[a, b])?, *far.get(&[b, a])?])
 }
 
-/// Bending rigidity across an edge, N·m, as the sheet's own energy has it: (√B₁ cos² + √B₂ sin²)².
+/// Bending rigidity across an edge, as in the energy of the sheet: (√B₁ cos² + √B₂ sin²)², N·m.
 pub(super) fn rigidity_across(fabric: &Fabric, edge: Vec2, warp: Vec2) -> f64 {
     let along_warp = (edge.perp(&warp) / edge.norm()).powi(2);
     (fabric.bend_warp.sqrt() * along_warp + fabric.bend_weft.sqrt() * (1.0 - along_warp)).powi(2)

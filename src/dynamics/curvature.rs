@@ -1,16 +1,18 @@
-//! Curvatures of a flat piece as sums over its particles: the stencils that bending is made of.
+//! Curvatures of a flat piece as sums over its particles: the stencils of bending.
 //!
-//! Every particle stands for the cloth nearest to it and has the second derivatives of its position along warp u, weft
-//! v and mixed: E = ½ Σ A (B₁ |x_uu|² + B₂ |x_vv|² + 2 √(B₁B₂) |x_uv|²), a plate without lateral contraction; rolled to
-//! a cylinder at any angle φ to the warp it has the rigidity (√B₁ cos²φ + √B₂ sin²φ)². Where the grid is regular x_uu
-//! and x_vv are second differences along a thread and x_uv the mixed difference of each cell. Elsewhere, at rims and in
-//! the strip between rim and grid, they are those of the quadratic surface through the particle that fits its
-//! neighbours best. So edges are natural: cloth bends to its rim as it does inside, and nothing bends it beyond.
+//! Every particle has the second derivatives of its position along warp u, weft v and mixed. Its area A is that of the
+//! cloth nearest to it. E = ½ Σ A (B₁ |x_uu|² + B₂ |x_vv|² + 2 √(B₁B₂) |x_uv|²) is a plate without lateral contraction.
+//! Rolled to a cylinder at the angle φ to the warp it has the rigidity (√B₁ cos²φ + √B₂ sin²φ)².
 //!
-//! Creases cut the cloth: neither side takes part in the curvature of the other, and a hinge of their own joins them (a
-//! fold of angle 0 is no crease). Seams join pieces that have no plane in common; both are bent up to their rims, and a
-//! hinge with the rigidity of the cloth beside it joins them. Hems and seam allowances are bent along the rim with the
-//! cloth.
+//! - On the regular grid x_uu and x_vv are second differences along a thread, and x_uv is the mixed difference of each
+//!   cell.
+//! - At rims, and in the strip between rim and grid, they belong to the quadratic surface through the particle that
+//!   fits its neighbours best. So rims are natural boundaries.
+//! - Creases cut the cloth. Neither side enters the curvature of the other, and a hinge joins both. A fold of angle 0
+//!   is no crease.
+//! - Seams join pieces that have no common plane. Both bend up to their rims, and a hinge with the rigidity of the
+//!   adjacent cloth joins them.
+//! - Hems and seam allowances bend along the rim with the cloth.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -24,22 +26,23 @@ use crate::geometry::{Topology, Vec2, sorted_pair};
 use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::Garment;
 
-/// Grid lines may leave the thread by this sine, 0.3°: rounding, and what a lattice gives to fit its rim.
+/// Largest sine of the angle between a grid line and its thread (0.3°): rounding, and the play of a lattice that fits
+/// its rim.
 const STRAIGHT: f64 = 5e-3;
-/// Of the three curvatures a combination that moves the neighbours by less than this share (squared) of what the
-/// clearest one moves them by is not seen there: a band one cell wide does not know whether it is bent across.
+/// Least squared singular value of a fit, as a share of the largest, below which a combination of curvatures is unseen:
+/// a band one cell wide cannot tell whether it is bent across.
 const SEEN: f64 = 1e-2;
 
-/// A rim that turns by more than this (cosine, 45°) at a particle has a corner there.
+/// Cosine of the turn of a rim (45°) beyond which a particle is a corner.
 const CORNER: f64 = 0.7;
 
-/// Stencils of all pieces, over particles; along rims lies more cloth, `hem` metres wide.
+/// Stencils of all pieces, over particles. A second layer of `hem` metres lies along rims.
 pub(super) fn of_pieces(mesh: &ClothMesh, fabrics: &[Arc<Fabric>], hem: f64) -> Vec<Stencil> {
     let pieces = mesh.pieces.iter().zip(fabrics);
     pieces.flat_map(|(piece, fabric)| Sheet::new(mesh, piece, fabric).stencils(hem)).collect()
 }
 
-/// Hinges along the seams, over particles; `node_of` says which of them are sewn together.
+/// Hinges along the seams, over particles. `node_of` maps particles to nodes.
 pub(super) fn of_seams(mesh: &ClothMesh, garment: &Garment, node_of: &[u32], fabrics: &[Arc<Fabric>]) -> Vec<Stencil> {
     // Layers sewn on each other turn freely at the seam.
     let lapped: HashSet<u32> = mesh
@@ -72,7 +75,7 @@ pub(super) fn of_seams(mesh: &ClothMesh, garment: &Garment, node_of: &[u32], fab
     out
 }
 
-/// The angle between two triangles that share a sewn edge, over the width that lies nearest to it.
+/// The hinge of two triangles that share a sewn edge: their angle over the width of the cloth nearest to the edge.
 fn hinge(mesh: &ClothMesh, fabrics: &[Arc<Fabric>], sides: [(usize, [u32; 3]); 2]) -> Option<Stencil> {
     let (mut flows, mut area, mut rigidity, mut length) = (Vec::with_capacity(4), 0.0, 0.0, 0.0);
     for (piece, [a, b, apex]) in sides {
@@ -92,7 +95,7 @@ fn hinge(mesh: &ClothMesh, fabrics: &[Arc<Fabric>], sides: [(usize, [u32; 3]); 2
     Some(Stencil { flows, weight: rigidity * length * length / area })
 }
 
-/// Whether a flat vector runs along the `warp` (0) or the weft (1).
+/// The thread along which a flat vector runs: 0 for the `warp`, 1 for the weft, `None` for neither.
 pub(super) fn thread_of(warp: Vec2, d: Vec2) -> Option<usize> {
     let along = [d.dot(&warp).abs(), d.perp(&warp).abs()];
     (0..2).find(|&k| along[1 - k] <= STRAIGHT * along[k])
@@ -122,7 +125,7 @@ struct Cell {
     corners: [u32; 4],
     /// Area of a rectangle, m².
     size: f64,
-    /// Area whose twist is that of the cell, m².
+    /// Area to which the twist of the cell is assigned, m².
     area: f64,
 }
 
@@ -162,7 +165,7 @@ impl<'a> Sheet<'a> {
         self.mesh.flat[n as usize]
     }
 
-    /// A flat vector along warp and weft.
+    /// Components of a flat vector along warp and weft.
     fn threads(&self, d: Vec2) -> [f64; 2] {
         [d.dot(&self.piece.warp), self.piece.warp.perp(&d)]
     }
@@ -228,7 +231,7 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Which way the rim runs at `v`, and how much of it is nearest to `v`, metres; `None` inside and at corners.
+    /// Direction of the rim at `v`, and the length of rim nearest to `v`, metres. `None` inside and at corners.
     fn rim_direction(&self, v: u32) -> Option<(Vec2, f64)> {
         let [a, b] = self.rim.get(&v)?[..] else { return None };
         let (before, after) = (self.flat(v) - self.flat(a), self.flat(b) - self.flat(v));
@@ -243,7 +246,7 @@ impl<'a> Sheet<'a> {
         [nodes[k], nodes[(k + 1) % 3], nodes[(k + 2) % 3]].map(|n| self.flat(n))
     }
 
-    /// The triangles round `v` in groups that no crease and no rim parts.
+    /// The triangles round `v`, in groups that no crease and no rim divides.
     fn fans(&self, v: u32) -> Vec<Vec<u32>> {
         let mut left = self.around[v as usize - self.piece.particles.start].clone();
         let mut out = Vec::new();
@@ -264,7 +267,7 @@ impl<'a> Sheet<'a> {
         out
     }
 
-    /// Triangles across the sides of `t` that nothing cuts.
+    /// Triangles across the sides of `t` that no crease cuts.
     fn neighbours(&self, t: u32) -> impl Iterator<Item = u32> + '_ {
         let [a, b, c] = self.mesh.triangles[t as usize];
         let sides = [[a, b], [b, c], [c, a]].map(sorted_pair);
@@ -278,8 +281,7 @@ impl<'a> Sheet<'a> {
         out
     }
 
-    /// The second difference at `v` between two neighbours on one thread, if it has them: along the warp (0) or the
-    /// weft (1).
+    /// Second difference at `v` along the warp (0) or the weft (1). `None` unless it has two neighbours on that thread.
     fn second_difference(&self, v: u32, fan: &[u32], thread: usize) -> Option<Flows> {
         let mut beside = [None; 2];
         for n in self.nodes_of(fan).into_iter().filter(|&n| n != v) {
@@ -294,7 +296,8 @@ impl<'a> Sheet<'a> {
         Some(vec![(v, a, 1.0 / (left * mean)), (v, b, 1.0 / (right * mean))])
     }
 
-    /// x_uu, x_vv and x_uv at `v` of the quadratic surface through it that fits its neighbours, and theirs, best.
+    /// Second derivatives x_uu, x_vv and x_uv at `v` of the quadratic surface through `v` that best fits its neighbours
+    /// and their neighbours.
     fn fit(&self, v: u32, fan: &[u32]) -> [Flows; 3] {
         let ring = self.nodes_of(fan);
         let beside = |t: u32| self.mesh.triangles[t as usize].iter().any(|n| ring.binary_search(n).is_ok());
@@ -323,7 +326,7 @@ impl<'a> Sheet<'a> {
         out
     }
 
-    /// The shortest ways along edges of `patch` from `v` to `n`: its edge, or two over a particle of `v`'s ring.
+    /// The shortest paths along edges of `patch` from `v` to `n`: one edge, or two by way of a particle of `v`'s ring.
     fn ways(&self, v: u32, n: u32, ring: &[u32], patch: &[u32]) -> Vec<Vec<(u32, u32)>> {
         if ring.binary_search(&n).is_ok() {
             return vec![vec![(v, n)]];
@@ -337,15 +340,16 @@ impl<'a> Sheet<'a> {
 }
 
 impl Cell {
-    /// x_uv (its sign does not matter): the sum over one diagonal less that over the other, over the area.
+    /// Mixed derivative x_uv: the sum over one diagonal minus that over the other, divided by the area. Its sign does
+    /// not matter.
     fn mixed(&self) -> Flows {
         let [a, b, c, d] = self.corners;
         [(c, a), (d, b), (d, a), (c, b)].map(|(from, to)| (from, to, 0.5 / self.size)).to_vec()
     }
 }
 
-/// For points round the origin, about 1 away: the factors with which differences of a function to its value at the
-/// origin add up to its second derivatives (uu, vv, uv), by weighted least squares. Linear functions give exactly 0.
+/// Second derivatives (uu, vv, uv) at the origin by weighted least squares: the factor of each point's difference to
+/// the value at the origin. The points lie about 1 from the origin. Linear functions give exactly 0.
 fn second_derivatives(points: &[Vec2]) -> Vec<Vector3<f64>> {
     let weights: Vec<f64> = points.iter().map(|p| (-p.norm_squared()).exp()).collect();
     let mut gram = Matrix2::zeros();

@@ -1,8 +1,8 @@
 //! Elastic sewn along a line: a band shorter than the cloth, which gathers to it.
 //!
-//! The gathers are finer than the grid. So along the line the cloth does not resist being drawn in, only being drawn
-//! out beyond its own length, and beside it lies a spring of the band's length, `ratio` × the line's. Cloth that is
-//! sewn to an edge with elastic on it gathers with it.
+//! The gathers are finer than the grid. So the cloth along the line does not resist compression, only extension beyond
+//! its own length. Beside it lies a spring of the band's length, `ratio` × the line's. Cloth that is sewn to an edge
+//! with elastic gathers with it.
 
 use std::collections::HashMap;
 
@@ -10,17 +10,17 @@ use super::springs::StretchLaw;
 use crate::geometry::sorted_pair;
 use crate::mesh::{ClothMesh, DrawnIn};
 
-/// Pull of the band at twice its length, N: a braided waist elastic of 20 mm. Not measured, as no garment file says
-/// what elastic it means.
+/// Pull of the elastic at twice its length, N: a braided waist elastic of 20 mm. Estimated, because a garment file does
+/// not say which elastic it means.
 const BAND: f64 = 12.0;
 
 /// The edges that lie on elastic lines, and their laws.
 pub(super) struct Elastics {
-    /// Ends (smaller first) → what elastic does there.
+    /// Edge (smaller end first) → how elastic draws it in.
     drawn_in: HashMap<[u32; 2], DrawnIn>,
     /// Index of the band's law.
     band: Option<u32>,
-    /// The cloth's law → that of the same cloth in gathers.
+    /// Index of a cloth's law → index of the law of the same cloth in gathers.
     gathered: HashMap<u32, u32>,
 }
 
@@ -29,7 +29,7 @@ impl Elastics {
         Self { drawn_in: mesh.drawn_in(), band: None, gathered: HashMap::new() }
     }
 
-    /// What elastic does to an edge of the mesh, if it lies along some.
+    /// Elastic along an edge of the mesh, if there is any.
     pub(super) fn on(&self, ends: [u32; 2]) -> Option<DrawnIn> {
         self.drawn_in.get(&sorted_pair(ends)).copied()
     }

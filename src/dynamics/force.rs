@@ -1,4 +1,4 @@
-//! Every force on the cloth at given positions, and the energies they come from.
+//! The forces on the cloth at given positions, and their energies.
 
 use rayon::prelude::*;
 
@@ -28,14 +28,14 @@ impl Pull {
     }
 }
 
-/// What acts on the cloth besides its own elasticity.
+/// External forces: everything that acts on the cloth besides its own elasticity.
 #[derive(Clone, Copy)]
 pub struct Forces<'a> {
     /// Share of gravity, 0 … 1.
     pub gravity: f64,
     /// Contacts found at the last detection.
     pub contacts: &'a [Contact<'a>],
-    /// Their law.
+    /// Law of the contacts.
     pub law: ContactLaw,
     /// Stitches that are open.
     pub pulls: &'a [Pull],
@@ -49,13 +49,13 @@ impl Forces<'_> {
         self.law.load(cloth, x, contact)
     }
 
-    /// The friction spring of contact number `k` under `load` N; `None` where there is no friction or it is open.
+    /// The friction spring of contact number `k` under `load` N. `None` where there is no friction or it is open.
     pub(super) fn hold(&self, cloth: &Cloth, x: &[Vec3], k: usize, load: f64) -> Option<Hold> {
         self.friction?.hold(k, &self.contacts[k], x, load, &cloth.friction)
     }
 
-    /// Elastic energy, contact energy, weight × height and what friction stores, J. Sliding friction has no energy: it
-    /// is taken for a force that stays as large as at the normal forces `loads` (one per contact).
+    /// Energy of elasticity, contact, weight and stored friction, J. Sliding friction has no energy of its own. It is
+    /// modelled as a constant force at the normal forces `loads` (one per contact).
     pub(super) fn energy(&self, cloth: &Cloth, x: &[Vec3], loads: &[f64]) -> f64 {
         let weight: f64 = cloth.mass.iter().zip(x).map(|(m, x)| m * x.y).sum::<f64>() * GRAVITY * self.gravity;
         let pressed: f64 = self.contacts.iter().map(|c| self.law.energy(cloth, x, c)).sum();

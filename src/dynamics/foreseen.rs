@@ -1,13 +1,14 @@
-//! Loads of springs and of shear as the last Newton step foresaw them.
+//! Loads of springs and shear as predicted by the linear model of the last Newton step.
 //!
-//! A step that carries the ends of a spring of length l apart by d across it draws it out by d²/2l, which its linear
-//! model does not know. Stiff cloth answers to that error of the second order with loads far above its weight: they
-//! make the trust in the step shrink, and as stiffness across the spring they falsify the next. Yet the next step takes
-//! them away again, for they are in the stiff, linear part of it. So, as in mixed formulations (Hellinger–Reissner),
-//! loads go their own way: the stiffness across a spring is that of the load which the step foresaw, and what the
-//! springs hold beyond it is not counted against the step (Magisano, Leonetti and Garcea 2017). The angle between two
-//! threads that turn out of their plane has an error of the same kind, and its load goes the same way. Cloth comes to
-//! rest in half the conjugate gradient iterations.
+//! A linear step that rotates a spring also lengthens it: a transverse displacement d of a spring of length l adds
+//! d²/2l. In stiff cloth this second-order error gives loads far above the weight. They would shrink the trust region,
+//! and falsify the transverse stiffness of the next step. Yet the next step removes them, because they are in its stiff
+//! linear part.
+//!
+//! So loads are variables of their own, as in mixed formulations (Hellinger–Reissner): the transverse stiffness uses
+//! the predicted load, and energy beyond it is not counted against the step (Magisano, Leonetti and Garcea 2017). Shear
+//! is treated alike, because the angle between threads that rotate out of their plane has an error of the same kind.
+//! Cloth comes to rest in half the conjugate gradient iterations.
 
 use super::model::Cloth;
 use super::part::those;
@@ -15,7 +16,7 @@ use super::shear::ShearTangent;
 use super::springs::{SHORTEST, Stretch, StretchLaw, StretchTangent};
 use crate::geometry::Vec3;
 
-/// Loads as a step foresaw them; none: as they are.
+/// Loads predicted by a step. Empty lists mean the loads at the present position.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Loads {
     /// Of every spring, N/m.
@@ -27,7 +28,7 @@ pub(super) struct Loads {
 }
 
 impl Loads {
-    /// Those of the springs, threads and shears that are wanted.
+    /// The loads of the selected springs, threads and shears.
     pub(super) fn of(&self, springs: &[bool], threads: &[bool], shears: &[bool]) -> Self {
         Self {
             springs: those(&self.springs, springs),
@@ -37,17 +38,17 @@ impl Loads {
     }
 }
 
-/// What a step foresees.
+/// Prediction of a step.
 #[derive(Default)]
 pub(super) struct Foreseen {
     /// The loads.
     pub(super) loads: Loads,
-    /// Energy that the cloth holds beyond what those loads say, J.
+    /// Energy of the cloth beyond that of the linear model, J.
     pub(super) beyond: f64,
 }
 
 impl Cloth {
-    /// What the linear model of a step from `x` to `to` says of springs and shear.
+    /// Prediction of the linear model of a step from `x` to `to`, for springs and shear.
     pub(super) fn foresee(&self, x: &[Vec3], to: &[Vec3]) -> Foreseen {
         let mut beyond = 0.0;
         let mut stretch = |stretch: &Stretch, [before, after]: [Vec3; 2]| {
@@ -66,13 +67,14 @@ impl Cloth {
         Foreseen { loads: Loads { springs, threads, shears }, beyond }
     }
 
-    /// Stiffness of spring number `k` at `x`: across it by the load that the last step foresaw, if one did.
+    /// Tangent stiffness of spring number `k` at `x`. Its transverse part uses the load predicted by the last step, if
+    /// there is one.
     pub(super) fn spring_tangent(&self, k: usize, x: &[Vec3]) -> StretchTangent {
         let spring = &self.springs[k];
         self.tangent_of(&spring.stretch, spring.span(x), self.foreseen.springs.get(k))
     }
 
-    /// The same of thread number `k`.
+    /// Tangent stiffness of thread number `k` at `x`, as for springs.
     pub(super) fn thread_tangent(&self, k: usize, x: &[Vec3]) -> StretchTangent {
         let thread = &self.threads[k];
         self.tangent_of(&thread.stretch, thread.span(x), self.foreseen.threads.get(k))
@@ -82,15 +84,15 @@ impl Cloth {
         stretch.tangent(&self.laws[stretch.law as usize], span, foreseen.copied())
     }
 
-    /// The same of shear number `k`.
+    /// Tangent stiffness of shear number `k` at `x`, as for springs.
     pub(super) fn shear_tangent(&self, k: usize, x: &[Vec3]) -> ShearTangent {
         self.shears[k].tangent(x, self.foreseen.shears.get(k).copied())
     }
 }
 
 impl Stretch {
-    /// The load (N/m) that the linear model of a step foresees, whose ends are apart by `before` and then by `after`,
-    /// and the energy (J) that it holds there beyond what that load says.
+    /// The load (N/m) that the linear model predicts when the vector between the ends changes from `before` to `after`,
+    /// and the energy at `after` beyond that of the linear model, J.
     fn foresee(&self, law: &StretchLaw, before: Vec3, after: Vec3) -> (f64, f64) {
         let length = before.norm().max(SHORTEST);
         let linear = (length + before.dot(&(after - before)) / length) / self.rest - 1.0;

@@ -1,4 +1,4 @@
-//! Coulomb friction with a memory: of cloth on the body, and of cloth on cloth.
+//! Coulomb friction with memory, between cloth and body and between cloth layers.
 
 use std::collections::HashMap;
 
@@ -7,73 +7,72 @@ use foldhash::fast::FixedState;
 use crate::contact::Contact;
 use crate::geometry::{Mat3, Vec3};
 
-/// How far every contact has been dragged across its normal: it holds like a spring, up to μ times its load; beyond
-/// that it slides, and what is stored stays what the spring can hold. That it is stored from step to step (not measured
-/// anew in every step) is what lets a garment rest.
+/// Tangential displacement stored per contact. A contact holds like a spring, up to μ times its load. Beyond that it
+/// slides, and the stored displacement stays at the limit. Because it is stored from step to step, a garment can come
+/// to rest.
 ///
-/// A contact with the body that begins takes over what the others of its nodes remember: cloth that slides goes from
-/// one edge or vertex of the body to the next, and is held all the while. One between layers begins without memory: a
-/// node that slides from one triangle of another layer to the next takes friction up again within
-/// the way a contact gives.
+/// A new contact with the body takes over the memory of its nodes' other contacts, because sliding cloth passes from
+/// one edge or vertex of the body to the next. A new contact between layers begins without memory: a node that slides
+/// to the next triangle of another layer is held again within half a millimetre.
 #[derive(Clone, Debug)]
 pub struct Friction {
     /// Tangential stiffness of a contact of little load, N/m.
     stiffness: f64,
     /// In the contacts' order.
     memory: Vec<Memory>,
-    /// What the contacts that touch remember, to be found again at the next detection.
+    /// Memory of touching contacts by key, to be found again after the next search.
     touching: HashMap<Key, Memory, FixedState>,
-    /// By how far the springs of a node's contacts with the body are drawn, in the mean of their loads, metres.
+    /// Mean stored displacement of each node's contacts with the body, weighted by load, metres.
     on_body: Vec<Vec3>,
-    /// Positions when all that was last brought up to date.
+    /// Positions at the last update.
     at: Vec<Vec3>,
 }
 
-/// Tangential stiffness of a contact of little load, N/m. A node of 1 mN weight slips after 0.03 mm; a sliding garment
-/// gets on by its unbalanced force over this in a step, so that a stiffer grip would never let it arrive.
+/// Least tangential stiffness of a contact, N/m. A node of 1 mN weight slips after 0.03 mm. In one step a sliding
+/// garment moves by its unbalanced force over this stiffness, so that a stiffer grip would never let it arrive.
 pub const GRIP: f64 = 10.0;
-/// No contact gives further than this before it slides, metres: the spring is as stiff as its load asks for. Cloth that
-/// is pulled tight over an edge would otherwise slide for millimetres before friction holds it.
+/// Largest tangential displacement of a contact before it slides, metres. Under high load the spring is stiffer than
+/// [`GRIP`]. Otherwise cloth that is pulled tight over an edge would slide for millimetres before friction holds it.
 const GIVE: f64 = 5e-4;
 
-/// What a contact remembers of when it was last dragged; one that was open, nothing.
+/// Memory of a contact since it was last dragged. An open contact has none.
 #[derive(Clone, Copy, Debug, Default)]
 struct Memory {
-    /// By how far its spring is drawn, metres.
+    /// Stored displacement, metres.
     drawn: Vec3,
-    /// Whether it slid when it was last dragged; it does until it moves again. (Its load may be another where the body
-    /// is looked at anew, so the spring cannot tell.)
+    /// Whether it slid when it was last dragged. The flag is kept because a new search may change the load, so that the
+    /// spring alone cannot tell.
     slid: bool,
     /// Whether it touched.
     touched: bool,
 }
 
-/// What makes a contact the same one in two detections: its nodes, how many are above, and what of the body it meets.
+/// Identity of a contact across searches: its nodes, the number above, and the number of the body's feature.
 type Key = ([u32; 4], u8, Option<u32>);
 
 fn key(contact: &Contact) -> Key {
     (contact.nodes, contact.above, contact.under.number())
 }
 
-/// The friction of one contact in one step, as far as a step's linear model knows it.
+/// Friction of one contact in the linear model of a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grip {
     /// Force on a node of weight one before the step, N.
     pub(super) force: Vec3,
     /// Whether it slides.
     pub(super) slides: bool,
-    /// Its stiffness, N/m: across the normal while the contact sticks; none along the way that it slides.
+    /// Stiffness, N/m: tangential while the contact sticks, and none along its sliding direction.
     pub(super) stiffness: Mat3,
 }
 
 /// The spring of a contact that pushes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hold {
-    /// By how far it is drawn, metres.
+    /// Stored displacement, metres.
     drawn: Vec3,
     /// N/m.
     stiffness: f64,
-    /// What it holds at most, N: μ times the load.
+    /// Friction limit, μ times the load, N.
     most: f64,
     /// Projects onto the plane across the contact's normal.
     across: Mat3,
@@ -86,7 +85,7 @@ impl Hold {
         self.stiffness * slip.norm() > self.most
     }
 
-    /// What is drawn after the contact went `way`, metres: no more than it can hold.
+    /// Stored displacement after the contact went `way`, metres, bounded by the friction limit.
     fn kept(&self, way: Vec3) -> Vec3 {
         let slip = self.drawn + self.across * way;
         if self.slides(slip) { slip * (self.most / (self.stiffness * slip.norm())) } else { slip }
@@ -104,12 +103,12 @@ impl Hold {
         self.stiffness * stuck * (slip - 0.5 * stuck)
     }
 
-    /// The grip now. What slid slides on.
+    /// Friction now. A contact that slid slides on.
     pub(super) fn grip(&self) -> Grip {
         self.linear(Vec3::zeros(), self.slid || self.slides(self.drawn))
     }
 
-    /// The law as it is after the contact went `way`, continued back to where it is now.
+    /// Linearisation after the contact went `way`, extrapolated back to the present position.
     pub(super) fn grip_after(&self, way: Vec3) -> Grip {
         let way = self.across * way;
         self.linear(way, self.slides(self.drawn + way))
@@ -119,7 +118,8 @@ impl Hold {
         if !slides {
             return Grip { force: self.drawn * -self.stiffness, slides, stiffness: self.across * self.stiffness };
         }
-        // μ · load against the way it slides; to turn that way takes as much force as to turn any pull of that size.
+        // The force is μ · load against the sliding direction. Its transverse stiffness is that of any pull of this
+        // size.
         let slip = self.drawn + way;
         let held = self.stiffness.min(self.most / slip.norm());
         let along = slip.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
@@ -128,7 +128,7 @@ impl Hold {
     }
 }
 
-/// What friction remembers of contacts that are set aside, and of the nodes.
+/// Memory of contacts that are set aside, and of their nodes.
 #[derive(Debug)]
 pub(super) struct Remembered {
     touching: Vec<(Key, Memory)>,
@@ -136,7 +136,7 @@ pub(super) struct Remembered {
 }
 
 impl Friction {
-    /// Nothing is drawn yet.
+    /// No stored displacement.
     pub(super) fn new(x: &[Vec3], contacts: &[Contact], stiffness: f64) -> Self {
         let on_body = vec![Vec3::zeros(); x.len()];
         let mut out = Self { stiffness, memory: Vec::new(), touching: HashMap::default(), on_body, at: x.to_vec() };
@@ -144,30 +144,30 @@ impl Friction {
         out
     }
 
-    /// The nodes were put to `x` by other hands: nothing was dragged on the way.
+    /// Accepts positions `x` that were set from outside: nothing was dragged on the way.
     pub(super) fn displaced(&mut self, x: &[Vec3]) {
         self.at = x.to_vec();
     }
 
-    /// Takes over from the contacts of the last detection what is known of those found by a new one.
+    /// Transfers the memory from the contacts of the last search to those of a new one.
     pub(super) fn detected(&mut self, contacts: &[Contact]) {
         self.memory = contacts.iter().map(|c| self.touching.get(&key(c)).copied().unwrap_or_default()).collect();
     }
 
-    /// What it remembers of `contacts`.
+    /// The memory of `contacts`.
     pub(super) fn remembered(&self, contacts: &[Contact]) -> Remembered {
         let touching = contacts.iter().filter_map(|c| Some((key(c), *self.touching.get(&key(c))?))).collect();
         Remembered { touching, on_body: self.on_body.clone() }
     }
 
-    /// Takes in what was `remembered` of contacts and of nodes that were held since.
+    /// Takes back the memory of contacts and of nodes that were held since.
     pub(super) fn remember(&mut self, remembered: Remembered, was_held: &[bool]) {
         self.touching.extend(remembered.touching);
         let nodes = self.on_body.iter_mut().zip(remembered.on_body).zip(was_held);
         nodes.filter(|(_, held)| **held).for_each(|((drawn, was), _)| *drawn = was);
     }
 
-    /// By how far the spring of contact `k` is drawn at `x`.
+    /// Displacement of the spring of contact `k` at `x`.
     fn slip(&self, k: usize, contact: &Contact, x: &[Vec3]) -> Vec3 {
         let since: Vec3 = contact.parts().map(|(i, w)| (x[i] - self.at[i]) * w).sum();
         let drawn = match self.memory[k] {
@@ -178,11 +178,11 @@ impl Friction {
         across(contact) * (drawn + since)
     }
 
-    /// The spring of contact number `k` for the normal force `load` and the nodes' coefficients `mu`; `None` while the
+    /// The spring of contact number `k` for the normal force `load` and the nodes' coefficients `mu`. `None` while the
     /// contact is open or without friction.
     pub(super) fn hold(&self, k: usize, contact: &Contact, x: &[Vec3], load: f64, mu: &[f64]) -> Option<Hold> {
         let most = coefficient(contact, mu) * load.max(0.0);
-        // Also where nothing rubs: what can hold nothing neither sticks nor slides.
+        // Without load or friction coefficient the contact neither sticks nor slides.
         if most <= 0.0 {
             return None;
         }
@@ -198,8 +198,8 @@ impl Friction {
         holds.map(|hold| hold.energy(Vec3::zeros())).sum()
     }
 
-    /// After a step to `x`: what sticks is drawn further, what slides keeps what it can hold, what left lets go.
-    /// `load(contact)` is the normal force.
+    /// Updates the memory after a step to `x`: sticking contacts add their displacement, sliding ones stay at their
+    /// limit, open ones forget. `load(contact)` is the normal force.
     pub(super) fn update(&mut self, x: &[Vec3], contacts: &[Contact], mu: &[f64], load: impl Fn(&Contact) -> f64) {
         let mut on_body = vec![(Vec3::zeros(), 0.0); x.len()];
         self.touching.clear();
@@ -232,7 +232,7 @@ fn across(contact: &Contact) -> Mat3 {
     Mat3::identity() - contact.normal * contact.normal.transpose()
 }
 
-/// The coefficient of a contact: its nodes', as they take part in it; of two layers the mean.
+/// Friction coefficient of a contact: the mean of its nodes' by their weights, and of two layers the mean of both.
 fn coefficient(contact: &Contact, mu: &[f64]) -> f64 {
     let (sum, whole) = contact.parts().fold((0.0, 0.0), |(s, n), (i, w)| (s + w.abs() * mu[i], n + w.abs()));
     sum / whole
@@ -302,7 +302,7 @@ mod tests {
             assert_relative_eq!(force(&friction, 1, &edge, &x), expected, epsilon = 1e-12);
             friction.update(&x, &[floor, edge], &mu, |_| 2.0);
         }
-        // Found again in another order; then the other layer is carried along with the node: nothing changes.
+        // Found again in another order. Then the other layer is carried along with the node: nothing changes.
         friction.detected(&[edge, floor]);
         x.iter_mut().for_each(|p| p.x += 0.5);
         assert_relative_eq!(force(&friction, 0, &edge, &x), 1.0, epsilon = 1e-12);

@@ -1,6 +1,6 @@
 //! The spring-mass cloth that sewing and draping share: masses, springs, bending, and one implicit step.
 //!
-//! Particles that are sewn together are one *node*; everything here speaks of nodes.
+//! Particles that are sewn together are one *node*. All code here works on nodes.
 
 mod bending;
 mod contact_law;
@@ -38,6 +38,6 @@ pub use step::{StepError, Stepper};
 pub use thread::Thread;
 pub use world::{NewtonStep, World};
 
-/// Nodes or springs that one thread goes through in a fraction of a millisecond: to wake another for fewer costs more
-/// than it wins (a tenth of all CPU time was measured in waking).
+/// Least number of nodes or springs per thread. One thread handles so many in a fraction of a millisecond, and waking
+/// another for fewer costs more than it saves (a tenth of all CPU time was measured in waking threads).
 const ONE_THREAD: usize = 8192;

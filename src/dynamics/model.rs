@@ -15,15 +15,15 @@ use crate::geometry::{Topology, Vec2, Vec3, sorted_pair};
 use crate::mesh::ClothMesh;
 use crate::pattern::{Garment, Give};
 
-/// Which springs the cloth gets.
+/// The springs of the cloth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SpringModel {
-    /// Every fabric by its measured curves.
+    /// Measured curves of every fabric.
     Measured,
-    /// The same, with rims as they are cut: a specimen has no hem.
+    /// Measured curves, and rims without hems: for specimens.
     Raw,
-    /// One stiffness, N/m, along warp and weft and a share of it on the bias: for the first closing of the seams,
-    /// when the cloth must give way to be led home.
+    /// One stiffness along warp and weft, and a share of it on the bias. It is for closing the seams, when all cloth
+    /// must give way alike.
     Soft {
         /// N/m.
         stiffness: f64,
@@ -32,28 +32,29 @@ pub enum SpringModel {
     },
 }
 
-/// A steep angle grid so that edges of one direction share a law: 90° in so many steps.
+/// Steps of the angle between warp and weft (90°) for which laws are tabulated, so that springs of almost one direction
+/// share a law.
 const ANGLE_STEPS: usize = 18;
-/// A sewn or hemmed rim is two layers of cloth along a thread; it stands for this width of straight grain, metres
-/// (the usual seam allowance).
+/// Width of the second layer of cloth at a sewn or hemmed rim, metres: the usual seam allowance.
 const RIM_WIDTH: f64 = 0.01;
-/// A button or hook leaves this much thread between what it joins, metres: room for the layers of an underlap.
+/// Length of thread between the two points that a button or hook joins, metres: room for the layers of an underlap.
 const TACK_LENGTH: f64 = 1e-3;
-/// Stiffness of that thread, N/m: the 10 N of a tight waistband open it by 10 mm, half a buttonhole. With 2,000 to
-/// 5,000 the particles nearest to both ends, up to half a cell beside the points that are to meet, drew the waistband
-/// of the trousers askew, and it took up to three times as long to rest.
+/// Stiffness of the thread of a button or hook, N/m. The 10 N of a tight waistband open it by 10 mm, half a buttonhole.
+/// With 2,000 to 5,000 N/m the waistband of the trousers was drawn askew and took up to three times as long to rest,
+/// because the nearest particles are up to half a cell beside the points that are to meet.
 const TACK_STIFFNESS: f64 = 1000.0;
-/// A seam whose sides differ by more than this share is gathered or stretched on: its length is one side's own.
+/// Length ratio of a seam's sides above which an even seam counts as gathered: it then has the length of its shorter
+/// side.
 const GATHERED: f64 = 1.05;
 
-/// A garment that is cut: its pattern, its meshed pieces and what each is made of.
+/// A garment that is cut: its pattern, its meshed pieces and the fabric of each.
 #[derive(Clone, Copy, Debug)]
 pub struct Cut<'a> {
     /// The checked pattern.
     pub garment: &'a Garment,
     /// Its pieces as grids.
     pub mesh: &'a ClothMesh,
-    /// Fabric of every piece; pieces of one fabric share it.
+    /// Fabric of every piece. Pieces of one fabric share it.
     pub fabrics: &'a [Arc<Fabric>],
 }
 
@@ -70,12 +71,12 @@ pub struct Cloth {
     pub flat: Vec<[Vec2; 3]>,
     /// Piece of every triangle.
     pub piece: Vec<u32>,
-    /// Springs along the threads of the grid and along rims, along the edges of cloth that is drawn in by elastic or
-    /// gathered, and those of tacks.
+    /// Springs along threads of the grid, along rims, along edges of cloth that is gathered or drawn in by elastic, and
+    /// of tacks.
     pub springs: Vec<Spring>,
     /// Threads of the triangles between the grid and the outline.
     pub threads: Vec<Thread>,
-    /// Their laws.
+    /// Laws of springs and threads.
     pub laws: Vec<StretchLaw>,
     /// Shear of the grid's triangles and of those that have threads.
     pub shears: Vec<Shear>,
@@ -83,7 +84,7 @@ pub struct Cloth {
     pub bending: Bending,
     /// Pressed folds.
     pub(super) creases: Vec<Crease>,
-    /// Nodes that share a mesh edge or a spring, both orders left out: (smaller, larger), sorted.
+    /// Pairs of nodes that share a mesh edge or a spring: (smaller, larger), sorted, each once.
     pub edges: Vec<[u32; 2]>,
     /// Half the cloth's thickness at every node, metres.
     pub half_thickness: Vec<f64>,
@@ -91,7 +92,7 @@ pub struct Cloth {
     pub friction: Vec<f64>,
     /// [`Bending::bound`] of every edge, N/m.
     pub bending_bound: Vec<f64>,
-    /// Nodes that stay where they are, in the jaws of a clamp; to be set before the first step.
+    /// Nodes that are held in place, such as those in the jaws of a clamp. Set it before the first step.
     pub held: Vec<u32>,
     /// Loads of springs and shear as the last step foresaw them.
     pub(super) foreseen: Loads,
@@ -112,13 +113,13 @@ pub(crate) fn tacked<'a>(mesh: &'a ClothMesh, garment: &'a Garment) -> impl Iter
     garment.closures.iter().flat_map(|c| &c.tacks).filter_map(move |[a, b]| Some([nearest(a)?, nearest(b)?]))
 }
 
-/// Every particle its own node: the garment before it is sewn.
+/// The node of every particle before sewing: each particle is its own node.
 pub fn identity_nodes(mesh: &ClothMesh) -> Vec<u32> {
     (0..mesh.flat.len() as u32).collect()
 }
 
 impl Cloth {
-    /// Builds the model; `node_of` maps particles to nodes (0 … n−1, each used).
+    /// Builds the model. `node_of` maps particles to nodes (0 … n−1, each used).
     pub fn new(cut: &Cut, node_of: Vec<u32>, model: SpringModel) -> Self {
         let Cut { garment, mesh, fabrics } = *cut;
         let nodes = node_of.iter().max().map_or(0, |&n| n as usize + 1);
@@ -158,7 +159,7 @@ impl Cloth {
         out
     }
 
-    /// These `nodes` and those that an edge leads to from them.
+    /// The given `nodes` and their neighbours along edges.
     pub fn with_neighbours(&self, nodes: &[bool]) -> Vec<bool> {
         let mut out = nodes.to_vec();
         for [a, b] in self.edges.iter().map(|e| e.map(|n| n as usize)) {
@@ -168,7 +169,7 @@ impl Cloth {
         out
     }
 
-    /// Whether a node stays where it is.
+    /// Whether each node is held.
     pub(super) fn is_held(&self) -> Vec<bool> {
         let mut out = vec![false; self.mass.len()];
         self.held.iter().for_each(|&n| out[n as usize] = true);
@@ -180,7 +181,8 @@ impl Cloth {
         2.0 * self.half_thickness.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Masses by the cloth nearest to each particle: they add up to areal density × area (F7).
+    /// Sets the masses: each triangle gives a third of its mass to each corner, so that they add up to areal density ×
+    /// area (F7). Sets thickness and friction as well.
     fn weigh(&mut self, mesh: &ClothMesh, fabrics: &[Arc<Fabric>]) {
         for (t, nodes) in self.triangles.iter().enumerate() {
             let fabric = &fabrics[self.piece[t] as usize];
@@ -198,8 +200,8 @@ impl Cloth {
         }
     }
 
-    /// Springs along the edges, each as wide as the cloth beside it that has no threads of its own, and shear: on the
-    /// grid the threads have springs and the diagonals have none. Soft cloth is led home by springs alone.
+    /// Adds springs, threads and shear. The width of a spring is that of the cloth beside it that has no threads of its
+    /// own. On the grid, threads have springs and diagonals have none. Soft cloth has springs only.
     fn add_springs(&mut self, mesh: &ClothMesh, garment: &Garment, fabrics: &[Arc<Fabric>], model: SpringModel) {
         let seam_rest = SeamRest::new(mesh, garment);
         let topology = Topology::new(&mesh.triangles);
@@ -267,7 +269,7 @@ impl Cloth {
         }
     }
 
-    /// Laws of every piece, one per angle step from warp to weft; returns each piece's first.
+    /// Adds the laws of every piece, one per angle step from warp to weft. Returns the index of each piece's first law.
     fn make_laws(&mut self, fabrics: &[Arc<Fabric>], model: SpringModel) -> Vec<u32> {
         let mut firsts: Vec<u32> = Vec::with_capacity(fabrics.len());
         for (p, fabric) in fabrics.iter().enumerate() {
@@ -305,8 +307,8 @@ impl Cloth {
         self.node_of.iter().map(|&n| nodes[n as usize]).collect()
     }
 
-    /// Takes note of where the cloth has gone, in a step that `foresaw` its loads or in none that did: folds turn on
-    /// from the angle they have.
+    /// Updates the memory of the cloth after it moved to `x`: angles of creases, and the loads that the step predicted
+    /// (empty: none).
     pub(super) fn follow(&mut self, x: &[Vec3], foresaw: Loads) {
         self.creases.iter_mut().for_each(|c| c.follow(x));
         self.foreseen = foresaw;
@@ -328,7 +330,7 @@ fn area([a, b, c]: &[Vec2; 3]) -> f64 {
     0.5 * (b - a).perp(&(c - a)).abs()
 }
 
-/// Lengths that rim edges take once they are sewn, for edges of seams whose sides differ.
+/// Rest lengths of rim edges once they are sewn, for seams whose sides differ in length.
 pub(super) struct SeamRest {
     /// (ends, metres), sorted.
     lengths: Vec<([u32; 2], f64)>,
@@ -360,7 +362,7 @@ impl SeamRest {
         Self { lengths }
     }
 
-    /// Rest length of an edge of the mesh, metres: what its seam gives it, or that of the flat piece.
+    /// Rest length of an edge of the mesh, metres: the one given by its seam, or that of the flat piece.
     pub(super) fn of(&self, mesh: &ClothMesh, ends: [u32; 2]) -> f64 {
         let found = self.lengths.binary_search_by(|e| e.0.cmp(&sorted_pair(ends)));
         let flat = || (mesh.flat[ends[1] as usize] - mesh.flat[ends[0] as usize]).norm();

@@ -1,8 +1,8 @@
-//! Of the contacts that were found, those that matter in the next step.
+//! Narrow phase: the contacts, among those found, that can matter in the next step.
 //!
-//! Contacts are looked for far enough around that many steps can do without looking again; so most of what is found
-//! lies too far apart to push, or to be kept apart, in any one of them (nineteen out of twenty, in a garment that hangs
-//! almost still). A gap shrinks by no more than its nodes move: that bound, which is cheap, says which to evaluate.
+//! The search radius is large enough for many steps. So most contacts are too far apart to push, or to need keeping
+//! apart, in any single step: nineteen out of twenty in a garment that hangs almost still. A gap shrinks by no more
+//! than its nodes move. This cheap bound selects the contacts to evaluate.
 
 use rayon::prelude::*;
 
@@ -10,27 +10,29 @@ use super::ONE_THREAD;
 use crate::contact::Contact;
 use crate::geometry::Vec3;
 
-/// A node is expected to go no further in a step than so many times what it went in the last, and a little, metres.
+/// Expected motion of a node in a step, in multiples of its motion in the last step ([`LITTLE`] is added). Nodes that
+/// go further make the selection be renewed.
 const FORESIGHT: f64 = 1.5;
+/// Constant part of the expected motion of a node, metres.
 const LITTLE: f64 = 0.1e-3;
 
-/// What the bound of a contact is made of.
+/// Data for the bound of a contact's gap.
 struct Found {
     nodes: [u32; 4],
     count: u8,
     above: u8,
-    /// Whether it has to be kept apart: what was found in the body must come out.
+    /// Whether it must be kept apart. Cloth that was found inside the body must come out, and is not.
     outside: bool,
-    /// The step after which it was last turned to where its closest points are.
+    /// Number of the step after which its closest points were last updated.
     turned: u32,
-    /// The triangle or edge of the cloth whose contact with a feature of the body it is, as the caller numbers them.
+    /// For a contact with a feature of the body: the triangle or edge of the cloth, in the caller's numbering.
     element: Option<u32>,
-    /// Gap where it was found, and what its nodes had gone there from where they are measured from, metres.
+    /// Gap when it was found, plus the distances of its nodes from their origins then, metres.
     gap: f64,
 }
 
 impl Found {
-    /// Of a `contact` found at `x`, where node i is `gone[i]` metres from where it is measured from, and turned there.
+    /// Data of a `contact` found at `x`, where node i is `gone[i]` metres from its origin.
     fn new((contact, element): &Source, x: &[Vec3], gone: &[f64], turned: u32) -> Self {
         let gap = contact.gap(x);
         let Contact { nodes, count, above, .. } = *contact;
@@ -40,7 +42,7 @@ impl Found {
         out
     }
 
-    /// A gap that it cannot be below where node i is within `moved[i]` of where it is measured from, metres.
+    /// Lower bound of the gap while node i is within `moved[i]` metres of its origin, metres.
     fn least(&self, moved: &[f64]) -> f64 {
         let most = |nodes: &[u32]| nodes.iter().map(|&n| moved[n as usize]).fold(0.0, f64::max);
         let (above, below) = self.nodes[..self.count as usize].split_at(self.above as usize);
@@ -48,14 +50,14 @@ impl Found {
     }
 }
 
-/// A contact, and the triangle or edge of the cloth whose contact with a feature of the body it is.
+/// A contact, and for a feature of the body the triangle or edge of the cloth that meets it.
 pub(super) type Source<'a> = (Contact<'a>, Option<u32>);
 
 /// Contacts that are set aside while their nodes are held.
 pub(super) struct Aside<'a> {
     all: Vec<Contact<'a>>,
     found: Vec<Found>,
-    /// The step after which they were.
+    /// Number of the step after which they were set aside.
     step: u32,
 }
 
@@ -66,38 +68,38 @@ impl<'a> Aside<'a> {
     }
 }
 
-/// The contacts of a step, and how far each node may go in it for no other to matter.
+/// The contacts that matter in a step, and the motion per node up to which no other matters.
 pub(super) struct Near<'a> {
-    /// All that was found, turned to where the closest points were when it last mattered.
+    /// All contacts found. Their closest points are those of the last time they mattered.
     pub(super) all: Vec<Contact<'a>>,
     found: Vec<Found>,
     /// Contacts matter below this gap, metres.
     gap: f64,
     /// Steps made.
     step: u32,
-    /// How far each node may go, metres.
+    /// Allowed motion of each node, metres.
     may: Vec<f64>,
-    /// The contacts that matter, turned to where their closest points are.
+    /// The contacts that matter, with up-to-date closest points.
     pub(super) contacts: Vec<Contact<'a>>,
-    /// Their numbers among those that were found.
+    /// Indices of these contacts in `all`.
     number: Vec<u32>,
 }
 
 impl<'a> Near<'a> {
-    /// For `nodes` nodes, whose contacts matter below `gap` metres.
+    /// An empty selection for `nodes` nodes. Contacts matter below a gap of `gap` metres.
     pub(super) fn new(nodes: usize, gap: f64) -> Self {
         let (all, found, contacts, number) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         Self { all, found, gap, step: 0, may: vec![LITTLE; nodes], contacts, number }
     }
 
-    /// The triangles and edges of the cloth that are in the body, by its features.
+    /// The triangles and edges of the cloth that are inside the body, according to their contacts with its features.
     pub(super) fn under<'b>(&'b self, x: &'b [Vec3]) -> impl Iterator<Item = u32> + 'b {
         let inside = self.contacts.iter().zip(&self.number).filter(|(contact, _)| contact.gap(x) <= 0.0);
         inside.filter_map(|(_, k)| self.found[*k as usize].element)
     }
 
-    /// Lets go of what does not `stay`. Returns what of it was found at `wanted` triangles and edges, sorted by these
-    /// and turned to where its closest points are at `x`.
+    /// Removes contacts that do not `stay`. Returns those of them at the `wanted` triangles and edges, sorted by these,
+    /// with their closest points at `x`.
     pub(super) fn retain(
         &mut self,
         x: &[Vec3],
@@ -120,7 +122,7 @@ impl<'a> Near<'a> {
         left
     }
 
-    /// Sets those aside whose nodes are all held.
+    /// Sets contacts aside whose nodes are all held.
     pub(super) fn set_aside(&mut self, x: &[Vec3], origin: &[Vec3], is_held: &[bool]) -> Aside<'a> {
         let rests: Vec<bool> = self.all.iter().map(|c| c.parts().all(|(i, _)| is_held[i])).collect();
         let (all, found) = (extract(&mut self.all, &rests), extract(&mut self.found, &rests));
@@ -128,7 +130,7 @@ impl<'a> Near<'a> {
         Aside { all, found, step: self.step }
     }
 
-    /// Takes those back that were set aside: what mattered then has gone on to.
+    /// Takes back contacts that were set aside.
     pub(super) fn take_back(&mut self, x: &[Vec3], origin: &[Vec3], aside: Aside<'a>) {
         let Aside { all, found, step } = aside;
         self.all.extend(all);
@@ -138,7 +140,7 @@ impl<'a> Near<'a> {
         self.choose(x, origin);
     }
 
-    /// Takes in what was found at `x`; every node's way is measured from its `origin`.
+    /// Adds the contacts found at `x`. The motion of every node is measured from its `origin`.
     pub(super) fn add(&mut self, sources: &[Source<'a>], x: &[Vec3], origin: &[Vec3]) {
         let gone: Vec<f64> = x.iter().zip(origin).map(|(x, o)| (x - o).norm()).collect();
         // In the step that now begins.
@@ -147,25 +149,25 @@ impl<'a> Near<'a> {
         self.found.par_extend(sources.par_iter().with_min_len(ONE_THREAD).map(|s| Found::new(s, x, &gone, turned)));
     }
 
-    /// Expects the nodes, which went from `last` to `x`, to go on like that.
+    /// Sets the expected motion of nodes that went from `last` to `x`.
     pub(super) fn foresee(&mut self, last: &[Vec3], x: &[Vec3]) {
         for (may, (a, b)) in self.may.iter_mut().zip(last.iter().zip(x)) {
             *may = FORESIGHT * (b - a).norm() + LITTLE;
         }
     }
 
-    /// Follows the nodes, which made a step to `x` and are measured from `origin`.
+    /// Updates the selection after a step to `x`. Motions are measured from `origin`.
     pub(super) fn follow(&mut self, x: &[Vec3], origin: &[Vec3]) {
         self.step += 1;
         self.choose(x, origin);
     }
 
-    /// Takes in what matters when the nodes, which are measured from `origin`, go from `x` to `to`.
-    /// Returns whether all of that was there already.
+    /// Adds the contacts that matter on the way from `x` to `to`. Motions are measured from `origin`. Returns whether
+    /// all of them were there already.
     pub(super) fn covers(&mut self, x: &[Vec3], to: &[Vec3], origin: &[Vec3]) -> bool {
         let mut covered = true;
         for (may, (a, b)) in self.may.iter_mut().zip(x.iter().zip(to)) {
-            // A way that is no number is as far as any.
+            // A motion that is not a number counts as infinite.
             let way = (b - a).norm().min(f64::INFINITY);
             if way > *may {
                 (*may, covered) = (FORESIGHT * way + LITTLE, false);
@@ -177,7 +179,7 @@ impl<'a> Near<'a> {
         covered
     }
 
-    /// The contacts that matter as they are after a step to `to`.
+    /// The contacts that matter, with their closest points at `to`.
     pub(super) fn after(&self, to: &[Vec3]) -> Vec<Contact<'a>> {
         let turned = |contact: &Contact<'a>| {
             let mut contact = *contact;
@@ -187,7 +189,7 @@ impl<'a> Near<'a> {
         self.contacts.par_iter().with_min_len(ONE_THREAD).map(turned).collect()
     }
 
-    /// Those that have to be kept apart.
+    /// The contacts that must be kept apart.
     pub(super) fn apart(&self) -> Vec<&Contact<'a>> {
         let outside = |k: &u32| self.found[*k as usize].outside;
         self.contacts.iter().zip(&self.number).filter(|(_, k)| outside(k)).map(|(c, _)| c).collect()
@@ -219,21 +221,20 @@ impl<'a> Near<'a> {
     }
 }
 
-/// Takes the `items` that go out of their order.
+/// Removes the items that go, and returns them.
 fn extract<T>(items: &mut Vec<T>, goes: &[bool]) -> Vec<T> {
     let mut at = goes.iter();
     items.extract_if(.., |_| at.next().is_some_and(|goes| *goes)).collect()
 }
 
-/// Keeps the `items` that stay, the last of them in the places of those that go: most stay, and few need be moved.
+/// Keeps the items that stay. The last ones fill the gaps: most stay, so that few are moved.
 fn retain_unordered<T>(items: &mut Vec<T>, stays: &[bool]) {
     for k in (0..items.len()).rev().filter(|&k| !stays[k]) {
         items.swap_remove(k);
     }
 }
 
-/// Turns a contact to where its closest points are now. One that did not matter in the last step has stayed on its
-/// side.
+/// Updates the closest points of a contact. A contact that did not matter in the last step has stayed on its side.
 fn turn(contact: &mut Contact, found: &Found, mattered: bool, x: &[Vec3]) {
     if mattered {
         turn_on(contact, x);
@@ -245,8 +246,8 @@ fn turn(contact: &mut Contact, found: &Found, mattered: bool, x: &[Vec3]) {
     }
 }
 
-/// Turns a contact that mattered in the last step. Its share follows half the way: a large load that changed with it at
-/// once would throw its nodes to and fro for ever.
+/// Updates the closest points of a contact that mattered in the last step. Its share follows half of the way only: a
+/// large load that changed at once would throw its nodes to and fro for ever.
 fn turn_on(contact: &mut Contact, x: &[Vec3]) {
     let share = contact.share;
     contact.refresh(x);
@@ -267,7 +268,7 @@ mod tests {
         (x, near)
     }
 
-    /// What is near after `contacts` were found at `x`.
+    /// The selection after `contacts` were found at `x`.
     fn found<'a>(contacts: Vec<Contact<'a>>, x: &[Vec3]) -> Near<'a> {
         let mut near = Near::new(x.len(), GAP);
         near.add(&contacts.into_iter().map(|c| (c, None)).collect::<Vec<_>>(), x, x);

@@ -1,12 +1,12 @@
-//! A Newton step with the cloth's true stiffness, for the way to rest of cloth that hangs already.
+//! A Newton step with the true stiffness, for cloth that is near rest.
 //!
-//! The majorant of [`Stepper`] is safe but holds long waves back: it bounds bending edge by edge, and counts the load
-//! of a compressed spring as if it stiffened it. The true stiffness has neither fault; conjugate gradients solve it,
-//! with the majorant's factor as preconditioner (Steihaug 1983: stopped where the curvature turns negative or the step
-//! gets longer than the model can be trusted).
+//! The majorant of [`Stepper`] is safe but slows long waves: it bounds bending edge by edge, and treats the load of a
+//! compressed spring as stiffening. The true stiffness has neither fault. Preconditioned conjugate gradients solve it,
+//! with the majorant's factor as preconditioner (Steihaug 1983: the iteration stops at negative curvature or at the
+//! trust region).
 //!
-//! Contacts that begin or cease to push, to hold or to slide on the way are kinks in the energy. A step that takes them
-//! on their wrong side may be no step at all: garments swung to and fro on their friction.
+//! Contacts that begin or cease to push, to hold or to slide are kinks in the energy. A step that takes them on their
+//! wrong side need not lower the energy: garments swung to and fro on their friction.
 
 use rayon::prelude::*;
 
@@ -20,38 +20,39 @@ use super::step::{Pushing, Reuse, StepError, Stepper, opening, presses};
 use crate::contact::Contact;
 use crate::geometry::{Mat3, Vec3};
 
-/// Most conjugate gradient iterations of a step; more would cost more than a new factor.
+/// Most conjugate gradient iterations of a step. More would cost more than a new factor.
 const ITERATIONS: usize = 16;
-/// A preconditioner need not be new: an older factor costs iterations, about one for every contact it does not know.
+/// Reuse of an older factor as preconditioner. It costs about one iteration for every contact that it does not know.
 const OLD: Reuse = Reuse { moved: 1e-3, contacts: 8 };
-/// A step is solved up to so often: with what pushes and what slides as it was, then, from there on, as it comes out (a
-/// semismooth Newton method; Qi and Sun 1993).
+/// Most rounds of the active set: the first uses the contacts that push and slide at the start, each further one those
+/// that the round before ended with (a semismooth Newton method; Qi and Sun 1993).
 const ROUNDS: usize = 4;
-/// Shorter than this share of the way from one round's step to the next it is not worth looking for a better one.
+/// Least share of the way from one round's step to the next that is tried.
 const SHORTEST_WAY: f64 = 0.1;
-/// It is solved again where the energy of contact and friction is misjudged by more than this share of what it gains.
+/// Error of the predicted energy of contact and friction, as a share of the step's gain, above which a further round is
+/// made.
 const MISJUDGED: f64 = 0.3;
-/// They end when the preconditioned residual has fallen to this share (squared).
+/// Convergence of conjugate gradients: the squared preconditioned residual falls to this share.
 const SOLVED: f64 = 1e-4;
 
 /// A proposed step.
 pub(super) struct Proposal {
-    /// Where to go.
+    /// Displacement of every node, metres.
     pub(super) d: Vec<Vec3>,
-    /// What the cloth resists it with, without contact, N: its stiffness times `d`.
+    /// Resistance of the cloth without contact, its stiffness times `d`, N.
     resisted: Vec<Vec3>,
-    /// By how much the model says the energy will fall, J.
+    /// Predicted decrease of the energy, J.
     pub(super) gain: f64,
 }
 
 impl Proposal {
-    /// To stay where it is.
+    /// The zero step.
     fn none(nodes: usize) -> Self {
         Self { d: vec![Vec3::zeros(); nodes], resisted: vec![Vec3::zeros(); nodes], gain: 0.0 }
     }
 }
 
-/// What the true stiffness is made of at one position.
+/// The parts of the true stiffness at one position.
 struct Tangent<'a> {
     cloth: &'a Cloth,
     dt: f64,
@@ -62,7 +63,7 @@ struct Tangent<'a> {
     shears: Vec<ShearTangent>,
     /// [`super::crease::Crease::root`] of every crease.
     creases: Vec<[Vec3; 4]>,
-    /// Numbers of the contacts that push, and the stiffness of their friction, N/m.
+    /// Numbers of the active contacts, with the stiffness of their friction, N/m.
     grips: Vec<(usize, Mat3)>,
 }
 
@@ -108,7 +109,7 @@ impl Stepper {
         Ok(step)
     }
 
-    /// Conjugate gradients on the tangent, on from the step `from`.
+    /// Conjugate gradients on the tangent, starting from the step `from`.
     fn truncated(&self, tangent: &Tangent, rhs: &[Vec3], from: &Proposal, radius: f64) -> Result<Vec<Vec3>, StepError> {
         let mut d = from.d.clone();
         let resisted = tangent.with_contacts(from.resisted.clone(), &d);
@@ -159,12 +160,12 @@ impl<'a> Tangent<'a> {
         Self { cloth, dt, forces, presses: pushing.presses, springs, threads, shears, creases, grips }
     }
 
-    /// (M/Δt² + true stiffness) p, with the contacts that push.
+    /// (M/Δt² + true stiffness) p, with the active contacts.
     fn apply(&self, p: &[Vec3]) -> Vec<Vec3> {
         self.with_contacts(self.apply_free(p), p)
     }
 
-    /// What the contacts that push resist `p` with, beside the cloth's own `out`.
+    /// Adds the resistance of the active contacts against `p` to the cloth's own, `out`.
     fn with_contacts(&self, mut out: Vec<Vec3>, p: &[Vec3]) -> Vec<Vec3> {
         for (k, grip) in &self.grips {
             let (contact, press) = (&self.forces.contacts[*k], &self.presses[*k]);
@@ -209,41 +210,42 @@ impl<'a> Tangent<'a> {
         out
     }
 
-    /// The most that a step changes an edge, metres. A node's own way does not matter: a garment that sways as a whole
-    /// turns no spring.
+    /// Largest change of an edge by the step `d`, metres. The motion of single nodes does not matter: a garment that
+    /// sways as a whole turns no spring.
     fn change(&self, d: &[Vec3]) -> f64 {
         let square = |e: &[u32; 2]| (d[e[0] as usize] - d[e[1] as usize]).norm_squared();
         self.cloth.edges.iter().map(square).fold(0.0, f64::max).sqrt()
     }
 }
 
-/// How far a step carries a contact, metres.
+/// Displacement of a contact by the step `d`, metres.
 fn way(contact: &Contact, d: &[Vec3]) -> Vec3 {
     contact.parts().map(|(i, w)| d[i] * w).sum()
 }
 
-/// The energy near one position as a step sees it: quadratic without contact, every contact piece by piece.
+/// Model of the energy near one position: quadratic without contact, and piecewise for every contact.
 struct Model<'a> {
     tangent: Tangent<'a>,
     /// Forces without contact, N.
     free: &'a [Vec3],
     holds: &'a [Option<Hold>],
-    /// What the step was solved with.
+    /// The contacts with which the step was solved.
     pushing: Pushing<'a>,
 }
 
-/// What a step does to the energy, J.
+/// Change of the energy by a step, J.
 #[derive(Clone, Copy)]
 struct Judged {
-    /// By how much it falls: every contact pushes only while it touches, and slides only beyond what it can hold.
+    /// Decrease in the piecewise model: a contact pushes only while it touches, and slides only beyond its friction
+    /// limit.
     gain: f64,
-    /// By how much the linear model of the step misjudges contact and friction, in the sum of all.
+    /// Error of the step's linear model of contact and friction, summed over all contacts.
     misjudged: f64,
 }
 
 impl Model<'_> {
-    /// The step on the way from `from` to `to`, halved again and again, where the energy is lowest, and how much is
-    /// misjudged there. What the step was solved with may be wrong all along: then the shortest that was tried.
+    /// The step of lowest energy on the way from `from` to `to`, which is halved again and again, and its misjudged
+    /// energy. If none lowers the energy, it is the shortest one tried.
     fn best_on_the_way(&self, from: &Proposal, to: Vec<Vec3>) -> (Proposal, f64) {
         let way: Vec<Vec3> = to.iter().zip(&from.d).map(|(b, a)| b - a).collect();
         let resisted = self.tangent.apply_free(&way);
@@ -265,7 +267,7 @@ impl Model<'_> {
         best
     }
 
-    /// Judges the step `d`, which the cloth resists as much as told.
+    /// Judges the step `d`, where `resisted` is the resistance of the cloth.
     fn judge(&self, d: &[Vec3], resisted: &[Vec3]) -> Judged {
         let mut out = Judged { gain: dot(self.free, d) - 0.5 * dot(d, resisted), misjudged: 0.0 };
         let Pushing { presses, active, grips } = self.pushing;

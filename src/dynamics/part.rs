@@ -1,8 +1,8 @@
-//! Part of a garment in motion while the rest of it is held where it is.
+//! Partial solves: steps of an active set of nodes while the rest is held.
 //!
-//! Near its rest a garment moves in one fold or two, by millimetres, and hardly anywhere else. Steps of the nodes there
-//! alone are the same steps, with the rest as walls, and cost what those nodes cost: the forces between nodes that are
-//! held, and their contacts, are set aside.
+//! Near rest a garment moves in one or two folds, by millimetres, and hardly anywhere else. Steps of the nodes there
+//! treat the other nodes as walls. Their cost is that of the active set, because forces and contacts between held nodes
+//! are set aside.
 
 use super::friction::Remembered;
 use super::model::Cloth;
@@ -10,7 +10,7 @@ use super::near::Aside;
 use super::step::{StepError, Stepper};
 use super::world::World;
 
-/// What is set aside while only part of a garment moves.
+/// State that is set aside during a partial solve.
 pub struct Resting<'a> {
     /// The cloth with all of its forces.
     cloth: Cloth,
@@ -22,12 +22,12 @@ pub struct Resting<'a> {
 }
 
 impl<'a> World<'a> {
-    /// Holds all nodes but those that are `free` (and were so) where they are, until [`World::release`].
+    /// Holds all nodes except those that are `free` and were free before, until [`World::release`].
     ///
     /// # Errors
     /// As [`Stepper::new`].
     pub fn hold_all_but(&mut self, free: &[bool]) -> Result<Resting<'a>, StepError> {
-        // Nodes that are held are searched at no more: none may have gone some way since they were.
+        // Held nodes are not searched, so they must be up to date.
         self.detect()?;
         let cloth = self.cloth.around(free);
         let cloth = std::mem::replace(&mut self.cloth, cloth);
@@ -45,7 +45,7 @@ impl<'a> World<'a> {
         Ok(Resting { cloth, stepper, touching, contacts, friction })
     }
 
-    /// Lets go of what [`World::hold_all_but`] holds, of several in the reverse order.
+    /// Ends a partial solve. Several nested ones end in reverse order.
     ///
     /// # Errors
     /// As [`World::detect`].
@@ -65,7 +65,7 @@ impl<'a> World<'a> {
 }
 
 impl Cloth {
-    /// The cloth with all nodes held but those that are `free`, and without the forces between those that are held.
+    /// The cloth with all nodes held except the `free` ones, and without forces between held nodes.
     fn around(&self, free: &[bool]) -> Self {
         let mut is_held = self.is_held();
         is_held.iter_mut().zip(free).for_each(|(held, free)| *held |= !free);
@@ -85,7 +85,7 @@ impl Cloth {
         }
     }
 
-    /// Takes over how far the creases have turned that moved in `part`, whose other nodes were held.
+    /// Copies the angles of creases that moved in `part`, where the nodes of `is_held` were held.
     fn take_turns_of(&mut self, part: &Self, is_held: &[bool]) {
         let moved = self.creases.iter_mut().filter(|c| c.nodes.iter().any(|&n| !is_held[n as usize]));
         moved.zip(&part.creases).for_each(|(whole, part)| *whole = *part);

@@ -1,4 +1,4 @@
-//! What the cloth may touch next: the contacts found at the last detection, and how far nodes may go until the next.
+//! Broad phase: searches for contacts, and bounds how far nodes may go until the next search.
 
 use rayon::prelude::*;
 
@@ -9,109 +9,110 @@ use super::near::{Aside, Near, Source};
 use crate::contact::{Bounds, ClothDetector, Collider, Contact, Neighbourhood, Tangle};
 use crate::geometry::{Vec3, sorted_pair};
 
-/// How contact is looked for.
+/// Search radii.
 #[derive(Clone, Copy, Debug)]
 pub struct Reach {
-    /// Cloth primitives nearer than this are pairs, metres. Between two looks nodes may go [`Bounds::allowance`] of it,
-    /// after one that searched all of the cloth [`Bounds::allowances_after_all`].
+    /// Search radius between cloth primitives, metres. Between two searches nodes may go [`Bounds::allowance`] of it,
+    /// or [`Bounds::allowances_after_all`] after a search that covered all of the cloth.
     pub cloth: f64,
-    /// The body is looked for this near to a node, metres.
+    /// Search radius from nodes to the body, metres.
     pub body: f64,
-    /// Its edges and vertices are looked for this near to edges and triangles of the cloth, metres.
+    /// Search radius from edges and triangles of the cloth to edges and vertices of the body, metres.
     pub features: f64,
 }
 
 impl Reach {
-    /// The reach within the cloth given, metres.
+    /// Radii that follow from the one within the cloth, metres.
     pub fn new(cloth: f64) -> Self {
         Self { cloth, body: (0.5 * cloth).max(BODY), features: (0.5 * cloth).min(FEATURES) }
     }
 
-    /// The same with the body's features as near as a node goes between two looks, however far that is: for cloth that
-    /// falls in large cells, of which few are near the body.
+    /// Extends the radius for features of the body to the motion of a node between two searches. It is for cloth that
+    /// falls in large cells, few of which are near the body.
     pub fn with_features(self) -> Self {
         Self { features: 0.5 * self.cloth, ..self }
     }
 
-    /// Whether what was found within `last` will do: nothing is to be looked for further off, nor cloth much less far.
+    /// Whether contacts found within `last` suffice: no radius is larger, and that of the cloth is not much smaller.
     fn goes_on_from(&self, last: &Self) -> bool {
         self.cloth <= last.cloth && self.features <= last.features && self.cloth >= NARROWER * last.cloth
     }
 
-    /// Whether nodes go no further between two looks than the body's features are looked for.
+    /// Whether nodes go no further between two searches than the radius for features of the body.
     fn is_short(&self) -> bool {
         Bounds::allowance(self.cloth) <= self.features
     }
 }
 
-/// The body is looked for at least this near, metres, and further than a node may go between two looks.
+/// Least search radius for the body, metres. The radius is also larger than the motion of a node between two searches.
 const BODY: f64 = 0.02;
-/// Where a node has gone this share of the reach for features, they are looked for again however far it may go.
+/// Motion of a node, as a share of the radius for features of the body, after which these are searched again.
 const MOVED: f64 = 0.15;
-/// What a node that has gone further than this, metres, sees of the body is looked for at every look: a tenth of the
-/// least distance kept from it. With what was seen a fifth of a millimetre ago cloth came to cross the body.
+/// Motion after which a node looks at the body again at every search, metres: a tenth of the least distance kept from
+/// it. With data that were 0.2 mm old, cloth came to cross the body.
 const SEEN: f64 = 0.02e-3;
-/// All are searched again where less than this share of the reach would do.
+/// Share of the last radius below which a new radius makes all nodes be searched again.
 const NARROWER: f64 = 0.6;
 
-/// Edges and vertices of the body are contacts of edges and triangles of the cloth as near as a node goes between two
-/// looks, at most this near, metres: while seams are closed nodes go far, over a body they are still far from.
+/// Largest search radius for edges and vertices of the body, metres. Up to it, the radius is the motion of a node
+/// between two searches. Nodes go further while seams are closed, but over a body that they are still far from.
 const FEATURES: f64 = 4e-3;
-/// A node's distance to the body is measured up to this many reaches, so that far nodes need not be asked every time.
+/// Distance up to which a node's distance to the body is measured, in search radii. Far nodes then need no query in
+/// every search.
 const FAR: f64 = 4.0;
-/// Farther than so many ways that a node may go, beyond the longest edge at it, nothing at it comes to the body before
-/// it is searched at again.
+/// Distance from the body beyond which the radius for its features does not bound a node's budget, in allowed motions
+/// of a node (the longest edge at the node is added). Nothing at such a node reaches the body before its next search.
 const CORNERS: f64 = 4.0;
-/// Pairs keep this share of the distance kept from the body.
+/// Gap that steps must leave, as a share of the distance kept from the body.
 const MARGIN: f64 = 0.25;
-/// Room for rounding in distances, metres.
+/// Tolerance for rounding in distances, metres.
 const ROUNDING: f64 = 1e-9;
 
-/// The body's features near a triangle or an edge of the cloth, and whether others near it are hidden.
+/// Features of the body near a triangle or edge of the cloth, and whether others near it are hidden.
 type FoundAt<'a> = (Vec<Contact<'a>>, bool);
 
-/// At which nodes a look searches.
+/// The nodes that a search covers.
 #[derive(Clone, Copy)]
 struct Search<'a> {
-    /// Those that have gone some way.
+    /// Nodes that have used up a share of their travel budget.
     stale: &'a [bool],
-    /// Those that have moved at all: for the body, and for its features that others hide. All that are stale have.
+    /// Nodes that have moved at all, stale ones included: for the body, and for features of it that others hide.
     moved: &'a [bool],
 }
 
 /// Contacts between cloth and body and within the cloth.
 ///
-/// A look searches only at the nodes that have gone some way since they were last searched at: near its rest a garment
-/// moves in one fold, and lies still everywhere else. The nearest point of the body, and features that others hide, are
-/// looked for wherever it moves at all.
+/// A search covers only nodes that have used up a share of their travel budget since they were last searched: near rest
+/// a garment moves in one fold and lies still elsewhere. The nearest point of the body, and features that others hide,
+/// are updated wherever the cloth moves at all.
 pub(super) struct Proximity<'a> {
-    /// What was found, and which of it matters.
+    /// The contacts found, and those of them that matter.
     near: Near<'a>,
-    /// How far nodes may go.
+    /// Travel budgets of the nodes.
     pub(super) bounds: Bounds,
-    /// What the cloth is on.
+    /// The body.
     pub(super) body: &'a Collider,
     detector: ClothDetector,
-    /// How near contacts are looked for at the next look that searches all of the cloth.
+    /// Radii of the next search that covers all of the cloth.
     pub(super) reach: Reach,
-    /// How near they were looked for at the last one.
+    /// Radii of the last such search.
     searched: Option<Reach>,
-    /// Distance to the body when last measured, and where.
+    /// Distance of every node to the body when last measured, and its position then.
     body_distance: Vec<(f64, Vec3)>,
-    /// Of which triangles and then edges of the cloth features near them were left out.
+    /// Whether features of the body near a triangle, or then an edge, of the cloth were left out as hidden.
     hidden: Vec<bool>,
-    /// Where every node last looked at the body.
+    /// Position of every node when it last looked at the body.
     seen: Vec<Vec3>,
-    /// Which nodes are held: nothing is searched at them,
+    /// Whether a node is held. Held nodes are not searched.
     is_held: Vec<bool>,
-    /// but at those that should have been, once they are no longer.
+    /// Held nodes that would have been searched. They are searched once they are released.
     owed: Vec<bool>,
-    /// What all of it has cost.
+    /// Wall-clock time spent on contact.
     pub(super) time: ContactTime,
 }
 
 impl<'a> Proximity<'a> {
-    /// Looks at `cloth` in position `x` for the first time; its contacts follow `law`.
+    /// The first search, of `cloth` at positions `x`. Contacts follow `law`.
     pub(super) fn new(
         cloth: &Cloth,
         x: &[Vec3],
@@ -138,7 +139,7 @@ impl<'a> Proximity<'a> {
         out
     }
 
-    /// Looks for contacts anew.
+    /// Searches for contacts.
     pub(super) fn detect(&mut self, cloth: &Cloth, x: &[Vec3]) {
         let mut time = self.time;
         let all = self.is_all();
@@ -170,18 +171,17 @@ impl<'a> Proximity<'a> {
         &self.near.contacts
     }
 
-    /// The same as they are after a step to `to`.
+    /// The contacts that matter, with their closest points at `to`.
     pub(super) fn near_after(&self, to: &[Vec3]) -> Vec<Contact<'a>> {
         self.near.after(to)
     }
 
-    /// How many contacts with body and cloth are known, whether they matter or not.
+    /// Number of known contacts with body and cloth, whether they matter or not.
     pub(super) fn found(&self) -> usize {
         self.near.all.len()
     }
 
-    /// Takes in the contacts that matter when the nodes go from `x` to `to`.
-    /// Returns whether those that did already are all.
+    /// Adds the contacts that matter on the way from `x` to `to`. Returns whether all were there already.
     pub(super) fn covers(&mut self, x: &[Vec3], to: &[Vec3]) -> bool {
         timed(&mut self.time.follow, || self.near.covers(x, to, self.bounds.origin()))
     }
@@ -191,8 +191,8 @@ impl<'a> Proximity<'a> {
         self.bounds.clamp(&self.near.apart(), from, to);
     }
 
-    /// Follows the nodes from `last` to `x`: a look when one has gone far, otherwise the contacts that matter
-    /// are turned to where their closest points are now. Returns whether there was a look.
+    /// Follows a step from `last` to `x`: searches again if a node has used up its budget, otherwise updates the
+    /// closest points of the contacts that matter. Returns whether there was a search.
     pub(super) fn follow(&mut self, cloth: &Cloth, last: &[Vec3], x: &[Vec3]) -> bool {
         let due = self.bounds.is_due(x);
         self.near.foresee(last, x);
@@ -204,13 +204,13 @@ impl<'a> Proximity<'a> {
         due
     }
 
-    /// Searches no longer at the nodes of `cloth` that are held, nor follows what is near between them.
+    /// Excludes the held nodes of `cloth` from searches, and sets the contacts between them aside.
     pub(super) fn hold(&mut self, cloth: &Cloth, x: &[Vec3]) -> Aside<'a> {
         self.set_held(cloth);
         self.near.set_aside(x, self.bounds.origin(), &self.is_held)
     }
 
-    /// Searches again at the nodes of `cloth` that are held no longer, and follows what was set aside.
+    /// Includes nodes of `cloth` that are no longer held, and takes back the contacts that were set aside.
     pub(super) fn release(&mut self, cloth: &Cloth, x: &[Vec3], aside: Aside<'a>) {
         self.set_held(cloth);
         self.near.take_back(x, self.bounds.origin(), aside);
@@ -221,7 +221,7 @@ impl<'a> Proximity<'a> {
         self.is_held = cloth.is_held();
     }
 
-    /// Lets the next look search all of the cloth: nodes may go further after it.
+    /// Makes the next search cover all of the cloth, after which nodes may go further.
     pub(super) fn forget(&mut self) {
         self.searched = None;
     }
@@ -245,20 +245,19 @@ impl<'a> Proximity<'a> {
         self.detector.tangles(x)
     }
 
-    /// Changes which nodes may pass through one another, for the next detection.
+    /// Sets which nodes may pass through one another, from the next search on.
     pub(super) fn set_passing(&mut self, passing: Vec<bool>) {
         self.detector.set_passing(passing);
         self.forget();
     }
 
-    /// Whether the next look searches all of the cloth.
+    /// Whether the next search covers all of the cloth.
     fn is_all(&self) -> bool {
         self.searched.is_none_or(|last| !self.reach.goes_on_from(&last))
     }
 
-    /// From now on the ways of nodes that were searched at are measured from `x`. Those near the body may go no further
-    /// than its features were looked for at all that they are corners of. Cloth of which all was searched may go
-    /// further, as it does when it falls.
+    /// Renews the travel budgets of searched nodes, measured from `x`. Near the body a budget is bounded by the radius
+    /// for its features. After a search of all of the cloth, budgets are larger, as falling cloth needs them.
     fn restart(&mut self, cloth: &Cloth, x: &[Vec3], reach: &Reach, stale: &[bool], all: bool) {
         let [free, beside_body] = if all {
             Bounds::allowances_after_all(reach.cloth, reach.features)
@@ -283,13 +282,13 @@ impl<'a> Proximity<'a> {
         }
     }
 
-    /// A distance from the body that node `i` is not nearer than, metres.
+    /// Lower bound of the distance of node `i` from the body, metres.
     fn distance(&self, i: usize, x: &[Vec3]) -> f64 {
         let (distance, at) = self.body_distance[i];
         distance - (x[i] - at).norm()
     }
 
-    /// Which nodes look at the body again: those that have moved since they last did, and those that are searched at.
+    /// The nodes that look at the body again: those that have moved since they last did, and stale ones.
     fn moved(&mut self, x: &[Vec3], stale: &[bool]) -> Vec<bool> {
         let looks = |(((x, seen), stale), held): (((&Vec3, &mut Vec3), &bool), &bool)| {
             let looks = *stale || !held && (x - *seen).norm_squared() > SEEN * SEEN;
@@ -304,8 +303,8 @@ impl<'a> Proximity<'a> {
     /// Contacts with the nearest points of the body, of nodes that have `moved`.
     fn body_contacts(&mut self, x: &[Vec3], reach: &Reach, moved: &[bool]) -> Vec<Source<'a>> {
         let body = self.body;
-        // A node whose last measured distance minus its way since cannot have come within reach is not asked for again;
-        // that distance plus its way is as far as the surface can be now.
+        // The last measured distance minus the motion since is a lower bound, by which far nodes are skipped. That
+        // distance plus the motion is an upper bound, within which the surface is searched.
         let found: Vec<Option<(f64, Vec<Contact<'a>>)>> = self
             .body_distance
             .par_iter()
@@ -342,8 +341,8 @@ impl<'a> Proximity<'a> {
         sources
     }
 
-    /// Adds the contacts of the body's features with triangles and edges of the cloth that are searched, and lets go
-    /// of what was found before at all that is.
+    /// Adds the contacts of features of the body with the searched triangles and edges of the cloth, and removes
+    /// earlier contacts of these.
     fn face_contacts(&mut self, cloth: &Cloth, x: &[Vec3], reach: &Reach, at: Search, sources: &mut Vec<Source<'a>>) {
         let is_searched = self.is_searched(cloth, x, at);
         let found = self.search(cloth, x, reach.features, &is_searched);
@@ -363,9 +362,10 @@ impl<'a> Proximity<'a> {
         }
     }
 
-    /// Which triangles, and then edges, of the cloth are searched for features of the body: those at stale nodes; those
-    /// of which a feature was hidden, at nodes that have moved, for the least turn may bring it out; and cloth that is
-    /// under a feature, of which a new search tells by the body whether it is: what is known only goes on as it was.
+    /// Whether each triangle, and then each edge, of the cloth is searched for features of the body. Searched are:
+    /// - those at stale nodes;
+    /// - those at moved nodes that have a hidden feature, because a slight turn may bring it out;
+    /// - those that lie under a feature: only a new search asks the body whether they are inside.
     fn is_searched(&self, cloth: &Cloth, x: &[Vec3], at: Search) -> Vec<bool> {
         let triangles = cloth.triangles.iter().map(<[u32; 3]>::as_slice);
         let elements = triangles.chain(cloth.edges.iter().map(<[u32; 2]>::as_slice));
@@ -378,10 +378,10 @@ impl<'a> Proximity<'a> {
         out
     }
 
-    /// Contacts of the body's edges and vertices within `reach` of each triangle and edge that is searched, and whether
-    /// some near them were left out.
+    /// Contacts of each searched triangle and edge with edges and vertices of the body within `reach`, and whether some
+    /// were left out as hidden.
     fn search(&self, cloth: &Cloth, x: &[Vec3], reach: f64, is_searched: &[bool]) -> Vec<Option<FoundAt<'a>>> {
-        // No point of an edge or triangle is further from the nearest of its nodes than this share of its longest side.
+        // Each point of an edge or triangle is within this share of the longest side from its nearest node.
         let near = |nodes: &[u32]| {
             let side = |a: u32, b: u32| (x[a as usize] - x[b as usize]).norm();
             let longest = nodes.iter().flat_map(|&a| nodes.iter().map(move |&b| side(a, b))).fold(0.0, f64::max);
@@ -407,9 +407,11 @@ impl<'a> Proximity<'a> {
     }
 }
 
-/// Of what was `known` at the triangle or edge `element`, what was not `found` again and is still apart, nearer than
-/// `reach`. Which of two features hides the other may depend on the last micrometre: one that was left out as soon as
-/// it had pushed the cloth a little off, and found again without it, never let it rest.
+/// The contacts `known` at the triangle or edge `element` that were not `found` again but are still apart and within
+/// `reach`.
+///
+/// A turn of a micrometre may decide which of two features hides the other. A feature that was dropped as soon as it
+/// had pushed the cloth a little, and then found again, never let the cloth rest.
 fn kept<'a>(known: &[(u32, Contact<'a>)], element: u32, found: &[Contact], x: &[Vec3], reach: f64) -> Vec<Contact<'a>> {
     let again = |c: &Contact| found.iter().any(|f| f.under.number() == c.under.number());
     let apart = |c: &Contact| (0.0..reach).contains(&c.gap(x));

@@ -1,11 +1,11 @@
-//! Shear of the weave: warp and weft turn towards each other, whatever they are drawn out by.
+//! Shear of the weave: the angle between warp and weft, independent of their strains.
 //!
-//! E = ½ G A (φ − φ₀)² for every triangle of the grid whose legs u and v run along the threads, with
-//! φ = asin(u·v / |u||v|) the angle by which they are off a right one and φ₀ that of the flat piece. Together with the
-//! springs along its legs such a triangle is a membrane of threads, each of them strained by its own curve; `thread`
-//! has those of other triangles, whose legs are no sides. A spring on its diagonal would resist the sum of both strains
-//! as much as shear (Cauchy's relation for points that attract one another): cloth whose shear stiffness is near that
-//! of its threads, as that of knits, contracts too much under it.
+//! E = ½ G A (φ − φ₀)² for every triangle whose legs u and v run along the threads. φ = asin(u·v / |u||v|) is the
+//! deviation from a right angle, and φ₀ that of the flat piece. With the springs along its legs such a triangle is a
+//! membrane of threads, each with its own curve. Triangles off the grid are in `thread`: their legs are no sides.
+//!
+//! A spring on the diagonal would resist the sum of both strains as much as shear (Cauchy's relation for central
+//! forces). Cloth whose shear stiffness is near that of its threads, such as a knit, then contracts too much.
 
 use std::sync::Arc;
 
@@ -16,10 +16,10 @@ use crate::fabric::Fabric;
 use crate::geometry::{Vec2, Vec3};
 use crate::mesh::ClothMesh;
 
-/// Legs nearer to one line than this (sine of the angle between them, 3°) turn out of their plane as if they were no
-/// nearer: the stiffness against it has no bound.
+/// Least sine of the angle between the legs (3°) in the tangent. The stiffness against rotation out of their plane
+/// grows without bound as the legs close.
 const OPEN: f64 = 0.05;
-/// Legs that are sides of their triangle.
+/// Weights of legs that are sides of their triangle.
 const SIDES: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
 
 /// The shear of one triangle.
@@ -27,8 +27,8 @@ const SIDES: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
 pub struct Shear {
     /// Its corners.
     pub nodes: [u32; 3],
-    /// Two legs along the threads: from the first corner so many times the way to the second, and so many times that to
-    /// the third. Those of the grid end there.
+    /// Two legs along the threads, each as weights of the two sides from the first corner to the second and third. Legs
+    /// of grid triangles are these sides.
     pub legs: [[f64; 2]; 2],
     /// φ₀, radians.
     pub rest: f64,
@@ -44,7 +44,7 @@ struct Legs {
     along: [Vec3; 2],
     /// Square to each leg and to `normal`, towards the other one.
     toward: [Vec3; 2],
-    /// Unit normal of the triangle; zero where the legs lie on one line.
+    /// Unit normal of the triangle. Zero where the legs lie on one line.
     normal: Vec3,
     /// φ, radians.
     angle: f64,
@@ -60,13 +60,14 @@ impl Legs {
         Self { lengths, along, toward, normal, angle: along[0].dot(&along[1]).atan2(cross.norm()) }
     }
 
-    /// Gradient of φ for the other end of each leg, 1/m; the corner has what makes their sum zero.
+    /// Gradient of φ for the far end of each leg, 1/m. That of the corner makes the sum zero.
     fn turning(&self) -> [Vec3; 2] {
         [0, 1].map(|k| self.toward[k] / self.lengths[k])
     }
 }
 
-/// A triangle's stiffness against shear at one position, by the ways of its legs' other ends past its corner.
+/// Tangent stiffness of a triangle against shear, in terms of the displacements of its legs' far ends relative to the
+/// corner.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShearTangent {
     /// [`Shear::stiffness`].
@@ -82,7 +83,7 @@ pub(super) struct ShearTangent {
 }
 
 impl ShearTangent {
-    /// What the ends of the legs resist when they go `ways` past the corner, N.
+    /// Resisting forces at the far ends of the legs for displacements `ways` relative to the corner, N.
     pub(super) fn apply(&self, ways: [Vec3; 2]) -> [Vec3; 2] {
         let [load, tan, sec] = self.load;
         let turned = self.stiffness * (self.turning[0].dot(&ways[0]) + self.turning[1].dot(&ways[1]));
@@ -95,23 +96,23 @@ impl ShearTangent {
         })
     }
 
-    /// A bound from above: the root r of its stiff part (rᵢ rⱼᵀ for ends i and j of the legs), and for each leg a
-    /// stiffness (N/m) in all directions for what its load adds.
+    /// Positive semidefinite bound: the root r of the stiff part (rᵢ rⱼᵀ for ends i and j of the legs), and for each
+    /// leg an isotropic stiffness for its load, N/m.
     pub(super) fn bound(&self) -> ([Vec3; 2], [f64; 2]) {
         let [_, tan, sec] = self.load.map(f64::abs);
         let root = self.stiffness.sqrt();
-        // The part out of the plane has the eigenvalues −tan φ ± 1/cos φ, that in the plane ± 1.
+        // The out-of-plane part has the eigenvalues −tan φ ± 1/cos φ, the in-plane part ± 1.
         (self.turning.map(|g| g * root), self.along.map(|a| (tan + sec) * a.norm_squared()))
     }
 }
 
 impl Shear {
-    /// Both legs of ways or positions of the nodes.
+    /// Both legs, from displacements or positions of the nodes.
     pub(super) fn legs(&self, x: &[Vec3]) -> [Vec3; 2] {
         self.legs.map(|weights| span(self.nodes, weights, x))
     }
 
-    /// What the other ends of the legs are moved by, handed on to the nodes.
+    /// Forces at the far ends of the legs, distributed to the nodes.
     pub(super) fn at_nodes(&self, [u, v]: [Vec3; 2]) -> [Vec3; 3] {
         let [one, other] = self.legs.map(shares);
         [0, 1, 2].map(|n| u * one[n] + v * other[n])
@@ -128,7 +129,7 @@ impl Shear {
         self.at_nodes(legs.turning().map(|g| g * (self.stiffness * (self.rest - legs.angle))))
     }
 
-    /// The tangent at `x`, out of the line of its gradient by the `load` (N·m per radian) given instead of its own.
+    /// Tangent stiffness at `x`. Its geometric part uses `load` (N·m per radian) if given, otherwise the load at `x`.
     pub(super) fn tangent(&self, x: &[Vec3], load: Option<f64>) -> ShearTangent {
         let legs = Legs::new(self.legs(x));
         let load = load.unwrap_or(self.stiffness * (legs.angle - self.rest));
@@ -143,8 +144,8 @@ impl Shear {
         }
     }
 
-    /// The load (N·m per radian) that the linear model of a step from `x` to `to` foresees, and the energy (J) that is
-    /// there beyond what that load says.
+    /// The load (N·m per radian) that the linear model of a step from `x` to `to` predicts, and the energy at `to`
+    /// beyond that of the linear model, J.
     pub(super) fn foresee(&self, x: &[Vec3], to: &[Vec3]) -> (f64, f64) {
         let (from, after) = (self.legs(x), self.legs(to));
         let before = Legs::new(from);
@@ -155,8 +156,8 @@ impl Shear {
     }
 }
 
-/// The triangles of the grid: for every triangle of the mesh whose legs run along warp and weft, its particles in the
-/// order of [`Shear::nodes`].
+/// For every triangle of the mesh whose legs run along warp and weft, its particles in the order of [`Shear::nodes`].
+/// `None` for the others.
 pub(super) fn grid_triangles(mesh: &ClothMesh) -> Vec<Option<[u32; 3]>> {
     let mut out = vec![None; mesh.triangles.len()];
     for piece in &mesh.pieces {
@@ -172,8 +173,8 @@ pub(super) fn grid_triangles(mesh: &ClothMesh) -> Vec<Option<[u32; 3]>> {
     out
 }
 
-/// The shear of the grid's triangles; `node_of` maps particles to nodes, and a triangle that stitches have closed to a
-/// line has none.
+/// The shear of the grid's triangles. `node_of` maps particles to nodes. A triangle that stitches have closed to a line
+/// has none.
 pub(super) fn shears(
     mesh: &ClothMesh,
     grid: &[Option<[u32; 3]>],
@@ -280,7 +281,7 @@ mod tests {
         }
     }
 
-    /// What steps are made with resists every motion, and at least as much as the cloth does.
+    /// The stiffness of steps resists every motion, and at least as much as the cloth does.
     #[test]
     fn the_bound_is_positive_and_above_the_tangent() {
         for load in [None, Some(-2e-3), Some(0.0), Some(5e-3)] {

@@ -3,14 +3,14 @@
 use crate::fabric::Fabric;
 use crate::geometry::{Mat3, Vec3};
 
-/// Loads that differ by less than this share are the same.
+/// Relative difference of loads below which they count as one knot: unit conversion changes the last digit.
 const SAME: f64 = 1e-9;
 
-/// Load per width against strain in one direction of the cloth: linear between knots, the last slope goes on, and
-/// compression keeps the first slope (cloth buckles out of its plane long before its threads shorten).
+/// Load per width against strain in one direction of the cloth. It is linear between knots, and the last slope
+/// continues. Compression has the first slope, because cloth buckles out of its plane long before its threads shorten.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StretchLaw {
-    /// (strain, N/m), rising; (0, 0) is the first, or the second after (−1, 0) where compression meets no resistance.
+    /// (strain, N/m), rising. The first is (0, 0), or (−1, 0) followed by (0, 0) if compression meets no resistance.
     knots: Vec<(f64, f64)>,
 }
 
@@ -20,9 +20,9 @@ impl StretchLaw {
         Self { knots: vec![(0.0, 0.0), (1.0, stiffness)] }
     }
 
-    /// The law of `fabric` at `angle` (radians) from its warp. Loads add their strains: warp and weft threads by their
-    /// curves, cos⁴ and sin⁴, and the trellis between them by the shear stiffness, sin² cos² (the compliance of an
-    /// orthotropic sheet without lateral contraction).
+    /// The law of `fabric` at `angle` (radians) from its warp. For a given load the strains add up: those of warp and
+    /// weft by their curves with cos⁴ and sin⁴, and that of shear with sin² cos². This is the compliance of an
+    /// orthotropic sheet without lateral contraction.
     pub fn of(fabric: &Fabric, angle: f64) -> Self {
         let (c2, s2) = (angle.cos().powi(2), angle.sin().powi(2));
         let mut loads: Vec<f64> =
@@ -36,7 +36,7 @@ impl StretchLaw {
         Self { knots }
     }
 
-    /// The same law without resistance to compression.
+    /// This law without resistance to compression.
     pub(super) fn slack(&self) -> Self {
         let extension = self.knots.iter().filter(|k| k.0 >= 0.0).copied();
         Self { knots: std::iter::once((-1.0, 0.0)).chain(extension).collect() }
@@ -74,12 +74,12 @@ impl StretchLaw {
     }
 }
 
-/// Cloth drawn out in one direction.
+/// Extension of cloth in one direction.
 #[derive(Clone, Copy, Debug)]
 pub struct Stretch {
     /// Rest length, metres.
     pub rest: f64,
-    /// Width of cloth it stands for, metres.
+    /// Width of the cloth that it represents, metres.
     pub width: f64,
     /// Index of its [`StretchLaw`].
     pub law: u32,
@@ -90,37 +90,37 @@ pub struct Stretch {
 pub struct Spring {
     /// Its nodes.
     pub ends: [u32; 2],
-    /// How it resists.
+    /// Its resistance.
     pub stretch: Stretch,
 }
 
-/// Stiffness of cloth drawn out in one direction, at one position: `along` that direction t and `across` it,
-/// k = along · t tᵀ + across · (1 − t tᵀ).
+/// Tangent stiffness of a spring: k = along · t tᵀ + across · (1 − t tᵀ), where t is its direction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StretchTangent {
     /// Unit direction from the first to the second end.
     pub(super) direction: Vec3,
     /// N/m.
     pub(super) along: f64,
-    /// N/m; negative in compression.
+    /// N/m. Negative in compression.
     pub(super) across: f64,
 }
 
 impl Spring {
-    /// From its first end to its second, of ways or positions of the nodes.
+    /// Difference of its second and first end, for positions or displacements of the nodes.
     pub(super) fn span(&self, x: &[Vec3]) -> Vec3 {
         x[self.ends[1] as usize] - x[self.ends[0] as usize]
     }
 }
 
 impl StretchTangent {
-    /// What resists when the ends part by `way`, N.
+    /// Resisting force when the ends part by `way`, N.
     pub(super) fn apply(&self, way: Vec3) -> Vec3 {
         let Self { direction, along, across } = self;
         direction * ((along - across) * direction.dot(&way)) + way * *across
     }
 
-    /// A bound from above. Compressed cloth would buckle within one step: the absolute value lets it, but gently.
+    /// Positive semidefinite bound. The absolute value of the transverse stiffness lets compressed cloth buckle, but
+    /// gently: with the negative value it would buckle within one step.
     pub(super) fn bound(&self) -> Mat3 {
         let across = self.across.abs();
         Mat3::identity() * across + self.direction * self.direction.transpose() * (self.along - across).max(0.0)
@@ -128,18 +128,19 @@ impl StretchTangent {
 }
 
 impl Stretch {
-    /// Its energy when its ends are apart by `d`, J.
+    /// Energy when its ends are apart by `d`, J.
     pub(super) fn energy(&self, law: &StretchLaw, d: Vec3) -> f64 {
         law.energy(d.norm() / self.rest - 1.0) * self.width * self.rest
     }
 
-    /// What draws its first end towards the second, which is off by `d`, N.
+    /// Force on its first end, towards the second one at distance `d`, N.
     pub(super) fn pull(&self, law: &StretchLaw, d: Vec3) -> Vec3 {
         let length = d.norm().max(SHORTEST);
         d * (law.load(length / self.rest - 1.0) * self.width / length)
     }
 
-    /// The tangent where its ends are apart by `d`, across it by the `load` (N/m) given instead of its own.
+    /// Tangent stiffness when its ends are apart by `d`. The transverse stiffness uses `load` (N/m) if given, otherwise
+    /// the load at this length.
     pub(super) fn tangent(&self, law: &StretchLaw, d: Vec3, load: Option<f64>) -> StretchTangent {
         let length = d.norm().max(SHORTEST);
         let strain = length / self.rest - 1.0;
@@ -151,7 +152,7 @@ impl Stretch {
     }
 }
 
-/// A spring is never taken for shorter than this, metres.
+/// Least length in the tangent of a spring, metres: it keeps the direction finite.
 pub(super) const SHORTEST: f64 = 1e-9;
 
 #[cfg(test)]
@@ -161,7 +162,7 @@ mod tests {
     use approx::assert_relative_eq;
     use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-    /// Along a thread the law is that thread's curve; between them it is softer than both where the trellis is.
+    /// Along a thread the law is that thread's curve. Between them it is softer than both where the trellis is.
     #[test]
     fn laws_along_threads_are_the_curves() {
         for name in ["cotton_poplin", "rib"] {
@@ -179,7 +180,7 @@ mod tests {
         }
     }
 
-    /// Whatever a file says, laws rise and are finite.
+    /// Laws rise and are finite for any fabric file.
     #[test]
     fn laws_of_strange_fabrics_rise() {
         let poplin = crate::fabric::load("cotton_poplin").expect("shipped");

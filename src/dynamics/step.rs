@@ -28,7 +28,7 @@ pub enum StepError {
         /// The node.
         node: usize,
     },
-    /// The matrix has no place for two particles that act on each other: a mistake in this program.
+    /// The matrix pattern lacks a pair of coupled particles: a bug in toile.
     #[error("the step's matrix has no place for particles {a} and {b}, which the cloth couples; please report this")]
     Uncoupled {
         /// The one.
@@ -38,24 +38,25 @@ pub enum StepError {
     },
 }
 
-/// Contacts whose gap a step misjudges by less than this, metres, are no reason to solve it again.
+/// Error of a predicted gap below which a contact is no reason to solve the step again, metres.
 const MISJUDGED: f64 = 1e-4;
 
-/// When an older factor serves again.
+/// Limits within which an older factor is used again.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reuse {
-    /// While no node is further from where it was made than this, metres,
+    /// Largest distance of a node from its position when the factor was made, metres.
     pub(super) moved: f64,
-    /// and no more contacts have begun or ceased to push, or, where it is to be the very step (0), to slide.
+    /// Largest number of contacts that have begun or ceased to push. If it is 0, contacts that began or ceased to slide
+    /// count as well.
     pub(super) contacts: usize,
 }
 
-/// A step taken with the factor as it is must be that step: a five-hundredth of a cell turns the
-/// springs by a tenth of a degree.
+/// Reuse for a step that is solved by the factor alone, and must therefore be exact. A motion of a five-hundredth of a
+/// cell turns springs by a tenth of a degree.
 const SAME: Reuse = Reuse { moved: 2e-5, contacts: 0 };
 
-/// Shares of the diagonal that are added to it one after another where a matrix is singular to rounding: from a few
-/// units in the last place of single precision.
+/// Regularisation of a matrix that is singular to rounding: shares of its diagonal that are added one after another.
+/// The first is a few units in the last place of single precision.
 const RIDGES: [f64; 4] = [3e-7, 3e-6, 3e-5, 3e-4];
 
 /// The linear system of a cloth, analysed once, filled and factored for every step.
@@ -63,11 +64,11 @@ pub struct Stepper {
     matrix: SymmetricMatrix<f32>,
     pub(super) factor: Cholesky<f32>,
     diagonal: Vec<BlockSlot>,
-    /// None where an end is held: the other one feels a wall.
+    /// Slot of every spring. `None` if an end is held: the other end then feels a wall.
     springs: Vec<Option<BlockSlot>>,
-    /// Between the nodes of each thread, 0 and 1, 0 and 2, 1 and 2,
+    /// Slots of every thread, between its nodes 0 and 1, 0 and 2, 1 and 2.
     threads: Vec<[Option<BlockSlot>; 3]>,
-    /// and of each shear.
+    /// Slots of every shear, between its nodes 0 and 1, 0 and 2, 1 and 2.
     shears: Vec<[Option<BlockSlot>; 3]>,
     edges: Vec<Option<BlockSlot>>,
     pulls: Vec<Option<BlockSlot>>,
@@ -76,34 +77,35 @@ pub struct Stepper {
     made: Option<Made>,
 }
 
-/// All contacts, as a step's linear model knows them.
+/// Contacts in the linear model of a step.
 pub(super) struct Pushing<'a> {
-    /// Their loads and slopes.
+    /// Loads and slopes.
     pub(super) presses: &'a [Press],
-    /// Which of them push at the end of the step.
+    /// The active set: whether a contact pushes at the end of the step.
     pub(super) active: &'a [bool],
-    /// Their friction.
+    /// Friction.
     pub(super) grips: &'a [Option<Grip>],
 }
 
 impl Pushing<'_> {
-    /// Those that push.
+    /// Numbers of the active contacts.
     pub(super) fn numbers(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.active.len()).filter(|&k| self.active[k])
     }
 
-    /// The nodes of those that push, sorted: a contact keeps its nodes, and not its number, from one look to the next.
+    /// Nodes of the active contacts, sorted. A contact keeps its nodes, but not its number, from one search to the
+    /// next.
     fn nodes(&self, contacts: &[Contact]) -> Vec<[u32; 4]> {
         sorted(self.numbers().map(|k| contacts[k].nodes).collect())
     }
 
-    /// The nodes of those that slide.
+    /// Nodes of the active contacts that slide, sorted.
     fn sliding(&self, contacts: &[Contact]) -> Vec<[u32; 4]> {
         let slides = |k: &usize| self.grips[*k].is_some_and(|g| g.slides);
         sorted(self.numbers().filter(slides).map(|k| contacts[k].nodes).collect())
     }
 
-    /// `free` with the loads and the friction of those that push.
+    /// `free` plus the loads and friction of the active contacts.
     pub(super) fn forces(&self, free: &[Vec3], forces: &Forces) -> Vec<Vec3> {
         let mut out = free.to_vec();
         for k in self.numbers() {
@@ -113,19 +115,19 @@ impl Pushing<'_> {
     }
 }
 
-/// What a factor was made for.
+/// The state that a factor was made for.
 struct Made {
     x: Vec<Vec3>,
     dt: f64,
-    /// Nodes of the contacts that pushed, and of those that slid, sorted.
+    /// Nodes of the contacts that pushed, sorted.
     pushing: Vec<[u32; 4]>,
     sliding: Vec<[u32; 4]>,
 }
 
 impl Stepper {
     /// Prepares the system of `cloth` with stitches between `pulls` and contacts that couple the nodes in `touching`
-    /// (pairs, smaller first). A contact with other couplings is not solved wrongly: it holds its nodes back as if they
-    /// were alone.
+    /// (pairs, smaller first). A contact without couplings is bounded by a diagonal: it slows its nodes, but gives no
+    /// wrong solution.
     ///
     /// # Errors
     /// A cloth too large for 32-bit indices.
@@ -157,9 +159,11 @@ impl Stepper {
         })
     }
 
-    /// The step d with (M/Δt² + H) d = f(x) + M v/Δt, where H majorises the stiffness at `x` (compressed springs lose
-    /// their negative part, bending is bounded edge by edge) and `velocity` is what inertia keeps. Contacts that push
-    /// at the end of the step are found by solving up to `rounds` times (a primal–dual active set).
+    /// The step d with (M/Δt² + H) d = f(x) + M v/Δt.
+    ///
+    /// H is a majorant of the stiffness at `x`: compressed springs lose their negative part, and bending is bounded
+    /// edge by edge. v is `velocity`. Contacts that push at the end of the step are found by solving up to `rounds`
+    /// times (a primal–dual active set).
     ///
     /// # Errors
     /// [`StepError::Singular`] when a number is not finite.
@@ -200,7 +204,7 @@ impl Stepper {
         }
     }
 
-    /// H⁻¹ r, of the nodes that are not held.
+    /// Solves H d = r for the nodes that are not held.
     pub(super) fn apply_inverse(&self, r: &[Vec3]) -> Result<Vec<Vec3>, StepError> {
         let mut flat: Vec<f32> = r.iter().flat_map(|v| [v.x as f32, v.y as f32, v.z as f32]).collect();
         let hold = |flat: &mut [f32]| {
@@ -216,7 +220,7 @@ impl Stepper {
         }
     }
 
-    /// Factors M/Δt² + H at `x` for the contacts that push, unless an older factor serves.
+    /// Factors M/Δt² + H at `x` for the active contacts, unless an older factor may be used again.
     pub(super) fn prepare(
         &mut self,
         cloth: &Cloth,
@@ -252,16 +256,18 @@ impl Stepper {
         Ok(())
     }
 
-    /// Lets the next step make a factor of its own: what the matrix depends on beside positions and contacts, the loads
-    /// of springs and the law of contacts, has changed.
+    /// Discards the factor. Call it when spring loads or the contact law change, on which the matrix depends beside
+    /// positions and contacts.
     pub(super) fn forget(&mut self) {
         self.made = None;
     }
 
-    /// Factors the matrix. Two kinds are singular to single precision: cloth that nothing holds, in a long step (its
-    /// inertia is lost beside its stiffness), and a node that contacts press so hard that its springs are lost beside
-    /// them. What rounding takes from a row is a share of its diagonal entry: a little more than that, added to it,
-    /// makes the matrix positive definite again, and each node is slowed by no more than its own stiffness asks for.
+    /// Factors the matrix, with a regularised diagonal if it is singular to single precision.
+    ///
+    /// Two kinds of matrix are: those of cloth that nothing holds, in a long step (inertia is lost beside stiffness),
+    /// and those with a node that contacts press so hard that its springs are lost. Rounding takes a share of each
+    /// diagonal entry. Adding a little more than that makes the matrix positive definite, and slows each node in
+    /// proportion to its own stiffness only.
     fn factor(&mut self) -> Result<(), StepError> {
         let Err(mut failed) = self.factor.factor(&self.matrix) else { return Ok(()) };
         for ridge in RIDGES {
@@ -330,7 +336,7 @@ impl Stepper {
         }
     }
 
-    /// Adds w wᵀ ⊗ K of the nodes that are not held where the pattern has all its blocks; otherwise its bound
+    /// Adds w wᵀ ⊗ K of the nodes that are not held if the pattern has all its blocks, otherwise its bound
     /// (Σ|w|) diag(|w|) ⊗ K.
     fn add_contact(&mut self, contact: &Contact, stiffness: &Mat3) {
         let parts = || contact.parts().filter(|&(i, w)| w != 0.0 && !self.is_held[i]);
@@ -379,13 +385,13 @@ pub(super) fn presses(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Press> 
     forces.contacts.iter().map(|c| forces.law.press(cloth, x, c)).collect()
 }
 
-/// By how much a step opens a contact, metres.
+/// Growth of a contact's gap by the step `d`, metres.
 pub(super) fn opening(contact: &Contact, d: &[Vec3]) -> f64 {
     contact.parts().map(|(i, w)| w * contact.normal.dot(&d[i])).sum()
 }
 
-/// Adds the blocks of three nodes, `block(i, j)` of the i-th and the j-th; `slots` are those of 0 and 1, 0 and 2, 1 and
-/// 2.
+/// Adds the blocks of three nodes, `block(i, j)` for the i-th and the j-th. `slots` are those of nodes 0 and 1, 0 and
+/// 2, 1 and 2.
 fn couple_three(
     matrix: &mut SymmetricMatrix<f32>,
     diagonal: &[BlockSlot],
@@ -403,7 +409,7 @@ fn couple_three(
     }
 }
 
-/// Adds the stiffness `k` between two nodes, which have a slot unless one is held.
+/// Adds the stiffness `k` between two nodes. They have a slot unless one of them is held.
 fn couple(
     matrix: &mut SymmetricMatrix<f32>,
     diagonal: &[BlockSlot],

@@ -1,10 +1,10 @@
-//! Threads through triangles that the grid does not have: those of the strip between it and the outline.
+//! Threads through triangles off the grid, in the strip between grid and outline.
 //!
-//! No edge of such a triangle follows a thread, and springs along edges that cross both threads give as the trellis
-//! between these does, in a woven cloth ten times as much: all that a tight skirt gave gathered in the one column of
-//! triangles beside its seams. Here a triangle is a membrane like those of the grid: drawn out along warp and weft by
-//! the curve of each, and sheared between them, E = A (W(|F w| − 1) + W'(|F f| − 1) + ½ G (φ − φ₀)²), with F the
-//! triangle's deformation, w and f the directions of its threads.
+//! No edge of such a triangle follows a thread. Springs along its edges would cross both threads and give as the bias
+//! does, in woven cloth ten times as much: all the stretch of a tight skirt gathered in the one column of triangles
+//! beside its seams. So such a triangle is a membrane like those of the grid: stretched along warp and weft by the
+//! curve of each, and sheared between them. E = A (W(|F w| − 1) + W'(|F f| − 1) + ½ G (φ − φ₀)²), where F is the
+//! deformation gradient of the triangle, and w and f are the directions of its threads.
 
 use std::sync::Arc;
 
@@ -15,58 +15,58 @@ use crate::fabric::Fabric;
 use crate::geometry::{Vec2, Vec3};
 use crate::mesh::ClothMesh;
 
-/// A triangle whose seam draws it in to less than this share of its area keeps springs along its edges instead: its
-/// gathers are finer than it, and threads squeezed so far say nothing.
+/// Share of its area to which a seam may draw in a triangle with threads. Below it the triangle has springs along its
+/// edges instead, because its gathers are finer than the triangle.
 const SQUEEZED: f64 = 0.5;
 
-/// A thread of one triangle, drawn out.
+/// A thread of one triangle.
 #[derive(Clone, Copy, Debug)]
 pub struct Thread {
     /// The triangle's nodes.
     pub nodes: [u32; 3],
-    /// From the first node the thread goes so many times the way to the second, and so many times that to the third.
+    /// The thread as weights of the two sides from the first node to the second and third.
     pub weights: [f64; 2],
-    /// How it resists; its rest length is that of a leg of the triangle if it were one of the grid.
+    /// Its resistance. The rest length is that of a leg if the triangle were one of the grid.
     pub stretch: Stretch,
 }
 
 impl Thread {
-    /// From one end to the other, of ways or positions of the nodes.
+    /// Vector from one end to the other, for positions or displacements of the nodes.
     pub(super) fn span(&self, x: &[Vec3]) -> Vec3 {
         span(self.nodes, self.weights, x)
     }
 
-    /// How much of its span each node is.
+    /// Weight of each node in its span.
     pub(super) fn shares(&self) -> [f64; 3] {
         shares(self.weights)
     }
 }
 
-/// What `weights` make of the ways from the first of the `nodes` to the others.
+/// The span with `weights` of the sides from the first of the `nodes` to the others.
 pub(super) fn span(nodes: [u32; 3], weights: [f64; 2], x: &[Vec3]) -> Vec3 {
     let [a, b, c] = nodes.map(|n| x[n as usize]);
     (b - a) * weights[0] + (c - a) * weights[1]
 }
 
-/// How much each node is of a span with such `weights`.
+/// Weight of each node in a span with these `weights` of the sides.
 pub(super) fn shares([b, c]: [f64; 2]) -> [f64; 3] {
     [-b - c, b, c]
 }
 
-/// A triangle's threads, of a rest length each, in the ways from its first corner to the others.
+/// The two threads of a triangle, as weights of the sides from its first corner, with their rest state.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Weave {
     /// Warp and weft.
     weights: [[f64; 2]; 2],
-    /// Their rest length, metres.
+    /// Rest length of both, metres.
     length: f64,
-    /// The angle by which they are off a right one at rest, radians.
+    /// Deviation from a right angle at rest, radians.
     rest: f64,
 }
 
 impl Weave {
-    /// Of a triangle with the flat `corners`, warp along the unit vector `warp`, whose sides (from the first corner on)
-    /// have the `rest` lengths given, metres. None of one that these draw in too far.
+    /// Threads of a triangle with the flat `corners`, the unit vector `warp`, and sides of the `rest` lengths (from the
+    /// first corner on), metres. `None` if these draw it in too far ([`SQUEEZED`]).
     fn new(corners: [Vec2; 3], warp: Vec2, rest: [f64; 3]) -> Option<Self> {
         let (u, v) = (corners[1] - corners[0], corners[2] - corners[0]);
         let double = u.perp(&v);
@@ -88,8 +88,9 @@ impl Weave {
     }
 }
 
-/// What every triangle of the mesh is woven of, by the sides its seams give it; none of those of the `grid`, which has
-/// springs along its threads, of those `drawn` in by elastic, and of those that stitches have closed to a line.
+/// Threads of every triangle of the mesh, with the side lengths that its seams give it. `None` for triangles of the
+/// `grid`, which have springs along their threads, for those `drawn` in by elastic, and for those that stitches have
+/// closed to a line.
 pub(super) fn weaves(
     mesh: &ClothMesh,
     grid: &[Option<[u32; 3]>],
@@ -113,7 +114,7 @@ pub(super) fn weaves(
     out
 }
 
-/// Threads and shear of the triangles that are woven; `laws` are those of each piece's warp and weft.
+/// Threads and shear of the triangles that have a [`Weave`]. `laws` gives the laws of each piece's warp and weft.
 pub(super) fn threads(
     mesh: &ClothMesh,
     weaves: &[Option<Weave>],

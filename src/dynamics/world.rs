@@ -16,58 +16,63 @@ use crate::contact::{Collider, Contact, Neighbourhood, Tangle};
 use crate::fabric::GRAVITY;
 use crate::geometry::Vec3;
 
-/// Layers nearer than this, metres, are coupled in the matrix: pressed together they move together. It is made anew
-/// only when one comes nearer than the other that is not.
+/// Gap below which the matrix couples two layers, metres: layers that are pressed together move together.
 const COUPLED: f64 = 1.5e-3;
+/// Gap at which a pair of layers without a coupling makes the matrix pattern be built anew, metres. It is less than
+/// [`COUPLED`], so that the pattern is seldom rebuilt.
 const TOUCHING: f64 = 0.7e-3;
-/// Length of a step of falling, s: long, for inertia only delays rest; the step is a Newton step on the energy.
+/// Time step of falling, s. It is long because inertia only delays rest: the step is a Newton step on the energy.
 const FALL: f64 = 0.1;
-/// Share of the last motion by which falling cloth looks ahead, and the most it does so, metres.
+/// Share of the last motion by which falling cloth is extrapolated before a step.
 const MOMENTUM: f64 = 0.9;
+/// Largest extrapolation of falling cloth, metres.
 const LOOK_AHEAD: f64 = 4e-3;
-/// Times a step is solved to find the contacts that push at its end.
+/// Rounds of the active set: how often a step is solved to find the contacts that push at its end.
 const ROUNDS: usize = 2;
-/// A Newton step is halved until the energy falls by this share of what the model says, at most so often.
+/// Line search: a Newton step is halved until the energy falls by this share of the predicted decrease.
 const ENOUGH: f64 = 0.05;
+/// Most halvings of a Newton step in the line search.
 const HALVINGS: usize = 5;
-/// It may raise the energy, but not above the most it was in so many steps before: along the narrow valley in which
-/// stiff cloth turns, the way that always leads down goes in much shorter steps (Grippo, Lampariello and Lucidi 1986).
+/// Steps in the memory of the non-monotone line search: a step may raise the energy, but not above the largest value of
+/// so many steps before. Stiff cloth turns along narrow valleys, where monotone steps are much shorter (Grippo,
+/// Lampariello and Lucidi 1986).
 const MEMORY: usize = 2;
-/// Halvings of a step with the majorant: springs that stiffen have no majorant, but a step short enough goes down.
+/// Most halvings of a step with the majorant. Stiffening springs have no majorant, but a short enough step lowers the
+/// energy.
 const MORE_HALVINGS: usize = 12;
-/// Cloth that is carried is looked at for contacts at most so often on the way.
+/// Most stages, each with its own contacts, in which cloth is carried to given positions.
 const CARRIES: usize = 10;
 /// Energy differences below this are rounding, J.
 const ROUNDING: f64 = 1e-12;
 
-/// What a step must do to the energy to be made as long as it is.
+/// Acceptance test of the line search.
 struct Demand {
-    /// By how much the energy is to fall, J; a share of it is enough.
+    /// Predicted decrease of the energy, J. The share [`ENOUGH`] of it suffices.
     expected: f64,
-    /// By how much it may rise, J.
+    /// Allowed rise of the energy, J.
     allowed: f64,
-    /// How often the step is halved for it.
+    /// Most halvings.
     halvings: usize,
-    /// Whether the loads of springs and shear follow the step's linear model, and what they hold beyond it does not
-    /// count.
+    /// Whether springs and shear are judged by the loads that the step's linear model predicts, so that their energy
+    /// beyond these loads does not count.
     foresees: bool,
 }
 
-/// A step that was shortened.
+/// Outcome of a line search.
 struct Descent {
     target: Vec<Vec3>,
-    /// By how much the energy falls, J.
+    /// Decrease of the energy, J.
     gain: f64,
     halvings: usize,
-    /// The share of it that was made, but for what the bounds changed.
+    /// Share of the step that was taken, before the bounds changed it.
     share: f64,
-    /// Loads as the step foresaw them, if it does.
+    /// Loads that the step predicted, if it does.
     foresaw: Loads,
 }
 
-/// A way that was gone.
+/// Outcome of a given motion.
 struct Way {
-    /// The share of it that there was room for.
+    /// Share of the motion that there was room for.
     share: f64,
     /// Largest motion, metres.
     moved: f64,
@@ -79,38 +84,38 @@ pub struct World<'a> {
     pub cloth: Cloth,
     /// Node positions.
     pub x: Vec<Vec3>,
-    /// Node velocities (what inertia keeps).
+    /// Node velocities, which inertia keeps, m/s.
     pub velocity: Vec<Vec3>,
-    /// Friction of the contacts; none while sewing.
+    /// Friction of the contacts. None while sewing.
     pub(super) friction: Option<Friction>,
-    /// By how much the energy fell in every Newton step since contacts were last looked for, J.
+    /// Decrease of the energy in every Newton step since the last search for contacts, J.
     pub(super) gains: Vec<f64>,
-    /// Where the last Newton step would have liked to take every node.
+    /// The last Newton step of every node as proposed, before it was shortened, metres.
     wished: Vec<Vec3>,
     /// Share of gravity.
     pub gravity: f64,
     law: ContactLaw,
     pub(super) proximity: Proximity<'a>,
     pub(super) stepper: Stepper,
-    /// Couplings between layers that `stepper` has; `None` while seams are being closed, when layers slide past each
-    /// other too fast for it to pay.
+    /// Couplings between layers in `stepper`. `None` while seams are being closed: layers then slide past each other
+    /// too fast for couplings to pay.
     pub(super) touching: Option<Vec<[u32; 2]>>,
 }
 
-/// What a Newton step did.
+/// Outcome of a Newton step.
 #[derive(Clone, Copy, Debug)]
 pub struct NewtonStep {
     /// Largest motion, metres.
     pub moved: f64,
-    /// Whether it had to be shortened for the energy to fall.
+    /// Whether the line search shortened it.
     pub shortened: bool,
-    /// Decrease of the energy over what the model said.
+    /// Decrease of the energy over the predicted decrease.
     pub ratio: f64,
 }
 
 impl NewtonStep {
-    /// How far the next step is trusted to change an edge after one that was trusted to change it by `radius`, metres:
-    /// further where the model was right.
+    /// Trust region of the next step after one with `radius`, metres. It grows if the model predicted the decrease
+    /// well, and shrinks if it did not.
     pub fn trust(&self, radius: f64) -> f64 {
         match self {
             s if s.shortened => 0.5 * radius,
@@ -151,7 +156,7 @@ impl<'a> World<'a> {
         })
     }
 
-    /// One step of `dt` seconds in which the share `keep` of the velocity lives on. Returns the largest motion, metres.
+    /// One step of `dt` seconds that keeps the share `keep` of the velocity. Returns the largest motion, metres.
     ///
     /// # Errors
     /// As [`Stepper::solve`].
@@ -162,13 +167,13 @@ impl<'a> World<'a> {
         Ok(self.go(&d, dt)?.moved)
     }
 
-    /// A step without inertia from an extrapolated position, a share of the last motion, which came from `last`, on. It
-    /// goes to rest much faster than real time. Returns the largest motion, metres.
+    /// A step without inertia from an extrapolated position: the present one plus a share of the motion since `last`.
+    /// Cloth comes to rest much faster so than in real time. Returns the largest motion, metres.
     ///
     /// # Errors
     /// As [`Stepper::solve`].
     pub fn fall(&mut self, last: &[Vec3]) -> Result<f64, StepError> {
-        // Looking ahead pays only while the forces still point the way of the last motion (O'Donoghue and Candès 2015).
+        // Extrapolation pays only while the forces point along the last motion (O'Donoghue and Candès 2015).
         let uphill = || {
             let f = self.unbalanced();
             f.iter().zip(self.x.iter().zip(last)).map(|(f, (x, l))| f.dot(&(x - l))).sum::<f64>() < 0.0
@@ -193,13 +198,15 @@ impl<'a> World<'a> {
         self.move_to(target, FALL, true, Loads::default())
     }
 
-    /// A step with the true stiffness that changes no edge by more than `radius` metres, shortened until the energy
-    /// is below the most it was in the last few; where it does not, a step with the majorant, shortened until it falls.
-    /// What springs and shear hold beyond the loads that the step foresaw does not count: the next step takes it back.
+    /// A Newton step with the true stiffness that changes no edge by more than `radius` metres.
     ///
-    /// Friction is reckoned from where contacts were last looked for: steps until the next look are iterations towards
-    /// the rest of one energy. A memory that followed each of them would be a ratchet, on which their errors drag the
-    /// garment along for hundreds of steps.
+    /// A non-monotone line search shortens it. If that fails, a step with the majorant takes its place, shortened until
+    /// the energy falls. Energy of springs and shear beyond the loads that the step predicted does not count, because
+    /// the next step takes it back.
+    ///
+    /// Friction is measured from the last search for contacts. Steps between two searches are iterations towards one
+    /// state of rest. A memory that followed each step would be a ratchet: the errors of steps would drag the garment
+    /// along for hundreds of steps.
     ///
     /// # Errors
     /// [`StepError::Singular`] when a number is not finite.
@@ -210,7 +217,7 @@ impl<'a> World<'a> {
         self.wished.clone_from(&step.d);
         let longest = self.proximity.bounds.longest();
         if step.d.iter().any(|d| d.norm() > longest) {
-            // Cloth that falls freely.
+            // Freely falling cloth: the next search covers all of it, so that nodes may go further.
             self.proximity.forget();
         }
         let allowed = self.allowed_rise();
@@ -218,7 +225,7 @@ impl<'a> World<'a> {
         let down = self.descend(&step.d, &demand);
         if step.gain > 0.0 && down.gain >= -ROUNDING - allowed {
             self.gains.push(down.gain);
-            // What the model says of the share that was made.
+            // Predicted decrease for the share that was taken.
             let expected = step.gain * down.share * (2.0 - down.share);
             let ratio = if expected > 0.0 { down.gain / expected } else { 0.0 };
             let shortened = down.halvings > 0;
@@ -232,16 +239,16 @@ impl<'a> World<'a> {
         let now = forces(self.gravity, &self.proximity, self.law, &[], self.friction.as_ref());
         let d = self.stepper.solve(&self.cloth, &self.x, &still, dt, &now, ROUNDS)?;
         let down = self.descend(&d, &Demand { expected: 0.0, allowed: 0.0, halvings: MORE_HALVINGS, foresees: false });
-        // The bounds may ask for more room than there is: the shortest step then still makes that room.
+        // The bounds may ask for more room than there is. The shortest step then still makes that room.
         Ok(NewtonStep { moved: self.move_to(down.target, dt, false, Loads::default())?, shortened: true, ratio: 0.0 })
     }
 
-    /// Looks for contacts anew where the last step would have liked to go further than there is room left for.
+    /// Searches for contacts if the last proposed step was longer than the nodes' remaining room.
     fn make_room(&mut self) -> Result<(), StepError> {
         if self.proximity.bounds.is_short_of_room(&self.x, &self.wished) { self.detect() } else { Ok(()) }
     }
 
-    /// By how much the energy may rise without becoming more than it was in the last [`MEMORY`] steps, J.
+    /// Allowed rise: the energy stays below its largest value in the last [`MEMORY`] steps, J.
     fn allowed_rise(&self) -> f64 {
         let mut fallen = 0.0;
         self.gains.iter().rev().take(MEMORY).fold(0.0, |most: f64, gain| {
@@ -250,7 +257,7 @@ impl<'a> World<'a> {
         })
     }
 
-    /// Halves a step, as the bounds let it be made, until it meets the `demand`.
+    /// Line search: halves the step `d`, clamped by the bounds, until it meets the `demand`.
     fn descend(&mut self, d: &[Vec3], demand: &Demand) -> Descent {
         let share = self.proximity.bounds.share(&self.x, d);
         self.cover(&self.x.iter().zip(d).map(|(x, d)| x + d * share).collect::<Vec<_>>());
@@ -262,7 +269,7 @@ impl<'a> World<'a> {
         }
     }
 
-    /// The same with the contacts that are known to matter.
+    /// [`World::descend`] with the contacts that are known to matter.
     fn shortened(&self, d: &[Vec3], mut share: f64, demand: &Demand) -> Descent {
         let forces = self.forces(&[]);
         let loads: Vec<f64> = forces.contacts.iter().map(|c| forces.load(&self.cloth, &self.x, c)).collect();
@@ -284,10 +291,11 @@ impl<'a> World<'a> {
         }
     }
 
-    /// The contacts that a step to `target` is judged by. Those that harden fast turn with it: the corner of a
-    /// waistband that is wedged between two edges slid on by millimetres on planes that were not there any more, and
-    /// came to press with a hundred newtons, step after step. Soft ones stay as they are: newly stitched cloth settles
-    /// sooner so.
+    /// The contacts by which the line search judges a step to `target`.
+    ///
+    /// Fast hardening contacts turn with the step. On their old planes the corner of a waistband, wedged between two
+    /// edges, slid on by millimetres and pressed with a hundred newtons, step after step. Slow ones stay as they are,
+    /// because newly stitched cloth settles sooner so.
     fn contacts_after(&self, target: &[Vec3]) -> Cow<'_, [Contact<'a>]> {
         match self.law.hardening {
             Hardening::Fast => self.proximity.near_after(target).into(),
@@ -295,7 +303,7 @@ impl<'a> World<'a> {
         }
     }
 
-    /// `target` as the bounds let it be reached.
+    /// The positions nearest to `target` that the bounds allow.
     fn clamped(&mut self, target: &[Vec3]) -> Vec<Vec3> {
         loop {
             let mut to = target.to_vec();
@@ -306,7 +314,7 @@ impl<'a> World<'a> {
         }
     }
 
-    /// Takes in the contacts that matter on the way to `target`. Returns whether those that did already are all.
+    /// Adds the contacts that matter on the way to `target`. Returns whether all were there already.
     fn cover(&mut self, target: &[Vec3]) -> bool {
         let covered = self.proximity.covers(&self.x, target);
         if !covered && let Some(friction) = &mut self.friction {
@@ -315,8 +323,8 @@ impl<'a> World<'a> {
         covered
     }
 
-    /// Goes to `target` in `dt` seconds, in a step that `foresaw` loads of the cloth or in none that did, with what
-    /// friction remembers if it is to `drag` it along. Returns the largest motion, metres.
+    /// Moves the nodes to `target` in `dt` seconds. `foresaw` are the loads that the step predicted (empty: none). With
+    /// `drag` the memory of friction follows. Returns the largest motion, metres.
     fn move_to(&mut self, target: Vec<Vec3>, dt: f64, drag: bool, foresaw: Loads) -> Result<f64, StepError> {
         let mut largest = 0.0f64;
         for ((x, t), v) in self.x.iter().zip(&target).zip(&mut self.velocity) {
@@ -337,7 +345,7 @@ impl<'a> World<'a> {
         Ok(largest.sqrt())
     }
 
-    /// Friction remembers how far every contact has been dragged up to now.
+    /// Updates the memory of friction: how far every contact has been dragged.
     fn drag_friction(&mut self) {
         if let Some(friction) = &mut self.friction {
             let (cloth, law, x) = (&self.cloth, self.law, &self.x);
@@ -345,7 +353,7 @@ impl<'a> World<'a> {
         }
     }
 
-    /// [`World::detect`], from now on within `reach`: cloth that hardly moves need not look far.
+    /// Searches for contacts, now and from now on within `reach`.
     ///
     /// # Errors
     /// As [`Stepper::new`].
@@ -354,7 +362,7 @@ impl<'a> World<'a> {
         self.detect()
     }
 
-    /// Moves the nodes to `target`, as far as the cloth lets itself be moved.
+    /// Moves the nodes towards `target`, as far as contacts allow.
     ///
     /// # Errors
     /// As [`Stepper::new`].
@@ -368,8 +376,8 @@ impl<'a> World<'a> {
         Ok(())
     }
 
-    /// Goes the share of the way `d` (a motion per node) that no two things are too near each other for, in `dt`
-    /// seconds, and of that what the bounds allow.
+    /// Makes the share of the motion `d` (one per node) in `dt` seconds that the nodes' room allows, clamped by the
+    /// bounds.
     fn go(&mut self, d: &[Vec3], dt: f64) -> Result<Way, StepError> {
         let share = self.proximity.bounds.share(&self.x, d);
         let target: Vec<Vec3> = self.x.iter().zip(d).map(|(x, d)| x + d * share).collect();
@@ -377,8 +385,8 @@ impl<'a> World<'a> {
         Ok(Way { share, moved: self.move_to(target, dt, true, Loads::default())? })
     }
 
-    /// Looks for contacts anew. Between detections a node slides on the plane where it met the body; on a curved body
-    /// that plane is wrong by as much as the surface bends away.
+    /// Searches for contacts (the broad phase). Between two searches a node slides on the plane where it met the body.
+    /// On a curved body the error of that plane is the distance by which the surface bends away.
     ///
     /// # Errors
     /// As [`Stepper::new`].
@@ -388,8 +396,8 @@ impl<'a> World<'a> {
         self.contacts_changed()
     }
 
-    /// Takes note that [`World::x`] was changed by other hands than its steps: the way there was no motion, turned no
-    /// fold by more than half a turn, and dragged nothing along.
+    /// Tells the world that [`World::x`] was changed from outside. The change gives no velocity, drags no contact
+    /// along, and turns no fold by more than half a turn.
     ///
     /// # Errors
     /// As [`Stepper::new`].
@@ -402,12 +410,12 @@ impl<'a> World<'a> {
         self.detect()
     }
 
-    /// Lets every contact grip, with at least the tangential `stiffness` given, N/m.
+    /// Switches friction on, with at least this tangential `stiffness` per contact, N/m.
     pub fn grip(&mut self, stiffness: f64) {
         self.friction = Some(Friction::new(&self.x, self.proximity.near(), stiffness));
     }
 
-    /// Lets contacts harden as those of garments at rest do ([`Hardening::Fast`]), from the next step on.
+    /// Switches to fast hardening of contacts ([`Hardening::Fast`]) from the next step on.
     pub fn harden(&mut self) {
         self.law.hardening = Hardening::Fast;
         self.stepper.forget();
@@ -415,7 +423,7 @@ impl<'a> World<'a> {
         self.gains.clear();
     }
 
-    /// Whether the body is in the way along an edge of the cloth, or pokes through a triangle.
+    /// Whether the body cuts an edge of the cloth or pokes through a triangle.
     pub fn is_cut(&self) -> bool {
         let (body, cloth) = (self.proximity.body, &self.cloth);
         let cuts = |[a, b]: &[u32; 2]| body.is_in_the_way(self.x[*a as usize], self.x[*b as usize]);
@@ -423,7 +431,7 @@ impl<'a> World<'a> {
         cloth.edges.par_iter().any(cuts) || cloth.triangles.par_iter().any(pokes)
     }
 
-    /// How many edges and triangles the body cuts, and for every node the mean way off it of those that have the node.
+    /// Number of edges and triangles that the body cuts, and per node the mean direction off the body of those at it.
     pub fn ways_off(&self) -> (usize, Vec<Vec3>) {
         let (body, cloth) = (self.proximity.body, &self.cloth);
         let at = |n: u32| self.x[n as usize];
@@ -444,7 +452,7 @@ impl<'a> World<'a> {
         (count, sum.into_iter().map(|(to, ways)| to / f64::max(ways, 1.0)).collect())
     }
 
-    /// Gives the system the couplings of layers that have come near each other, and friction the new contacts.
+    /// Passes new contacts on: to friction, and to the matrix pattern if layers have come near each other.
     fn contacts_changed(&mut self) -> Result<(), StepError> {
         // Its energy is another one now.
         self.gains.clear();
@@ -469,13 +477,13 @@ impl<'a> World<'a> {
         forces(self.gravity, &self.proximity, self.law, pulls, self.friction.as_ref())
     }
 
-    /// The sum of all forces on every node, N: what is unbalanced,
-    /// and at nodes that are held what holds them, reversed.
+    /// Sum of all forces on every node, N. At a free node it is the unbalanced force, at a held node the reversed
+    /// reaction.
     pub fn unbalanced(&self) -> Vec<Vec3> {
         cloth_forces(&self.cloth, &self.x, &self.forces(&[]))
     }
 
-    /// Root mean square of the unbalanced force over the particle's weight.
+    /// Root mean square of the unbalanced force, in mean particle weights.
     pub fn residual_in_weights(&self) -> f64 {
         let mut r = self.unbalanced();
         self.cloth.held.iter().for_each(|&n| r[n as usize] = Vec3::zeros());
@@ -484,12 +492,12 @@ impl<'a> World<'a> {
         rms / (mean_mass * GRAVITY)
     }
 
-    /// How many contacts with body and cloth are known, within the reach of the looks that found them.
+    /// Number of known contacts with body and cloth, within the reach of the searches that found them.
     pub fn contacts_found(&self) -> usize {
         self.proximity.found()
     }
 
-    /// What contact has cost up to now.
+    /// Wall-clock time spent on contact up to now.
     pub fn contact_time(&self) -> ContactTime {
         self.proximity.time
     }
@@ -499,7 +507,7 @@ impl<'a> World<'a> {
         self.proximity.tangles(&self.x)
     }
 
-    /// Lets nodes pass through one another; none if `passing` is empty.
+    /// Sets the nodes that may pass through one another. An empty list means none.
     ///
     /// # Errors
     /// As [`Stepper::new`].
@@ -509,7 +517,7 @@ impl<'a> World<'a> {
     }
 }
 
-/// Borrows only what it needs, so that the stepper stays free.
+/// The forces, built from parts of the world so that the stepper can be borrowed mutably beside them.
 fn forces<'b>(
     gravity: f64,
     proximity: &'b Proximity,

@@ -1,6 +1,6 @@
 //! Tables as spreadsheets and instruments write them.
 
-/// How the rows of a table are cut into fields.
+/// Separation of the rows of a table into fields.
 #[derive(Clone, Debug)]
 pub(in crate::fabric) struct Columns {
     separator: char,
@@ -8,8 +8,8 @@ pub(in crate::fabric) struct Columns {
 }
 
 impl Columns {
-    /// Of a table with that first row: it is cut at semicolons if it has any, else at tabs, else at commas. So a comma
-    /// in a number is never taken for the end of a field where fields end otherwise.
+    /// Separator of a table with this first row: semicolons if it has any, else tabs, else commas. So a comma in a
+    /// number is never taken for the end of a field if fields end otherwise.
     pub(in crate::fabric) fn new(header: &str) -> Self {
         let separator = [';', '\t'].into_iter().find(|s| header.contains(*s)).unwrap_or(',');
         // `recovery cm2` and `recovery(cm2)` are the column `recovery`.

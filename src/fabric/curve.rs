@@ -9,7 +9,7 @@ use super::units::GF_PER_CM;
 /// Load per width against strain of a woven direction, piecewise linear (F4).
 #[derive(Clone, Debug, PartialEq)]
 pub struct TensileCurve {
-    /// (strain, N/m), rising, first (0, 0); the last slope goes on beyond the last point.
+    /// (strain, N/m), rising, first (0, 0). The last slope goes on beyond the last point.
     pub points: Vec<(f64, f64)>,
 }
 
@@ -19,11 +19,12 @@ const KNOTS: [f64; 6] = [5.0, 20.0, 50.0, 100.0, 200.0, 500.0];
 const FULL_LOAD: f64 = 500.0;
 /// Load of the FAST extension test at which cloth can still be worked, gf/cm.
 const WORKED_LOAD: f64 = 100.0;
-/// Share of it at which it counts as reached: a tester turns round a few gf/cm early or late.
+/// Share of that load at which it counts as reached. A tester reverses a few gf/cm early or late.
 const REACHED: f64 = 0.98;
-/// Strain to which the stretchiest cloth may be drawn, and what a curve's rows can have between them, N/m: from a web
-/// that a breath draws out to a steel sheet of some millimetres. Beyond are slips of the pen and wrong units.
+/// Largest strain of a curve: that of the stretchiest cloth. Larger ones are slips of the pen or in wrong units.
 const LONGEST: f64 = 10.0;
+/// Range of the slope between two rows of a curve, N/m: from a web that a breath stretches to a steel sheet of some
+/// millimetres.
 const STIFFNESS: RangeInclusive<f64> = 1e-3..=1e9;
 
 impl TensileCurve {
@@ -48,7 +49,7 @@ impl TensileCurve {
         [self.points[i], self.points[i + 1]]
     }
 
-    /// Load at a strain, N/m; zero in compression, where cloth buckles instead.
+    /// Load at a strain, N/m. Zero in compression, where cloth buckles instead.
     pub fn load(&self, strain: f64) -> f64 {
         if strain <= 0.0 {
             return 0.0;
@@ -75,7 +76,7 @@ impl TensileCurve {
         self.strain(FULL_LOAD * GF_PER_CM)
     }
 
-    /// Slope of the load at a strain, N/m; at a corner that of the segment beyond, zero in compression.
+    /// Slope of the load at a strain, N/m. At a corner that of the segment beyond, zero in compression.
     pub fn slope(&self, strain: f64) -> f64 {
         if strain < 0.0 {
             return 0.0;
@@ -102,13 +103,13 @@ impl TensileCurve {
         sum
     }
 
-    /// The same curve with every load multiplied by `factor`.
+    /// This curve with every load multiplied by `factor`.
     pub fn scaled(&self, factor: f64) -> Self {
         Self { points: self.points.iter().map(|p| (p.0, factor * p.1)).collect() }
     }
 
     /// Reads a table of two columns, strain and load. A first line with words is a header and may say the units
-    /// (`strain %` or `strain fraction`, `load gf/cm` or `load N/m`); without one they are % and gf/cm. Lines that are
+    /// (`strain %` or `strain fraction`, `load gf/cm` or `load N/m`). Without one they are % and gf/cm. Lines that are
     /// empty or begin with `#` are skipped. A first point (0, 0) is added where it is missing.
     ///
     /// # Errors
@@ -135,7 +136,7 @@ impl TensileCurve {
         Self::rising(&rows, scale, file)
     }
 
-    /// Of rows (line of the `file`, strain, load), as [`TensileCurve::parse`]; `scale` makes their numbers a fraction
+    /// Of rows (line of the `file`, strain, load), as [`TensileCurve::parse`]. `scale` makes their numbers a fraction
     /// and N/m.
     pub(super) fn rising(rows: &[(usize, f64, f64)], scale: (f64, f64), file: &str) -> Result<Self, FabricError> {
         let fault = |row: usize, why: String| FabricError::Curve { file: file.to_owned(), row, why };
@@ -194,7 +195,7 @@ fn pair<'a>(columns: &Columns, line: &'a str) -> Result<[&'a str; 2], String> {
     }
 }
 
-/// What a header says of both columns, as factors to a fraction and N/m.
+/// Units in a header of both columns, as factors to a fraction and to N/m.
 fn units(strain: &str, load: &str) -> Result<(f64, f64), String> {
     let strain = match strain {
         s if s.contains('%') => 0.01,

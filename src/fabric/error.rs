@@ -1,6 +1,6 @@
 //! Why there is no fabric.
 
-/// Why a fabric cannot be had; every message says what was expected.
+/// Why a fabric cannot be had. Every message tells the expected input.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FabricError {
     /// Neither a library name, nor a fabric of the garment, nor a file.
@@ -19,7 +19,7 @@ pub enum FabricError {
     Read {
         /// Path.
         file: String,
-        /// What the system said.
+        /// The system's message.
         why: String,
     },
     /// The text is no fabric.
@@ -27,7 +27,7 @@ pub enum FabricError {
     Syntax {
         /// Path or name.
         file: String,
-        /// What is wrong, with line and column where the reader knows them.
+        /// The fault, with line and column if the reader knows them.
         why: String,
     },
     /// A key that means nothing.
@@ -45,7 +45,7 @@ pub enum FabricError {
     Unit {
         /// The fabric.
         fabric: String,
-        /// Which value.
+        /// The value.
         key: String,
         /// As written.
         text: String,
@@ -57,11 +57,11 @@ pub enum FabricError {
     Range {
         /// The fabric.
         fabric: String,
-        /// Which value.
+        /// The value.
         key: String,
         /// As written.
         text: String,
-        /// What it must be.
+        /// Its requirement.
         why: String,
     },
     /// A value beside another that says the same.
@@ -69,11 +69,11 @@ pub enum FabricError {
     Twice {
         /// The fabric.
         fabric: String,
-        /// Which value.
+        /// The value.
         key: String,
         /// As written.
         text: String,
-        /// What else says it.
+        /// The other statement of it.
         why: String,
     },
     /// A value that nothing can stand in for.
@@ -81,7 +81,7 @@ pub enum FabricError {
     Missing {
         /// The fabric.
         fabric: String,
-        /// Which value.
+        /// The value.
         key: String,
         /// Its units.
         expected: String,
@@ -93,7 +93,7 @@ pub enum FabricError {
         file: String,
         /// Line of the file, from 1.
         row: usize,
-        /// What is wrong.
+        /// The fault.
         why: String,
     },
     /// A fabric whose base is, by some way, itself.

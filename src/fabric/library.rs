@@ -28,7 +28,7 @@ const SHIPPED: [(&str, &str); 17] = [
     ("rib", include_str!("../../fabrics/rib.yaml")),
 ];
 
-/// Characters of an unknown name that an error shows.
+/// Number of characters of an unknown name that an error shows.
 const NAME: usize = 120;
 
 /// Names of the shipped fabrics.
@@ -52,7 +52,7 @@ pub fn load(name_or_path: &str) -> Result<Fabric, FabricError> {
     load_in(name_or_path, Path::new(""), &[])
 }
 
-/// As [`load`], paths being relative to `folder`; `others` are further names for the list in the error.
+/// As [`load`], paths being relative to `folder`. `others` are further names for the list in the error.
 pub(super) fn load_in(name: &str, folder: &Path, others: &[&str]) -> Result<Fabric, FabricError> {
     let sheet = sheet_in(name, folder, others)?;
     // Curves that a fabric file names lie beside that file.
@@ -88,7 +88,8 @@ fn sheet_in(name: &str, folder: &Path, others: &[&str]) -> Result<FabricSheet, F
     FabricSheet::parse(&text, &file)
 }
 
-/// A fabric's file is a page of text; a curve of ten thousand points has a few hundred kilobytes.
+/// Largest file of a fabric, bytes. Such files are a page of text, and a curve of ten thousand points has a few hundred
+/// kilobytes.
 const LARGEST: u64 = 4 << 20;
 
 /// The text of a fabric's or a curve's file, told to be too large before it is read.

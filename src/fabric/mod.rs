@@ -1,4 +1,4 @@
-//! Fabrics as measured: the shipped library, fabric files, and what a garment file says inline.
+//! Fabrics as measured: the shipped library, fabric files, and inline values of a garment file.
 
 use std::ops::RangeInclusive;
 
@@ -20,12 +20,14 @@ pub use sheet::{FabricSheet, LiuMeasures, Measurement};
 /// Gravity, m/s² (standard acceleration, ISO 80000-3).
 pub const GRAVITY: f64 = 9.80665;
 
-/// Beyond these a fabric is doubted: bending lengths, mm; extensions at 500 gf/cm, per cent; densities, kg/m³.
+/// Bending lengths outside which a fabric is doubted, mm.
 const BENDING_LENGTHS: RangeInclusive<f64> = 4.0..=100.0;
+/// Extensions at 500 gf/cm outside which a fabric is doubted, per cent.
 const EXTENSIONS: RangeInclusive<f64> = 0.1..=300.0;
+/// Densities outside which a fabric is doubted, kg/m³.
 const DENSITIES: RangeInclusive<f64> = 30.0..=3000.0;
 
-/// How a garment file names a fabric: a library name or file, with inline measurements or multipliers on top.
+/// Reference to a fabric in a garment file: a library name or file, with inline measurements or multipliers on top.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FabricSpec {
     /// Library name (`cotton_poplin`), path, or another fabric of the same garment.
@@ -35,18 +37,18 @@ pub struct FabricSpec {
     pub values: Vec<(String, String)>,
 }
 
-/// A fabric in physical units; every value is there, those not measured are named in `defaults`.
+/// A fabric in physical units. Every value is there. Assumed ones are named in `defaults`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fabric {
     /// `cotton_poplin`.
     pub name: String,
-    /// kg/m².
+    /// Mass per area, kg/m².
     pub areal_density: f64,
-    /// Metres.
+    /// Thickness, metres.
     pub thickness: f64,
-    /// Bending rigidity, N·m (per metre of width), bent along the warp.
+    /// Bending rigidity along the warp, N·m (per metre of width).
     pub bend_warp: f64,
-    /// The same along the weft.
+    /// Bending rigidity along the weft, N·m (per metre of width).
     pub bend_weft: f64,
     /// Load–extension along the warp.
     pub warp: TensileCurve,
@@ -56,14 +58,14 @@ pub struct Fabric {
     pub shear: f64,
     /// Coulomb friction against the body and against cloth.
     pub friction: f64,
-    /// Where the values come from.
+    /// Source of the values.
     pub source: String,
     /// Values that were not measured but assumed.
     pub defaults: Vec<String>,
 }
 
 impl Fabric {
-    /// EMT along warp and weft, as fractions: what they give under a tensile tester's full load, 500 gf/cm.
+    /// EMT along warp and weft: extension under a tensile tester's full load, 500 gf/cm, as fractions.
     pub fn emt(&self) -> [f64; 2] {
         [&self.warp, &self.weft].map(TensileCurve::emt)
     }
@@ -83,7 +85,7 @@ impl Fabric {
         self.bending_length_of(0.5 * (self.bend_warp + self.bend_weft))
     }
 
-    /// What its user should know of how it behaves where nothing was measured.
+    /// Notes for the user on properties that were not measured.
     pub fn notes(&self) -> Vec<String> {
         let curves = [&self.warp, &self.weft].map(TensileCurve::ends_early);
         let mut ends: Vec<f64> = curves.into_iter().flatten().collect();

@@ -1,4 +1,4 @@
-//! From what is written about a fabric to a [`Fabric`] with every value.
+//! Makes a [`Fabric`] with every value from a fabric's description.
 
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
@@ -11,16 +11,20 @@ use super::units::{BEND, LENGTH, Quantity, SHEAR, STRAIN, WEIGHT};
 use super::{Fabric, FabricSpec, GRAVITY, TensileCurve};
 use crate::input::yaml;
 
-/// What stands in for a value that was not measured: middles of the shipped wovens.
+/// Assumed thickness, metres: the middle of the shipped wovens.
 const THICKNESS: f64 = 0.3e-3;
+/// Assumed shear stiffness, N/m per radian: the middle of the shipped wovens.
 const SHEAR_STIFFNESS: f64 = 34.0;
+/// Assumed friction coefficient: the middle of the shipped wovens.
 const FRICTION: f64 = 0.4;
-/// Rubber on rubber has 1 to 1.5; more is a percentage, or another quantity.
+/// Range of friction coefficients. Rubber on rubber has 1 to 1.5. Larger numbers are percentages or another quantity.
 const FRICTIONS: RangeInclusive<f64> = 0.0..=2.0;
+/// Assumed extension at 500 gf/cm, as a fraction: the middle of the shipped wovens.
 const EMT: f64 = 0.03;
-/// kg/m²: only for fabrics of which nothing but the three published measures is known, whose shape the ratio of bending
-/// to weight decides, not the weight.
+/// Assumed mass per area, kg/m². It is used only for fabrics with nothing but the three published measures, whose shape
+/// depends on the ratio of bending to weight and not on the weight.
 const AREAL_DENSITY: f64 = 0.15;
+/// Assumed linearity of the tensile curve (KES LT): the middle of the shipped wovens.
 const LT: f64 = 0.7;
 
 /// Fabrics of a garment that may be based on one another in a row: more is a file that no one wrote.
@@ -57,7 +61,7 @@ const KEYS: [&str; 27] = [
     "name",
 ];
 
-/// Where a fabric is written.
+/// Source of a fabric's description.
 #[derive(Clone, Copy, Debug)]
 pub struct Context<'a> {
     /// The fabric's name in the garment.
@@ -68,10 +72,11 @@ pub struct Context<'a> {
     pub garment: &'a [(String, FabricSpec)],
 }
 
-/// The fabric a garment file describes: its base, if any, with the inline values on top. A plain number multiplies the
-/// base's value (friction has no unit, so there it is the value itself). What neither gives is assumed and listed in
-/// [`Fabric::defaults`]; weight and bending have no default, except that a fabric file with the three published
-/// measures and no bending has, as a last resort, a bending length from its weights
+/// The fabric of a garment file: its base, if any, with the inline values on top. A plain number multiplies the base's
+/// value. For friction, which has no unit, it is the value itself.
+///
+/// Values that neither gives are assumed and listed in [`Fabric::defaults`]. Weight and bending have no default. As a
+/// last resort, a fabric file with the three published measures and no bending has a bending length from its weights
 /// ([`LiuMeasures::fallback_bending_length`]).
 ///
 /// # Errors
@@ -130,7 +135,7 @@ pub(super) fn from_sheet(sheet: &FabricSheet, context: &Context) -> Result<Fabri
 struct Values<'a> {
     map: BTreeMap<String, String>,
     context: &'a Context<'a>,
-    /// What bending follows from where it is not measured.
+    /// Source of bending where it is not measured.
     liu: Option<&'a LiuMeasures>,
 }
 
@@ -188,7 +193,7 @@ impl<'a> Values<'a> {
         Err(FabricError::Range { fabric, key, text, why })
     }
 
-    /// A value with its unit, or a factor on `base`; `None` when none of `keys` is written.
+    /// A value with its unit, or a factor on `base`. `None` when none of `keys` is written.
     fn quantity(&self, keys: &[&str], kind: &Quantity, base: Option<f64>) -> Result<Option<f64>, FabricError> {
         let Some((key, text)) = self.first(keys) else { return Ok(base) };
         let value = match (kind.parse(text), text.trim().parse::<f64>(), base) {
@@ -257,8 +262,8 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// Both rigidities. One stands for the other where only one is written. Where none is, the last resort are the
-    /// weights of the published energy, if there are any, with the mass per area.
+    /// Both rigidities. If only one is written it stands for both. If none is, the last resort are the weights of the
+    /// published energy with the mass per area.
     fn bending(
         &self,
         base: Option<&Fabric>,
@@ -309,7 +314,7 @@ impl<'a> Values<'a> {
         })
     }
 
-    /// One direction's curve: `[file or factor, EMT, LT]` are its keys; the same without direction serve both.
+    /// Curve of one direction. Its keys are `[file or factor, EMT, LT]`. These keys without direction serve both.
     fn curve(
         &self,
         [whole, emt, lt]: [&str; 3],
@@ -386,7 +391,7 @@ impl Defaults {
         keys.iter().zip(directions).filter(|(_, written)| *written).for_each(|(key, _)| self.clear(key));
     }
 
-    /// `value` or, noted, `fallback`; a value that is written is no longer assumed.
+    /// `value` or, noted, `fallback`. A value that is written is no longer assumed.
     fn or(&mut self, key: &str, is_written: bool, value: Option<f64>, fallback: f64) -> f64 {
         if is_written {
             self.clear(key);

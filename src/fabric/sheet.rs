@@ -9,7 +9,7 @@ use crate::input::{shown, yaml};
 /// Characters of a message that are shown: it may quote the whole file.
 const MESSAGE: usize = 300;
 
-/// What a fabric file says.
+/// Contents of a fabric file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FabricSheet {
     /// Name.
@@ -20,7 +20,7 @@ pub struct FabricSheet {
     pub measurements: Vec<Measurement>,
     /// Liu's geometric measures: of the fifteen fabrics they were published for, and of those measured the same way.
     pub liu: Option<LiuMeasures>,
-    /// What a reader of the numbers should know, such as where weights and physics disagree.
+    /// Note for readers of the numbers, such as a conflict of weights and physics.
     pub note: Option<String>,
 }
 
@@ -31,31 +31,31 @@ pub struct Measurement {
     pub key: String,
     /// As written, with its unit.
     pub value: String,
-    /// Where it comes from.
+    /// Its source.
     pub source: Option<String>,
     /// One standard deviation, as written.
     pub uncertainty: Option<String>,
 }
 
-/// A row of table 2 of Liu, Wang & Luo 2015, or of a fabric measured likewise; each triple is recovery, stretch, bend.
+/// A row of table 2 of Liu, Wang & Luo 2015, or of a fabric measured likewise. Each triple is recovery, stretch, bend.
 #[derive(Clone, Debug, PartialEq, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LiuMeasures {
-    /// Number in the table, 0–14; none for a fabric that is not in it.
+    /// Number in the table, 0–14. None for a fabric that is not in it.
     #[serde(default)]
     pub sample: Option<u8>,
-    /// v, means of the readings, as ratios.
+    /// Means v of the readings, as ratios.
     pub means: [f64; 3],
-    /// Standard deviation of a single reading's v; not published for the fifteen.
+    /// Standard deviation of a single reading's v. Not published for the fifteen.
     #[serde(default)]
     pub spread: Option<[f64; 3]>,
-    /// v', normalised. They cannot be had from the means: the extremes of the readings are not published.
+    /// Normalised values v'. They do not follow from the means, because the extremes of the readings are not published.
     pub normalised: [f64; 3],
     /// ω, percent: as published, or by (8).
     pub weights: [f64; 3],
 }
 
-/// No cloth's diagonal grows beyond this many times its length at 8 N; the other two measures are at most 1.
+/// No cloth's diagonal grows beyond this many times its length at 8 N. The other two measures are at most 1.
 pub(super) const LARGEST_MEAN: f64 = 3.0;
 /// The bending length of a fabric with ω_B = ω_R under gravity, metres: the one constant of
 /// [`LiuMeasures::fallback_bending_length`]. A trial of disc drapes put it at 20 to 22 mm, where silk, poplin,
@@ -72,7 +72,7 @@ impl LiuMeasures {
         EVEN_BENDING_LENGTH * (bend / recovery).cbrt()
     }
 
-    /// Refuses what no readings give.
+    /// Refuses values that no readings give.
     fn check(&self) -> Result<(), String> {
         let within = |name: &str, values: &[f64; 3], low: f64, high: f64| {
             let wrong = values.iter().any(|v| !(low..=high).contains(v));
@@ -115,7 +115,8 @@ impl FabricSheet {
         .filter(|[low, high]| 1.0 <= *low && low <= high && *high <= 100.0)
     }
 
-    /// Refuses what is said twice, as `bend.warp: …` beside `bend: {warp: …}`, and a drape coefficient that is none.
+    /// Refuses values that are given twice, as `bend.warp: …` beside `bend: {warp: …}`, and impossible drape
+    /// coefficients.
     fn check(&self) -> Result<(), String> {
         once(&self.measurements)?;
         match self.measurements.iter().find(|m| m.key == "drape") {
@@ -126,7 +127,7 @@ impl FabricSheet {
         }
     }
 
-    /// Reads a fabric file's text; `from` names it in errors.
+    /// Reads a fabric file's text. `from` names it in errors.
     ///
     /// # Errors
     /// [`FabricError::Syntax`] when it is no YAML map of values.
@@ -180,7 +181,7 @@ pub(super) fn once(measurements: &[Measurement]) -> Result<(), String> {
     }
 }
 
-/// The measurements of a nested value: `bend: {warp: 1 uN.m}` is `bend.warp`; a map with a `value` is one measurement.
+/// The measurements of a nested value: `bend: {warp: 1 uN.m}` is `bend.warp`. A map with a `value` is one measurement.
 pub(super) fn flatten(key: &str, value: &Value, out: &mut Vec<Measurement>) -> Result<(), String> {
     let Value::Mapping(map) = value else {
         let text = scalar(value).ok_or_else(|| format!("{key}: a value with its unit is expected"))?;

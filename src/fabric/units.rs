@@ -7,13 +7,14 @@ use std::ops::RangeInclusive;
 pub(super) const GF_PER_CM: f64 = 0.980_665;
 /// N·m in one gf·cm²/cm.
 const GF_CM2_PER_CM: f64 = 98.0665e-6;
-/// kg/m² in one ounce per square yard.
+/// One ounce per square yard in kg/m².
 const OZ_PER_YD2: f64 = 0.033_905_75;
 
-/// A kind of quantity: the units it is written in, and what each is in SI.
+/// A kind of quantity: its units, and the SI value of each.
 pub(super) struct Quantity {
     units: &'static [(&'static str, f64)],
-    /// What a sheet can have, SI: from a spider's web to a carpet. Beyond are slips of the pen and wrong units.
+    /// Range of plausible values, SI: from a spider's web to a carpet. Values outside are slips of the pen or in wrong
+    /// units.
     pub(super) range: RangeInclusive<f64>,
     /// Name of the SI unit.
     pub(super) si: &'static str,
@@ -53,7 +54,7 @@ impl Quantity {
         }
     }
 
-    /// The SI value of a number with one of the units; `None` when it is not that.
+    /// The SI value of a number with one of the units. `None` when it is not that.
     pub(super) fn parse(&self, text: &str) -> Option<f64> {
         let text = plain(text);
         let (unit, factor) = self.units.iter().find(|(unit, _)| {
@@ -75,7 +76,7 @@ pub(super) fn plain(text: &str) -> String {
             '²' => out.push('2'),
             'µ' | 'μ' => out.push('u'),
             '^' | '(' | ')' => {}
-            // A space between two units multiplies them; one after the number means nothing. Between two numbers it
+            // A space between two units multiplies them. One after the number means nothing. Between two numbers it
             // stays, and makes them none.
             c if c.is_whitespace() => match (out.chars().last(), chars.peek()) {
                 (Some(a), Some(b)) if a.is_alphabetic() && b.is_alphabetic() => out.push('.'),

@@ -7,9 +7,9 @@ use super::{Cubic, Path, Vec2};
 /// angle: Goldapp 1991.)
 const MOST_BULGE: f64 = 0.04;
 
-/// Arcs through `points` end to end (two or more; no two that follow each other in one place), each given with the
-/// bulge of the arc to the next: the tangent of a quarter of the angle it turns by, positive counterclockwise on screen
-/// (y down), 0 for a straight line. The bulge of the last counts for nothing.
+/// Arcs through `points` end to end: two or more points, neighbours apart. Each point has the bulge of the arc to the
+/// next one: the tangent of a quarter of the angle that the arc turns by, positive counterclockwise on screen (y down),
+/// 0 for a straight line. The bulge of the last point is ignored.
 pub(crate) fn bulged(points: &[(Vec2, f64)]) -> Path {
     let mut curves = Vec::new();
     for step in points.windows(2) {
@@ -19,7 +19,7 @@ pub(crate) fn bulged(points: &[(Vec2, f64)]) -> Path {
     Path::cubics(&curves)
 }
 
-/// An arc as curves; halved until each turns by little, which needs no centre and is exact however flat the arc is.
+/// An arc as curves. Halved until each turns by little, which needs no centre and is exact however flat the arc is.
 fn curve(from: Vec2, to: Vec2, bulge: f64, curves: &mut Vec<Cubic>) {
     let chord = to - from;
     let aside = Vec2::new(-chord.y, chord.x);

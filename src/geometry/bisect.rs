@@ -1,15 +1,15 @@
-//! Where a function passes zero.
+//! Zeros of functions by bisection.
 
 use std::convert::Infallible;
 
-/// Where `f`, which rises, passes 0 between `low` and `high`, in so many halvings;
-/// the end nearer to it where it does not.
+/// Zero of the rising function `f` in `range`, after `halvings` halvings. Without a sign change it is the end nearer to
+/// the zero.
 pub(crate) fn bisect(range: [f64; 2], halvings: usize, f: impl Fn(f64) -> f64) -> f64 {
     let Ok(found) = try_bisect(range, halvings, |x| Ok::<_, Infallible>(f(x)));
     found
 }
 
-/// As [`bisect`], of a function that may fail.
+/// As [`bisect`], for a function that may fail.
 pub(crate) fn try_bisect<E>(
     [mut low, mut high]: [f64; 2],
     halvings: usize,

@@ -1,4 +1,4 @@
-//! A smooth path in the plane; the only user of kurbo.
+//! A smooth path in the plane. The only user of kurbo.
 
 use kurbo::{
     BezPath, ParamCurve, ParamCurveArclen, ParamCurveDeriv, ParamCurveNearest, PathSeg, Point, Shape, Vec2 as KVec,
@@ -29,7 +29,7 @@ pub struct Station {
     pub tangent: Vec2,
 }
 
-/// Halvings of a segment in search of [`Path::stations`]: past this many the curve has no tangent worth following.
+/// Most halvings of a segment in [`Path::stations`]. A curve that needs more has no tangent worth following.
 const MOST_HALVINGS: usize = 14;
 
 /// Why a path could not be read.
@@ -46,10 +46,10 @@ pub enum PathError {
     Empty(String),
 }
 
-/// Arcs become cubics that stay within this many file units of them (a nanometre in millimetres).
+/// Largest distance of an arc from the cubics that replace it, in file units (a nanometre in millimetres).
 const ARC_ACCURACY: f64 = 1e-6;
 
-/// An SVG path, of one connected run or (`many`) of several; `None` when the text is no such path. (kurbo's and
+/// An SVG path, of one connected run or (`many`) of several. `None` when the text is no such path. (kurbo's and
 /// svgtypes' own conversions of arcs are off by up to 0.1 units; this one is not.)
 fn bezier_path(text: &str, many: bool) -> Option<BezPath> {
     let mut pen = Pen::default();
@@ -63,7 +63,7 @@ fn bezier_path(text: &str, many: bool) -> Option<BezPath> {
     Some(pen.bez)
 }
 
-/// What has been drawn of a path, and what the next command needs to know of it.
+/// The part of a path that has been drawn, and the state that the next command needs.
 #[derive(Default)]
 struct Pen {
     bez: BezPath,
@@ -125,7 +125,7 @@ impl Pen {
     /// An arc, or the line that stands for one without radii.
     fn arc_to(&mut self, arc: kurbo::SvgArc) {
         match kurbo::Arc::from_svg_arc(&arc) {
-            // Of radii beside which its chord is a rounding it is that chord.
+            // If the chord is below rounding beside the radii, the arc is its chord.
             Some(curved) if curved.sweep_angle.abs() > 0.0 => {
                 let accuracy = ARC_ACCURACY.max(RELATIVE_ACCURACY * curved.radii.x.max(curved.radii.y));
                 curved.to_cubic_beziers(accuracy, |a, b, c| self.bez.curve_to(a, b, c));
@@ -148,11 +148,11 @@ fn vector(p: Point) -> Vec2 {
     Vec2::new(p.x, p.y)
 }
 
-/// Arcs and lengths of paths of kilometres are exact to this share only: nothing exact can be said of them,
-/// and trying to takes for ever.
+/// Relative accuracy of arcs and lengths, which bounds the work for paths of kilometres: their absolute accuracy would
+/// take for ever.
 const RELATIVE_ACCURACY: f64 = 1e-12;
-/// Beyond this size (metres) squares may overflow and no length converges: that of the control points must do, to tell
-/// that it is too long.
+/// Size beyond which squares may overflow and no length converges, metres. The length of the control polygon then has
+/// to do: it tells that the path is too long.
 const MEASURABLE: f64 = 1e9;
 
 fn arc_length(segment: &PathSeg) -> f64 {
@@ -198,7 +198,7 @@ impl Path {
         Self::from_segments(curves.iter().map(segment).collect())
     }
 
-    /// Reads SVG path commands (absolute or relative, without the leading `M`) that go on from `start`; the numbers
+    /// Reads SVG path commands (absolute or relative, without the leading `M`) that go on from `start`. The numbers
     /// and `start` are multiplied by `unit` (metres per file unit).
     ///
     /// # Errors
@@ -208,7 +208,7 @@ impl Path {
         Self::parse_absolute(&text, unit)
     }
 
-    /// Reads a whole SVG path that begins with its own `M`; numbers are multiplied by `unit`.
+    /// Reads a whole SVG path that begins with its own `M`. Numbers are multiplied by `unit`.
     ///
     /// # Errors
     /// As [`Path::parse`].
@@ -225,8 +225,8 @@ impl Path {
         Ok(Self::from_segments(segments))
     }
 
-    /// Reads every connected run of an SVG path, its numbers as they stand; runs without length are left out. What
-    /// follows a `Z` without an `M` goes on from where the closed run began.
+    /// Reads every connected run of an SVG path, without scaling. Runs without length are left out. Commands that
+    /// follow a `Z` without an `M` continue from the start of the closed run.
     ///
     /// # Errors
     /// [`PathError`] when the text is no path or holds a number that is not finite.
@@ -237,7 +237,7 @@ impl Path {
         }
         let mut runs: Vec<Vec<PathSeg>> = Vec::new();
         let mut end: Option<Point> = None;
-        // What is too short to count may lie between two segments of a run.
+        // Parts too short to count may lie between two segments of a run.
         let near = |a: Point, b: Point| a.distance(b) <= LENGTH_ACCURACY;
         for segment in bez.segments().filter(|s| arc_length(s) > LENGTH_ACCURACY) {
             match runs.last_mut() {
@@ -308,9 +308,9 @@ impl Path {
         (self.end() - self.start()).normalize()
     }
 
-    /// Stations along every segment, its ends included, so close that the chords between them leave the path by at
-    /// most `tolerance`, and likewise those between the points `reach` to the left or right of them the curves that run
-    /// beside the path. Metres.
+    /// Stations along every segment, its ends included, metres. The chords between them leave the path by at most
+    /// `tolerance`. So do the chords between the points `reach` to the left or right of them, from the curves that run
+    /// beside the path.
     pub fn stations(&self, reach: f64, tolerance: f64) -> Vec<Vec<Station>> {
         (0..self.segments.len()).map(|i| self.segment_stations(i, reach, tolerance)).collect()
     }
@@ -346,7 +346,7 @@ impl Path {
         found
     }
 
-    /// The path as cubic Bézier curves: start, two control points and end each; lines are `None` in between.
+    /// The path as cubic Bézier curves: start, two control points and end each. Lines are `None` in between.
     pub fn beziers(&self) -> impl Iterator<Item = (Vec2, Option<[Vec2; 2]>, Vec2)> + '_ {
         self.segments.iter().map(|segment| {
             let controls = match segment {
@@ -371,8 +371,8 @@ impl Path {
         best
     }
 
-    /// The part from arc length `from` to `to` (`from < to`, both clamped). What is nearer to a joint of its segments
-    /// than lengths are exact begins or ends in it: what would lie between is no segment, and has no direction.
+    /// The part from arc length `from` to `to` (`from < to`, both clamped). An end within a nanometre of a
+    /// joint between segments is moved to the joint, because a shorter segment has no direction.
     pub fn part(&self, from: f64, to: f64) -> Self {
         let joint = |s: f64| self.at.iter().copied().find(|at| (at - s).abs() <= LENGTH_ACCURACY).unwrap_or(s);
         let (from, to) = (joint(from.clamp(0.0, self.length())), joint(to.clamp(0.0, self.length())));
@@ -392,7 +392,7 @@ impl Path {
         Self::from_segments(segments)
     }
 
-    /// The same path walked from its end.
+    /// This path, walked from its end.
     pub fn reversed(&self) -> Self {
         Self::from_segments(self.segments.iter().rev().map(PathSeg::reverse).collect())
     }
@@ -457,7 +457,7 @@ impl Path {
     }
 }
 
-/// Reads an SVG `transform`: the linear part and the shift; `None` when the text is none or holds a number that is not
+/// Reads an SVG `transform`: the linear part and the shift. `None` when the text is none or holds a number that is not
 /// finite.
 pub fn parse_transform(text: &str) -> Option<(nalgebra::Matrix2<f64>, Vec2)> {
     let t: svgtypes::Transform = text.parse().ok()?;

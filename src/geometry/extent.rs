@@ -1,20 +1,20 @@
-//! How far numbers and points reach.
+//! Ranges of numbers and bounding boxes of points.
 
 use nalgebra::SVector;
 
-/// The smallest and the largest of numbers; ∞ and −∞ of none.
+/// The smallest and the largest of numbers. Without numbers they are ∞ and −∞.
 pub(crate) fn range_of(numbers: impl IntoIterator<Item = f64>) -> [f64; 2] {
     let none = [f64::INFINITY, f64::NEG_INFINITY];
     numbers.into_iter().fold(none, |[low, high], x| [low.min(x), high.max(x)])
 }
 
-/// The corners of the box round points, the one with the smallest coordinates first; at ∞ and −∞ round none.
+/// Corners of the bounding box of points, the low corner first. Without points they are at ∞ and −∞.
 pub(crate) fn box_of<const D: usize>(points: impl IntoIterator<Item = SVector<f64, D>>) -> [SVector<f64, D>; 2] {
     let none = [SVector::repeat(f64::INFINITY), SVector::repeat(f64::NEG_INFINITY)];
     points.into_iter().fold(none, |[low, high], p| [low.inf(&p), high.sup(&p)])
 }
 
-/// As [`box_of`]; at the origin round none.
+/// As [`box_of`], but at the origin without points.
 pub(crate) fn box_or_origin<const D: usize>(points: impl IntoIterator<Item = SVector<f64, D>>) -> [SVector<f64, D>; 2] {
     let mut points = points.into_iter().peekable();
     if points.peek().is_some() { box_of(points) } else { [SVector::zeros(); 2] }

@@ -1,9 +1,10 @@
 //! Few smooth curves through many points.
 //!
-//! Cubic Bézier curves by least squares at chord-length parameters that are improved by Newton's method (Schneider
-//! 1990, "An algorithm for automatically fitting digitized curves", Graphics Gems), then by distances from the tangents
-//! at those parameters, which converges to what was sampled instead of creeping there (Blake & Isard 1998, Active
-//! Contours): each curve as long as the tolerance lets it be, and with the direction of the one before where they meet.
+//! Cubic Bézier curves by least squares at chord-length parameters. The parameters are improved by Newton's method
+//! (Schneider 1990, "An algorithm for automatically fitting digitized curves", Graphics Gems), then by distances from
+//! the tangents at those parameters, which converges to the sampled curve instead of creeping there (Blake & Isard
+//! 1998, Active Contours). Each curve is as long as the tolerance allows, and starts in the direction in which the one
+//! before ends.
 
 use std::cmp::Ordering;
 
@@ -14,20 +15,21 @@ use super::{Vec2, shares_along};
 /// A cubic Bézier curve: its ends and, between them, its two handles.
 pub type Cubic = [Vec2; 4];
 
-/// Rounds of improving the parameters; so many of them by distances from points.
+/// Rounds of improving the parameters: all of them, and how many of these use distances from points.
 const ROUNDS: (usize, usize) = (8, 2);
-/// Weight of the distance along the tangent in the others: it only keeps the equations solvable.
+/// Weight of the distance along the tangent in the other rounds. It only keeps the equations solvable.
 const ALONG: f64 = 1e-3;
-/// Longest handle as a share of the points' length: that of three quarters of a circle. (A straight curve run through
-/// at even speed has a third.) With longer ones a curve through few points runs back and forth on its way.
+/// Longest handle as a share of the points' length: that of three quarters of a circle. (A straight curve at constant
+/// speed has one third.) With longer handles a curve through few points runs back and forth.
 const LONGEST_HANDLE: f64 = 2.0 / 3.0;
-/// A curve through fewer points than this is told its directions at both ends: left free, it hooks aside there.
+/// Number of points below which both end directions of a curve are prescribed. A free curve through few points hooks
+/// aside at its ends.
 const FREE: usize = 7;
-/// Points on both sides of a joint that say which way it points.
+/// Points on each side of a joint from which its direction is estimated.
 const REACH: usize = 4;
 
 /// Cubic curves end to end through `points` that none of them is further from than `tolerance`. The first begins at the
-/// first point, the last ends at the last; where two meet the direction is one and the same. None for fewer than two
+/// first point, the last ends at the last. Where two meet the direction is one and the same. None for fewer than two
 /// points.
 pub fn smooth_curves(points: &[Vec2], tolerance: f64) -> Vec<Cubic> {
     let mut curves: Vec<Cubic> = Vec::new();
@@ -62,11 +64,11 @@ pub fn smooth_curves(points: &[Vec2], tolerance: f64) -> Vec<Cubic> {
     curves
 }
 
-/// Which way the points run at one of them: as the parabola through three of them does, run through at even speed.
+/// Direction of the points at point `k`: that of the parabola through three of them.
 fn direction(points: &[Vec2], k: usize) -> Vec2 {
     let last = points.len() - 1;
     let reach = REACH.min(k).min(last - k).max(1);
-    // At an end, the three are the first or the last ones; two points have a direction, too.
+    // At an end, the three are the first or the last ones. Two points have a direction, too.
     let middle = k.max(reach).min(last.saturating_sub(reach));
     let (before, after) = (points[middle.saturating_sub(reach)], points[(middle + reach).min(last)]);
     let [back, on] = [points[middle] - before, after - points[middle]];
@@ -80,8 +82,8 @@ fn direction(points: &[Vec2], k: usize) -> Vec2 {
     way.try_normalize(0.0).unwrap_or_else(Vec2::zeros)
 }
 
-/// The best curve between the first and the last point, and how far the points are from it at most. Where a direction
-/// is given the curve has it.
+/// The best curve between the first and the last point, and the largest distance of a point from it. `start` and `end`
+/// are prescribed directions.
 fn fit(points: &[Vec2], start: Option<Vec2>, end: Option<Vec2>) -> Option<(Cubic, f64)> {
     let (first, last) = (points[0], points[points.len() - 1]);
     let mut at = shares_along(points.iter().copied())?;
@@ -118,7 +120,7 @@ fn point(curve: &Cubic, t: f64) -> Vec2 {
     curve.iter().zip(shares(t)).map(|(p, share)| p * share).sum()
 }
 
-/// What of a distance counts beside a curve: all of it across, little along.
+/// Weights of a distance from a curve: all of its transverse part, little of its tangential part.
 fn across(curve: &Cubic, t: f64) -> Matrix2<f64> {
     let s = 1.0 - t;
     let [a, b, c] = [curve[1] - curve[0], curve[2] - curve[1], curve[3] - curve[2]];
@@ -147,7 +149,7 @@ fn least_squares(
     ends: [Vec2; 2],
     directions: [Option<Vec2>; 2],
 ) -> Option<Cubic> {
-    // What each unknown moves the handle of its end by.
+    // Motion of its end's handle per unit of each unknown.
     let mut moves: Vec<(usize, Vec2)> = Vec::new();
     for (side, direction) in directions.into_iter().enumerate() {
         match direction {

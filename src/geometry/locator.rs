@@ -1,4 +1,4 @@
-//! Which triangle of a flat mesh a point lies in.
+//! Finds the triangle of a flat mesh in which a point lies.
 
 use super::{Vec2, box_of, distance_to_segment};
 
@@ -22,7 +22,7 @@ impl<'a> Locator<'a> {
         let mut out = Self { flat, triangles, low, cell, columns, cells: vec![Vec::new(); columns * along(1)] };
         for (t, corners) in triangles.iter().enumerate() {
             let [a, b, c] = corners.map(|n| flat[n as usize]);
-            // A cell's width around: what a coarse rim cuts off is less.
+            // A margin of one cell, which is more than a coarse rim cuts off.
             let [left, top] = out.cell_of(a.inf(&b).inf(&c).add_scalar(-cell));
             let [right, bottom] = out.cell_of(a.sup(&b).sup(&c).add_scalar(cell));
             for row in top..=bottom {
@@ -68,7 +68,7 @@ fn barycentric(p: Vec2, [a, b, c]: [Vec2; 3]) -> [f64; 3] {
     [1.0 - v - w, v, w]
 }
 
-/// 0 inside.
+/// Distance of `p` from a triangle, 0 inside.
 fn distance_to_triangle(p: Vec2, corners: [Vec2; 3]) -> f64 {
     if barycentric(p, corners).iter().all(|w| *w >= 0.0) {
         return 0.0;

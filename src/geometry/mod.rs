@@ -32,7 +32,7 @@ pub(crate) const MM: f64 = 1e3;
 
 /// A point or direction in a flat piece, metres, y **down**, the right side of the cloth facing the reader.
 pub type Vec2 = nalgebra::Vector2<f64>;
-/// A point or direction in space, metres, y **up**; the mannequin faces +z and its left hand is at +x.
+/// A point or direction in space, metres, y **up**. The mannequin faces +z and its left hand is at +x.
 pub type Vec3 = nalgebra::Vector3<f64>;
 /// A 3×3 matrix.
 pub type Mat3 = nalgebra::Matrix3<f64>;

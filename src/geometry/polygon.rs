@@ -4,9 +4,10 @@ use std::collections::HashSet;
 
 use super::{Vec2, Vec3, sorted_pair};
 
-/// A polygon of a surface, its corners among the `vertices`, as triangles that turn as it does: round its first corner
-/// where it bulges outward everywhere, otherwise one ear after the other (Meisters 1975), seen along its mean normal.
-/// What is too crumpled to have an ear is finished round a corner. A polygon of n corners gives n − 2 triangles.
+/// Triangulates a polygon of a surface, with the orientation of the polygon. Its corners are indices of `vertices`.
+///
+/// A convex polygon becomes a fan round its first corner. Others are cut ear by ear (Meisters 1975) in the plane of
+/// their mean normal. If no ear is left, the rest becomes a fan. A polygon of n corners gives n − 2 triangles.
 pub(crate) fn triangles_of(vertices: &[Vec3], corners: &[u32]) -> Vec<[u32; 3]> {
     let at = if corners.len() > 3 { flattened(vertices, corners) } else { None };
     let Some(at) = at.filter(|at| has_bay(at)) else {
@@ -24,7 +25,7 @@ pub(crate) fn triangles_of(vertices: &[Vec3], corners: &[u32]) -> Vec<[u32; 3]> 
     out
 }
 
-/// The sides of the `triangles` of a polygon that are none of its own.
+/// The diagonals: sides of the `triangles` of a polygon that are no sides of the polygon.
 pub(crate) fn diagonals_of(corners: &[u32], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
     let next = corners.iter().cycle().skip(1);
     let own: HashSet<[u32; 2]> = corners.iter().zip(next).map(|(a, b)| sorted_pair([*a, *b])).collect();
@@ -46,8 +47,8 @@ fn turns(p: Vec2, q: Vec2, r: Vec2) -> f64 {
     (q - p).perp(&(r - q))
 }
 
-/// The corners as seen along the polygon's mean normal (Newell's), which then turns them to the left; `None` of one
-/// without an area.
+/// The corners projected along the polygon's mean normal (Newell's method), so that they turn to the left. `None` for a
+/// polygon without area.
 fn flattened(vertices: &[Vec3], corners: &[u32]) -> Option<Vec<Vec2>> {
     let origin = vertices[*corners.first()? as usize];
     let at = |k: usize| vertices[corners[k % corners.len()] as usize] - origin;

@@ -1,8 +1,8 @@
-//! Points in a row, and closed rows of points.
+//! Polylines and polygons in the plane.
 
 use super::Vec2;
 
-/// How far along a row of points each of them is, 0 … 1; `None` where the row has no length.
+/// Share of the length of a polyline at each of its points, 0 … 1. `None` if it has no length.
 pub(crate) fn shares_along(points: impl IntoIterator<Item = Vec2>) -> Option<Vec<f64>> {
     let mut last = None;
     let mut whole = 0.0;
@@ -14,15 +14,15 @@ pub(crate) fn shares_along(points: impl IntoIterator<Item = Vec2>) -> Option<Vec
     (whole > 0.0).then(|| walked.into_iter().map(|way| way / whole).collect())
 }
 
-/// The sides of a closed row of points.
+/// The sides of a polygon.
 pub(crate) fn sides_of(points: &[Vec2]) -> impl Iterator<Item = [Vec2; 2]> + '_ {
     points.iter().zip(points.iter().cycle().skip(1)).map(|(a, b)| [*a, *b])
 }
 
-/// Whether `p` lies within what these sides enclose, in any order, by the even–odd rule. A point on a
-/// side that two shapes share is within one of them.
+/// Whether `p` lies inside the shape with these sides, in any order, by the even–odd rule. A point on a side that two
+/// shapes share is inside exactly one of them.
 pub(crate) fn encloses(sides: impl IntoIterator<Item = [Vec2; 2]>, p: Vec2) -> bool {
-    // By a ray from `p` to the right; an end at its height counts as above it.
+    // By a ray from `p` to the right. An end at its height counts as above it.
     let crossed =
         |[a, b]: &[Vec2; 2]| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
     sides.into_iter().filter(crossed).count() % 2 == 1

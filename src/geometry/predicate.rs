@@ -1,4 +1,4 @@
-//! Questions whose answer is yes or no, answered without rounding.
+//! Exact geometric predicates.
 
 use super::Vec3;
 
@@ -10,9 +10,10 @@ fn side(a: Vec3, b: Vec3, c: Vec3, d: Vec3) -> f64 {
     if volume == 0.0 { 0.0 } else { volume.signum() }
 }
 
-/// Whether segment `p q` passes through the inside of triangle `a b c`; touching does not count.
+/// Whether segment `p q` passes through the inside of triangle `a b c`. Touching does not count.
 ///
-/// Exact: cloth that lies flat has edges and triangles in one plane but for rounding, and none of them may cross.
+/// Exact. Flat cloth has edges and triangles that lie in one plane within rounding, and none of them may count as
+/// crossing.
 pub(crate) fn pierces(p: Vec3, q: Vec3, [a, b, c]: [Vec3; 3]) -> bool {
     if side(a, b, c, p) * side(a, b, c, q) >= 0.0 {
         return false;

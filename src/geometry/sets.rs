@@ -1,10 +1,10 @@
 //! Disjoint sets of numbered members (union–find).
 
-/// A partition of 0 … n − 1 that can only grow coarser. The smallest member leads its set, so that what is numbered by
-/// leaders comes in the order of the first members, whatever order the joins came in.
+/// A partition of 0 … n − 1 that can only grow coarser. The smallest member leads its set, so that numbering by leaders
+/// does not depend on the order of the joins.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct DisjointSets {
-    /// Of every member one of its set with a smaller number; of a leader itself.
+    /// For every member a member of its set with a smaller number, or itself for a leader.
     parent: Vec<u32>,
 }
 
@@ -14,7 +14,7 @@ impl DisjointSets {
         Self { parent: (0..members as u32).collect() }
     }
 
-    /// One member more, in a set of its own; its number.
+    /// Adds a member in a set of its own. Returns its number.
     pub(crate) fn add(&mut self) -> u32 {
         let member = self.parent.len() as u32;
         self.parent.push(member);
@@ -29,7 +29,7 @@ impl DisjointSets {
     /// The smallest member of the set of `member`.
     pub(crate) fn root(&mut self, mut member: u32) -> u32 {
         while self.parent(member) != member {
-            // Halves the way for whoever asks next.
+            // Path halving shortens later queries.
             let above = self.parent(self.parent(member));
             self.parent[member as usize] = above;
             member = above;
@@ -37,14 +37,14 @@ impl DisjointSets {
         member
     }
 
-    /// Makes the sets of `a` and `b` one; whether they were two.
+    /// Joins the sets of `a` and `b`. Returns whether they were different.
     pub(crate) fn join(&mut self, a: u32, b: u32) -> bool {
         let (a, b) = (self.root(a), self.root(b));
         self.parent[a.max(b) as usize] = a.min(b);
         a != b
     }
 
-    /// Whether `a` and `b` are in one set. Shortens no ways: [`DisjointSets::root`] is for long ones.
+    /// Whether `a` and `b` are in one set. It shortens no paths. [`DisjointSets::root`] does.
     pub(crate) fn same(&self, a: u32, b: u32) -> bool {
         self.leader(a) == self.leader(b)
     }

@@ -1,4 +1,4 @@
-//! Triangle meshes in space and what can be said of them from their triangles alone.
+//! Triangle meshes in space, their connectivity and basic measures.
 
 use std::collections::HashMap;
 
@@ -18,7 +18,7 @@ pub struct TriMesh {
 pub struct Edge {
     /// End vertices, the smaller index first.
     pub ends: [u32; 2],
-    /// The triangles beside it; the second is `None` on a rim.
+    /// The triangles beside it. The second is `None` on a rim.
     pub triangles: [Option<u32>; 2],
 }
 
@@ -72,8 +72,8 @@ struct Side {
     rising: bool,
 }
 
-/// The sides of all triangles, sorted. Vertices are mostly numbered without large gaps, so the sides are spread over
-/// drawers by their smaller end first, and what is in a drawer is soon sorted.
+/// The sides of all triangles, sorted: by buckets of their smaller end first, then within each bucket. Vertices are
+/// mostly numbered without large gaps, so buckets are small.
 fn sides(triangles: &[[u32; 3]]) -> Vec<Side> {
     let all = || {
         triangles.iter().enumerate().flat_map(|(t, tri)| {
@@ -110,9 +110,9 @@ fn sides(triangles: &[[u32; 3]]) -> Vec<Side> {
 /// Rim loops of an oriented mesh: closed vertex chains that run with their triangles. Where rims touch in one vertex
 /// they are walked as one loop if the walk meets that vertex again before closing.
 ///
-/// Where more than two triangles share an edge (the three layers of a pleat, a lining sewn to the shell's rim), layers
-/// that run opposite ways cancel, and what is left is the rim: a pleated waist is one loop. A rim of several layers is
-/// one loop, not several.
+/// More than two triangles may share an edge: the three layers of a pleat, or a lining sewn to the shell's rim. Layers
+/// that run opposite ways then cancel, and the rest is the rim. So a pleated waist is one loop, and a rim of several
+/// layers is one loop, not several.
 pub fn rim_loops(triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
     // Where more triangles run along an edge than against it: the first of them, the edge, and how many more.
     let mut surplus = Vec::new();
@@ -175,7 +175,7 @@ impl TriMesh {
         (0..self.triangles.len()).map(|t| 0.5 * self.double_normal(t).norm()).sum()
     }
 
-    /// Enclosed volume (divergence theorem); negative when a closed mesh is inside out.
+    /// Enclosed volume (divergence theorem). Negative when a closed mesh is inside out.
     pub fn signed_volume(&self) -> f64 {
         (0..self.triangles.len())
             .map(|t| {

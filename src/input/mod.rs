@@ -1,4 +1,4 @@
-//! What users hand in, within limits: bytes of a file, how much of a text a message shows, and units of length.
+//! Input from users, within limits: bytes of a file, length of a text in a message, and units of length.
 
 mod nearest;
 mod unit;
@@ -34,8 +34,8 @@ pub enum InputError {
     },
 }
 
-/// The bytes of the file at `path`, of which there may be `limit`. A length that the system knows is looked at before
-/// anything is read; what has none (a device, a pipe) is read up to the limit.
+/// The bytes of the file at `path`, at most `limit`. A length that the system knows is checked before reading. Files
+/// without one (devices, pipes) are read up to the limit.
 ///
 /// # Errors
 /// [`InputError`].
@@ -72,8 +72,8 @@ fn is_named_pipe(_: &std::fs::Metadata, _: &Path) -> bool {
     false
 }
 
-/// The text as a message shows it: no more than `most` characters, what is left out in its middle being `…`, and `�`
-/// for characters that would move a terminal's cursor.
+/// The text for a message: at most `most` characters, with `…` in place of its middle, and `�` for characters that
+/// would move a terminal's cursor.
 pub fn shown(text: &str, most: usize) -> String {
     let visible = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
     let count = text.chars().count();

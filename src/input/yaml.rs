@@ -10,8 +10,8 @@ const DEEPEST: usize = 100;
 /// Characters of a message that are shown: it may quote the whole text.
 const MESSAGE: usize = 300;
 
-/// What a text holds, or what is wrong with it. One that is nested deep, or seems to be by brackets in its words, is
-/// refused before it is parsed.
+/// Parses a text. A text that is deeply nested, or seems to be by brackets in its words, is refused before it is
+/// parsed.
 ///
 /// # Errors
 /// The parser's message, with line and column.

@@ -15,8 +15,8 @@ use faer::{Conj, MatMut, Par, Side};
 
 use super::{SymmetricMatrix, SymmetricPattern};
 
-/// One thread, whatever the process-wide setting: two were measured slower below 100,000 rows, and results must not
-/// depend on their number.
+/// Serial execution, whatever the process-wide setting. Two threads were measured slower below 100,000 rows, and
+/// results must not depend on their number.
 const SERIAL: Par = Par::Seq;
 
 mod private {
@@ -31,7 +31,7 @@ mod private {
 pub trait Scalar: private::Field + Copy + Send + Sync + std::ops::AddAssign + std::fmt::Debug {
     /// The nearest value.
     fn from_f64(value: f64) -> Self;
-    /// The same value.
+    /// The value as `f64`.
     fn to_f64(self) -> f64;
 }
 
@@ -69,14 +69,14 @@ pub enum CholeskyError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the matrix is not positive definite (met at row {dof})")]
 pub struct NotPositiveDefinite {
-    /// The row where elimination stopped (of vertex `dof / 3` in a pattern of 3×3 blocks). Exact for small matrices; in
-    /// large ones, which are eliminated in dense blocks of rows, it may be another row near the culprit.
+    /// The row where elimination stopped (of vertex `dof / 3` in a pattern of 3×3 blocks). It is exact for small
+    /// matrices. In large ones, which are eliminated in dense blocks of rows, it may be another row nearby.
     pub dof: usize,
 }
 
 /// A sparse Cholesky factor that is refilled for new values of one pattern.
 ///
-/// Bit-identical for identical input. The cost of [`Cholesky::new`] is that of about one factorisation; keep it.
+/// Bit-identical for identical input. The cost of [`Cholesky::new`] is that of about one factorisation. Keep it.
 #[derive(Debug)]
 pub struct Cholesky<T> {
     pattern: Arc<SymmetricPattern>,
@@ -116,7 +116,7 @@ impl<T: Scalar> Cholesky<T> {
     /// Factors a matrix.
     ///
     /// # Errors
-    /// [`NotPositiveDefinite`], also for infinite and undefined entries; solving is meaningless until a later
+    /// [`NotPositiveDefinite`], also for infinite and undefined entries. Solving is meaningless until a later
     /// factorisation succeeds.
     ///
     /// # Panics
@@ -170,8 +170,8 @@ impl<T: Scalar> Cholesky<T> {
         }
     }
 
-    /// Names the row of a failed pivot. faer counts in its own order of elimination, from one where it works entry by
-    /// entry and from zero (and only roughly, within a dense block) where it works by blocks.
+    /// Maps faer's index of a failed pivot to a row. faer counts in its own order of elimination: from one if it works
+    /// entry by entry, from zero (and only roughly, within a dense block) if it works by blocks.
     fn failed_at(&self, index: usize) -> NotPositiveDefinite {
         let first = usize::from(matches!(self.symbolic.raw(), SymbolicCholeskyRaw::Simplicial(_)));
         let eliminated = index.saturating_sub(first).min(self.pattern.size().saturating_sub(1));
@@ -197,7 +197,7 @@ fn analyse(pattern: &SymmetricPattern) -> Result<SymbolicCholesky<u32>, Cholesky
 /// 1996). Rows of one node have the same neighbours and stay together, so nodes are ordered, with a ninth of the
 /// entries. In a garment's folds, whose layers are coupled where they touch, L has 0.4 to 0.6 of the entries it has
 /// after cuts by planes (geometric nested dissection; measured: trousers of 5,249 nodes 1.05 against 1.79 million, a
-/// gored skirt of 12,408 4.0 against 10.4); in a flat grid of up to 90,000 nodes as many.
+/// gored skirt of 12,408 4.0 against 10.4). In a flat grid of up to 90,000 nodes as many.
 fn minimum_degree(pattern: &SymmetricPattern) -> Result<[Vec<u32>; 2], FaerError> {
     let (starts, rows) = pattern.graph();
     let nodes = pattern.nodes();

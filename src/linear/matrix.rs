@@ -44,8 +44,9 @@ impl<T: Scalar> SymmetricMatrix<T> {
         self.values[slot.0 as usize] += T::from_f64(value);
     }
 
-    /// Adds a block, and its transpose at the mirror image. On the diagonal the block must be symmetric: only its lower
-    /// triangle is read. `W` must be the pattern's width, 3 (or 2 in the plane); otherwise the matrix is wrong.
+    /// Adds a block, and its transpose at the mirror image. On the diagonal the block must be symmetric, because only
+    /// its lower triangle is read. `W` must be the width of the pattern, 3 (or 2 in the plane). Otherwise the matrix is
+    /// wrong.
     #[inline]
     pub fn add_block<const W: usize>(&mut self, slot: BlockSlot, block: &SMatrix<f64, W, W>) {
         debug_assert_eq!(W, self.pattern.width());
@@ -70,7 +71,7 @@ impl<T: Scalar> SymmetricMatrix<T> {
         }
     }
 
-    /// out = A·x, summed in f64.
+    /// Multiplies: out = A·x, summed in f64.
     ///
     /// # Panics
     /// If a length is not [`SymmetricPattern::size`].

@@ -1,4 +1,4 @@
-//! Sparse symmetric linear systems; the only user of faer, whose types stay in here.
+//! Sparse symmetric linear systems. The only user of faer, whose types stay in here.
 //!
 //! ```text
 //! SymmetricPattern ──▶ SymmetricMatrix ──▶ Cholesky ──▶ solve

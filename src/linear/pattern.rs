@@ -1,6 +1,6 @@
 //! Which entries of a symmetric matrix may be non-zero.
 
-/// The lower triangle of a symmetric sparse matrix, compressed by columns; every diagonal entry is part of it.
+/// The lower triangle of a symmetric sparse matrix, compressed by columns. Every diagonal entry is part of it.
 ///
 /// Either one number per entry ([`SymmetricPattern::scalar`]) or a small block per pair of vertices: 3×3 in space
 /// ([`SymmetricPattern::blocks`]), where vertex `v` owns the degrees of freedom 3v, 3v + 1, 3v + 2, and 2×2 in the
@@ -46,13 +46,13 @@ pub struct Slot(pub(super) u32);
 pub struct BlockSlot {
     /// Position of the block's row 0 in its column 0.
     pub(super) start: u32,
-    /// From there to (the place of) row 0 in column 1; one less from column 1 to 2.
+    /// Distance from there to the place of row 0 in column 1. It is one less from column 1 to 2.
     pub(super) stride: u32,
-    /// What is stored of the block.
+    /// Stored part of the block.
     pub(super) kind: BlockKind,
 }
 
-/// What the lower triangle holds of a block.
+/// Part of a block that the lower triangle stores.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum BlockKind {
     /// On the diagonal: its lower triangle.
@@ -64,8 +64,8 @@ pub(super) enum BlockKind {
 }
 
 impl SymmetricPattern {
-    /// An n×n pattern of single numbers with the given (row, column) entries, of either triangle and in any order;
-    /// repeated pairs and the diagonal may be given or left out.
+    /// An n×n pattern of single numbers with the given (row, column) entries, of either triangle and in any order.
+    /// Repeated pairs are allowed, and the diagonal may be left out.
     ///
     /// # Errors
     /// An index of `n` or more, or more than 2³¹ entries.
@@ -132,7 +132,7 @@ impl SymmetricPattern {
         self.rows.len()
     }
 
-    /// The place of entry (i, j) = (j, i) in a scalar pattern; `None` if it is no part of the pattern or the pattern
+    /// The place of entry (i, j) = (j, i) in a scalar pattern. `None` if it is no part of the pattern or the pattern
     /// is one of blocks.
     pub fn slot(&self, i: usize, j: usize) -> Option<Slot> {
         if self.width != 1 {
@@ -141,7 +141,7 @@ impl SymmetricPattern {
         self.node_entry(i.max(j), i.min(j)).map(|k| Slot(self.node_starts[i.min(j)] + k))
     }
 
-    /// The place of the block that couples vertices `i` (rows) and `j` (columns); `None` if it is no part of the
+    /// The place of the block that couples vertices `i` (rows) and `j` (columns). `None` if it is no part of the
     /// pattern or the pattern is scalar.
     pub fn block_slot(&self, i: usize, j: usize) -> Option<BlockSlot> {
         if self.width == 1 {

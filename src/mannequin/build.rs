@@ -8,15 +8,16 @@ use super::surface::surface_nets;
 use super::{Frame, Mannequin, MannequinError};
 use crate::geometry::{Topology, TriMesh, Vec3};
 
-/// Side of the cells the skin is found in, metres; edges come out about as long. Ten millimetres keep a grown body's
-/// girths within two millimetres and its skin at about 40,000 triangles.
+/// Side of the cells in which the skin is found, metres. Edges become about as long. With 10 mm the girths of a grown
+/// body are within 2 mm, and its skin has about 40,000 triangles.
 const CELL: f64 = 0.010;
-/// A body lower than this (top of the neck, metres) has cells that are smaller in proportion, because it has smaller
-/// curves, down to [`SMALLEST`] of the size.
+/// Height of the top of the neck, metres, below which cells are smaller in proportion, because the body has smaller
+/// curves.
 const GROWN: f64 = 1.45;
+/// Least size of the cells of a small body, as a share of [`CELL`].
 const SMALLEST: f64 = 0.7;
-/// The sizes tried in turn. Where a narrow fold falls badly on the grid the net may touch itself;
-/// another grid mends it.
+/// Grid sizes tried in turn, as shares of the cell. Where a narrow fold falls badly on the grid the surface net may
+/// touch itself, and another grid mends it.
 const TRIES: [f64; 4] = [1.0, 0.97, 0.91, 0.83];
 
 /// Builds a mannequin: closed, manifold, outward, exactly symmetric, metres, feet at y = 0. The same spec gives the

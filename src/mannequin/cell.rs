@@ -1,4 +1,4 @@
-//! How a surface runs through one cube of a grid, from the signs at its corners.
+//! The course of a surface through one cube of a grid, from the signs at its corners.
 //!
 //! Corner `c` of a cube lies on its high side of axis `a` where bit `a` of `c` is set.
 
@@ -34,12 +34,12 @@ pub(super) fn face_is_crossed(values: &[f64; 8], axis: usize, side: usize) -> bo
     inside.iter().any(|&i| i != inside[0])
 }
 
-/// The patches of surface in a cube. A cube with one patch is the rule; two sheets of skin in one cube are two patches,
+/// The patches of surface in a cube. A cube with one patch is the rule. Two sheets of skin in one cube are two patches,
 /// each with its own vertex, which keeps the net manifold.
 pub(super) struct Crossing {
-    /// The patch that meets each edge of the cube; `None` where the surface does not cross the edge.
+    /// The patch that meets each edge of the cube. `None` where the surface does not cross the edge.
     pub(super) patch_of: [Option<u8>; EDGES],
-    /// How many patches there are.
+    /// Number of patches.
     pub(super) patches: u8,
 }
 
@@ -95,7 +95,7 @@ fn is_crossed(values: &[f64; 8], e: usize) -> bool {
 }
 
 /// Joins the edges that the surface's line across a face connects. A face with its inside corners on a diagonal has
-/// two lines, each round one inside corner; both cubes beside the face see the same signs and so agree.
+/// two lines, each round one inside corner. Both cubes beside the face see the same signs and so agree.
 fn join_across_face(values: &[f64; 8], ring: [usize; 4], group: &mut [usize; EDGES]) {
     let edges: [usize; 4] = std::array::from_fn(|k| edge_between(ring[k], ring[(k + 1) % 4]));
     let crossed: Vec<usize> = edges.into_iter().filter(|&e| is_crossed(values, e)).collect();

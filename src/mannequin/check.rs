@@ -1,4 +1,4 @@
-//! What a surface must be to serve as a body.
+//! Requirements of a surface that serves as a body.
 
 use std::fmt;
 
@@ -47,7 +47,7 @@ pub enum BodyFault {
     /// Edges with more than two triangles.
     #[error("{edges} edges have more than two triangles, one near {place}; remove inner faces")]
     NonManifold {
-        /// How many.
+        /// Number of rim edges.
         edges: usize,
         /// On one of them.
         place: Place,
@@ -55,7 +55,7 @@ pub enum BodyFault {
     /// Neighbouring triangles that face opposite ways.
     #[error("{pairs} neighbouring triangles face opposite ways, near {place}; recalculate the normals outside")]
     Misoriented {
-        /// How many pairs.
+        /// Number of crossing pairs.
         pairs: usize,
         /// On one of them.
         place: Place,
@@ -71,21 +71,21 @@ pub enum BodyFault {
     },
 }
 
-/// A surface that encloses less than this share of what a cube of its area would is flat. (A body encloses hundreds of
-/// times as much, a sheet of card a metre wide and a millimetre thick thirty times.)
+/// Least enclosed volume of a body, as a share of the volume of a cube with the same area. Less counts as flat. A body
+/// encloses hundreds of times as much, a sheet of card a metre wide and a millimetre thick thirty times.
 const FLAT: f64 = 1e-5;
 
-/// What can be said of a surface that is fit to be a body.
+/// Findings about a surface that is fit to be a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyCheck {
     /// Pieces of surface that do not touch.
     pub parts: usize,
     /// Pairs of triangles that cross, and a point of the first, metres. Scans and average bodies often have some in
-    /// the armpits and between the thighs; they do no harm where no cloth goes.
+    /// the armpits and between the thighs. They do no harm where no cloth goes.
     pub crossings: Option<(usize, Vec3)>,
 }
 
-/// Checks that `mesh` (metres) is closed, manifold, oriented and outward, in this order, and looks for crossings;
+/// Checks that `mesh` (metres) is closed, manifold, oriented and outward, in this order, and looks for crossings.
 /// `told` gives the place to tell of a point.
 ///
 /// # Errors

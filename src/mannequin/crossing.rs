@@ -2,14 +2,15 @@
 
 use crate::geometry::{TriMesh, Vec3};
 
-/// Cells of the broad phase are this many mean edges wide: a few triangles in each.
+/// Width of cells in the broad phase, in mean edges: a few triangles lie in each.
 const CELL_IN_EDGES: f64 = 2.0;
 
-/// And at least so wide that a triangle meets no more of them on average: usual ones meet up to eight, one splinter of
-/// a surface could meet any number.
+/// Most cells that a triangle meets on average, which sets the least width of cells. Usual triangles meet up to eight.
+/// A splinter could meet any number.
 const MOST_CELLS: f64 = 64.0;
 
-/// How many pairs of triangles of `mesh` cross without sharing a vertex, and where the first do; `None` when none do.
+/// Number of pairs of triangles of `mesh` that cross without sharing a vertex, and the place of the first pair. `None`
+/// if there are none.
 pub(super) fn crossings(mesh: &TriMesh) -> Option<(usize, Vec3)> {
     let boxes: Vec<[Vec3; 2]> = (0..mesh.triangles.len()).map(|t| bounds(mesh.corners(t))).collect();
     let mut found: Option<(usize, Vec3)> = None;
@@ -46,7 +47,7 @@ fn cell_width(mesh: &TriMesh, boxes: &[[Vec3; 2]]) -> f64 {
     cell
 }
 
-/// How many cells a box meets, about.
+/// Approximate number of cells that a box meets.
 fn met(low: &Vec3, high: &Vec3, cell: f64) -> f64 {
     (high - low).map(|side| side / cell + 1.0).product()
 }
@@ -76,10 +77,10 @@ fn each_close_pair(cell: f64, boxes: &[[Vec3; 2]], mut visit: impl FnMut(usize, 
     }
 }
 
-/// Where an edge of `a` passes through the inside of `b`. Touching does not count.
+/// Place where an edge of `a` passes through the inside of `b`. Touching does not count.
 ///
-/// Decided in rounding on purpose, not by the exact predicate cloth has: halves of a mirrored body that run through
-/// each other meet edge on edge, where exactly no pair of triangles would cross.
+/// This is decided with rounding on purpose, not by the exact predicate that cloth has. Halves of a mirrored body that
+/// run through each other meet edge on edge, where exactly no pair of triangles would cross.
 fn pierces(a: [Vec3; 3], b: [Vec3; 3]) -> Option<Vec3> {
     let n = (b[1] - b[0]).cross(&(b[2] - b[0]));
     let side = a.map(|p| (p - b[0]).dot(&n));

@@ -6,23 +6,23 @@ use super::slice::{Loop, slice, tape};
 use super::{BodyPart, PartKind, Section};
 use crate::geometry::{TriMesh, Vec3, range_of};
 
-/// Distance of the cuts, metres.
+/// Distance between the horizontal cuts, metres.
 const STEP: f64 = 0.02;
-/// Where legs are looked for: no crotch is higher than this part of the height.
+/// Largest height of a crotch, as a share of the body's height. Legs are searched below it.
 const HIGHEST_CROTCH: f64 = 0.62;
-/// Below this part of the height are the feet.
+/// Height below which the feet are, as a share of the body's height.
 const ANKLE: f64 = 0.05;
-/// A trunk this much wider than at its waist has its arms in the cut.
+/// Width of a trunk over that of its waist above which the cut contains the arms.
 const ARMS_IN_CUT: f64 = 1.6;
-/// The neck ends, downward, where the girth is this much above its smallest.
+/// Girth over the smallest girth of the neck at which the neck ends, downward.
 const NECK_FLARE: f64 = 1.25;
-/// An arm begins this far beyond the trunk's side, metres.
+/// Distance from the trunk's side beyond which an arm begins, metres.
 const ARM_CLEARANCE: f64 = 0.01;
-/// Part of an arm with its hand at which the wrist lies at the earliest and at the latest.
+/// Range of the wrist along an arm with its hand, as shares of its length.
 const WRIST: [f64; 2] = [0.6, 0.85];
-/// A cut across an arm that is this much longer than the middle one runs through the trunk as well.
+/// Length of a cut across an arm over that of the middle cut above which it runs through the trunk as well.
 const TRUNK_IN_CUT: f64 = 1.7;
-/// A hand is this much wider round than the wrist.
+/// Girth of the hand over that of the wrist.
 const HAND: f64 = 1.1;
 
 /// A horizontal cut of the trunk.
@@ -51,7 +51,7 @@ impl Cut {
     }
 }
 
-/// Body parts of `mesh`, or what could not be found.
+/// Body parts of `mesh`, or the part that could not be found.
 ///
 /// # Errors
 /// A sentence naming the part that is missing.
@@ -85,15 +85,15 @@ fn by_width(a: &&Loop, b: &&Loop) -> std::cmp::Ordering {
     (a.high.x - a.low.x).total_cmp(&(b.high.x - b.low.x))
 }
 
-/// x of the trunk: the widest loop a little above the highest crotch.
+/// The x coordinate of the trunk: the middle of the widest loop a little above the highest crotch.
 fn middle(levels: &[(f64, Vec<Loop>)], top: f64) -> Option<f64> {
     let (_, loops) = levels.iter().find(|l| l.0 > HIGHEST_CROTCH * top)?;
     let depth = |l: &&Loop| (l.high.x - l.low.x).min(l.high.z - l.low.z);
     loops.iter().max_by(|a, b| depth(a).total_cmp(&depth(b))).map(|l| l.center().x)
 }
 
-/// A loop holds the middle of the body that reaches to either side of it by at least this share of its width: thighs
-/// that nearly touch may have their gap a little beside it.
+/// Share of a loop's width by which it must reach to either side of the body's middle to contain it. Thighs that nearly
+/// touch may have their gap a little beside the middle.
 const HELD: f64 = 0.1;
 
 /// Whether the middle of the body runs through a loop, rather than along its rim.
@@ -110,7 +110,7 @@ fn crotch(levels: &[(f64, Vec<Loop>)], middle: f64, top: f64) -> Option<f64> {
     levels.iter().rev().find(|(y, loops)| *y < HIGHEST_CROTCH * top && parted(loops)).map(|l| l.0)
 }
 
-/// Index of the first cut of the neck: downward from the narrowest cut of the upper half, but for the very top.
+/// Index of the first cut of the neck, searched downward from the narrowest cut of the upper half without its very top.
 fn neck_base(trunk: &[Cut]) -> Option<usize> {
     let (half, end) = (trunk.len() / 2, trunk.len().checked_sub(2)?);
     let narrowest = (half..end).min_by(|&a, &b| trunk[a].girth.total_cmp(&trunk[b].girth))?;
@@ -122,7 +122,7 @@ fn neck_base(trunk: &[Cut]) -> Option<usize> {
 /// arms.
 fn trunk_side(trunk: &[Cut], middle: f64) -> Option<f64> {
     let width = |c: &Cut| c.high.x - c.low.x;
-    // The lower half holds the waist; the upper one narrows again at the neck.
+    // The lower half holds the waist. The upper one narrows again at the neck.
     let narrowest = trunk[..trunk.len() / 2].iter().map(width).fold(f64::INFINITY, f64::min);
     trunk[trunk.len() / 2..]
         .iter()
@@ -171,7 +171,7 @@ fn neck_part(cuts: &[Cut]) -> BodyPart {
     BodyPart { kind: PartKind::Neck, sections, landmarks }
 }
 
-/// What an arm is looked for with.
+/// Inputs of the search for an arm.
 struct ArmSearch<'a> {
     trunk: &'a [Cut],
     middle: f64,
@@ -189,7 +189,7 @@ impl ArmSearch<'_> {
         }
         let cut = self.trunk.iter().min_by(|a, b| (a.y - p.y).abs().total_cmp(&(b.y - p.y).abs()));
         let own = cut.map_or(self.side, |c| 0.5 * (c.high.x - c.low.x));
-        // In the upper trunk the cut may hold the arms; below it, the hips may be wider than the chest.
+        // In the upper trunk the cut may hold the arms. Below it, the hips may be wider than the chest.
         let upper = self.trunk.get(self.trunk.len() / 2).is_some_and(|c| p.y > c.y);
         let limit = if upper { own.min(self.side) } else { own };
         self.sign * (p.x - self.middle) > limit + ARM_CLEARANCE
@@ -235,7 +235,7 @@ fn without_trunk(arm: Vec<Section>) -> Option<Vec<Section>> {
     (arm.len() > first + 4).then(|| arm[first..].to_vec())
 }
 
-/// Index of the wrist: the narrowest section where it may lie, if a hand follows; otherwise the arm's end.
+/// Index of the wrist: the narrowest section where it may lie, if a hand follows. Otherwise the arm's end.
 fn wrist(arm: &[Section]) -> Option<usize> {
     let part = |p: f64| (p * arm.len() as f64) as usize;
     let narrowest = (part(WRIST[0])..part(WRIST[1])).min_by(|&a, &b| arm[a].girth.total_cmp(&arm[b].girth))?;
@@ -279,7 +279,7 @@ fn leg(
     let mut sections: Vec<Section> = Vec::new();
     for (_, loops) in levels.iter().rev().filter(|l| l.0 <= crotch && l.0 >= ANKLE * top) {
         let own = loops.iter().filter(|l| sign * (l.center().x - middle) > 0.0);
-        // Hands may hang beside the legs; the leg is nearer to the leg above it.
+        // Hands may hang beside the legs. The leg is nearer to the leg above it.
         let expected = sections.last().map_or(middle, |s| s.center.x);
         let Some(l) = own.min_by(|a, b| (a.center().x - expected).abs().total_cmp(&(b.center().x - expected).abs()))
         else {

@@ -7,16 +7,18 @@ use crate::geometry::{Vec3, bisect};
 /// Reach of the blend of arm and trunk in the armpit, as a part of the arm's half width: small, or it would web the arm
 /// to the torso.
 const ARMPIT_BLEND: f64 = 0.25;
-/// The same on the shoulder, where the deltoid runs into the trunk.
+/// Blend of arm and trunk on the shoulder, as [`ARMPIT_BLEND`], where the deltoid runs into the trunk.
 const SHOULDER_BLEND: f64 = 1.0;
-/// How round the ends of a tube are: length of the cap over the half axis it closes.
+/// Length of the rounded cap of the neck over the half axis that it closes.
 const NECK_CAP: f64 = 0.5;
+/// Length of the rounded cap of the wrist over the half axis that it closes.
 const WRIST_CAP: f64 = 0.7;
-/// How far the arm goes straight on beyond the wrist's row before it is rounded off, in half widths of the wrist.
+/// Straight length of the arm beyond the row of the wrist, before the cap, in half widths of the wrist.
 const WRIST_STUB: f64 = 0.5;
+/// Length of the rounded cap of the foot over the half axis that it closes.
 const FOOT_CAP: f64 = 0.4;
-/// How far the torso reaches below the crotch row, as a part of the way up to the hip: the two legs become one trunk
-/// between there and the hip row, and the crotch comes out at its row.
+/// Extent of the torso below the row of the crotch, as a share of the height from crotch to hip. The two legs become
+/// one trunk between there and the row of the hip, and the crotch comes out at its row.
 const CROTCH_REACH: f64 = 0.1;
 
 /// A convex section: half axes, exponent, and where it is cut.
@@ -30,14 +32,14 @@ struct Cut {
 }
 
 impl Cut {
-    /// About the distance of the point (u, v) across and `beyond` the tube's end from its skin: the section's own norm
-    /// r (1 on the skin) turned into a length that is right along the rays from the centre and smooth at the centre.
+    /// Approximate distance from the skin of the point (u, v) across and `beyond` the tube's end. It is the section's
+    /// own norm r (1 on the skin) scaled to a length that is exact along rays from the centre and smooth at the centre.
     fn distance(&self, u: f64, v: f64, beyond: f64) -> f64 {
         let (p, q) = ((u / self.a).abs(), (v / self.b).abs());
         let flat = if self.n == 2.0 { p * p + q * q } else { (p.powf(self.n) + q.powf(self.n)).powf(2.0 / self.n) };
         let r2 = flat + (beyond / self.cap).powi(2);
         let h = self.a.min(self.b);
-        // At the centre the factor is h; from half of h outward it is nearly |p|/r.
+        // At the centre the factor is h. From half of h outward it is nearly |p|/r.
         let scale = ((u * u + v * v + beyond * beyond + 0.25 * h * h) / (r2 + 0.25)).sqrt();
         (r2.sqrt() - 1.0) * scale
     }
@@ -45,7 +47,7 @@ impl Cut {
 
 /// The arm's axis and sections, left side.
 pub(super) struct Arm {
-    /// Where the axis starts.
+    /// Start of the axis.
     pub(super) joint: Vec3,
     /// Along the axis, towards the wrist.
     pub(super) axis: Vec3,
@@ -167,7 +169,7 @@ impl Body {
         }
     }
 
-    /// Negative inside, positive outside, roughly metres; symmetric in x.
+    /// Negative inside, positive outside, roughly metres. Symmetric in x.
     pub(super) fn distance(&self, p: Vec3) -> f64 {
         let p = Vec3::new(p.x.abs(), p.y, p.z);
         let high = smoothstep(self.axilla, self.shoulder, p.y);
@@ -213,7 +215,7 @@ fn smoothstep(from: f64, to: f64, at: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// The union of two bodies, rounded where their distances differ by less than `reach`; untouched elsewhere.
+/// The union of two bodies, rounded where their distances differ by less than `reach`. Untouched elsewhere.
 fn smooth_union(a: f64, b: f64, reach: f64) -> f64 {
     let h = (1.0 - (a - b).abs() / reach).max(0.0);
     a.min(b) - 0.25 * reach * h * h

@@ -1,16 +1,18 @@
-//! Where a body stands in its own file, and which way it faces there.
+//! Placement of a body in its own file.
 
 use crate::geometry::{TriMesh, Vec3, range_of};
 
-/// Heights of foot and ankle, as parts of the body's, that tell where the toes point.
+/// Height of the foot, as a share of the body's. The toes point backward if the middle of the foot lies behind that of
+/// the ankle by more than the same share.
 const FOOT: f64 = 0.02;
+/// Range of heights of the ankle, as shares of the body's.
 const ANKLE: [f64; 2] = [0.05, 0.08];
-/// Cosine of 10°: a body whose arms lie along x within this angle is taken to face along z as its file has it, for a
-/// scan is not quite the same on both sides.
+/// Cosine of the angle (10°) to the x axis within which the arms count as lying along x. The body then faces along z as
+/// in its file, because a scan is not quite the same on both sides.
 const ALONG: f64 = 0.985;
 
-/// What was done to a body of one's own so that it stands on y = 0 and faces +z; nothing to a shipped one. Garments are
-/// made on the body as it stands then, and written where its file has it.
+/// Transformation that puts a body of one's own on y = 0, facing +z. It is the identity for a shipped body. Garments
+/// are made on the transformed body and written in the place of its file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// Height of its lowest point in the file, metres.
@@ -37,7 +39,7 @@ impl Frame {
         Self::facing(mesh, if front[0] > ALONG { Self::default().front } else { front })
     }
 
-    /// That of a body that faces this way or the opposite one, as its toes point; feet may have none.
+    /// That of a body that faces this way or the opposite one, as its toes point. Feet may have none.
     fn facing(mesh: &TriMesh, front: [f64; 2]) -> Self {
         let [low, high] = range_of(mesh.vertices.iter().map(|p| p.y));
         let frame = Self { low, front };
@@ -51,20 +53,20 @@ impl Frame {
         if toes < -FOOT * height { Self { low, front: front.map(|x| -x) } } else { frame }
     }
 
-    /// Where the file has what is at `p`, metres, y up.
+    /// Position in the file of the point `p` on the body, metres, y up.
     pub fn to_file(&self, p: Vec3) -> Vec3 {
         let [cos, sin] = self.front;
         Vec3::new(p.x * cos + p.z * sin, p.y + self.low, p.z * cos - p.x * sin)
     }
 
-    /// Where what the file has at `p`, metres, y up, is on the body.
+    /// Position on the body of the point `p` of the file, metres, y up.
     pub fn from_file(&self, p: Vec3) -> Vec3 {
         let [cos, sin] = self.front;
         Vec3::new(p.x * cos - p.z * sin, p.y - self.low, p.z * cos + p.x * sin)
     }
 }
 
-/// Cosine and sine of the angle about y, from z to x, square to the wider horizontal axis of a surface; between −90°
+/// Cosine and sine of the angle about y, from z to x, square to the wider horizontal axis of a surface. Between −90°
 /// and 90°.
 fn across(mesh: &TriMesh) -> [f64; 2] {
     let faces: Vec<(Vec3, f64)> = (0..mesh.triangles.len())

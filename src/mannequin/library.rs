@@ -1,4 +1,4 @@
-//! The mannequins that are shipped, and where others come from.
+//! Shipped mannequins, and loading of others.
 
 use std::path::Path;
 
@@ -12,10 +12,11 @@ const SHIPPED: [(&str, &str); 3] = [
     ("child_110", include_str!("../../mannequins/child_110.yaml")),
 ];
 
-/// Sections of a body are a page of text; larger files are refused before they are read.
+/// Largest file of a body's sections, bytes. Such files are a page of text, and larger ones are refused before they are
+/// read.
 const LARGEST: u64 = 4 << 20;
 
-/// Characters of an unknown name that an error shows.
+/// Number of characters of an unknown name that an error shows.
 const NAME: usize = 120;
 
 /// Names of the shipped mannequins.

@@ -83,10 +83,11 @@ fn monotone_slopes(at: &[f64], y: &[f64]) -> Vec<f64> {
     slopes
 }
 
-/// Chords that a section's perimeter is summed over; at 720 it is short by less than 4 parts in a million.
+/// Number of chords over which the perimeter of a section is summed. With 720 it is short by less than 4 parts in a
+/// million.
 const PERIMETER_CHORDS: usize = 720;
 
-/// Perimeter of |x/a|ⁿ + |z/b|ⁿ = 1. For n ≥ 1 the section is convex, so this is what a tape reads.
+/// Perimeter of |x/a|ⁿ + |z/b|ⁿ = 1. For n ≥ 1 the section is convex, so this is the girth that a tape reads.
 pub(super) fn perimeter(a: f64, b: f64, n: f64) -> f64 {
     let power = 2.0 / n;
     let point = |i: usize| {

@@ -43,7 +43,7 @@ pub enum MannequinError {
     Read {
         /// Path.
         file: String,
-        /// What the system said.
+        /// The system's message.
         why: String,
     },
     /// The text is no mannequin.
@@ -51,7 +51,7 @@ pub enum MannequinError {
     Syntax {
         /// Path or library name.
         file: String,
-        /// What the reader said, with line and column.
+        /// The reader's message, with line and column.
         why: String,
     },
     /// A number that no body has.
@@ -59,7 +59,7 @@ pub enum MannequinError {
     Value {
         /// Path or library name.
         file: String,
-        /// Which number, and what it must be.
+        /// The number, and its allowed range.
         why: String,
     },
     /// The sections make no simple closed body.
@@ -67,7 +67,7 @@ pub enum MannequinError {
     Surface {
         /// Its name.
         name: String,
-        /// What is wrong, and where.
+        /// The fault and its place.
         why: String,
     },
 }
@@ -81,15 +81,15 @@ pub struct Mannequin {
     pub mesh: TriMesh,
     /// Torso, neck, arms, legs.
     pub parts: Vec<BodyPart>,
-    /// Where it stands in its own file.
+    /// Transformation to the body's own file.
     pub frame: Frame,
 }
 
-/// Heights of bodies that are dressed, metres, from a doll's to a shop window's: others are in another unit than
-/// thought.
+/// Heights of bodies that can be dressed, metres, from a doll's to a shop window's. Other heights mean another unit.
 pub const HEIGHTS: std::ops::RangeInclusive<f64> = 0.2..=3.0;
 
-/// A body whose legs reach up to this share of its height stands on them; a dress form's stumps do not reach so far.
+/// Height of the legs' top, as a share of the body's, above which a body stands on its legs. The stumps of a dress form
+/// do not reach so far.
 const STANDS: f64 = 0.3;
 
 impl Mannequin {
@@ -98,8 +98,8 @@ impl Mannequin {
         self.parts.iter().find(|part| part.kind == kind)
     }
 
-    /// Length of a tape round what of it is in the plane through `at` square to the unit `axis`, metres: round those of
-    /// its closed curves there whose middles `is_in` takes; `None` if it takes none.
+    /// Length of a tape round the body in the plane through `at` square to the unit `axis`, metres. It goes round those
+    /// closed curves of the section whose middles satisfy `is_in`. `None` if there are none.
     pub fn tape(&self, at: Vec3, axis: Vec3, is_in: impl Fn(Vec3) -> bool) -> Option<f64> {
         let loops = slice::slice(&self.mesh, at, axis);
         let points: Vec<Vec3> = loops.into_iter().filter(|l| is_in(l.center())).flat_map(|l| l.points).collect();
@@ -107,7 +107,7 @@ impl Mannequin {
         (!points.is_empty()).then(|| slice::tape(&points, across, axis.cross(&across)))
     }
 
-    /// Height of the floor it stands on, metres; a form without legs hangs or stands on a pole, over no floor that its
+    /// Height of the floor it stands on, metres. A form without legs hangs or stands on a pole, over no floor that its
     /// clothes could reach.
     pub fn floor(&self) -> Option<f64> {
         let top = self.mesh.vertices.iter().map(|v| v.y).fold(0.0, f64::max);
@@ -117,7 +117,7 @@ impl Mannequin {
     }
 }
 
-/// Which part of the body.
+/// A part of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum PartKind {
     /// Crotch to shoulders.
@@ -161,7 +161,7 @@ impl PartKind {
 /// A limb or the trunk as a bent cylinder.
 #[derive(Clone, Debug)]
 pub struct BodyPart {
-    /// Which.
+    /// Its kind.
     pub kind: PartKind,
     /// Sections from the end next to the trunk outward (the torso from the crotch up).
     pub sections: Vec<Section>,
@@ -171,7 +171,7 @@ pub struct BodyPart {
     pub landmarks: Vec<(String, Vec3)>,
 }
 
-/// A hand or a foot reaches so far beyond its limb's last section, metres.
+/// Extent of a hand or a foot beyond the last section of its limb, metres.
 pub(crate) const HAND_OR_FOOT: f64 = 0.2;
 
 /// One cross-section of a body part.

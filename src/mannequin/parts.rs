@@ -6,7 +6,7 @@ use super::spec::{MannequinSpec, UNIT};
 use super::{BodyPart, PartKind, Section};
 use crate::geometry::Vec3;
 
-/// Sections are at most this far apart.
+/// Largest distance between sections, metres.
 const SPACING: f64 = 0.025;
 
 /// Torso, neck, arms and legs.

@@ -4,11 +4,11 @@ use super::field::Body;
 use super::surface::HalfSurface;
 use crate::geometry::{TriMesh, Vec3};
 
-/// Rounds of smoothing; more no longer raise the smallest angle.
+/// Rounds of smoothing. More rounds do not raise the smallest angle.
 const ROUNDS: usize = 12;
-/// Part of the way to the neighbours' middle that a vertex goes in one round.
+/// Share of the way to its neighbours' middle that a vertex moves in one round.
 const PACE: f64 = 0.7;
-/// Newton steps onto the skin after the last round; the error then is far below a micrometre.
+/// Newton steps onto the skin after the last round. The error is then far below a micrometre.
 const LAST_STEPS: usize = 3;
 /// Step of the difference quotient along the normal, metres.
 const PROBE: f64 = 1e-4;
@@ -36,7 +36,7 @@ pub(super) fn relax(half: &mut HalfSurface, body: &Body) {
     }
 }
 
-/// One Newton step along `n` onto the skin. Where the function is flat along `n` the point stays.
+/// One Newton step along `n` onto the skin. The point stays where the function is flat along `n`.
 fn project(body: &Body, p: Vec3, n: Vec3) -> Vec3 {
     let f = body.distance(p);
     let slope = (body.distance(p + n * PROBE) - f) / PROBE;
@@ -74,7 +74,7 @@ impl Neighbours {
         Self { start, list: pairs.into_iter().map(|p| p.1).collect() }
     }
 
-    /// The neighbours' middle; a vertex on the mirror plane counts those beside the plane twice, once for their image.
+    /// The neighbours' middle. A vertex on the mirror plane counts those beside the plane twice, once for their image.
     fn middle(&self, v: usize, at: &[Vec3]) -> Vec3 {
         let on_plane = at[v].x == 0.0;
         let (mut sum, mut weight) = (Vec3::zeros(), 0.0);
@@ -91,7 +91,7 @@ impl Neighbours {
     }
 }
 
-/// Unit vertex normals; on the mirror plane they lie in it.
+/// Unit vertex normals. On the mirror plane they lie in it.
 fn normals(half: &HalfSurface) -> Vec<Vec3> {
     let at = &half.vertices;
     let mut normals = vec![Vec3::zeros(); at.len()];

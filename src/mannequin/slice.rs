@@ -29,7 +29,7 @@ impl Loop {
 /// The loops in which the plane through `at` square to `axis` cuts `mesh`.
 pub(super) fn slice(mesh: &TriMesh, at: Vec3, axis: Vec3) -> Vec<Loop> {
     let side: Vec<f64> = mesh.vertices.iter().map(|p| (p - at).dot(&axis)).collect();
-    // Every triangle that the plane crosses joins two of its edges; chains of joined edges are the loops.
+    // Every triangle that the plane crosses joins two of its edges. Chains of joined edges are the loops.
     let mut index: BTreeMap<[u32; 2], u32> = BTreeMap::new();
     let (mut points, mut sets) = (Vec::new(), DisjointSets::default());
     for tri in &mesh.triangles {

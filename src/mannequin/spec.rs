@@ -5,11 +5,11 @@ use serde::Deserialize;
 use super::{HEIGHTS, MannequinError};
 use crate::input::yaml;
 
-/// The unit of these numbers in metres. They are multiplied by it: divided by a thousand they would be others in their
-/// last digit, and every garment would start a hair elsewhere and fold in another way.
+/// Metres per unit of these numbers. They are multiplied by it. Dividing by a thousand would change their last digit,
+/// so that every garment would start a hair elsewhere and fold differently.
 pub(super) const UNIT: f64 = 1e-3;
 
-/// Everything needed to build a mannequin; see `mannequins/woman_92.yaml` for the meaning of each number.
+/// Everything needed to build a mannequin. See `mannequins/woman_92.yaml` for the meaning of each number.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MannequinSpec {
@@ -17,9 +17,9 @@ pub struct MannequinSpec {
     pub name: String,
     /// Trunk and neck, from the crotch up.
     pub torso: Vec<TorsoRow>,
-    /// The left leg; the right one mirrors it.
+    /// The left leg. The right one mirrors it.
     pub leg: LegSpec,
-    /// The left arm; the right one mirrors it.
+    /// The left arm. The right one mirrors it.
     pub arm: ArmSpec,
 }
 
@@ -77,7 +77,7 @@ pub struct LegRow {
 pub struct ArmSpec {
     /// The acromion, where the shoulder seam ends.
     pub shoulder: [f64; 3],
-    /// Where the axis starts, under the skin.
+    /// Start of the axis, under the skin.
     pub joint: [f64; 3],
     /// Degrees between the axis and the vertical, sideways.
     pub abduction: f64,
@@ -103,11 +103,11 @@ pub struct ArmRow {
 
 /// Rows of the torso that the build refers to by name.
 const NEEDED: [&str; 5] = ["crotch", "hip", "axilla", "shoulder", "neck base"];
-/// Exponents outside this are no body: below it a section is a diamond, above it a box with edges.
+/// Range of exponents of sections. Below it a section is a diamond, above it a box with edges.
 const EXPONENTS: std::ops::RangeInclusive<f64> = 1.2..=8.0;
 
 impl MannequinSpec {
-    /// Reads and checks a mannequin file's text; `from` names it in errors.
+    /// Reads and checks a mannequin file's text. `from` names it in errors.
     ///
     /// # Errors
     /// [`MannequinError::Syntax`] with line and column, [`MannequinError::Value`] for numbers no body has.
@@ -117,7 +117,7 @@ impl MannequinSpec {
         Ok(spec)
     }
 
-    /// The torso row of that name; [`MannequinSpec::parse`] guarantees `crotch`, `hip`, `axilla`, `shoulder` and
+    /// The torso row of that name. [`MannequinSpec::parse`] guarantees `crotch`, `hip`, `axilla`, `shoulder` and
     /// `neck base`.
     pub fn torso_row(&self, name: &str) -> Option<&TorsoRow> {
         self.torso.iter().find(|r| r.name == name)
@@ -189,7 +189,7 @@ impl MannequinSpec {
     }
 }
 
-/// No number of a body is larger, in millimetres or degrees: a larger one is in another unit.
+/// Largest number in a body's file, millimetres or degrees. A larger one is in another unit.
 const LARGEST: f64 = 5000.0;
 
 fn finite(name: &str, values: &[f64]) -> Result<(), String> {

@@ -16,7 +16,7 @@ pub(super) struct HalfSurface {
 /// A cell or a node of the grid, by its lowest corner.
 type Cell = [i32; 3];
 
-/// A grid of cubes of side `h`; the plane x = 0 halves the first column of cells,
+/// A grid of cubes of side `h`. The plane x = 0 halves the first column of cells,
 /// so that the two halves share vertices.
 struct Grid<F> {
     function: F,

@@ -69,7 +69,7 @@ impl Layout<'_> {
         parts.into_iter().enumerate().map(|(k, (number, _, chain))| (number, name(k, number), chain)).collect()
     }
 
-    /// Pairs of every seam; a pair that repeats at a joint is kept once.
+    /// Pairs of every seam. A pair that repeats at a joint is kept once.
     fn stitches(&self, mesh: &ClothMesh) -> Vec<Stitches> {
         let edges: Vec<&EdgeParticles> = mesh.pieces.iter().flat_map(|p| &p.edges).collect();
         let seams = self.garment.seams.iter().zip(self.seam_links());

@@ -4,12 +4,12 @@ use super::error::{MeshError, SeamFault};
 use super::links::{EdgeTable, Link, SAME_PLACE};
 use crate::pattern::Garment;
 
-/// The search for breakpoints is given up at this many times the number it began with. A breakpoint appears once per
-/// edge it is sewn to, and garments sew an edge through a few others at most; only a stretch that is sewn to a
-/// shifted copy of itself goes on.
+/// Growth of the number of breakpoints at which the search is given up. A breakpoint appears once per edge it is sewn
+/// to, and garments sew an edge through a few others at most. Only a stretch that is sewn to a shifted copy of itself
+/// goes on without end.
 const ENDLESS: usize = 60;
 
-/// Sorted breakpoints of every edge (arc lengths); first and last are the edge's ends.
+/// Sorted breakpoints of every edge (arc lengths). First and last are the edge's ends.
 pub(super) struct Breaks(Vec<Vec<f64>>);
 
 /// A directed interval between two neighbouring breakpoints of an edge.

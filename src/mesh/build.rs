@@ -15,7 +15,7 @@ use super::{ClothMesh, MeshOptions, Method, coons, strip};
 use crate::geometry::Vec2;
 use crate::pattern::Garment;
 
-/// Rounds of relaxing, parting chords and mending; each undoes what the one before spoilt.
+/// Rounds of relaxing, removing chords and repairing. Each of these steps disturbs the result of the others.
 const ROUNDS: usize = 2;
 
 /// A piece's points and triangles.
@@ -28,7 +28,7 @@ pub(super) struct Fill {
     pub(super) lines: Vec<Vec<u32>>,
 }
 
-/// Meshes every piece of `garment` with springs of about `spacing` metres; see [`build_with`].
+/// Meshes every piece of `garment` with springs of about `spacing` metres. See [`build_with`].
 ///
 /// # Errors
 /// As [`build_with`].
@@ -38,18 +38,17 @@ pub fn build(garment: &Garment, spacing: f64) -> Result<ClothMesh, MeshError> {
 
 /// Meshes every piece of `garment`.
 ///
-/// Rims lie on the drawn edges; both sides of a seam have the same number of particles at matching arc length, and a
-/// particle at every mark, span end, edge end and kink of either side, also of edges they are sewn to indirectly.
+/// Rims lie on the drawn edges. Both sides of a seam have the same number of particles at matching arc length. There is
+/// a particle at every mark, span end, edge end and kink of either side, also of edges that are sewn to it indirectly.
 /// Inside is a regular grid along the grain whose diagonals alternate, with an irregular strip of about one spacing
-/// along rims that are not in line with it. The same garment and options give the same bytes,
-/// for any number of threads.
+/// along rims that are not in line with it. The same garment and options give the same bytes for any number of threads.
 ///
 /// A piece narrower than the spacing gets one row of cells across, and springs along it that are at most three times as
 /// long as it is wide ([`PieceMesh::narrow`](super::PieceMesh::narrow)).
 ///
-/// The smallest angle is normally above 25°. Exceptions are corners of the outline sharper than that, strips and
-/// gaps narrower than a spacing, and neighbouring springs of very different length where marks lie close together:
-/// [`PieceMesh::smallest_angle`](super::PieceMesh::smallest_angle) says what was reached.
+/// The smallest angle is normally above 25°. Exceptions are sharper corners of the outline, strips and gaps narrower
+/// than a spacing, and neighbouring springs of very different length where marks lie close together.
+/// [`PieceMesh::smallest_angle`](super::PieceMesh::smallest_angle) has the value reached.
 ///
 /// # Errors
 /// [`MeshError`] when the spacing is no positive length or does not suit the pieces, or when an outline, a line or a

@@ -1,14 +1,14 @@
-//! What must hold for every mesh, looked at afresh: shares no code with the mesher.
+//! An independent check of a mesh against its garment. It shares no code with the mesher.
 
 use super::{ClothMesh, PieceMesh};
 use crate::geometry::{Topology, Vec2, rim_loops, sorted_pair};
 use crate::pattern::{Garment, Piece};
 
-/// Rim particles lie on the drawn edge to this distance (metres).
+/// Largest distance of a rim particle from its drawn edge, metres.
 const ON_EDGE: f64 = 1e-9;
-/// Areas agree to this share.
+/// Largest relative difference of two areas that should be equal.
 const SAME_AREA: f64 = 1e-9;
-/// The particle at a span's end is at most this far outside the span (metres).
+/// Largest distance of the particle at a span's end outside the span, metres.
 const OFF_END: f64 = 2e-5;
 
 /// A broken promise of a mesh.
@@ -17,7 +17,7 @@ pub enum CheckError {
     /// The mesh has not as many pieces or seams as the garment, or counts that do not add up.
     #[error("the mesh has {found} {what}, expected {expected}")]
     Count {
-        /// What was counted.
+        /// The kind of thing counted.
         what: String,
         /// Number in the mesh.
         found: usize,
@@ -39,7 +39,7 @@ pub enum CheckError {
         piece: String,
         /// The triangle.
         triangle: usize,
-        /// What is wrong.
+        /// The fault.
         fault: &'static str,
     },
     /// A particle belongs to no triangle.
@@ -55,7 +55,7 @@ pub enum CheckError {
     Surface {
         /// The piece.
         piece: String,
-        /// What is wrong.
+        /// The fault.
         fault: String,
     },
     /// An edge's particles are not where they should be.
@@ -65,7 +65,7 @@ pub enum CheckError {
         piece: String,
         /// The edge.
         edge: String,
-        /// What is wrong.
+        /// The fault.
         fault: String,
     },
     /// A line's particles are not joined.
@@ -81,15 +81,20 @@ pub enum CheckError {
     Seam {
         /// The seam.
         seam: String,
-        /// What is wrong.
+        /// The fault.
         fault: String,
     },
 }
 
-/// Checks a mesh against its garment: finite; every piece a manifold disk with its holes, positively oriented (y
-/// down), its area that of the polygon of its rim; every particle used; rims are exactly the particles of the edges,
-/// which lie on the drawn edges; lines are chains of mesh edges; seams pair every rim particle of both sides, in
-/// order, and no mesh edge inside a piece joins two stitched particles.
+/// Checks a mesh against its garment:
+/// - all values are finite;
+/// - every piece is a manifold disk with its holes, positively oriented (y down), and has the area of its rim's
+///   polygon;
+/// - every particle is used;
+/// - rims consist of exactly the particles of the edges, which lie on the drawn edges;
+/// - lines are chains of mesh edges;
+/// - seams pair every rim particle of both sides in order, and no mesh edge inside a piece joins two stitched
+///   particles.
 ///
 /// # Errors
 /// The first broken promise.
@@ -179,7 +184,7 @@ fn check_rims(piece: &PieceMesh, drawn: &Piece, triangles: &[[u32; 3]]) -> Resul
     }
 }
 
-/// The same cycle, begun at its smallest number.
+/// The cycle, rotated to begin at its smallest number.
 fn from_smallest(mut cycle: Vec<u32>) -> Vec<u32> {
     let start = (0..cycle.len()).min_by_key(|&k| cycle[k]).unwrap_or(0);
     cycle.rotate_left(start);

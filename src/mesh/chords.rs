@@ -4,7 +4,7 @@
 use super::improve::Improver;
 use super::shape::quality_of_degrees;
 
-/// A chord is turned or split if no angle falls below this (degrees).
+/// Least angle after a chord is turned or split, degrees.
 const FINE: f64 = 22.0;
 
 /// The particles of both sides of a seam within one piece, sorted.

@@ -8,14 +8,14 @@ use super::{Fill, Method};
 use crate::geometry::{Vec2, shares_along};
 use crate::pattern::{EdgeId, Piece};
 
-/// With [`Method::Auto`] a four-sided piece this many times as long as wide is a band.
+/// Ratio of length to width from which [`Method::Auto`] treats a four-sided piece as a band.
 const BAND: f64 = 5.0;
-/// A structured mesh with an angle below this (degrees) is refused; the grid does better.
+/// Least angle of a structured mesh with [`Method::Auto`], degrees. Below it the grid does better.
 const LEAST_ANGLE: f64 = 25.0;
-/// ... and below this even when it was asked for, or the piece is narrower than the spacing: a grid would have no inner
-/// particle there either.
+/// Least angle of a structured mesh that was asked for, or of a piece narrower than the spacing, degrees. A grid would
+/// have no inner particle there either.
 const LEAST_ANGLE_ASKED: f64 = 10.0;
-/// A row stands in for a line when it stays this near to it (metres): the width of a thread would be ten times more.
+/// Largest distance of a row from a line that it replaces, metres. The width of a thread is ten times as much.
 const ON_LINE: f64 = 1e-5;
 
 /// Whether a piece is to be meshed in structured columns, if its sides can be sampled alike.
@@ -66,7 +66,7 @@ pub(super) fn fill(frame: &Frame, plan: &LinePlan, method: Method, is_narrow: bo
     (worst >= quality_of_degrees(least)).then_some(Fill { points, triangles, lines })
 }
 
-/// Vertex numbers in rows and columns; the outline runs along row 0, the last column, the last row and column 0.
+/// Vertex numbers in rows and columns. The outline runs along row 0, the last column, the last row and column 0.
 struct Sheet {
     columns: usize,
     rows: usize,
@@ -112,7 +112,7 @@ impl Sheet {
         (0..self.rows).map(|j| self.at(i, j)).collect()
     }
 
-    /// Coons' interpolation of the inner vertices between the rim's; `None` where a side has no length.
+    /// Coons' interpolation of the inner vertices between the rim's. `None` where a side has no length.
     fn points(&self, frame: &Frame) -> Option<Vec<Vec2>> {
         let rim = |v: u32| frame.points[v as usize];
         let (last_i, last_j) = (self.columns - 1, self.rows - 1);
@@ -169,7 +169,7 @@ impl Sheet {
     }
 }
 
-/// Mean share of the way along two opposite sides at each of their particles; `None` where one has no length.
+/// Mean share of the way along two opposite sides at each of their particles. `None` where one has no length.
 fn shares(a: &[u32], b: &[u32], frame: &Frame) -> Option<Vec<f64>> {
     let way = |side: &[u32]| shares_along(side.iter().map(|&v| frame.points[v as usize]));
     Some(way(a)?.into_iter().zip(way(b)?).map(|(x, y)| 0.5 * (x + y)).collect())

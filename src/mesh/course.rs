@@ -1,11 +1,10 @@
-//! What a line runs over: edges, cloth, or the open mouth of a dart or a hole.
+//! The course of a line over edges, cloth, and the open mouth of a dart or a hole.
 
 use super::lines::{Chords, REACHES};
 use crate::geometry::Path;
 use crate::pattern::{Along, Piece, Region, along};
 
-/// What is shorter than this (metres) between two parts of a line is none of its own: each of them may be off by the
-/// reach of a line's end.
+/// Least length of a part of a line, metres. Each end of a shorter part may be off by the reach of a line's end.
 const NEAR: f64 = 2.0 * REACHES;
 
 /// A part of a line that the mesh can follow.
@@ -21,11 +20,11 @@ pub(super) enum Course {
     Rim(Vec<Along>),
 }
 
-/// What the lines of a piece run over.
+/// The ground that the lines of a piece run over.
 pub(super) struct Ground<'a> {
     piece: &'a Piece,
     cloth: Region<'a>,
-    /// Of all its edges.
+    /// Chords of all its edges.
     rim: Vec<Chords<'a>>,
 }
 
@@ -45,8 +44,8 @@ impl<'a> Ground<'a> {
         Self { piece, cloth: Region::new(&piece.loops), rim }
     }
 
-    /// The parts of a line, in its order. What lies over no cloth is left out: a line runs through darts, which seams
-    /// close, and over holes. A line that begins or ends off the cloth is left whole, to be complained of.
+    /// The parts of a line that lie on cloth, in the order of the line. A line runs through darts, which seams close,
+    /// and over holes. A line that begins or ends off the cloth is kept whole, so that it is reported.
     pub(super) fn courses(&self, line: &Path) -> Vec<Course> {
         let mut out = Vec::new();
         let mut reached = 0.0;

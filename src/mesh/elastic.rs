@@ -1,4 +1,4 @@
-//! Which edges of a mesh elastic draws in.
+//! Edges of a mesh that elastic draws in.
 
 use std::collections::{HashMap, HashSet};
 
@@ -9,9 +9,9 @@ use crate::pattern::LineKind;
 /// An edge of a mesh along elastic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrawnIn {
-    /// To which share of its drawn length it is drawn in.
+    /// Length under elastic as a share of the drawn length.
     pub ratio: f64,
-    /// Whether the elastic is on it; else it is sewn to an edge with elastic on it, and gathers with that.
+    /// Whether the elastic lies on this edge. Otherwise the edge is sewn to one with elastic, and gathers with it.
     pub band: bool,
 }
 
@@ -29,7 +29,7 @@ impl ClothMesh {
         drawn
     }
 
-    /// Lets what is sewn to edges along elastic gather with them; whether there was any that did not yet.
+    /// Marks edges that are sewn to edges along elastic as gathered with them. Returns whether there was a new one.
     fn pass_on(&self, drawn: &mut HashMap<[u32; 2], DrawnIn>) -> bool {
         let before = drawn.len();
         for step in self.seams.iter().flat_map(|s| s.pairs.windows(2)) {

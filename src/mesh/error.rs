@@ -1,4 +1,4 @@
-//! What can go wrong between a checked garment and its mesh.
+//! Errors between a checked garment and its mesh.
 
 use crate::geometry::Vec2;
 
@@ -91,12 +91,12 @@ pub enum MeshError {
         /// Its length.
         length: f64,
     },
-    /// A seam names what is not there.
+    /// A seam refers to something that does not exist.
     #[error("seam '{seam}': {fault}")]
     Seam {
         /// The seam.
         seam: String,
-        /// What is wrong with it.
+        /// The fault.
         fault: SeamFault,
     },
     /// Matching seam to seam never comes to an end on an edge.
@@ -125,7 +125,7 @@ pub enum MeshError {
         first: String,
         /// Another.
         second: String,
-        /// Where, flat.
+        /// Place in the flat piece, metres.
         at: Vec2,
         /// The spacing asked for.
         spacing: f64,
@@ -168,7 +168,7 @@ impl MeshError {
     }
 }
 
-/// What is wrong with a seam.
+/// Faults of a seam.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SeamFault {
     /// A span's edge is not in the garment.
@@ -215,7 +215,7 @@ pub enum SeamFault {
     },
 }
 
-/// Millimetres with at most two decimals, no trailing zeros; very large and very small ones as powers of ten.
+/// Millimetres with at most two decimals, no trailing zeros. Very large and very small ones as powers of ten.
 fn mm(metres: f64) -> String {
     let mm = metres * 1e3;
     match mm.abs() {
@@ -233,7 +233,7 @@ fn count(particles: usize) -> String {
     }
 }
 
-/// How to part two edges or lines, as [`MeshError::Crossing`] names them.
+/// Advice to separate two edges or lines, as [`MeshError::Crossing`] names them.
 fn parted(first: &str, second: &str) -> &'static str {
     match [first, second].map(|name| name.starts_with("line ")) {
         [true, true] => "make them one line, draw them further apart",

@@ -8,14 +8,14 @@ use super::sampling::Sampling;
 use crate::geometry::Vec2;
 use crate::pattern::{EdgeId, Piece, SHORTEST_EDGE, written_edge};
 
-/// Neighbouring edges must meet within this distance (metres): the pattern stage closes outlines exactly, so anything
-/// more is a mistake in a garment built by hand.
+/// Largest gap between neighbouring edges, metres. The pattern stage closes outlines exactly, so a larger gap is a
+/// mistake in a garment built by hand.
 const CLOSED: f64 = 1e-6;
 
 /// Particles and springs of a piece that no later step may move, part or remove.
 #[derive(Default)]
 pub(super) struct Frame {
-    /// Positions; rim first (outline, then holes), then lines.
+    /// Positions. Rim first (outline, then holes), then lines.
     pub(super) points: Vec<Vec2>,
     /// Number of rim particles.
     pub(super) rim: usize,
@@ -78,7 +78,7 @@ impl Frame {
         Ok(frame)
     }
 
-    /// Adds the particles of the lines; `rim_place` turns an edge number and arc length into places in
+    /// Adds the particles of the lines. `rim_place` turns an edge number and arc length into places in
     /// [`Frame::edges`].
     pub(super) fn add_lines(&mut self, plan: &LinePlan, rim_place: impl Fn(usize, f64) -> (usize, usize)) {
         let knots: Vec<u32> = plan.knots.iter().map(|&p| self.add(p)).collect();

@@ -7,14 +7,16 @@ use super::lattice::Lattice;
 use super::spans::Spans;
 use crate::geometry::{Vec2, box_of, distance_to_segment, sorted_pair};
 
-/// Lattice points nearer than this many spacings to the frame are dropped. Any point of a cell's side is within half
-/// a step of an end of that side, so no frame spring can slip between two kept neighbours.
+/// Least distance of a lattice point from the frame, in spacings. Any point of a cell's side is within half a step of
+/// an end of that side, so that no frame spring can pass between two kept neighbours.
 const CLEARANCE: f64 = 0.58;
-/// A frame particle this near (in cells) to a lattice point takes its place.
+/// Distance within which a frame particle replaces a lattice point, in cells.
 const COINCIDES: f64 = 0.02;
-/// ... unless a frame spring this short (in spacings) starts from it: it could enter the cell beside the particle.
+/// Length of a frame spring, in spacings, below which its particle replaces no lattice point: the spring could enter
+/// the cell beside the particle.
 const SHORT: f64 = 0.6;
-/// Lattice points so many cells beside a frame spring are looked at: the corners of every cell it runs through.
+/// Distance within which lattice points beside a frame spring are examined, in cells: the corners of every cell that it
+/// crosses.
 const REACH: f64 = 1.0;
 /// No vertex.
 const NONE: u32 = u32::MAX;
@@ -44,7 +46,7 @@ impl Core {
     }
 }
 
-/// Lattice points in or beside a piece with what is known of each.
+/// Lattice points in or beside a piece, with their state.
 struct Raster {
     /// Column and row of the corner that the others are counted from.
     low: [i64; 2],
@@ -124,7 +126,7 @@ impl Raster {
         }
     }
 
-    /// Lets frame particles that lie on a lattice point take its place.
+    /// Replaces lattice points by frame particles that lie on them.
     fn seat_frame(&mut self, frame: &Frame, spacing: f64) {
         let mut shortest = vec![f64::INFINITY; frame.points.len()];
         for [a, b] in frame.springs() {

@@ -6,19 +6,19 @@ use super::patch::Patch;
 use super::shape::{GAIN, POOR, quality, quality_of_degrees};
 use crate::geometry::Vec2;
 
-/// A triangle whose smallest angle is this large (degrees) is left alone: half a square cell has 45, and more than a
-/// third of a right angle serves every later stage.
+/// Smallest angle from which a triangle is left alone, degrees. Half a square cell has 45°, and more than a third of a
+/// right angle suits every later stage.
 const GOOD: f64 = 33.0;
-/// Sweeps of adding and removing: grading from a tiny spring of the rim to the lattice takes one a doubling.
+/// Sweeps of adding and removing particles. Grading from a tiny rim spring to the lattice takes one sweep per doubling.
 const MENDS: usize = 6;
-/// Sweeps of turning and moving; most pieces settle after three.
+/// Sweeps of turning springs and moving particles. Most pieces settle after three.
 const SWEEPS: usize = 6;
-/// A particle is moved by at first this share of the spacing, then by halves down to the second share.
+/// First and last step by which a particle is moved, in spacings. Steps are halved in between.
 const STEPS: [f64; 2] = [0.24, 0.01];
 /// Steps from triangle to triangle when looking for the one that holds a new particle.
 const WALK: usize = 12;
 
-/// A patch with what may not be done to it.
+/// A patch with its constraints.
 pub(super) struct Improver<'p> {
     /// The mesh under repair.
     pub(super) patch: &'p mut Patch,
@@ -260,7 +260,7 @@ const COMPASS: [[f64; 2]; 8] = {
 pub(super) struct Turn {
     /// The triangle across the spring.
     pub(super) other: u32,
-    /// What replaces the two.
+    /// The two triangles that replace the old ones.
     pub(super) new: [[u32; 3]; 2],
     /// Worst quality of the two, afterwards.
     pub(super) after: f64,

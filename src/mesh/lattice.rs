@@ -3,18 +3,19 @@
 use super::frame::{Frame, Straight};
 use crate::geometry::{Vec2, range_of};
 
-/// A straight stretch runs along an axis when it strays from it by less than this share of the spacing.
+/// Largest deviation of a straight stretch from an axis, in spacings, at which it counts as running along the axis.
 const STRAY: f64 = 0.05;
-/// A stretch lends the lattice its own step when that is within this share of the spacing.
+/// Largest relative difference of a stretch's own step from the spacing at which the lattice takes that step.
 const STEP_SLACK: f64 = 0.1;
-/// ... and when it spans at least this share of the piece along the axis; a shorter one says little about the rest.
+/// Least share of the piece along the axis that a stretch must span to set the lattice's step. A shorter one has little
+/// bearing on the rest.
 const SPAN: f64 = 0.25;
 
 /// Rows along the weft, columns along the warp.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lattice {
     origin: Vec2,
-    /// Unit weft and warp; the warp lies on the weft's positive side.
+    /// Unit weft and warp. The warp lies on the weft's positive side.
     axes: [Vec2; 2],
     /// Cell size along weft and warp, metres.
     pub(super) step: [f64; 2],
@@ -22,8 +23,8 @@ pub(super) struct Lattice {
 
 impl Lattice {
     /// Fits a lattice to a piece: it takes the step and place of the longest straight, evenly sampled stretch along
-    /// each axis, so that its rows end on the rim's own particles; else it puts a row on the longest stretch across
-    /// the axis; else a row through the middle of the piece, which makes it symmetric if the piece is.
+    /// each axis, so that its rows end on the rim's own particles. Else it puts a row on the longest stretch across
+    /// the axis. Else a row through the middle of the piece, which makes it symmetric if the piece is.
     pub(super) fn fit(frame: &Frame, warp: Vec2, spacing: f64) -> Self {
         let axes = [Vec2::new(warp.y, -warp.x), warp];
         let fits = axes.map(|axis| fit_axis(frame, axis, spacing));
@@ -66,7 +67,7 @@ fn length(s: &Straight) -> f64 {
     (s.to - s.from).norm()
 }
 
-/// The first of the longest; lengths that differ by rounding only count as equal, so that a mirrored piece chooses
+/// The first of the longest. Lengths that differ by rounding only count as equal, so that a mirrored piece chooses
 /// the mirrored stretch.
 fn longest<'a>(stretches: impl Iterator<Item = &'a Straight>) -> Option<&'a Straight> {
     stretches.fold(None, |best, s| match best {

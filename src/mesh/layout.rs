@@ -1,4 +1,4 @@
-//! What must be known of the whole garment before its pieces can be filled one by one.
+//! Decisions about the whole garment that must be made before its pieces can be filled one by one.
 
 use super::breaks::Breaks;
 use super::error::MeshError;
@@ -9,16 +9,16 @@ use super::sampling::{Sampling, Wish};
 use super::{MeshOptions, Method, coons};
 use crate::pattern::{EdgeId, Garment};
 
-/// Edges that turn by more than this (radians; 15°) between two segments get a particle at the kink: cutting the
-/// corner would change the piece's area in the first order of the spacing.
+/// Turn between two segments of an edge that puts a particle at the kink, radians (15°). Cutting the corner would
+/// change the area of the piece in first order of the spacing.
 const KINK: f64 = 0.26;
-/// Turns are measured this far (metres) on either side of a joint.
+/// Distance on either side of a joint at which turns are measured, metres.
 const BESIDE: f64 = 1e-7;
-/// A band is at least so many springs wide: it must bend along its middle, or what it is sewn to cannot turn beside it.
-/// A narrow one has one row of cells: a second one would halve cells that are flat already.
+/// Least number of springs across a band. It must bend along its middle, or cloth sewn to it cannot turn beside it. A
+/// narrow band has one row of cells, because a second row would halve cells that are flat already.
 const ACROSS_BAND: usize = 2;
 
-/// What is known of the whole garment before its pieces are filled.
+/// Decisions about the whole garment, made before its pieces are filled.
 pub(super) struct Layout<'g> {
     /// The garment.
     pub(super) garment: &'g Garment,
@@ -28,13 +28,13 @@ pub(super) struct Layout<'g> {
     pub(super) plans: Vec<LinePlan>,
     /// Seams first, in the garment's order.
     pub(super) links: Vec<Link>,
-    /// Where edges must have particles.
+    /// Places on edges that need a particle.
     pub(super) breaks: Breaks,
     /// All particles of the edges.
     pub(super) sampling: Sampling,
-    /// What was asked for.
+    /// The options asked for.
     pub(super) options: MeshOptions,
-    /// How finely every piece is meshed.
+    /// Spacing of every piece.
     pub(super) fineness: Vec<Fineness>,
 }
 
@@ -76,7 +76,7 @@ impl<'g> Layout<'g> {
         self.edges.number(EdgeId { piece: n, ring: 0, index: 0 }).unwrap_or(0)
     }
 
-    /// Particles of a line along edges, as (edge number, position along the edge); doubled where two edges meet.
+    /// Particles of a line along edges, as (edge number, position along the edge). Doubled where two edges meet.
     pub(super) fn rim_chain(&self, line: &RimLine) -> Vec<(usize, usize)> {
         let stretch = |&(edge, ends): &(usize, [f64; 2])| {
             let [a, b] = ends.map(|s| self.sampling.particle_of_break(edge, self.breaks.nearest(edge, s)));
@@ -91,7 +91,7 @@ impl<'g> Layout<'g> {
         &self.links[..self.garment.seams.len()]
     }
 
-    /// Particles of one side of a link, in its direction, as (edge number, position along the edge); doubled where two
+    /// Particles of one side of a link, in its direction, as (edge number, position along the edge). Doubled where two
     /// runs meet.
     pub(super) fn chain(&self, link: &Link, side: usize) -> Vec<(usize, usize)> {
         let runs = self.breaks.runs(link, side);
@@ -99,7 +99,7 @@ impl<'g> Layout<'g> {
     }
 }
 
-/// How every edge is to be sampled: as its piece is, with [`ACROSS_BAND`] springs across a band.
+/// Sampling of every edge: that of its piece, with [`ACROSS_BAND`] springs across a band.
 fn wishes_of_edges(garment: &Garment, edges: &EdgeTable, method: Method, fineness: &[Fineness]) -> Vec<Wish> {
     let of_piece = |id: &EdgeId| Wish { least: 1, spacing: fineness[id.piece].spacing };
     let mut wishes: Vec<Wish> = edges.ids.iter().map(of_piece).collect();

@@ -5,22 +5,21 @@ use super::Narrow;
 use super::error::MeshError;
 use crate::pattern::{Garment, Piece};
 
-/// The grain is a unit vector to this much.
+/// Tolerance of the length of the grain vector, which must be 1.
 const UNIT: f64 = 1e-6;
-/// Springs along a narrow piece are at most this many times as long as the piece is wide: one row of cells across has
-/// angles of 18° and more then. The row costs fewer particles than square cells of the piece's width, which its seams
-/// would carry on to what it is sewn to.
+/// Largest length of a spring along a narrow piece, in widths of the piece. One row of cells across then has angles of
+/// at least 18°. It costs fewer particles than square cells, which seams would pass on to neighbouring pieces.
 const LONGEST_CELL: f64 = 3.0;
-/// A piece of one row of cells that is shorter than this many springs is a plate: it cannot go round anything.
+/// Length of a piece of one row of cells, in springs, below which it counts as a plate: it cannot go round anything.
 const LEAST_ALONG: f64 = 4.0;
-/// Springs across that an error recommends.
+/// Number of springs across that an error message recommends.
 const GOOD_SPRINGS_ACROSS: f64 = 3.0;
-/// Widths are as exact as this, metres: a piece exactly one spacing wide is not narrow.
+/// Accuracy of widths, metres: a piece exactly one spacing wide is not narrow.
 const ROUNDING: f64 = 1e-9;
-/// Largest mesh that is built; two million particles take some gigabytes in the later stages.
+/// Largest number of particles that is meshed. Two million take some gigabytes in the later stages.
 const MOST_PARTICLES: usize = 2_000_000;
 
-/// How finely a piece is meshed.
+/// Fineness of the mesh of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Fineness {
     /// Longest springs along its rim and inside it, metres.
@@ -40,7 +39,7 @@ impl Fineness {
     }
 }
 
-/// How finely every piece is meshed when `spacing` (metres) is asked for.
+/// Fineness of every piece when `spacing` (metres) is asked for.
 pub(super) fn fineness(garment: &Garment, spacing: f64) -> Result<Vec<Fineness>, MeshError> {
     if !(spacing.is_finite() && spacing > 0.0) {
         return Err(MeshError::Spacing(spacing));
@@ -98,12 +97,12 @@ fn check_grain(piece: &Piece) -> Result<(), MeshError> {
     if is_unit { Ok(()) } else { Err(MeshError::Grain { piece: piece.name.clone(), length }) }
 }
 
-/// How large a piece is, metres.
+/// Size of a piece, metres.
 struct Size {
     area: f64,
     /// Half of the length of its rim, that of holes with it.
     rim: f64,
-    /// Sides of the rectangle with this area and rim; a bent strip or a ring has the width of the strip.
+    /// Sides of the rectangle with this area and rim. A bent strip or a ring has the width of the strip.
     width: f64,
     length: f64,
 }
@@ -122,7 +121,7 @@ impl Size {
     }
 }
 
-/// The spacing at which cloth of this area and half rim makes so many particles.
+/// The spacing at which cloth of this area and half rim makes this number of particles.
 fn usable(cloth: f64, rim: f64, particles: f64) -> f64 {
     (rim + (rim * rim + 4.0 * cloth * particles).sqrt()) / (2.0 * particles)
 }

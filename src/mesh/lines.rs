@@ -6,19 +6,19 @@ use super::sampling::springs_for;
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{Along, EdgeId, Garment, LineKind, Piece, SLACK};
 
-/// A line's end this near (metres) to the rim, to a corner or to another line is meant to be on it: as near as `check`
-/// takes it to be.
+/// Distance within which the end of a line counts as lying on the rim, on a corner or on another line, metres. `check`
+/// uses the same.
 pub(super) const REACHES: f64 = SLACK;
-/// Lines are searched for crossings in chords of this length (metres): shorter than any bend of a sewn line.
+/// Length of the chords in which lines are searched for crossings, metres: shorter than any bend of a sewn line.
 const CHORD: f64 = 2.5e-3;
-/// Newton steps that polish a crossing; each doubles the correct digits of a chord's guess.
+/// Newton steps that refine a crossing. Each doubles the number of correct digits.
 const POLISH: usize = 4;
 
 /// The lines of a piece, ready to be sampled.
 pub(super) struct LinePlan {
-    /// What of lines that bend or gather runs across the cloth, in the piece's order.
+    /// Parts of lines that bend or gather the cloth and run across it, in the piece's order.
     pub(super) lines: Vec<PlannedLine>,
-    /// What of them runs along edges.
+    /// Parts of such lines that run along edges.
     pub(super) rim: Vec<RimLine>,
     /// Places where lines meet.
     pub(super) knots: Vec<Vec2>,
@@ -42,7 +42,7 @@ pub(super) struct PlannedLine {
     pub(super) at: f64,
     /// Its course.
     pub(super) path: Path,
-    /// Sorted along the line; the ends are the first and the last.
+    /// Sorted along the line. The ends are the first and the last.
     pub(super) stops: Vec<Stop>,
     /// Springs between neighbouring stops.
     pub(super) springs: Vec<usize>,
@@ -167,7 +167,8 @@ impl PlannedLine {
     }
 }
 
-/// Where point `p` meets the rim, if it reaches it; a corner within reach is preferred, so that no tiny spring arises.
+/// Place where point `p` meets the rim, if it is within reach. A corner within reach is preferred, to avoid tiny
+/// springs.
 fn rim_at(piece: &Piece, number: usize, edges: &EdgeTable, p: Vec2) -> Option<(usize, f64)> {
     let mut best: Option<(f64, usize, f64)> = None;
     for (ring, loop_edges) in piece.loops.iter().enumerate() {
@@ -191,7 +192,7 @@ fn rim_at(piece: &Piece, number: usize, edges: &EdgeTable, p: Vec2) -> Option<(u
 /// A path and its chords.
 pub(super) struct Chords<'a> {
     path: &'a Path,
-    /// Arc lengths and points that cut it; a straight path is its own chord.
+    /// Arc lengths and points that cut it. A straight path is its own chord.
     cuts: Vec<(f64, Vec2)>,
 }
 

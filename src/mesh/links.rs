@@ -1,12 +1,12 @@
 //! Links: which stretch of which edge must be sampled like which other.
 //!
-//! A seam is a link; so is the pair of opposite sides of a band that is meshed in straight columns.
+//! A seam is a link. So is the pair of opposite sides of a band that is meshed in straight columns.
 
 use super::error::{MeshError, SeamFault};
 use crate::pattern::{EdgeId, Garment, Seam, Span};
 
-/// Places on an edge closer than this (metres) are one place: a hundredth of a millimetre is far below what can be
-/// cut or sewn and far above what arc lengths are exact to.
+/// Distance within which places on an edge are one place, metres: a hundredth of a millimetre is far below anything
+/// that can be cut or sewn, and far above the accuracy of arc lengths.
 pub(super) const SAME_PLACE: f64 = 1e-5;
 
 /// All edges of a garment in one list, with their lengths.
@@ -51,7 +51,7 @@ pub(super) struct Stretch {
     pub(super) edge: usize,
     /// Arc length on the edge where the walk begins.
     pub(super) from: f64,
-    /// Arc length on the edge where it ends; less than `from` when it walks against the edge.
+    /// Arc length on the edge where it ends. Less than `from` when it walks against the edge.
     pub(super) to: f64,
     /// Arc length along the chain where this stretch begins.
     pub(super) start: f64,
@@ -80,7 +80,7 @@ impl Stretch {
 
 /// Two chains that get particles at matching places.
 pub(super) struct Link {
-    /// The seam's name; for a band, the piece's.
+    /// The seam's name. For a band, the piece's.
     pub(super) name: String,
     /// The two chains.
     pub(super) chains: [Vec<Stretch>; 2],

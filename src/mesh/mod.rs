@@ -40,7 +40,7 @@ use build::Fill;
 use crate::geometry::Vec2;
 use crate::pattern::{EdgeId, LineKind};
 
-/// How pieces are filled.
+/// How pieces are meshed inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
     /// Long narrow four-sided pieces (bands) in straight columns from rim to rim, all others as a grid.
@@ -49,27 +49,27 @@ pub enum Method {
     /// Every piece as a grid along the grain.
     Grid,
     /// Every four-sided piece by transfinite (Coons) interpolation between its sides, where they can be given equal
-    /// numbers of particles; all others as a grid.
+    /// numbers of particles. All others as a grid.
     Coons,
 }
 
-/// What the mesh of a garment should be like.
+/// Options of the mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeshOptions {
     /// Length of the springs along warp and weft, metres.
     pub spacing: f64,
-    /// How pieces are filled.
+    /// How pieces are meshed inside.
     pub method: Method,
 }
 
-/// All pieces of a garment, meshed; particles of different pieces are different particles, also along seams.
+/// All pieces of a garment, meshed. Particles of different pieces are different particles, also along seams.
 #[derive(Clone, Debug, Default)]
 pub struct ClothMesh {
     /// Target spacing, metres.
     pub spacing: f64,
     /// Flat position of every particle, metres, y down (as drawn).
     pub flat: Vec<Vec2>,
-    /// Triangles; clockwise on screen in the flat: in space (c − a) × (b − a) points out of the cloth's right side.
+    /// Triangles. Clockwise on screen in the flat: in space (c − a) × (b − a) points out of the cloth's right side.
     pub triangles: Vec<[u32; 3]>,
     /// One per piece of the garment, same order.
     pub pieces: Vec<PieceMesh>,
@@ -94,11 +94,11 @@ pub struct PieceMesh {
     pub smallest_angle: f64,
     /// Warp direction in the flat piece (unit).
     pub warp: Vec2,
-    /// How a piece that is narrower than the spacing was meshed.
+    /// Measures of a piece that is narrower than the spacing. `None` for other pieces.
     pub narrow: Option<Narrow>,
 }
 
-/// How a piece that is narrower than the spacing asked for was meshed: one row of cells across.
+/// Measures of a piece that is narrower than the spacing. It has one row of cells across.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Narrow {
     /// Width of the rectangle with the piece's area and perimeter, metres.
@@ -108,7 +108,7 @@ pub struct Narrow {
 }
 
 impl ClothMesh {
-    /// The piece that a particle is of; `None` for one that is not the mesh's.
+    /// The piece that a particle is of. `None` for one that is not the mesh's.
     pub fn piece_of(&self, particle: u32) -> Option<usize> {
         self.pieces.iter().position(|piece| piece.particles.contains(&(particle as usize)))
     }
@@ -134,9 +134,9 @@ pub struct EdgeParticles {
 /// Particles of an internal line, or of one of the parts that darts, holes and edges cut it into.
 #[derive(Clone, Debug)]
 pub struct LineParticles {
-    /// The line's name; that of a part is numbered, `casing.1`, `casing.2`.
+    /// The line's name. That of a part is numbered, `casing.1`, `casing.2`.
     pub name: String,
-    /// What it does.
+    /// Its kind.
     pub kind: LineKind,
     /// Global particle indices.
     pub particles: Vec<u32>,

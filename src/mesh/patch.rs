@@ -6,7 +6,7 @@ use crate::geometry::{Vec2, sorted_pair};
 /// No triangle.
 const NONE: u32 = u32::MAX;
 
-/// A triangle; side `k` runs from corner `k + 1` to corner `k + 2`, opposite corner `k`.
+/// A triangle. Side `k` runs from corner `k + 1` to corner `k + 2`, opposite corner `k`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tri {
     /// Corners, positively oriented.
@@ -32,12 +32,12 @@ pub(super) struct Patch {
     trial: Option<Trial>,
 }
 
-/// What to restore if a change turns out for the worse.
+/// State to restore if a change turns out for the worse.
 struct Trial {
     undo: Vec<Undo>,
-    /// Triangles looked at before their first change.
+    /// Triangles that have been saved before their first change.
     touched: Vec<u32>,
-    /// How they were then.
+    /// Score before the change.
     before: Score,
     triangles: usize,
     points: usize,
@@ -50,7 +50,7 @@ enum Undo {
 }
 
 impl Patch {
-    /// Takes over a triangulation; `lines` are the springs that must stay.
+    /// Takes over a triangulation. `lines` are the springs that must stay.
     pub(super) fn new(points: Vec<Vec2>, fixed: usize, triangles: &[[u32; 3]], lines: &[[u32; 2]]) -> Self {
         let mut patch = Self {
             at: vec![NONE; points.len()],
@@ -182,14 +182,14 @@ impl Patch {
         self.points[v as usize] = p;
     }
 
-    /// Adds a vertex; [`Patch::replace`] must connect it.
+    /// Adds a vertex. [`Patch::replace`] must connect it.
     pub(super) fn add(&mut self, p: Vec2) -> u32 {
         self.points.push(p);
         self.at.push(NONE);
         self.points.len() as u32 - 1
     }
 
-    /// Puts the triangles `new` in the place of `old`; both cover the same polygon. Vertices of `old` that `new`
+    /// Puts the triangles `new` in the place of `old`. Both cover the same polygon. Vertices of `old` that `new`
     /// does not use are gone.
     pub(super) fn replace(&mut self, old: &[u32], new: &[[u32; 3]]) {
         let sides: Vec<Side> = old.iter().flat_map(|&t| self.sides(t)).collect();

@@ -1,15 +1,15 @@
-//! How many particles go on every interval of the rim, and where.
+//! Number and places of particles on every interval of the rim.
 
 use super::breaks::{Breaks, Run};
 use super::error::{MeshError, SeamFault};
 use super::links::{EdgeTable, Link};
 use crate::geometry::DisjointSets;
 
-/// Springs of a rim are at most this many spacings long. Both sides of a gathered seam get the count of their mean
-/// length; past this the longer side decides.
+/// Largest length of a rim spring, in spacings. Both sides of a gathered seam get the count of their mean length,
+/// unless springs of the longer side would exceed this.
 const LONGEST_SPRING: f64 = 1.3;
 
-/// How an edge is to be sampled.
+/// Wanted sampling of an edge.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wish {
     /// Springs it has at least.
@@ -27,7 +27,7 @@ pub(super) struct Sampling {
 }
 
 impl Sampling {
-    /// Chooses counts per group of linked intervals by what is wished of each edge, and spreads particles evenly
+    /// Chooses counts per group of linked intervals from the wishes of their edges, and spreads particles evenly
     /// between breakpoints. The finest wish of a group decides.
     pub(super) fn new(edges: &EdgeTable, links: &[Link], breaks: &Breaks, wishes: &[Wish]) -> Result<Self, MeshError> {
         let mut groups = Groups::new(edges.ids.len(), breaks);

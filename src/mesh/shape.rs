@@ -1,10 +1,10 @@
-//! Angles of flat triangles, and what makes one mesh better than another.
+//! Angles of flat triangles, and a score to compare meshes.
 
 use crate::geometry::Vec2;
 
-/// Below this smallest angle (degrees) a triangle is poor: worth adding or removing a particle.
+/// Smallest angle below which a triangle is poor, degrees. It is then worth adding or removing a particle.
 pub(super) const POOR: f64 = 28.0;
-/// Least factor by which a change must gain.
+/// Least factor by which a change must improve the score.
 pub(super) const GAIN: f64 = 1.03;
 
 /// Squared sine of a triangle's smallest angle, negative when it is turned over: zero at a sliver, 3/4 at best.
@@ -27,12 +27,12 @@ pub(super) fn quality_of_degrees(degrees: f64) -> f64 {
     degrees.to_radians().sin().powi(2)
 }
 
-/// How good a set of triangles is.
+/// Quality of a set of triangles.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Score {
     /// Worst quality.
     pub(super) worst: f64,
-    /// What all poor triangles together lack.
+    /// Sum of the missing quality of all poor triangles.
     pub(super) lack: f64,
 }
 

@@ -1,5 +1,5 @@
-//! The lattice points that matter to a piece: stretches of its rows. Of a narrow piece askew to the grain that is a
-//! vanishing share of the box around it.
+//! Lattice points that matter to a piece, as stretches of its rows. For a narrow piece askew to the grain they are a
+//! vanishing share of its bounding box.
 
 use std::ops::RangeInclusive;
 
@@ -13,13 +13,13 @@ struct Span {
 /// Stretches of lattice rows, their points numbered row by row.
 pub(super) struct Spans {
     spans: Vec<Span>,
-    /// Where the spans of every row begin, and where those of the last end.
+    /// Index of the first span of every row, and the number of spans at the end.
     rows: Vec<usize>,
     points: usize,
 }
 
 impl Spans {
-    /// The points of these stretches, each of a row and its columns; they may overlap.
+    /// The points of these stretches, each of a row and its columns. They may overlap.
     pub(super) fn new(rows: usize, mut stretches: Vec<(usize, RangeInclusive<usize>)>) -> Self {
         stretches.retain(|(_, columns)| !columns.is_empty());
         stretches.sort_unstable_by_key(|(row, columns)| (*row, *columns.start()));
@@ -40,7 +40,7 @@ impl Spans {
         all
     }
 
-    /// How many points there are.
+    /// Number of points.
     pub(super) fn len(&self) -> usize {
         self.points
     }

@@ -2,11 +2,11 @@
 
 use crate::geometry::Vec2;
 
-/// A spring within this angle (radians; 10°, the slack the mesh needs near curved rims) of a thread direction pulls on
-/// those threads; others shear the cloth.
+/// Largest angle between a spring and a thread at which the spring pulls on that thread, radians (10°). The mesh needs
+/// this play near curved rims. Other springs shear the cloth.
 const ALONG_THREADS: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
-/// Which threads a spring pulls on.
+/// The threads along which a spring pulls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SpringClass {
     /// Along the warp.

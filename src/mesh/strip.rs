@@ -1,4 +1,4 @@
-//! The strip between the rim and the regular core, by constrained Delaunay triangulation; the only user of spade.
+//! The strip between the rim and the regular core, by constrained Delaunay triangulation. The only user of spade.
 
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
@@ -6,11 +6,11 @@ use super::frame::Frame;
 use super::grid::Core;
 use crate::geometry::Vec2;
 
-/// Why the strip could not be triangulated; vertex numbers are those of the core's points.
+/// Why the strip could not be triangulated. Vertex numbers are those of the core's points.
 pub(super) enum StripError {
     /// A spring of the frame crosses another or runs through a particle.
     Crossing([u32; 2]),
-    /// Two particles lie on the same spot; one of them.
+    /// Two particles lie on the same spot. The number is one of them.
     Double(u32),
     /// A particle of a line lies outside the rim.
     Outside(u32),

@@ -3,9 +3,9 @@
 use super::ClothMesh;
 use crate::geometry::{Locator, Vec2, Vec3, shares_along};
 
-/// Where the particles of one mesh lie in another of the same garment: each in the triangle of its piece that holds its
-/// flat position, or continued beyond the one that comes nearest (a coarser rim cuts off its curves). Those of an edge
-/// lie on that edge, as far along it, so that what is sewn together stays together.
+/// Places of the particles of one mesh in another mesh of the same garment. A particle lies in the triangle of its
+/// piece that holds its flat position, or is extrapolated from the nearest one, because a coarser rim cuts off curves.
+/// A particle of an edge lies on that edge at the same share of its length, so that seams stay closed.
 #[derive(Clone, Debug)]
 pub struct Transfer {
     /// Per particle the corners of the triangle and their weights, which sum to 1.
@@ -42,7 +42,7 @@ impl Transfer {
     }
 }
 
-/// How far along a chain each of its particles is, 0 … 1; all at its start where it has no length.
+/// Share of the length of a chain at each of its particles, 0 … 1. All are 0 if it has no length.
 fn shares(flat: &[Vec2], chain: &[u32]) -> Vec<f64> {
     shares_along(chain.iter().map(|&n| flat[n as usize])).unwrap_or_else(|| vec![0.0; chain.len()])
 }

@@ -1,4 +1,4 @@
-//! How wide seam allowances may be.
+//! Limits of seam allowances.
 
 use super::WIDEST_ALLOWANCE;
 use super::diagnostic::{Findings, Located, Spot};

@@ -1,11 +1,11 @@
-//! Where a line runs along the edges of its piece.
+//! The parts of a line that run along the edges of its piece.
 
 use super::Edge;
 use super::region::{SLACK, looks};
 use crate::geometry::{Path, Vec2, box_of};
 
-/// A stretch of an edge and a line on it go the same way or opposite ways: the cosine between them is at least this.
-/// Only stretches hardly longer than the slack could lie across a line and near it all the same.
+/// Least |cosine| between a stretch of an edge and a line that runs along it, in the same or the opposite direction.
+/// Only stretches hardly longer than the slack could lie across a line and still be near it.
 const SAME_WAY: f64 = 0.7;
 
 /// A stretch of an edge that a line runs along.
@@ -15,7 +15,8 @@ pub struct Along {
     pub edge: (usize, usize),
     /// Arc length on the edge where the line comes to it, metres.
     pub from: f64,
-    /// And where the line leaves it; less than `from` where the line runs against the edge.
+    /// Arc length on the edge where the line leaves it, metres. It is less than `from` if the line runs against the
+    /// edge.
     pub to: f64,
     /// Arc lengths on the line of both, metres.
     pub line: [f64; 2],

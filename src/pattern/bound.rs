@@ -10,8 +10,8 @@ use super::reference::piece_of;
 use super::{Bound, Garment, Test, openings};
 use crate::input::nearest;
 
-/// The bounds of the file; `openings` is checked at once, for it needs no simulation. Of a garment that is not `sound`
-/// pieces, seams and closures are missing: what is named is looked for in the file.
+/// The bounds of the file. `openings` is checked at once, because it needs no simulation. A garment that is not `sound`
+/// lacks pieces, seams and closures, so that names are looked up in the file.
 pub(super) fn bounds(file: &GarmentFile, garment: &Garment, sound: bool, findings: &mut Findings) -> Vec<Test> {
     let reader = Reader { file, garment, sound };
     let test = |entry: &Located<TestEntry>| {
@@ -55,7 +55,7 @@ impl Reader<'_> {
         })
     }
 
-    /// A shipped fabric, one of the garment's own or a file; the garment cannot be made in any other.
+    /// A shipped fabric, one of the garment's own or a file. The garment cannot be made in any other.
     fn fabric(&self, name: &Located<String>, findings: &mut Findings) -> String {
         let own = self.garment.fabrics.iter().map(|f| f.name.as_str());
         let known: Vec<&str> = own.chain(crate::fabric::library()).collect();

@@ -1,7 +1,7 @@
 //! The direction of seams. By default the two chains of a seam run opposite ways round their outlines, which keeps the
-//! right side of the sewn garment on one side; `face: same` turns one round. Which of the two ways a chain is walked
+//! right side of the sewn garment on one side. `face: same` turns one round. Which of the two ways a chain is walked
 //! follows from continuity: each edge must end where the next begins, on one rim or through other seams. Two edges
-//! round an opening meet at both ends; a sleeve's own seam then comes to the lower one.
+//! round an opening meet at both ends. A sleeve's own seam then comes to the lower one.
 
 use super::diagnostic::Findings;
 use super::draft::shown;
@@ -21,7 +21,7 @@ pub(super) struct Directed<'a> {
     pub(super) b: Vec<Span>,
 }
 
-/// What the search knows.
+/// Inputs of the search.
 struct Table<'p> {
     pieces: &'p [Piece],
     unit: Unit,
@@ -29,8 +29,8 @@ struct Table<'p> {
     one: Identities,
 }
 
-/// Finds the direction of every seam that has one; `source` is what they were chosen from, `own` are the seams of darts
-/// and pleats.
+/// Finds the direction of every seam that has one. `source` is what the seams were chosen from, `own` are the seams of
+/// darts and pleats.
 pub(super) fn direct<'a>(
     candidates: Vec<Candidate<'a>>,
     own: &[Seam],
@@ -107,7 +107,7 @@ impl Table<'_> {
         [candidate.with, !candidate.with].into_iter().filter_map(reading).collect()
     }
 
-    /// Where the own seam of a tube comes to lie on the opening that it is sewn into; none where no tube is.
+    /// Ends of a tube's own seam on the opening that the tube is sewn into. `None` if there is no tube.
     fn tube_ends(&self, seam: &Directed) -> Option<Ends> {
         let [a, b] = [&seam.a, &seam.b];
         match [a, b].map(|chain| is_tube(chain, &self.rims, &self.one)) {
@@ -191,7 +191,7 @@ impl Table<'_> {
         }
     }
 
-    /// What the author of two edges that do not follow each other may have had in mind.
+    /// Guess at the intention behind two edges that do not follow each other.
     fn doubt(&self, end: EdgeId, start: EdgeId) -> ChainDoubt {
         let side = |edge: EdgeId| {
             let piece = &self.pieces[edge.piece];

@@ -11,13 +11,13 @@ use super::reference::{Words, piece_of};
 use super::region::Region;
 use crate::geometry::Vec2;
 
-/// Reads all closures. One that does not say what it meets is kept without tacks.
+/// Reads all closures. A closure without `meets` is kept without tacks.
 pub(super) fn closures(file: &GarmentFile, drafts: &[Draft], cut: &Pieces, findings: &mut Findings) -> Vec<Closure> {
     let wardrobe = Wardrobe { file, drafts, cut };
     file.closures.iter().map(|c| wardrobe.closure(c, findings)).collect()
 }
 
-/// Where closures go on a drawn piece: their kind, and the point in the drawing.
+/// Points of closures on a drawn piece: their kind, and the point in the drawing.
 pub(super) fn drawn_points(file: &GarmentFile, drawn: &Draft) -> Vec<(String, Vec2)> {
     let unit = file.unit();
     let mut points: Vec<(String, Vec2)> = Vec::new();
@@ -114,7 +114,7 @@ impl Wardrobe<'_> {
         self.named(&name.value, default).map_err(|problem| findings.error(name.at, problem)).ok()
     }
 
-    /// The same, or what is wrong with the name. Of sides the `default` is meant if none is said, of copies the first.
+    /// As above, or the fault of the name. Without a side the `default` is meant, of several copies the first.
     fn named(&self, name: &str, default: Option<Side>) -> Result<&Instance, Problem> {
         let words = Words::parse(name)?;
         let names = || self.drafts.iter().map(|d| d.name.as_str());
@@ -131,7 +131,7 @@ impl Wardrobe<'_> {
         self.cut.instances.iter().find(is_it).ok_or_else(|| self.cut.not_cut(name, draft, drawn))
     }
 
-    /// Points given in the drawing, repeated along its grain; reported where the piece has no cloth.
+    /// Points given in the drawing, repeated along its grain. Reported where the piece has no cloth.
     fn points(
         &self,
         closure: &ClosureFile,

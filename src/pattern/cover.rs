@@ -21,8 +21,8 @@ struct Taken {
     seam: usize,
 }
 
-/// Checks that no stretch is sewn twice, and none forgotten, but for those of pieces and seams that could not be read,
-/// of which that has been said. `pieces` are those of the file with every `like` followed.
+/// Checks that no stretch is sewn twice or forgotten. Stretches of pieces and seams that could not be read are left
+/// out, because these have been reported. `pieces` are those of the file with every `like` followed.
 pub(super) fn check(
     file: &GarmentFile,
     pieces: &[PieceFile],
@@ -50,7 +50,7 @@ pub(super) fn check(
     }
 }
 
-/// Where the file draws a cut edge.
+/// Place in the file of a cut edge.
 fn drawn_at(edge: EdgeId, cut: &Pieces, pieces: &[PieceFile]) -> Option<Spot> {
     let piece = &cut.pieces[edge.piece];
     let name = written_edge(&piece.loops[edge.ring][edge.index].name);
@@ -97,7 +97,7 @@ fn sewn_twice(file: &GarmentFile, cut: &Pieces, seams: &Seams, edge: EdgeId, tak
 }
 
 struct Lists<'a> {
-    /// What the file lists as free.
+    /// Edges that the file lists as free.
     free: Vec<Span>,
     names: &'a EdgeNames<'a>,
     /// Edges neither sewn nor free.
@@ -173,7 +173,7 @@ impl EdgeNames<'_> {
         edges
     }
 
-    /// What `front.hem`, `*.hem` or `front.hem@0..50` lists, never nothing.
+    /// Spans listed by `front.hem`, `*.hem` or `front.hem@0..50`. The list is never empty.
     fn listed(&self, pattern: &str) -> Result<Vec<Span>, Problem> {
         let (name, range) = match pattern.split_once('@') {
             Some((name, range)) => {

@@ -3,7 +3,7 @@
 use super::Edge;
 use crate::geometry::{Path, Vec2, encloses};
 
-/// Curves are looked at as chords that leave them by at most this (metres).
+/// Largest distance of a curve from the chords that replace it in the search, metres.
 pub(super) const CHORD_ERROR: f64 = 2e-5;
 
 struct Chord {
@@ -14,7 +14,7 @@ struct Chord {
     edge: usize,
 }
 
-/// Where two edges of a piece cross: the point and (ring, index) of both.
+/// First crossing of two edges of a piece: the point, and (ring, index) of both.
 pub(super) fn first_crossing(rings: &[Vec<Edge>]) -> Option<(Vec2, [(usize, usize); 2])> {
     let mut chords = Vec::new();
     let mut counts = Vec::new();

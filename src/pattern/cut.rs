@@ -1,8 +1,8 @@
-//! From drawn pieces to pieces as cut.
+//! Makes pieces as cut from drawn pieces.
 //!
-//! A pair is `front.L` and `front.R`; the one that is not drawn is the drawing mirrored at x = 0. A piece on the fold
+//! A pair is `front.L` and `front.R`. The one that is not drawn is the drawing mirrored at x = 0. A piece on the fold
 //! is one piece: the fold edge vanishes, every other edge is there twice, `side.L` and `side.R`. A mirrored outline is
-//! walked the other way round, so that it is clockwise again; its edges keep their names. `cut: 3` makes `tab.1` to
+//! walked the other way round, so that it is clockwise again. Its edges keep their names. `cut: 3` makes `tab.1` to
 //! `tab.3`.
 
 use nalgebra::Matrix2;
@@ -29,11 +29,11 @@ pub(super) struct Instance {
     /// Drawing to piece: `p ↦ linear · p + shift`.
     linear: Matrix2<f64>,
     shift: Vec2,
-    /// Where every edge of the drawing is; the fold edge is nowhere.
+    /// Cut edge of every drawn edge. A fold edge has none.
     edges: Vec<Vec<Option<EdgeId>>>,
 }
 
-/// What follows the name of a piece that is cut more than once: `.L`, `.2`, or nothing.
+/// Suffix of the name of a piece that is cut more than once: `.L`, `.2`, or nothing.
 pub(super) fn suffix(side: Option<Side>, copy: Option<usize>) -> String {
     match (side, copy) {
         (Some(side), _) => format!(".{}", side.letter()),
@@ -43,7 +43,7 @@ pub(super) fn suffix(side: Option<Side>, copy: Option<usize>) -> String {
 }
 
 impl Instance {
-    /// What tells it from the others of its drawing: `.L`, `.2`, or nothing.
+    /// Suffix that distinguishes it from the other pieces of its drawing: `.L`, `.2`, or nothing.
     pub(super) fn suffix(&self) -> String {
         suffix(self.side, self.copy)
     }
@@ -53,7 +53,7 @@ impl Instance {
         self.linear * p + self.shift
     }
 
-    /// Where an edge of the drawing is.
+    /// Cut edge of an edge of the drawing.
     pub(super) fn edge(&self, (ring, index): (usize, usize)) -> Option<EdgeId> {
         self.edges[ring][index]
     }
@@ -220,7 +220,7 @@ fn line(line: &Line, to: &Instance) -> Line {
     Line { name: line.name.clone(), path: line.path.mapped(to.linear, to.shift), kind: line.kind.clone() }
 }
 
-/// Lines of both halves; a line that ends on the fold goes on into the other half as one.
+/// Lines of both halves. A line that ends on the fold goes on into the other half as one.
 fn folded_lines(draft: &Draft, halves: &[Instance; 2], axis: &Path) -> Vec<Line> {
     let along = (axis.end() - axis.start()).normalize();
     let on_fold = |p: Vec2| along.perp(&(p - axis.start())).abs() < 1e-6;
@@ -257,7 +257,7 @@ fn place(place: Option<&Place>, side: Option<Side>, mirrored: bool) -> Option<Pl
         Place::Around { words } => {
             let mut words = words.clone();
             let says = |meanings: [PlaceMeaning; 2]| words.iter().any(|w| meanings.contains(&w.meaning()));
-            // A pair shares its words; on a limb they mean the piece's own side.
+            // A pair shares its words. On a limb they mean the piece's own side.
             let limb = says([PlaceMeaning::Arm, PlaceMeaning::Leg]) && !says([PlaceMeaning::Left, PlaceMeaning::Right]);
             if let Some(side) = side.filter(|_| limb) {
                 words.insert(0, if side == Side::Left { PlaceWord::Left } else { PlaceWord::Right });

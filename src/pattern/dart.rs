@@ -1,5 +1,5 @@
 //! Darts. A dart on an edge is a wedge taken out of the drawn outline: the edge `waist` becomes `waist`, the legs
-//! `dart.a` and `dart.b`, and `waist.2`; both legs run to one tip, square over the middle of the mouth, so they are
+//! `dart.a` and `dart.b`, and `waist.2`. Both legs run to one tip, square over the middle of the mouth, so they are
 //! equally long and the mouth closes point on point. A fish-eye dart is a lozenge-shaped hole with four edges.
 
 use super::crossing::contains;
@@ -10,7 +10,7 @@ use super::problem::Problem;
 use super::{Edge, SeamKind};
 use crate::geometry::{Path, Vec2};
 
-/// Legs may differ by this much (metres).
+/// Largest difference of a dart's legs, metres.
 const LEG_TOLERANCE: f64 = 5e-4;
 
 /// A wedge on a drawn edge.
@@ -18,7 +18,7 @@ struct Wedge {
     name: String,
     at: Spot,
     middle: f64,
-    /// Where the mouth begins and ends on the edge.
+    /// Start and end of the mouth on the edge.
     mouth: [f64; 2],
     tip: Vec2,
 }
@@ -152,7 +152,7 @@ fn dart_seam(drawn: &Draft, name: String, a: (usize, usize), b: (usize, usize)) 
     }
 }
 
-/// What the edges of a fish-eye are called behind its name, from its upper tip round.
+/// Endings of the names of a fish-eye's edges, from its upper tip round.
 pub(crate) const FISH_EYE_EDGES: [&str; 4] = ["upper_a", "lower_a", "lower_b", "upper_b"];
 
 /// Cuts the fish-eye darts as holes with the edges `NAME.upper_a` and so on.

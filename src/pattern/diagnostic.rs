@@ -1,11 +1,11 @@
-//! What is wrong with a garment file, and where.
+//! Findings about a garment file, with their places.
 
 use std::fmt;
 
 use super::problem::Problem;
 use crate::input::shown;
 
-/// A place in the text of a file. Lines and columns count from 1; 0 = the file as a whole.
+/// A place in the text of a file. Lines and columns count from 1. Line 0 is the file as a whole.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Spot {
     /// Line.
@@ -20,9 +20,9 @@ pub struct Spot {
 /// rewritten file is the same garment.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Located<T> {
-    /// What was written.
+    /// The value.
     pub value: T,
-    /// Where.
+    /// Its place.
     pub at: Spot,
 }
 
@@ -39,10 +39,10 @@ impl<T: PartialEq> PartialEq for Located<T> {
     }
 }
 
-/// How bad it is.
+/// Severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// The garment can be used; something in it was read in a way its author may not have meant.
+    /// The garment can be used. Something in it was read in a way its author may not have meant.
     Warning,
     /// The garment cannot be used.
     Error,
@@ -51,19 +51,19 @@ pub enum Severity {
 /// One finding, ready to be shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
-    /// How bad.
+    /// Severity.
     pub severity: Severity,
     /// File name as given by the caller.
     pub file: String,
-    /// Line from 1; 0 = the file as a whole.
+    /// Line, from 1. Line 0 is the file as a whole.
     pub line: usize,
     /// Column from 1.
     pub column: usize,
-    /// What is wrong.
+    /// The problem.
     pub problem: Problem,
-    /// The same in words.
+    /// The problem in words.
     pub message: String,
-    /// What to do about it.
+    /// Advice.
     pub hint: Option<String>,
     /// The line of the file.
     excerpt: Option<Excerpt>,
@@ -97,13 +97,13 @@ impl Excerpt {
 }
 
 impl Diagnostic {
-    /// Where it stands in its file.
+    /// Its place in the file.
     fn spot(&self) -> Spot {
         let width = self.excerpt.as_ref().map_or(0, |e| e.width);
         Spot { line: self.line, column: self.column, width }
     }
 
-    /// Where it stands among others of its file: in the order of lines, and last how many more there are.
+    /// Sort key among findings of the file: by line, with the count of further findings last.
     pub(crate) fn order(&self) -> (bool, usize, usize) {
         (matches!(self.problem, Problem::More { .. }), self.line, self.column)
     }
@@ -133,12 +133,12 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// Warnings beyond this many are counted, not kept, and so are errors: a broken file of a million lines need not fill
-/// the screen.
+/// Number of warnings, and of errors, that are kept. Further ones are only counted, so that a broken file of a million
+/// lines does not fill the screen.
 const KEPT: usize = 200;
-/// Characters of a line that are shown: all, or so many round the place.
+/// Number of characters of a line that are shown: the whole line, or this many round the place.
 const EXCERPT_WIDTH: usize = 160;
-/// Characters of a message, and of a hint: enough for a list of all edges of a garment.
+/// Largest number of characters of a message, and of a hint: enough for a list of all edges of a garment.
 const MESSAGE: usize = 1200;
 
 /// Collects the findings of one file.
@@ -160,7 +160,7 @@ impl Findings {
         Self { file: file.to_owned(), lines: text.lines().map(str::to_owned).collect(), ..Self::default() }
     }
 
-    /// Names the pieces: what is said of several at one place of the file is said once.
+    /// Names the pieces, so that the same finding about several pieces at one place of the file is reported once.
     pub fn know_pieces(&mut self, names: impl IntoIterator<Item = String>) {
         self.pieces = names.into_iter().collect();
     }
@@ -196,7 +196,8 @@ impl Findings {
         });
     }
 
-    /// Says once, where the first of them stands, what warnings of this kind mean together, if there are `count`.
+    /// Adds one finding in the place of the first warning of a kind, with their common meaning, if there are `count` of
+    /// them.
     pub(super) fn tell_together(&mut self, count: usize, is_kind: impl Fn(&Problem) -> bool, problem: Problem) {
         let of_kind = |d: &Diagnostic| d.severity == Severity::Warning && is_kind(&d.problem);
         let mut spots = self.found.iter().filter(|d| of_kind(d)).map(Diagnostic::spot);
@@ -211,7 +212,7 @@ impl Findings {
         self.errors
     }
 
-    /// Says how many findings were counted and not kept.
+    /// Adds the number of findings that were counted and not kept.
     fn count_others(&mut self) {
         let whole = Spot::default();
         if let Some(count) = self.warnings.checked_sub(KEPT).filter(|&n| n > 0) {
@@ -222,8 +223,8 @@ impl Findings {
         }
     }
 
-    /// The findings in the order of the file, each once; of many warnings, or errors, the first two hundred, and at
-    /// the end how many more there are.
+    /// The findings in the order of the file, each once. Warnings and errors beyond the first two hundred of either are
+    /// only counted at the end.
     pub fn into_sorted(mut self) -> Vec<Diagnostic> {
         self.count_others();
         self.found.sort_by_key(Diagnostic::order);
@@ -241,7 +242,7 @@ impl Findings {
     }
 }
 
-/// Findings that a piece has with what others take from it by `like`, once for all of them.
+/// Merges findings that a piece shares with pieces that take from it by `like`.
 fn told_once(found: Vec<Diagnostic>, pieces: &[String]) -> Vec<Diagnostic> {
     let mut kept: Vec<(Diagnostic, Vec<&str>)> = Vec::new();
     for diagnostic in found {
@@ -266,7 +267,7 @@ fn told_once(found: Vec<Diagnostic>, pieces: &[String]) -> Vec<Diagnostic> {
     kept.into_iter().map(told).collect()
 }
 
-/// The piece that a message is about which says of it what `first` says of another.
+/// The piece of `message`, if the message says of it what `first` says of another piece.
 fn other_piece<'p>(first: &str, message: &str, pieces: &'p [String]) -> Option<&'p str> {
     let named = pieces.iter().filter(|piece| renamed(first, piece, "") != first);
     let pairs = named.flat_map(|one| pieces.iter().map(move |other| (one, other)));

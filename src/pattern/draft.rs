@@ -1,5 +1,5 @@
-//! A piece as drawn, in metres: outline, darts opened, pleats laid out, holes; before it is cut once, twice or on the
-//! fold.
+//! A piece as drawn, in metres, before it is cut once, twice or on the fold: its outline, open darts, spread pleats and
+//! holes.
 
 use std::collections::HashSet;
 
@@ -17,10 +17,10 @@ use super::{Edge, Line, Place, SeamKind};
 use crate::geometry::{Path, Vec2, Vec3, box_of};
 use crate::input::nearest;
 
-/// A hole that encloses less (square metres) is a line or a point drawn as one.
+/// Least area of a hole, m². A smaller one is a line or a point.
 const SMALLEST_HOLE: f64 = 1e-6;
 
-/// A range that misses the end of its edge by this much (metres) reaches it: rounding of the file's numbers.
+/// Distance from the end of an edge within which a range reaches it, metres: rounding of the file's numbers.
 const SNAP: f64 = 5e-4;
 
 /// A stretch of a drawn edge: `(ring, index)`, walked from `from` to `to`.
@@ -41,7 +41,7 @@ pub(super) struct Part {
     pub(super) offset: f64,
 }
 
-/// What a name in the file stands for: an edge as drawn, less the mouths of darts and what pleats take up.
+/// Meaning of a name in the file: an edge as drawn, without the mouths of darts and the cloth that pleats take up.
 #[derive(Clone, Debug)]
 pub(super) struct NamedEdge {
     pub(super) name: String,
@@ -150,7 +150,7 @@ pub(super) fn shown(p: Vec2) -> String {
     format!("({}, {})", n(p.x), n(p.y))
 }
 
-/// Draws a piece. `None` when its outline cannot be used; everything found is reported.
+/// Draws a piece. `None` when its outline cannot be used. Everything found is reported.
 pub(super) fn draft(piece: &PieceFile, unit: Unit, findings: &mut Findings) -> Option<Draft> {
     let name = piece.name.value.clone();
     let Some(outline_file) = &piece.outline else {
@@ -348,7 +348,7 @@ pub(super) fn position(q: Quantity, length: f64, unit: Unit) -> f64 {
     if q.is_percent() { q.value(unit) * length } else { q.value(unit) }
 }
 
-/// Where the statement stands that makes the edge `name`: in the outline, as a hole or as a dart.
+/// Place of the statement that makes the edge `name`: in the outline, as a hole or as a dart.
 pub(super) fn spot_of(name: &str, piece: &PieceFile) -> Spot {
     let edge = piece.outline.iter().flat_map(|o| &o.edges).find(|e| e.0.value == name).map(|e| e.0.at);
     let hole = || piece.holes.iter().find(|h| h.0.value == name).map(|h| h.0.at);

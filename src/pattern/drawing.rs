@@ -1,5 +1,5 @@
-//! The pieces as drawn, for paper: what a maker lays on the cloth and cuts round. A pair is drawn once, a piece on the
-//! fold as its half, darts are open and pleats spread.
+//! The pieces as drawn, for paper: the shapes that a maker lays on the cloth and cuts round. A pair is drawn once, a
+//! piece on the fold as its half, darts are open and pleats spread.
 
 use super::closure::drawn_points;
 use super::cut::{Pieces, cut};
@@ -16,11 +16,11 @@ use crate::geometry::{Path, Vec2};
 pub struct Drawing {
     /// As in the file.
     pub name: String,
-    /// How often it is cut, and how.
+    /// How the piece is cut.
     pub cut: Cut,
     /// The edge of the outline that lies on the fold of the cloth.
     pub fold: Option<usize>,
-    /// Which of a pair, or which half, it is.
+    /// The drawn one of a pair, or the drawn half.
     pub drawn: Side,
     /// Name of its fabric in the garment.
     pub fabric: String,
@@ -44,7 +44,7 @@ pub struct Drawing {
     pub lines: Vec<Line>,
     /// Marks on edges.
     pub notches: Vec<DrawnNotch>,
-    /// Where buttons and the like go: what it is, and the point.
+    /// Points of buttons and the like: their kind and place.
     pub points: Vec<(String, Vec2)>,
     /// The file's remark.
     pub note: Option<String>,
@@ -71,16 +71,16 @@ pub struct DrawnEdge {
     pub path: Path,
     /// Whether a seam of the file takes it, or a part of it.
     pub sewn: bool,
-    /// What the file says of its allowance.
+    /// Its allowance according to the file.
     pub allowance: Allowance,
 }
 
-/// What a file says of an allowance.
+/// Allowance of an edge according to a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Allowance {
     /// Metres.
     pub width: Option<f64>,
-    /// How it ends at corners.
+    /// Ending at corners.
     pub corner: Option<Corner>,
 }
 
@@ -96,9 +96,9 @@ pub struct Dart {
 pub struct DrawnFold {
     /// Ring and index of the edge.
     pub edge: (usize, usize),
-    /// Where the cloth is folded, metres from the edge's start.
+    /// Place where the cloth is folded, metres from the edge's start.
     pub from: f64,
-    /// Where the fold comes to lie.
+    /// Place where the fold comes to lie, metres from the edge's start.
     pub to: f64,
 }
 
@@ -115,8 +115,8 @@ pub struct DrawnNotch {
 
 /// The drawings of a garment file that has passed its checks as `garment`.
 ///
-/// An edge's allowance is what its piece says for it, or its seam, or its piece for all edges, or the file; a hole that
-/// nothing is sewn into has the first alone.
+/// The allowance of an edge is the first that is given: by its piece for the edge, by its seam, by its piece for all
+/// edges, by the file. A hole that nothing is sewn into has the first only.
 pub fn drawings(file: &GarmentFile, garment: &Garment) -> Vec<Drawing> {
     // Everything wrong has been said when the garment was read.
     let mut said = Findings::new("", "");
@@ -189,7 +189,7 @@ impl Book<'_> {
         (sewn, width)
     }
 
-    /// What is said of an edge's allowance; of what is merely `cut_out` only what is said of it by name.
+    /// Allowance of an edge. An edge that is merely `cut_out` has only one given by its name.
     fn allowance(
         &self,
         piece: &PieceFile,
@@ -228,13 +228,13 @@ fn fish_eyes(drawn: &Draft) -> Vec<usize> {
     rings
 }
 
-/// A fold's under-layers are sewn on each other: what lies under it begins where it is folded and ends where the fold
-/// comes to lie.
+/// Folds of the drawn edges. The under-layers of a fold are sewn on each other. The cloth under it begins where it is
+/// folded and ends where the fold comes to lie.
 fn folds(drawn: &Draft) -> Vec<DrawnFold> {
     let fold = |pair: &[super::draft::OwnSeam]| {
         let [top, under] = pair else { return None };
         let same = top.kind == SeamKind::Pleat(PleatLayer::Top) && under.kind == SeamKind::Pleat(PleatLayer::Under);
-        // The first stretch ends (or begins) at the fold line; the second lies between the hidden fold and the far end.
+        // The first stretch ends (or begins) at the fold line. The second lies between the hidden fold and the far end.
         let Stretch { edge, from, to } = top.a;
         let at = if (to - top.b.to).abs() < 1e-9 { to } else { from };
         let ends = [under.a.from, under.a.to, under.b.from, under.b.to];

@@ -12,18 +12,17 @@ use crate::fabric::FabricSpec;
 use crate::input::nearest;
 use crate::input::shown;
 
-/// The fabric of pieces that name none, in a file that names none.
+/// Name of the fabric of pieces that name none, in a file that names none.
 const DEFAULT_FABRIC: &str = "shell";
-/// What it is made of.
+/// Library name of the default fabric.
 pub const DEFAULT_CLOTH: &str = "cotton_poplin";
-/// Characters of a title that are shown.
+/// Number of characters of a title that are shown.
 const TITLE: usize = 200;
 
 /// Cuts the pieces, opens darts, lays pleats, writes mirrored seams out and checks everything that can be checked
 /// without sewing. `name` is the garment's short name.
 ///
-/// What is wrong goes to `findings`; with errors among them the result is not to be used, and `None` if nothing of
-/// use came out.
+/// Faults go to `findings`. With errors among them the result is not to be used. `None` if nothing usable came out.
 pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option<Garment> {
     if file.pieces.is_empty() {
         findings.error(file.version.at, Problem::NoPieces);
@@ -74,7 +73,7 @@ pub fn expand(name: &str, file: &GarmentFile, findings: &mut Findings) -> Option
     Some(garment)
 }
 
-/// The fabrics a file names, in its order; the usual one if it names none.
+/// The fabrics a file names, in its order. The usual one if it names none.
 pub fn fabrics(file: &GarmentFile) -> Vec<FabricUse> {
     if file.fabrics.is_empty() {
         let spec = FabricSpec { base: Some(DEFAULT_CLOTH.to_owned()), values: Vec::new() };

@@ -1,25 +1,26 @@
-//! What closures close: rims that are open once the seams are sewn, and not as the garment is worn.
+//! Rims that closures close: open after sewing, but not as the garment is worn.
 
 use super::rim::free_spans;
 use super::{Closure, EdgeId, Garment, Span};
 use crate::geometry::{DisjointSets, Vec2};
 
-/// A point further than this (metres) from every free edge fastens no edge: what is tied there is a patch or a flap.
+/// Distance to the nearest free edge beyond which a point fastens no edge, metres. Such a point ties a patch or a flap.
 /// Double-breasted fronts have their buttons up to 120 mm from the edge.
 const REACH: f64 = 0.15;
 
-/// Where fastened edges overlap, the rim goes this many overlaps at most from one of them to the other: one where the
-/// underlap ends, and as much again where corners are rounded or the points lie slanting.
+/// Length of rim, in overlaps, within which it leads from one fastened edge to the other at the end of a lap: one
+/// overlap for the end of the underlap, and another where corners are rounded or the points lie slanting.
 const TURN: f64 = 2.0;
 
-/// And this much (metres) where they only meet.
+/// Addition to [`TURN`] overlaps, metres, for edges that only meet.
 const TURN_SLACK: f64 = 5e-3;
 
-/// So much (metres) of a fastened edge beyond its last fastening is never an opening's: half the width of a band.
+/// Length of a fastened edge beyond its last fastening that never belongs to an opening, metres: half the width of a
+/// band.
 const BEYOND: f64 = 0.05;
 
-/// A rim of this length (metres) between fastened edges alone is a slit: buttons are 100 mm apart at most, and no head
-/// goes through what is left between two of them; the neck of a newborn's vest is 300 mm.
+/// Length of a rim between fastened edges alone up to which it is a slit, metres. Buttons are at most 100 mm apart, and
+/// no head passes between two of them. The neck of a newborn's vest is 300 mm.
 const SLIT: f64 = 0.25;
 
 /// A point of a rim.
@@ -31,12 +32,12 @@ pub struct RimSpot {
     pub at: f64,
 }
 
-/// Where a point of a closure holds two rims together.
+/// A point of a closure that holds two rims together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fastening {
     /// The rims' points nearest to it.
     pub ends: [RimSpot; 2],
-    /// How far the two edges overlap there, metres.
+    /// Overlap of the two edges there, metres.
     pub reach: f64,
     /// Points of one closure that follow each other along the same two edges have the same row.
     pub row: usize,
@@ -76,8 +77,8 @@ pub fn fastenings(garment: &Garment) -> Vec<Fastening> {
     found
 }
 
-/// For one side of a row, every point's spot on the rim and how far it is. A row follows one edge: beside a neckline
-/// its first point may be nearer to that.
+/// Place and distance on the rim of every point of one side of a row. A row follows one edge, although beside a
+/// neckline its first point may be nearer to another.
 fn spots(garment: &Garment, free: &[Span], row: &[[(usize, Vec2); 2]], side: usize) -> Vec<Option<(RimSpot, f64)>> {
     let near = |span: &Span, (piece, p): (usize, Vec2)| {
         (span.edge.piece == piece).then(|| {
@@ -130,18 +131,18 @@ pub struct Bridge<K> {
     pub corners: [[usize; 2]; 2],
     /// The edges it fastens.
     pub along: [K; 2],
-    /// How far they overlap, metres.
+    /// Overlap, metres.
     pub reach: f64,
     /// As in [`Fastening::row`].
     pub row: usize,
 }
 
-/// The openings that are left of `rims` when `bridges` hold their points together: the steps of each, in order.
+/// The openings that remain of `rims` when `bridges` hold their points together: the steps of each, in order.
 ///
-/// A bridge is a narrow band of cloth: whoever walks along the rim comes to it, crosses, and goes on along the other
-/// side. What is left between two neighbours of a row, and beyond its end as far as the overlap goes, is closed, and
-/// so is a slit between fastened edges alone. Of rims that would be closed altogether the longest part is left open, if
-/// it is more than a slit: two tops that are buttoned on either shoulder leave the neck between them.
+/// A bridge is a narrow band of cloth. A walk along the rim that comes to it crosses it, and goes on along the other
+/// side. The stretch between two neighbours of a row, and beyond its end as far as the overlap goes, is closed. So is a
+/// slit between fastened edges alone. If rims would be closed altogether, the longest part stays open, unless it is a
+/// slit: two tops that are buttoned on either shoulder leave the neck between them.
 pub fn worn_rims<K: PartialEq + Clone>(rims: &[Vec<Step<K>>], bridges: &[Bridge<K>]) -> Vec<Vec<[usize; 2]>> {
     let mut joined = DisjointSets::new(rims.len());
     let mut next: Vec<Vec<[usize; 2]>> =
@@ -155,7 +156,7 @@ pub fn worn_rims<K: PartialEq + Clone>(rims: &[Vec<Step<K>>], bridges: &[Bridge<
             continue;
         }
         // Two ties of a wrap, each from one front's end to the other's middle: in the plane they would cross. One of
-        // them tells the waist from the hem; with both, the walk would go from the one to the other.
+        // them tells the waist from the hem. With both, the walk would go from the one to the other.
         if joined.same(a[0] as u32, b[0] as u32) && !on_one_ring(&next, a, b) {
             continue;
         }

@@ -10,7 +10,7 @@ pub enum Value {
     Text(String),
     /// A sequence.
     List(Vec<Located<Value>>),
-    /// A mapping, in the order of the file; keys are unique.
+    /// A mapping, in the order of the file. Keys are unique.
     Map(Vec<(Located<String>, Located<Value>)>),
 }
 
@@ -58,7 +58,7 @@ impl Unit {
 pub struct Quantity {
     /// The number.
     pub number: f64,
-    /// Its own unit; `None` = the file's `units`.
+    /// Its own unit. `None` = the file's `units`.
     pub unit: Option<Unit>,
 }
 
@@ -113,7 +113,7 @@ pub enum Cut {
     One,
     /// As drawn and mirrored.
     Pair,
-    /// On the fold: the drawn half and its mirror image across this edge are one piece.
+    /// On the fold: the drawn half and its mirror image across this edge make one piece.
     Fold(String),
     /// So many times as drawn.
     Count(usize),
@@ -128,7 +128,7 @@ pub struct GarmentFile {
     pub name: Option<Located<String>>,
     /// Free statements about the file: `source`, `license`, `note`, `measurements`.
     pub about: Vec<(Located<String>, Located<Value>)>,
-    /// Unit of bare numbers; millimetres if not given.
+    /// Unit of bare numbers. Millimetres if not given.
     pub units: Option<Located<Unit>>,
     /// Mannequin.
     pub body: Option<Located<String>>,
@@ -166,9 +166,9 @@ pub struct PieceFile {
     pub like: Option<Located<String>>,
     /// Key in `fabrics`.
     pub fabric: Option<Located<String>>,
-    /// How often it is cut.
+    /// How the piece is cut.
     pub cut: Option<Located<Cut>>,
-    /// Which of a pair, or which half of a folded piece, the outline is.
+    /// Drawn side: the drawn one of a pair, or the drawn half of a folded piece.
     pub drawn: Option<Located<Side>>,
     /// Layer, positive outward.
     pub layer: Option<Located<i32>>,
@@ -176,7 +176,7 @@ pub struct PieceFile {
     pub allowance: Option<AllowanceFile>,
     /// Tail and head of the grain arrow.
     pub grain: Option<Located<[[f64; 2]; 2]>>,
-    /// Where it starts.
+    /// Start position.
     pub place: Option<Located<PlaceFile>>,
     /// The outline.
     pub outline: Option<OutlineFile>,
@@ -237,11 +237,11 @@ pub enum AllowanceFile {
 pub struct AllowanceWidth {
     /// From the sewing line to the cut line.
     pub width: Quantity,
-    /// How it ends at the edge's corners, if said.
+    /// Ending at the edge's corners, if given.
     pub corner: Option<Corner>,
 }
 
-/// How the allowance of an edge ends at its corners.
+/// Ending of an edge's allowance at its corners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Corner {
     /// Both cut lines go on until they meet.
@@ -303,11 +303,11 @@ pub struct NotchFile {
 /// A dart: on an edge, or inside the piece.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DartFile {
-    /// Its own name; `dart`, `dart2`, … if not given.
+    /// Its own name. `dart`, `dart2`, … if not given.
     pub name: Option<Located<String>>,
     /// Width taken out.
     pub intake: Located<Quantity>,
-    /// Where and how long.
+    /// Place and length.
     pub shape: DartShape,
 }
 
@@ -336,7 +336,7 @@ pub enum DartShape {
     },
 }
 
-/// How a pleat is folded.
+/// Folding of a pleat.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PleatKind {
     /// One fold.
@@ -352,11 +352,11 @@ pub enum PleatKind {
 pub struct PleatFile {
     /// The edge.
     pub edge: Located<String>,
-    /// Where each begins, from the edge's start.
+    /// Start of each pleat, from the edge's start.
     pub at: Vec<Located<Quantity>>,
     /// Width of one under-layer.
     pub depth: Located<Quantity>,
-    /// Shape; knife if not given.
+    /// Shape. Knife if not given.
     pub kind: Option<Located<PleatKind>>,
     /// The edge next to `edge` that knife pleats point to.
     pub toward: Option<Located<String>>,
@@ -386,19 +386,19 @@ pub struct SeamFile {
     pub name: Located<String>,
     /// First chain.
     pub sew: Vec<Located<String>>,
-    /// Second chain; `[mirror]` means the other half.
+    /// Second chain. `[mirror]` means the other half.
     pub to: Vec<Located<String>>,
     /// Length the second chain has in excess.
     pub ease: Option<Located<Quantity>>,
-    /// length(sew) / length(to), the first chain gathered.
+    /// Ratio length(sew) / length(to), where the first chain is gathered.
     pub gather: Option<Located<f64>>,
-    /// length(sew) / length(to), the second chain stretched.
+    /// Ratio length(sew) / length(to), where the second chain is stretched.
     pub stretch: Option<Located<f64>>,
     /// Difference that passes.
     pub tolerance: Option<Located<Quantity>>,
     /// Stretches that are open.
     pub open: Vec<OpenFile>,
-    /// What closes them.
+    /// Kind of their closure.
     pub closure: Option<Located<String>>,
     /// `face: same`, wrong side on right side.
     pub face_same: Option<Located<bool>>,
@@ -428,7 +428,7 @@ pub struct OpenFile {
     pub from: Located<String>,
     /// Its length.
     pub length: Located<Quantity>,
-    /// What closes it; the seam's `closure` if not given.
+    /// Kind of its closure. If absent, the seam's `closure` counts.
     pub closure: Option<Located<String>>,
 }
 
@@ -443,7 +443,7 @@ pub struct ClosureFile {
     pub at: Vec<Located<[f64; 2]>>,
     /// The piece it meets.
     pub meets: Option<Located<String>>,
-    /// The points it meets there; the mirrored or same points if not given.
+    /// The points it meets there. The mirrored or same points if not given.
     pub meets_at: Vec<Located<[f64; 2]>>,
     /// Distance of repeated points along the grain.
     pub pitch: Option<Located<Quantity>>,
@@ -456,7 +456,7 @@ pub struct ClosureFile {
 /// A regression bound, and the fabric it holds in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TestEntry {
-    /// What is bounded.
+    /// The bound.
     pub test: TestFile,
     /// `{…, fabric: cotton_poplin}`: only when the garment is made in this fabric.
     pub fabric: Option<Located<String>>,

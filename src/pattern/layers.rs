@@ -5,8 +5,8 @@ use super::place_word::{PlaceMeaning, PlaceWord};
 use super::problem::Problem;
 use super::{Garment, Piece, Place, Seam};
 
-/// A seam with `face: same` lays one piece on another. Both on one layer, what was meant as a facing starts outside.
-/// `laid` says which of the seams are of that kind, and `at` where they stand.
+/// Warns of pieces on one layer that a seam with `face: same` lays on each other: a facing would start outside. `laid`
+/// marks the seams of that kind, and `at` has their places.
 pub(super) fn check(garment: &Garment, laid: &[bool], at: &[Spot], findings: &mut Findings) {
     for ((seam, _), &spot) in garment.seams.iter().zip(laid).zip(at).filter(|((_, laid), _)| **laid) {
         let Some([one, other]) = level(garment, seam) else { continue };
@@ -22,8 +22,8 @@ fn level<'g>(garment: &'g Garment, seam: &Seam) -> Option<[&'g Piece; 2]> {
     pairs.into_iter().find(|[a, b]| a.drawn_as != b.drawn_as && a.layer == b.layer && lies_on(a, b))
 }
 
-/// Whether both go to the front, or both to the back, and neither round the neck: a collar is turned down over what it
-/// is sewn to, on whichever layer.
+/// Whether both go to the front, or both to the back, and neither round the neck. A collar is turned down over its
+/// partner, on whichever layer.
 fn lies_on(a: &Piece, b: &Piece) -> bool {
     let [a, b] = [a, b].map(meanings);
     let says = |said: &[PlaceMeaning], meaning| said.contains(&meaning);
@@ -33,7 +33,7 @@ fn lies_on(a: &Piece, b: &Piece) -> bool {
     faces && alike(PlaceMeaning::Front) && alike(PlaceMeaning::Back) && !round_neck
 }
 
-/// What the words of its place say, or else those of its name.
+/// Meanings of the words of its place, or else of its name.
 fn meanings(piece: &Piece) -> Vec<PlaceMeaning> {
     let words = match &piece.place {
         Some(Place::Around { words }) => words.clone(),

@@ -11,11 +11,11 @@ use super::{Line, LineKind};
 use crate::geometry::{Path, Vec2, mirrored};
 use crate::input::nearest;
 
-/// A line that bends or gathers the cloth is at least this long (metres): a shorter one is a slip of the pen, and would
-/// make springs without length.
+/// Least length of a line that bends or gathers the cloth, metres. A shorter one is a slip of the pen, and would make
+/// springs without length.
 const SHORTEST_LINE: f64 = 1e-3;
 
-/// Lines may run through darts, which are closed when the line is looked at, and end anywhere on the cloth.
+/// Lines may run through darts, which are closed when lines are checked, and end anywhere on the cloth.
 pub(super) fn lines(drawn: &mut Draft, whole: &Region, piece: &PieceFile, unit: Unit, findings: &mut Findings) {
     let across = drawn.fold.map(|fold| across(&drawn.rings[0][fold].path));
     let on_cloth = |p: Vec2| whole.holds(p) || across.as_ref().is_some_and(|across| whole.holds(across(p)));
@@ -48,7 +48,7 @@ pub(super) fn lines(drawn: &mut Draft, whole: &Region, piece: &PieceFile, unit: 
     }
 }
 
-/// What a line does; a fold angle or a share that there cannot be is a problem, with its place.
+/// Kind of a line. An impossible fold angle or share is a problem, with its place.
 fn kind(file: &LineFile) -> Result<LineKind, (Spot, Problem)> {
     let out_of = |number: &Located<f64>, what: &str, expected| {
         (number.at, Problem::OutOfRange { what: what.to_owned(), expected, found: number.value.to_string() })
@@ -65,7 +65,7 @@ fn kind(file: &LineFile) -> Result<LineKind, (Spot, Problem)> {
     }
 }
 
-/// What is wrong with where a line lies.
+/// Faults of a line's position.
 fn faults(drawn: &Draft, line: &Line, on_cloth: impl Fn(Vec2) -> bool) -> Vec<Problem> {
     let names = || (drawn.name.clone(), line.name.clone());
     let mut faults = Vec::new();
@@ -90,8 +90,8 @@ fn faults(drawn: &Draft, line: &Line, on_cloth: impl Fn(Vec2) -> bool) -> Vec<Pr
     faults
 }
 
-/// What a line says against itself: kinds are free words, but 'elastic' and 'fold' mean that the cloth is drawn in or
-/// creased, and then it must be said how much.
+/// Contradiction within a line. Kinds are free words, but `elastic` and `fold` draw in or crease the cloth, and need a
+/// number.
 fn contradiction(line: &LineFile) -> Option<String> {
     let kind = line.kind.as_ref().map(|k| k.value.as_str());
     match (kind, &line.fold, &line.ratio) {

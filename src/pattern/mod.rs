@@ -1,16 +1,16 @@
 //! The checked garment: every piece that is cut and every seam, nothing left implicit.
 //!
-//! A garment *file* says `cut: pair`, darts, pleats and `to: mirror`; a [`Garment`] has the pieces and seams that
+//! A garment *file* says `cut: pair`, darts, pleats and `to: mirror`. A [`Garment`] has the pieces and seams that
 //! follow from them, so that no later stage knows those words. All lengths are metres.
 //!
 //! # Names
-//! * `cut: pair` gives the pieces `front.L` and `front.R`; the edges of both are `neck`, `side`, …
-//! * `cut: fold center` gives one piece `front` without the edge `center`; all other edges are there twice, `side.L`
-//!   and `side.R`. In a seam, `front.side` is matched with sided partners side by side (`side.L`, `side.R`); sewn to a
+//! * `cut: pair` gives the pieces `front.L` and `front.R`. The edges of both are `neck`, `side`, …
+//! * `cut: fold center` gives one piece `front` without the edge `center`. All other edges are there twice, `side.L`
+//!   and `side.R`. In a seam, `front.side` is matched with sided partners side by side (`side.L`, `side.R`). Sewn to a
 //!   piece that is there once, an edge that ends on the fold is taken whole, across both halves.
 //! * `cut: 3` gives `tab.1`, `tab.2`, `tab.3`.
 //! * A side may stand after the piece or after the edge: `front.L.side` and `front.side.L` are the same.
-//! * A dart `bust` on the edge `side` leaves `side`, `bust.a`, `bust.b`, `side.2`; in a seam `side` means both parts.
+//! * A dart `bust` on the edge `side` leaves `side`, `bust.a`, `bust.b`, `side.2`. In a seam `side` means both parts.
 //!   Its seam is `front.bust.L`. A fish-eye dart `waist` is a hole with the edges `waist.upper_a`, `waist.lower_a`,
 //!   `waist.lower_b`, `waist.upper_b` and the seams `front.waist.upper.L`, `front.waist.lower.L`.
 //! * Ranges (`cap@20%..80%`), notches and pleats are measured along the edge as drawn, from its start in the drawing,
@@ -75,9 +75,9 @@ pub use walk::{SeamWalk, walk, written_edge, written_names};
 
 use std::ops::RangeInclusive;
 
-/// Widest seam allowance, metres: a wider one is in another unit than thought.
+/// Widest seam allowance, metres. A wider one is in another unit.
 pub const WIDEST_ALLOWANCE: f64 = 0.2;
-/// Edges that are no longer than this (metres) have no length to speak of, and no mesh.
+/// Length up to which an edge counts as having none, metres. It cannot be meshed.
 pub const SHORTEST_EDGE: f64 = 2e-5;
 
 use crate::geometry::{Path, Vec2, Vec3};
@@ -99,7 +99,7 @@ pub struct Garment {
     pub fabrics: Vec<FabricUse>,
     /// Buttons, hooks and the like.
     pub closures: Vec<Closure>,
-    /// Of an outfit what its garments are called, from the skin outwards; of a garment nothing.
+    /// Names of the garments of an outfit, from the skin outwards. Empty for a single garment.
     pub worn: Vec<String>,
     /// The garment's own regression bounds.
     pub tests: Vec<Test>,
@@ -119,24 +119,24 @@ pub struct Piece {
     pub name: String,
     /// The drawn piece it comes from, `front`.
     pub drawn_as: String,
-    /// Which of a pair it is.
+    /// Side of a piece of a pair.
     pub side: Option<Side>,
     /// Name in [`Garment::fabrics`].
     pub fabric: String,
     /// 0 = its garment's shell, positive further out, negative nearer the body.
     pub layer: i32,
-    /// How much further out its garment's shell is for the garments that are worn under it.
+    /// Layers by which its garment's shell lies further out, because of garments that are worn under it.
     pub beneath: i32,
     /// Warp direction in the flat piece, unit length, tail to head.
     pub warp: Vec2,
-    /// `loops[0]` is the outline, clockwise on screen (y down; [`Path::double_area`] sums to a positive number); the
+    /// `loops[0]` is the outline, clockwise on screen (y down; [`Path::double_area`] sums to a positive number). The
     /// others are holes, running the other way. Every edge starts where the one before it ends.
     pub loops: Vec<Vec<Edge>>,
     /// Fold, elastic and other lines inside the piece.
     pub lines: Vec<Line>,
     /// Marks on edges.
     pub notches: Vec<Notch>,
-    /// Where the piece starts; `None` = worked out.
+    /// Start position. `None` means that it is worked out.
     pub place: Option<Place>,
 }
 
@@ -155,11 +155,11 @@ impl Piece {
 /// A named stretch of a piece's rim.
 #[derive(Clone, Debug)]
 pub struct Edge {
-    /// `shoulder`; unique in its piece. An edge that a dart cuts in two is `waist` and `waist.2`.
+    /// `shoulder`. Unique in its piece. An edge that a dart cuts in two is `waist` and `waist.2`.
     pub name: String,
     /// Its course.
     pub path: Path,
-    /// Whether it runs against the drawing's, as on what is mirrored: a file measures along that.
+    /// Whether it runs against the drawn edge, as on mirrored pieces. A file measures along the drawn edge.
     pub against: bool,
 }
 
@@ -179,9 +179,9 @@ pub struct EdgeId {
 pub struct Span {
     /// The edge.
     pub edge: EdgeId,
-    /// Where the walk begins.
+    /// Start of the walk.
     pub from: f64,
-    /// Where it ends.
+    /// End of the walk.
     pub to: f64,
 }
 
@@ -209,13 +209,14 @@ pub struct Seam {
     pub b: Vec<Span>,
     /// Matched positions (metres along `a`, metres along `b`), rising in both, first (0, 0) and last the two lengths.
     pub marks: Vec<(f64, f64)>,
-    /// What the lengths are meant to do.
+    /// How unequal lengths are meant.
     pub give: Give,
     /// Sewing order: all seams of a stage close before the next stage starts.
     pub stage: i32,
-    /// Where it comes from.
+    /// Origin of the seam.
     pub kind: SeamKind,
-    /// What closes an opening of the seam that is worn shut (`zip`). A stretch that is worn open is not in `a` and `b`.
+    /// Kind of closure of an opening of the seam that is worn shut (`zip`). A stretch that is worn open is not in `a`
+    /// and `b`.
     pub closure: Option<String>,
 }
 
@@ -238,20 +239,20 @@ impl Seam {
     }
 }
 
-/// What a seam does with unequal lengths.
+/// How a seam treats unequal lengths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Give {
     /// Equal within the tolerance.
     Even,
     /// So many metres more on the `b` side.
     Ease(f64),
-    /// length(a) / length(b) > 1: `a` is gathered.
+    /// The chain `a` is gathered: length(a) / length(b) > 1.
     Gather(f64),
-    /// length(a) / length(b) > 1: `b` is stretched on.
+    /// The chain `b` is stretched: length(a) / length(b) > 1.
     Stretch(f64),
 }
 
-/// Where a seam comes from.
+/// Origin of a seam.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SeamKind {
     /// Written in the file.
@@ -262,7 +263,7 @@ pub enum SeamKind {
     Pleat(PleatLayer),
 }
 
-/// Which layers of a pleat a seam holds together.
+/// The layers of a pleat that a seam holds together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PleatLayer {
     /// The top one on the middle one.
@@ -278,11 +279,11 @@ pub struct Line {
     pub name: String,
     /// Its course.
     pub path: Path,
-    /// What it does.
+    /// Its kind.
     pub kind: LineKind,
 }
 
-/// What an internal line does.
+/// Kinds of internal lines.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LineKind {
     /// The cloth is creased to this angle (radians; 0 = flat, π = folded onto its own wrong side).
@@ -296,10 +297,10 @@ pub enum LineKind {
 impl LineKind {
     /// Angles of folds, degrees: at 180 the cloth lies on itself, and no farther can it go.
     const FOLDS: RangeInclusive<f64> = -180.0..=180.0;
-    /// What elastic leaves of a line's length.
+    /// Allowed ratios of elastic to the line's length.
     const ELASTICS: RangeInclusive<f64> = 0.05..=1.0;
 
-    /// A fold of so many degrees, if there is one.
+    /// A fold of this angle, if it is an allowed one.
     pub(crate) fn fold(degrees: f64) -> Option<Self> {
         Self::FOLDS.contains(&degrees).then(|| Self::Fold(degrees.to_radians()))
     }
@@ -330,7 +331,7 @@ pub struct Notch {
     pub double: bool,
 }
 
-/// Where a piece starts.
+/// Start position of a piece.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Place {
     /// Bent round a body part: `torso front`, `left arm`, `right leg back`, `waist`, `neck`.
@@ -353,7 +354,7 @@ pub enum Place {
 pub struct FabricUse {
     /// `shell`.
     pub name: String,
-    /// What it is.
+    /// Its description.
     pub spec: crate::fabric::FabricSpec,
 }
 
@@ -368,7 +369,7 @@ impl FabricUse {
 /// A closure: simulated as tacks where `a` meets `b` when both are given, else kept only.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Closure {
-    /// button, hook, zip, …
+    /// Its kind: button, hook, zip, …
     pub kind: String,
     /// The cut piece that carries it.
     pub on: Option<String>,
@@ -376,21 +377,23 @@ pub struct Closure {
     pub meets: Option<String>,
     /// Points that are worn together: (piece, flat position) twice.
     pub tacks: Vec<[(usize, Vec2); 2]>,
-    /// So many of the points that follow each other are one row.
+    /// Number of points in a row of points that follow each other.
     pub row: usize,
-    /// Of one that does not say what it meets, on one of a pair: its points and the same of the other half. Not tied.
+    /// For a closure without `meets` on one of a pair: its points and the same points of the other half. They are not
+    /// tied.
     pub mirrored: Vec<[(usize, Vec2); 2]>,
 }
 
 /// An entry of the garment's own `tests`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Test {
-    /// What must hold.
+    /// The bound.
     pub bound: Bound,
-    /// Only when the garment is made in this fabric; `None` = in any. As the file names it, one of the garment's own, a
-    /// shipped one or a file; of a [`Job`](crate::pipeline::Job) as reports name it.
+    /// The test holds only if the garment is made in this fabric. `None` means in any. The name is the file's: one of
+    /// the garment's own fabrics, a shipped one or a file. In a [`Job`](crate::pipeline::Job) it is the name in
+    /// reports.
     pub fabric: Option<String>,
-    /// The garment of an outfit whose pieces, seams and openings it is about, as their names begin; `None` = all.
+    /// The garment of an outfit whose pieces, seams and openings it is about, as their names begin. `None` = all.
     pub of: Option<String>,
 }
 
@@ -405,7 +408,7 @@ pub enum Bound {
     Closure(Option<String>, f64),
     /// Round trip of a piece: area (fraction), boundary (metres).
     Flatten {
-        /// Drawn or cut piece; `None` = all.
+        /// Drawn or cut piece. `None` = all.
         piece: Option<String>,
         /// Fraction.
         area: Option<f64>,
@@ -414,7 +417,7 @@ pub enum Bound {
     },
     /// Sewn and draped piece: area and boundary as fractions.
     Drape {
-        /// Drawn or cut piece; `None` = all.
+        /// Drawn or cut piece. `None` = all.
         piece: Option<String>,
         /// Fraction.
         area: Option<f64>,

@@ -7,10 +7,9 @@ use super::rim::joints;
 use super::walk::edge_name;
 use super::{EdgeId, Garment, Notch, Piece, Seam, Span};
 
-/// Notches that miss each other by more than this (metres), ease allowed for, were not meant so: nobody draws or sews
-/// that badly.
+/// Distance by which notches may miss each other, after ease, metres. Nobody draws or sews less exactly on purpose.
 const FAR: f64 = 0.010;
-/// A notch so near to the end of a span (metres) is on it.
+/// Distance within which a notch lies on the end of a span, metres.
 const ON_END: f64 = 1e-9;
 
 /// A notch met on a walk along a chain, or a joint of its edges that stands for one.
@@ -39,8 +38,8 @@ pub(super) fn met(pieces: &[Piece], chain: &[Span]) -> Vec<Met> {
     met
 }
 
-/// The notches of both sides of a seam that is sewn notch to notch. Where one side has fewer, by as many as its edges
-/// have joints, these are met, too: the notch at the crown of a sleeve meets the shoulder seam.
+/// The notches of both sides of a seam that is sewn notch to notch. If one side has fewer, by as many as its edges have
+/// joints, the joints count as notches: the notch at the crown of a sleeve meets the shoulder seam.
 pub(super) fn matched(pieces: &[Piece], a: &[Span], b: &[Span]) -> [Vec<Met>; 2] {
     let mut both = [a, b].map(|chain| met(pieces, chain));
     let [on_a, on_b] = [both[0].len(), both[1].len()];
@@ -54,10 +53,12 @@ pub(super) fn matched(pieces: &[Piece], a: &[Span], b: &[Span]) -> [Vec<Met>; 2]
     both
 }
 
-/// Finds notches that come to lie far from those that they meet. `match: notches` would stretch and crumple the cloth
-/// between them: an error. Otherwise single ones meet single ones, double ones double, and it is a warning; what has no
-/// notch of its kind on the other side marks something else. `written` says which of `files` a seam comes from; what
-/// is there on both sides of the garment is looked at once.
+/// Finds notches that end up far from their partners.
+///
+/// With `match: notches` this is an error, because the cloth between would be stretched and crumpled. Otherwise single
+/// notches are compared with single ones, double with double, and it is a warning. A notch without a partner of its
+/// kind marks something else. `written` gives the file's seam for each seam. Seams that are there on both sides of the
+/// garment are examined once.
 pub(super) fn check(garment: &Garment, written: &[Option<usize>], files: &[SeamFile], findings: &mut Findings) {
     for (k, seam) in garment.seams.iter().enumerate() {
         let Some(file) = written[k].filter(|w| !written[..k].contains(&Some(*w))).map(|w| &files[w]) else { continue };
@@ -69,8 +70,8 @@ pub(super) fn check(garment: &Garment, written: &[Option<usize>], files: &[SeamF
     }
 }
 
-/// Where notches are sewn to one another in their order, the first that cannot be; and a double one that meets a single
-/// one, as where a sleeve's front is taken for its back.
+/// For notches that are sewn to one another in order: the first pair that cannot be, and any double notch that meets a
+/// single one, as where a sleeve's front is taken for its back.
 fn check_matched(garment: &Garment, seam: &Seam, at: Spot, findings: &mut Findings) {
     let [on_a, on_b] = matched(&garment.pieces, &seam.a, &seam.b);
     let longer = seam.length_b() - seam.length_a();
@@ -104,7 +105,7 @@ fn check_kind(garment: &Garment, seam: &Seam, double: bool, at: Spot, findings: 
     }
 }
 
-/// What is wrong with two notches that are to meet, of which the second lies on the side that is `longer`.
+/// Problem of two notches that should meet. The second lies on the side that is `longer`.
 fn far_apart(garment: &Garment, seam: &Seam, [one, other]: [&Met; 2], longer: f64) -> Option<Problem> {
     let apart = missing(other.along - one.along, longer);
     (apart > FAR).then(|| Problem::NotchesApart {
@@ -119,8 +120,8 @@ fn place(garment: &Garment, met: &Met) -> String {
     format!("{:.0} mm on {}", 1e3 * met.along, edge_name(&garment.pieces, met.edge))
 }
 
-/// By how much two notches miss each other of which the second is `off` further along a side that is `longer`: of what
-/// is eased, gathered or stretched before them there may be all, a part or nothing.
+/// Distance by which two notches miss each other, where the second is `off` further along a side that is `longer`. Any
+/// part of the ease, gather or stretch may lie before them.
 fn missing(off: f64, longer: f64) -> f64 {
     (longer.min(0.0) - off).max(off - longer.max(0.0)).max(0.0)
 }

@@ -1,16 +1,16 @@
-//! What a mark on the rim of a piece is.
+//! Kinds of marks on the rim of a piece.
 
 /// Distance of a double notch's two marks along their edge, metres.
 pub const DOUBLE_MARKS: f64 = 0.006;
 
-/// What a notch's mark belongs to.
+/// Meaning of a notch's mark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NotchKind {
     /// A notch by itself.
     Single,
     /// One of two that mark the back, half of [`DOUBLE_MARKS`] from the place that they mark.
     Double,
-    /// The same where the edge ends nearer than that: it stands at the end.
+    /// One of two that mark the back, where the edge ends within half of [`DOUBLE_MARKS`]. It stands at the end.
     DoubleAtEnd,
     /// The mouth of a dart.
     Dart,
@@ -22,7 +22,7 @@ impl NotchKind {
     /// All there are.
     const ALL: [Self; 5] = [Self::Single, Self::Double, Self::DoubleAtEnd, Self::Dart, Self::Pleat];
 
-    /// The marks of a notch at a place of an edge of this length: where each stands, and what it is.
+    /// The marks of a notch at a place of an edge of this length: the place and kind of each.
     pub fn marks(at: f64, double: bool, length: f64) -> impl Iterator<Item = (f64, Self)> {
         let places = if double { vec![at - DOUBLE_MARKS / 2.0, at + DOUBLE_MARKS / 2.0] } else { vec![at] };
         places.into_iter().map(move |place| {

@@ -2,14 +2,14 @@
 
 use super::{Bound, Closure, EdgeId, Garment, Seam, Span, Test};
 
-/// Between the name of a garment of an outfit and that of its piece, seam or fabric.
+/// Separator between the name of an outfit's garment and that of its piece, seam or fabric.
 const OF: char = '/';
 
-/// Makes one garment of several, given from the skin outwards; a single one stays as it is.
+/// Makes one garment of several, given from the skin outwards. A single one stays as it is.
 ///
-/// Pieces, seams and fabrics are named `garment/piece`; of two garments of one name the second is `shirt.2`. Every
-/// layer of a garment lies outside all layers of those before it. Tests stay about their own garment. The body is the
-/// first one's.
+/// Pieces, seams and fabrics are named `garment/piece`. If two garments have one name, the second becomes `shirt.2`.
+/// Every layer of a garment lies outside all layers of those before it. Tests apply to their own garment. The body is
+/// that of the first garment.
 pub fn outfit(mut garments: Vec<Garment>) -> Garment {
     if garments.len() == 1 {
         return garments.remove(0);
@@ -33,7 +33,7 @@ pub fn outfit(mut garments: Vec<Garment>) -> Garment {
     whole
 }
 
-/// Whether what bears this name is of the garment of an outfit that is called `label`.
+/// Whether `name` belongs to the garment of an outfit that is called `label`.
 pub fn belongs_to(name: &str, label: &str) -> bool {
     name.strip_prefix(label).is_some_and(|rest| rest.starts_with(OF))
 }
@@ -43,7 +43,7 @@ pub(super) fn own_name(name: &str) -> &str {
     name.rsplit(OF).next().unwrap_or(name)
 }
 
-/// The garments' names; one that is taken has a number behind it.
+/// The garments' names. One that is taken has a number behind it.
 fn labels(garments: &[Garment]) -> Vec<String> {
     let mut labels: Vec<String> = Vec::new();
     for garment in garments {
@@ -55,7 +55,7 @@ fn labels(garments: &[Garment]) -> Vec<String> {
 }
 
 impl Garment {
-    /// Adds a garment that is worn over what there is.
+    /// Adds a garment that is worn over the present ones.
     fn put_on(&mut self, garment: Garment, label: &str) {
         let named = |name: &str| format!("{label}{OF}{name}");
         let first = self.pieces.len();
@@ -98,7 +98,7 @@ impl Garment {
     }
 }
 
-/// The same edge where `first` pieces stand before its own.
+/// The edge with its piece's index increased by `first`.
 fn later(edge: EdgeId, first: usize) -> EdgeId {
     EdgeId { piece: edge.piece + first, ..edge }
 }
@@ -107,7 +107,7 @@ fn moved(chain: &[Span], first: usize) -> Vec<Span> {
     chain.iter().map(|span| Span { edge: later(span.edge, first), ..*span }).collect()
 }
 
-/// The same bound on what is named so now.
+/// The same bound, with new names.
 fn bound(bound: Bound, named: impl Fn(&str) -> String) -> Bound {
     let full = |name: Option<String>| name.as_deref().map(&named);
     match bound {
@@ -115,7 +115,7 @@ fn bound(bound: Bound, named: impl Fn(&str) -> String) -> Bound {
         Bound::Gap(seam, limit) => Bound::Gap(full(seam), limit),
         Bound::Flatten { piece, area, boundary } => Bound::Flatten { piece: full(piece), area, boundary },
         Bound::Drape { piece, area, boundary } => Bound::Drape { piece: full(piece), area, boundary },
-        // Kinds of closures have one name in all garments; crossings are those of the whole.
+        // Kinds of closures have one name in all garments. Crossings are those of the whole.
         Bound::Closure(..) | Bound::Crossings(_) | Bound::Worn => bound,
     }
 }

@@ -9,12 +9,12 @@ use super::file::{OutlineFile, Unit};
 use super::problem::Problem;
 use crate::geometry::{Path, Vec2};
 
-/// A drawn outline may miss its start by this much (metres): rounding of the file's numbers.
+/// Distance by which a drawn outline may miss its start, metres: rounding of the file's numbers.
 pub(super) const CLOSURE: f64 = 5e-5;
-/// A gap up to this (metres) is an error like every other, but bridged, so that all the rest of the piece is looked at
-/// in the same run. A wider one is a side that is missing, and what lies off the piece without it may lie on it.
+/// Widest gap of an outline that is bridged, metres. It is still an error, but the rest of the piece is checked in the
+/// same run. A wider gap is a missing side, without which other checks would report false faults.
 const BRIDGED: f64 = 0.02;
-/// Longer edges (metres) are a wrong unit or a slip of the pen, and would take for ever to look at.
+/// Longest edge, metres. A longer one is in another unit or a slip of the pen, and would take for ever to process.
 const LONGEST_EDGE: f64 = 200.0;
 
 /// Reads the outline's edges: closed, clockwise, every name once.

@@ -11,7 +11,7 @@ use crate::input::nearest;
 pub enum PlaceWord {
     /// Round the trunk, up to the shoulders.
     Torso,
-    /// Round the hips and what is below.
+    /// Round the hips and below.
     Hip,
     /// Round the waist.
     Waist,
@@ -59,12 +59,12 @@ pub enum PlaceWord {
     Back,
 }
 
-/// What a word says about where a piece goes.
+/// Meaning of a word of `place`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlaceMeaning {
     /// Round the trunk or the legs below it.
     Trunk,
-    /// Round one leg; for what is sewn to the other leg too (trousers), round the trunk.
+    /// Round one leg. If it is sewn to a piece for the other leg (trousers), round the trunk.
     Leg,
     /// Round an arm.
     Arm,
@@ -80,7 +80,7 @@ pub enum PlaceMeaning {
     Back,
 }
 
-/// How high on the trunk a word says.
+/// Height on the trunk that a word names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TrunkLevel {
     /// Round the waist.
@@ -91,10 +91,10 @@ pub enum TrunkLevel {
     Chest,
 }
 
-/// A word with its name in files and messages, what it means, how high on the trunk it says, and its other spellings.
+/// A word with its name in files and messages, its meaning, its height on the trunk, and its other spellings.
 type Row = (PlaceWord, &'static str, PlaceMeaning, Option<TrunkLevel>, &'static [&'static str]);
 
-/// Every word. Spellings of one or two letters, and those run together, are how other programs name their pieces.
+/// Every word. Spellings of one or two letters, and compounds, are the names that other programs give their pieces.
 const WORDS: [Row; 24] = {
     use PlaceMeaning as Means;
     use PlaceWord as Word;
@@ -139,7 +139,7 @@ impl PlaceWord {
         words_of(name).iter().filter_map(|word| Self::parse(word)).collect()
     }
 
-    /// All words, in the order in which they are told.
+    /// All words, in the order of messages.
     pub fn all() -> impl Iterator<Item = Self> {
         WORDS.iter().map(|row| row.0)
     }
@@ -149,18 +149,18 @@ impl PlaceWord {
         self.row().1
     }
 
-    /// What it says.
+    /// Its meaning.
     pub fn meaning(self) -> PlaceMeaning {
         self.row().2
     }
 
-    /// How high on the trunk it says, if it does.
+    /// Its height on the trunk, if it names one.
     pub fn level(self) -> Option<TrunkLevel> {
         self.row().3
     }
 
     fn row(self) -> &'static Row {
-        // The table has the words in the order of the type; a test says so.
+        // The table has the words in the order of the type. A test says so.
         &WORDS[self as usize]
     }
 }
@@ -177,12 +177,13 @@ pub fn place_words(show: impl Fn(&str) -> String) -> String {
     format!("{}; with {left} or {right}, {front} or {back}", parts.join("; "))
 }
 
-/// The words of a name in lower case: `sleeve_left.L` → sleeve, left, l. Of a piece of an outfit its own name counts.
+/// The words of a name in lower case: `sleeve_left.L` → sleeve, left, l. For a piece of an outfit, the words of its own
+/// name.
 pub fn words_of(name: &str) -> Vec<String> {
     own_name(name).split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).map(str::to_lowercase).collect()
 }
 
-/// A piece that starts farther from the feet than this, metres, is in another unit than thought.
+/// Largest distance of a piece's start from the feet, metres. A larger one is in another unit.
 const FARTHEST: f64 = 10.0;
 
 /// Checks the words and positions of every `place:` of the file.

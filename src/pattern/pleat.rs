@@ -1,7 +1,7 @@
 //! Pleats. A knife pleat that begins at `p` with under-layers of depth `d` takes up the stretch `p..p + 2d` of its
-//! edge. Pointing towards the edge's end it is folded at `p`, so that `p - d..p` lies on top of two under-layers;
-//! pointing towards the start it is folded at `p + 2d`. A box pleat is a knife to the start, a panel of `2d` and a
-//! knife to the end; an inverted pleat a knife to the end and, next to it, one to the start.
+//! edge. Pointing towards the edge's end it is folded at `p`, so that `p - d..p` lies on top of two under-layers.
+//! Pointing towards the start it is folded at `p + 2d`. A box pleat is a knife to the start, a panel of `2d` and a
+//! knife to the end. An inverted pleat a knife to the end and, next to it, one to the start.
 //!
 //! The seam of the edge walks what is visible, and two seams per fold hold the under-layers to it and to each other.
 
@@ -15,7 +15,7 @@ use super::{PleatLayer, SeamKind};
 #[derive(Clone, Copy)]
 struct Fold {
     at: f64,
-    /// Where the file says that its pleat begins.
+    /// Start of its pleat in the file.
     pleat: f64,
     depth: f64,
     to_end: bool,
@@ -90,7 +90,7 @@ fn lay_edge(drawn: &mut Draft, edge: &str, pleats: &[&PleatFile], unit: Unit, fi
     apply(drawn, edge, whole, length, &folds);
 }
 
-/// The first fold that reaches over something, how far, and over what. Tops may meet, pleats edge to edge.
+/// The first fold that reaches over something, how far, and over what it reaches. Tops may meet, pleats edge to edge.
 fn overlap(folds: &[Fold], length: f64) -> Option<(&Fold, f64, String)> {
     let (mut end, mut before) = (0.0, "the start of the edge".to_owned());
     for fold in folds {

@@ -1,6 +1,6 @@
 //! Everything that can be wrong with a garment file. Lengths in messages are millimetres.
 
-/// One kind of mistake, with what is needed to say it.
+/// Kinds of mistakes, with the data of their messages.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "every field is a word or a number of the message above it")]
 pub enum Problem {
@@ -271,7 +271,7 @@ pub enum Problem {
     SeamOrder { seam: String, later: String },
 }
 
-/// What may be wrong with edges that do not follow each other.
+/// Guess at the fault of edges that do not follow each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChainDoubt {
     /// Their order.
@@ -296,7 +296,7 @@ fn rounded(mm: f64) -> f64 {
     (mm * 1e3).round() / 1e3
 }
 
-/// The tenth at or below it; what is a tenth but for rounding stays one.
+/// The tenth at or below `x`. A number that is a tenth within rounding stays one.
 fn tenth_below(x: f64) -> f64 {
     let tenths = 10.0 * x;
     let nearest = tenths.round();
@@ -313,7 +313,7 @@ fn did_you_mean(nearest: &Option<String>) -> String {
 }
 
 impl Problem {
-    /// What to do about it, where the message does not say so already.
+    /// Advice, if the message itself has none.
     pub fn hint(&self) -> Option<String> {
         let hint = match self {
             Self::UnknownKey { nearest: Some(n), .. } => format!("did you mean '{n}'?"),

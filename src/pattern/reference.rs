@@ -18,7 +18,7 @@ pub(super) struct Reference {
     pub(super) range: Option<[Quantity; 2]>,
 }
 
-/// Larger numbers of a garment file mean nothing in any unit, and would fill a message with digits.
+/// Largest number in a garment file. Larger ones mean nothing in any unit, and would fill a message with digits.
 pub(crate) const LARGEST: f64 = 1e9;
 
 /// Reads a quantity: a number and perhaps a unit.
@@ -57,7 +57,7 @@ pub(super) struct Words {
 }
 
 impl Words {
-    /// Reads the words of `text`. Whether they name anything is not looked at.
+    /// Reads the words of `text`, without checking that they name anything.
     ///
     /// # Errors
     /// [`Problem::BadReference`] where a word is empty, and [`Problem::TwoSides`].
@@ -82,7 +82,7 @@ impl Words {
 }
 
 impl Reference {
-    /// Reads the text of a reference. Whether it names anything is not looked at.
+    /// Reads the text of a reference, without checking that it names anything.
     ///
     /// # Errors
     /// [`Problem::BadReference`], [`Problem::TwoSides`] and the errors of a range.
@@ -99,10 +99,10 @@ impl Reference {
     }
 }
 
-/// Reads what stands behind the `@` of a reference.
+/// Reads the part of a reference behind its `@`.
 ///
 /// # Errors
-/// What `bad` says where there are no two ends, and [`Problem::BackwardsRange`].
+/// The problem of `bad` without two ends, and [`Problem::BackwardsRange`].
 pub(super) fn parse_range(range: &str, bad: impl Fn() -> Problem) -> Result<[Quantity; 2], Problem> {
     let (from, to) = range.split_once("..").ok_or_else(&bad)?;
     let ends = [parse_quantity(from)?, parse_quantity(to)?];

@@ -1,14 +1,14 @@
-//! Where the cloth of a piece is.
+//! The region of a piece's cloth.
 
 use super::Edge;
 use super::crossing::chords;
 use crate::geometry::{Path, Vec2, encloses};
 
-/// What misses the cloth by no more than this (metres) is meant to be on its rim.
+/// Distance from the cloth within which a point counts as lying on its rim, metres.
 pub(crate) const SLACK: f64 = 1e-3;
-/// Lines and edges are looked at so often, metres.
+/// Distance between examined points of lines and edges, metres.
 const STEP: f64 = 5e-3;
-/// And no oftener than so many times, however long it is.
+/// Most points at which a line is examined, however long it is.
 const MOST_LOOKS: f64 = 400.0;
 
 /// The cloth within an outline, less the holes in it.
@@ -19,7 +19,7 @@ pub(crate) struct Region<'a> {
 }
 
 impl<'a> Region<'a> {
-    /// Of an outline and the holes that follow it.
+    /// The region of an outline and the holes that follow it.
     pub(crate) fn new(rings: &'a [Vec<Edge>]) -> Self {
         let ring = |edges: &Vec<Edge>| edges.iter().flat_map(|e| chords(&e.path)).collect();
         Self { rings, chords: rings.iter().map(ring).collect() }
@@ -33,14 +33,14 @@ impl<'a> Region<'a> {
     }
 }
 
-/// The first place, of those looked at, where `path` is nowhere near what `holds` says is cloth.
+/// The first examined point of `path` that is nowhere near cloth according to `holds`.
 pub(super) fn first_off(path: &Path, holds: impl Fn(Vec2) -> bool) -> Option<Vec2> {
     let length = path.length();
     let looks = looks(length);
     (0..=looks).map(|i| path.point(length * i as f64 / looks as f64)).find(|&p| !holds(p))
 }
 
-/// In how many steps what is so long (metres) is looked at.
+/// Number of examined points of a line of this length (metres).
 pub(super) fn looks(length: f64) -> usize {
     (length / STEP).clamp(2.0, MOST_LOOKS).ceil() as usize
 }

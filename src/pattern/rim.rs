@@ -6,7 +6,7 @@ use super::fasten::{Bridge, Fastening, RimSpot, Step, fastenings, patches, worn_
 use super::{EdgeId, Garment, Piece, Seam, Span};
 use crate::geometry::DisjointSets;
 
-/// Points of one rim closer than this (metres) are one: the largest difference a seam may have by default is 2 mm.
+/// Distance within which points of one rim are one point, metres. Sides of a seam may differ by 2 mm by default.
 const SAME: f64 = 1e-3;
 
 /// A point of a rim: ring of a piece, metres from the ring's start.
@@ -66,7 +66,7 @@ impl Rims {
     }
 }
 
-/// Which rim points sewing makes one, of those met so far.
+/// Sets of rim points that sewing joins, among those met so far.
 #[derive(Clone, Default)]
 pub(super) struct Identities {
     /// The points of each rim that were met, by piece and ring, with their numbers in `sets`.
@@ -98,13 +98,13 @@ impl Identities {
         self.sets.join(p, q);
     }
 
-    /// Whether the two points are one, drawn so or sewn so.
+    /// Whether the two points are one, as drawn or as sewn.
     pub(super) fn one(&self, rims: &Rims, p: RimPoint, q: RimPoint) -> bool {
         let both = self.known(rims, p).zip(self.known(rims, q));
         rims.same(p, q) || both.is_some_and(|(p, q)| self.sets.same(p, q))
     }
 
-    /// Joins what a seam brings together: its ends, and every joint of one chain with what lies across.
+    /// Joins the points that a seam brings together: its ends, and every joint of one chain with the point across.
     pub(super) fn add_seam(&mut self, rims: &Rims, a: &[Span], b: &[Span], marks: &[(f64, f64)]) {
         for &(on_a, on_b) in marks {
             for p in at_length(rims, a, on_a) {
@@ -140,11 +140,11 @@ pub struct Opening {
     pub length: f64,
 }
 
-/// Free stretches shorter than this (metres) are rounding, not openings.
+/// Length of a free stretch below which it is rounding and no opening, metres.
 pub(super) const SLIVER: f64 = 1e-3;
 
 /// The openings of the sewn garment, from seams and closures alone: every stretch of rim that no seam takes, joined
-/// where seams or corners join them, without what closures close.
+/// where seams or corners join them, without stretches that closures close.
 pub fn openings(garment: &Garment) -> Vec<Opening> {
     let fastened = fastenings(garment);
     let rims = free_rims(garment, &fastened);
@@ -196,7 +196,7 @@ struct FreeRim {
 }
 
 impl FreeRim {
-    /// The stretches as they follow each other round the rim; none where they do not make one ring.
+    /// The stretches as they follow each other round the rim. None where they do not make one ring.
     fn ordered(&self) -> Option<Vec<Span>> {
         let (first, count) = (*self.ends.first()?, self.spans.len());
         let mut left: Vec<usize> = (1..count).collect();
@@ -215,8 +215,8 @@ impl FreeRim {
     }
 }
 
-/// What no seam takes of an edge, cut where something is fastened. Two layers that are sewn on each other the same way
-/// round and to nothing else, as a lining all round its shell, end there: the outer one's edge is a rim.
+/// Parts of edges that no seam takes, divided where something is fastened. Two layers that are sewn on each other the
+/// same way round and to nothing else, as a lining all round its shell, end there, and the outer one's edge is a rim.
 pub(super) fn free_spans(garment: &Garment, fastened: &[Fastening]) -> Vec<Span> {
     let ending: Vec<&Span> = garment.seams.iter().filter_map(|s| ending(garment, s)).flatten().collect();
     let is_taken = |span: &&Span| !ending.iter().any(|e| std::ptr::eq(*e, *span));
@@ -323,7 +323,7 @@ pub(super) fn edge_ids(pieces: &[Piece]) -> Vec<EdgeId> {
     all
 }
 
-/// What of `0..length` the intervals leave.
+/// The parts of `0..length` that the intervals leave.
 pub(super) fn gaps(mut taken: Vec<(f64, f64)>, length: f64) -> Vec<(f64, f64)> {
     taken.sort_by(|a, b| a.0.total_cmp(&b.0));
     taken.push((length, length));

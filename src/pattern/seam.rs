@@ -1,4 +1,4 @@
-//! Seams: lengths against what is said of them, marks, openings.
+//! Seams: their lengths against the file's ease, gather and stretch, their marks and openings.
 
 use super::chain::{self, Directed};
 use super::cut::Pieces;
@@ -12,24 +12,24 @@ use super::select::{Candidate, Source};
 use super::walk::difference;
 use super::{Garment, Give, Seam, SeamKind, Span};
 
-/// Lengths may differ by this much (metres) where nothing is said.
+/// Largest difference of a seam's lengths without ease, gather or stretch, metres.
 pub(crate) const DEFAULT_TOLERANCE: f64 = 2e-3;
-/// All seams close together unless the file stages them.
+/// Stage of seams for which the file gives none: all close together.
 pub(super) const DEFAULT_STAGE: i32 = 1;
-/// What openings call the ends of a seam, beside the edges that meet there.
+/// Names of a seam's ends in openings, beside the edges that meet there.
 const ENDS: [&str; 2] = ["start", "end"];
-/// More ease than this share of the length puckers: it is gathering.
+/// Largest ease, as a share of the length. More puckers, and counts as gathering.
 const LARGEST_EASE: f64 = 0.08;
-/// Less, metres, is none.
+/// Ease below which there is none, metres.
 const NO_EASE: f64 = 0.05e-3;
-/// Written gather and stretch ratios are rounded: this share of the length passes beside the tolerance.
+/// Share of the length by which written gather and stretch ratios may be rounded, beside the tolerance.
 const RATIO_ROUNDING: f64 = 0.01;
 
 /// The seams of a garment, and which stretches an opening leaves unsewn.
 #[derive(Default)]
 pub(super) struct Seams {
     pub(super) seams: Vec<Seam>,
-    /// The seam of the file each comes from; `None` for darts and pleats.
+    /// The seam of the file each comes from. `None` for darts and pleats.
     pub(super) written: Vec<Option<usize>>,
     pub(super) open: Vec<Span>,
 }
@@ -82,7 +82,7 @@ fn own_seams(drafts: &[Draft], cut: &Pieces) -> Vec<Seam> {
     seams
 }
 
-/// What the lengths of a seam may differ by, metres.
+/// Allowed difference of a seam's lengths, metres.
 pub(super) fn tolerance(file: &SeamFile, unit: Unit) -> f64 {
     file.tolerance.as_ref().map_or(DEFAULT_TOLERANCE, |t| t.value.value(unit))
 }
@@ -176,7 +176,7 @@ impl Finish<'_> {
         }
     }
 
-    /// How much of the start and of the end of the first chain is worn open.
+    /// Lengths at the start and the end of the first chain that are worn open.
     fn open_ends(&self, directed: &Directed, findings: &mut Findings) -> [f64; 2] {
         let file = directed.candidate.file;
         let (mut ends, mut opened) = ([0.0; 2], [false; 2]);
@@ -304,7 +304,7 @@ fn check_lengths(candidate: &Candidate, lengths: (f64, f64), give: Give, toleran
     );
 }
 
-/// What is gathered or stretched on says how much longer it is, whatever is wrong with the lengths.
+/// Checks that a gathered or stretched chain gives a ratio above 1, whatever is wrong with the lengths.
 fn check_ratios(file: &SeamFile, findings: &mut Findings) {
     if let Some(ratio) = file.gather.as_ref().filter(|ratio| ratio.value < 1.0) {
         let percent = (1.0 / ratio.value - 1.0) * 100.0;
@@ -315,7 +315,7 @@ fn check_ratios(file: &SeamFile, findings: &mut Findings) {
     }
 }
 
-/// The ratio of the lengths beside the one that is said, and what that would make of the second.
+/// The ratio of the lengths beside the given one, and the length of the second chain that it would mean.
 fn as_ratio(la: f64, lb: f64, give: Give) -> String {
     let (word, ratio) = match give {
         Give::Gather(ratio) => ("gather", ratio),
@@ -326,7 +326,7 @@ fn as_ratio(la: f64, lb: f64, give: Give) -> String {
     format!("; {one:.1} / {other:.1} is {:.3}, and {word}: {ratio} asks for {one:.1} mm on {asked:.1} mm", la / lb)
 }
 
-/// What a seam of these lengths may say of them: ease as far as there is any, else gathers of the longer side.
+/// A statement that would fit a seam of these lengths: ease if possible, else gathers of the longer side.
 fn fitting(la: f64, lb: f64) -> String {
     if (lb - la).abs() < NO_EASE {
         "no ease".to_owned()
@@ -353,7 +353,7 @@ fn advice(la: f64, lb: f64, give: Give) -> String {
     }
 }
 
-/// Every seam keeps or turns the right side; round a closed band the turns must cancel.
+/// Every seam keeps or turns the right side. Round a closed band the turns must cancel.
 pub(super) fn check_orientable(garment: &Garment, turns: &[bool], at: &[Spot], findings: &mut Findings) {
     // Piece → (representative, whether it is turned against it).
     let mut parent: Vec<(usize, bool)> = (0..garment.pieces.len()).map(|i| (i, false)).collect();

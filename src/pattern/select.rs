@@ -1,8 +1,8 @@
-//! Which edges of which cut pieces a seam joins.
+//! Selects the edges of cut pieces that a seam joins.
 //!
 //! A reference without a side to a piece that has two sides means both: if every reference of a seam is of that kind,
 //! the seam is there twice, `side.L` and `side.R`. Joined with a piece that is there once, an edge of a folded piece
-//! that ends on the fold means the whole edge across both halves; any other must name its side.
+//! that ends on the fold means the whole edge across both halves. Any other must name its side.
 
 use super::Span;
 use super::cut::{Instance, Pieces, suffix};
@@ -41,7 +41,7 @@ struct Found {
     to: f64,
 }
 
-/// Which of its pieces a reference may mean.
+/// The pieces that a reference may mean.
 #[derive(Clone, Copy, PartialEq)]
 enum Freedom {
     Fixed,
@@ -56,7 +56,7 @@ enum Choice {
     Copy(usize),
 }
 
-/// What seams are chosen from.
+/// The pieces from which seams choose their edges.
 pub(super) struct Source<'a> {
     pub(super) drafts: &'a [Draft],
     pub(super) cut: &'a Pieces,
@@ -76,8 +76,8 @@ impl Source<'_> {
         seam.sew.iter().chain(&seam.to).any(|r| self.is_undrawn(super::reference::piece_of(&r.value)))
     }
 
-    /// What is wrong with the references of a seam that names a piece that could not be drawn: of that piece nothing
-    /// is known but its name.
+    /// Checks the references of a seam that names a piece that could not be drawn. Of that piece only the name is
+    /// known.
     pub(super) fn check_references(&self, seam: &SeamFile, findings: &mut Findings) {
         let sides = [&seam.sew, &seam.to].into_iter().filter(|side| !is_mirror(side));
         for written in sides.flatten() {
@@ -162,7 +162,7 @@ impl Source<'_> {
         Ok(built)
     }
 
-    /// An edge that is there on both sides may be right, and what it is sewn to a pair that is not said to be one.
+    /// Adds the doubt that the partner of an edge on both sides should be a pair.
     fn or_a_pair(&self, (at, mut problem): Located, other: &[Found]) -> Located {
         if let Problem::WhichSide { choice, .. } = &mut problem
             && let [Found { draft, .. }] = other

@@ -4,8 +4,8 @@ use super::rim::{Identities, Rims};
 use super::{Piece, Span};
 use crate::geometry::Vec2;
 
-/// The ends of a chain lie above or below its middle where that is by more than this share of its length: an armhole's
-/// by two fifths, a waist's or a hem's by next to nothing.
+/// Height of a chain's ends above or below its middle, as a share of its length, from which they lie clearly there. An
+/// armhole's ends lie there by two fifths, those of a waist or a hem by next to nothing.
 const CLEARLY: f64 = 0.15;
 
 /// Whether a chain is the rim of a tube: all of one piece, whose ends a seam of it brings together.
@@ -16,7 +16,7 @@ pub(super) fn is_tube(chain: &[Span], rims: &Rims, sewn: &Identities) -> bool {
     of_one_piece && !rims.same(start, end) && sewn.one(rims, start, end)
 }
 
-/// Where the ends of a chain lie.
+/// Positions of the ends of a chain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ends {
     /// Above its middle, as drawn.
@@ -27,7 +27,7 @@ pub(super) enum Ends {
     Below,
 }
 
-/// Where the ends of a chain lie, its pieces one after the other as they are sewn.
+/// Positions of the ends of a chain, with its pieces one after the other as they are sewn.
 pub(super) fn ends(pieces: &[Piece], chain: &[Span]) -> Ends {
     let length: f64 = chain.iter().map(Span::length).sum();
     let (mut walked, mut height, mut middle) = (0.0, 0.0, 0.0);

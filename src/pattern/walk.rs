@@ -1,9 +1,9 @@
-//! Walking the seams: both lengths of each, and what they differ by beyond what was said.
+//! Walks the seams: both lengths of each, and their difference beyond ease, gather or stretch.
 
 use super::notch::met;
 use super::{EdgeId, Garment, Give, Opening, Piece, SeamKind, Span};
 
-/// What is missing of an edge that is taken whole (metres) is rounding.
+/// Length of an edge that may be missing from a whole edge by rounding, metres.
 const WHOLE: f64 = 1e-6;
 
 /// The lengths of one seam, metres.
@@ -19,11 +19,11 @@ pub struct SeamWalk {
     pub length_a: f64,
     /// Length of the second chain.
     pub length_b: f64,
-    /// How much longer the second is than the first and the seam's ease, gather or stretch make it.
+    /// Excess of the second length over the first length with the seam's ease, gather or stretch.
     pub difference: f64,
-    /// What is said about the lengths.
+    /// How unequal lengths are meant.
     pub give: Give,
-    /// Where the seam comes from.
+    /// Origin of the seam.
     pub kind: SeamKind,
     /// Notches of the first chain, metres from its start.
     pub notches_a: Vec<f64>,
@@ -55,7 +55,7 @@ pub fn walk(garment: &Garment) -> Vec<SeamWalk> {
         .collect()
 }
 
-/// What is left of the difference of two lengths once `give` has had its share.
+/// Difference of two lengths that remains after `give`.
 pub(super) fn difference(length_a: f64, length_b: f64, give: Give) -> f64 {
     match give {
         Give::Even => length_b - length_a,
@@ -64,8 +64,7 @@ pub(super) fn difference(length_a: f64, length_b: f64, give: Give) -> f64 {
     }
 }
 
-/// The edges of a chain as the file has them, of what is taken in part with its stretch in millimetres:
-/// `bib.top@30..230`.
+/// The edges of a chain with their names in the file. Parts have their stretch in millimetres: `bib.top@30..230`.
 fn chain_name(garment: &Garment, chain: &[Span]) -> String {
     let edge = |span: &Span| &garment.pieces[span.edge.piece].loops[span.edge.ring][span.edge.index];
     let is_whole = |span: &Span| span.length() > edge(span).path.length() - WHOLE;

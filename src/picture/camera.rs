@@ -1,4 +1,4 @@
-//! Where the viewer stands, and where on the paper things appear.
+//! Position of the viewer, and projection onto the paper.
 
 use crate::geometry::{TriMesh, Vec3};
 
@@ -12,13 +12,13 @@ pub(super) const HEAD: usize = 110;
 /// Pixels kept free below the views, for their names.
 pub(super) const FOOT: usize = 84;
 
-/// Pixels of paper between two views: what is cut off is seen to be.
+/// Width of paper between two views, pixels, so that a view that is cut off is seen to be.
 const GUTTER: usize = 36;
 
-/// Air round what is framed, as a share of its height.
+/// Margin round the framed objects, as a share of their height.
 const AIR: f64 = 0.06;
 
-/// What is framed counts as at least this high, metres: a single point has no scale.
+/// Least height of a framed object, metres: a single point has no scale.
 pub(super) const SMALLEST: f64 = 1e-3;
 
 /// A view is at least this wide, as a share of the greatest width or height in any view.
@@ -42,11 +42,11 @@ pub(super) struct Camera {
     /// Size of the panel, pixels.
     pub(super) width: usize,
     pub(super) height: usize,
-    /// What is in the middle of the panel, metres along `right` and `up`.
+    /// Centre of the panel, metres along `right` and `up`.
     center: [f64; 2],
     /// Pixels per metre, the same in all views.
     pub(super) scale: f64,
-    /// Where the key light stands: rightwards, upwards, towards the viewer (not unit length).
+    /// Direction to the key light: rightwards, upwards, towards the viewer (not unit length).
     pub(super) key_from: [f64; 3],
 }
 
@@ -86,8 +86,9 @@ const KEY_FROM: [f64; 3] = [-0.55, 0.62, 0.70];
 /// The key light of a sheet of specimens: low from the left. Light along the view shows no folds in cloth that lies.
 const KEY_FROM_ASIDE: [f64; 3] = [-0.95, 0.30, 0.20];
 
-/// The viewer of a sheet of specimens stands to the right and looks down, radians: folds and heights are both seen.
+/// Angle by which the viewer of a sheet of specimens stands to the right, radians.
 const ASIDE: f64 = 0.45;
+/// Angle by which the viewer of a sheet of specimens looks down, radians: folds and heights are both visible.
 const FROM_ABOVE: f64 = 0.62;
 
 /// One camera from above at an angle for each list of points, all at one scale, each as large as a panel of this

@@ -27,7 +27,7 @@ impl Canvas {
         }
     }
 
-    /// Fills a box given by its corner and its size; parts outside are left out.
+    /// Fills a box given by its corner and its size. Parts outside are left out.
     pub(super) fn fill(&mut self, [left, top]: [usize; 2], [width, height]: [usize; 2], color: Rgb) {
         for y in top..(top + height).min(self.height) {
             for x in left..(left + width).min(self.width) {
@@ -55,7 +55,7 @@ impl Canvas {
         }
     }
 
-    /// Writes a line of text from `start`, on the base line; `cell` is the size of a cell of the font, seven of which
+    /// Writes a line of text from `start`, on the base line. `cell` is the size of a cell of the font, seven of which
     /// make a capital. Returns where the text ends.
     pub(super) fn text(&mut self, text: &str, [left, base]: [f32; 2], cell: f32, color: Rgb) -> f32 {
         let mut x = left;

@@ -1,6 +1,6 @@
 //! Colours: the paper, the mannequin, the pieces and the strain scale.
 //!
-//! Shades are chosen in Oklab (lightness, then two hues), where equal steps look equal. Light and cloth multiply; both
+//! Shades are chosen in Oklab (lightness, then two hues), where equal steps look equal. Light and cloth multiply. Both
 //! are kept as displayed (gamma-encoded) values, since a power law of a product is the product of the power laws.
 
 /// Red, green, blue as displayed, 0 to 1.

@@ -1,4 +1,4 @@
-//! What the picture needs to know of a garment, gathered from its mesh.
+//! Data of a garment for the picture, gathered from its mesh.
 
 use super::Scene;
 use crate::geometry::{TriMesh, Vec3, rim_loops};
@@ -16,7 +16,7 @@ pub struct Dressed {
 }
 
 impl Dressed {
-    /// Gathers a garment whose particles are `at`; `weld` has one label per particle, the same for stitched ones.
+    /// Gathers a garment whose particles are `at`. `weld` has one label per particle, the same for stitched ones.
     /// `strain`, one value per particle, colours the cloth instead of its pieces.
     ///
     /// # Panics

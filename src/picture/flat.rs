@@ -9,8 +9,9 @@ use super::{HEIGHT, PictureError, WIDTH, encode};
 use crate::geometry::{Vec2, box_or_origin};
 use crate::mesh::{ClothMesh, PieceMesh};
 
-/// Pixels above the pieces, for words and the legend, and round them.
+/// Height above the pieces, for words and the legend, pixels.
 const HEAD: usize = 130;
+/// Margin round the pieces, pixels.
 const MARGIN: f64 = 50.0;
 /// Space between pieces, as a share of the largest piece's size.
 const GAP: f64 = 0.08;
@@ -69,13 +70,13 @@ pub fn draw_flat(cloth: &ClothMesh, values: &[f64], title: &str) -> Result<Vec<u
     Ok(encode(&canvas)?)
 }
 
-/// Where the upper left corner of a piece's box is, and where it is drawn.
+/// Upper left corner of a piece's box, and of its place in the drawing.
 struct Place {
     from: Vec2,
     to: Vec2,
 }
 
-/// Pieces in rows, as large as they fit; pixels per metre.
+/// Pieces in rows, as large as they fit. Pixels per metre.
 fn places(cloth: &ClothMesh) -> (Vec<Place>, f64) {
     let boxes: Vec<[Vec2; 2]> = cloth.pieces.iter().map(|piece| bounds(cloth, piece)).collect();
     let sizes: Vec<Vec2> = boxes.iter().map(|[low, high]| high - low).collect();

@@ -14,7 +14,7 @@ pub(super) struct Glyph {
     pub(super) advance: f32,
 }
 
-/// The glyph of a letter, flush left; letters the font does not have are a box.
+/// The glyph of a letter, flush left. Letters the font does not have are a box.
 pub(super) fn glyph(letter: char) -> Glyph {
     let mut strokes = strokes(letter);
     let columns = || strokes.iter().flatten().map(|dot| dot[0]);
@@ -55,7 +55,7 @@ fn dots(letter: char) -> &'static str {
     all.iter().copied().flatten().find(|(own, _)| *own == letter).map_or(BOX, |(_, rows)| rows)
 }
 
-/// What stands for a letter that the font does not have.
+/// Glyph of letters that the font does not have.
 const BOX: &str = "#####/#...#/#...#/#...#/#...#/#...#/#####";
 
 /// A letter and its rows, with `/` between them.

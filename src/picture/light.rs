@@ -4,19 +4,23 @@ use super::camera::Camera;
 use super::color::{Rgb, displayed};
 use crate::geometry::Vec3;
 
-/// Where the fill light comes from, relative to the viewer: rightwards, upwards, towards the viewer (not unit length).
+/// Direction to the fill light, relative to the viewer: rightwards, upwards, towards the viewer (not unit length).
 const FILL_FROM: [f64; 3] = [0.85, 0.10, 0.45];
 
-/// Linear strengths. A surface that faces the key light and sees the whole sky comes out just below white.
+/// Linear strength of the key light, by colour. A surface that faces it and sees the whole sky comes out just below
+/// white.
 const KEY: [f32; 3] = [0.70, 0.685, 0.655];
+/// Linear strength of the fill light, by colour.
 const FILL: [f32; 3] = [0.10, 0.105, 0.115];
+/// Linear strength of the ambient light from above, by colour.
 const SKY: [f32; 3] = [0.42, 0.43, 0.45];
+/// Linear strength of the ambient light from below, by colour.
 const FLOOR: [f32; 3] = [0.20, 0.19, 0.175];
 
-/// The key light reaches this far round the edge of what it faces, as a large lamp's does.
+/// Reach of the key light round the edge of lit surfaces, as of a large lamp.
 const WRAP: f64 = 0.15;
 
-/// Share of the surroundings' light that reaches even what sees nothing of them, thrown back by what is near: the
+/// Share of ambient light that reaches points that see nothing of the surroundings, reflected by near surfaces: the
 /// inside of a collar is dark but not black.
 const BOUNCED: f32 = 0.22;
 

@@ -34,14 +34,14 @@ pub const WIDTH: usize = 2400;
 /// Height of the picture, pixels.
 pub const HEIGHT: usize = 1500;
 
-/// What is drawn. Lengths are metres, y up, as everywhere.
+/// Content of a picture. Lengths are metres, y up.
 #[derive(Clone, Copy, Debug)]
 pub struct Scene<'a> {
-    /// The mannequin, counter-clockwise seen from outside; may be empty.
+    /// The mannequin, counter-clockwise seen from outside. May be empty.
     pub body: &'a TriMesh,
     /// The garment with seams joined, counter-clockwise seen from the cloth's right side.
     pub cloth: &'a TriMesh,
-    /// The piece of every triangle of the cloth; missing ones count as piece 0.
+    /// The piece of every triangle of the cloth. Missing ones count as piece 0.
     pub piece_of_triangle: &'a [u32],
     /// Seams, as polylines on the cloth.
     pub seams: &'a [Vec<Vec3>],

@@ -1,7 +1,7 @@
-//! How much of the surroundings a point of the surface sees.
+//! Ambient occlusion: the share of the surroundings that a point of the surface sees.
 //!
-//! Depth maps of the whole scene from directions all round; a point sees a direction when nothing in that direction's
-//! map lies in front of it. Coarse maps are enough: what is wanted is the soft dark under arms and hems, not shadows.
+//! The scene is rendered as depth maps from directions all round. A point sees a direction if nothing in that
+//! direction's map lies in front of it. Coarse maps suffice for the soft dark under arms and hems.
 
 use rayon::prelude::*;
 
@@ -12,8 +12,8 @@ use crate::geometry::{TriMesh, Vec3, box_of};
 const DIRECTIONS: usize = 28;
 /// Side of a depth map, cells: about a centimetre each for a person.
 const CELLS: usize = 176;
-/// Points are lifted off their surface by this share of the scene's radius before they look around (about 10 mm for a
-/// person), and what lies in front by less does not hide them: coarser than the maps' own error.
+/// Distance by which points are lifted off their surface, as a share of the scene's radius (about 10 mm for a person).
+/// Surfaces in front by less do not hide them. It is larger than the error of the maps.
 const LIFT: f64 = 0.011;
 
 /// Depth maps from all directions.

@@ -1,4 +1,4 @@
-//! Where on the cloth the drawn lines are.
+//! Places of the drawn lines on the cloth.
 
 use std::collections::HashMap;
 
@@ -31,7 +31,7 @@ pub(super) fn lines(scene: &Scene, kinds: &[(&[Vec<Vec3>], f32, Rgb)], lift: f32
     out
 }
 
-/// Which triangles meet at a vertex, and which vertices at a place.
+/// Triangles that meet at a vertex, and vertices at a place.
 struct Neighbours {
     triangles: Vec<Vec<u32>>,
     vertices: HashMap<[u64; 3], Vec<u32>>,

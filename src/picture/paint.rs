@@ -1,4 +1,4 @@
-//! What colour every corner of every triangle has before light falls on it.
+//! Colour of every corner of every triangle before lighting.
 
 use super::Scene;
 use super::color::{Rgb, piece, strain, wrong_side};
@@ -9,7 +9,7 @@ const SMALLEST_LIMIT: f64 = 0.005;
 /// Share of the vertices whose strain the scale must reach.
 const REACHED: f64 = 0.99;
 
-/// How the cloth is coloured.
+/// Colouring of the cloth.
 pub(super) enum Paint {
     /// One colour per piece.
     Pieces(Vec<Rgb>),

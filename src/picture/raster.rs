@@ -12,7 +12,7 @@ pub(super) struct Corner {
     pub(super) color: Rgb,
 }
 
-/// Which triangle of the cloth a triangle or a sample is; this, if it is anything else.
+/// Number that stands for no triangle of the cloth.
 pub(super) const NO_CLOTH: u32 = u32::MAX;
 
 /// A piece of a drawn line, in samples.
@@ -20,7 +20,7 @@ pub(super) struct Stroke<'a> {
     pub(super) ends: [[f32; 3]; 2],
     pub(super) radius: f32,
     pub(super) color: Rgb,
-    /// The triangles of the cloth it lies on, in order; these do not hide it unless they are nearer by `lift`, metres,
+    /// The triangles of the cloth it lies on, in order. These do not hide it unless they are nearer by `lift`, metres,
     /// other cloth does. A line on none is hidden by all alike.
     pub(super) around: &'a [u32],
     pub(super) lift: f32,
@@ -51,7 +51,7 @@ impl Band {
         }
     }
 
-    /// Columns and rows of this band whose sample centres lie in a box; `None` when there are none.
+    /// Columns and rows of this band whose sample centres lie in a box. `None` when there are none.
     fn window(&self, lo: [f32; 2], hi: [f32; 2]) -> Option<[usize; 4]> {
         let first = |x: f32, from: usize| ((x - 0.5).ceil().max(from as f32)) as usize;
         let last = |x: f32, to: usize| ((x - 0.5).floor().min(to as f32 - 1.0)) as isize;
@@ -60,7 +60,7 @@ impl Band {
         (x0 as isize <= x1 && y0 as isize <= y1).then_some([x0, x1 as usize, y0, y1 as usize])
     }
 
-    /// Fills a triangle, `cloth` of the cloth, where it is nearer than what is there.
+    /// Fills a triangle, number `cloth` of the cloth, where it is nearer than the present content.
     pub(super) fn triangle(&mut self, corners: &[Corner; 3], cloth: u32) {
         let [a, b, c] = corners.map(|c| c.at);
         let lo = [a[0].min(b[0]).min(c[0]), a[1].min(b[1]).min(c[1])];
@@ -90,7 +90,7 @@ impl Band {
         }
     }
 
-    /// Draws a straight stroke with round ends where nothing hides it; `cloth` are the triangles of the cloth.
+    /// Draws a straight stroke with round ends where nothing hides it. `cloth` are the triangles of the cloth.
     pub(super) fn stroke(&mut self, stroke: &Stroke, cloth: &[([Corner; 3], u32)]) {
         let &Stroke { ends: [a, b], radius, color, around, lift } = stroke;
         let lo = [a[0].min(b[0]) - radius, a[1].min(b[1]) - radius];
@@ -142,7 +142,8 @@ impl Band {
     }
 }
 
-/// How the shares of the second and the third corner grow along columns and rows, from the first on, where both are 0.
+/// Growth of the shares of the second and the third corner along columns and rows, from the first corner, where both
+/// are 0.
 fn weights(corners: &[Corner; 3]) -> Option<[[f32; 2]; 2]> {
     let [a, b, c] = corners.map(|c| c.at);
     let double_area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
@@ -156,8 +157,8 @@ fn plane([wb, wc]: [[f32; 2]; 2], [at_a, at_b, at_c]: [f32; 3]) -> [f32; 3] {
     [at_a, db * wb[0] + dc * wc[0], db * wb[1] + dc * wc[1]]
 }
 
-/// How near the plane of a triangle is at `p`, which is beside the sample that shows it: on cloth seen at a slant the
-/// two differ by more than layers do. No nearer than the nearest corner, for the plane ends with the triangle.
+/// Nearness of a triangle's plane at `p`, which is beside the sample that shows it. On cloth seen at a slant the two
+/// differ by more than layers do. It is no nearer than the nearest corner, because the plane ends with the triangle.
 fn nearness_at(corners: &[Corner; 3], p: [f32; 2]) -> f32 {
     let nearest = corners.iter().map(|c| c.at[2]).fold(f32::NEG_INFINITY, f32::max);
     let at = corners[0].at;
@@ -165,7 +166,7 @@ fn nearness_at(corners: &[Corner; 3], p: [f32; 2]) -> f32 {
     here.map_or(nearest, |[base, dx, dy]| nearest.min(base + dx * (p[0] - at[0]) + dy * (p[1] - at[1])))
 }
 
-/// A displayed value as a byte; the conversion saturates.
+/// A displayed value as a byte. The conversion saturates.
 pub(super) fn byte(x: f32) -> u8 {
     (x * 255.0 + 0.5) as u8
 }

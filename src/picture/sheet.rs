@@ -8,8 +8,9 @@ use super::view::{Lit, Panel, paste, scale_bar};
 use super::{PictureError, Scene, WIDTH, can_be_framed, encode, rim_lines};
 use crate::geometry::{TriMesh, Vec3};
 
-/// Pixels above the panels, for the title, and below each, for its name.
+/// Height above the panels, for the title, pixels.
 const HEAD: usize = 110;
+/// Height below each panel, for its name, pixels.
 const NAME: usize = 54;
 /// Pixels between panels.
 const GUTTER: usize = 12;
@@ -29,7 +30,7 @@ pub struct Specimen<'a> {
     pub cloth: &'a TriMesh,
     /// Lines drawn on the cloth, from vertex to vertex.
     pub lines: &'a [Vec<Vec3>],
-    /// A thing that the cloth lies on, counter-clockwise seen from outside; may be empty.
+    /// A thing that the cloth lies on, counter-clockwise seen from outside. May be empty.
     pub body: &'a TriMesh,
 }
 

@@ -1,4 +1,4 @@
-//! How a garment starts: the glued cloth round the axes of the body, each opening's rim in a colour of its own.
+//! A garment's start: the glued cloth round the axes of the body, each opening's rim in its own colour.
 
 use super::camera::cameras;
 use super::canvas::Canvas;
@@ -10,27 +10,30 @@ use super::view::{LINE_LIFT, Lit, Panel, paste, words};
 use super::{HEIGHT, PictureError, Scene, WIDTH, can_be_framed, encode};
 use crate::geometry::{TriMesh, Vec3};
 
-/// Half the width of a rim and of an axis, pixels.
+/// Half the width of a rim, pixels.
 const RIM_RADIUS: f32 = 3.5;
+/// Half the width of an axis, pixels.
 const AXIS_RADIUS: f32 = 4.5;
-/// An axis shines through the cloth as a line of this half width, pixels.
+/// Half the width of the line as which an axis shows through the cloth, pixels.
 const SHINE_RADIUS: f32 = 1.2;
-/// And is drawn as if nearer by this, metres: nothing of a garment is further.
+/// Distance by which that line is drawn nearer, metres: more than the size of any garment.
 const SHINE_LIFT: f32 = 100.0;
 
-/// Height of a line of the legend, its size of letters in pixels per cell of the font, and its margin left, pixels.
+/// Height of a line of the legend, pixels.
 const LINE: usize = 46;
+/// Size of letters of the legend, pixels per cell of the font.
 const CELL: f32 = 3.0;
+/// Left margin of the legend, pixels.
 const MARGIN: usize = 56;
 /// Side of the square of colour before a line, pixels.
 const SQUARE: usize = 26;
 
-/// What is drawn besides the garment. Lengths are metres, y up.
+/// Content of the picture besides the garment. Lengths are metres, y up.
 #[derive(Clone, Copy, Debug)]
 pub struct StartMarks<'a> {
     /// The axes of the body's parts.
     pub axes: &'a [Vec<Vec3>],
-    /// The rim of every opening, as polylines on the cloth, and what the legend says of it.
+    /// The rim of every opening, as polylines on the cloth, and its line in the legend.
     pub openings: &'a [(Vec<Vec<Vec3>>, String)],
     /// Lines of text below the legend.
     pub notes: &'a [String],
@@ -63,7 +66,7 @@ pub fn draw_start(scene: &Scene, marks: &StartMarks) -> Result<Vec<u8>, PictureE
     Ok(encode(&canvas)?)
 }
 
-/// What every colour stands for, and the notes, below the views.
+/// Draws the legend of the colours and the notes below the views.
 fn legend(canvas: &mut Canvas, marks: &StartMarks) {
     let square = marks.openings.iter().enumerate().map(|(k, o)| (Some(opening(k)), o.1.as_str()));
     let axes = (!marks.axes.is_empty()).then_some((Some(AXIS), "axes of the body"));
@@ -86,7 +89,7 @@ pub fn opening_color(k: usize) -> [u8; 3] {
     opening(k).map(byte)
 }
 
-/// The pixels of the picture of `scene` (column and row) that show a point, one in each view; the point may be hidden
+/// The pixels of the picture of `scene` (column and row) that show a point, one in each view. The point may be hidden
 /// there.
 pub fn pixels_of(scene: &Scene, point: &Vec3) -> Vec<[usize; 2]> {
     let of = |camera: super::camera::Camera| {

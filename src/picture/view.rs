@@ -18,17 +18,18 @@ use crate::geometry::{TriMesh, Vec3};
 /// Rows of pixels drawn at a time: the samples of a band fit in the processor's cache.
 const BAND: usize = 64;
 
-/// Half the width of drawn lines, pixels.
+/// Half the width of drawn seams, pixels.
 const SEAM_RADIUS: f32 = 0.95;
+/// Half the width of drawn rims, pixels.
 const RIM_RADIUS: f32 = 0.7;
 
-/// Lines are drawn as if this much nearer (metres) than the cloth they lie on, which would hide them; less than the
+/// Lines are drawn as if this much nearer (metres) than the cloth they lie on, which would hide them. Less than the
 /// distance from one side of a body to the other by far.
 pub(super) const LINE_LIFT: f32 = 0.004;
 
 /// Cells along each side of the floor.
 const FLOOR_CELLS: u32 = 48;
-/// The floor reaches this far beyond what stands on it, metres.
+/// Margin of the floor beyond the objects on it, metres.
 const FLOOR_MARGIN: f64 = 0.35;
 /// The floor is this far below the lowest point, metres: flat cloth on the very floor would be drawn half through it.
 const FLOOR_GAP: f64 = 1e-3;
@@ -55,7 +56,7 @@ pub(super) fn paste(canvas: &mut Canvas, panels: &[Panel]) {
     }
 }
 
-/// Normals, how much of its surroundings every vertex sees, and the lines; the same in all views.
+/// Normals, how much of its surroundings every vertex sees, and the lines. The same in all views.
 pub(super) struct Lit {
     body_normals: Vec<Vec3>,
     body_seen: Vec<f32>,
@@ -112,7 +113,7 @@ pub(super) struct Panel<'a> {
     top: usize,
     width: usize,
     height: usize,
-    /// With the triangle of the cloth each one is; those are the last.
+    /// With the triangle of the cloth each one is. Those are the last.
     triangles: Vec<([Corner; 3], u32)>,
     first_cloth: usize,
     strokes: Vec<Stroke<'a>>,
@@ -157,7 +158,7 @@ fn band_rows(height: usize, index: usize) -> Range<usize> {
     index * BAND..((index + 1) * BAND).min(height)
 }
 
-/// For every band of a panel of this height (pixels) the indices of the things that reach into it; `rows` are the
+/// For every band of a panel of this height (pixels) the indices of the things that reach into it. `rows` are the
 /// lowest and the highest row of each, in samples.
 fn sorted(height: usize, rows: impl Iterator<Item = (f32, f32)>) -> Vec<Vec<u32>> {
     let mut bands = vec![Vec::new(); height.div_ceil(BAND)];

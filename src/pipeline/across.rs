@@ -10,10 +10,10 @@ use crate::mesh::{ClothMesh, PieceMesh};
 use crate::report::Crossing;
 use crate::sew::SewError;
 
-/// A particle this near to another piece lies on it, metres: less than any cloth is thick.
+/// Distance within which a particle lies on another piece, metres: less than the thickness of any cloth.
 const ON: f64 = 0.05e-3;
-/// Pieces are in one place when of one of them this share lies on the other. Panels that widen towards their hem start
-/// over one another there with up to a fifth.
+/// Share of a piece that lies on another one from which both are in one place. Panels that widen towards their hem
+/// start over one another with up to a fifth.
 const SHARE: f64 = 0.5;
 
 /// A seam that stayed open, and two pieces that were placed so that they could not be led apart. (Cloth that starts
@@ -31,16 +31,16 @@ pub struct Across {
     pub seam: String,
     /// Its widest gap, mm.
     pub gap_mm: f64,
-    /// What is stuck in one another.
+    /// The pieces that are stuck in one another.
     pub pieces: [String; 2],
-    /// What they do.
+    /// Their relation, in words.
     pub how: &'static str,
-    /// Where, mm, as the body's file has it.
+    /// Place in the frame of the body's file, mm.
     pub near: [f64; 3],
 }
 
 impl Run<'_> {
-    /// What is in the way of a seam that stayed far open, if two pieces that are stuck in one another are.
+    /// The obstacle of a seam that stayed far open, if two pieces are stuck in one another.
     pub(super) fn across(&self, error: &SewError) -> Option<Across> {
         let SewError::Open { seam, gap_mm, .. } = error else { return None };
         // Beside a seam that is all but closed the cloth is let pass through itself.

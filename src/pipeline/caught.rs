@@ -28,16 +28,16 @@ pub struct Caught {
     pub limb: PartKind,
     /// The opening at the end of the seam that is nearer to the hand or foot.
     pub opening: Option<String>,
-    /// What the seam joins.
+    /// The pieces that the seam joins.
     pub pieces: [String; 2],
 }
 
-/// What hangs on the hand or foot.
+/// The opening that hangs on the hand or foot, in words.
 fn hung(opening: Option<&str>) -> String {
     opening.map_or_else(String::new, |opening| format!(", and the opening '{opening}' hangs on it"))
 }
 
-/// How a body stands with room round a limb.
+/// Advice on a body with room round a limb.
 fn apart(limb: PartKind) -> &'static str {
     if limb.is_leg() {
         "with its legs further apart (--body)"
@@ -47,7 +47,7 @@ fn apart(limb: PartKind) -> &'static str {
 }
 
 impl Job {
-    /// What is in the way of a seam that stayed open with the particles at `at`, if a limb is.
+    /// The obstacle of a seam that stayed open with the particles at `at`, if a limb is between its edges.
     pub(super) fn caught(&self, error: &SewError, at: &[Vec3]) -> Option<Caught> {
         let SewError::Open { seam, gap_mm, piece_a, piece_b, .. } = error else { return None };
         let stitches = self.mesh.seams.iter().find(|s| s.name == *seam)?;

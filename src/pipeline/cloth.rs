@@ -1,4 +1,4 @@
-//! Which fabric every piece is cut from.
+//! The fabric of every piece.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use crate::pattern::{FabricUse, Garment, Piece};
 pub(super) struct Fabrics<'a> {
     specs: Vec<(String, FabricSpec)>,
     folder: &'a Path,
-    /// The one that is replaced by what the user asks for.
+    /// Index of the fabric that is replaced by the user's.
     pub(super) replaced: Option<usize>,
 }
 
@@ -21,7 +21,7 @@ impl<'a> Fabrics<'a> {
         Self { specs, folder, replaced: None }
     }
 
-    /// Those of a garment; `instead` takes the place of the main one where that is defined, so that an interfacing
+    /// Those of a garment. `instead` takes the place of the main one where that is defined, so that an interfacing
     /// "based on the shell" follows. The main one itself is left as it is.
     ///
     /// # Errors
@@ -38,7 +38,7 @@ impl<'a> Fabrics<'a> {
         Ok(fabrics)
     }
 
-    /// What the fabric that the garment's file calls so is named in a report: one of its own, a shipped one or a file.
+    /// The name in reports of the fabric that the garment's file calls `word`: one of its own, a shipped one or a file.
     ///
     /// # Errors
     /// It cannot be had.
@@ -76,7 +76,7 @@ impl<'a> Fabrics<'a> {
     }
 }
 
-/// The fabric that most of the cloth is cut from; of equals the one named first.
+/// The fabric that most of the cloth is cut from. Of equals the one named first.
 fn main_fabric(garment: &Garment) -> Option<usize> {
     let used = |name: &str| garment.pieces.iter().filter(|p| p.fabric == name).map(Piece::area).sum::<f64>();
     let areas = garment.fabrics.iter().map(|f| used(&f.name));
@@ -87,7 +87,7 @@ fn main_fabric(garment: &Garment) -> Option<usize> {
     areas.enumerate().fold(None, larger).map(|(k, _)| k)
 }
 
-/// A file the user names lies where the user is, not beside the garment; a name stays a name.
+/// A file the user names lies where the user is, not beside the garment. A name stays a name.
 fn absolute(name: &str) -> String {
     let path: PathBuf = Path::new(name).into();
     if path.extension().is_none() {

@@ -60,7 +60,7 @@ pub enum PipelineError {
     Mesh {
         /// The garment file.
         file: PathBuf,
-        /// What does not fit.
+        /// The fault of the mesh.
         source: Box<MeshError>,
     },
     /// A piece has no place on this body.
@@ -68,9 +68,9 @@ pub enum PipelineError {
     Place {
         /// The garment file.
         file: PathBuf,
-        /// Which piece, and why.
+        /// The piece, and the reason.
         source: Box<PlaceError>,
-        /// What a position means and what the body has, where that is the question.
+        /// The meaning of a position and the parts of the body, if the message needs it.
         advice: String,
     },
     /// A file of an earlier run cannot be read.
@@ -81,7 +81,7 @@ pub enum PipelineError {
     Saved {
         /// The file.
         file: PathBuf,
-        /// What differs.
+        /// The difference.
         why: String,
     },
     /// A surface cannot be laid flat as it is.
@@ -89,7 +89,7 @@ pub enum PipelineError {
     Surface {
         /// The file.
         file: PathBuf,
-        /// Which part, and why.
+        /// The part, and the reason.
         source: FlattenError,
     },
     /// A surface is no disk, and a way to make it one is known.
@@ -97,9 +97,9 @@ pub enum PipelineError {
     NoDisk {
         /// The file.
         file: PathBuf,
-        /// Which part, and what it is.
+        /// The part, and the kind of surface that it is.
         source: FlattenError,
-        /// Where to cut.
+        /// Place to cut.
         advice: String,
     },
     /// A cut that cannot be made.
@@ -109,10 +109,10 @@ pub enum PipelineError {
         file: PathBuf,
         /// As given.
         cut: String,
-        /// What is wrong with it.
+        /// The fault.
         why: String,
     },
-    /// A seam cannot close round what is between its edges.
+    /// A seam cannot close because something is between its edges.
     #[error(transparent)]
     Caught(Box<Caught>),
     /// A seam cannot close, for pieces are stuck in one another.
@@ -142,7 +142,7 @@ pub enum PipelineError {
 }
 
 impl PipelineError {
-    /// Whether the user must change the input; otherwise the computation itself failed.
+    /// Whether the user must change the input. Otherwise the computation itself failed.
     pub fn is_input(&self) -> bool {
         match self {
             Self::Garment(_)
@@ -170,7 +170,7 @@ impl PipelineError {
         }
     }
 
-    /// Whether the message itself says what to do.
+    /// Whether the message itself contains a remedy.
     pub fn has_remedy(&self) -> bool {
         self.is_input()
             || matches!(
@@ -198,7 +198,7 @@ impl PipelineError {
     }
 }
 
-/// How to read a position, and what else a piece could go round on this body.
+/// Explains a position, and lists the parts of this body that a piece could go round.
 fn parts(body: &Mannequin) -> String {
     let names: Vec<&str> = body.parts.iter().map(|part| Through::Part(part.kind).name()).collect();
     let known = if names.is_empty() { "nothing to go round".to_owned() } else { names.join(", ") };

@@ -10,11 +10,11 @@ use crate::pattern::{Findings, Piece, PieceFile, Place, Problem, Spot, written_e
 use crate::sew::place::{PlaceError, place};
 use crate::sew::{Stance, left_inside, sewn_on};
 
-/// A garment whose longest piece is shorter than this share of the body's height is drawn in another unit: a wristband
-/// has a tenth, trousers ten times too small have less than a twelfth.
+/// Length of a garment's longest piece, as a share of the body's height, below which it is drawn in another unit. A
+/// wristband has a tenth, trousers ten times too small have less than a twelfth.
 const SMALL: f64 = 0.09;
-/// And so is one with a piece as large as a square of so many heights: a sari is one of 1.5, the front of a skirt ten
-/// times too large one of 3.
+/// Size of a piece, as the side of a square of its area in body heights, above which it is drawn in another unit. A
+/// sari has 1.5, the front of a skirt ten times too large 3.
 const LARGE: f64 = 2.0;
 
 /// Warns of a garment that is much too small or too large for the body. An object may be covered by anything.
@@ -83,7 +83,7 @@ pub(super) fn check_places(
     }
 }
 
-/// Warns of pieces that start in one place: nothing leads them apart.
+/// Warns of pieces that start in the same place with nothing that leads them apart.
 fn doubt_places(loaded: &Loaded, mesh: &ClothMesh, start: &[Vec3], findings: &mut Findings) {
     let mut told: Vec<[&str; 2]> = Vec::new();
     for (pair, _) in in_one_place(mesh, start) {
@@ -98,7 +98,7 @@ fn doubt_places(loaded: &Loaded, mesh: &ClothMesh, start: &[Vec3], findings: &mu
     }
 }
 
-/// Where the file says what leads to the error.
+/// Place in the file of the statement that leads to the error.
 fn culprit(loaded: &Loaded, error: &PlaceError) -> Spot {
     let name = match error {
         PlaceError::Sides { seam, .. } => {
@@ -116,12 +116,12 @@ fn written<'a>(loaded: &'a Loaded, piece: &Piece) -> Option<&'a PieceFile> {
     loaded.file.pieces.iter().find(|p| p.name.value == piece.drawn_as)
 }
 
-/// Where a piece is named.
+/// Place in the file of a piece's name.
 fn name_of(loaded: &Loaded, piece: &Piece) -> Spot {
     written(loaded, piece).map_or_else(Spot::default, |p| p.name.at)
 }
 
-/// Where a piece's place is said, or else its name.
+/// Place in the file of a piece's place, or of its name if it has none.
 fn spot_of(loaded: &Loaded, piece: &Piece) -> Spot {
     written(loaded, piece).map_or_else(Spot::default, |p| p.place.as_ref().map_or(p.name.at, |place| place.at))
 }

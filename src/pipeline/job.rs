@@ -20,7 +20,7 @@ use crate::sew::{SewError, Stance};
 /// Spacing when none is asked for, metres.
 pub(super) const SPACING: f64 = 0.010;
 
-/// What the caller wants other than the file says.
+/// The caller's choices that replace those of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Overrides {
     /// Mesh spacing, metres.
@@ -29,29 +29,29 @@ pub struct Overrides {
     pub fabric: Option<String>,
     /// Mannequin name, or a `.yaml` or `.obj` file, in place of the garment's body.
     pub body: Option<String>,
-    /// Unit of the body's `.obj` file, in place of what the garment file says or its size suggests.
+    /// Unit of the body's `.obj` file, in place of the garment file's or a guess from its size.
     pub body_unit: Option<LengthUnit>,
 }
 
 /// A garment, its fabrics, the body it is made for and its mesh.
 pub struct Job {
-    /// The garment file; of an outfit the innermost one's.
+    /// The garment file, or for an outfit that of the innermost garment.
     pub file: PathBuf,
     /// The pieces and seams.
     pub garment: Garment,
     /// The fabric of every piece.
     pub fabrics: Vec<Arc<Fabric>>,
-    /// Who wears it.
+    /// The body.
     pub body: Mannequin,
-    /// What cloth can touch of the body.
+    /// The body's surface for contact.
     pub collider: Collider,
     /// The body as it is sewn on, where its limbs nearly touch.
     pub stance: Option<Stance>,
     /// The mesh.
     pub mesh: ClothMesh,
-    /// What was read in a way its author may not have meant: one text each.
+    /// Notes on input that its author may not have meant so, one text each.
     pub notes: Vec<String>,
-    /// How the meshing went.
+    /// Report of the meshing.
     pub(super) meshing: Stage,
 }
 
@@ -64,7 +64,7 @@ pub fn read(path: &Path) -> Result<Loaded, PipelineError> {
 }
 
 impl Job {
-    /// What the sewing and draping stages take.
+    /// The input of the sewing and draping stages.
     pub fn cut(&self) -> Cut<'_> {
         Cut { garment: &self.garment, mesh: &self.mesh, fabrics: &self.fabrics }
     }
@@ -72,7 +72,7 @@ impl Job {
     /// Gets the fabrics and the body of a garment read from `file`, and meshes it.
     ///
     /// # Errors
-    /// [`PipelineError`]: always the input's fault, but for a body that cannot be touched.
+    /// [`PipelineError`]: a fault of the input, or a body that cannot be prepared for contact.
     pub fn new(file: &Path, loaded: Loaded, overrides: &Overrides) -> Result<Self, PipelineError> {
         Self::dressed(vec![(file.to_owned(), loaded)], overrides)
     }
@@ -137,7 +137,7 @@ pub fn inputs(file: &Path, garment: &Garment, overrides: &Overrides) -> Vec<Path
     std::iter::once(file.to_owned()).chain(files).collect()
 }
 
-/// What a user should know of a body that does not stand as it is sewn on.
+/// Note for the user on a body that is sewn on with its limbs spread.
 fn spread(stance: &Stance) -> String {
     let limbs: Vec<&str> = stance.limbs().map(PartKind::name).collect();
     format!("too little room at the {}: sewn with them apart, draped on the body as it stands", limbs.join(", "))

@@ -11,17 +11,17 @@ use crate::io::obj_read::read_obj_faces;
 use crate::mannequin::{Place, check_body, load};
 use crate::report::{Seen, look};
 
-/// A mesh this much longer than the body is in another unit.
+/// Ratio of the sizes of mesh and body above which the mesh is in another unit.
 const LARGER: f64 = 5.0;
 
-/// What was seen.
+/// The findings.
 #[derive(Clone, Debug)]
 pub struct Judged {
-    /// Triangles looked at.
+    /// Number of triangles.
     pub triangles: usize,
-    /// The figures and the crossings; parts are the file's groups.
+    /// The figures and the crossings. Parts are the file's groups.
     pub seen: Seen,
-    /// What its user may not have meant: one text each.
+    /// Notes on input that its user may not have meant so, one text each.
     pub notes: Vec<String>,
 }
 
@@ -76,17 +76,17 @@ pub fn judge(
     Ok(Judged { triangles: cloth.triangles.len(), seen: look(&cloth, body.as_ref(), name, |p| p), notes })
 }
 
-/// A mesh or a body is in metres if it is less than the first number of units long, else in centimetres if less than
-/// the second: nobody is 4 m tall, and what is worn is longer than 250 mm.
+/// Lengths of a mesh or body, in its own units, below which the unit is metres (first) or centimetres (second). Nobody
+/// is 4 m tall, and nothing that is worn is shorter than 250 mm.
 const UNITS_BELOW: [f64; 2] = [4.0, 250.0];
 
-/// How long the box round points is.
+/// Longest side of the bounding box of points.
 fn longest(points: &[Vec3]) -> f64 {
     let [low, high] = box_of(points.iter().copied());
     (high - low).max()
 }
 
-/// What is said of a unit that a file's size suggests.
+/// Note on a unit that a file's size suggests.
 fn assumed(unit: LengthUnit, what: &str, longest: f64, option: &str) -> String {
     let name = unit.name();
     format!("{name} assumed, since {what} is {longest:.2} units long; if that is wrong, say {option} mm, cm, m or in")
@@ -104,7 +104,7 @@ fn solid(name: &str, unit: LengthUnit) -> Result<TriMesh, PipelineError> {
     Ok(mannequin.mesh)
 }
 
-/// What to say when cloth and body cannot belong together.
+/// Note for cloth and body that cannot belong together.
 fn misplaced(cloth: &TriMesh, body: &TriMesh) -> Option<String> {
     let [[low, high], [l, h]] = [bounds(cloth), bounds(body)];
     let apart = (0..3).any(|k| low[k] > h[k] || l[k] > high[k]);
@@ -118,8 +118,8 @@ fn misplaced(cloth: &TriMesh, body: &TriMesh) -> Option<String> {
     })
 }
 
-/// What to say of rims of which more than two lie on one another: which two of them are one surface, and whether that
-/// passes through the other there, only common vertices could tell.
+/// Note on rims of which more than two lie on one another. Only common vertices could tell which two of them are one
+/// surface, and whether that surface passes through the other there.
 fn loose(cloth: &TriMesh) -> Option<String> {
     // Both zeros are one number.
     let place = |p: &Vec3| [p.x, p.y, p.z].map(|x| (x + 0.0).to_bits());

@@ -1,5 +1,5 @@
-//! From coarse to fine: a garment is sewn and draped with few particles first, where a step costs little and carries
-//! folds far, and what comes out is where more particles start (cascadic multigrid; Bornemann and Deuflhard 1996).
+//! Coarse to fine: a garment is sewn and draped on a coarse mesh first, where a step costs little and moves folds far.
+//! The result is the start of the next finer mesh (cascadic multigrid; Bornemann and Deuflhard 1996).
 
 use super::job::Job;
 use crate::drape::{DrapeOptions, Until, drape};
@@ -10,20 +10,21 @@ use crate::sew::place::{PlaceError, place};
 use crate::sew::start::start as topological_start;
 use crate::sew::{SewError, SewOptions, Sewn, Stitching, join, sew, sewn_on, stitch};
 
-/// How much coarser each level is than the next.
+/// Ratio of spacings between neighbouring levels.
 const COARSER: f64 = 2.0;
-/// No level is coarser than this, metres: a wrist has seven cells round it then, and a waistband of 40 mm two
-/// across. Skirts and trousers begun at 28 to 32 mm came to rest no sooner.
+/// Largest spacing of a level, metres. A wrist then has seven cells round it, and a waistband of 40 mm two across.
+/// Skirts and trousers begun at 28 to 32 mm came to rest no sooner.
 const COARSEST: f64 = 0.025;
-/// A level has to be so much coarser to pay.
+/// Least ratio of spacings at which a coarser level pays.
 const LEAST: f64 = 1.5;
-/// A garment that stays open, or crossed, at the coarsest level is sewn so much coarser and carried over: other
-/// particles lie otherwise beside a seam that has jammed, and fewer of them fold less.
+/// Ratio of spacings of a detour: a garment that stays open, or crossed, at its coarsest level is sewn on a mesh that
+/// is coarser by this and carried over. Other particles jam less: they lie differently beside the seam, and fewer of
+/// them fold less.
 const DETOUR: f64 = 1.35;
-/// Steps after which the start from the topology has failed, its seams still open: at 25 mm the garments of `patterns`
-/// close within half as many, a shirt with a fold at its armhole within so many.
+/// Steps after which the start from the topology has failed, with seams still open. At 25 mm the garments of `patterns`
+/// close within half as many, and a shirt with a fold at its armhole within this number.
 const FIRST_TRY: usize = 160;
-/// Share of a stage's progress that its coarser levels are.
+/// Share of a stage's progress that its coarser levels take.
 pub(super) const COARSE_SHARE: f64 = 0.3;
 
 /// A garment with its seams closed.
@@ -33,7 +34,7 @@ pub(super) struct Closed {
     pub(super) gaps: Vec<Vec<f64>>,
     /// The coarser one it was made from.
     pub(super) coarse: Option<Box<Coarse>>,
-    /// Where its particles started, if its topology gave that.
+    /// Start positions of its particles, if they came from its topology.
     pub(super) start: Option<Vec<Vec3>>,
 }
 
@@ -74,7 +75,7 @@ impl Job {
         Ok(self.detour(mesh, progress).unwrap_or(closed))
     }
 
-    /// `mesh` sewn from a start that its topology gives; none where there is none, or it does not come out whole.
+    /// `mesh` sewn from a start that its topology gives. None where there is none, or it does not come out whole.
     fn sew_from_topology(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Option<Closed> {
         let (body, collider) = sewn_on(self.stance.as_ref(), &self.body, &self.collider);
         let start = topological_start(&self.garment, mesh, body, collider)?;
@@ -99,7 +100,7 @@ impl Job {
         Ok(Closed { gaps: sewn.gaps_of_seams(mesh), sewn, coarse: None, start: None })
     }
 
-    /// The next coarser level, sewn; none where the garment cannot be meshed or sewn so coarse.
+    /// The next coarser level, sewn. None where the garment cannot be meshed or sewn so coarse.
     fn coarser(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Option<Box<Coarse>> {
         let spacing = (COARSER * mesh.spacing).min(COARSEST);
         if spacing < LEAST * mesh.spacing {
@@ -110,7 +111,7 @@ impl Job {
         is_whole(&mesh, &closed.sewn).then(|| Box::new(Coarse { mesh, closed }))
     }
 
-    /// `mesh` sewn by way of a slightly coarser one; none where that does not come out whole either. The coarser one is
+    /// `mesh` sewn by way of a slightly coarser one. None where that does not come out whole either. The coarser one is
     /// no better a start for draping, and forgotten.
     fn detour(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Option<Closed> {
         let (coarse, start) = self.placed_at(DETOUR * mesh.spacing)?;
@@ -127,13 +128,13 @@ impl Job {
         Some((mesh, start))
     }
 
-    /// Where the pieces of `mesh` start.
+    /// Start positions of `mesh` by rules.
     pub(super) fn placed(&self, mesh: &ClothMesh) -> Result<Vec<Vec3>, PlaceError> {
         let (body, collider) = sewn_on(self.stance.as_ref(), &self.body, &self.collider);
         place(&self.garment, mesh, body, collider)
     }
 
-    /// `mesh` stitched where a coarser one's particles lie, and the gaps of that one; none where it comes out torn or
+    /// `mesh` stitched where a coarser one's particles lie, and the gaps of that one. None where it comes out torn or
     /// crossed.
     fn carried(&self, coarse: &Coarse, mesh: &ClothMesh) -> Option<(Sewn, Vec<Vec<f64>>)> {
         let closed = &coarse.closed;
@@ -143,8 +144,8 @@ impl Job {
         is_whole(mesh, &sewn).then(|| (sewn, closed.gaps.clone()))
     }
 
-    /// Where the nodes of a garment on `mesh` begin to drape: as the coarser one has come to hang. None where that
-    /// cannot be had, or gives no whole garment.
+    /// Start positions for draping `mesh`, from the draped coarser level. `None` if that level cannot be draped, or
+    /// gives no whole garment.
     pub(super) fn start_from_coarse(
         &self,
         mesh: &ClothMesh,
@@ -215,7 +216,7 @@ mod tests {
         assert!(closed.sewn.steps > coarse.closed.sewn.steps, "settling takes steps of its own");
     }
 
-    /// What lies between the particles of a coarser level lies in one plane but for rounding, which is no crossing.
+    /// Points between the particles of a coarser level lie in one plane within rounding, which is no crossing.
     #[test]
     fn cloth_of_large_flat_cells_can_be_carried_over() {
         let job = job("tests/scenes/sheet_on_sphere.yaml", 0.016);

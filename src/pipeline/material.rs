@@ -20,7 +20,7 @@ use crate::sew::Stance;
 pub struct Checked {
     /// The file.
     pub file: PathBuf,
-    /// The garment, and what it is warned of.
+    /// The garment, and its warnings.
     pub loaded: Loaded,
     /// The body that the file names.
     pub body: Option<Mannequin>,
@@ -57,14 +57,15 @@ pub fn check(file: &Path, spacing: Option<f64>) -> Result<Checked, Refused> {
     Ok(Checked { file: file.to_owned(), loaded: with_findings(loaded, findings)?, body, stance })
 }
 
-/// Before it is meshed: what is drawn in another unit may be too small for that, and then this says why.
+/// Doubts the size before meshing: pieces drawn in another unit may be too small for the spacing, and this gives the
+/// reason.
 fn doubt_size(loaded: &mut Loaded, body: &Body) {
     let mut findings = loaded.findings();
     fit::doubt_size(loaded, &body.mannequin, &mut findings);
     loaded.warnings.extend(findings.into_sorted());
 }
 
-/// The garment with what was found beside what it has been warned of already; refused if any of it is an error.
+/// The garment with further findings added to its warnings. It is refused if any of them is an error.
 fn with_findings(mut loaded: Loaded, findings: Findings) -> Result<Loaded, Refused> {
     let refused = findings.errors() > 0;
     let mut diagnostics = loaded.warnings.clone();
@@ -77,7 +78,7 @@ fn with_findings(mut loaded: Loaded, findings: Findings) -> Result<Loaded, Refus
     Ok(loaded)
 }
 
-/// What is wrong with the fabrics and the body that a file names; the body, if it can be had.
+/// Reports faults of the fabrics and the body that a file names. Returns the body, if it can be loaded.
 fn look(file: &Path, said: &GarmentFile, findings: &mut Findings) -> Option<Body> {
     let folder = file.parent().unwrap_or(Path::new(""));
     let named = pattern::fabrics(said);
@@ -103,7 +104,7 @@ fn look(file: &Path, said: &GarmentFile, findings: &mut Findings) -> Option<Body
     }
 }
 
-/// What is wrong with a fabric, or to be known of it, goes to the place where the file says it.
+/// Reports faults of a fabric, and notes on it, at its place in the file.
 fn blame_fabric(said: &GarmentFile, entry: &Entry, fabric: &Result<Fabric, FabricError>, findings: &mut Findings) {
     match fabric {
         Err(error) => findings.error(fabric_spot(said, entry, error), Problem::Fabric(error.to_string())),
@@ -116,8 +117,8 @@ fn blame_fabric(said: &GarmentFile, entry: &Entry, fabric: &Result<Fabric, Fabri
     }
 }
 
-/// What reports call the fabrics that the file's `tests` are for, by the words it has for them. One that cannot be had
-/// is blamed where it is said, unless it is one of the garment's own, which is blamed where it is defined.
+/// Names in reports of the fabrics that the file's `tests` are for, by the words of the file. A fabric that cannot be
+/// loaded is reported at the test, unless it is one of the garment's own, which is reported at its definition.
 fn bounded_fabrics(said: &GarmentFile, fabrics: &Fabrics, findings: &mut Findings) -> HashMap<String, String> {
     let mut names = HashMap::new();
     for word in said.tests.iter().filter_map(|test| test.value.fabric.as_ref()) {
@@ -148,7 +149,7 @@ pub(super) fn name_bounded_fabrics(file: &Path, loaded: &mut Loaded) -> Result<(
     if findings.errors() > 0 { Err(Refused { diagnostics: findings.into_sorted() }) } else { Ok(()) }
 }
 
-/// Fabrics by piece, and what their user should know of them.
+/// Fabrics by piece, and notes on them.
 pub(super) fn fabrics(
     file: &Path,
     loaded: &Loaded,
@@ -179,7 +180,7 @@ pub(super) fn fabrics(
 
 type Entry = (Located<String>, Located<Value>);
 
-/// Where the value stands that is wrong, or the fabric's base, or its name.
+/// Place of the wrong value, or of the fabric's base, or of its name.
 fn fabric_spot(file: &GarmentFile, entry: &Entry, error: &FabricError) -> Spot {
     let (fabric, key) = error.culprit();
     let (name, value) = file.fabrics.iter().find(|f| fabric == Some(f.0.value.as_str())).unwrap_or(entry);
@@ -192,8 +193,8 @@ fn fabric_spot(file: &GarmentFile, entry: &Entry, error: &FabricError) -> Spot {
     }
 }
 
-/// Where a file says how the cloth stretches, or names the fabric file that does; not where it multiplies what another
-/// fabric of the garment has, of which the other is told.
+/// Place in the file of a stretch curve, or of the fabric file with the curve. `None` if it multiplies the curve of
+/// another fabric of the garment, where the note belongs.
 fn curve_spot(value: &Located<Value>) -> Option<Spot> {
     let is_file = |value: &&Located<Value>| match &value.value {
         Value::Text(text) => text.parse::<f64>().is_err() && Path::new(text.trim()).extension().is_some(),
@@ -236,8 +237,8 @@ fn at_file(value: &Located<Value>, file: &Path) -> Option<Spot> {
     }
 }
 
-/// The body, by the name it is asked for, and its file's unit: what the user says, else what the file says. (The unit
-/// that the file says is that of its own body.)
+/// The body with the name it is asked for. The unit of its file is the user's, or else the garment file's, which is
+/// that of the file's own body.
 pub(super) fn body(file: &Path, loaded: &Loaded, wanted: &Overrides) -> Result<(String, Body), PipelineError> {
     let instead = wanted.body.as_deref();
     let name = body_name(file, loaded.garment.body.as_deref(), instead)?;
@@ -276,7 +277,7 @@ fn cannot_be_had(error: &BodyError) -> bool {
     )
 }
 
-/// The body to load: what the user asks for, else what the file says, its own path being relative to the file.
+/// The body to load: the user's, or else the file's, whose path is relative to the file.
 pub(super) fn body_name(file: &Path, said: Option<&str>, instead: Option<&str>) -> Result<String, PipelineError> {
     if let Some(name) = instead {
         return Ok(name.to_owned());
@@ -298,7 +299,8 @@ pub(super) fn mesh_error(worn: &[(PathBuf, Loaded)], source: MeshError) -> Pipel
     }
 }
 
-/// Where the edge, line or seam stands, or else its piece. Cut names are drawn ones with a side or a number after them.
+/// Place in the file of the edge, line or seam, or else of its piece. Names of cut pieces are those of drawn ones with
+/// a side or a number after them.
 fn mesh_spot(file: &GarmentFile, (piece, part): (Option<&str>, Option<&str>)) -> Option<Spot> {
     let stem = |name: &str| name.split('.').next().unwrap_or_default().to_owned();
     let named = |written: &Located<String>, wanted: &str| written.value == stem(wanted);

@@ -1,4 +1,4 @@
-//! The stages in order: what the command line and the tests run.
+//! The stages in order, as the command line and the tests run them.
 //!
 //! ```text
 //! garment file ─▶ Job ─────────────▶ Run ───────────────────▶ files in memory
@@ -6,9 +6,9 @@
 //!                 body, mesh
 //! ```
 //!
-//! A [`Job`] is everything that is known before cloth moves; making one finds every mistake of the input. A [`Run`]
-//! takes it through the stages one by one and keeps what each has made, so that a stage that fails leaves the state
-//! before it to look at. Nothing here writes a file: [`Run::results`] gives names and bytes.
+//! A [`Job`] holds everything that is known before cloth moves. Making one finds every mistake of the input. A [`Run`]
+//! takes it through the stages one by one and keeps the result of each, so that a failing stage leaves the state before
+//! it. Nothing here writes a file: [`Run::results`] gives names and bytes.
 
 mod across;
 mod caught;
@@ -47,5 +47,5 @@ pub use surface::{
 pub use tight::tight;
 pub use too_small::TooSmall;
 
-/// What counts as rest of a draped garment.
+/// Bounds of rest of a draped garment.
 pub const AT_REST: AtRest = AtRest { drift: 1e3 * crate::drape::DRIFT, residual: crate::drape::RESIDUAL };

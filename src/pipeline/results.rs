@@ -29,13 +29,13 @@ pub const GARMENT_PNG: &str = "garment.png";
 /// A file's name and contents.
 pub type ResultFile = (&'static str, Vec<u8>);
 
-/// What the picture's colours say.
+/// Meaning of the picture's colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Color {
-    /// Which piece it is.
+    /// The piece.
     #[default]
     Piece,
-    /// How far warp and weft are stretched.
+    /// The strain of warp and weft.
     Strain,
 }
 
@@ -59,7 +59,7 @@ impl Run<'_> {
         Ok(files)
     }
 
-    /// What is left to look at when a stage fails: the garment as sewn, or else its pieces as they were placed, and a
+    /// The files of the last state, for when a stage fails: the garment as sewn, or else its pieces as placed, and a
     /// picture of the latest state. Empty before the pieces have been placed.
     ///
     /// # Errors

@@ -17,24 +17,24 @@ use crate::sew::{SewError, SewOptions, Stitching};
 /// Told the name of the stage under way and the share of it that is done.
 pub type Progress<'a> = &'a mut dyn FnMut(&str, f64);
 
-/// A job on its way, with what every stage has made so far.
+/// A job under way, with the results of each stage so far.
 pub struct Run<'a> {
     pub(super) job: &'a Job,
-    /// Who is sewn to whom.
+    /// The particles that are sewn together.
     pub(super) stitching: Stitching,
     /// [`Closed::gaps`].
     gaps: Option<Vec<Vec<f64>>>,
     /// Positions of every particle before sewing and after each stage.
     pub(super) placed: Option<Vec<Vec3>>,
     pub(super) sewn: Option<Vec<Vec3>>,
-    /// Whether sewing left a seam open; every particle stands alone then.
+    /// Whether sewing left a seam open. Every particle stands alone then.
     pub(super) open: bool,
     pub(super) draped: Option<Vec<Vec3>>,
     pub(super) flattened: Option<Vec<Vec2>>,
     /// [`Measured::overlaps`].
     overlaps: Option<Vec<usize>>,
     stages: Vec<Stage>,
-    /// What the garment was sewn from, for draping to begin with.
+    /// The coarser level from which the garment was sewn. Draping starts with it.
     coarse: Option<Box<Coarse>>,
 }
 
@@ -90,14 +90,14 @@ impl<'a> Run<'a> {
         too_small.map_or(Ok(()), |small| Err(PipelineError::TooSmall(Box::new(small))))
     }
 
-    /// What keeps a seam open, where that can be told.
+    /// The obstacle that keeps a seam open, if it can be found.
     fn obstacle(&self, error: &SewError) -> Option<PipelineError> {
         let caught = self.job.caught(error, self.sewn.as_deref().unwrap_or_default());
         let caught = caught.map(|caught| PipelineError::Caught(Box::new(caught)));
         caught.or_else(|| self.across(error).map(|across| PipelineError::Across(Box::new(across))))
     }
 
-    /// Lets the sewn garment fall to rest; sews it first if that has not been done.
+    /// Drapes the garment, and sews it first if that has not been done.
     ///
     /// # Errors
     /// A garment that cannot be sewn or draped.
@@ -132,7 +132,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Lays the draped garment flat; drapes it first if that has not been done.
+    /// Lays the draped garment flat. Drapes it first if that has not been done.
     ///
     /// # Errors
     /// A garment that cannot be sewn, draped or laid flat.
@@ -151,7 +151,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Which particles are one: those that are stitched together.
+    /// The class of every particle: particles that are stitched together share one.
     pub(super) fn class(&self) -> Cow<'_, [u32]> {
         if self.open { identity_nodes(&self.job.mesh).into() } else { (&self.stitching.class).into() }
     }
@@ -161,7 +161,7 @@ impl<'a> Run<'a> {
         self.draped.as_deref().or(self.sewn.as_deref())
     }
 
-    /// Measures what has been done so far.
+    /// Measures the results so far.
     pub fn report(&self) -> Report {
         measure(&Measured {
             garment: &self.job.garment,

@@ -10,7 +10,7 @@ use crate::io::obj_read::read_obj;
 use crate::verify::Welded;
 
 impl<'a> Run<'a> {
-    /// Takes the garment as sewn by an earlier run, from its `sewn.obj`: draping begins there.
+    /// Loads the garment as sewn by an earlier run from its `sewn.obj`, to continue with draping.
     ///
     /// # Errors
     /// A file that cannot be read, or that is of another garment or spacing.
@@ -20,7 +20,7 @@ impl<'a> Run<'a> {
         Ok(run)
     }
 
-    /// Takes the garment as draped by an earlier run, from its `garment.obj`: flattening begins there.
+    /// Loads the garment as draped by an earlier run from its `garment.obj`, to continue with flattening.
     ///
     /// # Errors
     /// As [`Run::from_sewn`].

@@ -17,34 +17,34 @@ use crate::sew::place::place;
 use crate::sew::start::{CLEAR, SPACING, Settling, Sketch, SketchedOpening, sketch};
 use crate::sew::{SewError, Stance, Stitching, sewn_on};
 
-/// A picture of a garment's start, and what it shows.
+/// A picture of a garment's start, with its legend.
 #[derive(Clone, Debug)]
 pub struct StartPicture {
     /// The bytes of a PNG file.
     pub png: Vec<u8>,
-    /// What it shows.
+    /// Content of the legend.
     pub shown: StartShown,
-    /// Where the rim of every opening is in the picture.
+    /// Place of every opening's rim in the picture.
     pub rims: Vec<RimShown>,
 }
 
-/// Where the rim of an opening is in a picture.
+/// Place of an opening's rim in a picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RimShown {
     /// Its colour: red, green, blue.
     pub color: [u8; 3],
-    /// Columns and rows of its points in all views. What lies before a point may hide it there.
+    /// Columns and rows of its points in all views. Cloth in front of a point may hide it.
     pub pixels: Vec<[usize; 2]>,
 }
 
-/// What the picture of a start shows.
+/// Content of the picture of a start.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StartShown {
     /// Why the pieces are drawn where `place` puts them, if they are: there is no start from the topology.
     pub placed: Option<String>,
     /// The openings of the glued garment, its open fronts closed.
     pub openings: Vec<OpeningShown>,
-    /// By how much the next dealing of the body's ends costs more; `None` where there is no other.
+    /// By how much the next dealing of the body's ends costs more. `None` where there is no other.
     pub margin: Option<f64>,
     /// Whether the dealing is clear.
     pub clear: bool,
@@ -61,7 +61,7 @@ pub struct OpeningShown {
     pub edges: Vec<String>,
     /// Length of its rim, mm.
     pub length: f64,
-    /// The ends of the body, `left leg + right leg`; `nothing` for a slit.
+    /// The ends of the body, `left leg + right leg`. `nothing` for a slit.
     pub through: String,
 }
 
@@ -92,8 +92,9 @@ pub struct WordShown {
 /// Names of the two best dealings.
 const DEALINGS: [&str; 2] = ["first", "second"];
 
-/// Draws how a garment, or an outfit from the skin outwards, starts on the body that its first file names: glued, round
-/// the body's axes, before it is inflated; or as its pieces are placed, where its topology gives no start.
+/// Draws the start of a garment, or of an outfit from the skin outwards, on the body that its first file names: joined
+/// at its seams, round the body's axes, before it is inflated. If its topology gives no start, the pieces are drawn as
+/// placed by rules.
 ///
 /// # Errors
 /// Files without a body, a garment that cannot be meshed, or one that has neither start.
@@ -123,14 +124,14 @@ pub fn start_picture(worn: &[Checked]) -> Result<StartPicture, PipelineError> {
     Ok(StartPicture { png, rims: rims.collect(), shown })
 }
 
-/// Who wears a garment that is read from a file.
+/// The body of a garment that is read from a file.
 struct WornOn<'a> {
     file: &'a Path,
     body: &'a Mannequin,
     stance: Option<&'a Stance>,
 }
 
-/// Where the particles of a garment start.
+/// Start positions of a garment.
 struct Start {
     at: Vec<Vec3>,
     /// One label per particle, the same for those that are joined.
@@ -155,7 +156,7 @@ impl WornOn<'_> {
         }
     }
 
-    /// Where the words of `place`, or positions, put the pieces.
+    /// Positions of the pieces by the words of `place`, or by their positions.
     fn placed(&self, garment: &Garment, mesh: &ClothMesh) -> Result<Vec<Vec3>, PipelineError> {
         let failed = |error| PipelineError::sewing(self.file, self.body, error);
         let collider = Collider::new(&self.body.mesh).ok_or_else(|| failed(SewError::Body(self.body.name.clone())))?;
@@ -208,7 +209,7 @@ impl StartShown {
         }
     }
 
-    /// What is said of the start below its openings: whether the dealing is clear, and else what would settle it.
+    /// Notes below the openings: whether the dealing is clear, and otherwise the words that settle it.
     fn notes(&self) -> Vec<String> {
         let margin = self.margin.map_or("no other dealing fits".to_owned(), |m| format!("the next costs {m:.1} more"));
         let mut out: Vec<String> = self.placed.iter().map(|why| format!("as the pieces are placed: {why}")).collect();

@@ -4,7 +4,7 @@ use super::job::Job;
 use crate::fabric::Fabric;
 use crate::report::{PieceReport, Report};
 
-/// In words, which pieces are too tight, cloth by cloth, and what helps; nothing where none is.
+/// A text that lists the pieces that are too tight, fabric by fabric, with a remedy. `None` if there are none.
 pub fn tight(job: &Job, report: &Report) -> Option<String> {
     told(report.pieces.iter().zip(job.fabrics.iter().map(AsRef::as_ref)))
 }

@@ -7,8 +7,8 @@ use crate::fabric::Fabric;
 use crate::geometry::Vec3;
 use crate::report::extensions;
 
-/// Cloth gives so much more than the tester draws it out before it tears: woven cotton tears at 8 to 20 % in a strip
-/// test (ISO 13934-1), of which the first few are those under the tester's load.
+/// Extension of cloth beyond the tester's range before it tears. Woven cotton tears at 8 to 20 % in a strip test (ISO
+/// 13934-1), of which the first few are those under the tester's load.
 const BEFORE_IT_TEARS: f64 = 0.2;
 
 /// Names of the directions of [`extensions`].
@@ -38,7 +38,7 @@ pub struct TooSmall {
 }
 
 impl Job {
-    /// The piece that is drawn out furthest beyond what its cloth gives, with the particles of the sewn garment `at`.
+    /// The piece that is stretched furthest beyond its cloth's range, with the particles of the sewn garment `at`.
     pub(super) fn too_small(&self, at: &[Vec3]) -> Option<TooSmall> {
         let pieces = self.mesh.pieces.iter().zip(&self.fabrics).zip(extensions(&self.mesh, at));
         let threads = pieces.flat_map(|((piece, fabric), strains)| {

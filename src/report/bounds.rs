@@ -9,12 +9,13 @@ use crate::pattern::{Bound, Garment, Test, belongs_to, walk};
 
 /// Bounds of a garment that states none: closed seams, no crossing. Metres.
 const DEFAULTS: [Bound; 2] = [Bound::Gap(None, 1e-3), Bound::Crossings(0)];
+/// Per cent in a fraction of 1.
 const PERCENT: f64 = 1e2;
 
-/// One bound and what was measured.
+/// One bound and its measured value.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Verdict {
-    /// What is bounded: `gap all`, `drape front area`.
+    /// Name of the bound: `gap all`, `drape front area`.
     pub bound: String,
     /// Largest value found.
     pub measured: f64,
@@ -38,11 +39,14 @@ impl std::fmt::Display for Verdict {
     }
 }
 
-/// Compares a report with the garment's `tests`, or with closed seams and no crossings if none holds for its fabric; of
-/// an outfit with those of each of its garments. Closures that tie what they join have to be closed, unless a test says
-/// how far, and laps keep their order. A garment that is not worn where it belongs is out of any bounds. Bounds on
-/// stages that did not run, and for other fabrics, are left out. Pieces that had to stretch are reported as such and
-/// not bounded. A piece that lies on itself when flat is out of any bounds.
+/// Compares a report with the garment's `tests`, for an outfit with those of each garment. If no test holds for its
+/// fabric, seams must be closed and nothing may cross.
+///
+/// - Closures that tie something must be closed, unless a test bounds them, and laps must keep their order.
+/// - A garment that is not worn where it belongs, and a piece that lies on itself when flat, are out of bounds in any
+///   case.
+/// - Bounds on stages that did not run, and for other fabrics, are left out.
+/// - Pieces that had to stretch are reported as such and not bounded.
 pub fn verdicts(garment: &Garment, report: &Report) -> Vec<Verdict> {
     let mut out = Vec::new();
     if garment.worn.is_empty() {
@@ -56,7 +60,7 @@ pub fn verdicts(garment: &Garment, report: &Report) -> Vec<Verdict> {
     out
 }
 
-/// What is to be said of the garment of an outfit that is called `of`, or of the only one.
+/// Verdicts on the garment of an outfit that is called `of`, or on the only one.
 fn verdicts_of(garment: &Garment, report: &Report, of: Option<&str>) -> Vec<Verdict> {
     let own = garment.tests.iter().filter(|test| test.of.as_deref() == of && holds(test, report));
     let bounds: Vec<&Bound> = own.map(|test| &test.bound).collect();
@@ -73,7 +77,7 @@ fn verdicts_of(garment: &Garment, report: &Report, of: Option<&str>) -> Vec<Verd
     out
 }
 
-/// That the layer of a lap that belongs inside lies outside; nothing for a lap in order, nor for a band that laps over
+/// That the layer of a lap that belongs inside lies outside. Nothing for a lap in order, nor for a band that laps over
 /// itself, whose end beyond the last point may lie on either side: it is reported only.
 fn turned(closure: &ClosureReport) -> Option<Verdict> {
     let turned = closure.turned.as_ref().filter(|_| closure.on != closure.meets)?;
@@ -86,7 +90,7 @@ fn named(label: &str, verdict: Verdict) -> Verdict {
     Verdict { bound: format!("{label}: {}", verdict.bound), ..verdict }
 }
 
-/// That nobody can cut a piece out; nothing for a piece that can be.
+/// That nobody can cut a piece out. Nothing for a piece that can be.
 fn on_itself(piece: &PieceReport) -> Option<Verdict> {
     let overlaps = piece.overlaps.filter(|n| *n > 0)?;
     let bound = format!("'{}' lies on itself when flat; cut it in two; crossings of its rim", piece.name);
@@ -94,7 +98,7 @@ fn on_itself(piece: &PieceReport) -> Option<Verdict> {
     Some(Verdict { bound, measured: overlaps as f64, limit: 0.0, unit: "", at, ok: false })
 }
 
-/// The verdicts of every one of the garment's `tests`, in their order; none of a test for another fabric or a stage
+/// The verdicts of every one of the garment's `tests`, in their order. None of a test for another fabric or a stage
 /// that did not run.
 pub fn verdicts_by_test(garment: &Garment, report: &Report) -> Vec<Vec<Verdict>> {
     let of = |test: &Test| match &test.of {
@@ -162,8 +166,8 @@ fn all(name: &Option<String>) -> &str {
     name.as_deref().unwrap_or("all")
 }
 
-/// How far the points of closures of a kind are apart; nothing before the garment is sewn. A closure without points has
-/// no figure.
+/// Verdict on the gaps at the points of closures of a kind. `None` before the garment is sewn. A closure without points
+/// has no figure.
 fn closures<'a>(of_kind: impl Iterator<Item = &'a ClosureReport>, kind: Option<&str>, limit: f64) -> Option<Verdict> {
     let values: Vec<(String, f64)> = of_kind.filter_map(|c| Some((c.title(), c.gap_max?))).collect();
     let bound = format!("closure {}", kind.unwrap_or("all"));
@@ -175,7 +179,7 @@ fn seam_matches(wanted: Option<&str>, name: &str) -> bool {
     wanted.is_none_or(|w| name.strip_prefix(w).is_some_and(|rest| rest.is_empty() || rest.starts_with('.')))
 }
 
-/// The verdict on the largest of `values`; without any the bound is kept.
+/// The verdict on the largest of `values`. Without any the bound is kept.
 fn worst(bound: String, values: Vec<(String, f64)>, limit: f64, unit: &'static str) -> Verdict {
     // A value that is no number, whatever its sign, counts as larger than any.
     let rank = |value: f64| if value.is_nan() { f64::INFINITY } else { value };
@@ -238,7 +242,7 @@ impl<'a> Pieces<'a> {
         area.into_iter().chain(boundary).collect()
     }
 
-    /// Values by piece; `None` if the stage did not run.
+    /// Values by piece. `None` if the stage did not run.
     fn values(&self, of: impl Fn(&PieceReport) -> Option<f64>) -> Option<Vec<(String, f64)>> {
         self.rows.iter().map(|p| Some((p.name.clone(), of(p)?))).collect()
     }
@@ -279,7 +283,7 @@ fn worn(report: &Report) -> Verdict {
     }
 }
 
-/// What is wrong with an opening, in words.
+/// Fault of an opening, in words.
 fn fault(worn: &Worn) -> Option<String> {
     worn.fault.as_ref().map(|fault| format!("'{}' {}", worn.opening, fault.text))
 }

@@ -13,8 +13,8 @@ use crate::mesh::ClothMesh;
 use crate::pattern::{Garment, SeamKind};
 use crate::verify::{Layer, Layers, Welded};
 
-/// Layers that lie on one another are no further apart than this, metres: some thicknesses of a coat. Of 38 draped
-/// garments at 12 to 25 mm none had more than 16 cm² in one place, without what folds and pleats hold there.
+/// Largest distance of layers that lie on one another, metres: some thicknesses of a coat. Of 38 draped garments at 12
+/// to 25 mm none had more than 16 cm² in one place, apart from cloth held by folds and pleats.
 const PRESSED: f64 = 6e-3;
 /// Layers that a line meets at a slant (cosine to the normal) do not lie on one another.
 const FLAT: f64 = 0.3;
@@ -63,7 +63,7 @@ struct Cloth<'a> {
     mesh: &'a ClothMesh,
     welded: &'a Welded,
     layers: Layers<'a>,
-    /// For every triangle the layer of its piece; none where the piece is folded by its pattern.
+    /// For every triangle the layer of its piece. None where the piece is folded by its pattern.
     sheet: Vec<Option<i32>>,
 }
 
@@ -84,7 +84,7 @@ impl<'a> Cloth<'a> {
         Self { mesh, welded, layers: Layers::new(&welded.surface), sheet }
     }
 
-    /// The triangles of its sheet that lie on a triangle in a pressed fold, itself among them; none where it is in no
+    /// The triangles of its sheet that lie on a triangle in a pressed fold, itself among them. None where it is in no
     /// fold.
     fn plies(&self, triangle: u32) -> Vec<u32> {
         let surface = &self.welded.surface;
@@ -107,7 +107,7 @@ impl<'a> Cloth<'a> {
         line.windows(3).filter(is_fold).flatten().map(|ply| ply.triangle).collect()
     }
 
-    /// What is told of folded triangles that lie together; nothing of a few.
+    /// Report on folded triangles that lie together. `None` if they are few.
     fn place(&self, triangles: &[u32], body: &Mannequin) -> Option<Bunched> {
         let area = |t: &u32| {
             let [a, b, c] = self.mesh.triangles[*t as usize].map(|p| self.mesh.flat[p as usize]);
@@ -134,7 +134,7 @@ impl<'a> Cloth<'a> {
     }
 }
 
-/// The part of the body that a place is at, and on which side of its axis; none on what has no parts.
+/// The part of the body at a place, and the side of its axis. `None` on a body without parts.
 fn spot(at: Vec3, body: &Mannequin) -> Option<(String, String)> {
     let sections = body.parts.iter().flat_map(|part| part.sections.iter().map(move |section| (part.kind, section)));
     let off = |section: &Section| (at - section.center).norm() - 0.5 * (section.half_width + section.half_depth);

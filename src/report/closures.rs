@@ -1,4 +1,4 @@
-//! How far closures hold: the gaps at their points, and how they gape between them.
+//! Gaps of closures at their points, and how far they gape between them.
 
 use super::schema::ClosureReport;
 use super::statistics::{largest, mean};
@@ -97,8 +97,7 @@ impl ClosureReport {
         self.kind.clone() + &on.unwrap_or_default()
     }
 
-    /// In words, that its points did not come together and what to do; nothing of one whose points did, or that has
-    /// none.
+    /// Message that its points did not come together, with a remedy. `None` if they did, or if it has none.
     pub fn unclosed(&self) -> Option<String> {
         let (far, most) = (self.gap_max?, APART * MM);
         if far <= most {

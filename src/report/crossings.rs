@@ -1,4 +1,5 @@
-//! What the independent checks see of a surface in space: where it is inside a body, through it, or through itself.
+//! The findings of the independent checks on a surface in space: where it is inside a body, crosses it, or crosses
+//! itself.
 
 use super::schema::{Contact, Crossing};
 use crate::geometry::{MM, TriMesh, Vec3};
@@ -13,8 +14,8 @@ pub struct Seen {
     pub crossings: Vec<Crossing>,
 }
 
-/// Looks at `cloth`, metres, and the closed `body` it should lie on, if there is one; `part_of` names the part of every
-/// triangle of the cloth, and `written` says where what is at a point is told to be.
+/// Examines `cloth`, metres, and the closed `body` under it, if there is one. `part_of` names the part of every
+/// triangle of the cloth. `written` maps a point to its coordinates in messages.
 pub fn look<'a>(
     cloth: &TriMesh,
     body: Option<&TriMesh>,
@@ -43,7 +44,7 @@ pub fn look<'a>(
     Seen { contact, crossings: rows }
 }
 
-/// Counts a crossing of `piece` with the piece `through`, or with the body; the first says where.
+/// Counts a crossing of `piece` with the piece `through`, or with the body. The first says where.
 fn add(rows: &mut Vec<Crossing>, piece: &str, through: Option<&str>, at: Vec3) {
     match rows.iter_mut().find(|r| r.piece == piece && r.through.as_deref() == through) {
         Some(row) => row.pairs += 1,

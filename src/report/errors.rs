@@ -3,7 +3,7 @@
 use super::rim::RimEdge;
 use crate::geometry::Vec3;
 
-/// What is compared with what.
+/// The two states that are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Way {
     /// A sewn, draped or flattened piece with the drawn one.
@@ -40,7 +40,7 @@ pub(super) fn area_error(
 }
 
 /// |length after − length before| / length before of the rim. Against the drawn piece, any length between the drawn
-/// lengths a seam joins counts as right; against the draped one, any that is no further from it than those two are
+/// lengths a seam joins counts as right. Against the draped one, any that is no further from it than those two are
 /// from each other.
 pub(super) fn boundary_error<'a>(
     rim: impl IntoIterator<Item = &'a RimEdge>,

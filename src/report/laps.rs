@@ -1,4 +1,5 @@
-//! Laps: two free edges that closures hold one over the other. Where does the layer that belongs inside lie outside?
+//! Laps: two free edges that closures hold one over the other. Finds places where the layer that belongs inside lies
+//! outside.
 
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::FRAC_PI_4;
@@ -40,7 +41,7 @@ struct Lap<'a> {
     fastenings: Vec<&'a Fastening>,
 }
 
-/// For every closure of the garment, where the order of a lap that it closes first is wrong; `closed` are the
+/// For every closure of the garment, where the order of a lap that it closes first is wrong. `closed` are the
 /// fastenings that hold.
 pub(super) fn turned_laps(
     garment: &Garment,
@@ -173,7 +174,7 @@ impl<'a> Cloth<'a> {
         back.into_iter().rev().chain([start]).chain(forth).collect()
     }
 
-    /// Where another layer lies before or behind the cloth, looked for `beyond` the rim.
+    /// Places where another layer lies before or behind the cloth, searched `beyond` the rim.
     fn places(&self, ring: &[u32], chain: &[usize], beyond: f64) -> Vec<Place> {
         let n = ring.len();
         let point = |k: usize| self.welded.surface.vertices[ring[k % n] as usize];

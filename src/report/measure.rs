@@ -22,7 +22,7 @@ use crate::verify::Welded;
 /// Square millimetres in a square metre.
 const MM2: f64 = 1e6;
 
-/// A garment and where its particles were. All slices have one entry per particle of `mesh`; positions are metres.
+/// A garment and where its particles were. All slices have one entry per particle of `mesh`. Positions are metres.
 #[derive(Clone, Copy, Debug)]
 pub struct Measured<'a> {
     /// The checked garment.
@@ -31,7 +31,7 @@ pub struct Measured<'a> {
     pub mesh: &'a ClothMesh,
     /// One label per particle, the same for particles that seams join.
     pub weld: &'a [u32],
-    /// What it is worn on.
+    /// The body.
     pub body: &'a Mannequin,
     /// The fabric's name.
     pub fabric: &'a str,
@@ -46,14 +46,14 @@ pub struct Measured<'a> {
     pub draped: Option<&'a [Vec3]>,
     /// After flattening, in the plane.
     pub flattened: Option<&'a [Vec2]>,
-    /// Where the rim of each piece of the mesh crosses itself in the plane, how often.
+    /// Number of crossings of each piece's rim with itself in the plane.
     pub overlaps: Option<&'a [usize]>,
-    /// What the stages said of themselves.
+    /// Reports of the stages.
     pub stages: &'a [Stage],
 }
 
 /// Measures everything the report holds. Strain, contact and openings are those of the last stage in space (draped,
-/// else sewn); without one they are empty.
+/// else sewn). Without one they are empty.
 ///
 /// # Panics
 /// When a slice is shorter than the mesh has particles: a mistake of the caller.
@@ -180,7 +180,7 @@ fn pieces(run: &Measured, shapes: &Shapes, space: Option<&InSpace>) -> (Vec<Piec
     (reports, whole)
 }
 
-/// What is known of one piece as of all; what only a piece has is left open.
+/// Figures that a piece shares with the total. Those of a piece alone are left open.
 fn row(part: &Part, shapes: &Shapes) -> PieceReport {
     let uneven = part.rim.iter().filter(|e| e.uneven()).map(|e| e.triangle);
     let mut drawn_in: Vec<u32> = uneven.chain(part.gathered.iter().copied()).collect();
@@ -265,7 +265,7 @@ impl<'a> InSpace<'a> {
         Self { at, welded, openings }
     }
 
-    /// What the independent checks see.
+    /// Findings of the independent checks.
     fn seen(&self, run: &Measured) -> Seen {
         let piece = |t: u32| {
             let first = run.mesh.triangles[t as usize][0];

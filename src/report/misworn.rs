@@ -1,4 +1,4 @@
-//! Openings at which the garment is not worn where it belongs. Topology, sizes and the words of `place` decide; names
+//! Openings at which the garment is not worn where it belongs. Topology, sizes and the words of `place` decide. Names
 //! of pieces and edges play no part.
 
 use std::f64::consts::PI;
@@ -13,8 +13,8 @@ use crate::mannequin::PartKind;
 use crate::pattern::{Place, TrunkLevel};
 use crate::verify::{Passage, Through, Welded, is_dealt};
 
-/// Two openings are a pair if their lengths, and the areas of their pieces, differ by no more than this share: what is
-/// cut as a pair is alike to rounding.
+/// Largest relative difference of the lengths, and of the areas of the pieces, of two openings that are a pair. Pieces
+/// cut as a pair are alike within rounding.
 const ALIKE: f64 = 0.01;
 
 /// A rim that turns towards its cloth by more than this, radians, ends a tube: half-way between a hole and a tube.
@@ -26,13 +26,13 @@ const ROUND: f64 = 0.3;
 /// An arm goes through an opening of this share of its largest girth: cloth gives.
 const GIVES: f64 = 0.9;
 
-/// What holds a garment may go down this far while it drapes, metres.
+/// Largest descent of the opening that holds a garment while it drapes, metres.
 const SETTLES: f64 = 0.08;
 
-/// What is placed by `waist` lies this near to it, metres.
+/// Largest distance from the waist of pieces placed by `waist`, metres.
 const AT_WAIST: f64 = 0.07;
 
-/// What is placed by `torso` or `chest` reaches at least so far above the waist, metres.
+/// Least height over the waist that pieces placed by `torso` or `chest` reach, metres.
 const ABOVE_WAIST: f64 = 0.05;
 
 /// The openings of a garment in its states.
@@ -70,7 +70,7 @@ impl<'a> Wear<'a> {
         Self { run, welded, openings, names, placed, sewn, now, flat, part, part_of }
     }
 
-    /// What is wrong at every opening. On a body without a torso nothing can be told.
+    /// The fault of every opening. On a body without a torso nothing can be judged.
     pub(super) fn faults(&self) -> Vec<Option<Fault>> {
         if self.run.body.part(PartKind::Torso).is_none() {
             let text = "the body has no torso that the garment could be worn on".to_owned();
@@ -178,7 +178,7 @@ impl<'a> Wear<'a> {
         is_askew.then(|| Fault { kind: FaultKind::Askew, text: text() })
     }
 
-    /// What hung on the body where it was sewn, and has gone down since.
+    /// Fault of an opening that hung on the body when it was sewn and has slid down since.
     fn slid(&self, k: usize) -> Option<Fault> {
         let text = self.fallen(k).or_else(|| {
             let sewn = &self.sewn?[k];
@@ -220,8 +220,8 @@ impl<'a> Wear<'a> {
         heights.map(|(&v, _)| self.welded.surface.vertices[v as usize].y).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// What lies at another height of the trunk than the words of its place say, told at the opening of its part of the
-    /// garment that holds it.
+    /// Faults of pieces at another height of the trunk than their place says, each at the opening that holds their part
+    /// of the garment.
     fn levels(&self) -> Vec<Option<Fault>> {
         let mut out = vec![None; self.openings.len()];
         let torso = self.run.body.part(PartKind::Torso);

@@ -1,8 +1,8 @@
-//! What a run did to the cloth, in numbers: the measuring, the file `report.json` and the table for the terminal.
+//! Figures of a run: the measuring, the file `report.json` and the table for the terminal.
 //!
-//! [`measure`] computes a [`Report`] from the garment and its positions after each stage; `serde_json` writes it with
-//! the keys other programs rely on; [`table`] prints it for people. Inside, lengths are metres as everywhere; a
-//! [`Report`] holds what the file holds: millimetres, square millimetres, fractions and seconds.
+//! [`measure`] computes a [`Report`] from the garment and its positions after each stage. `serde_json` writes it with
+//! keys that other programs rely on. [`table`] prints it for people. Lengths inside are metres. A [`Report`] holds
+//! millimetres, square millimetres, fractions and seconds, as the file does.
 
 mod bounds;
 mod bunched;

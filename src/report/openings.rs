@@ -1,4 +1,4 @@
-//! Openings: the rims of the sewn garment, and what to call them.
+//! Openings: the rims of the sewn garment, and their names.
 
 use std::collections::{HashMap, HashSet};
 
@@ -7,7 +7,7 @@ use crate::mesh::ClothMesh;
 use crate::pattern::{Bridge, EdgeId, Fastening, Garment, Piece, RimSpot, Step, patches, worn_rims, written_edge};
 use crate::verify::Welded;
 
-/// The edge that a stretch of rim belongs to; none for a chord that joins no two particles of one edge.
+/// The edge that a stretch of rim belongs to. None for a chord that joins no two particles of one edge.
 type Owner = Option<EdgeId>;
 
 /// A rim of the sewn garment.
@@ -30,7 +30,7 @@ impl Opening {
     }
 }
 
-/// Every rim of the garment with the free edges on it, without what `closed` closes and the rims of patches.
+/// Every rim of the garment with its free edges, without stretches that `closed` closes and without rims of patches.
 pub(super) fn openings(garment: &Garment, mesh: &ClothMesh, welded: &Welded, closed: &[Fastening]) -> Vec<Opening> {
     let owners = edge_owners(mesh, welded);
     let loops = rim_loops(&welded.surface.triangles);
@@ -116,10 +116,10 @@ fn names(mesh: &ClothMesh, id: EdgeId) -> (String, String) {
     (piece.name.clone(), edge.to_owned())
 }
 
-/// Which rims are no openings but the edges of flaps: of a collar, say, sewn on over a neckline (`face: same`). The rim
-/// of the one half of the seam is then the neckline, the other's runs round the collar and back along the same
-/// stitches; nothing goes through it. So is every ring that nothing goes through and that shares rim edges with one
-/// that is worn.
+/// Marks rims that are edges of flaps and no openings, such as the edge of a collar sewn on over a neckline (`face:
+/// same`). The rim on one side of that seam is the neckline. The other runs round the collar and back along the same
+/// stitches, and nothing passes through it. Every ring through which nothing passes, and which shares rim edges with
+/// one that is worn, is the edge of a flap.
 pub(super) fn flaps(rings: &[&[u32]], worn: &[bool]) -> Vec<bool> {
     let edges = |ring: &[u32]| {
         (0..ring.len()).map(|k| sorted_pair([ring[k], ring[(k + 1) % ring.len()]])).collect::<HashSet<[u32; 2]>>()
@@ -184,7 +184,7 @@ fn side(name: &str) -> Option<&str> {
 mod tests {
     use super::*;
 
-    /// A neckline 0 1 2 3 with a collar 4 5 6 sewn on from 0 over 1 to 2; a pocket 7 8 9 elsewhere.
+    /// A neckline 0 1 2 3 with a collar 4 5 6 sewn on from 0 over 1 to 2. A pocket 7 8 9 elsewhere.
     #[test]
     fn the_edge_of_a_collar_is_no_opening_and_a_pocket_is() {
         let rings: [&[u32]; 3] = [&[0, 1, 2, 3], &[4, 5, 6, 2, 1, 0], &[7, 8, 9]];

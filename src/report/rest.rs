@@ -1,10 +1,10 @@
-//! Which stages did not come to rest.
+//! Stages that did not come to rest.
 
 use serde::Serialize;
 
 use super::schema::Stage;
 
-/// What counts as rest.
+/// Bounds of rest.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct AtRest {
     /// Drift over as many steps again, mm (root mean square).
@@ -20,11 +20,11 @@ pub struct Restless {
     pub stage: String,
     /// Steps it made.
     pub steps: usize,
-    /// How far the garment went in as many steps again, mm (root mean square), where that was measured.
+    /// Drift: RMS motion in as many steps again, mm, if it was measured.
     pub drift: Option<f64>,
-    /// How far its forces were out of balance, in particle weights (root mean square), where that was measured.
+    /// Unbalanced force, RMS, in particle weights, if it was measured.
     pub residual: Option<f64>,
-    /// What either may be at rest.
+    /// The bounds of both.
     pub at_rest: AtRest,
 }
 

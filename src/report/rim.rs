@@ -1,4 +1,4 @@
-//! The rims of the pieces, which of their edges a seam makes one, and what elastic gathers.
+//! The rims of the pieces, the edges that a seam joins, and those that elastic gathers.
 
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -19,8 +19,8 @@ pub(super) struct RimEdge {
     pub(super) triangle: u32,
     /// Drawn length, m.
     pub(super) flat: f64,
-    /// Shortest and longest drawn length of the edges sewn together here, its own among them, m; elastic makes shortest
-    /// what it draws in to.
+    /// Shortest and longest drawn length of the edges sewn together here, its own among them, metres. Elastic lowers
+    /// the shortest to the length that it draws in to.
     pub(super) drawn: [f64; 2],
 }
 
@@ -30,7 +30,7 @@ impl RimEdge {
         (at[self.ends[1] as usize] - at[self.ends[0] as usize]).norm()
     }
 
-    /// How much longer the longest partner is than the shortest: 1 on a free edge.
+    /// Ratio of the longest to the shortest partner: 1 on a free edge.
     pub(super) fn ratio(&self) -> f64 {
         if self.drawn[0] > 0.0 { self.drawn[1] / self.drawn[0] } else { 1.0 }
     }
@@ -41,8 +41,8 @@ impl RimEdge {
     }
 }
 
-/// How far two positions of a rim are apart: the largest distance of an end of an edge in one from the nearest edge in
-/// the other, and the other way round (Hausdorff distance, for curves of short edges).
+/// Distance of two positions of a rim: the largest distance of an end of an edge in one from the nearest edge in the
+/// other, and vice versa (Hausdorff distance, for curves of short edges).
 pub(super) fn outline_distance(rim: &[RimEdge], before: &[Vec3], after: &[Vec3]) -> f64 {
     let mut corners: Vec<u32> = rim.iter().flat_map(|e| e.ends).collect();
     corners.sort_unstable();
@@ -55,7 +55,7 @@ pub(super) fn outline_distance(rim: &[RimEdge], before: &[Vec3], after: &[Vec3])
     furthest(before, after).max(furthest(after, before))
 }
 
-/// The rim edges of every piece, in the pieces' order; `weld` has one label per particle, the same for stitched ones.
+/// The rim edges of every piece, in the pieces' order. `weld` has one label per particle, the same for stitched ones.
 pub(super) fn rims(mesh: &ClothMesh, weld: &[u32]) -> Vec<Vec<RimEdge>> {
     let drawn_in = mesh.drawn_in();
     let mut rims: Vec<Vec<RimEdge>> =

@@ -1,4 +1,4 @@
-//! What the flat cloth says of a rim: how long it was drawn, and whether it is a hole or the end of a tube.
+//! Properties of a rim in the flat cloth: its drawn length, and whether it is a hole or the end of a tube.
 
 use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -50,13 +50,13 @@ impl FlatCloth {
         Self { edges, angles, rim_edges }
     }
 
-    /// Flat length between two neighbouring vertices, metres; nothing between others.
+    /// Flat length between two neighbouring vertices, metres. Nothing between others.
     pub(super) fn length(&self, v: u32, w: u32) -> f64 {
         self.edges.get(&sorted_pair([v, w])).map_or(0.0, |edge| edge.0)
     }
 
-    /// By how much a closed chain of vertices turns at its corner `k`, radians; where a step is no edge of the cloth it
-    /// goes over a closure, square to the rim.
+    /// Turn of a closed chain of vertices at its corner `k`, radians. A step that is no edge of the cloth goes over a
+    /// closure, square to the rim.
     pub(super) fn turn(&self, ring: &[u32], k: usize) -> f64 {
         let n = ring.len();
         let layers = |k: usize| self.edges.get(&sorted_pair([ring[k % n], ring[(k + 1) % n]])).map(|edge| edge.1);
@@ -97,7 +97,7 @@ mod tests {
     use crate::geometry::{Vec3, rim_loops};
     use crate::mesh::PieceMesh;
 
-    /// A grid of `n` × `m` cells of 10 mm without the cells in `hole`; rolled up to a tube where `tube` says so.
+    /// A grid of `n` × `m` cells of 10 mm without the cells in `hole`. Rolled up to a tube where `tube` says so.
     fn cloth(n: u32, m: u32, hole: &[[u32; 2]], tube: bool) -> (ClothMesh, Welded) {
         let at = |i: u32, j: u32| i * (m + 1) + j;
         let mut mesh = ClothMesh { spacing: 0.01, ..ClothMesh::default() };

@@ -11,28 +11,27 @@ pub struct Report {
     pub garment: String,
     /// The mannequin's name.
     pub mannequin: String,
-    /// The fabric's name; several are joined with ` + `.
+    /// The fabric's name. Several are joined with ` + `.
     pub fabric: String,
     /// Mesh spacing, mm.
     pub spacing: f64,
     /// One per piece as cut.
     pub pieces: Vec<PieceReport>,
-    /// All pieces together, named `total`; `stretched` pieces included.
+    /// All pieces together, named `total`. `stretched` pieces included.
     pub total: PieceReport,
     /// One per seam.
     pub seams: Vec<SeamReport>,
-    /// One per closure; a zip in a seam is that seam.
+    /// One per closure. A zip in a seam is that seam.
     #[serde(default)]
     pub closures: Vec<ClosureReport>,
-    /// What crosses what.
+    /// Numbers of crossings.
     pub contact: Contact,
-    /// Who crosses whom, the busiest first; empty as it should be.
+    /// The crossings by pieces, the most frequent first. Empty in a good result.
     #[serde(default)]
     pub crossings: Vec<Crossing>,
     /// One per opening.
     pub worn: Vec<Worn>,
-    /// Where draped cloth lies folded on itself, three deep, though the pattern says nothing of a fold; the largest
-    /// first.
+    /// Draped cloth that lies folded on itself, three deep, without a fold in the pattern. The largest place first.
     #[serde(default)]
     pub bunched: Vec<Bunched>,
     /// One per stage that ran.
@@ -64,7 +63,7 @@ impl std::fmt::Display for Bunched {
     }
 }
 
-/// What happened to one piece.
+/// Figures of one piece.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PieceReport {
     /// As in the garment.
@@ -84,7 +83,7 @@ pub struct PieceReport {
     /// |area after − area before| / area before, without the triangles on the rim of a seam that joins lengths more
     /// than 5 % apart.
     pub area_error: Quartet,
-    /// The same with the length of the rim; between the two lengths a seam joins, any length is right.
+    /// The same with the length of the rim. Between the two lengths a seam joins, any length is right.
     pub boundary_error: Quartet,
     /// Area error of all triangles.
     pub area_error_raw: Quartet,
@@ -92,7 +91,7 @@ pub struct PieceReport {
     pub boundary_error_raw: Quartet,
     /// |length / flat length − 1| of the mesh edges within 10° of warp or weft, fractions.
     pub strain: Spread,
-    /// What 99 % of these edges are drawn out by at most, a fraction; cloth that is gathered is pushed together.
+    /// Extension of these edges, 99th percentile, a fraction. Compressed edges, as in gathers, count as 0.
     #[serde(default)]
     pub drawn_out: f64,
     /// Change of the angle between warp and weft over all triangles, degrees.
@@ -109,7 +108,7 @@ pub struct PieceReport {
     pub stretched: Option<Stretched>,
 }
 
-/// How a piece narrower than the spacing was meshed: one row of cells across.
+/// Measures of a piece narrower than the spacing, which has one row of cells across.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Narrow {
     /// Its width, mm.
@@ -152,7 +151,7 @@ pub struct Quartet {
     pub round_trip: Option<f64>,
 }
 
-/// How a quantity is spread over a piece.
+/// Distribution of a quantity over a piece.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
     /// Mean.
@@ -192,25 +191,25 @@ pub struct SeamReport {
 /// One closure, on the garment as it was left.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ClosureReport {
-    /// button, hook, zip, …
+    /// Kind: button, hook, zip, …
     pub kind: String,
     /// The piece that carries it, `null` where the file does not say.
     pub on: Option<String>,
     /// The piece it meets, given or, as `note` says, the other half of a pair.
     pub meets: Option<String>,
-    /// How many points it has.
+    /// Number of its points.
     pub points: usize,
-    /// Mean distance of what its points tie, mm; `null` where nothing could be measured.
+    /// Mean distance of its tied points, mm. `null` if nothing could be measured.
     pub gap_mean: Option<f64>,
     /// Largest such distance, mm.
     pub gap_max: Option<f64>,
     /// Between neighbouring points, how far the line through them on one side is from that on the other at most, mm.
     pub gape: Option<f64>,
-    /// Whether all its points came together, so that what it closes is no opening.
+    /// Whether all its points came together, so that its stretch of rim is no opening.
     pub closed: bool,
-    /// What is to be known about these figures.
+    /// Note on these figures.
     pub note: Option<String>,
-    /// Where the layer of its lap that belongs inside lies outside; `null` where the order is kept.
+    /// Place where the layer of its lap that belongs inside lies outside. `null` if the order is kept.
     #[serde(default)]
     pub turned: Option<Turned>,
 }
@@ -218,13 +217,13 @@ pub struct ClosureReport {
 /// A lap of which a part is in the wrong order.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Turned {
-    /// How much of its edge, mm.
+    /// Length of its edge there, mm.
     pub length: f64,
-    /// Where: between which points of the closure, and which piece lies outside.
+    /// The points of the closure between which it lies, and the piece that lies outside.
     pub at: String,
 }
 
-/// What the independent checks found on the final garment.
+/// Findings of the independent checks on the final garment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Contact {
     /// Vertices inside the body.
@@ -242,15 +241,15 @@ pub struct Contact {
 pub struct Crossing {
     /// The piece.
     pub piece: String,
-    /// The piece it passes through, which may be itself; `null` for the body.
+    /// The piece it passes through, which may be itself. `null` for the body.
     pub through: Option<String>,
-    /// How many pairs of triangles cross; through the body, how many triangles of the piece do.
+    /// Number of pairs of crossing triangles. For crossings with the body, the number of triangles of the piece.
     pub pairs: usize,
     /// Near the first of them, mm.
     pub near: [f64; 3],
 }
 
-/// What passes through an opening.
+/// The body part that passes through an opening.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Worn {
     /// The opening, named after the edges round it.
@@ -261,18 +260,18 @@ pub struct Worn {
     pub edges: Vec<String>,
     /// Its length, mm.
     pub length: f64,
-    /// Round an arm or a leg: how far past the limb's last section (wrist, ankle) it is, mm; negative before it.
+    /// Round an arm or a leg: how far past the limb's last section (wrist, ankle) it is, mm. Negative before it.
     pub past_end: Option<f64>,
     /// Mean height of its rim, mm.
     #[serde(default)]
     pub height: f64,
-    /// The same opening when the garment had been put on, before its seams were closed; `null` where that is not known.
+    /// The same opening when the garment had been put on, before its seams were closed. `null` where that is not known.
     #[serde(default)]
     pub placed: Option<WornBefore>,
-    /// The same opening when the garment had been sewn, before it was draped; `null` where that is not known.
+    /// The same opening when the garment had been sewn, before it was draped. `null` where that is not known.
     #[serde(default)]
     pub sewn: Option<WornBefore>,
-    /// Why the garment is not worn where it belongs here; `null` where it is.
+    /// Why the garment is not worn where it belongs here. `null` where it is.
     #[serde(default)]
     pub fault: Option<Fault>,
 }
@@ -291,7 +290,7 @@ pub struct WornBefore {
 /// Why a garment is not worn where it belongs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fault {
-    /// What kind of fault it is.
+    /// Kind of the fault.
     pub kind: FaultKind,
     /// The same in words, with its figures.
     pub text: String,
@@ -315,24 +314,24 @@ pub enum FaultKind {
     Level,
 }
 
-/// How a stage went.
+/// Report of a stage.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Stage {
     /// `sew`, `drape`, `flatten`.
     pub name: String,
     /// Wall-clock time, s.
     pub seconds: f64,
-    /// Steps taken; of a drape also those of part of the garment.
+    /// Steps taken. Of a drape also those of part of the garment.
     pub iterations: usize,
     /// Whether it came to rest.
     pub converged: bool,
-    /// Energy at the end, J; `null` for a stage without one.
+    /// Energy at the end, J. `null` for a stage without one.
     pub energy: Option<f64>,
-    /// Motion of the last check for rest; `null` for a stage without one.
+    /// Motion of the last check for rest. `null` for a stage without one.
     pub drift: Option<Drift>,
-    /// Unbalanced force at the end, in particle weights (root mean square); `null` for a stage without one.
+    /// Unbalanced force at the end, in particle weights (root mean square). `null` for a stage without one.
     pub residual: Option<f64>,
-    /// What contact cost of it; `null` for a stage without any.
+    /// Wall-clock time of contact. `null` for a stage without contact.
     pub contact_seconds: Option<ContactSeconds>,
 }
 
@@ -345,13 +344,13 @@ pub struct ContactSeconds {
     pub features: f64,
     /// Looking for cloth near cloth.
     pub cloth: f64,
-    /// Following what was found between two looks.
+    /// Following contacts between two searches.
     pub follow: f64,
     /// All of the stage that these are parts of.
     pub of: f64,
 }
 
-/// How far the garment moved in as many steps again.
+/// Motion of the garment in as many steps again.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Drift {
     /// Root mean square over the particles, mm.

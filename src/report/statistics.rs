@@ -2,7 +2,7 @@
 
 use super::schema::Spread;
 
-/// The spread of `values`; zeros when there are none.
+/// The spread of `values`. Zeros when there are none.
 pub(super) fn spread(mut values: Vec<f64>) -> Spread {
     if values.is_empty() {
         return Spread::default();
@@ -18,12 +18,12 @@ pub(super) fn spread(mut values: Vec<f64>) -> Spread {
     }
 }
 
-/// The mean; zero where there are no values, whose sum would be −0.
+/// The mean. Zero where there are no values, whose sum would be −0.
 pub(super) fn mean(values: &[f64]) -> f64 {
     if values.is_empty() { 0.0 } else { values.iter().sum::<f64>() / values.len() as f64 }
 }
 
-/// The largest value, none below zero; no number if one of them is none.
+/// The largest value, none below zero. No number if one of them is none.
 pub(super) fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most: f64, &v| if v.is_nan() || v > most { v } else { most })
 }

@@ -7,7 +7,7 @@ use super::statistics::spread;
 use crate::geometry::{Topology, Vec2, Vec3};
 use crate::mesh::{ClothMesh, PieceMesh, SpringClass};
 
-/// How the edges and triangles of a piece changed.
+/// Changes of the edges and triangles of a piece.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PieceStrain {
     /// Strain of warp and weft edges (shrinking is negative).
@@ -16,12 +16,12 @@ pub(super) struct PieceStrain {
     pub(super) shear: Vec<f64>,
     /// Largest |strain| of any edge.
     pub(super) largest: f64,
-    /// Mean extension (shrinking is negative) along warp and weft; zero without such edges.
+    /// Mean extension (shrinking is negative) along warp and weft. Zero without such edges.
     pub(super) extension: [f64; 2],
 }
 
 impl PieceStrain {
-    /// Adds another piece's values; `extension`, which means nothing across pieces, stays.
+    /// Adds another piece's values. `extension`, which means nothing across pieces, stays.
     pub(super) fn extend(&mut self, other: &Self) {
         self.threads.extend(&other.threads);
         self.shear.extend(&other.shear);
@@ -32,7 +32,7 @@ impl PieceStrain {
         spread(self.threads.iter().map(|strain| strain.abs()).collect())
     }
 
-    /// What 99 % of warp and weft edges are drawn out by at most.
+    /// Extension of warp and weft edges, 99th percentile.
     pub(super) fn drawn_out(&self) -> f64 {
         spread(self.threads.iter().map(|strain| strain.max(0.0)).collect()).p99
     }
@@ -42,8 +42,8 @@ impl PieceStrain {
     }
 }
 
-/// Strain of a piece at the positions `at`. Edges along elastic, between particles `elastic`, are left out: what the
-/// elastic draws in lies in gathers finer than the grid.
+/// Strain of a piece at the positions `at`. Edges along elastic, between particles `elastic`, are left out, because the
+/// gathers there are finer than the grid.
 pub(super) fn piece_strain(mesh: &ClothMesh, piece: &PieceMesh, elastic: &HashSet<u32>, at: &[Vec3]) -> PieceStrain {
     let mut out = PieceStrain::default();
     let mut sums = [(0.0, 0.0); 2];
@@ -69,8 +69,8 @@ pub fn extensions(mesh: &ClothMesh, at: &[Vec3]) -> Vec<[f64; 2]> {
     mesh.pieces.iter().map(|piece| piece_strain(mesh, piece, &elastic, at).extension).collect()
 }
 
-/// For every particle, the warp or weft strain of largest size among the edges at it (shrinking is negative); zero
-/// where a particle has no such edge. This is what `--color strain` shows.
+/// For every particle, the warp or weft strain of largest size among its edges (negative for compression). Zero if it
+/// has no such edge. `--color strain` shows these values.
 pub fn vertex_strain(mesh: &ClothMesh, at: &[Vec3]) -> Vec<f64> {
     let mut out = vec![0.0f64; mesh.flat.len()];
     for piece in &mesh.pieces {
@@ -114,7 +114,7 @@ fn shear(mesh: &ClothMesh, warp: Vec2, triangle: &[u32; 3], at: &[Vec3]) -> Opti
     let (p, q) = (mesh.flat[b] - mesh.flat[a], mesh.flat[c] - mesh.flat[a]);
     let (u, v) = (at[b] - at[a], at[c] - at[a]);
     let double_area = p.perp(&q);
-    // A flat direction d is s·p + t·q by Cramer's rule; its image is s·u + t·v. Scale does not matter here.
+    // A flat direction d is s·p + t·q by Cramer's rule. Its image is s·u + t·v. Scale does not matter here.
     let image = |d: Vec2| (u * d.perp(&q) + v * p.perp(&d)) / double_area;
     let (x, y) = (image(warp), image(Vec2::new(-warp.y, warp.x)));
     let size = x.norm() * y.norm();

@@ -14,11 +14,11 @@ const DRAWN_OUT: f64 = 0.03;
 /// A piece counts as stretched when this share of its rim is drawn out: a neckband is, a front with a neckline is not.
 const SHARE_OF_RIM: f64 = 0.10;
 
-/// More than this share of a band's rim is its opening: it is less than half as wide as it is long. What a wider piece
-/// gives at an opening that is too small, as at an armhole, it need not give elsewhere.
+/// Share of a piece's rim that is its opening, above which the piece is a band: it is less than half as wide as it is
+/// long. A wider piece may stretch at a small opening, as at an armhole, without stretching elsewhere.
 const SHARE_OF_BAND: f64 = 1.0 / 3.0;
 
-/// Any other piece is smaller than what is under it when its warp or its weft is longer by this much on average.
+/// Mean extension of warp or weft from which any other piece is smaller than the body under it.
 const OVER_BODY: f64 = 0.05;
 
 /// Why the piece with this rim had to stretch, if it had to. `extension` is its mean strain along warp and weft.
@@ -75,7 +75,7 @@ mod tests {
 
     #[test]
     fn what_gives_at_its_opening_is_a_band_or_else_wider() {
-        // A piece 1 m long and so wide, its rim rolled out; one of its long sides has become 30 mm longer.
+        // A piece 1 m long and so wide, its rim rolled out. One of its long sides has become 30 mm longer.
         let given = |wide: f64, share: f64| {
             let flat = [1.0, wide, 1.0, wide];
             let mut at = vec![Vec3::zeros()];

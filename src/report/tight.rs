@@ -56,7 +56,7 @@ fn is_tight(ring: &[Vec3], drawn: f64, body: &Mannequin) -> bool {
     length > least && tape(ring, body).is_some_and(fits)
 }
 
-/// Length of a tape round what the ring is round, in its plane, metres.
+/// Length of a tape round the body part inside a ring, in the ring's plane, metres.
 fn tape(ring: &[Vec3], body: &Mannequin) -> Option<f64> {
     let middle = ring.iter().sum::<Vec3>() / ring.len() as f64;
     let sides = || ring.iter().zip(ring.iter().cycle().skip(1)).map(|(p, q)| [p - middle, q - middle]);

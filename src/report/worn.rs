@@ -1,4 +1,4 @@
-//! The rows of openings: what passes through each, where it was before, and what is wrong with it.
+//! The rows of openings: the body part that passes through each, its earlier places, and its fault.
 
 use super::measure::Measured;
 use super::misworn::Wear;
@@ -9,7 +9,7 @@ use crate::mannequin::Mannequin;
 use crate::pattern::written_names;
 use crate::verify::{Passage, Through, Welded, past_end, worn};
 
-/// What passes through the openings of the garment `welded`, its latest state. The edges of flaps are left out.
+/// Rows of the openings of the garment `welded`, its latest state. Edges of flaps are left out.
 pub(super) fn worn_rows(run: &Measured, welded: &Welded, openings: &[Opening]) -> Vec<Worn> {
     let all: Vec<&Opening> = openings.iter().collect();
     let seen = Seen::new(&all, welded, run.body);
@@ -40,7 +40,7 @@ pub(super) fn worn_rows(run: &Measured, welded: &Welded, openings: &[Opening]) -
 #[derive(Clone, Debug)]
 pub(super) struct Seen {
     pub(super) passage: Passage,
-    /// How far past the end of the arm or leg that it is round.
+    /// Distance past the end of the arm or leg that it is round.
     pub(super) past_end: Option<f64>,
     length: f64,
     /// Mean height of its rim.
@@ -59,7 +59,7 @@ impl Seen {
         rims.iter().zip(worn(&rims, body)).map(seen).collect()
     }
 
-    /// How far up it is on what it is round: along an arm or a leg, or else its height.
+    /// Position on its body part: along an arm or a leg, otherwise its height.
     pub(super) fn along(&self) -> f64 {
         self.past_end.map_or(self.height, |past| -past)
     }

@@ -38,8 +38,8 @@ struct Strip {
 }
 
 impl Strip {
-    /// The first three rows are held. What bends at the third is the cloth from half-way to it on, so the jaws are
-    /// half-way between the second and it.
+    /// The first three rows are held. The cloth that bends begins half-way between the second and the third row, so the
+    /// jaws are there.
     fn new(
         fabric: &Arc<Fabric>,
         angle: f64,
@@ -54,7 +54,7 @@ impl Strip {
         Ok(Self { sheet: Sheet::strip(&thin, size, angle, spacing)?, spacing, length, width: size[0] })
     }
 
-    /// Lets it go from the plane that `along` (its length) and `across` span; returns the middle of its free end, seen
+    /// Lets it go from the plane that `along` (its length) and `across` span. Returns the middle of its free end, seen
     /// from the jaws.
     fn end(&self, along: Vec3, across: Vec3) -> Result<Vec3, SpecimenError> {
         let bench = nothing()?;
@@ -126,8 +126,8 @@ pub(super) fn bending_length(sample: &Sample) -> Result<Outcome, SpecimenError> 
     Ok(WAYS.into_iter().map(measure).collect::<Result<Vec<_>, SpecimenError>>()?.into())
 }
 
-/// How far the strips of the next two tests lean or are turned before they are let go, radians: so little that they are
-/// still near straight when they lean ten times as far.
+/// Initial lean or turn of the strips of the next two tests, radians: so small that they are still nearly straight at
+/// ten times this angle.
 const LEAN: f64 = 0.004;
 
 /// The Γ at which a load grows without end, from the sideways deflection of strips that lean a little, at two Γ below
@@ -140,7 +140,7 @@ fn southwell(
     let [a, b] = gammas;
     let (stiff, soft) = (a / deflection(a)?, b / deflection(b)?);
     let (x, y) = (a.powf(power), b.powf(power));
-    // A strip without stiffness leans as much at any length; the line then ends below 0.
+    // A strip without stiffness leans as much at any length. The line then ends below 0.
     Ok((x + (y - x) * stiff / (stiff - soft)).max(0.0).powf(1.0 / power))
 }
 
@@ -196,9 +196,9 @@ pub(super) fn on_edge(sample: &Sample) -> Result<Outcome, SpecimenError> {
     Ok(WAYS.into_iter().map(measure).collect::<Result<Vec<_>, SpecimenError>>()?.into())
 }
 
-/// What strips on edge of the widths [`ON_EDGE`] would come to if they were narrow and did not bend in their own plane:
-/// the clamp keeps a strip from twisting a share of its width beyond it, and what it gives upright goes by one over the
-/// square of its width.
+/// Limit of the results of strips on edge of the widths [`ON_EDGE`], for a strip that is narrow and rigid in its own
+/// plane. The clamp hinders twisting over a share of the width, and in-plane bending contributes one over the square of
+/// the width.
 fn narrow_and_rigid(measured: [f64; 3]) -> Option<f64> {
     let rows = ON_EDGE.map(|w| nalgebra::RowVector3::new(1.0, w as f64, (w as f64).powi(-2)));
     let solved: Vec3 = nalgebra::Matrix3::from_rows(&rows).lu().solve(&measured.into())?;

@@ -10,8 +10,9 @@ use crate::contact::Collider;
 use crate::dynamics::{GRIP, World};
 use crate::geometry::{TriMesh, Vec2, Vec3, rim_loops};
 
-/// Radius of the disc of cloth and of the pedestal, metres.
+/// Radius of the disc of cloth, metres.
 const DISC: f64 = 0.15;
+/// Radius of the pedestal, metres.
 const PEDESTAL: f64 = 0.09;
 /// Height of the pedestal, metres: more than cloth hangs down.
 const HEIGHT: f64 = 0.2;
@@ -34,18 +35,18 @@ const FOLD: f64 = 0.05;
 /// A shadow seen from above.
 #[derive(Clone, Debug)]
 pub struct Shadow {
-    /// Pixels along a side; the disc's middle is in the middle.
+    /// Pixels along a side. The disc's middle is in the middle.
     pub width: usize,
     /// Row by row: whether cloth or pedestal stands in the light.
     pub dark: Vec<bool>,
 }
 
-/// How a disc is laid on its pedestal. No cloth is even, and where its unevenness is says where the first fold comes.
+/// Lay of a disc on its pedestal. No cloth is even, and its unevenness decides where the first fold forms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lay {
     /// Angle from the threads to the unevenness, radians: another one is a disc cut elsewhere from the cloth.
     pub turn: f64,
-    /// Whether the disc lies on its face, so that what bulged up hangs down.
+    /// Whether the disc lies on its face, so that bulges become hollows.
     pub over: bool,
 }
 
@@ -71,7 +72,7 @@ pub struct Draped {
     pub coefficient: f64,
     /// Number of folds.
     pub folds: usize,
-    /// Where it hangs, y up, the pedestal's top at 0.
+    /// The hanging cloth, y up, the pedestal's top at 0.
     pub cloth: TriMesh,
 }
 
@@ -239,7 +240,8 @@ fn folds(x: &[Vec3], triangles: &[[u32; 3]]) -> usize {
     swings(&radius, FOLD * (DISC - PEDESTAL))
 }
 
-/// How often values round a ring rise by more than `least` from where they were lowest and fall by as much again.
+/// Number of swings of values round a ring: rises by more than `least` from the last minimum, followed by an equal
+/// fall.
 fn swings(ring: &[f64], least: f64) -> usize {
     let Some(lowest) = (0..ring.len()).min_by(|&a, &b| ring[a].total_cmp(&ring[b])) else { return 0 };
     let (mut count, mut rising, mut extreme) = (0, true, ring[lowest]);

@@ -1,8 +1,8 @@
-//! The measurements of Liu, Wang & Luo 2015 (L2) on their own specimen, 460 × 400 mm: drawn out along its diagonal,
-//! pushed into a fold on a plate, and let go.
+//! The measurements of Liu, Wang & Luo 2015 (L2) on their own specimen, 460 × 400 mm: pulled along its diagonal, pushed
+//! into a fold on a plate, and let go.
 //!
-//! The paper's cloth is crumpled by hand; what it keeps of that is set in its yarns. This cloth is elastic, so that
-//! what is left after it is let go is held by the plate's friction alone.
+//! The paper's cloth is crumpled by hand, and its yarns set. This cloth is elastic, so that after it is let go only the
+//! plate's friction keeps it from recovering.
 
 use std::f64::consts::PI;
 
@@ -15,8 +15,9 @@ use crate::geometry::{Vec2, Vec3, try_bisect};
 
 /// Width (weft) and length (warp) of the specimen, metres.
 const SIZE: [f64; 2] = [0.40, 0.46];
-/// Grid spacings, metres: of the specimen that is drawn out, and of the one that folds.
+/// Grid spacing of the specimen that is pulled, metres.
 const SPACING: f64 = 0.01;
+/// Grid spacing of the specimen that is folded, metres.
 const FINE: f64 = 0.005;
 /// Loads on the fourth corner, kg.
 const LOADS: [f64; 2] = [0.4, 0.8];
@@ -36,7 +37,7 @@ const PARTS: usize = 400;
 /// A specimen is at rest when ten steps move it by less than this, metres.
 const STILL: f64 = 1e-5;
 
-/// All three measurements, beside what the paper prints of this fabric.
+/// All three measurements, beside the published values of this fabric.
 pub(super) fn measurements(sample: &Sample) -> Result<Outcome, SpecimenError> {
     let published =
         |k: usize| sample.published.map_or_else(String::new, |means| format!(" (published: {:.4})", means[k]));
@@ -111,8 +112,8 @@ fn fold(sample: &Sample) -> Result<[f64; 2], SpecimenError> {
     Ok([height, covered(&released, &sheet.mesh.triangles) / (SIZE[0] * SIZE[1])])
 }
 
-/// How far back and how high every part of the raised length lies: its slope swings once as a sine, as far as uses up
-/// what the side is pushed in by.
+/// Position and height of every part of the raised length. Its slope is one period of a sine, of the amplitude that
+/// uses up the push.
 fn raised() -> Vec<[f64; 2]> {
     let part = RAISED / PARTS as f64;
     let slope = |most: f64, k: usize| most * (2.0 * PI * (k as f64 + 0.5) / PARTS as f64).sin();
@@ -126,7 +127,7 @@ fn raised() -> Vec<[f64; 2]> {
     out
 }
 
-/// Where the cloth comes to rest when nothing but the plate holds it.
+/// Shape of the cloth at rest when only the plate supports it.
 fn let_go(sheet: &Sheet, folded: World, plate: &Collider) -> Result<Vec<Vec3>, SpecimenError> {
     let mut world = sheet.hang(sheet.cloth(|_| false), folded.x, plate)?;
     world.grip(GRIP);
@@ -134,7 +135,7 @@ fn let_go(sheet: &Sheet, folded: World, plate: &Collider) -> Result<Vec<Vec3>, S
     Ok(world.x)
 }
 
-/// Area within the rim of a cloth seen from above, m²: what is turned over counts against what lies over it.
+/// Area within the rim of a cloth seen from above, m². Parts that are turned over count negatively.
 fn covered(x: &[Vec3], triangles: &[[u32; 3]]) -> f64 {
     let area = |t: &[u32; 3]| {
         let [a, b, c] = t.map(|n| Vec2::new(x[n as usize].x, x[n as usize].z));

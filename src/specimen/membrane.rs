@@ -1,15 +1,15 @@
 //! Known answers of the plane: a strip cut on the bias, drawn out a little between two jaws.
 //!
-//! The trellis says how far the threads turn *in the mean*: threads that give nothing cross the strip from one free
-//! side to the other, and what the jaws part by is shared among them. It does not say that all share alike. A thread
-//! near a jaw's corner crosses cloth that is sheared by one system only and so turns more easily than one in the
-//! middle; with a shear stiffness that does not grow with the angle the middle turns by 15 % less than the trellis if
-//! the threads give nothing, and by more if they give. What is known is the
-//! state of least energy, found here by Ritz's method in polynomials and so without a mesh.
+//! The trellis gives the *mean* rotation of the threads. Threads that do not stretch cross the strip from one free side
+//! to the other, and share the motion of the jaws, but not equally. A thread near a jaw's corner crosses cloth that
+//! only one thread system shears, and so turns more easily than a thread in the middle. With a shear stiffness that
+//! does not grow with the angle, the middle turns by 15 % less than the trellis if threads do not stretch, and by more
+//! if they do. The known answer is the state of least energy, found here by Ritz's method in polynomials, without a
+//! mesh.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Polynomials across the strip and along it; half as many of each change the shear in the middle by less than 2 %.
+/// Polynomials across the strip and along it. Half as many of each change the shear in the middle by less than 2 %.
 pub(super) const ORDERS: [usize; 2] = [14, 30];
 
 /// A strip whose threads run at 45° to its length.

@@ -1,5 +1,5 @@
-//! A test bench: virtual specimens of a fabric are hung, bent, pulled, sheared and draped, with the mesh, the springs,
-//! the bending and the steps that `make` uses for garments, and what they do is set beside what is known.
+//! A test bench: virtual specimens of a fabric are hung, bent, pulled, sheared and draped, with the mesh, springs,
+//! bending and steps that `make` uses for garments. The results are compared with known answers.
 //!
 //! ```text
 //! Fabric ─▶ rig (a sheet in its clamps) ─▶ bending · stretching · shearing · cusick · hand ─▶ Figure
@@ -24,7 +24,7 @@ use crate::dynamics::StepError;
 use crate::fabric::Fabric;
 use crate::mesh::MeshError;
 
-/// What is known of a figure.
+/// Known value of a figure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Known {
     /// A value by theory, and the share of it that a measured one may be off.
@@ -45,13 +45,13 @@ pub enum Known {
 pub struct Figure {
     /// The test.
     pub test: &'static str,
-    /// What was measured, and in which state.
+    /// The measured quantity and state.
     pub what: String,
     /// Unit, empty for a ratio.
     pub unit: &'static str,
     /// The specimen's.
     pub measured: f64,
-    /// What it should be.
+    /// The value it should have.
     pub known: Known,
 }
 
@@ -64,7 +64,7 @@ impl Figure {
         }
     }
 
-    /// Whether it is as near to a known value as it should be; `None` where there is none.
+    /// Whether it is as near to a known value as it should be. `None` where there is none.
     pub fn holds(&self) -> Option<bool> {
         match self.known {
             Known::Value { value, tolerance } => Some((self.measured / value - 1.0).abs() <= tolerance),
@@ -106,7 +106,7 @@ pub enum SpecimenError {
     Bench,
 }
 
-/// What specimens are cut from.
+/// Material of the specimens.
 #[derive(Clone, Debug)]
 pub struct Sample {
     /// The fabric.
@@ -125,7 +125,7 @@ pub struct Test {
     run: fn(&Sample) -> Result<Outcome, SpecimenError>,
 }
 
-/// What a test gives.
+/// Result of a test.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// Its figures.

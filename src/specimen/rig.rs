@@ -14,7 +14,7 @@ use crate::sew::{CLEARANCE, draping_world};
 
 /// Step length, s: so long that inertia does not hide how far there still is to go.
 const STEP: f64 = 10.0;
-/// How far a step is trusted to change an edge, in grid spacings: at first, at least, at most.
+/// Trust region of a step: the largest change of an edge at first, at least and at most, in grid spacings.
 const TRUST: [f64; 3] = [0.15, 1e-3, 0.5];
 /// Steps between two looks at how far the specimen still moves.
 const STRETCH: usize = 10;
@@ -25,20 +25,20 @@ const MOST: usize = 300;
 pub(super) struct Sheet {
     /// Flat positions and triangles.
     pub(super) mesh: ClothMesh,
-    /// What it is made of.
+    /// Its fabric.
     pub(super) fabric: Arc<Fabric>,
     garment: Garment,
 }
 
-/// Which way a strip is cut: the angle of its length to the warp, radians.
+/// Angle between a strip's length and the warp, radians, for strips cut along the warp.
 pub(super) const ALONG_WARP: f64 = 0.0;
 /// See [`ALONG_WARP`].
 pub(super) const ALONG_WEFT: f64 = 0.5 * PI;
 
-/// The two ways a strip is cut, and what they are called.
+/// Directions of strips, with their names.
 pub(super) const WAYS: [(f64, &str); 2] = [(ALONG_WARP, "warp"), (ALONG_WEFT, "weft")];
 
-/// How high over what it lies on the middle of a cloth is, metres.
+/// Height of the middle of a cloth above its support, metres.
 pub(super) fn lift(fabric: &Fabric) -> f64 {
     0.5 * fabric.thickness + CLEARANCE
 }
@@ -147,7 +147,7 @@ pub(super) fn held_with(world: &World, nodes: &[u32]) -> Vec3 {
     -nodes.iter().map(|&n| forces[n as usize]).sum::<Vec3>()
 }
 
-/// A strip of `length` metres at rest whose two ends are drawn apart by `strain` of it, without weight; at rest as
+/// A strip of `length` metres at rest whose two ends are drawn apart by `strain` of it, without weight. At rest as
 /// [`settle`] has it.
 ///
 /// # Errors

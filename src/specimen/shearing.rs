@@ -16,7 +16,7 @@ const FRAME: f64 = 0.1;
 const DRAWN: [f64; 3] = [0.05, 0.1, 0.2];
 /// Width and length of the bias strip, metres.
 const BIAS: [f64; 2] = [0.1, 0.3];
-/// By how much it is drawn out, in what its length exceeds its width; at first by so little that strains are small.
+/// Extensions, in multiples of length minus width. The first is so small that strains are small.
 const EXTENDED: [f64; 4] = [0.005, 0.05, 0.1, 0.2];
 /// Half the diagonal of the square in its middle where the shear is read, in widths.
 const MIDDLE: f64 = 0.4;
@@ -52,7 +52,7 @@ pub(super) fn picture_frame(sample: &Sample) -> Result<Outcome, SpecimenError> {
     Ok(out.into())
 }
 
-/// A strip cut on the bias and drawn out: by little, against the membrane of least energy; by more, beside the trellis,
+/// A strip cut on the bias and drawn out: by little, against the membrane of least energy. By more, beside the trellis,
 /// which no cloth of constant shear stiffness can follow in the middle ([`membrane`](super::membrane)).
 pub(super) fn bias_extension(sample: &Sample) -> Result<Outcome, SpecimenError> {
     let (fabric, bench) = (&sample.fabric, nothing()?);

@@ -1,4 +1,4 @@
-//! Known answers: what a strip does by the theory of elastic lines, by numbers alone.
+//! Known answers for strips by the theory of elastic lines, as numbers.
 //!
 //! All of them are initial value problems walked from the free end, with t = 1 there less the share of the length
 //! that has been walked from it: t = 0 at the free end, 1 in the clamp.
@@ -7,12 +7,12 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::geometry::bisect;
 
-/// Steps of an integration from one end to the other; halving them changes no figure in its sixth digit.
+/// Steps of an integration from one end to the other. Halving them changes no figure in its sixth digit.
 const STEPS: usize = 4000;
 /// Bisections: more than a double has bits.
 const BISECTIONS: usize = 60;
 
-/// y'' = f(t, y) from y(0) = `from`, y'(0) = 0 to t = 1 (Runge and Kutta's fourth order); `see` is shown every (t, y).
+/// Solves y'' = f(t, y) from y(0) = `from`, y'(0) = 0 to t = 1 (Runge–Kutta, fourth order). `see` gets every (t, y).
 fn walk(from: f64, f: impl Fn(f64, f64) -> f64, mut see: impl FnMut(f64, f64)) -> f64 {
     let h = 1.0 / STEPS as f64;
     let (mut y, mut v) = (from, 0.0);
@@ -30,7 +30,7 @@ fn walk(from: f64, f: impl Fn(f64, f64) -> f64, mut see: impl FnMut(f64, f64)) -
     y
 }
 
-/// Where `f` passes from negative to positive between `low` and `high`.
+/// Zero of `f`, which passes from negative to positive between `low` and `high`.
 pub(super) fn root(low: f64, high: f64, f: impl Fn(f64) -> f64) -> f64 {
     bisect([low, high], BISECTIONS, f)
 }

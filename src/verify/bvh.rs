@@ -31,7 +31,7 @@ impl Bounds {
         (0..3).all(|k| self.lo[k] <= other.hi[k] && other.lo[k] <= self.hi[k])
     }
 
-    /// Squared distance of `p`; zero inside.
+    /// Squared distance of `p`. Zero inside.
     pub(super) fn squared_distance(&self, p: &Vec3) -> f64 {
         (0..3).map(|k| (self.lo[k] - p[k]).max(p[k] - self.hi[k]).max(0.0).powi(2)).sum()
     }
@@ -42,7 +42,7 @@ impl Bounds {
     }
 }
 
-/// What a node of the tree holds.
+/// Contents of a node of the tree.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Held {
     /// `Tree::order[start..end]`.
@@ -51,14 +51,14 @@ pub(super) enum Held {
     Nodes { left: u32, right: u32 },
 }
 
-/// A box and what it holds.
+/// A box and its contents.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) bounds: Bounds,
     pub(super) held: Held,
 }
 
-/// The tree; node 0 is the root. A mesh without triangles has no nodes.
+/// The tree. Node 0 is the root. A mesh without triangles has no nodes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tree {
     pub(super) nodes: Vec<Node>,
@@ -122,7 +122,7 @@ impl Tree {
         }
     }
 
-    /// Distance of `p` from the nearest triangle of `mesh`, the mesh the tree was made of; infinite without triangles.
+    /// Distance of `p` from the nearest triangle of `mesh`, the mesh the tree was made of. Infinite without triangles.
     pub(super) fn distance(&self, mesh: &TriMesh, p: &Vec3) -> f64 {
         let mut best = f64::INFINITY;
         let mut open = if self.nodes.is_empty() { vec![] } else { vec![(0.0, 0u32)] };

@@ -3,7 +3,7 @@
 //! Two triangles that do not lie in one plane have at most a piece of one line in common. If it runs through the inside
 //! of both, they cross. If it runs along a side of one or both, as it does wherever meshes with round coordinates meet,
 //! the sheets round that line decide: one surface goes through the other where each has sheets on both sides of the
-//! other's. All of it is signs of [`orient`], which are exact; rings of triangles round a side are looked up only where
+//! other's. All of it is signs of [`orient`], which are exact. Rings of triangles round a side are looked up only where
 //! a side lies on the line.
 
 use std::collections::HashMap;
@@ -15,12 +15,12 @@ use super::bvh::{Bounds, Tree};
 use super::orient::orient;
 use crate::geometry::{TriMesh, Vec3, sorted_pair};
 
-/// Where a cloth crosses a body.
+/// Crossings of a cloth with a body.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Between {
-    /// Every crossing pair: cloth triangle, body triangle; sorted.
+    /// Every crossing pair: cloth triangle, body triangle. Sorted.
     pub pairs: Vec<[u32; 2]>,
-    /// Every cloth triangle that crosses the body, once; sorted.
+    /// Every cloth triangle that crosses the body, once. Sorted.
     pub cloth_triangles: Vec<u32>,
 }
 
@@ -28,9 +28,9 @@ pub struct Between {
 ///
 /// Two triangles cross when they have a piece of a line in common, longer than a point, along which the surface of one
 /// passes to the other side of the other's: through its inside, or exactly along a side of its mesh, where the other
-/// triangles round that side count too. Touching, lying in one plane and meeting side on side is no crossing; a surface
+/// triangles round that side count too. Touching, lying in one plane and meeting side on side is no crossing. A surface
 /// that lies in the other before it leaves it on the far side only touches it. Two that share a vertex cross where they
-/// do so away from it; two that share a side never do. A side belongs to the triangles that name the same two vertices.
+/// do so away from it. Two that share a side never do. A side belongs to the triangles that name the same two vertices.
 /// A triangle without area crosses what its sides pass through strictly. The test is exact.
 pub fn crossings(mesh: &TriMesh) -> Vec<[u32; 2]> {
     let (tree, surface) = (Tree::new(mesh), Surface::new(mesh));
@@ -59,7 +59,7 @@ pub fn crossings_between(cloth: &TriMesh, body: &TriMesh) -> Between {
     Between { pairs, cloth_triangles }
 }
 
-/// Triangles of `of` that pass `wanted` and cross triangle `t` of `from`; sorted.
+/// Triangles of `of` that pass `wanted` and cross triangle `t` of `from`. Sorted.
 fn crossed(from: &Surface, t: u32, of: &Surface, tree: &Tree, wanted: impl Fn(u32) -> bool) -> Vec<u32> {
     let mut found = Vec::new();
     tree.visit_box(&Bounds::of(&from.mesh.corners(t as usize)), |other| {
@@ -74,7 +74,7 @@ fn crossed(from: &Surface, t: u32, of: &Surface, tree: &Tree, wanted: impl Fn(u3
 /// A mesh, and who lies round its sides.
 struct Surface<'a> {
     mesh: &'a TriMesh,
-    /// By the two ends of a side, the third vertices of all triangles that have it; made when first asked for.
+    /// By the two ends of a side, the third vertices of all triangles that have it. Made when first asked for.
     rings: OnceLock<HashMap<[u32; 2], Vec<u32>>>,
 }
 
@@ -149,7 +149,7 @@ fn from_apex(corners: &[Vec3; 3], k: usize) -> [Vec3; 3] {
 
 /// Whether two triangles cut a common piece, longer than a point, out of the line in which their planes meet. They cut
 /// that line with the two sides at their first corners. For a side of one and a side of the other `orient` says which
-/// cuts the line further on (or which less far on, but the same of all four pairs); it is zero where both cut it in one
+/// cuts the line further on (or which less far on, but the same of all four pairs). It is zero where both cut it in one
 /// point. Pieces that come one after the other have no two pairs of different order.
 fn overlap([p, q, r]: &[Vec3; 3], [a, b, c]: &[Vec3; 3]) -> bool {
     both_sides([orient(p, q, a, b), orient(p, q, a, c), orient(p, r, a, b), orient(p, r, a, c)])
@@ -169,7 +169,7 @@ fn pass([p, q]: [Vec3; 2], one: &[Vec3], other: &[Vec3]) -> bool {
     other.iter().enumerate().any(|(k, a)| other[k + 1..].iter().any(|b| parts(a, b)))
 }
 
-/// Whether a side of `needle` passes through the inside of `cloth`; `sides` says where needle's corners lie.
+/// Whether a side of `needle` passes through the inside of `cloth`. `sides` says where needle's corners lie.
 fn pierces(needle: &[Vec3; 3], sides: [i8; 3], cloth: &[Vec3; 3]) -> bool {
     (0..3).any(|k| {
         let next = (k + 1) % 3;

@@ -2,7 +2,7 @@
 //!
 //! How often the body's surface winds round a point is the sum of the solid angles of its triangles, over 4π: one
 //! inside, nothing outside, and still well defined where a scanned body has a hole or runs through itself. Far groups
-//! of triangles are taken as one small patch each; near ones are summed exactly.
+//! of triangles are taken as one small patch each. Near ones are summed exactly.
 
 use std::f64::consts::PI;
 
@@ -23,7 +23,7 @@ const FAR: f64 = 2.0;
 pub struct Inside {
     /// Their indices, rising.
     pub points: Vec<u32>,
-    /// Depth of the deepest below the surface, metres; zero when there is none.
+    /// Depth of the deepest below the surface, metres. Zero when there is none.
     pub deepest: f64,
     /// The deepest.
     pub deepest_point: Option<u32>,
@@ -36,7 +36,7 @@ impl Inside {
     }
 }
 
-/// Which of `points` lie inside `body`, a closed mesh whose triangles run counter-clockwise seen from outside.
+/// The `points` that lie inside `body`, a closed mesh whose triangles run counter-clockwise seen from outside.
 /// Points within a nanometre of the surface are not inside.
 pub fn inside(points: &[Vec3], body: &TriMesh) -> Inside {
     let tree = Tree::new(body);
@@ -93,7 +93,7 @@ fn add(a: (Vec3, Vec3, f64), b: (Vec3, Vec3, f64)) -> (Vec3, Vec3, f64) {
     (a.0 + b.0, a.1 + b.1, a.2 + b.2)
 }
 
-/// How often the surface winds round `p`.
+/// Winding number of the surface round `p`.
 fn winding(mesh: &TriMesh, tree: &Tree, patches: &[Patch], p: &Vec3) -> f64 {
     // Outside the box of a closed surface nothing winds round a point.
     if tree.nodes.first().is_none_or(|root| root.bounds.squared_distance(p) > 0.0) {

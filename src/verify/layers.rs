@@ -11,7 +11,7 @@ const ALONG: f64 = 1e-3;
 pub struct Layer {
     /// Its index.
     pub triangle: u32,
-    /// How far along the line, metres; negative behind its start.
+    /// Position along the line, metres. Negative behind its start.
     pub at: f64,
     /// Cosine of the angle between the line and the triangle's normal.
     pub facing: f64,
@@ -30,7 +30,7 @@ impl<'a> Layers<'a> {
     }
 
     /// The triangles that the line through `from` along the unit `way` meets within `reach` (metres) of `from`, before
-    /// or behind it; those that `skip` takes are left out. In the order of their indices.
+    /// or behind it. Those that `skip` takes are left out. In the order of their indices.
     pub fn near(&self, from: Vec3, way: Vec3, reach: f64, skip: impl Fn(u32) -> bool) -> Vec<Layer> {
         let bounds = Bounds::of(&[from - way * reach, from + way * reach]);
         let mut found = Vec::new();
@@ -45,7 +45,8 @@ impl<'a> Layers<'a> {
     }
 }
 
-/// Where the line through `from` along `way` meets a triangle, and the cosine of its angle to the normal.
+/// Position along the line through `from` with direction `way` where it meets a triangle, and the cosine of its angle
+/// to the normal.
 fn meet([a, b, c]: [Vec3; 3], from: Vec3, way: Vec3) -> Option<(f64, f64)> {
     let normal = (b - a).cross(&(c - a)).try_normalize(0.0)?;
     let facing = normal.dot(&way);

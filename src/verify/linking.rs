@@ -1,4 +1,4 @@
-//! How often a line passes through a loop.
+//! Linking number of a line and a loop.
 
 use std::f64::consts::PI;
 
@@ -22,7 +22,7 @@ fn segment_share(a: &Vec3, b: &Vec3, c: &Vec3, d: &Vec3) -> f64 {
     if turn == 0.0 {
         return 0.0;
     }
-    // Each arc's plane; the exterior angles between successive planes give the area.
+    // Each arc's plane. The exterior angles between successive planes give the area.
     let planes = [0, 1, 2, 3].map(|k: usize| corners[k].cross(&corners[(k + 1) % 4]).normalize());
     if planes.iter().any(|n| !n.x.is_finite()) {
         return 0.0;

@@ -1,14 +1,14 @@
-//! What the program says about its own results, found out independently.
+//! Independent checks of the program's own results.
 //!
 //! Nothing here is shared with the solver's contact code: other trees, other predicates, other definitions. A mistake
 //! there cannot hide itself here.
 //!
-//! - [`crossings`]: pairs of cloth triangles that cross;
-//! - [`crossings_between`]: cloth triangles that cross the body;
-//! - [`inside`]: points inside a closed body, and how deep;
-//! - [`Layers`]: the layers of cloth on a line through it;
-//! - [`worn`]: which body part passes through which rim of the garment;
-//! - [`Welded`]: the garment as one surface, seam partners made one vertex.
+//! - [`crossings`]: pairs of cloth triangles that cross
+//! - [`crossings_between`]: cloth triangles that cross the body
+//! - [`inside`]: points inside a closed body, and their depth
+//! - [`Layers`]: the layers of cloth on a line through it
+//! - [`worn`]: the body part that passes through each rim of the garment
+//! - [`Welded`]: the garment as one surface, with seam partners made one vertex
 
 mod bvh;
 mod crossing;

@@ -1,6 +1,6 @@
-//! On which side of a plane a point lies, decided exactly.
+//! Exact decision on which side of a plane a point lies.
 //!
-//! Most answers come from plain arithmetic with a proven error bound; where rounding could decide, the determinant is
+//! Most answers come from plain arithmetic with a proven error bound. Where rounding could decide, the determinant is
 //! added up again without any rounding, as a sum of non-overlapping floating-point numbers (an *expansion*, after
 //! Shewchuk, "Adaptive Precision Floating-Point Arithmetic", 1997).
 

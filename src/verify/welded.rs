@@ -17,8 +17,8 @@ pub struct Welded {
 }
 
 impl Welded {
-    /// Joins the particles that have the same label in `weld`. A vertex takes the position of its first particle;
-    /// vertices are numbered in the order of their first particles.
+    /// Joins the particles that have the same label in `weld`. A vertex takes the position of its first particle.
+    /// Vertices are numbered in the order of their first particles.
     ///
     /// # Panics
     /// When `positions` or `weld` is shorter than the particles of `mesh`: a mistake of the caller.

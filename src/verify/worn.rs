@@ -1,4 +1,4 @@
-//! Which body part passes through which opening.
+//! The body part that passes through each opening.
 //!
 //! The body is thought of as a tree of lines: the trunk, and from it neck, arms and legs, each carried on to far away.
 //! An opening is worn when its rim separates the far ends of that tree into two groups, that is, when it is linked
@@ -8,7 +8,8 @@ use super::linking::linking;
 use crate::geometry::{Vec3, nearest_on_segment};
 use crate::mannequin::{BodyPart, Mannequin, PartKind};
 
-/// Where the lines of the body end, metres. A rim of a metre's size is seen from there as less than a millionth turn.
+/// Distance at which the lines of the body end, metres. From there a rim of a metre's size subtends less than a
+/// millionth of a turn.
 const FAR_AWAY: f64 = 2000.0;
 
 /// A limb goes straight on for this long (metres), past a hand or a foot and a long sleeve on it, before it turns
@@ -19,7 +20,7 @@ const BEYOND_END: f64 = 0.2;
 /// the face.
 const FACE: [f64; 3] = [0.1, 0.05, 0.0];
 
-/// What passes through an opening.
+/// Body part that passes through an opening.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Through {
     /// One part of the body. The torso also for a strap or toga round the trunk and an arm.
@@ -38,16 +39,17 @@ impl Through {
     }
 }
 
-/// What passes through a rim, and which far ends of the body (head, hands, feet) it parts from the others.
+/// Body part that passes through a rim, and the far ends of the body (head, hands, feet) that the rim separates from
+/// the others.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Passage {
-    /// What passes through; `None` where nothing does or the body has no torso to tell by.
+    /// Body part that passes through. `None` if there is none, or if the body has no torso.
     pub through: Option<Through>,
-    /// The parts that lead to the ends of the smaller group; of two equally large ones that without the neck.
+    /// The parts that lead to the ends of the smaller group. Of two equally large ones that without the neck.
     pub ends: Vec<PartKind>,
 }
 
-/// What passes through every rim (a closed polygon, in order).
+/// The passage of every rim (a closed polygon, in order).
 pub fn worn(rims: &[Vec<Vec3>], body: &Mannequin) -> Vec<Passage> {
     let Some(skeleton) = Skeleton::new(&body.parts) else { return vec![Passage::default(); rims.len()] };
     rims.iter().map(|rim| skeleton.passage(rim)).collect()
@@ -72,8 +74,8 @@ fn can_fill(all: u8, taken: u8, groups: &[u8]) -> bool {
     [*first, all ^ first].into_iter().any(|group| group & taken == 0 && can_fill(all, taken | group, rest))
 }
 
-/// How far the middle of a rim round an arm or a leg is past the last section of that limb, metres along it: a sleeve's
-/// or a leg's length beside the body's. Negative before it. None of other parts.
+/// Distance of the middle of a rim round an arm or a leg past the last section of that limb, metres along it: the
+/// length of a sleeve or a leg beyond the body's. Negative before the end. `None` for other parts.
 pub fn past_end(rim: &[Vec3], through: Through, body: &Mannequin) -> Option<f64> {
     let Through::Part(kind) = through else { return None };
     let limb = body.parts.iter().find(|p| p.kind == kind && (kind.is_arm() || kind.is_leg()))?;
@@ -101,7 +103,7 @@ struct Skeleton {
     torso: Vec<Vec3>,
     /// From the trunk to far away.
     ends: Vec<(PartKind, Vec<Vec3>)>,
-    /// The neck's line leaving the head through the face instead of the crown, at each height of [`FACE`]; none without
+    /// The neck's line leaving the head through the face instead of the crown, at each height of [`FACE`]. None without
     /// a neck.
     faces: Vec<Vec<Vec3>>,
 }
@@ -161,7 +163,8 @@ impl Skeleton {
         self.faces.iter().any(is_round).then_some(Through::Part(PartKind::Neck))
     }
 
-    /// A waist and a hem part the ends alike; what lies in the rim's plane is what takes the larger share of the turn.
+    /// Torso or legs: a waist and a hem separate the ends alike. The part in the rim's plane is the one with the larger
+    /// share of the turn.
     fn torso_or_legs(&self, rim: &[Vec3], shares: &[(PartKind, f64)]) -> Through {
         let trunk = linking(rim, &self.torso).abs();
         let legs = shares.iter().filter(|(kind, _)| kind.is_leg());
@@ -185,7 +188,7 @@ fn carry_on(path: &mut Vec<Vec3>, kind: PartKind) {
     path.push(end + along * BEYOND_END + aside * FAR_AWAY);
 }
 
-/// The ends that the rim parts from the others: the smaller group; of two equally large ones that without the neck.
+/// The ends that the rim parts from the others: the smaller group. Of two equally large ones that without the neck.
 /// Empty when it parts none.
 fn parted(shares: &[(PartKind, f64)]) -> Vec<PartKind> {
     // Every line begins at the same point, so differences of two are whole numbers.

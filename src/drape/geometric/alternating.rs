@@ -4,7 +4,7 @@
 //! it where the d_e are the edges' own directions, so its minimum lies no higher: the alternation goes downhill.
 //! Everything is quadratic with one constant scalar matrix for x, y and z, K = ω_R (recovery) + ω_S (graph Laplacian) +
 //! ω_B AᵀA. As both functions have the same gradient at v, the minimum is v − K⁻¹ ½∇E(v). Of a cloth curved at rest K
-//! leaves out that A_M turns with the cloth; the gradient has it, and the energy is checked after every step.
+//! leaves out that A_M turns with the cloth. The gradient has it, and the energy is checked after every step.
 //!
 //! Taken alone, that step creeps where K is much stiffer than the cloth. So it is taken from a point extrapolated from
 //! the last two (Nesterov 1983, with the restart of O'Donoghue & Candès 2015): where that would raise the energy, the

@@ -1,7 +1,7 @@
 //! One member of E_A, ‖A_T − A_M‖², and its gradient.
 //!
-//! Of a flat hinge A_M = 0. Of a folded one A_M has the length it has in the initial mesh and the direction of the
-//! hinge's present normal: A stands on the hinge along the mean of its two triangles' normals, wherever the cloth is.
+//! A_M = 0 for a flat hinge. For a folded one it has its length in the initial mesh and the direction of the hinge's
+//! present normal: A stands on the hinge along the mean of its two triangles' normals, wherever the cloth is.
 
 use super::energy::direction;
 use crate::geometry::Vec3;
@@ -9,11 +9,11 @@ use crate::geometry::Vec3;
 /// A hinge of the cloth: edge ij between the triangles with apexes k and l.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bend {
-    /// i, j, k, l.
+    /// Nodes i, j, k, l.
     pub(super) nodes: [u32; 4],
     pub(super) coefficients: [f64; 4],
     pub(super) weight: f64,
-    /// Length of A_M along the normal, metres; 0 for a hinge that is flat at rest.
+    /// Length of A_M along the normal, metres. 0 for a hinge that is flat at rest.
     pub(super) rest: f64,
 }
 

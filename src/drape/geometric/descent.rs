@@ -1,4 +1,4 @@
-//! What both solvers have in common: options, checks, and the book they keep.
+//! Shared by both solvers: options, checks and the record of iterations.
 
 use std::time::{Duration, Instant};
 
@@ -8,9 +8,9 @@ use super::problem::Problem;
 use crate::geometry::Vec3;
 use crate::linear::{Cholesky, NotPositiveDefinite, SymmetricMatrix};
 
-/// Added to the diagonal of every system, as a share of its mean: a vertex that no term holds (nothing resists a motion
-/// across a flat sheet that does not bend) then keeps its place instead of making the matrix singular. It shortens
-/// steps by no more than this share of the stiffest direction and is no part of the minimum.
+/// Regularisation added to the diagonal of every system, as a share of its mean. A vertex that no term holds would make
+/// the matrix singular: nothing resists a motion across a flat sheet that does not bend. The minimum does not change,
+/// and steps get shorter by at most this share of the stiffest direction.
 const HOLD: f64 = 1e-10;
 
 /// When a solver stops.
@@ -29,7 +29,7 @@ impl Default for SolveOptions {
     }
 }
 
-/// What a solver did.
+/// Outcome of a solver run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     /// Iterations made.
@@ -38,7 +38,7 @@ pub struct Report {
     pub converged: bool,
     /// The energy reached.
     pub energy: Energies,
-    /// The total energy at the start and after every iteration; it never rises.
+    /// The total energy at the start and after every iteration. It never rises.
     pub history: Vec<f64>,
     /// Largest motion in the last iteration, metres.
     pub motion: f64,
@@ -75,8 +75,8 @@ impl<'a> Run<'a> {
         self.history.last().copied().unwrap_or(f64::INFINITY)
     }
 
-    /// Writes down an iteration that ended at energy `total` after a largest motion of `motion`; `left` is how far the
-    /// solver would have liked to go.
+    /// Records an iteration that ended at energy `total` after a largest motion of `motion` metres. `left` is the
+    /// length of the step that the solver proposed.
     pub(super) fn record(&mut self, total: f64, motion: f64, left: f64) {
         self.converged = motion.max(left) <= self.options.tolerance || total >= self.last_energy();
         self.history.push(total);
@@ -118,7 +118,7 @@ pub(super) fn largest_motion(a: &[Vec3], b: &[Vec3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).norm_squared()).fold(0.0, f64::max).sqrt()
 }
 
-/// What [`HOLD`] adds to a diagonal with this sum over `vertices`.
+/// The value that [`HOLD`] adds to a diagonal with this sum over `vertices`.
 pub(super) fn hold(diagonal: f64, vertices: usize) -> f64 {
     HOLD * diagonal / vertices.max(1) as f64
 }

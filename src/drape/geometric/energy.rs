@@ -5,7 +5,7 @@ use super::recovery::Recovery;
 use super::stencils::Stencils;
 use crate::geometry::Vec3;
 
-/// Edges shorter than this have no direction, metres; far below any real edge and far above rounding.
+/// Length below which an edge has no direction, metres: far below any real edge and far above rounding.
 const SHORTEST: f64 = 1e-12;
 
 /// The terms of (7).
@@ -21,7 +21,7 @@ pub struct Energies {
     pub total: f64,
 }
 
-/// Unit direction and length of an edge vector; no direction where it has no length.
+/// Unit direction and length of an edge vector. No direction where it has no length.
 pub(super) fn direction(edge: Vec3) -> (Vec3, f64) {
     let length = edge.norm();
     if length > SHORTEST { (edge / length, length) } else { (Vec3::zeros(), length) }

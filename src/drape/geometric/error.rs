@@ -1,4 +1,4 @@
-//! What can be wrong with a cloth or a start.
+//! Errors of a cloth or a start.
 
 use super::Weights;
 use crate::linear::{CholeskyError, PatternError};
@@ -26,11 +26,11 @@ pub enum GeometricError {
     /// A list of another length than it must have.
     #[error("{found} {what}, where {expected} are needed")]
     Count {
-        /// Of what.
+        /// The kind of entries.
         what: &'static str,
-        /// How many there are.
+        /// Number of entries.
         found: usize,
-        /// How many there must be.
+        /// Required number.
         expected: usize,
     },
     /// A held vertex, or a control's, that does not exist.
@@ -50,7 +50,7 @@ pub enum GeometricError {
     /// A position or target that is not finite.
     #[error("vertex {0} has a position or a target that is not finite")]
     NotFinite(usize),
-    /// Positions so far apart that their squares have no number.
+    /// Positions are so far apart that their squares are not finite.
     #[error("the energy at the start is not finite: positions are too far apart")]
     Overflow,
     /// The system's pattern cannot be built.

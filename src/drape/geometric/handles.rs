@@ -3,8 +3,8 @@
 use super::GeometricError;
 use crate::geometry::Vec3;
 
-/// Which vertices are held. A held vertex keeps its row in the linear systems, as that of the identity: the pattern is
-/// the same for all handles, and its step is zero.
+/// Flags of held vertices. A held vertex keeps its row in the linear systems, as a row of the identity. So the pattern
+/// is the same for all handles, and its step is zero.
 #[derive(Clone, Debug)]
 pub(super) struct Handles(Vec<bool>);
 

@@ -1,9 +1,9 @@
 //! The hinge of (6): edge ij between the triangles with apexes k and l.
 //!
 //! A(e) = (μ pᵢ + (1−μ) pⱼ) − (λ pₖ + (1−λ) pₗ), with μ and λ such that A_T − A_M stands on the hinge. Laid flat, the
-//! lines ij and kl meet in one point; μ and λ are its places on them. Then A_M = 0, A_T is how far the two diagonals of
-//! the bent hinge pass each other, and ‖A_T‖² is quadratic in the positions: the isometric bending stencil up to a
-//! factor per edge.
+//! lines ij and kl meet in one point, and μ and λ are its places on them. Then A_M = 0, A_T is how far the two
+//! diagonals of the bent hinge pass each other, and ‖A_T‖² is quadratic in the positions: the isometric bending stencil
+//! up to a factor per edge.
 
 use crate::geometry::Vec2;
 

@@ -4,10 +4,12 @@
 //! they stand. (Of a cloth curved at rest A_M is kept where it is in the matrix; its turning is in the gradient only.)
 //! The pattern is analysed once and factored anew in every iteration.
 //!
-//! Two things are ours, and neither moves the minimum. An edge longer than at rest also adds what its tension resists
-//! across d, ω_S (1 − L_M/L_T)(1 − d dᵀ): Gauss–Newton leaves that out, and where nothing else holds a sheet across its
-//! plane it leaps to and fro. What a shortened edge takes away is left out still, so that the matrix has a factor;
-//! steps in wrinkled cloth are too short for it. So each is doubled or halved for as long as that lowers the energy.
+//! Two additions are ours. Neither moves the minimum.
+//! - An edge longer than at rest also adds the geometric stiffness of its tension, ω_S (1 − L_M/L_T)(1 − d dᵀ).
+//!   Gauss–Newton omits it, and then leaps to and fro where nothing else holds a sheet across its plane. The negative
+//!   term of shortened edges stays omitted, so that the matrix is positive definite.
+//! - Steps in wrinkled cloth are too short because of that. So each step is doubled or halved while that lowers the
+//!   energy.
 
 use std::sync::Arc;
 
@@ -21,10 +23,10 @@ use super::{GeometricCloth, GeometricError};
 use crate::geometry::{Mat3, Vec3};
 use crate::linear::{BlockSlot, Cholesky, SymmetricMatrix, SymmetricPattern};
 
-/// A step is halved no more often: what is left is rounding.
+/// Most halvings of a step. A shorter step is below rounding.
 const HALVINGS: usize = 40;
-/// A step is doubled no more often: the papers' experiments ask for three, and a cloth that nothing holds falls without
-/// end.
+/// Most doublings of a step. The paper's experiments need three. Without a bound, a cloth that nothing holds would fall
+/// without end.
 const DOUBLINGS: usize = 4;
 
 /// Gauss–Newton, prepared for one cloth, its recovery term and one set of held vertices.
@@ -45,16 +47,16 @@ struct System {
     factor: Cholesky<f64>,
 }
 
-/// Which part of an edge's second derivative a step uses.
+/// The part of an edge's second derivative that a step uses.
 #[derive(Clone, Copy, PartialEq)]
 enum Linearised {
     /// ω_S d dᵀ alone, as the paper has it.
     Along,
-    /// With what a stretched edge resists across its direction.
+    /// With the geometric stiffness of stretched edges across their direction.
     WithTension,
 }
 
-/// Where an edge's block goes; a held end has no place.
+/// Place of an edge's block. A held end has none.
 #[derive(Debug)]
 struct Place {
     edge: Length,
@@ -76,7 +78,7 @@ impl<'a> LeastSquares<'a> {
     /// Goes downhill from `x`, in which the held vertices are where they are to stay.
     ///
     /// # Errors
-    /// As [`super::Alternating::solve`]; [`GeometricError::Singular`] when a matrix has no factor.
+    /// As [`super::Alternating::solve`]. [`GeometricError::Singular`] when a matrix has no factor.
     pub fn solve(&mut self, x: &mut Vec<Vec3>, options: SolveOptions) -> Result<Report, GeometricError> {
         let problem = &self.problem;
         let mut run = Run::new(problem, options, x)?;
@@ -177,7 +179,7 @@ impl Place {
     }
 }
 
-/// The step, doubled or halved for as long as that lowers the energy; none if all of them raise it over `last`.
+/// The step, doubled or halved for as long as that lowers the energy. None if all of them raise it over `last`.
 fn downhill(x: &[Vec3], step: &[Vec3], problem: &Problem, last: f64) -> Option<(Vec<Vec3>, f64)> {
     let at = |share: f64| {
         let to: Vec<Vec3> = x.iter().zip(step).map(|(x, d)| x + d * share).collect();

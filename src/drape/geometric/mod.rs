@@ -74,7 +74,7 @@ impl Weights {
     }
 }
 
-/// How much every vertex, edge and hinge counts.
+/// Weights of vertices, edges and hinges within their sums.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Weighting {
     /// All the same, as (4)–(6) are printed. Halving the spacing then leaves E_L and divides E_A by 4 (E_P over all
@@ -155,11 +155,11 @@ impl GeometricCloth {
         energy::half_gradient(&self.stencils, &self.weights, x, recovery)
     }
 
-    /// What gravity adds to a target per iteration, metres, so that a cloth with equal ω_B and ω_R has the bending
-    /// length `c0` (metres) with [`Weighting::PerArea`]; others have c₀·(ω_B/ω_R)^⅓. See [`Recovery::Falling`].
+    /// Motion of a target per iteration by gravity, metres. With [`Weighting::PerArea`] a cloth with equal ω_B and ω_R
+    /// then has the bending length `c0` (metres), and others have c₀·(ω_B/ω_R)^⅓. See [`Recovery::Falling`].
     ///
     /// With g = this drop and h = [`PUBLISHED_CELL`], a cylinder of curvature κ costs ω_B κ² h²/4 per area and the
-    /// weight per area is 2 ω_R g/h²; c³ is rigidity over weight, h⁴/(4 g)·ω_B/ω_R.
+    /// weight per area is 2 ω_R g/h². So c³ is rigidity over weight, h⁴/(4 g)·ω_B/ω_R.
     pub fn drop_for_bending_length(c0: f64) -> Vec3 {
         Vec3::new(0.0, -PUBLISHED_CELL.powi(4) / (4.0 * c0.powi(3)), 0.0)
     }

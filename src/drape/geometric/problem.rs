@@ -1,11 +1,11 @@
-//! What both solvers minimise: the energy of a cloth over the positions of its free vertices.
+//! The problem that both solvers minimise: the energy of a cloth over the positions of its free vertices.
 
 use super::handles::Handles;
 use super::recovery::{Recovery, check_positions};
 use super::{GeometricCloth, GeometricError};
 use crate::geometry::Vec3;
 
-/// A cloth, what its recovery term counts, and the vertices that are held.
+/// A cloth, its recovery term, and the vertices that are held.
 #[derive(Debug)]
 pub(super) struct Problem<'a> {
     pub(super) cloth: &'a GeometricCloth,
@@ -23,7 +23,7 @@ impl<'a> Problem<'a> {
         self.cloth.energy(x, &self.recovery).total
     }
 
-    /// Half the gradient with this recovery term; zero at the held vertices.
+    /// Half the gradient with this recovery term. Zero at the held vertices.
     pub(super) fn half_gradient(&self, x: &[Vec3], recovery: &Recovery) -> Vec<Vec3> {
         let mut out = self.cloth.half_gradient(x, recovery);
         self.handles.clear(&mut out);

@@ -7,7 +7,7 @@ use crate::geometry::Vec3;
 /// A point of the cloth that is drawn to a target: a vertex, or a point inside a triangle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Control {
-    /// Vertices and their shares of the point; the shares sum to one.
+    /// Vertices and their shares of the point. The shares sum to one.
     parts: Vec<(u32, f64)>,
     target: Vec3,
 }
@@ -23,7 +23,7 @@ impl Control {
         Self { parts: corners.into_iter().zip(shares).collect(), target }
     }
 
-    /// Where the point is while the vertices are at `x`, metres.
+    /// Position of the point while the vertices are at `x`, metres.
     ///
     /// # Panics
     /// If `x` has no such vertex.
@@ -36,7 +36,7 @@ impl Control {
         self.parts.iter().map(|p| p.0)
     }
 
-    /// Where the point is drawn to, metres.
+    /// Target of the point, metres.
     pub fn target(&self) -> Vec3 {
         self.target
     }
@@ -56,7 +56,7 @@ impl Control {
     }
 }
 
-/// What E_P stands for.
+/// The readings of E_P.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Recovery {
     /// E_P counts the control points only: N Σ ‖pᵢ − tᵢ‖², where N is the area of the initial mesh over that of

@@ -1,4 +1,4 @@
-//! What the sums (4)–(6) run over, with the weight of every member.
+//! The members of the sums (4)–(6), each with its weight.
 
 use super::bend::Bend;
 use super::hinge::{Apex, Hinge};
@@ -11,9 +11,9 @@ const STRETCH_SCALE: f64 = 3.6;
 /// Scale of the area-weighted E_A over the squared cell: a square mesh rolled along one side then has the plain sum
 /// (κ² h⁴/4 = s h² · 3 κ² h²), all of it in the edges across.
 const BEND_SCALE: f64 = 1.0 / 12.0;
-/// An edge has a third of the triangles beside it.
+/// Share of the area of each adjacent triangle that belongs to an edge.
 const EDGE_SHARE: f64 = 1.0 / 3.0;
-/// Triangles whose double area is below this share of their longest side squared are degenerate: their heights are
+/// Double area of a triangle, as a share of its longest side squared, below which it is degenerate: its heights are
 /// rounding.
 const FLATTEST: f64 = 1e-9;
 
@@ -127,7 +127,7 @@ impl Rest<'_> {
     fn bend(&self, edge: &Edge) -> Option<Bend> {
         let [Some(s), Some(t)] = edge.triangles.map(|t| t.map(|t| t as usize)) else { return None };
         let (k, l) = (self.apex(s, edge.ends)?, self.apex(t, edge.ends)?);
-        // Two triangles on the same three vertices lie on each other; there is nothing to bend.
+        // Two triangles on the same three vertices lie on each other. There is nothing to bend.
         if k.0 == l.0 {
             return None;
         }

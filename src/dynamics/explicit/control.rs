@@ -1,24 +1,24 @@
-//! What the user decides about the steps.
+//! Settings of the steps.
 
-/// How long the steps are.
+/// Length of the steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StepControl {
-    /// Always the same, seconds. A particle that goes further than `most` metres in one step ends the run.
+    /// Constant steps. A particle that goes further than `most` metres in one step ends the run.
     Fixed {
         /// Seconds.
         step: f64,
         /// Metres.
         most: f64,
     },
-    /// As long as stability allows (F9).
+    /// Steps as long as stability allows (F9).
     Adaptive {
-        /// The first, seconds.
+        /// First step, seconds.
         first: f64,
-        /// Below this the run has diverged, seconds.
+        /// Least step, seconds. With a shorter one the run counts as diverged.
         smallest: f64,
-        /// Never above this, seconds.
+        /// Largest step, seconds.
         largest: f64,
-        /// No particle may go further in one step, metres.
+        /// Largest motion of a particle in one step, metres.
         most: f64,
     },
 }
@@ -48,13 +48,14 @@ impl StepControl {
     }
 }
 
-/// How a motion from rest begins.
+/// Start of a motion from rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Start {
-    /// (13): X₋ = X₀. A particle then stands still for one step *before* time 0, which puts the whole motion half a
-    /// step ahead: convergence is of first order in Δt only. The equilibrium is not concerned.
+    /// (13): X₋ = X₀. A particle then stands still for one step *before* time 0, which shifts the whole motion by half
+    /// a step. Convergence is of first order in Δt only. The equilibrium is the same.
     #[default]
     Published,
-    /// (11) by the same central difference: X₋ = X₊, no velocity at time 0. Second order, as the scheme itself.
+    /// (11) by the same central difference: X₋ = X₊, so that the velocity at time 0 is zero. Second order, as the
+    /// scheme itself.
     Centred,
 }

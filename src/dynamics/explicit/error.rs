@@ -1,4 +1,4 @@
-//! What can go wrong with a motion.
+//! Errors of a motion.
 
 use super::StepControl;
 
@@ -8,11 +8,11 @@ pub enum ExplicitError {
     /// Positions, masses or forces of different numbers of particles.
     #[error("{found} {what} for {particles} particles")]
     Count {
-        /// Of what there is another number.
+        /// The list of the wrong length.
         what: &'static str,
-        /// How many there are.
+        /// Number of entries.
         found: usize,
-        /// How many there should be.
+        /// Number of particles.
         particles: usize,
     },
     /// A mass that is not above zero.

@@ -20,15 +20,15 @@
 //! (μ + γ Δt₊/2) V₊ = (μ − γ Δt₋/2) V + ½ (Δt₋ + Δt₊) F(X)
 //! ```
 //!
-//! which loses no digits to the difference of large numbers and holds for steps of changing length; it is what is
+//! This form loses no digits to differences of large numbers and holds for steps of changing length. It is the one
 //! computed here.
 //!
 //! **The step.** Over a step d = V₊ Δt the forces change by F(X) − F(X₊) ≈ K d. The ratio s = Δt² dᵀ(F(X) − F(X₊)) /
-//! dᵀMd is (ω Δt)² for the frequencies ω that d is made of, and the scheme is unstable from s = 4. It is also an
-//! energy: kinetic energy plus the mean of the potentials at both ends exceeds what the scheme keeps constant by s/2
-//! times the kinetic energy, so a bound on s is a bound on the energy that a step can add. After Desbrun & Gascuel 1996
-//! the step is as large as that allows: it grows slowly while s is small and is undone and halved when s, or the way of
-//! any particle, is too large. Every step costs one evaluation of the forces.
+//! dᵀMd is (ω Δt)² for the frequencies ω in d, and the scheme is unstable from s = 4. It also measures energy. The
+//! scheme keeps constant the kinetic energy plus the mean of the potentials at both ends, up to s/2 times the kinetic
+//! energy. So a bound on s bounds the energy that a step can add. After Desbrun & Gascuel 1996 the step is as large as
+//! that allows: it grows slowly while s is small, and it is undone and halved if s, or the motion of any particle, is
+//! too large. Every step costs one evaluation of the forces.
 
 mod control;
 mod error;
@@ -40,17 +40,18 @@ use super::force::{Forces, cloth_forces};
 use super::model::Cloth;
 use crate::geometry::Vec3;
 
-/// Steps with a larger s (see the module) are undone: half the frequency at which the scheme becomes unstable.
+/// Largest s of an accepted step (see the module): half the frequency at which the scheme becomes unstable.
 const LARGEST_INDEX: f64 = 1.0;
-/// The step grows while s is below this: wide enough apart that growing is not followed by halving at once.
+/// Largest s at which the step grows. It is far enough below [`LARGEST_INDEX`] that growth is not followed by halving
+/// at once.
 const CALM_INDEX: f64 = 0.5;
-/// Growth per step. Unstable modes that a slightly too large step wakes grow slowly,
-/// and are seen before they are large.
+/// Growth factor per step. Unstable modes that a slightly too large step excites grow slowly, and are seen before they
+/// are large.
 const GROWTH: f64 = 1.02;
-/// What an undone step is multiplied by.
+/// Factor of an undone step.
 const SHRINK: f64 = 0.5;
 
-/// What counts as rest. Both are asked for: a swing passes its balance at full speed, and turns with none.
+/// Bounds of rest. Both are needed: a swing passes its equilibrium at full speed, and turns with none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rest {
     /// Root mean square of the force on the particles that are not held, N.
@@ -59,12 +60,12 @@ pub struct Rest {
     pub speed: f64,
 }
 
-/// How [`Explicit::settle`] ended.
+/// Outcome of [`Explicit::settle`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settled {
     /// Steps made.
     pub steps: usize,
-    /// What was reached.
+    /// Force and speed reached.
     pub reached: Rest,
     /// Whether it is within the bounds that were asked for.
     pub converged: bool,
@@ -74,7 +75,7 @@ pub struct Settled {
 #[derive(Clone, Debug)]
 pub struct Explicit<F> {
     law: F,
-    /// 1/kg; 0 holds a particle.
+    /// Inverse masses, 1/kg. A particle with 0 is held.
     inverse_mass: Vec<f64>,
     damping: f64,
     control: StepControl,
@@ -96,11 +97,11 @@ struct Trial {
     force: Vec<Vec3>,
 }
 
-/// What a tried step was like.
+/// Verdict on a trial step.
 enum Verdict {
-    /// s, see the module.
+    /// Accepted, with its s (see the module).
     Fine(f64),
-    /// Bad at this particle.
+    /// Refused because of this particle.
     Bad(usize),
 }
 
@@ -144,7 +145,7 @@ impl<F: Fn(&[Vec3]) -> Vec<Vec3>> Explicit<F> {
             velocity: vec![Vec3::zeros(); x.len()],
             x,
             force,
-            // A step of no length before time 0 is Start::Centred: half as long an impulse, from rest.
+            // Start::Centred is a step of no length before time 0: half the impulse, from rest.
             behind: if start == Start::Published { ahead } else { 0.0 },
             ahead,
             time: 0.0,
@@ -155,7 +156,7 @@ impl<F: Fn(&[Vec3]) -> Vec<Vec3>> Explicit<F> {
     /// Makes one step and returns its length, seconds.
     ///
     /// # Errors
-    /// [`ExplicitError::Diverged`]; positions are then those of the last good step.
+    /// [`ExplicitError::Diverged`]. Positions are then those of the last good step.
     pub fn advance(&mut self) -> Result<f64, ExplicitError> {
         loop {
             let step = self.ahead;
@@ -177,7 +178,7 @@ impl<F: Fn(&[Vec3]) -> Vec<Vec3>> Explicit<F> {
         }
     }
 
-    /// Makes steps until time `end`, seconds; the last one ends there exactly.
+    /// Makes steps until time `end`, seconds. The last one ends there exactly.
     ///
     /// # Errors
     /// As [`Explicit::advance`].
@@ -294,16 +295,16 @@ fn is_finite(v: &Vec3) -> bool {
     v.iter().all(|c| c.is_finite())
 }
 
-/// The force law of a cloth: its springs and bending with gravity, contact, friction and sewing pulls, N. Contacts are
-/// those of `forces`, so the law holds while nothing moves further than they were looked for.
+/// The force law of a cloth: springs and bending with gravity, contact, friction and sewing pulls, N. Contacts are
+/// those of `forces`, so the law holds while no node moves further than the search radius of these contacts.
 pub fn law_of<'a>(cloth: &'a Cloth, forces: Forces<'a>) -> impl Fn(&[Vec3]) -> Vec<Vec3> + 'a {
     move |x| cloth_forces(cloth, x, &forces)
 }
 
-/// A cloth at rest at `x` (one position per node) as [`Explicit`] particles; nodes in `held` stay where they are.
+/// A cloth at rest at `x` (one position per node) as [`Explicit`] particles. Nodes in `held` stay where they are.
 ///
 /// # Errors
-/// As [`Explicit::new`]; [`ExplicitError::Count`] also for a held node that the cloth does not have.
+/// As [`Explicit::new`]. [`ExplicitError::Count`] also for a held node that the cloth does not have.
 pub fn explicit_cloth<'a>(
     cloth: &'a Cloth,
     forces: Forces<'a>,

@@ -1,4 +1,4 @@
-//! A recorded test of the KES instruments: a curve up, and perhaps down again, and what is read from it.
+//! A recorded test of the KES instruments: a curve up, and perhaps down again, and the values read from it.
 
 use std::ops::Range;
 
@@ -7,7 +7,7 @@ use crate::fabric::TensileCurve;
 use crate::fabric::columns::{self, Columns};
 use crate::fabric::units::GF_PER_CM;
 
-/// Which test a curve is of, with the units of its two columns.
+/// Test of a curve, with the units of its two columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// Strain %, load gf/cm (KES-FB1).
@@ -28,7 +28,7 @@ impl Kind {
     }
 }
 
-/// Share of the rise by which noise may bring a curve down above where it went up.
+/// Share of the rise by which noise may bring a returning curve above the rising one.
 const NOISE: f64 = 0.1;
 
 /// Slope and hystereses of a cycle.
@@ -50,7 +50,7 @@ pub(super) struct Cycle {
 }
 
 impl Cycle {
-    /// Reads two columns; a first line with words is a header and must name the units of `kind`.
+    /// Reads two columns. A first line with words is a header and must name the units of `kind`.
     pub(super) fn parse(text: &str, file: &str, kind: Kind) -> Result<Self, MeasureError> {
         let fault = |row: usize, why: String| MeasureError::File { file: file.to_owned(), row: Some(row), why };
         let [across, up] = kind.units();

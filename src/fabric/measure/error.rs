@@ -1,8 +1,8 @@
-//! What can be wrong with readings.
+//! Errors in readings.
 
 use crate::fabric::FabricError;
 
-/// Why readings make no fabric; every message names the file or test and says what was expected.
+/// Why readings make no fabric. Every message names the file or test and the expected input.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MeasureError {
     /// A file that is not as it should be.
@@ -12,7 +12,7 @@ pub enum MeasureError {
         file: String,
         /// Line of the file, from 1, where one is to blame.
         row: Option<usize>,
-        /// What is wrong.
+        /// The fault.
         why: String,
     },
     /// Readings of a test that cannot be right.
@@ -20,7 +20,7 @@ pub enum MeasureError {
     Test {
         /// `recovery`, `stretch`, `bend`, `means` or `table`.
         test: &'static str,
-        /// What is wrong.
+        /// The fault.
         why: String,
     },
     /// A photograph that cannot be used.
@@ -28,7 +28,7 @@ pub enum MeasureError {
     Photo {
         /// Path.
         file: String,
-        /// What is wrong.
+        /// The fault.
         why: String,
     },
     /// Nothing was measured.

@@ -12,19 +12,20 @@ use crate::fabric::columns::{Columns, above_zero, rows};
 use crate::fabric::library::read;
 use crate::input::yaml;
 
-/// What is said of a table that is none.
+/// Message for a text that is no table.
 const NO_TABLE: &str =
     "the first line must name the columns: repeat, recovery, stretch, bend; or parameter, warp, weft, unit";
-/// Names of files that hold a table end so; all others are YAML.
+/// Endings of the names of files that hold a table. All other files are YAML.
 const TABLES: [&str; 3] = ["csv", "tsv", "txt"];
 /// Grey value below which a pixel is cloth, where the file gives none.
 const THRESHOLD: u8 = 128;
-/// Share of the area by which a threshold in the right place may change it.
+/// Largest relative change of the area when a well placed threshold is moved.
 const DOUBT: f64 = 0.02;
-/// Area of the paper's specimen, 460 × 400 mm, cm²: what a photograph shows of it is compared with itself only.
+/// Area of the paper's specimen, 460 × 400 mm, cm². It cancels in the measure, because photographs are compared with
+/// each other only.
 const IMAGED: f64 = 1840.0;
 
-/// What a file of readings holds.
+/// Contents of a file of readings.
 #[derive(Debug, Default, Deserialize)]
 #[serde(
     deny_unknown_fields,
@@ -39,11 +40,11 @@ pub(super) struct File {
     stretch: Option<Test>,
     bend: Option<Test>,
     means: Option<Means>,
-    /// Of the readings of all three.
+    /// File of a table with the readings of all three tests.
     table: Option<PathBuf>,
     pub(super) sheet: Option<PathBuf>,
     pub(super) curves: Curves,
-    /// As a fabric file has them; a map that two values of one key are refused in.
+    /// As a fabric file has them. A map that two values of one key are refused in.
     pub(super) values: Mapping,
 }
 
@@ -52,12 +53,12 @@ pub(super) struct File {
 #[serde(deny_unknown_fields, default, expecting = "a map of initial, unit, readings, photos or load")]
 struct Test {
     initial: Option<f64>,
-    /// For the reader; ratios have none.
+    /// For the reader. Ratios have none.
     #[serde(rename = "unit")]
     _unit: Option<String>,
     readings: Vec<f64>,
     photos: Option<Photos>,
-    /// gf, stretch only.
+    /// Load of the stretch test, gf. Other tests have none.
     load: Option<f64>,
 }
 
@@ -278,7 +279,7 @@ impl Source {
     }
 }
 
-/// What is found in photographs: how much of them the cloth covers, and whether the threshold parts it from the table.
+/// Notes on photographs: the share that the cloth covers, and whether the threshold separates it from the table.
 fn seen(shares: &[f64], doubts: &[(f64, String)], threshold: u8) -> Vec<String> {
     let [flat, crumpled @ ..] = shares else { return Vec::new() };
     let least = crumpled.iter().copied().fold(f64::INFINITY, f64::min);
@@ -306,7 +307,7 @@ fn plainly(why: &str) -> String {
         .replace("expected u8", "expected a whole number from 0 to 255")
 }
 
-/// What is said of a fold height that none follows from.
+/// Note on a fold height from which nothing follows.
 fn unused_height(height: f64) -> String {
     format!("bend: initial, {height}, is not used; folds are measured by the highest of them")
 }

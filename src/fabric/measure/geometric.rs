@@ -1,30 +1,28 @@
 //! The three tests of Liu, Wang & Luo 2015 (L2–L4, L6): from readings to measures, normalised values and weights.
 //!
-//! A measure v is printed in their Table 2 as a ratio: projected area after crumpling over the flat area, diagonal
-//! pulled over diagonal at rest, mean fold height over the highest. Equation (1) as printed would give 1 − v; the
-//! ratios are what the table holds and what is computed here, so that a new fabric stands in one
-//! column with the fifteen.
+//! A measure v is printed in their Table 2 as a ratio: projected area after crumpling over the flat area, pulled
+//! diagonal over diagonal at rest, mean fold height over the highest. Equation (1) as printed would give 1 − v. Here
+//! the ratios are computed, as in the table, so that a new fabric stands in one column with the fifteen.
 
 use super::super::sheet::{LARGEST_MEAN, LiuMeasures};
 use super::MeasureError;
 use super::spline::published;
 
-/// Readings of a test that its equations ask for.
+/// Readings of a test that its equations require.
 pub const REPEATS: usize = 20;
 /// Names of the tests, in the order of every triple.
 pub const TESTS: [&str; 3] = ["recovery", "stretch", "bend"];
-/// A crumpled specimen may seem this much larger than the flat one: a photograph is not counted better.
+/// Relative error of a photograph: a crumpled specimen may seem larger than the flat one by this.
 pub(super) const PHOTO_ERROR: f64 = 0.02;
-/// What a ratio of each test can be.
+/// Allowed range of the ratio of each test.
 const RATIOS: [[f64; 2]; 3] = [[0.0, 1.0 + PHOTO_ERROR], [1.0, LARGEST_MEAN], [0.0, 1.0]];
-/// The largest of the fold heights is not so many times their median: then it is a slip of the pen, and the measure of
-/// all follows from it.
+/// Largest fold height, in medians. A higher one is a slip of the pen, and it would determine the measure.
 const HIGHEST: f64 = 3.0;
 
 /// The readings of one test.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Readings {
-    /// r⁰ or s⁰: the specimen before the test. Fold heights have none; theirs is the highest reading.
+    /// The specimen before the test, r⁰ or s⁰. Fold heights have none, and use the highest reading.
     pub initial: Option<f64>,
     /// The repeats, in the same unit.
     pub repeats: Vec<f64>,
@@ -32,21 +30,21 @@ pub struct Readings {
     pub rows: Vec<usize>,
 }
 
-/// A reading so many times as far from the median as half of the others is doubted, if that is also a share of the
-/// median that counts.
+/// Distance of a reading from the median, in distances of half of the other readings, from which it is doubted.
 const FAR: f64 = 10.0;
+/// Distance of a reading from the median, as a share of the median, below which it is not doubted.
 const COUNTS: f64 = 0.05;
 
-/// What a test says.
+/// Result of a test.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measure {
-    /// v of the mean of the readings.
+    /// Measure v of the mean of the readings.
     pub mean: f64,
     /// Standard deviation of the single readings' v.
     pub spread: f64,
     /// Smallest and largest v of a single reading.
     pub range: [f64; 2],
-    /// v' by (2): where the mean lies between the two.
+    /// Normalised value v' by (2): the position of the mean between the two extremes.
     pub normalised: f64,
 }
 
@@ -85,7 +83,7 @@ impl Readings {
         Ok(Measure { mean, spread, range, normalised })
     }
 
-    /// How messages call a reading.
+    /// Name of a reading in messages.
     fn place(&self, k: usize) -> String {
         let row = self.rows.get(k).map(|row| format!(" in row {row}"));
         format!("reading {}{}", k + 1, row.unwrap_or_default())
@@ -153,7 +151,7 @@ pub(super) fn from_tests(tests: [Measure; 3]) -> LiuMeasures {
     }
 }
 
-/// Measures and weights of a fabric of which only the means are known, by the spline (3) through the fifteen; a spline
+/// Measures and weights of a fabric of which only the means are known, by the spline (3) through the fifteen. A spline
 /// that leaves 0 … 1 is cut there. Also says which means lie beyond those of the fifteen.
 pub(super) fn from_means(means: [f64; 3]) -> Result<(LiuMeasures, Vec<String>), MeasureError> {
     let splines = published()?;

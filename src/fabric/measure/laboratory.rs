@@ -13,9 +13,9 @@ const FAST_SHEAR: f64 = 123.0;
 const FAST_BENDING: f64 = 9.8e-6;
 /// WT (gf·cm/cm²) = this · LT · EMT (%): half of 500 gf/cm, and percent.
 const WORK: f64 = 2.5;
-/// Share by which WT may differ from what LT and EMT give: all three are rounded.
+/// Relative difference of WT from LT and EMT that is allowed, because all three are rounded.
 const ROUNDED: f64 = 0.1;
-/// Resilience of what gives back all the work, per cent.
+/// Largest resilience, per cent: all the work is given back.
 const ALL: f64 = 100.0;
 
 /// A sheet: parameters with their values along warp and weft.
@@ -29,14 +29,14 @@ pub(super) struct Sheet {
 struct Row {
     line: usize,
     name: String,
-    /// Warp and weft; a parameter without direction has the same twice.
+    /// Warp and weft. A parameter without direction has the same twice.
     values: [Option<f64>; 2],
     unit: String,
     /// Whether a value of 0 was left out.
     has_zero: bool,
 }
 
-/// Parameters, their unit where the sheet gives none, and the fabric's key; `{}` is the direction.
+/// Parameters, their unit where the sheet gives none, and the fabric's key. `{}` is the direction.
 const PARAMETERS: [(&str, &str, &str); 14] = [
     ("EMT", "%", "tensile.{}.EMT"),
     ("EM", "%", "tensile.{}.EMT"),
@@ -53,7 +53,7 @@ const PARAMETERS: [(&str, &str, &str); 14] = [
     ("T2", "mm", "thickness"),
     ("W", "", "weight"),
 ];
-/// Parameters that other values follow from, with their only unit and the key of what follows.
+/// Parameters from which other values follow, with their only unit and the key of the value.
 const DERIVED: [(&str, &str, &str); 6] = [
     ("WT", "gf.cm/cm2", "tensile.{}.LT"),
     ("C", "mm", "bend.{}"),
@@ -68,7 +68,7 @@ const UNUSED: [&str; 14] = ["MMD", "SMD", "LC", "WC", "RC", "TM", "T100", "T2R",
 const KEPT: [&str; 4] = ["RT", "2HB", "2HG", "2HG5"];
 /// Columns of a sheet.
 const COLUMNS: [&str; 4] = ["parameter", "warp", "weft", "unit"];
-/// g/m² in one kg/m².
+/// Grams per square metre in one kg/m².
 const GRAMS: f64 = 1e3;
 
 impl Sheet {
@@ -77,8 +77,8 @@ impl Sheet {
         rows(text).next().is_some_and(|(_, header)| Columns::new(header).names()[0] == COLUMNS[0])
     }
 
-    /// Reads `parameter, warp, weft, unit`, in any order; the unit's column may be missing, as may the weft of what has
-    /// no direction.
+    /// Reads `parameter, warp, weft, unit`, in any order. The column of the unit may be missing, and so may the weft of
+    /// parameters without direction.
     pub(super) fn parse(text: &str, file: &str) -> Result<Self, MeasureError> {
         let fault = |line: usize, why: String| MeasureError::File { file: file.to_owned(), row: Some(line), why };
         let mut lines = rows(text);
@@ -104,7 +104,7 @@ impl Sheet {
         Ok(Self { file: file.to_owned(), rows })
     }
 
-    /// The fabric's values, and what of the sheet was left out.
+    /// The fabric's values, and the unused parameters of the sheet.
     pub(super) fn values(&self, source: &str) -> Result<(Vec<Measurement>, Vec<String>), MeasureError> {
         let mut out: Vec<Measurement> = Vec::new();
         let unused = self.rows.iter().filter(|r| UNUSED.contains(&r.name.as_str()));
@@ -133,7 +133,7 @@ impl Sheet {
         Ok((out, notes))
     }
 
-    /// What of the sheet does not agree with the rest of it, or is not used beside it.
+    /// Notes on parameters that contradict the others, or that are not used beside them.
     fn doubts(&self) -> Vec<String> {
         let mut out = Vec::new();
         let of = |name: &str, k: usize| self.row(name)?.values[k];
@@ -195,7 +195,7 @@ impl Sheet {
         }
     }
 
-    /// Parameters, keys and values of what follows from others.
+    /// Parameters, keys and values of quantities that follow from others.
     fn derived(&self) -> Result<Vec<(&'static str, String, String)>, MeasureError> {
         let mut out = Vec::new();
         if let (Some(work), None) = (self.row("WT"), self.row("LT")) {
@@ -246,7 +246,7 @@ fn is_fast_load(name: &str) -> bool {
 pub(super) const DIRECTIONS: [&str; 2] = ["warp", "weft"];
 
 impl Row {
-    /// Of the `fields` of a line; parameter, warp, weft and unit are at `places`.
+    /// Reads the `fields` of a line. Parameter, warp, weft and unit are at `places`.
     fn parse(line: usize, fields: &[&str], places: [Option<usize>; 4]) -> Result<Self, String> {
         let [name, warp, weft, unit] = places.map(|k| k.and_then(|k| fields.get(k)).copied().unwrap_or_default());
         let unit = if matches!(unit, "-" | "–") { "" } else { unit };
@@ -336,7 +336,7 @@ mod tests {
     fn a_fast_sheet_becomes_values() {
         let text = "parameter,warp,weft,unit\nC,20,18,mm\nE5,.5,.8\nE20,1.1,1.7\nE100,2,3.5\nEB5,3,,%\nW,150,,g/m2\n";
         let (values, _) = Sheet::parse(text, "fast.csv").expect("sheet").values("ours").expect("values");
-        // 9.8e-6 · 150 · 8000 = 11.76 µN·m; 123/3 = 41 N/m.
+        // 9.8e-6 · 150 · 8000 = 11.76 µN·m. 123/3 = 41 N/m.
         assert_eq!(value(&values, "bend.warp"), "11.76 uN.m");
         assert_eq!(value(&values, "shear.G"), "41 N/m");
         assert_eq!(value(&values, "tensile.weft.curve"), "0.8:5 1.7:20 3.5:100");

@@ -6,7 +6,7 @@
 //!     ├──▶ photo      areas of cloth in photographs
 //!     ├──▶ laboratory a sheet's parameters
 //!     ├──▶ cycle      recorded curves, with their hysteresis
-//!     └──▶ values     what the file gives itself, and what it replaces
+//!     └──▶ values     values given in the file, and those they replace
 //! ```
 
 mod cycle;
@@ -39,12 +39,13 @@ use values::put;
 
 pub(crate) use geometric::weights;
 
-/// Places between which G is read and at which 2HG and 2HG5 are, degrees (KES-FB1).
+/// Range over which G is read, degrees, at whose ends 2HG and 2HG5 are read (KES-FB1).
 const SHEAR_PLACES: [f64; 2] = [0.5, 5.0];
-/// Places between which B is read, 1/cm (KES-FB2), and that of 2HB.
+/// Range of curvatures over which B is read, 1/cm (KES-FB2).
 const BEND_PLACES: [f64; 2] = [0.5, 1.5];
+/// Curvature at which 2HB is read, 1/cm (KES-FB2).
 const BEND_MIDDLE: f64 = 1.0;
-/// Loads at which a recorded tensile curve is written down, gf/cm.
+/// Loads at which a recorded tensile curve is stored, gf/cm.
 const LOADS: [f64; 9] = [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 300.0, 400.0];
 
 /// A fabric as measured.
@@ -56,13 +57,13 @@ pub struct Measured {
     pub fabric: Fabric,
     /// The three tests, if their readings were given.
     pub tests: Option<[Measure; 3]>,
-    /// What the user should know.
+    /// Notes for the user.
     pub notes: Vec<String>,
     /// Files that were read.
     pub inputs: Vec<PathBuf>,
 }
 
-/// Reads a file of readings; `name` is the fabric's where the file says none.
+/// Reads a file of readings. `name` is the fabric's where the file says none.
 ///
 /// # Errors
 /// [`MeasureError`] for files that cannot be read, too few or impossible readings, and values of no cloth.
@@ -113,7 +114,7 @@ pub fn measure(path: &Path, name: &str) -> Result<Measured, MeasureError> {
     let name = source.file.name.clone().unwrap_or_else(|| name.to_owned());
     let description = source.file.description.clone().unwrap_or_default();
     let sheet = FabricSheet { name, description, measurements: values, liu, note: None };
-    // What is written must be readable again; a fabric without weight or bending is told here.
+    // What is written must be readable again. A fabric without weight or bending is told here.
     let blame = |error: FabricError| {
         let key = error.culprit().1.filter(|key| !own.iter().any(|o| o == key));
         let row = key.and_then(|key| source.sheets.iter().find_map(|s| Some((s.file(), s.line_of(key)?))));

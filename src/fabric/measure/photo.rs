@@ -13,11 +13,11 @@ use crate::input::bytes;
 
 /// Largest file of a photograph, bytes.
 const LARGEST_FILE: u64 = 64 << 20;
-/// Longest side of a photograph, pixels: those of the largest cameras have half of it.
+/// Longest side of a photograph, pixels. The largest cameras have half of it.
 const LONGEST_SIDE: usize = 1 << 15;
-/// Grey values by which cloth and table should at least be away from the threshold.
+/// Least distance of cloth and table from the threshold, in grey values.
 pub(super) const CLEAR: u8 = 16;
-/// Most pixels.
+/// Largest number of pixels of a photograph.
 const MOST_PIXELS: usize = 1 << 28;
 
 /// A photograph as grey values, 0 black … 255 white.
@@ -31,7 +31,7 @@ pub struct Photo {
 }
 
 impl Photo {
-    /// Reads a PNG or JPEG file; colours become their luma (Rec. 601), what is transparent white.
+    /// Reads a PNG or JPEG file. Colours become their luma (Rec. 601), transparent pixels white.
     ///
     /// # Errors
     /// [`MeasureError::Photo`] when the file cannot be read or is neither.
@@ -54,8 +54,8 @@ impl Photo {
         count as f64 / self.grey.len() as f64
     }
 
-    /// How much more cloth is found where the threshold is moved by `CLEAR` from one side to the other, over what
-    /// is found. Cloth that is lit as evenly as the table differs by a few pixels of its rim.
+    /// Relative growth of the cloth's area when the threshold is moved by `CLEAR` from one side to the other. For
+    /// evenly lit cloth and table it is a few pixels of the rim.
     pub(super) fn doubt(&self, threshold: u8) -> f64 {
         let [low, high] = [threshold.saturating_sub(CLEAR), threshold.saturating_add(CLEAR)];
         let between = self.share(high, false) - self.share(low, false);
@@ -88,7 +88,7 @@ fn png(bytes: &[u8]) -> Result<Photo, String> {
     Ok(Photo { width, height, grey: grey.collect() })
 }
 
-/// Whether a JPEG goes on to the marker of its end: a decoder paints grey what is missing.
+/// Whether a JPEG continues to its end marker. A decoder paints missing parts grey.
 fn is_whole(bytes: &[u8]) -> bool {
     let is_marker = |pair: &[u8]| pair[0] == 0xff && !matches!(pair[1], 0 | 0xff | 0xd0..=0xd7);
     let mut at = 2;

@@ -8,12 +8,12 @@ use crate::fabric::FabricError;
 pub struct NaturalSpline {
     x: Vec<f64>,
     y: Vec<f64>,
-    /// Second derivatives at the points; zero at both ends.
+    /// Second derivatives at the points. Zero at both ends.
     bend: Vec<f64>,
 }
 
 impl NaturalSpline {
-    /// Through `points`, in any order; those of one x count as one, with the mean of their y. `None` when fewer than
+    /// Through `points`, in any order. Those of one x count as one, with the mean of their y. `None` when fewer than
     /// two are left or a number is not finite.
     pub fn new(mut points: Vec<(f64, f64)>) -> Option<Self> {
         if points.iter().any(|p| !(p.0.is_finite() && p.1.is_finite())) {
@@ -45,7 +45,7 @@ impl NaturalSpline {
         a * self.y[i] + b * self.y[i + 1] + cubic * width * width / 6.0
     }
 
-    /// Where the points begin and end.
+    /// First and last abscissa of the points.
     pub fn range(&self) -> [f64; 2] {
         [self.x[0], self.x[self.x.len() - 1]]
     }

@@ -11,11 +11,11 @@ use crate::fabric::library::read;
 use crate::fabric::sheet::{Measurement, flatten, names_curve, once};
 use crate::fabric::units::GF_PER_CM;
 
-/// How keys of curves end.
+/// Ending of keys of curves.
 const CURVE: &str = ".curve";
 
-/// The values that a file of readings gives as they are to be written. A curve that one names lies beside that file; it
-/// is written down point by point, for the fabric's file may lie elsewhere.
+/// The values given in a file of readings, as they are to be written. A curve that one of them names lies beside that
+/// file. It is written point by point, because the fabric's file may lie elsewhere.
 pub(super) fn given(
     values: &Mapping,
     folder: &Path,

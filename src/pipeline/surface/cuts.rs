@@ -1,4 +1,4 @@
-//! Where a surface is cut: as asked, where it must be, and where it should be.
+//! The cuts of a surface: those asked for, those it must have, and those it should have.
 
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
@@ -11,12 +11,12 @@ use crate::flatten::{self, FlattenError, Flattened, disk_cuts, shortest_path};
 use crate::geometry::{MM, Topology, sorted_pair};
 use crate::io::obj_read::ObjFaces;
 
-/// Where to cut besides groups and texture seams.
+/// Cuts besides groups and texture seams.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Cuts {
     /// Along the shortest ways through these vertices, numbered from 1 as in the file.
     pub paths: Vec<Vec<u32>>,
-    /// Whether to cut what these leave that is no disk into one.
+    /// Whether to cut parts that are still no disks open.
     pub auto: bool,
 }
 
@@ -24,7 +24,7 @@ pub struct Cuts {
 #[derive(Clone, Default)]
 pub(super) struct Marks {
     pub(super) edges: HashSet<[u32; 2]>,
-    /// The same as chains of the file's vertices, from 1.
+    /// The cuts as chains of the file's vertices, from 1.
     pub(super) chains: Vec<Vec<u32>>,
     /// A row for each of these.
     pub(super) made: Vec<CutReport>,
@@ -56,7 +56,7 @@ impl Marks {
         }
     }
 
-    /// Cuts what is no disk into one, `parts` being the surface with the cuts so far.
+    /// Cuts `parts`, the surface with the cuts so far, into disks.
     pub(super) fn cut_open(&mut self, parts: &[Part]) {
         for part in parts {
             for chain in chains(&disk_cuts(&part.surface, &part.diagonals)) {
@@ -200,7 +200,7 @@ fn length(part: &Part, way: &[u32]) -> f64 {
     way.windows(2).map(|w| (at(w[1]) - at(w[0])).norm()).sum::<f64>() * MM
 }
 
-/// Where a dart would relieve a part that is a disk; empty where none can be told.
+/// Path of a dart that would relieve a part that is a disk. Empty if no place can be found.
 pub(super) fn dart(part: &Part, flat: &Flattened) -> Vec<u32> {
     flatten::dart(&part.surface, &flat.log_scale, &part.diagonals)
 }

@@ -22,7 +22,7 @@ pub(super) struct Source<'a> {
     pub(super) nodes: &'a Nodes,
     /// Metres per unit of the file.
     pub(super) unit: f64,
-    /// Name of what has none.
+    /// Name of parts without a name of their own.
     pub(super) stem: &'a str,
     pub(super) options: &'a SurfaceOptions,
 }
@@ -33,7 +33,7 @@ pub(super) struct Laid {
     pub(super) flat: Flattened,
     /// Between which of its rim's vertices lengths were to stay.
     breaks: Vec<u32>,
-    /// Where a dart would relieve it, rim first; empty where it is within the limit, or where no place can be told.
+    /// Path of a dart that would relieve it, rim first. Empty if it is within the limit, or if no place can be found.
     pub(super) dart: Vec<u32>,
     /// Darts that were cut into it.
     pub(super) darts: usize,
@@ -91,7 +91,8 @@ impl Source<'_> {
         Ok((Laid { darts: laid[k].darts + 1, ..cut }, marks))
     }
 
-    /// Lays those parts once more that a dart in another one has broken: what is sewn to its mouth must end there too.
+    /// Lays parts flat again whose rim a dart in another part has divided: the edge sewn to the dart's mouth must end
+    /// there too.
     fn match_breaks(&self, laid: &mut [Laid]) -> Result<(), PipelineError> {
         let breaks = breaks_of(&laid.iter().map(|l| &l.part).collect::<Vec<_>>());
         for (own, breaks) in laid.iter_mut().zip(breaks) {
@@ -104,7 +105,7 @@ impl Source<'_> {
         Ok(())
     }
 
-    /// Of the parts beyond the limit that may get a dart the one that is strained most, the first of several.
+    /// The most strained of the parts beyond the limit that may get a dart. Of equal ones the first.
     fn neediest(&self, laid: &[Laid]) -> Option<usize> {
         let strain = |k: usize| self.options.limit.share(&laid[k].flat.report);
         let open = (0..laid.len()).filter(|&k| laid[k].dart.len() > 1 && laid[k].stop.is_none());
@@ -114,7 +115,7 @@ impl Source<'_> {
 
 /// Lays all parts flat. The part that is strained most gets the next dart, until all are within the limit or the darts
 /// that `source.options` allows are cut. A dart that would make a flat piece lie on itself is not cut, and its part
-/// gets no other; `marks` has those that are.
+/// gets no other. `marks` collects the darts that are cut.
 pub(super) fn with_darts(source: &Source<'_>, marks: &mut Marks) -> Result<Vec<Laid>, PipelineError> {
     let mut laid = source.lay_all(source.parts(marks))?;
     let mut left = source.options.darts;

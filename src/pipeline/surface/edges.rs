@@ -1,8 +1,7 @@
-//! The rim of a part as named edges: between corners, and where what lies on the other side of a cut changes.
+//! The rim of a part as named edges: divided at corners, and where the partner across a cut changes.
 //!
-//! Corners are found by the surface's own angles, which are the same before and after flattening but for what curvature
-//! changes, so that edges and their names do not depend on the mode. Edges are numbered along each rim from the corner
-//! with the lowest number in the file.
+//! Corners are found by the angles of the surface, so that edges and their names do not depend on the mode of
+//! flattening. Edges are numbered along each rim from the corner with the lowest number in the file.
 
 use std::collections::{BTreeSet, HashMap};
 use std::f64::consts::PI;
@@ -10,12 +9,13 @@ use std::f64::consts::PI;
 use super::parts::Part;
 use crate::geometry::{rim_loops, sorted_pair};
 
-/// A corner turns by more than this, radians, over the reach on both sides of it: 30°.
+/// Turn of a rim within reach that makes a corner, radians (30°).
 const CORNER: f64 = PI / 6.0;
-/// Share of a rim's length over which a turn counts as one corner: a circle turns by 4° there.
+/// Reach on both sides of a vertex over which its turn is measured, as a share of the rim's length. A circle turns by
+/// 4° there.
 const REACH: f64 = 0.006;
-/// Within reach of each other, two vertices that turn the same way by more than this each, radians, are two corners
-/// nevertheless, as at the end of a narrow strip: 60°. No corner that a mesh rounds off turns so much twice.
+/// Turn of two vertices within reach of each other, each in the same sense, above which they are two corners, radians
+/// (60°), as at the end of a narrow strip. No corner that a mesh rounds off turns so much twice.
 const SHARP: f64 = PI / 3.0;
 
 /// A named edge of a part.
@@ -25,18 +25,18 @@ pub(super) struct NamedEdge {
     pub(super) name: String,
     /// Index of its rim.
     pub(super) ring: usize,
-    /// Vertices of the part, in the rim's direction; a rim without corners begins and ends in the same.
+    /// Vertices of the part, in the rim's direction. A rim without corners begins and ends in the same.
     pub(super) vertices: Vec<u32>,
     /// The edge it was cut from or is sewn to: index of its part and of the edge in it.
     pub(super) partner: Option<[usize; 2]>,
 }
 
-/// What lies on the other side of a rim edge: a part, and the vertices of its own there.
+/// The partner of a rim edge: a part, and its own vertices there.
 type Other = Option<(usize, [u32; 2])>;
 
 impl NamedEdge {
-    /// How many of its sides lie before its middle, `own` being the index of its part and of the edge in it. Partners
-    /// run against each other and have the same middle.
+    /// Number of its sides before its middle. `own` is the index of its part and of the edge in it. Partners run
+    /// against each other and have the same middle.
     pub(super) fn middle(&self, own: [usize; 2]) -> usize {
         let sides = self.vertices.len() - 1;
         // From the ends of both to one vertex are as many steps.
@@ -85,7 +85,7 @@ pub(super) fn named_edges(parts: &[&Part]) -> Vec<Vec<NamedEdge>> {
     all
 }
 
-/// Which rim edges of the parts are the same edge of the file.
+/// Rim edges of the parts that are the same edge of the file.
 struct Others {
     /// By part and the vertices at the ends, smaller first.
     of: HashMap<(usize, [u32; 2]), (usize, [u32; 2])>,
@@ -110,7 +110,7 @@ impl Others {
         Self { of }
     }
 
-    /// Breaks the other side of every edge where this one is broken; whether that broke anything.
+    /// Breaks the other side of every edge where this one is broken. Returns whether there was a new break.
     fn pass_on(&self, parts: &[&Part], breaks: &mut [BTreeSet<u32>]) -> bool {
         let mut broken = false;
         for (&(p, ends), &(q, across)) in &self.of {
@@ -152,7 +152,7 @@ fn breaks(part: &Part, index: usize, rim: &[u32], others: &Others) -> Vec<bool> 
     breaks
 }
 
-/// Where a rim turns sharply: of the vertices that make one corner together the one that turns most.
+/// Corners of a rim: sharp turns, each at the vertex that turns most.
 fn corners(part: &Part, rim: &[u32]) -> Vec<bool> {
     let turns = turns(part, rim);
     let near = Near::new(part, rim);
@@ -170,9 +170,9 @@ fn corners(part: &Part, rim: &[u32]) -> Vec<bool> {
         .collect()
 }
 
-/// What lies within reach of each vertex of a rim.
+/// The neighbourhood of each vertex of a rim.
 struct Near {
-    /// Of the rim's sides.
+    /// Lengths of the rim's sides.
     lengths: Vec<f64>,
     reach: f64,
 }
@@ -216,7 +216,7 @@ fn turns(part: &Part, rim: &[u32]) -> Vec<f64> {
     turns
 }
 
-/// A rim cut at its breaks, from the break with the lowest number in the file on; without breaks,
+/// A rim cut at its breaks, from the break with the lowest number in the file on. Without breaks,
 /// from the lowest vertex.
 fn chains(rim: &[u32], breaks: &[bool], part: &Part) -> Vec<Vec<u32>> {
     let number = |k: &usize| (part.number(rim[*k]), *k);

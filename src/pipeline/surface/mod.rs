@@ -26,42 +26,42 @@ use parts::Nodes;
 pub use report::{CutReport, CutWhy, EdgeReport, PartReport, SurfaceReport};
 pub use write::{FLAT_OBJ, FLAT_PNG, OUTLINE_SVG};
 
-/// A surface smaller than this many file units is in metres, smaller than the next in centimetres, else in millimetres:
-/// pieces of garments are between 4 cm and 4 m large.
+/// Sizes of a surface, in file units, below which the unit is metres (first) or centimetres (second), otherwise
+/// millimetres. Pieces of garments are between 4 cm and 4 m large.
 const UNITS_BELOW: [f64; 2] = [4.0, 250.0];
-/// No weave is strained by more, whatever its fibre: sheared by 30°, where its threads lock, it is by 0.29 along a
-/// diagonal, and the stretchiest threads of the library's weaves give less than another 0.2.
+/// Strain that no weave exceeds, whatever its fibre. Sheared by 30°, where its threads lock, a weave is strained by
+/// 0.29 along a diagonal, and the stretchiest threads of the library's weaves add less than 0.2.
 const BEYOND_WEAVES: f64 = 0.5;
-/// Darts that `auto` cuts into all parts of a surface together: what is not below the limit then needs a seam.
+/// Darts that `auto` cuts into all parts of a surface together. A part that is still beyond the limit needs a seam.
 pub const DARTS: usize = 8;
 
-/// How to read and flatten a surface.
+/// Options for reading and flattening a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceOptions {
-    /// The unit of the file; `None` guesses it from the size.
+    /// The unit of the file. `None` guesses it from the size.
     pub unit: Option<LengthUnit>,
     /// Whether to cut along the seams of the texture.
     pub texture_seams: bool,
-    /// Whether vertices at the same place are one: the legs of a dart that is sewn up must not be, the triangles of a
-    /// file whose faces share no vertices must.
+    /// Whether to join vertices at the same place. The legs of a sewn dart must stay apart. A file whose faces share no
+    /// vertices needs the join.
     pub weld: bool,
-    /// Where to cut besides.
+    /// Additional cuts.
     pub cuts: Cuts,
-    /// How many darts to cut at most, into all parts together, where the strain passes the limit.
+    /// Largest number of darts, in all parts together, cut where the strain passes the limit.
     pub darts: usize,
-    /// What 99 % of a piece's area should stay below.
+    /// Bound of the strain of 99 % of a piece's area.
     pub limit: Limit,
-    /// How to flatten.
+    /// Options of flattening.
     pub flatten: Options,
 }
 
-/// How much strain is too much.
+/// A limit of strain.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Limit {
     /// This |stretch − 1| in any direction.
     Strain(f64),
-    /// What the threads of a fabric give under 100 gf/cm, the load at which the FAST test reads how far cloth can be
-    /// worked; the angle between them is free.
+    /// The extension of a fabric's threads under 100 gf/cm, the load at which the FAST test reads how far cloth can be
+    /// worked. The angle between threads is free.
     Fabric {
         /// Its name.
         name: String,
@@ -69,7 +69,7 @@ pub enum Limit {
         warp: f64,
         /// |stretch − 1| of the weft.
         weft: f64,
-        /// What warp and weft give under the full load of a tensile tester, 500 gf/cm.
+        /// Extension of warp and weft under the full load of a tensile tester, 500 gf/cm.
         most: [f64; 2],
     },
 }
@@ -82,7 +82,7 @@ impl Limit {
         Self::Fabric { name: fabric.name.clone(), warp, weft, most }
     }
 
-    /// How much a piece is strained, 1 at the limit.
+    /// Strain of a piece as a share of the limit.
     fn share(&self, piece: &Report) -> f64 {
         match self {
             Self::Strain(most) => piece.strain_p99 / most,
@@ -111,17 +111,17 @@ pub struct FlatSurface {
     laid: Vec<Laid>,
     /// Of every part.
     edges: Vec<Vec<NamedEdge>>,
-    /// What it did to the cloth.
+    /// The report.
     pub report: SurfaceReport,
-    /// What was read in a way its author may not have meant: one sentence each.
+    /// Notes on input that its author may not have meant so, one sentence each.
     pub notes: Vec<String>,
 }
 
 /// Lays every part of an OBJ flat.
 ///
 /// # Errors
-/// A file that cannot be read, a cut that cannot be made, or a part that is no disk, with what it is instead and where
-/// to cut it.
+/// A file that cannot be read, a cut that cannot be made, or a part that is no disk, with its kind and the place to cut
+/// it.
 pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurface, PipelineError> {
     let faces = read_obj_faces(file)?;
     let stem = file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());

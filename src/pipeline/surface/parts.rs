@@ -25,17 +25,17 @@ pub(super) struct Part {
     pub(super) diagonals: Solid,
     /// In metres, its triangles turned round: a flat piece shows the side that faces outward in space.
     pub(super) surface: TriMesh,
-    /// Triangles that ran against most others and were turned; none where no turning makes them agree.
+    /// Triangles that ran against most others and were turned. None where no turning makes them agree.
     pub(super) turned: Option<Vec<usize>>,
 }
 
-/// What the faces are made of: the vertices of the file, once for every group and texture position they have.
+/// The nodes of the faces: the vertices of the file, once for every group and texture position that they have.
 pub(super) struct Nodes {
     /// Of every face's corners.
     of_face: Vec<Vec<u32>>,
     /// The file's vertex of every node.
     vertex: Vec<u32>,
-    /// Of every vertex of the file the one that stands for it.
+    /// For every vertex of the file the vertex that represents it.
     same: Vec<u32>,
 }
 
@@ -46,8 +46,8 @@ const NONE: u32 = u32::MAX;
 type NodeKey = (u32, Option<[u64; 2]>);
 
 impl Nodes {
-    /// With `texture`, a vertex that has several texture positions is several nodes; with `weld`, vertices at the same
-    /// place are one.
+    /// Nodes of the faces. With `texture`, a vertex with several texture positions becomes several nodes. With `weld`,
+    /// vertices at the same place become one.
     pub(super) fn new(faces: &ObjFaces, texture: bool, weld: bool) -> Self {
         let same = if weld { welded(&faces.vertices) } else { (0..faces.vertices.len() as u32).collect() };
         let (mut of_face, mut vertex) = (Vec::with_capacity(faces.faces.len()), Vec::new());
@@ -58,7 +58,7 @@ impl Nodes {
             let textured = faces.texture_of_face.get(f).filter(|t| texture && !t.is_empty());
             let nodes = corners.iter().enumerate().map(|(k, &v)| {
                 let v = same[v as usize];
-                // Equal positions count as one even if they are written twice; −0 is 0.
+                // Equal positions count as one even if they are written twice. −0 is 0.
                 let at = textured.map(|t| faces.texture[t[k] as usize].map(|x| (x + 0.0).to_bits()));
                 let key = (faces.group_of_face[f], at);
                 let mut node = last[v as usize];
@@ -102,7 +102,7 @@ fn sides(face: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
     (0..face.len()).map(|k| sorted_pair([face[k], face[(k + 1) % face.len()]]))
 }
 
-/// The parts in the order of their first faces, group by group; named by their group or, without one, by `stem`.
+/// The parts in the order of their first faces, group by group. Named by their group or, without one, by `stem`.
 pub(super) fn parts(faces: &ObjFaces, nodes: &Nodes, cuts: &HashSet<[u32; 2]>, unit: f64, stem: &str) -> Vec<Part> {
     let fans = Fans::new(nodes, cuts);
     let source = Source { faces, nodes, fans: &fans, unit };
@@ -128,7 +128,7 @@ pub(super) fn parts(faces: &ObjFaces, nodes: &Nodes, cuts: &HashSet<[u32; 2]>, u
     parts
 }
 
-/// What parts are made from.
+/// Inputs from which parts are made.
 #[derive(Clone, Copy)]
 struct Source<'a> {
     faces: &'a ObjFaces,
@@ -138,7 +138,7 @@ struct Source<'a> {
     unit: f64,
 }
 
-/// Which corners are one vertex, and which faces one part.
+/// Sets of corners that are one vertex, and of faces that are one part.
 struct Fans {
     /// First corner of every face.
     starts: Vec<usize>,
@@ -181,7 +181,7 @@ impl Fans {
 }
 
 impl Part {
-    /// `local` has room for every fan; a part uses its own places only.
+    /// `local` has room for every fan. A part uses its own places only.
     fn new(source: &Source<'_>, name: String, own: Vec<u32>, local: &mut [u32]) -> Self {
         let Source { faces, nodes, fans, unit } = *source;
         // Vertices in the file's order, of those that a cut has made of one the first face's first.
@@ -214,7 +214,7 @@ impl Part {
         self.vertices.get(vertex as usize).map_or(0, |v| v + 1)
     }
 
-    /// What is to be said of faces that were turned.
+    /// Note on faces that were turned.
     pub(super) fn turned_note(&self) -> Option<String> {
         let mut is_turned = vec![false; self.surface.triangles.len()];
         self.turned.as_ref()?.iter().for_each(|&t| is_turned[t] = true);

@@ -11,7 +11,7 @@ use super::edges::NamedEdge;
 use crate::geometry::MM;
 use crate::report::{Quartet, Stage};
 
-/// What flattening did to a surface; written as `report.json`.
+/// Report of a flattened surface, written as `report.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SurfaceReport {
     /// Version of this program.
@@ -22,18 +22,19 @@ pub struct SurfaceReport {
     pub units: &'static str,
     /// One per part.
     pub pieces: Vec<PartReport>,
-    /// Where the surface was cut besides its groups and texture seams: chains of the file's vertices, from 1.
+    /// Cuts besides groups and texture seams: chains of the file's vertices, from 1.
     pub cuts: Vec<Vec<u32>>,
-    /// A row for each of these: what it is, and how long.
+    /// A row for each of these cuts, with its kind and length.
     pub cuts_made: Vec<CutReport>,
     /// The one stage.
     pub stages: Vec<Stage>,
 }
 
-/// What flattening did to one part. Keys and units are those of a garment's report; the surface in space is `draped`.
+/// Report of one flattened part. Keys and units are those of a garment's report. The surface in space is called
+/// `draped`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PartReport {
-    /// The group's name; numbered where a group has several parts.
+    /// The group's name. Numbered where a group has several parts.
     pub name: String,
     /// Vertices.
     pub particles: usize,
@@ -47,30 +48,30 @@ pub struct PartReport {
     pub boundary_draped: f64,
     /// Length of the flat rim, mm.
     pub boundary_flattened: f64,
-    /// Flat against space.
+    /// Relative error of the flat area against the area in space.
     pub area_error: Quartet,
-    /// The same for the rim.
+    /// Relative error of the flat rim's length against its length in space.
     pub boundary_error: Quartet,
     /// Largest |length / length in space − 1| of an edge.
     pub largest_edge_error: f64,
     /// Largest |length / length in space − 1| of an edge of the rim.
     pub largest_rim_error: f64,
-    /// By which share, in the mean, rim edges (in the mode `woven` the lengths between corners and notches) are off
-    /// that the mode was to keep and could not; `null` where it keeps them, or none.
+    /// Mean relative error of the rim lengths that the mode should keep and could not: rim edges, or in the mode
+    /// `woven` the lengths between corners and notches. `null` if it keeps them, or keeps none.
     pub rim_missed: Option<f64>,
     /// Root mean square of the triangles' stretches minus one.
     pub distortion: f64,
     /// Root mean square of the triangles' relative change of area.
     pub area_distortion: f64,
-    /// |stretch − 1| in the worst direction: what all but a hundredth of the area stays below, and the largest.
+    /// |stretch − 1| in the worst direction: the 99th percentile by area, and the maximum.
     pub strain: StrainReport,
-    /// What happened to warp and weft.
+    /// Extension of warp and weft.
     pub threads: ThreadReport,
     /// L²/4πS of the rim and the area in space. Below 1 no flat piece has both that rim and that area.
     pub isoperimetric: f64,
     /// The least area error of any flat piece with the same length of rim: 1 − L²/4πS, or 0.
     pub area_error_bound: f64,
-    /// Total Gauss curvature, degrees: by so much less, all together, are the flat rim's angles.
+    /// Total Gaussian curvature, degrees. The angles of the flat rim sum up to this much less than in space.
     pub curvature: f64,
     /// Largest change of the rim's angle in one vertex, degrees.
     pub corner_change: f64,
@@ -87,10 +88,11 @@ pub struct PartReport {
     pub layable: bool,
     /// A dart that would relieve the piece, where its strain passes the limit.
     pub dart: Option<DartReport>,
-    /// How many darts were cut into it.
+    /// Number of darts cut into it.
     pub darts: usize,
-    /// Why there are no more where they were asked for and the strain still passes the limit: `none_left` (of those
-    /// allowed), `overlap` (the piece would lie on itself) or `no_place` (none can be told that would help).
+    /// Reason why there are no more darts although some were asked for and the strain still passes the limit:
+    /// `none_left` (of those allowed), `overlap` (the piece would lie on itself) or `no_place` (no helpful place can be
+    /// found).
     pub darts_stopped: Option<DartStop>,
 }
 
@@ -147,11 +149,11 @@ fn edge(laid: &[Laid], all: &[Vec<NamedEdge>], k: usize, edge: &NamedEdge) -> Ed
 pub struct ThreadReport {
     /// Root mean square of the warp's stretch minus one.
     pub warp: f64,
-    /// The same of the weft.
+    /// Root mean square of the weft's stretch minus one.
     pub weft: f64,
-    /// |stretch − 1| of the warp that all but a hundredth of the area stays below.
+    /// |stretch − 1| of the warp, 99th percentile by area.
     pub warp_p99: f64,
-    /// The same of the weft.
+    /// |stretch − 1| of the weft, 99th percentile by area.
     pub weft_p99: f64,
     /// Root mean square of the change of the angle between them, degrees.
     pub shear: f64,
@@ -164,7 +166,7 @@ pub struct ThreadReport {
 pub struct CutReport {
     /// The part that was cut, named as it was before.
     pub piece: String,
-    /// What for.
+    /// Its purpose.
     pub why: CutWhy,
     /// The file's vertex at its start, from 1.
     pub from: u32,
