@@ -69,10 +69,17 @@ pub struct DrawnEdge {
     pub name: String,
     /// Its course: the sewing line.
     pub path: Path,
-    /// Whether a seam of the file takes it, or a part of it.
-    pub sewn: bool,
+    /// Names of the seams of the file that take it, or a part of it.
+    pub seams: Vec<String>,
     /// What the file says of its allowance.
     pub allowance: Allowance,
+}
+
+impl DrawnEdge {
+    /// Whether a seam of the file takes it, or a part of it.
+    pub fn is_sewn(&self) -> bool {
+        !self.seams.is_empty()
+    }
 }
 
 /// What a file says of an allowance.
@@ -146,10 +153,10 @@ impl Book<'_> {
         let unit = self.file.unit();
         let edge = |at: (usize, usize)| {
             let edge = &drawn.rings[at.0][at.1];
-            let (sewn, by_seam) = self.sewn(index, at);
-            let cut_out = at.0 > 0 && !sewn;
+            let (seams, by_seam) = self.sewn(index, at);
+            let cut_out = at.0 > 0 && seams.is_empty();
             let allowance = self.allowance(piece, drawn, at, by_seam, cut_out);
-            DrawnEdge { name: edge.name.clone(), path: edge.path.clone(), sewn, allowance }
+            DrawnEdge { name: edge.name.clone(), path: edge.path.clone(), seams, allowance }
         };
         let ring = |r: usize| (0..drawn.rings[r].len()).map(|i| edge((r, i))).collect();
         Drawing {
@@ -173,15 +180,18 @@ impl Book<'_> {
         }
     }
 
-    /// Whether a seam of the file takes the edge, and the widest allowance such a seam asks for.
-    fn sewn(&self, draft: usize, at: (usize, usize)) -> (bool, Option<f64>) {
+    /// The seams of the file that take the edge, and the widest allowance such a seam asks for.
+    fn sewn(&self, draft: usize, at: (usize, usize)) -> (Vec<String>, Option<f64>) {
         let own: Vec<EdgeId> =
             self.cut.instances.iter().filter(|i| i.draft == draft).filter_map(|i| i.edge(at)).collect();
-        let (mut sewn, mut width) = (false, None);
+        let (mut sewn, mut width) = (Vec::new(), None);
         for (seam, written) in self.seams.seams.iter().zip(&self.seams.written) {
             let Some(written) = *written else { continue };
             if seam.a.iter().chain(&seam.b).any(|s| own.contains(&s.edge)) {
-                sewn = true;
+                let name = &self.file.seams[written].name.value;
+                if !sewn.contains(name) {
+                    sewn.push(name.clone());
+                }
                 let asked = self.file.seams[written].allowance.as_ref().map(|q| q.value.value(self.file.unit()));
                 width = [width, asked].into_iter().flatten().reduce(f64::max);
             }
