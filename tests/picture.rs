@@ -5,8 +5,11 @@ use std::f64::consts::{PI, TAU};
 use std::path::Path;
 use std::time::Instant;
 
-use toile::geometry::{TriMesh, Vec3};
-use toile::picture::{HEIGHT, PictureError, Scene, Specimen, WIDTH, draw, draw_sheet, rim_lines};
+use toile::geometry::{Path as Curve, TriMesh, Vec2, Vec3};
+use toile::picture::{
+    HEIGHT, PatternEdge, PatternPiece, PictureError, Scene, Specimen, WIDTH, draw, draw_pattern, draw_sheet, rim_lines,
+    seam_color,
+};
 use toile::pipeline::{StartPicture, check, start_picture};
 
 /// A tube of rings, each given by centre, half width and half depth; closed at both ends on demand.
@@ -137,10 +140,17 @@ fn keep(name: &str, png: &[u8]) {
 }
 
 fn decode(png: &[u8]) -> Vec<[u8; 3]> {
+    let rgb = pixels(png);
+    assert_eq!(rgb.len(), WIDTH * HEIGHT);
+    rgb
+}
+
+/// Of a picture that may be higher than others.
+fn pixels(png: &[u8]) -> Vec<[u8; 3]> {
     let mut reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().expect("a PNG");
     let mut rgb = vec![0; reader.output_buffer_size().expect("of a size")];
     let info = reader.next_frame(&mut rgb).expect("with one frame");
-    assert_eq!((info.width as usize, info.height as usize), (WIDTH, HEIGHT));
+    assert_eq!(info.width as usize, WIDTH);
     rgb.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect()
 }
 
@@ -354,4 +364,31 @@ fn pillow(height: f64) -> TriMesh {
     let corners = [[-0.2, -0.2], [0.2, -0.2], [0.2, 0.2], [-0.2, 0.2]].map(|[x, z]| Vec3::new(x, 0.0, z));
     let vertices = [corners.as_slice(), &[Vec3::y() * height]].concat();
     TriMesh { vertices, triangles: vec![[0, 4, 1], [1, 4, 2], [2, 4, 3], [3, 4, 0]] }
+}
+
+/// Pieces of a pattern are drawn with their edges, those of a seam in its colour, which the legend below has too.
+#[test]
+fn a_pattern_shows_its_seams_in_colours() {
+    let square = |name: &str, seam: Option<usize>| {
+        let corners = [[0.0, 0.0], [0.2, 0.0], [0.2, 0.2], [0.0, 0.2], [0.0, 0.0]].map(|[x, y]| Vec2::new(x, y));
+        let edge = |k: usize| PatternEdge {
+            name: ["a", "b", "c", "d"][k].to_owned(),
+            path: Curve::line(corners[k], corners[k + 1]),
+            notches: vec![(0.1, k == 0)],
+            seam: seam.filter(|_| k == 1),
+        };
+        PatternPiece { name: name.to_owned(), edges: (0..4).map(edge).collect(), lines: Vec::new(), grain: None }
+    };
+    let picture = |seam: Option<usize>| {
+        let pieces = [square("front", seam), square("back", seam)];
+        let png =
+            draw_pattern("two squares", &pieces, &["side: {sew: front.b, to: back.b}".to_owned()]).expect("a PNG");
+        pixels(&png)
+    };
+    let colored = |picture: &[[u8; 3]]| picture.iter().filter(|pixel| **pixel == seam_color(0)).count();
+    let (plain, sewn) = (picture(None), picture(Some(0)));
+    // The square of the legend, and two edges besides that are hundreds of pixels long.
+    assert!(colored(&plain) > 300 && colored(&sewn) > colored(&plain) + 2000, "{} {}", colored(&plain), colored(&sewn));
+    assert_eq!(plain.len(), sewn.len());
+    assert!(draw_pattern("nothing", &[], &[]).is_err());
 }

@@ -307,6 +307,12 @@ pub(super) struct ExportArgs {
     /// Draw every piece as it is cut: folds opened, left and right, every copy
     #[arg(long)]
     pub(super) whole: bool,
+    /// For whom the garment is, written on every piece
+    #[arg(long = "for", value_name = "NAME")]
+    pub(super) wearer: Option<String>,
+    /// The date, as it is to be written on every piece
+    #[arg(long, value_name = "TEXT")]
+    pub(super) date: Option<String>,
 }
 
 /// Narrowest and widest paper, mm: the test square must fit, and no plotter takes more.
@@ -374,6 +380,9 @@ pub(super) struct DrawingArgs {
     /// size]
     #[arg(long, value_name = "SIZE|all")]
     pub(super) size: Option<String>,
+    /// Write the seams that are offered as seams, instead of as remarks
+    #[arg(long)]
+    pub(super) seams: bool,
 }
 
 /// Where an import is written.

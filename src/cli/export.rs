@@ -6,7 +6,7 @@ use super::args::{ExportArgs, ExportCommand, PageArg};
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use super::make::{borrowed, folder};
-use crate::cutting::{DEFAULT_ALLOWANCE, Layout, MarkKind, Narrowed, Options, Paper, SewKind, Sheet, papers};
+use crate::cutting::{DEFAULT_ALLOWANCE, Label, Layout, MarkKind, Narrowed, Options, Paper, SewKind, Sheet, labelled};
 use crate::geometry::MM;
 use crate::io::dxf_write::cutting_dxf;
 use crate::io::files::write_all;
@@ -79,7 +79,8 @@ impl<'a> Job<'a> {
             ));
         }
         let allowance = args.allowance.map_or(DEFAULT_ALLOWANCE, |mm| mm / MM);
-        let papers = papers(&drawn, &Options { allowance, whole: args.whole });
+        let label = Label { title: loaded.garment.title.clone(), wearer: args.wearer.clone(), date: args.date.clone() };
+        let papers = labelled(&drawn, &Options { allowance, whole: args.whole }, &label);
         papers.iter().flat_map(narrowed).for_each(|note| console.note(&note));
         let inputs = inputs(&args.garment, &loaded.garment, &Overrides::default());
         Ok(Self { args, name: loaded.garment.name, title: loaded.garment.title, papers, inputs })
@@ -111,7 +112,7 @@ impl<'a> Job<'a> {
 /// Whether an edge that will be cut has no allowance of its own.
 fn lacks_allowance(drawing: &Drawing) -> bool {
     let outline = drawing.rings[0].iter().enumerate().filter(|(i, _)| drawing.is_cut(*i)).map(|(_, edge)| edge);
-    let sewn_holes = drawing.rings[1..].iter().flatten().filter(|edge| edge.sewn);
+    let sewn_holes = drawing.rings[1..].iter().flatten().filter(|edge| edge.is_sewn());
     outline.chain(sewn_holes).any(|edge| edge.allowance.width.is_none())
 }
 

@@ -1,4 +1,4 @@
-//! Lettering of a piece, and the places with room for it.
+//! What is written on a piece, and where there is room for it.
 
 use super::marks::grain_arrow;
 use super::room::{AIR, Room, foot};
@@ -15,17 +15,17 @@ const CLEARLY: f64 = 1.3;
 const NAME: f64 = 1.4;
 /// Width of a letter of a sans-serif type over its height, on average, with some air.
 pub const LETTER_WIDTH: f64 = 0.62;
-/// Distance of lines over the height of letters.
+/// Distance of lines over the height of letters, and how far some letters reach below their line.
 const LINE: f64 = 1.45;
-/// Depth of letters below their line over the height of letters.
 const BELOW: f64 = 0.3;
-/// Number of lines that are never left out: the name, and the number and material of the cut.
+/// Lines that are never left out: the name, and how many are cut of what.
 const NEEDED: usize = 2;
-/// Height of letters along a line or beside a piece, metres.
+/// Height of letters along a line or beside a piece, metres, and the share of its box that they take.
 const BESIDE: f64 = 0.004;
-/// Share of their box that these letters take.
 const AIR_BESIDE: f64 = 0.75;
-/// Places along a line where words are tried, as shares of its length: near its middle first.
+/// Height of the letters of seams beside edges, metres: they fit into usual allowances.
+const SEAM: f64 = 0.003;
+/// Where along a line words are tried: near its middle first.
 const BESIDE_AT: [f64; 7] = [0.5, 0.35, 0.65, 0.25, 0.75, 0.12, 0.88];
 /// Half the width of a drill mark, metres.
 const DRILL: f64 = 0.002;
@@ -39,7 +39,39 @@ pub(super) struct EdgeWidth<'a> {
     pub(super) length: f64,
 }
 
-/// Number of cut pieces, in words.
+/// What the pieces of a garment are labelled with besides.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Label {
+    /// The garment's name.
+    pub title: String,
+    /// For whom it is.
+    pub wearer: Option<String>,
+    /// When it was drawn, as the maker writes it.
+    pub date: Option<String>,
+}
+
+impl Label {
+    /// `Shirt for Ada, 3 May, piece 2 of 7`.
+    pub(super) fn line(&self, number: usize, of: usize) -> String {
+        let wearer = self.wearer.as_ref().map_or_else(String::new, |wearer| format!(" for {wearer}"));
+        let date = self.date.as_ref().map_or_else(String::new, |date| format!(", {date}"));
+        format!("{}{wearer}{date}, piece {number} of {of}", self.title)
+    }
+}
+
+/// What is written on a piece beside its name and count.
+pub(super) struct Words<'a> {
+    /// The allowances of its edges.
+    pub(super) widths: Vec<EdgeWidth<'a>>,
+    /// What it belongs to.
+    pub(super) heading: Option<String>,
+    /// Seams, each with the edge that it takes.
+    pub(super) sewn: Vec<(String, &'a Path)>,
+    /// The file's remark.
+    pub(super) note: Option<&'a str>,
+}
+
+/// How many are cut.
 pub(super) fn count(cut: &Cut) -> String {
     match cut {
         Cut::One => "cut 1".to_owned(),
@@ -49,28 +81,34 @@ pub(super) fn count(cut: &Cut) -> String {
     }
 }
 
-/// The lines of text on a piece. `widths` are those of its edges.
-pub(super) fn lettering(paper: &Paper, widths: &[EdgeWidth], note: Option<&str>) -> Vec<Lettering> {
+/// The texts on a piece.
+pub(super) fn lettering(paper: &Paper, words: &Words) -> Vec<Lettering> {
     let mut lines = vec![paper.name.clone(), format!("{}, {}", paper.count, paper.fabric)];
-    lines.extend(allowances(widths));
-    lines.extend(note.map(|n| crate::input::shown(n.trim(), LONGEST_NOTE)));
+    lines.extend(words.heading.clone());
+    lines.extend(allowances(&words.widths));
+    lines.extend(words.note.map(|n| crate::input::shown(n.trim(), LONGEST_NOTE)));
     let mut room = room(paper);
     let mut texts = elastic(paper, &room);
     texts.iter().for_each(|t| room.add_wall(&outline(t)));
     let sewn = sewn(paper);
     let inside = wordings(&lines).iter().find_map(|lines| fitted(&room, &sewn, lines));
     texts.extend(inside.unwrap_or_else(|| under(paper, &lines)));
+    texts.iter().for_each(|t| room.add_wall(&outline(t)));
+    for (seam, edge) in &words.sewn {
+        let text = clear_beside(&room, edge, seam, SEAM);
+        texts.extend(text.inspect(|t| room.add_wall(&outline(t))));
+    }
     texts
 }
 
-/// The lines one under the other, or all in one, for narrow pieces. Then without the last, as far as they are not
+/// The lines one under the other, or all in one, for narrow pieces; then without the last, as far as they are not
 /// needed.
 fn wordings(lines: &[String]) -> Vec<Vec<String>> {
     let kept = (NEEDED..=lines.len()).rev().map(|n| &lines[..n]);
     kept.flat_map(|lines| [lines.to_vec(), vec![lines.join(", ")]]).collect()
 }
 
-/// The sides of the outline of a piece when it is sewn, in any order.
+/// The sides of what is left of a piece when it is sewn, in any order.
 fn sewn(paper: &Paper) -> Vec<[Vec2; 2]> {
     let around = paper.sew.iter().filter(|s| matches!(s.of, SewKind::Outline | SewKind::Hole | SewKind::Dart));
     let lines = around.map(|s| s.path.sampled(1e-4)).chain(paper.fold.map(|fold| fold.to_vec()));
@@ -154,7 +192,7 @@ fn room(paper: &Paper) -> Room {
     room
 }
 
-/// Lettering along elastic: its share of the line's length.
+/// What is written along elastic: to which share of its length it is drawn in.
 fn elastic(paper: &Paper, room: &Room) -> Vec<Lettering> {
     let mut texts = Vec::new();
     for mark in &paper.marks {
@@ -167,21 +205,35 @@ fn elastic(paper: &Paper, room: &Room) -> Vec<Lettering> {
 
 /// A text beside a line, where it is clear of all lines if there is such a place.
 fn beside(room: &Room, path: &Path, text: String) -> Lettering {
-    let height = BESIDE;
+    clear_beside(room, path, &text, BESIDE).unwrap_or_else(|| {
+        let (middle, _, upright) = place_beside(path, &text, BESIDE, 0.5, -1.0);
+        Lettering { text, at: middle + foot(BESIDE, upright), height: BESIDE, upright }
+    })
+}
+
+/// A text beside a line where it is clear of all lines.
+fn clear_beside(room: &Room, path: &Path, text: &str, height: f64) -> Option<Lettering> {
+    let places =
+        BESIDE_AT.iter().flat_map(|&share| [-1.0, 1.0].map(|side| place_beside(path, text, height, share, side)));
+    let mut clear = places.filter(|(middle, size, _)| room.is_clear(*middle, *size));
+    clear.next().map(|(middle, _, upright)| Lettering {
+        text: text.to_owned(),
+        at: middle + foot(height, upright),
+        height,
+        upright,
+    })
+}
+
+/// The middle and the size of a text's box beside a line, at a share of its length, and whether it is turned.
+fn place_beside(path: &Path, text: &str, height: f64, share: f64, side: f64) -> (Vec2, Vec2, bool) {
     let wide = text.chars().count() as f64 * LETTER_WIDTH * height;
-    let place = |share: f64, side: f64| {
-        let t = path.tangent(path.length() * share);
-        let upright = t.y.abs() > t.x.abs();
-        let size = if upright { Vec2::new(height, wide) } else { Vec2::new(wide, height) } * (1.0 / AIR_BESIDE);
-        let across = Vec2::new(-t.y, t.x) * side;
-        // As far off as the corner of its box needs.
-        let off = (across.x.abs() * size.x + across.y.abs() * size.y) / 2.0;
-        (path.point(path.length() * share) + across * (off * 1.01), size, upright)
-    };
-    let places = BESIDE_AT.iter().flat_map(|&share| [place(share, -1.0), place(share, 1.0)]);
-    let clear = places.clone().find(|(middle, size, _)| room.is_clear(*middle, *size));
-    let (middle, _, upright) = clear.unwrap_or_else(|| place(0.5, -1.0));
-    Lettering { text, at: middle + foot(height, upright), height, upright }
+    let t = path.tangent(path.length() * share);
+    let upright = t.y.abs() > t.x.abs();
+    let size = if upright { Vec2::new(height, wide) } else { Vec2::new(wide, height) } * (1.0 / AIR_BESIDE);
+    let across = Vec2::new(-t.y, t.x) * side;
+    // As far off as the corner of its box needs.
+    let off = (across.x.abs() * size.x + across.y.abs() * size.y) / 2.0;
+    (path.point(path.length() * share) + across * (off * 1.01), size, upright)
 }
 
 /// The box round a text with its air, as a line.

@@ -16,10 +16,10 @@ mod room;
 mod walls;
 mod whole;
 
-pub use label::LETTER_WIDTH;
+pub use label::{LETTER_WIDTH, Label};
 pub use layout::{Layout, Sheet, TEST_SQUARE, shelves};
 pub use marks::{arrow, grain_arrow};
-pub use outline::papers;
+pub use outline::{labelled, papers};
 pub use room::{Room, foot};
 
 use nalgebra::Matrix2;

@@ -4,7 +4,7 @@ use nalgebra::Matrix2;
 
 use super::clean::double_area;
 use super::corner::Wish;
-use super::label;
+use super::label::{self, Label};
 use super::marks;
 use super::offset::{Between, Border, around, around_unfolded, sewn_mouths, within};
 use super::room::Room;
@@ -20,9 +20,19 @@ const HALVINGS: i32 = 6;
 
 /// The papers of a garment, their warp upright: one per drawing, or one per piece as cut with [`Options::whole`].
 pub fn papers(drawings: &[Drawing], options: &Options) -> Vec<Paper> {
+    laid_out(drawings, options, None)
+}
+
+/// As [`papers`], each with a line of what it belongs to, and its edges with the seams that take them.
+pub fn labelled(drawings: &[Drawing], options: &Options, label: &Label) -> Vec<Paper> {
+    laid_out(drawings, options, Some(label))
+}
+
+fn laid_out(drawings: &[Drawing], options: &Options, label: Option<&Label>) -> Vec<Paper> {
     drawings
         .iter()
-        .flat_map(|drawing| {
+        .enumerate()
+        .flat_map(|(number, drawing)| {
             let rule = Rule::new(drawing, options);
             let drawn = paper(&rule);
             let papers = if options.whole { whole::as_cut(&drawn, drawing) } else { vec![drawn] };
@@ -30,7 +40,8 @@ pub fn papers(drawings: &[Drawing], options: &Options) -> Vec<Paper> {
                 .iter()
                 .map(|paper| {
                     let mut paper = upright(paper);
-                    paper.texts = lettering(&paper, &rule);
+                    let heading = label.map(|label| label.line(number + 1, drawings.len()));
+                    paper.texts = lettering(&paper, &rule, heading);
                     paper
                 })
                 .collect::<Vec<_>>()
@@ -82,13 +93,13 @@ impl<'a> Rule<'a> {
         // A hole that nothing is sewn into is a slit or a welt that is turned in on its own lines, unless the file says
         // otherwise.
         let edge = &self.drawing.rings[ring][index];
-        let usual = if ring == 0 || edge.sewn { self.options.allowance } else { 0.0 };
+        let usual = if ring == 0 || edge.is_sewn() { self.options.allowance } else { 0.0 };
         edge.allowance.width.unwrap_or(usual)
     }
 
     /// Free edges are hems: turned up, their ends must lie on the piece.
     fn corner(edge: &DrawnEdge) -> Corner {
-        let usual = if edge.sewn { Corner::Mitred } else { Corner::Folded };
+        let usual = if edge.is_sewn() { Corner::Mitred } else { Corner::Folded };
         edge.allowance.corner.unwrap_or(usual)
     }
 
@@ -242,7 +253,7 @@ fn sew_lines(drawing: &Drawing, mouths: &[Vec<Vec2>]) -> Vec<SewLine> {
     lines
 }
 
-fn lettering(paper: &Paper, rule: &Rule) -> Vec<Lettering> {
+fn lettering(paper: &Paper, rule: &Rule, heading: Option<String>) -> Vec<Lettering> {
     let drawing = rule.drawing;
     let width = |(r, i): (usize, usize)| {
         let edge = &drawing.rings[r][i];
@@ -251,5 +262,11 @@ fn lettering(paper: &Paper, rule: &Rule) -> Vec<Lettering> {
     let outline = (0..drawing.rings[0].len()).filter(|&i| drawing.is_cut(i)).map(|i| (0, i));
     let holes = rule.hole_edges().map(width).filter(|w| w.width > 0.0);
     let widths: Vec<label::EdgeWidth> = outline.map(width).chain(holes).collect();
-    label::lettering(paper, &widths, drawing.note.as_deref())
+    let seams = |name: &str| {
+        let named = drawing.rings.iter().flatten().find(|edge| edge.name == name);
+        named.map(|edge| edge.seams.join(", ")).filter(|seams| !seams.is_empty())
+    };
+    let sewn = paper.sew.iter().filter(|_| heading.is_some()).filter_map(|line| Some((seams(&line.name)?, &line.path)));
+    let sewn: Vec<(String, &Path)> = sewn.collect();
+    label::lettering(paper, &label::Words { widths, heading, sewn, note: drawing.note.as_deref() })
 }

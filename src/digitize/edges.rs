@@ -7,7 +7,7 @@ use crate::geometry::{Path, Vec2};
 use crate::pattern::SHORTEST_EDGE;
 
 /// A turn of more than this (radians, 20 degrees) between two segments is a corner.
-const CORNER: f64 = 0.35;
+pub(super) const CORNER: f64 = 0.35;
 /// A path that turns at more places than this is no drawn line.
 const MOST_CORNERS: usize = 400;
 /// Splits nearer to each other than this (metres) are one.
@@ -23,13 +23,6 @@ pub(super) struct Edge {
     pub(super) path: Path,
     /// Notches on it, from its start.
     pub(super) notches: Vec<EdgeNotch>,
-}
-
-impl Edge {
-    /// Whether it has a notch, and whether its last one is double.
-    pub(super) fn notch(&self) -> Option<bool> {
-        self.notches.last().map(|n| n.double)
-    }
 }
 
 /// Number of the edge that two points together are nearest to.

@@ -8,12 +8,12 @@ use super::holes::Hole;
 use super::materials::{declared, name_of};
 use super::notches::EdgeNotch;
 use super::pairs::paired;
-use super::suggest::{Outline, Suggestion, suggest};
+use super::suggest::{Guess, Outline, Suggestion, suggest};
 use super::{Material, Traced};
 use crate::geometry::{MM, Path, Vec2};
 use crate::pattern::{
     AllowanceFile, AllowanceWidth, Corner, Cut, DartFile, DartShape, GarmentFile, LineFile, LineKind, Located,
-    NotchFile, OutlineFile, PieceFile, PleatFile, Quantity, SLACK, Spot, Value,
+    NotchFile, OutlineFile, PieceFile, PlaceFile, PleatFile, Quantity, SLACK, Side, Spot, Value,
 };
 
 /// Edges and grain of which the directions differ by no more (radians, a degree) run along each other.
@@ -48,7 +48,7 @@ pub struct Digitized {
 pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
     let mut notes = Vec::new();
     let mut names: Vec<String> = Vec::new();
-    let (mut pieces, mut outlines) = (Vec::new(), Vec::new());
+    let (mut pieces, mut outlines, mut told) = (Vec::new(), Vec::new(), Vec::new());
     let traced = paired(traced);
     let fabrics = declared(&traced, &mut notes);
     for piece in &traced {
@@ -67,9 +67,21 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
         let fold = fold_of(&file).map(str::to_owned);
         let pair = file.cut.as_ref().is_some_and(|cut| cut.value == Cut::Pair);
         let copies = copies(&file, piece.copies, &mut names, &mut notes);
-        outlines.push(Outline { piece: name, edges, fold, pair });
+        let allowances = edges.iter().map(|e| width_of(&file, &e.name)).collect();
+        let warp =
+            file.grain.as_ref().and_then(|g| (Vec2::from(g.value[1]) - Vec2::from(g.value[0])).try_normalize(0.0));
+        let material = piece.material.as_ref().map(name_of);
+        let mirrored = pair || fold.is_some();
+        outlines.push(Outline { piece: name, edges, allowances, fold, pair, mirrored, warp, material });
+        told.push(piece.drawn.is_some());
         pieces.push(file);
         pieces.extend(copies);
+    }
+    let (suggestions, guesses) = suggest(&outlines);
+    for ((outline, told), mut guess) in outlines.iter().zip(told).zip(guesses) {
+        guess.drawn = guess.drawn.filter(|side| *side == Side::Right && !told);
+        let own = pieces.iter_mut().find(|piece| piece.name.value == outline.piece);
+        notes.extend(own.and_then(|piece| guessed(piece, guess)));
     }
     let file = GarmentFile {
         version: at_no_place(1),
@@ -86,7 +98,7 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
         free: vec![at_no_place("*.*".to_owned())],
         tests: Vec::new(),
     };
-    Digitized { file, suggestions: suggest(&outlines), notes }
+    Digitized { file, suggestions, notes }
 }
 
 /// The further pieces of one that is cut several times over, each like it.
@@ -188,6 +200,30 @@ fn piece_file(name: &str, piece: &Traced, notes: &mut Vec<String>) -> (PieceFile
         note: piece.material.as_ref().and_then(note).map(at_no_place),
     };
     (file, edges)
+}
+
+/// Writes into a piece what is guessed of it and not told, and says so.
+fn guessed(piece: &mut PieceFile, guess: Guess) -> Option<String> {
+    let mut said = Vec::new();
+    let halves = piece.cut.as_ref().is_some_and(|cut| matches!(cut.value, Cut::Pair | Cut::Fold(_)));
+    if let Some(side) = guess.drawn.filter(|_| halves) {
+        said.push(format!("'drawn: {}'", side.letter()));
+        piece.drawn = Some(at_no_place(side));
+    }
+    if let Some(words) = guess.place.filter(|_| piece.place.is_none()) {
+        said.push(format!("'place: {words}'"));
+        piece.place = Some(at_no_place(PlaceFile::Words(words)));
+    }
+    (!said.is_empty()).then(|| format!("guessed of '{}': {}", piece.name.value, said.join(" and ")))
+}
+
+/// The allowance of an edge, metres.
+fn width_of(piece: &PieceFile, edge: &str) -> Option<f64> {
+    let width = match piece.allowance.as_ref()? {
+        AllowanceFile::All(all) => all.value,
+        AllowanceFile::Edges(edges) => edges.iter().find(|(name, _)| name.value == edge)?.1.value,
+    };
+    Some(width.width.number / MM)
 }
 
 /// The edge on the fold of the cloth, which nothing is sewn to.

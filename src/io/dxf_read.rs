@@ -8,9 +8,10 @@
 
 use std::path::Path as FilePath;
 
-use super::dxf_block::{Block, Library};
+use super::dxf_block::Block;
 use super::dxf_flat::flat;
 use super::dxf_left_out::LeftOut;
+use super::dxf_library::Library;
 use super::dxf_sizes::{Sizes, named_apart};
 use super::dxf_text::{Entity, after, assumed_unit, blocks, entities, letters, stated_unit};
 use super::encoding::decoded;

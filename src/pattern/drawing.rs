@@ -1,5 +1,5 @@
-//! The pieces as drawn, for paper: the shapes that a maker lays on the cloth and cuts round. A pair is drawn once, a
-//! piece on the fold as its half, darts are open and pleats spread.
+//! The pieces as drawn, for paper: what a maker lays on the cloth and cuts round. A pair is drawn once, a piece on the
+//! fold as its half, darts are open and pleats spread.
 
 use super::closure::drawn_points;
 use super::cut::{Pieces, cut};
@@ -16,11 +16,11 @@ use crate::geometry::{Path, Vec2};
 pub struct Drawing {
     /// As in the file.
     pub name: String,
-    /// How the piece is cut.
+    /// How often it is cut, and how.
     pub cut: Cut,
     /// The edge of the outline that lies on the fold of the cloth.
     pub fold: Option<usize>,
-    /// The drawn one of a pair, or the drawn half.
+    /// Which of a pair, or which half, it is.
     pub drawn: Side,
     /// Name of its fabric in the garment.
     pub fabric: String,
@@ -44,7 +44,7 @@ pub struct Drawing {
     pub lines: Vec<Line>,
     /// Marks on edges.
     pub notches: Vec<DrawnNotch>,
-    /// Points of buttons and the like: their kind and place.
+    /// Where buttons and the like go: what it is, and the point.
     pub points: Vec<(String, Vec2)>,
     /// The file's remark.
     pub note: Option<String>,
@@ -69,18 +69,25 @@ pub struct DrawnEdge {
     pub name: String,
     /// Its course: the sewing line.
     pub path: Path,
-    /// Whether a seam of the file takes it, or a part of it.
-    pub sewn: bool,
-    /// Its allowance according to the file.
+    /// Names of the seams of the file that take it, or a part of it.
+    pub seams: Vec<String>,
+    /// What the file says of its allowance.
     pub allowance: Allowance,
 }
 
-/// Allowance of an edge according to a file.
+impl DrawnEdge {
+    /// Whether a seam of the file takes it, or a part of it.
+    pub fn is_sewn(&self) -> bool {
+        !self.seams.is_empty()
+    }
+}
+
+/// What a file says of an allowance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Allowance {
     /// Metres.
     pub width: Option<f64>,
-    /// Ending at corners.
+    /// How it ends at corners.
     pub corner: Option<Corner>,
 }
 
@@ -96,9 +103,9 @@ pub struct Dart {
 pub struct DrawnFold {
     /// Ring and index of the edge.
     pub edge: (usize, usize),
-    /// Place where the cloth is folded, metres from the edge's start.
+    /// Where the cloth is folded, metres from the edge's start.
     pub from: f64,
-    /// Place where the fold comes to lie, metres from the edge's start.
+    /// Where the fold comes to lie.
     pub to: f64,
 }
 
@@ -115,8 +122,8 @@ pub struct DrawnNotch {
 
 /// The drawings of a garment file that has passed its checks as `garment`.
 ///
-/// The allowance of an edge is the first that is given: by its piece for the edge, by its seam, by its piece for all
-/// edges, by the file. A hole that nothing is sewn into has the first only.
+/// An edge's allowance is what its piece says for it, or its seam, or its piece for all edges, or the file; a hole that
+/// nothing is sewn into has the first alone.
 pub fn drawings(file: &GarmentFile, garment: &Garment) -> Vec<Drawing> {
     // Everything wrong has been said when the garment was read.
     let mut said = Findings::new("", "");
@@ -146,10 +153,10 @@ impl Book<'_> {
         let unit = self.file.unit();
         let edge = |at: (usize, usize)| {
             let edge = &drawn.rings[at.0][at.1];
-            let (sewn, by_seam) = self.sewn(index, at);
-            let cut_out = at.0 > 0 && !sewn;
+            let (seams, by_seam) = self.sewn(index, at);
+            let cut_out = at.0 > 0 && seams.is_empty();
             let allowance = self.allowance(piece, drawn, at, by_seam, cut_out);
-            DrawnEdge { name: edge.name.clone(), path: edge.path.clone(), sewn, allowance }
+            DrawnEdge { name: edge.name.clone(), path: edge.path.clone(), seams, allowance }
         };
         let ring = |r: usize| (0..drawn.rings[r].len()).map(|i| edge((r, i))).collect();
         Drawing {
@@ -173,15 +180,18 @@ impl Book<'_> {
         }
     }
 
-    /// Whether a seam of the file takes the edge, and the widest allowance such a seam asks for.
-    fn sewn(&self, draft: usize, at: (usize, usize)) -> (bool, Option<f64>) {
+    /// The seams of the file that take the edge, and the widest allowance such a seam asks for.
+    fn sewn(&self, draft: usize, at: (usize, usize)) -> (Vec<String>, Option<f64>) {
         let own: Vec<EdgeId> =
             self.cut.instances.iter().filter(|i| i.draft == draft).filter_map(|i| i.edge(at)).collect();
-        let (mut sewn, mut width) = (false, None);
+        let (mut sewn, mut width) = (Vec::new(), None);
         for (seam, written) in self.seams.seams.iter().zip(&self.seams.written) {
             let Some(written) = *written else { continue };
             if seam.a.iter().chain(&seam.b).any(|s| own.contains(&s.edge)) {
-                sewn = true;
+                let name = &self.file.seams[written].name.value;
+                if !sewn.contains(name) {
+                    sewn.push(name.clone());
+                }
                 let asked = self.file.seams[written].allowance.as_ref().map(|q| q.value.value(self.file.unit()));
                 width = [width, asked].into_iter().flatten().reduce(f64::max);
             }
@@ -189,7 +199,7 @@ impl Book<'_> {
         (sewn, width)
     }
 
-    /// Allowance of an edge. An edge that is merely `cut_out` has only one given by its name.
+    /// What is said of an edge's allowance; of what is merely `cut_out` only what is said of it by name.
     fn allowance(
         &self,
         piece: &PieceFile,
@@ -228,13 +238,13 @@ fn fish_eyes(drawn: &Draft) -> Vec<usize> {
     rings
 }
 
-/// Folds of the drawn edges. The under-layers of a fold are sewn on each other. The cloth under it begins where it is
-/// folded and ends where the fold comes to lie.
+/// A fold's under-layers are sewn on each other: what lies under it begins where it is folded and ends where the fold
+/// comes to lie.
 fn folds(drawn: &Draft) -> Vec<DrawnFold> {
     let fold = |pair: &[super::draft::OwnSeam]| {
         let [top, under] = pair else { return None };
         let same = top.kind == SeamKind::Pleat(PleatLayer::Top) && under.kind == SeamKind::Pleat(PleatLayer::Under);
-        // The first stretch ends (or begins) at the fold line. The second lies between the hidden fold and the far end.
+        // The first stretch ends (or begins) at the fold line; the second lies between the hidden fold and the far end.
         let Stretch { edge, from, to } = top.a;
         let at = if (to - top.b.to).abs() < 1e-9 { to } else { from };
         let ends = [under.a.from, under.a.to, under.b.from, under.b.to];

@@ -415,6 +415,27 @@ pub struct SeamFile {
 }
 
 impl SeamFile {
+    /// A seam of which nothing is said but what it sews to what.
+    pub fn new(name: Located<String>, sew: Vec<Located<String>>, to: Vec<Located<String>>) -> Self {
+        Self {
+            name,
+            sew,
+            to,
+            ease: None,
+            gather: None,
+            stretch: None,
+            tolerance: None,
+            open: Vec::new(),
+            closure: None,
+            face_same: None,
+            match_notches: None,
+            stage: None,
+            layers: None,
+            allowance: None,
+            note: None,
+        }
+    }
+
     /// Whether it is written `face: same`.
     pub(super) fn is_face_same(&self) -> bool {
         self.face_same.as_ref().is_some_and(|f| f.value)

@@ -3,18 +3,15 @@
 use super::canvas::Canvas;
 use super::color::{INK, PALE_INK, PAPER, RIM, strain};
 use super::paint::limit;
+use super::places::places;
 use super::raster::{Band, Corner, NO_CLOTH, SAMPLES};
 use super::view::legend;
 use super::{HEIGHT, PictureError, WIDTH, encode};
 use crate::geometry::{Vec2, box_or_origin};
 use crate::mesh::{ClothMesh, PieceMesh};
 
-/// Height above the pieces, for words and the legend, pixels.
+/// Pixels above the pieces, for words and the legend.
 const HEAD: usize = 130;
-/// Margin round the pieces, pixels.
-const MARGIN: f64 = 50.0;
-/// Space between pieces, as a share of the largest piece's size.
-const GAP: f64 = 0.08;
 /// Rows of pixels drawn at a time.
 const BAND: usize = 64;
 /// Half the width of the outlines, pixels.
@@ -33,7 +30,8 @@ pub fn draw_flat(cloth: &ClothMesh, values: &[f64], title: &str) -> Result<Vec<u
         return Err(PictureError::StrainLength { values: values.len(), vertices: cloth.triangles.len() });
     }
     let limit = limit(values);
-    let (places, scale) = places(cloth);
+    let boxes: Vec<[Vec2; 2]> = cloth.pieces.iter().map(|piece| bounds(cloth, piece)).collect();
+    let (places, scale) = places(&boxes, HEAD, HEIGHT);
     let at = |piece: usize, v: u32| {
         let p = (cloth.flat[v as usize] - places[piece].from) * scale + places[piece].to;
         [p.x as f32, p.y as f32]
@@ -68,41 +66,6 @@ pub fn draw_flat(cloth: &ClothMesh, values: &[f64], title: &str) -> Result<Vec<u
     canvas.text(title, [56.0, 72.0], 5.0, INK);
     legend(&mut canvas, limit, "strain of the cloth");
     Ok(encode(&canvas)?)
-}
-
-/// Upper left corner of a piece's box, and of its place in the drawing.
-struct Place {
-    from: Vec2,
-    to: Vec2,
-}
-
-/// Pieces in rows, as large as they fit. Pixels per metre.
-fn places(cloth: &ClothMesh) -> (Vec<Place>, f64) {
-    let boxes: Vec<[Vec2; 2]> = cloth.pieces.iter().map(|piece| bounds(cloth, piece)).collect();
-    let sizes: Vec<Vec2> = boxes.iter().map(|[low, high]| high - low).collect();
-    let gap = GAP * sizes.iter().map(|s| s.max()).fold(f64::MIN_POSITIVE, f64::max);
-    let room = Vec2::new(WIDTH as f64, (HEIGHT - HEAD) as f64) - Vec2::repeat(2.0 * MARGIN);
-    // Of the numbers of pieces in a row the one that leaves most scale.
-    let fitted = |row: usize| {
-        let rows = sizes.chunks(row);
-        let width = |r: &[Vec2]| r.iter().map(|s| s.x + gap).sum::<f64>() - gap;
-        let height = |r: &[Vec2]| r.iter().map(|s| s.y).fold(0.0, f64::max) + gap;
-        let widest = rows.clone().map(width).fold(f64::MIN_POSITIVE, f64::max);
-        (room.x / widest).min(room.y / rows.map(height).sum::<f64>())
-    };
-    let best = (1..=sizes.len()).max_by(|&a, &b| fitted(a).total_cmp(&fitted(b)).then(b.cmp(&a))).unwrap_or(1);
-    let scale = fitted(best);
-    let mut places = Vec::with_capacity(sizes.len());
-    let mut at = Vec2::new(MARGIN, HEAD as f64 + MARGIN);
-    for row in (0..sizes.len()).collect::<Vec<_>>().chunks(best) {
-        for &k in row {
-            places.push(Place { from: boxes[k][0], to: at });
-            at.x += (sizes[k].x + gap) * scale;
-        }
-        at.x = MARGIN;
-        at.y += (row.iter().map(|&k| sizes[k].y).fold(0.0, f64::max) + gap) * scale;
-    }
-    (places, scale)
 }
 
 fn bounds(cloth: &ClothMesh, piece: &PieceMesh) -> [Vec2; 2] {

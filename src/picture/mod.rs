@@ -15,6 +15,8 @@ mod light;
 mod occlusion;
 mod on_cloth;
 mod paint;
+mod pattern;
+mod places;
 mod raster;
 mod shadow;
 mod sheet;
@@ -23,6 +25,7 @@ mod view;
 
 pub use dressed::{Dressed, rim_lines};
 pub use flat::draw_flat;
+pub use pattern::{PatternEdge, PatternPiece, draw_pattern, seam_color};
 pub use shadow::draw_shadow;
 pub use sheet::{Specimen, draw_sheet};
 pub use start::{StartMarks, draw_start, opening_color, pixels_of};

@@ -19,6 +19,7 @@ mod job;
 mod judged;
 mod levels;
 mod material;
+mod pattern_picture;
 mod results;
 mod run;
 mod saved;
@@ -35,6 +36,7 @@ pub use error::PipelineError;
 pub use job::{Job, Overrides, inputs, read};
 pub use judged::{Judged, judge};
 pub use material::{Checked, check};
+pub use pattern_picture::pattern_picture;
 pub use results::{
     Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, PATTERN_SVG, PLACED_OBJ, REPORT_JSON, ResultFile, SEWN_OBJ, json_text,
 };

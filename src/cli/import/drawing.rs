@@ -2,13 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Imported, finish};
+use super::{Imported, Seams, finish};
 use crate::cli::args::{DrawingArgs, TargetArgs};
 use crate::cli::console::Console;
 use crate::cli::exit::{CliError, Exit};
-use crate::digitize::{Drawing, Suggestion, garment_file};
+use crate::digitize::{Drawing, garment_file, sewn};
 use crate::io::dxf_read::{DxfOptions, read_dxf};
+use crate::io::garment::seam_line;
 use crate::io::svg_read::{SvgOptions, read_svg};
+use crate::pattern::SeamFile;
 
 /// What `--size` says where every size is wanted.
 const ALL: &str = "all";
@@ -69,22 +71,32 @@ fn refused(args: &DrawingArgs, reason: String) -> CliError {
 fn write(args: &DrawingArgs, target: &TargetArgs, drawing: &Drawing, console: &Console) -> Result<Exit, CliError> {
     let stem = || args.drawing.file_stem().map_or_else(|| "garment".to_owned(), |s| s.to_string_lossy().into_owned());
     let made = garment_file(&drawing.title.clone().unwrap_or_else(stem), &drawing.pieces);
-    let exit = finish(
-        &Imported { source: &args.drawing, target, file: &made.file, complaints: drawing.complaints() },
-        console,
-    )?;
+    let file = if args.seams { sewn(&made.file, &made.suggestions) } else { made.file.clone() };
+    let offers: Vec<(SeamFile, String)> = made.suggestions.iter().map(|s| (s.seam(), s.reason())).collect();
+    let seams = if args.seams { Seams::Taken(&offers) } else { Seams::Offered(&offers) };
+    let complaints = drawing.complaints();
+    let exit = finish(&Imported { source: &args.drawing, target, file: &file, seams, complaints }, console)?;
     drawing.left_out.iter().chain(&drawing.notes).chain(&made.notes).for_each(|note| console.note(note));
-    console
-        .note("seams are to be written; until then all edges are free, afterwards 'free' lists those that stay open");
-    if !made.suggestions.is_empty() {
-        console.note("by their lengths these edges may belong together:");
-    }
-    made.suggestions.iter().for_each(|s| console.note(&suggestion(s)));
+    say_seams(args.seams, &offers, console)?;
     Ok(exit)
 }
 
-fn suggestion(s: &Suggestion) -> String {
-    let [sew, to] = s.lengths.map(|metres| 1e3 * metres);
-    let notches = if s.notched { ", both notched" } else { "" };
-    format!("  {{sew: {}, to: {}}}   # {sew:.1} and {to:.1} mm{notches}", s.sew, s.to)
+/// Says which seams are offered, and what to do with them.
+fn say_seams(taken: bool, offers: &[(SeamFile, String)], console: &Console) -> Result<(), CliError> {
+    if taken {
+        console.note("these seams were guessed and are written as seams; look through them, and through 'free':");
+    } else {
+        console.note(
+            "seams are to be written; until then all edges are free, afterwards 'free' lists those that stay open",
+        );
+    }
+    if !taken && !offers.is_empty() {
+        console
+            .note("these may be meant, best first, and stand in the file as remarks (--seams writes them as seams):");
+    }
+    for (seam, reason) in offers {
+        let line = seam_line(seam).map_err(|e| CliError::Argument(e.to_string()))?;
+        console.note(&format!("  {line}   # {reason}"));
+    }
+    Ok(())
 }

@@ -1,6 +1,6 @@
 //! `import garmentcode`
 
-use super::{Imported, finish, text};
+use super::{Imported, Seams, finish, text};
 use crate::cli::args::GarmentcodeArgs;
 use crate::cli::console::Console;
 use crate::cli::exit::{CliError, Exit};
@@ -18,5 +18,6 @@ pub(super) fn import(args: &GarmentcodeArgs, console: &Console) -> Result<Exit, 
     let floor = floor.map_err(|e| CliError::Argument(e.to_string()))?;
     let file = read(name, &text, Wearer { body: body.as_deref(), floor });
     let file = file.map_err(|e| refused(e.to_string()))?;
-    finish(&Imported { source: &args.spec, target: &args.target, file: &file, complaints: Vec::new() }, console)
+    let (target, complaints) = (&args.target, Vec::new());
+    finish(&Imported { source: &args.spec, target, file: &file, seams: Seams::Read, complaints }, console)
 }

@@ -12,10 +12,10 @@ use super::console::Console;
 use super::exit::{CliError, Exit};
 use crate::input::bytes;
 use crate::io::files::{check_writable, write_all};
-use crate::io::garment::write;
+use crate::io::garment::{EncodeError, write, write_with_offers};
 use crate::mannequin;
-use crate::pattern::GarmentFile;
-use crate::pipeline::check;
+use crate::pattern::{GarmentFile, Located, SeamFile};
+use crate::pipeline::{check, pattern_picture};
 
 /// `toile import …`
 pub(super) fn import(command: &ImportCommand, console: &Console) -> Result<Exit, CliError> {
@@ -74,33 +74,76 @@ struct Imported<'a> {
     source: &'a Path,
     target: &'a TargetArgs,
     file: &'a GarmentFile,
+    seams: Seams<'a>,
     /// What is wrong with what it was read from.
     complaints: Vec<String>,
+}
+
+/// What is known of the seams of a pattern.
+enum Seams<'a> {
+    /// Those of the file.
+    Read,
+    /// They were guessed, each with what is said of it: remarks of the file.
+    Offered(&'a [(SeamFile, String)]),
+    /// They were guessed and are the file's.
+    Taken(&'a [(SeamFile, String)]),
+}
+
+impl Imported<'_> {
+    fn text(&self) -> Result<String, EncodeError> {
+        match self.seams {
+            Seams::Offered(seams) => write_with_offers(self.file, seams),
+            Seams::Read | Seams::Taken(_) => write(self.file),
+        }
+    }
+
+    /// The pieces with all seams that are known, each with a line that tells it.
+    fn picture(&self) -> Result<Vec<u8>, CliError> {
+        let lines: Vec<(SeamFile, String)> = match self.seams {
+            Seams::Read => self.file.seams.iter().map(|seam| (seam.clone(), String::new())).collect(),
+            Seams::Offered(seams) | Seams::Taken(seams) => seams.to_vec(),
+        };
+        let side = |edges: &[Located<String>]| edges.iter().map(|e| e.value.clone()).collect::<Vec<_>>().join(" + ");
+        let told = |(seam, said): (SeamFile, String)| {
+            let line = format!("{}: {} to {}   {said}", seam.name.value, side(&seam.sew), side(&seam.to));
+            (seam, line)
+        };
+        Ok(pattern_picture(self.file, &lines.into_iter().map(told).collect::<Vec<_>>())?)
+    }
+}
+
+fn unwritable(error: EncodeError) -> CliError {
+    CliError::Argument(error.to_string())
 }
 
 /// What was made of it.
 #[derive(Serialize)]
 struct Summary {
     file: String,
+    /// The picture of the pieces and their seams.
+    picture: String,
     pieces: usize,
     seams: usize,
     /// Whether `toile check` accepts it as it is, and nothing is missing in it.
     ok: bool,
 }
 
-/// Writes the garment file and says what a check finds in it.
+/// Writes the garment file and its picture, and says what a check finds in it.
 fn finish(imported: &Imported, console: &Console) -> Result<Exit, CliError> {
-    let text = write(imported.file).map_err(|e| CliError::Argument(e.to_string()))?;
     let target = imported.target.output.clone();
+    let picture = target.with_extension("png");
     let shown = target.display().to_string();
-    check_writable(std::slice::from_ref(&target), &[imported.source])?;
-    if target.exists() && !imported.target.force {
+    check_writable(&[target.clone(), picture.clone()], &[imported.source])?;
+    if let Some(there) = [&target, &picture].into_iter().find(|file| file.exists() && !imported.target.force) {
         return Err(CliError::Argument(format!(
-            "{shown} is there already, and what was written in it would be lost; choose another name with -o, or \
-             --force to write over it"
+            "{} is there already, and what was written in it would be lost; choose another name with -o, or --force to \
+             write over it",
+            there.display()
         )));
     }
-    write_all(&[(target.clone(), text.into_bytes())], &[imported.source])?;
+    let text = imported.text().map_err(unwritable)?;
+    let files = [(target.clone(), text.into_bytes()), (picture.clone(), imported.picture()?)];
+    write_all(&files, &[imported.source])?;
     let checked = check(&target, None);
     match &checked {
         Ok(checked) => checked.loaded.warnings.iter().for_each(|w| console.note(&w.to_string())),
@@ -109,9 +152,9 @@ fn finish(imported: &Imported, console: &Console) -> Result<Exit, CliError> {
     imported.complaints.iter().for_each(|complaint| console.complain(complaint));
     let ok = checked.is_ok() && imported.complaints.is_empty();
     let (pieces, seams) = (imported.file.pieces.len(), imported.file.seams.len());
-    let summary = Summary { file: shown, pieces, seams, ok };
+    let summary = Summary { file: shown, picture: picture.display().to_string(), pieces, seams, ok };
     let counted = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
     let made = format!("{} and {}", counted(pieces, "piece"), counted(seams, "seam"));
-    console.results(&summary, || format!("{made}, written to {}\n", summary.file))?;
+    console.results(&summary, || format!("{made}, written to {} and drawn in {}\n", summary.file, summary.picture))?;
     Ok(if summary.ok { Exit::Done } else { Exit::OutOfBounds })
 }

@@ -24,6 +24,32 @@ impl EncodeError {
 /// # Errors
 /// Whatever the YAML writer cannot represent; nothing that was read from a file.
 pub fn write(file: &GarmentFile) -> Result<String, EncodeError> {
+    layout::document(&document(file), &[])
+}
+
+/// As [`write()`], with these seams as remarks where seams stand, each after the seam with what is said of it: whoever
+/// takes the `#` from a line has the seam.
+///
+/// # Errors
+/// As [`write()`].
+pub fn write_with_offers(file: &GarmentFile, offers: &[(SeamFile, String)]) -> Result<String, EncodeError> {
+    let line = |(seam, said): &(SeamFile, String)| Ok(format!("  {}   # {said}", seam_line(seam)?));
+    let lines: Vec<String> = offers.iter().map(line).collect::<Result<_, EncodeError>>()?;
+    let head = ["Seams that may be meant, best first. Take the '#' from 'seams:' and from those that are:", "seams:"];
+    let remarks =
+        if lines.is_empty() { Vec::new() } else { head.map(str::to_owned).into_iter().chain(lines).collect() };
+    layout::document(&document(file), &remarks)
+}
+
+/// A seam as one line of a file: `side: {sew: front.side, to: back.side}`.
+///
+/// # Errors
+/// As [`write()`].
+pub fn seam_line(own: &SeamFile) -> Result<String, EncodeError> {
+    Ok(format!("{}: {}", own.name.value, layout::flow(&seam(own))?))
+}
+
+fn document(file: &GarmentFile) -> Yaml {
     let mut map = Map::default();
     map.put("garment", file.version.value);
     map.text("name", &file.name);
@@ -38,7 +64,7 @@ pub fn write(file: &GarmentFile) -> Result<String, EncodeError> {
     map.list("closures", &file.closures, closure);
     map.list("free", &file.free, |f| f.value.as_str().into());
     map.list("tests", &file.tests, |t| test_entry(&t.value));
-    layout::document(&map.into())
+    map.into()
 }
 
 /// A YAML mapping under construction; absent things leave no key.

@@ -10,18 +10,25 @@ const WIDTH: usize = 110;
 /// Levels of the file that are blocks however short: its keys, and pieces with theirs.
 const BLOCKS: [(&str, usize); 2] = [("pieces", 2), ("seams", 1)];
 
-/// The document.
+/// Key of the list that remarks stand before.
+const FREE: &str = "free";
+
+/// The document, with lines of remarks before what it lists as free.
 ///
 /// # Errors
 /// A scalar that YAML cannot hold.
-pub(super) fn document(root: &Yaml) -> Result<String, EncodeError> {
+pub(super) fn document(root: &Yaml, remarks: &[String]) -> Result<String, EncodeError> {
     let mut out = String::new();
     let Yaml::Mapping(map) = root else { return scalar(root) };
     for (key, value) in map {
         let name = scalar(key)?;
         let deep = BLOCKS.iter().find(|(block, _)| *block == name).map_or(0, |b| b.1);
         // A blank line before each of the long parts.
-        if deep > 0 || name == "free" {
+        if deep > 0 || name == FREE {
+            out.push('\n');
+        }
+        if name == FREE && !remarks.is_empty() {
+            remarks.iter().for_each(|remark| out.push_str(&format!("# {remark}\n")));
             out.push('\n');
         }
         entry(&mut out, &name, value, 0, deep)?;
@@ -55,7 +62,7 @@ fn entry(out: &mut String, key: &str, value: &Yaml, depth: usize, blocks: usize)
 }
 
 /// A value on one line.
-fn flow(value: &Yaml) -> Result<String, EncodeError> {
+pub(super) fn flow(value: &Yaml) -> Result<String, EncodeError> {
     Ok(match value {
         Yaml::Sequence(items) => {
             format!("[{}]", items.iter().map(flow).collect::<Result<Vec<String>, _>>()?.join(", "))

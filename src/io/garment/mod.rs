@@ -18,7 +18,7 @@ use std::path::Path;
 
 use crate::pattern::{self, Diagnostic, Findings, Garment, GarmentFile, Severity};
 
-pub use encode::{EncodeError, write};
+pub use encode::{EncodeError, seam_line, write, write_with_offers};
 
 /// JSON Schema (2020-12) of the format, for editors that complete and check as one types.
 pub const SCHEMA: &str = include_str!("schema.json");

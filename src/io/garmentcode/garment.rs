@@ -183,22 +183,12 @@ impl Writer<'_> {
         }
         let own_mirror = seam.both_sides && a.iter().zip(b).all(|(a, b)| a.piece == b.piece && a.edge == b.edge);
         let chain = |places: &[Place]| places.iter().map(|&p| self.reference(p, seam.both_sides)).collect();
+        let to = if own_mirror { vec![here("mirror".to_owned())] } else { chain(b) };
         SeamFile {
-            name: here(name),
-            sew: chain(a),
-            to: if own_mirror { vec![here("mirror".to_owned())] } else { chain(b) },
             ease: (unequal && !gathered).then(|| here(millimetres((10.0 * (lb - la)).round() / 10.0, None))),
             gather: gathered.then(|| here((1e3 * la / lb).round() / 1e3)),
-            stretch: None,
-            tolerance: None,
-            open: Vec::new(),
-            closure: None,
             face_same: seam.face_same.then(|| here(true)),
-            match_notches: None,
-            stage: None,
-            layers: None,
-            allowance: None,
-            note: None,
+            ..SeamFile::new(here(name), chain(a), to)
         }
     }
 

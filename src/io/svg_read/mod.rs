@@ -140,13 +140,13 @@ pub fn read_svg_text_as(text: &str, options: &SvgOptions) -> Result<Drawing, Svg
     notes.extend(unit.note(sheet.is_measured || options.unit.is_some()));
     let left_out = LeftOut::default();
     let (strokes, remarks, texts) = (Vec::new(), Vec::new(), Vec::new());
-    let (right, materials, corners) = (Vec::new(), Vec::new(), Vec::new());
-    let mut reader = Reader { document: &document, strokes, remarks, texts, right, materials, corners, left_out };
+    let (sides, materials, corners) = (Vec::new(), Vec::new(), Vec::new());
+    let mut reader = Reader { document: &document, strokes, remarks, texts, sides, materials, corners, left_out };
     reader.walk(root, &sheet)?;
     reader.take_size(options.size.as_deref())?;
     let mut drawing = pieces(&reader.strokes, &reader.remarks, sheet.metres);
     for piece in &mut drawing.pieces {
-        piece.drawn = reader.right.contains(&piece.name).then_some(Side::Right);
+        piece.drawn = reader.sides.iter().find(|(name, _)| *name == piece.name).map(|(_, side)| *side);
         piece.corners = reader.corners.iter().filter(|(name, _)| *name == piece.name).map(|(_, c)| c.clone()).collect();
         piece.material = reader.materials.iter().find(|(name, _)| *name == piece.name).map(|(_, m)| m.clone());
     }
@@ -183,8 +183,8 @@ struct Reader<'a, 'i> {
     remarks: Vec<Remark>,
     /// Remarks that are left out unless a piece is cut as they say, and the lines they stand in.
     texts: Vec<(usize, u32)>,
-    /// Groups whose pieces are the wearer's right ones, as toile itself writes it.
-    right: Vec<String>,
+    /// Groups with which of a pair, or which half, their pieces are, as toile itself writes it.
+    sides: Vec<(String, Side)>,
     /// What groups are cut from, as toile itself writes it.
     materials: Vec<(String, Material)>,
     /// How the allowances of groups' edges end at corners, as toile itself writes it.
@@ -231,9 +231,8 @@ impl Reader<'_, '_> {
                 within.size = own.as_ref().and_then(|own| size_of(&own.name)).or(scope.size);
                 within.layer = own.as_ref().map(|own| own.name.clone()).or(scope.layer);
                 within.group = own.filter(|own| own.is_piece).map(|own| own.name).or(scope.group);
-                if node.attribute("data-drawn") == Some(Side::Right.letter()) {
-                    self.right.extend(within.group.clone());
-                }
+                let side = node.attribute("data-drawn").and_then(Side::from_letter);
+                self.sides.extend(within.group.clone().zip(side));
                 self.materials.extend(within.group.clone().zip(material(node)));
                 let chosen = (name == "switch").then(|| alternative(node));
                 let elements = || {

@@ -1,0 +1,276 @@
+//! Chains of runs that seams bring together: an armhole of front, yoke and back, the waists of a skirt.
+
+use super::matches::to_grain;
+use super::notched::{Compared, compared, reversed};
+use super::run::{Mark, Run};
+use super::sewn::{EdgeEnd, Sewn};
+use super::{Outline, Tolerance};
+
+/// Longest chain, in runs.
+const MOST_RUNS: usize = 4;
+/// Among more chains than this every length fits by chance.
+const MOST_CHAINS: usize = 2000;
+/// A sleeve's cap is longer than its armhole by no more than this share: that much is eased in.
+const EASE: f64 = 0.08;
+/// Runs that lie so far beside their chords, as a share of these, are hollow, and bulge out on the other side.
+const HOLLOW: f64 = 0.03;
+/// Edges that lie no farther from the grain than this (radians, 20 degrees) run along it.
+const ALONG_GRAIN: f64 = 0.35;
+/// Joints of a chain that lie so near to a joint or a notch of the other side (metres) lie opposite it.
+const OPPOSITE: f64 = 0.012;
+
+/// How a chain ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Ends {
+    /// It goes all round.
+    Closed,
+    /// From fold to fold.
+    Folds,
+    Open,
+}
+
+/// Runs that go on into each other.
+#[derive(Clone, Debug)]
+pub(super) struct Chain {
+    /// Their numbers, each walked as it is drawn or the other way.
+    pub(super) runs: Vec<(usize, bool)>,
+    pub(super) length: f64,
+    marks: Vec<Mark>,
+    joints: Vec<f64>,
+    ends: Ends,
+    /// Mean of how far its runs lie within their pieces beside their chords.
+    hollow: f64,
+}
+
+/// Two chains that may be sewn together.
+#[derive(Clone, Debug)]
+pub(super) struct ChainMatch {
+    pub(super) a: Chain,
+    pub(super) b: Chain,
+    /// Whether the first is a half, and the second is as long as both.
+    pub(super) doubled: bool,
+    /// Whether the second is longer, and eased in.
+    pub(super) eased: bool,
+    pub(super) score: f64,
+    pub(super) reasons: Vec<String>,
+}
+
+impl ChainMatch {
+    pub(super) fn runs(&self) -> impl Iterator<Item = usize> + '_ {
+        self.a.runs.iter().chain(&self.b.runs).map(|(run, _)| *run)
+    }
+}
+
+/// What chains are made of.
+pub(super) struct Book<'a> {
+    pub(super) runs: &'a [Run],
+    pub(super) outlines: &'a [Outline],
+    pub(super) sewn: &'a Sewn<'a>,
+    pub(super) free: Vec<bool>,
+}
+
+impl Book<'_> {
+    fn chain(&self, runs: &[(usize, bool)]) -> Chain {
+        let (mut marks, mut joints, mut done, mut hollow) = (Vec::new(), Vec::new(), 0.0, 0.0);
+        for &(run, forward) in runs {
+            let own = &self.runs[run];
+            let walked = if forward { own.marks.clone() } else { reversed(&own.marks, own.length()) };
+            marks.extend(walked.iter().map(|mark| Mark { at: done + mark.at, ..*mark }));
+            hollow += own.hollow() / runs.len() as f64;
+            done += own.length();
+            joints.push(done);
+        }
+        joints.pop();
+        let ends = match (runs.first(), runs.last()) {
+            (Some(&first), Some(&last)) => self.ends(first, last),
+            _ => Ends::Open,
+        };
+        Chain { runs: runs.to_vec(), length: done, marks, joints, ends, hollow }
+    }
+
+    fn ends(&self, (first, forward): (usize, bool), (last, on): (usize, bool)) -> Ends {
+        let (entry, exit) = (self.outer(first, !forward), self.outer(last, on));
+        let at_fold = |run: usize, at_end: bool| self.sewn.lies_on_fold(self.sewn.beside(&self.runs[run], at_end));
+        if self.sewn.partners(exit).contains(&entry) {
+            Ends::Closed
+        } else if at_fold(first, !forward) && at_fold(last, on) {
+            Ends::Folds
+        } else {
+            Ends::Open
+        }
+    }
+
+    /// The end of a run's own edge at its start or its end.
+    fn outer(&self, run: usize, at_end: bool) -> EdgeEnd {
+        let own = &self.runs[run];
+        let edge = if at_end { own.edges[own.edges.len() - 1] } else { own.edges[0] };
+        EdgeEnd { piece: own.piece, edge, at_end }
+    }
+
+    /// All chains of runs that no seam has, each in every direction, and of those all round from every joint.
+    pub(super) fn chains(&self) -> Vec<Chain> {
+        let mut walks: Vec<Vec<(usize, bool)>> = Vec::new();
+        let mut open: Vec<Vec<(usize, bool)>> = (0..self.runs.len())
+            .filter(|&run| self.free[run])
+            .flat_map(|run| [vec![(run, true)], vec![(run, false)]])
+            .collect();
+        while let Some(walk) = open.pop() {
+            if walks.len() > MOST_CHAINS {
+                return Vec::new();
+            }
+            if walk.len() < MOST_RUNS
+                && let Some(&(last, on)) = walk.last()
+            {
+                for next in self.after(last, on) {
+                    if !walk.iter().any(|(run, _)| *run == next.0) {
+                        open.push(walk.iter().copied().chain([next]).collect());
+                    }
+                }
+            }
+            walks.push(walk);
+        }
+        walks.sort();
+        walks.iter().map(|walk| self.chain(walk)).collect()
+    }
+
+    /// The runs that a run goes on into where it ends.
+    fn after(&self, run: usize, on: bool) -> Vec<(usize, bool)> {
+        let begins = |end: EdgeEnd| {
+            let at = |&(next, forward): &(usize, bool)| self.free[next] && self.outer(next, !forward) == end;
+            (0..self.runs.len()).flat_map(|next| [(next, true), (next, false)]).find(at)
+        };
+        self.sewn.partners(self.outer(run, on)).into_iter().filter_map(begins).collect()
+    }
+
+    /// How well two chains fit; `None` if they do not.
+    pub(super) fn fit(&self, a: &Chain, b: &Chain, tolerance: Tolerance) -> Option<ChainMatch> {
+        let pieces =
+            |chain: &Chain| -> Vec<usize> { chain.runs.iter().map(|(run, _)| self.runs[*run].piece).collect() };
+        let (own, other) = (pieces(a), pieces(b));
+        if own.iter().any(|piece| other.contains(piece)) || (a.hollow > HOLLOW && b.hollow > HOLLOW) {
+            return None;
+        }
+        let doubled = a.ends == Ends::Folds && self.is_whole(b) && (b.length / a.length - 2.0).abs() < 0.1;
+        let long = if doubled { 2.0 * a.length } else { a.length };
+        let mut found =
+            ChainMatch { a: a.clone(), b: b.clone(), doubled, eased: false, score: 0.0, reasons: Vec::new() };
+        self.by_length(&mut found, long, tolerance)?;
+        if !doubled {
+            self.by_marks(&mut found)?;
+        }
+        self.by_ends(&mut found);
+        self.by_grain(&mut found);
+        if (a.hollow > HOLLOW && b.hollow < -HOLLOW) || (b.hollow > HOLLOW && a.hollow < -HOLLOW) {
+            found.add(1.0, "one is hollow and the other bulges");
+        }
+        let count = a.runs.len() + b.runs.len();
+        found.score -= 0.25 * (count - 3) as f64;
+        Some(found)
+    }
+
+    /// Whether the chain is one run of a piece that is not a half.
+    fn is_whole(&self, chain: &Chain) -> bool {
+        matches!(chain.runs[..], [(run, _)] if self.outlines[self.runs[run].piece].fold.is_none())
+            && chain.hollow.abs() < HOLLOW
+    }
+
+    fn by_length(&self, found: &mut ChainMatch, long: f64, tolerance: Tolerance) -> Option<()> {
+        let (more, most) = (found.b.length - long, tolerance.of(long));
+        if more.abs() <= most {
+            found.add(0.5 + 1.5 * (1.0 - more.abs() / most), "lengths are equal");
+        } else if !found.doubled && more > 0.0 && more <= EASE * long && found.b.hollow < -HOLLOW {
+            found.eased = true;
+            found.add(1.0 - 0.5 * more / (EASE * long), "the longer one is eased in");
+        } else {
+            return None;
+        }
+        Some(())
+    }
+
+    fn by_marks(&self, found: &mut ChainMatch) -> Option<()> {
+        let (a, b) = (&found.a, &found.b);
+        let Compared { matched, alone, conflict } = compared((&a.marks, a.length), (&b.marks, b.length));
+        if conflict {
+            return None;
+        }
+        let scale = b.length / a.length;
+        let near = |at: f64, places: &[f64]| places.iter().any(|place| (place - at).abs() <= OPPOSITE);
+        let places = |chain: &Chain| -> Vec<f64> {
+            chain.joints.iter().copied().chain(chain.marks.iter().map(|mark| mark.at)).collect()
+        };
+        let opposite = a.joints.iter().filter(|&&at| near(at * scale, &places(b))).count();
+        let across = b.joints.iter().filter(|&&at| near(at / scale, &places(a))).count();
+        let apex = apex(self, b).map_or(0.0, |apex| {
+            let off = |at: &f64| (at * scale - apex).abs() / b.length;
+            a.joints.iter().map(off).fold(0.5, f64::min)
+        });
+        if matched > 0 {
+            found.add(1.5 + 0.75 * (matched - 1).min(2) as f64, "notches match");
+        }
+        if opposite + across > 0 {
+            found.add(0.75 * (opposite + across).min(2) as f64, "joints meet joints or notches");
+        }
+        found.score -= 0.3 * alone.saturating_sub(opposite + across).min(3) as f64 + apex;
+        Some(())
+    }
+
+    fn by_ends(&self, found: &mut ChainMatch) {
+        match (found.a.ends, found.b.ends) {
+            (Ends::Closed, Ends::Closed) => found.add(1.5, "both go all round"),
+            (Ends::Closed, Ends::Open) if self.closing(&found.b).is_some() => {
+                found.add(1.25, "it closes the ring that the other is sewn into");
+            }
+            (Ends::Folds, Ends::Folds) => found.add(1.0, "both go from fold to fold"),
+            (Ends::Folds, _) if found.doubled => found.add(0.5, "it goes round both halves"),
+            (Ends::Closed | Ends::Folds, _) | (_, Ends::Closed | Ends::Folds) => found.score -= 1.0,
+            _ => {}
+        }
+    }
+
+    /// Courses along the grain of either side, and a side that is one edge but for a dart in it.
+    fn by_grain(&self, found: &mut ChainMatch) {
+        let angles = |chain: &Chain| -> Option<Vec<f64>> {
+            chain.runs.iter().map(|(run, _)| to_grain(self.outlines, &self.runs[*run])).collect()
+        };
+        let most = |all: &[f64]| all.iter().copied().fold(0.0, f64::max);
+        if let (Some(a), Some(b)) = (angles(&found.a), angles(&found.b))
+            && most(&a).max(most(&b)) <= ALONG_GRAIN
+        {
+            found.add(0.75, "both along the grain");
+        }
+        let piece = |(run, _): (usize, bool)| self.runs[run].piece;
+        if found.a.runs.windows(2).any(|pair| piece(pair[0]) == piece(pair[1])) {
+            found.add(0.75, "it goes on over a dart");
+        }
+    }
+
+    /// The sides of a single run's piece beside it, where they are as long as each other: sewn together they make it
+    /// go all round.
+    pub(super) fn closing(&self, chain: &Chain) -> Option<[EdgeEnd; 2]> {
+        let [(run, _)] = chain.runs[..] else { return None };
+        let sides = [false, true].map(|at_end| self.sewn.beside(&self.runs[run], at_end));
+        let [one, other] = sides.map(|end| self.outlines[end.piece].edges[end.edge].path.length());
+        let free = sides.iter().all(|side| !self.sewn.lies_on_fold(*side)) && sides[0].edge != sides[1].edge;
+        (free && (one - other).abs() <= crate::pattern::DEFAULT_TOLERANCE).then_some(sides)
+    }
+}
+
+impl ChainMatch {
+    fn add(&mut self, points: f64, reason: &str) {
+        self.score += points;
+        self.reasons.push(reason.to_owned());
+    }
+}
+
+/// Where a chain of one run that bulges lies farthest beside its chord.
+fn apex(book: &Book, chain: &Chain) -> Option<f64> {
+    let [(run, forward)] = chain.runs[..] else { return None };
+    let own = &book.runs[run];
+    if own.hollow() > -HOLLOW {
+        return None;
+    }
+    let count = own.profile.len();
+    let top = (0..count).min_by(|&i, &k| own.profile[i].total_cmp(&own.profile[k]))?;
+    let at = (top + 1) as f64 / (count + 1) as f64 * own.length();
+    Some(if forward { at } else { own.length() - at })
+}

@@ -1,0 +1,110 @@
+//! Guesses a person would make of a piece from what it is sewn to: what it goes round, and which side of the wearer is
+//! drawn.
+
+use super::Outline;
+use super::chains::ChainMatch;
+use super::run::{Run, is_fold};
+use crate::geometry::{Vec2, box_or_origin};
+use crate::pattern::{PlaceMeaning, PlaceWord, Side};
+
+/// A sleeve's cap bulges by more than this share of its chord.
+const CAP: f64 = -0.05;
+
+/// What is guessed of a piece.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::digitize) struct Guess {
+    /// Words of `place`.
+    pub(in crate::digitize) place: Option<String>,
+    /// Which of a pair, or which half, is drawn.
+    pub(in crate::digitize) drawn: Option<Side>,
+}
+
+/// Which side of the wearer a piece is on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Facing {
+    Front,
+    Back,
+}
+
+/// A guess for each piece, from the armholes that caps are sewn to and the crotches.
+pub(super) fn guesses(
+    outlines: &[Outline],
+    runs: &[Run],
+    chained: &[ChainMatch],
+    mirrored: &[(Run, f64, String)],
+) -> Vec<Guess> {
+    let mut guesses = vec![Guess::default(); outlines.len()];
+    let mut facing: Vec<Option<Facing>> = outlines.iter().map(|outline| by_name(&outline.piece)).collect();
+    let caps: Vec<&ChainMatch> = chained.iter().filter(|chain| is_cap(outlines, runs, chain)).collect();
+    for chain in &caps {
+        // A double notch marks the back.
+        for &(run, _) in &chain.a.runs {
+            let own = &runs[run];
+            let doubles = own.marks.iter().filter(|mark| mark.double).count();
+            if facing[own.piece].is_none() && !own.marks.is_empty() {
+                facing[own.piece] = Some(if doubles > 0 { Facing::Back } else { Facing::Front });
+            }
+        }
+        for &(run, _) in &chain.a.runs {
+            place(&mut guesses, runs[run].piece, "torso", &facing);
+        }
+        if let [(cap, forward)] = chain.b.runs[..] {
+            let sleeve = &runs[cap];
+            guesses[sleeve.piece].place = Some(PlaceWord::Arm.name().to_owned());
+            let back_first = chain.a.runs.first().map(|&(run, _)| facing[runs[run].piece]) == Some(Some(Facing::Back));
+            let both = chain.a.runs.iter().map(|&(run, _)| facing[runs[run].piece]).collect::<Option<Vec<Facing>>>();
+            if both.is_some_and(|both| both.contains(&Facing::Back) && both.contains(&Facing::Front)) {
+                // Seen from outside the back of the right arm lies left of its front.
+                let (start, end) = (sleeve.path.start().x, sleeve.path.end().x);
+                let back_is_left = (back_first == forward) == (start < end);
+                guesses[sleeve.piece].drawn = Some(if back_is_left { Side::Right } else { Side::Left });
+            }
+        }
+    }
+    for (run, _, reason) in mirrored.iter().filter(|(run, ..)| outlines[run.piece].pair) {
+        if reason == super::CROTCH_SAID {
+            place(&mut guesses, run.piece, "leg", &facing);
+        }
+    }
+    for (piece, guess) in guesses.iter_mut().enumerate().filter(|(_, guess)| guess.drawn.is_none()) {
+        let middle = middle(&outlines[piece], mirrored.iter().map(|(run, ..)| run).filter(|run| run.piece == piece));
+        if let (Some(facing), Some(middle)) = (facing[piece], middle) {
+            let [low, high] = box_or_origin(outlines[piece].edges.iter().flat_map(|e| e.path.sampled(1e-3)));
+            // Seen from outside the wearer's left is right of the middle in front, and left of it behind.
+            let lies_right = middle.x < (low.x + high.x) / 2.0;
+            guess.drawn = Some(if lies_right == (facing == Facing::Front) { Side::Left } else { Side::Right });
+        }
+    }
+    guesses
+}
+
+/// What a piece's name says.
+fn by_name(name: &str) -> Option<Facing> {
+    let said: Vec<PlaceMeaning> = PlaceWord::in_name(name).into_iter().map(PlaceWord::meaning).collect();
+    match (said.contains(&PlaceMeaning::Front), said.contains(&PlaceMeaning::Back)) {
+        (true, false) => Some(Facing::Front),
+        (false, true) => Some(Facing::Back),
+        _ => None,
+    }
+}
+
+fn place(guesses: &mut [Guess], piece: usize, part: &str, facing: &[Option<Facing>]) {
+    let side = facing[piece].map(|facing| match facing {
+        Facing::Front => PlaceWord::Front.name(),
+        Facing::Back => PlaceWord::Back.name(),
+    });
+    guesses[piece].place = Some(side.map_or_else(|| part.to_owned(), |side| format!("{part} {side}")));
+}
+
+/// Whether a chain is an armhole with the cap of a sleeve that is cut as a pair.
+fn is_cap(outlines: &[Outline], runs: &[Run], chain: &ChainMatch) -> bool {
+    matches!(chain.b.runs[..], [(run, _)] if runs[run].hollow() < CAP && outlines[runs[run].piece].pair)
+        && chain.a.runs.iter().all(|(run, _)| runs[*run].hollow() > 0.0)
+}
+
+/// A point of a half's middle: of its fold, or of the seam between the halves.
+fn middle<'a>(outline: &Outline, centers: impl Iterator<Item = &'a Run>) -> Option<Vec2> {
+    let folded = (0..outline.edges.len()).find(|&k| is_fold(outline, k)).map(|k| &outline.edges[k].path);
+    let half = |path: &crate::geometry::Path| path.point(path.length() / 2.0);
+    folded.map(half).or_else(|| centers.map(|run| half(&run.path)).next())
+}

@@ -1,0 +1,163 @@
+//! Suggested seams as a garment file has them.
+
+use super::Outline;
+use super::chains::{Chain, ChainMatch};
+use super::matches::Match;
+use super::run::Run;
+use crate::geometry::MM;
+use crate::pattern::{Cut, DEFAULT_TOLERANCE, GarmentFile, Located, PieceFile, Quantity, SeamFile, Spot};
+
+/// Edges that may be sewn together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Suggestion {
+    /// A name for the seam that no other has.
+    pub name: String,
+    /// One side, `front.a`, or several edges that go on into each other.
+    pub sew: Vec<String>,
+    /// The other, or `mirror`.
+    pub to: Vec<String>,
+    /// Their lengths, metres.
+    pub lengths: [f64; 2],
+    /// How much the second is longer (metres), where that is eased in.
+    pub ease: Option<f64>,
+    /// How much speaks for it: points, comparable within one drawing.
+    pub score: f64,
+    /// What speaks for it.
+    pub reasons: Vec<String>,
+}
+
+fn at_no_place<T>(value: T) -> Located<T> {
+    Located::new(value, Spot::default())
+}
+
+impl Suggestion {
+    /// As a garment file has it.
+    pub fn seam(&self) -> SeamFile {
+        let side = |edges: &[String]| edges.iter().cloned().map(at_no_place).collect();
+        let tenths = |metres: f64| (metres * MM * 10.0).round() / 10.0;
+        let ease = self.ease.map(|ease| at_no_place(Quantity { number: tenths(ease), unit: None }));
+        // A garment file takes more only if that is said.
+        let apart = (self.lengths[1] - self.lengths[0]).abs();
+        let number = (apart * MM).ceil();
+        let tolerance =
+            (ease.is_none() && apart > DEFAULT_TOLERANCE).then(|| at_no_place(Quantity { number, unit: None }));
+        SeamFile { ease, tolerance, ..SeamFile::new(at_no_place(self.name.clone()), side(&self.sew), side(&self.to)) }
+    }
+
+    /// Its lengths and what speaks for it.
+    pub fn reason(&self) -> String {
+        let [sew, to] = self.lengths.map(|metres| metres * MM);
+        format!("{sew:.1} and {to:.1} mm; {}", self.reasons.join(", "))
+    }
+}
+
+/// A garment file of which nothing is sewn, with all that is suggested as its seams and the rest of its edges free.
+pub fn sewn(file: &GarmentFile, suggestions: &[Suggestion]) -> GarmentFile {
+    let sewn: Vec<String> = suggestions.iter().flat_map(|s| s.sew.iter().chain(&s.to)).map(|e| whole(e)).collect();
+    let mut free = Vec::new();
+    for piece in &file.pieces {
+        let name = &piece.name.value;
+        let edges = piece.outline.iter().flat_map(|outline| &outline.edges);
+        let full: Vec<String> = edges.map(|(edge, _)| format!("{name}.{}", edge.value)).collect();
+        let left: Vec<&String> = full.iter().filter(|edge| !sewn.contains(edge)).collect();
+        if left.len() == full.len() {
+            free.push(format!("{name}.*"));
+        } else {
+            free.extend(left.into_iter().filter(|edge| !lies_on_fold(piece, edge)).cloned());
+        }
+    }
+    GarmentFile {
+        seams: suggestions.iter().map(Suggestion::seam).collect(),
+        free: free.into_iter().map(at_no_place).collect(),
+        ..file.clone()
+    }
+}
+
+/// `front.neck` of `front.L.neck`.
+fn whole(edge: &str) -> String {
+    let words: Vec<&str> = edge.split('.').filter(|word| !["L", "R"].contains(word)).collect();
+    words.join(".")
+}
+
+fn lies_on_fold(piece: &PieceFile, edge: &str) -> bool {
+    let on = piece.cut.as_ref().and_then(|cut| if let Cut::Fold(on) = &cut.value { Some(on) } else { None });
+    on.is_some_and(|on| format!("{}.{on}", piece.name.value) == edge)
+}
+
+/// All that was found, those that most speaks for first.
+pub(super) fn written(
+    outlines: &[Outline],
+    runs: &[Run],
+    matches: &[Match],
+    chained: &[ChainMatch],
+    mirrored: &[(Run, f64, String)],
+) -> Vec<Suggestion> {
+    let pieces = |runs: &[&Run]| -> Vec<usize> { runs.iter().map(|run| run.piece).collect() };
+    let mut found: Vec<(Vec<usize>, Suggestion)> = Vec::new();
+    for own in matches {
+        let sides = [(&own.a, false), (&own.b, own.opposed)];
+        let [sew, to] = sides.map(|(run, backward)| edges(outlines, run, backward, None));
+        let lengths = [own.a.length(), own.b.length()];
+        found.push((pieces(&[&own.a, &own.b]), suggestion(sew, to, lengths, own.score, &own.reasons)));
+    }
+    for own in chained {
+        let of = |chain: &Chain| chain.runs.iter().map(|(run, _)| runs[*run].piece).collect::<Vec<usize>>();
+        let to = walked(outlines, runs, &own.b, true, None);
+        let sew = if own.doubled {
+            let [left, right] = ["L", "R"].map(|side| walked(outlines, runs, &own.a, side == "R", Some(side)));
+            left.into_iter().chain(right).collect()
+        } else {
+            walked(outlines, runs, &own.a, true, None)
+        };
+        let lengths = [own.a.length * if own.doubled { 2.0 } else { 1.0 }, own.b.length];
+        let mut made = suggestion(sew, to, lengths, own.score, &own.reasons);
+        made.ease = Some(lengths[1] - lengths[0]).filter(|ease| *ease > DEFAULT_TOLERANCE);
+        found.push((of(&own.b).into_iter().chain(of(&own.a)).collect(), made));
+    }
+    for (run, score, reason) in mirrored {
+        let to = vec!["mirror".to_owned()];
+        let sew = edges(outlines, run, false, None);
+        found.push((vec![run.piece], suggestion(sew, to, [run.length(); 2], *score, std::slice::from_ref(reason))));
+    }
+    found.sort_by(|a, b| b.1.score.total_cmp(&a.1.score));
+    named(outlines, found)
+}
+
+fn suggestion(sew: Vec<String>, to: Vec<String>, lengths: [f64; 2], score: f64, reasons: &[String]) -> Suggestion {
+    Suggestion { name: String::new(), sew, to, lengths, ease: None, score, reasons: reasons.to_vec() }
+}
+
+/// `front.a`, `front.b`: the edges of a run as they are walked, of one side if that is said.
+fn edges(outlines: &[Outline], run: &Run, backward: bool, side: Option<&str>) -> Vec<String> {
+    let outline = &outlines[run.piece];
+    let piece = side.map_or_else(|| outline.piece.clone(), |side| format!("{}.{side}", outline.piece));
+    let mut names: Vec<String> = run.edges.iter().map(|&k| format!("{piece}.{}", outline.edges[k].name)).collect();
+    if backward {
+        names.reverse();
+    }
+    names
+}
+
+fn walked(outlines: &[Outline], runs: &[Run], chain: &Chain, onward: bool, side: Option<&str>) -> Vec<String> {
+    let of = |&(run, forward): &(usize, bool)| edges(outlines, &runs[run], forward != onward, side);
+    if onward { chain.runs.iter().flat_map(of).collect() } else { chain.runs.iter().rev().flat_map(of).collect() }
+}
+
+/// Names after the pieces: `front_back`, `front_back_2`.
+fn named(outlines: &[Outline], found: Vec<(Vec<usize>, Suggestion)>) -> Vec<Suggestion> {
+    let mut taken: Vec<String> = Vec::new();
+    let name = |(mut pieces, own): (Vec<usize>, Suggestion)| {
+        pieces.dedup();
+        let words: Vec<&str> = pieces.iter().take(3).map(|&k| outlines[k].piece.as_str()).collect();
+        let stem = words.join("_");
+        let mut name = stem.clone();
+        let mut again = 2;
+        while taken.contains(&name) {
+            name = format!("{stem}_{again}");
+            again += 1;
+        }
+        taken.push(name.clone());
+        Suggestion { name, ..own }
+    };
+    found.into_iter().map(name).collect()
+}

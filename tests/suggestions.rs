@@ -1,0 +1,371 @@
+//! Seams that are offered for a drawing: which edges belong together, and what is not sewn though it is as long.
+
+use std::path::{Path as FilePath, PathBuf};
+
+use toile::digitize::{Digitized, Notch, Suggestion, Traced, garment_file};
+use toile::geometry::{Path, Vec2};
+use toile::io::garment::read;
+use toile::io::garmentcode::{Wearer, read as read_garmentcode};
+use toile::pattern::{Cut, Drawing, GarmentFile, PlaceFile, Side, drawings};
+
+/// A piece of closed path commands, millimetres, its notches (single or double) and how it is cut.
+struct Drawn<'a> {
+    name: &'a str,
+    path: &'a str,
+    notches: &'a [([f64; 2], bool)],
+    cut: Option<Cut>,
+    fold: Option<[[f64; 2]; 2]>,
+}
+
+impl<'a> Drawn<'a> {
+    fn pair(name: &'a str, path: &'a str) -> Self {
+        Self { name, path, notches: &[], cut: Some(Cut::Pair), fold: None }
+    }
+}
+
+fn point([x, y]: [f64; 2]) -> Vec2 {
+    Vec2::new(x, y) * 1e-3
+}
+
+/// A double notch as drawings have it: two marks.
+fn marks(at: Vec2, double: bool) -> Vec<Notch> {
+    let off = if double { 3e-3 } else { 0.0 };
+    let marks = [at - Vec2::new(off, 0.0), at + Vec2::new(off, 0.0)];
+    marks.into_iter().take(1 + usize::from(double)).map(|at| Notch { at, told: None }).collect()
+}
+
+fn made(pieces: &[Drawn]) -> Digitized {
+    let traced = |piece: &Drawn| Traced {
+        name: piece.name.to_owned(),
+        sew: vec![(None, Path::parse_absolute(piece.path, 1e-3).expect("a path"))],
+        grain: Some([point([50.0, 50.0]), point([50.0, 150.0])]),
+        notches: piece.notches.iter().flat_map(|(at, double)| marks(point(*at), *double)).collect(),
+        mirror: piece.fold.map(|ends| ends.map(point)),
+        cut_how: piece.cut.clone(),
+        ..Traced::default()
+    };
+    garment_file("drawing", &pieces.iter().map(traced).collect::<Vec<Traced>>())
+}
+
+fn offered(made: &Digitized) -> Vec<(String, String)> {
+    made.suggestions.iter().map(|s| (s.sew.join(" "), s.to.join(" "))).collect()
+}
+
+#[test]
+fn a_single_notch_is_never_sewn_to_a_double_one() {
+    let side = |double: bool| {
+        let front =
+            Drawn { notches: &[([208.0, 120.0], false)], ..Drawn::pair("front", "M 0 0 H 200 L 220 300 H 0 Z") };
+        let path = "M 0 0 H 180 L 200 300 H 0 Z";
+        let notches: &[([f64; 2], bool)] = if double { &[([188.0, 120.0], true)] } else { &[([188.0, 120.0], false)] };
+        offered(&made(&[front, Drawn { notches, ..Drawn::pair("back", path) }]))
+    };
+    assert!(side(false).contains(&("front.b front.c".to_owned(), "back.b back.c".to_owned())), "{:?}", side(false));
+    assert!(side(true).iter().all(|(sew, to)| !(sew.contains("front") && to.contains("back"))), "{:?}", side(true));
+}
+
+/// The pieces of a garment as other programs draw them: no names of edges, notches as marks.
+fn stripped(drawings: &[Drawing]) -> Vec<Traced> {
+    let piece = |drawing: &Drawing| {
+        let ring = &drawing.rings[0];
+        let whole = ring.iter().map(|e| e.path.clone()).reduce(|line, next| line.joined(&next)).expect("edges");
+        let fold = drawing.fold.map(|k| [ring[k].path.start(), ring[k].path.end()]);
+        let notch = |n: &toile::pattern::DrawnNotch| marks(drawing.edge(n.edge).path.point(n.at), n.double);
+        Traced {
+            name: drawing.name.clone(),
+            sew: vec![(None, whole)],
+            grain: drawing.grain,
+            notches: drawing.notches.iter().filter(|n| n.edge.0 == 0).flat_map(notch).collect(),
+            mirror: fold,
+            cut_how: Some(drawing.cut.clone()).filter(|cut| !matches!(cut, Cut::Fold(_))),
+            ..Traced::default()
+        }
+    };
+    drawings.iter().map(piece).collect()
+}
+
+/// `front.neck` of `front.L.neck`, `front.neck.2` or `front.neck@0..30`.
+fn base(drawings: &[Drawing], written: &str) -> String {
+    let plain = written.split('@').next().unwrap_or_default();
+    let (piece, rest) = plain.split_once('.').unwrap_or((plain, ""));
+    let edge = rest.split('.').find(|word| !["L", "R"].contains(word) && word.parse::<usize>().is_err());
+    assert!(drawings.iter().any(|d| d.name == piece), "{written}");
+    format!("{piece}.{}", edge.unwrap_or_default())
+}
+
+/// What a garment's seams sew, by whole edges: two sides each, the second `mirror` for halves of a pair.
+fn truth(file: &GarmentFile, drawings: &[Drawing]) -> Vec<[Vec<String>; 2]> {
+    let side = |edges: &[toile::pattern::Located<String>]| {
+        let all = edges.iter().map(|e| if e.value == "mirror" { e.value.clone() } else { base(drawings, &e.value) });
+        sorted(all.collect())
+    };
+    let written = file.seams.iter().map(|seam| [side(&seam.sew), side(&seam.to)]);
+    let legs = drawings.iter().flat_map(|d| {
+        let name = |k: usize| vec![format!("{}.{}", d.name, d.rings[0][k].name)];
+        d.darts.iter().map(move |dart| dart.legs.map(name))
+    });
+    written.chain(legs).collect()
+}
+
+fn sorted(mut all: Vec<String>) -> Vec<String> {
+    all.sort();
+    all.dedup();
+    all
+}
+
+/// The garment's own edges that edges of a suggestion run along.
+fn along(made: &Digitized, drawings: &[Drawing], edges: &[String]) -> Vec<String> {
+    let own = |written: &String| -> Vec<String> {
+        if written == "mirror" {
+            return vec![written.clone()];
+        }
+        let words: Vec<&str> = written.split('.').collect();
+        let (piece, edge) = (words[0], words[words.len() - 1]);
+        let k = drawings.iter().position(|d| d.name == piece).expect("a piece");
+        let file = &made.file.pieces[k];
+        let outline = file.outline.as_ref().expect("an outline");
+        let mut at = Vec2::from(outline.start.value);
+        let mut path = None;
+        let ring = &drawings[k].rings[0];
+        let low = ring.iter().flat_map(|e| e.path.sampled(1e-6)).fold(ring[0].path.start(), |low, p| low.inf(&p));
+        for (name, commands) in &outline.edges {
+            let course = Path::parse(at, &commands.value, 1e-3).expect("a path");
+            at = course.end() * 1e3;
+            if name.value == edge {
+                path = Some(course);
+            }
+        }
+        let path = path.expect("an edge");
+        let nearest = |share: f64| {
+            let p = path.point(path.length() * share) + low;
+            let off = |e: &&toile::pattern::DrawnEdge| e.path.nearest(p).1;
+            let edge = ring.iter().min_by(|a, b| off(a).total_cmp(&off(b))).expect("edges");
+            let is_leg = drawings[k].darts.iter().any(|d| d.legs.iter().any(|leg| ring[*leg].name == edge.name));
+            let full = format!("{piece}.{}", edge.name);
+            if is_leg { full } else { base(drawings, &full) }
+        };
+        [0.1, 0.3, 0.5, 0.7, 0.9].map(nearest).to_vec()
+    };
+    sorted(edges.iter().flat_map(own).collect())
+}
+
+/// How many of the offered seams are the garment's own (or a part of one), how many are offered, how many of its own
+/// are among them, and how many it has.
+fn judged(file: &GarmentFile, drawings: &[Drawing]) -> ([usize; 4], String) {
+    let made = garment_file("garment", &stripped(drawings));
+    let truth = truth(file, drawings);
+    let mut found = vec![false; truth.len()];
+    let mut said = String::new();
+    let mut right = 0;
+    for own in &made.suggestions {
+        let sides = [along(&made, drawings, &own.sew), along(&made, drawings, &own.to)];
+        let within = |part: &[String], whole: &[String]| part.iter().all(|edge| whole.contains(edge));
+        let is = |[a, b]: &[Vec<String>; 2]| {
+            (within(&sides[0], a) && within(&sides[1], b)) || (within(&sides[0], b) && within(&sides[1], a))
+        };
+        let parts = |[a, b]: &[Vec<String>; 2]| {
+            (within(a, &sides[0]) && within(b, &sides[1])) || (within(b, &sides[0]) && within(a, &sides[1]))
+        };
+        // A part of one seam, or several that go on into each other.
+        let mut hit: Vec<usize> = (0..truth.len()).filter(|&k| is(&truth[k])).collect();
+        if hit.is_empty() {
+            let several: Vec<usize> = (0..truth.len()).filter(|&k| parts(&truth[k])).collect();
+            let all = several.iter().flat_map(|&k| truth[k].iter().flatten().cloned()).collect();
+            let whole = sorted(all) == sorted(sides.iter().flatten().cloned().collect());
+            hit = several.into_iter().filter(|_| whole).collect();
+        }
+        hit.iter().for_each(|&k| found[k] = true);
+        right += usize::from(!hit.is_empty());
+        said.push_str(&format!("{} {}\n", if hit.is_empty() { "WRONG" } else { "right" }, shown(own, &sides)));
+    }
+    for (k, _) in found.iter().enumerate().filter(|(_, found)| !**found) {
+        said.push_str(&format!("missed {:?}\n", truth[k]));
+    }
+    ([right, made.suggestions.len(), found.iter().filter(|found| **found).count(), truth.len()], said)
+}
+
+fn shown(own: &Suggestion, sides: &[Vec<String>; 2]) -> String {
+    format!(
+        "{:.2} {:?} {:?} {:?} {:?}",
+        own.score,
+        sides[0],
+        sides[1],
+        own.lengths.map(|l| (1e4 * l).round() / 10.0),
+        own.reasons
+    )
+}
+
+fn of_garments(garments: &[(String, GarmentFile, Vec<Drawing>)]) -> [usize; 4] {
+    let mut sum = [0; 4];
+    for (name, file, drawings) in garments {
+        let (counts, said) = judged(file, drawings);
+        println!("{name} {counts:?}\n{said}");
+        (0..4).for_each(|k| sum[k] += counts[k]);
+    }
+    println!("right, offered, found, seams: {sum:?}");
+    sum
+}
+
+/// Of the shipped patterns, stripped of names: what is offered is right, and most of what they sew is offered.
+#[test]
+fn the_seams_of_shipped_patterns_are_offered() {
+    let mut garments = Vec::new();
+    for name in ["child_dress", "gore_skirt", "sheath_dress", "trousers", "tshirt"] {
+        let loaded = read(&FilePath::new("patterns").join(format!("{name}.yaml"))).expect("a pattern");
+        let drawn = drawings(&loaded.file, &loaded.garment);
+        garments.push((name.to_owned(), loaded.file, drawn));
+    }
+    let [right, offered, found, seams] = of_garments(&garments);
+    assert!(right * 100 >= offered * 85 && found * 100 >= seams * 70, "{right} of {offered}, {found} of {seams}");
+}
+
+#[test]
+fn the_seams_of_garmentcodes_patterns_are_offered() {
+    let folder = PathBuf::from("../shared/garmentcode");
+    let Ok(entries) = std::fs::read_dir(&folder) else {
+        println!("skipped: {} is absent", folder.display());
+        return;
+    };
+    let mut folders: Vec<PathBuf> = entries.filter_map(|e| Some(e.ok()?.path())).filter(|p| p.is_dir()).collect();
+    folders.sort();
+    let mut garments = Vec::new();
+    for folder in folders {
+        let name = folder.file_name().expect("a name").to_string_lossy().into_owned();
+        let text = std::fs::read_to_string(folder.join(format!("{name}_specification.json"))).expect("a specification");
+        let file = read_garmentcode(&name, &text, Wearer { body: None, floor: 0.0 }).expect("a garment");
+        let yaml = toile::io::garment::write(&file).expect("YAML");
+        let loaded = toile::io::garment::read_text(&name, "spec.yaml", &yaml).expect("a garment");
+        let drawn = drawings(&loaded.file, &loaded.garment);
+        garments.push((name, loaded.file, drawn));
+    }
+    let [right, offered, ..] = of_garments(&garments);
+    assert!(right * 100 >= offered * 85, "{right} of {offered}");
+}
+
+/// Half of a bodice on the fold: neckline, shoulder, armhole, side and hem. `bend` moves the armhole, which has its
+/// notch this far from the side.
+fn bodice(name: &str, neck: f64, bend: f64, notch: (f64, bool)) -> Traced {
+    let armhole = Path::parse_absolute(&format!("M 210 30 C {bend} 90 215 170 270 190"), 1e-3).expect("a path");
+    let path = format!("M 0 {neck} C 40 {neck} 80 30 88 0 L 210 30 C {bend} 90 215 170 270 190 V 560 H 0 Z");
+    let at = armhole.point(armhole.length() - notch.0 * 1e-3);
+    Traced {
+        name: name.to_owned(),
+        sew: vec![(None, Path::parse_absolute(&path, 1e-3).expect("a path"))],
+        grain: Some([point([50.0, 150.0]), point([50.0, 400.0])]),
+        notches: marks(at, notch.1),
+        mirror: Some([point([0.0, 560.0]), point([0.0, neck])]),
+        ..Traced::default()
+    }
+}
+
+/// A sleeve, the back of its cap to the left, with the cap as long as said.
+fn sleeve(long: f64, front: f64, back: f64) -> Traced {
+    let cap = |scale: f64| {
+        let text = "M -165 0 C -120 -10 -90 -140 0 -140 C 90 -140 120 -10 165 0";
+        Path::parse_absolute(text, 1e-3).expect("a path").mapped(nalgebra::Matrix2::identity() * scale, Vec2::zeros())
+    };
+    let scale = long / cap(1.0).length();
+    let cap = cap(scale);
+    let (wide, deep) = (130.0 * scale * 1e-3, 0.4);
+    let rest = [cap.end(), Vec2::new(wide, deep), Vec2::new(-wide, deep), cap.start()];
+    let mut notches = marks(cap.point(back * 1e-3), true);
+    notches.extend(marks(cap.point(long - front * 1e-3), false));
+    Traced {
+        name: "arm_part".to_owned(),
+        sew: vec![(None, cap.joined(&Path::polyline(&rest)))],
+        grain: Some([point([0.0, 300.0]), point([0.0, 0.0])]),
+        notches,
+        cut_how: Some(Cut::Pair),
+        ..Traced::default()
+    }
+}
+
+/// Front and back go into the cap together, as their notches say, whichever of them that puts first; and the sleeve is
+/// placed round an arm, the back behind.
+#[test]
+fn armholes_are_chained_into_a_cap() {
+    let (front, back) = (bodice("one", 80.0, 192.0, (60.0, false)), bodice("other", 40.0, 200.0, (75.0, true)));
+    let armhole = |bend: f64| {
+        let text = format!("M 210 30 C {bend} 90 215 170 270 190");
+        Path::parse_absolute(&text, 1e-3).expect("a path").length()
+    };
+    let long = armhole(192.0) + armhole(200.0) + 8e-3;
+    let made = garment_file("shirt", &[front, back, sleeve(long, 60.0, 75.0)]);
+    let found = made.suggestions.iter().find(|s| s.sew[0].starts_with("o") && s.to[0].starts_with("arm_part"));
+    let found = found.unwrap_or_else(|| panic!("{:?}", made.suggestions));
+    let pieces =
+        |edges: &[String]| sorted(edges.iter().map(|e| e.split('.').next().unwrap_or("").to_owned()).collect());
+    assert_eq!(pieces(&found.sew), ["one", "other"], "{found:?}");
+    assert!((found.ease.expect("ease") - 8e-3).abs() < 1e-4, "{found:?}");
+    assert!(found.reasons.iter().any(|reason| reason == "notches match"), "{found:?}");
+    // Sides, shoulders and the sleeve's own seam; no hem, no neckline.
+    assert_eq!(made.suggestions.len(), 4, "{:?}", made.suggestions);
+    let piece = |name: &str| made.file.pieces.iter().find(|p| p.name.value == name).expect("a piece");
+    let place = |name: &str| match piece(name).place.as_ref().map(|p| &p.value) {
+        Some(PlaceFile::Words(words)) => words.clone(),
+        other => format!("{other:?}"),
+    };
+    assert_eq!([place("one"), place("other"), place("arm_part")], ["torso front", "torso back", "arm"]);
+    let drawn = |name: &str| piece(name).drawn.as_ref().map(|side| side.value);
+    assert_eq!([drawn("one"), drawn("other"), drawn("arm_part")], [None, Some(Side::Right), Some(Side::Right)]);
+    // Taken over as they are they make a garment.
+    let sewn = toile::digitize::sewn(&made.file, &made.suggestions);
+    let yaml = toile::io::garment::write(&sewn).expect("YAML");
+    toile::io::garment::read_text("shirt", "shirt.yaml", &yaml).unwrap_or_else(|e| panic!("{e}\n{yaml}"));
+}
+
+/// Where the notches of an armhole say the other way round, it is sewn into no such cap.
+#[test]
+fn chains_never_sew_a_single_notch_to_a_double_one() {
+    let (front, back) = (bodice("one", 80.0, 192.0, (60.0, true)), bodice("other", 40.0, 200.0, (60.0, true)));
+    let long = 0.3596;
+    let made = garment_file("shirt", &[front, back, sleeve(long, 60.0, 60.0)]);
+    assert!(
+        made.suggestions.iter().all(|s| s.sew.len() < 3 || !s.to[0].starts_with("arm_part")),
+        "{:?}",
+        made.suggestions
+    );
+}
+
+/// Offered seams stand in the file as remarks, which a reader does not see and whoever takes the `#` away has.
+#[test]
+fn offered_seams_are_remarks_of_the_file() {
+    let (front, back) = (bodice("one", 80.0, 192.0, (60.0, false)), bodice("other", 40.0, 200.0, (75.0, true)));
+    let made = garment_file("shirt", &[front, back]);
+    let offers: Vec<_> = made.suggestions.iter().map(|s| (s.seam(), s.reason())).collect();
+    let yaml = toile::io::garment::write_with_offers(&made.file, &offers).expect("YAML");
+    let read =
+        |text: &str| toile::io::garment::read_file_only("shirt.yaml", text).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    assert!(read(&yaml).seams.is_empty() && !offers.is_empty());
+    let taken: String = yaml
+        .lines()
+        .map(|line| {
+            let is_seam = line.starts_with("# seams:") || line.starts_with("#   ");
+            format!("{}\n", if is_seam { &line[2..] } else { line })
+        })
+        .collect();
+    assert_eq!(read(&taken).seams.len(), offers.len(), "{taken}");
+}
+
+/// Hems are as long as each other, and wide allowances tell them.
+#[test]
+fn hems_are_told_by_their_allowance() {
+    let skirt = |name: &str| {
+        let sew = Path::parse_absolute("M 0 0 H 150 L 200 500 H 0 Z", 1e-3).expect("a path");
+        let cut = Path::parse_absolute("M -10 -10 H 160 L 213 540 H -10 Z", 1e-3).expect("a path");
+        let grain = Some([point([50.0, 100.0]), point([50.0, 300.0])]);
+        let how = Some(Cut::Pair);
+        Traced {
+            name: name.to_owned(),
+            sew: vec![(None, sew)],
+            cut: Some(cut),
+            grain,
+            cut_how: how,
+            ..Traced::default()
+        }
+    };
+    let made = garment_file("skirt", &[skirt("front"), skirt("back")]);
+    let hem = |edge: &String| edge.ends_with(".c");
+    assert!(made.suggestions.iter().all(|s| !s.sew.iter().chain(&s.to).any(hem)), "{:?}", made.suggestions);
+    assert!(offered(&made).contains(&("front.b".to_owned(), "back.b".to_owned())), "{:?}", made.suggestions);
+}
