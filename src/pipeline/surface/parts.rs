@@ -6,6 +6,7 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::size::Space;
 use crate::flatten::{FlattenError, Solid, orient};
 use crate::geometry::{DisjointSets, TriMesh, Vec3, diagonals_of, sorted_pair, triangles_of};
 use crate::io::obj_read::ObjFaces;
@@ -46,10 +47,9 @@ const NONE: u32 = u32::MAX;
 type NodeKey = (u32, Option<[u64; 2]>);
 
 impl Nodes {
-    /// With `texture`, a vertex that has several texture positions is several nodes; with `weld`, vertices at the same
-    /// place are one.
-    pub(super) fn new(faces: &ObjFaces, texture: bool, weld: bool) -> Self {
-        let same = if weld { welded(&faces.vertices) } else { (0..faces.vertices.len() as u32).collect() };
+    /// With `texture`, a vertex that has several texture positions is several nodes. `same` has the vertex that stands
+    /// for every vertex.
+    pub(super) fn new(faces: &ObjFaces, texture: bool, same: &[u32]) -> Self {
         let (mut of_face, mut vertex) = (Vec::with_capacity(faces.faces.len()), Vec::new());
         // The nodes of a vertex, which are few: the last made, and from each to the one before.
         let mut last = vec![NONE; faces.vertices.len()];
@@ -75,7 +75,7 @@ impl Nodes {
             let nodes = nodes.collect();
             of_face.push(nodes);
         }
-        Self { of_face, vertex, same }
+        Self { of_face, vertex, same: same.to_vec() }
     }
 
     /// The vertex of the file that stands for `vertex`: the first of those that are welded to it.
@@ -90,26 +90,19 @@ impl Nodes {
     }
 }
 
-/// Of every vertex the first at the same place.
-fn welded(vertices: &[Vec3]) -> Vec<u32> {
-    let mut first = HashMap::with_capacity(vertices.len());
-    // −0 is 0.
-    let place = |p: &Vec3| [p.x, p.y, p.z].map(|x| (x + 0.0).to_bits());
-    (0..).zip(vertices).map(|(k, p)| *first.entry(place(p)).or_insert(k)).collect()
-}
-
 fn sides(face: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
     (0..face.len()).map(|k| sorted_pair([face[k], face[(k + 1) % face.len()]]))
 }
 
 /// The parts in the order of their first faces, group by group; named by their group or, without one, by `stem`.
-pub(super) fn parts(faces: &ObjFaces, nodes: &Nodes, cuts: &HashSet<[u32; 2]>, unit: f64, stem: &str) -> Vec<Part> {
+pub(super) fn parts(faces: &ObjFaces, nodes: &Nodes, cuts: &HashSet<[u32; 2]>, space: Space, stem: &str) -> Vec<Part> {
     let fans = Fans::new(nodes, cuts);
-    let source = Source { faces, nodes, fans: &fans, unit };
+    let source = Source { faces, nodes, fans: &fans, space };
     let mut local = vec![0; fans.of_corner.len()];
     let mut parts: Vec<Part> = Vec::new();
     let mut of_group: Vec<Vec<u32>> = vec![Vec::new(); faces.groups.len()];
-    (0..).zip(&faces.group_of_face).for_each(|(f, &g)| of_group[g as usize].push(f));
+    let whole = (0..).zip(&faces.group_of_face).filter(|(f, _): &(u32, _)| !faces.faces[*f as usize].is_empty());
+    whole.for_each(|(f, &g)| of_group[g as usize].push(f));
     for (group, own) in faces.groups.iter().zip(of_group) {
         let mut number = HashMap::new();
         let mut split: Vec<Vec<u32>> = Vec::new();
@@ -134,8 +127,7 @@ struct Source<'a> {
     faces: &'a ObjFaces,
     nodes: &'a Nodes,
     fans: &'a Fans,
-    /// Metres per unit of the file.
-    unit: f64,
+    space: Space,
 }
 
 /// Which corners are one vertex, and which faces one part.
@@ -183,7 +175,7 @@ impl Fans {
 impl Part {
     /// `local` has room for every fan; a part uses its own places only.
     fn new(source: &Source<'_>, name: String, own: Vec<u32>, local: &mut [u32]) -> Self {
-        let Source { faces, nodes, fans, unit } = *source;
+        let Source { faces, nodes, fans, space } = *source;
         // Vertices in the file's order, of those that a cut has made of one the first face's first.
         let mut all: Vec<(u32, u32, u32)> = Vec::new();
         let fan_of = |f: u32, k: usize| fans.of_corner[fans.starts[f as usize] + k];
@@ -198,7 +190,7 @@ impl Part {
         let number = |f: u32| (0..faces.faces[f as usize].len()).map(move |k| fan_of(f, k));
         let corners: Vec<Vec<u32>> = own.iter().map(|&f| number(f).map(|fan| local[fan as usize]).collect()).collect();
         let vertices: Vec<u32> = all.iter().map(|a| a.0).collect();
-        let positions: Vec<Vec3> = vertices.iter().map(|&v| faces.vertices[v as usize] * unit).collect();
+        let positions: Vec<Vec3> = vertices.iter().map(|&v| space.place(faces.vertices[v as usize])).collect();
         let of_polygon: Vec<Vec<[u32; 3]>> = corners.iter().map(|polygon| triangles_of(&positions, polygon)).collect();
         let mut triangles: Vec<[u32; 3]> = of_polygon.iter().flatten().map(|&[a, b, c]| [a, c, b]).collect();
         let turned = orient(&mut triangles);

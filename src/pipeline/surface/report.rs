@@ -4,10 +4,12 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
+use super::super::error::PipelineError;
 use super::Limit;
 use super::cuts;
-use super::darts::{DartStop, Laid};
+use super::darts::{DartStop, Failed, Laid};
 use super::edges::NamedEdge;
+use crate::flatten::FlattenError;
 use crate::geometry::MM;
 use crate::report::{Quartet, Stage};
 
@@ -22,12 +24,40 @@ pub struct SurfaceReport {
     pub units: &'static str,
     /// One per part.
     pub pieces: Vec<PartReport>,
+    /// The parts that could not be laid flat, of which the files have nothing.
+    pub failed: Vec<FailedReport>,
     /// Where the surface was cut besides its groups and texture seams: chains of the file's vertices, from 1.
     pub cuts: Vec<Vec<u32>>,
     /// A row for each of these: what it is, and how long.
     pub cuts_made: Vec<CutReport>,
     /// The one stage.
     pub stages: Vec<Stage>,
+}
+
+/// A part that could not be laid flat.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FailedReport {
+    /// Named as the others are.
+    pub name: String,
+    /// Why it could not, and where to cut it if that is the remedy.
+    pub why: String,
+}
+
+impl Failed {
+    /// What is to be said of it.
+    pub(super) fn report(&self) -> FailedReport {
+        // File and piece are named beside it.
+        let bare = |source: &FlattenError| match source {
+            FlattenError::Piece { source, .. } => source.to_string(),
+            other => other.to_string(),
+        };
+        let why = match &self.error {
+            PipelineError::NoDisk { source, advice, .. } => format!("{}; {advice}", bare(source)),
+            PipelineError::Surface { source, .. } => bare(source),
+            other => other.to_string(),
+        };
+        FailedReport { name: self.part.name.clone(), why }
+    }
 }
 
 /// What flattening did to one part. Keys and units are those of a garment's report; the surface in space is `draped`.
@@ -49,6 +79,8 @@ pub struct PartReport {
     pub boundary_flattened: f64,
     /// Flat against space.
     pub area_error: Quartet,
+    /// The same with its sign: below zero where the flat piece is smaller.
+    pub area_change: f64,
     /// The same for the rim.
     pub boundary_error: Quartet,
     /// Largest |length / length in space − 1| of an edge.
@@ -83,7 +115,8 @@ pub struct PartReport {
     /// The rims, between corners and where the other side of a cut changes.
     pub edges: Vec<EdgeReport>,
     /// Whether cloth can be worked to lie so: `false` where the fabric gives less even under 500 gf/cm, or without a
-    /// fabric where half is passed, which no weave gives. Such a piece needs a cut or a dart.
+    /// fabric where the strain passes a half or the area changes by more than 13 %, which no weave gives. Such a piece
+    /// needs a cut or a dart.
     pub layable: bool,
     /// A dart that would relieve the piece, where its strain passes the limit.
     pub dart: Option<DartReport>,
@@ -99,6 +132,10 @@ pub struct PartReport {
 pub struct StrainReport {
     /// 99 % of the area is strained no more.
     pub p99: f64,
+    /// 99 % of the area is stretched no more in the flat piece.
+    pub stretch_p99: f64,
+    /// 99 % of the area is compressed no more in the flat piece.
+    pub compression_p99: f64,
     /// Largest.
     pub max: f64,
 }
@@ -219,13 +256,19 @@ impl PartReport {
             boundary_draped: r.boundary_before * MM,
             boundary_flattened: r.boundary_after * MM,
             area_error: error(r.area_error),
+            area_change: r.area_after / r.area_before - 1.0,
             boundary_error: error(r.boundary_error),
             largest_edge_error: r.largest_edge_error,
             largest_rim_error: r.largest_rim_error,
             rim_missed: r.rim_missed,
             distortion: r.distortion,
             area_distortion: r.area_distortion,
-            strain: StrainReport { p99: r.strain_p99, max: r.strain_max },
+            strain: StrainReport {
+                p99: r.strain_p99,
+                stretch_p99: r.stretch_p99,
+                compression_p99: r.compression_p99,
+                max: r.strain_max,
+            },
             threads: ThreadReport {
                 warp: r.threads.warp,
                 weft: r.threads.weft,
