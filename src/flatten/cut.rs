@@ -137,8 +137,12 @@ pub fn dart(surface: &TriMesh, log_scale: &[f64], solid: &Solid, may_open: impl 
     let topology = Topology::new(&surface.triangles);
     let rim: Vec<u32> = topology.rim_edges().flat_map(|e| e.ends).collect();
     let open: Vec<u32> = rim.iter().copied().filter(|&v| may_open(v)).collect();
-    let sources = if open.is_empty() { rim } else { open };
-    Tree::new(surface, &topology, solid, &sources, false).path(tip)
+    let path = |sources: &[u32]| Tree::new(surface, &topology, solid, sources, false).path(tip);
+    let way = path(&open);
+    // A way that runs along the rim or across another cut would part the surface.
+    let on_rim: HashSet<u32> = rim.iter().copied().collect();
+    let is_clear = way.len() > 1 && way.iter().skip(1).all(|v| !on_rim.contains(v));
+    if is_clear { way } else { path(&rim) }
 }
 
 /// Edges (smaller vertex first) that are no edges of what is cut: the diagonals that make triangles of its polygons.
