@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use toile::flatten::{Mode, Options};
 use toile::input::LengthUnit;
 use toile::io::files::write_all;
-use toile::pipeline::{Cuts, DARTS, Limit, SurfaceOptions, flatten_surface};
+use toile::pipeline::{DARTS, SurfaceOptions, flatten_surface};
 
 /// Vertices along each side of a surface.
 const SIDE: u32 = 60;
@@ -48,12 +48,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         write_all(&[(file.clone(), obj(case.at).into_bytes())], &[])?;
         let options = SurfaceOptions {
             unit: Some(LengthUnit::Metre),
-            texture_seams: true,
-            weld: false,
-            cuts: Cuts::default(),
             darts: if case.darts { DARTS } else { 0 },
-            limit: Limit::Strain(0.1),
             flatten: Options { mode: case.mode, ..Options::default() },
+            ..SurfaceOptions::default()
         };
         let flat = flatten_surface(&file, &options)?;
         let files: Vec<(PathBuf, Vec<u8>)> =

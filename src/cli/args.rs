@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand, ValueEnum};
 
 use crate::flatten::Mode;
+use crate::geometry::Vec3;
 use crate::input::LengthUnit;
 use crate::pattern::{WIDEST_ALLOWANCE, parse_quantity};
 use crate::pipeline::{Color, DARTS, Overrides};
@@ -157,6 +158,22 @@ fn percent(text: &str) -> Result<f64, String> {
     }
 }
 
+/// An axis, or a direction by its three numbers.
+fn direction(text: &str) -> Result<Vec3, String> {
+    let axis = match text {
+        "x" => Some(Vec3::x()),
+        "y" => Some(Vec3::y()),
+        "z" => Some(Vec3::z()),
+        _ => {
+            let numbers: Result<Vec<f64>, _> = text.split(',').map(|n| n.trim().parse()).collect();
+            numbers.ok().filter(|n| n.len() == 3).map(|n| Vec3::new(n[0], n[1], n[2]))
+        }
+    };
+    axis.filter(|d| d.norm().is_normal())
+        .map(|d| d.normalize())
+        .ok_or_else(|| "x, y, z or a direction X,Y,Z is expected, such as 0,1,0.5".into())
+}
+
 /// How many darts at most.
 fn darts(text: &str) -> Result<usize, String> {
     match text.parse() {
@@ -217,15 +234,19 @@ pub(super) struct FlattenArgs {
     /// Unit of the OBJ file [default: guessed from its size, and said]
     #[arg(long, value_enum)]
     pub(super) units: Option<UnitArg>,
+    /// Direction of the surface that lies along the grain, up on the flat piece: an axis, or X,Y,Z [default: y, or z
+    /// where the surface runs along z, which is said]
+    #[arg(long, value_name = "x|y|z|X,Y,Z", value_parser = direction, allow_negative_numbers = true)]
+    pub(super) up: Option<Vec3>,
     /// Cut along the shortest way through these vertices, numbered from 1 as in the file, or wherever it is needed; may
-    /// be given several times, auto then cutting what the others leave (OBJ only)
+    /// be given several times, auto then cutting what the others leave (surfaces only)
     #[arg(long, value_name = "auto|V,V,…")]
     pub(super) cut: Vec<String>,
     /// Cut darts where the strain passes the limit, N at most for all pieces together, the next always where it is
-    /// needed most; auto cuts eight at most (OBJ only)
+    /// needed most; auto cuts eight at most (surfaces only)
     #[arg(long, value_name = "auto|N", value_parser = darts)]
     pub(super) dart: Option<usize>,
-    /// Strain in per cent that all but a hundredth of a piece should stay below (OBJ only) [default: 10, or with
+    /// Strain in per cent that all but a hundredth of a piece should stay below (surfaces only) [default: 10, or with
     /// --fabric what its threads give]
     #[arg(long, value_name = "PERCENT", value_parser = percent, conflicts_with = "fabric")]
     pub(super) limit: Option<f64>,
@@ -233,13 +254,16 @@ pub(super) struct FlattenArgs {
     /// 0 not at all
     #[arg(long, value_name = "WEIGHT", default_value_t = 1.0, value_parser = weight, allow_negative_numbers = true)]
     pub(super) corners: f64,
-    /// Leave seams of the texture closed; otherwise the surface is cut along them (OBJ only)
+    /// Leave seams of the texture closed; otherwise the surface is cut along them (surfaces only)
     #[arg(long)]
     pub(super) no_texture_seams: bool,
-    /// Join vertices at the same place, for files whose faces share none;
-    /// a dart that is sewn up would be closed (OBJ only)
+    /// Lay groups and materials flat together, as one piece wherever they are connected (surfaces only)
     #[arg(long)]
-    pub(super) weld: bool,
+    pub(super) together: bool,
+    /// Join all vertices within so many millimetres of each other, none with 0; a dart that is sewn up would be closed
+    /// [default: those of different parts, within 0.01; --weld alone: all within 0.01] (surfaces only)
+    #[arg(long, value_name = "MM", num_args = 0..=1, default_missing_value = "0.01", value_parser = weight)]
+    pub(super) weld: Option<f64>,
     /// Begin with the garment as `toile make` has draped it, at the same spacing (garment files only)
     #[arg(long, value_name = "garment.obj")]
     pub(super) from: Option<PathBuf>,

@@ -8,10 +8,11 @@ use super::exit::{CliError, Exit};
 use super::make::{Goal, Plan, carry_out, folder, write};
 use crate::fabric;
 use crate::flatten::Options;
+use crate::geometry::MM;
 use crate::io::files::check_writable;
 use crate::pipeline::{
     AT_REST, Color, Cuts, DartStop, FLAT_OBJ, FLAT_PNG, Limit, OUTLINE_SVG, PATTERN_SVG, PartReport, REPORT_JSON,
-    SurfaceOptions, SurfaceReport, flatten_surface,
+    SurfaceOptions, SurfaceReport, Weld, flatten_surface,
 };
 use crate::report::{aligned, restless};
 
@@ -48,13 +49,12 @@ fn foreign(args: &FlattenArgs) -> Result<(), CliError> {
             ("--dart", args.dart.is_some()),
             ("--limit", args.limit.is_some()),
             ("--units", args.units.is_some()),
+            ("--up", args.up.is_some()),
             ("--no-texture-seams", args.no_texture_seams),
-            ("--weld", args.weld),
+            ("--together", args.together),
+            ("--weld", args.weld.is_some()),
         ];
-        options
-            .into_iter()
-            .find(|o| o.1)
-            .map(|(name, _)| format!("{name} belongs to a surface (OBJ), not to a garment file"))
+        options.into_iter().find(|o| o.1).map(|(name, _)| format!("{name} belongs to a surface, not to a garment file"))
     } else {
         let options = [
             ("--from", args.from.is_some()),
@@ -96,8 +96,10 @@ fn cuts(args: &[String]) -> Result<Cuts, CliError> {
 fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Exit, CliError> {
     let options = SurfaceOptions {
         unit: args.units.map(UnitArg::unit),
+        up: args.up,
         texture_seams: !args.no_texture_seams,
-        weld: args.weld,
+        groups: !args.together,
+        weld: args.weld.map_or(Weld::BetweenParts, |mm| Weld::Within(mm / MM)),
         cuts: cuts(&args.cut)?,
         darts: args.dart.unwrap_or(0),
         limit: limit(args)?,
@@ -118,9 +120,20 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
         console.note(&stage.to_string());
     }
     report.pieces.iter().filter_map(rim_missed).take(LISTED).for_each(|text| console.note(&text));
-    let strained = report.pieces.iter().filter_map(|piece| strained(piece, &options));
-    strained.take(LISTED).for_each(|text| console.note(&text));
+    let strained = |layable: bool| {
+        let pieces = report.pieces.iter().filter(move |piece| piece.layable == layable);
+        pieces.filter_map(|piece| strained(piece, &options)).take(LISTED).collect::<Vec<_>>()
+    };
+    strained(true).iter().for_each(|text| console.note(text));
     let mut exit = Exit::Done;
+    for text in strained(false) {
+        console.complain(&format!("out of bounds: {text}"));
+        exit = Exit::OutOfBounds;
+    }
+    for failed in &report.failed {
+        console.complain(&format!("'{}' is not laid flat: {}", failed.name, failed.why));
+        exit = Exit::OutOfBounds;
+    }
     for piece in report.pieces.iter().filter(|p| p.overlaps > 0) {
         console.complain(&format!("out of bounds: '{}' lies on itself when flat; cut it in two", piece.name));
         exit = Exit::OutOfBounds;
@@ -148,16 +161,39 @@ fn strained(piece: &PartReport, options: &SurfaceOptions) -> Option<String> {
     } else {
         let another = if piece.darts > 0 { "another" } else { "a" };
         let cloth = cloth(&options.limit);
-        format!(
-            "warning: '{name}' cannot be laid flat in {cloth} without {another} cut or dart: it is strained by {strain}"
-        )
+        format!("'{name}' cannot be laid flat in {cloth} without {another} cut or dart: it is strained by {strain}")
     };
-    let mut text = format!("{what}: {}", remedy(piece, options));
+    let mut text = format!("{what}{}: {}", area_said(piece), remedy(piece, options));
     if piece.area_error_bound > 0.0 {
         let bound = 100.0 * piece.area_error_bound;
         text += &format!("; no flat piece with this length of rim has more than {:.1} % of its area", 100.0 - bound);
     }
     Some(text)
+}
+
+/// How much of its area it loses or gains, in plain words where it is much.
+fn area_said(piece: &PartReport) -> String {
+    /// Changes below this share are in the table only.
+    const MUCH: f64 = 0.05;
+    /// Shares that have a name, and how near one must be.
+    const NAMED: [(f64, &str); 5] = [
+        (0.25, "a quarter"),
+        (1.0 / 3.0, "a third"),
+        (0.5, "half"),
+        (2.0 / 3.0, "two thirds"),
+        (0.75, "three quarters"),
+    ];
+    const NEAR: f64 = 0.02;
+    let share = piece.area_change.abs();
+    if share < MUCH {
+        return String::new();
+    }
+    let verb = if piece.area_change < 0.0 { "loses" } else { "gains" };
+    let percent = 100.0 * piece.area_change;
+    match NAMED.into_iter().find(|(named, _)| (named - share).abs() < NEAR) {
+        Some((_, named)) => format!(", and it {verb} {named} of its area ({percent:+.1} %)"),
+        None => format!(", and it {verb} {:.1} % of its area", percent.abs()),
+    }
 }
 
 fn cloth(limit: &Limit) -> &str {
@@ -217,14 +253,19 @@ fn remedy(piece: &PartReport, options: &SurfaceOptions) -> String {
 fn figures(report: &SurfaceReport) -> String {
     let head = ["piece", "cm²", "area %", "rim %", "strain 99 %", "corner °", "overlaps"];
     let mut rows = vec![head.map(String::from).to_vec()];
+    // Zero has no sign.
+    let signed = |share: f64| match format!("{:+.3}", 100.0 * share) {
+        zero if zero.ends_with("0.000") => "0.000".to_owned(),
+        figure => figure,
+    };
     rows.extend(report.pieces.iter().take(LISTED).map(|p| {
-        let percent = |e: Option<f64>| format!("{:.3}", 100.0 * e.unwrap_or(0.0));
+        let change = p.boundary_flattened / p.boundary_draped - 1.0;
         vec![
             p.name.clone(),
             format!("{:.1}", p.area_draped / 100.0),
-            percent(p.area_error.flatten),
-            percent(p.boundary_error.flatten),
-            percent(Some(p.strain.p99)),
+            signed(p.area_change),
+            signed(change),
+            format!("{:.3}", 100.0 * p.strain.p99),
             format!("{:.1}", p.corner_change),
             p.overlaps.to_string(),
         ]

@@ -7,7 +7,7 @@
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashSet};
 
-use crate::geometry::{DisjointSets, Topology, TriMesh, sorted_pair};
+use crate::geometry::{DisjointSets, Topology, TriMesh, rim_loops, sorted_pair};
 
 /// A shortest way along edges from `from` to `to`, not along `solid` ones; `None` where there is none.
 pub fn shortest_path(surface: &TriMesh, solid: &Solid, from: u32, to: u32) -> Option<Vec<u32>> {
@@ -18,35 +18,97 @@ pub fn shortest_path(surface: &TriMesh, solid: &Solid, from: u32, to: u32) -> Op
 }
 
 /// Edges (smaller vertex first, sorted) along which a connected surface must be cut to become a disk; none for a disk.
-/// Rims are joined, handles opened along shortest ways, and a closed surface is slit from one end to the other. `solid`
-/// edges are not cut.
+/// Rims are joined, the nearest first, handles opened along shortest ways, and a closed surface is slit from one end to
+/// the other. `solid` edges are not cut.
 pub fn disk_cuts(surface: &TriMesh, solid: &Solid) -> Vec<[u32; 2]> {
     let topology = Topology::new(&surface.triangles);
-    let Some(root) = topology.rim_edges().map(|e| e.ends[0]).min().or((!surface.vertices.is_empty()).then_some(0))
-    else {
+    if surface.vertices.is_empty() {
         return Vec::new();
+    }
+    let rims = rim_loops(&surface.triangles);
+    let euler = surface.vertices.len() as i64 - topology.edges.len() as i64 + surface.triangles.len() as i64;
+    // Of a surface with one side only the rims cannot be told so.
+    let is_sphere = euler + rims.len() as i64 == 2 && topology.misoriented.is_empty();
+    let open = topology.rim_edges().map(|e| e.ends[0]).min();
+    let mut cuts: Vec<[u32; 2]> = match (open, is_sphere) {
+        (None, true) => {
+            let far = Tree::new(surface, &topology, solid, &[0], true).farthest();
+            edges_of(&slit(surface, &topology, solid, far))
+        }
+        (None, false) => roots(surface)
+            .map(|root| opened(surface, &topology, solid, root))
+            .min_by(|a, b| length(surface, a).total_cmp(&length(surface, b)))
+            .unwrap_or_default(),
+        (Some(_), true) => joined_rims(surface, &topology, solid, &rims),
+        (Some(root), false) => opened(surface, &topology, solid, root),
     };
-    let tree = Tree::new(surface, &topology, solid, &[root], true);
+    cuts.sort_unstable();
+    cuts.dedup();
+    cuts
+}
+
+/// Vertices from which the ways round the handles of a closed surface are tried: all, or as many spread evenly.
+fn roots(surface: &TriMesh) -> impl Iterator<Item = u32> + use<> {
+    /// More would take longer than laying the surface flat.
+    const TRIED: usize = 100;
+    let count = surface.vertices.len();
+    (0..count as u32).step_by(count.div_ceil(TRIED))
+}
+
+fn edges_of(way: &[u32]) -> Vec<[u32; 2]> {
+    way.windows(2).map(|w| sorted_pair([w[0], w[1]])).collect()
+}
+
+fn length(surface: &TriMesh, edges: &[[u32; 2]]) -> f64 {
+    let at = |v: u32| surface.vertices[v as usize];
+    edges.iter().map(|[a, b]| (at(*b) - at(*a)).norm()).sum()
+}
+
+/// Joins rims one after the other to what is cut, the nearest first.
+fn joined_rims(surface: &TriMesh, topology: &Topology, solid: &Solid, rims: &[Vec<u32>]) -> Vec<[u32; 2]> {
+    let mut open: Vec<u32> = rims[0].clone();
+    let mut left: Vec<&Vec<u32>> = rims[1..].iter().collect();
+    let mut cuts = Vec::new();
+    while !left.is_empty() {
+        let tree = Tree::new(surface, topology, solid, &open, false);
+        let far = |v: u32| tree.distance[v as usize];
+        let nearest = |rim: &[u32]| rim.iter().copied().min_by(|&a, &b| far(a).total_cmp(&far(b)).then(a.cmp(&b)));
+        let ends = left.iter().enumerate().filter_map(|(k, rim)| Some((k, nearest(rim)?)));
+        let Some((k, end)) = ends.min_by(|a, b| far(a.1).total_cmp(&far(b.1))) else { break };
+        let way = tree.path(end);
+        cuts.extend(edges_of(&way));
+        open.extend(way);
+        open.extend(left.remove(k));
+    }
+    cuts
+}
+
+/// Edges along which a surface with handles must be cut, by shortest ways from a root.
+fn opened(surface: &TriMesh, topology: &Topology, solid: &Solid, root: u32) -> Vec<[u32; 2]> {
+    let tree = Tree::new(surface, topology, solid, &[root], true);
     let in_tree = |e: &[u32; 2]| tree.parent[e[0] as usize] == e[1] || tree.parent[e[1] as usize] == e[0];
-    let joined = interlocking(surface, &topology, solid, &tree, in_tree);
+    let joined = interlocking(surface, topology, solid, &tree, in_tree);
     let mut cuts = HashSet::new();
     for (edge, joined) in topology.edges.iter().zip(&joined) {
         if !joined && !in_tree(&edge.ends) {
             for end in edge.ends {
-                cuts.extend(tree.path(end).windows(2).map(|w| sorted_pair([w[0], w[1]])));
+                cuts.extend(edges_of(&tree.path(end)));
             }
             cuts.insert(edge.ends);
         }
     }
-    if cuts.is_empty() && topology.rim_edges().next().is_none() {
-        cuts.extend(slit(surface, &topology, solid, tree.farthest()).windows(2).map(|w| sorted_pair([w[0], w[1]])));
-    }
     for edge in topology.rim_edges() {
         cuts.remove(&edge.ends);
     }
-    let mut cuts: Vec<[u32; 2]> = cuts.into_iter().collect();
-    cuts.sort_unstable();
-    cuts
+    cuts.into_iter().collect()
+}
+
+/// The shortest way from the rim to the vertex that is farthest from it, which opens a deep disk most.
+pub fn slit_from_rim(surface: &TriMesh, solid: &Solid) -> Vec<u32> {
+    let topology = Topology::new(&surface.triangles);
+    let rim: Vec<u32> = topology.rim_edges().flat_map(|e| e.ends).collect();
+    let tree = Tree::new(surface, &topology, solid, &rim, false);
+    tree.path(tree.farthest())
 }
 
 /// A way from `from` to what is farthest from it, of two edges at least: the ends of a single one stay joined, and a
@@ -63,18 +125,24 @@ fn slit(surface: &TriMesh, topology: &Topology, solid: &Solid, from: u32) -> Vec
     Tree::new(surface, topology, &solid, &[from], false).path(to)
 }
 
-/// The dart that relieves a disk most: from the place where a conformal map would have to shrink most, which is where a
-/// cone point helps most (Ben-Chen, Gotsman & Bunin 2008, section 4), to the nearest rim vertex along edges that are
-/// not `solid`; rim first. Where the map would have to stretch, cloth is missing and the legs of a dart would lie on
-/// each other. `log_scale` is [`super::Flattened::log_scale`]. Empty where no place can be told: without scales, or
-/// where none shrinks.
-pub fn dart(surface: &TriMesh, log_scale: &[f64], solid: &Solid) -> Vec<u32> {
+/// The dart that relieves a disk most: from the place where a conformal map would have to shrink most, which is where
+/// a cone point helps most (Ben-Chen, Gotsman & Bunin 2008, section 4), to the nearest rim vertex along edges that are
+/// not `solid`, from one that `may_open` accepts, if there is any; rim first. Where the map would have to stretch,
+/// cloth is missing and the legs of a dart would lie on each other. `log_scale` is [`super::Flattened::log_scale`].
+/// Empty where no place can be told: without scales, or where none shrinks.
+pub fn dart(surface: &TriMesh, log_scale: &[f64], solid: &Solid, may_open: impl Fn(u32) -> bool) -> Vec<u32> {
     let size = |v: u32| -log_scale[v as usize];
     let tip = (0..log_scale.len() as u32).max_by(|&a, &b| size(a).total_cmp(&size(b)).then(b.cmp(&a)));
     let Some(tip) = tip.filter(|&v| size(v) > 0.0) else { return Vec::new() };
     let topology = Topology::new(&surface.triangles);
     let rim: Vec<u32> = topology.rim_edges().flat_map(|e| e.ends).collect();
-    Tree::new(surface, &topology, solid, &rim, false).path(tip)
+    let open: Vec<u32> = rim.iter().copied().filter(|&v| may_open(v)).collect();
+    let path = |sources: &[u32]| Tree::new(surface, &topology, solid, sources, false).path(tip);
+    let way = path(&open);
+    // A way that runs along the rim or across another cut would part the surface.
+    let on_rim: HashSet<u32> = rim.iter().copied().collect();
+    let is_clear = way.len() > 1 && way.iter().skip(1).all(|v| !on_rim.contains(v));
+    if is_clear { way } else { path(&rim) }
 }
 
 /// Edges (smaller vertex first) that are no edges of what is cut: the diagonals that make triangles of its polygons.

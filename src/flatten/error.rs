@@ -43,9 +43,6 @@ pub enum FlattenError {
     /// No rim at all.
     #[error("the surface is closed: cut it first")]
     Closed,
-    /// Holes, where there may be none.
-    #[error("the surface has {0} rims instead of one: cut it first, from rim to rim")]
-    Rims(usize),
     /// Handles.
     #[error("the surface has {0} handle(s), like a cup: cut it first")]
     Handles(usize),

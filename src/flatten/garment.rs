@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::element::Element;
 use super::overlap::Legs;
-use super::{FlattenError, Options, Report, Sheet, align, check_start, measure, relax_sheet, start, topology};
+use super::{FlattenError, Itself, Options, Report, Sheet, align, check_start, measure, relax_sheet, start, topology};
 use crate::geometry::{TriMesh, Vec2, Vec3, sorted_pair};
 use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::{Give, Seam};
@@ -101,7 +101,7 @@ fn flatten_piece(
     let mut forced = draw_out(&mut sheet, first, targets);
     forced.extend(gathered.iter().filter_map(|&v| v.checked_sub(first)));
     let_out(&mut sheet, drawn, &forced);
-    let mut flattened = relax_sheet(&sheet, start, options)?;
+    let mut flattened = relax_sheet(&sheet, start, options, Itself::MayMeet)?;
     align::onto(&mut flattened.positions, drawn);
     Ok((flattened.positions, flattened.report))
 }

@@ -52,6 +52,10 @@ pub struct Report {
     pub area_distortion: f64,
     /// Largest |stretch − 1| in any direction that all but a hundredth of the area stays below.
     pub strain_p99: f64,
+    /// Largest stretch − 1 that all but a hundredth of the area stays below.
+    pub stretch_p99: f64,
+    /// Largest 1 − stretch that all but a hundredth of the area stays below.
+    pub compression_p99: f64,
     /// The largest of any triangle.
     pub strain_max: f64,
     /// What happened to warp and weft.
@@ -140,6 +144,8 @@ pub(super) fn report(sheet: &Sheet<'_>, flat: &[Vec2], outcome: &Outcome) -> Rep
         distortion: (areas.stretch / area_before).sqrt(),
         area_distortion: (areas.change / area_before).sqrt(),
         strain_p99: exceeded_by(LARGEST_SHARE, &mut areas.strains),
+        stretch_p99: exceeded_by(LARGEST_SHARE, &mut areas.stretched).max(0.0),
+        compression_p99: exceeded_by(LARGEST_SHARE, &mut areas.compressed).max(0.0),
         strain_max: exceeded_by(0.0, &mut areas.strains),
         threads: Threads::of(sheet, flat),
         corner_change: angles.corner_change,
@@ -183,12 +189,17 @@ struct Areas {
     change: f64,
     /// Largest |σ − 1| and area of every triangle.
     strains: Vec<[f64; 2]>,
+    /// Largest σ − 1 and area of every triangle.
+    stretched: Vec<[f64; 2]>,
+    /// Largest 1 − σ and area of every triangle.
+    compressed: Vec<[f64; 2]>,
 }
 
 impl Areas {
     fn of(surface: &TriMesh, flat: &[Vec2]) -> Self {
-        let strains = Vec::with_capacity(surface.triangles.len());
-        let mut sums = Self { total: 0.0, flips: 0, stretch: 0.0, change: 0.0, strains };
+        let room = || Vec::with_capacity(surface.triangles.len());
+        let (strains, stretched, compressed) = (room(), room(), room());
+        let mut sums = Self { total: 0.0, flips: 0, stretch: 0.0, change: 0.0, strains, stretched, compressed };
         for (t, &corners) in surface.triangles.iter().enumerate() {
             let element = Element::new(corners, surface.corners(t));
             let jacobian = element.jacobian(flat);
@@ -199,6 +210,8 @@ impl Areas {
             sums.stretch += element.area * ((larger - 1.0).powi(2) + (smaller - 1.0).powi(2));
             sums.change += element.area * (det - 1.0).powi(2);
             sums.strains.push([f64::max(larger - 1.0, 1.0 - smaller), element.area]);
+            sums.stretched.push([larger - 1.0, element.area]);
+            sums.compressed.push([1.0 - smaller, element.area]);
         }
         sums
     }

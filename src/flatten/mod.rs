@@ -23,6 +23,7 @@ mod energy;
 mod error;
 mod garment;
 mod harmonic;
+mod holes;
 mod inverse;
 mod law;
 mod measure;
@@ -35,7 +36,7 @@ mod topology;
 mod woven;
 mod zone;
 
-pub use cut::{Solid, dart, disk_cuts, shortest_path};
+pub use cut::{Solid, dart, disk_cuts, shortest_path, slit_from_rim};
 pub use error::FlattenError;
 pub use garment::{FlatGarment, FlatPiece, flatten_garment};
 pub use measure::{Report, Threads, triangle_strain};
@@ -75,6 +76,10 @@ const WOVEN_RIM: f64 = 0.1;
 /// In the isometric and spring modes this share of the distortion energy is there as the wall before a flip. It moves
 /// the minimum so little that the strain is within 10⁻⁵ of the least.
 const WALL: f64 = 1e-3;
+
+/// A piece that is kept from lying on itself may miss its rim by this share in the mean, which is said; with more its
+/// seams would not fit, and it is better cut in two.
+const RIM_OF_A_PIECE_APART: f64 = 1e-3;
 
 /// Where only chains of the rim are held, every edge is on the long way: stiff rims are what the zone is for, and so
 /// the whole way takes three quarters of the time. What is left of it is not worth its last steps.
@@ -139,17 +144,20 @@ pub struct Flattened {
     pub report: Report,
 }
 
-/// Lays a disk flat, its centre at the origin and space's y (up) along −y (up on a screen), as far as the surface has
-/// an upright direction.
+/// Lays a surface flat, its holes open, its centre at the origin and space's y (up) along −y (up on a screen), as far
+/// as the surface has an upright direction.
 ///
-/// Never flips a triangle. A developable surface keeps all its lengths to rounding (a mesh of one as far as the mesh is
-/// developable). The flat piece may overlap itself where the surface has much curvature: [`Report::overlaps`] says so.
-/// A surface whose triangles run counter-clockwise seen from outside is, drawn with y down, seen from its inside.
+/// Never flips a triangle. A developable surface keeps all its lengths to rounding (a mesh of one as far as the mesh
+/// is developable). A piece that would lie on itself is kept from it, at the price of strain, where that leaves its
+/// rim; elsewhere [`Report::overlaps`] says so. A surface whose triangles run counter-clockwise seen from outside is,
+/// drawn with y down, seen from its inside. A surface with holes keeps every rim; where no flat piece has them all
+/// ([`Report::strain_p99`] says so), as in a tube, it must be cut first ([`disk_cuts`]).
 ///
 /// # Errors
-/// A surface that is no disk, with what it is instead; degenerate triangles; coordinates that are not finite.
+/// A closed surface or one with handles, with what it is instead; degenerate triangles; coordinates that are not
+/// finite.
 pub fn flatten(surface: &TriMesh, options: &Options) -> Result<Flattened, FlattenError> {
-    flatten_disk(surface, None, options)
+    flatten_surface(surface, None, options)
 }
 
 /// As [`flatten`], but of the rim the woven mode holds only the lengths between one of `breaks` (vertices of the rim)
@@ -159,17 +167,22 @@ pub fn flatten(surface: &TriMesh, options: &Options) -> Result<Flattened, Flatte
 /// # Errors
 /// As [`flatten`].
 pub fn flatten_between(surface: &TriMesh, breaks: &[u32], options: &Options) -> Result<Flattened, FlattenError> {
-    flatten_disk(surface, Some(breaks), options)
+    flatten_surface(surface, Some(breaks), options)
 }
 
-fn flatten_disk(surface: &TriMesh, breaks: Option<&[u32]>, options: &Options) -> Result<Flattened, FlattenError> {
+fn flatten_surface(surface: &TriMesh, breaks: Option<&[u32]>, options: &Options) -> Result<Flattened, FlattenError> {
     let (topology, rims) = topology::check(surface)?;
-    let [rim] = &rims[..] else { return Err(FlattenError::Rims(rims.len())) };
-    let (mut start, log_scale) = start::start(surface, &topology, rim)?;
+    let (mut start, log_scale) = holes::start(surface, &topology, &rims)?;
     align::upright(&mut start, surface);
     let mut sheet = Sheet::as_it_is(surface, topology, rims);
     sheet.breaks = breaks.map(|breaks| breaks.iter().copied().collect());
-    let mut flattened = relax_sheet(&sheet, start, options)?;
+    let mut flattened = relax_sheet(&sheet, start.clone(), options, Itself::MayMeet)?;
+    if flattened.report.overlaps > 0 && rim_crossings(&start, &sheet.rims) == 0 {
+        let apart = relax_sheet(&sheet, start, options, Itself::KeptApart)?;
+        if apart.report.rim_missed.is_none_or(|missed| missed < RIM_OF_A_PIECE_APART) {
+            flattened = apart;
+        }
+    }
     // Not turned again: the woven mode's grain is the plane's.
     align::centre(&mut flattened.positions);
     flattened.log_scale = log_scale;
@@ -179,11 +192,12 @@ fn flatten_disk(surface: &TriMesh, breaks: Option<&[u32]>, options: &Options) ->
 /// Relaxes a surface, which may have holes, from a given flat start; the result stays near the start's place.
 ///
 /// # Errors
-/// As [`flatten`] but for the rims; a start of the wrong length or with flipped triangles.
+/// As [`flatten`]; a start of the wrong length or with flipped triangles.
 pub fn flatten_from(surface: &TriMesh, start: &[Vec2], options: &Options) -> Result<Flattened, FlattenError> {
     let (topology, rims) = topology::check(surface)?;
     check_start(surface, start)?;
-    let mut flattened = relax_sheet(&Sheet::as_it_is(surface, topology, rims), start.to_vec(), options)?;
+    let mut flattened =
+        relax_sheet(&Sheet::as_it_is(surface, topology, rims), start.to_vec(), options, Itself::MayMeet)?;
     align::onto(&mut flattened.positions, start);
     Ok(flattened)
 }
@@ -305,24 +319,42 @@ impl<'a> Sheet<'a> {
     }
 }
 
-fn relax_sheet(sheet: &Sheet<'_>, start: Vec<Vec2>, options: &Options) -> Result<Flattened, FlattenError> {
+/// Whether a piece may come to lie on itself on the way down.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Itself {
+    /// It may, and comes nearest to what the mode keeps.
+    MayMeet,
+    /// It never does: for a piece that would, from a start that does not. The way ends where it would have to.
+    KeptApart,
+}
+
+fn relax_sheet(
+    sheet: &Sheet<'_>,
+    start: Vec<Vec2>,
+    options: &Options,
+    itself: Itself,
+) -> Result<Flattened, FlattenError> {
     let mut positions = start;
     let mut energy = sheet.energy(options);
     let mut zone = None;
     let held = sheet.holds_rim(options.mode);
-    if held {
+    let way = |energy: &Energy| {
+        let way = Descent::new(energy)?;
+        Ok(if itself == Itself::KeptApart { way.keeping_apart(&sheet.rims) } else { way })
+    };
+    if held && itself == Itself::MayMeet {
         coarse::approach(&energy, &mut positions);
         zone = Zone::new(&energy, &positions);
     }
     let goal = Goal::of(options, held);
     let chained = sheet.breaks.as_ref().filter(|_| held && options.mode == Mode::Woven);
-    let mut descent = Descent::new(&energy)?;
+    let mut descent = way(&energy)?;
     let mut outcome =
         descent.down(&mut energy, &mut positions, &chained.map_or(goal, |_| FIRST_OF_TWO), zone.as_mut())?;
     if let Some(breaks) = chained {
         energy = energy.with_chains(&sheet.rims, breaks);
         let before = outcome.iterations;
-        outcome = Descent::new(&energy)?.down(&mut energy, &mut positions, &goal, None)?;
+        outcome = way(&energy)?.down(&mut energy, &mut positions, &goal, None)?;
         outcome.iterations += before;
     }
     let slack = energy.slack(&positions);

@@ -9,6 +9,9 @@ use crate::geometry::{Vec2, distance_to_segment, sorted_pair};
 /// that exact, and places in the plane are no better known: the two sides of a slit coincide in a flat piece, and by
 /// rounding alone they cross in every other vertex.
 const DEEP: f64 = RIM_EXACT[1];
+/// Nor does it where it does so by less than this, metres: nobody can cut or see that. The sides of a cut across a ring
+/// that is not quite flat lie on each other by so much.
+const SEEN: f64 = 0.25e-3;
 
 /// Number of pairs of rim edges, within a rim and between rims, that cross or touch where the piece lies on itself.
 /// Edges that share a vertex do not count. A flat piece without flipped triangles lies on itself exactly where its rims
@@ -27,7 +30,7 @@ pub(super) fn crossings_beside(flat: &[Vec2], rims: &[Vec<u32>], legs: &Legs) ->
         rims.iter().flat_map(|rim| (0..rim.len()).map(|k| [rim[k], rim[(k + 1) % rim.len()]])).collect();
     let sides: Vec<[Vec2; 2]> = edges.iter().map(|e| e.map(|v| flat[v as usize])).collect();
     let length = |[a, b]: &[Vec2; 2]| (b - a).norm();
-    let depth = DEEP * sides.iter().map(length).sum::<f64>();
+    let depth = f64::max(SEEN, DEEP * sides.iter().map(length).sum::<f64>());
     let longest = sides.iter().map(length).fold(0.0, f64::max);
     let on_itself = |&(i, j): &(u32, u32)| {
         let [e, f] = [i, j].map(|k| edges[k as usize]);

@@ -7,6 +7,7 @@
 
 use super::energy::Energy;
 use super::inverse::Inverse;
+use super::overlap::rim_crossings;
 use super::zone::Zone;
 use super::{FlattenError, Mode, Options};
 use crate::geometry::Vec2;
@@ -67,11 +68,18 @@ impl Goal {
 /// A way down an energy, prepared for its couplings.
 pub(super) struct Descent {
     inverse: Inverse,
+    /// Rims that no step may bring to lie on each other.
+    apart: Vec<Vec<u32>>,
 }
 
 impl Descent {
     pub(super) fn new(energy: &Energy) -> Result<Self, FlattenError> {
-        Ok(Self { inverse: Inverse::new(energy)? })
+        Ok(Self { inverse: Inverse::new(energy)?, apart: Vec::new() })
+    }
+
+    /// The same way, on which the piece never lies on itself; it ends where it would have to.
+    pub(super) fn keeping_apart(self, rims: &[Vec<u32>]) -> Self {
+        Self { apart: rims.to_vec(), ..self }
     }
 
     /// Moves `flat`, which must have no flipped triangle, to a minimum of `energy`. Converged when the goal is met; the
@@ -121,7 +129,7 @@ impl Descent {
                 continue;
             }
             held = false;
-            let Some((step, lower)) = search(energy, flat, &direction, slope, value) else {
+            let Some((step, lower)) = search(energy, flat, &direction, slope, value, &self.apart) else {
                 if fresh {
                     // The factor is that of this very place: rounding hides what is left to win.
                     return Ok(Outcome { energy: value, iterations, converged: settled && exact() });
@@ -142,20 +150,28 @@ impl Descent {
 
 /// Goes along `direction` as far as the energy falls and nothing flips, if only so far as not at all.
 pub(super) fn go(energy: &Energy, flat: &mut [Vec2], direction: &[Vec2]) {
-    if let Some((step, _)) = search(energy, flat, direction, 0.0, energy.value(flat)) {
+    if let Some((step, _)) = search(energy, flat, direction, 0.0, energy.value(flat), &[]) {
         advance(flat, direction, step);
     }
 }
 
-/// Backtracks from the full step, or from just before the first flip, to a lower energy; the step and that energy.
-fn search(energy: &Energy, flat: &[Vec2], direction: &[Vec2], slope: f64, value: f64) -> Option<(f64, f64)> {
+/// Backtracks from the full step, or from just before the first flip, to a lower energy with the rims `apart`; the step
+/// and that energy.
+fn search(
+    energy: &Energy,
+    flat: &[Vec2],
+    direction: &[Vec2],
+    slope: f64,
+    value: f64,
+    apart: &[Vec<u32>],
+) -> Option<(f64, f64)> {
     let mut step = (SHY_OF_FLIP * first_flip(energy, flat, direction)).min(1.0);
     let mut trial = vec![Vec2::zeros(); flat.len()];
     for _ in 0..HALVINGS {
         trial.copy_from_slice(flat);
         advance(&mut trial, direction, step);
         let lower = energy.value(&trial);
-        if lower <= value + SUFFICIENT * step * slope {
+        if lower <= value + SUFFICIENT * step * slope && rim_crossings(&trial, apart) == 0 {
             return Some((step, lower));
         }
         step *= 0.5;

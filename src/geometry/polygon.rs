@@ -4,10 +4,10 @@ use std::collections::HashSet;
 
 use super::{Vec2, Vec3, sorted_pair};
 
-/// Triangulates a polygon of a surface, with the orientation of the polygon. Its corners are indices of `vertices`.
-///
-/// A convex polygon becomes a fan round its first corner. Others are cut ear by ear (Meisters 1975) in the plane of
-/// their mean normal. If no ear is left, the rest becomes a fan. A polygon of n corners gives n − 2 triangles.
+/// A polygon of a surface, its corners among the `vertices`, as triangles that turn as it does: round its first corner
+/// where it bulges outward in every corner, otherwise one ear after the other (Meisters 1975), seen along its mean
+/// normal. What is too crumpled to have an ear is finished round a corner. A polygon of n corners gives n − 2
+/// triangles.
 pub(crate) fn triangles_of(vertices: &[Vec3], corners: &[u32]) -> Vec<[u32; 3]> {
     let at = if corners.len() > 3 { flattened(vertices, corners) } else { None };
     let Some(at) = at.filter(|at| has_bay(at)) else {
@@ -25,7 +25,7 @@ pub(crate) fn triangles_of(vertices: &[Vec3], corners: &[u32]) -> Vec<[u32; 3]> 
     out
 }
 
-/// The diagonals: sides of the `triangles` of a polygon that are no sides of the polygon.
+/// The sides of the `triangles` of a polygon that are none of its own.
 pub(crate) fn diagonals_of(corners: &[u32], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
     let next = corners.iter().cycle().skip(1);
     let own: HashSet<[u32; 2]> = corners.iter().zip(next).map(|(a, b)| sorted_pair([*a, *b])).collect();
@@ -36,10 +36,18 @@ pub(crate) fn diagonals_of(corners: &[u32], triangles: &[[u32; 3]]) -> Vec<[u32;
     all
 }
 
-/// Whether one of the corners turns inward.
+/// A corner whose turn has a smaller sine than this lies on a straight side: its triangle would have no area.
+const STRAIGHT: f64 = 1e-6;
+
+/// Whether one of the corners turns inward, or not at all.
 fn has_bay(at: &[Vec2]) -> bool {
     let n = at.len();
-    (0..n).any(|k| turns(at[(k + n - 1) % n], at[k], at[(k + 1) % n]) < 0.0)
+    (0..n).any(|k| !turns_outward(at[(k + n - 1) % n], at[k], at[(k + 1) % n]))
+}
+
+/// Whether a polygon that goes through these three turns to the left at the second.
+fn turns_outward(p: Vec2, q: Vec2, r: Vec2) -> bool {
+    turns(p, q, r) > STRAIGHT * (q - p).norm() * (r - q).norm()
 }
 
 /// Twice the area of a triangle, negative of one that turns to the right.
@@ -47,8 +55,8 @@ fn turns(p: Vec2, q: Vec2, r: Vec2) -> f64 {
     (q - p).perp(&(r - q))
 }
 
-/// The corners projected along the polygon's mean normal (Newell's method), so that they turn to the left. `None` for a
-/// polygon without area.
+/// The corners as seen along the polygon's mean normal (Newell's), which then turns them to the left; `None` of one
+/// without an area.
 fn flattened(vertices: &[Vec3], corners: &[u32]) -> Option<Vec<Vec2>> {
     let origin = vertices[*corners.first()? as usize];
     let at = |k: usize| vertices[corners[k % corners.len()] as usize] - origin;
@@ -69,7 +77,7 @@ fn is_ear(at: &[Vec2], left: &[usize], k: usize) -> bool {
     let is_in = |p: Vec2| turns(a, b, p) >= 0.0 && turns(b, c, p) >= 0.0 && turns(c, a, p) >= 0.0;
     // A corner at the very place of one of the ear's own is no obstacle.
     let others = (0..n).filter(|i| !ends.contains(i)).map(|i| at[left[i]]);
-    turns(a, b, c) > 0.0 && !others.filter(|p| ![a, b, c].contains(p)).any(is_in)
+    turns_outward(a, b, c) && !others.filter(|p| ![a, b, c].contains(p)).any(is_in)
 }
 
 #[cfg(test)]
@@ -119,6 +127,20 @@ mod tests {
                 assert_relative_eq!(all, 7.0, max_relative = 1e-12);
                 assert_relative_eq!(turned_alike, 7.0, max_relative = 1e-12);
             }
+        }
+    }
+
+    #[test]
+    fn a_corner_on_a_straight_side_makes_no_triangle_without_area() {
+        let corners = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [2.0, 2.0], [0.0, 2.0]];
+        let vertices = askew(&corners);
+        for first in 0..6 {
+            let polygon: Vec<u32> = (0..6).map(|k| (k + first) % 6).collect();
+            let triangles = triangles_of(&vertices, &polygon);
+            for t in &triangles {
+                assert!(area(&vertices, &[*t]).0 > 0.1, "{triangles:?}");
+            }
+            assert_relative_eq!(area(&vertices, &triangles).0, 4.0, max_relative = 1e-12);
         }
     }
 

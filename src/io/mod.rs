@@ -23,5 +23,6 @@ pub mod glb_write;
 pub mod obj_read;
 pub mod obj_write;
 pub mod pdf_write;
+pub mod surface_read;
 pub mod svg_read;
 pub mod svg_write;

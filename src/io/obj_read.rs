@@ -73,14 +73,18 @@ pub fn read_obj(path: &Path) -> Result<ObjSurface, ObjError> {
     parse_obj(&text(path)?, &path.display().to_string())
 }
 
-fn text(path: &Path) -> Result<String, ObjError> {
+/// The bytes of a file of a surface.
+pub(super) fn obj_bytes(path: &Path) -> Result<Vec<u8>, ObjError> {
     let file = path.display().to_string();
-    let bytes = bytes(path, LARGEST).map_err(|e| match e {
+    bytes(path, LARGEST).map_err(|e| match e {
         InputError::TooLarge { bytes, .. } => ObjError::TooLarge { file, mebibytes: bytes >> 20 },
         other => ObjError::Read { file, why: other.to_string() },
-    })?;
+    })
+}
+
+fn text(path: &Path) -> Result<String, ObjError> {
     // Only comments and names are ever other than ASCII.
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
+    Ok(String::from_utf8_lossy(&obj_bytes(path)?).into_owned())
 }
 
 /// Reads an OBJ's text; `file` names it in errors. Every index is in range and every coordinate finite afterwards.
@@ -114,8 +118,8 @@ pub struct ObjFaces {
     pub texture: Vec<[f64; 2]>,
     /// Texture coordinates of every face's corners, indices into `texture`; empty for a face without.
     pub texture_of_face: Vec<Vec<u32>>,
-    /// Names of the groups (`g` or `o` lines) that have faces, in the order of their first face; empty for faces
-    /// before the first such line.
+    /// Names of the groups that have faces, in the order of their first face: of `g` or `o` lines, and where one of
+    /// them has faces of several materials, of `usemtl` lines; empty for faces before the first such line.
     pub groups: Vec<String>,
     /// Index into `groups` of every face.
     pub group_of_face: Vec<u32>,
@@ -126,9 +130,33 @@ pub struct ObjFaces {
 /// # Errors
 /// As [`read_obj`].
 pub fn read_obj_faces(path: &Path) -> Result<ObjFaces, ObjError> {
-    let file = path.display().to_string();
-    let faces = ObjFaces::new(&text(path)?).map_err(|(line, why)| ObjError::Line { file: file.clone(), line, why })?;
+    parse_obj_faces(&text(path)?, &path.display().to_string())
+}
+
+/// As [`read_obj_faces`], of an OBJ's text; `file` names it in errors.
+pub(super) fn parse_obj_faces(text: &str, file: &str) -> Result<ObjFaces, ObjError> {
+    let file = file.to_owned();
+    let faces = ObjFaces::new(text).map_err(|(line, why)| ObjError::Line { file: file.clone(), line, why })?;
     if faces.faces.is_empty() { Err(ObjError::Empty { file }) } else { Ok(faces) }
+}
+
+/// What groups are told by.
+#[derive(Clone, Default, PartialEq)]
+struct GroupKey {
+    /// Of the last `g` or `o` line.
+    group: String,
+    /// Of the last `usemtl` line.
+    material: String,
+}
+
+/// Index of a value among those known, to which it is added. Faces of a group mostly stand together, so the last is
+/// looked at first.
+fn index_of<T: Clone + PartialEq>(known: &mut Vec<T>, value: &T) -> u32 {
+    let index = known.iter().rposition(|k| k == value);
+    index.unwrap_or_else(|| {
+        known.push(value.clone());
+        known.len() - 1
+    }) as u32
 }
 
 /// A line's number and what is wrong with it.
@@ -137,25 +165,27 @@ type Fault = (usize, String);
 impl ObjFaces {
     fn new(text: &str) -> Result<Self, Fault> {
         let mut out = Self::default();
-        let mut group = String::new();
+        let mut own = GroupKey::default();
+        let mut keys: Vec<GroupKey> = Vec::new();
         let mut read: Vec<(usize, Vec<Corner>)> = Vec::new();
         for (line, words) in logical_lines(text) {
             let mut words = words.split_whitespace();
             match words.next() {
                 Some("vt") => out.texture.push(texture(words).map_err(|why| (line, why))?),
                 Some("v") => out.vertices.push(position(words).map_err(|why| (line, why))?),
-                Some("g" | "o") => group = words.collect::<Vec<_>>().join(" "),
+                Some("g" | "o") => own.group = words.collect::<Vec<_>>().join(" "),
+                Some("usemtl") => own.material = words.collect::<Vec<_>>().join(" "),
                 Some("f") => {
                     read.push((
                         line,
                         corners(words, [out.vertices.len(), out.texture.len()]).map_err(|why| (line, why))?,
                     ));
-                    let index = out.group(&group);
-                    out.group_of_face.push(index);
+                    out.group_of_face.push(index_of(&mut keys, &own));
                 }
                 _ => {}
             }
         }
+        out.name_groups(&keys);
         let counts = [out.vertices.len(), out.texture.len()].map(|n| n as i64);
         for (line, corners) in read {
             if let Some([wrong, _]) = corners.iter().find(|[v, _]| !(1..=counts[0]).contains(v)) {
@@ -171,13 +201,27 @@ impl ObjFaces {
         Ok(out)
     }
 
-    /// Index of a group's name. Faces of a group mostly stand together, so the last is looked at first.
-    fn group(&mut self, name: &str) -> u32 {
-        let known = self.groups.iter().rposition(|g| g == name);
-        known.unwrap_or_else(|| {
-            self.groups.push(name.to_owned());
-            self.groups.len() - 1
-        }) as u32
+    /// Names the groups of the faces, which have the indices of these keys so far: by `g` or `o` alone where all its
+    /// faces are of one material, else by the material, and by both where that is in several groups.
+    fn name_groups(&mut self, keys: &[GroupKey]) {
+        let alone = |key: &GroupKey| keys.iter().filter(|k| k.group == key.group).count() == 1;
+        let only_here = |key: &GroupKey| keys.iter().all(|k| k == key || k.material != key.material);
+        let name = |key: &GroupKey| match key {
+            key if alone(key) || key.material.is_empty() => key.group.clone(),
+            key if key.group.is_empty() || only_here(key) => key.material.clone(),
+            key => format!("{}.{}", key.group, key.material),
+        };
+        let names: Vec<String> = keys.iter().map(name).collect();
+        let mut groups: Vec<String> = Vec::new();
+        let index: Vec<u32> = names.iter().map(|name| index_of(&mut groups, name)).collect();
+        self.group_of_face.iter_mut().for_each(|g| *g = index[*g as usize]);
+        self.groups = groups;
+    }
+
+    /// Makes one group without a name of all faces.
+    pub fn join_groups(&mut self) {
+        self.groups = vec![String::new()];
+        self.group_of_face.fill(0);
     }
 
     /// The file's `v` and `f` lines without all else.
@@ -288,6 +332,21 @@ mod tests {
         let surface = parse_obj(text, "square.obj").expect("a square");
         assert_eq!(surface.vertices[1].x, 1.000_000_001);
         assert_eq!(surface.triangles, [[0, 1, 2], [0, 2, 3]]);
+    }
+
+    #[test]
+    fn materials_divide_a_group_that_has_several() {
+        let vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+        let groups = |lines: &str| {
+            let text = lines.replace('F', "f 1 2 3");
+            parse_obj_faces(&format!("{vertices}{text}"), "a.obj").expect("faces").groups
+        };
+        assert_eq!(groups("o Shirt\nusemtl body\nF\nusemtl sleeve\nF\nusemtl body\nF"), ["body", "sleeve"]);
+        assert_eq!(groups("usemtl body\nF\nusemtl sleeve\nF"), ["body", "sleeve"]);
+        assert_eq!(groups("o front\nusemtl blue\nF\no back\nusemtl blue\nF"), ["front", "back"]);
+        let both = ["front.blue", "red", "back.blue", "green"];
+        assert_eq!(groups("o front\nusemtl blue\nF\nusemtl red\nF\no back\nusemtl blue\nF\nusemtl green\nF"), both);
+        assert_eq!(groups("F\nusemtl red\nF"), ["", "red"]);
     }
 
     #[test]

@@ -43,8 +43,8 @@ pub use results::{
 pub use run::{Progress, Run};
 pub use start_picture::{DoubtShown, OpeningShown, RimShown, StartPicture, StartShown, WordShown, start_picture};
 pub use surface::{
-    CutReport, CutWhy, Cuts, DARTS, DartStop, EdgeReport, FLAT_OBJ, FLAT_PNG, FlatSurface, Limit, OUTLINE_SVG,
-    PartReport, SurfaceOptions, SurfaceReport, flatten_surface,
+    CutReport, CutWhy, Cuts, DARTS, DartStop, EdgeReport, FLAT_OBJ, FLAT_PNG, FailedReport, FlatSurface, Limit,
+    OUTLINE_SVG, PartReport, SurfaceOptions, SurfaceReport, Weld, flatten_surface,
 };
 pub use tight::tight;
 pub use too_small::TooSmall;

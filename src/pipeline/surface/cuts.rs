@@ -1,4 +1,4 @@
-//! The cuts of a surface: those asked for, those it must have, and those it should have.
+//! Where a surface is cut: as asked, where it must be, and where it should be.
 
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
@@ -7,16 +7,16 @@ use super::super::error::PipelineError;
 use super::darts::Source;
 use super::parts::{Nodes, Part};
 use super::report::{CutReport, CutWhy, DartReport};
-use crate::flatten::{self, FlattenError, Flattened, disk_cuts, shortest_path};
-use crate::geometry::{MM, Topology, sorted_pair};
+use crate::flatten::{self, FlattenError, Flattened, disk_cuts, shortest_path, slit_from_rim};
+use crate::geometry::{MM, Topology, rim_loops, sorted_pair};
 use crate::io::obj_read::ObjFaces;
 
-/// Cuts besides groups and texture seams.
+/// Where to cut besides groups and texture seams.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Cuts {
     /// Along the shortest ways through these vertices, numbered from 1 as in the file.
     pub paths: Vec<Vec<u32>>,
-    /// Whether to cut parts that are still no disks open.
+    /// Whether to cut what these leave that is no disk into one.
     pub auto: bool,
 }
 
@@ -24,7 +24,7 @@ pub struct Cuts {
 #[derive(Clone, Default)]
 pub(super) struct Marks {
     pub(super) edges: HashSet<[u32; 2]>,
-    /// The cuts as chains of the file's vertices, from 1.
+    /// The same as chains of the file's vertices, from 1.
     pub(super) chains: Vec<Vec<u32>>,
     /// A row for each of these.
     pub(super) made: Vec<CutReport>,
@@ -33,7 +33,7 @@ pub(super) struct Marks {
 impl Marks {
     /// The cuts asked for by their vertices, `parts` being the surface without them.
     pub(super) fn asked(source: &Source<'_>, parts: &[Part]) -> Result<Self, PipelineError> {
-        let Source { file, faces, nodes, unit, options, .. } = *source;
+        let Source { file, faces, nodes, space, options, .. } = *source;
         let mut out = Self::default();
         let mut of_file = HashSet::new();
         let refused = |path: &[u32], why: String| {
@@ -45,7 +45,7 @@ impl Marks {
             let (way, part) = way(faces, nodes, parts, path).map_err(|why| refused(path, why))?;
             of_file.extend(way.windows(2).map(|w| sorted_pair([w[0], w[1]])));
             let step = |w: &[u32]| (faces.vertices[w[1] as usize] - faces.vertices[w[0] as usize]).norm();
-            let length = way.windows(2).map(step).sum::<f64>() * unit * MM;
+            let length = way.windows(2).map(step).sum::<f64>() * space.metres * MM;
             out.record(part, CutWhy::Asked, way.iter().map(|v| v + 1).collect(), length);
         }
         out.edges = nodes.edges_on(&of_file);
@@ -56,10 +56,10 @@ impl Marks {
         }
     }
 
-    /// Cuts `parts`, the surface with the cuts so far, into disks.
+    /// Cuts what is no disk into one, `parts` being the surface with the cuts so far.
     pub(super) fn cut_open(&mut self, parts: &[Part]) {
         for part in parts {
-            for chain in chains(&disk_cuts(&part.surface, &part.diagonals)) {
+            for chain in opening(part) {
                 self.cut(part, &chain, CutWhy::Auto);
             }
         }
@@ -97,6 +97,16 @@ impl Marks {
             self.chains.push(chain);
         }
     }
+}
+
+/// The ways along which a part must be cut to become a disk; none for a disk.
+pub(super) fn opening(part: &Part) -> Vec<Vec<u32>> {
+    chains(&disk_cuts(&part.surface, &part.diagonals))
+}
+
+/// The way from a part's rim to its far end.
+pub(super) fn slit(part: &Part) -> Vec<u32> {
+    slit_from_rim(&part.surface, &part.diagonals)
 }
 
 /// The shortest way through vertices numbered from 1, as the file's vertices from 0, and the part in which it begins.
@@ -175,12 +185,9 @@ fn chains(edges: &[[u32; 2]]) -> Vec<Vec<u32>> {
 
 /// A part's error in the file's numbers, with where to cut if that is the remedy.
 pub(super) fn advise(file: &Path, part: &Part, error: FlattenError) -> PipelineError {
-    let curable = matches!(
-        error,
-        FlattenError::Closed | FlattenError::Rims(_) | FlattenError::Handles(_) | FlattenError::OneSided(_)
-    );
+    let curable = matches!(error, FlattenError::Closed | FlattenError::Handles(_) | FlattenError::OneSided(_));
     let source = FlattenError::Piece { piece: part.name.clone(), source: Box::new(part.blame(error)) };
-    let ways = if curable { chains(&disk_cuts(&part.surface, &part.diagonals)) } else { Vec::new() };
+    let ways = if curable { opening(part) } else { Vec::new() };
     if ways.is_empty() {
         return PipelineError::Surface { file: file.to_owned(), source };
     }
@@ -200,9 +207,22 @@ fn length(part: &Part, way: &[u32]) -> f64 {
     way.windows(2).map(|w| (at(w[1]) - at(w[0])).norm()).sum::<f64>() * MM
 }
 
-/// Path of a dart that would relieve a part that is a disk. Empty if no place can be found.
+/// Where a dart would relieve a part; empty where none can be told. It starts on no other cut: the sides of a cut are
+/// the same vertices of the file, and its end is between two that are.
 pub(super) fn dart(part: &Part, flat: &Flattened) -> Vec<u32> {
-    flatten::dart(&part.surface, &flat.log_scale, &part.diagonals)
+    let mut count: HashMap<u32, usize> = HashMap::new();
+    part.vertices.iter().for_each(|&v| *count.entry(v).or_default() += 1);
+    let is_cut = |v: u32| count[&part.vertices[v as usize]] > 1;
+    let mut on_cut: HashSet<u32> = (0..part.vertices.len() as u32).filter(|&v| is_cut(v)).collect();
+    for rim in rim_loops(&part.surface.triangles) {
+        for k in 0..rim.len() {
+            let [a, b, c] = [0, 1, 2].map(|step| rim[(k + step) % rim.len()]);
+            if part.vertices[a as usize] == part.vertices[c as usize] {
+                on_cut.insert(b);
+            }
+        }
+    }
+    flatten::dart(&part.surface, &flat.log_scale, &part.diagonals, |v| !on_cut.contains(&v))
 }
 
 /// A dart as it is reported.

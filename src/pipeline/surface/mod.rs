@@ -3,8 +3,11 @@
 mod cuts;
 mod darts;
 mod edges;
+mod mend;
 mod parts;
 mod report;
+mod size;
+mod thick;
 mod write;
 
 use std::path::Path;
@@ -13,55 +16,81 @@ use std::time::Instant;
 use super::error::PipelineError;
 use crate::fabric::{Fabric, TensileCurve};
 use crate::flatten::{Options, Report};
-use crate::geometry::box_of;
+use crate::geometry::Vec3;
 use crate::input::LengthUnit;
-use crate::io::obj_read::{ObjFaces, read_obj_faces};
+use crate::io::obj_read::ObjFaces;
+use crate::io::surface_read::read_surface;
 use crate::report::Stage;
 pub use cuts::Cuts;
 use cuts::Marks;
 pub use darts::DartStop;
-use darts::{Laid, Source, with_darts};
+use darts::{Failed, Laid, Outcome, Source, with_darts};
 use edges::{NamedEdge, named_edges};
+pub use mend::Weld;
+use mend::{AT_ONE_PLACE, mend, welded, welded_note};
 use parts::Nodes;
-pub use report::{CutReport, CutWhy, EdgeReport, PartReport, SurfaceReport};
+pub use report::{CutReport, CutWhy, EdgeReport, FailedReport, PartReport, SurfaceReport};
+use size::Space;
+use thick::leave_outer_sides;
 pub use write::{FLAT_OBJ, FLAT_PNG, OUTLINE_SVG};
 
-/// Sizes of a surface, in file units, below which the unit is metres (first) or centimetres (second), otherwise
-/// millimetres. Pieces of garments are between 4 cm and 4 m large.
-const UNITS_BELOW: [f64; 2] = [4.0, 250.0];
-/// Strain that no weave exceeds, whatever its fibre. Sheared by 30°, where its threads lock, a weave is strained by
-/// 0.29 along a diagonal, and the stretchiest threads of the library's weaves add less than 0.2.
+/// No weave is strained by more, whatever its fibre: sheared by 30°, where its threads lock, it is by 0.29 along a
+/// diagonal, and the stretchiest threads of the library's weaves give less than another 0.2.
 const BEYOND_WEAVES: f64 = 0.5;
-/// Darts that `auto` cuts into all parts of a surface together. A part that is still beyond the limit needs a seam.
+/// No weave changes its area by more without stretched threads: sheared by 30° it has cos 30° of it.
+const BEYOND_SHEAR: f64 = 0.134;
+/// Darts that `auto` cuts into all parts of a surface together: what is not below the limit then needs a seam.
 pub const DARTS: usize = 8;
 
-/// Options for reading and flattening a surface.
+/// How to read and flatten a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceOptions {
-    /// The unit of the file. `None` guesses it from the size.
+    /// The unit of the file; `None` guesses it from the size.
     pub unit: Option<LengthUnit>,
+    /// The direction of the file that lies along the grain, up on the flat piece; `None` takes y, or z where the
+    /// surface stands along z.
+    pub up: Option<Vec3>,
     /// Whether to cut along the seams of the texture.
     pub texture_seams: bool,
-    /// Whether to join vertices at the same place. The legs of a sewn dart must stay apart. A file whose faces share no
-    /// vertices needs the join.
-    pub weld: bool,
-    /// Additional cuts.
+    /// Whether groups and materials are pieces of their own.
+    pub groups: bool,
+    /// Which vertices at the same place are one: the legs of a dart that is sewn up must not be, the triangles of a
+    /// file whose faces share no vertices must.
+    pub weld: Weld,
+    /// Where to cut besides.
     pub cuts: Cuts,
-    /// Largest number of darts, in all parts together, cut where the strain passes the limit.
+    /// How many darts to cut at most, into all parts together, where the strain passes the limit.
     pub darts: usize,
-    /// Bound of the strain of 99 % of a piece's area.
+    /// What 99 % of a piece's area should stay below.
     pub limit: Limit,
-    /// Options of flattening.
+    /// How to flatten.
     pub flatten: Options,
 }
 
-/// A limit of strain.
+impl Default for SurfaceOptions {
+    /// As the file has it: cut along the seams of its texture, strained by 10 % at most.
+    fn default() -> Self {
+        Self {
+            unit: None,
+            up: None,
+            texture_seams: true,
+            groups: true,
+            weld: Weld::default(),
+            cuts: Cuts::default(),
+            darts: 0,
+            limit: Limit::Strain(0.1),
+            flatten: Options::default(),
+        }
+    }
+}
+
+/// How much strain is too much.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Limit {
     /// This |stretch − 1| in any direction.
     Strain(f64),
-    /// The extension of a fabric's threads under 100 gf/cm, the load at which the FAST test reads how far cloth can be
-    /// worked. The angle between threads is free.
+    /// What the threads of a fabric give under 100 gf/cm, the load at which the FAST test reads how far cloth can be
+    /// worked; the angle between them is free.
     Fabric {
         /// Its name.
         name: String,
@@ -69,7 +98,7 @@ pub enum Limit {
         warp: f64,
         /// |stretch − 1| of the weft.
         weft: f64,
-        /// Extension of warp and weft under the full load of a tensile tester, 500 gf/cm.
+        /// What warp and weft give under the full load of a tensile tester, 500 gf/cm.
         most: [f64; 2],
     },
 }
@@ -82,7 +111,7 @@ impl Limit {
         Self::Fabric { name: fabric.name.clone(), warp, weft, most }
     }
 
-    /// Strain of a piece as a share of the limit.
+    /// How much a piece is strained, 1 at the limit.
     fn share(&self, piece: &Report) -> f64 {
         match self {
             Self::Strain(most) => piece.strain_p99 / most,
@@ -94,7 +123,10 @@ impl Limit {
     /// or, where it is not known, than any weave does.
     fn is_out_of_reach(&self, piece: &Report) -> bool {
         match self {
-            Self::Strain(_) => piece.strain_p99 > BEYOND_WEAVES,
+            Self::Strain(_) => {
+                let change = (piece.area_after / piece.area_before - 1.0).abs();
+                piece.strain_p99 > BEYOND_WEAVES || change > BEYOND_SHEAR
+            }
             Self::Fabric { most: [warp, weft], .. } => piece.threads.warp_p99 > *warp || piece.threads.weft_p99 > *weft,
         }
     }
@@ -109,35 +141,49 @@ impl Limit {
 pub struct FlatSurface {
     faces: ObjFaces,
     laid: Vec<Laid>,
-    /// Of every part.
+    failed: Vec<Failed>,
+    /// Of every part that is laid flat.
     edges: Vec<Vec<NamedEdge>>,
-    /// The report.
+    /// What it did to the cloth.
     pub report: SurfaceReport,
-    /// Notes on input that its author may not have meant so, one sentence each.
+    /// What was read in a way its author may not have meant: one sentence each.
     pub notes: Vec<String>,
 }
 
-/// Lays every part of an OBJ flat.
+/// Lays every part of an OBJ flat. A part that cannot be laid flat leaves the others as they are:
+/// [`SurfaceReport::failed`] names it.
 ///
 /// # Errors
-/// A file that cannot be read, a cut that cannot be made, or a part that is no disk, with its kind and the place to cut
-/// it.
+/// A file that cannot be read, a cut that cannot be made; where no part can be laid flat, why the first cannot and
+/// where to cut it.
 pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurface, PipelineError> {
-    let faces = read_obj_faces(file)?;
+    let mut faces = read_surface(file)?;
+    if !options.groups {
+        faces.join_groups();
+    }
     let stem = file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
     let begin = Instant::now();
-    let taken = options.unit.unwrap_or_else(|| guessed(&faces));
-    let (unit, units) = (taken.metres(), taken.symbol());
     let mut notes = Vec::new();
-    if options.unit.is_none() {
-        notes.push(format!(
-            "{units} assumed, from the size of the surface; say --units mm, cm, m or in if that is wrong"
-        ));
-    }
+    let unit = options.unit.unwrap_or_else(|| {
+        let (unit, said) = size::guessed(&faces);
+        notes.push(said);
+        unit
+    });
+    let up = options.up.or_else(|| {
+        size::stands_along_z(&faces).then(|| {
+            notes.push("z up assumed: the surface runs along z; say --up y if that is wrong".into());
+            Vec3::z()
+        })
+    });
+    let space = Space::new(unit, up);
     let textured = options.texture_seams && faces.texture_of_face.iter().any(|t| !t.is_empty());
-    let nodes = Nodes::new(&faces, textured, options.weld);
-    let source = Source { file, faces: &faces, nodes: &nodes, unit, stem: &stem, options };
+    let same = welded(&faces, options.weld, space.metres);
+    notes.extend(mend(&mut faces, &same));
+    notes.extend(leave_outer_sides(&mut faces, &same, space.metres, &stem));
+    let nodes = Nodes::new(&faces, textured, &same);
+    let source = Source { file, faces: &faces, nodes: &nodes, space, stem: &stem, options };
     let as_read = source.parts(&Marks::default());
+    notes.extend(welded_note(&faces, options.weld, &same));
     notes.extend(source.split_notes(textured, as_read.len()));
     let mut marks = Marks::asked(&source, &as_read)?;
     drop(as_read);
@@ -145,45 +191,44 @@ pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurf
         let parts = source.parts(&marks);
         marks.cut_open(&parts);
     }
-    let laid = with_darts(&source, &mut marks)?;
+    let Outcome { laid, mut failed } = with_darts(&source, &mut marks)?;
+    if laid.is_empty() && !failed.is_empty() {
+        return Err(failed.swap_remove(0).error);
+    }
     notes.extend(laid.iter().filter_map(|l| l.part.turned_note()));
     notes.extend(marks.made.iter().map(ToString::to_string));
     let edges = named_edges(&laid.iter().map(|l| &l.part).collect::<Vec<_>>());
     let report = SurfaceReport {
         toile: env!("CARGO_PKG_VERSION").into(),
         surface: stem.clone(),
-        units,
+        units: unit.symbol(),
         pieces: report::pieces(&laid, &edges, &options.limit),
+        failed: failed.iter().map(Failed::report).collect(),
         cuts: marks.chains,
         cuts_made: marks.made,
         stages: vec![stage(laid.iter().map(|l| l.flat.report), begin)],
     };
-    Ok(FlatSurface { faces, laid, edges, report, notes })
+    Ok(FlatSurface { faces, laid, failed, edges, report, notes })
 }
 
 impl Source<'_> {
     /// Why the surface is in `count` parts before it is cut, where its author may have meant fewer.
     fn split_notes(&self, textured: bool, count: usize) -> Vec<String> {
-        let weld = self.options.weld;
-        let otherwise = |texture, weld| {
-            let nodes = Nodes::new(self.faces, texture, weld);
+        let joined = |weld| welded(self.faces, weld, self.space.metres);
+        let (own, all) = (joined(self.options.weld), joined(Weld::Within(AT_ONE_PLACE)));
+        let otherwise = |texture, same: &[u32]| {
+            let nodes = Nodes::new(self.faces, texture, same);
             Source { nodes: &nodes, ..*self }.parts(&Marks::default()).len()
         };
         let mut notes = Vec::new();
-        if textured && count > otherwise(false, weld) {
+        if textured && count > otherwise(false, &own) {
             notes.push("cut along the seams of its texture; --no-texture-seams leaves them closed".into());
         }
-        if !weld && count > self.faces.groups.len() && count > otherwise(textured, true) {
+        if count > self.faces.groups.len() && count > otherwise(textured, &all) {
             notes.push("parts meet in vertices of their own at the same places; --weld joins them".into());
         }
         notes
     }
-}
-
-/// The unit of a file whose surface is that large.
-fn guessed(faces: &ObjFaces) -> LengthUnit {
-    let [low, high] = box_of(faces.faces.iter().flatten().map(|&v| faces.vertices[v as usize]));
-    LengthUnit::guessed((high - low).max(), UNITS_BELOW)
 }
 
 /// The stage that laid pieces with these figures flat.

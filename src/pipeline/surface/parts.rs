@@ -6,6 +6,7 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::size::Space;
 use crate::flatten::{FlattenError, Solid, orient};
 use crate::geometry::{DisjointSets, TriMesh, Vec3, diagonals_of, sorted_pair, triangles_of};
 use crate::io::obj_read::ObjFaces;
@@ -25,17 +26,17 @@ pub(super) struct Part {
     pub(super) diagonals: Solid,
     /// In metres, its triangles turned round: a flat piece shows the side that faces outward in space.
     pub(super) surface: TriMesh,
-    /// Triangles that ran against most others and were turned. None where no turning makes them agree.
+    /// Triangles that ran against most others and were turned; none where no turning makes them agree.
     pub(super) turned: Option<Vec<usize>>,
 }
 
-/// The nodes of the faces: the vertices of the file, once for every group and texture position that they have.
+/// What the faces are made of: the vertices of the file, once for every group and texture position they have.
 pub(super) struct Nodes {
     /// Of every face's corners.
     of_face: Vec<Vec<u32>>,
     /// The file's vertex of every node.
     vertex: Vec<u32>,
-    /// For every vertex of the file the vertex that represents it.
+    /// Of every vertex of the file the one that stands for it.
     same: Vec<u32>,
 }
 
@@ -46,10 +47,9 @@ const NONE: u32 = u32::MAX;
 type NodeKey = (u32, Option<[u64; 2]>);
 
 impl Nodes {
-    /// Nodes of the faces. With `texture`, a vertex with several texture positions becomes several nodes. With `weld`,
-    /// vertices at the same place become one.
-    pub(super) fn new(faces: &ObjFaces, texture: bool, weld: bool) -> Self {
-        let same = if weld { welded(&faces.vertices) } else { (0..faces.vertices.len() as u32).collect() };
+    /// With `texture`, a vertex that has several texture positions is several nodes. `same` has the vertex that stands
+    /// for every vertex.
+    pub(super) fn new(faces: &ObjFaces, texture: bool, same: &[u32]) -> Self {
         let (mut of_face, mut vertex) = (Vec::with_capacity(faces.faces.len()), Vec::new());
         // The nodes of a vertex, which are few: the last made, and from each to the one before.
         let mut last = vec![NONE; faces.vertices.len()];
@@ -58,7 +58,7 @@ impl Nodes {
             let textured = faces.texture_of_face.get(f).filter(|t| texture && !t.is_empty());
             let nodes = corners.iter().enumerate().map(|(k, &v)| {
                 let v = same[v as usize];
-                // Equal positions count as one even if they are written twice. −0 is 0.
+                // Equal positions count as one even if they are written twice; −0 is 0.
                 let at = textured.map(|t| faces.texture[t[k] as usize].map(|x| (x + 0.0).to_bits()));
                 let key = (faces.group_of_face[f], at);
                 let mut node = last[v as usize];
@@ -75,7 +75,7 @@ impl Nodes {
             let nodes = nodes.collect();
             of_face.push(nodes);
         }
-        Self { of_face, vertex, same }
+        Self { of_face, vertex, same: same.to_vec() }
     }
 
     /// The vertex of the file that stands for `vertex`: the first of those that are welded to it.
@@ -90,26 +90,19 @@ impl Nodes {
     }
 }
 
-/// Of every vertex the first at the same place.
-fn welded(vertices: &[Vec3]) -> Vec<u32> {
-    let mut first = HashMap::with_capacity(vertices.len());
-    // −0 is 0.
-    let place = |p: &Vec3| [p.x, p.y, p.z].map(|x| (x + 0.0).to_bits());
-    (0..).zip(vertices).map(|(k, p)| *first.entry(place(p)).or_insert(k)).collect()
-}
-
 fn sides(face: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
     (0..face.len()).map(|k| sorted_pair([face[k], face[(k + 1) % face.len()]]))
 }
 
-/// The parts in the order of their first faces, group by group. Named by their group or, without one, by `stem`.
-pub(super) fn parts(faces: &ObjFaces, nodes: &Nodes, cuts: &HashSet<[u32; 2]>, unit: f64, stem: &str) -> Vec<Part> {
+/// The parts in the order of their first faces, group by group; named by their group or, without one, by `stem`.
+pub(super) fn parts(faces: &ObjFaces, nodes: &Nodes, cuts: &HashSet<[u32; 2]>, space: Space, stem: &str) -> Vec<Part> {
     let fans = Fans::new(nodes, cuts);
-    let source = Source { faces, nodes, fans: &fans, unit };
+    let source = Source { faces, nodes, fans: &fans, space };
     let mut local = vec![0; fans.of_corner.len()];
     let mut parts: Vec<Part> = Vec::new();
     let mut of_group: Vec<Vec<u32>> = vec![Vec::new(); faces.groups.len()];
-    (0..).zip(&faces.group_of_face).for_each(|(f, &g)| of_group[g as usize].push(f));
+    let whole = (0..).zip(&faces.group_of_face).filter(|(f, _): &(u32, _)| !faces.faces[*f as usize].is_empty());
+    whole.for_each(|(f, &g)| of_group[g as usize].push(f));
     for (group, own) in faces.groups.iter().zip(of_group) {
         let mut number = HashMap::new();
         let mut split: Vec<Vec<u32>> = Vec::new();
@@ -128,17 +121,16 @@ pub(super) fn parts(faces: &ObjFaces, nodes: &Nodes, cuts: &HashSet<[u32; 2]>, u
     parts
 }
 
-/// Inputs from which parts are made.
+/// What parts are made from.
 #[derive(Clone, Copy)]
 struct Source<'a> {
     faces: &'a ObjFaces,
     nodes: &'a Nodes,
     fans: &'a Fans,
-    /// Metres per unit of the file.
-    unit: f64,
+    space: Space,
 }
 
-/// Sets of corners that are one vertex, and of faces that are one part.
+/// Which corners are one vertex, and which faces one part.
 struct Fans {
     /// First corner of every face.
     starts: Vec<usize>,
@@ -181,9 +173,9 @@ impl Fans {
 }
 
 impl Part {
-    /// `local` has room for every fan. A part uses its own places only.
+    /// `local` has room for every fan; a part uses its own places only.
     fn new(source: &Source<'_>, name: String, own: Vec<u32>, local: &mut [u32]) -> Self {
-        let Source { faces, nodes, fans, unit } = *source;
+        let Source { faces, nodes, fans, space } = *source;
         // Vertices in the file's order, of those that a cut has made of one the first face's first.
         let mut all: Vec<(u32, u32, u32)> = Vec::new();
         let fan_of = |f: u32, k: usize| fans.of_corner[fans.starts[f as usize] + k];
@@ -198,7 +190,7 @@ impl Part {
         let number = |f: u32| (0..faces.faces[f as usize].len()).map(move |k| fan_of(f, k));
         let corners: Vec<Vec<u32>> = own.iter().map(|&f| number(f).map(|fan| local[fan as usize]).collect()).collect();
         let vertices: Vec<u32> = all.iter().map(|a| a.0).collect();
-        let positions: Vec<Vec3> = vertices.iter().map(|&v| faces.vertices[v as usize] * unit).collect();
+        let positions: Vec<Vec3> = vertices.iter().map(|&v| space.place(faces.vertices[v as usize])).collect();
         let of_polygon: Vec<Vec<[u32; 3]>> = corners.iter().map(|polygon| triangles_of(&positions, polygon)).collect();
         let mut triangles: Vec<[u32; 3]> = of_polygon.iter().flatten().map(|&[a, b, c]| [a, c, b]).collect();
         let turned = orient(&mut triangles);
@@ -214,7 +206,7 @@ impl Part {
         self.vertices.get(vertex as usize).map_or(0, |v| v + 1)
     }
 
-    /// Note on faces that were turned.
+    /// What is to be said of faces that were turned.
     pub(super) fn turned_note(&self) -> Option<String> {
         let mut is_turned = vec![false; self.surface.triangles.len()];
         self.turned.as_ref()?.iter().for_each(|&t| is_turned[t] = true);

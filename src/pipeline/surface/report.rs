@@ -4,14 +4,16 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
+use super::super::error::PipelineError;
 use super::Limit;
 use super::cuts;
-use super::darts::{DartStop, Laid};
+use super::darts::{DartStop, Failed, Laid};
 use super::edges::NamedEdge;
+use crate::flatten::FlattenError;
 use crate::geometry::MM;
 use crate::report::{Quartet, Stage};
 
-/// Report of a flattened surface, written as `report.json`.
+/// What flattening did to a surface; written as `report.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SurfaceReport {
     /// Version of this program.
@@ -22,19 +24,46 @@ pub struct SurfaceReport {
     pub units: &'static str,
     /// One per part.
     pub pieces: Vec<PartReport>,
-    /// Cuts besides groups and texture seams: chains of the file's vertices, from 1.
+    /// The parts that could not be laid flat, of which the files have nothing.
+    pub failed: Vec<FailedReport>,
+    /// Where the surface was cut besides its groups and texture seams: chains of the file's vertices, from 1.
     pub cuts: Vec<Vec<u32>>,
-    /// A row for each of these cuts, with its kind and length.
+    /// A row for each of these: what it is, and how long.
     pub cuts_made: Vec<CutReport>,
     /// The one stage.
     pub stages: Vec<Stage>,
 }
 
-/// Report of one flattened part. Keys and units are those of a garment's report. The surface in space is called
-/// `draped`.
+/// A part that could not be laid flat.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FailedReport {
+    /// Named as the others are.
+    pub name: String,
+    /// Why it could not, and where to cut it if that is the remedy.
+    pub why: String,
+}
+
+impl Failed {
+    /// What is to be said of it.
+    pub(super) fn report(&self) -> FailedReport {
+        // File and piece are named beside it.
+        let bare = |source: &FlattenError| match source {
+            FlattenError::Piece { source, .. } => source.to_string(),
+            other => other.to_string(),
+        };
+        let why = match &self.error {
+            PipelineError::NoDisk { source, advice, .. } => format!("{}; {advice}", bare(source)),
+            PipelineError::Surface { source, .. } => bare(source),
+            other => other.to_string(),
+        };
+        FailedReport { name: self.part.name.clone(), why }
+    }
+}
+
+/// What flattening did to one part. Keys and units are those of a garment's report; the surface in space is `draped`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PartReport {
-    /// The group's name. Numbered where a group has several parts.
+    /// The group's name; numbered where a group has several parts.
     pub name: String,
     /// Vertices.
     pub particles: usize,
@@ -48,30 +77,32 @@ pub struct PartReport {
     pub boundary_draped: f64,
     /// Length of the flat rim, mm.
     pub boundary_flattened: f64,
-    /// Relative error of the flat area against the area in space.
+    /// Flat against space.
     pub area_error: Quartet,
-    /// Relative error of the flat rim's length against its length in space.
+    /// The same with its sign: below zero where the flat piece is smaller.
+    pub area_change: f64,
+    /// The same for the rim.
     pub boundary_error: Quartet,
     /// Largest |length / length in space − 1| of an edge.
     pub largest_edge_error: f64,
     /// Largest |length / length in space − 1| of an edge of the rim.
     pub largest_rim_error: f64,
-    /// Mean relative error of the rim lengths that the mode should keep and could not: rim edges, or in the mode
-    /// `woven` the lengths between corners and notches. `null` if it keeps them, or keeps none.
+    /// By which share, in the mean, rim edges (in the mode `woven` the lengths between corners and notches) are off
+    /// that the mode was to keep and could not; `null` where it keeps them, or none.
     pub rim_missed: Option<f64>,
     /// Root mean square of the triangles' stretches minus one.
     pub distortion: f64,
     /// Root mean square of the triangles' relative change of area.
     pub area_distortion: f64,
-    /// |stretch − 1| in the worst direction: the 99th percentile by area, and the maximum.
+    /// |stretch − 1| in the worst direction: what all but a hundredth of the area stays below, and the largest.
     pub strain: StrainReport,
-    /// Extension of warp and weft.
+    /// What happened to warp and weft.
     pub threads: ThreadReport,
     /// L²/4πS of the rim and the area in space. Below 1 no flat piece has both that rim and that area.
     pub isoperimetric: f64,
     /// The least area error of any flat piece with the same length of rim: 1 − L²/4πS, or 0.
     pub area_error_bound: f64,
-    /// Total Gaussian curvature, degrees. The angles of the flat rim sum up to this much less than in space.
+    /// Total Gauss curvature, degrees: by so much less, all together, are the flat rim's angles.
     pub curvature: f64,
     /// Largest change of the rim's angle in one vertex, degrees.
     pub corner_change: f64,
@@ -84,15 +115,15 @@ pub struct PartReport {
     /// The rims, between corners and where the other side of a cut changes.
     pub edges: Vec<EdgeReport>,
     /// Whether cloth can be worked to lie so: `false` where the fabric gives less even under 500 gf/cm, or without a
-    /// fabric where half is passed, which no weave gives. Such a piece needs a cut or a dart.
+    /// fabric where the strain passes a half or the area changes by more than 13 %, which no weave gives. Such a piece
+    /// needs a cut or a dart.
     pub layable: bool,
     /// A dart that would relieve the piece, where its strain passes the limit.
     pub dart: Option<DartReport>,
-    /// Number of darts cut into it.
+    /// How many darts were cut into it.
     pub darts: usize,
-    /// Reason why there are no more darts although some were asked for and the strain still passes the limit:
-    /// `none_left` (of those allowed), `overlap` (the piece would lie on itself) or `no_place` (no helpful place can be
-    /// found).
+    /// Why there are no more where they were asked for and the strain still passes the limit: `none_left` (of those
+    /// allowed), `overlap` (the piece would lie on itself) or `no_place` (none can be told that would help).
     pub darts_stopped: Option<DartStop>,
 }
 
@@ -101,6 +132,10 @@ pub struct PartReport {
 pub struct StrainReport {
     /// 99 % of the area is strained no more.
     pub p99: f64,
+    /// 99 % of the area is stretched no more in the flat piece.
+    pub stretch_p99: f64,
+    /// 99 % of the area is compressed no more in the flat piece.
+    pub compression_p99: f64,
     /// Largest.
     pub max: f64,
 }
@@ -149,11 +184,11 @@ fn edge(laid: &[Laid], all: &[Vec<NamedEdge>], k: usize, edge: &NamedEdge) -> Ed
 pub struct ThreadReport {
     /// Root mean square of the warp's stretch minus one.
     pub warp: f64,
-    /// Root mean square of the weft's stretch minus one.
+    /// The same of the weft.
     pub weft: f64,
-    /// |stretch − 1| of the warp, 99th percentile by area.
+    /// |stretch − 1| of the warp that all but a hundredth of the area stays below.
     pub warp_p99: f64,
-    /// |stretch − 1| of the weft, 99th percentile by area.
+    /// The same of the weft.
     pub weft_p99: f64,
     /// Root mean square of the change of the angle between them, degrees.
     pub shear: f64,
@@ -166,7 +201,7 @@ pub struct ThreadReport {
 pub struct CutReport {
     /// The part that was cut, named as it was before.
     pub piece: String,
-    /// Its purpose.
+    /// What for.
     pub why: CutWhy,
     /// The file's vertex at its start, from 1.
     pub from: u32,
@@ -221,13 +256,19 @@ impl PartReport {
             boundary_draped: r.boundary_before * MM,
             boundary_flattened: r.boundary_after * MM,
             area_error: error(r.area_error),
+            area_change: r.area_after / r.area_before - 1.0,
             boundary_error: error(r.boundary_error),
             largest_edge_error: r.largest_edge_error,
             largest_rim_error: r.largest_rim_error,
             rim_missed: r.rim_missed,
             distortion: r.distortion,
             area_distortion: r.area_distortion,
-            strain: StrainReport { p99: r.strain_p99, max: r.strain_max },
+            strain: StrainReport {
+                p99: r.strain_p99,
+                stretch_p99: r.stretch_p99,
+                compression_p99: r.compression_p99,
+                max: r.strain_max,
+            },
             threads: ThreadReport {
                 warp: r.threads.warp,
                 weft: r.threads.weft,

@@ -58,23 +58,28 @@ impl FlatSurface {
                 let _ = writeln!(out, "vt {} {}", p.x * MM, -p.y * MM);
             }
         }
+        let own = self.laid.iter().map(|l| &l.part).chain(self.failed.iter().map(|f| &f.part)).collect::<Vec<_>>();
         let mut part_of_face = vec![0; self.faces.faces.len()];
-        for (k, laid) in self.laid.iter().enumerate() {
-            laid.part.faces.iter().for_each(|&f| part_of_face[f as usize] = k);
+        for (k, part) in own.iter().enumerate() {
+            part.faces.iter().for_each(|&f| part_of_face[f as usize] = k);
         }
         let mut group = None;
-        let mut seen = vec![0; self.laid.len()];
-        for (f, corners) in self.faces.faces.iter().enumerate() {
+        let mut seen = vec![0; own.len()];
+        for (f, corners) in self.faces.faces.iter().enumerate().filter(|(_, corners)| !corners.is_empty()) {
             let k = part_of_face[f];
-            let own = &self.laid[k].part.corners[seen[k]];
+            let locals = &own[k].corners[seen[k]];
             seen[k] += 1;
             if group != Some(k) {
-                let _ = writeln!(out, "g {}", self.laid[k].part.name);
+                let _ = writeln!(out, "g {}", own[k].name);
                 group = Some(k);
             }
             out.push('f');
-            for (&v, &local) in corners.iter().zip(own) {
-                let _ = write!(out, " {}/{}", v + 1, first[k] + local as usize);
+            for (&v, &local) in corners.iter().zip(locals) {
+                // What could not be laid flat has no flat positions.
+                let _ = match first.get(k) {
+                    Some(first) => write!(out, " {}/{}", v + 1, first + local as usize),
+                    None => write!(out, " {}", v + 1),
+                };
             }
             out.push('\n');
         }
