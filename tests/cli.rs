@@ -253,7 +253,7 @@ fn drawings_come_back_as_garment_files() {
         assert!(text.contains("# seams:"), "{text}");
         let run = room.run(&["import", kind, &drawing, "-o", &made, "--seams", "--force", "--json"]);
         let json = run.ends(0).json();
-        assert!(json["seams"].as_u64() > Some(0) && json["ok"] == Value::from(true), "{json}");
+        assert!(json["seams"].as_u64() > Some(0) && json["ok"] == true, "{json}");
         room.run(&["import", kind, &drawing, "-o", &drawing]).ends(2).says(&["is an input"]);
         room.run(&["import", kind, "skirt.yaml", "-o", "no.yaml"]).ends(2).says(&["skirt.yaml"]);
         room.run(&["import", kind, "nowhere", "-o", "no.yaml"]).ends(2).says(&["nowhere"]);

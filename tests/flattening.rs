@@ -733,14 +733,14 @@ fn a_file_of_any_format_and_dirt_is_one_sheet() {
                 element face 12\nproperty list uchar int vertex_indices\nend_header\n";
     let ply = (0..12).map(place).fold(head.to_owned(), |text, p| text + &format!("{} {} {}\n", p.x, p.y, p.z));
     let ply = triangles.iter().fold(ply, |text, t| text + &format!("3 {} {} {}\n", t[0], t[1], t[2]));
-    let doubled = format!("f 1 2 6\nf 6 2 1\nf 1 2 2\nf 3 3 3\nv 9 9 9\n");
+    let doubled = "f 1 2 6\nf 6 2 1\nf 1 2 2\nf 3 3 3\nv 9 9 9\n";
     let needle = "v 0.15 0 0\nf 2 13 3\n";
     for (name, bytes, said) in [
         ("clean.obj", obj(&triangles, ""), ""),
         ("soup.obj", soup.into_bytes(), "are joined"),
         ("sheet.stl", stl, "are joined"),
         ("sheet.ply", ply.into_bytes(), ""),
-        ("doubled.obj", obj(&triangles, &doubled), "2 faces have the same corners"),
+        ("doubled.obj", obj(&triangles, doubled), "2 faces have the same corners"),
         ("needle.obj", obj(&triangles, needle), "1 face has no area"),
     ] {
         let file = folder.path().join(name);

@@ -36,10 +36,13 @@ pub(super) fn leave_outer_sides(faces: &mut ObjFaces, same: &[u32], metres: f64,
 /// A side of faces between two vertices: the faces, and whether each runs along it from the smaller to the larger.
 type Sides = HashMap<[u32; 2], Vec<(usize, bool)>>;
 
+/// Two vertices and the two faces between which they are a side, as in [`Sides`].
+type SharedSide = ([u32; 2], [(usize, bool); 2]);
+
 /// A part of the surface that is closed all round.
 struct Solid {
     faces: Vec<usize>,
-    sides: Vec<([u32; 2], [(usize, bool); 2])>,
+    sides: Vec<SharedSide>,
 }
 
 struct Sheet {

@@ -95,11 +95,19 @@ pub fn start(garment: &Garment, to: &ClothMesh, body: &Mannequin, collider: &Col
 struct OnFilm<'a> {
     worn: &'a [Worn<'a>],
     edges: &'a [Length],
-    rings: &'a [Ring],
-    /// The connected part that each ring is of, and the ends of the body that leave by it.
-    leave: &'a [(u32, Ends)],
+    rings: &'a [PartRing],
     limbs: &'a [Limb<'a>],
     nodes: Vec<Vec3>,
+}
+
+/// A ring of a connected part.
+#[derive(Clone, Debug)]
+struct PartRing {
+    ring: Ring,
+    /// Number of the part.
+    part: u32,
+    /// The ends of the body that leave by it.
+    ends: Ends,
 }
 
 /// A glued garment with the ends of the body dealt out to its openings.
@@ -139,17 +147,18 @@ impl Dealt {
     ) -> Option<T> {
         let edges = surface::edges(&self.glued, mesh);
         let worn = self.worn(garment, mesh);
-        let (rings, leave, limbs) = rings_and_limbs(&worn, &self.glued, &edges, axes)?;
-        let nodes = Film::new(self.glued.count, &edges, &rings)?.start(&rings, &limbs);
-        Some(then(OnFilm { worn: &worn, edges: &edges, rings: &rings, leave: &leave, limbs: &limbs, nodes }))
+        let (rings, limbs) = rings_and_limbs(&worn, &self.glued, &edges, axes)?;
+        let plain: Vec<Ring> = rings.iter().map(|of| of.ring.clone()).collect();
+        let nodes = Film::new(self.glued.count, &edges, &plain)?.start(&plain, &limbs);
+        Some(then(OnFilm { worn: &worn, edges: &edges, rings: &rings, limbs: &limbs, nodes }))
     }
 
     /// Every connected part inflated: from a star, or from its film where it is none.
     fn inflated(&self, mesh: &ClothMesh, film: OnFilm, axes: &Axes, body: &Collider) -> Vec<Vec3> {
         let bending = surface::bending(&self.glued, mesh);
         let piece = |source: &u32| mesh.piece_of(mesh.triangles[*source as usize][0]).unwrap_or(0) as u32;
-        let of_ring = |ring: &Ring| Held { rim: ring.rim.clone(), middle: ring.center, along: None };
-        let sections = film.limbs.iter().flat_map(|limb| sections(&film.rings[limb.ring], limb));
+        let of_ring = |of: &PartRing| Held { rim: of.ring.rim.clone(), middle: of.ring.center, along: None };
+        let sections = film.limbs.iter().flat_map(|limb| sections(&film.rings[limb.ring].ring, limb));
         let held: Vec<Held> = film.rings.iter().map(of_ring).chain(sections).collect();
         let rims = openings::rims(&self.glued);
         let mut nodes = film.nodes.clone();
@@ -174,8 +183,8 @@ impl Dealt {
     /// A connected part; `rims` are all of the garment.
     fn part<'a>(&self, mesh: &ClothMesh, film: &'a OnFilm, rims: &'a [Vec<u32>], number: u32) -> Part<'a> {
         let is_own = |n: u32| self.glued.part_of[n as usize] == number;
-        let rings = film.rings.iter().zip(film.leave).filter(|(_, (part, _))| *part == number);
-        let mouths: Vec<Mouth> = rings.map(|(ring, (_, ends))| Mouth { ring, ends: *ends }).collect();
+        let rings = film.rings.iter().filter(|of| of.part == number);
+        let mouths: Vec<Mouth> = rings.map(|of| Mouth { ring: &of.ring, ends: of.ends }).collect();
         let is_hole = |rim: &&Vec<u32>| is_own(rim[0]) && mouths.iter().all(|mouth| mouth.ring.rim != **rim);
         let holes = rims.iter().filter(is_hole).map(Vec::as_slice).collect();
         let worn = &film.worn[number as usize];
@@ -268,15 +277,14 @@ impl Dealt {
     }
 }
 
-/// The rings of all parts with the part that each is of and the ends that leave by it, and the limbs that some of them
-/// are round. `None` if a part has none.
+/// The rings of all parts, and the limbs that some of them are round. `None` if a part has none.
 fn rings_and_limbs<'a>(
     worn: &'a [Worn],
     glued: &Glued,
     edges: &[Length],
     axes: &'a Axes,
-) -> Option<(Vec<Ring>, Vec<(u32, Ends)>, Vec<Limb<'a>>)> {
-    let (mut rings, mut leave, mut limbs) = (Vec::new(), Vec::new(), Vec::new());
+) -> Option<(Vec<PartRing>, Vec<Limb<'a>>)> {
+    let (mut rings, mut limbs) = (Vec::new(), Vec::new());
     for (number, part) in worn.iter().enumerate() {
         let before = rings.len();
         for (k, ring) in part.rings(axes).into_iter().enumerate() {
@@ -287,12 +295,11 @@ fn rings_and_limbs<'a>(
                 let other = part.find(part.ends[k].mirrored()).map(|o| part.far[o].as_slice());
                 limbs.push(Limb { ring: rings.len(), axis, distance: &part.far[k], other, angles });
             }
-            rings.push(ring);
-            leave.push((number as u32, part.ends[k]));
+            rings.push(PartRing { ring, part: number as u32, ends: part.ends[k] });
         }
         if rings.len() == before {
             return None;
         }
     }
-    Some((rings, leave, limbs))
+    Some((rings, limbs))
 }

@@ -20,22 +20,38 @@ pub(super) fn clear(x: &mut [Vec3], triangles: &[[u32; 3]], ways: &[WayOut], mid
     let off = |p: &Vec3| p - middle;
     let within: Vec<Vec3> = ways.iter().flat_map(|way| way.within.iter().map(off)).collect();
     let outside: Vec<Vec3> = ways.iter().flat_map(|way| way.outside.iter().skip(AT_RIM).map(off)).collect();
+    // Nodes keep their directions, so that each point sees the same triangles all the time.
+    let [outside, within] = [outside, within].map(|points| in_sight(&points, x, triangles));
     for _ in 0..ROUNDS {
-        let drawn = outside.iter().filter(|q| put(x, triangles, **q, false)).count();
-        let moved = within.iter().filter(|q| put(x, triangles, **q, true)).count();
+        let drawn = outside.iter().filter(|sight| put(x, sight, false)).count();
+        let moved = within.iter().filter(|sight| put(x, sight, true)).count();
         if drawn + moved == 0 {
             break;
         }
     }
 }
 
+/// A point, and the triangles that are seen in its direction.
+struct InSight {
+    point: Vec3,
+    triangles: Vec<[u32; 3]>,
+}
+
+fn in_sight(points: &[Vec3], x: &[Vec3], triangles: &[[u32; 3]]) -> Vec<InSight> {
+    let one = |point: &Vec3| {
+        let is_seen = |t: &&[u32; 3]| seen(t.map(|n| x[n as usize]), *point).is_some();
+        InSight { point: *point, triangles: triangles.iter().filter(is_seen).copied().collect() }
+    };
+    points.iter().map(one).collect()
+}
+
 /// Moves the triangles that are seen in the direction of a point beyond it, or to this side of it. Whether any moved.
-fn put(x: &mut [Vec3], triangles: &[[u32; 3]], point: Vec3, beyond: bool) -> bool {
-    let far = point.norm();
-    let Some(way) = point.try_normalize(1e-9) else { return false };
+fn put(x: &mut [Vec3], sight: &InSight, beyond: bool) -> bool {
+    let far = sight.point.norm();
     let mut moved = false;
-    for t in triangles {
-        let Some(at) = seen(t.map(|n| x[n as usize]), way) else { continue };
+    for t in &sight.triangles {
+        let Some(share) = seen(t.map(|n| x[n as usize]), sight.point) else { continue };
+        let at = share * far;
         let to = if beyond { at.max(far + CLEAR) } else { at.min((far - CLEAR).max(DRAWN_IN * at)) };
         if to != at {
             t.iter().for_each(|n| x[*n as usize] *= to / at);
@@ -45,7 +61,7 @@ fn put(x: &mut [Vec3], triangles: &[[u32; 3]], point: Vec3, beyond: bool) -> boo
     moved
 }
 
-/// How far off a triangle is in a direction, metres, if it is seen there.
+/// How far off a triangle is in a direction, in lengths of `way`, if it is seen there.
 fn seen([a, b, c]: [Vec3; 3], way: Vec3) -> Option<f64> {
     let shares = [b.cross(&c).dot(&way), c.cross(&a).dot(&way), a.cross(&b).dot(&way)];
     let sum: f64 = shares.iter().sum();
