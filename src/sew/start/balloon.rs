@@ -230,7 +230,7 @@ impl<'a> Motion<'a> {
     fn layers(&self, p: &[Vec3]) -> Vec<[u32; 2]> {
         let reach = self.apart + LONGEST;
         let cell = |v: &Vec3| [0, 1, 2].map(|c| (v[c] / reach).floor() as i64);
-        let mut cells: HashMap<[i64; 3], Vec<u32>, foldhash::fast::FixedState> = HashMap::default();
+        let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
         let own = || p.iter().zip(&self.area).enumerate().filter(|(_, (_, area))| **area > 0.0);
         for (n, (v, _)) in own() {
             cells.entry(cell(v)).or_default().push(n as u32);

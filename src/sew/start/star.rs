@@ -222,7 +222,7 @@ impl Part<'_> {
             let circle = k.checked_sub(self.holes.len()).map(|k| circles[k]);
             let radius = circle.map_or(scale * whole / TAU, |circle| circle.width.sin());
             for side in &sides {
-                let base = length(side) / whole * TAU * radius;
+                let base = length(side) / whole.max(f64::MIN_POSITIVE) * TAU * radius;
                 let flat = [Vec2::zeros(), Vec2::new(base, 0.0), Vec2::new(0.5 * base, radius)];
                 let share = if circle.is_some() { 1.0 } else { HOLE };
                 out.extend(Facet::new([side[1], side[0], middle], flat, share * 0.5 * base * radius / (4.0 * PI)));
