@@ -98,23 +98,7 @@ fn skirt() -> Result<Garment, Box<dyn Error>> {
 
 /// A seam that joins two edges of equal length.
 fn seam(name: &str, sew: &str, to: &str) -> SeamFile {
-    SeamFile {
-        name: text(name),
-        sew: vec![text(sew)],
-        to: vec![text(to)],
-        ease: None,
-        gather: None,
-        stretch: None,
-        tolerance: None,
-        open: Vec::new(),
-        closure: None,
-        face_same: None,
-        match_notches: None,
-        stage: None,
-        layers: None,
-        allowance: None,
-        note: None,
-    }
+    SeamFile::new(text(name), vec![text(sew)], vec![text(to)])
 }
 
 fn text(value: &str) -> Located<String> {

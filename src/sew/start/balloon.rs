@@ -9,7 +9,7 @@ use std::collections::HashMap;
 
 use super::axes::Axes;
 use super::ribbon::Ribbons;
-use super::star::Part;
+use super::star::GluedPart;
 use super::way_out::WayOut;
 use crate::contact::{Bounds, ClothDetector, Collider, Contact, Neighbourhood};
 use crate::geometry::Vec3;
@@ -80,7 +80,7 @@ impl Held {
 #[derive(Debug)]
 pub(super) struct Balloon<'a> {
     /// Its triangles and edges.
-    pub(super) part: &'a Part<'a>,
+    pub(super) part: &'a GluedPart<'a>,
     /// The piece of every triangle.
     pub(super) piece: Vec<u32>,
     /// Corners opposite to one another across an edge.

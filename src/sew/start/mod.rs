@@ -67,7 +67,7 @@ use harmonic::{Film, Limb, Ring, angles};
 use profile::Profile;
 use rings::{Worn, limb_of};
 use sections::sections;
-use star::Part;
+use star::GluedPart;
 
 /// Garments start on a mesh of this spacing, metres, whatever is asked for: it costs a second or two, and a finer one
 /// starts no better.
@@ -181,7 +181,7 @@ impl Dealt {
     }
 
     /// A connected part; `rims` are all of the garment.
-    fn part<'a>(&self, mesh: &ClothMesh, film: &'a OnFilm, rims: &'a [Vec<u32>], number: u32) -> Part<'a> {
+    fn part<'a>(&self, mesh: &ClothMesh, film: &'a OnFilm, rims: &'a [Vec<u32>], number: u32) -> GluedPart<'a> {
         let is_own = |n: u32| self.glued.part_of[n as usize] == number;
         let rings = film.rings.iter().filter(|of| of.part == number);
         let mouths: Vec<Mouth> = rings.map(|of| Mouth { ring: &of.ring, ends: of.ends }).collect();
@@ -194,7 +194,7 @@ impl Dealt {
         let flat = |source: &u32| mesh.triangles[*source as usize].map(|p| mesh.flat[p as usize]);
         let (triangles, flat) = own.map(|(t, source)| (*t, flat(source))).unzip();
         let edges = film.edges.iter().filter(|l| is_own(l.ends[0])).copied().collect();
-        Part { holes, triangles, flat, edges, far: far.collect(), mouths }
+        GluedPart { holes, triangles, flat, edges, far: far.collect(), mouths }
     }
 
     /// The openings of every connected part.

@@ -35,7 +35,7 @@ const SPREAD: f64 = 1e-2;
 
 /// A connected part of a glued garment.
 #[derive(Debug)]
-pub(super) struct Part<'a> {
+pub(super) struct GluedPart<'a> {
     /// The openings that the body leaves by.
     pub(super) mouths: Vec<Mouth<'a>>,
     /// Rims that nothing passes through.
@@ -62,6 +62,8 @@ pub(super) struct Star {
 /// Directions from a point, before they are unfolded.
 struct Sight {
     from: Vec3,
+    /// The mouths.
+    circles: Vec<Circle>,
     directions: Vec<Vec3>,
     /// Share of the sphere that is covered the wrong way round.
     turned: f64,
@@ -69,7 +71,7 @@ struct Sight {
     room: f64,
 }
 
-impl Part<'_> {
+impl GluedPart<'_> {
     /// The part as a star round a point on the `axes`. `None` where none was found.
     pub(super) fn star(&self, axes: &Axes) -> Option<Star> {
         let pulls = self.pulls();
@@ -77,13 +79,12 @@ impl Part<'_> {
         let film = Film::new(self.count(), &pulls, &rims)?;
         let middles = Film::new(self.count(), &pulls, &self.middles())?;
         self.sights(&film, axes)?.into_iter().take(TRIES).find_map(|mut sight| {
-            let circles = circles(&self.mouths, sight.from);
             self.spread_out(&mut sight.directions);
-            if !unfold(&mut sight.directions, &self.facets(&circles), &middles) {
+            if !unfold(&mut sight.directions, &self.facets(&sight.circles), &middles) {
                 return None;
             }
             let ways = ways_out(&self.mouths, sight.from, axes);
-            let mut nodes = self.at_reach(&sight.directions, &circles, &rims)?;
+            let mut nodes = self.at_reach(&sight.directions, &sight.circles, &rims)?;
             reach::clear(&mut nodes, &self.triangles, &ways, sight.from);
             nodes.iter_mut().for_each(|x| *x += sight.from);
             Some(Star { nodes, ways })
@@ -154,7 +155,7 @@ impl Part<'_> {
         directions.iter_mut().for_each(|d| *d = d.try_normalize(1e-12).unwrap_or_else(Vec3::z));
         let [turned, winding] = self.turned(&directions);
         let room = room(&self.mouths, from);
-        ((winding - 1.0).abs() < 0.5 && turned < TURNED).then_some(Sight { from, directions, turned, room })
+        ((winding - 1.0).abs() < 0.5 && turned < TURNED).then_some(Sight { from, circles, directions, turned, room })
     }
 
     /// The share of the sphere that is covered the wrong way round, and how often the surface goes round the middle.
