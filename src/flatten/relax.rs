@@ -11,6 +11,7 @@ use super::overlap::rim_crossings;
 use super::zone::Zone;
 use super::{FlattenError, Mode, Options};
 use crate::geometry::Vec2;
+use crate::linear::{Memory, advance, dot};
 
 /// Steps that one factorisation serves: a factor costs about as much as six steps, and later ones are worth less.
 const STEPS_PER_FACTOR: usize = 10;
@@ -92,7 +93,7 @@ impl Descent {
         goal: &Goal,
         mut zone: Option<&mut Zone>,
     ) -> Result<Outcome, FlattenError> {
-        let mut memory = Memory::default();
+        let mut memory = Memory::<2>::default();
         let mut gradient = vec![Vec2::zeros(); flat.len()];
         let mut value = energy.value(flat);
         energy.gradient(flat, &mut gradient);
@@ -104,14 +105,14 @@ impl Descent {
             if zone.is_some_and(|zone| zone.settle(flat)) {
                 value = energy.value(flat);
                 energy.gradient(flat, &mut gradient);
-                memory.pairs.clear();
+                memory.keep(0);
             }
-            let fresh = stale || memory.pairs.len() >= STEPS_PER_FACTOR;
+            let fresh = stale || memory.len() >= STEPS_PER_FACTOR;
             if fresh {
                 self.inverse.renew(energy, flat)?;
-                memory.pairs.clear();
+                memory.keep(0);
             }
-            let direction = memory.direction(&gradient, &self.inverse, energy.free);
+            let direction = memory.direction(&gradient, |nodes| apply(&self.inverse, nodes, energy.free));
             let slope = dot(&direction, &gradient);
             let settled = -slope <= (goal.tolerance * value.abs()).max(ENERGY_FLOOR);
             let exact = || goal.holds == 0 || energy.slack(flat) <= goal.exact;
@@ -142,7 +143,8 @@ impl Descent {
             advance(flat, &direction, step);
             let before = std::mem::replace(&mut gradient, vec![Vec2::zeros(); flat.len()]);
             energy.gradient(flat, &mut gradient);
-            memory.remember(&direction, step, &before, &gradient);
+            let change = gradient.iter().zip(&before).map(|(after, before)| after - before).collect();
+            memory.remember(direction.iter().map(|d| d * step).collect(), change);
         }
         Ok(Outcome { energy: value, iterations: goal.max_iterations, converged: false })
     }
@@ -206,61 +208,11 @@ fn smallest_positive_root(q: f64, l: f64, c: f64) -> f64 {
     positive(-l + root).min(positive(-l - root))
 }
 
-fn advance(flat: &mut [Vec2], direction: &[Vec2], step: f64) {
-    for (p, d) in flat.iter_mut().zip(direction) {
-        *p += d * step;
-    }
-}
-
-fn dot(a: &[Vec2], b: &[Vec2]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
-}
-
-/// The last steps and what they did to the gradient.
-#[derive(Default)]
-struct Memory {
-    pairs: Vec<Pair>,
-}
-
-struct Pair {
-    step: Vec<Vec2>,
-    change: Vec<Vec2>,
-    /// 1 / (step · change).
-    weight: f64,
-}
-
-impl Memory {
-    fn remember(&mut self, direction: &[Vec2], step: f64, before: &[Vec2], after: &[Vec2]) {
-        let step: Vec<Vec2> = direction.iter().map(|d| d * step).collect();
-        let change: Vec<Vec2> = after.iter().zip(before).map(|(a, b)| a - b).collect();
-        let curvature = dot(&step, &change);
-        // Only steps along which the energy curves upwards keep the guess positive definite.
-        if curvature > f64::EPSILON * dot(&step, &step).sqrt() * dot(&change, &change).sqrt() {
-            self.pairs.push(Pair { step, change, weight: 1.0 / curvature });
-        }
-    }
-
-    /// Minus the guessed inverse curvature times the gradient (two-loop recursion).
-    fn direction(&self, gradient: &[Vec2], inverse: &Inverse, free: usize) -> Vec<Vec2> {
-        let mut d: Vec<Vec2> = gradient.iter().map(|g| -g).collect();
-        let mut shares = Vec::with_capacity(self.pairs.len());
-        for pair in self.pairs.iter().rev() {
-            let share = pair.weight * dot(&pair.step, &d);
-            advance(&mut d, &pair.change, -share);
-            shares.push(share);
-        }
-        let mut flat: Vec<f64> = d.iter().flat_map(|v| [v.x, v.y]).collect();
-        // What stays where it is has no row.
-        inverse.apply(&mut flat[..2 * free]);
-        for (d, xy) in d.iter_mut().zip(flat.chunks_exact(2)) {
-            *d = Vec2::new(xy[0], xy[1]);
-        }
-        for (pair, share) in self.pairs.iter().zip(shares.into_iter().rev()) {
-            let correction = share - pair.weight * dot(&pair.change, &d);
-            advance(&mut d, &pair.step, correction);
-        }
-        d
-    }
+/// Applies the inverse of the curvature to the nodes that are free: what stays where it is has no row.
+fn apply(inverse: &Inverse, nodes: &mut [Vec2], free: usize) {
+    let mut flat: Vec<f64> = nodes.iter().flat_map(|v| [v.x, v.y]).collect();
+    inverse.apply(&mut flat[..2 * free]);
+    nodes.iter_mut().zip(flat.chunks_exact(2)).for_each(|(v, xy)| *v = Vec2::new(xy[0], xy[1]));
 }
 
 #[cfg(test)]

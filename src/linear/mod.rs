@@ -11,8 +11,10 @@
 
 mod cholesky;
 mod matrix;
+mod memory;
 mod pattern;
 
 pub use cholesky::{Cholesky, CholeskyError, NotPositiveDefinite, Scalar};
 pub use matrix::SymmetricMatrix;
+pub use memory::{Memory, advance, dot};
 pub use pattern::{BlockSlot, PatternError, Slot, SymmetricPattern};

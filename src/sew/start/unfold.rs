@@ -7,6 +7,7 @@
 
 use super::harmonic::Film;
 use crate::geometry::{Vec2, Vec3};
+use crate::linear::{Memory, dot};
 
 /// Rounds at most, and steps in each.
 const ROUNDS: usize = 40;
@@ -130,9 +131,9 @@ pub(super) fn unfold(directions: &mut Vec<Vec3>, facets: &[Facet], film: &Film) 
 /// A round of steps down, and the value at its end.
 fn descend(energy: &Energy, y: &mut Vec<Vec3>, film: &Film) -> f64 {
     let (mut value, mut gradient) = energy.gradient(y);
-    let mut memory: Vec<Change> = Vec::new();
+    let mut memory = Memory::<3>::default();
     for _ in 0..STEPS {
-        let way = direction(&gradient, &memory, film);
+        let way = memory.direction(&gradient, |way| guess(way, &memory, film));
         let slope = dot(&way, &gradient);
         let longest = way.iter().map(Vec3::norm).fold(f64::MIN_POSITIVE, f64::max);
         let whole = (LONGEST / longest).min(1.0);
@@ -143,53 +144,20 @@ fn descend(energy: &Energy, y: &mut Vec<Vec3>, film: &Film) -> f64 {
         let to = at(step);
         let (lower, next) = energy.gradient(&to);
         let less = |a: &[Vec3], b: &[Vec3]| -> Vec<Vec3> { a.iter().zip(b).map(|(a, b)| a - b).collect() };
-        memory.extend(Change::new(less(&to, y), less(&next, &gradient)));
-        if memory.len() > MEMORY {
-            memory.remove(0);
-        }
+        memory.remember(less(&to, y), less(&next, &gradient));
+        memory.keep(MEMORY);
         (*y, value, gradient) = (to, lower, next);
     }
     value
 }
 
-/// A step, the change of the gradient that it brought, and one over their product.
-struct Change {
-    step: Vec<Vec3>,
-    gradient: Vec<Vec3>,
-    inverse: f64,
-}
-
-impl Change {
-    /// `None` where the energy is not convex along the step.
-    fn new(step: Vec<Vec3>, gradient: Vec<Vec3>) -> Option<Self> {
-        let product = dot(&step, &gradient);
-        (product > 0.0).then(|| Self { inverse: 1.0 / product, step, gradient })
-    }
-}
-
-/// The way down by what is remembered (the two loops of L-BFGS).
-fn direction(gradient: &[Vec3], memory: &[Change], film: &Film) -> Vec<Vec3> {
-    let mut q = gradient.to_vec();
-    let mut shares = Vec::with_capacity(memory.len());
-    for change in memory.iter().rev() {
-        let share = change.inverse * dot(&change.step, &q);
-        q.iter_mut().zip(&change.gradient).for_each(|(q, g)| *q -= g * share);
-        shares.push(share);
-    }
-    let scale = memory.last().map_or(1.0, |last| {
-        let bent = dot(&last.gradient, &film.inverse(&last.gradient));
-        1.0 / (last.inverse * bent.max(f64::MIN_POSITIVE))
-    });
-    let mut way: Vec<Vec3> = film.inverse(&q).into_iter().map(|q| q * scale).collect();
-    for (change, share) in memory.iter().zip(shares.iter().rev()) {
-        let own = change.inverse * dot(&change.gradient, &way);
-        way.iter_mut().zip(&change.step).for_each(|(way, step)| *way += step * (share - own));
-    }
-    way.into_iter().map(|way| -way).collect()
-}
-
-fn dot(a: &[Vec3], b: &[Vec3]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
+/// The film's inverse, as large as the last step says that the inverse curvature is.
+fn guess(way: &mut [Vec3], memory: &Memory<3>, film: &Film) {
+    let scale = memory
+        .last()
+        .map_or(1.0, |(change, weight)| 1.0 / (weight * dot(change, &film.inverse(change)).max(f64::MIN_POSITIVE)));
+    let inverse = film.inverse(way);
+    way.iter_mut().zip(inverse).for_each(|(way, inverse)| *way = inverse * scale);
 }
 
 #[cfg(test)]
