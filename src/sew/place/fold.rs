@@ -25,6 +25,8 @@ pub(in crate::sew) struct Sheet {
     pub(in crate::sew) under: Vec<f64>,
     /// Whether it lies on other cloth of its piece: turned over at a fold, or laid in a pleat.
     pub(in crate::sew) hidden: Vec<bool>,
+    /// Of what is laid in a pleat, how far that is shut: 1 at the pleated edge, 0 where the pleat has opened. 1 elsewhere.
+    pub(in crate::sew) shut: Vec<f64>,
     /// Off the ring that a piece is bent into, outward, metres: the waves of a circle skirt.
     pub(super) out: Vec<f64>,
 }
@@ -48,6 +50,7 @@ pub(in crate::sew) fn pressed(garment: &Garment, mesh: &ClothMesh) -> Sheet {
         straight: Vec::new(),
         under: nowhere(),
         hidden: vec![false; mesh.flat.len()],
+        shut: vec![1.0; mesh.flat.len()],
         out: nowhere(),
     };
     let mut sewn = vec![0u32; mesh.flat.len()];
@@ -144,7 +147,8 @@ mod tests {
         let nowhere = Vec::new;
         let flat: Vec<Vec2> = [0.01, 0.03, 0.05].map(|x| Vec2::new(x, 0.0)).to_vec();
         let (under, hidden) = (vec![0.0; 3], vec![false; 3]);
-        let mut sheet = Sheet { drawn: nowhere(), flat, straight: nowhere(), under, hidden, out: Vec::new() };
+        let mut sheet =
+            Sheet { drawn: nowhere(), flat, straight: nowhere(), under, hidden, shut: Vec::new(), out: Vec::new() };
         let flap = |particles: &[usize], x: f64, way: f64| Flap {
             particles: particles.to_vec(),
             at: Vec2::new(x, 0.0),

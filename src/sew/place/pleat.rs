@@ -18,6 +18,8 @@ const UNDER: f64 = 2.0;
 /// Cloth that reaches a fold starts short of it, metres: where two folds meet edge to edge (behind a box pleat, before
 /// an inverted one) their particles would start in one place, with no way to tell from which side either came.
 const SHORT: f64 = 0.2e-3;
+/// A pleat that is sewn at one end opens over this many depths of it from there.
+const OPENS: f64 = 4.0;
 /// The outermost panels of a piece sink to the pleat over this many depths of it.
 const SINK: f64 = 3.0;
 
@@ -64,7 +66,8 @@ pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &mut Sheet) {
         let mut laid: Vec<Pleated> = Vec::new();
         for of_edge in of_piece.chunk_by(|a, b| a.0 == b.0) {
             let pleated = Pleated::new(garment, of_edge);
-            if laid.iter().any(|other| other.meets(&pleated)) {
+            if let Some(other) = laid.iter_mut().find(|other| other.meets(&pleated)) {
+                other.is_shut = true;
                 continue;
             }
             for p in mesh.pieces[number].particles.clone() {
@@ -76,6 +79,9 @@ pub(super) fn lay(garment: &Garment, mesh: &ClothMesh, sheet: &mut Sheet) {
             }
             laid.push(pleated);
         }
+        for pleated in &laid {
+            mesh.pieces[number].particles.clone().for_each(|p| sheet.shut[p] *= 1.0 - pleated.opened(mesh.flat[p]));
+        }
     }
 }
 
@@ -86,6 +92,8 @@ struct Pleated {
     along: Vec2,
     length: f64,
     folds: Vec<Fold>,
+    /// Whether the pleats are sewn at both ends.
+    is_shut: bool,
 }
 
 impl Pleated {
@@ -94,7 +102,15 @@ impl Pleated {
         let path = &garment.pieces[edge.piece].loops[edge.ring][edge.index].path;
         let (start, end) = (path.point(0.0), path.point(path.length()));
         let along = (end - start).try_normalize(0.0).unwrap_or_else(Vec2::x);
-        Self { start, along, length: path.length(), folds: folds.iter().map(|f| f.1).collect() }
+        Self { start, along, length: path.length(), folds: folds.iter().map(|f| f.1).collect(), is_shut: false }
+    }
+
+    /// How far the pleat that a flat point is in opens there: 0 at the edge, 1 where it is open, 0 outside all pleats.
+    fn opened(&self, p: Vec2) -> f64 {
+        let off = p - self.start;
+        let at = self.along.dot(&off);
+        let fold = self.folds.iter().find(|f| f.at < at && at < f.end()).filter(|_| !self.is_shut);
+        fold.map_or(0.0, |fold| (self.along.perp(&off).abs() / (OPENS * fold.depth)).min(1.0))
     }
 
     /// Whether pleats of two edges take up the same stretch: one pleat sewn at both ends.
@@ -176,7 +192,7 @@ mod tests {
 
     fn pleated(folds: &[(f64, bool)]) -> Pleated {
         let folds = folds.iter().map(|&(at, to_end)| Fold { at, depth: 0.02, to_end }).collect();
-        Pleated { start: Vec2::zeros(), along: Vec2::x(), length: 0.4, folds }
+        Pleated { start: Vec2::zeros(), along: Vec2::x(), length: 0.4, folds, is_shut: false }
     }
 
     #[test]

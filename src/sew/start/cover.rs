@@ -113,7 +113,7 @@ impl Flap<'_> {
         let to_over = self.to_under.inverse();
         let follow = |p: &u32| {
             let (corners, weights) = ground.place(onto(&to_over, mesh.flat[*p as usize]));
-            (*p, Follow { corners, weights, layers: 0.0 })
+            (*p, Follow { corners, weights, layers: 0.0, share: 1.0 })
         };
         Some(covered.iter().map(follow).collect())
     }

@@ -66,6 +66,8 @@ pub struct Follow {
     pub weights: [f64; 3],
     /// Layers out of the right side of the cloth; negative towards the wrong side.
     pub layers: f64,
+    /// How far it has come to lie there from its own place on the surface, 0 to 1: less than 1 where a pleat opens.
+    pub share: f64,
 }
 
 /// Welds the pieces of a garment. `zips` are pairs of particles welded besides.
@@ -256,7 +258,7 @@ fn follows(mesh: &ClothMesh, sheet: &Sheet) -> (Vec<Option<Follow>>, Vec<Beyond>
             if is_outside && layers > 0.0 && corners.iter().any(|n| is_sewn[*n as usize]) {
                 beyond.push(Beyond { particle: p as u32, at: sheet.drawn[p], layers });
             } else {
-                out[p] = Some(Follow { corners, weights, layers });
+                out[p] = Some(Follow { corners, weights, layers, share: sheet.shut[p] });
             }
         }
     }

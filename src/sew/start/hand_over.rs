@@ -1,5 +1,6 @@
 //! From the nodes of the inflated surface to a start of all particles: what lies on other cloth is laid on it.
 
+use super::clear::{Ply, clear};
 use super::cover::into;
 use super::glue::{Beyond, Follow, Glued, ROUNDING};
 use crate::geometry::{Locator, TriMesh, Vec2, Vec3};
@@ -22,62 +23,114 @@ const SEAMS: usize = 3;
 
 /// Where every particle starts when the nodes of the glued surface are at `nodes`.
 pub(super) fn particles(garment: &Garment, mesh: &ClothMesh, glued: &Glued, nodes: &[Vec3]) -> Vec<Vec3> {
-    let mut x: Vec<Option<Vec3>> = glued.node_of.iter().map(|n| n.map(|n| nodes[n as usize])).collect();
-    let outward = normals(mesh, glued, nodes);
     let covered = glued.laps.iter().flat_map(|lap| &lap.covered).map(|(p, on)| (*p as usize, *on)).collect();
     let hidden = glued.follows.iter().enumerate().filter_map(|(p, on)| Some((p, (*on)?))).collect();
-    let mut outward = outward;
-    follow(covered, &mut outward, &mut x);
-    lift(mesh, glued, &outward, &mut x);
-    follow(hidden, &mut outward, &mut x);
+    let mut laying = Laying::new(mesh, glued, nodes);
+    laying.follow(covered);
+    laying.lift(mesh, glued);
+    laying.follow(hidden);
     let seams = Seams::new(mesh);
-    hang(garment, mesh, &seams, glued, &mut x);
-    lay_flat(garment, mesh, glued, &mut x);
-    let has_no_place = |piece: &&usize| mesh.pieces[**piece].particles.clone().any(|p| x[p].is_none());
+    hang(garment, mesh, &seams, glued, &mut laying);
+    laying.lay_flat(garment, mesh, glued);
+    let has_no_place = |piece: &&usize| mesh.pieces[**piece].particles.clone().any(|p| laying.x[p].is_none());
     let mut left: Vec<usize> = glued.left_out.iter().filter(has_no_place).copied().collect();
     left.sort_by_key(|piece| (garment.pieces[*piece].layer.unsigned_abs(), *piece));
     // A piece may be sewn to others that are left out only: these come first.
-    while let Some(k) = left.iter().position(|piece| lay(garment, mesh, &seams, *piece, &mut x)) {
+    while let Some(k) = left.iter().position(|piece| lay(garment, mesh, &seams, *piece, &mut laying)) {
         left.remove(k);
     }
     let middle = nodes.iter().sum::<Vec3>() / nodes.len().max(1) as f64;
-    x.into_iter().map(|p| p.unwrap_or(middle)).collect()
+    let mut x: Vec<Vec3> = laying.x.into_iter().map(|p| p.unwrap_or(middle)).collect();
+    clear(mesh, &laying.plies, &mut x);
+    x
 }
 
-/// Lays what is left out on the cloth that its flat sides match.
-fn lay_flat(garment: &Garment, mesh: &ClothMesh, glued: &Glued, x: &mut [Option<Vec3>]) {
-    let sheet = pressed(garment, mesh);
-    let laid = lay::laid_on_rest(garment, mesh, &sheet, &glued.left_out);
-    let mut placed: Vec<Vec3> = x.iter().map(|p| p.unwrap_or_default()).collect();
-    lay::lay(garment, mesh, &sheet, &laid, &mut placed);
-    for (piece, _) in laid.iter().enumerate().filter(|(_, laid)| laid.is_some()) {
-        mesh.pieces[piece].particles.clone().for_each(|p| x[p] = Some(placed[p]));
+/// Particles on their way to a place.
+struct Laying {
+    /// Where they lie; `None` for those that have no place yet.
+    x: Vec<Option<Vec3>>,
+    /// How those that have one lie over the surface.
+    plies: Vec<Ply>,
+}
+
+impl Laying {
+    /// The particles of the surface at its nodes.
+    fn new(mesh: &ClothMesh, glued: &Glued, nodes: &[Vec3]) -> Self {
+        let surface = TriMesh { vertices: nodes.to_vec(), triangles: glued.triangles.clone() };
+        let inward = surface.vertex_normals();
+        let outward = |p: usize| glued.node_of[p].map_or_else(Vec3::zeros, |n| -inward[n as usize]);
+        Self {
+            x: glued.node_of.iter().map(|n| n.map(|n| nodes[n as usize])).collect(),
+            plies: (0..mesh.flat.len()).map(|p| Ply { outward: outward(p), height: 0.0 }).collect(),
+        }
     }
-}
 
-/// The direction out of the right side of the cloth at every particle of the surface.
-fn normals(mesh: &ClothMesh, glued: &Glued, nodes: &[Vec3]) -> Vec<Vec3> {
-    let surface = TriMesh { vertices: nodes.to_vec(), triangles: glued.triangles.clone() };
-    let of_nodes = surface.vertex_normals();
-    (0..mesh.flat.len()).map(|p| glued.node_of[p].map_or_else(Vec3::zeros, |n| -of_nodes[n as usize])).collect()
-}
+    /// Puts particles on the cloth that they lie on, which may lie on other cloth itself.
+    fn follow(&mut self, mut left: Vec<(usize, Follow)>) {
+        let own = self.x.clone();
+        left.iter().for_each(|(p, _)| self.x[*p] = None);
+        loop {
+            let before = left.len();
+            let from = self.x.clone();
+            left.retain(|(p, follow)| {
+                let Some(corners) = at_all(&from, follow.corners) else { return true };
+                let at: Vec3 = corners.iter().zip(follow.weights).map(|(v, w)| v * w).sum();
+                let ply = self.on(follow.corners, follow.weights, follow.share * follow.layers * LAYER);
+                let on = at + ply.outward * (follow.layers * LAYER);
+                self.x[*p] = Some(own[*p].map_or(on, |own| own.lerp(&on, follow.share)));
+                self.plies[*p] = ply;
+                false
+            });
+            if left.len() == before || left.is_empty() {
+                return;
+            }
+        }
+    }
 
-/// Puts particles on the cloth that they lie on, which may lie on other cloth itself.
-fn follow(mut left: Vec<(usize, Follow)>, outward: &mut [Vec3], x: &mut [Option<Vec3>]) {
-    left.iter().for_each(|(p, _)| x[*p] = None);
-    loop {
-        let before = left.len();
-        let from = x.to_vec();
-        left.retain(|(p, follow)| {
-            let Some(corners) = at_all(&from, follow.corners) else { return true };
-            let mix = |of: [Vec3; 3]| -> Vec3 { of.iter().zip(follow.weights).map(|(v, w)| v * w).sum() };
-            let way = mix(follow.corners.map(|c| outward[c as usize])).try_normalize(0.0).unwrap_or_default();
-            x[*p] = Some(mix(corners) + way * (follow.layers * LAYER));
-            outward[*p] = way;
-            false
-        });
-        if left.len() == before || left.is_empty() {
-            return;
+    /// How cloth lies that is so far off a place on other cloth, metres.
+    fn on(&self, corners: [u32; 3], weights: [f64; 3], off: f64) -> Ply {
+        let plies = corners.map(|c| self.plies[c as usize]);
+        let outward: Vec3 = plies.iter().zip(weights).map(|(ply, w)| ply.outward * w).sum();
+        let height: f64 = plies.iter().zip(weights).map(|(ply, w)| ply.height * w).sum();
+        Ply { outward: outward.try_normalize(0.0).unwrap_or_default(), height: height + off }
+    }
+
+    /// Lifts what laps over other cloth off it: the rim, and the cloth that covers, with all that is sewn to it. What
+    /// is sewn to the cloth below as well stays.
+    fn lift(&mut self, mesh: &ClothMesh, glued: &Glued) {
+        let class = Stitching::new(mesh).class;
+        let class = |p: u32| class[p as usize] as usize;
+        let mut lifted = vec![0.0; self.x.len()];
+        for lap in &glued.laps {
+            let covering = lap.covered.iter().flat_map(|(_, on)| on.corners);
+            lap.pairs.iter().map(|pair| pair[0]).chain(covering).for_each(|p| lifted[class(p)] = lap.plies);
+        }
+        for lap in &glued.laps {
+            let below = lap.covered.iter().map(|covered| covered.0);
+            lap.pairs.iter().map(|pair| pair[1]).chain(below).for_each(|p| lifted[class(p)] = 0.0);
+        }
+        for (p, (x, ply)) in self.x.iter_mut().zip(&mut self.plies).enumerate() {
+            let plies = lifted[class(p as u32)];
+            if let Some(x) = x.as_mut().filter(|_| plies > 0.0) {
+                *x += ply.outward * (PLY * plies);
+                ply.height += PLY * plies;
+            }
+        }
+    }
+
+    /// Lays what is left out on the cloth that its flat sides match.
+    fn lay_flat(&mut self, garment: &Garment, mesh: &ClothMesh, glued: &Glued) {
+        let sheet = pressed(garment, mesh);
+        let laid = lay::laid_on_rest(garment, mesh, &sheet, &glued.left_out);
+        let mut placed: Vec<Vec3> = self.x.iter().map(|p| p.unwrap_or_default()).collect();
+        lay::lay(garment, mesh, &sheet, &laid, &mut placed);
+        let inward = TriMesh { vertices: placed.clone(), triangles: mesh.triangles.clone() }.vertex_normals();
+        for (piece, _) in laid.iter().enumerate().filter(|(_, laid)| laid.is_some()) {
+            let layer = f64::from(garment.pieces[piece].layer);
+            for p in mesh.pieces[piece].particles.clone() {
+                self.x[p] = Some(placed[p]);
+                self.plies[p] = Ply { outward: -inward[p], height: LAYER * (layer - sheet.under[p]) };
+            }
         }
     }
 }
@@ -170,20 +223,23 @@ impl<'a> Hosts<'a> {
         Self { garment, mesh, grounds: open.iter().map(ground).collect(), seams }
     }
 
-    /// The place of what is so far along a seam from a stitch and across it into the host's cloth, metres, so many
+    /// Lays a particle so far along a seam from a stitch and across it into the host's cloth, metres, and so many
     /// layers out of that.
-    fn place(&self, near: &Stitch, [along, across]: [f64; 2], layers: f64, x: &[Option<Vec3>]) -> Vec3 {
+    fn place(&self, p: usize, near: &Stitch, [along, across]: [f64; 2], layers: f64, laying: &mut Laying) {
         let straight_on = || near.place + near.along * along + near.across * across;
         let at = near.host_flat + near.host_along * along + near.host_across * across;
-        let (host, at) = self.across_seams(near.host, at, x);
+        let (host, at) = self.across_seams(near.host, at, &laying.x);
         let spot = self.grounds[host].as_ref().map(|ground| ground.place(at));
         let on_host = spot.and_then(|(corners, weights)| {
-            let [a, b, c] = at_all(x, corners)?;
-            let normal = (c - a).cross(&(b - a)).try_normalize(0.0)?;
-            Some((a * weights[0] + b * weights[1] + c * weights[2], normal))
+            let [a, b, c] = at_all(&laying.x, corners)?;
+            let outward = (c - a).cross(&(b - a)).try_normalize(0.0)?;
+            let height = laying.on(corners, weights, 0.0).height;
+            Some((a * weights[0] + b * weights[1] + c * weights[2], Ply { outward, height }))
         });
-        let (at, outward) = on_host.unwrap_or_else(|| (straight_on(), near.outward));
-        at + outward * (layers * PLY)
+        let beside = || (straight_on(), Ply { outward: near.outward, height: 0.0 });
+        let (at, ply) = on_host.unwrap_or_else(beside);
+        laying.x[p] = Some(at + ply.outward * (layers * PLY));
+        laying.plies[p] = Ply { height: ply.height + layers * PLY, ..ply };
     }
 
     /// Where a flat place beyond the sewn rim of a piece lies on the cloth that goes on from there.
@@ -324,10 +380,10 @@ fn nearest(stitches: &[Stitch], at: Vec2) -> Option<&Stitch> {
 }
 
 /// Lays a piece from its seams over the cloth that it is sewn to. Returns whether it is sewn to any that has a place.
-fn lay(garment: &Garment, mesh: &ClothMesh, seams: &Seams, piece: usize, x: &mut [Option<Vec3>]) -> bool {
-    let open = open(mesh, x);
+fn lay(garment: &Garment, mesh: &ClothMesh, seams: &Seams, piece: usize, laying: &mut Laying) -> bool {
+    let open = open(mesh, &laying.x);
     let hosts = Hosts::new(garment, mesh, seams, &open);
-    let stitches = hosts.stitches(piece, On::OwnSide, x);
+    let stitches = hosts.stitches(piece, On::OwnSide, &laying.x);
     if stitches.is_empty() {
         return false;
     }
@@ -336,28 +392,28 @@ fn lay(garment: &Garment, mesh: &ClothMesh, seams: &Seams, piece: usize, x: &mut
         let flat = mesh.flat[p];
         let Some(near) = nearest(&stitches, flat) else { continue };
         let off = flat - near.flat;
-        x[p] = Some(hosts.place(near, [off.dot(&near.flat_along), off.dot(&near.flat_across)], near.layers, x));
+        hosts.place(p, near, [off.dot(&near.flat_along), off.dot(&near.flat_across)], near.layers, laying);
     }
     true
 }
 
 /// Puts what is turned over beyond the seam of its piece on the cloth beyond that seam, as a collar falls over its
 /// stand.
-fn hang(garment: &Garment, mesh: &ClothMesh, seams: &Seams, glued: &Glued, x: &mut [Option<Vec3>]) {
+fn hang(garment: &Garment, mesh: &ClothMesh, seams: &Seams, glued: &Glued, laying: &mut Laying) {
     for (i, piece) in mesh.pieces.iter().enumerate() {
         let is_own = |beyond: &&Beyond| piece.particles.contains(&(beyond.particle as usize));
         let own: Vec<&Beyond> = glued.beyond.iter().filter(is_own).collect();
         if own.is_empty() {
             continue;
         }
-        let open = open(mesh, x);
+        let open = open(mesh, &laying.x);
         let hosts = Hosts::new(garment, mesh, seams, &open);
-        let stitches = hosts.stitches(i, On::SewnTo, x);
+        let stitches = hosts.stitches(i, On::SewnTo, &laying.x);
         for beyond in own {
             let Some(near) = nearest(&stitches, beyond.at) else { continue };
             let off = beyond.at - near.flat;
             let [along, across] = [off.dot(&near.flat_along), -off.dot(&near.flat_across)];
-            x[beyond.particle as usize] = Some(hosts.place(near, [along, across], beyond.layers, x));
+            hosts.place(beyond.particle as usize, near, [along, across], beyond.layers, laying);
         }
     }
 }
@@ -373,26 +429,4 @@ fn beside(mesh: &ClothMesh, host: usize, q: u32, along: Vec3, x: &[Option<Vec3>]
     let across = (inward - along * inward.dot(&along)).try_normalize(1e-12)?;
     let outward = (outward - along * outward.dot(&along) - across * outward.dot(&across)).try_normalize(0.0)?;
     Some((across, outward))
-}
-
-/// Lifts what laps over other cloth off it: the rim, and the cloth that covers, with all that is sewn to it. What is
-/// sewn to the cloth below as well stays.
-fn lift(mesh: &ClothMesh, glued: &Glued, outward: &[Vec3], x: &mut [Option<Vec3>]) {
-    let class = Stitching::new(mesh).class;
-    let class = |p: u32| class[p as usize] as usize;
-    let mut plies = vec![0.0; x.len()];
-    for lap in &glued.laps {
-        let covering = lap.covered.iter().flat_map(|(_, on)| on.corners);
-        lap.pairs.iter().map(|pair| pair[0]).chain(covering).for_each(|p| plies[class(p)] = lap.plies);
-    }
-    for lap in &glued.laps {
-        let below = lap.covered.iter().map(|covered| covered.0);
-        lap.pairs.iter().map(|pair| pair[1]).chain(below).for_each(|p| plies[class(p)] = 0.0);
-    }
-    for (p, x) in x.iter_mut().enumerate() {
-        let plies = plies[class(p as u32)];
-        if let Some(x) = x.as_mut().filter(|_| plies > 0.0) {
-            *x += outward[p] * (PLY * plies);
-        }
-    }
 }

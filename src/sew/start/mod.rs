@@ -13,6 +13,7 @@
 mod axes;
 mod balloon;
 mod circles;
+mod clear;
 mod cloth;
 mod cost;
 mod cover;
@@ -57,7 +58,7 @@ pub use words::Settling;
 
 use crate::contact::Collider;
 use crate::geometry::Vec3;
-use crate::mannequin::Mannequin;
+use crate::mannequin::{Mannequin, PartKind};
 use crate::mesh::{self, ClothMesh, PieceMesh, Transfer};
 use crate::pattern::{Garment, PlaceWord};
 use axes::Axes;
@@ -65,7 +66,7 @@ use balloon::{Balloon, Held, Length};
 use circles::Mouth;
 use harmonic::{Film, Limb, Ring, angles};
 use profile::Profile;
-use rings::{Worn, limb_of};
+use rings::{FIRST, Worn, limb_of};
 use sections::sections;
 use star::GluedPart;
 
@@ -158,8 +159,10 @@ impl Dealt {
         let bending = surface::bending(&self.glued, mesh);
         let piece = |source: &u32| mesh.piece_of(mesh.triangles[*source as usize][0]).unwrap_or(0) as u32;
         let of_ring = |of: &PartRing| Held { rim: of.ring.rim.clone(), middle: of.ring.center, along: None };
+        // A strap lies where the cloth round the arm lets it, which is not known: only sleeves are held.
+        let is_held = |of: &&PartRing| !limb_of(of.ends).is_some_and(PartKind::is_arm) || of.ring.along > Some(FIRST);
         let sections = film.limbs.iter().flat_map(|limb| sections(&film.rings[limb.ring].ring, limb));
-        let held: Vec<Held> = film.rings.iter().map(of_ring).chain(sections).collect();
+        let held: Vec<Held> = film.rings.iter().filter(is_held).map(of_ring).chain(sections).collect();
         let rims = openings::rims(&self.glued);
         let mut nodes = film.nodes.clone();
         for number in 0..film.worn.len() as u32 {
@@ -173,6 +176,7 @@ impl Dealt {
                 bending: bending.iter().filter(|l| is_own(l.ends[0])).copied().collect(),
                 held: held.iter().filter(|held| held.rim.first().is_some_and(|n| is_own(*n))).cloned().collect(),
                 ways: star.as_ref().map_or(&[], |star| &star.ways),
+                hangs: film.worn[number as usize].hangs(),
             };
             let x = balloon.inflate(star.as_ref().map_or(&film.nodes, |star| &star.nodes), axes, body);
             (0..x.len()).filter(|n| is_own(*n as u32)).for_each(|n| nodes[n] = x[n]);

@@ -17,7 +17,7 @@ const ABOVE_NECK: f64 = 0.02;
 /// A hem lies no lower than this over the floor, metres.
 const LOWEST: f64 = 0.06;
 /// A limb's ring lies at least so far along its axis, metres, and at most so far beyond its end.
-const FIRST: f64 = 0.02;
+pub(super) const FIRST: f64 = 0.02;
 const BEYOND: f64 = 0.08;
 /// What is placed by the waist lies no further from it than this, metres.
 const AT_WAIST: f64 = 0.05;
@@ -93,6 +93,11 @@ impl Worn<'_> {
         let is_top =
             |ends: &Ends| ends.has(Ends::HEAD) && !ends.touches(Ends::LEGS) && limb_of(ends.others()).is_none();
         self.ends.iter().position(is_top)
+    }
+
+    /// Whether cloth lies over both shoulders: between the opening of the head and those of the arms.
+    pub(super) fn hangs(&self) -> bool {
+        self.top().is_some() && [Ends::LEFT_ARM, Ends::RIGHT_ARM].iter().all(|arm| self.find(*arm).is_some())
     }
 
     /// The opening that exactly these ends pass through.
