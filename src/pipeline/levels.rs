@@ -81,7 +81,7 @@ impl Job {
         let start = topological_start(&self.garment, mesh, body, collider)?;
         let options = SewOptions { max_open: FIRST_TRY, joined: true, ..SewOptions::default() };
         let closed = self.sew_here(mesh, start.clone(), options, progress).ok()?;
-        is_closed(mesh, &closed.sewn).then_some(Closed { start: Some(start), ..closed })
+        is_whole(mesh, &closed.sewn).then_some(Closed { start: Some(start), ..closed })
     }
 
     /// Draws the seams of `mesh` itself shut.
@@ -108,7 +108,7 @@ impl Job {
         }
         let (mesh, start) = self.placed_at(spacing)?;
         let closed = self.sew_from_coarse(&mesh, start, progress).ok()?;
-        is_closed(&mesh, &closed.sewn).then(|| Box::new(Coarse { mesh, closed }))
+        is_whole(&mesh, &closed.sewn).then(|| Box::new(Coarse { mesh, closed }))
     }
 
     /// `mesh` sewn by way of a slightly coarser one. None where that does not come out whole either. The coarser one is
@@ -177,13 +177,7 @@ impl Coarse {
 
 /// Whether all seams have closed, and the cloth passes neither through itself nor through the body.
 fn is_whole(mesh: &ClothMesh, sewn: &Sewn) -> bool {
-    is_closed(mesh, sewn) && !sewn.is_cut
-}
-
-/// Whether all seams have closed, and the cloth does not pass through itself. Straight edges of coarse cloth may cut
-/// the body where a tight garment goes round it. Those of finer cloth do not.
-fn is_closed(mesh: &ClothMesh, sewn: &Sewn) -> bool {
-    sewn.tangles == 0 && sewn.closed(mesh, SewOptions::default().tolerance).is_ok()
+    sewn.tangles == 0 && !sewn.is_cut && sewn.closed(mesh, SewOptions::default().tolerance).is_ok()
 }
 
 #[cfg(test)]

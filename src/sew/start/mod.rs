@@ -57,7 +57,7 @@ pub use sketch::{Sketch, SketchedOpening, sketch};
 pub use words::Settling;
 
 use crate::contact::Collider;
-use crate::geometry::Vec3;
+use crate::geometry::{DisjointSets, Vec3};
 use crate::mannequin::{Mannequin, PartKind};
 use crate::mesh::{self, ClothMesh, PieceMesh, Transfer};
 use crate::pattern::{Garment, PlaceWord};
@@ -73,6 +73,9 @@ use star::GluedPart;
 /// Garments start on a mesh of this spacing, metres, whatever is asked for: it costs a second or two, and a finer one
 /// starts no better.
 pub const SPACING: f64 = 0.025;
+
+/// A hood or a collar is on this share of the nodes of its rim. The tips of fronts may be on it besides.
+const ALL_ROUND: f64 = 0.8;
 
 /// Where every particle of `to` starts on a body: glued along its seams, round the parts that its openings are for.
 /// `collider` is the body's surface. `None` where it is not clear which part passes through which opening, or a part of
@@ -239,7 +242,7 @@ impl Dealt {
     }
 
     /// For the opening of the head alone, the distance of every node of its rim from the seam below the pieces on it
-    /// that no other opening touches: a hood or a collar. `None` where there are none.
+    /// that no other opening touches, a hood or a collar. `None` where there are none, or several seams join them.
     fn above(&self, mesh: &ClothMesh, cloth: &Distances, k: usize) -> Option<Vec<f64>> {
         if self.dealing.ends[k] != Ends::HEAD {
             return None;
@@ -259,11 +262,28 @@ impl Dealt {
         }
         let seam: Vec<u32> =
             (0..self.glued.count as u32).filter(|n| is_above[*n as usize] && is_rest[*n as usize]).collect();
-        if seam.is_empty() {
+        // A bodice is joined to its sleeves and its skirt by several seams, a hood by one. All of the rim is a hood's.
+        let rim = &self.openings[k].rim;
+        let on_rim = rim.iter().filter(|n| is_above[**n as usize]).count();
+        if !self.is_connected(&seam) || (on_rim as f64) < ALL_ROUND * rim.len() as f64 {
             return None;
         }
         let far = cloth.from(&seam);
-        Some(self.openings[k].rim.iter().map(|n| far[*n as usize]).collect())
+        Some(rim.iter().map(|n| far[*n as usize]).collect())
+    }
+
+    /// Whether these nodes hang together along the edges between them. None do not.
+    fn is_connected(&self, nodes: &[u32]) -> bool {
+        let Some(&first) = nodes.first() else { return false };
+        let mut sets = DisjointSets::new(self.glued.count);
+        for t in &self.glued.triangles {
+            for [a, b] in [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]] {
+                if nodes.binary_search(&a).is_ok() && nodes.binary_search(&b).is_ok() {
+                    sets.join(a, b);
+                }
+            }
+        }
+        nodes.iter().all(|n| sets.same(first, *n))
     }
 
     /// The words of `place` of the pieces on the rim of an opening.

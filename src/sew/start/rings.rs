@@ -28,10 +28,6 @@ const STEEPEST: f64 = 0.3;
 
 /// A leg's ring reaches so much of the way to the middle between the legs.
 const BESIDE: f64 = 0.9;
-/// Cloth over a seam round the neck whose rim is so much nearer to it at one place than at another, metres, is a hood.
-const HOOD: f64 = 0.15;
-/// A hood's opening looks forward, and up by this share of that.
-const UP: f64 = 0.3;
 /// Share of a rim that lies nearer than its shoulders.
 const NEARLY_ALL: f64 = 0.9;
 /// The opening that both arms pass through, of a halter, lies in front of the shoulders and behind the neck and the
@@ -166,21 +162,11 @@ impl Worn<'_> {
     }
 
     /// The opening of a hood or a collar, over the seam that joins it to the rest: as high above the neck's base as
-    /// on the cloth. A hood's looks forward.
+    /// on the cloth. A hood stands up as a tube: without a head, or before it is drawn over one.
     fn over_neck(&self, k: usize, neck: Station) -> Option<Station> {
         let above = self.above[k].as_ref()?;
         let mean = above.iter().sum::<f64>() / above.len() as f64;
-        let axis = if self.is_hood(k) { Vec3::new(0.0, UP, 1.0).normalize() } else { Vec3::y() };
-        Some(Station { center: neck.center + Vec3::y() * mean.max(ABOVE_NECK), axis })
-    }
-
-    /// Whether an opening is a hood's.
-    fn is_hood(&self, k: usize) -> bool {
-        let span = |above: &Vec<f64>| {
-            let highest = above.iter().copied().fold(0.0, f64::max);
-            highest - above.iter().copied().fold(f64::INFINITY, f64::min)
-        };
-        self.above[k].as_ref().is_some_and(|above| span(above) > HOOD)
+        Some(Station { center: neck.center + Vec3::y() * mean.max(ABOVE_NECK), axis: Vec3::y() })
     }
 
     /// The height of a waist's opening whose cloth has a crotch: as far above the body's as on the cloth, but for the
@@ -318,7 +304,6 @@ impl Worn<'_> {
                 let neck = &self.far[self.find(Ends::HEAD)?];
                 Some(Turn { towards: Vec3::y(), values: self.of_rim(k, |n| -neck[n]) })
             }
-            None if self.is_hood(k) => Some(Turn { towards: Vec3::y(), values: self.above[k].clone()? }),
             None => self.turn_of_trunk(k),
         }
     }
