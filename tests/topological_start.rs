@@ -79,6 +79,44 @@ fn a_tube_round_one_leg_is_put_round_it_where_its_word_says() {
     }
 }
 
+/// The job of a garment that lies beside the project; says so where it does not.
+fn case(name: &str) -> Option<Job> {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/cases/sew").join(name);
+    if !file.is_file() {
+        println!("skipped: {} is not there", file.display());
+        return None;
+    }
+    Some(job(file.to_str()?))
+}
+
+#[test]
+fn a_shirt_with_folded_cuffs_pleats_a_stand_and_a_collar_is_put_on() {
+    if let Some(job) = case("mans_shirt.yaml") {
+        is_sewn_round(&job, &["left arm", "legs", "neck", "right arm"]);
+    }
+}
+
+#[test]
+fn a_kimono_with_its_band_is_put_on() {
+    if let Some(job) = case("kimono.yaml") {
+        is_sewn_round(&job, &["left arm", "right arm", "torso"]);
+    }
+}
+
+/// Straps that are slack where a dress starts lie over the shoulders, and not round the upper arms.
+#[test]
+fn straps_start_over_the_shoulders() {
+    let Some(job) = case("slip_bias.yaml") else { return };
+    let x = start(&job.garment, &job.mesh, &job.body, &job.collider).expect("a start");
+    let straps: Vec<_> = job.mesh.pieces.iter().filter(|piece| piece.particles.len() < 60).collect();
+    assert_eq!(straps.len(), 2, "pieces with few particles");
+    for strap in straps {
+        let highest = strap.particles.clone().map(|p| x[p]).max_by(|a, b| a.y.total_cmp(&b.y)).expect("particles");
+        // The shoulder points of woman_92 are 175 mm from the middle, 1,330 mm above the floor.
+        assert!(highest.x.abs() < 0.175 && highest.y > 1.33, "{}: {highest:?}", strap.name);
+    }
+}
+
 /// Two buttons of one lap may stand in one closure or in two.
 #[test]
 fn closures_that_hold_one_lap_together_count_as_one() {

@@ -210,6 +210,18 @@ mod tests {
     }
 
     #[test]
+    fn a_pleat_opens_away_from_its_edge_unless_it_is_sewn_at_both_ends() {
+        let mut one = pleated(&[(0.1, true)]);
+        let opened = |pleat: &Pleated, x: f64, y: f64| pleat.opened(Vec2::new(x, y));
+        for (y, share) in [(0.0, 0.0), (0.04, 0.5), (0.08, 1.0), (0.3, 1.0)] {
+            assert_relative_eq!(opened(&one, 0.12, y), share, epsilon = 1e-12);
+            assert_eq!(opened(&one, 0.05, y), 0.0, "beside the pleat");
+        }
+        one.is_shut = true;
+        assert_eq!(opened(&one, 0.12, 0.3), 0.0);
+    }
+
+    #[test]
     fn no_two_layers_share_a_place() {
         let patterns: [&[(f64, bool)]; 5] = [
             &[(0.1, true)],

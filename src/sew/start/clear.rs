@@ -39,7 +39,11 @@ impl Ply {
 /// Moves plies apart that pass through one another, the higher outwards and the lower inwards. What still passes
 /// through one another after [`ROUNDS`] is left where that was the least.
 pub(super) fn clear(mesh: &ClothMesh, plies: &[Ply], x: &mut [Vec3]) {
-    let mut detector = detector(mesh);
+    move_clear(&mut detector(mesh), plies, x);
+}
+
+/// The same with what `detector` finds.
+fn move_clear(detector: &mut ClothDetector, plies: &[Ply], x: &mut [Vec3]) {
     let mut now = x.to_vec();
     let mut least = usize::MAX;
     for _ in 0..=ROUNDS {
@@ -111,5 +115,52 @@ fn move_apart(pushes: &[Push], x: &mut [Vec3]) {
     }
     for (x, (way, count)) in x.iter_mut().zip(sum) {
         *x += way / f64::max(count, 1.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Vec2;
+
+    /// Two triangles, each its own piece: one in the plane z = 0, and one over it of which a corner hangs through.
+    fn crossing() -> (ClothDetector, Vec<Vec3>) {
+        let corners = [[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0]];
+        let above = [[0.02, 0.02, -0.003], [0.12, 0.02, 0.004], [0.02, 0.12, 0.004]];
+        let x: Vec<Vec3> = corners.into_iter().chain(above).map(Vec3::from).collect();
+        let flat: Vec<[Vec2; 3]> = [0, 3].map(|first| [0, 1, 2].map(|k| x[first + k].xy())).to_vec();
+        let hood = Neighbourhood { class: (0..6).collect(), passing: Vec::new() };
+        (ClothDetector::new(&[[0, 1, 2], [3, 4, 5]], &flat, &[0, 1], hood), x)
+    }
+
+    fn plies(outward: [Vec3; 2], height: [f64; 2]) -> Vec<Ply> {
+        (0..6).map(|n| Ply { outward: outward[n / 3], height: height[n / 3] }).collect()
+    }
+
+    #[test]
+    fn the_higher_ply_comes_out_on_its_side() {
+        for (height, sign) in [([0.0, 0.008], 1.0), ([0.0, -0.008], -1.0)] {
+            let (mut detector, mut x) = crossing();
+            move_clear(&mut detector, &plies([Vec3::z(); 2], height), &mut x);
+            assert!(detector.tangles(&x).is_empty());
+            assert!((x[3].z - x[0].z) * sign > 0.0, "{height:?}: {x:?}");
+        }
+    }
+
+    #[test]
+    fn inner_plies_of_two_walls_that_face_each_other_go_back_to_their_own_walls() {
+        // The lower wall's outer side looks down, that of the upper one up.
+        let (mut detector, mut x) = crossing();
+        move_clear(&mut detector, &plies([-Vec3::z(), Vec3::z()], [-0.008; 2]), &mut x);
+        assert!(detector.tangles(&x).is_empty());
+        assert!(x[3].z > x[0].z, "{x:?}");
+    }
+
+    #[test]
+    fn one_ply_stays_as_it_is() {
+        let (mut detector, mut x) = crossing();
+        let before = x.clone();
+        move_clear(&mut detector, &plies([Vec3::z(); 2], [0.0; 2]), &mut x);
+        assert_eq!(x, before);
     }
 }
