@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use toile::geometry::Vec3;
 use toile::input::LengthUnit;
-use toile::io::body::{Body, BodyError, body, load_body, mannequin_obj, read_body};
+use toile::io::body::{Body, BodyError, body, floor_of, load_body, mannequin_obj, read_body};
 use toile::io::obj_read::{ObjSurface, parse_obj};
 use toile::mannequin::{BodyFault, Mannequin, MannequinSpec, PartKind, load};
 use toile::pipeline::{self, Color, Job, Overrides, Run, SEWN_OBJ, judge};
@@ -56,7 +56,7 @@ fn our_own_mannequins_come_back_with_their_parts() {
 
 #[test]
 fn units_and_axes_are_guessed_and_said() {
-    for (scale, unit) in [(1.0, "millimetres"), (0.1, "centimetres"), (1e-3, "metres")] {
+    for (scale, unit) in [(1.0, "millimetres"), (0.1, "centimetres"), (0.01, "decimetres"), (1e-3, "metres")] {
         let found = read(turned(|p| p * scale)).expect(unit);
         assert!(found.notes.iter().any(|n| n.starts_with(unit)), "{:?}", found.notes);
         let top = found.mannequin.mesh.vertices.iter().map(|p| p.y).fold(0.0, f64::max);
@@ -66,6 +66,20 @@ fn units_and_axes_are_guessed_and_said() {
     assert!(found.notes.iter().any(|n| n.contains("z is the tall axis")));
     assert!(found.notes.iter().any(|n| n.contains("feet are at y = 500.1 mm")), "{:?}", found.notes);
     assert!(mark(&found.mannequin, PartKind::LeftArm, "wrist").x > 0.2);
+}
+
+#[test]
+fn the_floor_of_a_file_is_in_the_unit_that_the_body_is_read_in() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for scale in [1.0, 0.1, 0.01, 1e-3] {
+        let mut mannequin = load("child_110").expect("child");
+        let off = |p: &Vec3| scale * (p + Vec3::new(0.0, -0.5, 0.0));
+        mannequin.mesh.vertices = mannequin.mesh.vertices.iter().map(off).collect();
+        let file = folder.path().join("child.obj");
+        fs::write(&file, mannequin_obj(&mannequin)).expect("the body");
+        let floor = floor_of(file.to_str().expect("a path"), None).expect("a body");
+        assert!((floor + 0.5).abs() < 1e-3, "{scale}: {floor}");
+    }
 }
 
 /// The child with something to tell its front by: toes, 15 mm high and 160 mm long.

@@ -16,8 +16,10 @@ const OFF: f64 = 1e-4;
 /// Vertices nearer than this along every axis are one, metres: far below a mesh's edges, far above the rounding of a
 /// file.
 const WELD: f64 = 1e-6;
-/// A body lower than this many file units is in metres, lower than the next in centimetres, else in millimetres.
+/// A thing smaller than this many file units is in metres, smaller than the next in centimetres, else in millimetres.
 const UNITS_BELOW: [f64; 2] = [3.0, 300.0];
+/// A body lower than this many file units is not in centimetres, in which no body is so low, but in decimetres.
+const DECIMETRES_BELOW: f64 = 20.0;
 /// Bodies with more crossing pairs than this share of their triangles are refused. Averaged bodies have a few tenths of
 /// a percent, between the thighs; a limb pushed through the trunk has several percent.
 const CROSSING: f64 = 0.01;
@@ -140,7 +142,7 @@ pub fn floor_of(name_or_path: &str, unit: Option<LengthUnit>) -> Result<f64, Bod
     let mut vertices = read_obj(path)?.vertices;
     stand_up(&mut vertices, &mut Vec::new());
     let [low, high] = bounds(&vertices);
-    let metres = unit.unwrap_or_else(|| LengthUnit::guessed(high.y - low.y, UNITS_BELOW)).metres();
+    let metres = unit.unwrap_or_else(|| unit_of_body(high.y - low.y)).metres();
     let stands = HEIGHTS.contains(&(metres * (high.y - low.y)));
     Ok(if stands { metres * low.y } else { 0.0 })
 }
@@ -196,7 +198,7 @@ fn person(surface: &ObjSurface, name: &str, file: &str, unit: Option<LengthUnit>
     let mut vertices = surface.vertices.clone();
     let turned = stand_up(&mut vertices, &mut notes);
     let height = height(&vertices).ok_or_else(|| shape("the body has no height"))?;
-    let taken = unit.unwrap_or_else(|| LengthUnit::guessed(height, UNITS_BELOW));
+    let taken = unit.unwrap_or_else(|| unit_of_body(height));
     let scale = taken.metres();
     if !HEIGHTS.contains(&(scale * height)) {
         return Err(BodyError::Size { file: file.to_owned(), units: height, unit: taken, metres: scale * height });
@@ -221,10 +223,18 @@ fn stood(mesh: &TriMesh, name: &str, frame: Frame) -> Result<Mannequin, String> 
     Ok(Mannequin { name: name.to_owned(), parts: find_parts(&mesh)?, mesh, frame })
 }
 
+/// The unit of a file in which a body is so high.
+fn unit_of_body(height: f64) -> LengthUnit {
+    match LengthUnit::guessed(height, UNITS_BELOW) {
+        LengthUnit::Centimetre if height < DECIMETRES_BELOW => LengthUnit::Decimetre,
+        unit => unit,
+    }
+}
+
 /// What is said of a unit that the file's size suggests.
 fn assumed(unit: LengthUnit, since: &str) -> String {
     format!(
-        "{} assumed, since {since}; if that is wrong, say --body-units mm, cm, m or in ('body_units' in the file)",
+        "{} assumed, since {since}; if that is wrong, say --body-units mm, cm, dm, m or in ('body_units' in the file)",
         unit.name()
     )
 }
