@@ -8,7 +8,8 @@ use super::obj_read::{ObjError, ObjSurface, read_obj};
 use crate::geometry::{DisjointSets, Topology, TriMesh, Vec3, box_of, range_of};
 use crate::input::LengthUnit;
 use crate::mannequin::{
-    BodyCheck, BodyFault, Frame, HEIGHTS, Mannequin, MannequinError, Place, check_body, find_parts, load,
+    BodyCheck, BodyFault, Frame, GAP, HEIGHTS, Mannequin, MannequinError, PartKind, Place, check_body, find_parts,
+    load, make_room,
 };
 
 /// Nobody needs to know that a body stands so little off y = 0, metres.
@@ -116,9 +117,9 @@ pub fn load_body(name_or_path: &str, unit: Option<LengthUnit>) -> Result<Body, B
 
 /// Reads a closed OBJ in `unit` (or, without one, in millimetres, centimetres or metres as its height says, which the
 /// notes tell), y up or z up. Vertices that coincide are merged where the surface is not closed otherwise. A body that
-/// stands elsewhere than on y = 0, or faces elsewhere than +z, is moved and turned; its [`Frame`] leads back. A surface
-/// in which no torso, neck, arms and legs can be found is an object without parts, as a ball or a table: it stays where
-/// the file has it.
+/// stands elsewhere than on y = 0, or faces elsewhere than +z, is moved and turned; its [`Frame`] leads back. Limbs
+/// that leave less than [`GAP`] between them are moved apart, which the notes tell. A surface in which no torso, neck,
+/// arms and legs can be found is an object without parts, as a ball or a table: it stays where the file has it.
 ///
 /// # Errors
 /// [`BodyError`] when the file cannot be read, or the surface is open, not manifold, inside out or runs through itself
@@ -211,8 +212,9 @@ fn person(surface: &ObjSurface, name: &str, file: &str, unit: Option<LengthUnit>
     let mesh = checked(vertices, surface.triangles.clone(), &origin, &mut notes)?;
     let across = stood(&mesh, name, Frame::across_arms(&mesh));
     // Arms held out to the front are what it is widest along.
-    let mannequin = across.or_else(|_| stood(&mesh, name, Frame::along_z(&mesh))).map_err(|why| shape(&why))?;
+    let mut mannequin = across.or_else(|_| stood(&mesh, name, Frame::along_z(&mesh))).map_err(|why| shape(&why))?;
     notes.extend(stands(&mannequin.frame));
+    notes.extend(gave_way(&make_room(&mut mannequin)));
     Ok(Body { mannequin, notes })
 }
 
@@ -254,6 +256,17 @@ fn stands(frame: &Frame) -> Vec<String> {
         )),
     }
     notes
+}
+
+/// What a user should know of limbs that were moved to make room for cloth.
+fn gave_way(moved: &[(PartKind, f64)]) -> Option<String> {
+    let limbs: Vec<&str> = moved.iter().map(|(kind, _)| kind.name()).collect();
+    let most = 1e3 * moved.iter().map(|(_, by)| *by).reduce(f64::max)?;
+    Some(format!(
+        "no room for cloth beside the {} (less than {} mm): moved aside by up to {most:.1} mm",
+        limbs.join(", "),
+        1e3 * GAP
+    ))
 }
 
 /// A surface as a thing that cloth lies on or is wound round: where the file has it, without parts; `why` is what it
