@@ -3,11 +3,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use toile::contact::Collider;
 use toile::geometry::Vec3;
 use toile::input::LengthUnit;
-use toile::io::body::{Body, BodyError, body, load_body, mannequin_obj, read_body};
+use toile::io::body::{Body, BodyError, body, floor_of, load_body, mannequin_obj, read_body};
 use toile::io::obj_read::{ObjSurface, parse_obj};
-use toile::mannequin::{BodyFault, Mannequin, MannequinSpec, PartKind, load};
+use toile::mannequin::{BodyFault, GAP, Mannequin, MannequinSpec, PartKind, build, load};
 use toile::pipeline::{self, Color, Job, Overrides, Run, SEWN_OBJ, judge};
 
 fn child() -> ObjSurface {
@@ -56,7 +57,7 @@ fn our_own_mannequins_come_back_with_their_parts() {
 
 #[test]
 fn units_and_axes_are_guessed_and_said() {
-    for (scale, unit) in [(1.0, "millimetres"), (0.1, "centimetres"), (1e-3, "metres")] {
+    for (scale, unit) in [(1.0, "millimetres"), (0.1, "centimetres"), (0.01, "decimetres"), (1e-3, "metres")] {
         let found = read(turned(|p| p * scale)).expect(unit);
         assert!(found.notes.iter().any(|n| n.starts_with(unit)), "{:?}", found.notes);
         let top = found.mannequin.mesh.vertices.iter().map(|p| p.y).fold(0.0, f64::max);
@@ -66,6 +67,94 @@ fn units_and_axes_are_guessed_and_said() {
     assert!(found.notes.iter().any(|n| n.contains("z is the tall axis")));
     assert!(found.notes.iter().any(|n| n.contains("feet are at y = 500.1 mm")), "{:?}", found.notes);
     assert!(mark(&found.mannequin, PartKind::LeftArm, "wrist").x > 0.2);
+}
+
+#[test]
+fn the_floor_of_a_file_is_in_the_unit_that_the_body_is_read_in() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for scale in [1.0, 0.1, 0.01, 1e-3] {
+        let mut mannequin = load("child_110").expect("child");
+        let off = |p: &Vec3| scale * (p + Vec3::new(0.0, -0.5, 0.0));
+        mannequin.mesh.vertices = mannequin.mesh.vertices.iter().map(off).collect();
+        let file = folder.path().join("child.obj");
+        fs::write(&file, mannequin_obj(&mannequin)).expect("the body");
+        let floor = floor_of(file.to_str().expect("a path"), None).expect("a body");
+        assert!((floor + 0.5).abs() < 1e-3, "{scale}: {floor}");
+    }
+}
+
+/// A shipped mannequin with its arms lifted so far from the vertical, degrees.
+fn with_arms_at(name: &str, degrees: u32) -> Mannequin {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("mannequins").join(name).with_extension("yaml");
+    let text = fs::read_to_string(file).expect(name);
+    let own = text.lines().find(|line| line.contains("abduction:")).expect("an angle");
+    let spec = MannequinSpec::parse(&text.replace(own, &format!("  abduction: {degrees}")), name).expect(name);
+    build(&spec).expect(name)
+}
+
+#[test]
+fn parts_are_found_in_every_pose_up_to_a_t() {
+    for (name, degrees) in [("child_110", 60), ("child_110", 90), ("man_100", 85), ("woman_92", 90)] {
+        let ours = with_arms_at(name, degrees);
+        let surface = parse_obj(&mannequin_obj(&ours), name).expect(name);
+        let Body { mannequin: back, notes } = body(surface, name.to_owned(), name.to_owned(), None).expect(name);
+        assert_eq!(back.parts.len(), 6, "{name} {degrees}: {notes:?}");
+        for (kind, landmark, within) in [
+            (PartKind::Torso, "waist", 0.05),
+            (PartKind::LeftArm, "wrist", 0.05),
+            (PartKind::RightArm, "elbow", 0.08),
+            (PartKind::LeftLeg, "ankle", 0.06),
+            (PartKind::Neck, "neck base", 0.05),
+        ] {
+            let off = (mark(&back, kind, landmark) - mark(&ours, kind, landmark)).norm();
+            assert!(off < within, "{name} {degrees} {kind:?} {landmark} is {:.0} mm off", off * 1e3);
+        }
+    }
+}
+
+/// Adds a tail of hair to the back of the neck's end, so long and out to this side, millimetres: a tube of three sides
+/// that hangs behind the back.
+fn add_tail(surface: &mut ObjSurface, long: f64, aside: f64) {
+    let top = surface.vertices.iter().map(|p| p.y).fold(0.0, f64::max);
+    let root = surface.triangles.iter().position(|t| {
+        let [a, b, c] = t.map(|v| surface.vertices[v as usize]);
+        let middle = (a + b + c) / 3.0;
+        middle.y > top - 30.0 && (b - a).cross(&(c - a)).z < 0.0 && middle.x * aside >= 0.0
+    });
+    let mut ring = surface.triangles.swap_remove(root.expect("a back"));
+    for down in [0.0, long] {
+        let first = surface.vertices.len() as u32;
+        let along = Vec3::new(aside, -down, -120.0);
+        surface.vertices.extend(ring.map(|v| surface.vertices[v as usize] + along));
+        // Only the way to the first ring leads out.
+        let next = [0, 1, 2].map(|k| first + k);
+        if down > 0.0 {
+            (0..3).for_each(|k| surface.vertices[next[k] as usize] -= Vec3::new(aside, 0.0, -120.0));
+        }
+        for i in 0..3 {
+            let (j, [s, t]) = ((i + 1) % 3, [ring[i], next[i]]);
+            surface.triangles.extend([[s, ring[j], next[j]], [s, next[j], t]]);
+        }
+        ring = next;
+    }
+    surface.triangles.push(ring);
+}
+
+/// Hair is skin that hangs down from the head, whatever it hangs beside.
+#[test]
+fn hair_is_no_part_of_the_body_and_hides_none() {
+    let plain = read(child()).expect("a body").mannequin;
+    for (long, asides) in [(200.0, vec![0.0]), (450.0, vec![0.0]), (350.0, vec![-60.0, 60.0])] {
+        let mut surface = child();
+        asides.iter().for_each(|aside| add_tail(&mut surface, long, *aside));
+        let Body { mannequin: found, notes } = read(surface).expect("a body");
+        assert_eq!(found.parts.len(), 6, "{long} {asides:?}: {notes:?}");
+        for (with, without) in found.parts.iter().zip(&plain.parts) {
+            let off = |(a, b): (&(String, Vec3), &(String, Vec3))| (a.1 - b.1).norm();
+            let most = with.landmarks.iter().zip(&without.landmarks).map(off).fold(0.0, f64::max);
+            assert!(most < 0.03, "{long} {asides:?}: {:?} is {:.0} mm off", with.kind, 1e3 * most);
+        }
+    }
 }
 
 /// The child with something to tell its front by: toes, 15 mm high and 160 mm long.
@@ -388,4 +477,115 @@ fn thighs_that_nearly_touch_beside_the_middle_are_legs() {
     let moved = read(surface).expect("a body").mannequin;
     assert_eq!(moved.parts.len(), 6);
     assert!((crotch(&moved) - crotch(&straight)).abs() < 0.03, "{} {}", crotch(&moved), crotch(&straight));
+}
+
+/// Thighs that lean the same way fit into one another: each reaches over the body's middle, and over the other's side.
+#[test]
+fn thighs_that_reach_over_each_others_side_are_legs() {
+    let top = 1e3 * mark(&read(child()).expect("a body").mannequin, PartKind::Torso, "crotch").y;
+    let leant = turned(|p| if p.y < top { Vec3::new(p.x + 0.5 * (p.z - 18.0), p.y, p.z) } else { p });
+    let found = read(leant).expect("a body").mannequin;
+    assert_eq!(found.parts.len(), 6);
+    assert!((1e3 * mark(&found, PartKind::Torso, "crotch").y - top).abs() < 30.0);
+}
+
+/// The least distance along x, metres, from the skin round `inside` to the next skin beyond it towards the middle, in
+/// front of and behind it as well.
+fn room_beside(body: &Mannequin, inside: Vec3) -> f64 {
+    let collider = Collider::new(&body.mesh).expect("collider");
+    let towards = -inside.x.signum();
+    let along = |z: f64| {
+        let is_in = |k: &i32| {
+            let p = Vec3::new(inside.x + towards * 1e-4 * f64::from(*k), inside.y, inside.z + z);
+            collider.nearest(p, 0.5).is_some_and(|near| near.distance < 0.0)
+        };
+        let skin = (0..1000).find(|k| !is_in(k))?;
+        let other = (skin..skin + 1000).find(is_in)?;
+        is_in(&0).then(|| 1e-4 * f64::from(other - skin))
+    };
+    (-6..=6).filter_map(|k| along(5e-3 * f64::from(k))).fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn thighs_that_almost_touch_make_room_for_cloth() {
+    let plain = read(child()).expect("a body");
+    let top = 1e3 * mark(&plain.mannequin, PartKind::Torso, "crotch").y;
+    let thigh = child().vertices.into_iter().filter(|p| (0.7 * top..0.9 * top).contains(&p.y));
+    let half_gap = thigh.map(|p| p.x.abs()).fold(f64::INFINITY, f64::min);
+    let narrow = turned(|p| if p.y < top { p - Vec3::x() * p.x.signum() * (half_gap - 0.5) } else { p });
+    let said = |notes: &[String]| notes.iter().any(|n| n.contains("left leg, right leg") && n.contains("moved aside"));
+    assert!(!said(&plain.notes), "{:?}", plain.notes);
+    let Body { mannequin: found, notes } = read(narrow).expect("a body");
+    assert!(said(&notes), "{notes:?}");
+    let legs = [&plain.mannequin, &found].map(|body| body.part(PartKind::LeftLeg).expect("a leg").clone());
+    for section in legs[1].sections.iter().filter(|s| (0.7 * top..0.9 * top).contains(&(1e3 * s.center.y))) {
+        let room = room_beside(&found, section.center);
+        assert!(room > GAP - 2e-4, "{room} at {}", section.center.y);
+    }
+    let knee = |k: usize| legs[k].sections.iter().find(|s| s.center.y < 0.3).expect("a knee").girth;
+    assert!((knee(0) - knee(1)).abs() < 1e-6, "limbs keep their girths");
+}
+
+#[test]
+fn arms_that_almost_touch_the_hips_make_room_for_cloth() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes/close_limbs.obj");
+    let mut surface = parse_obj(&fs::read_to_string(&file).expect("the body"), "close.obj").expect("the body");
+    // Between trunk and arm at every height, millimetres; the wrists are leant against the hips.
+    let between = |y: f64| 155.0 + 0.23 * (950.0 - y).max(0.0);
+    for p in surface.vertices.iter_mut().filter(|p| p.y < 1150.0 && p.y > 750.0 && p.x.abs() > between(p.y)) {
+        p.x -= p.x.signum() * 14.5 * ((1150.0 - p.y) / 300.0).min(1.0);
+    }
+    let Body { mannequin: found, notes } = read(surface).expect("a body");
+    assert!(notes.iter().any(|n| n.contains("left arm") && n.contains("right arm")), "{notes:?}");
+    for kind in [PartKind::LeftArm, PartKind::RightArm] {
+        let arm = found.part(kind).expect("an arm");
+        for section in arm.sections.iter().filter(|s| (0.82..0.9).contains(&s.center.y)) {
+            let room = room_beside(&found, section.center);
+            assert!(room > GAP - 2e-4, "{kind:?}: {room} at {}", section.center.y);
+        }
+    }
+}
+
+/// The average bodies of SMPL, which are not shipped.
+#[test]
+fn average_bodies_have_their_parts_found_and_make_room_between_their_thighs() {
+    for name in ["f_smpl_average_A40.obj", "m_smpl_average_A40.obj"] {
+        let path = PathBuf::from("../shared/bodies").join(name);
+        if !path.exists() {
+            println!("skipped: no {}", path.display());
+            continue;
+        }
+        let Body { mannequin: found, notes } = read_body(&path, None).expect(name);
+        assert_eq!(found.parts.len(), 6, "{notes:?}");
+        assert!(notes.iter().any(|n| n.contains("moved aside")), "{notes:?}");
+        let top = found.mesh.vertices.iter().map(|p| p.y).fold(0.0, f64::max);
+        for (kind, landmark, [low, high]) in [
+            (PartKind::Torso, "crotch", [0.42, 0.5]),
+            (PartKind::Torso, "waist", [0.58, 0.68]),
+            (PartKind::Neck, "neck base", [0.8, 0.88]),
+            (PartKind::LeftArm, "wrist", [0.58, 0.66]),
+            (PartKind::RightArm, "wrist", [0.58, 0.66]),
+        ] {
+            let y = mark(&found, kind, landmark).y / top;
+            assert!((low..high).contains(&y), "{name}: {kind:?} {landmark} at {y}");
+        }
+        let thighs = &found.part(PartKind::LeftLeg).expect("a leg").sections;
+        for section in thighs.iter().filter(|s| (0.6..0.74).contains(&s.center.y)) {
+            let room = room_beside(&found, section.center);
+            assert!(room > GAP - 2e-4, "{name}: {room} at {}", section.center.y);
+        }
+    }
+}
+
+/// A skirt on a body whose thighs nearly meet beside its middle, which is not shipped.
+#[test]
+fn a_garment_finds_the_parts_of_a_body_whose_thighs_nearly_meet_beside_its_middle() {
+    let file = Path::new("../shared/cases/bodies/thighs_off_middle.yaml");
+    if !file.exists() {
+        println!("skipped: no {}", file.display());
+        return;
+    }
+    let overrides = Overrides { spacing: Some(0.04), ..Overrides::default() };
+    let job = Job::new(file, pipeline::read(file).expect("a garment"), &overrides).expect("a job");
+    assert_eq!(job.body.parts.len(), 6, "{:?}", job.notes);
 }

@@ -112,7 +112,8 @@ fn spread_limbs_have_room_and_their_parts_are_in_them() {
     let stance = trousers.stance.as_ref().expect("narrow");
     for share in [0.2, 0.4] {
         let (own, apart) = (between_legs(&trousers.body, share), between_legs(&stance.body, share));
-        assert!(own < 0.006, "{own}");
+        // The 4 mm that a body is read with at its narrowest place, and what the legs part below it.
+        assert!(own < 0.0065, "{own}");
         assert!(apart > 0.04, "{apart}");
     }
     for part in &stance.body.parts {

@@ -543,6 +543,8 @@ pub(super) enum UnitArg {
     Mm,
     /// Centimetres
     Cm,
+    /// Decimetres
+    Dm,
     /// Metres
     M,
     /// Inches
@@ -584,6 +586,7 @@ impl UnitArg {
         match self {
             Self::Mm => LengthUnit::Millimetre,
             Self::Cm => LengthUnit::Centimetre,
+            Self::Dm => LengthUnit::Decimetre,
             Self::M => LengthUnit::Metre,
             Self::In => LengthUnit::Inch,
         }

@@ -159,6 +159,15 @@ fn same_ring(a: &[u32], b: &[u32]) -> bool {
 }
 
 impl TriMesh {
+    /// The ends of the line along which the horizontal plane at height `y` cuts triangle `t`, if it does.
+    pub(crate) fn cut(&self, t: usize, y: f64) -> Option<[Vec3; 2]> {
+        let corners = self.corners(t);
+        let sides = [0, 1, 2].map(|k| [corners[k], corners[(k + 1) % 3]]);
+        let mut ends = sides.into_iter().filter(|[p, q]| (p.y < y) != (q.y < y));
+        let mut next = || ends.next().map(|[p, q]| p.lerp(&q, (y - p.y) / (q.y - p.y)));
+        Some([next()?, next()?])
+    }
+
     /// Corner positions of triangle `t`.
     pub fn corners(&self, t: usize) -> [Vec3; 3] {
         self.triangles[t].map(|v| self.vertices[v as usize])

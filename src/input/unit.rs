@@ -7,6 +7,8 @@ pub enum LengthUnit {
     Millimetre,
     /// Centimetres.
     Centimetre,
+    /// Decimetres.
+    Decimetre,
     /// Metres.
     Metre,
     /// Inches.
@@ -15,23 +17,25 @@ pub enum LengthUnit {
 
 impl LengthUnit {
     /// All there are.
-    pub const ALL: [Self; 4] = [Self::Millimetre, Self::Centimetre, Self::Metre, Self::Inch];
+    pub const ALL: [Self; 5] = [Self::Millimetre, Self::Centimetre, Self::Decimetre, Self::Metre, Self::Inch];
 
     /// Metres in it.
     pub fn metres(self) -> f64 {
         match self {
             Self::Millimetre => 1e-3,
             Self::Centimetre => 1e-2,
+            Self::Decimetre => 1e-1,
             Self::Metre => 1.0,
             Self::Inch => 0.0254,
         }
     }
 
-    /// `mm`, `cm`, `m` or `in`.
+    /// `mm`, `cm`, `dm`, `m` or `in`.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Millimetre => "mm",
             Self::Centimetre => "cm",
+            Self::Decimetre => "dm",
             Self::Metre => "m",
             Self::Inch => "in",
         }
@@ -42,6 +46,7 @@ impl LengthUnit {
         match self {
             Self::Millimetre => "millimetres",
             Self::Centimetre => "centimetres",
+            Self::Decimetre => "decimetres",
             Self::Metre => "metres",
             Self::Inch => "inches",
         }
@@ -69,6 +74,7 @@ impl LengthUnit {
         match self {
             Self::Millimetre => 0,
             Self::Centimetre => 1,
+            Self::Decimetre => 2,
             Self::Metre => 3,
             Self::Inch => 2,
         }

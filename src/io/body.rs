@@ -8,7 +8,8 @@ use super::obj_read::{ObjError, ObjSurface, read_obj};
 use crate::geometry::{DisjointSets, Topology, TriMesh, Vec3, box_of, range_of};
 use crate::input::LengthUnit;
 use crate::mannequin::{
-    BodyCheck, BodyFault, Frame, HEIGHTS, Mannequin, MannequinError, Place, check_body, find_parts, load,
+    BodyCheck, BodyFault, Frame, GAP, HEIGHTS, Mannequin, MannequinError, PartKind, Place, check_body, find_parts,
+    load, make_room,
 };
 
 /// Nobody needs to know that a body stands so little off y = 0, metres.
@@ -16,8 +17,10 @@ const OFF: f64 = 1e-4;
 /// Vertices nearer than this along every axis are one, metres: far below a mesh's edges, far above the rounding of a
 /// file.
 const WELD: f64 = 1e-6;
-/// A body lower than this many file units is in metres, lower than the next in centimetres, else in millimetres.
+/// A thing smaller than this many file units is in metres, smaller than the next in centimetres, else in millimetres.
 const UNITS_BELOW: [f64; 2] = [3.0, 300.0];
+/// A body lower than this many file units is not in centimetres, in which no body is so low, but in decimetres.
+const DECIMETRES_BELOW: f64 = 20.0;
 /// Bodies with more crossing pairs than this share of their triangles are refused. Averaged bodies have a few tenths of
 /// a percent, between the thighs; a limb pushed through the trunk has several percent.
 const CROSSING: f64 = 0.01;
@@ -114,9 +117,9 @@ pub fn load_body(name_or_path: &str, unit: Option<LengthUnit>) -> Result<Body, B
 
 /// Reads a closed OBJ in `unit` (or, without one, in millimetres, centimetres or metres as its height says, which the
 /// notes tell), y up or z up. Vertices that coincide are merged where the surface is not closed otherwise. A body that
-/// stands elsewhere than on y = 0, or faces elsewhere than +z, is moved and turned; its [`Frame`] leads back. A surface
-/// in which no torso, neck, arms and legs can be found is an object without parts, as a ball or a table: it stays where
-/// the file has it.
+/// stands elsewhere than on y = 0, or faces elsewhere than +z, is moved and turned; its [`Frame`] leads back. Limbs
+/// that leave less than [`GAP`] between them are moved apart, which the notes tell. A surface in which no torso, neck,
+/// arms and legs can be found is an object without parts, as a ball or a table: it stays where the file has it.
 ///
 /// # Errors
 /// [`BodyError`] when the file cannot be read, or the surface is open, not manifold, inside out or runs through itself
@@ -140,7 +143,7 @@ pub fn floor_of(name_or_path: &str, unit: Option<LengthUnit>) -> Result<f64, Bod
     let mut vertices = read_obj(path)?.vertices;
     stand_up(&mut vertices, &mut Vec::new());
     let [low, high] = bounds(&vertices);
-    let metres = unit.unwrap_or_else(|| LengthUnit::guessed(high.y - low.y, UNITS_BELOW)).metres();
+    let metres = unit.unwrap_or_else(|| unit_of_body(high.y - low.y)).metres();
     let stands = HEIGHTS.contains(&(metres * (high.y - low.y)));
     Ok(if stands { metres * low.y } else { 0.0 })
 }
@@ -196,7 +199,7 @@ fn person(surface: &ObjSurface, name: &str, file: &str, unit: Option<LengthUnit>
     let mut vertices = surface.vertices.clone();
     let turned = stand_up(&mut vertices, &mut notes);
     let height = height(&vertices).ok_or_else(|| shape("the body has no height"))?;
-    let taken = unit.unwrap_or_else(|| LengthUnit::guessed(height, UNITS_BELOW));
+    let taken = unit.unwrap_or_else(|| unit_of_body(height));
     let scale = taken.metres();
     if !HEIGHTS.contains(&(scale * height)) {
         return Err(BodyError::Size { file: file.to_owned(), units: height, unit: taken, metres: scale * height });
@@ -209,8 +212,9 @@ fn person(surface: &ObjSurface, name: &str, file: &str, unit: Option<LengthUnit>
     let mesh = checked(vertices, surface.triangles.clone(), &origin, &mut notes)?;
     let across = stood(&mesh, name, Frame::across_arms(&mesh));
     // Arms held out to the front are what it is widest along.
-    let mannequin = across.or_else(|_| stood(&mesh, name, Frame::along_z(&mesh))).map_err(|why| shape(&why))?;
+    let mut mannequin = across.or_else(|_| stood(&mesh, name, Frame::along_z(&mesh))).map_err(|why| shape(&why))?;
     notes.extend(stands(&mannequin.frame));
+    notes.extend(gave_way(&make_room(&mut mannequin)));
     Ok(Body { mannequin, notes })
 }
 
@@ -221,10 +225,18 @@ fn stood(mesh: &TriMesh, name: &str, frame: Frame) -> Result<Mannequin, String> 
     Ok(Mannequin { name: name.to_owned(), parts: find_parts(&mesh)?, mesh, frame })
 }
 
+/// The unit of a file in which a body is so high.
+fn unit_of_body(height: f64) -> LengthUnit {
+    match LengthUnit::guessed(height, UNITS_BELOW) {
+        LengthUnit::Centimetre if height < DECIMETRES_BELOW => LengthUnit::Decimetre,
+        unit => unit,
+    }
+}
+
 /// What is said of a unit that the file's size suggests.
 fn assumed(unit: LengthUnit, since: &str) -> String {
     format!(
-        "{} assumed, since {since}; if that is wrong, say --body-units mm, cm, m or in ('body_units' in the file)",
+        "{} assumed, since {since}; if that is wrong, say --body-units mm, cm, dm, m or in ('body_units' in the file)",
         unit.name()
     )
 }
@@ -244,6 +256,17 @@ fn stands(frame: &Frame) -> Vec<String> {
         )),
     }
     notes
+}
+
+/// What a user should know of limbs that were moved to make room for cloth.
+fn gave_way(moved: &[(PartKind, f64)]) -> Option<String> {
+    let limbs: Vec<&str> = moved.iter().map(|(kind, _)| kind.name()).collect();
+    let most = 1e3 * moved.iter().map(|(_, by)| *by).reduce(f64::max)?;
+    Some(format!(
+        "no room for cloth beside the {} (less than {} mm): moved aside by up to {most:.1} mm",
+        limbs.join(", "),
+        1e3 * GAP
+    ))
 }
 
 /// A surface as a thing that cloth lies on or is wound round: where the file has it, without parts; `why` is what it

@@ -2,18 +2,24 @@
 //!
 //! The body stands upright, its feet on y = 0, arms away from the trunk (hanging, A- or T-pose).
 
+use super::label::{Labels, no_arm};
 use super::slice::{Loop, slice, tape};
 use super::{BodyPart, PartKind, Section};
-use crate::geometry::{TriMesh, Vec3, range_of};
+use crate::geometry::{Topology, TriMesh, Vec3, range_of};
 
 /// Distance between the horizontal cuts, metres.
 const STEP: f64 = 0.02;
-/// Largest height of a crotch, as a share of the body's height. Legs are searched below it.
-const HIGHEST_CROTCH: f64 = 0.62;
+/// Height, metres, of the smallest body with cuts so far apart. Those of smaller ones are nearer by their height.
+const SMALL: f64 = 0.9;
+/// Height above every crotch, as a share of the body's height, where the trunk's middle is.
+const WAIST: f64 = 0.62;
 /// Height below which the feet are, as a share of the body's height.
 const ANKLE: f64 = 0.05;
-/// Width of a trunk over that of its waist above which the cut contains the arms.
-const ARMS_IN_CUT: f64 = 1.6;
+/// Width of the cut above the shoulders over that of the trunk between the armpits.
+const SHOULDERS: f64 = 0.8;
+/// Largest height of the narrowest cut of a neck above the shoulders, as a share of the body's height. Above it, a bun
+/// of hair may be narrower.
+const NECK: f64 = 0.1;
 /// Girth over the smallest girth of the neck at which the neck ends, downward.
 const NECK_FLARE: f64 = 1.25;
 /// Distance from the trunk's side beyond which an arm begins, metres.
@@ -57,78 +63,75 @@ impl Cut {
 /// A sentence naming the part that is missing.
 pub fn find_parts(mesh: &TriMesh) -> Result<Vec<BodyPart>, String> {
     let top = mesh.vertices.iter().map(|p| p.y).fold(0.0, f64::max);
-    let levels: Vec<(f64, Vec<Loop>)> = (1..(top / STEP) as usize)
-        .map(|i| i as f64 * STEP)
+    let labels = Labels::new(mesh, &Topology::new(&mesh.triangles).edges, top)?;
+    let step = STEP * scale(top);
+    let levels: Vec<(f64, Vec<Loop>)> = (1..(top / step) as usize)
+        .map(|i| i as f64 * step)
         .map(|y| (y, slice(mesh, Vec3::new(0.0, y, 0.0), Vec3::y())))
         .collect();
-    let middle = middle(&levels, top).ok_or("no trunk found at mid height")?;
-    let trunk: Vec<Cut> = levels
-        .iter()
-        .filter_map(|(_, loops)| loops.iter().filter(|l| holds(l, middle)).max_by(by_width))
-        .map(Cut::new)
-        .collect();
-    let crotch = crotch(&levels, middle, top).ok_or("no two legs found: the body must stand upright, y up")?;
-    let trunk: Vec<Cut> = trunk.into_iter().filter(|c| c.y > crotch).collect();
-    let neck = neck_base(&trunk).ok_or("no neck found above the shoulders")?;
-    let side = trunk_side(&trunk[..neck], middle).ok_or("no trunk found between crotch and neck")?;
-    let mut parts = vec![torso(&trunk[..neck], crotch, middle, side), neck_part(&trunk[neck - 1..])];
+    let trunk: Vec<Cut> = levels.iter().filter_map(|(y, loops)| trunk_cut(*y, loops, &labels)).collect();
+    let waist = trunk.iter().find(|c| c.y > WAIST * top).ok_or("no trunk found at mid height")?;
+    let middle = 0.5 * (waist.low.x + waist.high.x);
+    let side = trunk_side(&trunk, middle, labels.armpit).ok_or("no trunk found between crotch and armpits")?;
+    let neck = Neck::find(&trunk, labels.armpit, side, NECK * top).ok_or("no neck found above the shoulders")?;
+    let above = &trunk[neck.base - 1..];
+    let trunk = &trunk[..neck.base];
+    let mut parts = vec![torso(trunk, labels.crotch, middle, side), neck_part(above, neck.narrowest + 1 - neck.base)];
     for (kind, sign) in [(PartKind::LeftArm, 1.0), (PartKind::RightArm, -1.0)] {
-        parts.push(arm(mesh, kind, &ArmSearch { trunk: &trunk[..neck], middle, side, sign, crotch })?);
+        let search = ArmSearch { trunk, middle, side, sign, kind, labels: &labels, scale: scale(top) };
+        parts.push(search.arm(mesh)?);
     }
-    for (kind, sign) in [(PartKind::LeftLeg, 1.0), (PartKind::RightLeg, -1.0)] {
-        parts.push(leg(&levels, kind, crotch, middle, sign, top)?);
+    for kind in [PartKind::LeftLeg, PartKind::RightLeg] {
+        parts.push(leg(&levels, kind, &labels, ANKLE * top)?);
     }
     Ok(parts)
+}
+
+/// Share of the distances between cuts that is taken of a body of this height. A doll has no room for those of a child.
+fn scale(top: f64) -> f64 {
+    (top / SMALL).min(1.0)
 }
 
 fn by_width(a: &&Loop, b: &&Loop) -> std::cmp::Ordering {
     (a.high.x - a.low.x).total_cmp(&(b.high.x - b.low.x))
 }
 
-/// The x coordinate of the trunk: the middle of the widest loop a little above the highest crotch.
-fn middle(levels: &[(f64, Vec<Loop>)], top: f64) -> Option<f64> {
-    let (_, loops) = levels.iter().find(|l| l.0 > HIGHEST_CROTCH * top)?;
-    let depth = |l: &&Loop| (l.high.x - l.low.x).min(l.high.z - l.low.z);
-    loops.iter().max_by(|a, b| depth(a).total_cmp(&depth(b))).map(|l| l.center().x)
+/// The cut of the trunk at height `y`, if there is one above the crotch.
+fn trunk_cut(y: f64, loops: &[Loop], labels: &Labels) -> Option<Cut> {
+    let own = |l: &&Loop| l.edges.iter().any(|edge| labels.is_of_trunk(*edge, y));
+    loops.iter().filter(|_| y > labels.crotch).filter(own).max_by(by_width).map(Cut::new)
 }
 
-/// Share of a loop's width by which it must reach to either side of the body's middle to contain it. Thighs that nearly
-/// touch may have their gap a little beside the middle.
-const HELD: f64 = 0.1;
-
-/// Whether the middle of the body runs through a loop, rather than along its rim.
-fn holds(l: &Loop, middle: f64) -> bool {
-    (middle - l.low.x).min(l.high.x - middle) > HELD * (l.high.x - l.low.x)
+/// Where the neck is among the cuts of the trunk.
+struct Neck {
+    /// The first cut of it.
+    base: usize,
+    /// The narrowest.
+    narrowest: usize,
 }
 
-/// The highest level at which no loop holds the middle and there is one on each side.
-fn crotch(levels: &[(f64, Vec<Loop>)], middle: f64, top: f64) -> Option<f64> {
-    let parted = |loops: &[Loop]| {
-        let beside = |sign: f64| loops.iter().any(|l| sign * (l.center().x - middle) > 0.0);
-        beside(1.0) && beside(-1.0) && !loops.iter().any(|l| holds(l, middle))
-    };
-    levels.iter().rev().find(|(y, loops)| *y < HIGHEST_CROTCH * top && parted(loops)).map(|l| l.0)
+impl Neck {
+    /// Found downward from the narrowest cut, which is no more than `high` metres above the shoulders of a trunk with
+    /// this half width at the `armpit`.
+    fn find(trunk: &[Cut], armpit: f64, side: f64, high: f64) -> Option<Self> {
+        let width = |c: &Cut| 0.5 * (c.high.x - c.low.x);
+        let shoulders = trunk.iter().position(|c| c.y > armpit && width(c) < SHOULDERS * side)?;
+        // The very top of a head, or of a form without one, is no neck unless that is short.
+        let end = trunk.len().checked_sub(2)?.max(shoulders + 1);
+        let within = (shoulders..end).take_while(|&i| trunk[i].y < trunk[shoulders].y + high);
+        let narrowest = within.min_by(|&a, &b| trunk[a].girth.total_cmp(&trunk[b].girth))?;
+        let limit = NECK_FLARE * trunk[narrowest].girth;
+        let base = (trunk.len() / 2..=narrowest).rev().take_while(|&i| trunk[i].girth < limit).last()?;
+        (base > 0).then_some(Self { base, narrowest })
+    }
 }
 
-/// Index of the first cut of the neck, searched downward from the narrowest cut of the upper half without its very top.
-fn neck_base(trunk: &[Cut]) -> Option<usize> {
-    let (half, end) = (trunk.len() / 2, trunk.len().checked_sub(2)?);
-    let narrowest = (half..end).min_by(|&a, &b| trunk[a].girth.total_cmp(&trunk[b].girth))?;
-    let limit = NECK_FLARE * trunk[narrowest].girth;
-    (half..=narrowest).rev().take_while(|&i| trunk[i].girth < limit).last().filter(|&i| i > 0)
-}
-
-/// Half width of the trunk where the arms leave it: the widest cut of the upper trunk that is not yet as wide as with
-/// arms.
-fn trunk_side(trunk: &[Cut], middle: f64) -> Option<f64> {
-    let width = |c: &Cut| c.high.x - c.low.x;
-    // The lower half holds the waist. The upper one narrows again at the neck.
-    let narrowest = trunk[..trunk.len() / 2].iter().map(width).fold(f64::INFINITY, f64::min);
-    trunk[trunk.len() / 2..]
-        .iter()
-        .take_while(|c| width(c) < ARMS_IN_CUT * narrowest)
-        .map(|c| (c.high.x - middle).min(middle - c.low.x))
-        .fold(None, |most, w| Some(most.map_or(w, |m: f64| m.max(w))))
+/// Half width of the trunk where the arms leave it: the widest cut between its waist and the lower `armpit`.
+fn trunk_side(trunk: &[Cut], middle: f64, armpit: f64) -> Option<f64> {
+    // In the upper half of what is below the armpit. The hips are in the lower one.
+    let below = &trunk[..trunk.iter().take_while(|c| c.y < armpit).count()];
+    let half_width = |c: &Cut| (c.high.x - middle).min(middle - c.low.x);
+    below[below.len() / 2..].iter().map(half_width).reduce(f64::max)
 }
 
 fn torso(trunk: &[Cut], crotch: f64, middle: f64, side: f64) -> BodyPart {
@@ -159,13 +162,8 @@ fn torso(trunk: &[Cut], crotch: f64, middle: f64, side: f64) -> BodyPart {
 }
 
 /// The neck, up to its narrowest cut and the two above.
-fn neck_part(cuts: &[Cut]) -> BodyPart {
-    let narrowest = (0..cuts.len()).min_by(|&a, &b| {
-        // The very top of a head, or of a form without one, is no neck.
-        let edge = |i: usize| i + 2 >= cuts.len();
-        edge(a).cmp(&edge(b)).then(cuts[a].girth.total_cmp(&cuts[b].girth))
-    });
-    let end = (narrowest.unwrap_or(0) + 3).min(cuts.len());
+fn neck_part(cuts: &[Cut], narrowest: usize) -> BodyPart {
+    let end = (narrowest + 3).min(cuts.len());
     let sections: Vec<Section> = cuts[..end].iter().map(Cut::section).collect();
     let landmarks = vec![("neck base".to_owned(), sections[0].center)];
     BodyPart { kind: PartKind::Neck, sections, landmarks }
@@ -177,53 +175,57 @@ struct ArmSearch<'a> {
     middle: f64,
     side: f64,
     sign: f64,
-    crotch: f64,
+    kind: PartKind,
+    labels: &'a Labels,
+    scale: f64,
 }
 
 impl ArmSearch<'_> {
-    /// Whether a point lies beside the trunk: beyond the trunk's own cut at that height, or beyond its side where the
-    /// arms are in the cut.
-    fn beside(&self, p: &Vec3) -> bool {
-        if p.y < self.crotch {
-            return false;
-        }
+    /// Whether a point lies beside the trunk: beyond the trunk's own cut at that height, or beyond its
+    /// side where the arms are in the cut.
+    fn is_beside(&self, p: &Vec3) -> bool {
         let cut = self.trunk.iter().min_by(|a, b| (a.y - p.y).abs().total_cmp(&(b.y - p.y).abs()));
         let own = cut.map_or(self.side, |c| 0.5 * (c.high.x - c.low.x));
         // In the upper trunk the cut may hold the arms. Below it, the hips may be wider than the chest.
         let upper = self.trunk.get(self.trunk.len() / 2).is_some_and(|c| p.y > c.y);
         let limit = if upper { own.min(self.side) } else { own };
-        self.sign * (p.x - self.middle) > limit + ARM_CLEARANCE
+        self.sign * (p.x - self.middle) > limit + ARM_CLEARANCE * self.scale
     }
-}
 
-fn arm(mesh: &TriMesh, kind: PartKind, search: &ArmSearch) -> Result<BodyPart, String> {
-    let missing = || format!("no {kind:?} found beside the trunk: arms must stand off the body");
-    let points: Vec<Vec3> = mesh.vertices.iter().copied().filter(|p| search.beside(p)).collect();
-    let inner = points.iter().map(|p| search.sign * p.x).fold(f64::INFINITY, f64::min);
-    let at_trunk: Vec<Vec3> = points
-        .iter()
-        .copied()
-        .filter(|p| search.sign * p.x < inner + 2.0 * STEP && p.y > search.trunk[search.trunk.len() / 2].y)
-        .collect();
-    let shoulder = mean(&at_trunk).ok_or_else(missing)?;
-    let reach = points.iter().map(|p| (p - shoulder).norm()).fold(0.0, f64::max);
-    let near = |from: f64, to: f64| {
-        let inside = |p: &&Vec3| {
-            ((p.x - shoulder.x) * search.sign > 0.0) && { (from * reach..to * reach).contains(&(*p - shoulder).norm()) }
+    fn arm(&self, mesh: &TriMesh) -> Result<BodyPart, String> {
+        let missing = || no_arm(self.kind);
+        let neck = self.trunk.last().map_or(0.0, |c| c.y);
+        let skin = mesh.vertices.iter().enumerate().filter(|(v, _)| self.labels.can_be_of(*v, neck, self.kind));
+        let points: Vec<Vec3> = skin.map(|(_, p)| *p).filter(|p| self.is_beside(p)).collect();
+        let step = STEP * self.scale;
+        let inner = points.iter().map(|p| self.sign * p.x).fold(f64::INFINITY, f64::min);
+        let at_trunk: Vec<Vec3> = points
+            .iter()
+            .copied()
+            .filter(|p| self.sign * p.x < inner + 2.0 * step && p.y > self.trunk[self.trunk.len() / 2].y)
+            .collect();
+        let shoulder = mean(&at_trunk).ok_or_else(missing)?;
+        let reach = points.iter().map(|p| (p - shoulder).norm()).fold(0.0, f64::max);
+        let near = |from: f64, to: f64| {
+            let inside = |p: &&Vec3| {
+                ((p.x - shoulder.x) * self.sign > 0.0) && {
+                    (from * reach..to * reach).contains(&(*p - shoulder).norm())
+                }
+            };
+            mean(&points.iter().filter(inside).copied().collect::<Vec<_>>())
         };
-        mean(&points.iter().filter(inside).copied().collect::<Vec<_>>())
-    };
-    let axis = (near(WRIST[0], WRIST[1]).ok_or_else(missing)? - shoulder).normalize();
-    let across = (Vec3::x() * search.sign - axis * (axis.x * search.sign)).try_normalize(1e-6).unwrap_or(Vec3::y());
-    let sections: Vec<Section> = (1..(reach / STEP) as usize)
-        .filter_map(|i| limb_section(mesh, shoulder + axis * (i as f64 * STEP), axis, across))
-        .collect();
-    let sections = without_trunk(sections).ok_or_else(missing)?;
-    let wrist = wrist(&sections).ok_or_else(missing)?;
-    let sections = sections[..=wrist].to_vec();
-    let mark = |name: &str, part: f64| (name.to_owned(), sections[(part * wrist as f64) as usize].center);
-    let landmarks = vec![mark("shoulder", 0.0), mark("biceps", 0.22), mark("elbow", 0.5), mark("wrist", 1.0)];
-    Ok(BodyPart { kind, sections, landmarks })
+        let axis = (near(WRIST[0], WRIST[1]).ok_or_else(missing)? - shoulder).normalize();
+        let across = (Vec3::x() * self.sign - axis * (axis.x * self.sign)).try_normalize(1e-6).unwrap_or(Vec3::y());
+        let sections: Vec<Section> = (1..(reach / step) as usize)
+            .filter_map(|i| limb_section(mesh, shoulder + axis * (i as f64 * step), axis, across))
+            .collect();
+        let sections = without_trunk(sections).ok_or_else(missing)?;
+        let wrist = wrist(&sections).ok_or_else(missing)?;
+        let sections = sections[..=wrist].to_vec();
+        let mark = |name: &str, part: f64| (name.to_owned(), sections[(part * wrist as f64) as usize].center);
+        let landmarks = vec![mark("shoulder", 0.0), mark("biceps", 0.22), mark("elbow", 0.5), mark("wrist", 1.0)];
+        Ok(BodyPart { kind: self.kind, sections, landmarks })
+    }
 }
 
 /// The sections beyond the last one whose cut runs through the trunk as well.
@@ -268,26 +270,13 @@ fn limb_section(mesh: &TriMesh, at: Vec3, axis: Vec3, across: Vec3) -> Option<Se
     })
 }
 
-fn leg(
-    levels: &[(f64, Vec<Loop>)],
-    kind: PartKind,
-    crotch: f64,
-    middle: f64,
-    sign: f64,
-    top: f64,
-) -> Result<BodyPart, String> {
-    let mut sections: Vec<Section> = Vec::new();
-    for (_, loops) in levels.iter().rev().filter(|l| l.0 <= crotch && l.0 >= ANKLE * top) {
-        let own = loops.iter().filter(|l| sign * (l.center().x - middle) > 0.0);
-        // Hands may hang beside the legs. The leg is nearer to the leg above it.
-        let expected = sections.last().map_or(middle, |s| s.center.x);
-        let Some(l) = own.min_by(|a, b| (a.center().x - expected).abs().total_cmp(&(b.center().x - expected).abs()))
-        else {
-            continue;
-        };
-        sections.push(Section { axis: -Vec3::y(), ..Cut::new(l).section() });
-    }
-    let last = sections.len().checked_sub(1).ok_or_else(|| format!("no {kind:?} found below the crotch"))?;
+/// A leg from the crotch to the `ankle`.
+fn leg(levels: &[(f64, Vec<Loop>)], kind: PartKind, labels: &Labels, ankle: f64) -> Result<BodyPart, String> {
+    let of_leg = |l: &&Loop| l.edges.iter().any(|edge| labels.is_of_leg(*edge, kind));
+    let below = levels.iter().rev().filter(|l| l.0 < labels.crotch && l.0 >= ankle);
+    let cuts = below.filter_map(|(_, loops)| loops.iter().filter(of_leg).max_by(by_width));
+    let sections: Vec<Section> = cuts.map(|l| Section { axis: -Vec3::y(), ..Cut::new(l).section() }).collect();
+    let last = sections.len().checked_sub(1).ok_or_else(|| format!("no {} found below the crotch", kind.name()))?;
     let mark = |name: &str, part: f64| (name.to_owned(), sections[(part * last as f64) as usize].center);
     // The knee is a little below the middle of crotch and ankle.
     let landmarks = vec![mark("crotch", 0.0), mark("thigh", 0.08), mark("knee", 0.5), mark("ankle", 1.0)];

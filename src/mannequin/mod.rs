@@ -7,20 +7,27 @@ mod crossing;
 mod detect;
 mod field;
 mod frame;
+mod junction;
+mod label;
 mod library;
 mod loft;
 mod parts;
 mod relax;
+mod room;
 mod slice;
 mod spec;
+mod spread;
 mod surface;
 
 pub use build::build;
 pub use check::{BodyCheck, BodyFault, Place, check_body};
 pub use detect::find_parts;
 pub use frame::Frame;
+pub(crate) use junction::{Junction, LEVEL, LIMB, Side, junctions};
 pub use library::{library, load};
+pub use room::{GAP, make_room};
 pub use spec::{ArmRow, ArmSpec, LegRow, LegSpec, MannequinSpec, TorsoRow};
+pub(crate) use spread::Spread;
 
 use crate::geometry::{TriMesh, Vec3};
 

@@ -9,15 +9,17 @@ use crate::geometry::{DisjointSets, TriMesh, Vec3, box_of};
 pub(super) struct Loop {
     /// Points, in no order.
     pub(super) points: Vec<Vec3>,
+    /// The edges of the mesh that they lie on. Their first end is on the side that the axis comes from.
+    pub(super) edges: Vec<[u32; 2]>,
     /// Corners of the box round them.
     pub(super) low: Vec3,
     pub(super) high: Vec3,
 }
 
 impl Loop {
-    fn new(points: Vec<Vec3>) -> Self {
+    fn new((points, edges): (Vec<Vec3>, Vec<[u32; 2]>)) -> Self {
         let [low, high] = box_of(points.iter().copied());
-        Self { points, low, high }
+        Self { points, edges, low, high }
     }
 
     /// Middle of the box.
@@ -41,7 +43,10 @@ pub(super) fn slice(mesh: &TriMesh, at: Vec3, axis: Vec3) -> Vec<Loop> {
                 continue;
             }
             let here = *index.entry([a, b]).or_insert_with(|| {
-                points.push(mesh.vertices[a as usize].lerp(&mesh.vertices[b as usize], s / (s - t)));
+                points.push((
+                    mesh.vertices[a as usize].lerp(&mesh.vertices[b as usize], s / (s - t)),
+                    if s < t { [a, b] } else { [b, a] },
+                ));
                 sets.add()
             });
             if let Some(other) = last.replace(here) {
@@ -49,9 +54,11 @@ pub(super) fn slice(mesh: &TriMesh, at: Vec3, axis: Vec3) -> Vec<Loop> {
             }
         }
     }
-    let mut groups: BTreeMap<u32, Vec<Vec3>> = BTreeMap::new();
-    for (i, p) in (0..).zip(points) {
-        groups.entry(sets.root(i)).or_default().push(p);
+    let mut groups: BTreeMap<u32, (Vec<Vec3>, Vec<[u32; 2]>)> = BTreeMap::new();
+    for (i, (p, edge)) in (0..).zip(points) {
+        let group = groups.entry(sets.root(i)).or_default();
+        group.0.push(p);
+        group.1.push(edge);
     }
     groups.into_values().map(Loop::new).collect()
 }

@@ -89,7 +89,9 @@ fn longest(points: &[Vec3]) -> f64 {
 /// Note on a unit that a file's size suggests.
 fn assumed(unit: LengthUnit, what: &str, longest: f64, option: &str) -> String {
     let name = unit.name();
-    format!("{name} assumed, since {what} is {longest:.2} units long; if that is wrong, say {option} mm, cm, m or in")
+    format!(
+        "{name} assumed, since {what} is {longest:.2} units long; if that is wrong, say {option} mm, cm, dm, m or in"
+    )
 }
 
 /// A mannequin's surface by name, or a closed OBJ as it stands.

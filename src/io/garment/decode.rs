@@ -26,7 +26,7 @@ pub(super) fn garment(tree: &Located<Value>, findings: &mut Findings) -> Option<
         units: fields.take("units").and_then(|v| units(v, findings)),
         body: fields.get("body", findings, text),
         body_units: fields.get("body_units", findings, |v, _, f| {
-            word(v, "body_units", "mm, cm, m or in", f, LengthUnit::from_symbol)
+            word(v, "body_units", "mm, cm, dm, m or in", f, LengthUnit::from_symbol)
         }),
         allowance: fields.get("allowance", findings, width),
         fabrics: fields.take("fabrics").map_or_else(Vec::new, |v| fabrics(v, findings)),

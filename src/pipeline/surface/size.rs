@@ -69,7 +69,7 @@ pub(super) fn guessed(faces: &ObjFaces) -> (LengthUnit, String) {
             said += &format!(", or {} in {}", shown(&extents, other), other.symbol());
         }
     }
-    (unit, said + "; say --units mm, cm, m or in if that is wrong")
+    (unit, said + "; say --units mm, cm, dm, m or in if that is wrong")
 }
 
 /// Of the box round all faces, the largest first.

@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::spread::Spread;
 use crate::contact::Skin;
 use crate::dynamics::{StepError, World};
 use crate::geometry::{TriMesh, Vec3};
+use crate::mannequin::Spread;
 use crate::sew::settle::{STEP, TRUST};
 
 /// No cloth is carried further than this in one stage on the average, metres.

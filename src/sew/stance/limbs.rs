@@ -1,91 +1,14 @@
-//! The limbs of a body: what hangs down, apart from the rest, from where it joins that.
+//! The arms and legs among what hangs down from a body, and how much room is beside them.
 
 use std::collections::BTreeMap;
 
 use crate::contact::Skin;
-use crate::geometry::{DisjointSets, Edge, TriMesh, Vec3, range_of};
-use crate::mannequin::{BodyPart, Mannequin, PartKind};
+use crate::geometry::{TriMesh, Vec3, range_of};
+use crate::mannequin::{BodyPart, Junction, Mannequin, PartKind, Side};
 
-/// What hangs down by less is no limb: fingers, a chin, a seat, metres.
-const LIMB: f64 = 0.15;
 /// What is nearer to each other than this from back to front, metres, has to have room sideways; what is further from
 /// each other than twice this has it there: cloth passes between.
 const SLICE: f64 = 0.02;
-
-/// Two parts of a body that are one above a height and two below it.
-pub(super) struct Junction {
-    /// Height of the crotch or armpit, metres.
-    pub(super) top: f64,
-    /// Height of the lower end of the shorter one, metres.
-    pub(super) bottom: f64,
-    /// What every vertex belongs to.
-    pub(super) side: Vec<Side>,
-}
-
-/// What a vertex belongs to at a junction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
-    /// The shorter limb.
-    Limb,
-    /// What it hangs beside.
-    Beside,
-    /// Neither.
-    Neither,
-}
-
-/// The junctions of a closed surface from the floor up: where skin that is apart below a height comes together at it.
-pub(super) fn junctions(mesh: &TriMesh, edges: &[Edge]) -> Vec<Junction> {
-    let (order, lower) = upward(mesh, edges);
-    let mut sets = DisjointSets::new(order.len());
-    // Of a set's leader: the height of its lowest vertex.
-    let mut lowest: Vec<f64> = mesh.vertices.iter().map(|p| p.y).collect();
-    let mut out = Vec::new();
-    for &v in &order {
-        let top = height(mesh, v);
-        for &w in &lower[v as usize] {
-            let (a, b) = (sets.root(v), sets.root(w));
-            if a == b {
-                continue;
-            }
-            let [low_a, low_b] = [a, b].map(|s| lowest[s as usize]);
-            if top - low_a.max(low_b) > LIMB {
-                let (limb, beside) = if low_a > low_b { (a, b) } else { (b, a) };
-                out.push(junction(&mut sets, [limb, beside], [low_a.max(low_b), top]));
-            }
-            sets.join(a, b);
-            lowest[a.min(b) as usize] = low_a.min(low_b);
-        }
-    }
-    out
-}
-
-/// The vertices from the lowest up, and of each the neighbours that come before it.
-fn upward(mesh: &TriMesh, edges: &[Edge]) -> (Vec<u32>, Vec<Vec<u32>>) {
-    let mut order: Vec<u32> = (0..mesh.vertices.len() as u32).collect();
-    order.sort_by(|a, b| height(mesh, *a).total_cmp(&height(mesh, *b)).then(a.cmp(b)));
-    let mut rank = vec![0; order.len()];
-    order.iter().enumerate().for_each(|(k, v)| rank[*v as usize] = k);
-    let mut lower = vec![Vec::new(); order.len()];
-    for [a, b] in edges.iter().map(|e| e.ends) {
-        let [low, high] = if rank[a as usize] < rank[b as usize] { [a, b] } else { [b, a] };
-        lower[high as usize].push(low);
-    }
-    (order, lower)
-}
-
-fn height(mesh: &TriMesh, v: u32) -> f64 {
-    mesh.vertices[v as usize].y
-}
-
-/// The junction at the upper one of two heights of two sets.
-fn junction(sets: &mut DisjointSets, [limb, beside]: [u32; 2], [bottom, top]: [f64; 2]) -> Junction {
-    let side = (0..sets.len() as u32).map(|v| match sets.root(v) {
-        root if root == limb => Side::Limb,
-        root if root == beside => Side::Beside,
-        _ => Side::Neither,
-    });
-    Junction { top, bottom, side: side.collect() }
-}
 
 /// Of every arm and leg of a body the skin round it: a corner of the triangle nearest to each of its sections.
 pub(super) struct Limbs(Vec<(PartKind, Vec<u32>)>);
@@ -153,24 +76,15 @@ fn outlines(mesh: &TriMesh, junction: &Junction, levels: &[f64]) -> Vec<[Outline
             [Side::Beside, Side::Beside, Side::Beside] => 1,
             _ => continue,
         };
-        let corners = mesh.corners(t);
-        let [low, high] = range_of(corners.iter().map(|p| p.y));
+        let [low, high] = range_of(mesh.corners(t).iter().map(|p| p.y));
         let first = levels.partition_point(|y| *y > high);
         for (k, y) in levels.iter().enumerate().skip(first).take_while(|(_, y)| **y >= low) {
-            if let Some(cut) = cut(corners, *y) {
+            if let Some(cut) = mesh.cut(t, *y) {
                 add(&mut out[k][which], cut);
             }
         }
     }
     out
-}
-
-/// The ends of what a triangle has at height `y`, if it is on both sides of it.
-fn cut(corners: [Vec3; 3], y: f64) -> Option<[Vec3; 2]> {
-    let sides = [0, 1, 2].map(|k| [corners[k], corners[(k + 1) % 3]]);
-    let mut ends = sides.into_iter().filter(|[p, q]| (p.y < y) != (q.y < y));
-    let mut next = || ends.next().map(|[p, q]| p.lerp(&q, (y - p.y) / (q.y - p.y)));
-    Some([next()?, next()?])
 }
 
 /// Adds a segment to the slices that it goes through.
@@ -189,7 +103,8 @@ fn add(outline: &mut Outline, [p, q]: [Vec3; 2]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Topology, Vec3};
+    use crate::geometry::{Edge, Topology, Vec3};
+    use crate::mannequin::{LIMB, junctions};
 
     /// Square tubes, 100 mm wide, with this corner (x and z), from these heights to 1 m, each joined to the last by two
     /// triangles that meet at 1.1 m.
@@ -225,7 +140,7 @@ mod tests {
     #[test]
     fn the_gap_of_two_that_hang_down_is_what_is_between() {
         let (mesh, edges) = legs(&[0.0, 0.01]);
-        let found = junctions(&mesh, &edges);
+        let found = junctions(&mesh, &edges, LIMB);
         assert_eq!(found.len(), 1);
         assert!(found[0].top == 1.1 && found[0].bottom == 0.01);
         // The second is the shorter.
@@ -238,7 +153,7 @@ mod tests {
     #[test]
     fn an_arm_hangs_beside_and_a_finger_is_no_limb() {
         let (mesh, edges) = legs(&[0.5, 0.0, 0.97]);
-        let found = junctions(&mesh, &edges);
+        let found = junctions(&mesh, &edges, LIMB);
         assert_eq!(found.len(), 1, "the last hangs down by 130 mm");
         assert_eq!(found[0].side[0], Side::Limb);
         let (gaps, way) = apart(&mesh, &found[0], &[0.7]);
@@ -249,7 +164,7 @@ mod tests {
     fn a_hand_in_front_of_a_thigh_has_room_and_one_that_reaches_back_to_it_has_none() {
         let gap = |back: f64| {
             let (mesh, edges) = tubes(&[([0.0, 0.0], 0.0), ([0.06, back], 0.4)]);
-            let found = junctions(&mesh, &edges);
+            let found = junctions(&mesh, &edges, LIMB);
             apart(&mesh, &found[0], &[0.7]).0[0]
         };
         assert_eq!(gap(0.1 + 2.1 * SLICE), None);

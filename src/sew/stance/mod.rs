@@ -12,10 +12,10 @@ use super::settle::{Calm, come_out, settle, sewn_world};
 use crate::contact::Collider;
 use crate::dynamics::Cut;
 use crate::geometry::{TriMesh, Vec3};
-use crate::mannequin::{Mannequin, PartKind};
+use crate::mannequin::{Mannequin, PartKind, Spread};
 use crate::pattern::Garment;
 use back::Carrier;
-use spread::{Spread, spreads};
+use spread::spreads;
 
 /// Share of the progress that sewing is; the rest is the way back.
 const SEWN: f64 = 0.6;

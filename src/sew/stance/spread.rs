@@ -1,8 +1,8 @@
 //! How far limbs are spread so that cloth has room between them.
 
-use super::limbs::{Junction, Limbs, Side, apart, junctions};
-use crate::geometry::{Topology, TriMesh, Vec3};
-use crate::mannequin::{BodyPart, Mannequin, PartKind, Section};
+use super::limbs::{Limbs, apart};
+use crate::geometry::Topology;
+use crate::mannequin::{LEVEL, LIMB, Mannequin, Side, Spread, junctions};
 
 /// Spread limbs are apart by this share of how far down it is, metres; further down by this much and the other share of
 /// it. The shipped mannequins stand so.
@@ -15,62 +15,8 @@ const NARROW: f64 = 0.4;
 const FORK: f64 = 0.06;
 /// No limb leans further out than this (tangent).
 const LEAN: f64 = 0.6;
-/// Heights are looked at so far apart, metres.
-const LEVEL: f64 = 0.005;
 /// A spread is smoothed over so many levels up and down.
 const SMOOTH: usize = 8;
-
-/// A limb, and how far it is moved sideways at every height.
-pub(super) struct Spread {
-    /// Its vertices.
-    pub(super) vertices: Vec<u32>,
-    /// Which it is.
-    pub(super) kind: PartKind,
-    /// Height of where it joins the body, metres.
-    top: f64,
-    /// How far along x, metres, at every level from the top down; further down as at the last.
-    by: Vec<f64>,
-}
-
-impl Spread {
-    fn new(junction: &Junction, side: Side, kind: PartKind, by: Vec<f64>) -> Self {
-        let vertices = (0..junction.side.len() as u32).filter(|v| junction.side[*v as usize] == side).collect();
-        Self { vertices, kind, top: junction.top, by }
-    }
-
-    /// How far along x what is at height `y` is moved, metres.
-    pub(super) fn at(&self, y: f64) -> f64 {
-        let level = (self.top - y) / LEVEL;
-        if level <= 0.0 {
-            return 0.0;
-        }
-        let last = self.by.len() - 1;
-        let k = (level as usize).min(last);
-        let next = self.by[(k + 1).min(last)];
-        self.by[k] + (next - self.by[k]) * (level - k as f64).min(1.0)
-    }
-
-    /// Moves the limb of `mesh` by a share of its spread.
-    pub(super) fn apply(&self, mesh: &mut TriMesh, share: f64) {
-        for &v in &self.vertices {
-            let p = &mut mesh.vertices[v as usize];
-            p.x += share * self.at(p.y);
-        }
-    }
-
-    /// Moves the limb as a part of the body, for placing pieces round it.
-    pub(super) fn apply_to_part(&self, parts: &mut [BodyPart]) {
-        let moved = |p: Vec3| Vec3::new(p.x + self.at(p.y), p.y, p.z);
-        let turned = |s: &Section| {
-            let (from, to) = (moved(s.center - s.axis * LEVEL), moved(s.center + s.axis * LEVEL));
-            Section { center: moved(s.center), axis: (to - from).try_normalize(0.0).unwrap_or(s.axis), ..*s }
-        };
-        for part in parts.iter_mut().filter(|part| part.kind == self.kind) {
-            part.sections = part.sections.iter().map(turned).collect();
-            part.landmarks.iter_mut().for_each(|(_, p)| *p = moved(*p));
-        }
-    }
-}
 
 /// The limbs of `body` that are too near to others to sew between them, with or without its legs, and how they are
 /// spread.
@@ -79,13 +25,12 @@ pub(super) fn spreads(body: &Mannequin, legs: bool) -> Vec<Spread> {
     let edges = Topology::new(&mesh.triangles).edges;
     let Some(known) = Limbs::new(body) else { return Vec::new() };
     let mut out: Vec<Spread> = Vec::new();
-    for junction in junctions(&mesh, &edges) {
+    for junction in junctions(&mesh, &edges, LIMB) {
         let [Some(limb), beside] = known.of(&junction) else { continue };
         if (limb.is_leg() && !legs) || out.iter().any(|spread| spread.kind == limb) {
             continue;
         }
-        let depth = junction.top - junction.bottom;
-        let levels: Vec<f64> = (0..=(depth / LEVEL) as usize).map(|k| junction.top - k as f64 * LEVEL).collect();
+        let levels = junction.levels();
         // Legs come first: spread, they come nearer to the arms.
         let (gaps, way) = apart(&mesh, &junction, &levels);
         let Some(by) = opening(&gaps) else { continue };

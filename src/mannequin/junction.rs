@@ -1,0 +1,96 @@
+//! Where limbs join a body: what hangs down, apart from the rest, from where it joins that.
+
+use crate::geometry::{DisjointSets, Edge, TriMesh};
+
+/// What hangs down by less is no limb: fingers, a chin, a seat, metres.
+pub(crate) const LIMB: f64 = 0.15;
+/// Distance between the heights at which the room beside a limb is looked at, metres.
+pub(crate) const LEVEL: f64 = 0.005;
+
+/// Two parts of a body that are one above a height and two below it.
+pub(crate) struct Junction {
+    /// The lowest vertex that joins the two: of a crotch or an armpit.
+    pub(crate) vertex: u32,
+    /// Its height, metres.
+    pub(crate) top: f64,
+    /// Height of the lower end of the shorter one, metres.
+    pub(crate) bottom: f64,
+    /// What every vertex belongs to.
+    pub(crate) side: Vec<Side>,
+}
+
+impl Junction {
+    /// Heights from the junction down to the end of the shorter limb, metres.
+    pub(crate) fn levels(&self) -> Vec<f64> {
+        let count = ((self.top - self.bottom) / LEVEL) as usize;
+        (0..=count).map(|k| self.top - k as f64 * LEVEL).collect()
+    }
+}
+
+/// What a vertex belongs to at a junction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Side {
+    /// The shorter limb.
+    Limb,
+    /// What it hangs beside.
+    Beside,
+    /// Neither.
+    Neither,
+}
+
+/// The junctions of a closed surface from the floor up: where skin that is apart below a height comes together at it.
+/// Skin that hangs down from there by less than `least` (metres) is no limb.
+pub(crate) fn junctions(mesh: &TriMesh, edges: &[Edge], least: f64) -> Vec<Junction> {
+    let (order, lower) = upward(mesh, edges);
+    let mut sets = DisjointSets::new(order.len());
+    // Of a set's leader: the height of its lowest vertex.
+    let mut lowest: Vec<f64> = mesh.vertices.iter().map(|p| p.y).collect();
+    let mut out = Vec::new();
+    for &v in &order {
+        let top = height(mesh, v);
+        for &w in &lower[v as usize] {
+            let (a, b) = (sets.root(v), sets.root(w));
+            if a == b {
+                continue;
+            }
+            let [low_a, low_b] = [a, b].map(|s| lowest[s as usize]);
+            if top - low_a.max(low_b) > least {
+                let (limb, beside) = if low_a > low_b { (a, b) } else { (b, a) };
+                let side = sides(&mut sets, [limb, beside]);
+                out.push(Junction { vertex: v, top, bottom: low_a.max(low_b), side });
+            }
+            sets.join(a, b);
+            lowest[a.min(b) as usize] = low_a.min(low_b);
+        }
+    }
+    out
+}
+
+/// The vertices from the lowest up, and of each the neighbours that come before it.
+fn upward(mesh: &TriMesh, edges: &[Edge]) -> (Vec<u32>, Vec<Vec<u32>>) {
+    let mut order: Vec<u32> = (0..mesh.vertices.len() as u32).collect();
+    order.sort_by(|a, b| height(mesh, *a).total_cmp(&height(mesh, *b)).then(a.cmp(b)));
+    let mut rank = vec![0; order.len()];
+    order.iter().enumerate().for_each(|(k, v)| rank[*v as usize] = k);
+    let mut lower = vec![Vec::new(); order.len()];
+    for [a, b] in edges.iter().map(|e| e.ends) {
+        let [low, high] = if rank[a as usize] < rank[b as usize] { [a, b] } else { [b, a] };
+        lower[high as usize].push(low);
+    }
+    (order, lower)
+}
+
+fn height(mesh: &TriMesh, v: u32) -> f64 {
+    mesh.vertices[v as usize].y
+}
+
+/// What every vertex belongs to of two sets that meet.
+fn sides(sets: &mut DisjointSets, [limb, beside]: [u32; 2]) -> Vec<Side> {
+    let count = sets.len() as u32;
+    let side = |v| match sets.root(v) {
+        root if root == limb => Side::Limb,
+        root if root == beside => Side::Beside,
+        _ => Side::Neither,
+    };
+    (0..count).map(side).collect()
+}
