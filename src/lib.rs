@@ -74,6 +74,7 @@ pub mod io;
 pub mod linear;
 pub mod mannequin;
 pub mod mesh;
+pub mod parallel;
 pub mod pattern;
 pub mod picture;
 pub mod pipeline;

@@ -5,18 +5,19 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules in building order, each with those it may use. The ground floor first, the edge last.
-const FLOORS: [(&str, &[&str]); 21] = [
+const FLOORS: [(&str, &[&str]); 22] = [
     ("geometry", &[]),
     ("input", &[]),
-    ("linear", &["geometry"]),
+    ("parallel", &[]),
+    ("linear", &["geometry", "parallel"]),
     ("fabric", &["input"]),
     ("pattern", &["geometry", "input", "fabric"]),
     ("mannequin", &["geometry", "input"]),
-    ("contact", &["geometry"]),
+    ("contact", &["geometry", "parallel"]),
     ("mesh", &["geometry", "pattern"]),
-    ("dynamics", &["geometry", "linear", "fabric", "pattern", "contact", "mesh"]),
-    ("sew", &["geometry", "linear", "fabric", "pattern", "mannequin", "contact", "mesh", "dynamics"]),
-    ("drape", &["geometry", "linear", "fabric", "pattern", "contact", "mesh", "dynamics", "sew"]),
+    ("dynamics", &["geometry", "parallel", "linear", "fabric", "pattern", "contact", "mesh"]),
+    ("sew", &["geometry", "parallel", "linear", "fabric", "pattern", "mannequin", "contact", "mesh", "dynamics"]),
+    ("drape", &["geometry", "parallel", "linear", "fabric", "pattern", "contact", "mesh", "dynamics", "sew"]),
     ("specimen", &["geometry", "fabric", "pattern", "contact", "mesh", "dynamics", "sew"]),
     ("flatten", &["geometry", "linear", "pattern", "mesh"]),
     ("verify", &["geometry", "mannequin", "mesh"]),

@@ -439,8 +439,8 @@ fn json_has_the_keys_of_the_contract_and_is_the_report() {
     assert_eq!(report["spacing"], 40.0);
 }
 
-/// Fine enough that every loop is split: the longest chunk that one thread keeps to itself is 1024 springs, and half of
-/// a piece's particles, edges, triangles or contacts are more than its loop's. At 40 mm nothing would be.
+/// Fine enough that every pass is split: the longest chunk that one thread keeps to itself has
+/// [`toile::parallel::LIGHT`] items, and the factor of so many particles has several subtrees.
 const FINE: &str = "12";
 
 #[test]
@@ -452,12 +452,12 @@ fn any_number_of_threads_gives_the_same_bytes() {
             .map(|name| room.bytes(&format!("out/{name}")))
     };
     let one = files("1");
-    for threads in ["2", "4"] {
+    for threads in ["2", "3", "4", "8"] {
         assert!(files(threads) == one, "{threads} threads give other bytes");
     }
     let report: Value = serde_json::from_slice(&room.bytes("out/report.json")).expect("JSON");
     let particles = report["pieces"].as_array().expect("a list").iter().map(|p| p["particles"].as_u64());
-    assert!(particles.flatten().sum::<u64>() > 2 * 1024, "too coarse to be split");
+    assert!(particles.flatten().sum::<u64>() > toile::parallel::LIGHT as u64, "too coarse to be split");
 }
 
 #[test]

@@ -225,3 +225,59 @@ fn a_stronger_diagonal_leaves_the_rest_as_it_is() {
         assert_eq!(old, new);
     }
 }
+
+#[test]
+fn large_factors_give_the_same_bits_for_any_number_of_threads() {
+    // Two sheets that nothing joins, each with many subtrees.
+    let one = grid(70);
+    let other = one.iter().map(|e| e.map(|v| v + 4900));
+    let edges: Vec<[u32; 2]> = one.iter().copied().chain(other).collect();
+    let pattern = Arc::new(SymmetricPattern::blocks(9800, pairs(&edges)).unwrap());
+    let matrix = springs::<f64>(&pattern, &edges);
+    let b = right_hand_sides(2 * pattern.size());
+    let solved = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let mut factor = Cholesky::new(pattern.clone()).unwrap();
+            factor.factor(&matrix).unwrap();
+            let mut x = b.clone();
+            factor.solve(&mut x);
+            x
+        })
+    };
+    let first = solved(1);
+    for (x, b) in first.chunks(pattern.size()).zip(b.chunks(pattern.size())) {
+        let residual = relative_residual(&matrix, x, b);
+        assert!(residual < 1e-10, "{residual:e}");
+    }
+    for threads in [2, 3, 4, 8] {
+        assert!(solved(threads) == first, "{threads} threads give other bits");
+    }
+}
+
+#[test]
+fn refilled_columns_are_those_that_blocks_add_up_to() {
+    let edges = grid(40);
+    let pattern = Arc::new(SymmetricPattern::blocks(1600, pairs(&edges)).unwrap());
+    let added = springs::<f64>(&pattern, &edges);
+    let mut noise = Noise(7);
+    let blocks: Vec<Mat3> = edges
+        .iter()
+        .map(|_| {
+            let d = Vec3::new(noise.next(), noise.next(), noise.next());
+            d * d.transpose() + Mat3::identity() * 0.1
+        })
+        .collect();
+    let mut refilled = added.clone();
+    refilled.refill(|vertex, mut column| {
+        for (edge, block) in edges.iter().zip(&blocks).filter(|(e, _)| e.contains(&(vertex as u32))) {
+            column.add_diagonal(block);
+            column.add_below(edge[0].max(edge[1]), &-block);
+        }
+        column.add_diagonal(&(Mat3::identity() * 0.01));
+        // What the pattern does not have is left out.
+        column.add_below(vertex as u32 + 1000, &Mat3::identity());
+    });
+    let worst = added.values().iter().zip(refilled.values()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(worst < 1e-12, "{worst:e}");
+}

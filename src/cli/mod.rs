@@ -49,10 +49,13 @@ pub fn main() -> ExitCode {
 /// the memory.
 const MOST_THREADS: usize = 256;
 
+/// Stack of a thread, bytes: that of a main thread, because commands run in the pool.
+const STACK: usize = 8 << 20;
+
 fn with_threads<T: Send>(threads: Option<NonZeroUsize>, work: impl FnOnce() -> T + Send) -> Result<T, CliError> {
-    let Some(threads) = threads else { return Ok(work()) };
-    let threads = threads.get().min(MOST_THREADS);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    // 0 means as many as the machine has. Work that is handed out from one of the pool's own threads costs least.
+    let threads = threads.map_or(0, |threads| threads.get().min(MOST_THREADS));
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build()?;
     Ok(pool.install(work))
 }
 

@@ -12,6 +12,7 @@
 
 use super::{Contact, Under};
 use crate::geometry::Vec3;
+use crate::parallel::{self, LIGHT, MEDIUM};
 
 /// Sweeps over the pairs, each of which pushes apart those that would meet.
 const SWEEPS: usize = 12;
@@ -34,9 +35,6 @@ const ROUNDING: f64 = 1e-9;
 const SLACK: f64 = 1.0 - 1e-3;
 /// Share of its needed separation at which a pair is left alone after the sweeps, which converge slowly.
 const HELD: f64 = 0.5;
-
-/// A contact, and the separation that it must keep in a step, metres.
-type Kept<'a> = (&'a Contact<'a>, f64);
 
 /// Travel budgets of nodes since their last search, and least separations of pairs.
 #[derive(Clone, Debug)]
@@ -86,8 +84,7 @@ impl Bounds {
     pub fn stale(&self, x: &[Vec3], most: f64) -> Vec<bool> {
         // Positions that are not numbers count as stale.
         let stays = |way: f64, leash: f64| way <= most.min(STAYS / (1.0 + STAYS) * leash);
-        let gone = x.iter().zip(&self.origin).zip(&self.leash);
-        gone.map(|((x, o), leash)| !stays((x - o).norm(), *leash)).collect()
+        parallel::map(x.len(), LIGHT, |i| !stays((x[i] - self.origin[i]).norm(), self.leash[i]))
     }
 
     /// Whether a node has gone two thirds of its leash, so that a search is due.
@@ -141,23 +138,24 @@ impl Bounds {
     /// Held nodes, and nodes of pairs that the sweeps cannot separate, stay where they are. A broken leash shortens the
     /// whole step.
     pub fn clamp(&self, contacts: &[&Contact], from: &[Vec3], to: &mut [Vec3]) {
-        let (planes, pairs): (Vec<&Contact>, _) = contacts.iter().partition(|c| c.under == Under::Plane);
-        let planes: Vec<Kept> = planes.into_iter().map(|c| (c, self.need(c.gap(from)))).collect();
-        let pairs: Vec<Kept> = pairs.into_iter().map(|c: &Contact| (c, self.need(separation(c, from)))).collect();
-        for _ in 0..SWEEPS {
-            let mut clean = true;
-            for &(contact, need) in &planes {
-                clean &= !lift(contact, to, need);
+        let (planes, pairs): (Vec<&Contact>, Vec<&Contact>) = contacts.iter().partition(|c| c.under == Under::Plane);
+        let contacts = [planes, pairs].concat();
+        let judged = parallel::map(contacts.len(), MEDIUM, |k| {
+            let kept = Kept { contact: contacts[k], need: self.need(clearance(contacts[k], from)) };
+            (kept, kept.is_apart(from, to))
+        });
+        if !judged.iter().all(|j| j.1) {
+            let mut sweep = Sweep::new(from, to, judged);
+            for _ in 0..SWEEPS {
+                let clean = sweep.push();
+                sweep.put_back(self.held.iter().map(|&n| n as usize));
+                if clean {
+                    break;
+                }
             }
-            for &(contact, need) in &pairs {
-                clean &= !keep_apart(contact, from, to, need);
-            }
-            self.held.iter().for_each(|&n| to[n as usize] = from[n as usize]);
-            if clean {
-                break;
-            }
+            sweep.hold();
         }
-        hold(&planes, &pairs, from, to);
+        self.held.iter().for_each(|&n| to[n as usize] = from[n as usize]);
         let share = self.leash_share(from, to);
         if share < 1.0 {
             for (a, b) in from.iter().zip(to) {
@@ -186,25 +184,128 @@ impl Bounds {
     }
 }
 
-/// Keeps nodes that would still meet another node or the body where they are, and then those that would run into them.
-fn hold(planes: &[Kept], pairs: &[Kept], from: &[Vec3], to: &mut [Vec3]) {
-    loop {
-        let mut clean = true;
-        for &(contact, need) in planes {
-            if contact.gap(from) > 0.0 && contact.gap(to) < HELD * need {
-                clean &= !put_back(contact, from, to);
-            }
+/// A contact in a step.
+#[derive(Clone, Copy)]
+struct Kept<'a> {
+    contact: &'a Contact<'a>,
+    /// The separation that it must keep, metres.
+    need: f64,
+}
+
+impl Kept<'_> {
+    fn is_on_plane(&self) -> bool {
+        self.contact.under == Under::Plane
+    }
+
+    /// Whether a step to `to` leaves it apart, so that nothing needs to give way.
+    fn is_apart(&self, from: &[Vec3], to: &[Vec3]) -> bool {
+        let Self { contact, need } = *self;
+        if self.is_on_plane() {
+            let gap = contact.gap(to);
+            return need - gap <= ROUNDING && gap >= HELD * need;
         }
-        for &(contact, need) in pairs {
-            let close = |c: &Contact, to: &[Vec3]| separation(c, to) < HELD * need;
-            if close(contact, to) && close(&rolled(contact, from, to), to) {
-                clean &= !put_back(contact, from, to);
-            }
-        }
-        if clean {
-            return;
+        separation(contact, to) >= need * SLACK || separation(&rolled(contact, from, to), to) >= need * SLACK
+    }
+
+    /// Pushes it apart where it is not. Returns whether it was pushed.
+    fn push(&self, from: &[Vec3], to: &mut [Vec3]) -> bool {
+        if self.is_on_plane() {
+            lift(self.contact, to, self.need)
+        } else {
+            keep_apart(self.contact, from, to, self.need)
         }
     }
+
+    /// Whether it would still meet, so that its nodes must stay where they are.
+    fn is_lost(&self, from: &[Vec3], to: &[Vec3]) -> bool {
+        let Self { contact, need } = *self;
+        if self.is_on_plane() {
+            return contact.gap(from) > 0.0 && contact.gap(to) < HELD * need;
+        }
+        let close = |c: &Contact| separation(c, to) < HELD * need;
+        close(contact) && close(&rolled(contact, from, to))
+    }
+}
+
+/// Contacts that push each other's nodes. One that was apart is looked at again only once a node of it has moved.
+struct Sweep<'a> {
+    from: &'a [Vec3],
+    to: &'a mut [Vec3],
+    kept: Vec<Kept<'a>>,
+    /// When each contact was last known to be apart.
+    apart: Vec<Option<u32>>,
+    /// When each node last moved.
+    moved: Vec<u32>,
+    /// Number of moves up to now.
+    moves: u32,
+}
+
+impl<'a> Sweep<'a> {
+    /// The contacts, each with whether it is apart.
+    fn new(from: &'a [Vec3], to: &'a mut [Vec3], judged: Vec<(Kept<'a>, bool)>) -> Self {
+        let apart = judged.iter().map(|(_, apart)| apart.then_some(0)).collect();
+        let kept = judged.into_iter().map(|(kept, _)| kept).collect();
+        Self { moved: vec![0; to.len()], from, to, kept, apart, moves: 0 }
+    }
+
+    /// Whether contact number `k` is known to be apart.
+    fn is_apart(&self, k: usize) -> bool {
+        self.apart[k].is_some_and(|when| self.kept[k].contact.parts().all(|(n, _)| self.moved[n] <= when))
+    }
+
+    /// Pushes each pair apart that would meet. Returns whether there was none.
+    fn push(&mut self) -> bool {
+        let mut clean = true;
+        for k in 0..self.kept.len() {
+            if self.is_apart(k) {
+                continue;
+            }
+            let kept = self.kept[k];
+            if kept.push(self.from, self.to) {
+                (clean, self.apart[k]) = (false, None);
+                self.moves += 1;
+                kept.contact.parts().for_each(|(n, _)| self.moved[n] = self.moves);
+            } else if kept.is_apart(self.from, self.to) {
+                self.apart[k] = Some(self.moves);
+            }
+        }
+        clean
+    }
+
+    /// Puts nodes back to where they were. Returns whether any had moved.
+    fn put_back(&mut self, nodes: impl Iterator<Item = usize>) -> bool {
+        let mut any = false;
+        for n in nodes {
+            if self.to[n] != self.from[n] {
+                self.to[n] = self.from[n];
+                self.moves += 1;
+                (self.moved[n], any) = (self.moves, true);
+            }
+        }
+        any
+    }
+
+    /// Keeps nodes that would still meet another node or the body where they are, and then those that would run into
+    /// them.
+    fn hold(&mut self) {
+        loop {
+            let mut clean = true;
+            for k in 0..self.kept.len() {
+                let kept = self.kept[k];
+                if !self.is_apart(k) && kept.is_lost(self.from, self.to) {
+                    clean &= !self.put_back(kept.contact.parts().map(|part| part.0));
+                }
+            }
+            if clean {
+                return;
+            }
+        }
+    }
+}
+
+/// Separation of a pair, or the gap over a plane, metres.
+fn clearance(contact: &Contact, x: &[Vec3]) -> f64 {
+    if contact.under == Under::Plane { contact.gap(x) } else { separation(contact, x) }
 }
 
 /// Positions of a pair's sides along its direction: the lowest node of the upper side, the highest of the lower.
@@ -262,16 +363,6 @@ fn rolled<'b>(contact: &Contact<'b>, from: &[Vec3], to: &[Vec3]) -> Contact<'b> 
 /// Keeps a pair apart by `need` metres at the end of a step. Returns whether it had to be pushed.
 fn keep_apart(contact: &Contact, from: &[Vec3], to: &mut [Vec3], need: f64) -> bool {
     separation(contact, to) < need * SLACK && push_apart(&rolled(contact, from, to), to, need)
-}
-
-/// Puts the nodes of a contact back to where they were. Returns whether they had moved.
-fn put_back(contact: &Contact, from: &[Vec3], to: &mut [Vec3]) -> bool {
-    let mut moved = false;
-    for (node, _) in contact.parts() {
-        moved |= to[node] != from[node];
-        to[node] = from[node];
-    }
-    moved
 }
 
 /// Pushes both sides off the plane half-way between them. Returns whether that was needed.

@@ -4,11 +4,11 @@ use std::collections::{HashMap, HashSet};
 
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::partitioning::{Bvh, BvhWorkspace};
-use rayon::prelude::*;
 
 use super::Contact;
 use super::narrow::apart;
 use crate::geometry::{Topology, Vec2, Vec3, box_of, sorted_pair};
+use crate::parallel::{self, HEAVY, LIGHT, MEDIUM};
 
 /// Triangles per leaf of the tree: few enough for tight boxes, enough that the tree costs little.
 const PATCH: usize = 10;
@@ -105,7 +105,12 @@ impl ClothDetector {
     pub fn look(&mut self, x: &[Vec3], reach: f64, stale: &mut [bool]) {
         let normals = self.normals(x);
         let (mut pairs, shapes) = self.patch_pairs(x, &normals, reach);
-        pairs.retain(|&(a, b)| !self.smooth(a as usize, b as usize, &shapes));
+        let smooth = parallel::map(pairs.len(), MEDIUM, |k| {
+            let (a, b) = pairs[k];
+            self.smooth(a as usize, b as usize, &shapes)
+        });
+        let mut smooth = smooth.into_iter();
+        pairs.retain(|_| smooth.next() == Some(false));
         for pair @ &(a, b) in &pairs {
             let folded = self.patches[a as usize].beside.binary_search(&b).is_ok();
             if folded && self.open.binary_search(pair).is_err() {
@@ -122,7 +127,8 @@ impl ClothDetector {
         let find = Search { detector: self, x, reach, parts: self.parts(x, stale) };
         let mut pairs = self.open.clone();
         pairs.retain(|&(a, b)| [a, b].iter().any(|p| find.parts[*p as usize].triangles.iter().any(|t| t.stale)));
-        pairs.par_iter().flat_map_iter(|&(a, b)| find.pair(a as usize, b as usize)).collect()
+        let found = parallel::map(pairs.len(), HEAVY, |k| find.pair(pairs[k].0 as usize, pairs[k].1 as usize));
+        found.concat()
     }
 
     /// The primitives of every patch at positions `x`. Those with a `stale` node are searched.
@@ -133,7 +139,7 @@ impl ClothDetector {
             triangles: (patch.triangles.iter().map(|&t| Primitive::new(self.triangles[t as usize], x, stale)))
                 .collect(),
         };
-        self.patches.par_iter().with_min_len(64).map(part).collect()
+        parallel::map(self.patches.len(), HEAVY, |k| part(&self.patches[k]))
     }
 
     fn normals(&self, x: &[Vec3]) -> Vec<Vec3> {
@@ -141,13 +147,12 @@ impl ClothDetector {
             let [a, b, c] = t.map(|n| x[n as usize]);
             (b - a).cross(&(c - a)).try_normalize(1e-300).unwrap_or_default()
         };
-        self.triangles.par_iter().with_min_len(512).map(normal).collect()
+        parallel::map(self.triangles.len(), LIGHT, |k| normal(&self.triangles[k]))
     }
 
     /// Pairs of patches whose boxes come within `reach`, every patch with itself, sorted.
     fn patch_pairs(&mut self, x: &[Vec3], normals: &[Vec3], reach: f64) -> (Vec<(u32, u32)>, Vec<Shape>) {
-        let shapes: Vec<Shape> =
-            self.patches.par_iter().with_min_len(64).map(|p| self.measure(p, x, normals)).collect();
+        let shapes = parallel::map(self.patches.len(), HEAVY, |k| self.measure(&self.patches[k], x, normals));
         let half = 0.5 * reach;
         for (i, Shape { low, high, .. }) in shapes.iter().enumerate() {
             let aabb = Aabb::new(low.add_scalar(-half).into(), high.add_scalar(half).into());
@@ -187,7 +192,7 @@ impl ClothDetector {
             }
             out
         };
-        pairs.par_iter().with_min_len(64).flat_map_iter(both).collect()
+        parallel::map(pairs.len(), HEAVY, |k| both(&pairs[k])).concat()
     }
 
     fn measure(&self, patch: &Patch, x: &[Vec3], normals: &[Vec3]) -> Shape {

@@ -4,6 +4,7 @@
 //! (see `curvature`). The matrix is scalar and constant, and the same for x, y and z.
 
 use crate::geometry::Vec3;
+use crate::parallel::{self, MEDIUM};
 
 /// A curvature and the weight of its square.
 #[derive(Clone, Debug)]
@@ -97,7 +98,7 @@ impl Bending {
 
     /// The energy, J.
     pub fn energy(&self, x: &[Vec3]) -> f64 {
-        0.5 * (0..x.len()).map(|i| x[i].dot(&self.gradient(x, i))).sum::<f64>()
+        0.5 * parallel::sum(x.len(), MEDIUM, |i| x[i].dot(&self.gradient(x, i)))
     }
 }
 

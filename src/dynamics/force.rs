@@ -1,13 +1,13 @@
 //! The forces on the cloth at given positions, and their energies.
 
-use rayon::prelude::*;
-
 use super::contact_law::ContactLaw;
 use super::friction::{Friction, Grip, Hold};
+use super::links::Links;
 use super::model::Cloth;
 use crate::contact::Contact;
 use crate::fabric::GRAVITY;
 use crate::geometry::Vec3;
+use crate::parallel::{self, MEDIUM};
 
 /// A stitch being closed (F5): both nodes pull each other with stiffness × min(gap, cap).
 #[derive(Clone, Copy, Debug)]
@@ -57,21 +57,35 @@ impl Forces<'_> {
     /// Energy of elasticity, contact, weight and stored friction, J. Sliding friction has no energy of its own. It is
     /// modelled as a constant force at the normal forces `loads` (one per contact).
     pub(super) fn energy(&self, cloth: &Cloth, x: &[Vec3], loads: &[f64]) -> f64 {
+        self.energy_with(cloth, x, loads, cloth.energy_of_elements(x))
+    }
+
+    /// The same where the energy of springs, threads and shears is known to be `elements`, J.
+    pub(super) fn energy_with(&self, cloth: &Cloth, x: &[Vec3], loads: &[f64], elements: f64) -> f64 {
         let weight: f64 = cloth.mass.iter().zip(x).map(|(m, x)| m * x.y).sum::<f64>() * GRAVITY * self.gravity;
-        let pressed: f64 = self.contacts.iter().map(|c| self.law.energy(cloth, x, c)).sum();
-        let gripped = self.friction.map_or(0.0, |f| f.energy(x, self.contacts, loads, &cloth.friction));
-        cloth.elastic_energy(x) + pressed + weight + gripped
+        let touching = parallel::sum(self.contacts.len(), MEDIUM, |k| {
+            let hold = self.hold(cloth, x, k, loads[k]);
+            self.law.energy(cloth, x, &self.contacts[k]) + hold.map_or(0.0, |hold| hold.energy(Vec3::zeros()))
+        });
+        elements + cloth.energy_of_folds(x) + touching + weight
+    }
+
+    /// The present normal force of every contact, N.
+    pub(super) fn loads(&self, cloth: &Cloth, x: &[Vec3]) -> Vec<f64> {
+        parallel::map(self.contacts.len(), MEDIUM, |k| self.load(cloth, x, &self.contacts[k]))
     }
 }
 
 /// All forces on the nodes at `x`, N.
-pub(crate) fn cloth_forces(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Vec3> {
-    let mut out = free_forces(cloth, x, forces);
-    for k in 0..forces.contacts.len() {
+pub(crate) fn cloth_forces(cloth: &Cloth, links: &Links, x: &[Vec3], forces: &Forces) -> Vec<Vec3> {
+    let mut out = free_forces(cloth, links, x, forces);
+    let pushes = parallel::map(forces.contacts.len(), MEDIUM, |k| {
         let load = forces.law.load(cloth, x, &forces.contacts[k]);
-        if load > 0.0 {
-            let grip = forces.hold(cloth, x, k, load).map(|hold| hold.grip());
-            push(&mut out, &forces.contacts[k], load, grip);
+        (load > 0.0).then(|| (load, forces.hold(cloth, x, k, load).map(|hold| hold.grip())))
+    });
+    for (contact, push_of) in forces.contacts.iter().zip(pushes) {
+        if let Some((load, grip)) = push_of {
+            push(&mut out, contact, load, grip);
         }
     }
     out
@@ -85,29 +99,10 @@ pub(super) fn push(out: &mut [Vec3], contact: &Contact, load: f64, grip: Option<
     }
 }
 
-/// The forces without contact, N.
-pub(super) fn free_forces(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Vec3> {
-    let mut out: Vec<Vec3> = (0..x.len())
-        .into_par_iter()
-        .with_min_len(super::ONE_THREAD)
-        .map(|i| -cloth.bending.gradient(x, i) - Vec3::y() * (cloth.mass[i] * GRAVITY * forces.gravity))
-        .collect();
-    for s in &cloth.springs {
-        let f = s.stretch.pull(&cloth.laws[s.stretch.law as usize], s.span(x));
-        out[s.ends[0] as usize] += f;
-        out[s.ends[1] as usize] -= f;
-    }
-    for t in &cloth.threads {
-        let f = t.stretch.pull(&cloth.laws[t.stretch.law as usize], t.span(x));
-        for (n, share) in t.nodes.iter().zip(t.shares()) {
-            out[*n as usize] -= f * share;
-        }
-    }
-    for shear in &cloth.shears {
-        for (n, f) in shear.nodes.iter().zip(shear.forces(x)) {
-            out[*n as usize] += f;
-        }
-    }
+/// The forces without contact, N. `links` are those of `cloth`.
+pub(super) fn free_forces(cloth: &Cloth, links: &Links, x: &[Vec3], forces: &Forces) -> Vec<Vec3> {
+    let first = |i: usize| -cloth.bending.gradient(x, i) - Vec3::y() * (cloth.mass[i] * GRAVITY * forces.gravity);
+    let mut out = links.forces(cloth, x, first);
     for crease in &cloth.creases {
         for (n, f) in crease.nodes.iter().zip(crease.forces(x)) {
             out[*n as usize] += f;

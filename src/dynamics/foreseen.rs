@@ -10,31 +10,29 @@
 //! is treated alike, because the angle between threads that rotate out of their plane has an error of the same kind.
 //! Cloth comes to rest in half the conjugate gradient iterations.
 
-use super::model::Cloth;
+use super::model::{Cloth, Element};
 use super::part::those;
 use super::shear::ShearTangent;
 use super::springs::{SHORTEST, Stretch, StretchLaw, StretchTangent};
-use crate::geometry::Vec3;
+use crate::geometry::{Vec2, Vec3};
+use crate::parallel::{self, MEDIUM};
 
-/// Loads predicted by a step. Empty lists mean the loads at the present position.
+/// Loads predicted by a step. An empty list means the loads at the present position.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Loads {
-    /// Of every spring, N/m.
-    springs: Vec<f64>,
-    /// Of every [`Thread`](super::Thread), N/m.
-    threads: Vec<f64>,
-    /// Of every [`Shear`](super::Shear), N·m per radian.
-    shears: Vec<f64>,
+    /// Of every element: N/m of springs and threads, N·m per radian of shears.
+    of_elements: Vec<f64>,
 }
 
 impl Loads {
-    /// The loads of the selected springs, threads and shears.
-    pub(super) fn of(&self, springs: &[bool], threads: &[bool], shears: &[bool]) -> Self {
-        Self {
-            springs: those(&self.springs, springs),
-            threads: those(&self.threads, threads),
-            shears: those(&self.shears, shears),
-        }
+    /// The loads of the selected elements.
+    pub(super) fn of(&self, elements: &[bool]) -> Self {
+        Self { of_elements: those(&self.of_elements, elements) }
+    }
+
+    /// The load of an element.
+    fn get(&self, element: usize) -> Option<f64> {
+        self.of_elements.get(element).copied()
     }
 }
 
@@ -45,61 +43,68 @@ pub(super) struct Foreseen {
     pub(super) loads: Loads,
     /// Energy of the cloth beyond that of the linear model, J.
     pub(super) beyond: f64,
+    /// Energy of all elements at the end of the step, J.
+    pub(super) elements: f64,
+}
+
+/// Prediction for one element.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ElementForeseen {
+    /// The load that the linear model predicts: N/m, or N·m per radian.
+    pub(super) load: f64,
+    /// Energy at the end of the step beyond that of the linear model, J.
+    pub(super) beyond: f64,
+    /// Energy at the end of the step, J.
+    pub(super) energy: f64,
+}
+
+/// Tangent stiffness of an element.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum ElementTangent {
+    /// Of a spring or thread.
+    Stretch(StretchTangent),
+    /// Of a shear.
+    Shear(ShearTangent),
 }
 
 impl Cloth {
     /// Prediction of the linear model of a step from `x` to `to`, for springs and shear.
     pub(super) fn foresee(&self, x: &[Vec3], to: &[Vec3]) -> Foreseen {
-        let mut beyond = 0.0;
-        let mut stretch = |stretch: &Stretch, [before, after]: [Vec3; 2]| {
-            let (load, more) = stretch.foresee(&self.laws[stretch.law as usize], before, after);
-            beyond += more;
-            load
-        };
-        let springs = self.springs.iter().map(|s| stretch(&s.stretch, [x, to].map(|x| s.span(x)))).collect();
-        let threads = self.threads.iter().map(|t| stretch(&t.stretch, [x, to].map(|x| t.span(x)))).collect();
-        let shears = self.shears.iter().map(|s| {
-            let (load, more) = s.foresee(x, to);
-            beyond += more;
-            load
-        });
-        let shears = shears.collect();
-        Foreseen { loads: Loads { springs, threads, shears }, beyond }
+        let mut of_elements = vec![0.0; self.elements()];
+        let [beyond, elements] = <[f64; 2]>::from(parallel::for_each_sum(&mut of_elements, MEDIUM, |number, load| {
+            let one = match self.element(number) {
+                Element::Spring(s) => s.stretch.foresee(self.law(&s.stretch), s.span(x), s.span(to)),
+                Element::Thread(t) => t.stretch.foresee(self.law(&t.stretch), t.span(x), t.span(to)),
+                Element::Shear(s) => s.foresee(x, to),
+            };
+            *load = one.load;
+            Vec2::new(one.beyond, one.energy)
+        }));
+        Foreseen { loads: Loads { of_elements }, beyond, elements }
     }
 
-    /// Tangent stiffness of spring number `k` at `x`. Its transverse part uses the load predicted by the last step, if
-    /// there is one.
-    pub(super) fn spring_tangent(&self, k: usize, x: &[Vec3]) -> StretchTangent {
-        let spring = &self.springs[k];
-        self.tangent_of(&spring.stretch, spring.span(x), self.foreseen.springs.get(k))
-    }
-
-    /// Tangent stiffness of thread number `k` at `x`, as for springs.
-    pub(super) fn thread_tangent(&self, k: usize, x: &[Vec3]) -> StretchTangent {
-        let thread = &self.threads[k];
-        self.tangent_of(&thread.stretch, thread.span(x), self.foreseen.threads.get(k))
-    }
-
-    fn tangent_of(&self, stretch: &Stretch, span: Vec3, foreseen: Option<&f64>) -> StretchTangent {
-        stretch.tangent(&self.laws[stretch.law as usize], span, foreseen.copied())
-    }
-
-    /// Tangent stiffness of shear number `k` at `x`, as for springs.
-    pub(super) fn shear_tangent(&self, k: usize, x: &[Vec3]) -> ShearTangent {
-        self.shears[k].tangent(x, self.foreseen.shears.get(k).copied())
+    /// Tangent stiffness of an element at `x`. Its geometric part uses the load predicted by the last step, if there is
+    /// one.
+    pub(super) fn tangent(&self, number: usize, x: &[Vec3]) -> ElementTangent {
+        let load = self.foreseen.get(number);
+        match self.element(number) {
+            Element::Spring(s) => ElementTangent::Stretch(s.stretch.tangent(self.law(&s.stretch), s.span(x), load)),
+            Element::Thread(t) => ElementTangent::Stretch(t.stretch.tangent(self.law(&t.stretch), t.span(x), load)),
+            Element::Shear(s) => ElementTangent::Shear(s.tangent(x, load)),
+        }
     }
 }
 
 impl Stretch {
-    /// The load (N/m) that the linear model predicts when the vector between the ends changes from `before` to `after`,
-    /// and the energy at `after` beyond that of the linear model, J.
-    fn foresee(&self, law: &StretchLaw, before: Vec3, after: Vec3) -> (f64, f64) {
+    /// Prediction of the linear model when the vector between the ends changes from `before` to `after`.
+    fn foresee(&self, law: &StretchLaw, before: Vec3, after: Vec3) -> ElementForeseen {
         let length = before.norm().max(SHORTEST);
         let linear = (length + before.dot(&(after - before)) / length) / self.rest - 1.0;
         let exact = after.norm() / self.rest - 1.0;
-        let load = law.load(linear);
-        let beyond = law.energy(exact) - law.energy(linear) - load * (exact - linear);
-        (load, beyond * self.width * self.rest)
+        let (load, energy) = (law.load(linear), law.energy(exact));
+        let beyond = energy - law.energy(linear) - load * (exact - linear);
+        let volume = self.width * self.rest;
+        ElementForeseen { load, beyond: beyond * volume, energy: energy * volume }
     }
 }
 
@@ -113,11 +118,12 @@ mod tests {
         let spring = Stretch { rest: 0.01, width: 0.02, law: 0 };
         let law = StretchLaw::linear(500.0);
         let before = Vec3::x() * 0.0101;
-        let (load, beyond) = spring.foresee(&law, before, Vec3::x() * 0.0103);
+        let ElementForeseen { load, beyond, energy } = spring.foresee(&law, before, Vec3::x() * 0.0103);
+        assert_relative_eq!(energy, spring.energy(&law, Vec3::x() * 0.0103), max_relative = 1e-12);
         assert_relative_eq!(load, 15.0, epsilon = 1e-9);
         assert_relative_eq!(beyond, 0.0, epsilon = 1e-15);
         // Turned by 1 mm across itself it is longer by √(10.1² + 1) − 10.1 mm.
-        let (load, beyond) = spring.foresee(&law, before, before + Vec3::y() * 1e-3);
+        let ElementForeseen { load, beyond, .. } = spring.foresee(&law, before, before + Vec3::y() * 1e-3);
         assert_relative_eq!(load, 5.0, epsilon = 1e-9);
         let strain = (10.1f64.hypot(1.0) - 10.1) / 10.0;
         assert_relative_eq!(beyond, 0.5 * 500.0 * strain * strain * 0.02 * 0.01, max_relative = 1e-9);

@@ -6,6 +6,7 @@ use foldhash::fast::FixedState;
 
 use crate::contact::Contact;
 use crate::geometry::{Mat3, Vec3};
+use crate::parallel::{self, MEDIUM};
 
 /// Tangential displacement stored per contact. A contact holds like a spring, up to μ times its load. Beyond that it
 /// slides, and the stored displacement stays at the limit. Because it is stored from step to step, a garment can come
@@ -151,7 +152,8 @@ impl Friction {
 
     /// Transfers the memory from the contacts of the last search to those of a new one.
     pub(super) fn detected(&mut self, contacts: &[Contact]) {
-        self.memory = contacts.iter().map(|c| self.touching.get(&key(c)).copied().unwrap_or_default()).collect();
+        let of = |k: usize| self.touching.get(&key(&contacts[k])).copied().unwrap_or_default();
+        self.memory = parallel::map(contacts.len(), MEDIUM, of);
     }
 
     /// The memory of `contacts`.
@@ -192,20 +194,22 @@ impl Friction {
         Some(Hold { drawn, stiffness, most, across: across(contact), slid })
     }
 
-    /// Energy of the springs, J, for the given normal forces (one per contact).
-    pub(super) fn energy(&self, x: &[Vec3], contacts: &[Contact], loads: &[f64], mu: &[f64]) -> f64 {
-        let holds = contacts.iter().zip(loads).enumerate().filter_map(|(k, (c, load))| self.hold(k, c, x, *load, mu));
-        holds.map(|hold| hold.energy(Vec3::zeros())).sum()
-    }
-
     /// Updates the memory after a step to `x`: sticking contacts add their displacement, sliding ones stay at their
     /// limit, open ones forget. `load(contact)` is the normal force.
-    pub(super) fn update(&mut self, x: &[Vec3], contacts: &[Contact], mu: &[f64], load: impl Fn(&Contact) -> f64) {
+    pub(super) fn update(
+        &mut self,
+        x: &[Vec3],
+        contacts: &[Contact],
+        mu: &[f64],
+        load: impl Fn(&Contact) -> f64 + Sync,
+    ) {
+        let holds = parallel::map(contacts.len(), MEDIUM, |k| {
+            let normal_force = load(&contacts[k]);
+            (normal_force, self.hold(k, &contacts[k], x, normal_force, mu))
+        });
         let mut on_body = vec![(Vec3::zeros(), 0.0); x.len()];
         self.touching.clear();
-        for (k, contact) in contacts.iter().enumerate() {
-            let normal_force = load(contact);
-            let hold = self.hold(k, contact, x, normal_force, mu);
+        for (k, (contact, (normal_force, hold))) in contacts.iter().zip(holds).enumerate() {
             self.memory[k] = hold.map_or_else(Memory::default, |hold| Memory {
                 drawn: hold.kept(Vec3::zeros()),
                 slid: hold.slid || hold.slides(hold.drawn),

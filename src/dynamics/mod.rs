@@ -12,6 +12,7 @@ pub mod explicit;
 mod force;
 mod foreseen;
 mod friction;
+mod links;
 mod model;
 mod near;
 mod newton;
@@ -21,6 +22,7 @@ mod shear;
 mod springs;
 mod step;
 mod thread;
+mod touching;
 mod world;
 
 pub use bending::Bending;
@@ -37,7 +39,3 @@ pub use springs::{Spring, Stretch, StretchLaw};
 pub use step::{StepError, Stepper};
 pub use thread::Thread;
 pub use world::{NewtonStep, World};
-
-/// Least number of nodes or springs per thread. One thread handles so many in a fraction of a millisecond, and waking
-/// another for fewer costs more than it saves (a tenth of all CPU time was measured in waking threads).
-const ONE_THREAD: usize = 8192;

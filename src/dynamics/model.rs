@@ -13,6 +13,7 @@ use super::thread::{Thread, threads, weaves};
 use crate::fabric::Fabric;
 use crate::geometry::{Topology, Vec2, Vec3, sorted_pair};
 use crate::mesh::ClothMesh;
+use crate::parallel::{self, MEDIUM};
 use crate::pattern::{Garment, Give};
 
 /// The springs of the cloth.
@@ -96,6 +97,28 @@ pub struct Cloth {
     pub held: Vec<u32>,
     /// Loads of springs and shear as the last step foresaw them.
     pub(super) foreseen: Loads,
+}
+
+/// What resists within the plane of the cloth.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Element<'a> {
+    /// A spring.
+    Spring(&'a Spring),
+    /// A thread of a triangle off the grid.
+    Thread(&'a Thread),
+    /// The shear of a triangle.
+    Shear(&'a Shear),
+}
+
+impl<'a> Element<'a> {
+    /// Its nodes.
+    pub(super) fn nodes(self) -> &'a [u32] {
+        match self {
+            Self::Spring(spring) => &spring.ends,
+            Self::Thread(thread) => &thread.nodes,
+            Self::Shear(shear) => &shear.nodes,
+        }
+    }
 }
 
 /// Pairs of nodes with a spring or the side of a triangle between them, smaller first, sorted.
@@ -314,14 +337,43 @@ impl Cloth {
         self.foreseen = foresaw;
     }
 
+    /// Number of springs, threads and shears.
+    pub(super) fn elements(&self) -> usize {
+        self.springs.len() + self.threads.len() + self.shears.len()
+    }
+
+    /// The element with this number: springs come first, then threads, then shears.
+    pub(super) fn element(&self, number: usize) -> Element<'_> {
+        let (springs, threads) = (self.springs.len(), self.threads.len());
+        match number {
+            k if k < springs => Element::Spring(&self.springs[k]),
+            k if k < springs + threads => Element::Thread(&self.threads[k - springs]),
+            k => Element::Shear(&self.shears[k - springs - threads]),
+        }
+    }
+
+    /// The law of a stretch.
+    pub(super) fn law(&self, stretch: &Stretch) -> &StretchLaw {
+        &self.laws[stretch.law as usize]
+    }
+
     /// Elastic energy (stretch, shear, bending and creases), J.
     pub fn elastic_energy(&self, x: &[Vec3]) -> f64 {
-        let springs = self.springs.iter().map(|s| (s.stretch, s.span(x)));
-        let threads = self.threads.iter().map(|t| (t.stretch, t.span(x)));
-        let stretch: f64 = springs.chain(threads).map(|(s, d)| s.energy(&self.laws[s.law as usize], d)).sum();
-        let shear: f64 = self.shears.iter().map(|s| s.energy(x)).sum();
-        let creases: f64 = self.creases.iter().map(|c| c.energy(x)).sum();
-        stretch + shear + self.bending.energy(x) + creases
+        self.energy_of_elements(x) + self.energy_of_folds(x)
+    }
+
+    /// Energy of springs, threads and shears, J.
+    pub(super) fn energy_of_elements(&self, x: &[Vec3]) -> f64 {
+        parallel::sum(self.elements(), MEDIUM, |number| match self.element(number) {
+            Element::Spring(s) => s.stretch.energy(self.law(&s.stretch), s.span(x)),
+            Element::Thread(t) => t.stretch.energy(self.law(&t.stretch), t.span(x)),
+            Element::Shear(s) => s.energy(x),
+        })
+    }
+
+    /// Energy of bending and creases, J.
+    pub(super) fn energy_of_folds(&self, x: &[Vec3]) -> f64 {
+        self.bending.energy(x) + self.creases.iter().map(|c| c.energy(x)).sum::<f64>()
     }
 }
 

@@ -4,11 +4,9 @@
 //! apart, in any single step: nineteen out of twenty in a garment that hangs almost still. A gap shrinks by no more
 //! than its nodes move. This cheap bound selects the contacts to evaluate.
 
-use rayon::prelude::*;
-
-use super::ONE_THREAD;
 use crate::contact::Contact;
 use crate::geometry::Vec3;
+use crate::parallel::{self, LIGHT, MEDIUM};
 
 /// Expected motion of a node in a step, in multiples of its motion in the last step ([`LITTLE`] is added). Nodes that
 /// go further make the selection be renewed.
@@ -103,15 +101,15 @@ impl<'a> Near<'a> {
     pub(super) fn retain(
         &mut self,
         x: &[Vec3],
-        stay: impl Fn(&Contact, Option<u32>) -> bool,
+        stay: impl Fn(&Contact, Option<u32>) -> bool + Sync,
         wanted: impl Fn(u32) -> bool,
     ) -> Vec<(u32, Contact<'a>)> {
+        let stays = parallel::map(self.all.len(), LIGHT, |k| stay(&self.all[k], self.found[k].element));
         let mut left = Vec::new();
-        let mut stays = Vec::with_capacity(self.all.len());
-        for (contact, found) in self.all.iter().zip(&self.found) {
-            stays.push(stay(contact, found.element));
-            if let Some(element) = found.element.filter(|&k| !stays[stays.len() - 1] && wanted(k)) {
-                let mut contact = *contact;
+        for k in (0..stays.len()).filter(|&k| !stays[k]) {
+            let found = &self.found[k];
+            if let Some(element) = found.element.filter(|&k| wanted(k)) {
+                let mut contact = self.all[k];
                 turn(&mut contact, found, found.turned == self.step, x);
                 left.push((element, contact));
             }
@@ -142,11 +140,11 @@ impl<'a> Near<'a> {
 
     /// Adds the contacts found at `x`. The motion of every node is measured from its `origin`.
     pub(super) fn add(&mut self, sources: &[Source<'a>], x: &[Vec3], origin: &[Vec3]) {
-        let gone: Vec<f64> = x.iter().zip(origin).map(|(x, o)| (x - o).norm()).collect();
+        let gone = parallel::map(x.len(), LIGHT, |i| (x[i] - origin[i]).norm());
         // In the step that now begins.
         let turned = self.step + 1;
         self.all.extend(sources.iter().map(|s| s.0));
-        self.found.par_extend(sources.par_iter().with_min_len(ONE_THREAD).map(|s| Found::new(s, x, &gone, turned)));
+        self.found.extend(parallel::map(sources.len(), MEDIUM, |k| Found::new(&sources[k], x, &gone, turned)));
     }
 
     /// Sets the expected motion of nodes that went from `last` to `x`.
@@ -186,7 +184,7 @@ impl<'a> Near<'a> {
             turn_on(&mut contact, to);
             contact
         };
-        self.contacts.par_iter().with_min_len(ONE_THREAD).map(turned).collect()
+        parallel::map(self.contacts.len(), MEDIUM, |k| turned(&self.contacts[k]))
     }
 
     /// The contacts that must be kept apart.
@@ -197,7 +195,7 @@ impl<'a> Near<'a> {
 
     fn choose(&mut self, x: &[Vec3], origin: &[Vec3]) {
         let (step, gap) = (self.step, self.gap);
-        let moved: Vec<f64> = x.iter().zip(origin).zip(&self.may).map(|((x, o), may)| (x - o).norm() + may).collect();
+        let moved = parallel::map(x.len(), LIGHT, |i| (x[i] - origin[i]).norm() + self.may[i]);
         let matters = |found: &mut Found, contact: &mut Contact| {
             let least = found.least(&moved);
             let matters = least < gap || least.is_nan();
@@ -207,17 +205,8 @@ impl<'a> Near<'a> {
             }
             matters
         };
-        let chosen: Vec<bool> = self
-            .found
-            .par_iter_mut()
-            .zip(self.all.par_iter_mut())
-            .with_min_len(ONE_THREAD)
-            .map(|(found, contact)| matters(found, contact))
-            .collect();
-        self.number.clear();
-        self.number.extend((0..chosen.len() as u32).filter(|&k| chosen[k as usize]));
-        self.contacts.clear();
-        self.contacts.extend(self.number.iter().map(|&k| self.all[k as usize]));
+        self.number = parallel::select(&mut self.found, &mut self.all, LIGHT, matters);
+        self.contacts = parallel::map(self.number.len(), LIGHT, |k| self.all[self.number[k] as usize]);
     }
 }
 

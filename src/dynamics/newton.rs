@@ -8,17 +8,15 @@
 //! Contacts that begin or cease to push, to hold or to slide are kinks in the energy. A step that takes them on their
 //! wrong side need not lower the energy: garments swung to and fro on their friction.
 
-use rayon::prelude::*;
-
-use super::contact_law::Press;
 use super::force::{Forces, free_forces};
 use super::friction::{Grip, Hold};
+use super::links::{Links, Stiffness};
 use super::model::Cloth;
-use super::shear::ShearTangent;
-use super::springs::StretchTangent;
 use super::step::{Pushing, Reuse, StepError, Stepper, opening, presses};
+use super::touching::Touching;
 use crate::contact::Contact;
-use crate::geometry::{Mat3, Vec3};
+use crate::geometry::Vec3;
+use crate::parallel::{self, LIGHT, MEDIUM};
 
 /// Most conjugate gradient iterations of a step. More would cost more than a new factor.
 const ITERATIONS: usize = 16;
@@ -52,19 +50,15 @@ impl Proposal {
     }
 }
 
-/// The parts of the true stiffness at one position.
+/// The true stiffness of the cloth at one position, without contacts.
 struct Tangent<'a> {
     cloth: &'a Cloth,
-    dt: f64,
-    forces: &'a Forces<'a>,
-    presses: &'a [Press],
-    springs: Vec<StretchTangent>,
-    threads: Vec<StretchTangent>,
-    shears: Vec<ShearTangent>,
+    links: &'a Links,
+    /// One over the square of the time step, 1/s².
+    inertia: f64,
+    stiffness: Stiffness,
     /// [`super::crease::Crease::root`] of every crease.
     creases: Vec<[Vec3; 4]>,
-    /// Numbers of the active contacts, with the stiffness of their friction, N/m.
-    grips: Vec<(usize, Mat3)>,
 }
 
 impl Stepper {
@@ -80,25 +74,24 @@ impl Stepper {
         forces: &Forces,
         radius: f64,
     ) -> Result<Proposal, StepError> {
-        let free = free_forces(cloth, x, forces);
+        let links = self.links.clone();
+        let free = free_forces(cloth, &links, x, forces);
         let presses = presses(cloth, x, forces);
-        let holds: Vec<Option<Hold>> =
-            presses.iter().enumerate().map(|(k, p)| forces.hold(cloth, x, k, p.load)).collect();
+        let holds = parallel::map(presses.len(), MEDIUM, |k| forces.hold(cloth, x, k, presses[k].load));
+        let tangent = Tangent::new(cloth, &links, x, dt);
         let mut step = Proposal::none(x.len());
         let mut active: Vec<bool> = presses.iter().map(|p| p.load > 0.0).collect();
         let mut grips: Vec<Option<Grip>> = holds.iter().map(|hold| Some(hold.as_ref()?.grip())).collect();
         for round in 1..=ROUNDS {
             let pushing = Pushing { presses: &presses, active: &active, grips: &grips };
+            let touching = Touching::new(forces.contacts, &pushing, x.len());
             if round == 1 {
-                self.prepare(cloth, x, dt, forces, &pushing, OLD)?;
+                self.prepare(cloth, x, dt, forces, (&pushing, &touching), OLD)?;
             }
-            let tangent = Tangent::new(cloth, x, dt, forces, &pushing);
-            let next = self.truncated(&tangent, &pushing.forces(&free, forces), &step, radius)?;
-            let model = Model { tangent, free: &free, holds: &holds, pushing };
+            let next = self.truncated(&tangent, &touching, &pushing.forces(&free, forces), &step, radius)?;
+            let model = Model { tangent: &tangent, contacts: forces.contacts, free: &free, holds: &holds, pushing };
             let (to, misjudged) = model.best_on_the_way(&step, next);
-            let after = |k: usize| Some(holds[k].as_ref()?.grip_after(way(&forces.contacts[k], &to.d)));
-            grips = (0..holds.len()).map(after).collect();
-            active = presses.iter().zip(forces.contacts).map(|(p, c)| p.after(opening(c, &to.d)) > 0.0).collect();
+            (active, grips) = model.after(&to.d);
             if to.gain >= step.gain {
                 step = to;
                 if misjudged <= MISJUDGED * step.gain {
@@ -109,11 +102,18 @@ impl Stepper {
         Ok(step)
     }
 
-    /// Conjugate gradients on the tangent, starting from the step `from`.
-    fn truncated(&self, tangent: &Tangent, rhs: &[Vec3], from: &Proposal, radius: f64) -> Result<Vec<Vec3>, StepError> {
+    /// Conjugate gradients on the tangent with the contacts `touching`, starting from the step `from`.
+    fn truncated(
+        &self,
+        tangent: &Tangent,
+        touching: &Touching,
+        rhs: &[Vec3],
+        from: &Proposal,
+        radius: f64,
+    ) -> Result<Vec<Vec3>, StepError> {
         let mut d = from.d.clone();
-        let resisted = tangent.with_contacts(from.resisted.clone(), &d);
-        let mut r: Vec<Vec3> = rhs.iter().zip(resisted).map(|(r, a)| r - a).collect();
+        let pushed_back = touching.resist(&d);
+        let mut r = parallel::map(d.len(), LIGHT, |i| rhs[i] - (from.resisted[i] + touching.gather(&pushed_back, i)));
         let mut z = self.apply_inverse(&r)?;
         let mut p = z.clone();
         let mut rz = dot(&r, &z);
@@ -122,85 +122,47 @@ impl Stepper {
             if rz <= solved {
                 break;
             }
-            let ap = tangent.apply(&p);
+            let ap = tangent.apply(&p, Some(touching));
             let curvature = dot(&p, &ap);
             if curvature <= 0.0 {
                 let part = ((radius - tangent.change(&d)) / tangent.change(&p)).max(0.0);
-                d.iter_mut().zip(&p).for_each(|(d, p)| *d += p * part);
+                advance(&mut d, &p, part);
                 break;
             }
             let share = rz / curvature;
-            let next: Vec<Vec3> = d.iter().zip(&p).map(|(d, p)| d + p * share).collect();
-            let (from, to) = (tangent.change(&d), tangent.change(&next));
-            if to > radius {
-                let part = share * ((radius - from) / (to - from)).clamp(0.0, 1.0);
-                d.iter_mut().zip(&p).for_each(|(d, p)| *d += p * part);
+            let next = on_the_way(&d, &p, share);
+            if let Some(to) = tangent.change_beyond(&next, radius) {
+                let from = tangent.change(&d);
+                advance(&mut d, &p, share * ((radius - from) / (to - from)).clamp(0.0, 1.0));
                 break;
             }
             d = next;
-            r.iter_mut().zip(&ap).for_each(|(r, ap)| *r -= ap * share);
+            advance(&mut r, &ap, -share);
             z = self.apply_inverse(&r)?;
             let new = dot(&r, &z);
             let again = new / rz;
             rz = new;
-            p.iter_mut().zip(&z).for_each(|(p, z)| *p = z + *p * again);
+            parallel::for_each(&mut p, LIGHT, |i, p| *p = z[i] + *p * again);
         }
         Ok(d)
     }
 }
 
 impl<'a> Tangent<'a> {
-    fn new(cloth: &'a Cloth, x: &'a [Vec3], dt: f64, forces: &'a Forces<'a>, pushing: &Pushing<'a>) -> Self {
-        let springs = (0..cloth.springs.len()).map(|k| cloth.spring_tangent(k, x)).collect();
-        let threads = (0..cloth.threads.len()).map(|k| cloth.thread_tangent(k, x)).collect();
-        let shears = (0..cloth.shears.len()).map(|k| cloth.shear_tangent(k, x)).collect();
+    fn new(cloth: &'a Cloth, links: &'a Links, x: &[Vec3], dt: f64) -> Self {
         let creases = cloth.creases.iter().map(|c| c.root(x)).collect();
-        let grips =
-            pushing.numbers().map(|k| (k, pushing.grips[k].map_or_else(Mat3::zeros, |g| g.stiffness))).collect();
-        Self { cloth, dt, forces, presses: pushing.presses, springs, threads, shears, creases, grips }
+        Self { cloth, links, inertia: 1.0 / (dt * dt), stiffness: links.stiffness(cloth, x), creases }
     }
 
-    /// (M/Δt² + true stiffness) p, with the active contacts.
-    fn apply(&self, p: &[Vec3]) -> Vec<Vec3> {
-        self.with_contacts(self.apply_free(p), p)
-    }
-
-    /// Adds the resistance of the active contacts against `p` to the cloth's own, `out`.
-    fn with_contacts(&self, mut out: Vec<Vec3>, p: &[Vec3]) -> Vec<Vec3> {
-        for (k, grip) in &self.grips {
-            let (contact, press) = (&self.forces.contacts[*k], &self.presses[*k]);
-            let way = way(contact, p);
-            let back = contact.normal * (press.slope * contact.normal.dot(&way)) + grip * way;
-            for (i, w) in contact.parts() {
-                out[i] += back * w;
-            }
-        }
-        out
-    }
-
-    fn apply_free(&self, p: &[Vec3]) -> Vec<Vec3> {
-        let (cloth, inertia) = (self.cloth, 1.0 / (self.dt * self.dt));
-        let mut out: Vec<Vec3> = (0..p.len())
-            .into_par_iter()
-            .with_min_len(super::ONE_THREAD)
-            .map(|i| cloth.bending.gradient(p, i) + p[i] * (cloth.mass[i] * inertia))
-            .collect();
-        for (s, tangent) in cloth.springs.iter().zip(&self.springs) {
-            let f = tangent.apply(s.span(p));
-            out[s.ends[0] as usize] -= f;
-            out[s.ends[1] as usize] += f;
-        }
-        for (t, tangent) in cloth.threads.iter().zip(&self.threads) {
-            let f = tangent.apply(t.span(p));
-            for (n, share) in t.nodes.iter().zip(t.shares()) {
-                out[*n as usize] += f * share;
-            }
-        }
-        for (shear, tangent) in cloth.shears.iter().zip(&self.shears) {
-            for (n, f) in shear.nodes.iter().zip(shear.at_nodes(tangent.apply(shear.legs(p)))) {
-                out[*n as usize] += f;
-            }
-        }
+    /// (M/Δt² + true stiffness) p, with the contacts `touching`.
+    fn apply(&self, p: &[Vec3], touching: Option<&Touching>) -> Vec<Vec3> {
+        let cloth = self.cloth;
+        let pushed_back = touching.map(|t| (t, t.resist(p)));
+        let mut out = parallel::map(p.len(), MEDIUM, |i| {
+            let own = cloth.bending.gradient(p, i) + p[i] * (cloth.mass[i] * self.inertia);
+            let free = own + self.links.times(&self.stiffness, p, i);
+            pushed_back.as_ref().map_or(free, |(t, resistances)| free + t.gather(resistances, i))
+        });
         for (crease, root) in cloth.creases.iter().zip(&self.creases) {
             let turned: f64 = crease.nodes.iter().zip(root).map(|(&n, g)| g.dot(&p[n as usize])).sum();
             for (n, g) in crease.nodes.iter().zip(root) {
@@ -213,9 +175,29 @@ impl<'a> Tangent<'a> {
     /// Largest change of an edge by the step `d`, metres. The motion of single nodes does not matter: a garment that
     /// sways as a whole turns no spring.
     fn change(&self, d: &[Vec3]) -> f64 {
-        let square = |e: &[u32; 2]| (d[e[0] as usize] - d[e[1] as usize]).norm_squared();
-        self.cloth.edges.iter().map(square).fold(0.0, f64::max).sqrt()
+        let edges = &self.cloth.edges;
+        let square = |k: usize| (d[edges[k][0] as usize] - d[edges[k][1] as usize]).norm_squared();
+        parallel::largest(edges.len(), LIGHT, square).sqrt()
     }
+
+    /// [`Tangent::change`] if it is more than `radius`. No edge changes by more than its two nodes move.
+    fn change_beyond(&self, d: &[Vec3], radius: f64) -> Option<f64> {
+        let longest = parallel::largest(d.len(), LIGHT, |i| d[i].norm_squared()).sqrt();
+        if 2.0 * longest <= radius {
+            return None;
+        }
+        Some(self.change(d)).filter(|change| *change > radius)
+    }
+}
+
+/// Points after the share of a way.
+fn on_the_way(from: &[Vec3], way: &[Vec3], share: f64) -> Vec<Vec3> {
+    parallel::map(from.len(), LIGHT, |i| from[i] + way[i] * share)
+}
+
+/// Moves points by the share of a way.
+fn advance(points: &mut [Vec3], way: &[Vec3], share: f64) {
+    parallel::for_each(points, LIGHT, |i, point| *point += way[i] * share);
 }
 
 /// Displacement of a contact by the step `d`, metres.
@@ -225,7 +207,8 @@ fn way(contact: &Contact, d: &[Vec3]) -> Vec3 {
 
 /// Model of the energy near one position: quadratic without contact, and piecewise for every contact.
 struct Model<'a> {
-    tangent: Tangent<'a>,
+    tangent: &'a Tangent<'a>,
+    contacts: &'a [Contact<'a>],
     /// Forces without contact, N.
     free: &'a [Vec3],
     holds: &'a [Option<Hold>],
@@ -247,11 +230,11 @@ impl Model<'_> {
     /// The step of lowest energy on the way from `from` to `to`, which is halved again and again, and its misjudged
     /// energy. If none lowers the energy, it is the shortest one tried.
     fn best_on_the_way(&self, from: &Proposal, to: Vec<Vec3>) -> (Proposal, f64) {
-        let way: Vec<Vec3> = to.iter().zip(&from.d).map(|(b, a)| b - a).collect();
-        let resisted = self.tangent.apply_free(&way);
+        let way = on_the_way(&to, &from.d, -1.0);
+        let resisted = self.tangent.apply(&way, None);
         let at = |share: f64| {
-            let on = |from: &[Vec3], way: &[Vec3]| from.iter().zip(way).map(|(a, w)| a + w * share).collect();
-            let (d, resisted): (Vec<Vec3>, Vec<Vec3>) = (on(&from.d, &way), on(&from.resisted, &resisted));
+            let d = on_the_way(&from.d, &way, share);
+            let resisted = on_the_way(&from.resisted, &resisted, share);
             let Judged { gain, misjudged } = self.judge(&d, &resisted);
             (Proposal { d, resisted, gain }, misjudged)
         };
@@ -269,26 +252,43 @@ impl Model<'_> {
 
     /// Judges the step `d`, where `resisted` is the resistance of the cloth.
     fn judge(&self, d: &[Vec3], resisted: &[Vec3]) -> Judged {
-        let mut out = Judged { gain: dot(self.free, d) - 0.5 * dot(d, resisted), misjudged: 0.0 };
-        let Pushing { presses, active, grips } = self.pushing;
-        for (k, (contact, press)) in self.tangent.forces.contacts.iter().zip(presses).enumerate() {
-            let after = press.after(opening(contact, d));
-            let energy = |load: f64| load.max(0.0).powi(2) / (2.0 * press.slope);
-            out.gain += energy(press.load) - energy(after);
-            if active[k] != (after > 0.0) {
-                out.misjudged += energy(after.abs());
-            }
-            if let (Some(hold), Some(grip)) = (&self.holds[k], &grips[k]) {
-                let way = way(contact, d);
-                out.gain += hold.energy(Vec3::zeros()) - hold.energy(way);
-                let error = grip.force - grip.stiffness * way - hold.force(way);
-                out.misjudged += 0.5 * error.norm() * way.norm();
-            }
+        let without = dot(self.free, d) - 0.5 * dot(d, resisted);
+        let of_contacts = parallel::map(self.contacts.len(), MEDIUM, |k| self.judge_contact(k, d));
+        of_contacts.into_iter().fold(Judged { gain: without, misjudged: 0.0 }, |sum, one| Judged {
+            gain: sum.gain + one.gain,
+            misjudged: sum.misjudged + one.misjudged,
+        })
+    }
+
+    /// The part of contact number `k` in the judgement of the step `d`.
+    fn judge_contact(&self, k: usize, d: &[Vec3]) -> Judged {
+        let (contact, press) = (&self.contacts[k], &self.pushing.presses[k]);
+        let after = press.after(opening(contact, d));
+        let energy = |load: f64| load.max(0.0).powi(2) / (2.0 * press.slope);
+        let mut out = Judged { gain: energy(press.load) - energy(after), misjudged: 0.0 };
+        if self.pushing.active[k] != (after > 0.0) {
+            out.misjudged += energy(after.abs());
+        }
+        if let (Some(hold), Some(grip)) = (&self.holds[k], &self.pushing.grips[k]) {
+            let way = way(contact, d);
+            out.gain += hold.energy(Vec3::zeros()) - hold.energy(way);
+            let error = grip.force - grip.stiffness * way - hold.force(way);
+            out.misjudged += 0.5 * error.norm() * way.norm();
         }
         out
+    }
+
+    /// Which contacts push after the step `d`, and their friction then.
+    fn after(&self, d: &[Vec3]) -> (Vec<bool>, Vec<Option<Grip>>) {
+        let one = |k: usize| {
+            let (contact, press) = (&self.contacts[k], &self.pushing.presses[k]);
+            let grip = self.holds[k].as_ref().map(|hold| hold.grip_after(way(contact, d)));
+            (press.after(opening(contact, d)) > 0.0, grip)
+        };
+        parallel::map(self.contacts.len(), MEDIUM, one).into_iter().unzip()
     }
 }
 
 fn dot(a: &[Vec3], b: &[Vec3]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
+    parallel::sum(a.len(), LIGHT, |i| a[i].dot(&b[i]))
 }

@@ -80,7 +80,7 @@ impl Cloth {
             creases: self.creases.iter().filter(|c| moves(&c.nodes)).copied().collect(),
             bending: self.bending.around(&is_held),
             held: (0..is_held.len() as u32).filter(|&n| is_held[n as usize]).collect(),
-            foreseen: self.foreseen.of(&springs, &threads, &shears),
+            foreseen: self.foreseen.of(&[springs, threads, shears].concat()),
             ..self.clone()
         }
     }

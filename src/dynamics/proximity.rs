@@ -1,13 +1,12 @@
 //! Broad phase: searches for contacts, and bounds how far nodes may go until the next search.
 
-use rayon::prelude::*;
-
 use super::contact_law::ContactLaw;
 use super::cost::{ContactTime, timed};
 use super::model::Cloth;
 use super::near::{Aside, Near, Source};
 use crate::contact::{Bounds, ClothDetector, Collider, Contact, Neighbourhood, Tangle};
 use crate::geometry::{Vec3, sorted_pair};
+use crate::parallel::{self, HEAVY, LIGHT};
 
 /// Search radii.
 #[derive(Clone, Copy, Debug)]
@@ -228,8 +227,10 @@ impl<'a> Proximity<'a> {
 
     /// Pairs of nodes (smaller first, sorted) that contacts of the cloth with itself couple, for gaps below `gap`.
     pub(super) fn touching(&self, x: &[Vec3], gap: f64) -> Vec<[u32; 2]> {
+        let all = &self.near.all;
+        let near = parallel::map(all.len(), LIGHT, |k| !all[k].is_on_body() && all[k].gap(x) < gap);
         let mut out = Vec::new();
-        for contact in self.near.all.iter().filter(|c| !c.is_on_body() && c.gap(x) < gap) {
+        for (contact, _) in all.iter().zip(near).filter(|(_, near)| *near) {
             let nodes = || contact.parts().filter(|p| p.1 != 0.0).map(|p| p.0 as u32);
             for (a, i) in nodes().enumerate() {
                 out.extend(nodes().skip(a + 1).map(|j| sorted_pair([i, j])));
@@ -265,11 +266,13 @@ impl<'a> Proximity<'a> {
             [Bounds::allowance(reach.cloth), Bounds::allowance_beside_body(reach.features)]
         };
         let beside_body = if reach.is_short() { free.min(beside_body) } else { free };
+        let lengths = parallel::map(cloth.edges.len(), LIGHT, |k| {
+            let [a, b] = cloth.edges[k].map(|n| x[n as usize]);
+            (a - b).norm()
+        });
         let mut longest = vec![0.0f64; x.len()];
-        for [a, b] in cloth.edges.iter().map(|e| e.map(|n| n as usize)) {
-            let length = (x[a] - x[b]).norm();
-            longest[a] = longest[a].max(length);
-            longest[b] = longest[b].max(length);
+        for (edge, length) in cloth.edges.iter().zip(lengths) {
+            edge.iter().for_each(|&n| longest[n as usize] = longest[n as usize].max(length));
         }
         for (i, stale) in stale.iter().enumerate() {
             let is_far = self.distance(i, x) > longest[i] + CORNERS * free;
@@ -305,37 +308,30 @@ impl<'a> Proximity<'a> {
         let body = self.body;
         // The last measured distance minus the motion since is a lower bound, by which far nodes are skipped. That
         // distance plus the motion is an upper bound, within which the surface is searched.
-        let found: Vec<Option<(f64, Vec<Contact<'a>>)>> = self
-            .body_distance
-            .par_iter()
-            .with_min_len(128)
-            .enumerate()
-            .map(|(i, &(distance, at))| {
-                if !moved[i] {
-                    return None;
-                }
-                let way = (x[i] - at).norm();
-                if distance - way > reach.body {
-                    return None;
-                }
-                let far = FAR * reach.body;
-                let limit = if distance.is_finite() { far.min(distance.abs() + way + ROUNDING) } else { far };
-                let Some(near) = body.nearest(x[i], limit) else { return Some((limit, Vec::new())) };
-                let mut contacts = Vec::new();
-                if near.distance < reach.body {
-                    contacts.push(Contact::on_body(i as u32, near.normal, near.point));
-                }
-                if (0.0..reach.features).contains(&near.distance) {
-                    body.faces_of_hollow(x, i as u32, &near, reach.features, &mut contacts);
-                }
-                Some((near.distance, contacts))
-            })
-            .collect();
+        let found = parallel::map(x.len(), HEAVY, |i| {
+            if !moved[i] {
+                return None;
+            }
+            let (distance, at) = self.body_distance[i];
+            let way = (x[i] - at).norm();
+            if distance - way > reach.body {
+                return None;
+            }
+            let far = FAR * reach.body;
+            let limit = if distance.is_finite() { far.min(distance.abs() + way + ROUNDING) } else { far };
+            let Some(near) = body.nearest(x[i], limit) else { return Some((limit, None, Vec::new())) };
+            let plane = (near.distance < reach.body).then(|| Contact::on_body(i as u32, near.normal, near.point));
+            let mut beside = Vec::new();
+            if (0.0..reach.features).contains(&near.distance) {
+                body.faces_of_hollow(x, i as u32, &near, reach.features, &mut beside);
+            }
+            Some((near.distance, plane, beside))
+        });
         let mut sources = Vec::new();
         for (i, entry) in found.into_iter().enumerate() {
-            if let Some((distance, found)) = entry {
+            if let Some((distance, plane, beside)) = entry {
                 self.body_distance[i] = (distance, x[i]);
-                sources.extend(found.into_iter().map(|c| (c, None)));
+                sources.extend(plane.into_iter().chain(beside).map(|c| (c, None)));
             }
         }
         sources
@@ -367,13 +363,10 @@ impl<'a> Proximity<'a> {
     /// - those at moved nodes that have a hidden feature, because a slight turn may bring it out;
     /// - those that lie under a feature: only a new search asks the body whether they are inside.
     fn is_searched(&self, cloth: &Cloth, x: &[Vec3], at: Search) -> Vec<bool> {
-        let triangles = cloth.triangles.iter().map(<[u32; 3]>::as_slice);
-        let elements = triangles.chain(cloth.edges.iter().map(<[u32; 2]>::as_slice));
-        let again = |(nodes, hidden): (&[u32], &bool)| {
-            let any = |which: &[bool]| nodes.iter().any(|&n| which[n as usize]);
-            any(if *hidden { at.moved } else { at.stale })
-        };
-        let mut out: Vec<bool> = elements.zip(&self.hidden).map(again).collect();
+        let mut out = parallel::map(self.hidden.len(), LIGHT, |k| {
+            let which = if self.hidden[k] { at.moved } else { at.stale };
+            element(cloth, k).iter().any(|&n| which[n as usize])
+        });
         self.near.under(x).for_each(|k| out[k as usize] = true);
         out
     }
@@ -388,22 +381,28 @@ impl<'a> Proximity<'a> {
             let nearest = nodes.iter().map(|&n| self.distance(n as usize, x)).fold(f64::INFINITY, f64::min);
             nearest < reach + 3f64.sqrt().recip() * longest
         };
-        let (of_faces, of_edges) = is_searched.split_at(cloth.triangles.len());
-        let faces = cloth.triangles.par_iter().zip(of_faces).with_min_len(512).map(|(t, again)| {
-            again.then(|| {
+        parallel::map(is_searched.len(), HEAVY, |k| {
+            is_searched[k].then(|| {
                 let mut out = Vec::new();
-                let hidden = near(t) && self.body.vertices_near_triangle(x, *t, reach, &mut out);
+                let hidden = near(element(cloth, k))
+                    && match cloth.triangles.get(k) {
+                        Some(triangle) => self.body.vertices_near_triangle(x, *triangle, reach, &mut out),
+                        None => {
+                            let edge = cloth.edges[k - cloth.triangles.len()];
+                            self.body.edges_near_edge(x, edge, reach, &mut out)
+                        }
+                    };
                 (out, hidden)
             })
-        });
-        let edges = cloth.edges.par_iter().zip(of_edges).with_min_len(512).map(|(e, again)| {
-            again.then(|| {
-                let mut out = Vec::new();
-                let hidden = near(e) && self.body.edges_near_edge(x, *e, reach, &mut out);
-                (out, hidden)
-            })
-        });
-        faces.chain(edges).collect()
+        })
+    }
+}
+
+/// The nodes of a triangle of the cloth or, numbered after these, of an edge.
+fn element(cloth: &Cloth, k: usize) -> &[u32] {
+    match cloth.triangles.get(k) {
+        Some(triangle) => triangle,
+        None => &cloth.edges[k - cloth.triangles.len()],
     }
 }
 

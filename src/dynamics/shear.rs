@@ -10,10 +10,11 @@
 use std::sync::Arc;
 
 use super::curvature::thread_of;
+use super::foreseen::ElementForeseen;
 use super::springs::SHORTEST;
 use super::thread::{shares, span};
 use crate::fabric::Fabric;
-use crate::geometry::{Vec2, Vec3};
+use crate::geometry::{Mat3, Vec2, Vec3};
 use crate::mesh::ClothMesh;
 
 /// Least sine of the angle between the legs (3°) in the tangent. The stiffness against rotation out of their plane
@@ -83,16 +84,16 @@ pub(super) struct ShearTangent {
 }
 
 impl ShearTangent {
-    /// Resisting forces at the far ends of the legs for displacements `ways` relative to the corner, N.
-    pub(super) fn apply(&self, ways: [Vec3; 2]) -> [Vec3; 2] {
+    /// Stiffness at a node that takes these `shares` of the forces at the far ends of the legs: for each leg, how it
+    /// resists a displacement of its far end relative to the corner.
+    pub(super) fn row(&self, shares: [f64; 2]) -> [Mat3; 2] {
         let [load, tan, sec] = self.load;
-        let turned = self.stiffness * (self.turning[0].dot(&ways[0]) + self.turning[1].dot(&ways[1]));
-        let out = [0, 1].map(|k| self.out[k].dot(&ways[k]));
+        let turning = (self.turning[0] * shares[0] + self.turning[1] * shares[1]) * self.stiffness;
         [0, 1].map(|k| {
-            let (along, turning) = (self.along[k], self.turning[k]);
-            let drawn_out = load * along.dot(&ways[k]);
-            turning * (turned - drawn_out) - along * (load * turning.dot(&ways[k]))
-                + self.out[k] * (sec * out[1 - k] - tan * out[k])
+            let drawn = shares[k] * load;
+            (turning - self.along[k] * drawn) * self.turning[k].transpose()
+                - self.turning[k] * drawn * self.along[k].transpose()
+                + (self.out[1 - k] * (shares[1 - k] * sec) - self.out[k] * (shares[k] * tan)) * self.out[k].transpose()
         })
     }
 
@@ -144,15 +145,18 @@ impl Shear {
         }
     }
 
-    /// The load (N·m per radian) that the linear model of a step from `x` to `to` predicts, and the energy at `to`
-    /// beyond that of the linear model, J.
-    pub(super) fn foresee(&self, x: &[Vec3], to: &[Vec3]) -> (f64, f64) {
+    /// Prediction of the linear model of a step from `x` to `to`.
+    pub(super) fn foresee(&self, x: &[Vec3], to: &[Vec3]) -> ElementForeseen {
         let (from, after) = (self.legs(x), self.legs(to));
         let before = Legs::new(from);
         let turned: f64 = before.turning().iter().zip(after).zip(from).map(|((g, a), b)| g.dot(&(a - b))).sum();
         let linear = before.angle + turned;
         let exact = Legs::new(after).angle;
-        (self.stiffness * (linear - self.rest), 0.5 * self.stiffness * (exact - linear).powi(2))
+        ElementForeseen {
+            load: self.stiffness * (linear - self.rest),
+            beyond: 0.5 * self.stiffness * (exact - linear).powi(2),
+            energy: 0.5 * self.stiffness * (exact - self.rest).powi(2),
+        }
     }
 }
 
@@ -234,6 +238,14 @@ mod tests {
         })
     }
 
+    /// Resisting forces at the far ends of the legs for displacements `ways` relative to the corner.
+    fn apply(tangent: &ShearTangent, ways: [Vec3; 2]) -> [Vec3; 2] {
+        [[1.0, 0.0], [0.0, 1.0]].map(|shares| {
+            let [one, other] = tangent.row(shares);
+            one * ways[0] + other * ways[1]
+        })
+    }
+
     #[test]
     fn forces_are_the_slope_of_the_energy() {
         for rest in [0.0, 0.004] {
@@ -262,7 +274,7 @@ mod tests {
         let shear = shear();
         for mut x in positions() {
             let tangent = shear.tangent(&x, None);
-            let found = matrix(|ways| tangent.apply(ways));
+            let found = matrix(|ways| apply(&tangent, ways));
             let scale = found.abs().max();
             assert!((found - found.transpose()).abs().max() < 1e-12 * scale);
             for column in 0..9 {
@@ -294,7 +306,7 @@ mod tests {
                 });
                 let scale = bound.abs().max();
                 assert!(bound.symmetric_eigenvalues().min() > -1e-12 * scale);
-                let above = bound - matrix(|ways| tangent.apply(ways));
+                let above = bound - matrix(|ways| apply(&tangent, ways));
                 assert!(above.symmetric_eigenvalues().min() > -1e-12 * scale);
             }
         }
@@ -326,14 +338,15 @@ mod tests {
         // Along the gradient the angle grows by what the gradient says, to first order.
         let mut to = x.clone();
         to[1] += tangent.turning[0] * 1e-9;
-        let (load, beyond) = shear.foresee(&x, &to);
+        let ElementForeseen { load, beyond, energy } = shear.foresee(&x, &to);
+        assert_relative_eq!(energy, shear.energy(&to), max_relative = 1e-12);
         let turned = tangent.turning[0].norm_squared() * 1e-9;
         assert_relative_eq!(load, shear.stiffness * (0.1 + turned), max_relative = 1e-12);
         assert!(beyond < 1e-3 * shear.stiffness * turned * turned);
         // Out of the plane it does not change to first order.
         let normal = (x[1] - x[0]).cross(&(x[2] - x[0])).normalize();
         to[1] = x[1] + normal * 2e-3;
-        let (load, beyond) = shear.foresee(&x, &to);
+        let ElementForeseen { load, beyond, .. } = shear.foresee(&x, &to);
         assert_relative_eq!(load, shear.stiffness * 0.1, max_relative = 1e-12);
         let change = Legs::new(shear.legs(&to)).angle - 0.1;
         assert!(change.abs() > 1e-3);
@@ -347,7 +360,7 @@ mod tests {
         for (u, v) in [(Vec3::x(), Vec3::x()), (Vec3::x(), -Vec3::x()), (Vec3::zeros(), Vec3::y())] {
             let x = vec![corner, corner + u * 0.01, corner + v * 0.02];
             let tangent = shear().tangent(&x, None);
-            let forces = shear().forces(&x).into_iter().chain(tangent.apply([Vec3::x(), Vec3::z()]));
+            let forces = shear().forces(&x).into_iter().chain(apply(&tangent, [Vec3::x(), Vec3::z()]));
             assert!(forces.flat_map(|f| [f.x, f.y, f.z]).all(f64::is_finite));
             assert!(tangent.bound().1.iter().all(|b| b.is_finite()) && shear().energy(&x).is_finite());
         }

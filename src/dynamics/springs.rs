@@ -113,10 +113,10 @@ impl Spring {
 }
 
 impl StretchTangent {
-    /// Resisting force when the ends part by `way`, N.
-    pub(super) fn apply(&self, way: Vec3) -> Vec3 {
+    /// Resisting force at one end per displacement of it.
+    pub(super) fn matrix(&self) -> Mat3 {
         let Self { direction, along, across } = self;
-        direction * ((along - across) * direction.dot(&way)) + way * *across
+        Mat3::identity() * *across + direction * direction.transpose() * (along - across)
     }
 
     /// Positive semidefinite bound. The absolute value of the transverse stiffness lets compressed cloth buckle, but

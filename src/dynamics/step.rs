@@ -2,16 +2,18 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use super::contact_law::Press;
 use super::force::{Forces, free_forces, push};
+use super::foreseen::ElementTangent;
 use super::friction::Grip;
-use super::model::Cloth;
+use super::links::Links;
+use super::model::{Cloth, Element};
 use super::thread::shares;
+use super::touching::Touching;
 use crate::contact::Contact;
 use crate::geometry::{Mat3, Vec3};
-use crate::linear::{BlockSlot, Cholesky, CholeskyError, PatternError, SymmetricMatrix, SymmetricPattern};
+use crate::linear::{Cholesky, CholeskyError, PatternError, SymmetricMatrix, SymmetricPattern};
+use crate::parallel::{self, MEDIUM};
 
 /// Why a step cannot be made.
 #[derive(Clone, Debug, thiserror::Error)]
@@ -61,17 +63,13 @@ const RIDGES: [f64; 4] = [3e-7, 3e-6, 3e-5, 3e-4];
 
 /// The linear system of a cloth, analysed once, filled and factored for every step.
 pub struct Stepper {
+    pub(super) links: Arc<Links>,
     matrix: SymmetricMatrix<f32>,
     pub(super) factor: Cholesky<f32>,
-    diagonal: Vec<BlockSlot>,
-    /// Slot of every spring. `None` if an end is held: the other end then feels a wall.
-    springs: Vec<Option<BlockSlot>>,
-    /// Slots of every thread, between its nodes 0 and 1, 0 and 2, 1 and 2.
-    threads: Vec<[Option<BlockSlot>; 3]>,
-    /// Slots of every shear, between its nodes 0 and 1, 0 and 2, 1 and 2.
-    shears: Vec<[Option<BlockSlot>; 3]>,
-    edges: Vec<Option<BlockSlot>>,
-    pulls: Vec<Option<BlockSlot>>,
+    /// Bound of bending at every node: [`Cloth::bending_bound`] of its edges, N/m.
+    bending: Vec<f64>,
+    /// Start of every node's edges to later nodes in [`Cloth::edges`], and their total.
+    edges: Vec<u32>,
     /// Whether a node is one of [`Cloth::held`].
     is_held: Vec<bool>,
     made: Option<Made>,
@@ -139,19 +137,24 @@ impl Stepper {
         let wings = cloth.creases.iter().map(|c| [c.nodes[2], c.nodes[3]]);
         let graph = cloth.edges.iter().chain(pulls).chain(touching).copied().chain(wings).filter(is_free);
         let pattern = Arc::new(SymmetricPattern::blocks(n, graph.map(|[a, b]| (a as usize, b as usize)))?);
-        let slot = |[a, b]: [u32; 2]| pattern.block_slot(a as usize, b as usize);
-        let find = |pair @ [a, b]: [u32; 2]| match slot(pair) {
-            None if is_free(&pair) => Err(StepError::Uncoupled { a: a as usize, b: b as usize }),
-            slot => Ok(slot),
-        };
-        let sides = |[a, b, c]: [u32; 3]| Ok([find([a, b])?, find([a, c])?, find([b, c])?]);
+        let apart = |&[a, b]: &[u32; 2]| is_free(&[a, b]) && pattern.block_slot(a as usize, b as usize).is_none();
+        for nodes in (0..cloth.elements()).map(|k| cloth.element(k).nodes()) {
+            let pairs = (1..nodes.len()).flat_map(|j| (0..j).map(move |i| [nodes[i], nodes[j]]));
+            if let Some([a, b]) = pairs.clone().find(apart) {
+                return Err(StepError::Uncoupled { a: a as usize, b: b as usize });
+            }
+        }
+        let (mut bending, mut edges) = (vec![0.0; n], vec![0u32; n + 1]);
+        for ([a, b], bound) in cloth.edges.iter().map(|e| e.map(|n| n as usize)).zip(&cloth.bending_bound) {
+            bending[a] += bound;
+            bending[b] += bound;
+            edges[a + 1] += 1;
+        }
+        (0..n).for_each(|i| edges[i + 1] += edges[i]);
         Ok(Self {
-            diagonal: (0..n as u32).filter_map(|i| slot([i, i])).collect(),
-            springs: cloth.springs.iter().map(|s| find(s.ends)).collect::<Result<_, _>>()?,
-            threads: cloth.threads.iter().map(|t| sides(t.nodes)).collect::<Result<_, StepError>>()?,
-            shears: cloth.shears.iter().map(|s| sides(s.nodes)).collect::<Result<_, StepError>>()?,
-            edges: cloth.edges.iter().map(|e| find(*e)).collect::<Result<_, _>>()?,
-            pulls: pulls.iter().map(|e| slot(*e)).collect(),
+            links: Arc::new(Links::new(cloth)),
+            bending,
+            edges,
             matrix: SymmetricMatrix::zeros(pattern.clone()),
             factor: Cholesky::new(pattern)?,
             is_held,
@@ -176,7 +179,7 @@ impl Stepper {
         forces: &Forces,
         rounds: usize,
     ) -> Result<Vec<Vec3>, StepError> {
-        let mut free = free_forces(cloth, x, forces);
+        let mut free = free_forces(cloth, &self.links, x, forces);
         for ((f, v), m) in free.iter_mut().zip(velocity).zip(&cloth.mass) {
             *f += v * (m / dt);
         }
@@ -187,7 +190,8 @@ impl Stepper {
         let mut round = 1;
         loop {
             let pushing = Pushing { presses: &presses, active: &active, grips: &grips };
-            self.prepare(cloth, x, dt, forces, &pushing, SAME)?;
+            let touching = Touching::new(forces.contacts, &pushing, x.len());
+            self.prepare(cloth, x, dt, forces, (&pushing, &touching), SAME)?;
             let d = self.apply_inverse(&pushing.forces(&free, forces))?;
             let mut misjudged = false;
             for ((contact, press), on) in forces.contacts.iter().zip(&presses).zip(&mut active) {
@@ -227,7 +231,7 @@ impl Stepper {
         x: &[Vec3],
         dt: f64,
         forces: &Forces,
-        contacts: &Pushing,
+        (contacts, touching): (&Pushing, &Touching),
         reuse: Reuse,
     ) -> Result<(), StepError> {
         let pushing = contacts.nodes(forces.contacts);
@@ -242,15 +246,7 @@ impl Stepper {
             }
         }
         self.made = None;
-        self.assemble(cloth, x, dt, forces);
-        for k in contacts.numbers() {
-            let normal = forces.contacts[k].normal;
-            let mut stiffness = normal * normal.transpose() * contacts.presses[k].slope;
-            if let Some(grip) = contacts.grips[k] {
-                stiffness += grip.stiffness;
-            }
-            self.add_contact(&forces.contacts[k], &stiffness);
-        }
+        self.assemble(cloth, x, dt, forces, touching);
         self.factor()?;
         self.made = Some(Made { x: x.to_vec(), dt, pushing, sliding: contacts.sliding(forces.contacts) });
         Ok(())
@@ -280,84 +276,90 @@ impl Stepper {
         Err(StepError::Singular { node: failed.dof / 3 })
     }
 
-    fn assemble(&mut self, cloth: &Cloth, x: &[Vec3], dt: f64, forces: &Forces) {
-        self.matrix.clear();
-        let blocks: Vec<Mat3> = (0..cloth.springs.len())
-            .into_par_iter()
-            .with_min_len(super::ONE_THREAD)
-            .map(|k| cloth.spring_tangent(k, x).bound())
-            .collect();
-        for ((s, slot), k) in cloth.springs.iter().zip(&self.springs).zip(&blocks) {
-            couple(&mut self.matrix, &self.diagonal, s.ends, *slot, k);
-        }
-        self.assemble_threads(cloth, x);
-        self.assemble_shears(cloth, x);
-        for ((e, slot), w) in cloth.edges.iter().zip(&self.edges).zip(&cloth.bending_bound) {
-            couple(&mut self.matrix, &self.diagonal, *e, *slot, &(Mat3::identity() * *w));
-        }
-        for crease in &cloth.creases {
-            let root = crease.root(x);
-            let nodes = crease.nodes.map(|n| n as usize);
-            for i in 0..4 {
-                self.matrix.add_block(self.diagonal[nodes[i]], &(root[i] * root[i].transpose()));
-                for j in 0..i {
-                    if let Some(slot) = self.matrix.pattern().block_slot(nodes[i], nodes[j]) {
-                        self.matrix.add_block(slot, &(root[i] * root[j].transpose()));
+    fn assemble(&mut self, cloth: &Cloth, x: &[Vec3], dt: f64, forces: &Forces, touching: &Touching) {
+        let bounds = parallel::map(cloth.elements(), MEDIUM, |number| Bound::new(&cloth.tangent(number, x)));
+        let pattern = self.matrix.pattern().clone();
+        let coupled = |i: u32, j: u32| pattern.block_slot(i as usize, j as usize).is_some();
+        let pressed = touching.pressed(|node| self.is_held[node as usize], coupled);
+        let (links, bending, edges) = (&self.links, &self.bending, &self.edges);
+        self.matrix.refill(|node, mut column| {
+            column.add_diagonal(&(Mat3::identity() * (cloth.mass[node] / (dt * dt) + bending[node])));
+            for k in edges[node] as usize..edges[node + 1] as usize {
+                column.add_below(cloth.edges[k][1], &(Mat3::identity() * -cloth.bending_bound[k]));
+            }
+            for (number, corner) in links.at(node) {
+                let element = cloth.element(number);
+                for (k, &other) in element.nodes().iter().enumerate() {
+                    if k == corner {
+                        column.add_diagonal(&bounds[number].block(element, k, k));
+                    } else if other as usize > node {
+                        column.add_below(other, &bounds[number].block(element, k, corner));
                     }
                 }
             }
-        }
-        for (pull, slot) in forces.pulls.iter().zip(&self.pulls) {
-            let k = Mat3::identity() * pull.stiffness_at(x);
-            couple(&mut self.matrix, &self.diagonal, pull.ends, *slot, &k);
-        }
-        for (i, m) in cloth.mass.iter().enumerate() {
-            self.matrix.add_block(self.diagonal[i], &(Mat3::identity() * (m / (dt * dt))));
-        }
-    }
-
-    fn assemble_threads(&mut self, cloth: &Cloth, x: &[Vec3]) {
-        for (k, (thread, slots)) in cloth.threads.iter().zip(&self.threads).enumerate() {
-            let (stiffness, shares) = (cloth.thread_tangent(k, x).bound(), thread.shares());
-            couple_three(&mut self.matrix, &self.diagonal, thread.nodes, slots, |i, j| {
-                stiffness * (shares[i] * shares[j])
-            });
+            touching.fill(&pressed, node, &mut column);
+        });
+        self.add_creases(cloth, x);
+        for pull in forces.pulls {
+            let ([a, b], k) = (pull.ends.map(|n| n as usize), Mat3::identity() * pull.stiffness_at(x));
+            self.add(a, a, &k);
+            self.add(b, b, &k);
+            self.add(a, b, &-k);
         }
     }
 
-    fn assemble_shears(&mut self, cloth: &Cloth, x: &[Vec3]) {
-        for (k, (shear, slots)) in cloth.shears.iter().zip(&self.shears).enumerate() {
-            let (root, drawn) = cloth.shear_tangent(k, x).bound();
-            let (root, [one, other]) = (shear.at_nodes(root), shear.legs.map(shares));
-            couple_three(&mut self.matrix, &self.diagonal, shear.nodes, slots, |i, j| {
-                let drawn = drawn[0] * one[i] * one[j] + drawn[1] * other[i] * other[j];
-                root[i] * root[j].transpose() + Mat3::identity() * drawn
-            });
-        }
-    }
-
-    /// Adds w wᵀ ⊗ K of the nodes that are not held if the pattern has all its blocks, otherwise its bound
-    /// (Σ|w|) diag(|w|) ⊗ K.
-    fn add_contact(&mut self, contact: &Contact, stiffness: &Mat3) {
-        let parts = || contact.parts().filter(|&(i, w)| w != 0.0 && !self.is_held[i]);
-        let mut blocks: [Option<(BlockSlot, f64)>; 6] = [None; 6];
-        let mut count = 0;
-        let mut complete = true;
-        for (a, (i, wi)) in parts().enumerate() {
-            for (j, wj) in parts().skip(a + 1) {
-                let slot = self.matrix.pattern().block_slot(i, j);
-                complete &= slot.is_some();
-                blocks[count] = slot.map(|slot| (slot, wi * wj));
-                count += 1;
+    fn add_creases(&mut self, cloth: &Cloth, x: &[Vec3]) {
+        for crease in &cloth.creases {
+            let (root, nodes) = (crease.root(x), crease.nodes.map(|n| n as usize));
+            for i in 0..4 {
+                for j in 0..=i {
+                    self.add(nodes[i], nodes[j], &(root[i] * root[j].transpose()));
+                }
             }
         }
-        let whole: f64 = parts().map(|p| p.1.abs()).sum();
-        for (i, w) in parts() {
-            let w = if complete { w * w } else { whole * w.abs() };
-            self.matrix.add_block(self.diagonal[i], &(stiffness * w));
+    }
+
+    /// Adds a block of two nodes. The pattern has it unless one of them is held.
+    fn add(&mut self, i: usize, j: usize, block: &Mat3) {
+        if let Some(slot) = self.matrix.pattern().block_slot(i, j) {
+            self.matrix.add_block(slot, block);
         }
-        for (slot, w) in blocks.into_iter().flatten().filter(|_| complete) {
-            self.matrix.add_block(slot, &(stiffness * w));
+    }
+}
+
+/// Positive semidefinite bound of an element's stiffness.
+enum Bound {
+    /// Of a spring or thread: per displacement of one end.
+    Stretch(Mat3),
+    /// Of a shear: [`super::shear::ShearTangent::bound`].
+    Shear([Vec3; 2], [f64; 2]),
+}
+
+impl Bound {
+    fn new(tangent: &ElementTangent) -> Self {
+        match tangent {
+            ElementTangent::Stretch(tangent) => Self::Stretch(tangent.bound()),
+            ElementTangent::Shear(tangent) => {
+                let (root, drawn) = tangent.bound();
+                Self::Shear(root, drawn)
+            }
+        }
+    }
+
+    /// The block of nodes number `i` (rows) and `j` (columns) of the element.
+    fn block(&self, element: Element, i: usize, j: usize) -> Mat3 {
+        match (self, element) {
+            (Self::Stretch(stiffness), Element::Thread(thread)) => {
+                let shares = thread.shares();
+                stiffness * (shares[i] * shares[j])
+            }
+            (Self::Stretch(stiffness), _) => stiffness * if i == j { 1.0 } else { -1.0 },
+            (Self::Shear(root, drawn), Element::Shear(shear)) => {
+                let (root, [one, other]) = (shear.at_nodes(*root), shear.legs.map(shares));
+                let drawn = drawn[0] * one[i] * one[j] + drawn[1] * other[i] * other[j];
+                root[i] * root[j].transpose() + Mat3::identity() * drawn
+            }
+            (Self::Shear(..), _) => Mat3::zeros(),
         }
     }
 }
@@ -382,46 +384,12 @@ fn differences(a: &[[u32; 4]], b: &[[u32; 4]]) -> usize {
 
 /// Loads and slopes of all contacts at `x`.
 pub(super) fn presses(cloth: &Cloth, x: &[Vec3], forces: &Forces) -> Vec<Press> {
-    forces.contacts.iter().map(|c| forces.law.press(cloth, x, c)).collect()
+    parallel::map(forces.contacts.len(), MEDIUM, |k| forces.law.press(cloth, x, &forces.contacts[k]))
 }
 
 /// Growth of a contact's gap by the step `d`, metres.
 pub(super) fn opening(contact: &Contact, d: &[Vec3]) -> f64 {
     contact.parts().map(|(i, w)| w * contact.normal.dot(&d[i])).sum()
-}
-
-/// Adds the blocks of three nodes, `block(i, j)` for the i-th and the j-th. `slots` are those of nodes 0 and 1, 0 and
-/// 2, 1 and 2.
-fn couple_three(
-    matrix: &mut SymmetricMatrix<f32>,
-    diagonal: &[BlockSlot],
-    nodes: [u32; 3],
-    slots: &[Option<BlockSlot>; 3],
-    block: impl Fn(usize, usize) -> Mat3,
-) {
-    for (i, node) in nodes.into_iter().enumerate() {
-        matrix.add_block(diagonal[node as usize], &block(i, i));
-    }
-    for (slot, [i, j]) in slots.iter().zip([[0, 1], [0, 2], [1, 2]]) {
-        if let Some(slot) = slot {
-            matrix.add_block(*slot, &block(i, j));
-        }
-    }
-}
-
-/// Adds the stiffness `k` between two nodes. They have a slot unless one of them is held.
-fn couple(
-    matrix: &mut SymmetricMatrix<f32>,
-    diagonal: &[BlockSlot],
-    ends: [u32; 2],
-    slot: Option<BlockSlot>,
-    k: &Mat3,
-) {
-    matrix.add_block(diagonal[ends[0] as usize], k);
-    matrix.add_block(diagonal[ends[1] as usize], k);
-    if let Some(slot) = slot {
-        matrix.add_block(slot, &(-k));
-    }
 }
 
 #[cfg(test)]

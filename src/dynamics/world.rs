@@ -272,16 +272,19 @@ impl<'a> World<'a> {
     /// [`World::descend`] with the contacts that are known to matter.
     fn shortened(&self, d: &[Vec3], mut share: f64, demand: &Demand) -> Descent {
         let forces = self.forces(&[]);
-        let loads: Vec<f64> = forces.contacts.iter().map(|c| forces.load(&self.cloth, &self.x, c)).collect();
-        let energy = |contacts: &[Contact], x: &[Vec3]| Forces { contacts, ..forces }.energy(&self.cloth, x, &loads);
-        let from = energy(forces.contacts, &self.x);
+        let loads = forces.loads(&self.cloth, &self.x);
+        let from = forces.energy(&self.cloth, &self.x, &loads);
         let mut halvings = 0;
         loop {
             let mut target: Vec<Vec3> = self.x.iter().zip(d).map(|(x, d)| x + d * share).collect();
             self.proximity.clamp(&self.x, &mut target);
-            let Foreseen { loads: foresaw, beyond } =
-                if demand.foresees { self.cloth.foresee(&self.x, &target) } else { Foreseen::default() };
-            let gain = from - energy(&self.contacts_after(&target), &target) + beyond;
+            let Foreseen { loads: foresaw, beyond, elements } = if demand.foresees {
+                self.cloth.foresee(&self.x, &target)
+            } else {
+                Foreseen { elements: self.cloth.energy_of_elements(&target), ..Foreseen::default() }
+            };
+            let after = Forces { contacts: &self.contacts_after(&target), ..forces };
+            let gain = from - after.energy_with(&self.cloth, &target, &loads, elements) + beyond;
             let enough = ENOUGH * share * demand.expected.max(0.0) - demand.allowed;
             if gain > enough || gain.abs() < ROUNDING || halvings >= demand.halvings {
                 return Descent { target, gain, halvings, share, foresaw };
@@ -480,7 +483,7 @@ impl<'a> World<'a> {
     /// Sum of all forces on every node, N. At a free node it is the unbalanced force, at a held node the reversed
     /// reaction.
     pub fn unbalanced(&self) -> Vec<Vec3> {
-        cloth_forces(&self.cloth, &self.x, &self.forces(&[]))
+        cloth_forces(&self.cloth, &self.stepper.links, &self.x, &self.forces(&[]))
     }
 
     /// Root mean square of the unbalanced force, in mean particle weights.

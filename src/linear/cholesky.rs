@@ -13,22 +13,34 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 
+use super::fronts::{self, Stopped};
+use super::tree::Tree;
 use super::{SymmetricMatrix, SymmetricPattern};
 
-/// Serial execution, whatever the process-wide setting. Two threads were measured slower below 100,000 rows, and
-/// results must not depend on their number.
+/// Serial execution, whatever the process-wide setting: results must not depend on the number of threads.
 const SERIAL: Par = Par::Seq;
 
 mod private {
     /// Keeps faer's number trait out of the public bound.
-    pub trait Field: faer::traits::ComplexField {}
+    pub trait Field: faer::traits::ComplexField<Real = Self> + faer::traits::RealField {}
     impl Field for f32 {}
     impl Field for f64 {}
 }
 
 /// The numbers a matrix may be made of: `f64`, or `f32` where a Newton direction need not be exact (half the memory,
 /// measurably faster).
-pub trait Scalar: private::Field + Copy + Send + Sync + std::ops::AddAssign + std::fmt::Debug {
+pub trait Scalar:
+    private::Field
+    + Copy
+    + Send
+    + Sync
+    + std::fmt::Debug
+    + std::ops::AddAssign
+    + std::ops::SubAssign
+    + std::ops::Add<Output = Self>
+    + std::ops::Mul<Output = Self>
+    + std::ops::Div<Output = Self>
+{
     /// The nearest value.
     fn from_f64(value: f64) -> Self;
     /// The value as `f64`.
@@ -76,13 +88,22 @@ pub struct NotPositiveDefinite {
 
 /// A sparse Cholesky factor that is refilled for new values of one pattern.
 ///
-/// Bit-identical for identical input. The cost of [`Cholesky::new`] is that of about one factorisation. Keep it.
+/// Bit-identical for identical input and any number of threads. The cost of [`Cholesky::new`] is that of about one
+/// factorisation. Keep it.
 #[derive(Debug)]
 pub struct Cholesky<T> {
     pattern: Arc<SymmetricPattern>,
-    symbolic: SymbolicCholesky<u32>,
+    kind: Kind,
     values: Vec<T>,
-    scratch: Scratch,
+}
+
+/// How a matrix is eliminated.
+#[derive(Debug)]
+enum Kind {
+    /// Number by number, in one thread: for small matrices.
+    Entries { symbolic: Box<SymbolicCholesky<u32>>, scratch: Scratch },
+    /// By dense fronts, in all threads.
+    Fronts(Tree),
 }
 
 /// Working memory of the factorisation, reused.
@@ -102,10 +123,21 @@ impl<T: Scalar> Cholesky<T> {
     pub fn new(pattern: Arc<SymmetricPattern>) -> Result<Self, CholeskyError> {
         let too_large = CholeskyError::TooLarge(pattern.size());
         let symbolic = analyse(&pattern)?;
-        let needed = symbolic.factorize_numeric_llt_scratch::<T>(SERIAL, Default::default());
-        let scratch = MemBuffer::try_new(needed).map_err(|_| too_large)?;
-        let values = vec![T::from_f64(0.0); symbolic.len_val()];
-        Ok(Self { pattern, symbolic, values, scratch: Scratch(scratch) })
+        let (kind, len) = if let SymbolicCholeskyRaw::Supernodal(supernodes) = symbolic.raw() {
+            let order: Vec<u32> = match symbolic.perm() {
+                Some(order) => order.arrays().0.to_vec(),
+                None => (0..pattern.size() as u32).collect(),
+            };
+            let tree = Tree::new(supernodes, &pattern, &order);
+            let len = tree.len;
+            (Kind::Fronts(tree), len)
+        } else {
+            let needed = symbolic.factorize_numeric_llt_scratch::<T>(SERIAL, Default::default());
+            let scratch = Scratch(MemBuffer::try_new(needed).map_err(|_| too_large)?);
+            let len = symbolic.len_val();
+            (Kind::Entries { symbolic: Box::new(symbolic), scratch }, len)
+        };
+        Ok(Self { pattern, kind, values: vec![T::from_f64(0.0); len] })
     }
 
     /// Numbers in L, structural zeros of dense blocks included.
@@ -122,19 +154,28 @@ impl<T: Scalar> Cholesky<T> {
     /// # Panics
     /// If the matrix has another number of rows or entries than the pattern this factor was made for.
     pub fn factor(&mut self, matrix: &SymmetricMatrix<T>) -> Result<(), NotPositiveDefinite> {
-        let symbolic = lower_triangle(&self.pattern);
-        let result = self.symbolic.factorize_numeric_llt(
-            &mut self.values,
-            SparseColMatRef::new(symbolic, matrix.values()),
-            Side::Lower,
-            LltRegularization::default(),
-            SERIAL,
-            MemStack::new(&mut self.scratch.0),
-            Default::default(),
-        );
-        match result {
-            Ok(_) => Ok(()),
-            Err(LltError::NonPositivePivot { index }) => Err(self.failed_at(index)),
+        assert_eq!(matrix.values().len(), self.pattern.entries(), "a matrix of another pattern");
+        match &mut self.kind {
+            Kind::Entries { symbolic, scratch } => {
+                let result = symbolic.factorize_numeric_llt(
+                    &mut self.values,
+                    SparseColMatRef::new(lower_triangle(&self.pattern), matrix.values()),
+                    Side::Lower,
+                    LltRegularization::default(),
+                    SERIAL,
+                    MemStack::new(&mut scratch.0),
+                    Default::default(),
+                );
+                let Err(LltError::NonPositivePivot { index }) = result else { return Ok(()) };
+                // faer counts pivots from one here, in its own order of elimination.
+                let place = index.saturating_sub(1).min(self.pattern.size().saturating_sub(1));
+                let dof = symbolic.perm().map_or(place, |p| p.arrays().0[place] as usize);
+                Err(NotPositiveDefinite { dof })
+            }
+            Kind::Fronts(tree) => {
+                let stopped = |Stopped(place)| NotPositiveDefinite { dof: tree.order[place] as usize };
+                fronts::factor(tree, matrix.values(), &mut self.values).map_err(stopped)
+            }
         }
     }
 
@@ -149,13 +190,18 @@ impl<T: Scalar> Cholesky<T> {
         }
         let columns = rhs.len() / rows;
         assert_eq!(columns * rows, rhs.len(), "right-hand sides must be whole vectors");
-        let mut memory = MemBuffer::new(self.symbolic.solve_in_place_scratch::<T>(columns, SERIAL));
-        LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
-            Conj::No,
-            MatMut::from_column_major_slice_mut(rhs, rows, columns),
-            SERIAL,
-            MemStack::new(&mut memory),
-        );
+        match &self.kind {
+            Kind::Entries { symbolic, .. } => {
+                let mut memory = MemBuffer::new(symbolic.solve_in_place_scratch::<T>(columns, SERIAL));
+                LltRef::new(symbolic, &self.values).solve_in_place_with_conj(
+                    Conj::No,
+                    MatMut::from_column_major_slice_mut(rhs, rows, columns),
+                    SERIAL,
+                    MemStack::new(&mut memory),
+                );
+            }
+            Kind::Fronts(tree) => rhs.chunks_exact_mut(rows).for_each(|x| fronts::solve(tree, &self.values, x)),
+        }
     }
 
     /// [`Cholesky::solve`] for right-hand sides in f64, rounded to the factor's precision on the way in.
@@ -168,15 +214,6 @@ impl<T: Scalar> Cholesky<T> {
         for (out, x) in rhs.iter_mut().zip(rounded) {
             *out = x.to_f64();
         }
-    }
-
-    /// Maps faer's index of a failed pivot to a row. faer counts in its own order of elimination: from one if it works
-    /// entry by entry, from zero (and only roughly, within a dense block) if it works by blocks.
-    fn failed_at(&self, index: usize) -> NotPositiveDefinite {
-        let first = usize::from(matches!(self.symbolic.raw(), SymbolicCholeskyRaw::Simplicial(_)));
-        let eliminated = index.saturating_sub(first).min(self.pattern.size().saturating_sub(1));
-        let dof = self.symbolic.perm().map_or(eliminated, |p| p.arrays().0[eliminated] as usize);
-        NotPositiveDefinite { dof }
     }
 }
 

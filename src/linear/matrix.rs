@@ -6,6 +6,7 @@ use nalgebra::SMatrix;
 
 use super::pattern::BlockKind;
 use super::{BlockSlot, Scalar, Slot, SymmetricPattern};
+use crate::parallel::{self, MEDIUM};
 
 /// A symmetric matrix with the entries of its pattern, filled by adding to slots.
 ///
@@ -14,6 +15,43 @@ use super::{BlockSlot, Scalar, Slot, SymmetricPattern};
 pub struct SymmetricMatrix<T> {
     pattern: Arc<SymmetricPattern>,
     values: Vec<T>,
+}
+
+/// The blocks of one vertex' columns, on and below the diagonal.
+#[derive(Debug)]
+pub struct BlockColumn<'a, T> {
+    /// Vertices of the blocks, rising, its own first.
+    rows: &'a [u32],
+    values: &'a mut [T],
+}
+
+impl<T: Scalar> BlockColumn<'_, T> {
+    /// Adds a symmetric block on the diagonal. `W` must be the width of the pattern.
+    #[inline]
+    pub fn add_diagonal<const W: usize>(&mut self, block: &SMatrix<f64, W, W>) {
+        let mut at = 0;
+        for c in 0..W {
+            for r in c..W {
+                self.values[at + r - c] += T::from_f64(block[(r, c)]);
+            }
+            at += W * self.rows.len() - c;
+        }
+    }
+
+    /// Adds the block in the rows of a `vertex`, if it lies below the diagonal and is part of the pattern. `W` must be
+    /// the width of the pattern.
+    #[inline]
+    pub fn add_below<const W: usize>(&mut self, vertex: u32, block: &SMatrix<f64, W, W>) {
+        let Ok(k) = self.rows[1..].binary_search(&vertex) else { return };
+        let mut at = W * (k + 1);
+        for c in 0..W {
+            for r in 0..W {
+                self.values[at + r] += T::from_f64(block[(r, c)]);
+            }
+            // Each column begins at its diagonal, and is one entry shorter than the one before it.
+            at += W * self.rows.len() - c - 1;
+        }
+    }
 }
 
 impl<T: Scalar> SymmetricMatrix<T> {
@@ -36,6 +74,15 @@ impl<T: Scalar> SymmetricMatrix<T> {
     /// Sets every entry to zero.
     pub fn clear(&mut self) {
         self.values.fill(T::from_f64(0.0));
+    }
+
+    /// Sets every entry to zero and fills the columns of every vertex anew. Vertices are handed out to threads.
+    pub fn refill(&mut self, fill: impl Fn(usize, BlockColumn<T>) + Sync) {
+        let pattern = &self.pattern;
+        parallel::for_each_row(&mut self.values, pattern.node_values(), MEDIUM, |vertex, values| {
+            values.fill(T::from_f64(0.0));
+            fill(vertex, BlockColumn { rows: pattern.node_column(vertex), values });
+        });
     }
 
     /// Adds to one entry (and so to its mirror image).

@@ -6,15 +6,17 @@
 //! ```
 //!
 //! A pattern is built once from index pairs, a matrix is refilled through precomputed slots without any searching, and
-//! the symbolic analysis of a factor is kept while its numbers change. Everything runs in the calling thread and gives
-//! the same bits every time.
+//! the symbolic analysis of a factor is kept while its numbers change. Subtrees of large factors are
+//! handed out to threads. The bits are the same every time.
 
 mod cholesky;
+mod fronts;
 mod matrix;
 mod memory;
 mod pattern;
+mod tree;
 
 pub use cholesky::{Cholesky, CholeskyError, NotPositiveDefinite, Scalar};
-pub use matrix::SymmetricMatrix;
+pub use matrix::{BlockColumn, SymmetricMatrix};
 pub use memory::{Memory, advance, dot};
 pub use pattern::{BlockSlot, PatternError, Slot, SymmetricPattern};

@@ -15,6 +15,8 @@ pub struct SymmetricPattern {
     node_rows: Vec<u32>,
     /// Start of every scalar column in `rows`, and their total.
     starts: Vec<u32>,
+    /// Start of every block column in `rows`, and their total.
+    node_values: Vec<u32>,
     /// Scalar rows of every scalar column, rising, the diagonal first.
     rows: Vec<u32>,
 }
@@ -109,7 +111,8 @@ impl SymmetricPattern {
         let node_starts = column_starts(n, lower.iter().map(|&(column, _)| column));
         let node_rows: Vec<u32> = lower.into_iter().map(|(_, row)| row).collect();
         let (starts, rows) = expand(&node_starts, &node_rows, width as u32);
-        Ok(Self { width, node_starts, node_rows, starts, rows })
+        let node_values = starts.iter().step_by(width).copied().collect();
+        Ok(Self { width, node_starts, node_rows, starts, node_values, rows })
     }
 
     /// Rows (and columns) of the matrix: [`SymmetricPattern::width`] per node.
@@ -166,6 +169,16 @@ impl SymmetricPattern {
         let from = *self.node_starts.get(column)? as usize;
         let to = *self.node_starts.get(column + 1)? as usize;
         self.node_rows[from..to].binary_search(&u32::try_from(row).ok()?).ok().map(|k| k as u32)
+    }
+
+    /// Start of every node's columns among all entries, with the total at the end.
+    pub(super) fn node_values(&self) -> &[u32] {
+        &self.node_values
+    }
+
+    /// The nodes of the blocks in a node's columns, its own first.
+    pub(super) fn node_column(&self, node: usize) -> &[u32] {
+        &self.node_rows[self.node_starts[node] as usize..self.node_starts[node + 1] as usize]
     }
 
     /// Column starts and rows of the lower triangle of nodes.
