@@ -110,7 +110,7 @@ fn make_within_bounds_writes_everything() {
     run.ends(0);
     assert_eq!(
         room.names("out"),
-        ["garment.glb", "garment.obj", "garment.png", "pattern.svg", "report.json", "sewn.obj"]
+        ["garment.glb", "garment.obj", "garment.png", "pattern.svg", "report.html", "report.json", "sewn.obj"]
     );
     assert!(run.out.contains("skirt on woman_92, cotton_poplin"), "{}", run.out);
     let obj = String::from_utf8(room.bytes("out/garment.obj")).expect("text");
@@ -442,6 +442,82 @@ fn json_has_the_keys_of_the_contract_and_is_the_report() {
 /// Fine enough that every pass is split: the longest chunk that one thread keeps to itself has
 /// [`toile::parallel::LIGHT`] items, and the factor of so many particles has several subtrees.
 const FINE: &str = "12";
+
+#[test]
+fn make_says_its_verdict_in_a_few_lines() {
+    let room = Room::new();
+    let run = room.make("skirt.yaml", &[]);
+    let lines: Vec<&str> = run.ends(0).out.lines().collect();
+    assert!(lines.len() <= 8 && lines.iter().all(|line| line.chars().count() <= 100), "{}", run.out);
+    let starts = ["skirt on woman_92, cotton_poplin: within its bounds", "sewn", "worn", "fit", "rest", "flat", "look"];
+    let found = starts.iter().zip(&lines).all(|(start, line)| line.starts_with(start));
+    assert!(found && lines.len() == starts.len(), "{}", run.out);
+    for words in ["2 seams, largest gap", "round the", "tightest at the ", "at rest", "out/report.html"] {
+        assert!(run.out.contains(words), "'{words}' is missing in: {}", run.out);
+    }
+    let tables = room.make("skirt.yaml", &["--table"]);
+    for head in ["piece", "seam", "opening", "girth", "stage"] {
+        let has = tables.ends(0).out.lines().any(|line| line.trim_start().starts_with(&format!("{head} ")));
+        assert!(has, "{head}: {}", tables.out);
+    }
+    // The verdict has the bad news, and standard error tells it.
+    room.put("skirt.yaml", &skirt_with("below: 1 mm", "below: 0.000001 mm"));
+    let run = room.make("skirt.yaml", &[]);
+    assert!(run.ends(1).says(&["out of bounds: gap all"]).out.contains("OUT OF BOUNDS in one place"), "{}", run.out);
+    let report: Value = serde_json::from_slice(&room.bytes("out/report.json")).expect("JSON");
+    let problem = report["problems"][0].as_str().expect("a problem");
+    assert!(problem.starts_with("out of bounds: gap all"), "{problem}");
+    let page = String::from_utf8(room.bytes("out/report.html")).expect("text");
+    assert!(page.contains("out of bounds: gap all") && page.len() < 2_000_000, "{}", page.len());
+}
+
+/// The verdict in the README is that of the garment in the README, but for its figures.
+#[test]
+fn the_readme_shows_what_make_prints() {
+    let readme = include_str!("../README.md");
+    let block = |start: &str| {
+        let from = readme.find(start).unwrap_or_else(|| panic!("no {start}")) + start.len();
+        readme[from..].split_once("```").expect("an end").0
+    };
+    let room = Room::new();
+    room.put(
+        "skirt.yaml",
+        &format!("garment: 1\nname: Short skirt{}", block("```yaml\ngarment: 1\nname: Short skirt")),
+    );
+    let run = room.run(&["make", "skirt.yaml", "--spacing", "40"]);
+    let shape = |text: &str| {
+        let mut out = String::new();
+        for c in text.chars().map(|c| if c.is_ascii_digit() { '#' } else { c }) {
+            if c != '#' || !out.ends_with('#') {
+                out.push(c);
+            }
+        }
+        out
+    };
+    assert_eq!(shape(&run.ends(0).out), shape(block("```text\n$ toile make skirt.yaml --spacing 40\n")));
+}
+
+/// The page can be written again from the folder, and is the same.
+#[test]
+fn the_page_is_made_again_from_its_folder() {
+    let room = Room::new();
+    room.make("skirt.yaml", &["-q"]).ends(0);
+    let page = room.bytes("out/report.html");
+    room.put("out/report.html", "old");
+    room.run(&["report", "out"]).ends(0);
+    assert!(room.bytes("out/report.html") == page, "another page");
+    room.run(&["report", "out", "--body", "nobody.obj"]).ends(2).says(&["nobody.obj"]);
+    room.run(&["report", "nowhere"]).ends(2).says(&["nowhere", "toile make"]);
+}
+
+#[test]
+fn pressure_bands_are_the_makers_own() {
+    let room = Room::new();
+    let run = room.make("skirt.yaml", &["--json", "--pressure-bands", "0.001,0.002"]);
+    let bands = &run.ends(0).json()["fit"]["bands"];
+    assert_eq!((&bands["tight"], &bands["too_tight"]), (&Value::from(0.001), &Value::from(0.002)), "{bands}");
+    room.make("skirt.yaml", &["--pressure-bands", "5,2"]).ends(2).says(&["two rising pressures in kPa"]);
+}
 
 #[test]
 fn any_number_of_threads_gives_the_same_bytes() {
@@ -815,7 +891,7 @@ fn of_many_parts_the_first_are_shown() {
     };
     let text: String = (0..30).map(|k| corners.replace(" 0\n", &format!(" {k}\n")) + &faces(k)).collect();
     room.put("soup.obj", &text);
-    let run = room.run(&["flatten", "soup.obj", "-o", "flat", "--units", "cm", "--weld", "0"]);
+    let run = room.run(&["flatten", "soup.obj", "-o", "flat", "--units", "cm", "--weld", "0", "--table"]);
     run.ends(0).says(&["--weld"]);
     assert!(run.out.contains("and 20 more, which report.json has") && run.out.lines().count() < 50, "{}", run.out);
     let pieces = |weld: &[&str]| {

@@ -10,7 +10,7 @@ use toile::mannequin::Mannequin;
 use toile::mesh::{ClothMesh, build};
 use toile::pattern::{Garment, openings};
 use toile::pipeline::{self, Job, Overrides, Run};
-use toile::report::{Measured, Report, measure, table, verdicts};
+use toile::report::{Bands, Measured, Report, measure, table, verdicts};
 
 /// A tube of a pair of halves, 100 mm wide each, open in front; `closures` and what else is drawn.
 fn tube(closures: &str, more: &str) -> Garment {
@@ -96,6 +96,9 @@ fn measured(garment: &Garment, mesh: &ClothMesh, weld: &[u32], at: &[Vec3]) -> R
         draped: None,
         flattened: None,
         overlaps: None,
+        pressed: None,
+        gives: &[],
+        bands: Bands::default(),
         stages: &[],
     })
 }

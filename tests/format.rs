@@ -53,6 +53,9 @@ const MAPPINGS: [(&str, Option<&str>, &[&str]); 9] = [
             "garment: 1\npieces: {}\ntests: [{crossings: 1, §}]\n",
             "garment: 1\npieces: {}\ntests: [{openings: 1, §}]\n",
             "garment: 1\npieces: {}\ntests: [{worn: true, §}]\n",
+            "garment: 1\npieces: {}\ntests: [{ease: bust, from: 1, §}]\n",
+            "garment: 1\npieces: {}\ntests: [{pressure: bust, below: 1, §}]\n",
+            "garment: 1\npieces: {}\ntests: [{hem: level within 1, §}]\n",
         ],
     ),
 ];

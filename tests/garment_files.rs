@@ -271,6 +271,12 @@ fn what_a_value_says_is_named_with_its_place() {
     says(&squares("  b:\n", "  mirror:\n"), 11, "mirror", "the name 'mirror' cannot be used");
     says(&squares("free: [a.top", "free: [a.tpo"), 21, "a.tpo", "edge 'a.tpo' not found");
     says(&squares("free: [", "free: [\"*.hem\", "), 21, "\"*.hem", "'*.hem' matches no edge");
+    let test = |test: &str| squares("free: [", &format!("tests: [{test}]\nfree: ["));
+    let wanted = "the body has no girth 'wiast'; did you mean 'waist'?";
+    says(&test("{ease: wiast, from: 10 mm}"), 21, "wiast", wanted);
+    says(&test("{pressure: left waist, below: 2.3 kPa}"), 21, "left waist", "the body has no girth 'left waist'");
+    says(&test("{pressure: waist, below: 2 mm}"), 21, "2 mm", "a pressure above zero such as 2.3 kPa");
+    says(&test("{hem: even}"), 21, "even", "such as level within 10 mm");
     says(
         &squares("free: [", "tests: [{seam: sied, length: 1 mm}]\nfree: ["),
         21,

@@ -8,7 +8,7 @@ use toile::mesh::{ClothMesh, EdgeParticles, PieceMesh, Stitches};
 use toile::pattern::{Bound, EdgeId, Garment, Give, Seam, SeamKind, Span, Test};
 use toile::picture::{Dressed, draw};
 use toile::report::{
-    Measured, Quartet, Report, Stage, Stretched, Verdict, measure, opening_names, table, verdicts, vertex_strain,
+    Bands, Measured, Quartet, Report, Stage, Stretched, Verdict, measure, opening_names, table, verdicts, vertex_strain,
 };
 
 /// A grid of `cells` squares each way, `width` by `height`, its upper left corner at the origin; four named edges.
@@ -237,6 +237,9 @@ fn run<'a>(f: &'a Fixture, sewn: &'a [Vec3]) -> Measured<'a> {
         draped: None,
         flattened: None,
         overlaps: None,
+        pressed: None,
+        gives: &[],
+        bands: Bands::default(),
         stages: &[],
     }
 }

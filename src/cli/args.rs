@@ -10,6 +10,7 @@ use crate::geometry::Vec3;
 use crate::input::LengthUnit;
 use crate::pattern::{WIDEST_ALLOWANCE, parse_quantity};
 use crate::pipeline::{Color, DARTS, Overrides};
+use crate::report::Bands;
 
 /// Sew flat patterns onto a mannequin, drape them in a measured fabric and lay them flat again.
 #[derive(Debug, Parser)]
@@ -56,6 +57,8 @@ pub(super) enum Command {
     Drape(DrapeArgs),
     /// Lay any OBJ surface flat, or a garment's draped pieces
     Flatten(FlattenArgs),
+    /// Write the page report.html anew from what lies in a folder of results
+    Report(ReportArgs),
     /// Run garments against their own tests
     Test(TestArgs),
     /// Write patterns for cutting: pieces with seam allowance, notches, grain and labels
@@ -97,6 +100,9 @@ pub(super) struct GarmentArgs {
     /// Colour the picture by piece or by strain
     #[arg(long, value_enum, default_value_t)]
     pub(super) color: ColorArg,
+    /// Print every figure as tables, instead of the verdict in a few lines
+    #[arg(long)]
+    pub(super) table: bool,
     #[command(flatten)]
     pub(super) overrides: OverrideArgs,
 }
@@ -116,6 +122,9 @@ pub(super) struct OverrideArgs {
     /// Unit of the body's OBJ file [default: what the garment file says, or guessed from its size, and said]
     #[arg(long, value_enum, value_name = "UNIT")]
     body_units: Option<UnitArg>,
+    /// Pressures on the skin in kPa from which cloth is tight, and above which it is too tight [default: 2.3,4.7]
+    #[arg(long, value_name = "TIGHT,TOO_TIGHT", value_parser = bands)]
+    pressure_bands: Option<Bands>,
 }
 
 impl OverrideArgs {
@@ -126,6 +135,7 @@ impl OverrideArgs {
             fabric: self.fabric.clone(),
             body: self.body.clone(),
             body_unit: self.body_units.map(UnitArg::unit),
+            bands: self.pressure_bands.clone(),
         }
     }
 }
@@ -142,6 +152,17 @@ fn spacing(text: &str) -> Result<f64, String> {
     positive
         .map(|mm| 1e-3 * mm)
         .ok_or_else(|| "a positive number of millimetres is expected, such as 10, or 1cm".into())
+}
+
+/// Two rising pressures in kPa.
+fn bands(text: &str) -> Result<Bands, String> {
+    let limits: Vec<f64> = text.split(',').filter_map(|limit| limit.trim().parse().ok()).collect();
+    match limits[..] {
+        [tight, too_tight] if text.matches(',').count() == 1 && tight > 0.0 && (tight..1e3).contains(&too_tight) => {
+            Ok(Bands::given(tight, too_tight))
+        }
+        _ => Err("two rising pressures in kPa are expected, such as 2.3,4.7".into()),
+    }
 }
 
 fn weight(text: &str) -> Result<f64, String> {
@@ -267,8 +288,25 @@ pub(super) struct FlattenArgs {
     /// Begin with the garment as `toile make` has draped it, at the same spacing (garment files only)
     #[arg(long, value_name = "garment.obj")]
     pub(super) from: Option<PathBuf>,
+    /// Print every figure as tables, instead of the verdict in a few lines
+    #[arg(long)]
+    pub(super) table: bool,
     #[command(flatten)]
     pub(super) overrides: OverrideArgs,
+}
+
+/// Arguments of `report`.
+#[derive(Debug, clap::Args)]
+pub(super) struct ReportArgs {
+    /// A folder that `toile make` or `toile drape` has written
+    #[arg(value_name = "DIR")]
+    pub(super) folder: PathBuf,
+    /// The body that the garment is on [default: the mannequin that the report names]
+    #[arg(long, value_name = "NAME|FILE.obj")]
+    pub(super) body: Option<String>,
+    /// Unit of the body's OBJ file [default: guessed from its size]
+    #[arg(long, value_enum, value_name = "UNIT", requires = "body")]
+    pub(super) body_units: Option<UnitArg>,
 }
 
 /// Arguments of `test`.
@@ -283,6 +321,9 @@ pub(super) struct TestArgs {
     /// Write what was measured, with a margin, into the garment files as their new bounds
     #[arg(long)]
     pub(super) update: bool,
+    /// Print every bound with what was measured, instead of a line per garment
+    #[arg(long)]
+    pub(super) table: bool,
     #[command(flatten)]
     pub(super) overrides: OverrideArgs,
 }

@@ -14,10 +14,12 @@ use crate::pipeline::{
     AT_REST, Color, Cuts, DartStop, FLAT_OBJ, FLAT_PNG, Limit, OUTLINE_SVG, PATTERN_SVG, PartReport, REPORT_JSON,
     SurfaceOptions, SurfaceReport, Weld, flatten_surface,
 };
-use crate::report::{aligned, restless};
+use crate::report::{aligned, restless, shortened};
 
 /// Pieces that are shown one by one: with more, nobody would find what is said beside them.
 const LISTED: usize = 40;
+/// Width of a line of the verdict, characters.
+const LINE: usize = 100;
 
 /// `toile flatten`
 pub(super) fn flatten(args: &FlattenArgs, console: &Console) -> Result<Exit, CliError> {
@@ -29,6 +31,7 @@ pub(super) fn flatten(args: &FlattenArgs, console: &Console) -> Result<Exit, Cli
             output: args.output.as_deref(),
             overrides: args.overrides.checked(),
             color: Color::default(),
+            table: args.table,
             goal: Goal::Flat { from: args.from.as_deref(), options },
         };
         return carry_out(&plan, console);
@@ -115,7 +118,7 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
     flat.notes.iter().for_each(|note| console.note(note));
     write(flat.results()?, &folder, &inputs)?;
     let report = &flat.report;
-    console.results(report, || format!("{}\n  written to {}\n", figures(report), folder.display()))?;
+    console.results(report, || told(report, &folder, args.table))?;
     for stage in restless(&report.stages, AT_REST) {
         console.note(&stage.to_string());
     }
@@ -139,6 +142,50 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
         exit = Exit::OutOfBounds;
     }
     Ok(exit)
+}
+
+/// The verdict, or every figure.
+fn told(report: &SurfaceReport, folder: &Path, every: bool) -> String {
+    if every {
+        return format!("{}\n  written to {}\n", figures(report), folder.display());
+    }
+    let largest = |of: fn(&PartReport) -> f64| report.pieces.iter().max_by(|a, b| of(a).total_cmp(&of(b)));
+    let pieces = match report.pieces.len() {
+        1 => "1 piece".to_owned(),
+        several => format!("{several} pieces"),
+    };
+    let mut lines = vec![format!("{}: {pieces} laid flat", report.surface)];
+    if let Some(worst) = largest(|piece| piece.strain.p99) {
+        let percent = 100.0 * worst.strain.p99;
+        lines.push(format!("strain  at most {percent:.1} % in all but a hundredth of '{}'", worst.name));
+    }
+    if let Some(worst) = largest(|piece| piece.area_change.abs()) {
+        lines.push(format!("area    changed by {} % at most, in '{}'", signed(worst.area_change), worst.name));
+    }
+    if let Some(worst) = largest(rim_change) {
+        lines.push(format!("rim     changed by {} % at most, round '{}'", signed(rim_signed(worst)), worst.name));
+    }
+    let mut text: String = lines.iter().map(|line| shortened(line, LINE) + "\n").collect();
+    let first = folder.join(FLAT_PNG);
+    text.push_str(&format!("look    at {} first; figures: {REPORT_JSON} beside it, or --table\n", first.display()));
+    text
+}
+
+/// Change of the rim's length, a fraction with its sign.
+fn rim_signed(piece: &PartReport) -> f64 {
+    piece.boundary_flattened / piece.boundary_draped - 1.0
+}
+
+fn rim_change(piece: &PartReport) -> f64 {
+    rim_signed(piece).abs()
+}
+
+/// A share in per cent with its sign. Zero has none.
+fn signed(share: f64) -> String {
+    match format!("{:+.3}", 100.0 * share) {
+        zero if zero.ends_with("0.000") => "0.000".to_owned(),
+        figure => figure,
+    }
 }
 
 /// That a piece has not the rim it should have, and what gives it that.
@@ -253,18 +300,12 @@ fn remedy(piece: &PartReport, options: &SurfaceOptions) -> String {
 fn figures(report: &SurfaceReport) -> String {
     let head = ["piece", "cm²", "area %", "rim %", "strain 99 %", "corner °", "overlaps"];
     let mut rows = vec![head.map(String::from).to_vec()];
-    // Zero has no sign.
-    let signed = |share: f64| match format!("{:+.3}", 100.0 * share) {
-        zero if zero.ends_with("0.000") => "0.000".to_owned(),
-        figure => figure,
-    };
     rows.extend(report.pieces.iter().take(LISTED).map(|p| {
-        let change = p.boundary_flattened / p.boundary_draped - 1.0;
         vec![
             p.name.clone(),
             format!("{:.1}", p.area_draped / 100.0),
             signed(p.area_change),
-            signed(change),
+            signed(rim_signed(p)),
             format!("{:.3}", 100.0 * p.strain.p99),
             format!("{:.1}", p.corner_change),
             p.overlaps.to_string(),

@@ -8,10 +8,10 @@ use super::exit::{CliError, Exit};
 use crate::flatten;
 use crate::io::files::{check_writable, write_all};
 use crate::pipeline::{
-    AT_REST, Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, Job, Overrides, PATTERN_SVG, PLACED_OBJ, PipelineError,
-    REPORT_JSON, ResultFile, Run, SEWN_OBJ, inputs, read, tight,
+    Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, Job, Overrides, PATTERN_SVG, PLACED_OBJ, PipelineError, Problem,
+    REPORT_HTML, REPORT_JSON, ResultFile, Run, SEWN_OBJ, inputs, problems, read,
 };
-use crate::report::{ClosureReport, Report, restless, table, verdicts};
+use crate::report::{summary, table};
 
 /// How far a garment is taken, and from where.
 pub(super) struct Plan<'a> {
@@ -20,6 +20,8 @@ pub(super) struct Plan<'a> {
     pub(super) output: Option<&'a Path>,
     pub(super) overrides: Overrides,
     pub(super) color: Color,
+    /// Print every figure.
+    pub(super) table: bool,
     pub(super) goal: Goal<'a>,
 }
 
@@ -45,10 +47,12 @@ impl<'a> Goal<'a> {
         let mut names = vec![GARMENT_PNG, REPORT_JSON];
         match self {
             Goal::Sewn => names.push(SEWN_OBJ),
-            Goal::Draped { from: Some(_) } => names.extend([GARMENT_OBJ, GARMENT_GLB]),
-            Goal::Draped { from: None } => names.extend([SEWN_OBJ, GARMENT_OBJ, GARMENT_GLB]),
+            Goal::Draped { from: Some(_) } => names.extend([GARMENT_OBJ, GARMENT_GLB, REPORT_HTML]),
+            Goal::Draped { from: None } => names.extend([SEWN_OBJ, GARMENT_OBJ, GARMENT_GLB, REPORT_HTML]),
             Goal::Flat { from: Some(_), .. } => names.push(PATTERN_SVG),
-            Goal::Flat { from: None, .. } => names.extend([SEWN_OBJ, GARMENT_OBJ, GARMENT_GLB, PATTERN_SVG]),
+            Goal::Flat { from: None, .. } => {
+                names.extend([SEWN_OBJ, GARMENT_OBJ, GARMENT_GLB, PATTERN_SVG, REPORT_HTML])
+            }
         }
         names
     }
@@ -94,6 +98,7 @@ fn plan<'a>(args: &'a GarmentArgs, goal: Goal<'a>) -> Plan<'a> {
         output: args.output.as_deref(),
         overrides: args.overrides.checked(),
         color: args.color.into(),
+        table: args.table,
         goal,
     }
 }
@@ -125,8 +130,17 @@ pub(super) fn carry_out(plan: &Plan, console: &Console) -> Result<Exit, CliError
     let wanted = plan.goal.files();
     let files = run.results(&report, plan.color)?.into_iter().filter(|f| wanted.contains(&f.0)).collect();
     write(files, &folder, &borrowed(&inputs))?;
-    console.results(&report, || format!("{}\n  written to {}\n", table(&report), folder.display()))?;
-    Ok(judge(&job, &report, console))
+    let problems = problems(&job, &report);
+    // A garment that is only sewn has no page.
+    let first = folder.join(if wanted.contains(&REPORT_HTML) { REPORT_HTML } else { GARMENT_PNG });
+    console.results(&report, || {
+        if plan.table {
+            return format!("{}\n  written to {}\n", table(&report), folder.display());
+        }
+        let broken = problems.iter().filter(|problem| problem.out_of_bounds).count();
+        summary(&report, broken, &format!("at {} first; --table prints every figure", first.display()))
+    })?;
+    Ok(judge(&problems, console))
 }
 
 /// The folder asked for, or `out/NAME`; a name of dots would lead out of `out`.
@@ -162,18 +176,16 @@ fn leave_state(run: &Run, plan: &Plan, folder: &Path, inputs: &[PathBuf], consol
     }
 }
 
-/// Says what is out of bounds, what did not come to rest and what does not close.
-fn judge(job: &Job, report: &Report, console: &Console) -> Exit {
-    for stage in restless(&report.stages, AT_REST) {
-        console.note(&stage.to_string());
-    }
-    report.closures.iter().filter_map(ClosureReport::unclosed).for_each(|text| console.note(&text));
-    report.bunched.iter().for_each(|bunched| console.note(&bunched.to_string()));
-    tight(job, report).iter().for_each(|text| console.note(text));
+/// Says what is wrong: broken bounds in any case, the rest unless all should be quiet.
+fn judge(problems: &[Problem], console: &Console) -> Exit {
     let mut exit = Exit::Done;
-    for verdict in verdicts(&job.garment, report).iter().filter(|v| !v.ok) {
-        console.complain(&format!("out of bounds: {verdict}"));
-        exit = Exit::OutOfBounds;
+    for Problem { text, out_of_bounds } in problems {
+        if *out_of_bounds {
+            console.complain(text);
+            exit = Exit::OutOfBounds;
+        } else {
+            console.note(text);
+        }
     }
     exit
 }

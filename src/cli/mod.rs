@@ -15,6 +15,7 @@ mod import;
 mod junit;
 mod make;
 mod mannequin;
+mod report;
 mod specimen;
 mod test;
 mod update;
@@ -67,6 +68,7 @@ fn run(command: &Command, console: &Console) -> Result<Exit, CliError> {
         Command::Sew(args) => make::sew(args, console),
         Command::Drape(args) => make::drape(args, console),
         Command::Flatten(args) => flatten::flatten(args, console),
+        Command::Report(args) => report::report(args, console),
         Command::Test(args) => test::test(args, console),
         Command::Export(command) => export::export(command, console),
         Command::Fabric(command) => fabric::fabric(command, console),

@@ -63,7 +63,7 @@ pub(super) fn test(args: &TestArgs, console: &Console) -> Result<Exit, CliError>
     if let Some(file) = &args.junit {
         write_all(&[(file.clone(), junit::xml(&outcomes).into_bytes())], &borrowed(&inputs))?;
     }
-    console.results(&outcomes, || summary(&outcomes, passed))?;
+    console.results(&outcomes, || if args.table { table(&outcomes, passed) } else { lines(&outcomes, passed) })?;
     updated.iter().for_each(|file| console.note(&format!("{}: bounds updated", file.display())));
     let mut exit = Exit::Done;
     for outcome in &outcomes {
@@ -247,8 +247,30 @@ impl Outcome {
     }
 }
 
+/// A line per garment, and the time that `passed` on the clock.
+fn lines(outcomes: &[Outcome], passed: Duration) -> String {
+    let lines = outcomes.iter().map(|outcome| {
+        let broken = outcome.bounds.iter().filter(|verdict| !verdict.ok).count();
+        let kept = outcome.bounds.len() - broken;
+        let text = match (&outcome.error, outcome.restless.is_empty()) {
+            (Some(_), _) => "NOT MADE".to_owned(),
+            (None, false) => format!("NOT AT REST; bounds: {kept} kept, {broken} broken"),
+            (None, true) if broken > 0 => format!("OUT OF BOUNDS: {kept} kept, {broken} broken"),
+            (None, true) => format!("ok, {kept} bounds kept"),
+        };
+        format!("  {}: {text}\n", outcome.garment)
+    });
+    lines.collect::<String>() + &tally(outcomes, passed)
+}
+
+fn tally(outcomes: &[Outcome], passed: Duration) -> String {
+    let good = outcomes.iter().filter(|o| o.ok).count();
+    let seconds = passed.as_secs_f64();
+    format!("  {good} of {} garments within their bounds, {seconds:.1} s\n", outcomes.len())
+}
+
 /// What was measured, garment by garment, and the time that `passed` on the clock.
-fn summary(outcomes: &[Outcome], passed: Duration) -> String {
+fn table(outcomes: &[Outcome], passed: Duration) -> String {
     let head = ["garment", "bound", "measured", "limit", "", "at", ""];
     let mut rows = vec![head.map(String::from).to_vec()];
     for outcome in outcomes {
@@ -256,9 +278,7 @@ fn summary(outcomes: &[Outcome], passed: Duration) -> String {
         rows.extend(outcome.restless.iter().map(|r| failed(outcome, format!("{} at rest", r.stage))));
         rows.extend(outcome.error.iter().map(|_| failed(outcome, "made".into())));
     }
-    let good = outcomes.iter().filter(|o| o.ok).count();
-    let seconds = passed.as_secs_f64();
-    format!("{}\n  {good} of {} garments within their bounds, {seconds:.1} s\n", aligned(&rows), outcomes.len())
+    format!("{}\n{}", aligned(&rows), tally(outcomes, passed))
 }
 
 fn row(outcome: &Outcome, v: &Verdict) -> Vec<String> {
@@ -330,7 +350,7 @@ mod tests {
     fn a_stage_that_did_not_come_to_rest_fails_the_garment() {
         let still = outcome(true);
         assert!(still.ok && still.exit == Exit::Done && still.bounds.iter().all(|v| v.ok), "{:?}", still.bounds);
-        assert!(!summary(&[still], Duration::ZERO).contains("at rest"));
+        assert!(!table(&[still], Duration::ZERO).contains("at rest"));
         let moving = outcome(false);
         assert!(moving.bounds.iter().all(|v| v.ok) && !moving.ok && moving.exit == Exit::OutOfBounds);
         let xml = junit::xml(std::slice::from_ref(&moving));
@@ -343,15 +363,17 @@ mod tests {
             xml.contains("it still drifts by 2.000 mm, at rest by 0.3 or less; it is out of balance by 18.2"),
             "{xml}"
         );
-        let table = summary(&[moving], Duration::ZERO);
-        assert!(table.contains("drape at rest") && table.contains("0 of 1 garments"), "{table}");
+        let all = table(std::slice::from_ref(&moving), Duration::ZERO);
+        assert!(all.contains("drape at rest") && all.contains("0 of 1 garments"), "{all}");
+        let few = lines(&[moving], Duration::ZERO);
+        assert!(few.starts_with("  skirt: NOT AT REST") && few.contains("0 of 1 garments"), "{few}");
     }
 
     /// Two garments that were made side by side in three seconds each took three seconds.
     #[test]
     fn the_table_ends_with_the_time_on_the_clock() {
         let both = [(); 2].map(|()| Outcome { seconds: 3.0, ..outcome(true) });
-        let table = summary(&both, Duration::from_secs(3));
+        let table = table(&both, Duration::from_secs(3));
         assert!(table.ends_with("2 of 2 garments within their bounds, 3.0 s\n"), "{table}");
     }
 }

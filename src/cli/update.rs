@@ -9,8 +9,8 @@ const MARGIN: f64 = 1.25;
 const TIGHTEST: f64 = 0.01;
 
 /// `text` with new numbers in the tests of `file`, which was read from it. `measured` has one list per test that is
-/// measured (all but `openings`), in the order of the file; a test without verdicts stays. Counts stay as well: nobody
-/// wants more crossings for an update.
+/// measured (all but `openings`), in the order of the file; a test without verdicts stays. Counts stay as well,
+/// since nobody wants more crossings for an update, and so does the fit that the maker wants.
 pub(super) fn updated(text: &str, file: &GarmentFile, measured: &[Vec<Verdict>]) -> String {
     let tests = file.tests.iter().map(|t| &t.value.test).filter(|t| !matches!(t, TestFile::Openings(_)));
     let mut changes: Vec<(Spot, String)> = tests
@@ -36,7 +36,13 @@ fn quantities(test: &TestFile) -> Vec<&Located<Quantity>> {
         TestFile::Flatten(_, area, boundary) | TestFile::Drape(_, area, boundary) => {
             area.iter().chain(boundary).collect()
         }
-        TestFile::Crossings(_) | TestFile::Openings(_) | TestFile::Worn => Vec::new(),
+        // Counts, and how the maker wants the garment to fit.
+        TestFile::Crossings(_)
+        | TestFile::Openings(_)
+        | TestFile::Worn
+        | TestFile::Ease(..)
+        | TestFile::Pressure(..)
+        | TestFile::HemLevel(_) => Vec::new(),
     }
 }
 

@@ -72,6 +72,8 @@ pub struct Draped {
     pub drift: [f64; 2],
     /// Root mean square of the unbalanced force over a particle's weight.
     pub residual: f64,
+    /// Forces of the body on every class, N: the normal forces, and friction.
+    pub body_forces: [Vec<Vec3>; 2],
     /// Wall-clock time spent on contact.
     pub contact: ContactTime,
 }
@@ -168,8 +170,8 @@ pub fn drape(
     };
     progress(1.0);
     let Fall { world, steps, tested, .. } = fall;
-    let (energy, contact) = (world.energy(), world.contact_time());
-    Ok(Draped { energy, nodes: world.x, steps, tested, converged, drift, residual, contact })
+    let (energy, contact, body_forces) = (world.energy(), world.contact_time(), world.body_forces());
+    Ok(Draped { energy, nodes: world.x, steps, tested, converged, drift, residual, body_forces, contact })
 }
 
 /// Checks that a drape that did not come to rest has at least lowered the energy of the garment `sewn` (positions as in

@@ -486,6 +486,24 @@ impl<'a> World<'a> {
         cloth_forces(&self.cloth, &self.stepper.links, &self.x, &self.forces(&[]))
     }
 
+    /// Forces of the body on every node, N: the normal forces, and friction.
+    pub fn body_forces(&self) -> [Vec<Vec3>; 2] {
+        let forces = self.forces(&[]);
+        let [mut normal, mut friction] = [(); 2].map(|()| vec![Vec3::zeros(); self.x.len()]);
+        for (k, contact) in forces.contacts.iter().enumerate().filter(|(_, contact)| contact.is_on_body()) {
+            let load = forces.load(&self.cloth, &self.x, contact);
+            if load <= 0.0 {
+                continue;
+            }
+            let grip = forces.hold(&self.cloth, &self.x, k, load).map_or_else(Vec3::zeros, |hold| hold.grip().force);
+            for (node, weight) in contact.parts() {
+                normal[node] += contact.normal * (load * weight);
+                friction[node] += grip * weight;
+            }
+        }
+        [normal, friction]
+    }
+
     /// Root mean square of the unbalanced force, in mean particle weights.
     pub fn residual_in_weights(&self) -> f64 {
         let mut r = self.unbalanced();

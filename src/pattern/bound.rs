@@ -7,7 +7,7 @@ use super::file::{GarmentFile, Quantity, TestEntry, TestFile, Unit};
 use super::inherit::unknown_piece;
 use super::problem::Problem;
 use super::reference::piece_of;
-use super::{Bound, Garment, Test, openings};
+use super::{Bound, GIRTHS, Garment, OF_TRUNK, SIDES, Test, openings};
 use crate::input::nearest;
 
 /// The bounds of the file. `openings` is checked at once, because it needs no simulation. A garment that is not `sound`
@@ -46,6 +46,13 @@ impl Reader<'_> {
             },
             TestFile::Crossings(most) => Bound::Crossings(*most),
             TestFile::Worn => Bound::Worn,
+            TestFile::Ease(girth, from, to) => Bound::Ease {
+                girth: known_girth(girth, findings)?,
+                from: from.as_ref().map(value),
+                to: to.as_ref().map(value),
+            },
+            TestFile::Pressure(girth, below) => Bound::Pressure(known_girth(girth, findings)?, below.value),
+            TestFile::HemLevel(within) => Bound::HemLevel(value(within)),
             TestFile::Openings(expected) => {
                 if self.sound {
                     self.count_openings(test, *expected, findings);
@@ -123,6 +130,17 @@ impl Reader<'_> {
         let rims = format!("at {}", rims.join(", "));
         findings.error(test.at, Problem::Openings { found: found.len(), expected, rims });
     }
+}
+
+/// The girth of a test, if there is one of that name.
+fn known_girth(girth: &Located<String>, findings: &mut Findings) -> Option<String> {
+    let of_limb = SIDES.iter().find_map(|side| girth.value.strip_prefix(side));
+    let is_known = GIRTHS.contains(&girth.value.as_str()) || of_limb.is_some_and(|g| GIRTHS[OF_TRUNK..].contains(&g));
+    if !is_known {
+        let near = nearest(of_limb.unwrap_or(&girth.value), GIRTHS).map(str::to_owned);
+        findings.error(girth.at, Problem::UnknownGirth { name: girth.value.clone(), nearest: near });
+    }
+    is_known.then(|| girth.value.clone())
 }
 
 /// A bare number is a fraction, `0.5 %` is 0.005.

@@ -502,4 +502,10 @@ pub enum TestFile {
     Openings(usize),
     /// `{worn: true}`.
     Worn,
+    /// `{ease: bust, from: 40 mm, to: 90 mm}`.
+    Ease(Located<String>, Option<Located<Quantity>>, Option<Located<Quantity>>),
+    /// `{pressure: waist, below: 2.3 kPa}`: the number of kPa.
+    Pressure(Located<String>, Located<f64>),
+    /// `{hem: level within 10 mm}`.
+    HemLevel(Located<Quantity>),
 }

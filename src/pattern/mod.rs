@@ -428,4 +428,34 @@ pub enum Bound {
     Crossings(usize),
     /// Every opening worn.
     Worn,
+    /// Ease of the draped garment at a girth of the body.
+    Ease {
+        /// One of [`GIRTHS`], with or without its side.
+        girth: String,
+        /// Least ease, metres.
+        from: Option<f64>,
+        /// Largest ease, metres.
+        to: Option<f64>,
+    },
+    /// Largest pressure on the skin at a girth of the body, kPa.
+    Pressure(String, f64),
+    /// Largest height of a hem's highest point above its lowest, metres.
+    HemLevel(f64),
 }
+
+/// Girths of a body at which garments are measured. Those from the thigh on are of limbs and have a side (`left
+/// thigh`).
+pub const GIRTHS: [&str; 12] =
+    ["neck", "bust", "underbust", "waist", "high hip", "hip", "thigh", "knee", "calf", "biceps", "elbow", "wrist"];
+
+/// How many of [`GIRTHS`] are of the trunk.
+const OF_TRUNK: usize = 6;
+
+/// Whether `wanted`, with or without a side, means the girth called `name`: `thigh` means `left thigh` and `right
+/// thigh`.
+pub fn is_girth(wanted: &str, name: &str) -> bool {
+    wanted == name || SIDES.iter().any(|side| name.strip_prefix(side) == Some(wanted))
+}
+
+/// Words before the girths of limbs.
+const SIDES: [&str; 2] = ["left ", "right "];

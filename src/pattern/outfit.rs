@@ -116,6 +116,11 @@ fn bound(bound: Bound, named: impl Fn(&str) -> String) -> Bound {
         Bound::Flatten { piece, area, boundary } => Bound::Flatten { piece: full(piece), area, boundary },
         Bound::Drape { piece, area, boundary } => Bound::Drape { piece: full(piece), area, boundary },
         // Kinds of closures have one name in all garments. Crossings are those of the whole.
-        Bound::Closure(..) | Bound::Crossings(_) | Bound::Worn => bound,
+        Bound::Closure(..)
+        | Bound::Crossings(_)
+        | Bound::Worn
+        | Bound::Ease { .. }
+        | Bound::Pressure(..)
+        | Bound::HemLevel(_) => bound,
     }
 }

@@ -1,5 +1,7 @@
 //! Everything that can be wrong with a garment file. Lengths in messages are millimetres.
 
+use super::GIRTHS;
+
 /// Kinds of mistakes, with the data of their messages.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "every field is a word or a number of the message above it")]
@@ -71,6 +73,8 @@ pub enum Problem {
     UnknownSeam { name: String, nearest: Option<String>, known: String },
     #[error("no closure '{name}' with points to measure{}", did_you_mean(.nearest))]
     UnknownClosure { name: String, nearest: Option<String>, known: String },
+    #[error("the body has no girth '{name}'{}", did_you_mean(.nearest))]
+    UnknownGirth { name: String, nearest: Option<String> },
     #[error("fabric '{name}' not found{}", did_you_mean(.nearest))]
     UnknownFabric { name: String, nearest: Option<String>, known: String },
     #[error("'{0}' names no edge; write piece.edge, piece.L.edge or piece.edge@20%..80%")]
@@ -330,6 +334,9 @@ impl Problem {
             }
             Self::UnknownClosure { known, .. } => {
                 format!("the kinds of closures with points are: {known}; or write all")
+            }
+            Self::UnknownGirth { .. } => {
+                format!("the girths are: {}; those of limbs also with 'left' or 'right' before them", GIRTHS.join(", "))
             }
             Self::UnknownFabric { known, .. } => {
                 format!("the fabrics are: {known}; any other, a shipped one too, is named under 'fabrics' first")

@@ -14,7 +14,7 @@ use crate::io::garment::{self, Loaded};
 use crate::mannequin::{Mannequin, PartKind};
 use crate::mesh::{self, ClothMesh};
 use crate::pattern::{Garment, outfit};
-use crate::report::Stage;
+use crate::report::{Bands, Stage};
 use crate::sew::{SewError, Stance};
 
 /// Spacing when none is asked for, metres.
@@ -31,6 +31,8 @@ pub struct Overrides {
     pub body: Option<String>,
     /// Unit of the body's `.obj` file, in place of the garment file's or a guess from its size.
     pub body_unit: Option<LengthUnit>,
+    /// Limits of the bands of pressure.
+    pub bands: Option<Bands>,
 }
 
 /// A garment, its fabrics, the body it is made for and its mesh.
@@ -49,6 +51,8 @@ pub struct Job {
     pub stance: Option<Stance>,
     /// The mesh.
     pub mesh: ClothMesh,
+    /// Limits of the bands of pressure.
+    pub bands: Bands,
     /// Notes on input that its author may not have meant so, one text each.
     pub notes: Vec<String>,
     /// Report of the meshing.
@@ -117,7 +121,8 @@ impl Job {
         let stance = Stance::of(&body, &garment);
         notes.extend(stance.as_ref().map(|stance| format!("{wanted}: {}", spread(stance))));
         let file = worn.swap_remove(0).0;
-        Ok(Self { file, garment, fabrics, body, collider, stance, mesh, notes, meshing })
+        let bands = overrides.bands.clone().unwrap_or_default();
+        Ok(Self { file, garment, fabrics, body, collider, stance, mesh, bands, notes, meshing })
     }
 
     /// Names of the fabrics in use, joined with ` + `.

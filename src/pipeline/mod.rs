@@ -18,8 +18,10 @@ mod fit;
 mod job;
 mod judged;
 mod levels;
+mod maps;
 mod material;
 mod pattern_picture;
+mod problems;
 mod results;
 mod run;
 mod saved;
@@ -37,8 +39,10 @@ pub use job::{Job, Overrides, inputs, read};
 pub use judged::{Judged, judge};
 pub use material::{Checked, check};
 pub use pattern_picture::pattern_picture;
+pub use problems::{Problem, problems};
 pub use results::{
-    Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, PATTERN_SVG, PLACED_OBJ, REPORT_JSON, ResultFile, SEWN_OBJ, json_text,
+    Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, PATTERN_SVG, PLACED_OBJ, REPORT_HTML, REPORT_JSON, ResultFile,
+    SEWN_OBJ, json_text,
 };
 pub use run::{Progress, Run};
 pub use start_picture::{DoubtShown, OpeningShown, RimShown, StartPicture, StartShown, WordShown, start_picture};
@@ -46,7 +50,6 @@ pub use surface::{
     CutReport, CutWhy, Cuts, DARTS, DartStop, EdgeReport, FLAT_OBJ, FLAT_PNG, FailedReport, FlatSurface, Limit,
     OUTLINE_SVG, PartReport, SurfaceOptions, SurfaceReport, Weld, flatten_surface,
 };
-pub use tight::tight;
 pub use too_small::TooSmall;
 
 /// Bounds of rest of a draped garment.

@@ -1,15 +1,16 @@
 //! The files of a run, in memory.
 
 use super::error::PipelineError;
+use super::job::Job;
 use super::run::Run;
 use crate::dynamics::identity_nodes;
 use crate::geometry::Vec3;
-use crate::io::glb_write::garment_glb;
+use crate::io::glb_write::{garment_glb, surface_glb};
 use crate::io::obj_write::garment_obj;
 use crate::io::svg_write::pattern_svg;
 use crate::pattern::Notch;
 use crate::picture::{Dressed, draw};
-use crate::report::{Report, vertex_strain};
+use crate::report::{Report, page, vertex_strain};
 
 /// The draped garment.
 pub const GARMENT_OBJ: &str = "garment.obj";
@@ -23,6 +24,8 @@ pub const PLACED_OBJ: &str = "placed.obj";
 pub const PATTERN_SVG: &str = "pattern.svg";
 /// The figures.
 pub const REPORT_JSON: &str = "report.json";
+/// The page.
+pub const REPORT_HTML: &str = "report.html";
 /// The picture.
 pub const GARMENT_PNG: &str = "garment.png";
 
@@ -45,17 +48,21 @@ impl Run<'_> {
     /// # Errors
     /// When one of them cannot be drawn.
     pub fn results(&self, report: &Report, color: Color) -> Result<Vec<ResultFile>, PipelineError> {
+        let figures = json_text(report)?;
         let mut files = self.state(color)?;
         if let Some(draped) = &self.draped {
             files.push((GARMENT_OBJ, self.obj(draped, &self.class())));
-            let (garment, mesh) = (&self.job.garment, &self.job.mesh);
-            files.push((GARMENT_GLB, garment_glb(garment, mesh, &self.stitching.class, &self.in_file(draped))));
+            let glb = self.glb(draped);
+            let body = &self.job.body;
+            let body = surface_glb(&body.name, &body.mesh, |p| body.frame.to_file(p));
+            files.push((REPORT_HTML, page(&report.garment, &figures, &glb, Some(&body)).into_bytes()));
+            files.push((GARMENT_GLB, glb));
         }
         if let Some(flat) = &self.flattened {
             let notches: Vec<Notch> = self.job.garment.pieces.iter().flat_map(|p| p.notches.clone()).collect();
             files.push((PATTERN_SVG, pattern_svg(&self.job.mesh, flat, &notches)?.into_bytes()));
         }
-        files.push((REPORT_JSON, json_text(report)?.into_bytes()));
+        files.push((REPORT_JSON, figures.into_bytes()));
         Ok(files)
     }
 
@@ -74,6 +81,12 @@ impl Run<'_> {
         // Every particle stands alone: partners are still apart.
         let alone = identity_nodes(&self.job.mesh);
         Ok(vec![(PLACED_OBJ, self.obj(placed, &alone)), (GARMENT_PNG, self.picture(placed, &alone, color)?)])
+    }
+
+    fn glb(&self, at: &[Vec3]) -> Vec<u8> {
+        let Job { garment, mesh, fabrics, .. } = self.job;
+        let gives: Vec<[f64; 2]> = fabrics.iter().map(|fabric| fabric.emt()).collect();
+        garment_glb(garment, mesh, &self.stitching.class, &self.in_file(at), &self.maps(at), &gives)
     }
 
     fn obj(&self, at: &[Vec3], class: &[u32]) -> Vec<u8> {

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use super::error::PipelineError;
 use super::job::Job;
 use super::levels::{COARSE_SHARE, Closed, Coarse};
+use super::problems::problems;
 use super::surface;
 use crate::drape::{DrapeOptions, check_fall, drape};
 use crate::dynamics::{ContactTime, identity_nodes};
@@ -23,13 +24,15 @@ pub struct Run<'a> {
     /// The particles that are sewn together.
     pub(super) stitching: Stitching,
     /// [`Closed::gaps`].
-    gaps: Option<Vec<Vec<f64>>>,
+    pub(super) gaps: Option<Vec<Vec<f64>>>,
     /// Positions of every particle before sewing and after each stage.
     pub(super) placed: Option<Vec<Vec3>>,
     pub(super) sewn: Option<Vec<Vec3>>,
     /// Whether sewing left a seam open. Every particle stands alone then.
     pub(super) open: bool,
     pub(super) draped: Option<Vec<Vec3>>,
+    /// Normal force of the body on every class at the end of draping, N.
+    pub(super) pressed: Option<Vec<Vec3>>,
     pub(super) flattened: Option<Vec<Vec2>>,
     /// [`Measured::overlaps`].
     overlaps: Option<Vec<usize>>,
@@ -51,6 +54,7 @@ impl<'a> Run<'a> {
             sewn: None,
             open: false,
             draped: None,
+            pressed: None,
             flattened: None,
             overlaps: None,
             stages,
@@ -129,6 +133,8 @@ impl<'a> Run<'a> {
             contact_seconds,
         });
         self.draped = Some(self.stitching.spread(&draped.nodes));
+        let [normal, _] = draped.body_forces;
+        self.pressed = Some(normal);
         Ok(())
     }
 
@@ -163,7 +169,8 @@ impl<'a> Run<'a> {
 
     /// Measures the results so far.
     pub fn report(&self) -> Report {
-        measure(&Measured {
+        let gives: Vec<[f64; 2]> = self.job.fabrics.iter().map(|fabric| fabric.emt()).collect();
+        let mut report = measure(&Measured {
             garment: &self.job.garment,
             mesh: &self.job.mesh,
             weld: &self.class(),
@@ -175,8 +182,13 @@ impl<'a> Run<'a> {
             draped: self.draped.as_deref(),
             flattened: self.flattened.as_deref(),
             overlaps: self.overlaps.as_deref(),
+            pressed: self.pressed.as_deref(),
+            gives: &gives,
+            bands: self.job.bands.clone(),
             stages: &self.stages,
-        })
+        });
+        report.problems = problems(self.job, &report).into_iter().map(|problem| problem.text).collect();
+        report
     }
 }
 

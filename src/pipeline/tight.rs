@@ -5,7 +5,7 @@ use crate::fabric::Fabric;
 use crate::report::{PieceReport, Report};
 
 /// A text that lists the pieces that are too tight, fabric by fabric, with a remedy. `None` if there are none.
-pub fn tight(job: &Job, report: &Report) -> Option<String> {
+pub(super) fn tight(job: &Job, report: &Report) -> Option<String> {
     told(report.pieces.iter().zip(job.fabrics.iter().map(AsRef::as_ref)))
 }
 

@@ -3,9 +3,10 @@
 use serde::Serialize;
 
 use super::closures::APART;
+use super::fit::{Girth, hems};
 use super::schema::{ClosureReport, Crossing, FaultKind, PieceReport, Quartet, Report, Worn};
 use crate::geometry::MM;
-use crate::pattern::{Bound, Garment, Test, belongs_to, walk};
+use crate::pattern::{Bound, Garment, Test, belongs_to, is_girth, walk};
 
 /// Bounds of a garment that states none: closed seams, no crossing. Metres.
 const DEFAULTS: [Bound; 2] = [Bound::Gap(None, 1e-3), Bound::Crossings(0)];
@@ -17,11 +18,11 @@ const PERCENT: f64 = 1e2;
 pub struct Verdict {
     /// Name of the bound: `gap all`, `drape front area`.
     pub bound: String,
-    /// Largest value found.
+    /// Largest value found. Of a bound `at least` the least.
     pub measured: f64,
-    /// Largest value allowed.
+    /// Largest value allowed. Of a bound `at least` the least.
     pub limit: f64,
-    /// Of both: `mm`, `%` or nothing.
+    /// Of both: `mm`, `%`, `kPa` or nothing.
     pub unit: &'static str,
     /// The piece, seam or opening with the largest value.
     pub at: Option<String>,
@@ -159,7 +160,60 @@ fn verdict(garment: &Garment, report: &Report, of: Option<&str>, bound: &Bound) 
         }
         Bound::Crossings(most) => vec![crossings(report, *most)],
         Bound::Worn => vec![worn(report)],
+        Bound::Ease { girth, from, to } => ease(report, girth, [*from, *to]),
+        Bound::Pressure(girth, below) => pressure(report, girth, *below),
+        Bound::HemLevel(within) => hem_level(report, *within).into_iter().collect(),
     }
+}
+
+/// Rows of a girth that a test names. None before draping.
+fn girths<'a>(report: &'a Report, wanted: &str) -> Option<Vec<&'a Girth>> {
+    let fit = report.fit.as_ref()?;
+    Some(fit.girths.iter().filter(|girth| is_girth(wanted, &girth.name)).collect())
+}
+
+/// That there is nothing to measure at a girth.
+fn not_round(bound: String, limit: f64, unit: &'static str) -> Verdict {
+    let at = Some("no cloth goes round the body there".into());
+    Verdict { bound, measured: f64::NAN, limit, unit, at, ok: false }
+}
+
+/// Verdicts on the least and the largest ease, metres.
+fn ease(report: &Report, wanted: &str, [from, to]: [Option<f64>; 2]) -> Vec<Verdict> {
+    let Some(rows) = girths(report, wanted) else { return Vec::new() };
+    let most = to.map(|to| {
+        let bound = format!("ease {wanted}, at most");
+        let values = rows.iter().map(|girth| (girth.name.clone(), girth.ease)).collect::<Vec<_>>();
+        if values.is_empty() { not_round(bound, to * MM, "mm") } else { worst(bound, values, to * MM, "mm") }
+    });
+    let least = from.map(|from| {
+        let bound = format!("ease {wanted}, at least");
+        let tightest = rows.iter().min_by(|a, b| a.ease.total_cmp(&b.ease));
+        let Some(girth) = tightest else { return not_round(bound, from * MM, "mm") };
+        let (measured, limit) = (girth.ease, (from * MM * 1e9).round() / 1e9);
+        Verdict { bound, measured, limit, unit: "mm", at: Some(girth.name.clone()), ok: measured >= limit }
+    });
+    least.into_iter().chain(most).collect()
+}
+
+/// Verdict on the largest pressure, kPa. None where the forces are not known.
+fn pressure(report: &Report, wanted: &str, below: f64) -> Vec<Verdict> {
+    let Some(rows) = girths(report, wanted) else { return Vec::new() };
+    let bound = format!("pressure {wanted}");
+    if rows.is_empty() {
+        return vec![not_round(bound, below, "kPa")];
+    }
+    let values: Vec<_> = rows.iter().filter_map(|g| Some((g.name.clone(), g.pressure?.max))).collect();
+    if values.is_empty() { Vec::new() } else { vec![worst(bound, values, below, "kPa")] }
+}
+
+/// Verdict on how level the hems are, metres. None before draping.
+fn hem_level(report: &Report, within: f64) -> Option<Verdict> {
+    report.fit.as_ref()?;
+    let values: Vec<_> = hems(&report.worn).into_iter().map(|k| &report.worn[k]).collect();
+    let values: Vec<_> = values.iter().map(|w| (w.opening.clone(), w.level)).collect();
+    let bound = "hem level".to_owned();
+    Some(if values.is_empty() { not_round(bound, within * MM, "mm") } else { worst(bound, values, within * MM, "mm") })
 }
 
 fn all(name: &Option<String>) -> &str {

@@ -4,6 +4,7 @@ use super::bunched::bunched;
 use super::closures::Closures;
 use super::crossings::{Seen, look};
 use super::errors::{Way, area, area_error, boundary_error};
+use super::fit::{Bands, fit};
 use super::laps::turned_laps;
 use super::openings::{Opening, openings};
 use super::rim::{RimEdge, beside_elastic, outline_distance, rims};
@@ -23,7 +24,7 @@ use crate::verify::Welded;
 const MM2: f64 = 1e6;
 
 /// A garment and where its particles were. All slices have one entry per particle of `mesh`. Positions are metres.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Measured<'a> {
     /// The checked garment.
     pub garment: &'a Garment,
@@ -48,6 +49,12 @@ pub struct Measured<'a> {
     pub flattened: Option<&'a [Vec2]>,
     /// Number of crossings of each piece's rim with itself in the plane.
     pub overlaps: Option<&'a [usize]>,
+    /// Normal force of the body on the particles of every label of `weld` at the end of draping, N.
+    pub pressed: Option<&'a [Vec3]>,
+    /// For every piece the extension along warp and weft that its fabric gives under full load, fractions.
+    pub gives: &'a [[f64; 2]],
+    /// Limits of the bands of pressure.
+    pub bands: Bands,
     /// Reports of the stages.
     pub stages: &'a [Stage],
 }
@@ -71,6 +78,7 @@ pub fn measure(run: &Measured) -> Report {
         .map_or_else(Default::default, |space| (space.seen(run), worn_rows(run, &space.welded, &space.openings)));
     let draped = space.as_ref().filter(|_| run.draped.is_some());
     let bunched = draped.map_or_else(Vec::new, |space| bunched(run.garment, run.mesh, &space.welded, run.body));
+    let fit = draped.map(|space| fit(run, space.at, &space.welded, &space.openings, &worn));
     let (pieces, total) = pieces(run, &shapes, space.as_ref());
     Report {
         toile: env!("CARGO_PKG_VERSION").into(),
@@ -79,6 +87,7 @@ pub fn measure(run: &Measured) -> Report {
         fabric: run.fabric.into(),
         // To a nanometre: 18 was made 0.018 m, which is 18.000000000000004 mm.
         spacing: (run.mesh.spacing * MM * MM * MM).round() / (MM * MM),
+        problems: Vec::new(),
         pieces,
         total,
         seams: run.mesh.seams.iter().enumerate().map(|(k, s)| seam(run, k, s)).collect(),
@@ -87,6 +96,7 @@ pub fn measure(run: &Measured) -> Report {
         crossings: seen.crossings,
         worn,
         bunched,
+        fit,
         stages: run.stages.to_vec(),
     }
 }

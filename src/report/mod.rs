@@ -1,18 +1,21 @@
 //! Figures of a run: the measuring, the file `report.json` and the table for the terminal.
 //!
 //! [`measure`] computes a [`Report`] from the garment and its positions after each stage. `serde_json` writes it with
-//! keys that other programs rely on. [`table`] prints it for people. Lengths inside are metres. A [`Report`] holds
-//! millimetres, square millimetres, fractions and seconds, as the file does.
+//! keys that other programs rely on. [`summary`] says the verdict in a few lines, [`table`] prints every figure,
+//! [`page`] shows them in a browser. Lengths inside are metres. A [`Report`] holds millimetres, square millimetres,
+//! fractions and seconds, as the file does.
 
 mod bounds;
 mod bunched;
 mod closures;
 mod crossings;
 mod errors;
+mod fit;
 mod laps;
 mod measure;
 mod misworn;
 mod openings;
+mod page;
 mod rest;
 mod rim;
 mod ring;
@@ -20,18 +23,22 @@ mod schema;
 mod statistics;
 mod strain;
 mod stretched;
+mod summary;
 mod table;
 mod tight;
 mod worn;
 
 pub use bounds::{Verdict, verdicts, verdicts_by_test};
 pub use crossings::{Seen, look};
+pub use fit::{Band, Bands, Finished, Fit, Girth, Length, Pressure, pressure};
 pub use measure::{Measured, measure};
 pub use openings::opening_names;
+pub use page::page;
 pub use rest::{AtRest, Restless, restless};
 pub use schema::{
     Bunched, ClosureReport, Contact, ContactSeconds, Crossing, Drift, Fault, FaultKind, PieceReport, Quartet, Report,
     SeamReport, Sizes, Spread, Stage, Stretched, Turned, Worn, WornBefore,
 };
-pub use strain::{extensions, vertex_strain};
+pub use strain::{extensions, thread_strains, vertex_strain};
+pub use summary::{shortened, summary};
 pub use table::{aligned, contact_lines, table};

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::fit::Fit;
+
 /// A whole report. Values of stages that did not run are `null`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Report {
@@ -15,6 +17,9 @@ pub struct Report {
     pub fabric: String,
     /// Mesh spacing, mm.
     pub spacing: f64,
+    /// Everything that is wrong, in words: cloth that is not at rest or tight, bounds that are broken.
+    #[serde(default)]
+    pub problems: Vec<String>,
     /// One per piece as cut.
     pub pieces: Vec<PieceReport>,
     /// All pieces together, named `total`. `stretched` pieces included.
@@ -34,6 +39,9 @@ pub struct Report {
     /// Draped cloth that lies folded on itself, three deep, without a fold in the pattern. The largest place first.
     #[serde(default)]
     pub bunched: Vec<Bunched>,
+    /// How the draped garment fits. `null` before draping.
+    #[serde(default)]
+    pub fit: Option<Fit>,
     /// One per stage that ran.
     pub stages: Vec<Stage>,
 }
@@ -260,11 +268,17 @@ pub struct Worn {
     pub edges: Vec<String>,
     /// Its length, mm.
     pub length: f64,
+    /// Its length as drawn, mm. What closures bridge counts as worn.
+    #[serde(default)]
+    pub length_flat: f64,
     /// Round an arm or a leg: how far past the limb's last section (wrist, ankle) it is, mm. Negative before it.
     pub past_end: Option<f64>,
     /// Mean height of its rim, mm.
     #[serde(default)]
     pub height: f64,
+    /// Height of the highest point of its rim above the lowest, mm.
+    #[serde(default)]
+    pub level: f64,
     /// The same opening when the garment had been put on, before its seams were closed. `null` where that is not known.
     #[serde(default)]
     pub placed: Option<WornBefore>,

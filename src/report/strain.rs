@@ -108,15 +108,44 @@ fn thread(mesh: &ClothMesh, piece: &PieceMesh, ends: [u32; 2]) -> Option<usize> 
     }
 }
 
+/// For every particle the extensions along warp and weft (fractions, negative for compression) and the change of the
+/// angle between them (degrees): means over its triangles, weighted by their areas.
+pub fn thread_strains(mesh: &ClothMesh, at: &[Vec3]) -> Vec<[f64; 3]> {
+    let mut sums = vec![([0.0; 3], 0.0); mesh.flat.len()];
+    for piece in &mesh.pieces {
+        for triangle in &mesh.triangles[piece.triangles.clone()] {
+            let Some((area, images)) = images(mesh, piece.warp, triangle, at) else { continue };
+            let [x, y] = images;
+            let values = [x.norm() - 1.0, y.norm() - 1.0, angle(x, y).unwrap_or(0.0)];
+            for &v in triangle {
+                let (sum, weight) = &mut sums[v as usize];
+                (0..3).for_each(|k| sum[k] += area * values[k]);
+                *weight += area;
+            }
+        }
+    }
+    sums.into_iter().map(|(sum, weight)| if weight > 0.0 { sum.map(|s| s / weight) } else { sum }).collect()
+}
+
 /// |90° − angle between the images of warp and weft| of a triangle, degrees; none for a triangle without area.
 fn shear(mesh: &ClothMesh, warp: Vec2, triangle: &[u32; 3], at: &[Vec3]) -> Option<f64> {
+    let (_, [x, y]) = images(mesh, warp, triangle, at)?;
+    angle(x, y)
+}
+
+/// |90° − angle between two vectors|, degrees. None for one without length.
+fn angle(x: Vec3, y: Vec3) -> Option<f64> {
+    let size = x.norm() * y.norm();
+    (size > 0.0).then(|| (x.dot(&y) / size).clamp(-1.0, 1.0).asin().to_degrees().abs())
+}
+
+/// Twice the flat area of a triangle, and the images of the unit vectors along warp and weft. None without area.
+fn images(mesh: &ClothMesh, warp: Vec2, triangle: &[u32; 3], at: &[Vec3]) -> Option<(f64, [Vec3; 2])> {
     let [a, b, c] = triangle.map(|v| v as usize);
     let (p, q) = (mesh.flat[b] - mesh.flat[a], mesh.flat[c] - mesh.flat[a]);
     let (u, v) = (at[b] - at[a], at[c] - at[a]);
     let double_area = p.perp(&q);
-    // A flat direction d is s·p + t·q by Cramer's rule. Its image is s·u + t·v. Scale does not matter here.
+    // A flat direction d is s·p + t·q by Cramer's rule. Its image is s·u + t·v.
     let image = |d: Vec2| (u * d.perp(&q) + v * p.perp(&d)) / double_area;
-    let (x, y) = (image(warp), image(Vec2::new(-warp.y, warp.x)));
-    let size = x.norm() * y.norm();
-    (double_area != 0.0 && size > 0.0).then(|| (x.dot(&y) / size).clamp(-1.0, 1.0).asin().to_degrees().abs())
+    (double_area != 0.0).then(|| (double_area.abs(), [image(warp), image(Vec2::new(-warp.y, warp.x))]))
 }

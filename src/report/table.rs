@@ -1,5 +1,6 @@
 //! The report for people.
 
+use super::fit::{Band, Fit};
 use super::schema::{ClosureReport, Contact, Crossing, PieceReport, Quartet, Report, SeamReport, Stage, Worn};
 
 /// Shown where there is no value.
@@ -20,6 +21,7 @@ pub fn table(report: &Report) -> String {
         seams(&report.seams),
         closures(&report.closures),
         worn(&report.worn),
+        report.fit.as_ref().map_or_else(String::new, fit),
         contact_lines(&report.contact, &report.crossings),
         stages(&report.stages),
     ];
@@ -96,6 +98,35 @@ fn worn(worn: &[Worn]) -> String {
     // A skirt has none of them.
     rows.iter_mut().for_each(|row| row.truncate(if limbs { 4 } else { 3 }));
     aligned(&rows)
+}
+
+fn fit(fit: &Fit) -> String {
+    let mut out = String::new();
+    if !fit.girths.is_empty() {
+        let head = ["girth", "body mm", "garment", "as cut", "ease", "kPa mean", "largest", "band", "cloth %"];
+        let mut rows = vec![head.map(String::from).to_vec()];
+        rows.extend(fit.girths.iter().map(|g| {
+            let mut row = vec![g.name.clone()];
+            row.extend([g.body, g.garment, g.flat, g.ease].map(|mm| number(Some(mm), 0)));
+            row.extend([g.pressure.map(|p| p.mean), g.pressure.map(|p| p.max)].map(|p| number(p, 2)));
+            row.push(g.band.map_or(NONE, Band::name).into());
+            row.push(number(Some(100.0 * g.cloth), 0));
+            row
+        }));
+        out.push_str(&aligned(&rows));
+    }
+    if !fit.lengths.is_empty() {
+        let mut rows = vec![["length", "mm", "against", "uneven by"].map(String::from).to_vec()];
+        rows.extend(
+            fit.lengths
+                .iter()
+                .map(|l| vec![l.name.clone(), number(Some(l.value), 0), l.against.clone(), number(l.level, 0)]),
+        );
+        out.push('\n');
+        out.push_str(&aligned(&rows));
+    }
+    fit.remarks.iter().for_each(|remark| out.push_str(&format!("  {remark}\n")));
+    out
 }
 
 /// A line with the figures of contact, and one for every two pieces that cross.

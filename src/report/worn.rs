@@ -4,8 +4,11 @@ use super::measure::Measured;
 use super::misworn::Wear;
 use super::openings::{Opening, flaps, opening_names};
 use super::schema::{Worn, WornBefore};
-use crate::geometry::{MM, Vec3};
+use std::collections::HashMap;
+
+use crate::geometry::{MM, Vec3, range_of, sorted_pair};
 use crate::mannequin::Mannequin;
+use crate::mesh::ClothMesh;
 use crate::pattern::written_names;
 use crate::verify::{Passage, Through, Welded, past_end, worn};
 
@@ -21,19 +24,43 @@ pub(super) fn worn_rows(run: &Measured, welded: &Welded, openings: &[Opening]) -
     let (placed, sewn) = (run.placed.map(at), run.draped.and(run.sewn).map(at));
     let names = opening_names(&open.iter().map(|o| o.edges.clone()).collect::<Vec<_>>());
     let faults = Wear::new(run, welded, open.clone(), &names, [placed.as_deref(), sewn.as_deref()], &now).faults();
+    let drawn = drawn_edges(run.mesh, welded);
     let before = |state: &Option<Vec<Seen>>, k: usize| state.as_ref().map(|seen| seen[k].before());
     let row = |(k, fault): (usize, Option<_>)| Worn {
         opening: names[k].clone(),
         body_part: now[k].part(),
         edges: written_names(open[k].edges.iter().map(|(piece, edge)| (piece.as_str(), edge.as_str()))),
         length: now[k].length * MM,
+        length_flat: length_flat(open[k], welded, &drawn) * MM,
         past_end: now[k].past_end.map(|past| past * MM),
         height: now[k].height * MM,
+        level: now[k].level * MM,
         placed: before(&placed, k),
         sewn: before(&sewn, k),
         fault,
     };
     faults.into_iter().enumerate().map(row).collect()
+}
+
+/// Length as drawn of every edge of the pieces' rims, metres, by its vertices.
+fn drawn_edges(mesh: &ClothMesh, welded: &Welded) -> HashMap<[u32; 2], f64> {
+    let steps = mesh.pieces.iter().flat_map(|piece| &piece.edges).flat_map(|edge| edge.particles.windows(2));
+    let edge = |step: &[u32]| {
+        let [a, b] = [step[0], step[1]];
+        let length = (mesh.flat[a as usize] - mesh.flat[b as usize]).norm();
+        (sorted_pair([a, b].map(|p| welded.vertex_of[p as usize])), length)
+    };
+    steps.map(edge).collect()
+}
+
+/// Length of an opening as drawn, metres. What nobody drew has its length as worn.
+fn length_flat(opening: &Opening, welded: &Welded, drawn: &HashMap<[u32; 2], f64>) -> f64 {
+    let next = opening.ring.iter().cycle().skip(1);
+    let step = |(&a, &b): (&u32, &u32)| {
+        let worn = (welded.surface.vertices[a as usize] - welded.surface.vertices[b as usize]).norm();
+        drawn.get(&sorted_pair([a, b])).copied().unwrap_or(worn)
+    };
+    opening.ring.iter().zip(next).map(step).sum()
 }
 
 /// An opening in one state of the garment, metres.
@@ -45,6 +72,8 @@ pub(super) struct Seen {
     length: f64,
     /// Mean height of its rim.
     pub(super) height: f64,
+    /// Height of the highest point of its rim above the lowest.
+    level: f64,
 }
 
 impl Seen {
@@ -55,6 +84,10 @@ impl Seen {
             passage,
             length: (0..rim.len()).map(|k| (rim[(k + 1) % rim.len()] - rim[k]).norm()).sum(),
             height: rim.iter().map(|p| p.y).sum::<f64>() / rim.len() as f64,
+            level: {
+                let [low, high] = range_of(rim.iter().map(|p| p.y));
+                high - low
+            },
         };
         rims.iter().zip(worn(&rims, body)).map(seen).collect()
     }

@@ -55,6 +55,12 @@ pub fn inside(points: &[Vec3], body: &TriMesh) -> Inside {
     out
 }
 
+/// Distance of every one of `points` from the surface of `body`, metres.
+pub fn distances(points: &[Vec3], body: &TriMesh) -> Vec<f64> {
+    let tree = Tree::new(body);
+    points.par_iter().map(|p| tree.distance(body, p)).collect()
+}
+
 /// All triangles below a node as one small patch.
 #[derive(Clone, Copy)]
 struct Patch {

@@ -2,6 +2,7 @@
 
 use serde_yaml::{Mapping, Value as Yaml};
 
+use super::decode_test::LEVEL;
 use super::layout;
 use crate::pattern::{
     AllowanceFile, AllowanceWidth, ClosureFile, Cut, DartFile, DartShape, GarmentFile, LineFile, Located, OpenFile,
@@ -350,6 +351,20 @@ fn test(test: &TestFile) -> Map {
         TestFile::Crossings(most) => map.put("crossings", *most as u64),
         TestFile::Openings(expected) => map.put("openings", *expected as u64),
         TestFile::Worn => map.put("worn", true),
+        TestFile::Ease(girth, from, to) => {
+            map.put("ease", girth.value.as_str());
+            map.quantity("from", from);
+            map.quantity("to", to);
+        }
+        TestFile::Pressure(girth, below) => {
+            map.put("pressure", girth.value.as_str());
+            map.put("below", format!("{} kPa", below.value));
+        }
+        TestFile::HemLevel(within) => {
+            let Quantity { number, unit } = within.value;
+            let unit = unit.map_or_else(String::new, |unit| format!(" {}", unit.symbol()));
+            map.put("hem", format!("{LEVEL} {number}{unit}"));
+        }
     }
     map
 }

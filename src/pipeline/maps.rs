@@ -1,0 +1,48 @@
+//! Maps of the draped garment: values at every particle, for the page and for 3D programs.
+
+use super::run::Run;
+use crate::geometry::{MM, Vec3};
+use crate::report::{pressure, thread_strains};
+use crate::verify::{Welded, distances};
+
+/// kPa in a pascal.
+const KPA: f64 = 1e-3;
+
+impl Run<'_> {
+    /// Values at every particle of the garment at positions `at`, each with the name of its attribute in glTF: strain
+    /// along warp and weft (fractions), shear (degrees), ease (mm), the gaps of seams (mm), and the pressure (kPa)
+    /// where the forces are known.
+    pub(super) fn maps(&self, at: &[Vec3]) -> Vec<(&'static str, Vec<f64>)> {
+        let (mesh, class) = (&self.job.mesh, self.class());
+        let strains = thread_strains(mesh, at);
+        let strain = |k: usize| strains.iter().map(|values| values[k]).collect::<Vec<f64>>();
+        let ease = distances(at, &self.job.body.mesh).into_iter().map(|far| far * MM).collect();
+        let mut maps = vec![
+            ("_STRAIN_WARP", strain(0)),
+            ("_STRAIN_WEFT", strain(1)),
+            ("_SHEAR", strain(2)),
+            ("_EASE", ease),
+            ("_SEAM_GAP", self.seam_gaps()),
+        ];
+        if let Some(forces) = &self.pressed {
+            let welded = Welded::new(mesh, &class, at);
+            let pressure = pressure(&welded, &class, forces);
+            maps.push(("_PRESSURE", welded.vertex_of.iter().map(|&v| KPA * pressure[v as usize]).collect()));
+        }
+        maps
+    }
+
+    /// For every particle the largest gap to a partner when its seams had been closed, mm. Zero beside seams.
+    fn seam_gaps(&self) -> Vec<f64> {
+        let mesh = &self.job.mesh;
+        let mut out = vec![0.0f64; mesh.flat.len()];
+        for (seam, gaps) in mesh.seams.iter().zip(self.gaps.iter().flatten()) {
+            for (pair, gap) in seam.pairs.iter().zip(gaps) {
+                for &particle in pair {
+                    out[particle as usize] = out[particle as usize].max(gap * MM);
+                }
+            }
+        }
+        out
+    }
+}

@@ -1,0 +1,28 @@
+//! Everything that is wrong with a result, in words.
+
+use super::AT_REST;
+use super::job::Job;
+use super::tight::tight;
+use crate::report::{ClosureReport, Report, restless, verdicts};
+
+/// Something that a maker should know before any figure.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// What it is, with its place and figures.
+    pub text: String,
+    /// Whether a bound of the garment is broken.
+    pub out_of_bounds: bool,
+}
+
+/// The problems of a result: stages that did not come to rest, closures that stay open, bunched and tight cloth, then
+/// the bounds that are broken.
+pub fn problems(job: &Job, report: &Report) -> Vec<Problem> {
+    let mut texts: Vec<String> = restless(&report.stages, AT_REST).iter().map(ToString::to_string).collect();
+    texts.extend(report.closures.iter().filter_map(ClosureReport::unclosed));
+    texts.extend(report.bunched.iter().map(ToString::to_string));
+    texts.extend(tight(job, report));
+    let mut out: Vec<Problem> = texts.into_iter().map(|text| Problem { text, out_of_bounds: false }).collect();
+    let broken = verdicts(&job.garment, report).into_iter().filter(|verdict| !verdict.ok);
+    out.extend(broken.map(|verdict| Problem { text: format!("out of bounds: {verdict}"), out_of_bounds: true }));
+    out
+}
