@@ -281,7 +281,8 @@ fn out_of_bounds_ends_with_1_and_says_which() {
     let run = room.make("tight.yaml", &["--quiet"]);
     run.ends(1).says(&["out of bounds: gap all", "limit 0.000001 mm"]);
     assert_eq!(run.out, "");
-    assert_eq!(room.names("out").len(), 6);
+    // The page is there as well.
+    assert_eq!(room.names("out").len(), 7);
 }
 
 /// Numbers of the vertices that a group of an OBJ file uses.

@@ -73,7 +73,7 @@ impl Band {
              seams:\n  back: {{sew: band.right, to: band.left}}\nfree: ['*.top', '*.bottom']\n"
         );
         let garment = read_text("band", "band.yaml", &text).unwrap_or_else(|e| panic!("{e}")).garment;
-        let mesh = build(&garment, 0.01).expect("meshed");
+        let mesh = build(&garment, 0.005).expect("meshed");
         let stitching = Stitching::new(&mesh);
         let fabrics = vec![Arc::new(load(fabric).expect("shipped"))];
         Self { garment, mesh, fabrics, stitching, body: cylinder() }
@@ -161,8 +161,8 @@ fn contact_forces_are_weight_and_tension() {
         normal.iter().zip(&draped.nodes).map(|(f, p)| f.dot(&Vec3::new(p.x, 0.0, p.z).normalize())).sum();
     let waist = &band.fit(&draped).girths[0];
     let strain = waist.garment / waist.flat - 1.0;
-    // Both rims have a hem of 10 mm, a second layer.
-    let tension = band.fabrics[0].weft.load(strain) * (WIDTH + 0.02);
+    // Both rims have a hem of 10 mm: a second layer whose warp runs along the rim.
+    let tension = band.fabrics[0].weft.load(strain) * WIDTH + band.fabrics[0].warp.load(strain) * 0.02;
     assert!((outward / (TAU * tension) - 1.0).abs() < 0.01, "{outward} N, {} N of tension", TAU * tension);
 }
 

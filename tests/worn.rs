@@ -7,7 +7,7 @@ use toile::io::garment::read_text;
 use toile::mannequin::{Mannequin, PartKind, load};
 use toile::mesh::{ClothMesh, build};
 use toile::pattern::Garment;
-use toile::report::{Fault, FaultKind, Measured, Report, measure, verdicts};
+use toile::report::{Bands, Fault, FaultKind, Measured, Report, measure, verdicts};
 use toile::sew::Stitching;
 
 /// A garment without tests, and its mesh.
@@ -62,6 +62,9 @@ impl Made {
             draped: Some(draped),
             flattened: None,
             overlaps: None,
+            pressed: None,
+            gives: &[],
+            bands: Bands::default(),
             stages: &[],
         })
     }

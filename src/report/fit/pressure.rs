@@ -1,8 +1,5 @@
 //! Pressure on the skin, from the forces of contact.
 
-use std::cmp::Reverse;
-use std::collections::{BTreeMap, BinaryHeap};
-
 use rayon::prelude::*;
 
 use crate::geometry::{Topology, TriMesh, Vec3};
@@ -12,7 +9,7 @@ use crate::verify::Welded;
 /// clothing is measured. The pressure at one particle would depend on the mesh.
 const SENSOR: f64 = 0.015;
 
-/// Pressure at every vertex of a garment, Pa: force on the body over area of cloth, within 15 mm along the cloth.
+/// Pressure at every vertex of a garment, Pa: force on the body over area of cloth, within 15 mm.
 /// `weld` has the label of every particle, `forces` the normal force of the body on the particles of every label, N.
 ///
 /// # Panics
@@ -27,7 +24,7 @@ pub fn pressure(welded: &Welded, weld: &[u32], forces: &[Vec3]) -> Vec<f64> {
     let area = areas(surface);
     let near = neighbours(surface);
     let mean = |vertex: usize| {
-        let disc = within(&near, vertex, SENSOR);
+        let disc = within(&near, &surface.vertices, vertex, SENSOR);
         let (force, area) = disc.iter().fold((0.0, 0.0), |(f, a), &v| (f + force[v], a + area[v]));
         if area > 0.0 { force / area } else { 0.0 }
     };
@@ -60,36 +57,31 @@ fn shares(corners: &[Vec3; 3]) -> [f64; 3] {
     [0, 1, 2].map(|k| 0.5 * (whole - weight[k]) / whole)
 }
 
-/// Neighbours of every vertex, each with its distance.
-fn neighbours(surface: &TriMesh) -> Vec<Vec<(usize, f64)>> {
+/// Neighbours of every vertex.
+fn neighbours(surface: &TriMesh) -> Vec<Vec<usize>> {
     let mut near = vec![Vec::new(); surface.vertices.len()];
     for edge in &Topology::new(&surface.triangles).edges {
         let [a, b] = edge.ends.map(|v| v as usize);
-        let length = (surface.vertices[a] - surface.vertices[b]).norm();
-        near[a].push((b, length));
-        near[b].push((a, length));
+        near[a].push(b);
+        near[b].push(a);
     }
     near
 }
 
-/// The vertices within `reach` of one, along edges, in the order of their numbers.
-fn within(near: &[Vec<(usize, f64)>], from: usize, reach: f64) -> Vec<usize> {
-    let mut far: BTreeMap<usize, f64> = BTreeMap::from([(from, 0.0)]);
-    let mut open = BinaryHeap::from([Reverse((0u64, from))]);
-    while let Some(Reverse((bits, here))) = open.pop() {
-        let so_far = f64::from_bits(bits);
-        if so_far > far[&here] {
-            continue;
-        }
-        for &(next, length) in &near[here] {
-            let reached = so_far + length;
-            if reached <= reach && far.get(&next).is_none_or(|known| reached < *known) {
-                far.insert(next, reached);
-                open.push(Reverse((reached.to_bits(), next)));
+/// The vertices within `reach` of one, metres, that edges join to it within that distance. (Distances along edges would
+/// leave out corners of cells without a diagonal.)
+fn within(near: &[Vec<usize>], at: &[Vec3], from: usize, reach: f64) -> Vec<usize> {
+    let mut found = vec![from];
+    let mut next = 0;
+    while next < found.len() {
+        for &other in &near[found[next]] {
+            if (at[other] - at[from]).norm() <= reach && !found.contains(&other) {
+                found.push(other);
             }
         }
+        next += 1;
     }
-    far.into_keys().collect()
+    found
 }
 
 #[cfg(test)]

@@ -25,7 +25,8 @@ pub(in crate::sew) struct Sheet {
     pub(in crate::sew) under: Vec<f64>,
     /// Whether it lies on other cloth of its piece: turned over at a fold, or laid in a pleat.
     pub(in crate::sew) hidden: Vec<bool>,
-    /// Of what is laid in a pleat, how far that is shut: 1 at the pleated edge, 0 where the pleat has opened. 1 elsewhere.
+    /// How far the pleat that it is laid in is shut: 1 at the pleated edge, 0 where the pleat has opened.
+    /// 1 for what is laid in no pleat.
     pub(in crate::sew) shut: Vec<f64>,
     /// Off the ring that a piece is bent into, outward, metres: the waves of a circle skirt.
     pub(super) out: Vec<f64>,
