@@ -46,7 +46,7 @@ pub(super) struct Global {
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Sew, drape and flatten a garment, and write everything
-    Make(GarmentArgs),
+    Make(OnwardArgs),
     /// Read and check a garment file and walk every seam; or look for crossings in a mesh
     Check(CheckArgs),
     /// Print the JSON Schema of garment files, for editors
@@ -54,7 +54,7 @@ pub(super) enum Command {
     /// Sew a garment; writes sewn.obj, garment.png and report.json
     Sew(GarmentArgs),
     /// Sew and drape a garment; writes garment.obj as well
-    Drape(DrapeArgs),
+    Drape(OnwardArgs),
     /// Lay any OBJ surface flat, or a garment's draped pieces
     Flatten(FlattenArgs),
     /// Write the page report.html anew from what lies in a folder of results
@@ -204,13 +204,14 @@ fn darts(text: &str) -> Result<usize, String> {
     }
 }
 
-/// Arguments of `drape`.
+/// A garment, and a result to begin with.
 #[derive(Debug, clap::Args)]
-pub(super) struct DrapeArgs {
+pub(super) struct OnwardArgs {
     #[command(flatten)]
     pub(super) garment: GarmentArgs,
-    /// Begin with the garment as `toile sew` has sewn it, at the same spacing
-    #[arg(long, value_name = "sewn.obj")]
+    /// Begin with an earlier result: a folder of `toile make`, `drape` or `sew`, of this garment or of what it was
+    /// before its pieces, fabrics, body or spacing were changed; or the garment as sewn at the same spacing, a sewn.obj
+    #[arg(long, value_name = "DIR|sewn.obj")]
     pub(super) from: Option<PathBuf>,
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::args::{DrapeArgs, GarmentArgs};
+use super::args::{GarmentArgs, OnwardArgs};
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use crate::flatten;
@@ -25,44 +25,56 @@ pub(super) struct Plan<'a> {
     pub(super) goal: Goal<'a>,
 }
 
-/// The last stage, and the file of an earlier run to begin with.
+/// The last stage, and what to begin with.
 #[derive(Clone, Copy)]
 pub(super) enum Goal<'a> {
     Sewn,
     Draped { from: Option<&'a Path> },
+    Made { from: Option<&'a Path> },
     Flat { from: Option<&'a Path>, options: flatten::Options },
 }
 
+/// What a run begins with.
+enum Start<'a> {
+    Nothing,
+    /// A folder of results, of the garment as it may have been before a change.
+    Folder(&'a Path),
+    Sewn(&'a Path),
+    Draped(&'a Path),
+}
+
 impl<'a> Goal<'a> {
-    /// The earlier run's file.
-    fn from(self) -> Option<&'a Path> {
+    fn start(self) -> Start<'a> {
         match self {
-            Goal::Sewn => None,
-            Goal::Draped { from } | Goal::Flat { from, .. } => from,
+            Goal::Draped { from: Some(from) } | Goal::Made { from: Some(from) } if from.is_dir() => Start::Folder(from),
+            Goal::Draped { from: Some(from) } | Goal::Made { from: Some(from) } => Start::Sewn(from),
+            Goal::Flat { from: Some(from), .. } => Start::Draped(from),
+            _ => Start::Nothing,
         }
     }
 
     /// Names of the files the stages write. What an earlier run has made is not written again.
     fn files(self) -> Vec<&'static str> {
         let mut names = vec![GARMENT_PNG, REPORT_JSON];
-        match self {
-            Goal::Sewn => names.push(SEWN_OBJ),
-            Goal::Draped { from: Some(_) } => names.extend([GARMENT_OBJ, GARMENT_GLB, REPORT_HTML]),
-            Goal::Draped { from: None } => names.extend([SEWN_OBJ, GARMENT_OBJ, GARMENT_GLB, REPORT_HTML]),
-            Goal::Flat { from: Some(_), .. } => names.push(PATTERN_SVG),
-            Goal::Flat { from: None, .. } => {
-                names.extend([SEWN_OBJ, GARMENT_OBJ, GARMENT_GLB, PATTERN_SVG, REPORT_HTML])
-            }
+        if matches!(self.start(), Start::Nothing | Start::Folder(_)) {
+            names.push(SEWN_OBJ);
+        }
+        if !matches!(self, Goal::Sewn) && !matches!(self.start(), Start::Draped(_)) {
+            names.extend([GARMENT_OBJ, GARMENT_GLB, REPORT_HTML]);
+        }
+        if matches!(self, Goal::Flat { .. } | Goal::Made { .. }) {
+            names.push(PATTERN_SVG);
         }
         names
     }
 
     /// A run that has nothing yet, or what the earlier one has made.
     fn begin(self, job: &Job) -> Result<Run<'_>, PipelineError> {
-        match self {
-            Goal::Draped { from: Some(file) } => Run::from_sewn(job, file),
-            Goal::Flat { from: Some(file), .. } => Run::from_draped(job, file),
-            Goal::Sewn | Goal::Draped { from: None } | Goal::Flat { from: None, .. } => Ok(Run::new(job)),
+        match self.start() {
+            Start::Nothing => Ok(Run::new(job)),
+            Start::Folder(folder) => Run::continued(job, folder),
+            Start::Sewn(file) => Run::from_sewn(job, file),
+            Start::Draped(file) => Run::from_draped(job, file),
         }
     }
 
@@ -72,14 +84,15 @@ impl<'a> Goal<'a> {
         match self {
             Goal::Sewn => run.sew(&mut tell),
             Goal::Draped { .. } => run.drape(&mut tell),
+            Goal::Made { .. } => run.flatten(&flatten::Options::default(), &mut tell),
             Goal::Flat { options, .. } => run.flatten(&options, &mut tell),
         }
     }
 }
 
 /// `toile make`
-pub(super) fn make(args: &GarmentArgs, console: &Console) -> Result<Exit, CliError> {
-    carry_out(&plan(args, Goal::Flat { from: None, options: flatten::Options::default() }), console)
+pub(super) fn make(args: &OnwardArgs, console: &Console) -> Result<Exit, CliError> {
+    carry_out(&plan(&args.garment, Goal::Made { from: args.from.as_deref() }), console)
 }
 
 /// `toile sew`
@@ -88,7 +101,7 @@ pub(super) fn sew(args: &GarmentArgs, console: &Console) -> Result<Exit, CliErro
 }
 
 /// `toile drape`
-pub(super) fn drape(args: &DrapeArgs, console: &Console) -> Result<Exit, CliError> {
+pub(super) fn drape(args: &OnwardArgs, console: &Console) -> Result<Exit, CliError> {
     carry_out(&plan(&args.garment, Goal::Draped { from: args.from.as_deref() }), console)
 }
 
@@ -113,7 +126,11 @@ pub(super) fn carry_out(plan: &Plan, console: &Console) -> Result<Exit, CliError
     let folder = folder(plan.output, &names.join("+"));
     let mut inputs: Vec<PathBuf> =
         worn.iter().flat_map(|(file, loaded)| inputs(file, &loaded.garment, &plan.overrides)).collect();
-    inputs.extend(plan.goal.from().map(Path::to_owned));
+    inputs.extend(match plan.goal.start() {
+        // A result may take the place of the one it went on from.
+        Start::Nothing | Start::Folder(_) => None,
+        Start::Sewn(file) | Start::Draped(file) => Some(file.to_owned()),
+    });
     let targets: Vec<PathBuf> = plan.goal.files().iter().map(|name| folder.join(name)).collect();
     // Better now than after minutes of sewing.
     check_writable(&targets, &borrowed(&inputs))?;

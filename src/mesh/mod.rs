@@ -8,6 +8,7 @@ mod check;
 mod chords;
 mod coons;
 mod course;
+mod earlier;
 mod elastic;
 mod error;
 mod frame;
@@ -30,6 +31,7 @@ use std::ops::Range;
 
 pub use build::{build, build_with};
 pub use check::{CheckError, check};
+pub use earlier::{EarlierMesh, EarlierPiece, Edges, interpolated};
 pub use elastic::DrawnIn;
 pub use error::{MeshError, SeamFault};
 pub use springs::SpringClass;

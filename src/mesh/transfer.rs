@@ -43,12 +43,12 @@ impl Transfer {
 }
 
 /// Share of the length of a chain at each of its particles, 0 … 1. All are 0 if it has no length.
-fn shares(flat: &[Vec2], chain: &[u32]) -> Vec<f64> {
+pub(super) fn shares(flat: &[Vec2], chain: &[u32]) -> Vec<f64> {
     shares_along(chain.iter().map(|&n| flat[n as usize])).unwrap_or_else(|| vec![0.0; chain.len()])
 }
 
 /// The place `share` of the way along a chain whose particles are at `shares` of it.
-fn between(chain: &[u32], shares: &[f64], share: f64) -> ([u32; 3], [f64; 3]) {
+pub(super) fn between(chain: &[u32], shares: &[f64], share: f64) -> ([u32; 3], [f64; 3]) {
     let k = shares.partition_point(|s| *s <= share).clamp(1, chain.len() - 1);
     let t = (share - shares[k - 1]) / (shares[k] - shares[k - 1]).max(f64::MIN_POSITIVE);
     ([chain[k - 1], chain[k], chain[k]], [1.0 - t, t, 0.0])

@@ -84,6 +84,14 @@ pub enum PipelineError {
         /// The difference.
         why: String,
     },
+    /// A file of an earlier result, from which a garment should go on, is missing or belongs to another.
+    #[error("{}: {why}; --from takes a folder that `toile make`, `drape` or `sew` has written", file.display())]
+    Earlier {
+        /// The file.
+        file: PathBuf,
+        /// The fault.
+        why: String,
+    },
     /// A surface cannot be laid flat as it is.
     #[error("{}: {source}", file.display())]
     Surface {
@@ -155,6 +163,7 @@ impl PipelineError {
             | Self::Place { .. }
             | Self::Obj(_)
             | Self::Saved { .. }
+            | Self::Earlier { .. }
             | Self::NoDisk { .. }
             | Self::Cut { .. } => true,
             Self::Surface { source, .. } => !is_breakdown(source),

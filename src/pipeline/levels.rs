@@ -84,6 +84,34 @@ impl Job {
         is_whole(mesh, &closed.sewn).then_some(Closed { start: Some(start), ..closed })
     }
 
+    /// `mesh` sewn from `start`, where most of it lies as a sewn garment does.
+    ///
+    /// # Errors
+    /// A garment that cannot be sewn.
+    pub(super) fn sew_from(
+        &self,
+        mesh: &ClothMesh,
+        start: Vec<Vec3>,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Closed, SewError> {
+        let options = SewOptions { joined: true, ..SewOptions::default() };
+        let closed = self.sew_here(mesh, start.clone(), options, progress)?;
+        Ok(Closed { start: Some(start), ..closed })
+    }
+
+    /// Start positions of `mesh`, from the topology of its coarsest level, or else by rules. `None` where there is
+    /// neither.
+    pub(super) fn started(&self, mesh: &ClothMesh) -> Option<Vec<Vec3>> {
+        let (body, collider) = sewn_on(self.stance.as_ref(), &self.body, &self.collider);
+        let coarse = (LEAST * mesh.spacing < COARSEST).then(|| mesh::build(&self.garment, COARSEST).ok()).flatten();
+        let start = |mesh: &ClothMesh| topological_start(&self.garment, mesh, body, collider);
+        let found = match &coarse {
+            Some(coarse) => start(coarse).map(|x| Transfer::new(coarse, mesh).apply(&x)),
+            None => start(mesh),
+        };
+        found.or_else(|| self.placed(mesh).ok())
+    }
+
     /// Draws the seams of `mesh` itself shut.
     fn sew_here(
         &self,
@@ -176,7 +204,7 @@ impl Coarse {
 }
 
 /// Whether all seams have closed, and the cloth passes neither through itself nor through the body.
-fn is_whole(mesh: &ClothMesh, sewn: &Sewn) -> bool {
+pub(super) fn is_whole(mesh: &ClothMesh, sewn: &Sewn) -> bool {
     sewn.tangles == 0 && !sewn.is_cut && sewn.closed(mesh, SewOptions::default().tolerance).is_ok()
 }
 

@@ -13,6 +13,7 @@
 mod across;
 mod caught;
 mod cloth;
+mod earlier;
 mod error;
 mod fit;
 mod job;

@@ -18,6 +18,9 @@ pub struct Problem {
 /// the bounds that are broken.
 pub fn problems(job: &Job, report: &Report) -> Vec<Problem> {
     let mut texts: Vec<String> = restless(&report.stages, AT_REST).iter().map(ToString::to_string).collect();
+    texts.extend(report.from.as_ref().filter(|from| from.anew).map(|from| {
+        format!("the garment in {} could not be carried over: this one was made from nothing", from.folder)
+    }));
     texts.extend(report.closures.iter().filter_map(ClosureReport::unclosed));
     texts.extend(report.bunched.iter().map(ToString::to_string));
     texts.extend(tight(job, report));

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::time::{Duration, Instant};
 
+use super::earlier::{Continued, Earlier};
 use super::error::PipelineError;
 use super::job::Job;
 use super::levels::{COARSE_SHARE, Closed, Coarse};
@@ -39,6 +40,12 @@ pub struct Run<'a> {
     stages: Vec<Stage>,
     /// The coarser level from which the garment was sewn. Draping starts with it.
     coarse: Option<Box<Coarse>>,
+    /// The earlier result to go on from.
+    pub(super) earlier: Option<Earlier>,
+    /// Whether that could not be carried over.
+    anew: bool,
+    /// Positions of the classes where the earlier garment hangs. Draping starts with them, and nothing is sewn.
+    hanging: Option<Vec<Vec3>>,
 }
 
 impl<'a> Run<'a> {
@@ -59,6 +66,9 @@ impl<'a> Run<'a> {
             overlaps: None,
             stages,
             coarse: None,
+            earlier: None,
+            anew: false,
+            hanging: None,
         }
     }
 
@@ -70,10 +80,22 @@ impl<'a> Run<'a> {
         let job = self.job;
         let begin = Instant::now();
         let failed = |e| PipelineError::sewing(&job.file, &job.body, e);
-        let start = job.placed(&job.mesh).map_err(|e| failed(e.into()))?;
-        self.placed = Some(start.clone());
         let mut tell = |share| progress("sew", share);
-        let Closed { sewn, gaps, coarse, start } = job.sew_from_coarse(&job.mesh, start, &mut tell).map_err(failed)?;
+        let continued = self.earlier.as_ref().and_then(|earlier| job.continued(earlier, &mut tell));
+        let closed = match continued {
+            Some(Continued::Hanging { stitching, gaps, nodes }) => {
+                (self.stitching, self.gaps, self.hanging) = (stitching, Some(gaps), Some(nodes));
+                return Ok(());
+            }
+            Some(Continued::Sewn(closed)) => *closed,
+            None => {
+                self.anew = self.earlier.is_some();
+                let start = job.placed(&job.mesh).map_err(|e| failed(e.into()))?;
+                self.placed = Some(start.clone());
+                job.sew_from_coarse(&job.mesh, start, &mut tell).map_err(failed)?
+            }
+        };
+        let Closed { sewn, gaps, coarse, start } = closed;
         self.coarse = coarse;
         self.placed = start.or(self.placed.take());
         let closed = sewn.closed(&job.mesh, SewOptions::default().tolerance);
@@ -111,9 +133,12 @@ impl<'a> Run<'a> {
         }
         let job = self.job;
         let begin = Instant::now();
-        let sewn = gathered(&self.stitching, self.sewn.as_deref().unwrap_or_default());
+        let hanging = self.hanging.take();
+        let sewn = hanging.clone();
+        let sewn = sewn.unwrap_or_else(|| gathered(&self.stitching, self.sewn.as_deref().unwrap_or_default()));
         let mut tell = |share| progress("drape", share);
-        let start = self.coarse.as_deref().and_then(|coarse| job.start_from_coarse(&job.mesh, coarse, &mut tell));
+        let from_coarse = |coarse| job.start_from_coarse(&job.mesh, coarse, &mut tell);
+        let start = hanging.or_else(|| self.coarse.as_deref().and_then(from_coarse));
         let options = DrapeOptions { near: start.is_some(), ..DrapeOptions::default() };
         let begun = if start.is_some() { COARSE_SHARE } else { 0.0 };
         let mut tell = |share| progress("drape", begun + (1.0 - begun) * share);
@@ -187,6 +212,8 @@ impl<'a> Run<'a> {
             bands: self.job.bands.clone(),
             stages: &self.stages,
         });
+        let earlier = self.earlier.as_ref().zip(self.last());
+        report.from = earlier.map(|(earlier, at)| earlier.told(&self.job.mesh, at, self.anew));
         report.problems = problems(self.job, &report).into_iter().map(|problem| problem.text).collect();
         report
     }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::earlier::Earlier;
 use super::error::PipelineError;
 use super::job::Job;
 use super::run::Run;
@@ -10,6 +11,18 @@ use crate::io::obj_read::read_obj;
 use crate::verify::Welded;
 
 impl<'a> Run<'a> {
+    /// A run that goes on from the result of an earlier one in `folder`: of the same garment, or of one whose pieces,
+    /// fabrics, body or spacing have been changed since. What that garment did not have is sewn in. If it cannot be
+    /// carried over, the garment is sewn from nothing; the report says so.
+    ///
+    /// # Errors
+    /// A file of the folder that is missing or cannot be read.
+    pub fn continued(job: &'a Job, folder: &Path) -> Result<Self, PipelineError> {
+        let mut run = Self::new(job);
+        run.earlier = Some(Earlier::read(folder, &job.body)?);
+        Ok(run)
+    }
+
     /// Loads the garment as sewn by an earlier run from its `sewn.obj`, to continue with draping.
     ///
     /// # Errors

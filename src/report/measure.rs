@@ -8,7 +8,7 @@ use super::fit::{Bands, fit};
 use super::laps::turned_laps;
 use super::openings::{Opening, openings};
 use super::rim::{RimEdge, beside_elastic, outline_distance, rims};
-use super::schema::{Narrow, PieceReport, Quartet, Report, SeamReport, Sizes, Stage};
+use super::schema::{Narrow, PieceEdge, PieceReport, Quartet, Report, SeamReport, Sizes, Stage};
 use super::statistics::{largest, mean};
 use super::strain::{PieceStrain, piece_strain};
 use super::stretched::stretched;
@@ -16,7 +16,7 @@ use super::tight::Tight;
 use super::worn::worn_rows;
 use crate::geometry::{MM, Vec2, Vec3};
 use crate::mannequin::Mannequin;
-use crate::mesh::{ClothMesh, Stitches};
+use crate::mesh::{ClothMesh, EdgeParticles, Stitches};
 use crate::pattern::Garment;
 use crate::verify::Welded;
 
@@ -97,6 +97,7 @@ pub fn measure(run: &Measured) -> Report {
         worn,
         bunched,
         fit,
+        from: None,
         stages: run.stages.to_vec(),
     }
 }
@@ -176,6 +177,7 @@ fn pieces(run: &Measured, shapes: &Shapes, space: Option<&InSpace>) -> (Vec<Piec
         report.outline_distance =
             shapes.flattened.as_deref().map(|at| outline_distance(&part.rim, &shapes.flat, at) * MM);
         report.overlaps = run.overlaps.and_then(|overlaps| overlaps.get(index).copied());
+        report.edges = piece.edges.iter().map(edge).collect();
         report.stretched = given.and_then(|(at, tight)| stretched(mesh, &part.rim, part.strain.extension, tight, at));
         reports.push(report);
         total.triangles.extend(&part.triangles);
@@ -188,6 +190,10 @@ fn pieces(run: &Measured, shapes: &Shapes, space: Option<&InSpace>) -> (Vec<Piec
     whole.outline_distance = reports.iter().filter_map(|r| r.outline_distance).reduce(f64::max);
     whole.overlaps = run.overlaps.map(|overlaps| overlaps.iter().sum());
     (reports, whole)
+}
+
+fn edge(edge: &EdgeParticles) -> PieceEdge {
+    PieceEdge { name: edge.name.clone(), points: edge.particles.iter().map(|&n| n as usize + 1).collect() }
 }
 
 /// Figures that a piece shares with the total. Those of a piece alone are left open.
@@ -215,6 +221,7 @@ fn row(part: &Part, shapes: &Shapes) -> PieceReport {
         largest_edge_error: part.strain.largest,
         outline_distance: None,
         overlaps: None,
+        edges: Vec::new(),
         stretched: None,
     }
 }

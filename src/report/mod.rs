@@ -36,8 +36,8 @@ pub use openings::opening_names;
 pub use page::page;
 pub use rest::{AtRest, Restless, restless};
 pub use schema::{
-    Bunched, ClosureReport, Contact, ContactSeconds, Crossing, Drift, Fault, FaultKind, PieceReport, Quartet, Report,
-    SeamReport, Sizes, Spread, Stage, Stretched, Turned, Worn, WornBefore,
+    Bunched, ClosureReport, Contact, ContactSeconds, ContinuedFrom, Crossing, Drift, Fault, FaultKind, PieceEdge,
+    PieceReport, Quartet, Report, SeamReport, Sizes, Spread, Stage, Stretched, Turned, Worn, WornBefore,
 };
 pub use strain::{extensions, thread_strains, vertex_strain};
 pub use summary::{shortened, summary};

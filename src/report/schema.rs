@@ -42,8 +42,27 @@ pub struct Report {
     /// How the draped garment fits. `null` before draping.
     #[serde(default)]
     pub fit: Option<Fit>,
+    /// The earlier result that this one went on from. `null` for a garment made from nothing.
+    #[serde(default)]
+    pub from: Option<ContinuedFrom>,
     /// One per stage that ran.
     pub stages: Vec<Stage>,
+}
+
+/// An earlier result, and what became of it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ContinuedFrom {
+    /// Its folder.
+    pub folder: String,
+    /// Whether the garment could not be carried over, and was sewn from nothing after all.
+    pub anew: bool,
+    /// Pieces that it did not have.
+    pub new: Vec<String>,
+    /// How far the particles of its pieces have moved since, in the mean, mm. An edge that has been redrawn counts from
+    /// where the earlier edge was.
+    pub moved_mean: f64,
+    /// The same of the particle that has moved furthest, mm.
+    pub moved_max: f64,
 }
 
 /// Cloth that lies folded on itself.
@@ -114,6 +133,18 @@ pub struct PieceReport {
     pub overlaps: Option<usize>,
     /// Set where the piece had to stretch.
     pub stretched: Option<Stretched>,
+    /// The piece's edges. None in `total`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub edges: Vec<PieceEdge>,
+}
+
+/// An edge of a piece in the mesh.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PieceEdge {
+    /// As in the garment.
+    pub name: String,
+    /// The points along it, from its start to its end: numbers of `vt` lines in `garment.obj`, counted from 1.
+    pub points: Vec<usize>,
 }
 
 /// Measures of a piece narrower than the spacing, which has one row of cells across.

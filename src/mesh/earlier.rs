@@ -1,0 +1,234 @@
+//! From the mesh of an earlier garment to that of the garment as it has become.
+
+use std::collections::HashSet;
+use std::ops::Range;
+
+use nalgebra::SVector;
+
+use super::transfer::{between, shares};
+use super::{ClothMesh, EdgeParticles, PieceMesh};
+use crate::geometry::{Locator, Vec2, Vec3, box_of};
+
+/// The mesh of an earlier garment, as far as its results tell.
+#[derive(Clone, Debug, Default)]
+pub struct EarlierMesh {
+    /// Flat position of every particle, metres.
+    pub flat: Vec<Vec2>,
+    /// Corners of every triangle.
+    pub triangles: Vec<[u32; 3]>,
+    /// The pieces.
+    pub pieces: Vec<EarlierPiece>,
+    /// Distance of neighbouring particles, metres.
+    pub spacing: f64,
+}
+
+/// A piece of an earlier garment.
+#[derive(Clone, Debug, Default)]
+pub struct EarlierPiece {
+    /// Its name.
+    pub name: String,
+    /// Its triangles.
+    pub triangles: Range<usize>,
+    /// Its edges by name, with the particles along them.
+    pub edges: Vec<(String, Vec<u32>)>,
+}
+
+/// Where a particle lies: the corners of a triangle, and their weights.
+type Place = ([u32; 3], [f64; 3]);
+
+/// Cloth goes on straight beyond an edge that has been moved outward by no more than this, in earlier spacings.
+const BEYOND: f64 = 1.0;
+
+/// How edges are laid on the earlier ones of their names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Edges {
+    /// All of them at the same shares of their lengths.
+    Shares,
+    /// Edges that no seam joins are left to their neighbours, if they have not moved far outward: what has been added
+    /// beyond them hangs on straight, and edges that end there are measured from their other end. Seams stay closed
+    /// only if both sides have been changed alike.
+    Loose,
+}
+
+impl EarlierMesh {
+    /// Positions of the particles of `mesh` where the cloth of the earlier garment lies, whose particles are at `x`.
+    /// None for the particles of pieces that it did not have.
+    ///
+    /// Edges lie on those of their names, as `edges` says. What lies between them is displaced as they are, the nearer
+    /// ones more. So seams that were closed stay closed however the pieces have been redrawn, and the cloth is only
+    /// strained.
+    ///
+    /// # Panics
+    /// When `x` has not as many positions as there are particles, or a corner is no particle.
+    pub fn carry(&self, x: &[Vec3], mesh: &ClothMesh, edges: Edges) -> Vec<Option<Vec3>> {
+        let mut out = vec![None; mesh.flat.len()];
+        let sewn: HashSet<u32> = mesh.seams.iter().flat_map(|seam| seam.pairs.iter().flatten().copied()).collect();
+        let at = |(corners, weights): Place| corners.iter().zip(weights).map(|(&n, w)| x[n as usize] * w).sum();
+        for (piece, earlier) in mesh.pieces.iter().zip(self.pieces_of(mesh)) {
+            let Some(earlier) = earlier else { continue };
+            let locator = Locator::new(&self.flat, &self.triangles[earlier.triangles.clone()], self.spacing);
+            let is_loose = |edge: &&EdgeParticles| {
+                let inner = &edge.particles[1..edge.particles.len() - 1];
+                let lies_near = |n: &u32| locator.place(mesh.flat[*n as usize]).1.iter().all(|w| *w > -BEYOND);
+                edges == Edges::Loose && inner.iter().all(|n| !sewn.contains(n)) && edge.particles.iter().all(lies_near)
+            };
+            let loose: Vec<&EdgeParticles> = piece.edges.iter().filter(is_loose).collect();
+            let mut rim: Vec<(Vec2, Vec2)> = Vec::new();
+            for edge in piece.edges.iter().filter(|edge| !loose.iter().any(|l| std::ptr::eq(*l, *edge))) {
+                let Some((_, chain)) = earlier.edges.iter().find(|(name, _)| *name == edge.name) else { continue };
+                for (&n, place) in edge.particles.iter().zip(self.places_on(chain, edge, &loose, mesh)) {
+                    rim.push((mesh.flat[n as usize], self.flat_at(place) - mesh.flat[n as usize]));
+                    out[n as usize] = Some(at(place));
+                }
+            }
+            for n in piece.particles.clone() {
+                let flat = mesh.flat[n] + interpolated(&rim, mesh.flat[n]);
+                out[n].get_or_insert_with(|| at(locator.place(flat)));
+            }
+        }
+        out
+    }
+
+    fn flat_at(&self, (corners, weights): Place) -> Vec2 {
+        corners.iter().zip(weights).map(|(&n, w)| self.flat[n as usize] * w).sum()
+    }
+
+    /// Places of the particles of an `edge` on an earlier edge: at the same shares of the length, or at the same lengths
+    /// from the one end that is not that of a `loose` edge.
+    fn places_on(&self, chain: &[u32], edge: &EdgeParticles, loose: &[&EdgeParticles], mesh: &ClothMesh) -> Vec<Place> {
+        let ends = |edge: &EdgeParticles| [edge.particles[0], edge.particles[edge.particles.len() - 1]];
+        let is_loose = ends(edge).map(|n| loose.iter().any(|edge| ends(edge).contains(&n)));
+        let (own, theirs) = (shares(&mesh.flat, &edge.particles), shares(&self.flat, chain));
+        let ratio = length(&mesh.flat, &edge.particles) / length(&self.flat, chain).max(f64::MIN_POSITIVE);
+        let share = |share: f64| match is_loose {
+            [false, true] => share * ratio,
+            [true, false] => 1.0 - (1.0 - share) * ratio,
+            _ => share,
+        };
+        own.into_iter().map(|own| between(chain, &theirs, share(own))).collect()
+    }
+
+    /// The earlier piece of every piece of `mesh`: that of its name, or else one without a namesake whose drawing lies
+    /// in the same place.
+    fn pieces_of(&self, mesh: &ClothMesh) -> Vec<Option<&EarlierPiece>> {
+        let named = |name: &str| self.pieces.iter().find(|p| p.name == name);
+        let is_left = |p: &&EarlierPiece| mesh.pieces.iter().all(|own| own.name != p.name);
+        let mut left: Vec<&EarlierPiece> = self.pieces.iter().filter(is_left).collect();
+        let extent = |points: &[Vec2]| box_of(points.iter().copied());
+        let of = |piece: &PieceMesh| {
+            named(&piece.name).or_else(|| {
+                let own = extent(&mesh.flat[piece.particles.clone()]);
+                let corners = |p: &EarlierPiece| self.triangles[p.triangles.clone()].iter().flatten();
+                let drawn = |p: &EarlierPiece| corners(p).map(|&n| self.flat[n as usize]).collect::<Vec<Vec2>>();
+                let is_there = |p: &&EarlierPiece| {
+                    let there = extent(&drawn(p));
+                    own.iter().zip(there).all(|(a, b)| (a - b).norm() <= self.spacing)
+                };
+                let k = left.iter().position(is_there)?;
+                Some(left.remove(k))
+            })
+        };
+        mesh.pieces.iter().map(of).collect()
+    }
+}
+
+/// What is given at points of a piece, at another point `p` of it: the mean, weighted by the inverse fourth powers of the
+/// distances (Shepard 1968). With squares the far points of a long band, which are many, would weigh as much as the
+/// nearest. Zero without any.
+pub fn interpolated<const D: usize>(given: &[(Vec2, SVector<f64, D>)], p: Vec2) -> SVector<f64, D> {
+    let (mut sum, mut whole) = (SVector::zeros(), 0.0);
+    for (at, value) in given {
+        let weight = (at - p).norm_squared().powi(-2);
+        if !weight.is_finite() {
+            return *value;
+        }
+        sum += value * weight;
+        whole += weight;
+    }
+    if whole > 0.0 { sum / whole } else { SVector::zeros() }
+}
+
+/// Length of a chain of particles, metres.
+fn length(flat: &[Vec2], chain: &[u32]) -> f64 {
+    chain.windows(2).map(|ends| (flat[ends[1] as usize] - flat[ends[0] as usize]).norm()).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::build;
+
+    /// A square of 200 mm whose right edge is at `right` mm, meshed.
+    fn square(name: &str, right: f64) -> ClothMesh {
+        let text = format!(
+            "garment: 1\nname: Square\nfabrics: {{cloth: cotton_poplin}}\npieces:\n  {name}:\n    \
+             grain: [[50, 20], [50, 100]]\n    \
+             outline: {{start: 0 0, top: L {right} 0, right: L {right} 200, bottom: L 0 200, left: L 0 0}}\n\
+             free: ['*.*']\n"
+        );
+        let garment = crate::io::garment::read_text("square", "square.yaml", &text);
+        build(&garment.unwrap_or_else(|e| panic!("{e}")).garment, 0.02).expect("meshed")
+    }
+
+    /// What the results of a mesh tell of it.
+    fn told(mesh: &ClothMesh) -> EarlierMesh {
+        let piece = |p: &PieceMesh| EarlierPiece {
+            name: p.name.clone(),
+            triangles: p.triangles.clone(),
+            edges: p.edges.iter().map(|e| (e.name.clone(), e.particles.clone())).collect(),
+        };
+        EarlierMesh {
+            flat: mesh.flat.clone(),
+            triangles: mesh.triangles.clone(),
+            pieces: mesh.pieces.iter().map(piece).collect(),
+            spacing: mesh.spacing,
+        }
+    }
+
+    fn lifted(mesh: &ClothMesh) -> Vec<Vec3> {
+        mesh.flat.iter().map(|p| Vec3::new(p.x, p.y, 1.0)).collect()
+    }
+
+    #[test]
+    fn an_edge_that_has_moved_lies_where_it_lay() {
+        let (earlier, wider) = (square("a", 200.0), square("a", 220.0));
+        let at = told(&earlier).carry(&lifted(&earlier), &wider, Edges::Shares);
+        for (flat, at) in wider.flat.iter().zip(at) {
+            let at = at.expect("carried");
+            // The wider square lies on the earlier one, nowhere beyond it, and in order.
+            assert!((at.z - 1.0).abs() < 1e-12 && (-1e-9..0.2 + 1e-9).contains(&at.x), "{flat:?} {at:?}");
+            assert!((at.x - flat.x / 1.1).abs() < 6e-3 && (at.y - flat.y).abs() < 6e-3, "{flat:?} {at:?}");
+            if flat.x == 0.22 {
+                assert!((at.x - 0.2).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn a_free_edge_that_has_moved_a_little_hangs_on_straight() {
+        let earlier = square("a", 200.0);
+        for right in [190.0, 210.0] {
+            let changed = square("a", right);
+            let at = told(&earlier).carry(&lifted(&earlier), &changed, Edges::Loose);
+            assert!(
+                changed
+                    .flat
+                    .iter()
+                    .zip(at)
+                    .all(|(p, at)| (at.expect("carried") - Vec3::new(p.x, p.y, 1.0)).norm() < 1e-9)
+            );
+        }
+        // Further out it lies on the earlier edge.
+        let wider = square("a", 260.0);
+        let at = told(&earlier).carry(&lifted(&earlier), &wider, Edges::Loose);
+        assert!(at.iter().all(|at| at.expect("carried").x < 0.2 + 1e-9));
+    }
+
+    #[test]
+    fn a_piece_is_known_by_its_name_or_its_place_in_the_drawing() {
+        let (earlier, renamed, other) = (square("a", 200.0), square("b", 205.0), square("b", 260.0));
+        let known = |mesh: &ClothMesh| told(&earlier).carry(&lifted(&earlier), mesh, Edges::Shares);
+        assert!(known(&renamed).iter().all(Option::is_some));
+        assert!(known(&other).iter().all(Option::is_none));
+    }
+}
