@@ -3,7 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use toile::geometry::Vec3;
 use toile::io::garment::read_text;
+use toile::mesh::{ClothMesh, EarlierMesh, EarlierPiece, Edges, PieceMesh, build};
 use toile::pipeline::{AT_REST, Color, Job, Overrides, PipelineError, Run};
 use toile::report::{Report, restless};
 
@@ -127,4 +129,74 @@ fn a_folder_that_holds_no_result_is_refused_by_file() {
     fs::write(folder.join("report.json"), report.replace("\"front.L\"", "\"frint.L\"")).expect("written");
     let error = refused(&folder, "garment.obj", "no group 'frint.L'");
     assert!(matches!(error, PipelineError::Earlier { .. }));
+}
+
+/// A square of 200 mm whose right edge is at `right` mm, meshed.
+fn square(name: &str, right: f64) -> ClothMesh {
+    let text = format!(
+        "garment: 1\nname: Square\nfabrics: {{cloth: cotton_poplin}}\npieces:\n  {name}:\n    \
+         grain: [[50, 20], [50, 100]]\n    \
+         outline: {{start: 0 0, top: L {right} 0, right: L {right} 200, bottom: L 0 200, left: L 0 0}}\n\
+         free: ['*.*']\n"
+    );
+    let garment = read_text("square", "square.yaml", &text);
+    build(&garment.unwrap_or_else(|e| panic!("{e}")).garment, 0.02).expect("meshed")
+}
+
+/// What the results of a mesh tell of it.
+fn told(mesh: &ClothMesh) -> EarlierMesh {
+    let piece = |p: &PieceMesh| EarlierPiece {
+        name: p.name.clone(),
+        triangles: p.triangles.clone(),
+        edges: p.edges.iter().map(|e| (e.name.clone(), e.particles.clone())).collect(),
+    };
+    EarlierMesh {
+        flat: mesh.flat.clone(),
+        triangles: mesh.triangles.clone(),
+        pieces: mesh.pieces.iter().map(piece).collect(),
+        spacing: mesh.spacing,
+    }
+}
+
+fn lifted(mesh: &ClothMesh) -> Vec<Vec3> {
+    mesh.flat.iter().map(|p| Vec3::new(p.x, p.y, 1.0)).collect()
+}
+
+#[test]
+fn an_edge_that_has_moved_lies_where_it_lay() {
+    let (earlier, wider) = (square("a", 200.0), square("a", 220.0));
+    let at = told(&earlier).carry(&lifted(&earlier), &wider, Edges::Shares);
+    for (flat, at) in wider.flat.iter().zip(at) {
+        let at = at.expect("carried");
+        // The wider square lies on the earlier one, nowhere beyond it, and in order.
+        assert!((at.z - 1.0).abs() < 1e-12 && (-1e-9..0.2 + 1e-9).contains(&at.x), "{flat:?} {at:?}");
+        assert!((at.x - flat.x / 1.1).abs() < 6e-3 && (at.y - flat.y).abs() < 6e-3, "{flat:?} {at:?}");
+        if flat.x == 0.22 {
+            assert!((at.x - 0.2).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn a_free_edge_that_has_moved_a_little_hangs_on_straight() {
+    let earlier = square("a", 200.0);
+    for right in [190.0, 210.0] {
+        let changed = square("a", right);
+        let at = told(&earlier).carry(&lifted(&earlier), &changed, Edges::Loose);
+        assert!(
+            changed.flat.iter().zip(at).all(|(p, at)| (at.expect("carried") - Vec3::new(p.x, p.y, 1.0)).norm() < 1e-9)
+        );
+    }
+    // Further out it lies on the earlier edge.
+    let wider = square("a", 260.0);
+    let at = told(&earlier).carry(&lifted(&earlier), &wider, Edges::Loose);
+    assert!(at.iter().all(|at| at.expect("carried").x < 0.2 + 1e-9));
+}
+
+#[test]
+fn a_piece_is_known_by_its_name_or_its_place_in_the_drawing() {
+    let (earlier, renamed, other) = (square("a", 200.0), square("b", 205.0), square("b", 260.0));
+    let known = |mesh: &ClothMesh| told(&earlier).carry(&lifted(&earlier), mesh, Edges::Shares);
+    assert!(known(&renamed).iter().all(Option::is_some));
+    assert!(known(&other).iter().all(Option::is_none));
 }
