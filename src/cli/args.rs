@@ -525,6 +525,9 @@ pub(super) enum MannequinCommand {
         /// Library name or file
         #[arg(value_name = "NAME|FILE.yaml")]
         name: String,
+        /// Measures of a person to put on it, YAML or JSON: our names, FreeSewing's, or a body file of GarmentCode
+        #[arg(long, value_name = "FILE")]
+        measures: Option<PathBuf>,
         /// The file to write
         #[arg(short, long, value_name = "FILE.obj")]
         output: PathBuf,

@@ -7,9 +7,10 @@ use serde_json::{Value, json};
 use super::args::MannequinCommand;
 use super::console::Console;
 use super::exit::{CliError, Exit};
-use crate::io::body::mannequin_obj;
+use crate::io::body::{Body, load_body_of, mannequin_obj};
 use crate::io::files::{check_writable, write_all};
-use crate::mannequin::{MannequinSpec, library, load};
+use crate::mannequin::{MannequinSpec, Measures, library};
+use crate::pipeline::PipelineError;
 use crate::report::aligned;
 
 /// `toile mannequin …`
@@ -17,7 +18,7 @@ pub(super) fn mannequin(command: &MannequinCommand, console: &Console) -> Result
     match command {
         MannequinCommand::List => list(console)?,
         MannequinCommand::Show { name } => show(name, console)?,
-        MannequinCommand::Build { name, output } => build(name, output, console)?,
+        MannequinCommand::Build { name, measures, output } => build(name, measures.as_deref(), output, console)?,
     }
     Ok(Exit::Done)
 }
@@ -41,18 +42,25 @@ fn show(name: &str, console: &Console) -> Result<(), CliError> {
         let mut rows = vec![["part", "section", "at mm", "girth mm"].map(String::from).to_vec()];
         rows.extend(sections.iter().map(|(part, name, along, at, girth)| {
             let from = if *along == "height" { "from the floor" } else { "from the shoulder" };
-            vec![(*part).to_owned(), (*name).clone(), format!("{at} {from}"), girth.to_string()]
+            vec![(*part).to_owned(), (*name).clone(), format!("{} {from}", tenths(*at)), tenths(*girth)]
         }));
         format!("{}\n\n{}", spec.name, aligned(&rows))
     })
 }
 
-fn build(name: &str, output: &Path, console: &Console) -> Result<(), CliError> {
-    // Also reads the file, so that a wrong name is told before a wrong output.
+/// To a tenth of a millimetre, whole ones without a decimal.
+fn tenths(mm: f64) -> String {
+    ((10.0 * mm).round() / 10.0).to_string()
+}
+
+fn build(name: &str, measures: Option<&Path>, output: &Path, console: &Console) -> Result<(), CliError> {
+    // Also reads the files, so that a wrong name is told before a wrong output.
     MannequinSpec::load(name)?;
-    let inputs = [Path::new(name)];
+    let given = measures.map_or_else(|| Ok(Measures::default()), Measures::read)?;
+    let inputs: Vec<&Path> = std::iter::once(Path::new(name)).chain(measures).collect();
     check_writable(&[output.to_owned()], &inputs)?;
-    let mannequin = load(name)?;
+    let Body { mannequin, notes } = load_body_of(name, None, &given).map_err(PipelineError::from)?;
+    notes.iter().for_each(|note| console.note(note));
     write_all(&[(output.to_owned(), mannequin_obj(&mannequin).into_bytes())], &inputs)?;
     let (vertices, triangles) = (mannequin.mesh.vertices.len(), mannequin.mesh.triangles.len());
     let file = output.display().to_string();

@@ -89,6 +89,7 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
         about: Vec::new(),
         units: None,
         body: None,
+        body_measures: Vec::new(),
         body_units: None,
         allowance: None,
         fabrics: fabrics.into_iter().map(|d| (at_no_place(d.name), at_no_place(Value::Text(d.cloth)))).collect(),

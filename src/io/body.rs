@@ -8,8 +8,8 @@ use super::obj_read::{ObjError, ObjSurface, read_obj};
 use crate::geometry::{DisjointSets, Topology, TriMesh, Vec3, box_of, range_of};
 use crate::input::LengthUnit;
 use crate::mannequin::{
-    BodyCheck, BodyFault, Frame, GAP, HEIGHTS, Mannequin, MannequinError, PartKind, Place, check_body, find_parts,
-    load, make_room,
+    BodyCheck, BodyFault, Frame, GAP, HEIGHTS, Mannequin, MannequinError, Measures, PartKind, Place, check_body,
+    find_parts, load_measured, make_room,
 };
 
 /// Nobody needs to know that a body stands so little off y = 0, metres.
@@ -105,14 +105,28 @@ fn metres_shown(metres: f64) -> String {
 /// # Errors
 /// [`BodyError`].
 pub fn load_body(name_or_path: &str, unit: Option<LengthUnit>) -> Result<Body, BodyError> {
+    load_body_of(name_or_path, unit, &Measures::default())
+}
+
+/// As [`load_body`], with the measures of a person. An `.obj` is a body as it is, and takes none.
+///
+/// # Errors
+/// [`BodyError`].
+pub fn load_body_of(name_or_path: &str, unit: Option<LengthUnit>, measures: &Measures) -> Result<Body, BodyError> {
     let path = Path::new(name_or_path);
     if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
+        if !measures.is_empty() {
+            let why = "measures are put on a mannequin of sections, and an OBJ is a body as it is".to_owned();
+            return Err(MannequinError::Measure { like: name_or_path.to_owned(), why }.into());
+        }
         return read_body(path, unit);
     }
     if unit.is_some() {
         return Err(BodyError::NoUnit(name_or_path.to_owned()));
     }
-    Ok(Body { mannequin: load(name_or_path)?, notes: Vec::new() })
+    let unused = measures.unused();
+    let notes = (!unused.is_empty()).then(|| format!("no section has these measures, left out: {}", unused.join(", ")));
+    Ok(Body { mannequin: load_measured(name_or_path, measures)?, notes: notes.into_iter().collect() })
 }
 
 /// Reads a closed OBJ in `unit` (or, without one, in millimetres, centimetres or metres as its height says, which the

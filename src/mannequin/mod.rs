@@ -1,5 +1,6 @@
 //! Mannequins: measured sections lofted into a closed mesh, or a user's own closed OBJ.
 
+mod adapt;
 mod build;
 mod cell;
 mod check;
@@ -11,6 +12,7 @@ mod junction;
 mod label;
 mod library;
 mod loft;
+mod measures;
 mod parts;
 mod relax;
 mod room;
@@ -19,12 +21,14 @@ mod spec;
 mod spread;
 mod surface;
 
+pub use adapt::build_measured;
 pub use build::build;
 pub use check::{BodyCheck, BodyFault, Place, check_body};
 pub use detect::find_parts;
 pub use frame::Frame;
 pub(crate) use junction::{Junction, LEVEL, LIMB, Side, junctions};
-pub use library::{library, load};
+pub use library::{library, load, load_measured};
+pub use measures::Measures;
 pub use room::{GAP, make_room};
 pub use spec::{ArmRow, ArmSpec, LegRow, LegSpec, MannequinSpec, TorsoRow};
 pub(crate) use spread::Spread;
@@ -67,6 +71,14 @@ pub enum MannequinError {
         /// Path or library name.
         file: String,
         /// The number, and its allowed range.
+        why: String,
+    },
+    /// A measure that cannot be had.
+    #[error("a body like '{like}': {why}")]
+    Measure {
+        /// The mannequin.
+        like: String,
+        /// The measure, and the reason.
         why: String,
     },
     /// The sections make no simple closed body.

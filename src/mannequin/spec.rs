@@ -15,6 +15,9 @@ pub(super) const UNIT: f64 = 1e-3;
 pub struct MannequinSpec {
     /// Name, as garments call it.
     pub name: String,
+    /// From the floor to the top of the head, which the mannequin does not have. `None` where nobody has said.
+    #[serde(default)]
+    pub height: Option<f64>,
     /// Trunk and neck, from the crotch up.
     pub torso: Vec<TorsoRow>,
     /// The left leg. The right one mirrors it.
@@ -123,7 +126,7 @@ impl MannequinSpec {
         self.torso.iter().find(|r| r.name == name)
     }
 
-    fn check(&self) -> Result<(), String> {
+    pub(super) fn check(&self) -> Result<(), String> {
         if self.name.chars().any(char::is_control) {
             return Err(format!("the name {:?} is more than one line of text", self.name));
         }
@@ -132,6 +135,9 @@ impl MannequinSpec {
         }
         if self.torso[0].name != "crotch" || self.torso[1].name != "hip" {
             return Err("the torso's first two rows must be 'crotch' and 'hip'".to_owned());
+        }
+        if let Some(height) = self.height {
+            positive("height", &[height])?;
         }
         self.check_torso()?;
         self.check_leg()?;

@@ -132,6 +132,8 @@ pub struct GarmentFile {
     pub units: Option<Located<Unit>>,
     /// Mannequin.
     pub body: Option<Located<String>>,
+    /// Measures of the wearer by name, where the mannequin stands for the rest.
+    pub body_measures: Vec<(Located<String>, Located<Quantity>)>,
     /// Unit of the body's `.obj` file.
     pub body_units: Option<Located<LengthUnit>>,
     /// Default seam allowance.

@@ -9,11 +9,12 @@ use super::error::PipelineError;
 use super::fit;
 use super::job::{Overrides, SPACING};
 use crate::fabric::{Fabric, FabricError};
-use crate::io::body::{Body, BodyError, load_body};
+use crate::geometry::MM;
+use crate::io::body::{Body, BodyError, load_body_of};
 use crate::io::garment::{self, Loaded, Refused};
-use crate::mannequin::{self, Mannequin, MannequinError};
+use crate::mannequin::{self, Mannequin, MannequinError, Measures};
 use crate::mesh::{self, MeshError};
-use crate::pattern::{self, Diagnostic, Findings, GarmentFile, Located, Problem, Spot, Value};
+use crate::pattern::{self, Diagnostic, Findings, GarmentFile, Located, Problem, Spot, Unit, Value};
 use crate::sew::Stance;
 
 /// A garment file without mistakes.
@@ -91,7 +92,14 @@ fn look(file: &Path, said: &GarmentFile, findings: &mut Findings) -> Option<Body
     let name = said.body.as_ref()?;
     let wanted = body_name(file, Some(&name.value), None).ok()?;
     let unit = said.body_units.as_ref().map(|u| u.value);
-    match load_body(&wanted, unit) {
+    let measures = match measures(said) {
+        Ok(measures) => measures,
+        Err((at, why)) => {
+            findings.error(at, Problem::Body(why));
+            return None;
+        }
+    };
+    match load_body_of(&wanted, unit, &measures) {
         Ok(body) => {
             let note = |note: &String| Problem::Body(format!("{wanted}: {note}"));
             body.notes.iter().for_each(|told| findings.warn(name.at, note(told)));
@@ -102,6 +110,17 @@ fn look(file: &Path, said: &GarmentFile, findings: &mut Findings) -> Option<Body
             None
         }
     }
+}
+
+/// The measures of the wearer that a file gives beside its mannequin, or the place of a wrong one and the reason.
+fn measures(said: &GarmentFile) -> Result<Measures, (Spot, String)> {
+    let default = said.units.as_ref().map_or(Unit::Millimetre, |unit| unit.value);
+    let mut out = Measures::default();
+    for (name, length) in &said.body_measures {
+        let mm = MM * length.value.value(default);
+        out.add(&name.value, mm).map_err(|why| (name.at, why))?;
+    }
+    Ok(out)
 }
 
 /// Reports faults of a fabric, and notes on it, at its place in the file.
@@ -244,13 +263,24 @@ pub(super) fn body(file: &Path, loaded: &Loaded, wanted: &Overrides) -> Result<(
     let name = body_name(file, loaded.garment.body.as_deref(), instead)?;
     let said = loaded.file.body.as_ref().filter(|_| instead.is_none());
     let own_unit = said.and(loaded.file.body_units.as_ref()).map(|u| u.value);
-    let body = load_body(&name, wanted.body_unit.or(own_unit)).map_err(|error| match said {
+    let measures = match said {
+        Some(_) => measures(&loaded.file)
+            .map_err(|(at, why)| PipelineError::Garment(loaded.refusal(at, Problem::Body(why))))?,
+        None => Measures::default(),
+    };
+    let body = load_body_of(&name, wanted.body_unit.or(own_unit), &measures).map_err(|error| match said {
         Some(said) if cannot_be_had(&error) => {
             PipelineError::Garment(loaded.refusal(said.at, Problem::Body(error.to_string())))
         }
         _ => PipelineError::Body(error),
     })?;
     Ok((name, body))
+}
+
+/// The measures of a garment's wearer by name, metres.
+fn sizes(loaded: &Loaded) -> Vec<(&str, f64)> {
+    let default = loaded.file.units.as_ref().map_or(Unit::Millimetre, |unit| unit.value);
+    loaded.file.body_measures.iter().map(|(name, q)| (name.value.as_str(), q.value.value(default))).collect()
 }
 
 /// The body of garments worn together, by the name it is asked for.
@@ -260,7 +290,7 @@ pub(super) fn body_of_all(worn: &[(PathBuf, Loaded)], wanted: &Overrides) -> Res
     let other_body = own(inner, loaded)?;
     for (file, loaded) in &worn[1..] {
         let body = own(file, loaded)?;
-        if body != other_body {
+        if body != other_body || wanted.body.is_none() && sizes(loaded) != sizes(&worn[0].1) {
             return Err(PipelineError::Bodies { file: file.clone(), body, other: inner.clone(), other_body });
         }
     }
@@ -273,7 +303,9 @@ fn cannot_be_had(error: &BodyError) -> bool {
     matches!(
         error,
         BodyError::Obj(ObjError::Read { .. } | ObjError::TooLarge { .. })
-            | BodyError::Mannequin(MannequinError::Unknown { .. } | MannequinError::Read { .. })
+            | BodyError::Mannequin(
+                MannequinError::Unknown { .. } | MannequinError::Read { .. } | MannequinError::Measure { .. }
+            )
     )
 }
 

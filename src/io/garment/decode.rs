@@ -7,10 +7,29 @@ use super::fields::{
     Fields, entries, exclusive, integer, integer_within, items, length, numbers, text, width, word, wrong,
 };
 use crate::input::LengthUnit;
-use crate::pattern::{ClosureFile, Findings, GarmentFile, Located, Problem, Unit, Value};
+use crate::pattern::{ClosureFile, Findings, GarmentFile, Located, Problem, Quantity, Unit, Value};
 
 /// Statements about a file that are kept for people.
 const ABOUT: [&str; 4] = ["source", "license", "note", "measurements"];
+
+/// A mannequin by name, and the measures of `{like: woman_92, waist: 740}`.
+type BodyWords = (Option<Located<String>>, Vec<(Located<String>, Located<Quantity>)>);
+
+fn body(value: &Located<Value>, findings: &mut Findings) -> BodyWords {
+    let Value::Map(entries) = &value.value else { return (text(value, "body", findings), Vec::new()) };
+    let mut out: BodyWords = Default::default();
+    for (name, value) in entries {
+        if name.value == "like" {
+            out.0 = text(value, "body.like", findings);
+        } else if let Some(measure) = length(value, &format!("body.{}", name.value), findings) {
+            out.1.push((name.clone(), measure));
+        }
+    }
+    if out.0.is_none() {
+        findings.error(value.at, Problem::Body("measures need a mannequin that has the rest: like: woman_92".into()));
+    }
+    out
+}
 
 /// Reads the whole file; reports everything that is not as it should be.
 pub(super) fn garment(tree: &Located<Value>, findings: &mut Findings) -> Option<GarmentFile> {
@@ -19,12 +38,14 @@ pub(super) fn garment(tree: &Located<Value>, findings: &mut Findings) -> Option<
     if let Some(v) = version.filter(|v| v.value != 1) {
         findings.error(v.at, Problem::Version(v.value));
     }
+    let (body, body_measures) = fields.take("body").map_or_else(Default::default, |v| body(v, findings));
     let file = GarmentFile {
         version: version.unwrap_or(Located::new(1, fields.at())),
         name: fields.get("name", findings, text),
         about: about(&mut fields),
         units: fields.take("units").and_then(|v| units(v, findings)),
-        body: fields.get("body", findings, text),
+        body,
+        body_measures,
         body_units: fields.get("body_units", findings, |v, _, f| {
             word(v, "body_units", "mm, cm, dm, m or in", f, LengthUnit::from_symbol)
         }),

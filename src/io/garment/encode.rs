@@ -56,7 +56,14 @@ fn document(file: &GarmentFile) -> Yaml {
     map.text("name", &file.name);
     map.nodes(&file.about);
     map.some("units", file.units.as_ref().map(|u| u.value.symbol()));
-    map.text("body", &file.body);
+    if file.body_measures.is_empty() {
+        map.text("body", &file.body);
+    } else {
+        let mut body = Map::default();
+        body.text("like", &file.body);
+        file.body_measures.iter().for_each(|(name, q)| body.quantity(&name.value, &Some(*q)));
+        map.put("body", body);
+    }
     map.some("body_units", file.body_units.as_ref().map(|u| u.value.symbol()));
     map.quantity("allowance", &file.allowance);
     map.filled("fabrics", nodes(&file.fabrics));

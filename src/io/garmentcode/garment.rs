@@ -35,6 +35,7 @@ pub(super) fn garment(name: &str, spec: &Specification, body: Option<&str>) -> R
         about: vec![(here("source".to_owned()), here(Value::Text("GarmentCode pattern specification".to_owned())))],
         units: None,
         body: body.map(|b| here(b.to_owned())),
+        body_measures: Vec::new(),
         body_units: None,
         allowance: None,
         fabrics: vec![(here("shell".to_owned()), here(Value::Text(DEFAULT_CLOTH.to_owned())))],
