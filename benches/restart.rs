@@ -15,7 +15,7 @@ use std::time::Instant;
 use toile::flatten::Options;
 use toile::geometry::Vec3;
 use toile::io::garment::read_text;
-use toile::pipeline::{Color, Job, Overrides, Run};
+use toile::pipeline::{Job, Overrides, PictureOptions, Run};
 
 /// Metres.
 const SPACING: f64 = 0.015;
@@ -75,7 +75,7 @@ fn earlier(case: &Case) -> Result<PathBuf, Box<dyn Error>> {
     run.drape(&mut |_, _| {})?;
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("restart-{}", case.garment));
     fs::create_dir_all(&folder)?;
-    for (name, bytes) in run.results(&run.report(), Color::Piece)? {
+    for (name, bytes) in run.results(&run.report(), &PictureOptions::default())? {
         fs::write(folder.join(name), bytes)?;
     }
     Ok(folder)

@@ -80,6 +80,7 @@ fn skirt() -> Result<Garment, Box<dyn Error>> {
         about: Vec::new(),
         units: None,
         body: Some(text("woman_92")),
+        body_measures: Vec::new(),
         body_units: None,
         allowance: None,
         fabrics: Vec::new(),

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use toile::geometry::{Topology, Vec3};
 use toile::io::files::write_all;
-use toile::pipeline::{Color, Job, Overrides, Run, read};
+use toile::pipeline::{Job, Overrides, PictureOptions, Run, read};
 
 const FABRICS: [&str; 4] = ["denim", "canvas", "silk_charmeuse", "nylon_taffeta"];
 /// A hollow turns inwards by more than this in all, radians (10°).
@@ -111,7 +111,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             format!("{} + {}", sleeve("L"), sleeve("R")),
             if report.stages.iter().all(|s| s.converged) { "yes" } else { "no" },
         );
-        let files = run.state(Color::Piece)?.into_iter().filter(|f| f.0.ends_with("png"));
+        let files = run.state(&PictureOptions::default())?.into_iter().filter(|f| f.0.ends_with("png"));
         let named: Vec<_> = files.map(|(_, bytes)| (folder.join(format!("fig10_{name}.png")), bytes)).collect();
         write_all(&named, &[&file])?;
     }

@@ -67,7 +67,7 @@ const FLOORS: [(&str, &[&str]); 22] = [
 ];
 
 /// Crates and the paths below `src` that may name them.
-const CRATES: [(&str, &[&str]); 22] = [
+const CRATES: [(&str, &[&str]); 23] = [
     ("parry3d_f64", &["contact/"]),
     ("robust", &["geometry/"]),
     ("faer", &["linear/"]),
@@ -82,6 +82,7 @@ const CRATES: [(&str, &[&str]); 22] = [
     ("svg", &["io/svg_write/"]),
     ("obj", &["io/obj_read.rs"]),
     // Written in `picture`; what users hand in is read where it is measured.
+    ("gif", &["picture/turntable.rs", "picture/mod.rs"]),
     ("png", &["picture/", "fabric/measure/photo.rs"]),
     ("zune_jpeg", &["fabric/measure/photo.rs"]),
     ("zune_core", &["fabric/measure/photo.rs"]),

@@ -9,7 +9,7 @@ use toile::input::LengthUnit;
 use toile::io::body::{Body, BodyError, body, floor_of, load_body, mannequin_obj, read_body};
 use toile::io::obj_read::{ObjSurface, parse_obj};
 use toile::mannequin::{BodyFault, GAP, Mannequin, MannequinSpec, PartKind, build, load};
-use toile::pipeline::{self, Color, Job, Overrides, Run, SEWN_OBJ, judge};
+use toile::pipeline::{self, Job, Overrides, PictureOptions, Run, SEWN_OBJ, judge};
 
 fn child() -> ObjSurface {
     parse_obj(&mannequin_obj(&load("child_110").expect("child")), "child.obj").expect("our own OBJ")
@@ -228,7 +228,7 @@ fn what_is_sewn_on_a_body_that_stands_elsewhere_is_written_where_its_file_has_it
     let job = Job::new(&garment, pipeline::read(&garment).expect("a garment"), &overrides).expect("a job");
     let mut run = Run::new(&job);
     run.sew(&mut |_, _| {}).expect("sewn");
-    let files = run.results(&run.report(), Color::Piece).expect("files");
+    let files = run.results(&run.report(), &PictureOptions::default()).expect("files");
     let sewn = folder.path().join(SEWN_OBJ);
     fs::write(&sewn, &files.iter().find(|f| f.0 == SEWN_OBJ).expect("a sewn garment").1).expect("the garment");
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use toile::geometry::Vec3;
 use toile::io::garment::read_text;
 use toile::mesh::{ClothMesh, EarlierMesh, EarlierPiece, Edges, PieceMesh, build};
-use toile::pipeline::{AT_REST, Color, Job, Overrides, PipelineError, Run};
+use toile::pipeline::{AT_REST, Job, Overrides, PictureOptions, PipelineError, Run};
 use toile::report::{Report, restless};
 
 /// Metres.
@@ -32,7 +32,7 @@ fn folder(name: &str) -> PathBuf {
 }
 
 fn write(run: &Run, folder: &Path) {
-    for (name, bytes) in run.results(&run.report(), Color::Piece).expect("results") {
+    for (name, bytes) in run.results(&run.report(), &PictureOptions::default()).expect("results") {
         fs::write(folder.join(name), bytes).expect("written");
     }
 }

@@ -7,8 +7,8 @@ use std::time::Instant;
 
 use toile::geometry::{Path as Curve, TriMesh, Vec2, Vec3};
 use toile::picture::{
-    HEIGHT, PatternEdge, PatternPiece, PictureError, Scene, Specimen, WIDTH, draw, draw_pattern, draw_sheet, rim_lines,
-    seam_color,
+    HEIGHT, PatternEdge, PatternPiece, PictureError, PictureLayout, Scale, Scene, Specimen, Turning, View, WIDTH, draw,
+    draw_pattern, draw_sheet, draw_turning, rim_lines, seam_color,
 };
 use toile::pipeline::{StartPicture, check, start_picture};
 
@@ -126,10 +126,11 @@ fn draw_dress(strain: bool) -> Vec<u8> {
         rims: &rims,
         title: "gore_skirt",
         subtitle: "woman_92 · cotton_poplin",
-        strain: strain.then_some(&dress.strain),
+        values: strain.then_some((dress.strain.as_slice(), Scale::Strain)),
+        groups: &[],
     };
     let start = Instant::now();
-    let png = draw(&scene).expect("a scene with cloth can be drawn");
+    let png = draw(&scene, &PictureLayout::default()).expect("a scene with cloth can be drawn");
     println!("{} + {} triangles in {:?}", body.triangles.len(), dress.cloth.triangles.len(), start.elapsed());
     png
 }
@@ -179,7 +180,7 @@ fn the_same_bytes_on_one_thread() {
 fn right_and_wrong_side_differ() {
     let vertices = [[-0.3, 0.0], [0.3, 0.0], [0.3, 0.6], [-0.3, 0.6]].map(|[x, y]| Vec3::new(x, y, 0.0)).to_vec();
     let cloth = TriMesh { vertices, triangles: vec![[0, 1, 2], [0, 2, 3]] };
-    let png = draw(&scene(&cloth, None)).expect("a scene with cloth can be drawn");
+    let png = draw(&scene(&cloth, None), &PictureLayout::default()).expect("a scene with cloth can be drawn");
     keep("flat.png", &png);
     let pixels = decode(&png);
     let row = &pixels[HEIGHT / 2 * WIDTH..][..WIDTH];
@@ -192,9 +193,9 @@ fn right_and_wrong_side_differ() {
 fn a_long_ribbon_lying_flat_still_has_three_views() {
     let vertices = [[-5.0, 0.0], [5.0, 0.0], [5.0, 0.001], [-5.0, 0.001]].map(|[x, z]| Vec3::new(x, 0.0, z)).to_vec();
     let ribbon = TriMesh { vertices, triangles: vec![[0, 1, 2], [0, 2, 3]] };
-    assert!(draw(&scene(&ribbon, None)).is_ok());
+    assert!(draw(&scene(&ribbon, None), &PictureLayout::default()).is_ok());
     let point = TriMesh { vertices: vec![Vec3::zeros(); 3], triangles: vec![[0, 1, 2]] };
-    assert!(draw(&scene(&point, None)).is_ok());
+    assert!(draw(&scene(&point, None), &PictureLayout::default()).is_ok());
 }
 
 /// A line on a lining half a millimetre behind the shell does not show through it; on the shell itself it does.
@@ -207,7 +208,8 @@ fn a_piece_hides_the_lines_of_another_right_behind_it() {
     }
     let seen_in_front = |line: Option<[u32; 2]>, piece_of_triangle: &[u32]| {
         let seams: Vec<Vec<Vec3>> = line.iter().map(|l| l.map(|v| cloth.vertices[v as usize]).to_vec()).collect();
-        let png = draw(&Scene { piece_of_triangle, seams: &seams, ..scene(&cloth, None) }).expect("a scene");
+        let png = draw(&Scene { piece_of_triangle, seams: &seams, ..scene(&cloth, None) }, &PictureLayout::default())
+            .expect("a scene");
         // The views stand side by side, front first. Its middle: at the corners a line's round ends stick out.
         let rows = decode(&png).chunks(WIDTH).map(|row| row[..WIDTH / 3].to_vec()).collect::<Vec<_>>();
         rows[2 * HEIGHT / 5..3 * HEIGHT / 5].to_vec()
@@ -234,7 +236,11 @@ fn cloth_at_a_slant_hides_the_rim_of_a_facing() {
         add(&mut cloth, square(0.4, 5e-4));
         let rims = rim_lines(&square(0.4, 5e-4));
         let seen_in_front = |rims: &[Vec<Vec3>]| {
-            let png = draw(&Scene { piece_of_triangle: &[0, 0, 1, 1], rims, ..scene(&cloth, None) }).expect("a scene");
+            let png = draw(
+                &Scene { piece_of_triangle: &[0, 0, 1, 1], rims, ..scene(&cloth, None) },
+                &PictureLayout::default(),
+            )
+            .expect("a scene");
             decode(&png).chunks(WIDTH).map(|row| row[..WIDTH / 3].to_vec()).collect::<Vec<_>>()
         };
         assert_eq!(seen_in_front(&rims), seen_in_front(&[]), "turned by {degrees} degrees");
@@ -243,17 +249,30 @@ fn cloth_at_a_slant_hides_the_rim_of_a_facing() {
 
 fn scene<'a>(cloth: &'a TriMesh, strain: Option<&'a [f64]>) -> Scene<'a> {
     static NOBODY: TriMesh = TriMesh { vertices: vec![], triangles: vec![] };
-    Scene { body: &NOBODY, cloth, piece_of_triangle: &[], seams: &[], rims: &[], title: "", subtitle: "", strain }
+    Scene {
+        body: &NOBODY,
+        cloth,
+        piece_of_triangle: &[],
+        seams: &[],
+        rims: &[],
+        title: "",
+        subtitle: "",
+        values: strain.map(|values| (values, Scale::Strain)),
+        groups: &[],
+    }
 }
 
 #[test]
 fn what_cannot_be_drawn_is_said() {
     let nothing = TriMesh::default();
-    assert!(matches!(draw(&scene(&nothing, None)), Err(PictureError::NothingToDraw)));
+    assert!(matches!(draw(&scene(&nothing, None), &PictureLayout::default()), Err(PictureError::NothingToDraw)));
     let mut cloth = dress().cloth;
-    assert!(matches!(draw(&scene(&cloth, Some(&[0.1]))), Err(PictureError::StrainLength { values: 1, .. })));
+    assert!(matches!(
+        draw(&scene(&cloth, Some(&[0.1])), &PictureLayout::default()),
+        Err(PictureError::ValuesLength { values: 1, .. })
+    ));
     cloth.vertices[5].x = f64::NAN;
-    assert!(matches!(draw(&scene(&cloth, None)), Err(PictureError::NothingToDraw)));
+    assert!(matches!(draw(&scene(&cloth, None), &PictureLayout::default()), Err(PictureError::NothingToDraw)));
 }
 
 /// Every specimen of a sheet has a panel of its own, and the same specimen looks the same in each.
@@ -391,4 +410,39 @@ fn a_pattern_shows_its_seams_in_colours() {
     assert!(colored(&plain) > 300 && colored(&sewn) > colored(&plain) + 2000, "{} {}", colored(&plain), colored(&sewn));
     assert_eq!(plain.len(), sewn.len());
     assert!(draw_pattern("nothing", &[], &[]).is_err());
+}
+
+/// A square of cloth, 600 mm wide, that faces forwards.
+fn square() -> TriMesh {
+    let vertices = [[-0.3, 0.0], [0.3, 0.0], [0.3, 0.6], [-0.3, 0.6]].map(|[x, y]| Vec3::new(x, y, 0.0)).to_vec();
+    TriMesh { vertices, triangles: vec![[0, 1, 2], [0, 2, 3]] }
+}
+
+#[test]
+fn size_and_views_are_those_asked_for() {
+    let cloth = square();
+    // Columns of the middle row that show its right side, which is blue.
+    let seen = |views: Vec<View>| {
+        let png = draw(&scene(&cloth, None), &PictureLayout { size: [900, 600], views }).expect("a scene");
+        let (width, pixels) = read(&png);
+        assert_eq!((width, pixels.len()), (900, 900 * 600));
+        pixels[300 * 900..301 * 900].iter().filter(|p| i32::from(p[2]) - i32::from(p[0]) > 20).count()
+    };
+    let (one, two) = (seen(vec![View::Front]), seen(vec![View::Front, View::Back, View::Right]));
+    assert!(two > 50 && one > two, "{one} and {two} columns");
+    assert_eq!(seen(vec![View::Left, View::Right]), 0, "from the sides it is an edge");
+}
+
+#[test]
+fn a_turn_is_an_animation_that_repeats() {
+    let cloth = square();
+    let apng = draw_turning(&scene(&cloth, None), Turning::Apng).expect("a scene");
+    let decoder = png::Decoder::new(std::io::Cursor::new(&apng));
+    let reader = decoder.read_info().expect("a PNG");
+    let control = reader.info().animation_control().expect("animated");
+    assert_eq!((control.num_frames, control.num_plays), (36, 0));
+    let gif = draw_turning(&scene(&cloth, None), Turning::Gif).expect("a scene");
+    assert!(gif.starts_with(b"GIF89a") && gif.windows(11).any(|w| w == b"NETSCAPE2.0"));
+    assert!(gif.len() < 4 << 20, "{} bytes", gif.len());
+    assert!(draw_turning(&scene(&TriMesh::default(), None), Turning::Gif).is_err());
 }

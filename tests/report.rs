@@ -6,7 +6,7 @@ use toile::io::obj_write::garment_obj;
 use toile::mannequin::Mannequin;
 use toile::mesh::{ClothMesh, EdgeParticles, PieceMesh, Stitches};
 use toile::pattern::{Bound, EdgeId, Garment, Give, Seam, SeamKind, Span, Test};
-use toile::picture::{Dressed, draw};
+use toile::picture::{Dressed, PictureLayout, Scale, draw};
 use toile::report::{
     Bands, Measured, Quartet, Report, Stage, Stretched, Verdict, measure, opening_names, table, verdicts, vertex_strain,
 };
@@ -335,11 +335,11 @@ fn a_garment_can_be_drawn_by_strain() {
     let f = fixture(0.1);
     let at = laid_out(&f, 1.01);
     let strain = vertex_strain(&f.mesh, &at);
-    let dressed = Dressed::new(&f.mesh, &f.weld, &at, Some(&strain));
+    let dressed = Dressed::new(&f.mesh, &f.weld, &at, Some((&strain, Scale::Strain)));
     let scene = dressed.scene(&f.body.mesh, "patch", "nobody · muslin");
     assert_eq!((scene.seams.len(), scene.rims.len(), scene.piece_of_triangle[399]), (1, 1, 1));
-    assert_eq!(scene.strain.map(<[f64]>::len), Some(231));
-    assert!(draw(&scene).is_ok_and(|png| png.starts_with(b"\x89PNG")));
+    assert_eq!(scene.values.map(|(values, _)| values.len()), Some(231));
+    assert!(draw(&scene, &PictureLayout::default()).is_ok_and(|png| png.starts_with(b"\x89PNG")));
 }
 
 #[test]

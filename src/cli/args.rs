@@ -3,13 +3,15 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
+use clap::builder::PossibleValue;
 use clap::{Parser, Subcommand, ValueEnum};
 
 use crate::flatten::Mode;
 use crate::geometry::Vec3;
 use crate::input::LengthUnit;
 use crate::pattern::{WIDEST_ALLOWANCE, parse_quantity};
-use crate::pipeline::{Color, DARTS, Overrides};
+use crate::picture::{PictureLayout, Turning, View};
+use crate::pipeline::{Color, DARTS, Overrides, PictureOptions};
 use crate::report::Bands;
 
 /// Sew flat patterns onto a mannequin, drape them in a measured fabric and lay them flat again.
@@ -97,14 +99,84 @@ pub(super) struct GarmentArgs {
     /// Folder for the results [default: out/NAME]
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,
-    /// Colour the picture by piece or by strain
-    #[arg(long, value_enum, default_value_t)]
-    pub(super) color: ColorArg,
+    #[command(flatten)]
+    pub(super) drawing: PictureArgs,
     /// Print every figure as tables, instead of the verdict in a few lines
     #[arg(long)]
     pub(super) table: bool,
     #[command(flatten)]
     pub(super) overrides: OverrideArgs,
+}
+
+/// The picture.
+#[derive(Debug, clap::Args)]
+pub(super) struct PictureArgs {
+    /// Colours of the picture
+    #[arg(long, value_enum, default_value_t)]
+    color: ColorArg,
+    /// Views of the picture from left to right [default: front,side,back]
+    #[arg(long = "view", value_enum, value_name = "LIST", value_delimiter = ',')]
+    views: Vec<ViewArg>,
+    /// Width and height of the picture in pixels [default: 2400x1500]
+    #[arg(long, value_name = "WxH", value_parser = pixels)]
+    size: Option<[usize; 2]>,
+    /// Write the garment turning once round as well, for web pages and messages
+    #[arg(long, value_name = "FILE.gif|FILE.apng", value_parser = turntable)]
+    pub(super) turntable: Option<(PathBuf, Turning)>,
+}
+
+impl PictureArgs {
+    pub(super) fn drawing(&self) -> PictureOptions {
+        let own = PictureLayout::default();
+        let views: Vec<View> = self.views.iter().map(|view| view.0).collect();
+        let views = if views.is_empty() { own.views } else { views };
+        PictureOptions {
+            color: self.color.into(),
+            layout: PictureLayout { size: self.size.unwrap_or(own.size), views },
+        }
+    }
+}
+
+/// A side of the garment.
+#[derive(Clone, Copy, Debug)]
+struct ViewArg(View);
+
+impl ValueEnum for ViewArg {
+    fn value_variants<'a>() -> &'a [Self] {
+        const ALL: [ViewArg; 5] =
+            [ViewArg(View::Front), ViewArg(View::Side), ViewArg(View::Left), ViewArg(View::Back), ViewArg(View::Right)];
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(match self.0 {
+            View::Front => "front",
+            View::Side => "side",
+            View::Left => "left",
+            View::Back => "back",
+            View::Right => "right",
+        }))
+    }
+}
+
+/// Width and height in pixels.
+fn pixels(text: &str) -> Result<[usize; 2], String> {
+    let sides = text.split_once(['x', 'X']).and_then(|(w, h)| Some([w.trim().parse().ok()?, h.trim().parse().ok()?]));
+    let ([least_w, least_h], [most_w, most_h]) = (PictureLayout::SMALLEST, PictureLayout::LARGEST);
+    sides.filter(|[w, h]| (least_w..=most_w).contains(w) && (least_h..=most_h).contains(h)).ok_or_else(|| {
+        format!("a size from {least_w}x{least_h} to {most_w}x{most_h} pixels is expected, such as 2400x1500")
+    })
+}
+
+/// A file and its format, told by its ending.
+fn turntable(text: &str) -> Result<(PathBuf, Turning), String> {
+    let path = PathBuf::from(text);
+    let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+    match ending.as_str() {
+        "gif" => Ok((path, Turning::Gif)),
+        "apng" | "png" => Ok((path, Turning::Apng)),
+        _ => Err("a file that ends in .gif or .apng is expected".into()),
+    }
 }
 
 /// Spacing, fabric and body.
@@ -542,6 +614,12 @@ pub(super) enum ColorArg {
     Piece,
     /// How far warp and weft are stretched
     Strain,
+    /// How far it is from the skin
+    Ease,
+    /// How hard it presses on the skin
+    Pressure,
+    /// Which fabric it is
+    Fabric,
 }
 
 impl From<ColorArg> for Color {
@@ -549,6 +627,9 @@ impl From<ColorArg> for Color {
         match color {
             ColorArg::Piece => Self::Piece,
             ColorArg::Strain => Self::Strain,
+            ColorArg::Ease => Self::Ease,
+            ColorArg::Pressure => Self::Pressure,
+            ColorArg::Fabric => Self::Fabric,
         }
     }
 }

@@ -11,8 +11,8 @@ use crate::flatten::Options;
 use crate::geometry::MM;
 use crate::io::files::check_writable;
 use crate::pipeline::{
-    AT_REST, Color, Cuts, DartStop, FLAT_OBJ, FLAT_PNG, Limit, OUTLINE_SVG, PATTERN_SVG, PartReport, REPORT_JSON,
-    SurfaceOptions, SurfaceReport, Weld, flatten_surface,
+    AT_REST, Cuts, DartStop, FLAT_OBJ, FLAT_PNG, Limit, OUTLINE_SVG, PATTERN_SVG, PartReport, PictureOptions,
+    REPORT_JSON, SurfaceOptions, SurfaceReport, Weld, flatten_surface,
 };
 use crate::report::{aligned, restless, shortened};
 
@@ -30,7 +30,8 @@ pub(super) fn flatten(args: &FlattenArgs, console: &Console) -> Result<Exit, Cli
             garments: std::slice::from_ref(&args.input),
             output: args.output.as_deref(),
             overrides: args.overrides.checked(),
-            color: Color::default(),
+            drawing: PictureOptions::default(),
+            turntable: None,
             table: args.table,
             goal: Goal::Flat { from: args.from.as_deref(), options },
         };

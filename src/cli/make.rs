@@ -7,9 +7,10 @@ use super::console::Console;
 use super::exit::{CliError, Exit};
 use crate::flatten;
 use crate::io::files::{check_writable, write_all};
+use crate::picture::Turning;
 use crate::pipeline::{
-    Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, Job, Overrides, PATTERN_SVG, PLACED_OBJ, PipelineError, Problem,
-    REPORT_HTML, REPORT_JSON, ResultFile, Run, SEWN_OBJ, inputs, problems, read,
+    GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, Job, Overrides, PATTERN_SVG, PLACED_OBJ, PictureOptions, PipelineError,
+    Problem, REPORT_HTML, REPORT_JSON, ResultFile, Run, SEWN_OBJ, inputs, problems, read,
 };
 use crate::report::{summary, table};
 
@@ -19,7 +20,9 @@ pub(super) struct Plan<'a> {
     pub(super) garments: &'a [PathBuf],
     pub(super) output: Option<&'a Path>,
     pub(super) overrides: Overrides,
-    pub(super) color: Color,
+    pub(super) drawing: PictureOptions,
+    /// A file for the garment turning round.
+    pub(super) turntable: Option<(&'a Path, Turning)>,
     /// Print every figure.
     pub(super) table: bool,
     pub(super) goal: Goal<'a>,
@@ -110,7 +113,8 @@ fn plan<'a>(args: &'a GarmentArgs, goal: Goal<'a>) -> Plan<'a> {
         garments: &args.garments,
         output: args.output.as_deref(),
         overrides: args.overrides.checked(),
-        color: args.color.into(),
+        drawing: args.drawing.drawing(),
+        turntable: args.drawing.turntable.as_ref().map(|(file, format)| (file.as_path(), *format)),
         table: args.table,
         goal,
     }
@@ -131,7 +135,8 @@ pub(super) fn carry_out(plan: &Plan, console: &Console) -> Result<Exit, CliError
         Start::Nothing | Start::Folder(_) => None,
         Start::Sewn(file) | Start::Draped(file) => Some(file.to_owned()),
     });
-    let targets: Vec<PathBuf> = plan.goal.files().iter().map(|name| folder.join(name)).collect();
+    let mut targets: Vec<PathBuf> = plan.goal.files().iter().map(|name| folder.join(name)).collect();
+    targets.extend(plan.turntable.map(|(file, _)| file.to_owned()));
     // Better now than after minutes of sewing.
     check_writable(&targets, &borrowed(&inputs))?;
     let job = Job::dressed(worn, &plan.overrides)?;
@@ -145,8 +150,12 @@ pub(super) fn carry_out(plan: &Plan, console: &Console) -> Result<Exit, CliError
     }
     let report = run.report();
     let wanted = plan.goal.files();
-    let files = run.results(&report, plan.color)?.into_iter().filter(|f| wanted.contains(&f.0)).collect();
-    write(files, &folder, &borrowed(&inputs))?;
+    let files = run.results(&report, &plan.drawing)?.into_iter().filter(|f| wanted.contains(&f.0)).collect();
+    let mut files: Vec<(PathBuf, Vec<u8>)> = in_folder(files, &folder);
+    if let Some((file, format)) = plan.turntable {
+        files.push((file.to_owned(), run.turning(plan.drawing.color, format)?));
+    }
+    write_all(&files, &borrowed(&inputs))?;
     let problems = problems(&job, &report);
     // A garment that is only sewn has no page.
     let first = folder.join(if wanted.contains(&REPORT_HTML) { REPORT_HTML } else { GARMENT_PNG });
@@ -168,8 +177,11 @@ pub(super) fn folder(asked: Option<&Path>, name: &str) -> PathBuf {
 
 /// Writes files into a folder, all or none.
 pub(super) fn write(files: Vec<ResultFile>, folder: &Path, inputs: &[&Path]) -> Result<(), CliError> {
-    let files: Vec<(PathBuf, Vec<u8>)> = files.into_iter().map(|(name, bytes)| (folder.join(name), bytes)).collect();
-    Ok(write_all(&files, inputs)?)
+    Ok(write_all(&in_folder(files, folder), inputs)?)
+}
+
+fn in_folder(files: Vec<ResultFile>, folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    files.into_iter().map(|(name, bytes)| (folder.join(name), bytes)).collect()
 }
 
 pub(super) fn borrowed(paths: &[PathBuf]) -> Vec<&Path> {
@@ -179,7 +191,7 @@ pub(super) fn borrowed(paths: &[PathBuf]) -> Vec<&Path> {
 /// Writes what there is of a garment that could not be finished. That it could not is the error to report; if this
 /// fails as well, it is only mentioned.
 fn leave_state(run: &Run, plan: &Plan, folder: &Path, inputs: &[PathBuf], console: &Console) {
-    let Ok(files) = run.state(plan.color) else { return };
+    let Ok(files) = run.state(&plan.drawing) else { return };
     let wanted = [plan.goal.files(), vec![PLACED_OBJ]].concat();
     let files: Vec<ResultFile> = files.into_iter().filter(|f| wanted.contains(&f.0)).collect();
     if files.is_empty() {

@@ -1,8 +1,7 @@
 //! Position of the viewer, and projection onto the paper.
 
+use super::layout::PictureLayout;
 use crate::geometry::{TriMesh, Vec3};
-
-use super::{HEIGHT, WIDTH};
 
 /// The viewer looks down by this angle (radians): hems become flat ellipses, and the floor is seen.
 const LOOK_DOWN: f64 = 0.07;
@@ -78,9 +77,6 @@ impl Camera {
     }
 }
 
-/// Height of a panel of the dressed mannequin, pixels.
-const PANEL: usize = HEIGHT - HEAD - FOOT;
-
 /// The key light of a dressed mannequin.
 const KEY_FROM: [f64; 3] = [-0.55, 0.62, 0.70];
 /// The key light of a sheet of specimens: low from the left. Light along the view shows no folds in cloth that lies.
@@ -103,30 +99,49 @@ pub(super) fn cameras_above(shapes: &[&[Vec3]], [width, height]: [usize; 2]) -> 
     extents.into_iter().map(|extent| Camera { scale, center: center(extent), ..camera }).collect()
 }
 
-/// Front, side and back, at one scale and as large as the paper allows.
-pub(super) fn cameras(body: &TriMesh, cloth: &TriMesh) -> Vec<Camera> {
-    let quarter = std::f64::consts::FRAC_PI_2;
-    let names = [("FRONT", 0.0), ("SIDE", quarter), ("BACK", 2.0 * quarter)];
-    let mut cameras = names.map(|(name, yaw)| Camera::looking_from(name, yaw, LOOK_DOWN)).to_vec();
+/// The views of a layout, at one scale and as large as the paper allows.
+pub(super) fn cameras(body: &TriMesh, cloth: &TriMesh, layout: &PictureLayout) -> Vec<Camera> {
+    let camera = |view: &super::View| Camera::looking_from(view.label(), view.yaw(), LOOK_DOWN);
+    let mut cameras: Vec<Camera> = layout.views.iter().map(camera).collect();
+    let count = cameras.len();
     let framed = framed(body, cloth);
     let extents: Vec<[[f64; 2]; 2]> = cameras.iter().map(|c| c.extent(&framed)).collect();
     let size = |k: usize, axis: usize| extents[k][1][axis] - extents[k][0][axis];
-    let height = (0..3).map(|k| size(k, 1)).fold(SMALLEST, f64::max);
+    let height = (0..count).map(|k| size(k, 1)).fold(SMALLEST, f64::max);
     let air = 2.0 * AIR * height;
-    let largest = (0..3).map(|k| size(k, 0)).fold(height, f64::max);
+    let largest = (0..count).map(|k| size(k, 0)).fold(height, f64::max);
     let width = |k: usize| size(k, 0).max(NARROWEST * largest) + air;
-    let widths: f64 = (0..3).map(width).sum();
-    let scale = (WIDTH as f64 / widths).min(PANEL as f64 / (height + air));
-    let spare = (WIDTH as f64 - widths * scale) / 3.0;
+    let widths: f64 = (0..count).map(width).sum();
+    let [paper, panel] = [layout.size[0], layout.size[1] - HEAD - FOOT];
+    let scale = (paper as f64 / widths).min(panel as f64 / (height + air));
+    let spare = (paper as f64 - widths * scale) / count as f64;
     let mut left = 0.0;
     for (k, camera) in cameras.iter_mut().enumerate() {
         let right = left + width(k) * scale + spare;
         camera.scale = scale;
         camera.center = [0, 1].map(|axis| (extents[k][0][axis] + extents[k][1][axis]) / 2.0);
-        (camera.top, camera.height) = (HEAD, PANEL);
+        (camera.top, camera.height) = (HEAD, panel);
         camera.left = left.round() as usize + GUTTER / 2;
-        camera.width = (right.round() as usize).min(WIDTH) - GUTTER / 2 - camera.left;
+        camera.width = (right.round() as usize).min(paper) - GUTTER / 2 - camera.left;
         left = right;
+    }
+    cameras
+}
+
+/// A view of all of it from every side: cameras turned round the vertical in `count` steps, at one scale, each with a
+/// panel of this size, pixels.
+pub(super) fn cameras_round(body: &TriMesh, cloth: &TriMesh, count: usize, [width, height]: [usize; 2]) -> Vec<Camera> {
+    let framed = framed(body, cloth);
+    let yaw = |k: usize| std::f64::consts::TAU * k as f64 / count as f64;
+    let mut cameras: Vec<Camera> = (0..count).map(|k| Camera::looking_from("", yaw(k), LOOK_DOWN)).collect();
+    let extents: Vec<[[f64; 2]; 2]> = cameras.iter().map(|c| c.extent(&framed)).collect();
+    let largest = |axis: usize| extents.iter().map(|[lo, hi]| hi[axis] - lo[axis]).fold(SMALLEST, f64::max);
+    let room = |pixels: usize, axis: usize| pixels as f64 / ((1.0 + 2.0 * AIR) * largest(axis));
+    let scale = room(width, 0).min(room(height, 1));
+    for (camera, [lo, hi]) in cameras.iter_mut().zip(&extents) {
+        (camera.width, camera.height, camera.scale) = (width, height, scale);
+        // The axis of the turn stays in the middle.
+        camera.center = [0.0, (lo[1] + hi[1]) / 2.0];
     }
     cameras
 }

@@ -1,6 +1,6 @@
 //! Data of a garment for the picture, gathered from its mesh.
 
-use super::Scene;
+use super::{Scale, Scene};
 use crate::geometry::{TriMesh, Vec3, rim_loops};
 use crate::mesh::ClothMesh;
 use crate::verify::Welded;
@@ -12,25 +12,35 @@ pub struct Dressed {
     piece_of_triangle: Vec<u32>,
     seams: Vec<Vec<Vec3>>,
     rims: Vec<Vec<Vec3>>,
-    strain: Option<Vec<f64>>,
+    values: Option<(Vec<f64>, Scale)>,
+    groups: Vec<String>,
 }
 
 impl Dressed {
     /// Gathers a garment whose particles are `at`. `weld` has one label per particle, the same for stitched ones.
-    /// `strain`, one value per particle, colours the cloth instead of its pieces.
+    /// `values`, one per particle, colour the cloth instead of its pieces.
     ///
     /// # Panics
     /// When a slice is shorter than the mesh has particles: a mistake of the caller.
-    pub fn new(mesh: &ClothMesh, weld: &[u32], at: &[Vec3], strain: Option<&[f64]>) -> Self {
+    pub fn new(mesh: &ClothMesh, weld: &[u32], at: &[Vec3], values: Option<(&[f64], Scale)>) -> Self {
         let welded = Welded::new(mesh, weld, at);
         let pieces = mesh.pieces.iter().enumerate();
         Self {
             piece_of_triangle: pieces.flat_map(|(k, p)| vec![k as u32; p.triangles.len()]).collect(),
             seams: seam_lines(mesh, &welded),
             rims: rim_lines(&welded.surface),
-            strain: strain.map(|values| welded.largest(values)),
+            values: values.map(|(values, scale)| (welded.largest(values), scale)),
+            groups: Vec::new(),
             welded,
         }
+    }
+
+    /// Colours groups of pieces instead of pieces: `group` has that of every piece, an index into `names`.
+    pub fn grouped(mut self, group: &[u32], names: Vec<String>) -> Self {
+        let of = |piece: &u32| group.get(*piece as usize).copied().unwrap_or(0);
+        self.piece_of_triangle = self.piece_of_triangle.iter().map(of).collect();
+        self.groups = names;
+        self
     }
 
     /// The garment on a body, with its title and the smaller text beside it.
@@ -43,7 +53,8 @@ impl Dressed {
             rims: &self.rims,
             title,
             subtitle,
-            strain: self.strain.as_deref(),
+            values: self.values.as_ref().map(|(values, scale)| (values.as_slice(), *scale)),
+            groups: &self.groups,
         }
     }
 }

@@ -6,7 +6,7 @@ use super::paint::limit;
 use super::places::places;
 use super::raster::{Band, Corner, NO_CLOTH, SAMPLES};
 use super::view::legend;
-use super::{HEIGHT, PictureError, WIDTH, encode};
+use super::{HEIGHT, PictureError, Scale, WIDTH, encode};
 use crate::geometry::{Vec2, box_or_origin};
 use crate::mesh::{ClothMesh, PieceMesh};
 
@@ -27,7 +27,7 @@ pub fn draw_flat(cloth: &ClothMesh, values: &[f64], title: &str) -> Result<Vec<u
         return Err(PictureError::NothingToDraw);
     }
     if values.len() != cloth.triangles.len() {
-        return Err(PictureError::StrainLength { values: values.len(), vertices: cloth.triangles.len() });
+        return Err(PictureError::ValuesLength { values: values.len(), vertices: cloth.triangles.len() });
     }
     let limit = limit(values);
     let boxes: Vec<[Vec2; 2]> = cloth.pieces.iter().map(|piece| bounds(cloth, piece)).collect();
@@ -64,7 +64,7 @@ pub fn draw_flat(cloth: &ClothMesh, values: &[f64], title: &str) -> Result<Vec<u
         canvas.text(&piece.name, [x, y - 8.0], 2.0, PALE_INK);
     }
     canvas.text(title, [56.0, 72.0], 5.0, INK);
-    legend(&mut canvas, limit, "strain of the cloth");
+    legend(&mut canvas, Scale::Strain, limit, "strain of the cloth");
     Ok(encode(&canvas)?)
 }
 

@@ -11,6 +11,7 @@ mod color;
 mod dressed;
 mod flat;
 mod font;
+mod layout;
 mod light;
 mod occlusion;
 mod on_cloth;
@@ -21,14 +22,17 @@ mod raster;
 mod shadow;
 mod sheet;
 mod start;
+mod turntable;
 mod view;
 
 pub use dressed::{Dressed, rim_lines};
 pub use flat::draw_flat;
+pub use layout::{PictureLayout, View};
 pub use pattern::{PatternEdge, PatternPiece, draw_pattern, seam_color};
 pub use shadow::draw_shadow;
 pub use sheet::{Specimen, draw_sheet};
 pub use start::{StartMarks, draw_start, opening_color, pixels_of};
+pub use turntable::{Turning, draw_turning};
 
 use crate::geometry::{TriMesh, Vec3};
 
@@ -54,9 +58,21 @@ pub struct Scene<'a> {
     pub title: &'a str,
     /// Small text beside it, mannequin and fabric.
     pub subtitle: &'a str,
-    /// Strain of every vertex of the cloth (shrinking is negative): colours the cloth by it instead of by piece,
-    /// with a legend.
-    pub strain: Option<&'a [f64]>,
+    /// A value of every vertex of the cloth: colours the cloth by it instead of by piece, with a legend.
+    pub values: Option<(&'a [f64], Scale)>,
+    /// Names of what takes the place of pieces in `piece_of_triangle`: a legend of their colours. Empty for pieces.
+    pub groups: &'a [String],
+}
+
+/// What the values of a picture are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// Strain of warp and weft, a fraction. Shrinking is negative.
+    Strain,
+    /// Distance to the skin, mm.
+    Ease,
+    /// Pressure on the skin, kPa.
+    Pressure,
 }
 
 impl Scene<'_> {
@@ -72,9 +88,9 @@ pub enum PictureError {
     /// There is nothing to frame.
     #[error("cannot draw the garment: it has no triangles, or positions that are not finite")]
     NothingToDraw,
-    /// `Scene::strain` has another length than the cloth has vertices.
-    #[error("cannot colour by strain: {values} values for {vertices} vertices or triangles")]
-    StrainLength {
+    /// `Scene::values` has another length than the cloth has vertices.
+    #[error("cannot colour by value: {values} values for {vertices} vertices or triangles")]
+    ValuesLength {
         /// Values given.
         values: usize,
         /// Vertices of the cloth, triangles of flat pieces.
@@ -83,21 +99,32 @@ pub enum PictureError {
     /// The PNG encoder failed.
     #[error("cannot encode the picture: {0}")]
     Encode(#[from] png::EncodingError),
+    /// The GIF encoder failed.
+    #[error("cannot encode the picture: {0}")]
+    Gif(#[from] gif::EncodingError),
 }
 
-/// Draws the scene and returns the bytes of a PNG file, [`WIDTH`] by [`HEIGHT`] pixels.
+/// Draws the scene and returns the bytes of a PNG file.
 ///
 /// # Errors
 /// When there is nothing to draw, or values are missing ([`PictureError`]).
-pub fn draw(scene: &Scene) -> Result<Vec<u8>, PictureError> {
+pub fn draw(scene: &Scene, layout: &PictureLayout) -> Result<Vec<u8>, PictureError> {
+    check(scene)?;
+    Ok(encode(&view::render(scene, layout))?)
+}
+
+/// Whether a scene can be drawn.
+fn check(scene: &Scene) -> Result<(), PictureError> {
     if !can_be_framed(scene.cloth, scene.body) {
         return Err(PictureError::NothingToDraw);
     }
     let vertices = scene.cloth.vertices.len();
-    if let Some(values) = scene.strain.filter(|v| v.len() != vertices) {
-        return Err(PictureError::StrainLength { values: values.len(), vertices });
+    match scene.values {
+        Some((values, _)) if values.len() != vertices => {
+            Err(PictureError::ValuesLength { values: values.len(), vertices })
+        }
+        _ => Ok(()),
     }
-    Ok(encode(&view::render(scene))?)
 }
 
 /// Whether there is cloth, and all of it and of the body has finite positions.

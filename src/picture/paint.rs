@@ -1,7 +1,7 @@
 //! Colour of every corner of every triangle before lighting.
 
-use super::Scene;
 use super::color::{Rgb, piece, strain, wrong_side};
+use super::{Scale, Scene};
 
 /// The strain scale does not end below this: smaller strains are noise of the mesh.
 const SMALLEST_LIMIT: f64 = 0.005;
@@ -13,15 +13,15 @@ const REACHED: f64 = 0.99;
 pub(super) enum Paint {
     /// One colour per piece.
     Pieces(Vec<Rgb>),
-    /// By value: one colour per vertex, and the strain at the ends of the scale.
-    Strain(Vec<Rgb>, f64),
+    /// By value: one colour per vertex, and the value at the end of the scale.
+    Values(Vec<Rgb>, Scale, f64),
 }
 
 impl Paint {
     pub(super) fn new(scene: &Scene) -> Self {
-        if let Some(values) = scene.strain {
+        if let Some((values, scale)) = scene.values {
             let limit = limit(values);
-            return Self::Strain(values.iter().map(|v| strain((v / limit) as f32)).collect(), limit);
+            return Self::Values(values.iter().map(|v| scale.color((v / limit) as f32)).collect(), scale, limit);
         }
         let last = scene.piece_of_triangle.iter().max().copied().unwrap_or(0);
         Self::Pieces((0..=last).map(piece).collect())
@@ -31,9 +31,20 @@ impl Paint {
     pub(super) fn corners(&self, scene: &Scene, triangle: usize, right_side: bool) -> [Rgb; 3] {
         let of_right = match self {
             Self::Pieces(colors) => [colors[scene.piece_of(triangle) as usize]; 3],
-            Self::Strain(colors, _) => scene.cloth.triangles[triangle].map(|v| colors[v as usize]),
+            Self::Values(colors, ..) => scene.cloth.triangles[triangle].map(|v| colors[v as usize]),
         };
         if right_side { of_right } else { of_right.map(wrong_side) }
+    }
+}
+
+impl Scale {
+    /// The colour of a value, as a share of the value at the scale's end.
+    pub(super) fn color(self, share: f32) -> Rgb {
+        match self {
+            Self::Strain | Self::Pressure => strain(share),
+            // What touches the skin is as red as what is drawn out.
+            Self::Ease => strain(1.0 - 2.0 * share.max(0.0)),
+        }
     }
 }
 

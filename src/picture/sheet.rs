@@ -70,5 +70,15 @@ pub fn draw_sheet(title: &str, subtitle: &str, specimens: &[Specimen]) -> Result
 
 fn scene<'a>(specimen: &Specimen<'a>, rims: &'a [Vec<Vec3>]) -> Scene<'a> {
     let &Specimen { cloth, lines, body, .. } = specimen;
-    Scene { body, cloth, piece_of_triangle: &[], seams: lines, rims, title: "", subtitle: "", strain: None }
+    Scene {
+        body,
+        cloth,
+        piece_of_triangle: &[],
+        seams: lines,
+        rims,
+        title: "",
+        subtitle: "",
+        values: None,
+        groups: &[],
+    }
 }

@@ -7,7 +7,7 @@ use super::on_cloth::lines;
 use super::paint::Paint;
 use super::raster::byte;
 use super::view::{LINE_LIFT, Lit, Panel, paste, words};
-use super::{HEIGHT, PictureError, Scene, WIDTH, can_be_framed, encode};
+use super::{HEIGHT, PictureError, PictureLayout, Scene, WIDTH, can_be_framed, encode};
 use crate::geometry::{TriMesh, Vec3};
 
 /// Half the width of a rim, pixels.
@@ -56,12 +56,12 @@ pub fn draw_start(scene: &Scene, marks: &StartMarks) -> Result<Vec<u8>, PictureE
     lit.lines.extend(lines(scene, &[(marks.axes, AXIS_RADIUS, AXIS)], LINE_LIFT));
     lit.lines.extend(lines(scene, &[(marks.axes, SHINE_RADIUS, AXIS)], SHINE_LIFT));
     let paint = Paint::new(scene);
-    let cameras = cameras(scene.body, scene.cloth);
+    let cameras = cameras(scene.body, scene.cloth, &PictureLayout::default());
     let panels: Vec<Panel> = cameras.iter().map(|c| Panel::new(scene, &lit, &paint, c)).collect();
     let rows = marks.openings.len() + marks.notes.len() + 1;
     let mut canvas = Canvas::new(WIDTH, HEIGHT + rows * LINE, PAPER);
     paste(&mut canvas, &panels);
-    words(&mut canvas, scene, &cameras, &paint);
+    words(&mut canvas, scene, &cameras, &paint, HEIGHT);
     legend(&mut canvas, marks);
     Ok(encode(&canvas)?)
 }
@@ -96,5 +96,5 @@ pub fn pixels_of(scene: &Scene, point: &Vec3) -> Vec<[usize; 2]> {
         let [x, y, _] = camera.project(point);
         [camera.left + x as usize, camera.top + y as usize]
     };
-    cameras(scene.body, scene.cloth).into_iter().map(of).collect()
+    cameras(scene.body, scene.cloth, &PictureLayout::default()).into_iter().map(of).collect()
 }

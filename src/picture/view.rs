@@ -6,13 +6,13 @@ use rayon::prelude::*;
 
 use super::camera::{Camera, FOOT, cameras};
 use super::canvas::Canvas;
-use super::color::{BODY, INK, PALE_INK, PAPER, RIM, Rgb, SEAM, strain};
+use super::color::{BODY, INK, PALE_INK, PAPER, RIM, Rgb, SEAM, piece};
 use super::light::Lights;
 use super::occlusion::Surroundings;
 use super::on_cloth::{Line, lines};
 use super::paint::Paint;
 use super::raster::{Band, Corner, NO_CLOTH, SAMPLES, Stroke};
-use super::{HEIGHT, Scene, WIDTH};
+use super::{PictureLayout, Scale, Scene};
 use crate::geometry::{TriMesh, Vec3};
 
 /// Rows of pixels drawn at a time: the samples of a band fit in the processor's cache.
@@ -35,14 +35,14 @@ const FLOOR_MARGIN: f64 = 0.35;
 const FLOOR_GAP: f64 = 1e-3;
 
 /// Draws the whole picture.
-pub(super) fn render(scene: &Scene) -> Canvas {
+pub(super) fn render(scene: &Scene, layout: &PictureLayout) -> Canvas {
     let paint = Paint::new(scene);
     let lit = Lit::new(scene);
-    let cameras = cameras(scene.body, scene.cloth);
+    let cameras = cameras(scene.body, scene.cloth, layout);
     let panels: Vec<Panel> = cameras.par_iter().map(|c| Panel::new(scene, &lit, &paint, c)).collect();
-    let mut canvas = Canvas::new(WIDTH, HEIGHT, PAPER);
+    let mut canvas = Canvas::new(layout.size[0], layout.size[1], PAPER);
     paste(&mut canvas, &panels);
-    words(&mut canvas, scene, &cameras, &paint);
+    words(&mut canvas, scene, &cameras, &paint, layout.size[1]);
     canvas
 }
 
@@ -235,13 +235,14 @@ fn stroke<'a>(line: &'a Line, camera: &Camera) -> Stroke<'a> {
 }
 
 /// Title, names of the views, scale, legend.
-pub(super) fn words(canvas: &mut Canvas, scene: &Scene, cameras: &[Camera], paint: &Paint) {
+/// `height` is that of the views with what stands above and below, pixels.
+pub(super) fn words(canvas: &mut Canvas, scene: &Scene, cameras: &[Camera], paint: &Paint, height: usize) {
     const LEFT: f32 = 56.0;
     let end = canvas.text(scene.title, [LEFT, 72.0], 5.0, INK);
-    let room = WIDTH as f32 - LEFT - (end + 34.0);
+    let room = canvas.width as f32 - LEFT - (end + 34.0);
     let size = (3.0 * room / Canvas::text_width(scene.subtitle, 3.0)).clamp(1.5, 3.0);
     canvas.text(scene.subtitle, [end + 34.0, 72.0], size, PALE_INK);
-    let foot = (HEIGHT - FOOT / 2 + 12) as f32;
+    let foot = (height - FOOT / 2 + 12) as f32;
     for camera in cameras {
         let middle = camera.left as f32 + 0.5 * camera.width as f32;
         canvas.text(camera.name, [middle - 0.5 * Canvas::text_width(camera.name, 3.4), foot], 3.4, INK);
@@ -249,16 +250,17 @@ pub(super) fn words(canvas: &mut Canvas, scene: &Scene, cameras: &[Camera], pain
     if let Some(camera) = cameras.first() {
         scale_bar(canvas, camera.scale, foot);
     }
-    if let Paint::Strain(_, limit) = paint {
-        legend(canvas, *limit, "warp and weft strain");
+    if let Paint::Values(_, scale, limit) = paint {
+        legend(canvas, *scale, *limit, scale.title());
     }
+    groups(canvas, scene.groups);
 }
 
 /// A bar of a round length, at the right below.
 pub(super) fn scale_bar(canvas: &mut Canvas, pixels_per_metre: f64, foot: f32) {
     let millimetres = if pixels_per_metre > 1500.0 { 50.0 } else { 100.0 };
     let length = (millimetres / 1000.0 * pixels_per_metre) as f32;
-    let right = WIDTH as f32 - 56.0;
+    let right = canvas.width as f32 - 56.0;
     let (left, y) = (right - length, foot - 6.0);
     canvas.line([left, y], [right, y], 1.2, PALE_INK);
     [left, right].iter().for_each(|&x| canvas.line([x, y - 8.0], [x, y + 8.0], 1.2, PALE_INK));
@@ -266,17 +268,52 @@ pub(super) fn scale_bar(canvas: &mut Canvas, pixels_per_metre: f64, foot: f32) {
     canvas.text(&text, [left - 18.0 - Canvas::text_width(&text, 2.6), foot], 2.6, PALE_INK);
 }
 
-/// The strain scale, at the right above.
-pub(super) fn legend(canvas: &mut Canvas, limit: f64, title: &str) {
+impl Scale {
+    fn title(self) -> &'static str {
+        match self {
+            Self::Strain => "warp and weft strain",
+            Self::Ease => "distance to the skin",
+            Self::Pressure => "pressure on the skin",
+        }
+    }
+
+    /// Labels at the left end, the middle and the right end.
+    fn labels(self, limit: f64) -> [String; 3] {
+        match self {
+            Self::Strain => [format!("-{} %", 100.0 * limit), "0".into(), format!("+{} %", 100.0 * limit)],
+            Self::Ease => ["0".into(), String::new(), format!("{limit} mm")],
+            Self::Pressure => ["0".into(), String::new(), format!("{limit} kPa")],
+        }
+    }
+}
+
+/// Colours and names of groups of pieces, at the right above, from right to left.
+fn groups(canvas: &mut Canvas, names: &[String]) {
+    const SQUARE: usize = 24;
+    let mut right = canvas.width as f32 - 56.0;
+    for (k, name) in names.iter().enumerate().rev() {
+        let left = right - Canvas::text_width(name, 2.6);
+        canvas.text(name, [left, 56.0], 2.6, PALE_INK);
+        let square = left - SQUARE as f32 - 12.0;
+        if square < 0.0 {
+            break;
+        }
+        canvas.fill([square as usize, 34], [SQUARE, SQUARE], piece(k as u32));
+        right = square - 30.0;
+    }
+}
+
+/// The scale of values, at the right above.
+pub(super) fn legend(canvas: &mut Canvas, scale: Scale, limit: f64, title: &str) {
     const SIZE: [usize; 2] = [420, 22];
     const TOP: usize = 34;
-    let left = WIDTH - 76 - SIZE[0];
+    let left = canvas.width.saturating_sub(76 + SIZE[0]);
     for x in 0..SIZE[0] {
-        let share = 2.0 * (x as f32 + 0.5) / SIZE[0] as f32 - 1.0;
-        canvas.fill([left + x, TOP], [1, SIZE[1]], strain(share));
+        let along = (x as f32 + 0.5) / SIZE[0] as f32;
+        let share = if scale == Scale::Strain { 2.0 * along - 1.0 } else { along };
+        canvas.fill([left + x, TOP], [1, SIZE[1]], scale.color(share));
     }
-    let percent = 100.0 * limit;
-    for (share, label) in [(-1.0, format!("-{percent} %")), (0.0, "0".into()), (1.0, format!("+{percent} %"))] {
+    for (share, label) in [-1.0, 0.0, 1.0].into_iter().zip(scale.labels(limit)) {
         let x = left as f32 + 0.5 * (share + 1.0) * SIZE[0] as f32;
         canvas.line([x, (TOP + SIZE[1]) as f32], [x, (TOP + SIZE[1] + 6) as f32], 0.9, PALE_INK);
         let middle = 0.5 * Canvas::text_width(&label, 2.4);

@@ -13,23 +13,31 @@ impl Run<'_> {
     /// along warp and weft (fractions), shear (degrees), ease (mm), the gaps of seams (mm), and the pressure (kPa)
     /// where the forces are known.
     pub(super) fn maps(&self, at: &[Vec3]) -> Vec<(&'static str, Vec<f64>)> {
-        let (mesh, class) = (&self.job.mesh, self.class());
+        let mesh = &self.job.mesh;
         let strains = thread_strains(mesh, at);
         let strain = |k: usize| strains.iter().map(|values| values[k]).collect::<Vec<f64>>();
-        let ease = distances(at, &self.job.body.mesh).into_iter().map(|far| far * MM).collect();
         let mut maps = vec![
             ("_STRAIN_WARP", strain(0)),
             ("_STRAIN_WEFT", strain(1)),
             ("_SHEAR", strain(2)),
-            ("_EASE", ease),
+            ("_EASE", self.ease(at)),
             ("_SEAM_GAP", self.seam_gaps()),
         ];
-        if let Some(forces) = &self.pressed {
-            let welded = Welded::new(mesh, &class, at);
-            let pressure = pressure(&welded, &class, forces);
-            maps.push(("_PRESSURE", welded.vertex_of.iter().map(|&v| KPA * pressure[v as usize]).collect()));
-        }
+        maps.extend(self.pressure(at).map(|pressure| ("_PRESSURE", pressure)));
         maps
+    }
+
+    /// Distance of every particle to the skin, mm.
+    pub(super) fn ease(&self, at: &[Vec3]) -> Vec<f64> {
+        distances(at, &self.job.body.mesh).into_iter().map(|far| far * MM).collect()
+    }
+
+    /// Pressure at every particle, kPa, where the forces are known.
+    pub(super) fn pressure(&self, at: &[Vec3]) -> Option<Vec<f64>> {
+        let (forces, class) = (self.pressed.as_ref()?, self.class());
+        let welded = Welded::new(&self.job.mesh, &class, at);
+        let pressure = pressure(&welded, &class, forces);
+        Some(welded.vertex_of.iter().map(|&v| KPA * pressure[v as usize]).collect())
     }
 
     /// For every particle the largest gap to a partner when its seams had been closed, mm. Zero beside seams.

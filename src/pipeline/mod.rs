@@ -42,8 +42,8 @@ pub use material::{Checked, check};
 pub use pattern_picture::pattern_picture;
 pub use problems::{Problem, problems};
 pub use results::{
-    Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, PATTERN_SVG, PLACED_OBJ, REPORT_HTML, REPORT_JSON, ResultFile,
-    SEWN_OBJ, json_text,
+    Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, PATTERN_SVG, PLACED_OBJ, PictureOptions, REPORT_HTML, REPORT_JSON,
+    ResultFile, SEWN_OBJ, json_text,
 };
 pub use run::{Progress, Run};
 pub use start_picture::{DoubtShown, OpeningShown, RimShown, StartPicture, StartShown, WordShown, start_picture};

@@ -9,7 +9,7 @@ use crate::io::glb_write::{garment_glb, surface_glb};
 use crate::io::obj_write::garment_obj;
 use crate::io::svg_write::pattern_svg;
 use crate::pattern::Notch;
-use crate::picture::{Dressed, draw};
+use crate::picture::{Dressed, PictureError, PictureLayout, Scale, Scene, Turning, draw, draw_turning};
 use crate::report::{Report, page, vertex_strain};
 
 /// The draped garment.
@@ -40,6 +40,21 @@ pub enum Color {
     Piece,
     /// The strain of warp and weft.
     Strain,
+    /// The distance to the skin.
+    Ease,
+    /// The pressure on the skin. Pieces before the garment is draped.
+    Pressure,
+    /// The fabric.
+    Fabric,
+}
+
+/// How the picture is drawn.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct PictureOptions {
+    /// Meaning of the colours.
+    pub color: Color,
+    /// Size and views.
+    pub layout: PictureLayout,
 }
 
 impl Run<'_> {
@@ -47,9 +62,9 @@ impl Run<'_> {
     ///
     /// # Errors
     /// When one of them cannot be drawn.
-    pub fn results(&self, report: &Report, color: Color) -> Result<Vec<ResultFile>, PipelineError> {
+    pub fn results(&self, report: &Report, drawing: &PictureOptions) -> Result<Vec<ResultFile>, PipelineError> {
         let figures = json_text(report)?;
-        let mut files = self.state(color)?;
+        let mut files = self.state(drawing)?;
         if let Some(draped) = &self.draped {
             files.push((GARMENT_OBJ, self.obj(draped, &self.class())));
             let glb = self.glb(draped);
@@ -71,16 +86,16 @@ impl Run<'_> {
     ///
     /// # Errors
     /// When the picture cannot be drawn.
-    pub fn state(&self, color: Color) -> Result<Vec<ResultFile>, PipelineError> {
+    pub fn state(&self, drawing: &PictureOptions) -> Result<Vec<ResultFile>, PipelineError> {
         if let Some(last) = self.last() {
-            let picture = (GARMENT_PNG, self.picture(last, &self.class(), color)?);
+            let picture = (GARMENT_PNG, self.picture(last, &self.class(), drawing)?);
             let sewn = self.sewn.as_ref().map(|sewn| (SEWN_OBJ, self.obj(sewn, &self.class())));
             return Ok(sewn.into_iter().chain([picture]).collect());
         }
         let Some(placed) = &self.placed else { return Ok(Vec::new()) };
         // Every particle stands alone: partners are still apart.
         let alone = identity_nodes(&self.job.mesh);
-        Ok(vec![(PLACED_OBJ, self.obj(placed, &alone)), (GARMENT_PNG, self.picture(placed, &alone, color)?)])
+        Ok(vec![(PLACED_OBJ, self.obj(placed, &alone)), (GARMENT_PNG, self.picture(placed, &alone, drawing)?)])
     }
 
     fn glb(&self, at: &[Vec3]) -> Vec<u8> {
@@ -98,14 +113,57 @@ impl Run<'_> {
         at.iter().map(|p| self.job.body.frame.to_file(*p)).collect()
     }
 
-    fn picture(&self, at: &[Vec3], class: &[u32], color: Color) -> Result<Vec<u8>, PipelineError> {
-        let strain = (color == Color::Strain).then(|| vertex_strain(&self.job.mesh, at));
-        let dressed = Dressed::new(&self.job.mesh, class, at, strain.as_deref());
-        let subtitle = format!("{}, {}", self.job.body.name, self.job.fabric_names());
+    fn picture(&self, at: &[Vec3], class: &[u32], drawing: &PictureOptions) -> Result<Vec<u8>, PipelineError> {
+        let draw_it = |scene: &Scene| draw(scene, &drawing.layout);
+        self.drawn(at, class, drawing.color, draw_it)
+    }
+
+    /// The garment as it is now, turning once round.
+    ///
+    /// # Errors
+    /// When it cannot be drawn. A garment that has not been sewn has no surface.
+    pub fn turning(&self, color: Color, format: Turning) -> Result<Vec<u8>, PipelineError> {
+        self.drawn(self.last().unwrap_or_default(), &self.class(), color, |scene| draw_turning(scene, format))
+    }
+
+    /// What `draw` makes of the scene.
+    fn drawn(
+        &self,
+        at: &[Vec3],
+        class: &[u32],
+        color: Color,
+        draw: impl Fn(&Scene) -> Result<Vec<u8>, PictureError>,
+    ) -> Result<Vec<u8>, PipelineError> {
+        let job = self.job;
+        let values = self.values(at, color);
+        let values = values.as_ref().map(|(values, scale)| (values.as_slice(), *scale));
+        let mut dressed = Dressed::new(&job.mesh, class, at, values);
+        if color == Color::Fabric {
+            let mut names: Vec<String> = Vec::new();
+            let group = job.fabrics.iter().map(|fabric| {
+                names.iter().position(|name| *name == fabric.name).unwrap_or_else(|| {
+                    names.push(fabric.name.clone());
+                    names.len() - 1
+                }) as u32
+            });
+            let group: Vec<u32> = group.collect();
+            dressed = dressed.grouped(&group, names);
+        }
+        let subtitle = format!("{}, {}", job.body.name, job.fabric_names());
         // What has not been sewn is round the body as that is sewn on.
-        let apart = self.job.stance.as_ref().filter(|_| self.open || self.last().is_none());
-        let body = apart.map_or(&self.job.body, |stance| &stance.body);
-        Ok(draw(&dressed.scene(&body.mesh, &self.job.garment.title, &subtitle))?)
+        let apart = job.stance.as_ref().filter(|_| self.open || self.last().is_none());
+        let body = apart.map_or(&job.body, |stance| &stance.body);
+        Ok(draw(&dressed.scene(&body.mesh, &job.garment.title, &subtitle))?)
+    }
+
+    /// The values that colour the cloth, one per particle. None where it has the colours of its pieces.
+    fn values(&self, at: &[Vec3], color: Color) -> Option<(Vec<f64>, Scale)> {
+        match color {
+            Color::Piece | Color::Fabric => None,
+            Color::Strain => Some((vertex_strain(&self.job.mesh, at), Scale::Strain)),
+            Color::Ease => Some((self.ease(at), Scale::Ease)),
+            Color::Pressure => self.pressure(at).map(|values| (values, Scale::Pressure)),
+        }
     }
 }
 
