@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules in building order, each with those it may use. The ground floor first, the edge last.
-const FLOORS: [(&str, &[&str]); 22] = [
+const FLOORS: [(&str, &[&str]); 23] = [
     ("geometry", &[]),
     ("input", &[]),
     ("parallel", &[]),
@@ -46,6 +46,7 @@ const FLOORS: [(&str, &[&str]); 22] = [
             "io",
         ],
     ),
+    ("batch", &["input", "fabric", "mannequin", "io"]),
     (
         "cli",
         &[
@@ -62,12 +63,13 @@ const FLOORS: [(&str, &[&str]); 22] = [
             "digitize",
             "io",
             "pipeline",
+            "batch",
         ],
     ),
 ];
 
 /// Crates and the paths below `src` that may name them.
-const CRATES: [(&str, &[&str]); 22] = [
+const CRATES: [(&str, &[&str]); 24] = [
     ("parry3d_f64", &["contact/"]),
     ("robust", &["geometry/"]),
     ("faer", &["linear/"]),
@@ -90,6 +92,8 @@ const CRATES: [(&str, &[&str]); 22] = [
     ("serde_yaml", &["input/yaml.rs", "io/garment/", "fabric/"]),
     ("tempfile", &["io/files.rs"]),
     ("ctrlc", &["io/files.rs"]),
+    ("sha2", &["batch/key.rs"]),
+    ("nix", &["batch/process.rs"]),
     ("clap", &["cli/"]),
     ("indicatif", &["cli/"]),
 ];
