@@ -148,6 +148,11 @@ fn every_job_is_made_once_and_every_failure_kept_with_its_reason() {
     let again = room.run(&args);
     assert!(text(&again.stdout).contains("8 were known before"), "{}", text(&again.stdout));
     assert_eq!(fs::read(room.path("store/index.jsonl")).expect("an index"), bytes);
+    // A record that a power cut has damaged is no record.
+    room.put(&format!("store/{done}/job.json"), "{");
+    let mended = room.run(&args);
+    assert!(text(&mended.stdout).contains("6 were known before"), "{}", text(&mended.stdout));
+    assert_eq!(obj("plain"), obj(&format!("store/{done}")));
     room.put("missing.yaml", SKIRT);
     let retried = room.run(&["batch", "jobs.jsonl", "-o", "store", "--time", "0.5", "--retry"]);
     assert!(text(&retried.stdout).contains("3 were known before"), "{}", text(&retried.stdout));

@@ -8,9 +8,7 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use pyo3::prelude::*;
-use toile::batch::{
-    BatchError, Event, INDEX, Job, Limits, Line, Plan, Store, Worker, parse_job, read_jobs, run, run_one,
-};
+use toile::batch::{Event, INDEX, Job, Limits, Plan, Store, Worker, parse_job, read_jobs, run, run_one};
 
 use crate::errors;
 use crate::result::parsed;
@@ -70,7 +68,7 @@ pub(crate) fn run_batch<'py>(
     let cores = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
     let side_by_side = side_by_side.and_then(NonZeroUsize::new).unwrap_or_else(cores);
     let plan = Plan { side_by_side, ..plan(program, time, memory, threads, retry) };
-    let done = with_signals(py, None, progress.as_ref(), |telling| {
+    let done = with_signals(py, None, progress.as_ref(), move |telling| {
         let store = Store::open(&store)?;
         let flag = telling.stop();
         run(&jobs, &store, &plan, &|| flag.load(Ordering::Relaxed), &mut |event| {
@@ -99,10 +97,10 @@ pub(crate) fn run_job<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let job = jobs(py, &[text], &folder)?.swap_remove(0);
     let plan = plan(program, time, memory, threads, retry);
-    let line = with_signals(py, Some(1), None, |telling| {
+    let line = with_signals(py, Some(1), None, move |telling| {
         let store = Store::open(&store)?;
         let flag = telling.stop();
-        Ok::<Line, BatchError>(run_one(&job, &store, &plan, &|| flag.load(Ordering::Relaxed))?)
+        run_one(&job, &store, &plan, &|| flag.load(Ordering::Relaxed))
     })?;
     let line = line.map_err(|e| errors::batch(py, &e))?;
     parsed(py, serde_json::to_string(&line).unwrap_or_default().as_bytes())

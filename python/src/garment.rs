@@ -134,8 +134,9 @@ impl Garment {
     #[pyo3(signature = (spacing=None))]
     fn check<'py>(&self, py: Python<'py>, spacing: Option<f64>) -> PyResult<Bound<'py, PyList>> {
         let Overrides { spacing, .. } = overrides(py, None, None, None, spacing)?;
-        let checked = with_signals(py, Some(1), None, |_| {
-            check_text(&self.file, &self.text, spacing).map(|checked| checked.loaded.warnings)
+        let (file, text) = (self.file.clone(), self.text.clone());
+        let checked = with_signals(py, Some(1), None, move |_| {
+            check_text(&file, &text, spacing).map(|checked| checked.loaded.warnings)
         })?;
         errors::diagnostics(py, &checked.map_err(|all| errors::refused(py, &all))?)
     }
@@ -154,8 +155,9 @@ impl Garment {
         body_units: Option<&str>,
     ) -> PyResult<Outcome> {
         let overrides = overrides(py, body, body_units, fabric, spacing)?;
-        let made = with_signals(py, threads, progress.as_ref(), |telling| {
-            make(&self.file, &self.text, &overrides, &mut |stage, share| telling.tell(stage, share))
+        let (file, text) = (self.file.clone(), self.text.clone());
+        let made = with_signals(py, threads, progress.as_ref(), move |telling| {
+            make(&file, &text, &overrides, &mut |stage, share| telling.tell(stage, share))
         })?;
         made.map(Outcome::new).map_err(|failed| errors::pipeline(py, &failed.error, &failed.files))
     }
@@ -167,13 +169,13 @@ impl Garment {
 
 /// A run that ended early, with the files of the state that it reached.
 struct Failed {
-    error: PipelineError,
+    error: Box<PipelineError>,
     files: Vec<toile::pipeline::ResultFile>,
 }
 
 impl From<PipelineError> for Failed {
     fn from(error: PipelineError) -> Self {
-        Self { error, files: Vec::new() }
+        Self { error: Box::new(error), files: Vec::new() }
     }
 }
 
@@ -187,7 +189,7 @@ fn make(
     let mut run = Run::new(&job);
     if let Err(error) = run.flatten(&toile::flatten::Options::default(), tell) {
         let files = run.state(Color::Piece).unwrap_or_default();
-        return Err(Failed { error, files });
+        return Err(Failed { error: Box::new(error), files });
     }
     let report = run.report();
     let files = run.results(&report, Color::Piece)?;

@@ -73,7 +73,8 @@ impl Body {
     fn load(py: Python<'_>, name: Named, units: Option<String>) -> PyResult<Self> {
         let name = name.name();
         let unit = units.as_deref().map(self::unit).transpose().map_err(|why| errors::input(py, why))?;
-        let body = with_signals(py, None, None, |_| load_body(&name, unit))?;
+        let wanted = name.clone();
+        let body = with_signals(py, None, None, move |_| load_body(&wanted, unit))?;
         Ok(Self { body: body.map_err(|e| errors::input(py, e))?, name, units })
     }
 

@@ -1,6 +1,6 @@
 //! `toile.flatten` and `toile.Flat`
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArray3, PyArrayLike2};
 use pyo3::prelude::*;
@@ -36,7 +36,11 @@ fn mode(name: &str) -> Result<Mode, String> {
 }
 
 /// The arrays as a surface of one group.
-fn surface(vertices: &PyArrayLike2<'_, f64, AllowTypeChange>, faces: &PyArrayLike2<'_, i64, AllowTypeChange>, name: &str) -> Result<ObjFaces, String> {
+fn surface(
+    vertices: &PyArrayLike2<'_, f64, AllowTypeChange>,
+    faces: &PyArrayLike2<'_, i64, AllowTypeChange>,
+    name: &str,
+) -> Result<ObjFaces, String> {
     let (vertices, faces) = (vertices.as_array(), faces.as_array());
     if vertices.ncols() != 3 || faces.ncols() != 3 {
         let (v, f) = (vertices.shape(), faces.shape());
@@ -92,8 +96,9 @@ pub(crate) fn flatten(
         ..SurfaceOptions::default()
     };
     let faces = surface(&vertices, &faces, name).map_err(wrong)?;
-    let flat = with_signals(py, threads, None, |_| {
-        let flat = flatten_faces(Path::new(name), faces, &options)?;
+    let name = PathBuf::from(name);
+    let flat = with_signals(py, threads, None, move |_| {
+        let flat = flatten_faces(&name, faces, &options)?;
         let files = flat.results()?;
         Ok((flat, files))
     })?;

@@ -1,8 +1,9 @@
 //! Anything long: without the interpreter's lock, on threads of its own, ended by Ctrl-C.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{self, RecvTimeoutError, Sender};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::time::Duration;
 
 use pyo3::prelude::*;
@@ -11,6 +12,8 @@ use crate::errors;
 
 /// Time between two looks for a signal: what a person takes for at once.
 const LOOK: Duration = Duration::from_millis(50);
+/// Longest time that work which is to end is waited for. A stage may tell nothing for longer; it then ends by itself.
+const PATIENCE: Duration = Duration::from_secs(2);
 /// Stack of a thread, bytes, as the command line has it.
 const STACK: usize = 8 << 20;
 
@@ -19,15 +22,15 @@ const STACK: usize = 8 << 20;
 struct Ended;
 
 /// What work tells while it runs.
-pub(crate) struct Telling<'a> {
-    stop: &'a AtomicBool,
+pub(crate) struct Telling {
+    stop: Arc<AtomicBool>,
     send: Sender<(String, f64)>,
 }
 
-impl Telling<'_> {
+impl Telling {
     /// Tells how far a stage is. Does not return when the work is to end.
     pub(crate) fn tell(&mut self, stage: &str, share: f64) {
-        if self.stopped() {
+        if self.stop.load(Ordering::Relaxed) {
             resume_unwind(Box::new(Ended));
         }
         self.say(stage, share);
@@ -39,14 +42,9 @@ impl Telling<'_> {
         let _ = self.send.send((stage.to_owned(), share));
     }
 
-    /// Whether the work is to end.
-    pub(crate) fn stopped(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
-    }
-
-    /// The flag behind [`Self::stopped`].
-    pub(crate) fn stop(&self) -> &AtomicBool {
-        self.stop
+    /// The flag that says whether the work is to end.
+    pub(crate) fn stop(&self) -> Arc<AtomicBool> {
+        self.stop.clone()
     }
 }
 
@@ -54,42 +52,52 @@ impl Telling<'_> {
 /// and calls `progress(stage, share)`.
 ///
 /// # Errors
-/// What `progress` or a signal's handler raises, such as KeyboardInterrupt. The work has ended then.
-pub(crate) fn with_signals<T: Send>(
+/// What `progress` or a signal's handler raises, such as KeyboardInterrupt. The work ends then when it next tells
+/// something, which is not waited for longer than [`PATIENCE`].
+pub(crate) fn with_signals<T: Send + 'static>(
     py: Python<'_>,
     threads: Option<usize>,
     progress: Option<&Py<PyAny>>,
-    work: impl FnOnce(&mut Telling) -> T + Send,
+    work: impl FnOnce(&mut Telling) -> T + Send + 'static,
 ) -> PyResult<T> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).stack_size(STACK).build();
     let pool = pool.map_err(|e| errors::input(py, format!("cannot start the threads: {e}; try fewer")))?;
-    let stop = AtomicBool::new(false);
+    let stop = Arc::new(AtomicBool::new(false));
     let (send, told) = mpsc::channel();
-    let mut raised = Ok(());
-    let stop = &stop;
-    let (outcome, raised) = py.detach(move || {
-        std::thread::scope(|scope| {
-            let mut telling = Telling { stop, send };
-            let done = scope.spawn(move || {
-                let work = AssertUnwindSafe(|| pool.install(|| work(&mut telling)));
-                catch_unwind(work)
-            });
-            while raised.is_ok() {
-                match told.recv_timeout(LOOK) {
-                    Ok(said) => raised = heard(said, &told, progress),
-                    Err(RecvTimeoutError::Timeout) => raised = Python::attach(|py| py.check_signals()),
-                    Err(RecvTimeoutError::Disconnected) => break,
-                }
-            }
-            stop.store(raised.is_err(), Ordering::Relaxed);
-            (done.join(), raised)
-        })
+    let (end, outcome) = mpsc::channel();
+    let mut telling = Telling { stop: stop.clone(), send };
+    std::thread::spawn(move || {
+        let done = catch_unwind(AssertUnwindSafe(|| pool.install(|| work(&mut telling))));
+        // Nobody may wait for it any more.
+        let _ = end.send(done);
     });
+    let raised = py.detach(move || {
+        let raised = listen(&told, progress);
+        (raised, told)
+    });
+    let (raised, _) = raised;
+    if raised.is_err() {
+        stop.store(true, Ordering::Relaxed);
+    }
+    let waiting = if raised.is_err() { PATIENCE } else { Duration::MAX };
+    let outcome = py.detach(move || outcome.recv_timeout(waiting));
     raised?;
     match outcome {
         Ok(Ok(value)) => Ok(value),
         // A fault of the program itself: PyO3 makes an exception of it.
-        Ok(Err(panic)) | Err(panic) => resume_unwind(panic),
+        Ok(Err(panic)) => resume_unwind(panic),
+        Err(_) => Err(errors::input(py, "the work ended without a result")),
+    }
+}
+
+/// Hands on what is told and looks for signals, until the work has ended or something is raised.
+fn listen(told: &Receiver<(String, f64)>, progress: Option<&Py<PyAny>>) -> PyResult<()> {
+    loop {
+        match told.recv_timeout(LOOK) {
+            Ok(said) => heard(said, told, progress)?,
+            Err(RecvTimeoutError::Timeout) => Python::attach(|py| py.check_signals())?,
+            Err(RecvTimeoutError::Disconnected) => return Ok(()),
+        }
     }
 }
 

@@ -106,7 +106,7 @@ def test_ctrl_c_and_what_progress_raises_end_the_work(skirt: Path) -> None:
     threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT)).start()
     with pytest.raises(KeyboardInterrupt):
         garment.make(spacing=ENDLESS)
-    assert time.monotonic() - begin < 10
+    assert time.monotonic() - begin < 5
 
     class Enough(Exception):
         pass
@@ -154,7 +154,8 @@ def test_bodies_and_fabrics_are_objects(skirt: Path, made: toile.Result) -> None
     body, fabric = toile.Body.load("woman_92"), toile.Fabric.load("cotton_poplin")
     assert {"woman_92", "man_100", "child_110"} <= set(toile.Body.library())
     assert body.vertices.shape[1] == body.faces.shape[1] == 3
-    assert 1500 < np.ptp(body.vertices[:, 1]) < 1900
+    # It has no head.
+    assert 1400 < np.ptp(body.vertices[:, 1]) < 1900
     assert 0.05 < fabric.areal_density < 0.3 and 0.05 < fabric.thickness < 1
     again = toile.Garment.load(skirt).make(body=body, fabric=fabric, spacing=COARSE)
     assert np.array_equal(again.vertices, made.vertices)

@@ -14,7 +14,7 @@ HERE = Path(__file__).parents[1]
 
 
 def test_the_stubs_name_what_there_is() -> None:
-    tree = ast.parse((HERE / "toile" / "_toile.pyi").read_text(encoding="utf-8"))
+    tree = ast.parse((HERE / "package" / "toile" / "_toile.pyi").read_text(encoding="utf-8"))
     for node in tree.body:
         if isinstance(node, ast.ClassDef):
             said = {item.name for item in node.body if isinstance(item, ast.FunctionDef)}

@@ -69,6 +69,7 @@ impl<'a> Run<'a> {
     pub fn sew(&mut self, progress: Progress) -> Result<(), PipelineError> {
         let job = self.job;
         let begin = Instant::now();
+        progress("sew", 0.0);
         let failed = |e| PipelineError::sewing(&job.file, &job.body, e);
         let start = job.placed(&job.mesh).map_err(|e| failed(e.into()))?;
         self.placed = Some(start.clone());

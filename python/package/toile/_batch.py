@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 import os
 import sys
@@ -11,8 +12,9 @@ from typing import Any
 
 from . import _toile
 
-# Starts toile's command line: each garment is made in a process of its own.
-_PROGRAM = [sys.executable, "-m", "toile"]
+# Starts toile's command line: each garment is made in a process of its own. Not by ``-m``, which would also look into the
+# current folder.
+PROGRAM = [sys.executable, str(Path(__file__).with_name("__main__.py"))]
 
 
 def batch(
@@ -60,7 +62,7 @@ def batch(
         _on_cluster(client, texts, folder, root, (time, memory, threads, retry), progress)
         # All are known now, so that this writes the index and makes nothing.
         retry = False
-    _toile.run_batch(texts, folder, root, _PROGRAM, side_by_side, time, memory, threads, retry, progress)
+    _toile.run_batch(texts, folder, root, PROGRAM, side_by_side, time, memory, threads, retry, progress)
     with open(Path(root) / "index.jsonl", encoding="utf-8") as index:
         return [json.loads(line) for line in index]
 
@@ -75,7 +77,7 @@ def _texts(jobs: str | os.PathLike[str] | Iterable[Mapping[str, Any]]) -> list[s
 def _one(text: str, folder: str, store: str, options: tuple[float | None, int | None, int, bool]) -> dict[str, Any]:
     """A task: a function of the job's content, which may run again or twice."""
     time, memory, threads, retry = options
-    return _toile.run_job(text, folder, store, _PROGRAM, time, memory, threads, retry)
+    return _toile.run_job(text, folder, store, PROGRAM, time, memory, threads, retry)
 
 
 def _on_cluster(
@@ -87,15 +89,14 @@ def _on_cluster(
     progress: Callable[[str, float], object] | None,
 ) -> None:
     """Makes the jobs as tasks of a cluster and waits for them."""
-    from distributed import as_completed
-
+    distributed: Any = importlib.import_module("distributed")
     # The same job twice in the list is one task.
     once = list(dict.fromkeys(texts))
     # A task whose worker is killed runs again elsewhere; pure=False keeps an old result from being taken for a new
     # one after the store was cleared.
     futures = client.map(_one, once, folder=folder, store=store, options=options, pure=False, retries=2)
     try:
-        for count, future in enumerate(as_completed(futures), 1):
+        for count, future in enumerate(distributed.as_completed(futures), 1):
             future.result()
             if progress is not None:
                 progress("batch", count / len(once))
