@@ -58,7 +58,7 @@ impl Garment {
 
 #[pymethods]
 impl Garment {
-    /// Reads a garment file. Its mistakes raise GarmentError.
+    /// Reads a garment file (YAML). Its mistakes raise :class:`GarmentError`.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         toile::pipeline::read(&path).map_err(|e| errors::pipeline(py, &e, &[]))?;
@@ -66,7 +66,9 @@ impl Garment {
         Ok(Self { file: path, text, notes: Vec::new() })
     }
 
-    /// A garment from what a garment file says, as nested dicts and lists. Files that it names are in `folder`.
+    /// A garment from what a garment file says, as nested dicts and lists.
+    ///
+    /// Files that it names, as fabrics and bodies, are looked for in ``folder``.
     #[staticmethod]
     #[pyo3(signature = (data, name="garment", folder=PathBuf::new()))]
     fn from_dict(py: Python<'_>, data: Bound<'_, PyDict>, name: &str, folder: PathBuf) -> PyResult<Self> {
@@ -80,7 +82,7 @@ impl Garment {
         Ok(Self { file, text, notes: Vec::new() })
     }
 
-    /// A garment from GarmentCode's pattern specification (JSON), worn by `body`.
+    /// A garment from GarmentCode's pattern specification (JSON), worn by ``body``.
     #[staticmethod]
     #[pyo3(signature = (path, body=None))]
     fn from_garmentcode(py: Python<'_>, path: PathBuf, body: Option<library::Named>) -> PyResult<Self> {
@@ -96,8 +98,12 @@ impl Garment {
         Self::imported(py, PathBuf::from(format!("{name}.yaml")), &said, Vec::new())
     }
 
-    /// A garment from a drawing (SVG). With `seams` the seams that are suggested are sewn; otherwise all edges are
-    /// free. `units` is the length of the drawing's unit in millimetres.
+    /// A garment from a drawing (SVG).
+    ///
+    /// Args:
+    ///     seams: Sew the seams that are suggested; otherwise all edges are free.
+    ///     units: Length of the drawing's unit, mm.
+    ///     size: The size to read of a drawing in several.
     #[staticmethod]
     #[pyo3(signature = (path, seams=true, units=None, size=None))]
     fn from_svg(
@@ -118,7 +124,7 @@ impl Garment {
         Self::imported(py, path.with_file_name(format!("{stem}.yaml")), &said, notes)
     }
 
-    /// The short name.
+    /// The short name, which is that of the file.
     #[getter]
     fn name(&self) -> String {
         self.file.file_stem().unwrap_or_default().to_string_lossy().into_owned()
@@ -130,7 +136,13 @@ impl Garment {
         &self.text
     }
 
-    /// Finds everything that is wrong before cloth moves and returns what may not be meant so.
+    /// Finds everything that is wrong before cloth moves; mistakes raise :class:`GarmentError`.
+    ///
+    /// Args:
+    ///     spacing: Distance of neighbouring particles that it will be made with, mm (10 by default).
+    ///
+    /// Returns:
+    ///     What its author may not have meant so.
     #[pyo3(signature = (spacing=None))]
     fn check<'py>(&self, py: Python<'py>, spacing: Option<f64>) -> PyResult<Bound<'py, PyList>> {
         let Overrides { spacing, .. } = overrides(py, None, None, None, spacing)?;
@@ -141,7 +153,20 @@ impl Garment {
         errors::diagnostics(py, &checked.map_err(|all| errors::refused(py, &all))?)
     }
 
-    /// Sews, drapes and flattens the garment.
+    /// Sews, drapes and flattens the garment, as the command ``toile make``.
+    ///
+    /// Args:
+    ///     body: Library name or file in place of the garment's own body.
+    ///     fabric: Library name or file in place of its main fabric.
+    ///     spacing: Distance of neighbouring particles, mm (10 by default).
+    ///     threads: Number of threads (all processors by default). Results do not depend on it.
+    ///     progress: Called with the stage and the share of it that is done, from 0 to 1. What it raises ends the work.
+    ///     body_units: Unit of the body's OBJ file.
+    ///
+    /// Raises:
+    ///     GarmentError: The garment file has mistakes.
+    ///     InputError: The body, the fabric or the spacing is wrong.
+    ///     ComputationError: It cannot be sewn, draped or flattened.
     #[pyo3(signature = (body=None, fabric=None, spacing=None, threads=None, progress=None, body_units=None))]
     #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn make(

@@ -14,7 +14,7 @@ use crate::work::with_signals;
 /// Millimetres in a metre.
 const MM: f64 = 1e3;
 
-/// A mannequin, or a body of one's own.
+/// A mannequin, or a body of one's own: n vertices, m triangles.
 #[pyclass(frozen, module = "toile")]
 pub(crate) struct Body {
     name: String,
@@ -68,6 +68,7 @@ impl Named {
 
 #[pymethods]
 impl Body {
+    /// A mannequin by its library name, a file of sections (YAML) or a closed OBJ in ``units``.
     #[staticmethod]
     #[pyo3(signature = (name, units=None))]
     fn load(py: Python<'_>, name: Named, units: Option<String>) -> PyResult<Self> {
@@ -78,16 +79,19 @@ impl Body {
         Ok(Self { body: body.map_err(|e| errors::input(py, e))?, name, units })
     }
 
+    /// Names of the mannequins that toile brings.
     #[staticmethod]
     fn library() -> Vec<&'static str> {
         toile::mannequin::library()
     }
 
+    /// The short name.
     #[getter]
     fn name(&self) -> &str {
         &self.body.mannequin.name
     }
 
+    /// Shape (n, 3): positions, mm, y up, where the body's own file has it.
     #[getter]
     fn vertices<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let (mesh, frame) = (&self.body.mannequin.mesh, &self.body.mannequin.frame);
@@ -95,11 +99,13 @@ impl Body {
         rows(py, &placed)
     }
 
+    /// Shape (m, 3): vertices of every triangle, counter-clockwise seen from outside.
     #[getter]
     fn faces<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<u32>>> {
         rows(py, &self.body.mannequin.mesh.triangles)
     }
 
+    /// What was guessed or done when it was read: its unit, its stance, crossings.
     #[getter]
     fn notes(&self) -> Vec<String> {
         self.body.notes.clone()
@@ -112,6 +118,7 @@ impl Body {
 
 #[pymethods]
 impl Fabric {
+    /// A fabric by its library name or its file (YAML).
     #[staticmethod]
     fn load(py: Python<'_>, name: Named) -> PyResult<Self> {
         let name = name.name();
@@ -119,51 +126,61 @@ impl Fabric {
         Ok(Self { name, fabric })
     }
 
+    /// Names of the fabrics that toile brings.
     #[staticmethod]
     fn library() -> Vec<&'static str> {
         toile::fabric::library()
     }
 
+    /// The short name.
     #[getter]
     fn name(&self) -> &str {
         &self.fabric.name
     }
 
+    /// Mass per area, kg/m².
     #[getter]
     fn areal_density(&self) -> f64 {
         self.fabric.areal_density
     }
 
+    /// Thickness, mm.
     #[getter]
     fn thickness(&self) -> f64 {
         MM * self.fabric.thickness
     }
 
+    /// Bending rigidity along warp and weft, N·m (per metre of width).
     #[getter]
     fn bending(&self) -> (f64, f64) {
         (self.fabric.bend_warp, self.fabric.bend_weft)
     }
 
+    /// Extension of warp and weft under 500 gf/cm (KES EMT), as fractions.
     #[getter]
     fn extension(&self) -> (f64, f64) {
         self.fabric.emt().into()
     }
 
+    /// Shear stiffness, N/m per radian.
     #[getter]
     fn shear(&self) -> f64 {
         self.fabric.shear
     }
 
+    /// Coulomb friction against the body and against cloth.
     #[getter]
     fn friction(&self) -> f64 {
         self.fabric.friction
     }
 
+    /// Source of the values.
     #[getter]
     fn source(&self) -> &str {
         &self.fabric.source
     }
 
+    /// Values that were not measured but assumed.
     #[getter]
     fn assumed(&self) -> Vec<String> {
         self.fabric.defaults.clone()

@@ -14,7 +14,7 @@ use crate::library::unit;
 use crate::result::{corners, parsed, save};
 use crate::work::with_signals;
 
-/// A surface laid flat.
+/// A surface laid flat: m triangles.
 #[pyclass(frozen, module = "toile")]
 pub(crate) struct Flat {
     uv: Vec<[[f64; 2]; 3]>,
@@ -66,9 +66,26 @@ fn surface(
     })
 }
 
-/// Lays a surface flat.
+/// Lays a surface flat, as the command ``toile flatten``.
+///
+/// Args:
+///     vertices: Shape (n, 3): positions.
+///     faces: Shape (m, 3): vertices of every triangle, counter-clockwise seen from outside.
+///     mode: What to keep where not everything can be kept.
+///     units: Unit of the positions; None guesses it from the size.
+///     up: Direction that lies along the grain (y, or z where the surface runs along z).
+///     cut: Cut the surface open where it is needed.
+///     darts: Number of darts at most that are cut where the strain passes 10 %.
+///     threads: Number of threads (all processors by default). Results do not depend on it.
+///     name: Its name in the report.
+///
+/// Raises:
+///     InputError: The surface cannot be laid flat as it is.
+///     ComputationError: It could not be computed.
 #[pyfunction]
-#[pyo3(signature = (vertices, faces, mode="balanced", units="mm", up=None, cut=false, darts=0, threads=None, name="surface"))]
+#[pyo3(signature = (
+    vertices, faces, mode="balanced", units="mm", up=None, cut=false, darts=0, threads=None, name="surface"
+))]
 #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub(crate) fn flatten(
     py: Python<'_>,
@@ -127,32 +144,40 @@ impl Flat {
 
 #[pymethods]
 impl Flat {
+    /// Shape (m, 3, 2): flat position (x, −y) at every corner of every face that was given, mm.
+    ///
+    /// NaN for a face that was left out (doubled, without area) or cannot be laid flat.
     #[getter]
     fn uv<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
         corners(py, &self.uv)
     }
 
+    /// Shape (m,): the piece of every face, an index into ``pieces``; −1 for a face without.
     #[getter]
     fn piece_of_face<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i32>> {
         self.piece_of_face.clone().into_pyarray(py)
     }
 
+    /// Names of the pieces.
     #[getter]
     fn pieces(&self) -> Vec<String> {
         self.pieces.clone()
     }
 
+    /// What was done or guessed on the way.
     #[getter]
     fn notes(&self) -> Vec<String> {
         self.notes.clone()
     }
 
+    /// The figures, as in ``report.json`` of ``toile flatten``.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let report = self.files.iter().find(|file| file.0 == REPORT_JSON);
         report.map_or_else(|| Err(errors::input(py, "there is no report")), |(_, text)| parsed(py, text))
     }
 
+    /// Writes the files of ``toile flatten``, whole or not at all.
     fn save(&self, py: Python<'_>, folder: PathBuf) -> PyResult<()> {
         save(py, &folder, &self.files, &[])
     }

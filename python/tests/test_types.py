@@ -24,6 +24,17 @@ def test_the_stubs_name_what_there_is() -> None:
             assert hasattr(toile._toile, node.name)
 
 
+def test_help_says_what_the_stubs_say() -> None:
+    tree = ast.parse((HERE / "package" / "toile" / "_toile.pyi").read_text(encoding="utf-8"))
+    count = 0
+    for kind in [node for node in tree.body if isinstance(node, ast.ClassDef)]:
+        for member in [node for node in kind.body if isinstance(node, ast.FunctionDef)]:
+            there = getattr(getattr(toile, kind.name), member.name).__doc__
+            assert there == ast.get_docstring(member), f"{kind.name}.{member.name}"
+            count += 1
+    assert count > 40
+
+
 def test_mypy_accepts_the_stubs() -> None:
     pytest.importorskip("mypy", reason="mypy is not installed")
     run = subprocess.run([sys.executable, "-m", "mypy"], cwd=HERE, capture_output=True, text=True)

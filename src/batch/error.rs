@@ -60,7 +60,10 @@ pub enum BatchError {
         fabrics: usize,
     },
     /// The store cannot be written.
-    #[error("cannot write the store {}: {why}; what is done is kept: start again when it can be written", path.display())]
+    #[error(
+        "cannot write the store {}: {why}; what is done is kept: start again when it can be written",
+        path.display()
+    )]
     Store {
         /// File or folder.
         path: PathBuf,

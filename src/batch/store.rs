@@ -209,7 +209,7 @@ impl Store {
 
 impl Drop for Store {
     fn drop(&mut self) {
-        // Unlocked first: some systems remove no file that is open. If it fails, the next one to open the store does it.
+        // Unlocked first: some systems remove no file that is open. If it fails, the next batch does it.
         drop(self.lock.take());
         let _ = fs::remove_dir_all(&self.work);
     }

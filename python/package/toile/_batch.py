@@ -12,8 +12,8 @@ from typing import Any
 
 from . import _toile
 
-# Starts toile's command line: each garment is made in a process of its own. Not by ``-m``, which would also look into the
-# current folder.
+# Starts toile's command line: each garment is made in a process of its own. Not by ``-m``, which would also look into
+# the current folder.
 PROGRAM = [sys.executable, str(Path(__file__).with_name("__main__.py"))]
 
 
