@@ -2,10 +2,12 @@
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::builder::PossibleValue;
 use clap::{Parser, Subcommand, ValueEnum};
 
+use crate::batch::Job;
 use crate::flatten::Mode;
 use crate::geometry::Vec3;
 use crate::input::LengthUnit;
@@ -42,6 +44,9 @@ pub(super) struct Global {
     /// Number of threads (default: all processors), of which 256 at most are started; results do not depend on it
     #[arg(long, global = true, value_name = "N")]
     pub(super) threads: Option<NonZeroUsize>,
+    /// Serve a batch: end when standard input ends, and take no more than so many MiB of memory (0: no limit)
+    #[arg(long, value_name = "MIB", hide = true)]
+    pub(super) worker: Option<u64>,
 }
 
 /// The commands.
@@ -63,6 +68,15 @@ pub(super) enum Command {
     Report(ReportArgs),
     /// Run garments against their own tests
     Test(TestArgs),
+    /// Make many garments, each in a process of its own, into a store that can be killed and gone on with
+    #[command(after_help = "A list has one JSON object a line, with the options of 'toile make': {\"garment\": \
+                            \"skirt.yaml\", \"body\": \"woman_92\", \"fabric\": \"denim\", \"spacing\": 15, \"id\": \
+                            \"skirt in denim\"}. Paths are relative to the list.\n\nExit codes: 0 all are done and \
+                            within their bounds; 1 all are done, some out of bounds; 2 the list is wrong; 3 some \
+                            failed, or the batch could not go on; 130 stopped by Ctrl-C. docs/batch.md has the rest.")]
+    Batch(BatchArgs),
+    /// Draw jobs for a batch from garments, bodies and fabrics
+    Sample(SampleArgs),
     /// Write patterns for cutting: pieces with seam allowance, notches, grain and labels
     #[command(
         subcommand,
@@ -210,6 +224,23 @@ impl OverrideArgs {
             bands: self.pressure_bands.clone(),
         }
     }
+
+    /// Options for jobs that say nothing else.
+    pub(super) fn job_options(&self) -> Job {
+        Job {
+            body: self.body.clone(),
+            body_units: self.body_units.map(|units| units.unit().symbol().to_owned()),
+            fabric: self.fabric.clone(),
+            spacing: self.spacing.map(in_millimetres),
+            pressure_bands: self.pressure_bands.as_ref().map(|bands| [bands.tight, bands.too_tight]),
+            ..Job::options()
+        }
+    }
+}
+
+/// Metres as a job says them. Rounded to a nanometre, so that 0.1 m is 100 mm.
+pub(super) fn in_millimetres(metres: f64) -> f64 {
+    (1e9 * metres).round() / 1e6
 }
 
 /// A length as garment files write it, where a bare number is millimetres.
@@ -366,6 +397,100 @@ pub(super) struct FlattenArgs {
     pub(super) table: bool,
     #[command(flatten)]
     pub(super) overrides: OverrideArgs,
+}
+
+/// Arguments of `batch`.
+#[derive(Debug, clap::Args)]
+pub(super) struct BatchArgs {
+    /// A list of jobs, or a folder whose garments are made
+    #[arg(value_name = "JOBS.jsonl|FOLDER")]
+    pub(super) jobs: PathBuf,
+    /// Folder for the results, which may have some already
+    #[arg(short, long, value_name = "STORE")]
+    pub(super) output: PathBuf,
+    /// Jobs that run side by side, each with the --threads given, or else one [default: all processors]
+    #[arg(short = 'j', long = "jobs", value_name = "N")]
+    pub(super) side_by_side: Option<NonZeroUsize>,
+    /// Longest time of a job, such as 90, 90s, 10m or 2h; 'none' sets no limit
+    #[arg(long, value_name = "TIME", default_value = "1h", value_parser = time_limit)]
+    pub(super) time: TimeLimit,
+    /// Most memory of a job, such as 512M or 4G (not on Windows) [default: no limit]
+    #[arg(long, value_name = "SIZE", value_parser = mebibytes)]
+    pub(super) memory: Option<u64>,
+    /// Make jobs anew that failed before
+    #[arg(long)]
+    pub(super) retry: bool,
+    /// Make only every Nth job, beginning with the Kth, for arrays of a cluster; its index is index.K-of-N.jsonl
+    #[arg(long, value_name = "K/N", value_parser = part)]
+    pub(super) part: Option<Part>,
+    #[command(flatten)]
+    pub(super) overrides: OverrideArgs,
+}
+
+/// `--time`
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TimeLimit(pub(super) Option<Duration>);
+
+/// `--part`
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Part {
+    /// From 1.
+    pub(super) number: usize,
+    pub(super) of: usize,
+}
+
+fn time_limit(text: &str) -> Result<TimeLimit, String> {
+    if text == "none" {
+        return Ok(TimeLimit(None));
+    }
+    let units = [("s", 1.0), ("m", 60.0), ("h", 3600.0), ("", 1.0)];
+    let parsed = units.iter().find_map(|(unit, seconds)| Some((text.strip_suffix(unit)?, seconds)));
+    let number = parsed.and_then(|(number, seconds)| Some(number.parse::<f64>().ok()? * seconds));
+    let limit = number.filter(|s| *s > 0.0).and_then(|s| Duration::try_from_secs_f64(s).ok());
+    limit.map(|limit| TimeLimit(Some(limit))).ok_or_else(|| "a time is expected, such as 90s, 10m, 2h or none".into())
+}
+
+fn mebibytes(text: &str) -> Result<u64, String> {
+    let units = [("M", 1), ("G", 1024)];
+    let parsed = units.iter().find_map(|(unit, mebibytes)| Some((text.strip_suffix(unit)?, mebibytes)));
+    let size = parsed.and_then(|(number, mebibytes)| number.parse::<u64>().ok()?.checked_mul(*mebibytes));
+    // What is larger in bytes than a number holds is no limit.
+    let some = size.filter(|mebibytes| (1..1 << 40).contains(mebibytes));
+    some.ok_or_else(|| "a size is expected, such as 512M or 4G".into())
+}
+
+fn part(text: &str) -> Result<Part, String> {
+    let numbers = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
+    match numbers {
+        Some((number, of)) if (1..=of).contains(&number) => Ok(Part { number, of }),
+        _ => Err("a part such as 3/100 is expected: the third of a hundred".into()),
+    }
+}
+
+/// Arguments of `sample`.
+#[derive(Debug, clap::Args)]
+pub(super) struct SampleArgs {
+    /// A garment file, or a folder of them
+    #[arg(value_name = "GARMENT.yaml|FOLDER")]
+    pub(super) garments: PathBuf,
+    /// Number of jobs
+    #[arg(short = 'n', long, value_name = "N")]
+    pub(super) count: NonZeroUsize,
+    /// The same seed draws the same jobs
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub(super) seed: u64,
+    /// The list to write
+    #[arg(short, long, value_name = "JOBS.jsonl")]
+    pub(super) output: PathBuf,
+    /// Bodies to draw from [default: all mannequins of the library]
+    #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',')]
+    pub(super) bodies: Vec<String>,
+    /// Fabrics to draw from [default: all of the library]
+    #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',')]
+    pub(super) fabrics: Vec<String>,
+    /// Mesh spacing of every job in millimetres [default: what the batch takes]
+    #[arg(long, value_name = "MM", value_parser = spacing, allow_negative_numbers = true)]
+    pub(super) spacing: Option<f64>,
 }
 
 /// Arguments of `report`.

@@ -6,6 +6,7 @@ use std::io::{self, ErrorKind, IsTerminal, Write};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::exit::CliError;
+use crate::batch::BatchError;
 use crate::pipeline::{PipelineError, json_text};
 
 /// Standard output and standard error, as `--quiet` and `--json` want them.
@@ -56,8 +57,9 @@ impl Console {
 
     /// Says why a command was not done.
     pub(super) fn error(&self, error: &CliError) {
-        // The diagnostics of a garment file begin with their places, as those of compilers do.
-        let named = matches!(error, CliError::Pipeline(PipelineError::Garment(_)));
+        // The diagnostics of a garment file or a list begin with their places, as those of compilers do.
+        let named =
+            matches!(error, CliError::Pipeline(PipelineError::Garment(_)) | CliError::Batch(BatchError::Jobs { .. }));
         say(&if named { error.to_string() } else { format!("error: {error}") });
         if let Some(help) = error.help() {
             say(&format!("  help: {help}"));

@@ -1,7 +1,6 @@
 //! How a command ends.
 
-use std::process::ExitCode;
-
+use crate::batch::BatchError;
 use crate::fabric::FabricError;
 use crate::fabric::measure::MeasureError;
 use crate::io::files::WriteError;
@@ -21,12 +20,10 @@ pub(super) enum Exit {
     Input = 2,
     /// It could not be computed.
     Failed = 3,
-}
-
-impl From<Exit> for ExitCode {
-    fn from(exit: Exit) -> Self {
-        Self::from(exit as u8)
-    }
+    /// A worker of a batch cannot write its results.
+    CannotWrite = crate::batch::WORKER_CANNOT_WRITE as isize,
+    /// Stopped by Ctrl-C.
+    Stopped = 130,
 }
 
 /// Why a command was not done.
@@ -70,6 +67,9 @@ pub(super) enum CliError {
     /// An argument that makes no sense.
     #[error("{0}")]
     Argument(String),
+    /// A batch that cannot begin or go on.
+    #[error(transparent)]
+    Batch(#[from] BatchError),
     /// The system gives no threads.
     #[error("cannot start the threads: {0}; try a smaller --threads")]
     Threads(#[from] rayon::ThreadPoolBuildError),
@@ -79,6 +79,8 @@ impl CliError {
     pub(super) fn exit(&self) -> Exit {
         match self {
             Self::Pipeline(e) if !e.is_input() => Exit::Failed,
+            Self::Batch(BatchError::Stopped) => Exit::Stopped,
+            Self::Batch(e) if !e.is_input() => Exit::Failed,
             Self::Specimen(_) | Self::Picture(_) | Self::Threads(_) => Exit::Failed,
             _ => Exit::Input,
         }

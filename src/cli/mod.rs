@@ -4,6 +4,7 @@
 //! says how it went. Results go to standard output, everything else to standard error.
 
 mod args;
+mod batch;
 mod check;
 mod check_mesh;
 mod console;
@@ -16,15 +17,18 @@ mod junit;
 mod make;
 mod mannequin;
 mod report;
+mod sample;
 mod specimen;
 mod test;
 mod update;
 
+use std::ffi::OsString;
 use std::num::NonZeroUsize;
 use std::process::ExitCode;
 
 use clap::Parser;
 
+use crate::batch::become_worker;
 use crate::io::files::remove_on_interrupt;
 use args::{Args, Command};
 use console::Console;
@@ -32,18 +36,35 @@ use exit::{CliError, Exit};
 
 /// Reads the arguments of the process, does what they say and gives its exit code.
 pub fn main() -> ExitCode {
-    // Ends the process itself for --help, --version (0) and wrong usage (2).
-    let args = Args::parse();
+    let itself = std::env::current_exe().map_or_else(|_| "toile".into(), OsString::from);
+    ExitCode::from(main_with(std::env::args_os(), &[itself]))
+}
+
+/// Does what the arguments say, the first of which is the program's name, and gives the exit code. `itself` is the
+/// command that starts this program again: a batch makes each garment in a process of its own.
+pub fn main_with(arguments: impl IntoIterator<Item = OsString>, itself: &[OsString]) -> u8 {
+    let args = match Args::try_parse_from(arguments) {
+        Ok(args) => args,
+        // --help and --version (0) and wrong usage (2).
+        Err(said) => {
+            // Nobody is left to tell if this fails.
+            let _ = said.print();
+            return u8::try_from(said.exit_code()).unwrap_or(Exit::Input as u8);
+        }
+    };
     let console = Console::new(args.global.quiet, args.global.json);
     let done = remove_on_interrupt()
         .map_err(CliError::from)
-        .and_then(|()| with_threads(args.global.threads, || run(&args.command, &console)))
+        .and_then(|()| args.global.worker.map_or(Ok(()), |memory| Ok(become_worker(memory)?)))
+        .and_then(|()| with_threads(args.global.threads, || run(&args, itself, &console)))
         .and_then(|done| done);
     let exit = done.unwrap_or_else(|error| {
         console.error(&error);
-        error.exit()
+        // A batch must tell a full disk from a wrong job.
+        let at_fault = args.global.worker.is_some() && matches!(error, CliError::Write(_));
+        if at_fault { Exit::CannotWrite } else { error.exit() }
     });
-    ExitCode::from(exit)
+    exit as u8
 }
 
 /// Most threads that are started, whatever is asked for: every one takes a stack, and a slip of the pen must not take
@@ -60,8 +81,8 @@ fn with_threads<T: Send>(threads: Option<NonZeroUsize>, work: impl FnOnce() -> T
     Ok(pool.install(work))
 }
 
-fn run(command: &Command, console: &Console) -> Result<Exit, CliError> {
-    match command {
+fn run(args: &Args, itself: &[OsString], console: &Console) -> Result<Exit, CliError> {
+    match &args.command {
         Command::Make(args) => make::make(args, console),
         Command::Check(args) => check::check(args, console),
         Command::Schema => console.document(crate::io::garment::SCHEMA).map(|()| Exit::Done),
@@ -69,6 +90,8 @@ fn run(command: &Command, console: &Console) -> Result<Exit, CliError> {
         Command::Drape(args) => make::drape(args, console),
         Command::Flatten(args) => flatten::flatten(args, console),
         Command::Report(args) => report::report(args, console),
+        Command::Batch(batch) => batch::batch(batch, args.global.threads, itself, console),
+        Command::Sample(args) => sample::sample(args, console),
         Command::Test(args) => test::test(args, console),
         Command::Export(command) => export::export(command, console),
         Command::Fabric(command) => fabric::fabric(command, console),

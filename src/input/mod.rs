@@ -6,7 +6,7 @@ mod yaml;
 
 pub use nearest::nearest;
 pub use unit::LengthUnit;
-pub use yaml::{quoted, yaml};
+pub use yaml::{quoted, texts, yaml};
 
 use std::fs::File;
 use std::io::Read as _;

@@ -22,6 +22,27 @@ pub fn yaml<T: DeserializeOwned>(text: &str) -> Result<T, String> {
     serde_yaml::from_str(text).map_err(|e| shown(&e.to_string(), MESSAGE))
 }
 
+/// Every text of a YAML text, but for the keys, in the order of the file.
+///
+/// # Errors
+/// As [`yaml`].
+pub fn texts(text: &str) -> Result<Vec<String>, String> {
+    let mut found = Vec::new();
+    collect(yaml(text)?, &mut found);
+    Ok(found)
+}
+
+fn collect(value: serde_yaml::Value, found: &mut Vec<String>) {
+    use serde_yaml::Value;
+    match value {
+        Value::String(text) => found.push(text),
+        Value::Sequence(items) => items.into_iter().for_each(|item| collect(item, found)),
+        Value::Mapping(entries) => entries.into_iter().for_each(|(_, value)| collect(value, found)),
+        Value::Tagged(tagged) => collect(tagged.value, found),
+        Value::Null | Value::Bool(_) | Value::Number(_) => {}
+    }
+}
+
 /// A YAML string in double quotes, with JSON's escapes, which are YAML's too.
 pub fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
@@ -78,6 +99,12 @@ impl Readings {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn texts_are_found_at_any_depth() {
+        let found = texts("1: [a.csv, {b: 'c d.yaml', e: 3}]\nf: ~\n");
+        assert_eq!(found, Ok(vec!["a.csv".to_owned(), "c d.yaml".to_owned()]));
+    }
 
     #[test]
     fn values_nested_without_end_are_refused_at_once() {

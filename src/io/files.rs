@@ -5,7 +5,8 @@
 
 use std::fs;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::NamedTempFile;
@@ -13,7 +14,11 @@ use tempfile::NamedTempFile;
 /// Exit code of a program stopped by Ctrl-C (128 + SIGINT).
 const INTERRUPTED: i32 = 130;
 
-/// Temporary files that exist now. The one piece of global state: an interrupt handler has no other way to know.
+/// Whether the first Ctrl-C only asks to stop ([`stop_on_interrupt`]), and whether it has come.
+static ASKS: AtomicBool = AtomicBool::new(false);
+static ASKED: AtomicBool = AtomicBool::new(false);
+
+/// Temporary files that exist now. Global, as the flags above: an interrupt handler has no other way to know.
 /// It is locked from before a temporary file appears until after it is registered, and while files are renamed, so
 /// the handler sees none unregistered and no set half renamed.
 static PENDING: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
@@ -123,14 +128,51 @@ pub fn check_writable(paths: &[PathBuf], inputs: &[&Path]) -> Result<(), WriteEr
 /// [`WriteError::Handler`] when there is a handler already or the system refuses.
 pub fn remove_on_interrupt() -> Result<(), WriteError> {
     ctrlc::set_handler(|| {
-        // The lock is never given back: no file may appear after the sweep.
-        for path in registry().iter() {
-            // Nobody is left to tell if this fails.
-            let _ = fs::remove_file(path);
+        if ASKS.load(Ordering::SeqCst) && !ASKED.swap(true, Ordering::SeqCst) {
+            return;
         }
-        std::process::exit(INTERRUPTED);
+        abandon();
     })?;
     Ok(())
+}
+
+/// From now on the first Ctrl-C only asks to stop. The function that is returned tells whether it has. The second
+/// Ctrl-C ends the program as before.
+pub fn stop_on_interrupt() -> impl Fn() -> bool + Sync {
+    ASKS.store(true, Ordering::SeqCst);
+    || ASKED.load(Ordering::SeqCst)
+}
+
+/// Removes temporary files and ends the program with exit code 130.
+pub fn abandon() -> ! {
+    // The lock is never given back: no file may appear after the sweep.
+    for path in registry().iter() {
+        // Nobody is left to tell if this fails.
+        let _ = fs::remove_file(path);
+    }
+    std::process::exit(INTERRUPTED);
+}
+
+/// The way to a file from a folder, both as named from here; `None` where there is none, as between drives.
+pub fn relative(file: &Path, folder: &Path) -> Option<PathBuf> {
+    let [file, folder] = [whole(file)?, whole(folder)?];
+    let (own, from): (Vec<Component>, Vec<Component>) = (file.components().collect(), folder.components().collect());
+    let shared = own.iter().zip(&from).take_while(|(a, b)| a == b).count();
+    let has_way = shared > 0 && !from[shared..].iter().any(|part| matches!(part, Component::Prefix(_)));
+    has_way.then(|| from[shared..].iter().map(|_| Component::ParentDir).chain(own[shared..].iter().copied()).collect())
+}
+
+/// A path from the root on, without steps back.
+fn whole(path: &Path) -> Option<PathBuf> {
+    let mut whole = PathBuf::new();
+    for part in std::path::absolute(path).ok()?.components() {
+        if part == Component::ParentDir {
+            whole.pop();
+        } else {
+            whole.push(part);
+        }
+    }
+    Some(whole)
 }
 
 /// A thread that panicked while it held the lock left a list that is still right.

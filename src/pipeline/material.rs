@@ -35,7 +35,32 @@ pub struct Checked {
 /// # Errors
 /// Every mistake of the file.
 pub fn check(file: &Path, spacing: Option<f64>) -> Result<Checked, Refused> {
-    let mut examined = garment::examine(file);
+    check_examined(file, garment::examine(file), spacing)
+}
+
+/// As [`check`], from the text of a file that need not exist: its name is the garment's, and other files are looked for
+/// in its folder.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_text(file: &Path, text: &str, spacing: Option<f64>) -> Result<Checked, Refused> {
+    let shown = file.display().to_string();
+    check_examined(file, garment::examine_text(&short_name(file), &shown, text), spacing)
+}
+
+/// As [`super::read`], from the text of a file that need not exist.
+///
+/// # Errors
+/// Every mistake of the text.
+pub fn read_text(file: &Path, text: &str) -> Result<Loaded, PipelineError> {
+    Ok(garment::read_text(&short_name(file), &file.display().to_string(), text)?)
+}
+
+fn short_name(file: &Path) -> String {
+    file.file_stem().unwrap_or(file.as_os_str()).to_string_lossy().into_owned()
+}
+
+fn check_examined(file: &Path, mut examined: garment::Examined, spacing: Option<f64>) -> Result<Checked, Refused> {
     let body = examined.file.as_ref().and_then(|said| look(file, said, &mut examined.findings));
     let mut loaded = examined.finish()?;
     if let Some(body) = &body {

@@ -11,6 +11,7 @@
 //! it. Nothing here writes a file: [`Run::results`] gives names and bytes.
 
 mod across;
+mod arrays;
 mod caught;
 mod cloth;
 mod earlier;
@@ -34,11 +35,12 @@ mod too_small;
 use crate::report::AtRest;
 pub use crate::sew::SewError;
 pub use across::Across;
+pub use arrays::Arrays;
 pub use caught::Caught;
 pub use error::PipelineError;
 pub use job::{Job, Overrides, inputs, read};
 pub use judged::{Judged, judge};
-pub use material::{Checked, check};
+pub use material::{Checked, check, check_text, read_text};
 pub use pattern_picture::pattern_picture;
 pub use problems::{Problem, problems};
 pub use results::{
@@ -48,8 +50,8 @@ pub use results::{
 pub use run::{Progress, Run};
 pub use start_picture::{DoubtShown, OpeningShown, RimShown, StartPicture, StartShown, WordShown, start_picture};
 pub use surface::{
-    CutReport, CutWhy, Cuts, DARTS, DartStop, EdgeReport, FLAT_OBJ, FLAT_PNG, FailedReport, FlatSurface, Limit,
-    OUTLINE_SVG, PartReport, SurfaceOptions, SurfaceReport, Weld, flatten_surface,
+    CutReport, CutWhy, Cuts, DARTS, DartStop, EdgeReport, FLAT_OBJ, FLAT_PNG, FailedReport, FlatCorners, FlatSurface,
+    Limit, OUTLINE_SVG, PartReport, SurfaceOptions, SurfaceReport, Weld, flatten_faces, flatten_surface,
 };
 pub use too_small::TooSmall;
 

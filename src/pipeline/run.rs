@@ -79,6 +79,7 @@ impl<'a> Run<'a> {
     pub fn sew(&mut self, progress: Progress) -> Result<(), PipelineError> {
         let job = self.job;
         let begin = Instant::now();
+        progress("sew", 0.0);
         let failed = |e| PipelineError::sewing(&job.file, &job.body, e);
         let mut tell = |share| progress("sew", share);
         let continued = self.earlier.as_ref().and_then(|earlier| job.continued(earlier, &mut tell));

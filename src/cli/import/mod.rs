@@ -3,7 +3,7 @@
 mod drawing;
 mod garmentcode;
 
-use std::path::{Component, Path, PathBuf};
+use std::path::Path;
 
 use serde::Serialize;
 
@@ -11,7 +11,7 @@ use super::args::{ImportCommand, SvgUnitArg, TargetArgs, UnitArg};
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use crate::input::bytes;
-use crate::io::files::{check_writable, write_all};
+use crate::io::files::{check_writable, relative, write_all};
 use crate::io::garment::{EncodeError, write, write_with_offers};
 use crate::mannequin;
 use crate::pattern::{GarmentFile, Located, SeamFile};
@@ -45,28 +45,6 @@ fn body(named: Option<&str>, output: &Path) -> Option<String> {
     let folder = output.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let way = relative(Path::new(named), folder).unwrap_or_else(|| named.into());
     Some(way.display().to_string())
-}
-
-/// The way to a file from a folder, both as named from here; `None` where there is none, as between drives.
-fn relative(file: &Path, folder: &Path) -> Option<PathBuf> {
-    let [file, folder] = [whole(file)?, whole(folder)?];
-    let (own, from): (Vec<Component>, Vec<Component>) = (file.components().collect(), folder.components().collect());
-    let shared = own.iter().zip(&from).take_while(|(a, b)| a == b).count();
-    let has_way = shared > 0 && !from[shared..].iter().any(|part| matches!(part, Component::Prefix(_)));
-    has_way.then(|| from[shared..].iter().map(|_| Component::ParentDir).chain(own[shared..].iter().copied()).collect())
-}
-
-/// A path from the root on, without steps back.
-fn whole(path: &Path) -> Option<PathBuf> {
-    let mut whole = PathBuf::new();
-    for part in std::path::absolute(path).ok()?.components() {
-        if part == Component::ParentDir {
-            whole.pop();
-        } else {
-            whole.push(part);
-        }
-    }
-    Some(whole)
 }
 
 /// A pattern that was read.

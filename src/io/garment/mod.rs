@@ -138,7 +138,8 @@ pub fn examine(path: &Path) -> Examined {
     }
 }
 
-fn examine_text(name: &str, shown: &str, text: &str) -> Examined {
+/// As [`examine`], from text; `name` is the garment's short name, `shown` the file's name in messages.
+pub fn examine_text(name: &str, shown: &str, text: &str) -> Examined {
     let mut findings = Findings::new(shown, text);
     let file = tree::parse(text, &mut findings).and_then(|tree| decode::garment(&tree, &mut findings));
     let garment = file.as_ref().and_then(|file| pattern::expand(name, file, &mut findings));

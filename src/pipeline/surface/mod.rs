@@ -32,7 +32,7 @@ use parts::Nodes;
 pub use report::{CutReport, CutWhy, EdgeReport, FailedReport, PartReport, SurfaceReport};
 use size::Space;
 use thick::leave_outer_sides;
-pub use write::{FLAT_OBJ, FLAT_PNG, OUTLINE_SVG};
+pub use write::{FLAT_OBJ, FLAT_PNG, FlatCorners, OUTLINE_SVG};
 
 /// No weave is strained by more, whatever its fibre: sheared by 30°, where its threads lock, it is by 0.29 along a
 /// diagonal, and the stretchiest threads of the library's weaves give less than another 0.2.
@@ -157,7 +157,14 @@ pub struct FlatSurface {
 /// A file that cannot be read, a cut that cannot be made; where no part can be laid flat, why the first cannot and
 /// where to cut it.
 pub fn flatten_surface(file: &Path, options: &SurfaceOptions) -> Result<FlatSurface, PipelineError> {
-    let mut faces = read_surface(file)?;
+    flatten_faces(file, read_surface(file)?, options)
+}
+
+/// As [`flatten_surface`], of a surface in memory; `file` names it.
+///
+/// # Errors
+/// As of [`flatten_surface`].
+pub fn flatten_faces(file: &Path, mut faces: ObjFaces, options: &SurfaceOptions) -> Result<FlatSurface, PipelineError> {
     if !options.groups {
         faces.join_groups();
     }

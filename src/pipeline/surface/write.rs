@@ -7,6 +7,7 @@ use super::super::results::{PATTERN_SVG, REPORT_JSON, ResultFile, json_text};
 use super::FlatSurface;
 use super::darts::Laid;
 use super::edges::NamedEdge;
+use super::parts::Part;
 use crate::flatten::triangle_strain;
 use crate::geometry::{MM, Vec2};
 use crate::io::svg_write::{outline_svg, pattern_svg};
@@ -21,6 +22,25 @@ pub const FLAT_PNG: &str = "flat.png";
 
 /// The outlines as smooth curves.
 pub const OUTLINE_SVG: &str = "outline.svg";
+
+/// A face laid flat.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlatCorners {
+    /// Its piece, as the report counts them.
+    pub piece: usize,
+    /// The flat position of every corner.
+    pub at: Vec<[f64; 2]>,
+}
+
+/// A face of the file in its part.
+struct FaceInPart<'a> {
+    /// Its number in the file.
+    face: usize,
+    /// The part's number.
+    part: usize,
+    /// Its corners as vertices of the part.
+    locals: &'a [u32],
+}
 
 impl FlatSurface {
     /// `flat.obj`, `flat.png`, `pattern.svg`, `outline.svg` and `report.json`.
@@ -58,25 +78,16 @@ impl FlatSurface {
                 let _ = writeln!(out, "vt {} {}", p.x * MM, -p.y * MM);
             }
         }
-        let own = self.laid.iter().map(|l| &l.part).chain(self.failed.iter().map(|f| &f.part)).collect::<Vec<_>>();
-        let mut part_of_face = vec![0; self.faces.faces.len()];
-        for (k, part) in own.iter().enumerate() {
-            part.faces.iter().for_each(|&f| part_of_face[f as usize] = k);
-        }
         let mut group = None;
-        let mut seen = vec![0; own.len()];
-        for (f, corners) in self.faces.faces.iter().enumerate().filter(|(_, corners)| !corners.is_empty()) {
-            let k = part_of_face[f];
-            let locals = &own[k].corners[seen[k]];
-            seen[k] += 1;
-            if group != Some(k) {
-                let _ = writeln!(out, "g {}", own[k].name);
-                group = Some(k);
+        for FaceInPart { face, part, locals } in self.faces_in_parts() {
+            if group != Some(part) {
+                let _ = writeln!(out, "g {}", self.part(part).name);
+                group = Some(part);
             }
             out.push('f');
-            for (&v, &local) in corners.iter().zip(locals) {
+            for (&v, &local) in self.faces.faces[face].iter().zip(locals) {
                 // What could not be laid flat has no flat positions.
-                let _ = match first.get(k) {
+                let _ = match first.get(part) {
                     Some(first) => write!(out, " {}/{}", v + 1, first + local as usize),
                     None => write!(out, " {}", v + 1),
                 };
@@ -84,6 +95,41 @@ impl FlatSurface {
             out.push('\n');
         }
         out
+    }
+
+    /// A part: those that are laid flat, then those that cannot be.
+    fn part(&self, k: usize) -> &Part {
+        self.laid.get(k).map_or_else(|| &self.failed[k - self.laid.len()].part, |laid| &laid.part)
+    }
+
+    /// The faces that are left of the file, in its order.
+    fn faces_in_parts(&self) -> Vec<FaceInPart<'_>> {
+        let count = self.laid.len() + self.failed.len();
+        let mut part_of_face = vec![0; self.faces.faces.len()];
+        for k in 0..count {
+            self.part(k).faces.iter().for_each(|&f| part_of_face[f as usize] = k);
+        }
+        let mut seen = vec![0; count];
+        let left = self.faces.faces.iter().enumerate().filter(|(_, corners)| !corners.is_empty());
+        left.map(|(face, _)| {
+            let part = part_of_face[face];
+            seen[part] += 1;
+            FaceInPart { face, part, locals: &self.part(part).corners[seen[part] - 1] }
+        })
+        .collect()
+    }
+
+    /// The flat position (x, −y) of every corner of every face that was given, mm, as in [`FLAT_OBJ`]. A face that was
+    /// left out or could not be laid flat has none.
+    pub fn corners(&self) -> Vec<Option<FlatCorners>> {
+        let mut corners = vec![None; self.faces.faces.len()];
+        for FaceInPart { face, part, locals } in self.faces_in_parts() {
+            corners[face] = self.laid.get(part).map(|laid| {
+                let at = |&local: &u32| laid.flat.positions[local as usize];
+                FlatCorners { piece: part, at: locals.iter().map(at).map(|p| [p.x * MM, -p.y * MM]).collect() }
+            });
+        }
+        corners
     }
 
     /// The pieces coloured by strain.

@@ -1,0 +1,304 @@
+"""The compiled part of toile."""
+
+import os
+from collections.abc import Callable, Sequence
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._errors import Diagnostic
+
+__version__: str
+
+_Path = str | os.PathLike[str]
+_Units = Literal["mm", "cm", "dm", "m", "in"]
+_Mode = Literal["balanced", "isometric", "boundary", "woven", "spring"]
+
+class Garment:
+    """A garment: its pieces, seams, fabrics and body, as a garment file says them."""
+
+    @staticmethod
+    def load(path: _Path) -> Garment:
+        """Reads a garment file (YAML). Its mistakes raise :class:`GarmentError`."""
+
+    @staticmethod
+    def from_dict(data: dict[str, Any], name: str = "garment", folder: _Path = "") -> Garment:
+        """A garment from what a garment file says, as nested dicts and lists.
+
+        Files that it names, as fabrics and bodies, are looked for in ``folder``.
+        """
+
+    @staticmethod
+    def from_garmentcode(path: _Path, body: _Path | Body | None = None) -> Garment:
+        """A garment from GarmentCode's pattern specification (JSON), worn by ``body``."""
+
+    @staticmethod
+    def from_svg(
+        path: _Path, seams: bool = True, units: float | None = None, size: str | None = None
+    ) -> Garment:
+        """A garment from a drawing (SVG).
+
+        Args:
+            seams: Sew the seams that are suggested; otherwise all edges are free.
+            units: Length of the drawing's unit, mm.
+            size: The size to read of a drawing in several.
+        """
+
+    @property
+    def name(self) -> str:
+        """The short name, which is that of the file."""
+
+    @property
+    def text(self) -> str:
+        """The text of the garment file."""
+
+    @property
+    def notes(self) -> list[str]:
+        """What was said when it was imported."""
+
+    def check(self, spacing: float | None = None) -> list[Diagnostic]:
+        """Finds everything that is wrong before cloth moves; mistakes raise :class:`GarmentError`.
+
+        Args:
+            spacing: Distance of neighbouring particles that it will be made with, mm (10 by default).
+
+        Returns:
+            What its author may not have meant so.
+        """
+
+    def make(
+        self,
+        body: _Path | Body | None = None,
+        fabric: _Path | Fabric | None = None,
+        spacing: float | None = None,
+        threads: int | None = None,
+        progress: Callable[[str, float], object] | None = None,
+        body_units: _Units | None = None,
+    ) -> Result:
+        """Sews, drapes and flattens the garment, as the command ``toile make``.
+
+        Args:
+            body: Library name or file in place of the garment's own body.
+            fabric: Library name or file in place of its main fabric.
+            spacing: Distance of neighbouring particles, mm (10 by default).
+            threads: Number of threads (all processors by default). Results do not depend on it.
+            progress: Called with the stage and the share of it that is done, from 0 to 1. What it raises ends the work.
+            body_units: Unit of the body's OBJ file.
+
+        Raises:
+            GarmentError: The garment file has mistakes.
+            InputError: The body, the fabric or the spacing is wrong.
+            ComputationError: It cannot be sewn, draped or flattened.
+        """
+
+class Result:
+    """A garment as it was sewn, draped and laid flat: n vertices, m triangles. Every array is a copy."""
+
+    @property
+    def name(self) -> str:
+        """The garment's name."""
+
+    @property
+    def vertices(self) -> NDArray[np.float64]:
+        """Shape (n, 3): positions, mm, y up. Particles that a seam joins are one vertex."""
+
+    @property
+    def faces(self) -> NDArray[np.uint32]:
+        """Shape (m, 3): vertices of every triangle, counter-clockwise seen from the right side of the cloth."""
+
+    @property
+    def uv(self) -> NDArray[np.float64]:
+        """Shape (m, 3, 2): flat position (x, −y) at every corner of every triangle, mm."""
+
+    @property
+    def pieces(self) -> list[str]:
+        """Names of the pieces."""
+
+    @property
+    def piece_of_face(self) -> NDArray[np.uint32]:
+        """Shape (m,): the piece of every triangle, an index into ``pieces``."""
+
+    @property
+    def strain(self) -> NDArray[np.float64]:
+        """Shape (m, 3, 2): strain of warp and of weft at every corner of every triangle, as fractions."""
+
+    @property
+    def ease(self) -> NDArray[np.float64]:
+        """Shape (n,): distance of every vertex from the body, mm."""
+
+    @property
+    def pressure(self) -> NDArray[np.float64]:
+        """Shape (n,): pressure on the body, kPa."""
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """The figures, as in ``report.json``."""
+
+    @property
+    def in_bounds(self) -> bool:
+        """Whether it keeps its own bounds (exit code 0 of ``toile make``, otherwise 1)."""
+
+    @property
+    def notes(self) -> list[str]:
+        """What its author may not have meant so."""
+
+    def save(self, folder: _Path) -> None:
+        """Writes the files of ``toile make``, whole or not at all: the same bytes, but for times in the report."""
+
+class Body:
+    """A mannequin, or a body of one's own: n vertices, m triangles."""
+
+    @staticmethod
+    def load(name: _Path, units: _Units | None = None) -> Body:
+        """A mannequin by its library name, a file of sections (YAML) or a closed OBJ in ``units``."""
+
+    @staticmethod
+    def library() -> list[str]:
+        """Names of the mannequins that toile brings."""
+
+    @property
+    def name(self) -> str:
+        """The short name."""
+
+    @property
+    def vertices(self) -> NDArray[np.float64]:
+        """Shape (n, 3): positions, mm, y up, where the body's own file has it."""
+
+    @property
+    def faces(self) -> NDArray[np.uint32]:
+        """Shape (m, 3): vertices of every triangle, counter-clockwise seen from outside."""
+
+    @property
+    def notes(self) -> list[str]:
+        """What was guessed or done when it was read: its unit, its stance, crossings."""
+
+class Fabric:
+    """A fabric with every value."""
+
+    @staticmethod
+    def load(name: _Path) -> Fabric:
+        """A fabric by its library name or its file (YAML)."""
+
+    @staticmethod
+    def library() -> list[str]:
+        """Names of the fabrics that toile brings."""
+
+    @property
+    def name(self) -> str:
+        """The short name."""
+
+    @property
+    def areal_density(self) -> float:
+        """Mass per area, kg/m²."""
+
+    @property
+    def thickness(self) -> float:
+        """Thickness, mm."""
+
+    @property
+    def bending(self) -> tuple[float, float]:
+        """Bending rigidity along warp and weft, N·m (per metre of width)."""
+
+    @property
+    def extension(self) -> tuple[float, float]:
+        """Extension of warp and weft under 500 gf/cm (KES EMT), as fractions."""
+
+    @property
+    def shear(self) -> float:
+        """Shear stiffness, N/m per radian."""
+
+    @property
+    def friction(self) -> float:
+        """Coulomb friction against the body and against cloth."""
+
+    @property
+    def source(self) -> str:
+        """Source of the values."""
+
+    @property
+    def assumed(self) -> list[str]:
+        """Values that were not measured but assumed."""
+
+class Flat:
+    """A surface laid flat: m triangles."""
+
+    @property
+    def uv(self) -> NDArray[np.float64]:
+        """Shape (m, 3, 2): flat position (x, −y) at every corner of every face that was given, mm.
+
+        NaN for a face that was left out (doubled, without area) or cannot be laid flat.
+        """
+
+    @property
+    def piece_of_face(self) -> NDArray[np.int32]:
+        """Shape (m,): the piece of every face, an index into ``pieces``; −1 for a face without."""
+
+    @property
+    def pieces(self) -> list[str]:
+        """Names of the pieces."""
+
+    @property
+    def notes(self) -> list[str]:
+        """What was done or guessed on the way."""
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """The figures, as in ``report.json`` of ``toile flatten``."""
+
+    def save(self, folder: _Path) -> None:
+        """Writes the files of ``toile flatten``, whole or not at all."""
+
+def flatten(
+    vertices: NDArray[np.floating[Any]] | Sequence[Sequence[float]],
+    faces: NDArray[np.integer[Any]] | Sequence[Sequence[int]],
+    mode: _Mode = "balanced",
+    units: _Units | None = "mm",
+    up: tuple[float, float, float] | None = None,
+    cut: bool = False,
+    darts: int = 0,
+    threads: int | None = None,
+    name: str = "surface",
+) -> Flat:
+    """Lays a surface flat, as the command ``toile flatten``.
+
+    Args:
+        vertices: Shape (n, 3): positions.
+        faces: Shape (m, 3): vertices of every triangle, counter-clockwise seen from outside.
+        mode: What to keep where not everything can be kept.
+        units: Unit of the positions; None guesses it from the size.
+        up: Direction that lies along the grain (y, or z where the surface runs along z).
+        cut: Cut the surface open where it is needed.
+        darts: Number of darts at most that are cut where the strain passes 10 %.
+        threads: Number of threads (all processors by default). Results do not depend on it.
+        name: Its name in the report.
+
+    Raises:
+        InputError: The surface cannot be laid flat as it is.
+        ComputationError: It could not be computed.
+    """
+
+def run_batch(
+    texts: list[str],
+    folder: str,
+    store: str,
+    program: list[str],
+    side_by_side: int | None,
+    time: float | None,
+    memory: int | None,
+    threads: int,
+    retry: bool,
+    progress: Callable[[str, float], object] | None,
+) -> dict[str, int]: ...
+def run_job(
+    text: str,
+    folder: str,
+    store: str,
+    program: list[str],
+    time: float | None,
+    memory: int | None,
+    threads: int,
+    retry: bool,
+) -> dict[str, Any]: ...
+def read_list(list: _Path) -> list[str]: ...
+def cli(arguments: list[str], itself: list[str]) -> int: ...

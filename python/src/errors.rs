@@ -1,0 +1,76 @@
+//! Errors as Python's exceptions. Their classes are in `toile/_errors.py`.
+
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use toile::batch::BatchError;
+use toile::io::garment::Refused;
+use toile::pattern::{Diagnostic, Severity};
+use toile::pipeline::{PipelineError, ResultFile};
+
+/// An exception of `toile._errors`.
+fn exception(py: Python<'_>, class: &str, message: String) -> PyResult<PyErr> {
+    let made = py.import("toile._errors")?.getattr(class)?.call1((message,))?;
+    Ok(PyErr::from_value(made))
+}
+
+fn or_else(made: PyResult<PyErr>) -> PyErr {
+    made.unwrap_or_else(|error| error)
+}
+
+/// `toile.InputError`
+pub(crate) fn input(py: Python<'_>, message: impl ToString) -> PyErr {
+    or_else(exception(py, "InputError", message.to_string()))
+}
+
+/// `toile.ComputationError` with the files of the state that was reached.
+fn computation(py: Python<'_>, message: String, files: &[ResultFile]) -> PyResult<PyErr> {
+    let error = exception(py, "ComputationError", message)?;
+    let state = PyDict::new(py);
+    for (name, bytes) in files {
+        state.set_item(name, pyo3::types::PyBytes::new(py, bytes))?;
+    }
+    error.value(py).setattr("files", state)?;
+    Ok(error)
+}
+
+/// `toile.GarmentError` with its diagnostics.
+pub(crate) fn refused(py: Python<'_>, refused: &Refused) -> PyErr {
+    let made = || {
+        let error = exception(py, "GarmentError", refused.to_string())?;
+        error.value(py).setattr("diagnostics", diagnostics(py, &refused.diagnostics)?)?;
+        Ok(error)
+    };
+    or_else(made())
+}
+
+/// A list of `toile.Diagnostic`.
+pub(crate) fn diagnostics<'py>(py: Python<'py>, all: &[Diagnostic]) -> PyResult<Bound<'py, PyList>> {
+    let class = py.import("toile._errors")?.getattr("Diagnostic")?;
+    let list = PyList::empty(py);
+    for d in all {
+        let severity = match d.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+        };
+        list.append(class.call1((severity, &d.file, d.line, d.column, &d.message, &d.hint, d.to_string()))?)?;
+    }
+    Ok(list)
+}
+
+/// The exception of a stage's error; `files` are those of the state that was reached.
+pub(crate) fn pipeline(py: Python<'_>, error: &PipelineError, files: &[ResultFile]) -> PyErr {
+    match error {
+        PipelineError::Garment(all) => refused(py, all),
+        error if error.is_input() => input(py, error),
+        error => or_else(computation(py, error.to_string(), files)),
+    }
+}
+
+/// The exception of a batch's error.
+pub(crate) fn batch(py: Python<'_>, error: &BatchError) -> PyErr {
+    match error {
+        // The signal's own exception is raised where it was found.
+        error if error.is_input() => input(py, error),
+        error => or_else(computation(py, error.to_string(), &[])),
+    }
+}

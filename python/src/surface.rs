@@ -1,0 +1,188 @@
+//! `toile.flatten` and `toile.Flat`
+
+use std::path::PathBuf;
+
+use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArray3, PyArrayLike2};
+use pyo3::prelude::*;
+use toile::flatten::{Mode, Options};
+use toile::geometry::Vec3;
+use toile::io::obj_read::ObjFaces;
+use toile::pipeline::{Cuts, FlatSurface, REPORT_JSON, ResultFile, SurfaceOptions, flatten_faces};
+
+use crate::errors;
+use crate::library::unit;
+use crate::result::{corners, parsed, save};
+use crate::work::with_signals;
+
+/// A surface laid flat: m triangles.
+#[pyclass(frozen, module = "toile")]
+pub(crate) struct Flat {
+    uv: Vec<[[f64; 2]; 3]>,
+    piece_of_face: Vec<i32>,
+    pieces: Vec<String>,
+    notes: Vec<String>,
+    files: Vec<ResultFile>,
+}
+
+fn mode(name: &str) -> Result<Mode, String> {
+    match name {
+        "balanced" => Ok(Mode::Balanced),
+        "isometric" => Ok(Mode::Isometric),
+        "boundary" => Ok(Mode::Boundary),
+        "woven" => Ok(Mode::Woven),
+        "spring" => Ok(Mode::Spring),
+        _ => Err(format!("mode: '{name}' is unknown; known are balanced, isometric, boundary, woven, spring")),
+    }
+}
+
+/// The arrays as a surface of one group.
+fn surface(
+    vertices: &PyArrayLike2<'_, f64, AllowTypeChange>,
+    faces: &PyArrayLike2<'_, i64, AllowTypeChange>,
+    name: &str,
+) -> Result<ObjFaces, String> {
+    let (vertices, faces) = (vertices.as_array(), faces.as_array());
+    if vertices.ncols() != 3 || faces.ncols() != 3 {
+        let (v, f) = (vertices.shape(), faces.shape());
+        return Err(format!("vertices must have the shape (n, 3) and faces (m, 3), not {v:?} and {f:?}"));
+    }
+    if faces.nrows() == 0 {
+        return Err("there are no faces".into());
+    }
+    let count = vertices.nrows();
+    let index = |&v: &i64| u32::try_from(v).ok().filter(|&v| (v as usize) < count);
+    let corner = |v: &i64| index(v).ok_or_else(|| format!("faces name the vertex {v}; there are {count}"));
+    let triangle = |row: numpy::ndarray::ArrayView1<i64>| row.iter().map(corner).collect::<Result<Vec<u32>, _>>();
+    if let Some(v) = vertices.rows().into_iter().position(|row| row.iter().any(|x| !(*x as f32).is_finite())) {
+        return Err(format!("vertex {v} has a coordinate that is not finite"));
+    }
+    Ok(ObjFaces {
+        vertices: vertices.rows().into_iter().map(|row| Vec3::new(row[0], row[1], row[2])).collect(),
+        faces: faces.rows().into_iter().map(triangle).collect::<Result<_, _>>()?,
+        texture: Vec::new(),
+        texture_of_face: vec![Vec::new(); faces.nrows()],
+        groups: vec![name.to_owned()],
+        group_of_face: vec![0; faces.nrows()],
+    })
+}
+
+/// Lays a surface flat, as the command ``toile flatten``.
+///
+/// Args:
+///     vertices: Shape (n, 3): positions.
+///     faces: Shape (m, 3): vertices of every triangle, counter-clockwise seen from outside.
+///     mode: What to keep where not everything can be kept.
+///     units: Unit of the positions; None guesses it from the size.
+///     up: Direction that lies along the grain (y, or z where the surface runs along z).
+///     cut: Cut the surface open where it is needed.
+///     darts: Number of darts at most that are cut where the strain passes 10 %.
+///     threads: Number of threads (all processors by default). Results do not depend on it.
+///     name: Its name in the report.
+///
+/// Raises:
+///     InputError: The surface cannot be laid flat as it is.
+///     ComputationError: It could not be computed.
+#[pyfunction]
+#[pyo3(signature = (
+    vertices, faces, mode="balanced", units="mm", up=None, cut=false, darts=0, threads=None, name="surface"
+))]
+#[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
+pub(crate) fn flatten(
+    py: Python<'_>,
+    vertices: PyArrayLike2<'_, f64, AllowTypeChange>,
+    faces: PyArrayLike2<'_, i64, AllowTypeChange>,
+    mode: &str,
+    units: Option<&str>,
+    up: Option<[f64; 3]>,
+    cut: bool,
+    darts: usize,
+    threads: Option<usize>,
+    name: &str,
+) -> PyResult<Flat> {
+    let wrong = |why: String| errors::input(py, why);
+    let up = up.map(Vec3::from);
+    if up.is_some_and(|up| !up.norm().is_normal()) {
+        return Err(wrong("up: a direction of three numbers is expected, such as (0, 1, 0)".into()));
+    }
+    let options = SurfaceOptions {
+        unit: units.map(unit).transpose().map_err(wrong)?,
+        up: up.map(|up| up.normalize()),
+        cuts: Cuts { auto: cut, ..Cuts::default() },
+        darts,
+        flatten: Options { mode: self::mode(mode).map_err(wrong)?, ..Options::default() },
+        ..SurfaceOptions::default()
+    };
+    let faces = surface(&vertices, &faces, name).map_err(wrong)?;
+    let name = PathBuf::from(name);
+    let flat = with_signals(py, threads, None, move |_| {
+        let flat = flatten_faces(&name, faces, &options)?;
+        let files = flat.results()?;
+        Ok((flat, files))
+    })?;
+    let (flat, files) = flat.map_err(|e| errors::pipeline(py, &e, &[]))?;
+    Ok(Flat::new(&flat, files))
+}
+
+impl Flat {
+    fn new(flat: &FlatSurface, files: Vec<ResultFile>) -> Self {
+        let mut out = Self {
+            uv: Vec::new(),
+            piece_of_face: Vec::new(),
+            pieces: flat.report.pieces.iter().map(|piece| piece.name.clone()).collect(),
+            notes: flat.notes.clone(),
+            files,
+        };
+        for corners in flat.corners() {
+            let known = corners.and_then(|c| Some((c.piece as i32, <[[f64; 2]; 3]>::try_from(c.at).ok()?)));
+            let (piece, at) = known.unwrap_or((-1, [[f64::NAN; 2]; 3]));
+            out.uv.push(at);
+            out.piece_of_face.push(piece);
+        }
+        out
+    }
+}
+
+#[pymethods]
+impl Flat {
+    /// Shape (m, 3, 2): flat position (x, −y) at every corner of every face that was given, mm.
+    ///
+    /// NaN for a face that was left out (doubled, without area) or cannot be laid flat.
+    #[getter]
+    fn uv<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        corners(py, &self.uv)
+    }
+
+    /// Shape (m,): the piece of every face, an index into ``pieces``; −1 for a face without.
+    #[getter]
+    fn piece_of_face<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i32>> {
+        self.piece_of_face.clone().into_pyarray(py)
+    }
+
+    /// Names of the pieces.
+    #[getter]
+    fn pieces(&self) -> Vec<String> {
+        self.pieces.clone()
+    }
+
+    /// What was done or guessed on the way.
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.notes.clone()
+    }
+
+    /// The figures, as in ``report.json`` of ``toile flatten``.
+    #[getter]
+    fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let report = self.files.iter().find(|file| file.0 == REPORT_JSON);
+        report.map_or_else(|| Err(errors::input(py, "there is no report")), |(_, text)| parsed(py, text))
+    }
+
+    /// Writes the files of ``toile flatten``, whole or not at all.
+    fn save(&self, py: Python<'_>, folder: PathBuf) -> PyResult<()> {
+        save(py, &folder, &self.files, &[])
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<toile.Flat: {} pieces, {} faces>", self.pieces.len(), self.uv.len())
+    }
+}

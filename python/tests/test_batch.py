@@ -1,0 +1,100 @@
+"""Batches, here and on a Dask cluster."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+import threading
+from pathlib import Path
+from typing import Any
+
+import pytest
+import toile
+from conftest import COARSE, command
+
+JOBS = 8
+
+
+def jobs(skirt: Path) -> list[dict[str, Any]]:
+    """Skirts that are all different, one of them twice, and two failures."""
+    made = [{"id": f"skirt {k}", "garment": skirt, "spacing": COARSE + k} for k in range(JOBS)]
+    again = {**made[0], "id": "again"}
+    wrong = [{"id": "fabric", "garment": skirt, "fabric": "denin"}, {"id": "missing", "garment": "missing.yaml"}]
+    return [*made, again, *wrong]
+
+
+def without_times(lines: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    return [{key: value for key, value in line.items() if key != "seconds"} for line in lines]
+
+
+@pytest.fixture(scope="module")
+def plain(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A store that the command line has made."""
+    folder = tmp_path_factory.mktemp("plain")
+    from conftest import SKIRT
+
+    listed = [json.dumps(job, default=str) for job in jobs(SKIRT)]
+    (folder / "jobs.jsonl").write_text("\n".join(listed))
+    run = command("batch", folder / "jobs.jsonl", "-o", folder / "store")
+    assert run.returncode == 3, run.stderr
+    return folder / "store"
+
+
+def check_same(store: Path, lines: list[dict[str, Any]], plain: Path) -> None:
+    theirs = [json.loads(line) for line in (plain / "index.jsonl").read_text().splitlines()]
+    named = [line for line in without_times(lines) if line["id"] != "missing"]
+    assert named == [line for line in without_times(theirs) if line["id"] != "missing"]
+    states = [line["state"] for line in lines]
+    assert (states.count("done"), states.count("failed")) == (JOBS + 1, 2)
+    results = [name for name in os.listdir(store) if len(name) == 32]
+    assert len(results) == JOBS
+    for name in results:
+        assert (store / name / "garment.obj").read_bytes() == (plain / name / "garment.obj").read_bytes()
+    assert os.listdir(store / ".work") == ["lock"]
+
+
+def test_here(skirt: Path, plain: Path, tmp_path: Path) -> None:
+    store = tmp_path / "store"
+    # Some are there already.
+    kept = sorted(name for name in os.listdir(plain) if len(name) == 32)[: JOBS // 2]
+    for name in kept:
+        shutil.copytree(plain / name, store / name)
+    told: list[float] = []
+    lines = toile.batch(jobs(skirt), store=store, progress=lambda _, share: told.append(share))
+    check_same(store, lines, plain)
+    assert told[0] >= len(kept) / (JOBS + 3) and told[-1] == 1
+    with pytest.raises(toile.InputError, match="unknown field `colour`"):
+        toile.batch([{"garment": skirt, "colour": 1}], store=store)
+    with pytest.raises(toile.InputError, match="'a'"):
+        toile.batch([{"garment": skirt, "id": "a"}, {"garment": skirt, "id": "a"}], store=store)
+
+
+def test_on_a_cluster_one_of_whose_workers_is_killed(skirt: Path, plain: Path, tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed", reason="dask.distributed is not installed")
+    store = tmp_path / "store"
+    options = {"n_workers": 2, "threads_per_worker": 1, "processes": True, "dashboard_address": None}
+    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster) as client:
+        workers = list(client.run(os.getpid).values())
+
+        def kill() -> None:
+            os.kill(workers[0], signal.SIGKILL)
+
+        # Midway: once the first result is there.
+        over = threading.Event()
+
+        def watch() -> None:
+            while not over.wait(0.05):
+                if store.is_dir() and any(len(name) == 32 for name in os.listdir(store)):
+                    kill()
+                    return
+
+        watcher = threading.Thread(target=watch)
+        watcher.start()
+        lines = toile.batch(jobs(skirt), client, store=store)
+        over.set()
+        watcher.join()
+        with pytest.raises(ProcessLookupError):
+            os.kill(workers[0], 0)
+    check_same(store, lines, plain)

@@ -1,0 +1,60 @@
+"""Surfaces from memory laid flat."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import toile
+from conftest import command
+
+# A half cylinder: radius and height (mm), cells around and along.
+RADIUS, HEIGHT, AROUND, ALONG = 50.0, 120.0, 24, 12
+
+
+def half_cylinder() -> tuple[np.ndarray, np.ndarray]:
+    turn, up = np.meshgrid(np.linspace(0, np.pi, AROUND + 1), np.linspace(0, HEIGHT, ALONG + 1))
+    vertices = np.stack([RADIUS * np.cos(turn), up, -RADIUS * np.sin(turn)], -1).reshape(-1, 3)
+    row, column = (k.ravel() for k in np.meshgrid(range(ALONG), range(AROUND), indexing="ij"))
+    first = row * (AROUND + 1) + column
+    below, above = first, first + AROUND + 1
+    faces = np.concatenate([np.stack([below, below + 1, above], -1), np.stack([below + 1, above + 1, above], -1)])
+    return vertices, faces.astype(np.uint32)
+
+
+def test_a_half_cylinder_is_a_rectangle() -> None:
+    vertices, faces = half_cylinder()
+    flat = toile.flatten(vertices, faces)
+    assert flat.uv.shape == (len(faces), 3, 2) and (flat.piece_of_face == 0).all()
+    width, height = np.ptp(flat.uv.reshape(-1, 2), axis=0)
+    chord = 2 * RADIUS * np.sin(np.pi / AROUND / 2) * AROUND
+    assert abs(width - chord) < 0.05 and abs(height - HEIGHT) < 0.05
+    edges = np.linalg.norm(vertices[faces] - vertices[np.roll(faces, 1, 1)], axis=2)
+    assert np.abs(np.linalg.norm(flat.uv - np.roll(flat.uv, 1, 1), axis=2) - edges).max() < 0.05
+
+
+def test_the_file_gives_the_same(tmp_path: Path) -> None:
+    vertices, faces = half_cylinder()
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in vertices.tolist()]
+    lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in faces.tolist()]
+    (tmp_path / "surface.obj").write_text("\n".join(lines) + "\n")
+    run = command("flatten", tmp_path / "surface.obj", "--units", "mm", "--mode", "woven", "-o", tmp_path / "out")
+    assert run.returncode == 0, run.stderr
+    toile.flatten(vertices, faces, mode="woven").save(tmp_path / "ours")
+    for name in ["flat.obj", "pattern.svg"]:
+        ours = (tmp_path / "ours" / name).read_text().splitlines()
+        theirs = (tmp_path / "out" / name).read_text().splitlines()
+        # Names of groups differ: a file's part without one is named after the file.
+        assert [line for line in ours if line[0] in "vf"] == [line for line in theirs if line[0] in "vf"], name
+
+
+def test_lists_are_taken_and_nonsense_is_told() -> None:
+    vertices, faces = half_cylinder()
+    assert toile.flatten(vertices.tolist(), faces.tolist()).pieces
+    with pytest.raises(toile.InputError, match="vertex 5000"):
+        toile.flatten(vertices, [[0, 1, 5000]])
+    with pytest.raises(toile.InputError, match=r"\(n, 3\)"):
+        toile.flatten(vertices[:, :2], faces)
+    with pytest.raises(toile.InputError, match="known are balanced"):
+        toile.flatten(vertices, faces, mode="smooth")

@@ -1,0 +1,41 @@
+"""The type stubs say what the package has, and mypy accepts them."""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import toile
+
+HERE = Path(__file__).parents[1]
+
+
+def test_the_stubs_name_what_there_is() -> None:
+    tree = ast.parse((HERE / "package" / "toile" / "_toile.pyi").read_text(encoding="utf-8"))
+    for node in tree.body:
+        if isinstance(node, ast.ClassDef):
+            said = {item.name for item in node.body if isinstance(item, ast.FunctionDef)}
+            there = {name for name in vars(getattr(toile._toile, node.name)) if not name.startswith("_")}
+            assert said == there, node.name
+        elif isinstance(node, ast.FunctionDef):
+            assert hasattr(toile._toile, node.name)
+
+
+def test_help_says_what_the_stubs_say() -> None:
+    tree = ast.parse((HERE / "package" / "toile" / "_toile.pyi").read_text(encoding="utf-8"))
+    count = 0
+    for kind in [node for node in tree.body if isinstance(node, ast.ClassDef)]:
+        for member in [node for node in kind.body if isinstance(node, ast.FunctionDef)]:
+            there = getattr(getattr(toile, kind.name), member.name).__doc__
+            assert there == ast.get_docstring(member), f"{kind.name}.{member.name}"
+            count += 1
+    assert count > 40
+
+
+def test_mypy_accepts_the_stubs() -> None:
+    pytest.importorskip("mypy", reason="mypy is not installed")
+    run = subprocess.run([sys.executable, "-m", "mypy"], cwd=HERE, capture_output=True, text=True)
+    assert run.returncode == 0, run.stdout

@@ -1,0 +1,261 @@
+//! Jobs: a garment and the options of `toile make`, as a line of a list says them.
+
+use std::collections::HashMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize, Serializer};
+
+use super::error::{BatchError, Mistake};
+use crate::fabric;
+use crate::input::{InputError, LengthUnit, bytes};
+use crate::mannequin;
+
+/// Bytes of a list: some million jobs.
+const LARGEST_LIST: u64 = 1 << 30;
+/// Characters of an id.
+const LONGEST_ID: usize = 200;
+
+/// One garment to make. Its paths can be opened as they are.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Job {
+    /// Its name in the index.
+    pub id: String,
+    /// Garment files, the innermost first.
+    #[serde(serialize_with = "one_or_many")]
+    pub garment: Vec<PathBuf>,
+    /// Body in place of the garment's own: library name or file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub body: Option<String>,
+    /// Unit of the body's OBJ file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub body_units: Option<String>,
+    /// Fabric in place of the garment's main one: library name or file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fabric: Option<String>,
+    /// Mesh spacing, millimetres.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spacing: Option<f64>,
+    /// Pressures in kPa from which cloth is tight, and above which it is too tight.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pressure_bands: Option<[f64; 2]>,
+}
+
+/// A line of a list, unchecked. Its paths are relative to the list.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct JobLine {
+    id: Option<String>,
+    garment: Option<OneOrMany>,
+    body: Option<String>,
+    body_units: Option<String>,
+    fabric: Option<String>,
+    spacing: Option<f64>,
+    pressure_bands: Option<[f64; 2]>,
+}
+
+fn one_or_many<S: Serializer>(files: &[PathBuf], serializer: S) -> Result<S::Ok, S::Error> {
+    match files {
+        [file] => file.serialize(serializer),
+        files => files.serialize(serializer),
+    }
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged, expecting = "a garment is the name of a file, or a list of names, the innermost first")]
+enum OneOrMany {
+    One(PathBuf),
+    Many(Vec<PathBuf>),
+}
+
+impl Job {
+    /// A garment file with the options that jobs have which say nothing else.
+    fn of_file(id: String, file: PathBuf, defaults: &Job) -> Self {
+        Self { id, garment: vec![file], ..defaults.clone() }
+    }
+
+    /// Options without a garment.
+    pub fn options() -> Self {
+        Self {
+            id: String::new(),
+            garment: Vec::new(),
+            body: None,
+            body_units: None,
+            fabric: None,
+            spacing: None,
+            pressure_bands: None,
+        }
+    }
+
+    /// The arguments of `toile make` that make it, but for the folder.
+    pub fn arguments(&self) -> Vec<String> {
+        let mut options = Vec::new();
+        let mut give = |name: &str, value: Option<String>| {
+            // In one word: a value may begin with a dash.
+            options.extend(value.map(|value| format!("--{name}={value}")));
+        };
+        give("body", self.body.clone());
+        give("body-units", self.body_units.clone());
+        give("fabric", self.fabric.clone());
+        give("spacing", self.spacing.map(|mm| mm.to_string()));
+        give("pressure-bands", self.pressure_bands.map(|[tight, too_tight]| format!("{tight},{too_tight}")));
+        options
+    }
+}
+
+/// Reads a list of jobs, one JSON object a line; blank lines are passed over. A job takes from `defaults` what it does
+/// not say. Paths in the list are relative to its folder.
+///
+/// # Errors
+/// [`BatchError`], with every line that is no job.
+pub fn read_jobs(list: &Path, defaults: &Job) -> Result<Vec<Job>, BatchError> {
+    let unreadable = |why: String| BatchError::Read { file: list.to_owned(), why };
+    let bytes = bytes(list, LARGEST_LIST).map_err(|e: InputError| unreadable(e.to_string()))?;
+    let text = String::from_utf8(bytes).map_err(|e| unreadable(format!("it is no UTF-8 text: {e}")))?;
+    let folder = list.parent().unwrap_or(Path::new(""));
+    let (mut jobs, mut mistakes) = (Vec::new(), Vec::new());
+    let mut first: HashMap<String, usize> = HashMap::new();
+    for (line, text) in (1..).zip(text.lines()).filter(|(_, text)| !text.trim().is_empty()) {
+        let parsed = parse_job(text, folder, defaults, &line.to_string());
+        let unique = parsed.and_then(|job| match first.insert(job.id.clone(), line) {
+            Some(other) => Err(format!("the id '{}' is that of line {other}; ids must differ", job.id)),
+            None => Ok(job),
+        });
+        match unique {
+            Ok(job) => jobs.push(job),
+            Err(why) => mistakes.push(Mistake { line, why }),
+        }
+    }
+    if !mistakes.is_empty() {
+        return Err(BatchError::Jobs { file: list.to_owned(), mistakes });
+    }
+    if jobs.is_empty() {
+        return Err(BatchError::Empty { file: list.to_owned(), why: "no job in this list" });
+    }
+    Ok(jobs)
+}
+
+/// One job from its JSON object. Paths are relative to `folder`. A job without an id is named after its garment and
+/// `mark`.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn parse_job(text: &str, folder: &Path, defaults: &Job, mark: &str) -> Result<Job, String> {
+    let said: JobLine = serde_json::from_str(text).map_err(|e| plain(&e))?;
+    let garment = match said.garment {
+        Some(OneOrMany::One(file)) => vec![file],
+        Some(OneOrMany::Many(files)) => files,
+        None => Vec::new(),
+    };
+    if garment.is_empty() || garment.iter().any(|file| file.as_os_str().is_empty()) {
+        return Err("a job needs a garment file: {\"garment\": \"skirt.yaml\"}".into());
+    }
+    let garment: Vec<PathBuf> = garment.iter().map(|file| folder.join(file)).collect();
+    let id = said.id.unwrap_or_else(|| format!("{}-{mark}", stem(&garment[0])));
+    if id.is_empty() || id.chars().count() > LONGEST_ID || id.chars().any(char::is_control) {
+        return Err(format!("an id has 1 to {LONGEST_ID} visible characters"));
+    }
+    let at = |name: String, shipped: Vec<&str>| in_folder(folder, name, &shipped);
+    let job = Job {
+        id,
+        garment,
+        // The unit is of the body beside it.
+        body_units: said.body_units.or_else(|| defaults.body_units.clone().filter(|_| said.body.is_none())),
+        body: said.body.map(|body| at(body, mannequin::library())).or_else(|| defaults.body.clone()),
+        fabric: said.fabric.map(|fabric| at(fabric, fabric::library())).or_else(|| defaults.fabric.clone()),
+        spacing: said.spacing.or(defaults.spacing),
+        pressure_bands: said.pressure_bands.or(defaults.pressure_bands),
+    };
+    checked(job)
+}
+
+/// The job, if its numbers and units make sense. Its files are left to the process that makes it.
+fn checked(job: Job) -> Result<Job, String> {
+    if let Some(unit) = job.body_units.as_ref().filter(|unit| LengthUnit::from_symbol(unit).is_none()) {
+        let known: Vec<&str> = LengthUnit::ALL.iter().map(|unit| unit.symbol()).collect();
+        return Err(format!("body_units: '{unit}' is no unit; known are {}", known.join(", ")));
+    }
+    if let Some(mm) = job.spacing.filter(|mm| !(*mm > 0.0 && mm.is_finite())) {
+        return Err(format!("spacing: {mm} is no positive number of millimetres, such as 10"));
+    }
+    match job.pressure_bands {
+        Some([tight, too_tight]) if !(0.0 < tight && tight <= too_tight && too_tight < 1e3) => {
+            Err(format!("pressure_bands: two rising pressures in kPa are expected, not {tight} and {too_tight}"))
+        }
+        _ => Ok(job),
+    }
+}
+
+/// Every garment (`*.yaml`, `*.yml`) of a folder as a job, sorted and named by its file.
+///
+/// # Errors
+/// [`BatchError`]: a folder that cannot be read, or without garments.
+pub fn garments_of_folder(folder: &Path, defaults: &Job) -> Result<Vec<Job>, BatchError> {
+    let unreadable = |e: std::io::Error| BatchError::Read { file: folder.to_owned(), why: e.to_string() };
+    let entries: Vec<fs::DirEntry> = fs::read_dir(folder).and_then(Iterator::collect).map_err(unreadable)?;
+    let mut files: Vec<PathBuf> = entries.iter().map(fs::DirEntry::path).filter(|path| is_yaml(path)).collect();
+    files.sort();
+    if files.is_empty() {
+        return Err(BatchError::Empty { file: folder.to_owned(), why: "no garment (*.yaml) in this folder" });
+    }
+    let name = |file: &Path| file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    // a.yaml and a.yml would both be named a.
+    let twice = |file: &Path| files.iter().filter(|other| stem(other) == stem(file)).count() > 1;
+    let id = |file: &Path| if twice(file) { name(file) } else { stem(file) };
+    Ok(files.iter().map(|file| Job::of_file(id(file), file.clone(), defaults)).collect())
+}
+
+fn is_yaml(path: &Path) -> bool {
+    path.is_file() && path.extension().is_some_and(|e| e == "yaml" || e == "yml")
+}
+
+pub(super) fn stem(file: &Path) -> String {
+    file.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// A library name as it is, a file in `folder`.
+fn in_folder(folder: &Path, name: String, shipped: &[&str]) -> String {
+    if shipped.contains(&name.as_str()) || Path::new(&name).extension().is_none() {
+        return name;
+    }
+    folder.join(name).display().to_string()
+}
+
+/// The parser's message without its line, which is always the first.
+fn plain(error: &serde_json::Error) -> String {
+    let text = error.to_string();
+    match text.rsplit_once(" at line ") {
+        Some((message, _)) => format!("{message} (column {})", error.column()),
+        None => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<Job, String> {
+        let defaults = Job { spacing: Some(25.0), body_units: Some("cm".into()), ..Job::options() };
+        parse_job(text, Path::new("lists"), &defaults, "7")
+    }
+
+    #[test]
+    fn a_job_is_relative_to_its_list_and_takes_what_it_does_not_say() {
+        let job = parse(r#"{"garment": "skirt.yaml", "body": "anna.obj", "fabric": "denim"}"#).expect("a job");
+        assert_eq!(job.id, "skirt-7");
+        assert_eq!(job.garment, [PathBuf::from("lists/skirt.yaml")]);
+        assert_eq!(job.arguments(), ["--body=lists/anna.obj", "--fabric=denim", "--spacing=25"]);
+    }
+
+    #[test]
+    fn mistakes_say_what_is_expected() {
+        let said = |text| parse(text).expect_err("a mistake");
+        assert!(
+            said(r#"{"garmnt": "skirt.yaml"}"#).contains("unknown field `garmnt`, expected one of `id`, `garment`")
+        );
+        assert!(said(r#"{"id": "a"}"#).contains("needs a garment file"));
+        assert!(said(r#"{"garment": "a.yaml", "spacing": -3}"#).contains("-3 is no positive number"));
+        assert!(said(r#"{"garment": "a.yaml", "body_units": "ft"}"#).contains("known are mm, cm, dm, m, in"));
+        assert!(said(r#"{"garment": 3}"#).contains("the name of a file"));
+    }
+}

@@ -1,0 +1,137 @@
+//! The key of a job: a hash of its content and of toile's version.
+
+use std::collections::{BTreeSet, HashMap};
+use std::fmt;
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use sha2::{Digest, Sha256};
+
+use super::job::{Job, stem};
+use crate::fabric;
+use crate::input::{bytes, texts};
+use crate::mannequin;
+
+/// Bytes of a hash that are written, two characters each: with 16 of them no two of a billion jobs have the same key
+/// by chance.
+const BYTES: usize = 16;
+/// Bytes of a text in which the names of further files are looked for, as of a garment file.
+const LARGEST_TEXT: u64 = 16 << 20;
+/// A garment names a fabric, the fabric a curve. Files that name one another in a circle end here.
+const DEEPEST: usize = 4;
+
+/// What a job is made from: the names and contents of its garment files and of all that they name, its body and
+/// fabric, its options, and toile's version. Folders are left out, so that a job keeps its key when it is moved.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Key(String);
+
+impl fmt::Display for Key {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+/// Hashes of files that have been read: thousands of jobs have one body.
+#[derive(Debug, Default)]
+pub struct Digests(Mutex<HashMap<PathBuf, String>>);
+
+impl Digests {
+    /// The hash of a file's bytes, or the reason why there is none.
+    fn of(&self, file: &Path) -> String {
+        let known = |digests: &Self| digests.0.lock().unwrap_or_else(PoisonError::into_inner).get(file).cloned();
+        if let Some(digest) = known(self) {
+            return digest;
+        }
+        let digest = read(file).unwrap_or_else(|why| format!("unreadable: {why}"));
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(file.to_owned(), digest.clone());
+        digest
+    }
+}
+
+fn read(file: &Path) -> Result<String, String> {
+    // A pipe would be waited for, and nothing would be left in it for the process that makes the garment.
+    if !std::fs::metadata(file).map_err(|e| e.kind().to_string())?.is_file() {
+        return Err("no file".into());
+    }
+    let mut hash = Sha256::new();
+    let mut opened = File::open(file).map_err(|e| e.kind().to_string())?;
+    std::io::copy(&mut opened, &mut hash).map_err(|e| e.kind().to_string())?;
+    Ok(hex(&hash.finalize()))
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().take(BYTES).map(|byte| format!("{byte:02x}")).collect()
+}
+
+impl Key {
+    /// The key of a job as its files are now.
+    pub fn of(job: &Job, digests: &Digests) -> Self {
+        let mut content = Content(Sha256::new());
+        content.say("toile", env!("CARGO_PKG_VERSION"));
+        for garment in &job.garment {
+            content.file("garment", garment, digests);
+        }
+        let named = [("body", &job.body, mannequin::library()), ("fabric", &job.fabric, fabric::library())];
+        for (what, name, shipped) in named {
+            match name {
+                Some(name) if shipped.contains(&name.as_str()) => content.say(what, name),
+                Some(file) => content.file(what, Path::new(file), digests),
+                None => {}
+            }
+        }
+        // The process gets its options as these words.
+        for option in job.arguments().iter().filter(|o| !o.starts_with("--body=") && !o.starts_with("--fabric=")) {
+            content.say("option", option);
+        }
+        Self(hex(&content.0.finalize()))
+    }
+}
+
+/// A hash of names and values.
+struct Content(Sha256);
+
+impl Content {
+    /// Adds a value. Lengths keep two values from running into one another.
+    fn say(&mut self, what: &str, value: &str) {
+        for text in [what, value] {
+            self.0.update((text.len() as u64).to_le_bytes());
+            self.0.update(text);
+        }
+    }
+
+    /// Adds a file: its name, which results bear, its content, and the files that it names.
+    fn file(&mut self, what: &str, file: &Path, digests: &Digests) {
+        self.say(what, &stem(file));
+        self.say("content", &digests.of(file));
+        let mut seen = BTreeSet::from([file.to_owned()]);
+        self.named_in(file, digests, &mut seen, DEEPEST);
+    }
+
+    fn named_in(&mut self, file: &Path, digests: &Digests, seen: &mut BTreeSet<PathBuf>, deep: usize) {
+        for (name, inner) in named_files(file) {
+            if deep > 0 && seen.insert(inner.clone()) {
+                self.say("named", &name);
+                self.say("content", &digests.of(&inner));
+                self.named_in(&inner, digests, seen, deep - 1);
+            }
+        }
+    }
+}
+
+/// The files beside a YAML file that it names, in their order. Any text that is the name of a file counts: a file too
+/// many does no harm. Other files name none that matter.
+fn named_files(file: &Path) -> Vec<(String, PathBuf)> {
+    if !file.extension().is_some_and(|e| e == "yaml" || e == "yml") {
+        return Vec::new();
+    }
+    let text = bytes(file, LARGEST_TEXT).ok().and_then(|bytes| String::from_utf8(bytes).ok());
+    let Some(Ok(texts)) = text.map(|text| texts(&text)) else { return Vec::new() };
+    let folder = file.parent().unwrap_or(Path::new(""));
+    let beside = |text: String| {
+        let name = text.trim();
+        let path = folder.join(name);
+        (Path::new(name).extension().is_some() && path.is_file()).then(|| (name.to_owned(), path))
+    };
+    texts.into_iter().filter_map(beside).collect()
+}

@@ -1,0 +1,218 @@
+//! Many garments: a list of jobs, each made by a process of its own, into a store that survives being killed.
+//!
+//! ```text
+//! jobs ─▶ key ─────────────────▶ process ─────────▶ seal ──────────▶ index
+//!         hash of the content     toile make into    one rename into   one line a job
+//!         and toile's version     a work folder      STORE/KEY
+//! ```
+//!
+//! The folders of the store are the truth, and `index.jsonl` is written from them. A job is done when its folder is
+//! there, which a single rename puts there whole. So a batch can be killed anywhere and started again, and several can
+//! work into one store at the same time.
+
+mod error;
+mod job;
+mod key;
+mod process;
+mod sample;
+mod store;
+
+use std::collections::HashMap;
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc;
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+pub use error::{BatchError, Mistake};
+pub use job::{Job, garments_of_folder, parse_job, read_jobs};
+pub use key::{Digests, Key};
+pub use process::{Limits, WORKER_CANNOT_WRITE, Worker, become_worker};
+pub use sample::{Choice, list_text, sample};
+pub use store::{INDEX, Record, State, Store};
+
+/// How jobs are made.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The program that makes one garment.
+    pub worker: Worker,
+    /// Limits of every job.
+    pub limits: Limits,
+    /// Jobs that run side by side.
+    pub side_by_side: NonZeroUsize,
+    /// Make jobs anew that failed before.
+    pub retry: bool,
+    /// Name of the index file in the store.
+    pub index: String,
+}
+
+/// A job's line of the index.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Line {
+    /// The job's id.
+    pub id: String,
+    /// Whether there is a garment.
+    pub state: State,
+    /// Exit code of `toile make`: 0 or 1 of a job that is done. Absent if a limit or a signal ended it.
+    pub exit: Option<i32>,
+    /// Wall-clock time, s.
+    pub seconds: f64,
+    /// Folder of the result or of what is known of the failure, from the store. Absent if nothing could be kept.
+    pub folder: Option<String>,
+    /// Why it failed.
+    pub error: Option<String>,
+}
+
+impl Line {
+    fn new(id: &str, record: &Record) -> Self {
+        Self {
+            id: id.to_owned(),
+            state: record.state,
+            exit: record.exit,
+            seconds: record.seconds,
+            folder: record.kept.then(|| store::folder_name(record.state, &record.key)),
+            error: record.error.clone(),
+        }
+    }
+}
+
+/// Something that happened in a batch.
+#[derive(Debug)]
+pub enum Event<'a> {
+    /// So many jobs of so many are known to be done or failed.
+    Known(usize, usize),
+    /// A job has ended.
+    Ended(&'a Line),
+}
+
+/// How a batch went.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Summary {
+    /// Jobs of the list.
+    pub jobs: usize,
+    /// Those with a garment.
+    pub done: usize,
+    /// Of these, garments out of their own bounds (exit code 1).
+    pub out_of_bounds: usize,
+    /// Those without.
+    pub failed: usize,
+    /// Jobs whose outcome was known before.
+    pub known_before: usize,
+}
+
+/// Makes the jobs that the store does not have yet, and writes the index. `stop` is asked often. If it says yes, the
+/// jobs under way are ended and left for the next time.
+///
+/// # Errors
+/// [`BatchError`]: a store that cannot be written, a program that cannot be started, or a stop. What was done until
+/// then is kept.
+pub fn run(
+    jobs: &[Job],
+    store: &Store,
+    plan: &Plan,
+    stop: &(dyn Fn() -> bool + Sync),
+    tell: &mut dyn FnMut(Event),
+) -> Result<Summary, BatchError> {
+    let digests = Digests::default();
+    let keys: Vec<Key> = jobs.par_iter().map(|job| Key::of(job, &digests)).collect();
+    let mut known: HashMap<&Key, Record> = HashMap::new();
+    let mut left: Vec<usize> = Vec::new();
+    let mut asked_for: HashMap<&Key, Vec<usize>> = HashMap::new();
+    for (k, key) in keys.iter().enumerate() {
+        let same = asked_for.entry(key).or_default();
+        same.push(k);
+        if same.len() > 1 {
+            continue;
+        }
+        match store.record(key, plan.retry) {
+            Some(record) => drop(known.insert(key, record)),
+            None => left.push(k),
+        }
+    }
+    let before = keys.iter().filter(|key| known.contains_key(key)).count();
+    let lines = |known: &HashMap<&Key, Record>| -> Vec<Line> {
+        let record = |(job, key): (&Job, &Key)| known.get(key).map(|record| Line::new(&job.id, record));
+        jobs.iter().zip(&keys).filter_map(record).collect()
+    };
+    store.write_index(&plan.index, &lines(&known))?;
+    tell(Event::Known(before, jobs.len()));
+    let mut ended = before;
+    let made = side_by_side(&left, jobs, &keys, store, plan, stop, &mut |k, record| {
+        let same = &asked_for[&keys[k]];
+        let new: Vec<Line> = same.iter().map(|&k| Line::new(&jobs[k].id, &record)).collect();
+        known.insert(&keys[k], record);
+        store.append_index(&plan.index, &new)?;
+        ended += new.len();
+        new.iter().for_each(|line| tell(Event::Ended(line)));
+        tell(Event::Known(ended, jobs.len()));
+        Ok(())
+    });
+    let lines = lines(&known);
+    store.write_index(&plan.index, &lines)?;
+    made?;
+    let done = lines.iter().filter(|line| line.state == State::Done);
+    Ok(Summary {
+        jobs: jobs.len(),
+        done: done.clone().count(),
+        out_of_bounds: done.filter(|line| line.exit != Some(0)).count(),
+        failed: lines.iter().filter(|line| line.state == State::Failed).count(),
+        known_before: before,
+    })
+}
+
+/// Makes one job, unless the store has it, and gives its line of the index, which is not written.
+///
+/// # Errors
+/// As of [`run`].
+pub fn run_one(job: &Job, store: &Store, plan: &Plan, stop: &(dyn Fn() -> bool + Sync)) -> Result<Line, BatchError> {
+    let key = Key::of(job, &Digests::default());
+    let record = match store.record(&key, plan.retry) {
+        Some(record) => record,
+        None => process::make(job, &key, store, plan, stop)?,
+    };
+    Ok(Line::new(&job.id, &record))
+}
+
+/// Makes the jobs `left`, several at a time, and hands each outcome to `take` as it comes. After the first error no
+/// job is begun, and those under way are ended.
+fn side_by_side(
+    left: &[usize],
+    jobs: &[Job],
+    keys: &[Key],
+    store: &Store,
+    plan: &Plan,
+    stop: &(dyn Fn() -> bool + Sync),
+    take: &mut dyn FnMut(usize, Record) -> Result<(), BatchError>,
+) -> Result<(), BatchError> {
+    let (next, over) = (AtomicUsize::new(0), AtomicBool::new(false));
+    let stopped = || over.load(Ordering::Relaxed) || stop();
+    let (send, outcomes) = mpsc::channel();
+    let mut result = Ok(());
+    std::thread::scope(|scope| {
+        for _ in 0..plan.side_by_side.get().min(left.len()) {
+            let (send, next, stopped) = (send.clone(), &next, &stopped);
+            scope.spawn(move || {
+                while let Some(&k) = left.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let outcome = process::make(&jobs[k], &keys[k], store, plan, stopped);
+                    let failed = outcome.is_err();
+                    if send.send((k, outcome)).is_err() || failed {
+                        break;
+                    }
+                }
+            });
+        }
+        drop(send);
+        for (k, outcome) in outcomes {
+            let taken = outcome.and_then(|record| take(k, record));
+            // The first error is the cause; the others are the jobs that it ended.
+            if let Err(error) = taken {
+                over.store(true, Ordering::Relaxed);
+                if result.is_ok() {
+                    result = Err(error);
+                }
+            }
+        }
+    });
+    result
+}

@@ -1,0 +1,221 @@
+//! One job in a process of its own, within its limits.
+
+use std::ffi::OsString;
+use std::fs::{self, File};
+use std::io::{self, Read as _};
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+
+use super::Plan;
+use super::error::BatchError;
+use super::job::Job;
+use super::key::{Digests, Key};
+use super::store::{LOG, Record, State, Store};
+use crate::input::shown;
+use crate::io::files::abandon;
+
+/// Exit code of a worker that cannot write its results: then the store is at fault, not the job.
+pub const WORKER_CANNOT_WRITE: u8 = 74;
+/// Time between two looks at a process: short beside the quickest garments (0.1 s), and hardly any work.
+const LOOK: Duration = Duration::from_millis(10);
+/// Characters of an error in the index.
+const MESSAGE: usize = 2000;
+/// Bytes at the end of a log in which the error is looked for.
+const LOG_END: usize = 64 << 10;
+/// What a Rust program says before it ends because it gets no memory.
+const NO_MEMORY: &str = "memory allocation of";
+/// A mebibyte, the unit of memory limits.
+const MIB: u64 = 1 << 20;
+
+/// Limits of a job. None is unlimited.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Limits {
+    /// Wall-clock time.
+    pub time: Option<Duration>,
+    /// Address space, MiB. It is enforced on Linux and other Unix systems that have the limit (`RLIMIT_AS`).
+    pub memory: Option<u64>,
+}
+
+/// The program that makes one garment: toile itself.
+#[derive(Clone, Debug)]
+pub struct Worker {
+    /// The program and its first arguments: `toile`, or `python -m toile`.
+    pub program: Vec<OsString>,
+    /// Its threads.
+    pub threads: NonZeroUsize,
+}
+
+/// Makes a process a batch's worker: it ends when the batch does, however that ends, and it gets no more than so many
+/// MiB of memory. Called by the command line of the worker, first of all.
+///
+/// # Errors
+/// [`BatchError::Limit`] when the system has no such limit.
+pub fn become_worker(memory: u64) -> Result<(), BatchError> {
+    if memory > 0 {
+        limit_memory(memory * MIB)?;
+    }
+    // The batch holds the other end and never writes. The system closes it with the batch.
+    let watch = || {
+        let mut byte = [0];
+        while io::stdin().read(&mut byte).is_ok_and(|read| read > 0) {}
+        abandon()
+    };
+    let thread = std::thread::Builder::new().stack_size(64 << 10).spawn(watch);
+    thread.map(drop).map_err(|e| BatchError::Limit(e.to_string()))
+}
+
+#[cfg(all(unix, not(target_os = "openbsd")))]
+fn limit_memory(bytes: u64) -> Result<(), BatchError> {
+    use nix::sys::resource::{Resource, setrlimit};
+    setrlimit(Resource::RLIMIT_AS, bytes, bytes).map_err(|e| BatchError::Limit(e.to_string()))
+}
+
+#[cfg(not(all(unix, not(target_os = "openbsd"))))]
+fn limit_memory(_: u64) -> Result<(), BatchError> {
+    Err(BatchError::Limit("this system has no such limit; leave out --memory".into()))
+}
+
+/// Makes a job and seals its folder in the store.
+pub(super) fn make(
+    job: &Job,
+    key: &Key,
+    store: &Store,
+    plan: &Plan,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Result<Record, BatchError> {
+    let folder = store.scratch();
+    fs::create_dir(&folder).map_err(|e| store.unwritable(e))?;
+    let begin = Instant::now();
+    let mut child = start(job, &folder, store, plan)?;
+    let end = wait(&mut child, begin, plan.limits.time, stop).map_err(|e| store.unwritable(e))?;
+    let seconds = begin.elapsed().as_secs_f64();
+    let log = log_end(&folder.join(LOG));
+    let (state, exit, error) = match end {
+        End::Stopped => return Err(BatchError::Stopped),
+        End::TimeUp(limit) => {
+            let why = format!("not done after {} s, the time limit (--time)", limit.as_secs_f64());
+            (State::Failed, None, Some(why))
+        }
+        End::Exited(status) => match status.code() {
+            Some(code @ (0 | 1)) => (State::Done, Some(code), None),
+            Some(code) if code == i32::from(WORKER_CANNOT_WRITE) => {
+                return Err(store.unwritable(message(&log).unwrap_or("it is full or protected")));
+            }
+            Some(code) => (State::Failed, Some(code), Some(failure(&log, &status, plan))),
+            None => (State::Failed, None, Some(failure(&log, &status, plan))),
+        },
+    };
+    let mut record = Record { key: key.clone(), state, exit, seconds, error, kept: true };
+    if Key::of(job, &Digests::default()) != *key {
+        // Its folder would bear the name of another content.
+        let why = "its input changed while it was made; start again to make it as it is now";
+        record = Record { state: State::Failed, exit: None, error: Some(why.into()), kept: false, ..record };
+        fs::remove_dir_all(&folder).map_err(|e| store.unwritable(e))?;
+        return Ok(record);
+    }
+    store.seal(&folder, job, &record)?;
+    Ok(record)
+}
+
+/// Starts the process. What it says goes into the log.
+fn start(job: &Job, folder: &Path, store: &Store, plan: &Plan) -> Result<Child, BatchError> {
+    let Worker { program, threads } = &plan.worker;
+    let log = File::create(folder.join(LOG)).map_err(|e| store.unwritable(e))?;
+    let mut words = program.iter();
+    let mut command = Command::new(words.next().cloned().unwrap_or_default());
+    command.args(words);
+    command.arg(format!("--worker={}", plan.limits.memory.unwrap_or(0))).arg(format!("--threads={threads}"));
+    command.arg("make").args(job.arguments()).arg("-o").arg(folder).arg("--").args(&job.garment);
+    command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(log);
+    // Ctrl-C on a terminal is for the batch, which ends its workers.
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(&mut command, 0);
+    let shown = || program.iter().map(|word| word.to_string_lossy()).collect::<Vec<_>>().join(" ");
+    command.spawn().map_err(|source| BatchError::Start { program: shown(), source })
+}
+
+enum End {
+    Exited(ExitStatus),
+    TimeUp(Duration),
+    Stopped,
+}
+
+fn wait(
+    child: &mut Child,
+    begin: Instant,
+    limit: Option<Duration>,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> io::Result<End> {
+    loop {
+        if let Some(status) = child.try_wait()? {
+            return Ok(End::Exited(status));
+        }
+        let late = limit.filter(|limit| begin.elapsed() > *limit);
+        let stopped = stop();
+        if late.is_some() || stopped {
+            // It may have ended meanwhile.
+            let _ = child.kill();
+            child.wait()?;
+            return Ok(late.filter(|_| !stopped).map_or(End::Stopped, End::TimeUp));
+        }
+        std::thread::sleep(LOOK);
+    }
+}
+
+/// The end of a log, or what can be read of it.
+fn log_end(file: &Path) -> String {
+    let bytes = fs::read(file).unwrap_or_default();
+    String::from_utf8_lossy(&bytes[bytes.len().saturating_sub(LOG_END)..]).into_owned()
+}
+
+/// The error that a log ends with: diagnostics of a garment file begin with their places, others with `error:`.
+fn message(log: &str) -> Option<&str> {
+    let starts = |line: &str| line.starts_with("error: ") || line.contains(": error: ");
+    let mut at = 0;
+    for line in log.split_inclusive('\n') {
+        if starts(line) {
+            return Some(log[at..].trim_end());
+        }
+        at += line.len();
+    }
+    None
+}
+
+/// Why a worker ended without a garment.
+fn failure(log: &str, status: &ExitStatus, plan: &Plan) -> String {
+    if log.contains(NO_MEMORY) {
+        return plan.limits.memory.map_or_else(
+            || "the system has no memory left; run fewer side by side (--jobs)".into(),
+            |mib| format!("it needs more than {mib} MiB, the memory limit (--memory)"),
+        );
+    }
+    let said = message(log).or_else(|| log.lines().rev().find(|line| !line.trim().is_empty()));
+    let said = said.map(|text| text.strip_prefix("error: ").unwrap_or(text));
+    let text = match (said, status.code()) {
+        (Some(said), Some(_)) => said.to_owned(),
+        (Some(said), None) => format!("ended by the system ({status}): {said}"),
+        (None, _) => format!("ended by the system ({status}) without a word; it may have run out of memory"),
+    };
+    cut(&text)
+}
+
+/// The text within the limit, line by line so that lines stay.
+fn cut(text: &str) -> String {
+    if text.chars().count() <= MESSAGE { text.to_owned() } else { shown(text, MESSAGE) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_error_of_a_log_is_what_stands_behind_the_notes() {
+        let log = "a note\nskirt.yaml:3:1: warning: so\nerror: it cannot be sewn\n  help: another --spacing\n";
+        assert_eq!(message(log), Some("error: it cannot be sewn\n  help: another --spacing"));
+        let log = "skirt.yaml:4:7: error: unknown edge\n  | waist\n";
+        assert_eq!(message(log), Some(log.trim_end()));
+        assert_eq!(message("a note\n"), None);
+    }
+}

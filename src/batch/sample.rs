@@ -1,0 +1,119 @@
+//! Samples: jobs drawn from garments, bodies and fabrics.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use super::error::BatchError;
+use super::job::Job;
+use crate::io::files::relative;
+
+/// What is drawn from.
+#[derive(Clone, Debug)]
+pub struct Choice {
+    /// Garment files.
+    pub garments: Vec<PathBuf>,
+    /// Names or files of bodies.
+    pub bodies: Vec<String>,
+    /// Names or files of fabrics.
+    pub fabrics: Vec<String>,
+}
+
+/// Draws `count` different jobs. The same choice, count and seed give the same jobs on every machine, and a greater
+/// count begins with the jobs of a smaller one, apart from the width of their ids.
+///
+/// # Errors
+/// [`BatchError::Samples`] when there are not so many.
+pub fn sample(choice: &Choice, count: usize, seed: u64, options: &Job) -> Result<Vec<Job>, BatchError> {
+    let Choice { garments, bodies, fabrics } = choice;
+    let there = garments.len().saturating_mul(bodies.len()).saturating_mul(fabrics.len());
+    if count > there {
+        let (garments, bodies, fabrics) = (garments.len(), bodies.len(), fabrics.len());
+        return Err(BatchError::Samples { asked: count, there, garments, bodies, fabrics });
+    }
+    let width = count.to_string().len();
+    let job = |(n, k): (usize, usize)| Job {
+        id: format!("{n:0width$}"),
+        garment: vec![garments[k / (bodies.len() * fabrics.len())].clone()],
+        body: Some(bodies[k / fabrics.len() % bodies.len()].clone()),
+        fabric: Some(fabrics[k % fabrics.len()].clone()),
+        ..options.clone()
+    };
+    Ok((1..).zip(shuffled(there, count, seed)).map(job).collect())
+}
+
+/// The first `count` of the numbers below `all` in random order: Fisher and Yates's shuffle, of which only the numbers
+/// that have moved are kept.
+fn shuffled(all: usize, count: usize, seed: u64) -> Vec<usize> {
+    let mut random = Random(seed);
+    let mut moved: HashMap<usize, usize> = HashMap::new();
+    let mut drawn = Vec::with_capacity(count);
+    for k in 0..count {
+        let other = k + random.below(all - k);
+        let here = moved.get(&k).copied().unwrap_or(k);
+        drawn.push(moved.insert(other, here).unwrap_or(other));
+    }
+    drawn
+}
+
+/// SplitMix64 (Steele, Lea and Flood 2014): the same numbers on every machine and in every version.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// A number below `limit`, all alike but for a part in 2⁶⁴ ⁄ `limit`.
+    fn below(&mut self, limit: usize) -> usize {
+        ((u128::from(self.next()) * limit as u128) >> 64) as usize
+    }
+}
+
+/// The jobs as a list in `folder`: one JSON object a line, files named from there.
+pub fn list_text(jobs: &[Job], folder: &Path) -> String {
+    let from_there = |file: &Path| relative(file, folder).unwrap_or_else(|| file.to_owned());
+    let named = |name: &String| {
+        let file = Path::new(name);
+        if file.is_file() { from_there(file).display().to_string() } else { name.clone() }
+    };
+    let line = |job: &Job| {
+        let garment = job.garment.iter().map(|file| from_there(file)).collect();
+        let (body, fabric) = (job.body.as_ref().map(named), job.fabric.as_ref().map(named));
+        let job = Job { garment, body, fabric, ..job.clone() };
+        serde_json::to_string(&job).unwrap_or_default() + "\n"
+    };
+    jobs.iter().map(line).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use super::*;
+
+    #[test]
+    fn the_generator_is_the_published_one() {
+        let mut random = Random(1_234_567);
+        assert_eq!([random.next(), random.next()], [6_457_827_717_110_365_317, 3_203_168_211_198_807_973]);
+    }
+
+    #[test]
+    fn draws_are_different_and_begin_alike() {
+        let all = shuffled(50, 50, 3);
+        assert_eq!(all.iter().collect::<HashSet<_>>().len(), 50);
+        assert!(all.iter().all(|&k| k < 50));
+        assert_eq!(shuffled(50, 10, 3), all[..10]);
+        assert_ne!(shuffled(50, 10, 4), all[..10]);
+    }
+
+    #[test]
+    fn every_number_is_drawn_first_about_as_often() {
+        let mut counts = [0; 6];
+        (0..6000).for_each(|seed| counts[shuffled(6, 1, seed)[0]] += 1);
+        assert!(counts.iter().all(|n| (850..1150).contains(n)), "{counts:?}");
+    }
+}
