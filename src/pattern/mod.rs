@@ -17,6 +17,7 @@
 //!   also on the mirrored piece.
 
 mod allowance;
+mod alteration_file;
 mod along;
 mod bound;
 mod chain;
@@ -52,6 +53,8 @@ mod tube;
 mod walk;
 
 pub use along::{Along, along};
+pub use alteration_file::{AlterationFile, SizeFile, StationFile};
+pub(crate) use crossing::loop_crossing;
 pub(crate) use dart::FISH_EYE_EDGES;
 pub use diagnostic::{Diagnostic, Findings, Located, Severity, Spot};
 pub use drawing::{Allowance, Dart, Drawing, DrawnEdge, DrawnFold, DrawnNotch, drawings};
@@ -66,7 +69,8 @@ pub use notch_kind::{DOUBLE_MARKS, NotchKind};
 pub use outfit::{belongs_to, outfit};
 pub use place_word::{PlaceMeaning, PlaceWord, TrunkLevel, place_words, words_of};
 pub use problem::{ChainDoubt, Problem};
-pub(crate) use reference::LARGEST;
+pub(crate) use inherit::{own_shape, unknown_piece};
+pub(crate) use reference::{LARGEST, Words};
 pub use reference::parse_quantity;
 pub(crate) use region::{Region, SLACK};
 pub use rim::{Opening, openings};
