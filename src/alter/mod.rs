@@ -15,12 +15,12 @@ use crate::pattern::{AlterationFile, Findings, GarmentFile, Located, Problem, Sp
 type Fault = (Spot, Problem);
 
 /// The file with its alterations carried out, those of `alter` first and then those of the size. What cannot be done
-/// is reported, and the file then given back as far as it got.
+/// is reported, and the file then given back as far as it got. A size has no sizes.
 pub fn altered(file: &GarmentFile, size: Option<&str>, findings: &mut Findings) -> GarmentFile {
     let mut own = file.clone();
     let mut list = std::mem::take(&mut own.alter);
-    let sizes = std::mem::take(&mut own.sizes);
     if let Some(wanted) = size {
+        let sizes = std::mem::take(&mut own.sizes);
         match sizes.iter().find(|s| s.name.value == wanted) {
             Some(size) => list.extend(size.alter.iter().cloned()),
             None => findings.error(Spot::default(), name::unknown_size(wanted, &sizes)),
@@ -44,6 +44,13 @@ pub fn carry_out(file: &mut GarmentFile, list: &[Located<AlterationFile>], findi
             }
         }
     }
+}
+
+/// Lengths as drawn of the edges of every piece with an outline of its own, metres: `piece.edge` each.
+pub fn edge_lengths(file: &GarmentFile) -> Vec<(String, f64)> {
+    let sheets = (0..file.pieces.len()).filter_map(|index| sheet::Sheet::read(file, index).ok());
+    let lengths = |s: sheet::Sheet| (0..s.edges.len()).map(|i| (s.shown(i), s.edges[i].length())).collect::<Vec<_>>();
+    sheets.flat_map(lengths).collect()
 }
 
 fn one(file: &mut GarmentFile, alteration: &Located<AlterationFile>) -> Result<(), Fault> {

@@ -3,6 +3,7 @@
 //! `args` holds what clap reads, unchecked; each command has a file that checks its arguments, runs the pipeline and
 //! says how it went. Results go to standard output, everything else to standard error.
 
+mod alter;
 mod args;
 mod check;
 mod check_mesh;
@@ -70,6 +71,7 @@ fn run(command: &Command, console: &Console) -> Result<Exit, CliError> {
         Command::Flatten(args) => flatten::flatten(args, console),
         Command::Report(args) => report::report(args, console),
         Command::Test(args) => test::test(args, console),
+        Command::Alter(args) => alter::alter(args, console),
         Command::Export(command) => export::export(command, console),
         Command::Fabric(command) => fabric::fabric(command, console),
         Command::Import(command) => import::import(command, console),

@@ -34,7 +34,15 @@ pub struct Checked {
 /// # Errors
 /// Every mistake of the file.
 pub fn check(file: &Path, spacing: Option<f64>) -> Result<Checked, Refused> {
-    let mut examined = garment::examine(file);
+    check_size(file, None, spacing)
+}
+
+/// As [`check`], of a size of the garment.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_size(file: &Path, size: Option<&str>, spacing: Option<f64>) -> Result<Checked, Refused> {
+    let mut examined = garment::examine_size(file, size);
     let body = examined.file.as_ref().and_then(|said| look(file, said, &mut examined.findings));
     let mut loaded = examined.finish()?;
     if let Some(body) = &body {

@@ -35,9 +35,9 @@ pub use crate::sew::SewError;
 pub use across::Across;
 pub use caught::Caught;
 pub use error::PipelineError;
-pub use job::{Job, Overrides, inputs, read};
+pub use job::{Job, Overrides, inputs, read, read_size};
 pub use judged::{Judged, judge};
-pub use material::{Checked, check};
+pub use material::{Checked, check, check_size};
 pub use pattern_picture::pattern_picture;
 pub use problems::{Problem, problems};
 pub use results::{

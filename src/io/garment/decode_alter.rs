@@ -12,6 +12,14 @@ pub(super) fn alterations(value: &Located<Value>, findings: &mut Findings) -> Ve
     items(value).iter().filter_map(|v| alteration(v, findings)).collect()
 }
 
+/// Reads a file of changes: `alter:` with a list of alterations.
+pub(super) fn changes(tree: &Located<Value>, findings: &mut Findings) -> Vec<Located<AlterationFile>> {
+    let Some(mut fields) = Fields::new(tree, "a file of changes", findings) else { return Vec::new() };
+    let list = fields.need("alter", findings).map_or_else(Vec::new, |v| alterations(v, findings));
+    fields.finish(findings);
+    list
+}
+
 /// Reads the sizes: by name, a list of alterations each.
 pub(super) fn sizes(value: &Located<Value>, findings: &mut Findings) -> Vec<SizeFile> {
     let entries = entries(value, "sizes", findings);

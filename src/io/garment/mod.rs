@@ -3,6 +3,7 @@
 //! [`read`] gives the checked [`Garment`] and the [`GarmentFile`], which holds everything the file says with the
 //! place where it says it; [`write()`] turns a [`GarmentFile`] back into YAML that reads as the same.
 
+mod change;
 mod decode;
 mod decode_alter;
 mod decode_piece;
@@ -20,6 +21,7 @@ use std::path::Path;
 use crate::alter::altered;
 use crate::pattern::{self, Diagnostic, Findings, Garment, GarmentFile, Severity};
 
+pub use change::{Changed, EdgeChange, change};
 pub use encode::{EncodeError, seam_line, write, write_with_offers};
 
 /// JSON Schema (2020-12) of the format, for editors that complete and check as one types.
@@ -139,10 +141,12 @@ pub fn examine(path: &Path) -> Examined {
     examine_size(path, None)
 }
 
-/// As [`examine`], of a size of the garment.
+/// As [`examine`], of a size of the garment, whose name then ends with the size.
 pub fn examine_size(path: &Path, size: Option<&str>) -> Examined {
-    let shown = path.display().to_string();
+    let said = size.map_or_else(String::new, |size| format!(" (size {size})"));
+    let shown = format!("{}{said}", path.display());
     let name = path.file_stem().map_or_else(|| shown.clone(), |s| s.to_string_lossy().into_owned());
+    let name = size.map_or_else(|| name.clone(), |size| format!("{name}-{size}"));
     match source::text(path) {
         Ok(text) => examine_text(&name, &shown, &text, size),
         Err(problem) => {
