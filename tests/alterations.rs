@@ -105,7 +105,8 @@ fn pieces_grow_and_shrink_by_what_is_said() {
     near!(length(&longer, "front", "side.L") + length(&longer, "front", "side.2.L"), 0.4, epsilon = EXACT);
     near!(length(&longer, "back", "side.L"), 0.4, epsilon = EXACT);
     near!(area(&longer, "back"), 2.0 * 0.180 * 0.4, epsilon = 1e-8);
-    let file = made(BLOCK, "  - {lengthen: front, at: 200, by: 20, over: 100}\n  - {lengthen: back, at: 0, by: 20}\n").file;
+    let file =
+        made(BLOCK, "  - {lengthen: front, at: 200, by: 20, over: 100}\n  - {lengthen: back, at: 0, by: 20}\n").file;
     // The notch at 300 lies beyond the stretch and goes down by 20, that at 100 stays.
     let notches: Vec<f64> = file.pieces[0].notches[0].1.iter().map(|n| n.value.at.number).collect();
     assert_eq!(notches, [100.0, 320.0]);
@@ -213,9 +214,10 @@ fn what_cannot_be_done_is_said() {
         let found = problem(BLOCK, alteration);
         assert!(expected(&found), "{alteration}: {found:?}");
     };
-    is("  - {take_in: sid, at: {0: 8}}\n", |p| {
-        matches!(p, Problem::UnknownSeam { nearest: Some(n), .. } if n == "side")
-    });
+    is(
+        "  - {take_in: sid, at: {0: 8}}\n",
+        |p| matches!(p, Problem::UnknownSeam { nearest: Some(n), .. } if n == "side"),
+    );
     is("  - {lengthen: frnt, at: 10, by: 8}\n", |p| matches!(p, Problem::UnknownPiece { nearest: Some(_), .. }));
     is("  - {move: front.hm, at: {0: [0, 1]}}\n", |p| matches!(p, Problem::UnknownEdge { nearest: Some(_), .. }));
     is("  - {pivot: front.bst, to: front.top@50 %}\n", |p| matches!(p, Problem::UnknownDart { nearest: Some(_), .. }));
@@ -232,7 +234,8 @@ fn what_cannot_be_done_is_said() {
     // Through the dart.
     is("  - {spread: front.top@75 %, to: front.hem@25 %, by: 20}\n", |p| matches!(p, Problem::AlterShape { .. }));
     // The seam no longer matches, and by how much is said.
-    is("  - {lengthen: back, at: 100, by: 20}\n", |p| {
-        matches!(p, Problem::LengthsApart { apart, .. } if (apart - 20.0).abs() < 0.01)
-    });
+    is(
+        "  - {lengthen: back, at: 100, by: 20}\n",
+        |p| matches!(p, Problem::LengthsApart { apart, .. } if (apart - 20.0).abs() < 0.01),
+    );
 }

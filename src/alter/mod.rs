@@ -59,7 +59,8 @@ fn one(file: &mut GarmentFile, alteration: &Located<AlterationFile>) -> Result<(
         AlterationFile::Move { edge, at } => shift::move_points(file, edge, at),
         AlterationFile::Lengthen { pieces, at, by, over, across, shorter } => {
             let sign = if *shorter { -1.0 } else { 1.0 };
-            let zone = lengthen::Zone { at, by, sign, over: over.as_ref(), across: across.as_ref().is_some_and(|a| a.value) };
+            let zone =
+                lengthen::Zone { at, by, sign, over: over.as_ref(), across: across.as_ref().is_some_and(|a| a.value) };
             pieces.iter().try_for_each(|piece| zone.apply(file, piece))
         }
         AlterationFile::Pivot { dart, to, share, name } => open::pivot(file, dart, to, share.as_ref(), name.as_ref()),

@@ -135,10 +135,7 @@ impl Reunion<'_> {
             let wide = (to - from).norm() > NONE;
             wide.then(|| Bit { edge, was: None, path: Path::line(from, to) })
         };
-        let openings = [
-            gap(at_end, ends(&first), starts(&second)),
-            gap(at_start, ends(&second), starts(&first)),
-        ];
+        let openings = [gap(at_end, ends(&first), starts(&second)), gap(at_start, ends(&second), starts(&first))];
         let (end_index, start_index) = (first.len(), first.len() + usize::from(openings[0].is_some()) + second.len());
         let has = [openings[0].is_some(), openings[1].is_some()];
         let [one, other] = openings;
@@ -181,9 +178,8 @@ fn rebuild(sheet: &mut Sheet, ring: &[Bit]) -> Vec<f64> {
 fn carry_marks(sheet: &mut Sheet, ring: &[Bit], offsets: &[f64]) -> Result<(), Fault> {
     for i in 0..sheet.marks.len() {
         let Some(mark) = sheet.marks[i] else { continue };
-        let holds = |b: &Bit| {
-            b.edge == mark.edge && b.was.is_some_and(|[a, e]| (a - NONE..=e + NONE).contains(&mark.at))
-        };
+        let holds =
+            |b: &Bit| b.edge == mark.edge && b.was.is_some_and(|[a, e]| (a - NONE..=e + NONE).contains(&mark.at));
         let Some(bit) = ring.iter().position(holds) else {
             let reason = format!("a mark on '{}' lies in the part that is taken out", sheet.names[mark.edge]);
             return Err((sheet.at, Problem::AlterShape { piece: sheet.piece.clone(), reason }));
@@ -219,9 +215,8 @@ fn darts_whole(sheet: &Sheet, wedges: &[Wedge], but: Option<usize>, cuts: &[Mark
     for wedge in wedges.iter().filter(|w| Some(w.dart) != but) {
         let through = cuts.iter().any(|c| c.edge == wedge.edge && wedge.mouth[0] < c.at && c.at < wedge.mouth[1]);
         let middle = 0.5 * (wedge.mouth[0] + wedge.mouth[1]);
-        let on = half.bits.iter().any(|b| {
-            b.edge == wedge.edge && b.was.is_some_and(|w| (w[0]..=w[1]).contains(&middle))
-        });
+        let on =
+            half.bits.iter().any(|b| b.edge == wedge.edge && b.was.is_some_and(|w| (w[0]..=w[1]).contains(&middle)));
         if through || on != half.contains(wedge.tip) {
             let reason = format!("the cut goes through a dart on '{}'", sheet.names[wedge.edge]);
             return Err((sheet.at, Problem::AlterShape { piece: sheet.piece.clone(), reason }));
@@ -266,8 +261,7 @@ pub(super) fn spread(
     let open = Vec2::new(-along.y, along.x);
     // Each half turns by half the angle: the chord of the opening is then as wide as asked for.
     let angle = ((by_m - to_m) / (2.0 * long)).asin();
-    let motions =
-        [Motion::about(q, angle, open * (to_m / 2.0)), Motion::about(q, -angle, open * (-to_m / 2.0))];
+    let motions = [Motion::about(q, angle, open * (to_m / 2.0)), Motion::about(q, -angle, open * (-to_m / 2.0))];
     halves[0].motion = motions[0];
     halves[1].motion = motions[1];
     if let Some(fold) = sheet.fold {
@@ -356,9 +350,7 @@ impl Turning {
         spots: [&Located<String>; 2],
     ) -> Result<[Option<Mouth>; 2], Fault> {
         let Wedge { edge, mouth, tip, dart } = self.wedge;
-        let refuse = |reason: String| {
-            (spots[1].at, Problem::AlterShape { piece: sheet.piece.clone(), reason })
-        };
+        let refuse = |reason: String| (spots[1].at, Problem::AlterShape { piece: sheet.piece.clone(), reason });
         if self.place.edge == edge && (mouth[0]..=mouth[1]).contains(&self.place.at) {
             return Err(refuse(format!("'{}' lies in the mouth of the dart itself", spots[1].value)));
         }

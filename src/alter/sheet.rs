@@ -97,9 +97,9 @@ fn each_point(
             moved(&mut tip.value);
         }
     }
-    for (of, points) in closures.iter_mut().flat_map(|c| {
-        [(c.on.clone(), &mut c.at), (c.meets.clone(), &mut c.meets_at)]
-    }) {
+    for (of, points) in
+        closures.iter_mut().flat_map(|c| [(c.on.clone(), &mut c.at), (c.meets.clone(), &mut c.meets_at)])
+    {
         if of.is_some_and(|of| of.value.split('.').next() == Some(piece.name.value.as_str())) {
             points.iter_mut().for_each(|p| moved(&mut p.value));
         }
@@ -172,9 +172,8 @@ impl Sheet {
             marks.push(edge.map(|edge| Mark { edge, at: position(*at, edges[edge].length(), unit) }));
         });
         let whole = |text: &Located<String>| {
-            Path::parse_absolute(&text.value, unit.factor()).map_err(|e| {
-                (text.at, Problem::AlterShape { piece: name.clone(), reason: e.to_string() })
-            })
+            Path::parse_absolute(&text.value, unit.factor())
+                .map_err(|e| (text.at, Problem::AlterShape { piece: name.clone(), reason: e.to_string() }))
         };
         let holes = piece.holes.iter().map(|h| whole(&h.1));
         let runs: Vec<Path> = holes.chain(piece.lines.iter().map(|l| whole(&l.path))).collect::<Result<_, _>>()?;
@@ -253,7 +252,7 @@ impl Sheet {
             let length = path.length();
             let by = |s: f64| (start - end) * (s / length);
             let slope = (start - end) / length;
-            self.edges[last] = path.shifted(&[], |s| crate::geometry::Shift { by: by(s), slope }).0;
+            self.edges[last] = path.shifted(&[], &[], |s| crate::geometry::Shift { by: by(s), slope }).0;
         }
     }
 

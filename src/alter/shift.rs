@@ -3,9 +3,7 @@
 use super::sheet::Sheet;
 use super::{Fault, name};
 use crate::geometry::{Path, Shift, Vec2};
-use crate::pattern::{
-    Cut, GarmentFile, Located, PieceFile, Problem, Quantity, SeamFile, Side, StationFile, Words,
-};
+use crate::pattern::{Cut, GarmentFile, Located, PieceFile, Problem, Quantity, SeamFile, Side, StationFile, Words};
 
 /// Positions nearer to each other than this are one, metres.
 const SAME: f64 = 1e-7;
@@ -199,11 +197,10 @@ fn shift_edge(sheet: &mut Sheet, edge: usize, mut knots: Vec<(f64, Vec2)>) -> Re
 
 fn apply(sheet: &mut Sheet, edge: usize, field: &Field) {
     let marks = sheet.marks_on(edge);
-    let mut places: Vec<f64> = marks.iter().chain(field.knots.iter().map(|k| &k.0)).copied().collect();
-    places.sort_by(f64::total_cmp);
-    let (path, moved) = sheet.edges[edge].shifted(&places, |s| field.at(s));
+    let knots: Vec<f64> = field.knots.iter().map(|k| k.0).collect();
+    let (path, moved) = sheet.edges[edge].shifted(&knots, &marks, |s| field.at(s));
     for mark in sheet.marks.iter_mut().flatten().filter(|m| m.edge == edge) {
-        if let Some(i) = places.iter().position(|p| *p == mark.at) {
+        if let Some(i) = marks.iter().position(|m| *m == mark.at) {
             mark.at = moved[i];
         }
     }

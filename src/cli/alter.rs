@@ -60,9 +60,11 @@ impl Written {
     fn text(&self) -> String {
         let mut rows = vec![["edge", "mm before", "mm after", "change"].map(String::from).to_vec()];
         let number = |x: f64| format!("{x:.2}");
-        rows.extend(self.edges.iter().map(|e| {
-            vec![e.edge.clone(), number(e.before), number(e.after), format!("{:+.2}", e.after - e.before)]
-        }));
+        rows.extend(
+            self.edges.iter().map(|e| {
+                vec![e.edge.clone(), number(e.before), number(e.after), format!("{:+.2}", e.after - e.before)]
+            }),
+        );
         format!("{}\n  written to {}\n", aligned(&rows), self.file)
     }
 }

@@ -34,25 +34,24 @@ impl Path {
         found
     }
 
-    /// The path with every point shifted, and the arc lengths on it of the points that were at `places` (sorted). Each
-    /// part between joints and `places` gets the cubic that has the shift and its slope at both ends, so that the
-    /// shifts there are exact and tangents go over into one another.
-    pub fn shifted(&self, places: &[f64], shift: impl Fn(f64) -> Shift) -> (Self, Vec<f64>) {
-        let mut cuts: Vec<f64> = self.joints().iter().chain(places).copied().collect();
+    /// The path with every point shifted, and the arc lengths on it of the points that were at `marks`. Each part
+    /// between joints and `knots` gets the cubic that has the shift and its slope at both ends, so that the shifts
+    /// there are exact and tangents go over into one another.
+    pub fn shifted(&self, knots: &[f64], marks: &[f64], shift: impl Fn(f64) -> Shift) -> (Self, Vec<f64>) {
+        let mut cuts: Vec<f64> = self.joints().iter().chain(knots).copied().collect();
         cuts.sort_by(f64::total_cmp);
         cuts.dedup_by(|b, a| (*b - *a).abs() <= LENGTH_ACCURACY);
-        let mut segments = Vec::new();
-        for ends in cuts.windows(2) {
-            let part = self.part(ends[0], ends[1]);
-            // A part between neighbouring joints is one segment.
-            segments.extend(part.segments.iter().map(|s| shifted_segment(s, [shift(ends[0]), shift(ends[1])])));
-        }
-        let path = Self::from_segments(segments);
+        // Between neighbouring cuts lies one segment.
+        let old: Vec<PathSeg> = cuts.windows(2).map(|w| self.part(w[0], w[1]).segments[0]).collect();
+        let new = old.iter().zip(cuts.windows(2)).map(|(s, w)| shifted_segment(s, [shift(w[0]), shift(w[1])]));
+        let path = Self::from_segments(new.collect());
         let place = |s: &f64| {
-            let nearest = (0..cuts.len()).min_by(|&i, &j| (cuts[i] - s).abs().total_cmp(&(cuts[j] - s).abs()));
-            path.joints()[nearest.unwrap_or(0)]
+            let i = cuts[1..old.len()].partition_point(|c| c <= s);
+            let within = (s - cuts[i]).clamp(0.0, old[i].arclen(LENGTH_ACCURACY));
+            let t = old[i].inv_arclen(within, LENGTH_ACCURACY);
+            path.joints()[i] + path.segments[i].subsegment(0.0..t).arclen(LENGTH_ACCURACY)
         };
-        let moved = places.iter().map(place).collect();
+        let moved = marks.iter().map(place).collect();
         (path, moved)
     }
 }
@@ -94,7 +93,7 @@ mod tests {
     fn an_even_shift_moves_a_path_as_it_is() {
         let path = Path::parse(Vec2::zeros(), "C 0 50, 50 100, 100 100 L 200 100", 1e-3).expect("path");
         let by = Vec2::new(0.01, -0.02);
-        let (moved, at) = path.shifted(&[0.05, 0.2], |_| Shift { by, slope: Vec2::zeros() });
+        let (moved, at) = path.shifted(&[0.1], &[0.05, 0.2], |_| Shift { by, slope: Vec2::zeros() });
         assert_relative_eq!(moved.length(), path.length(), epsilon = 1e-8);
         assert_relative_eq!(at[0], 0.05, epsilon = 1e-8);
         assert_relative_eq!(moved.point(at[1]), path.point(0.2) + by, epsilon = 1e-8);

@@ -17,8 +17,8 @@
 //!   also on the mirrored piece.
 
 mod allowance;
-mod alteration_file;
 mod along;
+mod alteration_file;
 mod bound;
 mod chain;
 mod closure;
@@ -65,13 +65,13 @@ pub use file::{
     OpenFile, OutlineFile, PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, Side, TestEntry, TestFile,
     Unit, Value,
 };
+pub(crate) use inherit::{own_shape, unknown_piece};
 pub use notch_kind::{DOUBLE_MARKS, NotchKind};
 pub use outfit::{belongs_to, outfit};
 pub use place_word::{PlaceMeaning, PlaceWord, TrunkLevel, place_words, words_of};
 pub use problem::{ChainDoubt, Problem};
-pub(crate) use inherit::{own_shape, unknown_piece};
-pub(crate) use reference::{LARGEST, Words};
 pub use reference::parse_quantity;
+pub(crate) use reference::{LARGEST, Words};
 pub(crate) use region::{Region, SLACK};
 pub use rim::{Opening, openings};
 pub(crate) use seam::DEFAULT_TOLERANCE;

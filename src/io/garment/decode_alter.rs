@@ -79,9 +79,9 @@ fn take(kind: &'static str, fields: &mut Fields, findings: &mut Findings) -> Opt
 }
 
 fn lengthen(kind: &'static str, fields: &mut Fields, findings: &mut Findings) -> Option<AlterationFile> {
-    let pieces = fields.take(kind).map_or_else(Vec::new, |v| {
-        items(v).iter().filter_map(|p| text(p, "a piece", findings)).collect()
-    });
+    let pieces = fields
+        .take(kind)
+        .map_or_else(Vec::new, |v| items(v).iter().filter_map(|p| text(p, "a piece", findings)).collect());
     let (at, by) = (fields.require("at", findings, distance), fields.require("by", findings, length));
     let over = fields.get("over", findings, length);
     let across = fields.get("along", findings, |v, _, f| {

@@ -5,9 +5,9 @@ use serde_yaml::{Mapping, Value as Yaml};
 use super::decode_test::LEVEL;
 use super::layout;
 use crate::pattern::{
-    AllowanceFile, AllowanceWidth, AlterationFile, ClosureFile, Cut, DartFile, DartShape, GarmentFile, LineFile, Located,
-    OpenFile, PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, SizeFile, StationFile, TestEntry, TestFile,
-    Value,
+    AllowanceFile, AllowanceWidth, AlterationFile, ClosureFile, Cut, DartFile, DartShape, GarmentFile, LineFile,
+    Located, OpenFile, PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, SizeFile, StationFile,
+    TestEntry, TestFile, Value,
 };
 
 /// A garment file that YAML cannot hold, and why.
