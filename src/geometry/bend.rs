@@ -24,7 +24,7 @@ impl Path {
     pub fn crossings(&self, normal: Vec2, offset: f64) -> Vec<f64> {
         let mut found = Vec::new();
         for (segment, start) in self.segments.iter().zip(self.joints()) {
-            let c = segment.to_cubic();
+            let c = cubic(segment);
             let [a, b, c, d] = [c.p0, c.p1, c.p2, c.p3].map(|p| normal.x * p.x + normal.y * p.y - offset);
             let roots = solve_cubic(a, 3.0 * (b - a), 3.0 * (a - 2.0 * b + c), d - a + 3.0 * (b - c));
             let inside = roots.into_iter().filter(|t| (0.0..=1.0).contains(t));
@@ -56,8 +56,16 @@ impl Path {
     }
 }
 
+/// A segment as a cubic with the same parameter. (kurbo's own of a line stands still at both ends.)
+fn cubic(segment: &PathSeg) -> kurbo::CubicBez {
+    match segment {
+        PathSeg::Line(l) => kurbo::CubicBez::new(l.p0, l.p0.lerp(l.p1, 1.0 / 3.0), l.p0.lerp(l.p1, 2.0 / 3.0), l.p1),
+        other => other.to_cubic(),
+    }
+}
+
 fn shifted_segment(segment: &PathSeg, [from, to]: [Shift; 2]) -> PathSeg {
-    let mut c = segment.to_cubic();
+    let mut c = cubic(segment);
     let speed = |t: f64| c.deriv().eval(t).to_vec2().hypot();
     let v = |x: Vec2| KVec::new(x.x, x.y);
     let (first, last) = (from.slope * (speed(0.0) / 3.0), to.slope * (speed(1.0) / 3.0));
@@ -87,6 +95,16 @@ mod tests {
         for (s, angle) in at.iter().zip([30.0f64, 150.0]) {
             assert_relative_eq!(*s, 0.1 * angle.to_radians(), epsilon = 1e-8);
         }
+    }
+
+    #[test]
+    fn a_slanted_line_is_crossed_and_bent_evenly() {
+        let line = Path::line(Vec2::zeros(), Vec2::new(0.3, 0.4));
+        assert_relative_eq!(line.crossings(Vec2::y(), 0.1)[0], 0.125, epsilon = 1e-9);
+        let slope = Vec2::new(0.0, 0.1);
+        let (leaning, _) = line.shifted(&[], &[], |s| Shift { by: slope * s, slope });
+        assert_eq!(leaning.beziers().count(), 1);
+        assert_relative_eq!(leaning.point(leaning.length() / 2.0), Vec2::new(0.15, 0.225), epsilon = 1e-9);
     }
 
     #[test]
