@@ -81,6 +81,8 @@ fn skirt() -> Result<Garment, Box<dyn Error>> {
         units: None,
         body: Some(text("woman_92")),
         body_measures: Vec::new(),
+        alter: Vec::new(),
+        sizes: Vec::new(),
         body_units: None,
         allowance: None,
         fabrics: Vec::new(),

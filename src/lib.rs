@@ -44,6 +44,7 @@
 //! | L11 | solver: linearised least squares with one factor |
 //! | L12–L17 | Figures 4 to 10 and Table 3 |
 
+pub mod alter;
 pub mod batch;
 pub mod cli;
 pub mod contact;

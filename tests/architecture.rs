@@ -5,13 +5,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules in building order, each with those it may use. The ground floor first, the edge last.
-const FLOORS: [(&str, &[&str]); 23] = [
+const FLOORS: [(&str, &[&str]); 24] = [
     ("geometry", &[]),
     ("input", &[]),
     ("parallel", &[]),
     ("linear", &["geometry", "parallel"]),
     ("fabric", &["input"]),
     ("pattern", &["geometry", "input", "fabric"]),
+    ("alter", &["geometry", "input", "pattern"]),
     ("mannequin", &["geometry", "input"]),
     ("contact", &["geometry", "parallel"]),
     ("mesh", &["geometry", "pattern"]),
@@ -25,7 +26,7 @@ const FLOORS: [(&str, &[&str]); 23] = [
     ("picture", &["geometry", "mesh", "verify"]),
     ("cutting", &["geometry", "input", "pattern"]),
     ("digitize", &["geometry", "fabric", "pattern"]),
-    ("io", &["geometry", "input", "pattern", "mannequin", "mesh", "verify", "cutting", "digitize"]),
+    ("io", &["geometry", "input", "pattern", "alter", "mannequin", "mesh", "verify", "cutting", "digitize"]),
     (
         "pipeline",
         &[

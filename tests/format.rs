@@ -17,7 +17,7 @@ const STRANGER: &str = "qqzzxx";
 
 /// A kind of mapping: its heading in the reference, its name in the schema, and files with `§` in the place of what
 /// stands in it.
-const MAPPINGS: [(&str, Option<&str>, &[&str]); 9] = [
+const MAPPINGS: [(&str, Option<&str>, &[&str]); 10] = [
     ("## The file", None, &["garment: 1\npieces: {}\n§\n"]),
     ("## A piece", Some("piece"), &["garment: 1\npieces:\n  a:\n    §\n"]),
     ("## A place", None, &["garment: 1\npieces:\n  a:\n    place: {§}\n"]),
@@ -40,6 +40,19 @@ const MAPPINGS: [(&str, Option<&str>, &[&str]); 9] = [
         "## An opening of a seam",
         Some("opening"),
         &["garment: 1\npieces: {}\nseams: {s: {sew: a.b, to: a.c, open: {from: a, length: 1, §}}}\n"],
+    ),
+    (
+        "## An alteration",
+        Some("alteration"),
+        &[
+            "garment: 1\npieces: {}\nalter: [{take_in: side, at: {0: 1}, §}]\n",
+            "garment: 1\npieces: {}\nalter: [{let_out: side, at: {0: 1}, §}]\n",
+            "garment: 1\npieces: {}\nalter: [{lengthen: a, at: 1, by: 1, §}]\n",
+            "garment: 1\npieces: {}\nalter: [{shorten: a, at: 1, by: 1, §}]\n",
+            "garment: 1\npieces: {}\nalter: [{pivot: a.d, to: a.e@1, §}]\n",
+            "garment: 1\npieces: {}\nalter: [{spread: a.e@1, to: a.f@1, by: 1, §}]\n",
+            "garment: 1\npieces: {}\nalter: [{move: a.e, at: {0: [1, 1]}, §}]\n",
+        ],
     ),
     (
         "## A test",
@@ -106,6 +119,7 @@ fn every_example_is_read() {
             let bare = |template: &&str| {
                 let text = match heading {
                     "## A test" => "garment: 1\npieces: {}\ntests: [{§}]\n".to_owned(),
+                    "## An alteration" => "garment: 1\npieces: {}\nalter: [{§}]\n".to_owned(),
                     "## A place" if key == "turn" => template.replace("{§}", "{at: [0, 0, 0], §}"),
                     _ => without(template, &key),
                 };

@@ -77,6 +77,10 @@ pub(super) enum Command {
     Batch(BatchArgs),
     /// Draw jobs for a batch from garments, bodies and fabrics
     Sample(SampleArgs),
+    /// Alter a garment's pattern and write it as a new garment file
+    #[command(after_help = "Exit codes: 0 written; 1 written, but 'toile check' refuses it, which is said: a seam no \
+                            longer matches; 2 the input is wrong or an alteration cannot be done, nothing is written.")]
+    Alter(AlterArgs),
     /// Write patterns for cutting: pieces with seam allowance, notches, grain and labels
     #[command(
         subcommand,
@@ -211,6 +215,9 @@ pub(super) struct OverrideArgs {
     /// Pressures on the skin in kPa from which cloth is tight, and above which it is too tight [default: 2.3,4.7]
     #[arg(long, value_name = "TIGHT,TOO_TIGHT", value_parser = bands)]
     pressure_bands: Option<Bands>,
+    /// A size of the garment, as its file names it under `sizes`
+    #[arg(long, value_name = "NAME")]
+    size: Option<String>,
 }
 
 impl OverrideArgs {
@@ -222,6 +229,7 @@ impl OverrideArgs {
             body: self.body.clone(),
             body_unit: self.body_units.map(UnitArg::unit),
             bands: self.pressure_bands.clone(),
+            size: self.size.clone(),
         }
     }
 
@@ -327,6 +335,9 @@ pub(super) struct CheckArgs {
     /// Distance of neighbouring particles in millimetres that the garment will be made with [default: 10]
     #[arg(long, value_name = "MM", value_parser = spacing, allow_negative_numbers = true, conflicts_with = "mesh")]
     pub(super) spacing: Option<f64>,
+    /// A size of the garment, as its file names it under `sizes` [default: the garment as drawn, and every size]
+    #[arg(long, value_name = "NAME", conflicts_with = "mesh")]
+    pub(super) size: Option<String>,
     /// Draw how the garment starts: glued, round the body's axes, each opening's rim in a colour of its own
     #[arg(long, value_name = "FILE.png", conflicts_with = "mesh")]
     pub(super) picture: Option<PathBuf>,
@@ -342,6 +353,20 @@ pub(super) struct CheckArgs {
     /// Unit of the body's OBJ file, where it is another
     #[arg(long, value_enum, value_name = "UNIT", requires = "body")]
     pub(super) body_units: Option<UnitArg>,
+}
+
+/// Arguments of `alter`.
+#[derive(Debug, clap::Args)]
+pub(super) struct AlterArgs {
+    /// The garment file; its own alterations are carried out first
+    #[arg(value_name = "GARMENT.yaml")]
+    pub(super) garment: PathBuf,
+    /// A file with `alter:` and a list of alterations
+    #[arg(value_name = "CHANGES.yaml")]
+    pub(super) changes: PathBuf,
+    /// The garment file to write
+    #[arg(short, long, value_name = "NEW.yaml")]
+    pub(super) output: PathBuf,
 }
 
 /// Arguments of `flatten`.
@@ -561,6 +586,9 @@ pub(super) struct ExportArgs {
     /// The garment file
     #[arg(value_name = "GARMENT.yaml")]
     pub(super) garment: PathBuf,
+    /// A size of the garment, as its file names it under `sizes`
+    #[arg(long, value_name = "NAME")]
+    pub(super) size: Option<String>,
     /// The file to write [default: out/NAME/cutting.svg, .pdf or .dxf]
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,

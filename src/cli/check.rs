@@ -11,8 +11,9 @@ use super::exit::{CliError, Exit};
 use super::make::borrowed;
 use crate::geometry::MM;
 use crate::io::files::{check_writable, write_all};
+use crate::io::garment::Refused;
 use crate::pattern::{Diagnostic, Garment, Give, SeamWalk, Severity, openings, outfit, walk};
-use crate::pipeline::{self, PipelineError, StartPicture, StartShown, start_picture};
+use crate::pipeline::{self, Checked, PipelineError, StartPicture, StartShown, start_picture};
 use crate::report::aligned;
 
 /// `toile check`
@@ -31,7 +32,7 @@ fn check_garments(args: &CheckArgs, console: &Console) -> Result<Exit, CliError>
     }
     let mut worn = Vec::new();
     for file in &args.garments {
-        let checked = match pipeline::check(file, args.spacing) {
+        let checked = match check_sizes(file, args) {
             Err(refused) if console.json() => {
                 let rows = refused.diagnostics.iter().map(DiagnosticRow::new).collect();
                 let refusal = Findings { file: file.display().to_string(), ok: false, diagnostics: rows };
@@ -53,6 +54,15 @@ fn check_garments(args: &CheckArgs, console: &Console) -> Result<Exit, CliError>
     }
     console.results(&summary, || summary.text())?;
     Ok(Exit::Done)
+}
+
+/// The garment as asked for. Where no size is, every size is checked as well.
+fn check_sizes(file: &Path, args: &CheckArgs) -> Result<Checked, Refused> {
+    let checked = pipeline::check_size(file, args.size.as_deref(), args.spacing)?;
+    for size in &checked.loaded.file.sizes {
+        pipeline::check_size(file, Some(&size.name.value), args.spacing)?;
+    }
+    Ok(checked)
 }
 
 /// Whether the picture can be written, which is better known first.

@@ -13,7 +13,7 @@ use crate::io::files::write_all;
 use crate::io::pdf_write::{Page, one_page, tiled, unprintable};
 use crate::io::svg_write::cutting_svg;
 use crate::pattern::{Drawing, drawings};
-use crate::pipeline::{Overrides, inputs, read};
+use crate::pipeline::{Overrides, inputs, read_size};
 use crate::report::aligned;
 
 /// Empty rim of a sheet that is one page, metres.
@@ -69,7 +69,7 @@ struct Job<'a> {
 
 impl<'a> Job<'a> {
     fn new(args: &'a ExportArgs, console: &Console) -> Result<Self, CliError> {
-        let loaded = read(&args.garment)?;
+        let loaded = read_size(&args.garment, args.size.as_deref())?;
         loaded.warnings.iter().for_each(|warning| console.note(&warning.to_string()));
         let drawn = drawings(&loaded.file, &loaded.garment);
         if args.allowance.is_none() && drawn.iter().any(lacks_allowance) {

@@ -10,7 +10,7 @@ use crate::io::files::{check_writable, write_all};
 use crate::picture::Turning;
 use crate::pipeline::{
     GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, Job, Overrides, PATTERN_SVG, PLACED_OBJ, PictureOptions, PipelineError,
-    Problem, REPORT_HTML, REPORT_JSON, ResultFile, Run, SEWN_OBJ, inputs, problems, read,
+    Problem, REPORT_HTML, REPORT_JSON, ResultFile, Run, SEWN_OBJ, inputs, problems, read_size,
 };
 use crate::report::{summary, table};
 
@@ -124,7 +124,7 @@ fn plan<'a>(args: &'a GarmentArgs, goal: Goal<'a>) -> Plan<'a> {
 pub(super) fn carry_out(plan: &Plan, console: &Console) -> Result<Exit, CliError> {
     let mut worn = Vec::new();
     for file in plan.garments {
-        worn.push((file.clone(), read(file)?));
+        worn.push((file.clone(), read_size(file, plan.overrides.size.as_deref())?));
     }
     let names: Vec<&str> = worn.iter().map(|(_, loaded)| loaded.garment.name.as_str()).collect();
     let folder = folder(plan.output, &names.join("+"));

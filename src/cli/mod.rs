@@ -3,6 +3,7 @@
 //! `args` holds what clap reads, unchecked; each command has a file that checks its arguments, runs the pipeline and
 //! says how it went. Results go to standard output, everything else to standard error.
 
+mod alter;
 mod args;
 mod batch;
 mod check;
@@ -93,6 +94,7 @@ fn run(args: &Args, itself: &[OsString], console: &Console) -> Result<Exit, CliE
         Command::Batch(batch) => batch::batch(batch, args.global.threads, itself, console),
         Command::Sample(args) => sample::sample(args, console),
         Command::Test(args) => test::test(args, console),
+        Command::Alter(args) => alter::alter(args, console),
         Command::Export(command) => export::export(command, console),
         Command::Fabric(command) => fabric::fabric(command, console),
         Command::Import(command) => import::import(command, console),

@@ -17,7 +17,7 @@ use crate::flatten::Options;
 use crate::io::files::{check_writable, write_all};
 use crate::io::garment::Loaded;
 use crate::pattern::{FabricUse, Garment, Piece};
-use crate::pipeline::{AT_REST, Job, Overrides, PipelineError, Run, inputs, read};
+use crate::pipeline::{AT_REST, Job, Overrides, PipelineError, Run, inputs, read, read_size};
 use crate::report::{Report, Restless, Verdict, aligned, restless, verdicts, verdicts_by_test};
 
 /// How a garment did.
@@ -144,13 +144,17 @@ fn read_by(file: &Path, overrides: &Overrides) -> Vec<PathBuf> {
     read(file).map_or_else(|_| vec![file.to_owned()], |loaded| inputs(file, &loaded.garment, overrides))
 }
 
-/// Makes one garment as its file says, and once more in every fabric that it has bounds for.
+/// Makes one garment as its file says, in every size, and once more in every fabric that it has bounds for.
 fn outcomes(file: &Path, overrides: &Overrides) -> Vec<Outcome> {
     let begin = Instant::now();
-    let loaded = match read(file) {
+    let size = overrides.size.as_deref();
+    let loaded = match read_size(file, size) {
         Ok(loaded) => loaded,
-        Err(refused) => return vec![Outcome::new(file, None, begin, Err(refused))],
+        Err(refused) => return vec![Outcome::new(file, size, None, begin, Err(refused))],
     };
+    let sizes = loaded.file.sizes.iter().map(|s| s.name.value.clone());
+    let of_size = |size| outcomes(file, &Overrides { size: Some(size), ..overrides.clone() });
+    let of_sizes: Vec<Outcome> = sizes.flat_map(of_size).collect();
     let mut runs = vec![(None, overrides.clone())];
     if overrides.fabric.is_none() {
         let in_fabric =
@@ -159,9 +163,9 @@ fn outcomes(file: &Path, overrides: &Overrides) -> Vec<Outcome> {
     }
     let run = |(fabric, overrides): &(Option<String>, Overrides)| {
         let begin = Instant::now();
-        Outcome::new(file, fabric.as_deref(), begin, made(file, loaded.clone(), overrides))
+        Outcome::new(file, size, fabric.as_deref(), begin, made(file, loaded.clone(), overrides))
     };
-    runs.iter().map(run).collect()
+    runs.iter().map(run).chain(of_sizes).collect()
 }
 
 /// Fabrics that a garment has bounds for, each once; not those that its pieces are cut from anyway.
@@ -220,8 +224,17 @@ fn made(file: &Path, loaded: Loaded, overrides: &Overrides) -> Result<Made, Pipe
 
 impl Outcome {
     /// How the garment of `file` did since `begin`, if need be in another fabric than its own.
-    fn new(file: &Path, fabric: Option<&str>, begin: Instant, made: Result<Made, PipelineError>) -> Self {
-        let name = |text: String| fabric.map_or_else(|| text.clone(), |fabric| format!("{text} in {fabric}"));
+    fn new(
+        file: &Path,
+        size: Option<&str>,
+        fabric: Option<&str>,
+        begin: Instant,
+        made: Result<Made, PipelineError>,
+    ) -> Self {
+        let name = |text: String| {
+            let sized = size.map_or_else(|| text.clone(), |size| format!("{text} (size {size})"));
+            fabric.map_or_else(|| sized.clone(), |fabric| format!("{sized} in {fabric}"))
+        };
         let (bounds, by_test, restless, error, exit) = match made {
             Ok(made) => {
                 let exit = if made.ok() { Exit::Done } else { Exit::OutOfBounds };
@@ -329,7 +342,7 @@ mod tests {
         let mut made = Made::new(&loaded.expect("a garment").garment, &report);
         // Nobody wears a report without openings.
         made.bounds.retain(|v| v.bound != "openings not worn");
-        Outcome::new(Path::new("skirt.yaml"), None, Instant::now(), Ok(made))
+        Outcome::new(Path::new("skirt.yaml"), None, None, Instant::now(), Ok(made))
     }
 
     #[test]

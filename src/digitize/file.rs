@@ -84,6 +84,8 @@ pub fn garment_file(title: &str, traced: &[Traced]) -> Digitized {
         notes.extend(own.and_then(|piece| guessed(piece, guess)));
     }
     let file = GarmentFile {
+        alter: Vec::new(),
+        sizes: Vec::new(),
         version: at_no_place(1),
         name: Some(at_no_place(title.to_owned())),
         about: Vec::new(),

@@ -1,4 +1,4 @@
-//! A smooth path in the plane. The only user of kurbo.
+//! A smooth path in the plane. With `bend` the only user of kurbo.
 
 use kurbo::{
     BezPath, ParamCurve, ParamCurveArclen, ParamCurveDeriv, ParamCurveNearest, PathSeg, Point, Shape, Vec2 as KVec,
@@ -7,7 +7,7 @@ use kurbo::{
 use super::{Cubic, Vec2};
 
 /// Arc lengths are exact to this many metres (a nanometre): far below any drafting tolerance, still cheap.
-const LENGTH_ACCURACY: f64 = 1e-9;
+pub(super) const LENGTH_ACCURACY: f64 = 1e-9;
 
 /// Nearest points are found to this many metres, so that a point of the path is known as one to [`LENGTH_ACCURACY`].
 const NEAREST_ACCURACY: f64 = 1e-12;
@@ -15,7 +15,7 @@ const NEAREST_ACCURACY: f64 = 1e-12;
 /// A connected run of lines and Bézier curves, metres, measured by arc length from its start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
-    segments: Vec<PathSeg>,
+    pub(super) segments: Vec<PathSeg>,
     /// Arc length at the start of each segment, and the total at the end.
     at: Vec<f64>,
 }
@@ -165,7 +165,7 @@ fn arc_length(segment: &PathSeg) -> f64 {
 }
 
 impl Path {
-    fn from_segments(segments: Vec<PathSeg>) -> Self {
+    pub(super) fn from_segments(segments: Vec<PathSeg>) -> Self {
         let mut at = vec![0.0];
         let mut sum = 0.0;
         for segment in &segments {

@@ -1,6 +1,7 @@
 //! The ground floor: vectors, curves, rows of points, triangle meshes, disjoint sets, exact predicates.
 
 mod arc;
+mod bend;
 mod bisect;
 mod curve;
 mod extent;
@@ -14,6 +15,7 @@ mod sets;
 mod trimesh;
 
 pub(crate) use arc::bulged;
+pub use bend::Shift;
 pub(crate) use bisect::{bisect, try_bisect};
 pub use curve::{Path, PathError, Station, parse_transform};
 pub(crate) use extent::{box_of, box_or_origin, range_of};

@@ -44,6 +44,12 @@ pub(super) fn first_crossing(rings: &[Vec<Edge>]) -> Option<(Vec2, [(usize, usiz
     None
 }
 
+/// First crossing of a closed row of paths with itself: the point, and the numbers of both paths.
+pub(crate) fn loop_crossing(paths: &[Path]) -> Option<(Vec2, [usize; 2])> {
+    let edge = |path: &Path| Edge { name: String::new(), path: path.clone(), against: false };
+    first_crossing(&[paths.iter().map(edge).collect()]).map(|(at, [one, other])| (at, [one.1, other.1]))
+}
+
 fn neighbours(i: usize, j: usize, count: usize) -> bool {
     let apart = i.abs_diff(j);
     apart <= 1 || apart == count - 1

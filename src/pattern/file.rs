@@ -1,5 +1,6 @@
 //! A garment file as it was written: every statement kept, also those no stage uses, each with its place in the text.
 
+use super::alteration_file::{AlterationFile, SizeFile};
 use super::diagnostic::Located;
 use crate::input::LengthUnit;
 
@@ -150,6 +151,10 @@ pub struct GarmentFile {
     pub free: Vec<Located<String>>,
     /// Regression bounds.
     pub tests: Vec<Located<TestEntry>>,
+    /// Alterations, carried out in order when the garment is read.
+    pub alter: Vec<Located<AlterationFile>>,
+    /// Sizes, each with its alterations.
+    pub sizes: Vec<SizeFile>,
 }
 
 impl GarmentFile {

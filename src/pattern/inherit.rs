@@ -59,8 +59,27 @@ fn fill(piece: &mut PieceFile, base: &PieceFile) {
     or_list(&mut piece.lines, &base.lines);
 }
 
+/// Writes into a piece without an outline of its own the shape that it has by `like`, so that it can be altered alone.
+pub(crate) fn own_shape(file: &mut GarmentFile, index: usize) {
+    if file.pieces[index].outline.is_some() {
+        return;
+    }
+    let by_name = file.pieces.iter().map(|p| (p.name.value.as_str(), p)).collect();
+    // A broken chain of `like` is reported when the pieces are completed.
+    if let Some(whole) = complete(&file.pieces[index], &by_name, &mut Findings::default()) {
+        let own = &mut file.pieces[index];
+        own.outline = whole.outline;
+        own.grain = whole.grain;
+        own.notches = whole.notches;
+        own.darts = whole.darts;
+        own.pleats = whole.pleats;
+        own.holes = whole.holes;
+        own.lines = whole.lines;
+    }
+}
+
 /// The error for a piece that is not there.
-pub(super) fn unknown_piece<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> Problem {
+pub(crate) fn unknown_piece<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> Problem {
     let mut names: Vec<&str> = names.into_iter().collect();
     names.sort_unstable();
     Problem::UnknownPiece {

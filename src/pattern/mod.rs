@@ -18,6 +18,7 @@
 
 mod allowance;
 mod along;
+mod alteration_file;
 mod bound;
 mod chain;
 mod closure;
@@ -52,6 +53,8 @@ mod tube;
 mod walk;
 
 pub use along::{Along, along};
+pub use alteration_file::{AlterationFile, SizeFile, StationFile};
+pub(crate) use crossing::loop_crossing;
 pub(crate) use dart::FISH_EYE_EDGES;
 pub use diagnostic::{Diagnostic, Findings, Located, Severity, Spot};
 pub use drawing::{Allowance, Dart, Drawing, DrawnEdge, DrawnFold, DrawnNotch, drawings};
@@ -62,12 +65,13 @@ pub use file::{
     OpenFile, OutlineFile, PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, Side, TestEntry, TestFile,
     Unit, Value,
 };
+pub(crate) use inherit::{own_shape, unknown_piece};
 pub use notch_kind::{DOUBLE_MARKS, NotchKind};
 pub use outfit::{belongs_to, outfit};
 pub use place_word::{PlaceMeaning, PlaceWord, TrunkLevel, place_words, words_of};
 pub use problem::{ChainDoubt, Problem};
-pub(crate) use reference::LARGEST;
 pub use reference::parse_quantity;
+pub(crate) use reference::{LARGEST, Words};
 pub(crate) use region::{Region, SLACK};
 pub use rim::{Opening, openings};
 pub(crate) use seam::DEFAULT_TOLERANCE;

@@ -98,6 +98,30 @@ pub enum Problem {
     #[error("place of '{piece}': '{place}' names no body part")]
     PlaceNowhere { piece: String, place: String, known: Box<str> },
 
+    // Alterations.
+    #[error("dart '{name}' not found; {known}")]
+    UnknownDart { name: String, nearest: Option<String>, known: String },
+    #[error("size '{name}' not found{}", did_you_mean(.nearest))]
+    UnknownSize { name: String, nearest: Option<String>, known: String },
+    #[error("'{0}' is altered edge by edge: write piece.edge, without a side or a range")]
+    AlterPart(String),
+    #[error("'{0}' names no point of an edge; write piece.edge@50 % or piece.edge@120 mm")]
+    AlterPoint(String),
+    #[error("{edge} is {length:.1} mm long; {at:.1} mm is not on it")]
+    AlterOff { edge: String, at: f64, length: f64 },
+    #[error("'{what}' of two pieces, '{one}' and '{other}'; it stays within one")]
+    AlterTwoPieces { what: &'static str, one: String, other: String },
+    #[error("{what} must be {expected}, not {found:.2} mm")]
+    AlterAmount { what: String, expected: String, found: f64 },
+    #[error("piece '{piece}' cannot be altered: {reason}")]
+    AlterShape { piece: String, reason: String },
+    #[error("with this alteration the outline of '{piece}' crosses itself near {near}, between {edges}")]
+    AlterCrosses { piece: String, near: String, edges: String },
+    #[error("seam '{seam}' sews more than one edge to one; take in its edges one by one (take_in: piece.edge)")]
+    AlterSeam { seam: String },
+    #[error("'{piece}.{edge}' lies on the fold: {reason}")]
+    AlterFold { piece: String, edge: String, reason: String },
+
     // The mesh, in its own words.
     #[error("{0}")]
     Mesh(String),
@@ -341,7 +365,11 @@ impl Problem {
             Self::UnknownFabric { known, .. } => {
                 format!("the fabrics are: {known}; any other, a shipped one too, is named under 'fabrics' first")
             }
-            Self::UnknownEdge { nearest: Some(n), .. } => format!("did you mean '{n}'?"),
+            Self::UnknownEdge { nearest: Some(n), .. } | Self::UnknownDart { nearest: Some(n), .. } => {
+                format!("did you mean '{n}'?")
+            }
+            Self::UnknownSize { known, .. } => format!("the sizes are: {known}"),
+            Self::AlterCrosses { .. } => "make the amount smaller, or spread it over more of the edge".to_owned(),
             Self::NeitherSewnNorFree(_) => "sew them in a seam or list them under 'free'".to_owned(),
             Self::FreeOnFold { .. } => "leave it out of 'free', or fold another edge".to_owned(),
             Self::Size { unit: "mm", small: true, .. } => {

@@ -48,12 +48,12 @@ pub(super) fn piece_of(text: &str) -> &str {
 
 /// The words of a reference: `front.L.side`, `tab.2.end`, or a piece alone, `band`, `front.L`.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Words {
-    pub(super) piece: String,
-    pub(super) edge: Option<String>,
-    pub(super) side: Option<Side>,
+pub(crate) struct Words {
+    pub(crate) piece: String,
+    pub(crate) edge: Option<String>,
+    pub(crate) side: Option<Side>,
     /// Number of the copy of a piece that is cut several times, from 1.
-    pub(super) copy: Option<usize>,
+    pub(crate) copy: Option<usize>,
 }
 
 impl Words {
@@ -61,7 +61,7 @@ impl Words {
     ///
     /// # Errors
     /// [`Problem::BadReference`] where a word is empty, and [`Problem::TwoSides`].
-    pub(super) fn parse(text: &str) -> Result<Self, Problem> {
+    pub(crate) fn parse(text: &str) -> Result<Self, Problem> {
         let mut words: Vec<&str> = text.trim().split('.').collect();
         if words.iter().any(|w| w.is_empty()) {
             return Err(Problem::BadReference(text.to_owned()));

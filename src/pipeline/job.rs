@@ -33,6 +33,8 @@ pub struct Overrides {
     pub body_unit: Option<LengthUnit>,
     /// Limits of the bands of pressure.
     pub bands: Option<Bands>,
+    /// A size of the garment.
+    pub size: Option<String>,
 }
 
 /// A garment, its fabrics, the body it is made for and its mesh.
@@ -65,6 +67,14 @@ pub struct Job {
 /// Every mistake of the file.
 pub fn read(path: &Path) -> Result<Loaded, PipelineError> {
     Ok(garment::read(path)?)
+}
+
+/// Reads and checks a size of a garment file.
+///
+/// # Errors
+/// Every mistake of the file.
+pub fn read_size(path: &Path, size: Option<&str>) -> Result<Loaded, PipelineError> {
+    Ok(garment::read_size(path, size)?)
 }
 
 impl Job {

@@ -35,7 +35,15 @@ pub struct Checked {
 /// # Errors
 /// Every mistake of the file.
 pub fn check(file: &Path, spacing: Option<f64>) -> Result<Checked, Refused> {
-    check_examined(file, garment::examine(file), spacing)
+    check_size(file, None, spacing)
+}
+
+/// As [`check`], of a size of the garment.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_size(file: &Path, size: Option<&str>, spacing: Option<f64>) -> Result<Checked, Refused> {
+    check_examined(file, garment::examine_size(file, size), spacing)
 }
 
 /// As [`check`], from the text of a file that need not exist: its name is the garment's, and other files are looked for

@@ -38,9 +38,9 @@ pub use across::Across;
 pub use arrays::Arrays;
 pub use caught::Caught;
 pub use error::PipelineError;
-pub use job::{Job, Overrides, inputs, read};
+pub use job::{Job, Overrides, inputs, read, read_size};
 pub use judged::{Judged, judge};
-pub use material::{Checked, check, check_text, read_text};
+pub use material::{Checked, check, check_size, check_text, read_text};
 pub use pattern_picture::pattern_picture;
 pub use problems::{Problem, problems};
 pub use results::{

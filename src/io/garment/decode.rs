@@ -1,5 +1,6 @@
 //! From the YAML tree to a [`GarmentFile`].
 
+use super::decode_alter::{alterations, sizes};
 use super::decode_piece::piece;
 use super::decode_seam::seam;
 use super::decode_test::test;
@@ -66,6 +67,8 @@ pub(super) fn garment(tree: &Located<Value>, findings: &mut Findings) -> Option<
         tests: fields
             .take("tests")
             .map_or_else(Vec::new, |v| items(v).iter().filter_map(|t| test(t, findings)).collect()),
+        alter: fields.take("alter").map_or_else(Vec::new, |v| alterations(v, findings)),
+        sizes: fields.take("sizes").map_or_else(Vec::new, |v| sizes(v, findings)),
     };
     fields.finish(findings);
     Some(file)

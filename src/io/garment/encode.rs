@@ -5,8 +5,9 @@ use serde_yaml::{Mapping, Value as Yaml};
 use super::decode_test::LEVEL;
 use super::layout;
 use crate::pattern::{
-    AllowanceFile, AllowanceWidth, ClosureFile, Cut, DartFile, DartShape, GarmentFile, LineFile, Located, OpenFile,
-    PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, TestEntry, TestFile, Value,
+    AllowanceFile, AllowanceWidth, AlterationFile, ClosureFile, Cut, DartFile, DartShape, GarmentFile, LineFile,
+    Located, OpenFile, PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, SizeFile, StationFile,
+    TestEntry, TestFile, Value,
 };
 
 /// A garment file that YAML cannot hold, and why.
@@ -72,6 +73,8 @@ fn document(file: &GarmentFile) -> Yaml {
     map.list("closures", &file.closures, closure);
     map.list("free", &file.free, |f| f.value.as_str().into());
     map.list("tests", &file.tests, |t| test_entry(&t.value));
+    map.list("alter", &file.alter, |a| alteration(&a.value));
+    map.filled("sizes", named(&file.sizes, |s| (&s.name, size(s))));
     map.into()
 }
 
@@ -327,6 +330,49 @@ fn closure(closure: &ClosureFile) -> Yaml {
     map.some("count", closure.count.as_ref().map(|c| c.value as u64));
     map.nodes(&closure.hardware);
     map.into()
+}
+
+fn size(size: &SizeFile) -> Yaml {
+    Yaml::Sequence(size.alter.iter().map(|a| alteration(&a.value)).collect())
+}
+
+fn alteration(of: &AlterationFile) -> Yaml {
+    let mut map = Map::default();
+    match of {
+        AlterationFile::Take { seam, at, out } => {
+            map.put(if *out { "let_out" } else { "take_in" }, seam.value.as_str());
+            map.put("at", stations(at, |amount| quantity(*amount)));
+        }
+        AlterationFile::Lengthen { pieces, at, by, over, across, shorter } => {
+            map.put(if *shorter { "shorten" } else { "lengthen" }, chain(pieces));
+            map.put("at", quantity(at.value));
+            map.put("by", quantity(by.value));
+            map.quantity("over", over);
+            map.some("along", across.as_ref().map(|a| if a.value { "x" } else { "y" }));
+        }
+        AlterationFile::Pivot { dart, to, share, name } => {
+            map.put("pivot", dart.value.as_str());
+            map.put("to", to.value.as_str());
+            map.quantity("share", share);
+            map.text("name", name);
+        }
+        AlterationFile::Spread { from, to, by, to_by } => {
+            map.put("spread", from.value.as_str());
+            map.put("to", to.value.as_str());
+            map.put("by", quantity(by.value));
+            map.quantity("to_by", to_by);
+        }
+        AlterationFile::Move { edge, at } => {
+            map.put("move", edge.value.as_str());
+            map.put("at", stations(at, |by| numbers(by)));
+        }
+    }
+    map.into()
+}
+
+fn stations<T>(at: &[StationFile<T>], amount: impl Fn(&T) -> Yaml) -> Yaml {
+    let entry = |(at, by): &StationFile<T>| (quantity(at.value), amount(&by.value));
+    Yaml::Mapping(at.iter().map(entry).collect())
 }
 
 fn test_entry(entry: &TestEntry) -> Yaml {

@@ -3,7 +3,9 @@
 //! [`read`] gives the checked [`Garment`] and the [`GarmentFile`], which holds everything the file says with the
 //! place where it says it; [`write()`] turns a [`GarmentFile`] back into YAML that reads as the same.
 
+mod change;
 mod decode;
+mod decode_alter;
 mod decode_piece;
 mod decode_seam;
 mod decode_test;
@@ -16,8 +18,10 @@ mod tree;
 use std::fmt;
 use std::path::Path;
 
+use crate::alter::altered;
 use crate::pattern::{self, Diagnostic, Findings, Garment, GarmentFile, Severity};
 
+pub use change::{Changed, EdgeChange, change};
 pub use encode::{EncodeError, seam_line, write, write_with_offers};
 
 /// JSON Schema (2020-12) of the format, for editors that complete and check as one types.
@@ -116,6 +120,14 @@ pub fn read(path: &Path) -> Result<Loaded, Refused> {
     examine(path).finish()
 }
 
+/// Reads and checks a size of a garment file. `None` is the garment as it is drawn and altered.
+///
+/// # Errors
+/// As [`read`], and where there is no such size.
+pub fn read_size(path: &Path, size: Option<&str>) -> Result<Loaded, Refused> {
+    examine_size(path, size).finish()
+}
+
 /// Reads and checks a garment from text; `name` is its short name, `shown` the file's name in messages.
 ///
 /// # Errors
@@ -126,10 +138,17 @@ pub fn read_text(name: &str, shown: &str, text: &str) -> Result<Loaded, Refused>
 
 /// Reads and checks a garment file, and leaves it open whether it can be used.
 pub fn examine(path: &Path) -> Examined {
-    let shown = path.display().to_string();
+    examine_size(path, None)
+}
+
+/// As [`examine`], of a size of the garment, whose name then ends with the size.
+pub fn examine_size(path: &Path, size: Option<&str>) -> Examined {
+    let said = size.map_or_else(String::new, |size| format!(" (size {size})"));
+    let shown = format!("{}{said}", path.display());
     let name = path.file_stem().map_or_else(|| shown.clone(), |s| s.to_string_lossy().into_owned());
+    let name = size.map_or_else(|| name.clone(), |size| format!("{name}-{size}"));
     match source::text(path) {
-        Ok(text) => examine_text(&name, &shown, &text),
+        Ok(text) => examined(&name, &shown, &text, size),
         Err(problem) => {
             let mut findings = Findings::new(&shown, "");
             findings.error(pattern::Spot::default(), problem);
@@ -140,8 +159,13 @@ pub fn examine(path: &Path) -> Examined {
 
 /// As [`examine`], from text; `name` is the garment's short name, `shown` the file's name in messages.
 pub fn examine_text(name: &str, shown: &str, text: &str) -> Examined {
+    examined(name, shown, text, None)
+}
+
+fn examined(name: &str, shown: &str, text: &str, size: Option<&str>) -> Examined {
     let mut findings = Findings::new(shown, text);
     let file = tree::parse(text, &mut findings).and_then(|tree| decode::garment(&tree, &mut findings));
+    let file = file.map(|file| altered(&file, size, &mut findings));
     let garment = file.as_ref().and_then(|file| pattern::expand(name, file, &mut findings));
     Examined { file, findings, garment, source: Source { shown: shown.to_owned(), text: text.to_owned() } }
 }

@@ -30,6 +30,8 @@ pub(super) fn garment(name: &str, spec: &Specification, body: Option<&str>) -> R
     let seams = table.seams();
     let at = Spot::default();
     Ok(GarmentFile {
+        alter: Vec::new(),
+        sizes: Vec::new(),
         version: Located::new(1, at),
         name: Some(here(name.replace('_', " "))),
         about: vec![(here("source".to_owned()), here(Value::Text("GarmentCode pattern specification".to_owned())))],
