@@ -43,7 +43,7 @@ fn the_page_works_in_a_browser() {
     pointing_links_both_views(&mut browser);
     the_garment_turns(&mut browser);
     let loaded = browser.value("performance.timing.loadEventEnd - performance.timing.navigationStart");
-    println!("ready after {} ms", loaded);
+    println!("ready after {loaded} ms");
     assert_eq!(browser.errors, Vec::<String>::new());
     // The page itself, and nothing else.
     assert_eq!(browser.requests.len(), 1, "{:?}", browser.requests);

@@ -47,7 +47,7 @@ pub fn map<T: Send>(count: usize, chunk: usize, item: impl Fn(usize) -> T + Sync
     if count <= chunk {
         return (0..count).map(item).collect();
     }
-    pass(|| (0..count).into_par_iter().with_min_len(chunk).map(|i| item(i)).collect())
+    pass(|| (0..count).into_par_iter().with_min_len(chunk).map(&item).collect())
 }
 
 /// Changes every item, given its number, in chunks of `chunk` items.
@@ -70,7 +70,7 @@ pub fn for_each_sum<T: Send, S: Send + Sum<S>>(
     if items.len() <= chunk {
         return part((0, items));
     }
-    let parts: Vec<S> = pass(|| items.par_chunks_mut(chunk).enumerate().map(|part_of| part(part_of)).collect());
+    let parts: Vec<S> = pass(|| items.par_chunks_mut(chunk).enumerate().map(&part).collect());
     parts.into_iter().sum()
 }
 
@@ -113,7 +113,7 @@ pub fn select<A: Send, B: Send>(
         return part((0, (first, second)));
     }
     let parts = || {
-        first.par_chunks_mut(chunk).zip(second.par_chunks_mut(chunk)).enumerate().map(|part_of| part(part_of)).collect()
+        first.par_chunks_mut(chunk).zip(second.par_chunks_mut(chunk)).enumerate().map(&part).collect()
     };
     let parts: Vec<Vec<u32>> = pass(parts);
     parts.concat()
@@ -138,7 +138,7 @@ fn chunks(count: usize, chunk: usize, part: impl Fn(usize) -> f64 + Sync) -> Vec
     if chunks <= 1 {
         return (0..chunks).map(part).collect();
     }
-    pass(|| (0..chunks).into_par_iter().map(|k| part(k)).collect())
+    pass(|| (0..chunks).into_par_iter().map(&part).collect())
 }
 
 #[cfg(test)]

@@ -117,10 +117,10 @@ impl Browser {
             Some("Network.requestWillBeSent") => self.requests.push(params["request"]["url"].to_string()),
             Some("Runtime.exceptionThrown") => self.errors.push(params["exceptionDetails"].to_string()),
             Some("Runtime.consoleAPICalled") if params["type"] == "error" => {
-                self.errors.push(params["args"].to_string())
+                self.errors.push(params["args"].to_string());
             }
             Some("Log.entryAdded") if params["entry"]["level"] == "error" => {
-                self.errors.push(params["entry"].to_string())
+                self.errors.push(params["entry"].to_string());
             }
             _ => {}
         }
