@@ -112,9 +112,7 @@ pub fn select<A: Send, B: Send>(
     if first.len() <= chunk {
         return part((0, (first, second)));
     }
-    let parts = || {
-        first.par_chunks_mut(chunk).zip(second.par_chunks_mut(chunk)).enumerate().map(&part).collect()
-    };
+    let parts = || first.par_chunks_mut(chunk).zip(second.par_chunks_mut(chunk)).enumerate().map(&part).collect();
     let parts: Vec<Vec<u32>> = pass(parts);
     parts.concat()
 }
