@@ -10,7 +10,7 @@ use toile::io::garment::write;
 use toile::io::garmentcode::{self, Wearer};
 use toile::io::svg_read::{SvgOptions, read_svg};
 use toile::pattern::GarmentFile;
-use toile::pipeline::{Color, Job, Overrides, PipelineError, Run, check_text, problems, read_text};
+use toile::pipeline::{Job, Overrides, PictureOptions, PipelineError, Run, check_text, problems, read_text};
 
 use crate::result::{Made, Result as Outcome};
 use crate::work::with_signals;
@@ -213,11 +213,11 @@ fn make(
     let job = Job::new(file, read_text(file, text)?, overrides)?;
     let mut run = Run::new(&job);
     if let Err(error) = run.flatten(&toile::flatten::Options::default(), tell) {
-        let files = run.state(Color::Piece).unwrap_or_default();
+        let files = run.state(&PictureOptions::default()).unwrap_or_default();
         return Err(Failed { error: Box::new(error), files });
     }
     let report = run.report();
-    let files = run.results(&report, Color::Piece)?;
+    let files = run.results(&report, &PictureOptions::default())?;
     let found = problems(&job, &report);
     Ok(Made {
         name: report.garment.clone(),
