@@ -41,6 +41,7 @@ fn overrides(
     let units = body.as_ref().and_then(library::Named::unit).or(body_units.map(str::to_owned));
     let body_unit = units.map(|unit| library::unit(&unit)).transpose().map_err(|why| errors::input(py, why))?;
     Ok(Overrides {
+        size: None,
         spacing: spacing.map(|mm| 1e-3 * mm),
         fabric: fabric.map(library::Named::name),
         body: body.map(library::Named::name),
