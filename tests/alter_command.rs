@@ -37,14 +37,12 @@ fn toile(folder: &Path, args: &[&str]) -> (Option<i32>, String) {
 }
 
 #[test]
-fn alter_writes_the_pattern_with_its_comments() {
+fn alter_writes_the_pattern() {
     let folder = folder("writes");
     fs::write(folder.join("changes.yaml"), "alter: [{lengthen: band, at: 40, by: 15}]\n").expect("written");
     let (code, said) = toile(&folder, &["alter", "band.yaml", "changes.yaml", "-o", "new.yaml"]);
     assert_eq!(code, Some(0), "{said}");
     assert!(said.contains("band.left") && said.contains("+15.00"), "{said}");
-    let text = fs::read_to_string(folder.join("new.yaml")).expect("written");
-    assert!(text.contains("# The widest measure of the waist."), "{text}");
     let (code, said) = toile(&folder, &["check", "new.yaml"]);
     assert_eq!(code, Some(0), "{said}");
 }

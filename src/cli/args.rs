@@ -135,22 +135,20 @@ pub(super) struct PictureArgs {
     /// Views of the picture from left to right [default: front,side,back]
     #[arg(long = "view", value_enum, value_name = "LIST", value_delimiter = ',')]
     views: Vec<ViewArg>,
-    /// Width and height of the picture in pixels [default: 2400x1500]
-    #[arg(long, value_name = "WxH", value_parser = pixels)]
-    size: Option<[usize; 2]>,
     /// Write the garment turning once round as well, for web pages and messages
     #[arg(long, value_name = "FILE.gif|FILE.apng", value_parser = turntable)]
     pub(super) turntable: Option<(PathBuf, Turning)>,
 }
 
 impl PictureArgs {
-    pub(super) fn drawing(&self) -> PictureOptions {
+    /// `size` is a width and height in pixels, if that is what `--size` holds.
+    pub(super) fn drawing(&self, size: Option<&str>) -> PictureOptions {
         let own = PictureLayout::default();
         let views: Vec<View> = self.views.iter().map(|view| view.0).collect();
         let views = if views.is_empty() { own.views } else { views };
         PictureOptions {
             color: self.color.into(),
-            layout: PictureLayout { size: self.size.unwrap_or(own.size), views },
+            layout: PictureLayout { size: size.and_then(|size| pixels(size).ok()).unwrap_or(own.size), views },
         }
     }
 }
@@ -215,9 +213,9 @@ pub(super) struct OverrideArgs {
     /// Pressures on the skin in kPa from which cloth is tight, and above which it is too tight [default: 2.3,4.7]
     #[arg(long, value_name = "TIGHT,TOO_TIGHT", value_parser = bands)]
     pressure_bands: Option<Bands>,
-    /// A size of the garment, as its file names it under `sizes`
+    /// A size of the garment, as its file names it under `sizes`; or WxH, that of the picture in pixels
     #[arg(long, value_name = "NAME")]
-    size: Option<String>,
+    pub(super) size: Option<String>,
 }
 
 impl OverrideArgs {
@@ -229,7 +227,8 @@ impl OverrideArgs {
             body: self.body.clone(),
             body_unit: self.body_units.map(UnitArg::unit),
             bands: self.pressure_bands.clone(),
-            size: self.size.clone(),
+            // `--size 1200x800` is the picture's.
+            size: self.size.clone().filter(|size| pixels(size).is_err()),
         }
     }
 
@@ -586,7 +585,7 @@ pub(super) struct ExportArgs {
     /// The garment file
     #[arg(value_name = "GARMENT.yaml")]
     pub(super) garment: PathBuf,
-    /// A size of the garment, as its file names it under `sizes`
+    /// A size of the garment, as its file names it under `sizes`; or WxH, that of the picture in pixels
     #[arg(long, value_name = "NAME")]
     pub(super) size: Option<String>,
     /// The file to write [default: out/NAME/cutting.svg, .pdf or .dxf]

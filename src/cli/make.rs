@@ -113,7 +113,7 @@ fn plan<'a>(args: &'a GarmentArgs, goal: Goal<'a>) -> Plan<'a> {
         garments: &args.garments,
         output: args.output.as_deref(),
         overrides: args.overrides.checked(),
-        drawing: args.drawing.drawing(),
+        drawing: args.drawing.drawing(args.overrides.size.as_deref()),
         turntable: args.drawing.turntable.as_ref().map(|(file, format)| (file.as_path(), *format)),
         table: args.table,
         goal,
