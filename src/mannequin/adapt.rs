@@ -1,8 +1,9 @@
 //! A mannequin with the measures of a person.
 
 use super::measures::{Meaning, Measures};
-use super::spec::{MannequinSpec, UNIT};
+use super::spec::{ArmRow, LegRow, MannequinSpec, TorsoRow, UNIT};
 use super::{Mannequin, MannequinError, PartKind, Place, build, check_body};
+use crate::geometry::Vec3;
 
 /// Measures are met within this on the finished surface, mm.
 const WITHIN: f64 = 2.0;
@@ -79,31 +80,23 @@ impl MannequinSpec {
         }
     }
 
-    fn leg_row(&self, name: &str) -> Option<&super::LegRow> {
+    fn leg_row(&self, name: &str) -> Option<&LegRow> {
         self.leg.rows.iter().find(|r| r.name == name)
     }
 
-    fn arm_row(&self, name: &str) -> Option<&super::ArmRow> {
+    fn arm_row(&self, name: &str) -> Option<&ArmRow> {
         self.arm.rows.iter().find(|r| r.name == name)
     }
 
-    /// The ratio of a measure to the mannequin's own. 1 where it is not given.
+    /// The ratio of a measure to the mannequin's own, if it is given.
     fn ratio(&self, measures: &Measures, meaning: Meaning) -> Option<f64> {
         Some(measures.of(meaning)? / self.own(meaning)?)
     }
 
     fn set_trunk(&mut self, own: &Self, measures: &Measures, heights: &Heights) {
         let axilla = own.torso_row("axilla").map_or(f64::MAX, |r| r.y);
-        let trunk: Factors = own
-            .torso
-            .iter()
-            .filter(|r| r.y <= axilla)
-            .filter_map(|row| {
-                let meaning =
-                    measures.said().find(|said| matches!(said.1, Meaning::Trunk(name) if name == row.name))?.1;
-                Some((row.y, own.ratio(measures, meaning)?))
-            })
-            .collect();
+        let given = |row: &TorsoRow| Some((row.y, own.ratio(measures, Meaning::Trunk(&row.name))?));
+        let trunk: Factors = own.torso.iter().filter(|row| row.y <= axilla).filter_map(given).collect();
         let shoulders = own.shoulders(measures, &trunk);
         let neck = own.ratio(measures, Meaning::Trunk("neck base")).unwrap_or_else(|| at(&trunk, axilla).powf(NECK));
         let y = |name: &str| own.torso_row(name).map_or(axilla, |r| r.y);
@@ -122,34 +115,25 @@ impl MannequinSpec {
         self.ratio(measures, Meaning::Across).unwrap_or_else(|| at(trunk, axilla).powf(SHOULDERS))
     }
 
+    /// The ratio of the girth of a row of the trunk to that of another mannequin.
+    fn girth_over(&self, other: &Self, row: &str) -> f64 {
+        other.torso_row(row).zip(self.torso_row(row)).map_or(1.0, |(old, new)| new.girth / old.girth)
+    }
+
     fn set_legs(&mut self, own: &Self, measures: &Measures, heights: &Heights) {
-        let of =
-            |row: &str| own.torso_row(row).zip(self.torso_row(row)).map_or(1.0, |(old, new)| new.girth / old.girth);
-        let (hip, crotch) = (of("hip"), of("crotch"));
-        let last = own.leg.rows.len() - 1;
+        let (hip, crotch) = (self.girth_over(own, "hip"), self.girth_over(own, "crotch"));
         // By itself the thigh changes as the hip, and what is below it as a joint.
-        let plain = |k: usize| {
-            hip.powf(if k == 0 {
-                1.0
-            } else if k == 1 {
-                0.5 * (1.0 + JOINT)
-            } else {
-                JOINT
-            })
+        let plain = |k: usize| match k {
+            0 => hip,
+            1 => hip.powf(0.5 * (1.0 + JOINT)),
+            _ => hip.powf(JOINT),
         };
-        let given: Factors = own
-            .leg
-            .rows
-            .iter()
-            .enumerate()
-            .filter_map(|(k, row)| {
-                let meaning = measures.said().find(|said| matches!(said.1, Meaning::Leg(name) if name == row.name))?.1;
-                Some((k as f64, own.ratio(measures, meaning)? / plain(k)))
-            })
-            .collect();
+        let girth =
+            |(k, row): (usize, &LegRow)| Some((k as f64, own.ratio(measures, Meaning::Leg(&row.name))? / plain(k)));
+        let girths: Factors = own.leg.rows.iter().enumerate().filter_map(girth).collect();
         self.leg.crotch_x = own.leg.crotch_x * crotch;
         for (k, (row, old)) in self.leg.rows.iter_mut().zip(&own.leg.rows).enumerate() {
-            row.girth = old.girth * plain(k) * at(&given, k.min(last) as f64);
+            row.girth = old.girth * plain(k) * at(&girths, k as f64);
             row.x = old.x * plain(k);
             row.y = heights.at(old.y);
             row.z = old.z * heights.factor;
@@ -157,21 +141,15 @@ impl MannequinSpec {
     }
 
     fn set_arms(&mut self, own: &Self, measures: &Measures, heights: &Heights) {
-        let of =
-            |row: &str| own.torso_row(row).zip(self.torso_row(row)).map_or(1.0, |(old, new)| new.girth / old.girth);
-        let (bust, shoulders) = (of("axilla"), of("shoulder"));
+        let (bust, shoulders) = (self.girth_over(own, "axilla"), self.girth_over(own, "shoulder"));
         let plain = |k: usize| bust.powf(if k == 0 { UPPER_ARM } else { JOINT });
-        let factors = |wanted: &dyn Fn(Meaning) -> Option<&'static str>, plain: &dyn Fn(usize) -> f64| -> Factors {
-            let of = |(k, row): (usize, &super::ArmRow)| {
-                let meaning = measures.said().find(|said| wanted(said.1).is_some_and(|name| name == row.name))?.1;
-                Some((k as f64, own.ratio(measures, meaning)? / plain(k)))
-            };
-            own.arm.rows.iter().enumerate().filter_map(of).collect()
+        let girth =
+            |(k, row): (usize, &ArmRow)| Some((k as f64, own.ratio(measures, Meaning::Arm(&row.name))? / plain(k)));
+        let along = |(k, row): (usize, &ArmRow)| {
+            Some((k as f64, own.ratio(measures, Meaning::Along(&row.name))? / heights.factor))
         };
-        let girth = |m: Meaning| if let Meaning::Arm(name) = m { Some(name) } else { None };
-        let along = |m: Meaning| if let Meaning::Along(name) = m { Some(name) } else { None };
-        let girths = factors(&girth, &plain);
-        let lengths = factors(&along, &|_| heights.factor);
+        let girths: Factors = own.arm.rows.iter().enumerate().filter_map(girth).collect();
+        let lengths: Factors = own.arm.rows.iter().enumerate().filter_map(along).collect();
         for (k, (row, old)) in self.arm.rows.iter_mut().zip(&own.arm.rows).enumerate() {
             row.girth = old.girth * plain(k) * at(&girths, k as f64);
             row.at = old.at * heights.factor * at(&lengths, k as f64);
@@ -318,12 +296,12 @@ fn met(adapted: &mut MannequinSpec, measures: &Measures) -> Result<Mannequin, Ma
 }
 
 /// The first measure that is not met.
-fn missed<'a>(mannequin: &Mannequin, measures: &'a Measures) -> Option<(&'a str, Meaning, f64)> {
+fn missed<'a>(mannequin: &Mannequin, measures: &'a Measures) -> Option<(&'a str, Meaning<'static>, f64)> {
     errors(mannequin, measures).into_iter().find(|error| error.2.abs() > WITHIN)
 }
 
 /// Girths of a mannequin less those that are wanted, mm.
-fn errors<'a>(mannequin: &Mannequin, measures: &'a Measures) -> Vec<(&'a str, Meaning, f64)> {
+fn errors<'a>(mannequin: &Mannequin, measures: &'a Measures) -> Vec<(&'a str, Meaning<'static>, f64)> {
     let girth = |(name, meaning, wanted)| {
         let (kinds, row): (&[PartKind], &str) = match meaning {
             Meaning::Trunk(row) => (&[PartKind::Torso, PartKind::Neck], row),
@@ -340,7 +318,7 @@ fn errors<'a>(mannequin: &Mannequin, measures: &'a Measures) -> Vec<(&'a str, Me
             .sections
             .iter()
             .min_by(|a, b| (a.center - mark).norm_squared().total_cmp(&(b.center - mark).norm_squared()))?;
-        let axis = if part.kind.is_leg() { crate::geometry::Vec3::y() } else { section.axis };
+        let axis = if part.kind.is_leg() { Vec3::y() } else { section.axis };
         let girth = mannequin.tape(mark, axis, |center| (center - mark).norm() < section.half_depth)?;
         Some((name, meaning, girth / UNIT - wanted))
     };

@@ -1,6 +1,6 @@
 //! Where limbs join a body: what hangs down, apart from the rest, from where it joins that.
 
-use crate::geometry::{DisjointSets, Edge, TriMesh};
+use crate::geometry::{DisjointSets, Edge, TriMesh, Vec3, range_of};
 
 /// What hangs down by less is no limb: fingers, a chin, a seat, metres.
 pub(crate) const LIMB: f64 = 0.15;
@@ -24,6 +24,25 @@ impl Junction {
     pub(crate) fn levels(&self) -> Vec<f64> {
         let count = ((self.top - self.bottom) / LEVEL) as usize;
         (0..=count).map(|k| self.top - k as f64 * LEVEL).collect()
+    }
+
+    /// Cuts the limb (0) and what it hangs beside (1) at each of `levels`, which go down: gives the number of the level,
+    /// that of the part, and the ends of every segment.
+    pub(crate) fn cut(&self, mesh: &TriMesh, levels: &[f64], mut give: impl FnMut(usize, usize, [Vec3; 2])) {
+        for (t, corners) in mesh.triangles.iter().enumerate() {
+            let part = match corners.map(|v| self.side[v as usize]) {
+                [Side::Limb, Side::Limb, Side::Limb] => 0,
+                [Side::Beside, Side::Beside, Side::Beside] => 1,
+                _ => continue,
+            };
+            let [low, high] = range_of(mesh.corners(t).iter().map(|p| p.y));
+            let first = levels.partition_point(|y| *y > high);
+            for (level, y) in levels.iter().enumerate().skip(first).take_while(|(_, y)| **y >= low) {
+                if let Some(ends) = mesh.cut(t, *y) {
+                    give(level, part, ends);
+                }
+            }
+        }
     }
 }
 

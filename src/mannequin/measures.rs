@@ -7,23 +7,23 @@ use crate::input::{LengthUnit, nearest, yaml};
 
 /// What a measure says of a mannequin's sections.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Meaning {
+pub(super) enum Meaning<'a> {
     /// Girth of a row of trunk and neck.
-    Trunk(&'static str),
+    Trunk(&'a str),
     /// Girth of a row of the leg.
-    Leg(&'static str),
+    Leg(&'a str),
     /// Girth of a row of the arm.
-    Arm(&'static str),
+    Arm(&'a str),
     /// From the floor to the top of the head.
     Height,
     /// From the floor up to a row of the trunk.
-    Above(&'static str),
+    Above(&'a str),
     /// From the waist down to a row of trunk or leg.
-    BelowWaist(&'static str),
+    BelowWaist(&'a str),
     /// From the waist up to a row of the trunk.
-    AboveWaist(&'static str),
+    AboveWaist(&'a str),
     /// From the acromion along the arm to a row.
-    Along(&'static str),
+    Along(&'a str),
     /// From one acromion straight to the other.
     Across,
     /// None: a mannequin of sections does not have it.
@@ -31,7 +31,7 @@ pub(super) enum Meaning {
 }
 
 /// A measure by its name and other names, and what it says.
-type Known = (&'static str, &'static [&'static str], Meaning);
+type Known = (&'static str, &'static [&'static str], Meaning<'static>);
 
 use Meaning::{Above, AboveWaist, Across, Along, Arm, BelowWaist, Height, Leg, Trunk, Unused};
 
@@ -105,7 +105,7 @@ struct Given {
     name: &'static str,
     /// The name that was used.
     written: String,
-    meaning: Meaning,
+    meaning: Meaning<'static>,
     mm: f64,
 }
 
@@ -190,7 +190,7 @@ impl Measures {
     }
 
     /// Every measure as it was called, what it says, and its value.
-    pub(super) fn said(&self) -> impl Iterator<Item = (&str, Meaning, f64)> {
+    pub(super) fn said(&self) -> impl Iterator<Item = (&str, Meaning<'static>, f64)> {
         self.given.iter().map(|given| (given.written.as_str(), given.meaning, given.mm))
     }
 

@@ -76,18 +76,7 @@ type Line = [[f64; 2]; 2];
 fn cuts(mesh: &TriMesh, junction: &Junction, way: f64) -> Vec<[Vec<Line>; 2]> {
     let levels = junction.levels();
     let mut out = vec![[Vec::new(), Vec::new()]; levels.len()];
-    for (t, corners) in mesh.triangles.iter().enumerate() {
-        let which = match corners.map(|v| junction.side[v as usize]) {
-            [Side::Limb, Side::Limb, Side::Limb] => 0,
-            [Side::Beside, Side::Beside, Side::Beside] => 1,
-            _ => continue,
-        };
-        let [low, high] = range_of(mesh.corners(t).iter().map(|p| p.y));
-        let first = levels.partition_point(|y| *y > high);
-        for (k, y) in levels.iter().enumerate().skip(first).take_while(|(_, y)| **y >= low) {
-            out[k][which].extend(mesh.cut(t, *y).map(|ends| ends.map(|p| [way * p.x, p.z])));
-        }
-    }
+    junction.cut(mesh, &levels, |level, of, ends| out[level][of].push(ends.map(|p| [way * p.x, p.z])));
     out
 }
 

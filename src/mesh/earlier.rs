@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use nalgebra::SVector;
 
-use super::transfer::{between, shares};
+use super::transfer::{Place, at, between, shares};
 use super::{ClothMesh, EdgeParticles, PieceMesh};
 use crate::geometry::{Locator, Vec2, Vec3, box_of};
 
@@ -32,9 +32,6 @@ pub struct EarlierPiece {
     /// Its edges by name, with the particles along them.
     pub edges: Vec<(String, Vec<u32>)>,
 }
-
-/// Where a particle lies: the corners of a triangle, and their weights.
-type Place = ([u32; 3], [f64; 3]);
 
 /// Cloth goes on straight beyond an edge that has been moved outward by no more than this, in earlier spacings.
 const BEYOND: f64 = 1.0;
@@ -63,7 +60,6 @@ impl EarlierMesh {
     pub fn carry(&self, x: &[Vec3], mesh: &ClothMesh, edges: Edges) -> Vec<Option<Vec3>> {
         let mut out = vec![None; mesh.flat.len()];
         let sewn: HashSet<u32> = mesh.seams.iter().flat_map(|seam| seam.pairs.iter().flatten().copied()).collect();
-        let at = |(corners, weights): Place| corners.iter().zip(weights).map(|(&n, w)| x[n as usize] * w).sum();
         for (piece, earlier) in mesh.pieces.iter().zip(self.pieces_of(mesh)) {
             let Some(earlier) = earlier else { continue };
             let locator = Locator::new(&self.flat, &self.triangles[earlier.triangles.clone()], self.spacing);
@@ -77,20 +73,16 @@ impl EarlierMesh {
             for edge in piece.edges.iter().filter(|edge| !loose.iter().any(|l| std::ptr::eq(*l, *edge))) {
                 let Some((_, chain)) = earlier.edges.iter().find(|(name, _)| *name == edge.name) else { continue };
                 for (&n, place) in edge.particles.iter().zip(self.places_on(chain, edge, &loose, mesh)) {
-                    rim.push((mesh.flat[n as usize], self.flat_at(place) - mesh.flat[n as usize]));
-                    out[n as usize] = Some(at(place));
+                    rim.push((mesh.flat[n as usize], at(&place, &self.flat) - mesh.flat[n as usize]));
+                    out[n as usize] = Some(at(&place, x));
                 }
             }
             for n in piece.particles.clone() {
                 let flat = mesh.flat[n] + interpolated(&rim, mesh.flat[n]);
-                out[n].get_or_insert_with(|| at(locator.place(flat)));
+                out[n].get_or_insert_with(|| at(&locator.place(flat), x));
             }
         }
         out
-    }
-
-    fn flat_at(&self, (corners, weights): Place) -> Vec2 {
-        corners.iter().zip(weights).map(|(&n, w)| self.flat[n as usize] * w).sum()
     }
 
     /// Places of the particles of an `edge` on an earlier edge: at the same shares of the length, or at the same

@@ -1,5 +1,7 @@
 //! From one mesh of a garment to another, coarser or finer.
 
+use nalgebra::SVector;
+
 use super::ClothMesh;
 use crate::geometry::{Locator, Vec2, Vec3, shares_along};
 
@@ -8,8 +10,15 @@ use crate::geometry::{Locator, Vec2, Vec3, shares_along};
 /// A particle of an edge lies on that edge at the same share of its length, so that seams stay closed.
 #[derive(Clone, Debug)]
 pub struct Transfer {
-    /// Per particle the corners of the triangle and their weights, which sum to 1.
-    places: Vec<([u32; 3], [f64; 3])>,
+    places: Vec<Place>,
+}
+
+/// A place in a mesh: the corners of a triangle and their weights, which sum to 1.
+pub(super) type Place = ([u32; 3], [f64; 3]);
+
+/// The point of a place, from those of the particles.
+pub(super) fn at<const D: usize>((corners, weights): &Place, x: &[SVector<f64, D>]) -> SVector<f64, D> {
+    corners.iter().zip(weights).map(|(&n, &w)| x[n as usize] * w).sum()
 }
 
 impl Transfer {
@@ -35,10 +44,7 @@ impl Transfer {
 
     /// Positions of the particles of the one mesh from those of the other.
     pub fn apply(&self, x: &[Vec3]) -> Vec<Vec3> {
-        let place = |(corners, weights): &([u32; 3], [f64; 3])| {
-            corners.iter().zip(weights).map(|(&n, &w)| x[n as usize] * w).sum()
-        };
-        self.places.iter().map(place).collect()
+        self.places.iter().map(|place| at(place, x)).collect()
     }
 }
 
@@ -48,7 +54,7 @@ pub(super) fn shares(flat: &[Vec2], chain: &[u32]) -> Vec<f64> {
 }
 
 /// The place `share` of the way along a chain whose particles are at `shares` of it.
-pub(super) fn between(chain: &[u32], shares: &[f64], share: f64) -> ([u32; 3], [f64; 3]) {
+pub(super) fn between(chain: &[u32], shares: &[f64], share: f64) -> Place {
     let k = shares.partition_point(|s| *s <= share).clamp(1, chain.len() - 1);
     let t = (share - shares[k - 1]) / (shares[k] - shares[k - 1]).max(f64::MIN_POSITIVE);
     ([chain[k - 1], chain[k], chain[k]], [1.0 - t, t, 0.0])

@@ -70,9 +70,14 @@ impl Earlier {
         Ok(Self { folder: folder.to_owned(), mesh, at })
     }
 
+    /// Where the earlier cloth has the particles of `mesh`: [`EarlierMesh::carry`].
+    fn carried(&self, mesh: &ClothMesh, edges: Edges) -> Vec<Option<Vec3>> {
+        self.mesh.carry(&self.at, mesh, edges)
+    }
+
     /// What of `mesh`, whose particles have come to lie at `at`, was carried over, and how far it has moved since.
     pub(super) fn told(&self, mesh: &ClothMesh, at: &[Vec3], anew: bool) -> ContinuedFrom {
-        let carried = self.mesh.carry(&self.at, mesh, Edges::Loose);
+        let carried = self.carried(mesh, Edges::Loose);
         let is_new = |piece: &&PieceMesh| carried[piece.particles.clone()].iter().all(Option::is_none);
         let moved: Vec<f64> = at.iter().zip(&carried).filter_map(|(p, q)| q.map(|q| (p - q).norm() * MM)).collect();
         ContinuedFrom {
@@ -125,7 +130,7 @@ impl Job {
         let stitching = Stitching::new(&self.mesh);
         // What has been changed alike on both sides of its seams first.
         for edges in [Edges::Loose, Edges::Shares] {
-            let carried = earlier.mesh.carry(&earlier.at, &self.mesh, edges);
+            let carried = earlier.carried(&self.mesh, edges);
             let Some(mut at) = carried.into_iter().collect::<Option<Vec<Vec3>>>() else { break };
             come_out(&self.collider, &mut at);
             let gaps = gaps(&self.mesh, &at);
@@ -141,13 +146,12 @@ impl Job {
     /// do at the start of a garment made from nothing.
     fn sewn_in(&self, earlier: &Earlier, progress: &mut dyn FnMut(f64)) -> Option<Closed> {
         let mesh = &self.mesh;
-        let carried = earlier.mesh.carry(&earlier.at, mesh, Edges::Shares);
-        let mut at = if carried.iter().all(Option::is_some) { Vec::new() } else { self.started(mesh)? };
-        if at.is_empty() {
-            at = carried.into_iter().flatten().collect();
-        } else {
-            bring_along(mesh, &carried, &mut at);
-        }
+        let carried = earlier.carried(mesh, Edges::Shares);
+        let whole: Option<Vec<Vec3>> = carried.iter().copied().collect();
+        let mut at = match whole {
+            Some(at) => at,
+            None => bring_along(mesh, &carried, self.started(mesh)?),
+        };
         come_out(&self.collider, &mut at);
         self.sew_from(mesh, at, progress).ok().filter(|closed| is_whole(mesh, &closed.sewn))
     }
@@ -155,8 +159,8 @@ impl Job {
 
 /// Moves the particles at `at` to where those that are `carried` lie. Pieces that are sewn to them come along, each as
 /// its sewn edges do, and then what is sewn to these.
-fn bring_along(mesh: &ClothMesh, carried: &[Option<Vec3>], at: &mut [Vec3]) {
-    let mut ways: Vec<Option<Vec3>> = carried.iter().zip(&*at).map(|(to, from)| to.map(|to| to - from)).collect();
+fn bring_along(mesh: &ClothMesh, carried: &[Option<Vec3>], mut at: Vec<Vec3>) -> Vec<Vec3> {
+    let mut ways: Vec<Option<Vec3>> = carried.iter().zip(&at).map(|(to, from)| to.map(|to| to - from)).collect();
     loop {
         let mut moved = Vec::new();
         for piece in mesh.pieces.iter().filter(|piece| ways[piece.particles.clone()].iter().any(Option::is_none)) {
@@ -175,6 +179,7 @@ fn bring_along(mesh: &ClothMesh, carried: &[Option<Vec3>], at: &mut [Vec3]) {
         moved.into_iter().for_each(|(n, way)| ways[n] = Some(way));
     }
     at.iter_mut().zip(ways).for_each(|(p, way)| *p += way.unwrap_or_default());
+    at
 }
 
 /// For every seam the gaps of its pairs, metres.

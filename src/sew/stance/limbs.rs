@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::contact::Skin;
-use crate::geometry::{TriMesh, Vec3, range_of};
+use crate::geometry::{TriMesh, Vec3};
 use crate::mannequin::{BodyPart, Junction, Mannequin, PartKind, Side};
 
 /// What is nearer to each other than this from back to front, metres, has to have room sideways; what is further from
@@ -70,20 +70,7 @@ fn gap(limb: &Outline, beside: &Outline, way: f64) -> Option<f64> {
 /// What the limb, and what it hangs beside, are at each of `levels`.
 fn outlines(mesh: &TriMesh, junction: &Junction, levels: &[f64]) -> Vec<[Outline; 2]> {
     let mut out = vec![[Outline::new(), Outline::new()]; levels.len()];
-    for (t, corners) in mesh.triangles.iter().enumerate() {
-        let which = match corners.map(|v| junction.side[v as usize]) {
-            [Side::Limb, Side::Limb, Side::Limb] => 0,
-            [Side::Beside, Side::Beside, Side::Beside] => 1,
-            _ => continue,
-        };
-        let [low, high] = range_of(mesh.corners(t).iter().map(|p| p.y));
-        let first = levels.partition_point(|y| *y > high);
-        for (k, y) in levels.iter().enumerate().skip(first).take_while(|(_, y)| **y >= low) {
-            if let Some(cut) = mesh.cut(t, *y) {
-                add(&mut out[k][which], cut);
-            }
-        }
-    }
+    junction.cut(mesh, levels, |level, of, ends| add(&mut out[level][of], ends));
     out
 }
 
