@@ -12,7 +12,7 @@ const TIMES: f64 = 4.0;
 /// Cuts nearer to each other than this are one, metres.
 const SAME: f64 = 1e-9;
 
-/// What is to be done.
+/// A piece that is made longer or shorter, and by how much.
 pub(super) struct Zone<'f> {
     pub(super) at: &'f Located<Quantity>,
     pub(super) by: &'f Located<Quantity>,

@@ -14,8 +14,8 @@ use crate::pattern::{AlterationFile, Findings, GarmentFile, Located, Problem, Sp
 /// A mistake of an alteration and its place in the file.
 type Fault = (Spot, Problem);
 
-/// The file with its alterations carried out, those of `alter` first and then those of the size. What cannot be done
-/// is reported, and the file then given back as far as it got. A size has no sizes.
+/// The file with its alterations carried out, those of `alter` first and then those of the size. The first
+/// that cannot be done is reported, and the file has those before it. A size has no sizes.
 pub fn altered(file: &GarmentFile, size: Option<&str>, findings: &mut Findings) -> GarmentFile {
     let mut own = file.clone();
     let mut list = std::mem::take(&mut own.alter);

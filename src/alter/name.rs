@@ -1,4 +1,4 @@
-//! What alterations name: pieces, edges, points of edges, darts, sizes.
+//! Finding what alterations name: pieces, edges, points of edges, darts, sizes.
 
 use super::Fault;
 use super::sheet::{Mark, Sheet};

@@ -11,7 +11,7 @@ const SHOWN: usize = 10;
 pub struct Mistake {
     /// Number of the line, from 1.
     pub line: usize,
-    /// What is wrong with it.
+    /// The mistake.
     pub why: String,
 }
 
@@ -23,7 +23,7 @@ pub enum BatchError {
     Read {
         /// The list or folder.
         file: PathBuf,
-        /// What the system said.
+        /// The system's message.
         why: String,
     },
     /// Lines of the list are no jobs.
@@ -39,7 +39,7 @@ pub enum BatchError {
     Empty {
         /// The list or folder.
         file: PathBuf,
-        /// What it lacks.
+        /// The reason.
         why: &'static str,
     },
     /// More samples are asked for than there are.
@@ -67,7 +67,7 @@ pub enum BatchError {
     Store {
         /// File or folder.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         why: String,
     },
     /// The program that makes one garment cannot be started.
@@ -75,7 +75,7 @@ pub enum BatchError {
     Start {
         /// The program.
         program: String,
-        /// What the system said.
+        /// The system's message.
         source: io::Error,
     },
     /// The memory limit cannot be set.

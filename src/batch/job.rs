@@ -36,6 +36,9 @@ pub struct Job {
     /// Mesh spacing, millimetres.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spacing: Option<f64>,
+    /// Size of the garment.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub size: Option<String>,
     /// Pressures in kPa from which cloth is tight, and above which it is too tight.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pressure_bands: Option<[f64; 2]>,
@@ -51,6 +54,7 @@ struct JobLine {
     body_units: Option<String>,
     fabric: Option<String>,
     spacing: Option<f64>,
+    size: Option<String>,
     pressure_bands: Option<[f64; 2]>,
 }
 
@@ -83,6 +87,7 @@ impl Job {
             body_units: None,
             fabric: None,
             spacing: None,
+            size: None,
             pressure_bands: None,
         }
     }
@@ -98,6 +103,7 @@ impl Job {
         give("body-units", self.body_units.clone());
         give("fabric", self.fabric.clone());
         give("spacing", self.spacing.map(|mm| mm.to_string()));
+        give("size", self.size.clone());
         give("pressure-bands", self.pressure_bands.map(|[tight, too_tight]| format!("{tight},{too_tight}")));
         options
     }
@@ -139,7 +145,7 @@ pub fn read_jobs(list: &Path, defaults: &Job) -> Result<Vec<Job>, BatchError> {
 /// `mark`.
 ///
 /// # Errors
-/// What is wrong with it.
+/// The mistake, in words.
 pub fn parse_job(text: &str, folder: &Path, defaults: &Job, mark: &str) -> Result<Job, String> {
     let said: JobLine = serde_json::from_str(text).map_err(|e| plain(&e))?;
     let garment = match said.garment {
@@ -164,6 +170,7 @@ pub fn parse_job(text: &str, folder: &Path, defaults: &Job, mark: &str) -> Resul
         body: said.body.map(|body| at(body, mannequin::library())).or_else(|| defaults.body.clone()),
         fabric: said.fabric.map(|fabric| at(fabric, fabric::library())).or_else(|| defaults.fabric.clone()),
         spacing: said.spacing.or(defaults.spacing),
+        size: said.size.or_else(|| defaults.size.clone()),
         pressure_bands: said.pressure_bands.or(defaults.pressure_bands),
     };
     checked(job)

@@ -21,7 +21,7 @@ const LARGEST_TEXT: u64 = 16 << 20;
 /// A garment names a fabric, the fabric a curve. Files that name one another in a circle end here.
 const DEEPEST: usize = 4;
 
-/// What a job is made from: the names and contents of its garment files and of all that they name, its body and
+/// The inputs of a job: the names and contents of its garment files and of all that they name, its body and
 /// fabric, its options, and toile's version. Folders are left out, so that a job keeps its key when it is moved.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Key(String);

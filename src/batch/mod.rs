@@ -105,8 +105,8 @@ pub struct Summary {
 /// jobs under way are ended and left for the next time.
 ///
 /// # Errors
-/// [`BatchError`]: a store that cannot be written, a program that cannot be started, or a stop. What was done until
-/// then is kept.
+/// [`BatchError`]: a store that cannot be written, a program that cannot be started, or a stop. Results until then
+/// are kept.
 pub fn run(
     jobs: &[Job],
     store: &Store,

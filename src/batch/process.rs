@@ -24,7 +24,7 @@ const LOOK: Duration = Duration::from_millis(10);
 const MESSAGE: usize = 2000;
 /// Bytes at the end of a log in which the error is looked for.
 const LOG_END: usize = 64 << 10;
-/// What a Rust program says before it ends because it gets no memory.
+/// The message with which a Rust program ends that gets no memory.
 const NO_MEMORY: &str = "memory allocation of";
 /// A mebibyte, the unit of memory limits.
 const MIB: u64 = 1 << 20;
@@ -119,7 +119,7 @@ pub(super) fn make(
     Ok(record)
 }
 
-/// Starts the process. What it says goes into the log.
+/// Starts the process. Its output goes into the log.
 fn start(job: &Job, folder: &Path, store: &Store, plan: &Plan) -> Result<Child, BatchError> {
     let Worker { program, threads } = &plan.worker;
     let log = File::create(folder.join(LOG)).map_err(|e| store.unwritable(e))?;

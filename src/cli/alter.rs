@@ -11,7 +11,7 @@ use crate::io::garment::{Changed, change};
 use crate::pipeline::PipelineError;
 use crate::report::aligned;
 
-/// What was written. Lengths are mm.
+/// The file that was written. Lengths are mm.
 #[derive(Serialize)]
 struct Written {
     file: String,

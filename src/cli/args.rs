@@ -2,18 +2,17 @@
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
-use std::time::Duration;
 
-use clap::builder::PossibleValue;
 use clap::{Parser, Subcommand, ValueEnum};
 
+use super::batch_args::{BatchArgs, SampleArgs};
+use super::picture_args::PictureArgs;
 use crate::batch::Job;
 use crate::flatten::Mode;
 use crate::geometry::Vec3;
 use crate::input::LengthUnit;
 use crate::pattern::{WIDEST_ALLOWANCE, parse_quantity};
-use crate::picture::{PictureLayout, Turning, View};
-use crate::pipeline::{Color, DARTS, Overrides, PictureOptions};
+use crate::pipeline::{Color, DARTS, Overrides};
 use crate::report::Bands;
 
 /// Sew flat patterns onto a mannequin, drape them in a measured fabric and lay them flat again.
@@ -126,75 +125,6 @@ pub(super) struct GarmentArgs {
     pub(super) overrides: OverrideArgs,
 }
 
-/// The picture.
-#[derive(Debug, clap::Args)]
-pub(super) struct PictureArgs {
-    /// Colours of the picture
-    #[arg(long, value_enum, default_value_t)]
-    color: ColorArg,
-    /// Views of the picture from left to right [default: front,side,back]
-    #[arg(long = "view", value_enum, value_name = "LIST", value_delimiter = ',')]
-    views: Vec<ViewArg>,
-    /// Write the garment turning once round as well, for web pages and messages
-    #[arg(long, value_name = "FILE.gif|FILE.apng", value_parser = turntable)]
-    pub(super) turntable: Option<(PathBuf, Turning)>,
-}
-
-impl PictureArgs {
-    /// `size` is a width and height in pixels, if that is what `--size` holds.
-    pub(super) fn drawing(&self, size: Option<&str>) -> PictureOptions {
-        let own = PictureLayout::default();
-        let views: Vec<View> = self.views.iter().map(|view| view.0).collect();
-        let views = if views.is_empty() { own.views } else { views };
-        PictureOptions {
-            color: self.color.into(),
-            layout: PictureLayout { size: size.and_then(|size| pixels(size).ok()).unwrap_or(own.size), views },
-        }
-    }
-}
-
-/// A side of the garment.
-#[derive(Clone, Copy, Debug)]
-struct ViewArg(View);
-
-impl ValueEnum for ViewArg {
-    fn value_variants<'a>() -> &'a [Self] {
-        const ALL: [ViewArg; 5] =
-            [ViewArg(View::Front), ViewArg(View::Side), ViewArg(View::Left), ViewArg(View::Back), ViewArg(View::Right)];
-        &ALL
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        Some(PossibleValue::new(match self.0 {
-            View::Front => "front",
-            View::Side => "side",
-            View::Left => "left",
-            View::Back => "back",
-            View::Right => "right",
-        }))
-    }
-}
-
-/// Width and height in pixels.
-fn pixels(text: &str) -> Result<[usize; 2], String> {
-    let sides = text.split_once(['x', 'X']).and_then(|(w, h)| Some([w.trim().parse().ok()?, h.trim().parse().ok()?]));
-    let ([least_w, least_h], [most_w, most_h]) = (PictureLayout::SMALLEST, PictureLayout::LARGEST);
-    sides.filter(|[w, h]| (least_w..=most_w).contains(w) && (least_h..=most_h).contains(h)).ok_or_else(|| {
-        format!("a size from {least_w}x{least_h} to {most_w}x{most_h} pixels is expected, such as 2400x1500")
-    })
-}
-
-/// A file and its format, told by its ending.
-fn turntable(text: &str) -> Result<(PathBuf, Turning), String> {
-    let path = PathBuf::from(text);
-    let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
-    match ending.as_str() {
-        "gif" => Ok((path, Turning::Gif)),
-        "apng" | "png" => Ok((path, Turning::Apng)),
-        _ => Err("a file that ends in .gif or .apng is expected".into()),
-    }
-}
-
 /// Spacing, fabric and body.
 #[derive(Debug, clap::Args)]
 pub(super) struct OverrideArgs {
@@ -213,7 +143,8 @@ pub(super) struct OverrideArgs {
     /// Pressures on the skin in kPa from which cloth is tight, and above which it is too tight [default: 2.3,4.7]
     #[arg(long, value_name = "TIGHT,TOO_TIGHT", value_parser = bands)]
     pressure_bands: Option<Bands>,
-    /// A size of the garment, as its file names it under `sizes`; or WxH, that of the picture in pixels
+    /// A size of the garment, as its file names it under `sizes`; or, where a picture is written, its width and height
+    /// in pixels, such as 2400x1500
     #[arg(long, value_name = "NAME")]
     pub(super) size: Option<String>,
 }
@@ -227,8 +158,7 @@ impl OverrideArgs {
             body: self.body.clone(),
             body_unit: self.body_units.map(UnitArg::unit),
             bands: self.pressure_bands.clone(),
-            // `--size 1200x800` is the picture's.
-            size: self.size.clone().filter(|size| pixels(size).is_err()),
+            size: self.size.clone(),
         }
     }
 
@@ -239,6 +169,7 @@ impl OverrideArgs {
             body_units: self.body_units.map(|units| units.unit().symbol().to_owned()),
             fabric: self.fabric.clone(),
             spacing: self.spacing.map(in_millimetres),
+            size: self.size.clone(),
             pressure_bands: self.pressure_bands.as_ref().map(|bands| [bands.tight, bands.too_tight]),
             ..Job::options()
         }
@@ -257,7 +188,7 @@ fn millimetres(text: &str) -> Option<f64> {
 }
 
 /// In metres.
-fn spacing(text: &str) -> Result<f64, String> {
+pub(super) fn spacing(text: &str) -> Result<f64, String> {
     let positive = millimetres(text).filter(|mm| *mm > 0.0);
     positive
         .map(|mm| 1e-3 * mm)
@@ -423,100 +354,6 @@ pub(super) struct FlattenArgs {
     pub(super) overrides: OverrideArgs,
 }
 
-/// Arguments of `batch`.
-#[derive(Debug, clap::Args)]
-pub(super) struct BatchArgs {
-    /// A list of jobs, or a folder whose garments are made
-    #[arg(value_name = "JOBS.jsonl|FOLDER")]
-    pub(super) jobs: PathBuf,
-    /// Folder for the results, which may have some already
-    #[arg(short, long, value_name = "STORE")]
-    pub(super) output: PathBuf,
-    /// Jobs that run side by side, each with the --threads given, or else one [default: all processors]
-    #[arg(short = 'j', long = "jobs", value_name = "N")]
-    pub(super) side_by_side: Option<NonZeroUsize>,
-    /// Longest time of a job, such as 90, 90s, 10m or 2h; 'none' sets no limit
-    #[arg(long, value_name = "TIME", default_value = "1h", value_parser = time_limit)]
-    pub(super) time: TimeLimit,
-    /// Most memory of a job, such as 512M or 4G (not on Windows) [default: no limit]
-    #[arg(long, value_name = "SIZE", value_parser = mebibytes)]
-    pub(super) memory: Option<u64>,
-    /// Make jobs anew that failed before
-    #[arg(long)]
-    pub(super) retry: bool,
-    /// Make only every Nth job, beginning with the Kth, for arrays of a cluster; its index is index.K-of-N.jsonl
-    #[arg(long, value_name = "K/N", value_parser = part)]
-    pub(super) part: Option<Part>,
-    #[command(flatten)]
-    pub(super) overrides: OverrideArgs,
-}
-
-/// `--time`
-#[derive(Clone, Copy, Debug)]
-pub(super) struct TimeLimit(pub(super) Option<Duration>);
-
-/// `--part`
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Part {
-    /// From 1.
-    pub(super) number: usize,
-    pub(super) of: usize,
-}
-
-fn time_limit(text: &str) -> Result<TimeLimit, String> {
-    if text == "none" {
-        return Ok(TimeLimit(None));
-    }
-    let units = [("s", 1.0), ("m", 60.0), ("h", 3600.0), ("", 1.0)];
-    let parsed = units.iter().find_map(|(unit, seconds)| Some((text.strip_suffix(unit)?, seconds)));
-    let number = parsed.and_then(|(number, seconds)| Some(number.parse::<f64>().ok()? * seconds));
-    let limit = number.filter(|s| *s > 0.0).and_then(|s| Duration::try_from_secs_f64(s).ok());
-    limit.map(|limit| TimeLimit(Some(limit))).ok_or_else(|| "a time is expected, such as 90s, 10m, 2h or none".into())
-}
-
-fn mebibytes(text: &str) -> Result<u64, String> {
-    let units = [("M", 1), ("G", 1024)];
-    let parsed = units.iter().find_map(|(unit, mebibytes)| Some((text.strip_suffix(unit)?, mebibytes)));
-    let size = parsed.and_then(|(number, mebibytes)| number.parse::<u64>().ok()?.checked_mul(*mebibytes));
-    // What is larger in bytes than a number holds is no limit.
-    let some = size.filter(|mebibytes| (1..1 << 40).contains(mebibytes));
-    some.ok_or_else(|| "a size is expected, such as 512M or 4G".into())
-}
-
-fn part(text: &str) -> Result<Part, String> {
-    let numbers = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
-    match numbers {
-        Some((number, of)) if (1..=of).contains(&number) => Ok(Part { number, of }),
-        _ => Err("a part such as 3/100 is expected: the third of a hundred".into()),
-    }
-}
-
-/// Arguments of `sample`.
-#[derive(Debug, clap::Args)]
-pub(super) struct SampleArgs {
-    /// A garment file, or a folder of them
-    #[arg(value_name = "GARMENT.yaml|FOLDER")]
-    pub(super) garments: PathBuf,
-    /// Number of jobs
-    #[arg(short = 'n', long, value_name = "N")]
-    pub(super) count: NonZeroUsize,
-    /// The same seed draws the same jobs
-    #[arg(long, value_name = "S", default_value_t = 1)]
-    pub(super) seed: u64,
-    /// The list to write
-    #[arg(short, long, value_name = "JOBS.jsonl")]
-    pub(super) output: PathBuf,
-    /// Bodies to draw from [default: all mannequins of the library]
-    #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',')]
-    pub(super) bodies: Vec<String>,
-    /// Fabrics to draw from [default: all of the library]
-    #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',')]
-    pub(super) fabrics: Vec<String>,
-    /// Mesh spacing of every job in millimetres [default: what the batch takes]
-    #[arg(long, value_name = "MM", value_parser = spacing, allow_negative_numbers = true)]
-    pub(super) spacing: Option<f64>,
-}
-
 /// Arguments of `report`.
 #[derive(Debug, clap::Args)]
 pub(super) struct ReportArgs {
@@ -585,7 +422,7 @@ pub(super) struct ExportArgs {
     /// The garment file
     #[arg(value_name = "GARMENT.yaml")]
     pub(super) garment: PathBuf,
-    /// A size of the garment, as its file names it under `sizes`; or WxH, that of the picture in pixels
+    /// A size of the garment, as its file names it under `sizes`
     #[arg(long, value_name = "NAME")]
     pub(super) size: Option<String>,
     /// The file to write [default: out/NAME/cutting.svg, .pdf or .dxf]

@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::num::NonZeroUsize;
 
-use super::args::{BatchArgs, Part};
+use super::batch_args::{BatchArgs, Part};
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use crate::batch::{

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::args::{GarmentArgs, OnwardArgs};
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::picture_args::pixels;
 use crate::flatten;
 use crate::io::files::{check_writable, write_all};
 use crate::picture::Turning;
@@ -37,7 +38,7 @@ pub(super) enum Goal<'a> {
     Flat { from: Option<&'a Path>, options: flatten::Options },
 }
 
-/// What a run begins with.
+/// The state that a run begins with.
 enum Start<'a> {
     Nothing,
     /// A folder of results, of the garment as it may have been before a change.
@@ -109,11 +110,15 @@ pub(super) fn drape(args: &OnwardArgs, console: &Console) -> Result<Exit, CliErr
 }
 
 fn plan<'a>(args: &'a GarmentArgs, goal: Goal<'a>) -> Plan<'a> {
+    let mut overrides = args.overrides.checked();
+    // `--size 1200x800` is the picture's, other words are sizes of the garment.
+    let picture = overrides.size.as_deref().and_then(pixels);
+    overrides.size = overrides.size.filter(|_| picture.is_none());
     Plan {
         garments: &args.garments,
         output: args.output.as_deref(),
-        overrides: args.overrides.checked(),
-        drawing: args.drawing.drawing(args.overrides.size.as_deref()),
+        overrides,
+        drawing: args.drawing.drawing(picture),
         turntable: args.drawing.turntable.as_ref().map(|(file, format)| (file.as_path(), *format)),
         table: args.table,
         goal,

@@ -6,6 +6,7 @@
 mod alter;
 mod args;
 mod batch;
+mod batch_args;
 mod check;
 mod check_mesh;
 mod console;
@@ -17,6 +18,7 @@ mod import;
 mod junit;
 mod make;
 mod mannequin;
+mod picture_args;
 mod report;
 mod sample;
 mod specimen;

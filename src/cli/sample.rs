@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::args::{SampleArgs, in_millimetres};
+use super::args::in_millimetres;
+use super::batch_args::SampleArgs;
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use super::make::borrowed;

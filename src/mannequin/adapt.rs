@@ -286,7 +286,7 @@ fn met(adapted: &mut MannequinSpec, measures: &Measures) -> Result<Mannequin, Ma
         let mannequin = build(adapted)?;
         let errors = errors(&mannequin, measures);
         let worst = errors.iter().map(|error| error.2.abs()).fold(0.0, f64::max);
-        // What is so far off is another part under the same tape: no section makes up for it.
+        // A girth so far off has another part under the same tape. No section makes up for that.
         if worst <= AIM || worst > FAR || worst > 0.9 * best {
             return Ok(mannequin);
         }

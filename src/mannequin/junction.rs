@@ -26,8 +26,8 @@ impl Junction {
         (0..=count).map(|k| self.top - k as f64 * LEVEL).collect()
     }
 
-    /// Cuts the limb (0) and what it hangs beside (1) at each of `levels`, which go down: gives the number of the level,
-    /// that of the part, and the ends of every segment.
+    /// Cuts the limb (0) and what it hangs beside (1) at each of `levels`, which go down: gives the number of the
+    /// level, that of the part, and the ends of every segment.
     pub(crate) fn cut(&self, mesh: &TriMesh, levels: &[f64], mut give: impl FnMut(usize, usize, [Vec3; 2])) {
         for (t, corners) in mesh.triangles.iter().enumerate() {
             let part = match corners.map(|v| self.side[v as usize]) {

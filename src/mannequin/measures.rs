@@ -5,7 +5,7 @@ use serde_json::Value;
 use super::MannequinError;
 use crate::input::{LengthUnit, nearest, yaml};
 
-/// What a measure says of a mannequin's sections.
+/// The part of a mannequin's sections that a measure gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Meaning<'a> {
     /// Girth of a row of trunk and neck.
@@ -194,7 +194,7 @@ impl Measures {
         self.given.iter().map(|given| (given.written.as_str(), given.meaning, given.mm))
     }
 
-    /// What is given of this meaning, mm.
+    /// The measure of this meaning, if it is given, mm.
     pub(super) fn of(&self, wanted: Meaning) -> Option<f64> {
         self.said().find(|(_, meaning, _)| *meaning == wanted).map(|(_, _, mm)| mm)
     }

@@ -51,8 +51,8 @@ impl EarlierMesh {
     /// Positions of the particles of `mesh` where the cloth of the earlier garment lies, whose particles are at `x`.
     /// None for the particles of pieces that it did not have.
     ///
-    /// Edges lie on those of their names, as `edges` says. What lies between them is displaced as they are, the nearer
-    /// ones more. So seams that were closed stay closed however the pieces have been redrawn, and the cloth is only
+    /// Edges lie on those of their names, as `edges` says. Cloth between them is displaced as they are, as the nearer
+    /// ones most. So seams that were closed stay closed however the pieces have been redrawn, and the cloth is only
     /// strained.
     ///
     /// # Panics
@@ -124,9 +124,9 @@ impl EarlierMesh {
     }
 }
 
-/// What is given at points of a piece, at another point `p` of it: the mean, weighted by the inverse fourth powers of
-/// the distances (Shepard 1968). With squares the far points of a long band, which are many, would weigh as much as the
-/// nearest. Zero without any.
+/// The value at a point `p` of a piece of which values are `given` at others: their mean, weighted by the inverse fourth
+/// powers of the distances (Shepard 1968). With squares the far points of a long band, which are many, would weigh as
+/// much as the nearest. Zero without any.
 pub fn interpolated<const D: usize>(given: &[(Vec2, SVector<f64, D>)], p: Vec2) -> SVector<f64, D> {
     let (mut sum, mut whole) = (SVector::zeros(), 0.0);
     for (at, value) in given {

@@ -75,7 +75,7 @@ impl Earlier {
         self.mesh.carry(&self.at, mesh, edges)
     }
 
-    /// What of `mesh`, whose particles have come to lie at `at`, was carried over, and how far it has moved since.
+    /// The pieces of `mesh` that are new, and how far its particles, which have come to lie at `at`, have moved.
     pub(super) fn told(&self, mesh: &ClothMesh, at: &[Vec3], anew: bool) -> ContinuedFrom {
         let carried = self.carried(mesh, Edges::Loose);
         let is_new = |piece: &&PieceMesh| carried[piece.particles.clone()].iter().all(Option::is_none);
@@ -128,7 +128,7 @@ impl Job {
     /// The garment where an earlier one hangs. `None` where it does not come out whole.
     pub(super) fn continued(&self, earlier: &Earlier, progress: &mut dyn FnMut(f64)) -> Option<Continued> {
         let stitching = Stitching::new(&self.mesh);
-        // What has been changed alike on both sides of its seams first.
+        // Seams mostly have been changed alike on both sides.
         for edges in [Edges::Loose, Edges::Shares] {
             let carried = earlier.carried(&self.mesh, edges);
             let Some(mut at) = carried.into_iter().collect::<Option<Vec<Vec3>>>() else { break };

@@ -36,7 +36,7 @@ def batch(
 
     Args:
         jobs: A list of jobs in a file (one JSON object a line), or dicts with the keys of such lines: ``garment`` (a
-            file, or several from the skin outwards), ``body``, ``body_units``, ``fabric``, ``spacing`` (mm),
+            file, or several from the skin outwards), ``body``, ``body_units``, ``fabric``, ``spacing`` (mm), ``size``,
             ``pressure_bands`` (kPa), ``id``. Paths are relative to the file, or to the current folder.
         client: A ``distributed.Client``. Each job is then a task of its cluster, whose machines must see the garments
             and the store under the same paths. Without one the jobs run on this machine.

@@ -1,0 +1,56 @@
+//! Arguments of the picture.
+
+use std::path::PathBuf;
+
+use super::args::ColorArg;
+use crate::picture::{PictureLayout, Turning, View};
+use crate::pipeline::PictureOptions;
+
+/// The picture.
+#[derive(Debug, clap::Args)]
+pub(super) struct PictureArgs {
+    /// Colours of the picture
+    #[arg(long, value_enum, default_value_t)]
+    color: ColorArg,
+    /// Views of the picture from left to right [default: front,side,back]
+    #[arg(long = "view", value_name = "LIST", value_delimiter = ',', value_parser = view)]
+    views: Vec<View>,
+    /// Write the garment turning once round as well, for web pages and messages
+    #[arg(long, value_name = "FILE.gif|FILE.apng", value_parser = turntable)]
+    pub(super) turntable: Option<(PathBuf, Turning)>,
+}
+
+impl PictureArgs {
+    /// `size` is the picture's width and height, pixels.
+    pub(super) fn drawing(&self, size: Option<[usize; 2]>) -> PictureOptions {
+        let own = PictureLayout::default();
+        let views = if self.views.is_empty() { own.views } else { self.views.clone() };
+        PictureOptions { color: self.color.into(), layout: PictureLayout { size: size.unwrap_or(own.size), views } }
+    }
+}
+
+/// A side from which the garment is seen.
+fn view(text: &str) -> Result<View, String> {
+    let names = View::ALL.map(|view| view.label().to_lowercase());
+    let found = View::ALL.into_iter().zip(&names).find(|(_, name)| *name == text);
+    found.map(|(view, _)| view).ok_or_else(|| format!("one of {} is expected", names.join(", ")))
+}
+
+/// Width and height of a picture in pixels: `1200x800`. `None` for other words, and where nothing could be drawn.
+pub(super) fn pixels(text: &str) -> Option<[usize; 2]> {
+    let (width, height) = text.split_once(['x', 'X'])?;
+    let ([least_w, least_h], [most_w, most_h]) = (PictureLayout::SMALLEST, PictureLayout::LARGEST);
+    let size = [width.trim().parse().ok()?, height.trim().parse().ok()?];
+    ((least_w..=most_w).contains(&size[0]) && (least_h..=most_h).contains(&size[1])).then_some(size)
+}
+
+/// A file and its format, told by its ending.
+fn turntable(text: &str) -> Result<(PathBuf, Turning), String> {
+    let path = PathBuf::from(text);
+    let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+    match ending.as_str() {
+        "gif" => Ok((path, Turning::Gif)),
+        "apng" | "png" => Ok((path, Turning::Apng)),
+        _ => Err("a file that ends in .gif or .apng is expected".into()),
+    }
+}
