@@ -125,8 +125,8 @@ impl EarlierMesh {
 }
 
 /// The value at a point `p` of a piece of which values are `given` at others: their mean, weighted by the inverse
-/// fourth powers of the distances (Shepard 1968). With squares the far points of a long band, which are many, would weigh as
-/// much as the nearest. Zero without any.
+/// fourth powers of the distances (Shepard 1968). With squares the far points of a long band, which are many, would
+/// weigh as much as the nearest. Zero without any.
 pub fn interpolated<const D: usize>(given: &[(Vec2, SVector<f64, D>)], p: Vec2) -> SVector<f64, D> {
     let (mut sum, mut whole) = (SVector::zeros(), 0.0);
     for (at, value) in given {
