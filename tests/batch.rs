@@ -356,3 +356,11 @@ fn a_key_follows_the_content_and_all_that_is_named_and_nothing_else() {
     fs::remove_file(two.join("skirt.yaml")).expect("removed");
     assert_ne!(same, key(two, Job::options()));
 }
+
+/// An index that was written again after this many seconds differed in its last digit from the one before.
+#[test]
+fn a_number_is_read_back_as_it_was_written() {
+    let seconds = 1.971_962_737_000_000_1;
+    let text = serde_json::to_string(&seconds).expect("written");
+    assert_eq!(serde_json::from_str::<f64>(&text).expect("read").to_bits(), f64::to_bits(seconds));
+}
