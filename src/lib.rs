@@ -53,6 +53,7 @@ pub mod digitize;
 pub mod drape;
 pub mod dynamics;
 pub mod fabric;
+pub mod fitting;
 pub mod flatten;
 pub mod geometry;
 pub mod guide {

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules in building order, each with those it may use. The ground floor first, the edge last.
-const FLOORS: [(&str, &[&str]); 24] = [
+const FLOORS: [(&str, &[&str]); 25] = [
     ("geometry", &[]),
     ("input", &[]),
     ("parallel", &[]),
@@ -47,6 +47,7 @@ const FLOORS: [(&str, &[&str]); 24] = [
             "io",
         ],
     ),
+    ("fitting", &["geometry", "pattern", "mannequin", "report", "io", "pipeline"]),
     ("batch", &["input", "fabric", "mannequin", "io"]),
     (
         "cli",
@@ -64,6 +65,7 @@ const FLOORS: [(&str, &[&str]); 24] = [
             "digitize",
             "io",
             "pipeline",
+            "fitting",
             "batch",
         ],
     ),

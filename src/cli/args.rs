@@ -8,6 +8,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 use super::batch_args::{BatchArgs, SampleArgs};
 use super::picture_args::PictureArgs;
 use crate::batch::Job;
+use crate::fitting::DRAPES;
 use crate::flatten::Mode;
 use crate::geometry::Vec3;
 use crate::input::LengthUnit;
@@ -80,6 +81,14 @@ pub(super) enum Command {
     #[command(after_help = "Exit codes: 0 written; 1 written, but 'toile check' refuses it, which is said: a seam no \
                             longer matches; 2 the input is wrong or an alteration cannot be done, nothing is written.")]
     Alter(AlterArgs),
+    /// Find the alterations that give a garment the fit that is wanted
+    #[command(after_help = "A file of wants: 'ease: {bust: 60..90 mm}', 'pressure: {waist: below 2.3 kPa}', \
+                            'hem: {above_floor: 560 mm, level: 10 mm}', 'sleeve: {ends_at: wrist}', \
+                            'leg: {ends_at: ankle}', 'strain: below 60 % of limit', and 'knobs:' by name, each an \
+                            alteration with a range, such as {take_in: side, at: {50 %: -10..30}}. docs/fitting.md \
+                            has the rest. Without --spacing particles are 20 mm apart.\n\nExit codes: 0 found, or nothing to change; 1 the wants cannot be had, \
+                            which is said, and nothing is written; 2 the input is wrong; 3 it could not be computed.")]
+    Fit(FitArgs),
     /// Write patterns for cutting: pieces with seam allowance, notches, grain and labels
     #[command(
         subcommand,
@@ -297,6 +306,34 @@ pub(super) struct AlterArgs {
     /// The garment file to write
     #[arg(short, long, value_name = "NEW.yaml")]
     pub(super) output: PathBuf,
+}
+
+/// Arguments of `fit`.
+#[derive(Debug, clap::Args)]
+pub(super) struct FitArgs {
+    /// The garment file
+    #[arg(value_name = "GARMENT.yaml")]
+    pub(super) garment: PathBuf,
+    /// What is wanted, and which alterations may be made [default: the garment's own tests of ease, pressure and hem,
+    /// or else that no girth is tight; alterations are found]
+    #[arg(long, value_name = "WANTS.yaml")]
+    pub(super) want: Option<PathBuf>,
+    /// The garment file to write: the old one with alterations added
+    #[arg(short, long, value_name = "NEW.yaml")]
+    pub(super) output: Option<PathBuf>,
+    /// Most drapes
+    #[arg(long, value_name = "N", default_value_t = DRAPES, value_parser = drapes)]
+    pub(super) drapes: usize,
+    #[command(flatten)]
+    pub(super) overrides: OverrideArgs,
+}
+
+/// At least the garment, a knob, and the altered garment.
+fn drapes(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(count) if count >= 3 => Ok(count),
+        _ => Err("a number of at least 3 is expected".into()),
+    }
 }
 
 /// Arguments of `flatten`.

@@ -13,6 +13,7 @@ mod console;
 mod exit;
 mod export;
 mod fabric;
+mod fit;
 mod flatten;
 mod import;
 mod junit;
@@ -97,6 +98,7 @@ fn run(args: &Args, itself: &[OsString], console: &Console) -> Result<Exit, CliE
         Command::Sample(args) => sample::sample(args, console),
         Command::Test(args) => test::test(args, console),
         Command::Alter(args) => alter::alter(args, console),
+        Command::Fit(args) => fit::fit(args, console),
         Command::Export(command) => export::export(command, console),
         Command::Fabric(command) => fabric::fabric(command, console),
         Command::Import(command) => import::import(command, console),

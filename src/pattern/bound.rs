@@ -133,7 +133,7 @@ impl Reader<'_> {
 }
 
 /// The girth of a test, if there is one of that name.
-fn known_girth(girth: &Located<String>, findings: &mut Findings) -> Option<String> {
+pub(crate) fn known_girth(girth: &Located<String>, findings: &mut Findings) -> Option<String> {
     let of_limb = SIDES.iter().find_map(|side| girth.value.strip_prefix(side));
     let is_known = GIRTHS.contains(&girth.value.as_str()) || of_limb.is_some_and(|g| GIRTHS[OF_TRUNK..].contains(&g));
     if !is_known {

@@ -51,9 +51,11 @@ mod select;
 mod spelling;
 mod tube;
 mod walk;
+mod want_file;
 
 pub use along::{Along, along};
 pub use alteration_file::{AlterationFile, SizeFile, StationFile};
+pub(crate) use bound::known_girth;
 pub(crate) use crossing::loop_crossing;
 pub(crate) use dart::FISH_EYE_EDGES;
 pub use diagnostic::{Diagnostic, Findings, Located, Severity, Spot};
@@ -76,6 +78,7 @@ pub(crate) use region::{Region, SLACK};
 pub use rim::{Opening, openings};
 pub(crate) use seam::DEFAULT_TOLERANCE;
 pub use walk::{SeamWalk, walk, written_edge, written_names};
+pub use want_file::{KnobFile, WantFile, Wanted, WantsFile};
 
 use std::ops::RangeInclusive;
 

@@ -122,6 +122,14 @@ pub enum Problem {
     #[error("'{piece}.{edge}' lies on the fold: {reason}")]
     AlterFold { piece: String, edge: String, reason: String },
 
+    // Wants.
+    #[error("'{want}' cannot be wanted: {why}")]
+    NoSuchWant { want: String, why: String },
+    #[error("the ranges of knob '{0}' pass zero at different places; make each a multiple of the others")]
+    KnobRanges(String),
+    #[error("the file wants nothing; write ease, pressure, hem, sleeve, leg or strain")]
+    NoWants,
+
     // The mesh, in its own words.
     #[error("{0}")]
     Mesh(String),

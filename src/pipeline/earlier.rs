@@ -6,6 +6,7 @@ use super::error::PipelineError;
 use super::job::Job;
 use super::levels::{Closed, is_whole};
 use super::results::{GARMENT_OBJ, REPORT_JSON, SEWN_OBJ};
+use super::run::Run;
 use crate::contact::Collider;
 use crate::geometry::{MM, Vec2, Vec3};
 use crate::input::bytes;
@@ -27,8 +28,9 @@ const ALONG: f64 = 0.03;
 /// Distance from the skin at which cloth comes out of the body, metres.
 const OUTSIDE: f64 = 1e-3;
 
-/// The result of an earlier run.
-pub(super) struct Earlier {
+/// The result of an earlier run, to go on from.
+#[derive(Clone, Debug)]
+pub struct Earlier {
     folder: PathBuf,
     mesh: EarlierMesh,
     /// Positions of its particles, metres.
@@ -68,6 +70,23 @@ impl Earlier {
             }
         }
         Ok(Self { folder: folder.to_owned(), mesh, at })
+    }
+
+    /// What a run of this process has reached, whether the garment is draped or only sewn. `None` before sewing.
+    pub fn of(run: &Run) -> Option<Self> {
+        let mesh = &run.job.mesh;
+        let piece = |p: &PieceMesh| EarlierPiece {
+            name: p.name.clone(),
+            triangles: p.triangles.clone(),
+            edges: p.edges.iter().map(|e| (e.name.clone(), e.particles.clone())).collect(),
+        };
+        let earlier = EarlierMesh {
+            flat: mesh.flat.clone(),
+            triangles: mesh.triangles.clone(),
+            pieces: mesh.pieces.iter().map(piece).collect(),
+            spacing: mesh.spacing,
+        };
+        Some(Self { folder: PathBuf::new(), mesh: earlier, at: run.last()?.to_vec() })
     }
 
     /// Where the earlier cloth has the particles of `mesh`: [`EarlierMesh::carry`].

@@ -37,6 +37,7 @@ pub use crate::sew::SewError;
 pub use across::Across;
 pub use arrays::Arrays;
 pub use caught::Caught;
+pub use earlier::Earlier;
 pub use error::PipelineError;
 pub use job::{Job, Overrides, inputs, read, read_size};
 pub use judged::{Judged, judge};

@@ -23,6 +23,13 @@ impl<'a> Run<'a> {
         Ok(run)
     }
 
+    /// As [`Run::continued`], from the result of a run of this process.
+    pub fn going_on(job: &'a Job, earlier: Earlier) -> Self {
+        let mut run = Self::new(job);
+        run.earlier = Some(earlier);
+        run
+    }
+
     /// Loads the garment as sewn by an earlier run from its `sewn.obj`, to continue with draping.
     ///
     /// # Errors

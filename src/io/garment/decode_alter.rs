@@ -1,7 +1,9 @@
 //! Alterations and sizes of a garment file.
 
 use super::fields::{Fields, distance, entries, items, length, numbers, share, text, word, wrong};
-use crate::pattern::{AlterationFile, Findings, Located, Problem, SizeFile, StationFile, Value, parse_quantity};
+use crate::pattern::{
+    AlterationFile, Findings, Located, Problem, Quantity, SizeFile, StationFile, Value, parse_quantity,
+};
 
 /// What an alteration may be; each says one of them.
 const KINDS: [&str; 7] = ["take_in", "let_out", "lengthen", "shorten", "pivot", "spread", "move"];
@@ -27,6 +29,21 @@ pub(super) fn sizes(value: &Located<Value>, findings: &mut Findings) -> Vec<Size
 }
 
 fn alteration(value: &Located<Value>, findings: &mut Findings) -> Option<Located<AlterationFile>> {
+    read(value, length, findings)
+}
+
+/// Reads an alteration whose lengths may be zero or negative, as those of a knob are at its end.
+pub(super) fn alteration_of_any_sign(
+    value: &Located<Value>,
+    findings: &mut Findings,
+) -> Option<Located<AlterationFile>> {
+    read(value, distance, findings)
+}
+
+/// How a length is read.
+type Length = fn(&Located<Value>, &str, &mut Findings) -> Option<Located<Quantity>>;
+
+fn read(value: &Located<Value>, by: Length, findings: &mut Findings) -> Option<Located<AlterationFile>> {
     let mut fields = Fields::new(value, "an alteration", findings)?;
     let named = KINDS.into_iter().filter(|kind| fields.has(kind)).collect::<Vec<_>>();
     let read = match named[..] {
@@ -35,7 +52,7 @@ fn alteration(value: &Located<Value>, findings: &mut Findings) -> Option<Located
             findings.error(value.at, Problem::UnknownWord { what: "alteration", found, known: KNOWN });
             return None;
         }
-        [kind] => of_kind(kind, &mut fields, findings),
+        [kind] => of_kind(kind, &mut fields, by, findings),
         [one, other, ..] => {
             findings.error(value.at, Problem::Exclusive { one, other });
             return None;
@@ -45,10 +62,10 @@ fn alteration(value: &Located<Value>, findings: &mut Findings) -> Option<Located
     Some(Located::new(read?, value.at))
 }
 
-fn of_kind(kind: &'static str, fields: &mut Fields, findings: &mut Findings) -> Option<AlterationFile> {
+fn of_kind(kind: &'static str, fields: &mut Fields, by: Length, findings: &mut Findings) -> Option<AlterationFile> {
     match kind {
         "take_in" | "let_out" => take(kind, fields, findings),
-        "lengthen" | "shorten" => lengthen(kind, fields, findings),
+        "lengthen" | "shorten" => lengthen(kind, fields, by, findings),
         "pivot" => {
             let (dart, to) = (fields.get(kind, findings, text), fields.require("to", findings, text));
             let (share, name) = (fields.get("share", findings, share), fields.get("name", findings, named));
@@ -56,7 +73,7 @@ fn of_kind(kind: &'static str, fields: &mut Fields, findings: &mut Findings) -> 
         }
         "spread" => {
             let (from, to) = (fields.get(kind, findings, text), fields.require("to", findings, text));
-            let (by, to_by) = (fields.require("by", findings, length), fields.get("to_by", findings, length));
+            let (by, to_by) = (fields.require("by", findings, by), fields.get("to_by", findings, by));
             Some(AlterationFile::Spread { from: from?, to: to?, by: by?, to_by })
         }
         _ => {
@@ -78,11 +95,11 @@ fn take(kind: &'static str, fields: &mut Fields, findings: &mut Findings) -> Opt
     Some(AlterationFile::Take { seam: seam?, at: at?, out: kind == "let_out" })
 }
 
-fn lengthen(kind: &'static str, fields: &mut Fields, findings: &mut Findings) -> Option<AlterationFile> {
+fn lengthen(kind: &'static str, fields: &mut Fields, by: Length, findings: &mut Findings) -> Option<AlterationFile> {
     let pieces = fields
         .take(kind)
         .map_or_else(Vec::new, |v| items(v).iter().filter_map(|p| text(p, "a piece", findings)).collect());
-    let (at, by) = (fields.require("at", findings, distance), fields.require("by", findings, length));
+    let (at, by) = (fields.require("at", findings, distance), fields.require("by", findings, by));
     let over = fields.get("over", findings, length);
     let across = fields.get("along", findings, |v, _, f| {
         word(v, "along", "y (longer, the usual) or x (wider)", f, |w| match w {

@@ -51,6 +51,14 @@ pub fn seam_line(own: &SeamFile) -> Result<String, EncodeError> {
     Ok(format!("{}: {}", own.name.value, layout::flow(&seam(own))?))
 }
 
+/// An alteration as one line of a file: `{take_in: side, at: {50 %: 8}}`.
+///
+/// # Errors
+/// As [`write()`].
+pub fn alteration_line(own: &AlterationFile) -> Result<String, EncodeError> {
+    layout::flow(&alteration(own))
+}
+
 fn document(file: &GarmentFile) -> Yaml {
     let mut map = Map::default();
     map.put("garment", file.version.value);

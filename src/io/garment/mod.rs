@@ -3,12 +3,14 @@
 //! [`read`] gives the checked [`Garment`] and the [`GarmentFile`], which holds everything the file says with the
 //! place where it says it; [`write()`] turns a [`GarmentFile`] back into YAML that reads as the same.
 
+mod append;
 mod change;
 mod decode;
 mod decode_alter;
 mod decode_piece;
 mod decode_seam;
 mod decode_test;
+mod decode_wants;
 mod encode;
 mod fields;
 mod layout;
@@ -18,11 +20,14 @@ mod tree;
 use std::fmt;
 use std::path::Path;
 
-use crate::alter::altered;
-use crate::pattern::{self, Diagnostic, Findings, Garment, GarmentFile, Severity};
+use crate::alter::{altered, carry_out};
+use crate::pattern::{
+    self, AlterationFile, Diagnostic, Findings, Garment, GarmentFile, Located, Problem, Severity, Spot, Unit, WantsFile,
+};
 
+pub use append::{Appended, appended};
 pub use change::{Changed, EdgeChange, change};
-pub use encode::{EncodeError, seam_line, write, write_with_offers};
+pub use encode::{EncodeError, alteration_line, seam_line, write, write_with_offers};
 
 /// JSON Schema (2020-12) of the format, for editors that complete and check as one types.
 pub const SCHEMA: &str = include_str!("schema.json");
@@ -52,8 +57,26 @@ impl Loaded {
         Findings::new(&self.source.shown, &self.source.text)
     }
 
+    /// The garment with further alterations carried out.
+    ///
+    /// # Errors
+    /// [`Refused`]: an alteration that cannot be done, or whose pattern is no garment any more.
+    pub fn altered(&self, list: &[AlterationFile]) -> Result<Self, Refused> {
+        let mut findings = self.findings();
+        let mut file = self.file.clone();
+        let list: Vec<_> = list.iter().map(|a| Located::new(a.clone(), Spot::default())).collect();
+        carry_out(&mut file, &list, &mut findings);
+        let garment = pattern::expand(&self.garment.name, &file, &mut findings);
+        Examined { file: Some(file), findings, garment, source: self.source.clone() }.finish()
+    }
+
+    /// The text of the file.
+    pub fn text(&self) -> &str {
+        &self.source.text
+    }
+
     /// The garment refused after all, for something that stands at this place of its file.
-    pub fn refusal(&self, at: pattern::Spot, problem: pattern::Problem) -> Refused {
+    pub fn refusal(&self, at: Spot, problem: Problem) -> Refused {
         let mut findings = self.findings();
         findings.error(at, problem);
         Refused { diagnostics: findings.into_sorted() }
@@ -151,7 +174,7 @@ pub fn examine_size(path: &Path, size: Option<&str>) -> Examined {
         Ok(text) => examined(&name, &shown, &text, size),
         Err(problem) => {
             let mut findings = Findings::new(&shown, "");
-            findings.error(pattern::Spot::default(), problem);
+            findings.error(Spot::default(), problem);
             Examined { file: None, findings, garment: None, source: Source { shown, text: String::new() } }
         }
     }
@@ -168,6 +191,36 @@ fn examined(name: &str, shown: &str, text: &str, size: Option<&str>) -> Examined
     let file = file.map(|file| altered(&file, size, &mut findings));
     let garment = file.as_ref().and_then(|file| pattern::expand(name, file, &mut findings));
     Examined { file, findings, garment, source: Source { shown: shown.to_owned(), text: text.to_owned() } }
+}
+
+/// Reads a file of wants. Bare lengths in it count in `unit`, the garment's.
+///
+/// # Errors
+/// [`Refused`] with every mistake of the file.
+pub fn read_wants(path: &Path, unit: Unit) -> Result<WantsFile, Refused> {
+    let shown = path.display().to_string();
+    match source::text(path) {
+        Ok(text) => wants_of(&shown, &text, unit),
+        Err(problem) => {
+            let mut findings = Findings::new(&shown, "");
+            findings.error(Spot::default(), problem);
+            Err(Refused { diagnostics: findings.into_sorted() })
+        }
+    }
+}
+
+/// As [`read_wants`], from text; `shown` is the file's name in messages.
+///
+/// # Errors
+/// As [`read_wants`].
+pub fn wants_of(shown: &str, text: &str, unit: Unit) -> Result<WantsFile, Refused> {
+    let mut findings = Findings::new(shown, text);
+    let read = tree::parse(text, &mut findings).map(|tree| decode_wants::wants(&tree, unit, &mut findings));
+    let read = read.unwrap_or_default();
+    if findings.errors() == 0 && read.wants.is_empty() {
+        findings.error(Spot::default(), Problem::NoWants);
+    }
+    if findings.errors() == 0 { Ok(read) } else { Err(Refused { diagnostics: findings.into_sorted() }) }
 }
 
 /// Reads what a garment file says without checking that it makes a garment.

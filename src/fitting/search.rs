@@ -1,0 +1,292 @@
+//! The search for the amounts of knobs.
+
+use rayon::prelude::*;
+
+use super::draped::{Draped, drape};
+use super::figure::{Figure, own_wants};
+use super::knob::{Knob, alterations};
+use super::own::Seen;
+use super::refusal::reasons;
+use super::solve::{Model, cost};
+use super::words::order;
+use super::{Asked, Fitting, KnobRow, New, WantRow};
+use crate::io::garment::{Loaded, alteration_line, appended, read_text};
+use crate::pattern::WantFile;
+use crate::pipeline::{Earlier, Job, PipelineError, Run};
+use crate::report::Report;
+
+/// The change by which a knob is tried, mm: well above what a second drape of the same garment differs by.
+const TRIED: f64 = 8.0;
+/// Longest step of a knob, mm. Pressure does not change linearly.
+const REACH: f64 = 30.0;
+/// Steps below this are none, mm.
+const STILL: f64 = 0.3;
+/// Amounts are rounded to this, mm.
+const ROUNDED: f64 = 0.5;
+/// How far figures may be off their aims before the garment is draped from nothing, in tolerances.
+const NEAR: f64 = 0.4;
+/// So many times a step that cannot be made is halved.
+const HALVINGS: usize = 3;
+/// Wants that are met have knobs of their own only if there are no more than this.
+const FEW: usize = 4;
+
+/// A search under way.
+pub(super) struct Search<'a> {
+    asked: &'a Asked<'a>,
+    figures: Vec<Figure>,
+    knobs: Vec<Knob>,
+    model: Model,
+    /// Figures of the garment as it was.
+    before: Vec<f64>,
+    first: Report,
+    hanging: Option<Earlier>,
+    drapes: usize,
+    refused: Vec<String>,
+}
+
+/// Amounts and figures of a garment that was draped.
+type Tried = (Vec<f64>, Draped);
+
+impl<'a> Search<'a> {
+    /// Drapes the garment, and finds its figures and knobs.
+    pub(super) fn begin(asked: &'a Asked<'a>, progress: &mut dyn FnMut(&str, f64)) -> Result<Self, PipelineError> {
+        let job = Job::new(asked.file, asked.loaded.clone(), asked.overrides)?;
+        let mut run = Run::new(&job);
+        run.drape(&mut |_, share| progress("drape 1", share))?;
+        let report = run.report();
+        let wants: Vec<WantFile> = match asked.wants {
+            Some(file) => file.wants.iter().map(|want| want.value.clone()).collect(),
+            None => own_wants(&asked.loaded.garment, &report),
+        };
+        let figures: Vec<Figure> = wants.iter().map(Figure::new).collect();
+        let seen = Seen { loaded: asked.loaded, job: &job, at: run.last().unwrap_or_default(), report: &report };
+        let knobs = knobs(asked, &figures, &seen);
+        let missing = figures.iter().filter(|f| f.measured(&report).is_none());
+        let refused: Vec<String> = missing.map(Figure::missing).collect();
+        let values = figures.iter().map(|f| f.measured(&report).unwrap_or(f64::NAN)).collect::<Vec<f64>>();
+        let slopes = vec![vec![0.0; knobs.len()]; figures.len()];
+        let model = Model { at: vec![0.0; knobs.len()], values: values.clone(), slopes };
+        let hanging = Earlier::of(&run);
+        Ok(Self { asked, figures, knobs, model, before: values, first: report, hanging, drapes: 1, refused })
+    }
+
+    /// Searches, and says what came of it.
+    pub(super) fn finish(mut self, progress: &mut dyn FnMut(&str, f64)) -> Result<Fitting, PipelineError> {
+        let met = self.figures.iter().zip(&self.before).all(|(figure, value)| figure.is_met(*value));
+        if !self.refused.is_empty() || met {
+            return Ok(self.told(None, &[]));
+        }
+        self.try_knobs()?;
+        loop {
+            let near = self.figures.iter().zip(&self.model.values).all(|(f, v)| f.off(*v).abs() < NEAR);
+            if !near && self.drapes + 1 < self.asked.drapes && self.step(progress)? {
+                continue;
+            }
+            let reasons = if near { Vec::new() } else { reasons(&self.model, &self.figures, &self.knobs) };
+            if !reasons.is_empty() {
+                self.refused = reasons;
+                return Ok(self.told(None, &[]));
+            }
+            let (new, draped) = self.verified(progress)?;
+            let at = new.0;
+            let values = self.values(&draped.report);
+            let ok = values.as_ref().is_some_and(|v| self.figures.iter().zip(v).all(|(f, v)| f.is_met(*v)));
+            if let Some(values) = &values {
+                self.model.go(&at, values);
+            }
+            if ok {
+                let worse: Vec<String> = self.worse(&draped.report);
+                return Ok(self.told(Some(new.1), &worse));
+            }
+            self.hanging = draped.hanging;
+            if self.drapes + 1 >= self.asked.drapes || values.is_none() {
+                self.refused = vec![self.not_reached()];
+                return Ok(self.told(None, &[]));
+            }
+        }
+    }
+
+    /// The figures of a report. `None` where one of them cannot be measured.
+    fn values(&self, report: &Report) -> Option<Vec<f64>> {
+        self.figures.iter().map(|figure| figure.measured(report)).collect()
+    }
+
+    /// The garment with the knobs set to these amounts.
+    fn altered(&self, at: &[f64]) -> Result<Loaded, PipelineError> {
+        Ok(self.asked.loaded.altered(&alterations(&self.knobs, at))?)
+    }
+
+    /// Moves each knob alone, away from its nearer end, or the other way if the garment cannot be made so.
+    fn try_knobs(&mut self) -> Result<(), PipelineError> {
+        let start: Vec<f64> = self.knobs.iter().map(Knob::start).collect();
+        if start.iter().any(|x| *x != 0.0) {
+            let draped = drape(self.asked, &self.altered(&start)?, self.hanging.as_ref(), &mut |_| {})?;
+            self.drapes += 1;
+            let Some(values) = self.values(&draped.report) else { return Ok(()) };
+            self.model.go(&start, &values);
+            self.hanging = draped.hanging;
+        }
+        let this = &*self;
+        let tried: Vec<Result<(f64, Vec<f64>), PipelineError>> =
+            (0..self.knobs.len()).into_par_iter().map(|k| this.tried(&start, k)).collect();
+        for (k, tried) in tried.into_iter().enumerate() {
+            self.drapes += 1;
+            let (by, values) = tried?;
+            for (w, value) in values.iter().enumerate() {
+                self.model.slopes[w][k] = (value - self.model.values[w]) / by;
+            }
+        }
+        Ok(())
+    }
+
+    /// The change of one knob and the figures with it.
+    fn tried(&self, start: &[f64], k: usize) -> Result<(f64, Vec<f64>), PipelineError> {
+        let [low, high] = self.knobs[k].range;
+        let by = TRIED.min(0.5 * (high - low));
+        // Letting out is safe where cloth is tight, and shorter where a hem lies on the floor.
+        let first = if start[k] - low >= by { -by } else { by };
+        let mut failed = None;
+        for by in [first, -first] {
+            let mut at = start.to_vec();
+            at[k] += by;
+            if !(low..=high).contains(&at[k]) {
+                continue;
+            }
+            let made = self.altered(&at).and_then(|new| drape(self.asked, &new, self.hanging.as_ref(), &mut |_| {}));
+            match made.map(|draped| self.values(&draped.report)) {
+                Ok(Some(values)) => return Ok((by, values)),
+                Ok(None) => {}
+                Err(error) => failed = Some(error),
+            }
+        }
+        // What cannot be moved does nothing.
+        failed.map_or_else(|| Ok((by, self.model.values.clone())), Err)
+    }
+
+    /// A step of least squares. False where there is none left to make.
+    fn step(&mut self, progress: &mut dyn FnMut(&str, f64)) -> Result<bool, PipelineError> {
+        let ranges: Vec<[f64; 2]> =
+            self.knobs.iter().zip(&self.model.at).map(|(k, x)| within_reach(k.range, *x)).collect();
+        let all: Vec<usize> = (0..self.figures.len()).collect();
+        let best = self.model.best(&self.figures, &all, &ranges);
+        let way: Vec<f64> = best.iter().zip(&self.model.at).map(|(a, b)| a - b).collect();
+        if way.iter().all(|w| w.abs() < STILL) {
+            return Ok(false);
+        }
+        let mut share = 1.0;
+        for _ in 0..HALVINGS {
+            let at: Vec<f64> = self.model.at.iter().zip(&way).map(|(x, w)| x + share * w).collect();
+            if self.drapes + 1 >= self.asked.drapes {
+                return Ok(false);
+            }
+            if let Some((at, draped)) = self.made(at, progress) {
+                return Ok(self.taken((at, draped)));
+            }
+            share *= 0.5;
+        }
+        Ok(false)
+    }
+
+    /// The garment with these amounts, draped. `None` where it cannot be made or measured.
+    fn made(&mut self, at: Vec<f64>, progress: &mut dyn FnMut(&str, f64)) -> Option<Tried> {
+        let new = self.altered(&at).ok()?;
+        self.drapes += 1;
+        let name = format!("drape {}", self.drapes);
+        let draped = drape(self.asked, &new, self.hanging.as_ref(), &mut |share| progress(&name, share)).ok()?;
+        self.values(&draped.report).map(|_| (at, draped))
+    }
+
+    /// Learns from a step, and goes there if it is better. False where it is not, and nothing was learnt that matters.
+    fn taken(&mut self, (at, draped): Tried) -> bool {
+        let Some(values) = self.values(&draped.report) else { return false };
+        let before = cost(&self.figures, &self.model.values);
+        self.model.learn(&at, &values);
+        if cost(&self.figures, &values) < before {
+            self.model.go(&at, &values);
+            self.hanging = draped.hanging;
+        }
+        true
+    }
+
+    /// The new file with rounded amounts, draped from nothing.
+    fn verified(&mut self, progress: &mut dyn FnMut(&str, f64)) -> Result<((Vec<f64>, New), Draped), PipelineError> {
+        let round = |(x, knob): (&f64, &Knob)| ((x / ROUNDED).round() * ROUNDED).clamp(knob.range[0], knob.range[1]);
+        let at: Vec<f64> = self.model.at.iter().zip(&self.knobs).map(round).collect();
+        let list = alterations(&self.knobs, &at);
+        let new = appended(self.asked.new, self.asked.loaded.text(), &list)?;
+        let loaded = read_text(&self.asked.loaded.garment.name, self.asked.new, &new.text)?;
+        self.drapes += 1;
+        let name = format!("drape {}", self.drapes);
+        let draped = drape(self.asked, &loaded, None, &mut |share| progress(&name, share))?;
+        Ok(((at, New { alterations: list, text: new.text, in_place: new.in_place }), draped))
+    }
+
+    /// What is wrong with a garment, and was not with the one before.
+    fn worse(&self, report: &Report) -> Vec<String> {
+        // Figures differ in any case: texts are compared up to their first number.
+        let kind = |text: &str| text.split(|c: char| c.is_ascii_digit()).next().unwrap_or_default().to_owned();
+        let known: Vec<String> = self.first.problems.iter().map(|text| kind(text)).collect();
+        report.problems.iter().filter(|text| !known.contains(&kind(text))).cloned().collect()
+    }
+
+    fn not_reached(&self) -> String {
+        let missed = self.figures.iter().zip(&self.model.values).filter(|(f, v)| !f.is_met(**v));
+        let said: Vec<String> =
+            missed.map(|(f, v)| format!("{} is {} (wanted: {})", f.name, f.shown(*v), f.words())).collect();
+        format!("not reached in {} drapes: {}; --drapes allows more", self.drapes, said.join(", "))
+    }
+
+    /// The outcome.
+    fn told(self, new: Option<New>, worse: &[String]) -> Fitting {
+        let row = |(k, figure): (usize, &Figure)| WantRow {
+            want: figure.name.clone(),
+            unit: figure.unit,
+            from: figure.wanted.from,
+            to: figure.wanted.to,
+            before: self.before[k],
+            after: self.model.values[k],
+            ok: figure.is_met(self.model.values[k]),
+        };
+        let knob = |(k, knob): (usize, &Knob)| KnobRow {
+            knob: knob.name.clone(),
+            amount: self.model.at[k],
+            from: knob.range[0],
+            to: knob.range[1],
+            at_end: knob.range.contains(&self.model.at[k]),
+            effects: self.model.slopes.iter().map(|slopes| 10.0 * slopes[k]).collect(),
+        };
+        let orders = self.knobs.iter().zip(&self.model.at).filter_map(|(knob, x)| order(knob, *x));
+        Fitting {
+            garment: self.first.garment.clone(),
+            mannequin: self.first.mannequin.clone(),
+            fabric: self.first.fabric.clone(),
+            spacing: self.first.spacing,
+            drapes: self.drapes,
+            wants: self.figures.iter().enumerate().map(row).collect(),
+            knobs: self.knobs.iter().enumerate().map(knob).collect(),
+            changes: if new.is_some() { orders.collect() } else { Vec::new() },
+            alter: new.iter().flat_map(|new| new.alterations.iter().filter_map(|a| alteration_line(a).ok())).collect(),
+            refused: self.refused.clone(),
+            problems: worse.to_vec(),
+            new,
+        }
+    }
+}
+
+/// The knobs of the file of wants, or those that are found for figures: for all if these are few, else for those that
+/// are not what they should be.
+fn knobs(asked: &Asked, figures: &[Figure], seen: &Seen) -> Vec<Knob> {
+    let given = asked.wants.map_or(&[][..], |file| &file.knobs[..]);
+    if !given.is_empty() {
+        return given.iter().map(Knob::given).collect();
+    }
+    let is_off = |figure: &&Figure| figure.measured(seen.report).is_none_or(|value| !figure.is_met(value));
+    let off: Vec<&Figure> = figures.iter().filter(is_off).collect();
+    let all: Vec<&Figure> = off.iter().copied().chain(figures.iter().filter(|f| !is_off(f))).collect();
+    seen.knobs(if figures.len() <= FEW { &all } else { &off })
+}
+
+/// The part of a knob's range that one step reaches.
+fn within_reach([low, high]: [f64; 2], x: f64) -> [f64; 2] {
+    [low.max(x - REACH), high.min(x + REACH)]
+}
