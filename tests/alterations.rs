@@ -209,6 +209,30 @@ fn a_piece_that_is_like_another_can_be_altered_alone() {
 }
 
 #[test]
+fn pieces_that_are_like_one_another_are_altered_once_each() {
+    let block = "\
+garment: 1
+pieces:
+  front:
+    grain: [[40, 100], [40, 300]]
+    outline: {start: 0 0, top: L 200 0, right: L 200 400, hem: L 0 400, left: L 0 0}
+  back: {like: front}
+seams:
+  one: {sew: front.right, to: back.left}
+  other: {sew: front.left, to: back.right}
+free: ['*.top', '*.hem']
+";
+    let longer = made(block, "  - {lengthen: [front, back], at: 200, by: 20}\n").garment;
+    near!(length(&longer, "front", "right"), 0.42, epsilon = EXACT);
+    near!(length(&longer, "back", "right"), 0.42, epsilon = EXACT);
+    // One edge of each piece, not both of the one that is like the other.
+    let taken = made(block, "  - {take_in: one, at: {0: 15, 100 %: 15}}\n").garment;
+    for piece in ["front", "back"] {
+        near!(length(&taken, piece, "hem"), 0.185, epsilon = EXACT);
+    }
+}
+
+#[test]
 fn what_cannot_be_done_is_said() {
     let is = |alteration: &str, expected: fn(&Problem) -> bool| {
         let found = problem(BLOCK, alteration);

@@ -24,7 +24,7 @@ const FLOORS: [(&str, &[&str]); 25] = [
     ("verify", &["geometry", "mannequin", "mesh"]),
     ("report", &["geometry", "pattern", "mannequin", "mesh", "verify"]),
     ("picture", &["geometry", "mesh", "verify"]),
-    ("cutting", &["geometry", "input", "pattern"]),
+    ("cutting", &["geometry", "input", "parallel", "pattern"]),
     ("digitize", &["geometry", "fabric", "pattern"]),
     ("io", &["geometry", "input", "pattern", "alter", "mannequin", "mesh", "verify", "cutting", "digitize"]),
     (

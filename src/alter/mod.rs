@@ -61,6 +61,8 @@ fn one(file: &mut GarmentFile, alteration: &Located<AlterationFile>) -> Result<(
             let sign = if *shorter { -1.0 } else { 1.0 };
             let zone =
                 lengthen::Zone { at, by, sign, over: over.as_ref(), across: across.as_ref().is_some_and(|a| a.value) };
+            // Of pieces that are like one another each is altered once.
+            pieces.iter().try_for_each(|piece| name::piece(file, piece).map(drop))?;
             pieces.iter().try_for_each(|piece| zone.apply(file, piece))
         }
         AlterationFile::Pivot { dart, to, share, name } => open::pivot(file, dart, to, share.as_ref(), name.as_ref()),

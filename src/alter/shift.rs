@@ -17,6 +17,10 @@ pub(super) fn take(
 ) -> Result<(), Fault> {
     let (sew, to) = if seam.value.contains('.') { (seam.clone(), None) } else { sides(file, seam)? };
     let whole_edge = to.is_some();
+    if let Some(to) = &to {
+        // A piece that is like the first one keeps the shape that both have now.
+        name::edge(file, to, true)?;
+    }
     let (index, mut sheet, edge) = name::edge(file, &sew, whole_edge)?;
     let mut stations = Vec::new();
     for (place, amount) in at {

@@ -446,6 +446,8 @@ pub(super) enum ExportCommand {
         #[arg(long, value_name = "MM", value_parser = width)]
         width: Option<f64>,
     },
+    /// A cutting plan: all pieces on cloth of a given width, and how much of each fabric is needed; SVG and PDF
+    Plan(PlanArgs),
     /// DXF-AAMA (ASTM D6673) for cutters and other pattern programs, a block per piece
     Dxf {
         #[command(flatten)]
@@ -477,6 +479,32 @@ pub(super) struct ExportArgs {
     /// The date, as it is to be written on every piece
     #[arg(long, value_name = "TEXT")]
     pub(super) date: Option<String>,
+}
+
+/// Arguments of `export plan`.
+#[derive(Debug, clap::Args)]
+pub(super) struct PlanArgs {
+    /// The garment files, cut from the same cloth where they name the same
+    #[arg(value_name = "GARMENT.yaml", required = true)]
+    pub(super) garments: Vec<PathBuf>,
+    /// A size of the garments, as their files name it under `sizes`
+    #[arg(long, value_name = "NAME")]
+    pub(super) size: Option<String>,
+    /// The drawing to write, .svg or .pdf [default: both, as out/NAME/plan.svg and plan.pdf]
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) output: Option<PathBuf>,
+    /// Usable width of the cloth in millimetres
+    #[arg(long, value_name = "MM", value_parser = width, default_value = "1400")]
+    pub(super) width: f64,
+    /// The cloth looks another way upside down (pile, a print with an up): all pieces lie the same way up
+    #[arg(long)]
+    pub(super) nap: bool,
+    /// Cut everything from open cloth, not from cloth folded along its length
+    #[arg(long)]
+    pub(super) open: bool,
+    /// Seam allowance in millimetres of edges for which the file gives none [default: 10]
+    #[arg(long, value_name = "MM", value_parser = allowance, allow_negative_numbers = true)]
+    pub(super) allowance: Option<f64>,
 }
 
 /// Narrowest and widest paper, mm: the test square must fit, and no plotter takes more.

@@ -6,6 +6,7 @@ use super::args::{ExportArgs, ExportCommand, PageArg};
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use super::make::{borrowed, folder};
+use super::plan::plan;
 use crate::cutting::{DEFAULT_ALLOWANCE, Label, Layout, MarkKind, Narrowed, Options, Paper, SewKind, Sheet, labelled};
 use crate::geometry::MM;
 use crate::io::dxf_write::cutting_dxf;
@@ -40,6 +41,7 @@ pub(super) fn export(command: &ExportCommand, console: &Console) -> Result<Exit,
             let pdf = pdf.map_err(|e| CliError::Argument(e.to_string()))?;
             job.write(pdf, "pdf", console)
         }
+        ExportCommand::Plan(args) => plan(args, console),
         ExportCommand::Dxf { common } => {
             let job = Job::new(common, console)?;
             if job.papers.iter().any(is_told) {
@@ -110,7 +112,7 @@ impl<'a> Job<'a> {
 }
 
 /// Whether an edge that will be cut has no allowance of its own.
-fn lacks_allowance(drawing: &Drawing) -> bool {
+pub(super) fn lacks_allowance(drawing: &Drawing) -> bool {
     let outline = drawing.rings[0].iter().enumerate().filter(|(i, _)| drawing.is_cut(*i)).map(|(_, edge)| edge);
     let sewn_holes = drawing.rings[1..].iter().flatten().filter(|edge| edge.is_sewn());
     outline.chain(sewn_holes).any(|edge| edge.allowance.width.is_none())
@@ -123,7 +125,7 @@ fn is_told(paper: &Paper) -> bool {
 }
 
 /// Of holes that are too small for their allowances.
-fn narrowed(paper: &Paper) -> Vec<String> {
+pub(super) fn narrowed(paper: &Paper) -> Vec<String> {
     let mm = |width: f64| (width * MM * 100.0).round() / 100.0;
     let note = |n: &Narrowed| {
         format!(

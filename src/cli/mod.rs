@@ -20,6 +20,7 @@ mod junit;
 mod make;
 mod mannequin;
 mod picture_args;
+mod plan;
 mod report;
 mod sample;
 mod specimen;

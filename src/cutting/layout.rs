@@ -33,7 +33,25 @@ pub struct Sheet {
     pub papers: Vec<Paper>,
     /// Upper left corner of the test square, if there is one.
     pub square: Option<Vec2>,
+    /// Stretches of cloth on which the papers lie, in a cutting plan.
+    pub cloth: Vec<Cloth>,
 }
+
+/// A stretch of cloth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cloth {
+    /// Its upper left corner.
+    pub corner: Vec2,
+    /// Width across, and length down.
+    pub size: Vec2,
+    /// Whether it is folded, with the fold on the left.
+    pub folded: bool,
+    /// What it is, for a line above it.
+    pub text: String,
+}
+
+/// Height of the letters above a stretch of cloth, and how far they stand above it, metres.
+pub const CLOTH_LETTERS: [f64; 2] = [0.020, 0.010];
 
 impl Sheet {
     /// Lays papers out, the highest first.
@@ -51,6 +69,7 @@ impl Sheet {
             papers: papers.iter().zip(&corners).map(put).collect(),
             square: layout.square.then(|| corners[papers.len()] + margin),
             size: size + 2.0 * margin,
+            cloth: Vec::new(),
         }
     }
 }

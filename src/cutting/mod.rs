@@ -12,14 +12,16 @@ mod layout;
 mod marks;
 mod offset;
 mod outline;
+mod plan;
 mod room;
 mod walls;
 mod whole;
 
 pub use label::{LETTER_WIDTH, Label};
-pub use layout::{Layout, Sheet, TEST_SQUARE, shelves};
+pub use layout::{CLOTH_LETTERS, Cloth, Layout, Sheet, TEST_SQUARE, shelves};
 pub use marks::{arrow, grain_arrow};
 pub use outline::{labelled, papers};
+pub use plan::{Laid, Plan, PlanError, PlanOptions, plan_sheet, plans};
 pub use room::{Room, foot};
 
 use nalgebra::Matrix2;

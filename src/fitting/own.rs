@@ -8,7 +8,7 @@ use crate::geometry::{MM, Vec2, Vec3, range_of};
 use crate::io::garment::Loaded;
 use crate::pattern::{AlterationFile, Garment, Piece, Unit, WantFile, is_girth, walk, written_edge};
 use crate::pipeline::Job;
-use crate::report::{Girth, Report};
+use crate::report::Report;
 
 /// How far a seam is taken in or let out, mm.
 const SEAM: [f64; 2] = [-40.0, 40.0];
@@ -75,9 +75,13 @@ impl Seen<'_> {
     /// A knob for the seams at the sides of a girth.
     fn at_girth(&self, wanted: &str, known: &[Knob]) -> Option<Knob> {
         let girths = &self.report.fit.as_ref()?.girths;
-        let row: &Girth = girths.iter().find(|girth| is_girth(wanted, &girth.name))?;
-        let plane = Plane::new(row, &self.job.body)?;
-        let seams = chosen(passing(&plane, &self.loaded.file, self.job, self.at));
+        let rows = girths.iter().filter(|girth| is_girth(wanted, &girth.name));
+        let mut seams: Vec<Passing> = Vec::new();
+        for plane in rows.filter_map(|row| Plane::new(row, &self.job.body)) {
+            // A limb's seam is the other limb's as well where the file has one for both.
+            let found = chosen(passing(&plane, &self.loaded.file, self.job, self.at));
+            seams.extend(found.into_iter().filter(|p| seams.iter().all(|s| s.seam != p.seam)).collect::<Vec<_>>());
+        }
         let is_known = |own: &Passing| known.iter().any(|knob| self.has_station(knob, own));
         if seams.is_empty() || seams.iter().any(is_known) {
             return None;

@@ -11,6 +11,10 @@ const ALONG: f64 = 0.5;
 /// Share of a seam's length from an end within which the end itself is meant.
 const AT_END: f64 = 0.08;
 
+/// A seam that ends within this distance of a girth, metres, shapes it with its end: garments are measured just below
+/// their armholes, where side seams begin.
+const SHORT: f64 = 0.06;
+
 /// A girth of the body on the garment: a plane.
 pub(super) struct Plane {
     /// Of the trunk or of a limb.
@@ -109,8 +113,8 @@ fn snapped(share: f64) -> f64 {
     }
 }
 
-/// Share of its first edge as drawn at which a seam passes the plane, and where that is. `None` where it does not, or
-/// runs across.
+/// Share of its first edge as drawn at which a seam passes the plane or nearly does, and where that is. `None` where it
+/// does neither, or runs across.
 fn crossing(plane: &Plane, k: usize, seam: &Seam, job: &Job, at: &[Vec3]) -> Option<(f64, Vec3)> {
     let pairs = &job.mesh.seams.get(k)?.pairs;
     let line: Vec<u32> = pairs.iter().map(|pair| pair[0]).collect();
@@ -127,14 +131,25 @@ fn crossing(plane: &Plane, k: usize, seam: &Seam, job: &Job, at: &[Vec3]) -> Opt
         ends.push(ends[ends.len() - 1] + (b - a).norm());
     }
     let whole = ends[ends.len() - 1];
-    let step = line.windows(2).position(|step| {
+    let passes = line.windows(2).position(|step| {
         let [a, b] = [step[0], step[1]].map(|n| plane.beyond(place(n)));
         (a < 0.0) != (b < 0.0)
-    })?;
-    let [p, q] = [line[step], line[step + 1]].map(place);
-    let share = plane.beyond(p) / (plane.beyond(p) - plane.beyond(q));
-    let point = p.lerp(&q, share);
-    if nearest_part(&job.body, point) != Some(plane.part) {
+    });
+    let near = |p: Vec3| plane.beyond(p).abs();
+    let (step, share) = match passes {
+        Some(step) => {
+            let [a, b] = [line[step], line[step + 1]].map(|n| plane.beyond(place(n)));
+            (step, a / (a - b))
+        }
+        None if near(first).min(near(last)) > SHORT => return None,
+        None if near(first) <= near(last) => (0, 0.0),
+        None => (line.len() - 2, 1.0),
+    };
+    let point = place(line[step]).lerp(&place(line[step + 1]), share);
+    // At an armpit a side seam is nearer to the arm.
+    let is_there = |p: Vec3| nearest_part(&job.body, p) == Some(plane.part);
+    let most = || 2 * line.iter().filter(|n| is_there(place(**n))).count() >= line.len();
+    if !is_there(point) && !most() {
         return None;
     }
     let along = (ends[step] + share * (ends[step + 1] - ends[step])) / whole;

@@ -3,7 +3,7 @@
 use pdf_writer::{Content, Name, Str};
 
 use super::POINTS;
-use crate::cutting::{MarkKind, Paper, SewKind, Sheet, TEST_SQUARE, grain_arrow};
+use crate::cutting::{CLOTH_LETTERS, Cloth, MarkKind, Paper, SewKind, Sheet, TEST_SQUARE, grain_arrow};
 use crate::geometry::{Path, Vec2};
 
 /// Widths of lines, points: what is cut, and everything else.
@@ -127,6 +127,7 @@ impl Pen {
 
     /// What of a sheet lies in the box from `low` to `high`, or touches it.
     pub(super) fn sheet(&mut self, sheet: &Sheet, [low, high]: [Vec2; 2]) {
+        sheet.cloth.iter().for_each(|cloth| self.cloth(cloth));
         for paper in &sheet.papers {
             let [least, greatest] = paper.extent();
             if (0..2).all(|k| least[k] <= high[k] && greatest[k] >= low[k]) {
@@ -135,6 +136,19 @@ impl Pen {
         }
         if let Some(corner) = sheet.square {
             self.square(corner);
+        }
+    }
+
+    /// A stretch of cloth: its edges, its fold, and what it is.
+    fn cloth(&mut self, cloth: &Cloth) {
+        let (low, high) = (cloth.corner, cloth.corner + cloth.size);
+        self.closed(&[low, Vec2::new(high.x, low.y), high, Vec2::new(low.x, high.y)], true);
+        let [height, above] = CLOTH_LETTERS;
+        self.text(&cloth.text, low - Vec2::new(0.0, above), height * CAPITALS, false, false);
+        if cloth.folded {
+            self.style(2.0 * CUT, &FOLD);
+            self.trace(&[low, Vec2::new(low.x, high.y)]);
+            self.content.stroke();
         }
     }
 

@@ -6,10 +6,10 @@
 //! line to the sewing line or, by way of a point there, beyond; `data-notch` says what it belongs to, `data-edge` where
 //! it is; `data-corner` how the allowance of an edge ends, where the file says so.
 
-use svg::node::element::{Circle, Group, Path, Title};
+use svg::node::element::{Circle, Group, Path, Text, Title};
 
 use super::{centered, document, identifier, number, polyline, printable, square, stroke, told_notch, with_kind};
-use crate::cutting::{Lettering, MarkKind, NotchMark, Paper, SewKind, Sheet, grain_arrow};
+use crate::cutting::{CLOTH_LETTERS, Cloth, Lettering, MarkKind, NotchMark, Paper, SewKind, Sheet, grain_arrow};
 use crate::geometry::{MM, Vec2};
 
 /// Widths of lines, mm: what is cut, and everything else.
@@ -23,6 +23,9 @@ const LETTERS: f64 = 6.0;
 /// The sheet as SVG text; `title` is the garment's name.
 pub fn cutting_svg(title: &str, sheet: &Sheet) -> String {
     let mut document = document(sheet.size * MM).add(Title::new(printable(title)));
+    for cloth in &sheet.cloth {
+        document = document.add(stretch(cloth));
+    }
     for paper in &sheet.papers {
         document = document.add(draw(paper));
     }
@@ -30,6 +33,28 @@ pub fn cutting_svg(title: &str, sheet: &Sheet) -> String {
         document = document.add(square(corner * MM, LETTERS));
     }
     document.to_string()
+}
+
+/// A stretch of cloth: its edges, its fold, and what it is.
+fn stretch(cloth: &Cloth) -> Group {
+    let (low, high) = (cloth.corner * MM, (cloth.corner + cloth.size) * MM);
+    let corners = [low, Vec2::new(high.x, low.y), high, Vec2::new(low.x, high.y), low];
+    let group = Group::new().set("class", "cloth").set("fill", "none").add(polyline(&corners, "selvedge", FINE));
+    let [height, above] = CLOTH_LETTERS.map(|x| x * MM);
+    let at = Vec2::new(low.x, low.y - above);
+    let text = Text::new(printable(&cloth.text))
+        .set("class", "text")
+        .set("x", number(at.x))
+        .set("y", number(at.y))
+        .set("font-family", "sans-serif")
+        .set("font-size", number(height))
+        .set("fill", "black");
+    let group = group.add(text);
+    if !cloth.folded {
+        return group;
+    }
+    let fold = polyline(&[low, Vec2::new(low.x, high.y)], "fold", 2.0 * CUT).set("stroke-dasharray", "24 6 4 6");
+    group.add(fold)
 }
 
 fn draw(paper: &Paper) -> Group {
@@ -110,6 +135,6 @@ fn slit(notch: &NotchMark) -> Path {
     told_notch(polyline(&points, "notch", FINE), notch.kind, &notch.edge)
 }
 
-fn letters(line: &Lettering) -> svg::node::element::Text {
+fn letters(line: &Lettering) -> Text {
     centered(&line.text, line.at * MM, line.height * MM, line.upright)
 }

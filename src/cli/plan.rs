@@ -1,0 +1,200 @@
+//! `export plan`: all pieces on their cloth, and how much of it is needed.
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use super::args::PlanArgs;
+use super::console::Console;
+use super::exit::{CliError, Exit};
+use super::export::{lacks_allowance, narrowed};
+use super::make::{borrowed, folder};
+use crate::cutting::{DEFAULT_ALLOWANCE, Label, Laid, Options, Paper, Plan, PlanOptions, labelled, plan_sheet, plans};
+use crate::geometry::{MM, box_of};
+use crate::io::files::{check_writable, write_all};
+use crate::io::pdf_write::one_page;
+use crate::io::svg_write::cutting_svg;
+use crate::pattern::drawings;
+use crate::pipeline::{Overrides, inputs, read_size};
+use crate::report::aligned;
+
+/// What is printed. Lengths are mm, areas mm².
+#[derive(Serialize)]
+struct Written {
+    files: Vec<String>,
+    plan: Whole,
+}
+
+/// All fabrics together.
+#[derive(Serialize)]
+struct Whole {
+    /// Length of all fabrics.
+    length: f64,
+    /// Share of all cloth that becomes pieces.
+    efficiency: f64,
+    fabrics: Vec<OfFabric>,
+}
+
+/// A fabric.
+#[derive(Serialize)]
+struct OfFabric {
+    fabric: String,
+    cloth: Option<String>,
+    width: f64,
+    length: f64,
+    /// Of that folded, and open after it.
+    folded: f64,
+    open: f64,
+    area: f64,
+    efficiency: f64,
+    pieces: Vec<Row>,
+}
+
+/// A paper on the cloth, and the corner of its box that is nearest to the beginning of the cloth and the fold.
+#[derive(Serialize)]
+struct Row {
+    piece: String,
+    x: f64,
+    y: f64,
+    pieces: usize,
+    folded: bool,
+    turned: bool,
+    flipped: bool,
+}
+
+/// `toile export plan`
+pub(super) fn plan(args: &PlanArgs, console: &Console) -> Result<Exit, CliError> {
+    let pieces = Pieces::read(args, console)?;
+    let targets = targets(args, &pieces.name)?;
+    check_writable(&targets, &borrowed(&pieces.inputs))?;
+    let options = PlanOptions { width: args.width / MM, nap: args.nap, open: args.open };
+    let found = plans(&pieces.drawn, &pieces.whole, &options).map_err(|e| CliError::Argument(e.to_string()))?;
+    let sheet = plan_sheet(&found);
+    let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
+    for target in targets {
+        if is(&target, "svg") {
+            files.push((target, cutting_svg(&pieces.title, &sheet).into_bytes()));
+            continue;
+        }
+        match one_page(&pieces.title, &sheet) {
+            Ok(bytes) => files.push((target, bytes)),
+            // The drawing is there, unless the PDF alone was asked for.
+            Err(error) if args.output.is_none() => console.note(&format!("no {}: {error}", target.display())),
+            Err(error) => return Err(CliError::Argument(error.to_string())),
+        }
+    }
+    write_all(&files, &borrowed(&pieces.inputs))?;
+    let written = Written { files: files.iter().map(|f| f.0.display().to_string()).collect(), plan: whole(&found) };
+    console.results(&written, || text(&written))?;
+    Ok(Exit::Done)
+}
+
+/// The papers of all garments.
+struct Pieces {
+    drawn: Vec<Paper>,
+    whole: Vec<Paper>,
+    name: String,
+    title: String,
+    inputs: Vec<PathBuf>,
+}
+
+impl Pieces {
+    fn read(args: &PlanArgs, console: &Console) -> Result<Self, CliError> {
+        let allowance = args.allowance.map_or(DEFAULT_ALLOWANCE, |mm| mm / MM);
+        let mut out = Self { drawn: vec![], whole: vec![], name: String::new(), title: String::new(), inputs: vec![] };
+        let (mut names, mut titles) = (Vec::new(), Vec::new());
+        for file in &args.garments {
+            let loaded = read_size(file, args.size.as_deref())?;
+            loaded.warnings.iter().for_each(|warning| console.note(&warning.to_string()));
+            let drawn = drawings(&loaded.file, &loaded.garment);
+            if args.allowance.is_none() && drawn.iter().any(lacks_allowance) {
+                let (file, usual) = (file.display(), DEFAULT_ALLOWANCE * MM);
+                console.note(&format!(
+                    "{file} does not give every edge an allowance; these get {usual} mm (--allowance MM for another)"
+                ));
+            }
+            let label = Label { title: loaded.garment.title.clone(), wearer: None, date: None };
+            // Pieces of several garments may have one name.
+            let named = |paper: Paper| match args.garments.len() {
+                1 => paper,
+                _ => Paper { name: format!("{}/{}", loaded.garment.name, paper.name), ..paper },
+            };
+            for (whole, papers) in [(false, &mut out.drawn), (true, &mut out.whole)] {
+                papers.extend(labelled(&drawn, &Options { allowance, whole }, &label).into_iter().map(named));
+            }
+            out.inputs.extend(inputs(file, &loaded.garment, &Overrides::default()));
+            names.push(loaded.garment.name.clone());
+            titles.push(loaded.garment.title.clone());
+        }
+        out.drawn.iter().flat_map(narrowed).for_each(|note| console.note(&note));
+        (out.name, out.title) = (names.join("+"), titles.join(", "));
+        Ok(out)
+    }
+}
+
+fn is(file: &Path, kind: &str) -> bool {
+    file.extension().is_some_and(|e| e.eq_ignore_ascii_case(kind))
+}
+
+fn targets(args: &PlanArgs, name: &str) -> Result<Vec<PathBuf>, CliError> {
+    let Some(file) = &args.output else {
+        return Ok(["svg", "pdf"].map(|kind| folder(None, name).join(format!("plan.{kind}"))).to_vec());
+    };
+    if is(file, "svg") || is(file, "pdf") {
+        return Ok(vec![file.clone()]);
+    }
+    let shown = file.display();
+    Err(CliError::Argument(format!("-o {shown}: a plan is an SVG or a PDF; end the name with .svg or .pdf")))
+}
+
+/// Millimetres to a hundredth.
+fn mm(metres: f64) -> f64 {
+    (metres * MM * 100.0).round() / 100.0
+}
+
+fn whole(plans: &[Plan]) -> Whole {
+    let (area, cloth) = plans.iter().fold((0.0, 0.0), |(a, c), p| (a + p.area, c + p.width * p.length()));
+    Whole {
+        length: mm(plans.iter().map(Plan::length).sum()),
+        efficiency: if cloth > 0.0 { area / cloth } else { 0.0 },
+        fabrics: plans.iter().map(of_fabric).collect(),
+    }
+}
+
+fn of_fabric(plan: &Plan) -> OfFabric {
+    OfFabric {
+        fabric: plan.fabric.clone(),
+        cloth: plan.cloth.clone(),
+        width: mm(plan.width),
+        length: mm(plan.length()),
+        folded: mm(plan.folded),
+        open: mm(plan.open),
+        area: (plan.area * MM * MM).round(),
+        efficiency: plan.efficiency(),
+        pieces: plan.papers.iter().map(row).collect(),
+    }
+}
+
+fn row(laid: &Laid) -> Row {
+    let [low, _] = box_of(laid.paper.cut.iter().flatten().copied());
+    Row {
+        piece: laid.paper.name.clone(),
+        x: mm(low.x),
+        y: mm(low.y),
+        pieces: laid.pieces,
+        folded: laid.folded,
+        turned: laid.turned,
+        flipped: laid.flipped,
+    }
+}
+
+fn text(written: &Written) -> String {
+    let mut rows = vec![["fabric", "width mm", "length mm", "of that folded", "used"].map(String::from).to_vec()];
+    rows.extend(written.plan.fabrics.iter().map(|f| {
+        let name = f.cloth.as_ref().map_or_else(|| f.fabric.clone(), |cloth| format!("{} ({cloth})", f.fabric));
+        let used = format!("{:.1} %", 100.0 * f.efficiency);
+        vec![name, format!("{:.0}", f.width), format!("{:.0}", f.length), format!("{:.0}", f.folded), used]
+    }));
+    let files: String = written.files.iter().map(|file| format!("  written to {file}\n")).collect();
+    format!("{}\n{files}", aligned(&rows))
+}
