@@ -86,7 +86,8 @@ pub(super) enum Command {
                             'hem: {above_floor: 560 mm, level: 10 mm}', 'sleeve: {ends_at: wrist}', \
                             'leg: {ends_at: ankle}', 'strain: below 60 % of limit', and 'knobs:' by name, each an \
                             alteration with a range, such as {take_in: side, at: {50 %: -10..30}}. docs/fitting.md \
-                            has the rest. Without --spacing particles are 20 mm apart.\n\nExit codes: 0 found, or nothing to change; 1 the wants cannot be had, \
+                            has the rest. Without --spacing particles are 20 mm apart.\n\n\
+                            Exit codes: 0 found, or nothing to change; 1 the wants cannot be had, \
                             which is said, and nothing is written; 2 the input is wrong; 3 it could not be computed.")]
     Fit(FitArgs),
     /// Write patterns for cutting: pieces with seam allowance, notches, grain and labels

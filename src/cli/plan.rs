@@ -69,6 +69,10 @@ pub(super) fn plan(args: &PlanArgs, console: &Console) -> Result<Exit, CliError>
     check_writable(&targets, &borrowed(&pieces.inputs))?;
     let options = PlanOptions { width: args.width / MM, nap: args.nap, open: args.open };
     let found = plans(&pieces.drawn, &pieces.whole, &options).map_err(|e| CliError::Argument(e.to_string()))?;
+    if !args.open {
+        let open = plans(&pieces.drawn, &pieces.whole, &PlanOptions { open: true, ..options });
+        open.iter().flatten().zip(&found).filter_map(|(open, own)| saving(own, open)).for_each(|s| console.note(&s));
+    }
     let sheet = plan_sheet(&found);
     let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     for target in targets {
@@ -87,6 +91,18 @@ pub(super) fn plan(args: &PlanArgs, console: &Console) -> Result<Exit, CliError>
     let written = Written { files: files.iter().map(|f| f.0.display().to_string()).collect(), plan: whole(&found) };
     console.results(&written, || text(&written))?;
     Ok(Exit::Done)
+}
+
+/// Share of its length that open cloth must save to be worth a word.
+const WORTH: f64 = 0.05;
+
+/// That a fabric would take less if it were not folded, if it would.
+fn saving(folded: &Plan, open: &Plan) -> Option<String> {
+    let (own, other) = (folded.length(), open.length());
+    let fabric = &folded.fabric;
+    (other < (1.0 - WORTH) * own).then(|| {
+        format!("'{fabric}': {:.0} mm are enough on open cloth (--open), folded it takes {:.0} mm", mm(other), mm(own))
+    })
 }
 
 /// The papers of all garments.

@@ -43,7 +43,7 @@ impl Knob {
     pub(super) fn given(knob: &KnobFile) -> Self {
         Self {
             name: knob.name.value.clone(),
-            parts: vec![knob.ends.clone()],
+            parts: knob.parts.clone(),
             range: knob.range.map(|x| x * MM),
             origin: Origin::Given,
         }
@@ -155,7 +155,8 @@ fn mix(from: &mut Quantity, to: Quantity, share: f64) {
     from.number = rounded(from.number + share * (to.number - from.number));
 }
 
-fn rounded(x: f64) -> f64 {
+/// To a micrometre.
+pub(super) fn rounded(x: f64) -> f64 {
     positive((x * DIGITS).round() / DIGITS)
 }
 

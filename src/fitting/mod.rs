@@ -126,8 +126,8 @@ pub struct KnobRow {
 /// share of it that is done.
 ///
 /// # Errors
-/// [`PipelineError`]: a garment, fabric or body that cannot be used, or a garment that cannot be made. That wants cannot
-/// be had is no error: [`Fitting::refused`].
+/// [`PipelineError`]: a garment, fabric or body that cannot be used, or a garment that cannot be made. That wants
+/// cannot be had is no error: [`Fitting::refused`].
 pub fn fit(asked: &Asked, progress: &mut dyn FnMut(&str, f64)) -> Result<Fitting, PipelineError> {
     Search::begin(asked, progress)?.finish(progress)
 }

@@ -2,7 +2,7 @@
 //! opening, from their grain.
 
 use super::figure::Figure;
-use super::knob::{Knob, Origin, alterations, here, length, taken};
+use super::knob::{Knob, Origin, alterations, here, length, rounded, taken};
 use super::seams::{Passing, Plane, is_plain, passing};
 use crate::geometry::{MM, Vec2, Vec3, range_of};
 use crate::io::garment::Loaded;
@@ -32,6 +32,8 @@ const FARTHEST: f64 = 2.0;
 const STRETCH: f64 = 0.15;
 /// Least |cosine| between the grain and an axis of the drawing along which a piece is lengthened.
 const UPRIGHT: f64 = 0.95;
+/// Positions in drawings are written to this, mm.
+const TENTH: f64 = 0.1;
 
 /// The garment as it was first draped.
 pub(super) struct Seen<'a> {
@@ -182,8 +184,9 @@ impl Seen<'_> {
         if ends.is_empty() || stretch * MM < LEAST {
             return None;
         }
-        let parts = ends.iter().map(|e| LENGTH.map(|mm| e.lengthened(mm, stretch, self.unit()))).collect();
         let pieces: Vec<String> = ends.iter().map(|e| e.piece.clone()).collect();
+        let longer = |ends: Vec<&End>| LENGTH.map(|mm| lengthened(&ends, mm, stretch, self.unit()));
+        let parts = together(&ends).into_iter().map(longer).collect();
         let name = format!("length of {}", pieces.join(", "));
         let knob = Knob { name, parts, range: LENGTH, origin: Origin::Length { pieces, end } };
         self.with_room(knob)
@@ -261,18 +264,35 @@ impl End {
         let room = beside.map(room).reduce(f64::min)?;
         (room > 0.0).then(|| Self { piece: piece.drawn_as.clone(), across, from, falling, room })
     }
+}
 
-    /// The piece made longer before its opening, over a stretch in metres.
-    fn lengthened(&self, mm: f64, stretch: f64, unit: Unit) -> AlterationFile {
-        let at = if self.falling { self.from } else { self.from - stretch };
-        let tenths = |x: f64| (x * MM * 10.0).round() / 10.0;
-        AlterationFile::Lengthen {
-            pieces: vec![here(self.piece.clone())],
-            at: length(tenths(at), unit),
-            by: length(mm, unit),
-            over: Some(length((tenths(stretch) * 10.0 - 1.0).max(1.0) / 10.0, unit)),
-            across: self.across.then(|| here(true)),
-            shorter: false,
+/// Pieces that end at one line of their drawings are lengthened in one: they may be like one another.
+fn together(ends: &[End]) -> Vec<Vec<&End>> {
+    let mut out: Vec<Vec<&End>> = Vec::new();
+    for end in ends {
+        let is_same = |other: &End| {
+            (other.across, other.falling) == (end.across, end.falling) && (other.from - end.from).abs() * MM < TENTH
+        };
+        match out.iter_mut().find(|group| is_same(group[0])) {
+            Some(group) => group.push(end),
+            None => out.push(vec![end]),
         }
+    }
+    out
+}
+
+/// Pieces made longer before their opening, over a stretch in metres.
+fn lengthened(ends: &[&End], mm: f64, stretch: f64, unit: Unit) -> AlterationFile {
+    let first = ends[0];
+    let at = if first.falling { first.from } else { first.from - stretch };
+    let tenths = |x: f64| (x * MM / TENTH).round() * TENTH;
+    AlterationFile::Lengthen {
+        pieces: ends.iter().map(|end| here(end.piece.clone())).collect(),
+        at: length(rounded(tenths(at)), unit),
+        by: length(mm, unit),
+        // Within the piece, whatever was rounded.
+        over: Some(length(rounded((tenths(stretch) - TENTH).max(TENTH)), unit)),
+        across: first.across.then(|| here(true)),
+        shorter: false,
     }
 }

@@ -67,18 +67,20 @@ impl Look<'_> {
                 figure.words()
             );
         }
+        let ends = self.at_ends(&at, |k| moving.contains(&k));
+        let why = if ends.is_empty() { "the knobs do not reach it".to_owned() } else { ends.join("; ") };
+        format!("{}: at best {}: {why}", figure.name, self.best_of(figure, values[w]))
+    }
+
+    /// The knobs that are at their ends.
+    fn at_ends(&self, at: &[f64], of: impl Fn(usize) -> bool) -> Vec<String> {
         let is_at_end = |k: &usize| {
             let [low, high] = self.ranges[*k];
             let near = AT_END * (high - low);
-            at[*k] - low <= near || high - at[*k] <= near
+            of(*k) && (at[*k] - low <= near || high - at[*k] <= near)
         };
-        let ends: Vec<String> = moving
-            .into_iter()
-            .filter(is_at_end)
-            .map(|k| format!("'{}' is at its end, {}", self.knobs[k].name, amount_of(&self.knobs[k], at[k])))
-            .collect();
-        let why = if ends.is_empty() { "the knobs do not reach it".to_owned() } else { ends.join("; ") };
-        format!("{}: at best {}: {why}", figure.name, self.best_of(figure, values[w]))
+        let said = |k: usize| format!("'{}' is at its end, {}", self.knobs[k].name, amount_of(&self.knobs[k], at[k]));
+        (0..self.knobs.len()).filter(is_at_end).map(said).collect()
     }
 
     fn fight(&self, [a, b]: [usize; 2]) -> String {
@@ -100,11 +102,13 @@ impl Look<'_> {
     }
 
     fn together(&self, all: &[usize]) -> String {
-        let (_, values) = self.best(all);
+        let (at, values) = self.best(all);
+        let ends = self.at_ends(&at, |_| true);
         let missed = all.iter().filter(|&&w| self.figures[w].off(values[w]).abs() > HAD);
         let said: Vec<String> = missed
             .map(|&w| format!("{} {}", self.figures[w].name, self.best_of(&self.figures[w], values[w])))
             .collect();
-        format!("any two can be had, but not all together; at best: {}", said.join(", "))
+        let ends = if ends.is_empty() { String::new() } else { format!("; {}", ends.join("; ")) };
+        format!("any two can be had, but not all together; at best: {}{ends}", said.join(", "))
     }
 }

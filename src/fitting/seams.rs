@@ -42,6 +42,14 @@ impl Plane {
         Some(Self { part: part.kind, center, axis })
     }
 
+    /// Whether cloth that is nearest to a part of the body may shape this girth. A skirt is nearer to the legs.
+    fn has(&self, part: PartKind) -> bool {
+        match self.part {
+            PartKind::Torso | PartKind::Neck => !part.is_arm(),
+            limb => part == limb,
+        }
+    }
+
     /// How far a point is beyond the plane, along the part.
     fn beyond(&self, p: Vec3) -> f64 {
         (p - self.center).dot(&self.axis)
@@ -147,7 +155,7 @@ fn crossing(plane: &Plane, k: usize, seam: &Seam, job: &Job, at: &[Vec3]) -> Opt
     };
     let point = place(line[step]).lerp(&place(line[step + 1]), share);
     // At an armpit a side seam is nearer to the arm.
-    let is_there = |p: Vec3| nearest_part(&job.body, p) == Some(plane.part);
+    let is_there = |p: Vec3| nearest_part(&job.body, p).is_some_and(|part| plane.has(part));
     let most = || 2 * line.iter().filter(|n| is_there(place(**n))).count() >= line.len();
     if !is_there(point) && !most() {
         return None;

@@ -17,8 +17,10 @@ use crate::report::Report;
 
 /// The change by which a knob is tried, mm: well above what a second drape of the same garment differs by.
 const TRIED: f64 = 8.0;
-/// Longest step of a knob, mm. Pressure does not change linearly.
-const REACH: f64 = 30.0;
+/// The change by which a knob of a long range is tried, as a share of it.
+const PART: f64 = 0.05;
+/// Longest step of a knob, mm, or as a share of a long range. Pressure does not change linearly.
+const REACH: (f64, f64) = (30.0, 0.25);
 /// Steps below this are none, mm.
 const STILL: f64 = 0.3;
 /// Amounts are rounded to this, mm.
@@ -142,7 +144,7 @@ impl<'a> Search<'a> {
     /// The change of one knob and the figures with it.
     fn tried(&self, start: &[f64], k: usize) -> Result<(f64, Vec<f64>), PipelineError> {
         let [low, high] = self.knobs[k].range;
-        let by = TRIED.min(0.5 * (high - low));
+        let by = TRIED.max(PART * (high - low)).min(0.5 * (high - low));
         // Letting out is safe where cloth is tight, and shorter where a hem lies on the floor.
         let first = if start[k] - low >= by { -by } else { by };
         let mut failed = None;
@@ -288,5 +290,6 @@ fn knobs(asked: &Asked, figures: &[Figure], seen: &Seen) -> Vec<Knob> {
 
 /// The part of a knob's range that one step reaches.
 fn within_reach([low, high]: [f64; 2], x: f64) -> [f64; 2] {
-    [low.max(x - REACH), high.min(x + REACH)]
+    let reach = REACH.0.max(REACH.1 * (high - low));
+    [low.max(x - reach), high.min(x + reach)]
 }

@@ -31,14 +31,14 @@ pub enum WantFile {
     Strain(Wanted),
 }
 
-/// A knob: an alteration whose amounts are given as ranges.
+/// A knob: an alteration, or several together, whose amounts are given as ranges.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KnobFile {
     /// Its name.
     pub name: Located<String>,
-    /// The alteration with the first ends of all ranges, and with the last ones. Lengths that are taken out may be
-    /// negative, which is to let in.
-    pub ends: [AlterationFile; 2],
+    /// The alterations, each with the first ends of all ranges, and with the last ones. Lengths that are taken out may
+    /// be negative, which is to let in.
+    pub parts: Vec<[AlterationFile; 2]>,
     /// Both ends of its widest range, metres (of a share of a dart's intake a fraction).
     pub range: [f64; 2],
 }

@@ -41,8 +41,8 @@ pub struct PlanOptions {
 pub enum PlanError {
     /// A piece wider than the cloth.
     #[error(
-        "'{piece}' is {width:.0} mm wide across its grain, and the cloth {cloth:.0} mm; give a larger --width, or divide \
-         the piece"
+        "'{piece}' is {width:.0} mm wide across its grain, and the cloth {cloth:.0} mm; give a larger --width, or \
+         divide the piece"
     )]
     TooWide {
         /// The piece.

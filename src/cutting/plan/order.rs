@@ -5,7 +5,7 @@ use crate::parallel;
 
 /// Orders that are tried side by side from the best so far, and how often.
 const SIDE_BY_SIDE: usize = 8;
-const ROUNDS: usize = 50;
+const ROUNDS: usize = 100;
 /// Weight of the mean lower end of the pieces against the length: of two plans of one length, the one whose pieces lie
 /// further up has more room left.
 const MEAN: f64 = 0.01;
@@ -21,8 +21,8 @@ pub(super) struct Laid {
     rank: f64,
 }
 
-/// Lays pieces on cloth of this width: in many orders on coarse columns, and in the best ones on fine ones. `None` where
-/// one is wider than the cloth.
+/// Lays pieces on cloth of this width: in many orders on coarse columns, and in the best ones on fine ones. `None`
+/// where one is wider than the cloth.
 pub(super) fn laid(coarse: &[Item], fine: &[Item], width: f64, [wide, narrow]: [f64; 2]) -> Option<Laid> {
     let mut tried: Vec<Laid> =
         starts(coarse).into_iter().map(|order| lay(coarse, width, wide, order)).collect::<Option<_>>()?;

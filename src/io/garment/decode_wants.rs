@@ -1,7 +1,7 @@
 //! A file of wants: how a garment is to fit, and what may be altered for it.
 
 use super::decode_alter::alteration_of_any_sign;
-use super::fields::{Fields, entries, text, wrong};
+use super::fields::{Fields, entries, items, text, wrong};
 use crate::pattern::{
     AlterationFile, Findings, KnobFile, Located, Problem, Quantity, Unit, Value, WantFile, Wanted, WantsFile,
     known_girth, parse_quantity,
@@ -166,16 +166,15 @@ fn knob(name: &Located<String>, value: &Located<Value>, unit: Unit, findings: &m
         findings.error(value.at, Problem::KnobRanges(name.value.clone()));
         return None;
     }
-    let errors = findings.errors();
-    let [first, last] = ends.map(|end| alteration_of_any_sign(&end, findings));
-    if findings.errors() > errors {
-        return None;
-    }
-    let ends: [AlterationFile; 2] = [first?.value, last?.value];
-    Some(KnobFile { name: name.clone(), ends, range })
+    let [first, last] = ends.map(|end| {
+        let read = items(&end).iter().map(|a| alteration_of_any_sign(a, findings)).collect::<Option<Vec<_>>>();
+        read.unwrap_or_default()
+    });
+    let parts: Vec<[AlterationFile; 2]> = first.into_iter().zip(last).map(|(a, b)| [a.value, b.value]).collect();
+    (!parts.is_empty()).then(|| KnobFile { name: name.clone(), parts, range })
 }
 
-/// An alteration with one end of each of its ranges, which are added to `ranges`.
+/// A knob's alterations with one end of each of its ranges, which are added to `ranges`.
 fn with_end(value: &Located<Value>, end: usize, unit: Unit, ranges: &mut Vec<[f64; 2]>) -> Located<Value> {
     let new = match &value.value {
         Value::Text(text) => match amounts(text) {
