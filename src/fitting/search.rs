@@ -29,6 +29,10 @@ const ROUNDED: f64 = 0.5;
 const NEAR: f64 = 0.4;
 /// So many times a step that cannot be made is halved.
 const HALVINGS: usize = 3;
+/// A step is followed by another if the sum of squares has become less than this share of what it was.
+const WORTH: f64 = 0.7;
+/// Wants that the model misses by more than this, in tolerances, are refused without a drape from nothing.
+const FAR: f64 = 5.0;
 /// Wants that are met have knobs of their own only if there are no more than this.
 const FEW: usize = 4;
 
@@ -79,33 +83,63 @@ impl<'a> Search<'a> {
             return Ok(self.told(None, &[]));
         }
         self.try_knobs()?;
-        loop {
-            let near = self.figures.iter().zip(&self.model.values).all(|(f, v)| f.off(*v).abs() < NEAR);
-            if !near && self.drapes + 1 < self.asked.drapes && self.step(progress)? {
-                continue;
-            }
-            let reasons = if near { Vec::new() } else { reasons(&self.model, &self.figures, &self.knobs) };
-            if !reasons.is_empty() {
-                self.refused = reasons;
-                return Ok(self.told(None, &[]));
-            }
-            let (new, draped) = self.verified(progress)?;
-            let at = new.0;
-            let values = self.values(&draped.report);
-            let ok = values.as_ref().is_some_and(|v| self.figures.iter().zip(v).all(|(f, v)| f.is_met(*v)));
-            if let Some(values) = &values {
-                self.model.go(&at, values);
-            }
-            if ok {
-                let worse: Vec<String> = self.worse(&draped.report);
-                return Ok(self.told(Some(new.1), &worse));
-            }
-            self.hanging = draped.hanging;
-            if self.drapes + 1 >= self.asked.drapes || values.is_none() {
-                self.refused = vec![self.not_reached()];
-                return Ok(self.told(None, &[]));
-            }
+        while !self.is_near() && self.drapes + 2 < self.asked.drapes && self.step(progress)? {}
+        // What a drape that goes on makes of a garment may differ a little from one that begins anew.
+        let reasons = reasons(&self.model, &self.figures, &self.knobs);
+        if !reasons.is_empty() && self.farthest(&self.best()) > FAR {
+            self.refused = reasons;
+            return Ok(self.told(None, &[]));
         }
+        self.verify(progress)
+    }
+
+    /// Drapes new files from nothing, until one has the figures that are wanted, or none better is to be had.
+    fn verify(mut self, progress: &mut dyn FnMut(&str, f64)) -> Result<Fitting, PipelineError> {
+        let mut at = self.rounded(&self.model.at);
+        loop {
+            let (new, draped) = self.verified(&at, progress)?;
+            let Some(values) = self.values(&draped.report) else {
+                self.refused =
+                    self.figures.iter().filter(|f| f.measured(&draped.report).is_none()).map(Figure::missing).collect();
+                return Ok(self.told(None, &[]));
+            };
+            self.model.learn(&at, &values);
+            self.model.go(&at, &values);
+            if self.figures.iter().zip(&values).all(|(f, v)| f.is_met(*v)) {
+                let worse = self.worse(&draped.report);
+                return Ok(self.told(Some(new), &worse));
+            }
+            let next = self.rounded(&self.best());
+            if next == at || self.drapes >= self.asked.drapes {
+                let reasons = reasons(&self.model, &self.figures, &self.knobs);
+                self.refused = if reasons.is_empty() { vec![self.not_reached()] } else { reasons };
+                return Ok(self.told(None, &[]));
+            }
+            at = next;
+        }
+    }
+
+    fn is_near(&self) -> bool {
+        self.figures.iter().zip(&self.model.values).all(|(f, v)| f.off(*v).abs() < NEAR)
+    }
+
+    /// The best amounts that the model knows.
+    fn best(&self) -> Vec<f64> {
+        let ranges: Vec<[f64; 2]> = self.knobs.iter().map(|knob| knob.range).collect();
+        let all: Vec<usize> = (0..self.figures.len()).collect();
+        self.model.best(&self.figures, &all, &ranges)
+    }
+
+    /// How far the worst figure is off at these amounts, in tolerances.
+    fn farthest(&self, at: &[f64]) -> f64 {
+        let values = self.model.predicted(at);
+        self.figures.iter().zip(&values).map(|(f, v)| f.off(*v).abs()).fold(0.0, f64::max)
+    }
+
+    /// Amounts as they are written.
+    fn rounded(&self, at: &[f64]) -> Vec<f64> {
+        let round = |(x, knob): (&f64, &Knob)| ((x / ROUNDED).round() * ROUNDED).clamp(knob.range[0], knob.range[1]);
+        at.iter().zip(&self.knobs).map(round).collect()
     }
 
     /// The figures of a report. `None` where one of them cannot be measured.
@@ -165,7 +199,7 @@ impl<'a> Search<'a> {
         failed.map_or_else(|| Ok((by, self.model.values.clone())), Err)
     }
 
-    /// A step of least squares. False where there is none left to make.
+    /// A step of least squares. False where there is none left to make, or it gained little.
     fn step(&mut self, progress: &mut dyn FnMut(&str, f64)) -> Result<bool, PipelineError> {
         let ranges: Vec<[f64; 2]> =
             self.knobs.iter().zip(&self.model.at).map(|(k, x)| within_reach(k.range, *x)).collect();
@@ -178,7 +212,7 @@ impl<'a> Search<'a> {
         let mut share = 1.0;
         for _ in 0..HALVINGS {
             let at: Vec<f64> = self.model.at.iter().zip(&way).map(|(x, w)| x + share * w).collect();
-            if self.drapes + 1 >= self.asked.drapes {
+            if self.drapes + 2 >= self.asked.drapes {
                 return Ok(false);
             }
             if let Some((at, draped)) = self.made(at, progress) {
@@ -198,29 +232,27 @@ impl<'a> Search<'a> {
         self.values(&draped.report).map(|_| (at, draped))
     }
 
-    /// Learns from a step, and goes there if it is better. False where it is not, and nothing was learnt that matters.
+    /// Learns from a step, and goes there if it is better. False where it is hardly so.
     fn taken(&mut self, (at, draped): Tried) -> bool {
         let Some(values) = self.values(&draped.report) else { return false };
-        let before = cost(&self.figures, &self.model.values);
+        let (before, after) = (cost(&self.figures, &self.model.values), cost(&self.figures, &values));
         self.model.learn(&at, &values);
-        if cost(&self.figures, &values) < before {
+        if after < before {
             self.model.go(&at, &values);
             self.hanging = draped.hanging;
         }
-        true
+        after < WORTH * before
     }
 
-    /// The new file with rounded amounts, draped from nothing.
-    fn verified(&mut self, progress: &mut dyn FnMut(&str, f64)) -> Result<((Vec<f64>, New), Draped), PipelineError> {
-        let round = |(x, knob): (&f64, &Knob)| ((x / ROUNDED).round() * ROUNDED).clamp(knob.range[0], knob.range[1]);
-        let at: Vec<f64> = self.model.at.iter().zip(&self.knobs).map(round).collect();
-        let list = alterations(&self.knobs, &at);
+    /// The new file with these amounts, draped from nothing.
+    fn verified(&mut self, at: &[f64], progress: &mut dyn FnMut(&str, f64)) -> Result<(New, Draped), PipelineError> {
+        let list = alterations(&self.knobs, at);
         let new = appended(self.asked.new, self.asked.loaded.text(), &list)?;
         let loaded = read_text(&self.asked.loaded.garment.name, self.asked.new, &new.text)?;
         self.drapes += 1;
         let name = format!("drape {}", self.drapes);
         let draped = drape(self.asked, &loaded, None, &mut |share| progress(&name, share))?;
-        Ok(((at, New { alterations: list, text: new.text, in_place: new.in_place }), draped))
+        Ok((New { alterations: list, text: new.text, in_place: new.in_place }, draped))
     }
 
     /// What is wrong with a garment, and was not with the one before.
