@@ -200,7 +200,7 @@ fn scaled(ends: &[AlterationFile; 2], from: [f64; 2], to: [f64; 2]) -> [Alterati
         let mut out = ends[k].clone();
         match &mut out {
             AlterationFile::Take { at, .. } => {
-                at.iter_mut().for_each(|s| s.1.value.number = amount(s.1.value.number, k))
+                at.iter_mut().for_each(|s| s.1.value.number = amount(s.1.value.number, k));
             }
             AlterationFile::Lengthen { by, .. } => by.value.number = amount(by.value.number, k),
             _ => {}
