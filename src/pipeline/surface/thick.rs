@@ -9,9 +9,9 @@ use crate::io::obj_read::ObjFaces;
 
 /// Faces that turn by more than 50° from each other belong to different sides (cosine).
 const SHARP: f64 = 0.642_787_6;
-/// The inner side has at least this share of the outer one's area,
+/// Least area of the inner side of a sheet, as a share of the outer one's.
 const INNER: f64 = 0.7;
-/// and both together at least this share of all.
+/// Least area of both sides together, as a share of the whole surface.
 const SIDES: f64 = 0.75;
 /// A sheet is thinner than this share of the root of its area: a cushion's boxing is not.
 const THIN: f64 = 0.05;
