@@ -98,7 +98,7 @@ fn normal(faces: &ObjFaces, f: usize) -> Vec3 {
 }
 
 impl Solid {
-    /// What is left out where this is a sheet: everything but its outer side, the larger one.
+    /// The faces that are left out where this is a sheet: all but its outer side, the larger one.
     fn as_sheet(&self, faces: &ObjFaces, same: &[u32]) -> Option<Sheet> {
         let mut patches = DisjointSets::new(faces.faces.len());
         for (_, [(f, along), (g, other)]) in &self.sides {
