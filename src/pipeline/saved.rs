@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::earlier::Earlier;
+use super::earlier::{Earlier, EarlierFiles};
 use super::error::PipelineError;
 use super::job::Job;
 use super::run::Run;
@@ -20,6 +20,16 @@ impl<'a> Run<'a> {
     pub fn continued(job: &'a Job, folder: &Path) -> Result<Self, PipelineError> {
         let mut run = Self::new(job);
         run.earlier = Some(Earlier::read(folder, &job.body)?);
+        Ok(run)
+    }
+
+    /// As [`Run::continued`], from a result that is in memory.
+    ///
+    /// # Errors
+    /// Files that are no result, or do not belong together.
+    pub fn continued_from(job: &'a Job, files: &EarlierFiles) -> Result<Self, PipelineError> {
+        let mut run = Self::new(job);
+        run.earlier = Some(Earlier::parse(files, &job.body)?);
         Ok(run)
     }
 
