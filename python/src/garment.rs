@@ -106,7 +106,8 @@ impl Garment {
     #[staticmethod]
     #[pyo3(signature = (path, body=None))]
     fn from_garmentcode(py: Python<'_>, path: PathBuf, body: Option<GivenBody>) -> PyResult<Self> {
-        let text = std::fs::read_to_string(&path)?;
+        let text = std::fs::read_to_string(&path);
+        let text = text.map_err(|e| errors::input(py, format!("{}: {e}", path.display())))?;
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let name = stem.strip_suffix("_specification").unwrap_or(&stem);
         let (body, measures) = body.map(GivenBody::parts).map_or((None, None), |(b, m)| (Some(b), Some(m)));
@@ -137,6 +138,9 @@ impl Garment {
         units: Option<f64>,
         size: Option<String>,
     ) -> PyResult<Self> {
+        if let Some(mm) = units.filter(|mm| !(*mm > 0.0 && mm.is_finite())) {
+            return Err(errors::input(py, format!("units: {mm} is no positive number of millimetres")));
+        }
         let options = SvgOptions { unit: units.map(|mm| 1e-3 * mm), size };
         let drawing = read_svg(&path, &options);
         let drawing = drawing.map_err(|e| errors::input(py, format!("{}: {e}", path.display())))?;
@@ -237,7 +241,7 @@ impl Garment {
         body: Option<GivenBody>,
         fabric: Option<GivenFabric>,
         spacing: Option<f64>,
-        threads: Option<usize>,
+        threads: Option<isize>,
         start: Option<Start>,
         progress: Option<Py<PyAny>>,
         body_units: Option<&str>,

@@ -58,14 +58,14 @@ impl Telling {
 /// something, which is not waited for longer than [`PATIENCE`].
 pub(crate) fn with_signals<T: Send + 'static>(
     py: Python<'_>,
-    threads: Option<usize>,
+    threads: Option<isize>,
     progress: Option<&Py<PyAny>>,
     work: impl FnOnce(&mut Telling) -> T + Send + 'static,
 ) -> PyResult<T> {
-    if threads == Some(0) {
+    if threads.is_some_and(|threads| threads < 1) {
         return Err(errors::input(py, "threads: at least one is needed; leave it out to have all processors"));
     }
-    let threads = threads.map_or(0, |threads| threads.min(MOST_THREADS));
+    let threads = threads.map_or(0, |threads| threads.unsigned_abs().min(MOST_THREADS));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build();
     let pool = pool.map_err(|e| errors::input(py, format!("cannot start the threads: {e}; try fewer")))?;
     let stop = Arc::new(AtomicBool::new(false));

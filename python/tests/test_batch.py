@@ -55,6 +55,41 @@ def check_same(store: Path, lines: list[dict[str, Any]], plain: Path) -> None:
     assert os.listdir(store / ".work") == ["lock"]
 
 
+def test_bytes_are_those_of_python_and_the_command_line_for_any_threads(
+    skirt: Path, plain: Path, tmp_path: Path
+) -> None:
+    [folder] = [line["folder"] for line in toile.index(plain) if line["id"] == "skirt 0"]
+    batch = (plain / folder / "garment.obj").read_bytes()
+    for threads in [1, 3]:
+        toile.Garment.load(skirt).make(spacing=COARSE, threads=threads).save(tmp_path / "ours")
+        assert (tmp_path / "ours" / "garment.obj").read_bytes() == batch
+    command("make", skirt, "--spacing", COARSE, "--threads", 2, "-o", tmp_path / "theirs")
+    assert (tmp_path / "theirs" / "garment.obj").read_bytes() == batch
+
+
+def test_the_index_as_parquet(plain: Path, tmp_path: Path) -> None:
+    arrow = pytest.importorskip("pyarrow.parquet", reason="pyarrow is not installed")
+    file = toile.to_parquet(plain, tmp_path / "index.parquet")
+    table = arrow.read_table(file)
+    rows, lines = table.to_pylist(), toile.index(plain)
+    assert [{key: row[key] for key in lines[0]} for row in rows] == lines
+    assert rows[1]["spacing"] == COARSE + 1 and rows[1]["garment"][0].endswith("skirt.yaml")
+    assert rows[-2]["fabric"] == "denin" and rows[-2]["exit"] == 2
+    assert os.listdir(tmp_path) == ["index.parquet"]
+    with pytest.raises(toile.InputError, match="is this the store"):
+        toile.to_parquet(tmp_path)
+
+
+def test_two_batches_at_once_make_nothing_twice(skirt: Path, plain: Path, tmp_path: Path) -> None:
+    store = tmp_path / "store"
+    both = [threading.Thread(target=toile.batch, args=(jobs(skirt),), kwargs={"store": store}) for _ in range(2)]
+    for one in both:
+        one.start()
+    for one in both:
+        one.join()
+    check_same(store, toile.batch(jobs(skirt), store=store), plain)
+
+
 def test_here(skirt: Path, plain: Path, tmp_path: Path) -> None:
     store = tmp_path / "store"
     # Some are there already.
@@ -65,6 +100,11 @@ def test_here(skirt: Path, plain: Path, tmp_path: Path) -> None:
     lines = toile.batch(jobs(skirt), store=store, progress=lambda _, share: told.append(share))
     check_same(store, lines, plain)
     assert told[0] >= len(kept) / (JOBS + 3) and told[-1] == 1
+    for wrong in [{"time": 0}, {"time": float("nan")}, {"memory": 0}, {"side_by_side": 0}, {"threads": -1}]:
+        with pytest.raises(toile.InputError, match=next(iter(wrong))):
+            toile.batch(jobs(skirt), store=store, **wrong)
+    with pytest.raises(toile.InputError, match="a job is a dict"):
+        toile.batch([3], store=store)  # type: ignore[list-item]
     with pytest.raises(toile.InputError, match="unknown field `colour`"):
         toile.batch([{"garment": skirt, "colour": 1}], store=store)
     with pytest.raises(toile.InputError, match="'a'"):

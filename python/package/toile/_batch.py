@@ -13,7 +13,7 @@ from time import monotonic, sleep
 from typing import Any
 
 from . import _json, _toile
-from ._errors import ComputationError
+from ._errors import ComputationError, InputError
 from ._index import index
 
 # Starts toile's command line: each garment is made in a process of its own. Not by ``-m``, which would also look into
@@ -89,6 +89,8 @@ def _texts(jobs: str | os.PathLike[str] | Iterable[Mapping[str, Any]]) -> list[s
 
 def _plain(job: Mapping[str, Any]) -> dict[str, Any]:
     """A job with the names of its body and fabric in place of objects. What it says itself goes before theirs."""
+    if not isinstance(job, Mapping):
+        raise InputError(f"a job is a dict such as {{'garment': 'skirt.yaml'}}, not {job!r}")
     plain: dict[str, Any] = {}
     for value in job.values():
         if isinstance(value, (_toile.Body, _toile.Fabric)):

@@ -49,6 +49,9 @@ pub fn alterations_in(text: &str) -> Result<usize, Refused> {
 }
 
 fn parsed(text: &str, findings: &mut Findings) -> Vec<Located<AlterationFile>> {
+    if text.trim().is_empty() {
+        return Vec::new();
+    }
     let Some(tree) = tree::parse(text, findings) else { return Vec::new() };
     match &tree.value {
         Value::Map(entries) if entries.iter().any(|(key, _)| key.value == "alter") => changes(&tree, findings),
