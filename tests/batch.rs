@@ -264,7 +264,7 @@ fn samples_draw_measures_alterations_and_sizes_and_the_batch_makes_them() {
     );
     let draw = |list: &str, count: &str, more: &[&str]| {
         let args = ["sample", "sized.yaml", "-n", count, "--seed", "3", "-o", list, "--spacing", "60"];
-        let output = room.run(&[&args, &["--bodies", "woman_92", "--fabrics", "denim"], more].concat());
+        let output = room.run(&[&args[..], &["--bodies", "woman_92", "--fabrics", "denim"], more].concat());
         (output.status.code(), text(&output.stderr), fs::read_to_string(room.path(list)).unwrap_or_default())
     };
     let (code, said, list) = draw("jobs.jsonl", "5", &["--vary", "ranges.yaml"]);
@@ -296,7 +296,7 @@ fn samples_draw_measures_alterations_and_sizes_and_the_batch_makes_them() {
     let job = jobs.iter().take(3).find(|job| job["size"] == "long").expect("a long one");
     let (measures, alter) = (job["measures"].to_string(), job["alter"].to_string());
     let args = ["make", "sized.yaml", "--size", "long", "--spacing", "60", "--fabric", "denim", "--body", "woman_92"];
-    room.run(&[&args, &["--measures", &*measures, "--alter", &*alter, "-o", "plain"][..]].concat());
+    room.run(&[&args[..], &["--measures", &*measures, "--alter", &*alter, "-o", "plain"]].concat());
     let folder = room.index("store")[job["id"].as_str().expect("an id")]["folder"].clone();
     let obj = |folder: &str| fs::read(room.path(folder).join("garment.obj")).expect("a garment");
     assert_eq!(obj("plain"), obj(&format!("store/{}", folder.as_str().expect("a folder"))));
