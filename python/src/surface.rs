@@ -35,12 +35,8 @@ fn mode(name: &str) -> Result<Mode, String> {
     }
 }
 
-/// Rows of three numbers, whose NumPy kind must be one of `kinds`: a cast would hide that others were meant.
-fn triples<'py, T: numpy::Element>(
-    value: &Bound<'py, PyAny>,
-    what: &str,
-    [kinds, expected]: [&str; 2],
-) -> PyResult<PyArrayLike2<'py, T, AllowTypeChange>> {
+/// An array of rows of three, whose NumPy kind is one of `kinds`: a cast would hide that others were meant.
+fn triples<'py>(value: &Bound<'py, PyAny>, what: &str, [kinds, expected]: [&str; 2]) -> PyResult<Bound<'py, PyAny>> {
     let py = value.py();
     let wrong = |why: String| errors::input(py, format!("{what}: {why}"));
     let array = py.import("numpy")?.call_method1("asarray", (value,)).map_err(|e| wrong(e.value(py).to_string()))?;
@@ -57,7 +53,7 @@ fn triples<'py, T: numpy::Element>(
     if !kinds.contains(&kind) {
         return Err(wrong(format!("{expected} are expected, not {dtype}")));
     }
-    array.extract().map_err(Into::into)
+    Ok(array)
 }
 
 /// The arrays as a surface of one group.
@@ -130,8 +126,8 @@ pub(crate) fn flatten(
         flatten: Options { mode: self::mode(mode).map_err(wrong)?, ..Options::default() },
         ..SurfaceOptions::default()
     };
-    let vertices = triples(vertices, "vertices", ["fiu", "numbers"])?;
-    let faces = triples(faces, "faces", ["iu", "whole numbers"])?;
+    let vertices = triples(vertices, "vertices", ["fiu", "numbers"])?.extract()?;
+    let faces = triples(faces, "faces", ["iu", "whole numbers"])?.extract()?;
     let faces = surface(&vertices, &faces, name).map_err(wrong)?;
     let name = PathBuf::from(name);
     let flat = with_signals(py, threads, None, move |_| {
