@@ -6,6 +6,7 @@ use toile::io::garment::{Refused, read_text};
 use toile::mannequin::{PartKind, load};
 use toile::pattern::{Diagnostic, Problem};
 use toile::pipeline::{Job, Overrides, Run, read};
+use toile::sew::place::{PlaceError, place};
 
 /// What is wrong with a file that cannot be used.
 fn mistakes(text: &str) -> Vec<Diagnostic> {
@@ -189,4 +190,46 @@ fn a_twisted_seam_says_which_list_to_turn_round() {
     let twisted = found.iter().find(|d| matches!(d.problem, Problem::Twisted { .. })).expect("a twisted seam");
     let hint = twisted.hint.as_deref().expect("a hint");
     assert!(hint.starts_with("leave face: same out") && !hint.contains("to: ["), "{hint}");
+}
+
+/// A waistcoat, open in front, with shoulders that slope by 22°. `back` is the key that the back's half needs.
+fn waistcoat(back: &str) -> String {
+    format!(
+        "garment: 1
+body: woman_92
+fabrics: {{shell: wool_suiting}}
+pieces:
+  front:
+    cut: pair
+    drawn: L
+    place: torso front
+    grain: [[130, 100], [130, 300]]
+    outline: {{start: 75 0, shoulder: L 185 45, armhole: L 255 225, side: L 250 360, hem: L 60 360, edge: L 75 0}}
+  back:
+    cut: fold center
+    {back}
+    place: torso back
+    grain: [[60, 100], [60, 300]]
+    outline: {{start: 0 25, neck: L 75 0, shoulder: L 185 45, armhole: L 255 225, side: L 250 360, hem: L 0 360,
+      center: L 0 25}}
+seams:
+  shoulder: {{sew: front.shoulder, to: back.shoulder}}
+  side: {{sew: front.side, to: back.side}}
+free: ['*.neck', '*.hem', '*.edge', '*.armhole']
+"
+    )
+}
+
+/// A shoulder that slopes steeply is no side seam.
+#[test]
+fn steep_shoulders_are_not_taken_for_sides_that_are_the_wrong_way_round() {
+    let placed = |back: &str| {
+        let overrides = Overrides { spacing: Some(0.025), ..Overrides::default() };
+        let loaded = read_text("waistcoat", "waistcoat.yaml", &waistcoat(back)).expect("a garment");
+        let job = Job::new(Path::new("waistcoat.yaml"), loaded, &overrides).expect("a job");
+        place(&job.garment, &job.mesh, &job.body, &job.collider)
+    };
+    placed("drawn: R").expect("placed");
+    let refused = placed("drawn: L").expect_err("sides the wrong way round");
+    assert!(matches!(&refused, PlaceError::Sides { seam, .. } if seam.starts_with("side")), "{refused}");
 }

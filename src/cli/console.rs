@@ -15,11 +15,20 @@ pub(super) struct Console {
     json: bool,
     /// Draw progress bars.
     bars: bool,
+    /// Somebody may be watching.
+    watched: bool,
 }
 
 impl Console {
-    pub(super) fn new(quiet: bool, json: bool) -> Self {
-        Self { quiet, json, bars: !quiet && !json && io::stderr().is_terminal() }
+    /// `alone`: a process of a batch, which nobody watches.
+    pub(super) fn new(quiet: bool, json: bool, alone: bool) -> Self {
+        let watched = !quiet && !json && !alone;
+        Self { quiet, json, bars: watched && io::stderr().is_terminal(), watched }
+    }
+
+    /// Whether somebody may be watching the results as they come.
+    pub(super) fn watched(&self) -> bool {
+        self.watched
     }
 
     /// Whether results are asked for as JSON.
@@ -119,6 +128,6 @@ impl Drop for Progress {
 }
 
 fn style() -> ProgressStyle {
-    ProgressStyle::with_template("  {msg:8} {bar:40} {percent:>3} %  {elapsed}")
+    ProgressStyle::with_template("  {msg:8} {bar:40} {percent:>3} %  {elapsed}, {eta} left")
         .unwrap_or_else(|_| ProgressStyle::default_bar())
 }

@@ -10,8 +10,8 @@ use crate::flatten;
 use crate::io::files::{check_writable, write_all};
 use crate::picture::Turning;
 use crate::pipeline::{
-    GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, Job, Overrides, PATTERN_SVG, PLACED_OBJ, PictureOptions, PipelineError,
-    Problem, REPORT_HTML, REPORT_JSON, ResultFile, Run, SEWN_OBJ, inputs, problems, read_variant,
+    GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, Glimpse, Job, Overrides, PATTERN_SVG, PLACED_OBJ, PictureOptions,
+    PipelineError, Problem, REPORT_HTML, REPORT_JSON, ResultFile, Run, SEWN_OBJ, inputs, problems, read_variant,
 };
 use crate::report::{summary, table};
 
@@ -146,7 +146,11 @@ pub(super) fn carry_out(plan: &Plan, console: &Console) -> Result<Exit, CliError
     check_writable(&targets, &borrowed(&inputs))?;
     let job = Job::dressed(worn, &plan.overrides)?;
     job.notes.iter().for_each(|note| console.note(note));
+    let early = |glimpse: &Glimpse| show_early(&job, glimpse, plan, &folder, &borrowed(&inputs));
     let mut run = plan.goal.begin(&job)?;
+    if console.watched() {
+        run = run.watched_by(&early);
+    }
     if let Err(error) = plan.goal.reach(&mut run, console) {
         if !error.is_input() {
             leave_state(&run, plan, &folder, &inputs, console);
@@ -172,6 +176,14 @@ pub(super) fn carry_out(plan: &Plan, console: &Console) -> Result<Exit, CliError
         summary(&report, broken, &format!("at {} first; --table prints every figure", first.display()))
     })?;
     Ok(judge(&problems, console))
+}
+
+/// Writes the picture of a coarser level, which the picture of the garment replaces when that is done. It is written
+/// with all other files again: that it cannot be written is told then.
+fn show_early(job: &Job, glimpse: &Glimpse, plan: &Plan, folder: &Path, inputs: &[&Path]) {
+    if let Ok(picture) = job.draw_glimpse(glimpse, &plan.drawing.layout) {
+        let _ = write(vec![(GARMENT_PNG, picture)], folder, inputs);
+    }
 }
 
 /// The folder asked for, or `out/NAME`; a name of dots would lead out of `out`.

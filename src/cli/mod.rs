@@ -55,7 +55,7 @@ pub fn main_with(arguments: impl IntoIterator<Item = OsString>, itself: &[OsStri
             return u8::try_from(said.exit_code()).unwrap_or(Exit::Input as u8);
         }
     };
-    let console = Console::new(args.global.quiet, args.global.json);
+    let console = Console::new(args.global.quiet, args.global.json, args.global.worker.is_some());
     let done = remove_on_interrupt()
         .map_err(CliError::from)
         .and_then(|()| args.global.worker.map_or(Ok(()), |memory| Ok(become_worker(memory)?)))

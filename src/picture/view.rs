@@ -12,7 +12,7 @@ use super::occlusion::Surroundings;
 use super::on_cloth::{Line, lines};
 use super::paint::Paint;
 use super::raster::{Band, Corner, NO_CLOTH, SAMPLES, Stroke};
-use super::{PictureLayout, Scale, Scene};
+use super::{PictureLayout, Scale, Scene, WIDTH};
 use crate::geometry::{TriMesh, Vec3};
 
 /// Rows of pixels drawn at a time: the samples of a band fit in the processor's cache.
@@ -238,14 +238,16 @@ fn stroke<'a>(line: &'a Line, camera: &Camera) -> Stroke<'a> {
 /// `height` is that of the views with what stands above and below, pixels.
 pub(super) fn words(canvas: &mut Canvas, scene: &Scene, cameras: &[Camera], paint: &Paint, height: usize) {
     const LEFT: f32 = 56.0;
-    let end = canvas.text(scene.title, [LEFT, 72.0], 5.0, INK);
+    let letters = lettering(canvas);
+    let end = canvas.text(scene.title, [LEFT, 72.0], 5.0 * letters, INK);
     let room = canvas.width as f32 - LEFT - (end + 34.0);
-    let size = (3.0 * room / Canvas::text_width(scene.subtitle, 3.0)).clamp(1.5, 3.0);
+    let size = (3.0 * room / Canvas::text_width(scene.subtitle, 3.0)).clamp(1.5, 3.0) * letters;
     canvas.text(scene.subtitle, [end + 34.0, 72.0], size, PALE_INK);
     let foot = (height - FOOT / 2 + 12) as f32;
     for camera in cameras {
         let middle = camera.left as f32 + 0.5 * camera.width as f32;
-        canvas.text(camera.name, [middle - 0.5 * Canvas::text_width(camera.name, 3.4), foot], 3.4, INK);
+        let size = 3.4 * letters;
+        canvas.text(camera.name, [middle - 0.5 * Canvas::text_width(camera.name, size), foot], size, INK);
     }
     if let Some(camera) = cameras.first() {
         scale_bar(canvas, camera.scale, foot);
@@ -254,6 +256,13 @@ pub(super) fn words(canvas: &mut Canvas, scene: &Scene, cameras: &[Camera], pain
         legend(canvas, *scale, *limit, scale.title());
     }
     groups(canvas, scene.groups);
+}
+
+/// Size of the letters of a picture, as a share of those of one that is [`WIDTH`] pixels wide.
+fn lettering(canvas: &Canvas) -> f32 {
+    /// Letters of this share are still read.
+    const SMALLEST: f32 = 0.6;
+    (canvas.width as f32 / WIDTH as f32).clamp(SMALLEST, 1.0)
 }
 
 /// A bar of a round length, at the right below.
@@ -265,7 +274,8 @@ pub(super) fn scale_bar(canvas: &mut Canvas, pixels_per_metre: f64, foot: f32) {
     canvas.line([left, y], [right, y], 1.2, PALE_INK);
     [left, right].iter().for_each(|&x| canvas.line([x, y - 8.0], [x, y + 8.0], 1.2, PALE_INK));
     let text = format!("{millimetres:.0} mm");
-    canvas.text(&text, [left - 18.0 - Canvas::text_width(&text, 2.6), foot], 2.6, PALE_INK);
+    let size = 2.6 * lettering(canvas);
+    canvas.text(&text, [left - 18.0 - Canvas::text_width(&text, size), foot], size, PALE_INK);
 }
 
 impl Scale {

@@ -1,6 +1,7 @@
 //! Coarse to fine: a garment is sewn and draped on a coarse mesh first, where a step costs little and moves folds far.
 //! The result is the start of the next finer mesh (cascadic multigrid; Bornemann and Deuflhard 1996).
 
+use super::glimpse::{Glimpse, Watch};
 use super::job::Job;
 use crate::drape::{DrapeOptions, Until, drape};
 use crate::dynamics::Cut;
@@ -45,7 +46,7 @@ pub(super) struct Coarse {
 }
 
 impl Job {
-    /// Sews `mesh`: coarser first, where that goes, else from `start`.
+    /// Sews `mesh`: coarser first, where that goes, else from `start`. `watch` is told of the coarser levels.
     ///
     /// # Errors
     /// A garment that cannot be sewn.
@@ -53,9 +54,10 @@ impl Job {
         &self,
         mesh: &ClothMesh,
         start: Vec<Vec3>,
+        watch: Watch,
         progress: &mut dyn FnMut(f64),
     ) -> Result<Closed, SewError> {
-        if let Some(coarse) = self.coarser(mesh, &mut |share| progress(COARSE_SHARE * share)) {
+        if let Some(coarse) = self.coarser(mesh, watch, &mut |share| progress(COARSE_SHARE * share)) {
             // What does not come out whole begins anew, as it would without a coarser level.
             if let Some((sewn, gaps)) = self.carried(&coarse, mesh) {
                 let start = coarse.closed.start.as_ref().map(|x| Transfer::new(&coarse.mesh, mesh).apply(x));
@@ -129,14 +131,18 @@ impl Job {
     }
 
     /// The next coarser level, sewn. None where the garment cannot be meshed or sewn so coarse.
-    fn coarser(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Option<Box<Coarse>> {
+    fn coarser(&self, mesh: &ClothMesh, watch: Watch, progress: &mut dyn FnMut(f64)) -> Option<Box<Coarse>> {
         let spacing = (COARSER * mesh.spacing).min(COARSEST);
         if spacing < LEAST * mesh.spacing {
             return None;
         }
         let (mesh, start) = self.placed_at(spacing)?;
-        let closed = self.sew_from_coarse(&mesh, start, progress).ok()?;
-        is_whole(&mesh, &closed.sewn).then(|| Box::new(Coarse { mesh, closed }))
+        let closed = self.sew_from_coarse(&mesh, start, watch, progress).ok()?;
+        is_whole(&mesh, &closed.sewn).then(|| {
+            let coarse = Box::new(Coarse { mesh, closed });
+            coarse.show(&coarse.closed.sewn.nodes, watch);
+            coarse
+        })
     }
 
     /// `mesh` sewn by way of a slightly coarser one. None where that does not come out whole either. The coarser one is
@@ -172,21 +178,23 @@ impl Job {
         is_whole(mesh, &sewn).then(|| (sewn, closed.gaps.clone()))
     }
 
-    /// Start positions for draping `mesh`, from the draped coarser level. `None` if that level cannot be draped, or
-    /// gives no whole garment.
+    /// Start positions for draping `mesh`, from the draped coarser level, of which `watch` is told. `None` if that level
+    /// cannot be draped, or gives no whole garment.
     pub(super) fn start_from_coarse(
         &self,
         mesh: &ClothMesh,
         coarse: &Coarse,
+        watch: Watch,
         progress: &mut dyn FnMut(f64),
     ) -> Option<Vec<Vec3>> {
         let Closed { sewn, coarse: coarser, .. } = &coarse.closed;
-        let lower = coarser.as_deref().and_then(|lower| self.start_from_coarse(&coarse.mesh, lower, progress));
+        let lower = coarser.as_deref().and_then(|lower| self.start_from_coarse(&coarse.mesh, lower, watch, progress));
         let options = DrapeOptions { until: Until::Near, near: lower.is_some(), ..DrapeOptions::default() };
         let start = lower.unwrap_or_else(|| sewn.nodes.clone());
         let mut tell = |share| progress(COARSE_SHARE * share);
         let cut = self.cut_of(&coarse.mesh);
         let draped = drape(&cut, &self.collider, &sewn.stitching, start, &options, &mut tell).ok()?;
+        coarse.show(&draped.nodes, watch);
         let start = coarse.carry(&draped.nodes, mesh);
         join(&self.cut_of(mesh), &self.collider, &Stitching::new(mesh), &start).ok().flatten()
     }
@@ -197,6 +205,12 @@ impl Job {
 }
 
 impl Coarse {
+    /// Shows this level with its classes at `nodes`.
+    fn show(&self, nodes: &[Vec3], watch: Watch) {
+        let stitching = &self.closed.sewn.stitching;
+        watch(&Glimpse { mesh: &self.mesh, class: &stitching.class, at: &stitching.spread(nodes) });
+    }
+
     /// Positions of the particles of `mesh` from those of this level's classes.
     fn carry(&self, nodes: &[Vec3], mesh: &ClothMesh) -> Vec<Vec3> {
         Transfer::new(&self.mesh, mesh).apply(&self.closed.sewn.stitching.spread(nodes))
@@ -210,10 +224,12 @@ pub(super) fn is_whole(mesh: &ClothMesh, sewn: &Sewn) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use std::cell::RefCell;
     use std::path::Path;
 
     use super::*;
-    use crate::pipeline::{Overrides, read};
+    use crate::picture::PictureLayout;
+    use crate::pipeline::{Overrides, Run, read};
 
     fn skirt(spacing: f64) -> Job {
         job("patterns/gore_skirt.yaml", spacing)
@@ -237,7 +253,7 @@ mod tests {
     fn a_garment_carried_over_tells_the_gaps_and_the_steps_of_the_one_that_was_sewn() {
         let job = skirt(0.014);
         let (mesh, start) = job.placed_at(0.014).expect("placed");
-        let closed = job.sew_from_coarse(&mesh, start, &mut |_| {}).expect("sewn");
+        let closed = job.sew_from_coarse(&mesh, start, &|_| {}, &mut |_| {}).expect("sewn");
         let coarse = closed.coarse.as_deref().expect("a coarser level");
         assert_eq!(counts(&closed.gaps), pairs(&coarse.mesh));
         assert_eq!(closed.gaps, coarse.closed.sewn.gaps_of_seams(&coarse.mesh));
@@ -248,9 +264,27 @@ mod tests {
     #[test]
     fn cloth_of_large_flat_cells_can_be_carried_over() {
         let job = job("tests/scenes/sheet_on_sphere.yaml", 0.016);
-        let closed = job.sew_from_coarse(&job.mesh, job.placed_at(0.016).expect("placed").1, &mut |_| {});
+        let closed = job.sew_from_coarse(&job.mesh, job.placed_at(0.016).expect("placed").1, &|_| {}, &mut |_| {});
         let coarse = closed.expect("nothing to sew").coarse.expect("a coarser level");
-        assert!(job.start_from_coarse(&job.mesh, &coarse, &mut |_| {}).is_some());
+        assert!(job.start_from_coarse(&job.mesh, &coarse, &|_| {}, &mut |_| {}).is_some());
+    }
+
+    #[test]
+    fn a_coarser_level_is_shown_once_it_is_sewn_and_once_it_is_draped() {
+        let job = skirt(0.015);
+        let seen = RefCell::new(Vec::new());
+        let watch = |glimpse: &Glimpse| {
+            assert_eq!(glimpse.at.len(), glimpse.class.len());
+            let lowest = glimpse.at.iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
+            seen.borrow_mut().push((glimpse.mesh.spacing, lowest));
+            let picture = job.draw_glimpse(glimpse, &PictureLayout::default()).expect("a picture");
+            assert!(picture.starts_with(b"\x89PNG"));
+        };
+        let mut run = Run::new(&job).watched_by(&watch);
+        run.drape(&mut |_, _| {}).expect("draped");
+        let seen = seen.into_inner();
+        assert_eq!(seen.iter().map(|(spacing, _)| *spacing).collect::<Vec<_>>(), [COARSEST; 2]);
+        assert_ne!(seen[0].1, seen[1].1, "the hem hangs elsewhere once the skirt is draped");
     }
 
     #[test]

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::earlier::{Continued, Earlier};
 use super::error::PipelineError;
+use super::glimpse::Watch;
 use super::job::Job;
 use super::levels::{COARSE_SHARE, Closed, Coarse};
 use super::problems::problems;
@@ -46,6 +47,8 @@ pub struct Run<'a> {
     anew: bool,
     /// Positions of the classes where the earlier garment hangs. Draping starts with them, and nothing is sewn.
     hanging: Option<Vec<Vec3>>,
+    /// Who is told of coarser levels.
+    watch: Watch<'a>,
 }
 
 impl<'a> Run<'a> {
@@ -69,7 +72,13 @@ impl<'a> Run<'a> {
             earlier: None,
             anew: false,
             hanging: None,
+            watch: &|_| {},
         }
+    }
+
+    /// The same, with `watch` told of every coarser level that is sewn or draped on the way.
+    pub fn watched_by(self, watch: Watch<'a>) -> Self {
+        Self { watch, ..self }
     }
 
     /// Places the pieces round the body and closes the seams.
@@ -93,7 +102,7 @@ impl<'a> Run<'a> {
                 self.anew = self.earlier.is_some();
                 let start = job.placed(&job.mesh).map_err(|e| failed(e.into()))?;
                 self.placed = Some(start.clone());
-                job.sew_from_coarse(&job.mesh, start, &mut tell).map_err(failed)?
+                job.sew_from_coarse(&job.mesh, start, self.watch, &mut tell).map_err(failed)?
             }
         };
         let Closed { sewn, gaps, coarse, start } = closed;
@@ -138,7 +147,7 @@ impl<'a> Run<'a> {
         let sewn = hanging.clone();
         let sewn = sewn.unwrap_or_else(|| gathered(&self.stitching, self.sewn.as_deref().unwrap_or_default()));
         let mut tell = |share| progress("drape", share);
-        let from_coarse = |coarse| job.start_from_coarse(&job.mesh, coarse, &mut tell);
+        let from_coarse = |coarse| job.start_from_coarse(&job.mesh, coarse, self.watch, &mut tell);
         let start = hanging.or_else(|| self.coarse.as_deref().and_then(from_coarse));
         let options = DrapeOptions { near: start.is_some(), ..DrapeOptions::default() };
         let begun = if start.is_some() { COARSE_SHARE } else { 0.0 };

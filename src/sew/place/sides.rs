@@ -16,6 +16,10 @@ use crate::pattern::Garment;
 /// of unit vectors: side seams of a peplum may slant by 70°; one that goes round a cut-out looks to both sides.
 const SIDEWAYS: f64 = 0.34;
 
+/// A seam is not judged that is less sideways than this share of the most sideways seam of the same two pieces: where
+/// those have a side seam, what slants is their shoulder.
+const SLANTED: f64 = 0.5;
+
 /// Refuses upright seams that join the same sides of two pieces round one part, each said to be at its front or its
 /// back. What says neither (a gusset), lies in a slit or on another piece may be sewn any way round.
 pub(super) fn check(
@@ -40,9 +44,19 @@ pub(super) fn check(
     let beside = |link: &Link| link.pieces.iter().all(|&p| alone(p)) && ring(link.pieces[0]) == ring(link.pieces[1]);
     let flanks: Vec<&Link> = rows.links.iter().filter(|l| l.upright && !l.through && beside(l)).collect();
     let within = behind(mesh, &flanks);
-    for link in flanks {
-        let sides = [0, 1].map(|k| side(outward(link, k, &sheet.straight, &within)));
-        let [Some(one), Some(other)] = sides else { continue };
+    let outward = |link: &&Link| [0, 1].map(|k| outward(link, k, &sheet.straight, &within));
+    let outward: Vec<[Vec2; 2]> = flanks.iter().map(outward).collect();
+    let sideways = |[one, other]: &[Vec2; 2]| one.x.abs().min(other.x.abs());
+    let mut most: BTreeMap<[usize; 2], f64> = BTreeMap::new();
+    for (link, outward) in flanks.iter().zip(&outward) {
+        let known = most.entry(pair(link)).or_default();
+        *known = known.max(sideways(outward));
+    }
+    for (link, outward) in flanks.into_iter().zip(&outward) {
+        let [Some(one), Some(other)] = outward.map(side) else { continue };
+        if sideways(outward) < SLANTED * most[&pair(link)] {
+            continue;
+        }
         if one == other {
             let [piece, to] = link.pieces.map(|p| garment.pieces[p].name.clone());
             let seam = garment.seams[link.seam].name.clone();
@@ -50,6 +64,12 @@ pub(super) fn check(
         }
     }
     Ok(())
+}
+
+/// The two pieces of a link, whichever it names first.
+fn pair(link: &Link) -> [usize; 2] {
+    let [a, b] = link.pieces;
+    [a.min(b), a.max(b)]
 }
 
 /// The particle that lies behind each mesh edge on the rim of the pieces of these links, seen from outside the piece.
