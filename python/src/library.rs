@@ -263,7 +263,7 @@ impl Fabric {
             let name = self.name.as_deref().unwrap_or_default();
             return Err(errors::input(py, format!("'{name}' was loaded, not measured: it has its file already")));
         };
-        if !path.extension().is_some_and(|e| e == "yaml") {
+        if path.extension().is_none_or(|e| e != "yaml") {
             return Err(errors::input(py, format!("{}: a fabric's file is named .yaml", path.display())));
         }
         write(py, &path, text.clone())
