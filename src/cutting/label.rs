@@ -1,4 +1,4 @@
-//! What is written on a piece, and where there is room for it.
+//! The lettering of a piece, and where there is room for it.
 
 use super::marks::grain_arrow;
 use super::room::{AIR, Room, foot};
@@ -39,7 +39,7 @@ pub(super) struct EdgeWidth<'a> {
     pub(super) length: f64,
 }
 
-/// What the pieces of a garment are labelled with besides.
+/// Further lines on the labels of a garment's pieces.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Label {
     /// The garment's name.
@@ -59,11 +59,11 @@ impl Label {
     }
 }
 
-/// What is written on a piece beside its name and count.
+/// The label of a piece beside its name and count.
 pub(super) struct Words<'a> {
     /// The allowances of its edges.
     pub(super) widths: Vec<EdgeWidth<'a>>,
-    /// What it belongs to.
+    /// The garment it belongs to.
     pub(super) heading: Option<String>,
     /// Seams, each with the edge that it takes.
     pub(super) sewn: Vec<(String, &'a Path)>,
@@ -192,7 +192,7 @@ fn room(paper: &Paper) -> Room {
     room
 }
 
-/// What is written along elastic: to which share of its length it is drawn in.
+/// The label along elastic: the share of its length that it is drawn in to.
 fn elastic(paper: &Paper, room: &Room) -> Vec<Lettering> {
     let mut texts = Vec::new();
     for mark in &paper.marks {

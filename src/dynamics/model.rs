@@ -99,7 +99,7 @@ pub struct Cloth {
     pub(super) foreseen: Loads,
 }
 
-/// What resists within the plane of the cloth.
+/// The model of stretch and shear within the plane of the cloth.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Element<'a> {
     /// A spring.

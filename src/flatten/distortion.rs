@@ -9,7 +9,7 @@ use nalgebra::Matrix2;
 
 use super::element::Mode;
 
-/// What the terms weigh.
+/// The weights of the terms.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Weights {
     /// Of the symmetric Dirichlet energy; positive, for it is the wall before a flip.

@@ -1,4 +1,4 @@
-//! What can be wrong with a surface that is to be laid flat.
+//! Faults of a surface that is to be laid flat.
 
 /// Why a surface could not be flattened.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -65,7 +65,7 @@ pub enum FlattenError {
     Piece {
         /// The piece's name.
         piece: String,
-        /// What is wrong with it.
+        /// Its fault.
         source: Box<FlattenError>,
     },
 }

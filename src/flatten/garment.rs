@@ -26,7 +26,7 @@ pub struct FlatGarment {
     pub pieces: Vec<FlatPiece>,
 }
 
-/// What happened to one piece.
+/// The result of one piece.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FlatPiece {
     /// As in the garment.

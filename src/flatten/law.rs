@@ -1,4 +1,4 @@
-//! What a triangle is measured by: the densities of a mode, weighted.
+//! The energy density of a triangle: the densities of a mode, weighted.
 
 use nalgebra::Matrix2;
 
@@ -7,10 +7,10 @@ use super::element::Mode;
 use super::{distortion, woven};
 use crate::geometry::Vec2;
 
-/// What a triangle's energy density is made of.
+/// The terms of a triangle's energy density.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Law {
-    /// What counts the same in all directions.
+    /// The isotropic term.
     pub(super) weights: Weights,
     /// Flat warp direction, where threads count (with weight 1).
     pub(super) warp: Option<Vec2>,

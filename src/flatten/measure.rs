@@ -1,4 +1,4 @@
-//! What flattening did to the cloth.
+//! The errors that flattening leaves in the cloth.
 
 use std::f64::consts::TAU;
 
@@ -14,7 +14,7 @@ use crate::geometry::{TriMesh, Vec2, Vec3};
 /// Share of the area that may be strained more than [`Report::strain_p99`] says: single triangles at a corner.
 const LARGEST_SHARE: f64 = 0.01;
 
-/// What happened to one flat piece. Lengths in metres, areas in square metres, errors as fractions.
+/// The errors of one flat piece. Lengths in metres, areas in square metres, errors as fractions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
     /// Energy at the end: about the mean square strain, plus what the mode weighs besides.
@@ -58,7 +58,7 @@ pub struct Report {
     pub compression_p99: f64,
     /// The largest of any triangle.
     pub strain_max: f64,
-    /// What happened to warp and weft.
+    /// The strain of warp and weft.
     pub threads: Threads,
     /// Largest change of the rim's inner angle in one of its vertices, radians.
     pub corner_change: f64,

@@ -85,7 +85,7 @@ const RIM_OF_A_PIECE_APART: f64 = 1e-3;
 /// the whole way takes three quarters of the time. What is left of it is not worth its last steps.
 const FIRST_OF_TWO: Goal = Goal { tolerance: 1e-3, max_iterations: 1000, holds: 0, exact: 0.0 };
 
-/// What a flat piece should keep where it cannot keep everything.
+/// The property that a flat piece keeps where it cannot keep all.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
     /// Rim lengths first, then the area of every triangle; shear gives. For sewing.
@@ -115,7 +115,7 @@ impl Mode {
 /// How to flatten.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// What to keep.
+    /// The property to keep.
     pub mode: Mode,
     /// Converged when the next step would lower the energy by less than this share of it.
     pub tolerance: f64,
@@ -140,7 +140,7 @@ pub struct Flattened {
     /// Logarithm of the scale at every vertex of the conformal map that keeps the rim's lengths: where a cut helps most
     /// ([`dart`]). Empty where no such map was computed.
     pub log_scale: Vec<f64>,
-    /// What it did to the cloth.
+    /// The errors it leaves in the cloth.
     pub report: Report,
 }
 

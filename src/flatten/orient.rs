@@ -54,7 +54,7 @@ pub fn orient(triangles: &mut [[u32; 3]]) -> Option<Vec<usize>> {
     Some(all)
 }
 
-/// What a surface of one side is called, by its rims and its Euler characteristic.
+/// The name of a one-sided surface, by its rims and its Euler characteristic.
 pub fn one_sided(triangles: &[[u32; 3]]) -> &'static str {
     let topology = Topology::new(triangles);
     let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();

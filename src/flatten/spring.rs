@@ -6,7 +6,7 @@ use nalgebra::Matrix2;
 
 use crate::geometry::Vec2;
 
-/// What a length costs: with e = length/target − 1 its energy is weight · e² + pull · e.
+/// The energy of a length: with e = length/target − 1 it is weight · e² + pull · e.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Elastic {
     /// Wanted length, metres.
@@ -47,11 +47,11 @@ impl Elastic {
 /// A spring that wants a line to have a length.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spring {
-    /// What the line depends on.
+    /// The vertices that the line depends on.
     pub(super) nodes: [u32; 3],
     /// The line is the sum of the nodes' positions times these, which sum to zero.
     pub(super) shares: [f64; 3],
-    /// What its length costs.
+    /// The energy of its length.
     pub(super) elastic: Elastic,
 }
 
@@ -60,7 +60,7 @@ pub(super) struct Spring {
 pub(super) struct Chain {
     /// Which of the free springs.
     pub(super) springs: Range<usize>,
-    /// What the sum of their lengths costs.
+    /// The energy of the sum of their lengths.
     pub(super) elastic: Elastic,
 }
 

@@ -45,7 +45,7 @@ pub enum BodyError {
     Fault {
         /// Path.
         file: String,
-        /// What is wrong, where, and the remedy.
+        /// The fault, its place and the remedy.
         fault: BodyFault,
     },
     /// A surface that runs through itself in more than a few places.
@@ -74,7 +74,7 @@ pub enum BodyError {
         file: String,
         /// Height in the file's unit.
         units: f64,
-        /// What that was taken for.
+        /// The unit that was taken.
         unit: LengthUnit,
         /// Height in metres.
         metres: f64,
@@ -84,7 +84,7 @@ pub enum BodyError {
     Shape {
         /// Path.
         file: String,
-        /// What is missing.
+        /// The height or the parts that are missing.
         why: String,
     },
     /// A unit for what has one.
@@ -247,7 +247,7 @@ fn unit_of_body(height: f64) -> LengthUnit {
     }
 }
 
-/// What is said of a unit that the file's size suggests.
+/// The note on a unit that the file's size suggests.
 fn assumed(unit: LengthUnit, since: &str) -> String {
     format!(
         "{} assumed, since {since}; if that is wrong, say --body-units mm, cm, dm, m or in ('body_units' in the file)",
@@ -255,7 +255,7 @@ fn assumed(unit: LengthUnit, since: &str) -> String {
     )
 }
 
-/// What a user should know of a body that does not stand on y = 0 and face +z.
+/// The note on a body that does not stand on y = 0 and face +z.
 fn stands(frame: &Frame) -> Vec<String> {
     let mut notes = Vec::new();
     if frame.low.abs() > OFF {
@@ -272,7 +272,7 @@ fn stands(frame: &Frame) -> Vec<String> {
     notes
 }
 
-/// What a user should know of limbs that were moved to make room for cloth.
+/// The note on limbs that were moved to make room for cloth.
 fn gave_way(moved: &[(PartKind, f64)]) -> Option<String> {
     let limbs: Vec<&str> = moved.iter().map(|(kind, _)| kind.name()).collect();
     let most = 1e3 * moved.iter().map(|(_, by)| *by).reduce(f64::max)?;
@@ -333,7 +333,7 @@ fn refuse_crossings(mesh: &TriMesh, check: &BodyCheck, origin: &Origin) -> Resul
     }
 }
 
-/// What a body's check found that its user should know.
+/// The notes of a body's check.
 fn findings(check: &BodyCheck, origin: &Origin) -> Vec<String> {
     let mut notes = Vec::new();
     if check.parts > 1 {

@@ -1,4 +1,4 @@
-//! What a block of a DXF file holds, by layer.
+//! The contents of a block of a DXF file, by layer.
 
 use super::dxf_curves::{ellipse, spline};
 use super::dxf_left_out::LeftOut;
@@ -12,7 +12,7 @@ use super::dxf_write::layer;
 use crate::digitize::{bridged, chained};
 use crate::geometry::{Path, Vec2, bulged};
 
-/// What a block holds, by layer.
+/// The contents of a block, by layer.
 pub(super) struct Block<'a> {
     pub(super) name: &'a str,
     pub(super) lines: Vec<(u32, Path)>,
@@ -47,7 +47,7 @@ impl<'a> Block<'a> {
         Self { name, lines, points, slits, texts }
     }
 
-    /// What it is called in the file.
+    /// Its name in the file.
     pub(super) fn name(&self) -> &'a str {
         self.name
     }
@@ -85,7 +85,7 @@ impl<'a> Block<'a> {
         closed.filter(|p| (p.start() - p.end()).norm() < 1e-8 && p.double_area() != 0.0).collect()
     }
 
-    /// What lies in a boundary, which is one of its own.
+    /// The marks in a boundary that is a block of its own.
     pub(super) fn part(&self, boundary: &Path) -> Self {
         let rim = Rim::new(boundary);
         let is_own = |(on, line): &&(u32, Path)| *on != layer::BOUNDARY && rim.holds(line.point(line.length() / 2.0));

@@ -69,12 +69,12 @@ impl<'e, 'a> Library<'e, 'a> {
         own.and_then(|insert| Placed::new(insert, self.unit)).map(|p| Placed { shift: Vec2::zeros(), ..p })
     }
 
-    /// What is drawn in a block.
+    /// The entities of a block.
     pub(super) fn block(&self, entities: &'e [Entity<'a>], left_out: &mut LeftOut<'a>) -> Result<Block<'a>, DxfError> {
         self.block_in(entities, left_out, 0)
     }
 
-    /// What is drawn in no block, without what is inserted.
+    /// The entities in no block, without inserted ones.
     pub(super) fn loose(&self, entities: &'e [Entity<'a>], left_out: &mut LeftOut<'a>) -> Result<Block<'a>, DxfError> {
         let mut block = Block::named("");
         let mut within = false;

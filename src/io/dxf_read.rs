@@ -36,7 +36,7 @@ pub enum DxfError {
     NotText {
         /// From 1.
         line: usize,
-        /// What stands there.
+        /// The text that stands there.
         found: String,
     },
     /// A coordinate that is no number.
@@ -44,7 +44,7 @@ pub enum DxfError {
     Number {
         /// From 1.
         line: usize,
-        /// What stands there.
+        /// The text that stands there.
         found: String,
     },
     /// Too many lines.
@@ -64,7 +64,7 @@ pub enum DxfError {
     /// A size that it has not.
     #[error("it has no size '{wanted}'; its sizes are {known}")]
     NoSize {
-        /// What was asked for.
+        /// The size that was asked for.
         wanted: String,
         /// Those there are.
         known: String,
@@ -86,12 +86,12 @@ pub enum DxfError {
     NoPieces {
         /// Those there are.
         layers: String,
-        /// What was left out, which may be the reason.
+        /// The parts that were left out, which may be the reason.
         besides: String,
     },
 }
 
-/// What is said of a file besides what it says itself.
+/// Notes on a file besides its own statements.
 #[derive(Clone, Debug, Default)]
 pub struct DxfOptions {
     /// Metres per drawing unit; without it what the file says counts, else millimetres.

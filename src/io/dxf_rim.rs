@@ -1,4 +1,4 @@
-//! What lies on a piece of a DXF file and what beside it, and what is said of the rest.
+//! Tells marks on a piece of a DXF file from marks beside it, with the notes on the rest.
 
 use std::cell::Cell;
 
@@ -6,7 +6,7 @@ use super::dxf_piece::{closed_by, closing, is_on};
 use crate::digitize::{Drawing, Inner, bridged, parts_within};
 use crate::geometry::{MM, Path, Vec2, box_of, distance_to_segment, encloses, sides_of};
 
-/// What is so near to the outline (metres) is on the piece.
+/// Marks so near to the outline (metres) are on the piece.
 pub(super) const ON_RIM: f64 = 5e-4;
 /// Chords that stand for curves where only inside and outside is asked.
 const COARSE: f64 = 1e-4;
@@ -41,7 +41,7 @@ impl Rim {
     }
 }
 
-/// What there is to say of a piece while it is read.
+/// The notes on a piece while it is read.
 pub(super) struct Saying<'n> {
     pub(super) name: &'n str,
     /// Whether it has been said that ends were joined.

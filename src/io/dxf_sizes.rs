@@ -48,7 +48,7 @@ impl Sizes {
         Ok(self.sample.as_ref().or_else(middle).map(String::as_str))
     }
 
-    /// What to say of the size that is read.
+    /// The note on the size that is read.
     pub(super) fn note(&self, chosen: Option<&str>, wanted: bool) -> Option<String> {
         let chosen = chosen?;
         let why = match &self.sample {

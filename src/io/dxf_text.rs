@@ -51,7 +51,7 @@ impl<'a> Entity<'a> {
         self.value(8)?.parse().ok()
     }
 
-    /// What its kind means by code 70.
+    /// The meaning of code 70 for its kind.
     pub(super) fn flags(&self) -> u32 {
         self.value(70).and_then(|v| v.parse().ok()).unwrap_or(0)
     }
@@ -211,7 +211,7 @@ pub(super) fn assumed_unit(entities: &[Entity]) -> (f64, Vec<String>) {
     (unit, vec![format!("the drawing does not say its unit: taken as {name}{why}; --units says another")])
 }
 
-/// What follows a key at the start of a text, in any case: `Piece Name: FRONT`.
+/// The value after a key at the start of a text, in any case: `Piece Name: FRONT`.
 pub(super) fn after<'a>(text: &'a str, key: &str) -> Option<&'a str> {
     let head = text.get(..key.len())?;
     head.eq_ignore_ascii_case(key).then(|| text[key.len()..].trim())

@@ -13,7 +13,7 @@ const SHARE: f64 = 0.3;
 /// And no farther from there than this (metres): its coordinates are rounded.
 const NEAR: f64 = 1e-5;
 
-/// What is told of a line.
+/// The statements on a line.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Told {
     /// It is this edge of the piece, whose allowance ends so at corners.
@@ -43,7 +43,7 @@ impl Told {
         }
     }
 
-    /// What a text tells, if it is one of these.
+    /// The statement of a text, if it is one of these.
     pub(super) fn read(text: &str) -> Option<Self> {
         let (key, value) = text.split_once(": ")?;
         match (key, value.trim()) {
@@ -75,18 +75,18 @@ pub(super) fn place(line: &Path) -> Vec2 {
     line.point(SHARE * line.length())
 }
 
-/// What the texts at these places tell of a line.
+/// The statements of the texts at these places on a line.
 pub(super) fn told_of<'t>(line: &Path, texts: &'t [(Told, Vec2)]) -> Option<&'t Told> {
     let place = place(line);
     texts.iter().find(|(_, at)| (at - place).norm() <= NEAR).map(|(told, _)| told)
 }
 
-/// What is told of a notch, where it meets the sewing line; the edge's name last, for it may hold anything.
+/// The statement on a notch where it meets the sewing line. The edge's name is last, for it may hold anything.
 pub(super) fn notch_text(notch: &NotchMark) -> String {
     format!("Notch: {}, {}", notch.kind.word(), notch.edge)
 }
 
-/// What a text tells of a notch, if it is one of these.
+/// The statement of a text on a notch, if it is one of these.
 pub(super) fn read_notch(text: &str) -> Option<ToldNotch> {
     let (kind, edge) = text.strip_prefix("Notch: ")?.split_once(", ")?;
     Some(ToldNotch { kind: NotchKind::from_word(kind)?, edge: edge.trim().to_owned() })

@@ -29,7 +29,7 @@ pub mod layer {
     pub const GRAIN: u32 = 7;
     /// Lines inside, not cut.
     pub const INTERNAL: u32 = 8;
-    /// What is cut out of a piece.
+    /// The holes of a piece.
     pub const CUTOUT: u32 = 11;
     /// Drill holes.
     pub const DRILL: u32 = 13;
@@ -74,7 +74,7 @@ pub fn cutting_dxf(style: &str, papers: &[Paper]) -> String {
     dxf.text
 }
 
-/// What is told of the sides of a fish-eye dart, which is sewn and neither an edge nor cut.
+/// The text on the sides of a fish-eye dart, which is sewn and neither an edge nor cut.
 fn fish_eye() -> LineKind {
     LineKind::Mark("dart".to_owned())
 }
@@ -174,7 +174,7 @@ impl Dxf {
         }
     }
 
-    /// What the standard wants to be said of a piece, one text each on the boundary's layer.
+    /// The statements that the standard demands of a piece, one text each on the boundary's layer.
     fn piece_texts(&mut self, style: &str, paper: &Paper) {
         // As drawn, and mirrored.
         let (plain, mirrored) =
@@ -194,7 +194,7 @@ impl Dxf {
         }
     }
 
-    /// What is said of the whole style.
+    /// The statements on the whole style.
     fn style(&mut self, style: &str, papers: &[Paper]) {
         let texts = [
             format!("Style Name: {style}"),

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use encoding_rs::{Encoding, UTF_16BE, UTF_16LE, WINDOWS_1252};
 
-/// What a DXF file calls its letters.
+/// The name of a DXF file's encoding.
 const CODE_PAGE: &[u8] = b"$DWGCODEPAGE";
 /// The name follows within so many bytes.
 const NEAR: usize = 64;

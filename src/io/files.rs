@@ -41,7 +41,7 @@ pub enum WriteError {
     /// The folder to write into is a file.
     #[error("cannot write {}: {} is a file, not a folder", target.display(), path.display())]
     NotFolder {
-        /// What should be written.
+        /// The file to write.
         target: PathBuf,
         /// The file in its way.
         path: PathBuf,
@@ -51,7 +51,7 @@ pub enum WriteError {
     Folder {
         /// The folder.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
     /// A file cannot be written.
@@ -59,7 +59,7 @@ pub enum WriteError {
     File {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
     /// The interrupt handler cannot be set up.

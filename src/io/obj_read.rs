@@ -27,7 +27,7 @@ pub enum ObjError {
     Read {
         /// Path.
         file: String,
-        /// What the system said.
+        /// The system's error.
         why: String,
     },
     /// More than 512 MiB.
@@ -45,7 +45,7 @@ pub enum ObjError {
         file: String,
         /// From 1.
         line: usize,
-        /// What is wrong and what was expected.
+        /// The fault, and the form that was expected.
         why: String,
     },
     /// A file without a surface.
@@ -143,7 +143,7 @@ pub fn parse_obj_faces(text: &str, file: &str) -> Result<ObjFaces, ObjError> {
     if faces.faces.is_empty() { Err(ObjError::Empty { file }) } else { Ok(faces) }
 }
 
-/// What groups are told by.
+/// The statements that groups are told by.
 #[derive(Clone, Default, PartialEq)]
 struct GroupKey {
     /// Of the last `g` or `o` line.

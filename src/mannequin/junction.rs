@@ -2,7 +2,7 @@
 
 use crate::geometry::{DisjointSets, Edge, TriMesh, Vec3, range_of};
 
-/// What hangs down by less is no limb: fingers, a chin, a seat, metres.
+/// A part that hangs down by less, metres, is no limb: fingers, a chin, a seat.
 pub(crate) const LIMB: f64 = 0.15;
 /// Distance between the heights at which the room beside a limb is looked at, metres.
 pub(crate) const LEVEL: f64 = 0.005;
@@ -15,7 +15,7 @@ pub(crate) struct Junction {
     pub(crate) top: f64,
     /// Height of the lower end of the shorter one, metres.
     pub(crate) bottom: f64,
-    /// What every vertex belongs to.
+    /// The side of every vertex.
     pub(crate) side: Vec<Side>,
 }
 
@@ -46,12 +46,12 @@ impl Junction {
     }
 }
 
-/// What a vertex belongs to at a junction.
+/// The side of a vertex at a junction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Side {
     /// The shorter limb.
     Limb,
-    /// What it hangs beside.
+    /// The part that the limb hangs beside.
     Beside,
     /// Neither.
     Neither,
@@ -103,7 +103,7 @@ fn height(mesh: &TriMesh, v: u32) -> f64 {
     mesh.vertices[v as usize].y
 }
 
-/// What every vertex belongs to of two sets that meet.
+/// The side of every vertex of two sets that meet.
 fn sides(sets: &mut DisjointSets, [limb, beside]: [u32; 2]) -> Vec<Side> {
     let count = sets.len() as u32;
     let side = |v| match sets.root(v) {

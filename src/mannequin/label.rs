@@ -88,7 +88,7 @@ impl Labels {
     }
 }
 
-/// What is said of an arm that is not found.
+/// The note on an arm that is not found.
 pub(super) fn no_arm(arm: PartKind) -> String {
     format!("no {} found beside the trunk: arms must stand off the body", arm.name())
 }

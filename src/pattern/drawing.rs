@@ -71,7 +71,7 @@ pub struct DrawnEdge {
     pub path: Path,
     /// Names of the seams of the file that take it, or a part of it.
     pub seams: Vec<String>,
-    /// What the file says of its allowance.
+    /// Its allowance as the file states it.
     pub allowance: Allowance,
 }
 
@@ -82,7 +82,7 @@ impl DrawnEdge {
     }
 }
 
-/// What a file says of an allowance.
+/// An allowance as a file states it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Allowance {
     /// Metres.

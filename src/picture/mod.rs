@@ -64,7 +64,7 @@ pub struct Scene<'a> {
     pub groups: &'a [String],
 }
 
-/// What the values of a picture are.
+/// The quantity that colours a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
     /// Strain of warp and weft, a fraction. Shrinking is negative.

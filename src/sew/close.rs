@@ -34,7 +34,7 @@ impl Default for SewOptions {
 /// A sewn garment.
 #[derive(Clone, Debug)]
 pub struct Sewn {
-    /// Who is sewn to whom.
+    /// The particles that are sewn together.
     pub stitching: Stitching,
     /// Position of every class.
     pub nodes: Vec<Vec3>,
@@ -163,7 +163,7 @@ pub fn sew(
 /// The seams on their way shut, stage by stage.
 struct Closing<'a> {
     stitching: &'a Stitching,
-    /// What closures tie: drawn together with the seams, as a wearer does them up.
+    /// The pairs that closures tie: drawn together with the seams, as a wearer does them up.
     tacks: Vec<[u32; 2]>,
     /// How many times they pull twice as hard as at first.
     tighter: i32,

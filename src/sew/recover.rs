@@ -9,7 +9,7 @@ use crate::geometry::Vec3;
 
 /// Metres; a start less deep is pushed out by the contact.
 const DEEP: f64 = 0.015;
-/// What lies deeper than this, metres, was meant for another place.
+/// A piece that lies deeper than this, metres, was meant for another place.
 const DEEPEST: f64 = 0.05;
 /// A piece whose cells are in the body by so much in their middle, metres, and by half as much more than at their
 /// corners, is pierced: contact at its particles would push them along what pokes through, not off it.

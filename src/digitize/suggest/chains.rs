@@ -61,7 +61,7 @@ impl ChainMatch {
     }
 }
 
-/// What chains are made of.
+/// The runs, outlines and seams that chains are made of.
 pub(super) struct Book<'a> {
     pub(super) runs: &'a [Run],
     pub(super) outlines: &'a [Outline],

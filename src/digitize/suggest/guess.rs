@@ -10,7 +10,7 @@ use crate::pattern::{PlaceMeaning, PlaceWord, Side};
 /// A sleeve's cap bulges by more than this share of its chord.
 const CAP: f64 = -0.05;
 
-/// What is guessed of a piece.
+/// Guesses about a piece.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::digitize) struct Guess {
     /// Words of `place`.
@@ -78,7 +78,7 @@ pub(super) fn guesses(
     guesses
 }
 
-/// What a piece's name says.
+/// The meaning of a piece's name.
 fn by_name(name: &str) -> Option<Facing> {
     let said: Vec<PlaceMeaning> = PlaceWord::in_name(name).into_iter().map(PlaceWord::meaning).collect();
     match (said.contains(&PlaceMeaning::Front), said.contains(&PlaceMeaning::Back)) {

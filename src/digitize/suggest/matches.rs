@@ -96,7 +96,7 @@ fn one(outlines: &[Outline], a: &Run, b: &Run, opposed: bool, off: f64) -> Optio
     Some(Match { a: a.clone(), b: b.clone(), opposed, score, reasons })
 }
 
-/// What notches say; `None` where a single one would meet a double one.
+/// The evidence of notches. `None` where a single one would meet a double one.
 fn by_notches(a: &Run, b: &Run, opposed: bool) -> Option<(f64, &'static str)> {
     let marks = if opposed { reversed(&b.marks, b.length()) } else { b.marks.clone() };
     let inside = compared((&a.marks, a.length()), (&marks, b.length()));

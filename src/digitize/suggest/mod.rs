@@ -56,7 +56,7 @@ const STRAIGHT_DOWN: f64 = 0.0035;
 /// So many matches beside darts tell how exact a drawing is.
 const SURE: usize = 2;
 
-/// What is said of a seam along a crotch.
+/// The note on a seam along a crotch.
 const CROTCH_SAID: &str = "a crotch";
 /// The halves of a pair may be sewn to each other at edges called so.
 const CENTER: [&str; 2] = ["center", "centre"];
@@ -77,11 +77,11 @@ pub(super) struct Outline {
     pub(super) mirrored: bool,
     /// Direction of the warp, of length 1.
     pub(super) warp: Option<Vec2>,
-    /// What it is cut from, if that is told.
+    /// The material it is cut from, if that is told.
     pub(super) material: Option<String>,
 }
 
-/// What lengths may differ by.
+/// The tolerance of lengths.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tolerance {
     /// Metres.
@@ -133,7 +133,7 @@ struct Found {
     mirrored: Vec<(Run, f64, String)>,
 }
 
-/// What may be sewn where lengths may differ by so much.
+/// The seams that are possible within a tolerance of lengths.
 fn found(outlines: &[Outline], runs: &[Run], tolerance: Tolerance) -> Found {
     let (middle, sides): (Vec<Run>, Vec<Run>) = runs.iter().cloned().partition(|run| is_center(outlines, runs, run));
     let mut sewn = Sewn::new(outlines);

@@ -6,7 +6,7 @@ use super::run::Mark;
 /// from the end, and ease lies between.
 const OPPOSITE: (f64, f64) = (0.006, 0.03);
 
-/// What the notches of two sides say of a seam.
+/// The evidence of the notches of two sides for a seam.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Compared {
     /// Pairs that lie opposite each other.

@@ -22,7 +22,7 @@ pub struct Suggestion {
     pub ease: Option<f64>,
     /// How much speaks for it: points, comparable within one drawing.
     pub score: f64,
-    /// What speaks for it.
+    /// The reasons for it.
     pub reasons: Vec<String>,
 }
 

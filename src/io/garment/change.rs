@@ -13,13 +13,13 @@ const SAME: f64 = 1e-6;
 /// An altered garment file.
 #[derive(Clone, Debug)]
 pub struct Changed {
-    /// What is to be written.
+    /// The text to write.
     pub text: String,
     /// Whether that is the old text but for what changed. Otherwise it is written anew, without its comments.
     pub in_place: bool,
     /// Edges that changed their lengths.
     pub edges: Vec<EdgeChange>,
-    /// What is wrong with the new garment, such as seams that no longer match.
+    /// The faults of the new garment, such as seams that no longer match.
     pub refused: Option<Refused>,
 }
 

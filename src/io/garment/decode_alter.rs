@@ -3,7 +3,7 @@
 use super::fields::{Fields, distance, entries, items, length, numbers, share, text, word, wrong};
 use crate::pattern::{AlterationFile, Findings, Located, Problem, SizeFile, StationFile, Value, parse_quantity};
 
-/// What an alteration may be; each says one of them.
+/// The kinds of alterations. Each entry is of one kind.
 const KINDS: [&str; 7] = ["take_in", "let_out", "lengthen", "shorten", "pivot", "spread", "move"];
 const KNOWN: &str = "take_in, let_out, lengthen, shorten, pivot, spread or move";
 

@@ -241,7 +241,7 @@ fn pleat_kind(word: &str) -> Option<PleatKind> {
     }
 }
 
-/// What is left of a line's length when it is drawn in.
+/// The share of a line's length that is left when it is drawn in.
 fn drawn_in(value: &Located<Value>, what: &str, findings: &mut Findings) -> Option<Located<f64>> {
     let share = share(value, what, findings)?;
     let ratio = if share.value.is_percent() { share.value.number / 100.0 } else { share.value.number };

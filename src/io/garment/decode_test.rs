@@ -3,11 +3,11 @@
 use super::fields::{Fields, distance, integer, share, text, width, word, wrong};
 use crate::pattern::{Findings, Located, Problem, Quantity, TestEntry, TestFile, Value};
 
-/// What can be bounded; a test names one of them.
+/// The quantities that can be bounded. A test names one of them.
 const KINDS: [&str; 11] =
     ["seam", "gap", "closure", "flatten", "drape", "crossings", "openings", "worn", "ease", "pressure", "hem"];
 const KNOWN: &str = "seam, gap, closure, flatten, drape, crossings, openings, worn, ease, pressure or hem";
-/// What a test of a hem begins with.
+/// The first words of a test of a hem.
 pub(super) const LEVEL: &str = "level within";
 
 /// Reads one entry of `tests`.

@@ -24,7 +24,7 @@ impl EncodeError {
 /// Writes the file as YAML that reads as the same [`GarmentFile`].
 ///
 /// # Errors
-/// Whatever the YAML writer cannot represent; nothing that was read from a file.
+/// Values that the YAML writer cannot represent. Nothing that was read from a file is one.
 pub fn write(file: &GarmentFile) -> Result<String, EncodeError> {
     layout::document(&document(file), &[])
 }

@@ -25,7 +25,7 @@ fn list(items: &[Located<Value>]) -> String {
     }
 }
 
-/// What a value is, for messages.
+/// The kind of a value, for messages.
 fn kind(value: &Value) -> String {
     match value {
         Value::Text(t) if t.is_empty() => "nothing".to_owned(),
@@ -103,7 +103,7 @@ impl<'v> Fields<'v> {
         parse(value, key, findings)
     }
 
-    /// What is left, kept as it is.
+    /// The other fields, kept as they are.
     pub(super) fn rest(self) -> Vec<(Located<String>, Located<Value>)> {
         self.entries.into_iter().flatten().cloned().collect()
     }

@@ -36,9 +36,9 @@ pub const SCHEMA: &str = include_str!("schema.json");
 pub struct Loaded {
     /// The pieces and seams.
     pub garment: Garment,
-    /// What the file says.
+    /// The statements of the file.
     pub file: GarmentFile,
-    /// What was read in a way its author may not have meant.
+    /// Warnings: statements that its author may not have meant as they were read.
     pub warnings: Vec<Diagnostic>,
     source: Source,
 }
@@ -68,9 +68,9 @@ impl Loaded {
 /// decided whether it can be used.
 #[derive(Debug)]
 pub struct Examined {
-    /// What the file says, if that much can be read.
+    /// The statements of the file, if that much can be read.
     pub file: Option<GarmentFile>,
-    /// What was found so far.
+    /// The findings so far.
     pub findings: Findings,
     /// Mistakes of alterations that are no part of the file.
     beside: Vec<Diagnostic>,

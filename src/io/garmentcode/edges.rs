@@ -5,7 +5,7 @@ use super::role::{Facing, Role};
 use super::spec::PanelEdge;
 use crate::geometry::Vec3;
 
-/// What an edge is sewn to.
+/// The partner of an edge.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Partner {
     pub(super) role: Role,
@@ -100,7 +100,7 @@ impl Subject<'_> {
         }
     }
 
-    /// What the edges before and after are sewn as.
+    /// The seams of the edges before and after.
     fn neighbours(&self, k: usize) -> [Option<&'static str>; 2] {
         let n = self.partners.len();
         [(k + n - 1) % n, (k + 1) % n].map(|j| Some(self.sewn(j, self.partners[j].filter(|p| !p.own)?)))

@@ -21,7 +21,7 @@ pub enum ImportError {
     Panel {
         /// Its name.
         panel: String,
-        /// What is wrong.
+        /// The fault.
         reason: String,
     },
     /// An edge.
@@ -31,7 +31,7 @@ pub enum ImportError {
         panel: String,
         /// Its number.
         edge: usize,
-        /// What is wrong.
+        /// The fault.
         reason: String,
     },
     /// A stitch.
@@ -39,7 +39,7 @@ pub enum ImportError {
     Stitch {
         /// Its number.
         number: usize,
-        /// What is wrong.
+        /// The fault.
         reason: String,
     },
     /// A garment that cannot be written as YAML.

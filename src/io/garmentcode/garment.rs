@@ -200,7 +200,7 @@ impl Writer<'_> {
         name.rsplit_once('_').map_or(name, |(base, _)| base)
     }
 
-    /// What the seam is called by those who sew it.
+    /// The name of the seam among those who sew.
     fn seam_name(&self, seam: &Joined) -> String {
         let [a, b] = [seam.a[0], seam.b[0]];
         let [one, other] = [a, b].map(|p| self.edge_name(p));

@@ -30,7 +30,7 @@ use crate::geometry::MM;
 use crate::pattern::GarmentFile;
 use spec::Specification;
 
-/// What a specification is worn by.
+/// The body that a specification is worn by.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Wearer<'a> {
     /// As the garment file is to name it.

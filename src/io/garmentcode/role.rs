@@ -1,4 +1,4 @@
-//! What a panel is, from what its maker called it and how it hangs.
+//! The role of a panel, from its name and how it hangs.
 
 use super::drawing::Drawing;
 use super::spec::{Panel, Specification};

@@ -25,7 +25,7 @@ pub(super) struct Joined {
     pub(super) both_sides: bool,
 }
 
-/// What the stitches are between.
+/// Finds the edges that stitches join.
 pub(super) struct Table<'a> {
     pub(super) spec: &'a Specification,
     pub(super) pieces: &'a [Piece],

@@ -16,7 +16,7 @@ use super::outward::turn_outward;
 use super::short::leave_out_short;
 use crate::geometry::{Vec2, Vec3};
 
-/// What a specification says.
+/// The statements of a specification.
 #[derive(Debug)]
 pub(super) struct Specification {
     /// In the order of the file, or of `panel_order`.

@@ -125,7 +125,7 @@ impl Pen {
         self.content.show(Str(&letters)).end_text();
     }
 
-    /// What of a sheet lies in the box from `low` to `high`, or touches it.
+    /// The parts of a sheet that lie in the box from `low` to `high`, or touch it.
     pub(super) fn sheet(&mut self, sheet: &Sheet, [low, high]: [Vec2; 2]) {
         for paper in &sheet.papers {
             let [least, greatest] = paper.extent();

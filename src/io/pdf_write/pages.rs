@@ -7,13 +7,13 @@ use super::{LONGEST_SIDE, POINTS, Page, PdfError, document};
 use crate::cutting::{LETTER_WIDTH, Layout, Paper, Sheet, TEST_SQUARE};
 use crate::geometry::Vec2;
 
-/// What home printers leave white at every side, metres, with a little to spare.
+/// The margin that home printers leave white at every side, metres, with a little to spare.
 const MARGIN: f64 = 0.007;
 /// Width of the strip that neighbouring pages share, metres.
 const OVERLAP: f64 = 0.010;
 /// Half the diagonal of a match mark, metres.
 const MATCH: f64 = 0.004;
-/// What ends on a frame (metres) is on the pages at both of its sides: half the width of a cut line.
+/// Lines that end within this of a frame, metres, are on the pages at both of its sides: half the width of a cut line.
 const TOUCH: f64 = 2.5e-4;
 /// More pages than this are a wrong unit.
 const MOST_PAGES: usize = 600;

@@ -1,4 +1,4 @@
-//! What a drawing shows and nobody reads, counted to be said.
+//! Counts of the elements of a drawing that are not read, for a note.
 
 /// Something that is no line of a pattern.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -94,12 +94,12 @@ pub enum SvgError {
          in one group or layer per piece{besides}"
     )]
     NoPieces {
-        /// What was left out, which may be the reason.
+        /// The elements that were left out, which may be the reason.
         besides: String,
     },
 }
 
-/// What is said of a drawing besides what it says itself.
+/// Notes on a drawing besides its own statements.
 #[derive(Clone, Debug, Default)]
 pub struct SvgOptions {
     /// Metres per user unit, in place of what the drawing says.
@@ -163,7 +163,7 @@ pub fn read_svg_text_as(text: &str, options: &SvgOptions) -> Result<Drawing, Svg
     Ok(Drawing { title: title(root), notes, ..drawing })
 }
 
-/// What an element inherits.
+/// The properties that an element inherits.
 #[derive(Clone)]
 struct Scope {
     frame: Frame,
@@ -185,7 +185,7 @@ struct Reader<'a, 'i> {
     texts: Vec<(usize, u32)>,
     /// Groups with which of a pair, or which half, their pieces are, as toile itself writes it.
     sides: Vec<(String, Side)>,
-    /// What groups are cut from, as toile itself writes it.
+    /// The material of groups, as toile itself writes it.
     materials: Vec<(String, Material)>,
     /// How the allowances of groups' edges end at corners, as toile itself writes it.
     corners: Vec<(String, (String, Corner))>,
@@ -314,13 +314,13 @@ impl Reader<'_, '_> {
     }
 }
 
-/// What the drawing is called.
+/// The title of the drawing.
 fn title(root: Node) -> Option<String> {
     let own = root.children().find(|c| c.tag_name().name() == "title")?;
     own.text().map(|words| shown(words.trim(), REMARK)).filter(|words| !words.is_empty())
 }
 
-/// What a group says that its piece is cut from.
+/// The material that a group names for its piece.
 fn material(node: Node) -> Option<Material> {
     let name = shown(node.attribute("data-material")?, SHOWN);
     Some(Material { name, cloth: node.attribute("data-fabric").map(str::to_owned) })
@@ -371,7 +371,7 @@ fn unitless(transform: &str) -> String {
     transform.replace("px", "").replace("deg", "")
 }
 
-/// What a group is called.
+/// The name of a group.
 struct GroupName {
     name: String,
     /// Whether it is a piece; else it holds pieces.
@@ -416,7 +416,7 @@ fn own_name(node: Node, group: Option<&str>) -> Option<String> {
     Some(edge.unwrap_or(name).to_owned())
 }
 
-/// What a line inside a piece does, as toile itself writes it.
+/// The effect of a line inside a piece, as toile itself writes it.
 fn line_kind(node: Node) -> Option<LineKind> {
     let number = |key: &str| node.attribute(key)?.trim().parse::<f64>().ok();
     let fold = number("data-fold").and_then(LineKind::fold);
@@ -431,13 +431,13 @@ fn told_corner(node: Node, group: Option<&str>) -> Option<(String, Corner)> {
     Some((own_name(node, group)?, corner))
 }
 
-/// What is told of a notch, as toile itself writes it.
+/// The statement on a notch, as toile itself writes it.
 fn told_notch(node: Node) -> Option<ToldNotch> {
     let kind = NotchKind::from_word(node.attribute("data-notch")?)?;
     Some(ToldNotch { kind, edge: node.attribute("data-edge").unwrap_or_default().to_owned() })
 }
 
-/// What a line is by its classes, its markers and its name; `None` for what is no line of the pattern.
+/// The kind of a line by its classes, markers and name. `None` if it is no line of the pattern.
 fn role(node: Node, classes: &str) -> Option<Role> {
     let has = |word: &str| classes.split_whitespace().any(|c| c == word);
     let refers = |name: &str| {

@@ -12,7 +12,7 @@ pub(super) struct UnitOf {
 }
 
 impl UnitOf {
-    /// What to say of it, if that is not `said`.
+    /// The note on it, if that is not `said`.
     pub(super) fn note(&self, said: bool) -> Option<String> {
         let assumed = match self.program {
             Some((program, per_inch)) => {

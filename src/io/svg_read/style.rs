@@ -1,4 +1,4 @@
-//! What CSS says of an element: its own `style`, the rules of the drawing's `<style>`, or its attribute.
+//! CSS properties of an element: its own `style`, the rules of the drawing's `<style>`, or its attribute.
 
 use roxmltree::{Document, Node};
 

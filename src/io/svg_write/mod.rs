@@ -56,7 +56,7 @@ fn centered(content: &str, at: Vec2, height: f64, upright: bool) -> Text {
     if upright { text.set("transform", format!("rotate(90 {} {})", number(at.x), number(at.y))) } else { text }
 }
 
-/// What a line does, for programs: `data-fold` in degrees, `data-elastic` as a share of its length.
+/// The effect of a line, for programs: `data-fold` in degrees, `data-elastic` as a share of its length.
 fn with_kind(path: Path, kind: &LineKind) -> Path {
     match kind {
         LineKind::Fold(angle) => path.set("data-fold", number(angle.to_degrees())),
@@ -65,7 +65,7 @@ fn with_kind(path: Path, kind: &LineKind) -> Path {
     }
 }
 
-/// What a notch's mark belongs to, and the edge it is on, for programs.
+/// The owner of a notch's mark and the edge it is on, for programs.
 fn told_notch(mark: Path, kind: NotchKind, edge: &str) -> Path {
     mark.set("data-notch", kind.word()).set("data-edge", identifier(edge))
 }

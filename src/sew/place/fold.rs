@@ -9,7 +9,7 @@ use crate::pattern::{Garment, LineKind};
 
 /// A fold of at least this angle (radians) is folded over before the start; a smaller one is left to the drape.
 const PRESSED: f64 = 2.0;
-/// What lies no further over a fold than this, metres, lies on it.
+/// A particle no further over a fold than this, metres, lies on the fold.
 const ON_FOLD: f64 = 1e-9;
 
 /// The pieces laid out flat, pressed folds folded over.
@@ -70,7 +70,7 @@ pub(in crate::sew) fn pressed(garment: &Garment, mesh: &ClothMesh) -> Sheet {
     sheet
 }
 
-/// What is turned over at a pressed fold.
+/// The particles that are turned over at a pressed fold.
 struct Flap {
     particles: Vec<usize>,
     /// A point of the fold, and the unit direction across it.

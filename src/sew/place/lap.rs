@@ -10,7 +10,7 @@ use crate::pattern::Closure;
 
 /// Two members lap by no more than this share of the narrower one.
 const WIDEST: f64 = 0.8;
-/// What lies over comes down to the ring again over this length, metres.
+/// Length over which the upper layer comes down to the ring again, metres.
 const RAMP: f64 = 0.03;
 
 /// Two neighbours of a row, one over the other.

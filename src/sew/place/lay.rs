@@ -19,7 +19,7 @@ const MISFIT: f64 = 0.02;
 /// shoulders of a bodice goes round the arms.
 const BEYOND: f64 = 0.05;
 
-/// What lies no further beyond a rim than this, metres, lies within it.
+/// A point no further beyond a rim than this, metres, counts as within it.
 const ROUNDING: f64 = 1e-9;
 
 /// A piece that another one lies on.

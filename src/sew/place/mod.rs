@@ -79,7 +79,7 @@ pub enum PlaceError {
         seam: String,
         /// The piece it sews.
         piece: String,
-        /// What it is sewn to.
+        /// The piece it is sewn to.
         to: String,
         /// `left` or `right`.
         side: &'static str,

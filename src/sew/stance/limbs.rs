@@ -67,7 +67,7 @@ fn gap(limb: &Outline, beside: &Outline, way: f64) -> Option<f64> {
     limb.iter().filter_map(nearest).reduce(f64::min)
 }
 
-/// What the limb, and what it hangs beside, are at each of `levels`.
+/// The outlines of a limb and of its neighbour at each of `levels`.
 fn outlines(mesh: &TriMesh, junction: &Junction, levels: &[f64]) -> Vec<[Outline; 2]> {
     let mut out = vec![[Outline::new(), Outline::new()]; levels.len()];
     junction.cut(mesh, levels, |level, of, ends| add(&mut out[level][of], ends));

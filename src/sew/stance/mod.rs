@@ -24,7 +24,7 @@ const SEWN: f64 = 0.6;
 pub struct Stance {
     /// The body so, for placing pieces round it.
     pub body: Mannequin,
-    /// What cloth can touch of it.
+    /// Its surface, as cloth touches it.
     pub collider: Collider,
     /// The surface as it is.
     own: TriMesh,

@@ -65,7 +65,7 @@ pub(super) struct Length {
     pub(super) rest: f64,
 }
 
-/// What is held while the body grows, an opening or a section of a tube: its nodes, and where their middle belongs.
+/// An opening or a section of a tube that is held while the body grows: its nodes, and where their middle belongs.
 #[derive(Clone, Debug)]
 pub(super) struct Held {
     /// The nodes.
@@ -94,7 +94,7 @@ pub(super) struct Balloon<'a> {
     pub(super) piece: Vec<u32>,
     /// Corners opposite to one another across an edge.
     pub(super) bending: Vec<Length>,
-    /// What is held of it.
+    /// Its openings and sections that are held.
     pub(super) held: Vec<Held>,
     /// The ways of the body through it.
     pub(super) ways: &'a [WayOut],

@@ -22,7 +22,7 @@ const EMPTY_WIDE: f64 = 0.3;
 const UNLIKE: f64 = 6.0;
 const UNLIKE_TWINS: f64 = 3.0;
 
-/// What it costs that an opening of this girth is dealt these ends.
+/// The cost of dealing these ends to an opening of this girth.
 pub(super) fn girth_cost(girth: f64, ends: Ends, range: Range) -> f64 {
     let Range { least, usual: [low, high] } = range;
     let half_square = |x: f64| 0.5 * x * x;
@@ -38,7 +38,7 @@ pub(super) fn girth_cost(girth: f64, ends: Ends, range: Range) -> f64 {
     }
 }
 
-/// What a distance outside its range costs.
+/// The cost of a distance outside its range.
 pub(super) fn beyond(distance: f64, [low, high]: [f64; 2]) -> f64 {
     let off =
         |more: f64, less: f64| 0.5 * (((more + APART_SLACK) / (less + APART_SLACK)).ln() / APART).max(0.0).powi(2);
@@ -72,7 +72,7 @@ pub(super) fn prior(ends: &[Ends]) -> f64 {
     }
 }
 
-/// What it costs to break the mirror symmetry of openings.
+/// The cost of breaking the mirror symmetry of openings.
 pub(super) fn unlike(mirror: &Mirror, openings: &[Opening], stretches: &[Vec<Stretch>], spacing: f64) -> Vec<Vec<f64>> {
     let n = openings.len();
     let maps = |i: usize, j: usize| mirror.maps(&stretches[i], &stretches[j], spacing);

@@ -1,4 +1,4 @@
-//! What lies under a lap: the cloth that another piece's rim reaches over, and where on that it lies.
+//! The lower layer of a lap: the cloth that another piece's rim reaches over, and where on that it lies.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -43,7 +43,7 @@ pub(super) struct Cover {
 }
 
 impl Flap<'_> {
-    /// What it covers; `None` where its rim does not lie over the other piece.
+    /// The cloth it covers. `None` where its rim does not lie over the other piece.
     pub(super) fn cover(&self, mesh: &ClothMesh, sheet: &Sheet) -> Option<Cover> {
         let line: Vec<Vec2> = self.rims[0].iter().map(|p| self.onto(mesh, *p)).collect();
         let mut pairs = Vec::with_capacity(line.len());

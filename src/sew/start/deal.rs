@@ -67,7 +67,7 @@ pub fn deal(
 }
 
 impl Dealing {
-    /// What is said of the next dealing where it costs about the same; none where this one is clear.
+    /// The next dealing where it costs about the same. `None` where this one is clear.
     pub(super) fn doubt(
         &self,
         garment: &Garment,
@@ -111,7 +111,7 @@ pub fn guess(garment: &Garment, mesh: &ClothMesh, glued: &Glued, openings: &[Ope
     dealing
 }
 
-/// What a garment is dealt by.
+/// The evidence that a garment is dealt by.
 pub(super) struct Wearing<'a> {
     pub(super) garment: &'a Garment,
     pub(super) mesh: &'a ClothMesh,
@@ -140,7 +140,7 @@ struct Table<'a> {
     sided: Vec<f64>,
     /// Least distance between two openings.
     apart: Vec<Vec<f64>>,
-    /// What two openings cost that do not mirror one another's ends; on the diagonal one that does not mirror its own.
+    /// The cost of two openings whose ends are no mirror images; on the diagonal, of one that is not its own.
     unlike: Vec<Vec<f64>>,
 }
 
@@ -261,7 +261,7 @@ impl<'a> Table<'a> {
         Some([best.clone(), next.unwrap_or((f64::INFINITY, best.1))])
     }
 
-    /// What a dealing costs.
+    /// The cost of a dealing.
     fn total(&self, own: &[usize], ends: &[Ends]) -> f64 {
         let mut cost = prior(ends) + self.unheard(own, ends) + self.crossed(own, ends);
         for (a, &i) in own.iter().enumerate() {
@@ -295,7 +295,7 @@ impl<'a> Table<'a> {
         CROSSED * arms.iter().filter(|far| **far).count() as f64
     }
 
-    /// What no opening answers to of the words of the pieces at these openings.
+    /// The words of the pieces at these openings that no opening answers to.
     fn unheard(&self, own: &[usize], ends: &[Ends]) -> f64 {
         let pieces = || own.iter().flat_map(|&i| &self.stretches[i]).map(|s| s.piece);
         let said = |test: fn(PlaceWord) -> bool| pieces().any(|p| marks::words(self.garment, p).any(test));

@@ -1,4 +1,4 @@
-//! What is said where it is not clear how a garment is worn.
+//! Messages where it is not clear how a garment is worn.
 
 use super::ends::Ends;
 use super::glue::Glued;
@@ -28,7 +28,7 @@ pub struct Doubt {
     pub edges: Vec<String>,
     /// Length, mm.
     pub length_mm: f64,
-    /// What goes through it in the better way, and in the other.
+    /// The part of the body in it in the better dealing, and in the other.
     pub ways: [Ends; 2],
 }
 

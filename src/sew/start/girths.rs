@@ -23,7 +23,7 @@ const ANKLE: f64 = 0.21;
 const WAIST: f64 = 0.7;
 const HEIGHT: f64 = 1.68;
 
-/// What is known of a body's size, metres.
+/// The known girths of a body, metres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sizes {
     /// Least girth of the neck.

@@ -18,7 +18,7 @@ pub(super) const PLY: f64 = 8e-3;
 /// A seam's direction is read over so many stitches on either side.
 const ALONG: usize = 2;
 
-/// What reaches over further seams than this lies on none.
+/// A piece that reaches over more seams than this lies on no cloth.
 const SEAMS: usize = 3;
 
 /// Where every particle starts when the nodes of the glued surface are at `nodes`.
@@ -189,7 +189,7 @@ fn joints(mesh: &ClothMesh) -> Vec<Joint> {
     out
 }
 
-/// What pieces are laid on: the cloth that has a place already.
+/// The cloth that pieces are laid on: it has a place already.
 struct Hosts<'a> {
     garment: &'a Garment,
     mesh: &'a ClothMesh,
@@ -198,7 +198,7 @@ struct Hosts<'a> {
     seams: &'a Seams,
 }
 
-/// What seams join, which does not depend on what has a place.
+/// The joints of all seams, whether their cloth has a place or not.
 struct Seams {
     classes: Classes,
     joints: Vec<Joint>,
@@ -344,10 +344,10 @@ impl<'a> Hosts<'a> {
     }
 }
 
-/// What a piece is laid on along a seam.
+/// The cloth that a piece is laid on along a seam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum On {
-    /// What it is sewn to.
+    /// The cloth it is sewn to.
     SewnTo,
     /// The cloth on its own side of the seam; without any it goes straight on.
     OwnSide,

@@ -1,4 +1,4 @@
-//! What an opening has that tells where it goes: the pieces on its rim, their words, sides and mirror images.
+//! Evidence of where an opening goes: the pieces on its rim, their words, sides and mirror images.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ const SAME_SHAPE: f64 = 1.0;
 const SAME_LENGTH: f64 = 0.03;
 const SAME_PLACE: f64 = 1.5;
 
-/// What the drawing of a band says counts less by this share.
+/// The evidence of a band's drawing counts less by this share.
 const BAND_SAYS: f64 = 0.3;
 /// A piece narrower than this, metres, is a band.
 const BAND: f64 = 0.12;

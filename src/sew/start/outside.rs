@@ -1,4 +1,4 @@
-//! What is worn over other garments starts outside them: every layer has been inflated by itself.
+//! Outer garments start outside inner ones: every layer has been inflated by itself.
 
 use super::axes::Axes;
 use super::hand_over::PLY;

@@ -19,7 +19,7 @@ const LOWEST: f64 = 0.06;
 /// A limb's ring lies at least so far along its axis, metres, and at most so far beyond its end.
 pub(super) const FIRST: f64 = 0.02;
 const BEYOND: f64 = 0.08;
-/// What is placed by the waist lies no further from it than this, metres.
+/// The top of a garment that is placed by the waist lies no further from the waist than this, metres.
 const AT_WAIST: f64 = 0.05;
 /// From between the legs a garment goes as far as this share of the trunk's half depth to the front before it rises.
 const TO_FRONT: f64 = 1.0;
@@ -65,7 +65,7 @@ struct Seat {
     along: Option<f64>,
 }
 
-/// What a ring is turned by: the nodes of large values lie towards a direction.
+/// The turn of a ring: the nodes of large values lie towards a direction.
 struct Turn {
     towards: Vec3,
     values: Vec<f64>,
