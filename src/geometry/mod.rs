@@ -32,6 +32,9 @@ pub use trimesh::{Edge, Topology, TriMesh, rim_loops};
 /// Millimetres in a metre: lengths are metres inside and millimetres in files.
 pub(crate) const MM: f64 = 1e3;
 
+/// Kilopascals in a pascal: pressures are pascals inside and kilopascals in files.
+pub(crate) const KPA: f64 = 1e-3;
+
 /// A point or direction in a flat piece, metres, y **down**, the right side of the cloth facing the reader.
 pub type Vec2 = nalgebra::Vector2<f64>;
 /// A point or direction in space, metres, y **up**. The mannequin faces +z and its left hand is at +x.

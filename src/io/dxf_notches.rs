@@ -35,9 +35,9 @@ fn notch_at(shape: &Path, cut: &Path) -> (Vec2, f64) {
     (middle, off(middle))
 }
 
-/// A notch that is marked on the cut line and on the sewing line is on either to this (metres),
+/// Largest distance from its line of a notch that is marked on the cut line and on the sewing line, metres.
 const ON_LINE: f64 = 4e-4;
-/// and the one mark stands before the other to this (metres).
+/// Largest distance along the line by which one of the two marks is off the other, metres.
 const BEFORE: f64 = 2e-3;
 
 /// The notches, those once that are marked on the cut line and on the sewing line: on the latter.

@@ -159,7 +159,7 @@ fn cloth(index: usize, name: &str) -> Value {
     })
 }
 
-/// glTF's name of a vector of so many numbers.
+/// Name in glTF of a vector of so many numbers.
 fn kind(numbers: usize) -> String {
     if numbers == 1 { "SCALAR".to_owned() } else { format!("VEC{numbers}") }
 }

@@ -1,12 +1,9 @@
 //! The draped garment as arrays, for programs that take it over from memory.
 
 use super::run::Run;
-use crate::geometry::MM;
+use crate::geometry::{KPA, MM};
 use crate::report::{pressure, thread_strains};
 use crate::verify::{Welded, distances};
-
-/// kPa in a pascal.
-const KPA: f64 = 1e-3;
 
 /// The surface of `garment.obj`, with what was measured on it. Lengths are millimetres.
 #[derive(Clone, Debug, Default, PartialEq)]

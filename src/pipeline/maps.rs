@@ -1,12 +1,9 @@
 //! Maps of the draped garment: values at every particle, for the page and for 3D programs.
 
 use super::run::Run;
-use crate::geometry::{MM, Vec3};
+use crate::geometry::{KPA, MM, Vec3};
 use crate::report::{pressure, thread_strains};
 use crate::verify::{Welded, distances};
-
-/// kPa in a pascal.
-const KPA: f64 = 1e-3;
 
 impl Run<'_> {
     /// Values at every particle of the garment at positions `at`, each with the name of its attribute in glTF: strain

@@ -8,7 +8,7 @@ use crate::report::{ClosureReport, Report, restless, verdicts};
 /// Something that a maker should know before any figure.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
-    /// What it is, with its place and figures.
+    /// The problem in words, with its place and figures.
     pub text: String,
     /// Whether a bound of the garment is broken.
     pub out_of_bounds: bool,

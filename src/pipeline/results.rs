@@ -126,7 +126,7 @@ impl Run<'_> {
         self.drawn(self.last().unwrap_or_default(), &self.class(), color, |scene| draw_turning(scene, format))
     }
 
-    /// What `draw` makes of the scene.
+    /// The picture that `draw` makes of the scene.
     fn drawn(
         &self,
         at: &[Vec3],

@@ -47,7 +47,7 @@ pub struct Run<'a> {
     anew: bool,
     /// Positions of the classes where the earlier garment hangs. Draping starts with them, and nothing is sewn.
     hanging: Option<Vec<Vec3>>,
-    /// Who is told of coarser levels.
+    /// The function that is told of coarser levels.
     watch: Watch<'a>,
 }
 

@@ -39,9 +39,9 @@ pub(super) const STEP: f64 = 0.1;
 /// (What moves then are waves of cloth without weight.)
 #[derive(Clone, Copy, Debug)]
 pub struct Calm {
-    /// So many steps lower the energy
+    /// Number of the last steps that are looked at.
     steps: usize,
-    /// by no more than this share of itself.
+    /// Largest share of the energy by which they may have lowered it.
     share: f64,
 }
 

@@ -14,7 +14,7 @@ pub(super) struct Drawing {
     pub(super) turn: Vec3,
     /// Where the right side looks.
     pub(super) normal: Vec3,
-    /// mm².
+    /// Area, mm².
     pub(super) area: f64,
     rotation: nalgebra::Rotation3<f64>,
 }

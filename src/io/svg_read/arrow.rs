@@ -4,9 +4,9 @@ use crate::geometry::{Path, Vec2};
 
 /// No grain arrow is shorter (metres).
 const SHORTEST: f64 = 0.02;
-/// Barbs end within this share of the shaft's length, and this (metres), from its ends,
+/// Largest distance of a barb's end from the end of its shaft along the shaft: a share of its length, and metres.
 const BARBS: (f64, f64) = (0.25, 0.04);
-/// and so far aside.
+/// Largest distance of a barb's end aside of its shaft: a share of its length, and metres.
 const ASIDE: (f64, f64) = (0.15, 0.02);
 /// Nearer to the shaft's line than this (metres) a point is on it.
 const ON_SHAFT: f64 = 2e-4;

@@ -83,7 +83,7 @@ pub enum SvgError {
     /// A size that it has not.
     #[error("it has no size '{wanted}'; its sizes are {known}")]
     NoSize {
-        /// What was asked for.
+        /// The size that was asked for.
         wanted: String,
         /// Those there are.
         known: String,

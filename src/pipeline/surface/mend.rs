@@ -1,4 +1,4 @@
-//! What 3D programs leave wrong in a mesh, mended with a word each.
+//! Mends the faults that 3D programs leave in a mesh, with a note each.
 //!
 //! Faces keep their numbers: one that is left out has no corners any more.
 
@@ -39,7 +39,7 @@ pub(super) fn welded(faces: &ObjFaces, weld: Weld, metres: f64) -> Vec<u32> {
     if weld == Weld::BetweenParts { between_parts(faces, &place) } else { place }
 }
 
-/// What is to be said of vertices of one group that were joined.
+/// The note on vertices of one group that were joined.
 pub(super) fn welded_note(faces: &ObjFaces, weld: Weld, same: &[u32]) -> Option<String> {
     let mut group = vec![None; faces.vertices.len()];
     for (face, own) in faces.faces.iter().zip(&faces.group_of_face) {

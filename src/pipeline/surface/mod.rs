@@ -61,7 +61,7 @@ pub struct SurfaceOptions {
     pub cuts: Cuts,
     /// How many darts to cut at most, into all parts together, where the strain passes the limit.
     pub darts: usize,
-    /// What 99 % of a piece's area should stay below.
+    /// Limit that 99 % of a piece's area should stay below.
     pub limit: Limit,
     /// How to flatten.
     pub flatten: Options,
@@ -98,7 +98,7 @@ pub enum Limit {
         warp: f64,
         /// |stretch − 1| of the weft.
         weft: f64,
-        /// What warp and weft give under the full load of a tensile tester, 500 gf/cm.
+        /// Extension of warp and weft under the full load of a tensile tester, 500 gf/cm.
         most: [f64; 2],
     },
 }
@@ -144,9 +144,9 @@ pub struct FlatSurface {
     failed: Vec<Failed>,
     /// Of every part that is laid flat.
     edges: Vec<Vec<NamedEdge>>,
-    /// What it did to the cloth.
+    /// The errors it leaves in the cloth.
     pub report: SurfaceReport,
-    /// What was read in a way its author may not have meant: one sentence each.
+    /// Notes on input that its author may not have meant as it was read: one sentence each.
     pub notes: Vec<String>,
 }
 

@@ -30,7 +30,7 @@ pub(super) struct Part {
     pub(super) turned: Option<Vec<usize>>,
 }
 
-/// What the faces are made of: the vertices of the file, once for every group and texture position they have.
+/// The corners of the faces: the vertices of the file, once for every group and texture position they have.
 pub(super) struct Nodes {
     /// Of every face's corners.
     of_face: Vec<Vec<u32>>,
@@ -121,7 +121,7 @@ pub(super) fn parts(faces: &ObjFaces, nodes: &Nodes, cuts: &HashSet<[u32; 2]>, s
     parts
 }
 
-/// What parts are made from.
+/// The faces and groups that parts are made from.
 #[derive(Clone, Copy)]
 struct Source<'a> {
     faces: &'a ObjFaces,
@@ -206,7 +206,7 @@ impl Part {
         self.vertices.get(vertex as usize).map_or(0, |v| v + 1)
     }
 
-    /// What is to be said of faces that were turned.
+    /// The note on faces that were turned.
     pub(super) fn turned_note(&self) -> Option<String> {
         let mut is_turned = vec![false; self.surface.triangles.len()];
         self.turned.as_ref()?.iter().for_each(|&t| is_turned[t] = true);

@@ -13,7 +13,7 @@ use crate::flatten::FlattenError;
 use crate::geometry::MM;
 use crate::report::{Quartet, Stage};
 
-/// What flattening did to a surface; written as `report.json`.
+/// The result of flattening a surface, written as `report.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SurfaceReport {
     /// Version of this program.
@@ -44,7 +44,7 @@ pub struct FailedReport {
 }
 
 impl Failed {
-    /// What is to be said of it.
+    /// Its place and reason, as the report has them.
     pub(super) fn report(&self) -> FailedReport {
         // File and piece are named beside it.
         let bare = |source: &FlattenError| match source {
@@ -60,7 +60,7 @@ impl Failed {
     }
 }
 
-/// What flattening did to one part. Keys and units are those of a garment's report; the surface in space is `draped`.
+/// The errors of one part. Keys and units are those of a garment's report. The surface in space is `draped`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PartReport {
     /// The group's name; numbered where a group has several parts.
@@ -96,7 +96,7 @@ pub struct PartReport {
     pub area_distortion: f64,
     /// |stretch − 1| in the worst direction: what all but a hundredth of the area stays below, and the largest.
     pub strain: StrainReport,
-    /// What happened to warp and weft.
+    /// The strain of warp and weft.
     pub threads: ThreadReport,
     /// L²/4πS of the rim and the area in space. Below 1 no flat piece has both that rim and that area.
     pub isoperimetric: f64,
@@ -201,7 +201,7 @@ pub struct ThreadReport {
 pub struct CutReport {
     /// The part that was cut, named as it was before.
     pub piece: String,
-    /// What for.
+    /// The purpose.
     pub why: CutWhy,
     /// The file's vertex at its start, from 1.
     pub from: u32,

@@ -9,9 +9,9 @@ use crate::io::obj_read::ObjFaces;
 
 /// Faces that turn by more than 50° from each other belong to different sides (cosine).
 const SHARP: f64 = 0.642_787_6;
-/// The inner side has at least this share of the outer one's area,
+/// Least area of the inner side of a sheet, as a share of the outer one's.
 const INNER: f64 = 0.7;
-/// and both together at least this share of all.
+/// Least area of both sides together, as a share of the whole surface.
 const SIDES: f64 = 0.75;
 /// A sheet is thinner than this share of the root of its area: a cushion's boxing is not.
 const THIN: f64 = 0.05;
@@ -98,7 +98,7 @@ fn normal(faces: &ObjFaces, f: usize) -> Vec3 {
 }
 
 impl Solid {
-    /// What is left out where this is a sheet: everything but its outer side, the larger one.
+    /// The faces that are left out where this is a sheet: all but its outer side, the larger one.
     fn as_sheet(&self, faces: &ObjFaces, same: &[u32]) -> Option<Sheet> {
         let mut patches = DisjointSets::new(faces.faces.len());
         for (_, [(f, along), (g, other)]) in &self.sides {

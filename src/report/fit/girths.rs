@@ -1,8 +1,8 @@
 //! The garment at every girth of the body.
 
 use super::places::{Place, places};
-use super::{Girth, KPA, Pressure, State, mm, side};
-use crate::geometry::{Vec2, Vec3};
+use super::{Girth, Pressure, State, mm, side};
+use crate::geometry::{KPA, Vec2, Vec3};
 use crate::mannequin::PartKind;
 use crate::verify::{CutPoint, Ring, ring};
 

@@ -137,9 +137,6 @@ fn limit_used(run: &Measured, at: &[Vec3]) -> Vec<f64> {
     out
 }
 
-/// kPa in a pascal.
-const KPA: f64 = 1e-3;
-
 /// `left front` and the like: the side of a body part on which a point lies.
 fn side(from: Vec3, point: Vec3) -> String {
     /// Sine of the angle off a direction beyond which the next one is named as well: 22.5°, half an eighth of a turn.

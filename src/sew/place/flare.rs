@@ -22,9 +22,10 @@ use crate::pattern::Garment;
 const WIDE: f64 = std::f64::consts::FRAC_PI_3;
 /// A sector's straight sides reach over this share of its radii.
 const SIDE: f64 = 0.6;
-/// Where both are of one length, by this share, the hem may dip between them
+/// The two sides of a sector count as equally long if the shorter is at least this share of the longer.
 const ALIKE: f64 = 0.9;
-/// until they reach over this share only. (Shoulders reach over less of the shortest top.)
+/// Share of the radii that equal sides reach over at least, the hem dipping between them. Shoulders of the shortest top
+/// reach over less.
 const DIPPED: f64 = 0.5;
 /// A skirt has no shoulders: short in front and long behind, the sides of about half a circle reach over this share at
 /// least.

@@ -56,7 +56,7 @@ struct Fin {
 /// A fin at one height.
 #[derive(Clone, Copy, Debug)]
 struct Rib {
-    /// v of the flat piece.
+    /// The v of the flat piece.
     v: f64,
     /// From the middle to the side, metres.
     wide: f64,

@@ -20,7 +20,7 @@ pub(super) struct Lap {
     pub(super) joint: usize,
     /// Number of the one outside.
     over: usize,
-    /// u of the two where they are held together, in row positions.
+    /// The u of the two where they are held together, in row positions.
     at: [f64; 2],
     /// From the highest to the lowest place where they are, v of the row.
     pub(super) v: [f64; 2],

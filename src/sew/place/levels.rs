@@ -95,7 +95,7 @@ fn widen(levels: &mut [Level]) {
 struct Joint {
     /// Levels over which it is sewn.
     sewn: Option<[usize; 2]>,
-    /// u of the next member − u of this one where they meet, in row positions.
+    /// The u of the next member less that of this one where they meet, in row positions.
     jump: f64,
 }
 

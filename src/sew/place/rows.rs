@@ -220,7 +220,7 @@ fn finish_row(mesh: &ClothMesh, sheet: &Sheet, assigned: &[Assigned], layer: i32
     Row { part, layer, members, inserts: Vec::new(), laps: Vec::new(), front, v, hangs: false }
 }
 
-/// u of the middle of a box.
+/// The u of the middle of a box.
 fn center([low, high]: &[Vec2; 2]) -> f64 {
     0.5 * (low.x + high.x)
 }

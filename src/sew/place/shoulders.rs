@@ -16,11 +16,11 @@ use crate::mannequin::{Mannequin, PartKind};
 
 /// A garment with shoulder seams starts so much higher than it will hang, metres: the seams close above the shoulders.
 const LIFT: f64 = 0.04;
-/// It is lowered, in steps of so many metres, until its sides are out of the arms,
+/// Step by which a garment is lowered until its sides are out of the arms, metres.
 const STEP: f64 = 0.005;
-/// at most so often,
+/// Largest number of those steps.
 const STEPS: usize = 12;
-/// looking so far down from where its armholes end, metres.
+/// Distance below the end of the armholes within which its sides are checked against the arms, metres.
 const UNDERARM: f64 = 0.06;
 /// Pieces bend over this length above the armholes, metres, and are straight beyond.
 const BEND: f64 = 0.06;
@@ -30,17 +30,17 @@ const LEFT: f64 = 0.15;
 const HALVINGS: usize = 12;
 /// They lean by no more than this from upright, radians: what is short above the armholes does not reach the middle.
 const STEEPEST: f64 = 1.2;
-/// Cloth keeps so far from the body, metres, and a layer further for every one that lies under it,
+/// Clearance of cloth from the body, metres. Every layer under it adds one layer.
 const CLEAR: f64 = 0.008;
-/// which is looked for no deeper than this.
+/// Depth within which the body is looked for, metres.
 const DEEPEST: f64 = 0.5;
-/// Between leaning and upright so many places are tried.
+/// Number of angles tried between leaning and upright.
 const TRIES: usize = 40;
-/// Where even upright it would be in the body (an arm), it stands off by this share of its height more,
+/// Share of its height by which a piece stands off that would be in the body (an arm) even upright.
 const OFF: f64 = 0.5;
-/// and what is open at its sides, where a tabard stands beside the arms, by as much as so many metres,
+/// Largest distance by which a piece with open sides stands off, metres: a tabard beside the arms.
 const FURTHEST: f64 = 0.15;
-/// looked for in steps of so many.
+/// Step in which that distance is tried, metres.
 const AWAY: f64 = 0.005;
 
 /// How a piece leans over the shoulders.
@@ -53,7 +53,7 @@ pub(super) struct Lean<'a> {
     angle: f64,
     /// The ring's half depth there, metres.
     depth: f64,
-    /// z of the middle of the body at the shoulders.
+    /// The z of the middle of the body at the shoulders.
     middle: f64,
     /// How far it keeps from the body, metres.
     clear: f64,

@@ -15,19 +15,20 @@ use crate::mannequin::{Mannequin, PartKind};
 use crate::mesh::ClothMesh;
 use crate::pattern::Garment;
 
-/// A row that would begin lower is lifted until it is so far off the floor, metres: clear of the toes;
+/// A row that would begin lower is lifted until it is so far off the floor, metres: clear of the toes.
 const TOES: f64 = 0.03;
-/// but no further than so much above the waist; the rest of a train has to be pushed up.
+/// Largest height above the waist that a row is lifted to, metres. The rest of a train has to be pushed up.
 const HIGHEST: f64 = 0.05;
 /// A layer's ring is so much wider than the one it is worn over, metres: room for the folds of that.
 const LAYERS_APART: f64 = 5.0 * LAYER;
-/// A row that stands alone round the trunk slips down from the waist by so much at a time, metres,
+/// Step by which a row that stands alone round the trunk slips down from the waist, metres. It stops where the body
+/// holds its top.
 const SLIP: f64 = 0.005;
-/// at most so far,
+/// Largest distance that it slips, metres.
 const LOWEST: f64 = 0.15;
-/// until the body with so much room all round holds the top of it, metres,
+/// Room all round with which the body holds the top of a row, metres.
 const TOP_ROOM: f64 = 0.003;
-/// which is read off so many levels down: the ends of its outline may be points.
+/// Levels below the end of a row's outline at which its top is measured: the ends may be points.
 const TOP_LEVEL: usize = 2;
 /// A row at the bust begins so far above it, metres, under the arms; a narrow one has the bust in its middle.
 const ABOVE_BUST: f64 = 0.07;
