@@ -178,8 +178,8 @@ impl Job {
         is_whole(mesh, &sewn).then(|| (sewn, closed.gaps.clone()))
     }
 
-    /// Start positions for draping `mesh`, from the draped coarser level, of which `watch` is told. `None` if that level
-    /// cannot be draped, or gives no whole garment.
+    /// Start positions for draping `mesh`, from the draped coarser level, of which `watch` is told. `None` if that
+    /// level cannot be draped, or gives no whole garment.
     pub(super) fn start_from_coarse(
         &self,
         mesh: &ClothMesh,
