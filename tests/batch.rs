@@ -1,96 +1,19 @@
 //! Batches: nothing lost, nothing twice, no half folder, and failures of their own.
 
-use std::collections::{BTreeMap, HashMap};
+mod room;
+
+use std::collections::HashMap;
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
+use std::path::Path;
+use std::process::{Child, Command};
 use std::time::{Duration, Instant};
 
+use room::{COARSE, ENDLESS, Room, SKIRT, skirt, skirts, text};
 use serde_json::{Value, json};
-use tempfile::TempDir;
 use toile::batch::{Digests, Job, Key};
 
-/// A skirt of two pieces that sews in a fraction of a second at this spacing (mm).
-const SKIRT: &str = include_str!("data/skirt.yaml");
-const COARSE: f64 = 60.0;
 /// A garment that cannot be sewn.
 const NARROW_TUBE: &str = include_str!("data/narrow_tube.yaml");
-/// A spacing (mm) at which the skirt takes minutes.
-const ENDLESS: f64 = 1.5;
-
-/// A folder with garments, lists and stores.
-struct Room(TempDir);
-
-impl Room {
-    fn new() -> Self {
-        let room = Self(tempfile::tempdir().expect("a temporary folder"));
-        room.put("skirt.yaml", SKIRT);
-        room
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn put(&self, name: &str, text: &str) {
-        fs::create_dir_all(self.path(name).parent().expect("a folder")).expect("made");
-        fs::write(self.path(name), text).expect("written");
-    }
-
-    fn list(&self, name: &str, jobs: &[Value]) {
-        self.put(name, &jobs.iter().map(|job| format!("{job}\n")).collect::<String>());
-    }
-
-    fn command(&self, args: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_toile"));
-        command.args(args).current_dir(self.0.path()).stdin(Stdio::null());
-        command
-    }
-
-    fn run(&self, args: &[&str]) -> Output {
-        self.command(args).output().expect("started")
-    }
-
-    fn start(&self, args: &[&str]) -> Child {
-        self.command(args).stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("started")
-    }
-
-    /// Lines of a store's index by their ids.
-    fn index(&self, store: &str) -> BTreeMap<String, Value> {
-        let text = fs::read_to_string(self.path(store).join("index.jsonl")).expect("an index");
-        let lines: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
-        let by_id: BTreeMap<String, Value> =
-            lines.iter().map(|line| (line["id"].as_str().expect("an id").to_owned(), line.clone())).collect();
-        assert_eq!(by_id.len(), lines.len(), "an id twice: {text}");
-        by_id
-    }
-
-    /// Names in a folder, sorted; none if there is no such folder.
-    fn names(&self, folder: &str) -> Vec<String> {
-        let Ok(entries) = fs::read_dir(self.path(folder)) else { return Vec::new() };
-        let mut names: Vec<String> = entries.filter_map(|e| e.ok()?.file_name().into_string().ok()).collect();
-        names.sort();
-        names
-    }
-
-    /// Folders of results in a store.
-    fn results(&self, store: &str) -> Vec<String> {
-        self.names(store).into_iter().filter(|name| name.len() == 32).collect()
-    }
-}
-
-fn skirt(id: &str, spacing: f64) -> Value {
-    json!({"id": id, "garment": "skirt.yaml", "spacing": spacing})
-}
-
-/// Skirts that are all different.
-fn skirts(count: usize) -> Vec<Value> {
-    (0..count).map(|k| skirt(&format!("skirt {k}"), COARSE + k as f64)).collect()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
 
 #[test]
 fn every_job_is_made_once_and_every_failure_kept_with_its_reason() {
@@ -328,6 +251,55 @@ fn samples_are_drawn_reproducibly_and_without_repetition() {
     assert!(list.contains("\"fabric\":\"../cloth.yaml\""), "{list}");
     let (code, said, _) = draw("lists/d.jsonl", &["-n", "2", "--fabrics", "denin"]);
     assert!(code == Some(2) && said.contains("did you mean 'denim'"), "{said}");
+}
+
+#[test]
+fn samples_draw_measures_alterations_and_sizes_and_the_batch_makes_them() {
+    let room = Room::new();
+    room.put("sized.yaml", &format!("{SKIRT}sizes: {{long: [{{lengthen: front, at: 200, by: 30}}]}}\n"));
+    room.put(
+        "ranges.yaml",
+        "measures: {waist: {from: 98 %, to: 102 %}, height: {from: 1640, to: 1700}}\n\
+         alter:\n  - {lengthen: front, at: 150, by: {from: 1, to: 40}}\n",
+    );
+    let draw = |list: &str, count: &str, more: &[&str]| {
+        let args = ["sample", "sized.yaml", "-n", count, "--seed", "3", "-o", list, "--spacing", "60"];
+        let output = room.run(&[&args[..], &["--bodies", "woman_92", "--fabrics", "denim"], more].concat());
+        (output.status.code(), text(&output.stderr), fs::read_to_string(room.path(list)).unwrap_or_default())
+    };
+    let (code, said, list) = draw("jobs.jsonl", "5", &["--vary", "ranges.yaml"]);
+    assert_eq!(code, Some(0), "{said}");
+    let jobs: Vec<Value> = list.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    let within = |value: &Value, low: f64, high: f64| value.as_f64().is_some_and(|v| (low..=high).contains(&v));
+    for job in &jobs {
+        assert!(within(&job["measures"]["height"], 1640.0, 1700.0), "{job}");
+        assert!(within(&job["alter"][0]["by"], 1.0, 40.0), "{job}");
+    }
+    // Both variants of the garment come before either comes again.
+    for pair in jobs[..4].chunks(2) {
+        assert_eq!(pair.iter().filter(|job| job["size"] == "long").count(), 1, "{list}");
+    }
+    // The first jobs of a longer list are those of a shorter one.
+    assert!(list.starts_with(&draw("few.jsonl", "3", &["--vary", "ranges.yaml"]).2));
+    let (code, said, _) = draw("d.jsonl", "5", &["--sizes", "none,short"]);
+    assert!(code == Some(2) && said.contains("has no size 'short'; its sizes: long"), "{said}");
+    room.put("wrong.yaml", "alter: [{lengthen: frnt, at: 150, by: {from: 1, to: 40}}]\n");
+    let (code, said, _) = draw("d.jsonl", "5", &["--vary", "wrong.yaml"]);
+    assert!(code == Some(2) && said.contains("did you mean 'front'?"), "{said}");
+    room.put("wrong.yaml", "measures: {waist: {from: 98 %, to: 300 %}}\n");
+    let (code, said, _) = draw("d.jsonl", "5", &["--vary", "wrong.yaml"]);
+    assert!(code == Some(2) && said.contains("'waist'"), "{said}");
+
+    // What a job says, `make` makes.
+    let made = room.run(&["batch", "few.jsonl", "-o", "store"]);
+    assert!(matches!(made.status.code(), Some(0 | 1)), "{}", text(&made.stderr));
+    let job = jobs.iter().take(3).find(|job| job["size"] == "long").expect("a long one");
+    let (measures, alter) = (job["measures"].to_string(), job["alter"].to_string());
+    let args = ["make", "sized.yaml", "--size", "long", "--spacing", "60", "--fabric", "denim", "--body", "woman_92"];
+    room.run(&[&args[..], &["--measures", &*measures, "--alter", &*alter, "-o", "plain"]].concat());
+    let folder = room.index("store")[job["id"].as_str().expect("an id")]["folder"].clone();
+    let obj = |folder: &str| fs::read(room.path(folder).join("garment.obj")).expect("a garment");
+    assert_eq!(obj("plain"), obj(&format!("store/{}", folder.as_str().expect("a folder"))));
 }
 
 /// The key of `skirt.yaml` in this folder.

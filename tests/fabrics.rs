@@ -5,7 +5,7 @@ use std::path::Path;
 use toile::fabric::{Context, Fabric, FabricError, FabricSpec, library, load, resolve, sheet};
 
 fn context<'a>(garment: &'a [(String, FabricSpec)], folder: &'a Path) -> Context<'a> {
-    Context { name: "shell", folder, garment }
+    Context { name: "shell", folder, garment, given: None }
 }
 
 fn spec(base: Option<&str>, values: &[(&str, &str)]) -> FabricSpec {

@@ -207,7 +207,7 @@ fn the_schema_has_every_key_of_a_fabric() {
     nested(&schema["$defs"]["fabric"], "", &mut keys);
     assert!(keys.remove("base"));
     let spec = FabricSpec { base: None, values: vec![(STRANGER.to_owned(), "1".to_owned())] };
-    let context = Context { name: "cloth", folder: Path::new(""), garment: &[] };
+    let context = Context { name: "cloth", folder: Path::new(""), garment: &[], given: None };
     let Err(FabricError::Key { known, .. }) = resolve(&spec, &context) else { panic!("a key that no fabric has") };
     assert_eq!(keys, known.split(", ").map(str::to_owned).collect());
 }

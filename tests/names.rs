@@ -95,7 +95,7 @@ fn rename_closure(closure: &mut ClosureFile) {
 fn rename_test(test: &mut TestFile) {
     match test {
         TestFile::Seam(name, _) | TestFile::Gap(name, _) | TestFile::Flatten(name, ..) | TestFile::Drape(name, ..) => {
-            rename(name)
+            rename(name);
         }
         TestFile::Closure(..)
         | TestFile::Crossings(_)

@@ -14,15 +14,37 @@ use crate::errors;
 use crate::result::parsed;
 use crate::work::with_signals;
 
+/// Most memory that a job may be given, MiB: more is more than a number of bytes holds.
+const MOST_MEMORY: i64 = 1 << 40;
+
+/// A number of threads or jobs.
+fn count(py: Python<'_>, name: &str, number: isize) -> PyResult<NonZeroUsize> {
+    let positive = usize::try_from(number).ok().and_then(NonZeroUsize::new);
+    positive.ok_or_else(|| errors::input(py, format!("{name}: at least one is needed, not {number}")))
+}
+
 /// How jobs are made.
-fn plan(program: Vec<OsString>, time: Option<f64>, memory: Option<u64>, threads: usize, retry: bool) -> Plan {
-    Plan {
-        worker: Worker { program, threads: NonZeroUsize::new(threads).unwrap_or(NonZeroUsize::MIN) },
-        limits: Limits { time: time.and_then(|s| Duration::try_from_secs_f64(s).ok()), memory },
+fn plan(
+    py: Python<'_>,
+    program: Vec<OsString>,
+    time: Option<f64>,
+    memory: Option<i64>,
+    threads: isize,
+    retry: bool,
+) -> PyResult<Plan> {
+    let duration = |s: f64| Duration::try_from_secs_f64(s).ok().filter(|time| !time.is_zero());
+    let wrong_time = |s: f64| errors::input(py, format!("time: {s} is no positive number of seconds, such as 1200"));
+    let time = time.map(|s| duration(s).ok_or_else(|| wrong_time(s))).transpose()?;
+    if let Some(memory) = memory.filter(|memory| !(1..MOST_MEMORY).contains(memory)) {
+        return Err(errors::input(py, format!("memory: {memory} is no size in MiB, such as 4096")));
+    }
+    Ok(Plan {
+        worker: Worker { program, threads: count(py, "threads", threads)? },
+        limits: Limits { time, memory: memory.map(i64::unsigned_abs) },
         side_by_side: NonZeroUsize::MIN,
         retry,
         index: INDEX.to_owned(),
-    }
+    })
 }
 
 /// The JSON texts of a list of jobs, with whole paths.
@@ -57,17 +79,17 @@ pub(crate) fn run_batch<'py>(
     folder: PathBuf,
     store: PathBuf,
     program: Vec<OsString>,
-    side_by_side: Option<usize>,
+    side_by_side: Option<isize>,
     time: Option<f64>,
-    memory: Option<u64>,
-    threads: usize,
+    memory: Option<i64>,
+    threads: isize,
     retry: bool,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let jobs = jobs(py, &texts, &folder)?;
     let cores = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-    let side_by_side = side_by_side.and_then(NonZeroUsize::new).unwrap_or_else(cores);
-    let plan = Plan { side_by_side, ..plan(program, time, memory, threads, retry) };
+    let side_by_side = side_by_side.map_or_else(|| Ok(cores()), |number| count(py, "side_by_side", number))?;
+    let plan = Plan { side_by_side, ..plan(py, program, time, memory, threads, retry)? };
     let done = with_signals(py, None, progress.as_ref(), move |telling| {
         let store = Store::open(&store)?;
         let flag = telling.stop();
@@ -91,12 +113,12 @@ pub(crate) fn run_job<'py>(
     store: PathBuf,
     program: Vec<OsString>,
     time: Option<f64>,
-    memory: Option<u64>,
-    threads: usize,
+    memory: Option<i64>,
+    threads: isize,
     retry: bool,
 ) -> PyResult<Bound<'py, PyAny>> {
     let job = jobs(py, &[text], &folder)?.swap_remove(0);
-    let plan = plan(program, time, memory, threads, retry);
+    let plan = plan(py, program, time, memory, threads, retry)?;
     let line = with_signals(py, Some(1), None, move |telling| {
         let store = Store::open(&store)?;
         let flag = telling.stop();

@@ -6,13 +6,18 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use toile::digitize::{garment_file, sewn};
 use toile::io::body::floor_of;
-use toile::io::garment::write;
+use toile::io::garment::{Variant, change_text, write};
 use toile::io::garmentcode::{self, Wearer};
 use toile::io::svg_read::{SvgOptions, read_svg};
-use toile::pattern::GarmentFile;
-use toile::pipeline::{Job, Overrides, PictureOptions, PipelineError, Run, check_text, problems, read_text};
+use toile::mannequin::Measures;
+use toile::pattern::{GarmentFile, Located, Quantity, Spot, Unit};
+use toile::pipeline::{
+    EarlierFiles, GARMENT_OBJ, Job, Overrides, PictureOptions, PipelineError, REPORT_JSON, Run, check_text, problems,
+    read_text,
+};
 
-use crate::result::{Made, Result as Outcome};
+use crate::library::{GivenBody, GivenFabric};
+use crate::result::{Made, Result as Outcome, json};
 use crate::work::with_signals;
 use crate::{errors, library};
 
@@ -22,38 +27,56 @@ pub(crate) struct Garment {
     /// Its file, which need not exist: the name is the garment's, and files that it names are in its folder.
     file: PathBuf,
     text: String,
+    /// Alterations that follow those of the text.
+    alter: Vec<String>,
     /// What was said when it was imported.
     #[pyo3(get)]
     notes: Vec<String>,
 }
 
-/// The options of `make` as the pipeline takes them.
-fn overrides(
-    py: Python<'_>,
-    body: Option<library::Named>,
-    body_units: Option<&str>,
-    fabric: Option<library::Named>,
-    spacing: Option<f64>,
-) -> PyResult<Overrides> {
-    if let Some(mm) = spacing.filter(|mm| !(*mm > 0.0 && mm.is_finite())) {
+/// A spacing in metres.
+fn spacing(py: Python<'_>, mm: Option<f64>) -> PyResult<Option<f64>> {
+    if let Some(mm) = mm.filter(|mm| !(*mm > 0.0 && mm.is_finite())) {
         return Err(errors::input(py, format!("spacing: {mm} is no positive number of millimetres, such as 10")));
     }
-    let units = body.as_ref().and_then(library::Named::unit).or(body_units.map(str::to_owned));
-    let body_unit = units.map(|unit| library::unit(&unit)).transpose().map_err(|why| errors::input(py, why))?;
-    Ok(Overrides {
-        size: None,
-        spacing: spacing.map(|mm| 1e-3 * mm),
-        fabric: fabric.map(library::Named::name),
-        body: body.map(library::Named::name),
-        body_unit,
-        bands: None,
-    })
+    Ok(mm.map(|mm| 1e-3 * mm))
+}
+
+/// An earlier result, from memory or in a folder.
+#[derive(FromPyObject)]
+pub(crate) enum Start {
+    Result(Py<Outcome>),
+    Folder(PathBuf),
+}
+
+/// The same, ready for another thread.
+enum Earlier {
+    Folder(PathBuf),
+    Files { name: PathBuf, surface: Vec<u8>, report: Vec<u8> },
+}
+
+impl Start {
+    fn earlier(self, py: Python<'_>) -> PyResult<Earlier> {
+        match self {
+            Self::Folder(folder) if !folder.is_dir() => {
+                let why = format!("start: {} is no folder of results; give a Result or a folder", folder.display());
+                Err(errors::input(py, why))
+            }
+            Self::Folder(folder) => Ok(Earlier::Folder(folder)),
+            Self::Result(result) => {
+                let result = result.get();
+                let file = |name| result.file(name).unwrap_or_default();
+                let (surface, report) = (file(GARMENT_OBJ), file(REPORT_JSON));
+                Ok(Earlier::Files { name: result.title().into(), surface, report })
+            }
+        }
+    }
 }
 
 impl Garment {
     fn imported(py: Python<'_>, file: PathBuf, said: &GarmentFile, notes: Vec<String>) -> PyResult<Self> {
         let text = write(said).map_err(|e| errors::input(py, e))?;
-        Ok(Self { file, text, notes })
+        Ok(Self { file, text, alter: Vec::new(), notes })
     }
 }
 
@@ -64,7 +87,7 @@ impl Garment {
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         toile::pipeline::read(&path).map_err(|e| errors::pipeline(py, &e, &[]))?;
         let text = std::fs::read_to_string(&path)?;
-        Ok(Self { file: path, text, notes: Vec::new() })
+        Ok(Self { file: path, text, alter: Vec::new(), notes: Vec::new() })
     }
 
     /// A garment from what a garment file says, as nested dicts and lists.
@@ -73,29 +96,30 @@ impl Garment {
     #[staticmethod]
     #[pyo3(signature = (data, name="garment", folder=PathBuf::new()))]
     fn from_dict(py: Python<'_>, data: Bound<'_, PyDict>, name: &str, folder: PathBuf) -> PyResult<Self> {
-        // JSON is YAML.
-        let options = PyDict::new(py);
-        options.set_item("ensure_ascii", false)?;
-        options.set_item("indent", 1)?;
-        let text: String = py.import("json")?.call_method("dumps", (data,), Some(&options))?.extract()?;
+        let text = json(py, data.as_any())?;
         let file = folder.join(format!("{name}.yaml"));
-        read_text(&file, &text).map_err(|e| errors::pipeline(py, &e, &[]))?;
-        Ok(Self { file, text, notes: Vec::new() })
+        read_text(&file, &text, Variant::default()).map_err(|e| errors::pipeline(py, &e, &[]))?;
+        Ok(Self { file, text, alter: Vec::new(), notes: Vec::new() })
     }
 
     /// A garment from GarmentCode's pattern specification (JSON), worn by ``body``.
     #[staticmethod]
     #[pyo3(signature = (path, body=None))]
-    fn from_garmentcode(py: Python<'_>, path: PathBuf, body: Option<library::Named>) -> PyResult<Self> {
-        let text = std::fs::read_to_string(&path)?;
+    fn from_garmentcode(py: Python<'_>, path: PathBuf, body: Option<GivenBody>) -> PyResult<Self> {
+        let text = std::fs::read_to_string(&path);
+        let text = text.map_err(|e| errors::input(py, format!("{}: {e}", path.display())))?;
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let name = stem.strip_suffix("_specification").unwrap_or(&stem);
-        let body = body.map(library::Named::name);
+        let (body, measures) = body.map(GivenBody::parts).map_or((None, None), |(b, m)| (Some(b), Some(m)));
         let floor = body.as_deref().map_or(Ok(0.0), |body| floor_of(body, None));
         let floor = floor.map_err(|e| errors::input(py, e))?;
         // As the garment is not written, its folder is the one that the caller is in.
         let said = garmentcode::read(name, &text, Wearer { body: body.as_deref(), floor });
-        let said = said.map_err(|e| errors::input(py, format!("{}: {e}", path.display())))?;
+        let mut said = said.map_err(|e| errors::input(py, format!("{}: {e}", path.display())))?;
+        for (name, mm) in measures.iter().flat_map(Measures::named) {
+            let length = Quantity { number: mm, unit: Some(Unit::Millimetre) };
+            said.body_measures.push((unplaced(name.to_owned()), unplaced(length)));
+        }
         Self::imported(py, PathBuf::from(format!("{name}.yaml")), &said, Vec::new())
     }
 
@@ -114,6 +138,9 @@ impl Garment {
         units: Option<f64>,
         size: Option<String>,
     ) -> PyResult<Self> {
+        if let Some(mm) = units.filter(|mm| !(*mm > 0.0 && mm.is_finite())) {
+            return Err(errors::input(py, format!("units: {mm} is no positive number of millimetres")));
+        }
         let options = SvgOptions { unit: units.map(|mm| 1e-3 * mm), size };
         let drawing = read_svg(&path, &options);
         let drawing = drawing.map_err(|e| errors::input(py, format!("{}: {e}", path.display())))?;
@@ -131,25 +158,58 @@ impl Garment {
         self.file.file_stem().unwrap_or_default().to_string_lossy().into_owned()
     }
 
-    /// The text of the garment file.
+    /// The text of the garment file, with its alterations carried out if there are any of :meth:`alter`.
     #[getter]
-    fn text(&self) -> &str {
-        &self.text
+    fn text(&self, py: Python<'_>) -> PyResult<String> {
+        if self.alter.is_empty() {
+            return Ok(self.text.clone());
+        }
+        let changed = change_text(&self.text, &self.file.display().to_string(), &self.alter);
+        Ok(changed.map_err(|all| errors::refused(py, &all))?.text)
+    }
+
+    /// Names of the sizes that the garment file has.
+    #[getter]
+    fn sizes(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        let loaded = read_text(&self.file, &self.text, Variant::default());
+        let loaded = loaded.map_err(|e| errors::pipeline(py, &e, &[]))?;
+        Ok(loaded.file.sizes.iter().map(|size| size.name.value.clone()).collect())
+    }
+
+    /// The garment with its pattern altered, as ``toile alter``; this one stays as it is.
+    ///
+    /// Args:
+    ///     changes: Alterations as a garment file has them under ``alter``: a dict
+    ///         (``{"lengthen": ["front", "back"], "at": 200, "by": 20}``), a list of them, or a text (YAML).
+    ///
+    /// Raises:
+    ///     GarmentError: An alteration cannot be done, or seams no longer match.
+    fn alter(&self, py: Python<'_>, changes: Bound<'_, PyAny>) -> PyResult<Self> {
+        let text = match changes.extract::<String>() {
+            Ok(text) => text,
+            Err(_) => json(py, &changes)?,
+        };
+        let alter = [self.alter.clone(), vec![text]].concat();
+        let variant = Variant { size: None, alter: &alter };
+        read_text(&self.file, &self.text, variant).map_err(|e| errors::pipeline(py, &e, &[]))?;
+        Ok(Self { file: self.file.clone(), text: self.text.clone(), alter, notes: self.notes.clone() })
     }
 
     /// Finds everything that is wrong before cloth moves; mistakes raise :class:`GarmentError`.
     ///
     /// Args:
     ///     spacing: Distance of neighbouring particles that it will be made with, mm (10 by default).
+    ///     size: A size of the garment.
     ///
     /// Returns:
     ///     What its author may not have meant so.
-    #[pyo3(signature = (spacing=None))]
-    fn check<'py>(&self, py: Python<'py>, spacing: Option<f64>) -> PyResult<Bound<'py, PyList>> {
-        let Overrides { spacing, .. } = overrides(py, None, None, None, spacing)?;
-        let (file, text) = (self.file.clone(), self.text.clone());
+    #[pyo3(signature = (spacing=None, size=None))]
+    fn check<'py>(&self, py: Python<'py>, spacing: Option<f64>, size: Option<String>) -> PyResult<Bound<'py, PyList>> {
+        let spacing = self::spacing(py, spacing)?;
+        let (file, text, alter) = (self.file.clone(), self.text.clone(), self.alter.clone());
         let checked = with_signals(py, Some(1), None, move |_| {
-            check_text(&file, &text, spacing).map(|checked| checked.loaded.warnings)
+            let variant = Variant { size: size.as_deref(), alter: &alter };
+            check_text(&file, &text, variant, spacing).map(|checked| checked.loaded.warnings)
         })?;
         errors::diagnostics(py, &checked.map_err(|all| errors::refused(py, &all))?)
     }
@@ -161,29 +221,48 @@ impl Garment {
     ///     fabric: Library name or file in place of its main fabric.
     ///     spacing: Distance of neighbouring particles, mm (10 by default).
     ///     threads: Number of threads (all processors by default). Results do not depend on it.
+    ///     start: An earlier result to go on from, or its folder: of this garment, or of what it was before its pieces,
+    ///         fabrics, body or spacing were changed. The cloth starts where that one hangs.
     ///     progress: Called with the stage and the share of it that is done, from 0 to 1. What it raises ends the work.
     ///     body_units: Unit of the body's OBJ file.
+    ///     size: A size of the garment.
     ///
     /// Raises:
     ///     GarmentError: The garment file has mistakes.
-    ///     InputError: The body, the fabric or the spacing is wrong.
+    ///     InputError: The body, the fabric, the spacing or the earlier result is wrong.
     ///     ComputationError: It cannot be sewn, draped or flattened.
-    #[pyo3(signature = (body=None, fabric=None, spacing=None, threads=None, progress=None, body_units=None))]
+    #[pyo3(signature = (
+        body=None, fabric=None, spacing=None, threads=None, start=None, progress=None, body_units=None, size=None
+    ))]
     #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn make(
         &self,
         py: Python<'_>,
-        body: Option<library::Named>,
-        fabric: Option<library::Named>,
+        body: Option<GivenBody>,
+        fabric: Option<GivenFabric>,
         spacing: Option<f64>,
-        threads: Option<usize>,
+        threads: Option<isize>,
+        start: Option<Start>,
         progress: Option<Py<PyAny>>,
         body_units: Option<&str>,
+        size: Option<String>,
     ) -> PyResult<Outcome> {
-        let overrides = overrides(py, body, body_units, fabric, spacing)?;
+        let body_unit = body_units.map(library::unit).transpose().map_err(|why| errors::input(py, why))?;
+        if body_unit.is_some() && matches!(body, Some(GivenBody::Body(_))) {
+            return Err(errors::input(py, "body_units: a Body has its unit already"));
+        }
+        let spacing = self::spacing(py, spacing)?;
+        let mut wanted = Overrides { spacing, size, body_unit, alter: self.alter.clone(), ..Overrides::default() };
+        if let Some(body) = body {
+            body.choose(&mut wanted);
+        }
+        if let Some(fabric) = fabric {
+            fabric.choose(&mut wanted);
+        }
+        let start = start.map(|start| start.earlier(py)).transpose()?;
         let (file, text) = (self.file.clone(), self.text.clone());
         let made = with_signals(py, threads, progress.as_ref(), move |telling| {
-            make(&file, &text, &overrides, &mut |stage, share| telling.tell(stage, share))
+            make(&file, &text, &wanted, start.as_ref(), &mut |stage, share| telling.tell(stage, share))
         })?;
         made.map(Outcome::new).map_err(|failed| errors::pipeline(py, &failed.error, &failed.files))
     }
@@ -191,6 +270,11 @@ impl Garment {
     fn __repr__(&self) -> String {
         format!("<toile.Garment '{}'>", self.name())
     }
+}
+
+/// A statement that stands in no file.
+fn unplaced<T>(value: T) -> Located<T> {
+    Located::new(value, Spot::default())
 }
 
 /// A run that ended early, with the files of the state that it reached.
@@ -209,10 +293,17 @@ fn make(
     file: &Path,
     text: &str,
     overrides: &Overrides,
+    start: Option<&Earlier>,
     tell: &mut dyn FnMut(&str, f64),
 ) -> std::result::Result<Made, Failed> {
-    let job = Job::new(file, read_text(file, text)?, overrides)?;
-    let mut run = Run::new(&job);
+    let job = Job::new(file, read_text(file, text, overrides.variant())?, overrides)?;
+    let mut run = match start {
+        None => Run::new(&job),
+        Some(Earlier::Folder(folder)) => Run::continued(&job, folder)?,
+        Some(Earlier::Files { name, surface, report }) => {
+            Run::continued_from(&job, &EarlierFiles { name, surface, report })?
+        }
+    };
     if let Err(error) = run.flatten(&toile::flatten::Options::default(), tell) {
         let files = run.state(&PictureOptions::default()).unwrap_or_default();
         return Err(Failed { error: Box::new(error), files });

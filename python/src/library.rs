@@ -1,14 +1,20 @@
 //! `toile.Body` and `toile.Fabric`
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use numpy::PyArray2;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use toile::fabric::measure::{fabric_yaml, measure, measure_text};
 use toile::input::LengthUnit;
-use toile::io::body::load_body;
+use toile::io::body::{load_body, load_body_of, mannequin_obj};
+use toile::io::files::write_all;
+use toile::mannequin::Measures;
+use toile::pipeline::Overrides;
 
 use crate::errors;
-use crate::result::rows;
+use crate::result::{json, rows};
 use crate::work::with_signals;
 
 /// Millimetres in a metre.
@@ -17,16 +23,22 @@ const MM: f64 = 1e3;
 /// A mannequin, or a body of one's own: n vertices, m triangles.
 #[pyclass(frozen, module = "toile")]
 pub(crate) struct Body {
+    /// As `--body` takes it.
     name: String,
     units: Option<String>,
-    body: toile::io::body::Body,
+    measures: Measures,
+    body: Arc<toile::io::body::Body>,
 }
 
 /// A fabric with every value.
 #[pyclass(frozen, module = "toile")]
 pub(crate) struct Fabric {
-    name: String,
-    fabric: toile::fabric::Fabric,
+    /// As `--fabric` takes it. A fabric that was measured here has none.
+    name: Option<String>,
+    /// The fabric file of one that was measured here.
+    text: Option<String>,
+    notes: Vec<String>,
+    fabric: Arc<toile::fabric::Fabric>,
 }
 
 /// The unit of a symbol, such as `mm`.
@@ -37,11 +49,9 @@ pub(crate) fn unit(symbol: &str) -> Result<LengthUnit, String> {
     })
 }
 
-/// A body or a fabric, its library name or its file.
+/// A library name or a file.
 #[derive(FromPyObject)]
 pub(crate) enum Named {
-    Body(Py<Body>),
-    Fabric(Py<Fabric>),
     Text(String),
     Path(PathBuf),
 }
@@ -50,20 +60,69 @@ impl Named {
     /// The name or path, as `--body` and `--fabric` take it.
     pub(crate) fn name(self) -> String {
         match self {
-            Self::Body(body) => body.get().name.clone(),
-            Self::Fabric(fabric) => fabric.get().name.clone(),
             Self::Text(name) => name,
             Self::Path(path) => path.display().to_string(),
         }
     }
+}
 
-    /// The unit that a body was loaded in.
-    pub(crate) fn unit(&self) -> Option<String> {
+/// A body, its library name or its file.
+#[derive(FromPyObject)]
+pub(crate) enum GivenBody {
+    Body(Py<Body>),
+    Named(Named),
+}
+
+/// A fabric, its library name or its file.
+#[derive(FromPyObject)]
+pub(crate) enum GivenFabric {
+    Fabric(Py<Fabric>),
+    Named(Named),
+}
+
+impl GivenBody {
+    /// The body in place of the garment's, with its name.
+    pub(crate) fn choose(self, wanted: &mut Overrides) {
         match self {
-            Self::Body(body) => body.get().units.clone(),
-            Self::Fabric(_) | Self::Text(_) | Self::Path(_) => None,
+            Self::Named(named) => wanted.body = Some(named.name()),
+            Self::Body(body) => {
+                wanted.body = Some(body.get().name.clone());
+                wanted.given.body = Some(Arc::clone(&body.get().body));
+            }
         }
     }
+
+    /// The name of a body, and the measures that it was built with.
+    pub(crate) fn parts(self) -> (String, Measures) {
+        match self {
+            Self::Named(named) => (named.name(), Measures::default()),
+            Self::Body(body) => (body.get().name.clone(), body.get().measures.clone()),
+        }
+    }
+}
+
+impl GivenFabric {
+    /// The fabric in place of the garment's main one, with its name.
+    pub(crate) fn choose(self, wanted: &mut Overrides) {
+        match self {
+            Self::Named(named) => wanted.fabric = Some(named.name()),
+            Self::Fabric(fabric) => wanted.given.fabric = Some(Arc::clone(&fabric.get().fabric)),
+        }
+    }
+}
+
+/// What a Python value says as YAML, or the text of the file that it names.
+fn said(py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<(String, Option<PathBuf>)> {
+    if let Ok(path) = value.extract::<PathBuf>() {
+        return Ok((String::new(), Some(path)));
+    }
+    Ok((json(py, value)?, None))
+}
+
+/// Writes a file whole or not at all.
+fn write(py: Python<'_>, path: &Path, text: String) -> PyResult<()> {
+    let files = [(path.to_owned(), text.into_bytes())];
+    py.detach(|| write_all(&files, &[])).map_err(|e| pyo3::exceptions::PyOSError::new_err(e.to_string()))
 }
 
 #[pymethods]
@@ -76,7 +135,52 @@ impl Body {
         let unit = units.as_deref().map(self::unit).transpose().map_err(|why| errors::input(py, why))?;
         let wanted = name.clone();
         let body = with_signals(py, None, None, move |_| load_body(&wanted, unit))?;
-        Ok(Self { body: body.map_err(|e| errors::input(py, e))?, name, units })
+        let body = Arc::new(body.map_err(|e| errors::input(py, e))?);
+        Ok(Self { body, name, units, measures: Measures::default() })
+    }
+
+    /// A mannequin with the measures of a person, as ``toile mannequin build``.
+    ///
+    /// Args:
+    ///     like: The mannequin that has what is not measured, by its library name or its file of sections (YAML).
+    ///     measures: Names and lengths, mm or texts with a unit (``{"bust": 1040, "height": "170 cm"}``), or a file of
+    ///         them: ours, FreeSewing's, or a body of GarmentCode.
+    ///
+    /// Raises:
+    ///     InputError: A name is no measure, or the measures contradict one another or are far from the mannequin's.
+    #[staticmethod]
+    fn build(py: Python<'_>, like: Named, measures: Bound<'_, PyAny>) -> PyResult<Self> {
+        let (name, (text, file)) = (like.name(), said(py, &measures)?);
+        let read = match &file {
+            Some(file) => Measures::read(file),
+            None => Measures::parse(&text, "measures"),
+        };
+        let measures = read.map_err(|e| errors::input(py, e))?;
+        let (wanted, given) = (name.clone(), measures.clone());
+        let body = with_signals(py, None, None, move |_| load_body_of(&wanted, None, &given))?;
+        let body = Arc::new(body.map_err(|e| errors::input(py, e))?);
+        Ok(Self { body, name, units: None, measures })
+    }
+
+    /// Writes its surface (OBJ): millimetres, y up, feet at y = 0.
+    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        write(py, &path, mannequin_obj(&self.body.mannequin))
+    }
+
+    /// Name, unit and measures, as a job of a batch has them.
+    #[getter]
+    fn _job<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let job = PyDict::new(py);
+        job.set_item("body", &self.name)?;
+        if let Some(units) = &self.units {
+            job.set_item("body_units", units)?;
+        }
+        if !self.measures.is_empty() {
+            let measures = PyDict::new(py);
+            self.measures.named().try_for_each(|(name, mm)| measures.set_item(name, mm))?;
+            job.set_item("measures", measures)?;
+        }
+        Ok(job)
     }
 
     /// Names of the mannequins that toile brings.
@@ -123,7 +227,65 @@ impl Fabric {
     fn load(py: Python<'_>, name: Named) -> PyResult<Self> {
         let name = name.name();
         let fabric = toile::fabric::load(&name).map_err(|e| errors::input(py, e))?;
-        Ok(Self { name, fabric })
+        let notes = fabric.notes();
+        Ok(Self { name: Some(name), text: None, notes, fabric: Arc::new(fabric) })
+    }
+
+    /// A fabric from readings, as ``toile fabric measure``.
+    ///
+    /// Args:
+    ///     readings: A file of readings, a table or a laboratory's sheet; or what such a file (YAML) says as nested
+    ///         dicts and lists.
+    ///     name: The fabric's name where the readings say none, by default that of the file.
+    ///     folder: Where files that a dict names are looked for.
+    ///
+    /// Raises:
+    ///     InputError: Too few or impossible readings, or values of no cloth.
+    #[staticmethod]
+    #[pyo3(signature = (readings, name=None, folder=PathBuf::new()))]
+    fn measure(py: Python<'_>, readings: Bound<'_, PyAny>, name: Option<String>, folder: PathBuf) -> PyResult<Self> {
+        let (text, file) = said(py, &readings)?;
+        let stem = |file: &PathBuf| file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        let name = name.or_else(|| file.as_ref().and_then(stem)).unwrap_or_else(|| "measured".to_owned());
+        let measured = py.detach(|| match &file {
+            Some(file) => measure(file, &name),
+            None => measure_text(&text, &folder.join("readings.yaml"), &name),
+        });
+        let measured = measured.map_err(|e| errors::input(py, e))?;
+        let notes = measured.notes.into_iter().chain(measured.fabric.notes()).collect();
+        let text = Some(fabric_yaml(&measured.sheet));
+        Ok(Self { name: None, text, notes, fabric: Arc::new(measured.fabric) })
+    }
+
+    /// Writes the fabric file (YAML) of a fabric that was measured here.
+    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        let Some(text) = &self.text else {
+            let name = self.name.as_deref().unwrap_or_default();
+            return Err(errors::input(py, format!("'{name}' was loaded, not measured: it has its file already")));
+        };
+        if path.extension().is_none_or(|e| e != "yaml") {
+            return Err(errors::input(py, format!("{}: a fabric's file is named .yaml", path.display())));
+        }
+        write(py, &path, text.clone())
+    }
+
+    /// Name or file, as a job of a batch has it.
+    #[getter]
+    fn _job<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let Some(name) = &self.name else {
+            let name = &self.fabric.name;
+            let why = format!("the fabric '{name}' is in no file; save it, and give the job the file's name");
+            return Err(errors::input(py, why));
+        };
+        let job = PyDict::new(py);
+        job.set_item("fabric", name)?;
+        Ok(job)
+    }
+
+    /// What its user should know: doubtful readings, values that hardly any cloth has.
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.notes.clone()
     }
 
     /// Names of the fabrics that toile brings.

@@ -28,6 +28,16 @@ impl Result {
     pub(crate) fn new(made: Made) -> Self {
         Self(made)
     }
+
+    /// The garment's name.
+    pub(crate) fn title(&self) -> &str {
+        &self.0.name
+    }
+
+    /// The bytes of one of its files.
+    pub(crate) fn file(&self, name: &str) -> Option<Vec<u8>> {
+        self.0.files.iter().find(|file| file.0 == name).map(|file| file.1.clone())
+    }
 }
 
 /// Rows of equal length as an array of two dimensions.
@@ -46,6 +56,11 @@ pub(crate) fn corners<'py>(py: Python<'py>, values: &[[[f64; 2]; 3]]) -> PyResul
 /// A JSON text as Python's own values.
 pub(crate) fn parsed<'py>(py: Python<'py>, text: &[u8]) -> PyResult<Bound<'py, PyAny>> {
     py.import("json")?.call_method1("loads", (text,))
+}
+
+/// A Python value as JSON, which is YAML.
+pub(crate) fn json(py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<String> {
+    py.import("toile._json")?.call_method1("dumps", (value,))?.extract()
 }
 
 /// Writes files into a folder, whole or not at all.

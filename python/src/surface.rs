@@ -35,6 +35,27 @@ fn mode(name: &str) -> Result<Mode, String> {
     }
 }
 
+/// An array of rows of three, whose NumPy kind is one of `kinds`: a cast would hide that others were meant.
+fn triples<'py>(value: &Bound<'py, PyAny>, what: &str, [kinds, expected]: [&str; 2]) -> PyResult<Bound<'py, PyAny>> {
+    let py = value.py();
+    let wrong = |why: String| errors::input(py, format!("{what}: {why}"));
+    let array = py.import("numpy")?.call_method1("asarray", (value,)).map_err(|e| wrong(e.value(py).to_string()))?;
+    let shape: Vec<usize> = array.getattr("shape")?.extract()?;
+    if shape.contains(&0) {
+        return Err(wrong("there are none".into()));
+    }
+    if shape.len() != 2 || shape[1] != 3 {
+        let shape: Vec<String> = shape.iter().map(ToString::to_string).collect();
+        return Err(wrong(format!("the shape is to be (n, 3), not ({})", shape.join(", "))));
+    }
+    let dtype = array.getattr("dtype")?;
+    let kind: String = dtype.getattr("kind")?.extract()?;
+    if !kinds.contains(&kind) {
+        return Err(wrong(format!("{expected} are expected, not {dtype}")));
+    }
+    Ok(array)
+}
+
 /// The arrays as a surface of one group.
 fn surface(
     vertices: &PyArrayLike2<'_, f64, AllowTypeChange>,
@@ -42,13 +63,6 @@ fn surface(
     name: &str,
 ) -> Result<ObjFaces, String> {
     let (vertices, faces) = (vertices.as_array(), faces.as_array());
-    if vertices.ncols() != 3 || faces.ncols() != 3 {
-        let (v, f) = (vertices.shape(), faces.shape());
-        return Err(format!("vertices must have the shape (n, 3) and faces (m, 3), not {v:?} and {f:?}"));
-    }
-    if faces.nrows() == 0 {
-        return Err("there are no faces".into());
-    }
     let count = vertices.nrows();
     let index = |&v: &i64| u32::try_from(v).ok().filter(|&v| (v as usize) < count);
     let corner = |v: &i64| index(v).ok_or_else(|| format!("faces name the vertex {v}; there are {count}"));
@@ -89,14 +103,14 @@ fn surface(
 #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub(crate) fn flatten(
     py: Python<'_>,
-    vertices: PyArrayLike2<'_, f64, AllowTypeChange>,
-    faces: PyArrayLike2<'_, i64, AllowTypeChange>,
+    vertices: &Bound<'_, PyAny>,
+    faces: &Bound<'_, PyAny>,
     mode: &str,
     units: Option<&str>,
     up: Option<[f64; 3]>,
     cut: bool,
     darts: usize,
-    threads: Option<usize>,
+    threads: Option<isize>,
     name: &str,
 ) -> PyResult<Flat> {
     let wrong = |why: String| errors::input(py, why);
@@ -112,6 +126,8 @@ pub(crate) fn flatten(
         flatten: Options { mode: self::mode(mode).map_err(wrong)?, ..Options::default() },
         ..SurfaceOptions::default()
     };
+    let vertices = triples(vertices, "vertices", ["fiu", "numbers"])?.extract()?;
+    let faces = triples(faces, "faces", ["iu", "whole numbers"])?.extract()?;
     let faces = surface(&vertices, &faces, name).map_err(wrong)?;
     let name = PathBuf::from(name);
     let flat = with_signals(py, threads, None, move |_| {

@@ -14,6 +14,8 @@ use crate::errors;
 const LOOK: Duration = Duration::from_millis(50);
 /// Longest time that work which is to end is waited for. A stage may tell nothing for longer; it then ends by itself.
 const PATIENCE: Duration = Duration::from_secs(2);
+/// Most threads that are started, as by the command line: every one takes a stack.
+const MOST_THREADS: usize = 256;
 /// Stack of a thread, bytes, as the command line has it.
 const STACK: usize = 8 << 20;
 
@@ -56,11 +58,15 @@ impl Telling {
 /// something, which is not waited for longer than [`PATIENCE`].
 pub(crate) fn with_signals<T: Send + 'static>(
     py: Python<'_>,
-    threads: Option<usize>,
+    threads: Option<isize>,
     progress: Option<&Py<PyAny>>,
     work: impl FnOnce(&mut Telling) -> T + Send + 'static,
 ) -> PyResult<T> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).stack_size(STACK).build();
+    if threads.is_some_and(|threads| threads < 1) {
+        return Err(errors::input(py, "threads: at least one is needed; leave it out to have all processors"));
+    }
+    let threads = threads.map_or(0, |threads| threads.unsigned_abs().min(MOST_THREADS));
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build();
     let pool = pool.map_err(|e| errors::input(py, format!("cannot start the threads: {e}; try fewer")))?;
     let stop = Arc::new(AtomicBool::new(false));
     let (send, told) = mpsc::channel();

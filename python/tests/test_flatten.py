@@ -54,7 +54,17 @@ def test_lists_are_taken_and_nonsense_is_told() -> None:
     assert toile.flatten(vertices.tolist(), faces.tolist()).pieces
     with pytest.raises(toile.InputError, match="vertex 5000"):
         toile.flatten(vertices, [[0, 1, 5000]])
-    with pytest.raises(toile.InputError, match=r"\(n, 3\)"):
+    with pytest.raises(toile.InputError, match=r"vertices: the shape is to be \(n, 3\), not \(325, 2\)"):
         toile.flatten(vertices[:, :2], faces)
+    with pytest.raises(toile.InputError, match="faces: there are none"):
+        toile.flatten(vertices, [])
+    for wrong in [faces + 0.5, faces.astype(bool), faces.astype(complex), faces.astype(str)]:
+        with pytest.raises(toile.InputError, match="faces: whole numbers are expected"):
+            toile.flatten(vertices, wrong)
+    with pytest.raises(toile.InputError, match="vertices: .*inhomogeneous"):
+        toile.flatten([[0, 0, 0], [1, 2]], faces)
+    for far in [np.nan, np.inf, 1e300]:
+        with pytest.raises(toile.InputError, match="vertex 0"):
+            toile.flatten(vertices + far, faces)
     with pytest.raises(toile.InputError, match="known are balanced"):
         toile.flatten(vertices, faces, mode="smooth")

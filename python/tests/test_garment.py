@@ -54,6 +54,110 @@ def test_arrays_are_those_of_the_obj(made: toile.Result, tmp_path: Path) -> None
     assert triangles == m
 
 
+def obj(folder: Path) -> bytes:
+    return (folder / "garment.obj").read_bytes()
+
+
+def test_an_earlier_result_is_gone_on_from(made: toile.Result, skirt: Path, tmp_path: Path) -> None:
+    garment = toile.Garment.load(skirt)
+    again = garment.make(fabric="denim", spacing=COARSE, start=made)
+    assert again.report["from"]["folder"] == "skirt" and not again.report["from"]["anew"]
+    assert "sew" not in [stage["name"] for stage in again.report["stages"]]
+    made.save(tmp_path / "made")
+    from_folder = garment.make(fabric="denim", spacing=COARSE, start=tmp_path / "made", threads=1)
+    assert np.array_equal(from_folder.vertices, again.vertices)
+    command("make", skirt, "--fabric", "denim", "--spacing", COARSE, "--from", tmp_path / "made", "-o", tmp_path / "cli")
+    again.save(tmp_path / "again")
+    assert obj(tmp_path / "again") == obj(tmp_path / "cli")
+    for wrong in [tmp_path / "nowhere", skirt]:
+        with pytest.raises(toile.InputError, match="no folder of results"):
+            garment.make(spacing=COARSE, start=wrong)
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(toile.InputError, match="report.json"):
+        garment.make(spacing=COARSE, start=tmp_path / "empty")
+
+
+def test_altered_on_a_built_body_in_a_measured_fabric(skirt: Path, tmp_path: Path) -> None:
+    garment = toile.Garment.load(skirt)
+    longer = garment.alter({"lengthen": "front", "at": 200, "by": 20})
+    assert "hem: L -290 300" in garment.text and "hem: L -290 320" in longer.text
+    body = toile.Body.build("woman_92", {"waist": 740, "hip": "96 cm"})
+    # The skirt is 800 mm at the waist, and its body's hip becomes wider.
+    assert np.ptp(body.vertices[:, 0]) != np.ptp(toile.Body.load("woman_92").vertices[:, 0])
+    readings = {"name": "mine", "values": {"weight": "115 g/m2", "bend": "0.05 gf.cm2/cm", "thickness": "0.3 mm"}}
+    fabric = toile.Fabric.measure(readings)
+    assert abs(fabric.areal_density - 0.115) < 1e-9 and "tensile" in fabric.assumed
+    fabric.save(tmp_path / "mine.yaml")
+    made = longer.make(body=body, fabric=fabric, spacing=COARSE)
+    assert made.report["fabric"] == "mine"
+    made.save(tmp_path / "ours")
+    change, measures = "{lengthen: front, at: 200, by: 20}", "{waist: 740, hip: 960}"
+    words = ["--alter", change, "--measures", measures, "--fabric", tmp_path / "mine.yaml", "--spacing", COARSE]
+    run = command("make", skirt, *words, "-o", tmp_path / "theirs")
+    assert run.returncode < 2, run.stderr
+    assert obj(tmp_path / "ours") == obj(tmp_path / "theirs")
+    # The same as a job of a batch.
+    job = {"garment": skirt, "body": body, "spacing": COARSE, "alter": {"lengthen": "front", "at": 200, "by": 20}}
+    with pytest.raises(toile.InputError, match="in no file; save it"):
+        toile.batch([{**job, "fabric": fabric}], store=tmp_path / "store")
+    [line] = toile.batch([{**job, "fabric": toile.Fabric.load(tmp_path / "mine.yaml")}], store=tmp_path / "store")
+    assert obj(tmp_path / "store" / line["folder"]) == obj(tmp_path / "ours")
+
+
+def test_wrong_alterations_measures_and_readings_are_told(skirt: Path, tmp_path: Path) -> None:
+    garment = toile.Garment.load(skirt)
+    with pytest.raises(toile.GarmentError, match="did you mean 'front'") as raised:
+        garment.alter([{"lengthen": "frnt", "at": 200, "by": 20}])
+    assert raised.value.diagnostics[0].line > 0
+    with pytest.raises(toile.GarmentError, match="seam 'left'"):
+        garment.alter("{let_out: front.left, at: {50 %: 60}}")
+    with pytest.raises(toile.InputError, match="did you mean 'waist'"):
+        toile.Body.build("woman_92", {"wais": 740})
+    with pytest.raises(toile.InputError, match="7.4 mm"):
+        toile.Body.build("woman_92", {"waist": 7.4})
+    with pytest.raises(toile.InputError, match="weight"):
+        toile.Fabric.measure({"values": {"bend": "0.05 gf.cm2/cm"}})
+    with pytest.raises(toile.InputError, match="loaded, not measured"):
+        toile.Fabric.load("denim").save(tmp_path / "denim.yaml")
+    for wrong in [float("nan"), {1}, "\ud800"]:
+        with pytest.raises(toile.InputError, match="this is no garment"):
+            toile.Garment.from_dict({"garment": wrong})
+    for none in [toile.Garment.load, toile.Garment.from_svg, toile.Garment.from_garmentcode]:
+        with pytest.raises(toile.InputError, match="none.txt"):
+            none(tmp_path / "none.txt")
+    with pytest.raises(toile.InputError, match="at least one"):
+        garment.make(spacing=COARSE, threads=0)
+    with pytest.raises(toile.GarmentError, match="size '44' not found"):
+        garment.make(spacing=COARSE, size="44")
+
+
+def test_a_size_is_that_of_the_command_line(skirt: Path, tmp_path: Path) -> None:
+    sized = tmp_path / "sized.yaml"
+    sized.write_text(skirt.read_text() + "sizes: {long: [{lengthen: front, at: 200, by: 30}]}\n")
+    garment = toile.Garment.load(sized)
+    assert garment.sizes == ["long"] and garment.check(spacing=COARSE, size="long") == []
+    made = garment.make(spacing=COARSE, size="long")
+    assert made.name == "sized-long"
+    made.save(tmp_path / "ours")
+    command("make", sized, "--size", "long", "--spacing", COARSE, "-o", tmp_path / "theirs")
+    assert obj(tmp_path / "ours") == obj(tmp_path / "theirs")
+
+
+def test_progress_goes_on_a_bar(skirt: Path) -> None:
+    tqdm = pytest.importorskip("tqdm", reason="tqdm is not installed")
+    with open(os.devnull, "w") as nowhere, tqdm.tqdm(total=1, file=nowhere) as bar:
+        stages: list[str] = []
+        show = toile.show_on(bar)
+
+        def tell(stage: str, share: float) -> None:
+            show(stage, share)
+            assert bar.n == pytest.approx(share) and stage in bar.desc
+            stages.append(stage)
+
+        toile.Garment.load(skirt).make(spacing=COARSE, progress=tell)
+        assert {"sew", "drape", "flatten"} <= set(stages) and bar.n == 1
+
+
 def test_a_dict_is_a_garment(made: toile.Result, skirt: Path) -> None:
     outline = [{"start": "-200 0"}, {"waist": "L 200 0"}]
     with pytest.raises(toile.GarmentError):

@@ -45,14 +45,14 @@ pub enum BatchError {
     /// More samples are asked for than there are.
     #[error(
         "{asked} samples are asked for, but there are only {there}: {garments} garments × {bodies} bodies × {fabrics} \
-         fabrics; ask for fewer, or give more of them"
+         fabrics, each size a garment; ask for fewer, give more of them, or ranges to draw from (--vary)"
     )]
     Samples {
         /// As asked.
         asked: usize,
         /// Different samples.
         there: usize,
-        /// Garments to draw from.
+        /// Garments to draw from, each of their sizes counted.
         garments: usize,
         /// Bodies to draw from.
         bodies: usize,

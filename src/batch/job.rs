@@ -5,11 +5,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize, Serializer};
+use serde_json::{Map, Value};
 
 use super::error::{BatchError, Mistake};
 use crate::fabric;
 use crate::input::{InputError, LengthUnit, bytes};
-use crate::mannequin;
+use crate::io::garment::alterations_in;
+use crate::mannequin::{self, Measures};
 
 /// Bytes of a list: some million jobs.
 const LARGEST_LIST: u64 = 1 << 30;
@@ -42,6 +44,12 @@ pub struct Job {
     /// Pressures in kPa from which cloth is tight, and above which it is too tight.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pressure_bands: Option<[f64; 2]>,
+    /// Measures of the wearer, put on the mannequin: names and lengths, as `--measures` has them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub measures: Option<Map<String, Value>>,
+    /// Alterations that follow those of the garment file, as `--alter` has them: a mapping or a text each.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub alter: Vec<Value>,
 }
 
 /// A line of a list, unchecked. Its paths are relative to the list.
@@ -56,6 +64,8 @@ struct JobLine {
     spacing: Option<f64>,
     size: Option<String>,
     pressure_bands: Option<[f64; 2]>,
+    measures: Option<Map<String, Value>>,
+    alter: Option<Vec<Value>>,
 }
 
 fn one_or_many<S: Serializer>(files: &[PathBuf], serializer: S) -> Result<S::Ok, S::Error> {
@@ -89,6 +99,8 @@ impl Job {
             spacing: None,
             size: None,
             pressure_bands: None,
+            measures: None,
+            alter: Vec::new(),
         }
     }
 
@@ -105,6 +117,8 @@ impl Job {
         give("spacing", self.spacing.map(|mm| mm.to_string()));
         give("size", self.size.clone());
         give("pressure-bands", self.pressure_bands.map(|[tight, too_tight]| format!("{tight},{too_tight}")));
+        give("measures", self.measures.as_ref().map(json));
+        self.alter.iter().for_each(|alteration| give("alter", Some(words(alteration))));
         options
     }
 }
@@ -172,8 +186,19 @@ pub fn parse_job(text: &str, folder: &Path, defaults: &Job, mark: &str) -> Resul
         spacing: said.spacing.or(defaults.spacing),
         size: said.size.or_else(|| defaults.size.clone()),
         pressure_bands: said.pressure_bands.or(defaults.pressure_bands),
+        measures: said.measures.or_else(|| defaults.measures.clone()),
+        alter: said.alter.unwrap_or_else(|| defaults.alter.clone()),
     };
     checked(job)
+}
+
+fn json<T: Serialize>(value: &T) -> String {
+    serde_json::to_string(value).unwrap_or_default()
+}
+
+/// An alteration as a text.
+fn words(alteration: &Value) -> String {
+    alteration.as_str().map_or_else(|| json(alteration), str::to_owned)
 }
 
 /// The job, if its numbers and units make sense. Its files are left to the process that makes it.
@@ -184,6 +209,12 @@ fn checked(job: Job) -> Result<Job, String> {
     }
     if let Some(mm) = job.spacing.filter(|mm| !(*mm > 0.0 && mm.is_finite())) {
         return Err(format!("spacing: {mm} is no positive number of millimetres, such as 10"));
+    }
+    if let Some(measures) = &job.measures {
+        Measures::parse(&json(measures), "measures").map_err(|e| e.to_string())?;
+    }
+    for alteration in &job.alter {
+        alterations_in(&words(alteration)).map_err(|refused| refused.to_string())?;
     }
     match job.pressure_bands {
         Some([tight, too_tight]) if !(0.0 < tight && tight <= too_tight && too_tight < 1e3) => {
@@ -264,5 +295,9 @@ mod tests {
         assert!(said(r#"{"garment": "a.yaml", "spacing": -3}"#).contains("-3 is no positive number"));
         assert!(said(r#"{"garment": "a.yaml", "body_units": "ft"}"#).contains("known are mm, cm, dm, m, in"));
         assert!(said(r#"{"garment": 3}"#).contains("the name of a file"));
+        let measure = said(r#"{"garment": "a.yaml", "measures": {"wais": 700}}"#);
+        assert!(measure.contains("'wais' is no measure; did you mean 'waist'?"), "{measure}");
+        let alteration = said(r#"{"garment": "a.yaml", "alter": [{"lenghten": "front", "at": 200, "by": 20}]}"#);
+        assert!(alteration.contains("lenghten"), "{alteration}");
     }
 }

@@ -1,4 +1,4 @@
-//! Samples: jobs drawn from garments, bodies and fabrics.
+//! Samples: jobs drawn from garments and their sizes, bodies, fabrics, measures and alterations.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -6,39 +6,65 @@ use std::path::{Path, PathBuf};
 use super::error::BatchError;
 use super::job::Job;
 use crate::io::files::relative;
+use crate::io::garment::{Drawn, Ranges};
+use crate::mannequin::MannequinSpec;
 
 /// What is drawn from.
 #[derive(Clone, Debug)]
 pub struct Choice {
-    /// Garment files.
-    pub garments: Vec<PathBuf>,
+    /// Garment files, each with a size of it or as it is drawn.
+    pub garments: Vec<(PathBuf, Option<String>)>,
     /// Names or files of bodies.
     pub bodies: Vec<String>,
     /// Names or files of fabrics.
     pub fabrics: Vec<String>,
+    /// Ranges of measures and alterations.
+    pub ranges: Ranges,
 }
 
 /// Draws `count` different jobs. The same choice, count and seed give the same jobs on every machine, and a greater
-/// count begins with the jobs of a smaller one, apart from the width of their ids.
+/// count begins with the jobs of a smaller one, apart from the width of their ids. With ranges there are as many as are
+/// asked for: when all combinations have been drawn, they are drawn again in another order with other numbers.
 ///
 /// # Errors
 /// [`BatchError::Samples`] when there are not so many.
 pub fn sample(choice: &Choice, count: usize, seed: u64, options: &Job) -> Result<Vec<Job>, BatchError> {
-    let Choice { garments, bodies, fabrics } = choice;
+    let Choice { garments, bodies, fabrics, ranges } = choice;
     let there = garments.len().saturating_mul(bodies.len()).saturating_mul(fabrics.len());
-    if count > there {
+    if count > there && (ranges.is_empty() || there == 0) {
         let (garments, bodies, fabrics) = (garments.len(), bodies.len(), fabrics.len());
         return Err(BatchError::Samples { asked: count, there, garments, bodies, fabrics });
     }
     let width = count.to_string().len();
-    let job = |(n, k): (usize, usize)| Job {
-        id: format!("{n:0width$}"),
-        garment: vec![garments[k / (bodies.len() * fabrics.len())].clone()],
-        body: Some(bodies[k / fabrics.len() % bodies.len()].clone()),
-        fabric: Some(fabrics[k % fabrics.len()].clone()),
-        ..options.clone()
+    let specs: Vec<Option<MannequinSpec>> = bodies.iter().map(|body| MannequinSpec::load(body).ok()).collect();
+    let job = |(n, k): (usize, usize)| {
+        let (garment, size) = &garments[k / (bodies.len() * fabrics.len())];
+        let body = k / fabrics.len() % bodies.len();
+        let mut random = Random::of(seed, n as u64);
+        let Drawn { measures, alter } = ranges.draw(|name| specs[body].as_ref()?.measure(name), || random.share());
+        Job {
+            id: format!("{n:0width$}"),
+            garment: vec![garment.clone()],
+            size: size.clone().or_else(|| options.size.clone()),
+            body: Some(bodies[body].clone()),
+            fabric: Some(fabrics[k % fabrics.len()].clone()),
+            measures: (!measures.is_empty()).then_some(measures),
+            alter,
+            ..options.clone()
+        }
     };
-    Ok((1..).zip(shuffled(there, count, seed)).map(job).collect())
+    Ok((1..).zip(rounds(there, count, seed)).map(job).collect())
+}
+
+/// `count` of the numbers below `all`: all of them in random order, again in another, and so on.
+fn rounds(all: usize, count: usize, seed: u64) -> impl Iterator<Item = usize> {
+    let round = move |k: usize| {
+        let left = (count - k * all).min(all);
+        // The first order is that of a list without ranges.
+        let seed = if k == 0 { seed } else { Random::of(seed, u64::MAX - k as u64).next() };
+        shuffled(all, left, seed)
+    };
+    (0..count.div_ceil(all.max(1))).flat_map(round)
 }
 
 /// The first `count` of the numbers below `all` in random order: Fisher and Yates's shuffle, of which only the numbers
@@ -59,6 +85,16 @@ fn shuffled(all: usize, count: usize, seed: u64) -> Vec<usize> {
 struct Random(u64);
 
 impl Random {
+    /// A generator of its own for the `n`th job of a seed.
+    fn of(seed: u64, n: u64) -> Self {
+        Self(Self(seed).next() ^ Self(n).next())
+    }
+
+    /// A number from 0 to 1, in steps of 2⁻⁵³.
+    fn share(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
     fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -108,6 +144,24 @@ mod tests {
         assert!(all.iter().all(|&k| k < 50));
         assert_eq!(shuffled(50, 10, 3), all[..10]);
         assert_ne!(shuffled(50, 10, 4), all[..10]);
+    }
+
+    #[test]
+    fn rounds_have_every_number_as_often_and_begin_alike() {
+        let drawn: Vec<usize> = rounds(5, 12, 3).collect();
+        assert_eq!(drawn.len(), 12);
+        assert!((0..5).all(|k| [2, 3].contains(&drawn.iter().filter(|d| **d == k).count())), "{drawn:?}");
+        assert_eq!(rounds(5, 7, 3).collect::<Vec<_>>(), drawn[..7]);
+        assert_eq!(drawn[..5], shuffled(5, 5, 3));
+        assert_ne!(drawn[..5], drawn[5..10]);
+    }
+
+    #[test]
+    fn shares_fill_the_range_and_differ_from_job_to_job() {
+        let shares: Vec<f64> = (1..1000).map(|n| Random::of(7, n).share()).collect();
+        let mean = shares.iter().sum::<f64>() / 999.0;
+        assert!((mean - 0.5).abs() < 0.03 && shares.iter().all(|s| (0.0..1.0).contains(s)), "{mean}");
+        assert_ne!(shares[..5], (1..6).map(|n| Random::of(8, n).share()).collect::<Vec<_>>());
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The arguments, as clap reads them.
 
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Parser, Subcommand, ValueEnum};
 
@@ -11,10 +11,15 @@ use crate::batch::Job;
 use crate::fitting::DRAPES;
 use crate::flatten::Mode;
 use crate::geometry::Vec3;
-use crate::input::LengthUnit;
+use crate::input::{LengthUnit, bytes};
+use crate::io::garment::alterations_in;
+use crate::mannequin::Measures;
 use crate::pattern::{WIDEST_ALLOWANCE, parse_quantity};
-use crate::pipeline::{Color, DARTS, Overrides};
+use crate::pipeline::{Color, DARTS, Given, Overrides};
 use crate::report::Bands;
+
+/// Bytes of a file of measures or alterations: a page of text. Larger ones are refused before they are read.
+const LARGEST_TEXT: u64 = 1 << 20;
 
 /// Sew flat patterns onto a mannequin, drape them in a measured fabric and lay them flat again.
 #[derive(Debug, Parser)]
@@ -157,6 +162,13 @@ pub(super) struct OverrideArgs {
     /// in pixels, such as 2400x1500
     #[arg(long, value_name = "NAME")]
     pub(super) size: Option<String>,
+    /// Measures of the wearer, put on the mannequin before those of the garment file: a file, or such as '{bust: 1040}'
+    #[arg(long, value_name = "FILE|{NAME: MM,…}", value_parser = measures)]
+    measures: Option<Measures>,
+    /// An alteration that follows those of the garment file: a file with `alter:`, or such as '{lengthen: front, at:
+    /// 200, by: 20}'; may be given several times
+    #[arg(long, value_name = "FILE|{…}", value_parser = alteration)]
+    alter: Vec<String>,
 }
 
 impl OverrideArgs {
@@ -169,6 +181,9 @@ impl OverrideArgs {
             body_unit: self.body_units.map(UnitArg::unit),
             bands: self.pressure_bands.clone(),
             size: self.size.clone(),
+            alter: self.alter.clone(),
+            measures: self.measures.clone().unwrap_or_default(),
+            given: Given::default(),
         }
     }
 
@@ -181,6 +196,8 @@ impl OverrideArgs {
             spacing: self.spacing.map(in_millimetres),
             size: self.size.clone(),
             pressure_bands: self.pressure_bands.as_ref().map(|bands| [bands.tight, bands.too_tight]),
+            measures: self.measures.as_ref().map(|m| m.named().map(|(name, mm)| (name.into(), mm.into())).collect()),
+            alter: self.alter.iter().map(|text| text.as_str().into()).collect(),
             ..Job::options()
         }
     }
@@ -203,6 +220,28 @@ pub(super) fn spacing(text: &str) -> Result<f64, String> {
     positive
         .map(|mm| 1e-3 * mm)
         .ok_or_else(|| "a positive number of millimetres is expected, such as 10, or 1cm".into())
+}
+
+/// A file's text, or the text itself where it is no name of a file: what has braces, brackets or several lines. A
+/// file's text always has more than one line, so that it is known again where a batch hands it on.
+fn file_or_text(text: &str) -> Result<String, String> {
+    let inline = text.trim_start().starts_with(['{', '[']) || text.contains('\n');
+    if inline {
+        return Ok(text.to_owned());
+    }
+    let read = bytes(Path::new(text), LARGEST_TEXT).map_err(|e| e.to_string())?;
+    String::from_utf8(read).map(|read| read + "\n").map_err(|_| "it is no UTF-8 text".to_owned())
+}
+
+/// Measures of a person.
+fn measures(text: &str) -> Result<Measures, String> {
+    Measures::parse(&file_or_text(text)?, "measures").map_err(|e| e.to_string())
+}
+
+/// Alterations as a text.
+fn alteration(text: &str) -> Result<String, String> {
+    let text = file_or_text(text)?;
+    alterations_in(&text).map(|_| text).map_err(|refused| refused.to_string())
 }
 
 /// Two rising pressures in kPa.

@@ -95,6 +95,12 @@ pub(super) struct SampleArgs {
     /// Fabrics to draw from [default: all of the library]
     #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',')]
     pub(super) fabrics: Vec<String>,
+    /// Sizes to draw from; 'none' is the garment as it is drawn [default: none and all that the garment file has]
+    #[arg(long, value_name = "NAME|none,…", value_delimiter = ',')]
+    pub(super) sizes: Vec<String>,
+    /// A file with measures and alterations in which {from: A, to: B} stands for a number to be drawn
+    #[arg(long, value_name = "RANGES.yaml")]
+    pub(super) vary: Option<PathBuf>,
     /// Mesh spacing of every job in millimetres [default: what the batch takes]
     #[arg(long, value_name = "MM", value_parser = spacing, allow_negative_numbers = true)]
     pub(super) spacing: Option<f64>,

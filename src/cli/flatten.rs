@@ -65,6 +65,8 @@ fn foreign(args: &FlattenArgs) -> Result<(), CliError> {
             ("--spacing", overrides.spacing.is_some()),
             ("--body", overrides.body.is_some()),
             ("--body-units", overrides.body_unit.is_some()),
+            ("--measures", !overrides.measures.is_empty()),
+            ("--alter", !overrides.alter.is_empty()),
         ];
         let found = options.into_iter().find(|o| o.1);
         found.map(|(name, _)| format!("{name} belongs to a garment file; a surface is flattened as it is"))

@@ -11,7 +11,7 @@ use crate::io::files::{check_writable, write_all};
 use crate::picture::Turning;
 use crate::pipeline::{
     GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, Glimpse, Job, Overrides, PATTERN_SVG, PLACED_OBJ, PictureOptions,
-    PipelineError, Problem, REPORT_HTML, REPORT_JSON, ResultFile, Run, SEWN_OBJ, inputs, problems, read_size,
+    PipelineError, Problem, REPORT_HTML, REPORT_JSON, ResultFile, Run, SEWN_OBJ, inputs, problems, read_variant,
 };
 use crate::report::{summary, table};
 
@@ -129,7 +129,7 @@ fn plan<'a>(args: &'a GarmentArgs, goal: Goal<'a>) -> Plan<'a> {
 pub(super) fn carry_out(plan: &Plan, console: &Console) -> Result<Exit, CliError> {
     let mut worn = Vec::new();
     for file in plan.garments {
-        worn.push((file.clone(), read_size(file, plan.overrides.size.as_deref())?));
+        worn.push((file.clone(), read_variant(file, plan.overrides.variant())?));
     }
     let names: Vec<&str> = worn.iter().map(|(_, loaded)| loaded.garment.name.as_str()).collect();
     let folder = folder(plan.output, &names.join("+"));

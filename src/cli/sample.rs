@@ -9,7 +9,13 @@ use super::exit::{CliError, Exit};
 use super::make::borrowed;
 use crate::batch::{Choice, Job, garments_of_folder, list_text, sample as draw};
 use crate::io::files::{check_writable, write_all};
+use crate::io::garment::{Ranges, Variant};
+use crate::mannequin::{MannequinSpec, Measures};
+use crate::pipeline::{PipelineError, read_variant};
 use crate::{fabric, mannequin};
+
+/// The word for a garment as it is drawn, among the names of its sizes.
+const DRAWN: &str = "none";
 
 /// `toile sample`
 pub(super) fn sample(args: &SampleArgs, console: &Console) -> Result<Exit, CliError> {
@@ -19,14 +25,20 @@ pub(super) fn sample(args: &SampleArgs, console: &Console) -> Result<Exit, CliEr
         if given.is_empty() { all.into_iter().map(str::to_owned).collect() } else { given.to_vec() }
     };
     let choice = Choice {
-        garments,
+        garments: sized(&garments, &args.sizes)?,
+        ranges: args
+            .vary
+            .as_deref()
+            .map_or_else(|| Ok(Ranges::default()), Ranges::read)
+            .map_err(PipelineError::from)?,
         bodies: or_all(&args.bodies, mannequin::library()),
         fabrics: or_all(&args.fabrics, fabric::library()),
     };
     check_known("--bodies", &choice.bodies, &mannequin::library())?;
     check_known("--fabrics", &choice.fabrics, &fabric::library())?;
+    check_ends(&choice)?;
     let jobs = draw(&choice, args.count.get(), args.seed, &options)?;
-    let inputs = inputs(&choice);
+    let inputs = inputs(&choice, args.vary.as_deref());
     let target = [args.output.clone()];
     check_writable(&target, &borrowed(&inputs))?;
     let folder = match args.output.parent() {
@@ -68,7 +80,61 @@ fn check_known(option: &str, names: &[String], shipped: &[&str]) -> Result<(), C
     })
 }
 
-fn inputs(choice: &Choice) -> Vec<PathBuf> {
+/// Each garment with each of its sizes that is to be drawn.
+fn sized(garments: &[PathBuf], wanted: &[String]) -> Result<Vec<(PathBuf, Option<String>)>, CliError> {
+    let mut out = Vec::new();
+    for file in garments {
+        // A broken garment among others fails when it is made, as in any batch.
+        let own: Vec<String> = crate::pipeline::read(file).map_or_else(
+            |_| Vec::new(),
+            |loaded| loaded.file.sizes.iter().map(|size| size.name.value.clone()).collect(),
+        );
+        let all = || std::iter::once(DRAWN.to_owned()).chain(own.clone()).collect();
+        let sizes: Vec<String> = if wanted.is_empty() { all() } else { wanted.to_vec() };
+        if let Some(size) = sizes.iter().find(|size| *size != DRAWN && !own.contains(size)) {
+            let known = if own.is_empty() { "none".to_owned() } else { own.join(", ") };
+            let file = file.display();
+            return Err(CliError::Argument(format!("--sizes: {file} has no size '{size}'; its sizes: {known}")));
+        }
+        out.extend(sizes.into_iter().map(|size| (file.clone(), Some(size).filter(|size| size != DRAWN))));
+    }
+    Ok(out)
+}
+
+/// Tries both ends of all ranges on every garment and body, so that a slip of the pen is found now.
+fn check_ends(choice: &Choice) -> Result<(), CliError> {
+    for end in [0.0, 1.0] {
+        if choice.ranges.has_measures() {
+            choice.bodies.iter().try_for_each(|body| check_measures(&choice.ranges, body, end))?;
+        }
+        let drawn = choice.ranges.draw(|_| None, || end);
+        let alter: Vec<String> = drawn.alter.iter().map(ToString::to_string).collect();
+        if !alter.is_empty() {
+            for (file, size) in &choice.garments {
+                read_variant(file, Variant { size: size.as_deref(), alter: &alter })?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Puts the measures at one end of their ranges on a body.
+fn check_measures(ranges: &Ranges, body: &str, end: f64) -> Result<(), CliError> {
+    let wrong = |why: String| CliError::Argument(format!("--vary: measures: {why}"));
+    let spec = MannequinSpec::load(body)?;
+    if let Some(name) = ranges.shares().find(|name| spec.measure(name).is_none()) {
+        return Err(wrong(format!("'{name}' is no measure of the body {body}, of which a share could be drawn")));
+    }
+    let mut measures = Measures::default();
+    for (name, mm) in &ranges.draw(|name| spec.measure(name), || end).measures {
+        measures.add(name, mm.as_f64().unwrap_or_default()).map_err(wrong)?;
+    }
+    spec.measured(&measures)?;
+    Ok(())
+}
+
+fn inputs(choice: &Choice, ranges: Option<&Path>) -> Vec<PathBuf> {
     let named = choice.bodies.iter().chain(&choice.fabrics).map(PathBuf::from).filter(|path| path.is_file());
-    choice.garments.iter().cloned().chain(named).collect()
+    let garments = choice.garments.iter().map(|(file, _)| file.clone());
+    garments.chain(named).chain(ranges.map(Path::to_owned)).collect()
 }

@@ -17,7 +17,7 @@ use crate::flatten::Options;
 use crate::io::files::{check_writable, write_all};
 use crate::io::garment::Loaded;
 use crate::pattern::{FabricUse, Garment, Piece};
-use crate::pipeline::{AT_REST, Job, Overrides, PipelineError, Run, inputs, read, read_size};
+use crate::pipeline::{AT_REST, Job, Overrides, PipelineError, Run, inputs, read, read_variant};
 use crate::report::{Report, Restless, Verdict, aligned, restless, verdicts, verdicts_by_test};
 
 /// How a garment did.
@@ -148,7 +148,7 @@ fn read_by(file: &Path, overrides: &Overrides) -> Vec<PathBuf> {
 fn outcomes(file: &Path, overrides: &Overrides) -> Vec<Outcome> {
     let begin = Instant::now();
     let size = overrides.size.as_deref();
-    let loaded = match read_size(file, size) {
+    let loaded = match read_variant(file, overrides.variant()) {
         Ok(loaded) => loaded,
         Err(refused) => return vec![Outcome::new(file, size, None, begin, Err(refused))],
     };

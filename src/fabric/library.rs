@@ -58,12 +58,14 @@ pub(super) fn load_in(name: &str, folder: &Path, others: &[&str]) -> Result<Fabr
     // Curves that a fabric file names lie beside that file.
     let home = folder.join(name);
     let folder = if is_shipped(name) { folder } else { home.parent().unwrap_or(folder) };
-    from_sheet(&sheet, &Context { name: &sheet.name, folder, garment: &[] }).map_err(|error| match error.culprit() {
-        // A fabric's name does not say where it is written.
-        (Some(_), _) if !is_shipped(name) => {
-            FabricError::Syntax { file: home.display().to_string(), why: error.to_string() }
+    from_sheet(&sheet, &Context { name: &sheet.name, folder, garment: &[], given: None }).map_err(|error| {
+        match error.culprit() {
+            // A fabric's name does not say where it is written.
+            (Some(_), _) if !is_shipped(name) => {
+                FabricError::Syntax { file: home.display().to_string(), why: error.to_string() }
+            }
+            _ => error,
         }
-        _ => error,
     })
 }
 

@@ -70,6 +70,8 @@ pub struct Context<'a> {
     pub folder: &'a Path,
     /// All fabrics of the garment, which may serve as a base.
     pub garment: &'a [(String, FabricSpec)],
+    /// A fabric of the garment that need not be resolved, and its name there.
+    pub given: Option<(&'a str, &'a Fabric)>,
 }
 
 /// The fabric of a garment file: its base, if any, with the inline values on top. A plain number multiplies the base's
@@ -98,6 +100,9 @@ fn resolve_chain(spec: &FabricSpec, context: &Context, seen: &mut Vec<String>) -
 }
 
 fn base_fabric(name: &str, context: &Context, seen: &mut Vec<String>) -> Result<Fabric, FabricError> {
+    if let Some((_, fabric)) = context.given.filter(|given| given.0 == name && name != context.name) {
+        return Ok(fabric.clone());
+    }
     let sibling = context.garment.iter().find(|g| g.0 == name && g.0 != context.name);
     let Some((name, spec)) = sibling else {
         // A fabric may bear the name of a shipped one and be based on that, but on no other of its own name.

@@ -134,7 +134,10 @@ pub fn read_obj_faces(path: &Path) -> Result<ObjFaces, ObjError> {
 }
 
 /// As [`read_obj_faces`], of an OBJ's text; `file` names it in errors.
-pub(super) fn parse_obj_faces(text: &str, file: &str) -> Result<ObjFaces, ObjError> {
+///
+/// # Errors
+/// As [`read_obj`].
+pub fn parse_obj_faces(text: &str, file: &str) -> Result<ObjFaces, ObjError> {
     let file = file.to_owned();
     let faces = ObjFaces::new(text).map_err(|(line, why)| ObjError::Line { file: file.clone(), line, why })?;
     if faces.faces.is_empty() { Err(ObjError::Empty { file }) } else { Ok(faces) }

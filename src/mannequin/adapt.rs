@@ -1,6 +1,6 @@
 //! A mannequin with the measures of a person.
 
-use super::measures::{Meaning, Measures};
+use super::measures::{Meaning, Measures, meaning};
 use super::spec::{ArmRow, LegRow, MannequinSpec, TorsoRow, UNIT};
 use super::{Mannequin, MannequinError, PartKind, Place, build, check_body};
 use crate::geometry::Vec3;
@@ -60,6 +60,11 @@ impl MannequinSpec {
         out.height = self.height.map(|own| heights.at(own));
         out.check().map_err(|why| wrong(format!("these measures make no body: {why}")))?;
         Ok(out)
+    }
+
+    /// The measure of this name as the mannequin has it, mm. `None` of a name that is no measure of its sections.
+    pub fn measure(&self, name: &str) -> Option<f64> {
+        self.own(meaning(name)?)
     }
 
     /// The value of a measure of this mannequin, mm.

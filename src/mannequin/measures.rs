@@ -125,8 +125,7 @@ impl Measures {
     /// # Errors
     /// A name that is none, a measure that is there already, or a length that no body has.
     pub fn add(&mut self, name: &str, mm: f64) -> Result<(), String> {
-        let found = KNOWN.iter().find(|(own, others, _)| *own == name || others.contains(&name));
-        let Some((own, _, meaning)) = found else {
+        let Some((own, _, meaning)) = known(name) else {
             let names = KNOWN.iter().flat_map(|(own, others, _)| std::iter::once(own).chain(*others)).copied();
             let hint = nearest(name, names).map(|n| format!("; did you mean '{n}'?")).unwrap_or_default();
             return Err(format!("'{name}' is no measure{hint}"));
@@ -174,9 +173,23 @@ impl Measures {
         Ok(out)
     }
 
+    /// These measures, and those of `other` that are not among them.
+    pub fn over(mut self, other: &Self) -> Self {
+        let more = other.given.iter().filter(|given| self.given(given.name).is_none()).cloned();
+        let more: Vec<Given> = more.collect();
+        self.given.extend(more);
+        self.like = self.like.or_else(|| other.like.clone());
+        self
+    }
+
     /// The measure of this name, mm.
     pub fn given(&self, name: &str) -> Option<f64> {
         self.given.iter().find(|given| given.name == name).map(|given| given.mm)
+    }
+
+    /// Names of the measures and their values, mm.
+    pub fn named(&self) -> impl Iterator<Item = (&'static str, f64)> {
+        self.given.iter().map(|given| (given.name, given.mm))
     }
 
     /// Whether nothing is measured.
@@ -198,6 +211,15 @@ impl Measures {
     pub(super) fn of(&self, wanted: Meaning) -> Option<f64> {
         self.said().find(|(_, meaning, _)| *meaning == wanted).map(|(_, _, mm)| mm)
     }
+}
+
+fn known(name: &str) -> Option<&'static Known> {
+    KNOWN.iter().find(|(own, others, _)| *own == name || others.contains(&name))
+}
+
+/// What a measure of this name says.
+pub(super) fn meaning(name: &str) -> Option<Meaning<'static>> {
+    known(name).map(|known| known.2)
 }
 
 /// A length in mm: a number, or a text with a unit.

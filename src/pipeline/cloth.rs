@@ -12,22 +12,34 @@ pub(super) struct Fabrics<'a> {
     folder: &'a Path,
     /// Index of the fabric that is replaced by the user's.
     pub(super) replaced: Option<usize>,
+    /// The user's fabric itself, if it is not to be loaded.
+    given: Option<Arc<Fabric>>,
 }
 
 impl<'a> Fabrics<'a> {
     /// Those that a file in `folder` names.
     pub(super) fn named(fabrics: &[FabricUse], folder: &'a Path) -> Self {
         let specs = fabrics.iter().map(|f| (f.name.clone(), f.spec.clone())).collect();
-        Self { specs, folder, replaced: None }
+        Self { specs, folder, replaced: None, given: None }
     }
 
     /// Those of a garment. `instead` takes the place of the main one where that is defined, so that an interfacing
-    /// "based on the shell" follows. The main one itself is left as it is.
+    /// "based on the shell" follows. The main one itself is left as it is. A fabric that is `given` is not loaded.
     ///
     /// # Errors
     /// `instead` cannot be had.
-    pub(super) fn of(garment: &Garment, folder: &'a Path, instead: Option<&str>) -> Result<Self, FabricError> {
+    pub(super) fn of(
+        garment: &Garment,
+        folder: &'a Path,
+        instead: Option<&str>,
+        given: Option<&Arc<Fabric>>,
+    ) -> Result<Self, FabricError> {
         let mut fabrics = Self::named(&garment.fabrics, folder);
+        if let Some(given) = given {
+            fabrics.replaced = main_fabric(garment);
+            fabrics.given = Some(Arc::clone(given));
+            return Ok(fabrics);
+        }
         let Some((name, main)) = instead.zip(main_fabric(garment)) else { return Ok(fabrics) };
         if fabrics.specs[main].0 != name {
             fabrics.specs[main].1 = FabricSpec { base: Some(absolute(name)), values: Vec::new() };
@@ -47,7 +59,7 @@ impl<'a> Fabrics<'a> {
             return Ok(self.resolve(own)?.name);
         }
         let spec = FabricSpec { base: Some(word.to_owned()), values: Vec::new() };
-        Ok(resolve(&spec, &Context { name: word, folder: self.folder, garment: &self.specs })?.name)
+        Ok(resolve(&spec, &self.context(word))?.name)
     }
 
     /// All of them in the file's order, also one that no piece uses: its mistakes are the user's to know.
@@ -57,7 +69,16 @@ impl<'a> Fabrics<'a> {
 
     fn resolve(&self, k: usize) -> Result<Fabric, FabricError> {
         let (name, spec) = &self.specs[k];
-        resolve(spec, &Context { name, folder: self.folder, garment: &self.specs })
+        match self.given.as_ref().filter(|_| self.replaced == Some(k)) {
+            Some(given) => Ok(Fabric::clone(given)),
+            None => resolve(spec, &self.context(name)),
+        }
+    }
+
+    fn context<'b>(&'b self, name: &'b str) -> Context<'b> {
+        let given = self.replaced.zip(self.given.as_deref());
+        let given = given.map(|(k, fabric)| (self.specs[k].0.as_str(), fabric));
+        Context { name, folder: self.folder, garment: &self.specs, given }
     }
 
     /// The fabric of every piece among the `resolved`, the same `Arc` for pieces of the same fabric.
@@ -129,7 +150,7 @@ mod tests {
     fn the_main_fabric_is_replaced_and_what_is_based_on_it_follows() {
         let garment = garment();
         let of = |instead| {
-            let fabrics = Fabrics::of(&garment, Path::new(""), instead).expect("fabrics");
+            let fabrics = Fabrics::of(&garment, Path::new(""), instead, None).expect("fabrics");
             let resolved = fabrics.all().into_iter().collect::<Result<Vec<_>, _>>().expect("resolved");
             fabrics.by_piece(&garment, resolved).expect("every piece")
         };
@@ -137,7 +158,11 @@ mod tests {
         let changed = of(Some("canvas"));
         assert_eq!(names(&changed[..2]), "rib + canvas");
         assert_eq!(changed[2].bend_warp, 2.0 * changed[1].bend_warp);
-        let denin = Fabrics::of(&garment, Path::new(""), Some("denin"));
+        let denin = Fabrics::of(&garment, Path::new(""), Some("denin"), None);
         assert!(matches!(denin.map(|_| ()), Err(FabricError::Unknown { .. })));
+        let canvas = Arc::new(crate::fabric::load("canvas").expect("shipped"));
+        let given = Fabrics::of(&garment, Path::new(""), None, Some(&canvas)).expect("fabrics");
+        let resolved = given.all().into_iter().collect::<Result<Vec<_>, _>>().expect("resolved");
+        assert_eq!(given.by_piece(&garment, resolved).expect("every piece"), changed);
     }
 }

@@ -10,7 +10,7 @@ use super::run::Run;
 use crate::contact::Collider;
 use crate::geometry::{MM, Vec2, Vec3};
 use crate::input::bytes;
-use crate::io::obj_read::{ObjFaces, read_obj_faces};
+use crate::io::obj_read::{ObjFaces, parse_obj_faces, read_obj_faces};
 use crate::mannequin::Mannequin;
 use crate::mesh::{ClothMesh, EarlierMesh, EarlierPiece, Edges, PieceMesh, interpolated};
 use crate::report::{ContinuedFrom, Report};
@@ -51,6 +51,17 @@ pub(super) enum Continued {
     Sewn(Box<Closed>),
 }
 
+/// The files of an earlier result, from memory.
+#[derive(Clone, Copy, Debug)]
+pub struct EarlierFiles<'a> {
+    /// Its name in the report.
+    pub name: &'a Path,
+    /// `garment.obj`, or `sewn.obj` of a garment that was only sewn.
+    pub surface: &'a [u8],
+    /// `report.json`.
+    pub report: &'a [u8],
+}
+
 impl Earlier {
     /// Reads what `toile make`, `drape` or `sew` has written into a folder.
     ///
@@ -60,9 +71,28 @@ impl Earlier {
         let draped = folder.join(GARMENT_OBJ);
         let file = if draped.exists() { draped } else { folder.join(SEWN_OBJ) };
         let report = read_report(&folder.join(REPORT_JSON))?;
-        let surface = read_obj_faces(&file)?;
-        let wrong = |why: String| PipelineError::Earlier { file: file.clone(), why };
-        let mesh = earlier_mesh(&surface, &report).map_err(wrong)?;
+        Self::told_by(folder, &file, &read_obj_faces(&file)?, &report, body)
+    }
+
+    /// As [`Self::read`], from memory.
+    pub(super) fn parse(files: &EarlierFiles, body: &Mannequin) -> Result<Self, PipelineError> {
+        let EarlierFiles { name, surface, report } = *files;
+        let report = parsed_report(report, &name.join(REPORT_JSON))?;
+        let file = name.join(GARMENT_OBJ);
+        let surface = parse_obj_faces(&String::from_utf8_lossy(surface), &file.display().to_string())?;
+        Self::told_by(name, &file, &surface, &report, body)
+    }
+
+    /// From the surface in `file` and the report beside it.
+    fn told_by(
+        folder: &Path,
+        file: &Path,
+        surface: &ObjFaces,
+        report: &Report,
+        body: &Mannequin,
+    ) -> Result<Self, PipelineError> {
+        let wrong = |why: String| PipelineError::Earlier { file: file.to_owned(), why };
+        let mesh = earlier_mesh(surface, report).map_err(wrong)?;
         let mut at = vec![Vec3::zeros(); mesh.flat.len()];
         for (corners, points) in surface.faces.iter().zip(&surface.texture_of_face) {
             for (&vertex, &point) in corners.iter().zip(points) {
@@ -112,7 +142,12 @@ impl Earlier {
 fn read_report(file: &Path) -> Result<Report, PipelineError> {
     let wrong = |why: String| PipelineError::Earlier { file: file.to_owned(), why };
     let text = bytes(file, LARGEST).map_err(|e| wrong(e.to_string()))?;
-    serde_json::from_slice(&text).map_err(|e| wrong(format!("no report of a garment: {e}")))
+    parsed_report(&text, file)
+}
+
+fn parsed_report(text: &[u8], file: &Path) -> Result<Report, PipelineError> {
+    let wrong = |why: String| PipelineError::Earlier { file: file.to_owned(), why };
+    serde_json::from_slice(text).map_err(|e| wrong(format!("no report of a garment: {e}")))
 }
 
 /// The mesh that a surface with flat positions and the report beside it tell of.

@@ -10,8 +10,9 @@ use crate::contact::Collider;
 use crate::dynamics::Cut;
 use crate::fabric::Fabric;
 use crate::input::LengthUnit;
-use crate::io::garment::{self, Loaded};
-use crate::mannequin::{Mannequin, PartKind};
+use crate::io::body::Body;
+use crate::io::garment::{self, Loaded, Variant};
+use crate::mannequin::{Mannequin, Measures, PartKind};
 use crate::mesh::{self, ClothMesh};
 use crate::pattern::{Garment, outfit};
 use crate::report::{Bands, Stage};
@@ -21,7 +22,7 @@ use crate::sew::{SewError, Stance};
 pub(super) const SPACING: f64 = 0.010;
 
 /// The caller's choices that replace those of the file.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Overrides {
     /// Mesh spacing, metres.
     pub spacing: Option<f64>,
@@ -35,6 +36,28 @@ pub struct Overrides {
     pub bands: Option<Bands>,
     /// A size of the garment.
     pub size: Option<String>,
+    /// Alterations that follow those of the file and the size, as texts: [`Variant::alter`].
+    pub alter: Vec<String>,
+    /// Measures of the wearer. They go before those of the garment file.
+    pub measures: Measures,
+    /// A body and a fabric that are not to be loaded.
+    pub given: Given,
+}
+
+/// A body and a fabric that the caller has. Their names in [`Overrides`], if any, are for messages.
+#[derive(Clone, Debug, Default)]
+pub struct Given {
+    /// The body, in place of the one of the garment.
+    pub body: Option<Arc<Body>>,
+    /// The fabric, in place of the main one of the garment.
+    pub fabric: Option<Arc<Fabric>>,
+}
+
+impl Overrides {
+    /// The variant of the garment file that is wanted.
+    pub fn variant(&self) -> Variant<'_> {
+        Variant { size: self.size.as_deref(), alter: &self.alter }
+    }
 }
 
 /// A garment, its fabrics, the body it is made for and its mesh.
@@ -77,6 +100,14 @@ pub fn read_size(path: &Path, size: Option<&str>) -> Result<Loaded, PipelineErro
     Ok(garment::read_size(path, size)?)
 }
 
+/// Reads and checks a variant of a garment file: a size, and further alterations.
+///
+/// # Errors
+/// Every mistake of the file, and an alteration that cannot be carried out.
+pub fn read_variant(path: &Path, variant: Variant) -> Result<Loaded, PipelineError> {
+    Ok(garment::read_variant(path, variant)?)
+}
+
 impl Job {
     /// The input of the sewing and draping stages.
     pub fn cut(&self) -> Cut<'_> {
@@ -97,13 +128,13 @@ impl Job {
     /// # Errors
     /// [`PipelineError`]: as of [`Self::new`], and bodies that differ, or a fabric in place of nobody knows whose.
     pub fn dressed(mut worn: Vec<(PathBuf, Loaded)>, overrides: &Overrides) -> Result<Self, PipelineError> {
-        if worn.len() > 1 && overrides.fabric.is_some() {
+        if worn.len() > 1 && (overrides.fabric.is_some() || overrides.given.fabric.is_some()) {
             return Err(PipelineError::WhoseFabric);
         }
         let mut notes: Vec<String> = worn.iter().flat_map(|(_, l)| &l.warnings).map(ToString::to_string).collect();
         let mut fabrics = Vec::new();
         for (file, loaded) in &mut worn {
-            let (own, told) = material::fabrics(file, loaded, overrides.fabric.as_deref())?;
+            let (own, told) = material::fabrics(file, loaded, overrides)?;
             fabrics.extend(own);
             notes.extend(told);
             material::name_bounded_fabrics(file, loaded)?;

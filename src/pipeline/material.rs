@@ -11,7 +11,7 @@ use super::job::{Overrides, SPACING};
 use crate::fabric::{Fabric, FabricError};
 use crate::geometry::MM;
 use crate::io::body::{Body, BodyError, load_body_of};
-use crate::io::garment::{self, Loaded, Refused};
+use crate::io::garment::{self, Loaded, Refused, Variant};
 use crate::mannequin::{self, Mannequin, MannequinError, Measures};
 use crate::mesh::{self, MeshError};
 use crate::pattern::{self, Diagnostic, Findings, GarmentFile, Located, Problem, Spot, Unit, Value};
@@ -46,22 +46,23 @@ pub fn check_size(file: &Path, size: Option<&str>, spacing: Option<f64>) -> Resu
     check_examined(file, garment::examine_size(file, size), spacing)
 }
 
-/// As [`check`], from the text of a file that need not exist: its name is the garment's, and other files are looked for
-/// in its folder.
+/// As [`check`], of a variant of the garment, from the text of a file that need not exist: its name is the garment's,
+/// and other files are looked for in its folder.
 ///
 /// # Errors
 /// As [`check`].
-pub fn check_text(file: &Path, text: &str, spacing: Option<f64>) -> Result<Checked, Refused> {
+pub fn check_text(file: &Path, text: &str, variant: Variant, spacing: Option<f64>) -> Result<Checked, Refused> {
     let shown = file.display().to_string();
-    check_examined(file, garment::examine_text(&short_name(file), &shown, text), spacing)
+    check_examined(file, garment::examine_text_variant(&short_name(file), &shown, text, variant), spacing)
 }
 
-/// As [`super::read`], from the text of a file that need not exist.
+/// As [`super::read_variant`], from the text of a file that need not exist.
 ///
 /// # Errors
 /// Every mistake of the text.
-pub fn read_text(file: &Path, text: &str) -> Result<Loaded, PipelineError> {
-    Ok(garment::read_text(&short_name(file), &file.display().to_string(), text)?)
+pub fn read_text(file: &Path, text: &str, variant: Variant) -> Result<Loaded, PipelineError> {
+    let shown = file.display().to_string();
+    Ok(garment::examine_text_variant(&short_name(file), &shown, text, variant).finish()?)
 }
 
 fn short_name(file: &Path) -> String {
@@ -205,11 +206,12 @@ pub(super) fn name_bounded_fabrics(file: &Path, loaded: &mut Loaded) -> Result<(
 pub(super) fn fabrics(
     file: &Path,
     loaded: &Loaded,
-    instead: Option<&str>,
+    wanted: &Overrides,
 ) -> Result<(Vec<Arc<Fabric>>, Vec<String>), PipelineError> {
     let folder = file.parent().unwrap_or(Path::new(""));
     let other = |source| PipelineError::Fabric(Box::new(source));
-    let fabrics = Fabrics::of(&loaded.garment, folder, instead).map_err(other)?;
+    let (instead, given) = (wanted.fabric.as_deref(), wanted.given.fabric.as_ref());
+    let fabrics = Fabrics::of(&loaded.garment, folder, instead, given).map_err(other)?;
     let mut findings = loaded.findings();
     let mut notes = Vec::new();
     let mut resolved = Vec::new();
@@ -293,16 +295,20 @@ fn at_file(value: &Located<Value>, file: &Path) -> Option<Spot> {
 /// that of the file's own body.
 pub(super) fn body(file: &Path, loaded: &Loaded, wanted: &Overrides) -> Result<(String, Body), PipelineError> {
     let instead = wanted.body.as_deref();
+    if let Some(body) = &wanted.given.body {
+        return Ok((instead.unwrap_or(&body.mannequin.name).to_owned(), Body::clone(body)));
+    }
     let name = body_name(file, loaded.garment.body.as_deref(), instead)?;
     let said = loaded.file.body.as_ref().filter(|_| instead.is_none());
     let own_unit = said.and(loaded.file.body_units.as_ref()).map(|u| u.value);
-    let measures = match said {
+    let own = match said {
         Some(_) => measures(&loaded.file)
             .map_err(|(at, why)| PipelineError::Garment(loaded.refusal(at, Problem::Body(why))))?,
         None => Measures::default(),
     };
+    let measures = wanted.measures.clone().over(&own);
     let body = load_body_of(&name, wanted.body_unit.or(own_unit), &measures).map_err(|error| match said {
-        Some(said) if cannot_be_had(&error) => {
+        Some(said) if cannot_be_had(&error) && wanted.measures.is_empty() => {
             PipelineError::Garment(loaded.refusal(said.at, Problem::Body(error.to_string())))
         }
         _ => PipelineError::Body(error),
@@ -319,6 +325,9 @@ fn sizes(loaded: &Loaded) -> Vec<(&str, f64)> {
 /// The body of garments worn together, by the name it is asked for.
 pub(super) fn body_of_all(worn: &[(PathBuf, Loaded)], wanted: &Overrides) -> Result<(String, Body), PipelineError> {
     let (inner, loaded) = &worn[0];
+    if wanted.given.body.is_some() {
+        return body(inner, loaded, wanted);
+    }
     let own = |file: &Path, loaded: &Loaded| body_name(file, loaded.garment.body.as_deref(), wanted.body.as_deref());
     let other_body = own(inner, loaded)?;
     for (file, loaded) in &worn[1..] {

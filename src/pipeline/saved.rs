@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::earlier::Earlier;
+use super::earlier::{Earlier, EarlierFiles};
 use super::error::PipelineError;
 use super::job::Job;
 use super::run::Run;
@@ -28,6 +28,16 @@ impl<'a> Run<'a> {
         let mut run = Self::new(job);
         run.earlier = Some(earlier);
         run
+    }
+
+    /// As [`Run::continued`], from a result that is in memory.
+    ///
+    /// # Errors
+    /// Files that are no result, or do not belong together.
+    pub fn continued_from(job: &'a Job, files: &EarlierFiles) -> Result<Self, PipelineError> {
+        let mut run = Self::new(job);
+        run.earlier = Some(Earlier::parse(files, &job.body)?);
+        Ok(run)
     }
 
     /// Loads the garment as sewn by an earlier run from its `sewn.obj`, to continue with draping.

@@ -12,6 +12,8 @@ Ctrl-C. The same input gives the same bytes as the command ``toile make`` writes
 
 from ._batch import batch
 from ._errors import ComputationError, Diagnostic, Error, GarmentError, InputError
+from ._index import index, to_parquet
+from ._progress import show_on
 from ._toile import Body, Fabric, Flat, Garment, Result, __version__, flatten
 
 __all__ = [
@@ -28,4 +30,7 @@ __all__ = [
     "__version__",
     "batch",
     "flatten",
+    "index",
+    "show_on",
+    "to_parquet",
 ]

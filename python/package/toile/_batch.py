@@ -2,19 +2,31 @@
 
 from __future__ import annotations
 
+import asyncio
+import concurrent.futures
 import importlib
-import json
 import os
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
+from time import monotonic, sleep
 from typing import Any
 
-from . import _toile
+from . import _json, _toile
+from ._errors import ComputationError, InputError
+from ._index import index
 
 # Starts toile's command line: each garment is made in a process of its own. Not by ``-m``, which would also look into
 # the current folder.
 PROGRAM = [sys.executable, str(Path(__file__).with_name("__main__.py"))]
+
+# Time limit (s), memory limit (MiB), threads, and whether failures are tried again.
+Options = tuple[float | None, int | None, int, bool]
+
+# Rounds in which a cluster may lose everything, and how long it may be away in between (s): a scheduler that is started
+# again takes seconds, and its workers follow.
+ROUNDS = 3
+PATIENCE = 120.0
 
 
 def batch(
@@ -36,10 +48,12 @@ def batch(
 
     Args:
         jobs: A list of jobs in a file (one JSON object a line), or dicts with the keys of such lines: ``garment`` (a
-            file, or several from the skin outwards), ``body``, ``body_units``, ``fabric``, ``spacing`` (mm), ``size``,
-            ``pressure_bands`` (kPa), ``id``. Paths are relative to the file, or to the current folder.
+            file, or several from the skin outwards), ``body``, ``body_units``, ``measures``, ``fabric``, ``spacing``
+            (mm), ``size``, ``alter``, ``pressure_bands`` (kPa), ``id``. Paths are relative to the file, or to the
+            current folder. A dict may have a :class:`Body` or a :class:`Fabric` with a file.
         client: A ``distributed.Client``. Each job is then a task of its cluster, whose machines must see the garments
-            and the store under the same paths. Without one the jobs run on this machine.
+            and the store under the same paths. What a worker or the scheduler loses when it is killed is handed in
+            again when it is back. Without a client the jobs run on this machine.
         store: The folder of the results.
         side_by_side: Jobs that run at the same time without a client, by default one a processor.
         time: Longest time of a job, s.
@@ -54,7 +68,7 @@ def batch(
 
     Raises:
         InputError: The list is wrong, or ids are not unique.
-        ComputationError: The store cannot be written.
+        ComputationError: The store cannot be written, or the cluster does not come back.
     """
     texts = _texts(jobs)
     folder, root = os.getcwd(), os.path.abspath(store)
@@ -63,18 +77,32 @@ def batch(
         # All are known now, so that this writes the index and makes nothing.
         retry = False
     _toile.run_batch(texts, folder, root, PROGRAM, side_by_side, time, memory, threads, retry, progress)
-    with open(Path(root) / "index.jsonl", encoding="utf-8") as index:
-        return [json.loads(line) for line in index]
+    return index(root)
 
 
 def _texts(jobs: str | os.PathLike[str] | Iterable[Mapping[str, Any]]) -> list[str]:
     """The jobs as JSON objects."""
     if isinstance(jobs, (str, os.PathLike)):
         return _toile.read_list(jobs)
-    return [json.dumps(dict(job), default=os.fspath, ensure_ascii=False) for job in jobs]
+    return [_json.dumps(_plain(job)) for job in jobs]
 
 
-def _one(text: str, folder: str, store: str, options: tuple[float | None, int | None, int, bool]) -> dict[str, Any]:
+def _plain(job: Mapping[str, Any]) -> dict[str, Any]:
+    """A job with the names of its body and fabric in place of objects. What it says itself goes before theirs."""
+    if not isinstance(job, Mapping):
+        raise InputError(f"a job is a dict such as {{'garment': 'skirt.yaml'}}, not {job!r}")
+    plain: dict[str, Any] = {}
+    for value in job.values():
+        if isinstance(value, (_toile.Body, _toile.Fabric)):
+            plain |= value._job
+    plain |= {key: value for key, value in job.items() if not isinstance(value, (_toile.Body, _toile.Fabric))}
+    alter = plain.get("alter")
+    if isinstance(alter, (str, Mapping)):
+        plain["alter"] = [alter]
+    return plain
+
+
+def _one(text: str, folder: str, store: str, options: Options) -> dict[str, Any]:
     """A task: a function of the job's content, which may run again or twice."""
     time, memory, threads, retry = options
     return _toile.run_job(text, folder, store, PROGRAM, time, memory, threads, retry)
@@ -85,21 +113,82 @@ def _on_cluster(
     texts: list[str],
     folder: str,
     store: str,
-    options: tuple[float | None, int | None, int, bool],
+    options: Options,
     progress: Callable[[str, float], object] | None,
 ) -> None:
-    """Makes the jobs as tasks of a cluster and waits for them."""
-    distributed: Any = importlib.import_module("distributed")
+    """Makes the jobs as tasks of a cluster and waits for them. Jobs that the cluster loses are handed in again."""
     # The same job twice in the list is one task.
-    once = list(dict.fromkeys(texts))
+    left = once = list(dict.fromkeys(texts))
+    lost_before = 0
+
+    def tell(open_now: int) -> None:
+        if progress is not None:
+            progress("batch", 1 - open_now / len(once))
+
+    while left:
+        still = _round(client, left, (folder, store, options), tell)
+        # As long as something gets done, the cluster is worth another try.
+        lost_before = 0 if len(still) < len(left) else lost_before + 1
+        if still and lost_before == ROUNDS:
+            raise ComputationError(
+                f"the cluster has lost {len(still)} jobs {ROUNDS} times in a row; what is done is kept: start again "
+                "when it is well"
+            )
+        if still:
+            _wait_for(client)
+        left = still
+
+
+def _round(
+    client: Any, texts: list[str], where: tuple[str, str, Options], tell: Callable[[int], None]
+) -> list[str]:
+    """Hands jobs in and waits for them. Gives those that got lost with a worker or the scheduler."""
+    distributed: Any = importlib.import_module("distributed")
+    folder, store, options = where
     # A task whose worker is killed runs again elsewhere; pure=False keeps an old result from being taken for a new
     # one after the store was cleared.
-    futures = client.map(_one, once, folder=folder, store=store, options=options, pure=False, retries=2)
     try:
-        for count, future in enumerate(distributed.as_completed(futures), 1):
-            future.result()
-            if progress is not None:
-                progress("batch", count / len(once))
+        futures = client.map(_one, texts, folder=folder, store=store, options=options, pure=False, retries=2)
+    except _losses():
+        return texts
+    text_of = {future.key: text for future, text in zip(futures, texts, strict=True)}
+    lost: list[str] = []
+    ended = 0
+    try:
+        for future in distributed.as_completed(futures):
+            try:
+                future.result()
+            except _losses():
+                lost.append(text_of[future.key])
+            ended += 1
+            tell(len(texts) - ended + len(lost))
     except BaseException:
-        client.cancel(futures)
+        client.cancel(futures, force=True)
         raise
+    return lost
+
+
+def _losses() -> tuple[type[BaseException], ...]:
+    """What is raised when a worker or the scheduler is gone, not the job wrong."""
+    client: Any = importlib.import_module("distributed.client")
+    comm: Any = importlib.import_module("distributed.comm")
+    scheduler: Any = importlib.import_module("distributed.scheduler")
+    return (asyncio.CancelledError, concurrent.futures.CancelledError, client.FutureCancelledError, comm.CommClosedError,
+            scheduler.KilledWorker, TimeoutError, ConnectionError)
+
+
+def _wait_for(client: Any) -> None:
+    """Waits until the scheduler answers again and has a worker."""
+    end = monotonic() + PATIENCE
+    # A client that has given up does not come back.
+    while monotonic() < end and client.status != "closed":
+        try:
+            if client.scheduler_info()["workers"]:
+                client.wait_for_workers(1, timeout=1)
+                return
+        except Exception:
+            # It is away, or on its way.
+            pass
+        sleep(0.2)
+    why = "its scheduler is gone" if client.status == "closed" else f"it has had no worker for {PATIENCE:.0f} s"
+    raise ComputationError(f"the cluster does not answer: {why}; what is done is kept: start again with another")

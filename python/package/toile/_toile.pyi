@@ -1,7 +1,7 @@
 """The compiled part of toile."""
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal
 
 import numpy as np
@@ -51,17 +51,33 @@ class Garment:
 
     @property
     def text(self) -> str:
-        """The text of the garment file."""
+        """The text of the garment file, with its alterations carried out if there are any of :meth:`alter`."""
+
+    @property
+    def sizes(self) -> list[str]:
+        """Names of the sizes that the garment file has."""
 
     @property
     def notes(self) -> list[str]:
         """What was said when it was imported."""
 
-    def check(self, spacing: float | None = None) -> list[Diagnostic]:
+    def alter(self, changes: dict[str, Any] | Sequence[dict[str, Any]] | str) -> Garment:
+        """The garment with its pattern altered, as ``toile alter``; this one stays as it is.
+
+        Args:
+            changes: Alterations as a garment file has them under ``alter``: a dict
+                (``{"lengthen": ["front", "back"], "at": 200, "by": 20}``), a list of them, or a text (YAML).
+
+        Raises:
+            GarmentError: An alteration cannot be done, or seams no longer match.
+        """
+
+    def check(self, spacing: float | None = None, size: str | None = None) -> list[Diagnostic]:
         """Finds everything that is wrong before cloth moves; mistakes raise :class:`GarmentError`.
 
         Args:
             spacing: Distance of neighbouring particles that it will be made with, mm (10 by default).
+            size: A size of the garment.
 
         Returns:
             What its author may not have meant so.
@@ -73,8 +89,10 @@ class Garment:
         fabric: _Path | Fabric | None = None,
         spacing: float | None = None,
         threads: int | None = None,
+        start: Result | _Path | None = None,
         progress: Callable[[str, float], object] | None = None,
         body_units: _Units | None = None,
+        size: str | None = None,
     ) -> Result:
         """Sews, drapes and flattens the garment, as the command ``toile make``.
 
@@ -83,12 +101,15 @@ class Garment:
             fabric: Library name or file in place of its main fabric.
             spacing: Distance of neighbouring particles, mm (10 by default).
             threads: Number of threads (all processors by default). Results do not depend on it.
+            start: An earlier result to go on from, or its folder: of this garment, or of what it was before its pieces,
+                fabrics, body or spacing were changed. The cloth starts where that one hangs.
             progress: Called with the stage and the share of it that is done, from 0 to 1. What it raises ends the work.
             body_units: Unit of the body's OBJ file.
+            size: A size of the garment.
 
         Raises:
             GarmentError: The garment file has mistakes.
-            InputError: The body, the fabric or the spacing is wrong.
+            InputError: The body, the fabric, the spacing or the earlier result is wrong.
             ComputationError: It cannot be sewn, draped or flattened.
         """
 
@@ -154,8 +175,27 @@ class Body:
         """A mannequin by its library name, a file of sections (YAML) or a closed OBJ in ``units``."""
 
     @staticmethod
+    def build(like: _Path, measures: Mapping[str, float | str] | _Path) -> Body:
+        """A mannequin with the measures of a person, as ``toile mannequin build``.
+
+        Args:
+            like: The mannequin that has what is not measured, by its library name or its file of sections (YAML).
+            measures: Names and lengths, mm or texts with a unit (``{"bust": 1040, "height": "170 cm"}``), or a file of
+                them: ours, FreeSewing's, or a body of GarmentCode.
+
+        Raises:
+            InputError: A name is no measure, or the measures contradict one another or are far from the mannequin's.
+        """
+
+    @staticmethod
     def library() -> list[str]:
         """Names of the mannequins that toile brings."""
+
+    def save(self, path: _Path) -> None:
+        """Writes its surface (OBJ): millimetres, y up, feet at y = 0."""
+
+    @property
+    def _job(self) -> dict[str, Any]: ...
 
     @property
     def name(self) -> str:
@@ -181,8 +221,32 @@ class Fabric:
         """A fabric by its library name or its file (YAML)."""
 
     @staticmethod
+    def measure(readings: Mapping[str, Any] | _Path, name: str | None = None, folder: _Path = "") -> Fabric:
+        """A fabric from readings, as ``toile fabric measure``.
+
+        Args:
+            readings: A file of readings, a table or a laboratory's sheet; or what such a file (YAML) says as nested
+                dicts and lists.
+            name: The fabric's name where the readings say none, by default that of the file.
+            folder: Where files that a dict names are looked for.
+
+        Raises:
+            InputError: Too few or impossible readings, or values of no cloth.
+        """
+
+    @staticmethod
     def library() -> list[str]:
         """Names of the fabrics that toile brings."""
+
+    def save(self, path: _Path) -> None:
+        """Writes the fabric file (YAML) of a fabric that was measured here."""
+
+    @property
+    def _job(self) -> dict[str, Any]: ...
+
+    @property
+    def notes(self) -> list[str]:
+        """What its user should know: doubtful readings, values that hardly any cloth has."""
 
     @property
     def name(self) -> str:

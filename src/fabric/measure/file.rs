@@ -127,24 +127,25 @@ pub(super) struct Source {
 
 impl Source {
     pub(super) fn read(path: &Path) -> Result<Self, MeasureError> {
-        let text = read(path)?;
+        let mut out = Self::parse(&read(path)?, path)?;
+        out.inputs.insert(0, path.to_owned());
+        Ok(out)
+    }
+
+    /// As [`Self::read`], from the text of a file that need not exist.
+    pub(super) fn parse(text: &str, path: &Path) -> Result<Self, MeasureError> {
         let name = path.display().to_string();
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-        let mut out = Self {
-            file: File::default(),
-            geometric: None,
-            sheets: Vec::new(),
-            inputs: vec![path.to_owned()],
-            notes: Vec::new(),
-        };
+        let mut out =
+            Self { file: File::default(), geometric: None, sheets: Vec::new(), inputs: Vec::new(), notes: Vec::new() };
         let is_table = path.extension().is_some_and(|e| TABLES.iter().any(|t| e.eq_ignore_ascii_case(t)));
-        if is_table && Sheet::is_one(&text) {
-            out.sheets.push(Sheet::parse(&text, &name)?);
+        if is_table && Sheet::is_one(text) {
+            out.sheets.push(Sheet::parse(text, &name)?);
         } else if is_table {
-            out.geometric = Some(out.tests_of(&text, &name)?);
+            out.geometric = Some(out.tests_of(text, &name)?);
         } else {
             let fault = |why: String| MeasureError::File { file: name.clone(), row: None, why };
-            out.file = yaml(&text).map_err(|why| fault(plainly(&why)))?;
+            out.file = yaml(text).map_err(|why| fault(plainly(&why)))?;
             out.geometric = out.tests(&folder).map_err(|error| match error {
                 MeasureError::Test { .. } => fault(error.to_string()),
                 other => other,

@@ -68,7 +68,19 @@ pub struct Measured {
 /// # Errors
 /// [`MeasureError`] for files that cannot be read, too few or impossible readings, and values of no cloth.
 pub fn measure(path: &Path, name: &str) -> Result<Measured, MeasureError> {
-    let source = Source::read(path)?;
+    measured(Source::read(path)?, path, name)
+}
+
+/// As [`measure`], from the text of a file that need not exist: its name is the source that is said, and other files
+/// are looked for in its folder.
+///
+/// # Errors
+/// As [`measure`].
+pub fn measure_text(text: &str, path: &Path, name: &str) -> Result<Measured, MeasureError> {
+    measured(Source::parse(text, path)?, path, name)
+}
+
+fn measured(source: Source, path: &Path, name: &str) -> Result<Measured, MeasureError> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let said = source.file.source.clone().unwrap_or_else(|| format!("measured, {}", path.display()));
     let mut notes = source.notes.clone();
@@ -124,7 +136,7 @@ pub fn measure(path: &Path, name: &str) -> Result<Measured, MeasureError> {
         }
     };
     let written = FabricSheet::parse(&fabric_yaml(&sheet), &sheet.name).map_err(blame)?;
-    let context = Context { name: &sheet.name, folder: Path::new(""), garment: &[] };
+    let context = Context { name: &sheet.name, folder: Path::new(""), garment: &[], given: None };
     let fabric = from_sheet(&written, &context).map_err(blame)?;
     Ok(Measured { sheet, fabric, tests, notes, inputs })
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::decode_alter::changes;
-use super::{Refused, examine_text, read_file_only, source, tree, write};
+use super::{Refused, Variant, examine_text, read_file_only, source, tree, write};
 use crate::alter::{carry_out, edge_lengths};
 use crate::pattern::{DartFile, DartShape, Findings, GarmentFile, Located, Problem, Quantity, Spot};
 
@@ -40,15 +40,34 @@ pub struct EdgeChange {
 /// # Errors
 /// [`Refused`] when one of the files cannot be read or an alteration cannot be done.
 pub fn change(garment: &Path, changes: &Path, shown: &str) -> Result<Changed, Refused> {
-    let text = source_text(garment)?;
-    let old = read_file_only(&garment.display().to_string(), &text)?;
+    changed(&source_text(garment)?, garment, shown, |new| alter_by(new, changes))
+}
+
+/// As [`change`], of the text of a garment file called `shown`, with alterations as [`Variant`] has them.
+///
+/// # Errors
+/// As [`change`].
+pub fn change_text(text: &str, shown: &str, alter: &[String]) -> Result<Changed, Refused> {
+    changed(text, Path::new(shown), shown, |new| {
+        *new = Variant { size: None, alter }.carried_out(new.clone())?;
+        Ok(())
+    })
+}
+
+fn changed(
+    text: &str,
+    garment: &Path,
+    shown: &str,
+    further: impl FnOnce(&mut GarmentFile) -> Result<(), Refused>,
+) -> Result<Changed, Refused> {
+    let old = read_file_only(&garment.display().to_string(), text)?;
     let mut new = old.clone();
     let own = std::mem::take(&mut new.alter);
-    let mut findings = Findings::new(&garment.display().to_string(), &text);
+    let mut findings = Findings::new(&garment.display().to_string(), text);
     carry_out(&mut new, &own, &mut findings);
     refuse(findings)?;
-    alter_by(&mut new, changes)?;
-    let patched = patched(&text, &old, &new).filter(|p| read_file_only(shown, p).is_ok_and(|file| file == new));
+    further(&mut new)?;
+    let patched = patched(text, &old, &new).filter(|p| read_file_only(shown, p).is_ok_and(|file| file == new));
     let in_place = patched.is_some();
     let text = match patched {
         Some(text) => text,

@@ -14,8 +14,10 @@ mod decode_wants;
 mod encode;
 mod fields;
 mod layout;
+mod ranges;
 mod source;
 mod tree;
+mod variant;
 
 use std::fmt;
 use std::path::Path;
@@ -26,8 +28,10 @@ use crate::pattern::{
 };
 
 pub use append::{Appended, appended};
-pub use change::{Changed, EdgeChange, change};
+pub use change::{Changed, EdgeChange, change, change_text};
 pub use encode::{EncodeError, alteration_line, seam_line, write, write_with_offers};
+pub use ranges::{Drawn, Ranges};
+pub use variant::{Variant, alterations_in};
 
 /// JSON Schema (2020-12) of the format, for editors that complete and check as one types.
 pub const SCHEMA: &str = include_str!("schema.json");
@@ -67,7 +71,7 @@ impl Loaded {
         let list: Vec<_> = list.iter().map(|a| Located::new(a.clone(), Spot::default())).collect();
         carry_out(&mut file, &list, &mut findings);
         let garment = pattern::expand(&self.garment.name, &file, &mut findings);
-        Examined { file: Some(file), findings, garment, source: self.source.clone() }.finish()
+        Examined { file: Some(file), findings, beside: Vec::new(), garment, source: self.source.clone() }.finish()
     }
 
     /// The text of the file.
@@ -91,6 +95,8 @@ pub struct Examined {
     pub file: Option<GarmentFile>,
     /// The findings so far.
     pub findings: Findings,
+    /// Mistakes of alterations that are no part of the file.
+    beside: Vec<Diagnostic>,
     garment: Option<Garment>,
     source: Source,
 }
@@ -101,8 +107,9 @@ impl Examined {
     /// # Errors
     /// [`Refused`] with all that was found.
     pub fn finish(self) -> Result<Loaded, Refused> {
-        let refused = self.findings.errors() > 0;
-        let diagnostics = self.findings.into_sorted();
+        let refused = self.findings.errors() > 0 || !self.beside.is_empty();
+        let mut diagnostics = self.beside;
+        diagnostics.extend(self.findings.into_sorted());
         match (self.file, self.garment) {
             (Some(file), Some(garment)) if !refused => {
                 let warnings = diagnostics.into_iter().filter(|d| d.severity == Severity::Warning).collect();
@@ -151,6 +158,14 @@ pub fn read_size(path: &Path, size: Option<&str>) -> Result<Loaded, Refused> {
     examine_size(path, size).finish()
 }
 
+/// Reads and checks a variant of a garment file.
+///
+/// # Errors
+/// As [`read_size`], and where an alteration cannot be carried out.
+pub fn read_variant(path: &Path, variant: Variant) -> Result<Loaded, Refused> {
+    examine_variant(path, variant).finish()
+}
+
 /// Reads and checks a garment from text; `name` is its short name, `shown` the file's name in messages.
 ///
 /// # Errors
@@ -166,31 +181,53 @@ pub fn examine(path: &Path) -> Examined {
 
 /// As [`examine`], of a size of the garment, whose name then ends with the size.
 pub fn examine_size(path: &Path, size: Option<&str>) -> Examined {
+    examine_variant(path, Variant { size, ..Variant::default() })
+}
+
+/// As [`examine_size`], with further alterations.
+pub fn examine_variant(path: &Path, variant: Variant) -> Examined {
+    let size = variant.size;
     let said = size.map_or_else(String::new, |size| format!(" (size {size})"));
     let shown = format!("{}{said}", path.display());
     let name = path.file_stem().map_or_else(|| shown.clone(), |s| s.to_string_lossy().into_owned());
     let name = size.map_or_else(|| name.clone(), |size| format!("{name}-{size}"));
     match source::text(path) {
-        Ok(text) => examined(&name, &shown, &text, size),
+        Ok(text) => examined(&name, &shown, &text, variant),
         Err(problem) => {
             let mut findings = Findings::new(&shown, "");
             findings.error(Spot::default(), problem);
-            Examined { file: None, findings, garment: None, source: Source { shown, text: String::new() } }
+            let source = Source { shown, text: String::new() };
+            Examined { file: None, findings, beside: Vec::new(), garment: None, source }
         }
     }
 }
 
 /// As [`examine`], from text; `name` is the garment's short name, `shown` the file's name in messages.
 pub fn examine_text(name: &str, shown: &str, text: &str) -> Examined {
-    examined(name, shown, text, None)
+    examined(name, shown, text, Variant::default())
 }
 
-fn examined(name: &str, shown: &str, text: &str, size: Option<&str>) -> Examined {
+/// As [`examine_text`], of a variant of the garment. The name ends with the size.
+pub fn examine_text_variant(name: &str, shown: &str, text: &str, variant: Variant) -> Examined {
+    let (name, shown) = match variant.size {
+        Some(size) => (format!("{name}-{size}"), format!("{shown} (size {size})")),
+        None => (name.to_owned(), shown.to_owned()),
+    };
+    examined(&name, &shown, text, variant)
+}
+
+fn examined(name: &str, shown: &str, text: &str, variant: Variant) -> Examined {
     let mut findings = Findings::new(shown, text);
     let file = tree::parse(text, &mut findings).and_then(|tree| decode::garment(&tree, &mut findings));
-    let file = file.map(|file| altered(&file, size, &mut findings));
+    let file = file.map(|file| altered(&file, variant.size, &mut findings));
+    let (file, beside) = match file.map(|file| variant.carried_out(file)) {
+        Some(Ok(file)) => (Some(file), Vec::new()),
+        Some(Err(refused)) => (None, refused.diagnostics),
+        None => (None, Vec::new()),
+    };
     let garment = file.as_ref().and_then(|file| pattern::expand(name, file, &mut findings));
-    Examined { file, findings, garment, source: Source { shown: shown.to_owned(), text: text.to_owned() } }
+    let source = Source { shown: shown.to_owned(), text: text.to_owned() };
+    Examined { file, findings, beside, garment, source }
 }
 
 /// Reads a file of wants. Bare lengths in it count in `unit`, the garment's.

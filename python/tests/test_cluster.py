@@ -1,0 +1,131 @@
+"""A hundred jobs on a Dask cluster whose worker is killed and whose scheduler is started again."""
+
+from __future__ import annotations
+
+import json
+import os
+import socket
+import subprocess
+import sys
+import threading
+import time
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+import toile
+from conftest import command, put_ball_and_sheet
+
+distributed = pytest.importorskip("distributed", reason="dask.distributed is not installed")
+
+# Sheets that fall on a ball, all different.
+SHEETS = 98
+# Results after which the worker is killed, and the scheduler.
+WORKER_AFTER, SCHEDULER_AFTER = 25, 60
+
+
+def jobs(folder: Path) -> list[dict[str, Any]]:
+    garment = put_ball_and_sheet(folder)
+    sheets = [{"id": f"sheet {k}", "garment": str(garment), "spacing": 20 + 0.1 * k} for k in range(SHEETS)]
+    missing = {"id": "missing", "garment": str(folder / "missing.yaml")}
+    wrong = [{"id": "fabric", "garment": str(garment), "fabric": "denin"}, missing]
+    return [*sheets[: SHEETS // 2], wrong[0], *sheets[SHEETS // 2 :], wrong[1]]
+
+
+class Cluster:
+    """A scheduler and workers in processes that can be killed one by one."""
+
+    def __init__(self, folder: Path) -> None:
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            self.port: int = free.getsockname()[1]
+        self.folder = folder
+        self.address = f"tcp://127.0.0.1:{self.port}"
+        self.workers: list[subprocess.Popen[bytes]] = []
+        self.start_scheduler()
+
+    def start(self, part: str, *words: str) -> subprocess.Popen[bytes]:
+        line = [sys.executable, "-m", f"distributed.cli.dask_{part}", *words, "--no-dashboard"]
+        with (self.folder / f"{part}.log").open("ab") as log:
+            return subprocess.Popen(line, cwd=self.folder, stdout=log, stderr=log)
+
+    def start_scheduler(self) -> None:
+        self.scheduler = self.start("scheduler", "--host", "127.0.0.1", "--port", str(self.port))
+
+    def start_worker(self) -> None:
+        self.workers.append(self.start("worker", self.address, "--nthreads", "1", "--no-nanny"))
+
+    def end(self) -> None:
+        for process in [*self.workers, self.scheduler]:
+            process.kill()
+            process.wait()
+
+
+@pytest.fixture
+def cluster(tmp_path: Path) -> Iterator[Cluster]:
+    made = Cluster(tmp_path)
+    made.start_worker()
+    made.start_worker()
+    yield made
+    made.end()
+
+
+def results(store: Path) -> list[str]:
+    return sorted(name for name in os.listdir(store) if len(name) == 32) if store.is_dir() else []
+
+
+def strike(cluster: Cluster, store: Path, over: threading.Event, struck: list[str]) -> None:
+    """Kills a worker and later the scheduler, midway, and starts others in their places."""
+
+    def wait_for(count: int) -> bool:
+        while len(results(store)) < count and not over.is_set():
+            time.sleep(0.05)
+        return not over.is_set()
+
+    if wait_for(WORKER_AFTER):
+        cluster.workers[0].kill()
+        struck.append("worker")
+        cluster.start_worker()
+    if wait_for(SCHEDULER_AFTER):
+        cluster.scheduler.kill()
+        cluster.scheduler.wait()
+        struck.append("scheduler")
+        cluster.start_scheduler()
+        # Workers end with their scheduler. Their process manager starts them again.
+        for worker in cluster.workers:
+            worker.kill()
+        cluster.start_worker()
+        cluster.start_worker()
+
+
+def test_a_worker_killed_and_a_scheduler_started_again_lose_nothing(cluster: Cluster, tmp_path: Path) -> None:
+    listed, store = jobs(tmp_path), tmp_path / "store"
+    over, struck = threading.Event(), list[str]()
+    with distributed.Client(cluster.address, timeout="60s") as client:
+        striker = threading.Thread(target=strike, args=(cluster, store, over, struck))
+        striker.start()
+        try:
+            lines = toile.batch(listed, client, store=store)
+        finally:
+            over.set()
+            striker.join()
+    assert struck == ["worker", "scheduler"]
+    assert Counter(line["state"] for line in lines) == {"done": SHEETS, "failed": 2}
+    assert [line["id"] for line in lines] == [job["id"] for job in listed]
+    assert len(results(store)) == SHEETS and len(os.listdir(store / "failed")) == 2
+
+    (tmp_path / "jobs.jsonl").write_text("".join(json.dumps(job) + "\n" for job in listed))
+    run = command("batch", tmp_path / "jobs.jsonl", "-o", tmp_path / "plain", "--quiet")
+    assert run.returncode == 3, run.stderr
+    plain = toile.index(tmp_path / "plain")
+    for ours, theirs in zip(lines, plain, strict=True):
+        assert {**ours, "seconds": 0} == {**theirs, "seconds": 0}
+    assert results(store) == results(tmp_path / "plain")
+    for name in results(store):
+        ours, theirs = ((folder / name / "garment.obj").read_bytes() for folder in [store, tmp_path / "plain"])
+        assert ours == theirs
+    # A worker that was killed may have left its folder, which the next batch removes.
+    assert toile.batch(listed, store=store) == lines
+    assert os.listdir(store / ".work") == ["lock"]

@@ -1,0 +1,60 @@
+//! Variants of a garment file: a size of it, and alterations that are given beside it.
+
+use super::decode_alter::{alterations, changes};
+use super::{Refused, tree};
+use crate::alter::carry_out;
+use crate::pattern::{AlterationFile, Findings, GarmentFile, Located, Value};
+
+/// What messages call alterations that stand in no file.
+const SHOWN: &str = "alteration";
+
+/// A garment other than its file draws it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Variant<'a> {
+    /// A size of the garment, as its file names it.
+    pub size: Option<&'a str>,
+    /// Further alterations, carried out in order after those of the file and the size. Each text has one, a list, or
+    /// what a file of changes has: YAML or JSON.
+    pub alter: &'a [String],
+}
+
+impl Variant<'_> {
+    /// Carries out the further alterations.
+    ///
+    /// # Errors
+    /// A text without alterations, or one that cannot be carried out.
+    pub(super) fn carried_out(&self, mut file: GarmentFile) -> Result<GarmentFile, Refused> {
+        for text in self.alter {
+            let mut findings = Findings::new(SHOWN, text);
+            let list = parsed(text, &mut findings);
+            if findings.errors() == 0 {
+                carry_out(&mut file, &list, &mut findings);
+            }
+            if findings.errors() > 0 {
+                return Err(Refused { diagnostics: findings.into_sorted() });
+            }
+        }
+        Ok(file)
+    }
+}
+
+/// Checks a text of alterations without carrying them out, and counts them.
+///
+/// # Errors
+/// Every mistake of the text.
+pub fn alterations_in(text: &str) -> Result<usize, Refused> {
+    let mut findings = Findings::new(SHOWN, text);
+    let list = parsed(text, &mut findings);
+    if findings.errors() > 0 { Err(Refused { diagnostics: findings.into_sorted() }) } else { Ok(list.len()) }
+}
+
+fn parsed(text: &str, findings: &mut Findings) -> Vec<Located<AlterationFile>> {
+    if text.trim().is_empty() {
+        return Vec::new();
+    }
+    let Some(tree) = tree::parse(text, findings) else { return Vec::new() };
+    match &tree.value {
+        Value::Map(entries) if entries.iter().any(|(key, _)| key.value == "alter") => changes(&tree, findings),
+        _ => alterations(&tree, findings),
+    }
+}
