@@ -36,10 +36,10 @@ const APART: f64 = 0.8;
 const KEEP: f64 = 0.9;
 /// The middle of all that is held is drawn back by this share of its way from where it belongs.
 const HOLD: f64 = 0.3;
-/// Distance kept from the body by the innermost ply, metres.
+/// Distance kept from the body, metres.
 const GAP: f64 = 5e-3;
-/// The middles of edges keep this distance from the body in the last steps, beyond what lies under them, metres: a
-/// chord of 25 mm lies 1.4 mm within the circle of a neck.
+/// Distance that the middles of edges keep from the body in the end, metres: a chord of 25 mm lies 1.4 mm within the
+/// circle of a neck. With 4 mm more where folded halves lie beneath, a shirt's cuff came to lie beside its wrist.
 const MIDDLE_GAP: f64 = 3e-3;
 /// The axes start at this share of their thickness.
 const SMALLEST: f64 = 0.02;
@@ -98,8 +98,6 @@ pub(super) struct Balloon<'a> {
     pub(super) held: Vec<Held>,
     /// The ways of the body through it.
     pub(super) ways: &'a [WayOut],
-    /// For every node, how deep plies lie under it that are turned in there, metres.
-    pub(super) under: &'a [f64],
     /// Whether it hangs from the shoulders: nothing of it is held where it settles, and its weight draws straps taut.
     pub(super) hangs: bool,
 }
@@ -136,17 +134,17 @@ impl Balloon<'_> {
         let mut motion = Motion::new(self, x);
         let held = |pressure: f64| Load { pressure, weight: Vec3::zeros(), is_held: true };
         for _ in 0..INFLATE {
-            motion.step(held(1.0), |_, p| axes.outside(p, SMALLEST, GAP));
+            motion.step(held(1.0), |p| axes.outside(p, SMALLEST, GAP));
         }
         for k in 0..GROW {
             let share = (k + 1) as f64 / GROW as f64;
             let scale = SMALLEST + (1.0 - SMALLEST) * share;
-            motion.step(held(1.0 - share), |_, p| axes.outside(p, scale, GAP));
+            motion.step(held(1.0 - share), |p| axes.outside(p, scale, GAP));
         }
         let hung = Load { pressure: 0.0, weight: -Vec3::y() * WEIGHT, is_held: false };
         let settling = if self.hangs { hung } else { held(0.0) };
         for _ in 0..SETTLE {
-            motion.step(settling, |n, p| self.out_of(body, n, p));
+            motion.step(settling, |p| p + way_out(body, p, GAP, LOOK));
         }
         for _ in 0..CLEAR {
             if !motion.clear_middles(body) {
@@ -155,11 +153,6 @@ impl Balloon<'_> {
         }
         motion.x.truncate(x.len());
         motion.x
-    }
-
-    /// Where node `n` at `p` is led to that is in the body, or nearer to it than it keeps.
-    fn out_of(&self, body: &Collider, n: usize, p: Vec3) -> Vec3 {
-        p + way_out(body, p, GAP + self.under[n], LOOK)
     }
 
     /// The mean length of its edges, metres.
@@ -219,7 +212,7 @@ impl<'a> Motion<'a> {
     }
 
     /// One step under a load, clear of a body that leads points `outside` it.
-    fn step(&mut self, load: Load, outside: impl Fn(usize, Vec3) -> Vec3) {
+    fn step(&mut self, load: Load, outside: impl Fn(Vec3) -> Vec3) {
         let push = self.pushed();
         let mut p: Vec<Vec3> = self.x.iter().zip(&self.velocity).map(|(x, v)| x + v).collect();
         p.iter_mut().zip(&push).for_each(|(p, push)| *p += push * (PUSH * load.pressure) + load.weight);
@@ -233,8 +226,8 @@ impl<'a> Motion<'a> {
             let back = held.back(&p);
             held.rim.iter().for_each(|n| p[*n as usize] += back);
         }
-        for (n, (x, p)) in self.x.iter().zip(&mut p).take(self.area.len()).enumerate() {
-            *p = x + short(outside(n, *p) - x);
+        for (x, p) in self.x.iter().zip(&mut p).take(self.area.len()) {
+            *p = x + short(outside(*p) - x);
         }
         self.go(p);
     }
@@ -242,11 +235,9 @@ impl<'a> Motion<'a> {
     /// Moves edges out of the body whose middles are in it, or too near to it, though their ends are not. Returns
     /// whether there were any.
     fn clear_middles(&mut self, body: &Collider) -> bool {
-        let under = self.balloon.under;
         let mut shift = vec![(Vec3::zeros(), 0.0); self.count()];
         for [a, b] in self.balloon.part.edges.iter().map(|length| length.ends.map(|n| n as usize)) {
-            let (middle, gap) = ((self.x[a] + self.x[b]) / 2.0, MIDDLE_GAP + (under[a] + under[b]) / 2.0);
-            let way = way_out(body, middle, gap, LOOK_FROM_MIDDLE);
+            let way = way_out(body, (self.x[a] + self.x[b]) / 2.0, MIDDLE_GAP, LOOK_FROM_MIDDLE);
             if way != Vec3::zeros() {
                 for n in [a, b] {
                     shift[n].0 += way;

@@ -9,7 +9,6 @@ use crate::geometry::{DisjointSets, Locator, Vec2, sorted_pair};
 use crate::mesh::{ClothMesh, PieceMesh};
 use crate::pattern::{Garment, PleatLayer, SeamKind};
 use crate::sew::place::fold::{Sheet, pressed};
-use crate::sew::place::ring::LAYER;
 
 /// No node: of what is left out of the surface.
 const NONE: u32 = u32::MAX;
@@ -56,19 +55,6 @@ pub struct Beyond {
     pub at: Vec2,
     /// Layers out of the right side of the cloth there.
     pub layers: f64,
-}
-
-impl Glued {
-    /// For every node, how deep plies lie under it that are turned in there, metres.
-    pub(super) fn under(&self) -> Vec<f64> {
-        let mut under = vec![0.0; self.count];
-        for follow in self.follows.iter().flatten().filter(|follow| follow.layers < 0.0) {
-            for n in follow.corners.iter().filter_map(|p| self.node_of[*p as usize]) {
-                under[n as usize] = f64::max(under[n as usize], -follow.layers * LAYER);
-            }
-        }
-        under
-    }
 }
 
 /// A place on the cloth of the same piece.

@@ -167,7 +167,6 @@ impl Dealt {
         let sections = film.limbs.iter().flat_map(|limb| sections(&film.rings[limb.ring].ring, limb));
         let held: Vec<Held> = film.rings.iter().filter(is_held).map(of_ring).chain(sections).collect();
         let rims = openings::rims(&self.glued);
-        let under = self.glued.under();
         let mut nodes = film.nodes.clone();
         for number in 0..film.worn.len() as u32 {
             let is_own = |n: u32| self.glued.part_of[n as usize] == number;
@@ -180,7 +179,6 @@ impl Dealt {
                 bending: bending.iter().filter(|l| is_own(l.ends[0])).copied().collect(),
                 held: held.iter().filter(|held| held.rim.first().is_some_and(|n| is_own(*n))).cloned().collect(),
                 ways: star.as_ref().map_or(&[], |star| &star.ways),
-                under: &under,
                 hangs: film.worn[number as usize].hangs(),
             };
             let x = balloon.inflate(star.as_ref().map_or(&film.nodes, |star| &star.nodes), axes, body);
