@@ -9,7 +9,7 @@ use crate::io::files::relative;
 use crate::io::garment::{Drawn, Ranges};
 use crate::mannequin::MannequinSpec;
 
-/// What is drawn from.
+/// The garments, bodies, fabrics and ranges that jobs are drawn from.
 #[derive(Clone, Debug)]
 pub struct Choice {
     /// Garment files, each with a size of it or as it is drawn.

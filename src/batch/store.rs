@@ -23,9 +23,9 @@ use crate::io::files::write_all;
 
 /// The index.
 pub const INDEX: &str = "index.jsonl";
-/// What is known of a job, in its folder.
+/// Name of the file in a job's folder with its record.
 const RECORD: &str = "job.json";
-/// What `toile make` said, in a job's folder.
+/// Name of the file in a job's folder with the output of `toile make`.
 pub(super) const LOG: &str = "log.txt";
 /// Folder of the failures.
 const FAILED: &str = "failed";
@@ -119,7 +119,7 @@ impl Store {
         Ok(Self { root: root.to_owned(), work, lock: Some(lock), next: AtomicUsize::new(0) })
     }
 
-    /// What is known of a job. A failure is unknown if it is to be tried again.
+    /// The record of a job. A failure that is to be tried again has none.
     pub fn record(&self, key: &Key, retry: bool) -> Option<Record> {
         let done = self.read_record(State::Done, key);
         done.or_else(|| self.read_record(State::Failed, key).filter(|_| !retry))

@@ -37,7 +37,7 @@ pub(super) struct Args {
     pub(super) command: Command,
 }
 
-/// What every command takes.
+/// Options of every command.
 #[derive(Debug, clap::Args)]
 pub(super) struct Global {
     /// Say nothing but errors
@@ -323,7 +323,7 @@ pub(super) struct CheckArgs {
     /// Look for crossings in this surface instead, whoever made it
     #[arg(long, value_name = "FILE.obj", conflicts_with = "garments")]
     pub(super) mesh: Option<PathBuf>,
-    /// What the surface should lie on: a mannequin, or a closed OBJ in the same place
+    /// Body that the surface should lie on: a mannequin, or a closed OBJ in the same place
     #[arg(long, value_name = "NAME|FILE.obj", requires = "mesh")]
     pub(super) body: Option<String>,
     /// Unit of the OBJ files [default: guessed from their sizes, and said]
@@ -354,7 +354,7 @@ pub(super) struct FitArgs {
     /// The garment file
     #[arg(value_name = "GARMENT.yaml")]
     pub(super) garment: PathBuf,
-    /// What is wanted, and which alterations may be made [default: the garment's own tests of ease, pressure and hem,
+    /// Wants, and alterations that may be made [default: the garment's own tests of ease, pressure and hem,
     /// or else that no girth is tight; alterations are found]
     #[arg(long, value_name = "WANTS.yaml")]
     pub(super) want: Option<PathBuf>,
@@ -385,7 +385,7 @@ pub(super) struct FlattenArgs {
     /// Folder for the results [default: out/NAME]
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,
-    /// What to keep where not everything can be kept
+    /// Property to keep where not all can be kept
     #[arg(long, value_enum, default_value_t)]
     pub(super) mode: ModeArg,
     /// Unit of the OBJ file [default: guessed from its size, and said]
@@ -495,7 +495,7 @@ pub(super) enum ExportCommand {
     },
 }
 
-/// What every export takes.
+/// Arguments of every export.
 #[derive(Debug, clap::Args)]
 pub(super) struct ExportArgs {
     /// The garment file
@@ -600,7 +600,7 @@ pub(super) enum ImportCommand {
     },
 }
 
-/// What the imports of drawings take.
+/// Arguments of the imports of drawings.
 #[derive(Debug, clap::Args)]
 pub(super) struct DrawingArgs {
     /// The drawing

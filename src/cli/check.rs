@@ -81,7 +81,7 @@ struct StartRow {
     shown: StartShown,
 }
 
-/// What is wrong with a garment file.
+/// The faults of a garment file.
 #[derive(Serialize)]
 struct Findings {
     file: String,
@@ -108,7 +108,7 @@ impl DiagnosticRow {
     }
 }
 
-/// What a right garment file makes. Lengths are mm, areas mm².
+/// The pieces, seams and openings of a garment file without faults. Lengths are mm, areas mm².
 #[derive(Serialize)]
 struct Summary {
     garment: String,
@@ -138,7 +138,7 @@ struct SeamRow {
     b: String,
     length_a: f64,
     length_b: f64,
-    /// What is left once ease, gather or stretch has had its share.
+    /// The difference that is left once ease, gather or stretch has had its share.
     difference: f64,
     give: String,
     /// Notches from the start of each side.

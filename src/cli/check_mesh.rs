@@ -8,7 +8,7 @@ use super::exit::{CliError, Exit};
 use crate::pipeline::judge;
 use crate::report::{Contact, Crossing, contact_lines};
 
-/// What was found, as JSON.
+/// The findings, as JSON.
 #[derive(Serialize)]
 struct Found {
     file: String,

@@ -1,4 +1,4 @@
-//! What is said, and where.
+//! Messages and results on the terminal.
 
 use std::cell::RefCell;
 use std::io::{self, ErrorKind, IsTerminal, Write};

@@ -58,7 +58,7 @@ pub(super) enum CliError {
     Import {
         /// As the user named it.
         file: String,
-        /// What is wrong with it.
+        /// Its fault.
         reason: String,
     },
     /// A picture that is to be written under another name than a PNG file's.
@@ -86,7 +86,7 @@ impl CliError {
         }
     }
 
-    /// What to do, where the message itself does not say.
+    /// The remedy, where the message itself does not say it.
     pub(super) fn help(&self) -> Option<&'static str> {
         match self {
             Self::Pipeline(PipelineError::Sew(SewError::InsideBody { .. } | SewError::UnderFloor { .. })) => {

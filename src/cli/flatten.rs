@@ -44,7 +44,7 @@ fn is_garment(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("yaml") || e.eq_ignore_ascii_case("yml"))
 }
 
-/// What an option was given for that it has no meaning for.
+/// Refuses options that have no meaning for this input.
 fn foreign(args: &FlattenArgs) -> Result<(), CliError> {
     let overrides = args.overrides.checked();
     let wrong = if is_garment(&args.input) {
@@ -200,7 +200,7 @@ fn rim_missed(piece: &PartReport) -> Option<String> {
     Some(said + "; with a dart (--dart auto) or a cut (--cut) the cloth inside has room")
 }
 
-/// What is beyond the limit, why, and what would help.
+/// The part that is beyond the limit, the reason, and the remedy.
 fn strained(piece: &PartReport, options: &SurfaceOptions) -> Option<String> {
     if piece.layable && piece.dart.is_none() && piece.darts_stopped.is_none() {
         return None;

@@ -57,7 +57,7 @@ impl<'a> Goal<'a> {
         }
     }
 
-    /// Names of the files the stages write. What an earlier run has made is not written again.
+    /// Names of the files the stages write. Files of an earlier run are not written again.
     fn files(self) -> Vec<&'static str> {
         let mut names = vec![GARMENT_PNG, REPORT_JSON];
         if matches!(self.start(), Start::Nothing | Start::Folder(_)) {

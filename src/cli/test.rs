@@ -191,7 +191,7 @@ fn beside(garment: &Path, fabric: &str) -> String {
     }
 }
 
-/// What was measured of a garment that was made.
+/// The figures of a garment that was made.
 struct Made {
     bounds: Vec<Verdict>,
     by_test: Vec<Vec<Verdict>>,
@@ -282,7 +282,7 @@ fn tally(outcomes: &[Outcome], passed: Duration) -> String {
     format!("  {good} of {} garments within their bounds, {seconds:.1} s\n", outcomes.len())
 }
 
-/// What was measured, garment by garment, and the time that `passed` on the clock.
+/// The figures, garment by garment, and the time that `passed` on the clock.
 fn table(outcomes: &[Outcome], passed: Duration) -> String {
     let head = ["garment", "bound", "measured", "limit", "", "at", ""];
     let mut rows = vec![head.map(String::from).to_vec()];
@@ -307,7 +307,7 @@ fn row(outcome: &Outcome, v: &Verdict) -> Vec<String> {
     ]
 }
 
-/// What did not succeed and has no figure.
+/// The row of a garment without figures, since it could not be made.
 fn failed(outcome: &Outcome, what: String) -> Vec<String> {
     let mut row = vec![outcome.garment.clone(), what];
     row.extend(["", "", "", "", "NO"].map(String::from));

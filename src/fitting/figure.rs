@@ -68,7 +68,7 @@ impl Figure {
         }
     }
 
-    /// What there is nothing to measure of.
+    /// The message that there is nothing to measure.
     pub(super) fn missing(&self) -> String {
         let why = match &self.want {
             WantFile::Ease(girth, _) | WantFile::Pressure(girth, _) => {
@@ -102,7 +102,7 @@ impl Figure {
         (value - value.clamp(from, to)) / self.tolerance
     }
 
-    /// What is wanted, in words: `60 to 90 mm`.
+    /// The wanted range, in words: `60 to 90 mm`.
     pub(super) fn words(&self) -> String {
         let unit = self.unit;
         match (self.wanted.from, self.wanted.to) {

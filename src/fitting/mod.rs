@@ -24,7 +24,7 @@ use crate::pipeline::{Overrides, PipelineError};
 
 use search::Search;
 
-/// What is asked for.
+/// The garment, its wants, and how they are looked for.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked<'a> {
     /// The garment file.
@@ -45,7 +45,7 @@ pub struct Asked<'a> {
 /// in the end.
 pub const DRAPES: usize = 12;
 
-/// What came of it. Lengths are mm, pressures kPa.
+/// The result. Lengths are mm, pressures kPa.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Fitting {
     /// The garment's name.
@@ -68,7 +68,7 @@ pub struct Fitting {
     pub alter: Vec<String>,
     /// Why the wants cannot be had.
     pub refused: Vec<String>,
-    /// What else is wrong with the altered garment, and was not with the one before.
+    /// Problems of the altered garment that the one before did not have.
     pub problems: Vec<String>,
     /// The new garment file.
     #[serde(skip)]

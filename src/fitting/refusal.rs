@@ -49,7 +49,7 @@ impl Look<'_> {
         of.iter().map(|&w| self.figures[w].off(values[w]).abs()).fold(0.0, f64::max)
     }
 
-    /// What one figure comes to at best.
+    /// The best value of one figure, in words.
     fn best_of(&self, figure: &Figure, value: f64) -> String {
         format!("{} (wanted: {})", figure.shown(value), figure.words())
     }

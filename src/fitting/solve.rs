@@ -76,7 +76,7 @@ impl Model {
         at
     }
 
-    /// What is to be least at a setting: squares of how far figures are off, and of the changes.
+    /// The objective at a setting: squares of how far figures are off, and of the changes.
     fn weight(&self, figures: &[Figure], of: &[usize], ranges: &[[f64; 2]], at: &[f64]) -> f64 {
         let values = self.predicted(at);
         let off: f64 = of.iter().map(|&w| figures[w].off(values[w]).powi(2)).sum();

@@ -12,7 +12,7 @@ use crate::io::garment::seam_line;
 use crate::io::svg_read::{SvgOptions, read_svg};
 use crate::pattern::SeamFile;
 
-/// What `--size` says where every size is wanted.
+/// The value of `--size` for every size.
 const ALL: &str = "all";
 
 /// `toile import svg FILE.svg -o GARMENT.yaml`

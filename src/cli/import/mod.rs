@@ -53,11 +53,11 @@ struct Imported<'a> {
     target: &'a TargetArgs,
     file: &'a GarmentFile,
     seams: Seams<'a>,
-    /// What is wrong with what it was read from.
+    /// The faults of the input.
     complaints: Vec<String>,
 }
 
-/// What is known of the seams of a pattern.
+/// The seams of a pattern that are known.
 enum Seams<'a> {
     /// Those of the file.
     Read,
@@ -94,7 +94,7 @@ fn unwritable(error: EncodeError) -> CliError {
     CliError::Argument(error.to_string())
 }
 
-/// What was made of it.
+/// The result.
 #[derive(Serialize)]
 struct Summary {
     file: String,
