@@ -1,5 +1,7 @@
 //! `alter`: a pattern altered and written as a new garment file.
 
+use std::path::Path;
+
 use serde::Serialize;
 
 use super::args::AlterArgs;
@@ -34,7 +36,7 @@ pub(super) fn alter(args: &AlterArgs, console: &Console) -> Result<Exit, CliErro
     let changed = change(&args.garment, &args.changes, &shown).map_err(PipelineError::from)?;
     write_all(&[(args.output.clone(), changed.text.clone().into_bytes())], &inputs)?;
     if !changed.in_place {
-        console.note(&format!("{shown} is written anew, without the comments of {}", args.garment.display()));
+        note_written_anew(&args.output, &args.garment, console);
     }
     let written = Written::new(shown, &changed);
     console.results(&written, || written.text())?;
@@ -45,6 +47,11 @@ pub(super) fn alter(args: &AlterArgs, console: &Console) -> Result<Exit, CliErro
             Ok(Exit::OutOfBounds)
         }
     }
+}
+
+/// Says that a garment file was not only changed.
+pub(super) fn note_written_anew(new: &Path, old: &Path, console: &Console) {
+    console.note(&format!("{} is written anew, without the comments of {}", new.display(), old.display()));
 }
 
 impl Written {

@@ -1,6 +1,6 @@
 //! `export`: patterns for cutting.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::args::{ExportArgs, ExportCommand, PageArg};
 use super::console::Console;
@@ -11,6 +11,7 @@ use crate::cutting::{DEFAULT_ALLOWANCE, Label, Layout, MarkKind, Narrowed, Optio
 use crate::geometry::MM;
 use crate::io::dxf_write::cutting_dxf;
 use crate::io::files::write_all;
+use crate::io::garment::Loaded;
 use crate::io::pdf_write::{Page, one_page, tiled, unprintable};
 use crate::io::svg_write::cutting_svg;
 use crate::pattern::{Drawing, drawings};
@@ -71,16 +72,8 @@ struct Job<'a> {
 
 impl<'a> Job<'a> {
     fn new(args: &'a ExportArgs, console: &Console) -> Result<Self, CliError> {
-        let loaded = read_size(&args.garment, args.size.as_deref())?;
-        loaded.warnings.iter().for_each(|warning| console.note(&warning.to_string()));
-        let drawn = drawings(&loaded.file, &loaded.garment);
-        if args.allowance.is_none() && drawn.iter().any(lacks_allowance) {
-            let usual = DEFAULT_ALLOWANCE * MM;
-            console.note(&format!(
-                "the file does not give every edge an allowance; these get {usual} mm (--allowance MM for another)"
-            ));
-        }
-        let allowance = args.allowance.map_or(DEFAULT_ALLOWANCE, |mm| mm / MM);
+        let Drawn { loaded, drawings: drawn, allowance } =
+            Drawn::read(&args.garment, args.size.as_deref(), args.allowance, "the file", console)?;
         let label = Label { title: loaded.garment.title.clone(), wearer: args.wearer.clone(), date: args.date.clone() };
         let papers = labelled(&drawn, &Options { allowance, whole: args.whole }, &label);
         papers.iter().flat_map(narrowed).for_each(|note| console.note(&note));
@@ -111,8 +104,38 @@ impl<'a> Job<'a> {
     }
 }
 
+/// A garment as it is drawn, to be cut.
+pub(super) struct Drawn {
+    pub(super) loaded: Loaded,
+    pub(super) drawings: Vec<Drawing>,
+    /// Seam allowance of edges for which the file gives none, metres.
+    pub(super) allowance: f64,
+}
+
+impl Drawn {
+    /// Reads a size of a garment file, which messages call `shown`. `allowance` is the one asked for, mm.
+    pub(super) fn read(
+        file: &Path,
+        size: Option<&str>,
+        allowance: Option<f64>,
+        shown: &str,
+        console: &Console,
+    ) -> Result<Self, CliError> {
+        let loaded = read_size(file, size)?;
+        loaded.warnings.iter().for_each(|warning| console.note(&warning.to_string()));
+        let drawings = drawings(&loaded.file, &loaded.garment);
+        if allowance.is_none() && drawings.iter().any(lacks_allowance) {
+            let usual = DEFAULT_ALLOWANCE * MM;
+            console.note(&format!(
+                "{shown} does not give every edge an allowance; these get {usual} mm (--allowance MM for another)"
+            ));
+        }
+        Ok(Self { loaded, drawings, allowance: allowance.map_or(DEFAULT_ALLOWANCE, |mm| mm / MM) })
+    }
+}
+
 /// Whether an edge that will be cut has no allowance of its own.
-pub(super) fn lacks_allowance(drawing: &Drawing) -> bool {
+fn lacks_allowance(drawing: &Drawing) -> bool {
     let outline = drawing.rings[0].iter().enumerate().filter(|(i, _)| drawing.is_cut(*i)).map(|(_, edge)| edge);
     let sewn_holes = drawing.rings[1..].iter().flatten().filter(|edge| edge.is_sewn());
     outline.chain(sewn_holes).any(|edge| edge.allowance.width.is_none())
@@ -140,7 +163,7 @@ pub(super) fn narrowed(paper: &Paper) -> Vec<String> {
     paper.narrowed.iter().map(note).collect()
 }
 
-/// What was written. Lengths are mm.
+/// The file that was written, and its pieces. Lengths are mm.
 #[derive(serde::Serialize)]
 struct Written {
     file: String,

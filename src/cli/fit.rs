@@ -1,5 +1,6 @@
 //! `fit`: the alterations that give a garment the fit that is wanted.
 
+use super::alter::note_written_anew;
 use super::args::FitArgs;
 use super::console::Console;
 use super::exit::{CliError, Exit};
@@ -52,11 +53,7 @@ fn write(args: &FitArgs, found: &Fitting, inputs: &[std::path::PathBuf], console
     let Some((file, new)) = args.output.as_ref().zip(found.new.as_ref()) else { return Ok(()) };
     write_all(&[(file.clone(), new.text.clone().into_bytes())], &borrowed(inputs))?;
     if !new.in_place {
-        console.note(&format!(
-            "{} is written anew, without the comments of {}",
-            file.display(),
-            args.garment.display()
-        ));
+        note_written_anew(file, &args.garment, console);
     }
     Ok(())
 }

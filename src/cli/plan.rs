@@ -7,18 +7,17 @@ use serde::Serialize;
 use super::args::PlanArgs;
 use super::console::Console;
 use super::exit::{CliError, Exit};
-use super::export::{lacks_allowance, narrowed};
+use super::export::{Drawn, narrowed};
 use super::make::{borrowed, folder};
-use crate::cutting::{DEFAULT_ALLOWANCE, Label, Laid, Options, Paper, Plan, PlanOptions, labelled, plan_sheet, plans};
+use crate::cutting::{Label, Laid, Options, Paper, Plan, PlanOptions, labelled, plan_sheet, plans};
 use crate::geometry::{MM, box_of};
 use crate::io::files::{check_writable, write_all};
 use crate::io::pdf_write::one_page;
 use crate::io::svg_write::cutting_svg;
-use crate::pattern::drawings;
-use crate::pipeline::{Overrides, inputs, read_size};
+use crate::pipeline::{Overrides, inputs};
 use crate::report::aligned;
 
-/// What is printed. Lengths are mm, areas mm².
+/// The result that is printed. Lengths are mm, areas mm².
 #[derive(Serialize)]
 struct Written {
     files: Vec<String>,
@@ -116,19 +115,12 @@ struct Pieces {
 
 impl Pieces {
     fn read(args: &PlanArgs, console: &Console) -> Result<Self, CliError> {
-        let allowance = args.allowance.map_or(DEFAULT_ALLOWANCE, |mm| mm / MM);
         let mut out = Self { drawn: vec![], whole: vec![], name: String::new(), title: String::new(), inputs: vec![] };
         let (mut names, mut titles) = (Vec::new(), Vec::new());
         for file in &args.garments {
-            let loaded = read_size(file, args.size.as_deref())?;
-            loaded.warnings.iter().for_each(|warning| console.note(&warning.to_string()));
-            let drawn = drawings(&loaded.file, &loaded.garment);
-            if args.allowance.is_none() && drawn.iter().any(lacks_allowance) {
-                let (file, usual) = (file.display(), DEFAULT_ALLOWANCE * MM);
-                console.note(&format!(
-                    "{file} does not give every edge an allowance; these get {usual} mm (--allowance MM for another)"
-                ));
-            }
+            let shown = file.display().to_string();
+            let Drawn { loaded, drawings, allowance } =
+                Drawn::read(file, args.size.as_deref(), args.allowance, &shown, console)?;
             let label = Label { title: loaded.garment.title.clone(), wearer: None, date: None };
             // Pieces of several garments may have one name.
             let named = |paper: Paper| match args.garments.len() {
@@ -136,7 +128,7 @@ impl Pieces {
                 _ => Paper { name: format!("{}/{}", loaded.garment.name, paper.name), ..paper },
             };
             for (whole, papers) in [(false, &mut out.drawn), (true, &mut out.whole)] {
-                papers.extend(labelled(&drawn, &Options { allowance, whole }, &label).into_iter().map(named));
+                papers.extend(labelled(&drawings, &Options { allowance, whole }, &label).into_iter().map(named));
             }
             out.inputs.extend(inputs(file, &loaded.garment, &Overrides::default()));
             names.push(loaded.garment.name.clone());

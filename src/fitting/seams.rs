@@ -155,7 +155,7 @@ fn crossing(plane: &Plane, k: usize, seam: &Seam, job: &Job, at: &[Vec3]) -> Opt
     };
     let point = place(line[step]).lerp(&place(line[step + 1]), share);
     // At an armpit a side seam is nearer to the arm.
-    let is_there = |p: Vec3| nearest_part(&job.body, p).is_some_and(|part| plane.has(part));
+    let is_there = |p: Vec3| job.body.nearest_section(p).is_some_and(|(part, _)| plane.has(part));
     let most = || 2 * line.iter().filter(|n| is_there(place(**n))).count() >= line.len();
     if !is_there(point) && !most() {
         return None;
@@ -165,13 +165,4 @@ fn crossing(plane: &Plane, k: usize, seam: &Seam, job: &Job, at: &[Vec3]) -> Opt
     let edge = &job.garment.pieces[span.edge.piece].loops[span.edge.ring][span.edge.index];
     let as_drawn = (span.to > span.from) != edge.against;
     Some((if as_drawn { along } else { 1.0 - along }, point))
-}
-
-/// The part of the body whose skin a point is nearest to.
-pub(super) fn nearest_part(body: &Mannequin, p: Vec3) -> Option<PartKind> {
-    let far = |part: &BodyPart| {
-        let from = |s: &crate::mannequin::Section| (s.center - p).norm() - 0.5 * (s.half_width + s.half_depth);
-        part.sections.iter().map(from).fold(f64::INFINITY, f64::min)
-    };
-    body.parts.iter().min_by(|a, b| far(a).total_cmp(&far(b))).map(|part| part.kind)
 }

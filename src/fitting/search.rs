@@ -50,8 +50,8 @@ pub(super) struct Search<'a> {
     refused: Vec<String>,
 }
 
-/// Amounts and figures of a garment that was draped.
-type Tried = (Vec<f64>, Draped);
+/// Amounts of a garment that was draped, its figures and the drape.
+type Tried = (Vec<f64>, Vec<f64>, Draped);
 
 impl<'a> Search<'a> {
     /// Drapes the garment, and finds its figures and knobs.
@@ -215,8 +215,8 @@ impl<'a> Search<'a> {
             if self.drapes + 2 >= self.asked.drapes {
                 return Ok(false);
             }
-            if let Some((at, draped)) = self.made(at, progress) {
-                return Ok(self.taken((at, draped)));
+            if let Some(tried) = self.made(at, progress) {
+                return Ok(self.taken(tried));
             }
             share *= 0.5;
         }
@@ -229,12 +229,11 @@ impl<'a> Search<'a> {
         self.drapes += 1;
         let name = format!("drape {}", self.drapes);
         let draped = drape(self.asked, &new, self.hanging.as_ref(), &mut |share| progress(&name, share)).ok()?;
-        self.values(&draped.report).map(|_| (at, draped))
+        self.values(&draped.report).map(|values| (at, values, draped))
     }
 
     /// Learns from a step, and goes there if it is better. False where it is hardly so.
-    fn taken(&mut self, (at, draped): Tried) -> bool {
-        let Some(values) = self.values(&draped.report) else { return false };
+    fn taken(&mut self, (at, values, draped): Tried) -> bool {
         let (before, after) = (cost(&self.figures, &self.model.values), cost(&self.figures, &values));
         self.model.learn(&at, &values);
         if after < before {
@@ -255,7 +254,7 @@ impl<'a> Search<'a> {
         Ok((New { alterations: list, text: new.text, in_place: new.in_place }, draped))
     }
 
-    /// What is wrong with a garment, and was not with the one before.
+    /// Problems of a garment that the one before did not have.
     fn worse(&self, report: &Report) -> Vec<String> {
         // Figures differ in any case: texts are compared up to their first number.
         let kind = |text: &str| text.split(|c: char| c.is_ascii_digit()).next().unwrap_or_default().to_owned();

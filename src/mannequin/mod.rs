@@ -117,6 +117,14 @@ impl Mannequin {
         self.parts.iter().find(|part| part.kind == kind)
     }
 
+    /// The section whose skin a point is nearest to, taking sections as spheres of their mean radius, and its part.
+    /// `None` on a body without parts.
+    pub fn nearest_section(&self, at: Vec3) -> Option<(PartKind, &Section)> {
+        let sections = self.parts.iter().flat_map(|part| part.sections.iter().map(move |section| (part.kind, section)));
+        let off = |section: &Section| (at - section.center).norm() - 0.5 * (section.half_width + section.half_depth);
+        sections.min_by(|a, b| off(a.1).total_cmp(&off(b.1)))
+    }
+
     /// Length of a tape round the body in the plane through `at` square to the unit `axis`, metres. It goes round those
     /// closed curves of the section whose middles satisfy `is_in`. `None` if there are none.
     pub fn tape(&self, at: Vec3, axis: Vec3, is_in: impl Fn(Vec3) -> bool) -> Option<f64> {

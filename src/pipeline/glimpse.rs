@@ -30,7 +30,6 @@ impl Job {
         let half = [0, 1].map(|k| (layout.size[k] / 2).max(PictureLayout::SMALLEST[k]));
         let layout = PictureLayout { size: half, ..layout.clone() };
         let dressed = Dressed::new(glimpse.mesh, glimpse.class, glimpse.at, None);
-        let subtitle = format!("{}, {}", self.body.name, self.fabric_names());
-        Ok(draw(&dressed.scene(&self.body.mesh, &self.garment.title, &subtitle), &layout)?)
+        Ok(draw(&dressed.scene(&self.body.mesh, &self.garment.title, &self.subtitle()), &layout)?)
     }
 }

@@ -166,6 +166,11 @@ impl Job {
         Ok(Self { file, garment, fabrics, body, collider, stance, mesh, bands, notes, meshing })
     }
 
+    /// The smaller text of its pictures: the body and the fabrics.
+    pub(super) fn subtitle(&self) -> String {
+        format!("{}, {}", self.body.name, self.fabric_names())
+    }
+
     /// Names of the fabrics in use, joined with ` + `.
     pub fn fabric_names(&self) -> String {
         cloth::names(&self.fabrics)

@@ -199,7 +199,7 @@ pub(super) fn name_bounded_fabrics(file: &Path, loaded: &mut Loaded) -> Result<(
             fabric.clone_from(name);
         }
     }
-    if findings.errors() > 0 { Err(Refused { diagnostics: findings.into_sorted() }) } else { Ok(()) }
+    garment::refuse(findings)
 }
 
 /// Fabrics by piece, and notes on them.

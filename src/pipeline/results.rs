@@ -149,11 +149,10 @@ impl Run<'_> {
             let group: Vec<u32> = group.collect();
             dressed = dressed.grouped(&group, names);
         }
-        let subtitle = format!("{}, {}", job.body.name, job.fabric_names());
         // What has not been sewn is round the body as that is sewn on.
         let apart = job.stance.as_ref().filter(|_| self.open || self.last().is_none());
         let body = apart.map_or(&job.body, |stance| &stance.body);
-        Ok(draw(&dressed.scene(&body.mesh, &job.garment.title, &subtitle))?)
+        Ok(draw(&dressed.scene(&body.mesh, &job.garment.title, &job.subtitle()))?)
     }
 
     /// The values that colour the cloth, one per particle. None where it has the colours of its pieces.

@@ -18,9 +18,7 @@ impl<'a> Run<'a> {
     /// # Errors
     /// A file of the folder that is missing or cannot be read.
     pub fn continued(job: &'a Job, folder: &Path) -> Result<Self, PipelineError> {
-        let mut run = Self::new(job);
-        run.earlier = Some(Earlier::read(folder, &job.body)?);
-        Ok(run)
+        Ok(Self::going_on(job, Earlier::read(folder, &job.body)?))
     }
 
     /// As [`Run::continued`], from the result of a run of this process.
@@ -35,9 +33,7 @@ impl<'a> Run<'a> {
     /// # Errors
     /// Files that are no result, or do not belong together.
     pub fn continued_from(job: &'a Job, files: &EarlierFiles) -> Result<Self, PipelineError> {
-        let mut run = Self::new(job);
-        run.earlier = Some(Earlier::parse(files, &job.body)?);
-        Ok(run)
+        Ok(Self::going_on(job, Earlier::parse(files, &job.body)?))
     }
 
     /// Loads the garment as sewn by an earlier run from its `sewn.obj`, to continue with draping.

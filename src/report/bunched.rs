@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use super::schema::Bunched;
 use crate::geometry::{DisjointSets, MM, Vec3};
-use crate::mannequin::{Mannequin, Section};
+use crate::mannequin::Mannequin;
 use crate::mesh::ClothMesh;
 use crate::pattern::{Garment, SeamKind};
 use crate::verify::{Layer, Layers, Welded};
@@ -136,9 +136,7 @@ impl<'a> Cloth<'a> {
 
 /// The part of the body at a place, and the side of its axis. `None` on a body without parts.
 fn spot(at: Vec3, body: &Mannequin) -> Option<(String, String)> {
-    let sections = body.parts.iter().flat_map(|part| part.sections.iter().map(move |section| (part.kind, section)));
-    let off = |section: &Section| (at - section.center).norm() - 0.5 * (section.half_width + section.half_depth);
-    let (kind, section) = sections.min_by(|a, b| off(a.1).total_cmp(&off(b.1)))?;
+    let (kind, section) = body.nearest_section(at)?;
     let way = at - section.center;
     // The body faces +z, and its left is at +x.
     let side = match (way.x.abs() > way.z.abs(), way.x > 0.0, way.z > 0.0) {

@@ -10,6 +10,7 @@ mod strip;
 
 use nalgebra::Matrix2;
 
+use super::clean::double_area;
 use super::{Cloth, Paper, Sheet};
 use crate::geometry::{MM, Vec2, box_of};
 use columns::Columns;
@@ -136,7 +137,7 @@ fn plan(drawn: &[Paper], whole: &[Paper], options: &PlanOptions) -> Result<Plan,
         width: options.width,
         folded,
         open,
-        area: whole.iter().map(|p| area(&outline(p))).sum(),
+        area: whole.iter().map(|p| 0.5 * double_area(&outline(p)).abs()).sum(),
         papers,
     })
 }
@@ -159,10 +160,6 @@ fn outline(paper: &Paper) -> Vec<Vec2> {
     // A half runs from the end of its fold to its start: the fold closes it.
     points.extend(paper.fold.iter().flatten().take(1));
     points
-}
-
-fn area(points: &[Vec2]) -> f64 {
-    0.5 * points.iter().zip(points.iter().cycle().skip(1)).map(|(p, q)| p.perp(q)).sum::<f64>().abs()
 }
 
 fn way_size(paper: &Paper) -> Vec2 {

@@ -1,13 +1,15 @@
 //! Alterations added to the text of a garment file, which keeps its words and comments.
 
+use std::ops::Range;
+
 use super::encode::alteration_line;
 use super::{Refused, read_file_only, write};
-use crate::pattern::{AlterationFile, Findings, GarmentFile, Located, Problem, Spot};
+use crate::pattern::{AlterationFile, GarmentFile, Located, Problem, Spot};
 
 /// A garment file with alterations added.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Appended {
-    /// What is to be written.
+    /// The text to write.
     pub text: String,
     /// Whether that is the old text and the new lines. Otherwise it is written anew, without its comments.
     pub in_place: bool,
@@ -22,11 +24,7 @@ pub fn appended(shown: &str, text: &str, list: &[AlterationFile]) -> Result<Appe
     let old = read_file_only(shown, text)?;
     let added = list.iter().map(|a| Located::new(a.clone(), Spot::default()));
     let new = GarmentFile { alter: old.alter.iter().cloned().chain(added).collect(), ..old };
-    let unwritable = |why: String| {
-        let mut findings = Findings::new(shown, "");
-        findings.error(Spot::default(), Problem::Unreadable(why));
-        Refused { diagnostics: findings.into_sorted() }
-    };
+    let unwritable = |why: String| Refused::whole(shown, Problem::Unreadable(why));
     let lines: Vec<String> =
         list.iter().map(alteration_line).collect::<Result<_, _>>().map_err(|e| unwritable(e.to_string()))?;
     let candidate = with_lines(text, &lines);
@@ -40,16 +38,15 @@ pub fn appended(shown: &str, text: &str, list: &[AlterationFile]) -> Result<Appe
 /// The text with these items at the end of its list `alter`, as far as that is a list of the usual form.
 fn with_lines(text: &str, items: &[String]) -> String {
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
-    let Some(first) = lines.iter().position(|line| line.starts_with("alter:")) else {
+    let Some(block) = alter_block(&lines) else {
         lines.extend([String::new(), "alter:".to_owned()]);
         lines.extend(items.iter().map(|item| format!("  - {item}")));
         return lines.join("\n") + "\n";
     };
-    let inner = |line: &&String| line.starts_with([' ', '-', '\t']) || line.trim().is_empty();
-    let count = lines[first + 1..].iter().take_while(inner).count();
-    let last = (first..=first + count).rev().find(|k| is_said(&lines[*k])).unwrap_or(first);
-    let block = lines[first + 1..=last].iter().find(|line| line.trim_start().starts_with("- "));
-    match block {
+    let first = block.start;
+    let last = block.clone().rev().find(|k| is_said(&lines[*k])).unwrap_or(first);
+    let item = lines[first + 1..=last].iter().find(|line| line.trim_start().starts_with("- "));
+    match item {
         Some(item) => {
             let indent = item.len() - item.trim_start().len();
             let new = items.iter().map(|item| format!("{}- {item}", " ".repeat(indent)));
@@ -64,6 +61,13 @@ fn with_lines(text: &str, items: &[String]) -> String {
         }
     }
     lines.join("\n") + "\n"
+}
+
+/// The lines of the list `alter` with its key, as far as it is written in the usual form. `None` where there is none.
+pub(super) fn alter_block(lines: &[String]) -> Option<Range<usize>> {
+    let first = lines.iter().position(|line| line.starts_with("alter:"))?;
+    let inner = |line: &&String| line.starts_with([' ', '-', '\t']) || line.trim().is_empty();
+    Some(first..first + 1 + lines[first + 1..].iter().take_while(inner).count())
 }
 
 /// Whether a line holds more than a remark.

@@ -2,8 +2,11 @@
 
 use std::path::Path;
 
+use super::append::alter_block;
 use super::decode_alter::changes;
-use super::{Refused, Variant, examine_text, read_file_only, source, tree, write};
+use super::refuse::{refuse, text_of};
+use super::variant::carry_out_read;
+use super::{Refused, Variant, examine_text, read_file_only, tree, write};
 use crate::alter::{carry_out, edge_lengths};
 use crate::pattern::{DartFile, DartShape, Findings, GarmentFile, Located, Problem, Quantity, Spot};
 
@@ -40,7 +43,7 @@ pub struct EdgeChange {
 /// # Errors
 /// [`Refused`] when one of the files cannot be read or an alteration cannot be done.
 pub fn change(garment: &Path, changes: &Path, shown: &str) -> Result<Changed, Refused> {
-    changed(&source_text(garment)?, garment, shown, |new| alter_by(new, changes))
+    changed(&text_of(garment)?, garment, shown, |new| alter_by(new, changes))
 }
 
 /// As [`change`], of the text of a garment file called `shown`, with alterations as [`Variant`] has them.
@@ -71,34 +74,18 @@ fn changed(
     let in_place = patched.is_some();
     let text = match patched {
         Some(text) => text,
-        None => write(&new).map_err(|e| refused(garment, Problem::Unreadable(e.to_string())))?,
+        None => write(&new)
+            .map_err(|e| Refused::whole(&garment.display().to_string(), Problem::Unreadable(e.to_string())))?,
     };
     let refused = examine_text("altered", shown, &text).finish().err();
     Ok(Changed { text, in_place, edges: differences(&old, &new), refused })
 }
 
 fn alter_by(file: &mut GarmentFile, path: &Path) -> Result<(), Refused> {
-    let text = source_text(path)?;
+    let text = text_of(path)?;
     let mut findings = Findings::new(&path.display().to_string(), &text);
     let list = tree::parse(&text, &mut findings).map_or_else(Vec::new, |tree| changes(&tree, &mut findings));
-    if findings.errors() == 0 {
-        carry_out(file, &list, &mut findings);
-    }
-    refuse(findings)
-}
-
-fn refuse(findings: Findings) -> Result<(), Refused> {
-    if findings.errors() == 0 { Ok(()) } else { Err(Refused { diagnostics: findings.into_sorted() }) }
-}
-
-fn refused(path: &Path, problem: Problem) -> Refused {
-    let mut findings = Findings::new(&path.display().to_string(), "");
-    findings.error(Spot::default(), problem);
-    Refused { diagnostics: findings.into_sorted() }
-}
-
-fn source_text(path: &Path) -> Result<String, Refused> {
-    source::text(path).map_err(|problem| refused(path, problem))
+    carry_out_read(file, &list, findings)
 }
 
 fn differences(old: &GarmentFile, new: &GarmentFile) -> Vec<EdgeChange> {
@@ -202,10 +189,8 @@ fn replace(lines: &mut Vec<String>, (at, new): &Patch) {
 
 /// The lines without the list of alterations, which are carried out.
 fn without_alter(mut lines: Vec<String>) -> Vec<String> {
-    if let Some(first) = lines.iter().position(|l| l.starts_with("alter:")) {
-        let inner = |l: &&String| l.starts_with([' ', '-']) || l.trim().is_empty();
-        let count = lines[first + 1..].iter().take_while(inner).count();
-        lines.drain(first..=first + count);
+    if let Some(block) = alter_block(&lines) {
+        lines.drain(block);
     }
     lines
 }

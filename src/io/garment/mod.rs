@@ -15,11 +15,11 @@ mod encode;
 mod fields;
 mod layout;
 mod ranges;
+mod refuse;
 mod source;
 mod tree;
 mod variant;
 
-use std::fmt;
 use std::path::Path;
 
 use crate::alter::{altered, carry_out};
@@ -31,6 +31,9 @@ pub use append::{Appended, appended};
 pub use change::{Changed, EdgeChange, change, change_text};
 pub use encode::{EncodeError, alteration_line, seam_line, write, write_with_offers};
 pub use ranges::{Drawn, Ranges};
+pub use refuse::Refused;
+pub(crate) use refuse::refuse;
+use refuse::{accept, text_of};
 pub use variant::{Variant, alterations_in};
 
 /// JSON Schema (2020-12) of the format, for editors that complete and check as one types.
@@ -120,28 +123,6 @@ impl Examined {
     }
 }
 
-/// A garment file that cannot be used: everything found in it, errors and warnings, in the order of the file. Of very
-/// many it holds the first of either, and last how many more there are.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Refused {
-    /// At least one of them is an error.
-    pub diagnostics: Vec<Diagnostic>,
-}
-
-impl fmt::Display for Refused {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, diagnostic) in self.diagnostics.iter().enumerate() {
-            if i > 0 {
-                writeln!(f)?;
-            }
-            write!(f, "{diagnostic}")?;
-        }
-        Ok(())
-    }
-}
-
-impl std::error::Error for Refused {}
-
 /// Reads and checks a garment file.
 ///
 /// # Errors
@@ -186,14 +167,12 @@ pub fn examine_size(path: &Path, size: Option<&str>) -> Examined {
 
 /// As [`examine_size`], with further alterations.
 pub fn examine_variant(path: &Path, variant: Variant) -> Examined {
-    let size = variant.size;
-    let said = size.map_or_else(String::new, |size| format!(" (size {size})"));
-    let shown = format!("{}{said}", path.display());
+    let shown = path.display().to_string();
     let name = path.file_stem().map_or_else(|| shown.clone(), |s| s.to_string_lossy().into_owned());
-    let name = size.map_or_else(|| name.clone(), |size| format!("{name}-{size}"));
     match source::text(path) {
-        Ok(text) => examined(&name, &shown, &text, variant),
+        Ok(text) => examine_text_variant(&name, &shown, &text, variant),
         Err(problem) => {
+            let (_, shown) = of_size(&name, &shown, variant.size);
             let mut findings = Findings::new(&shown, "");
             findings.error(Spot::default(), problem);
             let source = Source { shown, text: String::new() };
@@ -209,11 +188,16 @@ pub fn examine_text(name: &str, shown: &str, text: &str) -> Examined {
 
 /// As [`examine_text`], of a variant of the garment. The name ends with the size.
 pub fn examine_text_variant(name: &str, shown: &str, text: &str, variant: Variant) -> Examined {
-    let (name, shown) = match variant.size {
+    let (name, shown) = of_size(name, shown, variant.size);
+    examined(&name, &shown, text, variant)
+}
+
+/// The names of a garment and its file with that of its size.
+fn of_size(name: &str, shown: &str, size: Option<&str>) -> (String, String) {
+    match size {
         Some(size) => (format!("{name}-{size}"), format!("{shown} (size {size})")),
         None => (name.to_owned(), shown.to_owned()),
-    };
-    examined(&name, &shown, text, variant)
+    }
 }
 
 fn examined(name: &str, shown: &str, text: &str, variant: Variant) -> Examined {
@@ -235,15 +219,7 @@ fn examined(name: &str, shown: &str, text: &str, variant: Variant) -> Examined {
 /// # Errors
 /// [`Refused`] with every mistake of the file.
 pub fn read_wants(path: &Path, unit: Unit) -> Result<WantsFile, Refused> {
-    let shown = path.display().to_string();
-    match source::text(path) {
-        Ok(text) => wants_of(&shown, &text, unit),
-        Err(problem) => {
-            let mut findings = Findings::new(&shown, "");
-            findings.error(Spot::default(), problem);
-            Err(Refused { diagnostics: findings.into_sorted() })
-        }
-    }
+    wants_of(&path.display().to_string(), &text_of(path)?, unit)
 }
 
 /// As [`read_wants`], from text; `shown` is the file's name in messages.
@@ -257,7 +233,7 @@ pub fn wants_of(shown: &str, text: &str, unit: Unit) -> Result<WantsFile, Refuse
     if findings.errors() == 0 && read.wants.is_empty() {
         findings.error(Spot::default(), Problem::NoWants);
     }
-    if findings.errors() == 0 { Ok(read) } else { Err(Refused { diagnostics: findings.into_sorted() }) }
+    refuse(findings).map(|()| read)
 }
 
 /// Reads what a garment file says without checking that it makes a garment.
@@ -267,8 +243,5 @@ pub fn wants_of(shown: &str, text: &str, unit: Unit) -> Result<WantsFile, Refuse
 pub fn read_file_only(shown: &str, text: &str) -> Result<GarmentFile, Refused> {
     let mut findings = Findings::new(shown, text);
     let file = tree::parse(text, &mut findings).and_then(|tree| decode::garment(&tree, &mut findings));
-    match file {
-        Some(file) if findings.errors() == 0 => Ok(file),
-        _ => Err(Refused { diagnostics: findings.into_sorted() }),
-    }
+    accept(file, findings)
 }

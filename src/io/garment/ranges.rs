@@ -5,8 +5,9 @@ use std::path::Path;
 use serde_json::{Map, Value as Json};
 
 use super::fields::{Fields, entries, items, quantity, wrong};
-use super::{Refused, source, tree};
-use crate::pattern::{Findings, Located, Problem, Quantity, Spot, Unit, Value};
+use super::refuse::{accept, text_of};
+use super::{Refused, tree};
+use crate::pattern::{Findings, Located, Problem, Quantity, Unit, Value};
 
 /// Drawn numbers have three decimals, so that lists are short and read the same everywhere.
 const STEPS: f64 = 1e3;
@@ -51,15 +52,7 @@ impl Ranges {
     /// # Errors
     /// Every mistake of the file with its place.
     pub fn read(path: &Path) -> Result<Self, Refused> {
-        let shown = path.display().to_string();
-        match source::text(path) {
-            Ok(text) => Self::parse(&text, &shown),
-            Err(problem) => {
-                let mut findings = Findings::new(&shown, "");
-                findings.error(Spot::default(), problem);
-                Err(Refused { diagnostics: findings.into_sorted() })
-            }
-        }
+        Self::parse(&text_of(path)?, &path.display().to_string())
     }
 
     /// Reads a text; `shown` names it in errors.
@@ -69,10 +62,7 @@ impl Ranges {
     pub fn parse(text: &str, shown: &str) -> Result<Self, Refused> {
         let mut findings = Findings::new(shown, text);
         let ranges = tree::parse(text, &mut findings).and_then(|tree| file(&tree, &mut findings));
-        match ranges {
-            Some(ranges) if findings.errors() == 0 => Ok(ranges),
-            _ => Err(Refused { diagnostics: findings.into_sorted() }),
-        }
+        accept(ranges, findings)
     }
 
     /// Whether there is no range, so that every variant is the same.

@@ -1,6 +1,7 @@
 //! Variants of a garment file: a size of it, and alterations that are given beside it.
 
 use super::decode_alter::{alterations, changes};
+use super::refuse::refuse;
 use super::{Refused, tree};
 use crate::alter::carry_out;
 use crate::pattern::{AlterationFile, Findings, GarmentFile, Located, Value};
@@ -27,15 +28,25 @@ impl Variant<'_> {
         for text in self.alter {
             let mut findings = Findings::new(SHOWN, text);
             let list = parsed(text, &mut findings);
-            if findings.errors() == 0 {
-                carry_out(&mut file, &list, &mut findings);
-            }
-            if findings.errors() > 0 {
-                return Err(Refused { diagnostics: findings.into_sorted() });
-            }
+            carry_out_read(&mut file, &list, findings)?;
         }
         Ok(file)
     }
+}
+
+/// Carries out alterations that have just been read, unless that found an error.
+///
+/// # Errors
+/// The findings, if one of them is an error.
+pub(super) fn carry_out_read(
+    file: &mut GarmentFile,
+    list: &[Located<AlterationFile>],
+    mut findings: Findings,
+) -> Result<(), Refused> {
+    if findings.errors() == 0 {
+        carry_out(file, list, &mut findings);
+    }
+    refuse(findings)
 }
 
 /// Checks a text of alterations without carrying them out, and counts them.
@@ -45,7 +56,7 @@ impl Variant<'_> {
 pub fn alterations_in(text: &str) -> Result<usize, Refused> {
     let mut findings = Findings::new(SHOWN, text);
     let list = parsed(text, &mut findings);
-    if findings.errors() > 0 { Err(Refused { diagnostics: findings.into_sorted() }) } else { Ok(list.len()) }
+    refuse(findings).map(|()| list.len())
 }
 
 fn parsed(text: &str, findings: &mut Findings) -> Vec<Located<AlterationFile>> {
