@@ -140,7 +140,8 @@ fn words(old: &Located<String>, new: &Located<String>, patches: &mut Vec<Patch>)
     }
 }
 
-fn written(q: Quantity) -> String {
+/// A quantity as it is written: `1.2 cm`.
+pub(super) fn written(q: Quantity) -> String {
     q.unit.map_or_else(|| q.number.to_string(), |u| format!("{} {}", q.number, u.symbol()))
 }
 

@@ -4,10 +4,11 @@ use std::path::Path;
 
 use serde_json::{Map, Value as Json};
 
-use super::fields::{Fields, entries, items, quantity, wrong};
+use super::change::written;
+use super::fields::{Fields, entries, items, quantity};
 use super::refuse::{accept, text_of};
 use super::{Refused, tree};
-use crate::pattern::{Findings, Located, Problem, Quantity, Unit, Value};
+use crate::pattern::{Findings, Located, Problem, Unit, Value};
 
 /// Drawn numbers have three decimals, so that lists are short and read the same everywhere.
 const STEPS: f64 = 1e3;
@@ -112,12 +113,14 @@ impl Range {
         let mut fields = Fields::new(value, what, findings)?;
         let (from, to) = (fields.require("from", findings, quantity), fields.require("to", findings, quantity));
         fields.finish(findings);
-        let (Quantity { number: from, unit }, to) = (from?.value, to?.value);
-        if to.unit != unit || from > to.number {
-            wrong(value, what, "'from' and a greater 'to' in the same unit, such as {from: 0, to: 60}", findings);
+        let (from, to) = (from?.value, to?.value);
+        if to.unit != from.unit || from.number > to.number {
+            let expected = "'from' and a 'to' that is no less, in the same unit, such as {from: 0, to: 60}";
+            let found = format!("'{}' and '{}'", written(from), written(to));
+            findings.error(value.at, Problem::OutOfRange { what: what.to_owned(), expected, found });
             return None;
         }
-        Some(Self { from, to: to.number, unit })
+        Some(Self { from: from.number, to: to.number, unit: from.unit })
     }
 }
 
