@@ -113,9 +113,9 @@ pub struct Garment {
 }
 
 impl Garment {
-    /// Whether the file says at which position a piece starts.
-    pub fn has_positions(&self) -> bool {
-        self.pieces.iter().any(Piece::has_position)
+    /// Whether the file says at which position every piece starts.
+    pub fn is_positioned(&self) -> bool {
+        self.pieces.iter().all(Piece::has_position)
     }
 }
 

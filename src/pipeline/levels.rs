@@ -35,7 +35,7 @@ pub(super) struct Closed {
     pub(super) gaps: Vec<Vec<f64>>,
     /// The coarser one it was made from.
     pub(super) coarse: Option<Box<Coarse>>,
-    /// Start positions of its particles, if they came from its topology.
+    /// Start positions of its particles, on whichever mesh its seams were drawn shut. `None` after a [`DETOUR`].
     pub(super) start: Option<Vec<Vec3>>,
 }
 
@@ -46,14 +46,14 @@ pub(super) struct Coarse {
 }
 
 impl Job {
-    /// Sews `mesh`: coarser first, where that goes, else from `start`. `watch` is told of the coarser levels.
+    /// Sews `mesh`: coarser first, where that goes, else from the topology, else from where rules place the pieces.
+    /// `watch` is told of the coarser levels.
     ///
     /// # Errors
-    /// A garment that cannot be sewn.
+    /// A piece without a place, or a garment that cannot be sewn.
     pub(super) fn sew_from_coarse(
         &self,
         mesh: &ClothMesh,
-        start: Vec<Vec3>,
         watch: Watch,
         progress: &mut dyn FnMut(f64),
     ) -> Result<Closed, SewError> {
@@ -64,13 +64,15 @@ impl Job {
                 return Ok(Closed { sewn, gaps, coarse: Some(coarse), start });
             }
         }
-        // There is no other start than a position that is given.
-        if !self.garment.has_positions()
+        // There is no other start than positions that are given.
+        if !self.garment.is_positioned()
             && let Some(closed) = self.sew_from_topology(mesh, progress)
         {
             return Ok(closed);
         }
-        let closed = self.sew_here(mesh, start, SewOptions::default(), progress)?;
+        let start = self.placed(mesh)?;
+        let closed = self.sew_here(mesh, start.clone(), SewOptions::default(), progress)?;
+        let closed = Closed { start: Some(start), ..closed };
         if is_whole(mesh, &closed.sewn) {
             return Ok(closed);
         }
@@ -136,8 +138,8 @@ impl Job {
         if spacing < LEAST * mesh.spacing {
             return None;
         }
-        let (mesh, start) = self.placed_at(spacing)?;
-        let closed = self.sew_from_coarse(&mesh, start, watch, progress).ok()?;
+        let mesh = mesh::build(&self.garment, spacing).ok()?;
+        let closed = self.sew_from_coarse(&mesh, watch, progress).ok()?;
         is_whole(&mesh, &closed.sewn).then(|| {
             let coarse = Box::new(Coarse { mesh, closed });
             coarse.show(&coarse.closed.sewn.nodes, watch);
@@ -148,18 +150,12 @@ impl Job {
     /// `mesh` sewn by way of a slightly coarser one. None where that does not come out whole either. The coarser one is
     /// no better a start for draping, and forgotten.
     fn detour(&self, mesh: &ClothMesh, progress: &mut dyn FnMut(f64)) -> Option<Closed> {
-        let (coarse, start) = self.placed_at(DETOUR * mesh.spacing)?;
+        let coarse = mesh::build(&self.garment, DETOUR * mesh.spacing).ok()?;
+        let start = self.placed(&coarse).ok()?;
         let closed = self.sew_here(&coarse, start, SewOptions::default(), progress).ok()?;
         let coarse = is_whole(&coarse, &closed.sewn).then_some(Coarse { mesh: coarse, closed })?;
         let (sewn, gaps) = self.carried(&coarse, mesh)?;
         Some(Closed { sewn, gaps, coarse: None, start: None })
-    }
-
-    /// The garment meshed at `spacing`, and where its pieces start.
-    fn placed_at(&self, spacing: f64) -> Option<(ClothMesh, Vec<Vec3>)> {
-        let mesh = mesh::build(&self.garment, spacing).ok()?;
-        let start = self.placed(&mesh).ok()?;
-        Some((mesh, start))
     }
 
     /// Start positions of `mesh` by rules.
@@ -252,8 +248,8 @@ mod tests {
     #[test]
     fn a_garment_carried_over_tells_the_gaps_and_the_steps_of_the_one_that_was_sewn() {
         let job = skirt(0.014);
-        let (mesh, start) = job.placed_at(0.014).expect("placed");
-        let closed = job.sew_from_coarse(&mesh, start, &|_| {}, &mut |_| {}).expect("sewn");
+        let mesh = mesh::build(&job.garment, 0.014).expect("meshed");
+        let closed = job.sew_from_coarse(&mesh, &|_| {}, &mut |_| {}).expect("sewn");
         let coarse = closed.coarse.as_deref().expect("a coarser level");
         assert_eq!(counts(&closed.gaps), pairs(&coarse.mesh));
         assert_eq!(closed.gaps, coarse.closed.sewn.gaps_of_seams(&coarse.mesh));
@@ -264,7 +260,7 @@ mod tests {
     #[test]
     fn cloth_of_large_flat_cells_can_be_carried_over() {
         let job = job("tests/scenes/sheet_on_sphere.yaml", 0.016);
-        let closed = job.sew_from_coarse(&job.mesh, job.placed_at(0.016).expect("placed").1, &|_| {}, &mut |_| {});
+        let closed = job.sew_from_coarse(&job.mesh, &|_| {}, &mut |_| {});
         let coarse = closed.expect("nothing to sew").coarse.expect("a coarser level");
         assert!(job.start_from_coarse(&job.mesh, &coarse, &|_| {}, &mut |_| {}).is_some());
     }
@@ -290,8 +286,8 @@ mod tests {
     #[test]
     fn a_detour_leads_to_a_whole_garment_of_the_spacing_asked_for() {
         let job = skirt(0.016);
-        let (mesh, _) = job.placed_at(0.016).expect("placed");
-        let (coarse, _) = job.placed_at(DETOUR * 0.016).expect("placed");
+        let mesh = mesh::build(&job.garment, 0.016).expect("meshed");
+        let coarse = mesh::build(&job.garment, DETOUR * 0.016).expect("meshed");
         let closed = job.detour(&mesh, &mut |_| {}).expect("a detour");
         assert!(is_whole(&mesh, &closed.sewn));
         // The hem of a pencil skirt went by way of a coarser level with the toes in it.

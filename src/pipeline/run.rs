@@ -100,14 +100,12 @@ impl<'a> Run<'a> {
             Some(Continued::Sewn(closed)) => *closed,
             None => {
                 self.anew = self.earlier.is_some();
-                let start = job.placed(&job.mesh).map_err(|e| failed(e.into()))?;
-                self.placed = Some(start.clone());
-                job.sew_from_coarse(&job.mesh, start, self.watch, &mut tell).map_err(failed)?
+                job.sew_from_coarse(&job.mesh, self.watch, &mut tell).map_err(failed)?
             }
         };
         let Closed { sewn, gaps, coarse, start } = closed;
         self.coarse = coarse;
-        self.placed = start.or(self.placed.take());
+        self.placed = start;
         let closed = sewn.closed(&job.mesh, SewOptions::default().tolerance);
         self.stages.push(Stage {
             name: "sew".into(),

@@ -168,8 +168,8 @@ impl WornOn<'_> {
 
 /// Why a garment has no start from its topology.
 fn not_from_topology(garment: &Garment, sketch: &Sketch) -> Option<String> {
-    if garment.has_positions() {
-        return Some("a piece has a position of its own, so that no start from the topology is tried".into());
+    if garment.is_positioned() {
+        return Some("every piece has a position of its own, so that no start from the topology is tried".into());
     }
     let why = "a part of the garment has no opening that a part of the body passes through";
     sketch.at.is_none().then(|| why.into())

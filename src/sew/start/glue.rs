@@ -23,7 +23,7 @@ const STRIP: f64 = 0.5;
 const ROLL: f64 = 1.0;
 
 /// The pieces of the base sheet welded along their seams.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Glued {
     /// The node of every particle; `None` for those of pieces left out, and of what is turned over at a pressed fold.
     pub node_of: Vec<Option<u32>>,
@@ -39,6 +39,8 @@ pub struct Glued {
     pub left_out: Vec<usize>,
     /// Where closures hold one piece over another: their rims are welded here, and lie over one another when worn.
     pub laps: Vec<Lap>,
+    /// Pairs of particles of open fronts, which are welded for the start alone.
+    pub zips: Vec<[u32; 2]>,
     /// For every particle that lies on other cloth of its own piece (turned over at a pressed fold, or laid in a
     /// pleat) where it lies once the piece is flat.
     pub follows: Vec<Option<Follow>>,
@@ -85,7 +87,7 @@ pub fn glue(garment: &Garment, mesh: &ClothMesh, zips: &[[u32; 2]]) -> Glued {
     (out.follows, out.beyond) = follows(mesh, &sheet);
     let roll = |p: u32| Beyond { particle: p, at: sheet.drawn[p as usize], layers: ROLL };
     out.beyond.extend(strips.into_iter().map(roll));
-    (out.laps, out.left_out) = (laps, left_out);
+    (out.laps, out.left_out, out.zips) = (laps, left_out, zips.to_vec());
     out
 }
 
@@ -214,8 +216,7 @@ fn numbered(mesh: &ClothMesh, is_out: &[bool], sets: &mut DisjointSets) -> Glued
     let node = |p: u32| Some(number[sets.root(p) as usize]).filter(|&n| n != NONE && !is_out[p as usize]);
     let node_of = (0..mesh.flat.len() as u32).map(node).collect();
     let part_of = parts(&triangles, count as usize);
-    let (laps, follows, left_out, beyond) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    Glued { node_of, triangles, source, count: count as usize, part_of, left_out, laps, follows, beyond }
+    Glued { node_of, triangles, source, count: count as usize, part_of, ..Glued::default() }
 }
 
 /// The connected part of every node.

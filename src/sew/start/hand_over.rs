@@ -15,6 +15,10 @@ use crate::sew::place::ring::LAYER;
 /// wrist, of either layer. Pleats and hems lie flatter.
 pub(super) const PLY: f64 = 8e-3;
 
+/// Either side of an open front is drawn back by this much from where the two were welded, metres. Cloth that starts on
+/// the same spot as other cloth cannot get away from it: no motion is safe, and it is held there for good.
+const UNZIPPED: f64 = 3e-3;
+
 /// A seam's direction is read over so many stitches on either side.
 const ALONG: usize = 2;
 
@@ -26,6 +30,7 @@ pub(super) fn particles(garment: &Garment, mesh: &ClothMesh, glued: &Glued, node
     let covered = glued.laps.iter().flat_map(|lap| &lap.covered).map(|(p, on)| (*p as usize, *on)).collect();
     let hidden = glued.follows.iter().enumerate().filter_map(|(p, on)| Some((p, (*on)?))).collect();
     let mut laying = Laying::new(mesh, glued, nodes);
+    laying.unzip(mesh, glued);
     laying.follow(covered);
     laying.lift(mesh, glued);
     laying.follow(hidden);
@@ -62,6 +67,27 @@ impl Laying {
         Self {
             x: glued.node_of.iter().map(|n| n.map(|n| nodes[n as usize])).collect(),
             plies: (0..mesh.flat.len()).map(|p| Ply { outward: outward(p), height: 0.0 }).collect(),
+        }
+    }
+
+    /// Draws the two sides of open fronts apart, each into its own cloth and with all that is sewn to it.
+    fn unzip(&mut self, mesh: &ClothMesh, glued: &Glued) {
+        let class = Stitching::new(mesh).class;
+        let class = |p: u32| class[p as usize] as usize;
+        let mut is_zipped = vec![false; self.x.len()];
+        let apart = glued.zips.iter().filter(|[a, b]| class(*a) != class(*b));
+        apart.flatten().for_each(|p| is_zipped[class(*p)] = true);
+        let mut inward = vec![Vec3::zeros(); self.x.len()];
+        for corners in &mesh.triangles {
+            let Some(x) = at_all(&self.x, *corners) else { continue };
+            let middle = (x[0] + x[1] + x[2]) / 3.0;
+            corners.iter().zip(x).for_each(|(p, x)| inward[class(*p)] += middle - x);
+        }
+        for (p, x) in self.x.iter_mut().enumerate() {
+            let class = class(p as u32);
+            if let Some(x) = x.as_mut().filter(|_| is_zipped[class]) {
+                *x += inward[class].cap_magnitude(UNZIPPED);
+            }
         }
     }
 
