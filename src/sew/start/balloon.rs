@@ -9,6 +9,7 @@ use std::collections::HashMap;
 
 use super::axes::Axes;
 use super::ribbon::Ribbons;
+use super::rings::{ABOVE_NECK, Neckline};
 use super::star::GluedPart;
 use super::way_out::WayOut;
 use crate::contact::{Bounds, ClothDetector, Collider, Contact, Neighbourhood};
@@ -100,6 +101,8 @@ pub(super) struct Balloon<'a> {
     pub(super) ways: &'a [WayOut],
     /// Whether it hangs from the shoulders: nothing of it is held where it settles, and its weight draws straps taut.
     pub(super) hangs: bool,
+    /// Its neckline, if it has one on the shoulders.
+    pub(super) neckline: Option<Neckline>,
 }
 
 /// The forces on a balloon in one step.
@@ -226,6 +229,9 @@ impl<'a> Motion<'a> {
             let back = held.back(&p);
             held.rim.iter().for_each(|n| p[*n as usize] += back);
         }
+        if let Some(neckline) = &self.balloon.neckline {
+            lower(&mut p, neckline);
+        }
         for (x, p) in self.x.iter().zip(&mut p).take(self.area.len()) {
             *p = x + short(outside(*p) - x);
         }
@@ -303,6 +309,13 @@ impl<'a> Motion<'a> {
         }
         out
     }
+}
+
+/// Lowers a neckline that rises above its shoulders: what has more length than the way up to the neck falls in folds, as
+/// a cowl does, and does not stand up before the throat.
+fn lower(p: &mut [Vec3], neckline: &Neckline) {
+    let highest = neckline.shoulders.map(|n| p[n as usize].y).into_iter().fold(f64::NEG_INFINITY, f64::max);
+    neckline.rim.iter().for_each(|n| p[*n as usize].y = p[*n as usize].y.min(highest + ABOVE_NECK));
 }
 
 /// A way no longer than [`LONGEST`].

@@ -180,6 +180,7 @@ impl Dealt {
                 held: held.iter().filter(|held| held.rim.first().is_some_and(|n| is_own(*n))).cloned().collect(),
                 ways: star.as_ref().map_or(&[], |star| &star.ways),
                 hangs: film.worn[number as usize].hangs(),
+                neckline: film.worn[number as usize].neckline(),
             };
             let x = balloon.inflate(star.as_ref().map_or(&film.nodes, |star| &star.nodes), axes, body);
             (0..x.len()).filter(|n| is_own(*n as u32)).for_each(|n| nodes[n] = x[n]);

@@ -13,7 +13,7 @@ use crate::mannequin::PartKind;
 use crate::pattern::PlaceWord;
 
 /// A neck's ring lies so far above the base of the neck, metres.
-const ABOVE_NECK: f64 = 0.02;
+pub(super) const ABOVE_NECK: f64 = 0.02;
 /// A hem lies no lower than this over the floor, metres.
 const LOWEST: f64 = 0.06;
 /// A limb's ring lies at least so far along its axis, metres, and at most so far beyond its end.
@@ -57,6 +57,15 @@ pub(super) struct Worn<'a> {
     pub(super) profiles: Vec<Profile>,
 }
 
+/// The rim of an opening for the head that lies on the shoulders.
+#[derive(Clone, Debug)]
+pub(super) struct Neckline {
+    /// Its nodes.
+    pub(super) rim: Vec<u32>,
+    /// Those of them that are nearest to the arms.
+    pub(super) shoulders: [u32; 2],
+}
+
 /// Where a ring is.
 #[derive(Clone, Copy, Debug)]
 struct Seat {
@@ -94,6 +103,17 @@ impl Worn<'_> {
     /// Whether cloth lies over both shoulders: between the opening of the head and those of the arms.
     pub(super) fn hangs(&self) -> bool {
         self.top().is_some() && [Ends::LEFT_ARM, Ends::RIGHT_ARM].iter().all(|arm| self.find(*arm).is_some())
+    }
+
+    /// The opening of a head that lies on the shoulders: no hood, no collar.
+    pub(super) fn neckline(&self) -> Option<Neckline> {
+        let top = self.top().filter(|top| self.above[*top].is_none())?;
+        let rim = &self.openings[top].rim;
+        let shoulder = |arm: Ends| {
+            let far = &self.far[self.find(arm)?];
+            rim.iter().copied().min_by(|a, b| far[*a as usize].total_cmp(&far[*b as usize]))
+        };
+        Some(Neckline { shoulders: [shoulder(Ends::LEFT_ARM)?, shoulder(Ends::RIGHT_ARM)?], rim: rim.clone() })
     }
 
     /// The opening that exactly these ends pass through.
