@@ -1,5 +1,6 @@
 //! Garments that start from their topology: glued, their openings round the ends of the body, inflated.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use toile::geometry::Vec3;
@@ -99,8 +100,42 @@ fn a_shirt_with_folded_cuffs_pleats_a_stand_and_a_collar_is_put_on() {
 #[test]
 fn a_kimono_with_its_band_is_put_on() {
     if let Some(job) = case("kimono.yaml") {
+        let x = start(&job.garment, &job.mesh, &job.body, &job.collider).expect("a start");
+        let mut class_at = HashMap::new();
+        for (p, class) in x.iter().zip(Stitching::new(&job.mesh).class) {
+            let first = *class_at.entry([p.x, p.y, p.z].map(f64::to_bits)).or_insert(class);
+            assert_eq!(first, class, "cloth that is not sewn together starts on one spot, {p:?}");
+        }
         is_sewn_round(&job, &["left arm", "right arm", "torso"]);
     }
+}
+
+/// A cowl has more length than the way up to the neck: it starts in folds on the chest.
+#[test]
+fn a_cowl_does_not_stand_up_before_the_throat() {
+    let Some(job) = case("fs_diana.yaml") else { return };
+    let x = start(&job.garment, &job.mesh, &job.body, &job.collider).expect("a start");
+    let piece = |name: &str| job.mesh.pieces.iter().find(|piece| piece.name == name).expect(name).particles.clone();
+    // The middle of the neckline is drawn at the origin; the back ends at the shoulders.
+    let middle = piece("front").min_by(|&a, &b| job.mesh.flat[a].norm().total_cmp(&job.mesh.flat[b].norm()));
+    let cowl = x[middle.expect("particles")].y;
+    let shoulders = piece("back").map(|p| x[p].y).fold(0.0, f64::max);
+    assert!(cowl < shoulders + 0.03, "{cowl} m, the shoulders {shoulders} m");
+}
+
+/// A hood of GarmentCode comes with a position, all else with words: the position does not keep the garment from its
+/// topology.
+#[test]
+fn one_piece_with_a_position_leaves_the_rest_to_the_topology() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/dolman.yaml");
+    let text = std::fs::read_to_string(&file).expect("a file");
+    let piece = text.find("    cut:").expect("a piece");
+    let placed = format!("{}    place: {{at: [0, 900, 400]}}\n{}", &text[..piece], &text[piece..]);
+    let garment = read_text("dolman", "dolman.yaml", &placed).expect("a garment");
+    let overrides = Overrides { spacing: Some(SPACING), ..Overrides::default() };
+    let job = Job::new(&file, garment, &overrides).expect("a job");
+    assert!(job.garment.pieces.iter().any(|piece| piece.has_position()) && !job.garment.is_positioned());
+    is_sewn_round(&job, &["left arm", "neck", "right arm", "torso"]);
 }
 
 /// Straps that are slack where a dress starts lie over the shoulders, and not round the upper arms.

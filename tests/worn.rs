@@ -203,3 +203,35 @@ fn what_is_placed_by_the_waist_or_the_hips_lies_there() {
     let above = at("hip", 1.2);
     assert!(above.len() == 1 && above[0].1.contains("170 mm above the waist"), "{above:?}");
 }
+
+/// Shorts of one piece: a tube whose hem is sewn together in the middle, front to back.
+#[test]
+fn shorts_below_the_crotch_are_not_drawn_up() {
+    let (round, tall) = (1100.0, 150.0);
+    let made = Made::new(
+        "pieces:\n  shorts:\n    grain: [[9, 9], [9, 30]]\n    outline: {start: 0 0, top: L 1100 0, right: L 1100 150, \
+         front_right: L 1070 150, leg_right: L 580 150, back: L 550 150, middle: L 520 150, leg_left: L 30 150, \
+         front_left: L 0 150, left: L 0 0}\n\
+         seams:\n  front: {sew: shorts.left, to: shorts.right}\n  \
+         crotch: {sew: [shorts.front_right, shorts.front_left], to: [shorts.back, shorts.middle]}\n\
+         free: [shorts.top, shorts.leg_right, shorts.leg_left]\n",
+    );
+    let at = |top: f64| {
+        let radius = 1e-3 * round / TAU;
+        let x = made.positions(|_, flat| {
+            let turn = flat.x / radius;
+            let side = radius * turn.sin();
+            // Towards the hem the middles of front and back come together.
+            let pinched = 1.0 - flat.y / (1e-3 * tall) * (-(side / 0.03).powi(2)).exp();
+            trunk(top) + Vec3::new(side, -flat.y, radius * turn.cos() * pinched)
+        });
+        made.report(None, None, &x)
+    };
+    let crotch = made.body.part(PartKind::Torso).expect("a torso").sections[0].center.y;
+    let on = at(crotch + 0.06);
+    assert!(faults(&on).is_empty() && !made.is_misworn(&on), "{:?}", on.worn);
+    let below = at(crotch - 0.1);
+    let [fault] = &faults(&below)[..] else { panic!("{:?}", below.worn) };
+    assert!(fault.kind == FaultKind::Slid && fault.text.contains("not drawn up to the trunk"), "{fault:?}");
+    assert!(made.is_misworn(&below));
+}
