@@ -11,7 +11,7 @@ use serde::Deserialize;
 use super::view::label;
 use crate::digitize::suggestions;
 use crate::fabric;
-use crate::io::garment::{Edit, EditError, KeyPath, edited, read_file_only, scalar, seam_line};
+use crate::io::garment::{Edit, EditError, KeyPath, edited, examine_text, read_file_only, scalar, seam_line};
 use crate::mannequin;
 use crate::pattern::{GarmentFile, Located, PlaceWord, SeamFile, Spot, Value, fabrics, parse_quantity};
 use edges::{drawn, freed, restricted, sewn_in, unfreed};
@@ -112,6 +112,10 @@ impl Act {
         let new = edited(text, &edits)?;
         if new == text {
             return sense("nothing would change");
+        }
+        let errors = |text: &str| examine_text("garment", &shown, text).findings.errors();
+        if matches!(self, Self::Name { .. }) && errors(&new) > errors(text) {
+            return sense("this edge is named in a place that only an editor can change");
         }
         match read_file_only(&shown, &new) {
             Ok(_) => Ok(Done { text: new, label }),

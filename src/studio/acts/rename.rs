@@ -3,7 +3,7 @@
 use super::edges::drawn;
 use super::{ActError, LONGEST_NAME, path, sense, yaml};
 use crate::io::garment::{Edit, keys, scalars};
-use crate::pattern::{GarmentFile, PieceFile};
+use crate::pattern::{GarmentFile, PieceFile, glob, whole_pieces};
 use crate::studio::view::bare;
 
 /// Parts of the file that name edges as `piece.edge`.
@@ -29,6 +29,10 @@ pub(super) fn edits(said: &GarmentFile, text: &str, edge: &str, name: &str) -> R
     for (at, value) in scalars(text) {
         let words: Vec<&str> = at.iter().map(String::as_str).collect();
         let new = match words[..] {
+            // The end of an opening is named without its piece.
+            ["seams", seam, "open", .., "from"] => {
+                (begins(said, seam, &family) && value == old).then(|| name.to_owned())
+            }
             [part, ..] if NAMING.contains(&part) => renamed(&value, &family, old, name),
             ["pieces", piece, "cut"] if family.iter().any(|own| own == piece) => {
                 (value == format!("fold {old}")).then(|| format!("fold {name}"))
@@ -50,7 +54,39 @@ pub(super) fn edits(said: &GarmentFile, text: &str, edge: &str, name: &str) -> R
             }
         }
     }
+    edits.extend(still_free(said, &family, old, name)?);
     Ok((edits, format!("name {bare}: {name}")))
+}
+
+/// Whether a seam begins with an edge of one of these pieces.
+fn begins(said: &GarmentFile, seam: &str, family: &[String]) -> bool {
+    let own = said.seams.iter().find(|own| own.name.value == seam).and_then(|own| own.sew.first());
+    own.is_some_and(|edge| family.iter().any(|piece| edge.value.split('.').next() == Some(piece)))
+}
+
+/// Entries for edges that were free by a pattern such as `*.hem`, which their new name does not fit. A pattern that
+/// then fits no edge at all goes.
+fn still_free(said: &GarmentFile, family: &[String], old: &str, new: &str) -> Result<Vec<Edit>, ActError> {
+    let is_free = |edge: &str| said.free.iter().any(|free| free.value.contains('*') && glob(&free.value, edge));
+    let lost = family.iter().filter(|piece| is_free(&format!("{piece}.{old}")) && !is_free(&format!("{piece}.{new}")));
+    let added: Result<Vec<Edit>, ActError> =
+        lost.map(|piece| Ok(Edit::Push(path(&["free"]), yaml(&format!("{piece}.{new}"))?))).collect();
+    let pieces = whole_pieces(said);
+    let edges: Vec<String> = pieces
+        .iter()
+        .flat_map(|piece| piece.outline.iter().flat_map(|o| &o.edges).map(move |(edge, _)| (piece, &edge.value)))
+        .map(|(piece, edge)| {
+            let is_own = edge == old && family.contains(&piece.name.value);
+            format!("{}.{}", piece.name.value, if is_own { new } else { edge })
+        })
+        .collect();
+    let fits = |pattern: &str| edges.iter().any(|edge| glob(pattern, edge));
+    let before = |pattern: &str| family.iter().any(|piece| glob(pattern, &format!("{piece}.{old}")));
+    let gone = (0..said.free.len()).rev().filter(|&k| before(&said.free[k].value) && !fits(&said.free[k].value));
+    let gone = gone.filter(|&k| said.free[k].value.contains('*'));
+    let mut edits = added?;
+    edits.extend(gone.map(|k| Edit::Remove(path(&["free", &k.to_string()]))));
+    Ok(edits)
 }
 
 /// # Errors

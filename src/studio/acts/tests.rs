@@ -199,3 +199,72 @@ fn what_is_no_act_is_refused() {
     assert!(!read(r#"{"do": "free", "edges": ["a.b"], "file": "x"}"#));
     assert!(done_in("garment: 1\npieces: [", &Act::Body { name: "woman_92".into() }).is_err());
 }
+
+/// Garment files of the repository, with their texts.
+fn shipped() -> Vec<(String, String)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut out = Vec::new();
+    for folder in ["patterns", "tests/data"] {
+        for entry in std::fs::read_dir(root.join(folder)).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            let text = std::fs::read_to_string(&path).unwrap_or_default();
+            if path.extension().is_some_and(|e| e == "yaml") && read_file_only("", &text).is_ok() {
+                out.push((path.display().to_string(), text));
+            }
+        }
+    }
+    assert!(out.len() > 15, "{}", out.len());
+    out
+}
+
+/// Comments of a text, each with the blanks before it.
+fn comments(text: &str) -> Vec<&str> {
+    text.lines().filter_map(|line| line.find(" #").map(|at| &line[at..])).collect()
+}
+
+#[test]
+fn edges_of_every_garment_can_be_named_and_the_garment_stays_as_it_was() {
+    for (file, text) in shipped() {
+        let check = |text: &str| {
+            let examined = crate::io::garment::examine_text("garment", &file, text);
+            examined.findings.errors()
+        };
+        let before = check(&text);
+        let file_said = said(&text);
+        for piece in file_said.pieces.iter().filter(|piece| piece.outline.is_some()) {
+            let outline = piece.outline.as_ref().expect("an outline");
+            for (edge, _) in &outline.edges {
+                let full = format!("{}.{}", piece.name.value, edge.value);
+                let act = Act::Name { edge: full.clone(), name: "renamed-edge".into() };
+                let new = act.done(&text, Path::new(&file)).unwrap_or_else(|e| panic!("{file}, {full}: {e}")).text;
+                assert_eq!(check(&new), before, "{file}, {full}: {new}");
+                assert_eq!(comments(&new), comments(&text), "{file}, {full}");
+                let back = Act::Name { edge: format!("{}.renamed-edge", piece.name.value), name: edge.value.clone() };
+                let again = back.done(&new, Path::new(&file)).map(|done| said(&done.text));
+                let again = again.map(|back| GarmentFile { free: file_said.free.clone(), ..back });
+                assert_eq!(again.as_ref(), Ok(&file_said), "{file}, {full}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_garment_can_be_changed_with_all_its_comments() {
+    for (file, text) in shipped() {
+        let own = said(&text);
+        for piece in &own.pieces {
+            let act = Act::Place { piece: piece.name.value.clone(), words: strings(&["left", "arm"]) };
+            let new = act.done(&text, Path::new(&file)).unwrap_or_else(|e| panic!("{file}: {e}")).text;
+            let placed = said(&new).pieces.into_iter().find(|p| p.name == piece.name).and_then(|p| p.place);
+            let words = crate::pattern::PlaceFile::Words("left arm".into());
+            assert_eq!(placed.map(|place| place.value), Some(words), "{file}");
+            assert!(comments(&text).iter().all(|comment| new.contains(comment.trim())), "{file}: {new}");
+        }
+        for seam in &own.seams {
+            let act = Act::Unpick { seam: seam.name.value.clone() };
+            let new = act.done(&text, Path::new(&file)).unwrap_or_else(|e| panic!("{file}: {e}")).text;
+            let left: Vec<_> = own.seams.iter().filter(|other| other.name != seam.name).cloned().collect();
+            assert_eq!(said(&new), GarmentFile { seams: left, ..own.clone() }, "{file}, {}", seam.name.value);
+        }
+    }
+}
