@@ -84,4 +84,5 @@ pub mod pipeline;
 pub mod report;
 pub mod sew;
 pub mod specimen;
+pub mod studio;
 pub mod verify;

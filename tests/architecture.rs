@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules in building order, each with those it may use. The ground floor first, the edge last.
-const FLOORS: [(&str, &[&str]); 25] = [
+const FLOORS: [(&str, &[&str]); 26] = [
     ("geometry", &[]),
     ("input", &[]),
     ("parallel", &[]),
@@ -50,6 +50,10 @@ const FLOORS: [(&str, &[&str]); 25] = [
     ("fitting", &["geometry", "pattern", "mannequin", "report", "io", "pipeline"]),
     ("batch", &["input", "fabric", "mannequin", "io"]),
     (
+        "studio",
+        &["geometry", "input", "fabric", "pattern", "mannequin", "flatten", "report", "digitize", "io", "pipeline"],
+    ),
+    (
         "cli",
         &[
             "geometry",
@@ -67,12 +71,13 @@ const FLOORS: [(&str, &[&str]); 25] = [
             "pipeline",
             "fitting",
             "batch",
+            "studio",
         ],
     ),
 ];
 
 /// Crates and the paths below `src` that may name them.
-const CRATES: [(&str, &[&str]); 25] = [
+const CRATES: [(&str, &[&str]); 27] = [
     ("parry3d_f64", &["contact/"]),
     ("robust", &["geometry/"]),
     ("faer", &["linear/"]),
@@ -98,6 +103,8 @@ const CRATES: [(&str, &[&str]); 25] = [
     ("ctrlc", &["io/files.rs"]),
     ("sha2", &["batch/key.rs"]),
     ("nix", &["batch/process.rs"]),
+    ("httparse", &["studio/http.rs"]),
+    ("getrandom", &["studio/door.rs"]),
     ("clap", &["cli/"]),
     ("indicatif", &["cli/"]),
 ];

@@ -369,3 +369,20 @@ fn hems_are_told_by_their_allowance() {
     assert!(made.suggestions.iter().all(|s| !s.sew.iter().chain(&s.to).any(hem)), "{:?}", made.suggestions);
     assert!(offered(&made).contains(&("front.b".to_owned(), "back.b".to_owned())), "{:?}", made.suggestions);
 }
+
+/// The studio offers the same seams for an imported file as the import did, and fewer once some are sewn.
+#[test]
+fn a_garment_file_is_offered_what_its_drawing_was() {
+    let made = made(&[
+        Drawn::pair("front", "M 0 0 H 200 L 220 300 H 0 Z"),
+        Drawn::pair("back", "M 0 0 H 180 L 200 300 H 0 Z"),
+    ]);
+    let sides = |list: &[Suggestion]| -> Vec<_> { list.iter().map(|s| (s.sew.clone(), s.to.clone())).collect() };
+    let offered = toile::digitize::suggestions(&made.file);
+    assert!(!offered.is_empty());
+    assert_eq!(sides(&offered), sides(&made.suggestions));
+    let mut file = made.file.clone();
+    file.seams.push(offered[0].seam());
+    let left = toile::digitize::suggestions(&file);
+    assert!(left.iter().all(|own| own.sew != offered[0].sew && own.name != offered[0].name), "{left:?}");
+}

@@ -71,6 +71,13 @@ pub(super) enum Command {
     Flatten(FlattenArgs),
     /// Write the page report.html anew from what lies in a folder of results
     Report(ReportArgs),
+    /// Show a garment file and its garment live in the browser, and change the file there by clicks
+    #[command(
+        after_help = "The address of the page is printed on standard output. It holds a token: whoever has it can \
+                            change the garment file as long as the program runs. Only this machine can reach the page. \
+                            Ctrl-C ends it. docs/studio.md has the rest."
+    )]
+    Studio(StudioArgs),
     /// Run garments against their own tests
     Test(TestArgs),
     /// Make many garments, each in a process of its own, into a store that can be killed and gone on with
@@ -120,6 +127,33 @@ pub(super) enum Command {
     /// The library of mannequins
     #[command(subcommand)]
     Mannequin(MannequinCommand),
+}
+
+/// Arguments of `studio`.
+#[derive(Debug, clap::Args)]
+pub(super) struct StudioArgs {
+    /// The garment file
+    #[arg(value_name = "GARMENT.yaml")]
+    pub(super) garment: PathBuf,
+    /// Port on 127.0.0.1 [default: one that is free]
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    pub(super) port: u16,
+    /// Do not open a browser
+    #[arg(long)]
+    pub(super) no_open: bool,
+    /// Spacing of the mesh at the beginning, mm: 8, 10, 12, 15, 20 or 25
+    #[arg(long, value_name = "MM", default_value_t = 10.0, value_parser = studio_spacing)]
+    pub(super) spacing: f64,
+    /// Make the garment once and write it for a studio on standard output
+    #[arg(long, hide = true)]
+    pub(super) frames: bool,
+}
+
+/// One of the spacings that the page offers.
+fn studio_spacing(text: &str) -> Result<f64, String> {
+    let known = crate::studio::SPACINGS;
+    let found = text.parse().ok().filter(|mm| known.contains(mm));
+    found.ok_or_else(|| format!("the studio has {}", known.map(|mm| mm.to_string()).join(", ")))
 }
 
 /// A garment, and what is wanted other than its file says.

@@ -8,6 +8,7 @@ use crate::mannequin::MannequinError;
 use crate::picture::PictureError;
 use crate::pipeline::{PipelineError, SewError};
 use crate::specimen::SpecimenError;
+use crate::studio::StudioError;
 
 /// Exit codes, the worst last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -70,6 +71,9 @@ pub(super) enum CliError {
     /// A batch that cannot begin or go on.
     #[error(transparent)]
     Batch(#[from] BatchError),
+    /// A studio that cannot be opened.
+    #[error(transparent)]
+    Studio(#[from] StudioError),
     /// The system gives no threads.
     #[error("cannot start the threads: {0}; try a smaller --threads")]
     Threads(#[from] rayon::ThreadPoolBuildError),

@@ -24,6 +24,7 @@ mod plan;
 mod report;
 mod sample;
 mod specimen;
+mod studio;
 mod test;
 mod update;
 
@@ -87,6 +88,7 @@ fn with_threads<T: Send>(threads: Option<NonZeroUsize>, work: impl FnOnce() -> T
 }
 
 fn run(args: &Args, itself: &[OsString], console: &Console) -> Result<Exit, CliError> {
+    let threads = args.global.threads;
     match &args.command {
         Command::Make(args) => make::make(args, console),
         Command::Check(args) => check::check(args, console),
@@ -95,8 +97,9 @@ fn run(args: &Args, itself: &[OsString], console: &Console) -> Result<Exit, CliE
         Command::Drape(args) => make::drape(args, console),
         Command::Flatten(args) => flatten::flatten(args, console),
         Command::Report(args) => report::report(args, console),
-        Command::Batch(batch) => batch::batch(batch, args.global.threads, itself, console),
+        Command::Batch(batch) => batch::batch(batch, threads, itself, console),
         Command::Sample(args) => sample::sample(args, console),
+        Command::Studio(args) => studio::studio(args, threads, itself, console),
         Command::Test(args) => test::test(args, console),
         Command::Alter(args) => alter::alter(args, console),
         Command::Fit(args) => fit::fit(args, console),

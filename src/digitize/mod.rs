@@ -37,7 +37,7 @@ pub(crate) use follow::follows;
 pub use holes::{Hole, holes};
 pub(crate) use notches::DOUBLE;
 pub(crate) use sizes::{size_of, sizes};
-pub use suggest::{Suggestion, sewn};
+pub use suggest::{Suggestion, sewn, suggestions};
 pub(crate) use trimmed::parts_within;
 
 use crate::geometry::{Path, Vec2};

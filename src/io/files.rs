@@ -258,6 +258,40 @@ impl Drop for Pending {
     }
 }
 
+/// A temporary file that only its owner may read. It is removed when this is dropped, and when the program is
+/// interrupted.
+pub struct Private(Option<NamedTempFile>);
+
+impl Private {
+    /// Writes such a file, whose name ends with `ending`.
+    ///
+    /// # Errors
+    /// [`WriteError::File`] when the system's folder for temporary files cannot be written.
+    pub fn new(ending: &str, contents: &[u8]) -> Result<Self, WriteError> {
+        let failed = |source| WriteError::File { path: std::env::temp_dir(), source };
+        let mut registry = registry();
+        let made = tempfile::Builder::new().prefix("toile-").suffix(ending).tempfile();
+        let mut file = made.map_err(failed)?;
+        registry.push(file.path().to_owned());
+        drop(registry);
+        file.write_all(contents).and_then(|()| file.flush()).map_err(failed)?;
+        Ok(Self(Some(file)))
+    }
+
+    /// Its path.
+    pub fn path(&self) -> &Path {
+        self.0.as_ref().map_or(Path::new(""), |file| file.path())
+    }
+}
+
+impl Drop for Private {
+    fn drop(&mut self) {
+        if let Some(file) = self.0.take() {
+            registry().retain(|path| path != file.path());
+        }
+    }
+}
+
 /// Temporary files would be private; results get the permissions any new file gets.
 fn builder() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();

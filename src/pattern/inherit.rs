@@ -7,6 +7,12 @@ use super::file::{GarmentFile, PieceFile};
 use super::problem::Problem;
 use crate::input::nearest;
 
+/// The pieces of `file` with every `like` followed, for those who look at a file that need not make a garment. Pieces
+/// whose chain of `like` is broken are left out.
+pub fn whole_pieces(file: &GarmentFile) -> Vec<PieceFile> {
+    complete_pieces(file, &mut Findings::default())
+}
+
 /// The pieces of `file` with every `like` followed. Pieces whose chain of `like` is broken are left out, reported.
 pub(super) fn complete_pieces(file: &GarmentFile, findings: &mut Findings) -> Vec<PieceFile> {
     let by_name: HashMap<&str, &PieceFile> = file.pieces.iter().map(|p| (p.name.value.as_str(), p)).collect();

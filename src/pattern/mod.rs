@@ -67,6 +67,7 @@ pub use file::{
     OpenFile, OutlineFile, PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, Side, TestEntry, TestFile,
     Unit, Value,
 };
+pub use inherit::whole_pieces;
 pub(crate) use inherit::{own_shape, unknown_piece};
 pub use notch_kind::{DOUBLE_MARKS, NotchKind};
 pub use outfit::{belongs_to, outfit};
@@ -77,6 +78,7 @@ pub(crate) use reference::{LARGEST, Words};
 pub(crate) use region::{Region, SLACK};
 pub use rim::{Opening, openings};
 pub(crate) use seam::DEFAULT_TOLERANCE;
+pub(crate) use spelling::glob;
 pub use walk::{SeamWalk, walk, written_edge, written_names};
 pub use want_file::{KnobFile, WantFile, Wanted, WantsFile};
 

@@ -21,6 +21,7 @@ mod glimpse;
 mod job;
 mod judged;
 mod levels;
+mod live;
 mod maps;
 mod material;
 mod pattern_picture;

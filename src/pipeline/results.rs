@@ -109,7 +109,7 @@ impl Run<'_> {
     }
 
     /// Positions as they are written: where the body's own file has it.
-    fn in_file(&self, at: &[Vec3]) -> Vec<Vec3> {
+    pub(super) fn in_file(&self, at: &[Vec3]) -> Vec<Vec3> {
         at.iter().map(|p| self.job.body.frame.to_file(*p)).collect()
     }
 

@@ -33,7 +33,7 @@ pub use crossings::{Seen, look};
 pub use fit::{Band, Bands, Finished, Fit, Girth, Length, Pressure, pressure};
 pub use measure::{Measured, measure};
 pub use openings::opening_names;
-pub use page::page;
+pub use page::{PageParts, page, page_parts};
 pub use rest::{AtRest, Restless, restless};
 pub use schema::{
     Bunched, ClosureReport, Contact, ContactSeconds, ContinuedFrom, Crossing, Drift, Fault, FaultKind, PieceEdge,

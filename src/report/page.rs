@@ -1,17 +1,36 @@
 //! `report.html`: the garment on its body, its pattern, maps and tables as one page that needs no network.
 
 /// The page's own files, in the order in which they are joined. No bundler: each defines what the next ones use.
-const SCRIPTS: [&str; 7] = [
+const MODULES: [&str; 7] = [
     include_str!("page/data.js"),
     include_str!("page/maps.js"),
     include_str!("page/camera.js"),
     include_str!("page/space.js"),
     include_str!("page/flat.js"),
     include_str!("page/tables.js"),
-    include_str!("page/main.js"),
+    include_str!("page/views.js"),
 ];
+/// Its beginning, which takes what the page holds.
+const MAIN: &str = include_str!("page/main.js");
 const FRAME: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/page.css");
+/// The two views, in markup.
+const VIEWS: &str = include_str!("page/views.html");
+
+/// The page's own parts, for another page that shows a garment.
+pub struct PageParts {
+    /// Scripts, to be joined with a beginning of its own that calls `load`.
+    pub scripts: String,
+    /// Styles.
+    pub style: &'static str,
+    /// Markup of the two views.
+    pub views: &'static str,
+}
+
+/// The parts of the page.
+pub fn page_parts() -> PageParts {
+    PageParts { scripts: MODULES.join("\n"), style: STYLE, views: VIEWS }
+}
 
 /// The page called `title`. `report` is the text of `report.json`, `garment` the draped garment and `body` the surface
 /// that it is on, both as binary glTF. Without a body the garment is shown alone.
@@ -24,7 +43,8 @@ pub fn page(title: &str, report: &str, garment: &[u8], body: Option<&[u8]>) -> S
         ("report", as_script(report)),
         ("garment", base64(garment)),
         ("body", body.map(base64).unwrap_or_default()),
-        ("script", SCRIPTS.join("\n")),
+        ("views", VIEWS.to_owned()),
+        ("script", [MODULES.join("\n").as_str(), MAIN].join("\n")),
     ];
     let mut out = String::new();
     let mut rest = FRAME;

@@ -1,5 +1,7 @@
 //! A headless Chromium, spoken to over pipes (the DevTools protocol, messages that end with a zero byte).
 
+#![allow(dead_code, reason = "every test with a browser uses a part of this")]
+
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
@@ -77,6 +79,22 @@ impl Browser {
         let event =
             json!({ "type": kind, "x": x, "y": y, "button": button, "buttons": u8::from(down), "clickCount": 1 });
         self.call("Input.dispatchMouseEvent", event);
+    }
+
+    /// Clicks at a place of the window, with the shift key or without.
+    pub(crate) fn click(&mut self, x: f64, y: f64, shift: bool) {
+        // The protocol's bit for shift.
+        let modifiers = if shift { 8 } else { 0 };
+        for kind in ["mousePressed", "mouseReleased"] {
+            let event =
+                json!({ "type": kind, "x": x, "y": y, "button": "left", "clickCount": 1, "modifiers": modifiers });
+            self.call("Input.dispatchMouseEvent", event);
+        }
+    }
+
+    /// Types a text where the focus is.
+    pub(crate) fn type_text(&mut self, text: &str) {
+        self.call("Input.insertText", json!({ "text": text }));
     }
 
     /// Presses and releases a key.

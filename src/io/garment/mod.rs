@@ -11,6 +11,7 @@ mod decode_piece;
 mod decode_seam;
 mod decode_test;
 mod decode_wants;
+mod edit;
 mod encode;
 mod fields;
 mod layout;
@@ -29,6 +30,7 @@ use crate::pattern::{
 
 pub use append::{Appended, appended};
 pub use change::{Changed, EdgeChange, change, change_text};
+pub use edit::{Edit, EditError, KeyPath, edited, keys, scalar, scalars};
 pub use encode::{EncodeError, alteration_line, seam_line, write, write_with_offers};
 pub use ranges::{Drawn, Ranges};
 pub use refuse::Refused;

@@ -4,10 +4,17 @@ const VIEWS = { front: 0, left: Math.PI / 2, back: Math.PI, right: -Math.PI / 2 
 
 /** A camera round a box of space. */
 function cameraFor(low, high) {
-  const center = low.map((x, k) => 0.5 * (x + high[k]));
-  const size = Math.max(...high.map((x, k) => x - low[k]));
+  let center = [0, 0, 0];
+  let size = 1;
   const camera = {
     turn: 0, tilt: 0, zoom: 1, target: center.slice(),
+    /** Takes another box. What is looked at stays, unless it was the middle of the box. */
+    frame(low, high) {
+      const isMiddle = camera.target.every((x, k) => x === center[k]);
+      center = low.map((x, k) => 0.5 * (x + high[k]));
+      size = Math.max(...high.map((x, k) => x - low[k]));
+      if (isMiddle) camera.target = center.slice();
+    },
     /** Looks from a side. */
     view(name) {
       [camera.turn, camera.tilt, camera.zoom, camera.target] = [VIEWS[name], 0, 1, center.slice()];
@@ -50,6 +57,7 @@ function cameraFor(low, high) {
       return { from, way: back.map((b) => -b) };
     },
   };
+  camera.frame(low, high);
   return camera;
 }
 

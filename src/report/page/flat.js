@@ -154,6 +154,11 @@ function flatView(canvas, cloth, runs, seams) {
 
   return {
     pick, render,
+    /** Shows another pattern once it is painted. */
+    load(...shown) {
+      [cloth, runs, seams] = shown;
+      [state.mark, state.chosen] = [null, []];
+    },
     /** Paints the cloth in these colours. */
     paint(colors) {
       state.colors = colors;

@@ -56,8 +56,10 @@ function program(gl) {
 function shape(gl, positions, normals, colors, indices) {
   const array = gl.createVertexArray();
   gl.bindVertexArray(array);
+  const buffers = [];
   const attribute = (location, data, size, type, normalized) => {
     const buffer = gl.createBuffer();
+    buffers.push(buffer);
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
     gl.bufferData(gl.ARRAY_BUFFER, data, gl.DYNAMIC_DRAW);
     gl.enableVertexAttribArray(location);
@@ -68,10 +70,18 @@ function shape(gl, positions, normals, colors, indices) {
   attribute(1, normals, 3, gl.FLOAT, false);
   const tint = attribute(2, colors, 4, gl.UNSIGNED_BYTE, true);
   const elements = gl.createBuffer();
+  buffers.push(elements);
   gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, elements);
   gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
   gl.bindVertexArray(null);
-  return { array, tint, count: indices.length };
+  return { array, tint, count: indices.length, buffers };
+}
+
+/** Gives back the memory of a shape. */
+function release(gl, what) {
+  if (!what) return;
+  what.buffers.forEach((buffer) => gl.deleteBuffer(buffer));
+  gl.deleteVertexArray(what.array);
 }
 
 /** Normals of a mesh that has none: the sums of its triangles', by area. */
@@ -106,23 +116,31 @@ function spaceView(canvas, cloth, body, lines) {
   const painted = program(gl);
   const uniform = (name) => gl.getUniformLocation(painted, name);
   const [matrix, eye, cut, lit, wrong] = ["matrix", "eye", "cut", "lit", "wrong"].map(uniform);
-  const garment = shape(gl, cloth.positions, cloth.normals, filled(cloth.count, [200, 200, 200]), cloth.triangles);
-  const skin = body && shape(gl, body.positions, normalsOf(body.positions, body.triangles),
-    filled(body.count, [188, 180, 172]), body.triangles);
-  const seams = shape(gl, cloth.positions, cloth.normals, lines.colors, lines.indices);
   // What is pointed at: one point, and a chosen piece's or seam's lines.
   const mark = { at: null, shape: shape(gl, new Float32Array(3), new Float32Array([0, 0, 1]),
     new Uint8Array([255, 40, 160, 255]), new Uint32Array([0])) };
   const chosen = { shape: null };
-  const all = body ? [cloth.positions, body.positions] : [cloth.positions];
-  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-  for (const positions of all) for (let i = 0; i < positions.length; i++) {
-    low[i % 3] = Math.min(low[i % 3], positions[i]);
-    high[i % 3] = Math.max(high[i % 3], positions[i]);
-  }
-  const camera = cameraFor(low, high);
-  const middle = 0.5 * (low[0] + high[0]);
+  let [garment, skin, seams, middle] = [null, null, null, 0];
+  const camera = cameraFor([0, 0, 0], [1, 1, 1]);
   const state = { flat: false, skin: true, section: false };
+
+  /** Takes what is to be shown, and frees what was shown before. */
+  function fill() {
+    [garment, skin, seams, chosen.shape].forEach((what) => release(gl, what));
+    chosen.shape = null;
+    garment = shape(gl, cloth.positions, cloth.normals, filled(cloth.count, [200, 200, 200]), cloth.triangles);
+    skin = body && shape(gl, body.positions, normalsOf(body.positions, body.triangles),
+      filled(body.count, [188, 180, 172]), body.triangles);
+    seams = shape(gl, cloth.positions, cloth.normals, lines.colors, lines.indices);
+    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+    for (const { positions } of body ? [cloth, body] : [cloth]) for (let i = 0; i < positions.length; i++) {
+      low[i % 3] = Math.min(low[i % 3], positions[i]);
+      high[i % 3] = Math.max(high[i % 3], positions[i]);
+    }
+    camera.frame(low, high);
+    middle = 0.5 * (low[0] + high[0]);
+  }
+  fill();
   const aspect = () => canvas.clientWidth / Math.max(canvas.clientHeight, 1);
 
   function draw() {
@@ -184,6 +202,12 @@ function spaceView(canvas, cloth, body, lines) {
 
   return {
     camera, state, draw, redraw, pick,
+    /** Shows another garment. The camera stays where it is, as far as the new one is about as large. */
+    load(...shown) {
+      [cloth, body, lines] = shown;
+      mark.at = null;
+      fill();
+    },
     /** Paints the cloth in these colours, those of a legend or lit ones. */
     paint(colors, isMap) {
       state.flat = isMap;
@@ -195,6 +219,7 @@ function spaceView(canvas, cloth, body, lines) {
     point(at) {
       mark.at = at;
       if (at) {
+        release(gl, mark.shape);
         mark.shape = shape(gl, new Float32Array(at), new Float32Array([0, 0, 1]),
           new Uint8Array([255, 40, 160, 255]), new Uint32Array([0]));
       }
@@ -202,6 +227,7 @@ function spaceView(canvas, cloth, body, lines) {
     },
     /** Shows lines in the accent colour, or none. */
     choose(indices) {
+      release(gl, chosen.shape);
       chosen.shape = indices && shape(gl, cloth.positions, cloth.normals, filled(cloth.count, [255, 40, 160]),
         new Uint32Array(indices));
       redraw();

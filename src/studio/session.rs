@@ -1,0 +1,262 @@
+//! All that the page shows, and the file behind it.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use serde::Serialize;
+
+use super::StudioError;
+use super::acts::{Act, ActError, Done};
+use super::frames::{About, Frame};
+use super::history::History;
+use super::view::{View, view};
+use crate::input::bytes;
+use crate::io::files::write_all;
+
+/// Bytes of a garment file.
+const LARGEST: u64 = 16 << 20;
+/// Spacings of the mesh that the page may ask for, mm.
+pub const SPACINGS: [f64; 6] = [8.0, 10.0, 12.0, 15.0, 20.0, 25.0];
+
+/// The state of a studio.
+pub(super) struct Session {
+    file: PathBuf,
+    inner: Mutex<Inner>,
+    changed: Condvar,
+}
+
+#[derive(Default)]
+struct Inner {
+    /// The file as it was read last, or why it cannot be read.
+    text: String,
+    unreadable: Option<String>,
+    /// Whether a garment can be made of it.
+    is_sound: bool,
+    spacing: f64,
+    history: History,
+    state: Arc<String>,
+    body: Arc<Vec<u8>>,
+    garment: Arc<Vec<u8>>,
+    report: Arc<String>,
+    about: About,
+    news: News,
+    /// Told whenever the watching thread should look at once.
+    asked: u64,
+}
+
+/// News for the pages: version numbers of the parts, and the progress of the garment.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub(super) struct News {
+    /// Number of the file's state.
+    pub(super) state: u64,
+    /// Number of the body.
+    body: u64,
+    /// Number of the garment that is shown.
+    garment: u64,
+    /// Number of the garment that the report is of.
+    report: u64,
+    /// Whether a garment is being made.
+    making: bool,
+    /// The stage under way.
+    stage: String,
+    /// The share of it that is done.
+    share: f64,
+    /// Why the last garment could not be made.
+    failed: Option<String>,
+}
+
+/// Something that the page fetches.
+pub(super) enum Part {
+    State,
+    Body,
+    Garment,
+    Report,
+    About,
+}
+
+impl Session {
+    /// A session of a file.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub(super) fn new(file: &Path, spacing: f64) -> Result<Self, StudioError> {
+        let text = read(file).map_err(|why| StudioError::File { file: file.to_owned(), why })?;
+        let inner = Inner { text, spacing, ..Inner::default() };
+        let session = Self { file: file.to_owned(), inner: Mutex::new(inner), changed: Condvar::new() };
+        session.see();
+        Ok(session)
+    }
+
+    pub(super) fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// A thread that panicked while it held the lock left a state that is still whole: it is replaced part by part.
+    fn lock(&self) -> MutexGuard<'_, Inner> {
+        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Looks at the file. Whether it is another than before.
+    pub(super) fn look(&self) -> bool {
+        // Read under the lock: an act must not write in between.
+        let mut inner = self.lock();
+        match read(&self.file) {
+            Ok(text) if inner.unreadable.is_none() && text == inner.text => return false,
+            Err(why) if inner.unreadable.as_ref() == Some(&why) => return false,
+            Ok(text) => (inner.text, inner.unreadable) = (text, None),
+            Err(why) => inner.unreadable = Some(why),
+        }
+        drop(inner);
+        self.see();
+        true
+    }
+
+    /// Says what the file holds, and the files that it names.
+    pub(super) fn see(&self) {
+        let mut inner = self.lock();
+        // From now on no act is done that was meant for the state before.
+        inner.news.state += 1;
+        let (text, unreadable, spacing) = (inner.text.clone(), inner.unreadable.clone(), inner.spacing);
+        drop(inner);
+        // A check takes a while, in which the page is served.
+        let view = view(&self.file, &text, unreadable.as_deref(), spacing);
+        let mut inner = self.lock();
+        if (&inner.text, &inner.unreadable, inner.spacing) == (&text, &unreadable, spacing) {
+            inner.renew(view);
+            self.changed.notify_all();
+        }
+    }
+
+    /// The spacing, mm, if a garment can be made of the file.
+    pub(super) fn makeable(&self) -> Option<f64> {
+        let inner = self.lock();
+        inner.is_sound.then_some(inner.spacing)
+    }
+
+    /// The text of the file as it was read last.
+    pub(super) fn text(&self) -> String {
+        self.lock().text.clone()
+    }
+
+    /// A garment is being made, or not.
+    pub(super) fn begun(&self, making: bool) {
+        let mut inner = self.lock();
+        inner.news = News { making, stage: String::new(), share: 0.0, failed: None, ..inner.news.clone() };
+        self.changed.notify_all();
+    }
+
+    /// Nothing more comes of the garment that was being made.
+    pub(super) fn ended(&self) {
+        let mut inner = self.lock();
+        inner.news.making = false;
+        self.changed.notify_all();
+    }
+
+    /// Takes what the process that makes the garment has to say.
+    pub(super) fn take(&self, frame: Frame) {
+        let mut inner = self.lock();
+        match frame {
+            Frame::Body(bytes) if bytes == *inner.body => return,
+            Frame::Body(bytes) => {
+                inner.body = Arc::new(bytes);
+                inner.news.body += 1;
+            }
+            Frame::About(about) => inner.about = about,
+            Frame::Garment(bytes) => {
+                inner.garment = Arc::new(bytes);
+                inner.news.garment += 1;
+            }
+            Frame::Report(text) => {
+                inner.report = Arc::new(text);
+                inner.news.report = inner.news.garment;
+            }
+            Frame::Progress(stage, share) => (inner.news.stage, inner.news.share) = (stage, share),
+            Frame::Failed(why) => inner.news.failed = Some(why),
+        }
+        self.changed.notify_all();
+    }
+
+    /// The news, as soon as they differ from `old`. `None` when they do not for so long.
+    pub(super) fn news(&self, old: &News, patience: Duration) -> Option<News> {
+        let inner = self.lock();
+        let waited = self.changed.wait_timeout_while(inner, patience, |inner| inner.news == *old);
+        let (inner, waited) = waited.unwrap_or_else(PoisonError::into_inner);
+        (!waited.timed_out()).then(|| inner.news.clone())
+    }
+
+    /// Waits until an act asks for a look at the file, or for so long.
+    pub(super) fn wait(&self, asked: &mut u64, patience: Duration) {
+        let inner = self.lock();
+        let waited = self.changed.wait_timeout_while(inner, patience, |inner| inner.asked == *asked);
+        *asked = waited.unwrap_or_else(PoisonError::into_inner).0.asked;
+    }
+
+    /// A part of the state, as bytes.
+    pub(super) fn part(&self, part: &Part) -> Vec<u8> {
+        let inner = self.lock();
+        match part {
+            Part::State => inner.state.as_bytes().to_vec(),
+            Part::Body => inner.body.to_vec(),
+            Part::Garment => inner.garment.to_vec(),
+            Part::Report => inner.report.as_bytes().to_vec(),
+            Part::About => serde_json::to_vec(&inner.about).unwrap_or_default(),
+        }
+    }
+
+    /// Does an act of a page that knows the state with the number `base`. The file is written whole or not at all.
+    ///
+    /// # Errors
+    /// [`ActError`]: nothing has changed then.
+    pub(super) fn act(&self, base: u64, act: &Act) -> Result<(), ActError> {
+        let mut inner = self.lock();
+        if base != inner.news.state {
+            return Err(ActError::Old);
+        }
+        if let Act::Spacing { mm } = act {
+            inner.spacing = *SPACINGS.iter().find(|spacing| *spacing == mm).ok_or(ActError::Spacing)?;
+        } else {
+            let there = read(&self.file).map_err(ActError::File)?;
+            if there != inner.text {
+                return Err(ActError::Old);
+            }
+            let done = match act {
+                Act::Undo => inner.history.before(&there).map(|text| Done { text, label: String::new() }),
+                Act::Redo => inner.history.after(&there).map(|text| Done { text, label: String::new() }),
+                other => Some(other.done(&there, &self.file)?),
+            };
+            let done = done.ok_or(ActError::NothingToUndo)?;
+            let written = write_all(&[(self.file.clone(), done.text.clone().into_bytes())], &[]);
+            written.map_err(|e| ActError::File(e.to_string()))?;
+            match act {
+                Act::Undo => inner.history.went_back(),
+                Act::Redo => inner.history.went_on(),
+                _ => inner.history.keep(&done.label, &there, &done.text),
+            }
+            inner.text = done.text;
+        }
+        drop(inner);
+        self.see();
+        // Only now is it known whether a garment can be made of the file.
+        self.lock().asked += 1;
+        self.changed.notify_all();
+        Ok(())
+    }
+}
+
+impl Inner {
+    /// Takes a new state of the file.
+    fn renew(&mut self, View { mut json, is_sound }: View) {
+        self.is_sound = is_sound;
+        self.news.state += 1;
+        json["version"] = self.news.state.into();
+        json["undo"] = self.history.undoable(&self.text).into();
+        json["redo"] = self.history.redoable(&self.text).into();
+        self.state = Arc::new(json.to_string());
+    }
+}
+
+fn read(file: &Path) -> Result<String, String> {
+    let bytes = bytes(file, LARGEST).map_err(|e| e.to_string())?;
+    String::from_utf8(bytes).map_err(|e| format!("it is not UTF-8 text (byte {})", e.utf8_error().valid_up_to()))
+}
