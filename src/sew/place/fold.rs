@@ -70,12 +70,53 @@ pub(in crate::sew) fn pressed(garment: &Garment, mesh: &ClothMesh) -> Sheet {
     sheet
 }
 
-/// The particles that are turned over at a pressed fold.
-struct Flap {
-    particles: Vec<usize>,
-    /// A point of the fold, and the unit direction across it.
+/// A fold as it is drawn, straight or curved: its points, which go straight on beyond both ends.
+struct Crease(Vec<Vec2>);
+
+/// The straight line nearest to a particle along a fold: a point, and the unit direction across it.
+#[derive(Clone, Copy, Debug)]
+struct Tangent {
     at: Vec2,
     across: Vec2,
+}
+
+impl Tangent {
+    /// How far over it a point lies, metres.
+    fn off(&self, p: Vec2) -> f64 {
+        self.across.dot(&(p - self.at))
+    }
+}
+
+impl Crease {
+    fn new(mesh: &ClothMesh, line: &LineParticles) -> Self {
+        let mut points: Vec<Vec2> = line.particles.iter().map(|p| mesh.flat[*p as usize]).collect();
+        points.dedup();
+        Self(points)
+    }
+
+    /// The unit direction from its first point to its last. `None` where these are one.
+    fn along(&self) -> Option<Vec2> {
+        (self.0.last()? - self.0.first()?).try_normalize(0.0)
+    }
+
+    /// The line of the segment nearest to a point. A crease of one point has none.
+    fn tangent(&self, p: Vec2) -> Option<Tangent> {
+        let last = self.0.len().checked_sub(2)?;
+        let segment = |k: usize| {
+            let (at, way) = (self.0[k], self.0[k + 1] - self.0[k]);
+            let from = if k == 0 { f64::NEG_INFINITY } else { 0.0 };
+            let to = if k == last { f64::INFINITY } else { 1.0 };
+            let share = ((p - at).dot(&way) / way.norm_squared()).clamp(from, to);
+            let along = way.normalize();
+            ((p - at - way * share).norm_squared(), Tangent { at, across: Vec2::new(-along.y, along.x) })
+        };
+        (0..=last).map(segment).min_by(|a, b| a.0.total_cmp(&b.0)).map(|nearest| nearest.1)
+    }
+}
+
+/// The particles that are turned over at a pressed fold, each with the line it is mirrored in.
+struct Flap {
+    particles: Vec<(usize, Tangent)>,
     /// To the wrong side (1) or the right side (-1).
     way: f64,
 }
@@ -84,27 +125,28 @@ struct Flap {
 /// is worn open.
 fn flap(garment: &Garment, mesh: &ClothMesh, piece: &PieceMesh, sewn: &[u32], line: &LineParticles) -> Option<Flap> {
     let LineKind::Fold(angle) = line.kind else { return None };
-    let [at, end] = [line.particles.first()?, line.particles.last()?].map(|p| mesh.flat[*p as usize]);
-    let along = (end - at).try_normalize(0.0).filter(|_| angle.abs() >= PRESSED)?;
-    let across = Vec2::new(-along.y, along.x);
-    let side = |p: usize| across.dot(&(mesh.flat[p] - at));
-    if opens(garment, mesh, piece, along, side) {
+    let crease = Crease::new(mesh, line);
+    let along = crease.along().filter(|_| angle.abs() >= PRESSED)?;
+    let tangents = piece.particles.clone().map(|p| Some((p, crease.tangent(mesh.flat[p])?)));
+    let tangents: Vec<(usize, Tangent)> = tangents.collect::<Option<_>>()?;
+    let off = |p: usize| tangents[p - piece.particles.start].1.off(mesh.flat[p]);
+    if opens(garment, mesh, piece, along, off) {
         return None;
     }
-    let balance: f64 = piece.particles.clone().map(|p| side(p).signum() * f64::from(sewn[p])).sum();
+    let balance: f64 = piece.particles.clone().map(|p| off(p).signum() * f64::from(sewn[p])).sum();
     let keep = if balance >= 0.0 { 1.0 } else { -1.0 };
-    let particles = piece.particles.clone().filter(|&p| side(p) * keep < -ON_FOLD).collect();
-    Some(Flap { particles, at, across, way: angle.signum() })
+    let is_over = |(p, _): &&(usize, Tangent)| off(*p) * keep < -ON_FOLD;
+    Some(Flap { particles: tangents.iter().filter(is_over).copied().collect(), way: angle.signum() })
 }
 
 impl Flap {
     /// Mirrors it in its fold as it lies by now, what was uppermost of its layers undermost.
     fn turn_over(&self, sheet: &mut Sheet) {
-        let layers = self.particles.iter().map(|&p| self.way * sheet.under[p]);
+        let layers = self.particles.iter().map(|&(p, _)| self.way * sheet.under[p]);
         let highest = layers.fold(0.0, f64::max);
-        for &p in &self.particles {
-            let off = self.across.dot(&(sheet.flat[p] - self.at));
-            sheet.flat[p] -= self.across * (2.0 * off);
+        for &(p, tangent) in &self.particles {
+            let off = tangent.off(sheet.flat[p]);
+            sheet.flat[p] -= tangent.across * (2.0 * off);
             sheet.under[p] = self.way * (1.0 + highest) - sheet.under[p];
             sheet.hidden[p] = true;
         }
@@ -150,11 +192,9 @@ mod tests {
         let (under, hidden) = (vec![0.0; 3], vec![false; 3]);
         let mut sheet =
             Sheet { drawn: nowhere(), flat, straight: nowhere(), under, hidden, shut: Vec::new(), out: Vec::new() };
-        let flap = |particles: &[usize], x: f64, way: f64| Flap {
-            particles: particles.to_vec(),
-            at: Vec2::new(x, 0.0),
-            across: Vec2::x(),
-            way,
+        let flap = |particles: &[usize], x: f64, way: f64| {
+            let tangent = Tangent { at: Vec2::new(x, 0.0), across: Vec2::x() };
+            Flap { particles: particles.iter().map(|p| (*p, tangent)).collect(), way }
         };
         flap(&[2], 0.04, outer).turn_over(&mut sheet);
         flap(&[1, 2], 0.02, inner).turn_over(&mut sheet);
@@ -173,5 +213,25 @@ mod tests {
                 assert_eq!((kept.1, turned.1, last.1), (0.0, way * middle, way * end));
             }
         }
+    }
+
+    #[test]
+    fn a_curved_fold_is_followed_by_the_line_nearest_to_a_point() {
+        let arc = |turn: f64| Vec2::new(turn.sin(), turn.cos());
+        let crease = Crease((0..=100).map(|k| arc(0.02 * f64::from(k) - 1.0)).collect());
+        for turn in [-0.9, -0.31, 0.0, 0.57, 0.9] {
+            for radius in [0.9, 1.1] {
+                let p = arc(turn) * radius;
+                let tangent = crease.tangent(p).expect("segments");
+                let mirrored = p - tangent.across * (2.0 * tangent.off(p));
+                assert_relative_eq!(mirrored.norm(), 2.0 - radius, epsilon = 2e-3);
+                assert!((tangent.off(p) > 0.0) == (radius > 1.0), "{turn} {radius}");
+            }
+        }
+        // Beyond its ends it goes straight on, and all of a straight one is one line.
+        let straight = Crease([0.0, 0.3, 1.0].map(|x| Vec2::new(x, 0.0)).to_vec());
+        let off = |x: f64| straight.tangent(Vec2::new(x, 0.2)).expect("segments").off(Vec2::new(x, 0.2));
+        assert_relative_eq!(off(-2.0), off(5.0));
+        assert_relative_eq!(off(0.3), 0.2);
     }
 }
