@@ -740,7 +740,10 @@ fn any_surface_can_be_laid_flat() {
     }
     room.put("tube.obj", &text);
     let report = room.run(&["flatten", "tube.obj", "--units", "cm", "-o", "flat", "--json"]).ends(0).json();
-    assert_eq!(room.names("flat"), ["flat.obj", "flat.png", "outline.svg", "pattern.svg", "report.json"]);
+    assert_eq!(
+        room.names("flat"),
+        ["flat.obj", "flat.png", "garment.yaml", "outline.svg", "pattern.svg", "report.json"]
+    );
     assert_eq!(report["pieces"][1]["name"], "high");
     // The edges run between the corners, and know what is on the other side.
     let edges = |piece: usize| report["pieces"][piece]["edges"].as_array().expect("a list").clone();

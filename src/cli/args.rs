@@ -420,24 +420,24 @@ pub(super) struct FlattenArgs {
     /// several times, auto then cutting what the others leave (surfaces only)
     #[arg(long, value_name = "auto|V,V,…|FILE")]
     pub(super) cut: Vec<String>,
-    /// Cut darts where the strain passes the limit: N even ones that point at its pole into every round piece, N at most
-    /// into all others together, the next always where it is needed most; auto cuts as few as are enough, eight at most
-    /// (surfaces only)
+    /// Cut darts where the strain passes the limit: N even ones that point at its pole into every round piece, N at
+    /// most into all others together, the next always where it is needed most; auto cuts as few as are enough, eight at
+    /// most (surfaces only)
     #[arg(long, value_name = "auto|N", value_parser = darts)]
     pub(super) dart: Option<Darts>,
     /// Cut domes and balls into N gores, tubes into N panels (surfaces only)
     #[arg(long, value_name = "N", value_parser = gores)]
     pub(super) gores: Option<usize>,
-    /// Cut as many darts as are needed for all but a hundredth of every piece to be strained by no more per cent; says of
-    /// each cut how much it brought (surfaces only)
+    /// Cut as many darts as are needed for all but a hundredth of every piece to be strained by no more per cent; says
+    /// of each cut how much it brought (surfaces only)
     #[arg(long, value_name = "PERCENT", value_parser = percent, conflicts_with_all = ["dart", "limit", "fabric"])]
     pub(super) max_strain: Option<f64>,
     /// Leave vertices of a fine mesh out, as of a scan, as long as none is further from the rest than so many
     /// millimetres; the largest distance is said (surfaces only)
     #[arg(long, value_name = "MM", value_parser = weight)]
     pub(super) simplify: Option<f64>,
-    /// Cut the pieces so many per cent larger than they lie flat along the grain and across it; negative for smaller, as
-    /// for swimwear: -12,-20 (surfaces only)
+    /// Cut the pieces so many per cent larger than they lie flat along the grain and across it; negative for smaller,
+    /// as for swimwear: -12,-20 (surfaces only)
     #[arg(long, value_name = "WARP,WEFT", value_parser = ease, allow_hyphen_values = true)]
     pub(super) ease: Option<Ease>,
     /// Strain in per cent that all but a hundredth of a piece should stay below (surfaces only) [default: 10, or with

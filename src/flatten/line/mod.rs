@@ -1,7 +1,8 @@
 //! Lines on a surface that run across its triangles: plane sections and straightest ways.
 //!
 //! A line is a chain of spots, each of which shares a triangle with the next. Spots are vertices, points of edges or,
-//! at the ends of a line, points inside a triangle; the surface is split at them afterwards, so that lines become edges.
+//! at the ends of a line, points inside a triangle; the surface is split at them afterwards, so that lines become
+//! edges.
 
 mod geodesic;
 mod section;
@@ -19,8 +20,6 @@ const SNAP_SHARE: f64 = 0.05;
 /// A plane section that is nowhere further than this from the straightest way, metres, is as straight as a person can
 /// draw, and smoother: it does not feel the corners of the mesh.
 const AS_STRAIGHT: f64 = 5e-4;
-/// On a coarse mesh the straightest way itself is known to this share of an edge only.
-const AS_STRAIGHT_SHARE: f64 = 0.1;
 
 /// A point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,7 +78,7 @@ pub fn straightened(surface: &TriMesh, web: &Web, chain: &[u32]) -> Vec<Spot> {
     }
     let plane = Plane { through: surface.vertices[from as usize], normal: normal.normalize() };
     match section::section(surface, web, plane, from, way, Some(to)) {
-        Some(section) if lies_along(surface, web, &section, &straightest) => section,
+        Some(section) if lies_along(surface, &section, &straightest) => section,
         _ => straightest,
     }
 }
@@ -112,12 +111,11 @@ fn passes_rim(web: &Web, line: &[Spot]) -> bool {
 }
 
 /// Whether a line is nowhere further from another than what counts as straight.
-fn lies_along(surface: &TriMesh, web: &Web, line: &[Spot], other: &[Spot]) -> bool {
+fn lies_along(surface: &TriMesh, line: &[Spot], other: &[Spot]) -> bool {
     let along: Vec<Vec3> = other.iter().map(|spot| spot.place(surface)).collect();
-    let near = AS_STRAIGHT.max(AS_STRAIGHT_SHARE * web.mean_side());
     line.iter().all(|spot| {
         let p = spot.place(surface);
-        along.windows(2).any(|w| distance_to_segment(p, [w[0], w[1]]) <= near)
+        along.windows(2).any(|w| distance_to_segment(p, [w[0], w[1]]) <= AS_STRAIGHT)
     })
 }
 

@@ -1,7 +1,7 @@
 //! The line in which a plane cuts a surface, walked from triangle to triangle.
 //!
-//! Only the sides of the plane on which vertices lie decide where the walk goes, and a vertex near the plane lies on it,
-//! so that the walk never depends on rounding.
+//! Only the sides of the plane on which vertices lie decide where the walk goes, and a vertex near the plane lies on
+//! it, so that the walk never depends on rounding.
 
 use std::cmp::Ordering;
 

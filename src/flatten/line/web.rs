@@ -23,7 +23,6 @@ pub struct Web {
     near: Vec<f64>,
     /// Sum of the triangles' angles at every vertex.
     angles: Vec<f64>,
-    mean_side: f64,
 }
 
 impl Web {
@@ -34,10 +33,8 @@ impl Web {
         let mut across = vec![[NONE; 3]; triangles.len()];
         let mut rim = vec![false; count];
         let mut shortest = vec![f64::INFINITY; count];
-        let mut total = 0.0;
         for edge in &topology.edges {
             let length = (surface.vertices[edge.ends[1] as usize] - surface.vertices[edge.ends[0] as usize]).norm();
-            total += length;
             edge.ends.iter().for_each(|&v| shortest[v as usize] = shortest[v as usize].min(length));
             match edge.triangles {
                 [Some(s), Some(t)] => [(s, t), (t, s)].into_iter().for_each(|(own, other)| {
@@ -50,9 +47,8 @@ impl Web {
         }
         let near = shortest.iter().map(|side| SNAP.min(SNAP_SHARE * side)).collect();
         let (starts, round) = rounds(&triangles, count);
-        let mean_side = total / topology.edges.len().max(1) as f64;
         let angles = angle_sums(surface);
-        Self { triangles, across, starts, round, rim, near, angles, mean_side }
+        Self { triangles, across, starts, round, rim, near, angles }
     }
 
     /// The triangles at a vertex.
@@ -80,11 +76,6 @@ impl Web {
 
     pub(super) fn angle(&self, v: u32) -> f64 {
         self.angles[v as usize]
-    }
-
-    /// Mean length of an edge, metres.
-    pub(super) fn mean_side(&self) -> f64 {
-        self.mean_side
     }
 
     /// A vector upright on the surface at a spot, as long as twice the area of the triangles there.

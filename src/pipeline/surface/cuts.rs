@@ -174,8 +174,8 @@ fn rings(ways: &[Vec<u32>]) -> Vec<Vec<u32>> {
     rings
 }
 
-/// The straight line along a chain of a part's vertices, or the chain itself where that line would touch the rim, and so
-/// part the surface.
+/// The straight line along a chain of a part's vertices, or the chain itself where that line would touch the rim, and
+/// so part the surface.
 pub(super) fn straight_inside(part: &Part, chain: &[u32]) -> Vec<Spot> {
     let line = straight(part, chain);
     let rim: HashSet<u32> = rim_loops(&part.surface.triangles).into_iter().flatten().collect();

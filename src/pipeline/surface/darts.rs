@@ -95,6 +95,7 @@ impl Source<'_> {
         let breaks = breaks_of(&parts.iter().collect::<Vec<_>>());
         let numbered = parts.into_par_iter().enumerate().zip(breaks);
         let all: Vec<_> = numbered.map(|((number, part), breaks)| self.lay(number, part, breaks)).collect();
+        let cut_before = sheet.made.len();
         let mut out = Outcome { laid: Vec::new(), failed: Vec::new() };
         for (number, result) in all.into_iter().enumerate() {
             match self.remedied(number, result, sheet) {
@@ -105,7 +106,9 @@ impl Source<'_> {
                 }
             }
         }
-        self.refresh(&mut out, sheet)?;
+        if sheet.made.len() > cut_before {
+            self.refresh(&mut out, sheet)?;
+        }
         Ok(out)
     }
 

@@ -156,6 +156,16 @@ impl FlatSurface {
         Some((at_no_place(edge_name(edge)), vec![at_no_place(NotchFile { at, double: false })]))
     }
 
+    /// By how much the second of two sewn edges is longer as they are cut: ease draws edges of different directions
+    /// differently.
+    fn excess(&self, [p, e]: [usize; 2], [q, f]: [usize; 2]) -> Option<Located<Quantity>> {
+        /// Less is no ease, mm.
+        const NONE: f64 = 0.05;
+        let length = |p: usize, e: usize| self.report.pieces[p].edges[e].length_cut;
+        let excess = length(q, f) - length(p, e);
+        (excess.abs() > NONE).then(|| at_no_place(Quantity { number: rounded(excess), unit: None }))
+    }
+
     /// The seams between outlines, each once, and all other edges.
     fn seams(&self, names: &[String]) -> (Vec<SeamFile>, Vec<Located<String>>) {
         let outlines: Vec<usize> = (0..self.laid.len()).map(|k| self.outline_of(k)).collect();
@@ -176,12 +186,9 @@ impl FlatSurface {
                 match sewn {
                     None => free.push(full(p, edge)),
                     Some([q, f]) if [p, e] < [q, f] => {
-                        let name = format!("seam{}", seams.len() + 1);
-                        seams.push(SeamFile::new(
-                            at_no_place(name),
-                            vec![full(p, edge)],
-                            vec![full(q, &self.edges[q][f])],
-                        ));
+                        let name = at_no_place(format!("seam{}", seams.len() + 1));
+                        let (own, other) = (vec![full(p, edge)], vec![full(q, &self.edges[q][f])]);
+                        seams.push(SeamFile { ease: self.excess([p, e], [q, f]), ..SeamFile::new(name, own, other) });
                     }
                     Some(_) => {}
                 }
