@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use toile::flatten::{Mode, Options};
 use toile::geometry::Vec3;
 use toile::io::obj_read::ObjFaces;
-use toile::pipeline::{Cuts, FlatSurface, REPORT_JSON, ResultFile, SurfaceOptions, flatten_faces};
+use toile::pipeline::{Cuts, Darts, FlatSurface, REPORT_JSON, ResultFile, SurfaceOptions, flatten_faces};
 
 use crate::errors;
 use crate::library::unit;
@@ -89,7 +89,7 @@ fn surface(
 ///     units: Unit of the positions; None guesses it from the size.
 ///     up: Direction that lies along the grain (y, or z where the surface runs along z).
 ///     cut: Cut the surface open where it is needed.
-///     darts: Number of darts at most that are cut where the strain passes 10 %.
+///     darts: Number of darts at most that are cut where the strain passes 10 %; into a round piece as many even ones.
 ///     threads: Number of threads (all processors by default). Results do not depend on it.
 ///     name: Its name in the report.
 ///
@@ -122,7 +122,7 @@ pub(crate) fn flatten(
         unit: units.map(unit).transpose().map_err(wrong)?,
         up: up.map(|up| up.normalize()),
         cuts: Cuts { auto: cut, ..Cuts::default() },
-        darts,
+        darts: (darts > 0).then_some(Darts::Count(darts)),
         flatten: Options { mode: self::mode(mode).map_err(wrong)?, ..Options::default() },
         ..SurfaceOptions::default()
     };
@@ -162,7 +162,7 @@ impl Flat {
 impl Flat {
     /// Shape (m, 3, 2): flat position (x, −y) at every corner of every face that was given, mm.
     ///
-    /// NaN for a face that was left out (doubled, without area) or cannot be laid flat.
+    /// NaN for a face that was left out (doubled, without area), is split by a cut, or cannot be laid flat.
     #[getter]
     fn uv<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
         corners(py, &self.uv)

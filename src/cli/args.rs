@@ -15,7 +15,7 @@ use crate::input::{LengthUnit, bytes};
 use crate::io::garment::alterations_in;
 use crate::mannequin::Measures;
 use crate::pattern::{WIDEST_ALLOWANCE, parse_quantity};
-use crate::pipeline::{Color, DARTS, Given, Overrides};
+use crate::pipeline::{Color, Darts, Ease, Given, Overrides};
 use crate::report::Bands;
 
 /// Bytes of a file of measures or alterations: a page of text. Larger ones are refused before they are read.
@@ -319,13 +319,33 @@ fn direction(text: &str) -> Result<Vec3, String> {
         .ok_or_else(|| "x, y, z or a direction X,Y,Z is expected, such as 0,1,0.5".into())
 }
 
-/// How many darts at most.
-fn darts(text: &str) -> Result<usize, String> {
+/// How many darts.
+fn darts(text: &str) -> Result<Darts, String> {
     match text.parse() {
-        _ if text == "auto" => Ok(DARTS),
-        Ok(count) if count > 0 => Ok(count),
+        _ if text == "auto" => Ok(Darts::Auto),
+        Ok(count) if count > 0 => Ok(Darts::Count(count)),
         _ => Err("'auto' or a number of darts is expected, such as 4".into()),
     }
+}
+
+/// Ease along the grain and across it, in per cent.
+fn ease(text: &str) -> Result<Ease, String> {
+    /// Per cent: cloth gives no more than to two and a half times its length.
+    const RANGE: std::ops::RangeInclusive<f64> = -60.0..=100.0;
+    let number =
+        |part: &str| part.trim().trim_end_matches('%').trim().parse::<f64>().ok().filter(|x| RANGE.contains(x));
+    let numbers: Option<Vec<f64>> = text.split(',').map(number).collect();
+    match numbers.as_deref() {
+        Some([warp, weft]) => Ok(Ease { warp: warp / 100.0, weft: weft / 100.0 }),
+        _ => Err("two percentages from -60 to 100 are expected, along the grain and across it, such as -12,-20".into()),
+    }
+}
+
+/// How many gores.
+fn gores(text: &str) -> Result<usize, String> {
+    /// More would be narrower than their allowances.
+    const MOST: usize = 200;
+    text.parse().ok().filter(|n| (2..=MOST).contains(n)).ok_or_else(|| format!("a number from 2 to {MOST} is expected"))
 }
 
 /// A garment, and a result to begin with.
@@ -429,14 +449,31 @@ pub(super) struct FlattenArgs {
     /// where the surface runs along z, which is said]
     #[arg(long, value_name = "x|y|z|X,Y,Z", value_parser = direction, allow_negative_numbers = true)]
     pub(super) up: Option<Vec3>,
-    /// Cut along the shortest way through these vertices, numbered from 1 as in the file, or wherever it is needed; may
-    /// be given several times, auto then cutting what the others leave (surfaces only)
-    #[arg(long, value_name = "auto|V,V,…")]
+    /// Cut along straight lines through these vertices, numbered from 1 as in the file, along the lines drawn in a file
+    /// (an OBJ with l elements, or three numbers a line, in the surface's unit), or wherever it is needed; may be given
+    /// several times, auto then cutting what the others leave (surfaces only)
+    #[arg(long, value_name = "auto|V,V,…|FILE")]
     pub(super) cut: Vec<String>,
-    /// Cut darts where the strain passes the limit, N at most for all pieces together, the next always where it is
-    /// needed most; auto cuts eight at most (surfaces only)
+    /// Cut darts where the strain passes the limit: N even ones that point at its pole into every round piece, N at
+    /// most into all others together, the next always where it is needed most; auto cuts as few as are enough, eight at
+    /// most (surfaces only)
     #[arg(long, value_name = "auto|N", value_parser = darts)]
-    pub(super) dart: Option<usize>,
+    pub(super) dart: Option<Darts>,
+    /// Cut domes and balls into N gores, tubes into N panels (surfaces only)
+    #[arg(long, value_name = "N", value_parser = gores)]
+    pub(super) gores: Option<usize>,
+    /// Cut as many darts as are needed for all but a hundredth of every piece to be strained by no more per cent; says
+    /// of each cut how much it brought (surfaces only)
+    #[arg(long, value_name = "PERCENT", value_parser = percent, conflicts_with_all = ["dart", "limit", "fabric"])]
+    pub(super) max_strain: Option<f64>,
+    /// Leave vertices of a fine mesh out, as of a scan, as long as none is further from the rest than so many
+    /// millimetres; the largest distance is said (surfaces only)
+    #[arg(long, value_name = "MM", value_parser = weight)]
+    pub(super) simplify: Option<f64>,
+    /// Cut the pieces so many per cent larger than they lie flat along the grain and across it; negative for smaller,
+    /// as for swimwear: -12,-20 (surfaces only)
+    #[arg(long, value_name = "WARP,WEFT", value_parser = ease, allow_hyphen_values = true)]
+    pub(super) ease: Option<Ease>,
     /// Strain in per cent that all but a hundredth of a piece should stay below (surfaces only) [default: 10, or with
     /// --fabric what its threads give]
     #[arg(long, value_name = "PERCENT", value_parser = percent, conflicts_with = "fabric")]

@@ -7,12 +7,12 @@ use super::console::Console;
 use super::exit::{CliError, Exit};
 use super::make::{Goal, Plan, carry_out, folder, write};
 use crate::fabric;
-use crate::flatten::Options;
+use crate::flatten::{Mode, Options};
 use crate::geometry::MM;
 use crate::io::files::check_writable;
 use crate::pipeline::{
-    AT_REST, Cuts, DartStop, FLAT_OBJ, FLAT_PNG, Limit, OUTLINE_SVG, PATTERN_SVG, PartReport, PictureOptions,
-    REPORT_JSON, SurfaceOptions, SurfaceReport, Weld, flatten_surface,
+    AT_REST, Cuts, DartStop, Darts, FLAT_OBJ, FLAT_PNG, GARMENT_YAML, Limit, OUTLINE_SVG, PATTERN_SVG, PartReport,
+    PictureOptions, REPORT_JSON, SurfaceOptions, SurfaceReport, Weld, flatten_surface,
 };
 use crate::report::{aligned, restless, shortened};
 
@@ -51,6 +51,10 @@ fn foreign(args: &FlattenArgs) -> Result<(), CliError> {
         let options = [
             ("--cut", !args.cut.is_empty()),
             ("--dart", args.dart.is_some()),
+            ("--gores", args.gores.is_some()),
+            ("--max-strain", args.max_strain.is_some()),
+            ("--ease", args.ease.is_some()),
+            ("--simplify", args.simplify.is_some()),
             ("--limit", args.limit.is_some()),
             ("--units", args.units.is_some()),
             ("--up", args.up.is_some()),
@@ -80,11 +84,11 @@ fn limit(args: &FlattenArgs) -> Result<Limit, CliError> {
     const USUAL: f64 = 10.0;
     match args.overrides.checked().fabric {
         Some(name) => Ok(Limit::of(&fabric::load(&name)?)),
-        None => Ok(Limit::Strain(args.limit.unwrap_or(USUAL) / 100.0)),
+        None => Ok(Limit::Strain(args.max_strain.or(args.limit).unwrap_or(USUAL) / 100.0)),
     }
 }
 
-/// `auto`, or vertices from 1 with commas between them.
+/// `auto`, vertices from 1 with commas between them, or a file.
 fn cuts(args: &[String]) -> Result<Cuts, CliError> {
     let mut cuts = Cuts::default();
     for text in args {
@@ -92,8 +96,17 @@ fn cuts(args: &[String]) -> Result<Cuts, CliError> {
             cuts.auto = true;
             continue;
         }
+        let file = Path::new(text);
+        if file.is_file() {
+            cuts.files.push(file.to_owned());
+            continue;
+        }
         let path: Result<Vec<u32>, _> = text.split(',').map(|v| v.trim().parse::<u32>()).collect();
-        let why = || CliError::Argument(format!("--cut {text}: 'auto' or vertex numbers such as 12,340 are expected"));
+        let why = || {
+            CliError::Argument(format!(
+                "--cut {text}: 'auto', vertex numbers such as 12,340 or a file of lines is expected"
+            ))
+        };
         cuts.paths.push(path.map_err(|_| why())?);
     }
     Ok(cuts)
@@ -106,8 +119,11 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
         texture_seams: !args.no_texture_seams,
         groups: !args.together,
         weld: args.weld.map_or(Weld::BetweenParts, |mm| Weld::Within(mm / MM)),
+        simplify: args.simplify.map(|mm| mm / MM),
         cuts: cuts(&args.cut)?,
-        darts: args.dart.unwrap_or(0),
+        gores: args.gores,
+        darts: args.dart.or(args.max_strain.map(|_| Darts::Enough)),
+        ease: args.ease.unwrap_or_default(),
         limit: limit(args)?,
         flatten,
     };
@@ -115,9 +131,10 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
     let folder = folder(args.output.as_deref(), &stem);
     let inputs = [args.input.as_path()];
     let targets: Vec<PathBuf> =
-        [FLAT_OBJ, FLAT_PNG, OUTLINE_SVG, PATTERN_SVG, REPORT_JSON].map(|name| folder.join(name)).into();
+        [FLAT_OBJ, FLAT_PNG, GARMENT_YAML, OUTLINE_SVG, PATTERN_SVG, REPORT_JSON].map(|name| folder.join(name)).into();
     check_writable(&targets, &inputs)?;
     let flat = flatten_surface(&args.input, &options)?;
+    let flatten_mode = options.flatten.mode;
     flat.notes.iter().for_each(|note| console.note(note));
     write(flat.results()?, &folder, &inputs)?;
     let report = &flat.report;
@@ -126,12 +143,22 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
         console.note(&stage.to_string());
     }
     report.pieces.iter().filter_map(rim_missed).take(LISTED).for_each(|text| console.note(&text));
+    if flatten_mode == Mode::Woven {
+        report.pieces.iter().filter_map(sheared).take(LISTED).for_each(|text| console.note(&text));
+    }
     let strained = |layable: bool| {
         let pieces = report.pieces.iter().filter(move |piece| piece.layable == layable);
         pieces.filter_map(|piece| strained(piece, &options)).take(LISTED).collect::<Vec<_>>()
     };
     strained(true).iter().for_each(|text| console.note(text));
     let mut exit = Exit::Done;
+    if args.max_strain.is_some() {
+        for piece in report.pieces.iter().filter(|piece| piece.darts_stopped.is_some()) {
+            let percent = 100.0 * piece.strain.p99;
+            console.complain(&format!("out of bounds: '{}' is strained by {percent:.1} % with its darts", piece.name));
+            exit = Exit::OutOfBounds;
+        }
+    }
     for text in strained(false) {
         console.complain(&format!("out of bounds: {text}"));
         exit = Exit::OutOfBounds;
@@ -168,6 +195,13 @@ fn told(report: &SurfaceReport, folder: &Path, every: bool) -> String {
     if let Some(worst) = largest(rim_change) {
         lines.push(format!("rim     changed by {} % at most, round '{}'", signed(rim_signed(worst)), worst.name));
     }
+    if let Some(ease) = report.ease {
+        let [warp, weft, along, across] =
+            [ease.warp, ease.weft, ease.stretch_warp, ease.stretch_weft].map(|x| format!("{:+.1} %", 100.0 * x));
+        lines.push(format!(
+            "ease    cut {warp} along the grain and {weft} across: worn, stretched {along} and {across}"
+        ));
+    }
     let mut text: String = lines.iter().map(|line| shortened(line, LINE) + "\n").collect();
     let first = folder.join(FLAT_PNG);
     text.push_str(&format!("look    at {} first; figures: {REPORT_JSON} beside it, or --table\n", first.display()));
@@ -198,6 +232,17 @@ fn rim_missed(piece: &PartReport) -> Option<String> {
     let missed = 100.0 * piece.rim_missed.filter(|missed| *missed > CUT)?;
     let said = format!("the rim of '{}' could not be kept: it is off by {missed:.3} % in the mean", piece.name);
     Some(said + "; with a dart (--dart auto) or a cut (--cut) the cloth inside has room")
+}
+
+/// Where a weave would have to be sheared beyond what any gives.
+fn sheared(piece: &PartReport) -> Option<String> {
+    /// Degrees. Threads lock at 30; a triangle of the mesh shears by half a degree more or less than its neighbours.
+    const LOCKED: f64 = 30.5;
+    let (name, threads) = (&piece.name, &piece.threads);
+    (threads.shear_max > LOCKED).then(|| {
+        let (most, vertex) = (threads.shear_max, threads.shear_at);
+        format!("'{name}' shears past 30° ({most:.0}° at vertex {vertex}): cut it there, with --dart or --cut")
+    })
 }
 
 /// The part that is beyond the limit, the reason, and the remedy.
@@ -286,8 +331,8 @@ fn remedy(piece: &PartReport, options: &SurfaceOptions) -> String {
     let stopped = match piece.darts_stopped {
         None if place.is_some() => return place.unwrap_or_default() + "relieve it most; --dart auto cuts it",
         Some(DartStop::NoneLeft) => format!(
-            "relieve it most, but --dart allows {} for all pieces together; allow more, or cut it in two with --cut",
-            options.darts
+            "relieve it most, but --dart allows {}; allow more, or cut it in two with --cut",
+            options.darts.map_or(0, Darts::most)
         ),
         Some(DartStop::Overlap) => "relieve it most, but make it lie on itself; cut it in two with --cut".to_owned(),
         None | Some(DartStop::NoPlace) => "no place for a dart can be told; cut it in two with --cut".to_owned(),

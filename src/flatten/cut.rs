@@ -126,23 +126,25 @@ fn slit(surface: &TriMesh, topology: &Topology, solid: &Solid, from: u32) -> Vec
 }
 
 /// The dart that relieves a disk most: from the place where a conformal map would have to shrink most, which is where
-/// a cone point helps most (Ben-Chen, Gotsman & Bunin 2008, section 4), to the nearest rim vertex along edges that are
-/// not `solid`, from one that `may_open` accepts, if there is any; rim first. Where the map would have to stretch,
-/// cloth is missing and the legs of a dart would lie on each other. `log_scale` is [`super::Flattened::log_scale`].
-/// Empty where no place can be told: without scales, or where none shrinks.
+/// a cone point helps most (Ben-Chen, Gotsman & Bunin 2008, section 4), to the nearest rim vertex that `may_open`
+/// accepts, along edges that are not `solid`; rim first. It touches no other vertex of the rim: of one of another cut
+/// it would part the surface. Where the map would have to stretch, cloth is missing and the legs of a dart would lie on
+/// each other. `log_scale` is [`super::Flattened::log_scale`]. Empty where no place can be told: without scales, where
+/// none shrinks, or where no way is clear.
 pub fn dart(surface: &TriMesh, log_scale: &[f64], solid: &Solid, may_open: impl Fn(u32) -> bool) -> Vec<u32> {
-    let size = |v: u32| -log_scale[v as usize];
-    let tip = (0..log_scale.len() as u32).max_by(|&a, &b| size(a).total_cmp(&size(b)).then(b.cmp(&a)));
-    let Some(tip) = tip.filter(|&v| size(v) > 0.0) else { return Vec::new() };
     let topology = Topology::new(&surface.triangles);
-    let rim: Vec<u32> = topology.rim_edges().flat_map(|e| e.ends).collect();
-    let open: Vec<u32> = rim.iter().copied().filter(|&v| may_open(v)).collect();
-    let path = |sources: &[u32]| Tree::new(surface, &topology, solid, sources, false).path(tip);
-    let way = path(&open);
-    // A way that runs along the rim or across another cut would part the surface.
-    let on_rim: HashSet<u32> = rim.iter().copied().collect();
-    let is_clear = way.len() > 1 && way.iter().skip(1).all(|v| !on_rim.contains(v));
-    if is_clear { way } else { path(&rim) }
+    let on_rim: HashSet<u32> = topology.rim_edges().flat_map(|e| e.ends).collect();
+    let size = |v: u32| -log_scale[v as usize];
+    let inside = (0..log_scale.len() as u32).filter(|v| !on_rim.contains(v));
+    let tip = inside.max_by(|&a, &b| size(a).total_cmp(&size(b)).then(b.cmp(&a)));
+    let Some(tip) = tip.filter(|&v| size(v) > 0.0) else { return Vec::new() };
+    let mut open: Vec<u32> = on_rim.iter().copied().filter(|&v| may_open(v)).collect();
+    open.sort_unstable();
+    let is_shut = |v: &u32| on_rim.contains(v) && !may_open(*v);
+    let shut = topology.edges.iter().filter(|e| e.ends.iter().any(is_shut)).map(|e| e.ends);
+    let solid: Solid = solid.iter().copied().chain(shut).collect();
+    let way = Tree::new(surface, &topology, &solid, &open, false).path(tip);
+    if way.len() > 1 { way } else { Vec::new() }
 }
 
 /// Edges (smaller vertex first) that are no edges of what is cut: the diagonals that make triangles of its polygons.

@@ -87,6 +87,8 @@ pub struct Threads {
     pub shear: f64,
     /// The largest of any triangle.
     pub shear_max: f64,
+    /// A corner of that triangle.
+    pub shear_at: u32,
 }
 
 impl Threads {
@@ -102,7 +104,9 @@ impl Threads {
             sums.warp += element.area * warp * warp;
             sums.weft += element.area * weft * weft;
             sums.shear += element.area * shear * shear;
-            sums.shear_max = sums.shear_max.max(shear.abs());
+            if shear.abs() > sums.shear_max {
+                (sums.shear_max, sums.shear_at) = (shear.abs(), corners[0]);
+            }
             area += element.area;
         }
         let root = |sum: f64| (sum / area).sqrt();

@@ -7,7 +7,7 @@
 //! end where threads shrink to nothing, and the tangent none where warp and weft come to lie on each other, so that
 //! neither happens on a surface that cannot be woven over.
 
-use nalgebra::Matrix2;
+use nalgebra::{Matrix2, Matrix4, SymmetricEigen};
 
 use super::distortion::cofactor;
 use super::element::Mode;
@@ -78,18 +78,103 @@ pub(super) fn stress(jacobian: &Matrix2<f64>, warp: Vec2) -> Matrix2<f64> {
     a + b + derivative * (2.0 * JAMMED * jam(tangent) * tangent.signum() * slope)
 }
 
-/// The second derivative of Ψ without the part that strain and shear themselves contribute (Gauss–Newton).
-pub(super) fn modes(jacobian: &Matrix2<f64>, warp: Vec2) -> [Mode; 3] {
-    let [a, b] = threads(warp).map(|d| Mode { curvature: 2.0, mode: stretch(jacobian, d).1 });
-    let (sine, derivative) = shear(jacobian, warp);
-    let (tangent, slope) = tangent(sine);
-    let stiffness = if jam(tangent) > 0.0 { 2.0 * JAMMED } else { 0.0 };
-    [a, b, Mode { curvature: stiffness, mode: derivative * slope }]
+/// The second derivative of Ψ at J (det J > 0), as its four eigenmodes.
+pub(super) fn modes(jacobian: &Matrix2<f64>, warp: Vec2) -> [Mode; 4] {
+    let curved = Curved::new(jacobian, warp);
+    let unit = |k: usize| {
+        let mut m = Matrix2::zeros();
+        m[k] = 1.0;
+        m
+    };
+    let own = [0, 1, 2, 3].map(|k| curved.along(&unit(k)));
+    let hessian = Matrix4::from_fn(|k, l| match k == l {
+        true => own[k],
+        false => (curved.along(&(unit(k) + unit(l))) - own[k] - own[l]) / 2.0,
+    });
+    let eigen = SymmetricEigen::new(hessian);
+    [0, 1, 2, 3].map(|k| {
+        let mode = Matrix2::from_iterator(eigen.eigenvectors.column(k).iter().copied());
+        Mode { curvature: eigen.eigenvalues[k], mode }
+    })
+}
+
+/// Ψ near a J: what its second derivative along any direction is made of.
+struct Curved {
+    inverse: Matrix2<f64>,
+    det: f64,
+    cofactor: Matrix2<f64>,
+    /// Of warp and weft: the quarter-turned direction, its image by Jᵀ, ln t and its derivative.
+    threads: [(Vec2, Vec2, f64, Matrix2<f64>); 2],
+    /// Tangent of the shear.
+    tangent: f64,
+}
+
+impl Curved {
+    fn new(jacobian: &Matrix2<f64>, warp: Vec2) -> Self {
+        let threads = threads(warp).map(|d| {
+            let across = Vec2::new(-d.y, d.x);
+            let (stretch, derivative) = stretch(jacobian, d);
+            (across, jacobian.transpose() * across, stretch.ln(), derivative)
+        });
+        let det = jacobian.determinant();
+        let inverse = cofactor(jacobian).transpose() / det;
+        // The images of the quarter-turned threads: their angle is that of the threads on the surface.
+        let tangent = threads[0].1.dot(&threads[1].1) / det;
+        Self { inverse, det, cofactor: cofactor(jacobian), threads, tangent }
+    }
+
+    /// The second derivative of Ψ along `by`, twice the same direction.
+    fn along(&self, by: &Matrix2<f64>) -> f64 {
+        let turned = self.inverse * by;
+        // Of −ln det J.
+        let of_det = (turned * turned).trace();
+        let mut sum = 0.0;
+        for (across, image, log, derivative) in &self.threads {
+            let change = by.transpose() * across;
+            let square = image.norm_squared();
+            let bend = change.norm_squared() / square - 2.0 * (image.dot(&change) / square).powi(2) + of_det;
+            sum += 2.0 * derivative.dot(by).powi(2) + 2.0 * log * bend;
+        }
+        sum + self.jam_along(by)
+    }
+
+    /// The same of jammed threads.
+    fn jam_along(&self, by: &Matrix2<f64>) -> f64 {
+        let over = jam(self.tangent);
+        if over == 0.0 {
+            return 0.0;
+        }
+        let [(p, a, ..), (q, b, ..)] = &self.threads;
+        let (da, db) = (by.transpose() * p, by.transpose() * q);
+        let (first, second) = (da.dot(b) + a.dot(&db), 2.0 * da.dot(&db));
+        let (ddet, dddet) = (self.cofactor.dot(by), 2.0 * by.determinant());
+        let slope = (first - self.tangent * ddet) / self.det;
+        let bend = (second - 2.0 * slope * ddet - self.tangent * dddet) / self.det;
+        2.0 * JAMMED * (slope * slope + over * self.tangent.signum() * bend)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_modes_are_the_derivative_of_the_stress() {
+        // Stretched and sheared a little, and beyond where the weave locks.
+        for jacobian in [Matrix2::new(1.2, 0.3, -0.1, 0.8), Matrix2::new(1.0, -0.9, 0.2, 1.3)] {
+            let warp = Vec2::new(0.6, 0.8);
+            for k in 0..4 {
+                let moved = |by: f64| {
+                    let mut out: Matrix2<f64> = jacobian;
+                    out[k] += by;
+                    stress(&out, warp)
+                };
+                let numeric = (moved(1e-6) - moved(-1e-6)) / 2e-6;
+                let sum: Matrix2<f64> = modes(&jacobian, warp).iter().map(|m| m.mode * (m.mode[k] * m.curvature)).sum();
+                assert!((numeric - sum).norm() < 1e-6 * (1.0 + sum.norm()), "{numeric} {sum}");
+            }
+        }
+    }
 
     #[test]
     fn the_shear_is_that_of_the_threads_on_the_surface() {

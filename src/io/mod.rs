@@ -20,6 +20,7 @@ pub mod files;
 pub mod garment;
 pub mod garmentcode;
 pub mod glb_write;
+pub mod lines_read;
 pub mod obj_read;
 pub mod obj_write;
 pub mod pdf_write;

@@ -48,6 +48,12 @@ pub enum ObjError {
         /// The fault, and the form that was expected.
         why: String,
     },
+    /// A file without a line.
+    #[error("{file}: no line; 'v' and 'l' lines of an OBJ file are expected, or points, three numbers a line")]
+    NoLines {
+        /// Path.
+        file: String,
+    },
     /// A file without a surface.
     #[error("{file}: no faces; a surface has 'v' lines for its points and 'f' lines for its faces")]
     Empty {
@@ -70,7 +76,7 @@ pub struct ObjSurface {
 /// # Errors
 /// [`ObjError`] with the line.
 pub fn read_obj(path: &Path) -> Result<ObjSurface, ObjError> {
-    parse_obj(&text(path)?, &path.display().to_string())
+    parse_obj(&obj_text(path)?, &path.display().to_string())
 }
 
 /// The bytes of a file of a surface.
@@ -82,7 +88,8 @@ pub(super) fn obj_bytes(path: &Path) -> Result<Vec<u8>, ObjError> {
     })
 }
 
-fn text(path: &Path) -> Result<String, ObjError> {
+/// The text of a file of points, whatever its encoding.
+pub(super) fn obj_text(path: &Path) -> Result<String, ObjError> {
     // Only comments and names are ever other than ASCII.
     Ok(String::from_utf8_lossy(&obj_bytes(path)?).into_owned())
 }
@@ -130,7 +137,7 @@ pub struct ObjFaces {
 /// # Errors
 /// As [`read_obj`].
 pub fn read_obj_faces(path: &Path) -> Result<ObjFaces, ObjError> {
-    parse_obj_faces(&text(path)?, &path.display().to_string())
+    parse_obj_faces(&obj_text(path)?, &path.display().to_string())
 }
 
 /// As [`read_obj_faces`], of an OBJ's text; `file` names it in errors.

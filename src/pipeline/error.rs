@@ -9,7 +9,7 @@ use crate::drape::DrapeError;
 use crate::fabric::FabricError;
 use crate::flatten::FlattenError;
 use crate::io::body::BodyError;
-use crate::io::garment::Refused;
+use crate::io::garment::{EncodeError, Refused};
 use crate::io::obj_read::ObjError;
 use crate::io::svg_write::PatternSvgError;
 use crate::mannequin::Mannequin;
@@ -72,6 +72,27 @@ pub enum PipelineError {
         source: Box<PlaceError>,
         /// The meaning of a position and the parts of the body, if the message needs it.
         advice: String,
+    },
+    /// A surface cannot be cut along a drawn line.
+    #[error("{}: line {line}: {why}", file.display())]
+    Drawn {
+        /// The file of the lines.
+        file: PathBuf,
+        /// Its number in the file, from 1.
+        line: usize,
+        /// The reason, and what to do.
+        why: String,
+    },
+    /// The pieces of a surface cannot be written as a garment file.
+    #[error(transparent)]
+    Encode(#[from] EncodeError),
+    /// No part of a surface can be cut into gores.
+    #[error("{}: {why}", file.display())]
+    Gores {
+        /// The surface's file.
+        file: PathBuf,
+        /// The reason, and what to do.
+        why: String,
     },
     /// A file of an earlier run cannot be read.
     #[error(transparent)]
@@ -165,7 +186,9 @@ impl PipelineError {
             | Self::Saved { .. }
             | Self::Earlier { .. }
             | Self::NoDisk { .. }
-            | Self::Cut { .. } => true,
+            | Self::Cut { .. }
+            | Self::Drawn { .. }
+            | Self::Gores { .. } => true,
             Self::Surface { source, .. } => !is_breakdown(source),
             Self::Caught(_)
             | Self::Across(_)
@@ -173,6 +196,7 @@ impl PipelineError {
             | Self::Sew(_)
             | Self::Drape(_)
             | Self::Flatten(_)
+            | Self::Encode(_)
             | Self::Svg(_)
             | Self::Picture(_)
             | Self::Json(_) => false,

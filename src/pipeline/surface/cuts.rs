@@ -1,102 +1,187 @@
 //! Where a surface is cut: as asked, where it must be, and where it should be.
 
 use std::collections::{HashMap, HashSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::super::error::PipelineError;
 use super::darts::Source;
-use super::parts::{Nodes, Part};
-use super::report::{CutReport, CutWhy, DartReport};
-use crate::flatten::{self, FlattenError, Flattened, disk_cuts, shortest_path, slit_from_rim};
+use super::parts::Part;
+use super::report::{CutWhy, DartReport};
+use super::sheet::Sheet;
+use crate::flatten::line::{Spot, Web, straightened};
+use crate::flatten::{self, FlattenError, Flattened, Solid, disk_cuts, shortest_path, slit_from_rim};
 use crate::geometry::{MM, Topology, rim_loops, sorted_pair};
-use crate::io::obj_read::ObjFaces;
 
 /// Where to cut besides groups and texture seams.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Cuts {
-    /// Along the shortest ways through these vertices, numbered from 1 as in the file.
+    /// Along straight lines through these vertices, numbered from 1 as in the file.
     pub paths: Vec<Vec<u32>>,
+    /// Along the lines that are drawn in these files, in the unit and the axes of the surface: OBJ files with `l`
+    /// elements, or lists of points.
+    pub files: Vec<PathBuf>,
     /// Whether to cut what these leave that is no disk into one.
     pub auto: bool,
 }
 
-/// Edges of nodes that are cut.
-#[derive(Clone, Default)]
-pub(super) struct Marks {
-    pub(super) edges: HashSet<[u32; 2]>,
-    /// The same as chains of the file's vertices, from 1.
-    pub(super) chains: Vec<Vec<u32>>,
-    /// A row for each of these.
-    pub(super) made: Vec<CutReport>,
+/// Cuts a surface as asked for, `parts` being the surface without cuts.
+pub(super) fn cut_as_asked(source: &Source<'_>, sheet: &mut Sheet, mut parts: Vec<Part>) -> Result<(), PipelineError> {
+    let paths = &source.options.cuts.paths;
+    let count = sheet.faces.vertices.len();
+    let before = sheet.made.len();
+    for path in paths {
+        let asked = Asked { stops: path, count };
+        asked.check(sheet).map_err(|why| refused(source, path, why))?;
+        let (mut chain, mut begun) = (Vec::new(), None);
+        for leg in path.windows(2) {
+            let (part, line) = asked.leg(sheet, &parts, [leg[0], leg[1]]).map_err(|why| refused(source, path, why))?;
+            begun.get_or_insert_with(|| parts[part].name.clone());
+            let way = sheet.split(&parts[part], &line);
+            chain.extend(way.into_iter().skip(usize::from(!chain.is_empty())));
+            if line.iter().any(|spot| !matches!(spot, Spot::Vertex(_))) {
+                parts = sheet.parts();
+            }
+        }
+        sheet.plan(begun.unwrap_or_default(), chain);
+    }
+    sheet.cut_planned(CutWhy::Asked);
+    let rims = rim_edges(&parts);
+    let of_path = |k: usize| opens_nothing(&sheet.chains[before..], k, &rims);
+    match paths.iter().enumerate().find_map(|(k, path)| Some((path, of_path(k)?))) {
+        Some((path, why)) => Err(refused(source, path, why.to_owned())),
+        None => Ok(()),
+    }
 }
 
-impl Marks {
-    /// The cuts asked for by their vertices, `parts` being the surface without them.
-    pub(super) fn asked(source: &Source<'_>, parts: &[Part]) -> Result<Self, PipelineError> {
-        let Source { file, faces, nodes, space, options, .. } = *source;
-        let mut out = Self::default();
-        let mut of_file = HashSet::new();
-        let refused = |path: &[u32], why: String| {
-            let cut = path.iter().map(u32::to_string).collect::<Vec<_>>().join(",");
-            PipelineError::Cut { file: file.to_owned(), cut, why }
-        };
-        let paths = &options.cuts.paths;
-        for path in paths {
-            let (way, part) = way(faces, nodes, parts, path).map_err(|why| refused(path, why))?;
-            of_file.extend(way.windows(2).map(|w| sorted_pair([w[0], w[1]])));
-            let step = |w: &[u32]| (faces.vertices[w[1] as usize] - faces.vertices[w[0] as usize]).norm();
-            let length = way.windows(2).map(step).sum::<f64>() * space.metres * MM;
-            out.record(part, CutWhy::Asked, way.iter().map(|v| v + 1).collect(), length);
+fn refused(source: &Source<'_>, path: &[u32], why: String) -> PipelineError {
+    let cut = path.iter().map(u32::to_string).collect::<Vec<_>>().join(",");
+    PipelineError::Cut { file: source.file.to_owned(), cut, why }
+}
+
+/// Why the cut `k` leaves the surface as it is, if it does.
+fn opens_nothing(chains: &[Vec<u32>], k: usize, rims: &HashSet<[u32; 2]>) -> Option<&'static str> {
+    let chain = &chains[k];
+    if chain.windows(2).all(|w| rims.contains(&sorted_pair([w[0], w[1]]))) {
+        return Some("it runs along the rim, where the surface is open already");
+    }
+    let [a, b] = chain[..] else { return None };
+    let other = |v: u32| chains.iter().enumerate().any(|(i, chain)| i != k && chain.contains(&v));
+    let open = |v: u32| other(v) || rims.iter().any(|edge| edge.contains(&v));
+    (!open(a) && !open(b)).then_some(
+        "it is a single edge inside the surface, whose ends stay joined, so that nothing opens; name a vertex \
+         further on",
+    )
+}
+
+/// A cut that is asked for by vertices, numbered from 1.
+struct Asked<'a> {
+    stops: &'a [u32],
+    /// How many vertices the file has.
+    count: usize,
+}
+
+impl Asked<'_> {
+    fn check(&self, sheet: &Sheet) -> Result<(), String> {
+        let (stops, count) = (self.stops, self.count);
+        if stops.len() < 2 {
+            return Err("a cut goes through two vertices or more".into());
         }
-        out.edges = nodes.edges_on(&of_file);
-        let rims = rim_edges(parts);
-        match paths.iter().enumerate().find_map(|(k, path)| Some((path, out.opens_nothing(k, &rims)?))) {
-            Some((path, why)) => Err(refused(path, why.to_owned())),
-            None => Ok(out),
+        if let Some(wrong) = stops.iter().find(|v| **v == 0 || **v as usize > count) {
+            return Err(format!("there is no vertex {wrong}; the file has 1 to {count}"));
         }
+        let place = |v: u32| sheet.same[v as usize - 1];
+        let still = stops.windows(2).find(|leg| place(leg[0]) == place(leg[1]));
+        still.map_or(Ok(()), |leg| {
+            let (a, b) = (leg[0], leg[1]);
+            let said = "from a vertex to itself there is nothing to cut";
+            Err(if a == b {
+                format!("vertex {a} follows itself, and {said}; leave one {a} out or name another")
+            } else {
+                format!("vertices {a} and {b} are welded to one, and {said}; leave one out or name another")
+            })
+        })
     }
 
-    /// Cuts what is no disk into one, `parts` being the surface with the cuts so far.
-    pub(super) fn cut_open(&mut self, parts: &[Part]) {
-        for part in parts {
-            for chain in opening(part) {
-                self.cut(part, &chain, CutWhy::Auto);
+    /// The part in which two stops lie, and the straight line between them.
+    fn leg(&self, sheet: &Sheet, parts: &[Part], leg: [u32; 2]) -> Result<(usize, Vec<Spot>), String> {
+        let local = |part: &Part, v: u32| {
+            let place = sheet.same[v as usize - 1];
+            part.vertices.iter().position(|&w| w == place).map(|k| k as u32)
+        };
+        let both = |part: &Part| Some([local(part, leg[0])?, local(part, leg[1])?]);
+        let shared = parts.iter().enumerate().find_map(|(k, part)| Some((k, both(part)?)));
+        let Some((k, [from, to])) = shared else {
+            return Err(format!("vertices {} and {} do not lie in one part of the surface", leg[0], leg[1]));
+        };
+        // In one part, so there is a way.
+        let chain = shortest_path(&parts[k].surface, &Solid::new(), from, to).unwrap_or_default();
+        Ok((k, straight(&parts[k], &chain)))
+    }
+}
+
+/// The straight line along a chain of a part's vertices. A surface with one side is cut along the chain.
+pub(super) fn straight(part: &Part, chain: &[u32]) -> Vec<Spot> {
+    if part.turned.is_none() {
+        return chain.iter().map(|&v| Spot::Vertex(v)).collect();
+    }
+    straightened(&part.surface, &Web::new(&part.surface), chain)
+}
+
+/// Cuts open what is no disk, one line after the other, the part `number` only where it is given.
+pub(super) fn cut_open(sheet: &mut Sheet, number: Option<usize>) {
+    /// A surface with more holes and handles is cut in other ways.
+    const MOST: usize = 1000;
+    let parts = sheet.parts().len();
+    for k in number.map_or(0..parts, |k| k..k + 1) {
+        for _ in 0..MOST {
+            // A cut that opens a part leaves it whole, so that all parts keep their numbers.
+            let Some(part) = sheet.parts().into_iter().nth(k) else { break };
+            let Some(line) = next_opening(&part) else { break };
+            sheet.cut(&part, &line, CutWhy::Auto);
+        }
+    }
+}
+
+/// The line that opens a part next: of the ways along which it must be cut the shortest that is closed, or begins or
+/// ends at the rim; where there is none the shortest two that make a closed one.
+fn next_opening(part: &Part) -> Option<Vec<Spot>> {
+    let ways = opening(part);
+    let rim: HashSet<u32> = rim_loops(&part.surface.triangles).into_iter().flatten().collect();
+    let is_slit = |way: &[u32]| ways.len() == 1 && way.len() > 2;
+    let opens = |way: &[u32]| {
+        let (first, last) = (way.first(), way.last());
+        first == last || is_slit(way) || [first, last].into_iter().flatten().any(|v| rim.contains(v))
+    };
+    let closed = ways.iter().filter(|way| opens(way)).cloned().chain(rings(&ways));
+    let way = closed.min_by(|a, b| length(part, a).total_cmp(&length(part, b)))?;
+    Some(straight_inside(part, &way))
+}
+
+/// The closed ways that two ways between the same ends make.
+fn rings(ways: &[Vec<u32>]) -> Vec<Vec<u32>> {
+    let mut rings = Vec::new();
+    for (k, own) in ways.iter().enumerate() {
+        for other in &ways[k + 1..] {
+            let mut back = other.clone();
+            if own.last() != back.first() {
+                back.reverse();
+            }
+            if own.first() != own.last() && own.last() == back.first() && own.first() == back.last() {
+                rings.push(own.iter().chain(&back[1..]).copied().collect());
             }
         }
     }
+    rings
+}
 
-    /// Why the cut `k` leaves the surface as it is, if it does.
-    fn opens_nothing(&self, k: usize, rims: &HashSet<[u32; 2]>) -> Option<&'static str> {
-        let chain = &self.chains[k];
-        if chain.windows(2).all(|w| rims.contains(&sorted_pair([w[0], w[1]]))) {
-            return Some("it runs along the rim, where the surface is open already");
-        }
-        let [a, b] = chain[..] else { return None };
-        let other = |v: u32| self.chains.iter().enumerate().any(|(i, chain)| i != k && chain.contains(&v));
-        let open = |v: u32| other(v) || rims.iter().any(|edge| edge.contains(&v));
-        (!open(a) && !open(b)).then_some(
-            "it is a single edge inside the surface, whose ends stay joined, so that nothing opens; name a vertex \
-             further on",
-        )
-    }
-
-    /// Cuts a part along a chain of its vertices.
-    pub(super) fn cut(&mut self, part: &Part, chain: &[u32], why: CutWhy) {
-        if chain.len() > 1 {
-            let numbers = chain.iter().map(|&v| part.number(v)).collect();
-            self.record(part.name.clone(), why, numbers, length(part, chain));
-            let node = |v: u32| part.nodes[v as usize];
-            self.edges.extend(chain.windows(2).map(|w| sorted_pair([node(w[0]), node(w[1])])));
-        }
-    }
-
-    /// Notes a cut of `length` millimetres through these of the file's vertices, from 1.
-    fn record(&mut self, piece: String, why: CutWhy, chain: Vec<u32>, length: f64) {
-        if let [from, .., to] = chain[..] {
-            self.made.push(CutReport { piece, why, from, to, length });
-            self.chains.push(chain);
-        }
-    }
+/// The straight line along a chain of a part's vertices, or the chain itself where that line would touch the rim, and
+/// so part the surface.
+pub(super) fn straight_inside(part: &Part, chain: &[u32]) -> Vec<Spot> {
+    let line = straight(part, chain);
+    let rim: HashSet<u32> = rim_loops(&part.surface.triangles).into_iter().flatten().collect();
+    let on_rim = |spot: &Spot| matches!(spot, Spot::Vertex(v) if rim.contains(v));
+    let is_clear = line.len() < 3 || !line[1..line.len() - 1].iter().any(on_rim);
+    if is_clear { line } else { chain.iter().map(|&v| Spot::Vertex(v)).collect() }
 }
 
 /// The ways along which a part must be cut to become a disk; none for a disk.
@@ -107,41 +192,6 @@ pub(super) fn opening(part: &Part) -> Vec<Vec<u32>> {
 /// The way from a part's rim to its far end.
 pub(super) fn slit(part: &Part) -> Vec<u32> {
     slit_from_rim(&part.surface, &part.diagonals)
-}
-
-/// The shortest way through vertices numbered from 1, as the file's vertices from 0, and the part in which it begins.
-fn way(faces: &ObjFaces, nodes: &Nodes, parts: &[Part], stops: &[u32]) -> Result<(Vec<u32>, String), String> {
-    if stops.len() < 2 {
-        return Err("a cut goes through two vertices or more".into());
-    }
-    let count = faces.vertices.len();
-    if let Some(wrong) = stops.iter().find(|v| **v == 0 || **v as usize > count) {
-        return Err(format!("there is no vertex {wrong}; the file has 1 to {count}"));
-    }
-    let place = |v: u32| nodes.stand_in(v - 1);
-    if let Some(leg) = stops.windows(2).find(|leg| place(leg[0]) == place(leg[1])) {
-        let (a, b) = (leg[0], leg[1]);
-        let said = "from a vertex to itself there is nothing to cut";
-        return Err(if a == b {
-            format!("vertex {a} follows itself, and {said}; leave one {a} out or name another")
-        } else {
-            format!("vertices {a} and {b} are welded to one, and {said}; leave one out or name another")
-        });
-    }
-    let mut way = vec![place(stops[0])];
-    let mut begun = None;
-    for leg in stops.windows(2) {
-        let local = |part: &Part, v: u32| part.vertices.iter().position(|&w| w == place(v)).map(|k| k as u32);
-        let shared = parts.iter().find_map(|part| Some((part, local(part, leg[0])?, local(part, leg[1])?)));
-        let Some((part, from, to)) = shared else {
-            return Err(format!("vertices {} and {} do not lie in one part of the surface", leg[0], leg[1]));
-        };
-        begun.get_or_insert_with(|| part.name.clone());
-        // In one part, so there is a way.
-        let path = shortest_path(&part.surface, &part.diagonals, from, to).unwrap_or_default();
-        way.extend(path.iter().skip(1).map(|&v| part.vertices[v as usize]));
-    }
-    Ok((way, begun.unwrap_or_default()))
 }
 
 /// The rims of all parts as edges of the file's vertices, from 1, smaller first.

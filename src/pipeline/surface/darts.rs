@@ -8,33 +8,28 @@ use serde::Serialize;
 
 use super::super::error::PipelineError;
 use super::SurfaceOptions;
-use super::cuts::{self, Marks};
+use super::cuts;
 use super::edges::breaks_of;
-use super::parts::{Nodes, Part, parts};
+use super::even::even_darts;
+use super::parts::Part;
 use super::report::CutWhy;
-use super::size::Space;
+use super::sheet::Sheet;
 use crate::flatten::{FlattenError, Flattened, Mode, flatten_between, one_sided};
-use crate::io::obj_read::ObjFaces;
 
-/// A surface as it was read, to be cut and laid flat.
+/// How a surface is laid flat.
 pub(super) struct Source<'a> {
     pub(super) file: &'a Path,
-    pub(super) faces: &'a ObjFaces,
-    pub(super) nodes: &'a Nodes,
-    pub(super) space: Space,
-    /// Name of what has none.
-    pub(super) stem: &'a str,
     pub(super) options: &'a SurfaceOptions,
 }
 
 /// A part of the surface laid flat.
 pub(super) struct Laid {
     /// Its place among all parts.
-    number: usize,
+    pub(super) number: usize,
     pub(super) part: Part,
     pub(super) flat: Flattened,
     /// Between which of its rim's vertices lengths were to stay.
-    breaks: Vec<u32>,
+    pub(super) breaks: Vec<u32>,
     /// Where a dart would relieve it, rim first; empty where it is within the limit, or where no place can be told.
     pub(super) dart: Vec<u32>,
     /// Darts that were cut into it.
@@ -57,6 +52,8 @@ pub enum DartStop {
 
 /// A part that could not be laid flat.
 pub(super) struct Failed {
+    /// Its place among all parts.
+    number: usize,
     pub(super) part: Part,
     /// In the file's numbers, with where to cut if that is the remedy.
     pub(super) error: PipelineError,
@@ -69,12 +66,8 @@ pub(super) struct Outcome {
 }
 
 impl Source<'_> {
-    pub(super) fn parts(&self, marks: &Marks) -> Vec<Part> {
-        parts(self.faces, self.nodes, &marks.edges, self.space, self.stem)
-    }
-
     /// A part laid flat, `number` being its place among all parts.
-    fn lay(&self, number: usize, part: Part, breaks: Vec<u32>) -> Result<Laid, Box<(Part, FlattenError)>> {
+    pub(super) fn lay(&self, number: usize, part: Part, breaks: Vec<u32>) -> Result<Laid, Box<(Part, FlattenError)>> {
         if part.turned.is_none() {
             let error = FlattenError::OneSided(one_sided(&part.surface.triangles));
             return Err(Box::new((part, error)));
@@ -88,24 +81,35 @@ impl Source<'_> {
         Ok(Laid { number, part, flat, breaks, dart, darts: 0, stop: None })
     }
 
+    /// The part of this number of a sheet laid flat.
+    pub(super) fn lay_of(&self, sheet: &Sheet, number: usize) -> Result<Laid, Box<(Part, FlattenError)>> {
+        let mut parts = sheet.parts();
+        let breaks = breaks_of(&parts.iter().collect::<Vec<_>>()).swap_remove(number);
+        self.lay(number, parts.swap_remove(number), breaks)
+    }
+
     /// Lays all parts flat, each by itself. One that cannot be laid flat, or is strained beyond the limit, is cut where
     /// that is its remedy.
-    fn lay_all(&self, marks: &mut Marks) -> Outcome {
-        let parts = self.parts(marks);
+    fn lay_all(&self, sheet: &mut Sheet) -> Result<Outcome, PipelineError> {
+        let parts = sheet.parts();
         let breaks = breaks_of(&parts.iter().collect::<Vec<_>>());
         let numbered = parts.into_par_iter().enumerate().zip(breaks);
-        let laid: Vec<_> = numbered.map(|((number, part), breaks)| self.lay(number, part, breaks)).collect();
+        let all: Vec<_> = numbered.map(|((number, part), breaks)| self.lay(number, part, breaks)).collect();
+        let cut_before = sheet.made.len();
         let mut out = Outcome { laid: Vec::new(), failed: Vec::new() };
-        for (number, result) in laid.into_iter().enumerate() {
-            match self.remedied(number, result, marks) {
+        for (number, result) in all.into_iter().enumerate() {
+            match self.remedied(number, result, sheet) {
                 Ok(laid) => out.laid.push(laid),
                 Err(failed) => {
                     let (part, error) = *failed;
-                    out.failed.push(Failed { error: cuts::advise(self.file, &part, error), part });
+                    out.failed.push(Failed { number, error: cuts::advise(self.file, &part, error), part });
                 }
             }
         }
-        out
+        if sheet.made.len() > cut_before {
+            self.refresh(&mut out, sheet)?;
+        }
+        Ok(out)
     }
 
     /// A part, or that part cut where a cut is what it needs: from rim to rim where no flat piece has all its rims, and
@@ -114,59 +118,62 @@ impl Source<'_> {
         &self,
         number: usize,
         whole: Result<Laid, Box<(Part, FlattenError)>>,
-        marks: &mut Marks,
+        sheet: &mut Sheet,
     ) -> Result<Laid, Box<(Part, FlattenError)>> {
-        let part = match &whole {
-            Ok(laid) => &laid.part,
-            Err(failed) => &failed.0,
+        let needs_none = match &whole {
+            Ok(laid) => !self.options.limit.passed(&laid.flat.report),
+            Err(failed) => !matches!(failed.1, FlattenError::Breakdown | FlattenError::FlippedStart(_)),
         };
-        let ways = match &whole {
-            Ok(laid) if !self.options.limit.passed(&laid.flat.report) => Vec::new(),
-            Err(failed) if !matches!(failed.1, FlattenError::Breakdown | FlattenError::FlippedStart(_)) => Vec::new(),
-            _ => {
-                let between_rims = cuts::opening(part);
-                if between_rims.is_empty() && whole.is_err() { vec![cuts::slit(part)] } else { between_rims }
-            }
-        };
-        if ways.is_empty() {
+        if needs_none {
             return whole;
         }
-        let mut cut_marks = marks.clone();
-        ways.iter().for_each(|way| cut_marks.cut(part, way, CutWhy::Auto));
-        // A cut that opens a part leaves it whole, so that all parts keep their numbers.
-        let mut parts = self.parts(&cut_marks);
-        let breaks = breaks_of(&parts.iter().collect::<Vec<_>>()).swap_remove(number);
-        match (self.lay(number, parts.swap_remove(number), breaks), whole) {
+        let mut cut = sheet.clone();
+        cuts::cut_open(&mut cut, Some(number));
+        if cut.made.len() == sheet.made.len() && whole.is_err() {
+            // Earlier cuts may have split it, so that its numbers are those of the sheet as it is now.
+            let part = cut.parts().swap_remove(number);
+            let line = cuts::straight_inside(&part, &cuts::slit(&part));
+            cut.cut(&part, &line, CutWhy::Auto);
+        }
+        if cut.made.len() == sheet.made.len() {
+            return whole;
+        }
+        match (self.lay_of(&cut, number), whole) {
             (Ok(cut), Ok(whole)) if !is_worth_a_cut(&cut, &whole) => Ok(whole),
-            (Ok(cut), _) => {
-                *marks = cut_marks;
-                Ok(cut)
+            (Ok(laid), _) => {
+                *sheet = cut;
+                Ok(laid)
             }
             (Err(_), whole) => whole,
         }
     }
 
-    /// A part with its next dart, and the cuts that make it; `None` where it cannot be laid flat with it.
-    fn with_next_dart(&self, own: &Laid, marks: &Marks) -> Option<(Laid, Marks)> {
-        let mut marks = marks.clone();
-        marks.cut(&own.part, &own.dart, CutWhy::Dart);
+    /// A part with its next dart, and the sheet with it; `None` where it cannot be laid flat with it.
+    fn with_next_dart(&self, own: &Laid, sheet: &Sheet) -> Option<(Laid, Sheet)> {
+        let mut cut = sheet.clone();
+        cut.cut(&own.part, &cuts::straight_inside(&own.part, &own.dart), CutWhy::Dart);
         // A dart ends inside its part and leaves it whole, so that all parts keep their numbers.
-        let mut parts = self.parts(&marks);
-        let breaks = breaks_of(&parts.iter().collect::<Vec<_>>()).swap_remove(own.number);
-        let cut = self.lay(own.number, parts.swap_remove(own.number), breaks).ok()?;
-        Some((Laid { darts: own.darts + 1, ..cut }, marks))
+        let laid = self.lay_of(&cut, own.number).ok()?;
+        cut.tell_strain(sheet.made.len(), [own, &laid].map(|laid| laid.flat.report.strain_p99));
+        Some((Laid { darts: own.darts + 1, ..laid }, cut))
     }
 
-    /// Lays those parts once more that a cut in another one has broken: what is sewn to its mouth must end there too.
-    fn match_breaks(&self, laid: &mut [Laid], marks: &Marks) -> Result<(), PipelineError> {
-        let mut breaks = breaks_of(&self.parts(marks).iter().collect::<Vec<_>>());
-        for own in laid {
-            let breaks = std::mem::take(&mut breaks[own.number]);
-            if self.options.flatten.mode == Mode::Woven && own.breaks != breaks {
-                let flat = flatten_between(&own.part.surface, &breaks, &self.options.flatten);
-                own.flat = flat.map_err(|error| cuts::advise(self.file, &own.part, error))?;
-                own.breaks = breaks;
+    /// Lays those parts once more that a cut in another one has changed: what is sewn to its mouth has a vertex there
+    /// too and, where only whole chains of the rim are held, must end there.
+    pub(super) fn refresh(&self, outcome: &mut Outcome, sheet: &Sheet) -> Result<(), PipelineError> {
+        let parts = sheet.parts();
+        let mut breaks = breaks_of(&parts.iter().collect::<Vec<_>>());
+        for own in &mut outcome.laid {
+            let (part, breaks) = (&parts[own.number], std::mem::take(&mut breaks[own.number]));
+            let held = self.options.flatten.mode == Mode::Woven && own.breaks != breaks;
+            if held || own.part.faces != part.faces {
+                let laid = self.lay(own.number, part.clone(), breaks);
+                let laid = laid.map_err(|failed| cuts::advise(self.file, &failed.0, failed.1))?;
+                *own = Laid { darts: own.darts, stop: own.stop, ..laid };
             }
+        }
+        for failed in &mut outcome.failed {
+            failed.part = parts[failed.number].clone();
         }
         Ok(())
     }
@@ -186,33 +193,34 @@ fn is_worth_a_cut(cut: &Laid, whole: &Laid) -> bool {
     cut.flat.report.strain_p99 < LEFT * whole.flat.report.strain_p99
 }
 
-/// Lays all parts flat. The part that is strained most gets the next dart, until all are within the limit or the darts
-/// that `source.options` allows are cut. A dart that would make a flat piece lie on itself is not cut, and its part
-/// gets no other; `marks` has those that are.
-pub(super) fn with_darts(source: &Source<'_>, marks: &mut Marks) -> Result<Outcome, PipelineError> {
-    let Outcome { mut laid, failed } = source.lay_all(marks);
-    let mut left = source.options.darts;
+/// Lays all parts flat and cuts the darts that `source.options` asks for: even ones into round parts, all the others
+/// one by one, the next always into the part that is strained most, until all are within the limit or so many are cut.
+/// A dart that would make a flat piece lie on itself is not cut, and its part gets no other; `sheet` has those that
+/// are.
+pub(super) fn with_darts(source: &Source<'_>, sheet: &mut Sheet) -> Result<Outcome, PipelineError> {
+    let mut out = source.lay_all(sheet)?;
+    let Some(darts) = source.options.darts else { return Ok(out) };
+    even_darts(source, sheet, &mut out.laid, darts);
+    let mut left = darts.most();
     while left > 0
-        && let Some(k) = source.neediest(&laid)
+        && let Some(k) = source.neediest(&out.laid)
     {
-        match source.with_next_dart(&laid[k], marks) {
-            Some((cut, cuts)) if cut.lies_as_well_as(&laid[k]) => {
-                (laid[k], *marks) = (cut, cuts);
+        match source.with_next_dart(&out.laid[k], sheet) {
+            Some((cut, cuts)) if cut.lies_as_well_as(&out.laid[k]) => {
+                (out.laid[k], *sheet) = (cut, cuts);
                 left -= 1;
             }
-            _ => laid[k].stop = Some(DartStop::Overlap),
+            _ => out.laid[k].stop = Some(DartStop::Overlap),
         }
     }
-    source.match_breaks(&mut laid, marks)?;
-    if source.options.darts > 0 {
-        laid.iter_mut().filter(|l| source.options.limit.passed(&l.flat.report)).for_each(Laid::say_why);
-    }
-    Ok(Outcome { laid, failed })
+    source.refresh(&mut out, sheet)?;
+    out.laid.iter_mut().filter(|l| source.options.limit.passed(&l.flat.report)).for_each(Laid::say_why);
+    Ok(out)
 }
 
 impl Laid {
     /// Whether it lies on itself no more than before a dart, and was not kept from it at the price of its rim.
-    fn lies_as_well_as(&self, before: &Self) -> bool {
+    pub(super) fn lies_as_well_as(&self, before: &Self) -> bool {
         let (own, other) = (&self.flat.report, &before.flat.report);
         own.overlaps <= other.overlaps && (own.rim_missed.is_none() || other.rim_missed.is_some())
     }

@@ -2,11 +2,19 @@
 
 mod cuts;
 mod darts;
+mod drawn;
+mod ease;
 mod edges;
+mod even;
+mod garment;
+mod gores;
 mod mend;
 mod parts;
 mod report;
+mod sheet;
+mod simplify;
 mod size;
+mod split;
 mod thick;
 mod write;
 
@@ -22,14 +30,19 @@ use crate::io::obj_read::ObjFaces;
 use crate::io::surface_read::read_surface;
 use crate::report::Stage;
 pub use cuts::Cuts;
-use cuts::Marks;
+use cuts::{cut_as_asked, cut_open};
 pub use darts::DartStop;
 use darts::{Failed, Laid, Outcome, Source, with_darts};
+use drawn::cut_drawn;
+pub use ease::{Ease, EaseReport};
 use edges::{NamedEdge, named_edges};
+pub use garment::GARMENT_YAML;
+use gores::cut_gores;
 pub use mend::Weld;
 use mend::{AT_ONE_PLACE, mend, welded, welded_note};
-use parts::Nodes;
 pub use report::{CutReport, CutWhy, EdgeReport, FailedReport, PartReport, SurfaceReport};
+use sheet::Sheet;
+use simplify::simplify;
 use size::Space;
 use thick::leave_outer_sides;
 pub use write::{FLAT_OBJ, FLAT_PNG, FlatCorners, OUTLINE_SVG};
@@ -39,8 +52,35 @@ pub use write::{FLAT_OBJ, FLAT_PNG, FlatCorners, OUTLINE_SVG};
 const BEYOND_WEAVES: f64 = 0.5;
 /// No weave changes its area by more without stretched threads: sheared by 30° it has cos 30° of it.
 const BEYOND_SHEAR: f64 = 0.134;
-/// Darts that `auto` cuts into all parts of a surface together: what is not below the limit then needs a seam.
+/// Darts that `auto` cuts: into a round part, and into all the others together. What is not below the limit then needs
+/// a seam.
 pub const DARTS: usize = 8;
+
+/// Darts after which no more are cut, however many are needed: their allowances would be all that is left.
+const ENOUGH: usize = 60;
+
+/// How many darts are asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Darts {
+    /// As many as are needed, [`DARTS`] at most.
+    Auto,
+    /// As many as are needed.
+    Enough,
+    /// So many even ones into every round part that is strained beyond the limit; into the others so many together at
+    /// most, as they are needed.
+    Count(usize),
+}
+
+impl Darts {
+    /// How many there may be in a round part, and in all the others together.
+    pub fn most(self) -> usize {
+        match self {
+            Self::Auto => DARTS,
+            Self::Enough => ENOUGH,
+            Self::Count(count) => count,
+        }
+    }
+}
 
 /// How to read and flatten a surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,10 +97,16 @@ pub struct SurfaceOptions {
     /// Which vertices at the same place are one: the legs of a dart that is sewn up must not be, the triangles of a
     /// file whose faces share no vertices must.
     pub weld: Weld,
+    /// How far from the triangles that are left vertices may lie that are left out of a fine mesh, metres.
+    pub simplify: Option<f64>,
     /// Where to cut besides.
     pub cuts: Cuts,
-    /// How many darts to cut at most, into all parts together, where the strain passes the limit.
-    pub darts: usize,
+    /// Into how many gores to cut every part: a dome or a ball along meridians, a tube along its length.
+    pub gores: Option<usize>,
+    /// The darts to cut where the strain passes the limit.
+    pub darts: Option<Darts>,
+    /// How much smaller or larger the pieces are cut than they lie flat.
+    pub ease: Ease,
     /// Limit that 99 % of a piece's area should stay below.
     pub limit: Limit,
     /// How to flatten.
@@ -76,8 +122,11 @@ impl Default for SurfaceOptions {
             texture_seams: true,
             groups: true,
             weld: Weld::default(),
+            simplify: None,
             cuts: Cuts::default(),
-            darts: 0,
+            gores: None,
+            darts: None,
+            ease: Ease::default(),
             limit: Limit::Strain(0.1),
             flatten: Options::default(),
         }
@@ -139,9 +188,10 @@ impl Limit {
 
 /// A surface laid flat.
 pub struct FlatSurface {
-    faces: ObjFaces,
+    sheet: Sheet,
     laid: Vec<Laid>,
     failed: Vec<Failed>,
+    ease: Ease,
     /// Of every part that is laid flat.
     edges: Vec<Vec<NamedEdge>>,
     /// The errors it leaves in the cloth.
@@ -187,55 +237,55 @@ pub fn flatten_faces(file: &Path, mut faces: ObjFaces, options: &SurfaceOptions)
     let same = welded(&faces, options.weld, space.metres);
     notes.extend(mend(&mut faces, &same));
     notes.extend(leave_outer_sides(&mut faces, &same, space.metres, &stem));
-    let nodes = Nodes::new(&faces, textured, &same);
-    let source = Source { file, faces: &faces, nodes: &nodes, space, stem: &stem, options };
-    let as_read = source.parts(&Marks::default());
-    notes.extend(welded_note(&faces, options.weld, &same));
-    notes.extend(source.split_notes(textured, as_read.len()));
-    let mut marks = Marks::asked(&source, &as_read)?;
-    drop(as_read);
-    if options.cuts.auto {
-        let parts = source.parts(&marks);
-        marks.cut_open(&parts);
+    if let Some(tolerance) = options.simplify {
+        notes.push(simplify(&mut faces, &same, space.metres, tolerance));
     }
-    let Outcome { laid, mut failed } = with_darts(&source, &mut marks)?;
+    let source = Source { file, options };
+    notes.extend(welded_note(&faces, options.weld, &same));
+    let mut sheet = Sheet::new(faces, same, textured, space, &stem);
+    let as_read = sheet.parts();
+    notes.extend(split_notes(&sheet, options.weld, as_read.len()));
+    cut_as_asked(&source, &mut sheet, as_read)?;
+    options.cuts.files.iter().try_for_each(|lines| cut_drawn(&mut sheet, lines))?;
+    if let Some(count) = options.gores {
+        notes.extend(cut_gores(&source, &mut sheet, count)?);
+    }
+    if options.cuts.auto {
+        cut_open(&mut sheet, None);
+    }
+    let Outcome { laid, mut failed } = with_darts(&source, &mut sheet)?;
     if laid.is_empty() && !failed.is_empty() {
         return Err(failed.swap_remove(0).error);
     }
     notes.extend(laid.iter().filter_map(|l| l.part.turned_note()));
-    notes.extend(marks.made.iter().map(ToString::to_string));
+    notes.extend(sheet.made.iter().map(ToString::to_string));
     let edges = named_edges(&laid.iter().map(|l| &l.part).collect::<Vec<_>>());
     let report = SurfaceReport {
         toile: env!("CARGO_PKG_VERSION").into(),
         surface: stem.clone(),
         units: unit.symbol(),
-        pieces: report::pieces(&laid, &edges, &options.limit),
+        ease: options.ease.report(),
+        pieces: report::pieces(&laid, &edges, options),
         failed: failed.iter().map(Failed::report).collect(),
-        cuts: marks.chains,
-        cuts_made: marks.made,
+        cuts: std::mem::take(&mut sheet.chains),
+        cuts_made: std::mem::take(&mut sheet.made),
         stages: vec![stage(laid.iter().map(|l| l.flat.report), begin)],
     };
-    Ok(FlatSurface { faces, laid, failed, edges, report, notes })
+    Ok(FlatSurface { sheet, laid, ease: options.ease, failed, edges, report, notes })
 }
 
-impl Source<'_> {
-    /// Why the surface is in `count` parts before it is cut, where its author may have meant fewer.
-    fn split_notes(&self, textured: bool, count: usize) -> Vec<String> {
-        let joined = |weld| welded(self.faces, weld, self.space.metres);
-        let (own, all) = (joined(self.options.weld), joined(Weld::Within(AT_ONE_PLACE)));
-        let otherwise = |texture, same: &[u32]| {
-            let nodes = Nodes::new(self.faces, texture, same);
-            Source { nodes: &nodes, ..*self }.parts(&Marks::default()).len()
-        };
-        let mut notes = Vec::new();
-        if textured && count > otherwise(false, &own) {
-            notes.push("cut along the seams of its texture; --no-texture-seams leaves them closed".into());
-        }
-        if count > self.faces.groups.len() && count > otherwise(textured, &all) {
-            notes.push("parts meet in vertices of their own at the same places; --weld joins them".into());
-        }
-        notes
+/// Why the surface is in `count` parts before it is cut, where its author may have meant fewer.
+fn split_notes(sheet: &Sheet, weld: Weld, count: usize) -> Vec<String> {
+    let all = || sheet.welded_within(Weld::Within(AT_ONE_PLACE));
+    let parts = |textured: bool, same: Vec<u32>| sheet.read_as(textured, same).parts().len();
+    let mut notes = Vec::new();
+    if sheet.textured && count > parts(false, sheet.welded_within(weld)) {
+        notes.push("cut along the seams of its texture; --no-texture-seams leaves them closed".into());
     }
+    if count > sheet.faces.groups.len() && count > parts(sheet.textured, all()) {
+        notes.push("parts meet in vertices of their own at the same places; --weld joins them".into());
+    }
+    notes
 }
 
 /// The stage that laid pieces with these figures flat.

@@ -6,20 +6,22 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::sheet::Sheet;
 use super::size::Space;
 use crate::flatten::{FlattenError, Solid, orient};
 use crate::geometry::{DisjointSets, TriMesh, Vec3, diagonals_of, sorted_pair, triangles_of};
 use crate::io::obj_read::ObjFaces;
 
 /// A connected part of the surface.
+#[derive(Clone)]
 pub(super) struct Part {
     pub(super) name: String,
     /// The file's vertex of every vertex.
     pub(super) vertices: Vec<u32>,
-    /// The node of every vertex.
-    pub(super) nodes: Vec<u32>,
-    /// Indices of its faces in the file.
+    /// Its faces, indices into those of the sheet.
     pub(super) faces: Vec<u32>,
+    /// The face of the file that each is of.
+    origins: Vec<u32>,
     /// Corners of each of these, as vertices of the part.
     pub(super) corners: Vec<Vec<u32>>,
     /// Edges of the surface that are inside a polygon of the file.
@@ -31,13 +33,12 @@ pub(super) struct Part {
 }
 
 /// The corners of the faces: the vertices of the file, once for every group and texture position they have.
+#[derive(Clone)]
 pub(super) struct Nodes {
     /// Of every face's corners.
     of_face: Vec<Vec<u32>>,
     /// The file's vertex of every node.
     vertex: Vec<u32>,
-    /// Of every vertex of the file the one that stands for it.
-    same: Vec<u32>,
 }
 
 /// No node.
@@ -75,12 +76,7 @@ impl Nodes {
             let nodes = nodes.collect();
             of_face.push(nodes);
         }
-        Self { of_face, vertex, same: same.to_vec() }
-    }
-
-    /// The vertex of the file that stands for `vertex`: the first of those that are welded to it.
-    pub(super) fn stand_in(&self, vertex: u32) -> u32 {
-        self.same[vertex as usize]
+        Self { of_face, vertex }
     }
 
     /// Edges of nodes, smaller first, that lie on one of the file's edges.
@@ -95,14 +91,14 @@ fn sides(face: &[u32]) -> impl Iterator<Item = [u32; 2]> + '_ {
 }
 
 /// The parts in the order of their first faces, group by group; named by their group or, without one, by `stem`.
-pub(super) fn parts(faces: &ObjFaces, nodes: &Nodes, cuts: &HashSet<[u32; 2]>, space: Space, stem: &str) -> Vec<Part> {
+pub(super) fn parts(sheet: &Sheet, cuts: &HashSet<[u32; 2]>, space: Space, stem: &str) -> Vec<Part> {
+    let Sheet { faces, nodes, origin, .. } = sheet;
     let fans = Fans::new(nodes, cuts);
-    let source = Source { faces, nodes, fans: &fans, space };
+    let source = Source { faces, nodes, origin, fans: &fans, space };
     let mut local = vec![0; fans.of_corner.len()];
     let mut parts: Vec<Part> = Vec::new();
     let mut of_group: Vec<Vec<u32>> = vec![Vec::new(); faces.groups.len()];
-    let whole = (0..).zip(&faces.group_of_face).filter(|(f, _): &(u32, _)| !faces.faces[*f as usize].is_empty());
-    whole.for_each(|(f, &g)| of_group[g as usize].push(f));
+    sheet.order().into_iter().for_each(|f| of_group[faces.group_of_face[f as usize] as usize].push(f));
     for (group, own) in faces.groups.iter().zip(of_group) {
         let mut number = HashMap::new();
         let mut split: Vec<Vec<u32>> = Vec::new();
@@ -126,6 +122,7 @@ pub(super) fn parts(faces: &ObjFaces, nodes: &Nodes, cuts: &HashSet<[u32; 2]>, s
 struct Source<'a> {
     faces: &'a ObjFaces,
     nodes: &'a Nodes,
+    origin: &'a [u32],
     fans: &'a Fans,
     space: Space,
 }
@@ -175,18 +172,18 @@ impl Fans {
 impl Part {
     /// `local` has room for every fan; a part uses its own places only.
     fn new(source: &Source<'_>, name: String, own: Vec<u32>, local: &mut [u32]) -> Self {
-        let Source { faces, nodes, fans, space } = *source;
+        let Source { faces, nodes, origin, fans, space } = *source;
         // Vertices in the file's order, of those that a cut has made of one the first face's first.
-        let mut all: Vec<(u32, u32, u32)> = Vec::new();
+        let mut all: Vec<(u32, u32)> = Vec::new();
         let fan_of = |f: u32, k: usize| fans.of_corner[fans.starts[f as usize] + k];
         for &f in &own {
             for (k, &node) in nodes.of_face[f as usize].iter().enumerate() {
-                all.push((nodes.vertex[node as usize], fan_of(f, k), node));
+                all.push((nodes.vertex[node as usize], fan_of(f, k)));
             }
         }
         all.sort_unstable();
-        all.dedup_by_key(|(_, fan, _)| *fan);
-        all.iter().enumerate().for_each(|(k, &(_, fan, _))| local[fan as usize] = k as u32);
+        all.dedup_by_key(|(_, fan)| *fan);
+        all.iter().enumerate().for_each(|(k, &(_, fan))| local[fan as usize] = k as u32);
         let number = |f: u32| (0..faces.faces[f as usize].len()).map(move |k| fan_of(f, k));
         let corners: Vec<Vec<u32>> = own.iter().map(|&f| number(f).map(|fan| local[fan as usize]).collect()).collect();
         let vertices: Vec<u32> = all.iter().map(|a| a.0).collect();
@@ -194,11 +191,26 @@ impl Part {
         let of_polygon: Vec<Vec<[u32; 3]>> = corners.iter().map(|polygon| triangles_of(&positions, polygon)).collect();
         let mut triangles: Vec<[u32; 3]> = of_polygon.iter().flatten().map(|&[a, b, c]| [a, c, b]).collect();
         let turned = orient(&mut triangles);
-        let nodes = all.iter().map(|a| a.2).collect();
         let both = corners.iter().zip(&of_polygon);
         let diagonals = both.flat_map(|(polygon, triangles)| diagonals_of(polygon, triangles)).collect();
         let surface = TriMesh { vertices: positions, triangles };
-        Self { name, vertices, nodes, faces: own, corners, diagonals, surface, turned }
+        let origins = own.iter().map(|&f| origin[f as usize]).collect();
+        Self { name, vertices, faces: own, origins, corners, diagonals, surface, turned }
+    }
+
+    /// The face that a triangle is of, its number among that face's triangles, and the weights of its corners in the
+    /// order in which they are there.
+    pub(super) fn in_face(&self, triangle: usize, weights: [f64; 3]) -> (u32, usize, [f64; 3]) {
+        let mut first = 0;
+        let mut face = 0;
+        while first + self.corners[face].len() - 2 <= triangle {
+            first += self.corners[face].len() - 2;
+            face += 1;
+        }
+        let own = triangles_of(&self.surface.vertices, &self.corners[face])[triangle - first];
+        let corners = self.surface.triangles[triangle];
+        let of = |v: u32| corners.iter().position(|&w| w == v).map_or(0.0, |k| weights[k]);
+        (self.faces[face], triangle - first, own.map(of))
     }
 
     /// The file's number of a vertex, from 1.
@@ -212,13 +224,16 @@ impl Part {
         self.turned.as_ref()?.iter().for_each(|&t| is_turned[t] = true);
         let mut done = 0;
         // All faces at once: looked up one by one, each would be counted from the first.
-        let turned = self.faces.iter().zip(&self.corners).filter(|(_, corners)| {
+        let turned = self.origins.iter().zip(&self.corners).filter(|(_, corners)| {
             let own = done..done + corners.len() - 2;
             done = own.end;
             is_turned[own].contains(&true)
         });
-        let faces: Vec<usize> = turned.map(|(f, _)| *f as usize + 1).collect();
-        let (count, all, first) = (faces.len(), self.faces.len(), *faces.first()?);
+        let mut faces: Vec<usize> = turned.map(|(f, _)| *f as usize + 1).collect();
+        faces.dedup();
+        let mut all = self.origins.clone();
+        all.dedup();
+        let (count, all, first) = (faces.len(), all.len(), *faces.first()?);
         let (run, were) = if count == 1 { ("face runs", "was") } else { ("faces run", "were") };
         let said = format!("{count} of its {all} {run} against the others and {were} turned to lay it flat");
         Some(format!("'{}': {said}; the first is face {first}", self.name))
@@ -234,7 +249,7 @@ impl Part {
                 first <= triangle
             })
             .count();
-        self.faces.get(face).map_or(0, |f| *f as usize + 1)
+        self.origins.get(face).map_or(0, |f| *f as usize + 1)
     }
 
     /// An error in the file's numbers.

@@ -5,9 +5,10 @@ use std::f64::consts::PI;
 use serde::Serialize;
 
 use super::super::error::PipelineError;
-use super::Limit;
+use super::SurfaceOptions;
 use super::cuts;
 use super::darts::{DartStop, Failed, Laid};
+use super::ease::{Ease, EaseReport};
 use super::edges::NamedEdge;
 use crate::flatten::FlattenError;
 use crate::geometry::MM;
@@ -22,6 +23,8 @@ pub struct SurfaceReport {
     pub surface: String,
     /// Unit of the file: `mm`, `cm`, `m` or `in`.
     pub units: &'static str,
+    /// How much smaller or larger than they lie flat the pieces are cut, in the drawings and in `flat.obj`.
+    pub ease: Option<EaseReport>,
     /// One per part.
     pub pieces: Vec<PartReport>,
     /// The parts that could not be laid flat, of which the files have nothing.
@@ -73,10 +76,14 @@ pub struct PartReport {
     pub area_draped: f64,
     /// Area of the flat piece, mm².
     pub area_flattened: f64,
+    /// Area as it is cut: with the ease that was asked for, mm².
+    pub area_cut: f64,
     /// Length of the rim in space, mm.
     pub boundary_draped: f64,
     /// Length of the flat rim, mm.
     pub boundary_flattened: f64,
+    /// Length of its rims as they are cut, mm.
+    pub boundary_cut: f64,
     /// Flat against space.
     pub area_error: Quartet,
     /// The same with its sign: below zero where the flat piece is smaller.
@@ -151,22 +158,26 @@ pub struct EdgeReport {
     pub length_draped: f64,
     /// Length in the flat piece, mm.
     pub length_flattened: f64,
+    /// Length as it is cut: with the ease that was asked for, mm.
+    pub length_cut: f64,
     /// The edge on the other side of the cut, `PART.EDGE`.
     pub sewn_to: Option<String>,
 }
 
 /// All parts as they are reported, with their edges.
-pub(super) fn pieces(laid: &[Laid], edges: &[Vec<NamedEdge>], limit: &Limit) -> Vec<PartReport> {
-    let piece = |(k, own): (usize, &Laid)| PartReport {
-        edges: edges[k].iter().map(|e| edge(laid, edges, k, e)).collect(),
-        ..PartReport::new(own, limit)
+pub(super) fn pieces(laid: &[Laid], edges: &[Vec<NamedEdge>], options: &SurfaceOptions) -> Vec<PartReport> {
+    let partner = |e: &NamedEdge| e.partner.map(|[p, e]| format!("{}.{}", laid[p].part.name, edges[p][e].name));
+    let piece = |(k, own): (usize, &Laid)| {
+        let edges: Vec<EdgeReport> = edges[k].iter().map(|e| edge(own, e, partner(e), options.ease)).collect();
+        let boundary_cut = edges.iter().map(|edge| edge.length_cut).sum();
+        PartReport { edges, boundary_cut, ..PartReport::new(own, options) }
     };
     laid.iter().enumerate().map(piece).collect()
 }
 
-/// An edge of part `k` as it is reported.
-fn edge(laid: &[Laid], all: &[Vec<NamedEdge>], k: usize, edge: &NamedEdge) -> EdgeReport {
-    let (part, flat, vertices) = (&laid[k].part, &laid[k].flat.positions, &edge.vertices);
+/// An edge of a part as it is reported.
+fn edge(own: &Laid, edge: &NamedEdge, sewn_to: Option<String>, ease: Ease) -> EdgeReport {
+    let (part, flat, vertices) = (&own.part, &own.flat.positions, &edge.vertices);
     let ends = [vertices[0], vertices[vertices.len() - 1]].map(|v| part.number(v));
     let pairs = || vertices.windows(2).map(|w| [w[0] as usize, w[1] as usize]);
     let at = &part.surface.vertices;
@@ -175,7 +186,8 @@ fn edge(laid: &[Laid], all: &[Vec<NamedEdge>], k: usize, edge: &NamedEdge) -> Ed
         ends,
         length_draped: pairs().map(|[a, b]| (at[b] - at[a]).norm()).sum::<f64>() * MM,
         length_flattened: pairs().map(|[a, b]| (flat[b] - flat[a]).norm()).sum::<f64>() * MM,
-        sewn_to: edge.partner.map(|[p, e]| format!("{}.{}", laid[p].part.name, all[p][e].name)),
+        length_cut: pairs().map(|[a, b]| (ease.cut(flat[b]) - ease.cut(flat[a])).norm()).sum::<f64>() * MM,
+        sewn_to,
     }
 }
 
@@ -194,6 +206,8 @@ pub struct ThreadReport {
     pub shear: f64,
     /// The largest, degrees.
     pub shear_max: f64,
+    /// The file's vertex where that is, from 1.
+    pub shear_at: u32,
 }
 
 /// A cut besides groups and texture seams.
@@ -209,9 +223,12 @@ pub struct CutReport {
     pub to: u32,
     /// Length, mm.
     pub length: f64,
+    /// How much 99 % of the piece was strained before it was cut for that, and with the cut or, of even darts, with all
+    /// of them: fractions.
+    pub strain: Option<[f64; 2]>,
 }
 
-/// Why a surface was cut: `asked` for, `auto` to make a disk of it, or as a `dart`.
+/// Why a surface was cut: `asked` for, `auto` to make a disk of it, as a `dart`, or between two of its `gore`s.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CutWhy {
@@ -221,13 +238,18 @@ pub enum CutWhy {
     Auto,
     /// `--dart`.
     Dart,
+    /// `--gores`.
+    Gore,
 }
 
 impl std::fmt::Display for CutReport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { piece, why, from, to, length } = self;
+        let Self { piece, why, from, to, length, strain } = self;
         let what = if *why == CutWhy::Dart { "a dart in" } else { "cut" };
-        write!(f, "{what} '{piece}' from vertex {from} to vertex {to} ({length:.1} mm)")
+        write!(f, "{what} '{piece}' from vertex {from} to vertex {to} ({length:.1} mm)")?;
+        strain.map_or(Ok(()), |[before, after]| {
+            write!(f, ": strain {:.1} % before, {:.1} % after", 100.0 * before, 100.0 * after)
+        })
     }
 }
 
@@ -243,7 +265,7 @@ pub struct DartReport {
 }
 
 impl PartReport {
-    fn new(laid: &Laid, limit: &Limit) -> Self {
+    fn new(laid: &Laid, options: &SurfaceOptions) -> Self {
         let (part, r) = (&laid.part, &laid.flat.report);
         let error = |e: f64| Quartet { flatten: Some(e), ..Quartet::default() };
         let isoperimetric = r.boundary_before.powi(2) / (4.0 * PI * r.area_before);
@@ -253,8 +275,10 @@ impl PartReport {
             triangles: part.surface.triangles.len(),
             area_draped: r.area_before * MM * MM,
             area_flattened: r.area_after * MM * MM,
+            area_cut: r.area_after * options.ease.area() * MM * MM,
             boundary_draped: r.boundary_before * MM,
             boundary_flattened: r.boundary_after * MM,
+            boundary_cut: r.boundary_after * MM,
             area_error: error(r.area_error),
             area_change: r.area_after / r.area_before - 1.0,
             boundary_error: error(r.boundary_error),
@@ -276,6 +300,7 @@ impl PartReport {
                 weft_p99: r.threads.weft_p99,
                 shear: r.threads.shear.to_degrees(),
                 shear_max: r.threads.shear_max.to_degrees(),
+                shear_at: part.number(r.threads.shear_at),
             },
             isoperimetric,
             area_error_bound: (1.0 - isoperimetric).max(0.0),
@@ -285,7 +310,7 @@ impl PartReport {
             flips: r.flips,
             overlaps: r.overlaps,
             edges: Vec::new(),
-            layable: !limit.is_out_of_reach(r),
+            layable: !options.limit.is_out_of_reach(r),
             dart: cuts::proposal(part, &laid.dart),
             darts: laid.darts,
             darts_stopped: laid.stop,

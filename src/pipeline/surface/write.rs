@@ -7,6 +7,7 @@ use super::super::results::{PATTERN_SVG, REPORT_JSON, ResultFile, json_text};
 use super::FlatSurface;
 use super::darts::Laid;
 use super::edges::NamedEdge;
+use super::garment::GARMENT_YAML;
 use super::parts::Part;
 use crate::flatten::triangle_strain;
 use crate::geometry::{MM, Vec2};
@@ -43,7 +44,7 @@ struct FaceInPart<'a> {
 }
 
 impl FlatSurface {
-    /// `flat.obj`, `flat.png`, `pattern.svg`, `outline.svg` and `report.json`.
+    /// `flat.obj`, `flat.png`, `pattern.svg`, `outline.svg`, `garment.yaml` and `report.json`.
     ///
     /// # Errors
     /// When one of them cannot be drawn.
@@ -54,6 +55,7 @@ impl FlatSurface {
             (FLAT_PNG, self.picture(&sheet)?),
             (PATTERN_SVG, pattern_svg(&sheet, &sheet.flat, &self.notches())?.into_bytes()),
             (OUTLINE_SVG, outline_svg(&sheet, &sheet.flat)?.into_bytes()),
+            (GARMENT_YAML, self.garment()?.into_bytes()),
             (REPORT_JSON, json_text(&self.report)?.into_bytes()),
         ])
     }
@@ -66,7 +68,7 @@ impl FlatSurface {
             env!("CARGO_PKG_VERSION"),
             self.report.surface
         );
-        for p in &self.faces.vertices {
+        for p in &self.sheet.faces.vertices {
             let _ = writeln!(out, "v {} {} {}", p.x, p.y, p.z);
         }
         let mut first = Vec::with_capacity(self.laid.len());
@@ -74,7 +76,7 @@ impl FlatSurface {
         for flat in self.laid.iter().map(|l| &l.flat.positions) {
             first.push(written);
             written += flat.len();
-            for p in flat {
+            for p in flat.iter().map(|p| self.ease.cut(*p)) {
                 let _ = writeln!(out, "vt {} {}", p.x * MM, -p.y * MM);
             }
         }
@@ -85,7 +87,7 @@ impl FlatSurface {
                 group = Some(part);
             }
             out.push('f');
-            for (&v, &local) in self.faces.faces[face].iter().zip(locals) {
+            for (&v, &local) in self.sheet.faces.faces[face].iter().zip(locals) {
                 // What could not be laid flat has no flat positions.
                 let _ = match first.get(part) {
                     Some(first) => write!(out, " {}/{}", v + 1, first + local as usize),
@@ -102,34 +104,43 @@ impl FlatSurface {
         self.laid.get(k).map_or_else(|| &self.failed[k - self.laid.len()].part, |laid| &laid.part)
     }
 
-    /// The faces that are left of the file, in its order.
+    /// The faces that are left of the file, in its order, those that one was split into in its place.
     fn faces_in_parts(&self) -> Vec<FaceInPart<'_>> {
         let count = self.laid.len() + self.failed.len();
-        let mut part_of_face = vec![0; self.faces.faces.len()];
+        let mut part_of_face = vec![0; self.sheet.faces.faces.len()];
         for k in 0..count {
             self.part(k).faces.iter().for_each(|&f| part_of_face[f as usize] = k);
         }
         let mut seen = vec![0; count];
-        let left = self.faces.faces.iter().enumerate().filter(|(_, corners)| !corners.is_empty());
-        left.map(|(face, _)| {
-            let part = part_of_face[face];
+        let of_face = |f: u32| {
+            let part = part_of_face[f as usize];
             seen[part] += 1;
-            FaceInPart { face, part, locals: &self.part(part).corners[seen[part] - 1] }
-        })
-        .collect()
+            FaceInPart { face: f as usize, part, locals: &self.part(part).corners[seen[part] - 1] }
+        };
+        self.sheet.order().into_iter().map(of_face).collect()
     }
 
     /// The flat position (x, −y) of every corner of every face that was given, mm, as in [`FLAT_OBJ`]. A face that was
-    /// left out or could not be laid flat has none.
+    /// left out, could not be laid flat, or lies on several sides of a cut has none.
     pub fn corners(&self) -> Vec<Option<FlatCorners>> {
-        let mut corners = vec![None; self.faces.faces.len()];
+        let given = self.given();
+        let mut corners: Vec<Option<FlatCorners>> = vec![None; given];
+        let mut spoilt = vec![false; given];
         for FaceInPart { face, part, locals } in self.faces_in_parts() {
-            corners[face] = self.laid.get(part).map(|laid| {
-                let at = |&local: &u32| laid.flat.positions[local as usize];
-                FlatCorners { piece: part, at: locals.iter().map(at).map(|p| [p.x * MM, -p.y * MM]).collect() }
-            });
+            let of = self.sheet.origin[face] as usize;
+            let laid = self.laid.get(part);
+            let flat = |&local: &u32| laid.map(|l| self.ease.cut(l.flat.positions[local as usize]));
+            let at = |local: &u32| flat(local).map(|p| [p.x * MM, -p.y * MM]);
+            let Some(at) = locals.iter().map(at).collect::<Option<Vec<_>>>() else { continue };
+            spoilt[of] |= of != face;
+            corners[of] = (!spoilt[of]).then_some(FlatCorners { piece: part, at });
         }
         corners
+    }
+
+    /// How many faces the file has.
+    fn given(&self) -> usize {
+        self.sheet.origin.iter().enumerate().filter(|(f, of)| *f == **of as usize).count()
     }
 
     /// The pieces coloured by strain.
@@ -145,7 +156,7 @@ impl FlatSurface {
         let mut notches = Vec::new();
         for (piece, edges) in self.edges.iter().enumerate() {
             for (index, edge) in edges.iter().enumerate().filter(|(_, e)| e.partner.is_some()) {
-                let at = |v: u32| self.laid[piece].flat.positions[v as usize];
+                let at = |v: u32| self.ease.cut(self.laid[piece].flat.positions[v as usize]);
                 let lengths: Vec<f64> = edge.vertices.windows(2).map(|w| (at(w[1]) - at(w[0])).norm()).collect();
                 if lengths.len() > 1 {
                     let middle = edge.middle([piece, index]);
@@ -162,7 +173,7 @@ impl FlatSurface {
         let mut cloth = ClothMesh::default();
         for (k, Laid { part, flat, .. }) in self.laid.iter().enumerate() {
             let (particle, triangle) = (cloth.flat.len(), cloth.triangles.len());
-            cloth.flat.extend(&flat.positions);
+            cloth.flat.extend(flat.positions.iter().map(|p| self.ease.cut(*p)));
             cloth.triangles.extend(part.surface.triangles.iter().map(|t| t.map(|v| v + particle as u32)));
             cloth.pieces.push(PieceMesh {
                 name: part.name.clone(),

@@ -1,0 +1,208 @@
+//! The flat pieces as a garment file, to be exported, altered and sewn.
+
+use super::super::error::PipelineError;
+use super::FlatSurface;
+use super::darts::Laid;
+use super::edges::NamedEdge;
+use crate::geometry::{MM, Vec2};
+use crate::io::garment::write;
+use crate::pattern::{GarmentFile, Located, NotchFile, OutlineFile, PieceFile, Quantity, SeamFile, Spot, Value};
+
+/// The garment file beside the drawings.
+pub const GARMENT_YAML: &str = "garment.yaml";
+/// The fabric of a garment that was drawn as a surface, until its maker names another.
+const FABRIC: &str = "cotton_poplin";
+/// Decimals of a millimetre in the file.
+const DECIMALS: f64 = 1e4;
+/// Half the length of the grain line, mm.
+const GRAIN: f64 = 50.0;
+
+fn at_no_place<T>(value: T) -> Located<T> {
+    Located::new(value, Spot::default())
+}
+
+fn rounded(x: f64) -> f64 {
+    (x * DECIMALS).round() / DECIMALS
+}
+
+impl FlatSurface {
+    /// The pieces as a garment: their rims as named edges, seams along everything that was cut, a notch in the middle
+    /// of every one, the grain upright. `None` where no piece has an outline.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub(super) fn garment(&self) -> Result<String, PipelineError> {
+        let names = self.piece_names();
+        let pieces: Vec<PieceFile> = (0..self.laid.len()).map(|k| self.piece_file(k, &names[k])).collect();
+        let (seams, free) = self.seams(&names);
+        let file = GarmentFile {
+            version: at_no_place(1),
+            name: Some(at_no_place(self.report.surface.clone())),
+            about: Vec::new(),
+            units: None,
+            body: None,
+            body_measures: Vec::new(),
+            body_units: None,
+            allowance: None,
+            fabrics: vec![(at_no_place("shell".to_owned()), at_no_place(Value::Text(FABRIC.to_owned())))],
+            pieces,
+            seams,
+            closures: Vec::new(),
+            free,
+            tests: Vec::new(),
+            alter: Vec::new(),
+            sizes: Vec::new(),
+        };
+        write(&file).map_err(PipelineError::Encode)
+    }
+
+    /// Names of the pieces that a garment file takes, each once.
+    fn piece_names(&self) -> Vec<String> {
+        let mut names: Vec<String> = Vec::new();
+        for laid in &self.laid {
+            let kept = |c: char| if c.is_alphanumeric() || c == '-' { c } else { '_' };
+            let word: String = laid.part.name.trim().chars().map(kept).collect();
+            let usable = word.starts_with(char::is_alphabetic) && word.chars().count() > 1;
+            let stem = if usable { word } else { format!("piece_{word}") };
+            let again = (2..).map(|n| format!("{stem}_{n}"));
+            let free = std::iter::once(stem.clone()).chain(again).find(|name| !names.contains(name));
+            names.extend(free);
+        }
+        names
+    }
+
+    /// The rim round a piece, which is its outline; the others are holes.
+    fn outline_of(&self, piece: usize) -> usize {
+        let rims = 1 + self.edges[piece].iter().map(|edge| edge.ring).max().unwrap_or(0);
+        let area = |ring: usize| {
+            let places: Vec<Vec2> = self.edges[piece]
+                .iter()
+                .filter(|e| e.ring == ring)
+                .flat_map(|e| e.vertices[1..].iter().map(|&v| self.place(piece, v)))
+                .collect();
+            (0..places.len()).map(|k| places[k].perp(&places[(k + 1) % places.len()])).sum::<f64>().abs()
+        };
+        (0..rims).max_by(|&a, &b| area(a).total_cmp(&area(b)).then(b.cmp(&a))).unwrap_or(0)
+    }
+
+    /// Where a vertex of a piece lies as it is cut, mm.
+    fn place(&self, piece: usize, v: u32) -> Vec2 {
+        self.ease.cut(self.laid[piece].flat.positions[v as usize]) * MM
+    }
+
+    fn piece_file(&self, k: usize, name: &str) -> PieceFile {
+        let outline = self.outline_of(k);
+        let own: Vec<&NamedEdge> = self.edges[k].iter().filter(|e| e.ring == outline).collect();
+        let point = |v: u32| {
+            let p = self.place(k, v);
+            [rounded(p.x), rounded(p.y)]
+        };
+        let path = |vertices: &[u32]| {
+            let line = |&v: &u32| {
+                let [x, y] = point(v);
+                format!("L {x} {y}")
+            };
+            vertices.iter().map(line).collect::<Vec<_>>().join(" ")
+        };
+        let edges = own.iter().map(|e| (at_no_place(edge_name(e)), at_no_place(path(&e.vertices[1..]))));
+        let start = own.first().map_or([0.0; 2], |e| point(e.vertices[0]));
+        let rings = self.edges[k].iter().filter(|e| e.ring != outline).fold(Vec::new(), |mut rings: Vec<_>, edge| {
+            match rings.last_mut() {
+                Some((ring, vertices)) if *ring == edge.ring => {
+                    let more: &mut Vec<u32> = vertices;
+                    more.extend(&edge.vertices[1..]);
+                }
+                _ => rings.push((edge.ring, edge.vertices[1..].to_vec())),
+            }
+            rings
+        });
+        let hole = |(n, (_, vertices)): (usize, (usize, Vec<u32>))| {
+            let closed = format!("{} Z", path(&vertices).replacen('L', "M", 1));
+            (at_no_place(hole_name(n)), at_no_place(closed))
+        };
+        let middle = self.grain_middle(k);
+        PieceFile {
+            outline: Some(OutlineFile { start: at_no_place(start), edges: edges.collect() }),
+            grain: Some(at_no_place([
+                [middle[0], rounded(middle[1] + GRAIN)],
+                [middle[0], rounded(middle[1] - GRAIN)],
+            ])),
+            notches: own.iter().filter_map(|edge| self.notch_file(k, edge)).collect(),
+            holes: rings.into_iter().enumerate().map(hole).collect(),
+            ..PieceFile::named(at_no_place(name.to_owned()))
+        }
+    }
+
+    /// The middle of the box round a piece, mm.
+    fn grain_middle(&self, k: usize) -> [f64; 2] {
+        let Laid { flat, .. } = &self.laid[k];
+        let (low, high) = flat
+            .positions
+            .iter()
+            .fold((Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)), |(low, high), p| {
+                (low.inf(&self.ease.cut(*p)), high.sup(&self.ease.cut(*p)))
+            });
+        let middle = (low + high) * (0.5 * MM);
+        [rounded(middle.x), rounded(middle.y)]
+    }
+
+    /// The notch of an edge that is sewn, at the vertex that it shares with its partner.
+    fn notch_file(&self, k: usize, edge: &NamedEdge) -> Option<(Located<String>, Vec<Located<NotchFile>>)> {
+        let index = self.edges[k].iter().position(|e| std::ptr::eq(e, edge))?;
+        edge.partner.filter(|_| edge.vertices.len() > 2)?;
+        let middle = edge.middle([k, index]);
+        let way = edge.vertices[..=middle].windows(2).map(|w| (self.place(k, w[1]) - self.place(k, w[0])).norm());
+        let at = Quantity { number: rounded(way.sum()), unit: None };
+        Some((at_no_place(edge_name(edge)), vec![at_no_place(NotchFile { at, double: false })]))
+    }
+
+    /// By how much the second of two sewn edges is longer as they are cut: ease draws edges of different directions
+    /// differently.
+    fn excess(&self, [p, e]: [usize; 2], [q, f]: [usize; 2]) -> Option<Located<Quantity>> {
+        /// Less is no ease, mm.
+        const NONE: f64 = 0.05;
+        let length = |p: usize, e: usize| self.report.pieces[p].edges[e].length_cut;
+        let excess = length(q, f) - length(p, e);
+        (excess.abs() > NONE).then(|| at_no_place(Quantity { number: rounded(excess), unit: None }))
+    }
+
+    /// The seams between outlines, each once, and all other edges.
+    fn seams(&self, names: &[String]) -> (Vec<SeamFile>, Vec<Located<String>>) {
+        let outlines: Vec<usize> = (0..self.laid.len()).map(|k| self.outline_of(k)).collect();
+        let (mut seams, mut free) = (Vec::new(), Vec::new());
+        for (p, edges) in self.edges.iter().enumerate() {
+            let mut holes: Vec<usize> = Vec::new();
+            for (e, edge) in edges.iter().enumerate() {
+                let full =
+                    |piece: usize, edge: &NamedEdge| at_no_place(format!("{}.{}", names[piece], edge_name(edge)));
+                let sewn = edge.partner.filter(|[q, f]| self.edges[*q][*f].ring == outlines[*q]);
+                if edge.ring != outlines[p] {
+                    if !holes.contains(&edge.ring) {
+                        free.push(at_no_place(format!("{}.{}", names[p], hole_name(holes.len()))));
+                        holes.push(edge.ring);
+                    }
+                    continue;
+                }
+                match sewn {
+                    None => free.push(full(p, edge)),
+                    Some([q, f]) if [p, e] < [q, f] => {
+                        let name = at_no_place(format!("seam{}", seams.len() + 1));
+                        let (own, other) = (vec![full(p, edge)], vec![full(q, &self.edges[q][f])]);
+                        seams.push(SeamFile { ease: self.excess([p, e], [q, f]), ..SeamFile::new(name, own, other) });
+                    }
+                    Some(_) => {}
+                }
+            }
+        }
+        (seams, free)
+    }
+}
+
+/// A name of an edge that a garment file takes: a number alone is none.
+fn edge_name(edge: &NamedEdge) -> String {
+    format!("edge{}", edge.name.replace('.', "_"))
+}
+
+fn hole_name(k: usize) -> String {
+    format!("hole{}", k + 1)
+}

@@ -1,0 +1,281 @@
+//! Lines across triangles: straight cuts, even darts, gores, drawn lines; and what else is asked of a surface.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may fail so")]
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::path::Path;
+
+use toile::flatten::line::{Spot, Web, length, plane_section, straightened};
+use toile::flatten::{Solid, shortest_path};
+use toile::geometry::{TriMesh, Vec3};
+use toile::input::LengthUnit;
+use toile::io::obj_read::ObjFaces;
+use toile::pipeline::{Cuts, Darts, Ease, FlatSurface, SurfaceOptions, flatten_faces};
+
+/// Radius of the hemisphere, mm.
+const RADIUS: f64 = 140.0;
+
+/// A number between −1 and 1 that looks random.
+fn jitter(k: u32) -> f64 {
+    f64::from(k.wrapping_mul(2_654_435_761) >> 8) / f64::from(1u32 << 23) - 1.0
+}
+
+/// A grid of `n` × `m` quads, each two triangles, over the unit square, its inner points moved by up to `off` of a
+/// cell and lifted.
+fn grid(n: u32, m: u32, off: f64, lift: impl Fn(f64, f64) -> Vec3) -> TriMesh {
+    let mut mesh = TriMesh::default();
+    for (j, i) in (0..=m).flat_map(|j| (0..=n).map(move |i| (j, i))) {
+        let k = 2 * mesh.vertices.len() as u32;
+        let inside = i > 0 && i < n && j > 0 && j < m;
+        let by = |k: u32| if inside { off * jitter(k) } else { 0.0 };
+        mesh.vertices.push(lift((f64::from(i) + by(k)) / f64::from(n), (f64::from(j) + by(k + 1)) / f64::from(m)));
+    }
+    for (j, i) in (0..m).flat_map(|j| (0..n).map(move |i| (j, i))) {
+        let a = j * (n + 1) + i;
+        mesh.triangles.extend([[a, a + 1, a + n + 2], [a, a + n + 2, a + n + 1]]);
+    }
+    mesh
+}
+
+/// A hemisphere of [`RADIUS`] mm, its pole up: rings of `columns` vertices, turned by a bit from ring to ring where it
+/// is `twisted`, so that no meridian runs along edges.
+fn hemisphere(rows: u32, columns: u32, twisted: bool) -> TriMesh {
+    let mut mesh = TriMesh { vertices: vec![Vec3::new(0.0, RADIUS, 0.0)], triangles: Vec::new() };
+    let turn = |row: u32| if twisted { 0.37 * f64::from(row) } else { 0.0 };
+    for row in 1..=rows {
+        let down = FRAC_PI_2 * f64::from(row) / f64::from(rows);
+        for column in 0..columns {
+            let round = TAU * (f64::from(column) + turn(row)) / f64::from(columns);
+            let [x, z] = [round.sin(), round.cos()].map(|c| RADIUS * down.sin() * c);
+            mesh.vertices.push(Vec3::new(x, RADIUS * down.cos(), z));
+        }
+    }
+    let at = |row: u32, column: u32| 1 + (row - 1) * columns + column % columns;
+    for column in 0..columns {
+        mesh.triangles.push([0, at(1, column), at(1, column + 1)]);
+        for row in 1..rows {
+            let [a, b, c, d] = [at(row, column), at(row + 1, column), at(row + 1, column + 1), at(row, column + 1)];
+            mesh.triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    mesh
+}
+
+fn faces(mesh: &TriMesh) -> ObjFaces {
+    let count = mesh.triangles.len();
+    ObjFaces {
+        vertices: mesh.vertices.clone(),
+        faces: mesh.triangles.iter().map(|t| t.to_vec()).collect(),
+        texture: Vec::new(),
+        texture_of_face: vec![Vec::new(); count],
+        groups: vec!["cloth".to_owned()],
+        group_of_face: vec![0; count],
+    }
+}
+
+fn options() -> SurfaceOptions {
+    SurfaceOptions { unit: Some(LengthUnit::Millimetre), up: Some(Vec3::y()), ..SurfaceOptions::default() }
+}
+
+fn laid(mesh: &TriMesh, options: &SurfaceOptions) -> FlatSurface {
+    flatten_faces(Path::new("cloth"), faces(mesh), options).expect("laid flat")
+}
+
+fn text(flat: &FlatSurface, file: &str) -> String {
+    let files = flat.results().expect("files");
+    String::from_utf8(files.into_iter().find(|f| f.0 == file).expect("a file").1).expect("text")
+}
+
+/// The vertices of `flat.obj`.
+fn places(flat: &FlatSurface) -> Vec<Vec3> {
+    let text = text(flat, "flat.obj");
+    let numbers = |line: &str| line.split(' ').map(|n| n.parse::<f64>().expect("a number")).collect::<Vec<_>>();
+    text.lines().filter_map(|l| l.strip_prefix("v ")).map(|l| Vec3::from_vec(numbers(l))).collect()
+}
+
+#[test]
+fn a_straight_line_on_what_unrolls_is_that_of_the_plane() {
+    // A sheet of 300 × 200 mm, bent to the edges of a prism, which unrolls exactly.
+    let prism = |u: f64, v: f64| {
+        let (sides, radius) = (10.0, 300.0 / (2.0 * 10.0 * (PI / 20.0).sin()));
+        let (side, share) = ((u * sides).floor().min(sides - 1.0), u * sides - (u * sides).floor().min(sides - 1.0));
+        let corner = |k: f64| Vec3::new(radius * (PI * k / sides).cos(), 0.0, radius * (PI * k / sides).sin());
+        corner(side).lerp(&corner(side + 1.0), share) + Vec3::y() * (200.0 * v)
+    };
+    // Its columns lie on the edges of the prism; along them the points are moved.
+    let mesh = grid(20, 15, 0.0, prism);
+    let web = Web::new(&mesh);
+    for (from, to, across) in [(0, 16 * 21 - 1, [300.0f64, 200.0]), (5, 14 * 21 + 18, [195.0, 200.0 * 14.0 / 15.0])] {
+        let chain = shortest_path(&mesh, &Solid::new(), from, to).expect("a way");
+        let line = straightened(&mesh, &web, &chain);
+        let expected = across[0].hypot(across[1]);
+        let found = length(&mesh, &line);
+        assert!((found - expected).abs() < 1e-9 * expected, "{found} {expected}");
+    }
+    // Cut along it, the sheet is two pieces of exactly these areas, with straight legs of exactly this length.
+    let cut = Cuts { paths: vec![vec![1, 16 * 21]], ..Cuts::default() };
+    let flat = laid(&mesh, &SurfaceOptions { cuts: cut, ..options() });
+    assert_eq!(flat.report.pieces.len(), 2);
+    for piece in &flat.report.pieces {
+        assert!((piece.area_flattened - 30_000.0).abs() < 1e-2, "{}", piece.area_flattened);
+        let leg = piece.edges.iter().find(|e| e.sewn_to.is_some()).expect("a leg");
+        assert!((leg.length_flattened - 300f64.hypot(200.0)).abs() < 1e-4, "{}", leg.length_flattened);
+    }
+}
+
+#[test]
+fn a_plane_cuts_a_sphere_in_a_great_circle() {
+    let mesh = hemisphere(20, 60, true);
+    let web = Web::new(&mesh);
+    for k in 0..7 {
+        let toward = Vec3::new((0.9 * f64::from(k)).cos(), 0.0, (0.9 * f64::from(k)).sin());
+        let normal = toward.cross(&Vec3::y());
+        let line = plane_section(&mesh, &web, normal, 0, toward, None).expect("a line");
+        let off = line.iter().map(|spot| spot.place(&mesh).dot(&normal).abs()).fold(0.0, f64::max);
+        assert!(off <= 0.25, "{off} mm beside the plane");
+        let quarter = length(&mesh, &line) / (FRAC_PI_2 * RADIUS);
+        assert!((0.998..1.0).contains(&quarter), "{quarter}");
+        assert!(line.iter().filter(|spot| matches!(spot, Spot::Edge { .. })).count() > 20);
+    }
+}
+
+/// The cuts of a flat hemisphere: how far beside their meridians they run at most, and their lengths, mm.
+fn meridians(flat: &FlatSurface) -> (f64, Vec<f64>) {
+    let places = places(flat);
+    let mut off: f64 = 0.0;
+    for chain in &flat.report.cuts {
+        let at = |k: u32| places[k as usize - 1];
+        let end = if at(chain[0]).y < 1.0 { at(chain[0]) } else { at(*chain.last().expect("an end")) };
+        let normal = Vec3::y().cross(&end).normalize();
+        off = chain.iter().map(|&k| at(k).dot(&normal).abs()).fold(off, f64::max);
+    }
+    (off, flat.report.cuts_made.iter().map(|made| made.length).collect())
+}
+
+fn spread(lengths: &[f64]) -> f64 {
+    lengths.iter().fold(0.0, |most: f64, l| most.max(*l))
+        - lengths.iter().fold(f64::INFINITY, |least: f64, l| least.min(*l))
+}
+
+#[test]
+fn a_hemisphere_is_cut_into_even_gores() {
+    for twisted in [false, true] {
+        let mesh = hemisphere(20, 48, twisted);
+        let mut before = f64::INFINITY;
+        for count in [4, 6, 8] {
+            let flat = laid(&mesh, &SurfaceOptions { gores: Some(count), ..options() });
+            assert_eq!(flat.report.pieces.len(), count);
+            let (off, lengths) = meridians(&flat);
+            assert!(off <= 0.26, "{off} mm beside the meridian");
+            assert!(lengths.len() == count && spread(&lengths) < 0.3, "{lengths:?}");
+            let strain = flat.report.pieces.iter().map(|p| p.strain.p99).fold(0.0, f64::max);
+            assert!(strain < before, "{count}: {strain}");
+            before = strain;
+            for edge in flat.report.pieces.iter().flat_map(|p| &p.edges).filter(|e| e.sewn_to.is_some()) {
+                assert!((edge.length_flattened - edge.length_draped).abs() < 0.01, "{edge:?}");
+            }
+        }
+        // This mesh has 6.1 %.
+        assert!(before < 0.065, "eight gores: {before}");
+    }
+}
+
+#[test]
+fn a_hemisphere_gets_even_darts_that_point_at_its_pole() {
+    for twisted in [false, true] {
+        let mesh = hemisphere(16, 48, twisted);
+        for (count, most) in [(4, 0.2), (6, 0.1), (8, 0.065)] {
+            let flat = laid(&mesh, &SurfaceOptions { darts: Some(Darts::Count(count)), ..options() });
+            let piece = &flat.report.pieces[0];
+            assert_eq!((flat.report.pieces.len(), piece.darts, piece.overlaps, piece.flips), (1, count, 0, 0));
+            assert!(piece.strain.p99 < most, "{count} darts: {}", piece.strain.p99);
+            let (off, lengths) = meridians(&flat);
+            assert!(off <= 0.26 && lengths.len() == count, "{off} mm beside the meridian");
+            assert!(spread(&lengths) < 1.0, "{lengths:?}");
+            let first = flat.report.cuts_made[0].strain.expect("what it bought");
+            assert!(first[1] < first[0] && (first[1] - piece.strain.p99).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn a_ball_and_a_tube_are_cut_into_panels() {
+    let half = hemisphere(12, 24, false);
+    let mut ball = half.clone();
+    let rim = 1 + 11 * 24;
+    let below: Vec<u32> =
+        (0..half.vertices.len() as u32).map(|v| if v < rim { v + half.vertices.len() as u32 } else { v }).collect();
+    ball.vertices.extend(half.vertices[..rim as usize].iter().map(|p| Vec3::new(p.x, -p.y, p.z)));
+    ball.triangles.extend(half.triangles.iter().map(|&[a, b, c]| [a, c, b].map(|v| below[v as usize])));
+    let flat = laid(&ball, &SurfaceOptions { gores: Some(6), ..options() });
+    assert_eq!(flat.report.pieces.len(), 6);
+    let areas: Vec<f64> = flat.report.pieces.iter().map(|p| p.area_flattened).collect();
+    assert!(spread(&areas) < 1e-3 * areas[0], "{areas:?}");
+    // A tube of 30 sides, cut where no edge of the mesh lies.
+    let tube = grid(30, 10, 0.0, |u, v| {
+        let round = TAU * u;
+        Vec3::new(80.0 * round.cos(), 300.0 * v, 80.0 * round.sin())
+    });
+    let flat = laid(&tube, &SurfaceOptions { gores: Some(4), weld: toile::pipeline::Weld::Within(1e-6), ..options() });
+    assert_eq!(flat.report.pieces.len(), 4);
+    let round = 30.0 * 2.0 * 80.0 * (PI / 30.0).sin();
+    for piece in &flat.report.pieces {
+        assert!((piece.area_flattened - round * 300.0 / 4.0).abs() < 0.05, "{}", piece.area_flattened);
+    }
+}
+
+#[test]
+fn a_drawn_line_is_cut() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mesh = grid(13, 11, 0.3, |u, v| Vec3::new(200.0 * u, 150.0 * v, 0.0));
+    let cut = |name: &str, text: &str| {
+        let file = folder.path().join(name);
+        std::fs::write(&file, text).expect("written");
+        laid(&mesh, &SurfaceOptions { cuts: Cuts { files: vec![file], ..Cuts::default() }, ..options() })
+    };
+    // Drawn 3 mm above the sheet and beyond its rim, with a corner inside.
+    let flat = cut("line.obj", "v 40 -5 3\nv 40 80 3\nv 205 80 3\nl 1 2 3\n");
+    let mut areas: Vec<f64> = flat.report.pieces.iter().map(|p| p.area_flattened).collect();
+    areas.sort_by(f64::total_cmp);
+    assert!(areas.len() == 2 && (areas[0] - 160.0 * 80.0).abs() < 160.0 * 0.5, "{areas:?}");
+    assert!((areas.iter().sum::<f64>() - 30_000.0).abs() < 1e-3);
+    let flat = cut("points.txt", "60 0 0\n60 100 0\n");
+    assert_eq!(flat.report.pieces.len(), 1);
+    assert!((flat.report.cuts_made[0].length - 100.0).abs() < 0.01, "{:?}", flat.report.cuts_made);
+}
+
+#[test]
+fn pieces_are_cut_with_ease() {
+    let mesh = grid(4, 4, 0.0, |u, v| Vec3::new(100.0 * u, 200.0 * v, 0.0));
+    let flat = laid(&mesh, &SurfaceOptions { ease: Ease { warp: -0.1, weft: -0.2 }, ..options() });
+    let (piece, ease) = (&flat.report.pieces[0], flat.report.ease.expect("ease"));
+    assert!((piece.area_flattened - 20_000.0).abs() < 1e-3 && (piece.area_cut - 14_400.0).abs() < 1e-3);
+    assert!((piece.boundary_cut - 2.0 * (80.0 + 180.0)).abs() < 1e-4, "{}", piece.boundary_cut);
+    assert!((ease.stretch_warp - 1.0 / 9.0).abs() < 1e-12 && (ease.stretch_weft - 0.25).abs() < 1e-12);
+    assert!(piece.strain.p99 < 1e-6);
+}
+
+#[test]
+fn a_fine_mesh_is_simplified_within_its_bound() {
+    let mesh = hemisphere(60, 160, true);
+    let fine = laid(&mesh, &options());
+    let flat = laid(&mesh, &SurfaceOptions { simplify: Some(5e-4), ..options() });
+    let (few, many) = (flat.report.pieces[0].triangles, fine.report.pieces[0].triangles);
+    assert!(few < many / 5, "{few} of {many}");
+    let said = flat.notes.iter().find(|note| note.contains("simplified")).expect("a note");
+    let error: f64 =
+        said.split("further than ").nth(1).and_then(|t| t.split(' ').next()).expect("mm").parse().expect("mm");
+    assert!(error > 0.0 && error <= 0.5, "{said}");
+    let area = |flat: &FlatSurface| flat.report.pieces[0].area_draped;
+    assert!((area(&flat) / area(&fine) - 1.0).abs() < 0.01);
+}
+
+#[test]
+fn the_pieces_are_a_garment_file() {
+    let flat = laid(&hemisphere(12, 24, false), &SurfaceOptions { gores: Some(4), ..options() });
+    let yaml = text(&flat, "garment.yaml");
+    let loaded = toile::io::garment::read_text("cloth", "garment.yaml", &yaml).expect("a garment");
+    assert_eq!(loaded.file.pieces.len(), 4);
+    assert_eq!(loaded.file.seams.len(), 4);
+    assert_eq!(loaded.file.free.len(), 4, "the rim of every gore");
+}
