@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use toile::flatten::{Mode, Options};
 use toile::input::LengthUnit;
 use toile::io::files::write_all;
-use toile::pipeline::{DARTS, SurfaceOptions, flatten_surface};
+use toile::pipeline::{Darts, SurfaceOptions, flatten_surface};
 
 /// Vertices along each side of a surface.
 const SIDE: u32 = 60;
@@ -48,7 +48,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         write_all(&[(file.clone(), obj(case.at).into_bytes())], &[])?;
         let options = SurfaceOptions {
             unit: Some(LengthUnit::Metre),
-            darts: if case.darts { DARTS } else { 0 },
+            darts: case.darts.then_some(Darts::Auto),
             flatten: Options { mode: case.mode, ..Options::default() },
             ..SurfaceOptions::default()
         };

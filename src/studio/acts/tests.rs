@@ -1,4 +1,6 @@
 use super::*;
+use crate::io::garment::examine_text;
+use crate::pattern::Value;
 
 const FILE: &str = "\
 garment: 1   # a skirt
@@ -162,7 +164,7 @@ fn fabric_and_body_are_chosen() {
     assert!(text.ends_with("\n\nfabrics:\n  shell: denim\n"), "{text}");
     let again = done_in(&text, &Act::Fabric { name: "shell".into(), cloth: "silk_charmeuse".into() });
     let cloth = again.map(|text| said(&text).fabrics[0].1.value.clone());
-    assert!(cloth.is_err() || cloth == Ok(crate::pattern::Value::Text("silk_charmeuse".into())));
+    assert!(cloth.is_err() || cloth == Ok(Value::Text("silk_charmeuse".into())));
     assert!(done(&Act::Fabric { name: "shell".into(), cloth: "../../etc/passwd".into() }).is_err());
     let valued = format!("{FILE}fabrics: {{shell: {{base: denim, bend: 2}}}}\n");
     assert!(done_in(&valued, &Act::Fabric { name: "shell".into(), cloth: "denim".into() }).is_err());
@@ -226,7 +228,7 @@ fn comments(text: &str) -> Vec<&str> {
 fn edges_of_every_garment_can_be_named_and_the_garment_stays_as_it_was() {
     for (file, text) in shipped() {
         let check = |text: &str| {
-            let examined = crate::io::garment::examine_text("garment", &file, text);
+            let examined = examine_text("garment", &file, text);
             examined.findings.errors()
         };
         let before = check(&text);
