@@ -202,15 +202,15 @@ impl<'a> Wear<'a> {
         !self.is_empty(k) && !self.together(k).any(|j| above(&j))
     }
 
-    /// A part of the garment that is round both legs alone, below the crotch, or that has a crotch of its own and is not
-    /// drawn up to the body's.
+    /// A part of the garment that is round both legs alone, below the crotch, or that has a crotch of its own and is
+    /// not drawn up to the body's.
     fn fallen(&self, k: usize) -> Option<String> {
         let legs = |j: usize| self.now[j].passage.through == Some(Through::Legs);
         let one_leg = |&j: &usize| matches!(self.now[j].passage.through, Some(Through::Part(part)) if part.is_leg());
         if let Some(leg) = self.together(k).find(one_leg).filter(|_| self.holds(k) && legs(k)) {
             return Some(format!(
-                "is round both legs, at a height of {:.0} mm, and one leg alone passes through '{}': it is not drawn up \
-                 to the trunk",
+                "is round both legs, at a height of {:.0} mm, and one leg alone passes through '{}': it is not drawn \
+                 up to the trunk",
                 self.now[k].height * MM,
                 self.names[leg]
             ));

@@ -70,7 +70,8 @@ pub(in crate::sew) fn pressed(garment: &Garment, mesh: &ClothMesh) -> Sheet {
     sheet
 }
 
-/// A fold as it is drawn, straight or curved: its points, which go straight on beyond both ends.
+/// A fold as it is drawn, which goes straight on beyond both ends: the points of a curve, or the two ends of a straight
+/// line.
 struct Crease(Vec<Vec2>);
 
 /// The straight line nearest to a particle along a fold: a point, and the unit direction across it.
@@ -89,9 +90,14 @@ impl Tangent {
 
 impl Crease {
     fn new(mesh: &ClothMesh, line: &LineParticles) -> Self {
-        let mut points: Vec<Vec2> = line.particles.iter().map(|p| mesh.flat[*p as usize]).collect();
+        Self::through(line.particles.iter().map(|p| mesh.flat[*p as usize]).collect())
+    }
+
+    fn through(mut points: Vec<Vec2>) -> Self {
         points.dedup();
-        Self(points)
+        let ends = Self(points.first().into_iter().chain(points.last()).copied().collect());
+        let is_on = |p: &Vec2| ends.tangent(*p).is_some_and(|tangent| tangent.off(*p).abs() < ON_FOLD);
+        if points.iter().all(is_on) { ends } else { Self(points) }
     }
 
     /// The unit direction from its first point to its last. `None` where these are one.
@@ -218,7 +224,7 @@ mod tests {
     #[test]
     fn a_curved_fold_is_followed_by_the_line_nearest_to_a_point() {
         let arc = |turn: f64| Vec2::new(turn.sin(), turn.cos());
-        let crease = Crease((0..=100).map(|k| arc(0.02 * f64::from(k) - 1.0)).collect());
+        let crease = Crease::through((0..=100).map(|k| arc(0.02 * f64::from(k) - 1.0)).collect());
         for turn in [-0.9, -0.31, 0.0, 0.57, 0.9] {
             for radius in [0.9, 1.1] {
                 let p = arc(turn) * radius;
@@ -229,7 +235,8 @@ mod tests {
             }
         }
         // Beyond its ends it goes straight on, and all of a straight one is one line.
-        let straight = Crease([0.0, 0.3, 1.0].map(|x| Vec2::new(x, 0.0)).to_vec());
+        let straight = Crease::through([0.0, 0.3, 1.0].map(|x| Vec2::new(x, 0.0)).to_vec());
+        assert_eq!(straight.0.len(), 2);
         let off = |x: f64| straight.tangent(Vec2::new(x, 0.2)).expect("segments").off(Vec2::new(x, 0.2));
         assert_relative_eq!(off(-2.0), off(5.0));
         assert_relative_eq!(off(0.3), 0.2);

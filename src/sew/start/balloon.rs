@@ -311,8 +311,8 @@ impl<'a> Motion<'a> {
     }
 }
 
-/// Lowers a neckline that rises above its shoulders: what has more length than the way up to the neck falls in folds, as
-/// a cowl does, and does not stand up before the throat.
+/// Lowers a neckline that rises above its shoulders: what has more length than the way up to the neck falls in folds,
+/// as a cowl does, and does not stand up before the throat.
 fn lower(p: &mut [Vec3], neckline: &Neckline) {
     let highest = neckline.shoulders.map(|n| p[n as usize].y).into_iter().fold(f64::NEG_INFINITY, f64::max);
     neckline.rim.iter().for_each(|n| p[*n as usize].y = p[*n as usize].y.min(highest + ABOVE_NECK));
