@@ -77,6 +77,7 @@ pub(crate) use reference::{LARGEST, Words};
 pub(crate) use region::{Region, SLACK};
 pub use rim::{Opening, openings};
 pub(crate) use seam::DEFAULT_TOLERANCE;
+pub(crate) use spelling::glob;
 pub use walk::{SeamWalk, walk, written_edge, written_names};
 pub use want_file::{KnobFile, WantFile, Wanted, WantsFile};
 

@@ -102,7 +102,7 @@ fn differences(old: &GarmentFile, new: &GarmentFile) -> Vec<EdgeChange> {
 type Patch = (Spot, String);
 
 /// The old text with new numbers. `None` where more than numbers changed.
-fn patched(text: &str, old: &GarmentFile, new: &GarmentFile) -> Option<String> {
+pub(super) fn patched(text: &str, old: &GarmentFile, new: &GarmentFile) -> Option<String> {
     let mut patches = Vec::new();
     if old.pieces.len() != new.pieces.len() {
         return None;
@@ -151,17 +151,31 @@ fn quantity(old: &Located<Quantity>, new: &Located<Quantity>, patches: &mut Vec<
     }
 }
 
+fn point(old: &Located<[f64; 2]>, new: &Located<[f64; 2]>, patches: &mut Vec<Patch>) {
+    if old != new {
+        let [x, y] = new.value;
+        patches.push((old.at, format!("[{x}, {y}]")));
+    }
+}
+
 fn dart(old: &DartFile, new: &DartFile, patches: &mut Vec<Patch>) {
     quantity(&old.intake, &new.intake, patches);
     match (&old.shape, &new.shape) {
-        (DartShape::Edge { edge, at, length, .. }, DartShape::Edge { edge: to, at: now, length: long, .. }) => {
+        (
+            DartShape::Edge { edge, at, length, tip },
+            DartShape::Edge { edge: to, at: now, length: long, tip: there },
+        ) => {
             words(edge, to, patches);
             quantity(at, now, patches);
             if let (Some(old), Some(new)) = (length, long) {
                 quantity(old, new, patches);
             }
+            if let (Some(old), Some(new)) = (tip, there) {
+                point(old, new, patches);
+            }
         }
-        (DartShape::FishEye { at: _, up, down }, DartShape::FishEye { at: _, up: higher, down: lower }) => {
+        (DartShape::FishEye { at, up, down }, DartShape::FishEye { at: now, up: higher, down: lower }) => {
+            point(at, now, patches);
             quantity(up, higher, patches);
             quantity(down, lower, patches);
         }
@@ -175,6 +189,10 @@ fn replace(lines: &mut Vec<String>, (at, new): &Patch) {
     let line = lines[index].clone();
     let before: String = line.chars().take(at.column.saturating_sub(1)).collect();
     let rest: String = line.chars().skip(at.column.saturating_sub(1)).collect();
+    if let Some(end) = rest.find(']').filter(|_| rest.starts_with('[')) {
+        lines[index] = format!("{before}{new}{}", &rest[end + 1..]);
+        return;
+    }
     let quoted = if before.contains(['{', '[']) && new.contains(',') { format!("'{new}'") } else { new.clone() };
     if rest.starts_with(['>', '|']) {
         let indent = |line: &str| line.len() - line.trim_start().len();
