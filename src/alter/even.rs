@@ -23,8 +23,9 @@ struct Knob {
     along: Vec2,
 }
 
-/// Writes the shapes into the file, with corners moved by the least amounts (in squares) that keep the difference of the
-/// two sides of each seam, or their ratio where one is gathered or stretched. Gives the file and how far a seam is off.
+/// Writes the shapes into the file. Corners of the pieces that change are moved by the least amounts (in squares) that
+/// keep the difference of the two sides of each seam, or their ratio where one is gathered or stretched. Gives the file
+/// and how far a seam is off.
 pub(super) fn evened(file: &GarmentFile, shapes: &[Shape]) -> Result<(GarmentFile, f64), Fault> {
     let before = seams(file)?;
     let still: Vec<Vec<Vec2>> = shapes.iter().map(|s| vec![Vec2::zeros(); s.corners()]).collect();
@@ -67,12 +68,13 @@ pub(super) fn evened(file: &GarmentFile, shapes: &[Shape]) -> Result<(GarmentFil
     Ok((new, left))
 }
 
+/// The corners that may be moved. Pieces that keep their shape keep it to the last digit.
 fn knobs(shapes: &[Shape]) -> Vec<Knob> {
     let of = |(shape, s): (usize, &Shape)| {
         let along = |corner| s.directions(corner).into_iter().map(move |along| Knob { shape, corner, along });
         (0..s.corners()).flat_map(along).collect::<Vec<_>>()
     };
-    shapes.iter().enumerate().flat_map(of).collect()
+    shapes.iter().enumerate().filter(|(_, s)| !s.is_still()).flat_map(of).collect()
 }
 
 /// The seams that a file states.

@@ -7,8 +7,8 @@ use crate::pattern::{
     AllowanceFile, DartShape, Findings, GarmentFile, Located, PieceFile, Problem, Quantity, Words, expand, glob,
 };
 
-/// Largest distance of a line from the chords that stand for it where it is asked where it lies, metres.
-const CHORD: f64 = 1e-4;
+/// Places along a line or hole at which it is asked on which side of the cut it lies.
+const PLACES: usize = 64;
 /// Places nearer to an end of a stretch are at it, metres.
 const NEAR: f64 = 1e-7;
 
@@ -202,14 +202,13 @@ fn runs(piece: &mut PieceFile, sheet: &Sheet, inside: &dyn Fn(Vec2) -> bool) -> 
     let mut own = Vec::new();
     for (i, run) in sheet.runs.iter().enumerate() {
         // Its ends may lie on the rim.
-        let points = run.sampled(CHORD);
-        let middle = |w: &[Vec2]| (w[0] + w[1]) / 2.0;
-        let within = points.windows(2).filter(|w| inside(middle(w))).count();
+        let at = |k: usize| run.point(run.length() * (k as f64 + 0.5) / PLACES as f64);
+        let within = (0..PLACES).filter(|&k| inside(at(k))).count();
         let (name, at) = match i < holes {
             true => (&piece.holes[i].0.value, piece.holes[i].1.at),
             false => (&piece.lines[i - holes].name.value, piece.lines[i - holes].path.at),
         };
-        if within != 0 && within != points.len() - 1 {
+        if within != 0 && within != PLACES {
             let reason = format!("the style line crosses '{name}'; cut elsewhere, or leave that out first");
             return Err((at, Problem::AlterShape { piece: sheet.piece.clone(), reason }));
         }

@@ -31,9 +31,9 @@ pub struct Reshaped {
     pub seams: f64,
 }
 
-/// Gives the pieces of a file another shape. Edges stay curves of few points, shifted smoothly, and what lies on them and
-/// inside goes along. Then corners are moved by the least amounts that give both sides of each seam the difference (or
-/// ratio) of lengths that they had. `None` after an error, which is reported.
+/// Gives the pieces of a file another shape. Edges stay curves of few points, shifted smoothly, and what lies on them
+/// and inside goes along. Then corners are moved by the least amounts that give both sides of each seam the difference
+/// (or ratio) of lengths that they had. `None` after an error, which is reported.
 pub fn reshape(file: &GarmentFile, given: Given, findings: &mut Findings) -> Option<Reshaped> {
     match reshaped(file, given) {
         Ok(done) => Some(done),
@@ -135,7 +135,8 @@ impl Shape {
         Ok((Self { index, sheet, wedges, edges, tips, points, eyes, runs }, apart))
     }
 
-    fn is_still(&self) -> bool {
+    /// Whether it keeps its shape.
+    pub(super) fn is_still(&self) -> bool {
         self.edges.iter().flatten().all(|stretch| stretch.field.is_still())
     }
 

@@ -4,6 +4,7 @@
 //! and by the body, as that of the garment before was; the difference of the two flat shapes is by how much the pattern
 //! changes. The new pattern is sewn and draped, and corrected by the difference that is left.
 
+use super::earlier::Earlier;
 use super::error::PipelineError;
 use super::job::{Job, Overrides};
 use super::run::{Progress, Run};
@@ -71,6 +72,8 @@ struct Search<'a> {
     chart: Chart<'a>,
     /// The form: positions of the particles.
     form: Vec<Vec3>,
+    /// The form as a state to go on from: folds that hang free stay where they are, as far as the new pattern lets them.
+    hanging: Option<Earlier>,
     /// From drawn to flat positions of the form, and of the garment that was draped last.
     wanted: Vec<Vec2>,
     own: Vec<Vec2>,
@@ -79,8 +82,8 @@ struct Search<'a> {
 }
 
 impl Run<'_> {
-    /// The pattern that the form asks for which this run was begun with and which has been laid flat. The figures become
-    /// part of the run's report. `None` where the form gives no pattern; the report says why.
+    /// The pattern of the form that this run was begun with and has laid flat. The figures become part of the run's
+    /// report. `None` where the form gives no pattern; the report says why.
     ///
     /// # Errors
     /// A garment that cannot be sewn, draped or laid flat.
@@ -94,9 +97,10 @@ impl Run<'_> {
         let wanted = differences(flat, &job.mesh.flat);
         let own = vec![Vec2::zeros(); wanted.len()];
         let (chart, report) = (Chart::new(&job.mesh), FormReport::default());
-        let mut search = Search { job, asked, chart, form, wanted, own, report, best: None };
+        let hanging = Earlier::of(self);
+        let mut search = Search { job, asked, chart, form, hanging, wanted, own, report, best: None };
         let usual = search.hang(progress)?;
-        search.report.strained = strained(job, &self.threads, &usual);
+        search.report.strained = search.strained(&self.threads, &usual)?;
         for _ in 0..asked.rounds.max(1) {
             if !search.round(progress)? {
                 break;
@@ -121,6 +125,23 @@ impl Search<'_> {
         Ok(run.threads)
     }
 
+    /// The pieces that their fabric does not let lie flat, also where the angle between its threads is free.
+    fn strained(&self, threads: &[[f64; 2]], usual: &[[f64; 2]]) -> Result<Vec<String>, PipelineError> {
+        let job = self.job;
+        let found = strained(job, threads, usual);
+        if found.is_empty() {
+            return Ok(found);
+        }
+        let options = flatten::Options { mode: flatten::Mode::Woven, ..self.asked.options };
+        let woven = flatten::flatten_garment(&job.mesh, &job.garment.seams, &self.form, &options)?;
+        let least = |(own, woven): (&[f64; 2], &flatten::FlatPiece)| {
+            let other = [woven.report.threads.warp_p99, woven.report.threads.weft_p99];
+            if other.iter().sum::<f64>() < own.iter().sum() { other } else { *own }
+        };
+        let threads: Vec<[f64; 2]> = threads.iter().zip(&woven.pieces).map(least).collect();
+        Ok(strained(job, &threads, usual))
+    }
+
     /// Makes a pattern, and drapes it. Returns whether another one may come nearer to the form.
     fn round(&mut self, progress: Progress) -> Result<bool, PipelineError> {
         let shifts: Vec<Vec2> = self.wanted.iter().zip(&self.own).map(|(w, o)| w - o).collect();
@@ -140,7 +161,10 @@ impl Search<'_> {
         }
         let overrides = Overrides { size: None, alter: Vec::new(), ..self.asked.overrides.clone() };
         let again = Job::new(&self.job.file, loaded, &overrides)?;
-        let mut run = Run::new(&again);
+        let mut run = match &self.hanging {
+            Some(hanging) => Run::going_on(&again, hanging.clone()),
+            None => Run::new(&again),
+        };
         run.flatten(&self.asked.options, progress)?;
         let found = self.apart(&shifts, &run);
         if self.best.as_ref().is_none_or(|(mean, _)| found.mean < *mean) {

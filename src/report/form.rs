@@ -105,10 +105,10 @@ impl FormReport {
             changes.push("no edge and no dart changes its length".to_owned());
         }
         out.extend(changes.into_iter().enumerate().map(|(k, told)| (if k == 0 { "new" } else { "" }, told)));
-        for (k, Apart { mean, max, piece, gap, .. }) in self.redraped.iter().enumerate() {
-            let what = if k == 0 { "sewn and draped" } else { "corrected, sewn and draped" };
+        for (k, Apart { mean, max, piece, .. }) in self.redraped.iter().enumerate() {
+            let what = if k == 0 { "draped from there" } else { "corrected and draped" };
             let far = format!("{mean:.1} mm from the form, {max:.1} mm at most, in '{piece}'");
-            out.push(("again", format!("{what}: {far}; largest gap {gap:.2} mm")));
+            out.push(("again", format!("{what}: {far}")));
         }
         out
     }

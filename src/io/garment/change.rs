@@ -186,6 +186,14 @@ fn dart(old: &DartFile, new: &DartFile, patches: &mut Vec<Patch>) {
 /// Puts a new text in the place of an old one: of a scalar on one line, or of a block of lines.
 fn replace(lines: &mut Vec<String>, (at, new): &Patch) {
     let Some(index) = at.line.checked_sub(1).filter(|i| *i < lines.len()) else { return };
+    if let Some(sign) = block_sign(lines, index) {
+        let indent = |line: &str| line.len() - line.trim_start().len();
+        let own = indent(&lines[index]);
+        let count = lines[index..].iter().take_while(|l| !l.trim().is_empty() && indent(l) >= own).count();
+        lines.drain(index..index + count);
+        lines[index - 1] = format!("{}{new}\n", &lines[index - 1][..sign]);
+        return;
+    }
     let line = lines[index].clone();
     let before: String = line.chars().take(at.column.saturating_sub(1)).collect();
     let rest: String = line.chars().skip(at.column.saturating_sub(1)).collect();
@@ -204,6 +212,13 @@ fn replace(lines: &mut Vec<String>, (at, new): &Patch) {
     }
     let after: String = rest.chars().skip(at.width).collect();
     lines[index] = before + &quoted + &after;
+}
+
+/// Where the sign of a block of lines (`>-`) stands in the line before its first one.
+fn block_sign(lines: &[String], first: usize) -> Option<usize> {
+    let head = lines.get(first.checked_sub(1)?)?.trim_end();
+    let sign = head.rfind(['>', '|'])?;
+    (["", "-", "+"].contains(&&head[sign + 1..]) && head[..sign].ends_with(": ")).then_some(sign)
 }
 
 /// The lines without the list of alterations, which are carried out.
