@@ -83,7 +83,7 @@ fn changed(name: &str) -> (Loaded, Loaded, String) {
     fs::write(folder.join("edited.obj"), pushed_out(&obj)).expect("written");
     let (code, said) = toile(&folder, &["flatten", name, "--from", "edited.obj", "--spacing", SPACING, "-o", "flat"]);
     assert_eq!(code, Some(if said.contains("out of bounds") { 1 } else { 0 }), "{said}");
-    assert!(!said.contains("tight") && said.contains("mm from the form"), "{said}");
+    assert!(!said.contains("is tight:") && said.contains("mm from the form"), "{said}");
     let [old, new] = [folder.join(name), folder.join("flat/garment.yaml")].map(|f| read(&f).expect("a garment"));
     for (old, new) in gaps(&old.garment).iter().zip(gaps(&new.garment)) {
         assert!((old - new).abs() < 0.01, "sides differ by {old} before, by {new} after");

@@ -72,7 +72,7 @@ struct Search<'a> {
     chart: Chart<'a>,
     /// The form: positions of the particles.
     form: Vec<Vec3>,
-    /// The form as a state to go on from: folds that hang free stay where they are, as far as the new pattern lets them.
+    /// The form as a state to go on from: free folds stay where they are, as far as the new pattern lets them.
     hanging: Option<Earlier>,
     /// From drawn to flat positions of the form, and of the garment that was draped last.
     wanted: Vec<Vec2>,
