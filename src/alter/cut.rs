@@ -1,7 +1,7 @@
 //! A piece cut in two along a style line, with a seam where it was cut.
 
 use super::open::{Bit, Half, chain, darts_whole};
-use super::parts::{Parted, rename};
+use super::parts::{PartEdge, Parted, rename};
 use super::sheet::{Mark, Sheet};
 use super::{Fault, laying, name};
 use crate::geometry::{Path, Vec2};
@@ -25,7 +25,7 @@ pub(super) struct StyleLine<'f> {
 /// One of the two parts: its edges with the stretch of the old one that each is, and whether it is on the fold.
 struct Part {
     piece: String,
-    edges: Vec<(String, Path, Option<(usize, [f64; 2])>)>,
+    edges: Vec<PartEdge>,
     half: Half,
     has_fold: bool,
 }
@@ -138,7 +138,7 @@ impl StyleLine<'_> {
         let scale = 1.0 / sheet.unit.factor();
         let start = part.edges[0].1.start() * scale;
         let here = self.name.at;
-        let text = |(name, path, _): &(String, Path, _)| {
+        let text = |(name, path, _): &PartEdge| {
             (Located::new(name.clone(), here), Located::new(path.to_svg(scale, false), here))
         };
         let outline = OutlineFile {
@@ -166,8 +166,8 @@ fn chain_all(sheet: &Sheet) -> Vec<Bit> {
 
 /// The edges of a part, from the first of the old ones on; the style line is the last or where it comes. A second
 /// stretch of one edge is `hem_2`.
-fn edges_of(sheet: &Sheet, half: &Half, line: Path, seam: &str) -> Vec<(String, Path, Option<(usize, [f64; 2])>)> {
-    let mut edges: Vec<(String, Path, Option<(usize, [f64; 2])>)> = Vec::new();
+fn edges_of(sheet: &Sheet, half: &Half, line: Path, seam: &str) -> Vec<PartEdge> {
+    let mut edges: Vec<PartEdge> = Vec::new();
     for bit in &half.bits {
         let was = bit.was.unwrap_or_default();
         let second = half.bits.iter().any(|b| b.edge == bit.edge && b.was.unwrap_or_default()[0] < was[0]);

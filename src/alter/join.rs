@@ -204,7 +204,7 @@ impl Join {
             for (edge, list) in &old.notches {
                 for notch in list {
                     let Some((name, at)) = self.place(joints, of, &edge.value, notch.value.at) else { continue };
-                    let mut notch = notch.clone();
+                    let mut notch = *notch;
                     notch.value.at = at;
                     match new.notches.iter_mut().find(|n| n.0.value == name) {
                         Some(own) => own.1.push(notch),
@@ -248,7 +248,7 @@ impl Join {
     ) -> Result<(Option<Located<Cut>>, Option<Located<crate::pattern::Side>>), Fault> {
         let folds = [0, 1].map(|of| self.sheets[of].fold.map(|edge| (of, edge)));
         let own = &file.pieces[self.index[0]];
-        let Some((of, edge)) = folds[0].or(folds[1]) else { return Ok((own.cut.clone(), own.drawn.clone())) };
+        let Some((of, edge)) = folds[0].or(folds[1]) else { return Ok((own.cut.clone(), own.drawn)) };
         let holds = |j: &&Joint, (of, edge): (usize, usize)| j.sources.iter().any(|s| s.of == of && s.edge == edge);
         let Some(joint) = joints.iter().find(|j| holds(j, (of, edge))) else {
             let reason = "the seam is its fold".to_owned();
@@ -310,9 +310,9 @@ impl Join {
         }
         let width = |s: &Source| -> Option<Located<AllowanceWidth>> {
             match pieces[s.of].allowance.as_ref()? {
-                AllowanceFile::All(width) => Some(width.clone()),
+                AllowanceFile::All(width) => Some(*width),
                 AllowanceFile::Edges(widths) => {
-                    widths.iter().find(|w| w.0.value == self.sheets[s.of].names[s.edge]).map(|w| w.1.clone())
+                    widths.iter().find(|w| w.0.value == self.sheets[s.of].names[s.edge]).map(|w| w.1)
                 }
             }
         };

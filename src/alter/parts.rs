@@ -13,7 +13,7 @@ const PLACES: usize = 64;
 const NEAR: f64 = 1e-7;
 
 /// An edge of a part: its name, its course and, unless it is the cut, the old edge and its stretch.
-type PartEdge = (String, Path, Option<(usize, [f64; 2])>);
+pub(super) type PartEdge = (String, Path, Option<(usize, [f64; 2])>);
 
 /// An edge of the piece that was cut, and the stretches that are left of it in order: piece and edge.
 struct Stretches {
@@ -173,7 +173,7 @@ pub(super) fn share_out(
         for (name, width) in old {
             let edge = sheet.names.iter().position(|n| *n == name.value);
             let own = edges.iter().filter(|e| e.2.is_some_and(|(was, _)| Some(was) == edge));
-            widths.extend(own.map(|e| (Located::new(e.0.clone(), name.at), width.clone())));
+            widths.extend(own.map(|e| (Located::new(e.0.clone(), name.at), width)));
         }
         if widths.is_empty() {
             piece.allowance = None;

@@ -119,7 +119,7 @@ impl Shape {
         let layings = layings(file, index, sheet.fold.map(|f| &sheet.edges[f]));
         let mean = Mean { layings: &layings, given };
         let wedges = sheet.wedges(&file.pieces[index]);
-        let looked: Vec<Vec2> = sheet.edges.iter().flat_map(|e| spots(e)).chain(wedges.iter().map(|w| w.tip)).collect();
+        let looked: Vec<Vec2> = sheet.edges.iter().flat_map(spots).chain(wedges.iter().map(|w| w.tip)).collect();
         let still = looked.iter().all(|p| mean.at(*p).norm() <= QUIET);
         let apart = looked.iter().map(|p| mean.apart(*p)).fold(0.0, f64::max);
         let by = |p: Vec2| if still { Vec2::zeros() } else { mean.at(p) };
