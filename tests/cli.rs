@@ -548,7 +548,9 @@ fn a_garment_can_be_taken_stage_by_stage() {
     stage(&["sew", "skirt.yaml"]);
     stage(&["drape", "skirt.yaml", "--from", "steps/sewn.obj"]);
     stage(&["flatten", "skirt.yaml", "--from", "steps/garment.obj"]);
-    assert_eq!(room.names("steps"), room.names("out"));
+    // Laid flat from a form that may have been changed, there is its pattern as well.
+    let names: Vec<String> = room.names("steps").into_iter().filter(|name| name != "garment.yaml").collect();
+    assert_eq!((names.len() + 1, names), (room.names("steps").len(), room.names("out")));
     assert_eq!(room.bytes("steps/sewn.obj"), room.bytes("out/sewn.obj"));
     let other = ["drape", "skirt.yaml", "--from", "steps/sewn.obj", "-o", "other", "--spacing", "35"];
     room.run(&other).ends(2).says(&["steps/sewn.obj", "--spacing"]);

@@ -3,11 +3,21 @@
 //! [`altered`] carries out a list of alterations on the outlines. Names, notches, grain, allowances and seams stay.
 //! Every position along an edge (notches, darts, pleats) goes with the cloth that it marks.
 
+mod course;
+mod cut;
+mod even;
+mod fullness;
+mod join;
+mod laying;
 mod lengthen;
 mod name;
 mod open;
+mod parts;
+mod reshape;
 mod sheet;
 mod shift;
+
+pub use reshape::{Given, Reshaped, reshape};
 
 use crate::pattern::{AlterationFile, Findings, GarmentFile, Located, Problem, Spot};
 
@@ -53,6 +63,24 @@ pub fn edge_lengths(file: &GarmentFile) -> Vec<(String, f64)> {
     sheets.flat_map(lengths).collect()
 }
 
+/// Lengths that are sewn of the edges of every piece with an outline of its own, without the mouths of darts, and the
+/// intakes of its darts, metres: `piece.edge` and `piece.dart` each.
+pub fn sewn_lengths(file: &GarmentFile) -> [Vec<(String, f64)>; 2] {
+    let [mut edges, mut darts] = [Vec::new(), Vec::new()];
+    for (index, piece) in file.pieces.iter().enumerate() {
+        let Ok(sheet) = sheet::Sheet::read(file, index) else { continue };
+        let intake = |dart: usize| piece.darts[dart].intake.value.value(sheet.unit);
+        let wedges = sheet.wedges(piece);
+        for edge in 0..sheet.edges.len() {
+            let mouths: f64 = wedges.iter().filter(|w| w.edge == edge).map(|w| intake(w.dart)).sum();
+            edges.push((sheet.shown(edge), sheet.edges[edge].length() - mouths));
+        }
+        let name = |dart: usize| format!("{}.{}", sheet.piece, name::dart_name(&piece.darts[dart], dart));
+        darts.extend((0..piece.darts.len()).map(|dart| (name(dart), intake(dart))));
+    }
+    [edges, darts]
+}
+
 fn one(file: &mut GarmentFile, alteration: &Located<AlterationFile>) -> Result<(), Fault> {
     match &alteration.value {
         AlterationFile::Take { seam, at, out } => shift::take(file, seam, at, *out),
@@ -66,6 +94,14 @@ fn one(file: &mut GarmentFile, alteration: &Located<AlterationFile>) -> Result<(
             pieces.iter().try_for_each(|piece| zone.apply(file, piece))
         }
         AlterationFile::Pivot { dart, to, share, name } => open::pivot(file, dart, to, share.as_ref(), name.as_ref()),
+        AlterationFile::Fullness { edge, to, by, to_by, slashes } => {
+            let (to_by, slashes) = (to_by.as_ref(), slashes.as_ref());
+            fullness::Fullness { edge, to, by, to_by, slashes }.apply(file)
+        }
+        AlterationFile::Join { seam } => join::join(file, seam),
+        AlterationFile::Cut { from, to, via, name, seam } => {
+            cut::StyleLine { ends: [from, to], via, name, seam: seam.as_ref() }.apply(file)
+        }
         AlterationFile::Spread { from, to, by, to_by } => open::spread(file, [from, to], by, to_by.as_ref()),
     }
 }

@@ -75,7 +75,8 @@ pub(super) fn dart(file: &mut GarmentFile, text: &Located<String>) -> Result<(us
     found.map(|dart| (index, dart)).ok_or_else(|| (text.at, unknown()))
 }
 
-fn dart_name(dart: &DartFile, number: usize) -> String {
+/// The name of a dart, which is the `number`-th of its piece.
+pub(super) fn dart_name(dart: &DartFile, number: usize) -> String {
     match &dart.name {
         Some(name) => name.value.clone(),
         None if number == 0 => "dart".to_owned(),

@@ -49,14 +49,14 @@ impl PartialEq for Motion {
 
 /// A part of the outline: of an edge as it was (from … to), or a line that closes an opening.
 #[derive(Clone, Debug)]
-struct Bit {
-    edge: usize,
-    was: Option<[f64; 2]>,
-    path: Path,
+pub(super) struct Bit {
+    pub(super) edge: usize,
+    pub(super) was: Option<[f64; 2]>,
+    pub(super) path: Path,
 }
 
 /// The outline clockwise from one place to another.
-fn chain(sheet: &Sheet, from: Mark, to: Mark) -> Vec<Bit> {
+pub(super) fn chain(sheet: &Sheet, from: Mark, to: Mark) -> Vec<Bit> {
     let bit = |edge: usize, a: f64, b: f64| {
         (b - a > NONE).then(|| Bit { edge, was: Some([a, b]), path: sheet.edges[edge].part(a, b) })
     };
@@ -76,30 +76,30 @@ fn chain(sheet: &Sheet, from: Mark, to: Mark) -> Vec<Bit> {
 }
 
 /// One of the two parts of the cloth, and what it does.
-struct Half {
-    bits: Vec<Bit>,
+pub(super) struct Half {
+    pub(super) bits: Vec<Bit>,
     motion: Motion,
     /// Its rim, the cut included.
     rim: Vec<[Vec2; 2]>,
 }
 
 impl Half {
-    fn new(bits: Vec<Bit>, cut: &[Vec2]) -> Self {
+    pub(super) fn new(bits: Vec<Bit>, cut: &[Vec2]) -> Self {
         let mut points: Vec<Vec2> = bits.iter().flat_map(|b| b.path.sampled(CHORD)).collect();
         points.extend(cut);
         let rim = (0..points.len()).map(|i| [points[i], points[(i + 1) % points.len()]]).collect();
         Self { bits, motion: Motion::STILL, rim }
     }
 
-    fn contains(&self, p: Vec2) -> bool {
+    pub(super) fn contains(&self, p: Vec2) -> bool {
         encloses(self.rim.iter().copied(), p)
     }
 
-    fn has(&self, edge: usize) -> bool {
+    pub(super) fn has(&self, edge: usize) -> bool {
         self.bits.iter().any(|b| b.edge == edge)
     }
 
-    fn length(&self) -> f64 {
+    pub(super) fn length(&self) -> f64 {
         self.bits.iter().map(|b| b.path.length()).sum()
     }
 
@@ -211,7 +211,13 @@ fn carry_points(sheet: &mut Sheet, halves: &[Half; 2]) -> Result<(), Fault> {
 }
 
 /// That no dart is cut through, but for one.
-fn darts_whole(sheet: &Sheet, wedges: &[Wedge], but: Option<usize>, cuts: &[Mark], half: &Half) -> Result<(), Fault> {
+pub(super) fn darts_whole(
+    sheet: &Sheet,
+    wedges: &[Wedge],
+    but: Option<usize>,
+    cuts: &[Mark],
+    half: &Half,
+) -> Result<(), Fault> {
     for wedge in wedges.iter().filter(|w| Some(w.dart) != but) {
         let through = cuts.iter().any(|c| c.edge == wedge.edge && wedge.mouth[0] < c.at && c.at < wedge.mouth[1]);
         let middle = 0.5 * (wedge.mouth[0] + wedge.mouth[1]);

@@ -1,6 +1,7 @@
 //! A piece while it is altered: its curves in metres, with all that lies on them.
 
 use super::Fault;
+use super::laying::cut_of;
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{
     ClosureFile, Cut, DartFile, DartShape, GarmentFile, Located, PieceFile, Problem, Quantity, Spot, Unit,
@@ -131,7 +132,8 @@ fn eye(dart: &mut DartFile, unit: Unit, piece: &str, visit: &mut impl FnMut(Vec2
     Ok(())
 }
 
-fn rounded(x: f64) -> f64 {
+/// As many digits as are written.
+pub(super) fn rounded(x: f64) -> f64 {
     let r = (x * DECIMALS).round() / DECIMALS;
     if r == 0.0 { 0.0 } else { r }
 }
@@ -203,6 +205,13 @@ impl Sheet {
             before,
             before_runs,
         })
+    }
+
+    /// Finds the fold of a piece that is on the fold because another one is, which it is like.
+    pub(super) fn fold_by_like(&mut self, file: &GarmentFile, index: usize) {
+        if let (Cut::Fold(edge), _) = cut_of(file, index) {
+            self.fold = self.names.iter().position(|n| *n == edge);
+        }
     }
 
     /// Writes it back, leaving every statement as it is that has not changed.

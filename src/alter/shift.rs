@@ -38,7 +38,7 @@ pub(super) fn take(
     sheet.write(file, index)?;
     let Some(to) = to else { return Ok(()) };
     let (other, mut sheet, edge) = name::edge(file, &to, true)?;
-    let against = !same_way(&file.pieces[index], &sew, &file.pieces[other], &to, face_same(file, seam));
+    let against = !same_way(&file.pieces[index], &sew, &file.pieces[other], &to, seam_face_same(file, seam));
     let sewn = Sewn::new(&sheet, &file.pieces[other], edge);
     let place = |&(share, by): &(f64, f64)| (sewn.place(if against { 1.0 - share } else { share }), by);
     let stations: Vec<(f64, f64)> = shares.iter().map(place).collect();
@@ -61,7 +61,10 @@ pub(super) fn move_points(
 }
 
 /// The two edges that a seam sews. `None` for the second if it is the first one's mirror image.
-fn sides(file: &GarmentFile, seam: &Located<String>) -> Result<(Located<String>, Option<Located<String>>), Fault> {
+pub(super) fn sides(
+    file: &GarmentFile,
+    seam: &Located<String>,
+) -> Result<(Located<String>, Option<Located<String>>), Fault> {
     let Some(found) = file.seams.iter().find(|s| s.name.value == seam.value) else {
         let names: Vec<&str> = file.seams.iter().map(|s| s.name.value.as_str()).collect();
         let nearest = crate::input::nearest(&seam.value, names.iter().copied()).map(str::to_owned);
@@ -81,14 +84,15 @@ fn sides(file: &GarmentFile, seam: &Located<String>) -> Result<(Located<String>,
     Ok((here(sew), (!mirror).then(|| here(to))))
 }
 
-fn face_same(file: &GarmentFile, seam: &Located<String>) -> bool {
+/// Whether a seam sews a wrong side on a right side.
+pub(super) fn seam_face_same(file: &GarmentFile, seam: &Located<String>) -> bool {
     let found: Option<&SeamFile> = file.seams.iter().find(|s| s.name.value == seam.value);
     found.and_then(|s| s.face_same.as_ref()).is_some_and(|f| f.value)
 }
 
 /// Whether two edges that are sewn together start at the same end of the seam, as drawn. Right sides out, they do where
 /// one of the two pieces is the mirror image of its drawing.
-fn same_way(
+pub(super) fn same_way(
     one: &PieceFile,
     of_one: &Located<String>,
     other: &PieceFile,
@@ -212,15 +216,19 @@ fn apply(sheet: &mut Sheet, edge: usize, field: &Field) {
     sheet.edges[edge] = if line { Path::line(path.start(), path.end()) } else { path };
 }
 
-/// A shift along an edge: cubics through its knots that do not overshoot.
-struct Field {
-    knots: Vec<(f64, Vec2)>,
-    slopes: Vec<Vec2>,
+/// A shift along an edge: cubics between knots.
+#[derive(Clone, Debug)]
+pub(super) struct Field {
+    /// Places along the edge, the first and the last at its ends, and the shifts there.
+    pub(super) knots: Vec<(f64, Vec2)>,
+    /// By knot, the change of the shift by length.
+    pub(super) slopes: Vec<Vec2>,
     /// A straight edge between two knots stays straight.
-    linear: bool,
+    pub(super) linear: bool,
 }
 
 impl Field {
+    /// Cubics through their knots that do not overshoot.
     fn new(path: &Path, knots: Vec<(f64, Vec2)>) -> Self {
         let linear = knots.len() == 2 && path.is_straight();
         let rise = |i: usize| (knots[i + 1].1 - knots[i].1) / (knots[i + 1].0 - knots[i].0).max(SAME);
@@ -235,7 +243,8 @@ impl Field {
         Self { knots, slopes, linear }
     }
 
-    fn at(&self, s: f64) -> Shift {
+    /// The shift at a place along the edge.
+    pub(super) fn at(&self, s: f64) -> Shift {
         let last = self.knots.len() - 2;
         let i = self.knots[1..=last].partition_point(|k| k.0 <= s);
         let ((from, a), (to, b)) = (self.knots[i], self.knots[i + 1]);

@@ -492,9 +492,14 @@ pub(super) struct FlattenArgs {
     /// [default: those of different parts, within 0.01; --weld alone: all within 0.01] (surfaces only)
     #[arg(long, value_name = "MM", num_args = 0..=1, default_missing_value = "0.01", value_parser = weight)]
     pub(super) weld: Option<f64>,
-    /// Begin with the garment as `toile make` has draped it, at the same spacing (garment files only)
+    /// Begin with the garment as `toile make` has draped it, at the same spacing, or with that mesh changed in another
+    /// program; garment.yaml is the pattern of this form (garment files only)
     #[arg(long, value_name = "garment.obj")]
     pub(super) from: Option<PathBuf>,
+    /// With --from: how often the new pattern is sewn and draped, and then corrected. 0 drapes nothing, and the pattern
+    /// is the form laid flat, with the strain of its cloth [default: 1]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=5), requires = "from")]
+    pub(super) rounds: Option<u8>,
     /// Print every figure as tables, instead of the verdict in a few lines
     #[arg(long)]
     pub(super) table: bool,

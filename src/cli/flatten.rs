@@ -21,6 +21,9 @@ const LISTED: usize = 40;
 /// Width of a line of the verdict, characters.
 const LINE: usize = 100;
 
+/// Drapes of a new pattern when none are asked for: the one that shows how far it is from the form.
+const ROUNDS: usize = 1;
+
 /// `toile flatten`
 pub(super) fn flatten(args: &FlattenArgs, console: &Console) -> Result<Exit, CliError> {
     foreign(args)?;
@@ -33,7 +36,7 @@ pub(super) fn flatten(args: &FlattenArgs, console: &Console) -> Result<Exit, Cli
             drawing: PictureOptions::default(),
             turntable: None,
             table: args.table,
-            goal: Goal::Flat { from: args.from.as_deref(), options },
+            goal: Goal::Flat { from: args.from.as_deref(), options, rounds: args.rounds.map_or(ROUNDS, usize::from) },
         };
         return carry_out(&plan, console);
     }
@@ -66,6 +69,7 @@ fn foreign(args: &FlattenArgs) -> Result<(), CliError> {
     } else {
         let options = [
             ("--from", args.from.is_some()),
+            ("--rounds", args.rounds.is_some()),
             ("--spacing", overrides.spacing.is_some()),
             ("--body", overrides.body.is_some()),
             ("--body-units", overrides.body_unit.is_some()),

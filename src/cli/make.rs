@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::alter::note_written_anew;
 use super::args::{GarmentArgs, OnwardArgs};
 use super::console::Console;
 use super::exit::{CliError, Exit};
@@ -10,8 +11,9 @@ use crate::flatten;
 use crate::io::files::{check_writable, write_all};
 use crate::picture::Turning;
 use crate::pipeline::{
-    GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, Glimpse, Job, Overrides, PATTERN_SVG, PLACED_OBJ, PictureOptions,
-    PipelineError, Problem, REPORT_HTML, REPORT_JSON, ResultFile, Run, SEWN_OBJ, inputs, problems, read_variant,
+    FormAsked, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, GARMENT_YAML, Glimpse, Job, NewPattern, Overrides, PATTERN_SVG,
+    PLACED_OBJ, PictureOptions, PipelineError, Problem, REPORT_HTML, REPORT_JSON, ResultFile, Run, SEWN_OBJ, inputs,
+    problems, read_variant,
 };
 use crate::report::{summary, table};
 
@@ -33,9 +35,18 @@ pub(super) struct Plan<'a> {
 #[derive(Clone, Copy)]
 pub(super) enum Goal<'a> {
     Sewn,
-    Draped { from: Option<&'a Path> },
-    Made { from: Option<&'a Path> },
-    Flat { from: Option<&'a Path>, options: flatten::Options },
+    Draped {
+        from: Option<&'a Path>,
+    },
+    Made {
+        from: Option<&'a Path>,
+    },
+    Flat {
+        from: Option<&'a Path>,
+        options: flatten::Options,
+        /// Drapes of the new pattern.
+        rounds: usize,
+    },
 }
 
 /// The state that a run begins with.
@@ -68,6 +79,9 @@ impl<'a> Goal<'a> {
         }
         if matches!(self, Goal::Flat { .. } | Goal::Made { .. }) {
             names.push(PATTERN_SVG);
+        }
+        if matches!(self.start(), Start::Draped(_)) {
+            names.push(GARMENT_YAML);
         }
         names
     }
@@ -144,6 +158,7 @@ pub(super) fn carry_out(plan: &Plan, console: &Console) -> Result<Exit, CliError
     targets.extend(plan.turntable.map(|(file, _)| file.to_owned()));
     // Better now than after minutes of sewing.
     check_writable(&targets, &borrowed(&inputs))?;
+    let worn_text = worn[0].1.text().to_owned();
     let job = Job::dressed(worn, &plan.overrides)?;
     job.notes.iter().for_each(|note| console.note(note));
     let early = |glimpse: &Glimpse| show_early(&job, glimpse, plan, &folder, &borrowed(&inputs));
@@ -157,10 +172,12 @@ pub(super) fn carry_out(plan: &Plan, console: &Console) -> Result<Exit, CliError
         }
         return Err(error.into());
     }
+    let new = new_pattern(plan, &worn_text, &folder, &mut run, console)?;
     let report = run.report();
     let wanted = plan.goal.files();
     let files = run.results(&report, &plan.drawing)?.into_iter().filter(|f| wanted.contains(&f.0)).collect();
     let mut files: Vec<(PathBuf, Vec<u8>)> = in_folder(files, &folder);
+    files.extend(new.map(|new| (folder.join(GARMENT_YAML), new.text.into_bytes())));
     if let Some((file, format)) = plan.turntable {
         files.push((file.to_owned(), run.turning(plan.drawing.color, format)?));
     }
@@ -176,6 +193,26 @@ pub(super) fn carry_out(plan: &Plan, console: &Console) -> Result<Exit, CliError
         summary(&report, broken, &format!("at {} first; --table prints every figure", first.display()))
     })?;
     Ok(judge(&problems, console))
+}
+
+/// The pattern that a form asks for, if the run was begun with one.
+fn new_pattern(
+    plan: &Plan,
+    text: &str,
+    folder: &Path,
+    run: &mut Run,
+    console: &Console,
+) -> Result<Option<NewPattern>, CliError> {
+    let Goal::Flat { from: Some(_), options, rounds } = plan.goal else { return Ok(None) };
+    let new = folder.join(GARMENT_YAML);
+    let asked = FormAsked { text, shown: &new.display().to_string(), overrides: &plan.overrides, rounds, options };
+    let bars = console.progress();
+    let found = run.pattern_of_form(&asked, &mut |stage, share| bars.show(stage, share))?;
+    drop(bars);
+    if found.as_ref().is_some_and(|found| !found.in_place) {
+        note_written_anew(&new, &plan.garments[0], console);
+    }
+    Ok(found)
 }
 
 /// Writes the picture of a coarser level, which the picture of the garment replaces when that is done. It is written

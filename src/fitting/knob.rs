@@ -113,14 +113,14 @@ fn written(alteration: AlterationFile) -> Option<AlterationFile> {
             by.value.number = by.value.number.abs();
             Some(AlterationFile::Lengthen { pieces, at, by, over, across, shorter: shorter != turned })
         }
-        AlterationFile::Spread { by, .. } if by.value.number == 0.0 => None,
+        AlterationFile::Spread { by, .. } | AlterationFile::Fullness { by, .. } if by.value.number == 0.0 => None,
         other => Some(other),
     }
 }
 
 /// The alteration between two that differ in their amounts only.
 fn between([from, to]: &[AlterationFile; 2], share: f64) -> AlterationFile {
-    use AlterationFile::{Lengthen, Move, Pivot, Spread, Take};
+    use AlterationFile::{Fullness, Lengthen, Move, Pivot, Spread, Take};
     let mut out = from.clone();
     match (&mut out, to) {
         (Take { at, .. }, Take { at: to, .. }) => {
@@ -134,7 +134,8 @@ fn between([from, to]: &[AlterationFile; 2], share: f64) -> AlterationFile {
             }
         }
         (Pivot { share: Some(a), .. }, Pivot { share: Some(b), .. }) => mix(&mut a.value, b.value, share),
-        (Spread { by, to_by, .. }, Spread { by: by2, to_by: to_by2, .. }) => {
+        (Spread { by, to_by, .. }, Spread { by: by2, to_by: to_by2, .. })
+        | (Fullness { by, to_by, .. }, Fullness { by: by2, to_by: to_by2, .. }) => {
             mix(&mut by.value, by2.value, share);
             if let (Some(a), Some(b)) = (to_by, to_by2) {
                 mix(&mut a.value, b.value, share);

@@ -84,6 +84,11 @@ fn plain(alteration: &AlterationFile) -> String {
             format!("turn {part} of '{}' to '{}'", dart.value, to.value)
         }
         AlterationFile::Spread { from, by, .. } => format!("spread '{}' by {}", from.value, quantity(by)),
+        AlterationFile::Fullness { edge, by, .. } => format!("add fullness of {} at '{}'", quantity(by), edge.value),
+        AlterationFile::Join { seam } => format!("join the pieces of '{}'", seam.value),
+        AlterationFile::Cut { from, to, name, .. } => {
+            format!("cut '{}' off from '{}' to '{}'", name.value, from.value, to.value)
+        }
         AlterationFile::Move { edge, at } => {
             let shift = |by: &[f64; 2]| format!("[{}, {}]", by[0], by[1]);
             let each: Vec<String> =

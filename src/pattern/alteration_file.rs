@@ -55,6 +55,37 @@ pub enum AlterationFile {
         /// Width of the opening at `to`. The two halves are hinged there if not given.
         to_by: Option<Located<Quantity>>,
     },
+    /// `{fullness: skirt.hem, to: skirt.waist, by: 120}`: slashed several times from one edge to another, and opened.
+    Fullness {
+        /// The edge that becomes longer by `by`.
+        edge: Located<String>,
+        /// The edge across.
+        to: Located<String>,
+        /// How much longer.
+        by: Located<Quantity>,
+        /// How much longer the edge across becomes. The slashes are hinged there if not given.
+        to_by: Option<Located<Quantity>>,
+        /// Number of slashes.
+        slashes: Option<Located<usize>>,
+    },
+    /// `{cut: front.side@30 %, to: front.armhole@50 %, name: side_front}`: cut in two along a style line.
+    Cut {
+        /// Where the style line begins.
+        from: Located<String>,
+        /// Where it ends.
+        to: Located<String>,
+        /// Points that it passes.
+        via: Vec<Located<[f64; 2]>>,
+        /// Name of the new piece: the one without the fold, or else without the middle of the grain.
+        name: Located<String>,
+        /// Name of the seam and of its two edges. The new piece's if not given.
+        seam: Option<Located<String>>,
+    },
+    /// `{join: waist}`: the two pieces of a seam made one.
+    Join {
+        /// The seam.
+        seam: Located<String>,
+    },
     /// `{move: front.neck, at: {0 %: [0, 5]}}`: points of an edge moved.
     Move {
         /// The edge.

@@ -122,6 +122,9 @@ pub enum Problem {
     #[error("'{piece}.{edge}' lies on the fold: {reason}")]
     AlterFold { piece: String, edge: String, reason: String },
 
+    #[error("'{name}' is the name of something else already")]
+    AlterTaken { name: String },
+
     // Wants.
     #[error("'{want}' cannot be wanted: {why}")]
     NoSuchWant { want: String, why: String },

@@ -17,6 +17,7 @@ mod cloth;
 mod earlier;
 mod error;
 mod fit;
+mod form;
 mod glimpse;
 mod job;
 mod judged;
@@ -41,6 +42,7 @@ pub use arrays::Arrays;
 pub use caught::Caught;
 pub use earlier::{Earlier, EarlierFiles};
 pub use error::PipelineError;
+pub use form::{FormAsked, NewPattern};
 pub use glimpse::{Glimpse, Watch};
 pub use job::{Given, Job, Overrides, inputs, read, read_size, read_variant};
 pub use judged::{Judged, judge};
@@ -48,15 +50,15 @@ pub use material::{Checked, check, check_size, check_text, read_text};
 pub use pattern_picture::pattern_picture;
 pub use problems::{Problem, problems};
 pub use results::{
-    Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, PATTERN_SVG, PLACED_OBJ, PictureOptions, REPORT_HTML, REPORT_JSON,
-    ResultFile, SEWN_OBJ, json_text,
+    Color, GARMENT_GLB, GARMENT_OBJ, GARMENT_PNG, GARMENT_YAML, PATTERN_SVG, PLACED_OBJ, PictureOptions, REPORT_HTML,
+    REPORT_JSON, ResultFile, SEWN_OBJ, json_text,
 };
 pub use run::{Progress, Run};
 pub use start_picture::{DoubtShown, OpeningShown, RimShown, StartPicture, StartShown, WordShown, start_picture};
 pub use surface::{
     CutReport, CutWhy, Cuts, DARTS, DartStop, Darts, Ease, EaseReport, EdgeReport, FLAT_OBJ, FLAT_PNG, FailedReport,
-    FlatCorners, FlatSurface, GARMENT_YAML, Limit, OUTLINE_SVG, PartReport, SurfaceOptions, SurfaceReport, Weld,
-    flatten_faces, flatten_surface,
+    FlatCorners, FlatSurface, Limit, OUTLINE_SVG, PartReport, SurfaceOptions, SurfaceReport, Weld, flatten_faces,
+    flatten_surface,
 };
 pub use too_small::TooSmall;
 

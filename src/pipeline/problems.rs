@@ -1,9 +1,12 @@
 //! Everything that is wrong with a result, in words.
 
+use std::borrow::Cow;
+
 use super::AT_REST;
 use super::job::Job;
 use super::tight::tight;
-use crate::report::{ClosureReport, Report, restless, verdicts};
+use crate::pattern::Bound;
+use crate::report::{ClosureReport, FormReport, Report, restless, verdicts};
 
 /// Something that a maker should know before any figure.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,9 +26,16 @@ pub fn problems(job: &Job, report: &Report) -> Vec<Problem> {
     }));
     texts.extend(report.closures.iter().filter_map(ClosureReport::unclosed));
     texts.extend(report.bunched.iter().map(ToString::to_string));
-    texts.extend(tight(job, report));
+    // A form that has been changed is no drape of the pattern as it is drawn.
+    let form = report.form.as_ref().filter(|form| form.is_changed());
+    texts.extend(form.is_none().then(|| tight(job, report)).flatten());
     let mut out: Vec<Problem> = texts.into_iter().map(|text| Problem { text, out_of_bounds: false }).collect();
-    let broken = verdicts(&job.garment, report).into_iter().filter(|verdict| !verdict.ok);
+    let mut garment = Cow::Borrowed(&job.garment);
+    if form.is_some() {
+        garment.to_mut().tests.retain(|test| !matches!(test.bound, Bound::Drape { .. } | Bound::Flatten { .. }));
+    }
+    out.extend(report.form.iter().flat_map(FormReport::problems).map(|text| Problem { text, out_of_bounds: true }));
+    let broken = verdicts(&garment, report).into_iter().filter(|verdict| !verdict.ok);
     out.extend(broken.map(|verdict| Problem { text: format!("out of bounds: {verdict}"), out_of_bounds: true }));
     out
 }

@@ -16,6 +16,8 @@ use crate::report::{Report, page, vertex_strain};
 pub const GARMENT_OBJ: &str = "garment.obj";
 /// The draped garment for 3D programs.
 pub const GARMENT_GLB: &str = "garment.glb";
+/// The pattern of a surface, or of a changed form, as a garment file.
+pub const GARMENT_YAML: &str = "garment.yaml";
 /// The sewn garment, before it was draped.
 pub const SEWN_OBJ: &str = "sewn.obj";
 /// The pieces as they were placed, not sewn yet: written when sewing them fails.

@@ -14,7 +14,7 @@ use crate::drape::{DrapeOptions, check_fall, drape};
 use crate::dynamics::{ContactTime, identity_nodes};
 use crate::flatten::{self, flatten_garment};
 use crate::geometry::{MM, Vec2, Vec3};
-use crate::report::{ContactSeconds, Drift, Measured, Report, Stage, measure};
+use crate::report::{ContactSeconds, Drift, FormReport, Measured, Report, Stage, measure};
 use crate::sew::{SewError, SewOptions, Stitching};
 
 /// Told the name of the stage under way and the share of it that is done.
@@ -38,6 +38,10 @@ pub struct Run<'a> {
     pub(super) flattened: Option<Vec<Vec2>>,
     /// [`Measured::overlaps`].
     overlaps: Option<Vec<usize>>,
+    /// By piece, the strain of its threads from flat to draped: warp, weft.
+    pub(super) threads: Vec<[f64; 2]>,
+    /// What a changed form asks of the pattern.
+    pub(super) form: Option<FormReport>,
     stages: Vec<Stage>,
     /// The coarser level from which the garment was sewn. Draping starts with it.
     coarse: Option<Box<Coarse>>,
@@ -67,6 +71,8 @@ impl<'a> Run<'a> {
             pressed: None,
             flattened: None,
             overlaps: None,
+            threads: Vec::new(),
+            form: None,
             stages,
             coarse: None,
             earlier: None,
@@ -186,6 +192,7 @@ impl<'a> Run<'a> {
         progress("flatten", 1.0);
         self.stages.push(surface::stage(flat.pieces.iter().map(|p| p.report), begin));
         self.overlaps = Some(flat.pieces.iter().map(|p| p.report.overlaps).collect());
+        self.threads = flat.pieces.iter().map(|p| [p.report.threads.warp_p99, p.report.threads.weft_p99]).collect();
         self.flattened = Some(flat.positions);
         Ok(())
     }
@@ -222,6 +229,7 @@ impl<'a> Run<'a> {
         });
         let earlier = self.earlier.as_ref().zip(self.last());
         report.from = earlier.map(|(earlier, at)| earlier.told(&self.job.mesh, at, self.anew));
+        report.form.clone_from(&self.form);
         report.problems = problems(self.job, &report).into_iter().map(|problem| problem.text).collect();
         report
     }

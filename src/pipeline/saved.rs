@@ -61,9 +61,13 @@ impl<'a> Run<'a> {
         let surface = read_obj(file)?;
         let mesh = &self.job.mesh;
         let other = |why: String| PipelineError::Saved { file: file.to_owned(), why };
-        if surface.vertices.len() != self.stitching.classes {
-            let (found, expected) = (surface.vertices.len(), self.stitching.classes);
-            return Err(other(format!("{found} vertices, but '{}' has {expected}", self.job.garment.name)));
+        let (found, expected) = (surface.triangles.len(), mesh.triangles.len());
+        if surface.vertices.len() != self.stitching.classes || found != expected {
+            let [there, here] = [surface.vertices.len(), self.stitching.classes];
+            let (name, spacing) = (&self.job.garment.name, mesh.spacing * MM);
+            return Err(other(format!(
+                "{found} faces on {there} vertices, but '{name}' has {expected} on {here} at {spacing} mm"
+            )));
         }
         let welded = Welded::new(mesh, &self.stitching.class, &vec![Vec3::zeros(); mesh.flat.len()]);
         if surface.triangles != welded.surface.triangles {

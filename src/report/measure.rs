@@ -98,6 +98,7 @@ pub fn measure(run: &Measured) -> Report {
         bunched,
         fit,
         from: None,
+        form: None,
         stages: run.stages.to_vec(),
     }
 }

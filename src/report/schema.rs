@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::fit::Fit;
+use super::form::FormReport;
 
 /// A whole report. Values of stages that did not run are `null`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -45,6 +46,9 @@ pub struct Report {
     /// The earlier result that this one went on from. `null` for a garment made from nothing.
     #[serde(default)]
     pub from: Option<ContinuedFrom>,
+    /// The changed form that the garment was laid flat from. Absent for any other garment.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub form: Option<FormReport>,
     /// One per stage that ran.
     pub stages: Vec<Stage>,
 }

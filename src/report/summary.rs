@@ -1,6 +1,7 @@
 //! The verdict on a run in a few lines, for a maker.
 
 use super::fit::{Girth, loosest, tightest};
+use super::form::FormReport;
 use super::schema::{ClosureReport, PieceReport, Report, Stage, Worn};
 use crate::pattern::written_edge;
 
@@ -25,6 +26,8 @@ pub fn summary(report: &Report, broken: usize, look: &str) -> String {
         ("flat", flat(&report.pieces)),
     ];
     let mut out: String = lines.iter().filter_map(|(label, text)| Some(line(label, text.as_deref()?))).collect();
+    let form = report.form.iter().flat_map(FormReport::lines);
+    form.for_each(|(label, text)| out.push_str(&format!("{label:<LABEL$} {text}\n")));
     out.push_str(&format!("{:<LABEL$} {look}\n", "look"));
     out
 }

@@ -102,7 +102,7 @@ fn differences(old: &GarmentFile, new: &GarmentFile) -> Vec<EdgeChange> {
 type Patch = (Spot, String);
 
 /// The old text with new numbers. `None` where more than numbers changed.
-fn patched(text: &str, old: &GarmentFile, new: &GarmentFile) -> Option<String> {
+pub(super) fn patched(text: &str, old: &GarmentFile, new: &GarmentFile) -> Option<String> {
     let mut patches = Vec::new();
     if old.pieces.len() != new.pieces.len() {
         return None;
@@ -151,17 +151,31 @@ fn quantity(old: &Located<Quantity>, new: &Located<Quantity>, patches: &mut Vec<
     }
 }
 
+fn point(old: &Located<[f64; 2]>, new: &Located<[f64; 2]>, patches: &mut Vec<Patch>) {
+    if old != new {
+        let [x, y] = new.value;
+        patches.push((old.at, format!("[{x}, {y}]")));
+    }
+}
+
 fn dart(old: &DartFile, new: &DartFile, patches: &mut Vec<Patch>) {
     quantity(&old.intake, &new.intake, patches);
     match (&old.shape, &new.shape) {
-        (DartShape::Edge { edge, at, length, .. }, DartShape::Edge { edge: to, at: now, length: long, .. }) => {
+        (
+            DartShape::Edge { edge, at, length, tip },
+            DartShape::Edge { edge: to, at: now, length: long, tip: there },
+        ) => {
             words(edge, to, patches);
             quantity(at, now, patches);
             if let (Some(old), Some(new)) = (length, long) {
                 quantity(old, new, patches);
             }
+            if let (Some(old), Some(new)) = (tip, there) {
+                point(old, new, patches);
+            }
         }
-        (DartShape::FishEye { at: _, up, down }, DartShape::FishEye { at: _, up: higher, down: lower }) => {
+        (DartShape::FishEye { at, up, down }, DartShape::FishEye { at: now, up: higher, down: lower }) => {
+            point(at, now, patches);
             quantity(up, higher, patches);
             quantity(down, lower, patches);
         }
@@ -172,9 +186,21 @@ fn dart(old: &DartFile, new: &DartFile, patches: &mut Vec<Patch>) {
 /// Puts a new text in the place of an old one: of a scalar on one line, or of a block of lines.
 fn replace(lines: &mut Vec<String>, (at, new): &Patch) {
     let Some(index) = at.line.checked_sub(1).filter(|i| *i < lines.len()) else { return };
+    if let Some(sign) = block_sign(lines, index) {
+        let indent = |line: &str| line.len() - line.trim_start().len();
+        let own = indent(&lines[index]);
+        let count = lines[index..].iter().take_while(|l| !l.trim().is_empty() && indent(l) >= own).count();
+        lines.drain(index..index + count);
+        lines[index - 1] = format!("{}{new}\n", &lines[index - 1][..sign]);
+        return;
+    }
     let line = lines[index].clone();
     let before: String = line.chars().take(at.column.saturating_sub(1)).collect();
     let rest: String = line.chars().skip(at.column.saturating_sub(1)).collect();
+    if let Some(end) = rest.find(']').filter(|_| rest.starts_with('[')) {
+        lines[index] = format!("{before}{new}{}", &rest[end + 1..]);
+        return;
+    }
     let quoted = if before.contains(['{', '[']) && new.contains(',') { format!("'{new}'") } else { new.clone() };
     if rest.starts_with(['>', '|']) {
         let indent = |line: &str| line.len() - line.trim_start().len();
@@ -186,6 +212,13 @@ fn replace(lines: &mut Vec<String>, (at, new): &Patch) {
     }
     let after: String = rest.chars().skip(at.width).collect();
     lines[index] = before + &quoted + &after;
+}
+
+/// Where the sign of a block of lines (`>-`) stands in the line before its first one.
+fn block_sign(lines: &[String], first: usize) -> Option<usize> {
+    let head = lines.get(first.checked_sub(1)?)?.trim_end();
+    let sign = head.rfind(['>', '|'])?;
+    (["", "-", "+"].contains(&&head[sign + 1..]) && head[..sign].ends_with(": ")).then_some(sign)
 }
 
 /// The lines without the list of alterations, which are carried out.

@@ -1,13 +1,14 @@
 //! Alterations and sizes of a garment file.
 
-use super::fields::{Fields, distance, entries, items, length, numbers, share, text, word, wrong};
+use super::fields::{Fields, distance, entries, integer, items, length, numbers, share, text, word, wrong};
 use crate::pattern::{
     AlterationFile, Findings, Located, Problem, Quantity, SizeFile, StationFile, Value, parse_quantity,
 };
 
 /// The kinds of alterations. Each entry is of one kind.
-const KINDS: [&str; 7] = ["take_in", "let_out", "lengthen", "shorten", "pivot", "spread", "move"];
-const KNOWN: &str = "take_in, let_out, lengthen, shorten, pivot, spread or move";
+const KINDS: [&str; 10] =
+    ["take_in", "let_out", "lengthen", "shorten", "pivot", "spread", "fullness", "cut", "join", "move"];
+const KNOWN: &str = "take_in, let_out, lengthen, shorten, pivot, spread, fullness, cut, join or move";
 
 /// Reads a list of alterations.
 pub(super) fn alterations(value: &Located<Value>, findings: &mut Findings) -> Vec<Located<AlterationFile>> {
@@ -75,6 +76,21 @@ fn of_kind(kind: &'static str, fields: &mut Fields, by: Length, findings: &mut F
             let (from, to) = (fields.get(kind, findings, text), fields.require("to", findings, text));
             let (by, to_by) = (fields.require("by", findings, by), fields.get("to_by", findings, by));
             Some(AlterationFile::Spread { from: from?, to: to?, by: by?, to_by })
+        }
+        "fullness" => {
+            let (edge, to) = (fields.get(kind, findings, text), fields.require("to", findings, text));
+            let (by, to_by) = (fields.require("by", findings, by), fields.get("to_by", findings, by));
+            let slashes = fields.get("slashes", findings, integer);
+            Some(AlterationFile::Fullness { edge: edge?, to: to?, by: by?, to_by, slashes })
+        }
+        "join" => Some(AlterationFile::Join { seam: fields.get(kind, findings, text)? }),
+        "cut" => {
+            let (from, to) = (fields.get(kind, findings, text), fields.require("to", findings, text));
+            let via = fields
+                .take("via")
+                .map_or_else(Vec::new, |v| items(v).iter().filter_map(|p| numbers(p, "a point", findings)).collect());
+            let (name, seam) = (fields.require("name", findings, named), fields.get("seam", findings, named));
+            Some(AlterationFile::Cut { from: from?, to: to?, via, name: name?, seam })
         }
         _ => {
             let edge = fields.get(kind, findings, text);

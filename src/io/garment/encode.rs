@@ -370,6 +370,21 @@ fn alteration(of: &AlterationFile) -> Yaml {
             map.put("by", quantity(by.value));
             map.quantity("to_by", to_by);
         }
+        AlterationFile::Fullness { edge, to, by, to_by, slashes } => {
+            map.put("fullness", edge.value.as_str());
+            map.put("to", to.value.as_str());
+            map.put("by", quantity(by.value));
+            map.quantity("to_by", to_by);
+            map.some("slashes", slashes.as_ref().map(|n| n.value as u64));
+        }
+        AlterationFile::Join { seam } => map.put("join", seam.value.as_str()),
+        AlterationFile::Cut { from, to, via, name, seam } => {
+            map.put("cut", from.value.as_str());
+            map.put("to", to.value.as_str());
+            map.list("via", via, |p| numbers(&p.value));
+            map.put("name", name.value.as_str());
+            map.text("seam", seam);
+        }
         AlterationFile::Move { edge, at } => {
             map.put("move", edge.value.as_str());
             map.put("at", stations(at, |by| numbers(by)));

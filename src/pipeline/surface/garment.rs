@@ -8,8 +8,6 @@ use crate::geometry::{MM, Vec2};
 use crate::io::garment::write;
 use crate::pattern::{GarmentFile, Located, NotchFile, OutlineFile, PieceFile, Quantity, SeamFile, Spot, Value};
 
-/// The garment file beside the drawings.
-pub const GARMENT_YAML: &str = "garment.yaml";
 /// The fabric of a garment that was drawn as a surface, until its maker names another.
 const FABRIC: &str = "cotton_poplin";
 /// Decimals of a millimetre in the file.

@@ -36,7 +36,6 @@ use darts::{Failed, Laid, Outcome, Source, with_darts};
 use drawn::cut_drawn;
 pub use ease::{Ease, EaseReport};
 use edges::{NamedEdge, named_edges};
-pub use garment::GARMENT_YAML;
 use gores::cut_gores;
 pub use mend::Weld;
 use mend::{AT_ONE_PLACE, mend, welded, welded_note};

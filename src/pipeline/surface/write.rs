@@ -3,11 +3,10 @@
 use std::fmt::Write as _;
 
 use super::super::error::PipelineError;
-use super::super::results::{PATTERN_SVG, REPORT_JSON, ResultFile, json_text};
+use super::super::results::{GARMENT_YAML, PATTERN_SVG, REPORT_JSON, ResultFile, json_text};
 use super::FlatSurface;
 use super::darts::Laid;
 use super::edges::NamedEdge;
-use super::garment::GARMENT_YAML;
 use super::parts::Part;
 use crate::flatten::triangle_strain;
 use crate::geometry::{MM, Vec2};
