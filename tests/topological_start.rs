@@ -97,6 +97,14 @@ fn a_shirt_with_folded_cuffs_pleats_a_stand_and_a_collar_is_put_on() {
     }
 }
 
+/// The fold of this collar is drawn as a curve. Taken for a straight line, it left the collar 170 mm beside its stand.
+#[test]
+fn a_shirt_whose_collar_rolls_along_a_curve_is_put_on() {
+    if let Some(job) = case("fs_simon.yaml") {
+        is_sewn_round(&job, &["left arm", "neck", "right arm", "torso"]);
+    }
+}
+
 #[test]
 fn a_kimono_with_its_band_is_put_on() {
     if let Some(job) = case("kimono.yaml") {
