@@ -106,7 +106,8 @@ impl<'a> Run<'a> {
             Some(Continued::Sewn(closed)) => *closed,
             None => {
                 self.anew = self.earlier.is_some();
-                job.sew_from_coarse(&job.mesh, self.watch, &mut tell).map_err(failed)?
+                let closed = job.sew_from_coarse(&job.mesh, self.watch, &mut tell);
+                closed.inspect_err(|_| self.placed = job.placed(&job.mesh).ok()).map_err(failed)?
             }
         };
         let Closed { sewn, gaps, coarse, start } = closed;

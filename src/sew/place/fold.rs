@@ -9,6 +9,9 @@ use crate::pattern::{Garment, LineKind};
 
 /// A fold of at least this angle (radians) is folded over before the start; a smaller one is left to the drape.
 const PRESSED: f64 = 2.0;
+/// A fold whose points lie no further than this beside the line between its ends, metres, is straight: nobody draws a
+/// curve so flat, and where it begins and ends on an outline it may be off by a third of that.
+const STRAIGHT: f64 = 0.1e-3;
 /// A particle no further over a fold than this, metres, lies on the fold.
 const ON_FOLD: f64 = 1e-9;
 
@@ -96,7 +99,7 @@ impl Crease {
     fn through(mut points: Vec<Vec2>) -> Self {
         points.dedup();
         let ends = Self(points.first().into_iter().chain(points.last()).copied().collect());
-        let is_on = |p: &Vec2| ends.tangent(*p).is_some_and(|tangent| tangent.off(*p).abs() < ON_FOLD);
+        let is_on = |p: &Vec2| ends.tangent(*p).is_some_and(|tangent| tangent.off(*p).abs() < STRAIGHT);
         if points.iter().all(is_on) { ends } else { Self(points) }
     }
 
