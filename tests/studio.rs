@@ -55,7 +55,7 @@ fn strangers_are_kept_out() {
         "Host: evil.example\r\n".to_owned(),
         format!("Host: evil.example:{port}\r\n"),
         format!("Host: localhost:{port}\r\n"),
-        format!("Host: 127.0.0.1\r\n"),
+        "Host: 127.0.0.1\r\n".to_owned(),
         format!("{own}Host: evil.example\r\n"),
         String::new(),
     ] {
@@ -187,7 +187,7 @@ fn a_flood_of_messages_is_bounded() {
     println!("{heard} of 4000 messages were heard, {refused} refused, in {seconds:.1} s");
     // 200 at once and 50 a second.
     assert!(f64::from(heard) <= 201.0 + 50.0 * seconds, "{heard} in {seconds} s");
-    std::thread::sleep(Duration::from_secs(1));
+    thread::sleep(Duration::from_secs(1));
     assert_eq!(studio.get(&studio.inside).0, 200, "it goes on");
     assert_eq!(studio.text(), before.0);
     if let (Some(before), Some(after)) = (before.1, memory(&studio)) {
