@@ -291,7 +291,7 @@ class Flat:
     def uv(self) -> NDArray[np.float64]:
         """Shape (m, 3, 2): flat position (x, −y) at every corner of every face that was given, mm.
 
-        NaN for a face that was left out (doubled, without area) or cannot be laid flat.
+        NaN for a face that was left out (doubled, without area), is split by a cut, or cannot be laid flat.
         """
 
     @property
@@ -333,7 +333,7 @@ def flatten(
         units: Unit of the positions; None guesses it from the size.
         up: Direction that lies along the grain (y, or z where the surface runs along z).
         cut: Cut the surface open where it is needed.
-        darts: Number of darts at most that are cut where the strain passes 10 %.
+        darts: Number of darts at most that are cut where the strain passes 10 %; into a round piece as many even ones.
         threads: Number of threads (all processors by default). Results do not depend on it.
         name: Its name in the report.
 
