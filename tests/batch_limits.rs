@@ -106,19 +106,19 @@ fn what_is_too_large_or_never_ends_fails_alone() {
     file.set_len(1 << 30).expect("a long file");
     // 2236 × 1119 quadrilaterals are five million triangles.
     ball(2236, 1119, &File::create(room.path("body.obj")).expect("made")).expect("written");
-    room.list(
-        "jobs.jsonl",
-        &[
-            json!({"id": "gigabyte", "garment": "gigabyte.yaml"}),
-            json!({"id": "body", "garment": "skirt.yaml", "body": "body.obj", "spacing": COARSE}),
-            skirt("hangs", ENDLESS),
-            skirt("first", COARSE),
-            skirt("second", COARSE + 1.0),
-        ],
-    );
-    let args = ["batch", "jobs.jsonl", "-o", "store", "-j", "2", "--time", "20", "--memory", "900M"];
-    let run = room.run(&args);
-    assert_eq!(run.status.code(), Some(3), "{}", text(&run.stderr));
+    let mut jobs = vec![
+        json!({"id": "gigabyte", "garment": "gigabyte.yaml"}),
+        json!({"id": "body", "garment": "skirt.yaml", "body": "body.obj", "spacing": COARSE}),
+        skirt("first", COARSE),
+        skirt("second", COARSE + 1.0),
+    ];
+    // The endless garment has a run of its own: how much memory it holds after some seconds depends on the machine.
+    for limits in [["--memory", "900M"], ["--time", "20"]] {
+        room.list("jobs.jsonl", &jobs);
+        let run = room.run(&[&["batch", "jobs.jsonl", "-o", "store", "-j", "2"], &limits[..]].concat());
+        assert_eq!(run.status.code(), Some(3), "{}", text(&run.stderr));
+        jobs.push(skirt("hangs", ENDLESS));
+    }
     let index = room.index("store");
     for (id, exit, why) in [
         ("gigabyte", json!(2), "1073741824 bytes"),
