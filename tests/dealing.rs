@@ -34,6 +34,69 @@ fn own(file: &str) -> Job {
     garment(&Path::new(env!("CARGO_MANIFEST_DIR")).join(file), None, 0.02)
 }
 
+/// A top with one sleeve, whose halves are each other's mirror images and whose cuff is round: its own mirror image.
+const ONE_SLEEVE: &str = "garment: 1
+body: woman_92
+pieces:
+  front:
+    grain: [[200, 250], [200, 350]]
+    place: torso front
+    outline: {start: 60 0, shoulder: L 130 0, neck: 'Q 250 160, 460 230', side_l: L 460 420, hem: L 0 420,
+              side_r: L 0 230, armhole: L 60 0}
+  back:
+    grain: [[200, 250], [200, 350]]
+    place: torso back
+    outline: {start: 330 0, shoulder: L 400 0, armhole: L 460 230, side_r: L 460 420, hem: L 0 420, side_l: L 0 230,
+              neck: 'Q 210 160, 330 0'}
+  sleeve_front:
+    grain: [[70, 200], [70, 300]]
+    place: right arm front
+    outline: {start: 0 0, cap: L 160 175.795, under: L 140 420, wrist: L 0 420, over: L 0 0}
+  sleeve_back:
+    grain: [[-70, 200], [-70, 300]]
+    place: right arm back
+    outline: {start: 0 0, over: L 0 420, wrist: L -140 420, under: L -160 175.795, cap: L 0 0}
+  cuff_front:
+    grain: [[70, 10], [70, 50]]
+    place: right wrist front
+    outline: {start: 0 0, top: L 140 0, under: L 140 60, end: L 0 60, over: L 0 0}
+  cuff_back:
+    grain: [[70, 10], [70, 50]]
+    place: right wrist back
+    outline: {start: 0 0, top: L 140 0, over: L 140 60, end: L 0 60, under: L 0 0}
+seams:
+  shoulder: {sew: front.shoulder, to: back.shoulder}
+  side_r: {sew: front.side_r, to: back.side_r}
+  side_l: {sew: front.side_l, to: back.side_l}
+  armhole_front: {sew: front.armhole, to: sleeve_front.cap}
+  armhole_back: {sew: back.armhole, to: sleeve_back.cap}
+  over: {sew: sleeve_front.over, to: sleeve_back.over}
+  under: {sew: sleeve_front.under, to: sleeve_back.under}
+  wrist_front: {sew: sleeve_front.wrist, to: cuff_front.top}
+  wrist_back: {sew: sleeve_back.wrist, to: cuff_back.top}
+  cuff_over: {sew: cuff_front.over, to: cuff_back.over}
+  cuff_under: {sew: cuff_front.under, to: cuff_back.under}
+free: ['*.neck', '*.hem', '*.end']
+";
+
+#[test]
+fn a_sleeve_of_which_there_is_one_has_an_arm_in_it() {
+    // Words tell front from back, or else the back's neck, which is less deep.
+    let shallow = ONE_SLEEVE.replace("Q 210 160", "Q 210 60");
+    let silent = ["right arm front", "right arm back", "right wrist front", "right wrist back"]
+        .iter()
+        .fold(shallow, |text, place| text.replace(place, if place.contains("arm") { "arm" } else { "wrist" }));
+    for text in [ONE_SLEEVE, &silent] {
+        let overrides = Overrides { spacing: Some(0.02), ..Overrides::default() };
+        let loaded = read_text("one sleeve", "one_sleeve.yaml", text).expect("a garment");
+        let job = Job::new(Path::new("one_sleeve.yaml"), loaded, &overrides).expect("a job");
+        let (_, rows) = worn(&job, &job.garment);
+        let sleeve = rows.iter().find(|(_, edges)| edges.iter().any(|name| name.starts_with("cuff_front")));
+        assert!(sleeve.is_some_and(|(ends, _)| ends.ends_with(" arm")), "{rows:?}");
+        assert_eq!(rows.len(), 3, "{rows:?}");
+    }
+}
+
 /// What passes through every opening of a garment that something passes through, with the edges there.
 fn worn(job: &Job, garment: &Garment) -> (Dealing, Vec<(String, Vec<String>)>) {
     let glued = glue(garment, &job.mesh, &[]);

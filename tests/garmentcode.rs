@@ -526,6 +526,31 @@ fn panels_are_placed_by_where_they_are() {
     }
 }
 
+/// Half a ring: all its corners lie on one line, and its arcs alone say which way its outline runs.
+#[test]
+fn halves_of_circle_skirts_are_placed_by_where_they_are() {
+    let half = |z: f64, turned: bool| {
+        let line = |a: usize, b: usize| json!({"endpoints": [a, b]});
+        let arc = |a: usize, b: usize, radius: f64, sweep: usize| json!({"endpoints": [a, b], "curvature": {"type": "circle", "params": [radius, 0, sweep]}});
+        let edges = [line(0, 1), arc(1, 2, 40.0, 1), line(2, 3), arc(3, 0, 12.0, 0)];
+        json!({
+            "translation": [0.0, 100.0, z], "rotation": [0, 0, 0],
+            "vertices": [[-12.0, 0.0], [-40.0, 0.0], [40.0, 0.0], [12.0, 0.0]],
+            "edges": if turned { reversed(&edges) } else { edges.to_vec() },
+        })
+    };
+    for [front, back] in [[false, true], [true, false], [false, false], [true, true]] {
+        let panels = json!({"skirt_front": half(20.0, front), "skirt_back": half(-20.0, back)});
+        let edge = |turned: bool, k: usize| if turned { 3 - k } else { k };
+        let sides = [0, 2].map(|k| stitch(("skirt_front", edge(front, k)), ("skirt_back", edge(back, k))));
+        let (garment, pieces) = import(&specified(panels, json!(sides)));
+        assert_eq!(pieces.iter().map(words).collect::<Vec<_>>(), ["skirt front", "skirt back"], "{front} {back}");
+        let lengths: Vec<f64> = garment.seams.iter().map(|s| (s.length_a() * 1e3).round()).collect();
+        assert_eq!(lengths, [280.0, 280.0]);
+        assert_eq!([0, 1].map(|piece| extent(&garment, piece)), [[800.0, 400.0]; 2]);
+    }
+}
+
 /// Where a body's origin is at its pelvis its specifications count heights from there too.
 #[test]
 fn heights_count_from_the_floor() {

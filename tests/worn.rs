@@ -204,6 +204,34 @@ fn what_is_placed_by_the_waist_or_the_hips_lies_there() {
     assert!(above.len() == 1 && above[0].1.contains("170 mm above the waist"), "{above:?}");
 }
 
+/// What hangs from the neck may have a band that says waist at any height below it.
+#[test]
+fn a_band_of_what_hangs_from_the_neck_may_be_low() {
+    let (round, tall) = (1100.0, 520.0);
+    let tube = |name: &str, place: &str, tall: f64| {
+        let sides = format!("start: 0 0, top: L {round} 0, right: L {round} {tall}, hem: L 0 {tall}, left: L 0 0");
+        format!("  {name}:\n    grain: [[9, 9], [9, 30]]\n    place: {place}\n    outline: {{{sides}}}\n")
+    };
+    let made = Made::new(&format!(
+        "pieces:\n{}{}seams:\n  side: {{sew: tube.left, to: tube.right}}\n  end: {{sew: band.left, to: band.right}}\n  \
+         waist: {{sew: tube.hem, to: band.top}}\nfree: [tube.top, band.hem]\n",
+        tube("tube", "torso", tall),
+        tube("band", "waist", 60.0)
+    ));
+    let from = |top: f64| {
+        let radius = 1e-3 * round / TAU;
+        let x = made.positions(|name, flat| {
+            let turn = flat.x / radius;
+            let down = if name == "band" { 1e-3 * tall } else { 0.0 } + flat.y;
+            trunk(top) + Vec3::new(radius * turn.sin(), -down, radius * turn.cos())
+        });
+        faults(&made.report(None, None, &x))
+    };
+    assert!(from(1.46).is_empty(), "{:?}", from(1.46));
+    let round_the_trunk = from(1.2);
+    assert!(round_the_trunk.len() == 1 && round_the_trunk[0].kind == FaultKind::Level, "{round_the_trunk:?}");
+}
+
 /// Shorts of one piece: a tube whose hem is sewn together in the middle, front to back.
 #[test]
 fn shorts_below_the_crotch_are_not_drawn_up() {

@@ -224,6 +224,13 @@ impl<'a> Wear<'a> {
         })
     }
 
+    /// Whether the part of the garment with this opening is round the neck or an arm: then its pattern alone decides
+    /// how far down a band reaches.
+    fn hangs_from_shoulders(&self, k: usize) -> bool {
+        let holds = |part: PartKind| part == PartKind::Neck || part.is_arm();
+        self.together(k).any(|j| matches!(self.now[j].passage.through, Some(Through::Part(part)) if holds(part)))
+    }
+
     /// The highest point of a part of the garment.
     fn highest(&self, part: u32) -> f64 {
         let heights = self.welded.vertex_of.iter().zip(&self.part_of).filter(|(_, own)| **own == part);
@@ -245,6 +252,7 @@ impl<'a> Wear<'a> {
             let heights = mesh.particles.clone().map(|p| self.welded.vertex_of[p] as usize);
             let [low, high] = range_of(heights.map(|v| self.welded.surface.vertices[v].y));
             let text = match (level, bust) {
+                (TrunkLevel::Waist, _) if high < waist - AT_WAIST && self.hangs_from_shoulders(k) => continue,
                 (TrunkLevel::Waist, _) if low > waist + AT_WAIST || high < waist - AT_WAIST => {
                     let off = (if high < waist { waist - high } else { low - waist }) * MM;
                     let side = if high < waist { "below" } else { "above" };

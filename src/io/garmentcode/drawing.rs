@@ -29,10 +29,7 @@ impl Drawing {
     /// `along` are the lines (space, millimetres) that run along its arm, as far as they are known.
     pub(super) fn new(panel: &Panel, round_arm: bool, along: &[Vec3]) -> Option<Self> {
         let rotation = panel.rotation;
-        let double_area = Path::parse_absolute(&whole(&panel.edges), 1.0).ok()?.double_area();
-        if double_area == 0.0 || !double_area.is_finite() {
-            return None;
-        }
+        let double_area = double_area(&panel.edges).filter(|area| *area != 0.0 && area.is_finite())?;
         // Counter-clockwise where y is up: the right side faces the reader.
         let sign = double_area.signum();
         let middle = panel.space(middle(&panel.edges));
@@ -159,10 +156,13 @@ fn middle(edges: &[PanelEdge]) -> Vec2 {
     edges.iter().fold(Vec2::zeros(), |sum, e| sum + e.start) / edges.len() as f64
 }
 
-fn whole(edges: &[PanelEdge]) -> String {
-    let start = edges.first().map_or(Vec2::zeros(), |e| e.start);
+/// Twice the area that the edges enclose, positive where they run counter-clockwise with y up; `None` when they cannot
+/// be measured.
+pub(super) fn double_area(edges: &[PanelEdge]) -> Option<f64> {
+    let start = edges.first()?.start;
     let commands: Vec<String> = edges.iter().map(|e| e.commands(EXACT)).collect();
-    format!("M {} {} {} Z", start.x, start.y, commands.join(" "))
+    let whole = format!("M {} {} {} Z", start.x, start.y, commands.join(" "));
+    Some(Path::parse_absolute(&whole, 1.0).ok()?.double_area())
 }
 
 /// Two axes of a panel point down an arm alike whose cosines differ by less: the arm is held out to the side.

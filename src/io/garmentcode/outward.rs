@@ -1,6 +1,7 @@
 //! Panels whose outlines run the other way round: a panel's right side looks away from the body, whatever its maker's
 //! program drew first.
 
+use super::drawing::double_area;
 use super::spec::{Curve, Panel, PanelEdge, Stitch};
 use crate::geometry::{Vec2, Vec3};
 
@@ -27,10 +28,10 @@ pub(super) fn turn_outward(panels: &mut [Panel], stitches: &mut [Stitch]) {
 }
 
 /// How far forward the side looks from which the outline runs counter-clockwise (cosine).
+///
+/// The area is that between the curves: all corners of a circle skirt's half may lie on one line.
 fn normal(panel: &Panel) -> f64 {
-    let corners: Vec<Vec2> = panel.edges.iter().map(|e| e.start).collect();
-    let double_area: f64 = (0..corners.len()).map(|k| corners[k].perp(&corners[(k + 1) % corners.len()])).sum();
-    double_area.signum() * (panel.rotation * Vec3::z()).z
+    double_area(&panel.edges).unwrap_or(0.0).signum() * (panel.rotation * Vec3::z()).z
 }
 
 impl Panel {

@@ -17,8 +17,8 @@ const APART_SLACK: f64 = 0.02;
 /// An opening that nothing passes through, and the unit of its girth's logarithm.
 const EMPTY: f64 = 2.5;
 const EMPTY_WIDE: f64 = 0.3;
-/// Left and right unlike: of two openings that mirror each other, of one that is its own mirror image, and of two that
-/// may be either.
+/// Left and right unlike: of two openings that mirror each other, of one that is its own mirror image (times the share
+/// of the cloth that is symmetric with it), and of two that may be either.
 const UNLIKE: f64 = 6.0;
 const UNLIKE_TWINS: f64 = 3.0;
 
@@ -82,7 +82,7 @@ pub(super) fn unlike(mirror: &Mirror, openings: &[Opening], stretches: &[Vec<Str
             (0..n).filter(|&j| j != i && openings[i].part == openings[j].part && maps(i, j) && maps(j, i)).collect();
         let own = maps(i, i);
         match partners[..] {
-            [] if own => out[i][i] = UNLIKE,
+            [] if own => out[i][i] = UNLIKE * mirror.symmetric_share(&stretches[i]),
             [j] if !own => out[i][j] = UNLIKE,
             _ => partners.iter().for_each(|&j| out[i][j] = UNLIKE_TWINS),
         }

@@ -163,7 +163,7 @@ impl<'a> Table<'a> {
         let all = 0..openings.len();
         let apart = all.clone().map(|i| all.clone().map(|j| near(i, j)).collect()).collect();
         let sided = stretches.iter().map(|on| marks::sidedness(garment, on)).collect();
-        let unlike = unlike(&Mirror::new(garment, mesh), openings, &stretches, mesh.spacing);
+        let unlike = unlike(&Mirror::new(garment, mesh, glued), openings, &stretches, mesh.spacing);
         let mut out = Self {
             cloth,
             garment,

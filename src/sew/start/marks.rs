@@ -1,6 +1,6 @@
 //! Evidence of where an opening goes: the pieces on its rim, their words, sides and mirror images.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::glue::Glued;
 use super::openings::Opening;
@@ -37,15 +37,23 @@ pub(super) struct Stretch {
     is_band: bool,
 }
 
+/// Pieces that share this many nodes of the surface are sewn to each other; fewer may be a corner.
+const SEWN: usize = 3;
+
 /// The pieces of a garment and which of them mirror each other.
 pub(super) struct Mirror {
     /// For every piece those that are its mirror image, perhaps itself.
     mates: Vec<Vec<usize>>,
+    /// For every piece those that it is sewn to.
+    sewn: Vec<Vec<usize>>,
+    /// Number of particles of every piece, in proportion to its area.
+    sizes: Vec<usize>,
 }
 
 impl Mirror {
-    /// By shape; halves of a pair have one another.
-    pub(super) fn new(garment: &Garment, mesh: &ClothMesh) -> Self {
+    /// By shape; halves of a pair have one another. Words of `place` rule out pieces of one side, and a front and a
+    /// back.
+    pub(super) fn new(garment: &Garment, mesh: &ClothMesh, glued: &Glued) -> Self {
         let rims: Vec<Vec<Vec2>> = (0..mesh.pieces.len()).map(|piece| rim(mesh, piece)).collect();
         let mates = (0..rims.len()).map(|piece| {
             let own = &garment.pieces[piece];
@@ -58,10 +66,45 @@ impl Mirror {
             {
                 return vec![twin];
             }
+            let may_be = |&other: &usize| {
+                let facing = [piece, other].map(|p| facing(garment, p));
+                side_of(garment, piece) * side_of(garment, other) <= 0.0 && facing[0] * facing[1] >= 0.0
+            };
             let alike = |&other: &usize| is_mirrored(&rims[piece], &rims[other], SAME_SHAPE * mesh.spacing);
-            (0..rims.len()).filter(alike).collect()
+            (0..rims.len()).filter(may_be).filter(alike).collect()
         });
-        Self { mates: mates.collect() }
+        Self {
+            mates: mates.collect(),
+            sewn: sewn_to(mesh, glued),
+            sizes: mesh.pieces.iter().map(|piece| piece.particles.len()).collect(),
+        }
+    }
+
+    /// The share of the cloth that an opening is sewn to, directly or through other pieces, which is the same on both
+    /// sides of the opening's own plane of symmetry: 1 for the neck of a symmetric T-shirt, little for a round cuff on
+    /// a sleeve of which there is only one.
+    pub(super) fn symmetric_share(&self, opening: &[Stretch]) -> f64 {
+        let pieces = || opening.iter().map(|stretch| stretch.piece);
+        let is_mate = |[one, other]: [usize; 2]| self.mates[one].contains(&other);
+        let pairs = pieces().flat_map(|a| pieces().map(move |b| [a, b])).filter(|pair| is_mate(*pair)).collect();
+        let mapped = self.reached(pairs, is_mate);
+        let all = self.reached(pieces().map(|piece| [piece; 2]).collect(), |[one, other]| one == other);
+        let size = |pieces: BTreeSet<usize>| pieces.into_iter().map(|piece| self.sizes[piece]).sum::<usize>() as f64;
+        size(mapped) / size(all).max(1.0)
+    }
+
+    /// The first pieces of these pairs and of all that follow from them: what two partners are sewn to are partners
+    /// where they belong together.
+    fn reached(&self, mut open: Vec<[usize; 2]>, belong: impl Fn([usize; 2]) -> bool) -> BTreeSet<usize> {
+        let mut seen: BTreeSet<[usize; 2]> = open.iter().copied().collect();
+        while let Some([one, other]) = open.pop() {
+            for (&a, &b) in self.sewn[one].iter().flat_map(|a| self.sewn[other].iter().map(move |b| (a, b))) {
+                if belong([a, b]) && seen.insert([a, b]) {
+                    open.push([a, b]);
+                }
+            }
+        }
+        seen.into_iter().map(|[one, _]| one).collect()
     }
 
     /// Whether the mirror image of one opening is like another.
@@ -75,6 +118,28 @@ impl Mirror {
         };
         one.len() == other.len() && one.iter().all(|a| other.iter().any(|b| near(a, b)))
     }
+}
+
+/// The pieces that every piece is sewn to.
+fn sewn_to(mesh: &ClothMesh, glued: &Glued) -> Vec<Vec<usize>> {
+    let mut at: Vec<Vec<usize>> = vec![Vec::new(); glued.count];
+    for (piece, part) in mesh.pieces.iter().enumerate() {
+        for node in part.particles.clone().filter_map(|p| glued.node_of[p]) {
+            let there = &mut at[node as usize];
+            if there.last() != Some(&piece) {
+                there.push(piece);
+            }
+        }
+    }
+    let mut shared: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+    for pieces in &at {
+        for (&a, &b) in pieces.iter().flat_map(|a| pieces.iter().map(move |b| (a, b))).filter(|(a, b)| a != b) {
+            *shared.entry([a, b]).or_default() += 1;
+        }
+    }
+    let mut out = vec![Vec::new(); mesh.pieces.len()];
+    shared.into_iter().filter(|(_, count)| *count >= SEWN).for_each(|([a, b], _)| out[a].push(b));
+    out
 }
 
 /// Points of a piece's outline from the middle of its box.
@@ -193,6 +258,12 @@ pub(super) fn side_of(garment: &Garment, piece: usize) -> f64 {
             says(PlaceMeaning::Left) - says(PlaceMeaning::Right)
         }
     }
+}
+
+/// Which way a piece faces: 1 front, −1 back, 0 unknown.
+fn facing(garment: &Garment, piece: usize) -> f64 {
+    let says = |meaning| f64::from(says(garment, piece, meaning));
+    says(PlaceMeaning::Front) - says(PlaceMeaning::Back)
 }
 
 /// How much of an opening is on the left rather than on the right: from 1 to −1.
