@@ -44,8 +44,8 @@ struct FaceInPart<'a> {
 }
 
 impl FlatSurface {
-    /// `flat.obj`, `flat.png`, `pattern.svg`, `outline.svg`, `garment.yaml`, `report.json` and, of a surface with an inside,
-    /// `form.obj`.
+    /// `flat.obj`, `flat.png`, `pattern.svg`, `outline.svg`, `garment.yaml`, `report.json` and, of a surface with an
+    /// inside, `form.obj`.
     ///
     /// # Errors
     /// When one of them cannot be drawn.
