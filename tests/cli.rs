@@ -744,7 +744,7 @@ fn any_surface_can_be_laid_flat() {
     let report = room.run(&["flatten", "tube.obj", "--units", "cm", "-o", "flat", "--json"]).ends(0).json();
     assert_eq!(
         room.names("flat"),
-        ["flat.obj", "flat.png", "garment.yaml", "outline.svg", "pattern.svg", "report.json"]
+        ["flat.obj", "flat.png", "form.obj", "garment.yaml", "outline.svg", "pattern.svg", "report.json"]
     );
     assert_eq!(report["pieces"][1]["name"], "high");
     // The edges run between the corners, and know what is on the other side.

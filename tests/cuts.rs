@@ -157,11 +157,19 @@ fn spread(lengths: &[f64]) -> f64 {
         - lengths.iter().fold(f64::INFINITY, |least: f64, l| least.min(*l))
 }
 
+/// Between which strains a gore of a ball, one of `count`, can be laid flat. A line parallel to its middle in distance
+/// t is cos(t/R) times as long as that, and t is πR/count at the equator. The map that keeps all distances from the
+/// middle and along it stretches by 1/cos(π/count) − 1 there and nowhere more. Whatever the map, the middle and the rim
+/// differ by so much in what is left of their length, of which half at least is strain of one of them.
+fn strain_of_gores(count: usize) -> (f64, f64) {
+    let most = 1.0 / (PI / count as f64).cos() - 1.0;
+    (0.5 * most, most)
+}
+
 #[test]
 fn a_hemisphere_is_cut_into_even_gores() {
     for twisted in [false, true] {
         let mesh = hemisphere(20, 48, twisted);
-        let mut before = f64::INFINITY;
         for count in [4, 6, 8] {
             let flat = laid(&mesh, &SurfaceOptions { gores: Some(count), ..options() });
             assert_eq!(flat.report.pieces.len(), count);
@@ -169,14 +177,12 @@ fn a_hemisphere_is_cut_into_even_gores() {
             assert!(off <= 0.26, "{off} mm beside the meridian");
             assert!(lengths.len() == count && spread(&lengths) < 0.3, "{lengths:?}");
             let strain = flat.report.pieces.iter().map(|p| p.strain.p99).fold(0.0, f64::max);
-            assert!(strain < before, "{count}: {strain}");
-            before = strain;
+            let (least, most) = strain_of_gores(count);
+            assert!((least..most).contains(&strain), "{count}: {strain} of {least} to {most}");
             for edge in flat.report.pieces.iter().flat_map(|p| &p.edges).filter(|e| e.sewn_to.is_some()) {
                 assert!((edge.length_flattened - edge.length_draped).abs() < 0.01, "{edge:?}");
             }
         }
-        // This mesh has 6.1 %.
-        assert!(before < 0.065, "eight gores: {before}");
     }
 }
 
@@ -278,4 +284,86 @@ fn the_pieces_are_a_garment_file() {
     assert_eq!(loaded.file.pieces.len(), 4);
     assert_eq!(loaded.file.seams.len(), 4);
     assert_eq!(loaded.file.free.len(), 4, "the rim of every gore");
+}
+
+/// A ring of `turns` turns that rises, 80 mm wide round a hole of 60 mm.
+fn ramp(turns: f64) -> TriMesh {
+    grid((40.0 * turns) as u32, 4, 0.0, |u, v| {
+        let (round, far) = (TAU * turns * u, 60.0 + 80.0 * v);
+        Vec3::new(far * round.cos(), 40.0 * turns * u, far * round.sin())
+    })
+}
+
+#[test]
+fn what_would_lie_on_itself_is_cut_in_two() {
+    let flat = laid(&ramp(1.25), &options());
+    assert_eq!(flat.report.pieces.iter().map(|p| p.overlaps).collect::<Vec<_>>(), [0, 0]);
+    assert_eq!(flat.report.cuts_made.len(), 1);
+    // Across the ring, not along it, and said.
+    let cut = &flat.report.cuts_made[0];
+    assert!((cut.length - 80.0).abs() < 4.0, "{cut:?}");
+    assert!(flat.notes.iter().any(|note| note.contains("cut apart")), "{:?}", flat.notes);
+    let legs: Vec<f64> = sewn(&flat).map(|e| e.length_flattened).collect();
+    assert!(legs.len() == 2 && spread(&legs) < 0.01, "{legs:?}");
+    // Three quarters of a turn lie side by side.
+    let whole = laid(&ramp(0.75), &options());
+    assert!(whole.report.pieces.len() == 1 && whole.report.cuts_made.is_empty());
+}
+
+fn sewn(flat: &FlatSurface) -> impl Iterator<Item = &toile::pipeline::EdgeReport> {
+    flat.report.pieces.iter().flat_map(|p| &p.edges).filter(|e| e.sewn_to.is_some())
+}
+
+#[test]
+fn a_strain_that_must_be_reached_is_by_darts_or_by_cuts_where_darts_cannot() {
+    let reached = |mesh: &TriMesh, most: f64| {
+        let limit = toile::pipeline::Limit::Strain(most);
+        let flat = laid(mesh, &SurfaceOptions { darts: Some(Darts::Enough), limit, ..options() });
+        for piece in &flat.report.pieces {
+            assert!(piece.strain.p99 <= most && piece.overlaps == 0, "{}: {:?}", piece.name, piece.strain);
+        }
+        flat
+    };
+    let dome = hemisphere(12, 36, false);
+    assert!(reached(&dome, 0.1).report.pieces[0].darts > 0);
+    // A saddle has too little cloth, of which no dart takes any away.
+    let saddle = grid(12, 12, 0.0, |u, v| {
+        let [x, z] = [u, v].map(|c| 400.0 * c - 200.0);
+        Vec3::new(x, (x * x - z * z) / 400.0, z)
+    });
+    let flat = reached(&saddle, 0.06);
+    assert!(flat.report.pieces.len() > 1 && flat.report.pieces.iter().all(|p| p.darts == 0));
+}
+
+#[test]
+fn a_deep_form_is_cut_to_its_far_end() {
+    // A bag of 60 mm radius, 500 mm deep, its end round.
+    let depth = 500.0;
+    let bag = hemisphere(16, 32, false);
+    let bag = TriMesh {
+        vertices: bag
+            .vertices
+            .iter()
+            .map(|p| Vec3::new(p.x * 60.0 / RADIUS, p.y * depth / RADIUS, p.z * 60.0 / RADIUS))
+            .collect(),
+        ..bag
+    };
+    let flat = laid(&bag, &options());
+    assert_eq!(flat.report.cuts_made.len(), 1, "{:?}", flat.report.cuts_made);
+    assert!(flat.report.cuts_made[0].length > depth && flat.report.pieces[0].area_change > -0.2);
+}
+
+#[test]
+fn the_pieces_have_a_form_to_be_sewn_on() {
+    let flat = laid(&hemisphere(12, 24, false), &SurfaceOptions { gores: Some(4), ..options() });
+    let yaml = text(&flat, "garment.yaml");
+    assert!(yaml.contains("body: form.obj") && yaml.matches("place: {at:").count() == 4, "{yaml}");
+    let form = text(&flat, "form.obj");
+    let vertices = form.lines().filter(|l| l.starts_with("v ")).count();
+    let faces = form.lines().filter(|l| l.starts_with("f ")).count();
+    // Closed, of no handle: Euler's F = 2 V - 4.
+    assert_eq!(faces, 2 * vertices - 4);
+    // A flat panel has no inside.
+    let panel = laid(&grid(4, 4, 0.0, |u, v| Vec3::new(100.0 * u, 200.0 * v, 0.0)), &options());
+    assert!(panel.results().expect("files").iter().all(|file| file.0 != "form.obj"));
 }

@@ -11,8 +11,8 @@ use crate::flatten::{Mode, Options};
 use crate::geometry::MM;
 use crate::io::files::check_writable;
 use crate::pipeline::{
-    AT_REST, Cuts, DartStop, Darts, FLAT_OBJ, FLAT_PNG, GARMENT_YAML, Limit, OUTLINE_SVG, PATTERN_SVG, PartReport,
-    PictureOptions, REPORT_JSON, SurfaceOptions, SurfaceReport, Weld, flatten_surface,
+    AT_REST, Cuts, DartStop, Darts, FLAT_OBJ, FLAT_PNG, FORM_OBJ, GARMENT_YAML, Limit, OUTLINE_SVG, PATTERN_SVG,
+    PartReport, PictureOptions, REPORT_JSON, SurfaceOptions, SurfaceReport, Weld, flatten_surface,
 };
 use crate::report::{aligned, restless, shortened};
 
@@ -134,8 +134,9 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
     let stem = args.input.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
     let folder = folder(args.output.as_deref(), &stem);
     let inputs = [args.input.as_path()];
-    let targets: Vec<PathBuf> =
-        [FLAT_OBJ, FLAT_PNG, GARMENT_YAML, OUTLINE_SVG, PATTERN_SVG, REPORT_JSON].map(|name| folder.join(name)).into();
+    let targets: Vec<PathBuf> = [FLAT_OBJ, FLAT_PNG, FORM_OBJ, GARMENT_YAML, OUTLINE_SVG, PATTERN_SVG, REPORT_JSON]
+        .map(|name| folder.join(name))
+        .into();
     check_writable(&targets, &inputs)?;
     let flat = flatten_surface(&args.input, &options)?;
     let flatten_mode = options.flatten.mode;
@@ -172,7 +173,8 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
         exit = Exit::OutOfBounds;
     }
     for piece in report.pieces.iter().filter(|p| p.overlaps > 0) {
-        console.complain(&format!("out of bounds: '{}' lies on itself when flat; cut it in two", piece.name));
+        let where_to = in_two(piece);
+        console.complain(&format!("out of bounds: '{}' lies on itself when flat; {where_to}", piece.name));
         exit = Exit::OutOfBounds;
     }
     Ok(exit)
@@ -335,11 +337,13 @@ fn remedy(piece: &PartReport, options: &SurfaceOptions) -> String {
     let stopped = match piece.darts_stopped {
         None if place.is_some() => return place.unwrap_or_default() + "relieve it most; --dart auto cuts it",
         Some(DartStop::NoneLeft) => format!(
-            "relieve it most, but --dart allows {}; allow more, or cut it in two with --cut",
-            options.darts.map_or(0, Darts::most)
+            "relieve it most, but --dart allows {}; allow more, or {}",
+            options.darts.map_or(0, Darts::most),
+            in_two(piece)
         ),
-        Some(DartStop::Overlap) => "relieve it most, but make it lie on itself; cut it in two with --cut".to_owned(),
-        None | Some(DartStop::NoPlace) => "no place for a dart can be told; cut it in two with --cut".to_owned(),
+        Some(DartStop::Overlap) => format!("relieve it most, but make it lie on itself; {}", in_two(piece)),
+        Some(DartStop::NoGain) => format!("relieve it most, but brings hardly anything; {}", in_two(piece)),
+        None | Some(DartStop::NoPlace) => format!("no place for a dart can be told; {}", in_two(piece)),
     };
     let cut = match piece.darts {
         0 => String::new(),
@@ -347,6 +351,17 @@ fn remedy(piece: &PartReport, options: &SurfaceOptions) -> String {
         several => format!("it has {several} darts; "),
     };
     cut + &place.unwrap_or_default() + &stopped
+}
+
+/// To cut a piece in two, and where.
+fn in_two(piece: &PartReport) -> String {
+    match piece.halving {
+        Some(way) => format!(
+            "cut it in two with --cut {},{} ({:.0} mm), or into gores with --gores",
+            way.from, way.to, way.length
+        ),
+        None => "cut it in two with --cut".to_owned(),
+    }
 }
 
 fn figures(report: &SurfaceReport) -> String {

@@ -151,8 +151,8 @@ pub fn dart(surface: &TriMesh, log_scale: &[f64], solid: &Solid, may_open: impl 
 pub type Solid = HashSet<[u32; 2]>;
 
 /// Shortest ways from sources to every vertex.
-struct Tree {
-    distance: Vec<f64>,
+pub(super) struct Tree {
+    pub(super) distance: Vec<f64>,
     /// The next vertex on the way back; a source is its own.
     parent: Vec<u32>,
 }
@@ -188,7 +188,7 @@ impl Ord for Next {
 
 impl Tree {
     /// With `free_rims` a way along a rim costs nothing: it is cut already.
-    fn new(surface: &TriMesh, topology: &Topology, solid: &Solid, sources: &[u32], free_rims: bool) -> Self {
+    pub(super) fn new(surface: &TriMesh, topology: &Topology, solid: &Solid, sources: &[u32], free_rims: bool) -> Self {
         let count = surface.vertices.len();
         let mut neighbours: Vec<Vec<(u32, f64)>> = vec![Vec::new(); count];
         for edge in topology.edges.iter().filter(|e| !solid.contains(&e.ends)) {
@@ -221,7 +221,7 @@ impl Tree {
     }
 
     /// From the source to `to`.
-    fn path(&self, to: u32) -> Vec<u32> {
+    pub(super) fn path(&self, to: u32) -> Vec<u32> {
         let mut path = vec![to];
         let mut at = to;
         while self.parent[at as usize] != at {

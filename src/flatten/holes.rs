@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::FlattenError;
 use super::start::{self, Start, angle_sums};
 use super::topology::Rims;
-use crate::geometry::{Topology, TriMesh, Vec3};
+use crate::geometry::{Topology, TriMesh};
 
 /// A first flat position of a surface with these rims, without flipped triangles; see [`start::start`]. The rim that
 /// turns most becomes the outline; every other one is filled with triangles round its centre.
@@ -20,7 +20,7 @@ pub(super) fn start(surface: &TriMesh, topology: &Topology, rims: &Rims) -> Resu
     let mut filled = surface.clone();
     for (k, rim) in rims.iter().enumerate() {
         if k != outline {
-            fill(&mut filled, rim);
+            filled.fill(rim);
         }
     }
     let (mut flat, mut scale) = start::start(&filled, &Topology::new(&filled.triangles), &rims[outline])?;
@@ -45,14 +45,4 @@ fn outline(surface: &TriMesh, rims: &Rims) -> usize {
 fn length(surface: &TriMesh, rim: &[u32]) -> f64 {
     let at = |k: usize| surface.vertices[rim[k % rim.len()] as usize];
     (0..rim.len()).map(|k| (at(k + 1) - at(k)).norm()).sum()
-}
-
-/// Closes a rim with triangles that run as those beside it.
-fn fill(surface: &mut TriMesh, rim: &[u32]) {
-    let centre = rim.iter().map(|&v| surface.vertices[v as usize]).sum::<Vec3>() / rim.len() as f64;
-    let apex = surface.vertices.len() as u32;
-    surface.vertices.push(centre);
-    for k in 0..rim.len() {
-        surface.triangles.push([rim[(k + 1) % rim.len()], rim[k], apex]);
-    }
 }

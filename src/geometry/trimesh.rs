@@ -194,6 +194,16 @@ impl TriMesh {
             .sum()
     }
 
+    /// Closes a rim with triangles round its centre, a new vertex, that run as those beside it.
+    pub fn fill(&mut self, rim: &[u32]) {
+        let centre = rim.iter().map(|&v| self.vertices[v as usize]).sum::<Vec3>() / rim.len() as f64;
+        let apex = self.vertices.len() as u32;
+        self.vertices.push(centre);
+        for k in 0..rim.len() {
+            self.triangles.push([rim[(k + 1) % rim.len()], rim[k], apex]);
+        }
+    }
+
     /// Area-weighted unit vertex normals (zero for an isolated vertex).
     pub fn vertex_normals(&self) -> Vec<Vec3> {
         let mut normals = vec![Vec3::zeros(); self.vertices.len()];

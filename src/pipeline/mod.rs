@@ -56,9 +56,9 @@ pub use results::{
 pub use run::{Progress, Run};
 pub use start_picture::{DoubtShown, OpeningShown, RimShown, StartPicture, StartShown, WordShown, start_picture};
 pub use surface::{
-    CutReport, CutWhy, Cuts, DARTS, DartStop, Darts, Ease, EaseReport, EdgeReport, FLAT_OBJ, FLAT_PNG, FailedReport,
-    FlatCorners, FlatSurface, Limit, OUTLINE_SVG, PartReport, SurfaceOptions, SurfaceReport, Weld, flatten_faces,
-    flatten_surface,
+    CutReport, CutWhy, Cuts, DARTS, DartStop, Darts, Ease, EaseReport, EdgeReport, FLAT_OBJ, FLAT_PNG, FORM_OBJ,
+    FailedReport, FlatCorners, FlatSurface, HalvingReport, Limit, OUTLINE_SVG, PartReport, SurfaceOptions,
+    SurfaceReport, Weld, flatten_faces, flatten_surface,
 };
 pub use too_small::TooSmall;
 

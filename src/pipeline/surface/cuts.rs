@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::super::error::PipelineError;
 use super::darts::Source;
 use super::parts::Part;
-use super::report::{CutWhy, DartReport};
+use super::report::{CutWhy, DartReport, HalvingReport};
 use super::sheet::Sheet;
 use crate::flatten::line::{Spot, Web, straightened};
 use crate::flatten::{self, FlattenError, Flattened, Solid, disk_cuts, shortest_path, slit_from_rim};
@@ -273,6 +273,18 @@ pub(super) fn dart(part: &Part, flat: &Flattened) -> Vec<u32> {
         }
     }
     flatten::dart(&part.surface, &flat.log_scale, &part.diagonals, |v| !on_cut.contains(&v))
+}
+
+/// The way along which a part is best cut in two; empty where there is none.
+pub(super) fn halving(part: &Part) -> Vec<u32> {
+    flatten::halving(&part.surface, &part.diagonals)
+}
+
+/// The same as it is reported.
+pub(super) fn proposed_halving(part: &Part) -> Option<HalvingReport> {
+    let way = halving(part);
+    let [from, .., to] = *way else { return None };
+    Some(HalvingReport { from: part.number(from), to: part.number(to), length: length(part, &way) })
 }
 
 /// A dart as it is reported.

@@ -1,6 +1,7 @@
 //! Parts laid flat, and darts where they are strained too much: one at a time,
 //! the next always into the part that needs it most.
 
+use std::f64::consts::PI;
 use std::path::Path;
 
 use rayon::prelude::*;
@@ -46,6 +47,8 @@ pub enum DartStop {
     NoneLeft,
     /// With the next the flat piece would lie on itself, or more so.
     Overlap,
+    /// The next leaves hardly less strain.
+    NoGain,
     /// Nothing says where the next would help: no place has cloth to spare.
     NoPlace,
 }
@@ -129,7 +132,8 @@ impl Source<'_> {
         }
         let mut cut = sheet.clone();
         cuts::cut_open(&mut cut, Some(number));
-        if cut.made.len() == sheet.made.len() && whole.is_err() {
+        let deep = |laid: &Laid| self.options.darts.is_none() && laid.is_deep();
+        if cut.made.len() == sheet.made.len() && whole.as_ref().map_or(true, deep) {
             // Earlier cuts may have split it, so that its numbers are those of the sheet as it is now.
             let part = cut.parts().swap_remove(number);
             let line = cuts::straight_inside(&part, &cuts::slit(&part));
@@ -195,8 +199,8 @@ fn is_worth_a_cut(cut: &Laid, whole: &Laid) -> bool {
 
 /// Lays all parts flat and cuts the darts that `source.options` asks for: even ones into round parts, all the others
 /// one by one, the next always into the part that is strained most, until all are within the limit or so many are cut.
-/// A dart that would make a flat piece lie on itself is not cut, and its part gets no other; `sheet` has those that
-/// are.
+/// A dart that brings nothing, or would make a flat piece lie on itself, is not cut, and its part gets no other;
+/// `sheet` has those that are.
 pub(super) fn with_darts(source: &Source<'_>, sheet: &mut Sheet) -> Result<Outcome, PipelineError> {
     let mut out = source.lay_all(sheet)?;
     let Some(darts) = source.options.darts else { return Ok(out) };
@@ -206,6 +210,9 @@ pub(super) fn with_darts(source: &Source<'_>, sheet: &mut Sheet) -> Result<Outco
         && let Some(k) = source.neediest(&out.laid)
     {
         match source.with_next_dart(&out.laid[k], sheet) {
+            Some((cut, _)) if cut.lies_as_well_as(&out.laid[k]) && !cut.gains_on(&out.laid[k]) => {
+                out.laid[k].stop = Some(DartStop::NoGain);
+            }
             Some((cut, cuts)) if cut.lies_as_well_as(&out.laid[k]) => {
                 (out.laid[k], *sheet) = (cut, cuts);
                 left -= 1;
@@ -219,10 +226,26 @@ pub(super) fn with_darts(source: &Source<'_>, sheet: &mut Sheet) -> Result<Outco
 }
 
 impl Laid {
+    /// Whether it is much deeper than wide, so that no flat piece with its rim has a quarter of its area.
+    fn is_deep(&self) -> bool {
+        /// Least L²/4πS.
+        const FLAT: f64 = 0.25;
+        let report = &self.flat.report;
+        report.boundary_before.powi(2) < FLAT * 4.0 * PI * report.area_before
+    }
+
     /// Whether it lies on itself no more than before a dart, and was not kept from it at the price of its rim.
     pub(super) fn lies_as_well_as(&self, before: &Self) -> bool {
         let (own, other) = (&self.flat.report, &before.flat.report);
         own.overlaps <= other.overlaps && (own.rim_missed.is_none() || other.rim_missed.is_some())
+    }
+
+    /// Whether a dart was worth its seam: it lowers the strain of the worst hundredth, or of the whole.
+    fn gains_on(&self, before: &Self) -> bool {
+        /// Share that must be left at most: cutting and sewing a dart moves cloth by as much.
+        const LEFT: f64 = 0.98;
+        let (own, other) = (&self.flat.report, &before.flat.report);
+        own.strain_p99 < LEFT * other.strain_p99 || own.distortion < LEFT * other.distortion
     }
 
     /// Says why a part beyond the limit got no further dart.

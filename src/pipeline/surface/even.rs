@@ -34,7 +34,7 @@ pub(super) fn even_darts(source: &Source<'_>, sheet: &mut Sheet, laid: &mut [Lai
     for own in laid.iter_mut().filter(|own| source.options.limit.passed(&own.flat.report)) {
         let mut best: Option<(Laid, Sheet)> = None;
         for &count in counts.iter().filter(|count| **count >= FEWEST) {
-            let Some(darted) = with_even_darts(source, sheet, own, count) else { break };
+            let Some(darted) = with_even_darts(source, sheet, own, count) else { continue };
             let enough = !source.options.limit.passed(&darted.0.flat.report);
             best = Some(darted);
             if enough {

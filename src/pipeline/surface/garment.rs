@@ -4,7 +4,9 @@ use super::super::error::PipelineError;
 use super::FlatSurface;
 use super::darts::Laid;
 use super::edges::NamedEdge;
+use super::form::FORM_OBJ;
 use crate::geometry::{MM, Vec2};
+use crate::input::LengthUnit;
 use crate::io::garment::write;
 use crate::pattern::{GarmentFile, Located, NotchFile, OutlineFile, PieceFile, Quantity, SeamFile, Spot, Value};
 
@@ -25,11 +27,11 @@ fn rounded(x: f64) -> f64 {
 
 impl FlatSurface {
     /// The pieces as a garment: their rims as named edges, seams along everything that was cut, a notch in the middle
-    /// of every one, the grain upright. `None` where no piece has an outline.
+    /// of every one, the grain upright, every piece placed where it is of; `on_form` says that [`FORM_OBJ`] is written.
     ///
     /// # Errors
     /// When it cannot be written.
-    pub(super) fn garment(&self) -> Result<String, PipelineError> {
+    pub(super) fn garment(&self, on_form: bool) -> Result<String, PipelineError> {
         let names = self.piece_names();
         let pieces: Vec<PieceFile> = (0..self.laid.len()).map(|k| self.piece_file(k, &names[k])).collect();
         let (seams, free) = self.seams(&names);
@@ -38,9 +40,9 @@ impl FlatSurface {
             name: Some(at_no_place(self.report.surface.clone())),
             about: Vec::new(),
             units: None,
-            body: None,
+            body: on_form.then(|| at_no_place(FORM_OBJ.to_owned())),
             body_measures: Vec::new(),
-            body_units: None,
+            body_units: on_form.then(|| at_no_place(LengthUnit::Millimetre)),
             allowance: None,
             fabrics: vec![(at_no_place("shell".to_owned()), at_no_place(Value::Text(FABRIC.to_owned())))],
             pieces,
@@ -84,7 +86,7 @@ impl FlatSurface {
     }
 
     /// Where a vertex of a piece lies as it is cut, mm.
-    fn place(&self, piece: usize, v: u32) -> Vec2 {
+    pub(super) fn place(&self, piece: usize, v: u32) -> Vec2 {
         self.ease.cut(self.laid[piece].flat.positions[v as usize]) * MM
     }
 
@@ -121,6 +123,7 @@ impl FlatSurface {
         let middle = self.grain_middle(k);
         PieceFile {
             outline: Some(OutlineFile { start: at_no_place(start), edges: edges.collect() }),
+            place: Some(at_no_place(self.place_of(k))),
             grain: Some(at_no_place([
                 [middle[0], rounded(middle[1] + GRAIN)],
                 [middle[0], rounded(middle[1] - GRAIN)],

@@ -19,7 +19,7 @@ pub(super) fn cut_gores(source: &Source<'_>, sheet: &mut Sheet, count: usize) ->
     let (all, mut done) = (parts.len(), 0);
     for (number, part) in parts.into_iter().enumerate() {
         let mut cut = sheet.clone();
-        match drawn(&mut cut, number, count) {
+        match draw_gores(&mut cut, number, count) {
             Some(()) => {
                 *sheet = cut;
                 done += 1;
@@ -40,7 +40,7 @@ pub(super) fn cut_gores(source: &Source<'_>, sheet: &mut Sheet, count: usize) ->
 }
 
 /// Draws the lines between the gores of a part, whatever its form is; `None` where it has none.
-fn drawn(sheet: &mut Sheet, number: usize, count: usize) -> Option<()> {
+pub(super) fn draw_gores(sheet: &mut Sheet, number: usize, count: usize) -> Option<()> {
     let part = sheet.parts().into_iter().nth(number)?;
     part.turned.as_ref()?;
     match rim_loops(&part.surface.triangles).len() {

@@ -1,11 +1,13 @@
 //! Any surface laid flat: every group, texture island or connected part of an OBJ file as a piece of its own.
 
+mod apart;
 mod cuts;
 mod darts;
 mod drawn;
 mod ease;
 mod edges;
 mod even;
+mod form;
 mod garment;
 mod gores;
 mod mend;
@@ -29,17 +31,19 @@ use crate::input::LengthUnit;
 use crate::io::obj_read::ObjFaces;
 use crate::io::surface_read::read_surface;
 use crate::report::Stage;
+use apart::laid_apart;
 pub use cuts::Cuts;
 use cuts::{cut_as_asked, cut_open};
 pub use darts::DartStop;
-use darts::{Failed, Laid, Outcome, Source, with_darts};
+use darts::{Failed, Laid, Outcome, Source};
 use drawn::cut_drawn;
 pub use ease::{Ease, EaseReport};
 use edges::{NamedEdge, named_edges};
+pub use form::FORM_OBJ;
 use gores::cut_gores;
 pub use mend::Weld;
 use mend::{AT_ONE_PLACE, mend, welded, welded_note};
-pub use report::{CutReport, CutWhy, EdgeReport, FailedReport, PartReport, SurfaceReport};
+pub use report::{CutReport, CutWhy, EdgeReport, FailedReport, HalvingReport, PartReport, SurfaceReport};
 use sheet::Sheet;
 use simplify::simplify;
 use size::Space;
@@ -252,7 +256,7 @@ pub fn flatten_faces(file: &Path, mut faces: ObjFaces, options: &SurfaceOptions)
     if options.cuts.auto {
         cut_open(&mut sheet, None);
     }
-    let Outcome { laid, mut failed } = with_darts(&source, &mut sheet)?;
+    let Outcome { laid, mut failed } = laid_apart(&source, &mut sheet)?;
     if laid.is_empty() && !failed.is_empty() {
         return Err(failed.swap_remove(0).error);
     }

@@ -127,6 +127,8 @@ pub struct PartReport {
     pub layable: bool,
     /// A dart that would relieve the piece, where its strain passes the limit.
     pub dart: Option<DartReport>,
+    /// Where it is best cut in two, where it lies on itself or is not `layable`: from rim to rim.
+    pub halving: Option<HalvingReport>,
     /// How many darts were cut into it.
     pub darts: usize,
     /// Why there are no more where they were asked for and the strain still passes the limit: `none_left` (of those
@@ -240,17 +242,34 @@ pub enum CutWhy {
     Dart,
     /// `--gores`.
     Gore,
+    /// The piece would lie on itself when flat, or `--max-strain` needs it.
+    Apart,
 }
 
 impl std::fmt::Display for CutReport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self { piece, why, from, to, length, strain } = self;
-        let what = if *why == CutWhy::Dart { "a dart in" } else { "cut" };
+        let what = match why {
+            CutWhy::Dart => "a dart in",
+            CutWhy::Apart => "cut apart, for no dart cures it:",
+            CutWhy::Asked | CutWhy::Auto | CutWhy::Gore => "cut",
+        };
         write!(f, "{what} '{piece}' from vertex {from} to vertex {to} ({length:.1} mm)")?;
         strain.map_or(Ok(()), |[before, after]| {
             write!(f, ": strain {:.1} % before, {:.1} % after", 100.0 * before, 100.0 * after)
         })
     }
+}
+
+/// A way from rim to rim.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct HalvingReport {
+    /// The file's vertex at its start, from 1.
+    pub from: u32,
+    /// The file's vertex at its end, from 1.
+    pub to: u32,
+    /// Length, mm.
+    pub length: f64,
 }
 
 /// A dart, from the rim to its tip.
@@ -267,6 +286,7 @@ pub struct DartReport {
 impl PartReport {
     fn new(laid: &Laid, options: &SurfaceOptions) -> Self {
         let (part, r) = (&laid.part, &laid.flat.report);
+        let out_of_reach = options.limit.is_out_of_reach(r);
         let error = |e: f64| Quartet { flatten: Some(e), ..Quartet::default() };
         let isoperimetric = r.boundary_before.powi(2) / (4.0 * PI * r.area_before);
         Self {
@@ -310,8 +330,9 @@ impl PartReport {
             flips: r.flips,
             overlaps: r.overlaps,
             edges: Vec::new(),
-            layable: !options.limit.is_out_of_reach(r),
+            layable: !out_of_reach,
             dart: cuts::proposal(part, &laid.dart),
+            halving: (out_of_reach || r.overlaps > 0).then(|| cuts::proposed_halving(part)).flatten(),
             darts: laid.darts,
             darts_stopped: laid.stop,
         }

@@ -78,6 +78,12 @@ impl Sheet {
         Self::new(self.faces.clone(), same, textured, self.space, &self.stem)
     }
 
+    /// Makes one of all groups.
+    pub(super) fn join_groups(&mut self) {
+        self.faces.join_groups();
+        self.nodes = Nodes::new(&self.faces, self.textured, &self.same);
+    }
+
     /// Cuts a part along a line.
     pub(super) fn cut(&mut self, part: &Part, line: &[Spot], why: CutWhy) {
         if line.len() > 1 {

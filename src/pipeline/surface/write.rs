@@ -7,6 +7,7 @@ use super::super::results::{GARMENT_YAML, PATTERN_SVG, REPORT_JSON, ResultFile, 
 use super::FlatSurface;
 use super::darts::Laid;
 use super::edges::NamedEdge;
+use super::form::{FORM_OBJ, form_obj};
 use super::parts::Part;
 use crate::flatten::triangle_strain;
 use crate::geometry::{MM, Vec2};
@@ -43,20 +44,24 @@ struct FaceInPart<'a> {
 }
 
 impl FlatSurface {
-    /// `flat.obj`, `flat.png`, `pattern.svg`, `outline.svg`, `garment.yaml` and `report.json`.
+    /// `flat.obj`, `flat.png`, `pattern.svg`, `outline.svg`, `garment.yaml`, `report.json` and, of a surface with an
+    /// inside, `form.obj`.
     ///
     /// # Errors
     /// When one of them cannot be drawn.
     pub fn results(&self) -> Result<Vec<ResultFile>, PipelineError> {
         let sheet = self.sheet();
-        Ok(vec![
+        let form = self.form();
+        let mut files = vec![
             (FLAT_OBJ, self.obj().into_bytes()),
             (FLAT_PNG, self.picture(&sheet)?),
             (PATTERN_SVG, pattern_svg(&sheet, &sheet.flat, &self.notches())?.into_bytes()),
             (OUTLINE_SVG, outline_svg(&sheet, &sheet.flat)?.into_bytes()),
-            (GARMENT_YAML, self.garment()?.into_bytes()),
+            (GARMENT_YAML, self.garment(form.is_some())?.into_bytes()),
             (REPORT_JSON, json_text(&self.report)?.into_bytes()),
-        ])
+        ];
+        files.extend(form.map(|form| (FORM_OBJ, form_obj(&form).into_bytes())));
+        Ok(files)
     }
 
     /// The file's vertices and faces as they were, with flat texture coordinates in mm. Numbers are written so that
