@@ -11,7 +11,7 @@ mod written;
 use std::path::Path;
 
 use super::error::PipelineError;
-use super::surface::{Darts, FlatSurface, Limit, SurfaceOptions, Weld, flatten_faces};
+use super::surface::{Darts, Limit, SurfaceOptions, Weld, flatten_faces};
 use crate::fabric;
 use crate::geometry::Vec3;
 use crate::input::{LengthUnit, bytes, yaml};
@@ -60,24 +60,8 @@ pub fn draft(body: &str, unit: Option<LengthUnit>, lines: &Path) -> Result<Draft
     let read = load_body(body, unit).map_err(DraftError::from)?;
     let ease = ease_of(&file.ease, &read.mannequin).map_err(refused)?;
     let formed = shell(&read.mannequin, &ease);
-    let skin = Skin { mesh: formed.mesh.clone(), lines: Vec::new() };
-    let mut form = Form { body: &read.mannequin, skin };
-    for (name, line) in file.all_lines() {
-        let wrong = |why| DraftError::Line { file: shown.clone(), line: name.clone(), why };
-        form.draw(&name, &line).map_err(wrong)?;
-    }
-    if let Some((line, why)) = panels::loose_end(&form) {
-        return Err(DraftError::Line { file: shown, line, why }.into());
-    }
+    let (form, named) = drawn(&file, &shown, &read.mannequin, &formed)?;
     let wrong = |(panel, why): (String, String)| DraftError::Panel { file: shown.clone(), panel, why };
-    let mut named = Vec::new();
-    for (name, point) in file.all_panels() {
-        let at = form.point(&point).map_err(|why| wrong((name.clone(), why)))?;
-        named.push((name, at));
-    }
-    if named.is_empty() {
-        return Err(refused("no panel is named; say 'panels: {front: {at: {height: 1100, angle: 0}}}'".into()).into());
-    }
     let regions = panels::chosen(&form.skin, &named).map_err(wrong)?;
     let fabric = file.fabric.as_deref().unwrap_or(FABRIC);
     let options = SurfaceOptions {
@@ -90,18 +74,45 @@ pub fn draft(body: &str, unit: Option<LengthUnit>, lines: &Path) -> Result<Draft
         ..SurfaceOptions::default()
     };
     let faces = grouped(&form.skin, &named, &regions);
+    let heights = || faces.faces.iter().flatten().map(|&v| faces.vertices[v as usize].y);
+    let reach = [heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max)];
     let mut flat = flatten_faces(lines, faces, &options)?;
+    if let Some(failed) = flat.report.failed.first() {
+        return Err(wrong((failed.name.clone(), format!("cannot be laid flat: {}", failed.why))).into());
+    }
     flat.name_edges(&|vertices| line_of(&form.skin.lines, vertices));
-    let place = named.iter().map(|(name, at)| (name.clone(), *at)).collect::<Vec<_>>();
-    let about = written::About { file: &file, body, given: &read.mannequin, ease: &ease, fabric, places: &place };
+    let about =
+        written::About { file: &file, body, given: &read.mannequin, ease: &ease, fabric, places: &named, reach };
     let mut drafted = written::written(&flat, &about, &formed)?;
-    drafted.notes = read.notes.into_iter().chain(said(&flat)).collect();
+    drafted.notes = read.notes;
     Ok(drafted)
 }
 
-/// What the reader of a draft should know of how its pieces were laid flat.
-fn said(flat: &FlatSurface) -> impl Iterator<Item = String> + '_ {
-    flat.report.failed.iter().map(|f| format!("'{}' cannot be laid flat: {}", f.name, f.why))
+/// The lines on the form, and a point in every panel.
+fn drawn<'a>(
+    file: &LinesFile,
+    shown: &str,
+    body: &'a Mannequin,
+    formed: &Mannequin,
+) -> Result<(Form<'a>, Vec<(String, Vec3)>), DraftError> {
+    let mut form = Form { body, skin: Skin { mesh: formed.mesh.clone(), lines: Vec::new() } };
+    for (name, line) in file.all_lines() {
+        let wrong = |why| DraftError::Line { file: shown.to_owned(), line: name.clone(), why };
+        form.draw(&name, &line).map_err(wrong)?;
+    }
+    if let Some((line, why)) = panels::loose_end(&form) {
+        return Err(DraftError::Line { file: shown.to_owned(), line, why });
+    }
+    let mut named = Vec::new();
+    for (panel, point) in file.all_panels() {
+        let wrong = |why| DraftError::Panel { file: shown.to_owned(), panel: panel.clone(), why };
+        named.push((panel.clone(), form.point(&point).map_err(wrong)?));
+    }
+    if named.is_empty() {
+        let why = "no panel is named; say 'panels: {front: {at: {height: 1100, angle: 0}}}'".to_owned();
+        return Err(DraftError::File { file: shown.to_owned(), why });
+    }
+    Ok((form, named))
 }
 
 fn ease_of(file: &EaseFile, body: &Mannequin) -> Result<Ease, String> {

@@ -1,8 +1,8 @@
 //! The form that the cloth takes: the body with ease, its hollows spanned.
 //!
-//! Cloth goes round the trunk and the legs as a tape does: along the convex hull of every level. The hull moved out by d
-//! all round is longer by 2πd exactly, so that d is the ease over 2π. Above the armpits and at the crotch, where no tape
-//! goes round, the skin is moved out along its normals.
+//! Cloth goes round the trunk and the legs as a tape does: along the convex hull of every level. The hull moved out by
+//! d all round is longer by 2πd exactly, so that d is the ease over 2π. Above the armpits and at the crotch, where no
+//! tape goes round, the skin is moved out along its normals.
 
 use std::f64::consts::TAU;
 

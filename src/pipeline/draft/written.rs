@@ -10,12 +10,17 @@ use super::shell::Ease;
 use crate::geometry::{MM, Vec3};
 use crate::io::garment::write;
 use crate::mannequin::{Mannequin, PartKind};
-use crate::pattern::{Located, PlaceFile, Spot, Value};
+use crate::pattern::{Located, PlaceFile, Quantity, Spot, TestEntry, TestFile, Unit, Value};
 
 /// Angle from the front or the back up to which a panel is at the front or the back alone, radians.
 const ASIDE: f64 = 0.35;
 /// How far the pieces of an object's cover stand off it before they are sewn, metres.
 const OFF: f64 = 0.06;
+
+/// A girth is tested where the garment reaches this far beyond it, metres.
+const INSIDE: f64 = 0.02;
+/// Ease that a draped garment may have more or less than was asked for, mm.
+const NEAR: f64 = 5.0;
 
 /// A piece of a draft.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -49,6 +54,8 @@ pub(super) struct About<'a> {
     pub(super) fabric: &'a str,
     /// A point in every panel.
     pub(super) places: &'a [(String, Vec3)],
+    /// Lowest and highest point of the panels, metres.
+    pub(super) reach: [f64; 2],
 }
 
 fn here<T>(value: T) -> Located<T> {
@@ -60,6 +67,7 @@ pub(super) fn written(flat: &FlatSurface, about: &About, formed: &Mannequin) -> 
     file.name = Some(here(about.file.name.clone().unwrap_or_else(|| flat.report.surface.clone())));
     file.body = Some(here(about.body.to_owned()));
     file.fabrics = vec![(here("shell".to_owned()), here(Value::Text(about.fabric.to_owned())))];
+    file.tests = tests(about).into_iter().map(|test| here(TestEntry { test, fabric: None })).collect();
     for (piece, report) in file.pieces.iter_mut().zip(&flat.report.pieces) {
         let own = about.places.iter().find(|(name, _)| *name == report.name);
         piece.place = own.map(|(_, at)| here(placed(about.given, formed, *at)));
@@ -81,6 +89,23 @@ pub(super) fn written(flat: &FlatSurface, about: &About, formed: &Mannequin) -> 
         darts: darts.iter().sum(),
         notes: Vec::new(),
     })
+}
+
+/// What the garment is to keep when it is made: closed seams, nothing that crosses and, on a body, the ease asked for.
+fn tests(about: &About) -> Vec<TestFile> {
+    let mm = |number: f64| here(Quantity { number, unit: Some(Unit::Millimetre) });
+    let mut out = vec![TestFile::Gap(here("all".to_owned()), mm(1.0)), TestFile::Crossings(0)];
+    if about.given.parts.is_empty() {
+        return out;
+    }
+    out.push(TestFile::Worn);
+    let [low, high] = about.reach;
+    let within = about.ease.stations.iter().filter(|(_, y, _)| (low + INSIDE..high - INSIDE).contains(y));
+    out.extend(within.map(|(girth, _, ease)| {
+        let from = (ease * MM - NEAR).max(0.0);
+        TestFile::Ease(here(girth.clone()), Some(mm(from)), Some(mm(ease * MM + NEAR)))
+    }));
+    out
 }
 
 /// Where a panel starts: in words on a body, as a position before an object.
