@@ -1,4 +1,4 @@
-//! Garments drafted on a form: closed forms, refusals, and a bodice that is sewn back.
+//! Garments drafted on a form: closed forms and refusals.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
