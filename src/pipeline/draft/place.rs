@@ -138,8 +138,10 @@ impl Form<'_> {
     /// The middles, by height, that angles of a line's points are seen from.
     fn middle_of(&self, places: &[Vec3], of: Option<&str>) -> Result<impl Fn(f64) -> Vec3 + '_, String> {
         let part = self.part(of)?;
-        let mean = places.iter().sum::<Vec3>() / places.len() as f64;
-        Ok(move |y: f64| part.map_or(Vec3::new(mean.x, y, mean.z), |part| axis(part, y)))
+        // Of the box: points of a section lie as densely as the mesh does.
+        let [low, high] = box_of(places.iter().copied());
+        let middle = 0.5 * (low + high);
+        Ok(move |y: f64| part.map_or(Vec3::new(middle.x, y, middle.z), |part| axis(part, y)))
     }
 
     fn level(&mut self, height: &Length, of: Option<&str>) -> Result<Vec<u32>, String> {
