@@ -89,6 +89,11 @@ pub(super) enum Command {
     Batch(BatchArgs),
     /// Draw jobs for a batch from garments, bodies and fabrics
     Sample(SampleArgs),
+    /// Draft a garment from style lines on a body
+    #[command(after_help = "A file of lines has 'ease', 'lines' (each a 'girth', a 'height', 'round' or 'through' \
+                            points) and 'panels' (a point in each). docs/drafting.md has the rest.\n\n\
+                            Exit codes: 0 written; 2 the input is wrong, nothing is written.")]
+    Draft(DraftArgs),
     /// Alter a garment's pattern and write it as a new garment file
     #[command(after_help = "Exit codes: 0 written; 1 written, but 'toile check' refuses it, which is said: a seam no \
                             longer matches; 2 the input is wrong or an alteration cannot be done, nothing is written.")]
@@ -127,6 +132,23 @@ pub(super) enum Command {
     /// The library of mannequins
     #[command(subcommand)]
     Mannequin(MannequinCommand),
+}
+
+/// Arguments of `draft`.
+#[derive(Debug, clap::Args)]
+pub(super) struct DraftArgs {
+    /// A mannequin, or a .yaml or closed .obj file
+    #[arg(value_name = "BODY")]
+    pub(super) body: String,
+    /// The file of style lines
+    #[arg(value_name = "LINES.yaml")]
+    pub(super) lines: PathBuf,
+    /// The garment file to write
+    #[arg(short, long, value_name = "GARMENT.yaml")]
+    pub(super) output: PathBuf,
+    /// Unit of an .obj body
+    #[arg(long, value_name = "UNIT")]
+    pub(super) body_units: Option<UnitArg>,
 }
 
 /// Arguments of `studio`.

@@ -10,6 +10,7 @@ mod batch_args;
 mod check;
 mod check_mesh;
 mod console;
+mod draft;
 mod exit;
 mod export;
 mod fabric;
@@ -101,6 +102,7 @@ fn run(args: &Args, itself: &[OsString], console: &Console) -> Result<Exit, CliE
         Command::Sample(args) => sample::sample(args, console),
         Command::Studio(args) => studio::studio(args, threads, itself, console),
         Command::Test(args) => test::test(args, console),
+        Command::Draft(args) => draft::draft(args, console),
         Command::Alter(args) => alter::alter(args, console),
         Command::Fit(args) => fit::fit(args, console),
         Command::Export(command) => export::export(command, console),

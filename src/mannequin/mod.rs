@@ -128,10 +128,15 @@ impl Mannequin {
     /// Length of a tape round the body in the plane through `at` square to the unit `axis`, metres. It goes round those
     /// closed curves of the section whose middles satisfy `is_in`. `None` if there are none.
     pub fn tape(&self, at: Vec3, axis: Vec3, is_in: impl Fn(Vec3) -> bool) -> Option<f64> {
-        let loops = slice::slice(&self.mesh, at, axis);
-        let points: Vec<Vec3> = loops.into_iter().filter(|l| is_in(l.center())).flat_map(|l| l.points).collect();
+        let points = self.section_points(at, axis, is_in);
         let across = axis.cross(&Vec3::ith(axis.iamin(), 1.0)).normalize();
         (!points.is_empty()).then(|| slice::tape(&points, across, axis.cross(&across)))
+    }
+
+    /// The points round which [`Self::tape`] goes, in no order, metres.
+    pub fn section_points(&self, at: Vec3, axis: Vec3, is_in: impl Fn(Vec3) -> bool) -> Vec<Vec3> {
+        let loops = slice::slice(&self.mesh, at, axis);
+        loops.into_iter().filter(|l| is_in(l.center())).flat_map(|l| l.points).collect()
     }
 
     /// Height of the floor it stands on, metres. A form without legs hangs or stands on a pole, over no floor that its

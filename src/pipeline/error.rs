@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::across::Across;
 use super::caught::Caught;
+use super::draft::DraftError;
 use super::too_small::TooSmall;
 use crate::drape::DrapeError;
 use crate::fabric::FabricError;
@@ -83,6 +84,9 @@ pub enum PipelineError {
         /// The reason, and what to do.
         why: String,
     },
+    /// Style lines give no pattern.
+    #[error(transparent)]
+    Draft(Box<DraftError>),
     /// The pieces of a surface cannot be written as a garment file.
     #[error(transparent)]
     Encode(#[from] EncodeError),
@@ -170,6 +174,12 @@ pub enum PipelineError {
     Json(#[from] serde_json::Error),
 }
 
+impl From<DraftError> for PipelineError {
+    fn from(error: DraftError) -> Self {
+        Self::Draft(Box::new(error))
+    }
+}
+
 impl PipelineError {
     /// Whether the user must change the input. Otherwise the computation itself failed.
     pub fn is_input(&self) -> bool {
@@ -188,6 +198,7 @@ impl PipelineError {
             | Self::NoDisk { .. }
             | Self::Cut { .. }
             | Self::Drawn { .. }
+            | Self::Draft(_)
             | Self::Gores { .. } => true,
             Self::Surface { source, .. } => !is_breakdown(source),
             Self::Caught(_)

@@ -29,6 +29,8 @@ pub(super) struct NamedEdge {
     pub(super) vertices: Vec<u32>,
     /// The edge it was cut from or is sewn to: index of its part and of the edge in it.
     pub(super) partner: Option<[usize; 2]>,
+    /// Another name for it, in a garment file.
+    pub(super) title: Option<String>,
 }
 
 /// The partner of a rim edge: a part, and its own vertices there.
@@ -77,6 +79,7 @@ pub(super) fn named_edges(parts: &[&Part]) -> Vec<Vec<NamedEdge>> {
                 ring,
                 vertices,
                 partner: None,
+                title: None,
             }));
         }
         all.push(edges);

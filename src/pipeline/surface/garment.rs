@@ -5,7 +5,7 @@ use super::FlatSurface;
 use super::darts::Laid;
 use super::edges::NamedEdge;
 use super::form::FORM_OBJ;
-use crate::geometry::{MM, Vec2};
+use crate::geometry::{Cubic, MM, Vec2, smooth_curves};
 use crate::input::LengthUnit;
 use crate::io::garment::write;
 use crate::pattern::{GarmentFile, Located, NotchFile, OutlineFile, PieceFile, Quantity, SeamFile, Spot, Value};
@@ -16,6 +16,8 @@ const FABRIC: &str = "cotton_poplin";
 const DECIMALS: f64 = 1e4;
 /// Half the length of the grain line, mm.
 const GRAIN: f64 = 50.0;
+/// Distance that a smooth edge keeps from every vertex, mm: what a person can cut.
+const SMOOTH: f64 = 0.1;
 
 fn at_no_place<T>(value: T) -> Located<T> {
     Located::new(value, Spot::default())
@@ -32,10 +34,16 @@ impl FlatSurface {
     /// # Errors
     /// When it cannot be written.
     pub(super) fn garment(&self, on_form: bool) -> Result<String, PipelineError> {
+        write(&self.garment_file(false, on_form)).map_err(PipelineError::Encode)
+    }
+
+    /// As [`Self::garment`], before it is written. With `smooth` the named edges are few smooth curves;
+    /// the legs of a dart, which meet at a sharp tip, stay as they are.
+    pub(in crate::pipeline) fn garment_file(&self, smooth: bool, on_form: bool) -> GarmentFile {
         let names = self.piece_names();
-        let pieces: Vec<PieceFile> = (0..self.laid.len()).map(|k| self.piece_file(k, &names[k])).collect();
+        let pieces: Vec<PieceFile> = (0..self.laid.len()).map(|k| self.piece_file(k, &names[k], smooth)).collect();
         let (seams, free) = self.seams(&names);
-        let file = GarmentFile {
+        GarmentFile {
             version: at_no_place(1),
             name: Some(at_no_place(self.report.surface.clone())),
             about: Vec::new(),
@@ -52,8 +60,31 @@ impl FlatSurface {
             tests: Vec::new(),
             alter: Vec::new(),
             sizes: Vec::new(),
-        };
-        write(&file).map_err(PipelineError::Encode)
+        }
+    }
+
+    /// Names the edges by the vertices of the file that they run through; those without a name keep their numbers.
+    pub(in crate::pipeline) fn name_edges(&mut self, name: &dyn Fn(&[u32]) -> Option<String>) {
+        for (laid, edges) in self.laid.iter().zip(&mut self.edges) {
+            let mut taken: Vec<String> = Vec::new();
+            for edge in edges {
+                let vertices: Vec<u32> = edge.vertices.iter().map(|&v| laid.part.vertices[v as usize]).collect();
+                let Some(given) = name(&vertices) else { continue };
+                let word: String =
+                    given.chars().map(|c| if c.is_alphanumeric() || c == '-' { c } else { '_' }).collect();
+                let stem =
+                    if word.parse::<f64>().is_ok() || word.chars().count() < 2 { format!("line_{word}") } else { word };
+                let again = (2..).map(|n| format!("{stem}_{n}"));
+                let free = std::iter::once(stem.clone()).chain(again).find(|name| !taken.contains(name));
+                taken.extend(free.clone());
+                edge.title = free;
+            }
+        }
+    }
+
+    /// How many darts each piece has.
+    pub(in crate::pipeline) fn darts(&self) -> Vec<usize> {
+        self.laid.iter().map(|laid| laid.darts).collect()
     }
 
     /// Names of the pieces that a garment file takes, each once.
@@ -90,7 +121,7 @@ impl FlatSurface {
         self.ease.cut(self.laid[piece].flat.positions[v as usize]) * MM
     }
 
-    fn piece_file(&self, k: usize, name: &str) -> PieceFile {
+    fn piece_file(&self, k: usize, name: &str, smooth: bool) -> PieceFile {
         let outline = self.outline_of(k);
         let own: Vec<&NamedEdge> = self.edges[k].iter().filter(|e| e.ring == outline).collect();
         let point = |v: u32| {
@@ -104,7 +135,9 @@ impl FlatSurface {
             };
             vertices.iter().map(line).collect::<Vec<_>>().join(" ")
         };
-        let edges = own.iter().map(|e| (at_no_place(edge_name(e)), at_no_place(path(&e.vertices[1..]))));
+        let drawn =
+            |e: &NamedEdge| if smooth && e.title.is_some() { self.curves(k, e) } else { path(&e.vertices[1..]) };
+        let edges = own.iter().map(|e| (at_no_place(edge_name(e)), at_no_place(drawn(e))));
         let start = own.first().map_or([0.0; 2], |e| point(e.vertices[0]));
         let rings = self.edges[k].iter().filter(|e| e.ring != outline).fold(Vec::new(), |mut rings: Vec<_>, edge| {
             match rings.last_mut() {
@@ -132,6 +165,18 @@ impl FlatSurface {
             holes: rings.into_iter().enumerate().map(hole).collect(),
             ..PieceFile::named(at_no_place(name.to_owned()))
         }
+    }
+
+    /// An edge as few smooth curves through its vertices.
+    fn curves(&self, k: usize, edge: &NamedEdge) -> String {
+        let points: Vec<Vec2> = edge.vertices.iter().map(|&v| self.place(k, v)).collect();
+        let straight =
+            |c: &Cubic| distance_to_chord(c[1], [c[0], c[3]]).max(distance_to_chord(c[2], [c[0], c[3]])) < SMOOTH;
+        let at = |p: Vec2| format!("{} {}", rounded(p.x), rounded(p.y));
+        let step = |c: Cubic| {
+            if straight(&c) { format!("L {}", at(c[3])) } else { format!("C {} {} {}", at(c[1]), at(c[2]), at(c[3])) }
+        };
+        smooth_curves(&points, SMOOTH).into_iter().map(step).collect::<Vec<_>>().join(" ")
     }
 
     /// The middle of the box round a piece, mm.
@@ -201,9 +246,18 @@ impl FlatSurface {
 
 /// A name of an edge that a garment file takes: a number alone is none.
 fn edge_name(edge: &NamedEdge) -> String {
+    if let Some(title) = &edge.title {
+        return title.clone();
+    }
     format!("edge{}", edge.name.replace('.', "_"))
 }
 
 fn hole_name(k: usize) -> String {
     format!("hole{}", k + 1)
+}
+
+/// Distance of a point from the line through two others.
+fn distance_to_chord(p: Vec2, [a, b]: [Vec2; 2]) -> f64 {
+    let way = b - a;
+    if way.norm() > 0.0 { way.perp(&(p - a)).abs() / way.norm() } else { (p - a).norm() }
 }
