@@ -29,9 +29,9 @@ impl SewingStep {
     }
 }
 
-/// The seams of a garment in an order in which they can be sewn: stages one after the other, in each of them darts and
-/// pleats before seams, and a seam along several edges after those that bring these together. What is free stands as
-/// in the file.
+/// The seams of a garment in an order in which they can be sewn: by stages, in each of them darts and pleats before
+/// seams. A seam along several edges comes after those that bring these together, whatever their stage. What is free
+/// stands as in the file.
 pub fn sewing_order(garment: &Garment) -> Vec<SewingStep> {
     let groups = groups(garment);
     let mut left: Vec<usize> = (0..groups.len()).collect();
