@@ -7,12 +7,14 @@ use super::console::Console;
 use super::exit::{CliError, Exit};
 use super::make::{borrowed, folder};
 use super::plan::plan;
-use crate::cutting::{DEFAULT_ALLOWANCE, Label, Layout, MarkKind, Narrowed, Options, Paper, SewKind, Sheet, labelled};
+use crate::cutting::{
+    DEFAULT_ALLOWANCE, Label, Layout, MarkKind, Narrowed, Options, Paper, SewKind, Sheet, labelled, sewing_order,
+};
 use crate::geometry::MM;
 use crate::io::dxf_write::cutting_dxf;
 use crate::io::files::write_all;
 use crate::io::garment::Loaded;
-use crate::io::pdf_write::{Page, one_page, tiled, unprintable};
+use crate::io::pdf_write::{Page, booklet, one_page, unprintable};
 use crate::io::svg_write::cutting_svg;
 use crate::pattern::{Drawing, drawings};
 use crate::pipeline::{Overrides, inputs, read_size};
@@ -35,8 +37,8 @@ pub(super) fn export(command: &ExportCommand, console: &Console) -> Result<Exit,
             let job = Job::new(common, console)?;
             job.note_letters(console);
             let pdf = match page {
-                PageArg::A4 => tiled(&job.title, &job.papers, Page::A4),
-                PageArg::Letter => tiled(&job.title, &job.papers, Page::LETTER),
+                PageArg::A4 => booklet(&job.title, &job.papers, &job.steps, Page::A4),
+                PageArg::Letter => booklet(&job.title, &job.papers, &job.steps, Page::LETTER),
                 PageArg::One => one_page(&job.title, &Sheet::new(&job.papers, &one_sheet(*width))),
             };
             let pdf = pdf.map_err(|e| CliError::Argument(e.to_string()))?;
@@ -66,6 +68,8 @@ struct Job<'a> {
     name: String,
     title: String,
     papers: Vec<Paper>,
+    /// The order of sewing, a line per step.
+    steps: Vec<String>,
     /// Files that may not be overwritten.
     inputs: Vec<PathBuf>,
 }
@@ -78,12 +82,13 @@ impl<'a> Job<'a> {
         let papers = labelled(&drawn, &Options { allowance, whole: args.whole }, &label);
         papers.iter().flat_map(narrowed).for_each(|note| console.note(&note));
         let inputs = inputs(&args.garment, &loaded.garment, &Overrides::default());
-        Ok(Self { args, name: loaded.garment.name, title: loaded.garment.title, papers, inputs })
+        let steps = sewing_order(&loaded.garment).iter().map(|step| step.words()).collect();
+        Ok(Self { args, name: loaded.garment.name, title: loaded.garment.title, papers, steps, inputs })
     }
 
     /// Says which letters a PDF cannot print.
     fn note_letters(&self, console: &Console) {
-        let letters = unprintable(&self.title, &self.papers);
+        let letters = unprintable(&self.papers, &[&self.steps[..], std::slice::from_ref(&self.title)].concat());
         if !letters.is_empty() {
             let some: String = letters.iter().take(MOST_LETTERS).collect();
             let more = if letters.len() > MOST_LETTERS { " …" } else { "" };
@@ -98,7 +103,7 @@ impl<'a> Job<'a> {
         let target: PathBuf = self.args.output.clone().unwrap_or_else(usual);
         write_all(&[(target.clone(), bytes)], &borrowed(&self.inputs))?;
         let rows: Vec<Row> = self.papers.iter().map(Row::new).collect();
-        let written = Written { file: target.display().to_string(), pieces: rows };
+        let written = Written { file: target.display().to_string(), pieces: rows, sewing: self.steps.clone() };
         console.results(&written, || written.text())?;
         Ok(Exit::Done)
     }
@@ -168,6 +173,8 @@ pub(super) fn narrowed(paper: &Paper) -> Vec<String> {
 struct Written {
     file: String,
     pieces: Vec<Row>,
+    /// The order of sewing.
+    sewing: Vec<String>,
 }
 
 #[derive(serde::Serialize)]

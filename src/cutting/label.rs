@@ -15,6 +15,11 @@ const CLEARLY: f64 = 1.3;
 const NAME: f64 = 1.4;
 /// Width of a letter of a sans-serif type over its height, on average, with some air.
 pub const LETTER_WIDTH: f64 = 0.62;
+/// Widths of capitals, and of the letters of East Asian scripts, which are as wide as their type is large.
+const CAPITAL_WIDTH: f64 = 0.90;
+const SQUARE_WIDTH: f64 = 1.40;
+/// The first letter of these scripts.
+const FIRST_SQUARE: char = '\u{2e80}';
 /// Distance of lines over the height of letters, and how far some letters reach below their line.
 const LINE: f64 = 1.45;
 const BELOW: f64 = 0.3;
@@ -59,16 +64,24 @@ impl Label {
     }
 }
 
-/// The label of a piece beside its name and count.
-pub(super) struct Words<'a> {
-    /// The allowances of its edges.
-    pub(super) widths: Vec<EdgeWidth<'a>>,
-    /// The garment it belongs to.
-    pub(super) heading: Option<String>,
-    /// Seams, each with the edge that it takes.
-    pub(super) sewn: Vec<(String, &'a Path)>,
-    /// The file's remark.
-    pub(super) note: Option<&'a str>,
+/// What is written on a piece, wherever there is room for it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Words {
+    /// The lines of its label, the name first; the first two are never left out.
+    pub(super) lines: Vec<String>,
+    /// Seams, each with the index in [`Paper::sew`] of an edge that it takes.
+    pub(super) seams: Vec<(usize, String)>,
+}
+
+impl Words {
+    /// The name and the count, what the piece belongs to, the allowances of its edges, and the file's remark.
+    pub(super) fn new(paper: &Paper, heading: Option<String>, widths: &[EdgeWidth], note: Option<&str>) -> Self {
+        let mut lines = vec![paper.name.clone(), format!("{}, {}", paper.count, paper.fabric)];
+        lines.extend(heading);
+        lines.extend(allowances(widths));
+        lines.extend(note.map(|n| crate::input::shown(n.trim(), LONGEST_NOTE)));
+        Self { lines, seams: Vec::new() }
+    }
 }
 
 /// How many are cut.
@@ -81,24 +94,34 @@ pub(super) fn count(cut: &Cut) -> String {
     }
 }
 
-/// The texts on a piece.
-pub(super) fn lettering(paper: &Paper, words: &Words) -> Vec<Lettering> {
-    let mut lines = vec![paper.name.clone(), format!("{}, {}", paper.count, paper.fabric)];
-    lines.extend(words.heading.clone());
-    lines.extend(allowances(&words.widths));
-    lines.extend(words.note.map(|n| crate::input::shown(n.trim(), LONGEST_NOTE)));
+/// The texts on a piece, clear of the `joins` of pages as far as there is room for that.
+pub(super) fn lettering(paper: &Paper, joins: &[[Vec2; 2]]) -> Vec<Lettering> {
+    let lines = &paper.words.lines;
     let mut room = room(paper);
-    let mut texts = elastic(paper, &room);
-    texts.iter().for_each(|t| room.add_wall(&outline(t)));
+    let mut clear = room.clone();
+    clear.walls.extend(joins);
+    let mut texts = elastic(paper, &clear);
+    for text in &texts {
+        [&mut room, &mut clear].into_iter().for_each(|room| room.add_wall(&outline(text)));
+    }
     let sewn = sewn(paper);
-    let inside = wordings(&lines).iter().find_map(|lines| fitted(&room, &sewn, lines));
-    texts.extend(inside.unwrap_or_else(|| under(paper, &lines)));
-    texts.iter().for_each(|t| room.add_wall(&outline(t)));
-    for (seam, edge) in &words.sewn {
-        let text = clear_beside(&room, edge, seam, SEAM);
-        texts.extend(text.inspect(|t| room.add_wall(&outline(t))));
+    let fitted_in = |room: &Room| wordings(lines).iter().find_map(|lines| fitted(room, &sewn, lines));
+    let inside = fitted_in(&clear).or_else(|| fitted_in(&room).filter(|_| !joins.is_empty()));
+    texts.extend(inside.unwrap_or_else(|| under(paper, lines)));
+    texts.iter().for_each(|t| clear.add_wall(&outline(t)));
+    for (line, seam) in &paper.words.seams {
+        let text = clear_beside(&clear, &paper.sew[*line].path, seam, SEAM);
+        texts.extend(text.inspect(|t| clear.add_wall(&outline(t))));
     }
     texts
+}
+
+impl Paper {
+    /// Its lettering moved clear of the `joins` of pages, as far as there is room for that.
+    #[must_use]
+    pub fn lettered_clear_of(&self, joins: &[[Vec2; 2]]) -> Self {
+        Self { texts: lettering(self, joins), ..self.clone() }
+    }
 }
 
 /// The lines one under the other, or all in one, for narrow pieces; then without the last, as far as they are not
@@ -132,10 +155,20 @@ fn under(paper: &Paper, lines: &[String]) -> Vec<Lettering> {
     write(lines, Vec2::new(low.x, high.y) + size / 2.0, BESIDE, false)
 }
 
+/// Width of a line over the height of its letters.
+fn wide(line: &str) -> f64 {
+    let letter = |c: char| match c {
+        FIRST_SQUARE.. => SQUARE_WIDTH,
+        'm' | 'w' | '@' | '%' => CAPITAL_WIDTH,
+        c if c.is_uppercase() => CAPITAL_WIDTH,
+        _ => LETTER_WIDTH,
+    };
+    line.chars().map(letter).sum()
+}
+
 /// Width and height of lines over the height of their letters.
 fn block(lines: &[String]) -> Vec2 {
-    let wide =
-        |(i, line): (usize, &String)| line.chars().count() as f64 * LETTER_WIDTH * if i == 0 { NAME } else { 1.0 };
+    let wide = |(i, line): (usize, &String)| wide(line) * if i == 0 { NAME } else { 1.0 };
     let below = if lines.len() == 1 { NAME * BELOW } else { BELOW };
     let high = NAME + (lines.len() as f64 - 1.0) * LINE + below;
     Vec2::new(lines.iter().enumerate().map(wide).fold(1.0, f64::max), high)
@@ -226,7 +259,7 @@ fn clear_beside(room: &Room, path: &Path, text: &str, height: f64) -> Option<Let
 
 /// The middle and the size of a text's box beside a line, at a share of its length, and whether it is turned.
 fn place_beside(path: &Path, text: &str, height: f64, share: f64, side: f64) -> (Vec2, Vec2, bool) {
-    let wide = text.chars().count() as f64 * LETTER_WIDTH * height;
+    let wide = wide(text) * height;
     let t = path.tangent(path.length() * share);
     let upright = t.y.abs() > t.x.abs();
     let size = if upright { Vec2::new(height, wide) } else { Vec2::new(wide, height) } * (1.0 / AIR_BESIDE);
@@ -238,7 +271,7 @@ fn place_beside(path: &Path, text: &str, height: f64, share: f64, side: f64) -> 
 
 /// The box round a text with its air, as a line.
 pub(super) fn outline(text: &Lettering) -> [Vec2; 5] {
-    let wide = text.text.chars().count() as f64 * LETTER_WIDTH * text.height / AIR / 2.0;
+    let wide = wide(&text.text) * text.height / AIR / 2.0;
     let corner = |along: f64, up: f64| {
         let (along, up) = (along * wide, up * text.height);
         text.at + if text.upright { Vec2::new(up, along) } else { Vec2::new(along, -up) }

@@ -7,6 +7,10 @@ use crate::geometry::Vec2;
 
 /// Side of the square to measure after printing, metres.
 pub const TEST_SQUARE: f64 = 0.100;
+/// Side of the square beside it, for those who measure in inches: two of them, in metres.
+pub const INCH_SQUARE: f64 = 0.0508;
+/// Space between the two squares, metres.
+pub const SQUARE_GAP: f64 = 0.010;
 /// Space between papers, metres: room for scissors.
 const GAP: f64 = 0.010;
 /// A sheet of free width is about this much wider than a square of the papers' boxes, which leaves it roughly as high
@@ -20,7 +24,7 @@ pub struct Layout {
     pub width: Option<f64>,
     /// Empty rim, metres.
     pub margin: f64,
-    /// Whether a corner is kept for the test square.
+    /// Whether a corner is kept for the test squares.
     pub square: bool,
 }
 
@@ -31,7 +35,7 @@ pub struct Sheet {
     pub size: Vec2,
     /// The papers.
     pub papers: Vec<Paper>,
-    /// Upper left corner of the test square, if there is one.
+    /// Upper left corner of the test square, if there is one; that in inches is to its right.
     pub square: Option<Vec2>,
     /// Stretches of cloth on which the papers lie, in a cutting plan.
     pub cloth: Vec<Cloth>,
@@ -58,7 +62,7 @@ impl Sheet {
     pub fn new(papers: &[Paper], layout: &Layout) -> Self {
         let mut sizes: Vec<Vec2> = papers.iter().map(|p| p.extent()[1] - p.extent()[0]).collect();
         if layout.square {
-            sizes.push(Vec2::repeat(TEST_SQUARE));
+            sizes.push(Vec2::new(TEST_SQUARE + SQUARE_GAP + INCH_SQUARE, TEST_SQUARE));
         }
         let width = layout.width.map(|w| w - 2.0 * layout.margin);
         let (corners, size) = shelves(&sizes, width, GAP);

@@ -14,15 +14,17 @@ mod offset;
 mod outline;
 mod plan;
 mod room;
+mod sewing;
 mod walls;
 mod whole;
 
-pub use label::{LETTER_WIDTH, Label};
-pub use layout::{CLOTH_LETTERS, Cloth, Layout, Sheet, TEST_SQUARE, shelves};
+pub use label::{LETTER_WIDTH, Label, Words};
+pub use layout::{CLOTH_LETTERS, Cloth, INCH_SQUARE, Layout, SQUARE_GAP, Sheet, TEST_SQUARE, shelves};
 pub use marks::{arrow, grain_arrow};
 pub use outline::{labelled, papers};
 pub use plan::{Laid, Plan, PlanError, PlanOptions, plan_sheet, plans};
 pub use room::{Room, foot};
+pub use sewing::{SewingStep, sewing_order};
 
 use nalgebra::Matrix2;
 
@@ -79,6 +81,8 @@ pub struct Paper {
     pub marks: Vec<Mark>,
     /// Points to be marked through all layers: ends of darts, buttons.
     pub drills: Vec<(String, Vec2)>,
+    /// What is written on it.
+    pub words: Words,
     /// Its lettering.
     pub texts: Vec<Lettering>,
     /// Allowances of holes for which these are too small.
@@ -201,6 +205,11 @@ impl Paper {
             texts: self.texts.iter().map(|t| Lettering { at: to(t.at), ..t.clone() }).collect(),
             ..self.clone()
         }
+    }
+
+    /// The boxes round its lettering, each by its least and greatest coordinates.
+    pub fn lettered(&self) -> impl Iterator<Item = [Vec2; 2]> + '_ {
+        self.texts.iter().map(|text| box_or_origin(label::outline(text)))
     }
 
     /// Least and greatest coordinates of its cut lines.

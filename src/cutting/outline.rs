@@ -4,12 +4,12 @@ use nalgebra::Matrix2;
 
 use super::clean::double_area;
 use super::corner::Wish;
-use super::label::{self, Label};
+use super::label::{self, Label, Words};
 use super::marks;
 use super::offset::{Between, Border, around, around_unfolded, sewn_mouths, within};
 use super::room::Room;
 use super::whole;
-use super::{Lettering, Narrowed, Options, Paper, SewKind, SewLine};
+use super::{Narrowed, Options, Paper, SewKind, SewLine};
 use crate::geometry::{Path, Vec2, range_of};
 use crate::pattern::{Corner, Cut, Dart, Drawing, DrawnEdge};
 
@@ -41,8 +41,8 @@ fn laid_out(drawings: &[Drawing], options: &Options, label: Option<&Label>) -> V
                 .map(|paper| {
                     let mut paper = upright(paper);
                     let heading = label.map(|label| label.line(number + 1, drawings.len()));
-                    paper.texts = lettering(&paper, &rule, heading);
-                    paper
+                    paper.words = words(&paper, &rule, heading);
+                    paper.lettered_clear_of(&[])
                 })
                 .collect::<Vec<_>>()
         })
@@ -168,6 +168,7 @@ fn paper(rule: &Rule) -> Paper {
         grain,
         marks: marks::marks(drawing, fold),
         drills: marks::drills(drawing),
+        words: Words::default(),
         texts: Vec::new(),
         narrowed: rule.narrowed(),
     }
@@ -253,7 +254,8 @@ fn sew_lines(drawing: &Drawing, mouths: &[Vec<Vec2>]) -> Vec<SewLine> {
     lines
 }
 
-fn lettering(paper: &Paper, rule: &Rule, heading: Option<String>) -> Vec<Lettering> {
+/// What is written on a paper: with a `heading`, also the seams of its edges.
+fn words(paper: &Paper, rule: &Rule, heading: Option<String>) -> Words {
     let drawing = rule.drawing;
     let width = |(r, i): (usize, usize)| {
         let edge = &drawing.rings[r][i];
@@ -263,10 +265,17 @@ fn lettering(paper: &Paper, rule: &Rule, heading: Option<String>) -> Vec<Letteri
     let holes = rule.hole_edges().map(width).filter(|w| w.width > 0.0);
     let widths: Vec<label::EdgeWidth> = outline.map(width).chain(holes).collect();
     let seams = |name: &str| {
-        let named = drawing.rings.iter().flatten().find(|edge| edge.name == name);
+        let named = drawing.rings.iter().flatten().find(|edge| is_of(name, &edge.name));
         named.map(|edge| edge.seams.join(", ")).filter(|seams| !seams.is_empty())
     };
-    let sewn = paper.sew.iter().filter(|_| heading.is_some()).filter_map(|line| Some((seams(&line.name)?, &line.path)));
-    let sewn: Vec<(String, &Path)> = sewn.collect();
-    label::lettering(paper, &label::Words { widths, heading, sewn, note: drawing.note.as_deref() })
+    let with_seams = heading.is_some();
+    let mut words = Words::new(paper, heading, &widths, drawing.note.as_deref());
+    let sewn = paper.sew.iter().enumerate().filter(|_| with_seams);
+    words.seams = sewn.filter_map(|(k, line)| Some((k, seams(&line.name)?))).collect();
+    words
+}
+
+/// Whether a line belongs to an edge: it has its name, or that with the side of an opened piece.
+fn is_of(line: &str, edge: &str) -> bool {
+    line.strip_prefix(edge).is_some_and(|rest| ["", ".L", ".R"].contains(&rest))
 }

@@ -3,7 +3,9 @@
 use pdf_writer::{Content, Name, Str};
 
 use super::POINTS;
-use crate::cutting::{CLOTH_LETTERS, Cloth, MarkKind, Paper, SewKind, Sheet, TEST_SQUARE, grain_arrow};
+use crate::cutting::{
+    CLOTH_LETTERS, Cloth, INCH_SQUARE, MarkKind, Paper, SQUARE_GAP, SewKind, Sheet, TEST_SQUARE, grain_arrow,
+};
 use crate::geometry::{Path, Vec2};
 
 /// Widths of lines, points: what is cut, and everything else.
@@ -28,6 +30,22 @@ const WIDTHS: [u16; 95] = [
 const OTHER_WIDTH: u16 = 556;
 /// Height of the capitals of Helvetica over its size.
 const CAPITALS: f64 = 0.72;
+
+/// The materials of papers, in their order: a layer each.
+pub(super) fn materials(papers: &[Paper]) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    for paper in papers {
+        if !names.contains(&paper.fabric.as_str()) {
+            names.push(&paper.fabric);
+        }
+    }
+    names
+}
+
+/// The name by which pages speak of a layer.
+pub(super) fn layer_name(layer: usize) -> String {
+    format!("M{layer}")
+}
 
 /// A page being drawn on; positions are metres from the upper left corner of what it shows, y down.
 pub(super) struct Pen {
@@ -128,14 +146,20 @@ impl Pen {
     /// The parts of a sheet that lie in the box from `low` to `high`, or touch it.
     pub(super) fn sheet(&mut self, sheet: &Sheet, [low, high]: [Vec2; 2]) {
         sheet.cloth.iter().for_each(|cloth| self.cloth(cloth));
+        let materials = materials(&sheet.papers);
         for paper in &sheet.papers {
             let [least, greatest] = paper.extent();
             if (0..2).all(|k| least[k] <= high[k] && greatest[k] >= low[k]) {
+                let layer = materials.iter().position(|m| *m == paper.fabric).unwrap_or(0);
+                let name = layer_name(layer);
+                self.content.begin_marked_content_with_properties(Name(b"OC")).properties_named(Name(name.as_bytes()));
                 self.paper(paper);
+                self.content.end_marked_content();
             }
         }
         if let Some(corner) = sheet.square {
             self.square(corner);
+            self.inch_square(corner + Vec2::new(TEST_SQUARE + SQUARE_GAP, 0.0));
         }
     }
 
@@ -154,10 +178,18 @@ impl Pen {
 
     /// The square to measure.
     pub(super) fn square(&mut self, corner: Vec2) {
-        let side = TEST_SQUARE;
+        self.measured(corner, TEST_SQUARE, "100 mm");
+    }
+
+    /// The square to measure in inches.
+    pub(super) fn inch_square(&mut self, corner: Vec2) {
+        self.measured(corner, INCH_SQUARE, "2 inches");
+    }
+
+    fn measured(&mut self, corner: Vec2, side: f64, words: &str) {
         let corners = [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)];
         self.closed(&corners.map(|(x, y)| corner + Vec2::new(x, y)), true);
-        self.text("100 mm", corner + Vec2::repeat(side / 2.0), 0.005, true, false);
+        self.text(words, corner + Vec2::repeat(side / 2.0), 0.005, true, false);
     }
 
     fn paper(&mut self, paper: &Paper) {

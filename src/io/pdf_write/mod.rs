@@ -1,14 +1,17 @@
 //! Patterns for cutting as PDF: pages to be joined, or one page; the only user of pdf-writer.
 //!
-//! Sizes are true: one millimetre is 72/25.4 points, no scaling. Lettering is in Helvetica, which every reader has, and
-//! in the letters it has (Windows code page 1252).
+//! Every material is a layer (optional content) that readers switch on and off. Sizes are true: one millimetre is
+//! 72/25.4 points, no scaling. Lettering is in Helvetica, which every reader has, and in the letters it has (Windows
+//! code page 1252).
 
+mod cover;
 mod draw;
 mod pages;
 
+use pdf_writer::writers::Catalog;
 use pdf_writer::{Content, Finish as _, Name, Pdf, Rect, Ref, TextStr};
 
-pub use pages::{one_page, tiled};
+pub use pages::{booklet, one_page, tiled};
 
 use crate::cutting::Paper;
 
@@ -59,33 +62,56 @@ pub enum PdfError {
     },
 }
 
-/// The letters of what is written on papers that the PDF's font has not, each once; they are printed as `?`.
-pub fn unprintable(title: &str, papers: &[Paper]) -> Vec<char> {
+/// The letters of what is written on papers, and of `more`, that the PDF's font has not, each once; they are printed as
+/// `?`.
+pub fn unprintable(papers: &[Paper], more: &[String]) -> Vec<char> {
     let texts =
         papers.iter().flat_map(|paper| paper.texts.iter().map(|t| t.text.as_str()).chain([paper.name.as_str()]));
-    let mut letters: Vec<char> = texts.chain([title]).flat_map(draw::unprintable).collect();
+    let mut letters: Vec<char> = texts.chain(more.iter().map(String::as_str)).flat_map(draw::unprintable).collect();
     letters.sort_unstable();
     letters.dedup();
     letters
 }
 
-/// Pages of one size as a PDF file. The same pages give the same bytes.
-fn document(title: &str, [width, height]: [f64; 2], pages: Vec<Content>) -> Vec<u8> {
+/// Pages of one size as a PDF file, with the `layers` that their content is marked with. The same pages give the
+/// same bytes.
+fn document(title: &str, [width, height]: [f64; 2], pages: Vec<Content>, layers: &[&str]) -> Vec<u8> {
     let mut pdf = Pdf::new();
     let (catalog, tree, font, info) = (Ref::new(1), Ref::new(2), Ref::new(3), Ref::new(4));
     let id = |k: usize, of: usize| Ref::new((5 + 2 * k + of) as i32);
-    pdf.catalog(catalog).pages(tree);
+    let layer = |k: usize| id(pages.len(), k);
+    let shown: Vec<Ref> = (0..layers.len()).map(layer).collect();
+    with_layers(pdf.catalog(catalog).pages(tree), &shown);
+    for (name, id) in layers.iter().zip(&shown) {
+        let mut group = pdf.indirect(*id).dict();
+        group.pair(Name(b"Type"), Name(b"OCG"));
+        group.pair(Name(b"Name"), TextStr(name));
+    }
     pdf.pages(tree).kids((0..pages.len()).map(|k| id(k, 0))).count(pages.len() as i32);
     let name = Name(b"F");
     for (k, content) in pages.into_iter().enumerate() {
         let mut page = pdf.page(id(k, 0));
         page.media_box(Rect::new(0.0, 0.0, (width * POINTS) as f32, (height * POINTS) as f32));
         page.parent(tree).contents(id(k, 1));
-        page.resources().fonts().pair(name, font);
+        let mut resources = page.resources();
+        resources.fonts().pair(name, font);
+        let mut properties = resources.insert(Name(b"Properties")).dict();
+        for (k, id) in shown.iter().enumerate() {
+            properties.pair(Name(draw::layer_name(k).as_bytes()), *id);
+        }
+        properties.finish();
+        resources.finish();
         page.finish();
         pdf.stream(id(k, 1), &content.finish());
     }
     pdf.type1_font(font).base_font(Name(b"Helvetica")).encoding_predefined(Name(b"WinAnsiEncoding"));
     pdf.document_info(info).title(TextStr(title)).producer(TextStr(concat!("toile ", env!("CARGO_PKG_VERSION"))));
     pdf.finish()
+}
+
+/// Lists layers, all of them shown, in the document's catalogue (ISO 32000-1, 8.11.4).
+fn with_layers(catalog: &mut Catalog, layers: &[Ref]) {
+    let mut properties = catalog.insert(Name(b"OCProperties")).dict();
+    properties.insert(Name(b"OCGs")).array().items(layers.iter().copied());
+    properties.insert(Name(b"D")).dict().insert(Name(b"Order")).array().items(layers.iter().copied());
 }

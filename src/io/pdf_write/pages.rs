@@ -2,9 +2,10 @@
 
 use pdf_writer::Content;
 
-use super::draw::{Pen, lines};
+use super::cover::{cover, sewing};
+use super::draw::{Pen, lines, materials};
 use super::{LONGEST_SIDE, POINTS, Page, PdfError, document};
-use crate::cutting::{LETTER_WIDTH, Layout, Paper, Sheet, TEST_SQUARE};
+use crate::cutting::{Layout, Paper, Sheet};
 use crate::geometry::Vec2;
 
 /// The margin that home printers leave white at every side, metres, with a little to spare.
@@ -17,12 +18,8 @@ const MATCH: f64 = 0.004;
 const TOUCH: f64 = 2.5e-4;
 /// More pages than this are a wrong unit.
 const MOST_PAGES: usize = 600;
-/// Points of the outline nearer than this (metres) are one on the plan.
-const MAP_DETAIL: f64 = 0.003;
-/// Most letters of a title on the first page.
-const LONGEST_TITLE: usize = 80;
 /// Letters of the first page and of the pages' names, metres.
-const LETTERS: f64 = 0.0035;
+pub(super) const LETTERS: f64 = 0.0035;
 
 /// One page that holds the whole sheet.
 ///
@@ -34,7 +31,7 @@ pub fn one_page(title: &str, sheet: &Sheet) -> Result<Vec<u8>, PdfError> {
     }
     let mut pen = Pen::new(sheet.size.y, Vec2::zeros());
     pen.sheet(sheet, [Vec2::zeros(), sheet.size]);
-    Ok(document(title, [sheet.size.x, sheet.size.y], vec![pen.finish()]))
+    Ok(document(title, [sheet.size.x, sheet.size.y], vec![pen.finish()], &materials(&sheet.papers)))
 }
 
 /// Pages to be joined: the first has the test square, the plan of the pages and what to cut; then a page for every
@@ -46,23 +43,33 @@ pub fn one_page(title: &str, sheet: &Sheet) -> Result<Vec<u8>, PdfError> {
 /// # Errors
 /// [`PdfError::TooMany`].
 pub fn tiled(title: &str, papers: &[Paper], page: Page) -> Result<Vec<u8>, PdfError> {
+    booklet(title, papers, &[], page)
+}
+
+/// As [`tiled`], with the order of sewing, a line per `step`, on pages behind the first. Labels are moved clear of
+/// the frames along which pages are joined, as far as the pieces have room.
+///
+/// # Errors
+/// As [`tiled`].
+pub fn booklet(title: &str, papers: &[Paper], steps: &[String], page: Page) -> Result<Vec<u8>, PdfError> {
     let frame = Vec2::new(page.width, page.height) - Vec2::repeat(2.0 * MARGIN + OVERLAP);
-    let plan = Plan::new(papers, frame)?;
+    let plan = Plan::new(papers, frame)?.with_clear_labels();
     let mut pages = vec![cover(title, papers, &plan, page)];
+    pages.extend(sewing(steps, page));
     for row in 0..plan.rows {
         for column in (0..plan.columns).filter(|&c| plan.is_used(row, c)) {
             pages.push(tile(&plan, row, column, page));
         }
     }
-    Ok(document(title, [page.width, page.height], pages))
+    Ok(document(title, [page.width, page.height], pages, &materials(&plan.sheet.papers)))
 }
 
 /// A sheet cut into fields.
-struct Plan {
-    sheet: Sheet,
-    frame: Vec2,
-    columns: usize,
-    rows: usize,
+pub(super) struct Plan {
+    pub(super) sheet: Sheet,
+    pub(super) frame: Vec2,
+    pub(super) columns: usize,
+    pub(super) rows: usize,
     used: Vec<bool>,
 }
 
@@ -95,16 +102,30 @@ impl Plan {
         plan
     }
 
-    fn pages(&self) -> usize {
+    /// The plan with the labels of its pieces off the lines between fields.
+    fn with_clear_labels(mut self) -> Self {
+        let frame = self.frame;
+        let is_cut =
+            |[low, high]: [Vec2; 2]| (0..2).any(|k| (low[k] / frame[k]).floor() < (high[k] / frame[k]).floor());
+        for paper in &mut self.sheet.papers {
+            if paper.lettered().any(is_cut) {
+                *paper = paper.lettered_clear_of(&joins(paper.extent(), frame));
+            }
+        }
+        self.used = self.drawn_on();
+        self
+    }
+
+    pub(super) fn pages(&self) -> usize {
         self.used.iter().filter(|used| **used).count()
     }
 
-    fn is_used(&self, row: usize, column: usize) -> bool {
+    pub(super) fn is_used(&self, row: usize, column: usize) -> bool {
         self.used[row * self.columns + column]
     }
 
     /// Upper left corner of a field.
-    fn corner(&self, row: usize, column: usize) -> Vec2 {
+    pub(super) fn corner(&self, row: usize, column: usize) -> Vec2 {
         Vec2::new(column as f64, row as f64).component_mul(&self.frame)
     }
 
@@ -137,6 +158,17 @@ impl Plan {
     }
 }
 
+/// The lines between fields that run through a box.
+fn joins([low, high]: [Vec2; 2], frame: Vec2) -> Vec<[Vec2; 2]> {
+    let between = |k: usize| {
+        let [first, last] = [low[k], high[k]].map(|x| (x / frame[k]).floor().max(0.0) as usize);
+        (first + 1..=last).map(move |i| i as f64 * frame[k])
+    };
+    let upright = between(0).map(|x| [Vec2::new(x, low.y), Vec2::new(x, high.y)]);
+    let level = between(1).map(|y| [Vec2::new(low.x, y), Vec2::new(high.x, y)]);
+    upright.chain(level).collect()
+}
+
 fn fields(length: f64, of: f64) -> usize {
     // A hair over the edge of a field is rounding.
     ((length / of - 1e-9).ceil() as usize).max(1)
@@ -161,7 +193,7 @@ fn segment_meets(a: Vec2, b: Vec2, low: Vec2, high: Vec2) -> bool {
 }
 
 /// `B3`: row, then column from 1.
-fn field_name(row: usize, column: usize) -> String {
+pub(super) fn field_name(row: usize, column: usize) -> String {
     let mut letters = String::new();
     let mut rest = row + 1;
     while rest > 0 {
@@ -240,60 +272,6 @@ fn above(row: usize, column: usize) -> String {
     field_name(row.saturating_sub(1), column)
 }
 
-fn cover(title: &str, papers: &[Paper], plan: &Plan, page: Page) -> Content {
-    let mut pen = Pen::new(page.height, Vec2::repeat(0.015));
-    let mut line = 0.006;
-    let mut write = |pen: &mut Pen, words: &str, height: f64| {
-        pen.text(words, Vec2::new(0.0, line), height, false, false);
-        line += 1.7 * height;
-    };
-    let title = crate::input::shown(title, LONGEST_TITLE);
-    let fitting = (page.width - 0.030) / (LETTER_WIDTH * title.chars().count().max(1) as f64);
-    write(&mut pen, &title, fitting.min(0.006));
-    let how = format!("{} pages of {}, {} rows of {}", plan.pages(), page.name, plan.rows, plan.columns);
-    write(&mut pen, &how, LETTERS);
-    write(&mut pen, "Print at 100 % (actual size). The square must measure 100 mm both ways.", LETTERS);
-    write(&mut pen, "Cut each page along the frame at its right and lower side, and lay it on the next", LETTERS);
-    write(&mut pen, "frame on frame: equal marks meet in a diamond.", LETTERS);
-    let below = line + 0.004;
-    pen.square(Vec2::new(0.0, below));
-    let mut line = below + TEST_SQUARE + 0.012;
-    let room = page.height - 0.030;
-    for paper in papers {
-        if line > room {
-            break;
-        }
-        let words = format!("{}: {}, {}", paper.name, paper.count, paper.fabric);
-        pen.text(&crate::input::shown(&words, 50), Vec2::new(0.0, line), LETTERS, false, false);
-        line += 1.7 * LETTERS;
-    }
-    let corner = Vec2::new(TEST_SQUARE + 0.010, below);
-    map(&mut pen, plan, corner, Vec2::new(page.width - 0.030 - corner.x, page.height - 0.030 - corner.y));
-    pen.finish()
-}
-
-/// The plan of the pages with the pieces on it, small.
-fn map(pen: &mut Pen, plan: &Plan, corner: Vec2, room: Vec2) {
-    let whole = Vec2::new(plan.columns as f64, plan.rows as f64).component_mul(&plan.frame);
-    let scale = (room.component_div(&whole)).min();
-    let at = |p: Vec2| corner + p * scale;
-    for row in 0..plan.rows {
-        for column in (0..plan.columns).filter(|&c| plan.is_used(row, c)) {
-            let (low, high) = (plan.corner(row, column), plan.corner(row + 1, column + 1));
-            let corners = [low, Vec2::new(high.x, low.y), high, Vec2::new(low.x, high.y)];
-            pen.closed(&corners.map(at), true);
-            let middle = at((low + high) / 2.0);
-            let letters = LETTERS.min(plan.frame.x * scale / 4.0);
-            pen.text(&field_name(row, column), middle, letters, true, false);
-        }
-    }
-    for contour in plan.sheet.papers.iter().flat_map(|p| &p.cut) {
-        let mut points = contour.clone();
-        points.dedup_by(|b, a| (*b - *a).norm() < MAP_DETAIL);
-        pen.closed(&points.into_iter().map(at).collect::<Vec<_>>(), true);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -316,6 +294,7 @@ mod tests {
             grain: [middle, middle - Vec2::new(0.0, 0.01)],
             marks: Vec::new(),
             drills: Vec::new(),
+            words: crate::cutting::Words::default(),
             texts: Vec::new(),
             narrowed: Vec::new(),
         }

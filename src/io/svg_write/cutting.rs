@@ -1,15 +1,19 @@
 //! Patterns for cutting as SVG.
 //!
-//! A group per piece with its name as id; classes `cut` (solid), `sew` (dashed; ids `piece.edge`), `fold`, `notch`,
-//! `grain`, `line`, `drill` and `text`; the test square in a group of class `scale`. What a piece is cut from stands in
-//! `data-material` and, where it is a fabric of the library, `data-fabric` of its group. A notch runs from the cut
-//! line to the sewing line or, by way of a point there, beyond; `data-notch` says what it belongs to, `data-edge` where
-//! it is; `data-corner` how the allowance of an edge ends, where the file says so.
+//! A layer per material, and in it a group per piece with its name as id; classes `cut` (solid), `sew` (dashed; ids
+//! `piece.edge`), `fold`, `notch`, `grain`, `line`, `drill` and `text`; the test squares in groups of class `scale`.
+//! What a piece is cut from stands in `data-material` and, where it is a fabric of the library, `data-fabric` of its
+//! group. A notch runs from the cut line to the sewing line or, by way of a point there, beyond; `data-notch` says what
+//! it belongs to, `data-edge` where it is; `data-corner` how the allowance of an edge ends, where the file says so.
 
 use svg::node::element::{Circle, Group, Path, Text, Title};
 
-use super::{centered, document, identifier, number, polyline, printable, square, stroke, told_notch, with_kind};
-use crate::cutting::{CLOTH_LETTERS, Cloth, Lettering, MarkKind, NotchMark, Paper, SewKind, Sheet, grain_arrow};
+use super::{
+    centered, document, identifier, inch_square, number, polyline, printable, square, stroke, told_notch, with_kind,
+};
+use crate::cutting::{
+    CLOTH_LETTERS, Cloth, Lettering, MarkKind, NotchMark, Paper, SQUARE_GAP, SewKind, Sheet, TEST_SQUARE, grain_arrow,
+};
 use crate::geometry::{MM, Vec2};
 
 /// Widths of lines, mm: what is cut, and everything else.
@@ -22,17 +26,40 @@ const LETTERS: f64 = 6.0;
 
 /// The sheet as SVG text; `title` is the garment's name.
 pub fn cutting_svg(title: &str, sheet: &Sheet) -> String {
-    let mut document = document(sheet.size * MM).add(Title::new(printable(title)));
+    let inkscape = "http://www.inkscape.org/namespaces/inkscape";
+    let mut document = document(sheet.size * MM).set("xmlns:inkscape", inkscape).add(Title::new(printable(title)));
     for cloth in &sheet.cloth {
         document = document.add(stretch(cloth));
     }
-    for paper in &sheet.papers {
-        document = document.add(draw(paper));
+    for layer in layers(&sheet.papers) {
+        document = document.add(layer);
     }
     if let Some(corner) = sheet.square {
         document = document.add(square(corner * MM, LETTERS));
+        let beside = corner + Vec2::new(TEST_SQUARE + SQUARE_GAP, 0.0);
+        document = document.add(inch_square(beside * MM, LETTERS));
     }
     document.to_string()
+}
+
+/// A layer, as Inkscape has them, with the papers of each material.
+fn layers(papers: &[Paper]) -> Vec<Group> {
+    let mut materials: Vec<&str> = Vec::new();
+    for paper in papers {
+        if !materials.contains(&paper.fabric.as_str()) {
+            materials.push(&paper.fabric);
+        }
+    }
+    let drawn = |(k, material): (usize, &&str)| {
+        let own = papers.iter().filter(|paper| paper.fabric == **material);
+        own.fold(layer(k + 1, material), |group, paper| group.add(draw(paper)))
+    };
+    materials.iter().enumerate().map(drawn).collect()
+}
+
+fn layer(number: usize, material: &str) -> Group {
+    let group = Group::new().set("id", format!("layer{number}")).set("inkscape:groupmode", "layer");
+    group.set("inkscape:label", format!("material {}", printable(material)))
 }
 
 /// A stretch of cloth: its edges, its fold, and what it is.

@@ -12,7 +12,7 @@ use svg::node::element::{Group, Path, Rectangle, Text};
 pub use cutting::cutting_svg;
 pub use flat::{PatternSvgError, outline_svg, pattern_svg};
 
-use crate::cutting::TEST_SQUARE;
+use crate::cutting::{INCH_SQUARE, TEST_SQUARE};
 use crate::geometry::{Cubic, MM, Vec2};
 use crate::pattern::{LineKind, NotchKind};
 
@@ -27,15 +27,25 @@ fn document(size: Vec2) -> Document {
 /// The test square with its upper left corner at `corner`, mm.
 fn square(corner: Vec2, letters: f64) -> Group {
     let side = TEST_SQUARE * MM;
+    measured(corner, side, &format!("{side} mm"), letters)
+}
+
+/// The test square for those who measure in inches.
+fn inch_square(corner: Vec2, letters: f64) -> Group {
+    measured(corner, INCH_SQUARE * MM, "2 inches", letters)
+}
+
+/// A square of a side that is to be measured, mm.
+fn measured(corner: Vec2, side: f64, words: &str, letters: f64) -> Group {
     let square = Rectangle::new()
         .set("x", number(corner.x))
         .set("y", number(corner.y))
-        .set("width", side)
-        .set("height", side)
+        .set("width", number(side))
+        .set("height", number(side))
         .set("fill", "none")
         .set("stroke", "black")
         .set("stroke-width", 0.3);
-    let label = text(&format!("{side} mm"), corner + Vec2::new(letters, side / 2.0), letters);
+    let label = text(words, corner + Vec2::new(letters, side / 2.0), letters);
     Group::new().set("class", "scale").add(square).add(label)
 }
 
