@@ -143,7 +143,7 @@ fn wrong_lines_are_refused_by_name() {
     let height = refused("height", "{on: top, angle: 90}", "{angle: 90}");
     assert!(height.contains("line 'left'") && height.contains("no height"), "{height}");
     let tube = refused("tube", "  right: {through: [{on: bottom, angle: -90}, {on: top, angle: -90}]}\n", "");
-    assert!(tube.contains("overlaps"), "{tube}");
+    assert!(tube.contains("panel 'front'") && tube.contains("2 rims"), "{tube}");
     let unknown = refused("unknown", "top: {height: 350}", "top: {level: 350}");
     assert!(unknown.contains("unknown field"), "{unknown}");
 }

@@ -531,8 +531,9 @@ fn panels_are_placed_by_where_they_are() {
 fn halves_of_circle_skirts_are_placed_by_where_they_are() {
     let half = |z: f64, turned: bool| {
         let line = |a: usize, b: usize| json!({"endpoints": [a, b]});
-        let arc = |a: usize, b: usize, radius: f64, sweep: usize| json!({"endpoints": [a, b], "curvature": {"type": "circle", "params": [radius, 0, sweep]}});
-        let edges = [line(0, 1), arc(1, 2, 40.0, 1), line(2, 3), arc(3, 0, 12.0, 0)];
+        let circle = |radius: f64, sweep: usize| json!({"type": "circle", "params": [radius, 0, sweep]});
+        let arc = |a: usize, b: usize, circle: Value| json!({"endpoints": [a, b], "curvature": circle});
+        let edges = [line(0, 1), arc(1, 2, circle(40.0, 1)), line(2, 3), arc(3, 0, circle(12.0, 0))];
         json!({
             "translation": [0.0, 100.0, z], "rotation": [0, 0, 0],
             "vertices": [[-12.0, 0.0], [-40.0, 0.0], [40.0, 0.0], [12.0, 0.0]],
