@@ -37,8 +37,8 @@ impl FlatSurface {
         write(&self.garment_file(false, on_form)).map_err(PipelineError::Encode)
     }
 
-    /// As [`Self::garment`], before it is written. With `smooth` the named edges are few smooth curves;
-    /// the legs of a dart, which meet at a sharp tip, stay as they are.
+    /// As [`Self::garment`], before it is written. With `smooth` the named edges are few smooth curves, and those
+    /// without a name, the legs of darts, are straight.
     pub(in crate::pipeline) fn garment_file(&self, smooth: bool, on_form: bool) -> GarmentFile {
         let names = self.piece_names();
         let pieces: Vec<PieceFile> = (0..self.laid.len()).map(|k| self.piece_file(k, &names[k], smooth)).collect();
@@ -135,8 +135,12 @@ impl FlatSurface {
             };
             vertices.iter().map(line).collect::<Vec<_>>().join(" ")
         };
-        let drawn =
-            |e: &NamedEdge| if smooth && e.title.is_some() { self.curves(k, e) } else { path(&e.vertices[1..]) };
+        let drawn = |e: &NamedEdge| match (smooth, &e.title) {
+            (false, _) => path(&e.vertices[1..]),
+            (true, Some(_)) => self.curves(k, e),
+            // Near the tip the legs of a dart are nearer to each other than either is to its straight line.
+            (true, None) => path(&e.vertices[e.vertices.len() - 1..]),
+        };
         let edges = own.iter().map(|e| (at_no_place(edge_name(e)), at_no_place(drawn(e))));
         let start = own.first().map_or([0.0; 2], |e| point(e.vertices[0]));
         let rings = self.edges[k].iter().filter(|e| e.ring != outline).fold(Vec::new(), |mut rings: Vec<_>, edge| {
