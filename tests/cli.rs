@@ -1034,13 +1034,13 @@ fn the_next_dart_goes_into_the_part_that_is_strained_most() {
 }
 
 #[test]
-fn darts_end_where_they_bring_nothing_and_never_make_a_piece_lie_on_itself() {
+fn darts_end_where_there_is_no_place_and_never_make_a_piece_lie_on_itself() {
     let room = Room::new();
     room.put("deep.obj", &domes(&[("deep", 300.0), ("steep", 90.0)]));
     let args = ["flatten", "deep.obj", "-o", "flat", "--json", "--units", "mm", "--dart", "60", "--limit", "5"];
-    let report = room.run(&args).ends(0).says(&["'deep'", "brings hardly anything", "--cut"]).json();
+    let report = room.run(&args).ends(0).says(&["'deep'", "no place for a dart", "--cut"]).json();
     let [deep, steep] = [0, 1].map(|k| &report["pieces"][k]);
-    assert_eq!((&deep["overlaps"], &deep["darts_stopped"]), (&Value::from(0), &Value::from("no_gain")));
+    assert_eq!((&deep["overlaps"], &deep["darts_stopped"]), (&Value::from(0), &Value::from("no_place")));
     // The other gets what it needs all the same.
     assert_eq!(steep["darts_stopped"], Value::Null);
     let cut = [deep, steep].map(|piece| piece["darts"].as_u64().expect("a count"));

@@ -342,7 +342,6 @@ fn remedy(piece: &PartReport, options: &SurfaceOptions) -> String {
             in_two(piece)
         ),
         Some(DartStop::Overlap) => format!("relieve it most, but make it lie on itself; {}", in_two(piece)),
-        Some(DartStop::NoGain) => format!("relieve it most, but brings hardly anything; {}", in_two(piece)),
         None | Some(DartStop::NoPlace) => format!("no place for a dart can be told; {}", in_two(piece)),
     };
     let cut = match piece.darts {

@@ -25,7 +25,8 @@ const LONGEST_HANDLE: f64 = 2.0 / 3.0;
 /// Number of points below which both end directions of a curve are prescribed. A free curve through few points hooks
 /// aside at its ends.
 const FREE: usize = 7;
-/// A free end whose handle is further aside from the points than this cosine (60°) hooks, and gets the points' direction.
+/// A free end whose handle is further aside from the points than this cosine (60°) hooks. It gets the direction of
+/// the points.
 const ASIDE: f64 = 0.5;
 /// Points on each side of a joint from which its direction is estimated.
 const REACH: usize = 4;
@@ -226,8 +227,8 @@ mod tests {
         assert_eq!(smooth_curves(&line, 1e-6).len(), 1);
     }
 
-    /// The top of a bodice beside a dart: noise of a tenth of a millimetre at its first points drew the handle back over
-    /// the dart.
+    /// The top of a bodice beside a dart: noise of a tenth of a millimetre at its first points drew the handle back
+    /// over the dart.
     #[test]
     fn a_curve_never_leaves_its_first_point_backwards() {
         let height = |k: i32| if k % 2 == 0 { 0.1 } else { -0.1 } * f64::from(3 - k.min(3));

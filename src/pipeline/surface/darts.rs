@@ -47,8 +47,6 @@ pub enum DartStop {
     NoneLeft,
     /// With the next the flat piece would lie on itself, or more so.
     Overlap,
-    /// The next leaves hardly less strain.
-    NoGain,
     /// Nothing says where the next would help: no place has cloth to spare.
     NoPlace,
 }
@@ -199,8 +197,8 @@ fn is_worth_a_cut(cut: &Laid, whole: &Laid) -> bool {
 
 /// Lays all parts flat and cuts the darts that `source.options` asks for: even ones into round parts, all the others
 /// one by one, the next always into the part that is strained most, until all are within the limit or so many are cut.
-/// A dart that brings nothing, or would make a flat piece lie on itself, is not cut, and its part gets no other;
-/// `sheet` has those that are.
+/// A dart that would make a flat piece lie on itself is not cut, and its part gets no other; `sheet` has those that
+/// are.
 pub(super) fn with_darts(source: &Source<'_>, sheet: &mut Sheet) -> Result<Outcome, PipelineError> {
     let mut out = source.lay_all(sheet)?;
     let Some(darts) = source.options.darts else { return Ok(out) };
@@ -210,9 +208,6 @@ pub(super) fn with_darts(source: &Source<'_>, sheet: &mut Sheet) -> Result<Outco
         && let Some(k) = source.neediest(&out.laid)
     {
         match source.with_next_dart(&out.laid[k], sheet) {
-            Some((cut, _)) if cut.lies_as_well_as(&out.laid[k]) && !cut.gains_on(&out.laid[k]) => {
-                out.laid[k].stop = Some(DartStop::NoGain);
-            }
             Some((cut, cuts)) if cut.lies_as_well_as(&out.laid[k]) => {
                 (out.laid[k], *sheet) = (cut, cuts);
                 left -= 1;
@@ -238,14 +233,6 @@ impl Laid {
     pub(super) fn lies_as_well_as(&self, before: &Self) -> bool {
         let (own, other) = (&self.flat.report, &before.flat.report);
         own.overlaps <= other.overlaps && (own.rim_missed.is_none() || other.rim_missed.is_some())
-    }
-
-    /// Whether a dart was worth its seam: it lowers the strain of the worst hundredth, or of the whole.
-    fn gains_on(&self, before: &Self) -> bool {
-        /// Share that must be left at most: cutting and sewing a dart moves cloth by as much.
-        const LEFT: f64 = 0.98;
-        let (own, other) = (&self.flat.report, &before.flat.report);
-        own.strain_p99 < LEFT * other.strain_p99 || own.distortion < LEFT * other.distortion
     }
 
     /// Says why a part beyond the limit got no further dart.
