@@ -206,6 +206,8 @@ def test_progress_is_told_and_other_threads_run(skirt: Path) -> None:
 
 def test_ctrl_c_and_what_progress_raises_end_the_work(skirt: Path) -> None:
     garment = toile.Garment.load(skirt)
+    # A shell starts what runs behind it with Ctrl-C ignored.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     begin = time.monotonic()
     threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT)).start()
     with pytest.raises(KeyboardInterrupt):
