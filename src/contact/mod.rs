@@ -31,7 +31,7 @@ pub use cloth::{ClothDetector, Neighbourhood};
 #[cfg(test)]
 pub(crate) use cut::tests::spike;
 use narrow::{closest_on_lines, on_plane};
-pub use narrow::{closest_on_segments, closest_on_triangle};
+pub use narrow::{closest_on_segments, closest_on_triangle, nearest_on_surface};
 pub use skin::Skin;
 pub use swept::{Hit, swept_point_triangle};
 pub use tangle::Tangle;

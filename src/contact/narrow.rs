@@ -1,10 +1,25 @@
 //! Closest points between points, segments and triangles.
 
-use crate::geometry::Vec3;
+use crate::geometry::{TriMesh, Vec3};
 
 /// Whether two boxes (low and high corner of each) have nothing in common.
 pub(super) fn apart(low: Vec3, high: Vec3, other_low: Vec3, other_high: Vec3) -> bool {
     (0..3).any(|k| other_high[k] < low[k] || other_low[k] > high[k])
+}
+
+/// The triangle of a surface nearest to a point, the weights of its corners at the nearest place, and the distance,
+/// metres. Every triangle is tried.
+pub fn nearest_on_surface(surface: &TriMesh, p: Vec3) -> (usize, [f64; 3], f64) {
+    let mut best = (0, [1.0, 0.0, 0.0], f64::INFINITY);
+    for t in 0..surface.triangles.len() {
+        let [a, b, c] = surface.corners(t);
+        let weights = closest_on_triangle(p, a, b, c);
+        let far = (a * weights[0] + b * weights[1] + c * weights[2] - p).norm();
+        if far < best.2 {
+            best = (t, weights, far);
+        }
+    }
+    best
 }
 
 /// Barycentric coordinates of the point of triangle `abc` closest to `p` (Ericson, *Real-Time Collision Detection*,

@@ -64,7 +64,7 @@ impl Label {
     }
 }
 
-/// What is written on a piece, wherever there is room for it.
+/// The words on a piece; each is written where there is room for it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Words {
     /// The lines of its label, the name first; the first two are never left out.

@@ -49,6 +49,17 @@ impl Default for Options {
     }
 }
 
+/// The materials of papers, each once, in the order of the papers.
+pub fn materials(papers: &[Paper]) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    for paper in papers {
+        if !names.contains(&paper.fabric.as_str()) {
+            names.push(&paper.fabric);
+        }
+    }
+    names
+}
+
 /// A piece on paper.
 #[derive(Clone, Debug)]
 pub struct Paper {
@@ -81,7 +92,7 @@ pub struct Paper {
     pub marks: Vec<Mark>,
     /// Points to be marked through all layers: ends of darts, buttons.
     pub drills: Vec<(String, Vec2)>,
-    /// What is written on it.
+    /// The words on it.
     pub words: Words,
     /// Its lettering.
     pub texts: Vec<Lettering>,

@@ -254,7 +254,7 @@ fn sew_lines(drawing: &Drawing, mouths: &[Vec<Vec2>]) -> Vec<SewLine> {
     lines
 }
 
-/// What is written on a paper: with a `heading`, also the seams of its edges.
+/// The words on a paper: with a `heading`, also the seams of its edges.
 fn words(paper: &Paper, rule: &Rule, heading: Option<String>) -> Words {
     let drawing = rule.drawing;
     let width = |(r, i): (usize, usize)| {

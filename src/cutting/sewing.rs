@@ -30,8 +30,8 @@ impl SewingStep {
 }
 
 /// The seams of a garment in an order in which they can be sewn: by stages, in each of them darts and pleats before
-/// seams. A seam along several edges comes after those that bring these together, whatever their stage. What is free
-/// stands as in the file.
+/// seams. A seam along several edges comes after those that bring these together, whatever their stage. All
+/// others keep the order of the file.
 pub fn sewing_order(garment: &Garment) -> Vec<SewingStep> {
     let groups = groups(garment);
     let mut left: Vec<usize> = (0..groups.len()).collect();

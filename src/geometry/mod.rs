@@ -24,7 +24,7 @@ pub(crate) use extent::{box_of, box_or_origin, range_of};
 pub use fit::{Cubic, smooth_curves};
 pub(crate) use locator::Locator;
 pub(crate) use polygon::{diagonals_of, triangles_of};
-pub(crate) use polyline::{encloses, mirrored, shares_along, sides_of};
+pub(crate) use polyline::{encloses, half_hull, mirrored, shares_along, sides_of};
 pub(crate) use predicate::pierces;
 pub(crate) use segment::{distance_to_segment, nearest_on_segment};
 pub(crate) use sets::DisjointSets;

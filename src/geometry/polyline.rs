@@ -14,6 +14,22 @@ pub(crate) fn shares_along(points: impl IntoIterator<Item = Vec2>) -> Option<Vec
     (whole > 0.0).then(|| walked.into_iter().map(|way| way / whole).collect())
 }
 
+/// The right-turning chain over points sorted by x, then y (or the other way round): one half of their convex hull,
+/// clockwise where y is up, with both ends.
+pub(crate) fn half_hull(points: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
+    let mut hull: Vec<Vec2> = Vec::new();
+    for p in points {
+        while let [.., a, b] = hull[..] {
+            if (b - a).perp(&(p - a)) < 0.0 {
+                break;
+            }
+            hull.pop();
+        }
+        hull.push(p);
+    }
+    hull
+}
+
 /// The sides of a polygon.
 pub(crate) fn sides_of(points: &[Vec2]) -> impl Iterator<Item = [Vec2; 2]> + '_ {
     points.iter().zip(points.iter().cycle().skip(1)).map(|(a, b)| [*a, *b])

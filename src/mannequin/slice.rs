@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::geometry::{DisjointSets, TriMesh, Vec3, box_of};
+use crate::geometry::{DisjointSets, TriMesh, Vec2, Vec3, box_of, half_hull};
 
 /// One closed curve of a cut.
 #[derive(Clone, Debug)]
@@ -65,24 +65,14 @@ pub(super) fn slice(mesh: &TriMesh, at: Vec3, axis: Vec3) -> Vec<Loop> {
 
 /// Length of a tape round `points` in the plane spanned by `u` and `v`: their convex hull's perimeter.
 pub(super) fn tape(points: &[Vec3], u: Vec3, v: Vec3) -> f64 {
-    let mut flat: Vec<(f64, f64)> = points.iter().map(|p| (p.dot(&u), p.dot(&v))).collect();
-    flat.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let mut flat: Vec<Vec2> = points.iter().map(|p| Vec2::new(p.dot(&u), p.dot(&v))).collect();
+    flat.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let upper = chain(flat.iter().copied());
     let lower = chain(flat.iter().rev().copied());
     upper + lower
 }
 
-/// Length of the right-turning chain over sorted points: one half of their hull.
-fn chain(points: impl Iterator<Item = (f64, f64)>) -> f64 {
-    let mut hull: Vec<(f64, f64)> = Vec::new();
-    for p in points {
-        while let [.., a, b] = hull[..] {
-            if (b.0 - a.0) * (p.1 - a.1) - (b.1 - a.1) * (p.0 - a.0) < 0.0 {
-                break;
-            }
-            hull.pop();
-        }
-        hull.push(p);
-    }
-    hull.windows(2).map(|w| (w[1].0 - w[0].0).hypot(w[1].1 - w[0].1)).sum()
+/// Length of one half of the hull of sorted points.
+fn chain(points: impl Iterator<Item = Vec2>) -> f64 {
+    half_hull(points).windows(2).map(|w| (w[1].x - w[0].x).hypot(w[1].y - w[0].y)).sum()
 }

@@ -4,7 +4,7 @@ use pdf_writer::{Content, Name, Str};
 
 use super::POINTS;
 use crate::cutting::{
-    CLOTH_LETTERS, Cloth, INCH_SQUARE, MarkKind, Paper, SQUARE_GAP, SewKind, Sheet, TEST_SQUARE, grain_arrow,
+    CLOTH_LETTERS, Cloth, INCH_SQUARE, MarkKind, Paper, SQUARE_GAP, SewKind, Sheet, TEST_SQUARE, grain_arrow, materials,
 };
 use crate::geometry::{Path, Vec2};
 
@@ -30,17 +30,6 @@ const WIDTHS: [u16; 95] = [
 const OTHER_WIDTH: u16 = 556;
 /// Height of the capitals of Helvetica over its size.
 const CAPITALS: f64 = 0.72;
-
-/// The materials of papers, in their order: a layer each.
-pub(super) fn materials(papers: &[Paper]) -> Vec<&str> {
-    let mut names: Vec<&str> = Vec::new();
-    for paper in papers {
-        if !names.contains(&paper.fabric.as_str()) {
-            names.push(&paper.fabric);
-        }
-    }
-    names
-}
 
 /// The name by which pages speak of a layer.
 pub(super) fn layer_name(layer: usize) -> String {

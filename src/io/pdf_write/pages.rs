@@ -3,9 +3,9 @@
 use pdf_writer::Content;
 
 use super::cover::{cover, sewing};
-use super::draw::{Pen, lines, materials};
+use super::draw::{Pen, lines};
 use super::{LONGEST_SIDE, POINTS, Page, PdfError, document};
-use crate::cutting::{Layout, Paper, Sheet};
+use crate::cutting::{Layout, Paper, Sheet, materials};
 use crate::geometry::Vec2;
 
 /// The margin that home printers leave white at every side, metres, with a little to spare.

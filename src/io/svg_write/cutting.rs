@@ -2,8 +2,8 @@
 //!
 //! A layer per material, and in it a group per piece with its name as id; classes `cut` (solid), `sew` (dashed; ids
 //! `piece.edge`), `fold`, `notch`, `grain`, `line`, `drill` and `text`; the test squares in groups of class `scale`.
-//! What a piece is cut from stands in `data-material` and, where it is a fabric of the library, `data-fabric` of its
-//! group. A notch runs from the cut line to the sewing line or, by way of a point there, beyond; `data-notch` says what
+//! A piece's group names its material in `data-material` and, where it is a fabric of the library, in `data-fabric`.
+//! A notch runs from the cut line to the sewing line or, by way of a point there, beyond; `data-notch` says what
 //! it belongs to, `data-edge` where it is; `data-corner` how the allowance of an edge ends, where the file says so.
 
 use svg::node::element::{Circle, Group, Path, Text, Title};
@@ -13,6 +13,7 @@ use super::{
 };
 use crate::cutting::{
     CLOTH_LETTERS, Cloth, Lettering, MarkKind, NotchMark, Paper, SQUARE_GAP, SewKind, Sheet, TEST_SQUARE, grain_arrow,
+    materials,
 };
 use crate::geometry::{MM, Vec2};
 
@@ -44,17 +45,11 @@ pub fn cutting_svg(title: &str, sheet: &Sheet) -> String {
 
 /// A layer, as Inkscape has them, with the papers of each material.
 fn layers(papers: &[Paper]) -> Vec<Group> {
-    let mut materials: Vec<&str> = Vec::new();
-    for paper in papers {
-        if !materials.contains(&paper.fabric.as_str()) {
-            materials.push(&paper.fabric);
-        }
-    }
     let drawn = |(k, material): (usize, &&str)| {
         let own = papers.iter().filter(|paper| paper.fabric == **material);
         own.fold(layer(k + 1, material), |group, paper| group.add(draw(paper)))
     };
-    materials.iter().enumerate().map(drawn).collect()
+    materials(papers).iter().enumerate().map(drawn).collect()
 }
 
 fn layer(number: usize, material: &str) -> Group {

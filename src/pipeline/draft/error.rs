@@ -3,7 +3,7 @@
 use crate::fabric::FabricError;
 use crate::io::body::BodyError;
 
-/// What is wrong with a draft, and what to do.
+/// The fault of a draft, and how to mend it.
 #[derive(Debug, thiserror::Error)]
 pub enum DraftError {
     /// The file of lines cannot be read.

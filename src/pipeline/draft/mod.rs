@@ -62,7 +62,8 @@ pub fn draft(body: &str, unit: Option<LengthUnit>, lines: &Path) -> Result<Draft
     let formed = shell(&read.mannequin, &ease);
     let (form, named) = drawn(&file, &shown, &read.mannequin, &formed)?;
     let wrong = |(panel, why): (String, String)| DraftError::Panel { file: shown.clone(), panel, why };
-    let regions = panels::chosen(&form.skin, &named).map_err(wrong)?;
+    let regions = panels::regions(&form.skin);
+    let chosen = panels::chosen(&form.skin, &regions, &named).map_err(wrong)?;
     let fabric = file.fabric.as_deref().unwrap_or(FABRIC);
     let options = SurfaceOptions {
         unit: Some(LengthUnit::Metre),
@@ -73,7 +74,7 @@ pub fn draft(body: &str, unit: Option<LengthUnit>, lines: &Path) -> Result<Draft
         limit: Limit::of(&fabric::load(fabric).map_err(DraftError::from)?),
         ..SurfaceOptions::default()
     };
-    let faces = grouped(&form.skin, &named, &regions);
+    let faces = grouped(&form.skin, &named, &regions, &chosen);
     let heights = || faces.faces.iter().flatten().map(|&v| faces.vertices[v as usize].y);
     let reach = [heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max)];
     let mut flat = flatten_faces(lines, faces, &options)?;
@@ -151,9 +152,8 @@ fn darts_of(file: Option<&DartsFile>) -> Result<Darts, String> {
     }
 }
 
-/// The panels as groups of faces.
-fn grouped(skin: &Skin, named: &[(String, Vec3)], chosen: &[u32]) -> ObjFaces {
-    let regions = panels::regions(skin);
+/// The panels as groups of faces, each of the region `chosen` for it.
+fn grouped(skin: &Skin, named: &[(String, Vec3)], regions: &[u32], chosen: &[u32]) -> ObjFaces {
     let mut faces = ObjFaces {
         vertices: skin.mesh.vertices.clone(),
         groups: named.iter().map(|(name, _)| name.clone()).collect(),
@@ -180,7 +180,7 @@ fn is_trunk(kind: PartKind) -> bool {
     matches!(kind, PartKind::Torso | PartKind::Neck)
 }
 
-/// What a tape reads at a girth of the form and of the body, metres.
+/// By how much the form is longer round a girth than the body, as a tape reads both, metres.
 fn grown(body: &Mannequin, formed: &Mannequin, girth: &str) -> Option<f64> {
     Some(tape(formed, girth)? - tape(body, girth)?)
 }

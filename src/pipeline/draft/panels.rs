@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::place::Form;
 use super::skin::Skin;
+use crate::contact::nearest_on_surface;
 use crate::geometry::{DisjointSets, MM, Topology, Vec3, rim_loops, sorted_pair};
 
 /// Regions between the lines: of every triangle the one that stands for its region.
@@ -44,12 +45,11 @@ pub(super) fn loose_end(form: &Form) -> Option<(String, String)> {
     None
 }
 
-/// The region of every panel, by a point in it.
-pub(super) fn chosen(skin: &Skin, panels: &[(String, Vec3)]) -> Result<Vec<u32>, (String, String)> {
-    let regions = regions(skin);
+/// The region of every panel, by a point in it; `regions` as [`regions`] gives them.
+pub(super) fn chosen(skin: &Skin, regions: &[u32], panels: &[(String, Vec3)]) -> Result<Vec<u32>, (String, String)> {
     let mut out: Vec<u32> = Vec::new();
     for (name, at) in panels {
-        let region = regions[skin.nearest(*at).0];
+        let region = regions[nearest_on_surface(&skin.mesh, *at).0];
         if let Some(k) = out.iter().position(|other| *other == region) {
             let why = format!("overlaps panel '{}': no line lies between their points; draw one", panels[k].0);
             return Err((name.clone(), why));

@@ -2,7 +2,8 @@
 
 use super::file::{Length, LineFile, PointFile};
 use super::skin::{Line, Skin};
-use crate::geometry::{MM, Vec3, box_of};
+use crate::contact::nearest_on_surface;
+use crate::geometry::{MM, Vec3, box_of, nearest_on_segment};
 use crate::mannequin::{BodyPart, Mannequin};
 
 /// A line that ends this near to another one ends on it, metres.
@@ -80,10 +81,9 @@ impl Form<'_> {
     pub(super) fn point(&self, point: &PointFile) -> Result<Vec3, String> {
         if let Some(at) = point.at {
             let p = Vec3::from(at) / MM;
-            let (t, w) = self.skin.nearest(p);
+            let (t, w, far) = nearest_on_surface(&self.skin.mesh, p);
             let [a, b, c] = self.skin.mesh.corners(t);
             let on = a * w[0] + b * w[1] + c * w[2];
-            let far = (on - p).norm();
             return if far <= OFF {
                 Ok(on)
             } else {
@@ -201,9 +201,8 @@ impl Form<'_> {
         let sides = others.flat_map(|l| l.chain.windows(2).map(move |w| (l, w)));
         let near = sides.map(|(line, w)| {
             let (a, b) = (self.skin.at(w[0]), self.skin.at(w[1]));
-            let along = b - a;
-            let on = a + along * ((p - a).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
-            (on, (on - p).norm(), line.name.as_str())
+            let (share, far) = nearest_on_segment(p, [a, b]);
+            (a.lerp(&b, share), far, line.name.as_str())
         });
         near.min_by(|a, b| a.1.total_cmp(&b.1))
     }

@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::geometry::{Vec2, Vec3, distance_to_segment};
+use crate::geometry::{Vec2, Vec3, bisect, distance_to_segment, half_hull, sides_of};
 use crate::mannequin::{BodyPart, Mannequin, PartKind};
 
 /// Distance between levels, metres.
@@ -59,44 +59,25 @@ impl Level {
 
     /// Where a ray from the middle leaves the hull moved out by `off`.
     fn out(&self, way: Vec2, off: f64) -> Vec2 {
-        let lift = |p: Vec2| Vec3::new(p.x, p.y, 0.0);
         let far = |p: Vec2| {
-            let n = self.hull.len();
-            let inside = (0..n).all(|k| (self.hull[(k + 1) % n] - self.hull[k]).perp(&(p - self.hull[k])) >= 0.0);
-            let side = |k: usize| distance_to_segment(lift(p), [lift(self.hull[k]), lift(self.hull[(k + 1) % n])]);
-            let least = (0..n).map(side).fold(f64::INFINITY, f64::min);
+            let inside = sides_of(&self.hull).all(|[a, b]| (b - a).perp(&(p - a)) >= 0.0);
+            let least = sides_of(&self.hull).map(|side| distance_to_segment(p, side)).fold(f64::INFINITY, f64::min);
             if inside { -least } else { least }
         };
-        let (mut low, mut high) = (0.0, 2.0);
         /// Halvings of two metres to less than a nanometre.
         const HALVINGS: usize = 32;
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if far(self.center + way * middle) < off { low = middle } else { high = middle }
-        }
-        self.center + way * low
+        self.center + way * bisect([0.0, 2.0], HALVINGS, |reach| far(self.center + way * reach) - off)
     }
 }
 
 /// The convex hull, counter-clockwise.
 fn hull(mut points: Vec<Vec2>) -> Vec<Vec2> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    let half = |points: &mut dyn Iterator<Item = Vec2>| {
-        let mut out: Vec<Vec2> = Vec::new();
-        for p in points {
-            while let [.., a, b] = out[..] {
-                if (b - a).perp(&(p - a)) > 0.0 {
-                    break;
-                }
-                out.pop();
-            }
-            out.push(p);
-        }
-        out.pop();
-        out
-    };
-    let mut out = half(&mut points.iter().copied());
-    out.extend(half(&mut points.iter().rev().copied()));
+    let mut out = half_hull(points.iter().copied());
+    out.pop();
+    out.extend(half_hull(points.iter().rev().copied()));
+    out.pop();
+    out.reverse();
     out
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::contact::closest_on_triangle;
+use crate::contact::nearest_on_surface;
 use crate::flatten::line::{Spot, Web, plane_section, straightened};
 use crate::flatten::{Solid, shortest_path};
 use crate::geometry::{TriMesh, Vec3, sorted_pair};
@@ -30,20 +30,6 @@ impl Skin {
         self.mesh.vertices[v as usize]
     }
 
-    /// The triangle nearest to a point, and the weights of its corners there.
-    pub(super) fn nearest(&self, p: Vec3) -> (usize, [f64; 3]) {
-        let mut best = (0, [1.0, 0.0, 0.0], f64::INFINITY);
-        for t in 0..self.mesh.triangles.len() {
-            let [a, b, c] = self.mesh.corners(t);
-            let w = closest_on_triangle(p, a, b, c);
-            let far = (a * w[0] + b * w[1] + c * w[2] - p).norm_squared();
-            if far < best.2 {
-                best = (t, w, far);
-            }
-        }
-        (best.0, best.1)
-    }
-
     /// Where a ray leaves the surface first.
     pub(super) fn ray(&self, from: Vec3, way: Vec3) -> Option<Vec3> {
         let mut best: Option<f64> = None;
@@ -69,7 +55,7 @@ impl Skin {
 
     /// The vertex at the point of the surface nearest to `p`, a new one where there is none.
     pub(super) fn vertex_at(&mut self, p: Vec3) -> u32 {
-        let (t, weights) = self.nearest(p);
+        let (t, weights, _) = nearest_on_surface(&self.mesh, p);
         let spot = Web::new(&self.mesh).on_side(&self.mesh, t as u32, weights);
         self.split(&[spot])[0]
     }

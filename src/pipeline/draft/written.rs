@@ -44,7 +44,7 @@ pub struct DraftedEase {
     pub drafted: f64,
 }
 
-/// What a garment file says besides its pieces.
+/// All that a garment file says besides its pieces.
 pub(super) struct About<'a> {
     pub(super) file: &'a LinesFile,
     /// As the user named it.
@@ -91,7 +91,7 @@ pub(super) fn written(flat: &FlatSurface, about: &About, formed: &Mannequin) -> 
     })
 }
 
-/// What the garment is to keep when it is made: closed seams, nothing that crosses and, on a body, the ease asked for.
+/// Bounds that the garment keeps when it is made: closed seams, no crossing and, on a body, the ease asked for.
 fn tests(about: &About) -> Vec<TestFile> {
     let mm = |number: f64| here(Quantity { number, unit: Some(Unit::Millimetre) });
     let mut out = vec![TestFile::Gap(here("all".to_owned()), mm(1.0)), TestFile::Crossings(0)];

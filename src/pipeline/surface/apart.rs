@@ -19,7 +19,7 @@ const GORES: [usize; 7] = [2, 3, 4, 6, 8, 12, 16];
 
 /// Lays all parts flat with the darts that are asked for and, where these are not enough, what cures them:
 /// a part that would lie on itself is cut in two, if its halves do so less; where darts leave more strain than
-/// `--max-strain` allows, a part is cut into gores or in two. What does not help is not cut.
+/// `--max-strain` allows, a part is cut into gores or in two. A cut that does not help is not made.
 pub(super) fn laid_apart(source: &Source<'_>, sheet: &mut Sheet) -> Result<Outcome, PipelineError> {
     let mut before = sheet.clone();
     let mut out = with_darts(source, sheet)?;

@@ -8,7 +8,7 @@ use super::even::local;
 use super::parts::Part;
 use super::report::CutWhy;
 use super::sheet::Sheet;
-use crate::contact::closest_on_triangle;
+use crate::contact::nearest_on_surface;
 use crate::flatten::line::Web;
 use crate::flatten::{Solid, shortest_path};
 use crate::geometry::{Topology, Vec3, distance_to_segment, nearest_on_segment};
@@ -60,7 +60,7 @@ fn draw(sheet: &mut Sheet, places: &[Vec3]) -> Result<(), String> {
 /// The part that most points of a line are nearest to.
 fn part_of(sheet: &Sheet, places: &[Vec3]) -> Result<usize, String> {
     let parts = sheet.parts();
-    let far = |part: &Part, p: Vec3| nearest(part, p).2;
+    let far = |part: &Part, p: Vec3| nearest_on_surface(&part.surface, p).2;
     let nearest_part = |p: Vec3| {
         let all: Vec<f64> = parts.iter().map(|part| far(part, p)).collect();
         (0..all.len()).min_by(|&a, &b| all[a].total_cmp(&all[b]))
@@ -79,26 +79,12 @@ fn part_of(sheet: &Sheet, places: &[Vec3]) -> Result<usize, String> {
     }
 }
 
-/// The triangle of a part nearest to a point, the weights of its corners there, and the distance.
-fn nearest(part: &Part, p: Vec3) -> (usize, [f64; 3], f64) {
-    let mut best = (0, [1.0, 0.0, 0.0], f64::INFINITY);
-    for t in 0..part.surface.triangles.len() {
-        let [a, b, c] = part.surface.corners(t);
-        let weights = closest_on_triangle(p, a, b, c);
-        let far = (a * weights[0] + b * weights[1] + c * weights[2] - p).norm();
-        if far < best.2 {
-            best = (t, weights, far);
-        }
-    }
-    best
-}
-
 /// The vertex at the point of a part nearest to `place`, a new one where there is none. The end of a line that is near
 /// the rim lies on it.
 fn vertex_at(sheet: &mut Sheet, number: usize, place: Vec3, is_end: bool) -> u32 {
     let part = sheet.parts().swap_remove(number);
     let web = Web::new(&part.surface);
-    let (triangle, weights, _) = nearest(&part, place);
+    let (triangle, weights, _) = nearest_on_surface(&part.surface, place);
     let mut spot = web.on_side(&part.surface, triangle as u32, weights);
     if is_end {
         let topology = Topology::new(&part.surface.triangles);
