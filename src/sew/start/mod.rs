@@ -71,7 +71,7 @@ use sections::sections;
 use star::GluedPart;
 
 /// Garments start on a mesh of this spacing, metres, whatever is asked for: it costs a second or two, and a finer one
-/// starts no better.
+/// starts no better on the average.
 pub const SPACING: f64 = 0.025;
 
 /// A hood or a collar is on this share of the nodes of its rim. The tips of fronts may be on it besides.
@@ -81,18 +81,28 @@ const ALL_ROUND: f64 = 0.8;
 /// `collider` is the body's surface. `None` where it is not clear which part passes through which opening, or a part of
 /// the garment has no opening that anything passes through.
 pub fn start(garment: &Garment, to: &ClothMesh, body: &Mannequin, collider: &Collider) -> Option<Vec<Vec3>> {
-    let mesh = mesh::build(garment, SPACING).ok()?;
-    let stages = Dealt::stages(garment, &mesh, body);
+    start_on(&mesh::build(garment, SPACING).ok()?, garment, to, body, collider)
+}
+
+/// [`start`] on another mesh of the garment than that of [`SPACING`].
+pub(crate) fn start_on(
+    mesh: &ClothMesh,
+    garment: &Garment,
+    to: &ClothMesh,
+    body: &Mannequin,
+    collider: &Collider,
+) -> Option<Vec<Vec3>> {
+    let stages = Dealt::stages(garment, mesh, body);
     if stages.iter().any(|stage| stage.doubt.is_some()) {
         return None;
     }
     let dealt = stages.last()?;
     let axes = Axes::of(body);
-    let level = dealt.levels(garment, &mesh);
-    let mut nodes = dealt.on_film(garment, &mesh, &axes, |film| dealt.inflated(&mesh, film, &axes, collider))?;
+    let level = dealt.levels(garment, mesh);
+    let mut nodes = dealt.on_film(garment, mesh, &axes, |film| dealt.inflated(mesh, film, &axes, collider))?;
     outside::put_outside(&mut nodes, &dealt.glued.triangles, &level, &axes);
-    let x = hand_over::particles(garment, &mesh, &dealt.glued, &nodes);
-    Some(Transfer::new(&mesh, to).apply(&x))
+    let x = hand_over::particles(garment, mesh, &dealt.glued, &nodes);
+    Some(Transfer::new(mesh, to).apply(&x))
 }
 
 /// A glued garment on the film between its openings.
