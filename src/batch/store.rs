@@ -201,6 +201,11 @@ impl Store {
         opened.and_then(|mut file| file.write_all(&index_text(lines))).map_err(|e| fault(&path, e))
     }
 
+    /// The work folder of this process, which is there as long as the store is open.
+    pub fn work(&self) -> &Path {
+        &self.work
+    }
+
     /// The path of an index.
     pub fn index(&self, name: &str) -> PathBuf {
         self.root.join(name)
