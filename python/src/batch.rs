@@ -72,7 +72,7 @@ pub(crate) fn read_list(py: Python<'_>, list: PathBuf) -> PyResult<Vec<String>> 
 /// The same jobs with whole paths and an id each, if all of them are right. Their paths are relative to the folder that
 /// the program is in.
 #[pyfunction]
-pub(crate) fn check_list(py: Python<'_>, list: Vec<String>) -> PyResult<Vec<String>> {
+pub(crate) fn check_list(py: Python<'_>, texts: Vec<String>) -> PyResult<Vec<String>> {
     Ok(as_texts(&jobs(py, &texts)?))
 }
 

@@ -12,13 +12,13 @@ use toile::io::svg_read::{SvgOptions, read_svg};
 use toile::mannequin::Measures;
 use toile::pattern::{GarmentFile, Located, Quantity, Spot, Unit};
 use toile::pipeline::{
-    EarlierFiles, GARMENT_OBJ, Job, Overrides, PictureOptions, PipelineError, REPORT_JSON, Run, check_text, problems,
-    read_text,
+    EarlierFiles, Job, Overrides, PictureOptions, PipelineError, Run, check_text, problems, read_text,
 };
 
-use crate::arguments::{Count, Given, whole, wrong_kind};
+use crate::arguments::{Count, whole, wrong_kind};
 use crate::fit::{self, Fit};
 use crate::library::{GivenBody, GivenFabric};
+use crate::options::{self, Earlier, Start, known_body, overrides};
 use crate::result::{Made, Result as Outcome, json};
 use crate::work::with_signals;
 use crate::{errors, library};
@@ -36,49 +36,6 @@ pub(crate) struct Garment {
     notes: Vec<String>,
 }
 
-/// A spacing in metres.
-fn spacing(py: Python<'_>, mm: Option<f64>) -> PyResult<Option<f64>> {
-    if let Some(mm) = mm.filter(|mm| !(*mm > 0.0 && mm.is_finite())) {
-        return Err(errors::input(py, format!("spacing: {mm} is no positive number of millimetres, such as 10")));
-    }
-    Ok(mm.map(|mm| 1e-3 * mm))
-}
-
-/// An earlier result, from memory or in a folder.
-pub(crate) struct Start(Given<Outcome>);
-
-impl<'a, 'py> FromPyObject<'a, 'py> for Start {
-    type Error = PyErr;
-
-    fn extract(value: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
-        Given::of(&value, "start: a toile.Result, or the folder of one,").map(Self)
-    }
-}
-
-/// The same, ready for another thread.
-enum Earlier {
-    Folder(PathBuf),
-    Files { name: PathBuf, surface: Vec<u8>, report: Vec<u8> },
-}
-
-impl Start {
-    fn earlier(self, py: Python<'_>) -> PyResult<Earlier> {
-        match self.0 {
-            Given::Named(folder) => {
-                let folder = PathBuf::from(folder.text());
-                let why = || format!("start: {} is no folder of results; give a Result or a folder", folder.display());
-                if folder.is_dir() { Ok(Earlier::Folder(folder)) } else { Err(errors::input(py, why())) }
-            }
-            Given::Object(result) => {
-                let result = result.get();
-                let file = |name| result.file(name).unwrap_or_default();
-                let (surface, report) = (file(GARMENT_OBJ), file(REPORT_JSON));
-                Ok(Earlier::Files { name: result.title().into(), surface, report })
-            }
-        }
-    }
-}
-
 impl Garment {
     fn imported(py: Python<'_>, file: PathBuf, said: &GarmentFile, notes: Vec<String>) -> PyResult<Self> {
         let text = write(said).map_err(|e| errors::input(py, e))?;
@@ -89,40 +46,6 @@ impl Garment {
     fn source(&self, py: Python<'_>) -> PyResult<(PathBuf, String)> {
         Ok((self.file.clone(), self.text(py)?))
     }
-}
-
-/// Options of [`Garment::make`] and [`Garment::fit`] that replace what the garment file says.
-fn overrides(
-    py: Python<'_>,
-    body: Option<GivenBody>,
-    fabric: Option<GivenFabric>,
-    mm: Option<f64>,
-    body_units: Option<&str>,
-) -> PyResult<Overrides> {
-    let body_unit = body_units.map(library::unit).transpose().map_err(|why| errors::input(py, why))?;
-    if body_unit.is_some() && body.as_ref().is_some_and(GivenBody::is_object) {
-        return Err(errors::input(py, "body_units: a Body has its unit already"));
-    }
-    let mut wanted = Overrides { spacing: spacing(py, mm)?, body_unit, ..Overrides::default() };
-    if let Some(body) = body {
-        body.choose(&mut wanted);
-    }
-    if let Some(fabric) = fabric {
-        fabric.choose(&mut wanted);
-    }
-    Ok(wanted)
-}
-
-/// A body by its name, which is to be in the library, or a file.
-fn known_body(py: Python<'_>, name: &str) -> PyResult<()> {
-    let shipped = toile::mannequin::library();
-    if shipped.contains(&name) || Path::new(name).is_file() {
-        return Ok(());
-    }
-    let nearest = toile::input::nearest(name, shipped.iter().copied());
-    let meant = nearest.map_or_else(String::new, |name| format!("; did you mean '{name}'?"));
-    let known = shipped.join(", ");
-    Err(errors::input(py, format!("body: '{name}' is neither in the library ({known}) nor a file{meant}")))
 }
 
 #[pymethods]
@@ -255,7 +178,7 @@ impl Garment {
     ///     What its author may not have meant so.
     #[pyo3(signature = (spacing=None, size=None))]
     fn check<'py>(&self, py: Python<'py>, spacing: Option<f64>, size: Option<String>) -> PyResult<Bound<'py, PyList>> {
-        let spacing = self::spacing(py, spacing)?;
+        let spacing = options::spacing(py, spacing)?;
         let (file, text, alter) = (self.file.clone(), self.text.clone(), self.alter.clone());
         let checked = with_signals(py, Some(Count(1)), None, move |_| {
             let variant = Variant { size: size.as_deref(), alter: &alter };

@@ -1,7 +1,7 @@
 //! The compiled part of the Python package `toile`.
 //!
 //! `garment`, `result` and `fit` are the classes of a garment and of what was made of it, `library` bodies and fabrics,
-//! `arguments` what Python hands over,
+//! `arguments` and `options` what Python hands over,
 //! `surface` flattening, `batch` lists of jobs, `work` how anything long runs, `errors` how it fails.
 
 #![allow(missing_docs, reason = "the documentation of Python's names is in their own doc comments")]
@@ -12,6 +12,7 @@ mod errors;
 mod fit;
 mod garment;
 mod library;
+mod options;
 mod result;
 mod surface;
 mod work;

@@ -146,7 +146,7 @@ fn judged(
     if code == i32::from(WORKER_CANNOT_WRITE) {
         return Err(store.unwritable(message(&log).unwrap_or("it is full or protected")));
     }
-    if code == i32::from(WORKER_NO_MEMORY) || no_memory(&log) {
+    if code == i32::from(WORKER_NO_MEMORY) {
         return Ok((State::Failed, None, Some(too_little_memory(plan))));
     }
     let exit = code - i32::from(WORKER_EXIT);
@@ -165,6 +165,9 @@ fn judged(
     }
     if code == ASKED_TO_END {
         return Ok((State::Failed, None, Some("its process was asked to end by a signal".into())));
+    }
+    if plan.limits.memory.is_some() && no_memory(&log) {
+        return Ok((State::Failed, None, Some(too_little_memory(plan))));
     }
     let last = last_line(&log).unwrap_or("it said nothing").trim_start_matches("error: ");
     Err(BatchError::Worker { program: plan.worker.shown(), code, why: cut(last) })
@@ -254,7 +257,7 @@ fn too_little_memory(plan: &Plan) -> String {
 
 /// Why a worker ended without a garment. A worker that the system ends has said only notes, which are no reason.
 fn failure(log: &str, status: &ExitStatus, plan: &Plan) -> String {
-    if no_memory(log) {
+    if status.code().is_none() && no_memory(log) {
         return too_little_memory(plan);
     }
     let said = message(log).or_else(|| last_line(log).filter(|_| status.code().is_some()));
@@ -263,8 +266,8 @@ fn failure(log: &str, status: &ExitStatus, plan: &Plan) -> String {
         (Some(said), Some(_)) => said.to_owned(),
         (Some(said), None) => format!("ended by the system ({status}): {said}"),
         (None, _) => format!(
-            "ended by the system ({status}), which does so when its memory runs out; run fewer side by side (--jobs), or \
-             limit each (--memory)"
+            "ended by the system ({status}), which does so when its memory runs out; run fewer side by side (--jobs), \
+             or limit each (--memory)"
         ),
     };
     cut(&text)

@@ -22,6 +22,9 @@ from ._index import index
 # the current folder.
 PROGRAM = [sys.executable, str(Path(__file__).with_name("__main__.py"))]
 
+# Objects that stand for a key of a job, each for the key that is named as its class.
+OBJECTS = (_toile.Garment, _toile.Body, _toile.Fabric)
+
 # Time limit (s), memory limit (MiB), threads, and whether failures are tried again.
 Options = tuple[float | None, int | None, int, bool]
 
@@ -52,8 +55,9 @@ def batch(
         jobs: A list of jobs in a file (one JSON object a line), a folder whose garment files are made, or dicts with
             the keys of such lines: ``garment`` (a file, or several from the skin outwards), ``body``, ``body_units``,
             ``measures``, ``fabric``, ``spacing`` (mm), ``size``, ``alter``, ``pressure_bands`` (kPa), ``id``. Paths are
-            relative to the file, or to the current folder. A dict may have a :class:`Body` as its body and a
-            :class:`Fabric` with a file as its fabric. Measures of such a body hold where the job says no others.
+            relative to the file, or to the current folder. A dict may have a :class:`Garment`, a :class:`Body` and a
+            :class:`Fabric` as its garment, body and fabric, if they have files. Measures of such a body and alterations
+            of such a garment hold beside those that the job says.
         client: A ``distributed.Client``. Each job is then a task of its cluster, whose machines must see the garments
             and the store under the same paths. What a worker or the scheduler loses when it is killed is handed in
             again when it is back. Without a client the jobs run on this machine.
@@ -96,18 +100,31 @@ def _plain(job: Mapping[str, Any]) -> dict[str, Any]:
         raise InputError(f"a job is a dict such as {{'garment': 'skirt.yaml'}}, not {job!r}")
     plain: dict[str, Any] = {}
     for key, value in job.items():
-        if isinstance(value, (_toile.Body, _toile.Fabric)):
+        if isinstance(value, OBJECTS):
             if key != type(value).__name__.lower():
                 raise InputError(f"{key!r} of a job cannot be {value!r}")
-            plain |= value._job
-    said = {key: value for key, value in job.items() if not isinstance(value, (_toile.Body, _toile.Fabric))}
+            plain |= _of_garment(value) if isinstance(value, _toile.Garment) else value._job
+    said = {key: value for key, value in job.items() if not isinstance(value, OBJECTS)}
     if isinstance(said.get("measures"), Mapping):
         said["measures"] = {**plain.get("measures", {}), **said["measures"]}
-    plain |= said
-    alter = plain.get("alter")
+    alter = said.get("alter")
     if isinstance(alter, (str, Mapping)):
-        plain["alter"] = [alter]
-    return plain
+        said["alter"] = [alter]
+    if isinstance(said.get("alter"), list):
+        said["alter"] = plain.get("alter", []) + said["alter"]
+    return plain | said
+
+
+def _of_garment(garment: _toile.Garment) -> dict[str, Any]:
+    """The file and the alterations of a garment, as a job has them."""
+    file, text, alter, _ = garment._state
+    try:
+        same = Path(file).read_text(encoding="utf-8") == text
+    except (OSError, ValueError):
+        same = False
+    if not same:
+        raise InputError(f"{garment!r} is in no file as it is; save it, and give the job the file's name")
+    return {"garment": os.fspath(file), "alter": alter}
 
 
 def _one(text: str, store: str, held: str, options: Options, version: str) -> dict[str, Any]:
