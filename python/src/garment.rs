@@ -199,13 +199,15 @@ impl Garment {
     ///     progress: Called with the stage and the share of it that is done, from 0 to 1. What it raises ends the work.
     ///     body_units: Unit of the body's OBJ file.
     ///     size: A size of the garment.
+    ///     pressure_bands: Pressures in kPa from which cloth is tight, and above which it is too tight.
     ///
     /// Raises:
     ///     GarmentError: The garment file has mistakes.
     ///     InputError: The body, the fabric, the spacing or the earlier result is wrong.
     ///     ComputationError: It cannot be sewn, draped or flattened.
     #[pyo3(signature = (
-        body=None, fabric=None, spacing=None, threads=None, start=None, progress=None, body_units=None, size=None
+        body=None, fabric=None, spacing=None, threads=None, start=None, progress=None, body_units=None, size=None,
+        pressure_bands=None
     ))]
     #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn make(
@@ -219,9 +221,11 @@ impl Garment {
         progress: Option<Py<PyAny>>,
         body_units: Option<&str>,
         size: Option<String>,
+        pressure_bands: Option<(f64, f64)>,
     ) -> PyResult<Outcome> {
         let wanted = overrides(py, body, fabric, spacing, body_units)?;
-        let wanted = Overrides { size, alter: self.alter.clone(), ..wanted };
+        let bands = options::bands(py, pressure_bands)?;
+        let wanted = Overrides { size, bands, alter: self.alter.clone(), ..wanted };
         let start = start.map(|start| start.earlier(py)).transpose()?;
         let (file, text) = (self.file.clone(), self.text.clone());
         let made = with_signals(py, threads, progress.as_ref(), move |telling| {

@@ -110,6 +110,7 @@ def test_every_error_is_one_of_toile(skirt: Path, tmp_path: Path) -> None:
         lambda: garment.make(body=3),  # type: ignore[arg-type]
         lambda: garment.make(fabric=toile.Body.load("woman_92")),  # type: ignore[arg-type]
         lambda: garment.make(start=3),  # type: ignore[arg-type]
+        lambda: garment.make(spacing=COARSE, pressure_bands=(4.0, 2.0)),
         lambda: garment.alter(None),  # type: ignore[arg-type]
         lambda: toile.Body.load(3),  # type: ignore[arg-type]
         lambda: toile.batch([{"garment": skirt}], store=tmp_path, memory=-vast),
@@ -161,9 +162,19 @@ def test_faces_without_an_area_are_an_error_of_the_input() -> None:
 def test_a_worker_finds_its_own_toile_and_pythons_own_modules(tmp_path: Path) -> None:
     """Started by its path, as batches start it."""
     program = Path(toile.__file__).with_name("__main__.py")
-    (tmp_path / "toile.py").write_text("raise SystemExit('another toile')")
-    (tmp_path / "json.py").write_text("raise SystemExit('another json')")
-    run = subprocess.run([sys.executable, program, "--version"], cwd=tmp_path, capture_output=True, text=True)
+    # As Python begins with a script, whose folder is the first that it looks into.
+    script = f"""
+import runpy, sys
+sys.argv = [{str(program)!r}, "--version"]
+sys.path.insert(0, {str(program.parent)!r})
+try:
+    runpy.run_path(sys.argv[0], run_name="__main__")
+except SystemExit as ended:
+    assert ended.code == 0
+import _json
+assert hasattr(_json, "encode_basestring")
+"""
+    run = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True)
     assert run.returncode == 0 and "toile" in run.stdout, run.stderr
     # Another toile on the path of the caller's Python is not the one that makes his garments.
     other = {**os.environ, "PYTHONPATH": str(tmp_path / "other")}

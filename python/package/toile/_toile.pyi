@@ -93,6 +93,7 @@ class Garment:
         progress: Callable[[str, float], object] | None = None,
         body_units: _Units | None = None,
         size: str | None = None,
+        pressure_bands: tuple[float, float] | None = None,
     ) -> Result:
         """Sews, drapes and flattens the garment, as the command ``toile make``.
 
@@ -106,6 +107,7 @@ class Garment:
             progress: Called with the stage and the share of it that is done, from 0 to 1. What it raises ends the work.
             body_units: Unit of the body's OBJ file.
             size: A size of the garment.
+            pressure_bands: Pressures in kPa from which cloth is tight, and above which it is too tight.
 
         Raises:
             GarmentError: The garment file has mistakes.
