@@ -292,7 +292,7 @@ impl Garment {
         for named in toile::pipeline::inputs(&file, &loaded.garment, &Overrides::default()).iter().skip(1) {
             let Ok(name) = named.strip_prefix(old) else { continue };
             let same = |other: PathBuf| other.canonicalize().ok().zip(named.canonicalize().ok());
-            if !same(new.join(name)).is_some_and(|(one, other)| one == other) {
+            if same(new.join(name)).is_none_or(|(one, other)| one != other) {
                 let (name, folder) = (name.display(), old.display());
                 let why = format!("{}: the garment names {name}, which is in {folder}: save it there", path.display());
                 return Err(errors::input(py, why));

@@ -56,7 +56,8 @@ def test_objects_of_a_job_are_taken_for_what_they_are(skirt: Path, tmp_path: Pat
             toile.batch([{"garment": skirt, **wrong}], store=store)
     jobs = [{"garment": skirt, "body": body, "measures": {"hip": 960}, "spacing": COARSE}]
     [line] = toile.batch(jobs, store=store)
-    assert json.loads((store / line["folder"] / "job.json").read_text())["job"]["measures"] == {"waist": 720, "hip": 960}
+    record = json.loads((store / line["folder"] / "job.json").read_text())
+    assert record["job"]["measures"] == {"waist": 720, "hip": 960}
     # A garment with its alterations is its file and these.
     changes = [{"lengthen": "front", "at": 200, "by": mm} for mm in [20, 5]]
     longer = toile.Garment.load(skirt).alter(changes[0])
