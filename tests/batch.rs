@@ -53,7 +53,7 @@ fn every_job_is_made_once_and_every_failure_kept_with_its_reason() {
         assert!(error.contains(why) && !error.contains(".work"), "{id}: {error}");
         let folder = room.path("store").join(said(id, "folder").as_str().expect("a folder"));
         assert!(folder.starts_with(room.path("store/failed")) && folder.join("job.json").is_file());
-        assert_eq!(folder.join("skirt.yaml").is_file(), ["fabric", "endless"].contains(&id));
+        assert_eq!(folder.join("input/skirt.yaml").is_file(), ["fabric", "endless"].contains(&id));
     }
     assert_eq!(said("a", "folder"), said("same as a", "folder"));
     assert_eq!(room.results("store").len(), 2);

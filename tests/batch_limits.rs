@@ -55,7 +55,7 @@ fn a_full_disk_stops_the_batch_and_it_goes_on_when_there_is_room() {
     let (said, complained) = (text(&run.stdout), text(&run.stderr));
     let lines: Vec<&str> = said.lines().collect();
     let full: Vec<&str> = lines[0].split(' ').collect();
-    assert_eq!([full[1], full[5]], ["3", "0"], "{said}{complained}");
+    assert_eq!([full[1], full[5]], ["4", "0"], "{said}{complained}");
     assert!((1..JOBS).contains(&full[3].parse().expect("a number")), "{said}");
     assert!(complained.contains("cannot write the store"), "{complained}");
     assert_eq!(lines[1..], [format!("exit 0 results {JOBS} failed 0")], "{said}{complained}");

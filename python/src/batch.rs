@@ -1,15 +1,19 @@
 //! The functions behind `toile.batch`, and the command line.
 
-use std::collections::HashSet;
 use std::ffi::OsString;
 use std::num::NonZeroUsize;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 use std::sync::atomic::Ordering;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use pyo3::prelude::*;
-use toile::batch::{Event, INDEX, Job, Limits, Plan, Store, Worker, parse_job, read_jobs, run, run_one};
+use toile::batch::{
+    Event, INDEX, Job, Limits, Plan, Store, Worker, check_jobs, garments_of_folder, read_jobs, run, run_one,
+};
 
+use crate::arguments::Count;
 use crate::errors;
 use crate::result::parsed;
 use crate::work::with_signals;
@@ -17,8 +21,13 @@ use crate::work::with_signals;
 /// Most memory that a job may be given, MiB: more is more than a number of bytes holds.
 const MOST_MEMORY: i64 = 1 << 40;
 
+/// Time between two looks for a folder, which may be on another machine.
+const LOOK_AT_FOLDER: Duration = Duration::from_millis(500);
+/// Exit code of a program that has panicked, as Rust's own have it.
+const PANICKED: u8 = 101;
+
 /// A number of threads or jobs.
-fn count(py: Python<'_>, name: &str, number: isize) -> PyResult<NonZeroUsize> {
+fn count(py: Python<'_>, name: &str, Count(number): Count) -> PyResult<NonZeroUsize> {
     let positive = usize::try_from(number).ok().and_then(NonZeroUsize::new);
     positive.ok_or_else(|| errors::input(py, format!("{name}: at least one is needed, not {number}")))
 }
@@ -28,13 +37,14 @@ fn plan(
     py: Python<'_>,
     program: Vec<OsString>,
     time: Option<f64>,
-    memory: Option<i64>,
-    threads: isize,
+    memory: Option<Count>,
+    threads: Count,
     retry: bool,
 ) -> PyResult<Plan> {
     let duration = |s: f64| Duration::try_from_secs_f64(s).ok().filter(|time| !time.is_zero());
     let wrong_time = |s: f64| errors::input(py, format!("time: {s} is no positive number of seconds, such as 1200"));
     let time = time.map(|s| duration(s).ok_or_else(|| wrong_time(s))).transpose()?;
+    let memory = memory.map(|Count(mebibytes)| mebibytes);
     if let Some(memory) = memory.filter(|memory| !(1..MOST_MEMORY).contains(memory)) {
         return Err(errors::input(py, format!("memory: {memory} is no size in MiB, such as 4096")));
     }
@@ -47,27 +57,59 @@ fn plan(
     })
 }
 
-/// The JSON texts of a list of jobs, with whole paths.
+/// The JSON texts of a list of jobs, or of the garments of a folder, with whole paths.
 #[pyfunction]
 pub(crate) fn read_list(py: Python<'_>, list: PathBuf) -> PyResult<Vec<String>> {
-    let list = std::path::absolute(list)?;
-    let jobs = read_jobs(&list, &Job::options()).map_err(|e| errors::batch(py, &e))?;
-    Ok(jobs.iter().map(|job| serde_json::to_string(job).unwrap_or_default()).collect())
+    let options = Job::options();
+    let jobs = if list.is_dir() {
+        garments_of_folder(&list, &options).map(|found| found.jobs)
+    } else {
+        read_jobs(&list, &options)
+    };
+    Ok(as_texts(&jobs.map_err(|e| errors::batch(py, &e))?))
 }
 
-/// Jobs from their JSON texts, whose paths are relative to `folder`.
-fn jobs(py: Python<'_>, texts: &[String], folder: &Path) -> PyResult<Vec<Job>> {
-    let mut jobs: Vec<Job> = Vec::new();
-    let mut ids = HashSet::new();
-    for (k, text) in (1..).zip(texts) {
-        let job = parse_job(text, folder, &Job::options(), &k.to_string());
-        let job = job.map_err(|why| errors::input(py, format!("job {k}: {why}")))?;
-        if !ids.insert(job.id.clone()) {
-            return Err(errors::input(py, format!("job {k}: the id '{}' is that of another; ids must differ", job.id)));
-        }
-        jobs.push(job);
+/// The same jobs with whole paths and an id each, if all of them are right. Their paths are relative to the folder that
+/// the program is in.
+#[pyfunction]
+pub(crate) fn check_list(py: Python<'_>, texts: Vec<String>) -> PyResult<Vec<String>> {
+    Ok(as_texts(&jobs(py, &texts)?))
+}
+
+fn as_texts(jobs: &[Job]) -> Vec<String> {
+    jobs.iter().map(|job| serde_json::to_string(job).unwrap_or_default()).collect()
+}
+
+/// Jobs from their JSON texts.
+fn jobs(py: Python<'_>, texts: &[String]) -> PyResult<Vec<Job>> {
+    let numbered = (1..).zip(texts.iter().map(String::as_str));
+    check_jobs(numbered, "job", Path::new(""), &Job::options()).map_err(|mistakes| errors::jobs(py, &mistakes))
+}
+
+/// A work folder of the store, which is there as long as this is held. Jobs on a cluster that are made for it end when
+/// it is gone.
+#[pyclass(frozen, module = "toile", name = "_Hold")]
+pub(crate) struct Hold(Mutex<Option<Store>>);
+
+#[pymethods]
+impl Hold {
+    #[new]
+    fn new(py: Python<'_>, store: PathBuf) -> PyResult<Self> {
+        let store = py.detach(|| Store::open(&store)).map_err(|e| errors::batch(py, &e))?;
+        Ok(Self(Mutex::new(Some(store))))
     }
-    Ok(jobs)
+
+    /// The work folder.
+    #[getter]
+    fn folder(&self) -> Option<PathBuf> {
+        self.0.lock().ok()?.as_ref().map(|store| store.work().to_owned())
+    }
+
+    /// Gives the work folder up.
+    fn release(&self, py: Python<'_>) {
+        let held = self.0.lock().ok().and_then(|mut held| held.take());
+        py.detach(|| drop(held));
+    }
 }
 
 /// Makes what the store lacks of these jobs, writes the index, and gives the summary.
@@ -76,17 +118,16 @@ fn jobs(py: Python<'_>, texts: &[String], folder: &Path) -> PyResult<Vec<Job>> {
 pub(crate) fn run_batch<'py>(
     py: Python<'py>,
     texts: Vec<String>,
-    folder: PathBuf,
     store: PathBuf,
     program: Vec<OsString>,
-    side_by_side: Option<isize>,
+    side_by_side: Option<Count>,
     time: Option<f64>,
-    memory: Option<i64>,
-    threads: isize,
+    memory: Option<Count>,
+    threads: Count,
     retry: bool,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let jobs = jobs(py, &texts, &folder)?;
+    let jobs = jobs(py, &texts)?;
     let cores = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
     let side_by_side = side_by_side.map_or_else(|| Ok(cores()), |number| count(py, "side_by_side", number))?;
     let plan = Plan { side_by_side, ..plan(py, program, time, memory, threads, retry)? };
@@ -103,34 +144,50 @@ pub(crate) fn run_batch<'py>(
     parsed(py, serde_json::to_string(&summary).unwrap_or_default().as_bytes())
 }
 
-/// Makes one job, unless the store has it, and gives its line of the index.
+/// Makes one job, unless the store has it, and gives its line of the index. It ends early when the folder `held` is
+/// gone.
 #[pyfunction]
 #[allow(clippy::too_many_arguments, reason = "Python hands them on one by one")]
 pub(crate) fn run_job<'py>(
     py: Python<'py>,
     text: String,
-    folder: PathBuf,
     store: PathBuf,
+    held: PathBuf,
     program: Vec<OsString>,
     time: Option<f64>,
-    memory: Option<i64>,
-    threads: isize,
+    memory: Option<Count>,
+    threads: Count,
     retry: bool,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let job = jobs(py, &[text], &folder)?.swap_remove(0);
+    let job = jobs(py, &[text])?.swap_remove(0);
     let plan = plan(py, program, time, memory, threads, retry)?;
-    let line = with_signals(py, Some(1), None, move |telling| {
+    let line = with_signals(py, Some(Count(1)), None, move |telling| {
         let store = Store::open(&store)?;
         let flag = telling.stop();
-        run_one(&job, &store, &plan, &|| flag.load(Ordering::Relaxed))
+        let given_up = watched(held);
+        run_one(&job, &store, &plan, &|| flag.load(Ordering::Relaxed) || given_up())
     })?;
     let line = line.map_err(|e| errors::batch(py, &e))?;
     parsed(py, serde_json::to_string(&line).unwrap_or_default().as_bytes())
+}
+
+/// Whether a folder is gone, looked for now and then.
+fn watched(folder: PathBuf) -> impl Fn() -> bool + Sync {
+    let seen = Mutex::new((Instant::now(), folder.is_dir()));
+    move || {
+        let Ok(mut seen) = seen.lock() else { return false };
+        if seen.0.elapsed() > LOOK_AT_FOLDER {
+            *seen = (Instant::now(), folder.is_dir());
+        }
+        !seen.1
+    }
 }
 
 /// The command line: its arguments, the first of which is the program's name, and the command that starts it again.
 /// Gives the exit code.
 #[pyfunction]
 pub(crate) fn cli(py: Python<'_>, arguments: Vec<OsString>, itself: Vec<OsString>) -> u8 {
-    py.detach(|| toile::cli::main_with(arguments, &itself))
+    // A fault of the program itself is told apart from an exception of Python's, which ends a process with 1.
+    let done = py.detach(|| catch_unwind(AssertUnwindSafe(|| toile::cli::main_with(arguments, &itself))));
+    done.unwrap_or(PANICKED)
 }

@@ -2,10 +2,14 @@
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use toile::batch::BatchError;
+use toile::batch::{BatchError, Mistake};
+use toile::io::files::WriteError;
 use toile::io::garment::Refused;
 use toile::pattern::{Diagnostic, Severity};
 use toile::pipeline::{PipelineError, ResultFile};
+
+/// Mistakes of a list that are shown.
+const SHOWN: usize = 10;
 
 /// An exception of `toile._errors`.
 fn exception(py: Python<'_>, class: &str, message: String) -> PyResult<PyErr> {
@@ -17,14 +21,43 @@ fn or_else(made: PyResult<PyErr>) -> PyErr {
     made.unwrap_or_else(|error| error)
 }
 
+/// Options of the command line that messages name, and what Python calls them.
+const OPTIONS: [(&str, &str); 14] = [
+    ("--body-units", "body_units"),
+    ("--body", "body"),
+    ("--fabric", "fabric"),
+    ("--spacing", "spacing"),
+    ("--from", "start"),
+    ("--units", "units"),
+    ("--cut", "cut"),
+    ("--darts", "darts"),
+    ("--mode", "mode"),
+    ("--up", "up"),
+    ("--threads", "threads"),
+    ("--memory", "memory"),
+    ("--jobs", "side_by_side"),
+    ("; choose another folder with -o", "; choose another"),
+];
+
+/// A message of the library in Python's words.
+pub(crate) fn in_python(message: &str) -> String {
+    OPTIONS.iter().fold(message.to_owned(), |text, (option, name)| text.replace(option, name))
+}
+
 /// `toile.InputError`
 pub(crate) fn input(py: Python<'_>, message: impl ToString) -> PyErr {
-    or_else(exception(py, "InputError", message.to_string()))
+    or_else(exception(py, "InputError", in_python(&message.to_string())))
+}
+
+/// `toile.WriteError`, or `toile.InputError` where a result would replace an input.
+pub(crate) fn write(py: Python<'_>, error: &WriteError) -> PyErr {
+    let class = if matches!(error, WriteError::IsInput(_)) { "InputError" } else { "WriteError" };
+    or_else(exception(py, class, in_python(&error.to_string())))
 }
 
 /// `toile.ComputationError` with the files of the state that was reached.
 fn computation(py: Python<'_>, message: String, files: &[ResultFile]) -> PyResult<PyErr> {
-    let error = exception(py, "ComputationError", message)?;
+    let error = exception(py, "ComputationError", in_python(&message))?;
     let state = PyDict::new(py);
     for (name, bytes) in files {
         state.set_item(name, pyo3::types::PyBytes::new(py, bytes))?;
@@ -64,6 +97,15 @@ pub(crate) fn pipeline(py: Python<'_>, error: &PipelineError, files: &[ResultFil
         error if error.is_input() => input(py, error),
         error => or_else(computation(py, error.to_string(), files)),
     }
+}
+
+/// Jobs of a list from Python that are none.
+pub(crate) fn jobs(py: Python<'_>, mistakes: &[Mistake]) -> PyErr {
+    let line = |m: &Mistake| format!("job {}: {}", m.line, m.why);
+    let more = mistakes.len().saturating_sub(SHOWN);
+    let mut lines: Vec<String> = mistakes.iter().take(SHOWN).map(line).collect();
+    lines.extend((more > 0).then(|| format!("and {more} more")));
+    input(py, lines.join("\n"))
 }
 
 /// The exception of a batch's error.

@@ -12,11 +12,13 @@ use toile::io::svg_read::{SvgOptions, read_svg};
 use toile::mannequin::Measures;
 use toile::pattern::{GarmentFile, Located, Quantity, Spot, Unit};
 use toile::pipeline::{
-    EarlierFiles, GARMENT_OBJ, Job, Overrides, PictureOptions, PipelineError, REPORT_JSON, Run, check_text, problems,
-    read_text,
+    EarlierFiles, Job, Overrides, PictureOptions, PipelineError, Run, check_text, problems, read_text,
 };
 
+use crate::arguments::{Count, whole, wrong_kind};
+use crate::fit::{self, Fit};
 use crate::library::{GivenBody, GivenFabric};
+use crate::options::{self, Earlier, Start, known_body, overrides};
 use crate::result::{Made, Result as Outcome, json};
 use crate::work::with_signals;
 use crate::{errors, library};
@@ -34,49 +36,15 @@ pub(crate) struct Garment {
     notes: Vec<String>,
 }
 
-/// A spacing in metres.
-fn spacing(py: Python<'_>, mm: Option<f64>) -> PyResult<Option<f64>> {
-    if let Some(mm) = mm.filter(|mm| !(*mm > 0.0 && mm.is_finite())) {
-        return Err(errors::input(py, format!("spacing: {mm} is no positive number of millimetres, such as 10")));
-    }
-    Ok(mm.map(|mm| 1e-3 * mm))
-}
-
-/// An earlier result, from memory or in a folder.
-#[derive(FromPyObject)]
-pub(crate) enum Start {
-    Result(Py<Outcome>),
-    Folder(PathBuf),
-}
-
-/// The same, ready for another thread.
-enum Earlier {
-    Folder(PathBuf),
-    Files { name: PathBuf, surface: Vec<u8>, report: Vec<u8> },
-}
-
-impl Start {
-    fn earlier(self, py: Python<'_>) -> PyResult<Earlier> {
-        match self {
-            Self::Folder(folder) if !folder.is_dir() => {
-                let why = format!("start: {} is no folder of results; give a Result or a folder", folder.display());
-                Err(errors::input(py, why))
-            }
-            Self::Folder(folder) => Ok(Earlier::Folder(folder)),
-            Self::Result(result) => {
-                let result = result.get();
-                let file = |name| result.file(name).unwrap_or_default();
-                let (surface, report) = (file(GARMENT_OBJ), file(REPORT_JSON));
-                Ok(Earlier::Files { name: result.title().into(), surface, report })
-            }
-        }
-    }
-}
-
 impl Garment {
     fn imported(py: Python<'_>, file: PathBuf, said: &GarmentFile, notes: Vec<String>) -> PyResult<Self> {
         let text = write(said).map_err(|e| errors::input(py, e))?;
-        Ok(Self { file, text, alter: Vec::new(), notes })
+        Ok(Self { file: whole(&file), text, alter: Vec::new(), notes })
+    }
+
+    /// The name of the file, and what it says with all alterations.
+    fn source(&self, py: Python<'_>) -> PyResult<(PathBuf, String)> {
+        Ok((self.file.clone(), self.text(py)?))
     }
 }
 
@@ -86,8 +54,9 @@ impl Garment {
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         toile::pipeline::read(&path).map_err(|e| errors::pipeline(py, &e, &[]))?;
-        let text = std::fs::read_to_string(&path)?;
-        Ok(Self { file: path, text, alter: Vec::new(), notes: Vec::new() })
+        let text = std::fs::read_to_string(&path);
+        let text = text.map_err(|e| errors::input(py, format!("{}: {e}", path.display())))?;
+        Ok(Self { file: whole(&path), text, alter: Vec::new(), notes: Vec::new() })
     }
 
     /// A garment from what a garment file says, as nested dicts and lists.
@@ -97,7 +66,7 @@ impl Garment {
     #[pyo3(signature = (data, name="garment", folder=PathBuf::new()))]
     fn from_dict(py: Python<'_>, data: Bound<'_, PyDict>, name: &str, folder: PathBuf) -> PyResult<Self> {
         let text = json(py, data.as_any())?;
-        let file = folder.join(format!("{name}.yaml"));
+        let file = whole(&folder.join(format!("{name}.yaml")));
         read_text(&file, &text, Variant::default()).map_err(|e| errors::pipeline(py, &e, &[]))?;
         Ok(Self { file, text, alter: Vec::new(), notes: Vec::new() })
     }
@@ -111,6 +80,7 @@ impl Garment {
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let name = stem.strip_suffix("_specification").unwrap_or(&stem);
         let (body, measures) = body.map(GivenBody::parts).map_or((None, None), |(b, m)| (Some(b), Some(m)));
+        body.as_deref().map_or(Ok(()), |body| known_body(py, body))?;
         let floor = body.as_deref().map_or(Ok(0.0), |body| floor_of(body, None));
         let floor = floor.map_err(|e| errors::input(py, e))?;
         // As the garment is not written, its folder is the one that the caller is in.
@@ -187,6 +157,9 @@ impl Garment {
     fn alter(&self, py: Python<'_>, changes: Bound<'_, PyAny>) -> PyResult<Self> {
         let text = match changes.extract::<String>() {
             Ok(text) => text,
+            Err(_) if changes.is_none() => {
+                return Err(wrong_kind(&changes, "changes: an alteration, a list of them or a text"));
+            }
             Err(_) => json(py, &changes)?,
         };
         let alter = [self.alter.clone(), vec![text]].concat();
@@ -205,9 +178,9 @@ impl Garment {
     ///     What its author may not have meant so.
     #[pyo3(signature = (spacing=None, size=None))]
     fn check<'py>(&self, py: Python<'py>, spacing: Option<f64>, size: Option<String>) -> PyResult<Bound<'py, PyList>> {
-        let spacing = self::spacing(py, spacing)?;
+        let spacing = options::spacing(py, spacing)?;
         let (file, text, alter) = (self.file.clone(), self.text.clone(), self.alter.clone());
-        let checked = with_signals(py, Some(1), None, move |_| {
+        let checked = with_signals(py, Some(Count(1)), None, move |_| {
             let variant = Variant { size: size.as_deref(), alter: &alter };
             check_text(&file, &text, variant, spacing).map(|checked| checked.loaded.warnings)
         })?;
@@ -226,13 +199,15 @@ impl Garment {
     ///     progress: Called with the stage and the share of it that is done, from 0 to 1. What it raises ends the work.
     ///     body_units: Unit of the body's OBJ file.
     ///     size: A size of the garment.
+    ///     pressure_bands: Pressures in kPa from which cloth is tight, and above which it is too tight.
     ///
     /// Raises:
     ///     GarmentError: The garment file has mistakes.
     ///     InputError: The body, the fabric, the spacing or the earlier result is wrong.
     ///     ComputationError: It cannot be sewn, draped or flattened.
     #[pyo3(signature = (
-        body=None, fabric=None, spacing=None, threads=None, start=None, progress=None, body_units=None, size=None
+        body=None, fabric=None, spacing=None, threads=None, start=None, progress=None, body_units=None, size=None,
+        pressure_bands=None
     ))]
     #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn make(
@@ -241,30 +216,101 @@ impl Garment {
         body: Option<GivenBody>,
         fabric: Option<GivenFabric>,
         spacing: Option<f64>,
-        threads: Option<isize>,
+        threads: Option<Count>,
         start: Option<Start>,
         progress: Option<Py<PyAny>>,
         body_units: Option<&str>,
         size: Option<String>,
+        pressure_bands: Option<(f64, f64)>,
     ) -> PyResult<Outcome> {
-        let body_unit = body_units.map(library::unit).transpose().map_err(|why| errors::input(py, why))?;
-        if body_unit.is_some() && matches!(body, Some(GivenBody::Body(_))) {
-            return Err(errors::input(py, "body_units: a Body has its unit already"));
-        }
-        let spacing = self::spacing(py, spacing)?;
-        let mut wanted = Overrides { spacing, size, body_unit, alter: self.alter.clone(), ..Overrides::default() };
-        if let Some(body) = body {
-            body.choose(&mut wanted);
-        }
-        if let Some(fabric) = fabric {
-            fabric.choose(&mut wanted);
-        }
+        let wanted = overrides(py, body, fabric, spacing, body_units)?;
+        let bands = options::bands(py, pressure_bands)?;
+        let wanted = Overrides { size, bands, alter: self.alter.clone(), ..wanted };
         let start = start.map(|start| start.earlier(py)).transpose()?;
         let (file, text) = (self.file.clone(), self.text.clone());
         let made = with_signals(py, threads, progress.as_ref(), move |telling| {
             make(&file, &text, &wanted, start.as_ref(), &mut |stage, share| telling.tell(stage, share))
         })?;
         made.map(Outcome::new).map_err(|failed| errors::pipeline(py, &failed.error, &failed.files))
+    }
+
+    /// Finds the alterations that give the garment a fit, as ``toile fit``; this one stays as it is.
+    ///
+    /// Args:
+    ///     wants: What is wanted, and alterations that may be made, as a file of wants says them: nested dicts, or a
+    ///         file. By default the garment's own tests of ease, pressure and hem, or else that no girth is tight.
+    ///     body: Library name or file in place of the garment's own body.
+    ///     fabric: Library name or file in place of its main fabric.
+    ///     spacing: Distance of neighbouring particles, mm (20 by default).
+    ///     threads: Number of threads (all processors by default). Results do not depend on it.
+    ///     drapes: Most drapes (12 by default).
+    ///     progress: Called with the work under way and the share of it that is done. What it raises ends the work.
+    ///     body_units: Unit of the body's OBJ file.
+    ///
+    /// Raises:
+    ///     GarmentError: The garment file or the wants have mistakes.
+    ///     InputError: The body, the fabric or a number is wrong.
+    ///     ComputationError: The garment cannot be made.
+    #[pyo3(signature = (
+        wants=None, body=None, fabric=None, spacing=None, threads=None, drapes=None, progress=None, body_units=None
+    ))]
+    #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
+    fn fit(
+        &self,
+        py: Python<'_>,
+        wants: Option<Bound<'_, PyAny>>,
+        body: Option<GivenBody>,
+        fabric: Option<GivenFabric>,
+        spacing: Option<f64>,
+        threads: Option<Count>,
+        drapes: Option<Count>,
+        progress: Option<Py<PyAny>>,
+        body_units: Option<&str>,
+    ) -> PyResult<Fit> {
+        let wanted = overrides(py, body, fabric, spacing, body_units)?;
+        let drapes = fit::drapes(py, drapes)?;
+        let (file, old) = self.source(py)?;
+        let found = fit::find(py, (file.clone(), old.clone()), wants, wanted, drapes, threads, progress.as_ref())?;
+        let text = found.new.as_ref().map(|new| new.text.clone()).or_else(|| found.refused.is_empty().then_some(old));
+        let altered = text.map(|text| Self { file, text, alter: Vec::new(), notes: self.notes.clone() });
+        Ok(Fit::new(altered.map(|garment| Py::new(py, garment)).transpose()?, found))
+    }
+
+    /// Writes the garment file (YAML), with its alterations carried out, whole or not at all.
+    ///
+    /// Args:
+    ///     path: The file. Bodies and fabrics that the garment names by files must be found from its folder, too.
+    ///
+    /// Raises:
+    ///     InputError: A file that the garment names is not found from there.
+    ///     WriteError: The file cannot be written.
+    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        let (file, text) = self.source(py)?;
+        let loaded = read_text(&file, &text, Variant::default()).map_err(|e| errors::pipeline(py, &e, &[]))?;
+        let (old, target) = (file.parent().unwrap_or(Path::new("")), whole(&path));
+        let new = target.parent().unwrap_or(Path::new(""));
+        for named in toile::pipeline::inputs(&file, &loaded.garment, &Overrides::default()).iter().skip(1) {
+            let Ok(name) = named.strip_prefix(old) else { continue };
+            let same = |other: PathBuf| other.canonicalize().ok().zip(named.canonicalize().ok());
+            if same(new.join(name)).is_none_or(|(one, other)| one != other) {
+                let (name, folder) = (name.display(), old.display());
+                let why = format!("{}: the garment names {name}, which is in {folder}: save it there", path.display());
+                return Err(errors::input(py, why));
+            }
+        }
+        library::write(py, &path, text)
+    }
+
+    /// What `pickle` keeps.
+    #[getter]
+    fn _state(&self) -> (PathBuf, String, Vec<String>, Vec<String>) {
+        (self.file.clone(), self.text.clone(), self.alter.clone(), self.notes.clone())
+    }
+
+    /// The garment that `pickle` has kept.
+    #[staticmethod]
+    fn _restored(file: PathBuf, text: String, alter: Vec<String>, notes: Vec<String>) -> Self {
+        Self { file, text, alter, notes }
     }
 
     fn __repr__(&self) -> String {

@@ -13,6 +13,7 @@ use toile::io::files::write_all;
 use toile::mannequin::Measures;
 use toile::pipeline::Overrides;
 
+use crate::arguments::{Given, Named};
 use crate::errors;
 use crate::result::{json, rows};
 use crate::work::with_signals;
@@ -49,43 +50,34 @@ pub(crate) fn unit(symbol: &str) -> Result<LengthUnit, String> {
     })
 }
 
-/// A library name or a file.
-#[derive(FromPyObject)]
-pub(crate) enum Named {
-    Text(String),
-    Path(PathBuf),
-}
+/// A body, its library name or its file.
+pub(crate) struct GivenBody(Given<Body>);
 
-impl Named {
-    /// The name or path, as `--body` and `--fabric` take it.
-    pub(crate) fn name(self) -> String {
-        match self {
-            Self::Text(name) => name,
-            Self::Path(path) => path.display().to_string(),
-        }
+/// A fabric, its library name or its file.
+pub(crate) struct GivenFabric(Given<Fabric>);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for GivenBody {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        Given::of(&value, "a toile.Body, or the name or the file of a body,").map(Self)
     }
 }
 
-/// A body, its library name or its file.
-#[derive(FromPyObject)]
-pub(crate) enum GivenBody {
-    Body(Py<Body>),
-    Named(Named),
-}
+impl<'a, 'py> FromPyObject<'a, 'py> for GivenFabric {
+    type Error = PyErr;
 
-/// A fabric, its library name or its file.
-#[derive(FromPyObject)]
-pub(crate) enum GivenFabric {
-    Fabric(Py<Fabric>),
-    Named(Named),
+    fn extract(value: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        Given::of(&value, "a toile.Fabric, or the name or the file of a fabric,").map(Self)
+    }
 }
 
 impl GivenBody {
     /// The body in place of the garment's, with its name.
     pub(crate) fn choose(self, wanted: &mut Overrides) {
-        match self {
-            Self::Named(named) => wanted.body = Some(named.name()),
-            Self::Body(body) => {
+        match self.0 {
+            Given::Named(named) => wanted.body = Some(named.name(&toile::mannequin::library())),
+            Given::Object(body) => {
                 wanted.body = Some(body.get().name.clone());
                 wanted.given.body = Some(Arc::clone(&body.get().body));
             }
@@ -94,25 +86,29 @@ impl GivenBody {
 
     /// The name of a body, and the measures that it was built with.
     pub(crate) fn parts(self) -> (String, Measures) {
-        match self {
-            Self::Named(named) => (named.name(), Measures::default()),
-            Self::Body(body) => (body.get().name.clone(), body.get().measures.clone()),
+        match self.0 {
+            Given::Named(named) => (named.name(&toile::mannequin::library()), Measures::default()),
+            Given::Object(body) => (body.get().name.clone(), body.get().measures.clone()),
         }
+    }
+
+    pub(crate) fn is_object(&self) -> bool {
+        matches!(self.0, Given::Object(_))
     }
 }
 
 impl GivenFabric {
     /// The fabric in place of the garment's main one, with its name.
     pub(crate) fn choose(self, wanted: &mut Overrides) {
-        match self {
-            Self::Named(named) => wanted.fabric = Some(named.name()),
-            Self::Fabric(fabric) => wanted.given.fabric = Some(Arc::clone(&fabric.get().fabric)),
+        match self.0 {
+            Given::Named(named) => wanted.fabric = Some(named.name(&toile::fabric::library())),
+            Given::Object(fabric) => wanted.given.fabric = Some(Arc::clone(&fabric.get().fabric)),
         }
     }
 }
 
 /// What a Python value says as YAML, or the text of the file that it names.
-fn said(py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<(String, Option<PathBuf>)> {
+pub(crate) fn said(py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<(String, Option<PathBuf>)> {
     if let Ok(path) = value.extract::<PathBuf>() {
         return Ok((String::new(), Some(path)));
     }
@@ -120,9 +116,9 @@ fn said(py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<(String, Option<Pa
 }
 
 /// Writes a file whole or not at all.
-fn write(py: Python<'_>, path: &Path, text: String) -> PyResult<()> {
+pub(crate) fn write(py: Python<'_>, path: &Path, text: String) -> PyResult<()> {
     let files = [(path.to_owned(), text.into_bytes())];
-    py.detach(|| write_all(&files, &[])).map_err(|e| pyo3::exceptions::PyOSError::new_err(e.to_string()))
+    py.detach(|| write_all(&files, &[])).map_err(|e| errors::write(py, &e))
 }
 
 #[pymethods]
@@ -131,7 +127,7 @@ impl Body {
     #[staticmethod]
     #[pyo3(signature = (name, units=None))]
     fn load(py: Python<'_>, name: Named, units: Option<String>) -> PyResult<Self> {
-        let name = name.name();
+        let name = name.name(&toile::mannequin::library());
         let unit = units.as_deref().map(self::unit).transpose().map_err(|why| errors::input(py, why))?;
         let wanted = name.clone();
         let body = with_signals(py, None, None, move |_| load_body(&wanted, unit))?;
@@ -150,7 +146,7 @@ impl Body {
     ///     InputError: A name is no measure, or the measures contradict one another or are far from the mannequin's.
     #[staticmethod]
     fn build(py: Python<'_>, like: Named, measures: Bound<'_, PyAny>) -> PyResult<Self> {
-        let (name, (text, file)) = (like.name(), said(py, &measures)?);
+        let (name, (text, file)) = (like.name(&toile::mannequin::library()), said(py, &measures)?);
         let read = match &file {
             Some(file) => Measures::read(file),
             None => Measures::parse(&text, "measures"),
@@ -225,7 +221,7 @@ impl Fabric {
     /// A fabric by its library name or its file (YAML).
     #[staticmethod]
     fn load(py: Python<'_>, name: Named) -> PyResult<Self> {
-        let name = name.name();
+        let name = name.name(&toile::fabric::library());
         let fabric = toile::fabric::load(&name).map_err(|e| errors::input(py, e))?;
         let notes = fabric.notes();
         Ok(Self { name: Some(name), text: None, notes, fabric: Arc::new(fabric) })
@@ -267,6 +263,23 @@ impl Fabric {
             return Err(errors::input(py, format!("{}: a fabric's file is named .yaml", path.display())));
         }
         write(py, &path, text.clone())
+    }
+
+    /// What `pickle` keeps: the name or file, or else the text.
+    #[getter]
+    fn _state(&self) -> (Option<String>, Option<String>, Vec<String>) {
+        (self.name.clone(), self.text.clone(), self.notes.clone())
+    }
+
+    /// The fabric that `pickle` has kept.
+    #[staticmethod]
+    fn _restored(py: Python<'_>, name: Option<String>, text: Option<String>, notes: Vec<String>) -> PyResult<Self> {
+        let fabric = match (&name, &text) {
+            (Some(name), _) => toile::fabric::load(name),
+            (None, text) => toile::fabric::load_text(text.as_deref().unwrap_or_default()),
+        };
+        let fabric = fabric.map_err(|e| errors::input(py, e))?;
+        Ok(Self { name, text, notes, fabric: Arc::new(fabric) })
     }
 
     /// Name or file, as a job of a batch has it.

@@ -67,7 +67,7 @@ pub(crate) fn json(py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<String>
 pub(crate) fn save(py: Python<'_>, folder: &std::path::Path, files: &[ResultFile], inputs: &[PathBuf]) -> PyResult<()> {
     let files: Vec<_> = files.iter().map(|(name, bytes)| (folder.join(name), bytes.clone())).collect();
     let inputs: Vec<_> = inputs.iter().map(PathBuf::as_path).collect();
-    py.detach(|| write_all(&files, &inputs)).map_err(|e| pyo3::exceptions::PyOSError::new_err(e.to_string()))
+    py.detach(|| write_all(&files, &inputs)).map_err(|e| errors::write(py, &e))
 }
 
 #[pymethods]

@@ -9,6 +9,7 @@ use toile::geometry::Vec3;
 use toile::io::obj_read::ObjFaces;
 use toile::pipeline::{Cuts, Darts, FlatSurface, REPORT_JSON, ResultFile, SurfaceOptions, flatten_faces};
 
+use crate::arguments::Count;
 use crate::errors;
 use crate::library::unit;
 use crate::result::{corners, parsed, save};
@@ -98,7 +99,7 @@ fn surface(
 ///     ComputationError: It could not be computed.
 #[pyfunction]
 #[pyo3(signature = (
-    vertices, faces, mode="balanced", units="mm", up=None, cut=false, darts=0, threads=None, name="surface"
+    vertices, faces, mode="balanced", units="mm", up=None, cut=false, darts=Count(0), threads=None, name="surface"
 ))]
 #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub(crate) fn flatten(
@@ -109,11 +110,12 @@ pub(crate) fn flatten(
     units: Option<&str>,
     up: Option<[f64; 3]>,
     cut: bool,
-    darts: usize,
-    threads: Option<isize>,
+    darts: Count,
+    threads: Option<Count>,
     name: &str,
 ) -> PyResult<Flat> {
     let wrong = |why: String| errors::input(py, why);
+    let darts = usize::try_from(darts.0).map_err(|_| wrong(format!("darts: none or more are cut, not {}", darts.0)))?;
     let up = up.map(Vec3::from);
     if up.is_some_and(|up| !up.norm().is_normal()) {
         return Err(wrong("up: a direction of three numbers is expected, such as (0, 1, 0)".into()));

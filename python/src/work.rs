@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use pyo3::prelude::*;
 
+use crate::arguments::Count;
 use crate::errors;
 
 /// Time between two looks for a signal: what a person takes for at once.
@@ -58,14 +59,15 @@ impl Telling {
 /// something, which is not waited for longer than [`PATIENCE`].
 pub(crate) fn with_signals<T: Send + 'static>(
     py: Python<'_>,
-    threads: Option<isize>,
+    threads: Option<Count>,
     progress: Option<&Py<PyAny>>,
     work: impl FnOnce(&mut Telling) -> T + Send + 'static,
 ) -> PyResult<T> {
-    if threads.is_some_and(|threads| threads < 1) {
+    if threads.is_some_and(|Count(threads)| threads < 1) {
         return Err(errors::input(py, "threads: at least one is needed; leave it out to have all processors"));
     }
-    let threads = threads.map_or(0, |threads| threads.unsigned_abs().min(MOST_THREADS));
+    let threads =
+        threads.map_or(0, |Count(threads)| usize::try_from(threads).unwrap_or(MOST_THREADS).min(MOST_THREADS));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build();
     let pool = pool.map_err(|e| errors::input(py, format!("cannot start the threads: {e}; try fewer")))?;
     let stop = Arc::new(AtomicBool::new(false));

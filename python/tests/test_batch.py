@@ -25,7 +25,8 @@ def sheet(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def jobs(sheet: Path) -> list[dict[str, Any]]:
     """Sheets on a ball that are all different, one of them twice, and two failures."""
-    made = [{"id": f"sheet {k}", "garment": sheet, "spacing": SPACING + k} for k in range(JOBS)]
+    made: list[dict[str, Any]] = [{"id": f"sheet {k}", "garment": sheet, "spacing": SPACING + k} for k in range(JOBS)]
+    made[1]["pressure_bands"] = [2.0, 4.0]
     again = {**made[0], "id": "again"}
     wrong = [{"id": "fabric", "garment": sheet, "fabric": "denin"}, {"id": "missing", "garment": "missing.yaml"}]
     return [*made, again, *wrong]
@@ -78,6 +79,7 @@ def test_the_index_as_parquet(plain: Path, tmp_path: Path) -> None:
     rows, lines = table.to_pylist(), toile.index(plain)
     assert [{key: row[key] for key in lines[0]} for row in rows] == lines
     assert rows[1]["spacing"] == SPACING + 1 and rows[1]["garment"][0].endswith("sheet.yaml")
+    assert rows[1]["pressure_bands"] == [2.0, 4.0] and rows[0]["pressure_bands"] is rows[0]["body_units"] is None
     assert rows[-2]["fabric"] == "denin" and rows[-2]["exit"] == 2
     assert os.listdir(tmp_path) == ["index.parquet"]
     with pytest.raises(toile.InputError, match="is this the store"):

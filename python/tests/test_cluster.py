@@ -72,6 +72,14 @@ def cluster(tmp_path: Path) -> Iterator[Cluster]:
     made.end()
 
 
+def workers_of(store: Path) -> list[int]:
+    """Processes that make a garment into this store."""
+    psutil = pytest.importorskip("psutil")
+    lines = {process.pid: process.info["cmdline"] or [] for process in psutil.process_iter(["cmdline"])}
+    ours = f"--output={store}{os.sep}"
+    return [pid for pid, words in lines.items() if any(word.startswith(ours) for word in words)]
+
+
 def results(store: Path) -> list[str]:
     return sorted(name for name in os.listdir(store) if len(name) == 32) if store.is_dir() else []
 
@@ -129,3 +137,41 @@ def test_a_worker_killed_and_a_scheduler_started_again_lose_nothing(cluster: Clu
     # A worker that was killed may have left its folder, which the next batch removes.
     assert toile.batch(listed, store=store) == lines
     assert os.listdir(store / ".work") == ["lock"]
+
+
+def test_what_ends_the_call_ends_its_tasks(cluster: Cluster, skirt: Path, tmp_path: Path) -> None:
+    class Enough(Exception):
+        pass
+
+    store, garment = tmp_path / "store", put_ball_and_sheet(tmp_path)
+    endless = {"id": "endless", "garment": skirt, "spacing": 2.0}
+
+    def stop(stage: str, share: float) -> None:
+        while not workers_of(store):
+            time.sleep(0.05)
+        raise Enough
+
+    with distributed.Client(cluster.address, timeout="60s") as client:
+        with pytest.raises(Enough):
+            toile.batch([endless, {"garment": garment, "spacing": 20}], client, store=store, progress=stop)
+        begin = time.monotonic()
+        while workers_of(store):
+            assert time.monotonic() - begin < 20, "the job goes on"
+            time.sleep(0.05)
+        # The worker is free again, and numbers its jobs as a plain run does.
+        lines = toile.batch([{"garment": garment, "spacing": mm} for mm in [20, 21]], client, store=store)
+        assert [line["id"] for line in lines] == ["sheet-1", "sheet-2"]
+        records = [json.loads((store / line["folder"] / "job.json").read_text()) for line in lines]
+        assert records[1]["job"]["id"] == "sheet-2"
+        with pytest.raises(toile.InputError, match="job 3: unknown field"):
+            job = {"garment": garment, "spacing": 22}
+            toile.batch([job, {**job, "id": "b"}, {**job, "colour": 1}], client, store=store)
+        assert len(results(store)) == 2
+    with pytest.raises(toile.InputError, match="client: it is closed"):
+        toile.batch([{"garment": garment}], client, store=store)
+
+
+def test_a_worker_with_another_toile_is_refused(tmp_path: Path) -> None:
+    options = (None, None, 1, False)
+    with pytest.raises(toile.ComputationError, match="the batch is of toile 0.0.1; install the same"):
+        toile._batch._one("{}", str(tmp_path), str(tmp_path), options, "0.0.1")

@@ -12,7 +12,7 @@ from conftest import REPOSITORY
 def test_the_examples_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     text = (REPOSITORY / "docs" / "python.md").read_text(encoding="utf-8")
     examples = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
-    assert len(examples) == 4
+    assert len(examples) == 5
     pytest.importorskip("tqdm", reason="the second example needs tqdm")
     monkeypatch.chdir(tmp_path)
     for k, example in enumerate(examples):

@@ -140,6 +140,8 @@ def test_a_size_is_that_of_the_command_line(skirt: Path, tmp_path: Path) -> None
     assert made.name == "sized-long"
     made.save(tmp_path / "ours")
     command("make", sized, "--size", "long", "--spacing", COARSE, "-o", tmp_path / "theirs")
+    narrow = garment.make(spacing=COARSE, size="long", pressure_bands=(0.001, 0.002))
+    assert narrow.report["fit"]["bands"] != made.report["fit"]["bands"]
     assert obj(tmp_path / "ours") == obj(tmp_path / "theirs")
 
 

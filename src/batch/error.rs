@@ -42,6 +42,14 @@ pub enum BatchError {
         /// The reason.
         why: &'static str,
     },
+    /// More samples are asked for than a list can have.
+    #[error("{asked} samples are asked for; a list has {most} at most: draw several, each with a --seed of its own")]
+    TooManySamples {
+        /// As asked.
+        asked: usize,
+        /// Samples of the longest list.
+        most: usize,
+    },
     /// More samples are asked for than there are.
     #[error(
         "{asked} samples are asked for, but there are only {there}: {garments} garments × {bodies} bodies × {fabrics} \
@@ -78,6 +86,19 @@ pub enum BatchError {
         /// The system's message.
         source: io::Error,
     },
+    /// The program that makes one garment is not, or no longer, toile.
+    #[error(
+        "{program} ended with exit code {code} before it began to make a garment: {why}; what is done is kept: start \
+         again when toile can be run"
+    )]
+    Worker {
+        /// The program.
+        program: String,
+        /// Its exit code.
+        code: i32,
+        /// The last line that it wrote.
+        why: String,
+    },
     /// The memory limit cannot be set.
     #[error("cannot limit the memory of a job: {0}")]
     Limit(String),
@@ -90,8 +111,12 @@ impl BatchError {
     /// Whether the user must change the input. Otherwise the batch could not be carried out.
     pub fn is_input(&self) -> bool {
         match self {
-            Self::Read { .. } | Self::Jobs { .. } | Self::Empty { .. } | Self::Samples { .. } => true,
-            Self::Store { .. } | Self::Start { .. } | Self::Limit(_) | Self::Stopped => false,
+            Self::Read { .. }
+            | Self::Jobs { .. }
+            | Self::Empty { .. }
+            | Self::TooManySamples { .. }
+            | Self::Samples { .. } => true,
+            Self::Store { .. } | Self::Start { .. } | Self::Worker { .. } | Self::Limit(_) | Self::Stopped => false,
         }
     }
 }

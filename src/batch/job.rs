@@ -1,7 +1,6 @@
 //! Jobs: a garment and the options of `toile make`, as a line of a list says them.
 
 use std::collections::HashMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize, Serializer};
@@ -15,8 +14,8 @@ use crate::mannequin::{self, Measures};
 
 /// Bytes of a list: some million jobs.
 const LARGEST_LIST: u64 = 1 << 30;
-/// Characters of an id.
-const LONGEST_ID: usize = 200;
+/// Characters of an id: more than any file's name and the number of its line have.
+const LONGEST_ID: usize = 300;
 
 /// One garment to make. Its paths can be opened as they are.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -84,8 +83,21 @@ enum OneOrMany {
 
 impl Job {
     /// A garment file with the options that jobs have which say nothing else.
-    fn of_file(id: String, file: PathBuf, defaults: &Job) -> Self {
-        Self { id, garment: vec![file], ..defaults.clone() }
+    pub(super) fn of_file(id: String, file: PathBuf, defaults: &Job) -> Self {
+        Self { id, garment: vec![file], ..defaults.clone() }.from_root()
+    }
+
+    /// The job with whole paths, so that its record tells where everything was.
+    fn from_root(mut self) -> Self {
+        let whole = |file: &Path| std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
+        self.garment.iter_mut().for_each(|file| *file = whole(file));
+        let named = [(&mut self.body, mannequin::library()), (&mut self.fabric, fabric::library())];
+        for (name, shipped) in named {
+            if let Some(name) = name.as_mut().filter(|name| is_file_name(name, &shipped)) {
+                *name = whole(Path::new(name)).display().to_string();
+            }
+        }
+        self
     }
 
     /// Options without a garment.
@@ -132,13 +144,35 @@ pub fn read_jobs(list: &Path, defaults: &Job) -> Result<Vec<Job>, BatchError> {
     let unreadable = |why: String| BatchError::Read { file: list.to_owned(), why };
     let bytes = bytes(list, LARGEST_LIST).map_err(|e: InputError| unreadable(e.to_string()))?;
     let text = String::from_utf8(bytes).map_err(|e| unreadable(format!("it is no UTF-8 text: {e}")))?;
+    // Editors begin UTF-8 with a byte order mark.
+    let lines = text.strip_prefix('\u{feff}').unwrap_or(&text).lines();
     let folder = list.parent().unwrap_or(Path::new(""));
+    let numbered = (1..).zip(lines).filter(|(_, text)| !text.trim().is_empty());
+    let jobs = check_jobs(numbered, "line", folder, defaults);
+    let jobs = jobs.map_err(|mistakes| BatchError::Jobs { file: list.to_owned(), mistakes })?;
+    if jobs.is_empty() {
+        return Err(BatchError::Empty { file: list.to_owned(), why: "no job in this list" });
+    }
+    Ok(jobs)
+}
+
+/// Jobs from their JSON objects, each with its number, which is that of a `place` such as `line`. Paths are relative to
+/// `folder`.
+///
+/// # Errors
+/// Every text that is no job, and every id that another job has.
+pub fn check_jobs<'t>(
+    texts: impl Iterator<Item = (usize, &'t str)>,
+    place: &str,
+    folder: &Path,
+    defaults: &Job,
+) -> Result<Vec<Job>, Vec<Mistake>> {
     let (mut jobs, mut mistakes) = (Vec::new(), Vec::new());
     let mut first: HashMap<String, usize> = HashMap::new();
-    for (line, text) in (1..).zip(text.lines()).filter(|(_, text)| !text.trim().is_empty()) {
+    for (line, text) in texts {
         let parsed = parse_job(text, folder, defaults, &line.to_string());
         let unique = parsed.and_then(|job| match first.insert(job.id.clone(), line) {
-            Some(other) => Err(format!("the id '{}' is that of line {other}; ids must differ", job.id)),
+            Some(other) => Err(format!("the id '{}' is that of {place} {other}; ids must differ", job.id)),
             None => Ok(job),
         });
         match unique {
@@ -146,13 +180,7 @@ pub fn read_jobs(list: &Path, defaults: &Job) -> Result<Vec<Job>, BatchError> {
             Err(why) => mistakes.push(Mistake { line, why }),
         }
     }
-    if !mistakes.is_empty() {
-        return Err(BatchError::Jobs { file: list.to_owned(), mistakes });
-    }
-    if jobs.is_empty() {
-        return Err(BatchError::Empty { file: list.to_owned(), why: "no job in this list" });
-    }
-    Ok(jobs)
+    if mistakes.is_empty() { Ok(jobs) } else { Err(mistakes) }
 }
 
 /// One job from its JSON object. Paths are relative to `folder`. A job without an id is named after its garment and
@@ -161,6 +189,10 @@ pub fn read_jobs(list: &Path, defaults: &Job) -> Result<Vec<Job>, BatchError> {
 /// # Errors
 /// The mistake, in words.
 pub fn parse_job(text: &str, folder: &Path, defaults: &Job, mark: &str) -> Result<Job, String> {
+    // A list of values would be taken for those of the keys in their order.
+    if text.trim_start().starts_with('[') {
+        return Err("a job is an object such as {\"garment\": \"skirt.yaml\"}, not a list".into());
+    }
     let said: JobLine = serde_json::from_str(text).map_err(|e| plain(&e))?;
     let garment = match said.garment {
         Some(OneOrMany::One(file)) => vec![file],
@@ -189,7 +221,7 @@ pub fn parse_job(text: &str, folder: &Path, defaults: &Job, mark: &str) -> Resul
         measures: said.measures.or_else(|| defaults.measures.clone()),
         alter: said.alter.unwrap_or_else(|| defaults.alter.clone()),
     };
-    checked(job)
+    checked(job.from_root())
 }
 
 fn json<T: Serialize>(value: &T) -> String {
@@ -224,39 +256,18 @@ fn checked(job: Job) -> Result<Job, String> {
     }
 }
 
-/// Every garment (`*.yaml`, `*.yml`) of a folder as a job, sorted and named by its file.
-///
-/// # Errors
-/// [`BatchError`]: a folder that cannot be read, or without garments.
-pub fn garments_of_folder(folder: &Path, defaults: &Job) -> Result<Vec<Job>, BatchError> {
-    let unreadable = |e: std::io::Error| BatchError::Read { file: folder.to_owned(), why: e.to_string() };
-    let entries: Vec<fs::DirEntry> = fs::read_dir(folder).and_then(Iterator::collect).map_err(unreadable)?;
-    let mut files: Vec<PathBuf> = entries.iter().map(fs::DirEntry::path).filter(|path| is_yaml(path)).collect();
-    files.sort();
-    if files.is_empty() {
-        return Err(BatchError::Empty { file: folder.to_owned(), why: "no garment (*.yaml) in this folder" });
-    }
-    let name = |file: &Path| file.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    // a.yaml and a.yml would both be named a.
-    let twice = |file: &Path| files.iter().filter(|other| stem(other) == stem(file)).count() > 1;
-    let id = |file: &Path| if twice(file) { name(file) } else { stem(file) };
-    Ok(files.iter().map(|file| Job::of_file(id(file), file.clone(), defaults)).collect())
-}
-
-fn is_yaml(path: &Path) -> bool {
-    path.is_file() && path.extension().is_some_and(|e| e == "yaml" || e == "yml")
-}
-
 pub(super) fn stem(file: &Path) -> String {
     file.file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }
 
 /// A library name as it is, a file in `folder`.
 fn in_folder(folder: &Path, name: String, shipped: &[&str]) -> String {
-    if shipped.contains(&name.as_str()) || Path::new(&name).extension().is_none() {
-        return name;
-    }
-    folder.join(name).display().to_string()
+    if is_file_name(&name, shipped) { folder.join(name).display().to_string() } else { name }
+}
+
+/// Whether a body or fabric is a file: no name of the library, and with an ending.
+fn is_file_name(name: &str, shipped: &[&str]) -> bool {
+    !shipped.contains(&name) && Path::new(name).extension().is_some()
 }
 
 /// The parser's message without its line, which is always the first.
@@ -272,17 +283,25 @@ fn plain(error: &serde_json::Error) -> String {
 mod tests {
     use super::*;
 
+    fn lists() -> PathBuf {
+        std::path::absolute("lists").expect("a folder")
+    }
+
     fn parse(text: &str) -> Result<Job, String> {
         let defaults = Job { spacing: Some(25.0), body_units: Some("cm".into()), ..Job::options() };
-        parse_job(text, Path::new("lists"), &defaults, "7")
+        parse_job(text, &lists(), &defaults, "7")
     }
 
     #[test]
     fn a_job_is_relative_to_its_list_and_takes_what_it_does_not_say() {
         let job = parse(r#"{"garment": "skirt.yaml", "body": "anna.obj", "fabric": "denim"}"#).expect("a job");
         assert_eq!(job.id, "skirt-7");
-        assert_eq!(job.garment, [PathBuf::from("lists/skirt.yaml")]);
-        assert_eq!(job.arguments(), ["--body=lists/anna.obj", "--fabric=denim", "--spacing=25"]);
+        assert_eq!(job.garment, [lists().join("skirt.yaml")]);
+        let body = format!("--body={}", lists().join("anna.obj").display());
+        assert_eq!(job.arguments(), [&body, "--fabric=denim", "--spacing=25"]);
+        // Also where the folder is named from here.
+        let same = parse_job(r#"{"garment": "skirt.yaml"}"#, Path::new("lists"), &Job::options(), "7");
+        assert_eq!(same.expect("a job").garment, job.garment);
     }
 
     #[test]
@@ -295,6 +314,7 @@ mod tests {
         assert!(said(r#"{"garment": "a.yaml", "spacing": -3}"#).contains("-3 is no positive number"));
         assert!(said(r#"{"garment": "a.yaml", "body_units": "ft"}"#).contains("known are mm, cm, dm, m, in"));
         assert!(said(r#"{"garment": 3}"#).contains("the name of a file"));
+        assert!(said(r#" ["a", "skirt.yaml"]"#).contains("not a list"));
         let measure = said(r#"{"garment": "a.yaml", "measures": {"wais": 700}}"#);
         assert!(measure.contains("'wais' is no measure; did you mean 'waist'?"), "{measure}");
         let alteration = said(r#"{"garment": "a.yaml", "alter": [{"lenghten": "front", "at": 200, "by": 20}]}"#);

@@ -18,6 +18,8 @@ use crate::mannequin;
 const BYTES: usize = 16;
 /// Bytes of a text in which the names of further files are looked for, as of a garment file.
 const LARGEST_TEXT: u64 = 16 << 20;
+/// Bytes of a path, as Linux has them at most. A longer text is none.
+const LONGEST_PATH: usize = 4096;
 /// A garment names a fabric, the fabric a curve. Files that name one another in a circle end here.
 const DEEPEST: usize = 4;
 
@@ -37,13 +39,14 @@ impl fmt::Display for Key {
 pub struct Digests(Mutex<HashMap<PathBuf, String>>);
 
 impl Digests {
-    /// The hash of a file's bytes, or the reason why there is none.
-    fn of(&self, file: &Path) -> String {
+    /// The hash of a file's bytes, or the reason why there is none and the path that leads nowhere: two files that are
+    /// missing are not the same.
+    pub(super) fn of(&self, file: &Path) -> String {
         let known = |digests: &Self| digests.0.lock().unwrap_or_else(PoisonError::into_inner).get(file).cloned();
         if let Some(digest) = known(self) {
             return digest;
         }
-        let digest = read(file).unwrap_or_else(|why| format!("unreadable: {why}"));
+        let digest = read(file).unwrap_or_else(|why| format!("unreadable: {why}: {}", file.display()));
         self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(file.to_owned(), digest.clone());
         digest
     }
@@ -88,6 +91,23 @@ impl Key {
     }
 }
 
+/// Files of a job that can be read, each once: its garments and all that they name, its body and its fabric.
+pub(super) fn files_of(job: &Job) -> Vec<PathBuf> {
+    let given = [&job.body, &job.fabric].into_iter().flatten().map(PathBuf::from).filter(|path| path.is_file());
+    let mut files: Vec<PathBuf> = Vec::new();
+    let mut next: Vec<PathBuf> = job.garment.iter().cloned().chain(given).collect();
+    for _ in 0..=DEEPEST {
+        next.retain(|file| file.is_file() && !files.contains(file));
+        let named = next.iter().flat_map(|file| named_files(file)).map(|(_, path)| path).collect();
+        for file in std::mem::replace(&mut next, named) {
+            if !files.contains(&file) {
+                files.push(file);
+            }
+        }
+    }
+    files
+}
+
 /// A hash of names and values.
 struct Content(Sha256);
 
@@ -119,19 +139,20 @@ impl Content {
     }
 }
 
-/// The files beside a YAML file that it names, in their order. Any text that is the name of a file counts: a file too
-/// many does no harm. Other files name none that matter.
+/// The files that a file names, in their order. Any text that is the name of a file counts: a file too many does no
+/// harm. What a file is called does not tell whether it names others, but a surface is long and names none.
 fn named_files(file: &Path) -> Vec<(String, PathBuf)> {
-    if !file.extension().is_some_and(|e| e == "yaml" || e == "yml") {
+    if file.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
         return Vec::new();
     }
     let text = bytes(file, LARGEST_TEXT).ok().and_then(|bytes| String::from_utf8(bytes).ok());
-    let Some(Ok(texts)) = text.map(|text| texts(&text)) else { return Vec::new() };
+    let texts = text.map(|text| texts(text.strip_prefix('\u{feff}').unwrap_or(&text)));
+    let Some(Ok(texts)) = texts else { return Vec::new() };
     let folder = file.parent().unwrap_or(Path::new(""));
     let beside = |text: String| {
         let name = text.trim();
         let path = folder.join(name);
-        (Path::new(name).extension().is_some() && path.is_file()).then(|| (name.to_owned(), path))
+        (!name.is_empty() && name.len() <= LONGEST_PATH && path.is_file()).then(|| (name.to_owned(), path))
     };
     texts.into_iter().filter_map(beside).collect()
 }

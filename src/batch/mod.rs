@@ -11,6 +11,8 @@
 //! work into one store at the same time.
 
 mod error;
+mod folder;
+mod inputs;
 mod job;
 mod key;
 mod process;
@@ -26,9 +28,10 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 pub use error::{BatchError, Mistake};
-pub use job::{Job, garments_of_folder, parse_job, read_jobs};
+pub use folder::{Garments, garments_of_folder};
+pub use job::{Job, check_jobs, parse_job, read_jobs};
 pub use key::{Digests, Key};
-pub use process::{Limits, WORKER_CANNOT_WRITE, Worker, become_worker};
+pub use process::{Limits, WORKER_CANNOT_WRITE, WORKER_EXIT, WORKER_NO_MEMORY, Worker, become_worker};
 pub use sample::{Choice, list_text, sample};
 pub use store::{INDEX, Record, State, Store};
 

@@ -16,16 +16,30 @@ use super::store::{LOG, Record, State, Store};
 use crate::input::shown;
 use crate::io::files::abandon;
 
+/// Exit codes of a worker are those of its command and this number. A worker that toile did not end, as a Python that
+/// does not find toile, has others.
+pub const WORKER_EXIT: u8 = 80;
 /// Exit code of a worker that cannot write its results: then the store is at fault, not the job.
 pub const WORKER_CANNOT_WRITE: u8 = 74;
+/// Exit code of a worker that its memory limit does not let begin.
+pub const WORKER_NO_MEMORY: u8 = 75;
+/// Exit code of a Rust program that has panicked: a fault of toile, which one garment may have and another not.
+const PANICKED: i32 = 101;
+/// Exit code of a worker that is asked to end by a signal.
+const ASKED_TO_END: i32 = 130;
+/// Codes that a command ends with when there is a result, and when there is none.
+const MADE: [i32; 2] = [0, 1];
+const NOT_MADE: [i32; 2] = [2, 3];
 /// Time between two looks at a process: short beside the quickest garments (0.1 s), and hardly any work.
 const LOOK: Duration = Duration::from_millis(10);
 /// Characters of an error in the index.
 const MESSAGE: usize = 2000;
 /// Bytes at the end of a log in which the error is looked for.
 const LOG_END: usize = 64 << 10;
-/// The message with which a Rust program ends that gets no memory.
-const NO_MEMORY: &str = "memory allocation of";
+/// Files that every result has.
+const RESULTS: [&str; 2] = ["garment.obj", "report.json"];
+/// Messages with which Rust's and Python's programs end that get no memory.
+const NO_MEMORY: [&str; 2] = ["memory allocation of", "MemoryError"];
 /// A mebibyte, the unit of memory limits.
 const MIB: u64 = 1 << 20;
 
@@ -47,23 +61,32 @@ pub struct Worker {
     pub threads: NonZeroUsize,
 }
 
+impl Worker {
+    /// Its first words, for messages.
+    fn shown(&self) -> String {
+        self.program.iter().map(|word| word.to_string_lossy()).collect::<Vec<_>>().join(" ")
+    }
+}
+
 /// Makes a process a batch's worker: it ends when the batch does, however that ends, and it gets no more than so many
 /// MiB of memory. Called by the command line of the worker, first of all.
 ///
 /// # Errors
 /// [`BatchError::Limit`] when the system has no such limit.
 pub fn become_worker(memory: u64) -> Result<(), BatchError> {
-    if memory > 0 {
-        limit_memory(memory * MIB)?;
-    }
+    // The thread is started first: it takes memory, too.
+    end_with_batch().map_err(|e| BatchError::Limit(e.to_string()))?;
+    if memory > 0 { limit_memory(memory * MIB) } else { Ok(()) }
+}
+
+fn end_with_batch() -> io::Result<()> {
     // The batch holds the other end and never writes. The system closes it with the batch.
     let watch = || {
         let mut byte = [0];
         while io::stdin().read(&mut byte).is_ok_and(|read| read > 0) {}
         abandon()
     };
-    let thread = std::thread::Builder::new().stack_size(64 << 10).spawn(watch);
-    thread.map(drop).map_err(|e| BatchError::Limit(e.to_string()))
+    std::thread::Builder::new().stack_size(64 << 10).spawn(watch).map(drop)
 }
 
 #[cfg(all(unix, not(target_os = "openbsd")))]
@@ -91,21 +114,13 @@ pub(super) fn make(
     let mut child = start(job, &folder, store, plan)?;
     let end = wait(&mut child, begin, plan.limits.time, stop).map_err(|e| store.unwritable(e))?;
     let seconds = begin.elapsed().as_secs_f64();
-    let log = log_end(&folder.join(LOG));
     let (state, exit, error) = match end {
         End::Stopped => return Err(BatchError::Stopped),
         End::TimeUp(limit) => {
             let why = format!("not done after {} s, the time limit (--time)", limit.as_secs_f64());
             (State::Failed, None, Some(why))
         }
-        End::Exited(status) => match status.code() {
-            Some(code @ (0 | 1)) => (State::Done, Some(code), None),
-            Some(code) if code == i32::from(WORKER_CANNOT_WRITE) => {
-                return Err(store.unwritable(message(&log).unwrap_or("it is full or protected")));
-            }
-            Some(code) => (State::Failed, Some(code), Some(failure(&log, &status, plan))),
-            None => (State::Failed, None, Some(failure(&log, &status, plan))),
-        },
+        End::Exited(status) => judged(&folder, &status, store, plan)?,
     };
     let mut record = Record { key: key.clone(), state, exit, seconds, error, kept: true };
     if Key::of(job, &Digests::default()) != *key {
@@ -119,6 +134,45 @@ pub(super) fn make(
     Ok(record)
 }
 
+/// Whether a worker that has ended made the garment, the exit code of its command, and why it did not.
+fn judged(
+    folder: &Path,
+    status: &ExitStatus,
+    store: &Store,
+    plan: &Plan,
+) -> Result<(State, Option<i32>, Option<String>), BatchError> {
+    let log = log_end(&folder.join(LOG));
+    let Some(code) = status.code() else { return Ok((State::Failed, None, Some(failure(&log, status, plan)))) };
+    if code == i32::from(WORKER_CANNOT_WRITE) {
+        return Err(store.unwritable(message(&log).unwrap_or("it is full or protected")));
+    }
+    if code == i32::from(WORKER_NO_MEMORY) {
+        return Ok((State::Failed, None, Some(too_little_memory(plan))));
+    }
+    let exit = code - i32::from(WORKER_EXIT);
+    if MADE.contains(&exit) {
+        let missing = RESULTS.into_iter().find(|name| !folder.join(name).is_file());
+        return Ok(match missing {
+            None => (State::Done, Some(exit), None),
+            Some(name) => {
+                (State::Failed, None, Some(format!("it ended without {name}, although it said that all is done")))
+            }
+        });
+    }
+    if NOT_MADE.contains(&exit) || code == PANICKED {
+        let exit = if code == PANICKED { None } else { Some(exit) };
+        return Ok((State::Failed, exit, Some(failure(&log, status, plan))));
+    }
+    if code == ASKED_TO_END {
+        return Ok((State::Failed, None, Some("its process was asked to end by a signal".into())));
+    }
+    if plan.limits.memory.is_some() && no_memory(&log) {
+        return Ok((State::Failed, None, Some(too_little_memory(plan))));
+    }
+    let last = last_line(&log).unwrap_or("it said nothing").trim_start_matches("error: ");
+    Err(BatchError::Worker { program: plan.worker.shown(), code, why: cut(last) })
+}
+
 /// Starts the process. Its output goes into the log.
 fn start(job: &Job, folder: &Path, store: &Store, plan: &Plan) -> Result<Child, BatchError> {
     let Worker { program, threads } = &plan.worker;
@@ -127,13 +181,15 @@ fn start(job: &Job, folder: &Path, store: &Store, plan: &Plan) -> Result<Child, 
     let mut command = Command::new(words.next().cloned().unwrap_or_default());
     command.args(words);
     command.arg(format!("--worker={}", plan.limits.memory.unwrap_or(0))).arg(format!("--threads={threads}"));
-    command.arg("make").args(job.arguments()).arg("-o").arg(folder).arg("--").args(&job.garment);
+    // In one word: a folder's name may begin with a dash.
+    let mut output = OsString::from("--output=");
+    output.push(folder);
+    command.arg("make").args(job.arguments()).arg(output).arg("--").args(&job.garment);
     command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(log);
     // Ctrl-C on a terminal is for the batch, which ends its workers.
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(&mut command, 0);
-    let shown = || program.iter().map(|word| word.to_string_lossy()).collect::<Vec<_>>().join(" ");
-    command.spawn().map_err(|source| BatchError::Start { program: shown(), source })
+    command.spawn().map_err(|source| BatchError::Start { program: plan.worker.shown(), source })
 }
 
 enum End {
@@ -183,20 +239,36 @@ fn message(log: &str) -> Option<&str> {
     None
 }
 
-/// Why a worker ended without a garment.
+/// The last line of a log that says anything.
+fn last_line(log: &str) -> Option<&str> {
+    log.lines().rev().find(|line| !line.trim().is_empty())
+}
+
+fn no_memory(log: &str) -> bool {
+    NO_MEMORY.iter().any(|words| log.contains(words))
+}
+
+fn too_little_memory(plan: &Plan) -> String {
+    plan.limits.memory.map_or_else(
+        || "the system has no memory left; run fewer side by side (--jobs)".into(),
+        |mib| format!("it needs more than {mib} MiB, the memory limit (--memory)"),
+    )
+}
+
+/// Why a worker ended without a garment. A worker that the system ends has said only notes, which are no reason.
 fn failure(log: &str, status: &ExitStatus, plan: &Plan) -> String {
-    if log.contains(NO_MEMORY) {
-        return plan.limits.memory.map_or_else(
-            || "the system has no memory left; run fewer side by side (--jobs)".into(),
-            |mib| format!("it needs more than {mib} MiB, the memory limit (--memory)"),
-        );
+    if status.code().is_none() && no_memory(log) {
+        return too_little_memory(plan);
     }
-    let said = message(log).or_else(|| log.lines().rev().find(|line| !line.trim().is_empty()));
+    let said = message(log).or_else(|| last_line(log).filter(|_| status.code().is_some()));
     let said = said.map(|text| text.strip_prefix("error: ").unwrap_or(text));
     let text = match (said, status.code()) {
         (Some(said), Some(_)) => said.to_owned(),
         (Some(said), None) => format!("ended by the system ({status}): {said}"),
-        (None, _) => format!("ended by the system ({status}) without a word; it may have run out of memory"),
+        (None, _) => format!(
+            "ended by the system ({status}), which does so when its memory runs out; run fewer side by side (--jobs), \
+             or limit each (--memory)"
+        ),
     };
     cut(&text)
 }

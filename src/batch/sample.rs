@@ -9,6 +9,9 @@ use crate::io::files::relative;
 use crate::io::garment::{Drawn, Ranges};
 use crate::mannequin::MannequinSpec;
 
+/// Most samples of a list: a job with ranges takes a kilobyte or so, and all of them are held in memory.
+const MOST_SAMPLES: usize = 1_000_000;
+
 /// The garments, bodies, fabrics and ranges that jobs are drawn from.
 #[derive(Clone, Debug)]
 pub struct Choice {
@@ -30,6 +33,9 @@ pub struct Choice {
 /// [`BatchError::Samples`] when there are not so many.
 pub fn sample(choice: &Choice, count: usize, seed: u64, options: &Job) -> Result<Vec<Job>, BatchError> {
     let Choice { garments, bodies, fabrics, ranges } = choice;
+    if count > MOST_SAMPLES {
+        return Err(BatchError::TooManySamples { asked: count, most: MOST_SAMPLES });
+    }
     let there = garments.len().saturating_mul(bodies.len()).saturating_mul(fabrics.len());
     if count > there && (ranges.is_empty() || there == 0) {
         let (garments, bodies, fabrics) = (garments.len(), bodies.len(), fabrics.len());

@@ -3,7 +3,7 @@
 //! ```text
 //! STORE/index.jsonl      one line a job of the last list
 //! STORE/KEY/             a result: the files of `toile make`, job.json, log.txt
-//! STORE/failed/KEY/      a failure: job.json with the reason, log.txt, the garment files, what there was of a result
+//! STORE/failed/KEY/      a failure: job.json with the reason, log.txt, input/, what there was of a result
 //! STORE/.work/NAME/      what a running batch has not finished; NAME/lock is locked while it runs
 //! ```
 
@@ -17,6 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Line;
 use super::error::BatchError;
+use super::inputs::{Input, keep_inputs};
 use super::job::Job;
 use super::key::Key;
 use crate::io::files::write_all;
@@ -33,8 +34,6 @@ const FAILED: &str = "failed";
 const WORK: &str = ".work";
 /// Locked by a process as long as it uses its work folder.
 const LOCK: &str = "lock";
-/// Bytes of a garment file that is kept with a failure. Larger ones are known by their path.
-const LARGEST_KEPT: u64 = 1 << 20;
 
 /// Whether there is a garment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -75,6 +74,9 @@ struct Written {
     /// As it was asked for: a hint for people, of which nothing is read.
     #[serde(default, skip_deserializing)]
     job: serde_json::Value,
+    /// The files that a failure was made from.
+    #[serde(default, skip_deserializing, skip_serializing_if = "Vec::is_empty")]
+    inputs: Vec<Input>,
 }
 
 /// A job's folder from the store.
@@ -146,8 +148,9 @@ impl Store {
     pub(super) fn seal(&self, folder: &Path, job: &Job, record: &Record) -> Result<(), BatchError> {
         let target = self.folder(record.state, &record.key);
         let failed = |e: io::Error| fault(&target, e);
+        let mut inputs = Vec::new();
         if record.state == State::Failed {
-            keep_garments(folder, job).map_err(failed)?;
+            inputs = keep_inputs(folder, job).map_err(failed)?;
             fs::create_dir_all(self.root.join(FAILED)).map_err(failed)?;
         }
         name_places(folder, &target).map_err(failed)?;
@@ -159,6 +162,7 @@ impl Store {
             seconds: record.seconds,
             error: record.error.clone(),
             job: serde_json::to_value(job).unwrap_or_default(),
+            inputs,
         };
         let text = serde_json::to_vec_pretty(&written).map_err(|e| failed(e.into()))?;
         fs::write(folder.join(RECORD), text).map_err(failed)?;
@@ -195,6 +199,11 @@ impl Store {
         let path = self.root.join(name);
         let opened = OpenOptions::new().append(true).create(true).open(&path);
         opened.and_then(|mut file| file.write_all(&index_text(lines))).map_err(|e| fault(&path, e))
+    }
+
+    /// The work folder of this process, which is there as long as the store is open.
+    pub fn work(&self) -> &Path {
+        &self.work
     }
 
     /// The path of an index.
@@ -256,18 +265,6 @@ fn remove(folder: &Path) -> io::Result<()> {
         Err(e) if !matches!(e.kind(), io::ErrorKind::NotFound | io::ErrorKind::DirectoryNotEmpty) => Err(e),
         _ => Ok(()),
     }
-}
-
-/// Copies the garment files of a failure beside it, as far as they can be read.
-fn keep_garments(folder: &Path, job: &Job) -> io::Result<()> {
-    for file in &job.garment {
-        let small = fs::metadata(file).is_ok_and(|about| about.is_file() && about.len() <= LARGEST_KEPT);
-        if let (true, Some(name)) = (small, file.file_name()) {
-            let Ok(bytes) = fs::read(file) else { continue };
-            fs::write(folder.join(name), bytes)?;
-        }
-    }
-    Ok(())
 }
 
 /// Has the log name the folder that its files will be in, instead of the one that they were written into.

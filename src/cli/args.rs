@@ -8,7 +8,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 use super::batch_args::{BatchArgs, SampleArgs};
 use super::picture_args::PictureArgs;
 use crate::batch::Job;
-use crate::fitting::DRAPES;
+use crate::fitting::{DRAPES, LEAST_DRAPES};
 use crate::flatten::Mode;
 use crate::geometry::Vec3;
 use crate::input::{LengthUnit, bytes};
@@ -444,11 +444,10 @@ pub(super) struct FitArgs {
     pub(super) overrides: OverrideArgs,
 }
 
-/// At least the garment, a knob, and the altered garment.
 fn drapes(text: &str) -> Result<usize, String> {
     match text.parse() {
-        Ok(count) if count >= 3 => Ok(count),
-        _ => Err("a number of at least 3 is expected".into()),
+        Ok(count) if count >= LEAST_DRAPES => Ok(count),
+        _ => Err(format!("a number of at least {LEAST_DRAPES} is expected")),
     }
 }
 

@@ -7,7 +7,7 @@ use super::batch_args::{BatchArgs, Part};
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use crate::batch::{
-    Event, INDEX, Job, Limits, Line, Plan, State, Store, Summary, Worker, garments_of_folder, read_jobs, run,
+    Event, Garments, INDEX, Job, Limits, Line, Plan, State, Store, Summary, Worker, garments_of_folder, read_jobs, run,
 };
 use crate::io::files::stop_on_interrupt;
 
@@ -22,8 +22,11 @@ pub(super) fn batch(
     console: &Console,
 ) -> Result<Exit, CliError> {
     let defaults = args.overrides.job_options();
-    let jobs =
-        if args.jobs.is_dir() { garments_of_folder(&args.jobs, &defaults)? } else { read_jobs(&args.jobs, &defaults)? };
+    let jobs = if args.jobs.is_dir() {
+        told(garments_of_folder(&args.jobs, &defaults)?, console)
+    } else {
+        read_jobs(&args.jobs, &defaults)?
+    };
     let (jobs, index) = part(jobs, args.part);
     let store = Store::open(&args.output)?;
     let cores = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
@@ -43,6 +46,16 @@ pub(super) fn batch(
     })?;
     console.results(&summary, || said(&summary, &store.index(&plan.index).display().to_string()))?;
     Ok(judge(&summary))
+}
+
+/// The jobs of a folder. Says what of it is left out.
+pub(super) fn told(found: Garments, console: &Console) -> Vec<Job> {
+    let names: Vec<String> = found.left_out.iter().map(|file| file.display().to_string()).collect();
+    if !names.is_empty() {
+        let names = crate::input::shown(&names.join(", "), REASON);
+        console.note(&format!("left out, since they are no garment files ('garment: 1'): {names}"));
+    }
+    found.jobs
 }
 
 /// Every `of`th job, and the index for them.

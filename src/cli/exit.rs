@@ -21,8 +21,12 @@ pub(super) enum Exit {
     Input = 2,
     /// It could not be computed.
     Failed = 3,
+    /// A batch could not go on.
+    Unable = 4,
     /// A worker of a batch cannot write its results.
     CannotWrite = crate::batch::WORKER_CANNOT_WRITE as isize,
+    /// A worker of a batch does not get the memory to begin with.
+    NoMemory = crate::batch::WORKER_NO_MEMORY as isize,
     /// Stopped by Ctrl-C.
     Stopped = 130,
 }
@@ -79,12 +83,33 @@ pub(super) enum CliError {
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
 
+impl Exit {
+    /// The code of a process, which tells a batch of its worker's outcome more than others are told.
+    pub(super) fn code(self, worker: bool) -> u8 {
+        let plain = self as u8;
+        match self {
+            Self::CannotWrite | Self::NoMemory | Self::Stopped => plain,
+            _ if worker => plain + crate::batch::WORKER_EXIT,
+            _ => plain,
+        }
+    }
+}
+
 impl CliError {
+    /// How a batch's worker ends: a full disk is no fault of its job, and threads are not started for want of memory.
+    pub(super) fn exit_of_worker(&self, limited: bool) -> Exit {
+        match self {
+            Self::Write(_) => Exit::CannotWrite,
+            Self::Threads(_) if limited => Exit::NoMemory,
+            _ => self.exit(),
+        }
+    }
+
     pub(super) fn exit(&self) -> Exit {
         match self {
             Self::Pipeline(e) if !e.is_input() => Exit::Failed,
             Self::Batch(BatchError::Stopped) => Exit::Stopped,
-            Self::Batch(e) if !e.is_input() => Exit::Failed,
+            Self::Batch(e) if !e.is_input() => Exit::Unable,
             Self::Specimen(_) | Self::Picture(_) | Self::Threads(_) => Exit::Failed,
             _ => Exit::Input,
         }

@@ -5,15 +5,11 @@ use super::args::FitArgs;
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use super::make::borrowed;
-use crate::fitting::{Asked, Fitting, KnobRow, WantRow, fit as fitted};
+use crate::fitting::{Asked, Fitting, KnobRow, SPACING, WantRow, fit as fitted};
 use crate::io::files::{check_writable, write_all};
 use crate::io::garment::read_wants;
 use crate::pipeline::{Overrides, PipelineError, inputs, read};
 use crate::report::aligned;
-
-/// Spacing when none is asked for, metres: that of a garment whose figures no longer change by more than they must be
-/// kept to, at a quarter of the cost.
-const SPACING: f64 = 0.020;
 
 /// `toile fit`
 pub(super) fn fit(args: &FitArgs, console: &Console) -> Result<Exit, CliError> {

@@ -67,11 +67,9 @@ pub fn main_with(arguments: impl IntoIterator<Item = OsString>, itself: &[OsStri
         .and_then(|done| done);
     let exit = done.unwrap_or_else(|error| {
         console.error(&error);
-        // A batch must tell a full disk from a wrong job.
-        let at_fault = args.global.worker.is_some() && matches!(error, CliError::Write(_));
-        if at_fault { Exit::CannotWrite } else { error.exit() }
+        args.global.worker.map_or_else(|| error.exit(), |memory| error.exit_of_worker(memory > 0))
     });
-    exit as u8
+    exit.code(args.global.worker.is_some())
 }
 
 /// Most threads that are started, whatever is asked for: every one takes a stack, and a slip of the pen must not take

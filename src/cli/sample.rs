@@ -1,8 +1,10 @@
 //! `sample`: jobs for a batch, drawn at random and reproducibly.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use super::args::in_millimetres;
+use super::batch::told;
 use super::batch_args::SampleArgs;
 use super::console::Console;
 use super::exit::{CliError, Exit};
@@ -20,9 +22,9 @@ const DRAWN: &str = "none";
 /// `toile sample`
 pub(super) fn sample(args: &SampleArgs, console: &Console) -> Result<Exit, CliError> {
     let options = Job { spacing: args.spacing.map(in_millimetres), ..Job::options() };
-    let garments = garments(&args.garments)?;
+    let garments = garments(&args.garments, console)?;
     let or_all = |given: &[String], all: Vec<&str>| {
-        if given.is_empty() { all.into_iter().map(str::to_owned).collect() } else { given.to_vec() }
+        if given.is_empty() { all.into_iter().map(str::to_owned).collect() } else { once_each(given) }
     };
     let choice = Choice {
         garments: sized(&garments, &args.sizes)?,
@@ -36,7 +38,7 @@ pub(super) fn sample(args: &SampleArgs, console: &Console) -> Result<Exit, CliEr
     };
     check_known("--bodies", &choice.bodies, &mannequin::library())?;
     check_known("--fabrics", &choice.fabrics, &fabric::library())?;
-    check_ends(&choice)?;
+    check_ends(&choice, args.vary.as_deref())?;
     let jobs = draw(&choice, args.count.get(), args.seed, &options)?;
     let inputs = inputs(&choice, args.vary.as_deref());
     let target = [args.output.clone()];
@@ -58,13 +60,20 @@ pub(super) fn sample(args: &SampleArgs, console: &Console) -> Result<Exit, CliEr
 }
 
 /// The garment files of a folder, or the one that is named.
-fn garments(path: &Path) -> Result<Vec<PathBuf>, CliError> {
+fn garments(path: &Path, console: &Console) -> Result<Vec<PathBuf>, CliError> {
     if !path.is_dir() {
         crate::pipeline::read(path)?;
         return Ok(vec![path.to_owned()]);
     }
-    let jobs = garments_of_folder(path, &Job::options())?;
+    let jobs = told(garments_of_folder(path, &Job::options())?, console);
     Ok(jobs.into_iter().flat_map(|job| job.garment).collect())
+}
+
+/// The names without those that come again, also as another way to the same file: all jobs are to differ.
+fn once_each(names: &[String]) -> Vec<String> {
+    let meant = |name: &String| Path::new(name).canonicalize().unwrap_or_else(|_| PathBuf::from(name));
+    let mut seen = HashSet::new();
+    names.iter().filter(|name| seen.insert(meant(name))).cloned().collect()
 }
 
 /// Finds a slip of the pen now instead of in a thousand failures.
@@ -90,7 +99,7 @@ fn sized(garments: &[PathBuf], wanted: &[String]) -> Result<Vec<(PathBuf, Option
             |loaded| loaded.file.sizes.iter().map(|size| size.name.value.clone()).collect(),
         );
         let all = || std::iter::once(DRAWN.to_owned()).chain(own.clone()).collect();
-        let sizes: Vec<String> = if wanted.is_empty() { all() } else { wanted.to_vec() };
+        let sizes: Vec<String> = if wanted.is_empty() { all() } else { once_each(wanted) };
         if let Some(size) = sizes.iter().find(|size| *size != DRAWN && !own.contains(size)) {
             let known = if own.is_empty() { "none".to_owned() } else { own.join(", ") };
             let file = file.display();
@@ -102,7 +111,7 @@ fn sized(garments: &[PathBuf], wanted: &[String]) -> Result<Vec<(PathBuf, Option
 }
 
 /// Tries both ends of all ranges on every garment and body, so that a slip of the pen is found now.
-fn check_ends(choice: &Choice) -> Result<(), CliError> {
+fn check_ends(choice: &Choice, file: Option<&Path>) -> Result<(), CliError> {
     for end in [0.0, 1.0] {
         if choice.ranges.has_measures() {
             choice.bodies.iter().try_for_each(|body| check_measures(&choice.ranges, body, end))?;
@@ -110,12 +119,23 @@ fn check_ends(choice: &Choice) -> Result<(), CliError> {
         let drawn = choice.ranges.draw(|_| None, || end);
         let alter: Vec<String> = drawn.alter.iter().map(ToString::to_string).collect();
         if !alter.is_empty() {
+            let ranges = file.unwrap_or(Path::new("--vary"));
             for (file, size) in &choice.garments {
-                read_variant(file, Variant { size: size.as_deref(), alter: &alter })?;
+                let variant = Variant { size: size.as_deref(), alter: &alter };
+                read_variant(file, variant).map_err(|e| out_of_range(ranges, file, end, &e))?;
             }
         }
     }
     Ok(())
+}
+
+/// An alteration that cannot be carried out at one end of its ranges. Its place is in a text that nobody has written.
+fn out_of_range(ranges: &Path, garment: &Path, end: f64, error: &PipelineError) -> CliError {
+    let (ranges, garment) = (ranges.display(), garment.display());
+    let which = if end == 0.0 { "least" } else { "largest" };
+    CliError::Argument(format!(
+        "{ranges}: with the {which} numbers of its ranges {garment} cannot be altered:\n{error}"
+    ))
 }
 
 /// Puts the measures at one end of their ranges on a body.

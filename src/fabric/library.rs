@@ -52,6 +52,15 @@ pub fn load(name_or_path: &str) -> Result<Fabric, FabricError> {
     load_in(name_or_path, Path::new(""), &[])
 }
 
+/// A fabric in physical units from the text of its file, which names no curves.
+///
+/// # Errors
+/// As of [`load`].
+pub fn load_text(text: &str) -> Result<Fabric, FabricError> {
+    let sheet = FabricSheet::parse(text, "fabric.yaml")?;
+    from_sheet(&sheet, &Context { name: &sheet.name, folder: Path::new(""), garment: &[], given: None })
+}
+
 /// As [`load`], paths being relative to `folder`. `others` are further names for the list in the error.
 pub(super) fn load_in(name: &str, folder: &Path, others: &[&str]) -> Result<Fabric, FabricError> {
     let sheet = sheet_in(name, folder, others)?;

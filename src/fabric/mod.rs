@@ -13,7 +13,7 @@ mod units;
 
 pub use curve::TensileCurve;
 pub use error::FabricError;
-pub use library::{library, load, sheet};
+pub use library::{library, load, load_text, sheet};
 pub use resolve::{Context, resolve};
 pub use sheet::{FabricSheet, LiuMeasures, Measurement};
 

@@ -41,6 +41,13 @@ pub struct Asked<'a> {
     pub drapes: usize,
 }
 
+/// Spacing when none is asked for, metres: that of a garment whose figures no longer change by more than they must be
+/// kept to, at a quarter of the cost.
+pub const SPACING: f64 = 0.020;
+
+/// Least drapes: the garment, a knob, and the altered garment.
+pub const LEAST_DRAPES: usize = 3;
+
 /// Drapes that a fit with four knobs needs at most, as a rule: the garment, each knob, four steps, and two from nothing
 /// in the end.
 pub const DRAPES: usize = 12;

@@ -54,6 +54,12 @@ pub enum ObjError {
         /// Path.
         file: String,
     },
+    /// Faces without an area.
+    #[error("{file}: none of its faces has an area: the corners of each lie at one place or on one line")]
+    NoArea {
+        /// Path.
+        file: String,
+    },
     /// A file without a surface.
     #[error("{file}: no faces; a surface has 'v' lines for its points and 'f' lines for its faces")]
     Empty {

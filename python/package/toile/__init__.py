@@ -10,11 +10,12 @@ Lengths are millimetres, y is up. Arrays are NumPy's. Long work runs without the
 Ctrl-C. The same input gives the same bytes as the command ``toile make`` writes, for any number of threads.
 """
 
+from . import _pickle as _pickle
 from ._batch import batch
-from ._errors import ComputationError, Diagnostic, Error, GarmentError, InputError
+from ._errors import ComputationError, Diagnostic, Error, GarmentError, InputError, WriteError
 from ._index import index, to_parquet
 from ._progress import show_on
-from ._toile import Body, Fabric, Flat, Garment, Result, __version__, flatten
+from ._toile import Body, Fabric, Fit, Flat, Garment, Result, __version__, flatten
 
 __all__ = [
     "Body",
@@ -22,11 +23,13 @@ __all__ = [
     "Diagnostic",
     "Error",
     "Fabric",
+    "Fit",
     "Flat",
     "Garment",
     "GarmentError",
     "InputError",
     "Result",
+    "WriteError",
     "__version__",
     "batch",
     "flatten",

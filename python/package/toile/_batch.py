@@ -5,7 +5,9 @@ from __future__ import annotations
 import asyncio
 import concurrent.futures
 import importlib
+import json
 import os
+import socket
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
@@ -19,6 +21,9 @@ from ._index import index
 # Starts toile's command line: each garment is made in a process of its own. Not by ``-m``, which would also look into
 # the current folder.
 PROGRAM = [sys.executable, str(Path(__file__).with_name("__main__.py"))]
+
+# Objects that stand for a key of a job, each for the key that is named as its class.
+OBJECTS = (_toile.Garment, _toile.Body, _toile.Fabric)
 
 # Time limit (s), memory limit (MiB), threads, and whether failures are tried again.
 Options = tuple[float | None, int | None, int, bool]
@@ -47,10 +52,12 @@ def batch(
     same call. The result is the same whoever makes it: ``toile batch``, this process, or a cluster.
 
     Args:
-        jobs: A list of jobs in a file (one JSON object a line), or dicts with the keys of such lines: ``garment`` (a
-            file, or several from the skin outwards), ``body``, ``body_units``, ``measures``, ``fabric``, ``spacing``
-            (mm), ``size``, ``alter``, ``pressure_bands`` (kPa), ``id``. Paths are relative to the file, or to the
-            current folder. A dict may have a :class:`Body` or a :class:`Fabric` with a file.
+        jobs: A list of jobs in a file (one JSON object a line), a folder whose garment files are made, or dicts with
+            the keys of such lines: ``garment`` (a file, or several from the skin outwards), ``body``, ``body_units``,
+            ``measures``, ``fabric``, ``spacing`` (mm), ``size``, ``alter``, ``pressure_bands`` (kPa), ``id``. Paths are
+            relative to the file, or to the current folder. A dict may have a :class:`Garment`, a :class:`Body` and a
+            :class:`Fabric` as its garment, body and fabric, if they have files. Measures of such a body and alterations
+            of such a garment hold beside those that the job says.
         client: A ``distributed.Client``. Each job is then a task of its cluster, whose machines must see the garments
             and the store under the same paths. What a worker or the scheduler loses when it is killed is handed in
             again when it is back. Without a client the jobs run on this machine.
@@ -67,24 +74,24 @@ def batch(
         ``seconds``, ``folder`` (from the store) and ``error``.
 
     Raises:
-        InputError: The list is wrong, or ids are not unique.
-        ComputationError: The store cannot be written, or the cluster does not come back.
+        InputError: The list is wrong, or ids are not unique. Nothing has been made.
+        ComputationError: The store cannot be written, the cluster does not come back, or a worker has another toile.
     """
     texts = _texts(jobs)
-    folder, root = os.getcwd(), os.path.abspath(store)
+    root = os.path.abspath(store)
     if client is not None:
-        _on_cluster(client, texts, folder, root, (time, memory, threads, retry), progress)
+        _on_cluster(client, texts, root, (time, memory, threads, retry), progress)
         # All are known now, so that this writes the index and makes nothing.
         retry = False
-    _toile.run_batch(texts, folder, root, PROGRAM, side_by_side, time, memory, threads, retry, progress)
+    _toile.run_batch(texts, root, PROGRAM, side_by_side, time, memory, threads, retry, progress)
     return index(root)
 
 
 def _texts(jobs: str | os.PathLike[str] | Iterable[Mapping[str, Any]]) -> list[str]:
-    """The jobs as JSON objects."""
+    """The jobs as JSON objects, all of them checked, with whole paths and an id each."""
     if isinstance(jobs, (str, os.PathLike)):
         return _toile.read_list(jobs)
-    return [_json.dumps(_plain(job)) for job in jobs]
+    return _toile.check_list([_json.dumps(_plain(job)) for job in jobs])
 
 
 def _plain(job: Mapping[str, Any]) -> dict[str, Any]:
@@ -92,33 +99,82 @@ def _plain(job: Mapping[str, Any]) -> dict[str, Any]:
     if not isinstance(job, Mapping):
         raise InputError(f"a job is a dict such as {{'garment': 'skirt.yaml'}}, not {job!r}")
     plain: dict[str, Any] = {}
-    for value in job.values():
-        if isinstance(value, (_toile.Body, _toile.Fabric)):
-            plain |= value._job
-    plain |= {key: value for key, value in job.items() if not isinstance(value, (_toile.Body, _toile.Fabric))}
-    alter = plain.get("alter")
+    for key, value in job.items():
+        if isinstance(value, OBJECTS):
+            if key != type(value).__name__.lower():
+                raise InputError(f"{key!r} of a job cannot be {value!r}")
+            plain |= _of_garment(value) if isinstance(value, _toile.Garment) else value._job
+    said = {key: value for key, value in job.items() if not isinstance(value, OBJECTS)}
+    if isinstance(said.get("measures"), Mapping):
+        said["measures"] = {**plain.get("measures", {}), **said["measures"]}
+    alter = said.get("alter")
     if isinstance(alter, (str, Mapping)):
-        plain["alter"] = [alter]
-    return plain
+        said["alter"] = [alter]
+    if isinstance(said.get("alter"), list):
+        said["alter"] = plain.get("alter", []) + said["alter"]
+    return plain | said
 
 
-def _one(text: str, folder: str, store: str, options: Options) -> dict[str, Any]:
-    """A task: a function of the job's content, which may run again or twice."""
+def _of_garment(garment: _toile.Garment) -> dict[str, Any]:
+    """The file and the alterations of a garment, as a job has them."""
+    file, text, alter, _ = garment._state
+    try:
+        same = Path(file).read_text(encoding="utf-8") == text
+    except (OSError, ValueError):
+        same = False
+    if not same:
+        raise InputError(f"{garment!r} is in no file as it is; save it, and give the job the file's name")
+    return {"garment": os.fspath(file), "alter": alter}
+
+
+def _one(text: str, store: str, held: str, options: Options, version: str) -> dict[str, Any]:
+    """A task: a function of the job's content, which may run again or twice. It ends when the batch has let go of its
+    work folder."""
+    if version != _toile.__version__:
+        raise ComputationError(
+            f"the worker {socket.gethostname()} has toile {_toile.__version__}, the batch is of toile {version}; "
+            "install the same on all machines"
+        )
     time, memory, threads, retry = options
-    return _toile.run_job(text, folder, store, PROGRAM, time, memory, threads, retry)
+    return _toile.run_job(text, store, held, PROGRAM, time, memory, threads, retry)
+
+
+def _content(text: str) -> str:
+    """A job without its id."""
+    return json.dumps({key: value for key, value in json.loads(text).items() if key != "id"})
 
 
 def _on_cluster(
     client: Any,
     texts: list[str],
-    folder: str,
     store: str,
     options: Options,
     progress: Callable[[str, float], object] | None,
 ) -> None:
     """Makes the jobs as tasks of a cluster and waits for them. Jobs that the cluster loses are handed in again."""
+    if client.status == "closed":
+        raise InputError("client: it is closed; give one that is connected to its scheduler")
     # The same job twice in the list is one task.
-    left = once = list(dict.fromkeys(texts))
+    first: dict[str, str] = {}
+    for text in texts:
+        first.setdefault(_content(text), text)
+    once = list(first.values())
+    hold = _toile._Hold(store)
+    try:
+        _made(client, once, (store, str(hold.folder), options), progress)
+    finally:
+        # Ends the jobs that are under way, if this was ended early.
+        hold.release()
+
+
+def _made(
+    client: Any,
+    once: list[str],
+    where: tuple[str, str, Options],
+    progress: Callable[[str, float], object] | None,
+) -> None:
+    """Hands the jobs in until all have ended."""
+    left = once
     lost_before = 0
 
     def tell(open_now: int) -> None:
@@ -126,7 +182,7 @@ def _on_cluster(
             progress("batch", 1 - open_now / len(once))
 
     while left:
-        still = _round(client, left, (folder, store, options), tell)
+        still = _round(client, left, where, tell)
         # As long as something gets done, the cluster is worth another try.
         lost_before = 0 if len(still) < len(left) else lost_before + 1
         if still and lost_before == ROUNDS:
@@ -144,11 +200,14 @@ def _round(
 ) -> list[str]:
     """Hands jobs in and waits for them. Gives those that got lost with a worker or the scheduler."""
     distributed: Any = importlib.import_module("distributed")
-    folder, store, options = where
+    store, held, options = where
+    version = _toile.__version__
     # A task whose worker is killed runs again elsewhere; pure=False keeps an old result from being taken for a new
     # one after the store was cleared.
     try:
-        futures = client.map(_one, texts, folder=folder, store=store, options=options, pure=False, retries=2)
+        futures = client.map(
+            _one, texts, store=store, held=held, options=options, version=version, pure=False, retries=2
+        )
     except _losses():
         return texts
     text_of = {future.key: text for future, text in zip(futures, texts, strict=True)}

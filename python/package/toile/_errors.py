@@ -49,6 +49,10 @@ class GarmentError(InputError):
     diagnostics: list[Diagnostic] = []
 
 
+class WriteError(Error, OSError):
+    """A result cannot be written."""
+
+
 class ComputationError(Error, RuntimeError):
     """It could not be computed.
 

@@ -26,7 +26,7 @@ def index(store: str | os.PathLike[str], name: str = INDEX) -> list[dict[str, An
         ``error``.
 
     Raises:
-        InputError: There is no such index.
+        InputError: There is no such index, or a line of it is none.
     """
     path = Path(store) / name
     try:
@@ -35,15 +35,26 @@ def index(store: str | os.PathLike[str], name: str = INDEX) -> list[dict[str, An
         raise InputError(f"{path}: {error.strerror}; is this the store of a batch?") from error
     # The end of a line that is just being written is left for the next time.
     *whole, _ = text.split("\n")
-    return [json.loads(line) for line in whole]
+    return [_line(path, number, line) for number, line in enumerate(whole, 1)]
+
+
+def _line(path: Path, number: int, text: str) -> dict[str, Any]:
+    """A line of an index."""
+    try:
+        line = json.loads(text)
+    except ValueError as error:
+        raise InputError(f"{path}:{number}: this is no line of an index: {error}; run the batch again") from error
+    if not isinstance(line, dict):
+        raise InputError(f"{path}:{number}: this is no line of an index; run the batch again")
+    return line
 
 
 def to_parquet(store: str | os.PathLike[str], file: str | os.PathLike[str] | None = None, name: str = INDEX) -> Path:
     """Writes a store's index as Parquet, whole or not at all. It needs pyarrow.
 
     The columns are those of :func:`index`, and those of the jobs: ``garment`` (a list of files), ``body``, ``fabric``,
-    ``spacing`` (mm), ``size``, and ``measures`` and ``alter`` as JSON. A job has what it was asked for; null is left to
-    the garment file.
+    ``spacing`` (mm), ``size``, ``measures`` and ``alter`` as JSON, ``body_units`` and ``pressure_bands`` (kPa). A job
+    has what it was asked for; null is left to the garment file.
 
     Args:
         store: The folder of the results.
@@ -66,6 +77,7 @@ def to_parquet(store: str | os.PathLike[str], file: str | os.PathLike[str] | Non
     columns = [("id", text), ("state", text), ("exit", arrow.int32()), ("seconds", number), ("folder", text)]
     columns += [("error", text), ("garment", arrow.list_(text)), ("body", text), ("fabric", text)]
     columns += [("spacing", number), ("size", text), ("measures", text), ("alter", text)]
+    columns += [("body_units", text), ("pressure_bands", arrow.list_(number))]
     rows = [line | _job(Path(store), line) for line in index(store, name)]
     table = arrow.Table.from_pylist(rows, schema=arrow.schema(columns))
     target = Path(store) / f"{Path(name).stem}.parquet" if file is None else Path(file)
@@ -88,7 +100,7 @@ def _job(store: Path, line: dict[str, Any]) -> dict[str, Any]:
         # Nothing could be kept of it.
         return {}
     garment = job.get("garment")
-    out = {key: job.get(key) for key in ["body", "fabric", "spacing", "size"]}
+    out = {key: job.get(key) for key in ["body", "fabric", "spacing", "size", "body_units", "pressure_bands"]}
     out["garment"] = [garment] if isinstance(garment, str) else garment
     for key in ["measures", "alter"]:
         out[key] = json.dumps(job[key], ensure_ascii=False) if key in job else None

@@ -93,6 +93,7 @@ class Garment:
         progress: Callable[[str, float], object] | None = None,
         body_units: _Units | None = None,
         size: str | None = None,
+        pressure_bands: tuple[float, float] | None = None,
     ) -> Result:
         """Sews, drapes and flattens the garment, as the command ``toile make``.
 
@@ -106,12 +107,86 @@ class Garment:
             progress: Called with the stage and the share of it that is done, from 0 to 1. What it raises ends the work.
             body_units: Unit of the body's OBJ file.
             size: A size of the garment.
+            pressure_bands: Pressures in kPa from which cloth is tight, and above which it is too tight.
 
         Raises:
             GarmentError: The garment file has mistakes.
             InputError: The body, the fabric, the spacing or the earlier result is wrong.
             ComputationError: It cannot be sewn, draped or flattened.
         """
+
+    def fit(
+        self,
+        wants: Mapping[str, Any] | _Path | None = None,
+        body: _Path | Body | None = None,
+        fabric: _Path | Fabric | None = None,
+        spacing: float | None = None,
+        threads: int | None = None,
+        drapes: int | None = None,
+        progress: Callable[[str, float], object] | None = None,
+        body_units: _Units | None = None,
+    ) -> Fit:
+        """Finds the alterations that give the garment a fit, as ``toile fit``; this one stays as it is.
+
+        Args:
+            wants: What is wanted, and alterations that may be made, as a file of wants says them: nested dicts, or a
+                file. By default the garment's own tests of ease, pressure and hem, or else that no girth is tight.
+            body: Library name or file in place of the garment's own body.
+            fabric: Library name or file in place of its main fabric.
+            spacing: Distance of neighbouring particles, mm (20 by default).
+            threads: Number of threads (all processors by default). Results do not depend on it.
+            drapes: Most drapes (12 by default).
+            progress: Called with the work under way and the share of it that is done. What it raises ends the work.
+            body_units: Unit of the body's OBJ file.
+
+        Raises:
+            GarmentError: The garment file or the wants have mistakes.
+            InputError: The body, the fabric or a number is wrong.
+            ComputationError: The garment cannot be made.
+        """
+
+    def save(self, path: _Path) -> None:
+        """Writes the garment file (YAML), with its alterations carried out, whole or not at all.
+
+        Args:
+            path: The file. Bodies and fabrics that the garment names by files must be found from its folder, too.
+
+        Raises:
+            InputError: A file that the garment names is not found from there.
+            WriteError: The file cannot be written.
+        """
+
+    @property
+    def _state(self) -> tuple[Any, ...]: ...
+    @staticmethod
+    def _restored(file: _Path, text: str, alter: list[str], notes: list[str]) -> Garment: ...
+
+class Fit:
+    """What was found to give a garment the fit that is wanted."""
+
+    @property
+    def garment(self) -> Garment | None:
+        """The garment with the alterations, or as it was if it fits already; None if the wants cannot be had."""
+
+    @property
+    def changes(self) -> list[str]:
+        """The changes in words."""
+
+    @property
+    def alterations(self) -> list[str]:
+        """The alterations as they stand in a garment file, a text each, as :meth:`Garment.alter` takes them."""
+
+    @property
+    def problems(self) -> list[str]:
+        """Why the wants cannot be had, and problems that the altered garment has and the one before had not."""
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """The figures, as of ``toile fit --json``: the wants before and after, the alterations and their amounts."""
+
+    @property
+    def in_bounds(self) -> bool:
+        """Whether the garment fits as it is wanted (exit code 0 of ``toile fit``, otherwise 1)."""
 
 class Result:
     """A garment as it was sewn, draped and laid flat: n vertices, m triangles. Every array is a copy."""
@@ -243,6 +318,10 @@ class Fabric:
 
     @property
     def _job(self) -> dict[str, Any]: ...
+    @property
+    def _state(self) -> tuple[Any, ...]: ...
+    @staticmethod
+    def _restored(name: str | None, text: str | None, notes: list[str]) -> Fabric: ...
 
     @property
     def notes(self) -> list[str]:
@@ -342,9 +421,16 @@ def flatten(
         ComputationError: It could not be computed.
     """
 
+class _Hold:
+    """A work folder of the store, which is there as long as this is held."""
+
+    def __init__(self, store: _Path) -> None: ...
+    @property
+    def folder(self) -> str | None: ...
+    def release(self) -> None: ...
+
 def run_batch(
     texts: list[str],
-    folder: str,
     store: str,
     program: list[str],
     side_by_side: int | None,
@@ -356,8 +442,8 @@ def run_batch(
 ) -> dict[str, int]: ...
 def run_job(
     text: str,
-    folder: str,
     store: str,
+    held: str,
     program: list[str],
     time: float | None,
     memory: int | None,
@@ -365,4 +451,5 @@ def run_job(
     retry: bool,
 ) -> dict[str, Any]: ...
 def read_list(list: _Path) -> list[str]: ...
+def check_list(texts: list[str]) -> list[str]: ...
 def cli(arguments: list[str], itself: list[str]) -> int: ...

@@ -84,7 +84,9 @@ fn changed(
 fn alter_by(file: &mut GarmentFile, path: &Path) -> Result<(), Refused> {
     let text = text_of(path)?;
     let mut findings = Findings::new(&path.display().to_string(), &text);
-    let list = tree::parse(&text, &mut findings).map_or_else(Vec::new, |tree| changes(&tree, &mut findings));
+    let empty = Problem::MissingKey { what: "a file of changes".to_owned(), key: "alter" };
+    let tree = tree::parse_or(&text, empty, &mut findings);
+    let list = tree.map_or_else(Vec::new, |tree| changes(&tree, &mut findings));
     carry_out_read(file, &list, findings)
 }
 

@@ -23,6 +23,11 @@ pub(super) fn changes(tree: &Located<Value>, findings: &mut Findings) -> Vec<Loc
     list
 }
 
+/// The fault of what is no alteration.
+pub(super) fn no_alteration(found: &str) -> Problem {
+    Problem::UnknownWord { what: "alteration", found: found.to_owned(), known: KNOWN }
+}
+
 /// Reads the sizes: by name, a list of alterations each.
 pub(super) fn sizes(value: &Located<Value>, findings: &mut Findings) -> Vec<SizeFile> {
     let entries = entries(value, "sizes", findings);
@@ -49,8 +54,8 @@ fn read(value: &Located<Value>, by: Length, findings: &mut Findings) -> Option<L
     let named = KINDS.into_iter().filter(|kind| fields.has(kind)).collect::<Vec<_>>();
     let read = match named[..] {
         [] => {
-            let found = fields.rest().first().map_or_else(|| "nothing".to_owned(), |(k, _)| k.value.clone());
-            findings.error(value.at, Problem::UnknownWord { what: "alteration", found, known: KNOWN });
+            let found = fields.rest().first().map_or_else(|| "nothing".to_owned(), |(key, _)| key.value.clone());
+            findings.error(value.at, no_alteration(&found));
             return None;
         }
         [kind] => of_kind(kind, &mut fields, by, findings),

@@ -232,7 +232,8 @@ pub fn read_wants(path: &Path, unit: Unit) -> Result<WantsFile, Refused> {
 /// As [`read_wants`].
 pub fn wants_of(shown: &str, text: &str, unit: Unit) -> Result<WantsFile, Refused> {
     let mut findings = Findings::new(shown, text);
-    let read = tree::parse(text, &mut findings).map(|tree| decode_wants::wants(&tree, unit, &mut findings));
+    let read = tree::parse_or(text, Problem::NoWants, &mut findings)
+        .map(|tree| decode_wants::wants(&tree, unit, &mut findings));
     let read = read.unwrap_or_default();
     if findings.errors() == 0 && read.wants.is_empty() {
         findings.error(Spot::default(), Problem::NoWants);

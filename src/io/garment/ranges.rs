@@ -62,7 +62,7 @@ impl Ranges {
     /// As [`Self::read`].
     pub fn parse(text: &str, shown: &str) -> Result<Self, Refused> {
         let mut findings = Findings::new(shown, text);
-        let ranges = tree::parse(text, &mut findings).and_then(|tree| file(&tree, &mut findings));
+        let ranges = tree::parse_or(text, no_range(), &mut findings).and_then(|tree| file(&tree, &mut findings));
         accept(ranges, findings)
     }
 
@@ -187,9 +187,14 @@ fn file(tree: &Located<Value>, findings: &mut Findings) -> Option<Ranges> {
     }
     fields.finish(findings);
     if out.is_empty() && findings.errors() == 0 {
-        findings.error(tree.at, Problem::MissingKey { what: "a file of ranges".to_owned(), key: "from" });
+        findings.error(tree.at, no_range());
     }
     Some(out)
+}
+
+/// The fault of a file in which there is nothing to draw.
+fn no_range() -> Problem {
+    Problem::MissingKey { what: "a file of ranges".to_owned(), key: "from" }
 }
 
 #[cfg(test)]
@@ -221,6 +226,7 @@ mod tests {
         assert!(wrong("measures: {bust: {from: 2, to: 1}}").contains("r.yaml:1:18: error: "));
         assert!(wrong("measures: {bust: {from: 2 mm, to: 3 cm}}").contains("the same unit"));
         assert!(wrong("measures: {bust: {from: 2}}").contains("to"));
+        assert!(wrong("# nothing yet\n").contains("a file of ranges"));
         assert!(wrong("measure: {}").contains("did you mean 'measures'"));
         assert!(wrong("alter: [{lengthen: front, at: 200, by: 20}]").contains("from"));
     }

@@ -44,8 +44,14 @@ struct Builder<'f> {
     findings: &'f mut Findings,
 }
 
-/// Reads one YAML document. `None` after an error that leaves no tree; duplicate keys are reported and the first kept.
+/// Reads one YAML document, which is to be a garment file. `None` after an error that leaves no tree; duplicate keys
+/// are reported and the first kept.
 pub(super) fn parse(text: &str, findings: &mut Findings) -> Option<Located<Value>> {
+    parse_or(text, Problem::Empty, findings)
+}
+
+/// As [`parse`], of another file. `empty` is its fault when it says nothing.
+pub(super) fn parse_or(text: &str, empty: Problem, findings: &mut Findings) -> Option<Located<Value>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut builder = Builder { open: Vec::new(), anchors: HashMap::new(), values: 0, root: None, findings };
     for event in Parser::new_from_str(text) {
@@ -58,10 +64,10 @@ pub(super) fn parse(text: &str, findings: &mut Findings) -> Option<Located<Value
             return None;
         }
     }
-    let empty = |v: &Located<Value>| matches!(&v.value, Value::Text(t) if t.is_empty());
-    let root = builder.root.filter(|r| !empty(r));
+    let says_nothing = |v: &Located<Value>| matches!(&v.value, Value::Text(t) if t.is_empty());
+    let root = builder.root.filter(|r| !says_nothing(r));
     if root.is_none() {
-        findings.error(Spot::default(), Problem::Empty);
+        findings.error(Spot::default(), empty);
     }
     root
 }

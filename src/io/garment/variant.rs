@@ -1,6 +1,6 @@
 //! Variants of a garment file: a size of it, and alterations that are given beside it.
 
-use super::decode_alter::{alterations, changes};
+use super::decode_alter::{alterations, changes, no_alteration};
 use super::refuse::refuse;
 use super::{Refused, tree};
 use crate::alter::carry_out;
@@ -63,7 +63,7 @@ fn parsed(text: &str, findings: &mut Findings) -> Vec<Located<AlterationFile>> {
     if text.trim().is_empty() {
         return Vec::new();
     }
-    let Some(tree) = tree::parse(text, findings) else { return Vec::new() };
+    let Some(tree) = tree::parse_or(text, no_alteration("nothing"), findings) else { return Vec::new() };
     match &tree.value {
         Value::Map(entries) if entries.iter().any(|(key, _)| key.value == "alter") => changes(&tree, findings),
         _ => alterations(&tree, findings),

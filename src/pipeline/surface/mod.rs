@@ -28,7 +28,7 @@ use crate::fabric::{Fabric, TensileCurve};
 use crate::flatten::{Options, Report};
 use crate::geometry::Vec3;
 use crate::input::LengthUnit;
-use crate::io::obj_read::ObjFaces;
+use crate::io::obj_read::{ObjError, ObjFaces};
 use crate::io::surface_read::read_surface;
 use crate::report::Stage;
 use apart::laid_apart;
@@ -259,6 +259,9 @@ pub fn flatten_faces(file: &Path, mut faces: ObjFaces, options: &SurfaceOptions)
     let Outcome { laid, mut failed } = laid_apart(&source, &mut sheet)?;
     if laid.is_empty() && !failed.is_empty() {
         return Err(failed.swap_remove(0).error);
+    }
+    if laid.is_empty() {
+        return Err(ObjError::NoArea { file: file.display().to_string() }.into());
     }
     notes.extend(laid.iter().filter_map(|l| l.part.turned_note()));
     notes.extend(sheet.made.iter().map(ToString::to_string));
