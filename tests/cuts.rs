@@ -363,7 +363,45 @@ fn the_pieces_have_a_form_to_be_sewn_on() {
     let faces = form.lines().filter(|l| l.starts_with("f ")).count();
     // Closed, of no handle: Euler's F = 2 V - 4.
     assert_eq!(faces, 2 * vertices - 4);
+    // Faces that show inward change nothing: all pieces start outside.
+    let mut inward = hemisphere(12, 24, false);
+    inward.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+    for mesh in [hemisphere(12, 24, false), inward] {
+        let flat = laid(&mesh, &SurfaceOptions { gores: Some(4), ..options() });
+        let yaml = text(&flat, "garment.yaml");
+        let places: Vec<Vec<f64>> = yaml
+            .split("place: {at: [")
+            .skip(1)
+            .map(|rest| rest.split(']').next().unwrap_or_default().split(", ").filter_map(|x| x.parse().ok()).collect())
+            .collect();
+        let far = |at: &Vec<f64>| at.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let radius = mesh.vertices.iter().map(|p| p.norm()).fold(0.0, f64::max);
+        assert!(places.len() == 4 && places.iter().all(|at| far(at) > 0.7 * radius), "{radius} {places:?}");
+    }
     // A flat panel has no inside.
     let panel = laid(&grid(4, 4, 0.0, |u, v| Vec3::new(100.0 * u, 200.0 * v, 0.0)), &options());
     assert!(panel.results().expect("files").iter().all(|file| file.0 != "form.obj"));
+}
+
+#[test]
+fn a_block_is_cut_along_its_sharp_edges() {
+    // 600 × 90 × 400 mm, of cells, its sides slightly tapered.
+    let corner = |k: u32| {
+        let [x, y, z] = [k & 1, k >> 1 & 1, k >> 2].map(f64::from);
+        Vec3::new(600.0 * x * (1.0 - 0.1 * z), 90.0 * y, 400.0 * z)
+    };
+    let mut mesh = TriMesh::default();
+    for [a, b, c, d] in [[0, 2, 3, 1], [4, 5, 7, 6], [0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3]] {
+        let [a, b, c, d] = [a, b, c, d].map(corner);
+        let side = grid(6, 6, 0.0, |u, v| (a * (1.0 - u) + b * u) * (1.0 - v) + (d * (1.0 - u) + c * u) * v);
+        let first = mesh.vertices.len() as u32;
+        mesh.vertices.extend(side.vertices);
+        mesh.triangles.extend(side.triangles.iter().map(|t| t.map(|v| v + first)));
+    }
+    let cuts = Cuts { sharp: true, ..Cuts::default() };
+    let flat = laid(&mesh, &SurfaceOptions { cuts, ..options() });
+    let report = &flat.report;
+    assert_eq!((report.pieces.len(), report.failed.len(), report.cuts_made.len()), (6, 0, 12));
+    assert!(report.pieces.iter().all(|p| p.area_change.abs() < 1e-6 && p.edges.len() == 4), "{report:?}");
+    assert!(report.pieces.iter().flat_map(|p| &p.edges).all(|e| e.sewn_to.is_some()));
 }

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -331,19 +331,15 @@ fn what_is_kept_from_lying_on_itself_keeps_its_rim_or_is_left_as_it_is() {
 
 #[test]
 fn a_frill_comes_to_rest_beside_itself_with_its_rim() {
-    let mut kept = 0;
-    for wave in [0.006, 0.008, 0.01] {
-        let mesh = frill(0.7, wave);
+    // The second would lie on itself where nothing keeps it from that.
+    for wave in [0.008, 0.01] {
+        let mesh = frill(0.8, wave);
         let flat = flatten(&mesh, &Options::default()).unwrap();
         let report = &flat.report;
-        println!("{wave}: {} steps, strain {}, rim {:?}", report.iterations, report.strain_p99, report.rim_missed);
-        if report.overlaps == 0 {
-            kept += 1;
-            assert_eq!((crossings(&mesh, &flat.positions), report.rim_missed), (0, None), "{wave}: {report:?}");
-            assert!(report.converged && report.flips == 0, "{wave}: {report:?}");
-        }
+        println!("{wave}: {} steps, strain {}", report.iterations, report.strain_p99);
+        assert_eq!((crossings(&mesh, &flat.positions), report.overlaps, report.flips), (0, 0, 0), "{report:?}");
+        assert!(report.converged && report.rim_missed.is_none(), "{report:?}");
     }
-    assert!(kept > 0);
 }
 
 #[test]
