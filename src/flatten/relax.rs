@@ -104,9 +104,6 @@ impl Descent {
         let mut gradient = vec![Vec2::zeros(); flat.len()];
         let mut value = energy.value(flat);
         energy.gradient(flat, &mut gradient);
-        // Threads that turn bend the way of a weave, so that what earlier steps tell leads astray: every step has a
-        // factor of its own, a fifth as many are needed, and they take a third of the time.
-        let newton = energy.law.warp.is_some();
         let mut stale = true;
         let mut holds = goal.holds;
         let mut held = false;
@@ -119,10 +116,7 @@ impl Descent {
             }
             let fresh = stale || memory.len() >= STEPS_PER_FACTOR;
             if fresh {
-                if energy.note_pushes(flat) {
-                    self.inverse = Inverse::new(energy)?;
-                }
-                self.inverse.renew(energy, flat)?;
+                self.renew(energy, flat)?;
                 memory.keep(0);
             }
             let direction = memory.direction(&gradient, |nodes| apply(&self.inverse, nodes, energy.free));
@@ -143,7 +137,7 @@ impl Descent {
                 continue;
             }
             held = false;
-            let Some((step, lower)) = search(energy, flat, &direction, slope, value, &self.apart) else {
+            let Some((step, lower)) = self.step(energy, flat, &direction, slope, value) else {
                 if fresh {
                     // The factor is that of this very place: rounding hides what is left to win.
                     return Ok(Outcome { energy: value, iterations, converged: settled && exact() });
@@ -151,11 +145,7 @@ impl Descent {
                 stale = true;
                 continue;
             };
-            let (step, lower) = match newton {
-                true => lengthened(energy, flat, &direction, slope, [step, value, lower], &self.apart),
-                false => (step, lower),
-            };
-            stale = newton || step < SHORT;
+            stale = is_newton(energy) || step < SHORT;
             value = lower;
             advance(flat, &direction, step);
             let before = std::mem::replace(&mut gradient, vec![Vec2::zeros(); flat.len()]);
@@ -165,6 +155,29 @@ impl Descent {
         }
         Ok(Outcome { energy: value, iterations: goal.max_iterations, converged: false })
     }
+
+    /// Takes the curvature anew.
+    fn renew(&mut self, energy: &mut Energy, flat: &[Vec2]) -> Result<(), FlattenError> {
+        if energy.note_pushes(flat) {
+            self.inverse = Inverse::new(energy)?;
+        }
+        self.inverse.renew(energy, flat)
+    }
+
+    /// How far to go along a direction, and the energy there.
+    fn step(&self, energy: &Energy, flat: &[Vec2], direction: &[Vec2], slope: f64, value: f64) -> Option<(f64, f64)> {
+        let (step, lower) = search(energy, flat, direction, slope, value, &self.apart)?;
+        Some(match is_newton(energy) {
+            true => lengthened(energy, flat, direction, slope, [step, value, lower], &self.apart),
+            false => (step, lower),
+        })
+    }
+}
+
+/// Whether every step has a factor of its own. Threads that turn bend the way of a weave, so that what earlier steps tell
+/// leads astray. So a weave needs a fifth as many steps, and a third of the time.
+fn is_newton(energy: &Energy) -> bool {
+    energy.law.warp.is_some()
 }
 
 /// Goes along `direction` as far as the energy falls and nothing flips, if only so far as not at all.

@@ -41,7 +41,8 @@ impl FlatSurface {
             form.triangles.iter_mut().for_each(|t| t.swap(1, 2));
         }
         let ball = 36.0 * std::f64::consts::PI * volume * volume;
-        (ball > SOLID * form.area().powi(3)).then_some((form, volume < 0.0))
+        // Parts run the other way round than the file's faces, to be drawn with y down as they are seen.
+        (ball > SOLID * form.area().powi(3)).then_some((form, volume > 0.0))
     }
 
     /// The place of a piece: flat, turned as lies nearest to what it is of, and outside of it, which is behind its faces
