@@ -10,7 +10,7 @@ use toile::flatten::{Solid, shortest_path};
 use toile::geometry::{TriMesh, Vec3};
 use toile::input::LengthUnit;
 use toile::io::obj_read::ObjFaces;
-use toile::pipeline::{Cuts, Darts, Ease, FlatSurface, SurfaceOptions, flatten_faces};
+use toile::pipeline::{Cuts, Darts, Ease, FlatSurface, Limit, SurfaceOptions, flatten_faces};
 
 /// Radius of the hemisphere, mm.
 const RADIUS: f64 = 140.0;
@@ -404,4 +404,24 @@ fn a_block_is_cut_along_its_sharp_edges() {
     assert_eq!((report.pieces.len(), report.failed.len(), report.cuts_made.len()), (6, 0, 12));
     assert!(report.pieces.iter().all(|p| p.area_change.abs() < 1e-6 && p.edges.len() == 4), "{report:?}");
     assert!(report.pieces.iter().flat_map(|p| &p.edges).all(|e| e.sewn_to.is_some()));
+}
+
+#[test]
+fn darts_that_bring_nothing_are_closed_again() {
+    // Half a front with a bust. One by one, three darts are cut into it, of which the first brings all.
+    let front = grid(24, 24, 0.0, |u, v| {
+        let (x, y) = (250.0 * u, 400.0 * v);
+        let bust = 50.0 * (-((x - 100.0).powi(2) + (y - 220.0).powi(2)) / 5000.0).exp();
+        let (sine, cosine) = (x / 150.0).sin_cos();
+        Vec3::new(sine, 0.0, cosine) * (150.0 + bust) + Vec3::y() * y
+    });
+    let strain = |darts: Option<Darts>| {
+        let flat = laid(&front, &SurfaceOptions { darts, limit: Limit::Strain(0.03), ..options() });
+        let piece = &flat.report.pieces[0];
+        assert_eq!(flat.report.cuts_made.len(), piece.darts);
+        assert_eq!(sewn(&flat).count(), 2 * piece.darts, "the legs of those that are left, and no others");
+        (piece.darts, piece.strain.p99)
+    };
+    let (most, one) = (strain(Some(Darts::Auto)), strain(Some(Darts::Count(1))));
+    assert!(most.0 < 3 && most.1 < 1.001 * one.1 && one.1 < 0.6 * strain(None).1, "{most:?} {one:?}");
 }

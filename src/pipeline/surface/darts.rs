@@ -176,9 +176,12 @@ impl Source<'_> {
             closed.close(number);
             let Ok(laid) = self.lay_of(&closed, own.number) else { continue };
             if share(&laid) <= IDLE * share(own) && laid.lies_as_well_as(own) {
-                let stop = own.stop.or((share(&laid) > 1.0).then_some(DartStop::NoPlace));
-                *own = Laid { darts: own.darts - 1, stop, ..laid };
+                *own = Laid { darts: own.darts - 1, stop: own.stop, ..laid };
                 *sheet = closed;
+                if own.stop.is_none() && share(own) > 1.0 {
+                    // The next one would be this one again.
+                    (own.stop, own.dart) = (Some(DartStop::NoPlace), Vec::new());
+                }
             }
         }
     }
