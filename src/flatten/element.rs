@@ -24,8 +24,8 @@ pub(super) struct Mode {
 /// How much of a second derivative is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Taken {
-    /// Of every triangle and spring the positive part, so that all together are positive for certain. Where the negative
-    /// parts weigh as much, this is far too stiff.
+    /// Of every triangle and spring the positive part, so that all together are positive for certain. Where the
+    /// negative parts weigh as much, this is far too stiff.
     Positive,
     /// All of it, which is the true one.
     All,

@@ -185,7 +185,8 @@ impl Energy {
     }
 }
 
-/// The second derivative of an [`Energy`], or a positive definite one near it, with the places of its blocks worked out once.
+/// The second derivative of an [`Energy`], or a positive definite one near it, with the places of its blocks worked out
+/// once.
 pub(super) struct Curvature {
     matrix: SymmetricMatrix<Real>,
     /// None where a vertex stays where it is.

@@ -174,8 +174,8 @@ impl Descent {
     }
 }
 
-/// Whether every step has a factor of its own. Threads that turn bend the way of a weave, so that what earlier steps tell
-/// leads astray. So a weave needs a fifth as many steps, and a third of the time.
+/// Whether every step has a factor of its own. Threads that turn bend the way of a weave, so that what earlier steps
+/// tell leads astray. So a weave needs a fifth as many steps, and a third of the time.
 fn is_newton(energy: &Energy) -> bool {
     energy.law.warp.is_some()
 }

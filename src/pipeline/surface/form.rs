@@ -45,8 +45,8 @@ impl FlatSurface {
         (ball > SOLID * form.area().powi(3)).then_some((form, volume > 0.0))
     }
 
-    /// The place of a piece: flat, turned as lies nearest to what it is of, and outside of it, which is behind its faces
-    /// where these show `inward`.
+    /// The place of a piece: flat, turned as lies nearest to what it is of, and outside of it, which is behind its
+    /// faces where these show `inward`.
     pub(super) fn place_of(&self, piece: usize, inward: bool) -> PlaceFile {
         let of = &self.laid[piece].part.surface.vertices;
         let drawn: Vec<Vec3> =
