@@ -23,8 +23,8 @@ const JAMMED: f64 = 13.0;
 const LEAST: f64 = 0.2;
 
 /// J in the coordinates in which Ψ is simple. With p and q, warp and weft turned by a quarter, J = p aᵀ + q bᵀ. Then
-/// the warp is stretched by 1/(|b| sin φ) and the weft by 1/(|a| sin φ), where φ is the angle from a to b, and the tangent
-/// of the shear is cot φ.
+/// the warp is stretched by 1/(|b| sin φ) and the weft by 1/(|a| sin φ), where φ is the angle from a to b, and the
+/// tangent of the shear is cot φ.
 struct Woven {
     /// Derivatives of ln |a| and of ln |b| by J.
     longer: [Matrix2<f64>; 2],

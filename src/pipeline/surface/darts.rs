@@ -223,8 +223,8 @@ fn is_worth_a_cut(cut: &Laid, whole: &Laid) -> bool {
 
 /// Lays all parts flat and cuts the darts that `source.options` asks for: even ones into round parts, all the others
 /// one by one, the next always into the part that is strained most, until all are within the limit or so many are cut.
-/// A dart that would make a flat piece lie on itself is not cut, and its part gets no other. Those that bring nothing in
-/// the end are closed again. `sheet` has those that are left.
+/// A dart that would make a flat piece lie on itself is not cut, and its part gets no other. Those that bring nothing
+/// in the end are closed again. `sheet` has those that are left.
 pub(super) fn with_darts(source: &Source<'_>, sheet: &mut Sheet) -> Result<Outcome, PipelineError> {
     let mut out = source.lay_all(sheet)?;
     let Some(darts) = source.options.darts else { return Ok(out) };
