@@ -189,6 +189,6 @@ mod tests {
             s.elastic.stiffness() * (s.along(&flat).normalize().x * s.shares[k]).powi(2)
         };
         let sum: f64 = lines.iter().map(share).sum();
-        assert!(lines.len() == 2 && (numeric / sum - 1.0).abs() < 0.05, "{numeric} {sum}");
+        assert!(lines.len() == 3 && (numeric / sum - 1.0).abs() < 0.05, "{numeric} {sum}");
     }
 }
