@@ -317,7 +317,7 @@ fn sewn(flat: &FlatSurface) -> impl Iterator<Item = &toile::pipeline::EdgeReport
 #[test]
 fn a_strain_that_must_be_reached_is_by_darts_or_by_cuts_where_darts_cannot() {
     let reached = |mesh: &TriMesh, most: f64| {
-        let limit = toile::pipeline::Limit::Strain(most);
+        let limit = Limit::Strain(most);
         let flat = laid(mesh, &SurfaceOptions { darts: Some(Darts::Enough), limit, ..options() });
         for piece in &flat.report.pieces {
             assert!(piece.strain.p99 <= most && piece.overlaps == 0, "{}: {:?}", piece.name, piece.strain);
