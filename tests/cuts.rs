@@ -10,7 +10,7 @@ use toile::flatten::{Solid, shortest_path};
 use toile::geometry::{TriMesh, Vec3};
 use toile::input::LengthUnit;
 use toile::io::obj_read::ObjFaces;
-use toile::pipeline::{Cuts, Darts, Ease, FlatSurface, SurfaceOptions, flatten_faces};
+use toile::pipeline::{Cuts, Darts, Ease, FlatSurface, Limit, SurfaceOptions, flatten_faces};
 
 /// Radius of the hemisphere, mm.
 const RADIUS: f64 = 140.0;
@@ -317,7 +317,7 @@ fn sewn(flat: &FlatSurface) -> impl Iterator<Item = &toile::pipeline::EdgeReport
 #[test]
 fn a_strain_that_must_be_reached_is_by_darts_or_by_cuts_where_darts_cannot() {
     let reached = |mesh: &TriMesh, most: f64| {
-        let limit = toile::pipeline::Limit::Strain(most);
+        let limit = Limit::Strain(most);
         let flat = laid(mesh, &SurfaceOptions { darts: Some(Darts::Enough), limit, ..options() });
         for piece in &flat.report.pieces {
             assert!(piece.strain.p99 <= most && piece.overlaps == 0, "{}: {:?}", piece.name, piece.strain);
@@ -363,7 +363,65 @@ fn the_pieces_have_a_form_to_be_sewn_on() {
     let faces = form.lines().filter(|l| l.starts_with("f ")).count();
     // Closed, of no handle: Euler's F = 2 V - 4.
     assert_eq!(faces, 2 * vertices - 4);
+    // Faces that show inward change nothing: all pieces start outside.
+    let mut inward = hemisphere(12, 24, false);
+    inward.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+    for mesh in [hemisphere(12, 24, false), inward] {
+        let flat = laid(&mesh, &SurfaceOptions { gores: Some(4), ..options() });
+        let yaml = text(&flat, "garment.yaml");
+        let places: Vec<Vec<f64>> = yaml
+            .split("place: {at: [")
+            .skip(1)
+            .map(|rest| rest.split(']').next().unwrap_or_default().split(", ").filter_map(|x| x.parse().ok()).collect())
+            .collect();
+        let far = |at: &Vec<f64>| at.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let radius = mesh.vertices.iter().map(|p| p.norm()).fold(0.0, f64::max);
+        assert!(places.len() == 4 && places.iter().all(|at| far(at) > 0.7 * radius), "{radius} {places:?}");
+    }
     // A flat panel has no inside.
     let panel = laid(&grid(4, 4, 0.0, |u, v| Vec3::new(100.0 * u, 200.0 * v, 0.0)), &options());
     assert!(panel.results().expect("files").iter().all(|file| file.0 != "form.obj"));
+}
+
+#[test]
+fn a_block_is_cut_along_its_sharp_edges() {
+    // 600 × 90 × 400 mm, of cells, its sides slightly tapered.
+    let corner = |k: u32| {
+        let [x, y, z] = [k & 1, k >> 1 & 1, k >> 2].map(f64::from);
+        Vec3::new(600.0 * x * (1.0 - 0.1 * z), 90.0 * y, 400.0 * z)
+    };
+    let mut mesh = TriMesh::default();
+    for [a, b, c, d] in [[0, 2, 3, 1], [4, 5, 7, 6], [0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3]] {
+        let [a, b, c, d] = [a, b, c, d].map(corner);
+        let side = grid(6, 6, 0.0, |u, v| (a * (1.0 - u) + b * u) * (1.0 - v) + (d * (1.0 - u) + c * u) * v);
+        let first = mesh.vertices.len() as u32;
+        mesh.vertices.extend(side.vertices);
+        mesh.triangles.extend(side.triangles.iter().map(|t| t.map(|v| v + first)));
+    }
+    let cuts = Cuts { sharp: true, ..Cuts::default() };
+    let flat = laid(&mesh, &SurfaceOptions { cuts, ..options() });
+    let report = &flat.report;
+    assert_eq!((report.pieces.len(), report.failed.len(), report.cuts_made.len()), (6, 0, 12));
+    assert!(report.pieces.iter().all(|p| p.area_change.abs() < 1e-6 && p.edges.len() == 4), "{report:?}");
+    assert!(report.pieces.iter().flat_map(|p| &p.edges).all(|e| e.sewn_to.is_some()));
+}
+
+#[test]
+fn darts_that_bring_nothing_are_closed_again() {
+    // Half a front with a bust. One by one, three darts are cut into it, of which the first brings all.
+    let front = grid(24, 24, 0.0, |u, v| {
+        let (x, y) = (250.0 * u, 400.0 * v);
+        let bust = 50.0 * (-((x - 100.0).powi(2) + (y - 220.0).powi(2)) / 5000.0).exp();
+        let (sine, cosine) = (x / 150.0).sin_cos();
+        Vec3::new(sine, 0.0, cosine) * (150.0 + bust) + Vec3::y() * y
+    });
+    let strain = |darts: Option<Darts>| {
+        let flat = laid(&front, &SurfaceOptions { darts, limit: Limit::Strain(0.03), ..options() });
+        let piece = &flat.report.pieces[0];
+        assert_eq!(flat.report.cuts_made.len(), piece.darts);
+        assert_eq!(sewn(&flat).count(), 2 * piece.darts, "the legs of those that are left, and no others");
+        (piece.darts, piece.strain.p99)
+    };
+    let (most, one) = (strain(Some(Darts::Auto)), strain(Some(Darts::Count(1))));
+    assert!(most.0 < 3 && most.1 < 1.001 * one.1 && one.1 < 0.6 * strain(None).1, "{most:?} {one:?}");
 }

@@ -471,9 +471,9 @@ pub(super) struct FlattenArgs {
     #[arg(long, value_name = "x|y|z|X,Y,Z", value_parser = direction, allow_negative_numbers = true)]
     pub(super) up: Option<Vec3>,
     /// Cut along straight lines through these vertices, numbered from 1 as in the file, along the lines drawn in a file
-    /// (an OBJ with l elements, or three numbers a line, in the surface's unit), or wherever it is needed; may be given
-    /// several times, auto then cutting what the others leave (surfaces only)
-    #[arg(long, value_name = "auto|V,V,…|FILE")]
+    /// (an OBJ with l elements, or three numbers a line, in the surface's unit), along all sharp edges of a block, or
+    /// wherever it is needed; may be given several times, auto then cutting what the others leave (surfaces only)
+    #[arg(long, value_name = "auto|sharp|V,V,…|FILE")]
     pub(super) cut: Vec<String>,
     /// Cut darts where the strain passes the limit: N even ones that point at its pole into every round piece, N at
     /// most into all others together, the next always where it is needed most; auto cuts as few as are enough, eight at

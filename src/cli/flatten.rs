@@ -92,12 +92,16 @@ fn limit(args: &FlattenArgs) -> Result<Limit, CliError> {
     }
 }
 
-/// `auto`, vertices from 1 with commas between them, or a file.
+/// `auto`, `sharp`, vertices from 1 with commas between them, or a file.
 fn cuts(args: &[String]) -> Result<Cuts, CliError> {
     let mut cuts = Cuts::default();
     for text in args {
-        if text == "auto" {
-            cuts.auto = true;
+        match text.as_str() {
+            "auto" => cuts.auto = true,
+            "sharp" => cuts.sharp = true,
+            _ => {}
+        }
+        if ["auto", "sharp"].contains(&text.as_str()) {
             continue;
         }
         let file = Path::new(text);
@@ -108,7 +112,7 @@ fn cuts(args: &[String]) -> Result<Cuts, CliError> {
         let path: Result<Vec<u32>, _> = text.split(',').map(|v| v.trim().parse::<u32>()).collect();
         let why = || {
             CliError::Argument(format!(
-                "--cut {text}: 'auto', vertex numbers such as 12,340 or a file of lines is expected"
+                "--cut {text}: 'auto', 'sharp', vertex numbers such as 12,340 or a file of lines is expected"
             ))
         };
         cuts.paths.push(path.map_err(|_| why())?);

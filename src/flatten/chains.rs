@@ -58,7 +58,7 @@ fn softened(spring: &Spring) -> Spring {
 
 #[cfg(test)]
 mod tests {
-    use super::super::element::Element;
+    use super::super::element::{Element, Taken};
     use super::super::inverse::Inverse;
     use super::super::law::Law;
     use super::*;
@@ -115,7 +115,7 @@ mod tests {
         let mut image = vec![0.0; 8];
         super::super::energy::Curvature::new(&energy)
             .expect("a pattern")
-            .update(&energy, &flat)
+            .update(&energy, &flat, Taken::Positive)
             .multiply(&vector, &mut image);
         for (stiffness, slopes) in energy.stiff_chains(&flat) {
             let at = |v: u32| 2 * v as usize;

@@ -21,6 +21,23 @@ pub(super) struct Mode {
     pub(super) mode: Matrix2<f64>,
 }
 
+/// How much of a second derivative is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Taken {
+    /// Of every triangle and spring the positive part, so that all together are positive for certain. Where the
+    /// negative parts weigh as much, this is far too stiff.
+    Positive,
+    /// All of it, which is the true one.
+    All,
+}
+
+impl Taken {
+    /// A curvature as far as it is taken.
+    pub(super) fn of(self, curvature: f64) -> f64 {
+        if self == Self::All { curvature } else { curvature.max(0.0) }
+    }
+}
+
 /// The pairs of corners a block of second derivatives belongs to.
 pub(super) const CORNER_PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (1, 0), (2, 0), (2, 1)];
 
@@ -55,13 +72,14 @@ impl Element {
         self.gradients.map(|g| stress * g)
     }
 
-    /// Adds a mode's second derivatives by the corner positions, one block for each of [`CORNER_PAIRS`]. Modes of
-    /// negative curvature are left out: what remains is the nearest positive semidefinite matrix.
-    pub(super) fn add_mode(&self, mode: &Mode, blocks: &mut [Matrix2<f64>; 6]) {
-        if mode.curvature > 0.0 {
+    /// Adds a mode's second derivatives by the corner positions, one block for each of [`CORNER_PAIRS`]. Without modes
+    /// of negative curvature what remains is the nearest positive semidefinite matrix.
+    pub(super) fn add_mode(&self, mode: &Mode, taken: Taken, blocks: &mut [Matrix2<f64>; 6]) {
+        let curvature = taken.of(mode.curvature);
+        if curvature != 0.0 {
             let images = self.gradients.map(|g| mode.mode * g);
             for (block, (k, l)) in blocks.iter_mut().zip(CORNER_PAIRS) {
-                *block += images[k] * images[l].transpose() * mode.curvature;
+                *block += images[k] * images[l].transpose() * curvature;
             }
         }
     }

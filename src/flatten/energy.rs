@@ -5,7 +5,8 @@ use std::sync::Arc;
 use nalgebra::Matrix2;
 
 use super::FlattenError;
-use super::element::{CORNER_PAIRS, Element};
+use super::barrier::Barrier;
+use super::element::{CORNER_PAIRS, Element, Taken};
 use super::law::Law;
 use super::spring::{Chain, Spring, Springs};
 use crate::geometry::Vec2;
@@ -29,6 +30,10 @@ pub(super) struct Energy {
     /// Runs of the others whose lengths together are exact.
     pub(super) chains: Vec<Chain>,
     pub(super) law: Law,
+    /// What keeps the piece from lying on itself, where it is to be kept from it.
+    pub(super) barrier: Option<Barrier>,
+    /// Its pushes when the curvature was last taken.
+    pushes: Vec<Spring>,
     total_area: f64,
     pub(super) vertices: usize,
     /// Vertices from this one on stay where they are.
@@ -41,7 +46,18 @@ impl Energy {
         let held = springs.held.len();
         let chains = springs.chains;
         let springs = [springs.held, springs.free].concat();
-        Self { elements, springs, held, chains, law, total_area, vertices, free: vertices }
+        Self {
+            elements,
+            springs,
+            held,
+            chains,
+            law,
+            barrier: None,
+            pushes: Vec::new(),
+            total_area,
+            vertices,
+            free: vertices,
+        }
     }
 
     /// The energy of a part, in the same measure, of which only the first `free` vertices move.
@@ -54,17 +70,29 @@ impl Energy {
         let free = |pair: &[u32; 2]| pair.iter().all(|&v| (v as usize) < self.free);
         let sides =
             self.elements.iter().flat_map(|e| CORNER_PAIRS[3..].iter().map(|&(k, l)| [e.corners[k], e.corners[l]]));
-        let springs =
-            self.springs.iter().flat_map(|s| CORNER_PAIRS[3..].iter().map(|&(k, l)| [s.nodes[k], s.nodes[l]]));
+        let springs = self.lines().flat_map(|s| CORNER_PAIRS[3..].iter().map(|&(k, l)| [s.nodes[k], s.nodes[l]]));
         sides.chain(springs).filter(free).collect()
     }
 
-    /// The energy; infinite where a triangle is flipped.
+    /// All that couples vertices besides triangles.
+    fn lines(&self) -> impl Iterator<Item = &Spring> {
+        self.springs.iter().chain(&self.pushes)
+    }
+
+    /// Takes note of the pushes at a position for its curvature; whether other vertices are coupled than before.
+    pub(super) fn note_pushes(&mut self, flat: &[Vec2]) -> bool {
+        let Some(barrier) = &self.barrier else { return false };
+        let before = std::mem::replace(&mut self.pushes, barrier.lines(flat));
+        !before.iter().map(|s| s.nodes).eq(self.pushes.iter().map(|s| s.nodes))
+    }
+
+    /// The energy; infinite where a triangle is flipped or what is kept apart meets.
     pub(super) fn value(&self, flat: &[Vec2]) -> f64 {
         let triangles: f64 = self.elements.iter().map(|e| e.area * self.law.density(&e.jacobian(flat))).sum();
         let springs: f64 = self.springs.iter().map(|s| s.elastic.energy(s.length(flat))).sum();
         let chains: f64 = self.chains.iter().map(|c| c.elastic.energy(self.chain_length(c, flat))).sum();
-        (triangles + springs + chains) / self.total_area
+        let pushes = self.barrier.as_ref().map_or(0.0, |barrier| barrier.energy(flat));
+        (triangles + springs + chains + pushes) / self.total_area
     }
 
     /// Its derivative by every coordinate, 1/m.
@@ -85,6 +113,9 @@ impl Energy {
                     out[v as usize] += force * share;
                 }
             }
+        }
+        if let Some(barrier) = &self.barrier {
+            barrier.add_gradient(flat, 1.0 / self.total_area, out);
         }
         out[self.free..].fill(Vec2::zeros());
     }
@@ -154,7 +185,8 @@ impl Energy {
     }
 }
 
-/// The second derivative of an [`Energy`], made positive definite, with the places of its blocks worked out once.
+/// The second derivative of an [`Energy`], or a positive definite one near it, with the places of its blocks worked out
+/// once.
 pub(super) struct Curvature {
     matrix: SymmetricMatrix<Real>,
     /// None where a vertex stays where it is.
@@ -171,7 +203,7 @@ impl Curvature {
         let slots =
             |nodes: [u32; 3]| CORNER_PAIRS.map(|(k, l)| pattern.block_slot(nodes[k] as usize, nodes[l] as usize));
         let element_slots = energy.elements.iter().map(|e| slots(e.corners)).collect();
-        let spring_slots = energy.springs.iter().map(|s| slots(s.nodes)).collect();
+        let spring_slots = energy.lines().map(|s| slots(s.nodes)).collect();
         let mut ties = vec![0.0; energy.vertices];
         for e in &energy.elements {
             for v in e.corners {
@@ -183,20 +215,20 @@ impl Curvature {
     }
 
     /// Fills the matrix for a position without flipped triangles; what [`Energy::stiff_chains`] adds to it is left out.
-    pub(super) fn update(&mut self, energy: &Energy, flat: &[Vec2]) -> &SymmetricMatrix<Real> {
+    pub(super) fn update(&mut self, energy: &Energy, flat: &[Vec2], taken: Taken) -> &SymmetricMatrix<Real> {
         self.matrix.clear();
         for (e, slots) in energy.elements.iter().zip(&self.element_slots) {
             let mut blocks = [Matrix2::zeros(); 6];
-            energy.law.modes(&e.jacobian(flat), |mode| e.add_mode(mode, &mut blocks));
+            energy.law.modes(&e.jacobian(flat), |mode| e.add_mode(mode, taken, &mut blocks));
             for (slot, block) in slots.iter().zip(blocks) {
                 if let Some(slot) = slot {
                     self.matrix.add_block(*slot, &(block * (e.area / energy.total_area)));
                 }
             }
         }
-        let pulls = energy.pulls(flat);
-        for ((s, slots), pulled) in energy.springs.iter().zip(&self.spring_slots).zip(pulls) {
-            let block = s.curvature(flat, pulled) / energy.total_area;
+        let pulls = energy.pulls(flat).into_iter().chain(std::iter::repeat(0.0));
+        for ((s, slots), pulled) in energy.lines().zip(&self.spring_slots).zip(pulls) {
+            let block = s.curvature(flat, pulled, taken) / energy.total_area;
             for (slot, (k, l)) in slots.iter().zip(CORNER_PAIRS) {
                 let share = s.shares[k] * s.shares[l];
                 if let Some(slot) = slot.filter(|_| share != 0.0) {

@@ -7,12 +7,16 @@
 use nalgebra::{DMatrix, DVector, Dyn};
 
 use super::FlattenError;
+use super::element::Taken;
 use super::energy::{Curvature, Energy, Real};
 use crate::geometry::Vec2;
 use crate::linear::Cholesky;
 
 /// Ties that are tried one after another where a factor fails, in those it has at first.
 const TIES: [f64; 4] = [1e2, 1e4, 1e6, 1e8];
+
+/// The true curvature that was not positive is tried again after so many times at most.
+const LONGEST_WAIT: u32 = 4;
 
 /// An inverse that is made anew for new positions.
 pub(super) struct Inverse {
@@ -22,6 +26,8 @@ pub(super) struct Inverse {
     answers: DMatrix<f64>,
     /// D⁻¹ + Uᵀ Z, factored; none without chains.
     chains: Option<nalgebra::Cholesky<f64, Dyn>>,
+    /// After how many times the true curvature is tried again, and how many it was to wait last.
+    wait: [u32; 2],
 }
 
 impl Inverse {
@@ -29,17 +35,36 @@ impl Inverse {
     pub(super) fn new(energy: &Energy) -> Result<Self, FlattenError> {
         let curvature = Curvature::new(energy)?;
         let factor = Cholesky::new(curvature.pattern().clone()).map_err(|_| FlattenError::Breakdown)?;
-        Ok(Self { curvature, factor, answers: DMatrix::zeros(0, 0), chains: None })
+        Ok(Self { curvature, factor, answers: DMatrix::zeros(0, 0), chains: None, wait: [0, 0] })
     }
 
-    /// Factors the curvature at `flat`, tied down more and more where it is not positive to rounding.
+    /// Factors the curvature at `flat`, made positive, and tied down more and more where it is not so to rounding. In a
+    /// weave the true one is taken where it is positive: its stiff threads pull about as much as they push, so that the
+    /// positive part alone is far too stiff across them. That is tried the less often the more often it was not.
     pub(super) fn renew(&mut self, energy: &Energy, flat: &[Vec2]) -> Result<(), FlattenError> {
-        let mut made = self.factor.factor(self.curvature.update(energy, flat));
+        if energy.law.warp.is_some() && self.take_all(energy, flat) {
+            return Ok(());
+        }
+        let mut made = self.factor.factor(self.curvature.update(energy, flat, Taken::Positive));
         for times in TIES {
             made = made.or_else(|_| self.factor.factor(self.curvature.tie(times)));
         }
         made.map_err(|_| FlattenError::Breakdown)?;
         self.take_in(energy, flat)
+    }
+
+    /// Factors the true curvature, if it is its turn; whether it is positive.
+    fn take_all(&mut self, energy: &Energy, flat: &[Vec2]) -> bool {
+        let [left, waited] = self.wait;
+        if left > 0 {
+            self.wait = [left - 1, waited];
+            return false;
+        }
+        let made = self.factor.factor(self.curvature.update(energy, flat, Taken::All));
+        let positive = made.is_ok() && self.take_in(energy, flat).is_ok();
+        let next = if positive { 0 } else { (2 * waited).clamp(1, LONGEST_WAIT) };
+        self.wait = [next, next];
+        positive
     }
 
     fn take_in(&mut self, energy: &Energy, flat: &[Vec2]) -> Result<(), FlattenError> {

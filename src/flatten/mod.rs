@@ -14,6 +14,7 @@
 //! convention of drawn pieces, clockwise on a screen with y down.
 
 mod align;
+mod barrier;
 mod chains;
 mod coarse;
 mod cut;
@@ -52,6 +53,7 @@ use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
 use crate::geometry::{Topology, TriMesh, Vec2, sorted_pair};
+use barrier::Barrier;
 use distortion::Weights;
 use element::Element;
 use energy::Energy;
@@ -84,10 +86,6 @@ const WALL: f64 = 1e-3;
 /// A piece that is kept from lying on itself may miss its rim by this share in the mean, which is said; with more its
 /// seams would not fit, and it is better cut in two.
 const RIM_OF_A_PIECE_APART: f64 = 1e-3;
-
-/// Where only chains of the rim are held, every edge is on the long way: stiff rims are what the zone is for, and so
-/// the whole way takes three quarters of the time. What is left of it is not worth its last steps.
-const FIRST_OF_TWO: Goal = Goal { tolerance: 1e-3, max_iterations: 1000, holds: 0, exact: 0.0 };
 
 /// The property that a flat piece keeps where it cannot keep all.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -342,25 +340,22 @@ fn relax_sheet(
     let mut energy = sheet.energy(options);
     let mut zone = None;
     let held = sheet.holds_rim(options.mode);
-    let way = |energy: &Energy| {
-        let way = Descent::new(energy)?;
-        Ok(if itself == Itself::KeptApart { way.keeping_apart(&sheet.rims) } else { way })
-    };
+    if let Some(breaks) = sheet.breaks.as_ref().filter(|_| held && options.mode == Mode::Woven) {
+        energy = energy.with_chains(&sheet.rims, breaks);
+    }
     if held && itself == Itself::MayMeet {
         coarse::approach(&energy, &mut positions);
         zone = Zone::new(&energy, &positions);
     }
     let goal = Goal::of(options, held);
-    let chained = sheet.breaks.as_ref().filter(|_| held && options.mode == Mode::Woven);
-    let mut descent = way(&energy)?;
-    let mut outcome =
-        descent.down(&mut energy, &mut positions, &chained.map_or(goal, |_| FIRST_OF_TWO), zone.as_mut())?;
-    if let Some(breaks) = chained {
-        energy = energy.with_chains(&sheet.rims, breaks);
-        let before = outcome.iterations;
-        outcome = way(&energy)?.down(&mut energy, &mut positions, &goal, None)?;
-        outcome.iterations += before;
+    if itself == Itself::KeptApart {
+        energy.barrier = Barrier::new(&sheet.rims, &positions);
     }
+    let mut descent = Descent::new(&energy)?;
+    if itself == Itself::KeptApart && energy.barrier.is_none() {
+        descent = descent.keeping_apart(&sheet.rims);
+    }
+    let outcome = descent.down(&mut energy, &mut positions, &goal, zone.as_mut())?;
     let slack = energy.slack(&positions);
     let rim_missed = (held && slack > goal.exact).then_some(slack);
     let report = Report { rim_missed, ..measure::report(sheet, &positions, &outcome) };

@@ -46,7 +46,7 @@ pub(super) fn crossings_beside(flat: &[Vec2], rims: &[Vec<u32>], legs: &Legs) ->
 }
 
 /// Pairs of sides that may be within `depth` of each other.
-fn near(sides: &[[Vec2; 2]], longest: f64, depth: f64) -> Vec<(u32, u32)> {
+pub(super) fn near(sides: &[[Vec2; 2]], longest: f64, depth: f64) -> Vec<(u32, u32)> {
     // With cells of the longest side's size a side meets at most four of them, but for what `depth` adds.
     let size = if longest > 0.0 && longest.is_finite() { longest } else { 1.0 };
     let cell = |x: f64| (x / size).floor() as i64;

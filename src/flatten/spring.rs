@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use nalgebra::Matrix2;
 
+use super::element::Taken;
 use crate::geometry::Vec2;
 
 /// The energy of a length: with e = length/target − 1 it is weight · e² + pull · e.
@@ -92,8 +93,8 @@ impl Spring {
         self.along(flat).norm()
     }
 
-    /// The positive semidefinite part of its second derivative by the line, along which `pulled` is another tension.
-    pub(super) fn curvature(&self, flat: &[Vec2], pulled: f64) -> Matrix2<f64> {
+    /// Its second derivative by the line, along which `pulled` is another tension.
+    pub(super) fn curvature(&self, flat: &[Vec2], pulled: f64, taken: Taken) -> Matrix2<f64> {
         let along = self.along(flat);
         let length = along.norm();
         let stiffness = self.elastic.stiffness();
@@ -102,8 +103,8 @@ impl Spring {
         }
         let n = along / length;
         let dyad = n * n.transpose();
-        // A compressed spring pushes sideways: that part is negative and left out.
-        let across = ((self.elastic.tension(length) + pulled) / length).max(0.0);
+        // A compressed spring pushes sideways: that part is negative.
+        let across = taken.of((self.elastic.tension(length) + pulled) / length);
         dyad * stiffness + (Matrix2::identity() - dyad) * across
     }
 }

@@ -7,9 +7,8 @@
 //! end where threads shrink to nothing, and the tangent none where warp and weft come to lie on each other, so that
 //! neither happens on a surface that cannot be woven over.
 
-use nalgebra::{Matrix2, Matrix4, SymmetricEigen};
+use nalgebra::Matrix2;
 
-use super::distortion::cofactor;
 use super::element::Mode;
 use crate::geometry::Vec2;
 
@@ -19,35 +18,93 @@ const LOCKED: f64 = 0.565_772_78;
 /// Stiffness of jammed threads against that of stretched ones, k.
 const JAMMED: f64 = 13.0;
 
-/// The stretch t of a thread along the unit vector `thread`, and the derivative of ln t by J (det J > 0).
-fn stretch(jacobian: &Matrix2<f64>, thread: Vec2) -> (f64, Matrix2<f64>) {
-    let det = jacobian.determinant();
-    // J⁻¹ = adj J / det J, and adj J · d is the quarter-turned Jᵀ of the quarter-turned d.
-    let across = Vec2::new(-thread.y, thread.x);
-    let image = jacobian.transpose() * across;
-    let derivative = across * image.transpose() / image.norm_squared() - cofactor(jacobian) / det;
-    (image.norm() / det, derivative)
+/// Least stiffness along a thread's length of a square completed ([`modes`]): that of a thread that is shorter than
+/// 0.4 of its length on the surface would be none.
+const LEAST: f64 = 0.2;
+
+/// J in the coordinates in which Ψ is simple. With p and q, warp and weft turned by a quarter, J = p aᵀ + q bᵀ. Then
+/// the warp is stretched by 1/(|b| sin φ) and the weft by 1/(|a| sin φ), where φ is the angle from a to b, and the
+/// tangent of the shear is cot φ.
+struct Woven {
+    /// Derivatives of ln |a| and of ln |b| by J.
+    longer: [Matrix2<f64>; 2],
+    /// Derivatives of the directions of a and b by J.
+    turned: [Matrix2<f64>; 2],
+    /// ln t of warp and weft.
+    strains: [f64; 2],
+    /// cot φ.
+    tangent: f64,
 }
 
-fn threads(warp: Vec2) -> [Vec2; 2] {
-    [warp, Vec2::new(-warp.y, warp.x)]
-}
+impl Woven {
+    /// Of a J with det J > 0.
+    fn new(jacobian: &Matrix2<f64>, warp: Vec2) -> Self {
+        let [p, q] = [Vec2::new(-warp.y, warp.x), -warp];
+        let [a, b] = [p, q].map(|d| jacobian.transpose() * d);
+        let [aa, bb] = [a, b].map(|image| image.norm_squared());
+        let det = a.perp(&b);
+        let turn = |d: Vec2| Vec2::new(-d.y, d.x);
+        Self {
+            longer: [p * a.transpose() / aa, q * b.transpose() / bb],
+            turned: [p * turn(a).transpose() / aa, q * turn(b).transpose() / bb],
+            strains: [aa, bb].map(|square| 0.5 * (square / (det * det)).ln()),
+            tangent: a.dot(&b) / det,
+        }
+    }
 
-/// Sine of the shear, the cosine of the threads' angle on the surface, and its derivative by J (det J > 0).
-fn shear(jacobian: &Matrix2<f64>, warp: Vec2) -> (f64, Matrix2<f64>) {
-    let [warp, weft] = threads(warp);
-    // J⁻¹ d is along the quarter-turned Jᵀ of the quarter-turned d: turned together, both angles are the same.
-    let (a, b) = (jacobian.transpose() * weft, -(jacobian.transpose() * warp));
-    let (along, across) = (a.norm(), b.norm());
-    let (a, b) = (a / along, b / across);
-    let sine = a.dot(&b);
-    (sine, weft * ((b - a * sine) / along).transpose() - warp * ((a - b * sine) / across).transpose())
-}
+    fn density(&self) -> f64 {
+        let [warp, weft] = self.strains;
+        warp * warp + weft * weft + JAMMED * jam(self.tangent).powi(2)
+    }
 
-/// The tangent of the shear whose sine is given, and its derivative by the sine.
-fn tangent(sine: f64) -> (f64, f64) {
-    let cosine = (1.0 - sine * sine).sqrt();
-    (sine / cosine, cosine.powi(-3))
+    /// Derivatives of Ψ by ln |a|, ln |b| and φ.
+    fn slopes(&self) -> [f64; 3] {
+        let [warp, weft] = self.strains;
+        let c = self.tangent;
+        let jammed = 2.0 * JAMMED * jam(c) * c.signum() * (1.0 + c * c);
+        [-2.0 * weft, -2.0 * warp, -2.0 * (warp + weft) * c - jammed]
+    }
+
+    fn stress(&self) -> Matrix2<f64> {
+        let [by_a, by_b, by_angle] = self.slopes();
+        self.longer[0] * by_a + self.longer[1] * by_b + (self.turned[1] - self.turned[0]) * by_angle
+    }
+
+    /// Second derivative of Ψ by φ.
+    fn bend(&self) -> f64 {
+        let c = self.tangent;
+        let (square, over) = (1.0 + c * c, jam(c));
+        let jammed = if over > 0.0 { square * square + 2.0 * over * c.abs() * square } else { 0.0 };
+        4.0 * c * c + 2.0 * (self.strains[0] + self.strains[1]) * square + 2.0 * JAMMED * jammed
+    }
+
+    /// The second derivative as a sum of squares. With u, v the changes of length (as shares) and direction of a and b
+    /// it is
+    /// 2 u₁² + 2 u₂² + Ψ_φφ w² + 4 c (u₁ + u₂) w + Ψ_α (v₁² − u₁²) + Ψ_β (v₂² − u₂²) + 2 Ψ_φ (u₁ v₁ − u₂ v₂)
+    /// with w = v₂ − v₁. Both squares of lengths are completed; the eigenmodes of what is left of v are the others.
+    fn modes(&self) -> [Mode; 4] {
+        let [by_a, by_b, by_angle] = self.slopes();
+        let c = 2.0 * self.tangent;
+        let stiff = [by_a, by_b].map(|by| (2.0 - by).max(LEAST));
+        let mixed = [Vec2::new(by_angle - c, c), Vec2::new(-c, c - by_angle)];
+        let bend = self.bend();
+        let left = Matrix2::new(bend + by_a, -bend, -bend, bend + by_b)
+            - mixed[0] * mixed[0].transpose() / stiff[0]
+            - mixed[1] * mixed[1].transpose() / stiff[1];
+        let turned = |share: Vec2| self.turned[0] * share.x + self.turned[1] * share.y;
+        let along = |k: usize| Mode { curvature: stiff[k], mode: self.longer[k] + turned(mixed[k] / stiff[k]) };
+        let (mean, half, radius) = {
+            let half = (left.m11 - left.m22) / 2.0;
+            ((left.m11 + left.m22) / 2.0, half, half.hypot(left.m12))
+        };
+        let (sine, cosine) = (0.5 * left.m12.atan2(half)).sin_cos();
+        [
+            along(0),
+            along(1),
+            Mode { curvature: mean + radius, mode: turned(Vec2::new(cosine, sine)) },
+            Mode { curvature: mean - radius, mode: turned(Vec2::new(-sine, cosine)) },
+        ]
+    }
 }
 
 /// How far beyond the lock a tangent of shear is.
@@ -57,101 +114,25 @@ fn jam(tangent: f64) -> f64 {
 
 /// Strains of warp and weft on the surface of a triangle and its shear, radians (det J > 0).
 pub(super) fn measured(jacobian: &Matrix2<f64>, warp: Vec2) -> [f64; 3] {
-    let [a, b] = threads(warp).map(|d| stretch(jacobian, d).0 - 1.0);
-    [a, b, shear(jacobian, warp).0.asin()]
+    let woven = Woven::new(jacobian, warp);
+    let [a, b] = woven.strains.map(f64::exp_m1);
+    [a, b, woven.tangent.atan()]
 }
 
 /// Ψ at J (det J > 0).
 pub(super) fn density(jacobian: &Matrix2<f64>, warp: Vec2) -> f64 {
-    let stretched: f64 = threads(warp).into_iter().map(|d| stretch(jacobian, d).0.ln().powi(2)).sum();
-    stretched + JAMMED * jam(tangent(shear(jacobian, warp).0).0).powi(2)
+    Woven::new(jacobian, warp).density()
 }
 
 /// The derivative of Ψ by J.
 pub(super) fn stress(jacobian: &Matrix2<f64>, warp: Vec2) -> Matrix2<f64> {
-    let [a, b] = threads(warp).map(|d| {
-        let (stretch, derivative) = stretch(jacobian, d);
-        derivative * (2.0 * stretch.ln())
-    });
-    let (sine, derivative) = shear(jacobian, warp);
-    let (tangent, slope) = tangent(sine);
-    a + b + derivative * (2.0 * JAMMED * jam(tangent) * tangent.signum() * slope)
+    Woven::new(jacobian, warp).stress()
 }
 
-/// The second derivative of Ψ at J (det J > 0), as its four eigenmodes.
+/// The second derivative of Ψ at J (det J > 0), as a sum of four squares, of which only those of turning threads may be
+/// negative.
 pub(super) fn modes(jacobian: &Matrix2<f64>, warp: Vec2) -> [Mode; 4] {
-    let curved = Curved::new(jacobian, warp);
-    let unit = |k: usize| {
-        let mut m = Matrix2::zeros();
-        m[k] = 1.0;
-        m
-    };
-    let own = [0, 1, 2, 3].map(|k| curved.along(&unit(k)));
-    let hessian = Matrix4::from_fn(|k, l| match k == l {
-        true => own[k],
-        false => (curved.along(&(unit(k) + unit(l))) - own[k] - own[l]) / 2.0,
-    });
-    let eigen = SymmetricEigen::new(hessian);
-    [0, 1, 2, 3].map(|k| {
-        let mode = Matrix2::from_iterator(eigen.eigenvectors.column(k).iter().copied());
-        Mode { curvature: eigen.eigenvalues[k], mode }
-    })
-}
-
-/// Ψ near a J: what its second derivative along any direction is made of.
-struct Curved {
-    inverse: Matrix2<f64>,
-    det: f64,
-    cofactor: Matrix2<f64>,
-    /// Of warp and weft: the quarter-turned direction, its image by Jᵀ, ln t and its derivative.
-    threads: [(Vec2, Vec2, f64, Matrix2<f64>); 2],
-    /// Tangent of the shear.
-    tangent: f64,
-}
-
-impl Curved {
-    fn new(jacobian: &Matrix2<f64>, warp: Vec2) -> Self {
-        let threads = threads(warp).map(|d| {
-            let across = Vec2::new(-d.y, d.x);
-            let (stretch, derivative) = stretch(jacobian, d);
-            (across, jacobian.transpose() * across, stretch.ln(), derivative)
-        });
-        let det = jacobian.determinant();
-        let inverse = cofactor(jacobian).transpose() / det;
-        // The images of the quarter-turned threads: their angle is that of the threads on the surface.
-        let tangent = threads[0].1.dot(&threads[1].1) / det;
-        Self { inverse, det, cofactor: cofactor(jacobian), threads, tangent }
-    }
-
-    /// The second derivative of Ψ along `by`, twice the same direction.
-    fn along(&self, by: &Matrix2<f64>) -> f64 {
-        let turned = self.inverse * by;
-        // Of −ln det J.
-        let of_det = (turned * turned).trace();
-        let mut sum = 0.0;
-        for (across, image, log, derivative) in &self.threads {
-            let change = by.transpose() * across;
-            let square = image.norm_squared();
-            let bend = change.norm_squared() / square - 2.0 * (image.dot(&change) / square).powi(2) + of_det;
-            sum += 2.0 * derivative.dot(by).powi(2) + 2.0 * log * bend;
-        }
-        sum + self.jam_along(by)
-    }
-
-    /// The same of jammed threads.
-    fn jam_along(&self, by: &Matrix2<f64>) -> f64 {
-        let over = jam(self.tangent);
-        if over == 0.0 {
-            return 0.0;
-        }
-        let [(p, a, ..), (q, b, ..)] = &self.threads;
-        let (da, db) = (by.transpose() * p, by.transpose() * q);
-        let (first, second) = (da.dot(b) + a.dot(&db), 2.0 * da.dot(&db));
-        let (ddet, dddet) = (self.cofactor.dot(by), 2.0 * by.determinant());
-        let slope = (first - self.tangent * ddet) / self.det;
-        let bend = (second - 2.0 * slope * ddet - self.tangent * dddet) / self.det;
-        2.0 * JAMMED * (slope * slope + over * self.tangent.signum() * bend)
-    }
+    Woven::new(jacobian, warp).modes()
 }
 
 #[cfg(test)]

@@ -20,6 +20,8 @@ pub struct Cuts {
     /// Along the lines that are drawn in these files, in the unit and the axes of the surface: OBJ files with `l`
     /// elements, or lists of points.
     pub files: Vec<PathBuf>,
+    /// Whether to cut along all sharp edges, where neighbouring faces turn by more than 50°.
+    pub sharp: bool,
     /// Whether to cut what these leave that is no disk into one.
     pub auto: bool,
 }
@@ -125,6 +127,26 @@ pub(super) fn straight(part: &Part, chain: &[u32]) -> Vec<Spot> {
         return chain.iter().map(|&v| Spot::Vertex(v)).collect();
     }
     straightened(&part.surface, &Web::new(&part.surface), chain)
+}
+
+/// Cuts along all sharp edges, as a block or a box is sewn.
+pub(super) fn cut_sharp(sheet: &mut Sheet) {
+    /// Cosine of 50°.
+    const SHARP: f64 = 0.642_787_6;
+    let parts = sheet.parts();
+    for part in &parts {
+        let normal = |t: u32| part.surface.double_normal(t as usize).normalize();
+        let is_sharp = |t: u32, u: u32| normal(t).dot(&normal(u)) < SHARP;
+        let topology = Topology::new(&part.surface.triangles);
+        let edges = topology.edges.iter().filter_map(|edge| match edge.triangles {
+            [Some(t), Some(u)] if is_sharp(t, u) => Some(edge.ends),
+            _ => None,
+        });
+        for chain in chains(&edges.collect::<Vec<_>>()) {
+            sheet.plan(part.name.clone(), chain.into_iter().map(|v| part.vertices[v as usize]).collect());
+        }
+    }
+    sheet.cut_planned(CutWhy::Asked);
 }
 
 /// Cuts open what is no disk, one line after the other, the part `number` only where it is given.

@@ -23,6 +23,10 @@ pub(super) struct Source<'a> {
     pub(super) options: &'a SurfaceOptions,
 }
 
+/// A dart brings nothing where a part is strained by no more than this share of its strain without it: by what two
+/// ways down to the same minimum differ.
+const IDLE: f64 = 1.001;
+
 /// A part of the surface laid flat.
 pub(super) struct Laid {
     /// Its place among all parts.
@@ -160,6 +164,28 @@ impl Source<'_> {
         Some((Laid { darts: own.darts + 1, ..laid }, cut))
     }
 
+    /// Closes those darts of a part again, cut from number `first` on, that bring nothing any more: without which it is
+    /// strained no more. While darts are cut that cannot be known, for a part may need several before one helps.
+    fn close_idle(&self, own: &mut Laid, sheet: &mut Sheet, first: usize) {
+        let share = |laid: &Laid| self.options.limit.share(&laid.flat.report);
+        for number in (first..sheet.made.len()).rev() {
+            if sheet.made[number].piece != own.part.name {
+                continue;
+            }
+            let mut closed = sheet.clone();
+            closed.close(number);
+            let Ok(laid) = self.lay_of(&closed, own.number) else { continue };
+            if share(&laid) <= IDLE * share(own) && laid.lies_as_well_as(own) {
+                *own = Laid { darts: own.darts - 1, stop: own.stop, ..laid };
+                *sheet = closed;
+                if own.stop.is_none() && share(own) > 1.0 {
+                    // The next one would be this one again.
+                    (own.stop, own.dart) = (Some(DartStop::NoPlace), Vec::new());
+                }
+            }
+        }
+    }
+
     /// Lays those parts once more that a cut in another one has changed: what is sewn to its mouth has a vertex there
     /// too and, where only whole chains of the rim are held, must end there.
     pub(super) fn refresh(&self, outcome: &mut Outcome, sheet: &Sheet) -> Result<(), PipelineError> {
@@ -197,12 +223,13 @@ fn is_worth_a_cut(cut: &Laid, whole: &Laid) -> bool {
 
 /// Lays all parts flat and cuts the darts that `source.options` asks for: even ones into round parts, all the others
 /// one by one, the next always into the part that is strained most, until all are within the limit or so many are cut.
-/// A dart that would make a flat piece lie on itself is not cut, and its part gets no other; `sheet` has those that
-/// are.
+/// A dart that would make a flat piece lie on itself is not cut, and its part gets no other. Those that bring nothing
+/// in the end are closed again. `sheet` has those that are left.
 pub(super) fn with_darts(source: &Source<'_>, sheet: &mut Sheet) -> Result<Outcome, PipelineError> {
     let mut out = source.lay_all(sheet)?;
     let Some(darts) = source.options.darts else { return Ok(out) };
     even_darts(source, sheet, &mut out.laid, darts);
+    let first = sheet.made.len();
     let mut left = darts.most();
     while left > 0
         && let Some(k) = source.neediest(&out.laid)
@@ -215,6 +242,7 @@ pub(super) fn with_darts(source: &Source<'_>, sheet: &mut Sheet) -> Result<Outco
             _ => out.laid[k].stop = Some(DartStop::Overlap),
         }
     }
+    out.laid.iter_mut().for_each(|own| source.close_idle(own, sheet, first));
     source.refresh(&mut out, sheet)?;
     out.laid.iter_mut().filter(|l| source.options.limit.passed(&l.flat.report)).for_each(Laid::say_why);
     Ok(out)

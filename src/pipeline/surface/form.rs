@@ -21,9 +21,9 @@ const BESIDE: f64 = 5e-3;
 const DECIMALS: f64 = 1e4;
 
 impl FlatSurface {
-    /// The whole surface without its cuts, its rims closed by triangles round their centres, outward. `None` where it
-    /// is of several pieces, has one side, or has hardly an inside.
-    pub(super) fn form(&self) -> Option<TriMesh> {
+    /// The whole surface without its cuts, its rims closed by triangles round their centres, outward, and whether the
+    /// file's faces show inward. `None` where it is of several pieces, has one side, or has hardly an inside.
+    pub(super) fn form(&self) -> Option<(TriMesh, bool)> {
         let mut whole = self.sheet.read_as(false, self.sheet.welded_within(Weld::Within(AT_ONE_PLACE)));
         whole.join_groups();
         let mut parts = whole.parts();
@@ -41,17 +41,19 @@ impl FlatSurface {
             form.triangles.iter_mut().for_each(|t| t.swap(1, 2));
         }
         let ball = 36.0 * std::f64::consts::PI * volume * volume;
-        (ball > SOLID * form.area().powi(3)).then_some(form)
+        // Parts run the other way round than the file's faces, to be drawn with y down as they are seen.
+        (ball > SOLID * form.area().powi(3)).then_some((form, volume > 0.0))
     }
 
-    /// The place of a piece: flat, turned as lies nearest to what it is of, and outside of it.
-    pub(super) fn place_of(&self, piece: usize) -> PlaceFile {
+    /// The place of a piece: flat, turned as lies nearest to what it is of, and outside of it, which is behind its
+    /// faces where these show `inward`.
+    pub(super) fn place_of(&self, piece: usize, inward: bool) -> PlaceFile {
         let of = &self.laid[piece].part.surface.vertices;
         let drawn: Vec<Vec3> =
             (0..of.len() as u32).map(|v| self.place(piece, v) / MM).map(|p| Vec3::new(p.x, -p.y, 0.0)).collect();
         let turn = nearest_turn(&drawn, of);
         let at = middle(of) - turn * middle(&drawn);
-        let outward = turn * Vec3::z();
+        let outward = turn * if inward { -Vec3::z() } else { Vec3::z() };
         let above = of.iter().zip(&drawn).map(|(p, q)| outward.dot(&(p - at - turn * q)));
         let at = at + outward * (above.fold(0.0, f64::max) + BESIDE);
         let (x, y, z) = turn.euler_angles();

@@ -41,7 +41,12 @@ impl FlatSurface {
     /// without a name, the legs of darts, are straight.
     pub(in crate::pipeline) fn garment_file(&self, smooth: bool, on_form: bool) -> GarmentFile {
         let names = self.piece_names();
-        let pieces: Vec<PieceFile> = (0..self.laid.len()).map(|k| self.piece_file(k, &names[k], smooth)).collect();
+        let inward = on_form && self.form().is_some_and(|(_, inward)| inward);
+        let piece = |k: usize| {
+            let place = Some(at_no_place(self.place_of(k, inward)));
+            PieceFile { place, ..self.piece_file(k, &names[k], smooth) }
+        };
+        let pieces: Vec<PieceFile> = (0..self.laid.len()).map(piece).collect();
         let (seams, free) = self.seams(&names);
         GarmentFile {
             version: at_no_place(1),
@@ -160,7 +165,6 @@ impl FlatSurface {
         let middle = self.grain_middle(k);
         PieceFile {
             outline: Some(OutlineFile { start: at_no_place(start), edges: edges.collect() }),
-            place: Some(at_no_place(self.place_of(k))),
             grain: Some(at_no_place([
                 [middle[0], rounded(middle[1] + GRAIN)],
                 [middle[0], rounded(middle[1] - GRAIN)],

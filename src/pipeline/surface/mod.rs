@@ -33,7 +33,7 @@ use crate::io::surface_read::read_surface;
 use crate::report::Stage;
 use apart::laid_apart;
 pub use cuts::Cuts;
-use cuts::{cut_as_asked, cut_open};
+use cuts::{cut_as_asked, cut_open, cut_sharp};
 pub use darts::DartStop;
 use darts::{Failed, Laid, Outcome, Source};
 use drawn::cut_drawn;
@@ -250,6 +250,9 @@ pub fn flatten_faces(file: &Path, mut faces: ObjFaces, options: &SurfaceOptions)
     notes.extend(split_notes(&sheet, options.weld, as_read.len()));
     cut_as_asked(&source, &mut sheet, as_read)?;
     options.cuts.files.iter().try_for_each(|lines| cut_drawn(&mut sheet, lines))?;
+    if options.cuts.sharp {
+        cut_sharp(&mut sheet);
+    }
     if let Some(count) = options.gores {
         notes.extend(cut_gores(&source, &mut sheet, count)?);
     }

@@ -121,6 +121,14 @@ impl Sheet {
         }
     }
 
+    /// Closes the cut of this number again. The faces along it stay split.
+    pub(super) fn close(&mut self, number: usize) {
+        self.made.remove(number);
+        for ends in self.chains.remove(number).windows(2) {
+            self.edges.remove(&sorted_pair([ends[0] - 1, ends[1] - 1]));
+        }
+    }
+
     /// Notes an edge as split by a vertex: where it is cut both halves are, and chains along it go through the vertex.
     pub(super) fn divide(&mut self, edge: [u32; 2], by: u32) {
         if self.edges.remove(&edge) {

@@ -16,6 +16,13 @@ const MILLIMETRES_FROM: f64 = 300.0;
 /// Between the two the mesh decides. Cloth of metres is meshed in sides of up to 2.5 cm; sides of more units than this
 /// are millimetres.
 const CENTIMETRE_SIDE: f64 = 2.5;
+/// A sheet that hardly curves is taken for centimetres between these units, however coarse its mesh: in millimetres it
+/// would be of 25 to 40 cm, which round a body, a foot or a seat curves more; in centimetres it is a cloak, a curtain
+/// or a cover of 2.5 to 4 m.
+const LARGE_SHEET: [f64; 2] = [250.0, 400.0];
+/// A sheet hardly curves when its faces' normals have a larger mean cosine with its own: bent round a cylinder it turns
+/// by less than 49°.
+const HARDLY_CURVED: f64 = 0.97;
 /// A unit in which the surface would be between 4 cm and 4 m large, as pieces of garments are, leaves a doubt.
 const DOUBTFUL: [f64; 2] = [0.04, 4.0];
 /// An extent below this share of the largest is not said.
@@ -56,9 +63,11 @@ impl Space {
 pub(super) fn guessed(faces: &ObjFaces) -> (LengthUnit, String) {
     let extents = extents(faces);
     let size = extents[0];
+    let is_fine = || size < MILLIMETRES_FROM && mean_side(faces) < CENTIMETRE_SIDE;
+    let is_large_sheet = || (LARGE_SHEET[0]..LARGE_SHEET[1]).contains(&size) && evenness(faces) > HARDLY_CURVED;
     let unit = if size < METRES_BELOW {
         LengthUnit::Metre
-    } else if size < CENTIMETRES_BELOW || (size < MILLIMETRES_FROM && mean_side(faces) < CENTIMETRE_SIDE) {
+    } else if size < CENTIMETRES_BELOW || is_fine() || is_large_sheet() {
         LengthUnit::Centimetre
     } else {
         LengthUnit::Millimetre
@@ -86,6 +95,20 @@ fn mean_side(faces: &ObjFaces) -> f64 {
     let lengths = faces.faces.iter().flat_map(|f| (0..f.len()).map(|k| (at(f[(k + 1) % f.len()]) - at(f[k])).norm()));
     let (sum, count) = lengths.fold((0.0, 0.0), |(sum, count), length| (sum + length, count + 1.0));
     sum / count
+}
+
+/// Mean cosine, by area, between the faces' normals and the sheet's own: 1 where all lie in one plane, about a half
+/// where they close up. Faces that run against most others count as those do.
+fn evenness(faces: &ObjFaces) -> f64 {
+    let triangles = || faces.faces.iter().flat_map(|polygon| triangles_of(&faces.vertices, polygon));
+    let normal = |[a, b, c]: [u32; 3]| {
+        let [p, q, r] = [a, b, c].map(|v| faces.vertices[v as usize]);
+        (q - p).cross(&(r - p))
+    };
+    let sum: Vec3 = triangles().map(normal).sum();
+    let all: f64 = triangles().map(|t| normal(t).norm()).sum();
+    let aligned: f64 = triangles().map(|t| normal(t).dot(&sum).abs()).sum();
+    if sum.norm() > 0.0 { aligned / (sum.norm() * all) } else { 0.0 }
 }
 
 /// `238 × 150 mm`, or from a metre on `2.4 × 1.5 m`.
@@ -148,6 +171,8 @@ mod tests {
             ((240.0, 150.0, 10.0), LengthUnit::Millimetre, ": 240 × 150 mm, or 2.4 × 1.5 m in cm;"),
             ((120.0, 60.0, 1.5), LengthUnit::Centimetre, ": 1.2 × 0.6 m, or 120 × 60 mm in mm;"),
             ((9.6, 4.2, 0.6), LengthUnit::Metre, ": 9.6 × 4.2 m, or 96 × 42 mm in cm;"),
+            // A cloak in a coarse mesh.
+            ((310.0, 124.0, 31.0), LengthUnit::Centimetre, ": 3.1 × 1.2 m, or 310 × 124 mm in mm;"),
             // No doubt.
             ((720.0, 600.0, 10.0), LengthUnit::Millimetre, ": 720 × 600 mm;"),
             ((0.7, 0.6, 0.01), LengthUnit::Metre, ": 700 × 600 mm;"),
@@ -155,6 +180,24 @@ mod tests {
             let (found, said) = said(size, height, side);
             assert_eq!(found, unit, "{said}");
             assert!(said.contains(doubt), "{said}");
+        }
+    }
+
+    #[test]
+    fn a_large_sheet_is_one_that_hardly_curves() {
+        // Bent round a cylinder by so many degrees, some of its faces turned over.
+        let bent = |degrees: f64| {
+            let mut faces = sheet(310.0, 140.0, 10.0);
+            let radius = 310.0 / degrees.to_radians();
+            for p in &mut faces.vertices {
+                *p = Vec3::new((p.x / radius).sin() * radius, p.y, (p.x / radius).cos() * radius);
+            }
+            faces.faces.iter_mut().step_by(7).for_each(|face| face.reverse());
+            guessed(&faces).0
+        };
+        assert_eq!(bent(30.0), LengthUnit::Centimetre);
+        for degrees in [90.0, 180.0, 340.0] {
+            assert_eq!(bent(degrees), LengthUnit::Millimetre, "{degrees}");
         }
     }
 

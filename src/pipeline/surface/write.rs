@@ -51,7 +51,7 @@ impl FlatSurface {
     /// When one of them cannot be drawn.
     pub fn results(&self) -> Result<Vec<ResultFile>, PipelineError> {
         let sheet = self.sheet();
-        let form = self.form();
+        let form = self.form().map(|(form, _)| form);
         let mut files = vec![
             (FLAT_OBJ, self.obj().into_bytes()),
             (FLAT_PNG, self.picture(&sheet)?),
