@@ -84,11 +84,11 @@ enum OneOrMany {
 impl Job {
     /// A garment file with the options that jobs have which say nothing else.
     pub(super) fn of_file(id: String, file: PathBuf, defaults: &Job) -> Self {
-        Self { id, garment: vec![file], ..defaults.clone() }.from_root()
+        Self { id, garment: vec![file], ..defaults.clone() }.with_whole_paths()
     }
 
     /// The job with whole paths, so that its record tells where everything was.
-    fn from_root(mut self) -> Self {
+    fn with_whole_paths(mut self) -> Self {
         let whole = |file: &Path| std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
         self.garment.iter_mut().for_each(|file| *file = whole(file));
         let named = [(&mut self.body, mannequin::library()), (&mut self.fabric, fabric::library())];
@@ -221,7 +221,7 @@ pub fn parse_job(text: &str, folder: &Path, defaults: &Job, mark: &str) -> Resul
         measures: said.measures.or_else(|| defaults.measures.clone()),
         alter: said.alter.unwrap_or_else(|| defaults.alter.clone()),
     };
-    checked(job.from_root())
+    checked(job.with_whole_paths())
 }
 
 fn json<T: Serialize>(value: &T) -> String {
