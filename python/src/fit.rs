@@ -15,7 +15,7 @@ use crate::library::said;
 use crate::result::parsed;
 use crate::work::with_signals;
 
-/// What was found to give a garment the fit that is wanted.
+/// The alterations that were found to give a garment the fit that is wanted.
 #[pyclass(frozen, module = "toile")]
 pub(crate) struct Fit {
     garment: Option<Py<Garment>>,

@@ -301,7 +301,7 @@ impl Garment {
         library::write(py, &path, text)
     }
 
-    /// What `pickle` keeps.
+    /// The state for `pickle`.
     #[getter]
     fn _state(&self) -> (PathBuf, String, Vec<String>, Vec<String>) {
         (self.file.clone(), self.text.clone(), self.alter.clone(), self.notes.clone())

@@ -265,7 +265,7 @@ impl Fabric {
         write(py, &path, text.clone())
     }
 
-    /// What `pickle` keeps: the name or file, or else the text.
+    /// The name or file, or else the text, for `pickle`.
     #[getter]
     fn _state(&self) -> (Option<String>, Option<String>, Vec<String>) {
         (self.name.clone(), self.text.clone(), self.notes.clone())

@@ -1,4 +1,4 @@
-//! What keeps a piece from lying on itself: rims that push each other away before they meet.
+//! Rims that push each other away before they meet, so that no piece lies on itself.
 //!
 //! A piece without flipped triangles lies on itself nowhere as long as no two sides of its rims cross (Smith & Schaefer
 //! 2015, section 3.2). A vertex of a rim that comes within reach of another side is pushed off by

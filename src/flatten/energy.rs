@@ -30,7 +30,7 @@ pub(super) struct Energy {
     /// Runs of the others whose lengths together are exact.
     pub(super) chains: Vec<Chain>,
     pub(super) law: Law,
-    /// What keeps the piece from lying on itself, where it is to be kept from it.
+    /// The barrier between its rims, where the piece is to be kept from lying on itself.
     pub(super) barrier: Option<Barrier>,
     /// Its pushes when the curvature was last taken.
     pushes: Vec<Spring>,

@@ -162,7 +162,7 @@ class Garment:
     def _restored(file: _Path, text: str, alter: list[str], notes: list[str]) -> Garment: ...
 
 class Fit:
-    """What was found to give a garment the fit that is wanted."""
+    """The alterations that were found to give a garment the fit that is wanted."""
 
     @property
     def garment(self) -> Garment | None:
