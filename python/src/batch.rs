@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use pyo3::prelude::*;
 use toile::batch::{
-    Event, INDEX, Job, Limits, Plan, Store, Worker, check_jobs, garments_of_folder, read_jobs, run, run_one,
+    Event, INDEX, Job, Limits, PANICKED, Plan, Store, Worker, check_jobs, garments_of_folder, read_jobs, run, run_one,
 };
 
 use crate::arguments::Count;
@@ -23,8 +23,6 @@ const MOST_MEMORY: i64 = 1 << 40;
 
 /// Time between two looks for a folder, which may be on another machine.
 const LOOK_AT_FOLDER: Duration = Duration::from_millis(500);
-/// Exit code of a program that has panicked, as Rust's own have it.
-const PANICKED: u8 = 101;
 
 /// A number of threads or jobs.
 fn count(py: Python<'_>, name: &str, Count(number): Count) -> PyResult<NonZeroUsize> {

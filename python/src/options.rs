@@ -11,9 +11,6 @@ use crate::errors;
 use crate::library::{self, GivenBody, GivenFabric};
 use crate::result::Result as Outcome;
 
-/// Pressures that cloth never has, kPa, as the command line has them.
-const MOST_PRESSURE: f64 = 1e3;
-
 /// A spacing in metres.
 pub(crate) fn spacing(py: Python<'_>, mm: Option<f64>) -> PyResult<Option<f64>> {
     if let Some(mm) = mm.filter(|mm| !(*mm > 0.0 && mm.is_finite())) {
@@ -82,11 +79,9 @@ pub(crate) fn overrides(
 /// Limits of the bands of pressure, kPa.
 pub(crate) fn bands(py: Python<'_>, limits: Option<(f64, f64)>) -> PyResult<Option<Bands>> {
     let Some((tight, too_tight)) = limits else { return Ok(None) };
-    if tight > 0.0 && (tight..MOST_PRESSURE).contains(&too_tight) {
-        return Ok(Some(Bands::given(tight, too_tight)));
-    }
     let why = "pressure_bands: two rising pressures in kPa are expected, such as (2.3, 4.7)";
-    Err(errors::input(py, format!("{why}, not {tight} and {too_tight}")))
+    let wrong = || errors::input(py, format!("{why}, not {tight} and {too_tight}"));
+    Bands::given(tight, too_tight).ok_or_else(wrong).map(Some)
 }
 
 /// A body by its name, which is to be in the library, or a file.

@@ -6,9 +6,7 @@ use std::path::{Path, PathBuf};
 use super::error::BatchError;
 use super::job::{Job, stem};
 use crate::input::bytes;
-
-/// Bytes of a file that is looked into, as garment files have them at most. Of a longer one its job tells.
-const LARGEST: u64 = 16 << 20;
+use crate::io::garment::LARGEST_FILE;
 
 /// The garments of a folder.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,7 +49,7 @@ fn is_yaml(path: &Path) -> bool {
 /// Whether a file has a line with the key `garment`, as every garment file has. One with a mistake further down is a
 /// garment too, and so is one that cannot be read: its job says why.
 fn is_garment(file: &Path) -> bool {
-    let Ok(bytes) = bytes(file, LARGEST) else { return true };
+    let Ok(bytes) = bytes(file, LARGEST_FILE) else { return true };
     let Ok(text) = String::from_utf8(bytes) else { return true };
     text.trim_start_matches('\u{feff}').lines().any(begins_garment)
 }

@@ -11,13 +11,12 @@ use sha2::{Digest, Sha256};
 use super::job::{Job, stem};
 use crate::fabric;
 use crate::input::{bytes, texts};
+use crate::io::garment::LARGEST_FILE;
 use crate::mannequin;
 
 /// Bytes of a hash that are written, two characters each: with 16 of them no two of a billion jobs have the same key
 /// by chance.
 const BYTES: usize = 16;
-/// Bytes of a text in which the names of further files are looked for, as of a garment file.
-const LARGEST_TEXT: u64 = 16 << 20;
 /// Bytes of a path, as Linux has them at most. A longer text is none.
 const LONGEST_PATH: usize = 4096;
 /// A garment names a fabric, the fabric a curve. Files that name one another in a circle end here.
@@ -145,7 +144,7 @@ fn named_files(file: &Path) -> Vec<(String, PathBuf)> {
     if file.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
         return Vec::new();
     }
-    let text = bytes(file, LARGEST_TEXT).ok().and_then(|bytes| String::from_utf8(bytes).ok());
+    let text = bytes(file, LARGEST_FILE).ok().and_then(|bytes| String::from_utf8(bytes).ok());
     let texts = text.map(|text| texts(text.strip_prefix('\u{feff}').unwrap_or(&text)));
     let Some(Ok(texts)) = texts else { return Vec::new() };
     let folder = file.parent().unwrap_or(Path::new(""));

@@ -24,7 +24,7 @@ pub const WORKER_CANNOT_WRITE: u8 = 74;
 /// Exit code of a worker that its memory limit does not let begin.
 pub const WORKER_NO_MEMORY: u8 = 75;
 /// Exit code of a Rust program that has panicked: a fault of toile, which one garment may have and another not.
-const PANICKED: i32 = 101;
+pub const PANICKED: u8 = 101;
 /// Exit code of a worker that is asked to end by a signal.
 const ASKED_TO_END: i32 = 130;
 /// Codes that a command ends with when there is a result, and when there is none.
@@ -159,8 +159,9 @@ fn judged(
             }
         });
     }
-    if NOT_MADE.contains(&exit) || code == PANICKED {
-        let exit = if code == PANICKED { None } else { Some(exit) };
+    let has_panicked = code == i32::from(PANICKED);
+    if NOT_MADE.contains(&exit) || has_panicked {
+        let exit = if has_panicked { None } else { Some(exit) };
         return Ok((State::Failed, exit, Some(failure(&log, status, plan))));
     }
     if code == ASKED_TO_END {

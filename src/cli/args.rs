@@ -303,12 +303,11 @@ fn alteration(text: &str) -> Result<String, String> {
 /// Two rising pressures in kPa.
 fn bands(text: &str) -> Result<Bands, String> {
     let limits: Vec<f64> = text.split(',').filter_map(|limit| limit.trim().parse().ok()).collect();
-    match limits[..] {
-        [tight, too_tight] if text.matches(',').count() == 1 && tight > 0.0 && (tight..1e3).contains(&too_tight) => {
-            Ok(Bands::given(tight, too_tight))
-        }
-        _ => Err("two rising pressures in kPa are expected, such as 2.3,4.7".into()),
-    }
+    let bands = match limits[..] {
+        [tight, too_tight] if text.matches(',').count() == 1 => Bands::given(tight, too_tight),
+        _ => None,
+    };
+    bands.ok_or_else(|| "two rising pressures in kPa are expected, such as 2.3,4.7".into())
 }
 
 fn weight(text: &str) -> Result<f64, String> {

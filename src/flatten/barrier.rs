@@ -5,7 +5,7 @@
 //! b(x) = −(1 − x)² ln x, where x is the distance as a share of the reach (Li et al. 2020, "Incremental potential
 //! contact", equation 6): nothing at the end of the reach, and no end where they meet.
 
-use super::overlap::near;
+use super::overlap::{crossing, near};
 use super::spring::{Elastic, Spring};
 use crate::geometry::{Vec2, nearest_on_segment};
 
@@ -54,9 +54,9 @@ impl Barrier {
 
     /// The energy of all pushes, m²; infinite where rims cross.
     pub(super) fn energy(&self, flat: &[Vec2]) -> f64 {
-        let at: Vec<[Vec2; 2]> = self.sides.iter().map(|ends| ends.map(|v| flat[v as usize])).collect();
+        let at = self.at(flat);
         let pairs = self.near(&at);
-        if pairs.iter().any(|&[i, j]| cross(at[i], at[j])) {
+        if pairs.iter().any(|&[i, j]| crossing(at[i], at[j]).is_some()) {
             return f64::INFINITY;
         }
         self.pushes_of(&at, &pairs).iter().map(|push| push.energy).sum()
@@ -78,8 +78,13 @@ impl Barrier {
     }
 
     fn pushes(&self, flat: &[Vec2]) -> Vec<Push> {
-        let at: Vec<[Vec2; 2]> = self.sides.iter().map(|ends| ends.map(|v| flat[v as usize])).collect();
+        let at = self.at(flat);
         self.pushes_of(&at, &self.near(&at))
+    }
+
+    /// The ends of all sides.
+    fn at(&self, flat: &[Vec2]) -> Vec<[Vec2; 2]> {
+        self.sides.iter().map(|ends| ends.map(|v| flat[v as usize])).collect()
     }
 
     /// Pairs of sides without a common end that may be within reach of each other.
@@ -121,11 +126,6 @@ impl Barrier {
             slope: weight / REACH * (2.0 * gap * log - gap * gap / x),
         })
     }
-}
-
-fn cross([a, b]: [Vec2; 2], [c, d]: [Vec2; 2]) -> bool {
-    let side = |p: Vec2, q: Vec2, r: Vec2| (q - p).perp(&(r - p));
-    side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
 }
 
 fn length(flat: &[Vec2], ends: [u32; 2]) -> f64 {

@@ -66,15 +66,18 @@ pub(super) fn near(sides: &[[Vec2; 2]], longest: f64, depth: f64) -> Vec<(u32, u
     near
 }
 
-/// Where two sides cross, or else an end of one within `depth` of the other.
-fn meeting([a, b]: [Vec2; 2], [c, d]: [Vec2; 2], depth: f64) -> Option<Vec2> {
+/// Where two sides cross, each between its ends.
+pub(super) fn crossing([a, b]: [Vec2; 2], [c, d]: [Vec2; 2]) -> Option<Vec2> {
     let side = |p: Vec2, q: Vec2, r: Vec2| (q - p).perp(&(r - p));
     let (at_a, at_b) = (side(c, d, a), side(c, d, b));
-    if side(a, b, c) * side(a, b, d) < 0.0 && at_a * at_b < 0.0 {
-        return Some(a + (b - a) * (at_a / (at_a - at_b)));
-    }
+    (side(a, b, c) * side(a, b, d) < 0.0 && at_a * at_b < 0.0).then(|| a + (b - a) * (at_a / (at_a - at_b)))
+}
+
+/// Where two sides cross, or else an end of one within `depth` of the other.
+fn meeting([a, b]: [Vec2; 2], [c, d]: [Vec2; 2], depth: f64) -> Option<Vec2> {
     let ends = [(a, [c, d]), (b, [c, d]), (c, [a, b]), (d, [a, b])];
-    ends.into_iter().find(|&(end, other)| distance_to_segment(end, other) <= depth).map(|(end, _)| end)
+    let near = |&(end, other): &(Vec2, [Vec2; 2])| distance_to_segment(end, other) <= depth;
+    crossing([a, b], [c, d]).or_else(|| ends.into_iter().find(near).map(|(end, _)| end))
 }
 
 /// Two places beside each other that, from where two sides meet, lie within both, half of `depth` or more. One alone

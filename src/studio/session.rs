@@ -13,9 +13,8 @@ use super::history::History;
 use super::view::{View, view};
 use crate::input::bytes;
 use crate::io::files::write_all;
+use crate::io::garment::LARGEST_FILE;
 
-/// Bytes of a garment file.
-const LARGEST: u64 = 16 << 20;
 /// Spacings of the mesh that the page may ask for, mm.
 pub const SPACINGS: [f64; 6] = [8.0, 10.0, 12.0, 15.0, 20.0, 25.0];
 
@@ -257,6 +256,6 @@ impl Inner {
 }
 
 fn read(file: &Path) -> Result<String, String> {
-    let bytes = bytes(file, LARGEST).map_err(|e| e.to_string())?;
+    let bytes = bytes(file, LARGEST_FILE).map_err(|e| e.to_string())?;
     String::from_utf8(bytes).map_err(|e| format!("it is not UTF-8 text (byte {})", e.utf8_error().valid_up_to()))
 }

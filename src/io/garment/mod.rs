@@ -38,6 +38,7 @@ pub use reform::{Reformed, reform};
 pub use refuse::Refused;
 pub(crate) use refuse::refuse;
 use refuse::{accept, text_of};
+pub use source::LARGEST_FILE;
 pub use variant::{Variant, alterations_in};
 
 /// JSON Schema (2020-12) of the format, for editors that complete and check as one types.

@@ -63,7 +63,7 @@ fn here<T>(value: T) -> Located<T> {
 }
 
 pub(super) fn written(flat: &FlatSurface, about: &About, formed: &Mannequin) -> Result<Drafted, PipelineError> {
-    let mut file = flat.garment_file(true, false);
+    let mut file = flat.garment_file(true, None);
     file.name = Some(here(about.file.name.clone().unwrap_or_else(|| flat.report.surface.clone())));
     file.body = Some(here(about.body.to_owned()));
     file.fabrics = vec![(here("shell".to_owned()), here(Value::Text(about.fabric.to_owned())))];

@@ -20,10 +20,18 @@ const BESIDE: f64 = 5e-3;
 /// Decimals of a millimetre, and of a degree.
 const DECIMALS: f64 = 1e4;
 
+/// A surface as a body.
+pub(in crate::pipeline) struct ClosedForm {
+    /// Outward.
+    pub(super) mesh: TriMesh,
+    /// Whether the file's faces show inward.
+    pub(super) inward: bool,
+}
+
 impl FlatSurface {
-    /// The whole surface without its cuts, its rims closed by triangles round their centres, outward, and whether the
-    /// file's faces show inward. `None` where it is of several pieces, has one side, or has hardly an inside.
-    pub(super) fn form(&self) -> Option<(TriMesh, bool)> {
+    /// The whole surface without its cuts, its rims closed by triangles round their centres. `None` where it is of
+    /// several pieces, has one side, or has hardly an inside.
+    pub(super) fn form(&self) -> Option<ClosedForm> {
         let mut whole = self.sheet.read_as(false, self.sheet.welded_within(Weld::Within(AT_ONE_PLACE)));
         whole.join_groups();
         let mut parts = whole.parts();
@@ -42,7 +50,7 @@ impl FlatSurface {
         }
         let ball = 36.0 * std::f64::consts::PI * volume * volume;
         // Parts run the other way round than the file's faces, to be drawn with y down as they are seen.
-        (ball > SOLID * form.area().powi(3)).then_some((form, volume > 0.0))
+        (ball > SOLID * form.area().powi(3)).then_some(ClosedForm { mesh: form, inward: volume > 0.0 })
     }
 
     /// The place of a piece: flat, turned as lies nearest to what it is of, and outside of it, which is behind its

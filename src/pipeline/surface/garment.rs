@@ -4,7 +4,7 @@ use super::super::error::PipelineError;
 use super::FlatSurface;
 use super::darts::Laid;
 use super::edges::NamedEdge;
-use super::form::FORM_OBJ;
+use super::form::{ClosedForm, FORM_OBJ};
 use crate::geometry::{Cubic, MM, Vec2, smooth_curves};
 use crate::input::LengthUnit;
 use crate::io::garment::write;
@@ -29,19 +29,19 @@ fn rounded(x: f64) -> f64 {
 
 impl FlatSurface {
     /// The pieces as a garment: their rims as named edges, seams along everything that was cut, a notch in the middle
-    /// of every one, the grain upright, every piece placed where it is of; `on_form` says that [`FORM_OBJ`] is written.
+    /// of every one, the grain upright, every piece placed where it is of; on the `form`, if [`FORM_OBJ`] is written.
     ///
     /// # Errors
     /// When it cannot be written.
-    pub(super) fn garment(&self, on_form: bool) -> Result<String, PipelineError> {
-        write(&self.garment_file(false, on_form)).map_err(PipelineError::Encode)
+    pub(super) fn garment(&self, form: Option<&ClosedForm>) -> Result<String, PipelineError> {
+        write(&self.garment_file(false, form)).map_err(PipelineError::Encode)
     }
 
     /// As [`Self::garment`], before it is written. With `smooth` the named edges are few smooth curves, and those
     /// without a name, the legs of darts, are straight.
-    pub(in crate::pipeline) fn garment_file(&self, smooth: bool, on_form: bool) -> GarmentFile {
+    pub(in crate::pipeline) fn garment_file(&self, smooth: bool, form: Option<&ClosedForm>) -> GarmentFile {
         let names = self.piece_names();
-        let inward = on_form && self.form().is_some_and(|(_, inward)| inward);
+        let inward = form.is_some_and(|form| form.inward);
         let piece = |k: usize| {
             let place = Some(at_no_place(self.place_of(k, inward)));
             PieceFile { place, ..self.piece_file(k, &names[k], smooth) }
@@ -53,9 +53,9 @@ impl FlatSurface {
             name: Some(at_no_place(self.report.surface.clone())),
             about: Vec::new(),
             units: None,
-            body: on_form.then(|| at_no_place(FORM_OBJ.to_owned())),
+            body: form.map(|_| at_no_place(FORM_OBJ.to_owned())),
             body_measures: Vec::new(),
-            body_units: on_form.then(|| at_no_place(LengthUnit::Millimetre)),
+            body_units: form.map(|_| at_no_place(LengthUnit::Millimetre)),
             allowance: None,
             fabrics: vec![(at_no_place("shell".to_owned()), at_no_place(Value::Text(FABRIC.to_owned())))],
             pieces,

@@ -51,16 +51,16 @@ impl FlatSurface {
     /// When one of them cannot be drawn.
     pub fn results(&self) -> Result<Vec<ResultFile>, PipelineError> {
         let sheet = self.sheet();
-        let form = self.form().map(|(form, _)| form);
+        let form = self.form();
         let mut files = vec![
             (FLAT_OBJ, self.obj().into_bytes()),
             (FLAT_PNG, self.picture(&sheet)?),
             (PATTERN_SVG, pattern_svg(&sheet, &sheet.flat, &self.notches())?.into_bytes()),
             (OUTLINE_SVG, outline_svg(&sheet, &sheet.flat)?.into_bytes()),
-            (GARMENT_YAML, self.garment(form.is_some())?.into_bytes()),
+            (GARMENT_YAML, self.garment(form.as_ref())?.into_bytes()),
             (REPORT_JSON, json_text(&self.report)?.into_bytes()),
         ];
-        files.extend(form.map(|form| (FORM_OBJ, form_obj(&form).into_bytes())));
+        files.extend(form.map(|form| (FORM_OBJ, form_obj(&form.mesh).into_bytes())));
         Ok(files)
     }
 

@@ -50,10 +50,14 @@ impl Default for Bands {
     }
 }
 
+/// Cloth never presses so hard, kPa.
+const MOST: f64 = 1e3;
+
 impl Bands {
-    /// Limits of the caller's own, kPa.
-    pub fn given(tight: f64, too_tight: f64) -> Self {
-        Self { tight, too_tight, source: "given with --pressure-bands".into() }
+    /// Limits of the caller's own, kPa. `None` of what are no two rising pressures.
+    pub fn given(tight: f64, too_tight: f64) -> Option<Self> {
+        let are_rising = tight > 0.0 && (tight..MOST).contains(&too_tight);
+        are_rising.then(|| Self { tight, too_tight, source: "given with --pressure-bands".into() })
     }
 
     /// Band of a pressure in kPa.
@@ -75,6 +79,6 @@ mod tests {
         let bands = Bands::default();
         let of = [2.29, 2.3, 4.7, 4.71].map(|p| bands.of(p).name());
         assert_eq!(of, ["ok", "tight", "tight", "too tight"]);
-        assert_eq!(Bands::given(1.0, 2.0).of(1.5), Band::Tight);
+        assert_eq!(Bands::given(1.0, 2.0).expect("rising").of(1.5), Band::Tight);
     }
 }
