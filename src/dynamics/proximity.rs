@@ -170,7 +170,7 @@ impl<'a> Proximity<'a> {
         &self.near.contacts
     }
 
-    /// The contacts that matter, with their closest points at `to`.
+    /// The contacts by which a step to `to` is judged ([`Near::after`]).
     pub(super) fn near_after(&self, to: &[Vec3]) -> Vec<Contact<'a>> {
         self.near.after(to)
     }
