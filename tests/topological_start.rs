@@ -7,7 +7,8 @@ use toile::geometry::Vec3;
 use toile::io::garment::read_text;
 use toile::pipeline::{Job, Overrides, Run, read};
 use toile::sew::Stitching;
-use toile::sew::start::start;
+use toile::report::Contact;
+use toile::sew::start::{glue, start};
 
 /// The start's own spacing, metres: nothing is lost on the way to the mesh asked for.
 const SPACING: f64 = 0.025;
@@ -180,4 +181,22 @@ free:{after}"
         start(&job.garment, &job.mesh, &job.body, &job.collider).expect("a start")
     });
     assert_eq!(starts[0], starts[1]);
+}
+
+/// Straps that cross give the sewn garment a handle, and no part of the body can be dealt to its rims. They are put on
+/// uncrossed, over the shoulders, and their ends are led across the back.
+#[test]
+fn straps_that_cross_at_the_back_lie_over_the_shoulders() {
+    let job = job("tests/data/crossed_straps.yaml");
+    let glued = glue(&job.garment, &job.mesh, &[]);
+    assert_eq!(glued.crossed.len(), 2, "two straps have their ends exchanged");
+    assert_eq!(glued.laps.len(), 2, "both are buttoned for the start");
+    let mut run = Run::new(&job);
+    run.drape(&mut |_, _| {}).expect("draped");
+    let report = run.report();
+    let mut worn: Vec<&str> = report.worn.iter().filter_map(|w| w.body_part.as_deref()).collect();
+    worn.sort_unstable();
+    assert_eq!(worn, ["left arm", "neck", "right arm", "torso"], "{:?}", report.worn);
+    assert_eq!(report.contact, Contact::default());
+    assert!(report.closures.iter().all(|c| c.closed && c.turned.is_none()), "{:?}", report.closures);
 }

@@ -17,7 +17,8 @@ use super::worn::worn_rows;
 use crate::geometry::{MM, Vec2, Vec3};
 use crate::mannequin::Mannequin;
 use crate::mesh::{ClothMesh, EdgeParticles, Stitches};
-use crate::pattern::Garment;
+use crate::pattern::{Fastening, Garment, fastenings};
+use crate::sew::start::{Uncrossed, uncrossed};
 use crate::verify::Welded;
 
 /// Square millimetres in a square metre.
@@ -75,10 +76,10 @@ pub fn measure(run: &Measured) -> Report {
     }
     let (seen, worn) = space
         .as_ref()
-        .map_or_else(Default::default, |space| (space.seen(run), worn_rows(run, &space.welded, &space.openings)));
+        .map_or_else(Default::default, |space| (space.seen(run), worn_rows(run, space.rims(), &space.openings)));
     let draped = space.as_ref().filter(|_| run.draped.is_some());
     let bunched = draped.map_or_else(Vec::new, |space| bunched(run.garment, run.mesh, &space.welded, run.body));
-    let fit = draped.map(|space| fit(run, space.at, &space.welded, &space.openings, &worn));
+    let fit = draped.map(|space| fit(run, space.at, space.rims(), &space.openings, &worn));
     let (pieces, total) = pieces(run, &shapes, space.as_ref());
     Report {
         toile: env!("CARGO_PKG_VERSION").into(),
@@ -161,7 +162,7 @@ fn pieces(run: &Measured, shapes: &Shapes, space: Option<&InSpace>) -> (Vec<Piec
     let mut reports = Vec::new();
     let elastic = mesh.on_elastic();
     let rims = rims(mesh, run.weld);
-    let tight = space.map(|space| Tight::new(&space.welded, &space.openings, &rims, run.body));
+    let tight = space.map(|space| Tight::new(space.rims(), &space.openings, &rims, run.body));
     let given = space.map(|space| space.at).zip(tight.as_ref());
     for (index, (piece, rim)) in mesh.pieces.iter().zip(rims).enumerate() {
         let part = Part {
@@ -273,14 +274,30 @@ fn seam(run: &Measured, index: usize, stitches: &Stitches) -> SeamReport {
 struct InSpace<'a> {
     at: &'a [Vec3],
     welded: Welded,
+    /// The same with crossed straps uncrossed, where it has any.
+    uncrossed: Option<Welded>,
+    /// Openings of the garment with its straps uncrossed.
     openings: Vec<Opening>,
 }
 
 impl<'a> InSpace<'a> {
     fn new(run: &Measured, at: &'a [Vec3], closures: &Closures) -> Self {
         let welded = Welded::new(run.mesh, run.weld, at);
-        let openings = openings(run.garment, run.mesh, &welded, &closures.closed);
-        Self { at, welded, openings }
+        let Some(Uncrossed { weld, closures: exchanged }) = uncrossed(run.garment, run.mesh) else {
+            let openings = openings(run.garment, run.mesh, &welded, &closures.closed);
+            return Self { at, welded, uncrossed: None, openings };
+        };
+        let is_closed = |f: &Fastening| closures.closed.iter().any(|closed| closed.tack == f.tack);
+        let garment = Garment { closures: exchanged, ..run.garment.clone() };
+        let closed: Vec<Fastening> = fastenings(&garment).into_iter().filter(is_closed).collect();
+        let uncrossed = Welded::new(run.mesh, &weld, at);
+        let openings = openings(&garment, run.mesh, &uncrossed, &closed);
+        Self { at, welded, uncrossed: Some(uncrossed), openings }
+    }
+
+    /// The surface that the openings are the rims of.
+    fn rims(&self) -> &Welded {
+        self.uncrossed.as_ref().unwrap_or(&self.welded)
     }
 
     /// Findings of the independent checks.

@@ -21,6 +21,9 @@ const SWEEPS: usize = 30;
 const BENDING: f64 = 40.0;
 /// Pressure moves a free node by this much per step, metres.
 const PUSH: f64 = 10e-3;
+/// Cloth no wider than this between two openings that the body leaves by, metres, is a strap, which is not inflated;
+/// cloth of twice this width is inflated fully. Inflated straps lay round the trunk as a belt, and not over the shoulders.
+const STRAP: f64 = 0.1;
 /// While it settles the weight of cloth that hangs from the shoulders moves a free node by this per step, metres. With
 /// more a slip dress is drawn into its body and takes four times as many steps to sew.
 const WEIGHT: f64 = 0.2e-3;
@@ -275,7 +278,7 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// The direction in which pressure pushes every node; shorter where the cloth round it is crushed.
+    /// The direction in which pressure pushes every node; shorter where the cloth round it is crushed, and on straps.
     fn pushed(&self) -> Vec<Vec3> {
         let mut out = vec![Vec3::zeros(); self.count()];
         for t in &self.balloon.part.triangles {
@@ -283,7 +286,9 @@ impl<'a> Motion<'a> {
             let normal = (c - a).cross(&(b - a));
             t.iter().for_each(|n| out[*n as usize] += normal);
         }
-        out.iter().zip(&self.area).map(|(n, area)| n / area.max(f64::MIN_POSITIVE)).collect()
+        let share = |width: f64| ((width - STRAP) / STRAP).clamp(0.0, 1.0);
+        let round = self.area.iter().zip(&self.balloon.part.width);
+        out.iter().zip(round).map(|(n, (area, width))| n * share(*width) / area.max(f64::MIN_POSITIVE)).collect()
     }
 
     /// Pairs of nodes of different layers that are near each other.

@@ -192,7 +192,7 @@ fn lies_over(mesh: &ClothMesh, own: usize, rim: &[u32], other: usize, to_other: 
 }
 
 /// The direction out of a piece at the particle of its rim that is nearest to a point: across the rim, unit.
-fn outward(mesh: &ClothMesh, piece: usize, rim: &[u32], at: Vec2) -> Option<Vec2> {
+pub(super) fn outward(mesh: &ClothMesh, piece: usize, rim: &[u32], at: Vec2) -> Option<Vec2> {
     let flat = |k: usize| mesh.flat[rim[k] as usize];
     let near = (0..rim.len()).min_by(|a, b| (flat(*a) - at).norm().total_cmp(&(flat(*b) - at).norm()))?;
     let along = flat((near + 1).min(rim.len() - 1)) - flat(near.saturating_sub(1));

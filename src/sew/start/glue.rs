@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use super::cloth::Distances;
+use super::crossing::{CrossedEnd, Exchange};
 use super::laps::{Lap, laps};
 use super::layers;
 use super::openings::rims;
@@ -41,6 +43,8 @@ pub struct Glued {
     pub laps: Vec<Lap>,
     /// Pairs of particles of open fronts, which are welded for the start alone.
     pub zips: Vec<[u32; 2]>,
+    /// The ends of crossed straps, which are welded side by side for the start alone.
+    pub crossed: Vec<CrossedEnd>,
     /// For every particle that lies on other cloth of its own piece (turned over at a pressed fold, or laid in a
     /// pleat) where it lies once the piece is flat.
     pub follows: Vec<Option<Follow>>,
@@ -72,23 +76,113 @@ pub struct Follow {
     pub share: f64,
 }
 
-/// Welds the pieces of a garment. `zips` are pairs of particles welded besides.
+/// Welds the pieces of a garment. `zips` are pairs of particles welded besides. Straps that cross are welded uncrossed
+/// if that rids the surface of its handles.
 pub fn glue(garment: &Garment, mesh: &ClothMesh, zips: &[[u32; 2]]) -> Glued {
+    glued(garment, mesh, zips).0
+}
+
+/// [`glue`], and the seams or closures that exchange their partners for it.
+pub(super) fn glued(garment: &Garment, mesh: &ClothMesh, zips: &[[u32; 2]]) -> (Glued, Option<Exchange>) {
     let sheet = pressed(garment, mesh);
-    let mut is_out = turned_over(garment, mesh, &sheet);
-    let strips = strips(mesh, &sheet);
-    strips.iter().for_each(|p| is_out[*p as usize] = true);
-    let sewn: Vec<[u32; 2]> = stitches(garment, mesh).chain(zips.iter().copied()).collect();
-    let left_out = layers::left_out(garment, mesh, &is_out, &mut welded(mesh, &is_out, &sewn));
-    left_out.iter().for_each(|&piece| is_out[mesh.pieces[piece].particles.clone()].fill(true));
-    let (laps, pairs) = flat_laps(garment, mesh, &sheet, &is_out, sewn, zips);
-    cover(&mut is_out, &laps);
-    let mut out = numbered(mesh, &is_out, &mut welded(mesh, &is_out, &pairs));
-    (out.follows, out.beyond) = follows(mesh, &sheet);
-    let roll = |p: u32| Beyond { particle: p, at: sheet.drawn[p as usize], layers: ROLL };
-    out.beyond.extend(strips.into_iter().map(roll));
-    (out.laps, out.left_out, out.zips) = (laps, left_out, zips.to_vec());
-    out
+    let to_glue = ToGlue { garment, mesh, sheet: &sheet, zips };
+    let (plain, is_whole) = to_glue.glued(None);
+    if is_whole {
+        return (plain, None);
+    }
+    let uncrossed = |exchange: Exchange| {
+        let (mut glued, is_whole) = to_glue.glued(Some(&exchange));
+        glued.crossed = exchange.ends(garment, mesh).to_vec();
+        is_whole.then(|| (shift(&glued, mesh), glued, exchange))
+    };
+    // An end that is led over less cloth is led sooner.
+    let nearest = Exchange::all(garment).into_iter().filter_map(uncrossed).min_by(|a, b| a.0.total_cmp(&b.0));
+    nearest.map_or((plain, None), |(_, glued, exchange)| (glued, Some(exchange)))
+}
+
+/// How far on the cloth the ends of crossed straps start from their places, metres.
+fn shift(glued: &Glued, mesh: &ClothMesh) -> f64 {
+    let cloth = Distances::new(glued, mesh);
+    let of = |end: &CrossedEnd| {
+        let far = cloth.from(&CrossedEnd::nodes(glued, &end.to));
+        CrossedEnd::nodes(glued, &end.from).into_iter().map(|n| far[n as usize]).fold(0.0, f64::max)
+    };
+    glued.crossed.iter().map(of).fold(0.0, f64::max)
+}
+
+/// A garment to be glued.
+struct ToGlue<'a> {
+    garment: &'a Garment,
+    mesh: &'a ClothMesh,
+    sheet: &'a Sheet,
+    zips: &'a [[u32; 2]],
+}
+
+impl ToGlue<'_> {
+    /// The glued garment, and whether it is a sphere with holes and all its laps are closed.
+    fn glued(&self, exchange: Option<&Exchange>) -> (Glued, bool) {
+        let (garment, mesh) = (self.garment, self.mesh);
+        let mut is_out = turned_over(garment, mesh, self.sheet);
+        let strips = strips(mesh, self.sheet);
+        strips.iter().for_each(|p| is_out[*p as usize] = true);
+        let sewn: Vec<[u32; 2]> = stitches(garment, mesh, exchange).chain(self.zips.iter().copied()).collect();
+        let left_out = layers::left_out(garment, mesh, &is_out, &mut welded(mesh, &is_out, &sewn));
+        left_out.iter().for_each(|&piece| is_out[mesh.pieces[piece].particles.clone()].fill(true));
+        let (laps, pairs, is_whole) = self.flat_laps(&is_out, sewn, exchange);
+        cover(&mut is_out, &laps);
+        let mut out = numbered(mesh, &is_out, &mut welded(mesh, &is_out, &pairs));
+        (out.follows, out.beyond) = follows(mesh, self.sheet);
+        let roll = |p: u32| Beyond { particle: p, at: self.sheet.drawn[p as usize], layers: ROLL };
+        out.beyond.extend(strips.into_iter().map(roll));
+        (out.laps, out.left_out, out.zips) = (laps, left_out, self.zips.to_vec());
+        (out, is_whole)
+    }
+
+    /// The laps that leave the surface a sphere with holes, all pairs that are welded with them, and whether the surface
+    /// is one with all laps. Laps that give it a handle are left out, and done up later. So are those at rims that are
+    /// zipped.
+    fn flat_laps(
+        &self,
+        is_out: &[bool],
+        mut pairs: Vec<[u32; 2]>,
+        exchange: Option<&Exchange>,
+    ) -> (Vec<Lap>, Vec<[u32; 2]>, bool) {
+        let (garment, mesh) = (self.garment, self.mesh);
+        let mut kept: Vec<Lap> = Vec::new();
+        let mut rest = match exchange {
+            Some(exchange) => {
+                let closures = exchange.closures(garment);
+                laps(&Garment { closures, ..garment.clone() }, mesh, self.sheet)
+            }
+            None => laps(garment, mesh, self.sheet),
+        };
+        let is_zipped = |p: &u32| self.zips.iter().flatten().any(|z| z == p);
+        rest.retain(|lap| !lap.pairs.iter().flatten().any(is_zipped));
+        let drawn = |lap: &Lap| [lap.over, lap.under].map(|p| &garment.pieces[p].drawn_as);
+        let handles = |pairs: &[[u32; 2]], laps: &[Lap]| {
+            let mut is_out = is_out.to_vec();
+            cover(&mut is_out, laps);
+            handles(&numbered(mesh, &is_out, &mut welded(mesh, &is_out, pairs)))
+        };
+        let mut least = handles(&pairs, &[]);
+        let mut is_whole = true;
+        while let Some(first) = rest.first() {
+            let first = drawn(first);
+            // Those of a pair are kept or left together.
+            let (group, others): (Vec<Lap>, Vec<Lap>) = rest.iter().cloned().partition(|lap| drawn(lap) == first);
+            rest = others;
+            let welds = group.iter().flat_map(|lap| lap.pairs.clone());
+            let more: Vec<[u32; 2]> = pairs.iter().copied().chain(welds).collect();
+            let with: Vec<Lap> = kept.iter().chain(&group).cloned().collect();
+            let now = handles(&more, &with);
+            if now <= least {
+                (pairs, least, kept) = (more, now, with);
+            } else {
+                is_whole = false;
+            }
+        }
+        (kept, pairs, is_whole && least == 0)
+    }
 }
 
 /// Particles by what welds them; `is_out` are not welded.
@@ -98,42 +192,6 @@ fn welded(mesh: &ClothMesh, is_out: &[bool], pairs: &[[u32; 2]]) -> DisjointSets
         sets.join(a, b);
     }
     sets
-}
-
-/// The laps that leave the surface a sphere with holes, and all pairs that are welded with them. Straps that cross give
-/// it a handle: no dealing of ends fits that, and they are done up later. So are those at rims that are zipped.
-fn flat_laps(
-    garment: &Garment,
-    mesh: &ClothMesh,
-    sheet: &Sheet,
-    is_out: &[bool],
-    mut pairs: Vec<[u32; 2]>,
-    zips: &[[u32; 2]],
-) -> (Vec<Lap>, Vec<[u32; 2]>) {
-    let mut kept: Vec<Lap> = Vec::new();
-    let mut rest = laps(garment, mesh, sheet);
-    let is_zipped = |p: &u32| zips.iter().flatten().any(|z| z == p);
-    rest.retain(|lap| !lap.pairs.iter().flatten().any(is_zipped));
-    let drawn = |lap: &Lap| [lap.over, lap.under].map(|p| &garment.pieces[p].drawn_as);
-    let handles = |pairs: &[[u32; 2]], laps: &[Lap]| {
-        let mut is_out = is_out.to_vec();
-        cover(&mut is_out, laps);
-        handles(&numbered(mesh, &is_out, &mut welded(mesh, &is_out, pairs)))
-    };
-    let mut least = if rest.is_empty() { 0 } else { handles(&pairs, &[]) };
-    while let Some(first) = rest.first() {
-        let first = drawn(first);
-        // Those of a pair are kept or left together.
-        let (group, others): (Vec<Lap>, Vec<Lap>) = rest.iter().cloned().partition(|lap| drawn(lap) == first);
-        rest = others;
-        let more: Vec<[u32; 2]> = pairs.iter().copied().chain(group.iter().flat_map(|lap| lap.pairs.clone())).collect();
-        let with: Vec<Lap> = kept.iter().chain(&group).cloned().collect();
-        let now = handles(&more, &with);
-        if now <= least {
-            (pairs, least, kept) = (more, now, with);
-        }
-    }
-    (kept, pairs)
 }
 
 /// Takes what laps cover off the surface.
@@ -152,12 +210,18 @@ fn handles(glued: &Glued) -> i64 {
     2 * parts - euler - rims(glued).len() as i64
 }
 
-/// The pairs that seams join, but for the upper layer of a pleat: its other two are sewn to one another there, and are
-/// a fin of the surface.
-pub(super) fn stitches<'a>(garment: &'a Garment, mesh: &'a ClothMesh) -> impl Iterator<Item = [u32; 2]> + 'a {
-    let is_kept = |kind: SeamKind| kind != SeamKind::Pleat(PleatLayer::Top);
-    let seams = garment.seams.iter().zip(&mesh.seams).filter(move |(seam, _)| is_kept(seam.kind));
-    seams.flat_map(|(_, stitches)| stitches.pairs.iter().copied())
+/// The pairs that seams join, once exchanged, but for the upper layer of a pleat: its other two are sewn to one another
+/// there, and are a fin of the surface.
+fn stitches<'a>(
+    garment: &'a Garment,
+    mesh: &'a ClothMesh,
+    exchange: Option<&'a Exchange>,
+) -> impl Iterator<Item = [u32; 2]> + 'a {
+    let is_kept = |k: &usize| garment.seams[*k].kind != SeamKind::Pleat(PleatLayer::Top);
+    let pairs = move |k: usize| {
+        exchange.and_then(|exchange| exchange.pairs(mesh, k)).unwrap_or_else(|| mesh.seams[k].pairs.clone())
+    };
+    (0..garment.seams.len()).filter(is_kept).flat_map(pairs)
 }
 
 /// The particles that are turned over at a pressed fold, and not part of a pleat.

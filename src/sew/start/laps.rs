@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use nalgebra::Isometry2;
 
-use super::cover::{Cover, Flap, longest_over, onto, partners, share_over};
+use super::cover::{Cover, Flap, longest_over, onto, outward, partners, share_over};
 use super::glue::Follow;
 use crate::geometry::Vec2;
 use crate::mesh::{ClothMesh, EdgeParticles};
@@ -156,13 +156,22 @@ impl Row {
                 }
             }
         }
-        let rims = [0, 1].map(|side| rim(garment, mesh, edges[side]));
-        let lengths = [0, 1].map(|side| rims[side].last().map_or(0.0, |r| r.0));
-        let closed = [0, 1].map(|side| closed(&spots[side], lengths[side]));
-        let mut rims = [0, 1].map(|side| -> Vec<u32> {
-            let [from, to] = closed[side];
-            rims[side].iter().filter(|r| r.0 >= from && r.0 <= to).map(|r| r.1).collect()
-        });
+        let whole = [0, 1].map(|side| rim(garment, mesh, edges[side]));
+        let lengths = [0, 1].map(|side| whole[side].last().map_or(0.0, |r| r.0));
+        let mut closed = [0, 1].map(|side| closed(&spots[side], lengths[side]));
+        let mut rims = [0, 1].map(|side| between(&whole[side], closed[side]));
+        let mut wide = None;
+        if tacks.len() == 1 {
+            // The end of a strap closes no more of a wide edge than its own width.
+            let widths = closed.map(|[from, to]| to - from);
+            let wider = usize::from(widths[1] > widths[0]);
+            if widths[1 - wider] > 0.0 && widths[wider] > widths[1 - wider] {
+                closed[wider] = about(spots[wider][0], widths[1 - wider], lengths[wider]);
+                rims[wider] = nearest_between(&whole[wider], closed[wider]);
+                wide = Some(wider);
+            }
+        }
+        let mut rims = rims.map(|rim| rim.into_iter().map(|r| r.1).collect::<Vec<u32>>());
         // The edge of the lower piece is walked as the upper one's.
         if !runs_with(&spots) {
             rims[0].reverse();
@@ -171,7 +180,10 @@ impl Row {
         let mut ends: Vec<[Vec2; 2]> = tacks.iter().map(|tack| [tack[1].1, tack[0].1]).collect();
         if let [one] = ends[..] {
             // One point says where, the rims which way round.
-            let out = [1, 0].map(|side| out_of(mesh, edges[side].piece, &rims[side]));
+            let out = [1, 0].map(|side| match wide {
+                Some(wide) if wide == side => outward(mesh, edges[side].piece, &rims[side], tacks[0][side].1),
+                _ => out_of(mesh, edges[side].piece, &rims[side]),
+            });
             ends.push([one[0] + out[0]? * mesh.spacing, one[1] - out[1]? * mesh.spacing]);
         }
         let reach = row.iter().map(|f| f.reach).sum::<f64>() / row.len() as f64;
@@ -390,6 +402,26 @@ fn closed(spots: &[f64], length: f64) -> [f64; 2] {
     [if low <= beyond { 0.0 } else { low }, if length - high <= beyond { length } else { high }]
 }
 
+/// The stretch of an edge of so many metres that is `width` wide and has its middle nearest to a spot.
+fn about(spot: f64, width: f64, length: f64) -> [f64; 2] {
+    let from = (spot - 0.5 * width).clamp(0.0, (length - width).max(0.0));
+    [from, from + width]
+}
+
+/// The particles of a rim within a stretch.
+fn between(rim: &[(f64, u32)], [from, to]: [f64; 2]) -> Vec<(f64, u32)> {
+    rim.iter().filter(|r| r.0 >= from && r.0 <= to).copied().collect()
+}
+
+/// The particles of a rim from the one nearest to the start of a stretch to the one nearest to its end.
+fn nearest_between(rim: &[(f64, u32)], stretch: [f64; 2]) -> Vec<(f64, u32)> {
+    let nearest = |at: f64| {
+        (0..rim.len()).min_by(|a, b| (rim[*a].0 - at).abs().total_cmp(&(rim[*b].0 - at).abs())).unwrap_or_default()
+    };
+    let [first, last] = stretch.map(nearest);
+    rim.get(first..=last).unwrap_or_default().to_vec()
+}
+
 /// Every particle of the shorter run with one of the longer, evenly and in order.
 pub(super) fn matched(a: &[u32], b: &[u32]) -> Vec<[u32; 2]> {
     let (short, long) = if a.len() <= b.len() { (a, b) } else { (b, a) };
@@ -413,6 +445,17 @@ mod tests {
         assert_eq!(matched(&[0, 1, 2], &[10, 11, 12, 13, 14]), [[0, 10], [1, 12], [2, 14]]);
         assert_eq!(matched(&[10, 11, 12, 13], &[0, 1]), [[10, 0], [13, 1]]);
         assert_eq!(matched(&[], &[0, 1]), Vec::<[u32; 2]>::new());
+    }
+
+    #[test]
+    fn a_strap_closes_its_own_width_of_a_wide_edge() {
+        assert_eq!(about(0.085, 0.04, 0.105), [0.065, 0.105]);
+        assert_eq!(about(0.01, 0.04, 0.105), [0.0, 0.04]);
+        assert_eq!(about(0.05, 0.2, 0.1), [0.0, 0.2], "no wider than the edge");
+        let rim: Vec<(f64, u32)> = (0..5).map(|k| (0.0525 * f64::from(k), k)).collect();
+        assert_eq!(nearest_between(&rim, [0.065, 0.105]), [rim[1], rim[2]]);
+        assert_eq!(nearest_between(&rim, [0.0, 1.0]), rim);
+        assert_eq!(nearest_between(&[], [0.0, 1.0]), []);
     }
 
     #[test]

@@ -35,6 +35,8 @@ pub(super) struct Stretch {
     height: f64,
     /// Whether the piece is a band, which may be drawn any way up.
     is_band: bool,
+    /// Whether the piece is a strap that crosses another: it is on both sides.
+    is_crossed: bool,
 }
 
 /// Pieces that share this many nodes of the surface are sewn to each other; fewer may be a corner.
@@ -181,22 +183,25 @@ pub(super) fn stretches(mesh: &ClothMesh, glued: &Glued, openings: &[Opening]) -
             }
         }
     }
+    let ends = glued.crossed.iter().flat_map(|crossed| &crossed.end);
+    let crossed: BTreeSet<usize> = ends.filter_map(|p| mesh.piece_of(*p)).collect();
+    let stretch = |piece: usize, points: &[Vec2]| stretch(mesh, piece, points, crossed.contains(&piece));
     let list = |pieces: BTreeMap<usize, Vec<Vec2>>| {
         // One particle is where another piece's rim ends.
         let long = pieces.into_iter().filter(|(_, points)| points.len() > 1);
-        let mut list: Vec<Stretch> = long.map(|(piece, points)| stretch(mesh, piece, &points)).collect();
+        let mut list: Vec<Stretch> = long.map(|(piece, points)| stretch(piece, &points)).collect();
         list.sort_by_key(|s| (std::cmp::Reverse(s.count), s.piece));
         list
     };
     found.into_iter().map(list).collect()
 }
 
-fn stretch(mesh: &ClothMesh, piece: usize, points: &[Vec2]) -> Stretch {
+fn stretch(mesh: &ClothMesh, piece: usize, points: &[Vec2], is_crossed: bool) -> Stretch {
     let [low, high] = box_of(mesh.pieces[piece].particles.clone().map(|p| mesh.flat[p]));
     let middle = points.iter().sum::<Vec2>() / points.len() as f64 - 0.5 * (low + high);
     let height = middle.y / (0.5 * (high.y - low.y)).max(1e-9);
     let is_band = (high - low).min() < BAND;
-    Stretch { piece, count: points.len(), middle, height, is_band }
+    Stretch { piece, count: points.len(), middle, height, is_band, is_crossed }
 }
 
 /// Whether an opening is a hole or a slit within one piece: its rim closes there as it is drawn.
@@ -268,7 +273,7 @@ fn facing(garment: &Garment, piece: usize) -> f64 {
 
 /// How much of an opening is on the left rather than on the right: from 1 to −1.
 pub(super) fn sidedness(garment: &Garment, stretches: &[Stretch]) -> f64 {
-    shared(stretches, |s| side_of(garment, s.piece))
+    shared(stretches, |s| if s.is_crossed { 0.0 } else { side_of(garment, s.piece) })
 }
 
 /// The share of an opening on pieces that fail a test.

@@ -17,6 +17,7 @@ mod clear;
 mod cloth;
 mod cost;
 mod cover;
+mod crossing;
 mod deal;
 mod deal_error;
 mod ends;
@@ -47,6 +48,7 @@ mod zip;
 use std::collections::BTreeSet;
 
 pub use cloth::Distances;
+pub use crossing::{CrossedEnd, Uncrossed, uncrossed};
 pub use deal::{CLEAR, Dealing, deal, guess};
 pub use deal_error::{DealError, Doubt, edges};
 pub use ends::{End, Ends};
@@ -207,12 +209,18 @@ impl Dealt {
         let holes = rims.iter().filter(is_hole).map(Vec::as_slice).collect();
         let worn = &film.worn[number as usize];
         let left = || worn.ends.iter().zip(&worn.far).filter(|(ends, _)| !ends.is_empty());
-        let far = (0..self.glued.count).map(|n| left().map(|(_, far)| far[n]).fold(f64::INFINITY, f64::min));
+        let two_nearest = |n: usize| {
+            left()
+                .map(|(_, far)| far[n])
+                .fold([f64::INFINITY; 2], |[first, second], far| [first.min(far), second.min(far.max(first))])
+        };
+        let far: Vec<[f64; 2]> = (0..self.glued.count).map(two_nearest).collect();
         let own = self.glued.triangles.iter().zip(&self.glued.source).filter(|(t, _)| is_own(t[0]));
         let flat = |source: &u32| mesh.triangles[*source as usize].map(|p| mesh.flat[p as usize]);
         let (triangles, flat) = own.map(|(t, source)| (*t, flat(source))).unzip();
         let edges = film.edges.iter().filter(|l| is_own(l.ends[0])).copied().collect();
-        GluedPart { holes, triangles, flat, edges, far: far.collect(), mouths }
+        let width = far.iter().map(|[first, second]| first + second).collect();
+        GluedPart { holes, triangles, flat, edges, far: far.into_iter().map(|far| far[0]).collect(), width, mouths }
     }
 
     /// The openings of every connected part.

@@ -40,8 +40,10 @@ fn way_out(mouths: &[Mouth], from: Vec3, end: End, axes: &Axes) -> Option<WayOut
     let last = (0..within.len()).min_by(|a, b| off(&within[*a]).total_cmp(&off(&within[*b])))?;
     within.truncate(last + 1);
     walk(&mut within, ring.center);
-    let mut outside = vec![ring.center];
-    walk(&mut outside, ring.center + ring.out() * OUT);
+    // An opening that lies behind the point is passed there: the way goes out of it from the point on.
+    let ahead = ring.center + ring.out() * (from - ring.center).dot(&ring.out()).max(0.0);
+    let mut outside = vec![ahead];
+    walk(&mut outside, ahead + ring.out() * OUT);
     Some(WayOut { within, outside })
 }
 

@@ -1,0 +1,195 @@
+//! Straps that cross are put on uncrossed, and their ends are led to where they belong afterwards.
+//!
+//! Two straps that cross give the glued surface a handle, and no dealing of the body's ends fits a surface with a
+//! handle. Where a mirrored pair of seams or closures exchanges its partners, the straps run side by side: the handle
+//! is gone, and the garment can be put on as any other.
+
+use std::collections::BTreeSet;
+
+use super::glue::{Glued, glued};
+use super::laps::matched;
+use crate::geometry::{DisjointSets, Vec2};
+use crate::mesh::ClothMesh;
+use crate::pattern::{Closure, Garment, Seam, Span};
+
+/// Two seams or closures, each the mirror image of the other, that exchange their partners for the start.
+#[derive(Clone, Debug)]
+pub(super) enum Exchange {
+    /// Numbers of the two seams, and the side of each (0 = `a`) that moves.
+    Seams([usize; 2], usize),
+    /// The numbers (closure, tack) of two rows of points, and the end of each (0 = first) that moves.
+    Closures([Vec<[usize; 2]>; 2], usize),
+}
+
+/// A garment whose straps cross as it is once they are uncrossed: its openings are those of any other garment.
+#[derive(Clone, Debug)]
+pub struct Uncrossed {
+    /// A label for every particle, the same for all that seams join.
+    pub weld: Vec<u32>,
+    /// The closures.
+    pub closures: Vec<Closure>,
+}
+
+/// A garment with its straps uncrossed. `None` where no straps cross.
+pub fn uncrossed(garment: &Garment, mesh: &ClothMesh) -> Option<Uncrossed> {
+    let exchange = glued(garment, mesh, &[]).1?;
+    let mut sets = DisjointSets::new(mesh.flat.len());
+    for k in 0..mesh.seams.len() {
+        let pairs = exchange.pairs(mesh, k).unwrap_or_else(|| mesh.seams[k].pairs.clone());
+        for [a, b] in pairs {
+            sets.join(a, b);
+        }
+    }
+    let weld = (0..mesh.flat.len() as u32).map(|p| sets.root(p)).collect();
+    Some(Uncrossed { weld, closures: exchange.closures(garment) })
+}
+
+/// The end of a strap that starts beside its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CrossedEnd {
+    /// Particles of the end.
+    pub end: Vec<u32>,
+    /// Particles that it is welded to for the start.
+    pub from: Vec<u32>,
+    /// Particles that it is sewn or buttoned to.
+    pub to: Vec<u32>,
+    /// Whether its strap lies over the other.
+    pub is_over: bool,
+}
+
+impl Exchange {
+    /// All exchanges that a garment allows, whether its straps cross or not.
+    pub(super) fn all(garment: &Garment) -> Vec<Self> {
+        let mirror = Mirror::new(garment);
+        let seams = (0..garment.seams.len()).filter_map(|k| mirror.seams(garment, k));
+        seams.chain(mirror.closures(garment)).collect()
+    }
+
+    /// The pairs of particles that seam `k` joins, once exchanged; `None` where it keeps its own.
+    pub(super) fn pairs(&self, mesh: &ClothMesh, k: usize) -> Option<Vec<[u32; 2]>> {
+        let Self::Seams(seams, moving) = self else { return None };
+        let number = seams.iter().position(|seam| *seam == k)?;
+        let side = |number: usize, side: usize| -> Vec<u32> {
+            mesh.seams[seams[number]].pairs.iter().map(|pair| pair[side]).collect()
+        };
+        // The exchanged end is shifted across, not mirrored: its left side stays on the left.
+        let mut end = side(1 - number, *moving);
+        end.reverse();
+        Some(matched(&side(number, 1 - moving), &end))
+    }
+
+    /// The closures of the garment, once exchanged.
+    pub(super) fn closures(&self, garment: &Garment) -> Vec<Closure> {
+        let mut out = garment.closures.clone();
+        if let Self::Closures([one, other], moving) = self {
+            for ([k, i], [l, j]) in one.iter().zip(other) {
+                let ends = [garment.closures[*k].tacks[*i], garment.closures[*l].tacks[*j]];
+                out[*k].tacks[*i][1 - moving] = ends[1][1 - moving];
+                out[*l].tacks[*j][1 - moving] = ends[0][1 - moving];
+            }
+        }
+        out
+    }
+
+    /// The two ends that start beside their places.
+    pub(super) fn ends(&self, garment: &Garment, mesh: &ClothMesh) -> [CrossedEnd; 2] {
+        [0, 1].map(|number| {
+            let of = |number: usize, side: usize| -> Vec<u32> {
+                match self {
+                    Self::Seams(seams, _) => mesh.seams[seams[number]].pairs.iter().map(|pair| pair[side]).collect(),
+                    Self::Closures(rows, _) => {
+                        let end = |[k, i]: &[usize; 2]| garment.closures[*k].tacks[*i][side];
+                        rows[number].iter().map(end).map(|(piece, at)| nearest(mesh, piece, at)).collect()
+                    }
+                }
+            };
+            let (Self::Seams(_, moving) | Self::Closures(_, moving)) = *self;
+            CrossedEnd {
+                end: of(number, moving),
+                from: of(1 - number, 1 - moving),
+                to: of(number, 1 - moving),
+                is_over: number == 0,
+            }
+        })
+    }
+}
+
+impl CrossedEnd {
+    /// The nodes of particles of a surface.
+    pub(super) fn nodes(glued: &Glued, particles: &[u32]) -> Vec<u32> {
+        particles.iter().filter_map(|p| glued.node_of[*p as usize]).collect()
+    }
+}
+
+/// The particle of a piece nearest to a flat point of it.
+fn nearest(mesh: &ClothMesh, piece: usize, at: Vec2) -> u32 {
+    let far = |p: &usize| (mesh.flat[*p] - at).norm_squared();
+    let own = mesh.pieces[piece].particles.clone();
+    own.min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or_default() as u32
+}
+
+/// For every piece the other half of its pair.
+struct Mirror(Vec<Option<usize>>);
+
+impl Mirror {
+    fn new(garment: &Garment) -> Self {
+        let pieces = &garment.pieces;
+        let is_half = |a: usize, b: usize| {
+            let sides = pieces[a].side.zip(pieces[b].side);
+            pieces[a].drawn_as == pieces[b].drawn_as && sides.is_some_and(|(a, b)| a != b)
+        };
+        Self((0..pieces.len()).map(|a| (0..pieces.len()).find(|b| is_half(a, *b))).collect())
+    }
+
+    /// The edges of a chain, mirrored or as they are. An edge of a piece that is no half of a pair has no name here: its
+    /// mirror image is another edge of the same piece.
+    fn chain<'g>(&self, garment: &'g Garment, chain: &[Span], is_mirrored: bool) -> BTreeSet<(usize, &'g str)> {
+        let edge = |span: &Span| match self.0[span.edge.piece] {
+            Some(half) => {
+                let name = garment.pieces[span.edge.piece].loops[span.edge.ring][span.edge.index].name.as_str();
+                (if is_mirrored { half } else { span.edge.piece }, name)
+            }
+            None => (span.edge.piece, ""),
+        };
+        chain.iter().map(edge).collect()
+    }
+
+    /// Whether all pieces of a chain are halves of pairs.
+    fn is_half(&self, chain: &[Span]) -> bool {
+        chain.iter().all(|span| self.0[span.edge.piece].is_some())
+    }
+
+    /// The exchange of a seam with a later one that is its mirror image.
+    fn seams(&self, garment: &Garment, k: usize) -> Option<Exchange> {
+        let seam = &garment.seams[k];
+        let chains = |seam: &Seam, is_mirrored| [&seam.a, &seam.b].map(|chain| self.chain(garment, chain, is_mirrored));
+        let mirrored = chains(seam, true);
+        let other = (k + 1..garment.seams.len()).find(|&other| chains(&garment.seams[other], false) == mirrored)?;
+        let area = |chain: &[Span]| -> f64 { chain.iter().map(|span| garment.pieces[span.edge.piece].area()).sum() };
+        let moving = usize::from(area(&seam.b) <= area(&seam.a));
+        self.is_half([&seam.a, &seam.b][moving]).then_some(Exchange::Seams([k, other], moving))
+    }
+
+    /// The exchanges of the closures between two pieces with those between their mirror images.
+    fn closures(&self, garment: &Garment) -> Vec<Exchange> {
+        let mut rows: Vec<([usize; 2], Vec<[usize; 2]>)> = Vec::new();
+        for (k, closure) in garment.closures.iter().enumerate() {
+            for (i, tack) in closure.tacks.iter().enumerate() {
+                let pieces = tack.map(|end| end.0);
+                match rows.iter_mut().find(|row| row.0 == pieces) {
+                    Some(row) => row.1.push([k, i]),
+                    None => rows.push((pieces, vec![[k, i]])),
+                }
+            }
+        }
+        let exchange = |(n, (pieces, row)): (usize, &([usize; 2], Vec<[usize; 2]>))| {
+            let mirrored = pieces.map(|piece| self.0[piece].unwrap_or(piece));
+            let (_, other) =
+                rows[n + 1..].iter().find(|(pieces, other)| *pieces == mirrored && other.len() == row.len())?;
+            let [a, b] = pieces.map(|piece| garment.pieces[piece].area());
+            let moving = usize::from(b <= a);
+            self.0[pieces[moving]].is_some().then(|| Exchange::Closures([row.clone(), other.clone()], moving))
+        };
+        rows.iter().enumerate().filter_map(exchange).collect()
+    }
+}
