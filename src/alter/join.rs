@@ -333,7 +333,7 @@ impl Join {
             let edge = words.edge?;
             let old = self.sheets[of].names.iter().position(|n| *n == edge)?;
             let joint = joints.iter().find(|j| j.sources.iter().any(|s| s.of == of && s.edge == old))?;
-            let side = words.side.map_or_else(String::new, |side| format!(".{}", side.letter()));
+            let side = words.side.map_or("", crate::pattern::Side::suffix);
             let copy = words.copy.map_or_else(String::new, |copy| format!(".{copy}"));
             Some(format!("{}{copy}.{}{side}{range}", self.sheets[0].piece, joint.name))
         };

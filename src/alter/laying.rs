@@ -33,7 +33,7 @@ pub(super) fn cut_of(file: &GarmentFile, index: usize) -> (Cut, Side) {
     (cut.unwrap_or(Cut::One), drawn.unwrap_or(Side::Left))
 }
 
-/// What a piece states, or the first of those that it is like.
+/// The statement of a piece, or of the first of those that it is like.
 fn inherited<T>(file: &GarmentFile, index: usize, of: impl Fn(&PieceFile) -> Option<T>) -> Option<T> {
     let mut piece = &file.pieces[index];
     // A circle of `like` is reported elsewhere.
@@ -56,8 +56,8 @@ pub(super) fn layings(file: &GarmentFile, index: usize, fold: Option<&Path>) -> 
         (Cut::Count(n), _) => (1..=n).map(|copy| as_drawn(format!("{name}.{copy}"))).collect(),
         (Cut::Pair, _) => {
             let linear = Matrix2::new(-1.0, 0.0, 0.0, 1.0);
-            let other = Laying { piece: format!("{name}.{}", drawn.other().letter()), linear, shift: Vec2::zeros() };
-            vec![as_drawn(format!("{name}.{}", drawn.letter())), other]
+            let other = Laying { piece: format!("{name}{}", drawn.other().suffix()), linear, shift: Vec2::zeros() };
+            vec![as_drawn(format!("{name}{}", drawn.suffix())), other]
         }
         (Cut::Fold(_), Some(axis)) => {
             let along = (axis.end() - axis.start()).try_normalize(0.0).unwrap_or_else(Vec2::y);

@@ -1,4 +1,4 @@
-//! What lies on the edges of a piece that is cut in two, and what names them.
+//! The marks on the edges of a piece that is cut in two, and the references to these edges.
 
 use super::Fault;
 use super::sheet::{Sheet, length_in};
@@ -50,7 +50,7 @@ impl Parted {
         Self { piece: piece.to_owned(), changed }
     }
 
-    /// What stands for a reference now. `None` where that is as it was.
+    /// The references that take the place of one. `None` where it stays as it was.
     fn now(&self, text: &Located<String>) -> Result<Option<Vec<Located<String>>>, Fault> {
         let (name, range) = text.value.split_once('@').map_or((text.value.as_str(), None), |(n, r)| (n, Some(r)));
         let Ok(words) = Words::parse(name) else { return Ok(None) };
@@ -60,7 +60,7 @@ impl Parted {
             return Err((text.at, Problem::AlterPart(text.value.clone())));
         }
         let copy = words.copy.map_or_else(String::new, |copy| format!(".{copy}"));
-        let side = words.side.map_or_else(String::new, |side| format!(".{}", side.letter()));
+        let side = words.side.map_or("", crate::pattern::Side::suffix);
         let named = |[piece, edge]: &[String; 2]| Located::new(format!("{piece}{copy}.{edge}{side}"), text.at);
         Ok(Some(stretches.now.iter().map(named).collect()))
     }

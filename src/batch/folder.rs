@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::error::BatchError;
-use super::job::{Job, stem};
-use crate::input::bytes;
+use super::job::Job;
+use crate::input::{bytes, stem};
 use crate::io::garment::LARGEST_FILE;
 
 /// The garments of a folder.

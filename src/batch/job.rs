@@ -8,7 +8,7 @@ use serde_json::{Map, Value};
 
 use super::error::{BatchError, Mistake};
 use crate::fabric;
-use crate::input::{InputError, LengthUnit, bytes};
+use crate::input::{InputError, LengthUnit, bytes, is_file_name, stem, whole};
 use crate::io::garment::alterations_in;
 use crate::mannequin::{self, Measures};
 
@@ -89,7 +89,6 @@ impl Job {
 
     /// The job with whole paths, so that its record tells where everything was.
     fn with_whole_paths(mut self) -> Self {
-        let whole = |file: &Path| std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
         self.garment.iter_mut().for_each(|file| *file = whole(file));
         let named = [(&mut self.body, mannequin::library()), (&mut self.fabric, fabric::library())];
         for (name, shipped) in named {
@@ -256,18 +255,9 @@ fn checked(job: Job) -> Result<Job, String> {
     }
 }
 
-pub(super) fn stem(file: &Path) -> String {
-    file.file_stem().unwrap_or_default().to_string_lossy().into_owned()
-}
-
 /// A library name as it is, a file in `folder`.
 fn in_folder(folder: &Path, name: String, shipped: &[&str]) -> String {
     if is_file_name(&name, shipped) { folder.join(name).display().to_string() } else { name }
-}
-
-/// Whether a body or fabric is a file: no name of the library, and with an ending.
-fn is_file_name(name: &str, shipped: &[&str]) -> bool {
-    !shipped.contains(&name) && Path::new(name).extension().is_some()
 }
 
 /// The parser's message without its line, which is always the first.

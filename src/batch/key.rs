@@ -8,9 +8,9 @@ use std::sync::{Mutex, PoisonError};
 
 use sha2::{Digest, Sha256};
 
-use super::job::{Job, stem};
+use super::job::Job;
 use crate::fabric;
-use crate::input::{bytes, texts};
+use crate::input::{bytes, stem, texts};
 use crate::io::garment::LARGEST_FILE;
 use crate::mannequin;
 
@@ -139,7 +139,7 @@ impl Content {
 }
 
 /// The files that a file names, in their order. Any text that is the name of a file counts: a file too many does no
-/// harm. What a file is called does not tell whether it names others, but a surface is long and names none.
+/// harm. The name of a file does not tell whether it names others, but a surface is long and names none.
 fn named_files(file: &Path) -> Vec<(String, PathBuf)> {
     if file.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
         return Vec::new();

@@ -31,7 +31,9 @@ pub use error::{BatchError, Mistake};
 pub use folder::{Garments, garments_of_folder};
 pub use job::{Job, check_jobs, parse_job, read_jobs};
 pub use key::{Digests, Key};
-pub use process::{Limits, PANICKED, WORKER_CANNOT_WRITE, WORKER_EXIT, WORKER_NO_MEMORY, Worker, become_worker};
+pub use process::{
+    ASKED_TO_END, Limits, PANICKED, WORKER_CANNOT_WRITE, WORKER_EXIT, WORKER_NO_MEMORY, Worker, become_worker,
+};
 pub use sample::{Choice, list_text, sample};
 pub use store::{INDEX, Record, State, Store};
 

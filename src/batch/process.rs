@@ -15,6 +15,7 @@ use super::key::{Digests, Key};
 use super::store::{LOG, Record, State, Store};
 use crate::input::shown;
 use crate::io::files::abandon;
+use crate::io::result_names::{GARMENT_OBJ, REPORT_JSON};
 
 /// Exit codes of a worker are those of its command and this number. A worker that toile did not end, as a Python that
 /// does not find toile, has others.
@@ -25,8 +26,8 @@ pub const WORKER_CANNOT_WRITE: u8 = 74;
 pub const WORKER_NO_MEMORY: u8 = 75;
 /// Exit code of a Rust program that has panicked: a fault of toile, which one garment may have and another not.
 pub const PANICKED: u8 = 101;
-/// Exit code of a worker that is asked to end by a signal.
-const ASKED_TO_END: i32 = 130;
+/// Exit code of a program that is asked to end by a signal, as by Ctrl-C: 128 and the signal's number.
+pub const ASKED_TO_END: u8 = 130;
 /// Codes that a command ends with when there is a result, and when there is none.
 const MADE: [i32; 2] = [0, 1];
 const NOT_MADE: [i32; 2] = [2, 3];
@@ -37,7 +38,7 @@ const MESSAGE: usize = 2000;
 /// Bytes at the end of a log in which the error is looked for.
 const LOG_END: usize = 64 << 10;
 /// Files that every result has.
-const RESULTS: [&str; 2] = ["garment.obj", "report.json"];
+const RESULTS: [&str; 2] = [GARMENT_OBJ, REPORT_JSON];
 /// Messages with which Rust's and Python's programs end that get no memory.
 const NO_MEMORY: [&str; 2] = ["memory allocation of", "MemoryError"];
 /// A mebibyte, the unit of memory limits.
@@ -164,7 +165,7 @@ fn judged(
         let exit = if has_panicked { None } else { Some(exit) };
         return Ok((State::Failed, exit, Some(failure(&log, status, plan))));
     }
-    if code == ASKED_TO_END {
+    if code == i32::from(ASKED_TO_END) {
         return Ok((State::Failed, None, Some("its process was asked to end by a signal".into())));
     }
     if plan.limits.memory.is_some() && no_memory(&log) {

@@ -11,7 +11,7 @@ use super::exit::{CliError, Exit};
 use super::make::borrowed;
 use crate::geometry::MM;
 use crate::io::files::{check_writable, write_all};
-use crate::io::garment::Refused;
+use crate::io::garment::{Refused, Variant};
 use crate::pattern::{Diagnostic, Garment, Give, SeamWalk, Severity, openings, outfit, walk};
 use crate::pipeline::{self, Checked, PipelineError, StartPicture, StartShown, start_picture};
 use crate::report::aligned;
@@ -58,9 +58,9 @@ fn check_garments(args: &CheckArgs, console: &Console) -> Result<Exit, CliError>
 
 /// The garment as asked for. Where no size is, every size is checked as well.
 fn check_sizes(file: &Path, args: &CheckArgs) -> Result<Checked, Refused> {
-    let checked = pipeline::check_size(file, args.size.as_deref(), args.spacing)?;
+    let checked = pipeline::check_variant(file, Variant::of_size(args.size.as_deref()), args.spacing)?;
     for size in &checked.loaded.file.sizes {
-        pipeline::check_size(file, Some(&size.name.value), args.spacing)?;
+        pipeline::check_variant(file, Variant::of_size(Some(&size.name.value)), args.spacing)?;
     }
     Ok(checked)
 }

@@ -13,11 +13,11 @@ use crate::cutting::{
 use crate::geometry::MM;
 use crate::io::dxf_write::cutting_dxf;
 use crate::io::files::write_all;
-use crate::io::garment::Loaded;
+use crate::io::garment::{Loaded, Variant};
 use crate::io::pdf_write::{Page, booklet, one_page, unprintable};
 use crate::io::svg_write::cutting_svg;
 use crate::pattern::{Drawing, drawings};
-use crate::pipeline::{Overrides, inputs, read_size};
+use crate::pipeline::{Overrides, inputs, read_variant};
 use crate::report::aligned;
 
 /// Empty rim of a sheet that is one page, metres.
@@ -126,7 +126,7 @@ impl Drawn {
         shown: &str,
         console: &Console,
     ) -> Result<Self, CliError> {
-        let loaded = read_size(file, size)?;
+        let loaded = read_variant(file, Variant::of_size(size))?;
         loaded.warnings.iter().for_each(|warning| console.note(&warning.to_string()));
         let drawings = drawings(&loaded.file, &loaded.garment);
         if allowance.is_none() && drawings.iter().any(lacks_allowance) {

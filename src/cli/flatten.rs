@@ -9,6 +9,7 @@ use super::make::{Goal, Plan, carry_out, folder, write};
 use crate::fabric;
 use crate::flatten::{Mode, Options};
 use crate::geometry::MM;
+use crate::input::stem;
 use crate::io::files::check_writable;
 use crate::pipeline::{
     AT_REST, Cuts, DartStop, Darts, FLAT_OBJ, FLAT_PNG, FORM_OBJ, GARMENT_YAML, Limit, OUTLINE_SVG, PATTERN_SVG,
@@ -135,7 +136,7 @@ fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Ex
         limit: limit(args)?,
         flatten,
     };
-    let stem = args.input.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+    let stem = stem(&args.input);
     let folder = folder(args.output.as_deref(), &stem);
     let inputs = [args.input.as_path()];
     let targets: Vec<PathBuf> = [FLAT_OBJ, FLAT_PNG, FORM_OBJ, GARMENT_YAML, OUTLINE_SVG, PATTERN_SVG, REPORT_JSON]

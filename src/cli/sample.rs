@@ -14,7 +14,7 @@ use crate::io::files::{check_writable, write_all};
 use crate::io::garment::{Ranges, Variant};
 use crate::mannequin::{MannequinSpec, Measures};
 use crate::pipeline::{PipelineError, read_variant};
-use crate::{fabric, mannequin};
+use crate::{fabric, input, mannequin};
 
 /// The word for a garment as it is drawn, among the names of its sizes.
 const DRAWN: &str = "none";
@@ -36,8 +36,8 @@ pub(super) fn sample(args: &SampleArgs, console: &Console) -> Result<Exit, CliEr
         bodies: or_all(&args.bodies, mannequin::library()),
         fabrics: or_all(&args.fabrics, fabric::library()),
     };
-    check_known("--bodies", &choice.bodies, &mannequin::library())?;
-    check_known("--fabrics", &choice.fabrics, &fabric::library())?;
+    check_names("--bodies", &choice.bodies, &mannequin::library())?;
+    check_names("--fabrics", &choice.fabrics, &fabric::library())?;
     check_ends(&choice, args.vary.as_deref())?;
     let jobs = draw(&choice, args.count.get(), args.seed, &options)?;
     let inputs = inputs(&choice, args.vary.as_deref());
@@ -77,16 +77,9 @@ fn once_each(names: &[String]) -> Vec<String> {
 }
 
 /// Finds a slip of the pen now instead of in a thousand failures.
-fn check_known(option: &str, names: &[String], shipped: &[&str]) -> Result<(), CliError> {
-    let unknown = names.iter().find(|name| !shipped.contains(&name.as_str()) && !Path::new(name).is_file());
-    unknown.map_or(Ok(()), |name| {
-        let nearest = crate::input::nearest(name, shipped.iter().copied());
-        let meant = nearest.map_or_else(String::new, |name| format!("; did you mean '{name}'?"));
-        Err(CliError::Argument(format!(
-            "{option}: '{name}' is neither in the library ({}) nor a file{meant}",
-            shipped.join(", ")
-        )))
-    })
+fn check_names(option: &str, names: &[String], shipped: &[&str]) -> Result<(), CliError> {
+    let known = |name: &String| input::check_known(name, shipped);
+    names.iter().try_for_each(known).map_err(|why| CliError::Argument(format!("{option}: {why}")))
 }
 
 /// Each garment with each of its sizes that is to be drawn.

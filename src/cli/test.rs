@@ -14,6 +14,7 @@ use super::junit;
 use super::make::borrowed;
 use super::update::updated;
 use crate::flatten::Options;
+use crate::input::stem;
 use crate::io::files::{check_writable, write_all};
 use crate::io::garment::Loaded;
 use crate::pattern::{FabricUse, Garment, Piece};
@@ -247,7 +248,7 @@ impl Outcome {
         };
         Self {
             file: name(file.display().to_string()),
-            garment: name(file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned())),
+            garment: name(stem(file)),
             ok: exit == Exit::Done,
             seconds: begin.elapsed().as_secs_f64(),
             bounds,

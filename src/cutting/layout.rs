@@ -50,7 +50,7 @@ pub struct Cloth {
     pub size: Vec2,
     /// Whether it is folded, with the fold on the left.
     pub folded: bool,
-    /// What it is, for a line above it.
+    /// Its title, for a line above it.
     pub text: String,
 }
 

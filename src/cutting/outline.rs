@@ -11,7 +11,7 @@ use super::room::Room;
 use super::whole;
 use super::{Narrowed, Options, Paper, SewKind, SewLine};
 use crate::geometry::{Path, Vec2, range_of};
-use crate::pattern::{Corner, Cut, Dart, Drawing, DrawnEdge};
+use crate::pattern::{Corner, Cut, Dart, Drawing, DrawnEdge, Side};
 
 /// Less than this (square metres, a square of 3 mm) nobody cuts out of a hole.
 const LEAST_CUT: f64 = 1e-5;
@@ -265,7 +265,7 @@ fn words(paper: &Paper, rule: &Rule, heading: Option<String>) -> Words {
     let holes = rule.hole_edges().map(width).filter(|w| w.width > 0.0);
     let widths: Vec<label::EdgeWidth> = outline.map(width).chain(holes).collect();
     let seams = |name: &str| {
-        let named = drawing.rings.iter().flatten().find(|edge| is_of(name, &edge.name));
+        let named = drawing.rings.iter().flatten().find(|edge| Side::is_copy(name, &edge.name));
         named.map(|edge| edge.seams.join(", ")).filter(|seams| !seams.is_empty())
     };
     let with_seams = heading.is_some();
@@ -273,9 +273,4 @@ fn words(paper: &Paper, rule: &Rule, heading: Option<String>) -> Words {
     let sewn = paper.sew.iter().enumerate().filter(|_| with_seams);
     words.seams = sewn.filter_map(|(k, line)| Some((k, seams(&line.name)?))).collect();
     words
-}
-
-/// Whether a line belongs to an edge: it has its name, or that with the side of an opened piece.
-fn is_of(line: &str, edge: &str) -> bool {
-    line.strip_prefix(edge).is_some_and(|rest| ["", ".L", ".R"].contains(&rest))
 }

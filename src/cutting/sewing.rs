@@ -1,7 +1,7 @@
 //! The order in which a garment's seams are sewn.
 
 use crate::geometry::{MM, Vec2};
-use crate::pattern::{Garment, Give, Seam, SeamKind, Span};
+use crate::pattern::{Garment, Give, Seam, SeamKind, Side, Span};
 
 /// Ends of edges nearer than this (metres) are one point of a piece.
 const SAME: f64 = 1e-6;
@@ -53,10 +53,10 @@ pub fn sewing_order(garment: &Garment) -> Vec<SewingStep> {
 fn groups(garment: &Garment) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for (k, seam) in garment.seams.iter().enumerate() {
-        let name = stem(&seam.name);
+        let name = Side::split(&seam.name).0;
         let own = groups.iter_mut().find(|g| {
             let first = &garment.seams[g[0]];
-            stem(&first.name) == name && first.stage == seam.stage
+            Side::split(&first.name).0 == name && first.stage == seam.stage
         });
         match own {
             Some(group) => group.push(k),
@@ -64,11 +64,6 @@ fn groups(garment: &Garment) -> Vec<Vec<usize>> {
         }
     }
     groups
-}
-
-/// A name without the side at its end.
-fn stem(name: &str) -> &str {
-    name.strip_suffix(".L").or_else(|| name.strip_suffix(".R")).unwrap_or(name)
 }
 
 /// The groups that must be sewn before `group`: those that close a joint of one of its chains.
@@ -132,10 +127,10 @@ fn step(garment: &Garment, group: &[usize]) -> SewingStep {
         }
         names
     };
-    let has = |side: &str| group.iter().any(|&k| garment.seams[k].name.ends_with(side));
-    let name = stem(&seam.name).to_owned();
+    let has = |side: Side| group.iter().any(|&k| Side::split(&garment.seams[k].name).1 == Some(side));
+    let name = Side::split(&seam.name).0.to_owned();
     let give = give(seam.give);
-    SewingStep { give, name, sew: named(&seam.a), to: named(&seam.b), both: has(".L") && has(".R") }
+    SewingStep { give, name, sew: named(&seam.a), to: named(&seam.b), both: has(Side::Left) && has(Side::Right) }
 }
 
 fn give(give: Give) -> String {

@@ -61,7 +61,7 @@ pub(super) fn as_cut(paper: &Paper, drawing: &Drawing) -> Vec<Paper> {
         Cut::Count(n) => (1..=*n).map(|k| named(format!("{}.{k}", paper.name), paper)).collect(),
         Cut::Pair => {
             let other = paper.mapped(Matrix2::new(-1.0, 0.0, 0.0, 1.0), Vec2::zeros());
-            let sided = |p: &Paper, side: crate::pattern::Side| named(format!("{}.{}", p.name, side.letter()), p);
+            let sided = |p: &Paper, side: crate::pattern::Side| named(format!("{}{}", p.name, side.suffix()), p);
             vec![sided(paper, drawing.drawn), sided(&other, drawing.drawn.other())]
         }
         Cut::Fold(_) => vec![named(paper.name.clone(), &unfolded(paper, drawing))],

@@ -2,7 +2,7 @@
 
 use crate::geometry::{MM, Vec3};
 use crate::mannequin::{BodyPart, Mannequin, PartKind};
-use crate::pattern::{Garment, GarmentFile, Seam, SeamFile, SeamKind};
+use crate::pattern::{Garment, GarmentFile, Seam, SeamFile, SeamKind, Side};
 use crate::pipeline::Job;
 use crate::report::Girth;
 
@@ -89,10 +89,7 @@ pub(super) fn is_plain(seam: &SeamFile) -> bool {
 
 /// Seams of a garment that come from one of its file.
 fn copies<'a>(garment: &'a Garment, name: &'a str) -> impl Iterator<Item = (usize, &'a Seam)> {
-    let is_copy = move |seam: &Seam| {
-        let rest = seam.name.strip_prefix(name);
-        seam.kind == SeamKind::Written && rest.is_some_and(|rest| matches!(rest, "" | ".L" | ".R"))
-    };
+    let is_copy = move |seam: &Seam| seam.kind == SeamKind::Written && Side::is_copy(&seam.name, name);
     garment.seams.iter().enumerate().filter(move |(_, seam)| is_copy(seam))
 }
 

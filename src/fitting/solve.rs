@@ -52,8 +52,8 @@ impl Model {
         (self.at, self.values) = (at.to_vec(), values.to_vec());
     }
 
-    /// The setting that suits the figures `of` best, of those within `ranges`. What is to be least is convex, so that
-    /// Newton steps with the knobs that are not held by their ends come to it.
+    /// The setting that suits the figures `of` best, of those within `ranges`. The sum to be minimized is convex,
+    /// so that Newton steps with the knobs that are not held by their ends reach its minimum.
     pub(super) fn best(&self, figures: &[Figure], of: &[usize], ranges: &[[f64; 2]]) -> Vec<f64> {
         let within = |at: Vec<f64>| -> Vec<f64> { at.iter().zip(ranges).map(|(x, r)| x.clamp(r[0], r[1])).collect() };
         let mut at = within(self.at.clone());

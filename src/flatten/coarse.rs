@@ -1,7 +1,7 @@
 //! The first part of the way down, with few unknowns.
 //!
-//! A regular grid of triangles lies over the flat start, and the piece moves with its nodes. What the grid's triangles
-//! do to the piece is measured on some of the piece's own triangles in each, so a rim that runs across the grid and a
+//! A regular grid of triangles lies over the flat start, and the piece moves with its nodes. The distortion by the
+//! grid's triangles is measured on some of the piece's own triangles in each, so a rim that runs across the grid and a
 //! surface that is curved inside its cells are seen as they are. The long waves of the way, which take an iteration on
 //! the piece itself the most steps, are found here for a small part of their price.
 

@@ -20,8 +20,8 @@ const TIE: f64 = 1e-4;
 /// The numbers of the curvature.
 pub(super) type Real = f64;
 
-/// What a piece's flat position is measured by. Divided by the piece's area, so it has no unit: a uniform stretch by
-/// one per cent both ways costs 2·10⁻⁴.
+/// The distortion of a piece's flat position. It is divided by the piece's area, so it has no unit: a uniform stretch
+/// by one per cent both ways costs 2·10⁻⁴.
 pub(super) struct Energy {
     pub(super) elements: Vec<Element>,
     pub(super) springs: Vec<Spring>,

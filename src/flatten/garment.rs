@@ -111,7 +111,7 @@ type Targets = HashMap<[u32; 2], f64>;
 
 /// Edges along elastic get their drawn lengths, whatever is sewn to them. Of another edge that several seams join, as a
 /// waist between band and lining, the first seam's target counts: a later one that took it over would leave the first
-/// one's sides with two lengths. What a later even seam joins to such an edge takes its target.
+/// one's sides with two lengths. An edge that a later even seam joins to such an edge takes its target.
 fn seam_targets(cloth: &ClothMesh, seams: &[Seam], draped: &[Vec3]) -> Targets {
     let length = |[a, b]: [u32; 2]| (cloth.flat[b as usize] - cloth.flat[a as usize]).norm();
     let mut targets: Targets = cloth.drawn_in().into_keys().map(|ends| (ends, length(ends))).collect();

@@ -1,11 +1,11 @@
 //! A body of one's own: a closed OBJ becomes a [`Mannequin`]; and mannequins as OBJ text.
 
 use std::collections::HashMap;
-use std::fmt::Write as _;
 use std::path::Path;
 
 use super::obj_read::{ObjError, ObjSurface, read_obj};
-use crate::geometry::{DisjointSets, Topology, TriMesh, Vec3, box_of, range_of};
+use super::obj_text::{DECIMALS, ObjText};
+use crate::geometry::{DisjointSets, MM, Topology, TriMesh, Vec3, box_of, range_of};
 use crate::input::LengthUnit;
 use crate::mannequin::{
     BodyCheck, BodyFault, Frame, GAP, HEIGHTS, Mannequin, MannequinError, Measures, PartKind, Place, check_body,
@@ -426,12 +426,10 @@ fn coinciding(vertices: &[Vec3]) -> DisjointSets {
 
 /// A mannequin as OBJ text: millimetres, y up, feet at y = 0.
 pub fn mannequin_obj(mannequin: &Mannequin) -> String {
-    let mut out = format!("# {}: millimetres, y up, facing +z\no {}\n", mannequin.name, mannequin.name);
-    for p in &mannequin.mesh.vertices {
-        let _ = writeln!(out, "v {:.6} {:.6} {:.6}", 1e3 * p.x, 1e3 * p.y, 1e3 * p.z);
-    }
-    for t in &mannequin.mesh.triangles {
-        let _ = writeln!(out, "f {} {} {}", t[0] + 1, t[1] + 1, t[2] + 1);
-    }
-    out
+    let mut obj = ObjText::rounded(DECIMALS, 0);
+    obj.comment(format_args!("{}: millimetres, y up, facing +z", mannequin.name));
+    obj.object(&mannequin.name);
+    mannequin.mesh.vertices.iter().for_each(|p| obj.vertex(&(p * MM)));
+    mannequin.mesh.triangles.iter().for_each(|t| obj.face(*t));
+    obj.into_text()
 }

@@ -253,8 +253,8 @@ fn plain(text: &str) -> String {
     out
 }
 
-/// DXF R12 writes letters beyond ASCII as their codes of UTF-16: `\U+00FC` is ü, and `\U+D83D\U+DC57` a dress. What is
-/// no code of a letter stays as it is.
+/// DXF R12 writes letters beyond ASCII as their codes of UTF-16: `\U+00FC` is ü, and `\U+D83D\U+DC57` a dress. A text
+/// that is no code of a letter stays as it is.
 pub(super) fn letters(text: &str) -> String {
     let code = |part: &str| part.get(..4).and_then(|hex| u16::from_str_radix(hex, 16).ok());
     let mut out = String::new();

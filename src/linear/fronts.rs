@@ -215,8 +215,8 @@ impl<T: Scalar> Part<'_, T> {
         out
     }
 
-    /// L y = b at the columns of front `f`, in a part that begins with front `first`. What it takes from the rows below
-    /// is added to that of its children.
+    /// L y = b at the columns of front `f`, in a part that begins with front `first`. The sum that it takes from the
+    /// rows below is added to that of its children.
     fn forward(&mut self, tree: &Tree, f: usize, first: usize, values: &[T]) {
         let (front, begin) = (&tree.fronts[f], &tree.fronts[first]);
         let (columns, rows) = (front.columns, front.rows());

@@ -148,7 +148,7 @@ impl PartialOrd for Queued {
 }
 
 /// The least cost of a way along edges from one of `start` to every vertex. `step` tells the cost at the second vertex
-/// of an edge from that at the first, and `None` where no way leads. What cannot be reached is infinitely far.
+/// of an edge from that at the first, and `None` where no way leads. A vertex that cannot be reached is infinitely far.
 fn flood(near: &[Vec<u32>], start: &[u32], step: impl Fn(f64, u32, u32) -> Option<f64>) -> Vec<f64> {
     let mut cost = vec![f64::INFINITY; near.len()];
     let mut queue = BinaryHeap::new();

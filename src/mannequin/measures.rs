@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::MannequinError;
-use crate::input::{LengthUnit, nearest, yaml};
+use crate::input::{LengthUnit, did_you_mean, nearest, yaml};
 
 /// The part of a mannequin's sections that a measure gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,8 +127,7 @@ impl Measures {
     pub fn add(&mut self, name: &str, mm: f64) -> Result<(), String> {
         let Some((own, _, meaning)) = known(name) else {
             let names = KNOWN.iter().flat_map(|(own, others, _)| std::iter::once(own).chain(*others)).copied();
-            let hint = nearest(name, names).map(|n| format!("; did you mean '{n}'?")).unwrap_or_default();
-            return Err(format!("'{name}' is no measure{hint}"));
+            return Err(format!("'{name}' is no measure{}", did_you_mean(nearest(name, names))));
         };
         if *meaning == Unused {
             self.unused.push(own);
@@ -217,7 +216,7 @@ fn known(name: &str) -> Option<&'static Known> {
     KNOWN.iter().find(|(own, others, _)| *own == name || others.contains(&name))
 }
 
-/// What a measure of this name says.
+/// The meaning of a measure of this name.
 pub(super) fn meaning(name: &str) -> Option<Meaning<'static>> {
     known(name).map(|known| known.2)
 }

@@ -34,13 +34,14 @@ pub use spec::{ArmRow, ArmSpec, LegRow, LegSpec, MannequinSpec, TorsoRow};
 pub(crate) use spread::Spread;
 
 use crate::geometry::{TriMesh, Vec3};
+use crate::input::did_you_mean;
 
 /// Why there is no mannequin.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MannequinError {
     /// Neither a library name nor a file.
     #[error("mannequin '{name}' not found{}; there are {known}, or give the path of a .yaml or .obj file",
-            nearest.as_ref().map(|n| format!("; did you mean '{n}'?")).unwrap_or_default())]
+            did_you_mean(nearest.as_deref()))]
     Unknown {
         /// As asked for.
         name: String,

@@ -17,7 +17,7 @@ const FORK: f64 = 0.5;
 const SMOOTH: usize = 6;
 
 /// Moves limbs of `body` sideways that are nearer than [`GAP`] to what they hang beside: two legs by half of the way
-/// each, an arm by all of it. What hangs lower goes at least as far, so every limb keeps its girths. Returns the limbs
+/// each, an arm by all of it. Lower sections go at least as far, so every limb keeps its girths. Returns the limbs
 /// and how far they went at most, metres. A body with room stays as it is.
 pub fn make_room(body: &mut Mannequin) -> Vec<(PartKind, f64)> {
     let edges = Topology::new(&body.mesh.triangles).edges;

@@ -223,8 +223,8 @@ impl EdgeNames<'_> {
         for instance in self.cut.instances.iter().filter(|i| i.piece == span.edge.piece) {
             let draft = &self.drafts[instance.draft];
             let side = match (&draft.cut, instance.side) {
-                (Cut::Fold(_), Some(side)) => format!(".{}", side.letter()),
-                _ => String::new(),
+                (Cut::Fold(_), Some(side)) => side.suffix(),
+                _ => "",
             };
             for named in &draft.named {
                 for part in named.parts.iter().filter(|p| instance.edge(p.edge) == Some(span.edge)) {

@@ -36,7 +36,7 @@ pub(super) struct Instance {
 /// Suffix of the name of a piece that is cut more than once: `.L`, `.2`, or nothing.
 pub(super) fn suffix(side: Option<Side>, copy: Option<usize>) -> String {
     match (side, copy) {
-        (Some(side), _) => format!(".{}", side.letter()),
+        (Some(side), _) => side.suffix().to_owned(),
         (None, Some(copy)) => format!(".{copy}"),
         (None, None) => String::new(),
     }

@@ -199,7 +199,7 @@ impl Book<'_> {
         (sewn, width)
     }
 
-    /// What is said of an edge's allowance; of what is merely `cut_out` only what is said of it by name.
+    /// The file's statement of an edge's allowance. An edge that is merely `cut_out` has the one that names it, if any.
     fn allowance(
         &self,
         piece: &PieceFile,

@@ -101,6 +101,25 @@ impl Side {
         }
     }
 
+    /// The end of the names of pieces, seams and edges on this side: `.L` or `.R`.
+    pub fn suffix(self) -> &'static str {
+        match self {
+            Self::Left => ".L",
+            Self::Right => ".R",
+        }
+    }
+
+    /// A name without the suffix of a side, and that side.
+    pub fn split(name: &str) -> (&str, Option<Self>) {
+        let without = |side: Self| Some((name.strip_suffix(side.suffix())?, Some(side)));
+        [Self::Left, Self::Right].into_iter().find_map(without).unwrap_or((name, None))
+    }
+
+    /// Whether a name is `base`, or that with the suffix of a side: whether it may be of a copy of what `base` names.
+    pub fn is_copy(name: &str, base: &str) -> bool {
+        name == base || Self::split(name).0 == base
+    }
+
     /// The side with this letter.
     pub fn from_letter(letter: &str) -> Option<Self> {
         [Self::Left, Self::Right].into_iter().find(|s| s.letter() == letter)

@@ -226,7 +226,7 @@ impl Source<'_> {
                 return Ok(halves.into_iter().rev().collect());
             }
         }
-        let named = |side: Side| format!("{}.{}.{}", drawn.name, side.letter(), reference.edge);
+        let named = |side: Side| format!("{}{}.{}", drawn.name, side.suffix(), reference.edge);
         Err(Problem::WhichSide {
             seam: seam.name.value.clone(),
             reference: reference.text.clone(),

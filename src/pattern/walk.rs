@@ -1,7 +1,7 @@
 //! Walks the seams: both lengths of each, and their difference beyond ease, gather or stretch.
 
 use super::notch::met;
-use super::{EdgeId, Garment, Give, Opening, Piece, SeamKind, Span};
+use super::{EdgeId, Garment, Give, Opening, Piece, SeamKind, Side, Span};
 
 /// Length of an edge that may be missing from a whole edge by rounding, metres.
 const WHOLE: f64 = 1e-6;
@@ -88,15 +88,15 @@ pub fn written_edge(name: &str) -> String {
     words.map(|(_, word)| word).collect::<Vec<_>>().join(".")
 }
 
-/// `L` or `R` at the end of the name of an edge of one half of a folded piece.
-fn half(name: &str) -> Option<&str> {
-    name.rsplit('.').next().filter(|word| matches!(*word, "L" | "R"))
+/// The side at the end of the name of an edge of one half of a folded piece.
+fn half(name: &str) -> Option<Side> {
+    name.rsplit('.').next().and_then(Side::from_letter)
 }
 
 /// Edges by their pieces and names, as the file has them, each once: `front.waist` for its parts and for both halves of
 /// a folded piece, `front.R.pocket` where only one half is meant.
 pub fn written_names<'a>(edges: impl IntoIterator<Item = (&'a str, &'a str)>) -> Vec<String> {
-    let mut found: Vec<(&str, String, Vec<Option<&str>>)> = Vec::new();
+    let mut found: Vec<(&str, String, Vec<Option<Side>>)> = Vec::new();
     for (piece, edge) in edges {
         let base = written_edge(edge);
         match found.iter_mut().find(|f| f.0 == piece && f.1 == base) {
@@ -104,10 +104,10 @@ pub fn written_names<'a>(edges: impl IntoIterator<Item = (&'a str, &'a str)>) ->
             None => found.push((piece, base, vec![half(edge)])),
         }
     }
-    let name = |(piece, base, halves): (&str, String, Vec<Option<&str>>)| match halves[0]
-        .filter(|side| halves.iter().all(|half| *half == Some(side)))
+    let name = |(piece, base, halves): (&str, String, Vec<Option<Side>>)| match halves[0]
+        .filter(|side| halves.iter().all(|half| *half == Some(*side)))
     {
-        Some(side) => format!("{piece}.{side}.{base}"),
+        Some(side) => format!("{piece}{}.{base}", side.suffix()),
         None => format!("{piece}.{base}"),
     };
     found.into_iter().map(name).collect()

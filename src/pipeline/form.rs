@@ -20,7 +20,7 @@ const SKIN: f64 = 0.2;
 /// A piece that is strained this much more than the garment as it hangs is strained by the change.
 const MORE: f64 = 1.05;
 
-/// What is asked of a changed form.
+/// The request for a changed form.
 #[derive(Clone, Copy, Debug)]
 pub struct FormAsked<'a> {
     /// Text of the garment file.

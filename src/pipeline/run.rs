@@ -40,7 +40,7 @@ pub struct Run<'a> {
     overlaps: Option<Vec<usize>>,
     /// By piece, the strain of its threads from flat to draped: warp, weft.
     pub(super) threads: Vec<[f64; 2]>,
-    /// What a changed form asks of the pattern.
+    /// The change of form that the pattern is to follow.
     pub(super) form: Option<FormReport>,
     stages: Vec<Stage>,
     /// The coarser level from which the garment was sewn. Draping starts with it.

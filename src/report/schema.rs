@@ -303,7 +303,7 @@ pub struct Worn {
     pub edges: Vec<String>,
     /// Its length, mm.
     pub length: f64,
-    /// Its length as drawn, mm. What closures bridge counts as worn.
+    /// Its length as drawn, mm. A gap that closures bridge counts as worn.
     #[serde(default)]
     pub length_flat: f64,
     /// Round an arm or a leg: how far past the limb's last section (wrist, ankle) it is, mm. Negative before it.

@@ -53,7 +53,7 @@ fn drawn_edges(mesh: &ClothMesh, welded: &Welded) -> HashMap<[u32; 2], f64> {
     steps.map(edge).collect()
 }
 
-/// Length of an opening as drawn, metres. What nobody drew has its length as worn.
+/// Length of an opening as drawn, metres. A part of it that nobody drew has its length as worn.
 fn length_flat(opening: &Opening, welded: &Welded, drawn: &HashMap<[u32; 2], f64>) -> f64 {
     let next = opening.ring.iter().cycle().skip(1);
     let step = |(&a, &b): (&u32, &u32)| {

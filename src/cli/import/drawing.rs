@@ -7,6 +7,7 @@ use crate::cli::args::{DrawingArgs, TargetArgs};
 use crate::cli::console::Console;
 use crate::cli::exit::{CliError, Exit};
 use crate::digitize::{Drawing, garment_file, sewn};
+use crate::input::stem;
 use crate::io::dxf_read::{DxfOptions, read_dxf};
 use crate::io::garment::seam_line;
 use crate::io::svg_read::{SvgOptions, read_svg};
@@ -58,7 +59,7 @@ fn import(
 fn sized(output: &Path, size: &str) -> PathBuf {
     let kept = |c: char| if c.is_alphanumeric() || c == '-' { c } else { '_' };
     let size: String = size.chars().map(kept).collect();
-    let stem = output.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let stem = stem(output);
     let ending = output.extension().map_or_else(String::new, |e| format!(".{}", e.to_string_lossy()));
     output.with_file_name(format!("{stem}_{size}{ending}"))
 }

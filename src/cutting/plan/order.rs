@@ -28,9 +28,9 @@ pub(super) fn laid(coarse: &[Item], fine: &[Item], width: f64, [wide, narrow]: [
         starts(coarse).into_iter().map(|order| lay(coarse, width, wide, order)).collect::<Option<_>>()?;
     tried.sort_by(|a, b| a.rank.total_cmp(&b.rank));
     let mut best = tried[0].clone();
-    let mut chance = Chance(SEED);
+    let mut random = Xorshift64(SEED);
     for _ in 0..if coarse.len() > 1 { ROUNDS } else { 0 } {
-        let orders: Vec<Vec<usize>> = (0..SIDE_BY_SIDE).map(|_| chance.changed(&best.order)).collect();
+        let orders: Vec<Vec<usize>> = (0..SIDE_BY_SIDE).map(|_| random.changed(&best.order)).collect();
         let round = parallel::map(SIDE_BY_SIDE, 1, |k| lay(coarse, width, wide, orders[k].clone()));
         let round: Vec<Laid> = round.into_iter().collect::<Option<_>>()?;
         if let Some(better) = round.into_iter().filter(|l| l.rank < best.rank).min_by(|a, b| a.rank.total_cmp(&b.rank))
@@ -70,10 +70,10 @@ fn starts(items: &[Item]) -> Vec<Vec<usize>> {
     keys.into_iter().map(by).collect()
 }
 
-/// A generator of numbers (xorshift, Marsaglia 2003).
-struct Chance(u64);
+/// A generator of numbers (Marsaglia 2003). Plans that have been made follow from its numbers.
+struct Xorshift64(u64);
 
-impl Chance {
+impl Xorshift64 {
     fn below(&mut self, n: usize) -> usize {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;

@@ -101,7 +101,7 @@ impl Tolerance {
 /// Of the seams of a drawing that is exact the lengths differ by no more than this (metres), which leaves what programs
 /// round.
 const EXACT: f64 = 3e-4;
-/// What lengths may differ by, by how far those of seams differ that are sure.
+/// Largest difference of two lengths that may be sewn, from how far those of the seams differ that are sure.
 const SLACK: f64 = 3.0;
 
 /// The seams that pieces may have, those that most speaks for first, and a guess for each piece.

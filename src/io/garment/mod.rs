@@ -136,18 +136,10 @@ pub fn read(path: &Path) -> Result<Loaded, Refused> {
     examine(path).finish()
 }
 
-/// Reads and checks a size of a garment file. `None` is the garment as it is drawn and altered.
-///
-/// # Errors
-/// As [`read`], and where there is no such size.
-pub fn read_size(path: &Path, size: Option<&str>) -> Result<Loaded, Refused> {
-    examine_size(path, size).finish()
-}
-
 /// Reads and checks a variant of a garment file.
 ///
 /// # Errors
-/// As [`read_size`], and where an alteration cannot be carried out.
+/// As [`read`], where there is no such size, and where an alteration cannot be carried out.
 pub fn read_variant(path: &Path, variant: Variant) -> Result<Loaded, Refused> {
     examine_variant(path, variant).finish()
 }
@@ -162,15 +154,10 @@ pub fn read_text(name: &str, shown: &str, text: &str) -> Result<Loaded, Refused>
 
 /// Reads and checks a garment file, and leaves it open whether it can be used.
 pub fn examine(path: &Path) -> Examined {
-    examine_size(path, None)
+    examine_variant(path, Variant::default())
 }
 
-/// As [`examine`], of a size of the garment, whose name then ends with the size.
-pub fn examine_size(path: &Path, size: Option<&str>) -> Examined {
-    examine_variant(path, Variant { size, ..Variant::default() })
-}
-
-/// As [`examine_size`], with further alterations.
+/// As [`examine`], of a variant of the garment. The name ends with the size.
 pub fn examine_variant(path: &Path, variant: Variant) -> Examined {
     let shown = path.display().to_string();
     let name = path.file_stem().map_or_else(|| shown.clone(), |s| s.to_string_lossy().into_owned());

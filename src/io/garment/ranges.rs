@@ -38,7 +38,7 @@ enum Node {
     Map(Vec<(String, Node)>),
 }
 
-/// What was drawn for one variant, as lists of jobs have it.
+/// The values drawn for one variant, as lists of jobs have them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawn {
     /// Measures of the wearer, mm. Empty if the file has none.

@@ -155,7 +155,7 @@ impl Writer<'_> {
 
     fn reference(&self, place: Place, both_sides: bool) -> Located<String> {
         let piece = &self.table.pieces[place.piece].name;
-        let side = place.side.filter(|_| !both_sides).map_or(String::new(), |s| format!(".{}", s.letter()));
+        let side = place.side.filter(|_| !both_sides).map_or("", Side::suffix);
         here(format!("{piece}{side}.{}", self.names[place.piece][place.edge]))
     }
 

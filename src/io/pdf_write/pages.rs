@@ -129,8 +129,8 @@ impl Plan {
         Vec2::new(column as f64, row as f64).component_mul(&self.frame)
     }
 
-    /// Of every field whether a line or a letter is within its frame. What is only in the strip beyond the frame is on
-    /// the neighbour.
+    /// Whether a line or a letter is within the frame, for every field. The strip beyond the frame does not count: it
+    /// shows a part of the neighbour.
     fn drawn_on(&self) -> Vec<bool> {
         let mut used = vec![false; self.rows * self.columns];
         // The fields that coordinates reach, at least the last one: a sheet ends on its last frame.

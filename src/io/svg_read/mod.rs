@@ -1,7 +1,7 @@
 //! SVG in: drawings of Inkscape, FreeSewing, Seamly2D and toile itself; the only user of roxmltree.
 //!
-//! Lengths follow width, height and viewBox (a drawing without units has 96 to the inch, as CSS says). What a line is
-//! follows from its class (`cut`, `sew`, `edge`, `grain`, `notch`, `fold`; FreeSewing's `fabric`, `sa` and markers)
+//! Lengths follow width, height and viewBox (a drawing without units has 96 to the inch, as CSS says). The role of a
+//! line follows from its class (`cut`, `sew`, `edge`, `grain`, `notch`, `fold`; FreeSewing's `fabric`, `sa` and markers)
 //! where it has one, and else from what lies in what.
 
 mod arrow;
@@ -337,7 +337,7 @@ fn remark(node: Node, frame: Frame) -> Option<Remark> {
     (!words.is_empty()).then(|| Remark { at: frame.linear * at + frame.shift, text: shown(&words.join(" "), REMARK) })
 }
 
-/// The one child of a `switch` that is shown: the first that asks for nothing. What it holds in another program's words
+/// The one child of a `switch` that is shown: the first that asks for nothing. Contents in another program's words
 /// (Illustrator wraps its drawings so) could not be read, and there is no language to choose by.
 fn alternative<'a, 'i>(switch: Node<'a, 'i>) -> Option<Node<'a, 'i>> {
     let asks = |node: &Node| ["requiredExtensions", "systemLanguage"].iter().any(|key| node.has_attribute(*key));

@@ -4,10 +4,11 @@ use super::super::error::PipelineError;
 use super::FlatSurface;
 use super::darts::Laid;
 use super::edges::NamedEdge;
-use super::form::{ClosedForm, FORM_OBJ};
+use super::form::ClosedForm;
 use crate::geometry::{Cubic, MM, Vec2, smooth_curves};
 use crate::input::LengthUnit;
 use crate::io::garment::write;
+use crate::io::result_names::FORM_OBJ;
 use crate::pattern::{GarmentFile, Located, NotchFile, OutlineFile, PieceFile, Quantity, SeamFile, Spot, Value};
 
 /// The fabric of a garment that was drawn as a surface, until its maker names another.

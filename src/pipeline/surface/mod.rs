@@ -27,7 +27,7 @@ use super::error::PipelineError;
 use crate::fabric::{Fabric, TensileCurve};
 use crate::flatten::{Options, Report};
 use crate::geometry::Vec3;
-use crate::input::LengthUnit;
+use crate::input::{LengthUnit, stem};
 use crate::io::obj_read::{ObjError, ObjFaces};
 use crate::io::surface_read::read_surface;
 use crate::report::Stage;
@@ -39,7 +39,6 @@ use darts::{Failed, Laid, Outcome, Source};
 use drawn::cut_drawn;
 pub use ease::{Ease, EaseReport};
 use edges::{NamedEdge, named_edges};
-pub use form::FORM_OBJ;
 use gores::cut_gores;
 pub use mend::Weld;
 use mend::{AT_ONE_PLACE, mend, welded, welded_note};
@@ -48,15 +47,15 @@ use sheet::Sheet;
 use simplify::simplify;
 use size::Space;
 use thick::leave_outer_sides;
-pub use write::{FLAT_OBJ, FLAT_PNG, FlatCorners, OUTLINE_SVG};
+pub use write::FlatCorners;
 
 /// No weave is strained by more, whatever its fibre: sheared by 30°, where its threads lock, it is by 0.29 along a
 /// diagonal, and the stretchiest threads of the library's weaves give less than another 0.2.
 const BEYOND_WEAVES: f64 = 0.5;
 /// No weave changes its area by more without stretched threads: sheared by 30° it has cos 30° of it.
 const BEYOND_SHEAR: f64 = 0.134;
-/// Darts that `auto` cuts: into a round part, and into all the others together. What is not below the limit then needs
-/// a seam.
+/// Darts that `auto` cuts: into a round part, and into all the others together. A part that is then not below the limit
+/// needs a seam.
 pub const DARTS: usize = 8;
 
 /// Darts after which no more are cut, however many are needed: their allowances would be all that is left.
@@ -141,8 +140,8 @@ impl Default for SurfaceOptions {
 pub enum Limit {
     /// This |stretch − 1| in any direction.
     Strain(f64),
-    /// What the threads of a fabric give under 100 gf/cm, the load at which the FAST test reads how far cloth can be
-    /// worked; the angle between them is free.
+    /// The strains that the threads of a fabric reach under 100 gf/cm, the load at which the FAST test reads how far
+    /// cloth can be worked. The angle between the threads is free.
     Fabric {
         /// Its name.
         name: String,
@@ -221,7 +220,7 @@ pub fn flatten_faces(file: &Path, mut faces: ObjFaces, options: &SurfaceOptions)
     if !options.groups {
         faces.join_groups();
     }
-    let stem = file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+    let stem = stem(file);
     let begin = Instant::now();
     let mut notes = Vec::new();
     let unit = options.unit.unwrap_or_else(|| {
