@@ -351,7 +351,7 @@ fn make(
             Run::continued_from(&job, &EarlierFiles { name, surface, report })?
         }
     };
-    if let Err(error) = run.flatten(&toile::flatten::Options::default(), tell) {
+    if let Err(error) = run.flatten(&toile::flatten::FlattenOptions::default(), tell) {
         let files = run.state(&PictureOptions::default()).unwrap_or_default();
         return Err(Failed { error: Box::new(error), files });
     }

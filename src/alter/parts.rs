@@ -1,7 +1,7 @@
 //! The marks on the edges of a piece that is cut in two, and the references to these edges.
 
 use super::Fault;
-use super::sheet::{Sheet, length_in};
+use super::sheet::{AlteredPiece, length_in};
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{
     AllowanceFile, DartShape, Findings, GarmentFile, Located, PieceFile, Problem, Quantity, Words, expand, glob,
@@ -30,7 +30,7 @@ pub(super) struct Parted {
 impl Parted {
     pub(super) fn new<'p>(
         piece: &str,
-        sheet: &Sheet,
+        sheet: &AlteredPiece,
         parts: impl Iterator<Item = (&'p str, &'p [PartEdge])> + Clone,
     ) -> Self {
         let stretches = |edge: usize| {
@@ -130,7 +130,7 @@ fn faults(file: &GarmentFile) -> usize {
 /// Leaves to a part of a piece what lies on its edges and inside it.
 pub(super) fn share_out(
     piece: &mut PieceFile,
-    sheet: &Sheet,
+    sheet: &AlteredPiece,
     edges: &[PartEdge],
     inside: &dyn Fn(Vec2) -> bool,
 ) -> Result<(), Fault> {
@@ -183,7 +183,7 @@ pub(super) fn share_out(
 }
 
 /// The edge of a part, and the place on it, of a place on an old edge. `None` where that is on the other part.
-fn place(sheet: &Sheet, edges: &[PartEdge], edge: &str, at: Quantity) -> Option<(String, Quantity)> {
+fn place(sheet: &AlteredPiece, edges: &[PartEdge], edge: &str, at: Quantity) -> Option<(String, Quantity)> {
     let old = sheet.names.iter().position(|n| n == edge)?;
     let length = sheet.edges[old].length();
     let s = if at.is_percent() { at.value(sheet.unit) * length } else { at.value(sheet.unit) };
@@ -197,7 +197,7 @@ fn place(sheet: &Sheet, edges: &[PartEdge], edge: &str, at: Quantity) -> Option<
 }
 
 /// Leaves to a part the holes and lines that lie in it.
-fn runs(piece: &mut PieceFile, sheet: &Sheet, inside: &dyn Fn(Vec2) -> bool) -> Result<(), Fault> {
+fn runs(piece: &mut PieceFile, sheet: &AlteredPiece, inside: &dyn Fn(Vec2) -> bool) -> Result<(), Fault> {
     let holes = piece.holes.len();
     let mut own = Vec::new();
     for (i, run) in sheet.runs.iter().enumerate() {

@@ -19,7 +19,7 @@ const LONGEST_ID: usize = 300;
 
 /// One garment to make. Its paths can be opened as they are.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Job {
+pub struct BatchJob {
     /// Its name in the index.
     pub id: String,
     /// Garment files, the innermost first.
@@ -81,9 +81,9 @@ enum OneOrMany {
     Many(Vec<PathBuf>),
 }
 
-impl Job {
+impl BatchJob {
     /// A garment file with the options that jobs have which say nothing else.
-    pub(super) fn of_file(id: String, file: PathBuf, defaults: &Job) -> Self {
+    pub(super) fn of_file(id: String, file: PathBuf, defaults: &BatchJob) -> Self {
         Self { id, garment: vec![file], ..defaults.clone() }.with_whole_paths()
     }
 
@@ -139,7 +139,7 @@ impl Job {
 ///
 /// # Errors
 /// [`BatchError`], with every line that is no job.
-pub fn read_jobs(list: &Path, defaults: &Job) -> Result<Vec<Job>, BatchError> {
+pub fn read_jobs(list: &Path, defaults: &BatchJob) -> Result<Vec<BatchJob>, BatchError> {
     let unreadable = |why: String| BatchError::Read { file: list.to_owned(), why };
     let bytes = bytes(list, LARGEST_LIST).map_err(|e: InputError| unreadable(e.to_string()))?;
     let text = String::from_utf8(bytes).map_err(|e| unreadable(format!("it is no UTF-8 text: {e}")))?;
@@ -164,8 +164,8 @@ pub fn check_jobs<'t>(
     texts: impl Iterator<Item = (usize, &'t str)>,
     place: &str,
     folder: &Path,
-    defaults: &Job,
-) -> Result<Vec<Job>, Vec<Mistake>> {
+    defaults: &BatchJob,
+) -> Result<Vec<BatchJob>, Vec<Mistake>> {
     let (mut jobs, mut mistakes) = (Vec::new(), Vec::new());
     let mut first: HashMap<String, usize> = HashMap::new();
     for (line, text) in texts {
@@ -187,7 +187,7 @@ pub fn check_jobs<'t>(
 ///
 /// # Errors
 /// The mistake, in words.
-pub fn parse_job(text: &str, folder: &Path, defaults: &Job, mark: &str) -> Result<Job, String> {
+pub fn parse_job(text: &str, folder: &Path, defaults: &BatchJob, mark: &str) -> Result<BatchJob, String> {
     // A list of values would be taken for those of the keys in their order.
     if text.trim_start().starts_with('[') {
         return Err("a job is an object such as {\"garment\": \"skirt.yaml\"}, not a list".into());
@@ -207,7 +207,7 @@ pub fn parse_job(text: &str, folder: &Path, defaults: &Job, mark: &str) -> Resul
         return Err(format!("an id has 1 to {LONGEST_ID} visible characters"));
     }
     let at = |name: String, shipped: Vec<&str>| in_folder(folder, name, &shipped);
-    let job = Job {
+    let job = BatchJob {
         id,
         garment,
         // The unit is of the body beside it.
@@ -233,7 +233,7 @@ fn words(alteration: &Value) -> String {
 }
 
 /// The job, if its numbers and units make sense. Its files are left to the process that makes it.
-fn checked(job: Job) -> Result<Job, String> {
+fn checked(job: BatchJob) -> Result<BatchJob, String> {
     if let Some(unit) = job.body_units.as_ref().filter(|unit| LengthUnit::from_symbol(unit).is_none()) {
         let known: Vec<&str> = LengthUnit::ALL.iter().map(|unit| unit.symbol()).collect();
         return Err(format!("body_units: '{unit}' is no unit; known are {}", known.join(", ")));
@@ -277,8 +277,8 @@ mod tests {
         std::path::absolute("lists").expect("a folder")
     }
 
-    fn parse(text: &str) -> Result<Job, String> {
-        let defaults = Job { spacing: Some(25.0), body_units: Some("cm".into()), ..Job::options() };
+    fn parse(text: &str) -> Result<BatchJob, String> {
+        let defaults = BatchJob { spacing: Some(25.0), body_units: Some("cm".into()), ..BatchJob::options() };
         parse_job(text, &lists(), &defaults, "7")
     }
 
@@ -290,7 +290,7 @@ mod tests {
         let body = format!("--body={}", lists().join("anna.obj").display());
         assert_eq!(job.arguments(), [&body, "--fabric=denim", "--spacing=25"]);
         // Also where the folder is named from here.
-        let same = parse_job(r#"{"garment": "skirt.yaml"}"#, Path::new("lists"), &Job::options(), "7");
+        let same = parse_job(r#"{"garment": "skirt.yaml"}"#, Path::new("lists"), &BatchJob::options(), "7");
         assert_eq!(same.expect("a job").garment, job.garment);
     }
 

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use super::error::BatchError;
-use super::job::Job;
+use super::job::BatchJob;
 use crate::io::files::relative;
 use crate::io::garment::{Drawn, Ranges};
 use crate::mannequin::MannequinSpec;
@@ -14,7 +14,7 @@ const MOST_SAMPLES: usize = 1_000_000;
 
 /// The garments, bodies, fabrics and ranges that jobs are drawn from.
 #[derive(Clone, Debug)]
-pub struct Choice {
+pub struct SampleChoice {
     /// Garment files, each with a size of it or as it is drawn.
     pub garments: Vec<(PathBuf, Option<String>)>,
     /// Names or files of bodies.
@@ -31,8 +31,8 @@ pub struct Choice {
 ///
 /// # Errors
 /// [`BatchError::Samples`] when there are not so many.
-pub fn sample(choice: &Choice, count: usize, seed: u64, options: &Job) -> Result<Vec<Job>, BatchError> {
-    let Choice { garments, bodies, fabrics, ranges } = choice;
+pub fn sample(choice: &SampleChoice, count: usize, seed: u64, options: &BatchJob) -> Result<Vec<BatchJob>, BatchError> {
+    let SampleChoice { garments, bodies, fabrics, ranges } = choice;
     if count > MOST_SAMPLES {
         return Err(BatchError::TooManySamples { asked: count, most: MOST_SAMPLES });
     }
@@ -48,7 +48,7 @@ pub fn sample(choice: &Choice, count: usize, seed: u64, options: &Job) -> Result
         let body = k / fabrics.len() % bodies.len();
         let mut random = SplitMix64::of(seed, n as u64);
         let Drawn { measures, alter } = ranges.draw(|name| specs[body].as_ref()?.measure(name), || random.share());
-        Job {
+        BatchJob {
             id: format!("{n:0width$}"),
             garment: vec![garment.clone()],
             size: size.clone().or_else(|| options.size.clone()),
@@ -116,16 +116,16 @@ impl SplitMix64 {
 }
 
 /// The jobs as a list in `folder`: one JSON object a line, files named from there.
-pub fn list_text(jobs: &[Job], folder: &Path) -> String {
+pub fn list_text(jobs: &[BatchJob], folder: &Path) -> String {
     let from_there = |file: &Path| relative(file, folder).unwrap_or_else(|| file.to_owned());
     let named = |name: &String| {
         let file = Path::new(name);
         if file.is_file() { from_there(file).display().to_string() } else { name.clone() }
     };
-    let line = |job: &Job| {
+    let line = |job: &BatchJob| {
         let garment = job.garment.iter().map(|file| from_there(file)).collect();
         let (body, fabric) = (job.body.as_ref().map(named), job.fabric.as_ref().map(named));
-        let job = Job { garment, body, fabric, ..job.clone() };
+        let job = BatchJob { garment, body, fabric, ..job.clone() };
         serde_json::to_string(&job).unwrap_or_default() + "\n"
     };
     jobs.iter().map(line).collect()

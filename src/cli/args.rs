@@ -7,7 +7,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 
 use super::batch_args::{BatchArgs, SampleArgs};
 use super::picture_args::PictureArgs;
-use crate::batch::Job;
+use crate::batch::BatchJob;
 use crate::fitting::{DRAPES, LEAST_DRAPES};
 use crate::flatten::Mode;
 use crate::geometry::Vec3;
@@ -244,8 +244,8 @@ impl OverrideArgs {
     }
 
     /// Options for jobs that say nothing else.
-    pub(super) fn job_options(&self) -> Job {
-        Job {
+    pub(super) fn job_options(&self) -> BatchJob {
+        BatchJob {
             body: self.body.clone(),
             body_units: self.body_units.map(|units| units.unit().symbol().to_owned()),
             fabric: self.fabric.clone(),
@@ -254,7 +254,7 @@ impl OverrideArgs {
             pressure_bands: self.pressure_bands.as_ref().map(|bands| [bands.tight, bands.too_tight]),
             measures: self.measures.as_ref().map(|m| m.named().map(|(name, mm)| (name.into(), mm.into())).collect()),
             alter: self.alter.iter().map(|text| text.as_str().into()).collect(),
-            ..Job::options()
+            ..BatchJob::options()
         }
     }
 }

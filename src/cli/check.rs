@@ -35,7 +35,7 @@ fn check_garments(args: &CheckArgs, console: &Console) -> Result<Exit, CliError>
         let checked = match check_sizes(file, args) {
             Err(refused) if console.json() => {
                 let rows = refused.diagnostics.iter().map(DiagnosticRow::new).collect();
-                let refusal = Findings { file: file.display().to_string(), ok: false, diagnostics: rows };
+                let refusal = CheckFindings { file: file.display().to_string(), ok: false, diagnostics: rows };
                 console.results(&refusal, String::new)?;
                 return Ok(Exit::Input);
             }
@@ -46,7 +46,7 @@ fn check_garments(args: &CheckArgs, console: &Console) -> Result<Exit, CliError>
     }
     let garment = outfit(worn.iter().map(|w| w.loaded.garment.clone()).collect());
     let warnings: Vec<Diagnostic> = worn.iter().flat_map(|w| w.loaded.warnings.clone()).collect();
-    let mut summary = Summary::new(&garment, &warnings);
+    let mut summary = CheckSummary::new(&garment, &warnings);
     if let Some(picture) = &args.picture {
         let StartPicture { png, shown, .. } = start_picture(&worn)?;
         write_all(&[(picture.clone(), png)], &inputs)?;
@@ -83,7 +83,7 @@ struct StartRow {
 
 /// The faults of a garment file.
 #[derive(Serialize)]
-struct Findings {
+struct CheckFindings {
     file: String,
     ok: bool,
     diagnostics: Vec<DiagnosticRow>,
@@ -110,7 +110,7 @@ impl DiagnosticRow {
 
 /// The pieces, seams and openings of a garment file without faults. Lengths are mm, areas mm².
 #[derive(Serialize)]
-struct Summary {
+struct CheckSummary {
     garment: String,
     title: String,
     ok: bool,
@@ -152,7 +152,7 @@ struct OpeningRow {
     length: f64,
 }
 
-impl Summary {
+impl CheckSummary {
     fn new(garment: &Garment, warnings: &[Diagnostic]) -> Self {
         let piece = |p: &crate::pattern::Piece| PieceRow {
             name: p.name.clone(),

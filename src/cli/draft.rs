@@ -13,7 +13,7 @@ use crate::report::aligned;
 
 /// The file that was written.
 #[derive(Serialize)]
-struct Written<'a> {
+struct DraftSummary<'a> {
     file: String,
     pieces: &'a [DraftedPiece],
     ease: &'a [DraftedEase],
@@ -30,7 +30,7 @@ pub(super) fn draft(args: &DraftArgs, console: &Console) -> Result<Exit, CliErro
     made.notes.iter().for_each(|note| console.note(note));
     write_all(&[(args.output.clone(), made.text.clone().into_bytes())], &inputs)?;
     let file = args.output.display().to_string();
-    let written = Written { file, pieces: &made.pieces, ease: &made.ease, darts: made.darts };
+    let written = DraftSummary { file, pieces: &made.pieces, ease: &made.ease, darts: made.darts };
     console.results(&written, || told(&made, &written.file))?;
     Ok(Exit::Done)
 }

@@ -8,7 +8,7 @@ use super::exit::{CliError, Exit};
 use super::make::{borrowed, folder};
 use super::plan::plan;
 use crate::cutting::{
-    DEFAULT_ALLOWANCE, Label, Layout, MarkKind, Narrowed, Options, Paper, SewKind, Sheet, labelled, sewing_order,
+    CuttingOptions, DEFAULT_ALLOWANCE, Label, Layout, MarkKind, Narrowed, Paper, SewKind, Sheet, labelled, sewing_order,
 };
 use crate::geometry::MM;
 use crate::io::dxf_write::cutting_dxf;
@@ -16,7 +16,7 @@ use crate::io::files::write_all;
 use crate::io::garment::{Loaded, Variant};
 use crate::io::pdf_write::{Page, booklet, one_page, unprintable};
 use crate::io::svg_write::cutting_svg;
-use crate::pattern::{Drawing, drawings};
+use crate::pattern::{DrawnPiece, drawings};
 use crate::pipeline::{Overrides, inputs, read_variant};
 use crate::report::aligned;
 
@@ -29,12 +29,12 @@ const MOST_LETTERS: usize = 60;
 pub(super) fn export(command: &ExportCommand, console: &Console) -> Result<Exit, CliError> {
     match command {
         ExportCommand::Svg { common, width } => {
-            let job = Job::new(common, console)?;
+            let job = ExportJob::new(common, console)?;
             let sheet = Sheet::new(&job.papers, &one_sheet(*width));
             job.write(cutting_svg(&job.title, &sheet).into_bytes(), "svg", console)
         }
         ExportCommand::Pdf { common, page, width } => {
-            let job = Job::new(common, console)?;
+            let job = ExportJob::new(common, console)?;
             job.note_letters(console);
             let pdf = match page {
                 PageArg::A4 => booklet(&job.title, &job.papers, &job.steps, Page::A4),
@@ -46,7 +46,7 @@ pub(super) fn export(command: &ExportCommand, console: &Console) -> Result<Exit,
         }
         ExportCommand::Plan(args) => plan(args, console),
         ExportCommand::Dxf { common } => {
-            let job = Job::new(common, console)?;
+            let job = ExportJob::new(common, console)?;
             if job.papers.iter().any(is_told) {
                 console.note(
                     "DXF-AAMA has no layers for darts, pleats, folds and elastic: they are inner lines (layer 8), and \
@@ -63,7 +63,7 @@ fn one_sheet(width: Option<f64>) -> Layout {
 }
 
 /// A garment's papers on their way into a file.
-struct Job<'a> {
+struct ExportJob<'a> {
     args: &'a ExportArgs,
     name: String,
     title: String,
@@ -74,12 +74,12 @@ struct Job<'a> {
     inputs: Vec<PathBuf>,
 }
 
-impl<'a> Job<'a> {
+impl<'a> ExportJob<'a> {
     fn new(args: &'a ExportArgs, console: &Console) -> Result<Self, CliError> {
-        let Drawn { loaded, drawings: drawn, allowance } =
-            Drawn::read(&args.garment, args.size.as_deref(), args.allowance, "the file", console)?;
+        let DrawnGarment { loaded, drawings: drawn, allowance } =
+            DrawnGarment::read(&args.garment, args.size.as_deref(), args.allowance, "the file", console)?;
         let label = Label { title: loaded.garment.title.clone(), wearer: args.wearer.clone(), date: args.date.clone() };
-        let papers = labelled(&drawn, &Options { allowance, whole: args.whole }, &label);
+        let papers = labelled(&drawn, &CuttingOptions { allowance, whole: args.whole }, &label);
         papers.iter().flat_map(narrowed).for_each(|note| console.note(&note));
         let inputs = inputs(&args.garment, &loaded.garment, &Overrides::default());
         let steps = sewing_order(&loaded.garment).iter().map(|step| step.words()).collect();
@@ -102,22 +102,22 @@ impl<'a> Job<'a> {
         let usual = || folder(None, &self.name).join(format!("cutting.{kind}"));
         let target: PathBuf = self.args.output.clone().unwrap_or_else(usual);
         write_all(&[(target.clone(), bytes)], &borrowed(&self.inputs))?;
-        let rows: Vec<Row> = self.papers.iter().map(Row::new).collect();
-        let written = Written { file: target.display().to_string(), pieces: rows, sewing: self.steps.clone() };
+        let rows: Vec<PaperRow> = self.papers.iter().map(PaperRow::new).collect();
+        let written = ExportSummary { file: target.display().to_string(), pieces: rows, sewing: self.steps.clone() };
         console.results(&written, || written.text())?;
         Ok(Exit::Done)
     }
 }
 
 /// A garment as it is drawn, to be cut.
-pub(super) struct Drawn {
+pub(super) struct DrawnGarment {
     pub(super) loaded: Loaded,
-    pub(super) drawings: Vec<Drawing>,
+    pub(super) drawings: Vec<DrawnPiece>,
     /// Seam allowance of edges for which the file gives none, metres.
     pub(super) allowance: f64,
 }
 
-impl Drawn {
+impl DrawnGarment {
     /// Reads a size of a garment file, which messages call `shown`. `allowance` is the one asked for, mm.
     pub(super) fn read(
         file: &Path,
@@ -140,7 +140,7 @@ impl Drawn {
 }
 
 /// Whether an edge that will be cut has no allowance of its own.
-fn lacks_allowance(drawing: &Drawing) -> bool {
+fn lacks_allowance(drawing: &DrawnPiece) -> bool {
     let outline = drawing.rings[0].iter().enumerate().filter(|(i, _)| drawing.is_cut(*i)).map(|(_, edge)| edge);
     let sewn_holes = drawing.rings[1..].iter().flatten().filter(|edge| edge.is_sewn());
     outline.chain(sewn_holes).any(|edge| edge.allowance.width.is_none())
@@ -170,15 +170,15 @@ pub(super) fn narrowed(paper: &Paper) -> Vec<String> {
 
 /// The file that was written, and its pieces. Lengths are mm.
 #[derive(serde::Serialize)]
-struct Written {
+struct ExportSummary {
     file: String,
-    pieces: Vec<Row>,
+    pieces: Vec<PaperRow>,
     /// The order of sewing.
     sewing: Vec<String>,
 }
 
 #[derive(serde::Serialize)]
-struct Row {
+struct PaperRow {
     name: String,
     cut: usize,
     mirrored: bool,
@@ -188,7 +188,7 @@ struct Row {
     height: f64,
 }
 
-impl Row {
+impl PaperRow {
     fn new(paper: &Paper) -> Self {
         let [low, high] = paper.bounds();
         Self {
@@ -203,7 +203,7 @@ impl Row {
     }
 }
 
-impl Written {
+impl ExportSummary {
     fn text(&self) -> String {
         let mut rows = vec![["piece", "cut", "mm wide", "mm high", "", "fabric"].map(String::from).to_vec()];
         rows.extend(self.pieces.iter().map(|p| {

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use super::args::{FlattenArgs, UnitArg};
 use super::console::Console;
 use super::exit::{CliError, Exit};
-use super::make::{Goal, Plan, carry_out, folder, write};
+use super::make::{MakeGoal, MakePlan, carry_out, folder, write};
 use crate::fabric;
-use crate::flatten::{Mode, Options};
+use crate::flatten::{FlattenOptions, Mode};
 use crate::geometry::MM;
 use crate::input::stem;
 use crate::io::files::check_writable;
@@ -28,16 +28,20 @@ const ROUNDS: usize = 1;
 /// `toile flatten`
 pub(super) fn flatten(args: &FlattenArgs, console: &Console) -> Result<Exit, CliError> {
     foreign(args)?;
-    let options = Options { mode: args.mode.into(), corners: args.corners, ..Options::default() };
+    let options = FlattenOptions { mode: args.mode.into(), corners: args.corners, ..FlattenOptions::default() };
     if is_garment(&args.input) {
-        let plan = Plan {
+        let plan = MakePlan {
             garments: std::slice::from_ref(&args.input),
             output: args.output.as_deref(),
             overrides: args.overrides.checked(),
             drawing: PictureOptions::default(),
             turntable: None,
             table: args.table,
-            goal: Goal::Flat { from: args.from.as_deref(), options, rounds: args.rounds.map_or(ROUNDS, usize::from) },
+            goal: MakeGoal::Flat {
+                from: args.from.as_deref(),
+                options,
+                rounds: args.rounds.map_or(ROUNDS, usize::from),
+            },
         };
         return carry_out(&plan, console);
     }
@@ -121,7 +125,7 @@ fn cuts(args: &[String]) -> Result<Cuts, CliError> {
     Ok(cuts)
 }
 
-fn surface(args: &FlattenArgs, flatten: Options, console: &Console) -> Result<Exit, CliError> {
+fn surface(args: &FlattenArgs, flatten: FlattenOptions, console: &Console) -> Result<Exit, CliError> {
     let options = SurfaceOptions {
         unit: args.units.map(UnitArg::unit),
         up: args.up,

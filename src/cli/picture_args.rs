@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::args::ColorArg;
-use crate::picture::{PictureLayout, Turning, View};
+use crate::picture::{PictureLayout, Turning, ViewSide};
 use crate::pipeline::PictureOptions;
 
 /// The picture.
@@ -14,7 +14,7 @@ pub(super) struct PictureArgs {
     color: ColorArg,
     /// Views of the picture from left to right [default: front,side,back]
     #[arg(long = "view", value_name = "LIST", value_delimiter = ',', value_parser = view)]
-    views: Vec<View>,
+    views: Vec<ViewSide>,
     /// Write the garment turning once round as well, for web pages and messages
     #[arg(long, value_name = "FILE.gif|FILE.apng", value_parser = turntable)]
     pub(super) turntable: Option<(PathBuf, Turning)>,
@@ -30,9 +30,9 @@ impl PictureArgs {
 }
 
 /// A side from which the garment is seen.
-fn view(text: &str) -> Result<View, String> {
-    let names = View::ALL.map(|view| view.label().to_lowercase());
-    let found = View::ALL.into_iter().zip(&names).find(|(_, name)| *name == text);
+fn view(text: &str) -> Result<ViewSide, String> {
+    let names = ViewSide::ALL.map(|view| view.label().to_lowercase());
+    let found = ViewSide::ALL.into_iter().zip(&names).find(|(_, name)| *name == text);
     found.map(|(view, _)| view).ok_or_else(|| format!("one of {} is expected", names.join(", ")))
 }
 

@@ -9,7 +9,7 @@ use super::batch_args::SampleArgs;
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use super::make::borrowed;
-use crate::batch::{Choice, Job, garments_of_folder, list_text, sample as draw};
+use crate::batch::{BatchJob, SampleChoice, garments_of_folder, list_text, sample as draw};
 use crate::io::files::{check_writable, write_all};
 use crate::io::garment::{Ranges, Variant};
 use crate::mannequin::{MannequinSpec, Measures};
@@ -21,12 +21,12 @@ const DRAWN: &str = "none";
 
 /// `toile sample`
 pub(super) fn sample(args: &SampleArgs, console: &Console) -> Result<Exit, CliError> {
-    let options = Job { spacing: args.spacing.map(in_millimetres), ..Job::options() };
+    let options = BatchJob { spacing: args.spacing.map(in_millimetres), ..BatchJob::options() };
     let garments = garments(&args.garments, console)?;
     let or_all = |given: &[String], all: Vec<&str>| {
         if given.is_empty() { all.into_iter().map(str::to_owned).collect() } else { once_each(given) }
     };
-    let choice = Choice {
+    let choice = SampleChoice {
         garments: sized(&garments, &args.sizes)?,
         ranges: args
             .vary
@@ -65,7 +65,7 @@ fn garments(path: &Path, console: &Console) -> Result<Vec<PathBuf>, CliError> {
         crate::pipeline::read(path)?;
         return Ok(vec![path.to_owned()]);
     }
-    let jobs = told(garments_of_folder(path, &Job::options())?, console);
+    let jobs = told(garments_of_folder(path, &BatchJob::options())?, console);
     Ok(jobs.into_iter().flat_map(|job| job.garment).collect())
 }
 
@@ -104,7 +104,7 @@ fn sized(garments: &[PathBuf], wanted: &[String]) -> Result<Vec<(PathBuf, Option
 }
 
 /// Tries both ends of all ranges on every garment and body, so that a slip of the pen is found now.
-fn check_ends(choice: &Choice, file: Option<&Path>) -> Result<(), CliError> {
+fn check_ends(choice: &SampleChoice, file: Option<&Path>) -> Result<(), CliError> {
     for end in [0.0, 1.0] {
         if choice.ranges.has_measures() {
             choice.bodies.iter().try_for_each(|body| check_measures(&choice.ranges, body, end))?;
@@ -146,7 +146,7 @@ fn check_measures(ranges: &Ranges, body: &str, end: f64) -> Result<(), CliError>
     Ok(())
 }
 
-fn inputs(choice: &Choice, ranges: Option<&Path>) -> Vec<PathBuf> {
+fn inputs(choice: &SampleChoice, ranges: Option<&Path>) -> Vec<PathBuf> {
     let named = choice.bodies.iter().chain(&choice.fabrics).map(PathBuf::from).filter(|path| path.is_file());
     let garments = choice.garments.iter().map(|(file, _)| file.clone());
     garments.chain(named).chain(ranges.map(Path::to_owned)).collect()

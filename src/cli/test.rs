@@ -13,7 +13,7 @@ use super::exit::{CliError, Exit};
 use super::junit;
 use super::make::borrowed;
 use super::update::updated;
-use crate::flatten::Options;
+use crate::flatten::FlattenOptions;
 use crate::input::stem;
 use crate::io::files::{check_writable, write_all};
 use crate::io::garment::Loaded;
@@ -219,7 +219,7 @@ fn made(file: &Path, loaded: Loaded, overrides: &Overrides) -> Result<Made, Pipe
     let job = Job::new(file, loaded, overrides)?;
     let mut run = Run::new(&job);
     // Several garments are under way at once; a bar can show one.
-    run.flatten(&Options::default(), &mut |_, _| {})?;
+    run.flatten(&FlattenOptions::default(), &mut |_, _| {})?;
     Ok(Made::new(&job.garment, &run.report()))
 }
 

@@ -33,7 +33,7 @@ pub struct Neighbourhood {
 /// of a slit may slide over each other without turning a normal.
 const SLIT: f64 = 5.5;
 
-struct Patch {
+struct ClothPatch {
     piece: u32,
     triangles: Vec<u32>,
     nodes: Vec<u32>,
@@ -50,12 +50,12 @@ pub struct ClothDetector {
     triangles: Vec<[u32; 3]>,
     /// Flat corners of every triangle.
     flat: Vec<[Vec2; 3]>,
-    patches: Vec<Patch>,
+    patches: Vec<ClothPatch>,
     bvh: Bvh,
     workspace: BvhWorkspace,
     hood: Neighbourhood,
     /// Shape of every patch at the last search.
-    shapes: Vec<Shape>,
+    shapes: Vec<PatchShape>,
     /// Pairs of patches near each other at the last search, without smooth sheets, sorted.
     open: Vec<(u32, u32)>,
 }
@@ -124,7 +124,7 @@ impl ClothDetector {
     /// The pairs of [`ClothDetector::detect`] that have a `stale` node. Call [`ClothDetector::look`] first with the
     /// same arguments.
     pub fn detect_at(&self, x: &[Vec3], reach: f64, stale: &[bool]) -> Vec<Contact<'static>> {
-        let find = Search { detector: self, x, reach, parts: self.parts(x, stale) };
+        let find = ClothSearch { detector: self, x, reach, parts: self.parts(x, stale) };
         let mut pairs = self.open.clone();
         pairs.retain(|&(a, b)| [a, b].iter().any(|p| find.parts[*p as usize].triangles.iter().any(|t| t.stale)));
         let found = parallel::map(pairs.len(), HEAVY, |k| find.pair(pairs[k].0 as usize, pairs[k].1 as usize));
@@ -132,8 +132,8 @@ impl ClothDetector {
     }
 
     /// The primitives of every patch at positions `x`. Those with a `stale` node are searched.
-    fn parts(&self, x: &[Vec3], stale: &[bool]) -> Vec<Part> {
-        let part = |patch: &Patch| Part {
+    fn parts(&self, x: &[Vec3], stale: &[bool]) -> Vec<PatchPrimitives> {
+        let part = |patch: &ClothPatch| PatchPrimitives {
             vertices: patch.nodes.iter().map(|&n| Primitive::new([n], x, stale)).collect(),
             edges: patch.edges.iter().map(|&e| Primitive::new(e, x, stale)).collect(),
             triangles: (patch.triangles.iter().map(|&t| Primitive::new(self.triangles[t as usize], x, stale)))
@@ -151,10 +151,10 @@ impl ClothDetector {
     }
 
     /// Pairs of patches whose boxes come within `reach`, every patch with itself, sorted.
-    fn patch_pairs(&mut self, x: &[Vec3], normals: &[Vec3], reach: f64) -> (Vec<(u32, u32)>, Vec<Shape>) {
+    fn patch_pairs(&mut self, x: &[Vec3], normals: &[Vec3], reach: f64) -> (Vec<(u32, u32)>, Vec<PatchShape>) {
         let shapes = parallel::map(self.patches.len(), HEAVY, |k| self.measure(&self.patches[k], x, normals));
         let half = 0.5 * reach;
-        for (i, Shape { low, high, .. }) in shapes.iter().enumerate() {
+        for (i, PatchShape { low, high, .. }) in shapes.iter().enumerate() {
             let aabb = Aabb::new(low.add_scalar(-half).into(), high.add_scalar(half).into());
             self.bvh.insert_or_update_partially(aabb, i as u32, 0.0);
         }
@@ -172,7 +172,7 @@ impl ClothDetector {
         let normals = self.normals(x);
         let (pairs, _) = self.patch_pairs(x, &normals, 0.0);
         let parts = self.parts(x, &vec![true; x.len()]);
-        let near = |p: &Part, q: &Part| {
+        let near = |p: &PatchPrimitives, q: &PatchPrimitives| {
             let mut out = Vec::new();
             for e in &p.edges {
                 for t in &q.triangles {
@@ -195,7 +195,7 @@ impl ClothDetector {
         parallel::map(pairs.len(), HEAVY, |k| both(&pairs[k])).concat()
     }
 
-    fn measure(&self, patch: &Patch, x: &[Vec3], normals: &[Vec3]) -> Shape {
+    fn measure(&self, patch: &ClothPatch, x: &[Vec3], normals: &[Vec3]) -> PatchShape {
         let mut low = Vec3::repeat(f64::INFINITY);
         let mut high = -low;
         let mut axis = Vec3::zeros();
@@ -213,11 +213,11 @@ impl ClothDetector {
         }
         let axis = axis.try_normalize(1e-9).unwrap_or_default();
         let cosine = patch.triangles.iter().map(|&t| axis.dot(&normals[t as usize])).fold(1.0, f64::min);
-        Shape { low, high, axis, spread: cosine.clamp(-1.0, 1.0).acos(), shrunk }
+        PatchShape { low, high, axis, spread: cosine.clamp(-1.0, 1.0).acos(), shrunk }
     }
 
     /// Whether two patches are one smooth sheet: they touch, their normals are alike, and neither is compressed.
-    fn smooth(&self, a: usize, b: usize, shapes: &[Shape]) -> bool {
+    fn smooth(&self, a: usize, b: usize, shapes: &[PatchShape]) -> bool {
         let (p, q) = (&self.patches[a], &self.patches[b]);
         if p.piece != q.piece {
             return false;
@@ -245,7 +245,7 @@ impl ClothDetector {
 }
 
 /// Shape of a patch at one position.
-struct Shape {
+struct PatchShape {
     /// Low corner of its box.
     low: Vec3,
     high: Vec3,
@@ -273,21 +273,21 @@ impl<const N: usize> Primitive<N> {
 }
 
 /// The primitives of a patch.
-struct Part {
+struct PatchPrimitives {
     vertices: Vec<Primitive<1>>,
     edges: Vec<Primitive<2>>,
     triangles: Vec<Primitive<3>>,
 }
 
-struct Search<'a> {
+struct ClothSearch<'a> {
     detector: &'a ClothDetector,
     x: &'a [Vec3],
     reach: f64,
     /// By patches.
-    parts: Vec<Part>,
+    parts: Vec<PatchPrimitives>,
 }
 
-impl Search<'_> {
+impl ClothSearch<'_> {
     fn pair(&self, a: usize, b: usize) -> Vec<Contact<'static>> {
         let (p, q) = (&self.parts[a], &self.parts[b]);
         let mut out = Vec::new();
@@ -345,7 +345,7 @@ fn split(group: &mut [u32], centers: &[Vec2], leaves: &mut Vec<Vec<u32>>) {
 }
 
 /// Gives every node and every edge to the first patch that has it.
-fn own_primitives(leaves: Vec<Vec<u32>>, triangles: &[[u32; 3]], piece: &[u32]) -> Vec<Patch> {
+fn own_primitives(leaves: Vec<Vec<u32>>, triangles: &[[u32; 3]], piece: &[u32]) -> Vec<ClothPatch> {
     let topology = Topology::new(triangles);
     let nodes = triangles.iter().flatten().max().map_or(0, |&n| n as usize + 1);
     let mut node_owned = vec![false; nodes];
@@ -353,7 +353,7 @@ fn own_primitives(leaves: Vec<Vec<u32>>, triangles: &[[u32; 3]], piece: &[u32]) 
     let mut patches = Vec::with_capacity(leaves.len());
     for leaf in leaves {
         let (nodes, edges, beside) = (Vec::new(), Vec::new(), Vec::new());
-        let mut patch = Patch { piece: 0, triangles: leaf, nodes, edges, beside, slit: false };
+        let mut patch = ClothPatch { piece: 0, triangles: leaf, nodes, edges, beside, slit: false };
         for &t in &patch.triangles {
             let tri = triangles[t as usize];
             patch.piece = piece[t as usize];
@@ -412,7 +412,7 @@ fn connected(group: &[u32], corners: &[[u32; 3]]) -> Vec<Vec<u32>> {
 
 /// Finds the patches that share particles. Patches that meet in a seam only (the ends of a band, the sides of a sleeve)
 /// may slide over each other.
-fn find_beside(patches: &mut [Patch], corners: &[[u32; 3]]) {
+fn find_beside(patches: &mut [ClothPatch], corners: &[[u32; 3]]) {
     let mut at: HashMap<u32, Vec<u32>> = HashMap::new();
     for (number, patch) in patches.iter().enumerate() {
         for particle in patch.triangles.iter().flat_map(|&t| corners[t as usize]) {
@@ -431,7 +431,7 @@ fn find_beside(patches: &mut [Patch], corners: &[[u32; 3]]) {
 }
 
 /// Finds the patches in which a slit ends.
-fn find_slits(patches: &mut [Patch], corners: &[[u32; 3]], flat: &[[Vec2; 3]]) {
+fn find_slits(patches: &mut [ClothPatch], corners: &[[u32; 3]], flat: &[[Vec2; 3]]) {
     let mut around: HashMap<u32, f64> = HashMap::new();
     for (tri, at) in corners.iter().zip(flat) {
         for k in 0..3 {

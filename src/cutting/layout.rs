@@ -38,12 +38,12 @@ pub struct Sheet {
     /// Upper left corner of the test square, if there is one; that in inches is to its right.
     pub square: Option<Vec2>,
     /// Stretches of cloth on which the papers lie, in a cutting plan.
-    pub cloth: Vec<Cloth>,
+    pub cloth: Vec<ClothLength>,
 }
 
 /// A stretch of cloth.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Cloth {
+pub struct ClothLength {
     /// Its upper left corner.
     pub corner: Vec2,
     /// Width across, and length down.

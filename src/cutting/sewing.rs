@@ -68,7 +68,7 @@ fn groups(garment: &Garment) -> Vec<Vec<usize>> {
 
 /// The groups that must be sewn before `group`: those that close a joint of one of its chains.
 fn needs(garment: &Garment, groups: &[Vec<usize>], group: usize) -> Vec<usize> {
-    let joints: Vec<[Point; 2]> = groups[group].iter().flat_map(|&k| joints(garment, &garment.seams[k])).collect();
+    let joints: Vec<[SeamPoint; 2]> = groups[group].iter().flat_map(|&k| joints(garment, &garment.seams[k])).collect();
     let closes = |other: &usize| {
         let ends = groups[*other].iter().flat_map(|&k| ends(garment, &garment.seams[k]));
         ends.into_iter().any(|[a, b]| joints.iter().any(|[c, d]| a.is(c) && b.is(d) || a.is(d) && b.is(c)))
@@ -78,12 +78,12 @@ fn needs(garment: &Garment, groups: &[Vec<usize>], group: usize) -> Vec<usize> {
 
 /// A point on the rim of a piece.
 #[derive(Clone, Copy, Debug)]
-struct Point {
+struct SeamPoint {
     piece: usize,
     at: Vec2,
 }
 
-impl Point {
+impl SeamPoint {
     /// Where the walk along a span begins (or, `at_end`, ends).
     fn new(garment: &Garment, span: &Span, at_end: bool) -> Self {
         let edge = &garment.pieces[span.edge.piece].loops[span.edge.ring][span.edge.index];
@@ -96,21 +96,22 @@ impl Point {
 }
 
 /// Where the edges of a seam's chains follow one another, the last one by the first if the chain is a ring.
-fn joints(garment: &Garment, seam: &Seam) -> Vec<[Point; 2]> {
+fn joints(garment: &Garment, seam: &Seam) -> Vec<[SeamPoint; 2]> {
     let of_chain = |chain: &[Span]| {
         let next = chain.iter().cycle().skip(1);
-        let pairs = chain.iter().zip(next).map(|(a, b)| [Point::new(garment, a, true), Point::new(garment, b, false)]);
+        let pairs =
+            chain.iter().zip(next).map(|(a, b)| [SeamPoint::new(garment, a, true), SeamPoint::new(garment, b, false)]);
         pairs.filter(|[a, b]| !a.is(b)).collect::<Vec<_>>()
     };
     [of_chain(&seam.a), of_chain(&seam.b)].concat()
 }
 
 /// The points that a seam brings together at its ends.
-fn ends(garment: &Garment, seam: &Seam) -> Vec<[Point; 2]> {
+fn ends(garment: &Garment, seam: &Seam) -> Vec<[SeamPoint; 2]> {
     let (Some(a), Some(b)) = (seam.a.first(), seam.b.first()) else { return Vec::new() };
     let (Some(last_a), Some(last_b)) = (seam.a.last(), seam.b.last()) else { return Vec::new() };
-    let start = [a, b].map(|span| Point::new(garment, span, false));
-    let end = [last_a, last_b].map(|span| Point::new(garment, span, true));
+    let start = [a, b].map(|span| SeamPoint::new(garment, span, false));
+    let end = [last_a, last_b].map(|span| SeamPoint::new(garment, span, true));
     vec![start, end]
 }
 

@@ -29,7 +29,7 @@ pub(crate) use predicate::pierces;
 pub(crate) use segment::{distance_to_segment, nearest_on_segment};
 pub(crate) use sets::DisjointSets;
 pub(crate) use trimesh::sorted_pair;
-pub use trimesh::{Edge, Topology, TriMesh, rim_loops};
+pub use trimesh::{MeshEdge, Topology, TriMesh, rim_loops};
 
 /// Millimetres in a metre: lengths are metres inside and millimetres in files.
 pub(crate) const MM: f64 = 1e3;

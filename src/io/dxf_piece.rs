@@ -2,14 +2,16 @@
 
 use std::cell::Cell;
 
-use super::dxf_block::{Block, Named, Point, longest_first, whole};
+use super::dxf_block::{Block, LayerPoint, Named, longest_first, whole};
 use super::dxf_notches::{self, once};
 use super::dxf_rim::{ON_RIM, Rim, Saying};
 use super::dxf_told::{Told, is_on_slit, read_notch, told_of};
 use super::dxf_write::layer;
-use crate::digitize::{Drawing, Inner, Material, Notch, ToldNotch, Traced, bridged, chained, follows, gaping, holes};
+use crate::digitize::{
+    Drawing, ImportedNotch, InnerLine, Material, ToldNotch, Traced, bridged, chained, follows, gaping, holes,
+};
 use crate::geometry::{Path, Vec2};
-use crate::pattern::{Corner, Cut, Side};
+use crate::pattern::{Corner, CutKind, Side};
 
 /// Texts that tell of notches that are read of a block, for each is looked for on every notch.
 const MOST_TOLD: usize = 5_000;
@@ -73,7 +75,7 @@ impl Block<'_> {
         let (more, unused) = slit_runs(boundary, &cut);
         saying.left_out(&unused, drawing);
         let mut notches = self.notches(&cut);
-        notches.extend(self.slits.iter().chain(&more).map(|&at| Notch { at, told: None }));
+        notches.extend(self.slits.iter().chain(&more).map(|&at| ImportedNotch { at, told: None }));
         let rim = Rim::new(sewing_line.as_ref().unwrap_or(&cut));
         let lines = saying.clipped(inside.iter().filter_map(inner).collect(), &rim, drawing);
         let points = saying.on_piece(self.points_on(layer::DRILL).map(|p| p.at).collect(), &rim, drawing);
@@ -132,7 +134,7 @@ impl Block<'_> {
     }
 
     /// The notches of all layers, as points and as lines.
-    fn notches(&self, cut: &Path) -> Vec<Notch> {
+    fn notches(&self, cut: &Path) -> Vec<ImportedNotch> {
         let texts = self.texts.iter().filter_map(|t| Some((read_notch(&t.words)?, t.at?)));
         let mut texts: Vec<(ToldNotch, Vec2)> = texts.take(MOST_TOLD).collect();
         let mut notches = Vec::new();
@@ -141,7 +143,7 @@ impl Block<'_> {
             notches.extend(self.points_on(layer).map(|point| notch(point, &mut texts)));
             let shapes: Vec<Path> = self.runs(layer).into_iter().filter_map(whole).map(|(_, path)| path).collect();
             let drawn = dxf_notches::drawn(&points, &shapes, cut);
-            notches.extend(drawn.into_iter().map(|at| Notch { at, told: None }));
+            notches.extend(drawn.into_iter().map(|at| ImportedNotch { at, told: None }));
         }
         notches
     }
@@ -149,13 +151,13 @@ impl Block<'_> {
 
 /// The notch of a point: where it meets the sewing line, if one of these texts tells that. Each tells of one notch, and
 /// they stand in the order of these.
-fn notch(point: &Point, texts: &mut Vec<(ToldNotch, Vec2)>) -> Notch {
+fn notch(point: &LayerPoint, texts: &mut Vec<(ToldNotch, Vec2)>) -> ImportedNotch {
     match texts.iter().position(|(_, at)| is_on_slit(*at, point.at, point.into)) {
         Some(k) => {
             let (told, at) = texts.remove(k);
-            Notch { at, told: Some(told) }
+            ImportedNotch { at, told: Some(told) }
         }
-        None => Notch { at: point.at, told: None },
+        None => ImportedNotch { at: point.at, told: None },
     }
 }
 
@@ -205,13 +207,13 @@ fn corner((.., told): &(u32, &Path, Option<Told>)) -> Option<(String, Corner)> {
 }
 
 /// A line inside that is neither an edge nor a pleat's.
-fn inner((on, path, told): &(u32, &Path, Option<Told>)) -> Option<Inner> {
+fn inner((on, path, told): &(u32, &Path, Option<Told>)) -> Option<InnerLine> {
     let (name, kind) = match told {
         None if *on == layer::INTERNAL => (None, None),
         Some(Told::Line(name, kind)) => (Some(name.clone()), Some(kind.clone())),
         _ => return None,
     };
-    Some(Inner { name, path: (*path).clone(), kind })
+    Some(InnerLine { name, path: (*path).clone(), kind })
 }
 
 /// Where pleats begin on the edge; the line of each fold is followed by that of its place.
@@ -222,13 +224,13 @@ fn pleats(told: &[(u32, &Path, Option<Told>)]) -> Vec<[Vec2; 2]> {
 }
 
 /// `1,1` is one as drawn and one mirrored; `2,0` or `2` two as drawn.
-fn quantity(text: &str) -> Option<Cut> {
+fn quantity(text: &str) -> Option<CutKind> {
     let mut counts = text.split([',', ';', '/']).map(|w| w.trim().parse::<usize>());
     let plain = counts.next()?.ok()?;
     let mirrored = counts.next().and_then(Result::ok).unwrap_or(0);
     match (plain, mirrored) {
-        (1, 1) => Some(Cut::Pair),
-        (n @ 2..=100, 0) => Some(Cut::Count(n)),
+        (1, 1) => Some(CutKind::Pair),
+        (n @ 2..=100, 0) => Some(CutKind::Count(n)),
         _ => None,
     }
 }

@@ -10,9 +10,9 @@ use std::path::Path as FilePath;
 
 use super::dxf_block::Block;
 use super::dxf_flat::flat;
-use super::dxf_left_out::LeftOut;
+use super::dxf_left_out::LeftOutEntities;
 use super::dxf_library::Library;
-use super::dxf_sizes::{Sizes, named_apart};
+use super::dxf_sizes::{FileSizes, named_apart};
 use super::dxf_text::{Entity, after, assumed_unit, blocks, entities, letters, stated_unit};
 use super::encoding::decoded;
 use crate::digitize::{Drawing, Traced, besides};
@@ -129,7 +129,7 @@ pub fn read_dxf_text_as(text: &str, options: &DxfOptions) -> Result<Drawing, Dxf
     let stated = options.unit.or_else(|| stated_unit(&entities));
     let (unit, notes) = stated.map_or_else(|| assumed_unit(&entities), |unit| (unit, Vec::new()));
     let mut drawing = Drawing { notes, title: title(&entities), ..Drawing::default() };
-    let mut unread = LeftOut::default();
+    let mut unread = LeftOutEntities::default();
     let blocks = blocks(&entities);
     let library = Library::new(&blocks, unit);
     let mut all: Vec<Block> = Vec::new();
@@ -141,7 +141,7 @@ pub fn read_dxf_text_as(text: &str, options: &DxfOptions) -> Result<Drawing, Dxf
     if !all.iter().any(Block::has_boundary) {
         all = flat(library.loose(&entities, &mut unread)?);
     }
-    let sizes = Sizes::new(&all, &entities);
+    let sizes = FileSizes::new(&all, &entities);
     let chosen = sizes.chosen(options.size.as_deref())?;
     drawing.notes.extend(sizes.note(chosen, options.size.is_some()));
     let mut pieces: Vec<Traced> = Vec::new();

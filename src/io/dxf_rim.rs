@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use super::dxf_piece::{closed_by, closing, is_on};
-use crate::digitize::{Drawing, Inner, bridged, parts_within};
+use crate::digitize::{Drawing, InnerLine, bridged, parts_within};
 use crate::geometry::{MM, Path, Vec2, box_of, distance_to_segment, encloses, sides_of};
 
 /// Marks so near to the outline (metres) are on the piece.
@@ -112,7 +112,7 @@ impl Saying<'_> {
     }
 
     /// The parts of lines that are on the piece; those that are told lie where toile drew them.
-    pub(super) fn clipped(&self, lines: Vec<Inner>, rim: &Rim, drawing: &mut Drawing) -> Vec<Inner> {
+    pub(super) fn clipped(&self, lines: Vec<InnerLine>, rim: &Rim, drawing: &mut Drawing) -> Vec<InnerLine> {
         let (mut kept, mut shortened, mut gone) = (Vec::new(), 0, 0);
         for line in lines {
             if line.kind.is_some() {
@@ -125,7 +125,7 @@ impl Saying<'_> {
                 [whole] if *whole == line.path => {}
                 _ => shortened += 1,
             }
-            kept.extend(parts.into_iter().map(|path| Inner { path, ..line.clone() }));
+            kept.extend(parts.into_iter().map(|path| InnerLine { path, ..line.clone() }));
         }
         let name = self.name;
         if shortened > 0 {

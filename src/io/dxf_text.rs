@@ -18,13 +18,13 @@ const FARTHEST: f64 = 1e3;
 
 /// A value and the line it stands on.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pair<'a> {
+pub(super) struct DxfValue<'a> {
     pub(super) code: i32,
     pub(super) value: &'a str,
     pub(super) line: usize,
 }
 
-impl Pair<'_> {
+impl DxfValue<'_> {
     /// The value times `unit`, of which no more than [`FARTHEST`] is anything of a pattern.
     fn number(&self, unit: f64) -> Result<f64, DxfError> {
         let wrong = || DxfError::Number { line: self.line, found: shown(self.value, SHOWN) };
@@ -39,7 +39,7 @@ pub(super) struct Entity<'a> {
     pub(super) kind: &'a str,
     /// The line its kind stands on.
     pub(super) line: usize,
-    pub(super) pairs: Vec<Pair<'a>>,
+    pub(super) pairs: Vec<DxfValue<'a>>,
 }
 
 impl<'a> Entity<'a> {
@@ -155,7 +155,7 @@ pub(super) fn entities(text: &str) -> Result<Vec<Entity<'_>>, DxfError> {
         if code == 0 {
             entities.push(Entity { kind: value, line: k + 1, pairs: Vec::new() });
         } else if let Some(entity) = entities.last_mut() {
-            entity.pairs.push(Pair { code, value, line: k + 1 });
+            entity.pairs.push(DxfValue { code, value, line: k + 1 });
         }
     }
     Ok(entities)

@@ -101,7 +101,7 @@ const RANGE: std::ops::RangeInclusive<f64> = 20.0..=2600.0;
 
 /// A measure that was given.
 #[derive(Clone, Debug, PartialEq)]
-struct Given {
+struct GivenMeasure {
     name: &'static str,
     /// The name that was used.
     written: String,
@@ -114,7 +114,7 @@ struct Given {
 pub struct Measures {
     /// Name of a mannequin or a file. `None` where nobody has said.
     pub like: Option<String>,
-    given: Vec<Given>,
+    given: Vec<GivenMeasure>,
     /// Those that no section has.
     unused: Vec<&'static str>,
 }
@@ -140,7 +140,7 @@ impl Measures {
             let (low, high) = (RANGE.start(), RANGE.end());
             return Err(format!("'{name}' is {mm} mm; it must be {low} to {high} mm, bare numbers being millimetres"));
         }
-        self.given.push(Given { name: own, written: name.to_owned(), meaning: *meaning, mm });
+        self.given.push(GivenMeasure { name: own, written: name.to_owned(), meaning: *meaning, mm });
         Ok(())
     }
 
@@ -175,7 +175,7 @@ impl Measures {
     /// These measures, and those of `other` that are not among them.
     pub fn over(mut self, other: &Self) -> Self {
         let more = other.given.iter().filter(|given| self.given(given.name).is_none()).cloned();
-        let more: Vec<Given> = more.collect();
+        let more: Vec<GivenMeasure> = more.collect();
         self.given.extend(more);
         self.like = self.like.or_else(|| other.like.clone());
         self

@@ -1,6 +1,6 @@
 //! Internal lines: which of them become chains of springs, where they meet the rim and each other.
 
-use super::course::{Course, Ground};
+use super::course::{Course, PieceGround};
 use super::links::EdgeTable;
 use super::sampling::springs_for;
 use crate::geometry::{Path, Vec2};
@@ -64,7 +64,7 @@ impl LinePlan {
     pub(super) fn new(garment: &Garment, number: usize, edges: &EdgeTable, spacing: f64) -> Self {
         let piece = &garment.pieces[number];
         let mut plan = Self { lines: Vec::new(), rim: Vec::new(), knots: Vec::new() };
-        let ground = Ground::new(piece);
+        let ground = PieceGround::new(piece);
         for (n, line) in piece.lines.iter().enumerate().filter(|(_, l)| !matches!(l.kind, LineKind::Mark(_))) {
             for course in ground.courses(&line.path) {
                 match course {

@@ -44,7 +44,7 @@ use crate::pattern::{EdgeId, LineKind};
 
 /// How pieces are meshed inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Method {
+pub enum MeshMethod {
     /// Long narrow four-sided pieces (bands) in straight columns from rim to rim, all others as a grid.
     #[default]
     Auto,
@@ -61,7 +61,7 @@ pub struct MeshOptions {
     /// Length of the springs along warp and weft, metres.
     pub spacing: f64,
     /// How pieces are meshed inside.
-    pub method: Method,
+    pub method: MeshMethod,
 }
 
 /// All pieces of a garment, meshed. Particles of different pieces are different particles, also along seams.

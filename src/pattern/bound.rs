@@ -13,7 +13,7 @@ use crate::input::nearest;
 /// The bounds of the file. `openings` is checked at once, because it needs no simulation. A garment that is not `sound`
 /// lacks pieces, seams and closures, so that names are looked up in the file.
 pub(super) fn bounds(file: &GarmentFile, garment: &Garment, sound: bool, findings: &mut Findings) -> Vec<Test> {
-    let reader = Reader { file, garment, sound };
+    let reader = BoundReader { file, garment, sound };
     let test = |entry: &Located<TestEntry>| {
         let fabric = entry.value.fabric.as_ref().map(|f| reader.fabric(f, findings));
         Some(Test { bound: reader.bound(entry, findings)?, fabric, of: None })
@@ -21,13 +21,13 @@ pub(super) fn bounds(file: &GarmentFile, garment: &Garment, sound: bool, finding
     file.tests.iter().filter_map(test).collect()
 }
 
-struct Reader<'a> {
+struct BoundReader<'a> {
     file: &'a GarmentFile,
     garment: &'a Garment,
     sound: bool,
 }
 
-impl Reader<'_> {
+impl BoundReader<'_> {
     fn bound(&self, test: &Located<TestEntry>, findings: &mut Findings) -> Option<Bound> {
         let value = |q: &Located<Quantity>| q.value.value(self.file.unit());
         Some(match &test.value.test {

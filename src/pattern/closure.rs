@@ -4,7 +4,7 @@ use super::Closure;
 use super::cut::{Instance, Pieces};
 use super::diagnostic::{Findings, Located};
 use super::draft::{Draft, shown};
-use super::file::{ClosureFile, Cut, GarmentFile, Side, Unit};
+use super::file::{ClosureFile, CutKind, GarmentFile, Side, Unit};
 use super::inherit::unknown_piece;
 use super::problem::Problem;
 use super::reference::{Words, piece_of};
@@ -82,7 +82,7 @@ impl Wardrobe<'_> {
     /// The closure's points on a piece cut as a pair, and the same points of the other half.
     fn mirrored(&self, closure: &ClosureFile, on: &Instance) -> Vec<[(usize, Vec2); 2]> {
         let draft = &self.drafts[on.draft];
-        let other = on.side.map(Side::other).filter(|_| draft.cut == Cut::Pair);
+        let other = on.side.map(Side::other).filter(|_| draft.cut == CutKind::Pair);
         let Some(twin) = self.cut.instances.iter().find(|i| i.draft == on.draft && other.is_some() && i.side == other)
         else {
             return Vec::new();

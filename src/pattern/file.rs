@@ -128,7 +128,7 @@ impl Side {
 
 /// How a drawn piece is cut.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Cut {
+pub enum CutKind {
     /// Once, as drawn.
     One,
     /// As drawn and mirrored.
@@ -193,7 +193,7 @@ pub struct PieceFile {
     /// Key in `fabrics`.
     pub fabric: Option<Located<String>>,
     /// How the piece is cut.
-    pub cut: Option<Located<Cut>>,
+    pub cut: Option<Located<CutKind>>,
     /// Drawn side: the drawn one of a pair, or the drawn half of a folded piece.
     pub drawn: Option<Located<Side>>,
     /// Layer, positive outward.

@@ -59,11 +59,11 @@ pub(crate) use bound::known_girth;
 pub(crate) use crossing::loop_crossing;
 pub(crate) use dart::FISH_EYE_EDGES;
 pub use diagnostic::{Diagnostic, Findings, Located, Severity, Spot};
-pub use drawing::{Allowance, Dart, Drawing, DrawnEdge, DrawnFold, DrawnNotch, drawings};
+pub use drawing::{Allowance, Dart, DrawnEdge, DrawnFold, DrawnNotch, DrawnPiece, drawings};
 pub use expand::{DEFAULT_CLOTH, expand, fabrics};
 pub use fasten::{Bridge, Fastening, RimSpot, Step, fastenings, patches, worn_rims};
 pub use file::{
-    AllowanceFile, AllowanceWidth, ClosureFile, Corner, Cut, DartFile, DartShape, GarmentFile, LineFile, NotchFile,
+    AllowanceFile, AllowanceWidth, ClosureFile, Corner, CutKind, DartFile, DartShape, GarmentFile, LineFile, NotchFile,
     OpenFile, OutlineFile, PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, Side, TestEntry, TestFile,
     Unit, Value,
 };

@@ -51,7 +51,7 @@ pub use job::{Given, Job, Overrides, inputs, read, read_variant};
 pub use judged::{Judged, judge};
 pub use material::{Checked, check, check_text, check_variant, read_text};
 pub use pattern_picture::pattern_picture;
-pub use problems::{Problem, problems};
+pub use problems::{ResultProblem, problems};
 pub use results::{Color, PictureOptions, ResultFile, json_text};
 pub use run::{Progress, Run};
 pub use start_picture::{DoubtShown, OpeningShown, RimShown, StartPicture, StartShown, WordShown, start_picture};

@@ -182,7 +182,7 @@ impl<'a> Run<'a> {
     ///
     /// # Errors
     /// A garment that cannot be sewn, draped or laid flat.
-    pub fn flatten(&mut self, options: &flatten::Options, progress: Progress) -> Result<(), PipelineError> {
+    pub fn flatten(&mut self, options: &flatten::FlattenOptions, progress: Progress) -> Result<(), PipelineError> {
         if self.draped.is_none() {
             self.drape(progress)?;
         }

@@ -14,7 +14,7 @@ type Owner = Option<EdgeId>;
 
 /// A rim of the sewn garment.
 #[derive(Clone, Debug)]
-pub(super) struct Opening {
+pub(super) struct SewnRim {
     /// Vertices of the welded surface, in order.
     pub(super) ring: Vec<u32>,
     /// (piece, edge) names round it, in order, each once.
@@ -25,7 +25,7 @@ pub(super) struct Opening {
     pub(super) is_symmetric: bool,
 }
 
-impl Opening {
+impl SewnRim {
     /// Positions round the rim.
     pub(super) fn positions(&self, welded: &Welded) -> Vec<Vec3> {
         self.ring.iter().map(|&v| welded.surface.vertices[v as usize]).collect()
@@ -33,7 +33,7 @@ impl Opening {
 }
 
 /// Every rim of the garment with its free edges, without stretches that `closed` closes and without rims of patches.
-pub(super) fn openings(garment: &Garment, mesh: &ClothMesh, welded: &Welded, closed: &[Fastening]) -> Vec<Opening> {
+pub(super) fn openings(garment: &Garment, mesh: &ClothMesh, welded: &Welded, closed: &[Fastening]) -> Vec<SewnRim> {
     let owners = edge_owners(mesh, welded);
     let loops = rim_loops(&welded.surface.triangles);
     let rims: Vec<Vec<Step<Owner>>> = loops
@@ -60,7 +60,7 @@ pub(super) fn openings(garment: &Garment, mesh: &ClothMesh, welded: &Welded, clo
         let ring = steps.iter().map(|&[r, k]| loops[r][k]).collect();
         let areas = areas(mesh, edges.iter().map(|e| e.piece).collect());
         let is_symmetric = is_symmetric(garment, &edges);
-        (!patch).then(|| Opening { ring, edges: edges.iter().map(|&e| names(mesh, e)).collect(), areas, is_symmetric })
+        (!patch).then(|| SewnRim { ring, edges: edges.iter().map(|&e| names(mesh, e)).collect(), areas, is_symmetric })
     };
     worn_rims(&rims, &bridges).into_iter().filter_map(opening).collect()
 }

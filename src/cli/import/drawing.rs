@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Imported, Seams, finish};
+use super::{Imported, KnownSeams, finish};
 use crate::cli::args::{DrawingArgs, TargetArgs};
 use crate::cli::console::Console;
 use crate::cli::exit::{CliError, Exit};
@@ -74,7 +74,7 @@ fn write(args: &DrawingArgs, target: &TargetArgs, drawing: &Drawing, console: &C
     let made = garment_file(&drawing.title.clone().unwrap_or_else(stem), &drawing.pieces);
     let file = if args.seams { sewn(&made.file, &made.suggestions) } else { made.file.clone() };
     let offers: Vec<(SeamFile, String)> = made.suggestions.iter().map(|s| (s.seam(), s.reason())).collect();
-    let seams = if args.seams { Seams::Taken(&offers) } else { Seams::Offered(&offers) };
+    let seams = if args.seams { KnownSeams::Taken(&offers) } else { KnownSeams::Offered(&offers) };
     let complaints = drawing.complaints();
     let exit = finish(&Imported { source: &args.drawing, target, file: &file, seams, complaints }, console)?;
     drawing.left_out.iter().chain(&drawing.notes).chain(&made.notes).for_each(|note| console.note(note));

@@ -53,12 +53,12 @@ pub struct Loaded {
     pub file: GarmentFile,
     /// Warnings: statements that its author may not have meant as they were read.
     pub warnings: Vec<Diagnostic>,
-    source: Source,
+    source: FileText,
 }
 
 /// A file's name and text, to show where in it a mistake is that is found later.
 #[derive(Clone, Debug)]
-struct Source {
+struct FileText {
     shown: String,
     text: String,
 }
@@ -106,7 +106,7 @@ pub struct Examined {
     /// Mistakes of alterations that are no part of the file.
     beside: Vec<Diagnostic>,
     garment: Option<Garment>,
-    source: Source,
+    source: FileText,
 }
 
 impl Examined {
@@ -167,7 +167,7 @@ pub fn examine_variant(path: &Path, variant: Variant) -> Examined {
             let (_, shown) = of_size(&name, &shown, variant.size);
             let mut findings = Findings::new(&shown, "");
             findings.error(Spot::default(), problem);
-            let source = Source { shown, text: String::new() };
+            let source = FileText { shown, text: String::new() };
             Examined { file: None, findings, beside: Vec::new(), garment: None, source }
         }
     }
@@ -202,7 +202,7 @@ fn examined(name: &str, shown: &str, text: &str, variant: Variant) -> Examined {
         None => (None, Vec::new()),
     };
     let garment = file.as_ref().and_then(|file| pattern::expand(name, file, &mut findings));
-    let source = Source { shown: shown.to_owned(), text: text.to_owned() };
+    let source = FileText { shown: shown.to_owned(), text: text.to_owned() };
     Examined { file, findings, beside, garment, source }
 }
 

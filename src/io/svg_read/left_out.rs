@@ -48,11 +48,11 @@ impl What {
 
 /// How many there were of each kind, and the line of the first.
 #[derive(Clone, Debug, Default)]
-pub(super) struct LeftOut {
+pub(super) struct LeftOutElements {
     counts: [(usize, u32); KINDS.len()],
 }
 
-impl LeftOut {
+impl LeftOutElements {
     pub(super) fn add(&mut self, what: What, line: u32) {
         for (kind, (count, first)) in KINDS.iter().zip(&mut self.counts) {
             if *kind == what {

@@ -3,10 +3,10 @@
 use super::super::error::PipelineError;
 use super::super::results::{ResultFile, json_text};
 use super::FlatSurface;
-use super::darts::Laid;
-use super::edges::NamedEdge;
+use super::darts::LaidPart;
+use super::edges::PartRimEdge;
 use super::form::form_obj;
-use super::parts::Part;
+use super::parts::SurfacePart;
 use crate::flatten::triangle_strain;
 use crate::geometry::{MM, Vec2};
 use crate::io::obj_text::{ObjCorner, ObjText};
@@ -85,7 +85,7 @@ impl FlatSurface {
     }
 
     /// A part: those that are laid flat, then those that cannot be.
-    fn part(&self, k: usize) -> &Part {
+    fn part(&self, k: usize) -> &SurfacePart {
         self.laid.get(k).map_or_else(|| &self.failed[k - self.laid.len()].part, |laid| &laid.part)
     }
 
@@ -156,7 +156,7 @@ impl FlatSurface {
     /// The flat parts as the pieces of a cloth, each with its rims as edges.
     fn sheet(&self) -> ClothMesh {
         let mut cloth = ClothMesh::default();
-        for (k, Laid { part, flat, .. }) in self.laid.iter().enumerate() {
+        for (k, LaidPart { part, flat, .. }) in self.laid.iter().enumerate() {
             let (particle, triangle) = (cloth.flat.len(), cloth.triangles.len());
             cloth.flat.extend(flat.positions.iter().map(|p| self.ease.cut(*p)));
             cloth.triangles.extend(part.surface.triangles.iter().map(|t| t.map(|v| v + particle as u32)));
@@ -176,7 +176,7 @@ impl FlatSurface {
 }
 
 /// An edge as particles of the sheet.
-fn particles(piece: usize, index: usize, edge: &NamedEdge, first: u32) -> EdgeParticles {
+fn particles(piece: usize, index: usize, edge: &PartRimEdge, first: u32) -> EdgeParticles {
     EdgeParticles {
         edge: EdgeId { piece, ring: edge.ring, index },
         name: edge.name.clone(),
