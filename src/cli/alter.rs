@@ -4,9 +4,9 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::args::AlterArgs;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::garment_args::AlterArgs;
 use crate::geometry::MM;
 use crate::io::files::{check_writable, write_all};
 use crate::io::garment::{Changed, change};

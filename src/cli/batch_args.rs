@@ -4,7 +4,8 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use super::args::{OverrideArgs, spacing};
+use super::arg_values::spacing;
+use super::garment_args::OverrideArgs;
 
 /// Arguments of `batch`.
 #[derive(Debug, clap::Args)]

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::args::CheckArgs;
 use super::check_mesh::check_mesh;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::garment_args::CheckArgs;
 use super::make::borrowed;
 use crate::geometry::MM;
 use crate::io::files::{check_writable, write_all};

@@ -2,9 +2,10 @@
 
 use serde::Serialize;
 
-use super::args::{CheckArgs, UnitArg};
+use super::arg_values::UnitArg;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::garment_args::CheckArgs;
 use crate::pipeline::judge;
 use crate::report::{ContactReport, Crossing, contact_lines};
 

@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::args::{DraftArgs, UnitArg};
+use super::arg_values::UnitArg;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::flatten_args::DraftArgs;
 use crate::io::files::{check_writable, write_all};
 use crate::pipeline::{Drafted, DraftedEase, DraftedPiece, draft as drafted};
 use crate::report::aligned;

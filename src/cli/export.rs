@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use super::args::{ExportArgs, ExportCommand, PageArg};
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use super::make::{borrowed, folder};
+use super::paper_args::{ExportArgs, ExportCommand, PageArg};
 use super::plan::plan;
 use crate::cutting::{
     CuttingOptions, DEFAULT_ALLOWANCE, Label, Layout, MarkKind, Narrowed, Paper, SewKind, Sheet, labelled, sewing_order,

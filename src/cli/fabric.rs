@@ -4,9 +4,9 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::args::FabricCommand;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::library_args::FabricCommand;
 use super::specimen;
 use crate::fabric::measure::{MeasuredFabric, TESTS, fabric_yaml, measure};
 use crate::fabric::{Fabric, FabricSheet, LiuMeasures, library, load, sheet};

@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use super::args::{FlattenArgs, UnitArg};
+use super::arg_values::UnitArg;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::flatten_args::FlattenArgs;
 use super::make::{MakeGoal, MakePlan, carry_out, folder, write};
 use crate::fabric;
 use crate::flatten::{FlattenOptions, Mode};

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use super::alter::note_written_anew;
-use super::args::{GarmentArgs, OnwardArgs};
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::garment_args::{GarmentArgs, OnwardArgs};
 use super::picture_args::pixels;
 use crate::flatten;
 use crate::io::files::{check_writable, write_all};

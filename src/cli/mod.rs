@@ -1,9 +1,11 @@
 //! The command line.
 //!
-//! `args` holds what clap reads, unchecked; each command has a file that checks its arguments, runs the pipeline and
-//! says how it went. Results go to standard output, everything else to standard error.
+//! `args` and the files whose names end in `_args` hold what clap reads, unchecked. Each command has a file that checks
+//! its arguments, runs the pipeline and says how it went. Results go to standard output, everything else to standard
+//! error.
 
 mod alter;
+mod arg_values;
 mod args;
 mod batch;
 mod batch_args;
@@ -16,10 +18,15 @@ mod export;
 mod fabric;
 mod fit;
 mod flatten;
+mod flatten_args;
+mod garment_args;
 mod import;
+mod import_args;
 mod junit;
+mod library_args;
 mod make;
 mod mannequin;
+mod paper_args;
 mod picture_args;
 mod plan;
 mod report;

@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::args::ColorArg;
+use clap::ValueEnum;
+
 use crate::picture::{PictureLayout, Turning, ViewSide};
-use crate::pipeline::PictureOptions;
+use crate::pipeline::{Color, PictureOptions};
 
 /// The picture.
 #[derive(Debug, clap::Args)]
@@ -52,5 +53,33 @@ fn turntable(text: &str) -> Result<(PathBuf, Turning), String> {
         "gif" => Ok((path, Turning::Gif)),
         "apng" | "png" => Ok((path, Turning::Apng)),
         _ => Err("a file that ends in .gif or .apng is expected".into()),
+    }
+}
+
+/// `--color`
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub(super) enum ColorArg {
+    /// Which piece it is
+    #[default]
+    Piece,
+    /// How far warp and weft are stretched
+    Strain,
+    /// How far it is from the skin
+    Ease,
+    /// How hard it presses on the skin
+    Pressure,
+    /// Which fabric it is
+    Fabric,
+}
+
+impl From<ColorArg> for Color {
+    fn from(color: ColorArg) -> Self {
+        match color {
+            ColorArg::Piece => Self::Piece,
+            ColorArg::Strain => Self::Strain,
+            ColorArg::Ease => Self::Ease,
+            ColorArg::Pressure => Self::Pressure,
+            ColorArg::Fabric => Self::Fabric,
+        }
     }
 }

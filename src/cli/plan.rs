@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::args::PlanArgs;
 use super::console::Console;
 use super::exit::{CliError, Exit};
 use super::export::{DrawnGarment, narrowed};
 use super::make::{borrowed, folder};
+use super::paper_args::PlanArgs;
 use crate::cutting::{CuttingOptions, Label, LaidPaper, Paper, Plan, PlanOptions, labelled, plan_sheet, plans};
 use crate::geometry::{MM, box_of};
 use crate::io::files::{check_writable, write_all};

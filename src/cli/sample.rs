@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use super::args::in_millimetres;
+use super::arg_values::in_millimetres;
 use super::batch::told;
 use super::batch_args::SampleArgs;
 use super::console::Console;

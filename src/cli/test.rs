@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::args::TestArgs;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::garment_args::TestArgs;
 use super::junit;
 use super::make::borrowed;
 use super::update::updated;

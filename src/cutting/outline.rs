@@ -18,7 +18,8 @@ const LEAST_CUT: f64 = 1e-5;
 /// An allowance that does not fit into its hole is halved so often at most. Then the hole is cut on its sewing line.
 const HALVINGS: i32 = 6;
 
-/// The papers of a garment, their warp upright: one per drawing, or one per piece as cut with [`CuttingOptions::whole`].
+/// The papers of a garment, their warp upright: one per drawing, or one per piece as cut with
+/// [`CuttingOptions::whole`].
 pub fn papers(drawings: &[DrawnPiece], options: &CuttingOptions) -> Vec<Paper> {
     laid_out(drawings, options, None)
 }

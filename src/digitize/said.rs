@@ -20,7 +20,7 @@ pub(super) enum Said {
     OnFold(usize),
 }
 
-/// `cut 2 (left and right)`, `CutKind 1 pair`, `2 pairs`, `cut 4`, `cut 2x`, `2x cut`, `CUT 1 ON FOLD`: how a piece is cut,
+/// `cut 2 (left and right)`, `Cut 1 pair`, `2 pairs`, `cut 4`, `cut 2x`, `2x cut`, `CUT 1 ON FOLD`: how a piece is cut,
 /// as makers write it on.
 pub(super) fn said(text: &str) -> Option<Said> {
     let text = text.to_lowercase();

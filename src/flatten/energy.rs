@@ -185,8 +185,8 @@ impl FlatEnergy {
     }
 }
 
-/// The second derivative of an [`FlatEnergy`], or a positive definite one near it, with the places of its blocks worked out
-/// once.
+/// The second derivative of a [`FlatEnergy`], or a positive definite one near it, with the places of its blocks worked
+/// out once.
 pub(super) struct Curvature {
     matrix: SymmetricMatrix<Real>,
     /// None where a vertex stays where it is.
@@ -214,7 +214,7 @@ impl Curvature {
         Ok(Self { matrix: SymmetricMatrix::zeros(pattern), element_slots, spring_slots, ties })
     }
 
-    /// Fills the matrix for a position without flipped triangles; what [`FlatEnergy::stiff_chains`] adds to it is left out.
+    /// Fills the matrix for a position without flipped triangles, without the part of [`FlatEnergy::stiff_chains`].
     pub(super) fn update(&mut self, energy: &FlatEnergy, flat: &[Vec2], taken: Taken) -> &SymmetricMatrix<Real> {
         self.matrix.clear();
         for (e, slots) in energy.elements.iter().zip(&self.element_slots) {

@@ -151,8 +151,8 @@ pub struct Flattened {
 ///
 /// Never flips a triangle. A developable surface keeps all its lengths to rounding (a mesh of one as far as the mesh
 /// is developable). A piece that would lie on itself is kept from it, at the price of strain, where that leaves its
-/// rim; elsewhere [`FlatReport::overlaps`] says so. A surface whose triangles run counter-clockwise seen from outside is,
-/// drawn with y down, seen from its inside. A surface with holes keeps every rim; where no flat piece has them all
+/// rim; elsewhere [`FlatReport::overlaps`] says so. A surface whose triangles run counter-clockwise seen from outside
+/// is, drawn with y down, seen from its inside. A surface with holes keeps every rim; where no flat piece has them all
 /// ([`FlatReport::strain_p99`] says so), as in a tube, it must be cut first ([`disk_cuts`]).
 ///
 /// # Errors

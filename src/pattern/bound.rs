@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use super::diagnostic::{Findings, Located};
-use super::file::{GarmentFile, Quantity, TestEntry, TestFile, Unit};
+use super::file::{GarmentFile, TestEntry, TestFile};
 use super::inherit::unknown_piece;
 use super::problem::Problem;
 use super::reference::piece_of;
+use super::value::{Quantity, Unit};
 use super::{Bound, GIRTHS, Garment, OF_TRUNK, SIDES, Test, openings};
 use crate::input::nearest;
 

@@ -4,11 +4,12 @@ use super::Closure;
 use super::cut::{Instance, Pieces};
 use super::diagnostic::{Findings, Located};
 use super::draft::{Draft, shown};
-use super::file::{ClosureFile, CutKind, GarmentFile, Side, Unit};
+use super::file::{ClosureFile, GarmentFile};
 use super::inherit::unknown_piece;
 use super::problem::Problem;
 use super::reference::{Words, piece_of};
 use super::region::Region;
+use super::value::{CutKind, Side, Unit};
 use crate::geometry::Vec2;
 
 /// Reads all closures. A closure without `meets` is kept without tacks.

@@ -8,9 +8,9 @@
 use nalgebra::Matrix2;
 
 use super::draft::{Draft, DrawnStretch};
-use super::file::{CutKind, Side};
 use super::place_word::{PlaceMeaning, PlaceWord};
 use super::problem::Problem;
+use super::value::{CutKind, Side};
 use super::{Edge, EdgeId, Line, Notch, Piece, Place, Span};
 use crate::geometry::{Path, Vec2};
 

@@ -5,8 +5,9 @@
 use super::crossing::contains;
 use super::diagnostic::{Findings, Spot};
 use super::draft::{Draft, DrawnStretch, OwnSeam, SewnPart, position, shown, unknown_edge};
-use super::file::{DartFile, DartShape, PieceFile, Unit};
+use super::file::{DartFile, DartShape, PieceFile};
 use super::problem::Problem;
+use super::value::Unit;
 use super::{Edge, SeamKind};
 use crate::geometry::{Path, Vec2};
 

@@ -5,9 +5,10 @@ use super::closure::drawn_points;
 use super::cut::{Pieces, cut};
 use super::diagnostic::Findings;
 use super::draft::{Draft, DrawnStretch, draft};
-use super::file::{AllowanceFile, AllowanceWidth, Corner, CutKind, GarmentFile, PieceFile, Side};
+use super::file::{AllowanceFile, AllowanceWidth, GarmentFile, PieceFile};
 use super::inherit::complete_pieces;
 use super::seam::{Seams, seams};
+use super::value::{Corner, CutKind, Side};
 use super::{EdgeId, FabricUse, Garment, Line, PleatLayer, SeamKind};
 use crate::geometry::{Path, Vec2};
 

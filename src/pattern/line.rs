@@ -3,10 +3,11 @@
 use super::along::{Along, along};
 use super::diagnostic::{Findings, Located, Spot};
 use super::draft::{Draft, shown};
-use super::file::{LineFile, PieceFile, Unit};
+use super::file::{LineFile, PieceFile};
 use super::outline::whole_path;
 use super::problem::Problem;
 use super::region::{Region, first_off};
+use super::value::Unit;
 use super::{Line, LineKind};
 use crate::geometry::{Path, Vec2, mirrored};
 use crate::input::{did_you_mean, nearest};

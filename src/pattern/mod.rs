@@ -50,6 +50,7 @@ mod seam;
 mod select;
 mod spelling;
 mod tube;
+mod value;
 mod walk;
 mod want_file;
 
@@ -63,9 +64,8 @@ pub use drawing::{Allowance, Dart, DrawnEdge, DrawnFold, DrawnNotch, DrawnPiece,
 pub use expand::{DEFAULT_CLOTH, expand, fabrics};
 pub use fasten::{Bridge, Fastening, RimSpot, Step, fastenings, patches, worn_rims};
 pub use file::{
-    AllowanceFile, AllowanceWidth, ClosureFile, Corner, CutKind, DartFile, DartShape, GarmentFile, LineFile, NotchFile,
-    OpenFile, OutlineFile, PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, Side, TestEntry, TestFile,
-    Unit, Value,
+    AllowanceFile, AllowanceWidth, ClosureFile, DartFile, DartShape, GarmentFile, LineFile, NotchFile, OpenFile,
+    OutlineFile, PieceFile, PlaceFile, PleatFile, PleatKind, SeamFile, TestEntry, TestFile,
 };
 pub use inherit::whole_pieces;
 pub(crate) use inherit::{own_shape, unknown_piece};
@@ -79,6 +79,7 @@ pub(crate) use region::{Region, SLACK};
 pub use rim::{Opening, openings};
 pub(crate) use seam::DEFAULT_TOLERANCE;
 pub(crate) use spelling::glob;
+pub use value::{Corner, CutKind, Quantity, Side, Unit, Value};
 pub use walk::{SeamWalk, walk, written_edge, written_names};
 pub use want_file::{KnobFile, WantFile, Wanted, WantsFile};
 

@@ -7,8 +7,9 @@
 
 use super::diagnostic::{Findings, Spot};
 use super::draft::{Draft, DrawnStretch, OwnSeam, SewnPart, position};
-use super::file::{PieceFile, PleatFile, PleatKind, Unit};
+use super::file::{PieceFile, PleatFile, PleatKind};
 use super::problem::Problem;
+use super::value::Unit;
 use super::{PleatLayer, SeamKind};
 
 /// One fold: begins at `at`, points to the edge's end or start.

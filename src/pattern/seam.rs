@@ -4,11 +4,12 @@ use super::chain::{self, Directed};
 use super::cut::Pieces;
 use super::diagnostic::{Findings, Spot};
 use super::draft::Draft;
-use super::file::{OpenFile, SeamFile, Unit};
+use super::file::{OpenFile, SeamFile};
 use super::notch::matched;
 use super::problem::Problem;
 use super::rim::{Rims, joints};
 use super::select::{Candidate, Source};
+use super::value::Unit;
 use super::walk::difference;
 use super::{Garment, Give, Seam, SeamKind, Span};
 

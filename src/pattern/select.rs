@@ -8,10 +8,11 @@ use super::Span;
 use super::cut::{Instance, Pieces, suffix};
 use super::diagnostic::Findings;
 use super::draft::Draft;
-use super::file::{CutKind, SeamFile, Side, Unit};
+use super::file::SeamFile;
 use super::inherit::unknown_piece;
 use super::problem::Problem;
 use super::reference::Reference;
+use super::value::{CutKind, Side, Unit};
 
 /// The spans of one reference, in the direction of the outline.
 #[derive(Clone, Debug)]

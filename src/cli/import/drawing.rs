@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use super::{Imported, KnownSeams, finish};
-use crate::cli::args::{DrawingArgs, TargetArgs};
 use crate::cli::console::Console;
 use crate::cli::exit::{CliError, Exit};
+use crate::cli::import_args::{DrawingArgs, TargetArgs};
 use crate::digitize::{Drawing, garment_file, sewn};
 use crate::input::stem;
 use crate::io::dxf_read::{DxfOptions, read_dxf};

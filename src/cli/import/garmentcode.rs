@@ -1,9 +1,9 @@
 //! `import garmentcode`
 
 use super::{Imported, KnownSeams, finish, text};
-use crate::cli::args::GarmentcodeArgs;
 use crate::cli::console::Console;
 use crate::cli::exit::{CliError, Exit};
+use crate::cli::import_args::GarmentcodeArgs;
 use crate::io::body::floor_of;
 use crate::io::garmentcode::{Wearer, read};
 

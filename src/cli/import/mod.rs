@@ -7,9 +7,10 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::args::{ImportCommand, SvgUnitArg, TargetArgs, UnitArg};
+use super::arg_values::UnitArg;
 use super::console::Console;
 use super::exit::{CliError, Exit};
+use super::import_args::{ImportCommand, SvgUnitArg, TargetArgs};
 use crate::input::bytes;
 use crate::io::files::{check_writable, relative, write_all};
 use crate::io::garment::{EncodeError, write, write_with_offers};

@@ -1,8 +1,8 @@
 //! SVG in: drawings of Inkscape, FreeSewing, Seamly2D and toile itself; the only user of roxmltree.
 //!
 //! Lengths follow width, height and viewBox (a drawing without units has 96 to the inch, as CSS says). The role of a
-//! line follows from its class (`cut`, `sew`, `edge`, `grain`, `notch`, `fold`; FreeSewing's `fabric`, `sa` and markers)
-//! where it has one, and else from what lies in what.
+//! line follows from its class (`cut`, `sew`, `edge`, `grain`, `notch`, `fold`; FreeSewing's `fabric`, `sa` and
+//! markers) where it has one, and else from what lies in what.
 
 mod arrow;
 mod left_out;
