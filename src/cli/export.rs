@@ -1,23 +1,20 @@
 //! `export`: patterns for cutting.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::console::Console;
+use super::drawn::{DrawnGarment, narrowed};
 use super::exit::{CliError, Exit};
 use super::make::{borrowed, folder};
 use super::paper_args::{ExportArgs, ExportCommand, PageArg};
 use super::plan::plan;
-use crate::cutting::{
-    CuttingOptions, DEFAULT_ALLOWANCE, Label, Layout, MarkKind, Narrowed, Paper, SewKind, Sheet, labelled, sewing_order,
-};
+use crate::cutting::{CuttingOptions, Label, Layout, MarkKind, Paper, SewKind, Sheet, labelled, sewing_order};
 use crate::geometry::MM;
 use crate::io::dxf_write::cutting_dxf;
 use crate::io::files::write_all;
-use crate::io::garment::{Loaded, Variant};
 use crate::io::pdf_write::{Page, booklet, one_page, unprintable};
 use crate::io::svg_write::cutting_svg;
-use crate::pattern::{DrawnPiece, drawings};
-use crate::pipeline::{Overrides, inputs, read_variant};
+use crate::pipeline::{Overrides, inputs};
 use crate::report::aligned;
 
 /// Empty rim of a sheet that is one page, metres.
@@ -109,63 +106,10 @@ impl<'a> ExportJob<'a> {
     }
 }
 
-/// A garment as it is drawn, to be cut.
-pub(super) struct DrawnGarment {
-    pub(super) loaded: Loaded,
-    pub(super) drawings: Vec<DrawnPiece>,
-    /// Seam allowance of edges for which the file gives none, metres.
-    pub(super) allowance: f64,
-}
-
-impl DrawnGarment {
-    /// Reads a size of a garment file, which messages call `shown`. `allowance` is the one asked for, mm.
-    pub(super) fn read(
-        file: &Path,
-        size: Option<&str>,
-        allowance: Option<f64>,
-        shown: &str,
-        console: &Console,
-    ) -> Result<Self, CliError> {
-        let loaded = read_variant(file, Variant::of_size(size))?;
-        loaded.warnings.iter().for_each(|warning| console.note(&warning.to_string()));
-        let drawings = drawings(&loaded.file, &loaded.garment);
-        if allowance.is_none() && drawings.iter().any(lacks_allowance) {
-            let usual = DEFAULT_ALLOWANCE * MM;
-            console.note(&format!(
-                "{shown} does not give every edge an allowance; these get {usual} mm (--allowance MM for another)"
-            ));
-        }
-        Ok(Self { loaded, drawings, allowance: allowance.map_or(DEFAULT_ALLOWANCE, |mm| mm / MM) })
-    }
-}
-
-/// Whether an edge that will be cut has no allowance of its own.
-fn lacks_allowance(drawing: &DrawnPiece) -> bool {
-    let outline = drawing.rings[0].iter().enumerate().filter(|(i, _)| drawing.is_cut(*i)).map(|(_, edge)| edge);
-    let sewn_holes = drawing.rings[1..].iter().flatten().filter(|edge| edge.is_sewn());
-    outline.chain(sewn_holes).any(|edge| edge.allowance.width.is_none())
-}
-
 /// Whether a paper has lines that DXF has no layer for.
 fn is_told(paper: &Paper) -> bool {
     let is_dart = |kind: SewKind| matches!(kind, SewKind::Dart | SewKind::FishEye);
     paper.marks.iter().any(|m| m.kind != MarkKind::Fold) || paper.sew.iter().any(|line| is_dart(line.of))
-}
-
-/// Of holes that are too small for their allowances.
-pub(super) fn narrowed(paper: &Paper) -> Vec<String> {
-    let mm = |width: f64| (width * MM * 100.0).round() / 100.0;
-    let note = |n: &Narrowed| {
-        format!(
-            "hole '{}' of '{}' has no room for an allowance of {} mm: {} mm are drawn; say a narrower one, or slash \
-             into its corners",
-            n.edge,
-            paper.name,
-            mm(n.asked),
-            mm(n.drawn)
-        )
-    };
-    paper.narrowed.iter().map(note).collect()
 }
 
 /// The file that was written, and its pieces. Lengths are mm.

@@ -13,6 +13,7 @@ mod check;
 mod check_mesh;
 mod console;
 mod draft;
+mod drawn;
 mod exit;
 mod export;
 mod fabric;
@@ -34,6 +35,7 @@ mod sample;
 mod specimen;
 mod studio;
 mod test;
+mod test_outcome;
 mod update;
 
 use std::ffi::OsString;

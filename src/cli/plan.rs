@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::console::Console;
+use super::drawn::{DrawnGarment, narrowed};
 use super::exit::{CliError, Exit};
-use super::export::{DrawnGarment, narrowed};
 use super::make::{borrowed, folder};
 use super::paper_args::PlanArgs;
 use crate::cutting::{CuttingOptions, Label, LaidPaper, Paper, Plan, PlanOptions, labelled, plan_sheet, plans};

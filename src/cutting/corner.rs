@@ -7,7 +7,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::offset::SmoothRun;
+use super::run::SmoothRun;
 use crate::geometry::{Vec2, mirrored};
 use crate::pattern::Corner;
 

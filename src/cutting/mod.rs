@@ -14,6 +14,7 @@ mod offset;
 mod outline;
 mod plan;
 mod room;
+mod run;
 mod sewing;
 mod walls;
 mod whole;

@@ -2,7 +2,8 @@
 
 use super::clean::{grown, shrunk};
 use super::corner::{CornerWish, Join, cap, join, join_plainly};
-use crate::geometry::{Path, Station, Vec2, mirrored};
+use super::run::SmoothRun;
+use crate::geometry::{Path, Vec2, mirrored};
 
 /// Chords of cut lines leave the true line by at most this much (metres): a fifth of the hundredth of a millimetre that
 /// paper patterns are exact to, so that rounding fits in beside it.
@@ -30,44 +31,6 @@ pub(super) enum EdgeTransition {
         /// Pressed onto the edge before it, or else the one after it.
         onto_first: bool,
     },
-}
-
-/// A smooth stretch of a ring, walked with the cloth on the right.
-#[derive(Clone, Debug)]
-pub(super) struct SmoothRun {
-    /// The sewing line.
-    pub(super) base: Vec<Vec2>,
-    /// The same, moved out.
-    pub(super) moved: Vec<Vec2>,
-    /// Tangents at its ends, along the walk.
-    pub(super) ends: [Vec2; 2],
-    pub(super) width: f64,
-}
-
-impl SmoothRun {
-    fn new(stations: &[Station], width: f64) -> Self {
-        // The cloth is on the right of the walk (y down), so the allowance is on its left.
-        let out = |s: &Station| s.at + width * Vec2::new(s.tangent.y, -s.tangent.x);
-        let tangent = |s: Option<&Station>| s.map_or_else(Vec2::zeros, |s| s.tangent);
-        Self {
-            base: stations.iter().map(|s| s.at).collect(),
-            moved: stations.iter().map(out).collect(),
-            ends: [tangent(stations.first()), tangent(stations.last())],
-            width,
-        }
-    }
-
-    /// Its image in the line through `on` along `along`, walked the other way: the cloth stays on the right.
-    fn image(&self, [on, along]: [Vec2; 2]) -> Self {
-        let points = |line: &[Vec2]| line.iter().rev().map(|&p| mirrored(p, on, along)).collect();
-        let [first, last] = self.ends.map(|t| -mirrored(t, Vec2::zeros(), along));
-        Self { base: points(&self.base), moved: points(&self.moved), ends: [last, first], width: self.width }
-    }
-
-    /// The stretch as it is sewn: without allowance.
-    fn sewn(&self) -> Self {
-        Self { moved: self.base.clone(), width: 0.0, ..self.clone() }
-    }
 }
 
 /// A ring as smooth runs with their joins.

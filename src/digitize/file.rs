@@ -2,9 +2,10 @@
 
 use super::darts::{ClosedDart, closed};
 use super::edges::{FileEdge, edges, nearest_edge};
-use super::fish_eyes::{FishEye, taken};
+use super::fish_eyes::taken;
 use super::folds::{fold_edge, merged, opened};
 use super::holes::Hole;
+use super::lozenge::FishEye;
 use super::materials::{declared, name_of};
 use super::notches::EdgeNotch;
 use super::pairs::paired;

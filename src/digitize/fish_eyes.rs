@@ -2,25 +2,13 @@
 
 use super::chain::MEET;
 use super::contour::Contour;
-use super::lozenge::Lozenge;
+use super::lozenge::{FishEye, Lozenge};
 use super::{InnerLine, Traced};
 use crate::geometry::{Path, Vec2};
 use crate::pattern::{FISH_EYE_EDGES, LineKind};
 
 /// As far as this (metres) numbers may be rounded that put it upright.
 const ROUNDED: f64 = 2e-5;
-
-/// A fish-eye dart, metres.
-#[derive(Clone, Debug)]
-pub(super) struct FishEye {
-    pub(super) name: String,
-    /// The middle of its widest line.
-    pub(super) at: Vec2,
-    pub(super) intake: f64,
-    /// Its length above that line and below.
-    pub(super) up: f64,
-    pub(super) down: f64,
-}
 
 impl FishEye {
     /// The one that four lines make, given from its upper tip round, if it stands upright.

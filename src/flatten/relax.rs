@@ -7,7 +7,7 @@
 
 use super::energy::FlatEnergy;
 use super::inverse::Inverse;
-use super::overlap::rim_crossings;
+use super::overlap::{RIM_EXACT, rim_crossings};
 use super::zone::Zone;
 use super::{FlattenError, FlattenOptions, Mode};
 use crate::geometry::Vec2;
@@ -33,10 +33,6 @@ const WOVEN_TOLERANCE: f64 = 100.0;
 /// edges of a developable sheet were off by 1.7·10⁻⁶ on the bias, where weave hardly resists.
 const ENERGY_FLOOR: f64 = 1e-17;
 
-/// The rim is as long as it should be when its edges are off by less than this share in the mean, for then no part of
-/// it is off by more than this share of the whole: of a rim of two metres by a micrometre where only the rim counts, by
-/// less than a hundredth of a millimetre otherwise, which nobody can cut.
-pub(super) const RIM_EXACT: [f64; 2] = [5e-7, 4e-6];
 /// How often the forces that hold the rim are found anew. Each time the errors left are fifty to a hundred times
 /// smaller, where the lengths can be had at all.
 const HOLDS: usize = 12;

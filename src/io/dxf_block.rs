@@ -1,10 +1,10 @@
 //! The contents of a block of a DXF file, by layer.
 
 use super::dxf_curves::{ellipse, spline};
+use super::dxf_error::DxfError;
 use super::dxf_left_out::LeftOutEntities;
 use super::dxf_library::Placed;
 use super::dxf_notches;
-use super::dxf_read::DxfError;
 use super::dxf_rim::Rim;
 use super::dxf_slits::{closes, without_slits};
 use super::dxf_text::{Entity, after, letters, lines_of};

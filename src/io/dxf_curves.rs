@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::dxf_read::DxfError;
+use super::dxf_error::DxfError;
 use super::dxf_text::Entity;
 use crate::geometry::{Cubic, Path, Vec2};
 

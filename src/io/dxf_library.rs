@@ -3,8 +3,8 @@
 use nalgebra::Matrix2;
 
 use super::dxf_block::Block;
+use super::dxf_error::{DxfError, SHOWN};
 use super::dxf_left_out::LeftOutEntities;
-use super::dxf_read::{DxfError, SHOWN};
 use super::dxf_text::Entity;
 use crate::geometry::Vec2;
 use crate::input::shown;

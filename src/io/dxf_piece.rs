@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use super::dxf_block::{Block, LayerPoint, Named, longest_first, whole};
 use super::dxf_notches::{self, once};
-use super::dxf_rim::{ON_RIM, Rim, Saying};
+use super::dxf_rim::{ON_RIM, Rim, Saying, closed_by, closing, is_on};
 use super::dxf_told::{Told, is_on_slit, read_notch, told_of};
 use super::dxf_write::layer;
 use crate::digitize::{
@@ -15,8 +15,6 @@ use crate::pattern::{Corner, CutKind, Side};
 
 /// Texts that tell of notches that are read of a block, for each is looked for on every notch.
 const MOST_TOLD: usize = 5_000;
-/// A line ends on the mirror line to this (metres).
-const ON_MIRROR: f64 = 1e-3;
 /// A line on layer 1 no longer than this (metres) that ends on the boundary is a notch.
 const NOTCH: f64 = 0.016;
 
@@ -161,17 +159,6 @@ fn notch(point: &LayerPoint, texts: &mut Vec<(ToldNotch, Vec2)>) -> ImportedNotc
     }
 }
 
-/// Start and end of a run, if they are apart.
-pub(super) fn closing<T>(run: &[(T, Path)]) -> Option<[Vec2; 2]> {
-    let ends = [run.last()?.1.end(), run.first()?.1.start()];
-    ((ends[0] - ends[1]).norm() > 1e-8).then_some(ends)
-}
-
-/// Whether a point is on the line that the mirror line is a part of.
-pub(super) fn is_on(p: Vec2, [from, to]: [Vec2; 2]) -> bool {
-    (to - from).try_normalize(0.0).is_some_and(|along| along.perp(&(p - from)).abs() <= ON_MIRROR)
-}
-
 /// Of the further runs on the layer of boundaries the notches that they are, and the others.
 fn slit_runs(runs: impl Iterator<Item = Vec<((), Path)>>, cut: &Path) -> (Vec<Vec2>, Vec<Path>) {
     let (mut slits, mut rest) = (Vec::new(), Vec::new());
@@ -185,17 +172,6 @@ fn slit_runs(runs: impl Iterator<Item = Vec<((), Path)>>, cut: &Path) -> (Vec<Ve
         }
     }
     (slits, rest)
-}
-
-/// The run with a straight last side.
-pub(super) fn closed_by<T>(mut run: Vec<(T, Path)>, side: T) -> Vec<(T, Path)> {
-    let (Some(start), Some(end)) = (run.first().map(|r| r.1.start()), run.last().map(|r| r.1.end())) else {
-        return run;
-    };
-    if (start - end).norm() > 1e-8 {
-        run.push((side, Path::line(end, start)));
-    }
-    run
 }
 
 /// How the allowance of an edge ends, where that is told.

@@ -2,7 +2,6 @@
 
 use std::cell::Cell;
 
-use super::dxf_piece::{closed_by, closing, is_on};
 use crate::digitize::{Drawing, InnerLine, bridged, parts_within};
 use crate::geometry::{MM, Path, Vec2, box_of, distance_to_segment, encloses, sides_of};
 
@@ -12,6 +11,9 @@ pub(super) const ON_RIM: f64 = 5e-4;
 const COARSE: f64 = 1e-4;
 /// Square centimetres in a square metre.
 const CM2: f64 = 1e4;
+
+/// A line ends on the mirror line to this (metres).
+const ON_MIRROR: f64 = 1e-3;
 
 /// An outline of which is asked what lies in it.
 pub(super) struct Rim {
@@ -153,4 +155,26 @@ impl Saying<'_> {
 
 fn counted(count: usize, one: &str, several: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { several })
+}
+
+/// Start and end of a run, if they are apart.
+pub(super) fn closing<T>(run: &[(T, Path)]) -> Option<[Vec2; 2]> {
+    let ends = [run.last()?.1.end(), run.first()?.1.start()];
+    ((ends[0] - ends[1]).norm() > 1e-8).then_some(ends)
+}
+
+/// Whether a point is on the line that the mirror line is a part of.
+pub(super) fn is_on(p: Vec2, [from, to]: [Vec2; 2]) -> bool {
+    (to - from).try_normalize(0.0).is_some_and(|along| along.perp(&(p - from)).abs() <= ON_MIRROR)
+}
+
+/// The run with a straight last side.
+pub(super) fn closed_by<T>(mut run: Vec<(T, Path)>, side: T) -> Vec<(T, Path)> {
+    let (Some(start), Some(end)) = (run.first().map(|r| r.1.start()), run.last().map(|r| r.1.end())) else {
+        return run;
+    };
+    if (start - end).norm() > 1e-8 {
+        run.push((side, Path::line(end, start)));
+    }
+    run
 }

@@ -1,7 +1,7 @@
 //! The sizes of a graded file: told by texts, or by the names of blocks alone.
 
 use super::dxf_block::Block;
-use super::dxf_read::{DxfError, SHOWN};
+use super::dxf_error::{DxfError, SHOWN};
 use super::dxf_text::{Entity, after, letters};
 use crate::digitize::{Traced, size_of};
 use crate::input::shown;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::dxf_read::{DxfError, SHOWN};
+use super::dxf_error::{DxfError, SHOWN};
 use crate::geometry::Vec2;
 use crate::input::shown;
 

@@ -3,6 +3,7 @@
 pub mod body;
 mod dxf_block;
 mod dxf_curves;
+mod dxf_error;
 mod dxf_flat;
 mod dxf_left_out;
 mod dxf_library;

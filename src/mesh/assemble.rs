@@ -1,6 +1,6 @@
 //! Puts filled pieces together and pairs the particles of the seams.
 
-use super::build::Fill;
+use super::fill::Fill;
 use super::frame::PieceFrame;
 use super::layout::MeshLayout;
 use super::{ClothMesh, EdgeParticles, LineParticles, PieceMesh, Stitches, shape};

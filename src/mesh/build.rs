@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::chords::SelfSeam;
 use super::error::MeshError;
+use super::fill::Fill;
 use super::frame::PieceFrame;
 use super::grid::Core;
 use super::improve::Improver;
@@ -12,21 +13,10 @@ use super::layout::MeshLayout;
 use super::links::LinkedChains;
 use super::patch::Patch;
 use super::{ClothMesh, MeshMethod, MeshOptions, coons, strip};
-use crate::geometry::Vec2;
 use crate::pattern::Garment;
 
 /// Rounds of relaxing, removing chords and repairing. Each of these steps disturbs the result of the others.
 const ROUNDS: usize = 2;
-
-/// A piece's points and triangles.
-pub(super) struct Fill {
-    /// Rim particles first, as in the frame.
-    pub(super) points: Vec<Vec2>,
-    /// Positively oriented.
-    pub(super) triangles: Vec<[u32; 3]>,
-    /// Particles of every planned line.
-    pub(super) lines: Vec<Vec<u32>>,
-}
 
 /// Meshes every piece of `garment` with springs of about `spacing` metres. See [`build_with`].
 ///

@@ -1,10 +1,11 @@
 //! Structured meshes of four-sided pieces: transfinite (Coons) interpolation between opposite sides.
 
+use super::MeshMethod;
+use super::fill::Fill;
 use super::frame::PieceFrame;
 use super::lines::LinePlan;
 use super::links::{ChainStretch, EdgeTable, LinkedChains};
 use super::shape::{quality, quality_of_degrees};
-use super::{Fill, MeshMethod};
 use crate::geometry::{Vec2, shares_along};
 use crate::pattern::{EdgeId, Piece};
 

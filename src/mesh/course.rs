@@ -1,6 +1,6 @@
 //! The course of a line over edges, cloth, and the open mouth of a dart or a hole.
 
-use super::lines::{Chords, REACHES};
+use super::crossings::{Chords, REACHES};
 use crate::geometry::Path;
 use crate::pattern::{Along, Piece, Region, along};
 

@@ -3,7 +3,7 @@
 //! A seam is a link. So is the pair of opposite sides of a band that is meshed in straight columns.
 
 use super::error::{MeshError, SeamFault};
-use crate::pattern::{EdgeId, Garment, Seam, Span};
+use crate::pattern::{EdgeId, Garment, Seam, Span, edge_name};
 
 /// Distance within which places on an edge are one place, metres: a hundredth of a millimetre is far below anything
 /// that can be cut or sewn, and far above the accuracy of arc lengths.
@@ -147,8 +147,8 @@ fn chain(spans: &[Span], garment: &Garment, edges: &EdgeTable) -> Result<Vec<Cha
         // Written so that a NaN fails too.
         let inside = |s: f64| s >= -SAME_PLACE && s <= length + SAME_PLACE;
         if !(inside(span.from) && inside(span.to)) {
-            let name = format!("{}.{}", garment.pieces[piece].name, garment.pieces[piece].loops[ring][index].name);
-            return Err(SeamFault::PastTheEnd { edge: name, from: span.from, to: span.to, length });
+            let edge = edge_name(&garment.pieces, span.edge);
+            return Err(SeamFault::PastTheEnd { edge, from: span.from, to: span.to, length });
         }
         out.push(ChainStretch { edge, from: span.from.clamp(0.0, length), to: span.to.clamp(0.0, length), start });
         start += span.length();

@@ -8,9 +8,11 @@ mod check;
 mod chords;
 mod coons;
 mod course;
+mod crossings;
 mod earlier;
 mod elastic;
 mod error;
+mod fill;
 mod frame;
 mod grid;
 mod improve;
@@ -36,8 +38,6 @@ pub use elastic::DrawnIn;
 pub use error::{MeshError, SeamFault};
 pub use springs::SpringClass;
 pub use transfer::Transfer;
-
-use build::Fill;
 
 use crate::geometry::Vec2;
 use crate::pattern::{EdgeId, LineKind};

@@ -5,13 +5,13 @@
 
 use super::diagnostic::Findings;
 use super::draft::shown;
+use super::edge_name::names_of;
 use super::problem::{ChainDoubt, Problem};
 use super::rim::{Identities, Rims, joint_marks};
 use super::seam::{marks_between, tolerance};
 use super::select::{Candidate, ReferenceSpans, Source, is_mirror, turned};
 use super::tube::{EndPlaces, ends, is_tube};
 use super::value::Unit;
-use super::walk::names_of;
 use super::{EdgeId, Give, Piece, Seam, SeamKind, Span};
 
 /// A candidate with its direction.

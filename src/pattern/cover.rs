@@ -5,14 +5,14 @@ use std::collections::HashSet;
 use super::cut::{Instance, Pieces};
 use super::diagnostic::{Findings, Located, Spot};
 use super::draft::{Draft, DrawnStretch, NamedEdge, spot_of};
+use super::edge_name::{edge_name, names_of, written_edge};
 use super::file::{ClosureFile, GarmentFile, PieceFile};
+use super::free::{SLIVER, edge_ids, gaps};
 use super::problem::Problem;
 use super::reference::{parse_range, piece_of};
-use super::rim::{SLIVER, edge_ids, gaps};
 use super::seam::Seams;
 use super::spelling::glob;
 use super::value::{CutKind, Unit};
-use super::walk::{edge_name, names_of, written_edge};
 use super::{EdgeId, Span};
 
 /// A stretch of an edge and the seam that takes it.

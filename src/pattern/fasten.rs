@@ -1,6 +1,6 @@
 //! Rims that closures close: open after sewing, but not as the garment is worn.
 
-use super::rim::free_spans;
+use super::free::free_spans;
 use super::{Closure, EdgeId, Garment, Span};
 use crate::geometry::{DisjointSets, Vec2};
 

@@ -13,8 +13,8 @@
 
 use std::sync::Arc;
 
+use super::bend::direction;
 use super::descent::{Clock, SolveOptions, SolverReport, SolverRun, factored, hold, largest_motion, timed};
-use super::energy::direction;
 use super::handles::Handles;
 use super::problem::RecoveryProblem;
 use super::recovery::Recovery;

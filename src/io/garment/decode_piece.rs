@@ -1,6 +1,6 @@
 //! Pieces of a garment file.
 
-use super::decode::name;
+use super::fields::name;
 use super::fields::{
     Fields, entries, integer_within, items, length, number, numbers, quantity, share, text, width, word, wrong,
 };

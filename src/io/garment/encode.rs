@@ -3,23 +3,12 @@
 use serde_yaml::{Mapping, Value as Yaml};
 
 use super::decode_test::LEVEL;
-use super::layout;
+use super::layout::{self, EncodeError};
 use crate::pattern::{
     AllowanceFile, AllowanceWidth, AlterationFile, ClosureFile, CutKind, DartFile, DartShape, GarmentFile, LineFile,
     Located, OpenFile, PieceFile, PlaceFile, PleatFile, PleatKind, Quantity, SeamFile, SizeFile, StationFile,
     TestEntry, TestFile, Value,
 };
-
-/// A garment file that YAML cannot hold, and why.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the garment cannot be written as YAML: {0}")]
-pub struct EncodeError(String);
-
-impl EncodeError {
-    pub(super) fn new(reason: &dyn std::fmt::Display) -> Self {
-        Self(reason.to_string())
-    }
-}
 
 /// Writes the file as YAML that reads as the same [`GarmentFile`].
 ///

@@ -32,7 +32,8 @@ use crate::pattern::{
 pub use append::{Appended, appended};
 pub use change::{Changed, EdgeChange, change, change_text};
 pub use edit::{Edit, EditError, KeyPath, edited, keys, scalar, scalars};
-pub use encode::{EncodeError, alteration_line, seam_line, write, write_with_offers};
+pub use encode::{alteration_line, seam_line, write, write_with_offers};
+pub use layout::EncodeError;
 pub use ranges::{Drawn, Ranges};
 pub use reform::{Reformed, reform};
 pub use refuse::Refused;
